@@ -1,0 +1,43 @@
+// Residuals of a row of a path, computed from the scene alone. Nothing here comes from the code that solved for the row.
+#ifndef CONTACT_PATH_CHECK_RESIDUALS_H_
+#define CONTACT_PATH_CHECK_RESIDUALS_H_
+
+#include <vector>
+
+#include "contact_path/scene/scene.h"
+
+namespace contact_path {
+
+// All without unit: forces over the characteristic force F, lengths over the characteristic length L (scene/scaling.h).
+struct Residuals {
+  double equilibrium = 0.0;      // max |phi - T r| over the free components / F (eq. 1)
+  double penetration = 0.0;      // max (-gap) / L, 0 if none
+  double adhesion = 0.0;         // max (-r_n) / F, 0 if none
+  double complementarity = 0.0;  // max |min(gap / L, r_n / F)| (eq. 2)
+  double cone = 0.0;             // max (|r_t| - mu r_n) / F, 0 if inside
+  // Friction law (eq. 3) with rt = r_t / F, rn = r_n / F, d = du_t / L: max |rt - clamp(rt - d, -mu rn, mu rn)|:
+  // no slip inside the cone, slip opposed to r_t on its boundary.
+  double friction_law = 0.0;
+
+  // Largest of all but equilibrium: the column complementarity_residual.
+  double Contact() const;
+};
+
+// What the check looks at: positions x0, y0, x1, ... (2 x nodes) [length], r_n and r_t by contact candidate [force].
+struct CheckedState {
+  double load_factor = 0.0;
+  std::vector<double> positions;
+  std::vector<double> rn;
+  std::vector<double> rt;
+};
+
+// Residuals of `now`, reached from `before` in one increment (for the first row: `before` = `now`).
+// Throws std::invalid_argument where the sizes are not those of the scene.
+Residuals CheckResiduals(const Scene& scene, const CheckedState& before, const CheckedState& now);
+
+// Strain energy of the structure at `positions` [force length], from the scene alone.
+double CheckStrainEnergy(const Scene& scene, const std::vector<double>& positions);
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_CHECK_RESIDUALS_H_

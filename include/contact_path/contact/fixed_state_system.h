@@ -1,0 +1,98 @@
+// The equations of equilibrium with the state of every contact fixed: a smooth system.
+#ifndef CONTACT_PATH_CONTACT_FIXED_STATE_SYSTEM_H_
+#define CONTACT_PATH_CONTACT_FIXED_STATE_SYSTEM_H_
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <vector>
+
+#include "contact_path/contact/contact_geometry.h"
+#include "contact_path/contact/path_point.h"
+#include "contact_path/structure/structure.h"
+
+namespace contact_path {
+
+// An inequality of the fixed states: what must stay >= 0 for the states to be right.
+enum class Inequality {
+  kGap,             // open: u_n
+  kNormalReaction,  // touching: r_n
+  kConePlus,        // stick: mu r_n + r_t (at zero, slip+ is next)
+  kConeMinus,       // stick: mu r_n - r_t (at zero, slip- is next)
+  kSlip,            // slip+-: +-(u_t - u_t,ref), the motion since the reference
+};
+
+struct Limit {
+  int contact = 0;
+  Inequality inequality = Inequality::kGap;
+};
+
+// Unknowns x = (u, s, reactions of the touching contacts): r_n, and r_t where sticking. Equations:
+//   phi(u, s) - T r = 0                       NumDofs()                     (eq. 1)
+//   u_n = 0                                   each touching contact         (eq. 2)
+//   u_t = u_t,ref                             each sticking contact         (eq. 3)
+// and one equation "inequality = 0" for each limit that is pinned, and s = value where the load factor is pinned. With
+// nothing pinned there is one unknown more than equations: the solutions are a curve where the rank is full.
+// Slip has r_t = -+mu r_n eliminated.
+class FixedStateSystem {
+ public:
+  // Both must outlive the system.
+  FixedStateSystem(const Structure& structure, const std::vector<ContactGeometry>& contacts);
+
+  // states, tangential_reference (u_t,ref): by candidate.
+  void SetStates(const std::vector<ContactState>& states, const Eigen::VectorXd& tangential_reference);
+  void Pin(const std::vector<Limit>& limits);
+  void PinLoadFactor(double value);
+  void UnpinLoadFactor();
+
+  Eigen::Index NumUnknowns() const { return num_unknowns_; }
+  Eigen::Index NumEquations() const { return num_equations_; }
+  Eigen::Index NumDofs() const { return structure_.NumDofs(); }
+  const std::vector<ContactState>& states() const { return states_; }
+
+  Eigen::VectorXd Pack(const PathPoint& point) const;
+  PathPoint Unpack(const Eigen::VectorXd& x) const;
+
+  // residual: NumEquations(). Not finite where an element is singular.
+  void Residual(const Eigen::VectorXd& x, Eigen::VectorXd* residual) const;
+  // Transposed Jacobian, NumUnknowns() x NumEquations(), compressed; the pattern is the same until the next set or pin.
+  const Eigen::SparseMatrix<double>& TransposedJacobian(const Eigen::VectorXd& x);
+
+  // All inequalities of the fixed states, in contact order, and their values at x (>= 0: holds).
+  std::vector<Limit> Inequalities() const;
+  double Value(const Limit& limit, const Eigen::VectorXd& x) const;
+
+ private:
+  struct Term {
+    Eigen::Index unknown;
+    double coefficient;
+  };
+  struct LinearEquation {
+    std::vector<Term> terms;  // ascending unknowns
+    double constant = 0.0;
+  };
+
+  LinearEquation Gap(std::size_t contact) const;
+  LinearEquation TangentialMotion(std::size_t contact, double sign) const;
+  LinearEquation InequalityAsEquation(const Limit& limit) const;
+  void Rebuild();
+
+  const Structure& structure_;
+  const std::vector<ContactGeometry>& contacts_;
+  std::vector<ContactState> states_;
+  Eigen::VectorXd tangential_reference_;
+  std::vector<Limit> pinned_;
+  bool load_factor_pinned_ = false;
+  double load_factor_ = 0.0;
+
+  std::vector<Eigen::Index> rn_unknown_;  // by candidate, -1 = none
+  std::vector<Eigen::Index> rt_unknown_;
+  std::vector<LinearEquation> linear_;  // all equations but equilibrium
+  Eigen::Index num_unknowns_ = 0;
+  Eigen::Index num_equations_ = 0;
+  Eigen::SparseMatrix<double> tangent_;
+  Eigen::SparseMatrix<double> transposed_;
+};
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_CONTACT_FIXED_STATE_SYSTEM_H_

@@ -1,0 +1,36 @@
+// Minimum-norm solution of sparse systems that may be underdetermined, redundant or both.
+#ifndef CONTACT_PATH_CONTACT_MINIMUM_NORM_H_
+#define CONTACT_PATH_CONTACT_MINIMUM_NORM_H_
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <memory>
+
+namespace contact_path {
+
+// Solves A x = b by a rank-revealing sparse QR factorisation of A' (SuiteSparseQR). Of all x the shortest is returned; where
+// rows of A depend on each other, the dependent ones are left out, which is right if b is consistent.
+class MinimumNormSolver {
+ public:
+  // Relative to the largest column norm: what is smaller than that counts as dependent.
+  static constexpr double kRankTolerance = 1e-11;
+
+  MinimumNormSolver();
+  ~MinimumNormSolver();
+  MinimumNormSolver(const MinimumNormSolver&) = delete;
+  MinimumNormSolver& operator=(const MinimumNormSolver&) = delete;
+
+  // transposed: A', unknowns x equations. False if it is not finite or the factorisation fails.
+  bool Factorize(const Eigen::SparseMatrix<double>& transposed);
+  Eigen::Index Rank() const;
+  // x for b of the number of equations; Factorize() must have returned true.
+  Eigen::VectorXd Solve(const Eigen::VectorXd& b) const;
+
+ private:
+  struct Factors;
+  std::unique_ptr<Factors> factors_;
+};
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_CONTACT_MINIMUM_NORM_H_

@@ -1,0 +1,28 @@
+// A point of the path as the solvers see it: scaled quantities, free components only.
+#ifndef CONTACT_PATH_CONTACT_PATH_POINT_H_
+#define CONTACT_PATH_CONTACT_PATH_POINT_H_
+
+#include <Eigen/Core>
+#include <cmath>
+#include <vector>
+
+#include "contact_path/contact/contact_state.h"
+
+namespace contact_path {
+
+struct PathPoint {
+  Eigen::VectorXd u;                 // current positions of the free components
+  double s = 0.0;                    // load factor
+  Eigen::VectorXd rn;                // normal reactions, by candidate
+  Eigen::VectorXd rt;                // tangential reactions, by candidate
+  std::vector<ContactState> states;  // on the piece of path that ends here, by candidate
+};
+
+// Length of the increment between two points in (u, s): the norm of arc length.
+inline double Distance(const PathPoint& a, const PathPoint& b) {
+  return std::sqrt((b.u - a.u).squaredNorm() + (b.s - a.s) * (b.s - a.s));
+}
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_CONTACT_PATH_POINT_H_

@@ -1,0 +1,99 @@
+// The increment problem of Kanno & Martins 2005, regularised: eq. (10), as a nonlinear program.
+#ifndef CONTACT_PATH_MPEC_INCREMENT_PROBLEM_H_
+#define CONTACT_PATH_MPEC_INCREMENT_PROBLEM_H_
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <vector>
+
+#include "contact_path/contact/contact_geometry.h"
+#include "contact_path/contact/path_point.h"
+#include "contact_path/mpec/nonlinear_program.h"
+#include "contact_path/structure/structure.h"
+
+namespace contact_path {
+
+// What an increment is asked to do. In scaled quantities.
+struct IncrementGoal {
+  double length = 0.0;        // wanted length S of (du, ds), > 0
+  Eigen::VectorXd direction;  // of the last increment: unit vector (du, ds), NumDofs() + 1
+  double dissipation = 0.0;   // share w of the dissipation term, 0..1
+  double growth = 1.0;        // factor >= 1 on gamma_2 from the lengths of earlier increments
+};
+
+// Variables, with dz = (du, ds) = S y and reactions over S:
+//   y (NumDofs() + 1), r_n / S by contact, then r_t / S and lambda / S by frictional contact.
+// Objective, eq. (4) over gamma_2 S^2 at growth 1:
+//   w rhat . y_t - (1 - w) direction . y + growth |y|^2 / 2,   rhat = r_t^k / |T_t r_t^k|,
+// so gamma_1 and gamma_2 are those for which the unconstrained minimum is no longer than S for any w: no term, alone or
+// with the others, asks for more than the wanted length.
+// Constraints, all over S (products over S^2): equilibrium = 0; gaps >= 0; gap r_n <= eps; lambda -+ du_t >= 0;
+// mu r_n -+ r_t >= 0; lambda mu r_n + du_t r_t <= eps. Frictionless contacts have neither r_t nor lambda.
+class IncrementProblem : public NonlinearProgram {
+ public:
+  // working_set: the candidates that take part, ascending. All arguments but the last two must outlive the problem.
+  IncrementProblem(const Structure& structure, const std::vector<ContactGeometry>& contacts, const PathPoint& from,
+                   std::vector<int> working_set, IncrementGoal goal);
+
+  void SetRegularisation(double eps) { eps_ = eps; }
+  const std::vector<int>& working_set() const { return working_set_; }
+
+  // Variables for the guess from + S y with the reactions of `from`.
+  Eigen::VectorXd StartingPoint(const Eigen::VectorXd& y) const;
+  // The point that variables stand for. States: the larger side of each complementary pair (open or touching, stick or slip).
+  PathPoint Point(const Eigen::VectorXd& x) const;
+  // Objective of a point, without its reactions.
+  double ObjectiveAt(const PathPoint& point) const;
+  // The unconstrained minimum of the objective, (u, s): what an increment would be if nothing were in its way.
+  Eigen::VectorXd Aim() const;
+
+  Eigen::Index NumVariables() const override { return num_variables_; }
+  Eigen::Index NumConstraints() const override { return num_constraints_; }
+  Eigen::VectorXd VariableLowerBounds() const override;
+  Eigen::VectorXd ConstraintLowerBounds() const override;
+  Eigen::VectorXd ConstraintUpperBounds() const override;
+  double Objective(const Eigen::VectorXd& x) const override;
+  void Gradient(const Eigen::VectorXd& x, Eigen::VectorXd* gradient) const override;
+  void Constraints(const Eigen::VectorXd& x, Eigen::VectorXd* values) const override;
+  const std::vector<MatrixEntry>& JacobianStructure() const override { return jacobian_structure_; }
+  void JacobianValues(const Eigen::VectorXd& x, Eigen::VectorXd* values) const override;
+  const std::vector<MatrixEntry>& HessianStructure() const override { return hessian_structure_; }
+  void HessianValues(const Eigen::VectorXd& x, double factor, const Eigen::VectorXd& multipliers,
+                     Eigen::VectorXd* values) const override;
+
+ private:
+  // Where a contact of the working set keeps its variables and constraints.
+  struct Slot {
+    const ContactGeometry* geometry;
+    double gap;                    // at the start of the increment
+    Eigen::Index rn, rt, lambda;   // variables; rt, lambda -1 if frictionless
+    Eigen::Index gap_row;          // constraints: gap, gap r_n
+    Eigen::Index friction_row;     // lambda - y_t, lambda + y_t, mu r_n - r_t, mu r_n + r_t, product; -1 if frictionless
+  };
+
+  double ScaledGap(const Slot& slot, const Eigen::VectorXd& x) const;
+  double ScaledSlip(const Slot& slot, const Eigen::VectorXd& x) const;
+  // Calls emit(row, column, value) for each structural entry, in a fixed order.
+  template <typename Emit>
+  void ForEachJacobianEntry(const Eigen::VectorXd& x, Emit emit) const;
+  template <typename Emit>
+  void ForEachHessianEntry(const Eigen::VectorXd& x, double factor, const Eigen::VectorXd& multipliers, Emit emit) const;
+
+  const Structure& structure_;
+  const std::vector<ContactGeometry>& contacts_;
+  const PathPoint& from_;
+  std::vector<int> working_set_;
+  IncrementGoal goal_;
+  double eps_ = 0.0;
+  Eigen::Index num_variables_ = 0;
+  Eigen::Index num_constraints_ = 0;
+  std::vector<Slot> slots_;
+  Eigen::VectorXd linear_objective_;  // NumDofs() + 1
+  std::vector<MatrixEntry> jacobian_structure_;
+  std::vector<MatrixEntry> hessian_structure_;
+  mutable Eigen::SparseMatrix<double> tangent_;  // scratch
+};
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_MPEC_INCREMENT_PROBLEM_H_

@@ -1,0 +1,61 @@
+// One increment of Algorithm 3.2: the sequence of regularised problems, then the exact equations of the states found.
+#ifndef CONTACT_PATH_MPEC_INCREMENT_SOLVER_H_
+#define CONTACT_PATH_MPEC_INCREMENT_SOLVER_H_
+
+#include <vector>
+
+#include "contact_path/contact/contact_geometry.h"
+#include "contact_path/contact/fixed_state_system.h"
+#include "contact_path/contact/path_point.h"
+#include "contact_path/mpec/increment_problem.h"
+#include "contact_path/mpec/nonlinear_program.h"
+#include "contact_path/structure/structure.h"
+
+namespace contact_path {
+
+// Sequence of the regularisation parameter: initial, initial x factor, ... down to minimum. Products of a length over S and
+// a force over S, both scaled, so one schedule serves all increment lengths.
+struct RegularisationSchedule {
+  double initial = 1e-2;
+  double factor = 1e-2;   // rho, 0..1
+  double minimum = 1e-8;  // > 0
+};
+
+struct IncrementTrial {
+  SolveStatus status = SolveStatus::kFailed;
+  PathPoint point;
+  double regularisation = 0.0;  // smallest eps that was solved for, on products of scaled quantities
+  bool exact = false;           // point solves the unregularised equations of its states and keeps their inequalities
+  int iterations = 0;           // of the nonlinear solver
+  int variables = 0;            // of the last problem solved
+  int constraints = 0;
+};
+
+class IncrementSolver {
+ public:
+  // An increment is never longer than this times the wanted length: longer ones are jumps. It bounds which candidates can
+  // be reached: |du_n| <= |(du, ds)|.
+  static constexpr double kLongestIncrement = 2.5;
+
+  // All must outlive the solver.
+  IncrementSolver(const Structure& structure, const std::vector<ContactGeometry>& contacts, NonlinearSolver* solver);
+
+  // From `from`, an equilibrium. Candidates out of reach are left out of the problem; should a gap among them turn negative
+  // all the same, the increment is solved again with them.
+  IncrementTrial Solve(const PathPoint& from, const IncrementGoal& goal, const RegularisationSchedule& schedule);
+
+ private:
+  IncrementTrial SolveWith(const PathPoint& from, const std::vector<int>& working_set, const IncrementGoal& goal,
+                           const RegularisationSchedule& schedule);
+  // Replaces trial->point by the minimum of the same objective on the exact equations of its states, if that holds.
+  void MakeExact(const PathPoint& from, const IncrementProblem& problem, const IncrementGoal& goal, IncrementTrial* trial);
+
+  const Structure& structure_;
+  const std::vector<ContactGeometry>& contacts_;
+  NonlinearSolver* solver_;
+  FixedStateSystem system_;
+};
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_MPEC_INCREMENT_SOLVER_H_

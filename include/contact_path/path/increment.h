@@ -1,0 +1,62 @@
+// One accepted row of a path, as data, in the units of the scene.
+#ifndef CONTACT_PATH_PATH_INCREMENT_H_
+#define CONTACT_PATH_PATH_INCREMENT_H_
+
+#include <string_view>
+#include <vector>
+
+#include "contact_path/check/residuals.h"
+#include "contact_path/contact/contact_state.h"
+#include "contact_path/scene/scene.h"
+
+namespace contact_path {
+
+enum class RowKind {
+  kStart,         // row 0
+  kRegular,       // none of the others
+  kSmoothLimit,   // the load factor turns on a smooth piece
+  kCornerLimit,   // the load factor turns where a contact changes its state
+  kContactEvent,  // a contact changes its state, and the load factor does not turn
+  kBifurcation,   // another equilibrium path crosses, and neither of the above
+};
+
+// A contact candidate at the end of an increment.
+struct ContactRecord {
+  double gap = 0.0;                          // n . (x - p) [length]
+  double rn = 0.0;                           // normal reaction on the node [force], >= 0
+  double rt = 0.0;                           // tangential reaction along t = (n_y, -n_x) [force]
+  ContactState state = ContactState::kOpen;  // on the piece of path that ends in this row
+};
+
+// What it took to compute the row. Counts are of the last problem solved for it; iterations and time are sums.
+struct SolveRecord {
+  Method method = Method::kMpec;
+  double regularisation = 0.0;  // mpec: eps reached, of products of scaled quantities; 0 = not used
+  bool exact = false;           // true: active set fixed and Newton's method converged on the unregularised equations
+  int iterations = 0;           // Ipopt iterations (mpec), Newton iterations (branch)
+  int variables = 0;            // of the problem solved
+  int constraints = 0;          // of the problem solved
+  int rejected = 0;             // increments tried and not accepted before this one
+  double time = 0.0;            // wall time [s]
+};
+
+struct Increment {
+  int index = 0;
+  double load_factor = 0.0;
+  double arc_length = 0.0;  // since row 0, in the scaled norm
+  RowKind kind = RowKind::kRegular;
+  std::vector<double> positions;        // current x0, y0, x1, y1, ...: 2 x nodes, in scene order [length]
+  std::vector<ContactRecord> contacts;  // in scene order
+  double dissipation = 0.0;             // frictional work since row 0 [force length]
+  double strain_energy = 0.0;           // now [force length]
+  double external_work = 0.0;           // of all loads since row 0 [force length]
+  Residuals residuals;                  // by check/, from the scene alone
+  SolveRecord solve;
+};
+
+// "start", "regular", "smooth_limit", "corner_limit", "contact_event", "bifurcation".
+std::string_view ToString(RowKind kind);
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_PATH_INCREMENT_H_

@@ -1,0 +1,39 @@
+// A scene made ready for the solvers: scaled, assembled, with its contacts.
+#ifndef CONTACT_PATH_PATH_MODEL_H_
+#define CONTACT_PATH_PATH_MODEL_H_
+
+#include <vector>
+
+#include "contact_path/check/residuals.h"
+#include "contact_path/contact/contact_geometry.h"
+#include "contact_path/contact/path_point.h"
+#include "contact_path/scene/scaling.h"
+#include "contact_path/scene/scene.h"
+#include "contact_path/structure/structure.h"
+
+namespace contact_path {
+
+// Not to be copied or moved: the solvers keep references to its parts.
+struct Model {
+  // `scene` must be sound. `scaling`: CharacteristicScales(scene), or those of a scene with other loads.
+  Model(const Scene& scene, const Scaling& scaling);
+  Model(const Model&) = delete;
+  Model& operator=(const Model&) = delete;
+
+  // The initial configuration at load factor 0 without reactions. Candidates that touch: stick, or closed if frictionless.
+  PathPoint InitialPoint() const;
+  // The point in the units of the scene, as the check and the records want it. Fixed components are those of the scene.
+  CheckedState InSceneUnits(const PathPoint& point) const;
+  // By check/, of `now` reached from `before`.
+  Residuals Check(const PathPoint& before, const PathPoint& now) const;
+
+  const Scene scene;  // as the user wrote it
+  const Scaling scaling;
+  const Scene scaled;
+  const Structure structure;                    // of the scaled scene
+  const std::vector<ContactGeometry> contacts;  // of the scaled scene
+};
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_PATH_MODEL_H_

@@ -1,0 +1,71 @@
+// Algorithm 3.2 of Kanno & Martins 2005 as a path method: increments, their acceptance and their length.
+#ifndef CONTACT_PATH_PATH_MPEC_METHOD_H_
+#define CONTACT_PATH_PATH_MPEC_METHOD_H_
+
+#include <Eigen/Core>
+#include <functional>
+
+#include "contact_path/mpec/increment_solver.h"
+#include "contact_path/mpec/ipopt_solver.h"
+#include "contact_path/path/model.h"
+#include "contact_path/path/path_method.h"
+
+namespace contact_path {
+
+// All lengths in the scaled norm.
+struct MpecOptions {
+  double step = 0.02;          // wanted increment length, > 0
+  double smallest_step = 0.0;  // below this the path ends, > 0
+  // Where a contact changes its state, two half increments must agree with the whole one to this length, and the bend
+  // between them be no larger: it bounds how far the path is cut short at a corner.
+  double corner_tolerance = 5e-4;
+  RegularisationSchedule regularisation;
+  double direction = 1.0;  // sign of the first change of the load factor
+
+  static MpecOptions ForAccuracy(const TraceOptions& options);
+};
+
+class MpecMethod : public PathMethod {
+ public:
+  // model must outlive the method. cancelled may be empty.
+  MpecMethod(const Model& model, const MpecOptions& options, std::function<bool()> cancelled);
+
+  using PathMethod::Next;
+  Advance Next(const PathPoint& from, double longest) override;
+
+ private:
+  // Why a trial is not accepted; kAccepted if it is.
+  enum class Verdict { kAccepted, kNotSolved, kResidual, kTooLong, kNoProgress, kTurnedBack, kNotConfirmed, kCancelled };
+  struct Trial {
+    Verdict verdict = Verdict::kNotSolved;
+    IncrementTrial increment;
+    Residuals residuals;
+  };
+  static const char* Describe(Verdict verdict);
+
+  Eigen::VectorXd Direction(const PathPoint& from, const PathPoint& to) const;
+  // One solve, judged by itself.
+  Trial SolveOnce(const PathPoint& from, const Eigen::VectorXd& direction, double length, double dissipation,
+                  const RegularisationSchedule& schedule);
+  // The ladder: shares of the dissipation term, then a higher eps.
+  Trial Try(const PathPoint& from, const Eigen::VectorXd& direction, double length);
+  // The first increment has no last one: directions are improved until the increment is as long as wanted.
+  Trial TryFirst(const PathPoint& from, double length);
+  bool ConfirmedByHalves(const PathPoint& from, const Eigen::VectorXd& direction, double length, const Trial& whole);
+
+  const Model& model_;
+  MpecOptions options_;
+  std::function<bool()> cancelled_;
+  IpoptSolver ipopt_;
+  IncrementSolver solver_;
+  double step_;
+  double growth_ = 1.0;
+  bool started_ = false;
+  bool bent_ = false;          // a contact changed its state in the last increment: its direction is a chord over the bend
+  Eigen::VectorXd direction_;  // of the last accepted increment
+  int iterations_ = 0;         // since the last accepted row
+};
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_PATH_MPEC_METHOD_H_

@@ -1,0 +1,42 @@
+// What the tracer asks of a method: the next accepted rows of the path.
+#ifndef CONTACT_PATH_PATH_PATH_METHOD_H_
+#define CONTACT_PATH_PATH_PATH_METHOD_H_
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "contact_path/contact/path_point.h"
+#include "contact_path/path/increment.h"
+#include "contact_path/path/trace.h"
+
+namespace contact_path {
+
+// A point that passed the check.
+struct AcceptedPoint {
+  PathPoint point;
+  RowKind kind = RowKind::kRegular;
+  Residuals residuals;
+  SolveRecord solve;  // without time
+};
+
+struct Advance {
+  std::vector<AcceptedPoint> rows;  // in order; may hold rows also where the path ended
+  bool ended = true;
+  EndReason reason = EndReason::kNumericalFailure;  // if ended
+  std::string message;                              // if ended: one line for a person
+};
+
+class PathMethod {
+ public:
+  virtual ~PathMethod() = default;
+
+  // The next rows after `from`, which is the last accepted point: the initial point, or the last row that this method gave,
+  // or the point before it to try again. `longest`: bound on the increment length, scaled norm.
+  virtual Advance Next(const PathPoint& from, double longest) = 0;
+  Advance Next(const PathPoint& from) { return Next(from, std::numeric_limits<double>::infinity()); }
+};
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_PATH_PATH_METHOD_H_

@@ -1,0 +1,31 @@
+// Brings the constant loads on, and releases the bars whose rest length is not their initial length.
+#ifndef CONTACT_PATH_PATH_PRELOAD_H_
+#define CONTACT_PATH_PATH_PRELOAD_H_
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "contact_path/path/model.h"
+#include "contact_path/path/path_method.h"
+#include "contact_path/path/trace.h"
+
+namespace contact_path {
+
+// Makes the path method for a model.
+using MethodFactory = std::function<std::unique_ptr<PathMethod>(const Model& model, double direction)>;
+
+struct Preload {
+  bool done = false;
+  PathPoint point;  // equilibrium at load factor 0 under the constant loads, with the friction history of getting there
+  EndReason reason = EndReason::kNumericalFailure;  // if not done
+  std::string message;                              // if not done
+};
+
+// The path from the initial configuration, held by the forces that keep it there, to `model` at load factor 0: these
+// forces go from 1 to 0 while the constant loads go from 0 to 1. Nothing to do where both are zero.
+Preload TracePreload(const Model& model, int max_increments, const MethodFactory& make_method);
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_PATH_PRELOAD_H_

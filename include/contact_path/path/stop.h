@@ -1,0 +1,35 @@
+// Stop criteria of a request, ready to be asked after every row.
+#ifndef CONTACT_PATH_PATH_STOP_H_
+#define CONTACT_PATH_PATH_STOP_H_
+
+#include <string>
+#include <vector>
+
+#include "contact_path/path/increment.h"
+#include "contact_path/scene/scene.h"
+
+namespace contact_path {
+
+class StopTest {
+ public:
+  // `request` must be sound and outlive the test.
+  explicit StopTest(const TraceRequest& request);
+
+  // The first criterion that holds in `row`, or null. Row 0 is not asked: a criterion can end a path, not forbid its start.
+  const StopCriterion* FirstThatHolds(const Increment& row) const;
+
+ private:
+  static constexpr int kLoadFactor = -1;
+  struct Item {
+    const StopCriterion* criterion;
+    int component;  // into Increment::positions, or kLoadFactor
+  };
+  std::vector<Item> items_;
+};
+
+// "b.x > 4.95".
+std::string ToText(const StopCriterion& criterion);
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_PATH_STOP_H_

@@ -1,0 +1,22 @@
+// Work done in one increment.
+#ifndef CONTACT_PATH_PATH_WORK_H_
+#define CONTACT_PATH_PATH_WORK_H_
+
+#include "contact_path/contact/path_point.h"
+#include "contact_path/path/model.h"
+
+namespace contact_path {
+
+// In scene units [force length].
+struct Work {
+  double friction = 0.0;  // dissipated, >= 0
+  double loads = 0.0;     // of all loads, constant and scaled
+};
+
+// From `from` to `to` by the trapezoidal rule: second order in the increment. A contact that slips in the state of `to`
+// dissipates mu r_n |du_t| with the mean of r_n; all others nothing.
+Work WorkOfIncrement(const Model& model, const PathPoint& from, const PathPoint& to);
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_PATH_WORK_H_

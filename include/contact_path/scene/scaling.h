@@ -1,0 +1,26 @@
+// Characteristic length and force of a scene, and the scene in those units: what all solvers see.
+#ifndef CONTACT_PATH_SCENE_SCALING_H_
+#define CONTACT_PATH_SCENE_SCALING_H_
+
+#include "contact_path/scene/scene.h"
+
+namespace contact_path {
+
+// quantity of the scene = scaled quantity x scale. All are positive, change with the units as their quantities do, and
+// depend neither on the order of the parts nor on rotation or reflection of the scene.
+struct Scaling {
+  double length = 1.0;       // L: mean initial length of the bars; without bars, F / mean stiffness
+  double force = 1.0;        // F: geometric mean of EA over the bars; without bars, the norm of the reference load
+  double load_factor = 1.0;  // F / norm of the reference load on the free components
+};
+
+// `scene` must be sound (validate.h).
+Scaling CharacteristicScales(const Scene& scene);
+
+// `scene` in scaled units: positions over L, forces over F, stiffnesses over F / L, reference loads of norm 1.
+// Normals of unit length, rest lengths filled in. Names and order are kept.
+Scene ScaleScene(const Scene& scene, const Scaling& scaling);
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_SCENE_SCALING_H_

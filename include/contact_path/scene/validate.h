@@ -1,0 +1,40 @@
+// The rules that a request must keep before anything is computed from it.
+#ifndef CONTACT_PATH_SCENE_VALIDATE_H_
+#define CONTACT_PATH_SCENE_VALIDATE_H_
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "contact_path/scene/scene.h"
+
+namespace contact_path {
+
+// One broken rule.
+struct Violation {
+  std::string key;    // where in the request, e.g. "scene.bars[0].EA"
+  std::string value;  // what stands there
+  std::string rule;   // what must hold
+  std::string file;   // empty for a request that is not from a file
+  int line = 0;       // in the file, from 1; 0 = unknown
+
+  // One line: "FILE:LINE: KEY = VALUE: RULE", without what is not known.
+  std::string ToLine() const;
+};
+
+// Thrown where a request enters; what() is the line of the first violation.
+class InvalidRequest : public std::invalid_argument {
+ public:
+  explicit InvalidRequest(std::vector<Violation> violations);  // at least one
+  const std::vector<Violation>& violations() const { return violations_; }
+
+ private:
+  std::vector<Violation> violations_;
+};
+
+// All rules that `request` breaks, in the order of the request; empty if it is sound. Lines and files are left unset.
+std::vector<Violation> Validate(const TraceRequest& request);
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_SCENE_VALIDATE_H_

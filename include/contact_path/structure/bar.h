@@ -1,0 +1,38 @@
+// Straight elastic bar between two nodes.
+#ifndef CONTACT_PATH_STRUCTURE_BAR_H_
+#define CONTACT_PATH_STRUCTURE_BAR_H_
+
+#include "contact_path/scene/scene.h"
+#include "contact_path/structure/element.h"
+
+namespace contact_path {
+
+// W = EA l0 e^2 / 2 with e the strain of the current length l (scene.h, StrainMeasure; Biot: Kanno & Martins 2005,
+// section 4). Written in q = l^2, in which the Green-Lagrange bar is a polynomial: no singularity at l = 0.
+class BarElement : public Element {
+ public:
+  // EA > 0 [force], rest_length > 0 [length].
+  BarElement(double EA, double rest_length, StrainMeasure strain);
+
+  Eigen::Index NumNodes() const override { return 2; }
+  double Energy(const Eigen::Ref<const Eigen::VectorXd>& x) const override;
+  void Force(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::VectorXd> force) const override;
+  void Tangent(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::MatrixXd> tangent) const override;
+  void TangentDerivative(const Eigen::Ref<const Eigen::VectorXd>& x, const Eigen::Ref<const Eigen::VectorXd>& v,
+                         Eigen::Ref<Eigen::MatrixXd> derivative) const override;
+
+ private:
+  // Derivatives of W by q.
+  struct EnergyDerivatives {
+    double first, second, third;
+  };
+  EnergyDerivatives Derivatives(double q) const;
+
+  double EA_;
+  double rest_length_;
+  StrainMeasure strain_;
+};
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_STRUCTURE_BAR_H_

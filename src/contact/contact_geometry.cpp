@@ -1,0 +1,49 @@
+#include "contact_path/contact/contact_geometry.h"
+
+#include <cmath>
+#include <unordered_map>
+
+namespace contact_path {
+namespace {
+
+SparseLinear Project(const Scene& scene, const Structure& structure, int node, double cx, double cy) {
+  SparseLinear function;
+  const Node& position = scene.nodes[static_cast<std::size_t>(node)];
+  const std::array<double, 2> coefficients = {cx, cy}, initial = {position.x, position.y};
+  for (const int axis : {0, 1}) {
+    const auto a = static_cast<std::size_t>(axis);
+    const int dof = structure.Dof(node, axis);
+    if (dof < 0) {
+      function.offset += coefficients[a] * initial[a];
+    } else if (coefficients[a] != 0.0) {
+      function.dofs[a] = dof;
+      function.coefficients[a] = coefficients[a];
+    }
+  }
+  return function;
+}
+
+}  // namespace
+
+std::vector<ContactGeometry> BuildContacts(const Scene& scene, const Structure& structure) {
+  std::unordered_map<std::string, const Obstacle*> obstacles;
+  for (const Obstacle& obstacle : scene.obstacles) obstacles.emplace(obstacle.name, &obstacle);
+
+  std::vector<ContactGeometry> contacts;
+  for (const ContactCandidate& candidate : scene.contacts) {
+    const Obstacle& obstacle = *obstacles.at(candidate.obstacle);
+    const int node = structure.NodeIndex(candidate.node);
+    const double norm = std::hypot(obstacle.nx, obstacle.ny);
+    const double nx = obstacle.nx / norm, ny = obstacle.ny / norm;
+    ContactGeometry contact;
+    contact.gap = Project(scene, structure, node, nx, ny);
+    contact.gap.offset -= nx * obstacle.px + ny * obstacle.py;
+    contact.tangential = Project(scene, structure, node, ny, -nx);
+    const bool can_slide = contact.tangential.dofs[0] >= 0 || contact.tangential.dofs[1] >= 0;
+    contact.friction = can_slide ? obstacle.friction : 0.0;
+    contacts.push_back(contact);
+  }
+  return contacts;
+}
+
+}  // namespace contact_path

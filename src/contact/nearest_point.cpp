@@ -1,0 +1,63 @@
+#include "contact_path/contact/nearest_point.h"
+
+#include <cmath>
+
+#include "contact_path/contact/minimum_norm.h"
+
+namespace contact_path {
+namespace {
+
+constexpr int kMaxIterations = 40;
+constexpr double kStepTolerance = 1e-14;      // relative to 1 + |x|: rounding level
+constexpr double kStagnationStep = 1e-9;      // relative: below this a step that no longer shrinks is rounding
+constexpr double kResidualTolerance = 1e-10;  // scaled force or length
+
+// Weight of the reactions in the norm of a step. They take no part in what is wanted; the weight only makes a step unique
+// where reactions are redundant, and acts on steps, so it leaves the converged point untouched.
+constexpr double kReactionWeight = 1.0 / 32.0;
+
+}  // namespace
+
+NearestPoint FindNearestPoint(FixedStateSystem* system, const Eigen::VectorXd& start, const Eigen::VectorXd& wanted) {
+  const Eigen::Index size = wanted.size();
+  const Eigen::Index reactions = system->NumUnknowns() - size;
+  NearestPoint result;
+  result.x = start;
+  MinimumNormSolver solver;
+  Eigen::SparseMatrix<double> scaled;
+  Eigen::VectorXd residual;
+  system->Residual(result.x, &residual);
+  double previous = std::numeric_limits<double>::infinity();
+  for (; result.iterations < kMaxIterations; ++result.iterations) {
+    scaled = system->TransposedJacobian(result.x);
+    for (Eigen::Index column = 0; column < scaled.cols(); ++column)
+      for (Eigen::SparseMatrix<double>::InnerIterator it(scaled, column); it; ++it)
+        if (it.row() >= size) it.valueRef() /= kReactionWeight;
+    if (!residual.allFinite() || !solver.Factorize(scaled)) return result;
+    result.rank = solver.Rank();
+
+    // Towards what is wanted, then back onto the linearised equations by the shortest way.
+    Eigen::VectorXd step = Eigen::VectorXd::Zero(system->NumUnknowns());
+    step.head(size) = wanted - result.x.head(size);
+    step += solver.Solve(-residual - scaled.transpose() * step);
+    step.tail(reactions) /= kReactionWeight;
+
+    result.x += step;
+    result.last_step = step.norm();
+    system->Residual(result.x, &residual);
+    result.residual = residual.size() == 0 ? 0.0 : residual.lpNorm<Eigen::Infinity>();
+    if (!std::isfinite(result.residual)) return result;
+    const double scale = 1.0 + result.x.norm();
+    const bool at_rounding = result.last_step <= kStepTolerance * scale ||
+                             (result.last_step <= kStagnationStep * scale && result.last_step >= 0.5 * previous);
+    if (at_rounding) {
+      result.converged = result.residual <= kResidualTolerance;
+      ++result.iterations;
+      return result;
+    }
+    previous = result.last_step;
+  }
+  return result;
+}
+
+}  // namespace contact_path

@@ -1,0 +1,255 @@
+#include "contact_path/mpec/increment_problem.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace contact_path {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+int Int(Eigen::Index index) { return static_cast<int>(index); }
+
+}  // namespace
+
+IncrementProblem::IncrementProblem(const Structure& structure, const std::vector<ContactGeometry>& contacts,
+                                   const PathPoint& from, std::vector<int> working_set, IncrementGoal goal)
+    : structure_(structure),
+      contacts_(contacts),
+      from_(from),
+      working_set_(std::move(working_set)),
+      goal_(std::move(goal)),
+      tangent_(structure.TangentPattern()) {
+  const Eigen::Index nd = structure_.NumDofs();
+  num_variables_ = nd + 1 + static_cast<Eigen::Index>(working_set_.size());
+  num_constraints_ = nd;
+  Eigen::VectorXd drive = Eigen::VectorXd::Zero(nd);  // T_t r_t^k
+  for (std::size_t i = 0; i < working_set_.size(); ++i) {
+    const ContactGeometry& geometry = contacts_[static_cast<std::size_t>(working_set_[i])];
+    Slot slot{&geometry, geometry.gap.Value(from_.u), nd + 1 + static_cast<Eigen::Index>(i), -1, -1, num_constraints_, -1};
+    num_constraints_ += 2;
+    if (geometry.Frictional()) {
+      slot.rt = num_variables_++;
+      slot.lambda = num_variables_++;
+      slot.friction_row = num_constraints_;
+      num_constraints_ += 5;
+      geometry.tangential.AddGradient(from_.rt[working_set_[i]], &drive);
+    }
+    slots_.push_back(slot);
+  }
+  const double norm = drive.norm();
+  linear_objective_ = -(norm > 0.0 ? 1.0 - goal_.dissipation : 1.0) * goal_.direction;
+  if (norm > 0.0) linear_objective_.head(nd) += goal_.dissipation / norm * drive;
+
+  const Eigen::VectorXd x = Eigen::VectorXd::Zero(num_variables_);
+  const auto record = [](std::vector<MatrixEntry>* structure_out) {
+    return [structure_out](Eigen::Index row, Eigen::Index column, double) {
+      structure_out->push_back({Int(row), Int(column)});
+    };
+  };
+  ForEachJacobianEntry(x, record(&jacobian_structure_));
+  ForEachHessianEntry(x, 1.0, Eigen::VectorXd::Zero(num_constraints_), record(&hessian_structure_));
+}
+
+double IncrementProblem::ScaledGap(const Slot& slot, const Eigen::VectorXd& x) const {
+  return slot.gap / goal_.length + slot.geometry->gap.Rate(x);
+}
+
+double IncrementProblem::ScaledSlip(const Slot& slot, const Eigen::VectorXd& x) const {
+  return slot.geometry->tangential.Rate(x);
+}
+
+Eigen::VectorXd IncrementProblem::StartingPoint(const Eigen::VectorXd& y) const {
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(num_variables_);
+  x.head(y.size()) = y;
+  for (std::size_t i = 0; i < slots_.size(); ++i) {
+    const Slot& slot = slots_[i];
+    x[slot.rn] = from_.rn[working_set_[i]] / goal_.length;
+    if (slot.rt < 0) continue;
+    x[slot.rt] = from_.rt[working_set_[i]] / goal_.length;
+    x[slot.lambda] = std::abs(ScaledSlip(slot, x));
+  }
+  return x;
+}
+
+PathPoint IncrementProblem::Point(const Eigen::VectorXd& x) const {
+  const Eigen::Index nd = structure_.NumDofs();
+  PathPoint point;
+  point.u = from_.u + goal_.length * x.head(nd);
+  point.s = from_.s + goal_.length * x[nd];
+  point.rn = Eigen::VectorXd::Zero(from_.rn.size());
+  point.rt = Eigen::VectorXd::Zero(from_.rt.size());
+  point.states.assign(contacts_.size(), ContactState::kOpen);
+  for (std::size_t i = 0; i < slots_.size(); ++i) {
+    const Slot& slot = slots_[i];
+    point.rn[working_set_[i]] = goal_.length * x[slot.rn];
+    if (slot.rt >= 0) point.rt[working_set_[i]] = goal_.length * x[slot.rt];
+    ContactState& state = point.states[static_cast<std::size_t>(working_set_[i])];
+    if (ScaledGap(slot, x) > x[slot.rn]) continue;
+    if (slot.rt < 0) {
+      state = ContactState::kClosed;
+      continue;
+    }
+    const double slip = ScaledSlip(slot, x);
+    const double margin = slot.geometry->friction * x[slot.rn] - std::abs(x[slot.rt]);
+    if (std::abs(slip) <= margin)
+      state = ContactState::kStick;
+    else
+      state = slip > 0.0 ? ContactState::kSlipPlus : ContactState::kSlipMinus;
+  }
+  return point;
+}
+
+double IncrementProblem::ObjectiveAt(const PathPoint& point) const {
+  Eigen::VectorXd y(structure_.NumDofs() + 1);
+  y << point.u - from_.u, point.s - from_.s;
+  y /= goal_.length;
+  return linear_objective_.dot(y) + 0.5 * goal_.growth * y.squaredNorm();
+}
+
+Eigen::VectorXd IncrementProblem::Aim() const {
+  Eigen::VectorXd aim = -goal_.length / goal_.growth * linear_objective_;
+  aim.head(structure_.NumDofs()) += from_.u;
+  aim[structure_.NumDofs()] += from_.s;
+  return aim;
+}
+
+Eigen::VectorXd IncrementProblem::VariableLowerBounds() const {
+  Eigen::VectorXd bounds = Eigen::VectorXd::Constant(num_variables_, -kInfinity);
+  for (const Slot& slot : slots_) bounds[slot.rn] = 0.0;
+  return bounds;
+}
+
+Eigen::VectorXd IncrementProblem::ConstraintLowerBounds() const {
+  Eigen::VectorXd bounds = Eigen::VectorXd::Zero(num_constraints_);
+  for (const Slot& slot : slots_) {
+    bounds[slot.gap_row + 1] = -kInfinity;
+    if (slot.friction_row >= 0) bounds[slot.friction_row + 4] = -kInfinity;
+  }
+  return bounds;
+}
+
+Eigen::VectorXd IncrementProblem::ConstraintUpperBounds() const {
+  Eigen::VectorXd bounds = Eigen::VectorXd::Zero(num_constraints_);
+  for (const Slot& slot : slots_) {
+    bounds[slot.gap_row] = kInfinity;
+    bounds[slot.gap_row + 1] = eps_;
+    if (slot.friction_row < 0) continue;
+    bounds.segment<4>(slot.friction_row).setConstant(kInfinity);
+    bounds[slot.friction_row + 4] = eps_;
+  }
+  return bounds;
+}
+
+double IncrementProblem::Objective(const Eigen::VectorXd& x) const {
+  const auto y = x.head(linear_objective_.size());
+  return linear_objective_.dot(y) + 0.5 * goal_.growth * y.squaredNorm();
+}
+
+void IncrementProblem::Gradient(const Eigen::VectorXd& x, Eigen::VectorXd* gradient) const {
+  gradient->setZero(num_variables_);
+  gradient->head(linear_objective_.size()) = linear_objective_ + goal_.growth * x.head(linear_objective_.size());
+}
+
+void IncrementProblem::Constraints(const Eigen::VectorXd& x, Eigen::VectorXd* values) const {
+  const Eigen::Index nd = structure_.NumDofs();
+  Eigen::VectorXd force;
+  structure_.InternalForce(from_.u + goal_.length * x.head(nd), &force);
+  force -= (from_.s + goal_.length * x[nd]) * structure_.ReferenceLoad() + structure_.ConstantLoad();
+  force /= goal_.length;
+  values->resize(num_constraints_);
+  for (const Slot& slot : slots_) {
+    const double gap = ScaledGap(slot, x), rn = x[slot.rn];
+    slot.geometry->gap.AddGradient(-rn, &force);
+    (*values)[slot.gap_row] = gap;
+    (*values)[slot.gap_row + 1] = gap * rn;
+    if (slot.rt < 0) continue;
+    const double slip = ScaledSlip(slot, x), rt = x[slot.rt], lambda = x[slot.lambda];
+    const double mu = slot.geometry->friction;
+    slot.geometry->tangential.AddGradient(-rt, &force);
+    values->segment<5>(slot.friction_row) << lambda - slip, lambda + slip, mu * rn - rt, mu * rn + rt,
+        lambda * mu * rn + slip * rt;
+  }
+  values->head(nd) = force;
+}
+
+template <typename Emit>
+void IncrementProblem::ForEachJacobianEntry(const Eigen::VectorXd& x, Emit emit) const {
+  const Eigen::Index nd = structure_.NumDofs();
+  structure_.Tangent(from_.u + goal_.length * x.head(nd), &tangent_);
+  for (Eigen::Index column = 0; column < nd; ++column)
+    for (Eigen::SparseMatrix<double>::InnerIterator it(tangent_, column); it; ++it) emit(it.row(), column, it.value());
+  for (Eigen::Index row = 0; row < nd; ++row)
+    if (structure_.ReferenceLoad()[row] != 0.0) emit(row, nd, -structure_.ReferenceLoad()[row]);
+  for (const Slot& slot : slots_) {
+    const SparseLinear &normal = slot.geometry->gap, &tangential = slot.geometry->tangential;
+    const double gap = ScaledGap(slot, x), rn = x[slot.rn];
+    for (std::size_t a = 0; a < 2; ++a) {
+      if (normal.dofs[a] < 0) continue;
+      emit(normal.dofs[a], slot.rn, -normal.coefficients[a]);
+      emit(slot.gap_row, normal.dofs[a], normal.coefficients[a]);
+      emit(slot.gap_row + 1, normal.dofs[a], normal.coefficients[a] * rn);
+    }
+    emit(slot.gap_row + 1, slot.rn, gap);
+    if (slot.rt < 0) continue;
+    const double slip = ScaledSlip(slot, x), rt = x[slot.rt], lambda = x[slot.lambda];
+    const double mu = slot.geometry->friction;
+    for (std::size_t a = 0; a < 2; ++a) {
+      if (tangential.dofs[a] < 0) continue;
+      const double coefficient = tangential.coefficients[a];
+      emit(tangential.dofs[a], slot.rt, -coefficient);
+      emit(slot.friction_row, tangential.dofs[a], -coefficient);
+      emit(slot.friction_row + 1, tangential.dofs[a], coefficient);
+      emit(slot.friction_row + 4, tangential.dofs[a], coefficient * rt);
+    }
+    emit(slot.friction_row, slot.lambda, 1.0);
+    emit(slot.friction_row + 1, slot.lambda, 1.0);
+    emit(slot.friction_row + 2, slot.rn, mu);
+    emit(slot.friction_row + 2, slot.rt, -1.0);
+    emit(slot.friction_row + 3, slot.rn, mu);
+    emit(slot.friction_row + 3, slot.rt, 1.0);
+    emit(slot.friction_row + 4, slot.lambda, mu * rn);
+    emit(slot.friction_row + 4, slot.rn, mu * lambda);
+    emit(slot.friction_row + 4, slot.rt, slip);
+  }
+}
+
+template <typename Emit>
+void IncrementProblem::ForEachHessianEntry(const Eigen::VectorXd& x, double factor, const Eigen::VectorXd& multipliers,
+                                           Emit emit) const {
+  const Eigen::Index nd = structure_.NumDofs();
+  // Second order of the equilibrium rows: S times the derivative of the tangent along their multipliers.
+  structure_.TangentDerivative(from_.u + goal_.length * x.head(nd), multipliers.head(nd), &tangent_);
+  for (Eigen::Index column = 0; column < nd; ++column)
+    for (Eigen::SparseMatrix<double>::InnerIterator it(tangent_, column); it; ++it)
+      if (it.row() >= column)
+        emit(it.row(), column, goal_.length * it.value() + (it.row() == column ? factor * goal_.growth : 0.0));
+  emit(nd, nd, factor * goal_.growth);
+  for (const Slot& slot : slots_) {
+    const SparseLinear &normal = slot.geometry->gap, &tangential = slot.geometry->tangential;
+    for (std::size_t a = 0; a < 2; ++a)
+      if (normal.dofs[a] >= 0) emit(slot.rn, normal.dofs[a], multipliers[slot.gap_row + 1] * normal.coefficients[a]);
+    if (slot.rt < 0) continue;
+    const double product = multipliers[slot.friction_row + 4];
+    emit(slot.lambda, slot.rn, product * slot.geometry->friction);
+    for (std::size_t a = 0; a < 2; ++a)
+      if (tangential.dofs[a] >= 0) emit(slot.rt, tangential.dofs[a], product * tangential.coefficients[a]);
+  }
+}
+
+void IncrementProblem::JacobianValues(const Eigen::VectorXd& x, Eigen::VectorXd* values) const {
+  values->resize(static_cast<Eigen::Index>(jacobian_structure_.size()));
+  Eigen::Index k = 0;
+  ForEachJacobianEntry(x, [&](Eigen::Index, Eigen::Index, double value) { (*values)[k++] = value; });
+}
+
+void IncrementProblem::HessianValues(const Eigen::VectorXd& x, double factor, const Eigen::VectorXd& multipliers,
+                                     Eigen::VectorXd* values) const {
+  values->resize(static_cast<Eigen::Index>(hessian_structure_.size()));
+  Eigen::Index k = 0;
+  ForEachHessianEntry(x, factor, multipliers, [&](Eigen::Index, Eigen::Index, double value) { (*values)[k++] = value; });
+}
+
+}  // namespace contact_path

@@ -1,0 +1,114 @@
+#include "contact_path/mpec/increment_solver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "contact_path/contact/nearest_point.h"
+
+namespace contact_path {
+namespace {
+
+// Inequalities of the exact point may be violated by rounding only. Scaled quantities.
+constexpr double kInequalityTolerance = 1e-11;
+
+// Times eps: barrier parameter with which the solve for eps starts, so that the barrier never hides the relaxed products.
+constexpr double kBarrierShare = 0.1;
+
+// The exact point must lie within this part of the wanted length of the regularised one, or it is another solution.
+constexpr double kSamePoint = 0.1;
+
+constexpr int kMaxActiveSetChanges = 4;
+
+Eigen::VectorXd TangentialPositions(const std::vector<ContactGeometry>& contacts, const Eigen::VectorXd& u) {
+  Eigen::VectorXd positions(static_cast<Eigen::Index>(contacts.size()));
+  for (std::size_t i = 0; i < contacts.size(); ++i) positions[static_cast<Eigen::Index>(i)] = contacts[i].tangential.Value(u);
+  return positions;
+}
+
+}  // namespace
+
+IncrementSolver::IncrementSolver(const Structure& structure, const std::vector<ContactGeometry>& contacts,
+                                 NonlinearSolver* solver)
+    : structure_(structure), contacts_(contacts), solver_(solver), system_(structure, contacts) {}
+
+IncrementTrial IncrementSolver::Solve(const PathPoint& from, const IncrementGoal& goal,
+                                      const RegularisationSchedule& schedule) {
+  std::vector<bool> included(contacts_.size());
+  for (std::size_t i = 0; i < contacts_.size(); ++i)
+    included[i] = contacts_[i].gap.Value(from.u) <= kLongestIncrement * goal.length;
+  int iterations = 0;
+  for (;;) {
+    std::vector<int> working_set;
+    for (std::size_t i = 0; i < contacts_.size(); ++i)
+      if (included[i]) working_set.push_back(static_cast<int>(i));
+    IncrementTrial trial = SolveWith(from, working_set, goal, schedule);
+    trial.iterations += iterations;
+    if (trial.status != SolveStatus::kSolved) return trial;
+    bool closed = false;
+    for (std::size_t i = 0; i < contacts_.size(); ++i) {
+      if (included[i] || contacts_[i].gap.Value(trial.point.u) >= 0.0) continue;
+      included[i] = closed = true;
+    }
+    if (!closed) return trial;
+    iterations = trial.iterations;
+  }
+}
+
+IncrementTrial IncrementSolver::SolveWith(const PathPoint& from, const std::vector<int>& working_set,
+                                          const IncrementGoal& goal, const RegularisationSchedule& schedule) {
+  IncrementProblem problem(structure_, contacts_, from, working_set, goal);
+  IncrementTrial trial;
+  trial.variables = static_cast<int>(problem.NumVariables());
+  trial.constraints = static_cast<int>(problem.NumConstraints());
+
+  PrimalDual point;
+  point.x = problem.StartingPoint(goal.direction);
+  const bool regularised = !working_set.empty();
+  double eps = regularised ? schedule.initial : 0.0;
+  for (;;) {
+    problem.SetRegularisation(eps);
+    const SolveOutcome outcome = solver_->Solve(problem, kBarrierShare * eps, &point);
+    trial.iterations += outcome.iterations;
+    if (outcome.status != SolveStatus::kSolved) {
+      trial.status = outcome.status;
+      return trial;
+    }
+    if (eps <= schedule.minimum) break;
+    eps = std::max(schedule.minimum, schedule.factor * eps);
+  }
+  trial.status = SolveStatus::kSolved;
+  trial.regularisation = eps * goal.length * goal.length;
+  trial.point = problem.Point(point.x);
+  MakeExact(from, problem, goal, &trial);
+  return trial;
+}
+
+void IncrementSolver::MakeExact(const PathPoint& from, const IncrementProblem& problem, const IncrementGoal& goal,
+                                IncrementTrial* trial) {
+  system_.SetStates(trial->point.states, TangentialPositions(contacts_, from.u));
+  std::vector<Limit> pinned;
+  Eigen::VectorXd start = system_.Pack(trial->point);
+  for (int change = 0; change <= kMaxActiveSetChanges; ++change) {
+    const NearestPoint nearest = FindNearestPoint(&system_, start, problem.Aim());
+    if (!nearest.converged) return;
+    PathPoint exact = system_.Unpack(nearest.x);
+    if (Distance(exact, trial->point) > kSamePoint * goal.length) return;
+    // An inequality that fails is active at the minimum: it becomes an equation.
+    const std::size_t before = pinned.size();
+    for (const Limit& limit : system_.Inequalities())
+      if (system_.Value(limit, nearest.x) < -kInequalityTolerance) pinned.push_back(limit);
+    if (pinned.size() == before) {
+      // Slip held at zero motion: the contact stuck, and is about to slip.
+      for (const Limit& limit : pinned)
+        if (limit.inequality == Inequality::kSlip) exact.states[static_cast<std::size_t>(limit.contact)] = ContactState::kStick;
+      trial->point = std::move(exact);
+      trial->exact = true;
+      return;
+    }
+    system_.Pin(pinned);
+    start = nearest.x;
+  }
+}
+
+}  // namespace contact_path

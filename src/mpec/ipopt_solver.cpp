@@ -1,0 +1,188 @@
+#include "contact_path/mpec/ipopt_solver.h"
+
+#include <IpIpoptApplication.hpp>
+#include <IpTNLP.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace contact_path {
+namespace {
+
+using Ipopt::Number;
+
+constexpr Number kIpoptInfinity = 2e19;  // beyond Ipopt's nlp_upper_bound_inf
+
+Number Bound(double value) { return std::isinf(value) ? std::copysign(kIpoptInfinity, value) : value; }
+
+// Hands one program to Ipopt and takes back the point in which Ipopt ends. Only delegates.
+class Adapter : public Ipopt::TNLP {
+ public:
+  Adapter(const NonlinearProgram& program, bool warm, const std::function<bool()>& cancelled, PrimalDual* point)
+      : program_(program), warm_(warm), cancelled_(cancelled), point_(point) {}
+
+  bool was_cancelled() const { return was_cancelled_; }
+  int iterations() const { return iterations_; }
+
+  bool get_nlp_info(Ipopt::Index& n, Ipopt::Index& m, Ipopt::Index& nnz_jac, Ipopt::Index& nnz_hessian,
+                    IndexStyleEnum& index_style) override {
+    n = static_cast<Ipopt::Index>(program_.NumVariables());
+    m = static_cast<Ipopt::Index>(program_.NumConstraints());
+    nnz_jac = static_cast<Ipopt::Index>(program_.JacobianStructure().size());
+    nnz_hessian = static_cast<Ipopt::Index>(program_.HessianStructure().size());
+    index_style = C_STYLE;
+    return true;
+  }
+
+  bool get_bounds_info(Ipopt::Index n, Number* lower, Number* upper, Ipopt::Index m, Number* g_lower,
+                       Number* g_upper) override {
+    const Eigen::VectorXd x_lower = program_.VariableLowerBounds();
+    const Eigen::VectorXd c_lower = program_.ConstraintLowerBounds(), c_upper = program_.ConstraintUpperBounds();
+    std::transform(x_lower.data(), x_lower.data() + n, lower, Bound);
+    std::fill_n(upper, n, kIpoptInfinity);
+    std::transform(c_lower.data(), c_lower.data() + m, g_lower, Bound);
+    std::transform(c_upper.data(), c_upper.data() + m, g_upper, Bound);
+    return true;
+  }
+
+  bool get_starting_point(Ipopt::Index n, bool, Number* x, bool init_z, Number* z_lower, Number* z_upper, Ipopt::Index m,
+                          bool init_lambda, Number* lambda) override {
+    std::copy_n(point_->x.data(), n, x);
+    if (init_z) {
+      if (!warm_) return false;
+      std::copy_n(point_->lower_multipliers.data(), n, z_lower);
+      std::fill_n(z_upper, n, 0.0);
+    }
+    if (init_lambda) {
+      if (!warm_) return false;
+      std::copy_n(point_->multipliers.data(), m, lambda);
+    }
+    return true;
+  }
+
+  bool eval_f(Ipopt::Index n, const Number* x, bool new_x, Number& value) override {
+    value = program_.Objective(Point(n, x, new_x));
+    return std::isfinite(value);
+  }
+
+  bool eval_grad_f(Ipopt::Index n, const Number* x, bool new_x, Number* gradient) override {
+    program_.Gradient(Point(n, x, new_x), &values_);
+    return Give(gradient);
+  }
+
+  bool eval_g(Ipopt::Index n, const Number* x, bool new_x, Ipopt::Index, Number* g) override {
+    program_.Constraints(Point(n, x, new_x), &values_);
+    return Give(g);
+  }
+
+  bool eval_jac_g(Ipopt::Index n, const Number* x, bool new_x, Ipopt::Index, Ipopt::Index, Ipopt::Index* rows,
+                  Ipopt::Index* columns, Number* values) override {
+    if (values == nullptr) return GiveStructure(program_.JacobianStructure(), rows, columns);
+    program_.JacobianValues(Point(n, x, new_x), &values_);
+    return Give(values);
+  }
+
+  bool eval_h(Ipopt::Index n, const Number* x, bool new_x, Number factor, Ipopt::Index m, const Number* lambda, bool,
+              Ipopt::Index, Ipopt::Index* rows, Ipopt::Index* columns, Number* values) override {
+    if (values == nullptr) return GiveStructure(program_.HessianStructure(), rows, columns);
+    multipliers_ = Eigen::Map<const Eigen::VectorXd>(lambda, m);
+    program_.HessianValues(Point(n, x, new_x), factor, multipliers_, &values_);
+    return Give(values);
+  }
+
+  bool intermediate_callback(Ipopt::AlgorithmMode, Ipopt::Index iteration, Number, Number, Number, Number, Number, Number,
+                             Number, Number, Ipopt::Index, const Ipopt::IpoptData*,
+                             Ipopt::IpoptCalculatedQuantities*) override {
+    iterations_ = iteration;
+    was_cancelled_ = cancelled_ && cancelled_();
+    return !was_cancelled_;
+  }
+
+  void finalize_solution(Ipopt::SolverReturn, Ipopt::Index n, const Number* x, const Number* z_lower, const Number*,
+                         Ipopt::Index m, const Number*, const Number* lambda, Number, const Ipopt::IpoptData*,
+                         Ipopt::IpoptCalculatedQuantities*) override {
+    point_->x = Eigen::Map<const Eigen::VectorXd>(x, n);
+    point_->lower_multipliers = Eigen::Map<const Eigen::VectorXd>(z_lower, n);
+    point_->multipliers = Eigen::Map<const Eigen::VectorXd>(lambda, m);
+  }
+
+ private:
+  const Eigen::VectorXd& Point(Ipopt::Index n, const Number* x, bool) {
+    x_ = Eigen::Map<const Eigen::VectorXd>(x, n);
+    return x_;
+  }
+  bool Give(Number* out) const {
+    std::copy_n(values_.data(), values_.size(), out);
+    return values_.allFinite();
+  }
+  static bool GiveStructure(const std::vector<MatrixEntry>& entries, Ipopt::Index* rows, Ipopt::Index* columns) {
+    for (const MatrixEntry& entry : entries) {
+      *rows++ = entry.row;
+      *columns++ = entry.column;
+    }
+    return true;
+  }
+
+  const NonlinearProgram& program_;
+  bool warm_;
+  const std::function<bool()>& cancelled_;
+  PrimalDual* point_;
+  bool was_cancelled_ = false;
+  int iterations_ = 0;
+  Eigen::VectorXd x_, values_, multipliers_;
+};
+
+}  // namespace
+
+struct IpoptSolver::Implementation {
+  std::function<bool()> cancelled;
+  Ipopt::SmartPtr<Ipopt::IpoptApplication> application;
+};
+
+IpoptSolver::IpoptSolver(std::function<bool()> cancelled) : implementation_(std::make_unique<Implementation>()) {
+  implementation_->cancelled = std::move(cancelled);
+  implementation_->application = new Ipopt::IpoptApplication(/*create_console_out=*/false);
+  Ipopt::IpoptApplication& application = *implementation_->application;
+  Ipopt::OptionsList& options = *application.Options();
+  options.SetStringValue("linear_solver", "mumps");
+  options.SetIntegerValue("print_level", 0);
+  options.SetStringValue("sb", "yes");
+  options.SetNumericValue("tol", 1e-9);
+  options.SetNumericValue("bound_relax_factor", 0.0);
+  options.SetStringValue("honor_original_bounds", "yes");
+  options.SetIntegerValue("max_iter", 300);
+  options.SetIntegerValue("acceptable_iter", 0);  // solved, or not solved
+  options.SetStringValue("mu_strategy", "monotone");
+  options.SetStringValue("fixed_variable_treatment", "make_constraint");
+  // An options file in the working directory must not change results.
+  if (application.Initialize("") != Ipopt::Solve_Succeeded) throw std::runtime_error("Ipopt cannot be initialised");
+}
+
+IpoptSolver::~IpoptSolver() = default;
+
+SolveOutcome IpoptSolver::Solve(const NonlinearProgram& program, double barrier, PrimalDual* point) {
+  const bool warm = barrier > 0.0 && point->multipliers.size() == program.NumConstraints();
+  Ipopt::OptionsList& options = *implementation_->application->Options();
+  options.SetStringValue("warm_start_init_point", warm ? "yes" : "no");
+  options.SetNumericValue("mu_init", warm ? barrier : 1e-2);
+  const double push = warm ? barrier : 1e-3;
+  for (const char* name : {"warm_start_bound_push", "warm_start_bound_frac", "warm_start_slack_bound_push",
+                           "warm_start_slack_bound_frac", "warm_start_mult_bound_push", "bound_push", "bound_frac",
+                           "slack_bound_push", "slack_bound_frac"})
+    options.SetNumericValue(name, push);
+
+  Adapter* adapter = new Adapter(program, warm, implementation_->cancelled, point);
+  const Ipopt::SmartPtr<Ipopt::TNLP> owner = adapter;
+  const Ipopt::ApplicationReturnStatus status = implementation_->application->OptimizeTNLP(owner);
+  SolveOutcome outcome;
+  outcome.iterations = adapter->iterations();
+  if (adapter->was_cancelled())
+    outcome.status = SolveStatus::kCancelled;
+  else if (status == Ipopt::Solve_Succeeded)
+    outcome.status = SolveStatus::kSolved;
+  return outcome;
+}
+
+}  // namespace contact_path

@@ -1,0 +1,221 @@
+#include "contact_path/path/mpec_method.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace contact_path {
+namespace {
+
+// Residuals of an exact point are rounding; those of a regularised one are of the order of the root of its eps.
+constexpr double kExactTolerance = 1e-9;
+constexpr double kRegularisedTolerance = 1e-5;
+
+// An increment shorter than this part of what was wanted has not moved: (0, 0) is always feasible.
+constexpr double kProgress = 0.05;
+
+// Without a change of state the path does not turn by more than 60 degrees in one increment.
+constexpr double kSmallestCosine = 0.5;
+
+// Shares of the dissipation term in the aim. Small: the path is followed; larger where nothing but dissipation leads on.
+constexpr double kDissipationShares[] = {0.2, 0.6, 1.0};
+
+// Scaled force or length: an inequality this close to zero is about to change a contact's state.
+constexpr double kAtLimit = 1e-9;
+
+constexpr int kFirstDirections = 8;
+constexpr double kSmallestStepRatio = 1e-7;  // of the wanted step
+
+// Whether some contact is about to change its state, so that the path may bend here by any angle.
+bool AtLimit(const std::vector<ContactGeometry>& contacts, const PathPoint& point) {
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    const bool open = point.states[i] == ContactState::kOpen;
+    if ((open ? contacts[i].gap.Value(point.u) : point.rn[k]) <= kAtLimit) return true;
+    const double margin = contacts[i].friction * point.rn[k] - std::abs(point.rt[k]);
+    if (point.states[i] == ContactState::kStick && margin <= kAtLimit) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+MpecOptions MpecOptions::ForAccuracy(const TraceOptions& options) {
+  MpecOptions result;
+  switch (options.accuracy) {
+    case Accuracy::kFast:
+      result.step = 0.05;
+      result.corner_tolerance = 2e-3;
+      result.regularisation.minimum = 1e-6;
+      break;
+    case Accuracy::kBalanced: break;
+    case Accuracy::kAccurate:
+      result.step = 0.005;
+      result.corner_tolerance = 1e-4;
+      result.regularisation.minimum = 1e-10;
+      break;
+  }
+  if (options.step > 0.0) result.step = options.step;
+  result.smallest_step = kSmallestStepRatio * result.step;
+  result.direction = options.Direction();
+  return result;
+}
+
+MpecMethod::MpecMethod(const Model& model, const MpecOptions& options, std::function<bool()> cancelled)
+    : model_(model),
+      options_(options),
+      cancelled_(std::move(cancelled)),
+      ipopt_(cancelled_),
+      solver_(model.structure, model.contacts, &ipopt_),
+      step_(options.step) {
+  direction_ = Eigen::VectorXd::Zero(model.structure.NumDofs() + 1);
+  direction_[model.structure.NumDofs()] = options.direction;
+}
+
+const char* MpecMethod::Describe(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kAccepted: return "accepted";
+    case Verdict::kNotSolved: return "the increment problem was not solved";
+    case Verdict::kResidual: return "the residuals of the solution are too large";
+    case Verdict::kTooLong: return "the solution is a jump, far longer than the wanted increment";
+    case Verdict::kNoProgress: return "the increment problem has no solution but the point itself";
+    case Verdict::kTurnedBack: return "the path turns sharply without a change of contact state";
+    case Verdict::kNotConfirmed: return "two half increments do not confirm the change of contact state";
+    case Verdict::kCancelled: return "cancelled";
+  }
+  return "";
+}
+
+Eigen::VectorXd MpecMethod::Direction(const PathPoint& from, const PathPoint& to) const {
+  Eigen::VectorXd direction(model_.structure.NumDofs() + 1);
+  direction << to.u - from.u, to.s - from.s;
+  return direction.normalized();
+}
+
+MpecMethod::Trial MpecMethod::SolveOnce(const PathPoint& from, const Eigen::VectorXd& direction, double length,
+                                        double dissipation, const RegularisationSchedule& schedule) {
+  Trial trial;
+  trial.increment = solver_.Solve(from, {length, direction, dissipation, growth_}, schedule);
+  iterations_ += trial.increment.iterations;
+  if (trial.increment.status != SolveStatus::kSolved) {
+    trial.verdict = trial.increment.status == SolveStatus::kCancelled ? Verdict::kCancelled : Verdict::kNotSolved;
+    return trial;
+  }
+  const PathPoint& to = trial.increment.point;
+  trial.residuals = model_.Check(from, to);
+  const double tolerance = trial.increment.exact ? kExactTolerance : kRegularisedTolerance;
+  const double moved = Distance(from, to);
+  if (!(std::max(trial.residuals.equilibrium, trial.residuals.Contact()) <= tolerance))
+    trial.verdict = Verdict::kResidual;
+  else if (moved > IncrementSolver::kLongestIncrement * length)
+    trial.verdict = Verdict::kTooLong;
+  else if (moved < kProgress * length)
+    trial.verdict = Verdict::kNoProgress;
+  else if (started_ && !bent_ && to.states == from.states && Direction(from, to).dot(direction) < kSmallestCosine &&
+           !AtLimit(model_.contacts, from))
+    trial.verdict = Verdict::kTurnedBack;
+  else
+    trial.verdict = Verdict::kAccepted;
+  return trial;
+}
+
+MpecMethod::Trial MpecMethod::Try(const PathPoint& from, const Eigen::VectorXd& direction, double length) {
+  const bool rough = from.rt.size() > 0 && from.rt.lpNorm<Eigen::Infinity>() > 0.0;
+  Trial trial;
+  for (const double share : kDissipationShares) {
+    trial = SolveOnce(from, direction, length, share, options_.regularisation);
+    if (trial.verdict == Verdict::kNotSolved) {
+      RegularisationSchedule raised = options_.regularisation;
+      raised.initial = 1.0;
+      raised.factor = 0.1;
+      raised.minimum *= 100.0;
+      trial = SolveOnce(from, direction, length, share, raised);
+    }
+    if (trial.verdict != Verdict::kNoProgress || !rough) break;
+  }
+  return trial;
+}
+
+MpecMethod::Trial MpecMethod::TryFirst(const PathPoint& from, double length) {
+  Eigen::VectorXd direction = direction_;
+  Trial trial;
+  for (int i = 0; i < kFirstDirections; ++i) {
+    trial = SolveOnce(from, direction, length, 0.0, options_.regularisation);
+    const bool moved = trial.increment.status == SolveStatus::kSolved && Distance(from, trial.increment.point) > 0.0;
+    if (!moved || Distance(from, trial.increment.point) >= 0.5 * length) break;
+    direction = Direction(from, trial.increment.point);
+  }
+  return trial;
+}
+
+bool MpecMethod::ConfirmedByHalves(const PathPoint& from, const Eigen::VectorXd& direction, double length,
+                                   const Trial& whole) {
+  const PathPoint& to = whole.increment.point;
+  const Trial first = Try(from, direction, 0.5 * length);
+  if (first.verdict != Verdict::kAccepted) return false;
+  const PathPoint& middle = first.increment.point;
+  const Trial second = Try(middle, Direction(from, middle), 0.5 * length);
+  if (second.verdict != Verdict::kAccepted) return false;
+  // Distance of the middle from the chord of the whole increment.
+  const Eigen::VectorXd chord = Direction(from, to);
+  Eigen::VectorXd bend(chord.size());
+  bend << middle.u - from.u, middle.s - from.s;
+  bend -= chord * chord.dot(bend);
+  return bend.norm() <= options_.corner_tolerance && Distance(second.increment.point, to) <= options_.corner_tolerance;
+}
+
+Advance MpecMethod::Next(const PathPoint& from, double longest) {
+  Advance advance;
+  iterations_ = 0;
+  double length = std::min(step_, longest);
+  for (int rejected = 0;; ++rejected) {
+    Trial trial = started_ ? Try(from, direction_, length) : TryFirst(from, length);
+    const PathPoint& to = trial.increment.point;
+    if (trial.verdict == Verdict::kAccepted && to.states != from.states &&
+        !ConfirmedByHalves(from, started_ ? direction_ : Direction(from, to), length, trial))
+      trial.verdict = Verdict::kNotConfirmed;
+    if (trial.verdict == Verdict::kCancelled || (cancelled_ && cancelled_())) {
+      advance.reason = EndReason::kCancelled;
+      advance.message = "cancelled by the caller";
+      return advance;
+    }
+    if (trial.verdict != Verdict::kAccepted) {
+      length *= 0.5;
+      if (length >= options_.smallest_step) continue;
+      advance.reason = EndReason::kStepTooSmall;
+      advance.message = std::string("no increment could be accepted, however short: ") + Describe(trial.verdict);
+      return advance;
+    }
+
+    AcceptedPoint row;
+    const bool changed = started_ && to.states != from.states;
+    const Eigen::VectorXd direction = Direction(from, to);
+    const Eigen::Index s = direction.size() - 1;
+    if (started_ && direction[s] * direction_[s] < 0.0)
+      row.kind = changed || bent_ ? RowKind::kCornerLimit : RowKind::kSmoothLimit;
+    else if (changed)
+      row.kind = RowKind::kContactEvent;
+    row.residuals = trial.residuals;
+    row.solve.method = Method::kMpec;
+    row.solve.regularisation = trial.increment.regularisation;
+    row.solve.exact = trial.increment.exact;
+    row.solve.iterations = iterations_;
+    row.solve.variables = trial.increment.variables;
+    row.solve.constraints = trial.increment.constraints;
+    row.solve.rejected = rejected;
+
+    // gamma_2 grows with the length of the increment relative to what was wanted (Algorithm 3.2, step 4).
+    growth_ = std::clamp(growth_ * Distance(from, to) / length, 1.0, IncrementSolver::kLongestIncrement);
+    direction_ = direction;
+    bent_ = changed;
+    started_ = true;
+    step_ = std::min(options_.step, rejected == 0 ? 2.0 * std::max(length, step_) : 2.0 * length);
+    row.point = trial.increment.point;
+    advance.rows.push_back(std::move(row));
+    advance.ended = false;
+    return advance;
+  }
+}
+
+}  // namespace contact_path

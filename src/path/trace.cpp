@@ -1,0 +1,165 @@
+#include "contact_path/path/trace.h"
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <utility>
+
+#include "contact_path/path/model.h"
+#include "contact_path/path/mpec_method.h"
+#include "contact_path/path/path_method.h"
+#include "contact_path/path/preload.h"
+#include "contact_path/path/stop.h"
+#include "contact_path/path/work.h"
+#include "contact_path/scene/validate.h"
+
+namespace contact_path {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kStartTolerance = 1e-9;  // residuals of row 0
+
+double Seconds(Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
+
+// Turns accepted points into rows and hands them out.
+class Recorder {
+ public:
+  Recorder(const Model& model, const TraceControl& control) : model_(model), control_(control) {}
+
+  const Increment& row() const { return row_; }
+  int rows() const { return rows_; }
+
+  void Start(const PathPoint& point, const Residuals& residuals, double time) {
+    AcceptedPoint accepted;
+    accepted.kind = RowKind::kStart;
+    accepted.residuals = residuals;
+    accepted.solve.exact = true;
+    Fill(point, accepted, time);
+    Give();
+  }
+
+  void Append(const PathPoint& from, const AcceptedPoint& accepted, double time) {
+    const Work work = WorkOfIncrement(model_, from, accepted.point);
+    row_.dissipation += work.friction;
+    row_.external_work += work.loads;
+    row_.arc_length += Distance(from, accepted.point);
+    Fill(accepted.point, accepted, time);
+    Give();
+  }
+
+ private:
+  void Fill(const PathPoint& point, const AcceptedPoint& accepted, double time) {
+    CheckedState state = model_.InSceneUnits(point);
+    row_.index = rows_;
+    row_.load_factor = state.load_factor;
+    row_.kind = accepted.kind;
+    row_.positions = std::move(state.positions);
+    row_.contacts.resize(model_.contacts.size());
+    for (std::size_t i = 0; i < model_.contacts.size(); ++i)
+      row_.contacts[i] = {model_.contacts[i].gap.Value(point.u) * model_.scaling.length, state.rn[i], state.rt[i],
+                          point.states[i]};
+    row_.strain_energy = model_.structure.Energy(point.u) * model_.scaling.force * model_.scaling.length;
+    row_.residuals = accepted.residuals;
+    row_.solve = accepted.solve;
+    row_.solve.time = time;
+  }
+
+  void Give() {
+    ++rows_;
+    if (control_.on_increment) control_.on_increment(row_);
+  }
+
+  const Model& model_;
+  const TraceControl& control_;
+  Increment row_;
+  int rows_ = 0;
+};
+
+std::unique_ptr<PathMethod> MakeMethod(const Model& model, TraceOptions options, double direction,
+                                       const TraceControl& control) {
+  options.direction = direction;
+  return std::make_unique<MpecMethod>(model, MpecOptions::ForAccuracy(options), control.cancelled);
+}
+
+TraceResult TraceSound(const TraceRequest& request, const TraceControl& control) {
+  const TraceOptions& options = request.options;
+  const Model model(request.scene, CharacteristicScales(request.scene));
+  TraceResult result;
+
+  Clock::time_point start = Clock::now();
+  const MethodFactory make_method = [&](const Model& of, double direction) {
+    return MakeMethod(of, options, direction, control);
+  };
+  Preload preload = TracePreload(model, options.MaxIncrements(), make_method);
+  if (!preload.done) {
+    result.reason = preload.reason == EndReason::kMaxIncrements ? EndReason::kNumericalFailure : preload.reason;
+    result.message = preload.message;
+    return result;
+  }
+  PathPoint point = std::move(preload.point);
+  const Residuals residuals = model.Check(point, point);
+  if (!(std::max(residuals.equilibrium, residuals.Contact()) <= kStartTolerance)) {
+    result.message = "the start is not an equilibrium";
+    return result;
+  }
+
+  Recorder recorder(model, control);
+  const StopTest stop(request);
+  recorder.Start(point, residuals, Seconds(Clock::now() - start));
+  const std::unique_ptr<PathMethod> method = make_method(model, options.Direction());
+  for (;;) {
+    result.increments = recorder.rows();
+    if (control.cancelled && control.cancelled()) {
+      result.reason = EndReason::kCancelled;
+      result.message = "cancelled by the caller";
+      return result;
+    }
+    if (recorder.rows() > options.MaxIncrements()) {
+      result.reason = EndReason::kMaxIncrements;
+      result.message = "the wanted number of increments was accepted";
+      return result;
+    }
+    start = Clock::now();
+    Advance advance = method->Next(point);
+    double time = Seconds(Clock::now() - start) / static_cast<double>(std::max<std::size_t>(1, advance.rows.size()));
+    for (AcceptedPoint& row : advance.rows) {
+      recorder.Append(point, row, time);
+      point = std::move(row.point);
+      result.increments = recorder.rows();
+      if (const StopCriterion* criterion = stop.FirstThatHolds(recorder.row())) {
+        result.reason = EndReason::kStopCriterion;
+        result.message = ToText(*criterion);
+        return result;
+      }
+      if (recorder.rows() > options.MaxIncrements()) break;
+    }
+    if (advance.ended && recorder.rows() <= options.MaxIncrements()) {
+      result.reason = advance.reason;
+      result.message = advance.message;
+      return result;
+    }
+  }
+}
+
+}  // namespace
+
+std::string_view ToString(EndReason reason) {
+  switch (reason) {
+    case EndReason::kNumericalFailure: return "numerical_failure";
+    case EndReason::kStopCriterion: return "stop_criterion";
+    case EndReason::kMaxIncrements: return "max_increments";
+    case EndReason::kPathEnd: return "path_end";
+    case EndReason::kStepTooSmall: return "step_too_small";
+    case EndReason::kCancelled: return "cancelled";
+  }
+  return "";
+}
+
+TraceResult Trace(const TraceRequest& request, const TraceControl& control) {
+  std::vector<Violation> violations = Validate(request);
+  if (!violations.empty()) throw InvalidRequest(std::move(violations));
+  return TraceSound(request, control);
+}
+
+}  // namespace contact_path

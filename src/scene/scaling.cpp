@@ -1,0 +1,127 @@
+#include "contact_path/scene/scaling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace contact_path {
+namespace {
+
+using NodesByName = std::unordered_map<std::string, const Node*>;
+
+NodesByName IndexNodes(const Scene& scene) {
+  NodesByName nodes;
+  for (const Node& node : scene.nodes) nodes.emplace(node.name, &node);
+  return nodes;
+}
+
+// Sum in the order of size, so that it does not depend on the order of the terms, not even by rounding.
+double OrderedSum(std::vector<double> terms) {
+  std::sort(terms.begin(), terms.end());
+  double sum = 0.0;
+  for (const double term : terms) sum += term;
+  return sum;
+}
+
+double Distance(const Node& a, const Node& b) { return std::hypot(b.x - a.x, b.y - a.y); }
+
+// Initial lengths of all bars [length].
+std::vector<double> BarLengths(const Scene& scene, const NodesByName& nodes) {
+  std::vector<double> lengths;
+  lengths.reserve(scene.bars.size());
+  for (const Bar& bar : scene.bars) lengths.push_back(Distance(*nodes.at(bar.nodes[0]), *nodes.at(bar.nodes[1])));
+  return lengths;
+}
+
+// exp(mean ln EA) [force].
+double GeometricMeanOfAxialStiffness(const Scene& scene) {
+  std::vector<double> logarithms;
+  logarithms.reserve(scene.bars.size());
+  for (const Bar& bar : scene.bars) logarithms.push_back(std::log(bar.EA));
+  return std::exp(OrderedSum(std::move(logarithms)) / static_cast<double>(scene.bars.size()));
+}
+
+// Euclidean norm of the loads that the load factor scales, summed by node, over the free components [force].
+double ReferenceLoadNorm(const Scene& scene, const NodesByName& nodes) {
+  struct Terms {
+    std::vector<double> x, y;
+  };
+  std::unordered_map<const Node*, Terms> loads;
+  for (const Load& load : scene.loads) {
+    if (load.constant) continue;
+    Terms& terms = loads[nodes.at(load.node)];
+    terms.x.push_back(load.fx);
+    terms.y.push_back(load.fy);
+  }
+  std::vector<double> squares;
+  for (const auto& [node, terms] : loads) {
+    if (!node->fixed_x) squares.push_back(std::pow(OrderedSum(terms.x), 2));
+    if (!node->fixed_y) squares.push_back(std::pow(OrderedSum(terms.y), 2));
+  }
+  return std::sqrt(OrderedSum(std::move(squares)));
+}
+
+// sqrt(sum K_ij^2 / rows) over all superelements [force/length]. The Frobenius norm does not change by rotation.
+double MeanStiffness(const Scene& scene) {
+  std::vector<double> squares;
+  std::size_t rows = 0;
+  for (const Superelement& element : scene.superelements) {
+    rows += 2 * element.nodes.size();
+    for (const double entry : element.stiffness) squares.push_back(entry * entry);
+  }
+  return std::sqrt(OrderedSum(std::move(squares)) / static_cast<double>(rows));
+}
+
+}  // namespace
+
+Scaling CharacteristicScales(const Scene& scene) {
+  const NodesByName nodes = IndexNodes(scene);
+  const double reference_load = ReferenceLoadNorm(scene, nodes);
+  Scaling scaling;
+  if (!scene.bars.empty()) {
+    scaling.length = OrderedSum(BarLengths(scene, nodes)) / static_cast<double>(scene.bars.size());
+    scaling.force = GeometricMeanOfAxialStiffness(scene);
+  } else {
+    scaling.force = reference_load;
+    scaling.length = scaling.force / MeanStiffness(scene);
+  }
+  scaling.load_factor = scaling.force / reference_load;
+  return scaling;
+}
+
+Scene ScaleScene(const Scene& scene, const Scaling& scaling) {
+  const double reference_load = scaling.force / scaling.load_factor;
+  const double stiffness = scaling.force / scaling.length;
+  Scene scaled = scene;
+  for (Node& node : scaled.nodes) {
+    node.x /= scaling.length;
+    node.y /= scaling.length;
+  }
+  const NodesByName nodes = IndexNodes(scaled);
+  for (Bar& bar : scaled.bars) {
+    bar.EA /= scaling.force;
+    bar.rest_length = bar.rest_length > 0.0 ? bar.rest_length / scaling.length
+                                            : Distance(*nodes.at(bar.nodes[0]), *nodes.at(bar.nodes[1]));
+  }
+  for (Superelement& element : scaled.superelements) {
+    for (double& entry : element.stiffness) entry /= stiffness;
+  }
+  for (Load& load : scaled.loads) {
+    const double unit = load.constant ? scaling.force : reference_load;
+    load.fx /= unit;
+    load.fy /= unit;
+  }
+  for (Obstacle& obstacle : scaled.obstacles) {
+    obstacle.px /= scaling.length;
+    obstacle.py /= scaling.length;
+    const double norm = std::hypot(obstacle.nx, obstacle.ny);
+    obstacle.nx /= norm;
+    obstacle.ny /= norm;
+  }
+  return scaled;
+}
+
+}  // namespace contact_path

@@ -1,0 +1,398 @@
+#include "contact_path/scene/validate.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <iomanip>
+#include <limits>
+#include <locale>
+#include <map>
+#include <set>
+#include <sstream>
+#include <string_view>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
+
+#include "contact_path/scene/scaling.h"
+
+namespace contact_path {
+namespace {
+
+// Within these bounds no product or quotient that is formed of two inputs leaves the range of double.
+constexpr double kLargest = 1e100;
+constexpr double kSmallest = 1e-100;  // of what must be positive
+
+// Relative bounds, far above rounding and far below anything meant.
+constexpr double kSymmetry = 1e-9;       // of a stiffness matrix, by its largest entry
+constexpr double kPenetration = 1e-9;    // of the initial gap, by the characteristic length
+constexpr double kNormalOnFree = 1e-12;  // of the normal's part along free components
+constexpr double kLoadLeft = 1e-12;      // of the sum of loads that cancel
+
+// The shortest text that reads back as `value`, in YAML's spelling.
+std::string NumberText(double value) {
+  if (std::isnan(value)) return ".nan";
+  if (std::isinf(value)) return value > 0.0 ? ".inf" : "-.inf";
+  std::string text;
+  for (int digits = 15; digits <= std::numeric_limits<double>::max_digits10; ++digits) {
+    std::ostringstream out;
+    out.imbue(std::locale::classic());
+    out << std::setprecision(digits) << value;
+    text = out.str();
+    std::istringstream in(text);
+    in.imbue(std::locale::classic());
+    double back = 0.0;
+    if (in >> back && back == value) break;
+  }
+  return text;
+}
+
+std::string TextOrQuotes(const std::string& text) { return text.empty() ? "\"\"" : text; }
+
+std::string ListText(const std::vector<std::string>& names) {
+  constexpr std::size_t kShown = 8;
+  std::string text = "[";
+  for (std::size_t i = 0; i < names.size() && i < kShown; ++i) text += (i > 0 ? ", " : "") + TextOrQuotes(names[i]);
+  return text + (names.size() > kShown ? ", ...]" : "]");
+}
+
+std::string Indexed(const std::string& list, std::size_t index) { return list + "[" + std::to_string(index) + "]"; }
+
+// Names become columns of a table and parts of "<node>@<obstacle>" and "<node>.x".
+bool IsAllowedInName(char c) {
+  const auto code = static_cast<unsigned char>(c);
+  return code > 0x20 && code != 0x7f && std::string_view("@,\"./").find(c) == std::string_view::npos;
+}
+
+// `text` on one line and not much longer than a line; UTF-8 sequences are kept whole.
+std::string OneLine(const std::string& text) {
+  constexpr std::size_t kLongest = 160;
+  std::string line;
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (line.size() >= kLongest && (code & 0xC0U) != 0x80U) return line + "...";
+    if (code < 0x20 || code == 0x7f) {
+      constexpr std::string_view kHex = "0123456789abcdef";
+      line += {'\\', 'x', kHex[code >> 4U], kHex[code & 15U]};
+    } else {
+      line += c;
+    }
+  }
+  return line;
+}
+
+// Goes through a request in its own order and collects what is wrong. A rule that needs something which is already
+// known to be wrong is left out, so that one mistake is not reported several times.
+class Checker {
+ public:
+  explicit Checker(const TraceRequest& request) : scene_(request.scene), options_(request.options) {
+    for (const Node& node : scene_.nodes) nodes_.emplace(node.name, &node);
+    for (const Obstacle& obstacle : scene_.obstacles) obstacles_.emplace(obstacle.name, &obstacle);
+  }
+
+  std::vector<Violation> Run() {
+    CheckNodes();
+    CheckBars();
+    CheckSuperelements();
+    CheckLoads();
+    structure_is_sound_ = violations_.empty();
+    CheckObstacles();
+    CheckContacts();
+    CheckOptions();
+    return std::move(violations_);
+  }
+
+ private:
+  void Add(std::string key, std::string value, std::string rule) {
+    Violation violation;
+    violation.key = std::move(key);
+    violation.value = std::move(value);
+    violation.rule = std::move(rule);
+    violations_.push_back(std::move(violation));
+  }
+
+  bool CheckNumber(const std::string& key, double value) {
+    if (!std::isfinite(value)) {
+      Add(key, NumberText(value), "must be finite");
+    } else if (std::abs(value) > kLargest) {
+      Add(key, NumberText(value), "must not exceed 1e+100 in magnitude");
+    } else {
+      return true;
+    }
+    return false;
+  }
+
+  // `earlier` holds the names before this one.
+  void CheckName(const std::string& key, const std::string& name, std::unordered_set<std::string>& earlier) {
+    if (name.empty()) {
+      Add(key, TextOrQuotes(name), "must not be empty");
+    } else if (!std::all_of(name.begin(), name.end(), IsAllowedInName)) {
+      Add(key, name, "must not contain white space, control characters or any of @ , \" . /");
+    } else if (!earlier.insert(name).second) {
+      Add(key, name, "must be unique, but an earlier one has the same name");
+    }
+  }
+
+  // The node, or null after adding a violation.
+  const Node* FindNode(const std::string& key, const std::string& name) {
+    const auto found = nodes_.find(name);
+    if (found != nodes_.end()) return found->second;
+    Add(key, TextOrQuotes(name), "must name a node of the scene");
+    return nullptr;
+  }
+
+  bool IsKnown(const std::string& node) const { return nodes_.count(node) > 0; }
+
+  // The nodes that elements hold; nothing where elements refer to unknown nodes or where there are no elements.
+  std::unordered_set<std::string> HeldNodes(bool* reliable) const {
+    std::unordered_set<std::string> held;
+    for (const Bar& bar : scene_.bars) held.insert(bar.nodes.begin(), bar.nodes.end());
+    for (const Superelement& element : scene_.superelements) held.insert(element.nodes.begin(), element.nodes.end());
+    *reliable = !held.empty() && std::all_of(held.begin(), held.end(), [this](const auto& n) { return IsKnown(n); });
+    return held;
+  }
+
+  void CheckNodes() {
+    if (scene_.nodes.empty()) return Add("scene.nodes", "[]", "at least one node is needed");
+    bool held_is_reliable = false;
+    const std::unordered_set<std::string> held = HeldNodes(&held_is_reliable);
+    std::unordered_set<std::string> earlier;
+    for (std::size_t i = 0; i < scene_.nodes.size(); ++i) {
+      const Node& node = scene_.nodes[i];
+      const std::string key = Indexed("scene.nodes", i);
+      CheckName(key + ".name", node.name, earlier);
+      CheckNumber(key + ".x", node.x);
+      CheckNumber(key + ".y", node.y);
+      if (held_is_reliable && !(node.fixed_x && node.fixed_y) && held.count(node.name) == 0) {
+        Add(key, TextOrQuotes(node.name), "a node that is free to move must belong to a bar or a superelement");
+      }
+    }
+    if (!HasFreeComponent()) Add("scene.nodes", "all fixed", "at least one component of a node must be free");
+  }
+
+  bool HasFreeComponent() const {
+    return std::any_of(scene_.nodes.begin(), scene_.nodes.end(),
+                       [](const Node& node) { return !node.fixed_x || !node.fixed_y; });
+  }
+
+  void CheckBars() {
+    if (scene_.bars.empty() && scene_.superelements.empty() && !scene_.nodes.empty()) {
+      Add("scene.bars", "[]", "at least one bar or superelement is needed");
+    }
+    for (std::size_t i = 0; i < scene_.bars.size(); ++i) {
+      const Bar& bar = scene_.bars[i];
+      const std::string key = Indexed("scene.bars", i);
+      CheckBarNodes(key + ".nodes", bar);
+      if (CheckNumber(key + ".EA", bar.EA) && bar.EA < kSmallest) {
+        Add(key + ".EA", NumberText(bar.EA), "must be > 0 (at least 1e-100)");
+      }
+      if (CheckNumber(key + ".rest_length", bar.rest_length) && bar.rest_length != 0.0 && bar.rest_length < kSmallest) {
+        Add(key + ".rest_length", NumberText(bar.rest_length), "must be 0 or positive (at least 1e-100)");
+      }
+    }
+  }
+
+  void CheckBarNodes(const std::string& key, const Bar& bar) {
+    if (bar.nodes.size() != 2) return Add(key, ListText(bar.nodes), "must name two nodes");
+    const Node* const first = FindNode(Indexed(key, 0), bar.nodes[0]);
+    const Node* const second = FindNode(Indexed(key, 1), bar.nodes[1]);
+    if (first == nullptr || second == nullptr) return;
+    const double distance = std::hypot(second->x - first->x, second->y - first->y);
+    if (first == second) {
+      Add(key, ListText(bar.nodes), "must name two different nodes");
+    } else if (distance < kSmallest) {  // false for a distance that is not finite
+      Add(key, ListText(bar.nodes), "the two nodes must not be at the same point");
+    }
+  }
+
+  void CheckSuperelements() {
+    for (std::size_t i = 0; i < scene_.superelements.size(); ++i) {
+      const Superelement& element = scene_.superelements[i];
+      const std::string key = Indexed("scene.superelements", i);
+      if (element.nodes.empty()) Add(key + ".nodes", "[]", "at least one node is needed");
+      std::unordered_set<std::string> earlier;
+      for (std::size_t j = 0; j < element.nodes.size(); ++j) {
+        const std::string node_key = Indexed(key + ".nodes", j);
+        if (FindNode(node_key, element.nodes[j]) != nullptr && !earlier.insert(element.nodes[j]).second) {
+          Add(node_key, element.nodes[j], "must not be repeated");
+        }
+      }
+      if (!element.nodes.empty()) CheckStiffness(key + ".stiffness", element);
+    }
+  }
+
+  void CheckStiffness(const std::string& key, const Superelement& element) {
+    const std::vector<double>& entries = element.stiffness;
+    const std::size_t rows = 2 * element.nodes.size();
+    if (entries.size() != rows * rows) {
+      return Add(key, std::to_string(entries.size()) + " entries",
+                 "must have " + std::to_string(rows * rows) + " entries: " + std::to_string(rows) + " rows of " +
+                     std::to_string(rows));
+    }
+    bool usable = true;
+    double largest = 0.0;
+    for (std::size_t k = 0; k < entries.size(); ++k) {
+      usable = CheckNumber(Indexed(key, k), entries[k]) && usable;
+      largest = std::max(largest, std::abs(entries[k]));
+    }
+    if (!usable) return;
+    if (largest < kSmallest) return Add(key, "all 0", "must not be zero (an entry of at least 1e-100 is needed)");
+    for (std::size_t row = 0; row < rows; ++row) {
+      for (std::size_t column = row + 1; column < rows; ++column) {
+        const std::size_t above = row * rows + column;
+        const std::size_t below = column * rows + row;
+        if (std::abs(entries[above] - entries[below]) <= kSymmetry * largest) continue;
+        return Add(
+            Indexed(key, below), NumberText(entries[below]),
+            "the matrix must be symmetric, but entry [" + std::to_string(above) + "] is " + NumberText(entries[above]));
+      }
+    }
+  }
+
+  void CheckLoads() {
+    const std::size_t before = violations_.size();
+    for (std::size_t i = 0; i < scene_.loads.size(); ++i) {
+      const Load& load = scene_.loads[i];
+      const std::string key = Indexed("scene.loads", i);
+      FindNode(key + ".node", load.node);
+      CheckNumber(key + ".fx", load.fx);
+      CheckNumber(key + ".fy", load.fy);
+    }
+    if (violations_.size() == before && HasFreeComponent() && !HasReferenceLoad()) {
+      Add("scene.loads", scene_.loads.empty() ? "[]" : "no net force",
+          "a load that is not constant must act on a free component");
+    }
+  }
+
+  // Whether the loads that the load factor scales, summed by node, leave something on a free component.
+  bool HasReferenceLoad() const {
+    std::map<const Node*, std::array<double, 2>> sums;
+    double largest = kSmallest / kLoadLeft;
+    for (const Load& load : scene_.loads) {
+      if (load.constant) continue;
+      const Node* const node = nodes_.at(load.node);
+      const std::array<double, 2> force = {node->fixed_x ? 0.0 : load.fx, node->fixed_y ? 0.0 : load.fy};
+      for (std::size_t k = 0; k < 2; ++k) {
+        sums[node][k] += force[k];
+        largest = std::max(largest, std::abs(force[k]));
+      }
+    }
+    return std::any_of(sums.begin(), sums.end(), [&](const auto& sum) {
+      return std::hypot(sum.second[0], sum.second[1]) >= kLoadLeft * largest;
+    });
+  }
+
+  void CheckObstacles() {
+    std::unordered_set<std::string> earlier;
+    for (std::size_t i = 0; i < scene_.obstacles.size(); ++i) {
+      const Obstacle& obstacle = scene_.obstacles[i];
+      const std::string key = Indexed("scene.obstacles", i);
+      CheckName(key + ".name", obstacle.name, earlier);
+      bool sound = CheckNumber(key + ".px", obstacle.px);
+      sound = CheckNumber(key + ".py", obstacle.py) && sound;
+      const bool nx_sound = CheckNumber(key + ".nx", obstacle.nx);
+      const bool ny_sound = CheckNumber(key + ".ny", obstacle.ny);
+      if (nx_sound && ny_sound && std::hypot(obstacle.nx, obstacle.ny) < kSmallest) {
+        Add(key + ".nx", NumberText(obstacle.nx), "the normal (nx, ny) must not be zero (length at least 1e-100)");
+        sound = false;
+      }
+      if (sound && nx_sound && ny_sound) usable_obstacles_.insert(&obstacle);
+      if (CheckNumber(key + ".friction", obstacle.friction) && obstacle.friction < 0.0) {
+        Add(key + ".friction", NumberText(obstacle.friction), "must be >= 0");
+      }
+    }
+  }
+
+  void CheckContacts() {
+    const double length = structure_is_sound_ ? CharacteristicScales(scene_).length : 0.0;
+    std::set<std::pair<std::string, std::string>> earlier;
+    for (std::size_t i = 0; i < scene_.contacts.size(); ++i) {
+      const ContactCandidate& contact = scene_.contacts[i];
+      const std::string key = Indexed("scene.contacts", i);
+      const Node* const node = FindNode(key + ".node", contact.node);
+      const auto obstacle = obstacles_.find(contact.obstacle);
+      if (obstacle == obstacles_.end()) {
+        Add(key + ".obstacle", TextOrQuotes(contact.obstacle), "must name an obstacle of the scene");
+      }
+      if (!earlier.emplace(contact.node, contact.obstacle).second) {
+        Add(key, contact.Name(), "must not be repeated");
+      } else if (node != nullptr && obstacle != obstacles_.end() && usable_obstacles_.count(obstacle->second) > 0) {
+        CheckContactGeometry(key, contact, *node, *obstacle->second, length);
+      }
+    }
+  }
+
+  // `length`: the characteristic length, 0 where it is not known.
+  void CheckContactGeometry(const std::string& key, const ContactCandidate& contact, const Node& node,
+                            const Obstacle& obstacle, double length) {
+    const double norm = std::hypot(obstacle.nx, obstacle.ny);
+    const double free_part = std::hypot(node.fixed_x ? 0.0 : obstacle.nx, node.fixed_y ? 0.0 : obstacle.ny);
+    if (free_part <= kNormalOnFree * norm) {
+      Add(key + ".node", contact.node, "must be free to move along the normal of the obstacle");
+    }
+    const double gap =
+        obstacle.nx / norm * (node.x - obstacle.px) + obstacle.ny / norm * (node.y - obstacle.py);  // [length]
+    if (length > 0.0 && gap < -kPenetration * length) {
+      Add(key, contact.Name(), "initial position penetrates the obstacle by " + NumberText(-gap));
+    }
+  }
+
+  void CheckOptions() {
+    CheckNumber("options.direction", options_.direction);
+    if (CheckNumber("options.step", options_.step) && options_.step < 0.0) {
+      Add("options.step", NumberText(options_.step), "must be >= 0");
+    }
+    if (options_.max_increments < 0) {
+      Add("options.max_increments", std::to_string(options_.max_increments), "must be >= 0");
+    }
+    for (std::size_t i = 0; i < options_.stop.size(); ++i) {
+      const StopCriterion& stop = options_.stop[i];
+      const std::string key = Indexed("options.stop", i);
+      CheckQuantity(key + ".quantity", stop.quantity);
+      if (stop.when != ">" && stop.when != "<") Add(key + ".when", TextOrQuotes(stop.when), "must be \">\" or \"<\"");
+      CheckNumber(key + ".value", stop.value);
+    }
+  }
+
+  void CheckQuantity(const std::string& key, const std::string& quantity) {
+    if (quantity == "load_factor") return;
+    const std::size_t name_size = quantity.size() < 2 ? 0 : quantity.size() - 2;
+    const std::string component = quantity.substr(name_size);
+    if (name_size == 0 || (component != ".x" && component != ".y")) {
+      Add(key, TextOrQuotes(quantity), "must be load_factor, <node>.x or <node>.y");
+    } else if (!IsKnown(quantity.substr(0, name_size))) {
+      Add(key, quantity, "must refer to a node of the scene");
+    }
+  }
+
+  const Scene& scene_;
+  const TraceOptions& options_;
+  std::unordered_map<std::string, const Node*> nodes_;  // the first of each name
+  std::unordered_map<std::string, const Obstacle*> obstacles_;
+  std::unordered_set<const Obstacle*> usable_obstacles_;  // with a sound point and normal
+  bool structure_is_sound_ = false;  // nodes, elements and loads: what the characteristic length needs
+  std::vector<Violation> violations_;
+};
+
+}  // namespace
+
+std::string Violation::ToLine() const {
+  std::string text;
+  if (!file.empty()) text += OneLine(file) + ":";
+  if (line > 0) text += (file.empty() ? "line " : "") + std::to_string(line) + ":";
+  if (!text.empty()) text += " ";
+  text += OneLine(key);
+  if (!key.empty() && !value.empty()) text += " = ";
+  text += OneLine(value);
+  if (!key.empty() || !value.empty()) text += ": ";
+  return text + OneLine(rule);
+}
+
+InvalidRequest::InvalidRequest(std::vector<Violation> violations)
+    : std::invalid_argument(violations.empty() ? "invalid request" : violations.front().ToLine()),
+      violations_(std::move(violations)) {}
+
+std::vector<Violation> Validate(const TraceRequest& request) { return Checker(request).Run(); }
+
+}  // namespace contact_path

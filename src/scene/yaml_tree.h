@@ -1,0 +1,156 @@
+// A YAML text as a tree of values that know their lines. Only read_scene.cpp needs it.
+#ifndef CONTACT_PATH_SRC_SCENE_YAML_TREE_H_
+#define CONTACT_PATH_SRC_SCENE_YAML_TREE_H_
+
+#include <yaml-cpp/emitterstyle.h>
+#include <yaml-cpp/eventhandler.h>
+#include <yaml-cpp/exceptions.h>
+#include <yaml-cpp/mark.h>
+#include <yaml-cpp/parser.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <sstream>
+#include <string>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "contact_path/scene/validate.h"
+
+namespace contact_path {
+
+// Bounds that keep memory, time and stack small whatever the text is.
+constexpr std::size_t kLargestYaml = std::size_t{64} << 20U;  // [bytes]
+constexpr std::size_t kMostYamlValues = 4'000'000;            // what stands behind an alias counts each time
+constexpr std::size_t kDeepestYaml = 64;                      // lists and maps around a value
+
+// Refuses a file as a whole or from `line` on (0 = unknown).
+[[noreturn]] inline void Refuse(const std::string& file, int line, std::string rule) {
+  Violation violation;
+  violation.rule = std::move(rule);
+  violation.file = file;
+  violation.line = line;
+  throw InvalidRequest({std::move(violation)});
+}
+
+struct YamlValue {
+  enum class Kind { kNull, kText, kList, kMap };
+
+  Kind kind = Kind::kNull;
+  bool quoted = false;           // kText: can be nothing but text
+  int line = 0;                  // from 1
+  std::string text;              // kText
+  std::vector<YamlValue> items;  // kList: elements; kMap: key, value, key, value, ... as they stand, repeated or not
+};
+
+// Builds the tree of one document from the events of the parser. Aliases become copies, at the line of the alias.
+class YamlTreeBuilder : public YAML::EventHandler {
+ public:
+  explicit YamlTreeBuilder(const std::string& file) : file_(file) {}
+  YamlValue& root() { return root_; }
+
+  void OnDocumentStart(const YAML::Mark&) override {}
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    Begin(YamlValue::Kind::kNull, mark, anchor);
+    End();
+  }
+  void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                const std::string& text) override {
+    YamlValue& value = Begin(YamlValue::Kind::kText, mark, anchor);
+    value.text = text;
+    value.quoted = tag == "!" || tag == "tag:yaml.org,2002:str";
+    End();
+  }
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    const int line = mark.line + 1;
+    const auto anchored = anchored_.find(anchor);
+    if (anchored == anchored_.end()) Refuse(file_, line, "an alias must not stand within what it refers to");
+    Count(anchored->second, open_.size());
+    open_.push_back({anchored->second, 0});
+    open_.back().value.line = line;
+    End();
+  }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
+                       YAML::EmitterStyle::value) override {
+    Begin(YamlValue::Kind::kList, mark, anchor);
+  }
+  void OnSequenceEnd() override { End(); }
+  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
+                  YAML::EmitterStyle::value) override {
+    Begin(YamlValue::Kind::kMap, mark, anchor);
+  }
+  void OnMapEnd() override { End(); }
+
+ private:
+  struct Open {
+    YamlValue value;
+    YAML::anchor_t anchor;  // 0 = none
+  };
+
+  YamlValue& Begin(YamlValue::Kind kind, const YAML::Mark& mark, YAML::anchor_t anchor) {
+    open_.push_back({YamlValue(), anchor});
+    YamlValue& value = open_.back().value;
+    value.kind = kind;
+    value.line = mark.line + 1;
+    Count(value, open_.size() - 1);
+    return value;
+  }
+
+  void End() {
+    Open done = std::move(open_.back());
+    open_.pop_back();
+    if (done.anchor != YAML::NullAnchor) {
+      Count(done.value, open_.size());
+      anchored_.emplace(done.anchor, done.value);
+    }
+    if (open_.empty()) {
+      root_ = std::move(done.value);
+    } else {
+      open_.back().value.items.push_back(std::move(done.value));
+    }
+  }
+
+  // Counts `value`, with `depth` lists and maps around it, and all that is in it.
+  void Count(const YamlValue& value, std::size_t depth) {
+    if (depth > kDeepestYaml) Refuse(file_, value.line, "lists and maps must be at most 64 deep");
+    if (++count_ > kMostYamlValues) Refuse(file_, value.line, "must have at most 4000000 values, counted by use");
+    for (const YamlValue& item : value.items) Count(item, depth + 1);
+  }
+
+  const std::string& file_;
+  YamlValue root_;
+  std::vector<Open> open_;  // what is begun and not ended, outermost first
+  std::unordered_map<YAML::anchor_t, YamlValue> anchored_;
+  std::size_t count_ = 0;
+};
+
+// The tree of `text`. `file` is used in messages only.
+// Throws InvalidRequest: larger than the bounds above, not YAML, empty, or more than one document.
+inline YamlValue ParseYaml(const std::string& text, const std::string& file) {
+  if (text.size() > kLargestYaml) Refuse(file, 0, "must be at most 64 MiB long");
+  // The parser would take some of these for the end of the text, silently.
+  const auto control = std::find_if(text.begin(), text.end(), [](char c) {
+    return static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\r' && c != '\t';
+  });
+  if (control != text.end()) {
+    const auto line = static_cast<int>(std::count(text.begin(), control, '\n')) + 1;
+    Refuse(file, line, "must be YAML, without control characters");
+  }
+  try {
+    std::istringstream stream(text);
+    YAML::Parser parser(stream);
+    YamlTreeBuilder first(file);
+    if (!parser.HandleNextDocument(first)) Refuse(file, 1, "must be a request in YAML, but is empty");
+    YamlTreeBuilder second(file);
+    if (parser.HandleNextDocument(second)) Refuse(file, second.root().line, "must end after one YAML document");
+    return std::move(first.root());
+  } catch (const YAML::Exception& error) {
+    Refuse(file, error.mark.line + 1, "must be YAML: " + error.msg);
+  }
+}
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_SRC_SCENE_YAML_TREE_H_

@@ -1,0 +1,162 @@
+#include "contact_path/structure/structure.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "contact_path/structure/bar.h"
+#include "contact_path/structure/superelement.h"
+
+namespace contact_path {
+
+Structure::Structure(const Scene& scene) {
+  const auto num_nodes = static_cast<Eigen::Index>(scene.nodes.size());
+  initial_positions_.resize(2 * num_nodes);
+  std::vector<double> free_positions;
+  for (const Node& node : scene.nodes) {
+    const auto index = static_cast<int>(node_index_.size());
+    node_index_.emplace(node.name, index);
+    initial_positions_[2 * index] = node.x;
+    initial_positions_[2 * index + 1] = node.y;
+    for (const auto& [fixed, position] : {std::pair(node.fixed_x, node.x), std::pair(node.fixed_y, node.y)}) {
+      dofs_.push_back(fixed ? -1 : static_cast<int>(free_positions.size()));
+      if (!fixed) free_positions.push_back(position);
+    }
+  }
+  initial_ = Eigen::Map<const Eigen::VectorXd>(free_positions.data(), static_cast<Eigen::Index>(free_positions.size()));
+
+  reference_load_ = Eigen::VectorXd::Zero(NumDofs());
+  constant_load_ = Eigen::VectorXd::Zero(NumDofs());
+  for (const Load& load : scene.loads) {
+    Eigen::VectorXd& total = load.constant ? constant_load_ : reference_load_;
+    const int node = NodeIndex(load.node);
+    if (const int dof = Dof(node, 0); dof >= 0) total[dof] += load.fx;
+    if (const int dof = Dof(node, 1); dof >= 0) total[dof] += load.fy;
+  }
+
+  for (const Bar& bar : scene.bars) {
+    const int p = NodeIndex(bar.nodes[0]), q = NodeIndex(bar.nodes[1]);
+    const double distance = (initial_positions_.segment<2>(2 * q) - initial_positions_.segment<2>(2 * p)).norm();
+    AddPart(std::make_unique<BarElement>(bar.EA, bar.rest_length > 0.0 ? bar.rest_length : distance, bar.strain), bar.nodes);
+  }
+  for (const Superelement& part : scene.superelements) {
+    const auto size = static_cast<Eigen::Index>(2 * part.nodes.size());
+    Eigen::VectorXd initial(size);
+    for (std::size_t i = 0; i < part.nodes.size(); ++i)
+      initial.segment<2>(static_cast<Eigen::Index>(2 * i)) = initial_positions_.segment<2>(2 * NodeIndex(part.nodes[i]));
+    const Eigen::Map<const Eigen::MatrixXd> stiffness(part.stiffness.data(), size, size);
+    AddPart(std::make_unique<LinearSuperelement>(0.5 * (stiffness + stiffness.transpose()), std::move(initial)), part.nodes);
+  }
+  BuildPattern();
+}
+
+void Structure::AddPart(std::unique_ptr<Element> element, const std::vector<std::string>& nodes) {
+  Part part;
+  part.element = std::move(element);
+  for (const std::string& name : nodes) {
+    const int node = NodeIndex(name);
+    for (const int axis : {0, 1}) {
+      part.components.push_back(2 * node + axis);
+      part.dofs.push_back(Dof(node, axis));
+    }
+  }
+  parts_.push_back(std::move(part));
+}
+
+void Structure::BuildPattern() {
+  std::vector<Eigen::Triplet<double>> triplets;
+  for (int i = 0; i < NumDofs(); ++i) triplets.emplace_back(i, i, 0.0);
+  for (const Part& part : parts_)
+    for (const int column : part.dofs)
+      for (const int row : part.dofs)
+        if (row >= 0 && column >= 0) triplets.emplace_back(row, column, 0.0);
+  pattern_.resize(NumDofs(), NumDofs());
+  pattern_.setFromTriplets(triplets.begin(), triplets.end());
+  pattern_.makeCompressed();
+
+  const int* outer = pattern_.outerIndexPtr();
+  const int* inner = pattern_.innerIndexPtr();
+  for (Part& part : parts_)
+    for (const int column : part.dofs)
+      for (const int row : part.dofs) {
+        if (row < 0 || column < 0) {
+          part.entries.push_back(-1);
+          continue;
+        }
+        const int* found = std::lower_bound(inner + outer[column], inner + outer[column + 1], row);
+        part.entries.push_back(static_cast<int>(found - inner));
+      }
+}
+
+Eigen::VectorXd Structure::FullPositions(const Eigen::VectorXd& u) const {
+  Eigen::VectorXd full = initial_positions_;
+  for (std::size_t i = 0; i < dofs_.size(); ++i)
+    if (dofs_[i] >= 0) full[static_cast<Eigen::Index>(i)] = u[dofs_[i]];
+  return full;
+}
+
+void Structure::Gather(const Part& part, const Eigen::VectorXd& u, Eigen::VectorXd* x) const {
+  x->resize(static_cast<Eigen::Index>(part.dofs.size()));
+  for (std::size_t i = 0; i < part.dofs.size(); ++i)
+    (*x)[static_cast<Eigen::Index>(i)] = part.dofs[i] >= 0 ? u[part.dofs[i]] : initial_positions_[part.components[i]];
+}
+
+void Structure::GatherDirection(const Part& part, const Eigen::VectorXd& v, Eigen::VectorXd* x) const {
+  x->resize(static_cast<Eigen::Index>(part.dofs.size()));
+  for (std::size_t i = 0; i < part.dofs.size(); ++i)
+    (*x)[static_cast<Eigen::Index>(i)] = part.dofs[i] >= 0 ? v[part.dofs[i]] : 0.0;
+}
+
+void Structure::ScatterMatrix(const Part& part, const Eigen::MatrixXd& local, double* values) const {
+  for (std::size_t i = 0; i < part.entries.size(); ++i)
+    if (part.entries[i] >= 0) values[part.entries[i]] += local.data()[i];
+}
+
+double Structure::Energy(const Eigen::VectorXd& u) const {
+  double energy = 0.0;
+  Eigen::VectorXd x;
+  for (const Part& part : parts_) {
+    Gather(part, u, &x);
+    energy += part.element->Energy(x);
+  }
+  return energy;
+}
+
+void Structure::InternalForce(const Eigen::VectorXd& u, Eigen::VectorXd* force) const {
+  force->setZero(NumDofs());
+  Eigen::VectorXd x, local;
+  for (const Part& part : parts_) {
+    Gather(part, u, &x);
+    local.resize(x.size());
+    part.element->Force(x, local);
+    for (std::size_t i = 0; i < part.dofs.size(); ++i)
+      if (part.dofs[i] >= 0) (*force)[part.dofs[i]] += local[static_cast<Eigen::Index>(i)];
+  }
+}
+
+void Structure::Tangent(const Eigen::VectorXd& u, Eigen::SparseMatrix<double>* tangent) const {
+  std::fill_n(tangent->valuePtr(), tangent->nonZeros(), 0.0);
+  Eigen::VectorXd x;
+  Eigen::MatrixXd local;
+  for (const Part& part : parts_) {
+    Gather(part, u, &x);
+    local.resize(x.size(), x.size());
+    part.element->Tangent(x, local);
+    ScatterMatrix(part, local, tangent->valuePtr());
+  }
+}
+
+void Structure::TangentDerivative(const Eigen::VectorXd& u, const Eigen::VectorXd& v,
+                                  Eigen::SparseMatrix<double>* derivative) const {
+  std::fill_n(derivative->valuePtr(), derivative->nonZeros(), 0.0);
+  Eigen::VectorXd x, direction;
+  Eigen::MatrixXd local;
+  for (const Part& part : parts_) {
+    Gather(part, u, &x);
+    GatherDirection(part, v, &direction);
+    local.resize(x.size(), x.size());
+    part.element->TangentDerivative(x, direction, local);
+    ScatterMatrix(part, local, derivative->valuePtr());
+  }
+}
+
+}  // namespace contact_path
