@@ -207,4 +207,25 @@ double FixedStateSystem::Value(const Limit& limit, const Eigen::VectorXd& x) con
   return value;
 }
 
+double FixedStateSystem::Rate(const Limit& limit, const Eigen::VectorXd& dx) const {
+  double rate = 0.0;
+  for (const Term& term : InequalityAsEquation(limit).terms) rate += term.coefficient * dx[term.unknown];
+  return rate;
+}
+
+Eigen::VectorXd FixedStateSystem::Gradient(const Limit& limit) const {
+  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(num_unknowns_);
+  for (const Term& term : InequalityAsEquation(limit).terms) gradient[term.unknown] += term.coefficient;
+  return gradient;
+}
+
+Eigen::VectorXd FixedStateSystem::SecondDerivative(const Eigen::VectorXd& x, const Eigen::VectorXd& dx) {
+  // All equations but the internal force are linear. tangent_ is scratch between calls.
+  const Eigen::VectorXd du = dx.head(NumDofs());
+  structure_.TangentDerivative(x.head(NumDofs()), du, &tangent_);
+  Eigen::VectorXd second = Eigen::VectorXd::Zero(num_equations_);
+  second.head(NumDofs()) = tangent_ * du;
+  return second;
+}
+
 }  // namespace contact_path

@@ -49,4 +49,12 @@ Eigen::VectorXd MinimumNormSolver::Solve(const Eigen::VectorXd& b) const {
   return factors_->qr.matrixQ() * y;
 }
 
+Eigen::MatrixXd MinimumNormSolver::NullSpace() const {
+  const Eigen::Index size = factors_->unknowns - factors_->rank;
+  Eigen::MatrixXd basis(factors_->unknowns, size);
+  for (Eigen::Index k = 0; k < size; ++k)
+    basis.col(k) = factors_->qr.matrixQ() * Eigen::VectorXd(Eigen::VectorXd::Unit(factors_->unknowns, factors_->rank + k));
+  return basis;
+}
+
 }  // namespace contact_path

@@ -196,6 +196,8 @@ Advance MpecMethod::Next(const PathPoint& from, double longest) {
       row.kind = changed || bent_ ? RowKind::kCornerLimit : RowKind::kSmoothLimit;
     else if (changed)
       row.kind = RowKind::kContactEvent;
+    row.arc_length = Distance(from, to);
+    row.work = WorkOfIncrement(model_, from, to);
     row.residuals = trial.residuals;
     row.solve.method = Method::kMpec;
     row.solve.regularisation = trial.increment.regularisation;

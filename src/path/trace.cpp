@@ -5,12 +5,12 @@
 #include <memory>
 #include <utility>
 
+#include "contact_path/path/branch_method.h"
 #include "contact_path/path/model.h"
 #include "contact_path/path/mpec_method.h"
 #include "contact_path/path/path_method.h"
 #include "contact_path/path/preload.h"
 #include "contact_path/path/stop.h"
-#include "contact_path/path/work.h"
 #include "contact_path/scene/validate.h"
 
 namespace contact_path {
@@ -39,11 +39,10 @@ class Recorder {
     Give();
   }
 
-  void Append(const PathPoint& from, const AcceptedPoint& accepted, double time) {
-    const Work work = WorkOfIncrement(model_, from, accepted.point);
-    row_.dissipation += work.friction;
-    row_.external_work += work.loads;
-    row_.arc_length += Distance(from, accepted.point);
+  void Append(const AcceptedPoint& accepted, double time) {
+    row_.dissipation += accepted.work.friction;
+    row_.external_work += accepted.work.loads;
+    row_.arc_length += accepted.arc_length;
     Fill(accepted.point, accepted, time);
     Give();
   }
@@ -63,6 +62,7 @@ class Recorder {
     row_.residuals = accepted.residuals;
     row_.solve = accepted.solve;
     row_.solve.time = time;
+    row_.event = accepted.event;
   }
 
   void Give() {
@@ -79,6 +79,7 @@ class Recorder {
 std::unique_ptr<PathMethod> MakeMethod(const Model& model, TraceOptions options, double direction,
                                        const TraceControl& control) {
   options.direction = direction;
+  if (options.method == Method::kBranch) return std::make_unique<BranchMethod>(model, BranchOptions::For(options));
   return std::make_unique<MpecMethod>(model, MpecOptions::ForAccuracy(options), control.cancelled);
 }
 
@@ -124,7 +125,7 @@ TraceResult TraceSound(const TraceRequest& request, const TraceControl& control)
     Advance advance = method->Next(point);
     double time = Seconds(Clock::now() - start) / static_cast<double>(std::max<std::size_t>(1, advance.rows.size()));
     for (AcceptedPoint& row : advance.rows) {
-      recorder.Append(point, row, time);
+      recorder.Append(row, time);
       point = std::move(row.point);
       result.increments = recorder.rows();
       if (const StopCriterion* criterion = stop.FirstThatHolds(recorder.row())) {

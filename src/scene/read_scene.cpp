@@ -89,14 +89,10 @@ constexpr const char* kTextRule = "must be text (in quotes if it could be a numb
 // What stands in the file, for a message.
 std::string Show(const YamlValue& value) {
   switch (value.kind) {
-    case YamlValue::Kind::kNull:
-      return "null";
-    case YamlValue::Kind::kText:
-      return value.quoted ? "\"" + value.text + "\"" : value.text;
-    case YamlValue::Kind::kList:
-      return "a list";
-    case YamlValue::Kind::kMap:
-      return "a map";
+    case YamlValue::Kind::kNull: return "null";
+    case YamlValue::Kind::kText: return value.quoted ? "\"" + value.text + "\"" : value.text;
+    case YamlValue::Kind::kList: return "a list";
+    case YamlValue::Kind::kMap: return "a map";
   }
   return "";
 }

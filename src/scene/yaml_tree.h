@@ -22,7 +22,7 @@ namespace contact_path {
 
 // Bounds that keep memory, time and stack small whatever the text is.
 constexpr std::size_t kLargestYaml = std::size_t{64} << 20U;  // [bytes]
-constexpr std::size_t kMostYamlValues = 4'000'000;            // what stands behind an alias counts each time
+constexpr std::size_t kMostYamlValues = 2'000'000;            // what stands behind an alias counts each time
 constexpr std::size_t kDeepestYaml = 64;                      // lists and maps around a value
 
 // Refuses a file as a whole or from `line` on (0 = unknown).
@@ -33,6 +33,8 @@ constexpr std::size_t kDeepestYaml = 64;                      // lists and maps 
   violation.line = line;
   throw InvalidRequest({std::move(violation)});
 }
+
+inline std::string TooManyValues() { return "must have at most " + std::to_string(kMostYamlValues) + " values"; }
 
 struct YamlValue {
   enum class Kind { kNull, kText, kList, kMap };
@@ -67,7 +69,7 @@ class YamlTreeBuilder : public YAML::EventHandler {
     const int line = mark.line + 1;
     const auto anchored = anchored_.find(anchor);
     if (anchored == anchored_.end()) Refuse(file_, line, "an alias must not stand within what it refers to");
-    Count(anchored->second, open_.size());
+    Count(anchored->second, open_.size(), line);
     open_.push_back({anchored->second, 0});
     open_.back().value.line = line;
     End();
@@ -94,7 +96,7 @@ class YamlTreeBuilder : public YAML::EventHandler {
     YamlValue& value = open_.back().value;
     value.kind = kind;
     value.line = mark.line + 1;
-    Count(value, open_.size() - 1);
+    Count(value, open_.size() - 1, value.line);
     return value;
   }
 
@@ -102,7 +104,7 @@ class YamlTreeBuilder : public YAML::EventHandler {
     Open done = std::move(open_.back());
     open_.pop_back();
     if (done.anchor != YAML::NullAnchor) {
-      Count(done.value, open_.size());
+      Count(done.value, open_.size(), done.value.line);
       anchored_.emplace(done.anchor, done.value);
     }
     if (open_.empty()) {
@@ -112,11 +114,13 @@ class YamlTreeBuilder : public YAML::EventHandler {
     }
   }
 
-  // Counts `value`, with `depth` lists and maps around it, and all that is in it.
-  void Count(const YamlValue& value, std::size_t depth) {
-    if (depth > kDeepestYaml) Refuse(file_, value.line, "lists and maps must be at most 64 deep");
-    if (++count_ > kMostYamlValues) Refuse(file_, value.line, "must have at most 4000000 values, counted by use");
-    for (const YamlValue& item : value.items) Count(item, depth + 1);
+  // Counts `value`, with `depth` lists and maps around it, and all that is in it; `line` is where too much is refused.
+  void Count(const YamlValue& value, std::size_t depth, int line) {
+    if (depth > kDeepestYaml) {
+      Refuse(file_, line, "lists and maps must be at most " + std::to_string(kDeepestYaml) + " deep");
+    }
+    if (++count_ > kMostYamlValues) Refuse(file_, line, TooManyValues());
+    for (const YamlValue& item : value.items) Count(item, depth + 1, line);
   }
 
   const std::string& file_;
@@ -130,6 +134,9 @@ class YamlTreeBuilder : public YAML::EventHandler {
 // Throws InvalidRequest: larger than the bounds above, not YAML, empty, or more than one document.
 inline YamlValue ParseYaml(const std::string& text, const std::string& file) {
   if (text.size() > kLargestYaml) Refuse(file, 0, "must be at most 64 MiB long");
+  // Each of these comes with a value. The parser holds a whole bracket in memory before it gives any event of it.
+  const auto values = std::count_if(text.begin(), text.end(), [](char c) { return c == ',' || c == '[' || c == '{'; });
+  if (static_cast<std::size_t>(values) > kMostYamlValues) Refuse(file, 0, TooManyValues());
   // The parser would take some of these for the end of the text, silently.
   const auto control = std::find_if(text.begin(), text.end(), [](char c) {
     return static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\r' && c != '\t';

@@ -60,6 +60,11 @@ class FixedStateSystem {
   // All inequalities of the fixed states, in contact order, and their values at x (>= 0: holds).
   std::vector<Limit> Inequalities() const;
   double Value(const Limit& limit, const Eigen::VectorXd& x) const;
+  // Change of the value per change dx of the unknowns, and its gradient, NumUnknowns().
+  double Rate(const Limit& limit, const Eigen::VectorXd& dx) const;
+  Eigen::VectorXd Gradient(const Limit& limit) const;
+  // Second derivative of the residual along dx, d2/dh2 residual(x + h dx) at h = 0: NumEquations().
+  Eigen::VectorXd SecondDerivative(const Eigen::VectorXd& x, const Eigen::VectorXd& dx);
 
  private:
   struct Term {

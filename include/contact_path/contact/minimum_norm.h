@@ -25,6 +25,8 @@ class MinimumNormSolver {
   Eigen::Index Rank() const;
   // x for b of the number of equations; Factorize() must have returned true.
   Eigen::VectorXd Solve(const Eigen::VectorXd& b) const;
+  // Orthonormal basis of {x: A x = 0}, unknowns x (unknowns - rank).
+  Eigen::MatrixXd NullSpace() const;
 
  private:
   struct Factors;

@@ -37,7 +37,29 @@ struct SolveRecord {
   int variables = 0;            // of the problem solved
   int constraints = 0;          // of the problem solved
   int rejected = 0;             // increments tried and not accepted before this one
+  int factorisations = 0;       // branch: of the Jacobian
+  int deficiency = 0;           // branch: null directions of the equations besides the tangent (rigid modes, redundancy)
+  int determinant_sign = 0;     // branch: sign of det of the Jacobian bordered by the tangent; 0 = singular; changes where
+                                // another path crosses
+  double contraction = 0.0;     // branch: second Newton step over the first
   double time = 0.0;            // wall time [s]
+};
+
+// One way on from an event: states and rates, by arc length in the scaled norm.
+struct WayRecord {
+  std::vector<ContactState> states;  // by candidate, in scene order
+  double load_rate = 0.0;            // of the scaled load factor, -1..1
+  double dissipation_rate = 0.0;     // scaled, >= 0
+  double turn = 0.0;                 // angle to the direction of arrival [rad]
+};
+
+// What the branch method found at a row where ways part; empty elsewhere.
+struct EventRecord {
+  std::vector<WayRecord> ways;      // all admissible ways on but the way back, best first
+  int taken = -1;                   // index into ways; -1 = none
+  int concerned = 0;                // contacts that could change their state
+  bool complete = true;             // false: too many combinations of states to try them all
+  std::vector<double> null_vector;  // bifurcation: direction of the crossing path, x0, y0, x1, ..., unit norm; else empty
 };
 
 struct Increment {
@@ -52,6 +74,7 @@ struct Increment {
   double external_work = 0.0;           // of all loads since row 0 [force length]
   Residuals residuals;                  // by check/, from the scene alone
   SolveRecord solve;
+  EventRecord event;
 };
 
 // "start", "regular", "smooth_limit", "corner_limit", "contact_event", "bifurcation".

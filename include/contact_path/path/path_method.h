@@ -9,6 +9,7 @@
 #include "contact_path/contact/path_point.h"
 #include "contact_path/path/increment.h"
 #include "contact_path/path/trace.h"
+#include "contact_path/path/work.h"
 
 namespace contact_path {
 
@@ -16,8 +17,11 @@ namespace contact_path {
 struct AcceptedPoint {
   PathPoint point;
   RowKind kind = RowKind::kRegular;
+  double arc_length = 0.0;  // of the increment, scaled norm
+  Work work;                // of the increment
   Residuals residuals;
   SolveRecord solve;  // without time
+  EventRecord event;
 };
 
 struct Advance {

@@ -93,6 +93,13 @@ struct StopCriterion {
   double value = 0.0;
 };
 
+// Takes another way than the best one (method branch): at the n-th event, or at a row, which then counts as an event.
+struct BranchChoice {
+  int event = 0;  // n, from 1; 0 = `row` is meant
+  int row = 0;    // index of the row, from 0; used where event = 0
+  int way = 1;    // number of the way in the record of that event, from 1 (the best)
+};
+
 struct TraceOptions {
   Method method = Method::kBranch;
   Accuracy accuracy = Accuracy::kBalanced;
@@ -100,6 +107,7 @@ struct TraceOptions {
   double step = 0.0;       // target increment length in the scaled norm, >= 0; 0 = automatic (by accuracy)
   int max_increments = 0;  // >= 0; 0 = 1000
   std::vector<StopCriterion> stop;
+  std::vector<BranchChoice> branch_choices;
 
   int MaxIncrements() const { return max_increments == 0 ? 1000 : max_increments; }
   double Direction() const { return direction < 0.0 ? -1.0 : 1.0; }

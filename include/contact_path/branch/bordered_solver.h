@@ -1,0 +1,40 @@
+// Linear systems of a smooth piece: the Jacobian of the fixed-state equations with one row added.
+#ifndef CONTACT_PATH_BRANCH_BORDERED_SOLVER_H_
+#define CONTACT_PATH_BRANCH_BORDERED_SOLVER_H_
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <memory>
+
+namespace contact_path {
+
+// M = [J; row], J equations x unknowns. Square and regular as a rule: sparse LU (KLU). Where it is singular or not square
+// (rigid modes, redundant contacts): the shortest solution by a rank-revealing sparse QR factorisation.
+class BorderedSolver {
+ public:
+  // Ratio of the smallest to the largest pivot of the LU factorisation below which M counts as singular.
+  static constexpr double kSingular = 1e-12;
+
+  BorderedSolver();
+  ~BorderedSolver();
+  BorderedSolver(const BorderedSolver&) = delete;
+  BorderedSolver& operator=(const BorderedSolver&) = delete;
+
+  // transposed: J', unknowns x equations; row: NumUnknowns entries. False if the matrix is not finite.
+  bool Factorize(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& row);
+  // Solves M x = (b, last).
+  Eigen::VectorXd Solve(const Eigen::VectorXd& b, double last) const;
+
+  // unknowns - rank of M: 0 if regular.
+  Eigen::Index Deficiency() const;
+  // Sign of the determinant of M; 0 if M is singular or not square.
+  int DeterminantSign() const;
+
+ private:
+  struct Factors;
+  std::unique_ptr<Factors> factors_;
+};
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_BRANCH_BORDERED_SOLVER_H_

@@ -1,0 +1,40 @@
+// Watches a step of a smooth piece for what ends it: a broken inequality, a limit point, a bifurcation.
+#ifndef CONTACT_PATH_BRANCH_EVENT_WATCH_H_
+#define CONTACT_PATH_BRANCH_EVENT_WATCH_H_
+
+#include <optional>
+
+#include "contact_path/branch/smooth_piece.h"
+#include "contact_path/contact/fixed_state_system.h"
+
+namespace contact_path {
+
+// Scaled length or force within which an inequality is at its limit. Points are exact to about 1e-14.
+constexpr double kAtLimit = 1e-10;
+
+enum class Happening {
+  kNone,         // the whole step is good
+  kNearTouch,    // an inequality comes so near to zero inside that only a row there can tell
+  kEvent,        // an inequality reaches zero and would be broken
+  kLimitPoint,   // ds = 0
+  kBifurcation,  // the bordered determinant changes its sign
+};
+
+struct Watched {
+  Happening happening = Happening::kNone;
+  double t = 0.0;  // parameter of the segment, of the first happening
+  Limit limit;     // kEvent: the inequality that fails first
+};
+
+// The first happening on the segment, from its interpolation: all inequalities as quintics on the whole step, so roots inside it
+// count too. A pair of roots could only be missed where the curve differs from its quintic interpolation by more than a
+// twentieth of the difference between the quintic and the cubic interpolation at the middle of the step: minima that come nearer
+// to zero than that are reported as kNearTouch. Bifurcations are looked for between the ends only by their sign.
+Watched Watch(const FixedStateSystem& system, const Segment& segment);
+
+// The exact point of a happening near t, by Newton's method. Nothing if it cannot be found near there.
+std::optional<CurvePoint> Locate(SmoothPiece* piece, const Segment& segment, const Watched& watched);
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_BRANCH_EVENT_WATCH_H_

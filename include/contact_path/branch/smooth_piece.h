@@ -1,0 +1,88 @@
+// The path between two events: a smooth curve of the fixed-state equations.
+#ifndef CONTACT_PATH_BRANCH_SMOOTH_PIECE_H_
+#define CONTACT_PATH_BRANCH_SMOOTH_PIECE_H_
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "contact_path/branch/bordered_solver.h"
+#include "contact_path/branch/polynomial.h"
+#include "contact_path/contact/fixed_state_system.h"
+
+namespace contact_path {
+
+// A point of the curve with its derivatives by arc length |(du, ds)|. All vectors: unknowns of the fixed-state system.
+struct CurvePoint {
+  Eigen::VectorXd x;
+  Eigen::VectorXd first;   // |(u, s) part| = 1
+  Eigen::VectorXd second;  // orthogonal to first in (u, s)
+  Eigen::Index deficiency = 0;  // null directions of the equations besides the tangent
+  int determinant_sign = 0;     // of the equations with the tangent as last row; 0 = singular
+};
+
+struct Correction {
+  bool converged = false;
+  Eigen::VectorXd x;
+  int iterations = 0;
+  double first_step = 0.0;     // norm of the first Newton step: the error of the guess
+  double contraction = 0.0;    // ratio of the second step to the first
+  std::vector<double> steps;   // norms of all Newton steps
+};
+
+class SmoothPiece {
+ public:
+  // Both must outlive the piece.
+  SmoothPiece(const Structure& structure, const std::vector<ContactGeometry>& contacts);
+
+  // Fixes the states; stick and slip are measured from the tangential positions at `from`.
+  void SetStates(const std::vector<ContactState>& states, const PathPoint& from);
+  const FixedStateSystem& system() const { return system_; }
+  Eigen::Index NumMotion() const { return system_.NumDofs() + 1; }  // size of (u, s)
+
+  // Derivatives at a point x of the curve, along the direction with a positive component on `towards` (NumMotion()).
+  // False where they do not exist: singular element, or no direction along `towards`.
+  bool Derivatives(const Eigen::VectorXd& x, const Eigen::VectorXd& towards, CurvePoint* point);
+
+  // Newton's method for the point of the curve with row . x = value, from guess. row: unknowns.
+  Correction Correct(const Eigen::VectorXd& guess, const Eigen::VectorXd& row, double value);
+  // The same with the row given on (u, s) only.
+  Correction CorrectOnPlane(const Eigen::VectorXd& guess, const Eigen::VectorXd& normal);
+
+  int factorisations() const { return factorisations_; }
+
+ private:
+  const std::vector<ContactGeometry>& contacts_;
+  FixedStateSystem system_;
+  BorderedSolver solver_;
+  int factorisations_ = 0;
+};
+
+// A step on a piece: both ends with derivatives, parameter t in [0, length] = the projection of (u, s) - start on the tangent
+// at the start. Between the ends, quintic Hermite interpolation: error of order length^6.
+struct Segment {
+  CurvePoint start;
+  CurvePoint end;
+  Eigen::VectorXd normal;  // (u, s) part of start.first
+  double length = 0.0;
+
+  // Of a function that is linear in x, from its value at x and its rates along first and second.
+  template <typename Value, typename Rate>
+  Quintic Interpolate(Value value, Rate rate) const {
+    const double c = normal.dot(end.first.head(normal.size()));
+    const double bend = normal.dot(end.second.head(normal.size()));
+    const double first = rate(end.first) / c;
+    return HermiteQuintic({value(start.x), rate(start.first), rate(start.second)},
+                          {value(end.x), first, (rate(end.second) - first * bend) / (c * c)}, length);
+  }
+  // All unknowns at t, and the whole point with derivatives by arc length; the rest as at the start.
+  Eigen::VectorXd Point(double t) const;
+  CurvePoint At(double t) const;
+  // Length of the curve in (u, s), by Gauss quadrature of the interpolation.
+  double ArcLength() const;
+};
+
+Segment MakeSegment(const CurvePoint& start, const CurvePoint& end, Eigen::Index num_motion);
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_BRANCH_SMOOTH_PIECE_H_

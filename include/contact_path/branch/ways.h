@@ -1,0 +1,43 @@
+// The ways on from a point of the path: every combination of contact states whose one-sided rates are admissible.
+#ifndef CONTACT_PATH_BRANCH_WAYS_H_
+#define CONTACT_PATH_BRANCH_WAYS_H_
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "contact_path/contact/contact_geometry.h"
+#include "contact_path/contact/path_point.h"
+#include "contact_path/structure/structure.h"
+
+namespace contact_path {
+
+// Scaled quantities and rates by arc length |(du, ds)|.
+struct Way {
+  std::vector<ContactState> states;  // by candidate, on the piece that starts here
+  Eigen::VectorXd direction;         // (du, ds), unit vector, NumDofs() + 1
+  double load_rate = 0.0;            // ds
+  double dissipation_rate = 0.0;     // -r_t . du_t, >= 0
+  double turn = 0.0;                 // angle to the direction of arrival [rad]; 0 without one
+};
+
+// Where the point comes from.
+struct Arrival {
+  Eigen::VectorXd direction;  // (du, ds), unit vector; for a start: what is wanted, (0, +-1)
+  bool is_start = false;      // then ds must have the wanted sign, and there is no way back
+};
+
+struct WaysOn {
+  std::vector<Way> ways;     // best first: largest dissipation rate, then smallest turn, then a fixed order
+  int concerned = 0;         // contacts that could change their state
+  bool complete = true;      // false: too many combinations to try them all
+  int combinations = 0;      // tried
+};
+
+// All ways on from `point`, an equilibrium, without the way back. Concerned are the contacts with an inequality within
+// `tolerance` of zero, and all that slip. Of ways with the same direction one is kept.
+WaysOn FindWays(const Structure& structure, const std::vector<ContactGeometry>& contacts, const PathPoint& point,
+                const Arrival& arrival, double tolerance);
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_BRANCH_WAYS_H_

@@ -1,0 +1,67 @@
+// The exact path: smooth pieces between located events, the way on chosen by the dissipation rate.
+#ifndef CONTACT_PATH_PATH_BRANCH_METHOD_H_
+#define CONTACT_PATH_PATH_BRANCH_METHOD_H_
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "contact_path/branch/event_watch.h"
+#include "contact_path/branch/smooth_piece.h"
+#include "contact_path/branch/ways.h"
+#include "contact_path/path/model.h"
+#include "contact_path/path/path_method.h"
+
+namespace contact_path {
+
+// All lengths in the scaled norm.
+struct BranchOptions {
+  double step = 0.02;           // longest increment, > 0
+  double smallest_step = 1e-9;  // below this the path ends, > 0
+  double prediction = 1e-3;     // largest error of the predictor, relative to the increment
+  double smallest_cosine = 0.98;  // between the tangents at both ends of an increment
+  double direction = 1.0;         // sign of the first change of the load factor
+  std::vector<BranchChoice> choices;
+
+  static BranchOptions For(const TraceOptions& options);
+};
+
+class BranchMethod : public PathMethod {
+ public:
+  // model must outlive the method.
+  BranchMethod(const Model& model, const BranchOptions& options);
+
+  using PathMethod::Next;
+  // `from` must be the point that was given last.
+  Advance Next(const PathPoint& from, double longest) override;
+
+  // Ways on from the start, known after the first call.
+  const EventRecord& start() const { return start_; }
+
+ private:
+  // A step from current_; nothing where it has to be shorter.
+  std::optional<Segment> Step(double length);
+  // Sets out on a way from `point`.
+  bool Leave(const PathPoint& point, const Way& way);
+  // Finds the ways on from `point` and sets out on one. False: none, or the chosen one does not exist (*message).
+  bool PassEvent(const PathPoint& point, const Arrival& arrival, const BranchChoice* choice, EventRecord* record,
+                 std::string* message);
+  const BranchChoice* ChoiceForEvent(int event) const;
+  const BranchChoice* ChoiceForRow(int row) const;
+  Work WorkOf(const Segment& segment) const;
+
+  const Model& model_;
+  BranchOptions options_;
+  SmoothPiece piece_;
+  CurvePoint current_;
+  bool started_ = false;
+  double step_;
+  int rows_ = 0;              // given so far, row 0 not counted
+  int events_ = 0;            // passed so far, the start not counted
+  int events_in_place_ = 0;   // passed without moving
+  EventRecord start_;
+};
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_PATH_BRANCH_METHOD_H_

@@ -1,0 +1,44 @@
+// Between messages and the data of the core: pure functions, field by field, nothing computed.
+#ifndef CONTACT_PATH_ROS_CONVERT_H_
+#define CONTACT_PATH_ROS_CONVERT_H_
+
+#include <cstdint>
+#include <string>
+
+#include "contact_path/path/increment.h"
+#include "contact_path/path/trace.h"
+#include "contact_path/ros/messages.h"
+#include "contact_path/scene/scene.h"
+
+namespace contact_path {
+
+// Throws InvalidRequest (scene/validate.h) for words that are not known, with keys such as "scene.bars[0].strain".
+// Every other rule is left to Validate().
+TraceRequest FromMessage(const contact_path_msgs::Scene& scene, const contact_path_msgs::TraceOptions& options);
+
+// Words are written out, also where they are the default.
+contact_path_msgs::TraceRequest ToMessage(const TraceRequest& request);
+
+// Leaves `header` and `trace_id` to the caller.
+contact_path_msgs::Increment ToMessage(const Increment& increment);
+
+// Drops `header`, `trace_id` and `complementarity_residual`, which follows from the other residuals.
+// Throws std::invalid_argument for arrays of different lengths and for constants that are not known.
+Increment FromMessage(const contact_path_msgs::Increment& message);
+
+// END_* of the response of TracePath.
+std::uint8_t ToConstant(EndReason reason);
+
+// "stop_criterion", ..., "time_limit"; "" for END_NONE.
+// Throws std::invalid_argument for a constant that is not known.
+std::string EndReasonName(std::uint8_t end_reason);
+
+// OK or ENDED_EARLY.
+std::uint8_t StatusOf(EndReason reason);
+
+// The fields that both have.
+contact_path_msgs::TraceResult ToResult(const contact_path_msgs::TracePathResponse& response);
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_ROS_CONVERT_H_

@@ -1,0 +1,31 @@
+// The generated message types of this package, in the namespace `contact_path_msgs`.
+//
+// The generator declares them in `contact_path`, where the core has types of the same names (Scene, Increment, ...), so
+// that one source file could not use both. Here the namespace is renamed while the generated headers are read; what
+// they include from outside of the package is read before. Type names on the wire and in bags ("contact_path/Scene")
+// are strings and stay as they are. Source files that use the core include the messages through this header only.
+#ifndef CONTACT_PATH_ROS_MESSAGES_H_
+#define CONTACT_PATH_ROS_MESSAGES_H_
+
+#include <map>
+#include <memory>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include <ros/builtin_message_traits.h>
+#include <ros/message_operations.h>
+#include <ros/serialization.h>
+#include <ros/service_traits.h>
+#include <ros/types.h>
+#include <std_msgs/Header.h>
+
+#define contact_path contact_path_msgs
+#include <contact_path/Increment.h>
+#include <contact_path/TracePath.h>
+#include <contact_path/TraceRequest.h>
+#include <contact_path/TraceResult.h>
+#include <contact_path/TraceStatus.h>
+#undef contact_path
+
+#endif  // CONTACT_PATH_ROS_MESSAGES_H_

@@ -1,0 +1,82 @@
+// The node: answers the service ~trace, streams increments and status, and records every trace.
+#ifndef CONTACT_PATH_ROS_TRACE_SERVICE_H_
+#define CONTACT_PATH_ROS_TRACE_SERVICE_H_
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <mutex>
+#include <string>
+
+#include <ros/ros.h>
+#include <std_srvs/Trigger.h>
+
+#include "contact_path/path/trace.h"
+#include "contact_path/ros/bag_recorder.h"
+#include "contact_path/ros/limits.h"
+#include "contact_path/ros/messages.h"
+
+namespace contact_path {
+
+// Parameters of the node, by their names in names.h.
+struct NodeParameters {
+  std::string bag_directory;       // absolute; default $ROS_HOME/contact_path, or ~/.ros/contact_path
+  int increments_queue = 100000;   // increments kept for a subscriber that is slower than the trace, > 0
+  TraceLimits limits;              // max_nodes, max_elements, max_contacts, max_increments, max_seconds
+};
+
+// Throws std::invalid_argument naming the parameter that has a wrong type or value.
+NodeParameters ReadParameters(const ros::NodeHandle& private_node);
+
+// Traces one request at a time, on the thread of its service call: ~cancel and the refusal of further requests need
+// threads besides it. No request, and no trouble with the bag, leaves it other than as an answer.
+class TraceService {
+ public:
+  TraceService(ros::NodeHandle private_node, const NodeParameters& parameters);
+
+  // Refuses what comes from now on and asks the running trace to end; does not wait for it.
+  void Shutdown();
+
+ private:
+  using Request = contact_path_msgs::TracePathRequest;
+  using Response = contact_path_msgs::TracePathResponse;
+  enum class StopCause { kNone, kCancel, kTimeLimit, kShutdown };
+
+  bool HandleTrace(Request& request, Response& response);
+  bool HandleCancel(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+
+  // Everything between the admission of a request and its answer; `response->bag` is empty where nothing was traced.
+  void Serve(const Request& request, Response* response);
+  void RunTrace(const TraceRequest& request, BagRecorder* bag, Response* response);
+  void TakeIncrement(const Increment& increment, BagRecorder* bag);
+  void PublishStatus();
+  void PublishEnd(const Response& response);
+
+  void RequestStop(StopCause cause);  // the first cause stays
+  bool StopWanted(std::chrono::steady_clock::time_point start);
+
+  const NodeParameters parameters_;
+  const std::string topic_prefix_;  // of the bags' topics: the name of the node
+  ros::Publisher increments_publisher_;
+  ros::Publisher status_publisher_;
+
+  std::mutex mutex_;  // guards the next three
+  bool running_ = false;
+  bool shutting_down_ = false;
+  std::string running_scene_;
+
+  std::atomic<StopCause> stop_cause_{StopCause::kNone};
+
+  // Of the thread that traces.
+  contact_path_msgs::TraceStatus status_;
+  std::chrono::steady_clock::time_point status_time_;
+  std::uint32_t increments_published_ = 0;
+
+  // Last, so that no call comes in before the rest is there.
+  ros::ServiceServer trace_server_;
+  ros::ServiceServer cancel_server_;
+};
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_ROS_TRACE_SERVICE_H_

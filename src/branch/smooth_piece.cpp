@@ -1,0 +1,163 @@
+#include "contact_path/branch/smooth_piece.h"
+
+#include <array>
+#include <cmath>
+
+namespace contact_path {
+namespace {
+
+constexpr int kMaxIterations = 12;
+constexpr double kStepTolerance = 1e-14;      // relative to 1 + |x|: rounding
+constexpr double kStagnation = 1e-10;         // relative: below this a step that no longer shrinks is rounding
+constexpr double kReuse = 1e-5;               // relative: below this step the factorisation is good enough to finish with
+constexpr double kResidualTolerance = 1e-11;  // scaled
+
+// The six quintic Hermite basis polynomials: value, first, second at the start, then at the end.
+std::array<Quintic, 6> HermiteBasis(double length) {
+  std::array<Quintic, 6> basis{};
+  for (std::size_t i = 0; i < 6; ++i) {
+    std::array<Jet, 2> ends{};
+    Jet& jet = ends[i / 3];
+    (i % 3 == 0 ? jet.value : i % 3 == 1 ? jet.first : jet.second) = 1.0;
+    basis[i] = HermiteQuintic(ends[0], ends[1], length);
+  }
+  return basis;
+}
+
+// Derivatives at the end of a segment by its parameter.
+void EndDerivatives(const Segment& segment, Eigen::VectorXd* first, Eigen::VectorXd* second) {
+  const Eigen::Index n = segment.normal.size();
+  const double c = segment.normal.dot(segment.end.first.head(n));
+  const double bend = segment.normal.dot(segment.end.second.head(n));
+  *first = segment.end.first / c;
+  *second = (segment.end.second - *first * bend) / (c * c);
+}
+
+}  // namespace
+
+SmoothPiece::SmoothPiece(const Structure& structure, const std::vector<ContactGeometry>& contacts)
+    : contacts_(contacts), system_(structure, contacts) {}
+
+void SmoothPiece::SetStates(const std::vector<ContactState>& states, const PathPoint& from) {
+  Eigen::VectorXd reference(static_cast<Eigen::Index>(contacts_.size()));
+  for (std::size_t i = 0; i < contacts_.size(); ++i)
+    reference[static_cast<Eigen::Index>(i)] = contacts_[i].tangential.Value(from.u);
+  system_.SetStates(states, reference);
+}
+
+bool SmoothPiece::Derivatives(const Eigen::VectorXd& x, const Eigen::VectorXd& towards, CurvePoint* point) {
+  const Eigen::Index n = NumMotion();
+  Eigen::VectorXd row = Eigen::VectorXd::Zero(system_.NumUnknowns());
+  row.head(n) = towards;
+  ++factorisations_;
+  if (!solver_.Factorize(system_.TransposedJacobian(x), row)) return false;
+  point->x = x;
+  point->first = solver_.Solve(Eigen::VectorXd::Zero(system_.NumEquations()), 1.0);
+  const double norm = point->first.head(n).norm();
+  if (!std::isfinite(norm) || norm == 0.0 || point->first.head(n).dot(towards) <= 0.0) return false;
+  point->first /= norm;
+  point->second = solver_.Solve(-system_.SecondDerivative(x, point->first), 0.0);
+  point->second -= point->first.head(n).dot(point->second.head(n)) * point->first;
+  point->deficiency = solver_.Deficiency();
+  point->determinant_sign = solver_.DeterminantSign();
+  return point->second.allFinite();
+}
+
+Correction SmoothPiece::Correct(const Eigen::VectorXd& guess, const Eigen::VectorXd& row, double value) {
+  Correction result;
+  result.x = guess;
+  Eigen::VectorXd residual;
+  bool factorise = true;
+  double previous = std::numeric_limits<double>::infinity();
+  for (; result.iterations < kMaxIterations; ++result.iterations) {
+    system_.Residual(result.x, &residual);
+    if (!residual.allFinite()) return result;
+    if (factorise) {
+      ++factorisations_;
+      if (!solver_.Factorize(system_.TransposedJacobian(result.x), row)) return result;
+    }
+    const Eigen::VectorXd step = solver_.Solve(-residual, value - row.dot(result.x));
+    const double norm = step.norm(), scale = 1.0 + result.x.norm();
+    if (!std::isfinite(norm)) return result;
+    result.x += step;
+    result.steps.push_back(norm);
+    if (result.iterations == 0) result.first_step = norm;
+    if (result.iterations == 1) result.contraction = norm / result.first_step;
+    if (norm <= kStepTolerance * scale || (norm <= kStagnation * scale && norm >= 0.5 * previous)) {
+      system_.Residual(result.x, &residual);
+      result.converged = residual.lpNorm<Eigen::Infinity>() <= kResidualTolerance;
+      ++result.iterations;
+      return result;
+    }
+    factorise = norm > kReuse * scale;
+    previous = norm;
+  }
+  return result;
+}
+
+Correction SmoothPiece::CorrectOnPlane(const Eigen::VectorXd& guess, const Eigen::VectorXd& normal) {
+  Eigen::VectorXd row = Eigen::VectorXd::Zero(system_.NumUnknowns());
+  row.head(normal.size()) = normal;
+  return Correct(guess, row, row.dot(guess));
+}
+
+Segment MakeSegment(const CurvePoint& start, const CurvePoint& end, Eigen::Index num_motion) {
+  Segment segment{start, end, start.first.head(num_motion), 0.0};
+  segment.length = segment.normal.dot((end.x - start.x).head(num_motion));
+  return segment;
+}
+
+Eigen::VectorXd Segment::Point(double t) const { return At(t).x; }
+
+CurvePoint Segment::At(double t) const {
+  Eigen::VectorXd first, second;
+  EndDerivatives(*this, &first, &second);
+  const std::array<Quintic, 6> basis = HermiteBasis(length);
+  // Derivative of the given order by t, for the interpolation of x: the first basis polynomials of start and end add up to 1.
+  const auto combine = [&](int order) {
+    std::array<double, 6> b{};
+    for (std::size_t i = 0; i < 6; ++i) {
+      Quintic polynomial = basis[i];
+      for (int k = 0; k < order; ++k) polynomial = Derivative(polynomial);
+      b[i] = Evaluate(polynomial, t);
+    }
+    Eigen::VectorXd sum = b[1] * start.first + b[2] * start.second + b[3] * (end.x - start.x) + b[4] * first + b[5] * second;
+    if (order == 0) sum += start.x;
+    return sum;
+  };
+  CurvePoint point = start;
+  point.x = combine(0);
+  point.first = combine(1);
+  point.second = combine(2);
+  // From derivatives by t to derivatives by arc length.
+  const Eigen::Index n = normal.size();
+  const double speed = point.first.head(n).norm();
+  point.first /= speed;
+  point.second -= point.first.head(n).dot(point.second.head(n)) * point.first;
+  point.second /= speed * speed;
+  return point;
+}
+
+double Segment::ArcLength() const {
+  // Gauss-Legendre, four points on [0, 1].
+  constexpr std::array<double, 4> kPoints = {0.06943184420297371, 0.33000947820757187, 0.66999052179242813,
+                                             0.93056815579702629};
+  constexpr std::array<double, 4> kWeights = {0.17392742256872693, 0.32607257743127307, 0.32607257743127307,
+                                              0.17392742256872693};
+  const Eigen::Index n = normal.size();
+  Eigen::VectorXd first, second;
+  EndDerivatives(*this, &first, &second);
+  const Eigen::VectorXd change = (end.x - start.x).head(n);
+  const std::array<Quintic, 6> basis = HermiteBasis(length);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < kPoints.size(); ++i) {
+    std::array<double, 6> b{};
+    for (std::size_t k = 0; k < 6; ++k) b[k] = Evaluate(Derivative(basis[k]), kPoints[i] * length);
+    sum += kWeights[i] * (b[1] * start.first.head(n) + b[2] * start.second.head(n) + b[3] * change + b[4] * first.head(n) +
+                          b[5] * second.head(n))
+                             .norm();
+  }
+  return sum * length;
+}
+
+}  // namespace contact_path

@@ -1,0 +1,220 @@
+// contact_path_trace SCENE.yaml: traces the equilibrium path of a scene file and writes its rows as CSV.
+//
+// Exit status: 0 ended by a stop criterion or the number of increments; 1 ended earlier, all accepted rows written;
+// 2 bad usage or invalid scene.
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iostream>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "contact_path/path/csv.h"
+#include "contact_path/path/trace.h"
+#include "contact_path/scene/read_scene.h"
+#include "contact_path/scene/validate.h"
+#include "progress.h"
+
+namespace contact_path {
+namespace {
+
+constexpr char kProgram[] = "contact_path_trace";
+
+enum ExitStatus { kComplete = 0, kEndedEarly = 1, kBadInput = 2 };
+
+struct Arguments {
+  std::string scene_file;
+  std::optional<std::string> csv_file;  // nothing: standard output
+  std::optional<std::string> method;
+  std::optional<std::string> accuracy;
+  std::optional<double> step;
+  std::optional<int> max_increments;
+  bool quiet = false;
+};
+
+// Rows could not be written.
+class WriteError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// Takes each row as it is accepted; throws WriteError.
+using Sink = std::function<void(const Increment&)>;
+
+// Set by SIGINT and SIGTERM.
+volatile std::sig_atomic_t cancel_requested = 0;
+
+void PrintError(const std::string& message) { std::cerr << kProgram << ": " << message << '\n'; }
+
+// The OpenMP runtime reads its number of threads before main: starts the program over with one, unless the user chose.
+// The systems are small, and more threads only get in each other's way. Where that fails, the program goes on as it is.
+void UseOneThread(char** argv) {
+  constexpr char kThreads[] = "OMP_NUM_THREADS";
+  if (std::getenv(kThreads) != nullptr || setenv(kThreads, "1", /*overwrite=*/0) != 0) return;
+  std::error_code unknown;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", unknown);
+  if (!unknown) execv(program.c_str(), argv);
+}
+
+// The first signal asks the trace to end; a second one ends the program at once.
+void HandleSignals() {
+  struct sigaction action = {};
+  action.sa_handler = [](int) { cancel_requested = 1; };
+  action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+void DeclareOptions(CLI::App& app, Arguments& arguments) {
+  app.add_option("SCENE", arguments.scene_file, "Scene file (YAML)")->required();
+  app.add_option("--csv", arguments.csv_file, "Write the rows to this file instead of standard output")
+      ->type_name("FILE");
+  app.add_option("--method", arguments.method, "branch or mpec, instead of the scene's")->type_name("NAME");
+  app.add_option("--accuracy", arguments.accuracy, "fast, balanced or accurate, instead of the scene's")
+      ->type_name("NAME");
+  app.add_option("--step", arguments.step, "Increment length, instead of the scene's; 0 = automatic")
+      ->type_name("NUMBER");
+  app.add_option("--max-increments", arguments.max_increments, "Largest number, instead of the scene's; 0 = 1000")
+      ->type_name("NUMBER");
+  app.add_flag("--quiet", arguments.quiet, "Say nothing on standard error unless the trace ends early");
+}
+
+// The word as an option of the trace. Throws InvalidRequest where `parsed` is nothing.
+template <typename T>
+T KnownWord(const std::optional<T>& parsed, const std::string& option, const std::string& word,
+            const std::string& rule) {
+  if (!parsed) throw InvalidRequest({{option, '"' + word + '"', rule, "command line", 0}});
+  return *parsed;
+}
+
+// The request of the scene file with the options of the command line. Throws InvalidRequest.
+TraceRequest ReadRequest(const Arguments& arguments) {
+  TraceRequest request = ReadTraceRequestFile(arguments.scene_file);
+  TraceOptions& options = request.options;
+  if (arguments.method) {
+    options.method = KnownWord(ParseMethod(*arguments.method), "--method", *arguments.method, "must be branch or mpec");
+  }
+  if (arguments.accuracy) {
+    options.accuracy = KnownWord(ParseAccuracy(*arguments.accuracy), "--accuracy", *arguments.accuracy,
+                                 "must be fast, balanced or accurate");
+  }
+  if (arguments.step) options.step = *arguments.step;
+  if (arguments.max_increments) options.max_increments = *arguments.max_increments;
+
+  std::vector<Violation> violations = Validate(request);
+  for (Violation& violation : violations) violation.file = "command line";
+  if (!violations.empty()) throw InvalidRequest(violations);
+  return request;
+}
+
+// At most three lines.
+void PrintViolations(const std::vector<Violation>& violations) {
+  constexpr std::size_t kLines = 3;
+  const std::size_t listed = violations.size() <= kLines ? violations.size() : kLines - 1;
+  for (std::size_t i = 0; i < listed; ++i) std::cerr << violations[i].ToLine() << '\n';
+  if (listed < violations.size()) std::cerr << "... and " << violations.size() - listed << " more\n";
+}
+
+// Empties `file` for writing. Nothing where that cannot be done; says why on standard error.
+std::optional<std::ofstream> OpenCsv(const std::string& file, const std::string& scene_file) {
+  std::error_code none_there;
+  if (std::filesystem::equivalent(file, scene_file, none_there)) {
+    PrintError("--csv " + file + " is the scene file itself");
+    return std::nullopt;
+  }
+  std::ofstream csv(file, std::ios::binary | std::ios::trunc);
+  if (!csv) {
+    PrintError("cannot open --csv '" + file + "': " + std::strerror(errno));
+    return std::nullopt;
+  }
+  return csv;
+}
+
+// Flushes, so that every row is out before the next one is computed.
+void RequireWritten(std::ostream& out, const std::string& name) {
+  if (!out.flush()) throw WriteError("cannot write " + name + ": " + std::strerror(errno));
+}
+
+Sink StartCsv(const Scene& scene, std::ostream& out, const std::string& name) {
+  WriteCsvHeader(scene, out);
+  RequireWritten(out, name);
+  return [&out, name](const Increment& increment) {
+    WriteCsvRow(increment, out);
+    RequireWritten(out, name);
+  };
+}
+
+// Traces `request` with its rows going to `csv`. Throws WriteError.
+ExitStatus RunTrace(const TraceRequest& request, const Arguments& arguments, std::ostream& csv) {
+  const bool csv_on_terminal = !arguments.csv_file && isatty(STDOUT_FILENO) == 1;
+  Progress progress(request, !arguments.quiet && !csv_on_terminal && isatty(STDERR_FILENO) == 1, std::cerr);
+  const std::vector<Sink> sinks = {
+      StartCsv(request.scene, csv, arguments.csv_file.value_or("standard output")),
+      [&progress](const Increment& increment) { progress.Add(increment); },
+  };
+
+  HandleSignals();
+  TraceControl control;
+  control.on_increment = [&sinks](const Increment& increment) {
+    for (const Sink& sink : sinks) sink(increment);
+  };
+  control.cancelled = [] { return cancel_requested != 0; };
+  const TraceResult result = Trace(request, control);
+
+  const bool complete = result.reason == EndReason::kStopCriterion || result.reason == EndReason::kMaxIncrements;
+  if (!complete || !arguments.quiet) {
+    progress.Wipe();
+    PrintError(progress.Summary(result));
+  }
+  return complete ? kComplete : kEndedEarly;
+}
+
+ExitStatus Run(const Arguments& arguments) {
+  try {
+    const TraceRequest request = ReadRequest(arguments);
+    if (!arguments.csv_file) return RunTrace(request, arguments, std::cout);
+    std::optional<std::ofstream> csv = OpenCsv(*arguments.csv_file, arguments.scene_file);
+    return csv ? RunTrace(request, arguments, *csv) : kBadInput;
+  } catch (const InvalidRequest& invalid) {
+    PrintViolations(invalid.violations());
+    return kBadInput;
+  } catch (const std::exception& error) {
+    PrintError(error.what());
+    return kEndedEarly;
+  }
+}
+
+}  // namespace
+}  // namespace contact_path
+
+int main(int argc, char** argv) {
+  contact_path::UseOneThread(argv);
+  // A reader that goes away is a write error like any other.
+  std::signal(SIGPIPE, SIG_IGN);
+
+  CLI::App app("Traces the equilibrium path of a plane elastic structure with contact and friction.",
+               contact_path::kProgram);
+  contact_path::Arguments arguments;
+  contact_path::DeclareOptions(app, arguments);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    std::cout << app.help() << std::flush;
+    return std::cout ? contact_path::kComplete : contact_path::kEndedEarly;
+  } catch (const CLI::ParseError& error) {
+    contact_path::PrintError(error.what());
+    return contact_path::kBadInput;
+  }
+  return contact_path::Run(arguments);
+}

@@ -1,0 +1,108 @@
+#include "progress.h"
+
+#include <algorithm>
+#include <iomanip>
+#include <locale>
+#include <sstream>
+
+namespace contact_path {
+namespace {
+
+using std::chrono::steady_clock;
+
+constexpr auto kTimeBetweenDrawings = std::chrono::milliseconds(100);
+constexpr int kBarWidth = 14;                   // characters; the whole line fits into 80
+constexpr std::size_t kLimitPointsListed = 10;  // in the summary
+constexpr char kWipeLine[] = "\r\x1b[K";        // ANSI: to the first column, erase to the end of the line
+
+std::ostringstream NewLine() {
+  std::ostringstream line;
+  line.imbue(std::locale::classic());
+  return line;
+}
+
+}  // namespace
+
+Progress::Progress(const TraceRequest& request, bool show_bar, std::ostream& out)
+    : max_increments_(request.options.max_increments), show_bar_(show_bar), out_(out), begin_(steady_clock::now()) {
+  for (const StopCriterion& stop : request.options.stop) {
+    Goal goal;
+    goal.end = stop.value;
+    goal.of_load_factor = stop.quantity == "load_factor";
+    if (!goal.of_load_factor) {
+      const std::size_t dot = stop.quantity.rfind('.');
+      const auto& nodes = request.scene.nodes;
+      const auto node = std::find_if(nodes.begin(), nodes.end(), [&](const Node& candidate) {
+        return stop.quantity.compare(0, dot, candidate.name) == 0;
+      });
+      goal.component = 2 * static_cast<std::size_t>(node - nodes.begin()) + (stop.quantity.back() == 'y' ? 1 : 0);
+    }
+    goals_.push_back(goal);
+  }
+}
+
+void Progress::Add(const Increment& increment) {
+  if (increment.index == 0) {
+    for (Goal& goal : goals_) goal.start = goal.Value(increment);
+  }
+  if (increment.kind == RowKind::kSmoothLimit || increment.kind == RowKind::kCornerLimit) {
+    limit_points_.push_back({increment.kind, increment.index, increment.load_factor});
+  }
+  const auto now = steady_clock::now();
+  if (show_bar_ && (!visible_ || now - drawn_ >= kTimeBetweenDrawings)) {
+    Draw(increment);
+    drawn_ = now;
+    visible_ = true;
+  }
+}
+
+void Progress::Wipe() {
+  if (visible_) out_ << kWipeLine << std::flush;
+  visible_ = false;
+}
+
+std::string Progress::Summary(const TraceResult& result) const {
+  const double seconds = std::chrono::duration<double>(steady_clock::now() - begin_).count();
+  std::ostringstream line = NewLine();
+  line << ToString(result.reason) << ": " << result.message << "; " << result.increments << " rows in " << std::fixed
+       << std::setprecision(2) << seconds << " s; limit points: " << std::defaultfloat << std::setprecision(10);
+  if (limit_points_.empty()) line << "none";
+  const std::size_t listed = std::min(limit_points_.size(), kLimitPointsListed);
+  for (std::size_t i = 0; i < listed; ++i) {
+    const LimitPoint& point = limit_points_[i];
+    line << (i == 0 ? "" : ", ") << ToString(point.kind) << " at load factor " << point.load_factor << " (row "
+         << point.index << ')';
+  }
+  if (listed < limit_points_.size()) line << " and " << limit_points_.size() - listed << " more";
+  return line.str();
+}
+
+double Progress::Goal::Value(const Increment& increment) const {
+  return of_load_factor ? increment.load_factor : increment.positions[component];
+}
+
+double Progress::Fraction(const Increment& increment) const {
+  double fraction = 0.0;
+  if (max_increments_ > 0) fraction = static_cast<double>(increment.index) / max_increments_;
+  for (const Goal& goal : goals_) {
+    if (goal.end == goal.start) continue;
+    fraction = std::max(fraction, (goal.Value(increment) - goal.start) / (goal.end - goal.start));
+  }
+  return std::min(fraction, 1.0);
+}
+
+void Progress::Draw(const Increment& increment) {
+  std::ostringstream line = NewLine();
+  line << kWipeLine;
+  if (max_increments_ > 0 || !goals_.empty()) {
+    const double fraction = Fraction(increment);
+    const auto filled = static_cast<std::size_t>(fraction * kBarWidth);
+    line << '[' << std::string(filled, '#') << std::string(kBarWidth - filled, ' ') << "] " << std::setw(3)
+         << static_cast<int>(100.0 * fraction) << "%  ";
+  }
+  line << "row " << increment.index << "  load factor " << std::setprecision(4) << increment.load_factor
+       << "  arc length " << increment.arc_length;
+  out_ << line.str() << std::flush;
+}
+
+}  // namespace contact_path

@@ -1,0 +1,66 @@
+// What a person sees of a trace on a terminal: a bar while it runs, a summary when it has ended.
+#ifndef CONTACT_PATH_CLI_PROGRESS_H_
+#define CONTACT_PATH_CLI_PROGRESS_H_
+
+#include <chrono>
+#include <cstddef>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "contact_path/path/increment.h"
+#include "contact_path/path/trace.h"
+#include "contact_path/scene/scene.h"
+
+namespace contact_path {
+
+class Progress {
+ public:
+  // With `show_bar`, one line of `out` is rewritten as the trace goes on. `out` must outlive this.
+  Progress(const TraceRequest& request, bool show_bar, std::ostream& out);
+  ~Progress() { Wipe(); }
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  // Takes every row, in order.
+  void Add(const Increment& increment);
+
+  // Takes the bar off the terminal.
+  void Wipe();
+
+  // One line without line break: how the trace ended, rows, time, limit points.
+  std::string Summary(const TraceResult& result) const;
+
+ private:
+  // A stop criterion as the way from where the path started to where it would end.
+  struct Goal {
+    std::size_t component = 0;  // in Increment::positions, unless of_load_factor
+    bool of_load_factor = false;
+    double start = 0.0;
+    double end = 0.0;
+
+    double Value(const Increment& increment) const;
+  };
+  struct LimitPoint {
+    RowKind kind = RowKind::kSmoothLimit;
+    int index = 0;
+    double load_factor = 0.0;
+  };
+
+  // Part of the way done, 0 to 1: the largest over the goals and the wanted number of increments; 0 without either.
+  double Fraction(const Increment& increment) const;
+  void Draw(const Increment& increment);
+
+  const int max_increments_;  // as in the request: 0 = not asked for
+  const bool show_bar_;
+  std::ostream& out_;
+  std::vector<Goal> goals_;
+  std::vector<LimitPoint> limit_points_;
+  const std::chrono::steady_clock::time_point begin_;
+  std::chrono::steady_clock::time_point drawn_;  // time of the last drawing
+  bool visible_ = false;                         // the bar stands on the terminal
+};
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_CLI_PROGRESS_H_

@@ -1,0 +1,248 @@
+#include "contact_path/path/branch_method.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace contact_path {
+namespace {
+
+constexpr double kAccepted = 1e-9;       // residuals of an accepted row
+constexpr double kNoMove = 1e-12;        // an event nearer than this to the last one happens in place
+constexpr int kMostEventsInPlace = 8;    // then the contacts chatter, and no way on is trusted
+constexpr double kLevel = 1e-9;          // of a unit rate: the load neither rises nor falls
+constexpr int kLocatingAttempts = 6;
+
+}  // namespace
+
+BranchOptions BranchOptions::For(const TraceOptions& options) {
+  BranchOptions result;
+  switch (options.accuracy) {
+    case Accuracy::kFast:
+      result.step = 0.05;
+      result.prediction = 1e-2;
+      result.smallest_cosine = 0.9;
+      break;
+    case Accuracy::kBalanced: break;
+    case Accuracy::kAccurate:
+      result.step = 0.005;
+      result.prediction = 1e-4;
+      result.smallest_cosine = 0.998;
+      break;
+  }
+  if (options.step > 0.0) result.step = options.step;
+  result.smallest_step = std::min(result.smallest_step, 1e-3 * result.step);
+  result.direction = options.Direction();
+  result.choices = options.branch_choices;
+  return result;
+}
+
+BranchMethod::BranchMethod(const Model& model, const BranchOptions& options)
+    : model_(model), options_(options), piece_(model.structure, model.contacts), step_(options.step) {}
+
+const BranchChoice* BranchMethod::ChoiceForEvent(int event) const {
+  for (const BranchChoice& choice : options_.choices)
+    if (choice.event == event && event > 0) return &choice;
+  return nullptr;
+}
+
+const BranchChoice* BranchMethod::ChoiceForRow(int row) const {
+  for (const BranchChoice& choice : options_.choices)
+    if (choice.event == 0 && choice.row == row) return &choice;
+  return nullptr;
+}
+
+bool BranchMethod::Leave(const PathPoint& point, const Way& way) {
+  piece_.SetStates(way.states, point);
+  return piece_.Derivatives(piece_.system().Pack(point), way.direction, &current_);
+}
+
+bool BranchMethod::PassEvent(const PathPoint& point, const Arrival& arrival, const BranchChoice* choice, EventRecord* record,
+                             std::string* message) {
+  const WaysOn on = FindWays(model_.structure, model_.contacts, point, arrival, kAtLimit);
+  record->concerned = on.concerned;
+  record->complete = on.complete;
+  for (const Way& way : on.ways)
+    record->ways.push_back({way.states, way.load_rate, way.dissipation_rate, way.turn});
+  if (on.ways.empty()) {
+    *message = on.complete ? "no admissible way on: the quasi-static path ends here" : "no admissible way on was found";
+    return false;
+  }
+  std::size_t taken = 0;
+  if (choice != nullptr) {
+    taken = static_cast<std::size_t>(choice->way - 1);
+    if (taken >= on.ways.size()) {
+      *message = "branch_choices names way " + std::to_string(choice->way) + ", but there are only " +
+                 std::to_string(on.ways.size());
+      return false;
+    }
+  }
+  record->taken = static_cast<int>(taken);
+  if (!Leave(point, on.ways[taken])) {
+    *message = "the way on from an event could not be followed";
+    return false;
+  }
+  return true;
+}
+
+std::optional<Segment> BranchMethod::Step(double length) {
+  const Eigen::VectorXd normal = current_.first.head(piece_.NumMotion());
+  const Eigen::VectorXd guess = current_.x + length * current_.first + 0.5 * length * length * current_.second;
+  const Correction correction = piece_.CorrectOnPlane(guess, normal);
+  if (!correction.converged || correction.first_step > options_.prediction * length + 1e-12) return std::nullopt;
+  CurvePoint end;
+  if (!piece_.Derivatives(correction.x, normal, &end)) return std::nullopt;
+  if (end.first.head(normal.size()).dot(normal) < options_.smallest_cosine) return std::nullopt;
+  return MakeSegment(current_, end, piece_.NumMotion());
+}
+
+Work BranchMethod::WorkOf(const Segment& segment) const {
+  // Gauss-Legendre with five points is exact for the products of a quintic and the derivative of another.
+  constexpr std::array<double, 5> kPoints = {0.046910077030668, 0.23076534494715845, 0.5, 0.76923465505284155,
+                                             0.953089922969332};
+  constexpr std::array<double, 5> kWeights = {0.11846344252809454, 0.23931433524968324, 0.28444444444444444,
+                                              0.23931433524968324, 0.11846344252809454};
+  const auto integrate = [&](const Quintic& force, const Quintic& position) {
+    const Quintic rate = Derivative(position);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < kPoints.size(); ++i) {
+      const double t = kPoints[i] * segment.length;
+      sum += kWeights[i] * Evaluate(force, t) * Evaluate(rate, t);
+    }
+    return sum * segment.length;
+  };
+  const FixedStateSystem& system = piece_.system();
+  const Eigen::Index nd = system.NumDofs();
+  Work work;
+  for (const Limit& limit : system.Inequalities()) {
+    if (limit.inequality != Inequality::kSlip) continue;
+    const Limit normal = {limit.contact, Inequality::kNormalReaction};
+    const auto interpolate = [&](const Limit& of) {
+      return segment.Interpolate([&](const Eigen::VectorXd& x) { return system.Value(of, x); },
+                                 [&](const Eigen::VectorXd& dx) { return system.Rate(of, dx); });
+    };
+    const double friction = model_.contacts[static_cast<std::size_t>(limit.contact)].friction;
+    work.friction += std::max(0.0, friction * integrate(interpolate(normal), interpolate(limit)));
+  }
+  const auto load = [&](const Eigen::VectorXd& x) { return x[nd]; };
+  const auto along = [&](const Eigen::VectorXd& x) { return model_.structure.ReferenceLoad().dot(x.head(nd)); };
+  work.loads = integrate(segment.Interpolate(load, load), segment.Interpolate(along, along)) +
+               model_.structure.ConstantLoad().dot((segment.end.x - segment.start.x).head(nd));
+  const double unit = model_.scaling.force * model_.scaling.length;
+  work.friction *= unit;
+  work.loads *= unit;
+  return work;
+}
+
+Advance BranchMethod::Next(const PathPoint& from, double longest) {
+  Advance advance;
+  const int factorisations_before = piece_.factorisations();
+  if (!started_) {
+    Arrival arrival;
+    arrival.is_start = true;
+    arrival.direction = Eigen::VectorXd::Unit(model_.structure.NumDofs() + 1, model_.structure.NumDofs());
+    arrival.direction *= options_.direction;
+    if (!PassEvent(from, arrival, ChoiceForRow(0), &start_, &advance.message)) {
+      advance.reason = EndReason::kPathEnd;
+      return advance;
+    }
+    started_ = true;
+  }
+
+  int rejected = 0;
+  std::optional<Segment> segment;
+  Watched watched;
+  double length = std::min(step_, longest);
+  for (;; ++rejected) {
+    if (length < options_.smallest_step) {
+      advance.reason = EndReason::kStepTooSmall;
+      advance.message = "no increment could be accepted, however short: Newton's method does not stay on the branch";
+      return advance;
+    }
+    segment = Step(length);
+    if (!segment) {
+      length *= 0.5;
+      continue;
+    }
+    watched = Watch(piece_.system(), *segment);
+    // Locate what happens first; the exact point may show something earlier.
+    bool located = watched.happening == Happening::kNone;
+    for (int attempt = 0; attempt < kLocatingAttempts && !located; ++attempt) {
+      const std::optional<CurvePoint> point = Locate(&piece_, *segment, watched);
+      if (!point) break;
+      Segment part = MakeSegment(segment->start, *point, piece_.NumMotion());
+      if (!(part.length > kNoMove)) {
+        part.length = 0.0;
+        segment = part;
+        located = true;
+        break;
+      }
+      const Watched earlier = Watch(piece_.system(), part);
+      const bool first = earlier.happening == Happening::kNone || earlier.t >= part.length - kNoMove ||
+                         earlier.happening == Happening::kBifurcation;
+      segment = part;
+      if (first)
+        located = true;
+      else
+        watched = earlier;
+    }
+    if (located) break;
+    length *= 0.5;
+  }
+
+  AcceptedPoint row;
+  row.point = piece_.system().Unpack(segment->end.x);
+  row.residuals = model_.Check(from, row.point);
+  row.solve.method = Method::kBranch;
+  row.solve.exact = true;
+  row.solve.variables = static_cast<int>(piece_.system().NumUnknowns());
+  row.solve.constraints = static_cast<int>(piece_.system().NumEquations());
+  row.solve.rejected = rejected;
+  row.solve.deficiency = static_cast<int>(segment->end.deficiency);
+  row.solve.determinant_sign = segment->end.determinant_sign;
+  if (!(std::max(row.residuals.equilibrium, row.residuals.Contact()) <= kAccepted)) {
+    advance.message = "the residuals of the next point are too large";
+    return advance;
+  }
+  const bool moved = segment->length > 0.0;
+  if (moved) {
+    row.arc_length = segment->ArcLength();
+    row.work = WorkOf(*segment);
+    events_in_place_ = 0;
+  } else if (++events_in_place_ > kMostEventsInPlace) {
+    advance.message = "contacts change their states again and again in one place";
+    return advance;
+  }
+  const CurvePoint end = segment->end;
+  const double load_rate = end.first[piece_.NumMotion() - 1];
+  current_ = end;
+  advance.ended = false;
+  ++rows_;
+
+  const BranchChoice* forced = ChoiceForRow(rows_);
+  if (watched.happening == Happening::kEvent || forced != nullptr) {
+    Arrival arrival;
+    arrival.direction = end.first.head(piece_.NumMotion());
+    const BranchChoice* choice = forced != nullptr ? forced : ChoiceForEvent(++events_);
+    if (!PassEvent(row.point, arrival, choice, &row.event, &advance.message)) {
+      advance.ended = true;
+      advance.reason = EndReason::kPathEnd;
+    } else {
+      const double leaving = current_.first[piece_.NumMotion() - 1];
+      const bool turns = load_rate * leaving < 0.0 && std::min(std::abs(load_rate), std::abs(leaving)) > kLevel;
+      row.kind = turns ? RowKind::kCornerLimit : RowKind::kContactEvent;
+    }
+  } else if (watched.happening == Happening::kLimitPoint) {
+    row.kind = RowKind::kSmoothLimit;
+  } else if (watched.happening == Happening::kBifurcation) {
+    row.kind = RowKind::kBifurcation;
+  }
+  // The next step: as long as wanted unless this one had to be shortened.
+  step_ = std::min(options_.step, rejected > 0 ? 1.5 * length : 2.0 * step_);
+  row.solve.factorisations = piece_.factorisations() - factorisations_before;
+  advance.rows.push_back(std::move(row));
+  return advance;
+}
+
+}  // namespace contact_path

@@ -1,0 +1,150 @@
+#include "contact_path/ros/bag_recorder.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstddef>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include <rosbag/bag.h>
+
+#include "contact_path/ros/names.h"
+#include "contact_path/ros/stamp.h"
+
+namespace contact_path {
+namespace {
+
+constexpr std::size_t kMaxNamePart = 64;
+constexpr std::uint32_t kChunkBytes = 16 * 1024;
+constexpr char kExtension[] = ".bag";
+
+bool IsDigit(char c) { return c >= '0' && c <= '9'; }
+bool IsLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+
+// The number that a bag's name starts with; 0 for a file of another name.
+std::uint32_t NumberOf(const std::filesystem::path& path) {
+  constexpr std::size_t kMaxDigits = 9;  // fits 32 bits
+  const std::string name = path.filename().string();
+  const std::size_t digits = std::min(name.find('_'), name.size());
+  const bool numbered = digits > 0 && digits <= kMaxDigits && digits < name.size() &&
+                        std::all_of(name.begin(), name.begin() + static_cast<std::ptrdiff_t>(digits), IsDigit);
+  return numbered && path.extension() == kExtension ? static_cast<std::uint32_t>(std::stoul(name)) : 0;
+}
+
+std::string FileName(std::uint32_t number, const std::string& part) {
+  const std::string digits = std::to_string(number);
+  return std::string(digits.size() < 6 ? 6 - digits.size() : 0, '0') + digits + "_" + part + kExtension;
+}
+
+// Keeps a bag that cannot be closed: its destructor would try again, and end the program by throwing.
+void Abandon(std::unique_ptr<rosbag::Bag> bag) {
+  static auto* const abandoned = new std::vector<std::unique_ptr<rosbag::Bag>>;
+  abandoned->push_back(std::move(bag));
+}
+
+}  // namespace
+
+std::string FileNamePart(const std::string& scene_name) {
+  std::string part = scene_name.substr(0, kMaxNamePart);
+  for (char& c : part) {
+    if (!IsDigit(c) && !IsLetter(c) && c != '-') c = '_';
+  }
+  return part.empty() ? "scene" : part;
+}
+
+BagRecorder::BagRecorder(const std::filesystem::path& directory, const std::string& scene_name,
+                         const std::string& topic_prefix, std::uintmax_t reserve)
+    : directory_(directory), topic_prefix_(topic_prefix), reserve_(reserve), bag_(std::make_unique<rosbag::Bag>()) {
+  try {
+    std::filesystem::create_directories(directory_);
+    CheckSpace();
+    CreateFile(scene_name);
+    bag_->setChunkThreshold(kChunkBytes);
+    bag_->open((directory_ / file_name_).string(), rosbag::bagmode::Write);
+  } catch (const std::filesystem::filesystem_error& error) {
+    throw BagError("bag directory " + directory_.string() + ": " + error.code().message());
+  } catch (const rosbag::BagException& error) {
+    Abandon(std::move(bag_));
+    throw BagError("bag " + (directory_ / file_name_).string() + " cannot be opened: " + error.what());
+  }
+}
+
+BagRecorder::~BagRecorder() {
+  try {
+    Close();
+  } catch (const BagError&) {
+    // A caller that wants to know calls Close().
+  }
+}
+
+void BagRecorder::WriteRequest(const contact_path_msgs::TraceRequest& request) {
+  CheckSpace();
+  Write(names::kRequest, request);
+}
+
+void BagRecorder::WriteIncrement(const contact_path_msgs::Increment& increment) {
+  CheckSpace();
+  Write(names::kIncrements, increment);
+}
+
+void BagRecorder::WriteResult(const contact_path_msgs::TraceResult& result) { Write(names::kResult, result); }
+
+void BagRecorder::Close() {
+  if (!bag_) return;
+  std::unique_ptr<rosbag::Bag> bag = std::move(bag_);
+  try {
+    bag->close();
+  } catch (const rosbag::BagException& error) {
+    Abandon(std::move(bag));
+    throw BagError("bag " + file_name_ + " cannot be closed, `rosbag reindex` restores what it holds: " + error.what());
+  }
+}
+
+void BagRecorder::CreateFile(const std::string& scene_name) {
+  for (const auto& entry : std::filesystem::directory_iterator(directory_)) {
+    number_ = std::max(number_, NumberOf(entry.path()));
+  }
+  const std::string part = FileNamePart(scene_name);
+  for (;;) {
+    ++number_;
+    file_name_ = FileName(number_, part);
+    // Fails for a file that another program has created meanwhile.
+    const int file = ::open((directory_ / file_name_).c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+    if (file >= 0) {
+      ::close(file);
+      return;
+    }
+    if (errno != EEXIST) {
+      const std::error_code code(errno, std::generic_category());
+      throw BagError("bag " + (directory_ / file_name_).string() + " cannot be created: " + code.message());
+    }
+  }
+}
+
+void BagRecorder::CheckSpace() const {
+  std::error_code error;
+  const std::filesystem::space_info space = std::filesystem::space(directory_, error);
+  if (error) throw BagError("bag directory " + directory_.string() + ": " + error.message());
+  if (space.available < reserve_) {
+    throw BagError("bag directory " + directory_.string() + ": " + std::to_string(space.available) +
+                   " bytes are free, but " + std::to_string(reserve_) + " are to be kept");
+  }
+}
+
+template <typename Message>
+void BagRecorder::Write(const char* topic, const Message& message) {
+  if (!bag_) throw BagError("bag " + file_name_ + " is closed");
+  // Readers sort by time: the order must survive clocks that stand still or jump back.
+  last_stamp_ = std::max(StampNow(), last_stamp_ + ros::Duration(0, 1));
+  try {
+    bag_->write(topic_prefix_ + "/" + topic, last_stamp_, message);
+  } catch (const rosbag::BagException& error) {
+    throw BagError("bag " + file_name_ + " cannot be written: " + error.what());
+  }
+}
+
+}  // namespace contact_path

@@ -1,0 +1,304 @@
+#include "contact_path/ros/convert.h"
+
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "contact_path/scene/validate.h"
+
+namespace contact_path {
+namespace {
+
+namespace msgs = contact_path_msgs;
+using Response = msgs::TracePathResponse;
+
+// A type of the core and the message constants of its values, one pair each.
+template <typename Value, std::size_t kSize>
+using Table = std::array<std::pair<Value, std::uint8_t>, kSize>;
+
+constexpr Table<ContactState, 5> kContactStates{{
+    {ContactState::kOpen, msgs::ContactState::OPEN},
+    {ContactState::kStick, msgs::ContactState::STICK},
+    {ContactState::kSlipPlus, msgs::ContactState::SLIP_PLUS},
+    {ContactState::kSlipMinus, msgs::ContactState::SLIP_MINUS},
+    {ContactState::kClosed, msgs::ContactState::CLOSED},
+}};
+
+constexpr Table<RowKind, 6> kRowKinds{{
+    {RowKind::kStart, msgs::Increment::START},
+    {RowKind::kRegular, msgs::Increment::REGULAR},
+    {RowKind::kSmoothLimit, msgs::Increment::SMOOTH_LIMIT},
+    {RowKind::kCornerLimit, msgs::Increment::CORNER_LIMIT},
+    {RowKind::kContactEvent, msgs::Increment::CONTACT_EVENT},
+    {RowKind::kBifurcation, msgs::Increment::BIFURCATION},
+}};
+
+constexpr Table<Method, 2> kMethods{{
+    {Method::kBranch, msgs::Increment::BRANCH},
+    {Method::kMpec, msgs::Increment::MPEC},
+}};
+
+constexpr Table<EndReason, 6> kEndReasons{{
+    {EndReason::kNumericalFailure, Response::END_NUMERICAL_FAILURE},
+    {EndReason::kStopCriterion, Response::END_STOP_CRITERION},
+    {EndReason::kMaxIncrements, Response::END_MAX_INCREMENTS},
+    {EndReason::kPathEnd, Response::END_PATH_END},
+    {EndReason::kStepTooSmall, Response::END_STEP_TOO_SMALL},
+    {EndReason::kCancelled, Response::END_CANCELLED},
+}};
+
+template <typename Value, std::size_t kSize>
+std::uint8_t ConstantOf(const Table<Value, kSize>& table, Value value) {
+  for (const auto& [known, constant] : table) {
+    if (known == value) return constant;
+  }
+  throw std::logic_error("a value of the core has no message constant");
+}
+
+template <typename Value, std::size_t kSize>
+Value ValueOf(const Table<Value, kSize>& table, std::uint8_t constant, const std::string& field) {
+  for (const auto& [value, known] : table) {
+    if (known == constant) return value;
+  }
+  throw std::invalid_argument(field + " = " + std::to_string(constant) + ": no known constant");
+}
+
+std::uint32_t ToCount(int count) { return static_cast<std::uint32_t>(count); }
+
+int FromCount(std::uint32_t count, const std::string& field) {
+  if (count > static_cast<std::uint32_t>(std::numeric_limits<int>::max())) {
+    throw std::invalid_argument(field + " = " + std::to_string(count) + ": too large");
+  }
+  return static_cast<int>(count);
+}
+
+// The word's value; for a word that is not known the default, and a violation.
+template <typename Value>
+Value Known(std::optional<Value> parsed, const std::string& key, const std::string& word, const std::string& rule,
+            std::vector<Violation>* violations) {
+  if (parsed) return *parsed;
+  Violation violation;
+  violation.key = key;
+  violation.value = word;
+  violation.rule = rule;
+  violations->push_back(violation);
+  return Value{};
+}
+
+std::string Key(const std::string& list, std::size_t index, const std::string& field) {
+  return list + "[" + std::to_string(index) + "]." + field;
+}
+
+}  // namespace
+
+TraceRequest FromMessage(const msgs::Scene& scene, const msgs::TraceOptions& options) {
+  TraceRequest request;
+  std::vector<Violation> violations;
+
+  request.scene.name = scene.name;
+  for (const msgs::Node& node : scene.nodes) {
+    request.scene.nodes.push_back({node.name, node.x, node.y, node.fixed_x != 0, node.fixed_y != 0});
+  }
+  for (std::size_t i = 0; i < scene.bars.size(); ++i) {
+    const msgs::Bar& bar = scene.bars[i];
+    const StrainMeasure strain = Known(ParseStrainMeasure(bar.strain), Key("scene.bars", i, "strain"), bar.strain,
+                                       "must be biot, green_lagrange or logarithmic", &violations);
+    request.scene.bars.push_back({bar.nodes, bar.EA, bar.rest_length, strain});
+  }
+  for (const msgs::Superelement& superelement : scene.superelements) {
+    request.scene.superelements.push_back({superelement.nodes, superelement.stiffness});
+  }
+  for (const msgs::Load& load : scene.loads) {
+    request.scene.loads.push_back({load.node, load.fx, load.fy, load.constant != 0});
+  }
+  for (std::size_t i = 0; i < scene.obstacles.size(); ++i) {
+    const msgs::Obstacle& obstacle = scene.obstacles[i];
+    const ObstacleShape shape = Known(ParseObstacleShape(obstacle.shape), Key("scene.obstacles", i, "shape"),
+                                      obstacle.shape, "must be half_plane", &violations);
+    request.scene.obstacles.push_back({obstacle.name, shape, obstacle.px, obstacle.py, obstacle.nx, obstacle.ny,
+                                       obstacle.friction});
+  }
+  for (const msgs::Contact& contact : scene.contacts) {
+    request.scene.contacts.push_back({contact.node, contact.obstacle});
+  }
+
+  request.options.method = Known(ParseMethod(options.method), "options.method", options.method,
+                                 "must be branch or mpec", &violations);
+  request.options.accuracy = Known(ParseAccuracy(options.accuracy), "options.accuracy", options.accuracy,
+                                   "must be fast, balanced or accurate", &violations);
+  request.options.direction = options.direction;
+  request.options.step = options.step;
+  request.options.max_increments = options.max_increments;
+  for (const msgs::StopCriterion& stop : options.stop) {
+    request.options.stop.push_back({stop.quantity, stop.when, stop.value});
+  }
+
+  if (!violations.empty()) throw InvalidRequest(violations);
+  return request;
+}
+
+msgs::TraceRequest ToMessage(const TraceRequest& request) {
+  msgs::TraceRequest message;
+  message.scene.name = request.scene.name;
+  for (const Node& node : request.scene.nodes) {
+    msgs::Node& to = message.scene.nodes.emplace_back();
+    to.name = node.name;
+    to.x = node.x;
+    to.y = node.y;
+    to.fixed_x = node.fixed_x;
+    to.fixed_y = node.fixed_y;
+  }
+  for (const Bar& bar : request.scene.bars) {
+    msgs::Bar& to = message.scene.bars.emplace_back();
+    to.nodes = bar.nodes;
+    to.EA = bar.EA;
+    to.rest_length = bar.rest_length;
+    to.strain = ToString(bar.strain);
+  }
+  for (const Superelement& superelement : request.scene.superelements) {
+    msgs::Superelement& to = message.scene.superelements.emplace_back();
+    to.nodes = superelement.nodes;
+    to.stiffness = superelement.stiffness;
+  }
+  for (const Load& load : request.scene.loads) {
+    msgs::Load& to = message.scene.loads.emplace_back();
+    to.node = load.node;
+    to.fx = load.fx;
+    to.fy = load.fy;
+    to.constant = load.constant;
+  }
+  for (const Obstacle& obstacle : request.scene.obstacles) {
+    msgs::Obstacle& to = message.scene.obstacles.emplace_back();
+    to.name = obstacle.name;
+    to.shape = ToString(obstacle.shape);
+    to.px = obstacle.px;
+    to.py = obstacle.py;
+    to.nx = obstacle.nx;
+    to.ny = obstacle.ny;
+    to.friction = obstacle.friction;
+  }
+  for (const ContactCandidate& contact : request.scene.contacts) {
+    msgs::Contact& to = message.scene.contacts.emplace_back();
+    to.node = contact.node;
+    to.obstacle = contact.obstacle;
+  }
+  message.options.method = ToString(request.options.method);
+  message.options.accuracy = ToString(request.options.accuracy);
+  message.options.direction = request.options.direction;
+  message.options.step = request.options.step;
+  message.options.max_increments = request.options.max_increments;
+  for (const StopCriterion& stop : request.options.stop) {
+    msgs::StopCriterion& to = message.options.stop.emplace_back();
+    to.quantity = stop.quantity;
+    to.when = stop.when;
+    to.value = stop.value;
+  }
+  return message;
+}
+
+msgs::Increment ToMessage(const Increment& increment) {
+  msgs::Increment message;
+  message.index = ToCount(increment.index);
+  message.load_factor = increment.load_factor;
+  message.arc_length = increment.arc_length;
+  message.kind = ConstantOf(kRowKinds, increment.kind);
+  for (std::size_t i = 0; i + 1 < increment.positions.size(); i += 2) {
+    message.x.push_back(increment.positions[i]);
+    message.y.push_back(increment.positions[i + 1]);
+  }
+  for (const ContactRecord& contact : increment.contacts) {
+    msgs::ContactState& to = message.contacts.emplace_back();
+    to.gap = contact.gap;
+    to.rn = contact.rn;
+    to.rt = contact.rt;
+    to.state = ConstantOf(kContactStates, contact.state);
+  }
+  message.dissipation = increment.dissipation;
+  message.strain_energy = increment.strain_energy;
+  message.external_work = increment.external_work;
+  message.equilibrium_residual = increment.residuals.equilibrium;
+  message.penetration_residual = increment.residuals.penetration;
+  message.adhesion_residual = increment.residuals.adhesion;
+  message.min_form_residual = increment.residuals.complementarity;
+  message.cone_residual = increment.residuals.cone;
+  message.friction_law_residual = increment.residuals.friction_law;
+  message.complementarity_residual = increment.residuals.Contact();
+  message.method = ConstantOf(kMethods, increment.solve.method);
+  message.regularisation = increment.solve.regularisation;
+  message.exact = increment.solve.exact;
+  message.iterations = ToCount(increment.solve.iterations);
+  message.variables = ToCount(increment.solve.variables);
+  message.constraints = ToCount(increment.solve.constraints);
+  message.rejected = ToCount(increment.solve.rejected);
+  message.solve_time = increment.solve.time;
+  return message;
+}
+
+Increment FromMessage(const msgs::Increment& message) {
+  if (message.x.size() != message.y.size()) {
+    throw std::invalid_argument("x has " + std::to_string(message.x.size()) + " numbers, y has " +
+                                std::to_string(message.y.size()));
+  }
+  Increment increment;
+  increment.index = FromCount(message.index, "index");
+  increment.load_factor = message.load_factor;
+  increment.arc_length = message.arc_length;
+  increment.kind = ValueOf(kRowKinds, message.kind, "kind");
+  for (std::size_t i = 0; i < message.x.size(); ++i) {
+    increment.positions.push_back(message.x[i]);
+    increment.positions.push_back(message.y[i]);
+  }
+  for (std::size_t i = 0; i < message.contacts.size(); ++i) {
+    const msgs::ContactState& contact = message.contacts[i];
+    const ContactState state = ValueOf(kContactStates, contact.state, Key("contacts", i, "state"));
+    increment.contacts.push_back({contact.gap, contact.rn, contact.rt, state});
+  }
+  increment.dissipation = message.dissipation;
+  increment.strain_energy = message.strain_energy;
+  increment.external_work = message.external_work;
+  increment.residuals.equilibrium = message.equilibrium_residual;
+  increment.residuals.penetration = message.penetration_residual;
+  increment.residuals.adhesion = message.adhesion_residual;
+  increment.residuals.complementarity = message.min_form_residual;
+  increment.residuals.cone = message.cone_residual;
+  increment.residuals.friction_law = message.friction_law_residual;
+  increment.solve.method = ValueOf(kMethods, message.method, "method");
+  increment.solve.regularisation = message.regularisation;
+  increment.solve.exact = message.exact != 0;
+  increment.solve.iterations = FromCount(message.iterations, "iterations");
+  increment.solve.variables = FromCount(message.variables, "variables");
+  increment.solve.constraints = FromCount(message.constraints, "constraints");
+  increment.solve.rejected = FromCount(message.rejected, "rejected");
+  increment.solve.time = message.solve_time;
+  return increment;
+}
+
+std::uint8_t ToConstant(EndReason reason) { return ConstantOf(kEndReasons, reason); }
+
+std::string EndReasonName(std::uint8_t end_reason) {
+  if (end_reason == Response::END_NONE) return "";
+  if (end_reason == Response::END_TIME_LIMIT) return "time_limit";
+  return std::string(ToString(ValueOf(kEndReasons, end_reason, "end_reason")));
+}
+
+std::uint8_t StatusOf(EndReason reason) {
+  const bool as_asked = reason == EndReason::kStopCriterion || reason == EndReason::kMaxIncrements;
+  return as_asked ? Response::OK : Response::ENDED_EARLY;
+}
+
+msgs::TraceResult ToResult(const msgs::TracePathResponse& response) {
+  msgs::TraceResult result;
+  result.status = response.status;
+  result.message = response.message;
+  result.increments = response.increments;
+  result.end_reason = response.end_reason;
+  result.end_reason_name = response.end_reason_name;
+  result.bag = response.bag;
+  return result;
+}
+
+}  // namespace contact_path

@@ -1,0 +1,72 @@
+#include "contact_path/ros/limits.h"
+
+#include <cmath>
+#include <cstddef>
+#include <stdexcept>
+
+#include "contact_path/ros/names.h"
+#include "contact_path/scene/scene.h"
+
+namespace contact_path {
+namespace {
+
+void CheckPositive(const std::string& name, int value) {
+  if (value <= 0) throw std::invalid_argument("~" + name + " = " + std::to_string(value) + ": must be > 0");
+}
+
+std::size_t StiffnessEntries(const contact_path_msgs::Scene& scene) {
+  std::size_t entries = 0;
+  for (const contact_path_msgs::Superelement& superelement : scene.superelements) {
+    entries += superelement.stiffness.size();
+  }
+  return entries;
+}
+
+std::size_t IncrementsWanted(const contact_path_msgs::TraceOptions& options) {
+  TraceOptions core_options;
+  core_options.max_increments = options.max_increments;
+  return options.max_increments < 0 ? 0 : static_cast<std::size_t>(core_options.MaxIncrements());
+}
+
+}  // namespace
+
+void TraceLimits::Validate() const {
+  CheckPositive(names::kMaxNodes, max_nodes);
+  CheckPositive(names::kMaxElements, max_elements);
+  CheckPositive(names::kMaxContacts, max_contacts);
+  CheckPositive(names::kMaxIncrements, max_increments);
+  if (!(max_seconds >= 0.0) || std::isinf(max_seconds)) {
+    throw std::invalid_argument("~" + std::string(names::kMaxSeconds) + " = " + std::to_string(max_seconds) +
+                                ": must be finite and >= 0");
+  }
+}
+
+std::string ExceededLimit(const contact_path_msgs::Scene& scene, const contact_path_msgs::TraceOptions& options,
+                          const TraceLimits& limits) {
+  struct Row {
+    const char* what;
+    std::size_t value;
+    const char* limit_name;
+    int limit;
+  };
+  const Row rows[] = {
+      {"scene.nodes", scene.nodes.size(), names::kMaxNodes, limits.max_nodes},
+      {"scene.bars", scene.bars.size(), names::kMaxElements, limits.max_elements},
+      {"scene.superelements", scene.superelements.size(), names::kMaxElements, limits.max_elements},
+      {"stiffness entries of scene.superelements", StiffnessEntries(scene), names::kMaxElements, limits.max_elements},
+      {"scene.loads", scene.loads.size(), names::kMaxElements, limits.max_elements},
+      {"scene.obstacles", scene.obstacles.size(), names::kMaxContacts, limits.max_contacts},
+      {"scene.contacts", scene.contacts.size(), names::kMaxContacts, limits.max_contacts},
+      {"options.stop", options.stop.size(), names::kMaxContacts, limits.max_contacts},
+      {"options.max_increments", IncrementsWanted(options), names::kMaxIncrements, limits.max_increments},
+  };
+  for (const Row& row : rows) {
+    if (row.value > static_cast<std::size_t>(row.limit)) {
+      return std::string(row.what) + ": " + std::to_string(row.value) + ", but the node admits " +
+             std::to_string(row.limit) + " (~" + row.limit_name + ")";
+    }
+  }
+  return "";
+}
+
+}  // namespace contact_path

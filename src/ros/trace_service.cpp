@@ -1,0 +1,255 @@
+#include "contact_path/ros/trace_service.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <sstream>
+#include <stdexcept>
+#include <vector>
+
+#include "contact_path/ros/convert.h"
+#include "contact_path/ros/names.h"
+#include "contact_path/ros/stamp.h"
+#include "contact_path/scene/validate.h"
+
+namespace contact_path {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::milliseconds kStatusPeriod{200};
+
+// Leaves `value` as it is where the parameter is not set.
+template <typename Value>
+void ReadParameter(const ros::NodeHandle& node, const char* name, const char* type, Value* value) {
+  if (node.hasParam(name) && !node.getParam(name, *value)) {
+    throw std::invalid_argument("~" + std::string(name) + ": must be " + type);
+  }
+}
+
+std::string HomeDirectory() {
+  const char* const home = std::getenv("HOME");
+  return home != nullptr ? home : ".";
+}
+
+std::string DefaultBagDirectory() {
+  const char* const ros_home = std::getenv("ROS_HOME");
+  return (ros_home != nullptr ? std::string(ros_home) : HomeDirectory() + "/.ros") + "/contact_path";
+}
+
+std::string InSeconds(double seconds) {
+  std::ostringstream text;
+  text << seconds << " s";
+  return text.str();
+}
+
+}  // namespace
+
+NodeParameters ReadParameters(const ros::NodeHandle& private_node) {
+  NodeParameters parameters;
+  std::string directory;
+  ReadParameter(private_node, names::kBagDirectory, "a string", &directory);
+  ReadParameter(private_node, names::kIncrementsQueue, "an integer", &parameters.increments_queue);
+  ReadParameter(private_node, names::kMaxNodes, "an integer", &parameters.limits.max_nodes);
+  ReadParameter(private_node, names::kMaxElements, "an integer", &parameters.limits.max_elements);
+  ReadParameter(private_node, names::kMaxContacts, "an integer", &parameters.limits.max_contacts);
+  ReadParameter(private_node, names::kMaxIncrements, "an integer", &parameters.limits.max_increments);
+  ReadParameter(private_node, names::kMaxSeconds, "a number", &parameters.limits.max_seconds);
+
+  if (directory.empty()) directory = DefaultBagDirectory();
+  if (directory == "~" || directory.rfind("~/", 0) == 0) directory = HomeDirectory() + directory.substr(1);
+  parameters.bag_directory = std::filesystem::absolute(directory).string();
+  if (parameters.increments_queue <= 0) {
+    throw std::invalid_argument("~" + std::string(names::kIncrementsQueue) + " = " +
+                                std::to_string(parameters.increments_queue) + ": must be > 0");
+  }
+  parameters.limits.Validate();
+  return parameters;
+}
+
+TraceService::TraceService(ros::NodeHandle private_node, const NodeParameters& parameters)
+    : parameters_(parameters), topic_prefix_(private_node.getNamespace()) {
+  increments_publisher_ = private_node.advertise<contact_path_msgs::Increment>(
+      names::kIncrements, static_cast<std::uint32_t>(parameters_.increments_queue));
+  status_publisher_ = private_node.advertise<contact_path_msgs::TraceStatus>(names::kStatus, 10, /*latch=*/true);
+  PublishStatus();
+  trace_server_ = private_node.advertiseService(names::kTrace, &TraceService::HandleTrace, this);
+  cancel_server_ = private_node.advertiseService(names::kCancel, &TraceService::HandleCancel, this);
+}
+
+void TraceService::Shutdown() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  shutting_down_ = true;
+  RequestStop(StopCause::kShutdown);
+}
+
+bool TraceService::HandleTrace(Request& request, Response& response) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (shutting_down_) {
+      response.status = Response::SHUTTING_DOWN;
+      response.message = "the node is being shut down";
+      return true;
+    }
+    if (running_) {
+      response.status = Response::BUSY;
+      response.message = "the node is tracing \"" + running_scene_ + "\": call ~cancel or wait for its end";
+      return true;
+    }
+    running_ = true;
+    running_scene_ = request.scene.name;
+    stop_cause_ = StopCause::kNone;
+  }
+
+  try {
+    Serve(request, &response);
+  } catch (const std::exception& error) {
+    response.status = Response::FAILED;
+    response.message = error.what();
+  }
+  if (response.status != Response::OK) {
+    ROS_WARN("trace of \"%s\": %s", request.scene.name.c_str(), response.message.c_str());
+  }
+
+  // Whoever sees the status or the answer finds the node ready for the next request.
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!response.bag.empty()) PublishEnd(response);
+  running_ = false;
+  return true;
+}
+
+bool TraceService::HandleCancel(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (running_) RequestStop(StopCause::kCancel);
+  response.success = running_;
+  response.message = running_ ? "cancelling the trace of \"" + running_scene_ + "\"" : "no trace is running";
+  return true;
+}
+
+void TraceService::Serve(const Request& request, Response* response) {
+  const std::string exceeded = ExceededLimit(request.scene, request.options, parameters_.limits);
+  if (!exceeded.empty()) {
+    response->status = Response::LIMIT_EXCEEDED;
+    response->message = exceeded;
+    return;
+  }
+
+  TraceRequest core_request;
+  try {
+    core_request = FromMessage(request.scene, request.options);
+    const std::vector<Violation> violations = Validate(core_request);
+    if (!violations.empty()) throw InvalidRequest(violations);
+  } catch (const InvalidRequest& error) {
+    response->status = Response::INVALID_REQUEST;
+    response->message = error.what();
+    return;
+  }
+
+  std::unique_ptr<BagRecorder> bag;
+  try {
+    bag = std::make_unique<BagRecorder>(parameters_.bag_directory, request.scene.name, topic_prefix_);
+    contact_path_msgs::TraceRequest recorded;
+    recorded.scene = request.scene;
+    recorded.options = request.options;
+    bag->WriteRequest(recorded);
+  } catch (const BagError& error) {
+    response->status = Response::BAG_FAILED;
+    response->message = error.what();
+    return;
+  }
+  response->bag = bag->file_name();
+
+  status_ = contact_path_msgs::TraceStatus();
+  status_.state = contact_path_msgs::TraceStatus::RUNNING;
+  status_.trace_id = bag->number();
+  status_.scene = request.scene.name;
+  status_.bag = response->bag;
+  PublishStatus();
+
+  RunTrace(core_request, bag.get(), response);
+  response->increments = status_.increments;
+  response->end_reason_name = EndReasonName(response->end_reason);
+  try {
+    bag->WriteResult(ToResult(*response));
+    bag->Close();
+  } catch (const BagError& error) {
+    if (response->status != Response::BAG_FAILED) {
+      response->status = Response::BAG_FAILED;
+      response->message = error.what();
+    }
+  }
+}
+
+void TraceService::RunTrace(const TraceRequest& request, BagRecorder* bag, Response* response) {
+  const Clock::time_point start = Clock::now();
+  TraceControl control;
+  control.on_increment = [this, bag](const Increment& increment) { TakeIncrement(increment, bag); };
+  control.cancelled = [this, start] { return StopWanted(start); };
+  try {
+    const TraceResult result = Trace(request, control);
+    response->status = StatusOf(result.reason);
+    response->end_reason = ToConstant(result.reason);
+    response->message = result.message;
+    if (result.reason != EndReason::kCancelled) return;
+    if (stop_cause_ == StopCause::kTimeLimit) {
+      response->end_reason = Response::END_TIME_LIMIT;
+      response->message = "time limit: the node admits " + InSeconds(parameters_.limits.max_seconds) + " (~" +
+                          names::kMaxSeconds + ")";
+    } else if (stop_cause_ == StopCause::kShutdown) {
+      response->status = Response::SHUTTING_DOWN;
+      response->message = "cut short: the node is being shut down";
+    }
+  } catch (const BagError& error) {
+    response->status = Response::BAG_FAILED;
+    response->message = error.what();
+  } catch (const std::exception& error) {
+    response->status = Response::FAILED;
+    response->message = error.what();
+  }
+}
+
+void TraceService::TakeIncrement(const Increment& increment, BagRecorder* bag) {
+  contact_path_msgs::Increment message = ToMessage(increment);
+  message.header.stamp = StampNow();
+  // What the publisher makes of it on the wire: the recorded message is the one that subscribers get.
+  message.header.seq = increments_published_;
+  message.trace_id = status_.trace_id;
+  bag->WriteIncrement(message);
+  increments_publisher_.publish(message);
+  ++increments_published_;
+
+  ++status_.increments;
+  status_.load_factor = increment.load_factor;
+  status_.arc_length = increment.arc_length;
+  if (Clock::now() - status_time_ >= kStatusPeriod) PublishStatus();
+}
+
+void TraceService::PublishStatus() {
+  status_.stamp = StampNow();
+  status_publisher_.publish(status_);
+  status_time_ = Clock::now();
+}
+
+void TraceService::PublishEnd(const Response& response) {
+  status_.state = contact_path_msgs::TraceStatus::ENDED;
+  status_.status = response.status;
+  status_.end_reason = response.end_reason;
+  status_.end_reason_name = response.end_reason_name;
+  status_.message = response.message;
+  PublishStatus();
+}
+
+void TraceService::RequestStop(StopCause cause) {
+  StopCause none = StopCause::kNone;
+  stop_cause_.compare_exchange_strong(none, cause);
+}
+
+bool TraceService::StopWanted(Clock::time_point start) {
+  if (!ros::ok()) RequestStop(StopCause::kShutdown);
+  const double limit = parameters_.limits.max_seconds;
+  const std::chrono::duration<double> elapsed = Clock::now() - start;
+  if (limit > 0.0 && elapsed.count() > limit) RequestStop(StopCause::kTimeLimit);
+  return stop_cause_ != StopCause::kNone;
+}
+
+}  // namespace contact_path
