@@ -13,6 +13,7 @@ constexpr double kNearShare = 0.05;      // of the difference of quintic and cub
 constexpr double kRateZero = 1e-13;      // of a unit rate
 constexpr int kNewtonIterations = 25;
 constexpr int kBisections = 60;
+constexpr double kBifurcationWidth = 1e-10;  // relative to the step
 
 // The function of an inequality that must stay >= 0: its value, or for slip its rate.
 Quintic FunctionOf(const FixedStateSystem& system, const Segment& segment, const Limit& limit) {
@@ -55,18 +56,21 @@ std::optional<CurvePoint> LocateRate(SmoothPiece* piece, const Segment& segment,
   return point;
 }
 
-std::optional<CurvePoint> LocateBifurcation(SmoothPiece* piece, const Segment& segment) {
-  double good = 0.0, beyond = segment.length;
-  std::optional<CurvePoint> best = segment.start;
-  for (int i = 0; i < kBisections && beyond - good > 1e-13 * segment.length; ++i) {
-    const double t = 0.5 * (good + beyond);
+CurvePoint LocateBifurcation(SmoothPiece* piece, const Segment& segment) {
+  double before = 0.0, beyond = segment.length;
+  for (int i = 0; i < kBisections && beyond - before > kBifurcationWidth * segment.length; ++i) {
+    const double t = 0.5 * (before + beyond);
     const std::optional<CurvePoint> point = PointAt(piece, segment, t);
-    if (!point) break;
-    best = point;
-    if (point->determinant_sign == 0) break;
-    (point->determinant_sign == segment.start.determinant_sign ? good : beyond) = t;
+    if (!point || point->determinant_sign == 0) {  // singular to rounding: this is it
+      before = beyond = t;
+      break;
+    }
+    (point->determinant_sign == segment.start.determinant_sign ? before : beyond) = t;
   }
-  return best;
+  // The equations are singular here: the interpolation is more exact than a correction.
+  CurvePoint point = segment.At(0.5 * (before + beyond));
+  point.determinant_sign = 0;
+  return point;
 }
 
 }  // namespace

@@ -87,8 +87,10 @@ class Finder {
   Eigen::Index NumMotion() const { return system_.NumDofs() + 1; }
 
   // The direction of the piece: of the null space, what is neither a rigid mode (no change of load and reactions) nor a
-  // redundant reaction (no motion). A mechanism has rigid modes only: then the one nearest to the arrival.
-  std::optional<Eigen::VectorXd> Tangent() const {
+  // redundant reaction (no motion). A mechanism has rigid modes only: with one of them it moves that way, with more it is
+  // loose, and the one nearest to the arrival stands for all.
+  std::optional<Eigen::VectorXd> Tangent() {
+    loose_ = false;
     const Eigen::MatrixXd null_space = solver_.NullSpace();
     const Eigen::Index motion = NumMotion();
     Eigen::VectorXd tangent;
@@ -109,6 +111,7 @@ class Finder {
       }
       const Eigen::MatrixXd& candidates = proper.cols() > 0 ? proper : rigid;
       if (candidates.cols() == 0) return std::nullopt;
+      loose_ = proper.cols() == 0 && rigid.cols() > 1;
       if (candidates.cols() == 1)
         tangent = candidates.col(0);
       else  // nearest to the arrival
@@ -140,6 +143,7 @@ class Finder {
     const Eigen::Index n = NumMotion();
     Way way;
     way.states = system_.states();
+    way.loose = loose_;
     way.direction = first.head(n);
     for (const Way& other : *ways)
       if ((other.direction - way.direction).norm() < kSameDirection) return;
@@ -162,10 +166,22 @@ class Finder {
   FixedStateSystem system_;
   Eigen::VectorXd reference_;
   MinimumNormSolver solver_;
+  bool loose_ = false;  // of the last tangent
 };
+
+// Two ways with the same rates are images of each other under a symmetry of the scene, and break it.
+void FindTwins(std::vector<Way>* ways) {
+  const auto same = [](double a, double b) { return std::abs(a - b) <= kRateTolerance; };
+  for (Way& a : *ways)
+    for (Way& b : *ways)
+      if (&a != &b && same(a.dissipation_rate, b.dissipation_rate) && same(a.load_rate, b.load_rate) &&
+          same(std::cos(a.turn), std::cos(b.turn)))
+        a.has_twin = true;
+}
 
 bool Better(const Way& a, const Way& b) {
   if (std::abs(a.dissipation_rate - b.dissipation_rate) > kRateTolerance) return a.dissipation_rate > b.dissipation_rate;
+  if (a.has_twin != b.has_twin) return b.has_twin;
   return a.turn < b.turn - kRateTolerance;
 }
 
@@ -195,6 +211,7 @@ WaysOn FindWays(const Structure& structure, const std::vector<ContactGeometry>& 
     const bool turned = std::any_of(digits.begin(), digits.end(), [](std::size_t digit) { return digit != 0; });
     if (!turned || !result.complete) break;
   }
+  FindTwins(&result.ways);
   std::stable_sort(result.ways.begin(), result.ways.end(), Better);
   return result;
 }

@@ -14,6 +14,11 @@ constexpr int kMostEventsInPlace = 8;    // then the contacts chatter, and no wa
 constexpr double kLevel = 1e-9;          // of a unit rate: the load neither rises nor falls
 constexpr int kLocatingAttempts = 6;
 
+const char* NoWayOn(const WaysOn& on) {
+  if (!on.complete) return "no admissible way on was found among the combinations of contact states tried";
+  return "no admissible way on: the quasi-static path ends here, only a dynamic jump leads further";
+}
+
 }  // namespace
 
 BranchOptions BranchOptions::For(const TraceOptions& options) {
@@ -66,7 +71,7 @@ bool BranchMethod::PassEvent(const PathPoint& point, const Arrival& arrival, con
   for (const Way& way : on.ways)
     record->ways.push_back({way.states, way.load_rate, way.dissipation_rate, way.turn});
   if (on.ways.empty()) {
-    *message = on.complete ? "no admissible way on: the quasi-static path ends here" : "no admissible way on was found";
+    *message = NoWayOn(on);
     return false;
   }
   std::size_t taken = 0;
@@ -77,6 +82,10 @@ bool BranchMethod::PassEvent(const PathPoint& point, const Arrival& arrival, con
                  std::to_string(on.ways.size());
       return false;
     }
+  }
+  if (on.ways[taken].loose) {
+    *message = "the structure has come loose: it can move in several ways without any change of load and reactions";
+    return false;
   }
   record->taken = static_cast<int>(taken);
   if (!Leave(point, on.ways[taken])) {

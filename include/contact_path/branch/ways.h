@@ -17,7 +17,9 @@ struct Way {
   Eigen::VectorXd direction;         // (du, ds), unit vector, NumDofs() + 1
   double load_rate = 0.0;            // ds
   double dissipation_rate = 0.0;     // -r_t . du_t, >= 0
-  double turn = 0.0;                 // angle to the direction of arrival [rad]; 0 without one
+  double turn = 0.0;                 // angle to the direction of arrival [rad]
+  bool loose = false;                // one of several motions without any change of load and reactions: not to be followed
+  bool has_twin = false;             // another way has exactly these rates: each would break a symmetry of the scene
 };
 
 // Where the point comes from.
@@ -27,7 +29,7 @@ struct Arrival {
 };
 
 struct WaysOn {
-  std::vector<Way> ways;     // best first: largest dissipation rate, then smallest turn, then a fixed order
+  std::vector<Way> ways;     // best first: largest dissipation rate, then without twin, then smallest turn, then a fixed order
   int concerned = 0;         // contacts that could change their state
   bool complete = true;      // false: too many combinations to try them all
   int combinations = 0;      // tried
