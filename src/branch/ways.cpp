@@ -15,7 +15,8 @@ constexpr double kRateTolerance = 1e-9;       // of unit rates
 constexpr double kCurvatureTolerance = 1e-9;  // of second derivatives, where the rate is zero
 constexpr double kSameDirection = 1e-7;       // norm of the difference of unit vectors
 constexpr double kRigid = 1e-9;               // singular value below which load and reactions do not change
-constexpr int kMaxCombinations = 4096;        // 4^6
+constexpr double kMostCombinations = 4096.0;  // 4^6
+constexpr double kRateLength = 1e-5;          // scaled length of an increment that stands for a rate
 
 using States = std::vector<ContactState>;
 
@@ -71,10 +72,8 @@ class Finder {
 
   // Adds the ways with these states.
   void Try(const States& states, std::vector<Way>* ways) {
-    system_.SetStates(states, reference_);
-    const Eigen::VectorXd x = system_.Pack(point_);
-    if (!solver_.Factorize(system_.TransposedJacobian(x))) return;
-    const std::optional<Eigen::VectorXd> tangent = Tangent();
+    Eigen::VectorXd x;
+    const std::optional<Eigen::VectorXd> tangent = TangentOf(states, &x);
     if (!tangent) return;
     const Eigen::VectorXd second = solver_.Solve(-system_.SecondDerivative(x, *tangent));
     for (const double sign : {1.0, -1.0}) {
@@ -83,8 +82,54 @@ class Finder {
     }
   }
 
+  // Principal pivoting on the rate problem from these states: contacts whose rates are inadmissible change their state, all at
+  // once at first, then only the first of them. Ends with admissible states, or gives up. sign: of the tangent, relative to
+  // the direction of arrival.
+  std::optional<States> Pivot(States states, double sign) {
+    for (int round = 0; round < kBlockPivots + kSinglePivots; ++round) {
+      Eigen::VectorXd x;
+      const std::optional<Eigen::VectorXd> tangent = TangentOf(states, &x);
+      if (!tangent) return std::nullopt;
+      const double along = tangent->head(NumMotion()).dot(arrival_.direction);
+      const Eigen::VectorXd first = (along < 0.0 ? -sign : sign) * *tangent;
+      bool changed = false;
+      for (const Limit& limit : system_.Inequalities()) {
+        if (limit.inequality != Inequality::kSlip && system_.Value(limit, x) > tolerance_) continue;
+        if (system_.Rate(limit, first) >= -kRateTolerance) continue;
+        ContactState& state = states[static_cast<std::size_t>(limit.contact)];
+        state = Next(limit, contacts_[static_cast<std::size_t>(limit.contact)]);
+        changed = true;
+        if (round >= kBlockPivots) break;
+      }
+      if (!changed) return states;
+    }
+    return std::nullopt;
+  }
+
  private:
+  static constexpr int kBlockPivots = 20;
+  static constexpr int kSinglePivots = 200;
+
   Eigen::Index NumMotion() const { return system_.NumDofs() + 1; }
+
+  // The state that a contact takes on where the rate of `limit` is negative.
+  static ContactState Next(const Limit& limit, const ContactGeometry& contact) {
+    switch (limit.inequality) {
+      case Inequality::kGap: return contact.Frictional() ? ContactState::kStick : ContactState::kClosed;
+      case Inequality::kNormalReaction: return ContactState::kOpen;
+      case Inequality::kConePlus: return ContactState::kSlipPlus;
+      case Inequality::kConeMinus: return ContactState::kSlipMinus;
+      case Inequality::kSlip: return ContactState::kStick;
+    }
+    return ContactState::kOpen;
+  }
+
+  std::optional<Eigen::VectorXd> TangentOf(const States& states, Eigen::VectorXd* x) {
+    system_.SetStates(states, reference_);
+    *x = system_.Pack(point_);
+    if (!solver_.Factorize(system_.TransposedJacobian(*x))) return std::nullopt;
+    return Tangent();
+  }
 
   // The direction of the piece: of the null space, what is neither a rigid mode (no change of load and reactions) nor a
   // redundant reaction (no motion). A mechanism has rigid modes only: with one of them it moves that way, with more it is
@@ -185,32 +230,72 @@ bool Better(const Way& a, const Way& b) {
   return a.turn < b.turn - kRateTolerance;
 }
 
+// Every combination of the options: an odometer, the last contact turning fastest.
+void TryAll(const std::vector<States>& options, Finder* finder, WaysOn* result) {
+  States states;
+  for (const States& option : options) states.push_back(option.front());
+  std::vector<std::size_t> digits(options.size(), 0);
+  bool turned = true;
+  while (turned) {
+    finder->Try(states, &result->ways);
+    ++result->combinations;
+    turned = false;
+    for (std::size_t i = options.size(); i-- > 0 && !turned;) {
+      digits[i] = (digits[i] + 1) % options[i].size();
+      states[i] = options[i][digits[i]];
+      turned = digits[i] != 0;
+    }
+  }
+}
+
+// Where there are too many combinations: principal pivoting from several first guesses, and the increment problem (9) for an
+// increment so small that it is the rate problem, with and without the pull of the dissipation. Each result is tried like
+// any other combination.
+void TryLikely(const std::vector<States>& options, const PathPoint& point, const Arrival& arrival, IncrementSolver* mpec,
+               Finder* finder, WaysOn* result) {
+  std::vector<States> guesses;
+  for (const ContactState preferred : {ContactState::kOpen, ContactState::kStick, ContactState::kSlipPlus,
+                                       ContactState::kSlipMinus, ContactState::kClosed}) {
+    States guess;
+    for (const States& option : options)
+      guess.push_back(std::find(option.begin(), option.end(), preferred) != option.end() ? preferred : option.front());
+    guesses.push_back(std::move(guess));
+  }
+  States natural;
+  for (const States& option : options) natural.push_back(option.front());
+  guesses.insert(guesses.begin(), natural);
+  for (const States& guess : guesses)
+    for (const double sign : {1.0, -1.0})
+      if (const std::optional<States> states = finder->Pivot(guess, sign)) {
+        finder->Try(*states, &result->ways);
+        ++result->combinations;
+      }
+  for (const double share : {0.0, 0.5, 1.0}) {
+    const IncrementTrial trial = mpec->Solve(point, {kRateLength, arrival.direction, share, 1.0}, RegularisationSchedule());
+    if (trial.status != SolveStatus::kSolved) continue;
+    finder->Try(trial.point.states, &result->ways);
+    ++result->combinations;
+  }
+}
+
 }  // namespace
 
 WaysOn FindWays(const Structure& structure, const std::vector<ContactGeometry>& contacts, const PathPoint& point,
-                const Arrival& arrival, double tolerance) {
+                const Arrival& arrival, double tolerance, IncrementSolver* mpec) {
   WaysOn result;
   std::vector<States> options;
-  States states;
+  double combinations = 1.0;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     options.push_back(Options(contacts[i], point, i, tolerance));
-    states.push_back(options[i].front());
+    combinations *= static_cast<double>(options[i].size());
     if (options[i].size() > 1) ++result.concerned;
   }
   Finder finder(structure, contacts, point, arrival, tolerance);
-  // An odometer over the options: the last contact turns fastest.
-  std::vector<std::size_t> digits(contacts.size(), 0);
-  for (;;) {
-    finder.Try(states, &result.ways);
-    if (++result.combinations >= kMaxCombinations) result.complete = false;
-    for (std::size_t i = contacts.size(); i-- > 0;) {
-      digits[i] = (digits[i] + 1) % options[i].size();
-      states[i] = options[i][digits[i]];
-      if (digits[i] != 0) break;
-    }
-    const bool turned = std::any_of(digits.begin(), digits.end(), [](std::size_t digit) { return digit != 0; });
-    if (!turned || !result.complete) break;
-  }
+  result.complete = combinations <= kMostCombinations;
+  if (result.complete)
+    TryAll(options, &finder, &result);
+  else
+    TryLikely(options, point, arrival, mpec, &finder, &result);
   FindTwins(&result.ways);
   std::stable_sort(result.ways.begin(), result.ways.end(), Better);
   return result;

@@ -43,8 +43,13 @@ BranchOptions BranchOptions::For(const TraceOptions& options) {
   return result;
 }
 
-BranchMethod::BranchMethod(const Model& model, const BranchOptions& options)
-    : model_(model), options_(options), piece_(model.structure, model.contacts), step_(options.step) {}
+BranchMethod::BranchMethod(const Model& model, const BranchOptions& options, std::function<bool()> cancelled)
+    : model_(model),
+      options_(options),
+      ipopt_(std::move(cancelled)),
+      mpec_(model.structure, model.contacts, &ipopt_),
+      piece_(model.structure, model.contacts),
+      step_(options.step) {}
 
 const BranchChoice* BranchMethod::ChoiceForEvent(int event) const {
   for (const BranchChoice& choice : options_.choices)
@@ -65,7 +70,7 @@ bool BranchMethod::Leave(const PathPoint& point, const Way& way) {
 
 bool BranchMethod::PassEvent(const PathPoint& point, const Arrival& arrival, const BranchChoice* choice, EventRecord* record,
                              std::string* message) {
-  const WaysOn on = FindWays(model_.structure, model_.contacts, point, arrival, kAtLimit);
+  const WaysOn on = FindWays(model_.structure, model_.contacts, point, arrival, kAtLimit, &mpec_);
   record->concerned = on.concerned;
   record->complete = on.complete;
   for (const Way& way : on.ways)
@@ -76,7 +81,7 @@ bool BranchMethod::PassEvent(const PathPoint& point, const Arrival& arrival, con
   }
   std::size_t taken = 0;
   if (choice != nullptr) {
-    taken = static_cast<std::size_t>(choice->way - 1);
+    taken = static_cast<std::size_t>(std::max(choice->way, 1) - 1);
     if (taken >= on.ways.size()) {
       *message = "branch_choices names way " + std::to_string(choice->way) + ", but there are only " +
                  std::to_string(on.ways.size());
@@ -99,11 +104,21 @@ std::optional<Segment> BranchMethod::Step(double length) {
   const Eigen::VectorXd normal = current_.first.head(piece_.NumMotion());
   const Eigen::VectorXd guess = current_.x + length * current_.first + 0.5 * length * length * current_.second;
   const Correction correction = piece_.CorrectOnPlane(guess, normal);
+  iterations_ = correction.iterations;
+  contraction_ = correction.contraction;
   if (!correction.converged || correction.first_step > options_.prediction * length + 1e-12) return std::nullopt;
   CurvePoint end;
   if (!piece_.Derivatives(correction.x, normal, &end)) return std::nullopt;
   if (end.first.head(normal.size()).dot(normal) < options_.smallest_cosine) return std::nullopt;
   return MakeSegment(current_, end, piece_.NumMotion());
+}
+
+int BranchMethod::StiffnessSign(const CurvePoint& point) const {
+  // By Cramer's rule from the rate of the load factor; the parity is that of the rows and columns of the reactions.
+  const double rate = point.first[piece_.NumMotion() - 1];
+  if (rate == 0.0) return 0;
+  const Eigen::Index reactions = piece_.system().NumUnknowns() - piece_.NumMotion();
+  return (rate > 0.0 ? 1 : -1) * point.determinant_sign * (reactions % 2 == 0 ? 1 : -1);
 }
 
 Work BranchMethod::WorkOf(const Segment& segment) const {
@@ -210,6 +225,9 @@ Advance BranchMethod::Next(const PathPoint& from, double longest) {
   row.solve.rejected = rejected;
   row.solve.deficiency = static_cast<int>(segment->end.deficiency);
   row.solve.determinant_sign = segment->end.determinant_sign;
+  row.solve.stiffness_sign = StiffnessSign(segment->end);
+  row.solve.iterations = iterations_;
+  row.solve.contraction = contraction_;
   if (!(std::max(row.residuals.equilibrium, row.residuals.Contact()) <= kAccepted)) {
     advance.message = "the residuals of the next point are too large";
     return advance;

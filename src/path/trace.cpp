@@ -79,7 +79,7 @@ class Recorder {
 std::unique_ptr<PathMethod> MakeMethod(const Model& model, TraceOptions options, double direction,
                                        const TraceControl& control) {
   options.direction = direction;
-  if (options.method == Method::kBranch) return std::make_unique<BranchMethod>(model, BranchOptions::For(options));
+  if (options.method == Method::kBranch) return std::make_unique<BranchMethod>(model, BranchOptions::For(options), control.cancelled);
   return std::make_unique<MpecMethod>(model, MpecOptions::ForAccuracy(options), control.cancelled);
 }
 

@@ -93,6 +93,41 @@ std::string Key(const std::string& list, std::size_t index, const std::string& f
   return list + "[" + std::to_string(index) + "]." + field;
 }
 
+msgs::Event ToMessage(const EventRecord& event) {
+  msgs::Event message;
+  for (const WayRecord& way : event.ways) {
+    msgs::Way& to = message.ways.emplace_back();
+    for (const ContactState state : way.states) to.states.push_back(ConstantOf(kContactStates, state));
+    to.load_rate = way.load_rate;
+    to.dissipation_rate = way.dissipation_rate;
+    to.turn = way.turn;
+  }
+  message.taken = event.taken;
+  message.concerned = ToCount(event.concerned);
+  message.complete = event.complete;
+  message.null_vector = event.null_vector;
+  return message;
+}
+
+EventRecord FromMessage(const msgs::Event& message) {
+  EventRecord event;
+  for (std::size_t i = 0; i < message.ways.size(); ++i) {
+    const msgs::Way& way = message.ways[i];
+    WayRecord& to = event.ways.emplace_back();
+    for (const std::uint8_t state : way.states) {
+      to.states.push_back(ValueOf(kContactStates, state, Key("event.ways", i, "states")));
+    }
+    to.load_rate = way.load_rate;
+    to.dissipation_rate = way.dissipation_rate;
+    to.turn = way.turn;
+  }
+  event.taken = message.taken;
+  event.concerned = FromCount(message.concerned, "event.concerned");
+  event.complete = message.complete != 0;
+  event.null_vector = message.null_vector;
+  return event;
+}
+
 }  // namespace
 
 TraceRequest FromMessage(const msgs::Scene& scene, const msgs::TraceOptions& options) {
@@ -119,15 +154,15 @@ TraceRequest FromMessage(const msgs::Scene& scene, const msgs::TraceOptions& opt
     const msgs::Obstacle& obstacle = scene.obstacles[i];
     const ObstacleShape shape = Known(ParseObstacleShape(obstacle.shape), Key("scene.obstacles", i, "shape"),
                                       obstacle.shape, "must be half_plane", &violations);
-    request.scene.obstacles.push_back({obstacle.name, shape, obstacle.px, obstacle.py, obstacle.nx, obstacle.ny,
-                                       obstacle.friction});
+    request.scene.obstacles.push_back(
+        {obstacle.name, shape, obstacle.px, obstacle.py, obstacle.nx, obstacle.ny, obstacle.friction});
   }
   for (const msgs::Contact& contact : scene.contacts) {
     request.scene.contacts.push_back({contact.node, contact.obstacle});
   }
 
-  request.options.method = Known(ParseMethod(options.method), "options.method", options.method,
-                                 "must be branch or mpec", &violations);
+  request.options.method =
+      Known(ParseMethod(options.method), "options.method", options.method, "must be branch or mpec", &violations);
   request.options.accuracy = Known(ParseAccuracy(options.accuracy), "options.accuracy", options.accuracy,
                                    "must be fast, balanced or accurate", &violations);
   request.options.direction = options.direction;
@@ -135,6 +170,9 @@ TraceRequest FromMessage(const msgs::Scene& scene, const msgs::TraceOptions& opt
   request.options.max_increments = options.max_increments;
   for (const msgs::StopCriterion& stop : options.stop) {
     request.options.stop.push_back({stop.quantity, stop.when, stop.value});
+  }
+  for (const msgs::BranchChoice& choice : options.branch_choices) {
+    request.options.branch_choices.push_back({choice.event, choice.row, choice.way == 0 ? 1 : choice.way});
   }
 
   if (!violations.empty()) throw InvalidRequest(violations);
@@ -197,6 +235,12 @@ msgs::TraceRequest ToMessage(const TraceRequest& request) {
     to.when = stop.when;
     to.value = stop.value;
   }
+  for (const BranchChoice& choice : request.options.branch_choices) {
+    msgs::BranchChoice& to = message.options.branch_choices.emplace_back();
+    to.event = choice.event;
+    to.row = choice.row;
+    to.way = choice.way;
+  }
   return message;
 }
 
@@ -234,7 +278,12 @@ msgs::Increment ToMessage(const Increment& increment) {
   message.variables = ToCount(increment.solve.variables);
   message.constraints = ToCount(increment.solve.constraints);
   message.rejected = ToCount(increment.solve.rejected);
+  message.factorisations = ToCount(increment.solve.factorisations);
+  message.deficiency = ToCount(increment.solve.deficiency);
+  message.determinant_sign = static_cast<std::int8_t>(increment.solve.determinant_sign);
+  message.contraction = increment.solve.contraction;
   message.solve_time = increment.solve.time;
+  message.event = ToMessage(increment.event);
   return message;
 }
 
@@ -273,7 +322,12 @@ Increment FromMessage(const msgs::Increment& message) {
   increment.solve.variables = FromCount(message.variables, "variables");
   increment.solve.constraints = FromCount(message.constraints, "constraints");
   increment.solve.rejected = FromCount(message.rejected, "rejected");
+  increment.solve.factorisations = FromCount(message.factorisations, "factorisations");
+  increment.solve.deficiency = FromCount(message.deficiency, "deficiency");
+  increment.solve.determinant_sign = message.determinant_sign;
+  increment.solve.contraction = message.contraction;
   increment.solve.time = message.solve_time;
+  increment.event = FromMessage(message.event);
   return increment;
 }
 

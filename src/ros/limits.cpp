@@ -58,6 +58,7 @@ std::string ExceededLimit(const contact_path_msgs::Scene& scene, const contact_p
       {"scene.obstacles", scene.obstacles.size(), names::kMaxContacts, limits.max_contacts},
       {"scene.contacts", scene.contacts.size(), names::kMaxContacts, limits.max_contacts},
       {"options.stop", options.stop.size(), names::kMaxContacts, limits.max_contacts},
+      {"options.branch_choices", options.branch_choices.size(), names::kMaxContacts, limits.max_contacts},
       {"options.max_increments", IncrementsWanted(options), names::kMaxIncrements, limits.max_increments},
   };
   for (const Row& row : rows) {

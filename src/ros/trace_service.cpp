@@ -193,8 +193,8 @@ void TraceService::RunTrace(const TraceRequest& request, BagRecorder* bag, Respo
     if (result.reason != EndReason::kCancelled) return;
     if (stop_cause_ == StopCause::kTimeLimit) {
       response->end_reason = Response::END_TIME_LIMIT;
-      response->message = "time limit: the node admits " + InSeconds(parameters_.limits.max_seconds) + " (~" +
-                          names::kMaxSeconds + ")";
+      response->message =
+          "time limit: the node admits " + InSeconds(parameters_.limits.max_seconds) + " (~" + names::kMaxSeconds + ")";
     } else if (stop_cause_ == StopCause::kShutdown) {
       response->status = Response::SHUTTING_DOWN;
       response->message = "cut short: the node is being shut down";

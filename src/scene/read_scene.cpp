@@ -248,6 +248,11 @@ void Read(Reader& in, const YamlValue& value, const std::string& path, StopCrite
              {in.Text("quantity", stop.quantity), in.Text("when", stop.when), in.Number("value", stop.value)});
 }
 
+void Read(Reader& in, const YamlValue& value, const std::string& path, BranchChoice& choice) {
+  in.ReadMap(value, path,
+             {in.Integer("event", choice.event), in.Integer("row", choice.row), in.Integer("way", choice.way)});
+}
+
 void Read(Reader& in, const YamlValue& value, const std::string& path, Scene& scene) {
   in.ReadMap(value, path,
              {in.Text("name", scene.name), in.List("nodes", scene.nodes), in.List("bars", scene.bars),
@@ -260,7 +265,8 @@ void Read(Reader& in, const YamlValue& value, const std::string& path, TraceOpti
              {in.Word("method", ParseMethod, "must be branch or mpec", options.method),
               in.Word("accuracy", ParseAccuracy, "must be fast, balanced or accurate", options.accuracy),
               in.Number("direction", options.direction), in.Number("step", options.step),
-              in.Integer("max_increments", options.max_increments), in.List("stop", options.stop)});
+              in.Integer("max_increments", options.max_increments), in.List("stop", options.stop),
+              in.List("branch_choices", options.branch_choices)});
 }
 
 // The line of the deepest key or list element on `path` that stands in the file.

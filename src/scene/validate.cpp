@@ -353,6 +353,14 @@ class Checker {
       if (stop.when != ">" && stop.when != "<") Add(key + ".when", TextOrQuotes(stop.when), "must be \">\" or \"<\"");
       CheckNumber(key + ".value", stop.value);
     }
+    for (std::size_t i = 0; i < options_.branch_choices.size(); ++i) {
+      const BranchChoice& choice = options_.branch_choices[i];
+      const std::string key = Indexed("options.branch_choices", i);
+      if (choice.event < 0) Add(key + ".event", std::to_string(choice.event), "must be >= 0");
+      if (choice.row < 0) Add(key + ".row", std::to_string(choice.row), "must be >= 0");
+      if (choice.way < 0) Add(key + ".way", std::to_string(choice.way), "must be >= 0");
+      if (choice.event > 0 && choice.row > 0) Add(key + ".row", std::to_string(choice.row), "must be 0 where event is given");
+    }
   }
 
   void CheckQuantity(const std::string& key, const std::string& quantity) {

@@ -7,6 +7,7 @@
 
 #include "contact_path/contact/contact_geometry.h"
 #include "contact_path/contact/path_point.h"
+#include "contact_path/mpec/increment_solver.h"
 #include "contact_path/structure/structure.h"
 
 namespace contact_path {
@@ -31,14 +32,16 @@ struct Arrival {
 struct WaysOn {
   std::vector<Way> ways;     // best first: largest dissipation rate, then without twin, then smallest turn, then a fixed order
   int concerned = 0;         // contacts that could change their state
-  bool complete = true;      // false: too many combinations to try them all
+  bool complete = true;      // false: too many combinations to try them all, the likely ones were
   int combinations = 0;      // tried
 };
 
 // All ways on from `point`, an equilibrium, without the way back. Concerned are the contacts with an inequality within
 // `tolerance` of zero, and all that slip. Of ways with the same direction one is kept.
+// Up to 4^6 combinations of states are all tried; of more, those that principal pivoting and `mpec` (the increment problem in
+// the limit of a short increment) lead to, each certified like any other.
 WaysOn FindWays(const Structure& structure, const std::vector<ContactGeometry>& contacts, const PathPoint& point,
-                const Arrival& arrival, double tolerance);
+                const Arrival& arrival, double tolerance, IncrementSolver* mpec);
 
 }  // namespace contact_path
 

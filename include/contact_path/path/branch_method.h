@@ -2,6 +2,7 @@
 #ifndef CONTACT_PATH_PATH_BRANCH_METHOD_H_
 #define CONTACT_PATH_PATH_BRANCH_METHOD_H_
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +10,8 @@
 #include "contact_path/branch/event_watch.h"
 #include "contact_path/branch/smooth_piece.h"
 #include "contact_path/branch/ways.h"
+#include "contact_path/mpec/increment_solver.h"
+#include "contact_path/mpec/ipopt_solver.h"
 #include "contact_path/path/model.h"
 #include "contact_path/path/path_method.h"
 
@@ -28,8 +31,8 @@ struct BranchOptions {
 
 class BranchMethod : public PathMethod {
  public:
-  // model must outlive the method.
-  BranchMethod(const Model& model, const BranchOptions& options);
+  // model must outlive the method. cancelled may be empty.
+  BranchMethod(const Model& model, const BranchOptions& options, std::function<bool()> cancelled);
 
   using PathMethod::Next;
   // `from` must be the point that was given last.
@@ -49,9 +52,12 @@ class BranchMethod : public PathMethod {
   const BranchChoice* ChoiceForEvent(int event) const;
   const BranchChoice* ChoiceForRow(int row) const;
   Work WorkOf(const Segment& segment) const;
+  int StiffnessSign(const CurvePoint& point) const;
 
   const Model& model_;
   BranchOptions options_;
+  IpoptSolver ipopt_;
+  IncrementSolver mpec_;  // for events with very many contacts
   SmoothPiece piece_;
   CurvePoint current_;
   bool started_ = false;
@@ -59,6 +65,8 @@ class BranchMethod : public PathMethod {
   int rows_ = 0;              // given so far, row 0 not counted
   int events_ = 0;            // passed so far, the start not counted
   int events_in_place_ = 0;   // passed without moving
+  int iterations_ = 0;        // of the last step
+  double contraction_ = 0.0;  // of the last step
   EventRecord start_;
 };
 

@@ -41,6 +41,8 @@ struct SolveRecord {
   int deficiency = 0;           // branch: null directions of the equations besides the tangent (rigid modes, redundancy)
   int determinant_sign = 0;     // branch: sign of det of the Jacobian bordered by the tangent; 0 = singular; changes where
                                 // another path crosses
+  int stiffness_sign = 0;       // branch: sign of det of the tangent at fixed load, contacts in their states; +1 on a stable
+                                // path; changes at limit points and where another path crosses; 0 = singular
   double contraction = 0.0;     // branch: second Newton step over the first
   double time = 0.0;            // wall time [s]
 };

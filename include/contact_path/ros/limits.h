@@ -9,11 +9,11 @@
 namespace contact_path {
 
 struct TraceLimits {
-  int max_nodes = 100000;         // nodes, > 0
-  int max_elements = 1000000;     // bars; entries of all stiffness matrices; loads; each > 0
-  int max_contacts = 100000;      // contact candidates; obstacles; stop criteria; each > 0
-  int max_increments = 1000000;   // increments of a trace, > 0
-  double max_seconds = 86400.0;   // wall time of a trace [s]; 0 = no limit
+  int max_nodes = 100000;        // nodes, > 0
+  int max_elements = 1000000;    // bars; entries of all stiffness matrices; loads; each > 0
+  int max_contacts = 100000;     // contact candidates; obstacles; stop criteria; branch choices; each > 0
+  int max_increments = 1000000;  // increments of a trace, > 0
+  double max_seconds = 86400.0;  // wall time of a trace [s]; 0 = no limit
 
   // Throws std::invalid_argument naming the parameter and its value.
   void Validate() const;

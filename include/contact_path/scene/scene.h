@@ -97,7 +97,7 @@ struct StopCriterion {
 struct BranchChoice {
   int event = 0;  // n, from 1; 0 = `row` is meant
   int row = 0;    // index of the row, from 0; used where event = 0
-  int way = 1;    // number of the way in the record of that event, from 1 (the best)
+  int way = 0;    // number of the way in the record of that event, from 1; 0 = 1, the best
 };
 
 struct TraceOptions {
