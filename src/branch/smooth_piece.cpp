@@ -101,6 +101,20 @@ Correction SmoothPiece::CorrectOnPlane(const Eigen::VectorXd& guess, const Eigen
   return Correct(guess, row, row.dot(guess));
 }
 
+Eigen::VectorXd SmoothPiece::CrossingDirection(const Eigen::VectorXd& x, const Eigen::VectorXd& towards) {
+  Eigen::VectorXd row = Eigen::VectorXd::Zero(system_.NumUnknowns());
+  row.head(NumMotion()) = towards;
+  ++factorisations_;
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(NumMotion());
+  if (!solver_.Factorize(system_.TransposedJacobian(x), row)) return none;
+  // Of nearly singular equations any solution points along the null vector. The right side only must not be orthogonal to it.
+  Eigen::VectorXd right(system_.NumEquations());
+  for (Eigen::Index i = 0; i < right.size(); ++i) right[i] = 1.0 + 0.5 * std::sin(static_cast<double>(i));
+  const Eigen::VectorXd direction = solver_.Solve(right, 0.0).head(NumMotion());
+  const double norm = direction.norm();
+  return std::isfinite(norm) && norm > 0.0 ? Eigen::VectorXd(direction / norm) : none;
+}
+
 Segment MakeSegment(const CurvePoint& start, const CurvePoint& end, Eigen::Index num_motion) {
   Segment segment{start, end, start.first.head(num_motion), 0.0};
   segment.length = segment.normal.dot((end.x - start.x).head(num_motion));

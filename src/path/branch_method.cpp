@@ -13,6 +13,7 @@ constexpr double kNoMove = 1e-12;        // an event nearer than this to the las
 constexpr int kMostEventsInPlace = 8;    // then the contacts chatter, and no way on is trusted
 constexpr double kLevel = 1e-9;          // of a unit rate: the load neither rises nor falls
 constexpr int kLocatingAttempts = 6;
+constexpr double kNearBifurcation = 1e-6;  // of a step
 
 const char* NoWayOn(const WaysOn& on) {
   if (!on.complete) return "no admissible way on was found among the combinations of contact states tried";
@@ -159,21 +160,28 @@ Work BranchMethod::WorkOf(const Segment& segment) const {
   return work;
 }
 
+std::vector<double> BranchMethod::CrossingPath(const Segment& segment) {
+  // A little before the bifurcation, where the equations are regular.
+  const CurvePoint near = segment.At((1.0 - kNearBifurcation) * segment.length);
+  const Eigen::VectorXd direction = piece_.CrossingDirection(near.x, near.first.head(piece_.NumMotion()));
+  std::vector<double> components(2 * model_.scene.nodes.size(), 0.0);
+  for (std::size_t i = 0; i < components.size(); ++i)
+    if (const int dof = model_.structure.Dof(static_cast<int>(i / 2), static_cast<int>(i % 2)); dof >= 0)
+      components[i] = direction[dof];
+  return components;
+}
+
+bool BranchMethod::Start(const PathPoint& from, EventRecord* ways, std::string* message) {
+  Arrival arrival;
+  arrival.is_start = true;
+  arrival.direction = Eigen::VectorXd::Unit(model_.structure.NumDofs() + 1, model_.structure.NumDofs());
+  arrival.direction *= options_.direction;
+  return PassEvent(from, arrival, ChoiceForRow(0), ways, message);
+}
+
 Advance BranchMethod::Next(const PathPoint& from, double longest) {
   Advance advance;
   const int factorisations_before = piece_.factorisations();
-  if (!started_) {
-    Arrival arrival;
-    arrival.is_start = true;
-    arrival.direction = Eigen::VectorXd::Unit(model_.structure.NumDofs() + 1, model_.structure.NumDofs());
-    arrival.direction *= options_.direction;
-    if (!PassEvent(from, arrival, ChoiceForRow(0), &start_, &advance.message)) {
-      advance.reason = EndReason::kPathEnd;
-      return advance;
-    }
-    started_ = true;
-  }
-
   int rejected = 0;
   std::optional<Segment> segment;
   Watched watched;
@@ -264,6 +272,7 @@ Advance BranchMethod::Next(const PathPoint& from, double longest) {
     row.kind = RowKind::kSmoothLimit;
   } else if (watched.happening == Happening::kBifurcation) {
     row.kind = RowKind::kBifurcation;
+    row.event.null_vector = CrossingPath(*segment);
   }
   // The next step: as long as wanted unless this one had to be shortened.
   step_ = std::min(options_.step, rejected > 0 ? 1.5 * length : 2.0 * step_);

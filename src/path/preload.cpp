@@ -12,6 +12,7 @@ namespace {
 constexpr double kNothing = 1e-14;  // scaled force: rounding of an unstressed start
 constexpr double kInequalityTolerance = 1e-11;
 constexpr double kSmallestStep = 1e-12;
+const char* const kWhere = "while the constant loads were brought on: ";
 
 // The scene whose load factor, from 0 to 1, brings the constant loads on. holding: internal force at the start, by dof,
 // in scene units.
@@ -70,7 +71,13 @@ Preload TracePreload(const Model& model, int max_increments, const MethodFactory
   scaling.load_factor = CharacteristicScales(scene).load_factor / CharacteristicScales(scene).force * scaling.force;
   const Model preload_model(scene, scaling);
   const double target = 1.0 / scaling.load_factor;
-  const std::unique_ptr<PathMethod> method = make_method(preload_model, 1.0);
+  const std::unique_ptr<PathMethod> method = make_method(preload_model);
+  EventRecord ways;
+  if (!method->Start(preload.point, &ways, &preload.message)) {
+    preload.reason = EndReason::kPathEnd;
+    preload.message = kWhere + preload.message;
+    return preload;
+  }
   double longest = std::numeric_limits<double>::infinity();
   for (int i = 0; i < max_increments; ++i) {
     Advance advance = method->Next(preload.point, longest);
@@ -92,11 +99,11 @@ Preload TracePreload(const Model& model, int max_increments, const MethodFactory
     const bool stuck = longest < kSmallestStep;
     if (!advance.ended && !stuck) continue;
     preload.reason = stuck ? EndReason::kStepTooSmall : advance.reason;
-    preload.message = "while the constant loads were brought on: " + (stuck ? "their full size is not reached" : advance.message);
+    preload.message = kWhere + (stuck ? "their full size is not reached" : advance.message);
     return preload;
   }
   preload.reason = EndReason::kMaxIncrements;
-  preload.message = "while the constant loads were brought on: too many increments";
+  preload.message = kWhere + std::string("too many increments");
   return preload;
 }
 

@@ -30,11 +30,12 @@ class Recorder {
   const Increment& row() const { return row_; }
   int rows() const { return rows_; }
 
-  void Start(const PathPoint& point, const Residuals& residuals, double time) {
+  void Start(const PathPoint& point, const Residuals& residuals, const EventRecord& ways, double time) {
     AcceptedPoint accepted;
     accepted.kind = RowKind::kStart;
     accepted.residuals = residuals;
     accepted.solve.exact = true;
+    accepted.event = ways;
     Fill(point, accepted, time);
     Give();
   }
@@ -76,9 +77,7 @@ class Recorder {
   int rows_ = 0;
 };
 
-std::unique_ptr<PathMethod> MakeMethod(const Model& model, TraceOptions options, double direction,
-                                       const TraceControl& control) {
-  options.direction = direction;
+std::unique_ptr<PathMethod> MakeMethod(const Model& model, const TraceOptions& options, const TraceControl& control) {
   if (options.method == Method::kBranch) return std::make_unique<BranchMethod>(model, BranchOptions::For(options), control.cancelled);
   return std::make_unique<MpecMethod>(model, MpecOptions::ForAccuracy(options), control.cancelled);
 }
@@ -89,10 +88,13 @@ TraceResult TraceSound(const TraceRequest& request, const TraceControl& control)
   TraceResult result;
 
   Clock::time_point start = Clock::now();
-  const MethodFactory make_method = [&](const Model& of, double direction) {
-    return MakeMethod(of, options, direction, control);
+  const MethodFactory make_preload_method = [&](const Model& of) {
+    TraceOptions upwards = options;
+    upwards.direction = 1.0;
+    upwards.branch_choices.clear();
+    return MakeMethod(of, upwards, control);
   };
-  Preload preload = TracePreload(model, options.MaxIncrements(), make_method);
+  Preload preload = TracePreload(model, options.MaxIncrements(), make_preload_method);
   if (!preload.done) {
     result.reason = preload.reason == EndReason::kMaxIncrements ? EndReason::kNumericalFailure : preload.reason;
     result.message = preload.message;
@@ -107,8 +109,15 @@ TraceResult TraceSound(const TraceRequest& request, const TraceControl& control)
 
   Recorder recorder(model, control);
   const StopTest stop(request);
-  recorder.Start(point, residuals, Seconds(Clock::now() - start));
-  const std::unique_ptr<PathMethod> method = make_method(model, options.Direction());
+  const std::unique_ptr<PathMethod> method = MakeMethod(model, options, control);
+  EventRecord ways;
+  const bool started = method->Start(point, &ways, &result.message);
+  recorder.Start(point, residuals, ways, Seconds(Clock::now() - start));
+  result.increments = recorder.rows();
+  if (!started) {
+    result.reason = EndReason::kPathEnd;
+    return result;
+  }
   for (;;) {
     result.increments = recorder.rows();
     if (control.cancelled && control.cancelled()) {

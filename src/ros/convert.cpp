@@ -172,7 +172,7 @@ TraceRequest FromMessage(const msgs::Scene& scene, const msgs::TraceOptions& opt
     request.options.stop.push_back({stop.quantity, stop.when, stop.value});
   }
   for (const msgs::BranchChoice& choice : options.branch_choices) {
-    request.options.branch_choices.push_back({choice.event, choice.row, choice.way == 0 ? 1 : choice.way});
+    request.options.branch_choices.push_back({choice.event, choice.row, choice.way});
   }
 
   if (!violations.empty()) throw InvalidRequest(violations);

@@ -48,6 +48,10 @@ class SmoothPiece {
   // The same with the row given on (u, s) only.
   Correction CorrectOnPlane(const Eigen::VectorXd& guess, const Eigen::VectorXd& normal);
 
+  // Near a bifurcation: the direction of the crossing path, normal to the tangent `towards` in (u, s); |(u, s) part| = 1.
+  // Zero where it cannot be told.
+  Eigen::VectorXd CrossingDirection(const Eigen::VectorXd& x, const Eigen::VectorXd& towards);
+
   int factorisations() const { return factorisations_; }
 
  private:

@@ -34,12 +34,10 @@ class BranchMethod : public PathMethod {
   // model must outlive the method. cancelled may be empty.
   BranchMethod(const Model& model, const BranchOptions& options, std::function<bool()> cancelled);
 
+  bool Start(const PathPoint& from, EventRecord* ways, std::string* message) override;
   using PathMethod::Next;
   // `from` must be the point that was given last.
   Advance Next(const PathPoint& from, double longest) override;
-
-  // Ways on from the start, known after the first call.
-  const EventRecord& start() const { return start_; }
 
  private:
   // A step from current_; nothing where it has to be shorter.
@@ -52,6 +50,7 @@ class BranchMethod : public PathMethod {
   const BranchChoice* ChoiceForEvent(int event) const;
   const BranchChoice* ChoiceForRow(int row) const;
   Work WorkOf(const Segment& segment) const;
+  std::vector<double> CrossingPath(const Segment& segment);
   int StiffnessSign(const CurvePoint& point) const;
 
   const Model& model_;
@@ -60,14 +59,12 @@ class BranchMethod : public PathMethod {
   IncrementSolver mpec_;  // for events with very many contacts
   SmoothPiece piece_;
   CurvePoint current_;
-  bool started_ = false;
   double step_;
   int rows_ = 0;              // given so far, row 0 not counted
   int events_ = 0;            // passed so far, the start not counted
   int events_in_place_ = 0;   // passed without moving
   int iterations_ = 0;        // of the last step
   double contraction_ = 0.0;  // of the last step
-  EventRecord start_;
 };
 
 }  // namespace contact_path

@@ -30,6 +30,8 @@ class MpecMethod : public PathMethod {
   // model must outlive the method. cancelled may be empty.
   MpecMethod(const Model& model, const MpecOptions& options, std::function<bool()> cancelled);
 
+  // Nothing to do: the first increment finds its own way.
+  bool Start(const PathPoint&, EventRecord*, std::string*) override { return true; }
   using PathMethod::Next;
   Advance Next(const PathPoint& from, double longest) override;
 

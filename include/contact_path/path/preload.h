@@ -12,8 +12,8 @@
 
 namespace contact_path {
 
-// Makes the path method for a model.
-using MethodFactory = std::function<std::unique_ptr<PathMethod>(const Model& model, double direction)>;
+// Makes a path method for a model on which the load factor rises.
+using MethodFactory = std::function<std::unique_ptr<PathMethod>(const Model& model)>;
 
 struct Preload {
   bool done = false;
