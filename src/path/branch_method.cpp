@@ -263,6 +263,7 @@ Advance BranchMethod::Next(const PathPoint& from, double longest) {
     if (!PassEvent(row.point, arrival, choice, &row.event, &advance.message)) {
       advance.ended = true;
       advance.reason = EndReason::kPathEnd;
+      row.kind = RowKind::kContactEvent;
     } else {
       const double leaving = current_.first[piece_.NumMotion() - 1];
       const bool turns = load_rate * leaving < 0.0 && std::min(std::abs(load_rate), std::abs(leaving)) > kLevel;
