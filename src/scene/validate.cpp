@@ -359,7 +359,8 @@ class Checker {
       if (choice.event < 0) Add(key + ".event", std::to_string(choice.event), "must be >= 0");
       if (choice.row < 0) Add(key + ".row", std::to_string(choice.row), "must be >= 0");
       if (choice.way < 0) Add(key + ".way", std::to_string(choice.way), "must be >= 0");
-      if (choice.event > 0 && choice.row > 0) Add(key + ".row", std::to_string(choice.row), "must be 0 where event is given");
+      if (choice.event > 0 && choice.row > 0)
+        Add(key + ".row", std::to_string(choice.row), "must be 0 where event is given");
     }
   }
 

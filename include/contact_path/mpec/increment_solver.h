@@ -16,8 +16,8 @@ namespace contact_path {
 // Sequence of the regularisation parameter: initial, initial x factor, ... down to minimum. Products of a length over S and
 // a force over S, both scaled, so one schedule serves all increment lengths.
 struct RegularisationSchedule {
-  double initial = 1e-2;
-  double factor = 1e-2;   // rho, 0..1
+  double initial = 1e-3;
+  double factor = 1e-5;   // rho, 0..1
   double minimum = 1e-8;  // > 0
 };
 
