@@ -8,10 +8,13 @@ namespace contact_path {
 namespace {
 
 constexpr double kZero = 1e-11;          // of scaled quantities on a step: rounding
-constexpr double kFlat = 1e-9;           // a load rate below this throughout a step is no limit point
+constexpr double kFlat = 1e-9;           // of unit rates on a step: a load or a contact that moves slower rests
 constexpr double kNearShare = 0.05;      // of the difference of quintic and cubic interpolation
 constexpr double kRateZero = 1e-13;      // of a unit rate
 constexpr int kNewtonIterations = 25;
+constexpr double kCoincident = 1e-6;     // relative to the step: a bifurcation this near to something else is one with it
+constexpr double kSlack = 1e-9;          // relative to the step: of the place of a located point
+constexpr double kSameDerivative = 1e-2;  // of unit tangents: more is the mark of singular equations
 constexpr int kBisections = 60;
 constexpr double kBifurcationWidth = 1e-10;  // relative to the step
 
@@ -56,42 +59,44 @@ std::optional<CurvePoint> LocateRate(SmoothPiece* piece, const Segment& segment,
   return point;
 }
 
-CurvePoint LocateBifurcation(SmoothPiece* piece, const Segment& segment) {
+// Where the determinant changes its sign.
+double FindBifurcation(SmoothPiece* piece, const Segment& segment) {
   double before = 0.0, beyond = segment.length;
   for (int i = 0; i < kBisections && beyond - before > kBifurcationWidth * segment.length; ++i) {
     const double t = 0.5 * (before + beyond);
     const std::optional<CurvePoint> point = PointAt(piece, segment, t);
-    if (!point || point->determinant_sign == 0) {  // singular to rounding: this is it
-      before = beyond = t;
-      break;
-    }
+    if (!point || point->determinant_sign == 0) return t;  // singular to rounding: this is it
     (point->determinant_sign == segment.start.determinant_sign ? before : beyond) = t;
   }
-  // The equations are singular here: the interpolation is more exact than a correction.
-  CurvePoint point = segment.At(0.5 * (before + beyond));
-  point.determinant_sign = 0;
-  return point;
+  return 0.5 * (before + beyond);
 }
+
+std::optional<CurvePoint> LocateRegular(SmoothPiece* piece, const Segment& segment, const Watched& watched);
 
 }  // namespace
 
-Watched Watch(const FixedStateSystem& system, const Segment& segment) {
+Watched Watch(SmoothPiece* piece, const Segment& segment) {
+  const FixedStateSystem& system = piece->system();
   Watched first;
   first.t = segment.length;
+  const double width = kCoincident * segment.length;
   const auto consider = [&](Happening happening, double t, const Limit& limit) {
-    if (t > first.t || (t == first.t && first.happening != Happening::kNone)) return;
-    first = {happening, t, limit};
+    // An event that coincides with something else is the one to act on.
+    const double head_start = first.happening == Happening::kEvent && happening != Happening::kEvent ? width : 0.0;
+    if (t + head_start > first.t || (t == first.t && first.happening != Happening::kNone)) return;
+    first = {happening, t, limit, false};
   };
   for (const Limit& limit : system.Inequalities()) {
     const Quintic quintic = FunctionOf(system, segment, limit);
-    if (const std::optional<double> t = FirstNegative(quintic, segment.length, kZero)) {
+    const double zero = limit.inequality == Inequality::kSlip ? kFlat : kZero;
+    if (const std::optional<double> t = FirstNegative(quintic, segment.length, zero)) {
       consider(Happening::kEvent, *t, limit);
       continue;
     }
     double where = 0.0;
     const double smallest = Minimum(quintic, segment.length, &where);
     const bool inside = where > 1e-3 * segment.length && where < 0.999 * segment.length;
-    if (inside && smallest > kZero && smallest < kNearShare * CubicDifference(quintic, segment.length))
+    if (inside && smallest > zero && smallest < kNearShare * CubicDifference(quintic, segment.length))
       consider(Happening::kNearTouch, where, limit);
   }
   const Eigen::Index s = system.NumDofs();
@@ -103,17 +108,38 @@ Watched Watch(const FixedStateSystem& system, const Segment& segment) {
     const std::optional<double> t = FirstNegative(rate, segment.length, kFlat);
     if (t && *t > 0.0) consider(Happening::kLimitPoint, *t, {});
   }
-  if (first.happening == Happening::kNone && segment.start.determinant_sign * segment.end.determinant_sign < 0)
-    consider(Happening::kBifurcation, 0.5 * segment.length, {});
+  if (segment.start.determinant_sign * segment.end.determinant_sign < 0) {
+    const double t = FindBifurcation(piece, segment);
+    if (first.happening != Happening::kNone && std::abs(t - first.t) <= width)
+      first.singular = true;
+    else if (t < first.t)
+      first = {Happening::kBifurcation, t, {}, true};
+  }
   return first;
 }
 
 std::optional<CurvePoint> Locate(SmoothPiece* piece, const Segment& segment, const Watched& watched) {
+  if (watched.singular) {
+    CurvePoint point = segment.At(watched.t);
+    point.determinant_sign = 0;
+    return point;
+  }
+  std::optional<CurvePoint> point = LocateRegular(piece, segment, watched);
+  if (!point) return std::nullopt;
+  const double t = segment.normal.dot((point->x - segment.start.x).head(segment.normal.size()));
+  const double slack = kSlack * segment.length;
+  if (!(t >= -slack && t <= segment.length + slack)) return std::nullopt;
+  return point;
+}
+
+namespace {
+
+std::optional<CurvePoint> LocateRegular(SmoothPiece* piece, const Segment& segment, const Watched& watched) {
   const FixedStateSystem& system = piece->system();
   switch (watched.happening) {
     case Happening::kNone: return segment.end;
     case Happening::kNearTouch: return PointAt(piece, segment, watched.t);
-    case Happening::kBifurcation: return LocateBifurcation(piece, segment);
+    case Happening::kBifurcation: return segment.At(watched.t);
     case Happening::kLimitPoint:
       return LocateRate(piece, segment, watched.t, [&](const Eigen::VectorXd& rate) { return rate[system.NumDofs()]; });
     case Happening::kEvent: break;
@@ -122,7 +148,7 @@ std::optional<CurvePoint> Locate(SmoothPiece* piece, const Segment& segment, con
     return LocateRate(piece, segment, watched.t,
                       [&](const Eigen::VectorXd& rate) { return system.Rate(watched.limit, rate); });
   // The inequality as the last equation. Where it only grazes zero, that has no solution: then the point itself is exact
-  // enough. Derivatives are those of the step that crossed the event: at the event itself the equations may be singular.
+  // enough. At the event itself the equations may be singular: then derivatives are those of the step that crossed it.
   const Eigen::VectorXd guess = segment.Point(watched.t);
   const Eigen::VectorXd row = system.Gradient(watched.limit);
   Correction correction = piece->Correct(guess, row, row.dot(guess) - system.Value(watched.limit, guess));
@@ -130,9 +156,15 @@ std::optional<CurvePoint> Locate(SmoothPiece* piece, const Segment& segment, con
   if (!correction.converged || !((correction.x - guess).head(piece->NumMotion()).norm() <= reach))
     correction = piece->CorrectOnPlane(guess, segment.normal);
   if (!correction.converged) return std::nullopt;
-  CurvePoint point = segment.At(segment.normal.dot((correction.x - segment.start.x).head(segment.normal.size())));
+  const CurvePoint interpolated =
+      segment.At(segment.normal.dot((correction.x - segment.start.x).head(segment.normal.size())));
+  CurvePoint point;
+  const bool regular = piece->Derivatives(correction.x, interpolated.first.head(segment.normal.size()), &point) &&
+                       (point.first - interpolated.first).norm() <= kSameDerivative;
+  if (!regular) point = interpolated;
   point.x = correction.x;
   return point;
 }
 
+}  // namespace
 }  // namespace contact_path

@@ -14,6 +14,8 @@ namespace {
 constexpr double kRateTolerance = 1e-9;       // of unit rates
 constexpr double kCurvatureTolerance = 1e-9;  // of second derivatives, where the rate is zero
 constexpr double kSameDirection = 1e-7;       // norm of the difference of unit vectors
+constexpr double kWayBack = 1e-3;             // the same, to the way back: an interpolated arrival is not exact
+constexpr double kSingularRank = 1e-6;        // rank tolerance where another path crosses: the point is known to about 1e-10
 constexpr double kRigid = 1e-9;               // singular value below which load and reactions do not change
 constexpr double kMostCombinations = 4096.0;  // 4^6
 constexpr double kRateLength = 1e-5;          // scaled length of an increment that stands for a rate
@@ -78,7 +80,7 @@ class Finder {
     const Eigen::VectorXd second = solver_.Solve(-system_.SecondDerivative(x, *tangent));
     for (const double sign : {1.0, -1.0}) {
       const Eigen::VectorXd first = sign * *tangent;
-      if (Admissible(x, first, second)) Add(first, ways);
+      if (Admissible(x, first, second)) Add(first, second, ways);
     }
   }
 
@@ -127,7 +129,8 @@ class Finder {
   std::optional<Eigen::VectorXd> TangentOf(const States& states, Eigen::VectorXd* x) {
     system_.SetStates(states, reference_);
     *x = system_.Pack(point_);
-    if (!solver_.Factorize(system_.TransposedJacobian(*x))) return std::nullopt;
+    if (!solver_.Factorize(system_.TransposedJacobian(*x), arrival_.singular ? kSingularRank : MinimumNormSolver::kRankTolerance))
+      return std::nullopt;
     return Tangent();
   }
 
@@ -172,7 +175,7 @@ class Finder {
     const Eigen::Index n = NumMotion();
     if (arrival_.is_start) {
       if (first[n - 1] * arrival_.direction[n - 1] <= kRateTolerance) return false;
-    } else if ((first.head(n) + arrival_.direction).norm() < kSameDirection) {
+    } else if ((first.head(n) + arrival_.direction).norm() < kWayBack) {
       return false;
     }
     for (const Limit& limit : system_.Inequalities()) {
@@ -184,23 +187,34 @@ class Finder {
     return true;
   }
 
-  void Add(const Eigen::VectorXd& first, std::vector<Way>* ways) const {
-    const Eigen::Index n = NumMotion();
+  // Contacts that slip by name but do not move.
+  int IdleSlips(const Way& way) const {
+    int idle = 0;
+    for (std::size_t i = 0; i < contacts_.size(); ++i)
+      if ((way.states[i] == ContactState::kSlipPlus || way.states[i] == ContactState::kSlipMinus) &&
+          std::abs(contacts_[i].tangential.Rate(way.direction)) <= kRateTolerance)
+        ++idle;
+    return idle;
+  }
+
+  void Add(const Eigen::VectorXd& first, const Eigen::VectorXd& second, std::vector<Way>* ways) const {
     Way way;
     way.states = system_.states();
     way.loose = loose_;
-    way.direction = first.head(n);
-    for (const Way& other : *ways)
-      if ((other.direction - way.direction).norm() < kSameDirection) return;
-    way.load_rate = first[n - 1];
-    const PathPoint rates = system_.Unpack(first);
-    for (std::size_t i = 0; i < contacts_.size(); ++i) {
-      const auto k = static_cast<Eigen::Index>(i);
-      const double slip = contacts_[i].tangential.Rate(rates.u);
-      if (way.states[i] == ContactState::kOpen || way.states[i] == ContactState::kStick) continue;
-      way.dissipation_rate -= point_.rt[k] * slip;
-    }
+    way.direction = first.head(NumMotion());
+    way.first = first;
+    way.second = second - first.head(NumMotion()).dot(second.head(NumMotion())) * first;
+    way.load_rate = first[NumMotion() - 1];
+    for (std::size_t i = 0; i < contacts_.size(); ++i)
+      if (way.states[i] == ContactState::kSlipPlus || way.states[i] == ContactState::kSlipMinus)
+        way.dissipation_rate -=
+            point_.rt[static_cast<Eigen::Index>(i)] * contacts_[i].tangential.Rate(way.direction);
     way.turn = std::acos(std::clamp(way.direction.dot(arrival_.direction), -1.0, 1.0));
+    for (Way& other : *ways) {
+      if ((other.direction - way.direction).norm() >= kSameDirection) continue;
+      if (IdleSlips(way) < IdleSlips(other)) other = std::move(way);
+      return;
+    }
     ways->push_back(std::move(way));
   }
 

@@ -15,7 +15,7 @@ struct MinimumNormSolver::Factors {
 MinimumNormSolver::MinimumNormSolver() : factors_(std::make_unique<Factors>()) {}
 MinimumNormSolver::~MinimumNormSolver() = default;
 
-bool MinimumNormSolver::Factorize(const Eigen::SparseMatrix<double>& transposed) {
+bool MinimumNormSolver::Factorize(const Eigen::SparseMatrix<double>& transposed, double rank_tolerance) {
   double largest = 0.0;
   for (Eigen::Index column = 0; column < transposed.cols(); ++column) {
     double sum = 0.0;
@@ -23,7 +23,7 @@ bool MinimumNormSolver::Factorize(const Eigen::SparseMatrix<double>& transposed)
     if (!std::isfinite(sum)) return false;
     largest = std::max(largest, std::sqrt(sum));
   }
-  factors_->qr.setPivotThreshold(kRankTolerance * largest);
+  factors_->qr.setPivotThreshold(rank_tolerance * largest);
   factors_->qr.compute(transposed);
   if (factors_->qr.info() != Eigen::Success) return false;
   factors_->rank = factors_->qr.rank();

@@ -12,8 +12,15 @@ constexpr double kAccepted = 1e-9;       // residuals of an accepted row
 constexpr double kNoMove = 1e-12;        // an event nearer than this to the last one happens in place
 constexpr int kMostEventsInPlace = 8;    // then the contacts chatter, and no way on is trusted
 constexpr double kLevel = 1e-9;          // of a unit rate: the load neither rises nor falls
+constexpr double kSameTangent = 1e-6;    // difference of unit tangents
 constexpr int kLocatingAttempts = 6;
 constexpr double kNearBifurcation = 1e-6;  // of a step
+
+// The rate of a quantity; where it is zero, how it changes next to there; 0 where both are.
+double Trend(double rate, double change) {
+  if (std::abs(rate) > kLevel) return rate;
+  return std::abs(change) > kLevel ? change : 0.0;
+}
 
 const char* NoWayOn(const WaysOn& on) {
   if (!on.complete) return "no admissible way on was found among the combinations of contact states tried";
@@ -66,7 +73,23 @@ const BranchChoice* BranchMethod::ChoiceForRow(int row) const {
 
 bool BranchMethod::Leave(const PathPoint& point, const Way& way) {
   piece_.SetStates(way.states, point);
-  return piece_.Derivatives(piece_.system().Pack(point), way.direction, &current_);
+  const bool regular = piece_.Derivatives(piece_.system().Pack(point), way.direction, &current_) &&
+                       (current_.first - way.first).norm() <= kSameTangent;
+  if (regular) return true;
+  // Another path crosses here, or the structure has rigid modes: the way itself tells where to go.
+  current_.x = piece_.system().Pack(point);
+  current_.first = way.first;
+  current_.second = way.second;
+  current_.determinant_sign = 0;
+  return current_.second.allFinite();
+}
+
+Arrival BranchMethod::StartArrival() const {
+  Arrival arrival;
+  arrival.is_start = true;
+  arrival.direction = Eigen::VectorXd::Unit(model_.structure.NumDofs() + 1, model_.structure.NumDofs());
+  arrival.direction *= options_.direction;
+  return arrival;
 }
 
 bool BranchMethod::PassEvent(const PathPoint& point, const Arrival& arrival, const BranchChoice* choice, EventRecord* record,
@@ -172,11 +195,7 @@ std::vector<double> BranchMethod::CrossingPath(const Segment& segment) {
 }
 
 bool BranchMethod::Start(const PathPoint& from, EventRecord* ways, std::string* message) {
-  Arrival arrival;
-  arrival.is_start = true;
-  arrival.direction = Eigen::VectorXd::Unit(model_.structure.NumDofs() + 1, model_.structure.NumDofs());
-  arrival.direction *= options_.direction;
-  return PassEvent(from, arrival, ChoiceForRow(0), ways, message);
+  return PassEvent(from, StartArrival(), ChoiceForRow(0), ways, message);
 }
 
 Advance BranchMethod::Next(const PathPoint& from, double longest) {
@@ -197,7 +216,7 @@ Advance BranchMethod::Next(const PathPoint& from, double longest) {
       length *= 0.5;
       continue;
     }
-    watched = Watch(piece_.system(), *segment);
+    watched = Watch(&piece_, *segment);
     // Locate what happens first; the exact point may show something earlier.
     bool located = watched.happening == Happening::kNone;
     for (int attempt = 0; attempt < kLocatingAttempts && !located; ++attempt) {
@@ -210,9 +229,8 @@ Advance BranchMethod::Next(const PathPoint& from, double longest) {
         located = true;
         break;
       }
-      const Watched earlier = Watch(piece_.system(), part);
-      const bool first = earlier.happening == Happening::kNone || earlier.t >= part.length - kNoMove ||
-                         earlier.happening == Happening::kBifurcation;
+      const Watched earlier = Watch(&piece_, part);
+      const bool first = earlier.happening == Happening::kNone || earlier.t >= part.length - kNoMove;
       segment = part;
       if (first)
         located = true;
@@ -245,6 +263,7 @@ Advance BranchMethod::Next(const PathPoint& from, double longest) {
     row.arc_length = segment->ArcLength();
     row.work = WorkOf(*segment);
     events_in_place_ = 0;
+    at_start_ = false;
   } else if (++events_in_place_ > kMostEventsInPlace) {
     advance.message = "contacts change their states again and again in one place";
     return advance;
@@ -259,15 +278,19 @@ Advance BranchMethod::Next(const PathPoint& from, double longest) {
   if (watched.happening == Happening::kEvent || forced != nullptr) {
     Arrival arrival;
     arrival.direction = end.first.head(piece_.NumMotion());
+    arrival.singular = watched.singular;
+    if (at_start_) arrival = StartArrival();
     const BranchChoice* choice = forced != nullptr ? forced : ChoiceForEvent(++events_);
     if (!PassEvent(row.point, arrival, choice, &row.event, &advance.message)) {
       advance.ended = true;
       advance.reason = EndReason::kPathEnd;
       row.kind = RowKind::kContactEvent;
     } else {
-      const double leaving = current_.first[piece_.NumMotion() - 1];
-      const bool turns = load_rate * leaving < 0.0 && std::min(std::abs(load_rate), std::abs(leaving)) > kLevel;
-      row.kind = turns ? RowKind::kCornerLimit : RowKind::kContactEvent;
+      const Eigen::Index s = piece_.NumMotion() - 1;
+      // Which way the load was going and goes on: by the second derivative where the first is zero.
+      const double leaving = current_.first[s];
+      const double before = Trend(load_rate, -end.second[s]), after = Trend(leaving, current_.second[s]);
+      row.kind = before * after < 0.0 ? RowKind::kCornerLimit : RowKind::kContactEvent;
     }
   } else if (watched.happening == Happening::kLimitPoint) {
     row.kind = RowKind::kSmoothLimit;

@@ -27,14 +27,11 @@ void ReadParameter(const ros::NodeHandle& node, const char* name, const char* ty
   }
 }
 
-std::string HomeDirectory() {
+// `path` with a leading ~ replaced by the home directory.
+std::string ExpandHome(const std::string& path) {
   const char* const home = std::getenv("HOME");
-  return home != nullptr ? home : ".";
-}
-
-std::string DefaultBagDirectory() {
-  const char* const ros_home = std::getenv("ROS_HOME");
-  return (ros_home != nullptr ? std::string(ros_home) : HomeDirectory() + "/.ros") + "/contact_path";
+  const bool at_home = path == "~" || path.rfind("~/", 0) == 0;
+  return at_home && home != nullptr ? home + path.substr(1) : path;
 }
 
 std::string InSeconds(double seconds) {
@@ -47,8 +44,7 @@ std::string InSeconds(double seconds) {
 
 NodeParameters ReadParameters(const ros::NodeHandle& private_node) {
   NodeParameters parameters;
-  std::string directory;
-  ReadParameter(private_node, names::kBagDirectory, "a string", &directory);
+  ReadParameter(private_node, names::kBagDirectory, "a string", &parameters.bag_directory);
   ReadParameter(private_node, names::kIncrementsQueue, "an integer", &parameters.increments_queue);
   ReadParameter(private_node, names::kMaxNodes, "an integer", &parameters.limits.max_nodes);
   ReadParameter(private_node, names::kMaxElements, "an integer", &parameters.limits.max_elements);
@@ -56,9 +52,10 @@ NodeParameters ReadParameters(const ros::NodeHandle& private_node) {
   ReadParameter(private_node, names::kMaxIncrements, "an integer", &parameters.limits.max_increments);
   ReadParameter(private_node, names::kMaxSeconds, "a number", &parameters.limits.max_seconds);
 
-  if (directory.empty()) directory = DefaultBagDirectory();
-  if (directory == "~" || directory.rfind("~/", 0) == 0) directory = HomeDirectory() + directory.substr(1);
-  parameters.bag_directory = std::filesystem::absolute(directory).string();
+  if (parameters.bag_directory.empty()) {
+    throw std::invalid_argument("~" + std::string(names::kBagDirectory) + " = \"\": must not be empty");
+  }
+  parameters.bag_directory = std::filesystem::absolute(ExpandHome(parameters.bag_directory)).string();
   if (parameters.increments_queue <= 0) {
     throw std::invalid_argument("~" + std::string(names::kIncrementsQueue) + " = " +
                                 std::to_string(parameters.increments_queue) + ": must be > 0");

@@ -16,6 +16,8 @@ namespace contact_path {
 struct Way {
   std::vector<ContactState> states;  // by candidate, on the piece that starts here
   Eigen::VectorXd direction;         // (du, ds), unit vector, NumDofs() + 1
+  Eigen::VectorXd first;             // all unknowns of the fixed-state system: derivatives by arc length
+  Eigen::VectorXd second;
   double load_rate = 0.0;            // ds
   double dissipation_rate = 0.0;     // -r_t . du_t, >= 0
   double turn = 0.0;                 // angle to the direction of arrival [rad]
@@ -27,6 +29,7 @@ struct Way {
 struct Arrival {
   Eigen::VectorXd direction;  // (du, ds), unit vector; for a start: what is wanted, (0, +-1)
   bool is_start = false;      // then ds must have the wanted sign, and there is no way back
+  bool singular = false;      // another path crosses here: nearly singular counts as singular
 };
 
 struct WaysOn {
@@ -37,7 +40,8 @@ struct WaysOn {
 };
 
 // All ways on from `point`, an equilibrium, without the way back. Concerned are the contacts with an inequality within
-// `tolerance` of zero, and all that slip. Of ways with the same direction one is kept.
+// `tolerance` of zero, and all that slip. Of ways with the same direction one is kept:
+// that in which fewest contacts slip without moving.
 // Up to 4^6 combinations of states are all tried; of more, those that principal pivoting and `mpec` (the increment problem in
 // the limit of a short increment) lead to, each certified like any other.
 WaysOn FindWays(const Structure& structure, const std::vector<ContactGeometry>& contacts, const PathPoint& point,

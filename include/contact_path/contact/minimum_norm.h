@@ -21,7 +21,7 @@ class MinimumNormSolver {
   MinimumNormSolver& operator=(const MinimumNormSolver&) = delete;
 
   // transposed: A', unknowns x equations. False if it is not finite or the factorisation fails.
-  bool Factorize(const Eigen::SparseMatrix<double>& transposed);
+  bool Factorize(const Eigen::SparseMatrix<double>& transposed, double rank_tolerance = kRankTolerance);
   Eigen::Index Rank() const;
   // x for b of the number of equations; Factorize() must have returned true.
   Eigen::VectorXd Solve(const Eigen::VectorXd& b) const;

@@ -42,6 +42,7 @@ class BranchMethod : public PathMethod {
  private:
   // A step from current_; nothing where it has to be shorter.
   std::optional<Segment> Step(double length);
+  Arrival StartArrival() const;
   // Sets out on a way from `point`.
   bool Leave(const PathPoint& point, const Way& way);
   // Finds the ways on from `point` and sets out on one. False: none, or the chosen one does not exist (*message).
@@ -63,6 +64,7 @@ class BranchMethod : public PathMethod {
   int rows_ = 0;              // given so far, row 0 not counted
   int events_ = 0;            // passed so far, the start not counted
   int events_in_place_ = 0;   // passed without moving
+  bool at_start_ = true;      // not moved yet
   int iterations_ = 0;        // of the last step
   double contraction_ = 0.0;  // of the last step
 };

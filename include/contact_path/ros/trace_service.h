@@ -20,7 +20,7 @@ namespace contact_path {
 
 // Parameters of the node, by their names in names.h.
 struct NodeParameters {
-  std::string bag_directory;      // absolute; default $ROS_HOME/contact_path, or ~/.ros/contact_path
+  std::string bag_directory = "~/.ros/contact_path";  // a leading ~ is the home directory; absolute once it is read
   int increments_queue = 100000;  // increments kept for a subscriber that is slower than the trace, > 0
   TraceLimits limits;             // max_nodes, max_elements, max_contacts, max_increments, max_seconds
 };
