@@ -1,5 +1,6 @@
 #include "contact_path/branch/ways.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
@@ -16,6 +17,7 @@ constexpr double kCurvatureTolerance = 1e-9;  // of second derivatives, where th
 constexpr double kSameDirection = 1e-7;       // norm of the difference of unit vectors
 constexpr double kWayBack = 1e-3;             // the same, to the way back: an interpolated arrival is not exact
 constexpr double kSingularRank = 1e-6;        // rank tolerance where another path crosses: the point is known to about 1e-10
+constexpr Eigen::Index kMostDenseEquations = 500;  // for a dense singular value decomposition
 constexpr double kRigid = 1e-9;               // singular value below which load and reactions do not change
 constexpr double kMostCombinations = 4096.0;  // 4^6
 constexpr double kRateLength = 1e-5;          // scaled length of an increment that stands for a rate
@@ -77,10 +79,14 @@ class Finder {
     Eigen::VectorXd x;
     const std::optional<Eigen::VectorXd> tangent = TangentOf(states, &x);
     if (!tangent) return;
-    const Eigen::VectorXd second = solver_.Solve(-system_.SecondDerivative(x, *tangent));
-    for (const double sign : {1.0, -1.0}) {
-      const Eigen::VectorXd first = sign * *tangent;
-      if (Admissible(x, first, second)) Add(first, second, ways);
+    std::vector<Eigen::VectorXd> tangents = CrossingTangents(x);
+    if (tangents.empty()) tangents = {*tangent};
+    for (const Eigen::VectorXd& along : tangents) {
+      const Eigen::VectorXd second = solver_.Solve(-system_.SecondDerivative(x, along));
+      for (const double sign : {1.0, -1.0}) {
+        const Eigen::VectorXd first = sign * along;
+        if (Admissible(x, first, second)) Add(first, second, ways);
+      }
     }
   }
 
@@ -169,6 +175,33 @@ class Finder {
     if (!(norm > kRigid)) return std::nullopt;
     tangent /= norm;
     return tangent;
+  }
+
+  // Where two paths of the same states cross, the null space is a plane, and the tangents in it are the zeros of
+  // psi . F''(z, z), psi the left null vector of the Jacobian of F. Empty where there is no such crossing.
+  std::vector<Eigen::VectorXd> CrossingTangents(const Eigen::VectorXd& x) {
+    if (!arrival_.singular || system_.NumEquations() > kMostDenseEquations) return {};
+    const Eigen::MatrixXd plane = Split(solver_.NullSpace(), 0, NumMotion(), false);
+    if (plane.cols() != 2) return {};
+    const Eigen::MatrixXd transposed = system_.TransposedJacobian(x);
+    const Eigen::VectorXd psi = Eigen::JacobiSVD<Eigen::MatrixXd>(transposed, Eigen::ComputeFullV).matrixV().rightCols<1>();
+    const auto form = [&](const Eigen::VectorXd& z) { return psi.dot(system_.SecondDerivative(x, z)); };
+    const double a = form(plane.col(0)), c = form(plane.col(1));
+    const double b = 0.5 * (form(plane.col(0) + plane.col(1)) - a - c);
+    Eigen::Matrix2d matrix;
+    matrix << a, b, b, c;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(matrix);
+    const Eigen::Vector2d values = eigen.eigenvalues();  // ascending
+    if (!(values[0] < 0.0 && values[1] > 0.0)) return {};
+    std::vector<Eigen::VectorXd> tangents;
+    for (const double sign : {1.0, -1.0}) {
+      const Eigen::Vector2d direction =
+          std::sqrt(values[1]) * eigen.eigenvectors().col(0) + sign * std::sqrt(-values[0]) * eigen.eigenvectors().col(1);
+      Eigen::VectorXd tangent = plane * direction;
+      tangent /= tangent.head(NumMotion()).norm();
+      tangents.push_back(std::move(tangent));
+    }
+    return tangents;
   }
 
   bool Admissible(const Eigen::VectorXd& x, const Eigen::VectorXd& first, const Eigen::VectorXd& second) const {

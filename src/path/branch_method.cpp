@@ -13,6 +13,7 @@ constexpr double kNoMove = 1e-12;        // an event nearer than this to the las
 constexpr int kMostEventsInPlace = 8;    // then the contacts chatter, and no way on is trusted
 constexpr double kLevel = 1e-9;          // of a unit rate: the load neither rises nor falls
 constexpr double kSameTangent = 1e-6;    // difference of unit tangents
+constexpr double kAfterSingular = 0.05;  // of the step: derivatives at a singular point are not exact to second order
 constexpr int kLocatingAttempts = 6;
 constexpr double kNearBifurcation = 1e-6;  // of a step
 
@@ -300,6 +301,7 @@ Advance BranchMethod::Next(const PathPoint& from, double longest) {
   }
   // The next step: as long as wanted unless this one had to be shortened.
   step_ = std::min(options_.step, rejected > 0 ? 1.5 * length : 2.0 * step_);
+  if (watched.singular) step_ *= kAfterSingular;
   row.solve.factorisations = piece_.factorisations() - factorisations_before;
   advance.rows.push_back(std::move(row));
   return advance;
