@@ -24,6 +24,9 @@
 #include "contact_path/path/trace.h"
 #include "contact_path/scene/read_scene.h"
 #include "contact_path/scene/validate.h"
+#ifdef CONTACT_PATH_WITH_ROS
+#include "bag_sink.h"
+#endif
 #include "progress.h"
 
 namespace contact_path {
@@ -36,6 +39,7 @@ enum ExitStatus { kComplete = 0, kEndedEarly = 1, kBadInput = 2 };
 struct Arguments {
   std::string scene_file;
   std::optional<std::string> csv_file;  // nothing: standard output
+  std::optional<std::string> bag_file;  // nothing: no bag
   std::optional<std::string> method;
   std::optional<std::string> accuracy;
   std::optional<double> step;
@@ -80,6 +84,9 @@ void DeclareOptions(CLI::App& app, Arguments& arguments) {
   app.add_option("SCENE", arguments.scene_file, "Scene file (YAML)")->required();
   app.add_option("--csv", arguments.csv_file, "Write the rows to this file instead of standard output")
       ->type_name("FILE");
+#ifdef CONTACT_PATH_WITH_ROS
+  app.add_option("--bag", arguments.bag_file, "Record the trace to this bag too")->type_name("FILE");
+#endif
   app.add_option("--method", arguments.method, "branch or mpec, instead of the scene's")->type_name("NAME");
   app.add_option("--accuracy", arguments.accuracy, "fast, balanced or accurate, instead of the scene's")
       ->type_name("NAME");
@@ -159,10 +166,17 @@ Sink StartCsv(const Scene& scene, std::ostream& out, const std::string& name) {
 ExitStatus RunTrace(const TraceRequest& request, const Arguments& arguments, std::ostream& csv) {
   const bool csv_on_terminal = !arguments.csv_file && isatty(STDOUT_FILENO) == 1;
   Progress progress(request, !arguments.quiet && !csv_on_terminal && isatty(STDERR_FILENO) == 1, std::cerr);
-  const std::vector<Sink> sinks = {
+  std::vector<Sink> sinks = {
       StartCsv(request.scene, csv, arguments.csv_file.value_or("standard output")),
       [&progress](const Increment& increment) { progress.Add(increment); },
   };
+#ifdef CONTACT_PATH_WITH_ROS
+  std::optional<BagSink> bag;
+  if (arguments.bag_file) {
+    bag.emplace(*arguments.bag_file, request);
+    sinks.emplace_back([&bag](const Increment& increment) { bag->Add(increment); });
+  }
+#endif
 
   HandleSignals();
   TraceControl control;
@@ -171,6 +185,9 @@ ExitStatus RunTrace(const TraceRequest& request, const Arguments& arguments, std
   };
   control.cancelled = [] { return cancel_requested != 0; };
   const TraceResult result = Trace(request, control);
+#ifdef CONTACT_PATH_WITH_ROS
+  if (bag) bag->End(result);
+#endif
 
   const bool complete = result.reason == EndReason::kStopCriterion || result.reason == EndReason::kMaxIncrements;
   if (!complete || !arguments.quiet) {

@@ -63,14 +63,20 @@ BagRecorder::BagRecorder(const std::filesystem::path& directory, const std::stri
     std::filesystem::create_directories(directory_);
     CheckSpace();
     CreateFile(scene_name);
-    bag_->setChunkThreshold(kChunkBytes);
-    bag_->open((directory_ / file_name_).string(), rosbag::bagmode::Write);
   } catch (const std::filesystem::filesystem_error& error) {
     throw BagError("bag directory " + directory_.string() + ": " + error.code().message());
-  } catch (const rosbag::BagException& error) {
-    Abandon(std::move(bag_));
-    throw BagError("bag " + (directory_ / file_name_).string() + " cannot be opened: " + error.what());
   }
+  Open();
+}
+
+BagRecorder::BagRecorder(const std::filesystem::path& file, const std::string& topic_prefix)
+    : directory_(file.has_parent_path() ? file.parent_path() : std::filesystem::path(".")),
+      topic_prefix_(topic_prefix),
+      reserve_(kDefaultReserve),
+      file_name_(file.filename().string()),
+      bag_(std::make_unique<rosbag::Bag>()) {
+  CheckSpace();
+  Open();
 }
 
 BagRecorder::~BagRecorder() {
@@ -101,6 +107,16 @@ void BagRecorder::Close() {
   } catch (const rosbag::BagException& error) {
     Abandon(std::move(bag));
     throw BagError("bag " + file_name_ + " cannot be closed, `rosbag reindex` restores what it holds: " + error.what());
+  }
+}
+
+void BagRecorder::Open() {
+  try {
+    bag_->setChunkThreshold(kChunkBytes);
+    bag_->open((directory_ / file_name_).string(), rosbag::bagmode::Write);
+  } catch (const rosbag::BagException& error) {
+    Abandon(std::move(bag_));
+    throw BagError("bag " + (directory_ / file_name_).string() + " cannot be opened: " + error.what());
   }
 }
 

@@ -28,7 +28,7 @@ class BagError : public std::runtime_error {
 // "scene" for an empty name.
 std::string FileNamePart(const std::string& scene_name);
 
-// The bag is DIRECTORY/NUMBER_SCENE.bag: NUMBER has six digits or more and is one more than the largest in the
+// A bag of the node is DIRECTORY/NUMBER_SCENE.bag: NUMBER has six digits or more and is one more than the largest in the
 // directory, so that nothing is ever overwritten; SCENE is FileNamePart().
 //
 // Entries reach the file in chunks of 16 KiB. After a crash the bag has no index; `rosbag reindex` restores every
@@ -42,6 +42,8 @@ class BagRecorder {
   // Throws BagError, also where less than `reserve` bytes are free.
   BagRecorder(const std::filesystem::path& directory, const std::string& scene_name, const std::string& topic_prefix,
               std::uintmax_t reserve = kDefaultReserve);
+  // The bag is `file`, which is overwritten if it is there; its number is 0.
+  BagRecorder(const std::filesystem::path& file, const std::string& topic_prefix);
   ~BagRecorder();  // closes; what goes wrong then is lost
   BagRecorder(const BagRecorder&) = delete;
   BagRecorder& operator=(const BagRecorder&) = delete;
@@ -58,6 +60,7 @@ class BagRecorder {
   void Close();
 
  private:
+  void Open();
   void CreateFile(const std::string& scene_name);  // an empty one; sets number_ and file_name_
   void CheckSpace() const;
   template <typename Message>

@@ -1,0 +1,86 @@
+# The ROS side: messages, library, node, launch tests. Needs the target contact_path_core and find_package(catkin).
+
+add_message_files(FILES
+  Bar.msg
+  BranchChoice.msg
+  Contact.msg
+  ContactState.msg
+  Event.msg
+  Increment.msg
+  Load.msg
+  Node.msg
+  Obstacle.msg
+  Scene.msg
+  StopCriterion.msg
+  Superelement.msg
+  TraceOptions.msg
+  TraceRequest.msg
+  TraceResult.msg
+  TraceStatus.msg
+  Way.msg
+)
+add_service_files(FILES TracePath.srv)
+generate_messages(DEPENDENCIES std_msgs)
+
+catkin_package(
+  INCLUDE_DIRS include
+  LIBRARIES contact_path_ros contact_path_core
+  CATKIN_DEPENDS message_runtime rosbag roscpp std_msgs std_srvs
+)
+
+add_library(contact_path_ros
+  src/ros/bag_recorder.cpp
+  src/ros/convert.cpp
+  src/ros/limits.cpp
+  src/ros/shutdown_signal.cpp
+  src/ros/trace_service.cpp
+)
+add_dependencies(contact_path_ros ${PROJECT_NAME}_generate_messages_cpp)
+target_include_directories(contact_path_ros SYSTEM
+  PUBLIC ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION} ${catkin_INCLUDE_DIRS})
+target_link_libraries(contact_path_ros
+  PUBLIC contact_path_core ${catkin_LIBRARIES}
+  PRIVATE contact_path_warnings)
+
+add_executable(contact_path_node src/ros/contact_path_node.cpp)
+target_link_libraries(contact_path_node PRIVATE contact_path_ros contact_path_warnings)
+
+# With ROS the command-line program can record bags.
+target_sources(contact_path_trace PRIVATE src/cli/bag_sink.cpp)
+target_compile_definitions(contact_path_trace PRIVATE CONTACT_PATH_WITH_ROS)
+target_link_libraries(contact_path_trace PRIVATE contact_path_ros)
+
+# `rosrun contact_path contact_path_trace` finds the command-line program too.
+set(contact_path_devel_programs ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_BIN_DESTINATION})
+add_custom_command(TARGET contact_path_trace POST_BUILD
+  COMMAND ${CMAKE_COMMAND} -E make_directory ${contact_path_devel_programs}
+  COMMAND ${CMAKE_COMMAND} -E create_symlink
+    $<TARGET_FILE:contact_path_trace> ${contact_path_devel_programs}/contact_path_trace
+  VERBATIM)
+
+install(TARGETS contact_path_ros contact_path_core
+  ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
+  LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
+install(TARGETS contact_path_node contact_path_trace RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+install(DIRECTORY include/${PROJECT_NAME}/ DESTINATION ${CATKIN_PACKAGE_INCLUDE_DESTINATION})
+install(DIRECTORY launch scenes DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
+
+if(CATKIN_ENABLE_TESTING)
+  find_package(rostest REQUIRED)
+
+  catkin_add_gtest(contact_path_ros_test
+    test/ros/bag_recorder_test.cpp
+    test/ros/convert_test.cpp
+    test/ros/limits_test.cpp
+    test/ros/ros_test_main.cpp
+  )
+  target_link_libraries(contact_path_ros_test contact_path_ros contact_path_warnings)
+
+  # catkin runs tests in a snapshot of the environment from before the messages were generated; this one is read when
+  # the tests run.
+  set(CATKIN_ENV ${CATKIN_DEVEL_PREFIX}/env.sh)
+  foreach(test shutdown trace_service)
+    add_rostest(test/ros/${test}.test DEPENDENCIES contact_path_node contact_path_trace)
+  endforeach()
+  unset(CATKIN_ENV)
+endif()

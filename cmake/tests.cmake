@@ -1,0 +1,70 @@
+# Tests of the core and of the command-line program: one for each x_test.cpp. They link the core alone.
+#
+# In a catkin build they are catkin's gtests: built by the target `tests`, run by `run_tests` and by ctest. Otherwise they
+# are built with everything else and run by ctest. Either way each leaves its results as XML, one file a test program, in
+# test_results/ of the build directory. The label `long` marks what takes more than a few seconds.
+
+find_package(GTest REQUIRED)
+set(contact_path_test_with_catkin OFF)
+if(CONTACT_PATH_ROS AND CATKIN_ENABLE_TESTING)
+  set(contact_path_test_with_catkin ON)
+  set(contact_path_test_results ${CATKIN_TEST_RESULTS_DIR}/${PROJECT_NAME})
+else()
+  set(contact_path_test_results ${CMAKE_CURRENT_BINARY_DIR}/test_results/${PROJECT_NAME})
+endif()
+
+add_library(contact_path_test_support STATIC EXCLUDE_FROM_ALL
+  test/support/derivative_checker.cpp
+  test/support/reference_cases.cpp
+  test/support/traced_path.cpp
+  test/support/transformations.cpp
+)
+target_include_directories(contact_path_test_support PUBLIC ${CMAKE_CURRENT_SOURCE_DIR}/test)
+target_compile_definitions(contact_path_test_support PRIVATE
+  CONTACT_PATH_SCENES="${CMAKE_CURRENT_SOURCE_DIR}/scenes")
+target_link_libraries(contact_path_test_support PUBLIC contact_path_core GTest::gtest PRIVATE contact_path_warnings)
+
+# contact_path_add_test(<stage>/<name> [LONG]): test/<stage>/<name>.cpp, as the program <stage>_<name>.
+function(contact_path_add_test source)
+  cmake_parse_arguments(ARG "LONG" "" "" ${ARGN})
+  string(REPLACE "/" "_" name ${source})
+  if(contact_path_test_with_catkin)
+    catkin_add_gtest(${name} test/${source}.cpp)
+    set(test _ctest_${PROJECT_NAME}_gtest_${name})
+  else()
+    add_executable(${name} test/${source}.cpp)
+    add_test(NAME ${name} COMMAND ${name} --gtest_output=xml:${contact_path_test_results}/gtest-${name}.xml)
+    set(test ${name})
+  endif()
+  # Without a keyword, as catkin does.
+  target_link_libraries(${name} GTest::gtest_main contact_path_test_support contact_path_core contact_path_warnings)
+  set_property(TEST ${test} PROPERTY ENVIRONMENT OMP_NUM_THREADS=1)
+  if(ARG_LONG)
+    set_property(TEST ${test} PROPERTY LABELS long)
+  endif()
+endfunction()
+
+# One for each header, but for those that only declare an interface: structure/element.h, mpec/nonlinear_program.h,
+# path/path_method.h.
+contact_path_add_test(support/derivative_checker_test)
+contact_path_add_test(structure/bar_test)
+contact_path_add_test(structure/superelement_test)
+contact_path_add_test(structure/structure_test)
+contact_path_add_test(contact/contact_geometry_test)
+contact_path_add_test(contact/contact_state_test)
+contact_path_add_test(contact/fixed_state_system_test)
+contact_path_add_test(contact/minimum_norm_test)
+contact_path_add_test(contact/nearest_point_test)
+contact_path_add_test(contact/path_point_test)
+contact_path_add_test(mpec/increment_problem_test)
+contact_path_add_test(mpec/increment_solver_test)
+contact_path_add_test(mpec/ipopt_solver_test)
+contact_path_add_test(path/increment_test)
+contact_path_add_test(path/model_test)
+contact_path_add_test(path/preload_test)
+contact_path_add_test(path/stop_test)
+contact_path_add_test(path/work_test)
+contact_path_add_test(path/trace_test)
+contact_path_add_test(path/mpec_method_test)
+contact_path_add_test(path/mpec_cases_test LONG)
+contact_path_add_test(path/invariance_test LONG)

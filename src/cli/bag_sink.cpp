@@ -1,0 +1,46 @@
+#include "bag_sink.h"
+
+#include <ros/time.h>
+
+#include "contact_path/ros/bag_recorder.h"
+#include "contact_path/ros/convert.h"
+#include "contact_path/ros/names.h"
+#include "contact_path/ros/stamp.h"
+
+namespace contact_path {
+
+struct BagSink::Implementation {
+  explicit Implementation(const std::string& file) : recorder(file, std::string("/") + names::kNode) {}
+
+  BagRecorder recorder;
+  std::uint32_t increments = 0;
+};
+
+BagSink::BagSink(const std::string& file, const TraceRequest& request) {
+  ros::Time::init();  // wall time: there is no node here
+  implementation_ = std::make_unique<Implementation>(file);
+  implementation_->recorder.WriteRequest(ToMessage(request));
+}
+
+BagSink::~BagSink() = default;
+
+void BagSink::Add(const Increment& increment) {
+  contact_path_msgs::Increment message = ToMessage(increment);
+  message.header.stamp = StampNow();
+  message.header.seq = implementation_->increments++;
+  implementation_->recorder.WriteIncrement(message);
+}
+
+void BagSink::End(const TraceResult& result) {
+  contact_path_msgs::TraceResult message;
+  message.status = StatusOf(result.reason);
+  message.message = result.message;
+  message.increments = implementation_->increments;
+  message.end_reason = ToConstant(result.reason);
+  message.end_reason_name = EndReasonName(message.end_reason);
+  message.bag = implementation_->recorder.file_name();
+  implementation_->recorder.WriteResult(message);
+  implementation_->recorder.Close();
+}
+
+}  // namespace contact_path

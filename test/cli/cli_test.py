@@ -1,0 +1,356 @@
+#!/usr/bin/env python3
+"""Runs contact_path_trace as a user would.
+
+CONTACT_PATH_TRACE: the program; CONTACT_PATH_SCENES: the directory of the example scenes.
+"""
+import csv
+import io
+import os
+import pty
+import shutil
+import signal
+import subprocess
+import tempfile
+import threading
+import unittest
+
+PROGRAM = os.environ['CONTACT_PATH_TRACE']
+SCENE = os.path.join(os.environ['CONTACT_PATH_SCENES'], 'sliding_bar.yaml')
+TIMEOUT = 120  # seconds, for any single run
+
+# More work than any test waits for.
+ENDLESS = ['--step', '1e-6', '--max-increments', '1000000000']
+
+HEADER = ('index,load_factor,arc_length,kind,x_a,y_a,x_b,y_b,gap_b@floor,rn_b@floor,rt_b@floor,state_b@floor,'
+          'dissipation,strain_energy,equilibrium_residual,complementarity_residual,solve_time').split(',')
+
+
+def run(*arguments, **options):
+    options = {'stdout': subprocess.PIPE, 'stderr': subprocess.PIPE, **options}
+    return subprocess.run([PROGRAM, *arguments], timeout=TIMEOUT, universal_newlines=True, check=False, **options)
+
+
+def read(path):
+    with open(path, encoding='utf-8') as file:
+        return file.read()
+
+
+def rows_of(text):
+    return list(csv.DictReader(io.StringIO(text)))
+
+
+def without_time(text):
+    return [{key: value for key, value in row.items() if key != 'solve_time'} for row in rows_of(text)]
+
+
+class CliTest(unittest.TestCase):
+
+    def setUp(self):
+        self.directory = tempfile.mkdtemp()
+        self.addCleanup(shutil.rmtree, self.directory)
+        self.csv = self.path('rows.csv')
+
+    def start(self, *arguments, **options):
+        """Runs in the background, not longer than the time limit."""
+        options = {'stdout': subprocess.PIPE, 'stderr': subprocess.PIPE, **options}
+        process = subprocess.Popen([PROGRAM, *arguments], universal_newlines=True, **options)
+        timer = threading.Timer(TIMEOUT, process.kill)
+        timer.start()
+        for pipe in (process.stdout, process.stderr):
+            if pipe is not None:
+                self.addCleanup(pipe.close)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        self.addCleanup(timer.cancel)
+        return process
+
+    def path(self, name):
+        return os.path.join(self.directory, name)
+
+    def write_scene(self, text):
+        path = self.path('scene.yaml')
+        with open(path, 'w', encoding='utf-8') as file:
+            file.write(text)
+        return path
+
+    def changed_scene(self, old, new):
+        text = read(SCENE)
+        self.assertIn(old, text)
+        return self.write_scene(text.replace(old, new, 1))
+
+    def expect_lines(self, text, count):
+        lines = text.splitlines()
+        self.assertEqual(len(lines), count, text)
+        self.assertTrue(all(line.strip() for line in lines), text)
+        return lines
+
+    def expect_whole_rows(self, text):
+        self.assertTrue(text.endswith('\n'), text[-200:])
+        rows = list(csv.reader(io.StringIO(text)))
+        self.assertEqual(rows[0], HEADER)
+        for index, row in enumerate(rows[1:]):
+            self.assertEqual(len(row), len(HEADER), row)
+            self.assertEqual(row[0], str(index))
+
+
+class CompleteTraces(CliTest):
+
+    def test_stop_criterion(self):
+        result = run(SCENE)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.expect_whole_rows(result.stdout)
+        rows = rows_of(result.stdout)
+        self.assertEqual(rows[0]['kind'], 'start')
+        self.assertGreater(float(rows[-1]['x_b']), 4.95)
+        self.assertTrue(all(float(row['x_b']) <= 4.95 for row in rows[:-1]))
+        self.assertTrue(all(float(row['equilibrium_residual']) < 1e-8 for row in rows))
+        self.assertTrue(all(float(row['complementarity_residual']) < 1e-8 for row in rows))
+        line, = self.expect_lines(result.stderr, 1)
+        self.assertIn('stop_criterion', line)
+        self.assertIn('%d rows' % len(rows), line)
+        self.assertNotIn('\r', result.stderr)
+        self.assertNotIn('\x1b', result.stderr)
+
+    def test_max_increments(self):
+        result = run(SCENE, '--max-increments', '3')
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.expect_whole_rows(result.stdout)
+        self.assertIn(len(rows_of(result.stdout)), (3, 4))
+        line, = self.expect_lines(result.stderr, 1)
+        self.assertIn('max_increments', line)
+
+    def test_summary_names_the_limit_points_of_the_rows(self):
+        result = run(SCENE)
+        kinds = ('smooth_limit', 'corner_limit')
+        limits = [row for row in rows_of(result.stdout) if row['kind'] in kinds]
+        self.assertEqual(sum(result.stderr.count(kind) for kind in kinds), min(len(limits), 10), result.stderr)
+        for row in limits[:10]:
+            self.assertIn('%s at load factor %.10g (row %s)' % (row['kind'], float(row['load_factor']), row['index']),
+                          result.stderr)
+
+    def test_quiet(self):
+        result = run(SCENE, '--max-increments', '3', '--quiet')
+        self.assertEqual(result.returncode, 0)
+        self.assertEqual(result.stderr, '')
+        self.expect_whole_rows(result.stdout)
+
+    def test_csv_file_has_the_rows_of_standard_output(self):
+        with open(self.csv, 'w', encoding='utf-8') as file:
+            file.write('what stood there before\n' * 1000)
+        result = run(SCENE, '--max-increments', '3', '--csv', self.csv)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(result.stdout, '')
+        self.expect_whole_rows(read(self.csv))
+        self.assertEqual(without_time(read(self.csv)), without_time(run(SCENE, '--max-increments', '3').stdout))
+
+    def test_step_overrides_the_scene(self):
+        def length(step):
+            rows = rows_of(run(SCENE, '--max-increments', '3', '--step', step).stdout)
+            return float(rows[-1]['arc_length']) / (len(rows) - 1)
+
+        self.assertLess(length('0.0005'), 0.5 * length('0.005'))
+
+    def test_method_and_accuracy(self):
+        for arguments in (['--method', 'mpec'], ['--accuracy', 'fast'], ['--accuracy', 'accurate']):
+            result = run(SCENE, '--max-increments', '3', *arguments)
+            self.assertEqual(result.returncode, 0, (arguments, result.stderr))
+            self.expect_whole_rows(result.stdout)
+
+    def test_help(self):
+        result = run('--help')
+        self.assertEqual(result.returncode, 0)
+        self.assertEqual(result.stderr, '')
+        for option in ('--csv', '--method', '--accuracy', '--step', '--max-increments', '--quiet'):
+            self.assertIn(option, result.stdout)
+
+
+class Terminal(CliTest):
+
+    def run_on_terminal(self, *arguments):
+        """Exit status and what the program wrote to its terminal, which is standard error only."""
+        master, slave = pty.openpty()
+        process = self.start(SCENE, '--csv', self.csv, *arguments, stderr=slave)
+        os.close(slave)
+        text = b''
+        while True:
+            try:
+                block = os.read(master, 4096)
+            except OSError:  # the other end is closed
+                break
+            if not block:
+                break
+            text += block
+        os.close(master)
+        return process.wait(), text.decode()
+
+    def test_bar_is_drawn_and_wiped_before_the_summary(self):
+        status, text = self.run_on_terminal('--max-increments', '3')
+        self.assertEqual(status, 0)
+        drawn, summary = text.rsplit('\r\x1b[K', 1)
+        self.assertIn('[', drawn)
+        self.assertIn('load factor', drawn)
+        self.assertNotIn('\n', drawn)
+        self.assertIn('max_increments', summary)
+        self.expect_lines(summary, 1)
+
+    def test_quiet_draws_nothing(self):
+        status, text = self.run_on_terminal('--max-increments', '3', '--quiet')
+        self.assertEqual(status, 0)
+        self.assertEqual(text, '')
+
+
+class TracesThatEndEarly(CliTest):
+
+    def test_signals_cancel_and_keep_the_rows(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            for quiet in ([], ['--quiet']):
+                with self.subTest(signal=number, quiet=quiet):
+                    process = self.start(SCENE, *ENDLESS, *quiet)
+                    text = process.stdout.readline() + process.stdout.readline()  # header and row 0: it is tracing
+                    process.send_signal(number)
+                    text += process.stdout.read()
+                    errors = process.stderr.read()
+                    self.assertEqual(process.wait(), 1, errors)
+                    line, = self.expect_lines(errors, 1)
+                    self.assertIn('cancelled', line)
+                    self.expect_whole_rows(text)
+
+    def test_rows_are_written_as_they_come(self):
+        process = self.start(SCENE, '--csv', self.csv, *ENDLESS)
+        for _ in range(TIMEOUT * 100):
+            if os.path.exists(self.csv) and read(self.csv).count('\n') >= 3:
+                break
+            try:
+                process.wait(timeout=0.01)
+                self.fail('ended on its own')
+            except subprocess.TimeoutExpired:
+                pass
+        else:
+            self.fail('no rows while the trace goes on')
+        self.assertIsNone(process.poll())
+
+    @unittest.skipUnless(os.path.exists('/dev/full'), 'needs /dev/full')
+    def test_full_disk(self):
+        with open('/dev/full', 'w', encoding='utf-8') as full:
+            result = run(SCENE, '--quiet', stdout=full)
+        self.assertEqual(result.returncode, 1)
+        line, = self.expect_lines(result.stderr, 1)
+        self.assertIn('cannot write standard output: No space left on device', line)
+
+        result = run(SCENE, '--csv', '/dev/full')
+        self.assertEqual(result.returncode, 1)
+        line, = self.expect_lines(result.stderr, 1)
+        self.assertIn('cannot write /dev/full: No space left on device', line)
+
+    def test_reader_goes_away(self):
+        process = self.start(SCENE, *ENDLESS)
+        process.stdout.readline()
+        process.stdout.close()
+        errors = process.stderr.read()
+        self.assertEqual(process.wait(), 1)
+        line, = self.expect_lines(errors, 1)
+        self.assertIn('cannot write standard output: Broken pipe', line)
+
+
+class BadInput(CliTest):
+
+    def expect_refused(self, *arguments, lines=1):
+        """Runs and expects exit status 2, nothing on standard output, no CSV file; the lines on standard error."""
+        result = run(*arguments)
+        self.assertEqual(result.returncode, 2, result.stderr)
+        self.assertEqual(result.stdout, '')
+        self.assertFalse(os.path.exists(self.csv))
+        return self.expect_lines(result.stderr, lines)
+
+    def test_usage(self):
+        for arguments, words in (
+            ([], 'SCENE'),
+            ([SCENE, 'other.yaml'], 'other.yaml'),
+            ([SCENE, '--surprise'], '--surprise'),
+            ([SCENE, '--csv'], '--csv'),
+            ([SCENE, '--step', 'long'], 'long'),
+            ([SCENE, '--max-increments', '1.5'], '1.5'),
+            ([SCENE, '--max-increments', '99999999999999999999'], '99999999999999999999'),
+        ):
+            with self.subTest(arguments=arguments):
+                line, = self.expect_refused(*arguments)
+                self.assertIn(words, line)
+
+    def test_overrides_keep_the_rules_of_the_scene(self):
+        for option, value in (('--step', '-1'), ('--step', 'nan'), ('--step', 'inf'), ('--max-increments', '-3'),
+                              ('--method', 'newton'), ('--accuracy', 'best')):
+            with self.subTest(option=option, value=value):
+                line, = self.expect_refused(SCENE, '--csv', self.csv, option, value)
+                self.assertIn('command line', line)
+                self.assertIn(option.lstrip('-').replace('-', '_'), line.replace('-', '_'))
+                self.assertIn(value, line)
+
+    def test_invalid_scenes(self):
+        good = read(SCENE)
+        for name, text, words in (
+            ('empty', '', ''),
+            ('broken', good[:200] + '\n - {[', ''),
+            ('unknown key', good + '\nsurprise: 1\n', 'surprise'),
+            ('not finite', good.replace('EA: 14.142135623730951', 'EA: .nan'), 'scene.bars[0].EA'),
+            ('unknown node', good.replace('nodes: [a, b]', 'nodes: [a, c]'), 'scene.bars[0].nodes[1]'),
+        ):
+            with self.subTest(name):
+                self.assertNotEqual(text, good)
+                path = self.write_scene(text)
+                result = run(path, '--csv', self.csv)
+                self.assertEqual(result.returncode, 2, result.stderr)
+                self.assertEqual(result.stdout, '')
+                self.assertFalse(os.path.exists(self.csv))
+                lines = result.stderr.splitlines()
+                self.assertIn(len(lines), (1, 2, 3), result.stderr)
+                for line in lines[:2]:
+                    self.assertIn(path, line)
+                self.assertIn(words, lines[0])
+
+    def test_line_of_the_mistake_is_named(self):
+        path = self.changed_scene('EA: 14.142135623730951', 'EA: -3.5')
+        number = next(i for i, line in enumerate(read(path).splitlines(), 1) if 'EA: -3.5' in line)
+        line, = self.expect_refused(path, '--csv', self.csv)
+        self.assertTrue(line.startswith('%s:%d: scene.bars[0].EA = -3.5: ' % (path, number)), line)
+
+    def test_many_mistakes_take_three_lines(self):
+        criteria = ''.join('\n  - {quantity: load_factor, when: "=", value: %d}' % i for i in range(7))
+        path = self.write_scene(read(SCENE).split('  stop:')[0] + '  stop:' + criteria + '\n')
+        lines = self.expect_refused(path, '--csv', self.csv, lines=3)
+        self.assertIn('options.stop[0].when', lines[0])
+        self.assertIn('options.stop[1].when', lines[1])
+        self.assertEqual(lines[2], '... and 5 more')
+
+    def test_three_mistakes_are_all_listed(self):
+        criteria = ''.join('\n  - {quantity: load_factor, when: "=", value: %d}' % i for i in range(3))
+        path = self.write_scene(read(SCENE).split('  stop:')[0] + '  stop:' + criteria + '\n')
+        lines = self.expect_refused(path, '--csv', self.csv, lines=3)
+        self.assertIn('options.stop[2].when', lines[2])
+
+    def test_scene_that_cannot_be_read(self):
+        for path in (self.path('absent.yaml'), self.directory):
+            line, = self.expect_refused(path, '--csv', self.csv)
+            self.assertIn(path, line)
+
+    def test_invalid_scene_leaves_the_csv_file_alone(self):
+        with open(self.csv, 'w', encoding='utf-8') as file:
+            file.write('rows of yesterday\n')
+        self.assertEqual(run(self.write_scene('surprise: 1\n'), '--csv', self.csv).returncode, 2)
+        self.assertEqual(run(SCENE, '--step', '-1', '--csv', self.csv).returncode, 2)
+        self.assertEqual(read(self.csv), 'rows of yesterday\n')
+
+    def test_csv_file_that_cannot_be_opened(self):
+        for path in (self.path('absent/rows.csv'), self.directory, ''):
+            line, = self.expect_refused(SCENE, '--csv', path)
+            self.assertIn('--csv', line)
+            self.assertIn(path, line)
+
+    def test_csv_file_that_is_the_scene(self):
+        path = self.write_scene(read(SCENE))
+        line, = self.expect_refused(path, '--csv', path)
+        self.assertIn(path, line)
+        self.assertEqual(read(path), read(SCENE))
+
+
+if __name__ == '__main__':
+    unittest.main()

@@ -1,0 +1,253 @@
+#include "contact_path/contact/fixed_state_system.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "support/derivative_checker.h"
+#include "support/mixed_scene.h"
+#include "support/random.h"
+#include "support/reference_cases.h"
+
+namespace contact_path {
+namespace {
+
+constexpr double kRounding = 1e-14;  // of sums of a few terms of order 1
+
+using State = ContactState;
+
+// States that a contact can have.
+std::vector<State> StatesOf(const ContactGeometry& contact) {
+  if (contact.Frictional()) return {State::kOpen, State::kStick, State::kSlipPlus, State::kSlipMinus};
+  return {State::kOpen, State::kClosed};
+}
+
+class MixedSystem : public testing::Test {
+ protected:
+  PathPoint RandomPoint() {
+    PathPoint point;
+    point.u = structure_.InitialPositions() + random_.Vector(structure_.NumDofs(), -0.15, 0.15);
+    point.s = random_.Number(-1.0, 1.0);
+    point.rn = random_.Vector(6, 0.1, 1.0);
+    point.rt = random_.Vector(6, -1.0, 1.0);
+    return point;
+  }
+  void ExpectJacobian(const std::string& what) {
+    PathPoint point = RandomPoint();
+    const Eigen::VectorXd x = system_.Pack(point);
+    const auto residual = [&](const Eigen::VectorXd& at) {
+      Eigen::VectorXd value;
+      system_.Residual(at, &value);
+      return value;
+    };
+    EXPECT_EQ(residual(x).size(), system_.NumEquations()) << what;
+    EXPECT_EQ(x.size(), system_.NumUnknowns()) << what;
+    EXPECT_TRUE(IsJacobian(residual, x, Eigen::MatrixXd(system_.TransposedJacobian(x)).transpose())) << what;
+  }
+
+  const Scene scene_ = MixedScene();
+  const Structure structure_{scene_};
+  const std::vector<ContactGeometry> contacts_ = BuildContacts(scene_, structure_);
+  const Eigen::VectorXd reference_ = Eigen::VectorXd::LinSpaced(6, -0.4, 0.7);
+  FixedStateSystem system_{structure_, contacts_};
+  Random random_{4};
+};
+
+TEST_F(MixedSystem, StartsWithEverythingOpen) {
+  EXPECT_EQ(system_.NumUnknowns(), structure_.NumDofs() + 1);
+  EXPECT_EQ(system_.NumEquations(), structure_.NumDofs());
+  EXPECT_EQ(system_.states(), std::vector<State>(6, State::kOpen));
+}
+
+TEST_F(MixedSystem, CountsUnknownsAndEquations) {
+  const std::vector<State> states = {State::kStick,     State::kClosed, State::kSlipPlus,
+                                     State::kSlipMinus, State::kOpen,   State::kOpen};
+  system_.SetStates(states, reference_);
+  // One r_n and one gap each of the four that touch, one r_t and one u_t of the one that sticks.
+  EXPECT_EQ(system_.NumUnknowns(), 6 + 1 + 4 + 1);
+  EXPECT_EQ(system_.NumEquations(), 6 + 4 + 1);
+  system_.PinLoadFactor(0.5);
+  EXPECT_EQ(system_.NumEquations(), system_.NumUnknowns());
+  system_.Pin({{0, Inequality::kConeMinus}, {3, Inequality::kSlip}});
+  EXPECT_EQ(system_.NumEquations(), 6 + 4 + 1 + 1 + 2);
+  system_.UnpinLoadFactor();
+  EXPECT_EQ(system_.NumEquations(), 6 + 4 + 1 + 2);
+  system_.SetStates(states, reference_);
+  EXPECT_EQ(system_.NumEquations(), 6 + 4 + 1);
+}
+
+TEST_F(MixedSystem, JacobianMeetsDifferencesInEveryCombinationOfStates) {
+  // All states of each contact with the others random: 18 states, and pins on all inequalities they have.
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    for (const State state : StatesOf(contacts_[i])) {
+      std::vector<State> states;
+      for (const ContactGeometry& contact : contacts_) {
+        const std::vector<State> possible = StatesOf(contact);
+        states.push_back(
+            possible[static_cast<std::size_t>(random_.Number(0.0, 1.0) * static_cast<double>(possible.size()))]);
+      }
+      states[i] = state;
+      const std::string what = "contact " + std::to_string(i) + " " + std::string(ToString(state));
+      system_.SetStates(states, reference_);
+      ExpectJacobian(what);
+      system_.Pin(system_.Inequalities());
+      ExpectJacobian(what + ", all pinned");
+      system_.PinLoadFactor(0.3);
+      ExpectJacobian(what + ", all and the load factor pinned");
+    }
+  }
+}
+
+TEST_F(MixedSystem, PatternStaysTheSameBetweenEvaluations) {
+  system_.SetStates({State::kStick, State::kClosed, State::kSlipPlus, State::kSlipMinus, State::kStick, State::kClosed},
+                    reference_);
+  const Eigen::SparseMatrix<double> first = system_.TransposedJacobian(system_.Pack(RandomPoint()));
+  const Eigen::SparseMatrix<double>& second = system_.TransposedJacobian(system_.Pack(RandomPoint()));
+  ASSERT_EQ(first.nonZeros(), second.nonZeros());
+  EXPECT_TRUE(first.isCompressed());
+  for (Eigen::Index k = 0; k < first.nonZeros(); ++k) EXPECT_EQ(first.innerIndexPtr()[k], second.innerIndexPtr()[k]);
+}
+
+TEST_F(MixedSystem, UnpackGivesEveryContactItsReactions) {
+  const std::vector<State> states = {State::kStick,     State::kClosed, State::kSlipPlus,
+                                     State::kSlipMinus, State::kOpen,   State::kOpen};
+  system_.SetStates(states, reference_);
+  const PathPoint in = RandomPoint();
+  const PathPoint out = system_.Unpack(system_.Pack(in));
+  EXPECT_EQ(out.u, in.u);
+  EXPECT_EQ(out.s, in.s);
+  EXPECT_EQ(out.states, states);
+  Eigen::VectorXd rn(6), rt(6);
+  rn << in.rn[0], in.rn[1], in.rn[2], in.rn[3], 0.0, 0.0;
+  rt << in.rt[0], 0.0, -0.3 * in.rn[2], 0.6 * in.rn[3], 0.0, 0.0;  // slip+: -mu r_n, slip-: +mu r_n
+  EXPECT_EQ(out.rn, rn);
+  EXPECT_EQ(out.rt, rt);
+}
+
+TEST_F(MixedSystem, InequalitiesOfEachStateAndTheirValues) {
+  system_.SetStates({State::kStick, State::kClosed, State::kSlipPlus, State::kSlipMinus, State::kOpen, State::kOpen},
+                    reference_);
+  const PathPoint point = RandomPoint();
+  const Eigen::VectorXd x = system_.Pack(point);
+  const auto slip = [&](std::size_t i) {
+    return contacts_[i].tangential.Value(point.u) - reference_[static_cast<Eigen::Index>(i)];
+  };
+  struct Expected {
+    int contact;
+    Inequality inequality;
+    double value;
+  };
+  const std::vector<Expected> expected = {{0, Inequality::kNormalReaction, point.rn[0]},
+                                          {0, Inequality::kConePlus, 0.3 * point.rn[0] + point.rt[0]},
+                                          {0, Inequality::kConeMinus, 0.3 * point.rn[0] - point.rt[0]},
+                                          {1, Inequality::kNormalReaction, point.rn[1]},
+                                          {2, Inequality::kNormalReaction, point.rn[2]},
+                                          {2, Inequality::kSlip, slip(2)},
+                                          {3, Inequality::kNormalReaction, point.rn[3]},
+                                          {3, Inequality::kSlip, -slip(3)},
+                                          {4, Inequality::kGap, contacts_[4].gap.Value(point.u)},
+                                          {5, Inequality::kGap, contacts_[5].gap.Value(point.u)}};
+  const std::vector<Limit> limits = system_.Inequalities();
+  ASSERT_EQ(limits.size(), expected.size());
+  for (std::size_t k = 0; k < limits.size(); ++k) {
+    EXPECT_EQ(limits[k].contact, expected[k].contact) << k;
+    EXPECT_EQ(limits[k].inequality, expected[k].inequality) << k;
+    EXPECT_NEAR(system_.Value(limits[k], x), expected[k].value, kRounding) << k;
+  }
+}
+
+TEST_F(MixedSystem, PinnedInequalitiesAreTheLastEquations) {
+  system_.SetStates({State::kStick, State::kClosed, State::kSlipPlus, State::kSlipMinus, State::kOpen, State::kOpen},
+                    reference_);
+  const std::vector<Limit> limits = system_.Inequalities();
+  const Eigen::VectorXd x = system_.Pack(RandomPoint());
+  system_.Pin(limits);
+  system_.PinLoadFactor(0.25);
+  Eigen::VectorXd residual;
+  system_.Residual(x, &residual);
+  const Eigen::Index first = residual.size() - 1 - static_cast<Eigen::Index>(limits.size());
+  for (std::size_t k = 0; k < limits.size(); ++k)
+    EXPECT_NEAR(residual[first + static_cast<Eigen::Index>(k)], system_.Value(limits[k], x), kRounding);
+  EXPECT_NEAR(residual[residual.size() - 1], x[structure_.NumDofs()] - 0.25, kRounding);
+}
+
+TEST_F(MixedSystem, GradientsAndRatesOfInequalitiesMeetDifferences) {
+  system_.SetStates({State::kStick, State::kClosed, State::kSlipPlus, State::kSlipMinus, State::kOpen, State::kOpen},
+                    reference_);
+  const Eigen::VectorXd x = system_.Pack(RandomPoint()), dx = random_.Vector(system_.NumUnknowns(), -1.0, 1.0);
+  for (const Limit& limit : system_.Inequalities()) {
+    const auto value = [&](const Eigen::VectorXd& at) {
+      return Eigen::VectorXd::Constant(1, system_.Value(limit, at));
+    };
+    EXPECT_TRUE(IsJacobian(value, x, system_.Gradient(limit).transpose()));
+    EXPECT_NEAR(system_.Rate(limit, dx), system_.Gradient(limit).dot(dx), kRounding);
+  }
+}
+
+TEST_F(MixedSystem, SecondDerivativeMeetsDifferences) {
+  for (const State state : {State::kOpen, State::kStick, State::kSlipPlus, State::kSlipMinus}) {
+    system_.SetStates({state, State::kClosed, State::kStick, state, state, State::kOpen}, reference_);
+    system_.PinLoadFactor(0.2);
+    const Eigen::VectorXd x = system_.Pack(RandomPoint()), dx = random_.Vector(system_.NumUnknowns(), -1.0, 1.0);
+    const auto rate = [&](const Eigen::VectorXd& h) {
+      return Eigen::VectorXd(system_.TransposedJacobian(x + h[0] * dx).transpose() * dx);
+    };
+    const Eigen::VectorXd second = system_.SecondDerivative(x, dx);
+    EXPECT_TRUE(IsJacobian(rate, Eigen::VectorXd::Zero(1), second));
+    // It leaves no trace in the next Jacobian.
+    const Eigen::MatrixXd jacobian = system_.TransposedJacobian(x);
+    system_.SecondDerivative(x, dx);
+    EXPECT_EQ(Eigen::MatrixXd(system_.TransposedJacobian(x)), jacobian);
+  }
+}
+
+TEST_F(MixedSystem, SingularElementGivesWhatIsNotFinite) {
+  PathPoint point = RandomPoint();
+  point.u.head<2>() = Eigen::Vector2d(0.0, 0.1);  // b on a
+  Eigen::VectorXd residual;
+  system_.Residual(system_.Pack(point), &residual);
+  EXPECT_FALSE(residual.allFinite());
+}
+
+// The sliding bar of Kanno & Martins 2005, Example 4.1, against its closed form.
+class SlidingBarSystem : public testing::Test {
+ protected:
+  PathPoint ClosedForm(double x, double sign) const {
+    PathPoint point;
+    point.u = Eigen::Vector2d(x, 0.0);
+    point.s = sliding_bar::LoadFactor(x);
+    point.rn = Eigen::VectorXd::Constant(1, sliding_bar::NormalReaction(x));
+    point.rt = -sign * sliding_bar::kFriction * point.rn;
+    return point;
+  }
+  double LargestResidual(State state, double x, double reference) {
+    system_.SetStates({state}, Eigen::VectorXd::Constant(1, reference));
+    Eigen::VectorXd residual;
+    system_.Residual(system_.Pack(ClosedForm(x, 1.0)), &residual);
+    return residual.lpNorm<Eigen::Infinity>();
+  }
+
+  const Scene scene_ = sliding_bar::MakeScene();
+  const Structure structure_{scene_};
+  const std::vector<ContactGeometry> contacts_ = BuildContacts(scene_, structure_);
+  FixedStateSystem system_{structure_, contacts_};
+};
+
+TEST_F(SlidingBarSystem, ClosedFormSolvesSlipTowardsPlus) {
+  for (double x = -4.5; x < 5.0; x += 0.5) {
+    EXPECT_LE(LargestResidual(State::kSlipPlus, x, -5.0), kRounding) << x;
+    EXPECT_LE(LargestResidual(State::kStick, x, x), kRounding) << x;  // every point may stick
+  }
+}
+
+TEST_F(SlidingBarSystem, ClosedFormSolvesNoOtherState) {
+  for (double x = -4.5; x < 4.6; x += 0.5) {
+    EXPECT_GT(LargestResidual(State::kSlipMinus, x, -5.0), 1e-2) << x;
+    EXPECT_GT(LargestResidual(State::kOpen, x, -5.0), 1e-2) << x;
+    EXPECT_GT(LargestResidual(State::kStick, x, x - 0.25), 1e-2) << x;
+  }
+}
+
+}  // namespace
+}  // namespace contact_path

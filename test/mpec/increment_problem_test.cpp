@@ -1,0 +1,336 @@
+#include "contact_path/mpec/increment_problem.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <set>
+#include <utility>
+
+#include "support/derivative_checker.h"
+#include "support/mixed_scene.h"
+#include "support/random.h"
+#include "support/reference_cases.h"
+
+namespace contact_path {
+namespace {
+
+constexpr double kRounding = 1e-14;  // of sums of a few terms of order 1
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+Eigen::VectorXd ConstraintsOf(const IncrementProblem& problem, const Eigen::VectorXd& x) {
+  Eigen::VectorXd values;
+  problem.Constraints(x, &values);
+  return values;
+}
+
+Eigen::VectorXd GradientOf(const IncrementProblem& problem, const Eigen::VectorXd& x) {
+  Eigen::VectorXd values;
+  problem.Gradient(x, &values);
+  return values;
+}
+
+Eigen::MatrixXd JacobianOf(const IncrementProblem& problem, const Eigen::VectorXd& x) {
+  Eigen::VectorXd values;
+  problem.JacobianValues(x, &values);
+  EXPECT_EQ(static_cast<std::size_t>(values.size()), problem.JacobianStructure().size());
+  Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(problem.NumConstraints(), problem.NumVariables());
+  for (std::size_t k = 0; k < problem.JacobianStructure().size(); ++k) {
+    const MatrixEntry& entry = problem.JacobianStructure()[k];
+    jacobian(entry.row, entry.column) += values[static_cast<Eigen::Index>(k)];
+  }
+  return jacobian;
+}
+
+Eigen::MatrixXd HessianOf(const IncrementProblem& problem, const Eigen::VectorXd& x, double factor,
+                          const Eigen::VectorXd& multipliers) {
+  Eigen::VectorXd values;
+  problem.HessianValues(x, factor, multipliers, &values);
+  EXPECT_EQ(static_cast<std::size_t>(values.size()), problem.HessianStructure().size());
+  Eigen::MatrixXd lower = Eigen::MatrixXd::Zero(problem.NumVariables(), problem.NumVariables());
+  for (std::size_t k = 0; k < problem.HessianStructure().size(); ++k) {
+    const MatrixEntry& entry = problem.HessianStructure()[k];
+    EXPECT_GE(entry.row, entry.column);
+    lower(entry.row, entry.column) += values[static_cast<Eigen::Index>(k)];
+  }
+  return lower.selfadjointView<Eigen::Lower>();
+}
+
+std::set<std::pair<int, int>> Places(const std::vector<MatrixEntry>& entries) {
+  std::set<std::pair<int, int>> places;
+  for (const MatrixEntry& entry : entries) places.emplace(entry.row, entry.column);
+  return places;
+}
+
+// Contacts of MixedScene() that take part; 0, 2, 3, 4 are frictional, 1 and 5 are not.
+using WorkingSet = std::vector<int>;
+
+class MixedProblem : public testing::TestWithParam<WorkingSet> {
+ protected:
+  MixedProblem() {
+    from_.u = structure_.InitialPositions() + random_.Vector(6, -0.1, 0.1);
+    from_.s = 0.3;
+    from_.rn = random_.Vector(6, 0.1, 1.0);
+    from_.rt = random_.Vector(6, -1.0, 1.0);
+    from_.states.assign(6, ContactState::kStick);
+    goal_.length = 0.2;
+    goal_.direction = random_.Vector(7, -1.0, 1.0).normalized();
+    goal_.dissipation = 0.3;
+    goal_.growth = 1.7;
+  }
+  IncrementProblem Problem() const { return IncrementProblem(structure_, contacts_, from_, GetParam(), goal_); }
+  Eigen::VectorXd RandomVariables(const IncrementProblem& problem) {
+    return random_.Vector(problem.NumVariables(), 0.1, 1.0);
+  }
+
+  const Scene scene_ = MixedScene();
+  const Structure structure_{scene_};
+  const std::vector<ContactGeometry> contacts_ = BuildContacts(scene_, structure_);
+  Random random_{6};
+  PathPoint from_;
+  IncrementGoal goal_;
+};
+
+INSTANTIATE_TEST_SUITE_P(WorkingSets, MixedProblem,
+                         testing::Values(WorkingSet{}, WorkingSet{1}, WorkingSet{0}, WorkingSet{2}, WorkingSet{0, 3, 4},
+                                         WorkingSet{1, 5}, WorkingSet{0, 1, 2, 3, 4, 5}));
+
+TEST_P(MixedProblem, GradientMeetsDifferences) {
+  const IncrementProblem problem = Problem();
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::VectorXd x = RandomVariables(problem);
+    const auto objective = [&](const Eigen::VectorXd& at) {
+      return Eigen::VectorXd::Constant(1, problem.Objective(at));
+    };
+    EXPECT_TRUE(IsJacobian(objective, x, GradientOf(problem, x).transpose()));
+  }
+}
+
+TEST_P(MixedProblem, JacobianMeetsDifferences) {
+  const IncrementProblem problem = Problem();
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::VectorXd x = RandomVariables(problem);
+    const auto constraints = [&](const Eigen::VectorXd& at) { return ConstraintsOf(problem, at); };
+    EXPECT_TRUE(IsJacobian(constraints, x, JacobianOf(problem, x)));
+  }
+}
+
+TEST_P(MixedProblem, HessianMeetsDifferences) {
+  const IncrementProblem problem = Problem();
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::VectorXd x = RandomVariables(problem);
+    const Eigen::VectorXd multipliers = random_.Vector(problem.NumConstraints(), -1.0, 1.0);
+    for (const double factor : {0.0, 0.8}) {
+      const auto gradient = [&](const Eigen::VectorXd& at) {
+        return Eigen::VectorXd(factor * GradientOf(problem, at) + JacobianOf(problem, at).transpose() * multipliers);
+      };
+      EXPECT_TRUE(IsJacobian(gradient, x, HessianOf(problem, x, factor, multipliers)));
+    }
+  }
+}
+
+TEST_P(MixedProblem, StructuresHoldEveryEntryThatCanBeOtherThanZeroAndNoOther) {
+  const IncrementProblem problem = Problem();
+  const Eigen::VectorXd x = RandomVariables(problem);
+  const Eigen::VectorXd multipliers = random_.Vector(problem.NumConstraints(), 0.1, 1.0);
+  const auto constraints = [&](const Eigen::VectorXd& at) { return ConstraintsOf(problem, at); };
+  const Eigen::MatrixXd jacobian = DifferenceJacobian(constraints, x);
+  const auto gradient = [&](const Eigen::VectorXd& at) {
+    return Eigen::VectorXd(GradientOf(problem, at) + JacobianOf(problem, at).transpose() * multipliers);
+  };
+  const Eigen::MatrixXd hessian = DifferenceJacobian(gradient, x);
+
+  // Differences of what does not depend on a variable are exactly zero or rounding.
+  const double noise = 1e-10;
+  const std::set<std::pair<int, int>> in_jacobian = Places(problem.JacobianStructure());
+  for (int i = 0; i < jacobian.rows(); ++i)
+    for (int j = 0; j < jacobian.cols(); ++j)
+      EXPECT_EQ(in_jacobian.count({i, j}) > 0, std::abs(jacobian(i, j)) > noise) << i << ", " << j;
+  const std::set<std::pair<int, int>> in_hessian = Places(problem.HessianStructure());
+  for (int i = 0; i < hessian.rows(); ++i)
+    for (int j = 0; j <= i; ++j)
+      EXPECT_EQ(in_hessian.count({i, j}) > 0, std::abs(hessian(i, j)) > noise) << i << ", " << j;
+}
+
+TEST_P(MixedProblem, StructuresNameEachPlaceOnce) {
+  const IncrementProblem problem = Problem();
+  EXPECT_EQ(Places(problem.JacobianStructure()).size(), problem.JacobianStructure().size());
+  EXPECT_EQ(Places(problem.HessianStructure()).size(), problem.HessianStructure().size());
+}
+
+TEST_P(MixedProblem, CountsVariablesAndConstraints) {
+  const IncrementProblem problem = Problem();
+  Eigen::Index variables = structure_.NumDofs() + 1, constraints = structure_.NumDofs();
+  for (const int contact : GetParam()) {
+    const bool frictional = contact != 1 && contact != 5;
+    variables += frictional ? 3 : 1;
+    constraints += frictional ? 7 : 2;
+  }
+  EXPECT_EQ(problem.NumVariables(), variables);
+  EXPECT_EQ(problem.NumConstraints(), constraints);
+  EXPECT_EQ(problem.VariableLowerBounds().size(), variables);
+  EXPECT_EQ(problem.ConstraintLowerBounds().size(), constraints);
+  EXPECT_EQ(problem.ConstraintUpperBounds().size(), constraints);
+}
+
+TEST_P(MixedProblem, RegularisationRelaxesOneProductAFrictionlessAndTwoAFrictionalContact) {
+  IncrementProblem problem = Problem();
+  Eigen::Index products = 0;
+  for (const int contact : GetParam()) products += contact != 1 && contact != 5 ? 2 : 1;
+  problem.SetRegularisation(0.125);
+  EXPECT_EQ((problem.ConstraintUpperBounds().array() == 0.125).count(), products);
+  problem.SetRegularisation(0.0);
+  EXPECT_EQ((problem.ConstraintUpperBounds().array() == 0.125).count(), 0);
+  // Products are bounded above only, inequalities below only, equilibrium is an equation.
+  const Eigen::VectorXd lower = problem.ConstraintLowerBounds(), upper = problem.ConstraintUpperBounds();
+  EXPECT_EQ((lower.array() == -kInfinity).count(), products);
+  EXPECT_EQ(((lower.array() == 0.0) && (upper.array() == 0.0)).count(), structure_.NumDofs());
+  EXPECT_EQ((problem.VariableLowerBounds().array() == 0.0).count(), static_cast<Eigen::Index>(GetParam().size()));
+}
+
+TEST_P(MixedProblem, PointUndoesTheScalingOfTheVariables) {
+  const IncrementProblem problem = Problem();
+  const Eigen::VectorXd y = random_.Vector(7, -1.0, 1.0);
+  const PathPoint point = problem.Point(problem.StartingPoint(y));
+  EXPECT_LE((point.u - from_.u - goal_.length * y.head(6)).norm(), kRounding);
+  EXPECT_NEAR(point.s, from_.s + goal_.length * y[6], kRounding);
+  const std::set<int> included(GetParam().begin(), GetParam().end());
+  for (int i = 0; i < 6; ++i) {
+    const bool in = included.count(i) > 0;
+    const bool frictional = contacts_[static_cast<std::size_t>(i)].Frictional();
+    EXPECT_NEAR(point.rn[i], in ? from_.rn[i] : 0.0, kRounding) << i;
+    EXPECT_NEAR(point.rt[i], in && frictional ? from_.rt[i] : 0.0, kRounding) << i;
+    EXPECT_TRUE(in || point.states[static_cast<std::size_t>(i)] == ContactState::kOpen) << i;
+  }
+}
+
+TEST_P(MixedProblem, StandingStillKeepsTheFrictionLaw) {
+  const IncrementProblem problem = Problem();
+  const Eigen::VectorXd start = problem.StartingPoint(Eigen::VectorXd::Zero(7));
+  const Eigen::VectorXd values = ConstraintsOf(problem, start);
+  // lambda = du_t = 0: of each frictional contact's five rows, only the cone is other than zero.
+  Eigen::Index row = 6;
+  for (const int contact : GetParam()) {
+    const ContactGeometry& geometry = contacts_[static_cast<std::size_t>(contact)];
+    const double gap = geometry.gap.Value(from_.u) / goal_.length, rn = from_.rn[contact] / goal_.length;
+    EXPECT_NEAR(values[row], gap, 10.0 * kRounding);
+    EXPECT_NEAR(values[row + 1], gap * rn, 100.0 * kRounding);
+    row += 2;
+    if (!geometry.Frictional()) continue;
+    const double rt = from_.rt[contact] / goal_.length;
+    EXPECT_EQ(values[row], 0.0);
+    EXPECT_EQ(values[row + 1], 0.0);
+    EXPECT_NEAR(values[row + 2], geometry.friction * rn - rt, 10.0 * kRounding);
+    EXPECT_NEAR(values[row + 3], geometry.friction * rn + rt, 10.0 * kRounding);
+    EXPECT_EQ(values[row + 4], 0.0);
+    row += 5;
+  }
+  EXPECT_EQ(row, values.size());
+}
+
+TEST_P(MixedProblem, AimIsTheUnconstrainedMinimumAndNoFartherThanWanted) {
+  for (const double share : {0.0, 0.2, 0.6, 1.0}) {
+    goal_.dissipation = share;
+    goal_.growth = 1.0;
+    const IncrementProblem problem = Problem();
+    const Eigen::VectorXd aim = problem.Aim();
+    Eigen::VectorXd x = Eigen::VectorXd::Zero(problem.NumVariables());
+    x.head(6) = (aim.head(6) - from_.u) / goal_.length;
+    x[6] = (aim[6] - from_.s) / goal_.length;
+    EXPECT_LE(GradientOf(problem, x).norm(), kRounding);
+    EXPECT_GT(GradientOf(problem, 1.1 * x).norm(), 1e-3);
+    EXPECT_LE(x.norm(), 1.0 + kRounding);
+    const PathPoint point = problem.Point(x);
+    EXPECT_NEAR(problem.ObjectiveAt(point), problem.Objective(x), kRounding);
+    EXPECT_LT(problem.Objective(x), problem.Objective(1.1 * x));
+    EXPECT_LT(problem.Objective(x), problem.Objective(0.9 * x));
+  }
+}
+
+TEST_P(MixedProblem, GrowthShortensTheAimAndDissipationTurnsItAgainstTheReaction) {
+  goal_.dissipation = 0.0;
+  goal_.growth = 2.0;
+  const Eigen::VectorXd along = Problem().Aim();
+  EXPECT_LE((along.head(6) - from_.u - 0.5 * goal_.length * goal_.direction.head(6)).norm(), kRounding);
+  EXPECT_NEAR(along[6], from_.s + 0.5 * goal_.length * goal_.direction[6], kRounding);
+  goal_.dissipation = 1.0;
+  const Eigen::VectorXd against = Problem().Aim();
+  double power = 0.0, friction = 0.0;
+  for (const int contact : GetParam()) {
+    const ContactGeometry& geometry = contacts_[static_cast<std::size_t>(contact)];
+    if (!geometry.Frictional()) continue;
+    power += from_.rt[contact] * geometry.tangential.Rate(against.head(6) - from_.u);
+    friction += std::abs(from_.rt[contact]);
+  }
+  if (friction > 0.0) {
+    EXPECT_LT(power, 0.0);
+    EXPECT_EQ(against[6], from_.s);
+  } else {
+    EXPECT_LE((against - along).norm(), kRounding);  // nothing can dissipate: the direction is all there is
+  }
+}
+
+// The contact of the sliding bar, whose states are read from the variables y_x, y_y, y_s, r_n, r_t, lambda.
+class SlidingBarProblem : public testing::Test {
+ protected:
+  SlidingBarProblem() {
+    from_.u = Eigen::Vector2d(-3.0, 0.0);
+    from_.s = sliding_bar::LoadFactor(-3.0);
+    from_.rn = Eigen::VectorXd::Constant(1, sliding_bar::NormalReaction(-3.0));
+    from_.rt = -sliding_bar::kFriction * from_.rn;
+    from_.states = {ContactState::kSlipPlus};
+    goal_.length = 0.5;
+    goal_.direction = Eigen::Vector3d(1.0, 0.0, 0.0);
+  }
+  IncrementProblem Problem() const { return IncrementProblem(structure_, contacts_, from_, {0}, goal_); }
+
+  const Scene scene_ = sliding_bar::MakeScene();
+  const Structure structure_{scene_};
+  const std::vector<ContactGeometry> contacts_ = BuildContacts(scene_, structure_);
+  PathPoint from_;
+  IncrementGoal goal_;
+};
+
+TEST_F(SlidingBarProblem, ClosedFormIsFeasibleWithoutRegularisation) {
+  const IncrementProblem problem = Problem();
+  const double step = 0.4;
+  Eigen::VectorXd x(6);
+  x << step, 0.0, sliding_bar::LoadFactor(-3.0 + step), sliding_bar::NormalReaction(-3.0 + step), 0.0, step;
+  x[2] -= from_.s;
+  x[4] = -sliding_bar::kFriction * x[3];
+  x /= goal_.length;
+  const Eigen::VectorXd values = ConstraintsOf(problem, x);
+  EXPECT_LE((problem.ConstraintLowerBounds() - values).maxCoeff(), kRounding);
+  EXPECT_LE((values - problem.ConstraintUpperBounds()).maxCoeff(), kRounding);
+  // Standing still is feasible too.
+  const Eigen::VectorXd still = ConstraintsOf(problem, problem.StartingPoint(Eigen::VectorXd::Zero(3)));
+  EXPECT_LE((problem.ConstraintLowerBounds() - still).maxCoeff(), kRounding);
+  EXPECT_LE((still - problem.ConstraintUpperBounds()).maxCoeff(), kRounding);
+}
+
+TEST_F(SlidingBarProblem, StateIsTheLargerSideOfEachPair) {
+  const IncrementProblem problem = Problem();
+  const auto state = [&](double slip, double gap, double rn, double rt) {
+    Eigen::VectorXd x(6);
+    x << slip, gap, 0.0, rn, rt, std::abs(slip);
+    return problem.Point(x).states.at(0);
+  };
+  EXPECT_EQ(state(0.5, 0.3, 1e-6, 0.0), ContactState::kOpen);
+  EXPECT_EQ(state(0.0, 1e-6, 0.3, 0.0), ContactState::kStick);
+  EXPECT_EQ(state(1e-6, 0.0, 1.0, 0.1), ContactState::kStick);
+  EXPECT_EQ(state(0.5, 0.0, 1.0, -0.3 + 1e-6), ContactState::kSlipPlus);
+  EXPECT_EQ(state(-0.5, 0.0, 1.0, 0.3 - 1e-6), ContactState::kSlipMinus);
+}
+
+TEST_F(SlidingBarProblem, FrictionlessContactIsOpenOrClosed) {
+  Scene smooth = scene_;
+  smooth.obstacles[0].friction = 0.0;
+  const std::vector<ContactGeometry> contacts = BuildContacts(smooth, structure_);
+  const IncrementProblem problem(structure_, contacts, from_, {0}, goal_);
+  EXPECT_EQ(problem.Point(Eigen::Vector4d(0.5, 1e-6, 0.0, 1.0)).states.at(0), ContactState::kClosed);
+  EXPECT_EQ(problem.Point(Eigen::Vector4d(0.5, 1.0, 0.0, 1e-6)).states.at(0), ContactState::kOpen);
+}
+
+}  // namespace
+}  // namespace contact_path

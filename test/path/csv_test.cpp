@@ -1,0 +1,156 @@
+#include "contact_path/path/csv.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdlib>
+#include <iomanip>
+#include <limits>
+#include <locale>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace contact_path {
+namespace {
+
+Scene TwoNodes() {
+  Scene scene;
+  scene.nodes = {{"b", 0.0, 0.0, false, false}, {"a", 1.0, 0.0, false, false}};
+  scene.contacts = {{"b", "wall"}, {"b", "floor"}};
+  return scene;
+}
+
+Increment FullIncrement() {
+  Increment increment;
+  increment.index = 1234567;
+  increment.load_factor = 0.5;
+  increment.arc_length = 2.0;
+  increment.kind = RowKind::kCornerLimit;
+  increment.positions = {-1.0, 0.25, 3.0, -4.5};
+  increment.contacts = {{0.125, 0.0, 0.0, ContactState::kOpen}, {0.0, 8.0, -2.0, ContactState::kSlipPlus}};
+  increment.dissipation = 16.0;
+  increment.strain_energy = 32.0;
+  increment.external_work = 77.0;
+  increment.residuals.equilibrium = 64.0;
+  increment.residuals.adhesion = 128.0;
+  increment.residuals.friction_law = 256.0;
+  increment.solve.time = 512.0;
+  return increment;
+}
+
+constexpr char kFullRow[] = "1234567,0.5,2,corner_limit,-1,0.25,3,-4.5,0.125,0,0,open,0,8,-2,slip+,16,32,64,256,512\n";
+
+std::string Row(const Increment& increment) {
+  std::ostringstream out;
+  WriteCsvRow(increment, out);
+  return out.str();
+}
+
+std::vector<std::string> Cells(const std::string& line) {
+  std::vector<std::string> cells;
+  std::istringstream in(line);
+  for (std::string cell; std::getline(in, cell, ',');) cells.push_back(cell);
+  return cells;
+}
+
+TEST(CsvHeader, NamesNodesAndContactsInSceneOrder) {
+  std::ostringstream out;
+  WriteCsvHeader(TwoNodes(), out);
+  EXPECT_EQ(out.str(),
+            "index,load_factor,arc_length,kind,x_b,y_b,x_a,y_a,gap_b@wall,rn_b@wall,rt_b@wall,state_b@wall,"
+            "gap_b@floor,rn_b@floor,rt_b@floor,state_b@floor,dissipation,strain_energy,equilibrium_residual,"
+            "complementarity_residual,solve_time\n");
+}
+
+TEST(CsvRow, HasAllColumnsInTheOrderOfTheHeader) {
+  EXPECT_EQ(Row(FullIncrement()), kFullRow);
+  std::ostringstream header;
+  WriteCsvHeader(TwoNodes(), header);
+  EXPECT_EQ(Cells(header.str()).size(), Cells(kFullRow).size());
+}
+
+TEST(CsvRow, WithoutContacts) {
+  Increment increment;
+  increment.positions = {1.0, 2.0};
+  EXPECT_EQ(Row(increment), "0,0,0,regular,1,2,0,0,0,0,0\n");
+}
+
+TEST(CsvRow, NumbersReadBackExactly) {
+  using Limits = std::numeric_limits<double>;
+  const std::vector<double> numbers{0.1,
+                                    1.0 / 3.0,
+                                    -2.191505308361854,
+                                    1e-300,
+                                    123456789012345678.0,
+                                    Limits::max(),
+                                    Limits::min(),
+                                    Limits::denorm_min(),
+                                    1.0 + Limits::epsilon()};
+  Increment increment;
+  increment.positions = numbers;
+  increment.load_factor = 2.0 / 3.0;
+  const std::vector<std::string> cells = Cells(Row(increment));
+  EXPECT_EQ(std::strtod(cells[1].c_str(), nullptr), 2.0 / 3.0);
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    EXPECT_EQ(std::strtod(cells[4 + i].c_str(), nullptr), numbers[i]) << cells[4 + i];
+  }
+  EXPECT_EQ(cells[4], "0.10000000000000001");
+}
+
+TEST(CsvRow, KindsAndStatesHaveTheirWords) {
+  const std::array<std::pair<RowKind, const char*>, 6> kinds{{{RowKind::kStart, "start"},
+                                                              {RowKind::kRegular, "regular"},
+                                                              {RowKind::kSmoothLimit, "smooth_limit"},
+                                                              {RowKind::kCornerLimit, "corner_limit"},
+                                                              {RowKind::kContactEvent, "contact_event"},
+                                                              {RowKind::kBifurcation, "bifurcation"}}};
+  for (const auto& [kind, word] : kinds) {
+    Increment increment;
+    increment.kind = kind;
+    EXPECT_EQ(Cells(Row(increment))[3], word);
+  }
+  const std::array<std::pair<ContactState, const char*>, 5> states{{{ContactState::kOpen, "open"},
+                                                                    {ContactState::kStick, "stick"},
+                                                                    {ContactState::kSlipPlus, "slip+"},
+                                                                    {ContactState::kSlipMinus, "slip-"},
+                                                                    {ContactState::kClosed, "closed"}}};
+  for (const auto& [state, word] : states) {
+    Increment increment;
+    increment.contacts = {{0.0, 0.0, 0.0, state}};
+    EXPECT_EQ(Cells(Row(increment))[7], word);
+  }
+}
+
+// Decimal comma and grouped thousands, as many people's systems have them.
+class CommaNumbers : public std::numpunct<char> {
+ protected:
+  char do_decimal_point() const override { return ','; }
+  char do_thousands_sep() const override { return '.'; }
+  std::string do_grouping() const override { return "\3"; }
+};
+
+TEST(CsvRow, DoesNotDependOnLocaleOrFlagsOfTheStream) {
+  const std::locale commas(std::locale::classic(), new CommaNumbers);
+  const std::locale before = std::locale::global(commas);
+  std::ostringstream out;
+  out << std::fixed << std::setprecision(1) << std::showpos << std::hex;
+  WriteCsvRow(FullIncrement(), out);
+  std::locale::global(before);
+  EXPECT_EQ(out.str(), kFullRow);
+}
+
+TEST(Csv, ErrorsAreLeftInTheStream) {
+  std::ostream closed(nullptr);
+  closed.clear();
+  WriteCsvHeader(TwoNodes(), closed);
+  EXPECT_FALSE(closed.good());
+  closed.clear();
+  WriteCsvRow(FullIncrement(), closed);
+  EXPECT_FALSE(closed.good());
+}
+
+}  // namespace
+}  // namespace contact_path

@@ -1,0 +1,70 @@
+// The same path in other units, turned, mirrored, and with everything in another order.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "support/transformations.h"
+
+namespace contact_path {
+namespace {
+
+// Scaled quantities, row by row; measured up to 3e-12 (arch19, whose stiffness is singular).
+constexpr double kSame = 1e-8;
+
+constexpr double kDegree = 0.017453292519943295;
+
+struct Case {
+  const char* name;
+  double step;
+  int max_increments;
+  bool can_turn;  // no node is held along one axis only
+};
+
+class Invariance : public testing::TestWithParam<Case> {
+ protected:
+  static TraceRequest Request() {
+    TraceRequest request = ReadExample(GetParam().name);
+    request.options.method = Method::kMpec;
+    request.options.step = GetParam().step;
+    request.options.max_increments = GetParam().max_increments;
+    request.options.stop.clear();
+    return request;
+  }
+  // Traced once for all tests of a case; they run one after the other.
+  static const TracedPath& Expected() {
+    static std::string name;
+    static TracedPath path;
+    if (name != GetParam().name) {
+      name = GetParam().name;
+      path = TraceRows(Request());
+    }
+    return path;
+  }
+};
+
+std::string CaseName(const testing::TestParamInfo<Case>& instance) { return instance.param.name; }
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Invariance,
+                         testing::Values(Case{"sliding_bar", 0.1, 20, true}, Case{"rough_truss", 0.05, 12, true},
+                                         Case{"two_dof_friction", 0.1, 50, true}, Case{"arch19", 0.1, 60, true}),
+                         CaseName);
+
+TEST_P(Invariance, PathIsLongEnoughToMeanSomething) {
+  EXPECT_EQ(Expected().result.reason, EndReason::kMaxIncrements);
+  ExpectSoundRows(Expected(), 1e-9);
+}
+
+TEST_P(Invariance, Units) {
+  ExpectSamePath(UndoUnits(TraceRows(ChangeUnits(Request(), 1e-3, 1e6)), 1e-3, 1e6), Expected(), kSame);
+}
+
+TEST_P(Invariance, Rotation) {
+  ExpectSamePath(UndoRotation(TraceRows(Rotate(Request(), 37.0 * kDegree)), 37.0 * kDegree), Expected(), kSame);
+}
+
+TEST_P(Invariance, MirrorImage) { ExpectSamePath(UndoMirror(TraceRows(Mirror(Request()))), Expected(), kSame); }
+
+TEST_P(Invariance, OrderOfParts) { ExpectSamePath(UndoReversal(TraceRows(Reverse(Request()))), Expected(), kSame); }
+
+}  // namespace
+}  // namespace contact_path

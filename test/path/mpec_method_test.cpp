@@ -1,0 +1,182 @@
+#include "contact_path/path/mpec_method.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "contact_path/path/preload.h"
+#include "contact_path/path/work.h"
+#include "support/reference_cases.h"
+
+namespace contact_path {
+namespace {
+
+// Accepted points are exact; measured up to 3e-16 in scaled quantities.
+constexpr double kRounding = 1e-14;
+
+MpecOptions Options(double step, double direction = 1.0) {
+  TraceOptions options;
+  options.method = Method::kMpec;
+  options.step = step;
+  options.direction = direction;
+  return MpecOptions::ForAccuracy(options);
+}
+
+TEST(MpecOptions, MoreAccuracyMeansSmallerEverything) {
+  TraceOptions options;
+  options.accuracy = Accuracy::kFast;
+  const MpecOptions fast = MpecOptions::ForAccuracy(options);
+  options.accuracy = Accuracy::kBalanced;
+  const MpecOptions balanced = MpecOptions::ForAccuracy(options);
+  options.accuracy = Accuracy::kAccurate;
+  const MpecOptions accurate = MpecOptions::ForAccuracy(options);
+  for (const auto& [coarse, fine] : {std::pair(fast, balanced), std::pair(balanced, accurate)}) {
+    EXPECT_GT(coarse.step, fine.step);
+    EXPECT_GT(coarse.corner_tolerance, fine.corner_tolerance);
+    EXPECT_GT(coarse.regularisation.minimum, fine.regularisation.minimum);
+    EXPECT_GT(fine.smallest_step, 0.0);
+    EXPECT_LT(fine.smallest_step, 1e-3 * fine.step);
+  }
+}
+
+TEST(MpecOptions, StepAndDirectionAreThoseOfTheRequest) {
+  EXPECT_EQ(Options(0.3, -2.0).step, 0.3);
+  EXPECT_EQ(Options(0.3, -2.0).direction, -1.0);
+  EXPECT_EQ(Options(0.3, 0.0).direction, 1.0);
+}
+
+class SlidingBarMethod : public testing::Test {
+ protected:
+  const Model model_{sliding_bar::MakeScene(), CharacteristicScales(sliding_bar::MakeScene())};
+};
+
+TEST_F(SlidingBarMethod, GivesOneExactRowAtATime) {
+  MpecMethod method(model_, Options(0.05), nullptr);
+  PathPoint point = model_.InitialPoint();
+  for (int i = 0; i < 5; ++i) {
+    const Advance advance = method.Next(point);
+    ASSERT_FALSE(advance.ended) << advance.message;
+    ASSERT_EQ(advance.rows.size(), 1u);
+    const AcceptedPoint& row = advance.rows[0];
+    EXPECT_LE(row.residuals.equilibrium, kRounding);
+    EXPECT_LE(row.residuals.Contact(), kRounding);
+    EXPECT_TRUE(row.solve.exact);
+    EXPECT_EQ(row.solve.method, Method::kMpec);
+    EXPECT_GT(row.solve.regularisation, 0.0);
+    EXPECT_EQ(row.solve.variables, 6);
+    EXPECT_EQ(row.solve.constraints, 9);
+    EXPECT_EQ(row.arc_length, Distance(point, row.point));
+    EXPECT_EQ(row.work.friction, WorkOfIncrement(model_, point, row.point).friction);
+    point = row.point;
+  }
+}
+
+TEST_F(SlidingBarMethod, LongestIsABound) {
+  MpecMethod method(model_, Options(0.05), nullptr);
+  const PathPoint start = model_.InitialPoint();
+  const Advance first = method.Next(start);
+  ASSERT_EQ(first.rows.size(), 1u);
+  const Advance second = method.Next(first.rows[0].point, 0.003);
+  ASSERT_EQ(second.rows.size(), 1u);
+  EXPECT_LE(Distance(first.rows[0].point, second.rows[0].point), 0.003 * 1.1);
+  // The point before it may be tried again.
+  const Advance again = method.Next(first.rows[0].point, 0.001);
+  ASSERT_EQ(again.rows.size(), 1u);
+  EXPECT_LE(Distance(first.rows[0].point, again.rows[0].point), 0.001 * 1.1);
+  EXPECT_LE(again.rows[0].residuals.equilibrium, kRounding);
+}
+
+TEST_F(SlidingBarMethod, CancelledGivesNoRow) {
+  bool cancel = false;
+  MpecMethod method(model_, Options(0.05), [&] { return cancel; });
+  const Advance first = method.Next(model_.InitialPoint());
+  ASSERT_FALSE(first.ended);
+  cancel = true;
+  const Advance second = method.Next(first.rows[0].point);
+  EXPECT_TRUE(second.ended);
+  EXPECT_TRUE(second.rows.empty());
+  EXPECT_EQ(second.reason, EndReason::kCancelled);
+  cancel = false;
+  EXPECT_FALSE(method.Next(first.rows[0].point).ended);
+}
+
+TEST_F(SlidingBarMethod, EndsWhereNoIncrementCanBeAccepted) {
+  PathPoint nowhere = model_.InitialPoint();
+  nowhere.u[0] += 0.3;  // no equilibrium: the bar is shorter, and nothing pushes
+  MpecMethod method(model_, Options(0.05), nullptr);
+  Advance advance = method.Next(nowhere);
+  // The increment problem asks for equilibrium at its end only, so a first row may lead back to the path.
+  if (!advance.ended) {
+    ASSERT_EQ(advance.rows.size(), 1u);
+    EXPECT_LE(advance.rows[0].residuals.equilibrium, kRounding);
+  } else {
+    EXPECT_EQ(advance.reason, EndReason::kStepTooSmall);
+    EXPECT_NE(advance.message.find("no increment could be accepted"), std::string::npos) << advance.message;
+  }
+}
+
+// A block of weight 1 with mu = 0.3, pulled against a spring of stiffness 1: load up to 1, down to 0, up to 1.
+//   up: stick to s = 0.3, then u = s - 0.3; down: stick to s = 0.4, then u = s + 0.3; up again: stick to s = 0.6.
+// Each later half cycle slides over 0.4 against mu N = 0.3.
+class StickSlipCycle : public testing::Test {
+ protected:
+  StickSlipCycle() {
+    scene_.name = "stick_slip";
+    scene_.nodes = {{"p", 0.0, 0.0, false, false}};
+    scene_.superelements = {{{"p"}, {1.0, 0.0, 0.0, 1.0}}};
+    scene_.loads = {{"p", 1.0, 0.0, false}, {"p", 0.0, -1.0, true}};
+    scene_.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.3}};
+    scene_.contacts = {{"p", "floor"}};
+  }
+
+  // From *point until the load factor passes `target`; every row is on the expected line. Returns the dissipation.
+  double Drive(const Model& model, double direction, double target, double stick_until, double offset,
+               PathPoint* point) {
+    MpecMethod method(model, Options(0.15, direction), nullptr);
+    const double held = point->u[0];
+    double dissipation = 0.0;
+    for (int i = 0; i < 100 && direction * (point->s - target) < 0.0; ++i) {
+      const Advance advance = method.Next(*point);
+      EXPECT_FALSE(advance.ended) << advance.message;
+      if (advance.ended) return dissipation;
+      for (const AcceptedPoint& row : advance.rows) {
+        const double s = row.point.s;
+        const bool sticks = direction * (s - stick_until) < 0.0;
+        EXPECT_NEAR(row.point.u[0], sticks ? held : s + offset, 1e-3) << s;  // a corner is cut by less than this
+        if (!sticks && row.point.states[0] != ContactState::kStick) {
+          EXPECT_NEAR(row.point.u[0], s + offset, kRounding) << s;
+          EXPECT_EQ(row.point.states[0], direction > 0.0 ? ContactState::kSlipPlus : ContactState::kSlipMinus) << s;
+        }
+        dissipation += row.work.friction;
+        *point = row.point;
+      }
+    }
+    return dissipation;
+  }
+
+  Scene scene_;
+};
+
+TEST_F(StickSlipCycle, DissipatesFrictionTimesTheWayInEveryCycle) {
+  const Model model(scene_, CharacteristicScales(scene_));
+  ASSERT_NEAR(model.scaling.length, 1.0, 1e-14);  // so that the numbers below are those of the scene
+  ASSERT_NEAR(model.scaling.load_factor, 1.0, 1e-14);
+  Preload preload =
+      TracePreload(model, 100, [](const Model& of) { return std::make_unique<MpecMethod>(of, Options(0.1), nullptr); });
+  ASSERT_TRUE(preload.done) << preload.message;
+  PathPoint point = preload.point;
+  Drive(model, +1.0, 1.0, 0.3, -0.3, &point);
+  const double top_s = point.s, top_u = point.u[0];
+  EXPECT_NEAR(top_u, top_s - 0.3, kRounding);
+  double dissipation = Drive(model, -1.0, 0.0, top_s - 0.6, 0.3, &point);
+  const double bottom_s = point.s, bottom_u = point.u[0];
+  EXPECT_NEAR(bottom_u, bottom_s + 0.3, kRounding);
+  dissipation += Drive(model, +1.0, 1.0, bottom_s + 0.6, -0.3, &point);
+  EXPECT_NEAR(point.u[0], point.s - 0.3, kRounding);
+  const double way = (top_u - bottom_u) + (point.u[0] - bottom_u);
+  EXPECT_GE(way, 0.8);  // it turns in the row after the load was reached
+  EXPECT_NEAR(dissipation, 0.3 * way, kRounding);
+}
+
+}  // namespace
+}  // namespace contact_path

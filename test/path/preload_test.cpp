@@ -1,0 +1,185 @@
+#include "contact_path/path/preload.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "contact_path/path/mpec_method.h"
+
+namespace contact_path {
+namespace {
+
+// The preload ends in equations solved to rounding; measured up to 4e-16.
+constexpr double kRounding = 1e-14;
+
+// A bar of EA 1 along the x axis from the pinned node a to b at (1, 0), on a floor of friction mu.
+Scene Block(double rest_length, double friction) {
+  Scene scene;
+  scene.name = "block";
+  scene.nodes = {{"a", 0.0, 0.0, true, true}, {"b", 1.0, 0.0, false, false}};
+  scene.bars = {{{"a", "b"}, 1.0, rest_length, StrainMeasure::kBiot}};
+  scene.loads = {{"b", 1.0, 0.0, false}};
+  scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, friction}};
+  scene.contacts = {{"b", "floor"}};
+  return scene;
+}
+
+MethodFactory Mpec(double step) {
+  return [step](const Model& model) {
+    TraceOptions options;
+    options.method = Method::kMpec;
+    options.step = step;
+    return std::make_unique<MpecMethod>(model, MpecOptions::ForAccuracy(options), nullptr);
+  };
+}
+
+Preload RunPreload(const Scene& scene, double step = 0.2, int max_increments = 200) {
+  const Model model(scene, CharacteristicScales(scene));
+  Preload preload = TracePreload(model, max_increments, Mpec(step));
+  if (preload.done) {
+    const Residuals residuals = model.Check(preload.point, preload.point);
+    EXPECT_LE(residuals.equilibrium, kRounding);
+    EXPECT_LE(residuals.Contact(), kRounding);
+    EXPECT_EQ(preload.point.s, 0.0);
+  }
+  return preload;
+}
+
+TEST(Preload, NothingToDoWithoutConstantLoadsAndStress) {
+  const Scene scene = Block(0.0, 0.5);
+  const Model model(scene, CharacteristicScales(scene));
+  const Preload preload = TracePreload(model, 0, [](const Model&) -> std::unique_ptr<PathMethod> {
+    ADD_FAILURE() << "no method is needed";
+    return nullptr;
+  });
+  EXPECT_TRUE(preload.done);
+  EXPECT_EQ(preload.point.u, model.InitialPoint().u);
+  EXPECT_EQ(preload.point.states, model.InitialPoint().states);
+}
+
+TEST(Preload, ConstantLoadIsCarriedByTheContact) {
+  Scene scene = Block(0.0, 0.5);
+  scene.loads.push_back({"b", 0.1, -2.0, true});
+  const Preload preload = RunPreload(scene);
+  ASSERT_TRUE(preload.done) << preload.message;
+  EXPECT_NEAR(preload.point.u[0], 1.0, kRounding);
+  EXPECT_NEAR(preload.point.rn[0], 2.0, kRounding);
+  EXPECT_NEAR(preload.point.rt[0], -0.1, kRounding);  // inside the cone: it sticks
+  EXPECT_EQ(preload.point.states[0], ContactState::kStick);
+}
+
+TEST(Preload, ConstantLoadBeyondTheConeSlides) {
+  Scene scene = Block(0.0, 0.5);
+  scene.loads.push_back({"b", 0.3, -0.4, true});
+  const Preload preload = RunPreload(scene);
+  ASSERT_TRUE(preload.done) << preload.message;
+  EXPECT_NEAR(preload.point.rn[0], 0.4, kRounding);
+  EXPECT_NEAR(preload.point.rt[0], -0.2, kRounding);
+  EXPECT_NEAR(preload.point.u[0], 1.1, kRounding);  // the bar takes the rest, 0.3 - 0.2
+  EXPECT_EQ(preload.point.states[0], ContactState::kSlipPlus);
+}
+
+TEST(Preload, BarReleasedFromItsInitialLengthGoesToItsRestLength) {
+  for (const double rest_length : {0.8, 1.25}) {
+    Scene scene = Block(rest_length, 0.0);
+    const Model model(scene, CharacteristicScales(scene));
+    const Preload preload = RunPreload(scene);
+    ASSERT_TRUE(preload.done) << preload.message;
+    EXPECT_NEAR(preload.point.u[0] * model.scaling.length, rest_length, kRounding);
+  }
+}
+
+// Tension 1/0.8 - 1 = 0.25 in the bar, a block of weight 1 with mu = 0.1: it slides back until the tension is 0.1.
+TEST(Preload, ReleasedBarDragsTheBlockUntilFrictionHoldsIt) {
+  Scene scene = Block(0.8, 0.1);
+  scene.loads.push_back({"b", 0.0, -1.0, true});
+  const Preload preload = RunPreload(scene);
+  ASSERT_TRUE(preload.done) << preload.message;
+  EXPECT_NEAR(preload.point.u[0], 0.8 * 1.1, kRounding);
+  EXPECT_NEAR(preload.point.rn[0], 1.0, kRounding);
+  EXPECT_NEAR(preload.point.rt[0], 0.1, kRounding);
+  EXPECT_EQ(preload.point.states[0], ContactState::kSlipMinus);
+}
+
+TEST(Preload, DoesNotDependOnTheStep) {
+  Scene scene = Block(0.8, 0.1);
+  scene.loads.push_back({"b", 0.02, -1.0, true});
+  const Preload coarse = RunPreload(scene, 0.2), fine = RunPreload(scene, 0.04);
+  ASSERT_TRUE(coarse.done && fine.done);
+  EXPECT_LE(Distance(coarse.point, fine.point), kRounding);
+  EXPECT_LE((coarse.point.rn - fine.point.rn).norm() + (coarse.point.rt - fine.point.rt).norm(), kRounding);
+}
+
+TEST(Preload, SaysWhenThereAreTooManyIncrements) {
+  Scene scene = Block(0.0, 0.5);
+  scene.loads.push_back({"b", 0.3, -0.4, true});
+  const Preload preload = RunPreload(scene, 0.01, 3);
+  EXPECT_FALSE(preload.done);
+  EXPECT_EQ(preload.reason, EndReason::kMaxIncrements);
+  EXPECT_NE(preload.message.find("constant loads"), std::string::npos) << preload.message;
+}
+
+// Gives what it is told to give.
+class FakeMethod : public PathMethod {
+ public:
+  FakeMethod(bool starts, Advance advance) : starts_(starts), advance_(std::move(advance)) {}
+  bool Start(const PathPoint&, EventRecord*, std::string* message) override {
+    *message = starts_ ? "" : "because";
+    return starts_;
+  }
+  Advance Next(const PathPoint&, double) override { return advance_; }
+
+ private:
+  bool starts_;
+  Advance advance_;
+};
+
+TEST(Preload, EndOfTheMethodIsTheEndOfThePreload) {
+  Scene scene = Block(0.0, 0.5);
+  scene.loads.push_back({"b", 0.0, 1.0, true});
+  const Model model(scene, CharacteristicScales(scene));
+  for (const EndReason reason : {EndReason::kCancelled, EndReason::kPathEnd, EndReason::kStepTooSmall}) {
+    const Preload preload = TracePreload(model, 100, [&](const Model&) {
+      Advance advance;
+      advance.reason = reason;
+      advance.message = "because";
+      return std::make_unique<FakeMethod>(true, advance);
+    });
+    EXPECT_FALSE(preload.done);
+    EXPECT_EQ(preload.reason, reason);
+    EXPECT_NE(preload.message.find("because"), std::string::npos) << preload.message;
+  }
+}
+
+TEST(Preload, MethodThatCannotSetOutIsTheEndOfThePath) {
+  Scene scene = Block(0.0, 0.5);
+  scene.loads.push_back({"b", 0.0, 1.0, true});
+  const Model model(scene, CharacteristicScales(scene));
+  const Preload preload =
+      TracePreload(model, 100, [](const Model&) { return std::make_unique<FakeMethod>(false, Advance()); });
+  EXPECT_FALSE(preload.done);
+  EXPECT_EQ(preload.reason, EndReason::kPathEnd);
+  EXPECT_NE(preload.message.find("because"), std::string::npos) << preload.message;
+}
+
+TEST(Preload, TheModelOfTheMethodLoadsWithTheConstantLoadsOnly) {
+  Scene scene = Block(0.0, 0.5);
+  scene.loads.push_back({"b", 0.0, -3.0, true});
+  const Model model(scene, CharacteristicScales(scene));
+  bool asked = false;
+  TracePreload(model, 1, [&](const Model& of) {
+    asked = true;
+    EXPECT_EQ(of.scene.loads.size(), 1u);
+    EXPECT_EQ(of.structure.ConstantLoad().norm(), 0.0);
+    EXPECT_EQ(of.structure.ReferenceLoad()[0], 0.0);
+    EXPECT_LT(of.structure.ReferenceLoad()[1], 0.0);
+    return std::make_unique<FakeMethod>(true, Advance());
+  });
+  EXPECT_TRUE(asked);
+}
+
+}  // namespace
+}  // namespace contact_path

@@ -1,0 +1,365 @@
+#include "contact_path/ros/convert.h"
+
+#include <cstdint>
+#include <limits>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "contact_path/scene/validate.h"
+
+namespace contact_path {
+namespace {
+
+namespace msgs = contact_path_msgs;
+using Response = msgs::TracePathResponse;
+
+// What arrives at the other side of a connection, or of a bag.
+template <typename Message>
+Message ThroughTheWire(const Message& message) {
+  std::vector<std::uint8_t> bytes(ros::serialization::serializationLength(message));
+  ros::serialization::OStream out(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
+  ros::serialization::serialize(out, message);
+  Message received;
+  ros::serialization::IStream in(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
+  ros::serialization::deserialize(in, received);
+  return received;
+}
+
+// Every field differs from its default and from its neighbours.
+TraceRequest FullRequest() {
+  TraceRequest request;
+  request.scene.name = "full";
+  request.scene.nodes = {{"a", 1.0, 2.0, true, false}, {"b", 3.0, 4.0, false, true}};
+  request.scene.bars = {{{"a", "b"}, 5.0, 6.0, StrainMeasure::kGreenLagrange},
+                        {{"b", "a"}, 7.0, 8.0, StrainMeasure::kLogarithmic}};
+  request.scene.superelements = {{{"b"}, {1.0, 2.0, 2.0, 3.0}}};
+  request.scene.loads = {{"a", 9.0, 10.0, true}, {"b", 11.0, 12.0, false}};
+  request.scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 13.0, 14.0, 15.0, 16.0, 0.17}};
+  request.scene.contacts = {{"b", "floor"}};
+  request.options.method = Method::kMpec;
+  request.options.accuracy = Accuracy::kAccurate;
+  request.options.direction = -1.0;
+  request.options.step = 0.25;
+  request.options.max_increments = 18;
+  request.options.stop = {{"b.x", ">", 19.0}, {"load_factor", "<", 20.0}};
+  request.options.branch_choices = {{21, 22, 23}};
+  return request;
+}
+
+void ExpectFullRequest(const TraceRequest& request) {
+  const Scene& scene = request.scene;
+  EXPECT_EQ(scene.name, "full");
+  ASSERT_EQ(scene.nodes.size(), 2U);
+  EXPECT_EQ(scene.nodes[0].name, "a");
+  EXPECT_EQ(scene.nodes[0].x, 1.0);
+  EXPECT_EQ(scene.nodes[0].y, 2.0);
+  EXPECT_TRUE(scene.nodes[0].fixed_x);
+  EXPECT_FALSE(scene.nodes[0].fixed_y);
+  EXPECT_FALSE(scene.nodes[1].fixed_x);
+  EXPECT_TRUE(scene.nodes[1].fixed_y);
+  ASSERT_EQ(scene.bars.size(), 2U);
+  EXPECT_EQ(scene.bars[0].nodes, (std::vector<std::string>{"a", "b"}));
+  EXPECT_EQ(scene.bars[0].EA, 5.0);
+  EXPECT_EQ(scene.bars[0].rest_length, 6.0);
+  EXPECT_EQ(scene.bars[0].strain, StrainMeasure::kGreenLagrange);
+  EXPECT_EQ(scene.bars[1].strain, StrainMeasure::kLogarithmic);
+  ASSERT_EQ(scene.superelements.size(), 1U);
+  EXPECT_EQ(scene.superelements[0].nodes, std::vector<std::string>{"b"});
+  EXPECT_EQ(scene.superelements[0].stiffness, (std::vector<double>{1.0, 2.0, 2.0, 3.0}));
+  ASSERT_EQ(scene.loads.size(), 2U);
+  EXPECT_EQ(scene.loads[0].node, "a");
+  EXPECT_EQ(scene.loads[0].fx, 9.0);
+  EXPECT_EQ(scene.loads[0].fy, 10.0);
+  EXPECT_TRUE(scene.loads[0].constant);
+  EXPECT_FALSE(scene.loads[1].constant);
+  ASSERT_EQ(scene.obstacles.size(), 1U);
+  EXPECT_EQ(scene.obstacles[0].name, "floor");
+  EXPECT_EQ(scene.obstacles[0].px, 13.0);
+  EXPECT_EQ(scene.obstacles[0].py, 14.0);
+  EXPECT_EQ(scene.obstacles[0].nx, 15.0);
+  EXPECT_EQ(scene.obstacles[0].ny, 16.0);
+  EXPECT_EQ(scene.obstacles[0].friction, 0.17);
+  ASSERT_EQ(scene.contacts.size(), 1U);
+  EXPECT_EQ(scene.contacts[0].Name(), "b@floor");
+  const TraceOptions& options = request.options;
+  EXPECT_EQ(options.method, Method::kMpec);
+  EXPECT_EQ(options.accuracy, Accuracy::kAccurate);
+  EXPECT_EQ(options.direction, -1.0);
+  EXPECT_EQ(options.step, 0.25);
+  EXPECT_EQ(options.max_increments, 18);
+  ASSERT_EQ(options.stop.size(), 2U);
+  EXPECT_EQ(options.stop[0].quantity, "b.x");
+  EXPECT_EQ(options.stop[0].when, ">");
+  EXPECT_EQ(options.stop[0].value, 19.0);
+  EXPECT_EQ(options.stop[1].when, "<");
+  ASSERT_EQ(options.branch_choices.size(), 1U);
+  EXPECT_EQ(options.branch_choices[0].event, 21);
+  EXPECT_EQ(options.branch_choices[0].row, 22);
+  EXPECT_EQ(options.branch_choices[0].way, 23);
+}
+
+TEST(ConvertTest, RequestSurvivesTheWayThroughMessages) {
+  const msgs::TraceRequest message = ThroughTheWire(ToMessage(FullRequest()));
+  ExpectFullRequest(FromMessage(message.scene, message.options));
+}
+
+TEST(ConvertTest, RequestMessageNamesItsFieldsAsTheSceneFilesDo) {
+  const msgs::TraceRequest message = ToMessage(FullRequest());
+  EXPECT_EQ(message.scene.nodes[1].y, 4.0);
+  EXPECT_EQ(message.scene.bars[0].EA, 5.0);
+  EXPECT_EQ(message.scene.bars[0].strain, "green_lagrange");
+  EXPECT_EQ(message.scene.loads[0].fy, 10.0);
+  EXPECT_EQ(message.scene.obstacles[0].shape, "half_plane");
+  EXPECT_EQ(message.scene.obstacles[0].ny, 16.0);
+  EXPECT_EQ(message.scene.contacts[0].obstacle, "floor");
+  EXPECT_EQ(message.options.method, "mpec");
+  EXPECT_EQ(message.options.accuracy, "accurate");
+  EXPECT_EQ(message.options.stop[0].quantity, "b.x");
+}
+
+TEST(ConvertTest, FieldsLeftOutHaveTheDefaultsOfTheCore) {
+  msgs::Scene scene;
+  scene.bars.resize(1);
+  scene.obstacles.resize(1);
+  msgs::TraceOptions options;
+  options.branch_choices.resize(1);
+  const TraceRequest request = FromMessage(scene, options);
+  const TraceOptions defaults;
+  EXPECT_EQ(request.options.method, defaults.method);
+  EXPECT_EQ(request.options.accuracy, defaults.accuracy);
+  EXPECT_EQ(request.options.direction, defaults.direction);
+  EXPECT_EQ(request.options.step, defaults.step);
+  EXPECT_EQ(request.options.max_increments, defaults.max_increments);
+  EXPECT_EQ(request.options.branch_choices[0].event, BranchChoice().event);
+  EXPECT_EQ(request.options.branch_choices[0].row, BranchChoice().row);
+  EXPECT_EQ(request.options.branch_choices[0].way, BranchChoice().way);
+  EXPECT_EQ(request.scene.bars[0].strain, Bar().strain);
+  EXPECT_EQ(request.scene.obstacles[0].shape, Obstacle().shape);
+}
+
+TEST(ConvertTest, RefusesEveryWordThatIsNotKnown) {
+  msgs::TraceRequest message = ToMessage(FullRequest());
+  message.scene.bars[1].strain = "hencky";
+  message.scene.obstacles[0].shape = "circle";
+  message.options.method = "magic";
+  message.options.accuracy = "perfect";
+  try {
+    FromMessage(message.scene, message.options);
+    FAIL() << "was not refused";
+  } catch (const InvalidRequest& error) {
+    ASSERT_EQ(error.violations().size(), 4U);
+    EXPECT_EQ(error.violations()[0].key, "scene.bars[1].strain");
+    EXPECT_EQ(error.violations()[0].value, "hencky");
+    EXPECT_EQ(error.violations()[1].key, "scene.obstacles[0].shape");
+    EXPECT_EQ(error.violations()[2].key, "options.method");
+    EXPECT_EQ(error.violations()[3].key, "options.accuracy");
+  }
+}
+
+Increment FullIncrement() {
+  Increment increment;
+  increment.index = 1;
+  increment.load_factor = 2.0;
+  increment.arc_length = 3.0;
+  increment.kind = RowKind::kCornerLimit;
+  increment.positions = {4.0, 5.0, 6.0, 7.0};
+  increment.contacts = {{8.0, 9.0, 10.0, ContactState::kSlipMinus}, {11.0, 12.0, 13.0, ContactState::kStick}};
+  increment.dissipation = 14.0;
+  increment.strain_energy = 15.0;
+  increment.external_work = 16.0;
+  increment.residuals = {17.0, 18.0, 19.0, 20.0, 21.0, 22.0};
+  increment.solve.method = Method::kMpec;
+  increment.solve.regularisation = 23.0;
+  increment.solve.exact = true;
+  increment.solve.iterations = 24;
+  increment.solve.variables = 25;
+  increment.solve.constraints = 26;
+  increment.solve.rejected = 27;
+  increment.solve.time = 28.0;
+  increment.solve.factorisations = 29;
+  increment.solve.deficiency = 30;
+  increment.solve.determinant_sign = -1;
+  increment.solve.contraction = 31.0;
+  increment.event.ways = {{{ContactState::kOpen, ContactState::kSlipPlus}, 32.0, 33.0, 34.0},
+                          {{ContactState::kStick, ContactState::kOpen}, 35.0, 36.0, 37.0}};
+  increment.event.taken = 1;
+  increment.event.concerned = 38;
+  increment.event.complete = false;
+  increment.event.null_vector = {39.0, 40.0, 41.0, 42.0};
+  return increment;
+}
+
+TEST(ConvertTest, IncrementMessageHoldsEveryFieldUnderItsName) {
+  const msgs::Increment message = ToMessage(FullIncrement());
+  EXPECT_EQ(message.index, 1U);
+  EXPECT_EQ(message.load_factor, 2.0);
+  EXPECT_EQ(message.arc_length, 3.0);
+  EXPECT_EQ(message.kind, msgs::Increment::CORNER_LIMIT);
+  EXPECT_EQ(message.x, (std::vector<double>{4.0, 6.0}));
+  EXPECT_EQ(message.y, (std::vector<double>{5.0, 7.0}));
+  ASSERT_EQ(message.contacts.size(), 2U);
+  EXPECT_EQ(message.contacts[0].gap, 8.0);
+  EXPECT_EQ(message.contacts[0].rn, 9.0);
+  EXPECT_EQ(message.contacts[0].rt, 10.0);
+  EXPECT_EQ(message.contacts[0].state, msgs::ContactState::SLIP_MINUS);
+  EXPECT_EQ(message.contacts[1].state, msgs::ContactState::STICK);
+  EXPECT_EQ(message.dissipation, 14.0);
+  EXPECT_EQ(message.strain_energy, 15.0);
+  EXPECT_EQ(message.external_work, 16.0);
+  EXPECT_EQ(message.equilibrium_residual, 17.0);
+  EXPECT_EQ(message.penetration_residual, 18.0);
+  EXPECT_EQ(message.adhesion_residual, 19.0);
+  EXPECT_EQ(message.min_form_residual, 20.0);
+  EXPECT_EQ(message.cone_residual, 21.0);
+  EXPECT_EQ(message.friction_law_residual, 22.0);
+  EXPECT_EQ(message.complementarity_residual, 22.0);
+  EXPECT_EQ(message.method, msgs::Increment::MPEC);
+  EXPECT_EQ(message.regularisation, 23.0);
+  EXPECT_TRUE(message.exact);
+  EXPECT_EQ(message.iterations, 24U);
+  EXPECT_EQ(message.variables, 25U);
+  EXPECT_EQ(message.constraints, 26U);
+  EXPECT_EQ(message.rejected, 27U);
+  EXPECT_EQ(message.solve_time, 28.0);
+  EXPECT_EQ(message.factorisations, 29U);
+  EXPECT_EQ(message.deficiency, 30U);
+  EXPECT_EQ(message.determinant_sign, -1);
+  EXPECT_EQ(message.contraction, 31.0);
+  ASSERT_EQ(message.event.ways.size(), 2U);
+  EXPECT_EQ(message.event.ways[0].states,
+            (std::vector<std::uint8_t>{msgs::ContactState::OPEN, msgs::ContactState::SLIP_PLUS}));
+  EXPECT_EQ(message.event.ways[0].load_rate, 32.0);
+  EXPECT_EQ(message.event.ways[0].dissipation_rate, 33.0);
+  EXPECT_EQ(message.event.ways[0].turn, 34.0);
+  EXPECT_EQ(message.event.taken, 1);
+  EXPECT_EQ(message.event.concerned, 38U);
+  EXPECT_FALSE(message.event.complete);
+  EXPECT_EQ(message.event.null_vector, (std::vector<double>{39.0, 40.0, 41.0, 42.0}));
+}
+
+TEST(ConvertTest, IncrementSurvivesTheWayThroughMessages) {
+  const msgs::Increment message = ThroughTheWire(ToMessage(FullIncrement()));
+  EXPECT_EQ(message, ToMessage(FullIncrement()));
+  const Increment increment = FromMessage(message);
+  EXPECT_EQ(increment.positions, FullIncrement().positions);
+  EXPECT_EQ(increment.residuals.complementarity, 20.0);
+  EXPECT_EQ(ToMessage(increment), message);
+}
+
+TEST(ConvertTest, NumbersSurviveToTheLastBit) {
+  Increment increment;
+  increment.load_factor = 0.1 + 0.2;
+  increment.dissipation = std::numeric_limits<double>::denorm_min();
+  increment.arc_length = std::numeric_limits<double>::max();
+  const Increment back = FromMessage(ThroughTheWire(ToMessage(increment)));
+  EXPECT_EQ(back.load_factor, increment.load_factor);
+  EXPECT_EQ(back.dissipation, increment.dissipation);
+  EXPECT_EQ(back.arc_length, increment.arc_length);
+}
+
+TEST(ConvertTest, EveryKindStateAndMethodHasItsConstant) {
+  Increment increment;
+  std::set<std::uint8_t> constants;
+  for (const RowKind kind : {RowKind::kStart, RowKind::kRegular, RowKind::kSmoothLimit, RowKind::kCornerLimit,
+                             RowKind::kContactEvent, RowKind::kBifurcation}) {
+    increment.kind = kind;
+    constants.insert(ToMessage(increment).kind);
+    EXPECT_EQ(FromMessage(ToMessage(increment)).kind, kind);
+  }
+  EXPECT_EQ(constants.size(), 6U);
+
+  constants.clear();
+  increment.contacts.resize(1);
+  for (const ContactState state : {ContactState::kOpen, ContactState::kStick, ContactState::kSlipPlus,
+                                   ContactState::kSlipMinus, ContactState::kClosed}) {
+    increment.contacts[0].state = state;
+    constants.insert(ToMessage(increment).contacts[0].state);
+    EXPECT_EQ(FromMessage(ToMessage(increment)).contacts[0].state, state);
+  }
+  EXPECT_EQ(constants.size(), 5U);
+
+  for (const Method method : {Method::kBranch, Method::kMpec}) {
+    increment.solve.method = method;
+    EXPECT_EQ(FromMessage(ToMessage(increment)).solve.method, method);
+  }
+}
+
+TEST(ConvertTest, RefusesIncrementMessagesThatContradictThemselves) {
+  msgs::Increment message = ToMessage(FullIncrement());
+  message.y.pop_back();
+  EXPECT_THROW(FromMessage(message), std::invalid_argument);
+
+  message = ToMessage(FullIncrement());
+  message.kind = 200;
+  EXPECT_THROW(FromMessage(message), std::invalid_argument);
+
+  message = ToMessage(FullIncrement());
+  message.contacts[1].state = 200;
+  EXPECT_THROW(FromMessage(message), std::invalid_argument);
+
+  message = ToMessage(FullIncrement());
+  message.event.ways[1].states[0] = 200;
+  EXPECT_THROW(FromMessage(message), std::invalid_argument);
+
+  message = ToMessage(FullIncrement());
+  message.method = 200;
+  EXPECT_THROW(FromMessage(message), std::invalid_argument);
+
+  message = ToMessage(FullIncrement());
+  message.iterations = std::numeric_limits<std::uint32_t>::max();
+  EXPECT_THROW(FromMessage(message), std::invalid_argument);
+}
+
+TEST(ConvertTest, EndReasonsHaveConstantNameAndStatus) {
+  struct Row {
+    EndReason reason;
+    std::uint8_t constant;
+    std::string name;
+    std::uint8_t status;
+  };
+  const std::vector<Row> rows = {
+      {EndReason::kNumericalFailure, Response::END_NUMERICAL_FAILURE, "numerical_failure", Response::ENDED_EARLY},
+      {EndReason::kStopCriterion, Response::END_STOP_CRITERION, "stop_criterion", Response::OK},
+      {EndReason::kMaxIncrements, Response::END_MAX_INCREMENTS, "max_increments", Response::OK},
+      {EndReason::kPathEnd, Response::END_PATH_END, "path_end", Response::ENDED_EARLY},
+      {EndReason::kStepTooSmall, Response::END_STEP_TOO_SMALL, "step_too_small", Response::ENDED_EARLY},
+      {EndReason::kCancelled, Response::END_CANCELLED, "cancelled", Response::ENDED_EARLY},
+  };
+  for (const Row& row : rows) {
+    EXPECT_EQ(ToConstant(row.reason), row.constant);
+    EXPECT_EQ(EndReasonName(row.constant), row.name);
+    EXPECT_EQ(StatusOf(row.reason), row.status);
+  }
+  EXPECT_EQ(EndReasonName(Response::END_NONE), "");
+  EXPECT_EQ(EndReasonName(Response::END_TIME_LIMIT), "time_limit");
+  EXPECT_THROW(EndReasonName(200), std::invalid_argument);
+}
+
+TEST(ConvertTest, AResponseThatNobodyFilledInSaysFailed) {
+  EXPECT_EQ(Response().status, Response::FAILED);
+  EXPECT_EQ(Response().end_reason, Response::END_NONE);
+}
+
+TEST(ConvertTest, ResultHoldsTheResponse) {
+  Response response;
+  response.status = Response::ENDED_EARLY;
+  response.message = "no way on";
+  response.increments = 7;
+  response.end_reason = Response::END_PATH_END;
+  response.end_reason_name = "path_end";
+  response.bag = "000001_scene.bag";
+  const msgs::TraceResult result = ThroughTheWire(ToResult(response));
+  EXPECT_EQ(result.status, response.status);
+  EXPECT_EQ(result.message, response.message);
+  EXPECT_EQ(result.increments, response.increments);
+  EXPECT_EQ(result.end_reason, response.end_reason);
+  EXPECT_EQ(result.end_reason_name, response.end_reason_name);
+  EXPECT_EQ(result.bag, response.bag);
+}
+
+}  // namespace
+}  // namespace contact_path

@@ -1,0 +1,116 @@
+"""What the launch tests share: requests from scene files, clients that wait on conditions, readers of bags."""
+import io
+import os
+import threading
+import time
+
+import genpy
+import rosbag
+import roslib.packages
+import rospy
+import yaml
+
+from contact_path.msg import Increment
+from contact_path.srv import TracePath, TracePathRequest
+
+PACKAGE = 'contact_path'
+PATIENCE = 60.0  # [s] for anything that must happen; nothing waits as long unless it fails
+
+
+def scene_path(name):
+    return os.path.join(roslib.packages.get_pkg_dir(PACKAGE), 'scenes', name + '.yaml')
+
+
+def program(name):
+    return roslib.packages.find_node(PACKAGE, name)[0]
+
+
+def request_from(text, **options):
+    """The request that `rosservice call` makes of the text of a scene file, with some options replaced."""
+    request = TracePathRequest()
+    genpy.message.fill_message_args(request, yaml.safe_load(text))
+    for key, value in options.items():
+        setattr(request.options, key, value)
+    return request
+
+
+def request_of(name, **options):
+    with open(scene_path(name)) as file:
+        return request_from(file.read(), **options)
+
+
+def long_request():
+    """A trace that takes far longer than any test."""
+    return request_of('sliding_bar', method='mpec', step=1e-5, max_increments=1000000, stop=[])
+
+
+def wait_until(condition, what):
+    deadline = time.monotonic() + PATIENCE
+    while not condition():
+        if time.monotonic() > deadline:
+            raise AssertionError('waited in vain until ' + what)
+        time.sleep(0.005)
+
+
+def service(name, kind=TracePath):
+    rospy.wait_for_service(name, PATIENCE)
+    return rospy.ServiceProxy(name, kind)
+
+
+class Collector:
+    """Everything that arrives on a topic from the moment of its construction on."""
+
+    def __init__(self, topic, kind=Increment):
+        self.messages = []
+        self._subscriber = rospy.Subscriber(topic, kind, self.messages.append)
+        wait_until(lambda: self._subscriber.get_num_connections() > 0, topic + ' is connected')
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self._subscriber.unregister()
+
+
+class Call:
+    """A service call on a thread of its own."""
+
+    def __init__(self, proxy, request):
+        self.response = None
+        self.error = None
+        self.end_time = None
+        self._proxy = proxy
+        self._thread = threading.Thread(target=self._run, args=(request,), daemon=True)
+        self._thread.start()
+
+    def _run(self, request):
+        try:
+            self.response = self._proxy(request)
+        except rospy.ServiceException as error:
+            self.error = error
+        self.end_time = time.monotonic()
+
+    def result(self):
+        wait_until(lambda: self.end_time is not None, 'the service answers')
+        return self.response
+
+
+def read_bag(path):
+    """Request, increments and result of a bag. Asserts that it holds nothing else, in this order."""
+    with rosbag.Bag(path) as bag:
+        entries = [(topic.rsplit('/', 1)[1], message) for topic, message, _ in bag.read_messages()]
+    names = [name for name, _ in entries]
+    assert names == ['request'] + ['increments'] * (len(names) - 2) + ['result'], names
+    messages = [message for _, message in entries]
+    return messages[0], messages[1:-1], messages[-1]
+
+
+def same(a, b):
+    """Whether two messages are equal to the last bit; classes made from a bag differ from the imported ones."""
+    return a._type == b._type and a._md5sum == b._md5sum and serialized(a) == serialized(b)
+
+
+def serialized(message):
+    buffer = io.BytesIO()
+    message.serialize(buffer)
+    return buffer.getvalue()

@@ -1,0 +1,118 @@
+#include "contact_path/ros/limits.h"
+
+#include <limits>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+namespace contact_path {
+namespace {
+
+namespace msgs = contact_path_msgs;
+
+TraceLimits SmallLimits() {
+  TraceLimits limits;
+  limits.max_nodes = 2;
+  limits.max_elements = 3;
+  limits.max_contacts = 4;
+  limits.max_increments = 5;
+  return limits;
+}
+
+// Everything as large as the limits admit.
+msgs::TraceRequest LargestRequest() {
+  msgs::TraceRequest request;
+  request.scene.nodes.resize(2);
+  request.scene.bars.resize(3);
+  request.scene.superelements.resize(2);
+  request.scene.superelements[0].stiffness.resize(2);
+  request.scene.superelements[1].stiffness.resize(1);
+  request.scene.loads.resize(3);
+  request.scene.obstacles.resize(4);
+  request.scene.contacts.resize(4);
+  request.options.stop.resize(4);
+  request.options.branch_choices.resize(4);
+  request.options.max_increments = 5;
+  return request;
+}
+
+std::string Exceeded(const msgs::TraceRequest& request) {
+  return ExceededLimit(request.scene, request.options, SmallLimits());
+}
+
+TEST(LimitsTest, AdmitsWhatReachesEveryLimit) { EXPECT_EQ(Exceeded(LargestRequest()), ""); }
+
+TEST(LimitsTest, NamesWhatIsTooLargeAndTheLimit) {
+  msgs::TraceRequest request = LargestRequest();
+  request.scene.nodes.resize(3);
+  EXPECT_EQ(Exceeded(request), "scene.nodes: 3, but the node admits 2 (~max_nodes)");
+
+  request = LargestRequest();
+  request.scene.bars.resize(4);
+  EXPECT_EQ(Exceeded(request), "scene.bars: 4, but the node admits 3 (~max_elements)");
+
+  request = LargestRequest();
+  request.scene.superelements.resize(4);
+  EXPECT_EQ(Exceeded(request), "scene.superelements: 4, but the node admits 3 (~max_elements)");
+
+  request = LargestRequest();
+  request.scene.superelements[1].stiffness.resize(2);
+  EXPECT_EQ(Exceeded(request), "stiffness entries of scene.superelements: 4, but the node admits 3 (~max_elements)");
+
+  request = LargestRequest();
+  request.scene.loads.resize(4);
+  EXPECT_EQ(Exceeded(request), "scene.loads: 4, but the node admits 3 (~max_elements)");
+
+  request = LargestRequest();
+  request.scene.obstacles.resize(5);
+  EXPECT_EQ(Exceeded(request), "scene.obstacles: 5, but the node admits 4 (~max_contacts)");
+
+  request = LargestRequest();
+  request.scene.contacts.resize(5);
+  EXPECT_EQ(Exceeded(request), "scene.contacts: 5, but the node admits 4 (~max_contacts)");
+
+  request = LargestRequest();
+  request.options.stop.resize(5);
+  EXPECT_EQ(Exceeded(request), "options.stop: 5, but the node admits 4 (~max_contacts)");
+
+  request = LargestRequest();
+  request.options.branch_choices.resize(5);
+  EXPECT_EQ(Exceeded(request), "options.branch_choices: 5, but the node admits 4 (~max_contacts)");
+
+  request = LargestRequest();
+  request.options.max_increments = 6;
+  EXPECT_EQ(Exceeded(request), "options.max_increments: 6, but the node admits 5 (~max_increments)");
+}
+
+TEST(LimitsTest, CountsTheDefaultNumberOfIncrements) {
+  msgs::TraceRequest request = LargestRequest();
+  request.options.max_increments = 0;
+  EXPECT_EQ(Exceeded(request), "options.max_increments: 1000, but the node admits 5 (~max_increments)");
+}
+
+TEST(LimitsTest, LeavesANegativeNumberOfIncrementsToTheRulesOfRequests) {
+  msgs::TraceRequest request = LargestRequest();
+  request.options.max_increments = -1;
+  EXPECT_EQ(Exceeded(request), "");
+}
+
+TEST(LimitsTest, RefusesLimitsThatMakeNoSense) {
+  EXPECT_NO_THROW(TraceLimits().Validate());
+  for (int TraceLimits::*const limit : {&TraceLimits::max_nodes, &TraceLimits::max_elements, &TraceLimits::max_contacts,
+                                        &TraceLimits::max_increments}) {
+    TraceLimits limits;
+    limits.*limit = 0;
+    EXPECT_THROW(limits.Validate(), std::invalid_argument);
+  }
+  TraceLimits limits;
+  limits.max_seconds = 0.0;
+  EXPECT_NO_THROW(limits.Validate());
+  for (const double seconds :
+       {-1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    limits.max_seconds = seconds;
+    EXPECT_THROW(limits.Validate(), std::invalid_argument);
+  }
+}
+
+}  // namespace
+}  // namespace contact_path

@@ -1,0 +1,128 @@
+#!/usr/bin/python3
+"""How the node starts and ends: signals, rosnode's shutdown, a crash, wrong parameters. Starts nodes of its own."""
+import os
+import shutil
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+import rosbag
+import rosnode
+import rospy
+import rostest
+from contact_path.srv import TracePathResponse as Response
+
+import helpers
+
+NODE = '/stopped'
+
+
+class ShutdownTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node('shutdown_test')
+
+    def setUp(self):
+        self.bags = tempfile.mkdtemp()
+        self.node = None
+
+    def tearDown(self):
+        if self.node and self.node.poll() is None:
+            self.node.kill()
+            self.node.wait()
+        shutil.rmtree(self.bags)
+
+    def start(self, *parameters):
+        self.node = subprocess.Popen([helpers.program('contact_path_node'), '__name:=' + NODE.strip('/'),
+                                      '_bag_directory:=' + self.bags] + list(parameters),
+                                     stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
+
+    def start_trace(self):
+        """A node with a trace on its way; the call."""
+        self.start()
+        trace = helpers.service(NODE + '/trace')
+        with helpers.Collector(NODE + '/increments') as collector:
+            call = helpers.Call(trace, helpers.long_request())
+            helpers.wait_until(lambda: len(collector.messages) > 50, 'the trace is on its way')
+        return call
+
+    def expect_exit(self, since):
+        self.assertEqual(self.node.wait(helpers.PATIENCE), 0)
+        self.assertLess(time.monotonic() - since, 1.5)
+
+    def read_bag(self):
+        names = os.listdir(self.bags)
+        self.assertEqual(names, ['000001_sliding_bar.bag'])
+        return helpers.read_bag(os.path.join(self.bags, names[0]))
+
+    def expect_closed_bag(self):
+        request, increments, result = self.read_bag()
+        self.assertEqual(request.scene.name, 'sliding_bar')
+        self.assertGreater(len(increments), 50)
+        self.assertEqual([i.index for i in increments], list(range(len(increments))))
+        self.assertEqual(result.increments, len(increments))
+        self.assertEqual((result.status, result.end_reason), (Response.SHUTTING_DOWN, Response.END_CANCELLED))
+        return result
+
+    def expect_signal_ends_trace(self, number):
+        call = self.start_trace()
+        sent = time.monotonic()
+        self.node.send_signal(number)
+        response = call.result()
+        self.expect_exit(sent)
+        result = self.expect_closed_bag()
+        self.assertIsNone(call.error)
+        self.assertEqual((response.status, response.increments, response.bag),
+                         (result.status, result.increments, result.bag))
+
+    def test_interrupt_ends_the_trace_and_closes_its_bag(self):
+        self.expect_signal_ends_trace(signal.SIGINT)
+
+    def test_termination_ends_the_trace_and_closes_its_bag(self):
+        self.expect_signal_ends_trace(signal.SIGTERM)
+
+    def test_shutdown_by_the_master_closes_the_bag(self):
+        self.start_trace()
+        sent = time.monotonic()
+        rosnode.kill_nodes([NODE])
+        self.expect_exit(sent)
+        self.expect_closed_bag()
+
+    def test_interrupt_ends_an_idle_node(self):
+        self.start()
+        helpers.service(NODE + '/trace')
+        sent = time.monotonic()
+        self.node.send_signal(signal.SIGINT)
+        self.expect_exit(sent)
+
+    def test_bag_of_a_crashed_node_can_be_reindexed(self):
+        self.start_trace()
+        self.node.kill()
+        self.node.wait()
+        path = os.path.join(self.bags, os.listdir(self.bags)[0])
+        with rosbag.Bag(path, 'a', allow_unindexed=True) as bag:
+            for _ in bag.reindex():
+                pass
+        with rosbag.Bag(path) as bag:
+            topics = [topic for topic, _, _ in bag.read_messages()]
+        self.assertEqual(topics[0], NODE + '/request')
+        self.assertGreater(topics.count(NODE + '/increments'), 10)
+
+    def test_wrong_parameters_are_named_at_the_start(self):
+        for parameter, line in (('max_nodes:=0', '~max_nodes = 0: must be > 0'),
+                                ('max_contacts:=many', '~max_contacts: must be an integer'),
+                                ('increments_queue:=-1', '~increments_queue = -1: must be > 0'),
+                                ('max_seconds:=-1.0', '~max_seconds = -1.000000: must be finite and >= 0'),
+                                ('bag_directory:=', '~bag_directory = "": must not be empty'),
+                                ('bag_directory:=7', '~bag_directory: must be a string')):
+            self.start('_' + parameter)
+            output, _ = self.node.communicate(timeout=helpers.PATIENCE)
+            self.assertEqual(self.node.returncode, 1)
+            self.assertIn(line, output)
+            rospy.delete_param(NODE)
+
+
+if __name__ == '__main__':
+    rostest.rosrun(helpers.PACKAGE, 'shutdown', ShutdownTest)

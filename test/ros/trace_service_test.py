@@ -1,0 +1,273 @@
+#!/usr/bin/python3
+"""The node as a client sees it: answers, topics, bags, refusals. Nodes: see trace_service.test."""
+import csv
+import os
+import shutil
+import subprocess
+import tempfile
+import time
+import unittest
+
+import rospy
+import rostest
+from contact_path.msg import ContactState, Increment, TraceStatus
+from contact_path.srv import TracePathResponse as Response
+from std_srvs.srv import Trigger
+
+import helpers
+
+NODE = '/contact_path'
+KINDS = {'start': Increment.START, 'regular': Increment.REGULAR, 'smooth_limit': Increment.SMOOTH_LIMIT,
+         'corner_limit': Increment.CORNER_LIMIT, 'contact_event': Increment.CONTACT_EVENT,
+         'bifurcation': Increment.BIFURCATION}
+STATES = {'open': ContactState.OPEN, 'stick': ContactState.STICK, 'slip+': ContactState.SLIP_PLUS,
+          'slip-': ContactState.SLIP_MINUS, 'closed': ContactState.CLOSED}
+
+
+class TraceServiceTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node('trace_service_test')
+        cls.bags = rospy.get_param(NODE + '/bag_directory')
+        cls.trace = helpers.service(NODE + '/trace')
+        cls.cancel = helpers.service(NODE + '/cancel', Trigger)
+
+    @classmethod
+    def tearDownClass(cls):
+        for directory in (os.path.dirname(os.path.dirname(cls.bags)),
+                          os.path.dirname(rospy.get_param('/limited' + NODE + '/bag_directory'))):
+            shutil.rmtree(directory, ignore_errors=True)
+
+    def read_bag(self, response):
+        self.assertEqual(os.path.basename(response.bag), response.bag)
+        return helpers.read_bag(os.path.join(self.bags, response.bag))
+
+    def number_of_bags(self):
+        return len(os.listdir(self.bags)) if os.path.isdir(self.bags) else 0
+
+    def expect_same_result(self, recorded, response):
+        for field in Response.__slots__:
+            self.assertEqual(getattr(recorded, field), getattr(response, field), field)
+
+    # Answers
+
+    def expect_path_of_command_line(self, scene):
+        request = helpers.request_of(scene)
+        response = self.trace(request)
+        self.assertEqual(response.status, Response.OK, response.message)
+        recorded_request, increments, result = self.read_bag(response)
+        self.assertEqual(recorded_request.scene.name, scene)
+        self.assertEqual(helpers.serialized(recorded_request), helpers.serialized(request))
+        self.expect_same_result(result, response)
+        self.assertEqual(len(increments), response.increments)
+
+        with tempfile.TemporaryDirectory() as directory:
+            table = os.path.join(directory, 'path.csv')
+            subprocess.run([helpers.program('contact_path_trace'), helpers.scene_path(scene), '--csv', table, '--quiet'],
+                           check=True)
+            with open(table) as file:
+                rows = list(csv.DictReader(file))
+        self.assertEqual(len(rows), len(increments))
+        for row, increment in zip(rows, increments):
+            self.assertEqual(int(row['index']), increment.index)
+            self.assertEqual(KINDS[row['kind']], increment.kind)
+            for i, node in enumerate(request.scene.nodes):
+                self.assertEqual(float(row['x_' + node.name]), increment.x[i])
+                self.assertEqual(float(row['y_' + node.name]), increment.y[i])
+            for i, contact in enumerate(request.scene.contacts):
+                name = contact.node + '@' + contact.obstacle
+                self.assertEqual(float(row['gap_' + name]), increment.contacts[i].gap)
+                self.assertEqual(float(row['rn_' + name]), increment.contacts[i].rn)
+                self.assertEqual(float(row['rt_' + name]), increment.contacts[i].rt)
+                self.assertEqual(STATES[row['state_' + name]], increment.contacts[i].state)
+            for field in ('load_factor', 'arc_length', 'dissipation', 'strain_energy', 'equilibrium_residual',
+                          'complementarity_residual'):
+                self.assertEqual(float(row[field]), getattr(increment, field), field)
+
+    def test_path_is_that_of_the_command_line_with_contact(self):
+        self.expect_path_of_command_line('sliding_bar')
+
+    def test_path_is_that_of_the_command_line_without_contact(self):
+        self.expect_path_of_command_line('von_mises')
+
+    def test_path_is_that_of_the_command_line_with_constant_load_and_superelement(self):
+        self.expect_path_of_command_line('two_dof_friction')
+
+    def test_scene_file_is_a_request_as_it_stands(self):
+        with open(helpers.scene_path('von_mises')) as file:
+            answer = subprocess.run(['rosservice', 'call', NODE + '/trace', file.read()], check=True,
+                                    stdout=subprocess.PIPE, universal_newlines=True).stdout
+        self.assertIn('status: %d' % Response.OK, answer)
+        self.assertIn('end_reason_name: "stop_criterion"', answer)
+
+    def test_end_by_number_of_increments_is_as_asked_for(self):
+        response = self.trace(helpers.request_of('von_mises', step=1e-3, max_increments=5))
+        self.assertEqual((response.status, response.end_reason, response.end_reason_name),
+                         (Response.OK, Response.END_MAX_INCREMENTS, 'max_increments'))
+        self.assertEqual(response.increments, 6)
+
+    # Topics
+
+    def test_increments_on_the_topic_are_those_in_the_bag(self):
+        with helpers.Collector(NODE + '/increments') as collector:
+            response = self.trace(helpers.request_of('sliding_bar'))
+            helpers.wait_until(lambda: len(collector.messages) >= response.increments, 'all increments have arrived')
+            _, increments, _ = self.read_bag(response)
+            self.assertEqual(len(collector.messages), len(increments))
+            for received, recorded in zip(collector.messages, increments):
+                self.assertTrue(helpers.same(received, recorded), 'increment %d' % recorded.index)
+            self.assertEqual([i.index for i in increments], list(range(len(increments))))
+
+    def test_none_of_2000_increments_is_lost(self):
+        with helpers.Collector(NODE + '/increments') as collector:
+            response = self.trace(helpers.request_of('von_mises', step=1e-4, max_increments=2000, stop=[]))
+            self.assertEqual(response.increments, 2001, response.message)
+            helpers.wait_until(lambda: len(collector.messages) >= 2001, 'all increments have arrived')
+            self.assertEqual([i.index for i in collector.messages], list(range(2001)))
+
+    def test_status_tells_start_progress_and_end(self):
+        with helpers.Collector(NODE + '/status', TraceStatus) as collector:
+            call = helpers.Call(self.trace, helpers.long_request())
+            helpers.wait_until(lambda: any(s.increments > 5 for s in collector.messages
+                                           if s.state == TraceStatus.RUNNING), 'progress is told')
+            self.cancel()
+            response = call.result()
+            helpers.wait_until(lambda: collector.messages[-1].state == TraceStatus.ENDED, 'the end is told')
+            running = [s for s in collector.messages if s.state == TraceStatus.RUNNING and s.scene == 'sliding_bar']
+            self.assertEqual(running[0].increments, 0)
+            for earlier, later in zip(running, running[1:]):
+                self.assertGreaterEqual(later.increments, earlier.increments)
+                self.assertGreaterEqual((later.stamp - earlier.stamp).to_sec(), 0.15)  # 5 Hz, and the timer's grain
+            end = collector.messages[-1]
+            self.assertEqual(end.bag, response.bag)
+            self.assertEqual('%06d_sliding_bar.bag' % end.trace_id, response.bag)
+            self.assertEqual((end.status, end.end_reason, end.end_reason_name, end.message, end.increments),
+                             (response.status, response.end_reason, response.end_reason_name, response.message,
+                              response.increments))
+
+    def test_late_subscriber_gets_the_last_status(self):
+        response = self.trace(helpers.request_of('von_mises'))
+        with helpers.Collector(NODE + '/status', TraceStatus) as collector:
+            helpers.wait_until(lambda: collector.messages, 'the latched status arrives')
+            self.assertEqual(collector.messages[0].state, TraceStatus.ENDED)
+            self.assertEqual(collector.messages[0].bag, response.bag)
+        with helpers.Collector('/unwritable' + NODE + '/status', TraceStatus) as collector:
+            helpers.wait_until(lambda: collector.messages, 'the latched status arrives')
+            self.assertEqual(collector.messages[0].state, TraceStatus.IDLE)
+
+    # One trace at a time, and its end
+
+    def test_cancel_ends_the_trace_and_leaves_its_bag(self):
+        with helpers.Collector(NODE + '/increments') as collector:
+            call = helpers.Call(self.trace, helpers.long_request())
+            helpers.wait_until(lambda: len(collector.messages) > 5, 'the trace is on its way')
+            cancelled_at = time.monotonic()
+            answer = self.cancel()
+            response = call.result()
+        self.assertTrue(answer.success)
+        self.assertIn('sliding_bar', answer.message)
+        self.assertLess(call.end_time - cancelled_at, 0.2)
+        self.assertEqual((response.status, response.end_reason), (Response.ENDED_EARLY, Response.END_CANCELLED))
+        _, increments, result = self.read_bag(response)
+        self.assertEqual(len(increments), response.increments)
+        self.expect_same_result(result, response)
+
+    def test_cancel_without_a_trace_says_so(self):
+        answer = self.cancel()
+        self.assertFalse(answer.success)
+        self.assertIn('no trace', answer.message)
+
+    def test_second_request_is_refused_at_once_while_one_runs(self):
+        with helpers.Collector(NODE + '/increments') as collector:
+            call = helpers.Call(self.trace, helpers.long_request())
+            helpers.wait_until(lambda: collector.messages, 'the trace is on its way')
+            bags = self.number_of_bags()
+            refused = self.trace(helpers.request_of('von_mises'))
+            self.assertEqual(refused.status, Response.BUSY)
+            self.assertIn('sliding_bar', refused.message)
+            self.assertEqual((refused.increments, refused.bag), (0, ''))
+            self.assertEqual(self.number_of_bags(), bags)
+            self.assertIsNone(call.end_time)
+            self.cancel()
+            self.assertEqual(call.result().end_reason, Response.END_CANCELLED)
+        self.assertEqual(self.trace(helpers.request_of('von_mises')).status, Response.OK)
+
+    def test_time_limit_ends_the_trace(self):
+        request = helpers.long_request()
+        request.options.max_increments = 2000  # far more than fit into the limit
+        response = helpers.service('/limited' + NODE + '/trace')(request)
+        self.assertEqual((response.status, response.end_reason, response.end_reason_name),
+                         (Response.ENDED_EARLY, Response.END_TIME_LIMIT, 'time_limit'), response.message)
+        self.assertIn('0.5 s (~max_seconds)', response.message)
+
+    # Refusals
+
+    def expect_refusal(self, response, status):
+        self.assertEqual(response.status, status, response.message)
+        self.assertEqual((response.increments, response.end_reason, response.end_reason_name, response.bag),
+                         (0, Response.END_NONE, '', ''))
+
+    def test_invalid_requests_are_refused_with_the_line_of_the_command_line(self):
+        with open(helpers.scene_path('sliding_bar')) as file:
+            text = file.read()
+        bags = self.number_of_bags()
+        for part, broken in (('EA: 14.142135623730951', 'EA: -1.0'),
+                             ('EA: 14.142135623730951', 'EA: .nan'),
+                             ('EA: 14.142135623730951', 'EA: 14.1, strain: hencky'),
+                             ('nodes: [a, b]', 'nodes: [a, c]'),
+                             ('shape: half_plane', 'shape: circle'),
+                             ('friction: 0.3', 'friction: -0.3'),
+                             ('options:', 'options:\n  max_increments: -1'),
+                             ('options:', 'options:\n  method: magic')):
+            self.assertIn(part, text)
+            invalid = text.replace(part, broken)
+            response = self.trace(helpers.request_from(invalid))
+            self.expect_refusal(response, Response.INVALID_REQUEST)
+            with tempfile.NamedTemporaryFile('w', suffix='.yaml') as file:
+                file.write(invalid)
+                file.flush()
+                line = subprocess.run([helpers.program('contact_path_trace'), file.name], stderr=subprocess.PIPE,
+                                      universal_newlines=True).stderr.splitlines()[0]
+            key_and_value = response.message.split(': ')[0].replace('"', '')
+            rule = response.message.split(': ', 1)[1]
+            self.assertIn(key_and_value, line.replace('"', ''))
+            self.assertTrue(line.endswith(rule), '%s / %s' % (line, response.message))
+        self.expect_refusal(self.trace(), Response.INVALID_REQUEST)
+        self.assertEqual(self.number_of_bags(), bags)
+        self.assertEqual(self.trace(helpers.request_of('von_mises')).status, Response.OK)
+
+    def test_requests_beyond_a_limit_are_refused(self):
+        trace = helpers.service('/limited' + NODE + '/trace')
+        request = helpers.request_of('sliding_bar')
+        request.scene.nodes *= 2
+        response = trace(request)
+        self.expect_refusal(response, Response.LIMIT_EXCEEDED)
+        self.assertEqual(response.message, 'scene.nodes: 4, but the node admits 3 (~max_nodes)')
+
+        request = helpers.request_of('sliding_bar')
+        request.scene.bars *= 6
+        self.assertEqual(trace(request).message, 'scene.bars: 6, but the node admits 5 (~max_elements)')
+
+        request = helpers.request_of('sliding_bar')
+        request.scene.contacts *= 2
+        self.assertEqual(trace(request).message, 'scene.contacts: 2, but the node admits 1 (~max_contacts)')
+
+        response = trace(helpers.request_of('sliding_bar', max_increments=2001))
+        self.assertEqual(response.message,
+                         'options.max_increments: 2001, but the node admits 2000 (~max_increments)')
+
+    def test_missing_place_for_bags_is_an_answer(self):
+        response = helpers.service('/unwritable' + NODE + '/trace')(helpers.request_of('von_mises'))
+        self.expect_refusal(response, Response.BAG_FAILED)
+        self.assertIn('/proc/contact_path', response.message)
+
+    def test_scene_name_stays_in_the_bag_directory(self):
+        request = helpers.request_of('von_mises', max_increments=1)
+        request.scene.name = '../../up and/away'
+        response = self.trace(request)
+        self.assertTrue(response.bag.endswith('_______up_and_away.bag'), response.bag)
+        self.assertEqual(self.read_bag(response)[0].scene.name, request.scene.name)
+
+
+if __name__ == '__main__':
+    rostest.rosrun(helpers.PACKAGE, 'trace_service', TraceServiceTest)

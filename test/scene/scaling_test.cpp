@@ -1,0 +1,273 @@
+#include "contact_path/scene/scaling.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "contact_path/scene/validate.h"
+
+namespace contact_path {
+namespace {
+
+// Rounding of a few operations on numbers of order 1.
+constexpr double kRounding = 1e-14;
+
+// Two bars and a superelement, several loads, an inclined obstacle. No node is fixed along one axis only, so that the
+// scene may be turned.
+Scene SceneWithBars() {
+  Scene scene;
+  scene.name = "bars";
+  scene.nodes = {{"a", 0.3, 5.1, true, true},
+                 {"b", -5.2, 0.4, false, false},
+                 {"c", 7.7, -1.3, false, false},
+                 {"d", 2.1, 2.2, false, false}};
+  scene.bars = {{{"a", "b"}, 3.1, 0.0, StrainMeasure::kBiot},
+                {{"b", "c"}, 0.7, 11.0, StrainMeasure::kGreenLagrange},
+                {{"c", "d"}, 5.9, 0.0, StrainMeasure::kLogarithmic}};
+  scene.superelements = {{{"c", "d"},
+                          {2.0, 0.5, -1.0, 0.3, 0.5, 3.0, 0.1, -0.7,  //
+                           -1.0, 0.1, 4.0, 0.2, 0.3, -0.7, 0.2, 1.0}}};
+  scene.loads = {{"b", 1.3, 0.2, false}, {"c", 0.1, -0.9, true},  {"d", 0.3, -0.4, false},
+                 {"b", 0.7, 1.1, false}, {"a", 9.0, -8.0, false}, {"b", -0.6, 0.1, false}};
+  scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, -0.5, -4.0, 0.3, 2.0, 0.4}};
+  scene.contacts = {{"b", "floor"}, {"c", "floor"}};
+  return scene;
+}
+
+Scene SceneWithoutBars() {
+  Scene scene = SceneWithBars();
+  scene.name = "no bars";
+  scene.bars.clear();
+  scene.superelements.push_back({{"b"}, {1.0, -1.5, -1.5, 4.0}});
+  return scene;
+}
+
+// The same scene with other units: one old unit of length is `length` new ones, and so on.
+Scene InUnits(Scene scene, double length, double force) {
+  for (Node& node : scene.nodes) node.x *= length, node.y *= length;
+  for (Bar& bar : scene.bars) bar.EA *= force, bar.rest_length *= length;
+  for (Superelement& element : scene.superelements) {
+    for (double& entry : element.stiffness) entry *= force / length;
+  }
+  for (Load& load : scene.loads) load.fx *= force, load.fy *= force;
+  for (Obstacle& obstacle : scene.obstacles) obstacle.px *= length, obstacle.py *= length;
+  return scene;
+}
+
+// The scene after the linear map (x, y) -> (m0 x + m1 y, m2 x + m3 y), a rotation or reflection.
+Scene Mapped(Scene scene, const std::array<double, 4>& m) {
+  const auto map = [&m](double& x, double& y) {
+    const double old_x = x;
+    x = m[0] * old_x + m[1] * y;
+    y = m[2] * old_x + m[3] * y;
+  };
+  for (Node& node : scene.nodes) map(node.x, node.y);
+  for (Load& load : scene.loads) map(load.fx, load.fy);
+  for (Obstacle& obstacle : scene.obstacles) {
+    map(obstacle.px, obstacle.py);
+    map(obstacle.nx, obstacle.ny);
+  }
+  for (Superelement& element : scene.superelements) {
+    const std::size_t rows = 2 * element.nodes.size();
+    std::vector<double>& matrix = element.stiffness;
+    for (std::size_t row = 0; row < rows; ++row) {
+      for (std::size_t j = 0; j < rows; j += 2) map(matrix[row * rows + j], matrix[row * rows + j + 1]);
+    }
+    for (std::size_t column = 0; column < rows; ++column) {
+      for (std::size_t i = 0; i < rows; i += 2) map(matrix[i * rows + column], matrix[(i + 1) * rows + column]);
+    }
+  }
+  return scene;
+}
+
+void ExpectNear(double actual, double expected, const std::string& what) {
+  EXPECT_NEAR(actual, expected, kRounding * std::max(1.0, std::abs(expected))) << what;
+}
+
+void ExpectSame(const Scaling& actual, const Scaling& expected) {
+  EXPECT_NEAR(actual.length / expected.length, 1.0, kRounding);
+  EXPECT_NEAR(actual.force / expected.force, 1.0, kRounding);
+  EXPECT_NEAR(actual.load_factor / expected.load_factor, 1.0, kRounding);
+}
+
+void ExpectSame(const Scene& actual, const Scene& expected) {
+  ASSERT_EQ(actual.nodes.size(), expected.nodes.size());
+  for (std::size_t i = 0; i < expected.nodes.size(); ++i) {
+    EXPECT_EQ(actual.nodes[i].name, expected.nodes[i].name);
+    ExpectNear(actual.nodes[i].x, expected.nodes[i].x, "x");
+    ExpectNear(actual.nodes[i].y, expected.nodes[i].y, "y");
+  }
+  ASSERT_EQ(actual.bars.size(), expected.bars.size());
+  for (std::size_t i = 0; i < expected.bars.size(); ++i) {
+    ExpectNear(actual.bars[i].EA, expected.bars[i].EA, "EA");
+    ExpectNear(actual.bars[i].rest_length, expected.bars[i].rest_length, "rest_length");
+  }
+  ASSERT_EQ(actual.superelements.size(), expected.superelements.size());
+  for (std::size_t i = 0; i < expected.superelements.size(); ++i) {
+    for (std::size_t k = 0; k < expected.superelements[i].stiffness.size(); ++k) {
+      ExpectNear(actual.superelements[i].stiffness[k], expected.superelements[i].stiffness[k], "stiffness");
+    }
+  }
+  ASSERT_EQ(actual.loads.size(), expected.loads.size());
+  for (std::size_t i = 0; i < expected.loads.size(); ++i) {
+    ExpectNear(actual.loads[i].fx, expected.loads[i].fx, "fx");
+    ExpectNear(actual.loads[i].fy, expected.loads[i].fy, "fy");
+  }
+  ASSERT_EQ(actual.obstacles.size(), expected.obstacles.size());
+  for (std::size_t i = 0; i < expected.obstacles.size(); ++i) {
+    ExpectNear(actual.obstacles[i].px, expected.obstacles[i].px, "px");
+    ExpectNear(actual.obstacles[i].py, expected.obstacles[i].py, "py");
+    ExpectNear(actual.obstacles[i].nx, expected.obstacles[i].nx, "nx");
+    ExpectNear(actual.obstacles[i].ny, expected.obstacles[i].ny, "ny");
+    ExpectNear(actual.obstacles[i].friction, expected.obstacles[i].friction, "friction");
+  }
+}
+
+class ScalingTest : public testing::TestWithParam<std::function<Scene()>> {};
+
+INSTANTIATE_TEST_SUITE_P(Scenes, ScalingTest, testing::Values(SceneWithBars, SceneWithoutBars));
+
+TEST_P(ScalingTest, SceneIsSound) {
+  TraceRequest request;
+  request.scene = GetParam()();
+  for (const Violation& violation : Validate(request)) ADD_FAILURE() << violation.ToLine();
+}
+
+TEST_P(ScalingTest, UnitsChangeTheScalesAndNotTheScaledScene) {
+  const Scene scene = GetParam()();
+  const Scaling scaling = CharacteristicScales(scene);
+  for (const double length : {1.0, 1000.0, 1.0 / 0.0254, 1e-40}) {
+    for (const double force : {1.0, 4.4482216152605, 1e-3, 1e40}) {
+      const Scene other = InUnits(scene, length, force);
+      const Scaling other_scaling = CharacteristicScales(other);
+      ExpectSame(other_scaling, {scaling.length * length, scaling.force * force, scaling.load_factor});
+      ExpectSame(ScaleScene(other, other_scaling), ScaleScene(scene, scaling));
+    }
+  }
+}
+
+TEST_P(ScalingTest, RotationAndReflectionLeaveTheScales) {
+  const Scene scene = GetParam()();
+  const Scaling scaling = CharacteristicScales(scene);
+  for (const double angle : {0.1, 0.7853981633974483, 2.0, -3.0}) {
+    const double c = std::cos(angle);
+    const double s = std::sin(angle);
+    ExpectSame(CharacteristicScales(Mapped(scene, {c, -s, s, c})), scaling);
+    ExpectSame(CharacteristicScales(Mapped(scene, {c, s, s, -c})), scaling);
+  }
+}
+
+TEST_P(ScalingTest, OrderLeavesTheScalesExactly) {
+  const Scene scene = GetParam()();
+  const Scaling scaling = CharacteristicScales(scene);
+  Scene other = scene;
+  for (std::size_t turn = 0; turn < 6; ++turn) {
+    std::next_permutation(other.loads.begin(), other.loads.end(),
+                          [](const Load& a, const Load& b) { return a.fx < b.fx; });
+    std::reverse(other.nodes.begin(), other.nodes.end());
+    if (!other.bars.empty()) std::rotate(other.bars.begin(), other.bars.begin() + 1, other.bars.end());
+    std::rotate(other.superelements.begin(), other.superelements.begin() + 1, other.superelements.end());
+    for (Bar& bar : other.bars) std::swap(bar.nodes[0], bar.nodes[1]);
+    const Scaling other_scaling = CharacteristicScales(other);
+    EXPECT_EQ(other_scaling.length, scaling.length);
+    EXPECT_EQ(other_scaling.force, scaling.force);
+    EXPECT_EQ(other_scaling.load_factor, scaling.load_factor);
+  }
+}
+
+TEST_P(ScalingTest, ScaledSceneHasUnitScales) {
+  const Scene scene = GetParam()();
+  const Scene scaled = ScaleScene(scene, CharacteristicScales(scene));
+  ExpectSame(CharacteristicScales(scaled), {1.0, 1.0, 1.0});
+}
+
+TEST_P(ScalingTest, NamesOrderAndSupportsAreKept) {
+  const Scene scene = GetParam()();
+  const Scene scaled = ScaleScene(scene, CharacteristicScales(scene));
+  EXPECT_EQ(scaled.name, scene.name);
+  ASSERT_EQ(scaled.nodes.size(), scene.nodes.size());
+  for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+    EXPECT_EQ(scaled.nodes[i].name, scene.nodes[i].name);
+    EXPECT_EQ(scaled.nodes[i].fixed_x, scene.nodes[i].fixed_x);
+    EXPECT_EQ(scaled.nodes[i].fixed_y, scene.nodes[i].fixed_y);
+  }
+  ASSERT_EQ(scaled.bars.size(), scene.bars.size());
+  for (std::size_t i = 0; i < scene.bars.size(); ++i) {
+    EXPECT_EQ(scaled.bars[i].nodes, scene.bars[i].nodes);
+    EXPECT_EQ(scaled.bars[i].strain, scene.bars[i].strain);
+  }
+  ASSERT_EQ(scaled.loads.size(), scene.loads.size());
+  for (std::size_t i = 0; i < scene.loads.size(); ++i) {
+    EXPECT_EQ(scaled.loads[i].node, scene.loads[i].node);
+    EXPECT_EQ(scaled.loads[i].constant, scene.loads[i].constant);
+  }
+  ASSERT_EQ(scaled.contacts.size(), scene.contacts.size());
+  for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
+    EXPECT_EQ(scaled.contacts[i].Name(), scene.contacts[i].Name());
+  }
+}
+
+// Three bars of length 3, 4 and 5 with EA 1, 4 and 16; a load of norm 5 after summing, one on a support, one constant.
+TEST(CharacteristicScalesTest, WithBarsByHand) {
+  Scene scene;
+  scene.nodes = {{"a", 0.0, 0.0, true, true}, {"b", 3.0, 0.0, false, false}, {"c", 3.0, 4.0, false, true}};
+  scene.bars = {{{"a", "b"}, 1.0, 100.0, {}}, {{"b", "c"}, 4.0, 0.0, {}}, {{"a", "c"}, 16.0, 0.0, {}}};
+  // By far stiffer, and of no influence beside bars.
+  scene.superelements = {{{"b"}, {1e9, 0.0, 0.0, 1e9}}};
+  scene.loads = {{"b", 2.0, 0.0, false},
+                 {"b", 1.0, 0.0, false},
+                 {"c", -4.0, 7.0, false},
+                 {"a", 8.0, 8.0, false},
+                 {"b", 50.0, 0.0, true}};
+  const Scaling scaling = CharacteristicScales(scene);
+  EXPECT_NEAR(scaling.length, 4.0, kRounding);
+  EXPECT_NEAR(scaling.force, 4.0, kRounding);
+  EXPECT_NEAR(scaling.load_factor, 4.0 / 5.0, kRounding);
+}
+
+// sqrt((21.5 + 4) / (2 + 2)) is the mean stiffness.
+TEST(CharacteristicScalesTest, WithoutBarsByHand) {
+  Scene scene;
+  scene.nodes = {{"p", 0.0, 0.0, false, false}, {"q", 1.0, 0.0, false, false}};
+  scene.superelements = {{{"p"}, {1.0, -1.5, -1.5, 4.0}}, {{"q"}, {2.0, 0.0, 0.0, 0.0}}};
+  scene.loads = {{"p", 0.0, 3.0, false}, {"q", 4.0, 0.0, false}};
+  const Scaling scaling = CharacteristicScales(scene);
+  EXPECT_NEAR(scaling.force, 5.0, kRounding);
+  EXPECT_NEAR(scaling.length, 5.0 / std::sqrt(25.5 / 4.0), kRounding);
+  EXPECT_NEAR(scaling.load_factor, 1.0, kRounding);
+}
+
+TEST(ScaleSceneTest, ByHand) {
+  Scene scene;
+  scene.nodes = {{"a", 1.0, 2.0, true, true}, {"b", 4.0, 6.0, false, false}};
+  scene.bars = {{{"a", "b"}, 20.0, 0.0, {}}, {{"b", "a"}, 30.0, 8.0, {}}};
+  scene.superelements = {{{"b"}, {10.0, 5.0, 5.0, 20.0}}};
+  scene.loads = {{"b", 6.0, 8.0, false}, {"b", 0.0, -40.0, true}};
+  scene.obstacles = {{"wall", ObstacleShape::kHalfPlane, 6.0, -2.0, -30.0, 40.0, 0.5}};
+  // Length 2, force 20, reference load 10.
+  const Scene scaled = ScaleScene(scene, {2.0, 20.0, 2.0});
+  EXPECT_EQ(scaled.nodes[1].x, 2.0);
+  EXPECT_EQ(scaled.nodes[1].y, 3.0);
+  EXPECT_EQ(scaled.bars[0].EA, 1.0);
+  EXPECT_EQ(scaled.bars[0].rest_length, 2.5);  // the distance
+  EXPECT_EQ(scaled.bars[1].EA, 1.5);
+  EXPECT_EQ(scaled.bars[1].rest_length, 4.0);
+  EXPECT_EQ(scaled.superelements[0].stiffness, (std::vector<double>{1.0, 0.5, 0.5, 2.0}));
+  EXPECT_NEAR(scaled.loads[0].fx, 0.6, kRounding);
+  EXPECT_NEAR(scaled.loads[0].fy, 0.8, kRounding);
+  EXPECT_EQ(scaled.loads[1].fy, -2.0);
+  EXPECT_EQ(scaled.obstacles[0].px, 3.0);
+  EXPECT_EQ(scaled.obstacles[0].py, -1.0);
+  EXPECT_NEAR(scaled.obstacles[0].nx, -0.6, kRounding);
+  EXPECT_NEAR(scaled.obstacles[0].ny, 0.8, kRounding);
+  EXPECT_EQ(scaled.obstacles[0].friction, 0.5);
+}
+
+}  // namespace
+}  // namespace contact_path

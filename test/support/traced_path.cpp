@@ -1,0 +1,158 @@
+#include "support/traced_path.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "contact_path/check/residuals.h"
+#include "contact_path/scene/read_scene.h"
+#include "contact_path/scene/scaling.h"
+
+namespace contact_path {
+namespace {
+
+CheckedState StateOf(const Increment& row) {
+  CheckedState state;
+  state.load_factor = row.load_factor;
+  state.positions = row.positions;
+  for (const ContactRecord& contact : row.contacts) {
+    state.rn.push_back(contact.rn);
+    state.rt.push_back(contact.rt);
+  }
+  return state;
+}
+
+// The state agrees with what the contact does on the piece from `before` to `now`.
+void ExpectSoundContact(const ContactRecord& before, const ContactRecord& now, double motion, double friction,
+                        double force_tolerance, double length_tolerance, const std::string& where) {
+  const bool smooth = friction == 0.0;
+  switch (now.state) {
+    case ContactState::kOpen:
+      EXPECT_EQ(now.rn, 0.0) << where;
+      EXPECT_EQ(now.rt, 0.0) << where;
+      EXPECT_GE(now.gap, -length_tolerance) << where;
+      break;
+    case ContactState::kClosed:
+      EXPECT_TRUE(smooth) << where;
+      EXPECT_EQ(now.rt, 0.0) << where;
+      EXPECT_NEAR(now.gap, 0.0, length_tolerance) << where;
+      break;
+    case ContactState::kStick:
+      EXPECT_FALSE(smooth) << where;
+      EXPECT_NEAR(now.gap, 0.0, length_tolerance) << where;
+      // Where the piece starts with a gap, the contact is made on it, and sticks from there.
+      if (before.gap <= length_tolerance) {
+        EXPECT_NEAR(motion, 0.0, length_tolerance) << where;
+      }
+      EXPECT_LE(std::abs(now.rt), friction * now.rn + force_tolerance) << where;
+      break;
+    case ContactState::kSlipPlus:
+    case ContactState::kSlipMinus: {
+      const double sign = now.state == ContactState::kSlipPlus ? 1.0 : -1.0;
+      EXPECT_FALSE(smooth) << where;
+      EXPECT_NEAR(now.gap, 0.0, length_tolerance) << where;
+      EXPECT_NEAR(now.rt, -sign * friction * now.rn, force_tolerance) << where;
+      EXPECT_GE(sign * motion, -length_tolerance) << where;
+      break;
+    }
+  }
+}
+
+}  // namespace
+
+TraceRequest ReadExample(const std::string& name) {
+  return ReadTraceRequestFile(std::string(CONTACT_PATH_SCENES) + "/" + name + ".yaml");
+}
+
+TracedPath TraceRows(const TraceRequest& request) {
+  TracedPath path;
+  path.request = request;
+  TraceControl control;
+  control.on_increment = [&path](const Increment& row) { path.rows.push_back(row); };
+  path.result = Trace(request, control);
+  return path;
+}
+
+std::size_t NodeNumber(const Scene& scene, const std::string& node) {
+  for (std::size_t i = 0; i < scene.nodes.size(); ++i)
+    if (scene.nodes[i].name == node) return i;
+  throw std::invalid_argument("no node " + node);
+}
+
+double PositionX(const TracedPath& path, const Increment& row, const std::string& node) {
+  return row.positions.at(2 * NodeNumber(path.request.scene, node));
+}
+
+double PositionY(const TracedPath& path, const Increment& row, const std::string& node) {
+  return row.positions.at(2 * NodeNumber(path.request.scene, node) + 1);
+}
+
+const ContactRecord& Contact(const TracedPath& path, const Increment& row, const std::string& contact) {
+  const std::vector<ContactCandidate>& contacts = path.request.scene.contacts;
+  for (std::size_t i = 0; i < contacts.size(); ++i)
+    if (contacts[i].Name() == contact) return row.contacts.at(i);
+  throw std::invalid_argument("no contact " + contact);
+}
+
+std::size_t LargestLoad(const TracedPath& path) {
+  const auto largest = std::max_element(path.rows.begin(), path.rows.end(), [](const Increment& a, const Increment& b) {
+    return a.load_factor < b.load_factor;
+  });
+  return static_cast<std::size_t>(largest - path.rows.begin());
+}
+
+void ExpectSoundRows(const TracedPath& path, double tolerance) {
+  const Scene& scene = path.request.scene;
+  const Scaling scaling = CharacteristicScales(scene);
+  ASSERT_FALSE(path.rows.empty());
+  EXPECT_EQ(path.result.increments, static_cast<int>(path.rows.size()));
+  EXPECT_FALSE(path.result.message.empty());
+  EXPECT_EQ(path.rows[0].kind, RowKind::kStart);
+  EXPECT_EQ(path.rows[0].load_factor, 0.0);
+  EXPECT_EQ(path.rows[0].arc_length, 0.0);
+  EXPECT_EQ(path.rows[0].dissipation, 0.0);
+  EXPECT_EQ(path.rows[0].external_work, 0.0);
+  for (std::size_t i = 0; i < path.rows.size(); ++i) {
+    const Increment& row = path.rows[i];
+    const Increment& before = path.rows[i == 0 ? 0 : i - 1];
+    const std::string where = scene.name + ", row " + std::to_string(i);
+    SCOPED_TRACE(where);
+    ASSERT_EQ(row.positions.size(), 2 * scene.nodes.size());
+    ASSERT_EQ(row.contacts.size(), scene.contacts.size());
+    EXPECT_EQ(row.index, static_cast<int>(i));
+    EXPECT_EQ(row.kind == RowKind::kStart, i == 0);
+
+    const Residuals residuals = CheckResiduals(scene, StateOf(before), StateOf(row));
+    EXPECT_LE(residuals.equilibrium, tolerance);
+    EXPECT_LE(residuals.Contact(), tolerance);
+    EXPECT_NEAR(residuals.equilibrium, row.residuals.equilibrium, 1e-15 + tolerance);
+    EXPECT_NEAR(residuals.Contact(), row.residuals.Contact(), 1e-15 + tolerance);
+    EXPECT_NEAR(CheckStrainEnergy(scene, row.positions), row.strain_energy, 1e-13 * scaling.force * scaling.length);
+
+    if (i > 0) {
+      EXPECT_GT(row.arc_length, before.arc_length);
+      EXPECT_GE(row.dissipation, before.dissipation);
+      EXPECT_TRUE(row.solve.exact);
+    }
+    for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
+      EXPECT_TRUE(!scene.nodes[n].fixed_x || row.positions[2 * n] == scene.nodes[n].x);
+      EXPECT_TRUE(!scene.nodes[n].fixed_y || row.positions[2 * n + 1] == scene.nodes[n].y);
+    }
+    for (std::size_t c = 0; c < scene.contacts.size(); ++c) {
+      const auto obstacle =
+          std::find_if(scene.obstacles.begin(), scene.obstacles.end(),
+                       [&](const Obstacle& candidate) { return candidate.name == scene.contacts[c].obstacle; });
+      const std::size_t n = NodeNumber(scene, scene.contacts[c].node);
+      const double norm = std::hypot(obstacle->nx, obstacle->ny);
+      const double dx = row.positions[2 * n] - before.positions[2 * n];
+      const double dy = row.positions[2 * n + 1] - before.positions[2 * n + 1];
+      ExpectSoundContact(before.contacts[c], row.contacts[c], (obstacle->ny * dx - obstacle->nx * dy) / norm,
+                         obstacle->friction, tolerance * scaling.force, tolerance * scaling.length,
+                         where + ", " + scene.contacts[c].Name());
+    }
+  }
+}
+
+}  // namespace contact_path

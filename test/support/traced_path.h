@@ -1,0 +1,42 @@
+// Scenes and paths as the tests of the tracer want them.
+#ifndef CONTACT_PATH_TEST_SUPPORT_TRACED_PATH_H_
+#define CONTACT_PATH_TEST_SUPPORT_TRACED_PATH_H_
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "contact_path/path/increment.h"
+#include "contact_path/path/trace.h"
+#include "contact_path/scene/scene.h"
+
+namespace contact_path {
+
+struct TracedPath {
+  TraceRequest request;
+  TraceResult result;
+  std::vector<Increment> rows;
+};
+
+// The request in scenes/<name>.yaml.
+TraceRequest ReadExample(const std::string& name);
+
+// All rows of a request.
+TracedPath TraceRows(const TraceRequest& request);
+
+// By name; the node or contact must exist.
+std::size_t NodeNumber(const Scene& scene, const std::string& node);
+double PositionX(const TracedPath& path, const Increment& row, const std::string& node);
+double PositionY(const TracedPath& path, const Increment& row, const std::string& node);
+const ContactRecord& Contact(const TracedPath& path, const Increment& row, const std::string& contact);
+
+// Index of the row with the largest load factor.
+std::size_t LargestLoad(const TracedPath& path);
+
+// What every accepted path keeps, whatever the scene and the method: residuals computed anew from the rows alone,
+// kinds, states, signs, counters. `tolerance` bounds the residuals.
+void ExpectSoundRows(const TracedPath& path, double tolerance);
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_TEST_SUPPORT_TRACED_PATH_H_

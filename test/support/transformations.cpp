@@ -1,0 +1,193 @@
+#include "support/transformations.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "contact_path/scene/scaling.h"
+
+namespace contact_path {
+namespace {
+
+void Turn(double cosine, double sine, double* x, double* y) {
+  const double turned = cosine * *x - sine * *y;
+  *y = sine * *x + cosine * *y;
+  *x = turned;
+}
+
+// Applies a linear map of the plane to pairs of entries.
+template <typename Map>
+void ForEachPoint(std::vector<double>* components, Map map) {
+  for (std::size_t i = 0; i + 1 < components->size(); i += 2) map(&(*components)[i], &(*components)[i + 1]);
+}
+
+// Q K Q' for the block-diagonal Q of the map.
+template <typename Map>
+void TransformStiffness(std::vector<double>* stiffness, std::size_t rows, Map map) {
+  for (std::size_t column = 0; column < rows; ++column)
+    for (std::size_t row = 0; row < rows; row += 2)
+      map(&(*stiffness)[row * rows + column], &(*stiffness)[(row + 1) * rows + column]);
+  for (std::size_t row = 0; row < rows; ++row)
+    for (std::size_t column = 0; column < rows; column += 2)
+      map(&(*stiffness)[row * rows + column], &(*stiffness)[row * rows + column + 1]);
+}
+
+template <typename Map>
+void TransformScene(Scene* scene, Map map) {
+  for (Node& node : scene->nodes) map(&node.x, &node.y);
+  for (Load& load : scene->loads) map(&load.fx, &load.fy);
+  for (Obstacle& obstacle : scene->obstacles) {
+    map(&obstacle.px, &obstacle.py);
+    map(&obstacle.nx, &obstacle.ny);
+  }
+  for (Superelement& part : scene->superelements) TransformStiffness(&part.stiffness, 2 * part.nodes.size(), map);
+}
+
+bool IsPosition(const StopCriterion& criterion) { return criterion.quantity != "load_factor"; }
+
+void FlipTangent(ContactRecord* contact) {
+  contact->rt = -contact->rt;
+  if (contact->state == ContactState::kSlipPlus)
+    contact->state = ContactState::kSlipMinus;
+  else if (contact->state == ContactState::kSlipMinus)
+    contact->state = ContactState::kSlipPlus;
+}
+
+}  // namespace
+
+TraceRequest ChangeUnits(TraceRequest request, double length, double force) {
+  for (Node& node : request.scene.nodes) {
+    node.x *= length;
+    node.y *= length;
+  }
+  for (Bar& bar : request.scene.bars) {
+    bar.EA *= force;
+    bar.rest_length *= length;
+  }
+  for (Superelement& part : request.scene.superelements)
+    for (double& entry : part.stiffness) entry *= force / length;
+  for (Load& load : request.scene.loads) {
+    load.fx *= force;
+    load.fy *= force;
+  }
+  for (Obstacle& obstacle : request.scene.obstacles) {
+    obstacle.px *= length;
+    obstacle.py *= length;
+  }
+  for (StopCriterion& criterion : request.options.stop)
+    if (IsPosition(criterion)) criterion.value *= length;
+  return request;
+}
+
+TracedPath UndoUnits(TracedPath path, double length, double force) {
+  for (Increment& row : path.rows) {
+    for (double& position : row.positions) position /= length;
+    for (ContactRecord& contact : row.contacts) {
+      contact.gap /= length;
+      contact.rn /= force;
+      contact.rt /= force;
+    }
+    for (double* work : {&row.dissipation, &row.strain_energy, &row.external_work}) *work /= length * force;
+  }
+  return path;
+}
+
+TraceRequest Rotate(TraceRequest request, double angle) {
+  for (const Node& node : request.scene.nodes)
+    if (node.fixed_x != node.fixed_y) throw std::invalid_argument(node.name + " is held along one axis only");
+  for (const StopCriterion& criterion : request.options.stop)
+    if (IsPosition(criterion)) throw std::invalid_argument("the stop criterion looks at " + criterion.quantity);
+  const double cosine = std::cos(angle), sine = std::sin(angle);
+  TransformScene(&request.scene, [=](double* x, double* y) { Turn(cosine, sine, x, y); });
+  return request;
+}
+
+TracedPath UndoRotation(TracedPath path, double angle) {
+  const double cosine = std::cos(angle), sine = std::sin(-angle);
+  for (Increment& row : path.rows)
+    ForEachPoint(&row.positions, [=](double* x, double* y) { Turn(cosine, sine, x, y); });
+  return path;
+}
+
+TraceRequest Mirror(TraceRequest request) {
+  TransformScene(&request.scene, [](double* x, double*) { *x = -*x; });
+  for (StopCriterion& criterion : request.options.stop) {
+    const std::string& quantity = criterion.quantity;
+    if (quantity.size() < 2 || quantity.substr(quantity.size() - 2) != ".x") continue;
+    criterion.value = -criterion.value;
+    criterion.when = criterion.when == ">" ? "<" : ">";
+  }
+  return request;
+}
+
+TracedPath UndoMirror(TracedPath path) {
+  for (Increment& row : path.rows) {
+    ForEachPoint(&row.positions, [](double* x, double*) { *x = -*x; });
+    for (ContactRecord& contact : row.contacts) FlipTangent(&contact);
+  }
+  return path;
+}
+
+TraceRequest Reverse(TraceRequest request) {
+  Scene& scene = request.scene;
+  std::reverse(scene.nodes.begin(), scene.nodes.end());
+  std::reverse(scene.bars.begin(), scene.bars.end());
+  std::reverse(scene.superelements.begin(), scene.superelements.end());
+  std::reverse(scene.loads.begin(), scene.loads.end());
+  std::reverse(scene.obstacles.begin(), scene.obstacles.end());
+  std::reverse(scene.contacts.begin(), scene.contacts.end());
+  for (Bar& bar : scene.bars) std::reverse(bar.nodes.begin(), bar.nodes.end());
+  for (Superelement& part : scene.superelements) {
+    const std::size_t nodes = part.nodes.size();
+    std::reverse(part.nodes.begin(), part.nodes.end());
+    const std::vector<double> stiffness = part.stiffness;
+    const auto moved = [&](std::size_t i) { return 2 * (nodes - 1 - i / 2) + i % 2; };
+    for (std::size_t i = 0; i < 2 * nodes; ++i)
+      for (std::size_t j = 0; j < 2 * nodes; ++j)
+        part.stiffness[moved(i) * 2 * nodes + moved(j)] = stiffness[i * 2 * nodes + j];
+  }
+  return request;
+}
+
+TracedPath UndoReversal(TracedPath path) {
+  for (Increment& row : path.rows) {
+    std::reverse(row.positions.begin(), row.positions.end());
+    ForEachPoint(&row.positions, [](double* y, double* x) { std::swap(*x, *y); });
+    std::reverse(row.contacts.begin(), row.contacts.end());
+  }
+  return path;
+}
+
+void ExpectSamePath(const TracedPath& actual, const TracedPath& expected, double tolerance) {
+  const Scaling scaling = CharacteristicScales(expected.request.scene);
+  const double length = tolerance * scaling.length, force = tolerance * scaling.force;
+  const double energy = tolerance * scaling.length * scaling.force;
+  EXPECT_EQ(ToString(actual.result.reason), ToString(expected.result.reason));
+  ASSERT_EQ(actual.rows.size(), expected.rows.size());
+  for (std::size_t i = 0; i < expected.rows.size(); ++i) {
+    const Increment &a = actual.rows[i], &e = expected.rows[i];
+    SCOPED_TRACE("row " + std::to_string(i));
+    EXPECT_NEAR(a.load_factor, e.load_factor, tolerance * scaling.load_factor);
+    EXPECT_NEAR(a.arc_length, e.arc_length, tolerance);
+    EXPECT_EQ(ToString(a.kind), ToString(e.kind));
+    ASSERT_EQ(a.positions.size(), e.positions.size());
+    for (std::size_t k = 0; k < e.positions.size(); ++k) EXPECT_NEAR(a.positions[k], e.positions[k], length) << k;
+    ASSERT_EQ(a.contacts.size(), e.contacts.size());
+    for (std::size_t k = 0; k < e.contacts.size(); ++k) {
+      EXPECT_EQ(ToString(a.contacts[k].state), ToString(e.contacts[k].state)) << k;
+      EXPECT_NEAR(a.contacts[k].gap, e.contacts[k].gap, length) << k;
+      EXPECT_NEAR(a.contacts[k].rn, e.contacts[k].rn, force) << k;
+      EXPECT_NEAR(a.contacts[k].rt, e.contacts[k].rt, force) << k;
+    }
+    EXPECT_NEAR(a.dissipation, e.dissipation, energy);
+    EXPECT_NEAR(a.strain_energy, e.strain_energy, energy);
+    EXPECT_NEAR(a.external_work, e.external_work, energy);
+    if (testing::Test::HasFailure()) return;  // the rest only repeats it
+  }
+}
+
+}  // namespace contact_path
