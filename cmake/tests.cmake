@@ -1,15 +1,16 @@
 # Tests of the core and of the command-line program: one for each x_test.cpp. They link the core alone.
 #
-# In a catkin build they are catkin's gtests: built by the target `tests`, run by `run_tests` and by ctest. Otherwise they
+# In a catkin build they are catkin's tests: built by the target `tests`, run by `run_tests` and by ctest. Otherwise they
 # are built with everything else and run by ctest. Either way each leaves its results as XML, one file a test program, in
 # test_results/ of the build directory. The label `long` marks what takes more than a few seconds.
 
 find_package(GTest REQUIRED)
-set(contact_path_test_with_catkin OFF)
+find_program(CONTACT_PATH_PYTHON python3 PATHS /usr/bin NO_DEFAULT_PATH REQUIRED)
 if(CONTACT_PATH_ROS AND CATKIN_ENABLE_TESTING)
   set(contact_path_test_with_catkin ON)
   set(contact_path_test_results ${CATKIN_TEST_RESULTS_DIR}/${PROJECT_NAME})
 else()
+  set(contact_path_test_with_catkin OFF)
   set(contact_path_test_results ${CMAKE_CURRENT_BINARY_DIR}/test_results/${PROJECT_NAME})
 endif()
 
@@ -20,21 +21,21 @@ add_library(contact_path_test_support STATIC EXCLUDE_FROM_ALL
   test/support/transformations.cpp
 )
 target_include_directories(contact_path_test_support PUBLIC ${CMAKE_CURRENT_SOURCE_DIR}/test)
-target_compile_definitions(contact_path_test_support PRIVATE
+target_compile_definitions(contact_path_test_support PUBLIC
   CONTACT_PATH_SCENES="${CMAKE_CURRENT_SOURCE_DIR}/scenes")
 target_link_libraries(contact_path_test_support PUBLIC contact_path_core GTest::gtest PRIVATE contact_path_warnings)
 
-# contact_path_add_test(<stage>/<name> [LONG]): test/<stage>/<name>.cpp, as the program <stage>_<name>.
+# contact_path_add_test(<stage>/<name> [LONG] [SOURCES file...]): test/<stage>/<name>.cpp, as the program <stage>_<name>.
 function(contact_path_add_test source)
-  cmake_parse_arguments(ARG "LONG" "" "" ${ARGN})
+  cmake_parse_arguments(ARG "LONG" "" "SOURCES" ${ARGN})
   string(REPLACE "/" "_" name ${source})
   if(contact_path_test_with_catkin)
-    catkin_add_gtest(${name} test/${source}.cpp)
+    catkin_add_gtest(${name} test/${source}.cpp ${ARG_SOURCES})
     set(test _ctest_${PROJECT_NAME}_gtest_${name})
   else()
-    add_executable(${name} test/${source}.cpp)
-    add_test(NAME ${name} COMMAND ${name} --gtest_output=xml:${contact_path_test_results}/gtest-${name}.xml)
+    add_executable(${name} test/${source}.cpp ${ARG_SOURCES})
     set(test ${name})
+    add_test(NAME ${test} COMMAND ${name} --gtest_output=xml:${contact_path_test_results}/gtest-${name}.xml)
   endif()
   # Without a keyword, as catkin does.
   target_link_libraries(${name} GTest::gtest_main contact_path_test_support contact_path_core contact_path_warnings)
@@ -47,9 +48,13 @@ endfunction()
 # One for each header, but for those that only declare an interface: structure/element.h, mpec/nonlinear_program.h,
 # path/path_method.h.
 contact_path_add_test(support/derivative_checker_test)
+contact_path_add_test(scene/read_scene_test)
+contact_path_add_test(scene/scaling_test)
+contact_path_add_test(scene/scene_test)
+contact_path_add_test(scene/validate_test)
 contact_path_add_test(structure/bar_test)
-contact_path_add_test(structure/superelement_test)
 contact_path_add_test(structure/structure_test)
+contact_path_add_test(structure/superelement_test)
 contact_path_add_test(contact/contact_geometry_test)
 contact_path_add_test(contact/contact_state_test)
 contact_path_add_test(contact/fixed_state_system_test)
@@ -59,12 +64,30 @@ contact_path_add_test(contact/path_point_test)
 contact_path_add_test(mpec/increment_problem_test)
 contact_path_add_test(mpec/increment_solver_test)
 contact_path_add_test(mpec/ipopt_solver_test)
+contact_path_add_test(branch/bordered_solver_test)
+contact_path_add_test(branch/polynomial_test)
+contact_path_add_test(branch/smooth_piece_test)
+contact_path_add_test(check/residuals_test)
+contact_path_add_test(path/csv_test)
 contact_path_add_test(path/increment_test)
 contact_path_add_test(path/model_test)
+contact_path_add_test(path/mpec_method_test LONG)
 contact_path_add_test(path/preload_test)
 contact_path_add_test(path/stop_test)
+contact_path_add_test(path/trace_test LONG)
 contact_path_add_test(path/work_test)
-contact_path_add_test(path/trace_test)
-contact_path_add_test(path/mpec_method_test)
+# The whole tracer: the reference cases, and what must not change a path.
 contact_path_add_test(path/mpec_cases_test LONG)
 contact_path_add_test(path/invariance_test LONG)
+
+# The command-line program, as its users see it.
+set(contact_path_cli_test ${CONTACT_PATH_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/test/support/run_unittest.py
+  ${CMAKE_CURRENT_SOURCE_DIR}/test/cli/cli_test.py ${contact_path_test_results}/python-cli_test.xml
+  CONTACT_PATH_TRACE=$<TARGET_FILE:contact_path_trace> CONTACT_PATH_SCENES=${CMAKE_CURRENT_SOURCE_DIR}/scenes)
+if(contact_path_test_with_catkin)
+  string(REPLACE ";" " " contact_path_cli_test "${contact_path_cli_test}")
+  catkin_run_tests_target("python" cli_test python-cli_test.xml COMMAND ${contact_path_cli_test}
+    DEPENDENCIES contact_path_trace)
+else()
+  add_test(NAME cli_test COMMAND ${contact_path_cli_test})
+endif()

@@ -85,7 +85,8 @@ Correction SmoothPiece::Correct(const Eigen::VectorXd& guess, const Eigen::Vecto
     if (result.iterations == 1) result.contraction = norm / result.first_step;
     if (norm <= kStepTolerance * scale || (norm <= kStagnation * scale && norm >= 0.5 * previous)) {
       system_.Residual(result.x, &residual);
-      result.converged = residual.lpNorm<Eigen::Infinity>() <= kResidualTolerance;
+      result.converged = residual.lpNorm<Eigen::Infinity>() <= kResidualTolerance &&
+                         std::abs(row.dot(result.x) - value) <= kResidualTolerance * scale;
       ++result.iterations;
       return result;
     }

@@ -280,7 +280,8 @@ msgs::Increment ToMessage(const Increment& increment) {
   message.rejected = ToCount(increment.solve.rejected);
   message.factorisations = ToCount(increment.solve.factorisations);
   message.deficiency = ToCount(increment.solve.deficiency);
-  message.determinant_sign = static_cast<std::int8_t>(increment.solve.determinant_sign);
+  message.determinant_sign = increment.solve.determinant_sign;
+  message.stiffness_sign = increment.solve.stiffness_sign;
   message.contraction = increment.solve.contraction;
   message.solve_time = increment.solve.time;
   message.event = ToMessage(increment.event);
@@ -325,6 +326,7 @@ Increment FromMessage(const msgs::Increment& message) {
   increment.solve.factorisations = FromCount(message.factorisations, "factorisations");
   increment.solve.deficiency = FromCount(message.deficiency, "deficiency");
   increment.solve.determinant_sign = message.determinant_sign;
+  increment.solve.stiffness_sign = message.stiffness_sign;
   increment.solve.contraction = message.contraction;
   increment.solve.time = message.solve_time;
   increment.event = FromMessage(message.event);

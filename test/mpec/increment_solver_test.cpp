@@ -67,6 +67,9 @@ class SlidingBarIncrement : public testing::Test {
     goal_.length = 0.1;
     goal_.direction = Eigen::Vector3d(1.0, 0.0, sliding_bar::LoadFactorSlope(-3.0)).normalized();
     goal_.dissipation = 0.2;
+    schedule_.initial = 1e-2;
+    schedule_.factor = 1e-2;
+    schedule_.minimum = 1e-8;
   }
 
   static Scene MakeScene() {
@@ -153,10 +156,7 @@ TEST_F(SlidingBarIncrement, CandidateReachedAgainstExpectationIsTakenInAndTheInc
 
 TEST_F(SlidingBarIncrement, NoEpsIsSolvedForTwice) {
   FakeSolver solver([](const NonlinearProgram&, double, PrimalDual*) { return Outcome(SolveStatus::kSolved, 1); });
-  schedule_.initial = 1e-2;  // down to 1e-8, with rounding in between
-  schedule_.factor = 1e-2;
-  schedule_.minimum = 1e-8;
-  SolveWith(&solver);
+  SolveWith(&solver);  // the powers of 1e-2 are rounded
   ASSERT_EQ(solver.calls().size(), 4u);
   for (std::size_t i = 1; i < solver.calls().size(); ++i)
     EXPECT_NEAR(solver.calls()[i].eps, 1e-2 * solver.calls()[i - 1].eps, 1e-6 * solver.calls()[i].eps);

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <string>
 
+#include "contact_path/path/mpec_method.h"
 #include "contact_path/path/trace.h"
 #include "contact_path/scene/scaling.h"
 #include "support/reference_cases.h"
@@ -191,19 +192,17 @@ TEST(RoughTrussCorner, LargestLoadIsTheCornerLoadAtStepsThatDifferAHundredfold) 
   }
 }
 
-TEST(RoughTrussCorner, MoreAccuracyComesNearer) {
-  double last = 1.0;
+TEST(RoughTrussCorner, IsCutByNoMoreThanTheAccuracyAllows) {
   for (const Accuracy accuracy : {Accuracy::kFast, Accuracy::kBalanced, Accuracy::kAccurate}) {
     TraceRequest request = Example("rough_truss", 0.05);
     request.options.accuracy = accuracy;
     request.options.stop = {{"foot.x", ">", 1.005}};
     const TracedPath path = TraceRows(request);
-    const double error = 1.0 - path.rows[LargestLoad(path)].load_factor / rough_truss::CornerLoad();
-    EXPECT_LT(error, 0.5 * last);
-    EXPECT_GE(error, -kClosedForm);
-    last = error;
+    ExpectSoundRows(path, kResidual);
+    const double largest = path.rows[LargestLoad(path)].load_factor;
+    EXPECT_NEAR(largest, rough_truss::CornerLoad(), MpecOptions::ForAccuracy(request.options).corner_tolerance);
+    EXPECT_LE(largest, rough_truss::CornerLoad() + kClosedForm) << ToString(accuracy);
   }
-  EXPECT_LE(last, 1e-3);
 }
 
 class TwoDofFriction : public testing::Test {

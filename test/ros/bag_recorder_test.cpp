@@ -174,7 +174,7 @@ TEST_F(BagRecorderTest, DoesNotFollowALinkInPlaceOfTheBag) {
 
 TEST_F(BagRecorderTest, NoSceneNameLeadsOutOfTheDirectory) {
   for (const char* const name :
-       {"../../etc/passwd", "/absolute", "..", "a/b", "C:\\x", "line\nbreak", "ß", "", "-rf"}) {
+       {"../../etc/passwd", "/absolute", "..", "a/b", "C:\\x", "line\nbreak", "\xc3\x9f", "", "-rf"}) {
     const std::size_t before = Files().size();
     BagRecorder recorder(directory_ / "bags", name, kPrefix);
     const fs::path file = directory_ / "bags" / recorder.file_name();

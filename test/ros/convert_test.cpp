@@ -183,6 +183,7 @@ Increment FullIncrement() {
   increment.solve.factorisations = 29;
   increment.solve.deficiency = 30;
   increment.solve.determinant_sign = -1;
+  increment.solve.stiffness_sign = 1;
   increment.solve.contraction = 31.0;
   increment.event.ways = {{{ContactState::kOpen, ContactState::kSlipPlus}, 32.0, 33.0, 34.0},
                           {{ContactState::kStick, ContactState::kOpen}, 35.0, 36.0, 37.0}};
@@ -228,6 +229,7 @@ TEST(ConvertTest, IncrementMessageHoldsEveryFieldUnderItsName) {
   EXPECT_EQ(message.factorisations, 29U);
   EXPECT_EQ(message.deficiency, 30U);
   EXPECT_EQ(message.determinant_sign, -1);
+  EXPECT_EQ(message.stiffness_sign, 1);
   EXPECT_EQ(message.contraction, 31.0);
   ASSERT_EQ(message.event.ways.size(), 2U);
   EXPECT_EQ(message.event.ways[0].states,

@@ -63,8 +63,8 @@ class TraceServiceTest(unittest.TestCase):
 
         with tempfile.TemporaryDirectory() as directory:
             table = os.path.join(directory, 'path.csv')
-            subprocess.run([helpers.program('contact_path_trace'), helpers.scene_path(scene), '--csv', table, '--quiet'],
-                           check=True)
+            subprocess.run([helpers.program('contact_path_trace'), helpers.scene_path(scene), '--csv', table,
+                            '--quiet'], check=True)
             with open(table) as file:
                 rows = list(csv.DictReader(file))
         self.assertEqual(len(rows), len(increments))
@@ -218,6 +218,7 @@ class TraceServiceTest(unittest.TestCase):
                              ('shape: half_plane', 'shape: circle'),
                              ('friction: 0.3', 'friction: -0.3'),
                              ('options:', 'options:\n  max_increments: -1'),
+                             ('options:', 'options:\n  branch_choices: [{event: 1, way: -2}]'),
                              ('options:', 'options:\n  method: magic')):
             self.assertIn(part, text)
             invalid = text.replace(part, broken)

@@ -28,15 +28,15 @@ class BagError : public std::runtime_error {
 // "scene" for an empty name.
 std::string FileNamePart(const std::string& scene_name);
 
-// A bag of the node is DIRECTORY/NUMBER_SCENE.bag: NUMBER has six digits or more and is one more than the largest in the
-// directory, so that nothing is ever overwritten; SCENE is FileNamePart().
+// A bag of the node is DIRECTORY/NUMBER_SCENE.bag: NUMBER has six digits or more and is one more than the largest in
+// the directory, so that nothing is ever overwritten; SCENE is FileNamePart().
 //
 // Entries reach the file in chunks of 16 KiB. After a crash the bag has no index; `rosbag reindex` restores every
 // complete chunk. Not for use by several threads at a time.
 class BagRecorder {
  public:
   // Room left on the file system so that the result and the index can always be written.
-  static constexpr std::uintmax_t kDefaultReserve = 16 * 1024 * 1024;  // [bytes]
+  static constexpr std::uintmax_t kDefaultReserve = std::uintmax_t{16} << 20U;  // [bytes]
 
   // Creates `directory` if it is missing. Topics are `topic_prefix` + "/request" and so on.
   // Throws BagError, also where less than `reserve` bytes are free.
