@@ -17,7 +17,8 @@ int Parity(const int* permutation, int n) {
   for (int i = 0; i < n; ++i) {
     if (seen[static_cast<std::size_t>(i)]) continue;
     int length = 0;
-    for (int j = i; !seen[static_cast<std::size_t>(j)]; j = permutation[j], ++length) seen[static_cast<std::size_t>(j)] = true;
+    for (int j = i; !seen[static_cast<std::size_t>(j)]; j = permutation[j], ++length)
+      seen[static_cast<std::size_t>(j)] = true;
     if (length % 2 == 0) sign = -sign;
   }
   return sign;

@@ -7,13 +7,13 @@
 namespace contact_path {
 namespace {
 
-constexpr double kZero = 1e-11;          // of scaled quantities on a step: rounding
-constexpr double kFlat = 1e-9;           // of unit rates on a step: a load or a contact that moves slower rests
-constexpr double kNearShare = 0.05;      // of the difference of quintic and cubic interpolation
-constexpr double kRateZero = 1e-13;      // of a unit rate
+constexpr double kZero = 1e-11;      // of scaled quantities on a step: rounding
+constexpr double kFlat = 1e-9;       // of unit rates on a step: a load or a contact that moves slower rests
+constexpr double kNearShare = 0.05;  // of the difference of quintic and cubic interpolation
+constexpr double kRateZero = 1e-13;  // of a unit rate
 constexpr int kNewtonIterations = 25;
-constexpr double kCoincident = 1e-6;     // relative to the step: a bifurcation this near to something else is one with it
-constexpr double kSlack = 1e-9;          // relative to the step: of the place of a located point
+constexpr double kCoincident = 1e-6;  // relative to the step: a bifurcation this near to something else is one with it
+constexpr double kSlack = 1e-9;       // relative to the step: of the place of a located point
 constexpr double kSameDerivative = 1e-2;  // of unit tangents: more is the mark of singular equations
 constexpr int kBisections = 60;
 constexpr double kBifurcationWidth = 1e-10;  // relative to the step
@@ -147,8 +147,9 @@ std::optional<CurvePoint> LocateRegular(SmoothPiece* piece, const Segment& segme
   if (watched.limit.inequality == Inequality::kSlip)
     return LocateRate(piece, segment, watched.t,
                       [&](const Eigen::VectorXd& rate) { return system.Rate(watched.limit, rate); });
-  // The inequality as the last equation. Where it only grazes zero, that has no solution: then the point itself is exact
-  // enough. At the event itself the equations may be singular: then derivatives are those of the step that crossed it.
+  // The inequality as the last equation. Where it only grazes zero, that has no solution: then the point itself is
+  // exact enough. At the event itself the equations may be singular: then derivatives are those of the step that
+  // crossed it.
   const Eigen::VectorXd guess = segment.Point(watched.t);
   const Eigen::VectorXd row = system.Gradient(watched.limit);
   Correction correction = piece->Correct(guess, row, row.dot(guess) - system.Value(watched.limit, guess));

@@ -7,9 +7,9 @@ namespace contact_path {
 namespace {
 
 constexpr int kMaxIterations = 12;
-constexpr double kStepTolerance = 1e-14;      // relative to 1 + |x|: rounding
-constexpr double kStagnation = 1e-10;         // relative: below this a step that no longer shrinks is rounding
-constexpr double kReuse = 1e-5;               // relative: below this step the factorisation is good enough to finish with
+constexpr double kStepTolerance = 1e-14;  // relative to 1 + |x|: rounding
+constexpr double kStagnation = 1e-10;     // relative: below this a step that no longer shrinks is rounding
+constexpr double kReuse = 1e-5;           // relative: below this step the factorisation is good enough to finish with
 constexpr double kResidualTolerance = 1e-11;  // scaled
 
 // The six quintic Hermite basis polynomials: value, first, second at the start, then at the end.
@@ -106,9 +106,10 @@ Eigen::VectorXd SmoothPiece::CrossingDirection(const Eigen::VectorXd& x, const E
   Eigen::VectorXd row = Eigen::VectorXd::Zero(system_.NumUnknowns());
   row.head(NumMotion()) = towards;
   ++factorisations_;
-  const Eigen::VectorXd none = Eigen::VectorXd::Zero(NumMotion());
+  Eigen::VectorXd none = Eigen::VectorXd::Zero(NumMotion());
   if (!solver_.Factorize(system_.TransposedJacobian(x), row)) return none;
-  // Of nearly singular equations any solution points along the null vector. The right side only must not be orthogonal to it.
+  // Of nearly singular equations any solution points along the null vector. The right side only must not be orthogonal
+  // to it.
   Eigen::VectorXd right(system_.NumEquations());
   for (Eigen::Index i = 0; i < right.size(); ++i) right[i] = 1.0 + 0.5 * std::sin(static_cast<double>(i));
   const Eigen::VectorXd direction = solver_.Solve(right, 0.0).head(NumMotion());
@@ -128,7 +129,8 @@ CurvePoint Segment::At(double t) const {
   Eigen::VectorXd first, second;
   EndDerivatives(*this, &first, &second);
   const std::array<Quintic, 6> basis = HermiteBasis(length);
-  // Derivative of the given order by t, for the interpolation of x: the first basis polynomials of start and end add up to 1.
+  // Derivative of the given order by t, for the interpolation of x: the first basis polynomials of start and end add up
+  // to 1.
   const auto combine = [&](int order) {
     std::array<double, 6> b{};
     for (std::size_t i = 0; i < 6; ++i) {
@@ -136,7 +138,8 @@ CurvePoint Segment::At(double t) const {
       for (int k = 0; k < order; ++k) polynomial = Derivative(polynomial);
       b[i] = Evaluate(polynomial, t);
     }
-    Eigen::VectorXd sum = b[1] * start.first + b[2] * start.second + b[3] * (end.x - start.x) + b[4] * first + b[5] * second;
+    Eigen::VectorXd sum =
+        b[1] * start.first + b[2] * start.second + b[3] * (end.x - start.x) + b[4] * first + b[5] * second;
     if (order == 0) sum += start.x;
     return sum;
   };
@@ -168,8 +171,8 @@ double Segment::ArcLength() const {
   for (std::size_t i = 0; i < kPoints.size(); ++i) {
     std::array<double, 6> b{};
     for (std::size_t k = 0; k < 6; ++k) b[k] = Evaluate(Derivative(basis[k]), kPoints[i] * length);
-    sum += kWeights[i] * (b[1] * start.first.head(n) + b[2] * start.second.head(n) + b[3] * change + b[4] * first.head(n) +
-                          b[5] * second.head(n))
+    sum += kWeights[i] * (b[1] * start.first.head(n) + b[2] * start.second.head(n) + b[3] * change +
+                          b[4] * first.head(n) + b[5] * second.head(n))
                              .norm();
   }
   return sum * length;

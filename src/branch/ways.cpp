@@ -16,15 +16,16 @@ constexpr double kRateTolerance = 1e-9;       // of unit rates
 constexpr double kCurvatureTolerance = 1e-9;  // of second derivatives, where the rate is zero
 constexpr double kSameDirection = 1e-7;       // norm of the difference of unit vectors
 constexpr double kWayBack = 1e-3;             // the same, to the way back: an interpolated arrival is not exact
-constexpr double kSingularRank = 1e-6;        // rank tolerance where another path crosses: the point is known to about 1e-10
+constexpr double kSingularRank = 1e-6;  // rank tolerance where another path crosses: the point is known to about 1e-10
 constexpr Eigen::Index kMostDenseEquations = 500;  // for a dense singular value decomposition
-constexpr double kRigid = 1e-9;               // singular value below which load and reactions do not change
-constexpr double kMostCombinations = 4096.0;  // 4^6
-constexpr double kRateLength = 1e-5;          // scaled length of an increment that stands for a rate
+constexpr double kRigid = 1e-9;                    // singular value below which load and reactions do not change
+constexpr double kMostCombinations = 4096.0;       // 4^6
+constexpr double kRateLength = 1e-5;               // scaled length of an increment that stands for a rate
 
 using States = std::vector<ContactState>;
 
-// The states that a contact can take on from `point`: one if it is not concerned. The natural one, as it was, comes first.
+// The states that a contact can take on from `point`: one if it is not concerned. The natural one, as it was, comes
+// first.
 States Options(const ContactGeometry& contact, const PathPoint& point, std::size_t i, double tolerance) {
   const auto k = static_cast<Eigen::Index>(i);
   const double gap = contact.gap.Value(point.u), rn = point.rn[k], rt = point.rt[k];
@@ -48,7 +49,8 @@ States Options(const ContactGeometry& contact, const PathPoint& point, std::size
 
 Eigen::VectorXd TangentialPositions(const std::vector<ContactGeometry>& contacts, const Eigen::VectorXd& u) {
   Eigen::VectorXd positions(static_cast<Eigen::Index>(contacts.size()));
-  for (std::size_t i = 0; i < contacts.size(); ++i) positions[static_cast<Eigen::Index>(i)] = contacts[i].tangential.Value(u);
+  for (std::size_t i = 0; i < contacts.size(); ++i)
+    positions[static_cast<Eigen::Index>(i)] = contacts[i].tangential.Value(u);
   return positions;
 }
 
@@ -90,9 +92,9 @@ class Finder {
     }
   }
 
-  // Principal pivoting on the rate problem from these states: contacts whose rates are inadmissible change their state, all at
-  // once at first, then only the first of them. Ends with admissible states, or gives up. sign: of the tangent, relative to
-  // the direction of arrival.
+  // Principal pivoting on the rate problem from these states: contacts whose rates are inadmissible change their state,
+  // all at once at first, then only the first of them. Ends with admissible states, or gives up. sign: of the tangent,
+  // relative to the direction of arrival.
   std::optional<States> Pivot(States states, double sign) {
     for (int round = 0; round < kBlockPivots + kSinglePivots; ++round) {
       Eigen::VectorXd x;
@@ -135,14 +137,15 @@ class Finder {
   std::optional<Eigen::VectorXd> TangentOf(const States& states, Eigen::VectorXd* x) {
     system_.SetStates(states, reference_);
     *x = system_.Pack(point_);
-    if (!solver_.Factorize(system_.TransposedJacobian(*x), arrival_.singular ? kSingularRank : MinimumNormSolver::kRankTolerance))
+    if (!solver_.Factorize(system_.TransposedJacobian(*x),
+                           arrival_.singular ? kSingularRank : MinimumNormSolver::kRankTolerance))
       return std::nullopt;
     return Tangent();
   }
 
   // The direction of the piece: of the null space, what is neither a rigid mode (no change of load and reactions) nor a
-  // redundant reaction (no motion). A mechanism has rigid modes only: with one of them it moves that way, with more it is
-  // loose, and the one nearest to the arrival stands for all.
+  // redundant reaction (no motion). A mechanism has rigid modes only: with one of them it moves that way, with more it
+  // is loose, and the one nearest to the arrival stands for all.
   std::optional<Eigen::VectorXd> Tangent() {
     loose_ = false;
     const Eigen::MatrixXd null_space = solver_.NullSpace();
@@ -184,19 +187,20 @@ class Finder {
     const Eigen::MatrixXd plane = Split(solver_.NullSpace(), 0, NumMotion(), false);
     if (plane.cols() != 2) return {};
     const Eigen::MatrixXd transposed = system_.TransposedJacobian(x);
-    const Eigen::VectorXd psi = Eigen::JacobiSVD<Eigen::MatrixXd>(transposed, Eigen::ComputeFullV).matrixV().rightCols<1>();
+    const Eigen::VectorXd psi =
+        Eigen::JacobiSVD<Eigen::MatrixXd>(transposed, Eigen::ComputeFullV).matrixV().rightCols<1>();
     const auto form = [&](const Eigen::VectorXd& z) { return psi.dot(system_.SecondDerivative(x, z)); };
     const double a = form(plane.col(0)), c = form(plane.col(1));
     const double b = 0.5 * (form(plane.col(0) + plane.col(1)) - a - c);
     Eigen::Matrix2d matrix;
     matrix << a, b, b, c;
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(matrix);
-    const Eigen::Vector2d values = eigen.eigenvalues();  // ascending
+    const Eigen::Vector2d& values = eigen.eigenvalues();  // ascending
     if (!(values[0] < 0.0 && values[1] > 0.0)) return {};
     std::vector<Eigen::VectorXd> tangents;
     for (const double sign : {1.0, -1.0}) {
-      const Eigen::Vector2d direction =
-          std::sqrt(values[1]) * eigen.eigenvectors().col(0) + sign * std::sqrt(-values[0]) * eigen.eigenvectors().col(1);
+      const Eigen::Vector2d direction = std::sqrt(values[1]) * eigen.eigenvectors().col(0) +
+                                        sign * std::sqrt(-values[0]) * eigen.eigenvectors().col(1);
       Eigen::VectorXd tangent = plane * direction;
       tangent /= tangent.head(NumMotion()).norm();
       tangents.push_back(std::move(tangent));
@@ -240,8 +244,7 @@ class Finder {
     way.load_rate = first[NumMotion() - 1];
     for (std::size_t i = 0; i < contacts_.size(); ++i)
       if (way.states[i] == ContactState::kSlipPlus || way.states[i] == ContactState::kSlipMinus)
-        way.dissipation_rate -=
-            point_.rt[static_cast<Eigen::Index>(i)] * contacts_[i].tangential.Rate(way.direction);
+        way.dissipation_rate -= point_.rt[static_cast<Eigen::Index>(i)] * contacts_[i].tangential.Rate(way.direction);
     way.turn = std::acos(std::clamp(way.direction.dot(arrival_.direction), -1.0, 1.0));
     for (Way& other : *ways) {
       if ((other.direction - way.direction).norm() >= kSameDirection) continue;
@@ -272,7 +275,8 @@ void FindTwins(std::vector<Way>* ways) {
 }
 
 bool Better(const Way& a, const Way& b) {
-  if (std::abs(a.dissipation_rate - b.dissipation_rate) > kRateTolerance) return a.dissipation_rate > b.dissipation_rate;
+  if (std::abs(a.dissipation_rate - b.dissipation_rate) > kRateTolerance)
+    return a.dissipation_rate > b.dissipation_rate;
   if (a.has_twin != b.has_twin) return b.has_twin;
   return a.turn < b.turn - kRateTolerance;
 }
@@ -295,11 +299,11 @@ void TryAll(const std::vector<States>& options, Finder* finder, WaysOn* result) 
   }
 }
 
-// Where there are too many combinations: principal pivoting from several first guesses, and the increment problem (9) for an
-// increment so small that it is the rate problem, with and without the pull of the dissipation. Each result is tried like
-// any other combination.
-void TryLikely(const std::vector<States>& options, const PathPoint& point, const Arrival& arrival, IncrementSolver* mpec,
-               Finder* finder, WaysOn* result) {
+// Where there are too many combinations: principal pivoting from several first guesses, and the increment problem (9)
+// for an increment so small that it is the rate problem, with and without the pull of the dissipation. Each result is
+// tried like any other combination.
+void TryLikely(const std::vector<States>& options, const PathPoint& point, const Arrival& arrival,
+               IncrementSolver* mpec, Finder* finder, WaysOn* result) {
   std::vector<States> guesses;
   for (const ContactState preferred : {ContactState::kOpen, ContactState::kStick, ContactState::kSlipPlus,
                                        ContactState::kSlipMinus, ContactState::kClosed}) {
@@ -318,7 +322,8 @@ void TryLikely(const std::vector<States>& options, const PathPoint& point, const
         ++result->combinations;
       }
   for (const double share : {0.0, 0.5, 1.0}) {
-    const IncrementTrial trial = mpec->Solve(point, {kRateLength, arrival.direction, share, 1.0}, RegularisationSchedule());
+    const IncrementTrial trial =
+        mpec->Solve(point, {kRateLength, arrival.direction, share, 1.0}, RegularisationSchedule());
     if (trial.status != SolveStatus::kSolved) continue;
     finder->Try(trial.point.states, &result->ways);
     ++result->combinations;

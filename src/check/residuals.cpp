@@ -99,12 +99,9 @@ BarLengths MeasureBar(const Scene& scene, const NodeIndex& index, const Bar& bar
 Real Strain(StrainMeasure measure, const BarLengths& lengths) {
   const Real stretch = lengths.current / lengths.rest;
   switch (measure) {
-    case StrainMeasure::kBiot:
-      return stretch - 1.0L;
-    case StrainMeasure::kGreenLagrange:
-      return (stretch * stretch - 1.0L) / 2.0L;
-    case StrainMeasure::kLogarithmic:
-      return std::log(stretch);
+    case StrainMeasure::kBiot: return stretch - 1.0L;
+    case StrainMeasure::kGreenLagrange: return (stretch * stretch - 1.0L) / 2.0L;
+    case StrainMeasure::kLogarithmic: return std::log(stretch);
   }
   return std::numeric_limits<Real>::quiet_NaN();
 }
@@ -112,12 +109,9 @@ Real Strain(StrainMeasure measure, const BarLengths& lengths) {
 // de/dl
 Real StrainRate(StrainMeasure measure, const BarLengths& lengths) {
   switch (measure) {
-    case StrainMeasure::kBiot:
-      return 1.0L / lengths.rest;
-    case StrainMeasure::kGreenLagrange:
-      return lengths.current / (lengths.rest * lengths.rest);
-    case StrainMeasure::kLogarithmic:
-      return 1.0L / lengths.current;
+    case StrainMeasure::kBiot: return 1.0L / lengths.rest;
+    case StrainMeasure::kGreenLagrange: return lengths.current / (lengths.rest * lengths.rest);
+    case StrainMeasure::kLogarithmic: return 1.0L / lengths.current;
   }
   return std::numeric_limits<Real>::quiet_NaN();
 }

@@ -13,8 +13,8 @@ namespace contact_path {
 
 class BagSink {
  public:
-  // Creates `file`, overwriting one that is there, and writes the request. This and the others throw std::runtime_error, one
-  // line, where the bag cannot be written.
+  // Creates `file`, overwriting one that is there, and writes the request. This and the others throw
+  // std::runtime_error, one line, where the bag cannot be written.
   BagSink(const std::string& file, const TraceRequest& request);
   ~BagSink();
 

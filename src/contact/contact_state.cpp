@@ -4,16 +4,11 @@ namespace contact_path {
 
 std::string_view ToString(ContactState state) {
   switch (state) {
-    case ContactState::kOpen:
-      return "open";
-    case ContactState::kStick:
-      return "stick";
-    case ContactState::kSlipPlus:
-      return "slip+";
-    case ContactState::kSlipMinus:
-      return "slip-";
-    case ContactState::kClosed:
-      return "closed";
+    case ContactState::kOpen: return "open";
+    case ContactState::kStick: return "stick";
+    case ContactState::kSlipPlus: return "slip+";
+    case ContactState::kSlipMinus: return "slip-";
+    case ContactState::kClosed: return "closed";
   }
   return "unknown";
 }

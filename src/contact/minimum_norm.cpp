@@ -53,7 +53,8 @@ Eigen::MatrixXd MinimumNormSolver::NullSpace() const {
   const Eigen::Index size = factors_->unknowns - factors_->rank;
   Eigen::MatrixXd basis(factors_->unknowns, size);
   for (Eigen::Index k = 0; k < size; ++k)
-    basis.col(k) = factors_->qr.matrixQ() * Eigen::VectorXd(Eigen::VectorXd::Unit(factors_->unknowns, factors_->rank + k));
+    basis.col(k) =
+        factors_->qr.matrixQ() * Eigen::VectorXd(Eigen::VectorXd::Unit(factors_->unknowns, factors_->rank + k));
   return basis;
 }
 

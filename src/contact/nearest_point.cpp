@@ -12,8 +12,8 @@ constexpr double kStepTolerance = 1e-14;      // relative to 1 + |x|: rounding l
 constexpr double kStagnationStep = 1e-9;      // relative: below this a step that no longer shrinks is rounding
 constexpr double kResidualTolerance = 1e-10;  // scaled force or length
 
-// Weight of the reactions in the norm of a step. They take no part in what is wanted; the weight only makes a step unique
-// where reactions are redundant, and acts on steps, so it leaves the converged point untouched.
+// Weight of the reactions in the norm of a step. They take no part in what is wanted; the weight only makes a step
+// unique where reactions are redundant, and acts on steps, so it leaves the converged point untouched.
 constexpr double kReactionWeight = 1.0 / 32.0;
 
 }  // namespace

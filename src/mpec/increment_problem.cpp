@@ -28,7 +28,8 @@ IncrementProblem::IncrementProblem(const Structure& structure, const std::vector
   Eigen::VectorXd drive = Eigen::VectorXd::Zero(nd);  // T_t r_t^k
   for (std::size_t i = 0; i < working_set_.size(); ++i) {
     const ContactGeometry& geometry = contacts_[static_cast<std::size_t>(working_set_[i])];
-    Slot slot{&geometry, geometry.gap.Value(from_.u), nd + 1 + static_cast<Eigen::Index>(i), -1, -1, num_constraints_, -1};
+    Slot slot{&geometry, geometry.gap.Value(from_.u), nd + 1 + static_cast<Eigen::Index>(i), -1, -1, num_constraints_,
+              -1};
     num_constraints_ += 2;
     if (geometry.Frictional()) {
       slot.rt = num_variables_++;
@@ -249,7 +250,8 @@ void IncrementProblem::HessianValues(const Eigen::VectorXd& x, double factor, co
                                      Eigen::VectorXd* values) const {
   values->resize(static_cast<Eigen::Index>(hessian_structure_.size()));
   Eigen::Index k = 0;
-  ForEachHessianEntry(x, factor, multipliers, [&](Eigen::Index, Eigen::Index, double value) { (*values)[k++] = value; });
+  ForEachHessianEntry(x, factor, multipliers,
+                      [&](Eigen::Index, Eigen::Index, double value) { (*values)[k++] = value; });
 }
 
 }  // namespace contact_path

@@ -12,7 +12,8 @@ namespace {
 // Inequalities of the exact point may be violated by rounding only. Scaled quantities.
 constexpr double kInequalityTolerance = 1e-11;
 
-// Times eps: barrier parameter with which the solve for eps starts, so that the barrier never hides the relaxed products.
+// Times eps: barrier parameter with which the solve for eps starts, so that the barrier never hides the relaxed
+// products.
 constexpr double kBarrierShare = 0.1;
 
 // The exact point must lie within this part of the wanted length of the regularised one, or it is another solution.
@@ -22,7 +23,8 @@ constexpr int kMaxActiveSetChanges = 4;
 
 Eigen::VectorXd TangentialPositions(const std::vector<ContactGeometry>& contacts, const Eigen::VectorXd& u) {
   Eigen::VectorXd positions(static_cast<Eigen::Index>(contacts.size()));
-  for (std::size_t i = 0; i < contacts.size(); ++i) positions[static_cast<Eigen::Index>(i)] = contacts[i].tangential.Value(u);
+  for (std::size_t i = 0; i < contacts.size(); ++i)
+    positions[static_cast<Eigen::Index>(i)] = contacts[i].tangential.Value(u);
   return positions;
 }
 
@@ -101,7 +103,8 @@ void IncrementSolver::MakeExact(const PathPoint& from, const IncrementProblem& p
     if (pinned.size() == before) {
       // Slip held at zero motion: the contact stuck, and is about to slip.
       for (const Limit& limit : pinned)
-        if (limit.inequality == Inequality::kSlip) exact.states[static_cast<std::size_t>(limit.contact)] = ContactState::kStick;
+        if (limit.inequality == Inequality::kSlip)
+          exact.states[static_cast<std::size_t>(limit.contact)] = ContactState::kStick;
       trial->point = std::move(exact);
       trial->exact = true;
       return;

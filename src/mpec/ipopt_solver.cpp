@@ -47,8 +47,8 @@ class Adapter : public Ipopt::TNLP {
     return true;
   }
 
-  bool get_starting_point(Ipopt::Index n, bool, Number* x, bool init_z, Number* z_lower, Number* z_upper, Ipopt::Index m,
-                          bool init_lambda, Number* lambda) override {
+  bool get_starting_point(Ipopt::Index n, bool, Number* x, bool init_z, Number* z_lower, Number* z_upper,
+                          Ipopt::Index m, bool init_lambda, Number* lambda) override {
     std::copy_n(point_->x.data(), n, x);
     if (init_z) {
       if (!warm_) return false;
@@ -92,8 +92,8 @@ class Adapter : public Ipopt::TNLP {
     return Give(values);
   }
 
-  bool intermediate_callback(Ipopt::AlgorithmMode, Ipopt::Index iteration, Number, Number, Number, Number, Number, Number,
-                             Number, Number, Ipopt::Index, const Ipopt::IpoptData*,
+  bool intermediate_callback(Ipopt::AlgorithmMode, Ipopt::Index iteration, Number, Number, Number, Number, Number,
+                             Number, Number, Number, Ipopt::Index, const Ipopt::IpoptData*,
                              Ipopt::IpoptCalculatedQuantities*) override {
     iterations_ = iteration;
     was_cancelled_ = cancelled_ && cancelled_();
@@ -168,9 +168,9 @@ SolveOutcome IpoptSolver::Solve(const NonlinearProgram& program, double barrier,
   options.SetStringValue("warm_start_init_point", warm ? "yes" : "no");
   options.SetNumericValue("mu_init", warm ? barrier : 1e-2);
   const double push = warm ? barrier : 1e-3;
-  for (const char* name : {"warm_start_bound_push", "warm_start_bound_frac", "warm_start_slack_bound_push",
-                           "warm_start_slack_bound_frac", "warm_start_mult_bound_push", "bound_push", "bound_frac",
-                           "slack_bound_push", "slack_bound_frac"})
+  for (const char* name :
+       {"warm_start_bound_push", "warm_start_bound_frac", "warm_start_slack_bound_push", "warm_start_slack_bound_frac",
+        "warm_start_mult_bound_push", "bound_push", "bound_frac", "slack_bound_push", "slack_bound_frac"})
     options.SetNumericValue(name, push);
 
   Adapter* adapter = new Adapter(program, warm, implementation_->cancelled, point);

@@ -11,7 +11,7 @@ namespace {
 constexpr double kAccepted = 1e-9;       // residuals of an accepted row
 constexpr double kNoMove = 1e-12;        // an event nearer than this to the last one happens in place
 constexpr int kMostEventsInPlace = 8;    // then the contacts chatter, and no way on is trusted
-constexpr double kLevel = 1e-9;          // of a unit rate: the load neither rises nor falls
+constexpr double kLevel = 1e-6;          // of a unit rate: the load neither rises nor falls
 constexpr double kSameTangent = 1e-6;    // difference of unit tangents
 constexpr double kAfterSingular = 0.05;  // of the step: derivatives at a singular point are not exact to second order
 constexpr int kLocatingAttempts = 6;
@@ -93,13 +93,12 @@ Arrival BranchMethod::StartArrival() const {
   return arrival;
 }
 
-bool BranchMethod::PassEvent(const PathPoint& point, const Arrival& arrival, const BranchChoice* choice, EventRecord* record,
-                             std::string* message) {
+bool BranchMethod::PassEvent(const PathPoint& point, const Arrival& arrival, const BranchChoice* choice,
+                             EventRecord* record, std::string* message) {
   const WaysOn on = FindWays(model_.structure, model_.contacts, point, arrival, kAtLimit, &mpec_);
   record->concerned = on.concerned;
   record->complete = on.complete;
-  for (const Way& way : on.ways)
-    record->ways.push_back({way.states, way.load_rate, way.dissipation_rate, way.turn});
+  for (const Way& way : on.ways) record->ways.push_back({way.states, way.load_rate, way.dissipation_rate, way.turn});
   if (on.ways.empty()) {
     *message = NoWayOn(on);
     return false;

@@ -4,18 +4,12 @@ namespace contact_path {
 
 std::string_view ToString(RowKind kind) {
   switch (kind) {
-    case RowKind::kStart:
-      return "start";
-    case RowKind::kRegular:
-      return "regular";
-    case RowKind::kSmoothLimit:
-      return "smooth_limit";
-    case RowKind::kCornerLimit:
-      return "corner_limit";
-    case RowKind::kContactEvent:
-      return "contact_event";
-    case RowKind::kBifurcation:
-      return "bifurcation";
+    case RowKind::kStart: return "start";
+    case RowKind::kRegular: return "regular";
+    case RowKind::kSmoothLimit: return "smooth_limit";
+    case RowKind::kCornerLimit: return "corner_limit";
+    case RowKind::kContactEvent: return "contact_event";
+    case RowKind::kBifurcation: return "bifurcation";
   }
   return "unknown";
 }

@@ -18,7 +18,8 @@ constexpr double kProgress = 0.05;
 // Without a change of state the path does not turn by more than 60 degrees in one increment.
 constexpr double kSmallestCosine = 0.5;
 
-// Shares of the dissipation term in the aim. Small: the path is followed; larger where nothing but dissipation leads on.
+// Shares of the dissipation term in the aim. Small: the path is followed; larger where nothing but dissipation leads
+// on.
 constexpr double kDissipationShares[] = {0.2, 0.6, 1.0};
 
 // Scaled force or length: an inequality this close to zero is about to change a contact's state.

@@ -78,7 +78,8 @@ class Recorder {
 };
 
 std::unique_ptr<PathMethod> MakeMethod(const Model& model, const TraceOptions& options, const TraceControl& control) {
-  if (options.method == Method::kBranch) return std::make_unique<BranchMethod>(model, BranchOptions::For(options), control.cancelled);
+  if (options.method == Method::kBranch)
+    return std::make_unique<BranchMethod>(model, BranchOptions::For(options), control.cancelled);
   return std::make_unique<MpecMethod>(model, MpecOptions::ForAccuracy(options), control.cancelled);
 }
 

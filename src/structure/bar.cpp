@@ -5,9 +5,7 @@
 namespace contact_path {
 namespace {
 
-Eigen::Vector2d Span(const Eigen::Ref<const Eigen::VectorXd>& x) {
-  return x.segment<2>(2) - x.segment<2>(0);
-}
+Eigen::Vector2d Span(const Eigen::Ref<const Eigen::VectorXd>& x) { return x.segment<2>(2) - x.segment<2>(0); }
 
 // Blocks of a quantity that depends on the difference of the two nodes only.
 void Scatter(const Eigen::Matrix2d& block, Eigen::Ref<Eigen::MatrixXd> out) {
@@ -48,7 +46,8 @@ BarElement::EnergyDerivatives BarElement::Derivatives(double q) const {
     case StrainMeasure::kLogarithmic: {
       const double strain = std::log(l / l0);
       const double scale = EA_ * l0 / (q * q);
-      return {EA_ * l0 * strain / (2.0 * q), scale * (1.0 - 2.0 * strain) / 4.0, -scale * (3.0 - 4.0 * strain) / (4.0 * q)};
+      return {EA_ * l0 * strain / (2.0 * q), scale * (1.0 - 2.0 * strain) / 4.0,
+              -scale * (3.0 - 4.0 * strain) / (4.0 * q)};
     }
   }
   return {};
@@ -67,7 +66,8 @@ void BarElement::Tangent(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<
   Scatter(2.0 * w.first * Eigen::Matrix2d::Identity() + 4.0 * w.second * d * d.transpose(), tangent);
 }
 
-void BarElement::TangentDerivative(const Eigen::Ref<const Eigen::VectorXd>& x, const Eigen::Ref<const Eigen::VectorXd>& v,
+void BarElement::TangentDerivative(const Eigen::Ref<const Eigen::VectorXd>& x,
+                                   const Eigen::Ref<const Eigen::VectorXd>& v,
                                    Eigen::Ref<Eigen::MatrixXd> derivative) const {
   const Eigen::Vector2d d = Span(x);
   const Eigen::Vector2d e = Span(v);

@@ -36,15 +36,18 @@ Structure::Structure(const Scene& scene) {
   for (const Bar& bar : scene.bars) {
     const int p = NodeIndex(bar.nodes[0]), q = NodeIndex(bar.nodes[1]);
     const double distance = (initial_positions_.segment<2>(2 * q) - initial_positions_.segment<2>(2 * p)).norm();
-    AddPart(std::make_unique<BarElement>(bar.EA, bar.rest_length > 0.0 ? bar.rest_length : distance, bar.strain), bar.nodes);
+    AddPart(std::make_unique<BarElement>(bar.EA, bar.rest_length > 0.0 ? bar.rest_length : distance, bar.strain),
+            bar.nodes);
   }
   for (const Superelement& part : scene.superelements) {
     const auto size = static_cast<Eigen::Index>(2 * part.nodes.size());
     Eigen::VectorXd initial(size);
     for (std::size_t i = 0; i < part.nodes.size(); ++i)
-      initial.segment<2>(static_cast<Eigen::Index>(2 * i)) = initial_positions_.segment<2>(2 * NodeIndex(part.nodes[i]));
+      initial.segment<2>(static_cast<Eigen::Index>(2 * i)) =
+          initial_positions_.segment<2>(2 * NodeIndex(part.nodes[i]));
     const Eigen::Map<const Eigen::MatrixXd> stiffness(part.stiffness.data(), size, size);
-    AddPart(std::make_unique<LinearSuperelement>(0.5 * (stiffness + stiffness.transpose()), std::move(initial)), part.nodes);
+    AddPart(std::make_unique<LinearSuperelement>(0.5 * (stiffness + stiffness.transpose()), std::move(initial)),
+            part.nodes);
   }
   BuildPattern();
 }
@@ -64,6 +67,7 @@ void Structure::AddPart(std::unique_ptr<Element> element, const std::vector<std:
 
 void Structure::BuildPattern() {
   std::vector<Eigen::Triplet<double>> triplets;
+  triplets.reserve(static_cast<std::size_t>(NumDofs()));
   for (int i = 0; i < NumDofs(); ++i) triplets.emplace_back(i, i, 0.0);
   for (const Part& part : parts_)
     for (const int column : part.dofs)

@@ -8,8 +8,8 @@
 
 namespace contact_path {
 
-// M = [J; row], J equations x unknowns. Square and regular as a rule: sparse LU (KLU). Where it is singular or not square
-// (rigid modes, redundant contacts): the shortest solution by a rank-revealing sparse QR factorisation.
+// M = [J; row], J equations x unknowns. Square and regular as a rule: sparse LU (KLU). Where it is singular or not
+// square (rigid modes, redundant contacts): the shortest solution by a rank-revealing sparse QR factorisation.
 class BorderedSolver {
  public:
   // Ratio of the smallest to the largest pivot of the LU factorisation below which M counts as singular.

@@ -24,19 +24,20 @@ struct Watched {
   Happening happening = Happening::kNone;
   double t = 0.0;  // parameter of the segment, of the first happening
   Limit limit;     // kEvent: the inequality that fails first
-  // The equations are singular there: another path crosses at the very point. Then the interpolation is more exact than Newton's
-  // method.
+  // The equations are singular there: another path crosses at the very point. Then the interpolation is more exact than
+  // Newton's method.
   bool singular = false;
 };
 
-// The first happening on the segment, from its interpolation: all inequalities as quintics on the whole step, so roots inside it
-// count too. A pair of roots could only be missed where the curve differs from its quintic interpolation by more than a
-// twentieth of the difference between the quintic and the cubic interpolation at the middle of the step: minima that come nearer
-// to zero than that are reported as kNearTouch. A bifurcation shows by the sign of the determinant at the ends, and is then found
-// by bisection; two of them within one step are not seen.
+// The first happening on the segment, from its interpolation: all inequalities as quintics on the whole step, so roots
+// inside it count too. A pair of roots could only be missed where the curve differs from its quintic interpolation by
+// more than a twentieth of the difference between the quintic and the cubic interpolation at the middle of the step:
+// minima that come nearer to zero than that are reported as kNearTouch. A bifurcation shows by the sign of the
+// determinant at the ends, and is then found by bisection; two of them within one step are not seen.
 Watched Watch(SmoothPiece* piece, const Segment& segment);
 
-// The exact point of a happening near t, by Newton's method, with its parameter within the segment. Nothing if it is not found.
+// The exact point of a happening near t, by Newton's method, with its parameter within the segment. Nothing if it is
+// not found.
 std::optional<CurvePoint> Locate(SmoothPiece* piece, const Segment& segment, const Watched& watched);
 
 }  // namespace contact_path

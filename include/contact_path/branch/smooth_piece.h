@@ -14,8 +14,8 @@ namespace contact_path {
 // A point of the curve with its derivatives by arc length |(du, ds)|. All vectors: unknowns of the fixed-state system.
 struct CurvePoint {
   Eigen::VectorXd x;
-  Eigen::VectorXd first;   // |(u, s) part| = 1
-  Eigen::VectorXd second;  // orthogonal to first in (u, s)
+  Eigen::VectorXd first;        // |(u, s) part| = 1
+  Eigen::VectorXd second;       // orthogonal to first in (u, s)
   Eigen::Index deficiency = 0;  // null directions of the equations besides the tangent
   int determinant_sign = 0;     // of the equations with the tangent as last row; 0 = singular
 };
@@ -24,9 +24,9 @@ struct Correction {
   bool converged = false;
   Eigen::VectorXd x;
   int iterations = 0;
-  double first_step = 0.0;     // norm of the first Newton step: the error of the guess
-  double contraction = 0.0;    // ratio of the second step to the first
-  std::vector<double> steps;   // norms of all Newton steps
+  double first_step = 0.0;    // norm of the first Newton step: the error of the guess
+  double contraction = 0.0;   // ratio of the second step to the first
+  std::vector<double> steps;  // norms of all Newton steps
 };
 
 class SmoothPiece {
@@ -48,8 +48,8 @@ class SmoothPiece {
   // The same with the row given on (u, s) only.
   Correction CorrectOnPlane(const Eigen::VectorXd& guess, const Eigen::VectorXd& normal);
 
-  // Near a bifurcation: the direction of the crossing path, normal to the tangent `towards` in (u, s); |(u, s) part| = 1.
-  // Zero where it cannot be told.
+  // Near a bifurcation: the direction of the crossing path, normal to the tangent `towards` in (u, s); |(u, s) part|
+  // = 1. Zero where it cannot be told.
   Eigen::VectorXd CrossingDirection(const Eigen::VectorXd& x, const Eigen::VectorXd& towards);
 
   int factorisations() const { return factorisations_; }
@@ -61,8 +61,8 @@ class SmoothPiece {
   int factorisations_ = 0;
 };
 
-// A step on a piece: both ends with derivatives, parameter t in [0, length] = the projection of (u, s) - start on the tangent
-// at the start. Between the ends, quintic Hermite interpolation: error of order length^6.
+// A step on a piece: both ends with derivatives, parameter t in [0, length] = the projection of (u, s) - start on the
+// tangent at the start. Between the ends, quintic Hermite interpolation: error of order length^6.
 struct Segment {
   CurvePoint start;
   CurvePoint end;

@@ -18,11 +18,11 @@ struct Way {
   Eigen::VectorXd direction;         // (du, ds), unit vector, NumDofs() + 1
   Eigen::VectorXd first;             // all unknowns of the fixed-state system: derivatives by arc length
   Eigen::VectorXd second;
-  double load_rate = 0.0;            // ds
-  double dissipation_rate = 0.0;     // -r_t . du_t, >= 0
-  double turn = 0.0;                 // angle to the direction of arrival [rad]
-  bool loose = false;                // one of several motions without any change of load and reactions: not to be followed
-  bool has_twin = false;             // another way has exactly these rates: each would break a symmetry of the scene
+  double load_rate = 0.0;         // ds
+  double dissipation_rate = 0.0;  // -r_t . du_t, >= 0
+  double turn = 0.0;              // angle to the direction of arrival [rad]
+  bool loose = false;             // one of several motions without any change of load and reactions: not to be followed
+  bool has_twin = false;          // another way has exactly these rates: each would break a symmetry of the scene
 };
 
 // Where the point comes from.
@@ -33,17 +33,18 @@ struct Arrival {
 };
 
 struct WaysOn {
-  std::vector<Way> ways;     // best first: largest dissipation rate, then without twin, then smallest turn, then a fixed order
-  int concerned = 0;         // contacts that could change their state
-  bool complete = true;      // false: too many combinations to try them all, the likely ones were
-  int combinations = 0;      // tried
+  std::vector<Way>
+      ways;           // best first: largest dissipation rate, then without twin, then smallest turn, then a fixed order
+  int concerned = 0;  // contacts that could change their state
+  bool complete = true;  // false: too many combinations to try them all, the likely ones were
+  int combinations = 0;  // tried
 };
 
 // All ways on from `point`, an equilibrium, without the way back. Concerned are the contacts with an inequality within
 // `tolerance` of zero, and all that slip. Of ways with the same direction one is kept:
 // that in which fewest contacts slip without moving.
-// Up to 4^6 combinations of states are all tried; of more, those that principal pivoting and `mpec` (the increment problem in
-// the limit of a short increment) lead to, each certified like any other.
+// Up to 4^6 combinations of states are all tried; of more, those that principal pivoting and `mpec` (the increment
+// problem in the limit of a short increment) lead to, each certified like any other.
 WaysOn FindWays(const Structure& structure, const std::vector<ContactGeometry>& contacts, const PathPoint& point,
                 const Arrival& arrival, double tolerance, IncrementSolver* mpec);
 

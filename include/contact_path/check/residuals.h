@@ -1,4 +1,5 @@
-// Residuals of a row of a path, computed from the scene alone. Nothing here comes from the code that solved for the row.
+// Residuals of a row of a path, computed from the scene alone. Nothing here comes from the code that solved for the
+// row.
 #ifndef CONTACT_PATH_CHECK_RESIDUALS_H_
 #define CONTACT_PATH_CHECK_RESIDUALS_H_
 

@@ -8,8 +8,8 @@
 
 namespace contact_path {
 
-// Solves A x = b by a rank-revealing sparse QR factorisation of A' (SuiteSparseQR). Of all x the shortest is returned; where
-// rows of A depend on each other, the dependent ones are left out, which is right if b is consistent.
+// Solves A x = b by a rank-revealing sparse QR factorisation of A' (SuiteSparseQR). Of all x the shortest is returned;
+// where rows of A depend on each other, the dependent ones are left out, which is right if b is consistent.
 class MinimumNormSolver {
  public:
   // Relative to the largest column norm: what is smaller than that counts as dependent.

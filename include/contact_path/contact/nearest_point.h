@@ -17,8 +17,9 @@ struct NearestPoint {
   Eigen::Index rank = 0;  // of the Jacobian at the last iteration
 };
 
-// The solution x of `system` whose (u, s) is nearest to `wanted` (NumDofs() + 1 entries), from `start`: Gauss-Newton steps of
-// minimum norm, so redundant equations and rigid modes are no obstacle. Converged: steps at rounding level, equations solved.
+// The solution x of `system` whose (u, s) is nearest to `wanted` (NumDofs() + 1 entries), from `start`: Gauss-Newton
+// steps of minimum norm, so redundant equations and rigid modes are no obstacle. Converged: steps at rounding level,
+// equations solved.
 NearestPoint FindNearestPoint(FixedStateSystem* system, const Eigen::VectorXd& start, const Eigen::VectorXd& wanted);
 
 }  // namespace contact_path

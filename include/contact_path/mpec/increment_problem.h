@@ -40,7 +40,8 @@ class IncrementProblem : public NonlinearProgram {
 
   // Variables for the guess from + S y with the reactions of `from`.
   Eigen::VectorXd StartingPoint(const Eigen::VectorXd& y) const;
-  // The point that variables stand for. States: the larger side of each complementary pair (open or touching, stick or slip).
+  // The point that variables stand for. States: the larger side of each complementary pair (open or touching, stick or
+  // slip).
   PathPoint Point(const Eigen::VectorXd& x) const;
   // Objective of a point, without its reactions.
   double ObjectiveAt(const PathPoint& point) const;
@@ -65,10 +66,10 @@ class IncrementProblem : public NonlinearProgram {
   // Where a contact of the working set keeps its variables and constraints.
   struct Slot {
     const ContactGeometry* geometry;
-    double gap;                    // at the start of the increment
-    Eigen::Index rn, rt, lambda;   // variables; rt, lambda -1 if frictionless
-    Eigen::Index gap_row;          // constraints: gap, gap r_n
-    Eigen::Index friction_row;     // lambda - y_t, lambda + y_t, mu r_n - r_t, mu r_n + r_t, product; -1 if frictionless
+    double gap;                   // at the start of the increment
+    Eigen::Index rn, rt, lambda;  // variables; rt, lambda -1 if frictionless
+    Eigen::Index gap_row;         // constraints: gap, gap r_n
+    Eigen::Index friction_row;    // lambda - y_t, lambda + y_t, mu r_n - r_t, mu r_n + r_t, product; -1 if frictionless
   };
 
   double ScaledGap(const Slot& slot, const Eigen::VectorXd& x) const;
@@ -77,7 +78,8 @@ class IncrementProblem : public NonlinearProgram {
   template <typename Emit>
   void ForEachJacobianEntry(const Eigen::VectorXd& x, Emit emit) const;
   template <typename Emit>
-  void ForEachHessianEntry(const Eigen::VectorXd& x, double factor, const Eigen::VectorXd& multipliers, Emit emit) const;
+  void ForEachHessianEntry(const Eigen::VectorXd& x, double factor, const Eigen::VectorXd& multipliers,
+                           Emit emit) const;
 
   const Structure& structure_;
   const std::vector<ContactGeometry>& contacts_;

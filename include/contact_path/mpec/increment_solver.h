@@ -13,8 +13,8 @@
 
 namespace contact_path {
 
-// Sequence of the regularisation parameter: initial, initial x factor, ... down to minimum. Products of a length over S and
-// a force over S, both scaled, so one schedule serves all increment lengths.
+// Sequence of the regularisation parameter: initial, initial x factor, ... down to minimum. Products of a length over S
+// and a force over S, both scaled, so one schedule serves all increment lengths.
 struct RegularisationSchedule {
   double initial = 1e-3;
   double factor = 1e-5;   // rho, 0..1
@@ -33,22 +33,23 @@ struct IncrementTrial {
 
 class IncrementSolver {
  public:
-  // An increment is never longer than this times the wanted length: longer ones are jumps. It bounds which candidates can
-  // be reached: |du_n| <= |(du, ds)|.
+  // An increment is never longer than this times the wanted length: longer ones are jumps. It bounds which candidates
+  // can be reached: |du_n| <= |(du, ds)|.
   static constexpr double kLongestIncrement = 2.5;
 
   // All must outlive the solver.
   IncrementSolver(const Structure& structure, const std::vector<ContactGeometry>& contacts, NonlinearSolver* solver);
 
-  // From `from`, an equilibrium. Candidates out of reach are left out of the problem; should a gap among them turn negative
-  // all the same, the increment is solved again with them.
+  // From `from`, an equilibrium. Candidates out of reach are left out of the problem; should a gap among them turn
+  // negative all the same, the increment is solved again with them.
   IncrementTrial Solve(const PathPoint& from, const IncrementGoal& goal, const RegularisationSchedule& schedule);
 
  private:
   IncrementTrial SolveWith(const PathPoint& from, const std::vector<int>& working_set, const IncrementGoal& goal,
                            const RegularisationSchedule& schedule);
   // Replaces trial->point by the minimum of the same objective on the exact equations of its states, if that holds.
-  void MakeExact(const PathPoint& from, const IncrementProblem& problem, const IncrementGoal& goal, IncrementTrial* trial);
+  void MakeExact(const PathPoint& from, const IncrementProblem& problem, const IncrementGoal& goal,
+                 IncrementTrial* trial);
 
   const Structure& structure_;
   const std::vector<ContactGeometry>& contacts_;

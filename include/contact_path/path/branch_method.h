@@ -19,9 +19,9 @@ namespace contact_path {
 
 // All lengths in the scaled norm.
 struct BranchOptions {
-  double step = 0.02;           // longest increment, > 0
-  double smallest_step = 1e-9;  // below this the path ends, > 0
-  double prediction = 1e-3;     // largest error of the predictor, relative to the increment
+  double step = 0.02;             // longest increment, > 0
+  double smallest_step = 1e-9;    // below this the path ends, > 0
+  double prediction = 1e-3;       // largest error of the predictor, relative to the increment
   double smallest_cosine = 0.98;  // between the tangents at both ends of an increment
   double direction = 1.0;         // sign of the first change of the load factor
   std::vector<BranchChoice> choices;

@@ -38,13 +38,13 @@ struct SolveRecord {
   int constraints = 0;          // of the problem solved
   int rejected = 0;             // increments tried and not accepted before this one
   int factorisations = 0;       // branch: of the Jacobian
-  int deficiency = 0;           // branch: null directions of the equations besides the tangent (rigid modes, redundancy)
-  int determinant_sign = 0;     // branch: sign of det of the Jacobian bordered by the tangent; 0 = singular; changes where
-                                // another path crosses
-  int stiffness_sign = 0;       // branch: sign of det of the tangent at fixed load, contacts in their states; +1 on a stable
-                                // path; changes at limit points and where another path crosses; 0 = singular
-  double contraction = 0.0;     // branch: second Newton step over the first
-  double time = 0.0;            // wall time [s]
+  int deficiency = 0;        // branch: null directions of the equations besides the tangent (rigid modes, redundancy)
+  int determinant_sign = 0;  // branch: sign of det of the Jacobian bordered by the tangent; 0 = singular; changes where
+                             // another path crosses
+  int stiffness_sign = 0;  // branch: sign of det of the tangent at fixed load, contacts in their states; +1 on a stable
+                           // path; changes at limit points and where another path crosses; 0 = singular
+  double contraction = 0.0;  // branch: second Newton step over the first
+  double time = 0.0;         // wall time [s]
 };
 
 // One way on from an event: states and rates, by arc length in the scaled norm.
@@ -57,11 +57,12 @@ struct WayRecord {
 
 // What the branch method found at a row where ways part; empty elsewhere.
 struct EventRecord {
-  std::vector<WayRecord> ways;      // all admissible ways on but the way back, best first
-  int taken = -1;                   // index into ways; -1 = none
-  int concerned = 0;                // contacts that could change their state
-  bool complete = true;             // false: too many combinations of states to try them all
-  std::vector<double> null_vector;  // bifurcation: direction of the crossing path, x0, y0, x1, ..., unit norm; else empty
+  std::vector<WayRecord> ways;  // all admissible ways on but the way back, best first
+  int taken = -1;               // index into ways; -1 = none
+  int concerned = 0;            // contacts that could change their state
+  bool complete = true;         // false: too many combinations of states to try them all
+  std::vector<double>
+      null_vector;  // bifurcation: direction of the crossing path, x0, y0, x1, ..., unit norm; else empty
 };
 
 struct Increment {

@@ -20,7 +20,8 @@ struct Model {
   Model(const Model&) = delete;
   Model& operator=(const Model&) = delete;
 
-  // The initial configuration at load factor 0 without reactions. Candidates that touch: stick, or closed if frictionless.
+  // The initial configuration at load factor 0 without reactions. Candidates that touch: stick, or closed if
+  // frictionless.
   PathPoint InitialPoint() const;
   // The point in the units of the scene, as the check and the records want it. Fixed components are those of the scene.
   CheckedState InSceneUnits(const PathPoint& point) const;

@@ -37,7 +37,16 @@ class MpecMethod : public PathMethod {
 
  private:
   // Why a trial is not accepted; kAccepted if it is.
-  enum class Verdict { kAccepted, kNotSolved, kResidual, kTooLong, kNoProgress, kTurnedBack, kNotConfirmed, kCancelled };
+  enum class Verdict {
+    kAccepted,
+    kNotSolved,
+    kResidual,
+    kTooLong,
+    kNoProgress,
+    kTurnedBack,
+    kNotConfirmed,
+    kCancelled
+  };
   struct Trial {
     Verdict verdict = Verdict::kNotSolved;
     IncrementTrial increment;
@@ -63,7 +72,7 @@ class MpecMethod : public PathMethod {
   double step_;
   double growth_ = 1.0;
   bool started_ = false;
-  bool bent_ = false;          // a contact changed its state in the last increment: its direction is a chord over the bend
+  bool bent_ = false;  // a contact changed its state in the last increment: its direction is a chord over the bend
   Eigen::VectorXd direction_;  // of the last accepted increment
   int iterations_ = 0;         // since the last accepted row
 };

@@ -35,12 +35,12 @@ class PathMethod {
  public:
   virtual ~PathMethod() = default;
 
-  // Sets out from the initial point, once, before the first Next(). `ways`: those found there. False: none (*message: why), and
-  // the path ends where it begins.
+  // Sets out from the initial point, once, before the first Next(). `ways`: those found there. False: none (*message:
+  // why), and the path ends where it begins.
   virtual bool Start(const PathPoint& from, EventRecord* ways, std::string* message) = 0;
 
-  // The next rows after `from`, which is the last accepted point: the initial point, or the last row that this method gave,
-  // or the point before it to try again. `longest`: bound on the increment length, scaled norm.
+  // The next rows after `from`, which is the last accepted point: the initial point, or the last row that this method
+  // gave, or the point before it to try again. `longest`: bound on the increment length, scaled norm.
   virtual Advance Next(const PathPoint& from, double longest) = 0;
   Advance Next(const PathPoint& from) { return Next(from, std::numeric_limits<double>::infinity()); }
 };

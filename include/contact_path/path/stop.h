@@ -15,7 +15,8 @@ class StopTest {
   // `request` must be sound and outlive the test.
   explicit StopTest(const TraceRequest& request);
 
-  // The first criterion that holds in `row`, or null. Row 0 is not asked: a criterion can end a path, not forbid its start.
+  // The first criterion that holds in `row`, or null. Row 0 is not asked: a criterion can end a path, not forbid its
+  // start.
   const StopCriterion* FirstThatHolds(const Increment& row) const;
 
  private:

@@ -38,9 +38,9 @@ struct TraceControl {
   std::function<bool()> cancelled;
 };
 
-// Traces until a stop criterion holds or another end. Row 0 is the equilibrium at load factor 0 with all constant loads.
-// Everything accepted has been given to `control.on_increment` when this returns, whatever the reason.
-// Throws InvalidRequest (scene/validate.h) for a request that breaks a rule; numerical trouble is a reason, never thrown.
+// Traces until a stop criterion holds or another end. Row 0 is the equilibrium at load factor 0 with all constant
+// loads. Everything accepted has been given to `control.on_increment` when this returns, whatever the reason. Throws
+// InvalidRequest (scene/validate.h) for a request that breaks a rule; numerical trouble is a reason, never thrown.
 TraceResult Trace(const TraceRequest& request, const TraceControl& control);
 
 }  // namespace contact_path

@@ -8,8 +8,8 @@
 
 namespace contact_path {
 
-// The request in `text`, validated. A key that is missing or null has its default. `file_name` is used in messages only.
-// Throws InvalidRequest: not YAML, unknown or repeated keys, values of the wrong type, or any rule of Validate().
+// The request in `text`, validated. A key that is missing or null has its default. `file_name` is used in messages
+// only. Throws InvalidRequest: not YAML, unknown or repeated keys, values of the wrong type, or any rule of Validate().
 TraceRequest ReadTraceRequest(const std::string& text, const std::string& file_name);
 
 // The same from a file. Throws InvalidRequest also where the file cannot be read.

@@ -23,10 +23,10 @@ class Structure {
 
   Eigen::Index NumDofs() const { return initial_.size(); }
   // Index of a free component in u (axis 0 = x, 1 = y); -1 if it is fixed.
-  int Dof(int node, int axis) const { return dofs_[static_cast<std::size_t>(2 * node + axis)]; }
+  int Dof(int node, int axis) const { return dofs_[2 * static_cast<std::size_t>(node) + static_cast<std::size_t>(axis)]; }
   int NodeIndex(const std::string& name) const { return node_index_.at(name); }
 
-  const Eigen::VectorXd& InitialPositions() const { return initial_; }   // of the free components
+  const Eigen::VectorXd& InitialPositions() const { return initial_; }      // of the free components
   const Eigen::VectorXd& ReferenceLoad() const { return reference_load_; }  // f, scaled by the load factor
   const Eigen::VectorXd& ConstantLoad() const { return constant_load_; }    // f_constant
   // All positions x0, y0, x1, ... with the free components from u.
@@ -42,7 +42,8 @@ class Structure {
   // Hessian of the strain energy; `tangent` must have the pattern and keeps it.
   void Tangent(const Eigen::VectorXd& u, Eigen::SparseMatrix<double>* tangent) const;
   // d/dh Tangent(u + h v) at h = 0, on the same pattern; symmetric; also the gradient of Tangent(u) v.
-  void TangentDerivative(const Eigen::VectorXd& u, const Eigen::VectorXd& v, Eigen::SparseMatrix<double>* derivative) const;
+  void TangentDerivative(const Eigen::VectorXd& u, const Eigen::VectorXd& v,
+                         Eigen::SparseMatrix<double>* derivative) const;
 
  private:
   struct Part {

@@ -1,0 +1,555 @@
+#include "contact_path/branch/ways.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "branch/model_point.h"
+#include "contact_path/branch/event_watch.h"
+#include "contact_path/mpec/ipopt_solver.h"
+#include "contact_path/path/model.h"
+#include "support/random.h"
+#include "support/reference_cases.h"
+#include "support/traced_path.h"
+
+namespace contact_path {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::Vector2d;
+using Eigen::VectorXd;
+using States = std::vector<ContactState>;
+
+constexpr ContactState kOpen = ContactState::kOpen, kStick = ContactState::kStick, kClosed = ContactState::kClosed;
+constexpr ContactState kSlipPlus = ContactState::kSlipPlus, kSlipMinus = ContactState::kSlipMinus;
+
+// A scene in its own scales: what is given here is what the rates are of.
+struct Rest {
+  explicit Rest(const Scene& scene) : model(scene, Scaling()), ipopt(nullptr), mpec(model.structure, model.contacts, &ipopt) {
+    point = model.InitialPoint();
+  }
+
+  WaysOn Ways(const Arrival& arrival) {
+    return FindWays(model.structure, model.contacts, point, arrival, kAtLimit, &mpec);
+  }
+  WaysOn FromStart(double sign) {
+    Arrival arrival;
+    arrival.is_start = true;
+    arrival.direction = sign * VectorXd::Unit(model.structure.NumDofs() + 1, model.structure.NumDofs());
+    return Ways(arrival);
+  }
+
+  Model model;
+  IpoptSolver ipopt;
+  IncrementSolver mpec;
+  PathPoint point;
+};
+
+// One node on the floor: K, loads s (fx, fy) + (rt, -rn): at s = 0 it rests with the reactions rn and rt.
+Scene OneNode(const Eigen::Matrix2d& stiffness, const Vector2d& load, double friction, double rn, double rt) {
+  Scene scene;
+  scene.nodes = {{"p", 0.0, 0.0, false, false}};
+  scene.superelements = {{{"p"}, {stiffness(0, 0), stiffness(0, 1), stiffness(1, 0), stiffness(1, 1)}}};
+  scene.loads = {{"p", load.x(), load.y(), false}, {"p", -rt, -rn, true}};
+  scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, friction}};
+  scene.contacts = {{"p", "floor"}};
+  return scene;
+}
+
+std::unique_ptr<Rest> RestingNode(const Eigen::Matrix2d& stiffness, const Vector2d& load, double friction, double rn, double rt,
+                                  ContactState state) {
+  auto rest = std::make_unique<Rest>(OneNode(stiffness, load, friction, rn, rt));
+  rest->point.rn[0] = rn;
+  rest->point.rt[0] = rt;
+  rest->point.states[0] = state;
+  return rest;
+}
+
+Eigen::Matrix2d Diagonal(double x, double y) { return Vector2d(x, y).asDiagonal(); }
+
+// ----- by hand -----
+
+TEST(FindWays, StickInsideTheCone) {
+  const auto rest = RestingNode(Diagonal(2.0, 2.0), Vector2d(1.0, 0.0), 0.5, 1.0, 0.1, kStick);
+  for (const double sign : {1.0, -1.0}) {
+    const WaysOn on = rest->FromStart(sign);
+    ASSERT_EQ(on.ways.size(), 1U);
+    EXPECT_EQ(on.ways[0].states, States{kStick});
+    EXPECT_EQ(on.ways[0].load_rate, sign);
+    EXPECT_EQ(on.ways[0].dissipation_rate, 0.0);
+    EXPECT_EQ(on.ways[0].direction, Eigen::Vector3d(0.0, 0.0, sign));
+    EXPECT_EQ(on.concerned, 0);
+    EXPECT_EQ(on.combinations, 1);
+    EXPECT_TRUE(on.complete);
+  }
+}
+
+// At the edge of the cone, rt = -mu rn: slip towards +x with k du = ds, or stick and unload.
+TEST(FindWays, EdgeOfTheCone) {
+  const auto rest = RestingNode(Diagonal(2.0, 2.0), Vector2d(1.0, 0.0), 0.5, 1.0, -0.5, kStick);
+  Arrival arrival;
+  arrival.direction = Eigen::Vector3d(0.0, 0.0, 1.0);
+  const WaysOn on = rest->Ways(arrival);
+  ASSERT_EQ(on.ways.size(), 1U);  // sticking back is the way back
+  EXPECT_EQ(on.concerned, 1);
+  EXPECT_EQ(on.ways[0].states, States{kSlipPlus});
+  const double norm = std::sqrt(5.0);
+  EXPECT_NEAR(on.ways[0].load_rate, 2.0 / norm, 1e-15);
+  EXPECT_NEAR(on.ways[0].direction[0], 1.0 / norm, 1e-15);
+  EXPECT_NEAR(on.ways[0].dissipation_rate, 0.5 / norm, 1e-15);
+  EXPECT_NEAR(on.ways[0].turn, std::atan(0.5), 1e-14);
+}
+
+TEST(FindWays, SlippingItMaySlipOnOrStick) {
+  const auto rest = RestingNode(Diagonal(2.0, 2.0), Vector2d(1.0, 0.0), 0.5, 1.0, -0.5, kSlipPlus);
+  Arrival arrival;
+  arrival.direction = Eigen::Vector3d(1.0, 0.0, 2.0).normalized();
+  const WaysOn on = rest->Ways(arrival);
+  ASSERT_EQ(on.ways.size(), 2U);
+  EXPECT_EQ(on.ways[0].states, States{kSlipPlus});
+  EXPECT_NEAR(on.ways[0].turn, 0.0, 1e-7);
+  EXPECT_NEAR(on.ways[0].dissipation_rate, 0.5 / std::sqrt(5.0), 1e-15);
+  EXPECT_EQ(on.ways[1].states, States{kStick});
+  EXPECT_EQ(on.ways[1].dissipation_rate, 0.0);
+  EXPECT_NEAR(on.ways[1].load_rate, -1.0, 1e-15);
+}
+
+// Without reactions all four states are open to it; K = I, the load decides: inside the cone it sticks, beside it it slips,
+// upwards it leaves.
+TEST(FindWays, TouchingWithoutReactions) {
+  const double mu = 0.5;
+  const auto ways = [&](double fx, double fy) {
+    const auto rest = RestingNode(Diagonal(1.0, 1.0), Vector2d(fx, fy), mu, 0.0, 0.0, kStick);
+    return rest->FromStart(1.0);
+  };
+  const WaysOn pressed = ways(0.3, -1.0);
+  ASSERT_EQ(pressed.ways.size(), 1U);
+  EXPECT_EQ(pressed.ways[0].states, States{kStick});
+  EXPECT_EQ(pressed.combinations, 4);
+  for (const double sign : {1.0, -1.0}) {
+    const WaysOn beside = ways(sign * 0.8, -1.0);
+    ASSERT_EQ(beside.ways.size(), 1U);
+    EXPECT_EQ(beside.ways[0].states, States{sign > 0.0 ? kSlipPlus : kSlipMinus});
+    // du = 0.8 - mu for ds = 1.
+    EXPECT_NEAR(beside.ways[0].direction[0] / beside.ways[0].load_rate, sign * 0.3, 1e-15);
+    EXPECT_EQ(beside.ways[0].dissipation_rate, 0.0);  // no reaction yet
+  }
+  const WaysOn lifted = ways(0.3, 1.0);
+  ASSERT_EQ(lifted.ways.size(), 1U);
+  EXPECT_EQ(lifted.ways[0].states, States{kOpen});
+  EXPECT_NEAR(lifted.ways[0].direction[1] / lifted.ways[0].load_rate, 1.0, 1e-15);
+}
+
+TEST(FindWays, FrictionlessContactIsOpenOrClosed) {
+  for (const double sign : {1.0, -1.0}) {
+    const auto rest = RestingNode(Diagonal(1.0, 1.0), Vector2d(0.3, -1.0), 0.0, 0.0, 0.0, kClosed);
+    const WaysOn on = rest->FromStart(sign);
+    ASSERT_EQ(on.ways.size(), 1U);
+    EXPECT_EQ(on.ways[0].states, States{sign > 0.0 ? kClosed : kOpen});
+    EXPECT_EQ(on.combinations, 2);
+  }
+}
+
+// Klarbring's example: mu = 2 > K_tt / |K_nt|. With the reaction gone, load as on the way up, stick, slip and open are all possible.
+TEST(FindWays, SeveralWaysAtOnce) {
+  Eigen::Matrix2d stiffness;
+  stiffness << 1.0, -1.5, -1.5, 4.0;
+  const double mu = 1.0;
+  // At the edge of the cone: (K_tt + mu K_nt) du = ds: negative, so slip towards +x goes with the load falling.
+  const auto rest = RestingNode(stiffness, Vector2d(1.0, 0.0), mu, 1.0, -1.0, kStick);
+  Arrival arrival;
+  arrival.direction = Eigen::Vector3d(0.0, 0.0, 1.0);
+  const WaysOn on = rest->Ways(arrival);
+  ASSERT_EQ(on.ways.size(), 1U);
+  EXPECT_EQ(on.ways[0].states, States{kSlipPlus});
+  EXPECT_NEAR(on.ways[0].load_rate / on.ways[0].direction[0], -0.5, 1e-15);
+  EXPECT_NEAR(on.ways[0].dissipation_rate, on.ways[0].direction[0], 1e-15);
+  // Where it lifts off: slip no further; open with ds/du = 1.75 / 4.
+  const auto lifting = RestingNode(stiffness, Vector2d(1.0, 0.0), mu, 0.0, 0.0, kSlipPlus);
+  arrival.direction = Eigen::Vector3d(1.0, 0.0, -0.5).normalized();
+  const WaysOn open = lifting->Ways(arrival);
+  ASSERT_FALSE(open.ways.empty());
+  EXPECT_EQ(open.ways[0].states, States{kOpen});
+  EXPECT_NEAR(open.ways[0].load_rate / open.ways[0].direction[0], 0.4375, 1e-15);
+}
+
+// ----- against an enumeration of its own -----
+
+struct Ray {
+  VectorXd direction;  // (du, ds)
+  double dissipation = 0.0;
+};
+
+// Nodes with one contact each at the origin of their own frame; K couples them. Everything dense and by the definitions.
+struct LinearProblem {
+  MatrixXd stiffness;            // 2n x 2n
+  VectorXd load;                 // 2n
+  std::vector<double> angle;     // of the normal of each contact
+  std::vector<double> friction;  // > 0
+  std::vector<double> rn, rt;
+  std::vector<ContactState> states;
+
+  Index n() const { return static_cast<Index>(angle.size()); }
+  Vector2d Normal(Index i) const { return {std::cos(angle[Size(i)]), std::sin(angle[Size(i)])}; }
+  Vector2d Tangent(Index i) const { return {Normal(i).y(), -Normal(i).x()}; }
+  static std::size_t Size(Index i) { return static_cast<std::size_t>(i); }
+
+  Scene ToScene() const {
+    Scene scene;
+    Superelement part;
+    for (Index i = 0; i < n(); ++i) {
+      const std::string name = "n" + std::to_string(i);
+      scene.nodes.push_back({name, 3.0 * static_cast<double>(i), 0.0, false, false});
+      part.nodes.push_back(name);
+      scene.loads.push_back({name, load[2 * i], load[2 * i + 1], false});
+      const Vector2d reaction = rn[Size(i)] * Normal(i) + rt[Size(i)] * Tangent(i);
+      scene.loads.push_back({name, -reaction.x(), -reaction.y(), true});
+      scene.obstacles.push_back({"o" + std::to_string(i), ObstacleShape::kHalfPlane, 3.0 * static_cast<double>(i), 0.0,
+                                 Normal(i).x(), Normal(i).y(), friction[Size(i)]});
+      scene.contacts.push_back({name, "o" + std::to_string(i)});
+    }
+    for (Index row = 0; row < 2 * n(); ++row)
+      for (Index column = 0; column < 2 * n(); ++column) part.stiffness.push_back(stiffness(row, column));
+    scene.superelements = {part};
+    return scene;
+  }
+
+  // All admissible rays, the way back included. nearest: how near to zero a decisive rate came.
+  std::vector<Ray> Rays(double* nearest) const {
+    std::vector<Ray> rays;
+    *nearest = 1.0;
+    States combination(Size(n()), kOpen);
+    Enumerate(0, &combination, &rays, nearest);
+    return rays;
+  }
+
+ private:
+  bool Loaded(Index i) const { return rn[Size(i)] > 0.0; }
+  bool AtEdge(Index i, double sign) const {  // rt = -sign mu rn
+    return std::abs(friction[Size(i)] * rn[Size(i)] + sign * rt[Size(i)]) < 1e-12;
+  }
+  bool Possible(Index i, ContactState state) const {
+    switch (state) {
+      case ContactState::kOpen: return !Loaded(i);
+      case ContactState::kStick: return true;
+      case ContactState::kSlipPlus: return AtEdge(i, 1.0);
+      case ContactState::kSlipMinus: return AtEdge(i, -1.0);
+      case ContactState::kClosed: break;
+    }
+    return false;
+  }
+
+  void Enumerate(Index i, States* combination, std::vector<Ray>* rays, double* nearest) const {
+    if (i == n()) {
+      Try(*combination, rays, nearest);
+      return;
+    }
+    for (const ContactState state : {kOpen, kStick, kSlipPlus, kSlipMinus}) {
+      if (!Possible(i, state)) continue;
+      (*combination)[Size(i)] = state;
+      Enumerate(i + 1, combination, rays, nearest);
+    }
+  }
+
+  // Unknowns (du, ds, drn, drt): K du - ds f - sum (drn n + drt t) = 0 and two equations a contact.
+  void Try(const States& combination, std::vector<Ray>* rays, double* nearest) const {
+    const Index size = 4 * n() + 1;
+    MatrixXd equations = MatrixXd::Zero(4 * n(), size);
+    equations.topLeftCorner(2 * n(), 2 * n()) = stiffness;
+    equations.block(0, 2 * n(), 2 * n(), 1) = -load;
+    for (Index i = 0; i < n(); ++i) {
+      const Index rn_column = 2 * n() + 1 + 2 * i, rt_column = rn_column + 1, row = 2 * n() + 2 * i;
+      equations.block(2 * i, rn_column, 2, 1) = -Normal(i);
+      equations.block(2 * i, rt_column, 2, 1) = -Tangent(i);
+      const double mu = friction[Size(i)];
+      switch (combination[Size(i)]) {
+        case ContactState::kOpen:
+          equations(row, rn_column) = 1.0;
+          equations(row + 1, rt_column) = 1.0;
+          break;
+        case ContactState::kStick:
+          equations.block(row, 2 * i, 1, 2) = Normal(i).transpose();
+          equations.block(row + 1, 2 * i, 1, 2) = Tangent(i).transpose();
+          break;
+        default:
+          equations.block(row, 2 * i, 1, 2) = Normal(i).transpose();
+          equations(row + 1, rt_column) = 1.0;
+          equations(row + 1, rn_column) = combination[Size(i)] == kSlipPlus ? mu : -mu;
+      }
+    }
+    const Eigen::JacobiSVD<MatrixXd> svd(equations, Eigen::ComputeFullV);
+    *nearest = std::min(*nearest, svd.singularValues()[4 * n() - 1]);
+    const VectorXd null_vector = svd.matrixV().col(size - 1);
+    const double norm = null_vector.head(2 * n() + 1).norm();
+    *nearest = std::min(*nearest, norm);
+    for (const double sign : {1.0, -1.0}) {
+      const VectorXd x = sign / norm * null_vector;
+      Ray ray;
+      ray.direction = x.head(2 * n() + 1);
+      double smallest = 1.0;
+      for (Index i = 0; i < n(); ++i) {
+        const Vector2d du = x.segment(2 * i, 2);
+        const double drn = x[2 * n() + 1 + 2 * i], drt = x[2 * n() + 2 + 2 * i], mu = friction[Size(i)];
+        const double slip = Tangent(i).dot(du);
+        const ContactState state = combination[Size(i)];
+        if (state == kOpen) smallest = std::min(smallest, Normal(i).dot(du));
+        if (state != kOpen && !Loaded(i)) smallest = std::min(smallest, drn);
+        if (state == kStick && AtEdge(i, 1.0)) smallest = std::min(smallest, mu * drn + drt);
+        if (state == kStick && AtEdge(i, -1.0)) smallest = std::min(smallest, mu * drn - drt);
+        if (state == kSlipPlus) smallest = std::min(smallest, slip);
+        if (state == kSlipMinus) smallest = std::min(smallest, -slip);
+        if (state == kSlipPlus || state == kSlipMinus) ray.dissipation -= rt[Size(i)] * slip;
+      }
+      *nearest = std::min(*nearest, std::abs(smallest));
+      if (smallest > 0.0) rays->push_back(ray);
+    }
+  }
+};
+
+// K is not positive definite in general: what a truss near its limits is.
+LinearProblem RandomProblem(Random* random, Index n) {
+  LinearProblem problem;
+  const MatrixXd half = MatrixXd::NullaryExpr(2 * n, 2 * n, [&](Index, Index) { return random->Number(-1.0, 1.0); });
+  problem.stiffness = half * half.transpose() + random->Number(-0.3, 0.5) * MatrixXd::Identity(2 * n, 2 * n);
+  problem.load = random->Vector(2 * n, -1.0, 1.0).normalized();
+  for (Index i = 0; i < n; ++i) {
+    problem.angle.push_back(random->Number(0.0, 6.28));
+    problem.friction.push_back(random->Number(0.1, 2.0));
+    const double kind = random->Number(0.0, 1.0);
+    const double rn = kind < 0.4 ? 0.0 : random->Number(0.2, 1.0), mu = problem.friction.back();
+    const double rt = kind < 0.55 ? random->Number(-0.8, 0.8) * mu * rn : (random->Number(0.0, 1.0) < 0.5 ? mu : -mu) * rn;
+    problem.rn.push_back(rn);
+    problem.rt.push_back(rt);
+    problem.states.push_back(kStick);
+  }
+  return problem;
+}
+
+TEST(FindWays, FindsExactlyTheAdmissibleRays) {
+  Random random(1);
+  std::vector<int> with_ways(12, 0);
+  int compared = 0, close = 0;
+  for (int i = 0; i < 600; ++i) {
+    const Index n = 1 + i % 3;
+    const LinearProblem problem = RandomProblem(&random, n);
+    double nearest = 0.0;
+    const std::vector<Ray> rays = problem.Rays(&nearest);
+    if (nearest < 1e-6) {  // a rate that decides is next to zero: not a case for comparison
+      ++close;
+      continue;
+    }
+    // Generic rate problems of Coulomb friction have an even number of rays: they are the ends of curves.
+    EXPECT_EQ(rays.size() % 2, 0U) << "problem " << i;
+
+    Rest rest(problem.ToScene());
+    for (Index k = 0; k < n; ++k) {
+      rest.point.rn[k] = problem.rn[static_cast<std::size_t>(k)];
+      rest.point.rt[k] = problem.rt[static_cast<std::size_t>(k)];
+    }
+    Arrival arrival;  // from where no ray leads
+    arrival.direction = random.Vector(2 * n + 1, -1.0, 1.0).normalized();
+    const WaysOn on = rest.Ways(arrival);
+    ASSERT_EQ(on.ways.size(), rays.size()) << "problem " << i;
+    EXPECT_TRUE(on.complete);
+    for (const Ray& ray : rays) {
+      const auto way = std::min_element(on.ways.begin(), on.ways.end(), [&](const Way& a, const Way& b) {
+        return (a.direction - ray.direction).norm() < (b.direction - ray.direction).norm();
+      });
+      EXPECT_LE((way->direction - ray.direction).norm(), 1e-9) << "problem " << i;
+      EXPECT_NEAR(way->dissipation_rate, ray.dissipation, 1e-9);
+      EXPECT_NEAR(way->direction.norm(), 1.0, 1e-14);
+      EXPECT_EQ(way->load_rate, way->direction[2 * n]);
+      EXPECT_NEAR(std::cos(way->turn), way->direction.dot(arrival.direction), 1e-12);
+      EXPECT_FALSE(way->loose);
+    }
+    for (std::size_t k = 0; k + 1 < on.ways.size(); ++k) {
+      EXPECT_GE(on.ways[k].dissipation_rate, on.ways[k + 1].dissipation_rate - 1e-9);
+      const bool tie = std::abs(on.ways[k].dissipation_rate - on.ways[k + 1].dissipation_rate) < 1e-10;
+      EXPECT_TRUE(!tie || on.ways[k].turn <= on.ways[k + 1].turn + 1e-9);
+    }
+
+    // Arrived along one of them backwards: all the others.
+    if (!rays.empty()) {
+      arrival.direction = -rays[0].direction;
+      const WaysOn others = rest.Ways(arrival);
+      EXPECT_EQ(others.ways.size(), rays.size() - 1);
+      for (const Way& way : others.ways) EXPECT_GE((way.direction - rays[0].direction).norm(), 1e-6);
+    }
+    // From a start: those with the wanted sign.
+    for (const double sign : {1.0, -1.0}) {
+      const auto wanted = std::count_if(rays.begin(), rays.end(),
+                                        [&](const Ray& ray) { return sign * ray.direction[2 * n] > 0.0; });
+      EXPECT_EQ(rest.FromStart(sign).ways.size(), static_cast<std::size_t>(wanted));
+    }
+    ++with_ways[std::min<std::size_t>(rays.size(), 11)];
+    ++compared;
+  }
+  EXPECT_GE(compared, 550);
+  EXPECT_LE(close, 50);
+  EXPECT_GE(with_ways[0], 1);
+  EXPECT_GE(with_ways[2], 100);
+  EXPECT_GE(with_ways[4], 5);
+}
+
+// ----- many contacts -----
+
+// Nodes that do not know of each other, one spring each: the states of each are known, and 4^n combinations are too many.
+TEST(FindWays, ManyContactsAtOnce) {
+  Scene scene;
+  States expected;
+  Random random(2);
+  for (int i = 0; i < 12; ++i) {
+    const std::string name = "n" + std::to_string(i);
+    scene.nodes.push_back({name, static_cast<double>(i), 0.0, false, false});
+    scene.superelements.push_back({{name}, {1.0, 0.0, 0.0, 1.0}});
+    const double fx = random.Number(-1.0, 1.0), fy = random.Number(-1.0, 0.3);
+    scene.loads.push_back({name, fx, fy, false});
+    scene.contacts.push_back({name, "floor"});
+    if (fy > 0.0)
+      expected.push_back(kOpen);
+    else if (std::abs(fx) < -0.5 * fy)
+      expected.push_back(kStick);
+    else
+      expected.push_back(fx > 0.0 ? kSlipPlus : kSlipMinus);
+  }
+  scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.5}};
+  Rest rest(scene);
+  const WaysOn on = rest.FromStart(1.0);
+  EXPECT_EQ(on.concerned, 12);
+  EXPECT_FALSE(on.complete);
+  EXPECT_LE(on.combinations, 100);
+  ASSERT_EQ(on.ways.size(), 1U);
+  EXPECT_EQ(on.ways[0].states, expected);
+}
+
+// Unloaded contacts, all touching, ds = 1: the admissible ways by trying all 4^n combinations on the compliance.
+std::vector<VectorXd> WaysWithRisingLoad(const LinearProblem& problem) {
+  using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 14, 14>;
+  using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 14, 1>;
+  const Index n = problem.n();
+  const MatrixXd compliance = problem.stiffness.inverse();
+  MatrixXd directions = MatrixXd::Zero(2 * n, 2 * n);  // columns n, t of each contact
+  for (Index i = 0; i < n; ++i) {
+    directions.block(2 * i, 2 * i, 2, 1) = problem.Normal(i);
+    directions.block(2 * i, 2 * i + 1, 2, 1) = problem.Tangent(i);
+  }
+  const MatrixXd motion = directions.transpose() * compliance * directions;  // of the contacts, by their reactions
+  const VectorXd free_motion = directions.transpose() * compliance * problem.load;
+  std::vector<VectorXd> ways;
+  for (int code = 0; code < 1 << (2 * n); ++code) {
+    SmallMatrix matrix = SmallMatrix::Zero(2 * n, 2 * n);
+    SmallVector right = SmallVector::Zero(2 * n);
+    for (Index i = 0; i < n; ++i) {
+      const int state = code >> (2 * i) & 3;  // open, stick, slip+, slip-
+      const double mu = problem.friction[static_cast<std::size_t>(i)];
+      const bool touches = state != 0;
+      if (touches) {
+        matrix.row(2 * i) = motion.row(2 * i);
+        right[2 * i] = -free_motion[2 * i];
+      } else {
+        matrix(2 * i, 2 * i) = 1.0;
+      }
+      if (state == 1) {
+        matrix.row(2 * i + 1) = motion.row(2 * i + 1);
+        right[2 * i + 1] = -free_motion[2 * i + 1];
+      } else {
+        matrix(2 * i + 1, 2 * i + 1) = 1.0;
+        if (touches) matrix(2 * i + 1, 2 * i) = state == 2 ? mu : -mu;
+      }
+    }
+    const SmallVector r = matrix.partialPivLu().solve(right);
+    const SmallVector moved = free_motion + motion * r;
+    bool admissible = true;
+    for (Index i = 0; i < n && admissible; ++i) {
+      const int state = code >> (2 * i) & 3;
+      const double mu = problem.friction[static_cast<std::size_t>(i)];
+      if (state == 0) admissible = moved[2 * i] > 0.0;
+      if (state == 1) admissible = mu * r[2 * i] > std::abs(r[2 * i + 1]);
+      if (state >= 2) admissible = r[2 * i] > 0.0 && (state == 2 ? 1.0 : -1.0) * moved[2 * i + 1] > 0.0;
+    }
+    if (!admissible) continue;
+    VectorXd way(2 * n + 1);
+    way << compliance * (problem.load + directions * r), 1.0;
+    ways.push_back(way.normalized());
+  }
+  return ways;
+}
+
+// More contacts than are enumerated: what is found is admissible, and something is found where there is a way.
+TEST(FindWays, ManyCoupledContacts) {
+  Random random(3);
+  int found = 0, missed = 0;
+  for (int i = 0; i < 36; ++i) {
+    const Index n = 7;
+    LinearProblem problem = RandomProblem(&random, n);
+    problem.stiffness = problem.stiffness * problem.stiffness + 0.5 * MatrixXd::Identity(2 * n, 2 * n);
+    for (std::size_t k = 0; k < 7; ++k) {
+      problem.friction[k] = 0.3;
+      problem.rn[k] = problem.rt[k] = 0.0;
+    }
+    const std::vector<VectorXd> all = WaysWithRisingLoad(problem);
+    Rest rest(problem.ToScene());
+    const WaysOn on = rest.FromStart(1.0);
+    EXPECT_FALSE(on.complete);
+    for (const Way& way : on.ways) {
+      double distance = 1.0;
+      for (const VectorXd& other : all) distance = std::min(distance, (other - way.direction).norm());
+      EXPECT_LE(distance, 1e-9) << "problem " << i;
+    }
+    if (!on.ways.empty()) ++found;
+    if (on.ways.empty() && !all.empty()) {
+      ++missed;
+      ADD_FAILURE() << "problem " << i << ": none of " << all.size() << " ways was found";
+    }
+  }
+  EXPECT_GE(found, 30);
+  EXPECT_EQ(missed, 0);
+}
+
+// ----- symmetry, rigid modes -----
+
+// Two feet on a rough floor, one pressed as the other: each may slide alone, which breaks the symmetry, or both.
+TEST(FindWays, WaysThatBreakASymmetryAreTwins) {
+  const TracedPath path = [] {
+    TraceRequest request = ReadExample("rough_truss");
+    request.scene.nodes[0] = {"left", -1.0, 0.0, false, false};
+    request.scene.contacts.push_back({"left", "floor"});
+    return TraceRows(request);
+  }();
+  const auto corner = std::find_if(path.rows.begin(), path.rows.end(),
+                                   [](const Increment& row) { return row.kind == RowKind::kCornerLimit; });
+  ASSERT_NE(corner, path.rows.end());
+  EXPECT_NEAR(corner->load_factor, rough_truss::CornerLoad(), 1e-14);
+  ASSERT_EQ(corner->event.ways.size(), 3U);
+  EXPECT_EQ(corner->event.ways[0].states, (States{kSlipPlus, kSlipMinus}));
+  EXPECT_EQ(corner->event.taken, 0);
+  EXPECT_NEAR(corner->event.ways[1].dissipation_rate, corner->event.ways[2].dissipation_rate, 1e-12);
+  EXPECT_NEAR(corner->event.ways[1].load_rate, corner->event.ways[2].load_rate, 1e-12);
+}
+
+// Two bars in a row, hinged and free at the end.
+TEST(FindWays, RigidModes) {
+  Scene scene;
+  scene.nodes = {{"a", 0.0, 0.0, true, true}, {"b", 1.0, 0.0, false, false}, {"c", 2.0, 0.5, false, false}};
+  scene.bars = {{{"a", "b"}, 1.0, 0.0, StrainMeasure::kBiot}, {{"b", "c"}, 1.0, 0.0, StrainMeasure::kBiot}};
+  scene.loads = {{"b", 1.0, 0.0, false}};
+  Rest rest(scene);
+  const WaysOn on = rest.FromStart(1.0);
+  // The load stretches the first bar; the second swings freely, and of all motions that keep its length this is the shortest.
+  ASSERT_EQ(on.ways.size(), 1U);
+  EXPECT_FALSE(on.ways[0].loose);
+  EXPECT_NEAR(on.ways[0].direction[1] / on.ways[0].direction[0], -1.0 / 3.0, 1e-12);
+  EXPECT_NEAR(on.ways[0].load_rate / on.ways[0].direction[0], 1.0, 1e-12);
+  // Nothing bears a load across the bars.
+  scene.loads = {{"c", 0.0, 1.0, false}};
+  EXPECT_TRUE(Rest(scene).FromStart(1.0).ways.empty());
+}
+
+}  // namespace
+}  // namespace contact_path
