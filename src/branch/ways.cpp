@@ -348,6 +348,10 @@ WaysOn FindWays(const Structure& structure, const std::vector<ContactGeometry>& 
     TryAll(options, &finder, &result);
   else
     TryLikely(options, point, arrival, mpec, &finder, &result);
+  if (result.ways.empty() && !result.complete && combinations <= kMostIfNone) {
+    TryAll(options, &finder, &result);
+    result.complete = true;
+  }
   FindTwins(&result.ways);
   std::stable_sort(result.ways.begin(), result.ways.end(), Better);
   return result;
