@@ -20,6 +20,7 @@ constexpr double kSingularRank = 1e-6;  // rank tolerance where another path cro
 constexpr Eigen::Index kMostDenseEquations = 500;  // for a dense singular value decomposition
 constexpr double kRigid = 1e-9;                    // singular value below which load and reactions do not change
 constexpr double kMostCombinations = 4096.0;       // 4^6
+constexpr double kMostIfNone = 65536.0;            // 4^8: tried before the path is said to end
 constexpr double kRateLength = 1e-5;               // scaled length of an increment that stands for a rate
 
 using States = std::vector<ContactState>;

@@ -1,0 +1,596 @@
+// Closed forms, on every row, for all presets and for short and long steps.
+#include "contact_path/path/branch_method.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "branch/example_scenes.h"
+#include "support/reference_cases.h"
+#include "support/traced_path.h"
+
+namespace contact_path {
+namespace {
+
+struct Setting {
+  Accuracy accuracy = Accuracy::kBalanced;
+  double step = 0.0;
+};
+
+std::string Name(const testing::TestParamInfo<Setting>& info) {
+  const std::string step = info.param.step == 0.0 ? "" : info.param.step < 0.02 ? "ShortSteps" : "LongSteps";
+  return std::string(ToString(info.param.accuracy)) + step;
+}
+
+// Zero of a function near x by the secant method.
+double Root(const std::function<double(double)>& function, double x0, double x1) {
+  double f0 = function(x0), f1 = function(x1);
+  for (int i = 0; i < 60 && f1 != 0.0 && f1 != f0; ++i) {
+    const double x2 = x1 - f1 * (x1 - x0) / (f1 - f0);
+    x0 = x1;
+    f0 = f1;
+    x1 = x2;
+    f1 = function(x1);
+  }
+  return x1;
+}
+
+std::vector<Increment> RowsOfKind(const TracedPath& path, RowKind kind) {
+  std::vector<Increment> rows;
+  for (const Increment& row : path.rows)
+    if (row.kind == kind) rows.push_back(row);
+  return rows;
+}
+
+// Largest |external work - change of energy - dissipation| over the characteristic energy.
+double EnergyImbalance(const TracedPath& path) {
+  const Scaling scaling = CharacteristicScales(path.request.scene);
+  double worst = 0.0;
+  for (const Increment& row : path.rows)
+    worst = std::max(worst, std::abs(row.external_work - (row.strain_energy - path.rows[0].strain_energy) - row.dissipation));
+  return worst / (scaling.force * scaling.length);
+}
+
+class ClosedForm : public testing::TestWithParam<Setting> {
+ protected:
+  // residual: of the rows. Where other paths cross, the equations are singular and a row is less exact.
+  TracedPath Trace(TraceRequest request, double residual = 1e-13) const {
+    request.options.accuracy = GetParam().accuracy;
+    request.options.step = GetParam().step;
+    request.options.max_increments = 20000;
+    const TracedPath path = TraceRows(request);
+    ExpectSoundRows(path, residual);
+    // Work is integrated along the interpolation of a step: the longest steps are the worst.
+    EXPECT_LE(EnergyImbalance(path), GetParam().accuracy == Accuracy::kFast ? 5e-9 : 1e-9);
+    return path;
+  }
+  TracedPath TraceExample(const std::string& name) const { return Trace(ReadExample(name)); }
+  TracedPath TraceScene(const Scene& scene, const std::vector<StopCriterion>& stop, double residual = 1e-13) const {
+    TraceRequest request;
+    request.scene = scene;
+    request.options.stop = stop;
+    return Trace(request, residual);
+  }
+};
+
+constexpr double kExact = 2e-13;      // of loads, reactions and positions
+constexpr double kCrossing = 1e-9;    // the same where other paths cross
+constexpr double kDissipation = 1e-9;
+
+TEST_P(ClosedForm, SlidingBar) {
+  namespace bar = sliding_bar;
+  const TracedPath path = TraceExample("sliding_bar");
+  EXPECT_EQ(path.result.reason, EndReason::kStopCriterion);
+  double worst = 0.0, dissipated = 0.0;
+  for (const Increment& row : path.rows) {
+    const double x = PositionX(path, row, "b");
+    const ContactRecord& contact = Contact(path, row, "b@floor");
+    worst = std::max({worst, std::abs(row.load_factor - bar::LoadFactor(x)), std::abs(contact.rn - bar::NormalReaction(x)),
+                      std::abs(contact.rt + bar::kFriction * contact.rn), std::abs(PositionY(path, row, "b"))});
+    dissipated = std::max(dissipated, std::abs(row.dissipation - bar::Dissipation(x)));
+    if (row.index > 0) {
+      EXPECT_EQ(contact.state, ContactState::kSlipPlus);
+    }
+  }
+  EXPECT_LE(worst, kExact);
+  EXPECT_LE(dissipated, kDissipation);
+
+  const std::vector<Increment> limits = RowsOfKind(path, RowKind::kSmoothLimit);
+  ASSERT_EQ(limits.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double x = Root(bar::LoadFactorSlope, i == 0 ? -2.0 : 3.2, i == 0 ? -1.9 : 3.3);
+    EXPECT_NEAR(x, i == 0 ? bar::kFirstLimitX : bar::kSecondLimitX, 1e-7);  // as known before
+    EXPECT_NEAR(limits[i].load_factor, bar::LoadFactor(x), 1e-13);
+    EXPECT_NEAR(PositionX(path, limits[i], "b"), x, 1e-10);
+  }
+  // No other kinds of rows, but where the last step reaches x = 5 (below).
+  const std::size_t last = path.rows.back().kind == RowKind::kContactEvent ? 1 : 0;
+  EXPECT_EQ(RowsOfKind(path, RowKind::kRegular).size() + 3 + last, path.rows.size());
+}
+
+// The reaction vanishes where the bar has its initial length again, and load and bar force with it.
+TEST_P(ClosedForm, SlidingBarUntilItComesLoose) {
+  TraceRequest request = ReadExample("sliding_bar");
+  request.options.stop = {{"b.x", ">", 5.5}};
+  const TracedPath path = Trace(request);
+  const std::vector<Increment> events = RowsOfKind(path, RowKind::kContactEvent);
+  ASSERT_GE(events.size(), 1U);
+  EXPECT_NEAR(PositionX(path, events[0], "b"), 5.0, kExact);
+  EXPECT_NEAR(events[0].load_factor, 0.0, kExact);
+  EXPECT_NEAR(events[0].dissipation, sliding_bar::Dissipation(5.0), kDissipation);
+}
+
+TEST_P(ClosedForm, RoughTruss) {
+  namespace truss = rough_truss;
+  const TracedPath path = TraceExample("rough_truss");
+  EXPECT_EQ(path.result.reason, EndReason::kStopCriterion);
+  double worst = 0.0, dissipated = 0.0;
+  for (const Increment& row : path.rows) {
+    const ContactRecord& foot = Contact(path, row, "foot@floor");
+    const double x = PositionX(path, row, "foot"), y = PositionY(path, row, "apex");
+    worst = std::max({worst, std::abs(PositionY(path, row, "foot")), std::abs(PositionX(path, row, "apex") - 0.5 * (x - 1.0)),
+                      std::abs(foot.rn - 0.5 * row.load_factor)});
+    if (foot.state == ContactState::kStick) {
+      worst = std::max({worst, std::abs(x - 1.0), std::abs(row.load_factor - truss::StickingLoad(y)),
+                        std::abs(foot.rt + 0.5 * row.load_factor / y)});
+      EXPECT_EQ(row.dissipation, 0.0);
+    } else {
+      ASSERT_EQ(foot.state, ContactState::kSlipPlus);
+      worst = std::max({worst, std::abs(row.load_factor - truss::SlidingLoad(x)), std::abs(y - 0.5 * (x + 1.0))});
+      dissipated = std::max(dissipated, std::abs(row.dissipation - truss::Dissipation(x)));
+    }
+  }
+  EXPECT_LE(worst, kExact);
+  EXPECT_LE(dissipated, kDissipation);
+  const std::vector<Increment> corners = RowsOfKind(path, RowKind::kCornerLimit);
+  ASSERT_EQ(corners.size(), 1U);
+  EXPECT_NEAR(corners[0].load_factor, truss::CornerLoad(), 1e-14);
+  EXPECT_TRUE(RowsOfKind(path, RowKind::kSmoothLimit).empty());
+  // Where the load is gone, all that was stored has been dissipated.
+  EXPECT_NEAR(path.rows.back().load_factor, 0.0, 1e-9);
+  EXPECT_NEAR(path.rows.back().dissipation, truss::TotalDissipation(), kDissipation);
+}
+
+TEST_P(ClosedForm, TwoDofFriction) {
+  const TracedPath path = TraceExample("two_dof_friction");
+  double worst = 0.0, dissipated = 0.0;
+  for (const Increment& row : path.rows) {
+    const double x = PositionX(path, row, "p"), y = PositionY(path, row, "p"), s = row.load_factor;
+    const ContactRecord& contact = Contact(path, row, "p@floor");
+    // s, y, rn, rt of the three pieces; while it slips the work of friction is the integral of 1 - 1.5 x.
+    double work = 0.0;
+    if (contact.state == ContactState::kStick) {
+      worst = std::max({worst, std::abs(x), std::abs(y), std::abs(contact.rn - 1.0), std::abs(contact.rt + s)});
+    } else if (contact.state == ContactState::kSlipPlus) {
+      worst = std::max({worst, std::abs(s - (1.0 - 0.5 * x)), std::abs(y), std::abs(contact.rn - (1.0 - 1.5 * x)),
+                        std::abs(contact.rt + contact.rn)});
+      work = x - 0.75 * x * x;
+    } else {
+      worst = std::max({worst, std::abs(x - (4.0 * s - 1.5) / 1.75), std::abs(y - (1.5 * s - 1.0) / 1.75), contact.rn});
+      work = 1.0 / 3.0;
+    }
+    dissipated = std::max(dissipated, std::abs(row.dissipation - work));
+  }
+  EXPECT_LE(worst, kExact);
+  EXPECT_LE(dissipated, 1e-13);
+  const std::vector<Increment> corners = RowsOfKind(path, RowKind::kCornerLimit);
+  ASSERT_EQ(corners.size(), 2U);
+  EXPECT_NEAR(corners[0].load_factor, 1.0, 1e-14);
+  EXPECT_NEAR(corners[1].load_factor, 2.0 / 3.0, 1e-14);
+  EXPECT_NEAR(PositionX(path, corners[1], "p"), 2.0 / 3.0, 1e-14);
+}
+
+TEST_P(ClosedForm, VonMisesTruss) {
+  struct Case {
+    StrainMeasure strain;
+    std::function<double(double)> tension;  // by l / l0, EA = 1
+  };
+  const std::vector<Case> cases = {
+      {StrainMeasure::kBiot, [](double stretch) { return stretch - 1.0; }},
+      {StrainMeasure::kGreenLagrange, [](double stretch) { return 0.5 * (stretch * stretch - 1.0) * stretch; }},
+      {StrainMeasure::kLogarithmic, [](double stretch) { return std::log(stretch) / stretch; }}};
+  for (const Case& form : cases) {
+    for (const double rise : {0.3, 1.0}) {
+      SCOPED_TRACE(std::string(ToString(form.strain)) + ", rise " + std::to_string(rise));
+      TraceRequest request = ReadExample("von_mises");
+      request.scene.nodes[1].y = rise;
+      for (Bar& bar : request.scene.bars) bar.strain = form.strain;
+      request.options.stop = {{"apex.y", "<", -1.2 * rise}};
+      const TracedPath path = Trace(request);
+      EXPECT_EQ(path.result.reason, EndReason::kStopCriterion);
+      const double rest = std::hypot(1.0, rise);
+      const auto load = [&](double y) { return -2.0 * form.tension(std::hypot(1.0, y) / rest) * y / std::hypot(1.0, y); };
+      double worst = 0.0;
+      for (const Increment& row : path.rows)
+        worst = std::max({worst, std::abs(PositionX(path, row, "apex")), std::abs(row.load_factor - load(PositionY(path, row, "apex")))});
+      EXPECT_LE(worst, kExact);
+      const std::vector<Increment> limits = RowsOfKind(path, RowKind::kSmoothLimit);
+      ASSERT_EQ(limits.size(), 2U);
+      const auto slope = [&](double y) { return (load(y + 1e-5) - load(y - 1e-5)) / 2e-5; };
+      const double y = Root(slope, 0.5 * rise, 0.6 * rise);
+      double limit = load(y);
+      if (form.strain == StrainMeasure::kBiot) limit = von_mises::BiotLimit(1.0, rise);
+      if (form.strain == StrainMeasure::kGreenLagrange) limit = von_mises::GreenLagrangeLimit(1.0, rise);
+      EXPECT_NEAR(limits[0].load_factor, limit, 1e-14);
+      EXPECT_NEAR(limits[1].load_factor, -limit, 1e-14);
+      EXPECT_NEAR(PositionY(path, limits[0], "apex"), -PositionY(path, limits[1], "apex"), 1e-10);
+    }
+  }
+}
+
+TEST_P(ClosedForm, RigidStop) {
+  const TracedPath path = TraceExample("rigid_stop");
+  double worst = 0.0;
+  for (const Increment& row : path.rows) {
+    const ContactRecord& contact = Contact(path, row, "b@wall");
+    worst = std::max({worst, std::abs(PositionX(path, row, "b") - std::min(1.1, 1.0 + row.load_factor)),
+                      std::abs(contact.rn - std::max(0.0, row.load_factor - 0.1)),
+                      std::abs(contact.gap - std::max(0.0, 0.1 - row.load_factor))});
+  }
+  EXPECT_LE(worst, 1e-14);
+  const std::vector<Increment> events = RowsOfKind(path, RowKind::kContactEvent);
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_NEAR(events[0].load_factor, 0.1, 1e-15);
+}
+
+// The block sticks until its bars pull with mu, slides in while the load falls, and stops at the end of its path.
+TEST_P(ClosedForm, SnapBlock) {
+  const TracedPath path = TraceScene(snap_block::MakeScene(), {}, kCrossing);
+  EXPECT_EQ(path.result.reason, EndReason::kPathEnd) << path.result.message;
+  for (const Increment& row : path.rows) {
+    const ContactRecord& contact = Contact(path, row, "p@floor");
+    const double w = PositionX(path, row, "p"), y = PositionY(path, row, "up");
+    // w is given by y only to the square root of rounding where the path ends.
+    const double load = contact.state == ContactState::kStick ? snap_block::StickingLoad(y) : (0.8 - 1.0 / snap_block::Length(w)) * y;
+    const double height = contact.state == ContactState::kStick ? 0.0 : y * y - snap_block::Length(w) * snap_block::Length(w) + w * w;
+    const double error = std::max({std::abs(row.load_factor - load), std::abs(height), std::abs(y + PositionY(path, row, "down")),
+                                   std::abs(contact.rn - 1.0), std::abs(row.dissipation - snap_block::Dissipation(w))});
+    EXPECT_LE(error, row.kind == RowKind::kBifurcation ? kCrossing : kExact) << "row " << row.index;
+  }
+  const std::vector<Increment> corners = RowsOfKind(path, RowKind::kCornerLimit);
+  ASSERT_EQ(corners.size(), 1U);
+  EXPECT_NEAR(corners[0].load_factor, snap_block::StickingLoad(std::sqrt(1.0 / 0.49 - 1.0)), 1e-14);
+  // Where the two nodes may part from each other: (0.8 - 1 / l) + y^2 / l^3 = 0.
+  const std::vector<Increment> crossings = RowsOfKind(path, RowKind::kBifurcation);
+  ASSERT_EQ(crossings.size(), 1U);
+  const auto stiffness = [](double w) {
+    const double l = snap_block::Length(w), y = snap_block::Height(w);
+    return 0.8 - 1.0 / l + y * y / (l * l * l);
+  };
+  EXPECT_NEAR(PositionX(path, crossings[0], "p"), Root(stiffness, 0.8, 0.75), 1e-6);
+  const Increment& last = path.rows.back();
+  EXPECT_NEAR(PositionX(path, last, "p"), snap_block::kEndX, 1e-13);
+  EXPECT_NEAR(PositionY(path, last, "up"), 0.0, 1e-11);
+  EXPECT_NEAR(last.load_factor, 0.0, 1e-11);
+  EXPECT_TRUE(last.event.ways.empty());
+  EXPECT_EQ(last.event.taken, -1);
+  EXPECT_EQ(last.event.concerned, 1);
+}
+
+// A node beside a von Mises truss that comes to a ceiling from below, slides along it and leaves it, for ceilings that cut the circle by
+// much and by next to nothing.
+TEST_P(ClosedForm, TouchAndLeave) {
+  for (const double clearance : {-1e-2, -1e-3, -1e-6, -1e-9}) {
+    for (const double friction : {0.0, 0.5}) {
+      SCOPED_TRACE(std::to_string(clearance * 1e9) + "e-9, mu " + std::to_string(friction));
+      const TracedPath path = TraceScene(swing::MakeScene(clearance, friction), {{"apex.y", "<", 0.7}});
+      EXPECT_EQ(path.result.reason, EndReason::kStopCriterion);
+      const std::vector<Increment> events = RowsOfKind(path, RowKind::kContactEvent);
+      ASSERT_EQ(events.size(), 2U);
+      const double theta = swing::TouchingAngle(clearance);
+      for (const double side : {1.0, -1.0}) {  // it touches at +theta, and leaves without reaction at -theta
+        const Increment& event = events[side > 0.0 ? 0 : 1];
+        EXPECT_NEAR(event.load_factor, swing::Load(side * theta), 1e-10);
+        EXPECT_NEAR(PositionX(path, event, "q"), swing::kCentreX + side * swing::kRadius * std::sin(theta), 1e-9);
+        EXPECT_NEAR(PositionY(path, event, "apex"), swing::ApexY(side * theta), 1e-9);
+      }
+      for (const Increment& row : path.rows) {
+        const bool between = row.index > events[0].index && row.index <= events[1].index;
+        const ContactState touching = friction > 0.0 ? ContactState::kSlipPlus : ContactState::kClosed;  // towards -x
+        EXPECT_EQ(Contact(path, row, "q@ceiling").state, between ? touching : ContactState::kOpen);
+        if (between) continue;
+        // Else it is on the circle, and the truss does not know of it.
+        EXPECT_NEAR(row.load_factor, von_mises::BiotLoad(1.0, 1.0, PositionY(path, row, "apex")), kExact);
+        EXPECT_NEAR(std::hypot(PositionX(path, row, "q") - swing::kCentreX, PositionY(path, row, "q") - swing::kCentreY),
+                    swing::kRadius, kExact);
+      }
+    }
+  }
+}
+
+// The same with a ceiling that the circle does not reach, by little.
+TEST_P(ClosedForm, MissByALittle) {
+  for (const double clearance : {1e-9, 1e-6, 1e-3}) {
+    for (const double friction : {0.0, 0.5}) {
+      SCOPED_TRACE(std::to_string(clearance * 1e9) + "e-9, mu " + std::to_string(friction));
+      const TracedPath path = TraceScene(swing::MakeScene(clearance, friction), {{"apex.y", "<", 0.7}});
+      EXPECT_EQ(path.result.reason, EndReason::kStopCriterion);
+      for (const Increment& row : path.rows) {
+        EXPECT_NEAR(row.load_factor, von_mises::BiotLoad(1.0, 1.0, PositionY(path, row, "apex")), kExact);
+        EXPECT_EQ(row.contacts[0].state, ContactState::kOpen);
+        EXPECT_TRUE(row.index == 0 || row.kind == RowKind::kRegular);
+      }
+    }
+  }
+}
+
+// A ceiling that the circle touches in one point, without pressing: whatever it is called next to there, nothing comes of it.
+TEST_P(ClosedForm, Graze) {
+  for (const double friction : {0.0, 0.5}) {
+    SCOPED_TRACE("mu " + std::to_string(friction));
+    TraceRequest request;
+    request.scene = swing::MakeScene(0.0, friction);
+    request.options.accuracy = GetParam().accuracy;
+    request.options.step = GetParam().step;
+    request.options.stop = {{"apex.y", "<", 0.7}};
+    request.options.max_increments = 20000;
+    const TracedPath path = TraceRows(request);
+    EXPECT_EQ(path.result.reason, EndReason::kStopCriterion);
+    EXPECT_LE(EnergyImbalance(path), 1e-9);
+    for (const Increment& row : path.rows) {
+      const ContactRecord& contact = Contact(path, row, "q@ceiling");
+      EXPECT_NEAR(row.load_factor, von_mises::BiotLoad(1.0, 1.0, PositionY(path, row, "apex")), 1e-11);
+      EXPECT_NEAR(contact.rn, 0.0, 1e-11);
+      EXPECT_LE(row.residuals.Contact(), 1e-11);
+      const double from_top = std::abs(PositionX(path, row, "q") - swing::kCentreX);
+      EXPECT_TRUE(contact.state == ContactState::kOpen || from_top < 1e-5) << from_top;
+      EXPECT_TRUE(row.index == 0 || row.kind == RowKind::kRegular || row.kind == RowKind::kContactEvent);
+    }
+    EXPECT_EQ(Contact(path, path.rows.back(), "q@ceiling").state, ContactState::kOpen);
+    EXPECT_LE(path.rows.back().dissipation, 1e-12);
+  }
+}
+
+TEST_P(ClosedForm, Bifurcation) {
+  const TracedPath path = TraceScene(tall_truss::MakeScene(), {{"apex.y", "<", 0.8}}, kCrossing);
+  EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+  for (const Increment& row : path.rows) {
+    const double load = von_mises::BiotLoad(1.0, tall_truss::kRise, PositionY(path, row, "apex"));
+    const double error = std::max(std::abs(PositionX(path, row, "apex")), std::abs(row.load_factor - load));
+    EXPECT_LE(error, row.kind == RowKind::kBifurcation ? kCrossing : kExact) << "row " << row.index;
+  }
+  // The sideways stiffness vanishes twice: y^2 l0 = l^3.
+  const std::vector<Increment> crossings = RowsOfKind(path, RowKind::kBifurcation);
+  ASSERT_EQ(crossings.size(), 2U);
+  EXPECT_NEAR(PositionY(path, crossings[0], "apex"), tall_truss::BifurcationY(), 1e-7);
+  for (const Increment& row : crossings) {
+    const double y = PositionY(path, row, "apex"), l = std::hypot(1.0, y);
+    EXPECT_NEAR(y * y * tall_truss::kRestLength, l * l * l, 1e-6);
+    EXPECT_EQ(row.solve.determinant_sign, 0);
+    // The apex gives way to the side.
+    ASSERT_EQ(row.event.null_vector.size(), 6U);
+    EXPECT_NEAR(std::abs(row.event.null_vector[2]), 1.0, 1e-9);
+    EXPECT_NEAR(row.event.null_vector[3], 0.0, 1e-6);
+  }
+  const std::vector<Increment> limits = RowsOfKind(path, RowKind::kSmoothLimit);
+  ASSERT_EQ(limits.size(), 1U);
+  EXPECT_NEAR(limits[0].load_factor, von_mises::BiotLimit(1.0, tall_truss::kRise), 1e-13);
+  // Stable up to the first crossing only: the sign of the stiffness tells.
+  for (const Increment& row : path.rows) {
+    if (row.index == 0 || row.kind != RowKind::kRegular) continue;
+    const double y = PositionY(path, row, "apex");
+    const bool between = y < PositionY(path, crossings[0], "apex") && y > PositionY(path, crossings[1], "apex");
+    const bool falling = row.index > limits[0].index;
+    EXPECT_EQ(row.solve.stiffness_sign, between != falling ? -1 : 1) << row.index;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Presets, ClosedForm,
+                         testing::Values(Setting{Accuracy::kFast, 0.0}, Setting{Accuracy::kBalanced, 0.0},
+                                         Setting{Accuracy::kAccurate, 0.0}, Setting{Accuracy::kBalanced, 0.003},
+                                         Setting{Accuracy::kBalanced, 0.3}),
+                         Name);
+
+// ----- friction that holds always, or never -----
+
+TEST(BranchMethod, FrictionThatAlwaysHolds) {
+  TraceRequest request = ReadExample("rough_truss");
+  request.scene.obstacles[0].friction = 1e6;
+  request.options.stop = {{"apex.y", "<", 0.05}};
+  const TracedPath truss = TraceRows(request);
+  EXPECT_EQ(truss.result.reason, EndReason::kStopCriterion);
+  ExpectSoundRows(truss, 1e-10);  // of 1e6 r_n
+  double worst = 0.0;
+  for (const Increment& row : truss.rows) {
+    EXPECT_EQ(row.contacts[0].state, ContactState::kStick);
+    worst = std::max(worst, std::abs(row.load_factor - rough_truss::StickingLoad(PositionY(truss, row, "apex"))));
+  }
+  EXPECT_LE(worst, kExact);
+  const std::vector<Increment> limits = RowsOfKind(truss, RowKind::kSmoothLimit);
+  ASSERT_EQ(limits.size(), 1U);
+  EXPECT_NEAR(limits[0].load_factor, von_mises::BiotLimit(1.0, 1.2), 1e-14);
+
+  request = ReadExample("two_dof_friction");
+  request.scene.obstacles[0].friction = 1e6;
+  request.options.stop = {{"load_factor", ">", 10.0}};
+  const TracedPath block = TraceRows(request);
+  EXPECT_EQ(block.result.reason, EndReason::kStopCriterion);
+  for (const Increment& row : block.rows) EXPECT_EQ(PositionX(block, row, "p"), 0.0);
+}
+
+TEST(BranchMethod, NoFriction) {
+  TraceRequest request = ReadExample("sliding_bar");
+  request.scene.obstacles[0].friction = 0.0;
+  const TracedPath path = TraceRows(request);
+  EXPECT_EQ(path.result.reason, EndReason::kStopCriterion);
+  ExpectSoundRows(path, 1e-13);
+  double worst = 0.0;
+  for (const Increment& row : path.rows) {
+    const double x = PositionX(path, row, "b"), q = sliding_bar::NormalReaction(x) / sliding_bar::kHeight;
+    worst = std::max({worst, std::abs(row.load_factor + q * x), std::abs(row.contacts[0].rn - sliding_bar::NormalReaction(x))});
+    EXPECT_EQ(row.contacts[0].rt, 0.0);
+    EXPECT_EQ(row.dissipation, 0.0);
+  }
+  EXPECT_LE(worst, kExact);
+  EXPECT_EQ(RowsOfKind(path, RowKind::kSmoothLimit).size(), 2U);
+
+  // A truss whose foot nothing holds bears nothing: its path ends at the start.
+  request = ReadExample("rough_truss");
+  request.scene.obstacles[0].friction = 0.0;
+  const TracedPath none = TraceRows(request);
+  EXPECT_EQ(none.result.reason, EndReason::kPathEnd);
+  EXPECT_EQ(none.rows.size(), 1U);
+}
+
+// ----- other ways on: branch_choices -----
+
+// From any row the bar may stick instead: then b rests, the load falls, r_n stays and r_t goes from -mu r_n to +mu r_n; from
+// there b slips back, at s = -q (x + h mu), q = r_n / h.
+TEST(BranchChoices, SlidingBarUnloaded) {
+  namespace bar = sliding_bar;
+  for (const int row : {5, 15, 24, 40, 55, 65, 72}) {
+    SCOPED_TRACE("from row " + std::to_string(row));
+    TraceRequest request = ReadExample("sliding_bar");
+    request.options.branch_choices = {{0, row, 2}};
+    request.options.stop = {{"b.x", "<", -4.9}, {"b.x", ">", 4.95}};
+    request.options.max_increments = 3000;
+    const TracedPath path = TraceRows(request);
+    ExpectSoundRows(path, 1e-13);
+    EXPECT_LE(EnergyImbalance(path), 1e-10);
+    ASSERT_GT(path.rows.size(), static_cast<std::size_t>(row) + 1);
+    const Increment& turn = path.rows[static_cast<std::size_t>(row)];
+    const double x0 = PositionX(path, turn, "b"), rn = bar::NormalReaction(x0), q = rn / bar::kHeight;
+    EXPECT_NEAR(turn.load_factor, bar::LoadFactor(x0), kExact);
+    ASSERT_EQ(turn.event.ways.size(), 2U);
+    EXPECT_EQ(turn.event.taken, 1);
+    EXPECT_EQ(turn.event.ways[0].states[0], ContactState::kSlipPlus);
+    EXPECT_NEAR(turn.event.ways[0].turn, 0.0, 1e-7);
+    EXPECT_EQ(turn.event.ways[1].states[0], ContactState::kStick);
+    EXPECT_NEAR(turn.event.ways[1].load_rate, -1.0, 1e-14);
+    // The load rose before, or it was on the way down already.
+    EXPECT_EQ(turn.kind, bar::LoadFactorSlope(x0) > 0.0 ? RowKind::kCornerLimit : RowKind::kContactEvent);
+
+    const double reversal = -q * (x0 + bar::kHeight * bar::kFriction);
+    double worst = 0.0, dissipated = 0.0;
+    bool reversed = false;
+    for (std::size_t i = static_cast<std::size_t>(row) + 1; i < path.rows.size(); ++i) {
+      const Increment& now = path.rows[i];
+      const double x = PositionX(path, now, "b");
+      const ContactRecord& contact = now.contacts[0];
+      if (contact.state == ContactState::kStick) {
+        EXPECT_FALSE(reversed);
+        worst = std::max({worst, std::abs(x - x0), std::abs(contact.rn - rn), std::abs(contact.rt + now.load_factor + q * x0)});
+        dissipated = std::max(dissipated, std::abs(now.dissipation - bar::Dissipation(x0)));
+        EXPECT_GE(now.load_factor, reversal - 1e-13);
+      } else {
+        ASSERT_EQ(contact.state, ContactState::kSlipMinus);
+        if (!reversed) {
+          EXPECT_NE(path.rows[i - 1].kind, RowKind::kRegular);
+          EXPECT_NEAR(path.rows[i - 1].load_factor, reversal, 1e-13);
+        }
+        reversed = true;
+        const double here = bar::NormalReaction(x);
+        worst = std::max({worst, std::abs(now.load_factor + here / bar::kHeight * (x + bar::kHeight * bar::kFriction)),
+                          std::abs(contact.rt - bar::kFriction * contact.rn), std::abs(contact.rn - here)});
+        dissipated = std::max(dissipated, std::abs(now.dissipation - (2.0 * bar::Dissipation(x0) - bar::Dissipation(x))));
+      }
+    }
+    EXPECT_TRUE(reversed);
+    EXPECT_LE(worst, kExact);
+    EXPECT_LE(dissipated, kDissipation);
+    EXPECT_EQ(path.result.reason, EndReason::kStopCriterion);
+    EXPECT_LE(PositionX(path, path.rows.back(), "b"), -4.9);
+  }
+}
+
+// Load up, down, up: a loop of which every cycle dissipates mu N times the slid distance, which is its area.
+TEST(BranchChoices, HysteresisLoop) {
+  constexpr double kSpring = 2.0, kLimit = 0.5;  // stiffness, mu N
+  TraceRequest request;
+  request.scene = SpringAndBlock();
+  request.options.max_increments = 900;
+  for (const int row : {60, 200, 340, 480, 620, 760}) request.options.branch_choices.push_back({0, row, 2});
+  const TracedPath path = TraceRows(request);
+  ExpectSoundRows(path, 1e-14);
+  EXPECT_LE(EnergyImbalance(path), 1e-13);
+  std::vector<const Increment*> turns;
+  double slid = 0.0, worst = 0.0, area = 0.0;
+  for (std::size_t i = 1; i < path.rows.size(); ++i) {
+    const Increment &before = path.rows[i - 1], &now = path.rows[i];
+    const double u = now.positions[0], du = u - before.positions[0];
+    slid += std::abs(du);
+    area += 0.5 * (before.load_factor + now.load_factor) * du;
+    worst = std::max({worst, std::abs(now.dissipation - kLimit * slid), std::abs(now.external_work - area)});
+    const ContactState state = now.contacts[0].state;
+    if (state == ContactState::kSlipPlus) worst = std::max(worst, std::abs(now.load_factor - (kSpring * u + kLimit)));
+    if (state == ContactState::kSlipMinus) worst = std::max(worst, std::abs(now.load_factor - (kSpring * u - kLimit)));
+    if (state == ContactState::kStick) {
+      EXPECT_EQ(du, 0.0);
+      worst = std::max(worst, std::abs(now.contacts[0].rt - (kSpring * u - now.load_factor)));
+    }
+    if (now.kind == RowKind::kCornerLimit) turns.push_back(&now);
+  }
+  EXPECT_LE(worst, 1e-13);
+  ASSERT_EQ(turns.size(), 6U);
+  // From turn to turn: the load changes by 2 mu N before the block slips.
+  for (std::size_t i = 0; i + 1 < turns.size(); ++i) {
+    const double distance = std::abs(turns[i + 1]->positions[0] - turns[i]->positions[0]);
+    EXPECT_NEAR(turns[i + 1]->dissipation - turns[i]->dissipation, kLimit * distance, 1e-13);
+    EXPECT_NEAR(std::abs(turns[i + 1]->load_factor - turns[i]->load_factor), kSpring * distance + 2.0 * kLimit, 1e-13);
+  }
+}
+
+// The foot of the rough truss slides and sticks again: it unloads, elastically, from where it is.
+TEST(BranchChoices, ByRowAndByEvent) {
+  const TracedPath plain = TraceRows(ReadExample("rough_truss"));
+  const Increment corner = RowsOfKind(plain, RowKind::kCornerLimit).at(0);
+  TraceRequest request = ReadExample("rough_truss");
+  request.options.branch_choices = {{0, corner.index + 4, 2}};
+  const TracedPath back = TraceRows(request);
+  ExpectSoundRows(back, 1e-13);
+  const Increment& turn = back.rows[static_cast<std::size_t>(corner.index) + 4];
+  EXPECT_EQ(turn.event.taken, 1);
+  EXPECT_EQ(turn.event.ways[1].states[0], ContactState::kStick);
+  EXPECT_EQ(turn.kind, RowKind::kContactEvent);  // the load falls before and after
+  const double foot = PositionX(back, turn, "foot"), middle = 0.5 * (foot - 1.0), half = 0.5 * (foot + 1.0);
+  const double rest = std::hypot(1.0, rough_truss::kRise);
+  double worst = 0.0;
+  for (std::size_t i = static_cast<std::size_t>(turn.index) + 1; i < back.rows.size(); ++i) {
+    const Increment& row = back.rows[i];
+    if (row.contacts[0].state == ContactState::kOpen) break;
+    EXPECT_EQ(row.contacts[0].state, ContactState::kStick);
+    const double y = PositionY(back, row, "apex");
+    worst = std::max({worst, std::abs(row.load_factor - 2.0 * y * (1.0 / std::hypot(half, y) - 1.0 / rest)),
+                      std::abs(PositionX(back, row, "apex") - middle), std::abs(PositionX(back, row, "foot") - foot)});
+    EXPECT_EQ(row.dissipation, turn.dissipation);
+  }
+  EXPECT_LE(worst, kExact);
+
+  // The best way, asked for at the first event: the same path as without asking.
+  request.options.branch_choices = {{1, 0, 1}};
+  const TracedPath best = TraceRows(request);
+  ASSERT_EQ(best.rows.size(), plain.rows.size());
+  EXPECT_EQ(best.rows.back().positions, plain.rows.back().positions);
+  // A way that is not there ends the path, and says so.
+  request.options.branch_choices = {{1, 0, 7}};
+  const TracedPath none = TraceRows(request);
+  EXPECT_EQ(none.result.reason, EndReason::kPathEnd);
+  EXPECT_NE(none.result.message.find("way 7"), std::string::npos) << none.result.message;
+  EXPECT_EQ(none.rows.size(), static_cast<std::size_t>(corner.index) + 1);
+}
+
+// All ways but the way back are on record: where sticking ends, sticking on is the way back.
+TEST(BranchChoices, WaysOnRecord) {
+  const TracedPath path = TraceRows(ReadExample("two_dof_friction"));
+  for (const Increment& row : path.rows) {
+    const bool event = row.kind != RowKind::kRegular;
+    EXPECT_EQ(row.event.ways.empty(), !event) << row.index;
+    EXPECT_EQ(row.event.taken, event ? 0 : -1);
+    EXPECT_TRUE(row.event.complete);
+    EXPECT_EQ(row.event.concerned, row.kind == RowKind::kCornerLimit ? 1 : 0);
+  }
+  const std::vector<Increment> corners = RowsOfKind(path, RowKind::kCornerLimit);
+  ASSERT_EQ(corners.size(), 2U);
+  ASSERT_EQ(corners[0].event.ways.size(), 1U);
+  EXPECT_EQ(corners[0].event.ways[0].states[0], ContactState::kSlipPlus);
+  EXPECT_LT(corners[0].event.ways[0].load_rate, 0.0);
+  EXPECT_GT(corners[0].event.ways[0].dissipation_rate, 0.0);
+  EXPECT_EQ(corners[1].event.ways[0].states[0], ContactState::kOpen);
+}
+
+}  // namespace
+}  // namespace contact_path
