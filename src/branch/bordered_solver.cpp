@@ -69,7 +69,8 @@ struct BorderedSolver::Factors {
 BorderedSolver::BorderedSolver() : factors_(std::make_unique<Factors>()) {}
 BorderedSolver::~BorderedSolver() = default;
 
-bool BorderedSolver::Factorize(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& row) {
+bool BorderedSolver::Factorize(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& row,
+                               double rank_tolerance) {
   Eigen::SparseMatrix<double>& matrix = factors_->matrix;
   const Eigen::Index rows = transposed.rows(), columns = transposed.cols();
   matrix.resize(rows, columns + 1);
@@ -86,8 +87,10 @@ bool BorderedSolver::Factorize(const Eigen::SparseMatrix<double>& transposed, co
   matrix.outerIndexPtr()[columns + 1] = end;
   matrix.resizeNonZeros(end);
   if (!matrix.coeffs().allFinite()) return false;
-  factors_->regular = rows == columns + 1 && factors_->FactorizeLu();
-  return factors_->regular || factors_->minimum_norm.Factorize(matrix);
+  factors_->regular = rank_tolerance == 0.0 && rows == columns + 1 && factors_->FactorizeLu();
+  if (factors_->regular) return true;
+  return factors_->minimum_norm.Factorize(matrix,
+                                          rank_tolerance > 0.0 ? rank_tolerance : MinimumNormSolver::kRankTolerance);
 }
 
 Eigen::VectorXd BorderedSolver::Solve(const Eigen::VectorXd& b, double last) const {

@@ -121,6 +121,7 @@ Watched Watch(SmoothPiece* piece, const Segment& segment) {
 std::optional<CurvePoint> Locate(SmoothPiece* piece, const Segment& segment, const Watched& watched) {
   if (watched.singular) {
     CurvePoint point = segment.At(watched.t);
+    point.x = piece->CorrectSingular(point.x, segment.normal);
     point.determinant_sign = 0;
     return point;
   }

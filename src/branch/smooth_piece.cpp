@@ -7,6 +7,8 @@ namespace contact_path {
 namespace {
 
 constexpr int kMaxIterations = 12;
+constexpr int kSingularIterations = 3;
+constexpr double kSingularRank = 1e-6;    // rank tolerance where another path crosses
 constexpr double kStepTolerance = 1e-14;  // relative to 1 + |x|: rounding
 constexpr double kStagnation = 1e-10;     // relative: below this a step that no longer shrinks is rounding
 constexpr double kReuse = 1e-5;           // relative: below this step the factorisation is good enough to finish with
@@ -100,6 +102,19 @@ Correction SmoothPiece::CorrectOnPlane(const Eigen::VectorXd& guess, const Eigen
   Eigen::VectorXd row = Eigen::VectorXd::Zero(system_.NumUnknowns());
   row.head(normal.size()) = normal;
   return Correct(guess, row, row.dot(guess));
+}
+
+Eigen::VectorXd SmoothPiece::CorrectSingular(const Eigen::VectorXd& guess, const Eigen::VectorXd& normal) {
+  Eigen::VectorXd row = Eigen::VectorXd::Zero(system_.NumUnknowns());
+  row.head(normal.size()) = normal;
+  Eigen::VectorXd x = guess, residual;
+  for (int i = 0; i < kSingularIterations; ++i) {
+    system_.Residual(x, &residual);
+    ++factorisations_;
+    if (!residual.allFinite() || !solver_.Factorize(system_.TransposedJacobian(x), row, kSingularRank)) return guess;
+    x += solver_.Solve(-residual, 0.0);
+  }
+  return x.allFinite() ? x : guess;
 }
 
 Eigen::VectorXd SmoothPiece::CrossingDirection(const Eigen::VectorXd& x, const Eigen::VectorXd& towards) {

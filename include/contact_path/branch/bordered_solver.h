@@ -21,7 +21,9 @@ class BorderedSolver {
   BorderedSolver& operator=(const BorderedSolver&) = delete;
 
   // transposed: J', unknowns x equations; row: NumUnknowns entries. False if the matrix is not finite.
-  bool Factorize(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& row);
+  // rank_tolerance > 0: by the QR factorisation in any case, with this tolerance (minimum_norm.h).
+  bool Factorize(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& row,
+                 double rank_tolerance = 0.0);
   // Solves M x = (b, last).
   Eigen::VectorXd Solve(const Eigen::VectorXd& b, double last) const;
 

@@ -48,6 +48,9 @@ class SmoothPiece {
   // The same with the row given on (u, s) only.
   Correction CorrectOnPlane(const Eigen::VectorXd& guess, const Eigen::VectorXd& normal);
 
+  // The point of the curve nearest to guess, itself near, where another path crosses: nothing is moved along the null
+  // vector.
+  Eigen::VectorXd CorrectSingular(const Eigen::VectorXd& guess, const Eigen::VectorXd& normal);
   // Near a bifurcation: the direction of the crossing path, normal to the tangent `towards` in (u, s); |(u, s) part|
   // = 1. Zero where it cannot be told.
   Eigen::VectorXd CrossingDirection(const Eigen::VectorXd& x, const Eigen::VectorXd& towards);
