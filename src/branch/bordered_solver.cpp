@@ -49,6 +49,7 @@ struct BorderedSolver::Factors {
     return klu_rcond(symbolic, numeric, &common) == 1 && common.rcond > kSingular;
   }
 
+  // Needs the factors.
   int DeterminantSign() const {
     const auto n = static_cast<int>(matrix.rows());
     int sign = Parity(numeric->Pnum, n) * Parity(symbolic->Q, n);
@@ -87,6 +88,7 @@ bool BorderedSolver::Factorize(const Eigen::SparseMatrix<double>& transposed, co
   matrix.outerIndexPtr()[columns + 1] = end;
   matrix.resizeNonZeros(end);
   if (!matrix.coeffs().allFinite()) return false;
+  factors_->Free();
   factors_->regular = rank_tolerance == 0.0 && rows == columns + 1 && factors_->FactorizeLu();
   if (factors_->regular) return true;
   return factors_->minimum_norm.Factorize(matrix,
@@ -105,6 +107,8 @@ Eigen::Index BorderedSolver::Deficiency() const {
   return factors_->regular ? 0 : factors_->matrix.rows() - factors_->minimum_norm.Rank();
 }
 
-int BorderedSolver::DeterminantSign() const { return factors_->regular ? factors_->DeterminantSign() : 0; }
+int BorderedSolver::DeterminantSign() const { return factors_->regular ? PivotSign() : 0; }
+
+int BorderedSolver::PivotSign() const { return factors_->numeric != nullptr ? factors_->DeterminantSign() : 0; }
 
 }  // namespace contact_path

@@ -65,8 +65,8 @@ double FindBifurcation(SmoothPiece* piece, const Segment& segment) {
   for (int i = 0; i < kBisections && beyond - before > kBifurcationWidth * segment.length; ++i) {
     const double t = 0.5 * (before + beyond);
     const std::optional<CurvePoint> point = PointAt(piece, segment, t);
-    if (!point || point->determinant_sign == 0) return t;  // singular to rounding: this is it
-    (point->determinant_sign == segment.start.determinant_sign ? before : beyond) = t;
+    if (!point || point->pivot_sign == 0) return t;  // singular to the last bit: this is it
+    (point->pivot_sign == segment.start.determinant_sign ? before : beyond) = t;
   }
   return 0.5 * (before + beyond);
 }

@@ -62,6 +62,7 @@ bool SmoothPiece::Derivatives(const Eigen::VectorXd& x, const Eigen::VectorXd& t
   point->second -= point->first.head(n).dot(point->second.head(n)) * point->first;
   point->deficiency = solver_.Deficiency();
   point->determinant_sign = solver_.DeterminantSign();
+  point->pivot_sign = solver_.PivotSign();
   return point->second.allFinite();
 }
 

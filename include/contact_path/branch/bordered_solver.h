@@ -31,6 +31,8 @@ class BorderedSolver {
   Eigen::Index Deficiency() const;
   // Sign of the determinant of M; 0 if M is singular or not square.
   int DeterminantSign() const;
+  // The same also where M is singular to kSingular: of use between points with different signs only.
+  int PivotSign() const;
 
  private:
   struct Factors;

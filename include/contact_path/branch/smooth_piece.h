@@ -17,6 +17,7 @@ struct CurvePoint {
   Eigen::VectorXd first;        // |(u, s) part| = 1
   Eigen::VectorXd second;       // orthogonal to first in (u, s)
   Eigen::Index deficiency = 0;  // null directions of the equations besides the tangent
+  int pivot_sign = 0;           // the same also where singular: see BorderedSolver::PivotSign()
   int determinant_sign = 0;     // of the equations with the tangent as last row; 0 = singular
 };
 

@@ -1,0 +1,516 @@
+// Two hundred small random trusses with contacts, each traced in many ways: all must show the same path.
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <iostream>
+#include <map>
+#include <set>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "branch/model_point.h"
+#include "branch/random_scene.h"
+#include "contact_path/branch/smooth_piece.h"
+#include "contact_path/path/model.h"
+#include "contact_path/path/trace.h"
+#include "contact_path/scene/scaling.h"
+#include "support/traced_path.h"
+#include "support/transformations.h"
+
+namespace contact_path {
+namespace {
+
+constexpr unsigned kSeeds = 200;     // 1..200
+constexpr double kArcLength = 1.5;   // traced of each, scaled
+constexpr int kMostRows = 4000;
+constexpr double kTouching = 1e-9;   // scaled
+
+// Why two traces of one scene may honestly differ, or one end early.
+enum class Cause {
+  kNone,
+  // A node without load on two bars only that are in line, or folded: both are without stress until then, and the path
+  // reaches, exactly, a point where it crosses another one (the taut bars) and turns itself: all happenings coincide.
+  kHinge,
+  // A node between two obstacles: more reactions than equations, their split is not determined, nor is what follows from it.
+  kWedge,
+  // Parts that move without any change of load and reactions: where to is not determined.
+  kLoose,
+  // The constant loads cannot be brought on: there is no way, or a very long one.
+  kPreload,
+  kUnexplained,
+};
+
+const char* ToString(Cause cause) {
+  switch (cause) {
+    case Cause::kNone: return "none";
+    case Cause::kHinge: return "hinge";
+    case Cause::kWedge: return "wedge";
+    case Cause::kLoose: return "loose";
+    case Cause::kPreload: return "preload";
+    case Cause::kUnexplained: return "unexplained";
+  }
+  return "";
+}
+
+// Those of 1..kSeeds whose traces are not all the same, with the cause.
+const std::map<unsigned, Cause>& ListedDifferences() {
+  static const std::map<unsigned, Cause> listed = {};
+  return listed;
+}
+
+// Those that end for want of an increment, and where.
+const std::map<unsigned, Cause>& ListedFailures() {
+  static const std::map<unsigned, Cause> listed = {};
+  return listed;
+}
+
+TracedPath TraceArc(TraceRequest request, double arc_length) {
+  TracedPath path;
+  request.options.max_increments = kMostRows;
+  path.request = request;
+  bool done = false;
+  TraceControl control;
+  control.on_increment = [&](const Increment& row) {
+    path.rows.push_back(row);
+    done = row.arc_length > arc_length;
+  };
+  control.cancelled = [&] { return done; };
+  path.result = Trace(path.request, control);
+  return path;
+}
+
+bool Reached(const TracedPath& path) { return !path.rows.empty() && path.rows.back().arc_length > kArcLength; }
+bool CameLoose(const TracedPath& path) { return path.result.message.find("come loose") != std::string::npos; }
+bool InPreload(const TracedPath& path) { return path.rows.empty(); }
+
+// Rows where something happens, the start and the end of the path among them; not too near to where tracing stopped.
+std::vector<const Increment*> Events(const TracedPath& path) {
+  std::vector<const Increment*> rows;
+  for (const Increment& row : path.rows)
+    if (row.kind != RowKind::kRegular && row.arc_length < kArcLength - 1e-3) rows.push_back(&row);
+  return rows;
+}
+
+// ----- causes -----
+
+bool IsWedged(const TracedPath& path, const Increment& row) {
+  const Scaling scaling = CharacteristicScales(path.request.scene);
+  std::set<std::string> touching;
+  for (std::size_t i = 0; i < row.contacts.size(); ++i)
+    if (row.contacts[i].gap < kTouching * scaling.length && !touching.insert(path.request.scene.contacts[i].node).second) return true;
+  return false;
+}
+
+// A node with two bars, no load and no contact that touches, whose bars are in line.
+bool HasHingeInLine(const TracedPath& path, const Increment& row) {
+  constexpr double kInLine = 3e-3;
+  const Scene& scene = path.request.scene;
+  const Scaling scaling = CharacteristicScales(scene);
+  for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
+    const std::string& name = scene.nodes[n].name;
+    const bool held = scene.nodes[n].fixed_x || scene.nodes[n].fixed_y;
+    const bool loaded = std::any_of(scene.loads.begin(), scene.loads.end(), [&](const Load& load) { return load.node == name; });
+    bool touches = false;
+    for (std::size_t i = 0; i < scene.contacts.size(); ++i)
+      touches = touches || (scene.contacts[i].node == name && row.contacts[i].gap < kTouching * scaling.length);
+    std::vector<Eigen::Vector2d> directions;
+    for (const Bar& bar : scene.bars) {
+      for (const std::size_t end : {0U, 1U}) {
+        if (bar.nodes[end] != name) continue;
+        const std::size_t other = NodeNumber(scene, bar.nodes[1 - end]);
+        directions.emplace_back(row.positions[2 * other] - row.positions[2 * n], row.positions[2 * other + 1] - row.positions[2 * n + 1]);
+      }
+    }
+    if (held || loaded || touches || directions.size() != 2) continue;
+    const Eigen::Vector2d a = directions[0].normalized(), b = directions[1].normalized();
+    if (std::abs(a.x() * b.y() - a.y() * b.x()) < kInLine) return true;
+  }
+  return false;
+}
+
+// What there is on the path up to the row `last` that explains a difference there or later.
+Cause Explain(const TracedPath& path, std::size_t last) {
+  if (InPreload(path)) return Cause::kPreload;
+  if (CameLoose(path)) return Cause::kLoose;
+  last = std::min(last, path.rows.size() - 1);
+  for (std::size_t i = 0; i <= last; ++i)
+    if (HasHingeInLine(path, path.rows[i]) && path.rows[i].kind != RowKind::kRegular) return Cause::kHinge;
+  if (HasHingeInLine(path, path.rows[last])) return Cause::kHinge;
+  for (std::size_t i = 0; i <= last; ++i)
+    if (IsWedged(path, path.rows[i])) return Cause::kWedge;
+  for (std::size_t i = 0; i <= last; ++i)
+    if (path.rows[i].solve.deficiency > 0) return Cause::kLoose;
+  return Cause::kUnexplained;
+}
+
+// ----- comparison -----
+
+struct Tolerances {
+  double load = 1e-8;
+  double state = 1e-8;  // positions, reactions, work
+};
+
+struct Difference {
+  std::string what;       // empty: none
+  std::size_t row = 0;    // of the first path
+  double load = 0.0;      // largest differences seen, scaled
+  double state = 0.0;
+};
+
+// Event by event, up to the first difference. Both in the frame and the units of `a`.
+Difference Compare(const TracedPath& a, const TracedPath& b, const Tolerances& tolerances) {
+  Difference difference;
+  const auto differ = [&difference](const Increment* row, const std::string& what) {
+    difference.what = what;
+    difference.row = row == nullptr ? 0 : static_cast<std::size_t>(row->index);
+    return difference;
+  };
+  if (InPreload(a) || InPreload(b)) {
+    const bool same = InPreload(a) && InPreload(b) && a.result.reason == b.result.reason;
+    return same ? difference : differ(nullptr, "preload");
+  }
+  const Scaling scaling = CharacteristicScales(a.request.scene);
+  const double energy = scaling.force * scaling.length;
+  const std::vector<const Increment*> events_a = Events(a), events_b = Events(b);
+  for (std::size_t i = 0; i < std::min(events_a.size(), events_b.size()); ++i) {
+    const Increment &x = *events_a[i], &y = *events_b[i];
+    if (x.kind != y.kind) return differ(&x, "kind of event " + std::to_string(i));
+    // Where other paths cross, the place is that of a sign change of a determinant.
+    const double slack = x.kind == RowKind::kBifurcation ? 1e3 : 1.0;
+    if (x.event.ways.size() != y.event.ways.size() || x.event.taken != y.event.taken) return differ(&x, "ways on from event " + std::to_string(i));
+    double state = 0.0;
+    for (std::size_t k = 0; k < x.contacts.size(); ++k) {
+      if (x.contacts[k].state != y.contacts[k].state) return differ(&x, "states at event " + std::to_string(i));
+      state = std::max({state, std::abs(x.contacts[k].rn - y.contacts[k].rn) / scaling.force,
+                        std::abs(x.contacts[k].rt - y.contacts[k].rt) / scaling.force});
+    }
+    for (std::size_t k = 0; k < x.positions.size(); ++k)
+      state = std::max(state, std::abs(x.positions[k] - y.positions[k]) / scaling.length);
+    state = std::max({state, std::abs(x.dissipation - y.dissipation) / energy, std::abs(x.strain_energy - y.strain_energy) / energy});
+    const double load = std::abs(x.load_factor - y.load_factor) / scaling.load_factor;
+    if (!(load <= slack * tolerances.load) || !(state <= slack * tolerances.state)) return differ(&x, "numbers at event " + std::to_string(i));
+    if (slack == 1.0) {
+      difference.load = std::max(difference.load, load);
+      difference.state = std::max(difference.state, state);
+    }
+  }
+  if (events_a.size() != events_b.size()) {
+    const bool more = events_a.size() > events_b.size();
+    return differ(more ? events_a[events_b.size()] : &a.rows.back(), "number of events");
+  }
+  const double ends = std::min({a.rows.back().arc_length, b.rows.back().arc_length, kArcLength});
+  if (ends < kArcLength - 1e-3 && a.result.reason != b.result.reason) return differ(&a.rows.back(), "end of the path");
+  return difference;
+}
+
+// ----- the study -----
+
+struct Finding {
+  std::string variant;
+  std::string what;
+  Cause cause = Cause::kNone;
+};
+
+struct Summary {
+  double load = 0.0;   // largest differences of the paths that agree
+  double state = 0.0;
+  int compared = 0;
+  int different = 0;
+};
+
+struct Study {
+  std::map<unsigned, std::vector<Finding>> differences;
+  std::map<unsigned, std::pair<EndReason, Cause>> ends;  // that come before the arc length, of the balanced path
+  std::map<std::string, Summary> summaries;              // by variant
+  std::map<std::string, int> counts;                     // kinds of rows, states
+  std::vector<TracedPath> balanced;                      // by seed, from 1
+  double residual = 0.0;
+  std::map<std::string, double> imbalance;               // by variant
+  std::vector<std::string> unsound;
+};
+
+// Residuals, work, order of the rows: what holds whatever the path.
+void CheckRows(const std::string& variant, const TracedPath& path, Study* study) {
+  if (path.rows.empty()) return;
+  const Scaling scaling = CharacteristicScales(path.request.scene);
+  const double energy = scaling.force * scaling.length;
+  const auto complain = [&](const Increment& row, const std::string& what) {
+    study->unsound.push_back(path.request.scene.name + " " + variant + " row " + std::to_string(row.index) + ": " + what);
+  };
+  double& imbalance = study->imbalance[variant];
+  for (std::size_t i = 0; i < path.rows.size(); ++i) {
+    const Increment &row = path.rows[i], &before = path.rows[i == 0 ? 0 : i - 1];
+    const double residual = std::max(row.residuals.equilibrium, row.residuals.Contact());
+    study->residual = std::max(study->residual, residual);
+    if (!(residual <= 1e-9)) complain(row, "residual");
+    if (row.dissipation < before.dissipation) complain(row, "dissipation falls");
+    if (i > 0 && row.arc_length < before.arc_length) complain(row, "arc length falls");
+    const double change = row.strain_energy - path.rows[0].strain_energy;
+    const double off = std::abs(row.external_work - change - row.dissipation) / energy;
+    imbalance = std::max(imbalance, off);
+    if (!(off <= 1e-8)) complain(row, "work");
+    // No jump: a row is where its increment of arc length says.
+    double moved = 0.0;
+    for (std::size_t k = 0; k < row.positions.size(); ++k)
+      moved += std::pow((row.positions[k] - before.positions[k]) / scaling.length, 2);
+    moved = std::sqrt(moved + std::pow((row.load_factor - before.load_factor) / scaling.load_factor, 2));
+    if (moved > row.arc_length - before.arc_length + 1e-9) complain(row, "farther than its arc length");
+    if (row.event.taken > 0) complain(row, "not the best way");
+  }
+}
+
+const Study& TheStudy() {
+  static const Study* const study = [] {
+    auto* result = new Study;
+    result->balanced.resize(kSeeds + 1);
+    for (unsigned seed = 1; seed <= kSeeds; ++seed) {
+      const TraceRequest request = RandomRequest(seed);
+      const TracedPath& balanced = result->balanced[seed] = TraceArc(request, kArcLength);
+      CheckRows("balanced", balanced, result);
+      for (const Increment& row : balanced.rows) {
+        ++result->counts[std::string(ToString(row.kind))];
+        for (const ContactRecord& contact : row.contacts) ++result->counts[std::string(ToString(contact.state))];
+      }
+      if (!Reached(balanced)) {
+        const std::size_t last = balanced.rows.empty() ? 0 : balanced.rows.size() - 1;
+        result->ends[seed] = {balanced.result.reason, Explain(balanced, last)};
+      }
+
+      const auto compare = [&](const std::string& variant, const TracedPath& path, const Tolerances& tolerances) {
+        Summary& summary = result->summaries[variant];
+        const Difference difference = Compare(balanced, path, tolerances);
+        ++summary.compared;
+        if (difference.what.empty()) {
+          summary.load = std::max(summary.load, difference.load);
+          summary.state = std::max(summary.state, difference.state);
+          return;
+        }
+        ++summary.different;
+        Cause cause = Explain(balanced, difference.row + 1);
+        if (cause == Cause::kUnexplained) cause = Explain(path, path.rows.empty() ? 0 : path.rows.size() - 1);
+        result->differences[seed].push_back({variant, difference.what, cause});
+      };
+      const auto variant = [&](const std::string& name, double step, Accuracy accuracy, const Tolerances& tolerances) {
+        TraceRequest other = request;
+        other.options.step = step;
+        other.options.accuracy = accuracy;
+        const TracedPath path = TraceArc(other, kArcLength);
+        CheckRows(name, path, result);
+        compare(name, path, tolerances);
+      };
+      // The work of long steps is integrated less exactly, and where a load turns is found less exactly.
+      const Tolerances strict, loose = {1e-8, 1e-7};
+      variant("short steps", 0.002, Accuracy::kBalanced, strict);
+      variant("long steps", 0.2, Accuracy::kBalanced, loose);
+      variant("fast", 0.0, Accuracy::kFast, loose);
+      variant("accurate", 0.0, Accuracy::kAccurate, strict);
+      compare("units", UndoUnits(TraceArc(ChangeUnits(request, 1e-3, 1e6), kArcLength), 1e-3, 1e6), strict);
+      compare("mirror image", UndoMirror(TraceArc(Mirror(request), kArcLength)), strict);
+      compare("renumbered", UndoReversal(TraceArc(Reverse(request), kArcLength)), strict);
+      constexpr double kAngle = 37.0 / 180.0 * 3.14159265358979323846;
+      if (CanBeRotated(request.scene)) compare("rotated", UndoRotation(TraceArc(Rotate(request, kAngle), kArcLength), kAngle), strict);
+    }
+    return result;
+  }();
+  return *study;
+}
+
+std::string Describe(unsigned seed, const std::vector<Finding>& findings) {
+  std::ostringstream text;
+  for (const Finding& finding : findings)
+    text << "  seed " << seed << ", " << finding.variant << ": " << finding.what << " (" << ToString(finding.cause) << ")\n";
+  return text.str();
+}
+
+TEST(RandomPaths, AreOfAllKinds) {
+  const Study& study = TheStudy();
+  for (const auto& [what, count] : study.counts) RecordProperty(what, count);
+  const auto count = [&](const char* what) { return study.counts.count(what) == 0 ? 0 : study.counts.at(what); };
+  EXPECT_GE(count("regular"), 10000);
+  EXPECT_GE(count("smooth_limit"), 80);
+  EXPECT_GE(count("corner_limit"), 10);
+  EXPECT_GE(count("contact_event"), 200);
+  for (const char* state : {"open", "stick", "slip+", "slip-", "closed"}) EXPECT_GE(count(state), 500) << state;
+}
+
+TEST(RandomPaths, RowsAreSound) {
+  const Study& study = TheStudy();
+  EXPECT_LE(study.residual, 1e-9);
+  for (const auto& [variant, imbalance] : study.imbalance) {
+    std::cout << "work, " << variant << ": off by " << imbalance << "\n";
+    const bool fine = variant == "balanced" || variant == "short steps" || variant == "accurate";
+    EXPECT_LE(imbalance, fine ? 1e-9 : 1e-8) << variant;
+  }
+  for (const std::string& what : study.unsound) ADD_FAILURE() << what;
+}
+
+TEST(RandomPaths, AreTheSameHoweverTheyAreTraced) {
+  const Study& study = TheStudy();
+  for (const auto& [variant, summary] : study.summaries)
+    std::cout << variant << ": " << summary.compared << " compared, " << summary.different << " different, loads of the others to "
+              << summary.load << ", states to " << summary.state << "\n";
+  for (const auto& [seed, findings] : study.differences) {
+    std::cout << Describe(seed, findings);
+    for (const Finding& finding : findings) EXPECT_NE(finding.cause, Cause::kUnexplained) << Describe(seed, findings);
+    const auto listed = ListedDifferences().find(seed);
+    if (listed == ListedDifferences().end()) {
+      ADD_FAILURE() << "not listed:\n" << Describe(seed, findings);
+      continue;
+    }
+    for (const Finding& finding : findings) EXPECT_EQ(ToString(finding.cause), ToString(listed->second)) << Describe(seed, findings);
+  }
+  for (const auto& [seed, cause] : ListedDifferences())
+    EXPECT_EQ(study.differences.count(seed), 1U) << "seed " << seed << " is the same now: no longer " << ToString(cause);
+}
+
+TEST(RandomPaths, EndForAReason) {
+  std::map<unsigned, Cause> failures;
+  for (const auto& [seed, end] : TheStudy().ends) {
+    const TracedPath& path = TheStudy().balanced[seed];
+    std::cout << "seed " << seed << ": " << ToString(end.first) << " after " << path.rows.size() << " rows: " << path.result.message << "\n";
+    if (end.first != EndReason::kPathEnd) failures[seed] = end.second;
+  }
+  EXPECT_EQ(failures.count(0), 0U);
+  for (const auto& [seed, cause] : failures) {
+    const auto listed = ListedFailures().find(seed);
+    EXPECT_TRUE(listed != ListedFailures().end() && listed->second == cause)
+        << "seed " << seed << ", " << ToString(cause) << ": " << TheStudy().balanced[seed].result.message;
+  }
+  for (const auto& [seed, cause] : ListedFailures()) EXPECT_EQ(failures.count(seed), 1U) << seed << " " << ToString(cause);
+}
+
+// ----- path ends -----
+
+// Looks for equilibria next to the end of a path, along every combination of states, by solving for them: no rates are used.
+class Neighbourhood {
+ public:
+  Neighbourhood(const TracedPath& path)
+      : path_(path),
+        model_(path.request.scene, CharacteristicScales(path.request.scene)),
+        piece_(model_.structure, model_.contacts),
+        point_(PointOf(model_, path.rows.back())) {
+    if (path.rows.size() > 1) {
+      const PathPoint before = PointOf(model_, path.rows[path.rows.size() - 2]);
+      back_.resize(point_.u.size() + 1);
+      back_ << before.u - point_.u, before.s - point_.s;
+      back_.normalize();
+    }
+  }
+
+  // Number of admissible equilibria at a small distance that are not on the way back.
+  int Count() {
+    std::vector<ContactState> states;
+    Enumerate(&states);
+    return found_;
+  }
+  int combinations() const { return combinations_; }
+
+ private:
+  std::vector<ContactState> Options(std::size_t i) const {
+    const ContactGeometry& contact = model_.contacts[i];
+    const auto k = static_cast<Eigen::Index>(i);
+    if (contact.gap.Value(point_.u) > kTouching) return {ContactState::kOpen};
+    std::vector<ContactState> options;
+    if (point_.rn[k] < kTouching) options = {ContactState::kOpen};
+    if (!contact.Frictional()) {
+      options.push_back(ContactState::kClosed);
+      return options;
+    }
+    options.push_back(ContactState::kStick);
+    const double limit = contact.friction * point_.rn[k];
+    if (limit + point_.rt[k] < kTouching) options.push_back(ContactState::kSlipPlus);
+    if (limit - point_.rt[k] < kTouching) options.push_back(ContactState::kSlipMinus);
+    return options;
+  }
+
+  void Enumerate(std::vector<ContactState>* states) {
+    if (states->size() == model_.contacts.size()) {
+      ++combinations_;
+      Try(*states);
+      return;
+    }
+    for (const ContactState state : Options(states->size())) {
+      states->push_back(state);
+      Enumerate(states);
+      states->pop_back();
+    }
+  }
+
+  void Try(const std::vector<ContactState>& states) {
+    piece_.SetStates(states, point_);
+    const Eigen::VectorXd x = piece_.system().Pack(point_);
+    FixedStateSystem system = piece_.system();
+    const Eigen::MatrixXd jacobian = Eigen::MatrixXd(system.TransposedJacobian(x)).transpose();
+    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(jacobian, Eigen::ComputeFullV);
+    const Eigen::Index motion = piece_.NumMotion();
+    for (Eigen::Index column = 0; column < svd.matrixV().cols(); ++column) {
+      const bool null = column >= svd.singularValues().size() || svd.singularValues()[column] < 1e-9;
+      if (!null) continue;
+      const Eigen::VectorXd direction = svd.matrixV().col(column);
+      if (direction.head(motion).norm() < 1e-9) continue;
+      for (const double sign : {1.0, -1.0}) {
+        const Eigen::VectorXd unit = sign / direction.head(motion).norm() * direction;
+        if (back_.size() > 0 ? (unit.head(motion) - back_).norm() < 1e-3
+                             : unit[motion - 1] * path_.request.options.Direction() <= 1e-9)
+          continue;
+        if (Admissible(x, unit, 1e-3) && Admissible(x, unit, 1e-4)) ++found_;
+      }
+    }
+  }
+
+  bool Admissible(const Eigen::VectorXd& x, const Eigen::VectorXd& unit, double distance) {
+    const Correction correction = piece_.CorrectOnPlane(x + distance * unit, unit.head(piece_.NumMotion()));
+    if (!correction.converged) return false;
+    for (const Limit& limit : piece_.system().Inequalities())
+      if (piece_.system().Value(limit, correction.x) < -1e-5 * distance * distance) return false;
+    return true;
+  }
+
+  const TracedPath& path_;
+  Model model_;
+  SmoothPiece piece_;
+  PathPoint point_;
+  Eigen::VectorXd back_;
+  int found_ = 0;
+  int combinations_ = 0;
+};
+
+// Where a path is said to end, there is no equilibrium near but those it came from.
+TEST(RandomPaths, EndWhereNoEquilibriumIsNear) {
+  int ends = 0;
+  for (const auto& [seed, end] : TheStudy().ends) {
+    const TracedPath& path = TheStudy().balanced[seed];
+    if (end.first != EndReason::kPathEnd || CameLoose(path) || InPreload(path)) continue;
+    Neighbourhood neighbourhood(path);
+    EXPECT_EQ(neighbourhood.Count(), 0) << "seed " << seed << ", " << path.rows.size() << " rows";
+    EXPECT_GE(neighbourhood.combinations(), 1);
+    ++ends;
+  }
+  EXPECT_GE(ends, 3);
+}
+
+// And on the way there is one, or this would be no proof.
+TEST(RandomPaths, EquilibriaAreNearElsewhere) {
+  int checked = 0;
+  for (unsigned seed = 1; seed <= kSeeds; ++seed) {
+    TracedPath path = TheStudy().balanced[seed];
+    if (path.rows.size() < 20) continue;
+    const std::vector<const Increment*> events = Events(path);
+    if (events.size() < 2) continue;
+    const auto at = static_cast<std::size_t>(events[1]->index);
+    if (events[1]->event.ways.empty() || at + 1 >= path.rows.size()) continue;
+    if (Explain(path, at + 1) != Cause::kUnexplained) continue;  // nothing special up to there
+    path.rows.resize(at + 1);
+    EXPECT_GE(Neighbourhood(path).Count(), 1) << "seed " << seed;
+    ++checked;
+  }
+  EXPECT_GE(checked, 50);
+}
+
+}  // namespace
+}  // namespace contact_path
