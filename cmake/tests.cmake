@@ -37,6 +37,8 @@ function(contact_path_add_test source)
     set(test ${name})
     add_test(NAME ${test} COMMAND ${name} --gtest_output=xml:${contact_path_test_results}/gtest-${name}.xml)
   endif()
+  # Tests are compiled for a quick build.
+  target_compile_options(${name} PRIVATE -O1 -g0)
   # Without a keyword, as catkin does.
   target_link_libraries(${name} GTest::gtest_main contact_path_test_support contact_path_core contact_path_warnings)
   set_property(TEST ${test} PROPERTY ENVIRONMENT OMP_NUM_THREADS=1)

@@ -24,7 +24,8 @@ std::vector<Increment> Events(const TracedPath& path) {
 double EnergyImbalance(const TracedPath& path) {
   double worst = 0.0;
   for (const Increment& row : path.rows)
-    worst = std::max(worst, std::abs(row.external_work - (row.strain_energy - path.rows[0].strain_energy) - row.dissipation));
+    worst = std::max(worst,
+                     std::abs(row.external_work - (row.strain_energy - path.rows[0].strain_energy) - row.dissipation));
   return worst;
 }
 
@@ -49,7 +50,8 @@ class Arch : public testing::TestWithParam<std::pair<Accuracy, double>> {
 
   // Node by node and contact by contact.
   static double Asymmetry(const TracedPath& path) {
-    const std::vector<std::pair<std::string, std::string>> pairs = {{"d", "i"}, {"a", "g"}, {"e", "j"}, {"b", "h"}, {"f", "k"}};
+    const std::vector<std::pair<std::string, std::string>> pairs = {
+        {"d", "i"}, {"a", "g"}, {"e", "j"}, {"b", "h"}, {"f", "k"}};
     double worst = 0.0;
     for (const Increment& row : path.rows) {
       worst = std::max(worst, std::abs(PositionX(path, row, "c")));
@@ -148,7 +150,8 @@ TEST_P(Arch, ToItsEnd) {
 
 INSTANTIATE_TEST_SUITE_P(Presets, Arch,
                          testing::Values(std::make_pair(Accuracy::kFast, 0.0), std::make_pair(Accuracy::kBalanced, 0.0),
-                                         std::make_pair(Accuracy::kAccurate, 0.0), std::make_pair(Accuracy::kBalanced, 0.3)));
+                                         std::make_pair(Accuracy::kAccurate, 0.0),
+                                         std::make_pair(Accuracy::kBalanced, 0.3)));
 
 // ----- resting on rough ground -----
 
@@ -171,7 +174,8 @@ TEST(RestingStructure, SlidesApartOnBothFeet) {
   for (const Increment& row : path.rows) {
     const double left = PositionX(path, row, "left"), right = PositionX(path, row, "foot");
     worst = std::max({worst, std::abs(left + right), std::abs(PositionX(path, row, "apex")),
-                      std::abs(row.contacts[0].rn - 0.5 * row.load_factor), std::abs(row.contacts[0].rt + row.contacts[1].rt)});
+                      std::abs(row.contacts[0].rn - 0.5 * row.load_factor),
+                      std::abs(row.contacts[0].rt + row.contacts[1].rt)});
     if (row.contacts[1].state == ContactState::kStick)
       worst = std::max(worst, std::abs(row.load_factor - rough_truss::StickingLoad(PositionY(path, row, "apex"))));
     else  // as far apart as with one foot sliding
@@ -204,7 +208,8 @@ TEST(RestingStructure, GivesWayAtOnce) {
 // rough floor; springs (kx, ky) hold the upper nodes. fx, fy: loads on each upper node.
 constexpr int kColumns = 12;
 
-TraceRequest Strip(double friction, double kx, double ky, const std::vector<double>& fx, const std::vector<double>& fy) {
+TraceRequest Strip(double friction, double kx, double ky, const std::vector<double>& fx,
+                   const std::vector<double>& fy) {
   TraceRequest request;
   Scene& scene = request.scene;
   scene.name = "strip";
@@ -234,7 +239,8 @@ TraceRequest Strip(double friction, double kx, double ky, const std::vector<doub
 
 std::vector<double> Constant(double value) { return std::vector<double>(kColumns, value); }
 
-// All columns sink alike: the springs bear s each, and all nodes touch at s = 0.1 ky. There are 4^12 combinations of states.
+// All columns sink alike: the springs bear s each, and all nodes touch at s = 0.1 ky. There are 4^12 combinations of
+// states.
 TEST(Strip, TwelveNodesTouchAtOnce) {
   for (const double friction : {0.0, 0.05, 0.3}) {
     SCOPED_TRACE("mu " + std::to_string(friction));
@@ -294,7 +300,8 @@ TEST(Strip, TouchingAlmostAtOnce) {
     // Both per unit of load: the last rows are not at the same load.
     for (std::size_t i = 0; i < kColumns; ++i) {
       EXPECT_EQ(a.contacts[i].state, ContactState::kStick) << i;
-      const double rate_a = a.contacts[i].rn / (a.load_factor - 0.05), rate_b = b.contacts[i].rn / (b.load_factor - 0.05);
+      const double rate_a = a.contacts[i].rn / (a.load_factor - 0.05),
+                   rate_b = b.contacts[i].rn / (b.load_factor - 0.05);
       EXPECT_NEAR(rate_a, rate_b, 2e-3 + 100.0 * unevenness) << i;
     }
     EXPECT_LE(EnergyImbalance(path), 1e-10);

@@ -51,7 +51,8 @@ double EnergyImbalance(const TracedPath& path) {
   const Scaling scaling = CharacteristicScales(path.request.scene);
   double worst = 0.0;
   for (const Increment& row : path.rows)
-    worst = std::max(worst, std::abs(row.external_work - (row.strain_energy - path.rows[0].strain_energy) - row.dissipation));
+    worst = std::max(worst,
+                     std::abs(row.external_work - (row.strain_energy - path.rows[0].strain_energy) - row.dissipation));
   return worst / (scaling.force * scaling.length);
 }
 
@@ -77,8 +78,8 @@ class ClosedForm : public testing::TestWithParam<Setting> {
   }
 };
 
-constexpr double kExact = 2e-13;      // of loads, reactions and positions
-constexpr double kCrossing = 1e-9;    // the same where other paths cross
+constexpr double kExact = 2e-13;    // of loads, reactions and positions
+constexpr double kCrossing = 1e-9;  // the same where other paths cross
 constexpr double kDissipation = 1e-9;
 
 TEST_P(ClosedForm, SlidingBar) {
@@ -89,8 +90,9 @@ TEST_P(ClosedForm, SlidingBar) {
   for (const Increment& row : path.rows) {
     const double x = PositionX(path, row, "b");
     const ContactRecord& contact = Contact(path, row, "b@floor");
-    worst = std::max({worst, std::abs(row.load_factor - bar::LoadFactor(x)), std::abs(contact.rn - bar::NormalReaction(x)),
-                      std::abs(contact.rt + bar::kFriction * contact.rn), std::abs(PositionY(path, row, "b"))});
+    worst =
+        std::max({worst, std::abs(row.load_factor - bar::LoadFactor(x)), std::abs(contact.rn - bar::NormalReaction(x)),
+                  std::abs(contact.rt + bar::kFriction * contact.rn), std::abs(PositionY(path, row, "b"))});
     dissipated = std::max(dissipated, std::abs(row.dissipation - bar::Dissipation(x)));
     if (row.index > 0) {
       EXPECT_EQ(contact.state, ContactState::kSlipPlus);
@@ -132,8 +134,9 @@ TEST_P(ClosedForm, RoughTruss) {
   for (const Increment& row : path.rows) {
     const ContactRecord& foot = Contact(path, row, "foot@floor");
     const double x = PositionX(path, row, "foot"), y = PositionY(path, row, "apex");
-    worst = std::max({worst, std::abs(PositionY(path, row, "foot")), std::abs(PositionX(path, row, "apex") - 0.5 * (x - 1.0)),
-                      std::abs(foot.rn - 0.5 * row.load_factor)});
+    worst =
+        std::max({worst, std::abs(PositionY(path, row, "foot")),
+                  std::abs(PositionX(path, row, "apex") - 0.5 * (x - 1.0)), std::abs(foot.rn - 0.5 * row.load_factor)});
     if (foot.state == ContactState::kStick) {
       worst = std::max({worst, std::abs(x - 1.0), std::abs(row.load_factor - truss::StickingLoad(y)),
                         std::abs(foot.rt + 0.5 * row.load_factor / y)});
@@ -203,10 +206,13 @@ TEST_P(ClosedForm, VonMisesTruss) {
       const TracedPath path = Trace(request);
       EXPECT_EQ(path.result.reason, EndReason::kStopCriterion);
       const double rest = std::hypot(1.0, rise);
-      const auto load = [&](double y) { return -2.0 * form.tension(std::hypot(1.0, y) / rest) * y / std::hypot(1.0, y); };
+      const auto load = [&](double y) {
+        return -2.0 * form.tension(std::hypot(1.0, y) / rest) * y / std::hypot(1.0, y);
+      };
       double worst = 0.0;
       for (const Increment& row : path.rows)
-        worst = std::max({worst, std::abs(PositionX(path, row, "apex")), std::abs(row.load_factor - load(PositionY(path, row, "apex")))});
+        worst = std::max({worst, std::abs(PositionX(path, row, "apex")),
+                          std::abs(row.load_factor - load(PositionY(path, row, "apex")))});
       EXPECT_LE(worst, kExact);
       const std::vector<Increment> limits = RowsOfKind(path, RowKind::kSmoothLimit);
       ASSERT_EQ(limits.size(), 2U);
@@ -245,10 +251,13 @@ TEST_P(ClosedForm, SnapBlock) {
     const ContactRecord& contact = Contact(path, row, "p@floor");
     const double w = PositionX(path, row, "p"), y = PositionY(path, row, "up");
     // w is given by y only to the square root of rounding where the path ends.
-    const double load = contact.state == ContactState::kStick ? snap_block::StickingLoad(y) : (0.8 - 1.0 / snap_block::Length(w)) * y;
-    const double height = contact.state == ContactState::kStick ? 0.0 : y * y - snap_block::Length(w) * snap_block::Length(w) + w * w;
-    const double error = std::max({std::abs(row.load_factor - load), std::abs(height), std::abs(y + PositionY(path, row, "down")),
-                                   std::abs(contact.rn - 1.0), std::abs(row.dissipation - snap_block::Dissipation(w))});
+    const double load =
+        contact.state == ContactState::kStick ? snap_block::StickingLoad(y) : (0.8 - 1.0 / snap_block::Length(w)) * y;
+    const double height =
+        contact.state == ContactState::kStick ? 0.0 : y * y - snap_block::Length(w) * snap_block::Length(w) + w * w;
+    const double error =
+        std::max({std::abs(row.load_factor - load), std::abs(height), std::abs(y + PositionY(path, row, "down")),
+                  std::abs(contact.rn - 1.0), std::abs(row.dissipation - snap_block::Dissipation(w))});
     EXPECT_LE(error, row.kind == RowKind::kBifurcation ? kCrossing : kExact) << "row " << row.index;
   }
   const std::vector<Increment> corners = RowsOfKind(path, RowKind::kCornerLimit);
@@ -271,8 +280,8 @@ TEST_P(ClosedForm, SnapBlock) {
   EXPECT_EQ(last.event.concerned, 1);
 }
 
-// A node beside a von Mises truss that comes to a ceiling from below, slides along it and leaves it, for ceilings that cut the circle by
-// much and by next to nothing.
+// A node beside a von Mises truss that comes to a ceiling from below, slides along it and leaves it, for ceilings that
+// cut the circle by much and by next to nothing.
 TEST_P(ClosedForm, TouchAndLeave) {
   for (const double clearance : {-1e-2, -1e-3, -1e-6, -1e-9}) {
     for (const double friction : {0.0, 0.5}) {
@@ -295,8 +304,9 @@ TEST_P(ClosedForm, TouchAndLeave) {
         if (between) continue;
         // Else it is on the circle, and the truss does not know of it.
         EXPECT_NEAR(row.load_factor, von_mises::BiotLoad(1.0, 1.0, PositionY(path, row, "apex")), kExact);
-        EXPECT_NEAR(std::hypot(PositionX(path, row, "q") - swing::kCentreX, PositionY(path, row, "q") - swing::kCentreY),
-                    swing::kRadius, kExact);
+        EXPECT_NEAR(
+            std::hypot(PositionX(path, row, "q") - swing::kCentreX, PositionY(path, row, "q") - swing::kCentreY),
+            swing::kRadius, kExact);
       }
     }
   }
@@ -318,7 +328,8 @@ TEST_P(ClosedForm, MissByALittle) {
   }
 }
 
-// A ceiling that the circle touches in one point, without pressing: whatever it is called next to there, nothing comes of it.
+// A ceiling that the circle touches in one point, without pressing: whatever it is called next to there, nothing comes
+// of it.
 TEST_P(ClosedForm, Graze) {
   for (const double friction : {0.0, 0.5}) {
     SCOPED_TRACE("mu " + std::to_string(friction));
@@ -421,7 +432,8 @@ TEST(BranchMethod, NoFriction) {
   double worst = 0.0;
   for (const Increment& row : path.rows) {
     const double x = PositionX(path, row, "b"), q = sliding_bar::NormalReaction(x) / sliding_bar::kHeight;
-    worst = std::max({worst, std::abs(row.load_factor + q * x), std::abs(row.contacts[0].rn - sliding_bar::NormalReaction(x))});
+    worst = std::max(
+        {worst, std::abs(row.load_factor + q * x), std::abs(row.contacts[0].rn - sliding_bar::NormalReaction(x))});
     EXPECT_EQ(row.contacts[0].rt, 0.0);
     EXPECT_EQ(row.dissipation, 0.0);
   }
@@ -438,8 +450,8 @@ TEST(BranchMethod, NoFriction) {
 
 // ----- other ways on: branch_choices -----
 
-// From any row the bar may stick instead: then b rests, the load falls, r_n stays and r_t goes from -mu r_n to +mu r_n; from
-// there b slips back, at s = -q (x + h mu), q = r_n / h.
+// From any row the bar may stick instead: then b rests, the load falls, r_n stays and r_t goes from -mu r_n to +mu r_n;
+// from there b slips back, at s = -q (x + h mu), q = r_n / h.
 TEST(BranchChoices, SlidingBarUnloaded) {
   namespace bar = sliding_bar;
   for (const int row : {5, 15, 24, 40, 55, 65, 72}) {
@@ -473,7 +485,8 @@ TEST(BranchChoices, SlidingBarUnloaded) {
       const ContactRecord& contact = now.contacts[0];
       if (contact.state == ContactState::kStick) {
         EXPECT_FALSE(reversed);
-        worst = std::max({worst, std::abs(x - x0), std::abs(contact.rn - rn), std::abs(contact.rt + now.load_factor + q * x0)});
+        worst = std::max(
+            {worst, std::abs(x - x0), std::abs(contact.rn - rn), std::abs(contact.rt + now.load_factor + q * x0)});
         dissipated = std::max(dissipated, std::abs(now.dissipation - bar::Dissipation(x0)));
         EXPECT_GE(now.load_factor, reversal - 1e-13);
       } else {
@@ -486,7 +499,8 @@ TEST(BranchChoices, SlidingBarUnloaded) {
         const double here = bar::NormalReaction(x);
         worst = std::max({worst, std::abs(now.load_factor + here / bar::kHeight * (x + bar::kHeight * bar::kFriction)),
                           std::abs(contact.rt - bar::kFriction * contact.rn), std::abs(contact.rn - here)});
-        dissipated = std::max(dissipated, std::abs(now.dissipation - (2.0 * bar::Dissipation(x0) - bar::Dissipation(x))));
+        dissipated =
+            std::max(dissipated, std::abs(now.dissipation - (2.0 * bar::Dissipation(x0) - bar::Dissipation(x))));
       }
     }
     EXPECT_TRUE(reversed);

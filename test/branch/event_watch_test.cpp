@@ -20,7 +20,8 @@ namespace {
 class Piece {
  public:
   Piece(const TracedPath& path, std::size_t row)
-      : model_(path.request.scene, CharacteristicScales(path.request.scene)), piece_(model_.structure, model_.contacts) {
+      : model_(path.request.scene, CharacteristicScales(path.request.scene)),
+        piece_(model_.structure, model_.contacts) {
     const PathPoint from = PointOf(model_, path.rows.at(row)), to = PointOf(model_, path.rows.at(row + 1));
     piece_.SetStates(to.states, from);
     const Eigen::VectorXd start = piece_.system().Pack(from);

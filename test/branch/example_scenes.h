@@ -10,10 +10,10 @@
 
 namespace contact_path {
 
-// A node that passes under the top of a circle: a von Mises truss (half span 1, rise 1, load (0, -s) at the apex) and a node
-// q, without load, on bars from the apex and from the pinned point c = (0.5, 1). The bars of q stay without stress, so q moves
-// on the circle of radius 0.5 about c and is on top of it, at (0.5, 1.5), where the apex is at y = 0.9. Ceiling over q at
-// the height `clearance` above the circle; 0: it touches the circle.
+// A node that passes under the top of a circle: a von Mises truss (half span 1, rise 1, load (0, -s) at the apex) and a
+// node q, without load, on bars from the apex and from the pinned point c = (0.5, 1). The bars of q stay without
+// stress, so q moves on the circle of radius 0.5 about c and is on top of it, at (0.5, 1.5), where the apex is at y =
+// 0.9. Ceiling over q at the height `clearance` above the circle; 0: it touches the circle.
 namespace swing {
 
 constexpr double kCentreX = 0.5, kCentreY = 1.0, kRadius = 0.5, kApexOnTop = 0.9;
@@ -55,17 +55,18 @@ inline Scene MakeScene(double clearance, double friction) {
                 {{"c", "q"}, 1.0, kRadius, StrainMeasure::kBiot},
                 {{"apex", "q"}, 1.0, kArm, StrainMeasure::kBiot}};
   scene.loads = {{"apex", 0.0, -1.0, false}};
-  scene.obstacles = {
-      {"ceiling", ObstacleShape::kHalfPlane, 0.0, kCentreY + kRadius + clearance, 0.0, -1.0, friction}};
+  scene.obstacles = {{"ceiling", ObstacleShape::kHalfPlane, 0.0, kCentreY + kRadius + clearance, 0.0, -1.0, friction}};
   scene.contacts = {{"q", "ceiling"}};
   return scene;
 }
 
 }  // namespace swing
 
-// A path that really ends. A block p on a floor, pressed down by the constant load 1, mu = 0.2, pushed off its start (1, 0) by
-// the negative spring -3 (p.x - 1); two bars (EA = 1, l0 = 1.25, without stress) from p to nodes on the line x = 0 at y =
-// +-0.75, drawn apart by s. The block sticks until its bars pull with 0.2, at l = 1 / 0.7; then it slides towards the line, at
+// A path that really ends. A block p on a floor, pressed down by the constant load 1, mu = 0.2, pushed off its start
+// (1, 0) by the negative spring -3 (p.x - 1); two bars (EA = 1, l0 = 1.25, without stress) from p to nodes on the line
+// x = 0 at y =
+// +-0.75, drawn apart by s. The block sticks until its bars pull with 0.2, at l = 1 / 0.7; then it slides towards the
+// line, at
 //   l(w) = w / (1.4 - 0.7 w),  y(w)^2 = l^2 - w^2,  s(w) = (0.8 - 1 / l) y,  w = p.x,
 // while the nodes come back to the floor, y = 0, at w = 4/7. There the bars pull the block least, and there it stops
 // sliding. It cannot slide on, and it cannot stick: in any other position of the nodes the bars would pull more than
@@ -115,14 +116,16 @@ inline Scene MakeScene() {
   Scene scene;
   scene.name = "tall_truss";
   scene.nodes = {{"left", -1.0, 0.0, true, true}, {"apex", 0.0, kRise, false, false}, {"right", 1.0, 0.0, true, true}};
-  scene.bars = {{{"left", "apex"}, 1.0, 0.0, StrainMeasure::kBiot}, {{"apex", "right"}, 1.0, 0.0, StrainMeasure::kBiot}};
+  scene.bars = {{{"left", "apex"}, 1.0, 0.0, StrainMeasure::kBiot},
+                {{"apex", "right"}, 1.0, 0.0, StrainMeasure::kBiot}};
   scene.loads = {{"apex", 0.0, -1.0, false}};
   return scene;
 }
 
 }  // namespace tall_truss
 
-// A block on a floor, held by linear springs: K = [[2, 0], [0, 2]], pressed down by the constant load 1, mu = 0.5, load (s, 0).
+// A block on a floor, held by linear springs: K = [[2, 0], [0, 2]], pressed down by the constant load 1, mu = 0.5, load
+// (s, 0).
 inline Scene SpringAndBlock() {
   Scene scene;
   scene.name = "spring_and_block";

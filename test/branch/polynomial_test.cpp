@@ -97,14 +97,15 @@ TEST(HermiteQuintic, InterpolatesWithOrderSix) {
     }
     return worst;
   };
-  for (const double length : {0.8, 0.4, 0.2}) EXPECT_NEAR(std::log2(error(length) / error(0.5 * length)), 6.0, 0.6) << length;
+  for (const double length : {0.8, 0.4, 0.2})
+    EXPECT_NEAR(std::log2(error(length) / error(0.5 * length)), 6.0, 0.6) << length;
   EXPECT_LE(error(0.4), std::exp(0.4) * std::pow(0.4, 6) / 46080.0);  // max |f^(6)| / 6! t^3 (length - t)^3
 }
 
 TEST(Roots, FindsAllRootsInAscendingOrder) {
   const std::vector<std::vector<double>> cases = {
-      {},         {0.3},           {0.3, 0.7},           {0.1, 0.2, 0.95},           {0.2, 0.4, 0.6, 0.8}, {0.1, 0.3, 0.5, 0.7, 0.9},
-      {-0.5},     {1.5},           {-0.5, 0.5, 1.5},     {0.999999, -0.2, -0.3},     {0.5, 0.5 + 1e-4},    {1e-6, 0.5}};
+      {},     {0.3}, {0.3, 0.7},       {0.1, 0.2, 0.95},       {0.2, 0.4, 0.6, 0.8}, {0.1, 0.3, 0.5, 0.7, 0.9},
+      {-0.5}, {1.5}, {-0.5, 0.5, 1.5}, {0.999999, -0.2, -0.3}, {0.5, 0.5 + 1e-4},    {1e-6, 0.5}};
   for (const std::vector<double>& all : cases) {
     for (const double factor : {1.0, -3.0, 1e-6, 1e6}) {
       std::vector<double> inside;

@@ -17,7 +17,9 @@ class Generator {
  public:
   explicit Generator(std::uint64_t seed) : state_(Mix(seed * 0xD1B54A32D192ED03U)) {}
 
-  double Number(double lower, double upper) { return lower + (upper - lower) * std::ldexp(static_cast<double>(Bits() >> 11U), -53); }
+  double Number(double lower, double upper) {
+    return lower + (upper - lower) * std::ldexp(static_cast<double>(Bits() >> 11U), -53);
+  }
   // 0..count - 1.
   std::size_t Index(std::size_t count) { return static_cast<std::size_t>(Bits() % count); }
   bool Chance(double probability) { return Number(0.0, 1.0) < probability; }
@@ -122,7 +124,8 @@ class Builder {
       for (const Node& other : scene_.nodes) clear = clear && Distance(node, other) > 0.45;
       const Node &first = scene_.nodes[a], &second = scene_.nodes[b];
       const double la = Distance(node, first), lb = Distance(node, second);
-      const double sine = ((first.x - node.x) * (second.y - node.y) - (first.y - node.y) * (second.x - node.x)) / (la * lb);
+      const double sine =
+          ((first.x - node.x) * (second.y - node.y) - (first.y - node.y) * (second.x - node.x)) / (la * lb);
       if (!clear || la > 2.0 || lb > 2.0 || std::abs(sine) < 0.4) continue;
       scene_.nodes.push_back(std::move(node));
       AddBar(a, n);

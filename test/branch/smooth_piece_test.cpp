@@ -22,7 +22,8 @@ using Eigen::VectorXd;
 class TracedPiece {
  public:
   TracedPiece(const TracedPath& path, std::size_t index)
-      : model_(path.request.scene, CharacteristicScales(path.request.scene)), piece_(model_.structure, model_.contacts) {
+      : model_(path.request.scene, CharacteristicScales(path.request.scene)),
+        piece_(model_.structure, model_.contacts) {
     const PathPoint from = PointOf(model_, path.rows[index - 1]), to = PointOf(model_, path.rows[index]);
     piece_.SetStates(to.states, from);
     const VectorXd start = piece_.system().Pack(from);
@@ -38,7 +39,8 @@ class TracedPiece {
 
   // The point of the curve on the plane at distance t from the start.
   VectorXd At(double t) {
-    const Correction correction = piece_.CorrectOnPlane(start_.x + t * start_.first + 0.5 * t * t * start_.second, normal());
+    const Correction correction =
+        piece_.CorrectOnPlane(start_.x + t * start_.first + 0.5 * t * t * start_.second, normal());
     EXPECT_TRUE(correction.converged) << t;
     return correction.x;
   }
@@ -66,8 +68,8 @@ TracedPath Trace(const std::string& scene, int rows) {
 
 // Pieces with slip, stick, a free structure, rigid modes, and many unknowns.
 std::vector<std::pair<std::string, std::size_t>> Pieces() {
-  return {{"sliding_bar", 20}, {"sliding_bar", 60}, {"rough_truss", 5}, {"von_mises", 10}, {"von_mises", 50},
-          {"arch19", 40},      {"arch19", 150}};
+  return {{"sliding_bar", 20}, {"sliding_bar", 60}, {"rough_truss", 5}, {"von_mises", 10},
+          {"von_mises", 50},   {"arch19", 40},      {"arch19", 150}};
 }
 
 constexpr int kRows = 160;
@@ -142,7 +144,8 @@ TEST(SmoothPiece, NewtonConvergesQuadratically) {
     TracedPiece traced(Trace(scene, kRows), index);
     std::vector<double> constants;
     for (const double t : {0.12, 0.08, 0.05, 0.03}) {
-      const Correction correction = traced.piece().CorrectOnPlane(traced.start().x + t * traced.start().first, traced.normal());
+      const Correction correction =
+          traced.piece().CorrectOnPlane(traced.start().x + t * traced.start().first, traced.normal());
       ASSERT_TRUE(correction.converged);
       ASSERT_GE(correction.steps.size(), 3U);
       EXPECT_EQ(correction.iterations, static_cast<int>(correction.steps.size()));
@@ -293,7 +296,10 @@ TEST(SmoothPiece, TwoHalvesEndWhereTheWholeStepDoes) {
 TEST(SmoothPiece, CountsNullDirections) {
   // A bar on a hinge: one rigid mode that neither load nor reactions know of.
   Scene scene;
-  scene.nodes = {{"a", 0.0, 0.0, true, true}, {"b", 1.0, 0.0, false, false}, {"c", 0.5, 1.0, true, true}, {"d", 1.5, 1.0, false, true}};
+  scene.nodes = {{"a", 0.0, 0.0, true, true},
+                 {"b", 1.0, 0.0, false, false},
+                 {"c", 0.5, 1.0, true, true},
+                 {"d", 1.5, 1.0, false, true}};
   scene.bars = {{{"a", "b"}, 1.0, 0.0, StrainMeasure::kBiot}, {{"c", "d"}, 1.0, 0.0, StrainMeasure::kBiot}};
   scene.loads = {{"d", 1.0, 0.0, false}};
   const Model model(scene, CharacteristicScales(scene));

@@ -31,7 +31,8 @@ constexpr ContactState kSlipPlus = ContactState::kSlipPlus, kSlipMinus = Contact
 
 // A scene in its own scales: what is given here is what the rates are of.
 struct Rest {
-  explicit Rest(const Scene& scene) : model(scene, Scaling()), ipopt(nullptr), mpec(model.structure, model.contacts, &ipopt) {
+  explicit Rest(const Scene& scene)
+      : model(scene, Scaling()), ipopt(nullptr), mpec(model.structure, model.contacts, &ipopt) {
     point = model.InitialPoint();
   }
 
@@ -62,8 +63,8 @@ Scene OneNode(const Eigen::Matrix2d& stiffness, const Vector2d& load, double fri
   return scene;
 }
 
-std::unique_ptr<Rest> RestingNode(const Eigen::Matrix2d& stiffness, const Vector2d& load, double friction, double rn, double rt,
-                                  ContactState state) {
+std::unique_ptr<Rest> RestingNode(const Eigen::Matrix2d& stiffness, const Vector2d& load, double friction, double rn,
+                                  double rt, ContactState state) {
   auto rest = std::make_unique<Rest>(OneNode(stiffness, load, friction, rn, rt));
   rest->point.rn[0] = rn;
   rest->point.rt[0] = rt;
@@ -120,8 +121,8 @@ TEST(FindWays, SlippingItMaySlipOnOrStick) {
   EXPECT_NEAR(on.ways[1].load_rate, -1.0, 1e-15);
 }
 
-// Without reactions all four states are open to it; K = I, the load decides: inside the cone it sticks, beside it it slips,
-// upwards it leaves.
+// Without reactions all four states are open to it; K = I, the load decides: inside the cone it sticks, beside it it
+// slips, upwards it leaves.
 TEST(FindWays, TouchingWithoutReactions) {
   const double mu = 0.5;
   const auto ways = [&](double fx, double fy) {
@@ -156,7 +157,8 @@ TEST(FindWays, FrictionlessContactIsOpenOrClosed) {
   }
 }
 
-// Klarbring's example: mu = 2 > K_tt / |K_nt|. With the reaction gone, load as on the way up, stick, slip and open are all possible.
+// Klarbring's example: mu = 2 > K_tt / |K_nt|. With the reaction gone, load as on the way up, stick, slip and open are
+// all possible.
 TEST(FindWays, SeveralWaysAtOnce) {
   Eigen::Matrix2d stiffness;
   stiffness << 1.0, -1.5, -1.5, 4.0;
@@ -186,7 +188,8 @@ struct Ray {
   double dissipation = 0.0;
 };
 
-// Nodes with one contact each at the origin of their own frame; K couples them. Everything dense and by the definitions.
+// Nodes with one contact each at the origin of their own frame; K couples them. Everything dense and by the
+// definitions.
 struct LinearProblem {
   MatrixXd stiffness;            // 2n x 2n
   VectorXd load;                 // 2n
@@ -323,7 +326,8 @@ LinearProblem RandomProblem(Random* random, Index n) {
     problem.friction.push_back(random->Number(0.1, 2.0));
     const double kind = random->Number(0.0, 1.0);
     const double rn = kind < 0.4 ? 0.0 : random->Number(0.2, 1.0), mu = problem.friction.back();
-    const double rt = kind < 0.55 ? random->Number(-0.8, 0.8) * mu * rn : (random->Number(0.0, 1.0) < 0.5 ? mu : -mu) * rn;
+    const double rt =
+        kind < 0.55 ? random->Number(-0.8, 0.8) * mu * rn : (random->Number(0.0, 1.0) < 0.5 ? mu : -mu) * rn;
     problem.rn.push_back(rn);
     problem.rt.push_back(rt);
     problem.states.push_back(kStick);
@@ -383,8 +387,8 @@ TEST(FindWays, FindsExactlyTheAdmissibleRays) {
     }
     // From a start: those with the wanted sign.
     for (const double sign : {1.0, -1.0}) {
-      const auto wanted = std::count_if(rays.begin(), rays.end(),
-                                        [&](const Ray& ray) { return sign * ray.direction[2 * n] > 0.0; });
+      const auto wanted =
+          std::count_if(rays.begin(), rays.end(), [&](const Ray& ray) { return sign * ray.direction[2 * n] > 0.0; });
       EXPECT_EQ(rest.FromStart(sign).ways.size(), static_cast<std::size_t>(wanted));
     }
     ++with_ways[std::min<std::size_t>(rays.size(), 11)];
@@ -399,7 +403,8 @@ TEST(FindWays, FindsExactlyTheAdmissibleRays) {
 
 // ----- many contacts -----
 
-// Nodes that do not know of each other, one spring each: the states of each are known, and 4^n combinations are too many.
+// Nodes that do not know of each other, one spring each: the states of each are known, and 4^n combinations are too
+// many.
 TEST(FindWays, ManyContactsAtOnce) {
   Scene scene;
   States expected;
@@ -541,7 +546,8 @@ TEST(FindWays, RigidModes) {
   scene.loads = {{"b", 1.0, 0.0, false}};
   Rest rest(scene);
   const WaysOn on = rest.FromStart(1.0);
-  // The load stretches the first bar; the second swings freely, and of all motions that keep its length this is the shortest.
+  // The load stretches the first bar; the second swings freely, and of all motions that keep its length this is the
+  // shortest.
   ASSERT_EQ(on.ways.size(), 1U);
   EXPECT_FALSE(on.ways[0].loose);
   EXPECT_NEAR(on.ways[0].direction[1] / on.ways[0].direction[0], -1.0 / 3.0, 1e-12);

@@ -23,7 +23,9 @@ class Structure {
 
   Eigen::Index NumDofs() const { return initial_.size(); }
   // Index of a free component in u (axis 0 = x, 1 = y); -1 if it is fixed.
-  int Dof(int node, int axis) const { return dofs_[2 * static_cast<std::size_t>(node) + static_cast<std::size_t>(axis)]; }
+  int Dof(int node, int axis) const {
+    return dofs_[2 * static_cast<std::size_t>(node) + static_cast<std::size_t>(axis)];
+  }
   int NodeIndex(const std::string& name) const { return node_index_.at(name); }
 
   const Eigen::VectorXd& InitialPositions() const { return initial_; }      // of the free components
