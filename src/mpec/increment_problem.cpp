@@ -98,7 +98,9 @@ PathPoint IncrementProblem::Point(const Eigen::VectorXd& x) const {
     if (std::abs(slip) <= margin)
       state = ContactState::kStick;
     else
-      state = slip > 0.0 ? ContactState::kSlipPlus : ContactState::kSlipMinus;
+      // Motion and reaction are opposed; at a corner the motion is zero, with a reaction next to zero it is the motion
+      // that tells.
+      state = slip > x[slot.rt] ? ContactState::kSlipPlus : ContactState::kSlipMinus;
   }
   return point;
 }

@@ -21,6 +21,8 @@ constexpr double kSamePoint = 0.1;
 
 constexpr int kMaxActiveSetChanges = 4;
 
+constexpr double kSameEps = 1.0 + 1e-9;  // rounding of powers of the factor
+
 Eigen::VectorXd TangentialPositions(const std::vector<ContactGeometry>& contacts, const Eigen::VectorXd& u) {
   Eigen::VectorXd positions(static_cast<Eigen::Index>(contacts.size()));
   for (std::size_t i = 0; i < contacts.size(); ++i)
@@ -76,7 +78,7 @@ IncrementTrial IncrementSolver::SolveWith(const PathPoint& from, const std::vect
       trial.status = outcome.status;
       return trial;
     }
-    if (eps <= schedule.minimum) break;
+    if (eps <= schedule.minimum * kSameEps) break;
     eps = std::max(schedule.minimum, schedule.factor * eps);
   }
   trial.status = SolveStatus::kSolved;

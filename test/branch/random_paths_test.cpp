@@ -4,8 +4,8 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <iostream>
+#include <limits>
 #include <map>
 #include <set>
 #include <sstream>
@@ -60,11 +60,19 @@ const char* ToString(Cause cause) {
 
 // Those of 1..kSeeds whose traces are not all the same, with the cause.
 const std::map<unsigned, Cause>& ListedDifferences() {
-  static const std::map<unsigned, Cause> listed = {};
+  static const std::map<unsigned, Cause> listed = {
+      {14, Cause::kLoose},      // comes loose at s = 0: how many of the free motions are named depends on the order
+      {86, Cause::kWedge},      // fast: the cone of a redundant reaction is reached 1e-7 earlier
+      {92, Cause::kLoose},      // a four-bar chain hangs free from the start
+      {125, Cause::kPreload},   // swings far under its constant loads: with short steps more rows than allowed
+      {253, Cause::kHinge},     // fast: does not pass the hinge, step_too_small
+      {267, Cause::kLoose},     // fast: a reaction and its cone vanish together, while a hinge is free
+      {281, Cause::kWedge},     // held by two obstacles, it rests as slip+ in the mirror image, too
+  };
   return listed;
 }
 
-// Those that end for want of an increment, and where.
+// Those whose balanced trace ends otherwise than at a proper end of the path, with the cause.
 const std::map<unsigned, Cause>& ListedFailures() {
   static const std::map<unsigned, Cause> listed = {};
   return listed;
@@ -397,7 +405,6 @@ TEST(RandomPaths, EndForAReason) {
               << " rows: " << path.result.message << "\n";
     if (end.first != EndReason::kPathEnd) failures[seed] = end.second;
   }
-  EXPECT_EQ(failures.count(0), 0U);
   for (const auto& [seed, cause] : failures) {
     const auto listed = ListedFailures().find(seed);
     EXPECT_TRUE(listed != ListedFailures().end() && listed->second == cause)
@@ -528,12 +535,88 @@ TEST(RandomPaths, EquilibriaAreNearElsewhere) {
     if (events.size() < 2) continue;
     const auto at = static_cast<std::size_t>(events[1]->index);
     if (events[1]->event.ways.empty() || at + 1 >= path.rows.size()) continue;
+    if (events.size() > 2 && events[2]->arc_length < events[1]->arc_length + 0.01) continue;  // the neighbours are beyond that
     if (Explain(path, at + 1) != Cause::kUnexplained) continue;  // nothing special up to there
     path.rows.resize(at + 1);
     EXPECT_GE(Neighbourhood(path).Count(), 1) << "seed " << seed;
     ++checked;
   }
   EXPECT_GE(checked, 50);
+}
+
+// ----- the other method -----
+
+// Distance of a row from the polygon of a path, in (u, s), scaled; *place: arc length there.
+double DistanceFromPath(const Increment& row, const TracedPath& path, double* place) {
+  const Scaling scaling = CharacteristicScales(path.request.scene);
+  const auto point = [&scaling](const Increment& of) {
+    const auto size = static_cast<Eigen::Index>(of.positions.size());
+    Eigen::VectorXd x(size + 1);
+    x << Eigen::Map<const Eigen::VectorXd>(of.positions.data(), size) / scaling.length, of.load_factor / scaling.load_factor;
+    return x;
+  };
+  const Eigen::VectorXd x = point(row);
+  double nearest = std::numeric_limits<double>::infinity();
+  Eigen::VectorXd a = point(path.rows[0]);
+  for (std::size_t i = 1; i < path.rows.size(); ++i) {
+    const Eigen::VectorXd b = point(path.rows[i]), edge = b - a;
+    const double share = edge.squaredNorm() > 0.0 ? std::clamp(edge.dot(x - a) / edge.squaredNorm(), 0.0, 1.0) : 0.0;
+    const double distance = (a + share * edge - x).norm();
+    if (distance < nearest) {
+      nearest = distance;
+      *place = path.rows[i].arc_length;
+    }
+    a = b;
+  }
+  return nearest;
+}
+
+// The increments of Algorithm 3.2 follow the path: on it between events, next to it after one, as near as a corner may be cut.
+TEST(RandomPaths, IncrementsOfTheOtherMethodFollowThem) {
+  constexpr unsigned kCompared = 20;
+  constexpr double kArc = 0.2, kPolygon = 1e-6, kCorner = 5e-4;
+  // Where it leaves the path, at an event that turns it by more than a right angle: a neighbouring equilibrium is nearer.
+  const std::set<unsigned> parting = {12};
+  std::set<unsigned> parted;
+  int nearer = 0, on_the_path = 0, increments = 0;
+  for (unsigned seed = 1; seed <= kCompared; ++seed) {
+    TraceRequest request = RandomRequest(seed);
+    request.options.step = 0.001;
+    const TracedPath exact = TraceArc(request, 2.0 * kArc);
+    ASSERT_FALSE(exact.rows.empty());
+    request.options.method = Method::kMpec;
+    std::vector<double> farthest;
+    for (const double step : {0.04, 0.016}) {
+      request.options.step = step;
+      const TracedPath path = TraceArc(request, kArc);
+      double worst = 0.0, place = 0.0, before = 0.0;
+      for (const Increment& row : path.rows) {
+        const double distance = DistanceFromPath(row, exact, &place);
+        worst = std::max(worst, distance);
+        if (distance > kCorner) {
+          parted.insert(seed);
+          // Up to here it was on it; an event is next to there.
+          const bool at_event = std::any_of(exact.rows.begin(), exact.rows.end(), [&](const Increment& other) {
+            return other.kind != RowKind::kRegular && std::abs(other.arc_length - before) < 2.5 * step;
+          });
+          EXPECT_TRUE(at_event) << "seed " << seed << " parts at " << before;
+          break;
+        }
+        before = place;
+        ++increments;
+      }
+      farthest.push_back(worst);
+    }
+    if (parted.count(seed) > 0) continue;
+    std::cout << "seed " << seed << ": at most " << farthest[0] << " and, with shorter increments, " << farthest[1] << " from the path\n";
+    if (farthest[1] <= kPolygon) ++on_the_path;
+    if (farthest[1] <= 1.1 * farthest[0] + kPolygon) ++nearer;
+  }
+  EXPECT_EQ(parted, parting);
+  EXPECT_GE(on_the_path, 12);
+  EXPECT_GE(nearer, 18);
+  std::cout << increments << " increments; on the path in " << on_the_path << " scenes, not farther with shorter increments in " << nearer
+            << ", parted in " << parted.size() << " of " << kCompared << "\n";
 }
 
 }  // namespace
