@@ -321,6 +321,12 @@ TEST_F(SlidingBarProblem, StateIsTheLargerSideOfEachPair) {
   EXPECT_EQ(state(1e-6, 0.0, 1.0, 0.1), ContactState::kStick);
   EXPECT_EQ(state(0.5, 0.0, 1.0, -0.3 + 1e-6), ContactState::kSlipPlus);
   EXPECT_EQ(state(-0.5, 0.0, 1.0, 0.3 - 1e-6), ContactState::kSlipMinus);
+  // At a corner there is no motion to speak of: the reaction tells which way it is about to slip.
+  EXPECT_EQ(state(-1e-7, 0.0, 1.0, -0.3), ContactState::kSlipPlus);
+  EXPECT_EQ(state(1e-7, 0.0, 1.0, 0.3), ContactState::kSlipMinus);
+  // Nor does a reaction that is next to nothing tell anything about a motion.
+  EXPECT_EQ(state(0.5, 0.0, 1e-7, 1e-8), ContactState::kOpen);
+  EXPECT_EQ(state(0.5, -1e-6, 1e-7, 2.9e-8), ContactState::kSlipPlus);
 }
 
 TEST_F(SlidingBarProblem, FrictionlessContactIsOpenOrClosed) {

@@ -48,6 +48,15 @@ TEST(Trace, MaxIncrementsCountsIncrementsAndNotRowZero) {
   }
 }
 
+TEST(Trace, MaxIncrementsDoesNotCountWhatBringsTheConstantLoadsOn) {
+  TraceRequest request = ReadExample("two_dof_friction");
+  request.options.method = Method::kMpec;
+  request.options.max_increments = 1;
+  const TracedPath path = TraceRows(request);
+  EXPECT_EQ(path.result.reason, EndReason::kMaxIncrements) << path.result.message;
+  EXPECT_EQ(path.rows.size(), 2u);
+}
+
 TEST(Trace, StopCriterionHoldsInTheLastRowAndInNoneBefore) {
   TraceRequest request = SlidingBar(0);
   request.options.stop = {{"load_factor", ">", 1.0}};
