@@ -324,9 +324,11 @@ TEST_F(SlidingBarProblem, StateIsTheLargerSideOfEachPair) {
   // At a corner there is no motion to speak of: the reaction tells which way it is about to slip.
   EXPECT_EQ(state(-1e-7, 0.0, 1.0, -0.3), ContactState::kSlipPlus);
   EXPECT_EQ(state(1e-7, 0.0, 1.0, 0.3), ContactState::kSlipMinus);
-  // Nor does a reaction that is next to nothing tell anything about a motion.
-  EXPECT_EQ(state(0.5, 0.0, 1e-7, 1e-8), ContactState::kOpen);
+  // A reaction that is next to nothing tells nothing about a motion: that is told by the slip.
+  EXPECT_EQ(state(0.5, 0.0, 1e-7, 1e-8), ContactState::kSlipPlus);
+  EXPECT_EQ(state(-0.5, 0.0, 1e-7, -1e-8), ContactState::kSlipMinus);
   EXPECT_EQ(state(0.5, -1e-6, 1e-7, 2.9e-8), ContactState::kSlipPlus);
+  EXPECT_EQ(state(0.5, 1e-6, 1e-7, 2.9e-8), ContactState::kOpen);
 }
 
 TEST_F(SlidingBarProblem, FrictionlessContactIsOpenOrClosed) {
