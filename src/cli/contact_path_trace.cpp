@@ -2,22 +2,17 @@
 //
 // Exit status: 0 ended by a stop criterion or the number of increments; 1 ended earlier, all accepted rows written;
 // 2 bad usage or invalid scene.
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
 #include <cerrno>
 #include <csignal>
-#include <cstdlib>
 #include <cstring>
 #include <exception>
-#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <iostream>
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include "contact_path/path/csv.h"
@@ -27,6 +22,7 @@
 #ifdef CONTACT_PATH_WITH_ROS
 #include "bag_sink.h"
 #endif
+#include "one_thread.h"
 #include "progress.h"
 
 namespace contact_path {
@@ -60,16 +56,6 @@ using Sink = std::function<void(const Increment&)>;
 volatile std::sig_atomic_t cancel_requested = 0;
 
 void PrintError(const std::string& message) { std::cerr << kProgram << ": " << message << '\n'; }
-
-// The OpenMP runtime reads its number of threads before main: starts the program over with one, unless the user chose.
-// The systems are small, and more threads only get in each other's way. Where that fails, the program goes on as it is.
-void UseOneThread(char** argv) {
-  constexpr char kThreads[] = "OMP_NUM_THREADS";
-  if (std::getenv(kThreads) != nullptr || setenv(kThreads, "1", /*overwrite=*/0) != 0) return;
-  std::error_code unknown;
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", unknown);
-  if (!unknown) execv(program.c_str(), argv);
-}
 
 // The first signal asks the trace to end; a second one ends the program at once.
 void HandleSignals() {

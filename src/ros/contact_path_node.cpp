@@ -1,34 +1,21 @@
 // The ROS node: reads its parameters and serves until it is told to stop. See trace_service.h.
-#include <unistd.h>
-
-#include <cstdlib>
 #include <exception>
-#include <filesystem>
-#include <system_error>
 
 #include <ros/ros.h>
 
 #include "contact_path/ros/names.h"
 #include "contact_path/ros/shutdown_signal.h"
 #include "contact_path/ros/trace_service.h"
+#include "one_thread.h"
 
 namespace {
 
 constexpr int kThreads = 4;  // one traces, the others answer ~cancel and further requests
 
-// Threads cost more than they bring on systems of this size. The libraries read the variable while they are loaded,
-// before main(), so the program starts over with it; where that fails, it goes on as it is.
-void UseOneThread(char** argv) {
-  if (std::getenv("OMP_NUM_THREADS") != nullptr || ::setenv("OMP_NUM_THREADS", "1", 0) != 0) return;
-  std::error_code error;
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
-  if (!error) ::execv(program.c_str(), argv);
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-  UseOneThread(argv);
+  contact_path::UseOneThread(argv);
   const contact_path::ShutdownSignal shutdown;
   ros::init(argc, argv, contact_path::names::kNode, ros::init_options::NoSigintHandler);
   while (!ros::master::check()) {

@@ -3,9 +3,11 @@ import io
 import os
 import threading
 import time
+import xmlrpc.client
 
 import genpy
 import rosbag
+import rosgraph
 import roslib.packages
 import rospy
 import yaml
@@ -50,6 +52,16 @@ def wait_until(condition, what):
         if time.monotonic() > deadline:
             raise AssertionError('waited in vain until ' + what)
         time.sleep(0.005)
+
+
+def is_subscribed(node, topic):
+    """Whether the publisher of the topic is connected to this subscriber, not only whether the master knows of it."""
+    master = rosgraph.Master('/is_subscribed')
+    for name in dict(master.getSystemState()[0]).get(topic, []):
+        _, _, connections = xmlrpc.client.ServerProxy(master.lookupNode(name)).getBusInfo('/is_subscribed')
+        if any(c[1] == node and c[2] == 'o' and c[4] == topic for c in connections):
+            return True
+    return False
 
 
 def service(name, kind=TracePath):

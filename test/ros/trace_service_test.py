@@ -3,11 +3,13 @@
 import csv
 import os
 import shutil
+import signal
 import subprocess
 import tempfile
 import time
 import unittest
 
+import rosbag
 import rospy
 import rostest
 from contact_path.msg import ContactState, Increment, TraceStatus
@@ -117,6 +119,33 @@ class TraceServiceTest(unittest.TestCase):
             for received, recorded in zip(collector.messages, increments):
                 self.assertTrue(helpers.same(received, recorded), 'increment %d' % recorded.index)
             self.assertEqual([i.index for i in increments], list(range(len(increments))))
+
+    def test_increments_of_rosbag_record_are_those_in_the_bag(self):
+        with tempfile.TemporaryDirectory() as directory:
+            bag = os.path.join(directory, 'recorded.bag')
+            recorder = subprocess.Popen(['rosbag', 'record', '--quiet', '--output-name', bag, NODE + '/increments',
+                                         '__name:=recorder'], stdout=subprocess.DEVNULL)
+            try:
+                helpers.wait_until(lambda: helpers.is_subscribed('/recorder', NODE + '/increments'),
+                                   'rosbag record listens')
+                with helpers.Collector(NODE + '/status', TraceStatus) as status, open(
+                        helpers.scene_path('sliding_bar')) as file:
+                    subprocess.run(['rosservice', 'call', NODE + '/trace', file.read()], check=True,
+                                   stdout=subprocess.DEVNULL)
+                    helpers.wait_until(lambda: status.messages[-1].state == TraceStatus.ENDED, 'the end is told')
+                time.sleep(1.0)  # what the recorder has on its way is not to be seen from outside
+            finally:
+                recorder.send_signal(signal.SIGINT)
+                recorder.wait(helpers.PATIENCE)
+            with rosbag.Bag(bag) as recorded:
+                received = [message for _, message, _ in recorded.read_messages()]
+        newest = max(name for name in os.listdir(self.bags) if name.endswith('.bag'))
+        request, increments, _ = helpers.read_bag(os.path.join(self.bags, newest))
+        self.assertEqual(request.scene.name, 'sliding_bar')
+        self.assertGreater(len(increments), 50)
+        self.assertEqual(len(received), len(increments))
+        for a, b in zip(received, increments):
+            self.assertTrue(helpers.same(a, b), 'increment %d' % b.index)
 
     def test_none_of_2000_increments_is_lost(self):
         with helpers.Collector(NODE + '/increments') as collector:

@@ -1,0 +1,19 @@
+#include "one_thread.h"
+
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <system_error>
+
+namespace contact_path {
+
+void UseOneThread(char** argv) {
+  constexpr char kThreads[] = "OMP_NUM_THREADS";
+  if (std::getenv(kThreads) != nullptr || ::setenv(kThreads, "1", /*overwrite=*/0) != 0) return;
+  std::error_code unknown;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", unknown);
+  if (!unknown) ::execv(program.c_str(), argv);
+}
+
+}  // namespace contact_path
