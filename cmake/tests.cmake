@@ -74,10 +74,8 @@ contact_path_add_test(branch/ways_test LONG)
 # The whole branch method: closed forms and events of many kinds.
 contact_path_add_test(branch/branch_method_test LONG)
 contact_path_add_test(branch/branch_events_test LONG)
-# A study of random scenes, built and run by hand: it lists every scene whose path depends on how it is traced.
-add_executable(branch_random_paths_study EXCLUDE_FROM_ALL test/branch/random_paths_test.cpp test/branch/random_scene.cpp)
-target_link_libraries(branch_random_paths_study
-  PRIVATE GTest::gtest_main contact_path_test_support contact_path_core contact_path_warnings)
+# Random scenes, each traced in many ways: it lists every scene whose path depends on how it is traced.
+contact_path_add_test(branch/random_paths_test LONG SOURCES test/branch/random_scene.cpp)
 contact_path_add_test(check/residuals_test)
 contact_path_add_test(path/csv_test)
 contact_path_add_test(path/increment_test)
