@@ -117,6 +117,8 @@ class Finder {
     return std::nullopt;
   }
 
+  int rigid_modes() const { return rigid_modes_; }
+
  private:
   static constexpr int kBlockPivots = 20;
   static constexpr int kSinglePivots = 200;
@@ -170,6 +172,7 @@ class Finder {
       const Eigen::MatrixXd& candidates = proper.cols() > 0 ? proper : rigid;
       if (candidates.cols() == 0) return std::nullopt;
       loose_ = proper.cols() == 0 && rigid.cols() > 1;
+      if (proper.cols() == 0) rigid_modes_ = std::max(rigid_modes_, static_cast<int>(rigid.cols()));
       if (candidates.cols() == 1)
         tangent = candidates.col(0);
       else  // nearest to the arrival
@@ -246,6 +249,7 @@ class Finder {
     for (std::size_t i = 0; i < contacts_.size(); ++i)
       if (way.states[i] == ContactState::kSlipPlus || way.states[i] == ContactState::kSlipMinus)
         way.dissipation_rate -= point_.rt[static_cast<Eigen::Index>(i)] * contacts_[i].tangential.Rate(way.direction);
+    way.dissipation_rate = std::max(way.dissipation_rate, 0.0);  // but for rounding
     way.turn = std::acos(std::clamp(way.direction.dot(arrival_.direction), -1.0, 1.0));
     for (Way& other : *ways) {
       if ((other.direction - way.direction).norm() >= kSameDirection) continue;
@@ -262,7 +266,8 @@ class Finder {
   FixedStateSystem system_;
   Eigen::VectorXd reference_;
   MinimumNormSolver solver_;
-  bool loose_ = false;  // of the last tangent
+  bool loose_ = false;   // of the last tangent
+  int rigid_modes_ = 0;  // most of all tangents that are rigid modes
 };
 
 // Two ways with the same rates are images of each other under a symmetry of the scene, and break it.
@@ -353,6 +358,7 @@ WaysOn FindWays(const Structure& structure, const std::vector<ContactGeometry>& 
     TryAll(options, &finder, &result);
     result.complete = true;
   }
+  result.rigid_modes = finder.rigid_modes();
   FindTwins(&result.ways);
   std::stable_sort(result.ways.begin(), result.ways.end(), Better);
   return result;

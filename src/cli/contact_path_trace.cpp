@@ -22,6 +22,7 @@
 #ifdef CONTACT_PATH_WITH_ROS
 #include "bag_sink.h"
 #endif
+#include "event_table.h"
 #include "one_thread.h"
 #include "progress.h"
 
@@ -40,6 +41,7 @@ struct Arguments {
   std::optional<std::string> accuracy;
   std::optional<double> step;
   std::optional<int> max_increments;
+  bool events = false;
   bool quiet = false;
 };
 
@@ -68,7 +70,7 @@ void HandleSignals() {
 
 void DeclareOptions(CLI::App& app, Arguments& arguments) {
   app.add_option("SCENE", arguments.scene_file, "Scene file (YAML)")->required();
-  app.add_option("--csv", arguments.csv_file, "Write the rows to this file instead of standard output")
+  app.add_option("--csv", arguments.csv_file, "Write the rows to this file; -, or none: standard output")
       ->type_name("FILE");
 #ifdef CONTACT_PATH_WITH_ROS
   app.add_option("--bag", arguments.bag_file, "Record the trace to this bag too")->type_name("FILE");
@@ -80,6 +82,8 @@ void DeclareOptions(CLI::App& app, Arguments& arguments) {
       ->type_name("NUMBER");
   app.add_option("--max-increments", arguments.max_increments, "Largest number, instead of the scene's; 0 = 1000")
       ->type_name("NUMBER");
+  app.add_flag("--events", arguments.events,
+               "Print each event and the ways on from there on standard error: what branch_choices chooses from");
   app.add_flag("--quiet", arguments.quiet, "Say nothing on standard error unless the trace ends early");
 }
 
@@ -156,6 +160,12 @@ ExitStatus RunTrace(const TraceRequest& request, const Arguments& arguments, std
       StartCsv(request.scene, csv, arguments.csv_file.value_or("standard output")),
       [&progress](const Increment& increment) { progress.Add(increment); },
   };
+  if (arguments.events) {
+    sinks.emplace_back([&](const Increment& increment) {
+      progress.Wipe();
+      PrintWays(request.scene, increment, std::cerr);
+    });
+  }
 #ifdef CONTACT_PATH_WITH_ROS
   std::optional<BagSink> bag;
   if (arguments.bag_file) {
@@ -219,5 +229,6 @@ int main(int argc, char** argv) {
     contact_path::PrintError(error.what());
     return contact_path::kBadInput;
   }
+  if (arguments.csv_file == "-") arguments.csv_file.reset();
   return contact_path::Run(arguments);
 }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "contact_path/path/diagnosis.h"
+
 namespace contact_path {
 namespace {
 
@@ -23,7 +25,14 @@ double Trend(double rate, double change) {
   return std::abs(change) > kLevel ? change : 0.0;
 }
 
-const char* NoWayOn(const WaysOn& on) {
+std::string Name(const BranchChoice& choice) {
+  return choice.event > 0 ? "event " + std::to_string(choice.event) : "row " + std::to_string(choice.row);
+}
+
+std::string NoWayOn(const WaysOn& on) {
+  if (on.rigid_modes > 0)
+    return "no admissible way on, and the structure is a mechanism here: nothing resists " +
+           std::to_string(on.rigid_modes) + (on.rigid_modes == 1 ? " motion" : " motions") + "; is it supported?";
   if (!on.complete) return "no admissible way on was found among the combinations of contact states tried";
   return "no admissible way on: the quasi-static path ends here, only a dynamic jump leads further";
 }
@@ -93,35 +102,36 @@ Arrival BranchMethod::StartArrival() const {
   return arrival;
 }
 
-bool BranchMethod::PassEvent(const PathPoint& point, const Arrival& arrival, const BranchChoice* choice,
-                             EventRecord* record, std::string* message) {
+std::optional<EndReason> BranchMethod::PassEvent(const PathPoint& point, const Arrival& arrival,
+                                                 const BranchChoice* choice, EventRecord* record,
+                                                 std::string* message) {
   const WaysOn on = FindWays(model_.structure, model_.contacts, point, arrival, kAtLimit, &mpec_);
   record->concerned = on.concerned;
   record->complete = on.complete;
   for (const Way& way : on.ways) record->ways.push_back({way.states, way.load_rate, way.dissipation_rate, way.turn});
   if (on.ways.empty()) {
     *message = NoWayOn(on);
-    return false;
+    return EndReason::kPathEnd;
   }
   std::size_t taken = 0;
   if (choice != nullptr) {
     taken = static_cast<std::size_t>(std::max(choice->way, 1) - 1);
     if (taken >= on.ways.size()) {
-      *message = "branch_choices names way " + std::to_string(choice->way) + ", but there are only " +
-                 std::to_string(on.ways.size());
-      return false;
+      *message = "branch_choices wants way " + std::to_string(choice->way) + " at " + Name(*choice) +
+                 ": the number of ways there is " + std::to_string(on.ways.size());
+      return EndReason::kNumericalFailure;
     }
   }
   if (on.ways[taken].loose) {
     *message = "the structure has come loose: it can move in several ways without any change of load and reactions";
-    return false;
+    return EndReason::kPathEnd;
   }
   record->taken = static_cast<int>(taken);
   if (!Leave(point, on.ways[taken])) {
     *message = "the way on from an event could not be followed";
-    return false;
+    return EndReason::kNumericalFailure;
   }
-  return true;
+  return std::nullopt;
 }
 
 std::optional<Segment> BranchMethod::Step(double length) {
@@ -194,8 +204,16 @@ std::vector<double> BranchMethod::CrossingPath(const Segment& segment) {
   return components;
 }
 
-bool BranchMethod::Start(const PathPoint& from, EventRecord* ways, std::string* message) {
+std::optional<EndReason> BranchMethod::Start(const PathPoint& from, EventRecord* ways, std::string* message) {
   return PassEvent(from, StartArrival(), ChoiceForRow(0), ways, message);
+}
+
+std::string BranchMethod::Remark() const {
+  std::string text;
+  for (const BranchChoice& choice : options_.choices)
+    if (choice.event > events_ || (choice.event == 0 && choice.row > rows_))
+      text += (text.empty() ? "branch_choices: never came to " : ", ") + Name(choice);
+  return text;
 }
 
 Advance BranchMethod::Next(const PathPoint& from, double longest) {
@@ -209,6 +227,8 @@ Advance BranchMethod::Next(const PathPoint& from, double longest) {
     if (length < options_.smallest_step) {
       advance.reason = EndReason::kStepTooSmall;
       advance.message = "no increment could be accepted, however short: Newton's method does not stay on the branch";
+      const std::string bar = CollapsedBar(model_.scene, model_.InSceneUnits(from).positions);
+      if (!bar.empty()) advance.message += "; " + bar;
       return advance;
     }
     segment = Step(length);
@@ -280,10 +300,11 @@ Advance BranchMethod::Next(const PathPoint& from, double longest) {
     arrival.direction = end.first.head(piece_.NumMotion());
     arrival.singular = watched.singular;
     if (at_start_) arrival = StartArrival();
-    const BranchChoice* choice = forced != nullptr ? forced : ChoiceForEvent(++events_);
-    if (!PassEvent(row.point, arrival, choice, &row.event, &advance.message)) {
+    if (forced == nullptr) row.event.number = ++events_;
+    const BranchChoice* choice = forced != nullptr ? forced : ChoiceForEvent(events_);
+    if (const std::optional<EndReason> reason = PassEvent(row.point, arrival, choice, &row.event, &advance.message)) {
       advance.ended = true;
-      advance.reason = EndReason::kPathEnd;
+      advance.reason = *reason;
       row.kind = RowKind::kContactEvent;
     } else {
       const Eigen::Index s = piece_.NumMotion() - 1;

@@ -73,8 +73,8 @@ Preload TracePreload(const Model& model, int max_increments, const MethodFactory
   const double target = 1.0 / scaling.load_factor;
   const std::unique_ptr<PathMethod> method = make_method(preload_model);
   EventRecord ways;
-  if (!method->Start(preload.point, &ways, &preload.message)) {
-    preload.reason = EndReason::kPathEnd;
+  if (const std::optional<EndReason> reason = method->Start(preload.point, &ways, &preload.message)) {
+    preload.reason = *reason;
     preload.message = kWhere + preload.message;
     return preload;
   }

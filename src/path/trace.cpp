@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
+#include <optional>
+#include <string>
 #include <utility>
 
 #include "contact_path/path/branch_method.h"
@@ -84,12 +86,40 @@ std::unique_ptr<PathMethod> MakeMethod(const Model& model, const TraceOptions& o
   return std::make_unique<MpecMethod>(model, MpecOptions::ForAccuracy(options), control.cancelled);
 }
 
+// From row 0 on, until something ends the trace. result: reason and message.
+void Follow(const TraceRequest& request, const TraceControl& control, PathPoint point, PathMethod* method,
+            Recorder* recorder, TraceResult* result) {
+  const auto end = [result](EndReason reason, std::string message) {
+    result->reason = reason;
+    result->message = std::move(message);
+  };
+  const StopTest stop(request);
+  const int most_increments = request.options.MaxIncrements();
+  for (;;) {
+    if (control.cancelled && control.cancelled()) return end(EndReason::kCancelled, "cancelled by the caller");
+    if (recorder->rows() > most_increments)
+      return end(EndReason::kMaxIncrements, "the wanted number of increments was accepted");
+    const Clock::time_point start = Clock::now();
+    Advance advance = method->Next(point);
+    const auto rows = static_cast<double>(std::max<std::size_t>(1, advance.rows.size()));
+    const double time = Seconds(Clock::now() - start) / rows;
+    for (AcceptedPoint& row : advance.rows) {
+      recorder->Append(row, time);
+      point = std::move(row.point);
+      if (const StopCriterion* criterion = stop.FirstThatHolds(recorder->row()))
+        return end(EndReason::kStopCriterion, ToText(*criterion));
+      if (recorder->rows() > most_increments) break;
+    }
+    if (advance.ended && recorder->rows() <= most_increments) return end(advance.reason, advance.message);
+  }
+}
+
 TraceResult TraceSound(const TraceRequest& request, const TraceControl& control) {
   const TraceOptions& options = request.options;
   const Model model(request.scene, CharacteristicScales(request.scene));
   TraceResult result;
 
-  Clock::time_point start = Clock::now();
+  const Clock::time_point start = Clock::now();
   const MethodFactory make_preload_method = [&](const Model& of) {
     TraceOptions upwards = options;
     upwards.direction = 1.0;
@@ -110,48 +140,17 @@ TraceResult TraceSound(const TraceRequest& request, const TraceControl& control)
   }
 
   Recorder recorder(model, control);
-  const StopTest stop(request);
   const std::unique_ptr<PathMethod> method = MakeMethod(model, options, control);
   EventRecord ways;
-  const bool started = method->Start(point, &ways, &result.message);
+  const std::optional<EndReason> not_started = method->Start(point, &ways, &result.message);
   recorder.Start(point, residuals, ways, Seconds(Clock::now() - start));
+  if (not_started)
+    result.reason = *not_started;
+  else
+    Follow(request, control, std::move(point), method.get(), &recorder, &result);
   result.increments = recorder.rows();
-  if (!started) {
-    result.reason = EndReason::kPathEnd;
-    return result;
-  }
-  for (;;) {
-    result.increments = recorder.rows();
-    if (control.cancelled && control.cancelled()) {
-      result.reason = EndReason::kCancelled;
-      result.message = "cancelled by the caller";
-      return result;
-    }
-    if (recorder.rows() > options.MaxIncrements()) {
-      result.reason = EndReason::kMaxIncrements;
-      result.message = "the wanted number of increments was accepted";
-      return result;
-    }
-    start = Clock::now();
-    Advance advance = method->Next(point);
-    double time = Seconds(Clock::now() - start) / static_cast<double>(std::max<std::size_t>(1, advance.rows.size()));
-    for (AcceptedPoint& row : advance.rows) {
-      recorder.Append(row, time);
-      point = std::move(row.point);
-      result.increments = recorder.rows();
-      if (const StopCriterion* criterion = stop.FirstThatHolds(recorder.row())) {
-        result.reason = EndReason::kStopCriterion;
-        result.message = ToText(*criterion);
-        return result;
-      }
-      if (recorder.rows() > options.MaxIncrements()) break;
-    }
-    if (advance.ended && recorder.rows() <= options.MaxIncrements()) {
-      result.reason = advance.reason;
-      result.message = advance.message;
-      return result;
-    }
-  }
+  if (const std::string remark = method->Remark(); !remark.empty()) result.message += "; " + remark;
+  return result;
 }
 
 }  // namespace

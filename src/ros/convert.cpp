@@ -102,6 +102,7 @@ msgs::Event ToMessage(const EventRecord& event) {
     to.dissipation_rate = way.dissipation_rate;
     to.turn = way.turn;
   }
+  message.number = ToCount(event.number);
   message.taken = event.taken;
   message.concerned = ToCount(event.concerned);
   message.complete = event.complete;
@@ -121,6 +122,7 @@ EventRecord FromMessage(const msgs::Event& message) {
     to.dissipation_rate = way.dissipation_rate;
     to.turn = way.turn;
   }
+  event.number = FromCount(message.number, "event.number");
   event.taken = message.taken;
   event.concerned = FromCount(message.concerned, "event.concerned");
   event.complete = message.complete != 0;

@@ -582,9 +582,14 @@ TEST(BranchChoices, ByRowAndByEvent) {
   // A way that is not there ends the path, and says so.
   request.options.branch_choices = {{1, 0, 7}};
   const TracedPath none = TraceRows(request);
-  EXPECT_EQ(none.result.reason, EndReason::kPathEnd);
-  EXPECT_NE(none.result.message.find("way 7"), std::string::npos) << none.result.message;
+  EXPECT_EQ(none.result.reason, EndReason::kNumericalFailure);
+  EXPECT_NE(none.result.message.find("way 7 at event 1"), std::string::npos) << none.result.message;
   EXPECT_EQ(none.rows.size(), static_cast<std::size_t>(corner.index) + 1);
+  // A choice that the path never comes to is mentioned.
+  request.options.branch_choices = {{9, 0, 2}, {0, 5000, 1}};
+  const TracedPath unused = TraceRows(request);
+  EXPECT_EQ(unused.rows.size(), plain.rows.size());
+  EXPECT_NE(unused.result.message.find("never came to event 9, row 5000"), std::string::npos) << unused.result.message;
 }
 
 // All ways but the way back are on record: where sticking ends, sticking on is the way back.

@@ -126,9 +126,10 @@ TEST(Preload, SaysWhenThereAreTooManyIncrements) {
 class FakeMethod : public PathMethod {
  public:
   FakeMethod(bool starts, Advance advance) : starts_(starts), advance_(std::move(advance)) {}
-  bool Start(const PathPoint&, EventRecord*, std::string* message) override {
+  std::optional<EndReason> Start(const PathPoint&, EventRecord*, std::string* message) override {
     *message = starts_ ? "" : "because";
-    return starts_;
+    if (starts_) return std::nullopt;
+    return EndReason::kPathEnd;
   }
   Advance Next(const PathPoint&, double) override { return advance_; }
 

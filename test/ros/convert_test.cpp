@@ -187,6 +187,7 @@ Increment FullIncrement() {
   increment.solve.contraction = 31.0;
   increment.event.ways = {{{ContactState::kOpen, ContactState::kSlipPlus}, 32.0, 33.0, 34.0},
                           {{ContactState::kStick, ContactState::kOpen}, 35.0, 36.0, 37.0}};
+  increment.event.number = 41;
   increment.event.taken = 1;
   increment.event.concerned = 38;
   increment.event.complete = false;
@@ -237,6 +238,7 @@ TEST(ConvertTest, IncrementMessageHoldsEveryFieldUnderItsName) {
   EXPECT_EQ(message.event.ways[0].load_rate, 32.0);
   EXPECT_EQ(message.event.ways[0].dissipation_rate, 33.0);
   EXPECT_EQ(message.event.ways[0].turn, 34.0);
+  EXPECT_EQ(message.event.number, 41U);
   EXPECT_EQ(message.event.taken, 1);
   EXPECT_EQ(message.event.concerned, 38U);
   EXPECT_FALSE(message.event.complete);

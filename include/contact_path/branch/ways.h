@@ -38,6 +38,7 @@ struct WaysOn {
   int concerned = 0;  // contacts that could change their state
   bool complete = true;  // false: too many combinations to try them all, the likely ones were
   int combinations = 0;  // tried
+  int rigid_modes = 0;   // most motions found that change neither load nor reactions where nothing else moves
 };
 
 // All ways on from `point`, an equilibrium, without the way back. Concerned are the contacts with an inequality within

@@ -34,10 +34,11 @@ class BranchMethod : public PathMethod {
   // model must outlive the method. cancelled may be empty.
   BranchMethod(const Model& model, const BranchOptions& options, std::function<bool()> cancelled);
 
-  bool Start(const PathPoint& from, EventRecord* ways, std::string* message) override;
+  std::optional<EndReason> Start(const PathPoint& from, EventRecord* ways, std::string* message) override;
   using PathMethod::Next;
   // `from` must be the point that was given last.
   Advance Next(const PathPoint& from, double longest) override;
+  std::string Remark() const override;
 
  private:
   // A step from current_; nothing where it has to be shorter.
@@ -45,9 +46,9 @@ class BranchMethod : public PathMethod {
   Arrival StartArrival() const;
   // Sets out on a way from `point`.
   bool Leave(const PathPoint& point, const Way& way);
-  // Finds the ways on from `point` and sets out on one. False: none, or the chosen one does not exist (*message).
-  bool PassEvent(const PathPoint& point, const Arrival& arrival, const BranchChoice* choice, EventRecord* record,
-                 std::string* message);
+  // Finds the ways on from `point` and sets out on one. Nothing: done. Otherwise why not, with *message.
+  std::optional<EndReason> PassEvent(const PathPoint& point, const Arrival& arrival, const BranchChoice* choice,
+                                     EventRecord* record, std::string* message);
   const BranchChoice* ChoiceForEvent(int event) const;
   const BranchChoice* ChoiceForRow(int row) const;
   Work WorkOf(const Segment& segment) const;

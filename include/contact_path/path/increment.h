@@ -57,6 +57,7 @@ struct WayRecord {
 
 // What the branch method found at a row where ways part; empty elsewhere.
 struct EventRecord {
+  int number = 0;               // of the event, from 1; 0 = not one that the method came upon
   std::vector<WayRecord> ways;  // all admissible ways on but the way back, best first
   int taken = -1;               // index into ways; -1 = none
   int concerned = 0;            // contacts that could change their state

@@ -31,7 +31,7 @@ class MpecMethod : public PathMethod {
   MpecMethod(const Model& model, const MpecOptions& options, std::function<bool()> cancelled);
 
   // Nothing to do: the first increment finds its own way.
-  bool Start(const PathPoint&, EventRecord*, std::string*) override { return true; }
+  std::optional<EndReason> Start(const PathPoint&, EventRecord*, std::string*) override { return std::nullopt; }
   using PathMethod::Next;
   Advance Next(const PathPoint& from, double longest) override;
 

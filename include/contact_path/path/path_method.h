@@ -3,6 +3,7 @@
 #define CONTACT_PATH_PATH_PATH_METHOD_H_
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,13 +36,16 @@ class PathMethod {
  public:
   virtual ~PathMethod() = default;
 
-  // Sets out from the initial point, once, before the first Next(). `ways`: those found there. False: none (*message:
-  // why), and the path ends where it begins.
-  virtual bool Start(const PathPoint& from, EventRecord* ways, std::string* message) = 0;
+  // Sets out from the initial point, once, before the first Next(). `ways`: those found there. Nothing: done. Otherwise
+  // the path ends where it begins, for this reason; *message: one line for a person.
+  virtual std::optional<EndReason> Start(const PathPoint& from, EventRecord* ways, std::string* message) = 0;
 
   // The next rows after `from`, which is the last accepted point: the initial point, or the last row that this method
   // gave, or the point before it to try again. `longest`: bound on the increment length, scaled norm.
   virtual Advance Next(const PathPoint& from, double longest) = 0;
+  // What else the user should know when the trace has ended; empty: nothing.
+  virtual std::string Remark() const { return {}; }
+
   Advance Next(const PathPoint& from) { return Next(from, std::numeric_limits<double>::infinity()); }
 };
 

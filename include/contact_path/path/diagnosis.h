@@ -1,0 +1,18 @@
+// What a person should look at where a path ends early.
+#ifndef CONTACT_PATH_PATH_DIAGNOSIS_H_
+#define CONTACT_PATH_PATH_DIAGNOSIS_H_
+
+#include <string>
+#include <vector>
+
+#include "contact_path/scene/scene.h"
+
+namespace contact_path {
+
+// Names the bar that has shrunk most if that is nearly to nothing, where its force has no direction; else empty.
+// positions: current x0, y0, x1, ..., 2 x nodes [length].
+std::string CollapsedBar(const Scene& scene, const std::vector<double>& positions);
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_PATH_DIAGNOSIS_H_

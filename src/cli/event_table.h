@@ -1,0 +1,17 @@
+// The events of a path and the ways on from each, as text: what branch_choices chooses from.
+#ifndef CONTACT_PATH_CLI_EVENT_TABLE_H_
+#define CONTACT_PATH_CLI_EVENT_TABLE_H_
+
+#include <ostream>
+
+#include "contact_path/path/increment.h"
+#include "contact_path/scene/scene.h"
+
+namespace contact_path {
+
+// Writes the ways on from `row`, a line each, best first; nothing where no ways part.
+void PrintWays(const Scene& scene, const Increment& row, std::ostream& out);
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_CLI_EVENT_TABLE_H_
