@@ -94,11 +94,13 @@ std::optional<double> FirstNegative(const Quintic& polynomial, double length, do
     reduced[5] = 0.0;
     scale /= length;
   }
-  if (reduced[0] < 0.0) return 0.0;
   int count = 0;
   const std::array<double, 5> roots = Roots(reduced, length, &count);
-  if (count > 0) return roots[0];
-  return std::nullopt;
+  if (reduced[0] >= 0.0) return count > 0 ? std::optional<double>(roots[0]) : std::nullopt;
+  // Negative at once. A dip that rounding hides, as of a value that touches zero next to the start, does not count.
+  double where = 0.0;
+  if (Minimum(polynomial, count > 0 ? roots[0] : length, &where) < -tolerance) return 0.0;
+  return count > 1 ? std::optional<double>(roots[1]) : std::nullopt;
 }
 
 double Minimum(const Quintic& polynomial, double length, double* where) {

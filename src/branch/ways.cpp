@@ -15,7 +15,10 @@ namespace {
 constexpr double kRateTolerance = 1e-9;       // of unit rates
 constexpr double kCurvatureTolerance = 1e-9;  // of second derivatives, where the rate is zero
 constexpr double kSameDirection = 1e-7;       // norm of the difference of unit vectors
-constexpr double kWayBack = 1e-3;             // the same, to the way back: an interpolated arrival is not exact
+constexpr double kWayBack = 1e-6;             // the same, to the way back
+constexpr double kWayBackSingular = 1e-3;     // where the arrival is interpolated
+constexpr double kStartRate = 1e-13;          // of the load: a start along which it changes less is a mechanism
+constexpr double kGraze = 1e-12;              // depth to which an inequality may be broken next to the point: rounding
 constexpr double kSingularRank = 1e-6;  // rank tolerance where another path crosses: the point is known to about 1e-10
 constexpr Eigen::Index kMostDenseEquations = 500;  // for a dense singular value decomposition
 constexpr double kRigid = 1e-9;                    // singular value below which load and reactions do not change
@@ -214,18 +217,30 @@ class Finder {
 
   bool Admissible(const Eigen::VectorXd& x, const Eigen::VectorXd& first, const Eigen::VectorXd& second) const {
     const Eigen::Index n = NumMotion();
-    if (arrival_.is_start) {
-      if (first[n - 1] * arrival_.direction[n - 1] <= kRateTolerance) return false;
-    } else if ((first.head(n) + arrival_.direction).norm() < kWayBack) {
-      return false;
-    }
+    if (arrival_.is_start && first[n - 1] * arrival_.direction[n - 1] <= kStartRate) return false;
+    if (!arrival_.is_start && IsWayBack(first)) return false;
     for (const Limit& limit : system_.Inequalities()) {
       double rate = system_.Rate(limit, first), curvature = system_.Rate(limit, second);
       if (limit.inequality != Inequality::kSlip && system_.Value(limit, x) > tolerance_) continue;
-      if (rate < -kRateTolerance) return false;
+      // A graze, located to the root of rounding only: the value is past its minimum before it counts as negative.
+      const bool grazes = limit.inequality != Inequality::kSlip && rate < 0.0 && curvature > kCurvatureTolerance &&
+                          rate * rate <= 2.0 * curvature * kGraze;
+      if (rate < -kRateTolerance && !grazes) return false;
       if (rate <= kRateTolerance && curvature < -kCurvatureTolerance) return false;
     }
     return true;
+  }
+
+  bool IsWayBack(const Eigen::VectorXd& first) const {
+    return (first.head(NumMotion()) + arrival_.direction).norm() < (arrival_.singular ? kWayBackSingular : kWayBack);
+  }
+
+  double DissipationRate(const States& states, const Eigen::VectorXd& direction) const {
+    double rate = 0.0;
+    for (std::size_t i = 0; i < contacts_.size(); ++i)
+      if (states[i] == ContactState::kSlipPlus || states[i] == ContactState::kSlipMinus)
+        rate -= point_.rt[static_cast<Eigen::Index>(i)] * contacts_[i].tangential.Rate(direction);
+    return std::max(rate, 0.0);  // but for rounding
   }
 
   // Contacts that slip by name but do not move.
@@ -246,10 +261,7 @@ class Finder {
     way.first = first;
     way.second = second - first.head(NumMotion()).dot(second.head(NumMotion())) * first;
     way.load_rate = first[NumMotion() - 1];
-    for (std::size_t i = 0; i < contacts_.size(); ++i)
-      if (way.states[i] == ContactState::kSlipPlus || way.states[i] == ContactState::kSlipMinus)
-        way.dissipation_rate -= point_.rt[static_cast<Eigen::Index>(i)] * contacts_[i].tangential.Rate(way.direction);
-    way.dissipation_rate = std::max(way.dissipation_rate, 0.0);  // but for rounding
+    way.dissipation_rate = DissipationRate(way.states, way.direction);
     way.turn = std::acos(std::clamp(way.direction.dot(arrival_.direction), -1.0, 1.0));
     for (Way& other : *ways) {
       if ((other.direction - way.direction).norm() >= kSameDirection) continue;

@@ -13,16 +13,17 @@ namespace {
 constexpr double kAccepted = 1e-9;       // residuals of an accepted row
 constexpr double kNoMove = 1e-12;        // an event nearer than this to the last one happens in place
 constexpr int kMostEventsInPlace = 8;    // then the contacts chatter, and no way on is trusted
-constexpr double kLevel = 1e-6;          // of a unit rate: the load neither rises nor falls
+constexpr double kLevel = 1e-9;          // of a unit rate: the load neither rises nor falls
+constexpr double kLevelSingular = 1e-6;  // where the rate is not exact
 constexpr double kSameTangent = 1e-6;    // difference of unit tangents
 constexpr double kAfterSingular = 0.05;  // of the step: derivatives at a singular point are not exact to second order
 constexpr int kLocatingAttempts = 6;
 constexpr double kNearBifurcation = 1e-6;  // of a step
 
 // The rate of a quantity; where it is zero, how it changes next to there; 0 where both are.
-double Trend(double rate, double change) {
-  if (std::abs(rate) > kLevel) return rate;
-  return std::abs(change) > kLevel ? change : 0.0;
+double Trend(double rate, double change, double level) {
+  if (std::abs(rate) > level) return rate;
+  return std::abs(change) > level ? change : 0.0;
 }
 
 std::string Name(const BranchChoice& choice) {
@@ -310,7 +311,8 @@ Advance BranchMethod::Next(const PathPoint& from, double longest) {
       const Eigen::Index s = piece_.NumMotion() - 1;
       // Which way the load was going and goes on: by the second derivative where the first is zero.
       const double leaving = current_.first[s];
-      const double before = Trend(load_rate, -end.second[s]), after = Trend(leaving, current_.second[s]);
+      const double level = watched.singular ? kLevelSingular : kLevel;
+      const double before = Trend(load_rate, -end.second[s], level), after = Trend(leaving, current_.second[s], level);
       row.kind = before * after < 0.0 ? RowKind::kCornerLimit : RowKind::kContactEvent;
     }
   } else if (watched.happening == Happening::kLimitPoint) {

@@ -11,6 +11,8 @@ namespace {
 // Residuals of an exact point are rounding; those of a regularised one are of the order of the root of its eps.
 constexpr double kExactTolerance = 1e-9;
 constexpr double kRegularisedTolerance = 1e-5;
+// Of the largest force, and of the increment: by this much a regularised point may differ from its contact states.
+constexpr double kStateTolerance = 0.1;
 
 // An increment shorter than this part of what was wanted has not moved: (0, 0) is always feasible.
 constexpr double kProgress = 0.05;
@@ -26,6 +28,8 @@ constexpr double kDissipationShares[] = {0.2, 0.6, 1.0};
 constexpr double kAtLimit = 1e-9;
 
 constexpr int kFirstDirections = 8;
+constexpr double kShortPath = 20.0;          // of the corner tolerance
+constexpr double kCornerShare = 0.04;        // of the wanted step: largest corner tolerance
 constexpr double kSmallestStepRatio = 1e-7;  // of the wanted step
 
 // Whether some contact is about to change its state, so that the path may bend here by any angle.
@@ -38,6 +42,33 @@ bool AtLimit(const std::vector<ContactGeometry>& contacts, const PathPoint& poin
     if (point.states[i] == ContactState::kStick && margin <= kAtLimit) return true;
   }
   return false;
+}
+
+double LargestForce(const PathPoint& point) {
+  const double rn = point.rn.size() > 0 ? point.rn.lpNorm<Eigen::Infinity>() : 0.0;
+  const double rt = point.rt.size() > 0 ? point.rt.lpNorm<Eigen::Infinity>() : 0.0;
+  return std::max({std::abs(point.s), rn, rt});
+}
+
+// Whether what a regularised point says of each contact is what its numbers say. They may all be small against the
+// characteristic force, and then small residuals prove nothing.
+bool StatesAgree(const std::vector<ContactGeometry>& contacts, const PathPoint& from, const PathPoint& to) {
+  const double force = kStateTolerance * LargestForce(to);
+  const double length = kStateTolerance * Distance(from, to);
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    const double slip = contacts[i].tangential.Rate(to.u - from.u);
+    const double margin = contacts[i].friction * to.rn[k] - std::abs(to.rt[k]);
+    const ContactState state = to.states[i];
+    if (state == ContactState::kOpen) {
+      if (std::max(to.rn[k], std::abs(to.rt[k])) > force) return false;
+      continue;
+    }
+    if (contacts[i].gap.Value(to.u) > length) return false;
+    if (state == ContactState::kStick && std::abs(slip) > length) return false;
+    if ((state == ContactState::kSlipPlus || state == ContactState::kSlipMinus) && margin > force) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -58,6 +89,8 @@ MpecOptions MpecOptions::ForAccuracy(const TraceOptions& options) {
       break;
   }
   if (options.step > 0.0) result.step = options.step;
+  // Shorter increments are to show more of the path.
+  result.corner_tolerance = std::min(result.corner_tolerance, kCornerShare * result.step);
   result.smallest_step = kSmallestStepRatio * result.step;
   result.direction = options.Direction();
   return result;
@@ -79,8 +112,10 @@ const char* MpecMethod::Describe(Verdict verdict) {
     case Verdict::kAccepted: return "accepted";
     case Verdict::kNotSolved: return "the increment problem was not solved";
     case Verdict::kResidual: return "the residuals of the solution are too large";
+    case Verdict::kContradiction: return "the regularised solution contradicts its own contact states";
     case Verdict::kTooLong: return "the solution is a jump, far longer than the wanted increment";
     case Verdict::kNoProgress: return "the increment problem has no solution but the point itself";
+    case Verdict::kWrongDirection: return "the load factor changes against the wanted direction";
     case Verdict::kTurnedBack: return "the path turns sharply without a change of contact state";
     case Verdict::kNotConfirmed: return "two half increments do not confirm the change of contact state";
     case Verdict::kCancelled: return "cancelled";
@@ -109,10 +144,14 @@ MpecMethod::Trial MpecMethod::SolveOnce(const PathPoint& from, const Eigen::Vect
   const double moved = Distance(from, to);
   if (!(std::max(trial.residuals.equilibrium, trial.residuals.Contact()) <= tolerance))
     trial.verdict = Verdict::kResidual;
+  else if (!trial.increment.exact && !StatesAgree(model_.contacts, from, to))
+    trial.verdict = Verdict::kContradiction;
   else if (moved > IncrementSolver::kLongestIncrement * length)
     trial.verdict = Verdict::kTooLong;
   else if (moved < kProgress * length)
     trial.verdict = Verdict::kNoProgress;
+  else if (!started_ && (to.s - from.s) * options_.direction < 0.0)
+    trial.verdict = Verdict::kWrongDirection;
   else if (started_ && !bent_ && to.states == from.states && Direction(from, to).dot(direction) < kSmallestCosine &&
            !AtLimit(model_.contacts, from))
     trial.verdict = Verdict::kTurnedBack;
@@ -166,6 +205,11 @@ bool MpecMethod::ConfirmedByHalves(const PathPoint& from, const Eigen::VectorXd&
   return bend.norm() <= options_.corner_tolerance && Distance(second.increment.point, to) <= options_.corner_tolerance;
 }
 
+std::string MpecMethod::Remark() const {
+  if (!started_ || !(length_ < kShortPath * options_.corner_tolerance)) return {};
+  return "the whole path is hardly longer than what increments may cut off: to be trusted only with a smaller step";
+}
+
 Advance MpecMethod::Next(const PathPoint& from, double longest) {
   Advance advance;
   iterations_ = 0;
@@ -198,6 +242,7 @@ Advance MpecMethod::Next(const PathPoint& from, double longest) {
     else if (changed)
       row.kind = RowKind::kContactEvent;
     row.arc_length = Distance(from, to);
+    length_ += row.arc_length;
     row.work = WorkOfIncrement(model_, from, to);
     row.residuals = trial.residuals;
     row.solve.method = Method::kMpec;

@@ -1,6 +1,8 @@
 #include "contact_path/path/preload.h"
 
+#include <locale>
 #include <optional>
+#include <sstream>
 #include <utility>
 
 #include "contact_path/contact/fixed_state_system.h"
@@ -13,6 +15,14 @@ constexpr double kNothing = 1e-14;  // scaled force: rounding of an unstressed s
 constexpr double kInequalityTolerance = 1e-11;
 constexpr double kSmallestStep = 1e-12;
 const char* const kWhere = "while the constant loads were brought on: ";
+
+std::string LimitMessage(double share) {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text.precision(6);
+  text << "a limit point at " << share << " of their full size; only a dynamic jump leads further";
+  return text.str();
+}
 
 // The scene whose load factor, from 0 to 1, brings the constant loads on. holding: internal force at the start, by dof,
 // in scene units.
@@ -53,7 +63,8 @@ std::optional<PathPoint> PointAtLoadFactor(const Model& model, const PathPoint& 
 
 }  // namespace
 
-Preload TracePreload(const Model& model, int max_increments, const MethodFactory& make_method) {
+Preload TracePreload(const Model& model, int max_increments, const MethodFactory& make_method,
+                     const std::function<bool()>& cancelled) {
   Preload preload;
   preload.point = model.InitialPoint();
   Eigen::VectorXd holding;
@@ -80,11 +91,19 @@ Preload TracePreload(const Model& model, int max_increments, const MethodFactory
   }
   double longest = std::numeric_limits<double>::infinity();
   for (int i = 0; i < max_increments; ++i) {
+    if (cancelled && cancelled()) {
+      preload.reason = EndReason::kCancelled;
+      preload.message = kWhere + std::string("cancelled by the caller");
+      return preload;
+    }
     Advance advance = method->Next(preload.point, longest);
     for (AcceptedPoint& row : advance.rows) {
       if (row.point.s < target) {
         preload.point = std::move(row.point);
-        continue;
+        if (row.kind != RowKind::kSmoothLimit && row.kind != RowKind::kCornerLimit) continue;
+        preload.reason = EndReason::kPathEnd;
+        preload.message = kWhere + LimitMessage(preload.point.s / target);
+        return preload;
       }
       std::optional<PathPoint> point = PointAtLoadFactor(preload_model, preload.point, row.point, target);
       if (point) {

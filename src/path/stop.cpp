@@ -3,7 +3,14 @@
 #include <sstream>
 #include <unordered_map>
 
+#include "contact_path/scene/scaling.h"
+
 namespace contact_path {
+namespace {
+
+constexpr double kRounding = 1e-14;  // scaled
+
+}  // namespace
 
 StopTest::StopTest(const TraceRequest& request) {
   std::unordered_map<std::string, int> components = {{"load_factor", kLoadFactor}};
@@ -11,8 +18,12 @@ StopTest::StopTest(const TraceRequest& request) {
     components.emplace(request.scene.nodes[i].name + ".x", static_cast<int>(2 * i));
     components.emplace(request.scene.nodes[i].name + ".y", static_cast<int>(2 * i + 1));
   }
-  for (const StopCriterion& criterion : request.options.stop)
-    items_.push_back({&criterion, components.at(criterion.quantity)});
+  const Scaling scaling = CharacteristicScales(request.scene);
+  for (const StopCriterion& criterion : request.options.stop) {
+    const int component = components.at(criterion.quantity);
+    const double scale = component == kLoadFactor ? scaling.load_factor : scaling.length;
+    items_.push_back({&criterion, component, kRounding * scale});
+  }
 }
 
 const StopCriterion* StopTest::FirstThatHolds(const Increment& row) const {
@@ -21,7 +32,8 @@ const StopCriterion* StopTest::FirstThatHolds(const Increment& row) const {
     const double value =
         item.component == kLoadFactor ? row.load_factor : row.positions[static_cast<std::size_t>(item.component)];
     const StopCriterion& criterion = *item.criterion;
-    if (criterion.when == ">" ? value > criterion.value : value < criterion.value) return &criterion;
+    const double beyond = criterion.when == ">" ? value - criterion.value : criterion.value - value;
+    if (beyond > item.rounding) return &criterion;
   }
   return nullptr;
 }

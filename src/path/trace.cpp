@@ -120,13 +120,13 @@ TraceResult TraceSound(const TraceRequest& request, const TraceControl& control)
   TraceResult result;
 
   const Clock::time_point start = Clock::now();
+  // The start does not depend on how the path from there is traced, but for the accuracy.
   const MethodFactory make_preload_method = [&](const Model& of) {
-    TraceOptions upwards = options;
-    upwards.direction = 1.0;
-    upwards.branch_choices.clear();
+    TraceOptions upwards;
+    upwards.accuracy = options.accuracy;
     return MakeMethod(of, upwards, control);
   };
-  Preload preload = TracePreload(model, kMostPreloadIncrements, make_preload_method);
+  Preload preload = TracePreload(model, kMostPreloadIncrements, make_preload_method, control.cancelled);
   if (!preload.done) {
     result.reason = preload.reason == EndReason::kMaxIncrements ? EndReason::kNumericalFailure : preload.reason;
     result.message = preload.message;

@@ -194,6 +194,10 @@ TEST(FirstNegative, RoundingAtTheStartIsZero) {
     EXPECT_EQ(FirstNegative({rounding, -1.0, 0.0, 0.0, 0.0, 0.0}, 1.0, kTolerance).value(), 0.0) << rounding;
     EXPECT_FALSE(FirstNegative({rounding, rounding, 1.0, 0.0, 0.0, 0.0}, 1.0, kTolerance)) << rounding;
   }
+  // A dip within rounding next to the start, as of a double root, does not count; one that is deeper does.
+  EXPECT_FALSE(FirstNegative({0.0, -1e-6, 1.0, 0.0, 0.0, 0.0}, 1.0, kTolerance));
+  EXPECT_EQ(FirstNegative({0.0, -1e-5, 1.0, 0.0, 0.0, 0.0}, 1.0, kTolerance).value(), 0.0);
+  EXPECT_NEAR(FirstNegative({0.0, -1e-6, 1.0, -2.0, 0.0, 0.0}, 1.0, kTolerance).value(), 0.5, 1e-5);
   // What is zero throughout, but for rounding, holds.
   EXPECT_FALSE(FirstNegative({}, 1.0, kTolerance));
   EXPECT_FALSE(FirstNegative({-5e-12, 3e-12, -2e-12, 1e-12, -4e-12, 2e-12}, 1.0, kTolerance));

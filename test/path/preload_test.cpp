@@ -155,6 +155,35 @@ TEST(Preload, EndOfTheMethodIsTheEndOfThePreload) {
   }
 }
 
+TEST(Preload, EndsAtALimitPoint) {
+  Scene scene = Block(0.0, 0.5);
+  scene.loads.push_back({"b", 0.0, 1.0, true});
+  const Model model(scene, CharacteristicScales(scene));
+  for (const RowKind kind : {RowKind::kSmoothLimit, RowKind::kCornerLimit}) {
+    Advance advance;
+    advance.ended = false;
+    advance.rows.resize(1);
+    advance.rows[0].point = model.InitialPoint();
+    advance.rows[0].point.s = 0.25 * model.structure.ConstantLoad().norm();
+    advance.rows[0].kind = kind;
+    const Preload preload =
+        TracePreload(model, 100, [&](const Model&) { return std::make_unique<FakeMethod>(true, advance); });
+    EXPECT_FALSE(preload.done);
+    EXPECT_EQ(preload.reason, EndReason::kPathEnd);
+    EXPECT_NE(preload.message.find("a limit point at 0.25 of"), std::string::npos) << preload.message;
+  }
+}
+
+TEST(Preload, CanBeCancelled) {
+  Scene scene = Block(0.0, 0.5);
+  scene.loads.push_back({"b", 0.0, 1.0, true});
+  const Model model(scene, CharacteristicScales(scene));
+  const Preload preload = TracePreload(
+      model, 100, [](const Model&) { return std::make_unique<FakeMethod>(true, Advance()); }, [] { return true; });
+  EXPECT_FALSE(preload.done);
+  EXPECT_EQ(preload.reason, EndReason::kCancelled);
+}
+
 TEST(Preload, MethodThatCannotSetOutIsTheEndOfThePath) {
   Scene scene = Block(0.0, 0.5);
   scene.loads.push_back({"b", 0.0, 1.0, true});

@@ -8,7 +8,9 @@ namespace {
 class Stop : public testing::Test {
  protected:
   Stop() {
-    request_.scene.nodes = {{"a", 0.0, 0.0, false, false}, {"b", 0.0, 0.0, false, false}};
+    request_.scene.nodes = {{"a", 0.0, 0.0, false, false}, {"b", 1.0, 0.0, false, false}};
+    request_.scene.bars = {{{"a", "b"}, 1.0}};
+    request_.scene.loads = {{"b", 1.0, 0.0, false}};
     row_.index = 1;
     row_.load_factor = 0.5;
     row_.positions = {1.0, 2.0, 3.0, 4.0};
@@ -42,6 +44,9 @@ TEST_F(Stop, EachQuantityIsItsOwn) {
 TEST_F(Stop, TheValueItselfIsNotBeyond) {
   EXPECT_EQ(ValueThatHolds({{"a.x", ">", 1.0}}), -1.0);
   EXPECT_EQ(ValueThatHolds({{"a.x", "<", 1.0}}), -1.0);
+  // Nor is rounding.
+  EXPECT_EQ(ValueThatHolds({{"a.x", ">", 1.0 - 1e-15}}), -1.0);
+  EXPECT_EQ(ValueThatHolds({{"load_factor", "<", 0.5 + 1e-15}}), -1.0);
 }
 
 TEST_F(Stop, TheFirstInTheListWins) {

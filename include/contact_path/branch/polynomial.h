@@ -25,7 +25,8 @@ Quintic Derivative(const Quintic& polynomial);  // c[5] = 0
 
 // The smallest t in (0, length] from which on the polynomial is negative; nothing if it stays >= 0. A start within
 // `tolerance` of zero is taken as exactly zero, so a polynomial that rises from there does not count; one that falls
-// gives t = 0. One that never leaves the tolerance is zero throughout and counts as holding.
+// gives t = 0, unless it comes back without having left the tolerance. One that never leaves the tolerance is zero
+// throughout and counts as holding.
 std::optional<double> FirstNegative(const Quintic& polynomial, double length, double tolerance);
 
 // All roots in (0, length], ascending; count in *count. Double roots may be left out.

@@ -34,6 +34,7 @@ class MpecMethod : public PathMethod {
   std::optional<EndReason> Start(const PathPoint&, EventRecord*, std::string*) override { return std::nullopt; }
   using PathMethod::Next;
   Advance Next(const PathPoint& from, double longest) override;
+  std::string Remark() const override;
 
  private:
   // Why a trial is not accepted; kAccepted if it is.
@@ -41,6 +42,8 @@ class MpecMethod : public PathMethod {
     kAccepted,
     kNotSolved,
     kResidual,
+    kContradiction,
+    kWrongDirection,
     kTooLong,
     kNoProgress,
     kTurnedBack,
@@ -71,6 +74,7 @@ class MpecMethod : public PathMethod {
   IncrementSolver solver_;
   double step_;
   double growth_ = 1.0;
+  double length_ = 0.0;  // of the path so far
   bool started_ = false;
   bool bent_ = false;  // a contact changed its state in the last increment: its direction is a chord over the bend
   Eigen::VectorXd direction_;  // of the last accepted increment

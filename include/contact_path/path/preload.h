@@ -23,8 +23,11 @@ struct Preload {
 };
 
 // The path from the initial configuration, held by the forces that keep it there, to `model` at load factor 0: these
-// forces go from 1 to 0 while the constant loads go from 0 to 1. Nothing to do where both are zero.
-Preload TracePreload(const Model& model, int max_increments, const MethodFactory& make_method);
+// forces go from 1 to 0 while the constant loads go from 0 to 1. A limit point on the way ends it: loads that are
+// simply put on would jump from there. Nothing to do where both are zero.
+// cancelled is asked before every increment; may be empty.
+Preload TracePreload(const Model& model, int max_increments, const MethodFactory& make_method,
+                     const std::function<bool()>& cancelled = nullptr);
 
 }  // namespace contact_path
 

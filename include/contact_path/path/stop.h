@@ -15,15 +15,16 @@ class StopTest {
   // `request` must be sound and outlive the test.
   explicit StopTest(const TraceRequest& request);
 
-  // The first criterion that holds in `row`, or null. Row 0 is not asked: a criterion can end a path, not forbid its
-  // start.
+  // The first criterion that holds in `row`, by more than rounding, or null. Row 0 is not asked: a criterion can end a
+  // path, not forbid its start.
   const StopCriterion* FirstThatHolds(const Increment& row) const;
 
  private:
   static constexpr int kLoadFactor = -1;
   struct Item {
     const StopCriterion* criterion;
-    int component;  // into Increment::positions, or kLoadFactor
+    int component;    // into Increment::positions, or kLoadFactor
+    double rounding;  // of the quantity
   };
   std::vector<Item> items_;
 };
