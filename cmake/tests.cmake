@@ -22,7 +22,8 @@ add_library(contact_path_test_support STATIC EXCLUDE_FROM_ALL
 )
 target_include_directories(contact_path_test_support PUBLIC ${CMAKE_CURRENT_SOURCE_DIR}/test)
 target_compile_definitions(contact_path_test_support PUBLIC
-  CONTACT_PATH_SCENES="${CMAKE_CURRENT_SOURCE_DIR}/scenes")
+  CONTACT_PATH_SCENES="${CMAKE_CURRENT_SOURCE_DIR}/scenes"
+  CONTACT_PATH_TEST_DATA="${CMAKE_CURRENT_SOURCE_DIR}/test/data")
 target_link_libraries(contact_path_test_support PUBLIC contact_path_core GTest::gtest PRIVATE contact_path_warnings)
 
 # contact_path_add_test(<stage>/<name> [LONG] [SOURCES file...]): test/<stage>/<name>.cpp, as the program <stage>_<name>.
@@ -50,10 +51,12 @@ endfunction()
 # One for each header, but for those that only declare an interface: structure/element.h, mpec/nonlinear_program.h,
 # path/path_method.h.
 contact_path_add_test(support/derivative_checker_test)
+contact_path_add_test(scene/lattice_test)
 contact_path_add_test(scene/read_scene_test)
 contact_path_add_test(scene/scaling_test)
 contact_path_add_test(scene/scene_test)
 contact_path_add_test(scene/validate_test)
+contact_path_add_test(scene/write_scene_test)
 contact_path_add_test(structure/bar_test)
 contact_path_add_test(structure/structure_test)
 contact_path_add_test(structure/superelement_test)
@@ -86,9 +89,10 @@ contact_path_add_test(path/preload_test)
 contact_path_add_test(path/stop_test)
 contact_path_add_test(path/trace_test LONG)
 contact_path_add_test(path/work_test)
-# The whole tracer: the reference cases, and what must not change a path.
+# The whole tracer: the reference cases, what must not change a path, and what once went wrong.
 contact_path_add_test(path/mpec_cases_test LONG)
 contact_path_add_test(path/invariance_test LONG)
+contact_path_add_test(path/hard_scenes_test)
 
 # The command-line program, as its users see it.
 set(contact_path_cli_test ${CONTACT_PATH_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/test/support/run_unittest.py

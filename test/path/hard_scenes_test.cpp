@@ -1,0 +1,84 @@
+// Scenes that once went wrong, with what is right.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "contact_path/scene/read_scene.h"
+#include "support/traced_path.h"
+
+namespace contact_path {
+namespace {
+
+constexpr Accuracy kPresets[] = {Accuracy::kFast, Accuracy::kBalanced, Accuracy::kAccurate};
+
+TracedPath TraceData(const std::string& name, Method method, Accuracy accuracy) {
+  TraceRequest request = ReadTraceRequestFile(std::string(CONTACT_PATH_TEST_DATA) + "/" + name + ".yaml");
+  request.options.method = method;
+  request.options.accuracy = accuracy;
+  return TraceRows(request);
+}
+
+std::vector<double> LimitLoads(const TracedPath& path) {
+  std::vector<double> loads;
+  for (const Increment& row : path.rows)
+    if (row.kind == RowKind::kSmoothLimit || row.kind == RowKind::kCornerLimit) loads.push_back(row.load_factor);
+  return loads;
+}
+
+TEST(HardScenes, ReactionThatTouchesItsConeWhereSlipOnceTurned) {
+  std::vector<double> first;
+  for (const Accuracy accuracy : kPresets) {
+    const TracedPath path = TraceData("reversal_revisited", Method::kBranch, accuracy);
+    EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+    ExpectSoundRows(path, 1e-9);
+    const std::vector<double> loads = LimitLoads(path);
+    ASSERT_EQ(loads.size(), 4U);
+    if (first.empty()) first = loads;
+    for (std::size_t i = 0; i < loads.size(); ++i) EXPECT_NEAR(loads[i], first[i], 1e-10);
+  }
+}
+
+TEST(HardScenes, WayOnNextToStraightBack) {
+  constexpr double kFriction = 0.00018, kCoupling = 0.0009;
+  for (const Accuracy accuracy : kPresets) {
+    const TracedPath path = TraceData("almost_straight_back", Method::kBranch, accuracy);
+    ExpectSoundRows(path, 1e-9);
+    ASSERT_EQ(LimitLoads(path), std::vector<double>{path.rows[LargestLoad(path)].load_factor});
+    EXPECT_NEAR(path.rows[LargestLoad(path)].load_factor, kFriction / kCoupling, 1e-12);
+    for (std::size_t i = LargestLoad(path) + 1; i < path.rows.size(); ++i) {
+      const Increment& row = path.rows[i];
+      const double moved = (kFriction - kCoupling * row.load_factor) / (1.0 + kCoupling * kCoupling);
+      EXPECT_EQ(row.contacts[0].state, ContactState::kSlipPlus);
+      EXPECT_NEAR(PositionX(path, row, "p"), moved, 1e-13);
+      EXPECT_NEAR(row.dissipation, kFriction * moved, 1e-15);
+    }
+    EXPECT_LT(path.rows.back().load_factor, 0.195);
+  }
+}
+
+// The increments of the method would step over the limit point; the start does not depend on them.
+TEST(HardScenes, ConstantLoadNextToTheLimitLoad) {
+  for (const Method method : {Method::kBranch, Method::kMpec})
+    for (const Accuracy accuracy : kPresets) {
+      const TracedPath path = TraceData("preload_near_limit", method, accuracy);
+      ASSERT_FALSE(path.rows.empty()) << path.result.message;
+      EXPECT_NEAR(PositionY(path, path.rows[0], "a"), 0.52460325468315, 1e-10);
+    }
+}
+
+TEST(HardScenes, ConstantLoadBeyondTheLimitLoad) {
+  TraceRequest request = ReadTraceRequestFile(std::string(CONTACT_PATH_TEST_DATA) + "/preload_near_limit.yaml");
+  request.scene.loads[1].fy *= 1.01 / 0.999;
+  for (const Method method : {Method::kBranch, Method::kMpec}) {
+    request.options.method = method;
+    const TracedPath path = TraceRows(request);
+    EXPECT_TRUE(path.rows.empty());
+    EXPECT_EQ(path.result.reason, EndReason::kPathEnd);
+    EXPECT_NE(path.result.message.find("limit point at 0.990099"), std::string::npos) << path.result.message;
+  }
+}
+
+}  // namespace
+}  // namespace contact_path
