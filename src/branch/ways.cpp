@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 
+#include "contact_path/branch/rate_problem.h"
 #include "contact_path/contact/fixed_state_system.h"
 #include "contact_path/contact/minimum_norm.h"
 
@@ -22,9 +24,13 @@ constexpr double kGraze = 1e-12;              // depth to which an inequality ma
 constexpr double kSingularRank = 1e-6;  // rank tolerance where another path crosses: the point is known to about 1e-10
 constexpr Eigen::Index kMostDenseEquations = 500;  // for a dense singular value decomposition
 constexpr double kRigid = 1e-9;                    // singular value below which load and reactions do not change
-constexpr double kMostCombinations = 4096.0;       // 4^6
-constexpr double kMostIfNone = 65536.0;            // 4^8: tried before the path is said to end
-constexpr double kRateLength = 1e-5;               // scaled length of an increment that stands for a rate
+constexpr double kExcluded = 1e-6;              // of unit rates: broken by more, a combination is not looked at again
+constexpr double kFewCombinations = 8.0;        // not worth condensing the rate problem for
+constexpr int kMostRestarts = 64;               // contacts, one after another in another state, to pivot from
+constexpr Eigen::Index kMostDofsForMpec = 300;  // beyond, the increment problem is solved only if nothing else helps
+constexpr double kMostCombinations = 4096.0;    // 4^6
+constexpr double kMostIfNone = 65536.0;         // 4^8: tried before the path is said to end
+constexpr double kRateLength = 1e-5;            // scaled length of an increment that stands for a rate
 
 using States = std::vector<ContactState>;
 
@@ -98,26 +104,18 @@ class Finder {
 
   // Principal pivoting on the rate problem from these states: contacts whose rates are inadmissible change their state,
   // all at once at first, then only the first of them. Ends with admissible states, or gives up. sign: of the tangent,
-  // relative to the direction of arrival.
-  std::optional<States> Pivot(States states, double sign) {
-    for (int round = 0; round < kBlockPivots + kSinglePivots; ++round) {
-      Eigen::VectorXd x;
-      const std::optional<Eigen::VectorXd> tangent = TangentOf(states, &x);
-      if (!tangent) return std::nullopt;
-      const double along = tangent->head(NumMotion()).dot(arrival_.direction);
-      const Eigen::VectorXd first = (along < 0.0 ? -sign : sign) * *tangent;
-      bool changed = false;
-      for (const Limit& limit : system_.Inequalities()) {
-        if (limit.inequality != Inequality::kSlip && system_.Value(limit, x) > tolerance_) continue;
-        if (system_.Rate(limit, first) >= -kRateTolerance) continue;
-        ContactState& state = states[static_cast<std::size_t>(limit.contact)];
-        state = Next(limit, contacts_[static_cast<std::size_t>(limit.contact)]);
-        changed = true;
-        if (round >= kBlockPivots) break;
-      }
-      if (!changed) return states;
-    }
-    return std::nullopt;
+  // relative to the direction of arrival. condensed: null, or the rate problem condensed.
+  std::optional<States> Pivot(States states, double sign, const RateProblem* condensed) {
+    return condensed != nullptr ? PivotCondensed(std::move(states), sign, *condensed)
+                                : PivotWhole(std::move(states), sign);
+  }
+
+  // Whether the rates of these states are broken in both directions by far more than rounding.
+  bool Excluded(const States& states, const RateProblem& condensed) const {
+    const std::optional<CondensedRates> rates = condensed.Rates(states);
+    if (!rates) return false;
+    return condensed.Broken(states, *rates, 1.0, tolerance_, kExcluded, nullptr) &&
+           condensed.Broken(states, *rates, -1.0, tolerance_, kExcluded, nullptr);
   }
 
   int rigid_modes() const { return rigid_modes_; }
@@ -138,6 +136,44 @@ class Finder {
       case Inequality::kSlip: return ContactState::kStick;
     }
     return ContactState::kOpen;
+  }
+
+  std::optional<States> PivotWhole(States states, double sign) {
+    for (int round = 0; round < kBlockPivots + kSinglePivots; ++round) {
+      Eigen::VectorXd x;
+      const std::optional<Eigen::VectorXd> tangent = TangentOf(states, &x);
+      if (!tangent) return std::nullopt;
+      const double along = tangent->head(NumMotion()).dot(arrival_.direction);
+      const Eigen::VectorXd first = (along < 0.0 ? -sign : sign) * *tangent;
+      bool changed = false;
+      for (const Limit& limit : system_.Inequalities()) {
+        if (limit.inequality != Inequality::kSlip && system_.Value(limit, x) > tolerance_) continue;
+        if (system_.Rate(limit, first) >= -kRateTolerance) continue;
+        ContactState& state = states[static_cast<std::size_t>(limit.contact)];
+        state = Next(limit, contacts_[static_cast<std::size_t>(limit.contact)]);
+        changed = true;
+        if (round >= kBlockPivots) break;
+      }
+      if (!changed) return states;
+    }
+    return std::nullopt;
+  }
+
+  std::optional<States> PivotCondensed(States states, double sign, const RateProblem& condensed) const {
+    std::vector<Limit> broken;
+    for (int round = 0; round < kBlockPivots + kSinglePivots; ++round) {
+      const std::optional<CondensedRates> rates = condensed.Rates(states);
+      if (!rates) return std::nullopt;
+      broken.clear();
+      condensed.Broken(states, *rates, rates->along < 0.0 ? -sign : sign, tolerance_, kRateTolerance, &broken);
+      if (broken.empty()) return states;
+      if (round >= kBlockPivots) broken.resize(1);
+      for (const Limit& limit : broken) {
+        const auto i = static_cast<std::size_t>(limit.contact);
+        states[i] = Next(limit, contacts_[i]);
+      }
+    }
+    return std::nullopt;
   }
 
   std::optional<Eigen::VectorXd> TangentOf(const States& states, Eigen::VectorXd* x) {
@@ -300,13 +336,13 @@ bool Better(const Way& a, const Way& b) {
 }
 
 // Every combination of the options: an odometer, the last contact turning fastest.
-void TryAll(const std::vector<States>& options, Finder* finder, WaysOn* result) {
+void TryAll(const std::vector<States>& options, const RateProblem* condensed, Finder* finder, WaysOn* result) {
   States states;
   for (const States& option : options) states.push_back(option.front());
   std::vector<std::size_t> digits(options.size(), 0);
   bool turned = true;
   while (turned) {
-    finder->Try(states, &result->ways);
+    if (condensed == nullptr || !finder->Excluded(states, *condensed)) finder->Try(states, &result->ways);
     ++result->combinations;
     turned = false;
     for (std::size_t i = options.size(); i-- > 0 && !turned;) {
@@ -321,7 +357,7 @@ void TryAll(const std::vector<States>& options, Finder* finder, WaysOn* result) 
 // for an increment so small that it is the rate problem, with and without the pull of the dissipation. Each result is
 // tried like any other combination.
 void TryLikely(const std::vector<States>& options, const PathPoint& point, const Arrival& arrival,
-               IncrementSolver* mpec, Finder* finder, WaysOn* result) {
+               const RateProblem* condensed, IncrementSolver* mpec, Finder* finder, WaysOn* result) {
   std::vector<States> guesses;
   for (const ContactState preferred : {ContactState::kOpen, ContactState::kStick, ContactState::kSlipPlus,
                                        ContactState::kSlipMinus, ContactState::kClosed}) {
@@ -333,18 +369,33 @@ void TryLikely(const std::vector<States>& options, const PathPoint& point, const
   States natural;
   for (const States& option : options) natural.push_back(option.front());
   guesses.insert(guesses.begin(), natural);
-  for (const States& guess : guesses)
+  std::set<States> tried;
+  const auto attempt = [&](const States& states) {
+    if (!tried.insert(states).second) return;
+    finder->Try(states, &result->ways);
+    ++result->combinations;
+  };
+  const auto pivot_from = [&](const States& guess) {
     for (const double sign : {1.0, -1.0})
-      if (const std::optional<States> states = finder->Pivot(guess, sign)) {
-        finder->Try(*states, &result->ways);
-        ++result->combinations;
-      }
+      if (const std::optional<States> states = finder->Pivot(guess, sign, condensed)) attempt(*states);
+  };
+  for (const States& guess : guesses) pivot_from(guess);
+  // Next to what was found: one contact after another in another of its states.
+  if (condensed != nullptr && result->concerned <= kMostRestarts) {
+    for (const States& found : std::set<States>(tried))
+      for (std::size_t i = 0; i < options.size(); ++i)
+        for (const ContactState other : options[i]) {
+          if (other == found[i]) continue;
+          States guess = found;
+          guess[i] = other;
+          pivot_from(guess);
+        }
+  }
+  if (point.u.size() > kMostDofsForMpec && !result->ways.empty()) return;
   for (const double share : {0.0, 0.5, 1.0}) {
     const IncrementTrial trial =
         mpec->Solve(point, {kRateLength, arrival.direction, share, 1.0}, RegularisationSchedule());
-    if (trial.status != SolveStatus::kSolved) continue;
-    finder->Try(trial.point.states, &result->ways);
-    ++result->combinations;
+    if (trial.status == SolveStatus::kSolved) attempt(trial.point.states);
   }
 }
 
@@ -354,20 +405,29 @@ WaysOn FindWays(const Structure& structure, const std::vector<ContactGeometry>& 
                 const Arrival& arrival, double tolerance, IncrementSolver* mpec) {
   WaysOn result;
   std::vector<States> options;
+  States natural;
+  std::vector<int> concerned;
   double combinations = 1.0;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     options.push_back(Options(contacts[i], point, i, tolerance));
+    natural.push_back(options[i].front());
     combinations *= static_cast<double>(options[i].size());
-    if (options[i].size() > 1) ++result.concerned;
+    if (options[i].size() > 1) concerned.push_back(static_cast<int>(i));
   }
+  result.concerned = static_cast<int>(concerned.size());
   Finder finder(structure, contacts, point, arrival, tolerance);
+  // Where another path crosses, rates are not unique, and every combination is looked at as a whole.
+  std::optional<RateProblem> problem;
+  if (combinations > kFewCombinations && !arrival.singular)
+    problem.emplace(structure, contacts, point, natural, concerned, arrival.direction);
+  const RateProblem* condensed = problem && problem->regular() ? &*problem : nullptr;
   result.complete = combinations <= kMostCombinations;
   if (result.complete)
-    TryAll(options, &finder, &result);
+    TryAll(options, condensed, &finder, &result);
   else
-    TryLikely(options, point, arrival, mpec, &finder, &result);
+    TryLikely(options, point, arrival, condensed, mpec, &finder, &result);
   if (result.ways.empty() && !result.complete && combinations <= kMostIfNone) {
-    TryAll(options, &finder, &result);
+    TryAll(options, condensed, &finder, &result);
     result.complete = true;
   }
   result.rigid_modes = finder.rigid_modes();

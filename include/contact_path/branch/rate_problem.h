@@ -1,0 +1,64 @@
+// The rates at an event, condensed to the contacts that may change their states.
+#ifndef CONTACT_PATH_BRANCH_RATE_PROBLEM_H_
+#define CONTACT_PATH_BRANCH_RATE_PROBLEM_H_
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "contact_path/contact/contact_geometry.h"
+#include "contact_path/contact/fixed_state_system.h"
+#include "contact_path/contact/path_point.h"
+#include "contact_path/structure/structure.h"
+
+namespace contact_path {
+
+// Rates by arc length |(du, ds)|, of one combination of states. By concerned contact, in their order.
+struct CondensedRates {
+  double load = 0.0;     // ds
+  double along = 0.0;    // cosine to the direction of arrival
+  Eigen::VectorXd gap;   // du_n
+  Eigen::VectorXd slip;  // du_t
+  Eigen::VectorXd rn;
+  Eigen::VectorXd rt;
+};
+
+// du = ds w + W p, w the displacement by the load and W those by unit reactions of the concerned contacts, all other
+// contacts in their states. Springs hold the concerned contacts while w and W are computed, so that a structure that
+// only they support can be condensed, too; their forces are then part of p. One factorisation of the structure serves
+// all combinations of states.
+class RateProblem {
+ public:
+  // states: by candidate; those of the concerned contacts (indices of candidates) do not matter. arrival: (du, ds).
+  // structure and contacts must outlive the problem.
+  RateProblem(const Structure& structure, const std::vector<ContactGeometry>& contacts, const PathPoint& point,
+              const std::vector<ContactState>& states, const std::vector<int>& concerned,
+              const Eigen::VectorXd& arrival);
+
+  // False: the structure is singular even with the springs, and nothing below can be asked.
+  bool regular() const { return regular_; }
+
+  // The rates for these states of all candidates, up to their sign; nothing where they are not unique.
+  std::optional<CondensedRates> Rates(const std::vector<ContactState>& states) const;
+
+  // The first inequality at its limit that these rates, times sign, break by more than `tolerance` of the largest rate
+  // of its kind; all of them in `all` if that is not null. at_limit: value below which an inequality is at its limit.
+  std::optional<Limit> Broken(const std::vector<ContactState>& states, const CondensedRates& rates, double sign,
+                              double at_limit, double tolerance, std::vector<Limit>* all) const;
+
+ private:
+  const std::vector<ContactGeometry>& contacts_;
+  const PathPoint& point_;
+  std::vector<int> concerned_;
+  bool regular_ = false;
+  // Rows: concerned contacts; columns: ds, then the normal and tangential force of each concerned contact, springs
+  // included.
+  Eigen::MatrixXd gap_;
+  Eigen::MatrixXd slip_;
+  Eigen::MatrixXd gram_;   // z . gram z = |(du, ds)|^2
+  Eigen::VectorXd along_;  // along_ . z = (du, ds) . arrival
+};
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_BRANCH_RATE_PROBLEM_H_

@@ -1,0 +1,162 @@
+#include "contact_path/branch/rate_problem.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "contact_path/branch/bordered_solver.h"
+
+namespace contact_path {
+namespace {
+
+constexpr double kRank = 1e-9;  // of the largest pivot: below, rates are not unique
+
+// r_t = ratio * r_n.
+double SlipRatio(ContactState state, double friction) {
+  if (state == ContactState::kSlipPlus) return -friction;
+  if (state == ContactState::kSlipMinus) return friction;
+  return 0.0;
+}
+
+void AddSpring(const SparseLinear& along, double stiffness, Eigen::SparseMatrix<double>* matrix) {
+  for (std::size_t a = 0; a < 2; ++a)
+    for (std::size_t b = 0; b < 2; ++b)
+      if (along.dofs[a] >= 0 && along.dofs[b] >= 0)
+        matrix->coeffRef(along.dofs[a], along.dofs[b]) += stiffness * along.coefficients[a] * along.coefficients[b];
+}
+
+}  // namespace
+
+RateProblem::RateProblem(const Structure& structure, const std::vector<ContactGeometry>& contacts,
+                         const PathPoint& point, const std::vector<ContactState>& states,
+                         const std::vector<int>& concerned, const Eigen::VectorXd& arrival)
+    : contacts_(contacts), point_(point), concerned_(concerned) {
+  std::vector<ContactState> base = states;
+  for (const int i : concerned_) base[static_cast<std::size_t>(i)] = ContactState::kOpen;
+  FixedStateSystem system(structure, contacts);
+  system.SetStates(base, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(contacts.size())));
+  const Eigen::VectorXd x = system.Pack(point);
+  // Scaled stiffnesses are of the order of 1, and so are the springs.
+  Eigen::SparseMatrix<double> transposed = system.TransposedJacobian(x);
+  for (const int i : concerned_) {
+    AddSpring(contacts[static_cast<std::size_t>(i)].gap, 1.0, &transposed);
+    AddSpring(contacts[static_cast<std::size_t>(i)].tangential, 1.0, &transposed);
+  }
+  transposed.makeCompressed();
+  const Eigen::Index nd = system.NumDofs();
+  BorderedSolver solver;
+  if (!solver.Factorize(transposed, Eigen::VectorXd::Unit(system.NumUnknowns(), nd)) || solver.DeterminantSign() == 0)
+    return;
+
+  const auto count = static_cast<Eigen::Index>(concerned_.size());
+  Eigen::MatrixXd motions(nd, 2 * count + 1);
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(system.NumEquations());
+  motions.col(0) = solver.Solve(force, 1.0).head(nd);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const ContactGeometry& contact = contacts[static_cast<std::size_t>(concerned_[static_cast<std::size_t>(k)])];
+    for (const Eigen::Index axis : {0, 1}) {
+      const SparseLinear& along = axis == 0 ? contact.gap : contact.tangential;
+      force.setZero();
+      Eigen::VectorXd unit = Eigen::VectorXd::Zero(nd);
+      along.AddGradient(1.0, &unit);
+      force.head(nd) = unit;
+      motions.col(1 + 2 * k + axis) = solver.Solve(force, 0.0).head(nd);
+    }
+  }
+  if (!motions.allFinite()) return;
+  gap_.resize(count, motions.cols());
+  slip_.resize(count, motions.cols());
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const ContactGeometry& contact = contacts[static_cast<std::size_t>(concerned_[static_cast<std::size_t>(k)])];
+    for (Eigen::Index j = 0; j < motions.cols(); ++j) {
+      gap_(k, j) = contact.gap.Rate(motions.col(j));
+      slip_(k, j) = contact.tangential.Rate(motions.col(j));
+    }
+  }
+  gram_ = motions.transpose() * motions;
+  gram_(0, 0) += 1.0;
+  along_ = motions.transpose() * arrival.head(nd);
+  along_[0] += arrival[nd];
+  regular_ = true;
+}
+
+std::optional<CondensedRates> RateProblem::Rates(const std::vector<ContactState>& states) const {
+  const Eigen::Index count = gap_.rows(), columns = gap_.cols();
+  // A reaction is the force less that of its spring.
+  const auto reaction = [&](Eigen::Index column, const auto& rate) {
+    Eigen::RowVectorXd row = -rate;
+    row[column] += 1.0;
+    return row;
+  };
+  Eigen::MatrixXd equations(2 * count, columns);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const auto i = static_cast<std::size_t>(concerned_[static_cast<std::size_t>(k)]);
+    const Eigen::RowVectorXd rn = reaction(1 + 2 * k, gap_.row(k)), rt = reaction(2 + 2 * k, slip_.row(k));
+    if (states[i] == ContactState::kOpen) {
+      equations.row(2 * k) = rn;
+      equations.row(2 * k + 1) = rt;
+      continue;
+    }
+    equations.row(2 * k) = gap_.row(k);
+    if (states[i] == ContactState::kStick)
+      equations.row(2 * k + 1) = slip_.row(k);
+    else
+      equations.row(2 * k + 1) = rt - SlipRatio(states[i], contacts_[i].friction) * rn;
+  }
+  Eigen::FullPivLU<Eigen::MatrixXd> lu(equations);
+  lu.setThreshold(kRank);
+  if (lu.rank() != 2 * count) return std::nullopt;
+  Eigen::VectorXd z = lu.kernel().col(0);
+  const double norm = std::sqrt(z.dot(gram_ * z));
+  if (!(norm > 0.0) || !std::isfinite(norm)) return std::nullopt;
+  z /= norm;
+  CondensedRates rates;
+  rates.load = z[0];
+  rates.along = along_.dot(z);
+  rates.gap = gap_ * z;
+  rates.slip = slip_ * z;
+  rates.rn.resize(count);
+  rates.rt.resize(count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    rates.rn[k] = z[1 + 2 * k] - rates.gap[k];
+    rates.rt[k] = z[2 + 2 * k] - rates.slip[k];
+  }
+  return rates;
+}
+
+std::optional<Limit> RateProblem::Broken(const std::vector<ContactState>& states, const CondensedRates& rates,
+                                         double sign, double at_limit, double tolerance,
+                                         std::vector<Limit>* all) const {
+  const double force = 1.0 + std::max(rates.rn.lpNorm<Eigen::Infinity>(), rates.rt.lpNorm<Eigen::Infinity>());
+  std::optional<Limit> first;
+  const auto require = [&](int contact, Inequality inequality, double rate, double scale) {
+    if (sign * rate >= -tolerance * scale) return;
+    if (!first) first = Limit{contact, inequality};
+    if (all != nullptr) all->push_back({contact, inequality});
+  };
+  for (std::size_t k = 0; k < concerned_.size(); ++k) {
+    const int contact = concerned_[k];
+    const auto i = static_cast<std::size_t>(contact);
+    const auto e = static_cast<Eigen::Index>(k), c = static_cast<Eigen::Index>(i);
+    const double friction = contacts_[i].friction, rn = point_.rn[c], rt = point_.rt[c];
+    if (states[i] == ContactState::kOpen) {
+      require(contact, Inequality::kGap, rates.gap[e], 1.0);
+      continue;
+    }
+    if (rn <= at_limit) require(contact, Inequality::kNormalReaction, rates.rn[e], force);
+    if (states[i] == ContactState::kStick) {
+      if (friction * rn + rt <= at_limit)
+        require(contact, Inequality::kConePlus, friction * rates.rn[e] + rates.rt[e], force);
+      if (friction * rn - rt <= at_limit)
+        require(contact, Inequality::kConeMinus, friction * rates.rn[e] - rates.rt[e], force);
+    } else if (states[i] == ContactState::kSlipPlus) {
+      require(contact, Inequality::kSlip, rates.slip[e], 1.0);
+    } else if (states[i] == ContactState::kSlipMinus) {
+      require(contact, Inequality::kSlip, -rates.slip[e], 1.0);
+    }
+    if (first && all == nullptr) return first;
+  }
+  return first;
+}
+
+}  // namespace contact_path

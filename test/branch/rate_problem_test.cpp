@@ -1,0 +1,138 @@
+#include "contact_path/branch/rate_problem.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "contact_path/contact/minimum_norm.h"
+#include "contact_path/path/model.h"
+#include "contact_path/scene/lattice.h"
+#include "support/random.h"
+
+namespace contact_path {
+namespace {
+
+using States = std::vector<ContactState>;
+
+constexpr double kExact = 1e-10;
+
+// A lattice that stands on five nodes, nothing else holds it; without reactions yet.
+class RestingColumn : public testing::Test {
+ protected:
+  RestingColumn() : model_(MakeScene(), CharacteristicScales(MakeScene())), point_(model_.InitialPoint()) {}
+
+  static Scene MakeScene() {
+    LatticeOptions options;
+    options.columns = 4;
+    options.rows = 2;
+    Scene scene = LatticeRequest(options).scene;
+    scene.loads.push_back({"n1_1", 0.3, -0.4, false});
+    return scene;
+  }
+
+  RateProblem Condense(const States& states, const std::vector<int>& concerned) const {
+    return {model_.structure, model_.contacts,
+            point_,           states,
+            concerned,        Eigen::VectorXd::Unit(model_.structure.NumDofs() + 1, model_.structure.NumDofs())};
+  }
+
+  // Against the null vector of all equations.
+  void ExpectRatesOfTheWhole(const RateProblem& problem, const States& states, const std::vector<int>& concerned,
+                             int* compared) {
+    FixedStateSystem system(model_.structure, model_.contacts);
+    system.SetStates(states, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(states.size())));
+    const Eigen::VectorXd x = system.Pack(point_);
+    MinimumNormSolver solver;
+    ASSERT_TRUE(solver.Factorize(system.TransposedJacobian(x)));
+    const Eigen::MatrixXd null_space = solver.NullSpace();
+    const std::optional<CondensedRates> rates = problem.Rates(states);
+    ASSERT_EQ(rates.has_value(), null_space.cols() == 1);
+    if (!rates) return;
+    ++*compared;
+    const Eigen::Index motion = system.NumDofs() + 1;
+    Eigen::VectorXd tangent = null_space.col(0) / null_space.col(0).head(motion).norm();
+    // The sign is free, and the load may rest.
+    double same = tangent[motion - 1] * rates->load;
+    for (std::size_t k = 0; k < concerned.size(); ++k) {
+      const ContactGeometry& contact = model_.contacts[static_cast<std::size_t>(concerned[k])];
+      same += rates->gap[static_cast<Eigen::Index>(k)] * contact.gap.Rate(tangent) +
+              rates->slip[static_cast<Eigen::Index>(k)] * contact.tangential.Rate(tangent);
+    }
+    if (same < 0.0) tangent = -tangent;
+    const PathPoint change = system.Unpack(tangent);
+    EXPECT_NEAR(rates->load, change.s, kExact);
+    EXPECT_NEAR(rates->along, change.s, kExact);
+    for (std::size_t k = 0; k < concerned.size(); ++k) {
+      const auto i = static_cast<std::size_t>(concerned[k]);
+      const auto e = static_cast<Eigen::Index>(k), c = static_cast<Eigen::Index>(i);
+      EXPECT_NEAR(rates->gap[e], model_.contacts[i].gap.Rate(change.u), kExact);
+      EXPECT_NEAR(rates->slip[e], model_.contacts[i].tangential.Rate(change.u), kExact);
+      EXPECT_NEAR(rates->rn[e], change.rn[c], kExact);
+      EXPECT_NEAR(rates->rt[e], change.rt[c], kExact);
+    }
+  }
+
+  const Model model_;
+  const PathPoint point_;
+};
+
+TEST_F(RestingColumn, RatesAreThoseOfTheWholeStructure) {
+  const States all_states = {ContactState::kOpen, ContactState::kStick, ContactState::kSlipPlus,
+                             ContactState::kSlipMinus};
+  const std::vector<int> concerned = {0, 1, 2, 3, 4};
+  const RateProblem problem = Condense(point_.states, concerned);
+  ASSERT_TRUE(problem.regular());
+  Random random(3);
+  int compared = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    States states;
+    for (int i = 0; i < 5; ++i) states.push_back(all_states[static_cast<std::size_t>(random.Number(0.0, 3.999))]);
+    ExpectRatesOfTheWhole(problem, states, concerned, &compared);
+  }
+  EXPECT_GT(compared, 100);  // the others leave a rigid motion
+}
+
+TEST_F(RestingColumn, OtherContactsKeepTheirStates) {
+  const std::vector<int> concerned = {1, 3};
+  States states = {ContactState::kStick, ContactState::kOpen, ContactState::kSlipPlus, ContactState::kStick,
+                   ContactState::kOpen};
+  const RateProblem problem = Condense(states, concerned);
+  ASSERT_TRUE(problem.regular());
+  int compared = 0;
+  for (const ContactState a : {ContactState::kOpen, ContactState::kStick, ContactState::kSlipMinus})
+    for (const ContactState b : {ContactState::kOpen, ContactState::kStick, ContactState::kSlipPlus}) {
+      states[1] = a;
+      states[3] = b;
+      ExpectRatesOfTheWhole(problem, states, concerned, &compared);
+    }
+  EXPECT_GT(compared, 5);
+}
+
+TEST_F(RestingColumn, NamesWhatIsBroken) {
+  const std::vector<int> concerned = {0, 4};
+  const States states(5, ContactState::kStick);
+  const RateProblem problem = Condense(states, concerned);
+  CondensedRates rates;
+  rates.gap = rates.slip = Eigen::VectorXd::Zero(2);
+  rates.rn = Eigen::Vector2d(1.0, -0.5);
+  rates.rt = Eigen::Vector2d(0.5, 0.0);  // mu = 0.3
+  std::vector<Limit> all;
+  const std::optional<Limit> first = problem.Broken(states, rates, 1.0, 1e-10, 1e-9, &all);
+  ASSERT_TRUE(first);
+  EXPECT_EQ(first->contact, 0);
+  EXPECT_EQ(first->inequality, Inequality::kConeMinus);
+  ASSERT_EQ(all.size(), 4U);  // and of the other one: the reaction, and both sides of its cone
+  EXPECT_EQ(all[1].contact, 4);
+  EXPECT_EQ(all[1].inequality, Inequality::kNormalReaction);
+  rates.rn[1] = 0.5;
+  rates.rt[0] = 0.3;  // on the cone
+  EXPECT_FALSE(problem.Broken(states, rates, 1.0, 1e-10, 1e-9, nullptr));
+  EXPECT_TRUE(problem.Broken(states, rates, -1.0, 1e-10, 1e-9, nullptr));
+}
+
+TEST_F(RestingColumn, SingularWhereNothingHoldsTheStructure) {
+  EXPECT_FALSE(Condense(States(5, ContactState::kOpen), {2}).regular());
+}
+
+}  // namespace
+}  // namespace contact_path
