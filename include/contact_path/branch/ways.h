@@ -44,8 +44,9 @@ struct WaysOn {
 // All ways on from `point`, an equilibrium, without the way back. Concerned are the contacts with an inequality within
 // `tolerance` of zero, and all that slip. Of ways with the same direction one is kept:
 // that in which fewest contacts slip without moving.
-// Up to 4^6 combinations of states are all tried; of more, those that principal pivoting and `mpec` (the increment
-// problem in the limit of a short increment) lead to, each certified like any other.
+// Up to 4^6 combinations of states are all tried; of more, those that principal pivoting on the rates (rate_problem.h)
+// leads to from many first guesses. `mpec`, the increment problem in the limit of a short increment, adds what it finds
+// where the structure is small or nothing else was found. Each is certified like any other.
 WaysOn FindWays(const Structure& structure, const std::vector<ContactGeometry>& contacts, const PathPoint& point,
                 const Arrival& arrival, double tolerance, IncrementSolver* mpec);
 
