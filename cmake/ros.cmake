@@ -51,13 +51,15 @@ target_sources(contact_path_trace PRIVATE src/cli/bag_sink.cpp)
 target_compile_definitions(contact_path_trace PRIVATE CONTACT_PATH_WITH_ROS)
 target_link_libraries(contact_path_trace PRIVATE contact_path_ros)
 
-# `rosrun contact_path contact_path_trace` finds the command-line program too.
+# `rosrun contact_path ...` finds the command-line programs too.
 set(contact_path_devel_programs ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_BIN_DESTINATION})
-add_custom_command(TARGET contact_path_trace POST_BUILD
-  COMMAND ${CMAKE_COMMAND} -E make_directory ${contact_path_devel_programs}
-  COMMAND ${CMAKE_COMMAND} -E create_symlink
-    $<TARGET_FILE:contact_path_trace> ${contact_path_devel_programs}/contact_path_trace
-  VERBATIM)
+foreach(program contact_path_trace contact_path_lattice)
+  add_custom_command(TARGET ${program} POST_BUILD
+    COMMAND ${CMAKE_COMMAND} -E make_directory ${contact_path_devel_programs}
+    COMMAND ${CMAKE_COMMAND} -E create_symlink
+      $<TARGET_FILE:${program}> ${contact_path_devel_programs}/${program}
+    VERBATIM)
+endforeach()
 
 install(TARGETS contact_path_ros contact_path_core
   ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
