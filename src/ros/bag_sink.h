@@ -1,6 +1,6 @@
 // Records a trace of the command-line program to a bag, as the node does.
-#ifndef CONTACT_PATH_CLI_BAG_SINK_H_
-#define CONTACT_PATH_CLI_BAG_SINK_H_
+#ifndef CONTACT_PATH_ROS_BAG_SINK_H_
+#define CONTACT_PATH_ROS_BAG_SINK_H_
 
 #include <memory>
 #include <string>
@@ -29,4 +29,4 @@ class BagSink {
 
 }  // namespace contact_path
 
-#endif  // CONTACT_PATH_CLI_BAG_SINK_H_
+#endif  // CONTACT_PATH_ROS_BAG_SINK_H_
