@@ -2,8 +2,9 @@
 #
 # In a catkin build they are catkin's tests: built by the target `tests`, run by `run_tests` and by ctest. Otherwise they
 # are built with everything else and run by ctest. Either way each leaves its results as XML, one file a test program, in
-# test_results/ of the build directory. The label `long` marks what takes more than a few seconds.
+# test_results/ of the build directory. The label `long` marks what takes more than a few seconds; it can be left out.
 
+option(CONTACT_PATH_LONG_TESTS "Build the tests that take more than a few seconds, too" ON)
 find_package(GTest REQUIRED)
 find_program(CONTACT_PATH_PYTHON python3 PATHS /usr/bin NO_DEFAULT_PATH REQUIRED)
 if(CONTACT_PATH_ROS AND CATKIN_ENABLE_TESTING)
@@ -29,6 +30,9 @@ target_link_libraries(contact_path_test_support PUBLIC contact_path_core GTest::
 # contact_path_add_test(<stage>/<name> [LONG] [SOURCES file...]): test/<stage>/<name>.cpp, as the program <stage>_<name>.
 function(contact_path_add_test source)
   cmake_parse_arguments(ARG "LONG" "" "SOURCES" ${ARGN})
+  if(ARG_LONG AND NOT CONTACT_PATH_LONG_TESTS)
+    return()
+  endif()
   string(REPLACE "/" "_" name ${source})
   if(contact_path_test_with_catkin)
     catkin_add_gtest(${name} test/${source}.cpp ${ARG_SOURCES})
