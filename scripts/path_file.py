@@ -8,7 +8,7 @@ KINDS = ('start', 'regular', 'smooth_limit', 'corner_limit', 'contact_event', 'b
 class Path:
     """Rows as dictionaries with the columns of the CSV: kind and states as text, all others numbers.
 
-    scene: as in a scene file, {'nodes': [{'name': ..}, ..], ..}; None where it is not known (CSV).
+    scene: as in a scene file, {'nodes': [{'name': ..}, ..], ..}, as far as it is drawn; None where it is not known (CSV).
     """
 
     def __init__(self, title, scene=None):
@@ -69,11 +69,9 @@ def scene_of(message):
 
     return {
         'name': message.name,
-        'nodes': [plain(node, ('name', 'x', 'y', 'fixed_x', 'fixed_y')) for node in message.nodes],
+        'nodes': [plain(node, ('name', 'x', 'y')) for node in message.nodes],
         'bars': [plain(bar, ('nodes',)) for bar in message.bars],
-        'superelements': [plain(part, ('nodes',)) for part in message.superelements],
-        'loads': [plain(load, ('node', 'fx', 'fy', 'constant')) for load in message.loads],
-        'obstacles': [plain(obstacle, ('name', 'px', 'py', 'nx', 'ny', 'friction')) for obstacle in message.obstacles],
+        'obstacles': [plain(obstacle, ('name', 'nx', 'ny')) for obstacle in message.obstacles],
         'contacts': [plain(contact, ('node', 'obstacle')) for contact in message.contacts],
     }
 

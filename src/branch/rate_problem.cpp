@@ -11,13 +11,6 @@ namespace {
 
 constexpr double kRank = 1e-9;  // of the largest pivot: below, rates are not unique
 
-// r_t = ratio * r_n.
-double SlipRatio(ContactState state, double friction) {
-  if (state == ContactState::kSlipPlus) return -friction;
-  if (state == ContactState::kSlipMinus) return friction;
-  return 0.0;
-}
-
 void AddSpring(const SparseLinear& along, double stiffness, Eigen::SparseMatrix<double>* matrix) {
   for (std::size_t a = 0; a < 2; ++a)
     for (std::size_t b = 0; b < 2; ++b)

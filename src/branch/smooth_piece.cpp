@@ -41,10 +41,7 @@ SmoothPiece::SmoothPiece(const Structure& structure, const std::vector<ContactGe
     : contacts_(contacts), system_(structure, contacts) {}
 
 void SmoothPiece::SetStates(const std::vector<ContactState>& states, const PathPoint& from) {
-  Eigen::VectorXd reference(static_cast<Eigen::Index>(contacts_.size()));
-  for (std::size_t i = 0; i < contacts_.size(); ++i)
-    reference[static_cast<Eigen::Index>(i)] = contacts_[i].tangential.Value(from.u);
-  system_.SetStates(states, reference);
+  system_.SetStates(states, TangentialPositions(contacts_, from.u));
 }
 
 bool SmoothPiece::Derivatives(const Eigen::VectorXd& x, const Eigen::VectorXd& towards, CurvePoint* point) {

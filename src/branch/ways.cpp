@@ -57,13 +57,6 @@ States Options(const ContactGeometry& contact, const PathPoint& point, std::size
   return options;
 }
 
-Eigen::VectorXd TangentialPositions(const std::vector<ContactGeometry>& contacts, const Eigen::VectorXd& u) {
-  Eigen::VectorXd positions(static_cast<Eigen::Index>(contacts.size()));
-  for (std::size_t i = 0; i < contacts.size(); ++i)
-    positions[static_cast<Eigen::Index>(i)] = contacts[i].tangential.Value(u);
-  return positions;
-}
-
 // Columns of `basis` without what lies in the span of the rows' null space: splits a null space by what moves.
 // Returns the part of basis in which the rows `from`..`from + count` vanish (still = true) or its complement.
 Eigen::MatrixXd Split(const Eigen::MatrixXd& basis, Eigen::Index from, Eigen::Index count, bool still) {

@@ -46,4 +46,11 @@ std::vector<ContactGeometry> BuildContacts(const Scene& scene, const Structure& 
   return contacts;
 }
 
+Eigen::VectorXd TangentialPositions(const std::vector<ContactGeometry>& contacts, const Eigen::VectorXd& u) {
+  Eigen::VectorXd positions(static_cast<Eigen::Index>(contacts.size()));
+  for (std::size_t i = 0; i < contacts.size(); ++i)
+    positions[static_cast<Eigen::Index>(i)] = contacts[i].tangential.Value(u);
+  return positions;
+}
+
 }  // namespace contact_path

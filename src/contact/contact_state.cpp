@@ -13,4 +13,10 @@ std::string_view ToString(ContactState state) {
   return "unknown";
 }
 
+double SlipRatio(ContactState state, double friction) {
+  if (state == ContactState::kSlipPlus) return -friction;
+  if (state == ContactState::kSlipMinus) return friction;
+  return 0.0;
+}
+
 }  // namespace contact_path

@@ -5,13 +5,6 @@
 namespace contact_path {
 namespace {
 
-// r_t = ratio * r_n of a slipping contact.
-double SlipRatio(ContactState state, double friction) {
-  if (state == ContactState::kSlipPlus) return -friction;
-  if (state == ContactState::kSlipMinus) return friction;
-  return 0.0;
-}
-
 bool Slips(ContactState state) { return state == ContactState::kSlipPlus || state == ContactState::kSlipMinus; }
 
 }  // namespace

@@ -23,13 +23,6 @@ constexpr int kMaxActiveSetChanges = 4;
 
 constexpr double kSameEps = 1.0 + 1e-9;  // rounding of powers of the factor
 
-Eigen::VectorXd TangentialPositions(const std::vector<ContactGeometry>& contacts, const Eigen::VectorXd& u) {
-  Eigen::VectorXd positions(static_cast<Eigen::Index>(contacts.size()));
-  for (std::size_t i = 0; i < contacts.size(); ++i)
-    positions[static_cast<Eigen::Index>(i)] = contacts[i].tangential.Value(u);
-  return positions;
-}
-
 }  // namespace
 
 IncrementSolver::IncrementSolver(const Structure& structure, const std::vector<ContactGeometry>& contacts,

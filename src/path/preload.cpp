@@ -45,10 +45,7 @@ Scene PreloadScene(const Model& model, const Eigen::VectorXd& holding) {
 std::optional<PathPoint> PointAtLoadFactor(const Model& model, const PathPoint& before, const PathPoint& after,
                                            double target) {
   FixedStateSystem system(model.structure, model.contacts);
-  Eigen::VectorXd reference(before.rn.size());
-  for (std::size_t i = 0; i < model.contacts.size(); ++i)
-    reference[static_cast<Eigen::Index>(i)] = model.contacts[i].tangential.Value(before.u);
-  system.SetStates(after.states, reference);
+  system.SetStates(after.states, TangentialPositions(model.contacts, before.u));
   system.PinLoadFactor(target);
   const double share = (target - before.s) / (after.s - before.s);
   const Eigen::VectorXd start = (1.0 - share) * system.Pack(before) + share * system.Pack(after);

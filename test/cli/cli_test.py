@@ -143,6 +143,23 @@ class CompleteTraces(CliTest):
         self.expect_whole_rows(read(self.csv))
         self.assertEqual(without_time(read(self.csv)), without_time(run(SCENE, '--max-increments', '3').stdout))
 
+    def test_dash_is_standard_output(self):
+        result = run(SCENE, '--quiet', '--max-increments', '3', '--csv', '-', cwd=self.directory)
+        self.assertEqual(len(rows_of(result.stdout)), 4)
+        self.assertEqual(os.listdir(self.directory), [])
+
+    def test_events_are_printed_with_their_ways(self):
+        truss = os.path.join(os.path.dirname(SCENE), 'rough_truss.yaml')
+        lines = run(truss, '--events', '--csv', self.csv).stderr.splitlines()
+        rows = rows_of(read(self.csv))
+        corner = next(row for row in rows if row['kind'] == 'corner_limit')
+        first = next(i for i, line in enumerate(lines) if line.startswith('event 1, '))
+        self.assertTrue(lines[first].startswith('event 1, row %s, corner_limit at load factor 0.13384476' %
+                                                corner['index']), lines[first])
+        self.assertTrue(lines[first + 1].startswith('* way 1: dissipation rate '), lines[first + 1])
+        self.assertTrue(lines[first + 1].endswith('; foot@floor slip+'), lines[first + 1])
+        self.assertNotIn('way', ''.join(run(truss, '--csv', self.csv).stderr.splitlines()))
+
     def test_step_overrides_the_scene(self):
         def length(step):
             rows = rows_of(run(SCENE, '--max-increments', '3', '--step', step).stdout)

@@ -1,6 +1,7 @@
 #include "contact_path/mpec/ipopt_solver.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cmath>
@@ -220,8 +221,8 @@ TEST(IpoptSolver, ProgramThatIsNotFiniteFails) {
 class OptionsFile : public testing::Test {
  protected:
   OptionsFile() {
-    char name[] = "/tmp/contact_path_ipopt_XXXXXX";
-    directory_ = mkdtemp(name);
+    directory_ = testing::TempDir() + "ipopt_options_" + std::to_string(getpid());
+    EXPECT_EQ(mkdir(directory_.c_str(), 0700), 0);
     char buffer[4096];
     before_ = getcwd(buffer, sizeof(buffer));
     EXPECT_EQ(chdir(directory_.c_str()), 0);

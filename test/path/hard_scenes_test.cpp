@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "contact_path/scene/read_scene.h"
+#include "support/reference_cases.h"
 #include "support/traced_path.h"
 
 namespace contact_path {
@@ -60,11 +61,16 @@ TEST(HardScenes, WayOnNextToStraightBack) {
 
 // The increments of the method would step over the limit point; the start does not depend on them.
 TEST(HardScenes, ConstantLoadNextToTheLimitLoad) {
+  // At the limit load the cosine of the bars' slope is the cube root of what it is at the start.
+  const double limit_height = std::sqrt(std::pow(2.0, 1.0 / 3.0) - 1.0);
   for (const Method method : {Method::kBranch, Method::kMpec})
     for (const Accuracy accuracy : kPresets) {
       const TracedPath path = TraceData("preload_near_limit", method, accuracy);
       ASSERT_FALSE(path.rows.empty()) << path.result.message;
-      EXPECT_NEAR(PositionY(path, path.rows[0], "a"), 0.52460325468315, 1e-10);
+      // On the side of the limit point from which the load was put on.
+      const double y = PositionY(path, path.rows[0], "a");
+      EXPECT_NEAR(von_mises::BiotLoad(1.0, 1.0, y), -path.request.scene.loads[1].fy, 1e-12);
+      EXPECT_GT(y, limit_height);
     }
 }
 
@@ -78,6 +84,29 @@ TEST(HardScenes, ConstantLoadBeyondTheLimitLoad) {
     EXPECT_EQ(path.result.reason, EndReason::kPathEnd);
     EXPECT_NE(path.result.message.find("limit point at 0.990099"), std::string::npos) << path.result.message;
   }
+}
+
+// Forces of 1e-8 of the characteristic one, which a stiff bar that carries nothing sets: regularised increments do not
+// see them. An early end is right, a path of other contact states is not: the block sticks until the load is 1.
+TEST(HardScenes, ForcesFarBelowTheCharacteristicOne) {
+  const TracedPath path = TraceData("stiff_neighbour", Method::kMpec, Accuracy::kBalanced);
+  EXPECT_EQ(path.result.reason, EndReason::kStepTooSmall) << path.result.message;
+  for (const Increment& row : path.rows) {
+    EXPECT_GE(row.load_factor, 0.0);
+    EXPECT_LE(row.load_factor, 1.0 + 1e-12);
+    EXPECT_NEAR(PositionX(path, row, "p"), 0.0, 1e-12);
+    EXPECT_NEAR(row.contacts[0].rn, 1.0, 1e-12);
+    EXPECT_NEAR(row.contacts[0].rt, -row.load_factor, 1e-12);
+    EXPECT_NE(row.contacts[0].state, ContactState::kOpen);
+  }
+  // The exact method is not in the way of its bar.
+  const TracedPath exact = TraceData("stiff_neighbour", Method::kBranch, Accuracy::kBalanced);
+  EXPECT_EQ(exact.result.reason, EndReason::kStopCriterion) << exact.result.message;
+  const std::vector<double> loads = LimitLoads(exact);
+  ASSERT_EQ(loads.size(), 2U);
+  EXPECT_NEAR(loads[0], 1.0, 1e-9);
+  EXPECT_NEAR(loads[1], 2.0 / 3.0, 1e-9);
+  EXPECT_NEAR(exact.rows.back().dissipation, 1.0 / 3.0, 1e-7);
 }
 
 }  // namespace

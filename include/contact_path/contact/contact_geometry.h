@@ -43,6 +43,9 @@ struct ContactGeometry {
 // All candidates in scene order. `scene` must be sound and `structure` built from it.
 std::vector<ContactGeometry> BuildContacts(const Scene& scene, const Structure& structure);
 
+// u_t of all candidates at u.
+Eigen::VectorXd TangentialPositions(const std::vector<ContactGeometry>& contacts, const Eigen::VectorXd& u);
+
 }  // namespace contact_path
 
 #endif  // CONTACT_PATH_CONTACT_CONTACT_GEOMETRY_H_

@@ -18,6 +18,9 @@ enum class ContactState {
 // "open", "stick", "slip+", "slip-", "closed".
 std::string_view ToString(ContactState state);
 
+// r_t = ratio * r_n of a slipping contact; 0 in the other states.
+double SlipRatio(ContactState state, double friction);
+
 }  // namespace contact_path
 
 #endif  // CONTACT_PATH_CONTACT_CONTACT_STATE_H_
