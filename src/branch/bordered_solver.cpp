@@ -2,6 +2,7 @@
 
 #include <klu.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -9,6 +10,9 @@
 
 namespace contact_path {
 namespace {
+
+constexpr double kGrowth = 1e-4;  // reciprocal growth of the pivots below which they are chosen anew
+constexpr int kAtOnce = 64;       // right sides
 
 // Sign of a permutation of 0..n-1.
 int Parity(const int* permutation, int n) {
@@ -27,27 +31,73 @@ int Parity(const int* permutation, int n) {
 }  // namespace
 
 struct BorderedSolver::Factors {
-  Factors() { klu_defaults(&common); }
+  Factors() {
+    klu_defaults(&common);
+    common.btf = 0;  // the matrix does not fall into blocks, and looking for them spoils its symmetric pattern
+  }
   ~Factors() { Free(); }
   Factors(const Factors&) = delete;
   Factors& operator=(const Factors&) = delete;
 
   void Free() {
-    klu_free_numeric(&numeric, &common);
+    FreeNumeric();
     klu_free_symbolic(&symbolic, &common);
   }
+  void FreeNumeric() { klu_free_numeric(&numeric, &common); }
 
-  // LU of the transpose of `matrix`; false if it is singular.
-  bool FactorizeLu() {
-    Free();
+  // Puts `matrix` together; whether its pattern is that of the last time.
+  bool Assemble(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& row) {
+    const Eigen::Index rows = transposed.rows(), columns = transposed.cols(), entries = transposed.nonZeros();
+    // A row of many entries has all of them in the pattern, so that one that happens to be zero does not change it.
+    const Eigen::Index in_row = (row.array() != 0.0).count();
+    const bool full = 2 * in_row > rows;
+    const Eigen::Index all = entries + (full ? rows : in_row);
+    bool same = matrix.rows() == rows && matrix.cols() == columns + 1 && matrix.nonZeros() == all &&
+                std::equal(transposed.outerIndexPtr(), transposed.outerIndexPtr() + columns, matrix.outerIndexPtr()) &&
+                std::equal(transposed.innerIndexPtr(), transposed.innerIndexPtr() + entries, matrix.innerIndexPtr());
+    if (!same) {
+      matrix.resize(rows, columns + 1);
+      matrix.resizeNonZeros(all);
+      std::copy_n(transposed.outerIndexPtr(), columns + 1, matrix.outerIndexPtr());
+      std::copy_n(transposed.innerIndexPtr(), entries, matrix.innerIndexPtr());
+      matrix.outerIndexPtr()[columns + 1] = static_cast<int>(all);
+    }
+    std::copy_n(transposed.valuePtr(), entries, matrix.valuePtr());
+    Eigen::Index end = entries;
+    for (Eigen::Index i = 0; i < rows; ++i) {
+      if (!full && row[i] == 0.0) continue;
+      same = same && matrix.innerIndexPtr()[end] == i;
+      matrix.innerIndexPtr()[end] = static_cast<int>(i);
+      matrix.valuePtr()[end++] = row[i];
+    }
+    return same;
+  }
+
+  // LU of the transpose of `matrix`; false if it is singular. same_pattern: as of the last call.
+  bool FactorizeLu(bool same_pattern) {
     auto* outer = matrix.outerIndexPtr();
     auto* inner = matrix.innerIndexPtr();
-    symbolic = klu_analyze(static_cast<int>(matrix.rows()), outer, inner, &common);
+    if (same_pattern && numeric != nullptr && Refactorize()) return true;
+    FreeNumeric();
+    if (!same_pattern || symbolic == nullptr) {
+      klu_free_symbolic(&symbolic, &common);
+      symbolic = klu_analyze(static_cast<int>(matrix.rows()), outer, inner, &common);
+    }
     if (symbolic == nullptr) return false;
     numeric = klu_factor(outer, inner, matrix.valuePtr(), symbolic, &common);
-    if (numeric == nullptr || common.status != KLU_OK) return false;
-    return klu_rcond(symbolic, numeric, &common) == 1 && common.rcond > kSingular;
+    return numeric != nullptr && common.status == KLU_OK && Regular();
   }
+
+  // With the pivots of the last factorisation; false where they are no longer good, or the matrix is singular.
+  bool Refactorize() {
+    auto* outer = matrix.outerIndexPtr();
+    auto* inner = matrix.innerIndexPtr();
+    return klu_refactor(outer, inner, matrix.valuePtr(), symbolic, numeric, &common) == 1 && common.status == KLU_OK &&
+           klu_rgrowth(outer, inner, matrix.valuePtr(), symbolic, numeric, &common) == 1 && common.rgrowth > kGrowth &&
+           Regular();
+  }
+
+  bool Regular() { return klu_rcond(symbolic, numeric, &common) == 1 && common.rcond > kSingular; }
 
   // Needs the factors.
   int DeterminantSign() const {
@@ -72,35 +122,56 @@ BorderedSolver::~BorderedSolver() = default;
 
 bool BorderedSolver::Factorize(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& row,
                                double rank_tolerance) {
-  Eigen::SparseMatrix<double>& matrix = factors_->matrix;
-  const Eigen::Index rows = transposed.rows(), columns = transposed.cols();
-  matrix.resize(rows, columns + 1);
-  matrix.resizeNonZeros(transposed.nonZeros() + rows);
-  std::copy_n(transposed.outerIndexPtr(), columns + 1, matrix.outerIndexPtr());
-  std::copy_n(transposed.innerIndexPtr(), transposed.nonZeros(), matrix.innerIndexPtr());
-  std::copy_n(transposed.valuePtr(), transposed.nonZeros(), matrix.valuePtr());
-  int end = matrix.outerIndexPtr()[columns];
-  for (Eigen::Index i = 0; i < rows; ++i) {
-    if (row[i] == 0.0) continue;
-    matrix.innerIndexPtr()[end] = static_cast<int>(i);
-    matrix.valuePtr()[end++] = row[i];
+  if (rank_tolerance == 0.0) {
+    if (FactorizeRegular(transposed, row)) return true;
+  } else {
+    factors_->Assemble(transposed, row);
+    factors_->Free();
+    factors_->regular = false;
   }
-  matrix.outerIndexPtr()[columns + 1] = end;
-  matrix.resizeNonZeros(end);
-  if (!matrix.coeffs().allFinite()) return false;
-  factors_->Free();
-  factors_->regular = rank_tolerance == 0.0 && rows == columns + 1 && factors_->FactorizeLu();
-  if (factors_->regular) return true;
-  return factors_->minimum_norm.Factorize(matrix,
+  if (!factors_->matrix.coeffs().allFinite()) return false;
+  return factors_->minimum_norm.Factorize(factors_->matrix,
                                           rank_tolerance > 0.0 ? rank_tolerance : MinimumNormSolver::kRankTolerance);
 }
 
+bool BorderedSolver::FactorizeRegular(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& row,
+                                      double regular) {
+  const bool same_pattern = factors_->Assemble(transposed, row);
+  const bool possible = factors_->matrix.rows() == factors_->matrix.cols() && factors_->matrix.coeffs().allFinite();
+  if (!possible) factors_->Free();
+  factors_->regular =
+      possible && factors_->FactorizeLu(same_pattern) && factors_->common.rcond > std::max(regular, kSingular);
+  return factors_->regular;
+}
+
 Eigen::VectorXd BorderedSolver::Solve(const Eigen::VectorXd& b, double last) const {
-  Eigen::VectorXd x(b.size() + 1);
-  x << b, last;
-  if (!factors_->regular) return factors_->minimum_norm.Solve(x);
-  klu_tsolve(factors_->symbolic, factors_->numeric, static_cast<int>(x.size()), 1, x.data(), &factors_->common);
+  Eigen::VectorXd x;
+  Solve(b, last, &x);
   return x;
+}
+
+void BorderedSolver::Solve(const Eigen::VectorXd& b, double last, Eigen::VectorXd* x) const {
+  x->resize(b.size() + 1);
+  *x << b, last;
+  if (!factors_->regular) {
+    *x = factors_->minimum_norm.Solve(*x);
+    return;
+  }
+  klu_tsolve(factors_->symbolic, factors_->numeric, static_cast<int>(x->size()), 1, x->data(), &factors_->common);
+}
+
+void BorderedSolver::SolveAll(const Eigen::MatrixXd& B, Eigen::MatrixXd* x) const {
+  x->resize(factors_->matrix.rows(), B.cols());
+  if (!factors_->regular) {
+    for (Eigen::Index k = 0; k < B.cols(); ++k) x->col(k) = Solve(B.col(k), 0.0);
+    return;
+  }
+  x->topRows(B.rows()) = B;
+  x->bottomRows(1).setZero();
+  const auto size = static_cast<int>(x->rows());
+  for (Eigen::Index k = 0; k < B.cols(); k += kAtOnce)
+    klu_tsolve(factors_->symbolic, factors_->numeric, size, static_cast<int>(std::min<Eigen::Index>(kAtOnce, B.cols() - k)),
+               x->col(k).data(), &factors_->common);
 }
 
 Eigen::Index BorderedSolver::Deficiency() const {

@@ -1,6 +1,9 @@
 #include "contact_path/branch/rate_problem.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <Eigen/QR>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
@@ -9,7 +12,10 @@
 namespace contact_path {
 namespace {
 
-constexpr double kRank = 1e-9;  // of the largest pivot: below, rates are not unique
+constexpr double kRank = 1e-9;       // of the largest pivot: below, rates are not unique
+constexpr double kNothing = 1e-9;    // of rates
+constexpr double kRounding = 1e-7;   // of square roots
+constexpr double kSomething = 1e-6;  // the same: what lies between is neither
 
 void AddSpring(const SparseLinear& along, double stiffness, Eigen::SparseMatrix<double>* matrix) {
   for (std::size_t a = 0; a < 2; ++a)
@@ -43,18 +49,21 @@ RateProblem::RateProblem(const Structure& structure, const std::vector<ContactGe
 
   const auto count = static_cast<Eigen::Index>(concerned_.size());
   Eigen::MatrixXd motions(nd, 2 * count + 1);
-  Eigen::VectorXd force = Eigen::VectorXd::Zero(system.NumEquations());
-  motions.col(0) = solver.Solve(force, 1.0).head(nd);
+  motions.col(0) = solver.Solve(Eigen::VectorXd::Zero(system.NumEquations()), 1.0).head(nd);
+  Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(system.NumEquations(), 2), moved;
   for (Eigen::Index k = 0; k < count; ++k) {
     const ContactGeometry& contact = contacts[static_cast<std::size_t>(concerned_[static_cast<std::size_t>(k)])];
-    for (const Eigen::Index axis : {0, 1}) {
-      const SparseLinear& along = axis == 0 ? contact.gap : contact.tangential;
-      force.setZero();
-      Eigen::VectorXd unit = Eigen::VectorXd::Zero(nd);
-      along.AddGradient(1.0, &unit);
-      force.head(nd) = unit;
-      motions.col(1 + 2 * k + axis) = solver.Solve(force, 0.0).head(nd);
-    }
+    const auto set = [&](double value) {
+      for (const Eigen::Index axis : {0, 1}) {
+        const SparseLinear& along = axis == 0 ? contact.gap : contact.tangential;
+        for (std::size_t a = 0; a < 2; ++a)
+          if (along.dofs[a] >= 0) forces(along.dofs[a], axis) = value * along.coefficients[a];
+      }
+    };
+    set(1.0);
+    solver.SolveAll(forces, &moved);
+    motions.middleCols<2>(1 + 2 * k) = moved.topRows(nd);
+    set(0.0);
   }
   if (!motions.allFinite()) return;
   gap_.resize(count, motions.cols());
@@ -71,6 +80,52 @@ RateProblem::RateProblem(const Structure& structure, const std::vector<ContactGe
   along_ = motions.transpose() * arrival.head(nd);
   along_[0] += arrival[nd];
   regular_ = true;
+}
+
+Eigen::VectorXd RateProblem::UniqueSolution(const Eigen::MatrixXd& equations) const {
+  Eigen::MatrixXd square(equations.cols(), equations.cols());
+  square << equations, along_.transpose();
+  const Eigen::PartialPivLU<Eigen::MatrixXd> lu(square);
+  if (!(lu.rcond() > kRank)) return {};
+  return lu.solve(Eigen::VectorXd::Unit(square.cols(), square.cols() - 1));
+}
+
+Eigen::VectorXd RateProblem::ShortestSolution(const Eigen::MatrixXd& equations) const {
+  Eigen::FullPivLU<Eigen::MatrixXd> lu(equations);
+  lu.setThreshold(kRank);
+  const Eigen::MatrixXd kernel = lu.kernel();
+  if (kernel.cols() == 1) return kernel.col(0);
+  const auto unclear = [](double rate) { return rate > kNothing && rate < kSomething; };
+
+  // Orthonormal motions; a combination of reactions without motion is left out.
+  const Eigen::MatrixXd basis = Eigen::HouseholderQR<Eigen::MatrixXd>(kernel).householderQ() *
+                                Eigen::MatrixXd::Identity(kernel.rows(), kernel.cols());
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> motions(basis.transpose() * gram_ * basis);
+  const double largest = motions.eigenvalues().tail<1>()[0];
+  Eigen::MatrixXd moving(kernel.rows(), 0);
+  for (Eigen::Index k = 0; k < kernel.cols(); ++k) {
+    const double rate = std::sqrt(std::max(0.0, motions.eigenvalues()[k] / largest));
+    if (!(rate > kRounding)) continue;
+    if (rate < kSomething || !std::isfinite(rate)) return {};
+    moving.conservativeResize(Eigen::NoChange, moving.cols() + 1);
+    moving.rightCols<1>() = basis * motions.eigenvectors().col(k) / (rate * std::sqrt(largest));
+  }
+
+  // Rigid modes change neither the load nor a reaction. What does, has nothing of them.
+  Eigen::MatrixXd forces = moving;
+  for (Eigen::Index k = 0; k < gap_.rows(); ++k) {
+    forces.row(1 + 2 * k) -= gap_.row(k) * moving;
+    forces.row(2 + 2 * k) -= slip_.row(k) * moving;
+  }
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(forces, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  Eigen::Index proper = 0;
+  for (Eigen::Index k = 0; k < svd.singularValues().size(); ++k) {
+    if (unclear(svd.singularValues()[k])) return {};
+    if (svd.singularValues()[k] >= kSomething) ++proper;
+  }
+  const Eigen::MatrixXd candidates = moving * (proper > 0 ? svd.matrixV().leftCols(proper) : svd.matrixV());
+  if (candidates.cols() == 1) return candidates.col(0);
+  return candidates * (candidates.transpose() * along_);  // nearest to the arrival
 }
 
 std::optional<CondensedRates> RateProblem::Rates(const std::vector<ContactState>& states) const {
@@ -96,10 +151,9 @@ std::optional<CondensedRates> RateProblem::Rates(const std::vector<ContactState>
     else
       equations.row(2 * k + 1) = rt - SlipRatio(states[i], contacts_[i].friction) * rn;
   }
-  Eigen::FullPivLU<Eigen::MatrixXd> lu(equations);
-  lu.setThreshold(kRank);
-  if (lu.rank() != 2 * count) return std::nullopt;
-  Eigen::VectorXd z = lu.kernel().col(0);
+  Eigen::VectorXd z = UniqueSolution(equations);
+  if (z.size() == 0) z = ShortestSolution(equations);
+  if (z.size() == 0) return std::nullopt;
   const double norm = std::sqrt(z.dot(gram_ * z));
   if (!(norm > 0.0) || !std::isfinite(norm)) return std::nullopt;
   z /= norm;

@@ -12,6 +12,7 @@ constexpr double kSingularRank = 1e-6;    // rank tolerance where another path c
 constexpr double kStepTolerance = 1e-14;  // relative to 1 + |x|: rounding
 constexpr double kStagnation = 1e-10;     // relative: below this a step that no longer shrinks is rounding
 constexpr double kReuse = 1e-5;           // relative: below this step the factorisation is good enough to finish with
+constexpr double kSlow = 0.1;             // ratio of two steps beyond which it is not
 constexpr double kResidualTolerance = 1e-11;  // scaled
 
 // The six quintic Hermite basis polynomials: value, first, second at the start, then at the end.
@@ -42,14 +43,15 @@ SmoothPiece::SmoothPiece(const Structure& structure, const std::vector<ContactGe
 
 void SmoothPiece::SetStates(const std::vector<ContactState>& states, const PathPoint& from) {
   system_.SetStates(states, TangentialPositions(contacts_, from.u));
+  at_hand_ = false;
 }
 
 bool SmoothPiece::Derivatives(const Eigen::VectorXd& x, const Eigen::VectorXd& towards, CurvePoint* point) {
   const Eigen::Index n = NumMotion();
   Eigen::VectorXd row = Eigen::VectorXd::Zero(system_.NumUnknowns());
   row.head(n) = towards;
-  ++factorisations_;
-  if (!solver_.Factorize(system_.TransposedJacobian(x), row)) return false;
+  if (!Factorize(x, row)) return false;
+  at_hand_ = solver_.Deficiency() == 0;
   point->x = x;
   point->first = solver_.Solve(Eigen::VectorXd::Zero(system_.NumEquations()), 1.0);
   const double norm = point->first.head(n).norm();
@@ -64,53 +66,61 @@ bool SmoothPiece::Derivatives(const Eigen::VectorXd& x, const Eigen::VectorXd& t
 }
 
 Correction SmoothPiece::Correct(const Eigen::VectorXd& guess, const Eigen::VectorXd& row, double value) {
+  at_hand_ = false;  // factors with another last row
+  return Newton(guess, row, value);
+}
+
+Correction SmoothPiece::Newton(const Eigen::VectorXd& guess, const Eigen::VectorXd& row, double value) {
   Correction result;
   result.x = guess;
-  Eigen::VectorXd residual;
-  bool factorise = true;
+  result.steps.reserve(kMaxIterations);
+  bool factorise = !at_hand_;
   double previous = std::numeric_limits<double>::infinity();
   for (; result.iterations < kMaxIterations; ++result.iterations) {
-    system_.Residual(result.x, &residual);
-    if (!residual.allFinite()) return result;
-    if (factorise) {
-      ++factorisations_;
-      if (!solver_.Factorize(system_.TransposedJacobian(result.x), row)) return result;
-    }
-    const Eigen::VectorXd step = solver_.Solve(-residual, value - row.dot(result.x));
-    const double norm = step.norm(), scale = 1.0 + result.x.norm();
+    system_.Residual(result.x, &residual_);
+    if (!residual_.allFinite()) return result;
+    if (factorise && !Factorize(result.x, row)) return result;
+    residual_ = -residual_;
+    solver_.Solve(residual_, value - row.dot(result.x), &step_);
+    const double norm = step_.norm(), scale = 1.0 + result.x.norm();
     if (!std::isfinite(norm)) return result;
-    result.x += step;
+    result.x += step_;
     result.steps.push_back(norm);
     if (result.iterations == 0) result.first_step = norm;
     if (result.iterations == 1) result.contraction = norm / result.first_step;
     if (norm <= kStepTolerance * scale || (norm <= kStagnation * scale && norm >= 0.5 * previous)) {
-      system_.Residual(result.x, &residual);
-      result.converged = residual.lpNorm<Eigen::Infinity>() <= kResidualTolerance &&
+      system_.Residual(result.x, &residual_);
+      result.converged = residual_.lpNorm<Eigen::Infinity>() <= kResidualTolerance &&
                          std::abs(row.dot(result.x) - value) <= kResidualTolerance * scale;
       ++result.iterations;
       return result;
     }
-    factorise = norm > kReuse * scale;
+    factorise = norm > kReuse * scale || (norm > kStagnation * scale && norm > kSlow * previous);
     previous = norm;
   }
   return result;
 }
 
+bool SmoothPiece::Factorize(const Eigen::VectorXd& x, const Eigen::VectorXd& row, double rank_tolerance) {
+  ++factorisations_;
+  at_hand_ = false;
+  return solver_.Factorize(system_.TransposedJacobian(x), row, rank_tolerance);
+}
+
 Correction SmoothPiece::CorrectOnPlane(const Eigen::VectorXd& guess, const Eigen::VectorXd& normal) {
   Eigen::VectorXd row = Eigen::VectorXd::Zero(system_.NumUnknowns());
   row.head(normal.size()) = normal;
-  return Correct(guess, row, row.dot(guess));
+  return Newton(guess, row, row.dot(guess));
 }
 
 Eigen::VectorXd SmoothPiece::CorrectSingular(const Eigen::VectorXd& guess, const Eigen::VectorXd& normal) {
   Eigen::VectorXd row = Eigen::VectorXd::Zero(system_.NumUnknowns());
   row.head(normal.size()) = normal;
-  Eigen::VectorXd x = guess, residual;
+  Eigen::VectorXd x = guess;
   for (int i = 0; i < kSingularIterations; ++i) {
-    system_.Residual(x, &residual);
-    ++factorisations_;
-    if (!residual.allFinite() || !solver_.Factorize(system_.TransposedJacobian(x), row, kSingularRank)) return guess;
-    x += solver_.Solve(-residual, 0.0);
+    system_.Residual(x, &residual_);
+    if (!residual_.allFinite() || !Factorize(x, row, kSingularRank)) return guess;
+    x += solver_.Solve(-residual_, 0.0);
   }
   return x.allFinite() ? x : guess;
 }
@@ -118,9 +128,8 @@ Eigen::VectorXd SmoothPiece::CorrectSingular(const Eigen::VectorXd& guess, const
 Eigen::VectorXd SmoothPiece::CrossingDirection(const Eigen::VectorXd& x, const Eigen::VectorXd& towards) {
   Eigen::VectorXd row = Eigen::VectorXd::Zero(system_.NumUnknowns());
   row.head(NumMotion()) = towards;
-  ++factorisations_;
   Eigen::VectorXd none = Eigen::VectorXd::Zero(NumMotion());
-  if (!solver_.Factorize(system_.TransposedJacobian(x), row)) return none;
+  if (!Factorize(x, row)) return none;
   // Of nearly singular equations any solution points along the null vector. The right side only must not be orthogonal
   // to it.
   Eigen::VectorXd right(system_.NumEquations());

@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 
+#include "contact_path/branch/bordered_solver.h"
 #include "contact_path/branch/rate_problem.h"
 #include "contact_path/contact/fixed_state_system.h"
 #include "contact_path/contact/minimum_norm.h"
@@ -23,9 +24,11 @@ constexpr double kStartRate = 1e-13;          // of the load: a start along whic
 constexpr double kGraze = 1e-12;              // depth to which an inequality may be broken next to the point: rounding
 constexpr double kSingularRank = 1e-6;  // rank tolerance where another path crosses: the point is known to about 1e-10
 constexpr Eigen::Index kMostDenseEquations = 500;  // for a dense singular value decomposition
+constexpr double kClearlyRegular = 1e-7;           // ratio of pivots: no null space but the tangent
 constexpr double kRigid = 1e-9;                    // singular value below which load and reactions do not change
 constexpr double kExcluded = 1e-6;              // of unit rates: broken by more, a combination is not looked at again
 constexpr double kFewCombinations = 8.0;        // not worth condensing the rate problem for
+constexpr double kMostCondensed = 5e7;          // numbers that may be held for that
 constexpr int kMostRestarts = 64;               // contacts, one after another in another state, to pivot from
 constexpr Eigen::Index kMostDofsForMpec = 300;  // beyond, the increment problem is solved only if nothing else helps
 constexpr double kMostCombinations = 4096.0;    // 4^6
@@ -87,7 +90,7 @@ class Finder {
     std::vector<Eigen::VectorXd> tangents = CrossingTangents(x);
     if (tangents.empty()) tangents = {*tangent};
     for (const Eigen::VectorXd& along : tangents) {
-      const Eigen::VectorXd second = solver_.Solve(-system_.SecondDerivative(x, along));
+      const Eigen::VectorXd second = Second(x, along);
       for (const double sign : {1.0, -1.0}) {
         const Eigen::VectorXd first = sign * along;
         if (Admissible(x, first, second)) Add(first, second, ways);
@@ -103,10 +106,12 @@ class Finder {
                                 : PivotWhole(std::move(states), sign);
   }
 
-  // Whether the rates of these states are broken in both directions by far more than rounding.
+  // Whether the rates of these states are broken in both directions by far more than rounding, or the structure starts
+  // as a mechanism with them.
   bool Excluded(const States& states, const RateProblem& condensed) const {
     const std::optional<CondensedRates> rates = condensed.Rates(states);
     if (!rates) return false;
+    if (arrival_.is_start && std::abs(rates->load) <= kStartRate) return true;
     return condensed.Broken(states, *rates, 1.0, tolerance_, kExcluded, nullptr) &&
            condensed.Broken(states, *rates, -1.0, tolerance_, kExcluded, nullptr);
   }
@@ -172,10 +177,27 @@ class Finder {
   std::optional<Eigen::VectorXd> TangentOf(const States& states, Eigen::VectorXd* x) {
     system_.SetStates(states, reference_);
     *x = system_.Pack(point_);
-    if (!solver_.Factorize(system_.TransposedJacobian(*x),
+    const Eigen::SparseMatrix<double>& transposed = system_.TransposedJacobian(*x);
+    if (!arrival_.singular) {
+      Eigen::VectorXd row = Eigen::VectorXd::Zero(system_.NumUnknowns());
+      row.head(NumMotion()) = arrival_.direction;
+      regular_ = lu_.FactorizeRegular(transposed, row, kClearlyRegular);
+      if (regular_) {
+        loose_ = false;
+        const Eigen::VectorXd tangent = lu_.Solve(Eigen::VectorXd::Zero(system_.NumEquations()), 1.0);
+        return Eigen::VectorXd(tangent / tangent.head(NumMotion()).norm());
+      }
+    }
+    if (!solver_.Factorize(transposed,
                            arrival_.singular ? kSingularRank : MinimumNormSolver::kRankTolerance))
       return std::nullopt;
     return Tangent();
+  }
+
+  // How the unknowns bend along the tangent.
+  Eigen::VectorXd Second(const Eigen::VectorXd& x, const Eigen::VectorXd& tangent) {
+    const Eigen::VectorXd right = -system_.SecondDerivative(x, tangent);
+    return regular_ ? lu_.Solve(right, 0.0) : solver_.Solve(right);
   }
 
   // The direction of the piece: of the null space, what is neither a rigid mode (no change of load and reactions) nor a
@@ -306,7 +328,9 @@ class Finder {
   double tolerance_;
   FixedStateSystem system_;
   Eigen::VectorXd reference_;
-  MinimumNormSolver solver_;
+  BorderedSolver lu_;         // where the equations are clearly regular
+  MinimumNormSolver solver_;  // elsewhere
+  bool regular_ = false;      // which of them the last tangent is of
   bool loose_ = false;   // of the last tangent
   int rigid_modes_ = 0;  // most of all tangents that are rigid modes
 };
@@ -411,7 +435,8 @@ WaysOn FindWays(const Structure& structure, const std::vector<ContactGeometry>& 
   Finder finder(structure, contacts, point, arrival, tolerance);
   // Where another path crosses, rates are not unique, and every combination is looked at as a whole.
   std::optional<RateProblem> problem;
-  if (combinations > kFewCombinations && !arrival.singular)
+  const double entries = static_cast<double>(point.u.size()) * static_cast<double>(2 * concerned.size() + 1);
+  if (combinations > kFewCombinations && !arrival.singular && entries <= kMostCondensed)
     problem.emplace(structure, contacts, point, natural, concerned, arrival.direction);
   const RateProblem* condensed = problem && problem->regular() ? &*problem : nullptr;
   result.complete = combinations <= kMostCombinations;
@@ -423,6 +448,7 @@ WaysOn FindWays(const Structure& structure, const std::vector<ContactGeometry>& 
     TryAll(options, condensed, &finder, &result);
     result.complete = true;
   }
+  if (result.ways.empty() && condensed != nullptr) finder.Try(natural, &result.ways);  // for its rigid modes
   result.rigid_modes = finder.rigid_modes();
   FindTwins(&result.ways);
   std::stable_sort(result.ways.begin(), result.ways.end(), Better);

@@ -23,8 +23,10 @@ void FixedStateSystem::SetStates(const std::vector<ContactState>& states, const 
   rn_unknown_.assign(contacts_.size(), -1);
   rt_unknown_.assign(contacts_.size(), -1);
   num_unknowns_ = NumDofs() + 1;
+  touching_.clear();
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     if (states_[i] == ContactState::kOpen) continue;
+    touching_.push_back(i);
     rn_unknown_[i] = num_unknowns_++;
     if (states_[i] == ContactState::kStick) rt_unknown_[i] = num_unknowns_++;
   }
@@ -51,7 +53,7 @@ FixedStateSystem::LinearEquation FixedStateSystem::Gap(std::size_t contact) cons
   LinearEquation equation;
   const SparseLinear& gap = contacts_[contact].gap;
   for (std::size_t a = 0; a < 2; ++a)
-    if (gap.dofs[a] >= 0) equation.terms.push_back({gap.dofs[a], gap.coefficients[a]});
+    if (gap.dofs[a] >= 0) equation.Add(gap.dofs[a], gap.coefficients[a]);
   equation.constant = gap.offset;
   return equation;
 }
@@ -60,44 +62,49 @@ FixedStateSystem::LinearEquation FixedStateSystem::TangentialMotion(std::size_t 
   LinearEquation equation;
   const SparseLinear& tangential = contacts_[contact].tangential;
   for (std::size_t a = 0; a < 2; ++a)
-    if (tangential.dofs[a] >= 0) equation.terms.push_back({tangential.dofs[a], sign * tangential.coefficients[a]});
+    if (tangential.dofs[a] >= 0) equation.Add(tangential.dofs[a], sign * tangential.coefficients[a]);
   equation.constant = sign * (tangential.offset - tangential_reference_[static_cast<Eigen::Index>(contact)]);
   return equation;
 }
 
 FixedStateSystem::LinearEquation FixedStateSystem::InequalityAsEquation(const Limit& limit) const {
   const auto i = static_cast<std::size_t>(limit.contact);
-  const double friction = contacts_[i].friction;
+  LinearEquation equation;
   switch (limit.inequality) {
     case Inequality::kGap: return Gap(i);
-    case Inequality::kNormalReaction: return {{{rn_unknown_[i], 1.0}}, 0.0};
-    case Inequality::kConePlus: return {{{rn_unknown_[i], friction}, {rt_unknown_[i], 1.0}}, 0.0};
-    case Inequality::kConeMinus: return {{{rn_unknown_[i], friction}, {rt_unknown_[i], -1.0}}, 0.0};
     case Inequality::kSlip: return TangentialMotion(i, states_[i] == ContactState::kSlipPlus ? 1.0 : -1.0);
+    case Inequality::kNormalReaction: equation.Add(rn_unknown_[i], 1.0); break;
+    case Inequality::kConePlus:
+    case Inequality::kConeMinus:
+      equation.Add(rn_unknown_[i], contacts_[i].friction);
+      equation.Add(rt_unknown_[i], limit.inequality == Inequality::kConePlus ? 1.0 : -1.0);
+      break;
   }
-  return {};
+  return equation;
 }
 
 void FixedStateSystem::Rebuild() {
   linear_.clear();
-  for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    if (states_[i] == ContactState::kOpen) continue;
+  for (const std::size_t i : touching_) {
     linear_.push_back(Gap(i));
     if (states_[i] == ContactState::kStick) linear_.push_back(TangentialMotion(i, 1.0));
   }
   for (const Limit& limit : pinned_) linear_.push_back(InequalityAsEquation(limit));
-  if (load_factor_pinned_) linear_.push_back({{{NumDofs(), 1.0}}, -load_factor_});
+  if (load_factor_pinned_) {
+    linear_.emplace_back().Add(NumDofs(), 1.0);
+    linear_.back().constant = -load_factor_;
+  }
   num_equations_ = NumDofs() + static_cast<Eigen::Index>(linear_.size());
 
   // Columns of the transposed Jacobian are equations. All but the tangent is constant and is written here once.
   std::vector<Eigen::Triplet<double>> triplets;
+  triplets.reserve(static_cast<std::size_t>(tangent_.nonZeros() + NumDofs()) + 8 * linear_.size());
   for (Eigen::Index column = 0; column < NumDofs(); ++column) {
     for (Eigen::SparseMatrix<double>::InnerIterator it(tangent_, column); it; ++it)
       triplets.emplace_back(it.row(), column, 0.0);
     triplets.emplace_back(NumDofs(), column, -structure_.ReferenceLoad()[column]);
   }
-  for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    if (states_[i] == ContactState::kOpen) continue;
+  for (const std::size_t i : touching_) {
     const double ratio = SlipRatio(states_[i], contacts_[i].friction);
     for (std::size_t a = 0; a < 2; ++a) {
       const SparseLinear &gap = contacts_[i].gap, &tangential = contacts_[i].tangential;
@@ -108,8 +115,9 @@ void FixedStateSystem::Rebuild() {
     }
   }
   for (std::size_t e = 0; e < linear_.size(); ++e)
-    for (const Term& term : linear_[e].terms)
-      triplets.emplace_back(term.unknown, NumDofs() + static_cast<Eigen::Index>(e), term.coefficient);
+    for (std::size_t k = 0; k < linear_[e].count; ++k)
+      triplets.emplace_back(linear_[e].terms[k].unknown, NumDofs() + static_cast<Eigen::Index>(e),
+                            linear_[e].terms[k].coefficient);
   transposed_.resize(num_unknowns_, num_equations_);
   transposed_.setFromTriplets(triplets.begin(), triplets.end());
   transposed_.makeCompressed();
@@ -119,8 +127,8 @@ Eigen::VectorXd FixedStateSystem::Pack(const PathPoint& point) const {
   Eigen::VectorXd x(num_unknowns_);
   x.head(NumDofs()) = point.u;
   x[NumDofs()] = point.s;
-  for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    if (rn_unknown_[i] >= 0) x[rn_unknown_[i]] = point.rn[static_cast<Eigen::Index>(i)];
+  for (const std::size_t i : touching_) {
+    x[rn_unknown_[i]] = point.rn[static_cast<Eigen::Index>(i)];
     if (rt_unknown_[i] >= 0) x[rt_unknown_[i]] = point.rt[static_cast<Eigen::Index>(i)];
   }
   return x;
@@ -133,9 +141,9 @@ PathPoint FixedStateSystem::Unpack(const Eigen::VectorXd& x) const {
   point.rn = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(contacts_.size()));
   point.rt = point.rn;
   point.states = states_;
-  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+  for (const std::size_t i : touching_) {
     const auto k = static_cast<Eigen::Index>(i);
-    if (rn_unknown_[i] >= 0) point.rn[k] = x[rn_unknown_[i]];
+    point.rn[k] = x[rn_unknown_[i]];
     if (rt_unknown_[i] >= 0)
       point.rt[k] = x[rt_unknown_[i]];
     else if (Slips(states_[i]))
@@ -145,22 +153,17 @@ PathPoint FixedStateSystem::Unpack(const Eigen::VectorXd& x) const {
 }
 
 void FixedStateSystem::Residual(const Eigen::VectorXd& x, Eigen::VectorXd* residual) const {
-  const PathPoint point = Unpack(x);
-  Eigen::VectorXd force;
-  structure_.InternalForce(point.u, &force);
-  force -= point.s * structure_.ReferenceLoad() + structure_.ConstantLoad();
-  for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    if (states_[i] == ContactState::kOpen) continue;
-    contacts_[i].gap.AddGradient(-point.rn[static_cast<Eigen::Index>(i)], &force);
-    contacts_[i].tangential.AddGradient(-point.rt[static_cast<Eigen::Index>(i)], &force);
-  }
   residual->resize(num_equations_);
-  residual->head(NumDofs()) = force;
-  for (std::size_t e = 0; e < linear_.size(); ++e) {
-    double value = linear_[e].constant;
-    for (const Term& term : linear_[e].terms) value += term.coefficient * x[term.unknown];
-    (*residual)[NumDofs() + static_cast<Eigen::Index>(e)] = value;
+  structure_.InternalForce(x.head(NumDofs()), residual->head(NumDofs()));
+  residual->head(NumDofs()) -= x[NumDofs()] * structure_.ReferenceLoad() + structure_.ConstantLoad();
+  for (const std::size_t i : touching_) {
+    const double rn = x[rn_unknown_[i]];
+    const double rt = rt_unknown_[i] >= 0 ? x[rt_unknown_[i]] : SlipRatio(states_[i], contacts_[i].friction) * rn;
+    contacts_[i].gap.AddGradient(-rn, residual);
+    contacts_[i].tangential.AddGradient(-rt, residual);
   }
+  for (std::size_t e = 0; e < linear_.size(); ++e)
+    (*residual)[NumDofs() + static_cast<Eigen::Index>(e)] = linear_[e].constant + linear_[e].Rate(x);
 }
 
 const Eigen::SparseMatrix<double>& FixedStateSystem::TransposedJacobian(const Eigen::VectorXd& x) {
@@ -174,50 +177,55 @@ const Eigen::SparseMatrix<double>& FixedStateSystem::TransposedJacobian(const Ei
   return transposed_;
 }
 
+void FixedStateSystem::AddInequalities(std::size_t contact, std::vector<Limit>* limits) const {
+  const auto i = static_cast<int>(contact);
+  if (states_[contact] == ContactState::kOpen) {
+    limits->push_back({i, Inequality::kGap});
+    return;
+  }
+  limits->push_back({i, Inequality::kNormalReaction});
+  if (states_[contact] == ContactState::kStick) {
+    limits->push_back({i, Inequality::kConePlus});
+    limits->push_back({i, Inequality::kConeMinus});
+  } else if (Slips(states_[contact])) {
+    limits->push_back({i, Inequality::kSlip});
+  }
+}
+
 std::vector<Limit> FixedStateSystem::Inequalities() const {
   std::vector<Limit> limits;
-  for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    const auto contact = static_cast<int>(i);
-    if (states_[i] == ContactState::kOpen) {
-      limits.push_back({contact, Inequality::kGap});
-      continue;
-    }
-    limits.push_back({contact, Inequality::kNormalReaction});
-    if (states_[i] == ContactState::kStick) {
-      limits.push_back({contact, Inequality::kConePlus});
-      limits.push_back({contact, Inequality::kConeMinus});
-    } else if (Slips(states_[i])) {
-      limits.push_back({contact, Inequality::kSlip});
-    }
-  }
+  for (std::size_t i = 0; i < contacts_.size(); ++i) AddInequalities(i, &limits);
+  return limits;
+}
+
+std::vector<Limit> FixedStateSystem::InequalitiesInReach(const Eigen::VectorXd& x, double reach) const {
+  std::vector<Limit> limits;
+  for (std::size_t i = 0; i < contacts_.size(); ++i)
+    if (states_[i] != ContactState::kOpen || contacts_[i].gap.Value(x) <= reach) AddInequalities(i, &limits);
   return limits;
 }
 
 double FixedStateSystem::Value(const Limit& limit, const Eigen::VectorXd& x) const {
   const LinearEquation equation = InequalityAsEquation(limit);
-  double value = equation.constant;
-  for (const Term& term : equation.terms) value += term.coefficient * x[term.unknown];
-  return value;
+  return equation.constant + equation.Rate(x);
 }
 
 double FixedStateSystem::Rate(const Limit& limit, const Eigen::VectorXd& dx) const {
-  double rate = 0.0;
-  for (const Term& term : InequalityAsEquation(limit).terms) rate += term.coefficient * dx[term.unknown];
-  return rate;
+  return InequalityAsEquation(limit).Rate(dx);
 }
 
 Eigen::VectorXd FixedStateSystem::Gradient(const Limit& limit) const {
   Eigen::VectorXd gradient = Eigen::VectorXd::Zero(num_unknowns_);
-  for (const Term& term : InequalityAsEquation(limit).terms) gradient[term.unknown] += term.coefficient;
+  const LinearEquation equation = InequalityAsEquation(limit);
+  for (std::size_t k = 0; k < equation.count; ++k) gradient[equation.terms[k].unknown] += equation.terms[k].coefficient;
   return gradient;
 }
 
 Eigen::VectorXd FixedStateSystem::SecondDerivative(const Eigen::VectorXd& x, const Eigen::VectorXd& dx) {
   // All equations but the internal force are linear. tangent_ is scratch between calls.
-  const Eigen::VectorXd du = dx.head(NumDofs());
-  structure_.TangentDerivative(x.head(NumDofs()), du, &tangent_);
+  structure_.TangentDerivative(x.head(NumDofs()), dx.head(NumDofs()), &tangent_);
   Eigen::VectorXd second = Eigen::VectorXd::Zero(num_equations_);
-  second.head(NumDofs()) = tangent_ * du;
+  second.head(NumDofs()) = tangent_ * dx.head(NumDofs());
   return second;
 }
 

@@ -158,8 +158,8 @@ void IncrementProblem::Gradient(const Eigen::VectorXd& x, Eigen::VectorXd* gradi
 
 void IncrementProblem::Constraints(const Eigen::VectorXd& x, Eigen::VectorXd* values) const {
   const Eigen::Index nd = structure_.NumDofs();
-  Eigen::VectorXd force;
-  structure_.InternalForce(from_.u + goal_.length * x.head(nd), &force);
+  Eigen::VectorXd force(nd);
+  structure_.InternalForce(from_.u + goal_.length * x.head(nd), force);
   force -= (from_.s + goal_.length * x[nd]) * structure_.ReferenceLoad() + structure_.ConstantLoad();
   force /= goal_.length;
   values->resize(num_constraints_);

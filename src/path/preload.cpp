@@ -64,8 +64,8 @@ Preload TracePreload(const Model& model, int max_increments, const MethodFactory
                      const std::function<bool()>& cancelled) {
   Preload preload;
   preload.point = model.InitialPoint();
-  Eigen::VectorXd holding;
-  model.structure.InternalForce(preload.point.u, &holding);
+  Eigen::VectorXd holding(model.structure.NumDofs());
+  model.structure.InternalForce(preload.point.u, holding);
   const bool stressed = holding.lpNorm<Eigen::Infinity>() > kNothing;
   const double constant = model.structure.ConstantLoad().lpNorm<Eigen::Infinity>();
   if (!stressed && constant <= 0.0) {

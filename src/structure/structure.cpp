@@ -1,12 +1,40 @@
 #include "contact_path/structure/structure.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "contact_path/structure/bar.h"
 #include "contact_path/structure/superelement.h"
 
 namespace contact_path {
+namespace {
+
+// Room for the numbers of one element; those of small elements cost no allocation.
+class Scratch {
+ public:
+  Eigen::Map<Eigen::VectorXd> Vector(std::size_t size) { return {Room(size), static_cast<Eigen::Index>(size)}; }
+  Eigen::Map<Eigen::MatrixXd> Square(std::size_t size) {
+    return {Room(size * size), static_cast<Eigen::Index>(size), static_cast<Eigen::Index>(size)};
+  }
+
+ private:
+  double* Room(std::size_t size) {
+    if (size <= small_.size()) return small_.data();
+    if (large_.size() < size) large_.resize(size);
+    return large_.data();
+  }
+
+  std::array<double, 64> small_;
+  std::vector<double> large_;
+};
+
+void Scatter(const std::vector<int>& to, const double* values, double* out) {
+  for (std::size_t i = 0; i < to.size(); ++i)
+    if (to[i] >= 0) out[to[i]] += values[i];
+}
+
+}  // namespace
 
 Structure::Structure(const Scene& scene) {
   const auto num_nodes = static_cast<Eigen::Index>(scene.nodes.size());
@@ -98,68 +126,59 @@ Eigen::VectorXd Structure::FullPositions(const Eigen::VectorXd& u) const {
   return full;
 }
 
-void Structure::Gather(const Part& part, const Eigen::VectorXd& u, Eigen::VectorXd* x) const {
-  x->resize(static_cast<Eigen::Index>(part.dofs.size()));
+void Structure::Gather(const Part& part, const Eigen::Ref<const Eigen::VectorXd>& u,
+                       Eigen::Ref<Eigen::VectorXd> x) const {
   for (std::size_t i = 0; i < part.dofs.size(); ++i)
-    (*x)[static_cast<Eigen::Index>(i)] = part.dofs[i] >= 0 ? u[part.dofs[i]] : initial_positions_[part.components[i]];
-}
-
-void Structure::GatherDirection(const Part& part, const Eigen::VectorXd& v, Eigen::VectorXd* x) const {
-  x->resize(static_cast<Eigen::Index>(part.dofs.size()));
-  for (std::size_t i = 0; i < part.dofs.size(); ++i)
-    (*x)[static_cast<Eigen::Index>(i)] = part.dofs[i] >= 0 ? v[part.dofs[i]] : 0.0;
-}
-
-void Structure::ScatterMatrix(const Part& part, const Eigen::MatrixXd& local, double* values) const {
-  for (std::size_t i = 0; i < part.entries.size(); ++i)
-    if (part.entries[i] >= 0) values[part.entries[i]] += local.data()[i];
+    x[static_cast<Eigen::Index>(i)] = part.dofs[i] >= 0 ? u[part.dofs[i]] : initial_positions_[part.components[i]];
 }
 
 double Structure::Energy(const Eigen::VectorXd& u) const {
   double energy = 0.0;
-  Eigen::VectorXd x;
+  Scratch x_room;
   for (const Part& part : parts_) {
-    Gather(part, u, &x);
+    auto x = x_room.Vector(part.dofs.size());
+    Gather(part, u, x);
     energy += part.element->Energy(x);
   }
   return energy;
 }
 
-void Structure::InternalForce(const Eigen::VectorXd& u, Eigen::VectorXd* force) const {
-  force->setZero(NumDofs());
-  Eigen::VectorXd x, local;
+void Structure::InternalForce(const Eigen::Ref<const Eigen::VectorXd>& u, Eigen::Ref<Eigen::VectorXd> force) const {
+  force.setZero();
+  Scratch x_room, local_room;
   for (const Part& part : parts_) {
-    Gather(part, u, &x);
-    local.resize(x.size());
+    auto x = x_room.Vector(part.dofs.size()), local = local_room.Vector(part.dofs.size());
+    Gather(part, u, x);
     part.element->Force(x, local);
-    for (std::size_t i = 0; i < part.dofs.size(); ++i)
-      if (part.dofs[i] >= 0) (*force)[part.dofs[i]] += local[static_cast<Eigen::Index>(i)];
+    Scatter(part.dofs, local.data(), force.data());
   }
 }
 
-void Structure::Tangent(const Eigen::VectorXd& u, Eigen::SparseMatrix<double>* tangent) const {
+void Structure::Tangent(const Eigen::Ref<const Eigen::VectorXd>& u, Eigen::SparseMatrix<double>* tangent) const {
   std::fill_n(tangent->valuePtr(), tangent->nonZeros(), 0.0);
-  Eigen::VectorXd x;
-  Eigen::MatrixXd local;
+  Scratch x_room, local_room;
   for (const Part& part : parts_) {
-    Gather(part, u, &x);
-    local.resize(x.size(), x.size());
+    auto x = x_room.Vector(part.dofs.size());
+    auto local = local_room.Square(part.dofs.size());
+    Gather(part, u, x);
     part.element->Tangent(x, local);
-    ScatterMatrix(part, local, tangent->valuePtr());
+    Scatter(part.entries, local.data(), tangent->valuePtr());
   }
 }
 
-void Structure::TangentDerivative(const Eigen::VectorXd& u, const Eigen::VectorXd& v,
+void Structure::TangentDerivative(const Eigen::Ref<const Eigen::VectorXd>& u,
+                                  const Eigen::Ref<const Eigen::VectorXd>& v,
                                   Eigen::SparseMatrix<double>* derivative) const {
   std::fill_n(derivative->valuePtr(), derivative->nonZeros(), 0.0);
-  Eigen::VectorXd x, direction;
-  Eigen::MatrixXd local;
+  Scratch x_room, direction_room, local_room;
   for (const Part& part : parts_) {
-    Gather(part, u, &x);
-    GatherDirection(part, v, &direction);
-    local.resize(x.size(), x.size());
+    auto x = x_room.Vector(part.dofs.size()), direction = direction_room.Vector(part.dofs.size());
+    auto local = local_room.Square(part.dofs.size());
+    Gather(part, u, x);
+    for (std::size_t i = 0; i < part.dofs.size(); ++i)
+      direction[static_cast<Eigen::Index>(i)] = part.dofs[i] >= 0 ? v[part.dofs[i]] : 0.0;
     part.element->TangentDerivative(x, direction, local);
-    ScatterMatrix(part, local, derivative->valuePtr());
+    Scatter(part.entries, local.data(), derivative->valuePtr());
   }
 }
 

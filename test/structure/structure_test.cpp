@@ -17,8 +17,8 @@ constexpr double kRounding = 1e-14;  // of sums of a few terms of order 1
 class MixedStructure : public testing::Test {
  protected:
   Eigen::VectorXd Force(const Eigen::VectorXd& u) const {
-    Eigen::VectorXd force;
-    structure_.InternalForce(u, &force);
+    Eigen::VectorXd force(structure_.NumDofs());
+    structure_.InternalForce(u, force);
     return force;
   }
   Eigen::MatrixXd Tangent(const Eigen::VectorXd& u) const {
@@ -140,7 +140,7 @@ TEST_F(MixedStructure, EvaluationsDoNotAddToWhatWasThere) {
   structure_.TangentDerivative(u, v, &used);
   EXPECT_EQ(Eigen::MatrixXd(used), TangentDerivative(u, v));
   Eigen::VectorXd force = Eigen::VectorXd::Constant(9, 3.0);
-  structure_.InternalForce(u, &force);
+  structure_.InternalForce(u, force);
   EXPECT_EQ(force, Force(u));
 }
 
@@ -152,8 +152,8 @@ TEST(Structure, EnergyOfTwoBarsInALine) {
   const Structure structure(scene);
   const Eigen::VectorXd u = Eigen::VectorXd::Constant(1, 0.75);  // length 1.25
   EXPECT_NEAR(structure.Energy(u), 3.0 * 0.0625, kRounding);
-  Eigen::VectorXd force;
-  structure.InternalForce(u, &force);
+  Eigen::VectorXd force(1);
+  structure.InternalForce(u, force);
   EXPECT_NEAR(force[0], 2.0 * 3.0 * 0.25 * 0.75 / 1.25, kRounding);
 }
 
@@ -162,12 +162,12 @@ TEST(Structure, RestLengthOtherThanTheDistanceStressesTheStart) {
   scene.nodes = {{"a", 0.0, 0.0, true, true}, {"b", 2.0, 0.0, false, false}};
   scene.bars = {{{"a", "b"}, 3.0, 1.6, StrainMeasure::kBiot}};
   const Structure stretched(scene);
-  Eigen::VectorXd force;
-  stretched.InternalForce(stretched.InitialPositions(), &force);
+  Eigen::VectorXd force(2);
+  stretched.InternalForce(stretched.InitialPositions(), force);
   EXPECT_NEAR(force[0], 0.75, kRounding);
   scene.bars[0].rest_length = 0.0;
   const Structure relaxed(scene);
-  relaxed.InternalForce(relaxed.InitialPositions(), &force);
+  relaxed.InternalForce(relaxed.InitialPositions(), force);
   EXPECT_EQ(force.norm(), 0.0);
 }
 

@@ -8,8 +8,9 @@
 
 namespace contact_path {
 
-// M = [J; row], J equations x unknowns. Square and regular as a rule: sparse LU (KLU). Where it is singular or not
-// square (rigid modes, redundant contacts): the shortest solution by a rank-revealing sparse QR factorisation.
+// M = [J; row], J equations x unknowns. Square and regular as a rule: sparse LU (KLU), with ordering and pivots kept for
+// as long as the pattern is the same and they are good. Where it is singular or not square (rigid modes, redundant
+// contacts): the shortest solution by a rank-revealing sparse QR factorisation.
 class BorderedSolver {
  public:
   // Ratio of the smallest to the largest pivot of the LU factorisation below which M counts as singular.
@@ -24,8 +25,14 @@ class BorderedSolver {
   // rank_tolerance > 0: by the QR factorisation in any case, with this tolerance (minimum_norm.h).
   bool Factorize(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& row,
                  double rank_tolerance = 0.0);
-  // Solves M x = (b, last).
+  // LU only: false if M is singular, not square, or its pivots are further apart than `regular` admits.
+  bool FactorizeRegular(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& row,
+                        double regular = kSingular);
+  // Solves M x = (b, last). The second one allocates nothing where M is regular and *x has its size.
   Eigen::VectorXd Solve(const Eigen::VectorXd& b, double last) const;
+  void Solve(const Eigen::VectorXd& b, double last, Eigen::VectorXd* x) const;
+  // Solves M x = (b, 0) for each column of B; *x: unknowns x columns.
+  void SolveAll(const Eigen::MatrixXd& B, Eigen::MatrixXd* x) const;
 
   // unknowns - rank of M: 0 if regular.
   Eigen::Index Deficiency() const;

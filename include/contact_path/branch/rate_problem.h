@@ -38,7 +38,8 @@ class RateProblem {
   // False: the structure is singular even with the springs, and nothing below can be asked.
   bool regular() const { return regular_; }
 
-  // The rates for these states of all candidates, up to their sign; nothing where they are not unique.
+  // The rates for these states of all candidates, up to their sign: where they are not unique, without rigid modes and
+  // nearest to the arrival, as a way on is chosen. Nothing where that cannot be told from the condensed problem.
   std::optional<CondensedRates> Rates(const std::vector<ContactState>& states) const;
 
   // The first inequality at its limit that these rates, times sign, break by more than `tolerance` of the largest rate
@@ -47,6 +48,10 @@ class RateProblem {
                               double at_limit, double tolerance, std::vector<Limit>* all) const;
 
  private:
+  // Solutions of equations . z = 0, not scaled; empty where there is none of the kind.
+  Eigen::VectorXd UniqueSolution(const Eigen::MatrixXd& equations) const;
+  Eigen::VectorXd ShortestSolution(const Eigen::MatrixXd& equations) const;
+
   const std::vector<ContactGeometry>& contacts_;
   const PathPoint& point_;
   std::vector<int> concerned_;

@@ -46,7 +46,8 @@ class SmoothPiece {
 
   // Newton's method for the point of the curve with row . x = value, from guess. row: unknowns.
   Correction Correct(const Eigen::VectorXd& guess, const Eigen::VectorXd& row, double value);
-  // The same with the row given on (u, s) only.
+  // The same with the row given on (u, s) only, near the tangent. Sets out with the factors of the last Derivatives() of
+  // these states; factorises where they do not lead on fast enough.
   Correction CorrectOnPlane(const Eigen::VectorXd& guess, const Eigen::VectorXd& normal);
 
   // The point of the curve nearest to guess, itself near, where another path crosses: nothing is moved along the null
@@ -59,9 +60,15 @@ class SmoothPiece {
   int factorisations() const { return factorisations_; }
 
  private:
+  Correction Newton(const Eigen::VectorXd& guess, const Eigen::VectorXd& row, double value);
+  // False if the matrix is not finite.
+  bool Factorize(const Eigen::VectorXd& x, const Eigen::VectorXd& row, double rank_tolerance = 0.0);
+
   const std::vector<ContactGeometry>& contacts_;
   FixedStateSystem system_;
   BorderedSolver solver_;
+  bool at_hand_ = false;  // regular factors of a point of the curve with these states, the last row along the tangent
+  Eigen::VectorXd residual_, step_;
   int factorisations_ = 0;
 };
 

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <array>
 #include <vector>
 
 #include "contact_path/contact/contact_geometry.h"
@@ -48,6 +49,7 @@ class FixedStateSystem {
   Eigen::Index NumEquations() const { return num_equations_; }
   Eigen::Index NumDofs() const { return structure_.NumDofs(); }
   const std::vector<ContactState>& states() const { return states_; }
+  const std::vector<std::size_t>& Touching() const { return touching_; }  // candidates that are not open, ascending
 
   Eigen::VectorXd Pack(const PathPoint& point) const;
   PathPoint Unpack(const Eigen::VectorXd& x) const;
@@ -59,6 +61,8 @@ class FixedStateSystem {
 
   // All inequalities of the fixed states, in contact order, and their values at x (>= 0: holds).
   std::vector<Limit> Inequalities() const;
+  // The same without the gaps wider than `reach` at x.
+  std::vector<Limit> InequalitiesInReach(const Eigen::VectorXd& x, double reach) const;
   double Value(const Limit& limit, const Eigen::VectorXd& x) const;
   // Change of the value per change dx of the unknowns, and its gradient, NumUnknowns().
   double Rate(const Limit& limit, const Eigen::VectorXd& dx) const;
@@ -72,13 +76,22 @@ class FixedStateSystem {
     double coefficient;
   };
   struct LinearEquation {
-    std::vector<Term> terms;  // ascending unknowns
+    std::array<Term, 2> terms = {};  // the first `count`, ascending unknowns
+    std::size_t count = 0;
     double constant = 0.0;
+
+    void Add(Eigen::Index unknown, double coefficient) { terms[count++] = {unknown, coefficient}; }
+    double Rate(const Eigen::VectorXd& dx) const {
+      double sum = 0.0;
+      for (std::size_t k = 0; k < count; ++k) sum += terms[k].coefficient * dx[terms[k].unknown];
+      return sum;
+    }
   };
 
   LinearEquation Gap(std::size_t contact) const;
   LinearEquation TangentialMotion(std::size_t contact, double sign) const;
   LinearEquation InequalityAsEquation(const Limit& limit) const;
+  void AddInequalities(std::size_t contact, std::vector<Limit>* limits) const;
   void Rebuild();
 
   const Structure& structure_;
@@ -89,6 +102,7 @@ class FixedStateSystem {
   bool load_factor_pinned_ = false;
   double load_factor_ = 0.0;
 
+  std::vector<std::size_t> touching_;
   std::vector<Eigen::Index> rn_unknown_;  // by candidate, -1 = none
   std::vector<Eigen::Index> rt_unknown_;
   std::vector<LinearEquation> linear_;  // all equations but equilibrium

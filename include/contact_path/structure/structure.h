@@ -36,15 +36,15 @@ class Structure {
 
   // Strain energy [force length].
   double Energy(const Eigen::VectorXd& u) const;
-  // Gradient of the strain energy, NumDofs(). Resized as needed.
-  void InternalForce(const Eigen::VectorXd& u, Eigen::VectorXd* force) const;
+  // Gradient of the strain energy, NumDofs().
+  void InternalForce(const Eigen::Ref<const Eigen::VectorXd>& u, Eigen::Ref<Eigen::VectorXd> force) const;
 
   // Square, compressed, column-major, structurally symmetric, sorted; every diagonal entry is part of the pattern.
   const Eigen::SparseMatrix<double>& TangentPattern() const { return pattern_; }
   // Hessian of the strain energy; `tangent` must have the pattern and keeps it.
-  void Tangent(const Eigen::VectorXd& u, Eigen::SparseMatrix<double>* tangent) const;
+  void Tangent(const Eigen::Ref<const Eigen::VectorXd>& u, Eigen::SparseMatrix<double>* tangent) const;
   // d/dh Tangent(u + h v) at h = 0, on the same pattern; symmetric; also the gradient of Tangent(u) v.
-  void TangentDerivative(const Eigen::VectorXd& u, const Eigen::VectorXd& v,
+  void TangentDerivative(const Eigen::Ref<const Eigen::VectorXd>& u, const Eigen::Ref<const Eigen::VectorXd>& v,
                          Eigen::SparseMatrix<double>* derivative) const;
 
  private:
@@ -57,9 +57,7 @@ class Structure {
 
   void AddPart(std::unique_ptr<Element> element, const std::vector<std::string>& nodes);
   void BuildPattern();
-  void Gather(const Part& part, const Eigen::VectorXd& u, Eigen::VectorXd* x) const;
-  void GatherDirection(const Part& part, const Eigen::VectorXd& v, Eigen::VectorXd* x) const;
-  void ScatterMatrix(const Part& part, const Eigen::MatrixXd& local, double* values) const;
+  void Gather(const Part& part, const Eigen::Ref<const Eigen::VectorXd>& u, Eigen::Ref<Eigen::VectorXd> x) const;
 
   std::unordered_map<std::string, int> node_index_;
   std::vector<int> dofs_;              // 2 x nodes

@@ -20,7 +20,8 @@ class LinearSuperelement : public Element {
     return 0.5 * (x - initial_).dot(stiffness_ * (x - initial_));
   }
   void Force(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::VectorXd> force) const override {
-    force.noalias() = stiffness_ * (x - initial_);
+    force.setZero();
+    for (Eigen::Index i = 0; i < x.size(); ++i) force += (x[i] - initial_[i]) * stiffness_.col(i);
   }
   void Tangent(const Eigen::Ref<const Eigen::VectorXd>&, Eigen::Ref<Eigen::MatrixXd> tangent) const override {
     tangent = stiffness_;
