@@ -11,6 +11,7 @@ constexpr double kZero = 1e-11;      // of scaled quantities on a step: rounding
 constexpr double kFlat = 1e-9;       // of unit rates on a step: a load or a contact that moves slower rests
 constexpr double kNearShare = 0.05;  // of the difference of quintic and cubic interpolation
 constexpr double kRateZero = 1e-13;  // of a unit rate
+constexpr double kReach = 2.0;        // of the length of a step: wider gaps stay open on it
 constexpr int kNewtonIterations = 25;
 constexpr double kCoincident = 1e-6;  // relative to the step: a bifurcation this near to something else is one with it
 constexpr double kSlack = 1e-9;       // relative to the step: of the place of a located point
@@ -86,7 +87,8 @@ Watched Watch(SmoothPiece* piece, const Segment& segment) {
     if (t + head_start > first.t || (t == first.t && first.happening != Happening::kNone)) return;
     first = {happening, t, limit, false};
   };
-  for (const Limit& limit : system.Inequalities()) {
+  // No node moves further than the arc length, and that is hardly longer than the step.
+  for (const Limit& limit : system.InequalitiesInReach(segment.start.x, kReach * segment.length)) {
     const Quintic quintic = FunctionOf(system, segment, limit);
     const double zero = limit.inequality == Inequality::kSlip ? kFlat : kZero;
     if (const std::optional<double> t = FirstNegative(quintic, segment.length, zero)) {
@@ -148,15 +150,19 @@ std::optional<CurvePoint> LocateRegular(SmoothPiece* piece, const Segment& segme
   if (watched.limit.inequality == Inequality::kSlip)
     return LocateRate(piece, segment, watched.t,
                       [&](const Eigen::VectorXd& rate) { return system.Rate(watched.limit, rate); });
-  // The inequality as the last equation. Where it only grazes zero, that has no solution: then the point itself is
-  // exact enough. At the event itself the equations may be singular: then derivatives are those of the step that
+  // The inequality as the last equation. Where it only grazes zero, that has no solution: then its minimum counts, or
+  // else the point itself. At the event itself the equations may be singular: then derivatives are those of the step that
   // crossed it.
   const Eigen::VectorXd guess = segment.Point(watched.t);
   const Eigen::VectorXd row = system.Gradient(watched.limit);
   Correction correction = piece->Correct(guess, row, row.dot(guess) - system.Value(watched.limit, guess));
   const double reach = 0.1 * segment.length + 1e-9;
-  if (!correction.converged || !((correction.x - guess).head(piece->NumMotion()).norm() <= reach))
+  if (!correction.converged || !((correction.x - guess).head(piece->NumMotion()).norm() <= reach)) {
+    const std::optional<CurvePoint> lowest = LocateRate(
+        piece, segment, watched.t, [&](const Eigen::VectorXd& rate) { return system.Rate(watched.limit, rate); });
+    if (lowest) return lowest;
     correction = piece->CorrectOnPlane(guess, segment.normal);
+  }
   if (!correction.converged) return std::nullopt;
   const CurvePoint interpolated =
       segment.At(segment.normal.dot((correction.x - segment.start.x).head(segment.normal.size())));

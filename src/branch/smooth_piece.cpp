@@ -11,8 +11,9 @@ constexpr int kSingularIterations = 3;
 constexpr double kSingularRank = 1e-6;    // rank tolerance where another path crosses
 constexpr double kStepTolerance = 1e-14;  // relative to 1 + |x|: rounding
 constexpr double kStagnation = 1e-10;     // relative: below this a step that no longer shrinks is rounding
+constexpr double kRounding = 1e-13;       // the same with factors of another point, which may be slow, too
 constexpr double kReuse = 1e-5;           // relative: below this step the factorisation is good enough to finish with
-constexpr double kSlow = 0.1;             // ratio of two steps beyond which it is not
+constexpr double kSlow = 0.1;             // ratio of two steps beyond which that of another point is not
 constexpr double kResidualTolerance = 1e-11;  // scaled
 
 // The six quintic Hermite basis polynomials: value, first, second at the start, then at the end.
@@ -74,12 +75,13 @@ Correction SmoothPiece::Newton(const Eigen::VectorXd& guess, const Eigen::Vector
   Correction result;
   result.x = guess;
   result.steps.reserve(kMaxIterations);
-  bool factorise = !at_hand_;
+  bool factorise = !at_hand_, fresh = false;
   double previous = std::numeric_limits<double>::infinity();
   for (; result.iterations < kMaxIterations; ++result.iterations) {
     system_.Residual(result.x, &residual_);
     if (!residual_.allFinite()) return result;
     if (factorise && !Factorize(result.x, row)) return result;
+    fresh = fresh || factorise;
     residual_ = -residual_;
     solver_.Solve(residual_, value - row.dot(result.x), &step_);
     const double norm = step_.norm(), scale = 1.0 + result.x.norm();
@@ -88,14 +90,15 @@ Correction SmoothPiece::Newton(const Eigen::VectorXd& guess, const Eigen::Vector
     result.steps.push_back(norm);
     if (result.iterations == 0) result.first_step = norm;
     if (result.iterations == 1) result.contraction = norm / result.first_step;
-    if (norm <= kStepTolerance * scale || (norm <= kStagnation * scale && norm >= 0.5 * previous)) {
+    const bool stagnates = norm >= 0.5 * previous && norm <= (fresh ? kStagnation : kRounding) * scale;
+    if (norm <= kStepTolerance * scale || stagnates) {
       system_.Residual(result.x, &residual_);
       result.converged = residual_.lpNorm<Eigen::Infinity>() <= kResidualTolerance &&
                          std::abs(row.dot(result.x) - value) <= kResidualTolerance * scale;
       ++result.iterations;
       return result;
     }
-    factorise = norm > kReuse * scale || (norm > kStagnation * scale && norm > kSlow * previous);
+    factorise = norm > kReuse * scale || (!fresh && norm > kSlow * previous);
     previous = norm;
   }
   return result;

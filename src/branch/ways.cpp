@@ -389,7 +389,7 @@ void TryLikely(const std::vector<States>& options, const PathPoint& point, const
   std::set<States> tried;
   const auto attempt = [&](const States& states) {
     if (!tried.insert(states).second) return;
-    finder->Try(states, &result->ways);
+    if (condensed == nullptr || !finder->Excluded(states, *condensed)) finder->Try(states, &result->ways);
     ++result->combinations;
   };
   const auto pivot_from = [&](const States& guess) {

@@ -174,15 +174,16 @@ Work BranchMethod::WorkOf(const Segment& segment) const {
   const FixedStateSystem& system = piece_.system();
   const Eigen::Index nd = system.NumDofs();
   Work work;
-  for (const Limit& limit : system.Inequalities()) {
-    if (limit.inequality != Inequality::kSlip) continue;
-    const Limit normal = {limit.contact, Inequality::kNormalReaction};
+  for (const std::size_t i : system.Touching()) {
+    const Limit normal = {static_cast<int>(i), Inequality::kNormalReaction};
+    const Limit slip = {static_cast<int>(i), Inequality::kSlip};
+    if (system.states()[i] != ContactState::kSlipPlus && system.states()[i] != ContactState::kSlipMinus) continue;
     const auto interpolate = [&](const Limit& of) {
       return segment.Interpolate([&](const Eigen::VectorXd& x) { return system.Value(of, x); },
                                  [&](const Eigen::VectorXd& dx) { return system.Rate(of, dx); });
     };
-    const double friction = model_.contacts[static_cast<std::size_t>(limit.contact)].friction;
-    work.friction += std::max(0.0, friction * integrate(interpolate(normal), interpolate(limit)));
+    work.friction +=
+        std::max(0.0, model_.contacts[i].friction * integrate(interpolate(normal), interpolate(slip)));
   }
   const auto load = [&](const Eigen::VectorXd& x) { return x[nd]; };
   const auto along = [&](const Eigen::VectorXd& x) { return model_.structure.ReferenceLoad().dot(x.head(nd)); };

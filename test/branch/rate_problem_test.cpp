@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
+#include <Eigen/QR>
 #include <vector>
 
 #include "contact_path/contact/minimum_norm.h"
@@ -36,6 +38,43 @@ class RestingColumn : public testing::Test {
             concerned,        Eigen::VectorXd::Unit(model_.structure.NumDofs() + 1, model_.structure.NumDofs())};
   }
 
+  // Load and motions and reactions of the concerned contacts, of each column of unknowns.
+  Eigen::MatrixXd Concerned(const FixedStateSystem& system, const std::vector<int>& concerned,
+                            const Eigen::MatrixXd& unknowns) const {
+    Eigen::MatrixXd rates(1 + 4 * static_cast<Eigen::Index>(concerned.size()), unknowns.cols());
+    for (Eigen::Index j = 0; j < unknowns.cols(); ++j) {
+      const PathPoint change = system.Unpack(unknowns.col(j));
+      rates(0, j) = change.s;
+      for (std::size_t k = 0; k < concerned.size(); ++k) {
+        const ContactGeometry& contact = model_.contacts[static_cast<std::size_t>(concerned[k])];
+        rates.col(j).segment<4>(1 + 4 * static_cast<Eigen::Index>(k)) << contact.gap.Rate(change.u),
+            contact.tangential.Rate(change.u), change.rn[concerned[k]], change.rt[concerned[k]];
+      }
+    }
+    return rates;
+  }
+
+  // Where the null space has several dimensions: a member of it, without rigid modes, of unit length.
+  void ExpectShortestMember(const FixedStateSystem& system, const std::vector<int>& concerned,
+                            const Eigen::MatrixXd& null_space, const CondensedRates& rates) const {
+    const Eigen::Index motion = system.NumDofs() + 1;
+    Eigen::VectorXd wanted(1 + 4 * rates.gap.size());
+    wanted[0] = rates.load;
+    for (Eigen::Index k = 0; k < rates.gap.size(); ++k)
+      wanted.segment<4>(1 + 4 * k) << rates.gap[k], rates.slip[k], rates.rn[k], rates.rt[k];
+    const Eigen::MatrixXd seen = Concerned(system, concerned, null_space);
+    const Eigen::VectorXd member =
+        null_space * Eigen::VectorXd(Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>(seen).solve(wanted));
+    EXPECT_LE((Concerned(system, concerned, member) - wanted).norm(), kExact);
+    EXPECT_NEAR(member.head(motion).norm(), 1.0, kExact);
+    const Eigen::MatrixXd forces = null_space.bottomRows(null_space.rows() - motion + 1);
+    Eigen::FullPivLU<Eigen::MatrixXd> lu(forces);
+    lu.setThreshold(1e-9);
+    if (lu.rank() == 0 || lu.rank() == forces.cols()) return;
+    const Eigen::MatrixXd rigid = null_space * lu.kernel();
+    EXPECT_LE((rigid.topRows(motion).transpose() * member.head(motion)).norm(), kExact);
+  }
+
   // Against the null vector of all equations.
   void ExpectRatesOfTheWhole(const RateProblem& problem, const States& states, const std::vector<int>& concerned,
                              int* compared) {
@@ -46,9 +85,9 @@ class RestingColumn : public testing::Test {
     ASSERT_TRUE(solver.Factorize(system.TransposedJacobian(x)));
     const Eigen::MatrixXd null_space = solver.NullSpace();
     const std::optional<CondensedRates> rates = problem.Rates(states);
-    ASSERT_EQ(rates.has_value(), null_space.cols() == 1);
-    if (!rates) return;
+    ASSERT_TRUE(rates.has_value());
     ++*compared;
+    if (null_space.cols() > 1) return ExpectShortestMember(system, concerned, null_space, *rates);
     const Eigen::Index motion = system.NumDofs() + 1;
     Eigen::VectorXd tangent = null_space.col(0) / null_space.col(0).head(motion).norm();
     // The sign is free, and the load may rest.
@@ -89,7 +128,7 @@ TEST_F(RestingColumn, RatesAreThoseOfTheWholeStructure) {
     for (int i = 0; i < 5; ++i) states.push_back(all_states[static_cast<std::size_t>(random.Number(0.0, 3.999))]);
     ExpectRatesOfTheWhole(problem, states, concerned, &compared);
   }
-  EXPECT_GT(compared, 100);  // the others leave a rigid motion
+  EXPECT_GT(compared, 190);
 }
 
 TEST_F(RestingColumn, OtherContactsKeepTheirStates) {

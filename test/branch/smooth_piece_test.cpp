@@ -144,8 +144,10 @@ TEST(SmoothPiece, NewtonConvergesQuadratically) {
     TracedPiece traced(Trace(scene, kRows), index);
     std::vector<double> constants;
     for (const double t : {0.12, 0.08, 0.05, 0.03}) {
-      const Correction correction =
-          traced.piece().CorrectOnPlane(traced.start().x + t * traced.start().first, traced.normal());
+      const Eigen::VectorXd guess = traced.start().x + t * traced.start().first;
+      Eigen::VectorXd row = Eigen::VectorXd::Zero(guess.size());
+      row.head(traced.normal().size()) = traced.normal();
+      const Correction correction = traced.piece().Correct(guess, row, row.dot(guess));
       ASSERT_TRUE(correction.converged);
       ASSERT_GE(correction.steps.size(), 3U);
       EXPECT_EQ(correction.iterations, static_cast<int>(correction.steps.size()));
