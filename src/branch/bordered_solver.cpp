@@ -170,8 +170,8 @@ void BorderedSolver::SolveAll(const Eigen::MatrixXd& B, Eigen::MatrixXd* x) cons
   x->bottomRows(1).setZero();
   const auto size = static_cast<int>(x->rows());
   for (Eigen::Index k = 0; k < B.cols(); k += kAtOnce)
-    klu_tsolve(factors_->symbolic, factors_->numeric, size, static_cast<int>(std::min<Eigen::Index>(kAtOnce, B.cols() - k)),
-               x->col(k).data(), &factors_->common);
+    klu_tsolve(factors_->symbolic, factors_->numeric, size,
+               static_cast<int>(std::min<Eigen::Index>(kAtOnce, B.cols() - k)), x->col(k).data(), &factors_->common);
 }
 
 Eigen::Index BorderedSolver::Deficiency() const {

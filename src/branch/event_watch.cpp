@@ -11,7 +11,7 @@ constexpr double kZero = 1e-11;      // of scaled quantities on a step: rounding
 constexpr double kFlat = 1e-9;       // of unit rates on a step: a load or a contact that moves slower rests
 constexpr double kNearShare = 0.05;  // of the difference of quintic and cubic interpolation
 constexpr double kRateZero = 1e-13;  // of a unit rate
-constexpr double kReach = 2.0;        // of the length of a step: wider gaps stay open on it
+constexpr double kReach = 2.0;       // of the length of a step: wider gaps stay open on it
 constexpr int kNewtonIterations = 25;
 constexpr double kCoincident = 1e-6;  // relative to the step: a bifurcation this near to something else is one with it
 constexpr double kSlack = 1e-9;       // relative to the step: of the place of a located point
@@ -151,8 +151,8 @@ std::optional<CurvePoint> LocateRegular(SmoothPiece* piece, const Segment& segme
     return LocateRate(piece, segment, watched.t,
                       [&](const Eigen::VectorXd& rate) { return system.Rate(watched.limit, rate); });
   // The inequality as the last equation. Where it only grazes zero, that has no solution: then its minimum counts, or
-  // else the point itself. At the event itself the equations may be singular: then derivatives are those of the step that
-  // crossed it.
+  // else the point itself. At the event itself the equations may be singular: then derivatives are those of the step
+  // that crossed it.
   const Eigen::VectorXd guess = segment.Point(watched.t);
   const Eigen::VectorXd row = system.Gradient(watched.limit);
   Correction correction = piece->Correct(guess, row, row.dot(guess) - system.Value(watched.limit, guess));

@@ -6,6 +6,7 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "contact_path/branch/bordered_solver.h"
 
@@ -128,7 +129,7 @@ Eigen::VectorXd RateProblem::ShortestSolution(const Eigen::MatrixXd& equations) 
   return candidates * (candidates.transpose() * along_);  // nearest to the arrival
 }
 
-std::optional<CondensedRates> RateProblem::Rates(const std::vector<ContactState>& states) const {
+Eigen::MatrixXd RateProblem::Equations(const std::vector<ContactState>& states) const {
   const Eigen::Index count = gap_.rows(), columns = gap_.cols();
   // A reaction is the force less that of its spring.
   const auto reaction = [&](Eigen::Index column, const auto& rate) {
@@ -151,9 +152,22 @@ std::optional<CondensedRates> RateProblem::Rates(const std::vector<ContactState>
     else
       equations.row(2 * k + 1) = rt - SlipRatio(states[i], contacts_[i].friction) * rn;
   }
+  return equations;
+}
+
+std::optional<CondensedRates> RateProblem::Rates(const std::vector<ContactState>& states) const {
+  const Eigen::MatrixXd equations = Equations(states);
   Eigen::VectorXd z = UniqueSolution(equations);
-  if (z.size() == 0) z = ShortestSolution(equations);
+  return RatesOf(z.size() > 0 ? std::move(z) : ShortestSolution(equations));
+}
+
+std::optional<CondensedRates> RateProblem::UniqueRates(const std::vector<ContactState>& states) const {
+  return RatesOf(UniqueSolution(Equations(states)));
+}
+
+std::optional<CondensedRates> RateProblem::RatesOf(Eigen::VectorXd z) const {
   if (z.size() == 0) return std::nullopt;
+  const Eigen::Index count = gap_.rows();
   const double norm = std::sqrt(z.dot(gram_ * z));
   if (!(norm > 0.0) || !std::isfinite(norm)) return std::nullopt;
   z /= norm;

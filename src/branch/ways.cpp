@@ -24,7 +24,7 @@ constexpr double kStartRate = 1e-13;          // of the load: a start along whic
 constexpr double kGraze = 1e-12;              // depth to which an inequality may be broken next to the point: rounding
 constexpr double kSingularRank = 1e-6;  // rank tolerance where another path crosses: the point is known to about 1e-10
 constexpr Eigen::Index kMostDenseEquations = 500;  // for a dense singular value decomposition
-constexpr double kClearlyRegular = 1e-7;           // ratio of pivots: no null space but the tangent
+constexpr double kClearlyRegular = 1e-10;          // ratio of pivots: no null space but the tangent
 constexpr double kRigid = 1e-9;                    // singular value below which load and reactions do not change
 constexpr double kExcluded = 1e-6;              // of unit rates: broken by more, a combination is not looked at again
 constexpr double kFewCombinations = 8.0;        // not worth condensing the rate problem for
@@ -74,11 +74,12 @@ Eigen::MatrixXd Split(const Eigen::MatrixXd& basis, Eigen::Index from, Eigen::In
 class Finder {
  public:
   Finder(const Structure& structure, const std::vector<ContactGeometry>& contacts, const PathPoint& point,
-         const Arrival& arrival, double tolerance)
+         const Arrival& arrival, double tolerance, const std::function<bool()>& cancelled)
       : contacts_(contacts),
         point_(point),
         arrival_(arrival),
         tolerance_(tolerance),
+        cancelled_(cancelled),
         system_(structure, contacts),
         reference_(TangentialPositions(contacts, point.u)) {}
 
@@ -118,6 +119,12 @@ class Finder {
 
   int rigid_modes() const { return rigid_modes_; }
 
+  // Once true, stays so.
+  bool Cancelled() {
+    was_cancelled_ = was_cancelled_ || (cancelled_ && cancelled_());
+    return was_cancelled_;
+  }
+
  private:
   static constexpr int kBlockPivots = 20;
   static constexpr int kSinglePivots = 200;
@@ -137,7 +144,7 @@ class Finder {
   }
 
   std::optional<States> PivotWhole(States states, double sign) {
-    for (int round = 0; round < kBlockPivots + kSinglePivots; ++round) {
+    for (int round = 0; round < kBlockPivots + kSinglePivots && !Cancelled(); ++round) {
       Eigen::VectorXd x;
       const std::optional<Eigen::VectorXd> tangent = TangentOf(states, &x);
       if (!tangent) return std::nullopt;
@@ -160,7 +167,7 @@ class Finder {
   std::optional<States> PivotCondensed(States states, double sign, const RateProblem& condensed) const {
     std::vector<Limit> broken;
     for (int round = 0; round < kBlockPivots + kSinglePivots; ++round) {
-      const std::optional<CondensedRates> rates = condensed.Rates(states);
+      const std::optional<CondensedRates> rates = condensed.UniqueRates(states);
       if (!rates) return std::nullopt;
       broken.clear();
       condensed.Broken(states, *rates, rates->along < 0.0 ? -sign : sign, tolerance_, kRateTolerance, &broken);
@@ -188,8 +195,7 @@ class Finder {
         return Eigen::VectorXd(tangent / tangent.head(NumMotion()).norm());
       }
     }
-    if (!solver_.Factorize(transposed,
-                           arrival_.singular ? kSingularRank : MinimumNormSolver::kRankTolerance))
+    if (!solver_.Factorize(transposed, arrival_.singular ? kSingularRank : MinimumNormSolver::kRankTolerance))
       return std::nullopt;
     return Tangent();
   }
@@ -326,13 +332,15 @@ class Finder {
   const PathPoint& point_;
   const Arrival& arrival_;
   double tolerance_;
+  const std::function<bool()>& cancelled_;
+  bool was_cancelled_ = false;
   FixedStateSystem system_;
   Eigen::VectorXd reference_;
   BorderedSolver lu_;         // where the equations are clearly regular
   MinimumNormSolver solver_;  // elsewhere
   bool regular_ = false;      // which of them the last tangent is of
-  bool loose_ = false;   // of the last tangent
-  int rigid_modes_ = 0;  // most of all tangents that are rigid modes
+  bool loose_ = false;        // of the last tangent
+  int rigid_modes_ = 0;       // most of all tangents that are rigid modes
 };
 
 // Two ways with the same rates are images of each other under a symmetry of the scene, and break it.
@@ -358,7 +366,7 @@ void TryAll(const std::vector<States>& options, const RateProblem* condensed, Fi
   for (const States& option : options) states.push_back(option.front());
   std::vector<std::size_t> digits(options.size(), 0);
   bool turned = true;
-  while (turned) {
+  while (turned && !finder->Cancelled()) {
     if (condensed == nullptr || !finder->Excluded(states, *condensed)) finder->Try(states, &result->ways);
     ++result->combinations;
     turned = false;
@@ -388,11 +396,12 @@ void TryLikely(const std::vector<States>& options, const PathPoint& point, const
   guesses.insert(guesses.begin(), natural);
   std::set<States> tried;
   const auto attempt = [&](const States& states) {
-    if (!tried.insert(states).second) return;
+    if (finder->Cancelled() || !tried.insert(states).second) return;
     if (condensed == nullptr || !finder->Excluded(states, *condensed)) finder->Try(states, &result->ways);
     ++result->combinations;
   };
   const auto pivot_from = [&](const States& guess) {
+    if (finder->Cancelled()) return;
     for (const double sign : {1.0, -1.0})
       if (const std::optional<States> states = finder->Pivot(guess, sign, condensed)) attempt(*states);
   };
@@ -419,7 +428,8 @@ void TryLikely(const std::vector<States>& options, const PathPoint& point, const
 }  // namespace
 
 WaysOn FindWays(const Structure& structure, const std::vector<ContactGeometry>& contacts, const PathPoint& point,
-                const Arrival& arrival, double tolerance, IncrementSolver* mpec) {
+                const Arrival& arrival, double tolerance, IncrementSolver* mpec,
+                const std::function<bool()>& cancelled) {
   WaysOn result;
   std::vector<States> options;
   States natural;
@@ -432,7 +442,7 @@ WaysOn FindWays(const Structure& structure, const std::vector<ContactGeometry>& 
     if (options[i].size() > 1) concerned.push_back(static_cast<int>(i));
   }
   result.concerned = static_cast<int>(concerned.size());
-  Finder finder(structure, contacts, point, arrival, tolerance);
+  Finder finder(structure, contacts, point, arrival, tolerance, cancelled);
   // Where another path crosses, rates are not unique, and every combination is looked at as a whole.
   std::optional<RateProblem> problem;
   const double entries = static_cast<double>(point.u.size()) * static_cast<double>(2 * concerned.size() + 1);
@@ -450,6 +460,7 @@ WaysOn FindWays(const Structure& structure, const std::vector<ContactGeometry>& 
   }
   if (result.ways.empty() && condensed != nullptr) finder.Try(natural, &result.ways);  // for its rigid modes
   result.rigid_modes = finder.rigid_modes();
+  result.cancelled = finder.Cancelled();
   FindTwins(&result.ways);
   std::stable_sort(result.ways.begin(), result.ways.end(), Better);
   return result;

@@ -9,6 +9,8 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
+#include <vector>
 
 #include "contact_path/scene/scaling.h"
 
@@ -45,55 +47,18 @@ void RequireSize(const std::vector<double>& values, std::size_t size, const char
                               std::to_string(size));
 }
 
-void RequireSizes(const Scene& scene, const CheckedState& state) {
-  RequireSize(state.positions, 2 * scene.nodes.size(), "positions");
-  RequireSize(state.rn, scene.contacts.size(), "rn");
-  RequireSize(state.rt, scene.contacts.size(), "rt");
-}
-
-// Index of each node by its name.
-using NodeIndex = std::unordered_map<std::string_view, std::size_t>;
-
-NodeIndex IndexNodes(const Scene& scene) {
-  NodeIndex index;
-  for (std::size_t i = 0; i < scene.nodes.size(); ++i) index[scene.nodes[i].name] = i;
-  return index;
-}
-
 Vector NodePosition(const std::vector<double>& positions, std::size_t node) {
   return {positions[2 * node], positions[2 * node + 1]};
 }
 
-std::vector<double> InitialPositions(const Scene& scene) {
-  std::vector<double> positions;
-  for (const Node& node : scene.nodes) {
-    positions.push_back(node.x);
-    positions.push_back(node.y);
-  }
-  return positions;
-}
+// Of long double squares, which neither overflow nor vanish for finite doubles.
+Real Length(const Vector& v) { return std::sqrt(v.x * v.x + v.y * v.y); }
 
 struct BarLengths {
   Real current = 0.0L;
   Real rest = 0.0L;
   Vector span;  // from the first node to the second
 };
-
-BarLengths MeasureBar(const Scene& scene, const NodeIndex& index, const Bar& bar,
-                      const std::vector<double>& positions) {
-  const std::size_t first = index.at(bar.nodes[0]);
-  const std::size_t second = index.at(bar.nodes[1]);
-  BarLengths lengths;
-  lengths.span = NodePosition(positions, second) - NodePosition(positions, first);
-  lengths.current = std::hypot(lengths.span.x, lengths.span.y);
-  lengths.rest = bar.rest_length;
-  if (bar.rest_length == 0.0) {
-    const Node& a = scene.nodes[first];
-    const Node& b = scene.nodes[second];
-    lengths.rest = std::hypot(static_cast<Real>(b.x) - a.x, static_cast<Real>(b.y) - a.y);
-  }
-  return lengths;
-}
 
 // e
 Real Strain(StrainMeasure measure, const BarLengths& lengths) {
@@ -116,92 +81,156 @@ Real StrainRate(StrainMeasure measure, const BarLengths& lengths) {
   return std::numeric_limits<Real>::quiet_NaN();
 }
 
-// x - X of the nodes of `part`, in its order.
-std::vector<Real> Displacements(const NodeIndex& index, const Superelement& part, const std::vector<double>& initial,
-                                const std::vector<double>& positions) {
-  std::vector<Real> displacements;
-  for (const std::string& name : part.nodes) {
-    const std::size_t node = index.at(name);
-    const Vector moved = NodePosition(positions, node) - NodePosition(initial, node);
-    displacements.push_back(moved.x);
-    displacements.push_back(moved.y);
-  }
-  return displacements;
-}
-
-// K d
-std::vector<Real> ElasticForces(const Superelement& part, const std::vector<Real>& displacements) {
-  const std::size_t size = displacements.size();
-  std::vector<Real> forces(size, 0.0L);
-  for (std::size_t row = 0; row < size; ++row) {
-    for (std::size_t column = 0; column < size; ++column) {
-      forces[row] += part.stiffness[row * size + column] * displacements[column];
-    }
-  }
-  return forces;
-}
+}  // namespace
 
 // The obstacle's frame and friction as a contact candidate sees them.
-struct Surface {
+struct ResidualCheck::Surface {
   Vector point;
   Vector normal;   // n, of length 1
   Vector tangent;  // t = (n_y, -n_x)
   Real friction = 0.0L;
 };
 
-Surface FindSurface(const Scene& scene, const ContactCandidate& contact) {
-  const auto obstacle = std::find_if(scene.obstacles.begin(), scene.obstacles.end(),
-                                     [&](const Obstacle& candidate) { return candidate.name == contact.obstacle; });
-  if (obstacle == scene.obstacles.end()) throw std::invalid_argument("no obstacle has the name " + contact.obstacle);
-  const Real length = std::hypot(static_cast<Real>(obstacle->nx), static_cast<Real>(obstacle->ny));
-  Surface surface;
-  surface.point = {obstacle->px, obstacle->py};
-  surface.normal = {obstacle->nx / length, obstacle->ny / length};
-  surface.tangent = {surface.normal.y, -surface.normal.x};
-  surface.friction = obstacle->friction;
-  return surface;
-}
+// The scene with all names resolved; vectors in the order of the scene's lists.
+struct ResidualCheck::Prepared {
+  struct PreparedBar {
+    std::size_t first = 0, second = 0;
+    Real EA = 0.0L, rest = 0.0L;
+    StrainMeasure strain = StrainMeasure::kBiot;
+  };
+  struct PreparedPart {
+    std::vector<std::size_t> nodes;
+    std::vector<Real> stiffness;  // row by row
+  };
+  struct PreparedLoad {
+    std::size_t node = 0;
+    Real fx = 0.0L, fy = 0.0L;
+    bool constant = false;
+  };
+  struct PreparedContact {
+    std::size_t node = 0;
+    Surface surface;
+  };
 
-// phi - T r on each component x0, y0, x1, ...: internal forces less loads less reactions.
-std::vector<Real> Unbalance(const Scene& scene, const NodeIndex& index, const CheckedState& state) {
-  std::vector<Real> forces(state.positions.size(), 0.0L);
-  for (const Bar& bar : scene.bars) {
-    const BarLengths lengths = MeasureBar(scene, index, bar, state.positions);
-    // N = dW/dl = EA l0 e de/dl, along the bar.
-    const Real tension = bar.EA * lengths.rest * Strain(bar.strain, lengths) * StrainRate(bar.strain, lengths);
-    const Vector pull{tension * (lengths.span.x / lengths.current), tension * (lengths.span.y / lengths.current)};
-    const std::size_t first = index.at(bar.nodes[0]);
-    const std::size_t second = index.at(bar.nodes[1]);
-    forces[2 * first] -= pull.x;
-    forces[2 * first + 1] -= pull.y;
-    forces[2 * second] += pull.x;
-    forces[2 * second + 1] += pull.y;
-  }
-  const std::vector<double> initial = InitialPositions(scene);
-  for (const Superelement& part : scene.superelements) {
-    const std::vector<Real> elastic = ElasticForces(part, Displacements(index, part, initial, state.positions));
-    for (std::size_t i = 0; i < part.nodes.size(); ++i) {
-      const std::size_t node = index.at(part.nodes[i]);
-      forces[2 * node] += elastic[2 * i];
-      forces[2 * node + 1] += elastic[2 * i + 1];
+  explicit Prepared(const Scene& scene) : scaling(CharacteristicScales(scene)) {
+    std::unordered_map<std::string_view, std::size_t> index;
+    for (const Node& node : scene.nodes) {
+      index.emplace(node.name, index.size());
+      initial.push_back(node.x);
+      initial.push_back(node.y);
+      free.push_back(!node.fixed_x);
+      free.push_back(!node.fixed_y);
+    }
+    for (const Bar& bar : scene.bars) {
+      PreparedBar prepared{index.at(bar.nodes[0]), index.at(bar.nodes[1]), bar.EA, bar.rest_length, bar.strain};
+      if (bar.rest_length == 0.0)
+        prepared.rest = Length(NodePosition(initial, prepared.second) - NodePosition(initial, prepared.first));
+      bars.push_back(prepared);
+    }
+    for (const Superelement& part : scene.superelements) {
+      PreparedPart prepared;
+      for (const std::string& name : part.nodes) prepared.nodes.push_back(index.at(name));
+      prepared.stiffness.assign(part.stiffness.begin(), part.stiffness.end());
+      parts.push_back(std::move(prepared));
+    }
+    for (const Load& load : scene.loads) loads.push_back({index.at(load.node), load.fx, load.fy, load.constant});
+    std::unordered_map<std::string_view, Surface> surfaces;
+    for (const Obstacle& obstacle : scene.obstacles) {
+      const Vector along{obstacle.nx, obstacle.ny};
+      const Real length = Length(along);
+      Surface surface;
+      surface.point = {obstacle.px, obstacle.py};
+      surface.normal = {along.x / length, along.y / length};
+      surface.tangent = {surface.normal.y, -surface.normal.x};
+      surface.friction = obstacle.friction;
+      surfaces.emplace(obstacle.name, surface);
+    }
+    for (const ContactCandidate& contact : scene.contacts) {
+      const auto surface = surfaces.find(contact.obstacle);
+      if (surface == surfaces.end()) throw std::invalid_argument("no obstacle has the name " + contact.obstacle);
+      contacts.push_back({index.at(contact.node), surface->second});
     }
   }
-  for (const Load& load : scene.loads) {
-    const std::size_t node = index.at(load.node);
-    const Real factor = load.constant ? 1.0L : static_cast<Real>(state.load_factor);
-    forces[2 * node] -= factor * load.fx;
-    forces[2 * node + 1] -= factor * load.fy;
-  }
-  for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
-    const Surface surface = FindSurface(scene, scene.contacts[i]);
-    const std::size_t node = index.at(scene.contacts[i].node);
-    forces[2 * node] -= state.rn[i] * surface.normal.x + state.rt[i] * surface.tangent.x;
-    forces[2 * node + 1] -= state.rn[i] * surface.normal.y + state.rt[i] * surface.tangent.y;
-  }
-  return forces;
-}
 
-}  // namespace
+  BarLengths Measure(const PreparedBar& bar, const std::vector<double>& positions) const {
+    const Vector span = NodePosition(positions, bar.second) - NodePosition(positions, bar.first);
+    return {Length(span), bar.rest, span};
+  }
+
+  // x - X of the nodes of `part`, in its order.
+  std::vector<Real> Displacements(const PreparedPart& part, const std::vector<double>& positions) const {
+    std::vector<Real> displacements;
+    for (const std::size_t node : part.nodes) {
+      const Vector moved = NodePosition(positions, node) - NodePosition(initial, node);
+      displacements.push_back(moved.x);
+      displacements.push_back(moved.y);
+    }
+    return displacements;
+  }
+
+  // K d
+  static std::vector<Real> ElasticForces(const PreparedPart& part, const std::vector<Real>& displacements) {
+    const std::size_t size = displacements.size();
+    std::vector<Real> forces(size, 0.0L);
+    for (std::size_t row = 0; row < size; ++row) {
+      for (std::size_t column = 0; column < size; ++column) {
+        forces[row] += part.stiffness[row * size + column] * displacements[column];
+      }
+    }
+    return forces;
+  }
+
+  // phi - T r on each component x0, y0, x1, ...: internal forces less loads less reactions.
+  std::vector<Real> Unbalance(const CheckedState& state) const {
+    std::vector<Real> forces(state.positions.size(), 0.0L);
+    for (const PreparedBar& bar : bars) {
+      const BarLengths lengths = Measure(bar, state.positions);
+      // N = dW/dl = EA l0 e de/dl, along the bar.
+      const Real tension = bar.EA * lengths.rest * Strain(bar.strain, lengths) * StrainRate(bar.strain, lengths);
+      const Vector pull{tension * (lengths.span.x / lengths.current), tension * (lengths.span.y / lengths.current)};
+      forces[2 * bar.first] -= pull.x;
+      forces[2 * bar.first + 1] -= pull.y;
+      forces[2 * bar.second] += pull.x;
+      forces[2 * bar.second + 1] += pull.y;
+    }
+    for (const PreparedPart& part : parts) {
+      const std::vector<Real> elastic = ElasticForces(part, Displacements(part, state.positions));
+      for (std::size_t i = 0; i < part.nodes.size(); ++i) {
+        forces[2 * part.nodes[i]] += elastic[2 * i];
+        forces[2 * part.nodes[i] + 1] += elastic[2 * i + 1];
+      }
+    }
+    for (const PreparedLoad& load : loads) {
+      const Real factor = load.constant ? 1.0L : static_cast<Real>(state.load_factor);
+      forces[2 * load.node] -= factor * load.fx;
+      forces[2 * load.node + 1] -= factor * load.fy;
+    }
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+      if (state.rn[i] == 0.0 && state.rt[i] == 0.0) continue;
+      const auto& [node, surface] = contacts[i];
+      forces[2 * node] -= state.rn[i] * surface.normal.x + state.rt[i] * surface.tangent.x;
+      forces[2 * node + 1] -= state.rn[i] * surface.normal.y + state.rt[i] * surface.tangent.y;
+    }
+    return forces;
+  }
+
+  void RequireSizes(const CheckedState& state) const {
+    RequireSize(state.positions, initial.size(), "positions");
+    RequireSize(state.rn, contacts.size(), "rn");
+    RequireSize(state.rt, contacts.size(), "rt");
+  }
+
+  Scaling scaling;
+  std::vector<double> initial;  // x0, y0, x1, ...
+  std::vector<bool> free;       // the same components
+  std::vector<PreparedBar> bars;
+  std::vector<PreparedPart> parts;
+  std::vector<PreparedLoad> loads;
+  std::vector<PreparedContact> contacts;
+};
+
+ResidualCheck::ResidualCheck(const Scene& scene) : prepared_(std::make_unique<Prepared>(scene)) {}
+ResidualCheck::~ResidualCheck() = default;
 
 double Residuals::Contact() const {
   double worst = 0.0;
@@ -211,31 +240,31 @@ double Residuals::Contact() const {
   return worst;
 }
 
-Residuals CheckResiduals(const Scene& scene, const CheckedState& before, const CheckedState& now) {
-  RequireSizes(scene, before);
-  RequireSizes(scene, now);
+Residuals ResidualCheck::Check(const CheckedState& before, const CheckedState& now) const {
+  const Prepared& scene = *prepared_;
+  scene.RequireSizes(before);
+  scene.RequireSizes(now);
   if (!AllFinite(before) || !AllFinite(now)) {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     return {kInfinity, kInfinity, kInfinity, kInfinity, kInfinity, kInfinity};
   }
 
-  const Scaling scaling = CharacteristicScales(scene);
-  const NodeIndex index = IndexNodes(scene);
+  const Scaling& scaling = scene.scaling;
   Residuals residuals;
-  const std::vector<Real> unbalance = Unbalance(scene, index, now);
-  for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
-    const Node& node = scene.nodes[i];
-    if (!node.fixed_x) residuals.equilibrium = Worst(residuals.equilibrium, std::abs(unbalance[2 * i]) / scaling.force);
-    if (!node.fixed_y) {
-      residuals.equilibrium = Worst(residuals.equilibrium, std::abs(unbalance[2 * i + 1]) / scaling.force);
-    }
+  const std::vector<Real> unbalance = scene.Unbalance(now);
+  for (std::size_t i = 0; i < unbalance.size(); ++i) {
+    if (scene.free[i]) residuals.equilibrium = Worst(residuals.equilibrium, std::abs(unbalance[i]) / scaling.force);
   }
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
-    const Surface surface = FindSurface(scene, scene.contacts[i]);
-    const std::size_t node = index.at(scene.contacts[i].node);
+    const auto& [node, surface] = scene.contacts[i];
     const Vector position = NodePosition(now.positions, node);
-    const Vector motion = position - NodePosition(before.positions, node);
     const Real gap = Dot(surface.normal, position - surface.point) / scaling.length;
+    if (now.rn[i] == 0.0 && now.rt[i] == 0.0) {  // all else is zero then, but for a gap that is closed too far
+      residuals.penetration = Worst(residuals.penetration, -gap);
+      residuals.complementarity = Worst(residuals.complementarity, std::abs(std::min(gap, 0.0L)));
+      continue;
+    }
+    const Vector motion = position - NodePosition(before.positions, node);
     const Real slip = Dot(surface.tangent, motion) / scaling.length;
     const Real rn = static_cast<Real>(now.rn[i]) / scaling.force;
     const Real rt = static_cast<Real>(now.rt[i]) / scaling.force;
@@ -249,19 +278,17 @@ Residuals CheckResiduals(const Scene& scene, const CheckedState& before, const C
   return residuals;
 }
 
-double CheckStrainEnergy(const Scene& scene, const std::vector<double>& positions) {
-  RequireSize(positions, 2 * scene.nodes.size(), "positions");
-  const NodeIndex index = IndexNodes(scene);
+double ResidualCheck::StrainEnergy(const std::vector<double>& positions) const {
+  RequireSize(positions, prepared_->initial.size(), "positions");
   Real energy = 0.0L;
-  for (const Bar& bar : scene.bars) {
-    const BarLengths lengths = MeasureBar(scene, index, bar, positions);
+  for (const Prepared::PreparedBar& bar : prepared_->bars) {
+    const BarLengths lengths = prepared_->Measure(bar, positions);
     const Real strain = Strain(bar.strain, lengths);
     energy += bar.EA * lengths.rest * strain * strain / 2.0L;
   }
-  const std::vector<double> initial = InitialPositions(scene);
-  for (const Superelement& part : scene.superelements) {
-    const std::vector<Real> displacements = Displacements(index, part, initial, positions);
-    const std::vector<Real> forces = ElasticForces(part, displacements);
+  for (const Prepared::PreparedPart& part : prepared_->parts) {
+    const std::vector<Real> displacements = prepared_->Displacements(part, positions);
+    const std::vector<Real> forces = Prepared::ElasticForces(part, displacements);
     for (std::size_t i = 0; i < forces.size(); ++i) energy += forces[i] * displacements[i] / 2.0L;
   }
   return static_cast<double>(energy);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "contact_path/path/automatic_step.h"
 #include "contact_path/path/diagnosis.h"
 
 namespace contact_path {
@@ -40,7 +41,7 @@ std::string NoWayOn(const WaysOn& on) {
 
 }  // namespace
 
-BranchOptions BranchOptions::For(const TraceOptions& options) {
+BranchOptions BranchOptions::For(const TraceOptions& options, Eigen::Index num_dofs) {
   BranchOptions result;
   switch (options.accuracy) {
     case Accuracy::kFast:
@@ -55,7 +56,7 @@ BranchOptions BranchOptions::For(const TraceOptions& options) {
       result.smallest_cosine = 0.998;
       break;
   }
-  if (options.step > 0.0) result.step = options.step;
+  result.step = options.step > 0.0 ? options.step : result.step * AutomaticStepGrowth(num_dofs);
   result.smallest_step = std::min(result.smallest_step, 1e-3 * result.step);
   result.direction = options.Direction();
   result.choices = options.branch_choices;
@@ -65,7 +66,8 @@ BranchOptions BranchOptions::For(const TraceOptions& options) {
 BranchMethod::BranchMethod(const Model& model, const BranchOptions& options, std::function<bool()> cancelled)
     : model_(model),
       options_(options),
-      ipopt_(std::move(cancelled)),
+      cancelled_(std::move(cancelled)),
+      ipopt_(cancelled_),
       mpec_(model.structure, model.contacts, &ipopt_),
       piece_(model.structure, model.contacts),
       step_(options.step) {}
@@ -106,7 +108,11 @@ Arrival BranchMethod::StartArrival() const {
 std::optional<EndReason> BranchMethod::PassEvent(const PathPoint& point, const Arrival& arrival,
                                                  const BranchChoice* choice, EventRecord* record,
                                                  std::string* message) {
-  const WaysOn on = FindWays(model_.structure, model_.contacts, point, arrival, kAtLimit, &mpec_);
+  const WaysOn on = FindWays(model_.structure, model_.contacts, point, arrival, kAtLimit, &mpec_, cancelled_);
+  if (on.cancelled) {
+    *message = "cancelled by the caller";
+    return EndReason::kCancelled;
+  }
   record->concerned = on.concerned;
   record->complete = on.complete;
   for (const Way& way : on.ways) record->ways.push_back({way.states, way.load_rate, way.dissipation_rate, way.turn});
@@ -182,8 +188,7 @@ Work BranchMethod::WorkOf(const Segment& segment) const {
       return segment.Interpolate([&](const Eigen::VectorXd& x) { return system.Value(of, x); },
                                  [&](const Eigen::VectorXd& dx) { return system.Rate(of, dx); });
     };
-    work.friction +=
-        std::max(0.0, model_.contacts[i].friction * integrate(interpolate(normal), interpolate(slip)));
+    work.friction += std::max(0.0, model_.contacts[i].friction * integrate(interpolate(normal), interpolate(slip)));
   }
   const auto load = [&](const Eigen::VectorXd& x) { return x[nd]; };
   const auto along = [&](const Eigen::VectorXd& x) { return model_.structure.ReferenceLoad().dot(x.head(nd)); };

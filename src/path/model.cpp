@@ -13,7 +13,8 @@ Model::Model(const Scene& scene_in, const Scaling& scaling_in)
       scaling(scaling_in),
       scaled(ScaleScene(scene_in, scaling_in)),
       structure(scaled),
-      contacts(BuildContacts(scaled, structure)) {}
+      contacts(BuildContacts(scaled, structure)),
+      check(scene_in) {}
 
 PathPoint Model::InitialPoint() const {
   PathPoint point;
@@ -45,7 +46,7 @@ CheckedState Model::InSceneUnits(const PathPoint& point) const {
 }
 
 Residuals Model::Check(const PathPoint& before, const PathPoint& now) const {
-  return CheckResiduals(scene, InSceneUnits(before), InSceneUnits(now));
+  return check.Check(InSceneUnits(before), InSceneUnits(now));
 }
 
 }  // namespace contact_path

@@ -5,6 +5,8 @@
 #include <string>
 #include <utility>
 
+#include "contact_path/path/automatic_step.h"
+
 namespace contact_path {
 namespace {
 
@@ -73,7 +75,7 @@ bool StatesAgree(const std::vector<ContactGeometry>& contacts, const PathPoint& 
 
 }  // namespace
 
-MpecOptions MpecOptions::ForAccuracy(const TraceOptions& options) {
+MpecOptions MpecOptions::For(const TraceOptions& options, Eigen::Index num_dofs) {
   MpecOptions result;
   switch (options.accuracy) {
     case Accuracy::kFast:
@@ -88,7 +90,7 @@ MpecOptions MpecOptions::ForAccuracy(const TraceOptions& options) {
       result.regularisation.minimum = 1e-10;
       break;
   }
-  if (options.step > 0.0) result.step = options.step;
+  result.step = options.step > 0.0 ? options.step : result.step * AutomaticStepGrowth(num_dofs);
   // Shorter increments are to show more of the path.
   result.corner_tolerance = std::min(result.corner_tolerance, kCornerShare * result.step);
   result.smallest_step = kSmallestStepRatio * result.step;

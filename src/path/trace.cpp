@@ -82,8 +82,9 @@ class Recorder {
 
 std::unique_ptr<PathMethod> MakeMethod(const Model& model, const TraceOptions& options, const TraceControl& control) {
   if (options.method == Method::kBranch)
-    return std::make_unique<BranchMethod>(model, BranchOptions::For(options), control.cancelled);
-  return std::make_unique<MpecMethod>(model, MpecOptions::ForAccuracy(options), control.cancelled);
+    return std::make_unique<BranchMethod>(model, BranchOptions::For(options, model.structure.NumDofs()),
+                                          control.cancelled);
+  return std::make_unique<MpecMethod>(model, MpecOptions::For(options, model.structure.NumDofs()), control.cancelled);
 }
 
 // From row 0 on, until something ends the trace. result: reason and message.

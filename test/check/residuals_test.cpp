@@ -65,7 +65,7 @@ class SlidingBarResiduals : public testing::Test {
   const CheckedState before_ = SlidingAt(x_ - slip_);
   CheckedState now_ = SlidingAt(x_);
 
-  Residuals Check() const { return CheckResiduals(scene_, before_, now_); }
+  Residuals Check() const { return ResidualCheck(scene_).Check(before_, now_); }
 };
 
 TEST_F(SlidingBarResiduals, ScalesAreThoseOfTheHandComputedCases) {
@@ -75,14 +75,14 @@ TEST_F(SlidingBarResiduals, ScalesAreThoseOfTheHandComputedCases) {
 
 TEST_F(SlidingBarResiduals, ClosedFormLeavesNothing) {
   for (double x = -4.9; x < 5.0; x += 0.1) {
-    const Residuals residuals = CheckResiduals(scene_, SlidingAt(x - slip_), SlidingAt(x));
+    const Residuals residuals = ResidualCheck(scene_).Check(SlidingAt(x - slip_), SlidingAt(x));
     EXPECT_LE(residuals.equilibrium, 1e-16) << x;
     EXPECT_LE(residuals.Contact(), 1e-16) << x;
   }
 }
 
 TEST_F(SlidingBarResiduals, FirstRowHasNoMotion) {
-  const Residuals residuals = CheckResiduals(scene_, now_, now_);
+  const Residuals residuals = ResidualCheck(scene_).Check(now_, now_);
   EXPECT_LE(residuals.equilibrium, 1e-16);
   EXPECT_LE(residuals.Contact(), 1e-16);
 }
@@ -129,11 +129,11 @@ TEST_F(SlidingBarResiduals, TangentialReactionOfTheWrongSign) {
   EXPECT_NEAR(Check().friction_law, slip_ / length_, kRounding);
   EXPECT_LE(Check().cone, kRounding);
   // After a long slip, the distance of the two reactions is the smaller of the two.
-  EXPECT_NEAR(CheckResiduals(scene_, SlidingAt(x_ - 3.0), now_).friction_law, twice, kRounding);
+  EXPECT_NEAR(ResidualCheck(scene_).Check(SlidingAt(x_ - 3.0), now_).friction_law, twice, kRounding);
 }
 
 TEST_F(SlidingBarResiduals, SlipAlongTheReaction) {
-  const Residuals residuals = CheckResiduals(scene_, SlidingAt(x_ + slip_), now_);
+  const Residuals residuals = ResidualCheck(scene_).Check(SlidingAt(x_ + slip_), now_);
   EXPECT_NEAR(residuals.friction_law, slip_ / length_, kRounding);
   EXPECT_NEAR(residuals.Contact(), slip_ / length_, kRounding);
   EXPECT_LE(residuals.equilibrium, 1e-16);
@@ -141,7 +141,7 @@ TEST_F(SlidingBarResiduals, SlipAlongTheReaction) {
 
 TEST_F(SlidingBarResiduals, StickingInsideTheConeIsAdmissible) {
   now_.rt[0] *= 0.5;
-  EXPECT_EQ(CheckResiduals(scene_, now_, now_).friction_law, 0.0);
+  EXPECT_EQ(ResidualCheck(scene_).Check(now_, now_).friction_law, 0.0);
   EXPECT_NEAR(Check().friction_law, std::min(slip_ / length_, 0.5 * kFriction * now_.rn[0] / force_), kRounding);
 }
 
@@ -186,7 +186,7 @@ TEST_F(SlidingBarResiduals, SupportsTakeAnyForce) {
   now_.rn[0] = 0.0;
   now_.rt[0] = 0.0;
   now_.load_factor = static_cast<double>(-x_ * Push(x_, 0.0L));
-  EXPECT_LE(CheckResiduals(held, before_, now_).equilibrium, 1e-16);
+  EXPECT_LE(ResidualCheck(held).Check(before_, now_).equilibrium, 1e-16);
   EXPECT_NEAR(Check().equilibrium, static_cast<double>(kHeight * Push(x_, 0.0L)) / force_, kRounding);
 }
 
@@ -196,8 +196,8 @@ TEST_F(SlidingBarResiduals, ConstantLoadIsNotScaled) {
   now_.rn[0] += 0.25;
   now_.rt[0] = -kFriction * now_.rn[0];
   now_.load_factor += kFriction * 0.25;
-  EXPECT_LE(CheckResiduals(loaded, before_, now_).equilibrium, kRounding);
-  EXPECT_LE(CheckResiduals(loaded, before_, now_).Contact(), kRounding);
+  EXPECT_LE(ResidualCheck(loaded).Check(before_, now_).equilibrium, kRounding);
+  EXPECT_LE(ResidualCheck(loaded).Check(before_, now_).Contact(), kRounding);
 }
 
 TEST_F(SlidingBarResiduals, MirrorImageSlidesTowardsMinus) {
@@ -211,16 +211,16 @@ TEST_F(SlidingBarResiduals, MirrorImageSlidesTowardsMinus) {
   };
   const CheckedState now = mirror(now_);
   EXPECT_GT(now.rt[0], 0.0);
-  EXPECT_LE(CheckResiduals(mirrored, mirror(before_), now).equilibrium, 1e-16);
-  EXPECT_LE(CheckResiduals(mirrored, mirror(before_), now).Contact(), 1e-16);
+  EXPECT_LE(ResidualCheck(mirrored).Check(mirror(before_), now).equilibrium, 1e-16);
+  EXPECT_LE(ResidualCheck(mirrored).Check(mirror(before_), now).Contact(), 1e-16);
 }
 
 TEST_F(SlidingBarResiduals, NormalOfAnyLength) {
   Scene stretched = scene_;
   stretched.obstacles[0].ny = 7.0;
   now_.positions[3] = -0.01;
-  EXPECT_NEAR(CheckResiduals(stretched, before_, now_).equilibrium, Check().equilibrium, kRounding);
-  EXPECT_NEAR(CheckResiduals(stretched, before_, now_).penetration, 0.01 / length_, kRounding);
+  EXPECT_NEAR(ResidualCheck(stretched).Check(before_, now_).equilibrium, Check().equilibrium, kRounding);
+  EXPECT_NEAR(ResidualCheck(stretched).Check(before_, now_).penetration, 0.01 / length_, kRounding);
 }
 
 TEST_F(SlidingBarResiduals, TurnedScene) {
@@ -242,10 +242,10 @@ TEST_F(SlidingBarResiduals, TurnedScene) {
     CheckedState now = now_;
     turn(now.positions[0], now.positions[1]);
     turn(now.positions[2], now.positions[3]);
-    EXPECT_LE(CheckResiduals(turned, before, now).equilibrium, kRounding) << angle;
-    EXPECT_LE(CheckResiduals(turned, before, now).Contact(), kRounding) << angle;
-    EXPECT_NEAR(CheckResiduals(turned, now, before).friction_law, CheckResiduals(scene_, now_, before_).friction_law,
-                kRounding)
+    EXPECT_LE(ResidualCheck(turned).Check(before, now).equilibrium, kRounding) << angle;
+    EXPECT_LE(ResidualCheck(turned).Check(before, now).Contact(), kRounding) << angle;
+    EXPECT_NEAR(ResidualCheck(turned).Check(now, before).friction_law,
+                ResidualCheck(scene_).Check(now_, before_).friction_law, kRounding)
         << angle;
   }
 }
@@ -262,11 +262,11 @@ TEST_F(SlidingBarResiduals, LargestOfSeveralContactsWhateverTheOrder) {
   CheckedState before = before_;
   before.rn = {0.0, 0.0};
   before.rt = {0.0, 0.0};
-  EXPECT_NEAR(CheckResiduals(cornered, before, now).penetration, 0.02 / length_, kRounding);
+  EXPECT_NEAR(ResidualCheck(cornered).Check(before, now).penetration, 0.02 / length_, kRounding);
   std::swap(cornered.contacts[0], cornered.contacts[1]);
   std::swap(now.rn[0], now.rn[1]);
   std::swap(now.rt[0], now.rt[1]);
-  EXPECT_NEAR(CheckResiduals(cornered, before, now).penetration, 0.02 / length_, kRounding);
+  EXPECT_NEAR(ResidualCheck(cornered).Check(before, now).penetration, 0.02 / length_, kRounding);
 }
 
 TEST_F(SlidingBarResiduals, FrictionlessContactTakesNoTangentialReaction) {
@@ -274,12 +274,12 @@ TEST_F(SlidingBarResiduals, FrictionlessContactTakesNoTangentialReaction) {
   smooth.obstacles[0].friction = 0.0;
   now_.load_factor = static_cast<double>(-x_ * Push(x_, 0.0L));
   now_.rt[0] = 0.0;
-  EXPECT_LE(CheckResiduals(smooth, before_, now_).equilibrium, 1e-16);
-  EXPECT_EQ(CheckResiduals(smooth, before_, now_).Contact(), 0.0);
+  EXPECT_LE(ResidualCheck(smooth).Check(before_, now_).equilibrium, 1e-16);
+  EXPECT_EQ(ResidualCheck(smooth).Check(before_, now_).Contact(), 0.0);
   for (const double rt : {0.01, -0.01}) {
     now_.rt[0] = rt;
-    EXPECT_NEAR(CheckResiduals(smooth, before_, now_).cone, 0.01 / force_, kRounding);
-    EXPECT_NEAR(CheckResiduals(smooth, before_, now_).friction_law, 0.01 / force_, kRounding);
+    EXPECT_NEAR(ResidualCheck(smooth).Check(before_, now_).cone, 0.01 / force_, kRounding);
+    EXPECT_NEAR(ResidualCheck(smooth).Check(before_, now_).friction_law, 0.01 / force_, kRounding);
   }
 }
 
@@ -307,8 +307,8 @@ TEST_F(SlidingBarResiduals, UnitsDoNotMatter) {
   states[3].rt[0] *= 1.5;
   std::array<double, 6> largest{};
   for (const CheckedState& state : states) {
-    const Residuals r = CheckResiduals(scene_, before_, state);
-    const Residuals c = CheckResiduals(converted, convert(before_), convert(state));
+    const Residuals r = ResidualCheck(scene_).Check(before_, state);
+    const Residuals c = ResidualCheck(converted).Check(convert(before_), convert(state));
     const std::array<double, 6> here{r.equilibrium,     r.penetration, r.adhesion,
                                      r.complementarity, r.cone,        r.friction_law};
     const std::array<double, 6> there{c.equilibrium,     c.penetration, c.adhesion,
@@ -342,8 +342,8 @@ TEST_F(SlidingBarResiduals, NothingThatIsNotFinitePasses) {
         return state;
       };
       const std::string what = std::to_string(bad) + " in entry " + std::to_string(i);
-      ExpectAllInfinite(CheckResiduals(scene_, before_, spoil(now_)), what);
-      ExpectAllInfinite(CheckResiduals(scene_, spoil(before_), now_), what);
+      ExpectAllInfinite(ResidualCheck(scene_).Check(before_, spoil(now_)), what);
+      ExpectAllInfinite(ResidualCheck(scene_).Check(spoil(before_), now_), what);
     }
   }
 }
@@ -357,15 +357,15 @@ TEST_F(SlidingBarResiduals, BarWithoutLengthIsNoEquilibrium) {
 TEST_F(SlidingBarResiduals, WrongSizesThrow) {
   CheckedState wrong = now_;
   wrong.positions.pop_back();
-  EXPECT_THROW(CheckResiduals(scene_, before_, wrong), std::invalid_argument);
-  EXPECT_THROW(CheckResiduals(scene_, wrong, now_), std::invalid_argument);
-  EXPECT_THROW(CheckStrainEnergy(scene_, wrong.positions), std::invalid_argument);
+  EXPECT_THROW(ResidualCheck(scene_).Check(before_, wrong), std::invalid_argument);
+  EXPECT_THROW(ResidualCheck(scene_).Check(wrong, now_), std::invalid_argument);
+  EXPECT_THROW(ResidualCheck(scene_).StrainEnergy(wrong.positions), std::invalid_argument);
   wrong = now_;
   wrong.rn.clear();
-  EXPECT_THROW(CheckResiduals(scene_, before_, wrong), std::invalid_argument);
+  EXPECT_THROW(ResidualCheck(scene_).Check(before_, wrong), std::invalid_argument);
   wrong = now_;
   wrong.rt.push_back(0.0);
-  EXPECT_THROW(CheckResiduals(scene_, before_, wrong), std::invalid_argument);
+  EXPECT_THROW(ResidualCheck(scene_).Check(before_, wrong), std::invalid_argument);
 }
 
 TEST(ResidualsContact, IsTheLargestOfAllButEquilibrium) {
@@ -388,7 +388,7 @@ TEST(StrainEnergy, OfOneBarByHand) {
   const std::vector<double> positions{0.0, 5.0, 3.0, 5.0};  // l = 3
   const auto energy = [&](StrainMeasure strain) {
     scene.bars[0].strain = strain;
-    return CheckStrainEnergy(scene, positions);
+    return ResidualCheck(scene).StrainEnergy(positions);
   };
   EXPECT_NEAR(energy(StrainMeasure::kBiot), kAxialStiffness * 0.25, 1e-14);
   EXPECT_NEAR(energy(StrainMeasure::kGreenLagrange), kAxialStiffness * 0.390625, 1e-14);
@@ -400,7 +400,7 @@ TEST(StrainEnergy, OfASuperelementByHand) {
   scene.bars.clear();
   scene.superelements = {{{"b"}, {1.0, -1.5, -1.5, 4.0}}};
   // x - X = (2, 1): (1 * 4 - 2 * 1.5 * 2 + 4 * 1) / 2
-  EXPECT_NEAR(CheckStrainEnergy(scene, {0.0, 5.0, -3.0, 1.0}), 1.0, 1e-15);
+  EXPECT_NEAR(ResidualCheck(scene).StrainEnergy({0.0, 5.0, -3.0, 1.0}), 1.0, 1e-15);
 }
 
 // Forces of the check against central differences of its energy: with one component free at a time, the load that
@@ -422,12 +422,13 @@ void ExpectForcesAreTheGradient(Scene scene, const std::vector<double>& position
     backward[component] -= kDifference;
     CheckedState state;
     state.positions = positions;
-    state.load_factor = (CheckStrainEnergy(scene, forward) - CheckStrainEnergy(scene, backward)) / (2.0 * kDifference);
+    state.load_factor = (ResidualCheck(scene).StrainEnergy(forward) - ResidualCheck(scene).StrainEnergy(backward)) /
+                        (2.0 * kDifference);
     EXPECT_GT(std::abs(state.load_factor), 1e-3) << component;
     // Truncation and rounding of the difference are both near 1e-10.
-    EXPECT_LE(CheckResiduals(released, state, state).equilibrium, 1e-8) << component;
+    EXPECT_LE(ResidualCheck(released).Check(state, state).equilibrium, 1e-8) << component;
     state.load_factor *= 1.001;
-    EXPECT_GT(CheckResiduals(released, state, state).equilibrium, 1e-7) << component;
+    EXPECT_GT(ResidualCheck(released).Check(state, state).equilibrium, 1e-7) << component;
   }
 }
 

@@ -92,7 +92,7 @@ class SlidingBarIncrement : public testing::Test {
       checked.rt.assign(at.rt.data(), at.rt.data() + at.rt.size());
       return checked;
     };
-    const Residuals residuals = CheckResiduals(scene_, state(from_), state(point));
+    const Residuals residuals = ResidualCheck(scene_).Check(state(from_), state(point));
     return std::max(residuals.equilibrium, residuals.Contact());
   }
 

@@ -200,7 +200,7 @@ TEST(RoughTrussCorner, IsCutByNoMoreThanTheAccuracyAllows) {
     const TracedPath path = TraceRows(request);
     ExpectSoundRows(path, kResidual);
     const double largest = path.rows[LargestLoad(path)].load_factor;
-    EXPECT_NEAR(largest, rough_truss::CornerLoad(), MpecOptions::ForAccuracy(request.options).corner_tolerance);
+    EXPECT_NEAR(largest, rough_truss::CornerLoad(), MpecOptions::For(request.options, 1).corner_tolerance);
     EXPECT_LE(largest, rough_truss::CornerLoad() + kClosedForm) << ToString(accuracy);
   }
 }

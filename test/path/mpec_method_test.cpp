@@ -19,17 +19,17 @@ MpecOptions Options(double step, double direction = 1.0) {
   options.method = Method::kMpec;
   options.step = step;
   options.direction = direction;
-  return MpecOptions::ForAccuracy(options);
+  return MpecOptions::For(options, 1);
 }
 
 TEST(MpecOptions, MoreAccuracyMeansSmallerEverything) {
   TraceOptions options;
   options.accuracy = Accuracy::kFast;
-  const MpecOptions fast = MpecOptions::ForAccuracy(options);
+  const MpecOptions fast = MpecOptions::For(options, 1);
   options.accuracy = Accuracy::kBalanced;
-  const MpecOptions balanced = MpecOptions::ForAccuracy(options);
+  const MpecOptions balanced = MpecOptions::For(options, 1);
   options.accuracy = Accuracy::kAccurate;
-  const MpecOptions accurate = MpecOptions::ForAccuracy(options);
+  const MpecOptions accurate = MpecOptions::For(options, 1);
   for (const auto& [coarse, fine] : {std::pair(fast, balanced), std::pair(balanced, accurate)}) {
     EXPECT_GT(coarse.step, fine.step);
     EXPECT_GT(coarse.corner_tolerance, fine.corner_tolerance);

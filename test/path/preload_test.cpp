@@ -32,7 +32,7 @@ MethodFactory Mpec(double step) {
     TraceOptions options;
     options.method = Method::kMpec;
     options.step = step;
-    return std::make_unique<MpecMethod>(model, MpecOptions::ForAccuracy(options), nullptr);
+    return std::make_unique<MpecMethod>(model, MpecOptions::For(options, 1), nullptr);
   };
 }
 

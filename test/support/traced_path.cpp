@@ -124,12 +124,13 @@ void ExpectSoundRows(const TracedPath& path, double tolerance) {
     EXPECT_EQ(row.index, static_cast<int>(i));
     EXPECT_EQ(row.kind == RowKind::kStart, i == 0);
 
-    const Residuals residuals = CheckResiduals(scene, StateOf(before), StateOf(row));
+    const Residuals residuals = ResidualCheck(scene).Check(StateOf(before), StateOf(row));
     EXPECT_LE(residuals.equilibrium, tolerance);
     EXPECT_LE(residuals.Contact(), tolerance);
     EXPECT_NEAR(residuals.equilibrium, row.residuals.equilibrium, 1e-15 + tolerance);
     EXPECT_NEAR(residuals.Contact(), row.residuals.Contact(), 1e-15 + tolerance);
-    EXPECT_NEAR(CheckStrainEnergy(scene, row.positions), row.strain_energy, 1e-13 * scaling.force * scaling.length);
+    EXPECT_NEAR(ResidualCheck(scene).StrainEnergy(row.positions), row.strain_energy,
+                1e-13 * scaling.force * scaling.length);
 
     if (i > 0) {
       EXPECT_GT(row.arc_length, before.arc_length);

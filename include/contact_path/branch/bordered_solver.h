@@ -8,8 +8,8 @@
 
 namespace contact_path {
 
-// M = [J; row], J equations x unknowns. Square and regular as a rule: sparse LU (KLU), with ordering and pivots kept for
-// as long as the pattern is the same and they are good. Where it is singular or not square (rigid modes, redundant
+// M = [J; row], J equations x unknowns. Square and regular as a rule: sparse LU (KLU), with ordering and pivots kept
+// for as long as the pattern is the same and they are good. Where it is singular or not square (rigid modes, redundant
 // contacts): the shortest solution by a rank-revealing sparse QR factorisation.
 class BorderedSolver {
  public:

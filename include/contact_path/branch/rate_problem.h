@@ -41,6 +41,8 @@ class RateProblem {
   // The rates for these states of all candidates, up to their sign: where they are not unique, without rigid modes and
   // nearest to the arrival, as a way on is chosen. Nothing where that cannot be told from the condensed problem.
   std::optional<CondensedRates> Rates(const std::vector<ContactState>& states) const;
+  // The same; nothing where they are not unique.
+  std::optional<CondensedRates> UniqueRates(const std::vector<ContactState>& states) const;
 
   // The first inequality at its limit that these rates, times sign, break by more than `tolerance` of the largest rate
   // of its kind; all of them in `all` if that is not null. at_limit: value below which an inequality is at its limit.
@@ -48,6 +50,8 @@ class RateProblem {
                               double at_limit, double tolerance, std::vector<Limit>* all) const;
 
  private:
+  Eigen::MatrixXd Equations(const std::vector<ContactState>& states) const;
+  std::optional<CondensedRates> RatesOf(Eigen::VectorXd z) const;
   // Solutions of equations . z = 0, not scaled; empty where there is none of the kind.
   Eigen::VectorXd UniqueSolution(const Eigen::MatrixXd& equations) const;
   Eigen::VectorXd ShortestSolution(const Eigen::MatrixXd& equations) const;

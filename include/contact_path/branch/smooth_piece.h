@@ -46,8 +46,8 @@ class SmoothPiece {
 
   // Newton's method for the point of the curve with row . x = value, from guess. row: unknowns.
   Correction Correct(const Eigen::VectorXd& guess, const Eigen::VectorXd& row, double value);
-  // The same with the row given on (u, s) only, near the tangent. Sets out with the factors of the last Derivatives() of
-  // these states; factorises where they do not lead on fast enough.
+  // The same with the row given on (u, s) only, near the tangent. Sets out with the factors of the last Derivatives()
+  // of these states; factorises where they do not lead on fast enough.
   Correction CorrectOnPlane(const Eigen::VectorXd& guess, const Eigen::VectorXd& normal);
 
   // The point of the curve nearest to guess, itself near, where another path crosses: nothing is moved along the null

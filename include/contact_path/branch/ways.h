@@ -3,6 +3,7 @@
 #define CONTACT_PATH_BRANCH_WAYS_H_
 
 #include <Eigen/Core>
+#include <functional>
 #include <vector>
 
 #include "contact_path/contact/contact_geometry.h"
@@ -36,9 +37,10 @@ struct WaysOn {
   std::vector<Way>
       ways;           // best first: largest dissipation rate, then without twin, then smallest turn, then a fixed order
   int concerned = 0;  // contacts that could change their state
-  bool complete = true;  // false: too many combinations to try them all, the likely ones were
-  int combinations = 0;  // tried
-  int rigid_modes = 0;   // most motions found that change neither load nor reactions where nothing else moves
+  bool complete = true;    // false: too many combinations to try them all, the likely ones were
+  bool cancelled = false;  // before the end: nothing else counts
+  int combinations = 0;    // tried
+  int rigid_modes = 0;     // most motions found that change neither load nor reactions where nothing else moves
 };
 
 // All ways on from `point`, an equilibrium, without the way back. Concerned are the contacts with an inequality within
@@ -46,9 +48,11 @@ struct WaysOn {
 // that in which fewest contacts slip without moving.
 // Up to 4^6 combinations of states are all tried; of more, those that principal pivoting on the rates (rate_problem.h)
 // leads to from many first guesses. `mpec`, the increment problem in the limit of a short increment, adds what it finds
-// where the structure is small or nothing else was found. Each is certified like any other.
+// where the structure is small or nothing else was found. Each is certified like any other. cancelled: asked often, may
+// be empty.
 WaysOn FindWays(const Structure& structure, const std::vector<ContactGeometry>& contacts, const PathPoint& point,
-                const Arrival& arrival, double tolerance, IncrementSolver* mpec);
+                const Arrival& arrival, double tolerance, IncrementSolver* mpec,
+                const std::function<bool()>& cancelled = nullptr);
 
 }  // namespace contact_path
 

@@ -3,6 +3,7 @@
 #ifndef CONTACT_PATH_CHECK_RESIDUALS_H_
 #define CONTACT_PATH_CHECK_RESIDUALS_H_
 
+#include <memory>
 #include <vector>
 
 #include "contact_path/scene/scene.h"
@@ -32,12 +33,26 @@ struct CheckedState {
   std::vector<double> rt;
 };
 
-// Residuals of `now`, reached from `before` in one increment (for the first row: `before` = `now`).
-// Throws std::invalid_argument where the sizes are not those of the scene.
-Residuals CheckResiduals(const Scene& scene, const CheckedState& before, const CheckedState& now);
+// The check of one scene, with its names resolved once.
+class ResidualCheck {
+ public:
+  // Throws std::invalid_argument or std::out_of_range for a name that the scene does not have.
+  explicit ResidualCheck(const Scene& scene);
+  ~ResidualCheck();
+  ResidualCheck(const ResidualCheck&) = delete;
+  ResidualCheck& operator=(const ResidualCheck&) = delete;
 
-// Strain energy of the structure at `positions` [force length], from the scene alone.
-double CheckStrainEnergy(const Scene& scene, const std::vector<double>& positions);
+  // Residuals of `now`, reached from `before` in one increment (for the first row: `before` = `now`).
+  // Throws std::invalid_argument where the sizes are not those of the scene.
+  Residuals Check(const CheckedState& before, const CheckedState& now) const;
+  // Strain energy of the structure at `positions` [force length].
+  double StrainEnergy(const std::vector<double>& positions) const;
+
+ private:
+  struct Surface;
+  struct Prepared;
+  std::unique_ptr<const Prepared> prepared_;
+};
 
 }  // namespace contact_path
 

@@ -26,7 +26,7 @@ struct BranchOptions {
   double direction = 1.0;         // sign of the first change of the load factor
   std::vector<BranchChoice> choices;
 
-  static BranchOptions For(const TraceOptions& options);
+  static BranchOptions For(const TraceOptions& options, Eigen::Index num_dofs);
 };
 
 class BranchMethod : public PathMethod {
@@ -57,6 +57,7 @@ class BranchMethod : public PathMethod {
 
   const Model& model_;
   BranchOptions options_;
+  std::function<bool()> cancelled_;
   IpoptSolver ipopt_;
   IncrementSolver mpec_;  // for events with very many contacts
   SmoothPiece piece_;

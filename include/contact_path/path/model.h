@@ -33,6 +33,7 @@ struct Model {
   const Scene scaled;
   const Structure structure;                    // of the scaled scene
   const std::vector<ContactGeometry> contacts;  // of the scaled scene
+  const ResidualCheck check;                    // of the scene
 };
 
 }  // namespace contact_path

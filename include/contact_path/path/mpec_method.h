@@ -22,7 +22,7 @@ struct MpecOptions {
   RegularisationSchedule regularisation;
   double direction = 1.0;  // sign of the first change of the load factor
 
-  static MpecOptions ForAccuracy(const TraceOptions& options);
+  static MpecOptions For(const TraceOptions& options, Eigen::Index num_dofs);
 };
 
 class MpecMethod : public PathMethod {
