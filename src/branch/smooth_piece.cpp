@@ -67,21 +67,19 @@ bool SmoothPiece::Derivatives(const Eigen::VectorXd& x, const Eigen::VectorXd& t
 }
 
 Correction SmoothPiece::Correct(const Eigen::VectorXd& guess, const Eigen::VectorXd& row, double value) {
-  at_hand_ = false;  // factors with another last row
-  return Newton(guess, row, value);
+  return Newton(guess, row, value, false);
 }
 
-Correction SmoothPiece::Newton(const Eigen::VectorXd& guess, const Eigen::VectorXd& row, double value) {
+Correction SmoothPiece::Newton(const Eigen::VectorXd& guess, const Eigen::VectorXd& row, double value, bool at_hand) {
   Correction result;
   result.x = guess;
   result.steps.reserve(kMaxIterations);
-  bool factorise = !at_hand_, fresh = false;
+  bool factorise = !at_hand;
   double previous = std::numeric_limits<double>::infinity();
   for (; result.iterations < kMaxIterations; ++result.iterations) {
     system_.Residual(result.x, &residual_);
     if (!residual_.allFinite()) return result;
     if (factorise && !Factorize(result.x, row)) return result;
-    fresh = fresh || factorise;
     residual_ = -residual_;
     solver_.Solve(residual_, value - row.dot(result.x), &step_);
     const double norm = step_.norm(), scale = 1.0 + result.x.norm();
@@ -90,7 +88,7 @@ Correction SmoothPiece::Newton(const Eigen::VectorXd& guess, const Eigen::Vector
     result.steps.push_back(norm);
     if (result.iterations == 0) result.first_step = norm;
     if (result.iterations == 1) result.contraction = norm / result.first_step;
-    const bool stagnates = norm >= 0.5 * previous && norm <= (fresh ? kStagnation : kRounding) * scale;
+    const bool stagnates = norm >= 0.5 * previous && norm <= (at_hand ? kRounding : kStagnation) * scale;
     if (norm <= kStepTolerance * scale || stagnates) {
       system_.Residual(result.x, &residual_);
       result.converged = residual_.lpNorm<Eigen::Infinity>() <= kResidualTolerance &&
@@ -98,7 +96,8 @@ Correction SmoothPiece::Newton(const Eigen::VectorXd& guess, const Eigen::Vector
       ++result.iterations;
       return result;
     }
-    factorise = norm > kReuse * scale || (!fresh && norm > kSlow * previous);
+    if (at_hand && norm > kSlow * previous) return result;
+    factorise = !at_hand && norm > kReuse * scale;
     previous = norm;
   }
   return result;
@@ -113,7 +112,11 @@ bool SmoothPiece::Factorize(const Eigen::VectorXd& x, const Eigen::VectorXd& row
 Correction SmoothPiece::CorrectOnPlane(const Eigen::VectorXd& guess, const Eigen::VectorXd& normal) {
   Eigen::VectorXd row = Eigen::VectorXd::Zero(system_.NumUnknowns());
   row.head(normal.size()) = normal;
-  return Newton(guess, row, row.dot(guess));
+  if (at_hand_) {
+    Correction correction = Newton(guess, row, row.dot(guess), true);
+    if (correction.converged) return correction;
+  }
+  return Newton(guess, row, row.dot(guess), false);
 }
 
 Eigen::VectorXd SmoothPiece::CorrectSingular(const Eigen::VectorXd& guess, const Eigen::VectorXd& normal) {

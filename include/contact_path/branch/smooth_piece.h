@@ -47,7 +47,7 @@ class SmoothPiece {
   // Newton's method for the point of the curve with row . x = value, from guess. row: unknowns.
   Correction Correct(const Eigen::VectorXd& guess, const Eigen::VectorXd& row, double value);
   // The same with the row given on (u, s) only, near the tangent. Sets out with the factors of the last Derivatives()
-  // of these states; factorises where they do not lead on fast enough.
+  // of these states, and anew with others where they do not lead on fast.
   Correction CorrectOnPlane(const Eigen::VectorXd& guess, const Eigen::VectorXd& normal);
 
   // The point of the curve nearest to guess, itself near, where another path crosses: nothing is moved along the null
@@ -60,7 +60,8 @@ class SmoothPiece {
   int factorisations() const { return factorisations_; }
 
  private:
-  Correction Newton(const Eigen::VectorXd& guess, const Eigen::VectorXd& row, double value);
+  // at_hand: with the factors that there are; gives up where they do not lead on fast.
+  Correction Newton(const Eigen::VectorXd& guess, const Eigen::VectorXd& row, double value, bool at_hand);
   // False if the matrix is not finite.
   bool Factorize(const Eigen::VectorXd& x, const Eigen::VectorXd& row, double rank_tolerance = 0.0);
 
