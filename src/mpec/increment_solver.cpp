@@ -59,25 +59,48 @@ IncrementTrial IncrementSolver::SolveWith(const PathPoint& from, const std::vect
   trial.variables = static_cast<int>(problem.NumVariables());
   trial.constraints = static_cast<int>(problem.NumConstraints());
 
+  const bool regularised = !working_set.empty();
+  trial.regularisation = regularised ? schedule.minimum * goal.length * goal.length : 0.0;
+  if (regularised && schedule.from_last && last_working_set_ == working_set && last_.x.size() == trial.variables &&
+      last_.multipliers.size() == trial.constraints) {
+    RegularisationSchedule at_once = schedule;
+    at_once.initial = schedule.minimum;
+    PrimalDual point = last_;
+    trial.from_last = true;
+    if (Follow(&problem, at_once, &point, &trial)) {
+      MakeExact(from, problem, goal, &trial);
+      if (trial.exact) return Keep(working_set, std::move(point), std::move(trial));
+    }
+    if (trial.status == SolveStatus::kCancelled) return trial;
+    trial.from_last = false;
+  }
+
   PrimalDual point;
   point.x = problem.StartingPoint(goal.direction);
-  const bool regularised = !working_set.empty();
-  double eps = regularised ? schedule.initial : 0.0;
-  for (;;) {
-    problem.SetRegularisation(eps);
-    const SolveOutcome outcome = solver_->Solve(problem, kBarrierShare * eps, &point);
-    trial.iterations += outcome.iterations;
-    if (outcome.status != SolveStatus::kSolved) {
-      trial.status = outcome.status;
-      return trial;
-    }
-    if (eps <= schedule.minimum * kSameEps) break;
-    eps = std::max(schedule.minimum, schedule.factor * eps);
-  }
-  trial.status = SolveStatus::kSolved;
-  trial.regularisation = eps * goal.length * goal.length;
-  trial.point = problem.Point(point.x);
+  RegularisationSchedule wanted = schedule;
+  if (!regularised) wanted.initial = wanted.minimum = 0.0;
+  if (!Follow(&problem, wanted, &point, &trial)) return trial;
   MakeExact(from, problem, goal, &trial);
+  return Keep(working_set, std::move(point), std::move(trial));
+}
+
+bool IncrementSolver::Follow(IncrementProblem* problem, const RegularisationSchedule& schedule, PrimalDual* point,
+                             IncrementTrial* trial) {
+  for (double eps = schedule.initial;; eps = std::max(schedule.minimum, schedule.factor * eps)) {
+    problem->SetRegularisation(eps);
+    const SolveOutcome outcome = solver_->Solve(*problem, kBarrierShare * eps, point);
+    trial->iterations += outcome.iterations;
+    trial->status = outcome.status;
+    if (outcome.status != SolveStatus::kSolved) return false;
+    if (eps > schedule.minimum * kSameEps) continue;
+    trial->point = problem->Point(point->x);
+    return true;
+  }
+}
+
+IncrementTrial IncrementSolver::Keep(const std::vector<int>& working_set, PrimalDual point, IncrementTrial trial) {
+  last_working_set_ = working_set;
+  last_ = std::move(point);
   return trial;
 }
 

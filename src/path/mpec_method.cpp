@@ -77,6 +77,7 @@ bool StatesAgree(const std::vector<ContactGeometry>& contacts, const PathPoint& 
 
 MpecOptions MpecOptions::For(const TraceOptions& options, Eigen::Index num_dofs) {
   MpecOptions result;
+  result.regularisation.from_last = true;
   switch (options.accuracy) {
     case Accuracy::kFast:
       result.step = 0.05;
@@ -136,9 +137,19 @@ MpecMethod::Trial MpecMethod::SolveOnce(const PathPoint& from, const Eigen::Vect
   Trial trial;
   trial.increment = solver_.Solve(from, {length, direction, dissipation, growth_}, schedule);
   iterations_ += trial.increment.iterations;
+  Judge(from, direction, length, &trial);
+  if (trial.verdict == Verdict::kAccepted || !trial.increment.from_last) return trial;
+  // Another solution may lie nearer to the first guess than to the last increment.
+  RegularisationSchedule anew = schedule;
+  anew.from_last = false;
+  return SolveOnce(from, direction, length, dissipation, anew);
+}
+
+void MpecMethod::Judge(const PathPoint& from, const Eigen::VectorXd& direction, double length, Trial* result) const {
+  Trial& trial = *result;
   if (trial.increment.status != SolveStatus::kSolved) {
     trial.verdict = trial.increment.status == SolveStatus::kCancelled ? Verdict::kCancelled : Verdict::kNotSolved;
-    return trial;
+    return;
   }
   const PathPoint& to = trial.increment.point;
   trial.residuals = model_.Check(from, to);
@@ -159,7 +170,6 @@ MpecMethod::Trial MpecMethod::SolveOnce(const PathPoint& from, const Eigen::Vect
     trial.verdict = Verdict::kTurnedBack;
   else
     trial.verdict = Verdict::kAccepted;
-  return trial;
 }
 
 MpecMethod::Trial MpecMethod::Try(const PathPoint& from, const Eigen::VectorXd& direction, double length) {
@@ -169,6 +179,7 @@ MpecMethod::Trial MpecMethod::Try(const PathPoint& from, const Eigen::VectorXd& 
     trial = SolveOnce(from, direction, length, share, options_.regularisation);
     if (trial.verdict == Verdict::kNotSolved) {
       RegularisationSchedule raised = options_.regularisation;
+      raised.from_last = false;
       raised.initial = 1.0;
       raised.factor = 0.1;
       raised.minimum *= 100.0;

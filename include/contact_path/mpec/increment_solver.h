@@ -19,12 +19,16 @@ struct RegularisationSchedule {
   double initial = 1e-3;
   double factor = 1e-5;   // rho, 0..1
   double minimum = 1e-8;  // > 0
+  // Sets out from the variables and multipliers of the last increment solved for with as many of them, at `minimum` at
+  // once: where the next increment is much like it, a few iterations do. Where that fails, the schedule from `initial`.
+  bool from_last = false;
 };
 
 struct IncrementTrial {
   SolveStatus status = SolveStatus::kFailed;
   PathPoint point;
   double regularisation = 0.0;  // smallest eps that was solved for, on products of scaled quantities
+  bool from_last = false;       // set out from the last increment
   bool exact = false;           // point solves the unregularised equations of its states and keeps their inequalities
   int iterations = 0;           // of the nonlinear solver
   int variables = 0;            // of the last problem solved
@@ -47,6 +51,11 @@ class IncrementSolver {
  private:
   IncrementTrial SolveWith(const PathPoint& from, const std::vector<int>& working_set, const IncrementGoal& goal,
                            const RegularisationSchedule& schedule);
+  // Solves for one eps after another; *trial: status, iterations, and where solved the point. False where one fails.
+  bool Follow(IncrementProblem* problem, const RegularisationSchedule& schedule, PrimalDual* point,
+              IncrementTrial* trial);
+  // For the next increment.
+  IncrementTrial Keep(const std::vector<int>& working_set, PrimalDual point, IncrementTrial trial);
   // Replaces trial->point by the minimum of the same objective on the exact equations of its states, if that holds.
   void MakeExact(const PathPoint& from, const IncrementProblem& problem, const IncrementGoal& goal,
                  IncrementTrial* trial);
@@ -55,6 +64,8 @@ class IncrementSolver {
   const std::vector<ContactGeometry>& contacts_;
   NonlinearSolver* solver_;
   FixedStateSystem system_;
+  std::vector<int> last_working_set_;
+  PrimalDual last_;  // of the last problem solved
 };
 
 }  // namespace contact_path

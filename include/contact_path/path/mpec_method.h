@@ -56,6 +56,8 @@ class MpecMethod : public PathMethod {
     Residuals residuals;
   };
   static const char* Describe(Verdict verdict);
+  // Sets residuals and verdict of a trial that was solved for.
+  void Judge(const PathPoint& from, const Eigen::VectorXd& direction, double length, Trial* trial) const;
 
   Eigen::VectorXd Direction(const PathPoint& from, const PathPoint& to) const;
   // One solve, judged by itself.
