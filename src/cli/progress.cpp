@@ -15,10 +15,24 @@ constexpr int kBarWidth = 14;                   // characters; the whole line fi
 constexpr std::size_t kLimitPointsListed = 10;  // in the summary
 constexpr char kWipeLine[] = "\r\x1b[K";        // ANSI: to the first column, erase to the end of the line
 
+// An estimate of the time left is worth its place after this share of the way, and this time.
+constexpr double kLeastFraction = 0.02;
+constexpr double kLeastSeconds = 3.0;
+
 std::ostringstream NewLine() {
   std::ostringstream line;
   line.imbue(std::locale::classic());
   return line;
+}
+
+// "2:05", "3:00:10".
+std::string InMinutes(double seconds) {
+  const auto whole = static_cast<long>(seconds + 0.5);
+  std::ostringstream text = NewLine();
+  text << std::setfill('0');
+  if (whole >= 3600) text << whole / 3600 << ':' << std::setw(2);
+  text << whole / 60 % 60 << ':' << std::setw(2) << whole % 60;
+  return text.str();
 }
 
 }  // namespace
@@ -39,6 +53,8 @@ Progress::Progress(const TraceRequest& request, bool show_bar, std::ostream& out
     }
     goals_.push_back(goal);
   }
+  if (show_bar_) out_ << kWipeLine << "looking for the start" << std::flush;
+  visible_ = show_bar_;
 }
 
 void Progress::Add(const Increment& increment) {
@@ -48,8 +64,10 @@ void Progress::Add(const Increment& increment) {
   if (increment.kind == RowKind::kSmoothLimit || increment.kind == RowKind::kCornerLimit) {
     limit_points_.push_back({increment.kind, increment.index, increment.load_factor});
   }
+  if (increment.event.number > 0) ++events_;
   const auto now = steady_clock::now();
-  if (show_bar_ && (!visible_ || now - drawn_ >= kTimeBetweenDrawings)) {
+  if (increment.index == 0) first_row_ = now;
+  if (show_bar_ && (increment.index == 0 || now - drawn_ >= kTimeBetweenDrawings)) {
     Draw(increment);
     drawn_ = now;
     visible_ = true;
@@ -94,14 +112,18 @@ double Progress::Fraction(const Increment& increment) const {
 void Progress::Draw(const Increment& increment) {
   std::ostringstream line = NewLine();
   line << kWipeLine;
+  double fraction = 0.0;
   if (max_increments_ > 0 || !goals_.empty()) {
-    const double fraction = Fraction(increment);
+    fraction = Fraction(increment);
     const auto filled = static_cast<std::size_t>(fraction * kBarWidth);
     line << '[' << std::string(filled, '#') << std::string(kBarWidth - filled, ' ') << "] " << std::setw(3)
          << static_cast<int>(100.0 * fraction) << "%  ";
   }
-  line << "row " << increment.index << "  load factor " << std::setprecision(4) << increment.load_factor
-       << "  arc length " << increment.arc_length;
+  line << "row " << increment.index << "  load factor " << std::setprecision(4) << increment.load_factor << "  events "
+       << events_;
+  const double seconds = std::chrono::duration<double>(steady_clock::now() - first_row_).count();
+  if (fraction >= kLeastFraction && seconds >= kLeastSeconds)
+    line << "  " << InMinutes(seconds * (1.0 - fraction) / fraction) << " left";
   out_ << line.str() << std::flush;
 }
 

@@ -56,7 +56,9 @@ class Progress {
   std::ostream& out_;
   std::vector<Goal> goals_;
   std::vector<LimitPoint> limit_points_;
+  int events_ = 0;
   const std::chrono::steady_clock::time_point begin_;
+  std::chrono::steady_clock::time_point first_row_;
   std::chrono::steady_clock::time_point drawn_;  // time of the last drawing
   bool visible_ = false;                         // the bar stands on the terminal
 };

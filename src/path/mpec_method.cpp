@@ -216,7 +216,8 @@ bool MpecMethod::ConfirmedByHalves(const PathPoint& from, const Eigen::VectorXd&
   bend << middle.u - from.u, middle.s - from.s;
   bend -= chord * chord.dot(bend);
   // A corner next to an end of the increment is twice as far from the chord as the middle.
-  return 2.0 * bend.norm() <= options_.corner_tolerance && Distance(second.increment.point, to) <= options_.corner_tolerance;
+  return 2.0 * bend.norm() <= options_.corner_tolerance &&
+         Distance(second.increment.point, to) <= options_.corner_tolerance;
 }
 
 std::string MpecMethod::Remark() const {

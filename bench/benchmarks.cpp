@@ -1,0 +1,100 @@
+// What an increment costs: against one factorisation of its matrix, with the size of the scene, and with candidates
+// that are far away.
+#include <benchmark/benchmark.h>
+#include <sys/resource.h>
+
+#include <chrono>
+#include <memory>
+#include <stdexcept>
+
+#include "contact_path/branch/bordered_solver.h"
+#include "contact_path/path/branch_method.h"
+#include "lattices.h"
+
+namespace contact_path {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int kIncrements = 12;
+constexpr double kOutOfReach = 5.0;  // lengths of a bar: for these increments
+
+double Seconds(Clock::time_point since) { return std::chrono::duration<double>(Clock::now() - since).count(); }
+
+// One factorisation of the matrix of the increments at `point`, pattern and pivots known.
+double FactorisationTime(const Model& model, const PathPoint& point) {
+  FixedStateSystem system(model.structure, model.contacts);
+  system.SetStates(point.states, TangentialPositions(model.contacts, point.u));
+  const Eigen::SparseMatrix<double> transposed = system.TransposedJacobian(system.Pack(point));
+  const Eigen::VectorXd row = Eigen::VectorXd::LinSpaced(system.NumUnknowns(), 0.5, 1.0);
+  BorderedSolver solver;
+  solver.Factorize(transposed, row);
+  double least = 1e9;
+  for (int i = 0; i < 3; ++i) {
+    const Clock::time_point start = Clock::now();
+    solver.Factorize(transposed, row);
+    least = std::min(least, Seconds(start));
+  }
+  return least;
+}
+
+// Mean of the regular increments of a wall that bends towards the floor, or along it where that is as near as it is.
+void RegularIncrements(benchmark::State& state, int far_candidates, double floor_lowered_by) {
+  TraceRequest request = WallOf(static_cast<int>(state.range(0)), far_candidates);
+  request.scene.obstacles.front().py -= floor_lowered_by;
+  const Model model(request.scene, CharacteristicScales(request.scene));
+  double factorisation = 0.0, increment = 0.0, factorisations = 0.0;
+  for (auto iteration : state) {
+    BranchMethod method(model, BranchOptions::For(request.options, model.structure.NumDofs()), nullptr);
+    PathPoint point = model.InitialPoint();
+    EventRecord ways;
+    std::string message;
+    if (method.Start(point, &ways, &message)) throw std::runtime_error(message);
+    double seconds = 0.0;
+    int regular = 0, factorised = 0;
+    while (regular < kIncrements) {
+      const Clock::time_point start = Clock::now();
+      const Advance advance = method.Next(point);
+      const double time = Seconds(start);
+      if (advance.rows.empty()) throw std::runtime_error(advance.message);
+      point = advance.rows.back().point;
+      if (advance.rows.back().kind != RowKind::kRegular) continue;
+      seconds += time;
+      factorised += advance.rows.back().solve.factorisations;
+      ++regular;
+    }
+    state.SetIterationTime(seconds / regular);
+    increment = seconds / regular;
+    factorisations = static_cast<double>(factorised) / regular;
+    factorisation = FactorisationTime(model, point);
+  }
+  struct rusage usage = {};
+  getrusage(RUSAGE_SELF, &usage);
+  state.counters["dofs"] = static_cast<double>(model.structure.NumDofs());
+  state.counters["candidates"] = static_cast<double>(model.contacts.size());
+  state.counters["factorisations"] = factorisations;
+  state.counters["per_factorisation"] = increment / factorisation;
+  state.counters["peak_MiB"] = static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+void Increment(benchmark::State& state) { RegularIncrements(state, 0, kOutOfReach); }
+void IncrementInContact(benchmark::State& state) { RegularIncrements(state, 0, 0.0); }
+void IncrementWithFarCandidates(benchmark::State& state) {
+  RegularIncrements(state, static_cast<int>(state.range(1)), kOutOfReach);
+}
+
+BENCHMARK(Increment)->Arg(1000)->Arg(3000)->Arg(10000)->Arg(30000)->UseManualTime()->Iterations(3)->Unit(
+    benchmark::kMillisecond);
+BENCHMARK(Increment)->Arg(100000)->UseManualTime()->Iterations(1)->Unit(benchmark::kMillisecond);
+BENCHMARK(IncrementInContact)->Arg(1000)->Arg(3000)->UseManualTime()->Iterations(3)->Unit(benchmark::kMillisecond);
+BENCHMARK(IncrementWithFarCandidates)
+    ->Args({10000, 0})
+    ->Args({10000, 10000})
+    ->UseManualTime()
+    ->Iterations(3)
+    ->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace contact_path
+
+BENCHMARK_MAIN();

@@ -1,0 +1,21 @@
+// Lattice scenes of a wanted size for the benchmarks, and the linear system of their increments.
+#ifndef CONTACT_PATH_BENCH_LATTICES_H_
+#define CONTACT_PATH_BENCH_LATTICES_H_
+
+#include <Eigen/SparseCore>
+
+#include "contact_path/path/model.h"
+#include "contact_path/scene/lattice.h"
+
+namespace contact_path {
+
+// A wall five times as long as high with about `dofs` degrees of freedom, 1 % of its nodes contact candidates.
+TraceRequest WallOf(int dofs, int far_candidates = 0);
+
+// M' of branch/bordered_solver.h at the initial configuration, all candidates touching in this state, with a full last
+// row; square.
+Eigen::SparseMatrix<double> BorderedMatrix(const Model& model, ContactState state);
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_BENCH_LATTICES_H_

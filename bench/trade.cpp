@@ -1,0 +1,351 @@
+// Error against time: traces each scene with many settings and measures how far their rows, and the lines between the
+// rows, are from the exact path. Writes one line of CSV per setting.
+//
+// The exact path: method branch with a hundredth of the step of the preset, interpolated between its rows by a
+// polynomial of degree 5 in arc length, which never reaches over an event.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "contact_path/path/automatic_step.h"
+#include "contact_path/path/branch_method.h"
+#include "contact_path/path/model.h"
+#include "contact_path/path/mpec_method.h"
+#include "contact_path/path/preload.h"
+#include "contact_path/path/stop.h"
+#include "contact_path/scene/lattice.h"
+#include "contact_path/scene/read_scene.h"
+
+namespace contact_path {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+struct Row {
+  Eigen::VectorXd x;  // (u, s), scaled
+  double load = 0.0;  // in the scene's unit
+  double arc_length = 0.0;
+  double dissipation = 0.0;
+  bool smooth = true;  // no event here: the curve goes on without a bend
+  bool limit = false;
+};
+
+struct Path {
+  std::vector<Row> rows;
+  double seconds = 0.0;
+  long iterations = 0, factorisations = 0, rejected = 0;
+  std::string end;
+};
+
+struct Setting {
+  std::string method, accuracy;
+  double step = 0.0;     // 0: of the preset
+  double minimum = 0.0;  // eps_min of mpec; 0: of the preset
+};
+
+std::unique_ptr<PathMethod> MakeMethod(const Model& model, const TraceOptions& options, const Setting& setting) {
+  if (options.method == Method::kBranch)
+    return std::make_unique<BranchMethod>(model, BranchOptions::For(options, model.structure.NumDofs()), nullptr);
+  MpecOptions mpec = MpecOptions::For(options, model.structure.NumDofs());
+  if (setting.minimum > 0.0) mpec.regularisation.minimum = setting.minimum;
+  return std::make_unique<MpecMethod>(model, mpec, nullptr);
+}
+
+TraceOptions OptionsOf(const TraceRequest& request, const Setting& setting) {
+  TraceOptions options = request.options;
+  options.method = setting.method == "mpec" ? Method::kMpec : Method::kBranch;
+  options.accuracy = setting.accuracy == "fast"       ? Accuracy::kFast
+                     : setting.accuracy == "accurate" ? Accuracy::kAccurate
+                                                      : Accuracy::kBalanced;
+  options.step = setting.step;
+  return options;
+}
+
+// Row 0 is not timed: it is the same for all.
+Path Follow(const TraceRequest& request, const Model& model, const PathPoint& start, const Setting& setting) {
+  Path path;
+  const TraceOptions options = OptionsOf(request, setting);
+  const StopTest stop(request);
+  const Clock::time_point begin = Clock::now();
+  const std::unique_ptr<PathMethod> method = MakeMethod(model, options, setting);
+  const auto append = [&](const PathPoint& point, const AcceptedPoint* accepted) {
+    Row row;
+    row.x.resize(point.u.size() + 1);
+    row.x << point.u, point.s;
+    row.load = point.s * model.scaling.load_factor;
+    if (accepted != nullptr) {
+      row.arc_length = path.rows.back().arc_length + accepted->arc_length;
+      row.dissipation = path.rows.back().dissipation + accepted->work.friction;
+      row.smooth = accepted->kind == RowKind::kRegular || accepted->kind == RowKind::kSmoothLimit;
+      row.limit = accepted->kind == RowKind::kSmoothLimit || accepted->kind == RowKind::kCornerLimit;
+    }
+    path.rows.push_back(std::move(row));
+  };
+  append(start, nullptr);
+  EventRecord ways;
+  std::string message;
+  PathPoint point = start;
+  bool ended = method->Start(point, &ways, &message).has_value();
+  path.end = ended ? message : "";
+  while (!ended) {
+    const Advance advance = method->Next(point);
+    for (const AcceptedPoint& accepted : advance.rows) {
+      point = accepted.point;
+      append(point, &accepted);
+      path.iterations += accepted.solve.iterations;
+      path.factorisations += accepted.solve.factorisations;
+      path.rejected += accepted.solve.rejected;
+      Increment row;
+      const CheckedState state = model.InSceneUnits(point);
+      row.index = static_cast<int>(path.rows.size()) - 1;
+      row.load_factor = state.load_factor;
+      row.positions = state.positions;
+      const StopCriterion* criterion = stop.FirstThatHolds(row);
+      ended = ended || criterion != nullptr || path.rows.size() > 20000;
+      if (criterion != nullptr) path.end = "stop";
+    }
+    if (advance.ended && !ended) path.end = advance.message;
+    ended = ended || advance.ended;
+  }
+  path.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+  return path;
+}
+
+// The exact path as a curve.
+class Curve {
+ public:
+  explicit Curve(const Path& path) : rows_(path.rows) {
+    // First and last row of the smooth piece that each interval between two rows belongs to.
+    std::size_t begin = 0;
+    for (std::size_t i = 1; i < rows_.size(); ++i)
+      if (!rows_[i].smooth || i + 1 == rows_.size()) {
+        for (std::size_t k = begin; k < i; ++k) pieces_.push_back({begin, i});
+        begin = i;
+      }
+  }
+
+  std::size_t Intervals() const { return pieces_.size(); }
+
+  // At share t of interval k, by the six rows of its piece that are nearest.
+  Eigen::VectorXd At(std::size_t k, double t) const {
+    const auto [begin, end] = pieces_[k];
+    const std::size_t count = std::min<std::size_t>(6, end - begin + 1);
+    std::size_t first = k >= begin + 2 ? k - 2 : begin;
+    first = std::min(first, end + 1 - count);
+    const double s = (1.0 - t) * rows_[k].arc_length + t * rows_[k + 1].arc_length;
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(rows_[0].x.size());
+    for (std::size_t i = first; i < first + count; ++i) {
+      double weight = 1.0;
+      for (std::size_t j = first; j < first + count; ++j)
+        if (j != i) weight *= (s - rows_[j].arc_length) / (rows_[i].arc_length - rows_[j].arc_length);
+      // About a row of the interval, so that rounding is that of a difference.
+      sum += weight * (rows_[i].x - rows_[k].x);
+    }
+    return rows_[k].x + sum;
+  }
+
+  // From a point, looked for near and after interval *near, which becomes that of the nearest point; *dissipation:
+  // there.
+  double Distance(const Eigen::VectorXd& x, std::size_t* near, double reach, double* dissipation) const {
+    std::size_t best = *near;
+    double smallest = std::numeric_limits<double>::infinity();
+    const double from = rows_[*near].arc_length;
+    for (std::size_t k = *near; k < rows_.size() && rows_[k].arc_length <= from + reach; ++k) {
+      const double distance = (rows_[k].x - x).squaredNorm();
+      if (distance < smallest) smallest = distance, best = k;
+    }
+    *near = std::min(best, Intervals() - 1);
+    double least = std::sqrt(smallest);
+    *dissipation = rows_[best].dissipation;
+    for (const std::size_t k : {best > 0 ? best - 1 : 0, std::min(best, Intervals() - 1)}) {
+      double a = 0.0, b = 1.0;  // golden section
+      const double ratio = 0.5 * (std::sqrt(5.0) - 1.0);
+      for (int i = 0; i < 60; ++i) {
+        const double c = b - ratio * (b - a), d = a + ratio * (b - a);
+        ((At(k, c) - x).squaredNorm() < (At(k, d) - x).squaredNorm() ? b : a) =
+            (At(k, c) - x).squaredNorm() < (At(k, d) - x).squaredNorm() ? d : c;
+      }
+      const double t = 0.5 * (a + b), distance = (At(k, t) - x).norm();
+      if (distance >= least) continue;
+      least = distance;
+      *dissipation = (1.0 - t) * rows_[k].dissipation + t * rows_[k + 1].dissipation;
+    }
+    return least;
+  }
+
+ private:
+  struct Piece {
+    std::size_t begin, end;
+  };
+  const std::vector<Row>& rows_;
+  std::vector<Piece> pieces_;
+};
+
+// Largest distance of the exact rows from the line through these rows, up to the end of the shorter path.
+double LineError(const Path& exact, const Path& path) {
+  double worst = 0.0;
+  std::size_t k = 0;
+  const double length = path.rows.back().arc_length;
+  for (const Row& row : exact.rows) {
+    if (row.arc_length > 0.999 * length) break;
+    double least = std::numeric_limits<double>::infinity();
+    std::size_t best = k;
+    for (std::size_t i = k; i + 1 < path.rows.size() && i < k + 40; ++i) {
+      const Eigen::VectorXd along = path.rows[i + 1].x - path.rows[i].x, to = row.x - path.rows[i].x;
+      const double square = along.squaredNorm();
+      const double t = square > 0.0 ? std::clamp(along.dot(to) / square, 0.0, 1.0) : 0.0;
+      const double distance = (to - t * along).norm();
+      if (distance < least) least = distance, best = i;
+    }
+    k = best > 1 ? best - 1 : 0;
+    worst = std::max(worst, least);
+  }
+  return worst;
+}
+
+std::vector<double> LimitLoads(const Path& path) {
+  std::vector<double> loads;
+  for (const Row& row : path.rows)
+    if (row.limit) loads.push_back(row.load);
+  return loads;
+}
+
+// Of the limit loads, relative to the largest; infinite where their number differs.
+double LimitError(const Path& exact, const Path& path) {
+  const std::vector<double> wanted = LimitLoads(exact), found = LimitLoads(path);
+  if (wanted.size() != found.size()) return std::numeric_limits<double>::infinity();
+  double worst = 0.0, largest = 0.0;
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    worst = std::max(worst, std::abs(wanted[i] - found[i]));
+    largest = std::max(largest, std::abs(wanted[i]));
+  }
+  return largest > 0.0 ? worst / largest : 0.0;
+}
+
+void Measure(const std::string& name, const TraceRequest& request, double reference_share,
+             const std::vector<Setting>& settings) {
+  const Model model(request.scene, CharacteristicScales(request.scene));
+  const Preload preload = TracePreload(model, 100000, [](const Model& of) {
+    return std::make_unique<BranchMethod>(of, BranchOptions::For(TraceOptions(), of.structure.NumDofs()), nullptr);
+  });
+  if (!preload.done) {
+    std::fprintf(stderr, "%s: %s\n", name.c_str(), preload.message.c_str());
+    return;
+  }
+  const double preset = 0.02 * AutomaticStepGrowth(model.structure.NumDofs());
+  const Path exact = Follow(request, model, preload.point, {"branch", "accurate", reference_share * preset, 0.0});
+  const Curve curve(exact);
+  for (const Setting& setting : settings) {
+    Path path = Follow(request, model, preload.point, setting);
+    const double total = path.seconds;
+    for (double spent = total; spent < 0.2 && spent < 50.0 * total;) {
+      const Path again = Follow(request, model, preload.point, setting);
+      path.seconds = std::min(path.seconds, again.seconds);
+      spent += again.seconds;
+    }
+    double row_error = 0.0, dissipation_error = 0.0;
+    std::size_t near = 0;
+    // The last row of a path may lie beyond the end of the exact one.
+    for (const Row& row : path.rows)
+      if (row.arc_length <= exact.rows.back().arc_length) {
+        double there = 0.0;
+        row_error = std::max(row_error, curve.Distance(row.x, &near, 4.0 * preset + 4.0 * setting.step, &there));
+        dissipation_error = std::abs(row.dissipation - there);
+      }
+    const double rows = static_cast<double>(path.rows.size() - 1);
+    const double total_dissipation = exact.rows.back().dissipation;
+    if (total_dissipation > 0.0) dissipation_error /= total_dissipation;
+    std::printf("%s,%s,%s,%g,%g,%zu,%.6g,%.3g,%.3g,%.3g,%.3g,%.4g,%.4g,%ld,%s\n", name.c_str(), setting.method.c_str(),
+                setting.accuracy.c_str(), setting.step, setting.minimum, path.rows.size(), path.seconds, row_error,
+                LineError(exact, path), LimitError(exact, path), dissipation_error,
+                static_cast<double>(path.iterations) / rows, static_cast<double>(path.factorisations) / rows,
+                path.rejected, path.end == "stop" ? "stop" : "early");
+    std::fflush(stdout);
+  }
+}
+
+std::vector<Setting> AllSettings(bool big) {
+  std::vector<Setting> settings;
+  for (const char* method : {"branch", "mpec"})
+    for (const char* accuracy : {"fast", "balanced", "accurate"})
+      if (!(big && method[0] == 'm' && accuracy[0] == 'a')) settings.push_back({method, accuracy, 0.0, 0.0});
+  if (big) return settings;
+  for (const double step : {0.2, 0.1, 0.04, 0.01, 0.0025}) settings.push_back({"branch", "balanced", step, 0.0});
+  for (const double step : {0.1, 0.04, 0.01}) settings.push_back({"mpec", "balanced", step, 0.0});
+  for (const double minimum : {1e-4, 1e-6, 1e-10, 1e-12}) settings.push_back({"mpec", "balanced", 0.0, minimum});
+  return settings;
+}
+
+// The same wall four times, what it may touch being another matter each time.
+void MeasureModels() {
+  std::puts("case,method,variables,constraints,seconds");
+  LatticeOptions lattice;
+  lattice.kind = LatticeKind::kWall;
+  lattice.columns = 20;
+  lattice.rows = 4;
+  lattice.contacts = 4;
+  for (const char* name : {"no contact in reach", "frictionless contact", "friction on one node", "friction on all"}) {
+    TraceRequest request = LatticeRequest(lattice);
+    request.options = TraceOptions();
+    Obstacle& floor = request.scene.obstacles.front();
+    const bool reach = name[0] != 'n';
+    floor.py = reach ? 0.0 : -100.0;
+    floor.friction = std::string(name) == "friction on all" ? 0.3 : 0.0;
+    if (std::string(name) == "friction on one node") {
+      Obstacle rough = floor;
+      rough.name = "rough";
+      rough.friction = 0.3;
+      request.scene.contacts.back().obstacle = rough.name;
+      request.scene.obstacles.push_back(rough);
+    }
+    const Model model(request.scene, CharacteristicScales(request.scene));
+    for (const char* method : {"branch", "mpec"}) {
+      constexpr int kRows = 20;
+      const std::unique_ptr<PathMethod> tracer =
+          MakeMethod(model, OptionsOf(request, {method, "balanced", 0.0, 0.0}), {method, "balanced", 0.0, 0.0});
+      PathPoint point = model.InitialPoint();
+      EventRecord ways;
+      std::string message;
+      if (tracer->Start(point, &ways, &message)) std::fprintf(stderr, "%s: %s\n", name, message.c_str());
+      const Clock::time_point begin = Clock::now();
+      SolveRecord solve;
+      int rows = 0;
+      while (rows < kRows) {
+        const Advance advance = tracer->Next(point);
+        if (advance.rows.empty()) break;
+        point = advance.rows.back().point;
+        solve = advance.rows.back().solve;
+        rows += static_cast<int>(advance.rows.size());
+      }
+      std::printf("%s,%s,%d,%d,%.6g\n", name, method, solve.variables, solve.constraints,
+                  std::chrono::duration<double>(Clock::now() - begin).count() / rows);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace contact_path
+
+int main(int argc, char** argv) {
+  using namespace contact_path;
+  if (argc == 2 && std::string(argv[1]) == "--model") {
+    MeasureModels();
+    return 0;
+  }
+  std::puts(
+      "scene,method,accuracy,step,eps_min,rows,seconds,row_error,line_error,limit_error,dissipation_error,"
+      "iterations,factorisations,rejected,end");
+  for (int i = 1; i < argc; ++i) {
+    const std::string file = argv[i];
+    const std::string name = file.substr(file.rfind('/') + 1, file.rfind(".yaml") - file.rfind('/') - 1);
+    const bool lattice = name == "lattice";
+    Measure(name, ReadTraceRequestFile(file), lattice ? 0.1 : 0.01, AllSettings(lattice));
+  }
+  return 0;
+}

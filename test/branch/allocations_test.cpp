@@ -1,0 +1,61 @@
+// The corrector allocates nothing from one iteration to the next. Counts every call of malloc of this program, so that
+// it is built without sanitizers only, which bring an allocator of their own.
+#include <gtest/gtest.h>
+
+#include <cstddef>
+
+#include "contact_path/branch/smooth_piece.h"
+#include "contact_path/path/model.h"
+#include "support/traced_path.h"
+
+namespace {
+
+long allocations = 0;
+
+}  // namespace
+
+extern "C" void* __libc_malloc(std::size_t size);  // glibc
+
+extern "C" void* malloc(std::size_t size) {
+  ++allocations;
+  return __libc_malloc(size);
+}
+
+namespace contact_path {
+namespace {
+
+struct Counted {
+  long allocations = 0;
+  Correction correction;
+};
+
+Counted Correct(SmoothPiece* piece, const Eigen::VectorXd& guess, const Eigen::VectorXd& row, double value) {
+  Counted counted;
+  const long before = allocations;
+  counted.correction = piece->Correct(guess, row, value);
+  counted.allocations = allocations - before;
+  return counted;
+}
+
+TEST(Allocations, AreAsManyForFewIterationsOfTheCorrectorAsForMany) {
+  for (const char* scene : {"sliding_bar", "von_mises"}) {
+    SCOPED_TRACE(scene);
+    const Scene example = ReadExample(scene).scene;
+    const Model model(example, CharacteristicScales(example));
+    SmoothPiece piece(model.structure, model.contacts);
+    const PathPoint start = model.InitialPoint();
+    piece.SetStates(start.states, start);
+    const Eigen::VectorXd x = piece.system().Pack(start);
+    const Eigen::VectorXd row = Eigen::VectorXd::Unit(x.size(), piece.NumMotion() - 1);  // the load factor
+    const Counted warm_up = Correct(&piece, x, row, row.dot(x));
+    static_cast<void>(warm_up);
+    const Counted few = Correct(&piece, x, row, row.dot(x));
+    const Counted many = Correct(&piece, x, row, row.dot(x) + 0.01);
+    EXPECT_GT(many.correction.iterations, few.correction.iterations);
+    EXPECT_EQ(many.allocations, few.allocations);
+    EXPECT_GT(few.allocations, 0);  // the result: counting works
+  }
+}
+
+}  // namespace
+}  // namespace contact_path
