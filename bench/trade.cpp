@@ -107,7 +107,7 @@ Path Follow(const TraceRequest& request, const Model& model, const PathPoint& st
       row.load_factor = state.load_factor;
       row.positions = state.positions;
       const StopCriterion* criterion = stop.FirstThatHolds(row);
-      ended = ended || criterion != nullptr || path.rows.size() > 20000;
+      ended = ended || criterion != nullptr || path.rows.size() > 100000;
       if (criterion != nullptr) path.end = "stop";
     }
     if (advance.ended && !ended) path.end = advance.message;
