@@ -158,7 +158,7 @@ std::optional<CurvePoint> LocateRegular(SmoothPiece* piece, const Segment& segme
   Correction correction = piece->Correct(guess, row, row.dot(guess) - system.Value(watched.limit, guess));
   const double reach = 0.1 * segment.length + 1e-9;
   if (!correction.converged || !((correction.x - guess).head(piece->NumMotion()).norm() <= reach)) {
-    const std::optional<CurvePoint> lowest = LocateRate(
+    std::optional<CurvePoint> lowest = LocateRate(
         piece, segment, watched.t, [&](const Eigen::VectorXd& rate) { return system.Rate(watched.limit, rate); });
     if (lowest) return lowest;
     correction = piece->CorrectOnPlane(guess, segment.normal);

@@ -1,6 +1,7 @@
 #include "progress.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iomanip>
 #include <locale>
 #include <sstream>
@@ -27,7 +28,7 @@ std::ostringstream NewLine() {
 
 // "2:05", "3:00:10".
 std::string InMinutes(double seconds) {
-  const auto whole = static_cast<long>(seconds + 0.5);
+  const auto whole = std::lround(seconds);
   std::ostringstream text = NewLine();
   text << std::setfill('0');
   if (whole >= 3600) text << whole / 3600 << ':' << std::setw(2);

@@ -57,7 +57,7 @@ class MpecMethod : public PathMethod {
   };
   static const char* Describe(Verdict verdict);
   // Sets residuals and verdict of a trial that was solved for.
-  void Judge(const PathPoint& from, const Eigen::VectorXd& direction, double length, Trial* trial) const;
+  void Judge(const PathPoint& from, const Eigen::VectorXd& direction, double length, Trial* result) const;
 
   Eigen::VectorXd Direction(const PathPoint& from, const PathPoint& to) const;
   // One solve, judged by itself.
