@@ -239,7 +239,7 @@ void Measure(const std::string& name, const TraceRequest& request, double refere
     return;
   }
   const double preset = 0.02 * AutomaticStepGrowth(model.structure.NumDofs());
-  const Path exact = Follow(request, model, preload.point, {"branch", "accurate", reference_share * preset, 0.0});
+  const Path exact = Follow(request, model, preload.point, {"branch", "balanced", reference_share * preset, 0.0});
   const Curve curve(exact);
   for (const Setting& setting : settings) {
     Path path = Follow(request, model, preload.point, setting);

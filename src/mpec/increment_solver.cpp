@@ -21,6 +21,9 @@ constexpr double kSamePoint = 0.1;
 
 constexpr int kMaxActiveSetChanges = 4;
 
+// With a larger eps the relaxed products leave room to leave the branch for another one: arch19 fell off its ceilings.
+constexpr double kLargestAtOnce = 1e-8;
+
 constexpr double kSameEps = 1.0 + 1e-9;  // rounding of powers of the factor
 
 }  // namespace
@@ -61,8 +64,8 @@ IncrementTrial IncrementSolver::SolveWith(const PathPoint& from, const std::vect
 
   const bool regularised = !working_set.empty();
   trial.regularisation = regularised ? schedule.minimum * goal.length * goal.length : 0.0;
-  if (regularised && schedule.from_last && last_working_set_ == working_set && last_.x.size() == trial.variables &&
-      last_.multipliers.size() == trial.constraints) {
+  if (regularised && schedule.from_last && schedule.minimum <= kLargestAtOnce && last_working_set_ == working_set &&
+      last_.x.size() == trial.variables && last_.multipliers.size() == trial.constraints) {
     RegularisationSchedule at_once = schedule;
     at_once.initial = schedule.minimum;
     PrimalDual point = last_;

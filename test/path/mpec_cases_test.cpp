@@ -283,6 +283,17 @@ class Arch19 : public testing::Test {
   static double Rise(const Increment& row) { return PositionY(Path(), row, "a"); }
 };
 
+// With the largest eps of the presets: setting out from the last increment, it once fell off its ceilings.
+TEST(Arch19Fast, IsHeldByItsCeilingsToTheSmoothLimitPoint) {
+  TraceRequest request = Example("arch19", 0.05);
+  request.options.accuracy = Accuracy::kFast;
+  request.options.max_increments = 30;
+  const TracedPath path = TraceRows(request);
+  ASSERT_EQ(path.rows.size(), 31U);
+  for (std::size_t i = 1; i < path.rows.size(); ++i)
+    EXPECT_GT(path.rows[i].load_factor, path.rows[i - 1].load_factor) << "row " << i;
+}
+
 TEST_F(Arch19, ReachesItsEndWithSoundRows) {
   EXPECT_EQ(Path().result.reason, EndReason::kStopCriterion);
   ExpectSoundRows(Path(), kResidual);

@@ -20,7 +20,8 @@ struct RegularisationSchedule {
   double factor = 1e-5;   // rho, 0..1
   double minimum = 1e-8;  // > 0
   // Sets out from the variables and multipliers of the last increment solved for with as many of them, at `minimum` at
-  // once: where the next increment is much like it, a few iterations do. Where that fails, the schedule from `initial`.
+  // once: where the next increment is much like it, a few iterations do. Where that fails, or `minimum` is above 1e-8,
+  // the schedule from `initial`.
   bool from_last = false;
 };
 
