@@ -139,7 +139,7 @@ TEST_F(MixedStructure, EvaluationsDoNotAddToWhatWasThere) {
   EXPECT_EQ(Eigen::MatrixXd(used), Tangent(u));
   structure_.TangentDerivative(u, v, &used);
   EXPECT_EQ(Eigen::MatrixXd(used), TangentDerivative(u, v));
-  Eigen::VectorXd force = Eigen::VectorXd::Constant(9, 3.0);
+  Eigen::VectorXd force = Eigen::VectorXd::Constant(structure_.NumDofs(), 3.0);
   structure_.InternalForce(u, force);
   EXPECT_EQ(force, Force(u));
 }
