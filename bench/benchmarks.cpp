@@ -7,7 +7,7 @@
 #include <memory>
 #include <stdexcept>
 
-#include "contact_path/branch/bordered_solver.h"
+#include "contact_path/linear/bordered_solver.h"
 #include "contact_path/path/branch_method.h"
 #include "lattices.h"
 

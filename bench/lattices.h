@@ -12,7 +12,7 @@ namespace contact_path {
 // A wall five times as long as high with about `dofs` degrees of freedom, 1 % of its nodes contact candidates.
 TraceRequest WallOf(int dofs, int far_candidates = 0);
 
-// M' of branch/bordered_solver.h at the initial configuration, all candidates touching in this state, with a full last
+// M' of linear/bordered_solver.h at the initial configuration, all candidates touching in this state, with a full last
 // row; square.
 Eigen::SparseMatrix<double> BorderedMatrix(const Model& model, ContactState state);
 

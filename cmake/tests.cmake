@@ -16,6 +16,7 @@ else()
 endif()
 
 add_library(contact_path_test_support STATIC EXCLUDE_FROM_ALL
+  test/support/dense.cpp
   test/support/derivative_checker.cpp
   test/support/reference_cases.cpp
   test/support/traced_path.cpp
@@ -25,6 +26,11 @@ target_include_directories(contact_path_test_support PUBLIC ${CMAKE_CURRENT_SOUR
 target_compile_definitions(contact_path_test_support PUBLIC
   CONTACT_PATH_SCENES="${CMAKE_CURRENT_SOURCE_DIR}/scenes"
   CONTACT_PATH_TEST_DATA="${CMAKE_CURRENT_SOURCE_DIR}/test/data")
+# Tests are compiled for a quick build: hardly optimised, and what nearly all of them include is compiled once.
+set(contact_path_test_options -O1 -g0)
+target_compile_options(contact_path_test_support PRIVATE ${contact_path_test_options})
+target_precompile_headers(contact_path_test_support PRIVATE <gtest/gtest.h> <Eigen/Core> <Eigen/SparseCore>
+  <algorithm> <cmath> <functional> <map> <string> <vector>)
 target_link_libraries(contact_path_test_support PUBLIC contact_path_core GTest::gtest PRIVATE contact_path_warnings)
 
 # contact_path_add_test(<stage>/<name> [LONG] [SOURCES file...]): test/<stage>/<name>.cpp, as the program <stage>_<name>.
@@ -42,8 +48,8 @@ function(contact_path_add_test source)
     set(test ${name})
     add_test(NAME ${test} COMMAND ${name} --gtest_output=xml:${contact_path_test_results}/gtest-${name}.xml)
   endif()
-  # Tests are compiled for a quick build.
-  target_compile_options(${name} PRIVATE -O1 -g0)
+  target_compile_options(${name} PRIVATE ${contact_path_test_options})
+  target_precompile_headers(${name} REUSE_FROM contact_path_test_support)
   # Without a keyword, as catkin does.
   target_link_libraries(${name} GTest::gtest_main contact_path_test_support contact_path_core contact_path_warnings)
   set_property(TEST ${test} PROPERTY ENVIRONMENT OMP_NUM_THREADS=1)
@@ -64,16 +70,17 @@ contact_path_add_test(scene/write_scene_test)
 contact_path_add_test(structure/bar_test)
 contact_path_add_test(structure/structure_test)
 contact_path_add_test(structure/superelement_test)
+contact_path_add_test(linear/bordered_solver_test)
+contact_path_add_test(linear/minimum_norm_test)
+contact_path_add_test(linear/singular_vectors_test)
 contact_path_add_test(contact/contact_geometry_test)
 contact_path_add_test(contact/contact_state_test)
 contact_path_add_test(contact/fixed_state_system_test)
-contact_path_add_test(contact/minimum_norm_test)
 contact_path_add_test(contact/nearest_point_test)
 contact_path_add_test(contact/path_point_test)
 contact_path_add_test(mpec/increment_problem_test)
 contact_path_add_test(mpec/increment_solver_test)
 contact_path_add_test(mpec/ipopt_solver_test)
-contact_path_add_test(branch/bordered_solver_test)
 contact_path_add_test(branch/polynomial_test)
 contact_path_add_test(branch/rate_problem_test)
 contact_path_add_test(branch/smooth_piece_test)

@@ -1,22 +1,23 @@
 #include "contact_path/branch/rate_problem.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "contact_path/branch/bordered_solver.h"
+#include "contact_path/linear/bordered_solver.h"
+#include "contact_path/linear/singular_vectors.h"
 
 namespace contact_path {
 namespace {
 
-constexpr double kRank = 1e-9;       // of the largest pivot: below, rates are not unique
-constexpr double kNothing = 1e-9;    // of rates
-constexpr double kRounding = 1e-7;   // of square roots
-constexpr double kSomething = 1e-6;  // the same: what lies between is neither
+constexpr double kRank = 1e-9;  // of the largest pivot: below, rates are not unique
+// Where rates are not unique: unit solutions with a motion up to the first rest, with more than the second they move,
+// and what lies between is not decided here. The first is the root of rounding, since motions are known by their
+// squares.
+constexpr double kRestsBelow = 1e-7;
+constexpr double kMovesAbove = 1e-6;
+constexpr double kNoChange = 1e-9;  // of load and reactions, of a unit motion that is a rigid mode
 
 void AddSpring(const SparseLinear& along, double stiffness, Eigen::SparseMatrix<double>* matrix) {
   for (std::size_t a = 0; a < 2; ++a)
@@ -83,34 +84,32 @@ RateProblem::RateProblem(const Structure& structure, const std::vector<ContactGe
   regular_ = true;
 }
 
-Eigen::VectorXd RateProblem::UniqueSolution(const Eigen::MatrixXd& equations) const {
+Eigen::MatrixXd RateProblem::Kernel(const Eigen::MatrixXd& equations) const {
+  // Nearly always one solution, and it is not orthogonal to the arrival.
   Eigen::MatrixXd square(equations.cols(), equations.cols());
   square << equations, along_.transpose();
-  const Eigen::PartialPivLU<Eigen::MatrixXd> lu(square);
-  if (!(lu.rcond() > kRank)) return {};
-  return lu.solve(Eigen::VectorXd::Unit(square.cols(), square.cols() - 1));
-}
-
-Eigen::VectorXd RateProblem::ShortestSolution(const Eigen::MatrixXd& equations) const {
+  const Eigen::PartialPivLU<Eigen::MatrixXd> bordered(square);
+  if (bordered.rcond() > kRank) return bordered.solve(Eigen::VectorXd::Unit(square.cols(), square.cols() - 1));
   Eigen::FullPivLU<Eigen::MatrixXd> lu(equations);
   lu.setThreshold(kRank);
-  const Eigen::MatrixXd kernel = lu.kernel();
-  if (kernel.cols() == 1) return kernel.col(0);
-  const auto unclear = [](double rate) { return rate > kNothing && rate < kSomething; };
+  return lu.kernel();
+}
 
+Eigen::VectorXd RateProblem::ShortestMember(const Eigen::MatrixXd& kernel) const {
   // Orthonormal motions; a combination of reactions without motion is left out.
-  const Eigen::MatrixXd basis = Eigen::HouseholderQR<Eigen::MatrixXd>(kernel).householderQ() *
-                                Eigen::MatrixXd::Identity(kernel.rows(), kernel.cols());
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> motions(basis.transpose() * gram_ * basis);
-  const double largest = motions.eigenvalues().tail<1>()[0];
+  const SingularVectors spanned = RightSingularVectors(kernel);
+  const Eigen::MatrixXd basis = kernel * spanned.v * spanned.values.cwiseInverse().asDiagonal();
+  const SingularVectors motions = RightSingularVectors(basis.transpose() * gram_ * basis);  // symmetric
+  const double largest = motions.values[0];
   Eigen::MatrixXd moving(kernel.rows(), 0);
   for (Eigen::Index k = 0; k < kernel.cols(); ++k) {
-    const double rate = std::sqrt(std::max(0.0, motions.eigenvalues()[k] / largest));
-    if (!(rate > kRounding)) continue;
-    if (rate < kSomething || !std::isfinite(rate)) return {};
+    const double rate = std::sqrt(motions.values[k] / largest);
+    if (rate <= kRestsBelow) break;
+    if (!(rate >= kMovesAbove)) return {};
     moving.conservativeResize(Eigen::NoChange, moving.cols() + 1);
-    moving.rightCols<1>() = basis * motions.eigenvectors().col(k) / (rate * std::sqrt(largest));
+    moving.rightCols<1>() = basis * motions.v.col(k) / (rate * std::sqrt(largest));
   }
+  if (moving.cols() == 0) return {};
 
   // Rigid modes change neither the load nor a reaction. What does, has nothing of them.
   Eigen::MatrixXd forces = moving;
@@ -118,13 +117,11 @@ Eigen::VectorXd RateProblem::ShortestSolution(const Eigen::MatrixXd& equations) 
     forces.row(1 + 2 * k) -= gap_.row(k) * moving;
     forces.row(2 + 2 * k) -= slip_.row(k) * moving;
   }
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(forces, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const SingularVectors changes = RightSingularVectors(forces);
   Eigen::Index proper = 0;
-  for (Eigen::Index k = 0; k < svd.singularValues().size(); ++k) {
-    if (unclear(svd.singularValues()[k])) return {};
-    if (svd.singularValues()[k] >= kSomething) ++proper;
-  }
-  const Eigen::MatrixXd candidates = moving * (proper > 0 ? svd.matrixV().leftCols(proper) : svd.matrixV());
+  while (proper < changes.values.size() && changes.values[proper] >= kMovesAbove) ++proper;
+  if (proper < changes.values.size() && !(changes.values[proper] <= kNoChange)) return {};
+  const Eigen::MatrixXd candidates = moving * (proper > 0 ? changes.v.leftCols(proper) : changes.v);
   if (candidates.cols() == 1) return candidates.col(0);
   return candidates * (candidates.transpose() * along_);  // nearest to the arrival
 }
@@ -156,13 +153,14 @@ Eigen::MatrixXd RateProblem::Equations(const std::vector<ContactState>& states) 
 }
 
 std::optional<CondensedRates> RateProblem::Rates(const std::vector<ContactState>& states) const {
-  const Eigen::MatrixXd equations = Equations(states);
-  Eigen::VectorXd z = UniqueSolution(equations);
-  return RatesOf(z.size() > 0 ? std::move(z) : ShortestSolution(equations));
+  const Eigen::MatrixXd kernel = Kernel(Equations(states));
+  return RatesOf(kernel.cols() == 1 ? kernel.col(0) : ShortestMember(kernel));
 }
 
 std::optional<CondensedRates> RateProblem::UniqueRates(const std::vector<ContactState>& states) const {
-  return RatesOf(UniqueSolution(Equations(states)));
+  const Eigen::MatrixXd kernel = Kernel(Equations(states));
+  if (kernel.cols() != 1) return std::nullopt;
+  return RatesOf(kernel.col(0));
 }
 
 std::optional<CondensedRates> RateProblem::RatesOf(Eigen::VectorXd z) const {

@@ -1,16 +1,15 @@
 #include "contact_path/branch/ways.h"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <set>
 
-#include "contact_path/branch/bordered_solver.h"
 #include "contact_path/branch/rate_problem.h"
 #include "contact_path/contact/fixed_state_system.h"
-#include "contact_path/contact/minimum_norm.h"
+#include "contact_path/linear/bordered_solver.h"
+#include "contact_path/linear/minimum_norm.h"
+#include "contact_path/linear/singular_vectors.h"
 
 namespace contact_path {
 namespace {
@@ -64,11 +63,10 @@ States Options(const ContactGeometry& contact, const PathPoint& point, std::size
 // Returns the part of basis in which the rows `from`..`from + count` vanish (still = true) or its complement.
 Eigen::MatrixXd Split(const Eigen::MatrixXd& basis, Eigen::Index from, Eigen::Index count, bool still) {
   if (basis.cols() == 0) return basis;
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(basis.middleRows(from, count), Eigen::ComputeFullV);
+  const SingularVectors rows = RightSingularVectors(basis.middleRows(from, count));
   Eigen::Index rank = 0;
-  while (rank < svd.singularValues().size() && svd.singularValues()[rank] > kRigid) ++rank;
-  const Eigen::MatrixXd v = still ? svd.matrixV().rightCols(basis.cols() - rank) : svd.matrixV().leftCols(rank);
-  return basis * v;
+  while (rank < rows.values.size() && rows.values[rank] > kRigid) ++rank;
+  return still ? basis * rows.v.rightCols(basis.cols() - rank) : basis * rows.v.leftCols(rank);
 }
 
 class Finder {
@@ -235,13 +233,21 @@ class Finder {
       if (proper.cols() == 0) rigid_modes_ = std::max(rigid_modes_, static_cast<int>(rigid.cols()));
       if (candidates.cols() == 1)
         tangent = candidates.col(0);
-      else  // nearest to the arrival
-        tangent = candidates * candidates.topRows(motion).colPivHouseholderQr().solve(arrival_.direction);
+      else
+        tangent = NearestToArrival(candidates);
     }
     const double norm = tangent.head(motion).norm();
     if (!(norm > kRigid)) return std::nullopt;
     tangent /= norm;
     return tangent;
+  }
+
+  // Of the combinations of the columns: that whose motion is nearest to the direction of arrival.
+  Eigen::VectorXd NearestToArrival(const Eigen::MatrixXd& candidates) const {
+    const auto motions = candidates.topRows(NumMotion());
+    const SingularVectors s = RightSingularVectors(motions);
+    const Eigen::VectorXd along = s.v.transpose() * (motions.transpose() * arrival_.direction);
+    return candidates * (s.v * along.cwiseQuotient(s.values.cwiseAbs2()));
   }
 
   // Where two paths of the same states cross, the null space is a plane, and the tangents in it are the zeros of
@@ -251,21 +257,16 @@ class Finder {
     const Eigen::MatrixXd plane = Split(solver_.NullSpace(), 0, NumMotion(), false);
     if (plane.cols() != 2) return {};
     const Eigen::MatrixXd transposed = system_.TransposedJacobian(x);
-    const Eigen::VectorXd psi =
-        Eigen::JacobiSVD<Eigen::MatrixXd>(transposed, Eigen::ComputeFullV).matrixV().rightCols<1>();
+    const Eigen::VectorXd psi = RightSingularVectors(transposed).v.rightCols<1>();
     const auto form = [&](const Eigen::VectorXd& z) { return psi.dot(system_.SecondDerivative(x, z)); };
     const double a = form(plane.col(0)), c = form(plane.col(1));
     const double b = 0.5 * (form(plane.col(0) + plane.col(1)) - a - c);
-    Eigen::Matrix2d matrix;
-    matrix << a, b, b, c;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(matrix);
-    const Eigen::Vector2d& values = eigen.eigenvalues();  // ascending
-    if (!(values[0] < 0.0 && values[1] > 0.0)) return {};
+    // a y^2 + 2 b y z + c z^2 = 0
+    if (!(b * b > a * c)) return {};
+    const double q = -b - std::copysign(std::sqrt(b * b - a * c), b);
     std::vector<Eigen::VectorXd> tangents;
-    for (const double sign : {1.0, -1.0}) {
-      const Eigen::Vector2d direction = std::sqrt(values[1]) * eigen.eigenvectors().col(0) +
-                                        sign * std::sqrt(-values[0]) * eigen.eigenvectors().col(1);
-      Eigen::VectorXd tangent = plane * direction;
+    for (const Eigen::Vector2d& zero : {Eigen::Vector2d(q, a), Eigen::Vector2d(c, q)}) {
+      Eigen::VectorXd tangent = plane * zero;
       tangent /= tangent.head(NumMotion()).norm();
       tangents.push_back(std::move(tangent));
     }

@@ -2,7 +2,8 @@
 
 #include <cmath>
 
-#include "contact_path/contact/minimum_norm.h"
+#include "contact_path/linear/bordered_solver.h"
+#include "contact_path/linear/minimum_norm.h"
 
 namespace contact_path {
 namespace {
@@ -16,6 +17,37 @@ constexpr double kResidualTolerance = 1e-10;  // scaled force or length
 // unique where reactions are redundant, and acts on steps, so it leaves the converged point untouched.
 constexpr double kReactionWeight = 1.0 / 32.0;
 
+// Ratio of pivots below which equations may be redundant or leave more than a curve.
+constexpr double kClearlyRegular = 1e-8;
+
+// Shortest solutions of underdetermined equations. As a rule they describe a curve: then by LU, with a row added that
+// is not orthogonal to it, less what lies along the curve; otherwise by a rank-revealing QR.
+class ShortestStep {
+ public:
+  // transposed: unknowns x equations. False if the matrix is not finite.
+  bool Factorize(const Eigen::SparseMatrix<double>& transposed) {
+    const Eigen::Index unknowns = transposed.rows();
+    curve_ = lu_.FactorizeRegular(transposed, Eigen::VectorXd::LinSpaced(unknowns, 0.5, 1.0), kClearlyRegular);
+    if (!curve_) return qr_.Factorize(transposed);
+    along_ = lu_.Solve(Eigen::VectorXd::Zero(transposed.cols()), 1.0).normalized();
+    rank_ = transposed.cols();
+    return true;
+  }
+  Eigen::VectorXd Solve(const Eigen::VectorXd& right) const {
+    if (!curve_) return qr_.Solve(right);
+    const Eigen::VectorXd step = lu_.Solve(right, 0.0);
+    return step - along_.dot(step) * along_;
+  }
+  Eigen::Index Rank() const { return curve_ ? rank_ : qr_.Rank(); }
+
+ private:
+  BorderedSolver lu_;
+  MinimumNormSolver qr_;
+  bool curve_ = false;
+  Eigen::VectorXd along_;
+  Eigen::Index rank_ = 0;
+};
+
 }  // namespace
 
 NearestPoint FindNearestPoint(FixedStateSystem* system, const Eigen::VectorXd& start, const Eigen::VectorXd& wanted) {
@@ -23,7 +55,7 @@ NearestPoint FindNearestPoint(FixedStateSystem* system, const Eigen::VectorXd& s
   const Eigen::Index reactions = system->NumUnknowns() - size;
   NearestPoint result;
   result.x = start;
-  MinimumNormSolver solver;
+  ShortestStep solver;
   Eigen::SparseMatrix<double> scaled;
   Eigen::VectorXd residual;
   system->Residual(result.x, &residual);

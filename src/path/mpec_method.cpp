@@ -22,6 +22,9 @@ constexpr double kProgress = 0.05;
 // Without a change of state the path does not turn by more than 60 degrees in one increment.
 constexpr double kSmallestCosine = 0.5;
 
+// A start along which the load changes less, of the length moved, is a mechanism.
+constexpr double kStartRate = 1e-13;
+
 // Shares of the dissipation term in the aim. Small: the path is followed; larger where nothing but dissipation leads
 // on.
 constexpr double kDissipationShares[] = {0.2, 0.6, 1.0};
@@ -34,15 +37,26 @@ constexpr double kShortPath = 20.0;          // of the corner tolerance
 constexpr double kCornerShare = 0.04;        // of the wanted step: largest corner tolerance
 constexpr double kSmallestStepRatio = 1e-7;  // of the wanted step
 
-// Whether some contact is about to change its state, so that the path may bend here by any angle.
-bool AtLimit(const std::vector<ContactGeometry>& contacts, const PathPoint& point) {
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    const auto k = static_cast<Eigen::Index>(i);
-    const bool open = point.states[i] == ContactState::kOpen;
-    if ((open ? contacts[i].gap.Value(point.u) : point.rn[k]) <= kAtLimit) return true;
-    const double margin = contacts[i].friction * point.rn[k] - std::abs(point.rt[k]);
-    if (point.states[i] == ContactState::kStick && margin <= kAtLimit) return true;
-  }
+// Whether this contact is about to change its state, so that the path may bend here by any angle.
+bool AtLimit(const ContactGeometry& contact, const PathPoint& point, std::size_t i) {
+  const auto k = static_cast<Eigen::Index>(i);
+  const bool open = point.states[i] == ContactState::kOpen;
+  if ((open ? contact.gap.Value(point.u) : point.rn[k]) <= kAtLimit) return true;
+  return point.states[i] == ContactState::kStick && contact.friction * point.rn[k] - std::abs(point.rt[k]) <= kAtLimit;
+}
+
+bool SomeAtLimit(const std::vector<ContactGeometry>& contacts, const PathPoint& point) {
+  for (std::size_t i = 0; i < contacts.size(); ++i)
+    if (AtLimit(contacts[i], point, i)) return true;
+  return false;
+}
+
+// Whether a contact has another state than before, or has come to where it may change: the increment may have cut a
+// corner. A contact that slides on without a reaction, say, has lost it somewhere on the way.
+bool MayHaveCutCorner(const std::vector<ContactGeometry>& contacts, const PathPoint& from, const PathPoint& to) {
+  if (to.states != from.states) return true;
+  for (std::size_t i = 0; i < contacts.size(); ++i)
+    if (AtLimit(contacts[i], to, i) && !AtLimit(contacts[i], from, i)) return true;
   return false;
 }
 
@@ -163,10 +177,10 @@ void MpecMethod::Judge(const PathPoint& from, const Eigen::VectorXd& direction, 
     trial.verdict = Verdict::kTooLong;
   else if (moved < kProgress * length)
     trial.verdict = Verdict::kNoProgress;
-  else if (!started_ && (to.s - from.s) * options_.direction < 0.0)
+  else if (!started_ && (to.s - from.s) * options_.direction <= kStartRate * moved)
     trial.verdict = Verdict::kWrongDirection;
   else if (started_ && !bent_ && to.states == from.states && Direction(from, to).dot(direction) < kSmallestCosine &&
-           !AtLimit(model_.contacts, from))
+           !SomeAtLimit(model_.contacts, from))
     trial.verdict = Verdict::kTurnedBack;
   else
     trial.verdict = Verdict::kAccepted;
@@ -232,7 +246,7 @@ Advance MpecMethod::Next(const PathPoint& from, double longest) {
   for (int rejected = 0;; ++rejected) {
     Trial trial = started_ ? Try(from, direction_, length) : TryFirst(from, length);
     const PathPoint& to = trial.increment.point;
-    if (trial.verdict == Verdict::kAccepted && to.states != from.states &&
+    if (trial.verdict == Verdict::kAccepted && MayHaveCutCorner(model_.contacts, from, to) &&
         !ConfirmedByHalves(from, started_ ? direction_ : Direction(from, to), length, trial))
       trial.verdict = Verdict::kNotConfirmed;
     if (trial.verdict == Verdict::kCancelled || (cancelled_ && cancelled_())) {

@@ -1,7 +1,6 @@
 // Three hundred small random trusses with contacts, each traced in many ways: all must show the same path.
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -19,6 +18,7 @@
 #include "contact_path/path/model.h"
 #include "contact_path/path/trace.h"
 #include "contact_path/scene/scaling.h"
+#include "support/dense.h"
 #include "support/traced_path.h"
 #include "support/transformations.h"
 
@@ -475,12 +475,12 @@ class Neighbourhood {
     const Eigen::VectorXd x = piece_.system().Pack(point_);
     FixedStateSystem system = piece_.system();
     const Eigen::MatrixXd jacobian = Eigen::MatrixXd(system.TransposedJacobian(x)).transpose();
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(jacobian, Eigen::ComputeFullV);
+    const SingularValueDecomposition dense = Decompose(jacobian);
     const Eigen::Index motion = piece_.NumMotion();
-    for (Eigen::Index column = 0; column < svd.matrixV().cols(); ++column) {
-      const bool null = column >= svd.singularValues().size() || svd.singularValues()[column] < 1e-9;
+    for (Eigen::Index column = 0; column < dense.v.cols(); ++column) {
+      const bool null = column >= dense.values.size() || dense.values[column] < 1e-9;
       if (!null) continue;
-      const Eigen::VectorXd direction = svd.matrixV().col(column);
+      const Eigen::VectorXd direction = dense.v.col(column);
       if (direction.head(motion).norm() < 1e-9) continue;
       for (const double sign : {1.0, -1.0}) {
         const Eigen::VectorXd unit = sign / direction.head(motion).norm() * direction;
@@ -576,10 +576,6 @@ double DistanceFromPath(const Increment& row, const TracedPath& path, double* pl
 TEST(RandomPaths, IncrementsOfTheOtherMethodFollowThem) {
   constexpr unsigned kCompared = 12;
   constexpr double kArc = 0.16, kPolygon = 1e-6, kCorner = 5e-4;
-  // Where it leaves the path, at an event that turns it by more than a right angle: a neighbouring equilibrium is
-  // nearer.
-  const std::set<unsigned> parting = {12};
-  std::set<unsigned> parted;
   int nearer = 0, on_the_path = 0, increments = 0;
   for (unsigned seed = 1; seed <= kCompared; ++seed) {
     TraceRequest request = RandomRequest(seed);
@@ -591,36 +587,24 @@ TEST(RandomPaths, IncrementsOfTheOtherMethodFollowThem) {
     for (const double step : {0.04, 0.02}) {
       request.options.step = step;
       const TracedPath path = TraceArc(request, kArc);
-      double worst = 0.0, place = 0.0, before = 0.0;
+      double worst = 0.0, place = 0.0;
       for (const Increment& row : path.rows) {
         const double distance = DistanceFromPath(row, exact, &place);
         worst = std::max(worst, distance);
-        if (distance > kCorner) {
-          parted.insert(seed);
-          // Up to here it was on it; an event is next to there.
-          const bool at_event = std::any_of(exact.rows.begin(), exact.rows.end(), [&](const Increment& other) {
-            return other.kind != RowKind::kRegular && std::abs(other.arc_length - before) < 2.5 * step;
-          });
-          EXPECT_TRUE(at_event) << "seed " << seed << " parts at " << before;
-          break;
-        }
-        before = place;
+        EXPECT_LE(distance, kCorner) << "seed " << seed << " at " << place;
         ++increments;
       }
       farthest.push_back(worst);
     }
-    if (parted.count(seed) > 0) continue;
     std::cout << "seed " << seed << ": at most " << farthest[0] << " and, with shorter increments, " << farthest[1]
               << " from the path\n";
     if (farthest[1] <= kPolygon) ++on_the_path;
     if (farthest[1] <= 1.1 * farthest[0] + kPolygon) ++nearer;
   }
-  EXPECT_EQ(parted, parting);
   EXPECT_GE(on_the_path, 7);
-  EXPECT_GE(nearer, 10);
+  EXPECT_EQ(nearer, static_cast<int>(kCompared));
   std::cout << increments << " increments; on the path in " << on_the_path
-            << " scenes, not farther with shorter increments in " << nearer << ", parted in " << parted.size() << " of "
-            << kCompared << "\n";
+            << " scenes, not farther with shorter increments in " << nearer << " of " << kCompared << "\n";
 }
 
 }  // namespace

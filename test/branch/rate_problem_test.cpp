@@ -2,13 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
-#include <Eigen/QR>
+#include <optional>
 #include <vector>
 
-#include "contact_path/contact/minimum_norm.h"
+#include "contact_path/linear/minimum_norm.h"
 #include "contact_path/path/model.h"
 #include "contact_path/scene/lattice.h"
+#include "support/dense.h"
 #include "support/random.h"
 
 namespace contact_path {
@@ -33,9 +33,11 @@ class RestingColumn : public testing::Test {
   }
 
   RateProblem Condense(const States& states, const std::vector<int>& concerned) const {
-    return {model_.structure, model_.contacts,
-            point_,           states,
-            concerned,        Eigen::VectorXd::Unit(model_.structure.NumDofs() + 1, model_.structure.NumDofs())};
+    return Condense(states, concerned,
+                    Eigen::VectorXd::Unit(model_.structure.NumDofs() + 1, model_.structure.NumDofs()));
+  }
+  RateProblem Condense(const States& states, const std::vector<int>& concerned, const Eigen::VectorXd& arrival) const {
+    return {model_.structure, model_.contacts, point_, states, concerned, arrival};
   }
 
   // Load and motions and reactions of the concerned contacts, of each column of unknowns.
@@ -63,15 +65,14 @@ class RestingColumn : public testing::Test {
     for (Eigen::Index k = 0; k < rates.gap.size(); ++k)
       wanted.segment<4>(1 + 4 * k) << rates.gap[k], rates.slip[k], rates.rn[k], rates.rt[k];
     const Eigen::MatrixXd seen = Concerned(system, concerned, null_space);
-    const Eigen::VectorXd member =
-        null_space * Eigen::VectorXd(Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>(seen).solve(wanted));
+    const Eigen::VectorXd member = null_space * ShortestSolution(seen, wanted);
     EXPECT_LE((Concerned(system, concerned, member) - wanted).norm(), kExact);
     EXPECT_NEAR(member.head(motion).norm(), 1.0, kExact);
     const Eigen::MatrixXd forces = null_space.bottomRows(null_space.rows() - motion + 1);
-    Eigen::FullPivLU<Eigen::MatrixXd> lu(forces);
-    lu.setThreshold(1e-9);
-    if (lu.rank() == 0 || lu.rank() == forces.cols()) return;
-    const Eigen::MatrixXd rigid = null_space * lu.kernel();
+    const SingularValueDecomposition dense = Decompose(forces);
+    const Eigen::Index rank = dense.values[0] > 1e-9 ? dense.Rank(1e-9) : 0;
+    if (rank == 0 || rank == forces.cols()) return;
+    const Eigen::MatrixXd rigid = null_space * dense.v.rightCols(forces.cols() - rank);
     EXPECT_LE((rigid.topRows(motion).transpose() * member.head(motion)).norm(), kExact);
   }
 
@@ -145,6 +146,31 @@ TEST_F(RestingColumn, OtherContactsKeepTheirStates) {
       ExpectRatesOfTheWhole(problem, states, concerned, &compared);
     }
   EXPECT_GT(compared, 5);
+}
+
+TEST_F(RestingColumn, UniqueRatesMayBeOrthogonalToTheArrival) {
+  const std::vector<int> concerned = {0, 1, 2, 3, 4};
+  const States states = {ContactState::kStick, ContactState::kSlipPlus, ContactState::kStick, ContactState::kOpen,
+                         ContactState::kSlipPlus};
+  FixedStateSystem system(model_.structure, model_.contacts);
+  system.SetStates(states, Eigen::VectorXd::Zero(5));
+  MinimumNormSolver solver;
+  ASSERT_TRUE(solver.Factorize(system.TransposedJacobian(system.Pack(point_))));
+  ASSERT_EQ(solver.NullSpace().cols(), 1);
+  const Eigen::VectorXd motion = solver.NullSpace().col(0).head(model_.structure.NumDofs() + 1).normalized();
+  Random random(4);
+  Eigen::VectorXd arrival = random.Vector(motion.size(), -1.0, 1.0);
+  arrival -= arrival.dot(motion) * motion;
+  arrival.normalize();
+
+  const std::optional<CondensedRates> expected = Condense(states, concerned).UniqueRates(states);
+  const std::optional<CondensedRates> rates = Condense(states, concerned, arrival).UniqueRates(states);
+  ASSERT_TRUE(expected && rates);
+  EXPECT_NEAR(rates->along, 0.0, kExact);
+  const double sign = rates->load * expected->load > 0.0 ? 1.0 : -1.0;
+  EXPECT_NEAR(sign * rates->load, expected->load, kExact);
+  EXPECT_LE((sign * rates->slip - expected->slip).norm(), kExact);
+  EXPECT_LE((sign * rates->rn - expected->rn).norm(), kExact);
 }
 
 TEST_F(RestingColumn, NamesWhatIsBroken) {

@@ -13,6 +13,7 @@
 #include "contact_path/branch/event_watch.h"
 #include "contact_path/mpec/ipopt_solver.h"
 #include "contact_path/path/model.h"
+#include "support/dense.h"
 #include "support/random.h"
 #include "support/reference_cases.h"
 #include "support/traced_path.h"
@@ -286,9 +287,9 @@ struct LinearProblem {
           equations(row + 1, rn_column) = combination[Size(i)] == kSlipPlus ? mu : -mu;
       }
     }
-    const Eigen::JacobiSVD<MatrixXd> svd(equations, Eigen::ComputeFullV);
-    *nearest = std::min(*nearest, svd.singularValues()[4 * n() - 1]);
-    const VectorXd null_vector = svd.matrixV().col(size - 1);
+    const SingularValueDecomposition dense = Decompose(equations);
+    *nearest = std::min(*nearest, dense.values[4 * n() - 1]);
+    const VectorXd null_vector = dense.v.col(size - 1);
     const double norm = null_vector.head(2 * n() + 1).norm();
     *nearest = std::min(*nearest, norm);
     for (const double sign : {1.0, -1.0}) {

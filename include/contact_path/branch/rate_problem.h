@@ -52,9 +52,10 @@ class RateProblem {
  private:
   Eigen::MatrixXd Equations(const std::vector<ContactState>& states) const;
   std::optional<CondensedRates> RatesOf(Eigen::VectorXd z) const;
-  // Solutions of equations . z = 0, not scaled; empty where there is none of the kind.
-  Eigen::VectorXd UniqueSolution(const Eigen::MatrixXd& equations) const;
-  Eigen::VectorXd ShortestSolution(const Eigen::MatrixXd& equations) const;
+  // Columns span the solutions of equations . z = 0; they are not scaled.
+  Eigen::MatrixXd Kernel(const Eigen::MatrixXd& equations) const;
+  // Of a kernel of several columns, not scaled; empty where it cannot be told.
+  Eigen::VectorXd ShortestMember(const Eigen::MatrixXd& kernel) const;
 
   const std::vector<ContactGeometry>& contacts_;
   const PathPoint& point_;

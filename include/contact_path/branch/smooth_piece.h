@@ -5,9 +5,9 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "contact_path/branch/bordered_solver.h"
 #include "contact_path/branch/polynomial.h"
 #include "contact_path/contact/fixed_state_system.h"
+#include "contact_path/linear/bordered_solver.h"
 
 namespace contact_path {
 

@@ -1,10 +1,10 @@
-#include "contact_path/contact/minimum_norm.h"
+#include "contact_path/linear/minimum_norm.h"
 
 #include <gtest/gtest.h>
 
-#include <Eigen/QR>
 #include <limits>
 
+#include "support/dense.h"
 #include "support/random.h"
 
 namespace contact_path {
@@ -21,12 +21,12 @@ Eigen::MatrixXd RandomMatrix(Random* random, Eigen::Index rows, Eigen::Index col
 
 class MinimumNorm : public testing::Test {
  protected:
-  // Solves a x = b and compares with the complete orthogonal decomposition of the dense matrix. The null space, too.
+  // Solves a x = b and compares with the singular value decomposition of the dense matrix. The null space, too.
   void ExpectShortestSolution(const Eigen::MatrixXd& a, const Eigen::VectorXd& b, Eigen::Index rank) {
     ASSERT_TRUE(solver_.Factorize(a.transpose().sparseView(1.0, 0.0)));
     EXPECT_EQ(solver_.Rank(), rank);
     const Eigen::VectorXd x = solver_.Solve(b);
-    const Eigen::VectorXd expected = a.completeOrthogonalDecomposition().solve(b);
+    const Eigen::VectorXd expected = ShortestSolution(a, b);
     EXPECT_LE((a * x - b).norm(), kRounding * (1.0 + b.norm()));
     EXPECT_LE((x - expected).norm(), kRounding * (1.0 + expected.norm()));
     const Eigen::MatrixXd null_space = solver_.NullSpace();

@@ -1,6 +1,6 @@
 // Minimum-norm solution of sparse systems that may be underdetermined, redundant or both.
-#ifndef CONTACT_PATH_CONTACT_MINIMUM_NORM_H_
-#define CONTACT_PATH_CONTACT_MINIMUM_NORM_H_
+#ifndef CONTACT_PATH_LINEAR_MINIMUM_NORM_H_
+#define CONTACT_PATH_LINEAR_MINIMUM_NORM_H_
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
@@ -35,4 +35,4 @@ class MinimumNormSolver {
 
 }  // namespace contact_path
 
-#endif  // CONTACT_PATH_CONTACT_MINIMUM_NORM_H_
+#endif  // CONTACT_PATH_LINEAR_MINIMUM_NORM_H_

@@ -1,6 +1,6 @@
 // Linear systems of a smooth piece: the Jacobian of the fixed-state equations with one row added.
-#ifndef CONTACT_PATH_BRANCH_BORDERED_SOLVER_H_
-#define CONTACT_PATH_BRANCH_BORDERED_SOLVER_H_
+#ifndef CONTACT_PATH_LINEAR_BORDERED_SOLVER_H_
+#define CONTACT_PATH_LINEAR_BORDERED_SOLVER_H_
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
@@ -31,7 +31,7 @@ class BorderedSolver {
   // Solves M x = (b, last). The second one allocates nothing where M is regular and *x has its size.
   Eigen::VectorXd Solve(const Eigen::VectorXd& b, double last) const;
   void Solve(const Eigen::VectorXd& b, double last, Eigen::VectorXd* x) const;
-  // Solves M x = (b, 0) for each column of B; *x: unknowns x columns.
+  // Solves M x = (b, 0) for each column of B, where M is regular; *x: unknowns x columns.
   void SolveAll(const Eigen::MatrixXd& B, Eigen::MatrixXd* x) const;
 
   // unknowns - rank of M: 0 if regular.
@@ -48,4 +48,4 @@ class BorderedSolver {
 
 }  // namespace contact_path
 
-#endif  // CONTACT_PATH_BRANCH_BORDERED_SOLVER_H_
+#endif  // CONTACT_PATH_LINEAR_BORDERED_SOLVER_H_

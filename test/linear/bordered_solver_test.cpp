@@ -1,11 +1,12 @@
-#include "contact_path/branch/bordered_solver.h"
+#include "contact_path/linear/bordered_solver.h"
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <cmath>
 #include <limits>
 
+#include "support/dense.h"
 #include "support/random.h"
 
 namespace contact_path {
@@ -36,13 +37,6 @@ MatrixXd Bordered(const MatrixXd& jacobian, const VectorXd& row) {
   return matrix;
 }
 
-// What the shortest solution of a consistent system is.
-VectorXd ShortestSolution(const MatrixXd& matrix, const VectorXd& b) {
-  Eigen::JacobiSVD<MatrixXd> svd(matrix, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  svd.setThreshold(1e-10);
-  return svd.solve(b);
-}
-
 TEST(BorderedSolver, SolvesRegularSystems) {
   Random random(1);
   double worst = 0.0;
@@ -51,9 +45,8 @@ TEST(BorderedSolver, SolvesRegularSystems) {
     const MatrixXd jacobian = RandomMatrix(&random, n - 1, n);
     const VectorXd row = random.Vector(n, -1.0, 1.0), b = random.Vector(n, -1.0, 1.0);
     const MatrixXd matrix = Bordered(jacobian, row);
-    const Eigen::JacobiSVD<MatrixXd> svd(matrix);
-    const double condition = svd.singularValues()[0] / svd.singularValues()[n - 1];
-    if (condition > 1e4) continue;
+    const VectorXd values = Decompose(matrix).values;
+    if (values[0] > 1e4 * values[n - 1]) continue;
     BorderedSolver solver;
     ASSERT_TRUE(solver.Factorize(Transposed(jacobian), row));
     EXPECT_EQ(solver.Deficiency(), 0);
@@ -87,13 +80,13 @@ TEST(BorderedSolver, ShortestSolutionWhereSingular) {
     jacobian.row(n - 3) = jacobian.row(0);
     const VectorXd row = random.Vector(n, -1.0, 1.0);
     const MatrixXd matrix = Bordered(jacobian, row);
-    Eigen::JacobiSVD<MatrixXd> svd(matrix);
-    svd.setThreshold(1e-10);
-    if (svd.singularValues()[0] > 1e4 * svd.singularValues()[svd.rank() - 1]) continue;
+    const SingularValueDecomposition dense = Decompose(matrix);
+    const Index rank = dense.Rank(1e-10);
+    if (dense.values[0] > 1e4 * dense.values[rank - 1]) continue;
     const VectorXd b = matrix * random.Vector(n, -1.0, 1.0);
     BorderedSolver solver;
     ASSERT_TRUE(solver.Factorize(Transposed(jacobian), row));
-    EXPECT_EQ(solver.Deficiency(), n - svd.rank());
+    EXPECT_EQ(solver.Deficiency(), n - rank);
     EXPECT_EQ(solver.DeterminantSign(), 0);
     const VectorXd x = solver.Solve(b.head(n - 1), b[n - 1]);
     worst = std::max(worst, (x - ShortestSolution(matrix, b)).norm() / (1.0 + x.norm()));
@@ -109,8 +102,8 @@ TEST(BorderedSolver, ShortestSolutionWhereNotSquare) {
     const MatrixXd jacobian = RandomMatrix(&random, unknowns - 1 - missing, unknowns);
     const VectorXd row = random.Vector(unknowns, -1.0, 1.0);
     const MatrixXd matrix = Bordered(jacobian, row);
-    Eigen::JacobiSVD<MatrixXd> svd(matrix);
-    if (svd.singularValues()[0] > 1e4 * svd.singularValues()[matrix.rows() - 1]) continue;
+    const VectorXd values = Decompose(matrix).values;
+    if (values[0] > 1e4 * values[matrix.rows() - 1]) continue;
     BorderedSolver solver;
     ASSERT_TRUE(solver.Factorize(Transposed(jacobian), row));
     EXPECT_EQ(solver.Deficiency(), missing);

@@ -1,4 +1,4 @@
-#include "contact_path/contact/minimum_norm.h"
+#include "contact_path/linear/minimum_norm.h"
 
 #include <Eigen/SPQRSupport>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "contact_path/branch/bordered_solver.h"
+#include "contact_path/linear/bordered_solver.h"
 
 #include <klu.h>
 
@@ -6,13 +6,12 @@
 #include <cmath>
 #include <vector>
 
-#include "contact_path/contact/minimum_norm.h"
+#include "contact_path/linear/minimum_norm.h"
 
 namespace contact_path {
 namespace {
 
 constexpr double kGrowth = 1e-4;  // reciprocal growth of the pivots below which they are chosen anew
-constexpr int kAtOnce = 64;       // right sides
 
 // Sign of a permutation of 0..n-1.
 int Parity(const int* permutation, int n) {
@@ -162,16 +161,10 @@ void BorderedSolver::Solve(const Eigen::VectorXd& b, double last, Eigen::VectorX
 
 void BorderedSolver::SolveAll(const Eigen::MatrixXd& B, Eigen::MatrixXd* x) const {
   x->resize(factors_->matrix.rows(), B.cols());
-  if (!factors_->regular) {
-    for (Eigen::Index k = 0; k < B.cols(); ++k) x->col(k) = Solve(B.col(k), 0.0);
-    return;
-  }
   x->topRows(B.rows()) = B;
   x->bottomRows(1).setZero();
-  const auto size = static_cast<int>(x->rows());
-  for (Eigen::Index k = 0; k < B.cols(); k += kAtOnce)
-    klu_tsolve(factors_->symbolic, factors_->numeric, size,
-               static_cast<int>(std::min<Eigen::Index>(kAtOnce, B.cols() - k)), x->col(k).data(), &factors_->common);
+  klu_tsolve(factors_->symbolic, factors_->numeric, static_cast<int>(x->rows()), static_cast<int>(x->cols()), x->data(),
+             &factors_->common);
 }
 
 Eigen::Index BorderedSolver::Deficiency() const {
