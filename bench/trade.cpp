@@ -1,8 +1,9 @@
 // Error against time: traces each scene with many settings and measures how far their rows, and the lines between the
-// rows, are from the exact path. Writes one line of CSV per setting.
+// rows, are from the exact path. Writes one line of CSV per setting. A path that takes too long is cut short; its time
+// is then that of the whole path, by arc length.
 //
-// The exact path: method branch with a hundredth of the step of the preset, interpolated between its rows by a
-// polynomial of degree 5 in arc length, which never reaches over an event.
+// The exact path: method branch with a hundredth of the step of the preset (a tenth for big scenes), interpolated
+// between its rows by a polynomial of degree 5 in arc length, which never reaches over an event.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -27,6 +28,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr double kLongest = 20.0;  // seconds for one path
+
 struct Row {
   Eigen::VectorXd x;  // (u, s), scaled
   double load = 0.0;  // in the scene's unit
@@ -41,6 +44,7 @@ struct Path {
   double seconds = 0.0;
   long iterations = 0, factorisations = 0, rejected = 0;
   std::string end;
+  bool cut = false;  // for want of time
 };
 
 struct Setting {
@@ -49,12 +53,13 @@ struct Setting {
   double minimum = 0.0;  // eps_min of mpec; 0: of the preset
 };
 
-std::unique_ptr<PathMethod> MakeMethod(const Model& model, const TraceOptions& options, const Setting& setting) {
+std::unique_ptr<PathMethod> MakeMethod(const Model& model, const TraceOptions& options, const Setting& setting,
+                                       const std::function<bool()>& cancelled = nullptr) {
   if (options.method == Method::kBranch)
-    return std::make_unique<BranchMethod>(model, BranchOptions::For(options, model.structure.NumDofs()), nullptr);
+    return std::make_unique<BranchMethod>(model, BranchOptions::For(options, model.structure.NumDofs()), cancelled);
   MpecOptions mpec = MpecOptions::For(options, model.structure.NumDofs());
   if (setting.minimum > 0.0) mpec.regularisation.minimum = setting.minimum;
-  return std::make_unique<MpecMethod>(model, mpec, nullptr);
+  return std::make_unique<MpecMethod>(model, mpec, cancelled);
 }
 
 TraceOptions OptionsOf(const TraceRequest& request, const Setting& setting) {
@@ -68,12 +73,14 @@ TraceOptions OptionsOf(const TraceRequest& request, const Setting& setting) {
 }
 
 // Row 0 is not timed: it is the same for all.
-Path Follow(const TraceRequest& request, const Model& model, const PathPoint& start, const Setting& setting) {
+Path Follow(const TraceRequest& request, const Model& model, const PathPoint& start, const Setting& setting,
+            double longest) {
   Path path;
   const TraceOptions options = OptionsOf(request, setting);
   const StopTest stop(request);
   const Clock::time_point begin = Clock::now();
-  const std::unique_ptr<PathMethod> method = MakeMethod(model, options, setting);
+  const auto late = [&] { return std::chrono::duration<double>(Clock::now() - begin).count() > longest; };
+  const std::unique_ptr<PathMethod> method = MakeMethod(model, options, setting, late);
   const auto append = [&](const PathPoint& point, const AcceptedPoint* accepted) {
     Row row;
     row.x.resize(point.u.size() + 1);
@@ -107,11 +114,12 @@ Path Follow(const TraceRequest& request, const Model& model, const PathPoint& st
       row.load_factor = state.load_factor;
       row.positions = state.positions;
       const StopCriterion* criterion = stop.FirstThatHolds(row);
-      ended = ended || criterion != nullptr || path.rows.size() > 100000;
+      ended = ended || criterion != nullptr;
       if (criterion != nullptr) path.end = "stop";
     }
     if (advance.ended && !ended) path.end = advance.message;
-    ended = ended || advance.ended;
+    path.cut = !ended && (late() || path.rows.size() > 100000);
+    ended = ended || path.cut || advance.ended;
   }
   path.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   return path;
@@ -228,8 +236,18 @@ double LimitError(const Path& exact, const Path& path) {
   return largest > 0.0 ? worst / largest : 0.0;
 }
 
-void Measure(const std::string& name, const TraceRequest& request, double reference_share,
-             const std::vector<Setting>& settings) {
+// unit: what the steps of a small scene are multiplied by.
+std::vector<Setting> AllSettings(double unit) {
+  std::vector<Setting> settings;
+  for (const char* method : {"branch", "mpec"})
+    for (const char* accuracy : {"fast", "balanced", "accurate"}) settings.push_back({method, accuracy, 0.0, 0.0});
+  for (const double step : {0.2, 0.1, 0.04, 0.01, 0.0025}) settings.push_back({"branch", "balanced", unit * step, 0.0});
+  for (const double step : {0.1, 0.04, 0.01}) settings.push_back({"mpec", "balanced", unit * step, 0.0});
+  for (const double minimum : {1e-4, 1e-6, 1e-10, 1e-12}) settings.push_back({"mpec", "balanced", 0.0, minimum});
+  return settings;
+}
+
+void Measure(const std::string& name, const TraceRequest& request) {
   const Model model(request.scene, CharacteristicScales(request.scene));
   const Preload preload = TracePreload(model, 100000, [](const Model& of) {
     return std::make_unique<BranchMethod>(of, BranchOptions::For(TraceOptions(), of.structure.NumDofs()), nullptr);
@@ -238,14 +256,16 @@ void Measure(const std::string& name, const TraceRequest& request, double refere
     std::fprintf(stderr, "%s: %s\n", name.c_str(), preload.message.c_str());
     return;
   }
-  const double preset = 0.02 * AutomaticStepGrowth(model.structure.NumDofs());
-  const Path exact = Follow(request, model, preload.point, {"branch", "balanced", reference_share * preset, 0.0});
+  const double growth = AutomaticStepGrowth(model.structure.NumDofs()), preset = 0.02 * growth;
+  const double reference_share = growth > 1.0 ? 0.1 : 0.01;  // of the step of the preset: big scenes take long
+  const Path exact = Follow(request, model, preload.point, {"branch", "balanced", reference_share * preset, 0.0},
+                            std::numeric_limits<double>::infinity());
   const Curve curve(exact);
-  for (const Setting& setting : settings) {
-    Path path = Follow(request, model, preload.point, setting);
+  for (const Setting& setting : AllSettings(growth)) {
+    Path path = Follow(request, model, preload.point, setting, kLongest);
     const double total = path.seconds;
     for (double spent = total; spent < 0.2 && spent < 50.0 * total;) {
-      const Path again = Follow(request, model, preload.point, setting);
+      const Path again = Follow(request, model, preload.point, setting, kLongest);
       path.seconds = std::min(path.seconds, again.seconds);
       spent += again.seconds;
     }
@@ -258,6 +278,7 @@ void Measure(const std::string& name, const TraceRequest& request, double refere
         row_error = std::max(row_error, curve.Distance(row.x, &near, 4.0 * preset + 4.0 * setting.step, &there));
         dissipation_error = std::abs(row.dissipation - there);
       }
+    if (path.cut) path.seconds *= exact.rows.back().arc_length / path.rows.back().arc_length;
     const double rows = static_cast<double>(path.rows.size() - 1);
     const double total_dissipation = exact.rows.back().dissipation;
     if (total_dissipation > 0.0) dissipation_error /= total_dissipation;
@@ -265,21 +286,12 @@ void Measure(const std::string& name, const TraceRequest& request, double refere
                 setting.accuracy.c_str(), setting.step, setting.minimum, path.rows.size(), path.seconds, row_error,
                 LineError(exact, path), LimitError(exact, path), dissipation_error,
                 static_cast<double>(path.iterations) / rows, static_cast<double>(path.factorisations) / rows,
-                path.rejected, path.end == "stop" ? "stop" : "early");
+                path.rejected,
+                path.cut             ? "cut"
+                : path.end == "stop" ? "stop"
+                                     : "early");
     std::fflush(stdout);
   }
-}
-
-std::vector<Setting> AllSettings(bool big) {
-  std::vector<Setting> settings;
-  for (const char* method : {"branch", "mpec"})
-    for (const char* accuracy : {"fast", "balanced", "accurate"})
-      if (!(big && method[0] == 'm' && accuracy[0] == 'a')) settings.push_back({method, accuracy, 0.0, 0.0});
-  if (big) return settings;
-  for (const double step : {0.2, 0.1, 0.04, 0.01, 0.0025}) settings.push_back({"branch", "balanced", step, 0.0});
-  for (const double step : {0.1, 0.04, 0.01}) settings.push_back({"mpec", "balanced", step, 0.0});
-  for (const double minimum : {1e-4, 1e-6, 1e-10, 1e-12}) settings.push_back({"mpec", "balanced", 0.0, minimum});
-  return settings;
 }
 
 // The same wall four times, what it may touch being another matter each time.
@@ -344,8 +356,7 @@ int main(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     const std::string file = argv[i];
     const std::string name = file.substr(file.rfind('/') + 1, file.rfind(".yaml") - file.rfind('/') - 1);
-    const bool lattice = name == "lattice";
-    Measure(name, ReadTraceRequestFile(file), lattice ? 0.1 : 0.01, AllSettings(lattice));
+    Measure(name, ReadTraceRequestFile(file));
   }
   return 0;
 }

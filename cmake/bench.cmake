@@ -1,4 +1,4 @@
-# Benchmarks: scripts/bench builds and runs them.
+# Benchmarks: scripts/bench builds and runs them. Those of streaming need ROS.
 find_package(benchmark REQUIRED)
 find_library(UMFPACK_LIBRARY umfpack REQUIRED)
 
@@ -9,3 +9,8 @@ add_executable(contact_path_benchmarks bench/benchmarks.cpp bench/solvers.cpp be
 target_include_directories(contact_path_benchmarks SYSTEM PRIVATE ${SUITESPARSE_INCLUDE_DIR})
 target_link_libraries(contact_path_benchmarks PRIVATE contact_path_core contact_path_warnings benchmark::benchmark
   ${UMFPACK_LIBRARY} ${SPQR_LIBRARY} ${CHOLMOD_LIBRARY} ${KLU_LIBRARY})
+
+if(CONTACT_PATH_ROS)
+  add_executable(contact_path_streaming bench/streaming.cpp)
+  target_link_libraries(contact_path_streaming PRIVATE contact_path_ros contact_path_warnings)
+endif()

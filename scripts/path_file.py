@@ -1,5 +1,6 @@
 """Reads the path of a trace from the files that it leaves: CSV tables and bags."""
 import csv
+import itertools
 import os
 
 KINDS = ('start', 'regular', 'smooth_limit', 'corner_limit', 'contact_event', 'bifurcation')
@@ -7,6 +8,8 @@ KINDS = ('start', 'regular', 'smooth_limit', 'corner_limit', 'contact_event', 'b
 
 class Path:
     """Rows as dictionaries with the columns of the CSV: kind and states as text, all others numbers.
+
+    Where a message carries no positions and contacts (full_state_every), these numbers are nan and the states ''.
 
     scene: as in a scene file, {'nodes': [{'name': ..}, ..], ..}, as far as it is drawn; None where it is not known (CSV).
     """
@@ -85,11 +88,15 @@ def row_of(scene, message):
     kinds = constants(message, KINDS)
     row = {key: getattr(message, key) for key in ('index', 'load_factor', 'arc_length')}
     row['kind'] = kinds[message.kind]
-    for node, x, y in zip(scene['nodes'], message.x, message.y):
+    nan = float('nan')
+    for node, x, y in itertools.zip_longest(scene['nodes'], message.x, message.y, fillvalue=nan):
         row['x_' + node['name']] = x
         row['y_' + node['name']] = y
-    for contact, state in zip(scene['contacts'], message.contacts):
+    for contact, state in itertools.zip_longest(scene['contacts'], message.contacts):
         name = contact['node'] + '@' + contact['obstacle']
+        if state is None:
+            row.update({'gap_' + name: nan, 'rn_' + name: nan, 'rt_' + name: nan, 'state_' + name: ''})
+            continue
         states = constants(state, ('open', 'stick', 'slip+', 'slip-', 'closed'))
         row.update({'gap_' + name: state.gap, 'rn_' + name: state.rn, 'rt_' + name: state.rt,
                     'state_' + name: states[state.state]})

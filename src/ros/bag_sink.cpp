@@ -13,19 +13,21 @@ struct BagSink::Implementation {
   explicit Implementation(const std::string& file) : recorder(file, std::string("/") + names::kNode) {}
 
   BagRecorder recorder;
+  int full_state_every = 0;
   std::uint32_t increments = 0;
 };
 
 BagSink::BagSink(const std::string& file, const TraceRequest& request) {
   ros::Time::init();  // wall time: there is no node here
   implementation_ = std::make_unique<Implementation>(file);
+  implementation_->full_state_every = request.options.full_state_every;
   implementation_->recorder.WriteRequest(ToMessage(request));
 }
 
 BagSink::~BagSink() = default;
 
 void BagSink::Add(const Increment& increment) {
-  contact_path_msgs::Increment message = ToMessage(increment);
+  contact_path_msgs::Increment message = ToMessage(increment, implementation_->full_state_every);
   message.header.stamp = StampNow();
   message.header.seq = implementation_->increments++;
   implementation_->recorder.WriteIncrement(message);

@@ -1,5 +1,6 @@
 #include "contact_path/ros/convert.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <limits>
@@ -170,6 +171,7 @@ TraceRequest FromMessage(const msgs::Scene& scene, const msgs::TraceOptions& opt
   request.options.direction = options.direction;
   request.options.step = options.step;
   request.options.max_increments = options.max_increments;
+  request.options.full_state_every = options.full_state_every;
   for (const msgs::StopCriterion& stop : options.stop) {
     request.options.stop.push_back({stop.quantity, stop.when, stop.value});
   }
@@ -231,6 +233,7 @@ msgs::TraceRequest ToMessage(const TraceRequest& request) {
   message.options.direction = request.options.direction;
   message.options.step = request.options.step;
   message.options.max_increments = request.options.max_increments;
+  message.options.full_state_every = request.options.full_state_every;
   for (const StopCriterion& stop : request.options.stop) {
     msgs::StopCriterion& to = message.options.stop.emplace_back();
     to.quantity = stop.quantity;
@@ -246,22 +249,27 @@ msgs::TraceRequest ToMessage(const TraceRequest& request) {
   return message;
 }
 
-msgs::Increment ToMessage(const Increment& increment) {
+msgs::Increment ToMessage(const Increment& increment, int full_state_every) {
   msgs::Increment message;
   message.index = ToCount(increment.index);
   message.load_factor = increment.load_factor;
   message.arc_length = increment.arc_length;
   message.kind = ConstantOf(kRowKinds, increment.kind);
-  for (std::size_t i = 0; i + 1 < increment.positions.size(); i += 2) {
-    message.x.push_back(increment.positions[i]);
-    message.y.push_back(increment.positions[i + 1]);
-  }
-  for (const ContactRecord& contact : increment.contacts) {
-    msgs::ContactState& to = message.contacts.emplace_back();
-    to.gap = contact.gap;
-    to.rn = contact.rn;
-    to.rt = contact.rt;
-    to.state = ConstantOf(kContactStates, contact.state);
+  if (increment.kind != RowKind::kRegular || increment.index % std::max(full_state_every, 1) == 0) {
+    message.x.reserve(increment.positions.size() / 2);
+    message.y.reserve(increment.positions.size() / 2);
+    for (std::size_t i = 0; i + 1 < increment.positions.size(); i += 2) {
+      message.x.push_back(increment.positions[i]);
+      message.y.push_back(increment.positions[i + 1]);
+    }
+    message.contacts.reserve(increment.contacts.size());
+    for (const ContactRecord& contact : increment.contacts) {
+      msgs::ContactState& to = message.contacts.emplace_back();
+      to.gap = contact.gap;
+      to.rn = contact.rn;
+      to.rt = contact.rt;
+      to.state = ConstantOf(kContactStates, contact.state);
+    }
   }
   message.dissipation = increment.dissipation;
   message.strain_energy = increment.strain_energy;

@@ -163,6 +163,7 @@ void TraceService::Serve(const Request& request, Response* response) {
   status_.bag = response->bag;
   PublishStatus();
 
+  full_state_every_ = core_request.options.full_state_every;
   RunTrace(core_request, bag.get(), response);
   response->increments = status_.increments;
   response->end_reason_name = EndReasonName(response->end_reason);
@@ -206,7 +207,7 @@ void TraceService::RunTrace(const TraceRequest& request, BagRecorder* bag, Respo
 }
 
 void TraceService::TakeIncrement(const Increment& increment, BagRecorder* bag) {
-  contact_path_msgs::Increment message = ToMessage(increment);
+  contact_path_msgs::Increment message = ToMessage(increment, full_state_every_);
   message.header.stamp = StampNow();
   // What the publisher makes of it on the wire: the recorded message is the one that subscribers get.
   message.header.seq = increments_published_;

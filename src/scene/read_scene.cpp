@@ -265,7 +265,8 @@ void Read(Reader& in, const YamlValue& value, const std::string& path, TraceOpti
              {in.Word("method", ParseMethod, "must be branch or mpec", options.method),
               in.Word("accuracy", ParseAccuracy, "must be fast, balanced or accurate", options.accuracy),
               in.Number("direction", options.direction), in.Number("step", options.step),
-              in.Integer("max_increments", options.max_increments), in.List("stop", options.stop),
+              in.Integer("max_increments", options.max_increments),
+              in.Integer("full_state_every", options.full_state_every), in.List("stop", options.stop),
               in.List("branch_choices", options.branch_choices)});
 }
 

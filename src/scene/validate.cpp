@@ -338,14 +338,17 @@ class Checker {
     }
   }
 
+  void CheckCount(const std::string& key, int count) {
+    if (count < 0) Add(key, std::to_string(count), "must be >= 0");
+  }
+
   void CheckOptions() {
     CheckNumber("options.direction", options_.direction);
     if (CheckNumber("options.step", options_.step) && options_.step < 0.0) {
       Add("options.step", NumberText(options_.step), "must be >= 0");
     }
-    if (options_.max_increments < 0) {
-      Add("options.max_increments", std::to_string(options_.max_increments), "must be >= 0");
-    }
+    CheckCount("options.max_increments", options_.max_increments);
+    CheckCount("options.full_state_every", options_.full_state_every);
     for (std::size_t i = 0; i < options_.stop.size(); ++i) {
       const StopCriterion& stop = options_.stop[i];
       const std::string key = Indexed("options.stop", i);

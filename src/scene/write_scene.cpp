@@ -105,6 +105,7 @@ void WriteOptions(const TraceOptions& options, YAML::Emitter* out) {
   *out << YAML::Key << "direction" << YAML::Value << options.direction;
   *out << YAML::Key << "step" << YAML::Value << options.step;
   *out << YAML::Key << "max_increments" << YAML::Value << options.max_increments;
+  *out << YAML::Key << "full_state_every" << YAML::Value << options.full_state_every;
   WriteList("stop", options.stop, out, [](const StopCriterion& stop, Line& line) {
     line.Text("quantity", stop.quantity);
     line.Text("when", stop.when);

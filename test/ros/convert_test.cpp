@@ -45,6 +45,7 @@ TraceRequest FullRequest() {
   request.options.direction = -1.0;
   request.options.step = 0.25;
   request.options.max_increments = 18;
+  request.options.full_state_every = 24;
   request.options.stop = {{"b.x", ">", 19.0}, {"load_factor", "<", 20.0}};
   request.options.branch_choices = {{21, 22, 23}};
   return request;
@@ -91,6 +92,7 @@ void ExpectFullRequest(const TraceRequest& request) {
   EXPECT_EQ(options.direction, -1.0);
   EXPECT_EQ(options.step, 0.25);
   EXPECT_EQ(options.max_increments, 18);
+  EXPECT_EQ(options.full_state_every, 24);
   ASSERT_EQ(options.stop.size(), 2U);
   EXPECT_EQ(options.stop[0].quantity, "b.x");
   EXPECT_EQ(options.stop[0].when, ">");
@@ -243,6 +245,28 @@ TEST(ConvertTest, IncrementMessageHoldsEveryFieldUnderItsName) {
   EXPECT_EQ(message.event.concerned, 38U);
   EXPECT_FALSE(message.event.complete);
   EXPECT_EQ(message.event.null_vector, (std::vector<double>{39.0, 40.0, 41.0, 42.0}));
+}
+
+TEST(ConvertTest, RegularIncrementsMayLeaveTheirStateOut) {
+  Increment increment = FullIncrement();
+  const auto has_state = [&](int index, RowKind kind, int every) {
+    increment.index = index;
+    increment.kind = kind;
+    const msgs::Increment message = ToMessage(increment, every);
+    EXPECT_EQ(message.index, static_cast<std::uint32_t>(index));
+    EXPECT_EQ(message.dissipation, increment.dissipation);
+    EXPECT_EQ(message.x.empty(), message.contacts.empty());
+    EXPECT_EQ(message.x.empty(), message.y.empty());
+    return !message.x.empty();
+  };
+  for (const int every : {0, 1}) EXPECT_TRUE(has_state(7, RowKind::kRegular, every));
+  EXPECT_TRUE(has_state(0, RowKind::kStart, 3));
+  EXPECT_FALSE(has_state(1, RowKind::kRegular, 3));
+  EXPECT_FALSE(has_state(2, RowKind::kRegular, 3));
+  EXPECT_TRUE(has_state(3, RowKind::kRegular, 3));
+  for (const RowKind kind :
+       {RowKind::kSmoothLimit, RowKind::kCornerLimit, RowKind::kContactEvent, RowKind::kBifurcation})
+    EXPECT_TRUE(has_state(4, kind, 3));
 }
 
 TEST(ConvertTest, IncrementSurvivesTheWayThroughMessages) {

@@ -69,6 +69,7 @@ const std::vector<std::string> kLines = {
     "  - quantity: b.x",                                            // 48
     "    when: \">\"",                                              // 49
     "    value: 4.95",                                              // 50
+    "  full_state_every: 5",                                        // 51
 };
 
 // The base with some lines replaced, by number.
@@ -131,6 +132,7 @@ void ExpectBase(const TraceRequest& request) {
   EXPECT_EQ(options.direction, -1.0);
   EXPECT_EQ(options.step, 0.125);
   EXPECT_EQ(options.max_increments, 12);
+  EXPECT_EQ(options.full_state_every, 5);
   ASSERT_EQ(options.stop.size(), 1U);
   EXPECT_EQ(options.stop[0].quantity, "b.x");
   EXPECT_EQ(options.stop[0].when, ">");

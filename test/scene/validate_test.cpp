@@ -243,6 +243,8 @@ const BrokenRule kOptionRules[] = {
     {"StepNotFinite", [](auto& r) { r.options.step = kInfinity; }, "options.step", ".inf", "must be finite"},
     {"IncrementsNegative", [](auto& r) { r.options.max_increments = -1; }, "options.max_increments", "-1",
      "must be >= 0"},
+    {"FullStateNegative", [](auto& r) { r.options.full_state_every = -2; }, "options.full_state_every", "-2",
+     "must be >= 0"},
     {"EmptyQuantity", [](auto& r) { r.options.stop[0].quantity = ""; }, "options.stop[0].quantity", "\"\"",
      "must be load_factor, <node>.x or <node>.y"},
     {"QuantityWithoutComponent", [](auto& r) { r.options.stop[0].quantity = "b"; }, "options.stop[0].quantity", "b",

@@ -59,6 +59,7 @@ void ExpectSameOptions(const TraceOptions& a, const TraceOptions& b) {
   EXPECT_EQ(a.direction, b.direction);
   EXPECT_EQ(a.step, b.step);
   EXPECT_EQ(a.max_increments, b.max_increments);
+  EXPECT_EQ(a.full_state_every, b.full_state_every);
   ASSERT_EQ(a.stop.size(), b.stop.size());
   for (std::size_t i = 0; i < a.stop.size(); ++i) {
     EXPECT_EQ(a.stop[i].quantity, b.stop[i].quantity);
@@ -97,6 +98,7 @@ TEST(WriteTraceRequest, EveryFieldThatDiffersFromItsDefault) {
   request.options.direction = -0.5;
   request.options.step = 0.1;
   request.options.max_increments = 7;
+  request.options.full_state_every = 3;
   request.options.branch_choices = {{2, 0, 3}, {0, 4, 1}};
   ExpectRoundTrip(request);
 }

@@ -19,8 +19,8 @@ TraceRequest FromMessage(const contact_path_msgs::Scene& scene, const contact_pa
 // Words are written out, also where they are the default.
 contact_path_msgs::TraceRequest ToMessage(const TraceRequest& request);
 
-// Leaves `header` and `trace_id` to the caller.
-contact_path_msgs::Increment ToMessage(const Increment& increment);
+// Leaves `header` and `trace_id` to the caller. full_state_every: as in TraceOptions.
+contact_path_msgs::Increment ToMessage(const Increment& increment, int full_state_every = 1);
 
 // Drops `header`, `trace_id` and `complementarity_residual`, which follows from the other residuals.
 // Throws std::invalid_argument for arrays of different lengths and for constants that are not known.

@@ -71,6 +71,7 @@ class TraceService {
   contact_path_msgs::TraceStatus status_;
   std::chrono::steady_clock::time_point status_time_;
   std::uint32_t increments_published_ = 0;
+  int full_state_every_ = 0;  // as in the request
 
   // Last, so that no call comes in before the rest is there.
   ros::ServiceServer trace_server_;

@@ -106,6 +106,9 @@ struct TraceOptions {
   double direction = 0.0;  // sign of the first change of the load factor; 0 = +1
   double step = 0.0;       // target increment length in the scaled norm, >= 0; 0 = automatic (by accuracy)
   int max_increments = 0;  // >= 0; 0 = 1000
+  // Of messages and bags, not of the CSV: every n-th regular row has positions and contacts, and all located rows have;
+  // the others leave them empty. >= 0; 0 = 1, all of them.
+  int full_state_every = 0;
   std::vector<StopCriterion> stop;
   std::vector<BranchChoice> branch_choices;
 

@@ -1,0 +1,100 @@
+// What streaming and recording add to a trace: the service of the node, with its bag and a subscriber, against the same
+// trace without any of it. Needs a running roscore. Prints one line of CSV for each setting of full_state_every.
+#include <ros/ros.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "contact_path/ros/convert.h"
+#include "contact_path/ros/names.h"
+#include "contact_path/ros/trace_service.h"
+#include "contact_path/scene/read_scene.h"
+
+namespace contact_path {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int kRepetitions = 9;
+
+double Seconds(Clock::time_point since) { return std::chrono::duration<double>(Clock::now() - since).count(); }
+
+// On a thread of its own, as the service traces: memory is not the same for the first thread of a process.
+double CoreTime(const TraceRequest& request) {
+  double seconds = 0.0;
+  std::thread([&] {
+    const Clock::time_point start = Clock::now();
+    Trace(request, TraceControl());
+    seconds = Seconds(start);
+  }).join();
+  return seconds;
+}
+
+double ServiceTime(ros::ServiceClient* client, const TraceRequest& request, const std::filesystem::path& bags,
+                   double* bytes) {
+  contact_path_msgs::TracePath call;
+  const contact_path_msgs::TraceRequest message = ToMessage(request);
+  call.request.scene = message.scene;
+  call.request.options = message.options;
+  const Clock::time_point start = Clock::now();
+  if (!client->call(call) || call.response.bag.empty()) throw std::runtime_error("no trace: " + call.response.message);
+  const double seconds = Seconds(start);
+  *bytes = static_cast<double>(std::filesystem::file_size(bags / call.response.bag));
+  return seconds;
+}
+
+void Measure(const std::string& file) {
+  ros::NodeHandle node("~");
+  NodeParameters parameters;
+  parameters.bag_directory =
+      std::filesystem::temp_directory_path() / ("contact_path_streaming_" + std::to_string(getpid()));
+  TraceService service(node, parameters);
+  long received = 0;
+  const ros::Subscriber subscriber = node.subscribe<contact_path_msgs::Increment>(
+      names::kIncrements, 100000, [&](const boost::shared_ptr<const contact_path_msgs::Increment>&) { ++received; });
+  ros::AsyncSpinner spinner(3);
+  spinner.start();
+  ros::ServiceClient client = node.serviceClient<contact_path_msgs::TracePath>(names::kTrace);
+  client.waitForExistence();
+
+  TraceRequest request = ReadTraceRequestFile(file);
+  std::puts("full_state_every,ratio,bag_bytes");
+  for (const int every : {1, 10}) {
+    request.options.full_state_every = every;
+    std::vector<double> ratios;
+    double bytes = 0.0;
+    for (int i = 0; i < kRepetitions; ++i) {  // in turn, so that a slow moment of the machine meets both
+      const double core = CoreTime(request);
+      ratios.push_back(ServiceTime(&client, request, parameters.bag_directory, &bytes) / core);
+    }
+    std::sort(ratios.begin(), ratios.end());
+    std::printf("%d,%.6g,%.0f\n", every, ratios[kRepetitions / 2], bytes);
+  }
+  std::filesystem::remove_all(parameters.bag_directory);
+  if (received == 0) throw std::runtime_error("the subscriber got nothing");
+}
+
+}  // namespace
+}  // namespace contact_path
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "contact_path_streaming", ros::init_options::AnonymousName);
+  if (argc != 2) {
+    std::fputs("usage: contact_path_streaming SCENE\n", stderr);
+    return 2;
+  }
+  try {
+    contact_path::Measure(argv[1]);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "contact_path_streaming: %s\n", error.what());
+    return 1;
+  }
+  return 0;
+}
