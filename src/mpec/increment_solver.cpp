@@ -109,14 +109,24 @@ IncrementTrial IncrementSolver::Keep(const std::vector<int>& working_set, Primal
 
 void IncrementSolver::MakeExact(const PathPoint& from, const IncrementProblem& problem, const IncrementGoal& goal,
                                 IncrementTrial* trial) {
+  if (MakeExact(from, problem.Aim(), goal.length, trial)) return;
+  // Next to a corner the nonlinear solver may stop where the aim is not reached: the equilibrium there is what it
+  // found.
+  Eigen::VectorXd here(trial->point.u.size() + 1);
+  here << trial->point.u, trial->point.s;
+  MakeExact(from, here, goal.length, trial);
+}
+
+bool IncrementSolver::MakeExact(const PathPoint& from, const Eigen::VectorXd& wanted, double length,
+                                IncrementTrial* trial) {
   system_.SetStates(trial->point.states, TangentialPositions(contacts_, from.u));
   std::vector<Limit> pinned;
   Eigen::VectorXd start = system_.Pack(trial->point);
   for (int change = 0; change <= kMaxActiveSetChanges; ++change) {
-    const NearestPoint nearest = FindNearestPoint(&system_, start, problem.Aim());
-    if (!nearest.converged) return;
+    const NearestPoint nearest = FindNearestPoint(&system_, start, wanted);
+    if (!nearest.converged) return false;
     PathPoint exact = system_.Unpack(nearest.x);
-    if (Distance(exact, trial->point) > kSamePoint * goal.length) return;
+    if (Distance(exact, trial->point) > kSamePoint * length) return false;
     // An inequality that fails is active at the minimum: it becomes an equation.
     const std::size_t before = pinned.size();
     for (const Limit& limit : system_.Inequalities())
@@ -128,11 +138,12 @@ void IncrementSolver::MakeExact(const PathPoint& from, const IncrementProblem& p
           exact.states[static_cast<std::size_t>(limit.contact)] = ContactState::kStick;
       trial->point = std::move(exact);
       trial->exact = true;
-      return;
+      return true;
     }
     system_.Pin(pinned);
     start = nearest.x;
   }
+  return false;
 }
 
 }  // namespace contact_path

@@ -96,7 +96,6 @@ MpecOptions MpecOptions::For(const TraceOptions& options, Eigen::Index num_dofs)
     case Accuracy::kFast:
       result.step = 0.05;
       result.corner_tolerance = 2e-3;
-      result.regularisation.minimum = 1e-6;
       break;
     case Accuracy::kBalanced: break;
     case Accuracy::kAccurate:

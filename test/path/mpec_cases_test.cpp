@@ -283,7 +283,7 @@ class Arch19 : public testing::Test {
   static double Rise(const Increment& row) { return PositionY(Path(), row, "a"); }
 };
 
-// With the largest eps of the presets: setting out from the last increment, it once fell off its ceilings.
+// It once fell off its ceilings here: a mechanism is no start.
 TEST(Arch19Fast, IsHeldByItsCeilingsToTheSmoothLimitPoint) {
   TraceRequest request = Example("arch19", 0.05);
   request.options.accuracy = Accuracy::kFast;

@@ -57,9 +57,12 @@ class IncrementSolver {
               IncrementTrial* trial);
   // For the next increment.
   IncrementTrial Keep(const std::vector<int>& working_set, PrimalDual point, IncrementTrial trial);
-  // Replaces trial->point by the minimum of the same objective on the exact equations of its states, if that holds.
+  // Replaces trial->point by the minimum of the same objective on the exact equations of its states, if that holds;
+  // otherwise by the exact point that is nearest to it.
   void MakeExact(const PathPoint& from, const IncrementProblem& problem, const IncrementGoal& goal,
                  IncrementTrial* trial);
+  // By the solution of those equations nearest to `wanted`, unless that is another point. length: of the increment.
+  bool MakeExact(const PathPoint& from, const Eigen::VectorXd& wanted, double length, IncrementTrial* trial);
 
   const Structure& structure_;
   const std::vector<ContactGeometry>& contacts_;
