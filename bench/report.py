@@ -88,7 +88,7 @@ def trade(results, figures):
         base = next(float(row['seconds']) for row in of_scene
                     if row['method'] == 'branch' and setting(row) == 'balanced')
         for row in of_scene:
-            cells.append([scene, row['method'], setting(row), row['rows'], number(float(row['seconds']) / base),
+            cells.append([scene, row['method'], setting(row), row['rows'] + (' (cut)' if row['end'] == 'cut' else ''), number(float(row['seconds']) / base),
                           number(row['row_error']), number(row['line_error']), number(row['limit_error']),
                           number(row['dissipation_error']),
                           number(row['factorisations'] if row['method'] == 'branch' else row['iterations']),
@@ -165,12 +165,18 @@ def models(results):
                    number(float(row['seconds']) / base[row['method']])] for row in rows])
 
 
+def streaming(results):
+    rows = [[row['full_state_every'], number(row['ratio']), '%.2g' % (float(row['bag_bytes']) / 2**20)]
+            for row in read_csv(results / 'streaming.csv')]
+    return table(['full_state_every', 'service with bag and subscriber / trace alone', 'bag [MiB]'], rows)
+
+
 def main():
     results, bench = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
     figures = bench / 'figures'
     figures.mkdir(exist_ok=True)
     parts = {'trade': trade(results, figures), 'scaling': scaling(results, figures), 'contact': contact(results),
-             'far': far(results), 'solvers': solvers(results), 'models': models(results)}
+             'far': far(results), 'solvers': solvers(results), 'models': models(results), 'streaming': streaming(results)}
     readme = bench / 'README.md'
     text = readme.read_text()
     for name, part in parts.items():

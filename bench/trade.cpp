@@ -140,22 +140,8 @@ class Curve {
 
   std::size_t Intervals() const { return pieces_.size(); }
 
-  // At share t of interval k, by the six rows of its piece that are nearest.
   Eigen::VectorXd At(std::size_t k, double t) const {
-    const auto [begin, end] = pieces_[k];
-    const std::size_t count = std::min<std::size_t>(6, end - begin + 1);
-    std::size_t first = k >= begin + 2 ? k - 2 : begin;
-    first = std::min(first, end + 1 - count);
-    const double s = (1.0 - t) * rows_[k].arc_length + t * rows_[k + 1].arc_length;
-    Eigen::VectorXd sum = Eigen::VectorXd::Zero(rows_[0].x.size());
-    for (std::size_t i = first; i < first + count; ++i) {
-      double weight = 1.0;
-      for (std::size_t j = first; j < first + count; ++j)
-        if (j != i) weight *= (s - rows_[j].arc_length) / (rows_[i].arc_length - rows_[j].arc_length);
-      // About a row of the interval, so that rounding is that of a difference.
-      sum += weight * (rows_[i].x - rows_[k].x);
-    }
-    return rows_[k].x + sum;
+    return Interpolate<Eigen::VectorXd>(k, t, [](const Row& row) -> const Eigen::VectorXd& { return row.x; });
   }
 
   // From a point, looked for near and after interval *near, which becomes that of the nearest point; *dissipation:
@@ -182,7 +168,7 @@ class Curve {
       const double t = 0.5 * (a + b), distance = (At(k, t) - x).norm();
       if (distance >= least) continue;
       least = distance;
-      *dissipation = (1.0 - t) * rows_[k].dissipation + t * rows_[k + 1].dissipation;
+      *dissipation = Interpolate<double>(k, t, [](const Row& row) { return row.dissipation; });
     }
     return least;
   }
@@ -191,6 +177,26 @@ class Curve {
   struct Piece {
     std::size_t begin, end;
   };
+
+  // At share t of interval k, by the six rows of its piece that are nearest.
+  template <typename Value, typename Get>
+  Value Interpolate(std::size_t k, double t, const Get& get) const {
+    const auto [begin, end] = pieces_[k];
+    const std::size_t count = std::min<std::size_t>(6, end - begin + 1);
+    std::size_t first = k >= begin + 2 ? k - 2 : begin;
+    first = std::min(first, end + 1 - count);
+    const double s = (1.0 - t) * rows_[k].arc_length + t * rows_[k + 1].arc_length;
+    Value sum = 0.0 * get(rows_[k]);
+    for (std::size_t i = first; i < first + count; ++i) {
+      double weight = 1.0;
+      for (std::size_t j = first; j < first + count; ++j)
+        if (j != i) weight *= (s - rows_[j].arc_length) / (rows_[i].arc_length - rows_[j].arc_length);
+      // About a row of the interval, so that rounding is that of a difference.
+      sum += weight * (get(rows_[i]) - get(rows_[k]));
+    }
+    return get(rows_[k]) + sum;
+  }
+
   const std::vector<Row>& rows_;
   std::vector<Piece> pieces_;
 };
@@ -242,7 +248,8 @@ std::vector<Setting> AllSettings(double unit) {
   for (const char* method : {"branch", "mpec"})
     for (const char* accuracy : {"fast", "balanced", "accurate"}) settings.push_back({method, accuracy, 0.0, 0.0});
   for (const double step : {0.2, 0.1, 0.04, 0.01, 0.0025}) settings.push_back({"branch", "balanced", unit * step, 0.0});
-  for (const double step : {0.1, 0.04, 0.01}) settings.push_back({"mpec", "balanced", unit * step, 0.0});
+  for (const double step : {0.1, 0.04, 0.01})
+    if (unit == 1.0 || step < 0.1) settings.push_back({"mpec", "balanced", unit * step, 0.0});
   for (const double minimum : {1e-4, 1e-6, 1e-10, 1e-12}) settings.push_back({"mpec", "balanced", 0.0, minimum});
   return settings;
 }
@@ -279,7 +286,7 @@ void Measure(const std::string& name, const TraceRequest& request) {
         dissipation_error = std::abs(row.dissipation - there);
       }
     if (path.cut) path.seconds *= exact.rows.back().arc_length / path.rows.back().arc_length;
-    const double rows = static_cast<double>(path.rows.size() - 1);
+    const double rows = static_cast<double>(std::max<std::size_t>(path.rows.size(), 2) - 1);
     const double total_dissipation = exact.rows.back().dissipation;
     if (total_dissipation > 0.0) dissipation_error /= total_dissipation;
     std::printf("%s,%s,%s,%g,%g,%zu,%.6g,%.3g,%.3g,%.3g,%.3g,%.4g,%.4g,%ld,%s\n", name.c_str(), setting.method.c_str(),

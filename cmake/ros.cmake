@@ -29,6 +29,7 @@ catkin_package(
 )
 
 add_library(contact_path_ros
+  src/ros/bag_reader.cpp
   src/ros/bag_recorder.cpp
   src/ros/convert.cpp
   src/ros/limits.cpp
@@ -45,6 +46,11 @@ target_link_libraries(contact_path_ros
 add_executable(contact_path_node src/ros/contact_path_node.cpp src/cli/one_thread.cpp)
 target_include_directories(contact_path_node PRIVATE src/cli)
 target_link_libraries(contact_path_node PRIVATE contact_path_ros contact_path_warnings)
+
+add_executable(contact_path_verify src/ros/verify.cpp)
+set_target_properties(contact_path_verify PROPERTIES OUTPUT_NAME verify)
+target_include_directories(contact_path_verify SYSTEM PRIVATE ${CLI11_INCLUDE_DIR})
+target_link_libraries(contact_path_verify PRIVATE contact_path_ros contact_path_warnings)
 
 # With ROS the command-line program can record bags.
 target_sources(contact_path_trace PRIVATE src/ros/bag_sink.cpp)
@@ -65,7 +71,7 @@ endforeach()
 install(TARGETS contact_path_ros contact_path_core
   ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
   LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
-install(TARGETS contact_path_node contact_path_trace contact_path_lattice RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+install(TARGETS contact_path_node contact_path_trace contact_path_lattice contact_path_verify RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(DIRECTORY include/${PROJECT_NAME}/ DESTINATION ${CATKIN_PACKAGE_INCLUDE_DESTINATION})
 install(DIRECTORY launch scenes DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
 

@@ -89,8 +89,12 @@ if(NOT CONTACT_PATH_SANITIZE)
   contact_path_add_test(branch/allocations_test)
 endif()
 contact_path_add_test(branch/ways_test LONG)
+contact_path_add_test(verify/verify_path_test)
+contact_path_add_test(cli/progress_test SOURCES src/cli/progress.cpp)
+target_include_directories(cli_progress_test PRIVATE src/cli)
 # The whole branch method: closed forms and events of many kinds.
 contact_path_add_test(branch/branch_method_test LONG)
+contact_path_add_test(branch/branch_choices_test)
 contact_path_add_test(branch/branch_events_test LONG)
 # Random scenes, each traced in many ways: it lists every scene whose path depends on how it is traced.
 contact_path_add_test(branch/random_paths_test LONG SOURCES test/branch/random_scene.cpp)
@@ -110,14 +114,24 @@ contact_path_add_test(path/mpec_cases_test LONG)
 contact_path_add_test(path/invariance_test LONG)
 contact_path_add_test(path/hard_scenes_test)
 
-# The command-line program, as its users see it.
-set(contact_path_cli_test ${CONTACT_PATH_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/test/support/run_unittest.py
-  ${CMAKE_CURRENT_SOURCE_DIR}/test/cli/cli_test.py ${contact_path_test_results}/python-cli_test.xml
-  CONTACT_PATH_TRACE=$<TARGET_FILE:contact_path_trace> CONTACT_PATH_SCENES=${CMAKE_CURRENT_SOURCE_DIR}/scenes)
-if(contact_path_test_with_catkin)
-  string(REPLACE ";" " " contact_path_cli_test "${contact_path_cli_test}")
-  catkin_run_tests_target("python" cli_test python-cli_test.xml COMMAND ${contact_path_cli_test}
-    DEPENDENCIES contact_path_trace)
-else()
-  add_test(NAME cli_test COMMAND ${contact_path_cli_test})
+# contact_path_add_python_test(<name> <file> DEPENDS target... VARIABLES NAME=VALUE...): unittests that run programs as
+# their users do, told where these are by environment variables.
+function(contact_path_add_python_test name file)
+  cmake_parse_arguments(ARG "" "" "DEPENDS;VARIABLES" ${ARGN})
+  set(command ${CONTACT_PATH_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/test/support/run_unittest.py
+    ${CMAKE_CURRENT_SOURCE_DIR}/${file} ${contact_path_test_results}/python-${name}.xml
+    CONTACT_PATH_SCENES=${CMAKE_CURRENT_SOURCE_DIR}/scenes ${ARG_VARIABLES})
+  if(contact_path_test_with_catkin)
+    string(REPLACE ";" " " command "${command}")
+    catkin_run_tests_target("python" ${name} python-${name}.xml COMMAND ${command} DEPENDENCIES ${ARG_DEPENDS})
+  else()
+    add_test(NAME ${name} COMMAND ${command})
+  endif()
+endfunction()
+
+contact_path_add_python_test(cli_test test/cli/cli_test.py DEPENDS contact_path_trace
+  VARIABLES CONTACT_PATH_TRACE=$<TARGET_FILE:contact_path_trace>)
+if(CONTACT_PATH_ROS)
+  contact_path_add_python_test(verify_test test/ros/verify_test.py DEPENDS contact_path_trace contact_path_verify
+    VARIABLES CONTACT_PATH_TRACE=$<TARGET_FILE:contact_path_trace> CONTACT_PATH_VERIFY=$<TARGET_FILE:contact_path_verify>)
 endif()

@@ -5,6 +5,7 @@
 #include <iomanip>
 #include <locale>
 #include <sstream>
+#include <utility>
 
 namespace contact_path {
 namespace {
@@ -38,8 +39,12 @@ std::string InMinutes(double seconds) {
 
 }  // namespace
 
-Progress::Progress(const TraceRequest& request, bool show_bar, std::ostream& out)
-    : max_increments_(request.options.max_increments), show_bar_(show_bar), out_(out), begin_(steady_clock::now()) {
+Progress::Progress(const TraceRequest& request, bool show_bar, std::ostream& out, Clock clock)
+    : max_increments_(request.options.max_increments),
+      show_bar_(show_bar),
+      out_(out),
+      clock_(std::move(clock)),
+      begin_(clock_()) {
   for (const StopCriterion& stop : request.options.stop) {
     Goal goal;
     goal.end = stop.value;
@@ -66,7 +71,7 @@ void Progress::Add(const Increment& increment) {
     limit_points_.push_back({increment.kind, increment.index, increment.load_factor});
   }
   if (increment.event.number > 0) ++events_;
-  const auto now = steady_clock::now();
+  const auto now = clock_();
   if (increment.index == 0) first_row_ = now;
   if (show_bar_ && (increment.index == 0 || now - drawn_ >= kTimeBetweenDrawings)) {
     Draw(increment);
@@ -81,7 +86,7 @@ void Progress::Wipe() {
 }
 
 std::string Progress::Summary(const TraceResult& result) const {
-  const double seconds = std::chrono::duration<double>(steady_clock::now() - begin_).count();
+  const double seconds = std::chrono::duration<double>(clock_() - begin_).count();
   std::ostringstream line = NewLine();
   line << ToString(result.reason) << ": " << result.message << "; " << result.increments << " rows in " << std::fixed
        << std::setprecision(2) << seconds << " s; limit points: " << std::defaultfloat << std::setprecision(10);
@@ -122,7 +127,7 @@ void Progress::Draw(const Increment& increment) {
   }
   line << "row " << increment.index << "  load factor " << std::setprecision(4) << increment.load_factor << "  events "
        << events_;
-  const double seconds = std::chrono::duration<double>(steady_clock::now() - first_row_).count();
+  const double seconds = std::chrono::duration<double>(clock_() - first_row_).count();
   if (fraction >= kLeastFraction && seconds >= kLeastSeconds)
     line << "  " << InMinutes(seconds * (1.0 - fraction) / fraction) << " left";
   out_ << line.str() << std::flush;

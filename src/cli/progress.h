@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <functional>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -16,8 +17,11 @@ namespace contact_path {
 
 class Progress {
  public:
+  using Clock = std::function<std::chrono::steady_clock::time_point()>;
+
   // With `show_bar`, one line of `out` is rewritten as the trace goes on. `out` must outlive this.
-  Progress(const TraceRequest& request, bool show_bar, std::ostream& out);
+  Progress(const TraceRequest& request, bool show_bar, std::ostream& out,
+           Clock clock = std::chrono::steady_clock::now);
   ~Progress() { Wipe(); }
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -54,6 +58,7 @@ class Progress {
   const int max_increments_;  // as in the request: 0 = not asked for
   const bool show_bar_;
   std::ostream& out_;
+  const Clock clock_;
   std::vector<Goal> goals_;
   std::vector<LimitPoint> limit_points_;
   int events_ = 0;

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kAccepted = 1e-9;       // residuals of an accepted row
 constexpr double kNoMove = 1e-12;        // an event nearer than this to the last one happens in place
+constexpr double kRounding = 1e-12;      // of a Newton step
 constexpr int kMostEventsInPlace = 8;    // then the contacts chatter, and no way on is trusted
 constexpr double kLevel = 1e-9;          // of a unit rate: the load neither rises nor falls
 constexpr double kLevelSingular = 1e-6;  // where the rate is not exact
@@ -143,11 +144,18 @@ std::optional<EndReason> BranchMethod::PassEvent(const PathPoint& point, const A
 
 std::optional<Segment> BranchMethod::Step(double length) {
   const Eigen::VectorXd normal = current_.first.head(piece_.NumMotion());
-  const Eigen::VectorXd guess = current_.x + length * current_.first + 0.5 * length * length * current_.second;
-  const Correction correction = piece_.CorrectOnPlane(guess, normal);
+  const double tolerance = options_.prediction * length;
+  const Eigen::VectorXd straight = current_.x + length * current_.first;
+  const Eigen::VectorXd bend = 0.5 * length * length * current_.second;
+  const auto good = [&](const Correction& correction) {
+    return correction.converged && correction.first_step <= tolerance + kRounding;
+  };
+  Correction correction = piece_.CorrectOnPlane(straight + bend, normal);
+  // Next to a singular point the second derivatives are little but rounding.
+  if (!good(correction) && bend.norm() > tolerance) correction = piece_.CorrectOnPlane(straight, normal);
   iterations_ = correction.iterations;
   contraction_ = correction.contraction;
-  if (!correction.converged || correction.first_step > options_.prediction * length + 1e-12) return std::nullopt;
+  if (!good(correction)) return std::nullopt;
   CurvePoint end;
   if (!piece_.Derivatives(correction.x, normal, &end)) return std::nullopt;
   if (end.first.head(normal.size()).dot(normal) < options_.smallest_cosine) return std::nullopt;

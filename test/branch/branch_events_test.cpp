@@ -21,14 +21,6 @@ std::vector<Increment> Events(const TracedPath& path) {
   return rows;
 }
 
-double EnergyImbalance(const TracedPath& path) {
-  double worst = 0.0;
-  for (const Increment& row : path.rows)
-    worst = std::max(worst,
-                     std::abs(row.external_work - (row.strain_energy - path.rows[0].strain_energy) - row.dissipation));
-  return worst;
-}
-
 ContactState MirrorState(ContactState state) {
   if (state == ContactState::kSlipPlus) return ContactState::kSlipMinus;
   if (state == ContactState::kSlipMinus) return ContactState::kSlipPlus;

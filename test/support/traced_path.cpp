@@ -103,6 +103,22 @@ std::size_t LargestLoad(const TracedPath& path) {
   return static_cast<std::size_t>(largest - path.rows.begin());
 }
 
+std::vector<Increment> RowsOfKind(const TracedPath& path, RowKind kind) {
+  std::vector<Increment> rows;
+  for (const Increment& row : path.rows)
+    if (row.kind == kind) rows.push_back(row);
+  return rows;
+}
+
+double EnergyImbalance(const TracedPath& path) {
+  const Scaling scaling = CharacteristicScales(path.request.scene);
+  double worst = 0.0;
+  for (const Increment& row : path.rows)
+    worst = std::max(worst,
+                     std::abs(row.external_work - (row.strain_energy - path.rows[0].strain_energy) - row.dissipation));
+  return worst / (scaling.force * scaling.length);
+}
+
 void ExpectSoundRows(const TracedPath& path, double tolerance) {
   const Scene& scene = path.request.scene;
   const Scaling scaling = CharacteristicScales(scene);

@@ -33,6 +33,11 @@ const ContactRecord& Contact(const TracedPath& path, const Increment& row, const
 // Index of the row with the largest load factor.
 std::size_t LargestLoad(const TracedPath& path);
 
+std::vector<Increment> RowsOfKind(const TracedPath& path, RowKind kind);
+
+// Largest |external work - change of energy - dissipation| over the characteristic energy.
+double EnergyImbalance(const TracedPath& path);
+
 // What every accepted path keeps, whatever the scene and the method: residuals computed anew from the rows alone,
 // kinds, states, signs, counters. `tolerance` bounds the residuals.
 void ExpectSoundRows(const TracedPath& path, double tolerance);

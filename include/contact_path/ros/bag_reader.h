@@ -1,0 +1,28 @@
+// Reads a trace back from its bag.
+#ifndef CONTACT_PATH_ROS_BAG_READER_H_
+#define CONTACT_PATH_ROS_BAG_READER_H_
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "contact_path/path/increment.h"
+#include "contact_path/ros/messages.h"
+#include "contact_path/scene/scene.h"
+
+namespace contact_path {
+
+struct RecordedTrace {
+  TraceRequest request;                                  // valid
+  std::vector<Increment> rows;                           // in the order of the bag
+  std::optional<contact_path_msgs::TraceResult> result;  // none: the trace did not come to its end
+};
+
+// Throws BagError (bag_recorder.h), one line for a person: for what is no bag, a bag without index (its node was
+// killed; `rosbag reindex` mends it), a bag without a trace or with several, a request that is not valid, and a message
+// that cannot be read.
+RecordedTrace ReadTrace(const std::string& file);
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_ROS_BAG_READER_H_

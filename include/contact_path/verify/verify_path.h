@@ -1,0 +1,46 @@
+// Whether a recorded path is what it says it is: every number that can be computed anew from the scene, is.
+#ifndef CONTACT_PATH_VERIFY_VERIFY_PATH_H_
+#define CONTACT_PATH_VERIFY_VERIFY_PATH_H_
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "contact_path/check/residuals.h"
+#include "contact_path/path/increment.h"
+#include "contact_path/scene/scene.h"
+
+namespace contact_path {
+
+// What is wrong with a row.
+struct Finding {
+  int row = 0;       // its place in the record, from 0
+  std::string what;  // one line
+};
+
+struct Verification {
+  std::vector<Finding> findings;  // none: the path is proved; in the order of the rows, at most kMostFindings
+  int rows = 0;
+  int full_rows = 0;             // with positions and contacts: the others can only be counted
+  int exact_rows = 0;            // of the full ones, those that solve the unregularised equations
+  Residuals exact;               // largest of the exact rows, computed anew
+  Residuals regularised;         // of the other ones
+  double energy_balance = 0.0;   // largest |work of the loads - change of strain energy - dissipation| / (F L)
+  double work = 0.0;             // what that is to be compared with: sum of |work of the loads| of all rows / (F L)
+  std::map<RowKind, int> kinds;  // number of rows of each
+};
+
+constexpr int kMostFindings = 20;
+
+// Scene: valid. Rows: all that were recorded, in their order; rows without state have empty positions and contacts.
+//
+// Checked of each row: its place; fixed nodes rest; the residuals, computed from the scene alone, are within the
+// tolerance of the method (1e-9, regularised 1e-5) and as recorded; gaps, strain energy; the contact states against
+// gaps, reactions and motions. From row to row: arc length (not shorter than the chord), dissipation, energy balance
+// (to 1 % of the work done: works are quadratures), states change only at events, the load factor turns at limit points
+// and only there, and the way taken at an event is the one that follows.
+Verification VerifyPath(const Scene& scene, const std::vector<Increment>& rows);
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_VERIFY_VERIFY_PATH_H_

@@ -1,0 +1,70 @@
+#include "contact_path/ros/bag_reader.h"
+
+#include <exception>
+
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+
+#include "contact_path/ros/bag_recorder.h"
+#include "contact_path/ros/convert.h"
+#include "contact_path/ros/names.h"
+#include "contact_path/scene/validate.h"
+
+namespace contact_path {
+namespace {
+
+bool EndsIn(const std::string& topic, const char* name) {
+  const std::string end = std::string("/") + name;
+  return topic.size() >= end.size() && topic.compare(topic.size() - end.size(), end.size(), end) == 0;
+}
+
+template <typename Message>
+typename Message::ConstPtr Read(const rosbag::MessageInstance& instance) {
+  const typename Message::ConstPtr message = instance.instantiate<Message>();
+  if (!message) throw BagError(instance.getTopic() + ": its messages are not of the type of this version");
+  return message;
+}
+
+RecordedTrace ReadOpen(const rosbag::Bag& bag) {
+  RecordedTrace trace;
+  bool requested = false;
+  rosbag::View view(bag);
+  for (const rosbag::MessageInstance& instance : view) {
+    const std::string& topic = instance.getTopic();
+    if (EndsIn(topic, names::kRequest)) {
+      if (requested) throw BagError("holds several traces");
+      const auto message = Read<contact_path_msgs::TraceRequest>(instance);
+      trace.request = FromMessage(message->scene, message->options);
+      const std::vector<Violation> violations = Validate(trace.request);
+      if (!violations.empty()) throw InvalidRequest(violations);
+      requested = true;
+    } else if (EndsIn(topic, names::kIncrements)) {
+      if (!requested) throw BagError("no request before the increments: not the bag of a trace");
+      trace.rows.push_back(FromMessage(*Read<contact_path_msgs::Increment>(instance)));
+    } else if (EndsIn(topic, names::kResult)) {
+      trace.result = *Read<contact_path_msgs::TraceResult>(instance);
+    }
+  }
+  if (!requested) throw BagError("no request: not the bag of a trace");
+  return trace;
+}
+
+}  // namespace
+
+RecordedTrace ReadTrace(const std::string& file) {
+  try {
+    rosbag::Bag bag;
+    bag.open(file, rosbag::bagmode::Read);
+    return ReadOpen(bag);
+  } catch (const rosbag::BagUnindexedException&) {
+    throw BagError(file + ": was never closed: run `rosbag reindex` on it first");
+  } catch (const BagError& error) {
+    throw BagError(file + ": " + error.what());
+  } catch (const InvalidRequest& error) {
+    throw BagError(file + ": the request is not valid: " + error.violations().front().ToLine());
+  } catch (const std::exception& error) {
+    throw BagError(file + ": cannot be read: " + error.what());
+  }
+}
+
+}  // namespace contact_path

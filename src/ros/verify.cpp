@@ -1,0 +1,86 @@
+// `rosrun contact_path verify BAG`: computes anew what can be computed from the scene alone, and tells whether the bag
+// proves its path. Exit status: 0 it does, 1 it does not, 2 bad usage or no bag of a trace.
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <iomanip>
+#include <iostream>
+#include <locale>
+#include <string>
+
+#include "contact_path/ros/bag_reader.h"
+#include "contact_path/verify/verify_path.h"
+
+namespace contact_path {
+namespace {
+
+void PrintResiduals(const char* name, int rows, const Residuals& residuals) {
+  std::cout << std::left << std::setw(22) << name << std::right << std::setw(7) << rows;
+  for (const double residual : {residuals.equilibrium, residuals.penetration, residuals.adhesion,
+                                residuals.complementarity, residuals.cone, residuals.friction_law})
+    std::cout << std::setw(13) << residual;
+  std::cout << '\n';
+}
+
+void PrintTable(const RecordedTrace& trace, const Verification& verification) {
+  std::cout << std::scientific << std::setprecision(1) << "scene " << trace.request.scene.name << ", "
+            << verification.rows << " rows:";
+  for (const auto& [kind, count] : verification.kinds) std::cout << ' ' << count << ' ' << ToString(kind);
+  std::cout << "\n\nlargest residuals, computed anew\n"
+            << std::left << std::setw(22) << "" << std::right << std::setw(7) << "rows" << std::setw(13)
+            << "equilibrium" << std::setw(13) << "penetration" << std::setw(13) << "adhesion" << std::setw(13)
+            << "min form" << std::setw(13) << "cone" << std::setw(13) << "friction law" << '\n';
+  PrintResiduals("exact rows", verification.exact_rows, verification.exact);
+  const int regularised = verification.full_rows - verification.exact_rows;
+  if (regularised > 0) PrintResiduals("regularised rows", regularised, verification.regularised);
+  if (verification.full_rows < verification.rows)
+    std::cout << "rows without state    " << std::setw(7) << verification.rows - verification.full_rows << '\n';
+  std::cout << "\nenergy balance: off by " << verification.energy_balance << " of F L at most, with "
+            << verification.work << " of work done by the loads\n\n";
+}
+
+// What the record as a whole lacks; empty if nothing.
+std::string Lacks(const RecordedTrace& trace) {
+  if (!trace.result) return "truncated: no result, the trace was cut off before its end";
+  if (trace.result->increments != trace.rows.size())
+    return "truncated: " + std::to_string(trace.rows.size()) + " rows, the result speaks of " +
+           std::to_string(trace.result->increments);
+  return "";
+}
+
+int Run(const std::string& file) {
+  const RecordedTrace trace = ReadTrace(file);
+  const Verification verification = VerifyPath(trace.request.scene, trace.rows);
+  std::cout.imbue(std::locale::classic());
+  PrintTable(trace, verification);
+  for (const Finding& finding : verification.findings)
+    std::cout << "row " << finding.row << ": " << finding.what << '\n';
+  if (verification.findings.size() == static_cast<std::size_t>(kMostFindings)) std::cout << "...\n";
+  const std::string lacks = Lacks(trace);
+  if (!lacks.empty()) std::cout << lacks << '\n';
+  const bool proved = verification.findings.empty() && lacks.empty();
+  if (proved)
+    std::cout << "proved: every row is an equilibrium of the scene; the trace ended " << trace.result->end_reason_name
+              << '\n';
+  else
+    std::cout << "NOT proved\n";
+  std::cout << std::flush;
+  return proved ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace contact_path
+
+int main(int argc, char** argv) {
+  CLI::App app("Tells whether a bag proves the path that it records.");
+  std::string file;
+  app.add_option("BAG", file, "Bag of a trace")->required();
+  try {
+    app.parse(argc, argv);
+    return contact_path::Run(file);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  } catch (const std::exception& error) {
+    std::cerr << "verify: " << error.what() << '\n';
+    return 2;
+  }
+}
