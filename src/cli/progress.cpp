@@ -40,33 +40,13 @@ std::string InMinutes(double seconds) {
 }  // namespace
 
 Progress::Progress(const TraceRequest& request, bool show_bar, std::ostream& out, Clock clock)
-    : max_increments_(request.options.max_increments),
-      show_bar_(show_bar),
-      out_(out),
-      clock_(std::move(clock)),
-      begin_(clock_()) {
-  for (const StopCriterion& stop : request.options.stop) {
-    Goal goal;
-    goal.end = stop.value;
-    goal.of_load_factor = stop.quantity == "load_factor";
-    if (!goal.of_load_factor) {
-      const std::size_t dot = stop.quantity.rfind('.');
-      const auto& nodes = request.scene.nodes;
-      const auto node = std::find_if(nodes.begin(), nodes.end(), [&](const Node& candidate) {
-        return stop.quantity.compare(0, dot, candidate.name) == 0;
-      });
-      goal.component = 2 * static_cast<std::size_t>(node - nodes.begin()) + (stop.quantity.back() == 'y' ? 1 : 0);
-    }
-    goals_.push_back(goal);
-  }
+    : estimate_(request), show_bar_(show_bar), out_(out), clock_(std::move(clock)), begin_(clock_()) {
   if (show_bar_) out_ << kWipeLine << "looking for the start" << std::flush;
   visible_ = show_bar_;
 }
 
 void Progress::Add(const Increment& increment) {
-  if (increment.index == 0) {
-    for (Goal& goal : goals_) goal.start = goal.Value(increment);
-  }
+  const double done = estimate_.Add(increment);
   if (increment.kind == RowKind::kSmoothLimit || increment.kind == RowKind::kCornerLimit) {
     limit_points_.push_back({increment.kind, increment.index, increment.load_factor});
   }
@@ -74,7 +54,7 @@ void Progress::Add(const Increment& increment) {
   const auto now = clock_();
   if (increment.index == 0) first_row_ = now;
   if (show_bar_ && (increment.index == 0 || now - drawn_ >= kTimeBetweenDrawings)) {
-    Draw(increment);
+    Draw(increment, done);
     drawn_ = now;
     visible_ = true;
   }
@@ -101,35 +81,19 @@ std::string Progress::Summary(const TraceResult& result) const {
   return line.str();
 }
 
-double Progress::Goal::Value(const Increment& increment) const {
-  return of_load_factor ? increment.load_factor : increment.positions[component];
-}
-
-double Progress::Fraction(const Increment& increment) const {
-  double fraction = 0.0;
-  if (max_increments_ > 0) fraction = static_cast<double>(increment.index) / max_increments_;
-  for (const Goal& goal : goals_) {
-    if (goal.end == goal.start) continue;
-    fraction = std::max(fraction, (goal.Value(increment) - goal.start) / (goal.end - goal.start));
-  }
-  return std::min(fraction, 1.0);
-}
-
-void Progress::Draw(const Increment& increment) {
+void Progress::Draw(const Increment& increment, double done) {
   std::ostringstream line = NewLine();
   line << kWipeLine;
-  double fraction = 0.0;
-  if (max_increments_ > 0 || !goals_.empty()) {
-    fraction = Fraction(increment);
-    const auto filled = static_cast<std::size_t>(fraction * kBarWidth);
+  if (estimate_.HasEnd()) {
+    const auto filled = static_cast<std::size_t>(done * kBarWidth);
     line << '[' << std::string(filled, '#') << std::string(kBarWidth - filled, ' ') << "] " << std::setw(3)
-         << static_cast<int>(100.0 * fraction) << "%  ";
+         << static_cast<int>(100.0 * done) << "%  ";
   }
   line << "row " << increment.index << "  load factor " << std::setprecision(4) << increment.load_factor << "  events "
        << events_;
   const double seconds = std::chrono::duration<double>(clock_() - first_row_).count();
-  if (fraction >= kLeastFraction && seconds >= kLeastSeconds)
-    line << "  " << InMinutes(seconds * (1.0 - fraction) / fraction) << " left";
+  if (done >= kLeastFraction && seconds >= kLeastSeconds)
+    line << "  " << InMinutes(seconds * (1.0 - done) / done) << " left";
   out_ << line.str() << std::flush;
 }
 

@@ -3,13 +3,13 @@
 #define CONTACT_PATH_CLI_PROGRESS_H_
 
 #include <chrono>
-#include <cstddef>
 #include <functional>
 #include <ostream>
 #include <string>
 #include <vector>
 
 #include "contact_path/path/increment.h"
+#include "contact_path/path/progress_estimate.h"
 #include "contact_path/path/trace.h"
 #include "contact_path/scene/scene.h"
 
@@ -20,8 +20,7 @@ class Progress {
   using Clock = std::function<std::chrono::steady_clock::time_point()>;
 
   // With `show_bar`, one line of `out` is rewritten as the trace goes on. `out` must outlive this.
-  Progress(const TraceRequest& request, bool show_bar, std::ostream& out,
-           Clock clock = std::chrono::steady_clock::now);
+  Progress(const TraceRequest& request, bool show_bar, std::ostream& out, Clock clock = std::chrono::steady_clock::now);
   ~Progress() { Wipe(); }
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -36,30 +35,18 @@ class Progress {
   std::string Summary(const TraceResult& result) const;
 
  private:
-  // A stop criterion as the way from where the path started to where it would end.
-  struct Goal {
-    std::size_t component = 0;  // in Increment::positions, unless of_load_factor
-    bool of_load_factor = false;
-    double start = 0.0;
-    double end = 0.0;
-
-    double Value(const Increment& increment) const;
-  };
   struct LimitPoint {
     RowKind kind = RowKind::kSmoothLimit;
     int index = 0;
     double load_factor = 0.0;
   };
 
-  // Part of the way done, 0 to 1: the largest over the goals and the wanted number of increments; 0 without either.
-  double Fraction(const Increment& increment) const;
-  void Draw(const Increment& increment);
+  void Draw(const Increment& increment, double done);
 
-  const int max_increments_;  // as in the request: 0 = not asked for
+  ProgressEstimate estimate_;
   const bool show_bar_;
   std::ostream& out_;
   const Clock clock_;
-  std::vector<Goal> goals_;
   std::vector<LimitPoint> limit_points_;
   int events_ = 0;
   const std::chrono::steady_clock::time_point begin_;

@@ -1,6 +1,7 @@
 #include "contact_path/ros/bag_reader.h"
 
 #include <exception>
+#include <filesystem>
 
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
@@ -20,7 +21,7 @@ bool EndsIn(const std::string& topic, const char* name) {
 
 template <typename Message>
 typename Message::ConstPtr Read(const rosbag::MessageInstance& instance) {
-  const typename Message::ConstPtr message = instance.instantiate<Message>();
+  typename Message::ConstPtr message = instance.instantiate<Message>();
   if (!message) throw BagError(instance.getTopic() + ": its messages are not of the type of this version");
   return message;
 }
@@ -58,6 +59,9 @@ RecordedTrace ReadTrace(const std::string& file) {
     return ReadOpen(bag);
   } catch (const rosbag::BagUnindexedException&) {
     throw BagError(file + ": was never closed: run `rosbag reindex` on it first");
+  } catch (const rosbag::BagIOException& error) {
+    if (!std::filesystem::exists(file)) throw BagError(file + ": no such file");
+    throw BagError(file + ": is cut off (" + error.what() + "): `rosbag reindex` saves what is complete");
   } catch (const BagError& error) {
     throw BagError(file + ": " + error.what());
   } catch (const InvalidRequest& error) {

@@ -66,6 +66,7 @@ NodeParameters ReadParameters(const ros::NodeHandle& private_node) {
 
 TraceService::TraceService(ros::NodeHandle private_node, const NodeParameters& parameters)
     : parameters_(parameters), topic_prefix_(private_node.getNamespace()) {
+  request_publisher_ = private_node.advertise<contact_path_msgs::TraceRequest>(names::kRequest, 1, /*latch=*/true);
   increments_publisher_ = private_node.advertise<contact_path_msgs::Increment>(
       names::kIncrements, static_cast<std::uint32_t>(parameters_.increments_queue));
   status_publisher_ = private_node.advertise<contact_path_msgs::TraceStatus>(names::kStatus, 10, /*latch=*/true);
@@ -142,12 +143,12 @@ void TraceService::Serve(const Request& request, Response* response) {
     return;
   }
 
+  contact_path_msgs::TraceRequest recorded;
+  recorded.scene = request.scene;
+  recorded.options = request.options;
   std::unique_ptr<BagRecorder> bag;
   try {
     bag = std::make_unique<BagRecorder>(parameters_.bag_directory, request.scene.name, topic_prefix_);
-    contact_path_msgs::TraceRequest recorded;
-    recorded.scene = request.scene;
-    recorded.options = request.options;
     bag->WriteRequest(recorded);
   } catch (const BagError& error) {
     response->status = Response::BAG_FAILED;
@@ -161,9 +162,11 @@ void TraceService::Serve(const Request& request, Response* response) {
   status_.trace_id = bag->number();
   status_.scene = request.scene.name;
   status_.bag = response->bag;
+  request_publisher_.publish(recorded);
   PublishStatus();
 
   full_state_every_ = core_request.options.full_state_every;
+  progress_.emplace(core_request);
   RunTrace(core_request, bag.get(), response);
   response->increments = status_.increments;
   response->end_reason_name = EndReasonName(response->end_reason);
@@ -219,6 +222,7 @@ void TraceService::TakeIncrement(const Increment& increment, BagRecorder* bag) {
   ++status_.increments;
   status_.load_factor = increment.load_factor;
   status_.arc_length = increment.arc_length;
+  status_.progress = progress_->Add(increment);
   if (Clock::now() - status_time_ >= kStatusPeriod) PublishStatus();
 }
 

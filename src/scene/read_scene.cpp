@@ -261,13 +261,13 @@ void Read(Reader& in, const YamlValue& value, const std::string& path, Scene& sc
 }
 
 void Read(Reader& in, const YamlValue& value, const std::string& path, TraceOptions& options) {
-  in.ReadMap(value, path,
-             {in.Word("method", ParseMethod, "must be branch or mpec", options.method),
-              in.Word("accuracy", ParseAccuracy, "must be fast, balanced or accurate", options.accuracy),
-              in.Number("direction", options.direction), in.Number("step", options.step),
-              in.Integer("max_increments", options.max_increments),
-              in.Integer("full_state_every", options.full_state_every), in.List("stop", options.stop),
-              in.List("branch_choices", options.branch_choices)});
+  in.ReadMap(
+      value, path,
+      {in.Word("method", ParseMethod, "must be branch or mpec", options.method),
+       in.Word("accuracy", ParseAccuracy, "must be fast, balanced or accurate", options.accuracy),
+       in.Number("direction", options.direction), in.Number("step", options.step),
+       in.Integer("max_increments", options.max_increments), in.Integer("full_state_every", options.full_state_every),
+       in.List("stop", options.stop), in.List("branch_choices", options.branch_choices)});
 }
 
 // The line of the deepest key or list element on `path` that stands in the file.

@@ -12,7 +12,7 @@ import unittest
 import rosbag
 import rospy
 import rostest
-from contact_path.msg import ContactState, Increment, TraceStatus
+from contact_path.msg import ContactState, Increment, TraceRequest, TraceStatus
 from contact_path.srv import TracePathResponse as Response
 from std_srvs.srv import Trigger
 
@@ -146,6 +146,38 @@ class TraceServiceTest(unittest.TestCase):
         self.assertEqual(len(received), len(increments))
         for a, b in zip(received, increments):
             self.assertTrue(helpers.same(a, b), 'increment %d' % b.index)
+
+    def test_request_is_latched(self):
+        request = helpers.request_of('von_mises', max_increments=3)
+        self.trace(request)
+        recorded = rospy.wait_for_message(NODE + '/request', TraceRequest, helpers.PATIENCE)
+        self.assertEqual(helpers.serialized(recorded.scene), helpers.serialized(request.scene))
+        self.assertEqual(helpers.serialized(recorded.options), helpers.serialized(request.options))
+        status = rospy.wait_for_message(NODE + '/status', TraceStatus, helpers.PATIENCE)
+        self.assertEqual(status.progress, 1.0)  # the wanted number of increments
+
+    def test_watch_tells_the_events_and_the_end(self):
+        watch = os.path.join(os.path.dirname(os.path.dirname(helpers.scene_path('sliding_bar'))), 'scripts', 'watch')
+        watcher = subprocess.Popen([watch, '--once', '__name:=watcher'], stdout=subprocess.PIPE, universal_newlines=True)
+        try:
+            for topic in 'request', 'increments', 'status':
+                helpers.wait_until(lambda: helpers.is_subscribed('/watcher', NODE + '/' + topic), 'watch listens')
+            response = self.trace(helpers.request_of('sliding_bar'))
+            said, _ = watcher.communicate(timeout=helpers.PATIENCE)
+        finally:
+            watcher.kill()
+        lines = said.splitlines()
+        _, increments, _ = self.read_bag(response)
+        events = [row for row in increments if row.kind not in (Increment.START, Increment.REGULAR)]
+        self.assertEqual(len([line for line in lines if line.startswith('row ')]), len(events), said)
+        for row in events:
+            told = [line for line in lines if line.startswith('row %6d ' % row.index)]
+            self.assertEqual(len(told), 1, said)
+            self.assertIn('load factor %.6g' % row.load_factor, told[0])
+        self.assertIn('b@floor stick -> slip+', said)
+        self.assertIn('ended stop_criterion: ' + response.message, lines[-2])
+        self.assertIn('%d rows, limit loads: ' % response.increments, lines[-1])
+        self.assertTrue(lines[-1].endswith('bag: ' + response.bag), said)
 
     def test_none_of_2000_increments_is_lost(self):
         with helpers.Collector(NODE + '/increments') as collector:

@@ -61,7 +61,7 @@ class VerifyTest(unittest.TestCase):
             run = self.verify(self.record('sliding_bar', '--method', method))
             self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
             self.assertIn('scene sliding_bar', run.stdout)
-            self.assertIn('corner_limit', run.stdout)
+            self.assertIn('smooth_limit', run.stdout)
             self.assertIn('the trace ended stop_criterion', run.stdout)
 
     def test_bag_of_a_trace_that_ended_early_is_proved(self):
@@ -98,7 +98,7 @@ class VerifyTest(unittest.TestCase):
         self.assert_not_proved(self.rewrite(self.record(), lambda kind, message: None if kind == 'result' else message),
                                'truncated: no result')
 
-    def test_bag_that_was_never_closed_is_told_and_can_be_mended(self):
+    def test_bag_that_was_cut_off_is_told(self):
         bag = self.record()
         whole = os.path.getsize(bag)
         with open(bag, 'r+b') as file:
@@ -110,7 +110,7 @@ class VerifyTest(unittest.TestCase):
         with open(text, 'w') as file:
             file.write('no bag')
         self.assert_no_trace([text], 'cannot be read')
-        self.assert_no_trace([os.path.join(self.directory, 'none.bag')], 'cannot be read')
+        self.assert_no_trace([os.path.join(self.directory, 'none.bag')], 'no such file')
         no_request = self.rewrite(self.record(), lambda kind, message: None if kind == 'request' else message)
         self.assert_no_trace([no_request], 'no request before the increments')
 

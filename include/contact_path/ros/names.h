@@ -15,9 +15,10 @@ inline constexpr char kCancel[] = "cancel";  // std_srvs/Trigger
 inline constexpr char kIncrements[] = "increments";  // Increment, also in the bags
 inline constexpr char kStatus[] = "status";          // TraceStatus, latched
 
-// Topics of the bags only.
-inline constexpr char kRequest[] = "request";  // TraceRequest, the first message of a bag
-inline constexpr char kResult[] = "result";    // TraceResult, the last one
+inline constexpr char kRequest[] = "request";  // TraceRequest, latched; the first message of a bag
+
+// Topic of the bags only.
+inline constexpr char kResult[] = "result";  // TraceResult, the last one
 
 // Parameters (trace_service.h).
 inline constexpr char kBagDirectory[] = "bag_directory";

@@ -6,11 +6,13 @@
 #include <chrono>
 #include <cstdint>
 #include <mutex>
+#include <optional>
 #include <string>
 
 #include <ros/ros.h>
 #include <std_srvs/Trigger.h>
 
+#include "contact_path/path/progress_estimate.h"
 #include "contact_path/path/trace.h"
 #include "contact_path/ros/bag_recorder.h"
 #include "contact_path/ros/limits.h"
@@ -57,6 +59,7 @@ class TraceService {
 
   const NodeParameters parameters_;
   const std::string topic_prefix_;  // of the bags' topics: the name of the node
+  ros::Publisher request_publisher_;
   ros::Publisher increments_publisher_;
   ros::Publisher status_publisher_;
 
@@ -72,6 +75,7 @@ class TraceService {
   std::chrono::steady_clock::time_point status_time_;
   std::uint32_t increments_published_ = 0;
   int full_state_every_ = 0;  // as in the request
+  std::optional<ProgressEstimate> progress_;
 
   // Last, so that no call comes in before the rest is there.
   ros::ServiceServer trace_server_;

@@ -1,0 +1,41 @@
+// How much of a trace is done.
+#ifndef CONTACT_PATH_PATH_PROGRESS_ESTIMATE_H_
+#define CONTACT_PATH_PATH_PROGRESS_ESTIMATE_H_
+
+#include <cstddef>
+#include <vector>
+
+#include "contact_path/path/increment.h"
+#include "contact_path/scene/scene.h"
+
+namespace contact_path {
+
+class ProgressEstimate {
+ public:
+  explicit ProgressEstimate(const TraceRequest& request);  // sound (scene/validate.h)
+
+  // Whether the request names an end: a stop criterion, or a number of increments.
+  bool HasEnd() const { return max_increments_ > 0 || !goals_.empty(); }
+
+  // Takes every row, from row 0 on. Part of the way done, 0 to 1: the largest over the stop criteria, from their value
+  // at row 0, and the wanted number of increments; 0 without an end. May fall: paths turn.
+  double Add(const Increment& row);
+
+ private:
+  // A stop criterion as the way from where the path started to where it would end.
+  struct Goal {
+    std::size_t component = 0;  // in Increment::positions, unless of_load_factor
+    bool of_load_factor = false;
+    double start = 0.0;
+    double end = 0.0;
+
+    double Value(const Increment& row) const;
+  };
+
+  int max_increments_;  // as in the request: 0 = not asked for
+  std::vector<Goal> goals_;
+};
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_PATH_PROGRESS_ESTIMATE_H_

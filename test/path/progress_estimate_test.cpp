@@ -1,0 +1,52 @@
+#include "contact_path/path/progress_estimate.h"
+
+#include <gtest/gtest.h>
+
+namespace contact_path {
+namespace {
+
+Increment Row(int index, double load_factor, double x) {
+  Increment row;
+  row.index = index;
+  row.load_factor = load_factor;
+  row.positions = {0.0, 0.0, x, 7.0};
+  return row;
+}
+
+TraceRequest WithNodes() {
+  TraceRequest request;
+  request.scene.nodes = {Node{"a"}, Node{"b.c"}};
+  return request;
+}
+
+TEST(ProgressEstimate, IsZeroWithoutAnEnd) {
+  ProgressEstimate estimate(WithNodes());
+  EXPECT_FALSE(estimate.HasEnd());
+  EXPECT_EQ(estimate.Add(Row(0, 0.0, 0.0)), 0.0);
+  EXPECT_EQ(estimate.Add(Row(900, 5.0, 5.0)), 0.0);
+}
+
+TEST(ProgressEstimate, IsThatOfTheNearestEnd) {
+  TraceRequest request = WithNodes();
+  request.options.max_increments = 10;
+  request.options.stop = {{"b.c.x", ">", 5.0}, {"load_factor", "<", -2.0}};
+  ProgressEstimate estimate(request);
+  EXPECT_TRUE(estimate.HasEnd());
+  EXPECT_EQ(estimate.Add(Row(0, 0.0, 1.0)), 0.0);
+  EXPECT_EQ(estimate.Add(Row(1, -0.1, 1.0)), 0.1);   // one of ten
+  EXPECT_EQ(estimate.Add(Row(2, -1.0, 1.0)), 0.5);   // half of the load
+  EXPECT_EQ(estimate.Add(Row(3, -0.1, 4.0)), 0.75);  // three of the four from 1 to 5
+  EXPECT_EQ(estimate.Add(Row(4, 0.5, 0.0)), 0.4);    // back: the number is nearest again
+  EXPECT_EQ(estimate.Add(Row(5, -3.0, 1.0)), 1.0);
+}
+
+TEST(ProgressEstimate, StartOnTheCriterionCountsForNothing) {
+  TraceRequest request = WithNodes();
+  request.options.stop = {{"b.c.y", ">", 7.0}};
+  ProgressEstimate estimate(request);
+  EXPECT_EQ(estimate.Add(Row(0, 0.0, 0.0)), 0.0);
+  EXPECT_EQ(estimate.Add(Row(1, 1.0, 1.0)), 0.0);
+}
+
+}  // namespace
+}  // namespace contact_path
