@@ -2,6 +2,7 @@
 
 #include <exception>
 #include <filesystem>
+#include <fstream>
 
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
@@ -17,6 +18,13 @@ namespace {
 bool EndsIn(const std::string& topic, const char* name) {
   const std::string end = std::string("/") + name;
   return topic.size() >= end.size() && topic.compare(topic.size() - end.size(), end.size(), end) == 0;
+}
+
+bool StartsAsBag(const std::string& file) {
+  const std::string magic = "#ROSBAG";
+  std::string start(magic.size(), ' ');
+  return std::ifstream(file, std::ios::binary).read(start.data(), static_cast<std::streamsize>(start.size())) &&
+         start == magic;
 }
 
 template <typename Message>
@@ -61,6 +69,7 @@ RecordedTrace ReadTrace(const std::string& file) {
     throw BagError(file + ": was never closed: run `rosbag reindex` on it first");
   } catch (const rosbag::BagIOException& error) {
     if (!std::filesystem::exists(file)) throw BagError(file + ": no such file");
+    if (!StartsAsBag(file)) throw BagError(file + ": is no bag");
     throw BagError(file + ": is cut off (" + error.what() + "): `rosbag reindex` saves what is complete");
   } catch (const BagError& error) {
     throw BagError(file + ": " + error.what());

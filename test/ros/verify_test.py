@@ -109,7 +109,7 @@ class VerifyTest(unittest.TestCase):
         text = os.path.join(self.directory, 'text.bag')
         with open(text, 'w') as file:
             file.write('no bag')
-        self.assert_no_trace([text], 'cannot be read')
+        self.assert_no_trace([text], 'text.bag: is no bag')
         self.assert_no_trace([os.path.join(self.directory, 'none.bag')], 'no such file')
         no_request = self.rewrite(self.record(), lambda kind, message: None if kind == 'request' else message)
         self.assert_no_trace([no_request], 'no request before the increments')
