@@ -92,17 +92,6 @@ class Verifier {
     return finite;
   }
 
-  static CheckedState StateOf(const Increment& row) {
-    CheckedState state;
-    state.load_factor = row.load_factor;
-    state.positions = row.positions;
-    for (const ContactRecord& contact : row.contacts) {
-      state.rn.push_back(contact.rn);
-      state.rt.push_back(contact.rt);
-    }
-    return state;
-  }
-
   void CheckPlace(const Increment& row) {
     if (row.index != static_cast<int>(row_)) Report("has the index ", row.index, ": rows are missing or out of order");
     if ((row.kind == RowKind::kStart) != (row_ == 0)) Report("is of the kind ", ToString(row.kind));

@@ -13,17 +13,6 @@
 namespace contact_path {
 namespace {
 
-CheckedState StateOf(const Increment& row) {
-  CheckedState state;
-  state.load_factor = row.load_factor;
-  state.positions = row.positions;
-  for (const ContactRecord& contact : row.contacts) {
-    state.rn.push_back(contact.rn);
-    state.rt.push_back(contact.rt);
-  }
-  return state;
-}
-
 // The state agrees with what the contact does on the piece from `before` to `now`.
 void ExpectSoundContact(const ContactRecord& before, const ContactRecord& now, double motion, double friction,
                         double force_tolerance, double length_tolerance, const std::string& where) {

@@ -81,6 +81,9 @@ struct Increment {
   EventRecord event;
 };
 
+// What check/ looks at of a row that has its state.
+CheckedState StateOf(const Increment& row);
+
 // "start", "regular", "smooth_limit", "corner_limit", "contact_event", "bifurcation".
 std::string_view ToString(RowKind kind);
 
