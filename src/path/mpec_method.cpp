@@ -32,6 +32,9 @@ constexpr double kDissipationShares[] = {0.2, 0.6, 1.0};
 // Scaled force or length: an inequality this close to zero is about to change a contact's state.
 constexpr double kAtLimit = 1e-9;
 
+// Of a unit direction: the load neither rises nor falls.
+constexpr double kLevel = 1e-9;
+
 constexpr int kFirstDirections = 8;
 constexpr double kShortPath = 20.0;          // of the corner tolerance
 constexpr double kCornerShare = 0.04;        // of the wanted step: largest corner tolerance
@@ -265,7 +268,8 @@ Advance MpecMethod::Next(const PathPoint& from, double longest) {
     const bool changed = started_ && to.states != from.states;
     const Eigen::VectorXd direction = Direction(from, to);
     const Eigen::Index s = direction.size() - 1;
-    if (started_ && direction[s] * direction_[s] < 0.0)
+    if (started_ && direction[s] * direction_[s] < 0.0 &&
+        std::min(std::abs(direction[s]), std::abs(direction_[s])) > kLevel)
       row.kind = changed || bent_ ? RowKind::kCornerLimit : RowKind::kSmoothLimit;
     else if (changed)
       row.kind = RowKind::kContactEvent;

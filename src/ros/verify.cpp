@@ -7,6 +7,8 @@
 #include <locale>
 #include <string>
 
+#include "contact_path/path/stop.h"
+#include "contact_path/path/trace.h"
 #include "contact_path/ros/bag_reader.h"
 #include "contact_path/verify/verify_path.h"
 
@@ -44,12 +46,15 @@ std::string Lacks(const RecordedTrace& trace) {
   if (trace.result->increments != trace.rows.size())
     return "truncated: " + std::to_string(trace.rows.size()) + " rows, the result speaks of " +
            std::to_string(trace.result->increments);
+  if (trace.result->end_reason_name == ToString(EndReason::kStopCriterion) && !trace.rows.empty() &&
+      !trace.rows.back().positions.empty() && StopTest(trace.request).FirstThatHolds(trace.rows.back()) == nullptr)
+    return "the result says stop_criterion, but none holds in the last row";
   return "";
 }
 
 int Run(const std::string& file) {
   const RecordedTrace trace = ReadTrace(file);
-  const Verification verification = VerifyPath(trace.request.scene, trace.rows);
+  const Verification verification = VerifyPath(trace.request, trace.rows);
   std::cout.imbue(std::locale::classic());
   PrintTable(trace, verification);
   for (const Finding& finding : verification.findings)
@@ -59,8 +64,8 @@ int Run(const std::string& file) {
   if (!lacks.empty()) std::cout << lacks << '\n';
   const bool proved = verification.findings.empty() && lacks.empty();
   if (proved)
-    std::cout << "proved: every row is an equilibrium of the scene; the trace ended " << trace.result->end_reason_name
-              << '\n';
+    std::cout << "proved: every row that has its state is an equilibrium of the scene; the trace ended "
+              << trace.result->end_reason_name << '\n';
   else
     std::cout << "NOT proved\n";
   std::cout << std::flush;

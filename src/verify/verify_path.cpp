@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <sstream>
 #include <unordered_map>
@@ -14,6 +15,8 @@ namespace {
 constexpr double kExact = 1e-9;        // of an exact row: all that should be zero, scaled
 constexpr double kRegularised = 1e-5;  // of the others
 constexpr double kRecorded = 1e-11;    // what was recorded, against what is computed anew: rounding, scaled
+constexpr double kRoundings = 64.0;    // of a coordinate
+constexpr double kSlack = 1e-3;        // of what the energy balance may be off by: for one row
 constexpr double kChord = 1e-9;        // relative: arc length against chord
 constexpr double kEnergy = 1e-2;       // of the work done: energies are quadratures
 constexpr double kTurn = 1e-9;         // of the load factor: a smaller change is none
@@ -21,11 +24,20 @@ constexpr double kLongestArc = 1.6;    // of its chord: a quarter of a circle an
 
 class Verifier {
  public:
-  Verifier(const Scene& scene, const std::vector<Increment>& rows)
-      : scene_(scene), rows_(rows), scaling_(CharacteristicScales(scene)), check_(scene) {
-    for (std::size_t i = 0; i < scene.nodes.size(); ++i) nodes_.emplace(scene.nodes[i].name, i);
-    for (const ContactCandidate& contact : scene.contacts) {
-      const auto obstacle = std::find_if(scene.obstacles.begin(), scene.obstacles.end(),
+  Verifier(const TraceRequest& request, const std::vector<Increment>& rows)
+      : scene_(request.scene),
+        full_state_every_(std::max(request.options.full_state_every, 1)),
+        rows_(rows),
+        scaling_(CharacteristicScales(scene_)),
+        check_(scene_) {
+    double farthest = 0.0;
+    for (std::size_t i = 0; i < scene_.nodes.size(); ++i) {
+      nodes_.emplace(scene_.nodes[i].name, i);
+      farthest = std::max({farthest, std::abs(scene_.nodes[i].x), std::abs(scene_.nodes[i].y)});
+    }
+    rounding_ = kRecorded + kRoundings * std::numeric_limits<double>::epsilon() * farthest / scaling_.length;
+    for (const ContactCandidate& contact : scene_.contacts) {
+      const auto obstacle = std::find_if(scene_.obstacles.begin(), scene_.obstacles.end(),
                                          [&](const Obstacle& other) { return other.name == contact.obstacle; });
       const double length = std::hypot(obstacle->nx, obstacle->ny);
       surfaces_.push_back({nodes_.at(contact.node), obstacle->px, obstacle->py, obstacle->nx / length,
@@ -53,7 +65,10 @@ class Verifier {
         }
         CheckState(row);
         before_ = row_;
+      } else if (row.kind != RowKind::kRegular || row.index % full_state_every_ == 0) {
+        Report("has no state, though full_state_every = ", full_state_every_, " wants it");
       }
+      CheckEvent(row);
       CheckLimit();
     }
     CheckEnergy();
@@ -109,9 +124,25 @@ class Verifier {
       Report("the way taken from the row before, ", event.taken, ", is none of its ", event.ways.size());
   }
 
+  // What method branch records where ways part.
+  void CheckEvent(const Increment& row) {
+    if (row.solve.method != Method::kBranch || row_ == 0 || row_ + 1 == rows_.size()) return;
+    const bool event = row.kind == RowKind::kContactEvent || row.kind == RowKind::kCornerLimit;
+    if (event != !row.event.ways.empty()) Report(event ? "an event without ways on" : "ways on, but no event");
+    if (event && row.event.taken < 0) Report("an event where no way is taken");
+    if ((row.kind == RowKind::kBifurcation) == row.event.null_vector.empty())
+      Report("a bifurcation has a direction of the crossing path, and nothing else has");
+  }
+
+  // Whether what happened since the last full row is one piece of path.
+  bool OnePiece(const Increment& row) const {
+    return row_ == 0 || before_ == row_ - 1 || row.solve.method == Method::kBranch;
+  }
+
   void CheckState(const Increment& row) {
     ++result_.full_rows;
     if (row.solve.exact) ++result_.exact_rows;
+    if (row.solve.method == Method::kBranch && !row.solve.exact) Report("a row of method branch that is not exact");
     const double tolerance = row.solve.exact ? kExact : kRegularised;
     const Increment& before = before_ ? rows_[*before_] : row;
     const Residuals residuals = check_.Check(StateOf(before), StateOf(row));
@@ -120,7 +151,7 @@ class Verifier {
     Bound("adhesion", residuals.adhesion, tolerance);
     Bound("gap and reaction are both positive", residuals.complementarity, tolerance);
     Bound("reaction outside of the friction cone", residuals.cone, tolerance);
-    Bound("friction law", residuals.friction_law, tolerance);
+    if (OnePiece(row)) Bound("friction law", residuals.friction_law, tolerance);
     Keep(residuals, row.solve.exact ? &result_.exact : &result_.regularised);
     CheckRecorded(row, residuals);
     for (std::size_t i = 0; i < scene_.nodes.size(); ++i) {
@@ -130,6 +161,7 @@ class Verifier {
     }
     for (std::size_t i = 0; i < surfaces_.size(); ++i) CheckContact(surfaces_[i], before, row, i, tolerance);
     if (before_) CheckPiece(before, row);
+    if (before_ && OnePiece(row)) CheckWork(before, row);
   }
 
   static void Keep(const Residuals& residuals, Residuals* largest) {
@@ -140,7 +172,7 @@ class Verifier {
 
   void CheckRecorded(const Increment& row, const Residuals& residuals) {
     const auto same = [&](const char* what, double recorded, double anew) {
-      if (!(std::abs(recorded - anew) <= kRecorded * (1.0 + std::abs(anew))))
+      if (!(std::abs(recorded - anew) <= rounding_ * (1.0 + std::abs(anew))))
         Report(what, " is recorded as ", recorded, ", but is ", anew);
     };
     same("equilibrium residual", row.residuals.equilibrium, residuals.equilibrium);
@@ -161,10 +193,11 @@ class Verifier {
     const double x = row.positions[2 * surface.node], y = row.positions[2 * surface.node + 1];
     const double gap = (surface.nx * (x - surface.px) + surface.ny * (y - surface.py)) / scaling_.length;
     Bound("recorded gap of " + surface.name + " less the true one", std::abs(contact.gap / scaling_.length - gap),
-          kRecorded);
-    const double slip = (surface.ny * (x - before.positions[2 * surface.node]) -
-                         surface.nx * (y - before.positions[2 * surface.node + 1])) /
-                        scaling_.length;
+          rounding_);
+    const double slip = !OnePiece(row) ? 0.0
+                                       : (surface.ny * (x - before.positions[2 * surface.node]) -
+                                          surface.nx * (y - before.positions[2 * surface.node + 1])) /
+                                             scaling_.length;
     const double rn = contact.rn / scaling_.force, rt = contact.rt / scaling_.force;
     const auto wrong = [&](const char* state) { Report(surface.name, " is recorded as ", state, ", but is not"); };
     switch (contact.state) {
@@ -194,7 +227,7 @@ class Verifier {
     for (std::size_t i = 0; i < row.positions.size(); ++i)
       square += std::pow((row.positions[i] - before.positions[i]) / scaling_.length, 2);
     const double chord = std::sqrt(square), arc = row.arc_length - before.arc_length;
-    if (arc < chord * (1.0 - kChord) - kRecorded) Report("arc length grows by ", arc, ", less than the chord ", chord);
+    if (arc < chord * (1.0 - kChord) - rounding_) Report("arc length grows by ", arc, ", less than the chord ", chord);
     if (before_ == row_ - 1 && arc > kLongestArc * chord + kRecorded)
       Report("arc length grows by ", arc, ", more than a curve with the chord ", chord, " would");
 
@@ -212,6 +245,39 @@ class Verifier {
     bool as_taken = states.size() == row.contacts.size();
     for (std::size_t i = 0; as_taken && i < states.size(); ++i) as_taken = states[i] == row.contacts[i].state;
     if (!as_taken) Report("contact states are not those of the way taken from the row before");
+  }
+
+  // Work and dissipation between two full rows: between the products with the smallest and with the largest force,
+  // which a trapezoid is in the middle of; as much again for paths that turn in between.
+  void CheckWork(const Increment& before, const Increment& row) {
+    const double unit = scaling_.force * scaling_.length;
+    double along = 0.0, work = 0.0;
+    for (const Load& load : scene_.loads) {
+      const std::size_t x = 2 * nodes_.at(load.node), y = x + 1;
+      const double product =
+          load.fx * (row.positions[x] - before.positions[x]) + load.fy * (row.positions[y] - before.positions[y]);
+      (load.constant ? work : along) += product;
+    }
+    work += 0.5 * (before.load_factor + row.load_factor) * along;
+    const double open_work = 0.5 * std::abs((row.load_factor - before.load_factor) * along) / unit;
+    double dissipation = 0.0, open_dissipation = 0.0;
+    for (std::size_t i = 0; i < surfaces_.size(); ++i) {
+      const ContactState state = row.contacts[i].state;
+      if (state != ContactState::kSlipPlus && state != ContactState::kSlipMinus) continue;
+      const Surface& surface = surfaces_[i];
+      const double slip =
+          std::abs(surface.ny * (row.positions[2 * surface.node] - before.positions[2 * surface.node]) -
+                   surface.nx * (row.positions[2 * surface.node + 1] - before.positions[2 * surface.node + 1]));
+      dissipation += 0.5 * surface.friction * (before.contacts[i].rn + row.contacts[i].rn) * slip;
+      open_dissipation += 0.5 * surface.friction * std::abs(row.contacts[i].rn - before.contacts[i].rn) * slip / unit;
+    }
+    const double slack = kEnergy * result_.work * kSlack + rounding_;
+    const double work_off = std::abs(row.external_work - before.external_work - work) / unit;
+    if (!(work_off <= 2.0 * open_work + slack)) Report("work of the loads is off by ", work_off, " of F L");
+    const double dissipation_off = std::abs(row.dissipation - before.dissipation - dissipation) / unit;
+    if (!(dissipation_off <= 2.0 * open_dissipation + slack))
+      Report("dissipation is off by ", dissipation_off, " of F L");
+    if (row.solve.method == Method::kMpec) open_ += open_work + open_dissipation;
   }
 
   // The load factor turns between the last three rows where a limit point is, and nowhere else.
@@ -238,7 +304,7 @@ class Verifier {
       const double balance = (row.external_work - start.external_work - (row.strain_energy - start.strain_energy) -
                               (row.dissipation - start.dissipation)) /
                              unit;
-      if (!(std::abs(balance) <= kEnergy * result_.work + kRecorded)) {
+      if (!(std::abs(balance) <= kEnergy * result_.work + open_ + rounding_)) {
         Report("energy balance: ", balance, " of F L, with ", result_.work, " of work done on the whole path");
         return;
       }
@@ -247,6 +313,7 @@ class Verifier {
   }
 
   const Scene& scene_;
+  const int full_state_every_;
   const std::vector<Increment>& rows_;
   const Scaling scaling_;
   const ResidualCheck check_;
@@ -254,11 +321,15 @@ class Verifier {
   std::vector<Surface> surfaces_;
   std::size_t row_ = 0;                // being checked
   std::optional<std::size_t> before_;  // the last full row
+  double rounding_ = 0.0;              // of what was recorded, scaled
+  double open_ = 0.0;                  // what trapezoids leave open of works and dissipations
   Verification result_;
 };
 
 }  // namespace
 
-Verification VerifyPath(const Scene& scene, const std::vector<Increment>& rows) { return Verifier(scene, rows).Run(); }
+Verification VerifyPath(const TraceRequest& request, const std::vector<Increment>& rows) {
+  return Verifier(request, rows).Run();
+}
 
 }  // namespace contact_path

@@ -31,7 +31,7 @@ TEST(VerifyPath, ProvesWhatBothMethodsTrace) {
     for (const Method method : {Method::kBranch, Method::kMpec}) {
       SCOPED_TRACE(scene);
       const TracedPath path = Traced(scene, method);
-      const Verification verification = VerifyPath(path.request.scene, path.rows);
+      const Verification verification = VerifyPath(path.request, path.rows);
       EXPECT_TRUE(verification.findings.empty()) << Listed(verification);
       EXPECT_EQ(verification.rows, static_cast<int>(path.rows.size()));
       EXPECT_EQ(verification.full_rows, verification.rows);
@@ -86,7 +86,33 @@ const Tampering kTamperings[] = {
      [](auto& rows) {
        for (auto& row : rows) row.dissipation *= 1.2;
      },
-     "energy balance"},
+     "dissipation is off by"},
+    {"DissipationAndWork",
+     [](auto& rows) {
+       for (auto& row : rows) {
+         row.external_work += row.dissipation;
+         row.dissipation *= 2.0;
+       }
+     },
+     "dissipation is off by"},
+    {"WorkAndEnergyShifted",
+     [](auto& rows) {
+       for (std::size_t i = 9; i < rows.size(); ++i) rows[i].external_work += 1e-3;
+     },
+     "work of the loads is off by"},
+    {"StatesRemoved",
+     [](auto& rows) {
+       rows[5].positions.clear();
+       rows[5].contacts.clear();
+     },
+     "has no state"},
+    {"WaysRemoved", [](auto& rows) { rows[FirstCorner(rows)].event.ways.clear(); }, "an event without ways on"},
+    {"NoWayTaken", [](auto& rows) { rows[FirstCorner(rows)].event.taken = -1; }, "no way is taken"},
+    {"EventInvented", [](auto& rows) { rows[FirstRegular(rows)].kind = RowKind::kContactEvent; },
+     "an event without ways on"},
+    {"BifurcationInvented", [](auto& rows) { rows[FirstRegular(rows)].kind = RowKind::kBifurcation; },
+     "a bifurcation has a direction"},
+    {"SaidToBeRegularised", [](auto& rows) { rows[5].solve.exact = false; }, "not exact"},
     {"DissipationFalls", [](auto& rows) { rows[FirstSlipping(rows)].dissipation = -1e-3; }, "dissipation falls"},
     {"ExternalWork", [](auto& rows) { rows.back().external_work += 0.1; }, "energy balance"},
     {"Stick", [](auto& rows) { rows[FirstSlipping(rows)].contacts[0].state = ContactState::kStick; }, "as sticking"},
@@ -131,27 +157,50 @@ class Tampered : public testing::TestWithParam<Tampering> {};
 TEST_P(Tampered, IsFound) {
   std::vector<Increment> rows = Genuine().rows;
   GetParam().change(rows);
-  const Verification verification = VerifyPath(Genuine().request.scene, rows);
+  const Verification verification = VerifyPath(Genuine().request, rows);
   EXPECT_NE(Listed(verification).find(GetParam().found), std::string::npos) << Listed(verification);
 }
 
 INSTANTIATE_TEST_SUITE_P(VerifyPath, Tampered, testing::ValuesIn(kTamperings),
                          [](const auto& tested) { return std::string(tested.param.name); });
 
+TEST(VerifyPath, LongIncrementsThatCutCornersAreProved) {
+  TraceRequest request = ReadExample("sliding_bar");
+  request.options.method = Method::kMpec;
+  request.options.step = 0.2;
+  const TracedPath path = TraceRows(request);
+  const Verification verification = VerifyPath(path.request, path.rows);
+  EXPECT_TRUE(verification.findings.empty()) << Listed(verification);
+}
+
+TEST(VerifyPath, FarFromTheOriginIsRounding) {
+  for (const char* scene : {"sliding_bar", "von_mises"}) {
+    TraceRequest request = ReadExample(scene);
+    for (Node& node : request.scene.nodes) node.x += 1e5;
+    for (Obstacle& obstacle : request.scene.obstacles) obstacle.px += 1e5;
+    request.options.stop.clear();
+    request.options.max_increments = 60;
+    const TracedPath path = TraceRows(request);
+    ASSERT_EQ(path.rows.size(), 61U);
+    const Verification verification = VerifyPath(path.request, path.rows);
+    EXPECT_TRUE(verification.findings.empty()) << Listed(verification);
+  }
+}
+
 TEST(VerifyPath, FixedNodesRest) {
   const TracedPath path = Traced("sliding_bar", Method::kBranch);
   ASSERT_TRUE(path.request.scene.nodes[0].fixed_x);
   std::vector<Increment> rows = path.rows;
   rows[5].positions[0] += 1e-6;
-  const Verification verification = VerifyPath(path.request.scene, rows);
+  const Verification verification = VerifyPath(path.request, rows);
   const std::string wanted = "row 5: fixed node " + path.request.scene.nodes[0].name + " has moved";
   EXPECT_NE(Listed(verification).find(wanted), std::string::npos) << Listed(verification);
 }
 
 TEST(VerifyPath, AnotherSceneIsNotProved) {
-  Scene scene = Genuine().request.scene;
-  scene.obstacles[0].friction *= 1.01;
-  EXPECT_FALSE(VerifyPath(scene, Genuine().rows).findings.empty());
+  TraceRequest request = Genuine().request;
+  request.scene.obstacles[0].friction *= 1.01;
+  EXPECT_FALSE(VerifyPath(request, Genuine().rows).findings.empty());
 }
 
 TEST(VerifyPath, RowsWithoutStateAreCounted) {
@@ -164,7 +213,10 @@ TEST(VerifyPath, RowsWithoutStateAreCounted) {
       ++left;
     }
   ASSERT_GT(left, 10);
-  const Verification verification = VerifyPath(Genuine().request.scene, rows);
+  TraceRequest request = Genuine().request;
+  EXPECT_NE(Listed(VerifyPath(request, rows)).find("has no state"), std::string::npos);
+  request.options.full_state_every = 4;
+  const Verification verification = VerifyPath(request, rows);
   EXPECT_TRUE(verification.findings.empty()) << Listed(verification);
   EXPECT_EQ(verification.full_rows, verification.rows - left);
 }
@@ -172,7 +224,7 @@ TEST(VerifyPath, RowsWithoutStateAreCounted) {
 TEST(VerifyPath, FindingsHaveAnEnd) {
   std::vector<Increment> rows = Genuine().rows;
   for (Increment& row : rows) row.load_factor += 1.0;
-  EXPECT_EQ(VerifyPath(Genuine().request.scene, rows).findings.size(), static_cast<std::size_t>(kMostFindings));
+  EXPECT_EQ(VerifyPath(Genuine().request, rows).findings.size(), static_cast<std::size_t>(kMostFindings));
 }
 
 }  // namespace

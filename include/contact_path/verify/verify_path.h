@@ -32,14 +32,16 @@ struct Verification {
 
 constexpr int kMostFindings = 20;
 
-// Scene: valid. Rows: all that were recorded, in their order; rows without state have empty positions and contacts.
+// Request: valid. Rows: all that were recorded, in their order; regular rows that full_state_every leaves out have
+// empty positions and contacts.
 //
 // Checked of each row: its place; fixed nodes rest; the residuals, computed from the scene alone, are within the
 // tolerance of the method (1e-9, regularised 1e-5) and as recorded; gaps, strain energy; the contact states against
-// gaps, reactions and motions. From row to row: arc length (not shorter than the chord), dissipation, energy balance
-// (to 1 % of the work done: works are quadratures), states change only at events, the load factor turns at limit points
-// and only there, and the way taken at an event is the one that follows.
-Verification VerifyPath(const Scene& scene, const std::vector<Increment>& rows);
+// gaps, reactions and motions. From row to row: arc length (between the chord and 1.6 of it), dissipation and work (to
+// what a trapezoid between the rows leaves open), energy balance (to 1 % of the work done, mpec: and what trapezoids
+// leave open), states change only at events, the load factor turns at limit points and only there, and the way taken at
+// an event is the one that follows. Not checked: the other ways on record, counters and times.
+Verification VerifyPath(const TraceRequest& request, const std::vector<Increment>& rows);
 
 }  // namespace contact_path
 
