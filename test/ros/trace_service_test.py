@@ -137,6 +137,8 @@ class TraceServiceTest(unittest.TestCase):
             finally:
                 recorder.send_signal(signal.SIGINT)
                 recorder.wait(helpers.PATIENCE)
+            # The recorder proper outlives the command; the bag has its name when it is closed.
+            helpers.wait_until(lambda: os.path.exists(bag), 'the recorded bag is closed')
             with rosbag.Bag(bag) as recorded:
                 received = [message for _, message, _ in recorded.read_messages()]
         newest = max(name for name in os.listdir(self.bags) if name.endswith('.bag'))
