@@ -44,6 +44,8 @@ def table(head, rows):
 def setting(row):
     if float(row['step']) > 0:
         return 'step %g' % float(row['step'])
+    if row['cold'] == '1':
+        return 'cold starts'
     if float(row['eps_min']) > 0:
         return 'eps %g' % float(row['eps_min'])
     return row['accuracy']
@@ -54,7 +56,7 @@ def pareto(rows, path):
     figure, axes = plt.subplots(1, 2, figsize=(11, 4.2), sharex=True)
     for axis, error, label in ((axes[0], 'line_error', 'lines between rows'), (axes[1], 'row_error', 'rows')):
         for method, colour in (('branch', 'tab:blue'), ('mpec', 'tab:orange')):
-            for kind, marker in (('preset', 'o'), ('step', '.'), ('eps', 'x')):
+            for kind, marker in (('preset', 'o'), ('step', '.'), ('eps', 'x'), ('cold', '+')):
                 chosen = [row for row in rows if row['method'] == method and
                           (setting(row).split()[0] if ' ' in setting(row) else 'preset') == kind]
                 if not chosen:
@@ -62,7 +64,7 @@ def pareto(rows, path):
                 axis.loglog([1e3 * float(row['seconds']) for row in chosen],
                             [max(float(row[error]), 1e-17) for row in chosen], linestyle='none', marker=marker,
                             color=colour, label='%s, %s' % (method, {'preset': 'presets', 'step': 'other steps',
-                                                                     'eps': 'other eps'}[kind]))
+                                                                     'eps': 'other eps', 'cold': 'cold starts'}[kind]))
                 for row in chosen:
                     if kind == 'preset':
                         axis.annotate(row['accuracy'], (1e3 * float(row['seconds']), max(float(row[error]), 1e-17)),

@@ -18,6 +18,7 @@ endif()
 add_library(contact_path_test_support STATIC EXCLUDE_FROM_ALL
   test/support/dense.cpp
   test/support/derivative_checker.cpp
+  test/support/random_scene.cpp
   test/support/reference_cases.cpp
   test/support/traced_path.cpp
   test/support/transformations.cpp
@@ -33,18 +34,18 @@ target_precompile_headers(contact_path_test_support PRIVATE <gtest/gtest.h> <Eig
   <algorithm> <cmath> <functional> <map> <string> <vector>)
 target_link_libraries(contact_path_test_support PUBLIC contact_path_core GTest::gtest PRIVATE contact_path_warnings)
 
-# contact_path_add_test(<stage>/<name> [LONG] [SOURCES file...]): test/<stage>/<name>.cpp, as the program <stage>_<name>.
+# contact_path_add_test(<stage>/<name> [LONG]): test/<stage>/<name>.cpp, as the program <stage>_<name>.
 function(contact_path_add_test source)
-  cmake_parse_arguments(ARG "LONG" "" "SOURCES" ${ARGN})
+  cmake_parse_arguments(ARG "LONG" "" "" ${ARGN})
   if(ARG_LONG AND NOT CONTACT_PATH_LONG_TESTS)
     return()
   endif()
   string(REPLACE "/" "_" name ${source})
   if(contact_path_test_with_catkin)
-    catkin_add_gtest(${name} test/${source}.cpp ${ARG_SOURCES})
+    catkin_add_gtest(${name} test/${source}.cpp)
     set(test _ctest_${PROJECT_NAME}_gtest_${name})
   else()
-    add_executable(${name} test/${source}.cpp ${ARG_SOURCES})
+    add_executable(${name} test/${source}.cpp)
     set(test ${name})
     add_test(NAME ${test} COMMAND ${name} --gtest_output=xml:${contact_path_test_results}/gtest-${name}.xml)
   endif()
@@ -97,7 +98,7 @@ contact_path_add_test(branch/branch_method_test LONG)
 contact_path_add_test(branch/branch_choices_test)
 contact_path_add_test(branch/branch_events_test LONG)
 # Random scenes, each traced in many ways: it lists every scene whose path depends on how it is traced.
-contact_path_add_test(branch/random_paths_test LONG SOURCES test/branch/random_scene.cpp)
+contact_path_add_test(branch/random_paths_test LONG)
 contact_path_add_test(check/residuals_test)
 contact_path_add_test(path/csv_test)
 contact_path_add_test(path/diagnosis_test)
@@ -112,6 +113,7 @@ contact_path_add_test(path/model_size_test)
 contact_path_add_test(path/work_test)
 # The whole tracer: the reference cases, what must not change a path, and what once went wrong.
 contact_path_add_test(path/mpec_cases_test LONG)
+contact_path_add_test(path/mpec_random_paths_test LONG)
 contact_path_add_test(path/invariance_test LONG)
 contact_path_add_test(path/hard_scenes_test)
 

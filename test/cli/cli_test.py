@@ -7,16 +7,15 @@ import csv
 import io
 import os
 import pty
-import shutil
 import signal
 import subprocess
-import tempfile
 import threading
 import unittest
 
+import program_test
+
 PROGRAM = os.environ['CONTACT_PATH_TRACE']
-SCENE = os.path.join(os.environ['CONTACT_PATH_SCENES'], 'sliding_bar.yaml')
-TIMEOUT = 120  # seconds, for any single run
+SCENE = program_test.scene_file('sliding_bar')
 
 # More work than any test waits for.
 ENDLESS = ['--step', '1e-6', '--max-increments', '1000000000']
@@ -26,8 +25,7 @@ HEADER = ('index,load_factor,arc_length,kind,x_a,y_a,x_b,y_b,gap_b@floor,rn_b@fl
 
 
 def run(*arguments, **options):
-    options = {'stdout': subprocess.PIPE, 'stderr': subprocess.PIPE, **options}
-    return subprocess.run([PROGRAM, *arguments], timeout=TIMEOUT, universal_newlines=True, check=False, **options)
+    return program_test.run(PROGRAM, *arguments, **options)
 
 
 def read(path):
@@ -43,18 +41,17 @@ def without_time(text):
     return [{key: value for key, value in row.items() if key != 'solve_time'} for row in rows_of(text)]
 
 
-class CliTest(unittest.TestCase):
+class CliTest(program_test.ProgramTest):
 
     def setUp(self):
-        self.directory = tempfile.mkdtemp()
-        self.addCleanup(shutil.rmtree, self.directory)
+        super().setUp()
         self.csv = self.path('rows.csv')
 
     def start(self, *arguments, **options):
         """Runs in the background, not longer than the time limit."""
         options = {'stdout': subprocess.PIPE, 'stderr': subprocess.PIPE, **options}
         process = subprocess.Popen([PROGRAM, *arguments], universal_newlines=True, **options)
-        timer = threading.Timer(TIMEOUT, process.kill)
+        timer = threading.Timer(program_test.TIMEOUT, process.kill)
         timer.start()
         for pipe in (process.stdout, process.stderr):
             if pipe is not None:
@@ -63,9 +60,6 @@ class CliTest(unittest.TestCase):
         self.addCleanup(process.kill)
         self.addCleanup(timer.cancel)
         return process
-
-    def path(self, name):
-        return os.path.join(self.directory, name)
 
     def write_scene(self, text):
         path = self.path('scene.yaml')
@@ -234,7 +228,7 @@ class TracesThatEndEarly(CliTest):
 
     def test_rows_are_written_as_they_come(self):
         process = self.start(SCENE, '--csv', self.csv, *ENDLESS)
-        for _ in range(TIMEOUT * 100):
+        for _ in range(program_test.TIMEOUT * 100):
             if os.path.exists(self.csv) and read(self.csv).count('\n') >= 3:
                 break
             try:

@@ -4,35 +4,23 @@
 CONTACT_PATH_TRACE: the program; CONTACT_PATH_SCENES, CONTACT_PATH_SCRIPTS: directories.
 """
 import os
-import shutil
-import subprocess
-import tempfile
 import unittest
 
+from program_test import ProgramTest, run, scene_file
+
 TRACE = os.environ['CONTACT_PATH_TRACE']
-SCENES = os.environ['CONTACT_PATH_SCENES']
 SCRIPTS = os.environ['CONTACT_PATH_SCRIPTS']
-TIMEOUT = 120  # seconds, for any single run
 
 
-class PlotTest(unittest.TestCase):
-
-    def setUp(self):
-        self.directory = tempfile.mkdtemp()
-        self.addCleanup(shutil.rmtree, self.directory)
-
-    def path(self, name):
-        return os.path.join(self.directory, name)
+class PlotTest(ProgramTest):
 
     def trace(self, scene, name, *options):
         table = self.path(name)
-        subprocess.run([TRACE, os.path.join(SCENES, scene + '.yaml'), '--csv', table, '--quiet', *options],
-                       timeout=TIMEOUT, check=True)
+        self.assertEqual(run(TRACE, scene_file(scene), '--csv', table, '--quiet', *options).returncode, 0)
         return table
 
     def run_script(self, script, *arguments):
-        return subprocess.run([os.path.join(SCRIPTS, script), *arguments], timeout=TIMEOUT, check=False,
-                              universal_newlines=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        return run(os.path.join(SCRIPTS, script), *arguments)
 
     def assert_drawn(self, run, image, magic):
         self.assertEqual(run.returncode, 0, run.stderr)
@@ -64,7 +52,7 @@ class PlotTest(unittest.TestCase):
 
     def test_shapes(self):
         table = self.trace('sliding_bar', 'a.csv')
-        run = self.run_script('shapes', os.path.join(SCENES, 'sliding_bar.yaml'), table)
+        run = self.run_script('shapes', scene_file('sliding_bar'), table)
         self.assert_drawn(run, self.path('a_shapes.png'), b'PNG')
 
     def test_what_cannot_be_plotted_is_one_line(self):

@@ -64,6 +64,21 @@ TracedPath TraceRows(const TraceRequest& request) {
   return path;
 }
 
+TracedPath TraceArc(TraceRequest request, double arc_length) {
+  TracedPath path;
+  request.options.max_increments = 4000;
+  path.request = request;
+  bool done = false;
+  TraceControl control;
+  control.on_increment = [&](const Increment& row) {
+    path.rows.push_back(row);
+    done = row.arc_length > arc_length;
+  };
+  control.cancelled = [&] { return done; };
+  path.result = Trace(path.request, control);
+  return path;
+}
+
 std::size_t NodeNumber(const Scene& scene, const std::string& node) {
   for (std::size_t i = 0; i < scene.nodes.size(); ++i)
     if (scene.nodes[i].name == node) return i;

@@ -24,6 +24,9 @@ TraceRequest ReadExample(const std::string& name);
 // All rows of a request.
 TracedPath TraceRows(const TraceRequest& request);
 
+// The rows up to the first one beyond this arc length (scaled), at most 4000.
+TracedPath TraceArc(TraceRequest request, double arc_length);
+
 // By name; the node or contact must exist.
 std::size_t NodeNumber(const Scene& scene, const std::string& node);
 double PositionX(const TracedPath& path, const Increment& row, const std::string& node);

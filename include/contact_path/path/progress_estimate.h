@@ -2,10 +2,10 @@
 #ifndef CONTACT_PATH_PATH_PROGRESS_ESTIMATE_H_
 #define CONTACT_PATH_PATH_PROGRESS_ESTIMATE_H_
 
-#include <cstddef>
 #include <vector>
 
 #include "contact_path/path/increment.h"
+#include "contact_path/path/stop.h"
 #include "contact_path/scene/scene.h"
 
 namespace contact_path {
@@ -24,12 +24,9 @@ class ProgressEstimate {
  private:
   // A stop criterion as the way from where the path started to where it would end.
   struct Goal {
-    std::size_t component = 0;  // in Increment::positions, unless of_load_factor
-    bool of_load_factor = false;
+    StopQuantity quantity;
     double start = 0.0;
     double end = 0.0;
-
-    double Value(const Increment& row) const;
   };
 
   int max_increments_;  // as in the request: 0 = not asked for

@@ -10,6 +10,20 @@
 
 namespace contact_path {
 
+// What a stop criterion speaks of: the load factor, or a coordinate of a node.
+class StopQuantity {
+ public:
+  // name: "load_factor", or "<node>.x", "<node>.y" of a node of the scene.
+  StopQuantity(const Scene& scene, const std::string& name);
+
+  bool IsLoadFactor() const { return component_ == kLoadFactor; }
+  double Value(const Increment& row) const;
+
+ private:
+  static constexpr int kLoadFactor = -1;
+  int component_ = kLoadFactor;  // into Increment::positions
+};
+
 class StopTest {
  public:
   // `request` must be sound and outlive the test.
@@ -20,10 +34,9 @@ class StopTest {
   const StopCriterion* FirstThatHolds(const Increment& row) const;
 
  private:
-  static constexpr int kLoadFactor = -1;
   struct Item {
     const StopCriterion* criterion;
-    int component;    // into Increment::positions, or kLoadFactor
+    StopQuantity quantity;
     double rounding;  // of the quantity
   };
   std::vector<Item> items_;

@@ -1,4 +1,4 @@
-#include "branch/random_scene.h"
+#include "support/random_scene.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // Small random trusses with contacts, for studies of many scenes.
-#ifndef CONTACT_PATH_TEST_BRANCH_RANDOM_SCENE_H_
-#define CONTACT_PATH_TEST_BRANCH_RANDOM_SCENE_H_
+#ifndef CONTACT_PATH_TEST_SUPPORT_RANDOM_SCENE_H_
+#define CONTACT_PATH_TEST_SUPPORT_RANDOM_SCENE_H_
 
 #include "contact_path/scene/scene.h"
 
@@ -18,4 +18,4 @@ bool CanBeRotated(const Scene& scene);
 
 }  // namespace contact_path
 
-#endif  // CONTACT_PATH_TEST_BRANCH_RANDOM_SCENE_H_
+#endif  // CONTACT_PATH_TEST_SUPPORT_RANDOM_SCENE_H_

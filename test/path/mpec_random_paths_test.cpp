@@ -1,0 +1,79 @@
+// Random scenes by Algorithm 3.2, against their exact paths.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <iostream>
+#include <limits>
+#include <vector>
+
+#include "contact_path/scene/scaling.h"
+#include "support/random_scene.h"
+#include "support/traced_path.h"
+
+namespace contact_path {
+namespace {
+
+// Distance of a row from the polygon of a path, in (u, s), scaled; *place: arc length there.
+double DistanceFromPath(const Increment& row, const TracedPath& path, double* place) {
+  const Scaling scaling = CharacteristicScales(path.request.scene);
+  const auto point = [&scaling](const Increment& of) {
+    const auto size = static_cast<Eigen::Index>(of.positions.size());
+    Eigen::VectorXd x(size + 1);
+    x << Eigen::Map<const Eigen::VectorXd>(of.positions.data(), size) / scaling.length,
+        of.load_factor / scaling.load_factor;
+    return x;
+  };
+  const Eigen::VectorXd x = point(row);
+  double nearest = std::numeric_limits<double>::infinity();
+  Eigen::VectorXd a = point(path.rows[0]);
+  for (std::size_t i = 1; i < path.rows.size(); ++i) {
+    const Eigen::VectorXd b = point(path.rows[i]), edge = b - a;
+    const double share = edge.squaredNorm() > 0.0 ? std::clamp(edge.dot(x - a) / edge.squaredNorm(), 0.0, 1.0) : 0.0;
+    const double distance = (a + share * edge - x).norm();
+    if (distance < nearest) {
+      nearest = distance;
+      *place = path.rows[i].arc_length;
+    }
+    a = b;
+  }
+  return nearest;
+}
+
+// The increments of Algorithm 3.2 follow the path: on it between events, next to it after one, as near as a corner may
+// be cut.
+TEST(RandomPathsByMpec, FollowTheExactPath) {
+  constexpr unsigned kCompared = 12;
+  constexpr double kArc = 0.16, kPolygon = 1e-6, kCorner = 5e-4;
+  int nearer = 0, on_the_path = 0, increments = 0;
+  for (unsigned seed = 1; seed <= kCompared; ++seed) {
+    TraceRequest request = RandomRequest(seed);
+    request.options.step = 0.001;
+    const TracedPath exact = TraceArc(request, 2.0 * kArc);
+    ASSERT_FALSE(exact.rows.empty());
+    request.options.method = Method::kMpec;
+    std::vector<double> farthest;
+    for (const double step : {0.04, 0.02}) {
+      request.options.step = step;
+      const TracedPath path = TraceArc(request, kArc);
+      double worst = 0.0, place = 0.0;
+      for (const Increment& row : path.rows) {
+        const double distance = DistanceFromPath(row, exact, &place);
+        worst = std::max(worst, distance);
+        EXPECT_LE(distance, kCorner) << "seed " << seed << " at " << place;
+        ++increments;
+      }
+      farthest.push_back(worst);
+    }
+    std::cout << "seed " << seed << ": at most " << farthest[0] << " and, with shorter increments, " << farthest[1]
+              << " from the path\n";
+    if (farthest[1] <= kPolygon) ++on_the_path;
+    if (farthest[1] <= 1.1 * farthest[0] + kPolygon) ++nearer;
+  }
+  EXPECT_GE(on_the_path, 7);
+  EXPECT_EQ(nearer, static_cast<int>(kCompared));
+  std::cout << increments << " increments; on the path in " << on_the_path
+            << " scenes, not farther with shorter increments in " << nearer << " of " << kCompared << "\n";
+}
+
+}  // namespace
+}  // namespace contact_path
