@@ -10,9 +10,12 @@ add_message_files(FILES
   Load.msg
   Node.msg
   Obstacle.msg
+  ObstacleMotion.msg
   Scene.msg
+  Stage.msg
   StopCriterion.msg
   Superelement.msg
+  SupportMotion.msg
   TraceOptions.msg
   TraceRequest.msg
   TraceResult.msg
@@ -39,6 +42,7 @@ add_library(contact_path_ros
 add_dependencies(contact_path_ros ${PROJECT_NAME}_generate_messages_cpp)
 target_include_directories(contact_path_ros SYSTEM
   PUBLIC ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION} ${catkin_INCLUDE_DIRS})
+target_precompile_headers(contact_path_ros PRIVATE <ros/ros.h> <algorithm> <memory> <string> <vector>)
 target_link_libraries(contact_path_ros
   PUBLIC contact_path_core ${catkin_LIBRARIES}
   PRIVATE contact_path_warnings)

@@ -72,11 +72,21 @@ double FindBifurcation(SmoothPiece* piece, const Segment& segment) {
   return 0.5 * (before + beyond);
 }
 
-std::optional<CurvePoint> LocateRegular(SmoothPiece* piece, const Segment& segment, const Watched& watched);
+// Where the load factor first is `target` on (0, length]; nothing if it is not, or at the start.
+std::optional<double> FirstAt(Quintic load, double target, double length) {
+  load[0] -= target;
+  if (load[0] == 0.0) return std::nullopt;
+  if (load[0] < 0.0)
+    for (double& coefficient : load) coefficient = -coefficient;
+  return FirstNegative(load, length, 0.0);
+}
+
+std::optional<CurvePoint> LocateRegular(SmoothPiece* piece, const Segment& segment, const Watched& watched,
+                                        double target);
 
 }  // namespace
 
-Watched Watch(SmoothPiece* piece, const Segment& segment) {
+Watched Watch(SmoothPiece* piece, const Segment& segment, std::optional<double> target) {
   const FixedStateSystem& system = piece->system();
   Watched first;
   first.t = segment.length;
@@ -103,7 +113,11 @@ Watched Watch(SmoothPiece* piece, const Segment& segment) {
   }
   const Eigen::Index s = system.NumDofs();
   const auto load = [s](const Eigen::VectorXd& x) { return x[s]; };
-  const Quintic load_rate = Derivative(segment.Interpolate(load, load));
+  const Quintic load_factor = segment.Interpolate(load, load);
+  if (target)
+    if (const std::optional<double> t = FirstAt(load_factor, *target, segment.length))
+      consider(Happening::kTarget, *t, {});
+  const Quintic load_rate = Derivative(load_factor);
   Quintic reversed = load_rate;
   for (double& coefficient : reversed) coefficient = -coefficient;
   for (const Quintic& rate : {load_rate, reversed}) {
@@ -120,14 +134,15 @@ Watched Watch(SmoothPiece* piece, const Segment& segment) {
   return first;
 }
 
-std::optional<CurvePoint> Locate(SmoothPiece* piece, const Segment& segment, const Watched& watched) {
+std::optional<CurvePoint> Locate(SmoothPiece* piece, const Segment& segment, const Watched& watched,
+                                 std::optional<double> target) {
   if (watched.singular) {
     CurvePoint point = segment.At(watched.t);
     point.x = piece->CorrectSingular(point.x, segment.normal);
     point.determinant_sign = 0;
     return point;
   }
-  std::optional<CurvePoint> point = LocateRegular(piece, segment, watched);
+  std::optional<CurvePoint> point = LocateRegular(piece, segment, watched, target.value_or(0.0));
   if (!point) return std::nullopt;
   const double t = segment.normal.dot((point->x - segment.start.x).head(segment.normal.size()));
   const double slack = kSlack * segment.length;
@@ -137,7 +152,8 @@ std::optional<CurvePoint> Locate(SmoothPiece* piece, const Segment& segment, con
 
 namespace {
 
-std::optional<CurvePoint> LocateRegular(SmoothPiece* piece, const Segment& segment, const Watched& watched) {
+std::optional<CurvePoint> LocateRegular(SmoothPiece* piece, const Segment& segment, const Watched& watched,
+                                        double target) {
   const FixedStateSystem& system = piece->system();
   switch (watched.happening) {
     case Happening::kNone: return segment.end;
@@ -145,6 +161,13 @@ std::optional<CurvePoint> LocateRegular(SmoothPiece* piece, const Segment& segme
     case Happening::kBifurcation: return segment.At(watched.t);
     case Happening::kLimitPoint:
       return LocateRate(piece, segment, watched.t, [&](const Eigen::VectorXd& rate) { return rate[system.NumDofs()]; });
+    case Happening::kTarget: {
+      const Correction correction = piece->Correct(
+          segment.Point(watched.t), Eigen::VectorXd::Unit(system.NumUnknowns(), system.NumDofs()), target);
+      CurvePoint point;
+      if (!correction.converged || !piece->Derivatives(correction.x, segment.normal, &point)) return std::nullopt;
+      return point;
+    }
     case Happening::kEvent: break;
   }
   if (watched.limit.inequality == Inequality::kSlip)

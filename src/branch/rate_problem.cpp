@@ -19,11 +19,15 @@ constexpr double kRestsBelow = 1e-7;
 constexpr double kMovesAbove = 1e-6;
 constexpr double kNoChange = 1e-9;  // of load and reactions, of a unit motion that is a rigid mode
 
-void AddSpring(const SparseLinear& along, double stiffness, Eigen::SparseMatrix<double>* matrix) {
-  for (std::size_t a = 0; a < 2; ++a)
+// matrix: transposed, nd components before the load factor.
+void AddSpring(const SparseLinear& along, double stiffness, Eigen::Index nd, Eigen::SparseMatrix<double>* matrix) {
+  for (std::size_t a = 0; a < 2; ++a) {
+    if (along.dofs[a] >= 0 && along.load != 0.0)
+      matrix->coeffRef(nd, along.dofs[a]) += stiffness * along.coefficients[a] * along.load;
     for (std::size_t b = 0; b < 2; ++b)
       if (along.dofs[a] >= 0 && along.dofs[b] >= 0)
         matrix->coeffRef(along.dofs[a], along.dofs[b]) += stiffness * along.coefficients[a] * along.coefficients[b];
+  }
 }
 
 }  // namespace
@@ -37,14 +41,14 @@ RateProblem::RateProblem(const Structure& structure, const std::vector<ContactGe
   FixedStateSystem system(structure, contacts);
   system.SetStates(base, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(contacts.size())));
   const Eigen::VectorXd x = system.Pack(point);
+  const Eigen::Index nd = system.NumDofs();
   // Scaled stiffnesses are of the order of 1, and so are the springs.
   Eigen::SparseMatrix<double> transposed = system.TransposedJacobian(x);
   for (const int i : concerned_) {
-    AddSpring(contacts[static_cast<std::size_t>(i)].gap, 1.0, &transposed);
-    AddSpring(contacts[static_cast<std::size_t>(i)].tangential, 1.0, &transposed);
+    AddSpring(contacts[static_cast<std::size_t>(i)].gap, 1.0, nd, &transposed);
+    AddSpring(contacts[static_cast<std::size_t>(i)].tangential, 1.0, nd, &transposed);
   }
   transposed.makeCompressed();
-  const Eigen::Index nd = system.NumDofs();
   BorderedSolver solver;
   if (!solver.Factorize(transposed, Eigen::VectorXd::Unit(system.NumUnknowns(), nd)) || solver.DeterminantSign() == 0)
     return;
@@ -73,8 +77,9 @@ RateProblem::RateProblem(const Structure& structure, const std::vector<ContactGe
   for (Eigen::Index k = 0; k < count; ++k) {
     const ContactGeometry& contact = contacts[static_cast<std::size_t>(concerned_[static_cast<std::size_t>(k)])];
     for (Eigen::Index j = 0; j < motions.cols(); ++j) {
-      gap_(k, j) = contact.gap.Rate(motions.col(j));
-      slip_(k, j) = contact.tangential.Rate(motions.col(j));
+      const double ds = j == 0 ? 1.0 : 0.0;
+      gap_(k, j) = contact.gap.Rate(motions.col(j), ds);
+      slip_(k, j) = contact.tangential.Rate(motions.col(j), ds);
     }
   }
   gram_ = motions.transpose() * motions;

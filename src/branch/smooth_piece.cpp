@@ -43,7 +43,7 @@ SmoothPiece::SmoothPiece(const Structure& structure, const std::vector<ContactGe
     : contacts_(contacts), system_(structure, contacts) {}
 
 void SmoothPiece::SetStates(const std::vector<ContactState>& states, const PathPoint& from) {
-  system_.SetStates(states, TangentialPositions(contacts_, from.u));
+  system_.SetStates(states, TangentialPositions(contacts_, from));
   at_hand_ = false;
 }
 

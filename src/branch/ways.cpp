@@ -40,7 +40,7 @@ using States = std::vector<ContactState>;
 // first.
 States Options(const ContactGeometry& contact, const PathPoint& point, std::size_t i, double tolerance) {
   const auto k = static_cast<Eigen::Index>(i);
-  const double gap = contact.gap.Value(point.u), rn = point.rn[k], rt = point.rt[k];
+  const double gap = contact.gap.Value(point.u, point.s), rn = point.rn[k], rt = point.rt[k];
   if (gap > tolerance) return {ContactState::kOpen};
   const bool loaded = rn > tolerance;
   States options;
@@ -79,7 +79,7 @@ class Finder {
         tolerance_(tolerance),
         cancelled_(cancelled),
         system_(structure, contacts),
-        reference_(TangentialPositions(contacts, point.u)) {}
+        reference_(TangentialPositions(contacts, point)) {}
 
   // Adds the ways with these states.
   void Try(const States& states, std::vector<Way>* ways) {
@@ -297,7 +297,8 @@ class Finder {
     double rate = 0.0;
     for (std::size_t i = 0; i < contacts_.size(); ++i)
       if (states[i] == ContactState::kSlipPlus || states[i] == ContactState::kSlipMinus)
-        rate -= point_.rt[static_cast<Eigen::Index>(i)] * contacts_[i].tangential.Rate(direction);
+        rate -= point_.rt[static_cast<Eigen::Index>(i)] *
+                contacts_[i].tangential.Rate(direction, direction[NumMotion() - 1]);
     return std::max(rate, 0.0);  // but for rounding
   }
 
@@ -306,7 +307,7 @@ class Finder {
     int idle = 0;
     for (std::size_t i = 0; i < contacts_.size(); ++i)
       if ((way.states[i] == ContactState::kSlipPlus || way.states[i] == ContactState::kSlipMinus) &&
-          std::abs(contacts_[i].tangential.Rate(way.direction)) <= kRateTolerance)
+          std::abs(contacts_[i].tangential.Rate(way.direction, way.load_rate)) <= kRateTolerance)
         ++idle;
     return idle;
   }

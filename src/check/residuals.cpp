@@ -88,7 +88,10 @@ struct ResidualCheck::Surface {
   Vector point;
   Vector normal;   // n, of length 1
   Vector tangent;  // t = (n_y, -n_x)
+  Vector motion;   // of the point, per unit of the load factor
   Real friction = 0.0L;
+
+  Vector Displacement(double load_factor) const { return {load_factor * motion.x, load_factor * motion.y}; }
 };
 
 // The scene with all names resolved; vectors in the order of the scene's lists.
@@ -101,6 +104,7 @@ struct ResidualCheck::Prepared {
   struct PreparedPart {
     std::vector<std::size_t> nodes;
     std::vector<Real> stiffness;  // row by row
+    std::vector<double> rest;     // x0, y0, x1, ...
   };
   struct PreparedLoad {
     std::size_t node = 0;
@@ -131,9 +135,18 @@ struct ResidualCheck::Prepared {
       PreparedPart prepared;
       for (const std::string& name : part.nodes) prepared.nodes.push_back(index.at(name));
       prepared.stiffness.assign(part.stiffness.begin(), part.stiffness.end());
+      prepared.rest.assign(part.rest_positions.begin(), part.rest_positions.end());
+      if (prepared.rest.empty())
+        for (const std::size_t node : prepared.nodes)
+          prepared.rest.insert(prepared.rest.end(), {initial[2 * node], initial[2 * node + 1]});
       parts.push_back(std::move(prepared));
     }
     for (const Load& load : scene.loads) loads.push_back({index.at(load.node), load.fx, load.fy, load.constant});
+    rates.resize(initial.size());
+    for (const SupportMotion& motion : scene.support_motions) {
+      rates[2 * index.at(motion.node)] = motion.dx;
+      rates[2 * index.at(motion.node) + 1] = motion.dy;
+    }
     std::unordered_map<std::string_view, Surface> surfaces;
     for (const Obstacle& obstacle : scene.obstacles) {
       const Vector along{obstacle.nx, obstacle.ny};
@@ -145,6 +158,8 @@ struct ResidualCheck::Prepared {
       surface.friction = obstacle.friction;
       surfaces.emplace(obstacle.name, surface);
     }
+    for (const ObstacleMotion& motion : scene.obstacle_motions)
+      surfaces.at(motion.obstacle).motion = {motion.dx, motion.dy};
     for (const ContactCandidate& contact : scene.contacts) {
       const auto surface = surfaces.find(contact.obstacle);
       if (surface == surfaces.end()) throw std::invalid_argument("no obstacle has the name " + contact.obstacle);
@@ -160,8 +175,8 @@ struct ResidualCheck::Prepared {
   // x - X of the nodes of `part`, in its order.
   std::vector<Real> Displacements(const PreparedPart& part, const std::vector<double>& positions) const {
     std::vector<Real> displacements;
-    for (const std::size_t node : part.nodes) {
-      const Vector moved = NodePosition(positions, node) - NodePosition(initial, node);
+    for (std::size_t i = 0; i < part.nodes.size(); ++i) {
+      const Vector moved = NodePosition(positions, part.nodes[i]) - NodePosition(part.rest, i);
       displacements.push_back(moved.x);
       displacements.push_back(moved.y);
     }
@@ -223,6 +238,7 @@ struct ResidualCheck::Prepared {
   Scaling scaling;
   std::vector<double> initial;  // x0, y0, x1, ...
   std::vector<bool> free;       // the same components
+  std::vector<double> rates;    // of the fixed ones, per unit of the load factor
   std::vector<PreparedBar> bars;
   std::vector<PreparedPart> parts;
   std::vector<PreparedLoad> loads;
@@ -240,31 +256,39 @@ double Residuals::Contact() const {
   return worst;
 }
 
+double Residuals::Largest() const { return Worst(Worst(Contact(), equilibrium), support); }
+
 Residuals ResidualCheck::Check(const CheckedState& before, const CheckedState& now) const {
   const Prepared& scene = *prepared_;
   scene.RequireSizes(before);
   scene.RequireSizes(now);
   if (!AllFinite(before) || !AllFinite(now)) {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    return {kInfinity, kInfinity, kInfinity, kInfinity, kInfinity, kInfinity};
+    return {kInfinity, kInfinity, kInfinity, kInfinity, kInfinity, kInfinity, kInfinity};
   }
 
   const Scaling& scaling = scene.scaling;
   Residuals residuals;
   const std::vector<Real> unbalance = scene.Unbalance(now);
   for (std::size_t i = 0; i < unbalance.size(); ++i) {
-    if (scene.free[i]) residuals.equilibrium = Worst(residuals.equilibrium, std::abs(unbalance[i]) / scaling.force);
+    if (scene.free[i]) {
+      residuals.equilibrium = Worst(residuals.equilibrium, std::abs(unbalance[i]) / scaling.force);
+      continue;
+    }
+    const Real place = scene.initial[i] + static_cast<Real>(now.load_factor) * scene.rates[i];
+    residuals.support = Worst(residuals.support, std::abs(now.positions[i] - place) / scaling.length);
   }
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
     const auto& [node, surface] = scene.contacts[i];
-    const Vector position = NodePosition(now.positions, node);
+    // As the obstacle sees it.
+    const Vector position = NodePosition(now.positions, node) - surface.Displacement(now.load_factor);
     const Real gap = Dot(surface.normal, position - surface.point) / scaling.length;
     if (now.rn[i] == 0.0 && now.rt[i] == 0.0) {  // all else is zero then, but for a gap that is closed too far
       residuals.penetration = Worst(residuals.penetration, -gap);
       residuals.complementarity = Worst(residuals.complementarity, std::abs(std::min(gap, 0.0L)));
       continue;
     }
-    const Vector motion = position - NodePosition(before.positions, node);
+    const Vector motion = position - (NodePosition(before.positions, node) - surface.Displacement(before.load_factor));
     const Real slip = Dot(surface.tangent, motion) / scaling.length;
     const Real rn = static_cast<Real>(now.rn[i]) / scaling.force;
     const Real rt = static_cast<Real>(now.rt[i]) / scaling.force;
@@ -276,6 +300,19 @@ Residuals ResidualCheck::Check(const CheckedState& before, const CheckedState& n
     residuals.friction_law = Worst(residuals.friction_law, std::abs(rt - std::clamp(rt - slip, -bound, bound)));
   }
   return residuals;
+}
+
+double ResidualCheck::DrivingForce(const CheckedState& state) const {
+  const Prepared& scene = *prepared_;
+  scene.RequireSizes(state);
+  const std::vector<Real> unbalance = scene.Unbalance(state);
+  Real force = 0.0L;
+  for (std::size_t i = 0; i < unbalance.size(); ++i) force += scene.rates[i] * unbalance[i];
+  for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
+    const Surface& surface = scene.contacts[i].surface;
+    force += state.rn[i] * Dot(surface.normal, surface.motion) + state.rt[i] * Dot(surface.tangent, surface.motion);
+  }
+  return static_cast<double>(force);
 }
 
 double ResidualCheck::StrainEnergy(const std::vector<double>& positions) const {

@@ -143,8 +143,8 @@ void RequireWritten(std::ostream& out, const std::string& name) {
   if (!out.flush()) throw WriteError("cannot write " + name + ": " + std::strerror(errno));
 }
 
-Sink StartCsv(const Scene& scene, std::ostream& out, const std::string& name) {
-  WriteCsvHeader(scene, out);
+Sink StartCsv(const TraceRequest& request, std::ostream& out, const std::string& name) {
+  WriteCsvHeader(request, out);
   RequireWritten(out, name);
   return [&out, name](const Increment& increment) {
     WriteCsvRow(increment, out);
@@ -157,7 +157,7 @@ ExitStatus RunTrace(const TraceRequest& request, const Arguments& arguments, std
   const bool csv_on_terminal = !arguments.csv_file && isatty(STDOUT_FILENO) == 1;
   Progress progress(request, !arguments.quiet && !csv_on_terminal && isatty(STDERR_FILENO) == 1, std::cerr);
   std::vector<Sink> sinks = {
-      StartCsv(request.scene, csv, arguments.csv_file.value_or("standard output")),
+      StartCsv(request, csv, arguments.csv_file.value_or("standard output")),
       [&progress](const Increment& increment) { progress.Add(increment); },
   };
   if (arguments.events) {

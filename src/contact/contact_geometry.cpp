@@ -28,6 +28,8 @@ SparseLinear Project(const Scene& scene, const Structure& structure, int node, d
 std::vector<ContactGeometry> BuildContacts(const Scene& scene, const Structure& structure) {
   std::unordered_map<std::string, const Obstacle*> obstacles;
   for (const Obstacle& obstacle : scene.obstacles) obstacles.emplace(obstacle.name, &obstacle);
+  std::unordered_map<std::string, const ObstacleMotion*> motions;
+  for (const ObstacleMotion& motion : scene.obstacle_motions) motions.emplace(motion.obstacle, &motion);
 
   std::vector<ContactGeometry> contacts;
   for (const ContactCandidate& candidate : scene.contacts) {
@@ -39,6 +41,10 @@ std::vector<ContactGeometry> BuildContacts(const Scene& scene, const Structure& 
     contact.gap = Project(scene, structure, node, nx, ny);
     contact.gap.offset -= nx * obstacle.px + ny * obstacle.py;
     contact.tangential = Project(scene, structure, node, ny, -nx);
+    if (const auto motion = motions.find(obstacle.name); motion != motions.end()) {
+      contact.gap.load = -(nx * motion->second->dx + ny * motion->second->dy);
+      contact.tangential.load = -(ny * motion->second->dx - nx * motion->second->dy);
+    }
     const bool can_slide = contact.tangential.dofs[0] >= 0 || contact.tangential.dofs[1] >= 0;
     contact.friction = can_slide ? obstacle.friction : 0.0;
     contacts.push_back(contact);
@@ -46,10 +52,10 @@ std::vector<ContactGeometry> BuildContacts(const Scene& scene, const Structure& 
   return contacts;
 }
 
-Eigen::VectorXd TangentialPositions(const std::vector<ContactGeometry>& contacts, const Eigen::VectorXd& u) {
+Eigen::VectorXd TangentialPositions(const std::vector<ContactGeometry>& contacts, const PathPoint& point) {
   Eigen::VectorXd positions(static_cast<Eigen::Index>(contacts.size()));
   for (std::size_t i = 0; i < contacts.size(); ++i)
-    positions[static_cast<Eigen::Index>(i)] = contacts[i].tangential.Value(u);
+    positions[static_cast<Eigen::Index>(i)] = contacts[i].tangential.Value(point.u, point.s);
   return positions;
 }
 

@@ -1,6 +1,7 @@
 #include "contact_path/contact/fixed_state_system.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace contact_path {
 namespace {
@@ -30,6 +31,8 @@ void FixedStateSystem::SetStates(const std::vector<ContactState>& states, const 
     rn_unknown_[i] = num_unknowns_++;
     if (states_[i] == ContactState::kStick) rt_unknown_[i] = num_unknowns_++;
   }
+  first_support_ = num_unknowns_;
+  num_unknowns_ += static_cast<Eigen::Index>(structure_.PrescribedDofs().size());
   Rebuild();
 }
 
@@ -49,21 +52,23 @@ void FixedStateSystem::UnpinLoadFactor() {
   Rebuild();
 }
 
+void FixedStateSystem::AddFunction(const SparseLinear& function, double sign, LinearEquation* equation) const {
+  for (std::size_t a = 0; a < 2; ++a)
+    if (function.dofs[a] >= 0) equation->Add(function.dofs[a], sign * function.coefficients[a]);
+  if (function.load != 0.0) equation->Add(NumDofs(), sign * function.load);
+  equation->constant = sign * function.offset;
+}
+
 FixedStateSystem::LinearEquation FixedStateSystem::Gap(std::size_t contact) const {
   LinearEquation equation;
-  const SparseLinear& gap = contacts_[contact].gap;
-  for (std::size_t a = 0; a < 2; ++a)
-    if (gap.dofs[a] >= 0) equation.Add(gap.dofs[a], gap.coefficients[a]);
-  equation.constant = gap.offset;
+  AddFunction(contacts_[contact].gap, 1.0, &equation);
   return equation;
 }
 
 FixedStateSystem::LinearEquation FixedStateSystem::TangentialMotion(std::size_t contact, double sign) const {
   LinearEquation equation;
-  const SparseLinear& tangential = contacts_[contact].tangential;
-  for (std::size_t a = 0; a < 2; ++a)
-    if (tangential.dofs[a] >= 0) equation.Add(tangential.dofs[a], sign * tangential.coefficients[a]);
-  equation.constant = sign * (tangential.offset - tangential_reference_[static_cast<Eigen::Index>(contact)]);
+  AddFunction(contacts_[contact].tangential, sign, &equation);
+  equation.constant -= sign * tangential_reference_[static_cast<Eigen::Index>(contact)];
   return equation;
 }
 
@@ -88,6 +93,12 @@ void FixedStateSystem::Rebuild() {
   for (const std::size_t i : touching_) {
     linear_.push_back(Gap(i));
     if (states_[i] == ContactState::kStick) linear_.push_back(TangentialMotion(i, 1.0));
+  }
+  for (const PrescribedDof& prescribed : structure_.PrescribedDofs()) {
+    LinearEquation& equation = linear_.emplace_back();
+    equation.Add(prescribed.dof, 1.0);
+    equation.Add(NumDofs(), -prescribed.rate);
+    equation.constant = -prescribed.start;
   }
   for (const Limit& limit : pinned_) linear_.push_back(InequalityAsEquation(limit));
   if (load_factor_pinned_) {
@@ -114,6 +125,8 @@ void FixedStateSystem::Rebuild() {
       if (ratio != 0.0) triplets.emplace_back(rn_unknown_[i], tangential.dofs[a], -ratio * tangential.coefficients[a]);
     }
   }
+  for (std::size_t k = 0; k < structure_.PrescribedDofs().size(); ++k)
+    triplets.emplace_back(first_support_ + static_cast<Eigen::Index>(k), structure_.PrescribedDofs()[k].dof, -1.0);
   for (std::size_t e = 0; e < linear_.size(); ++e)
     for (std::size_t k = 0; k < linear_[e].count; ++k)
       triplets.emplace_back(linear_[e].terms[k].unknown, NumDofs() + static_cast<Eigen::Index>(e),
@@ -131,6 +144,7 @@ Eigen::VectorXd FixedStateSystem::Pack(const PathPoint& point) const {
     x[rn_unknown_[i]] = point.rn[static_cast<Eigen::Index>(i)];
     if (rt_unknown_[i] >= 0) x[rt_unknown_[i]] = point.rt[static_cast<Eigen::Index>(i)];
   }
+  x.tail(num_unknowns_ - first_support_) = structure_.SupportReactions(point.u, point.s);
   return x;
 }
 
@@ -162,6 +176,8 @@ void FixedStateSystem::Residual(const Eigen::VectorXd& x, Eigen::VectorXd* resid
     contacts_[i].gap.AddGradient(-rn, residual);
     contacts_[i].tangential.AddGradient(-rt, residual);
   }
+  for (std::size_t k = 0; k < structure_.PrescribedDofs().size(); ++k)
+    (*residual)[structure_.PrescribedDofs()[k].dof] -= x[first_support_ + static_cast<Eigen::Index>(k)];
   for (std::size_t e = 0; e < linear_.size(); ++e)
     (*residual)[NumDofs() + static_cast<Eigen::Index>(e)] = linear_[e].constant + linear_[e].Rate(x);
 }
@@ -201,13 +217,27 @@ std::vector<Limit> FixedStateSystem::Inequalities() const {
 std::vector<Limit> FixedStateSystem::InequalitiesInReach(const Eigen::VectorXd& x, double reach) const {
   std::vector<Limit> limits;
   for (std::size_t i = 0; i < contacts_.size(); ++i)
-    if (states_[i] != ContactState::kOpen || contacts_[i].gap.Value(x) <= reach) AddInequalities(i, &limits);
+    if (states_[i] != ContactState::kOpen ||
+        contacts_[i].gap.Value(x, x[NumDofs()]) <= reach * (1.0 + std::abs(contacts_[i].gap.load)))
+      AddInequalities(i, &limits);
   return limits;
 }
 
 double FixedStateSystem::Value(const Limit& limit, const Eigen::VectorXd& x) const {
   const LinearEquation equation = InequalityAsEquation(limit);
   return equation.constant + equation.Rate(x);
+}
+
+double FixedStateSystem::DrivingForce(const Eigen::VectorXd& x) const {
+  double force = 0.0;
+  for (std::size_t k = 0; k < structure_.PrescribedDofs().size(); ++k)
+    force += structure_.PrescribedDofs()[k].rate * x[first_support_ + static_cast<Eigen::Index>(k)];
+  for (const std::size_t i : touching_) {
+    const double rn = x[rn_unknown_[i]];
+    const double rt = rt_unknown_[i] >= 0 ? x[rt_unknown_[i]] : SlipRatio(states_[i], contacts_[i].friction) * rn;
+    force -= rn * contacts_[i].gap.load + rt * contacts_[i].tangential.load;
+  }
+  return force;
 }
 
 double FixedStateSystem::Rate(const Limit& limit, const Eigen::VectorXd& dx) const {

@@ -28,7 +28,12 @@ IncrementProblem::IncrementProblem(const Structure& structure, const std::vector
   Eigen::VectorXd drive = Eigen::VectorXd::Zero(nd);  // T_t r_t^k
   for (std::size_t i = 0; i < working_set_.size(); ++i) {
     const ContactGeometry& geometry = contacts_[static_cast<std::size_t>(working_set_[i])];
-    Slot slot{&geometry, geometry.gap.Value(from_.u), nd + 1 + static_cast<Eigen::Index>(i), -1, -1, num_constraints_,
+    Slot slot{&geometry,
+              geometry.gap.Value(from_.u, from_.s),
+              nd + 1 + static_cast<Eigen::Index>(i),
+              -1,
+              -1,
+              num_constraints_,
               -1};
     num_constraints_ += 2;
     if (geometry.Frictional()) {
@@ -40,6 +45,8 @@ IncrementProblem::IncrementProblem(const Structure& structure, const std::vector
     }
     slots_.push_back(slot);
   }
+  for (const PrescribedDof& prescribed : structure_.PrescribedDofs())
+    supports_.push_back({&prescribed, num_variables_++, num_constraints_++});
   const double norm = drive.norm();
   linear_objective_ = -(norm > 0.0 ? 1.0 - goal_.dissipation : 1.0) * goal_.direction;
   if (norm > 0.0) linear_objective_.head(nd) += goal_.dissipation / norm * drive;
@@ -55,11 +62,11 @@ IncrementProblem::IncrementProblem(const Structure& structure, const std::vector
 }
 
 double IncrementProblem::ScaledGap(const Slot& slot, const Eigen::VectorXd& x) const {
-  return slot.gap / goal_.length + slot.geometry->gap.Rate(x);
+  return slot.gap / goal_.length + slot.geometry->gap.Rate(x, x[structure_.NumDofs()]);
 }
 
 double IncrementProblem::ScaledSlip(const Slot& slot, const Eigen::VectorXd& x) const {
-  return slot.geometry->tangential.Rate(x);
+  return slot.geometry->tangential.Rate(x, x[structure_.NumDofs()]);
 }
 
 Eigen::VectorXd IncrementProblem::StartingPoint(const Eigen::VectorXd& y) const {
@@ -72,6 +79,9 @@ Eigen::VectorXd IncrementProblem::StartingPoint(const Eigen::VectorXd& y) const 
     x[slot.rt] = from_.rt[working_set_[i]] / goal_.length;
     x[slot.lambda] = std::abs(ScaledSlip(slot, x));
   }
+  const Eigen::VectorXd reactions = structure_.SupportReactions(from_.u, from_.s);
+  for (std::size_t k = 0; k < supports_.size(); ++k)
+    x[supports_[k].reaction] = reactions[static_cast<Eigen::Index>(k)] / goal_.length;
   return x;
 }
 
@@ -175,6 +185,12 @@ void IncrementProblem::Constraints(const Eigen::VectorXd& x, Eigen::VectorXd* va
     values->segment<5>(slot.friction_row) << lambda - slip, lambda + slip, mu * rn - rt, mu * rn + rt,
         lambda * mu * rn + slip * rt;
   }
+  for (const Support& support : supports_) {
+    const PrescribedDof& prescribed = *support.prescribed;
+    force[prescribed.dof] -= x[support.reaction];
+    (*values)[support.row] = (from_.u[prescribed.dof] - prescribed.start - prescribed.rate * from_.s) / goal_.length +
+                             x[prescribed.dof] - prescribed.rate * x[nd];
+  }
   values->head(nd) = force;
 }
 
@@ -195,6 +211,10 @@ void IncrementProblem::ForEachJacobianEntry(const Eigen::VectorXd& x, Emit emit)
       emit(slot.gap_row, normal.dofs[a], normal.coefficients[a]);
       emit(slot.gap_row + 1, normal.dofs[a], normal.coefficients[a] * rn);
     }
+    if (normal.load != 0.0) {
+      emit(slot.gap_row, nd, normal.load);
+      emit(slot.gap_row + 1, nd, normal.load * rn);
+    }
     emit(slot.gap_row + 1, slot.rn, gap);
     if (slot.rt < 0) continue;
     const double slip = ScaledSlip(slot, x), rt = x[slot.rt], lambda = x[slot.lambda];
@@ -207,6 +227,11 @@ void IncrementProblem::ForEachJacobianEntry(const Eigen::VectorXd& x, Emit emit)
       emit(slot.friction_row + 1, tangential.dofs[a], coefficient);
       emit(slot.friction_row + 4, tangential.dofs[a], coefficient * rt);
     }
+    if (tangential.load != 0.0) {
+      emit(slot.friction_row, nd, -tangential.load);
+      emit(slot.friction_row + 1, nd, tangential.load);
+      emit(slot.friction_row + 4, nd, tangential.load * rt);
+    }
     emit(slot.friction_row, slot.lambda, 1.0);
     emit(slot.friction_row + 1, slot.lambda, 1.0);
     emit(slot.friction_row + 2, slot.rn, mu);
@@ -216,6 +241,11 @@ void IncrementProblem::ForEachJacobianEntry(const Eigen::VectorXd& x, Emit emit)
     emit(slot.friction_row + 4, slot.lambda, mu * rn);
     emit(slot.friction_row + 4, slot.rn, mu * lambda);
     emit(slot.friction_row + 4, slot.rt, slip);
+  }
+  for (const Support& support : supports_) {
+    emit(support.prescribed->dof, support.reaction, -1.0);
+    emit(support.row, support.prescribed->dof, 1.0);
+    emit(support.row, nd, -support.prescribed->rate);
   }
 }
 
@@ -234,11 +264,13 @@ void IncrementProblem::ForEachHessianEntry(const Eigen::VectorXd& x, double fact
     const SparseLinear &normal = slot.geometry->gap, &tangential = slot.geometry->tangential;
     for (std::size_t a = 0; a < 2; ++a)
       if (normal.dofs[a] >= 0) emit(slot.rn, normal.dofs[a], multipliers[slot.gap_row + 1] * normal.coefficients[a]);
+    if (normal.load != 0.0) emit(slot.rn, nd, multipliers[slot.gap_row + 1] * normal.load);
     if (slot.rt < 0) continue;
     const double product = multipliers[slot.friction_row + 4];
     emit(slot.lambda, slot.rn, product * slot.geometry->friction);
     for (std::size_t a = 0; a < 2; ++a)
       if (tangential.dofs[a] >= 0) emit(slot.rt, tangential.dofs[a], product * tangential.coefficients[a]);
+    if (tangential.load != 0.0) emit(slot.rt, nd, product * tangential.load);
   }
 }
 

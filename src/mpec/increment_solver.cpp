@@ -36,7 +36,8 @@ IncrementTrial IncrementSolver::Solve(const PathPoint& from, const IncrementGoal
                                       const RegularisationSchedule& schedule) {
   std::vector<bool> included(contacts_.size());
   for (std::size_t i = 0; i < contacts_.size(); ++i)
-    included[i] = contacts_[i].gap.Value(from.u) <= kLongestIncrement * goal.length;
+    included[i] = contacts_[i].gap.Value(from.u, from.s) <=
+                  kLongestIncrement * goal.length * (1.0 + std::abs(contacts_[i].gap.load));
   int iterations = 0;
   for (;;) {
     std::vector<int> working_set;
@@ -47,7 +48,7 @@ IncrementTrial IncrementSolver::Solve(const PathPoint& from, const IncrementGoal
     if (trial.status != SolveStatus::kSolved) return trial;
     bool closed = false;
     for (std::size_t i = 0; i < contacts_.size(); ++i) {
-      if (included[i] || contacts_[i].gap.Value(trial.point.u) >= 0.0) continue;
+      if (included[i] || contacts_[i].gap.Value(trial.point.u, trial.point.s) >= 0.0) continue;
       included[i] = closed = true;
     }
     if (!closed) return trial;
@@ -119,7 +120,7 @@ void IncrementSolver::MakeExact(const PathPoint& from, const IncrementProblem& p
 
 bool IncrementSolver::MakeExact(const PathPoint& from, const Eigen::VectorXd& wanted, double length,
                                 IncrementTrial* trial) {
-  system_.SetStates(trial->point.states, TangentialPositions(contacts_, from.u));
+  system_.SetStates(trial->point.states, TangentialPositions(contacts_, from));
   std::vector<Limit> pinned;
   Eigen::VectorXd start = system_.Pack(trial->point);
   for (int change = 0; change <= kMaxActiveSetChanges; ++change) {

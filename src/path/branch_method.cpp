@@ -71,7 +71,9 @@ BranchMethod::BranchMethod(const Model& model, const BranchOptions& options, std
       ipopt_(cancelled_),
       mpec_(model.structure, model.contacts, &ipopt_),
       piece_(model.structure, model.contacts),
-      step_(options.step) {}
+      step_(options.step),
+      rows_(options.rows),
+      events_(options.events) {}
 
 const BranchChoice* BranchMethod::ChoiceForEvent(int event) const {
   for (const BranchChoice& choice : options_.choices)
@@ -202,6 +204,8 @@ Work BranchMethod::WorkOf(const Segment& segment) const {
   const auto along = [&](const Eigen::VectorXd& x) { return model_.structure.ReferenceLoad().dot(x.head(nd)); };
   work.loads = integrate(segment.Interpolate(load, load), segment.Interpolate(along, along)) +
                model_.structure.ConstantLoad().dot((segment.end.x - segment.start.x).head(nd));
+  const auto driving = [&](const Eigen::VectorXd& x) { return system.DrivingForce(x); };
+  work.loads += integrate(segment.Interpolate(driving, driving), segment.Interpolate(load, load));
   const double unit = model_.scaling.force * model_.scaling.length;
   work.friction *= unit;
   work.loads *= unit;
@@ -220,7 +224,17 @@ std::vector<double> BranchMethod::CrossingPath(const Segment& segment) {
 }
 
 std::optional<EndReason> BranchMethod::Start(const PathPoint& from, EventRecord* ways, std::string* message) {
-  return PassEvent(from, StartArrival(), ChoiceForRow(0), ways, message);
+  return PassEvent(from, StartArrival(), ChoiceForRow(rows_), ways, message);
+}
+
+bool BranchMethod::Resume(const PathPoint& before, const PathPoint& from, const SolveRecord& record) {
+  piece_.SetStates(from.states, from);
+  Eigen::VectorXd towards(piece_.NumMotion());
+  towards << from.u - before.u, from.s - before.s;
+  if (!(record.next_step > 0.0) || !piece_.Derivatives(piece_.system().Pack(from), towards, &current_)) return false;
+  step_ = record.next_step;
+  at_start_ = false;
+  return true;
 }
 
 std::string BranchMethod::Remark() const {
@@ -231,13 +245,13 @@ std::string BranchMethod::Remark() const {
   return text;
 }
 
-Advance BranchMethod::Next(const PathPoint& from, double longest) {
+Advance BranchMethod::Next(const PathPoint& from) {
   Advance advance;
   const int factorisations_before = piece_.factorisations();
   int rejected = 0;
   std::optional<Segment> segment;
   Watched watched;
-  double length = std::min(step_, longest);
+  double length = step_;
   for (;; ++rejected) {
     if (length < options_.smallest_step) {
       advance.reason = EndReason::kStepTooSmall;
@@ -251,11 +265,11 @@ Advance BranchMethod::Next(const PathPoint& from, double longest) {
       length *= 0.5;
       continue;
     }
-    watched = Watch(&piece_, *segment);
+    watched = Watch(&piece_, *segment, options_.target);
     // Locate what happens first; the exact point may show something earlier.
     bool located = watched.happening == Happening::kNone;
     for (int attempt = 0; attempt < kLocatingAttempts && !located; ++attempt) {
-      const std::optional<CurvePoint> point = Locate(&piece_, *segment, watched);
+      const std::optional<CurvePoint> point = Locate(&piece_, *segment, watched, options_.target);
       if (!point) break;
       Segment part = MakeSegment(segment->start, *point, piece_.NumMotion());
       if (!(part.length > kNoMove)) {
@@ -264,7 +278,7 @@ Advance BranchMethod::Next(const PathPoint& from, double longest) {
         located = true;
         break;
       }
-      const Watched earlier = Watch(&piece_, part);
+      const Watched earlier = Watch(&piece_, part, options_.target);
       const bool first = earlier.happening == Happening::kNone || earlier.t >= part.length - kNoMove;
       segment = part;
       if (first)
@@ -289,7 +303,7 @@ Advance BranchMethod::Next(const PathPoint& from, double longest) {
   row.solve.stiffness_sign = StiffnessSign(segment->end);
   row.solve.iterations = iterations_;
   row.solve.contraction = contraction_;
-  if (!(std::max(row.residuals.equilibrium, row.residuals.Contact()) <= kAccepted)) {
+  if (!(row.residuals.Largest() <= kAccepted)) {
     advance.message = "the residuals of the next point are too large";
     return advance;
   }
@@ -338,6 +352,7 @@ Advance BranchMethod::Next(const PathPoint& from, double longest) {
   // The next step: as long as wanted unless this one had to be shortened.
   step_ = std::min(options_.step, rejected > 0 ? 1.5 * length : 2.0 * step_);
   if (watched.singular) step_ *= kAfterSingular;
+  row.solve.next_step = step_;
   row.solve.factorisations = piece_.factorisations() - factorisations_before;
   advance.rows.push_back(std::move(row));
   return advance;

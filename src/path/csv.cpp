@@ -19,7 +19,8 @@ std::ostringstream NewLine() {
 
 }  // namespace
 
-void WriteCsvHeader(const Scene& scene, std::ostream& out) {
+void WriteCsvHeader(const TraceRequest& request, std::ostream& out) {
+  const Scene& scene = request.scene;
   std::ostringstream line = NewLine();
   line << "index,load_factor,arc_length,kind";
   for (const Node& node : scene.nodes) line << ",x_" << node.name << ",y_" << node.name;
@@ -27,7 +28,8 @@ void WriteCsvHeader(const Scene& scene, std::ostream& out) {
     const std::string name = contact.Name();
     line << ",gap_" << name << ",rn_" << name << ",rt_" << name << ",state_" << name;
   }
-  line << ",dissipation,strain_energy,equilibrium_residual,complementarity_residual,solve_time\n";
+  line << ",dissipation,strain_energy,equilibrium_residual,complementarity_residual,solve_time"
+       << (request.program.empty() ? "\n" : ",stage\n");
   out << line.str();
 }
 
@@ -40,7 +42,9 @@ void WriteCsvRow(const Increment& increment, std::ostream& out) {
     line << ',' << contact.gap << ',' << contact.rn << ',' << contact.rt << ',' << ToString(contact.state);
   }
   line << ',' << increment.dissipation << ',' << increment.strain_energy << ',' << increment.residuals.equilibrium
-       << ',' << increment.residuals.Contact() << ',' << increment.solve.time << '\n';
+       << ',' << increment.residuals.Contact() << ',' << increment.solve.time;
+  if (increment.stage > 0) line << ',' << increment.stage;
+  line << '\n';
   out << line.str();
 }
 

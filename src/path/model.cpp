@@ -22,11 +22,22 @@ PathPoint Model::InitialPoint() const {
   point.rn = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(contacts.size()));
   point.rt = point.rn;
   for (const ContactGeometry& contact : contacts) {
-    const bool touches = contact.gap.Value(point.u) <= kTouching;
+    const bool touches = contact.gap.Value(point.u, point.s) <= kTouching;
     const ContactState rest = contact.Frictional() ? ContactState::kStick : ContactState::kClosed;
     point.states.push_back(touches ? rest : ContactState::kOpen);
   }
   return point;
+}
+
+PathPoint Model::Take(const Model& other, const PathPoint& point) const {
+  PathPoint taken = point;
+  taken.s = 0.0;
+  taken.u.resize(structure.NumDofs());
+  const Eigen::VectorXd positions = other.structure.FullPositions(point.u);
+  for (int node = 0; node < static_cast<int>(scene.nodes.size()); ++node)
+    for (const int axis : {0, 1})
+      if (const int dof = structure.Dof(node, axis); dof >= 0) taken.u[dof] = positions[2 * node + axis];
+  return taken;
 }
 
 CheckedState Model::InSceneUnits(const PathPoint& point) const {
@@ -43,6 +54,25 @@ CheckedState Model::InSceneUnits(const PathPoint& point) const {
     state.rt.push_back(point.rt[i] * scaling.force);
   }
   return state;
+}
+
+PathPoint Model::FromRow(const Increment& row) const {
+  PathPoint point;
+  point.s = row.load_factor / scaling.load_factor;
+  point.u.resize(structure.NumDofs());
+  for (int i = 0; i < static_cast<int>(row.positions.size()); ++i)
+    if (const int dof = structure.Dof(i / 2, i % 2); dof >= 0)
+      point.u[dof] = row.positions[static_cast<std::size_t>(i)] / scaling.length;
+  const auto count = static_cast<Eigen::Index>(row.contacts.size());
+  point.rn.resize(count);
+  point.rt.resize(count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const ContactRecord& contact = row.contacts[static_cast<std::size_t>(i)];
+    point.rn[i] = contact.rn / scaling.force;
+    point.rt[i] = contact.rt / scaling.force;
+    point.states.push_back(contact.state);
+  }
+  return point;
 }
 
 Residuals Model::Check(const PathPoint& before, const PathPoint& now) const {

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
+#include "contact_path/contact/fixed_state_system.h"
+#include "contact_path/contact/nearest_point.h"
 #include "contact_path/path/automatic_step.h"
 
 namespace contact_path {
@@ -35,6 +38,9 @@ constexpr double kAtLimit = 1e-9;
 // Of a unit direction: the load neither rises nor falls.
 constexpr double kLevel = 1e-9;
 
+constexpr double kBroken = 1e-11;        // scaled: an inequality at an exact point
+constexpr double kFarthestTarget = 2.0;  // of the increment that goes past the target: farther is another branch
+
 constexpr int kFirstDirections = 8;
 constexpr double kShortPath = 20.0;          // of the corner tolerance
 constexpr double kCornerShare = 0.04;        // of the wanted step: largest corner tolerance
@@ -44,7 +50,7 @@ constexpr double kSmallestStepRatio = 1e-7;  // of the wanted step
 bool AtLimit(const ContactGeometry& contact, const PathPoint& point, std::size_t i) {
   const auto k = static_cast<Eigen::Index>(i);
   const bool open = point.states[i] == ContactState::kOpen;
-  if ((open ? contact.gap.Value(point.u) : point.rn[k]) <= kAtLimit) return true;
+  if ((open ? contact.gap.Value(point.u, point.s) : point.rn[k]) <= kAtLimit) return true;
   return point.states[i] == ContactState::kStick && contact.friction * point.rn[k] - std::abs(point.rt[k]) <= kAtLimit;
 }
 
@@ -76,14 +82,14 @@ bool StatesAgree(const std::vector<ContactGeometry>& contacts, const PathPoint& 
   const double length = kStateTolerance * Distance(from, to);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
-    const double slip = contacts[i].tangential.Rate(to.u - from.u);
+    const double slip = contacts[i].tangential.Rate(to.u - from.u, to.s - from.s);
     const double margin = contacts[i].friction * to.rn[k] - std::abs(to.rt[k]);
     const ContactState state = to.states[i];
     if (state == ContactState::kOpen) {
       if (std::max(to.rn[k], std::abs(to.rt[k])) > force) return false;
       continue;
     }
-    if (contacts[i].gap.Value(to.u) > length) return false;
+    if (contacts[i].gap.Value(to.u, to.s) > length) return false;
     if (state == ContactState::kStick && std::abs(slip) > length) return false;
     if ((state == ContactState::kSlipPlus || state == ContactState::kSlipMinus) && margin > force) return false;
   }
@@ -137,6 +143,7 @@ const char* MpecMethod::Describe(Verdict verdict) {
     case Verdict::kWrongDirection: return "the load factor changes against the wanted direction";
     case Verdict::kTurnedBack: return "the path turns sharply without a change of contact state";
     case Verdict::kNotConfirmed: return "two half increments do not confirm the change of contact state";
+    case Verdict::kBeyondTarget: return "the load factor goes past its target, and no point at the target is found";
     case Verdict::kCancelled: return "cancelled";
   }
   return "";
@@ -171,7 +178,7 @@ void MpecMethod::Judge(const PathPoint& from, const Eigen::VectorXd& direction, 
   trial.residuals = model_.Check(from, to);
   const double tolerance = trial.increment.exact ? kExactTolerance : kRegularisedTolerance;
   const double moved = Distance(from, to);
-  if (!(std::max(trial.residuals.equilibrium, trial.residuals.Contact()) <= tolerance))
+  if (!(trial.residuals.Largest() <= tolerance))
     trial.verdict = Verdict::kResidual;
   else if (!trial.increment.exact && !StatesAgree(model_.contacts, from, to))
     trial.verdict = Verdict::kContradiction;
@@ -236,21 +243,55 @@ bool MpecMethod::ConfirmedByHalves(const PathPoint& from, const Eigen::VectorXd&
          Distance(second.increment.point, to) <= options_.corner_tolerance;
 }
 
+bool MpecMethod::EndAtTarget(const PathPoint& from, Trial* trial) const {
+  const PathPoint& to = trial->increment.point;
+  FixedStateSystem system(model_.structure, model_.contacts);
+  system.SetStates(to.states, TangentialPositions(model_.contacts, from));
+  system.PinLoadFactor(*options_.target);
+  const double share = (*options_.target - from.s) / (to.s - from.s);
+  const Eigen::VectorXd start = (1.0 - share) * system.Pack(from) + share * system.Pack(to);
+  const NearestPoint nearest = FindNearestPoint(&system, start, start.head(from.u.size() + 1));
+  if (!nearest.converged) return false;
+  for (const Limit& limit : system.Inequalities())
+    if (system.Value(limit, nearest.x) < -kBroken) return false;
+  PathPoint point = system.Unpack(nearest.x);
+  if (Distance(from, point) > kFarthestTarget * Distance(from, to)) return false;
+  trial->residuals = model_.Check(from, point);
+  if (!(trial->residuals.Largest() <= kExactTolerance)) return false;
+  trial->increment.point = std::move(point);
+  trial->increment.exact = true;
+  return true;
+}
+
+bool MpecMethod::Resume(const PathPoint& before, const PathPoint& from, const SolveRecord& record) {
+  if (!(record.next_step > 0.0) || !(Distance(before, from) > 0.0)) return false;
+  direction_ = Direction(before, from);
+  bent_ = before.states != from.states;
+  step_ = record.next_step;
+  growth_ = record.growth;
+  length_ = std::numeric_limits<double>::infinity();  // not known, and not short
+  started_ = true;
+  return true;
+}
+
 std::string MpecMethod::Remark() const {
   if (!started_ || !(length_ < kShortPath * options_.corner_tolerance)) return {};
   return "the whole path is hardly longer than what increments may cut off: to be trusted only with a smaller step";
 }
 
-Advance MpecMethod::Next(const PathPoint& from, double longest) {
+Advance MpecMethod::Next(const PathPoint& from) {
   Advance advance;
   iterations_ = 0;
-  double length = std::min(step_, longest);
+  double length = step_;
   for (int rejected = 0;; ++rejected) {
     Trial trial = started_ ? Try(from, direction_, length) : TryFirst(from, length);
     const PathPoint& to = trial.increment.point;
     if (trial.verdict == Verdict::kAccepted && MayHaveCutCorner(model_.contacts, from, to) &&
         !ConfirmedByHalves(from, started_ ? direction_ : Direction(from, to), length, trial))
       trial.verdict = Verdict::kNotConfirmed;
+    if (trial.verdict == Verdict::kAccepted && options_.target &&
+        (from.s - *options_.target) * (to.s - *options_.target) < 0.0 && !EndAtTarget(from, &trial))
+      trial.verdict = Verdict::kBeyondTarget;
     if (trial.verdict == Verdict::kCancelled || (cancelled_ && cancelled_())) {
       advance.reason = EndReason::kCancelled;
       advance.message = "cancelled by the caller";
@@ -291,6 +332,8 @@ Advance MpecMethod::Next(const PathPoint& from, double longest) {
     bent_ = changed;
     started_ = true;
     step_ = std::min(options_.step, rejected == 0 ? 2.0 * std::max(length, step_) : 2.0 * length);
+    row.solve.next_step = step_;
+    row.solve.growth = growth_;
     row.point = trial.increment.point;
     advance.rows.push_back(std::move(row));
     advance.ended = false;

@@ -7,10 +7,16 @@ namespace contact_path {
 ProgressEstimate::ProgressEstimate(const TraceRequest& request) : max_increments_(request.options.max_increments) {
   for (const StopCriterion& stop : request.options.stop)
     goals_.push_back({StopQuantity(request.scene, stop.quantity), 0.0, stop.value});
+  for (const Stage& stage : request.program) targets_.push_back(stage.Target());
 }
 
 double ProgressEstimate::Add(const Increment& row) {
   double done = max_increments_ > 0 ? static_cast<double>(row.index) / max_increments_ : 0.0;
+  if (row.stage > 0) {
+    const auto stage = static_cast<std::size_t>(row.stage - 1);
+    const double share = std::clamp(row.load_factor / targets_[stage], 0.0, 1.0);
+    done = std::max(done, (static_cast<double>(stage) + share) / static_cast<double>(targets_.size()));
+  }
   for (Goal& goal : goals_) {
     if (row.index == 0) goal.start = goal.quantity.Value(row);
     if (goal.end != goal.start)

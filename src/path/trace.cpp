@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -13,6 +15,7 @@
 #include "contact_path/path/path_method.h"
 #include "contact_path/path/preload.h"
 #include "contact_path/path/stop.h"
+#include "contact_path/scene/program.h"
 #include "contact_path/scene/validate.h"
 
 namespace contact_path {
@@ -20,6 +23,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr double kRegularised = 1e-5;           // the same of a regularised row to go on from
+constexpr double kAtTarget = 1e-12;             // scaled load factor: rounding
 constexpr double kStartTolerance = 1e-9;        // residuals of row 0
 constexpr int kMostPreloadIncrements = 100000;  // to bring the constant loads on; not counted with the others
 
@@ -28,41 +33,50 @@ double Seconds(Clock::duration duration) { return std::chrono::duration<double>(
 // Turns accepted points into rows and hands them out.
 class Recorder {
  public:
-  Recorder(const Model& model, const TraceControl& control) : model_(model), control_(control) {}
+  explicit Recorder(const TraceControl& control) : control_(control) {}
 
   const Increment& row() const { return row_; }
   int rows() const { return rows_; }
 
-  void Start(const PathPoint& point, const Residuals& residuals, const EventRecord& ways, double time) {
+  // The first row of a stage.
+  void Start(const Model& model, int stage, const PathPoint& point, const Residuals& residuals, const EventRecord& ways,
+             double time) {
+    row_.stage = stage;
     AcceptedPoint accepted;
     accepted.kind = RowKind::kStart;
     accepted.residuals = residuals;
     accepted.solve.exact = true;
     accepted.event = ways;
-    Fill(point, accepted, time);
+    Fill(model, point, accepted, time);
     Give();
   }
 
-  void Append(const AcceptedPoint& accepted, double time) {
+  // A row of an earlier trace, as it is.
+  void Repeat(const Increment& row) {
+    row_ = row;
+    Give();
+  }
+
+  void Append(const Model& model, const AcceptedPoint& accepted, double time) {
     row_.dissipation += accepted.work.friction;
     row_.external_work += accepted.work.loads;
     row_.arc_length += accepted.arc_length;
-    Fill(accepted.point, accepted, time);
+    Fill(model, accepted.point, accepted, time);
     Give();
   }
 
  private:
-  void Fill(const PathPoint& point, const AcceptedPoint& accepted, double time) {
-    CheckedState state = model_.InSceneUnits(point);
+  void Fill(const Model& model, const PathPoint& point, const AcceptedPoint& accepted, double time) {
+    CheckedState state = model.InSceneUnits(point);
     row_.index = rows_;
     row_.load_factor = state.load_factor;
     row_.kind = accepted.kind;
     row_.positions = std::move(state.positions);
-    row_.contacts.resize(model_.contacts.size());
-    for (std::size_t i = 0; i < model_.contacts.size(); ++i)
-      row_.contacts[i] = {model_.contacts[i].gap.Value(point.u) * model_.scaling.length, state.rn[i], state.rt[i],
-                          point.states[i]};
-    row_.strain_energy = model_.structure.Energy(point.u) * model_.scaling.force * model_.scaling.length;
+    row_.contacts.resize(model.contacts.size());
+    for (std::size_t i = 0; i < model.contacts.size(); ++i)
+      row_.contacts[i] = {model.contacts[i].gap.Value(point.u, point.s) * model.scaling.length, state.rn[i],
+                          state.rt[i], point.states[i]};
+    row_.strain_energy = model.structure.Energy(point.u) * model.scaling.force * model.scaling.length;
     row_.residuals = accepted.residuals;
     row_.solve = accepted.solve;
     row_.solve.time = time;
@@ -74,85 +88,199 @@ class Recorder {
     if (control_.on_increment) control_.on_increment(row_);
   }
 
-  const Model& model_;
   const TraceControl& control_;
   Increment row_;
   int rows_ = 0;
 };
 
-std::unique_ptr<PathMethod> MakeMethod(const Model& model, const TraceOptions& options, const TraceControl& control) {
-  if (options.method == Method::kBranch)
-    return std::make_unique<BranchMethod>(model, BranchOptions::For(options, model.structure.NumDofs()),
-                                          control.cancelled);
-  return std::make_unique<MpecMethod>(model, MpecOptions::For(options, model.structure.NumDofs()), control.cancelled);
+// Where an earlier trace can be gone on from.
+struct Resumption {
+  const Increment* before = nullptr;
+  const Increment* from = nullptr;
+  int events = 0;  // passed up to there
+};
+
+bool CanGoOnFrom(const Increment& row) {
+  return !row.positions.empty() && row.event.number == 0 && row.event.ways.empty() && row.solve.next_step > 0.0 &&
+         (row.kind == RowKind::kRegular || row.kind == RowKind::kSmoothLimit);
 }
 
-// From row 0 on, until something ends the trace. result: reason and message.
-void Follow(const TraceRequest& request, const TraceControl& control, PathPoint point, PathMethod* method,
-            Recorder* recorder, TraceResult* result) {
-  const auto end = [result](EndReason reason, std::string message) {
-    result->reason = reason;
-    result->message = std::move(message);
-  };
-  const StopTest stop(request);
-  const int most_increments = request.options.MaxIncrements();
-  for (;;) {
-    if (control.cancelled && control.cancelled()) return end(EndReason::kCancelled, "cancelled by the caller");
-    if (recorder->rows() > most_increments)
-      return end(EndReason::kMaxIncrements, "the wanted number of increments was accepted");
-    const Clock::time_point start = Clock::now();
-    Advance advance = method->Next(point);
-    const auto rows = static_cast<double>(std::max<std::size_t>(1, advance.rows.size()));
-    const double time = Seconds(Clock::now() - start) / rows;
-    for (AcceptedPoint& row : advance.rows) {
-      recorder->Append(row, time);
-      point = std::move(row.point);
-      if (const StopCriterion* criterion = stop.FirstThatHolds(recorder->row()))
-        return end(EndReason::kStopCriterion, ToText(*criterion));
-      if (recorder->rows() > most_increments) break;
+// The last row that can be; nothing: none can.
+std::optional<Resumption> FindResumption(const std::vector<Increment>& rows) {
+  std::optional<Resumption> last;
+  const Increment* before = nullptr;
+  int events = 0;
+  for (const Increment& row : rows) {
+    events = std::max(events, row.event.number);
+    if (before != nullptr && before->stage == row.stage && CanGoOnFrom(row)) last = Resumption{before, &row, events};
+    if (!row.positions.empty()) before = &row;
+  }
+  return last;
+}
+
+// A request on its way: one stage after another.
+class Tracer {
+ public:
+  Tracer(const TraceRequest& request, const TraceControl& control)
+      : request_(request), control_(control), recorder_(control), stop_(request) {}
+
+  // A row of an earlier trace that is kept.
+  void Repeat(const Increment& row) { recorder_.Repeat(row); }
+
+  // resumption: where to go on after the rows of an earlier trace, which were repeated; nothing: from the start.
+  TraceResult Run(const std::optional<Resumption>& resumption) {
+    std::unique_ptr<const Model> model;
+    const std::size_t first = resumption ? static_cast<std::size_t>(std::max(resumption->from->stage, 1) - 1) : 0;
+    for (std::size_t stage = first; stage < NumStages(request_); ++stage) {
+      const Clock::time_point start = Clock::now();
+      auto next = std::make_unique<const Model>(StageScene(request_, stage), StageScales(request_, stage));
+      if (stage > first)
+        point_ = next->Take(*model, point_);
+      else if (resumption)
+        point_ = next->FromRow(*resumption->from);
+      else if (!Begin(*next))
+        break;
+      model = std::move(next);
+      if (!(resumption && stage == first ? ResumeStage(*model, stage, *resumption) : TraceStage(*model, stage, start)))
+        break;
     }
-    if (advance.ended && recorder->rows() <= most_increments) return end(advance.reason, advance.message);
-  }
-}
-
-TraceResult TraceSound(const TraceRequest& request, const TraceControl& control) {
-  const TraceOptions& options = request.options;
-  const Model model(request.scene, CharacteristicScales(request.scene));
-  TraceResult result;
-
-  const Clock::time_point start = Clock::now();
-  // The start does not depend on how the path from there is traced, but for the accuracy.
-  const MethodFactory make_preload_method = [&](const Model& of) {
-    TraceOptions upwards;
-    upwards.accuracy = options.accuracy;
-    return MakeMethod(of, upwards, control);
-  };
-  Preload preload = TracePreload(model, kMostPreloadIncrements, make_preload_method, control.cancelled);
-  if (!preload.done) {
-    result.reason = preload.reason == EndReason::kMaxIncrements ? EndReason::kNumericalFailure : preload.reason;
-    result.message = preload.message;
-    return result;
-  }
-  PathPoint point = std::move(preload.point);
-  const Residuals residuals = model.Check(point, point);
-  if (!(std::max(residuals.equilibrium, residuals.Contact()) <= kStartTolerance)) {
-    result.message = "the start is not an equilibrium";
-    return result;
+    result_.increments = recorder_.rows();
+    if (!remark_.empty()) result_.message += "; " + remark_;
+    return std::move(result_);
   }
 
-  Recorder recorder(model, control);
-  const std::unique_ptr<PathMethod> method = MakeMethod(model, options, control);
-  EventRecord ways;
-  const std::optional<EndReason> not_started = method->Start(point, &ways, &result.message);
-  recorder.Start(point, residuals, ways, Seconds(Clock::now() - start));
-  if (not_started)
-    result.reason = *not_started;
-  else
-    Follow(request, control, std::move(point), method.get(), &recorder, &result);
-  result.increments = recorder.rows();
-  if (const std::string remark = method->Remark(); !remark.empty()) result.message += "; " + remark;
-  return result;
-}
+ private:
+  // Sets what ends the trace; false, for the callers to return.
+  bool End(EndReason reason, std::string message) {
+    result_.reason = reason;
+    result_.message = std::move(message);
+    return false;
+  }
+
+  bool Cancelled() const { return control_.cancelled && control_.cancelled(); }
+
+  // The equilibrium at load factor 0 with the constant loads, before anything moves.
+  bool Begin(const Model& model) {
+    Scene resting = model.scene;
+    resting.support_motions.clear();
+    const bool moves = !model.structure.PrescribedDofs().empty();
+    const std::unique_ptr<const Model> other = moves ? std::make_unique<const Model>(resting, model.scaling) : nullptr;
+    const Model& start = moves ? *other : model;
+    // The start does not depend on how the path from there is traced, but for the accuracy.
+    const MethodFactory make_method = [&](const Model& of, double target) -> std::unique_ptr<PathMethod> {
+      TraceOptions upwards;
+      upwards.accuracy = request_.options.accuracy;
+      BranchOptions options = BranchOptions::For(upwards, of.structure.NumDofs());
+      options.target = target;
+      return std::make_unique<BranchMethod>(of, options, control_.cancelled);
+    };
+    Preload preload = TracePreload(start, kMostPreloadIncrements, make_method, control_.cancelled);
+    if (!preload.done)
+      return End(preload.reason == EndReason::kMaxIncrements ? EndReason::kNumericalFailure : preload.reason,
+                 preload.message);
+    point_ = moves ? model.Take(start, preload.point) : std::move(preload.point);
+    return true;
+  }
+
+  // row: index of the one to set out from.
+  std::unique_ptr<PathMethod> MakeMethod(const Model& model, std::optional<double> target, int row) const {
+    TraceOptions options = request_.options;
+    if (target) options.direction = *target < 0.0 ? -1.0 : 1.0;
+    if (options.method == Method::kBranch) {
+      BranchOptions branch = BranchOptions::For(options, model.structure.NumDofs());
+      branch.target = target;
+      branch.rows = row;
+      branch.events = events_;
+      return std::make_unique<BranchMethod>(model, branch, control_.cancelled);
+    }
+    MpecOptions mpec = MpecOptions::For(options, model.structure.NumDofs());
+    mpec.target = target;
+    return std::make_unique<MpecMethod>(model, mpec, control_.cancelled);
+  }
+
+  // The scaled load factor at which a stage ends; nothing without a program.
+  std::optional<double> TargetOf(const Model& model, std::size_t stage) const {
+    if (request_.program.empty()) return std::nullopt;
+    return request_.program[stage].Target() / model.scaling.load_factor;
+  }
+
+  // From its first row until its target. False: the trace has ended.
+  bool TraceStage(const Model& model, std::size_t stage, Clock::time_point start) {
+    const Residuals residuals = model.Check(point_, point_);
+    if (!(residuals.Largest() <= kStartTolerance))
+      return End(EndReason::kNumericalFailure, "the start is not an equilibrium");
+    const std::unique_ptr<PathMethod> method = MakeMethod(model, TargetOf(model, stage), recorder_.rows());
+    EventRecord ways;
+    std::string message;
+    const std::optional<EndReason> not_started = method->Start(point_, &ways, &message);
+    recorder_.Start(model, request_.program.empty() ? 0 : static_cast<int>(stage) + 1, point_, residuals, ways,
+                    Seconds(Clock::now() - start));
+    return not_started ? End(*not_started, message) : FollowStage(model, stage, method.get());
+  }
+
+  // The same from a row inside.
+  bool ResumeStage(const Model& model, std::size_t stage, const Resumption& resumption) {
+    const Residuals residuals = model.Check(point_, point_);
+    if (!(residuals.Largest() <= (resumption.from->solve.exact ? kStartTolerance : kRegularised)))
+      return End(EndReason::kNumericalFailure, "the row to go on from is not an equilibrium");
+    events_ = resumption.events;
+    const std::optional<double> target = TargetOf(model, stage);
+    if (const StopCriterion* criterion = stop_.FirstThatHolds(recorder_.row()))
+      return End(EndReason::kStopCriterion, ToText(*criterion));
+    if (IsAt(target)) return EndStage(stage);
+    const std::unique_ptr<PathMethod> method = MakeMethod(model, target, recorder_.rows() - 1);
+    if (!method->Resume(model.FromRow(*resumption.before), point_, resumption.from->solve))
+      return End(EndReason::kNumericalFailure, "the path cannot be followed from the row to go on from");
+    return FollowStage(model, stage, method.get());
+  }
+
+  bool FollowStage(const Model& model, std::size_t stage, PathMethod* method) {
+    const bool goes_on = Follow(model, TargetOf(model, stage), method);
+    events_ = method->NumEvents();
+    remark_ = method->Remark();
+    return goes_on && EndStage(stage);
+  }
+
+  bool IsAt(std::optional<double> target) const { return target && std::abs(point_.s - *target) <= kAtTarget; }
+
+  // At its target. False: it was the last one.
+  bool EndStage(std::size_t stage) {
+    if (stage + 1 < NumStages(request_)) return true;
+    return End(EndReason::kStopCriterion, "the program was traced to its end");
+  }
+
+  // Until the target, or something ends the trace: then false.
+  bool Follow(const Model& model, std::optional<double> target, PathMethod* method) {
+    const int most_increments = request_.options.MaxIncrements();
+    for (;;) {
+      if (Cancelled()) return End(EndReason::kCancelled, "cancelled by the caller");
+      if (recorder_.rows() > most_increments)
+        return End(EndReason::kMaxIncrements, "the wanted number of increments was accepted");
+      const Clock::time_point start = Clock::now();
+      Advance advance = method->Next(point_);
+      const auto rows = static_cast<double>(std::max<std::size_t>(1, advance.rows.size()));
+      const double time = Seconds(Clock::now() - start) / rows;
+      for (AcceptedPoint& row : advance.rows) {
+        recorder_.Append(model, row, time);
+        point_ = std::move(row.point);
+        if (const StopCriterion* criterion = stop_.FirstThatHolds(recorder_.row()))
+          return End(EndReason::kStopCriterion, ToText(*criterion));
+        if (IsAt(target)) return true;
+        if (recorder_.rows() > most_increments) break;
+      }
+      if (advance.ended && recorder_.rows() <= most_increments) return End(advance.reason, advance.message);
+    }
+  }
+
+  const TraceRequest& request_;
+  const TraceControl& control_;
+  Recorder recorder_;
+  const StopTest stop_;
+  PathPoint point_;
+  int events_ = 0;
+  std::string remark_;
+  TraceResult result_;
+};
 
 }  // namespace
 
@@ -171,7 +299,29 @@ std::string_view ToString(EndReason reason) {
 TraceResult Trace(const TraceRequest& request, const TraceControl& control) {
   std::vector<Violation> violations = Validate(request);
   if (!violations.empty()) throw InvalidRequest(std::move(violations));
-  return TraceSound(request, control);
+  return Tracer(request, control).Run(std::nullopt);
+}
+
+TraceResult ResumeTrace(const TraceRequest& request, const std::vector<Increment>& rows, const TraceControl& control) {
+  std::vector<Violation> violations = Validate(request);
+  if (!violations.empty()) throw InvalidRequest(std::move(violations));
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Increment& row = rows[i];
+    if (row.index != static_cast<int>(i))
+      throw std::invalid_argument("row " + std::to_string(i) + " has the index " + std::to_string(row.index));
+    const bool full = !row.positions.empty();
+    if (full && (row.positions.size() != 2 * request.scene.nodes.size() ||
+                 row.contacts.size() != request.scene.contacts.size()))
+      throw std::invalid_argument("row " + std::to_string(i) + " is not of this scene");
+    if (row.stage < 0 || row.stage > static_cast<int>(request.program.size()) ||
+        (row.stage == 0) != request.program.empty())
+      throw std::invalid_argument("row " + std::to_string(i) + " is not of this program");
+  }
+  const std::optional<Resumption> resumption = FindResumption(rows);
+  Tracer tracer(request, control);
+  if (resumption)
+    for (int i = 0; i <= resumption->from->index; ++i) tracer.Repeat(rows[static_cast<std::size_t>(i)]);
+  return tracer.Run(resumption);
 }
 
 }  // namespace contact_path

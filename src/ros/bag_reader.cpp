@@ -43,7 +43,7 @@ RecordedTrace ReadOpen(const rosbag::Bag& bag) {
     if (EndsIn(topic, names::kRequest)) {
       if (requested) throw BagError("holds several traces");
       const auto message = Read<contact_path_msgs::TraceRequest>(instance);
-      trace.request = FromMessage(message->scene, message->options);
+      trace.request = FromMessage(message->scene, message->options, message->program);
       const std::vector<Violation> violations = Validate(trace.request);
       if (!violations.empty()) throw InvalidRequest(violations);
       requested = true;

@@ -131,9 +131,62 @@ EventRecord FromMessage(const msgs::Event& message) {
   return event;
 }
 
+std::vector<Load> FromMessages(const std::vector<msgs::Load>& loads) {
+  std::vector<Load> result;
+  for (const msgs::Load& load : loads) result.push_back({load.node, load.fx, load.fy, load.constant != 0});
+  return result;
+}
+
+std::vector<SupportMotion> FromMessages(const std::vector<msgs::SupportMotion>& motions) {
+  std::vector<SupportMotion> result;
+  for (const msgs::SupportMotion& motion : motions) result.push_back({motion.node, motion.dx, motion.dy});
+  return result;
+}
+
+std::vector<ObstacleMotion> FromMessages(const std::vector<msgs::ObstacleMotion>& motions) {
+  std::vector<ObstacleMotion> result;
+  for (const msgs::ObstacleMotion& motion : motions) result.push_back({motion.obstacle, motion.dx, motion.dy});
+  return result;
+}
+
+std::vector<msgs::Load> ToMessages(const std::vector<Load>& loads) {
+  std::vector<msgs::Load> result;
+  for (const Load& load : loads) {
+    msgs::Load& to = result.emplace_back();
+    to.node = load.node;
+    to.fx = load.fx;
+    to.fy = load.fy;
+    to.constant = load.constant;
+  }
+  return result;
+}
+
+std::vector<msgs::SupportMotion> ToMessages(const std::vector<SupportMotion>& motions) {
+  std::vector<msgs::SupportMotion> result;
+  for (const SupportMotion& motion : motions) {
+    msgs::SupportMotion& to = result.emplace_back();
+    to.node = motion.node;
+    to.dx = motion.dx;
+    to.dy = motion.dy;
+  }
+  return result;
+}
+
+std::vector<msgs::ObstacleMotion> ToMessages(const std::vector<ObstacleMotion>& motions) {
+  std::vector<msgs::ObstacleMotion> result;
+  for (const ObstacleMotion& motion : motions) {
+    msgs::ObstacleMotion& to = result.emplace_back();
+    to.obstacle = motion.obstacle;
+    to.dx = motion.dx;
+    to.dy = motion.dy;
+  }
+  return result;
+}
+
 }  // namespace
 
-TraceRequest FromMessage(const msgs::Scene& scene, const msgs::TraceOptions& options) {
+TraceRequest FromMessage(const msgs::Scene& scene, const msgs::TraceOptions& options,
+                         const std::vector<msgs::Stage>& program) {
   TraceRequest request;
   std::vector<Violation> violations;
 
@@ -148,11 +201,9 @@ TraceRequest FromMessage(const msgs::Scene& scene, const msgs::TraceOptions& opt
     request.scene.bars.push_back({bar.nodes, bar.EA, bar.rest_length, strain});
   }
   for (const msgs::Superelement& superelement : scene.superelements) {
-    request.scene.superelements.push_back({superelement.nodes, superelement.stiffness});
+    request.scene.superelements.push_back({superelement.nodes, superelement.stiffness, superelement.rest_positions});
   }
-  for (const msgs::Load& load : scene.loads) {
-    request.scene.loads.push_back({load.node, load.fx, load.fy, load.constant != 0});
-  }
+  request.scene.loads = FromMessages(scene.loads);
   for (std::size_t i = 0; i < scene.obstacles.size(); ++i) {
     const msgs::Obstacle& obstacle = scene.obstacles[i];
     const ObstacleShape shape = Known(ParseObstacleShape(obstacle.shape), Key("scene.obstacles", i, "shape"),
@@ -163,6 +214,8 @@ TraceRequest FromMessage(const msgs::Scene& scene, const msgs::TraceOptions& opt
   for (const msgs::Contact& contact : scene.contacts) {
     request.scene.contacts.push_back({contact.node, contact.obstacle});
   }
+  request.scene.support_motions = FromMessages(scene.support_motions);
+  request.scene.obstacle_motions = FromMessages(scene.obstacle_motions);
 
   request.options.method =
       Known(ParseMethod(options.method), "options.method", options.method, "must be branch or mpec", &violations);
@@ -178,6 +231,10 @@ TraceRequest FromMessage(const msgs::Scene& scene, const msgs::TraceOptions& opt
   for (const msgs::BranchChoice& choice : options.branch_choices) {
     request.options.branch_choices.push_back({choice.event, choice.row, choice.way});
   }
+
+  for (const msgs::Stage& stage : program)
+    request.program.push_back({stage.name, FromMessages(stage.loads), FromMessages(stage.support_motions),
+                               FromMessages(stage.obstacle_motions), stage.target});
 
   if (!violations.empty()) throw InvalidRequest(violations);
   return request;
@@ -205,14 +262,9 @@ msgs::TraceRequest ToMessage(const TraceRequest& request) {
     msgs::Superelement& to = message.scene.superelements.emplace_back();
     to.nodes = superelement.nodes;
     to.stiffness = superelement.stiffness;
+    to.rest_positions = superelement.rest_positions;
   }
-  for (const Load& load : request.scene.loads) {
-    msgs::Load& to = message.scene.loads.emplace_back();
-    to.node = load.node;
-    to.fx = load.fx;
-    to.fy = load.fy;
-    to.constant = load.constant;
-  }
+  message.scene.loads = ToMessages(request.scene.loads);
   for (const Obstacle& obstacle : request.scene.obstacles) {
     msgs::Obstacle& to = message.scene.obstacles.emplace_back();
     to.name = obstacle.name;
@@ -228,6 +280,8 @@ msgs::TraceRequest ToMessage(const TraceRequest& request) {
     to.node = contact.node;
     to.obstacle = contact.obstacle;
   }
+  message.scene.support_motions = ToMessages(request.scene.support_motions);
+  message.scene.obstacle_motions = ToMessages(request.scene.obstacle_motions);
   message.options.method = ToString(request.options.method);
   message.options.accuracy = ToString(request.options.accuracy);
   message.options.direction = request.options.direction;
@@ -246,12 +300,21 @@ msgs::TraceRequest ToMessage(const TraceRequest& request) {
     to.row = choice.row;
     to.way = choice.way;
   }
+  for (const Stage& stage : request.program) {
+    msgs::Stage& to = message.program.emplace_back();
+    to.name = stage.name;
+    to.loads = ToMessages(stage.loads);
+    to.support_motions = ToMessages(stage.support_motions);
+    to.obstacle_motions = ToMessages(stage.obstacle_motions);
+    to.target = stage.target;
+  }
   return message;
 }
 
 msgs::Increment ToMessage(const Increment& increment, int full_state_every) {
   msgs::Increment message;
   message.index = ToCount(increment.index);
+  message.stage = ToCount(increment.stage);
   message.load_factor = increment.load_factor;
   message.arc_length = increment.arc_length;
   message.kind = ConstantOf(kRowKinds, increment.kind);
@@ -281,6 +344,7 @@ msgs::Increment ToMessage(const Increment& increment, int full_state_every) {
   message.cone_residual = increment.residuals.cone;
   message.friction_law_residual = increment.residuals.friction_law;
   message.complementarity_residual = increment.residuals.Contact();
+  message.support_residual = increment.residuals.support;
   message.method = ConstantOf(kMethods, increment.solve.method);
   message.regularisation = increment.solve.regularisation;
   message.exact = increment.solve.exact;
@@ -293,6 +357,8 @@ msgs::Increment ToMessage(const Increment& increment, int full_state_every) {
   message.determinant_sign = increment.solve.determinant_sign;
   message.stiffness_sign = increment.solve.stiffness_sign;
   message.contraction = increment.solve.contraction;
+  message.next_step = increment.solve.next_step;
+  message.growth = increment.solve.growth;
   message.solve_time = increment.solve.time;
   message.event = ToMessage(increment.event);
   return message;
@@ -305,6 +371,7 @@ Increment FromMessage(const msgs::Increment& message) {
   }
   Increment increment;
   increment.index = FromCount(message.index, "index");
+  increment.stage = FromCount(message.stage, "stage");
   increment.load_factor = message.load_factor;
   increment.arc_length = message.arc_length;
   increment.kind = ValueOf(kRowKinds, message.kind, "kind");
@@ -326,6 +393,7 @@ Increment FromMessage(const msgs::Increment& message) {
   increment.residuals.complementarity = message.min_form_residual;
   increment.residuals.cone = message.cone_residual;
   increment.residuals.friction_law = message.friction_law_residual;
+  increment.residuals.support = message.support_residual;
   increment.solve.method = ValueOf(kMethods, message.method, "method");
   increment.solve.regularisation = message.regularisation;
   increment.solve.exact = message.exact != 0;
@@ -338,6 +406,8 @@ Increment FromMessage(const msgs::Increment& message) {
   increment.solve.determinant_sign = message.determinant_sign;
   increment.solve.stiffness_sign = message.stiffness_sign;
   increment.solve.contraction = message.contraction;
+  increment.solve.next_step = message.next_step;
+  increment.solve.growth = message.growth;
   increment.solve.time = message.solve_time;
   increment.event = FromMessage(message.event);
   return increment;

@@ -22,6 +22,21 @@ std::size_t StiffnessEntries(const contact_path_msgs::Scene& scene) {
   return entries;
 }
 
+// Entries of all lists of a program, and its stages.
+std::size_t ProgramEntries(const std::vector<contact_path_msgs::Stage>& program) {
+  std::size_t entries = program.size();
+  for (const contact_path_msgs::Stage& stage : program)
+    entries += stage.loads.size() + stage.support_motions.size() + stage.obstacle_motions.size();
+  return entries;
+}
+
+std::size_t RestEntries(const contact_path_msgs::Scene& scene) {
+  std::size_t entries = 0;
+  for (const contact_path_msgs::Superelement& superelement : scene.superelements)
+    entries += superelement.rest_positions.size();
+  return entries;
+}
+
 std::size_t IncrementsWanted(const contact_path_msgs::TraceOptions& options) {
   TraceOptions core_options;
   core_options.max_increments = options.max_increments;
@@ -42,7 +57,7 @@ void TraceLimits::Validate() const {
 }
 
 std::string ExceededLimit(const contact_path_msgs::Scene& scene, const contact_path_msgs::TraceOptions& options,
-                          const TraceLimits& limits) {
+                          const std::vector<contact_path_msgs::Stage>& program, const TraceLimits& limits) {
   struct Row {
     const char* what;
     std::size_t value;
@@ -54,6 +69,10 @@ std::string ExceededLimit(const contact_path_msgs::Scene& scene, const contact_p
       {"scene.bars", scene.bars.size(), names::kMaxElements, limits.max_elements},
       {"scene.superelements", scene.superelements.size(), names::kMaxElements, limits.max_elements},
       {"stiffness entries of scene.superelements", StiffnessEntries(scene), names::kMaxElements, limits.max_elements},
+      {"rest positions of scene.superelements", RestEntries(scene), names::kMaxElements, limits.max_elements},
+      {"scene.support_motions", scene.support_motions.size(), names::kMaxElements, limits.max_elements},
+      {"scene.obstacle_motions", scene.obstacle_motions.size(), names::kMaxContacts, limits.max_contacts},
+      {"loads and motions of program", ProgramEntries(program), names::kMaxElements, limits.max_elements},
       {"scene.loads", scene.loads.size(), names::kMaxElements, limits.max_elements},
       {"scene.obstacles", scene.obstacles.size(), names::kMaxContacts, limits.max_contacts},
       {"scene.contacts", scene.contacts.size(), names::kMaxContacts, limits.max_contacts},

@@ -125,7 +125,7 @@ bool TraceService::HandleCancel(std_srvs::Trigger::Request& /*request*/, std_srv
 }
 
 void TraceService::Serve(const Request& request, Response* response) {
-  const std::string exceeded = ExceededLimit(request.scene, request.options, parameters_.limits);
+  const std::string exceeded = ExceededLimit(request.scene, request.options, request.program, parameters_.limits);
   if (!exceeded.empty()) {
     response->status = Response::LIMIT_EXCEEDED;
     response->message = exceeded;
@@ -134,7 +134,7 @@ void TraceService::Serve(const Request& request, Response* response) {
 
   TraceRequest core_request;
   try {
-    core_request = FromMessage(request.scene, request.options);
+    core_request = FromMessage(request.scene, request.options, request.program);
     const std::vector<Violation> violations = Validate(core_request);
     if (!violations.empty()) throw InvalidRequest(violations);
   } catch (const InvalidRequest& error) {
@@ -146,6 +146,7 @@ void TraceService::Serve(const Request& request, Response* response) {
   contact_path_msgs::TraceRequest recorded;
   recorded.scene = request.scene;
   recorded.options = request.options;
+  recorded.program = request.program;
   std::unique_ptr<BagRecorder> bag;
   try {
     bag = std::make_unique<BagRecorder>(parameters_.bag_directory, request.scene.name, topic_prefix_);

@@ -18,7 +18,7 @@ namespace {
 void PrintResiduals(const char* name, int rows, const Residuals& residuals) {
   std::cout << std::left << std::setw(22) << name << std::right << std::setw(7) << rows;
   for (const double residual : {residuals.equilibrium, residuals.penetration, residuals.adhesion,
-                                residuals.complementarity, residuals.cone, residuals.friction_law})
+                                residuals.complementarity, residuals.cone, residuals.friction_law, residuals.support})
     std::cout << std::setw(13) << residual;
   std::cout << '\n';
 }
@@ -30,7 +30,8 @@ void PrintTable(const RecordedTrace& trace, const Verification& verification) {
   std::cout << "\n\nlargest residuals, computed anew\n"
             << std::left << std::setw(22) << "" << std::right << std::setw(7) << "rows" << std::setw(13)
             << "equilibrium" << std::setw(13) << "penetration" << std::setw(13) << "adhesion" << std::setw(13)
-            << "min form" << std::setw(13) << "cone" << std::setw(13) << "friction law" << '\n';
+            << "min form" << std::setw(13) << "cone" << std::setw(13) << "friction law" << std::setw(13) << "supports"
+            << '\n';
   PrintResiduals("exact rows", verification.exact_rows, verification.exact);
   const int regularised = verification.full_rows - verification.exact_rows;
   if (regularised > 0) PrintResiduals("regularised rows", regularised, verification.regularised);
@@ -40,6 +41,11 @@ void PrintTable(const RecordedTrace& trace, const Verification& verification) {
             << verification.work << " of work done by the loads\n\n";
 }
 
+bool ProgramDone(const RecordedTrace& trace) {
+  const Increment& last = trace.rows.back();
+  return last.stage == static_cast<int>(trace.request.program.size()) && AtTarget(trace.request, last);
+}
+
 // What the record as a whole lacks; empty if nothing.
 std::string Lacks(const RecordedTrace& trace) {
   if (!trace.result) return "truncated: no result, the trace was cut off before its end";
@@ -47,7 +53,8 @@ std::string Lacks(const RecordedTrace& trace) {
     return "truncated: " + std::to_string(trace.rows.size()) + " rows, the result speaks of " +
            std::to_string(trace.result->increments);
   if (trace.result->end_reason_name == ToString(EndReason::kStopCriterion) && !trace.rows.empty() &&
-      !trace.rows.back().positions.empty() && StopTest(trace.request).FirstThatHolds(trace.rows.back()) == nullptr)
+      !trace.rows.back().positions.empty() && !ProgramDone(trace) &&
+      StopTest(trace.request).FirstThatHolds(trace.rows.back()) == nullptr)
     return "the result says stop_criterion, but none holds in the last row";
   return "";
 }

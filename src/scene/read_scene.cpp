@@ -222,7 +222,9 @@ void Read(Reader& in, const YamlValue& value, const std::string& path, Bar& bar)
 }
 
 void Read(Reader& in, const YamlValue& value, const std::string& path, Superelement& element) {
-  in.ReadMap(value, path, {in.List("nodes", element.nodes), in.List("stiffness", element.stiffness)});
+  in.ReadMap(value, path,
+             {in.List("nodes", element.nodes), in.List("stiffness", element.stiffness),
+              in.List("rest_positions", element.rest_positions)});
 }
 
 void Read(Reader& in, const YamlValue& value, const std::string& path, Load& load) {
@@ -243,6 +245,15 @@ void Read(Reader& in, const YamlValue& value, const std::string& path, ContactCa
   in.ReadMap(value, path, {in.Text("node", contact.node), in.Text("obstacle", contact.obstacle)});
 }
 
+void Read(Reader& in, const YamlValue& value, const std::string& path, SupportMotion& motion) {
+  in.ReadMap(value, path, {in.Text("node", motion.node), in.Number("dx", motion.dx), in.Number("dy", motion.dy)});
+}
+
+void Read(Reader& in, const YamlValue& value, const std::string& path, ObstacleMotion& motion) {
+  in.ReadMap(value, path,
+             {in.Text("obstacle", motion.obstacle), in.Number("dx", motion.dx), in.Number("dy", motion.dy)});
+}
+
 void Read(Reader& in, const YamlValue& value, const std::string& path, StopCriterion& stop) {
   in.ReadMap(value, path,
              {in.Text("quantity", stop.quantity), in.Text("when", stop.when), in.Number("value", stop.value)});
@@ -257,7 +268,8 @@ void Read(Reader& in, const YamlValue& value, const std::string& path, Scene& sc
   in.ReadMap(value, path,
              {in.Text("name", scene.name), in.List("nodes", scene.nodes), in.List("bars", scene.bars),
               in.List("superelements", scene.superelements), in.List("loads", scene.loads),
-              in.List("obstacles", scene.obstacles), in.List("contacts", scene.contacts)});
+              in.List("obstacles", scene.obstacles), in.List("contacts", scene.contacts),
+              in.List("support_motions", scene.support_motions), in.List("obstacle_motions", scene.obstacle_motions)});
 }
 
 void Read(Reader& in, const YamlValue& value, const std::string& path, TraceOptions& options) {
@@ -268,6 +280,13 @@ void Read(Reader& in, const YamlValue& value, const std::string& path, TraceOpti
        in.Number("direction", options.direction), in.Number("step", options.step),
        in.Integer("max_increments", options.max_increments), in.Integer("full_state_every", options.full_state_every),
        in.List("stop", options.stop), in.List("branch_choices", options.branch_choices)});
+}
+
+void Read(Reader& in, const YamlValue& value, const std::string& path, Stage& stage) {
+  in.ReadMap(
+      value, path,
+      {in.Text("name", stage.name), in.List("loads", stage.loads), in.List("support_motions", stage.support_motions),
+       in.List("obstacle_motions", stage.obstacle_motions), in.Number("target", stage.target)});
 }
 
 // The line of the deepest key or list element on `path` that stands in the file.
@@ -304,7 +323,9 @@ TraceRequest ReadTraceRequest(const std::string& text, const std::string& file_n
   const YamlValue root = ParseYaml(text, file_name);
   TraceRequest request;
   Reader in;
-  in.ReadMap(root, "", {in.Part("scene", request.scene), in.Part("options", request.options)});
+  in.ReadMap(
+      root, "",
+      {in.Part("scene", request.scene), in.Part("options", request.options), in.List("program", request.program)});
   std::vector<Violation> violations = in.violations();
   if (in.complete()) {  // otherwise the request would be judged by what is missing
     std::vector<Violation> broken_rules = Validate(request);

@@ -64,6 +64,16 @@ double ReferenceLoadNorm(const Scene& scene, const NodesByName& nodes) {
   return std::sqrt(OrderedSum(std::move(squares)));
 }
 
+// Euclidean norm of all prescribed motions [length].
+double MotionNorm(const Scene& scene) {
+  std::vector<double> squares;
+  for (const SupportMotion& motion : scene.support_motions)
+    for (const double part : {motion.dx, motion.dy}) squares.push_back(part * part);
+  for (const ObstacleMotion& motion : scene.obstacle_motions)
+    for (const double part : {motion.dx, motion.dy}) squares.push_back(part * part);
+  return std::sqrt(OrderedSum(std::move(squares)));
+}
+
 // sqrt(sum K_ij^2 / rows) over all superelements [force/length]. The Frobenius norm does not change by rotation.
 double MeanStiffness(const Scene& scene) {
   std::vector<double> squares;
@@ -79,17 +89,22 @@ double MeanStiffness(const Scene& scene) {
 
 Scaling CharacteristicScales(const Scene& scene) {
   const NodesByName nodes = IndexNodes(scene);
-  const double reference_load = ReferenceLoadNorm(scene, nodes);
   Scaling scaling;
   if (!scene.bars.empty()) {
     scaling.length = OrderedSum(BarLengths(scene, nodes)) / static_cast<double>(scene.bars.size());
     scaling.force = GeometricMeanOfAxialStiffness(scene);
   } else {
-    scaling.force = reference_load;
-    scaling.length = scaling.force / MeanStiffness(scene);
+    const double reference_load = ReferenceLoadNorm(scene, nodes), stiffness = MeanStiffness(scene);
+    scaling.force = reference_load > 0.0 ? reference_load : stiffness * MotionNorm(scene);
+    scaling.length = scaling.force / stiffness;
   }
-  scaling.load_factor = scaling.force / reference_load;
+  scaling.load_factor = LoadFactorScale(scene, scaling.length, scaling.force);
   return scaling;
+}
+
+double LoadFactorScale(const Scene& scene, double length, double force) {
+  const double load = ReferenceLoadNorm(scene, IndexNodes(scene)), motion = MotionNorm(scene);
+  return motion > 0.0 ? 1.0 / std::hypot(load / force, motion / length) : force / load;
 }
 
 Scene ScaleScene(const Scene& scene, const Scaling& scaling) {
@@ -108,6 +123,7 @@ Scene ScaleScene(const Scene& scene, const Scaling& scaling) {
   }
   for (Superelement& element : scaled.superelements) {
     for (double& entry : element.stiffness) entry /= stiffness;
+    for (double& position : element.rest_positions) position /= scaling.length;
   }
   for (Load& load : scaled.loads) {
     const double unit = load.constant ? scaling.force : reference_load;
@@ -120,6 +136,15 @@ Scene ScaleScene(const Scene& scene, const Scaling& scaling) {
     const double norm = std::hypot(obstacle.nx, obstacle.ny);
     obstacle.nx /= norm;
     obstacle.ny /= norm;
+  }
+  const double motion_unit = scaling.length / scaling.load_factor;
+  for (SupportMotion& motion : scaled.support_motions) {
+    motion.dx /= motion_unit;
+    motion.dy /= motion_unit;
+  }
+  for (ObstacleMotion& motion : scaled.obstacle_motions) {
+    motion.dx /= motion_unit;
+    motion.dy /= motion_unit;
   }
   return scaled;
 }

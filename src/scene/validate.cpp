@@ -15,7 +15,7 @@
 #include <unordered_set>
 #include <utility>
 
-#include "contact_path/scene/scaling.h"
+#include "contact_path/scene/program.h"
 
 namespace contact_path {
 namespace {
@@ -86,7 +86,7 @@ std::string OneLine(const std::string& text) {
 // known to be wrong is left out, so that one mistake is not reported several times.
 class Checker {
  public:
-  explicit Checker(const TraceRequest& request) : scene_(request.scene), options_(request.options) {
+  explicit Checker(const TraceRequest& request) : request_(request), scene_(request.scene), options_(request.options) {
     for (const Node& node : scene_.nodes) nodes_.emplace(node.name, &node);
     for (const Obstacle& obstacle : scene_.obstacles) obstacles_.emplace(obstacle.name, &obstacle);
   }
@@ -95,11 +95,20 @@ class Checker {
     CheckNodes();
     CheckBars();
     CheckSuperelements();
-    CheckLoads();
-    structure_is_sound_ = violations_.empty();
+    CheckLoads("scene", scene_.loads);
+    CheckWhatMoves();
+    const bool structure_is_sound = violations_.empty();
     CheckObstacles();
-    CheckContacts();
+    std::vector<Violation> of_scene = std::move(violations_);
+    violations_.clear();
+    CheckMotions("scene", scene_.support_motions, scene_.obstacle_motions);
+    CheckProgram();
+    std::vector<Violation> of_program = std::move(violations_);
+    violations_ = std::move(of_scene);
+    // Lengths are compared with the characteristic one, which may be that of the program.
+    CheckContacts(structure_is_sound && of_program.empty() ? StageScales(request_, 0).length : 0.0);
     CheckOptions();
+    violations_.insert(violations_.end(), of_program.begin(), of_program.end());
     return std::move(violations_);
   }
 
@@ -219,6 +228,12 @@ class Checker {
         }
       }
       if (!element.nodes.empty()) CheckStiffness(key + ".stiffness", element);
+      const std::size_t size = element.rest_positions.size();
+      if (size != 0 && size != 2 * element.nodes.size())
+        Add(key + ".rest_positions", std::to_string(size) + " entries",
+            "must be empty or have " + std::to_string(2 * element.nodes.size()) + " entries: x, y of each node");
+      for (std::size_t k = 0; k < size; ++k)
+        CheckNumber(Indexed(key + ".rest_positions", k), element.rest_positions[k]);
     }
   }
 
@@ -250,26 +265,112 @@ class Checker {
     }
   }
 
-  void CheckLoads() {
-    const std::size_t before = violations_.size();
-    for (std::size_t i = 0; i < scene_.loads.size(); ++i) {
-      const Load& load = scene_.loads[i];
-      const std::string key = Indexed("scene.loads", i);
-      FindNode(key + ".node", load.node);
-      CheckNumber(key + ".fx", load.fx);
-      CheckNumber(key + ".fy", load.fy);
+  void CheckLoads(const std::string& where, const std::vector<Load>& loads) {
+    for (std::size_t i = 0; i < loads.size(); ++i) {
+      const Load& load = loads[i];
+      const std::string key = Indexed(where + ".loads", i);
+      loads_are_sound_ = FindNode(key + ".node", load.node) != nullptr && loads_are_sound_;
+      loads_are_sound_ = CheckNumber(key + ".fx", load.fx) && loads_are_sound_;
+      loads_are_sound_ = CheckNumber(key + ".fy", load.fy) && loads_are_sound_;
     }
-    if (violations_.size() == before && HasFreeComponent() && !HasReferenceLoad()) {
+  }
+
+  // Something must change with the load factor, of the scene or of each stage.
+  void CheckWhatMoves() {
+    if (!request_.program.empty()) {
+      for (std::size_t i = 0; i < scene_.loads.size(); ++i)
+        if (!scene_.loads[i].constant)
+          Add(Indexed("scene.loads", i) + ".constant", "false",
+              "must be true where there is a program: loads that a load factor scales belong to a stage");
+      return;
+    }
+    if (loads_are_sound_ && HasFreeComponent() && !HasReferenceLoad(scene_.loads) && scene_.support_motions.empty() &&
+        scene_.obstacle_motions.empty()) {
       Add("scene.loads", scene_.loads.empty() ? "[]" : "no net force",
-          "a load that is not constant must act on a free component");
+          "a load that is not constant must act on a free component, or a support or an obstacle must move");
+    }
+  }
+
+  void CheckProgram() {
+    const bool program = !request_.program.empty();
+    if (program && !scene_.support_motions.empty())
+      Add("scene.support_motions", "", "must be empty where there is a program: motions belong to its stages");
+    if (program && !scene_.obstacle_motions.empty())
+      Add("scene.obstacle_motions", "", "must be empty where there is a program: motions belong to its stages");
+    for (std::size_t i = 0; i < request_.program.size(); ++i) {
+      const Stage& stage = request_.program[i];
+      const std::string key = Indexed("program", i);
+      CheckLoads(key, stage.loads);
+      for (std::size_t k = 0; k < stage.loads.size(); ++k)
+        if (stage.loads[k].constant)
+          Add(Indexed(key + ".loads", k) + ".constant", "true", "must be false: constant loads belong to the scene");
+      CheckMotions(key, stage.support_motions, stage.obstacle_motions);
+      if (loads_are_sound_ && HasFreeComponent() && !HasReferenceLoad(stage.loads) && stage.support_motions.empty() &&
+          stage.obstacle_motions.empty())
+        Add(key, stage.name, "a load must act on a free component, or a support or an obstacle must move");
+      CheckNumber(key + ".target", stage.target);
+    }
+  }
+
+  bool CheckMotion(const std::string& key, double dx, double dy) {
+    const bool sound = CheckNumber(key + ".dx", dx);
+    if (!CheckNumber(key + ".dy", dy) || !sound) return false;
+    if (std::hypot(dx, dy) >= kSmallest) return true;
+    Add(key, "no motion", "dx or dy must not be zero (length at least 1e-100)");
+    return false;
+  }
+
+  void CheckMotions(const std::string& where, const std::vector<SupportMotion>& supports,
+                    const std::vector<ObstacleMotion>& obstacles) {
+    std::unordered_set<std::string> moved;
+    for (std::size_t i = 0; i < supports.size(); ++i) {
+      const SupportMotion& motion = supports[i];
+      const std::string key = Indexed(where + ".support_motions", i);
+      const Node* const node = FindNode(key + ".node", motion.node);
+      if (!moved.insert(motion.node).second) Add(key + ".node", motion.node, "must not be repeated");
+      if (!CheckMotion(key, motion.dx, motion.dy) || node == nullptr) continue;
+      if (motion.dx != 0.0 && !node->fixed_x)
+        Add(key + ".dx", NumberText(motion.dx), "must be 0: node " + node->name + " is not fixed in x");
+      if (motion.dy != 0.0 && !node->fixed_y)
+        Add(key + ".dy", NumberText(motion.dy), "must be 0: node " + node->name + " is not fixed in y");
+      for (const ContactCandidate& contact : scene_.contacts)
+        if (contact.node == motion.node)
+          Add(key + ".node", motion.node, "must not be a contact candidate: its reactions would not be determined");
+    }
+    moved.clear();
+    for (std::size_t i = 0; i < obstacles.size(); ++i) {
+      const ObstacleMotion& motion = obstacles[i];
+      const std::string key = Indexed(where + ".obstacle_motions", i);
+      const auto obstacle = obstacles_.find(motion.obstacle);
+      if (obstacle == obstacles_.end())
+        Add(key + ".obstacle", TextOrQuotes(motion.obstacle), "must name an obstacle of the scene");
+      if (!moved.insert(motion.obstacle).second) Add(key + ".obstacle", motion.obstacle, "must not be repeated");
+      if (CheckMotion(key, motion.dx, motion.dy) && obstacle != obstacles_.end())
+        CheckNodesCanFollow(key, motion, *obstacle->second);
+    }
+  }
+
+  // What an obstacle with friction drags along must be able to move that way, or its reaction is not determined.
+  void CheckNodesCanFollow(const std::string& key, const ObstacleMotion& motion, const Obstacle& obstacle) {
+    const double norm = std::hypot(obstacle.nx, obstacle.ny);
+    const double along = std::abs(obstacle.ny * motion.dx - obstacle.nx * motion.dy) / norm;
+    if (!(obstacle.friction > 0.0) || along <= kNormalOnFree * std::hypot(motion.dx, motion.dy)) return;
+    for (const ContactCandidate& contact : scene_.contacts) {
+      const auto node = nodes_.find(contact.node);
+      if (contact.obstacle != obstacle.name || node == nodes_.end()) continue;
+      const double free_part = std::hypot(node->second->fixed_x ? 0.0 : obstacle.ny,  //
+                                          node->second->fixed_y ? 0.0 : obstacle.nx);
+      if (free_part <= kNormalOnFree * norm)
+        Add(key + ".obstacle", motion.obstacle,
+            "moves along itself with friction: node " + contact.node + " must be free to move that way");
     }
   }
 
   // Whether the loads that the load factor scales, summed by node, leave something on a free component.
-  bool HasReferenceLoad() const {
+  bool HasReferenceLoad(const std::vector<Load>& loads) const {
     std::map<const Node*, std::array<double, 2>> sums;
     double largest = kSmallest / kLoadLeft;
-    for (const Load& load : scene_.loads) {
+    for (const Load& load : loads) {
       if (load.constant) continue;
       const Node* const node = nodes_.at(load.node);
       const std::array<double, 2> force = {node->fixed_x ? 0.0 : load.fx, node->fixed_y ? 0.0 : load.fy};
@@ -304,8 +405,8 @@ class Checker {
     }
   }
 
-  void CheckContacts() {
-    const double length = structure_is_sound_ ? CharacteristicScales(scene_).length : 0.0;
+  // length: the characteristic length, 0 where it is not known.
+  void CheckContacts(double length) {
     std::set<std::pair<std::string, std::string>> earlier;
     for (std::size_t i = 0; i < scene_.contacts.size(); ++i) {
       const ContactCandidate& contact = scene_.contacts[i];
@@ -323,7 +424,6 @@ class Checker {
     }
   }
 
-  // `length`: the characteristic length, 0 where it is not known.
   void CheckContactGeometry(const std::string& key, const ContactCandidate& contact, const Node& node,
                             const Obstacle& obstacle, double length) {
     const double norm = std::hypot(obstacle.nx, obstacle.ny);
@@ -343,7 +443,9 @@ class Checker {
   }
 
   void CheckOptions() {
-    CheckNumber("options.direction", options_.direction);
+    if (CheckNumber("options.direction", options_.direction) && options_.direction != 0.0 && !request_.program.empty())
+      Add("options.direction", NumberText(options_.direction),
+          "must be 0 where there is a program: each stage goes towards its target");
     if (CheckNumber("options.step", options_.step) && options_.step < 0.0) {
       Add("options.step", NumberText(options_.step), "must be >= 0");
     }
@@ -368,7 +470,11 @@ class Checker {
   }
 
   void CheckQuantity(const std::string& key, const std::string& quantity) {
-    if (quantity == "load_factor") return;
+    if (quantity == "load_factor") {
+      if (!request_.program.empty())
+        Add(key, quantity, "must be <node>.x or <node>.y where there is a program: each stage has a target of its own");
+      return;
+    }
     const std::size_t name_size = quantity.size() < 2 ? 0 : quantity.size() - 2;
     const std::string component = quantity.substr(name_size);
     if (name_size == 0 || (component != ".x" && component != ".y")) {
@@ -378,12 +484,13 @@ class Checker {
     }
   }
 
+  const TraceRequest& request_;
   const Scene& scene_;
   const TraceOptions& options_;
   std::unordered_map<std::string, const Node*> nodes_;  // the first of each name
   std::unordered_map<std::string, const Obstacle*> obstacles_;
   std::unordered_set<const Obstacle*> usable_obstacles_;  // with a sound point and normal
-  bool structure_is_sound_ = false;  // nodes, elements and loads: what the characteristic length needs
+  bool loads_are_sound_ = true;                           // as far as checked
   std::vector<Violation> violations_;
 };
 

@@ -56,6 +56,29 @@ void WriteList(const char* key, const std::vector<Part>& parts, YAML::Emitter* o
   *out << YAML::EndSeq;
 }
 
+void WriteLoads(const std::vector<Load>& loads, YAML::Emitter* out) {
+  WriteList("loads", loads, out, [](const Load& load, Line& line) {
+    line.Text("node", load.node);
+    line.Value("fx", load.fx);
+    line.Value("fy", load.fy);
+    line.Value("constant", load.constant);
+  });
+}
+
+void WriteMotions(const std::vector<SupportMotion>& supports, const std::vector<ObstacleMotion>& obstacles,
+                  YAML::Emitter* out) {
+  WriteList("support_motions", supports, out, [](const SupportMotion& motion, Line& line) {
+    line.Text("node", motion.node);
+    line.Value("dx", motion.dx);
+    line.Value("dy", motion.dy);
+  });
+  WriteList("obstacle_motions", obstacles, out, [](const ObstacleMotion& motion, Line& line) {
+    line.Text("obstacle", motion.obstacle);
+    line.Value("dx", motion.dx);
+    line.Value("dy", motion.dy);
+  });
+}
+
 void WriteScene(const Scene& scene, YAML::Emitter* out) {
   *out << YAML::Block << YAML::BeginMap;
   *out << YAML::Key << "name" << YAML::Value << YAML::DoubleQuoted << scene.name << YAML::Auto;
@@ -75,13 +98,9 @@ void WriteScene(const Scene& scene, YAML::Emitter* out) {
   WriteList("superelements", scene.superelements, out, [](const Superelement& part, Line& line) {
     line.Texts("nodes", part.nodes);
     line.Numbers("stiffness", part.stiffness);
+    if (!part.rest_positions.empty()) line.Numbers("rest_positions", part.rest_positions);
   });
-  WriteList("loads", scene.loads, out, [](const Load& load, Line& line) {
-    line.Text("node", load.node);
-    line.Value("fx", load.fx);
-    line.Value("fy", load.fy);
-    line.Value("constant", load.constant);
-  });
+  WriteLoads(scene.loads, out);
   WriteList("obstacles", scene.obstacles, out, [](const Obstacle& obstacle, Line& line) {
     line.Text("name", obstacle.name);
     line.Word("shape", ToString(obstacle.shape));
@@ -95,6 +114,7 @@ void WriteScene(const Scene& scene, YAML::Emitter* out) {
     line.Text("node", contact.node);
     line.Text("obstacle", contact.obstacle);
   });
+  WriteMotions(scene.support_motions, scene.obstacle_motions, out);
   *out << YAML::EndMap;
 }
 
@@ -119,6 +139,19 @@ void WriteOptions(const TraceOptions& options, YAML::Emitter* out) {
   *out << YAML::EndMap;
 }
 
+void WriteProgram(const std::vector<Stage>& program, YAML::Emitter* out) {
+  *out << YAML::BeginSeq;
+  for (const Stage& stage : program) {
+    *out << YAML::Block << YAML::BeginMap;
+    *out << YAML::Key << "name" << YAML::Value << YAML::DoubleQuoted << stage.name << YAML::Auto;
+    *out << YAML::Key << "target" << YAML::Value << stage.Target();
+    WriteLoads(stage.loads, out);
+    WriteMotions(stage.support_motions, stage.obstacle_motions, out);
+    *out << YAML::EndMap;
+  }
+  *out << YAML::EndSeq;
+}
+
 }  // namespace
 
 std::string WriteTraceRequest(const TraceRequest& request) {
@@ -128,6 +161,10 @@ std::string WriteTraceRequest(const TraceRequest& request) {
   WriteScene(request.scene, &out);
   out << YAML::Key << "options" << YAML::Value;
   WriteOptions(request.options, &out);
+  if (!request.program.empty()) {
+    out << YAML::Key << "program" << YAML::Value;
+    WriteProgram(request.program, &out);
+  }
   out << YAML::EndMap << YAML::Newline;
   return out.c_str();
 }

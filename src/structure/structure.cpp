@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <tuple>
+#include <unordered_map>
 #include <utility>
 
 #include "contact_path/structure/bar.h"
@@ -40,14 +42,22 @@ Structure::Structure(const Scene& scene) {
   const auto num_nodes = static_cast<Eigen::Index>(scene.nodes.size());
   initial_positions_.resize(2 * num_nodes);
   std::vector<double> free_positions;
+  std::unordered_map<std::string, const SupportMotion*> motions;
+  for (const SupportMotion& motion : scene.support_motions) motions.emplace(motion.node, &motion);
   for (const Node& node : scene.nodes) {
     const auto index = static_cast<int>(node_index_.size());
     node_index_.emplace(node.name, index);
     initial_positions_[2 * index] = node.x;
     initial_positions_[2 * index + 1] = node.y;
-    for (const auto& [fixed, position] : {std::pair(node.fixed_x, node.x), std::pair(node.fixed_y, node.y)}) {
-      dofs_.push_back(fixed ? -1 : static_cast<int>(free_positions.size()));
-      if (!fixed) free_positions.push_back(position);
+    const auto motion = motions.find(node.name);
+    const bool moves = motion != motions.end();
+    for (const auto& [fixed, position, rate] : {std::tuple(node.fixed_x, node.x, moves ? motion->second->dx : 0.0),
+                                                std::tuple(node.fixed_y, node.y, moves ? motion->second->dy : 0.0)}) {
+      const auto dof = static_cast<int>(free_positions.size());
+      const bool rests = fixed && rate == 0.0;
+      dofs_.push_back(rests ? -1 : dof);
+      if (fixed && !rests) prescribed_.push_back({dof, position, rate});
+      if (!rests) free_positions.push_back(position);
     }
   }
   initial_ = Eigen::Map<const Eigen::VectorXd>(free_positions.data(), static_cast<Eigen::Index>(free_positions.size()));
@@ -69,12 +79,14 @@ Structure::Structure(const Scene& scene) {
   }
   for (const Superelement& part : scene.superelements) {
     const auto size = static_cast<Eigen::Index>(2 * part.nodes.size());
-    Eigen::VectorXd initial(size);
-    for (std::size_t i = 0; i < part.nodes.size(); ++i)
-      initial.segment<2>(static_cast<Eigen::Index>(2 * i)) =
-          initial_positions_.segment<2>(2 * NodeIndex(part.nodes[i]));
+    Eigen::VectorXd rest(size);
+    if (!part.rest_positions.empty())
+      rest = Eigen::Map<const Eigen::VectorXd>(part.rest_positions.data(), size);
+    else
+      for (std::size_t i = 0; i < part.nodes.size(); ++i)
+        rest.segment<2>(static_cast<Eigen::Index>(2 * i)) = initial_positions_.segment<2>(2 * NodeIndex(part.nodes[i]));
     const Eigen::Map<const Eigen::MatrixXd> stiffness(part.stiffness.data(), size, size);
-    AddPart(std::make_unique<LinearSuperelement>(0.5 * (stiffness + stiffness.transpose()), std::move(initial)),
+    AddPart(std::make_unique<LinearSuperelement>(0.5 * (stiffness + stiffness.transpose()), std::move(rest)),
             part.nodes);
   }
   BuildPattern();
@@ -152,6 +164,17 @@ void Structure::InternalForce(const Eigen::Ref<const Eigen::VectorXd>& u, Eigen:
     part.element->Force(x, local);
     Scatter(part.dofs, local.data(), force.data());
   }
+}
+
+Eigen::VectorXd Structure::SupportReactions(const Eigen::Ref<const Eigen::VectorXd>& u, double s) const {
+  Eigen::VectorXd reactions(static_cast<Eigen::Index>(prescribed_.size()));
+  if (prescribed_.empty()) return reactions;
+  Eigen::VectorXd force(NumDofs());
+  InternalForce(u, force);
+  force -= s * reference_load_ + constant_load_;
+  for (std::size_t k = 0; k < prescribed_.size(); ++k)
+    reactions[static_cast<Eigen::Index>(k)] = force[prescribed_[k].dof];
+  return reactions;
 }
 
 void Structure::Tangent(const Eigen::Ref<const Eigen::VectorXd>& u, Eigen::SparseMatrix<double>* tangent) const {

@@ -7,6 +7,7 @@
 #include <sstream>
 #include <unordered_map>
 
+#include "contact_path/scene/program.h"
 #include "contact_path/scene/scaling.h"
 
 namespace contact_path {
@@ -20,17 +21,25 @@ constexpr double kSlack = 1e-3;        // of what the energy balance may be off 
 constexpr double kChord = 1e-9;        // relative: arc length against chord
 constexpr double kEnergy = 1e-2;       // of the work done: energies are quadratures
 constexpr double kEnergyMpec = 3e-2;   // the same where increments may cut corners
+constexpr double kAtTarget = 1e-9;     // relative, of the load factor
 constexpr double kTurn = 1e-9;         // of the load factor: a smaller change is none
 constexpr double kLongestArc = 1.05;   // of its chord: increments turn by less than 60 degrees
 
+// The rows of one stage.
 class Verifier {
  public:
-  Verifier(const TraceRequest& request, const std::vector<Increment>& rows)
-      : scene_(request.scene),
+  // rows: all that were recorded; those from `first` up to `last`, not included, are of the stage.
+  Verifier(const TraceRequest& request, std::size_t stage, const std::vector<Increment>& rows, std::size_t first,
+           std::size_t last, Verification* result)
+      : scene_(StageScene(request, stage)),
+        stage_(request.program.empty() ? 0 : static_cast<int>(stage) + 1),
         full_state_every_(std::max(request.options.full_state_every, 1)),
         rows_(rows),
-        scaling_(CharacteristicScales(scene_)),
-        check_(scene_) {
+        first_(first),
+        last_(last),
+        scaling_(StageScales(request, stage)),
+        check_(scene_),
+        result_(*result) {
     double farthest = 0.0;
     for (std::size_t i = 0; i < scene_.nodes.size(); ++i) {
       nodes_.emplace(scene_.nodes[i].name, i);
@@ -41,14 +50,24 @@ class Verifier {
       const auto obstacle = std::find_if(scene_.obstacles.begin(), scene_.obstacles.end(),
                                          [&](const Obstacle& other) { return other.name == contact.obstacle; });
       const double length = std::hypot(obstacle->nx, obstacle->ny);
-      surfaces_.push_back({nodes_.at(contact.node), obstacle->px, obstacle->py, obstacle->nx / length,
-                           obstacle->ny / length, obstacle->friction, contact.Name()});
+      Surface surface{nodes_.at(contact.node), obstacle->px,          obstacle->py,       0.0,           0.0,
+                      obstacle->nx / length,   obstacle->ny / length, obstacle->friction, contact.Name()};
+      for (const ObstacleMotion& motion : scene_.obstacle_motions) {
+        if (motion.obstacle != contact.obstacle) continue;
+        surface.dx = motion.dx;
+        surface.dy = motion.dy;
+      }
+      surfaces_.push_back(surface);
+    }
+    rates_.resize(2 * scene_.nodes.size());
+    for (const SupportMotion& motion : scene_.support_motions) {
+      rates_[2 * nodes_.at(motion.node)] = motion.dx;
+      rates_[2 * nodes_.at(motion.node) + 1] = motion.dy;
     }
   }
 
-  Verification Run() {
-    if (rows_.empty()) Report("the record has no rows");
-    for (row_ = 0; row_ < rows_.size(); ++row_) {
+  void Run() {
+    for (row_ = first_; row_ < last_; ++row_) {
       const Increment& row = Row();
       ++result_.rows;
       ++result_.kinds[row.kind];
@@ -58,7 +77,7 @@ class Verifier {
         before_.reset();
         continue;
       }
-      if (row_ > 0) CheckProgress(rows_[row_ - 1], row);
+      if (row_ > first_) CheckProgress(rows_[row_ - 1], row);
       if (!row.positions.empty()) {
         if (row.positions.size() != 2 * scene_.nodes.size() || row.contacts.size() != scene_.contacts.size()) {
           Report("the numbers of positions and contacts are not those of the scene");
@@ -73,14 +92,21 @@ class Verifier {
       CheckLimit();
     }
     CheckEnergy();
-    return std::move(result_);
   }
 
  private:
   struct Surface {
     std::size_t node;
-    double px, py, nx, ny, friction;
+    double px, py, dx, dy, nx, ny, friction;
     std::string name;
+
+    // Of the node, as the obstacle sees it at the load factor of the row.
+    double Along(double ax, double ay, const Increment& row) const {
+      return ax * (row.positions[2 * node] - px - row.load_factor * dx) +
+             ay * (row.positions[2 * node + 1] - py - row.load_factor * dy);
+    }
+    double Gap(const Increment& row) const { return Along(nx, ny, row); }
+    double Slip(const Increment& from, const Increment& to) const { return Along(ny, -nx, to) - Along(ny, -nx, from); }
   };
 
   const Increment& Row() const { return rows_[row_]; }
@@ -110,9 +136,33 @@ class Verifier {
 
   void CheckPlace(const Increment& row) {
     if (row.index != static_cast<int>(row_)) Report("has the index ", row.index, ": rows are missing or out of order");
-    if ((row.kind == RowKind::kStart) != (row_ == 0)) Report("is of the kind ", ToString(row.kind));
-    if (row_ == 0 && (row.load_factor != 0.0 || row.arc_length != 0.0 || row.positions.empty()))
-      Report("is no start: load factor and arc length are 0 there, and the state is recorded");
+    if ((row.kind == RowKind::kStart) != (row_ == first_)) Report("is of the kind ", ToString(row.kind));
+    if (row.stage != stage_) Report("is of stage ", row.stage, ", but stands in stage ", stage_);
+    if (row_ != first_) return;
+    if (row.load_factor != 0.0 || row.positions.empty())
+      Report("is no start: the load factor is 0 there, and the state is recorded");
+    if (row_ == 0 && row.arc_length != 0.0) Report("is no start: the arc length is 0 there");
+    if (row_ > 0 && AllFinite(row)) CheckHandOver(rows_[row_ - 1], row);
+  }
+
+  // A stage begins where the one before has ended.
+  void CheckHandOver(const Increment& last, const Increment& row) {
+    if (row.arc_length != last.arc_length || row.dissipation != last.dissipation ||
+        row.external_work != last.external_work)
+      Report("arc length, dissipation and work do not go on from the last row of the stage before");
+    if (last.positions.size() != row.positions.size() || last.contacts.size() != row.contacts.size()) return;
+    double motion = 0.0, force = 0.0;
+    for (std::size_t i = 0; i < row.positions.size(); ++i)
+      motion = std::max(motion, std::abs(row.positions[i] - last.positions[i]) / scaling_.length);
+    bool same = true;
+    for (std::size_t i = 0; i < row.contacts.size(); ++i) {
+      const ContactRecord &a = last.contacts[i], &b = row.contacts[i];
+      force = std::max({force, std::abs(a.rn - b.rn) / scaling_.force, std::abs(a.rt - b.rt) / scaling_.force});
+      same = same && a.state == b.state;
+    }
+    Bound("positions differ from those at the end of the stage before", motion, rounding_);
+    Bound("reactions differ from those at the end of the stage before", force, rounding_);
+    if (!same) Report("contact states differ from those at the end of the stage before");
   }
 
   void CheckProgress(const Increment& before, const Increment& row) {
@@ -127,7 +177,7 @@ class Verifier {
 
   // What method branch records where ways part.
   void CheckEvent(const Increment& row) {
-    if (row.solve.method != Method::kBranch || row_ == 0 || row_ + 1 == rows_.size()) return;
+    if (row.solve.method != Method::kBranch || row_ == first_ || row_ + 1 == rows_.size()) return;
     const bool event = row.kind == RowKind::kContactEvent || row.kind == RowKind::kCornerLimit;
     if (event != !row.event.ways.empty()) Report(event ? "an event without ways on" : "ways on, but no event");
     if (event && row.event.taken < 0) Report("an event where no way is taken");
@@ -137,7 +187,7 @@ class Verifier {
 
   // Whether what happened since the last full row is one piece of path.
   bool OnePiece(const Increment& row) const {
-    return row_ == 0 || before_ == row_ - 1 || row.solve.method == Method::kBranch;
+    return row_ == first_ || before_ == row_ - 1 || row.solve.method == Method::kBranch;
   }
 
   void CheckState(const Increment& row) {
@@ -157,8 +207,11 @@ class Verifier {
     CheckRecorded(row, residuals);
     for (std::size_t i = 0; i < scene_.nodes.size(); ++i) {
       const Node& node = scene_.nodes[i];
-      if ((node.fixed_x && row.positions[2 * i] != node.x) || (node.fixed_y && row.positions[2 * i + 1] != node.y))
-        Report("fixed node ", node.name, " has moved");
+      const auto off = [&](std::size_t k, double initial) {
+        return std::abs(row.positions[k] - initial - rates_[k] * row.load_factor) / scaling_.length > rounding_;
+      };
+      if ((node.fixed_x && off(2 * i, node.x)) || (node.fixed_y && off(2 * i + 1, node.y)))
+        Report("support ", node.name, " is not where it has to be");
     }
     for (std::size_t i = 0; i < surfaces_.size(); ++i) CheckContact(surfaces_[i], before, row, i, tolerance);
     if (before_) CheckPiece(before, row);
@@ -166,8 +219,9 @@ class Verifier {
   }
 
   static void Keep(const Residuals& residuals, Residuals* largest) {
-    for (double Residuals::*const field : {&Residuals::equilibrium, &Residuals::penetration, &Residuals::adhesion,
-                                           &Residuals::complementarity, &Residuals::cone, &Residuals::friction_law})
+    for (double Residuals::*const field :
+         {&Residuals::equilibrium, &Residuals::penetration, &Residuals::adhesion, &Residuals::complementarity,
+          &Residuals::cone, &Residuals::friction_law, &Residuals::support})
       largest->*field = std::max(largest->*field, residuals.*field);
   }
 
@@ -181,8 +235,9 @@ class Verifier {
     same("adhesion residual", row.residuals.adhesion, residuals.adhesion);
     same("min form residual", row.residuals.complementarity, residuals.complementarity);
     same("cone residual", row.residuals.cone, residuals.cone);
+    same("support residual", row.residuals.support, residuals.support);
     // Depends on the row before, which may have been left out.
-    if (row_ == 0 || before_ == row_ - 1)
+    if (row_ == first_ || before_ == row_ - 1)
       same("friction law residual", row.residuals.friction_law, residuals.friction_law);
     const double unit = scaling_.force * scaling_.length;
     same("scaled strain energy", row.strain_energy / unit, check_.StrainEnergy(row.positions) / unit);
@@ -191,14 +246,10 @@ class Verifier {
   void CheckContact(const Surface& surface, const Increment& before, const Increment& row, std::size_t i,
                     double tolerance) {
     const ContactRecord& contact = row.contacts[i];
-    const double x = row.positions[2 * surface.node], y = row.positions[2 * surface.node + 1];
-    const double gap = (surface.nx * (x - surface.px) + surface.ny * (y - surface.py)) / scaling_.length;
+    const double gap = surface.Gap(row) / scaling_.length;
     Bound("recorded gap of " + surface.name + " less the true one", std::abs(contact.gap / scaling_.length - gap),
           rounding_);
-    const double slip = !OnePiece(row) ? 0.0
-                                       : (surface.ny * (x - before.positions[2 * surface.node]) -
-                                          surface.nx * (y - before.positions[2 * surface.node + 1])) /
-                                             scaling_.length;
+    const double slip = OnePiece(row) ? surface.Slip(before, row) / scaling_.length : 0.0;
     const double rn = contact.rn / scaling_.force, rt = contact.rt / scaling_.force;
     const auto wrong = [&](const char* state) { Report(surface.name, " is recorded as ", state, ", but is not"); };
     switch (contact.state) {
@@ -238,7 +289,7 @@ class Verifier {
     for (std::size_t i = 0; i < row.contacts.size(); ++i)
       changed = changed || row.contacts[i].state != before.contacts[i].state;
     const RowKind kind = branch ? before.kind : row.kind;
-    if (changed && before_ != 0 && kind != RowKind::kContactEvent && kind != RowKind::kCornerLimit)
+    if (changed && before_ != first_ && kind != RowKind::kContactEvent && kind != RowKind::kCornerLimit)
       Report("contact states change without an event");
     const EventRecord& event = before.event;
     if (event.taken < 0 || event.taken >= static_cast<int>(event.ways.size()) || before_ != row_ - 1) return;
@@ -260,15 +311,19 @@ class Verifier {
       (load.constant ? work : along) += product;
     }
     work += 0.5 * (before.load_factor + row.load_factor) * along;
-    const double open_work = 0.5 * std::abs((row.load_factor - before.load_factor) * along) / unit;
+    double open_work = 0.5 * std::abs((row.load_factor - before.load_factor) * along) / unit;
+    if (!scene_.support_motions.empty() || !scene_.obstacle_motions.empty()) {
+      const double from = check_.DrivingForce(StateOf(before)), to = check_.DrivingForce(StateOf(row));
+      const double moved = row.load_factor - before.load_factor;
+      work += 0.5 * (from + to) * moved;
+      open_work += 0.5 * std::abs((to - from) * moved) / unit;
+    }
     double dissipation = 0.0, open_dissipation = 0.0;
     for (std::size_t i = 0; i < surfaces_.size(); ++i) {
       const ContactState state = row.contacts[i].state;
       if (state != ContactState::kSlipPlus && state != ContactState::kSlipMinus) continue;
       const Surface& surface = surfaces_[i];
-      const double slip =
-          std::abs(surface.ny * (row.positions[2 * surface.node] - before.positions[2 * surface.node]) -
-                   surface.nx * (row.positions[2 * surface.node + 1] - before.positions[2 * surface.node + 1]));
+      const double slip = std::abs(surface.Slip(before, row));
       dissipation += 0.5 * surface.friction * (before.contacts[i].rn + row.contacts[i].rn) * slip;
       open_dissipation += 0.5 * surface.friction * std::abs(row.contacts[i].rn - before.contacts[i].rn) * slip / unit;
     }
@@ -283,7 +338,7 @@ class Verifier {
 
   // The load factor turns between the last three rows where a limit point is, and nowhere else.
   void CheckLimit() {
-    if (row_ < 2) return;
+    if (row_ < first_ + 2) return;
     const Increment &a = rows_[row_ - 2], &b = rows_[row_ - 1], &c = rows_[row_];
     const double before = b.load_factor - a.load_factor, after = c.load_factor - b.load_factor;
     const double level = kTurn * scaling_.load_factor;
@@ -297,11 +352,10 @@ class Verifier {
   }
 
   void CheckEnergy() {
-    if (rows_.empty()) return;
     const double unit = scaling_.force * scaling_.length;
-    const Increment& start = rows_.front();
-    const double share = rows_.back().solve.method == Method::kMpec ? kEnergyMpec : kEnergy;
-    for (row_ = 0; row_ < rows_.size(); ++row_) {
+    const Increment& start = rows_[first_];
+    const double share = rows_[last_ - 1].solve.method == Method::kMpec ? kEnergyMpec : kEnergy;
+    for (row_ = first_; row_ < last_; ++row_) {
       const Increment& row = Row();
       const double balance = (row.external_work - start.external_work - (row.strain_energy - start.strain_energy) -
                               (row.dissipation - start.dissipation)) /
@@ -314,24 +368,47 @@ class Verifier {
     }
   }
 
-  const Scene& scene_;
+  const Scene scene_;
+  const int stage_;
   const int full_state_every_;
   const std::vector<Increment>& rows_;
+  const std::size_t first_, last_;
   const Scaling scaling_;
   const ResidualCheck check_;
   std::unordered_map<std::string, std::size_t> nodes_;
   std::vector<Surface> surfaces_;
+  std::vector<double> rates_;          // of the fixed components, per unit of the load factor
   std::size_t row_ = 0;                // being checked
   std::optional<std::size_t> before_;  // the last full row
   double rounding_ = 0.0;              // of what was recorded, scaled
   double open_ = 0.0;                  // what trapezoids leave open of works and dissipations
-  Verification result_;
+  Verification& result_;
 };
 
 }  // namespace
 
 Verification VerifyPath(const TraceRequest& request, const std::vector<Increment>& rows) {
-  return Verifier(request, rows).Run();
+  Verification result;
+  if (rows.empty()) result.findings.push_back({0, "the record has no rows"});
+  std::size_t stage = 0;
+  for (std::size_t first = 0, last = 0; first < rows.size(); first = last, ++stage) {
+    last = first + 1;
+    while (last < rows.size() && rows[last].stage == rows[first].stage) ++last;
+    if (stage >= NumStages(request)) {
+      result.findings.push_back({static_cast<int>(first), "is of a stage that the request does not have"});
+      break;
+    }
+    Verifier(request, stage, rows, first, last, &result).Run();
+    if (last < rows.size() && !AtTarget(request, rows[last - 1]))
+      result.findings.push_back({static_cast<int>(last - 1), "ends its stage, but not at its target"});
+  }
+  return result;
+}
+
+bool AtTarget(const TraceRequest& request, const Increment& row) {
+  if (row.stage < 1 || row.stage > static_cast<int>(request.program.size())) return false;
+  const double target = request.program[static_cast<std::size_t>(row.stage) - 1].Target();
+  return std::abs(row.load_factor - target) <= kAtTarget * std::abs(target);
 }
 
 }  // namespace contact_path

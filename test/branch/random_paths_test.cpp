@@ -426,7 +426,7 @@ class Neighbourhood {
   std::vector<ContactState> Options(std::size_t i) const {
     const ContactGeometry& contact = model_.contacts[i];
     const auto k = static_cast<Eigen::Index>(i);
-    if (contact.gap.Value(point_.u) > kTouching) return {ContactState::kOpen};
+    if (contact.gap.Value(point_.u, point_.s) > kTouching) return {ContactState::kOpen};
     std::vector<ContactState> options;
     if (point_.rn[k] < kTouching) options = {ContactState::kOpen};
     if (!contact.Frictional()) {

@@ -49,8 +49,8 @@ class RestingColumn : public testing::Test {
       rates(0, j) = change.s;
       for (std::size_t k = 0; k < concerned.size(); ++k) {
         const ContactGeometry& contact = model_.contacts[static_cast<std::size_t>(concerned[k])];
-        rates.col(j).segment<4>(1 + 4 * static_cast<Eigen::Index>(k)) << contact.gap.Rate(change.u),
-            contact.tangential.Rate(change.u), change.rn[concerned[k]], change.rt[concerned[k]];
+        rates.col(j).segment<4>(1 + 4 * static_cast<Eigen::Index>(k)) << contact.gap.Rate(change.u, change.s),
+            contact.tangential.Rate(change.u, change.s), change.rn[concerned[k]], change.rt[concerned[k]];
       }
     }
     return rates;
@@ -95,8 +95,8 @@ class RestingColumn : public testing::Test {
     double same = tangent[motion - 1] * rates->load;
     for (std::size_t k = 0; k < concerned.size(); ++k) {
       const ContactGeometry& contact = model_.contacts[static_cast<std::size_t>(concerned[k])];
-      same += rates->gap[static_cast<Eigen::Index>(k)] * contact.gap.Rate(tangent) +
-              rates->slip[static_cast<Eigen::Index>(k)] * contact.tangential.Rate(tangent);
+      same += rates->gap[static_cast<Eigen::Index>(k)] * contact.gap.Rate(tangent, 0.0) +
+              rates->slip[static_cast<Eigen::Index>(k)] * contact.tangential.Rate(tangent, 0.0);
     }
     if (same < 0.0) tangent = -tangent;
     const PathPoint change = system.Unpack(tangent);
@@ -105,8 +105,8 @@ class RestingColumn : public testing::Test {
     for (std::size_t k = 0; k < concerned.size(); ++k) {
       const auto i = static_cast<std::size_t>(concerned[k]);
       const auto e = static_cast<Eigen::Index>(k), c = static_cast<Eigen::Index>(i);
-      EXPECT_NEAR(rates->gap[e], model_.contacts[i].gap.Rate(change.u), kExact);
-      EXPECT_NEAR(rates->slip[e], model_.contacts[i].tangential.Rate(change.u), kExact);
+      EXPECT_NEAR(rates->gap[e], model_.contacts[i].gap.Rate(change.u, change.s), kExact);
+      EXPECT_NEAR(rates->slip[e], model_.contacts[i].tangential.Rate(change.u, change.s), kExact);
       EXPECT_NEAR(rates->rn[e], change.rn[c], kExact);
       EXPECT_NEAR(rates->rt[e], change.rt[c], kExact);
     }

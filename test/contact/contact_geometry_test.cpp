@@ -29,39 +29,39 @@ class OneNode : public testing::Test {
 TEST_F(OneNode, FloorHasItsTangentAlongX) {
   const ContactGeometry contact = Against(0.0, 3.0);
   const Eigen::VectorXd u = Eigen::Vector2d(0.3, 2.25);
-  EXPECT_NEAR(contact.gap.Value(u), 0.25, kRounding);
-  EXPECT_EQ(contact.gap.Rate(Eigen::Vector2d(7.0, 2.0)), 2.0);
-  EXPECT_EQ(contact.tangential.Value(u), 0.3);
-  EXPECT_EQ(contact.tangential.Rate(Eigen::Vector2d(7.0, 2.0)), 7.0);
+  EXPECT_NEAR(contact.gap.Value(u, 0.0), 0.25, kRounding);
+  EXPECT_EQ(contact.gap.Rate(Eigen::Vector2d(7.0, 2.0), 0.0), 2.0);
+  EXPECT_EQ(contact.tangential.Value(u, 0.0), 0.3);
+  EXPECT_EQ(contact.tangential.Rate(Eigen::Vector2d(7.0, 2.0), 0.0), 7.0);
 }
 
 TEST_F(OneNode, CeilingHasItsTangentAgainstX) {
   const ContactGeometry contact = Against(0.0, -1.0);
   const Eigen::VectorXd u = Eigen::Vector2d(0.3, 2.25);
-  EXPECT_NEAR(contact.gap.Value(u), -0.25, kRounding);
-  EXPECT_EQ(contact.tangential.Rate(Eigen::Vector2d(7.0, 2.0)), -7.0);
+  EXPECT_NEAR(contact.gap.Value(u, 0.0), -0.25, kRounding);
+  EXPECT_EQ(contact.tangential.Rate(Eigen::Vector2d(7.0, 2.0), 0.0), -7.0);
 }
 
 TEST_F(OneNode, WallHasItsTangentDownwards) {
   const ContactGeometry contact = Against(1.0, 0.0);
-  EXPECT_NEAR(contact.gap.Value(Eigen::Vector2d(1.5, 9.0)), 0.5, kRounding);
-  EXPECT_EQ(contact.tangential.Rate(Eigen::Vector2d(7.0, 2.0)), -2.0);
+  EXPECT_NEAR(contact.gap.Value(Eigen::Vector2d(1.5, 9.0), 0.0), 0.5, kRounding);
+  EXPECT_EQ(contact.tangential.Rate(Eigen::Vector2d(7.0, 2.0), 0.0), -2.0);
 }
 
 TEST_F(OneNode, NormalOfAnyLengthGivesLengths) {
   const ContactGeometry contact = Against(30.0, 40.0);  // n = (0.6, 0.8), t = (0.8, -0.6)
   const Eigen::VectorXd u = Eigen::Vector2d(1.0 + 0.6 * 2.0 + 0.8 * 3.0, 2.0 + 0.8 * 2.0 - 0.6 * 3.0);
-  EXPECT_NEAR(contact.gap.Value(u), 2.0, 4.0 * kRounding);
-  EXPECT_NEAR(contact.tangential.Rate(Eigen::Vector2d(0.8, -0.6)), 1.0, kRounding);
-  EXPECT_NEAR(contact.tangential.Rate(Eigen::Vector2d(0.6, 0.8)), 0.0, kRounding);
+  EXPECT_NEAR(contact.gap.Value(u, 0.0), 2.0, 4.0 * kRounding);
+  EXPECT_NEAR(contact.tangential.Rate(Eigen::Vector2d(0.8, -0.6), 0.0), 1.0, kRounding);
+  EXPECT_NEAR(contact.tangential.Rate(Eigen::Vector2d(0.6, 0.8), 0.0), 0.0, kRounding);
 }
 
 TEST_F(OneNode, FixedComponentsAreInTheOffset) {
   fixed_x_ = true;
   const ContactGeometry contact = Against(0.6, 0.8);
   const Eigen::VectorXd u = Eigen::VectorXd::Constant(1, 4.0);
-  EXPECT_NEAR(contact.gap.Value(u), 0.6 * (0.3 - 1.0) + 0.8 * (4.0 - 2.0), 4.0 * kRounding);
-  EXPECT_NEAR(contact.tangential.Value(u), 0.8 * 0.3 - 0.6 * 4.0, 4.0 * kRounding);
+  EXPECT_NEAR(contact.gap.Value(u, 0.0), 0.6 * (0.3 - 1.0) + 0.8 * (4.0 - 2.0), 4.0 * kRounding);
+  EXPECT_NEAR(contact.tangential.Value(u, 0.0), 0.8 * 0.3 - 0.6 * 4.0, 4.0 * kRounding);
   EXPECT_EQ(contact.friction, 0.5);
   EXPECT_TRUE(contact.Frictional());
 }
@@ -85,10 +85,10 @@ TEST(ContactGeometry, GradientsAreThoseOfTheValues) {
       Eigen::VectorXd gradient = Eigen::VectorXd::Constant(structure.NumDofs(), 0.5);
       function->AddGradient(2.0, &gradient);
       const Eigen::MatrixXd expected = (0.5 * (gradient.array() - 0.5)).matrix().transpose();
-      const auto value = [&](const Eigen::VectorXd& u) { return Eigen::VectorXd::Constant(1, function->Value(u)); };
+      const auto value = [&](const Eigen::VectorXd& u) { return Eigen::VectorXd::Constant(1, function->Value(u, 0.0)); };
       EXPECT_TRUE(IsJacobian(value, structure.InitialPositions(), expected));
       const Eigen::VectorXd du = Eigen::VectorXd::LinSpaced(structure.NumDofs(), -1.0, 1.0);
-      EXPECT_NEAR(function->Rate(du), (expected * du)[0], kRounding);
+      EXPECT_NEAR(function->Rate(du, 0.0), (expected * du)[0], kRounding);
     }
   }
 }
@@ -99,7 +99,7 @@ TEST(ContactGeometry, FollowsTheOrderOfTheScene) {
   const std::vector<ContactGeometry> contacts = BuildContacts(scene, structure);
   const std::vector<double> friction = {0.3, 0.0, 0.3, 0.6, 0.3, 0.0};
   for (std::size_t i = 0; i < contacts.size(); ++i) EXPECT_EQ(contacts[i].friction, friction[i]) << i;
-  for (const ContactGeometry& contact : contacts) EXPECT_GT(contact.gap.Value(structure.InitialPositions()), 0.0);
+  for (const ContactGeometry& contact : contacts) EXPECT_GT(contact.gap.Value(structure.InitialPositions(), 0.0), 0.0);
 }
 
 }  // namespace

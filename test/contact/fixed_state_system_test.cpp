@@ -99,6 +99,46 @@ TEST_F(MixedSystem, JacobianMeetsDifferencesInEveryCombinationOfStates) {
   }
 }
 
+// With supports and obstacles that move.
+TEST(MovingSystem, DerivativesMeetDifferences) {
+  const Scene scene = MovingScene();
+  const Structure structure(scene);
+  const std::vector<ContactGeometry> contacts = BuildContacts(scene, structure);
+  FixedStateSystem system(structure, contacts);
+  Random random(5);
+  const std::vector<State> states = {State::kStick,     State::kClosed, State::kSlipPlus,
+                                     State::kSlipMinus, State::kStick,  State::kOpen};
+  system.SetStates(states, random.Vector(6, -0.4, 0.7));
+  EXPECT_EQ(system.NumUnknowns(), 8 + 1 + 5 + 2 + 2);
+  EXPECT_EQ(system.NumEquations(), 8 + 5 + 2 + 2);
+  const Eigen::VectorXd x = random.Vector(system.NumUnknowns(), 0.1, 1.0);
+  const auto residual = [&](const Eigen::VectorXd& at) {
+    Eigen::VectorXd value;
+    system.Residual(at, &value);
+    return value;
+  };
+  EXPECT_TRUE(IsJacobian(residual, x, Eigen::MatrixXd(system.TransposedJacobian(x)).transpose()));
+  for (const Limit& limit : system.Inequalities()) {
+    const auto value = [&](const Eigen::VectorXd& at) { return Eigen::VectorXd::Constant(1, system.Value(limit, at)); };
+    EXPECT_TRUE(IsJacobian(value, x, system.Gradient(limit).transpose()));
+  }
+  // The power of supports and obstacles: that of the reactions on the nodes less what friction takes.
+  const PathPoint point = system.Unpack(x);
+  Eigen::VectorXd dx = Eigen::VectorXd::Zero(system.NumUnknowns());
+  for (const PrescribedDof& prescribed : structure.PrescribedDofs()) dx[prescribed.dof] = prescribed.rate;
+  double moved = 0.0, friction = 0.0;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    moved += point.rn[k] * (contacts[i].gap.Rate(dx, 1.0) - contacts[i].gap.load) +
+             point.rt[k] * (contacts[i].tangential.Rate(dx, 1.0) - contacts[i].tangential.load);
+    friction += point.rn[k] * contacts[i].gap.Rate(dx, 1.0) + point.rt[k] * contacts[i].tangential.Rate(dx, 1.0);
+  }
+  double supports = 0.0;
+  for (std::size_t k = 0; k < structure.PrescribedDofs().size(); ++k)
+    supports += structure.PrescribedDofs()[k].rate * x[x.size() - 2 + static_cast<Eigen::Index>(k)];
+  EXPECT_NEAR(system.DrivingForce(x), supports + moved - friction, kRounding * 10.0);
+}
+
 TEST_F(MixedSystem, PatternStaysTheSameBetweenEvaluations) {
   system_.SetStates({State::kStick, State::kClosed, State::kSlipPlus, State::kSlipMinus, State::kStick, State::kClosed},
                     reference_);
@@ -131,7 +171,7 @@ TEST_F(MixedSystem, InequalitiesOfEachStateAndTheirValues) {
   const PathPoint point = RandomPoint();
   const Eigen::VectorXd x = system_.Pack(point);
   const auto slip = [&](std::size_t i) {
-    return contacts_[i].tangential.Value(point.u) - reference_[static_cast<Eigen::Index>(i)];
+    return contacts_[i].tangential.Value(point.u, point.s) - reference_[static_cast<Eigen::Index>(i)];
   };
   struct Expected {
     int contact;
@@ -146,8 +186,8 @@ TEST_F(MixedSystem, InequalitiesOfEachStateAndTheirValues) {
                                           {2, Inequality::kSlip, slip(2)},
                                           {3, Inequality::kNormalReaction, point.rn[3]},
                                           {3, Inequality::kSlip, -slip(3)},
-                                          {4, Inequality::kGap, contacts_[4].gap.Value(point.u)},
-                                          {5, Inequality::kGap, contacts_[5].gap.Value(point.u)}};
+                                          {4, Inequality::kGap, contacts_[4].gap.Value(point.u, point.s)},
+                                          {5, Inequality::kGap, contacts_[5].gap.Value(point.u, point.s)}};
   const std::vector<Limit> limits = system_.Inequalities();
   ASSERT_EQ(limits.size(), expected.size());
   for (std::size_t k = 0; k < limits.size(); ++k) {

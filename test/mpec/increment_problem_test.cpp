@@ -153,6 +153,44 @@ TEST_P(MixedProblem, StructuresHoldEveryEntryThatCanBeOtherThanZeroAndNoOther) {
       EXPECT_EQ(in_hessian.count({i, j}) > 0, std::abs(hessian(i, j)) > noise) << i << ", " << j;
 }
 
+// With supports and obstacles that move.
+TEST(MovingProblem, DerivativesMeetDifferences) {
+  const Scene scene = MovingScene();
+  const Structure structure(scene);
+  const std::vector<ContactGeometry> contacts = BuildContacts(scene, structure);
+  ASSERT_EQ(structure.PrescribedDofs().size(), 2u);
+  Random random(8);
+  PathPoint from;
+  from.u = structure.InitialPositions() + random.Vector(8, -0.1, 0.1);
+  from.s = 0.3;
+  from.rn = random.Vector(6, 0.1, 1.0);
+  from.rt = random.Vector(6, -1.0, 1.0);
+  from.states.assign(6, ContactState::kStick);
+  const IncrementProblem problem(structure, contacts, from, {0, 1, 2, 3, 4, 5},
+                                 {0.2, random.Vector(9, -1.0, 1.0).normalized(), 0.3, 1.7});
+  EXPECT_EQ(problem.NumVariables(), 9 + 6 + 2 * 4 + 2);
+  EXPECT_EQ(problem.NumConstraints(), 8 + 2 * 6 + 5 * 4 + 2);
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::VectorXd x = random.Vector(problem.NumVariables(), 0.1, 1.0);
+    EXPECT_TRUE(
+        IsJacobian([&](const Eigen::VectorXd& at) { return ConstraintsOf(problem, at); }, x, JacobianOf(problem, x)));
+    const Eigen::VectorXd multipliers = random.Vector(problem.NumConstraints(), -1.0, 1.0);
+    const auto gradient = [&](const Eigen::VectorXd& at) {
+      return Eigen::VectorXd(0.8 * GradientOf(problem, at) + JacobianOf(problem, at).transpose() * multipliers);
+    };
+    EXPECT_TRUE(IsJacobian(gradient, x, HessianOf(problem, x, 0.8, multipliers)));
+  }
+  // Standing still, with the reactions that are there, is equilibrium at the prescribed components.
+  PathPoint still = from;
+  for (const PrescribedDof& prescribed : structure.PrescribedDofs())
+    still.u[prescribed.dof] = prescribed.start + prescribed.rate * still.s;
+  const IncrementProblem rest(structure, contacts, still, {}, {0.2, Eigen::VectorXd::Unit(9, 8), 0.0, 1.0});
+  const Eigen::VectorXd values = ConstraintsOf(rest, rest.StartingPoint(Eigen::VectorXd::Zero(9)));
+  for (const PrescribedDof& prescribed : structure.PrescribedDofs())
+    EXPECT_NEAR(values[prescribed.dof], 0.0, kRounding);
+  EXPECT_LE(values.tail<2>().lpNorm<Eigen::Infinity>(), kRounding);
+}
+
 TEST_P(MixedProblem, StructuresNameEachPlaceOnce) {
   const IncrementProblem problem = Problem();
   EXPECT_EQ(Places(problem.JacobianStructure()).size(), problem.JacobianStructure().size());
@@ -213,7 +251,7 @@ TEST_P(MixedProblem, StandingStillKeepsTheFrictionLaw) {
   Eigen::Index row = 6;
   for (const int contact : GetParam()) {
     const ContactGeometry& geometry = contacts_[static_cast<std::size_t>(contact)];
-    const double gap = geometry.gap.Value(from_.u) / goal_.length, rn = from_.rn[contact] / goal_.length;
+    const double gap = geometry.gap.Value(from_.u, from_.s) / goal_.length, rn = from_.rn[contact] / goal_.length;
     EXPECT_NEAR(values[row], gap, 10.0 * kRounding);
     EXPECT_NEAR(values[row + 1], gap * rn, 100.0 * kRounding);
     row += 2;
@@ -260,7 +298,7 @@ TEST_P(MixedProblem, GrowthShortensTheAimAndDissipationTurnsItAgainstTheReaction
   for (const int contact : GetParam()) {
     const ContactGeometry& geometry = contacts_[static_cast<std::size_t>(contact)];
     if (!geometry.Frictional()) continue;
-    power += from_.rt[contact] * geometry.tangential.Rate(against.head(6) - from_.u);
+    power += from_.rt[contact] * geometry.tangential.Rate(against.head(6) - from_.u, 0.0);
     friction += std::abs(from_.rt[contact]);
   }
   if (friction > 0.0) {

@@ -16,11 +16,12 @@
 namespace contact_path {
 namespace {
 
-Scene TwoNodes() {
-  Scene scene;
+TraceRequest TwoNodes() {
+  TraceRequest request;
+  Scene& scene = request.scene;
   scene.nodes = {{"b", 0.0, 0.0, false, false}, {"a", 1.0, 0.0, false, false}};
   scene.contacts = {{"b", "wall"}, {"b", "floor"}};
-  return scene;
+  return request;
 }
 
 Increment FullIncrement() {
@@ -70,6 +71,18 @@ TEST(CsvRow, HasAllColumnsInTheOrderOfTheHeader) {
   std::ostringstream header;
   WriteCsvHeader(TwoNodes(), header);
   EXPECT_EQ(Cells(header.str()).size(), Cells(kFullRow).size());
+}
+
+TEST(CsvRow, EndsWithTheStageOfAProgram) {
+  TraceRequest request = TwoNodes();
+  request.program.resize(2);
+  std::ostringstream header;
+  WriteCsvHeader(request, header);
+  Increment increment = FullIncrement();
+  increment.stage = 2;
+  EXPECT_EQ(Cells(header.str()).back(), "stage\n");
+  EXPECT_EQ(Cells(Row(increment)).back(), "2\n");
+  EXPECT_EQ(Cells(header.str()).size(), Cells(Row(increment)).size());
 }
 
 TEST(CsvRow, WithoutContacts) {

@@ -28,11 +28,13 @@ Scene Block(double rest_length, double friction) {
 }
 
 MethodFactory Mpec(double step) {
-  return [step](const Model& model) {
+  return [step](const Model& model, double target) {
     TraceOptions options;
     options.method = Method::kMpec;
     options.step = step;
-    return std::make_unique<MpecMethod>(model, MpecOptions::For(options, 1), nullptr);
+    MpecOptions mpec = MpecOptions::For(options, 1);
+    mpec.target = target;
+    return std::make_unique<MpecMethod>(model, mpec, nullptr);
   };
 }
 
@@ -51,7 +53,7 @@ Preload RunPreload(const Scene& scene, double step = 0.2, int max_increments = 2
 TEST(Preload, NothingToDoWithoutConstantLoadsAndStress) {
   const Scene scene = Block(0.0, 0.5);
   const Model model(scene, CharacteristicScales(scene));
-  const Preload preload = TracePreload(model, 0, [](const Model&) -> std::unique_ptr<PathMethod> {
+  const Preload preload = TracePreload(model, 0, [](const Model&, double) -> std::unique_ptr<PathMethod> {
     ADD_FAILURE() << "no method is needed";
     return nullptr;
   });
@@ -131,7 +133,8 @@ class FakeMethod : public PathMethod {
     if (starts_) return std::nullopt;
     return EndReason::kPathEnd;
   }
-  Advance Next(const PathPoint&, double) override { return advance_; }
+  bool Resume(const PathPoint&, const PathPoint&, const SolveRecord&) override { return false; }
+  Advance Next(const PathPoint&) override { return advance_; }
 
  private:
   bool starts_;
@@ -143,7 +146,7 @@ TEST(Preload, EndOfTheMethodIsTheEndOfThePreload) {
   scene.loads.push_back({"b", 0.0, 1.0, true});
   const Model model(scene, CharacteristicScales(scene));
   for (const EndReason reason : {EndReason::kCancelled, EndReason::kPathEnd, EndReason::kStepTooSmall}) {
-    const Preload preload = TracePreload(model, 100, [&](const Model&) {
+    const Preload preload = TracePreload(model, 100, [&](const Model&, double) {
       Advance advance;
       advance.reason = reason;
       advance.message = "because";
@@ -167,7 +170,7 @@ TEST(Preload, EndsAtALimitPoint) {
     advance.rows[0].point.s = 0.25 * model.structure.ConstantLoad().norm();
     advance.rows[0].kind = kind;
     const Preload preload =
-        TracePreload(model, 100, [&](const Model&) { return std::make_unique<FakeMethod>(true, advance); });
+        TracePreload(model, 100, [&](const Model&, double) { return std::make_unique<FakeMethod>(true, advance); });
     EXPECT_FALSE(preload.done);
     EXPECT_EQ(preload.reason, EndReason::kPathEnd);
     EXPECT_NE(preload.message.find("a limit point at 0.25 of"), std::string::npos) << preload.message;
@@ -179,7 +182,8 @@ TEST(Preload, CanBeCancelled) {
   scene.loads.push_back({"b", 0.0, 1.0, true});
   const Model model(scene, CharacteristicScales(scene));
   const Preload preload = TracePreload(
-      model, 100, [](const Model&) { return std::make_unique<FakeMethod>(true, Advance()); }, [] { return true; });
+      model, 100, [](const Model&, double) { return std::make_unique<FakeMethod>(true, Advance()); },
+      [] { return true; });
   EXPECT_FALSE(preload.done);
   EXPECT_EQ(preload.reason, EndReason::kCancelled);
 }
@@ -189,7 +193,7 @@ TEST(Preload, MethodThatCannotSetOutIsTheEndOfThePath) {
   scene.loads.push_back({"b", 0.0, 1.0, true});
   const Model model(scene, CharacteristicScales(scene));
   const Preload preload =
-      TracePreload(model, 100, [](const Model&) { return std::make_unique<FakeMethod>(false, Advance()); });
+      TracePreload(model, 100, [](const Model&, double) { return std::make_unique<FakeMethod>(false, Advance()); });
   EXPECT_FALSE(preload.done);
   EXPECT_EQ(preload.reason, EndReason::kPathEnd);
   EXPECT_NE(preload.message.find("because"), std::string::npos) << preload.message;
@@ -200,7 +204,7 @@ TEST(Preload, TheModelOfTheMethodLoadsWithTheConstantLoadsOnly) {
   scene.loads.push_back({"b", 0.0, -3.0, true});
   const Model model(scene, CharacteristicScales(scene));
   bool asked = false;
-  TracePreload(model, 1, [&](const Model& of) {
+  TracePreload(model, 1, [&](const Model& of, double) {
     asked = true;
     EXPECT_EQ(of.scene.loads.size(), 1u);
     EXPECT_EQ(of.structure.ConstantLoad().norm(), 0.0);

@@ -36,10 +36,13 @@ TraceRequest FullRequest() {
   request.scene.nodes = {{"a", 1.0, 2.0, true, false}, {"b", 3.0, 4.0, false, true}};
   request.scene.bars = {{{"a", "b"}, 5.0, 6.0, StrainMeasure::kGreenLagrange},
                         {{"b", "a"}, 7.0, 8.0, StrainMeasure::kLogarithmic}};
-  request.scene.superelements = {{{"b"}, {1.0, 2.0, 2.0, 3.0}}};
+  request.scene.superelements = {{{"b"}, {1.0, 2.0, 2.0, 3.0}, {25.0, 26.0}}};
   request.scene.loads = {{"a", 9.0, 10.0, true}, {"b", 11.0, 12.0, false}};
   request.scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 13.0, 14.0, 15.0, 16.0, 0.17}};
   request.scene.contacts = {{"b", "floor"}};
+  request.scene.support_motions = {{"a", 27.0, 0.0}};
+  request.scene.obstacle_motions = {{"floor", 28.0, 29.0}};
+  request.program = {{"first", {{"b", 30.0, 31.0, false}}, {{"b", 32.0, 33.0}}, {{"floor", 34.0, 35.0}}, 36.0}, {}};
   request.options.method = Method::kMpec;
   request.options.accuracy = Accuracy::kAccurate;
   request.options.direction = -1.0;
@@ -84,8 +87,27 @@ void ExpectFullRequest(const TraceRequest& request) {
   EXPECT_EQ(scene.obstacles[0].nx, 15.0);
   EXPECT_EQ(scene.obstacles[0].ny, 16.0);
   EXPECT_EQ(scene.obstacles[0].friction, 0.17);
+  EXPECT_EQ(scene.superelements[0].rest_positions, (std::vector<double>{25.0, 26.0}));
   ASSERT_EQ(scene.contacts.size(), 1U);
   EXPECT_EQ(scene.contacts[0].Name(), "b@floor");
+  ASSERT_EQ(scene.support_motions.size(), 1U);
+  EXPECT_EQ(scene.support_motions[0].node, "a");
+  EXPECT_EQ(scene.support_motions[0].dx, 27.0);
+  EXPECT_EQ(scene.support_motions[0].dy, 0.0);
+  ASSERT_EQ(scene.obstacle_motions.size(), 1U);
+  EXPECT_EQ(scene.obstacle_motions[0].obstacle, "floor");
+  EXPECT_EQ(scene.obstacle_motions[0].dx, 28.0);
+  EXPECT_EQ(scene.obstacle_motions[0].dy, 29.0);
+  ASSERT_EQ(request.program.size(), 2U);
+  const Stage& stage = request.program[0];
+  EXPECT_EQ(stage.name, "first");
+  ASSERT_EQ(stage.loads.size(), 1U);
+  EXPECT_EQ(stage.loads[0].fy, 31.0);
+  ASSERT_EQ(stage.support_motions.size(), 1U);
+  EXPECT_EQ(stage.support_motions[0].dy, 33.0);
+  ASSERT_EQ(stage.obstacle_motions.size(), 1U);
+  EXPECT_EQ(stage.obstacle_motions[0].dx, 34.0);
+  EXPECT_EQ(stage.target, 36.0);
   const TraceOptions& options = request.options;
   EXPECT_EQ(options.method, Method::kMpec);
   EXPECT_EQ(options.accuracy, Accuracy::kAccurate);
@@ -106,7 +128,7 @@ void ExpectFullRequest(const TraceRequest& request) {
 
 TEST(ConvertTest, RequestSurvivesTheWayThroughMessages) {
   const msgs::TraceRequest message = ThroughTheWire(ToMessage(FullRequest()));
-  ExpectFullRequest(FromMessage(message.scene, message.options));
+  ExpectFullRequest(FromMessage(message.scene, message.options, message.program));
 }
 
 TEST(ConvertTest, RequestMessageNamesItsFieldsAsTheSceneFilesDo) {
@@ -129,7 +151,7 @@ TEST(ConvertTest, FieldsLeftOutHaveTheDefaultsOfTheCore) {
   scene.obstacles.resize(1);
   msgs::TraceOptions options;
   options.branch_choices.resize(1);
-  const TraceRequest request = FromMessage(scene, options);
+  const TraceRequest request = FromMessage(scene, options, {});
   const TraceOptions defaults;
   EXPECT_EQ(request.options.method, defaults.method);
   EXPECT_EQ(request.options.accuracy, defaults.accuracy);
@@ -150,7 +172,7 @@ TEST(ConvertTest, RefusesEveryWordThatIsNotKnown) {
   message.options.method = "magic";
   message.options.accuracy = "perfect";
   try {
-    FromMessage(message.scene, message.options);
+    FromMessage(message.scene, message.options, message.program);
     FAIL() << "was not refused";
   } catch (const InvalidRequest& error) {
     ASSERT_EQ(error.violations().size(), 4U);

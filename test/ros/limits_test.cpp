@@ -37,7 +37,7 @@ msgs::TraceRequest LargestRequest() {
 }
 
 std::string Exceeded(const msgs::TraceRequest& request) {
-  return ExceededLimit(request.scene, request.options, SmallLimits());
+  return ExceededLimit(request.scene, request.options, request.program, SmallLimits());
 }
 
 TEST(LimitsTest, AdmitsWhatReachesEveryLimit) { EXPECT_EQ(Exceeded(LargestRequest()), ""); }
@@ -62,6 +62,24 @@ TEST(LimitsTest, NamesWhatIsTooLargeAndTheLimit) {
   request = LargestRequest();
   request.scene.loads.resize(4);
   EXPECT_EQ(Exceeded(request), "scene.loads: 4, but the node admits 3 (~max_elements)");
+
+  request = LargestRequest();
+  request.scene.superelements.resize(1);
+  request.scene.superelements[0].rest_positions.resize(4);
+  EXPECT_EQ(Exceeded(request), "rest positions of scene.superelements: 4, but the node admits 3 (~max_elements)");
+
+  request = LargestRequest();
+  request.scene.support_motions.resize(4);
+  EXPECT_EQ(Exceeded(request), "scene.support_motions: 4, but the node admits 3 (~max_elements)");
+
+  request = LargestRequest();
+  request.scene.obstacle_motions.resize(5);
+  EXPECT_EQ(Exceeded(request), "scene.obstacle_motions: 5, but the node admits 4 (~max_contacts)");
+
+  request = LargestRequest();
+  request.program.resize(2);
+  request.program[1].loads.resize(2);
+  EXPECT_EQ(Exceeded(request), "loads and motions of program: 4, but the node admits 3 (~max_elements)");
 
   request = LargestRequest();
   request.scene.obstacles.resize(5);

@@ -11,6 +11,30 @@
 namespace contact_path {
 namespace {
 
+// Of scenes or stages.
+template <typename Loading>
+void ExpectSameLoading(const Loading& a, const Loading& b) {
+  ASSERT_EQ(a.loads.size(), b.loads.size());
+  for (std::size_t i = 0; i < a.loads.size(); ++i) {
+    EXPECT_EQ(a.loads[i].node, b.loads[i].node);
+    EXPECT_EQ(a.loads[i].fx, b.loads[i].fx);
+    EXPECT_EQ(a.loads[i].fy, b.loads[i].fy);
+    EXPECT_EQ(a.loads[i].constant, b.loads[i].constant);
+  }
+  ASSERT_EQ(a.support_motions.size(), b.support_motions.size());
+  for (std::size_t i = 0; i < a.support_motions.size(); ++i) {
+    EXPECT_EQ(a.support_motions[i].node, b.support_motions[i].node);
+    EXPECT_EQ(a.support_motions[i].dx, b.support_motions[i].dx);
+    EXPECT_EQ(a.support_motions[i].dy, b.support_motions[i].dy);
+  }
+  ASSERT_EQ(a.obstacle_motions.size(), b.obstacle_motions.size());
+  for (std::size_t i = 0; i < a.obstacle_motions.size(); ++i) {
+    EXPECT_EQ(a.obstacle_motions[i].obstacle, b.obstacle_motions[i].obstacle);
+    EXPECT_EQ(a.obstacle_motions[i].dx, b.obstacle_motions[i].dx);
+    EXPECT_EQ(a.obstacle_motions[i].dy, b.obstacle_motions[i].dy);
+  }
+}
+
 void ExpectSameScene(const Scene& a, const Scene& b) {
   EXPECT_EQ(a.name, b.name);
   ASSERT_EQ(a.nodes.size(), b.nodes.size());
@@ -32,14 +56,9 @@ void ExpectSameScene(const Scene& a, const Scene& b) {
   for (std::size_t i = 0; i < a.superelements.size(); ++i) {
     EXPECT_EQ(a.superelements[i].nodes, b.superelements[i].nodes);
     EXPECT_EQ(a.superelements[i].stiffness, b.superelements[i].stiffness);
+    EXPECT_EQ(a.superelements[i].rest_positions, b.superelements[i].rest_positions);
   }
-  ASSERT_EQ(a.loads.size(), b.loads.size());
-  for (std::size_t i = 0; i < a.loads.size(); ++i) {
-    EXPECT_EQ(a.loads[i].node, b.loads[i].node);
-    EXPECT_EQ(a.loads[i].fx, b.loads[i].fx);
-    EXPECT_EQ(a.loads[i].fy, b.loads[i].fy);
-    EXPECT_EQ(a.loads[i].constant, b.loads[i].constant);
-  }
+  ExpectSameLoading(a, b);
   ASSERT_EQ(a.obstacles.size(), b.obstacles.size());
   for (std::size_t i = 0; i < a.obstacles.size(); ++i) {
     EXPECT_EQ(a.obstacles[i].name, b.obstacles[i].name);
@@ -78,10 +97,17 @@ void ExpectRoundTrip(const TraceRequest& request) {
   const TraceRequest read = ReadTraceRequest(WriteTraceRequest(request), "written");
   ExpectSameScene(read.scene, request.scene);
   ExpectSameOptions(read.options, request.options);
+  ASSERT_EQ(read.program.size(), request.program.size());
+  for (std::size_t i = 0; i < request.program.size(); ++i) {
+    ExpectSameLoading(read.program[i], request.program[i]);
+    EXPECT_EQ(read.program[i].name, request.program[i].name);
+    EXPECT_EQ(read.program[i].Target(), request.program[i].Target());
+  }
 }
 
 TEST(WriteTraceRequest, ExamplesAreReadBackToTheLastBit) {
-  for (const char* name : {"sliding_bar", "arch19", "rough_truss", "two_dof_friction", "von_mises", "rigid_stop"})
+  for (const char* name : {"sliding_bar", "arch19", "rough_truss", "two_dof_friction", "von_mises", "rigid_stop",
+                           "stick_slip_cycle", "press_slide_lift", "gripper"})
     ExpectRoundTrip(ReadExample(name));
 }
 
@@ -92,7 +118,9 @@ TEST(WriteTraceRequest, EveryFieldThatDiffersFromItsDefault) {
   request.scene.bars[0].rest_length = 1.0 / 3.0;
   request.scene.bars[0].strain = StrainMeasure::kLogarithmic;
   request.scene.loads.push_back({"b", 1e-99, -1e99, true});
-  request.scene.superelements.push_back({{"b"}, {0.1, 0.2, 0.2, 0.7}});
+  request.scene.superelements.push_back({{"b"}, {0.1, 0.2, 0.2, 0.7}, {-4.5, 1.0 / 3.0}});
+  request.scene.support_motions = {{request.scene.nodes[0].name, 0.1, -0.2}};
+  request.scene.obstacle_motions = {{"floor", 0.3, 0.7}};
   request.options.method = Method::kMpec;
   request.options.accuracy = Accuracy::kFast;
   request.options.direction = -0.5;

@@ -43,6 +43,14 @@ inline Scene MixedScene() {
   return scene;
 }
 
+// The same with a support and three obstacles that move: free components a.x, a.y, and those above.
+inline Scene MovingScene() {
+  Scene scene = MixedScene();
+  scene.support_motions = {{"a", 0.3, -0.2}};
+  scene.obstacle_motions = {{"slope", 0.4, 0.1}, {"wall", -0.2, 0.3}, {"ceiling", 0.5, 0.0}};
+  return scene;
+}
+
 }  // namespace contact_path
 
 #endif  // CONTACT_PATH_TEST_SUPPORT_MIXED_SCENE_H_

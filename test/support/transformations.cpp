@@ -36,15 +36,31 @@ void TransformStiffness(std::vector<double>* stiffness, std::size_t rows, Map ma
       map(&(*stiffness)[row * rows + column], &(*stiffness)[row * rows + column + 1]);
 }
 
+// Calls change(&loads, &support motions, &obstacle motions) for those of the scene and of each stage.
+template <typename Change>
+void ForEachLoading(TraceRequest* request, Change change) {
+  Scene& scene = request->scene;
+  change(&scene.loads, &scene.support_motions, &scene.obstacle_motions);
+  for (Stage& stage : request->program) change(&stage.loads, &stage.support_motions, &stage.obstacle_motions);
+}
+
 template <typename Map>
-void TransformScene(Scene* scene, Map map) {
+void TransformRequest(TraceRequest* request, Map map) {
+  Scene* const scene = &request->scene;
+  ForEachLoading(request, [&](auto* loads, auto* supports, auto* obstacles) {
+    for (Load& load : *loads) map(&load.fx, &load.fy);
+    for (SupportMotion& motion : *supports) map(&motion.dx, &motion.dy);
+    for (ObstacleMotion& motion : *obstacles) map(&motion.dx, &motion.dy);
+  });
   for (Node& node : scene->nodes) map(&node.x, &node.y);
-  for (Load& load : scene->loads) map(&load.fx, &load.fy);
   for (Obstacle& obstacle : scene->obstacles) {
     map(&obstacle.px, &obstacle.py);
     map(&obstacle.nx, &obstacle.ny);
   }
-  for (Superelement& part : scene->superelements) TransformStiffness(&part.stiffness, 2 * part.nodes.size(), map);
+  for (Superelement& part : scene->superelements) {
+    TransformStiffness(&part.stiffness, 2 * part.nodes.size(), map);
+    ForEachPoint(&part.rest_positions, map);
+  }
 }
 
 bool IsPosition(const StopCriterion& criterion) { return criterion.quantity != "load_factor"; }
@@ -68,12 +84,24 @@ TraceRequest ChangeUnits(TraceRequest request, double length, double force) {
     bar.EA *= force;
     bar.rest_length *= length;
   }
-  for (Superelement& part : request.scene.superelements)
+  for (Superelement& part : request.scene.superelements) {
     for (double& entry : part.stiffness) entry *= force / length;
-  for (Load& load : request.scene.loads) {
-    load.fx *= force;
-    load.fy *= force;
+    for (double& position : part.rest_positions) position *= length;
   }
+  ForEachLoading(&request, [&](auto* loads, auto* supports, auto* obstacles) {
+    for (Load& load : *loads) {
+      load.fx *= force;
+      load.fy *= force;
+    }
+    for (SupportMotion& motion : *supports) {
+      motion.dx *= length;
+      motion.dy *= length;
+    }
+    for (ObstacleMotion& motion : *obstacles) {
+      motion.dx *= length;
+      motion.dy *= length;
+    }
+  });
   for (Obstacle& obstacle : request.scene.obstacles) {
     obstacle.px *= length;
     obstacle.py *= length;
@@ -102,7 +130,7 @@ TraceRequest Rotate(TraceRequest request, double angle) {
   for (const StopCriterion& criterion : request.options.stop)
     if (IsPosition(criterion)) throw std::invalid_argument("the stop criterion looks at " + criterion.quantity);
   const double cosine = std::cos(angle), sine = std::sin(angle);
-  TransformScene(&request.scene, [=](double* x, double* y) { Turn(cosine, sine, x, y); });
+  TransformRequest(&request, [=](double* x, double* y) { Turn(cosine, sine, x, y); });
   return request;
 }
 
@@ -114,7 +142,7 @@ TracedPath UndoRotation(TracedPath path, double angle) {
 }
 
 TraceRequest Mirror(TraceRequest request) {
-  TransformScene(&request.scene, [](double* x, double*) { *x = -*x; });
+  TransformRequest(&request, [](double* x, double*) { *x = -*x; });
   for (StopCriterion& criterion : request.options.stop) {
     const std::string& quantity = criterion.quantity;
     if (quantity.size() < 2 || quantity.substr(quantity.size() - 2) != ".x") continue;
@@ -137,13 +165,19 @@ TraceRequest Reverse(TraceRequest request) {
   std::reverse(scene.nodes.begin(), scene.nodes.end());
   std::reverse(scene.bars.begin(), scene.bars.end());
   std::reverse(scene.superelements.begin(), scene.superelements.end());
-  std::reverse(scene.loads.begin(), scene.loads.end());
+  ForEachLoading(&request, [](auto* loads, auto* supports, auto* obstacles) {
+    std::reverse(loads->begin(), loads->end());
+    std::reverse(supports->begin(), supports->end());
+    std::reverse(obstacles->begin(), obstacles->end());
+  });
   std::reverse(scene.obstacles.begin(), scene.obstacles.end());
   std::reverse(scene.contacts.begin(), scene.contacts.end());
   for (Bar& bar : scene.bars) std::reverse(bar.nodes.begin(), bar.nodes.end());
   for (Superelement& part : scene.superelements) {
     const std::size_t nodes = part.nodes.size();
     std::reverse(part.nodes.begin(), part.nodes.end());
+    std::reverse(part.rest_positions.begin(), part.rest_positions.end());
+    ForEachPoint(&part.rest_positions, [](double* y, double* x) { std::swap(*x, *y); });
     const std::vector<double> stiffness = part.stiffness;
     const auto moved = [&](std::size_t i) { return 2 * (nodes - 1 - i / 2) + i % 2; };
     for (std::size_t i = 0; i < 2 * nodes; ++i)

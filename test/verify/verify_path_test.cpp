@@ -193,7 +193,7 @@ TEST(VerifyPath, FixedNodesRest) {
   std::vector<Increment> rows = path.rows;
   rows[5].positions[0] += 1e-6;
   const Verification verification = VerifyPath(path.request, rows);
-  const std::string wanted = "row 5: fixed node " + path.request.scene.nodes[0].name + " has moved";
+  const std::string wanted = "row 5: support " + path.request.scene.nodes[0].name + " is not where it has to be";
   EXPECT_NE(Listed(verification).find(wanted), std::string::npos) << Listed(verification);
 }
 

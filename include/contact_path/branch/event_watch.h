@@ -16,6 +16,7 @@ enum class Happening {
   kNone,         // the whole step is good
   kNearTouch,    // an inequality comes so near to zero inside that only a row there can tell
   kEvent,        // an inequality reaches zero and would be broken
+  kTarget,       // the load factor comes to where the path is to end
   kLimitPoint,   // ds = 0
   kBifurcation,  // the bordered determinant changes its sign
 };
@@ -34,11 +35,13 @@ struct Watched {
 // more than a twentieth of the difference between the quintic and the cubic interpolation at the middle of the step:
 // minima that come nearer to zero than that are reported as kNearTouch. A bifurcation shows by the sign of the
 // determinant at the ends, and is then found by bisection; two of them within one step are not seen.
-Watched Watch(SmoothPiece* piece, const Segment& segment);
+// target: load factor to end at, other than that of the start; nothing = none.
+Watched Watch(SmoothPiece* piece, const Segment& segment, std::optional<double> target = std::nullopt);
 
 // The exact point of a happening near t, by Newton's method, with its parameter within the segment. Nothing if it is
 // not found.
-std::optional<CurvePoint> Locate(SmoothPiece* piece, const Segment& segment, const Watched& watched);
+std::optional<CurvePoint> Locate(SmoothPiece* piece, const Segment& segment, const Watched& watched,
+                                 std::optional<double> target = std::nullopt);
 
 }  // namespace contact_path
 

@@ -20,9 +20,12 @@ struct Residuals {
   // Friction law (eq. 3) with rt = r_t / F, rn = r_n / F, d = du_t / L: max |rt - clamp(rt - d, -mu rn, mu rn)|:
   // no slip inside the cone, slip opposed to r_t on its boundary.
   double friction_law = 0.0;
+  double support = 0.0;  // max distance of a fixed component from where it has to be / L
 
-  // Largest of all but equilibrium: the column complementarity_residual.
+  // Largest of those of the contacts: the column complementarity_residual.
   double Contact() const;
+  // Largest of all.
+  double Largest() const;
 };
 
 // What the check looks at: positions x0, y0, x1, ... (2 x nodes) [length], r_n and r_t by contact candidate [force].
@@ -45,6 +48,9 @@ class ResidualCheck {
   // Residuals of `now`, reached from `before` in one increment (for the first row: `before` = `now`).
   // Throws std::invalid_argument where the sizes are not those of the scene.
   Residuals Check(const CheckedState& before, const CheckedState& now) const;
+  // The force that moving supports and obstacles exert along their motion per unit of the load factor [force length]:
+  // the integral over the load factor is their work.
+  double DrivingForce(const CheckedState& state) const;
   // Strain energy of the structure at `positions` [force length].
   double StrainEnergy(const std::vector<double>& positions) const;
 

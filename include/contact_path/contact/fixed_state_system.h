@@ -27,8 +27,10 @@ struct Limit {
   Inequality inequality = Inequality::kGap;
 };
 
-// Unknowns x = (u, s, reactions of the touching contacts): r_n, and r_t where sticking. Equations:
+// Unknowns x = (u, s, reactions of the touching contacts, reactions of the prescribed components): r_n, and r_t where
+// sticking. Equations:
 //   phi(u, s) - T r = 0                       NumDofs()                     (eq. 1)
+//   u = start + rate s                        each prescribed component
 //   u_n = 0                                   each touching contact         (eq. 2)
 //   u_t = u_t,ref                             each sticking contact         (eq. 3)
 // and one equation "inequality = 0" for each limit that is pinned, and s = value where the load factor is pinned. With
@@ -61,9 +63,12 @@ class FixedStateSystem {
 
   // All inequalities of the fixed states, in contact order, and their values at x (>= 0: holds).
   std::vector<Limit> Inequalities() const;
-  // The same without the gaps wider than `reach` at x.
+  // The same without the gaps at x that an increment of length `reach` cannot close.
   std::vector<Limit> InequalitiesInReach(const Eigen::VectorXd& x, double reach) const;
   double Value(const Limit& limit, const Eigen::VectorXd& x) const;
+  // The force that moving supports and obstacles exert along their motion: their work is its integral over s. Linear in
+  // x; with a change of the unknowns, its change.
+  double DrivingForce(const Eigen::VectorXd& x) const;
   // Change of the value per change dx of the unknowns, and its gradient, NumUnknowns().
   double Rate(const Limit& limit, const Eigen::VectorXd& dx) const;
   Eigen::VectorXd Gradient(const Limit& limit) const;
@@ -76,7 +81,7 @@ class FixedStateSystem {
     double coefficient;
   };
   struct LinearEquation {
-    std::array<Term, 2> terms = {};  // the first `count`, ascending unknowns
+    std::array<Term, 3> terms = {};  // the first `count`, ascending unknowns
     std::size_t count = 0;
     double constant = 0.0;
 
@@ -88,6 +93,7 @@ class FixedStateSystem {
     }
   };
 
+  void AddFunction(const SparseLinear& function, double sign, LinearEquation* equation) const;
   LinearEquation Gap(std::size_t contact) const;
   LinearEquation TangentialMotion(std::size_t contact, double sign) const;
   LinearEquation InequalityAsEquation(const Limit& limit) const;
@@ -105,6 +111,7 @@ class FixedStateSystem {
   std::vector<std::size_t> touching_;
   std::vector<Eigen::Index> rn_unknown_;  // by candidate, -1 = none
   std::vector<Eigen::Index> rt_unknown_;
+  Eigen::Index first_support_ = 0;      // unknown: reaction of the first prescribed component
   std::vector<LinearEquation> linear_;  // all equations but equilibrium
   Eigen::Index num_unknowns_ = 0;
   Eigen::Index num_equations_ = 0;

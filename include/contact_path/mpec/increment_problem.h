@@ -22,13 +22,15 @@ struct IncrementGoal {
 };
 
 // Variables, with dz = (du, ds) = S y and reactions over S:
-//   y (NumDofs() + 1), r_n / S by contact, then r_t / S and lambda / S by frictional contact.
+//   y (NumDofs() + 1), r_n / S by contact, then r_t / S and lambda / S by frictional contact, then the reactions of the
+//   prescribed components over S.
 // Objective, eq. (4) over gamma_2 S^2 at growth 1:
 //   w rhat . y_t - (1 - w) direction . y + growth |y|^2 / 2,   rhat = r_t^k / |T_t r_t^k|,
 // so gamma_1 and gamma_2 are those for which the unconstrained minimum is no longer than S for any w: no term, alone or
 // with the others, asks for more than the wanted length.
 // Constraints, all over S (products over S^2): equilibrium = 0; gaps >= 0; gap r_n <= eps; lambda -+ du_t >= 0;
-// mu r_n -+ r_t >= 0; lambda mu r_n + du_t r_t <= eps. Frictionless contacts have neither r_t nor lambda.
+// mu r_n -+ r_t >= 0; lambda mu r_n + du_t r_t <= eps; prescribed components where they have to be. Frictionless
+// contacts have neither r_t nor lambda.
 class IncrementProblem : public NonlinearProgram {
  public:
   // working_set: the candidates that take part, ascending. All arguments but the last two must outlive the problem.
@@ -72,6 +74,12 @@ class IncrementProblem : public NonlinearProgram {
     Eigen::Index friction_row;    // lambda - y_t, lambda + y_t, mu r_n - r_t, mu r_n + r_t, product; -1 if frictionless
   };
 
+  struct Support {
+    const PrescribedDof* prescribed;
+    Eigen::Index reaction;  // variable
+    Eigen::Index row;       // constraint
+  };
+
   double ScaledGap(const Slot& slot, const Eigen::VectorXd& x) const;
   double ScaledSlip(const Slot& slot, const Eigen::VectorXd& x) const;
   // Calls emit(row, column, value) for each structural entry, in a fixed order.
@@ -90,6 +98,7 @@ class IncrementProblem : public NonlinearProgram {
   Eigen::Index num_variables_ = 0;
   Eigen::Index num_constraints_ = 0;
   std::vector<Slot> slots_;
+  std::vector<Support> supports_;
   Eigen::VectorXd linear_objective_;  // NumDofs() + 1
   std::vector<MatrixEntry> jacobian_structure_;
   std::vector<MatrixEntry> hessian_structure_;

@@ -25,6 +25,9 @@ struct BranchOptions {
   double smallest_cosine = 0.98;  // between the tangents at both ends of an increment
   double direction = 1.0;         // sign of the first change of the load factor
   std::vector<BranchChoice> choices;
+  std::optional<double> target;  // load factor at which the path is to end, in a row of its own
+  int rows = 0;                  // given before this path, of which it goes on
+  int events = 0;                // passed before this path
 
   static BranchOptions For(const TraceOptions& options, Eigen::Index num_dofs);
 };
@@ -35,10 +38,11 @@ class BranchMethod : public PathMethod {
   BranchMethod(const Model& model, const BranchOptions& options, std::function<bool()> cancelled);
 
   std::optional<EndReason> Start(const PathPoint& from, EventRecord* ways, std::string* message) override;
-  using PathMethod::Next;
+  bool Resume(const PathPoint& before, const PathPoint& from, const SolveRecord& record) override;
   // `from` must be the point that was given last.
-  Advance Next(const PathPoint& from, double longest) override;
+  Advance Next(const PathPoint& from) override;
   std::string Remark() const override;
+  int NumEvents() const override { return events_; }
 
  private:
   // A step from current_; nothing where it has to be shorter.
@@ -63,8 +67,8 @@ class BranchMethod : public PathMethod {
   SmoothPiece piece_;
   CurvePoint current_;
   double step_;
-  int rows_ = 0;              // given so far, row 0 not counted
-  int events_ = 0;            // passed so far, the start not counted
+  int rows_;                  // given so far, row 0 not counted
+  int events_;                // passed so far, starts not counted
   int events_in_place_ = 0;   // passed without moving
   bool at_start_ = true;      // not moved yet
   int iterations_ = 0;        // of the last step

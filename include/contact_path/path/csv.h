@@ -10,9 +10,9 @@
 namespace contact_path {
 
 // Columns: index, load_factor, arc_length, kind, x_<node>, y_<node>, ..., gap_<contact>, rn_<contact>, rt_<contact>,
-// state_<contact>, ..., dissipation, strain_energy, equilibrium_residual, complementarity_residual, solve_time.
-// Nodes and contacts in scene order. Errors are left in the state of the stream.
-void WriteCsvHeader(const Scene& scene, std::ostream& out);
+// state_<contact>, ..., dissipation, strain_energy, equilibrium_residual, complementarity_residual, solve_time;
+// with a program, last: stage. Nodes and contacts in scene order. Errors are left in the state of the stream.
+void WriteCsvHeader(const TraceRequest& request, std::ostream& out);
 void WriteCsvRow(const Increment& increment, std::ostream& out);
 
 }  // namespace contact_path

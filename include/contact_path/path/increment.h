@@ -12,7 +12,7 @@
 namespace contact_path {
 
 enum class RowKind {
-  kStart,         // row 0
+  kStart,         // row 0, or the first of a stage: the same state as in the row before, at load factor 0
   kRegular,       // none of the others
   kSmoothLimit,   // the load factor turns on a smooth piece
   kCornerLimit,   // the load factor turns where a contact changes its state
@@ -44,6 +44,8 @@ struct SolveRecord {
   int stiffness_sign = 0;  // branch: sign of det of the tangent at fixed load, contacts in their states; +1 on a stable
                            // path; changes at limit points and where another path crosses; 0 = singular
   double contraction = 0.0;  // branch: second Newton step over the first
+  double next_step = 0.0;    // length with which the next increment is tried, scaled norm; 0 = there is none
+  double growth = 1.0;       // mpec: factor on gamma_2 in the next increment (Algorithm 3.2, step 4)
   double time = 0.0;         // wall time [s]
 };
 
@@ -68,8 +70,9 @@ struct EventRecord {
 
 struct Increment {
   int index = 0;
-  double load_factor = 0.0;
-  double arc_length = 0.0;  // since row 0, in the scaled norm
+  int stage = 0;             // of the program, from 1; 0 = there is none
+  double load_factor = 0.0;  // of the stage
+  double arc_length = 0.0;   // since row 0, in the scaled norm
   RowKind kind = RowKind::kRegular;
   std::vector<double> positions;        // current x0, y0, x1, y1, ...: 2 x nodes, in scene order [length]
   std::vector<ContactRecord> contacts;  // in scene order

@@ -7,6 +7,7 @@
 #include "contact_path/check/residuals.h"
 #include "contact_path/contact/contact_geometry.h"
 #include "contact_path/contact/path_point.h"
+#include "contact_path/path/increment.h"
 #include "contact_path/scene/scaling.h"
 #include "contact_path/scene/scene.h"
 #include "contact_path/structure/structure.h"
@@ -23,8 +24,13 @@ struct Model {
   // The initial configuration at load factor 0 without reactions. Candidates that touch: stick, or closed if
   // frictionless.
   PathPoint InitialPoint() const;
+  // A point of another model with the same nodes, contacts and scales of length and force, as this one sees it at load
+  // factor 0: where supports and obstacles are must agree.
+  PathPoint Take(const Model& other, const PathPoint& point) const;
   // The point in the units of the scene, as the check and the records want it. Fixed components are those of the scene.
   CheckedState InSceneUnits(const PathPoint& point) const;
+  // The point of a row that has its state: the other way round, with one rounding.
+  PathPoint FromRow(const Increment& row) const;
   // By check/, of `now` reached from `before`.
   Residuals Check(const PathPoint& before, const PathPoint& now) const;
 

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <optional>
 
 #include "contact_path/mpec/increment_solver.h"
 #include "contact_path/mpec/ipopt_solver.h"
@@ -20,7 +21,8 @@ struct MpecOptions {
   // between them be no larger: it bounds how far the path is cut short at a corner.
   double corner_tolerance = 5e-4;
   RegularisationSchedule regularisation;
-  double direction = 1.0;  // sign of the first change of the load factor
+  double direction = 1.0;        // sign of the first change of the load factor
+  std::optional<double> target;  // load factor at which the path is to end, in a row of its own
 
   static MpecOptions For(const TraceOptions& options, Eigen::Index num_dofs);
 };
@@ -32,8 +34,8 @@ class MpecMethod : public PathMethod {
 
   // Nothing to do: the first increment finds its own way.
   std::optional<EndReason> Start(const PathPoint&, EventRecord*, std::string*) override { return std::nullopt; }
-  using PathMethod::Next;
-  Advance Next(const PathPoint& from, double longest) override;
+  bool Resume(const PathPoint& before, const PathPoint& from, const SolveRecord& record) override;
+  Advance Next(const PathPoint& from) override;
   std::string Remark() const override;
 
  private:
@@ -48,6 +50,7 @@ class MpecMethod : public PathMethod {
     kNoProgress,
     kTurnedBack,
     kNotConfirmed,
+    kBeyondTarget,
     kCancelled
   };
   struct Trial {
@@ -67,6 +70,8 @@ class MpecMethod : public PathMethod {
   Trial Try(const PathPoint& from, const Eigen::VectorXd& direction, double length);
   // The first increment has no last one: directions are improved until the increment is as long as wanted.
   Trial TryFirst(const PathPoint& from, double length);
+  // Replaces the point of a trial beyond the target by the exact one at it, with the same states. False: there is none.
+  bool EndAtTarget(const PathPoint& from, Trial* trial) const;
   bool ConfirmedByHalves(const PathPoint& from, const Eigen::VectorXd& direction, double length, const Trial& whole);
 
   const Model& model_;

@@ -2,7 +2,6 @@
 #ifndef CONTACT_PATH_PATH_PATH_METHOD_H_
 #define CONTACT_PATH_PATH_PATH_METHOD_H_
 
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,13 +39,17 @@ class PathMethod {
   // the path ends where it begins, for this reason; *message: one line for a person.
   virtual std::optional<EndReason> Start(const PathPoint& from, EventRecord* ways, std::string* message) = 0;
 
+  // Goes on in place of Start() from a row of an earlier path, one that is no event: its point `from`, what was
+  // recorded of it, and the point `before` of an earlier row. False: that is not possible here.
+  virtual bool Resume(const PathPoint& before, const PathPoint& from, const SolveRecord& record) = 0;
+
   // The next rows after `from`, which is the last accepted point: the initial point, or the last row that this method
-  // gave, or the point before it to try again. `longest`: bound on the increment length, scaled norm.
-  virtual Advance Next(const PathPoint& from, double longest) = 0;
+  // gave.
+  virtual Advance Next(const PathPoint& from) = 0;
+  // Events passed so far, those before this path included; 0 for a method that does not number them.
+  virtual int NumEvents() const { return 0; }
   // What else the user should know when the trace has ended; empty: nothing.
   virtual std::string Remark() const { return {}; }
-
-  Advance Next(const PathPoint& from) { return Next(from, std::numeric_limits<double>::infinity()); }
 };
 
 }  // namespace contact_path

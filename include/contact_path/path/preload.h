@@ -12,8 +12,8 @@
 
 namespace contact_path {
 
-// Makes a path method for a model on which the load factor rises.
-using MethodFactory = std::function<std::unique_ptr<PathMethod>(const Model& model)>;
+// Makes a path method for a model on which the load factor rises to `target` (scaled).
+using MethodFactory = std::function<std::unique_ptr<PathMethod>(const Model& model, double target)>;
 
 struct Preload {
   bool done = false;
@@ -24,7 +24,7 @@ struct Preload {
 
 // The path from the initial configuration, held by the forces that keep it there, to `model` at load factor 0: these
 // forces go from 1 to 0 while the constant loads go from 0 to 1. A limit point on the way ends it: loads that are
-// simply put on would jump from there. Nothing to do where both are zero.
+// simply put on would jump from there. Nothing to do where both are zero. No support of `model` may move.
 // cancelled is asked before every increment; may be empty.
 Preload TracePreload(const Model& model, int max_increments, const MethodFactory& make_method,
                      const std::function<bool()>& cancelled = nullptr);

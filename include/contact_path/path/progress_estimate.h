@@ -14,11 +14,11 @@ class ProgressEstimate {
  public:
   explicit ProgressEstimate(const TraceRequest& request);  // sound (scene/validate.h)
 
-  // Whether the request names an end: a stop criterion, or a number of increments.
-  bool HasEnd() const { return max_increments_ > 0 || !goals_.empty(); }
+  // Whether the request names an end: a stop criterion, a number of increments, or a program.
+  bool HasEnd() const { return max_increments_ > 0 || !goals_.empty() || !targets_.empty(); }
 
   // Takes every row, from row 0 on. Part of the way done, 0 to 1: the largest over the stop criteria, from their value
-  // at row 0, and the wanted number of increments; 0 without an end. May fall: paths turn.
+  // at row 0, the wanted number of increments, and the stages; 0 without an end. May fall: paths turn.
   double Add(const Increment& row);
 
  private:
@@ -29,7 +29,8 @@ class ProgressEstimate {
     double end = 0.0;
   };
 
-  int max_increments_;  // as in the request: 0 = not asked for
+  std::vector<double> targets_;  // of the stages
+  int max_increments_;           // as in the request: 0 = not asked for
   std::vector<Goal> goals_;
 };
 

@@ -5,6 +5,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "contact_path/path/increment.h"
 #include "contact_path/scene/scene.h"
@@ -14,7 +15,7 @@ namespace contact_path {
 // Why a trace ended.
 enum class EndReason {
   kNumericalFailure,  // no trustworthy increment could be computed
-  kStopCriterion,     // a stop criterion of the request holds in the last row
+  kStopCriterion,     // a stop criterion of the request holds in the last row, or the last stage is at its target
   kMaxIncrements,     // the wanted number of increments was accepted
   kPathEnd,           // no admissible way on: only a dynamic jump leads further
   kStepTooSmall,      // increments had to be shortened below the smallest allowed
@@ -39,9 +40,17 @@ struct TraceControl {
 };
 
 // Traces until a stop criterion holds or another end. Row 0 is the equilibrium at load factor 0 with all constant
-// loads. Everything accepted has been given to `control.on_increment` when this returns, whatever the reason. Throws
-// InvalidRequest (scene/validate.h) for a request that breaks a rule; numerical trouble is a reason, never thrown.
+// loads. Each stage of a program begins with a row at load factor 0 and ends with one at its target. Everything
+// accepted has been given to `control.on_increment` when this returns, whatever the reason. Throws InvalidRequest
+// (scene/validate.h) for a request that breaks a rule; numerical trouble is a reason, never thrown.
 TraceResult Trace(const TraceRequest& request, const TraceControl& control);
+
+// Goes on with a trace of `request` that was cut short: rows are its first ones, from row 0. As many of them as can be
+// gone on from are given to `control.on_increment` again, unchanged, then the new ones: a path that is the one of a
+// trace without interruption but for rounding. The last row kept is no event and has its state, and so has one before
+// it in its stage; without such a row, all is traced anew. Throws std::invalid_argument for rows that are not those of
+// `request`, by number.
+TraceResult ResumeTrace(const TraceRequest& request, const std::vector<Increment>& rows, const TraceControl& control);
 
 }  // namespace contact_path
 

@@ -10,7 +10,7 @@ namespace contact_path {
 // In scene units [force length].
 struct Work {
   double friction = 0.0;  // dissipated, >= 0
-  double loads = 0.0;     // of all loads, constant and scaled
+  double loads = 0.0;     // of all loads, constant and scaled, and of moving supports and obstacles
 };
 
 // From `from` to `to` by the trapezoidal rule: second order in the increment. A contact that slips in the state of `to`

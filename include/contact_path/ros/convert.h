@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "contact_path/path/increment.h"
 #include "contact_path/path/trace.h"
@@ -14,7 +15,8 @@ namespace contact_path {
 
 // Throws InvalidRequest (scene/validate.h) for words that are not known, with keys such as "scene.bars[0].strain".
 // Every other rule is left to Validate().
-TraceRequest FromMessage(const contact_path_msgs::Scene& scene, const contact_path_msgs::TraceOptions& options);
+TraceRequest FromMessage(const contact_path_msgs::Scene& scene, const contact_path_msgs::TraceOptions& options,
+                         const std::vector<contact_path_msgs::Stage>& program);
 
 // Words are written out, also where they are the default.
 contact_path_msgs::TraceRequest ToMessage(const TraceRequest& request);

@@ -3,6 +3,7 @@
 #define CONTACT_PATH_ROS_LIMITS_H_
 
 #include <string>
+#include <vector>
 
 #include "contact_path/ros/messages.h"
 
@@ -22,7 +23,7 @@ struct TraceLimits {
 // One line naming what exceeds a limit, its value and the limit; empty where all is admitted. Allocates nothing that
 // grows with the request.
 std::string ExceededLimit(const contact_path_msgs::Scene& scene, const contact_path_msgs::TraceOptions& options,
-                          const TraceLimits& limits);
+                          const std::vector<contact_path_msgs::Stage>& program, const TraceLimits& limits);
 
 }  // namespace contact_path
 

@@ -10,15 +10,19 @@ namespace contact_path {
 // depend neither on the order of the parts nor on rotation or reflection of the scene.
 struct Scaling {
   double length = 1.0;       // L: mean initial length of the bars; without bars, F / mean stiffness
-  double force = 1.0;        // F: geometric mean of EA over the bars; without bars, the norm of the reference load
-  double load_factor = 1.0;  // F / norm of the reference load on the free components
+  double force = 1.0;        // F: geometric mean of EA over the bars; without bars, the norm of the reference load, or
+                             // mean stiffness x norm of the motions
+  double load_factor = 1.0;  // LoadFactorScale
 };
 
 // `scene` must be sound (validate.h).
 Scaling CharacteristicScales(const Scene& scene);
 
-// `scene` in scaled units: positions over L, forces over F, stiffnesses over F / L, reference loads of norm 1.
-// Normals of unit length, rest lengths filled in. Names and order are kept.
+// 1 / |(norm of the reference load on the free components / F, norm of the motions of supports and obstacles / L)|.
+double LoadFactorScale(const Scene& scene, double length, double force);
+
+// `scene` in scaled units: positions over L, forces over F, stiffnesses over F / L, reference loads and motions of norm
+// 1 together. Normals of unit length, rest lengths filled in. Names and order are kept.
 Scene ScaleScene(const Scene& scene, const Scaling& scaling);
 
 }  // namespace contact_path

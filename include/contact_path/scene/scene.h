@@ -44,10 +44,11 @@ struct Bar {
   StrainMeasure strain = StrainMeasure::kBiot;
 };
 
-// Linear elastic part: force = K (x - X), X the initial positions, both ordered x0, y0, x1, y1, ... over `nodes`.
+// Linear elastic part: force = K (x - X), both ordered x0, y0, x1, y1, ... over `nodes`.
 struct Superelement {
-  std::vector<std::string> nodes;  // n names
-  std::vector<double> stiffness;   // K, row-major, 2n x 2n, symmetric [force/length]
+  std::vector<std::string> nodes;           // n names
+  std::vector<double> stiffness;            // K, row-major, 2n x 2n, symmetric [force/length]
+  std::vector<double> rest_positions = {};  // X, 2n [length]; empty = the initial positions of the nodes
 };
 
 struct Load {
@@ -76,6 +77,21 @@ struct ContactCandidate {
   std::string Name() const { return node + "@" + obstacle; }
 };
 
+// Prescribed displacement of a support: the fixed components of the node are at their initial position + (dx, dy) x
+// load factor.
+struct SupportMotion {
+  std::string node;
+  double dx = 0.0;  // [length] per unit of the load factor; 0 where the component is free
+  double dy = 0.0;
+};
+
+// Translation of an obstacle: its point is at (px, py) + (dx, dy) x load factor. Slip is motion relative to it.
+struct ObstacleMotion {
+  std::string obstacle;
+  double dx = 0.0;  // [length] per unit of the load factor
+  double dy = 0.0;
+};
+
 struct Scene {
   std::string name;
   std::vector<Node> nodes;
@@ -84,6 +100,8 @@ struct Scene {
   std::vector<Load> loads;
   std::vector<Obstacle> obstacles;
   std::vector<ContactCandidate> contacts;
+  std::vector<SupportMotion> support_motions;
+  std::vector<ObstacleMotion> obstacle_motions;
 };
 
 // Holds when `quantity` lies beyond `value` on the side that `when` names.
@@ -116,9 +134,23 @@ struct TraceOptions {
   double Direction() const { return direction < 0.0 ? -1.0 : 1.0; }
 };
 
+// A part of a load program. Its load factor goes from 0 to `target`; then what it has brought on stays.
+struct Stage {
+  std::string name;
+  std::vector<Load> loads;  // none constant
+  std::vector<SupportMotion> support_motions;
+  std::vector<ObstacleMotion> obstacle_motions;
+  double target = 0.0;  // load factor at its end; 0 = 1
+
+  double Target() const { return target == 0.0 ? 1.0 : target; }
+};
+
 struct TraceRequest {
   Scene scene;
   TraceOptions options;
+  // Traced one after the other, with the friction history of those before. Empty: the path of the scene's own loads and
+  // motions, as far as it goes. Otherwise the scene has none but constant loads.
+  std::vector<Stage> program;
 };
 
 // Words of the scene format. Parse* take "" for the default and give nothing for a word that is not known.

@@ -16,21 +16,32 @@ namespace contact_path {
 
 // Total potential energy Pi(u, s) = sum of element energies - (s f + f_constant) . u, phi = dPi/du (Kanno & Martins
 // 2005, section 2). u: current positions of the free components, in node order, x before y: NumDofs() entries.
+// A component of a support whose position is prescribed: u[dof] = start + rate s. A free component otherwise, held by a
+// reaction.
+struct PrescribedDof {
+  int dof = 0;
+  double start = 0.0;  // [length]
+  double rate = 0.0;   // [length] per unit of the load factor
+};
+
 class Structure {
  public:
   // `scene` must be sound (scene/validate.h).
   explicit Structure(const Scene& scene);
 
   Eigen::Index NumDofs() const { return initial_.size(); }
-  // Index of a free component in u (axis 0 = x, 1 = y); -1 if it is fixed.
+  // Index of a free or prescribed component in u (axis 0 = x, 1 = y); -1 if it is fixed and rests.
   int Dof(int node, int axis) const {
     return dofs_[2 * static_cast<std::size_t>(node) + static_cast<std::size_t>(axis)];
   }
   int NodeIndex(const std::string& name) const { return node_index_.at(name); }
 
-  const Eigen::VectorXd& InitialPositions() const { return initial_; }      // of the free components
+  const Eigen::VectorXd& InitialPositions() const { return initial_; }      // of the components in u
   const Eigen::VectorXd& ReferenceLoad() const { return reference_load_; }  // f, scaled by the load factor
   const Eigen::VectorXd& ConstantLoad() const { return constant_load_; }    // f_constant
+  const std::vector<PrescribedDof>& PrescribedDofs() const { return prescribed_; }
+  // The forces that hold the prescribed components at (u, s), in their order: phi - s f - f_constant [force].
+  Eigen::VectorXd SupportReactions(const Eigen::Ref<const Eigen::VectorXd>& u, double s) const;
   // All positions x0, y0, x1, ... with the free components from u.
   Eigen::VectorXd FullPositions(const Eigen::VectorXd& u) const;
 
@@ -65,6 +76,7 @@ class Structure {
   Eigen::VectorXd initial_;
   Eigen::VectorXd reference_load_;
   Eigen::VectorXd constant_load_;
+  std::vector<PrescribedDof> prescribed_;
   std::vector<Part> parts_;
   Eigen::SparseMatrix<double> pattern_;
 };

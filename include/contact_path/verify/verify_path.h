@@ -35,13 +35,17 @@ constexpr int kMostFindings = 20;
 // Request: valid. Rows: all that were recorded, in their order; regular rows that full_state_every leaves out have
 // empty positions and contacts.
 //
-// Checked of each row: its place; fixed nodes rest; the residuals, computed from the scene alone, are within the
-// tolerance of the method (1e-9, regularised 1e-5) and as recorded; gaps, strain energy; the contact states against
-// gaps, reactions and motions. From row to row: arc length (between the chord and 1.05 of it), dissipation and work (to
-// what a trapezoid between the rows leaves open), energy balance (to 1 % of the work done, mpec: 3 %, and what
-// trapezoids leave open), states change only at events, the load factor turns at limit points and only there, and the
-// way taken at an event is the one that follows. Not checked: the other ways on record, counters and times.
+// Checked of each row: its place; fixed nodes are where they have to be; the residuals, computed from the scene alone,
+// are within the tolerance of the method (1e-9, regularised 1e-5) and as recorded; gaps, strain energy; the contact
+// states against gaps, reactions and motions. From row to row: arc length (between the chord and 1.05 of it),
+// dissipation and work (to what a trapezoid between the rows leaves open), energy balance (to 1 % of the work done,
+// mpec: 3 %, and what trapezoids leave open), states change only at events, the load factor turns at limit points and
+// only there, and the way taken at an event is the one that follows; stages follow each other at their targets, in the
+// same state. Not checked: the other ways on record, counters and times.
 Verification VerifyPath(const TraceRequest& request, const std::vector<Increment>& rows);
+
+// Whether the row is at the target of its stage; false without a program.
+bool AtTarget(const TraceRequest& request, const Increment& row);
 
 }  // namespace contact_path
 

@@ -1,0 +1,25 @@
+// The stages of a load program as scenes of their own.
+#ifndef CONTACT_PATH_SCENE_PROGRAM_H_
+#define CONTACT_PATH_SCENE_PROGRAM_H_
+
+#include <cstddef>
+
+#include "contact_path/scene/scaling.h"
+#include "contact_path/scene/scene.h"
+
+namespace contact_path {
+
+// At least 1: a request without a program is one stage.
+std::size_t NumStages(const TraceRequest& request);
+
+// The scene of a stage, from 0, at whose load factor 0 all stages before have come to their targets: their loads are
+// constant, their supports and obstacles are where they were moved to. Rest lengths and rest positions are filled in
+// where supports were moved. Without a program: the scene of the request. `request` must be sound.
+Scene StageScene(const TraceRequest& request, std::size_t stage);
+
+// Length and force of the first stage for all, so that points can be handed on; the load factor's of the stage.
+Scaling StageScales(const TraceRequest& request, std::size_t stage);
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_SCENE_PROGRAM_H_

@@ -1,0 +1,369 @@
+// Load programs: moved supports and obstacles, friction history from stage to stage, by both methods.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "contact_path/scene/program.h"
+#include "contact_path/scene/scaling.h"
+#include "contact_path/scene/validate.h"
+#include "contact_path/verify/verify_path.h"
+#include "support/traced_path.h"
+#include "support/transformations.h"
+
+namespace contact_path {
+namespace {
+
+constexpr double kRounding = 1e-12;
+
+const Increment& LastOfStage(const TracedPath& path, int stage) {
+  const Increment* last = nullptr;
+  for (const Increment& row : path.rows)
+    if (row.stage == stage) last = &row;
+  EXPECT_NE(last, nullptr) << "stage " << stage;
+  return last != nullptr ? *last : path.rows.back();
+}
+
+// Complete, sound, and proved.
+TracedPath TraceProgram(TraceRequest request, Method method = Method::kBranch) {
+  request.options.method = method;
+  TracedPath path = TraceRows(request);
+  EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+  EXPECT_EQ(path.result.message, "the program was traced to its end");
+  for (const Finding& finding : VerifyPath(request, path.rows).findings)
+    ADD_FAILURE() << "row " << finding.row << ": " << finding.what;
+  for (const Increment& row : path.rows) EXPECT_LE(row.residuals.Largest(), 1e-9) << "row " << row.index;
+  return path;
+}
+
+class EachMethod : public testing::TestWithParam<Method> {};
+INSTANTIATE_TEST_SUITE_P(Programs, EachMethod, testing::Values(Method::kBranch, Method::kMpec),
+                         [](const auto& method) { return std::string(ToString(method.param)); });
+
+// The block sticks while the belt goes 2 mu N / k, then slips: k = 1, mu N = 0.3.
+TEST_P(EachMethod, StickSlipCycleIsTheHysteresisLoopOfCoulomb) {
+  const TracedPath path = TraceProgram(ReadExample("stick_slip_cycle"), GetParam());
+  const bool exact = GetParam() == Method::kBranch;
+  const double tolerance = exact ? kRounding : 1e-3;  // of the work of an increment that cuts a corner
+  const double belt[] = {0.5, -0.5, 0.5};             // where it is at the end of each stage
+  const double dissipated[] = {0.06, 0.18, 0.30};
+  for (int stage = 1; stage <= 3; ++stage) {
+    const Increment& end = LastOfStage(path, stage);
+    const double sign = stage == 2 ? -1.0 : 1.0;
+    EXPECT_NEAR(PositionX(path, end, "b"), 1.0 + 0.3 * sign, kRounding);
+    EXPECT_NEAR(Contact(path, end, "b@belt").rt, 0.3 * sign, kRounding);
+    EXPECT_EQ(Contact(path, end, "b@belt").state, stage == 2 ? ContactState::kSlipPlus : ContactState::kSlipMinus);
+    EXPECT_NEAR(end.dissipation, dissipated[stage - 1], tolerance);
+    EXPECT_NEAR(end.strain_energy, 0.045, kRounding);
+    EXPECT_NEAR(end.external_work, dissipated[stage - 1] + 0.045, tolerance);
+  }
+  // Between: the friction force against the way of the belt, row by row.
+  for (const Increment& row : path.rows) {
+    const double start = row.stage == 1 ? 0.0 : belt[row.stage - 2], sign = row.stage == 2 ? -1.0 : 1.0;
+    const double stuck = row.stage == 1 ? 0.3 : 0.6, gone = std::abs(row.load_factor);
+    const double force = (row.stage == 1 ? 0.0 : -0.3 * sign) + sign * std::min(gone, stuck);
+    EXPECT_NEAR(Contact(path, row, "b@belt").rt, force, exact ? kRounding : 0.01) << "row " << row.index << start;
+  }
+  if (!exact) return;
+  // Slip sets in where the theory says.
+  for (int stage = 1; stage <= 3; ++stage) {
+    const auto begins = std::find_if(path.rows.begin(), path.rows.end(), [&](const Increment& row) {
+      return row.stage == stage && row.kind == RowKind::kContactEvent;
+    });
+    ASSERT_NE(begins, path.rows.end());
+    EXPECT_NEAR(begins->load_factor, stage == 1 ? 0.3 : 0.6, kRounding);
+  }
+}
+
+TEST_P(EachMethod, FootIsPressedDraggedAndLifted) {
+  const TracedPath path = TraceProgram(ReadExample("press_slide_lift"), GetParam());
+  const Increment& pressed = LastOfStage(path, 1);
+  const double l = std::hypot(1.0, 0.9), l0 = std::hypot(1.0, 0.98);
+  EXPECT_EQ(pressed.load_factor, 0.1);
+  EXPECT_NEAR(PositionY(path, pressed, "a"), 0.9, kRounding);
+  EXPECT_NEAR(Contact(path, pressed, "b@floor").rn, 2.0 * 10.0 * (1.0 - l / l0) * 0.9 / l, 1e-11);
+  EXPECT_EQ(Contact(path, pressed, "b@floor").state, ContactState::kStick);
+  const Increment& dragged = LastOfStage(path, 2);
+  EXPECT_EQ(Contact(path, dragged, "b@floor").state, ContactState::kSlipPlus);
+  // With b slipping, its place between the supports does not depend on how far it was dragged: equilibrium along x and
+  // the cone give the same shape for a foot that was dragged twice as far.
+  TraceRequest farther = ReadExample("press_slide_lift");
+  farther.program.resize(2);
+  farther.program[1].target = 0.6;
+  const TracedPath far = TraceProgram(farther, GetParam());
+  const Increment& twice = LastOfStage(far, 2);
+  EXPECT_NEAR(PositionX(far, twice, "b") - PositionX(far, twice, "a"),
+              PositionX(path, dragged, "b") - PositionX(path, dragged, "a"), 1e-10);
+  const Increment& lifted = LastOfStage(path, 3);
+  EXPECT_EQ(Contact(path, lifted, "b@floor").state, ContactState::kOpen);
+  EXPECT_NEAR(PositionX(path, lifted, "b"), 0.3, 1e-9);
+  EXPECT_NEAR(PositionY(path, lifted, "b"), 0.12, 1e-9);
+  EXPECT_NEAR(lifted.strain_energy, 0.0, 1e-15);
+  EXPECT_NEAR(lifted.external_work, lifted.dissipation, GetParam() == Method::kBranch ? kRounding : 1e-4);
+}
+
+TEST(Program, GripperIsSymmetricAndSlipsAtItsPullOutForce) {
+  const TracedPath path = TraceProgram(ReadExample("gripper"));
+  double pull_out = -1.0;
+  for (const Increment& row : path.rows) {
+    const ContactRecord &left = Contact(path, row, "l@left_face"), &right = Contact(path, row, "r@right_face");
+    EXPECT_NEAR(left.rn, right.rn, 1e-11);
+    EXPECT_NEAR(left.rt, -right.rt, 1e-11);  // the tangents of the faces are opposed
+    EXPECT_NEAR(PositionX(path, row, "l"), -PositionX(path, row, "r"), 1e-12);
+    pull_out = std::max(pull_out, left.rt - right.rt);
+  }
+  const Increment& end = path.rows.back();
+  EXPECT_NEAR(std::abs(Contact(path, end, "l@left_face").rt), 0.5 * Contact(path, end, "l@left_face").rn, 1e-11);
+  EXPECT_NEAR(pull_out, 2.0 * Contact(path, end, "l@left_face").rt, 1e-11);
+  EXPECT_NEAR(pull_out, 1.74, 0.005);  // as its file says
+  EXPECT_GT(end.dissipation, 0.0);
+}
+
+// A stage of the scene's own load is the path without a program, as far as its target.
+TEST_P(EachMethod, OneStageIsThePathUpToItsTarget) {
+  TraceRequest plain = ReadExample("sliding_bar");
+  plain.options.method = GetParam();
+  plain.options.stop = {{"load_factor", ">", 0.5}};
+  TraceRequest program = plain;
+  program.options.stop.clear();
+  program.program = {{"all", program.scene.loads, {}, {}, 0.5}};
+  program.scene.loads.clear();
+  const TracedPath whole = TraceRows(plain), staged = TraceProgram(program, GetParam());
+  for (std::size_t i = 0; i + 1 < staged.rows.size(); ++i) {
+    EXPECT_EQ(staged.rows[i].positions, whole.rows[i].positions);
+    EXPECT_EQ(staged.rows[i].load_factor, whole.rows[i].load_factor);
+    EXPECT_EQ(staged.rows[i].stage, 1);
+  }
+  EXPECT_EQ(staged.rows.back().load_factor, 0.5);
+}
+
+TEST(Program, AStageInTwoHalvesEndsAtTheSamePoint) {
+  const TraceRequest whole = ReadExample("press_slide_lift");
+  TraceRequest halves = whole;
+  halves.program.clear();
+  for (Stage stage : whole.program) {
+    stage.target *= 0.5;
+    halves.program.insert(halves.program.end(), {stage, stage});
+  }
+  const TracedPath a = TraceProgram(whole), b = TraceProgram(halves);
+  for (int stage = 1; stage <= 3; ++stage) {
+    const Increment &one = LastOfStage(a, stage), &other = LastOfStage(b, 2 * stage);
+    for (std::size_t i = 0; i < one.positions.size(); ++i) EXPECT_NEAR(one.positions[i], other.positions[i], 1e-11);
+    EXPECT_NEAR(one.dissipation, other.dissipation, 1e-9);
+    EXPECT_NEAR(one.external_work, other.external_work, 1e-9);
+  }
+}
+
+// Superelements keep the place where they are free of force when their supports move.
+TEST(Program, SuperelementsAreStretchedByTheirSupports) {
+  TraceRequest request;
+  request.scene.name = "spring";
+  request.scene.nodes = {{"a", 0.0, 0.0, true, true}, {"b", 1.0, 0.0, false, true}};
+  request.scene.superelements = {{{"a", "b"}, {2, 0, -2, 0, 0, 0, 0, 0, -2, 0, 2, 0, 0, 0, 0, 0}, {}}};
+  request.scene.obstacles = {{"wall", ObstacleShape::kHalfPlane, 1.5, 0.0, -1.0, 0.0, 0.0}};
+  request.scene.contacts = {{"b", "wall"}};
+  request.program = {{"push", {}, {{"a", 1.0, 0.0}}, {}, 0.75}, {"push on", {}, {{"a", 1.0, 0.0}}, {}, 0.25}};
+  const TracedPath path = TraceProgram(request);
+  EXPECT_NEAR(Contact(path, LastOfStage(path, 1), "b@wall").rn, 2.0 * 0.25, kRounding);
+  EXPECT_NEAR(Contact(path, LastOfStage(path, 2), "b@wall").rn, 2.0 * 0.5, kRounding);
+  EXPECT_NEAR(path.rows.back().external_work, 0.5 * 2.0 * 0.25, kRounding);
+}
+
+// Supports can move without a program, too: displacement control, through the snap of a shallow arch.
+TEST_P(EachMethod, SupportMotionOfTheSceneItself) {
+  TraceRequest request;
+  request.scene.name = "pushed down";
+  request.scene.nodes = {{"a", -1.0, 0.0, true, true},
+                         {"b", 0.0, 0.3, false, false},
+                         {"c", 1.0, 0.0, true, true},
+                         {"d", 0.0, 1.0, true, true}};
+  request.scene.bars = {{{"a", "b"}, 1.0}, {{"b", "c"}, 1.0}, {{"b", "d"}, 100.0}};
+  request.scene.support_motions = {{"d", 0.0, -1.0}};
+  request.options.method = GetParam();
+  request.options.stop = {{"d.y", "<", 0.3}};
+  const TracedPath path = TraceRows(request);
+  ASSERT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+  EXPECT_TRUE(VerifyPath(request, path.rows).findings.empty());
+  for (const Increment& row : path.rows) {
+    EXPECT_NEAR(PositionY(path, row, "d"), 1.0 - row.load_factor, kRounding);
+    EXPECT_LE(row.residuals.support, kRounding);
+    // The bar from above carries what the arch resists.
+    const double y = PositionY(path, row, "b"), l = std::hypot(1.0, y), l0 = std::hypot(1.0, 0.3);
+    const double arch = 2.0 * (l / l0 - 1.0) * y / l, push = 100.0 * ((1.0 - row.load_factor - y) / 0.7 - 1.0);
+    EXPECT_NEAR(arch, push, 1e-11);
+  }
+  EXPECT_LE(EnergyImbalance(path), GetParam() == Method::kBranch ? 1e-9 : 1e-4);
+  EXPECT_LT(PositionY(path, path.rows.back(), "b"), 0.0);  // through
+}
+
+TEST(Program, UnitsDoNotMatter) {
+  const TraceRequest request = ReadExample("press_slide_lift");
+  const TracedPath a = TraceProgram(request);
+  const TracedPath b = UndoUnits(TraceProgram(ChangeUnits(request, 1e-3, 1e6)), 1e-3, 1e6);
+  ASSERT_EQ(a.rows.size(), b.rows.size());
+  for (std::size_t i = 0; i < a.rows.size(); ++i)
+    for (std::size_t k = 0; k < a.rows[i].positions.size(); ++k)
+      EXPECT_NEAR(a.rows[i].positions[k], b.rows[i].positions[k], 1e-10);
+}
+
+TEST(Program, EventsAndRowsAreNumberedThroughAllStages) {
+  const TracedPath path = TraceProgram(ReadExample("stick_slip_cycle"));
+  int events = 0, starts = 0;
+  for (std::size_t i = 0; i < path.rows.size(); ++i) {
+    EXPECT_EQ(path.rows[i].index, static_cast<int>(i));
+    if (path.rows[i].event.number > 0) {
+      EXPECT_EQ(path.rows[i].event.number, ++events);
+    }
+    starts += path.rows[i].kind == RowKind::kStart ? 1 : 0;
+  }
+  EXPECT_EQ(events, 3);
+  EXPECT_EQ(starts, 3);
+}
+
+TEST(Program, StopCriterionEndsAllOfIt) {
+  TraceRequest request = ReadExample("press_slide_lift");
+  request.options.stop = {{"b.x", ">", 0.1}};
+  const TracedPath path = TraceRows(request);
+  EXPECT_EQ(path.result.reason, EndReason::kStopCriterion);
+  EXPECT_EQ(path.rows.back().stage, 2);
+  request.options.stop.clear();
+  request.options.max_increments = 3;
+  EXPECT_EQ(TraceRows(request).rows.size(), 4u);
+}
+
+// The load factor turns twice before it comes to its target.
+TEST_P(EachMethod, AStageGoesThroughLimitPoints) {
+  TraceRequest request = ReadExample("von_mises");
+  request.options = {};
+  request.program = {{"snap", request.scene.loads, {}, {}, 0.0}};
+  request.scene.loads.clear();
+  const TracedPath path = TraceProgram(request, GetParam());
+  EXPECT_EQ(RowsOfKind(path, RowKind::kSmoothLimit).size(), 2u);
+  EXPECT_EQ(path.rows.back().load_factor, 1.0);
+}
+
+TEST(StageScene, HoldsWhatEarlierStagesBroughtOn) {
+  const TraceRequest request = ReadExample("press_slide_lift");
+  EXPECT_EQ(NumStages(request), 3u);
+  const Scene third = StageScene(request, 2);
+  EXPECT_DOUBLE_EQ(third.nodes[0].x, -1.0 + 0.3);
+  EXPECT_DOUBLE_EQ(third.nodes[0].y, 1.0 - 0.1);
+  EXPECT_DOUBLE_EQ(third.bars[0].rest_length, std::hypot(1.0, 0.98));
+  ASSERT_EQ(third.support_motions.size(), 2u);
+  EXPECT_EQ(third.support_motions[0].dy, 1.0);
+  TraceRequest loads = ReadExample("sliding_bar");
+  loads.program = {{"one", {{"b", 2.0, 0.0, false}}, {}, {{"floor", 0.0, -1.0}}, -0.5},
+                   {"two", {{"b", 0.0, 1.0, false}}, {}, {}, 0.0}};
+  loads.scene.loads = {{"b", 0.0, -3.0, true}};
+  const Scene second = StageScene(loads, 1);
+  ASSERT_EQ(second.loads.size(), 3u);
+  EXPECT_TRUE(second.loads[0].constant && second.loads[1].constant && !second.loads[2].constant);
+  EXPECT_EQ(second.loads[1].fx, -1.0);
+  EXPECT_EQ(second.obstacles[0].py, 0.5);
+  EXPECT_TRUE(second.obstacle_motions.empty());
+  EXPECT_EQ(StageScales(loads, 1).length, StageScales(loads, 0).length);
+}
+
+// ----- what a record of a program must not be able to hide -----
+
+TEST(VerifyProgram, FindsWhatWasChanged) {
+  const TraceRequest request = ReadExample("press_slide_lift");
+  const TracedPath path = TraceRows(request);
+  const auto findings = [&](const std::vector<Increment>& rows) { return VerifyPath(request, rows).findings; };
+  const auto first_of = [&](int stage) {
+    return static_cast<std::size_t>(
+        std::find_if(path.rows.begin(), path.rows.end(), [&](const Increment& row) { return row.stage == stage; }) -
+        path.rows.begin());
+  };
+  ASSERT_TRUE(findings(path.rows).empty());
+  const std::size_t second = first_of(2), third = first_of(3);
+  std::vector<Increment> rows = path.rows;
+  rows[second + 1].positions[0] += 1e-6;  // a support
+  EXPECT_FALSE(findings(rows).empty());
+  rows = path.rows;
+  rows[second].dissipation += 1e-3;
+  EXPECT_FALSE(findings(rows).empty());
+  rows = path.rows;
+  rows[second].contacts[0].rn *= 1.0 + 1e-6;
+  EXPECT_FALSE(findings(rows).empty());
+  rows = path.rows;
+  for (std::size_t i = second; i < third; ++i) rows[i].stage = 3;
+  EXPECT_FALSE(findings(rows).empty());
+  rows = path.rows;
+  rows.erase(rows.begin() + static_cast<std::ptrdiff_t>(third) - 1);
+  for (std::size_t i = 0; i < rows.size(); ++i) rows[i].index = static_cast<int>(i);
+  EXPECT_FALSE(findings(rows).empty());
+  rows = path.rows;
+  for (std::size_t i = second + 1; i < rows.size(); ++i) rows[i].external_work += 1e-2;
+  EXPECT_FALSE(findings(rows).empty());
+  // The scene's own motions, not those recorded.
+  TraceRequest other = request;
+  other.program[1].support_motions[0].dx = 1.1;
+  EXPECT_FALSE(VerifyPath(other, path.rows).findings.empty());
+}
+
+// ----- rules -----
+
+void ExpectViolation(const TraceRequest& request, const std::string& key, const std::string& rule) {
+  const std::vector<Violation> violations = Validate(request);
+  for (const Violation& violation : violations)
+    if (violation.key == key && violation.rule.find(rule) != std::string::npos) return;
+  ADD_FAILURE() << key << ": " << rule << "; but got " << (violations.empty() ? "nothing" : violations[0].ToLine());
+}
+
+TEST(ProgramRules, AreTold) {
+  const TraceRequest sound = ReadExample("press_slide_lift");
+  ASSERT_TRUE(Validate(sound).empty());
+  TraceRequest request = sound;
+  request.scene.loads = {{"b", 1.0, 0.0, false}};
+  ExpectViolation(request, "scene.loads[0].constant", "must be true where there is a program");
+  request = sound;
+  request.program[1].loads = {{"b", 1.0, 0.0, true}};
+  ExpectViolation(request, "program[1].loads[0].constant", "must be false");
+  request = sound;
+  request.program[0].support_motions.clear();
+  ExpectViolation(request, "program[0]", "a load must act on a free component");
+  request = sound;
+  request.program[0].support_motions[0].node = "nobody";
+  ExpectViolation(request, "program[0].support_motions[0].node", "must name a node");
+  request = sound;
+  request.program[0].support_motions[1].node = "a";
+  ExpectViolation(request, "program[0].support_motions[1].node", "must not be repeated");
+  request = sound;
+  request.program[0].support_motions[0].node = "b";
+  ExpectViolation(request, "program[0].support_motions[0].dy", "is not fixed in y");
+  ExpectViolation(request, "program[0].support_motions[0].node", "must not be a contact candidate");
+  request = sound;
+  request.program[2].support_motions[0].dy = 0.0;
+  ExpectViolation(request, "program[2].support_motions[0]", "must not be zero");
+  request = sound;
+  request.program[2].target = std::nan("");
+  ExpectViolation(request, "program[2].target", "must be finite");
+  request = sound;
+  request.scene.support_motions = {{"a", 1.0, 0.0}};
+  ExpectViolation(request, "scene.support_motions", "must be empty where there is a program");
+  request = sound;
+  request.scene.obstacle_motions = {{"floor", 1.0, 0.0}};
+  ExpectViolation(request, "scene.obstacle_motions", "must be empty where there is a program");
+  request = sound;
+  request.program[0].obstacle_motions = {{"ceiling", 1.0, 0.0}};
+  ExpectViolation(request, "program[0].obstacle_motions[0].obstacle", "must name an obstacle");
+  request = sound;
+  request.options.direction = -1.0;
+  ExpectViolation(request, "options.direction", "must be 0 where there is a program");
+  request = sound;
+  request.options.stop = {{"load_factor", ">", 1.0}};
+  ExpectViolation(request, "options.stop[0].quantity", "each stage has a target of its own");
+  request = sound;
+  request.scene.nodes[1].fixed_x = true;
+  request.program[1].obstacle_motions = {{"floor", 1.0, 0.0}};
+  ExpectViolation(request, "program[1].obstacle_motions[0].obstacle", "node b must be free to move that way");
+  request = ReadExample("two_dof_friction");
+  request.scene.superelements[0].rest_positions = {0.0};
+  ExpectViolation(request, "scene.superelements[0].rest_positions", "must be empty or have");
+}
+
+}  // namespace
+}  // namespace contact_path
