@@ -83,8 +83,7 @@ void IncrementWithFarCandidates(benchmark::State& state) {
   RegularIncrements(state, static_cast<int>(state.range(1)), kOutOfReach);
 }
 
-BENCHMARK(Increment)->Arg(1000)->Arg(3000)->Arg(10000)->UseManualTime()->Iterations(3)->Unit(
-    benchmark::kMillisecond);
+BENCHMARK(Increment)->Arg(1000)->Arg(3000)->Arg(10000)->UseManualTime()->Iterations(3)->Unit(benchmark::kMillisecond);
 BENCHMARK(Increment)->Arg(30000)->UseManualTime()->Iterations(2)->Unit(benchmark::kMillisecond);
 BENCHMARK(Increment)->Arg(100000)->UseManualTime()->Iterations(1)->Unit(benchmark::kMillisecond);
 BENCHMARK(IncrementInContact)->Arg(1000)->Arg(3000)->UseManualTime()->Iterations(3)->Unit(benchmark::kMillisecond);

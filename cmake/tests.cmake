@@ -139,6 +139,8 @@ contact_path_add_python_test(cli_test test/cli/cli_test.py DEPENDS contact_path_
 contact_path_add_python_test(plot_test test/cli/plot_test.py DEPENDS contact_path_trace
   VARIABLES CONTACT_PATH_TRACE=$<TARGET_FILE:contact_path_trace> CONTACT_PATH_SCRIPTS=${CMAKE_CURRENT_SOURCE_DIR}/scripts)
 if(CONTACT_PATH_ROS)
-  contact_path_add_python_test(verify_test test/ros/verify_test.py DEPENDS contact_path_trace contact_path_verify
-    VARIABLES CONTACT_PATH_TRACE=$<TARGET_FILE:contact_path_trace> CONTACT_PATH_VERIFY=$<TARGET_FILE:contact_path_verify>)
+  foreach(test resume_test verify_test)
+    contact_path_add_python_test(${test} test/ros/${test}.py DEPENDS contact_path_trace contact_path_verify
+      VARIABLES CONTACT_PATH_TRACE=$<TARGET_FILE:contact_path_trace> CONTACT_PATH_VERIFY=$<TARGET_FILE:contact_path_verify>)
+  endforeach()
 endif()

@@ -1,4 +1,5 @@
 // contact_path_trace SCENE.yaml: traces the equilibrium path of a scene file and writes its rows as CSV.
+// contact_path_trace --resume BAG: goes on with a trace that was cut short.
 //
 // Exit status: 0 ended by a stop criterion or the number of increments; 1 ended earlier, all accepted rows written;
 // 2 bad usage or invalid scene.
@@ -20,6 +21,7 @@
 #include "contact_path/scene/read_scene.h"
 #include "contact_path/scene/validate.h"
 #ifdef CONTACT_PATH_WITH_ROS
+#include "bag_rows.h"
 #include "bag_sink.h"
 #endif
 #include "event_table.h"
@@ -34,7 +36,8 @@ constexpr char kProgram[] = "contact_path_trace";
 enum ExitStatus { kComplete = 0, kEndedEarly = 1, kBadInput = 2 };
 
 struct Arguments {
-  std::string scene_file;
+  std::string scene_file;               // empty: resume
+  std::string resume;                   // bag to go on from; empty: trace the scene file
   std::optional<std::string> csv_file;  // nothing: standard output
   std::optional<std::string> bag_file;  // nothing: no bag
   std::optional<std::string> method;
@@ -69,18 +72,30 @@ void HandleSignals() {
 }
 
 void DeclareOptions(CLI::App& app, Arguments& arguments) {
-  app.add_option("SCENE", arguments.scene_file, "Scene file (YAML)")->required();
+  CLI::Option* const scene = app.add_option("SCENE", arguments.scene_file, "Scene file (YAML)");
   app.add_option("--csv", arguments.csv_file, "Write the rows to this file; -, or none: standard output")
       ->type_name("FILE");
 #ifdef CONTACT_PATH_WITH_ROS
   app.add_option("--bag", arguments.bag_file, "Record the trace to this bag too")->type_name("FILE");
+  CLI::Option* const resume =
+      app.add_option("--resume", arguments.resume,
+                     "Go on with the trace of this bag; of its rows, those that can be kept are")
+          ->type_name("BAG");
+  scene->excludes(resume);
+#else
+  scene->required();
 #endif
-  app.add_option("--method", arguments.method, "branch or mpec, instead of the scene's")->type_name("NAME");
+  app.add_option("--method", arguments.method, "branch or mpec, instead of the scene's")
+      ->type_name("NAME")
+      ->needs(scene);
   app.add_option("--accuracy", arguments.accuracy, "fast, balanced or accurate, instead of the scene's")
-      ->type_name("NAME");
+      ->type_name("NAME")
+      ->needs(scene);
   app.add_option("--step", arguments.step, "Increment length, instead of the scene's; 0 = automatic")
-      ->type_name("NUMBER");
-  app.add_option("--max-increments", arguments.max_increments, "Largest number, instead of the scene's; 0 = 1000")
+      ->type_name("NUMBER")
+      ->needs(scene);
+  app.add_option("--max-increments", arguments.max_increments,
+                 "Largest number, instead of that of the scene or bag; 0 = 1000")
       ->type_name("NUMBER");
   app.add_flag("--events", arguments.events,
                "Print each event and the ways on from there on standard error: what branch_choices chooses from");
@@ -95,7 +110,13 @@ T KnownWord(const std::optional<T>& parsed, const std::string& option, const std
   return *parsed;
 }
 
-// The request of the scene file with the options of the command line. Throws InvalidRequest.
+// What is to be traced, and what there is of it.
+struct Task {
+  TraceRequest request;
+  std::optional<std::vector<Increment>> rows;  // of the trace to go on with
+};
+
+// The scene file with the options of the command line. Throws InvalidRequest.
 TraceRequest ReadRequest(const Arguments& arguments) {
   TraceRequest request = ReadTraceRequestFile(arguments.scene_file);
   TraceOptions& options = request.options;
@@ -107,12 +128,28 @@ TraceRequest ReadRequest(const Arguments& arguments) {
                                  "must be fast, balanced or accurate");
   }
   if (arguments.step) options.step = *arguments.step;
-  if (arguments.max_increments) options.max_increments = *arguments.max_increments;
+  return request;
+}
 
-  std::vector<Violation> violations = Validate(request);
+// Throws InvalidRequest; std::runtime_error for a bag that cannot be gone on from.
+Task ReadTask(const Arguments& arguments) {
+  Task task;
+#ifdef CONTACT_PATH_WITH_ROS
+  if (arguments.scene_file.empty()) {
+    RecordedRows recorded = ReadRows(arguments.resume);
+    task.request = std::move(recorded.request);
+    task.rows = std::move(recorded.rows);
+  } else {
+    task.request = ReadRequest(arguments);
+  }
+#else
+  task.request = ReadRequest(arguments);
+#endif
+  if (arguments.max_increments) task.request.options.max_increments = *arguments.max_increments;
+  std::vector<Violation> violations = Validate(task.request);
   for (Violation& violation : violations) violation.file = "command line";
   if (!violations.empty()) throw InvalidRequest(violations);
-  return request;
+  return task;
 }
 
 // At most three lines.
@@ -123,13 +160,18 @@ void PrintViolations(const std::vector<Violation>& violations) {
   if (listed < violations.size()) std::cerr << "... and " << violations.size() - listed << " more\n";
 }
 
-// Empties `file` for writing. Nothing where that cannot be done; says why on standard error.
-std::optional<std::ofstream> OpenCsv(const std::string& file, const std::string& scene_file) {
+// Whether what `option` would overwrite is what is read; says so on standard error.
+bool IsInput(const char* option, const std::string& file, const Arguments& arguments) {
+  const std::string& input = arguments.scene_file.empty() ? arguments.resume : arguments.scene_file;
   std::error_code none_there;
-  if (std::filesystem::equivalent(file, scene_file, none_there)) {
-    PrintError("--csv " + file + " is the scene file itself");
-    return std::nullopt;
-  }
+  if (!std::filesystem::equivalent(file, input, none_there)) return false;
+  PrintError(std::string(option) + " " + file + " is the " + (arguments.scene_file.empty() ? "bag" : "scene file") +
+             " itself");
+  return true;
+}
+
+// Empties `file` for writing. Nothing where that cannot be done; says why on standard error.
+std::optional<std::ofstream> OpenCsv(const std::string& file) {
   std::ofstream csv(file, std::ios::binary | std::ios::trunc);
   if (!csv) {
     PrintError("cannot open --csv '" + file + "': " + std::strerror(errno));
@@ -152,8 +194,9 @@ Sink StartCsv(const TraceRequest& request, std::ostream& out, const std::string&
   };
 }
 
-// Traces `request` with its rows going to `csv`. Throws WriteError.
-ExitStatus RunTrace(const TraceRequest& request, const Arguments& arguments, std::ostream& csv) {
+// Traces with the rows going to `csv`. Throws WriteError.
+ExitStatus RunTrace(const Task& task, const Arguments& arguments, std::ostream& csv) {
+  const TraceRequest& request = task.request;
   const bool csv_on_terminal = !arguments.csv_file && isatty(STDOUT_FILENO) == 1;
   Progress progress(request, !arguments.quiet && !csv_on_terminal && isatty(STDERR_FILENO) == 1, std::cerr);
   std::vector<Sink> sinks = {
@@ -180,7 +223,7 @@ ExitStatus RunTrace(const TraceRequest& request, const Arguments& arguments, std
     for (const Sink& sink : sinks) sink(increment);
   };
   control.cancelled = [] { return cancel_requested != 0; };
-  const TraceResult result = Trace(request, control);
+  const TraceResult result = task.rows ? ResumeTrace(request, *task.rows, control) : Trace(request, control);
 #ifdef CONTACT_PATH_WITH_ROS
   if (bag) bag->End(result);
 #endif
@@ -195,10 +238,12 @@ ExitStatus RunTrace(const TraceRequest& request, const Arguments& arguments, std
 
 ExitStatus Run(const Arguments& arguments) {
   try {
-    const TraceRequest request = ReadRequest(arguments);
-    if (!arguments.csv_file) return RunTrace(request, arguments, std::cout);
-    std::optional<std::ofstream> csv = OpenCsv(*arguments.csv_file, arguments.scene_file);
-    return csv ? RunTrace(request, arguments, *csv) : kBadInput;
+    const Task task = ReadTask(arguments);
+    if (arguments.bag_file && IsInput("--bag", *arguments.bag_file, arguments)) return kBadInput;
+    if (!arguments.csv_file) return RunTrace(task, arguments, std::cout);
+    if (IsInput("--csv", *arguments.csv_file, arguments)) return kBadInput;
+    std::optional<std::ofstream> csv = OpenCsv(*arguments.csv_file);
+    return csv ? RunTrace(task, arguments, *csv) : kBadInput;
   } catch (const InvalidRequest& invalid) {
     PrintViolations(invalid.violations());
     return kBadInput;
@@ -227,6 +272,10 @@ int main(int argc, char** argv) {
     return std::cout ? contact_path::kComplete : contact_path::kEndedEarly;
   } catch (const CLI::ParseError& error) {
     contact_path::PrintError(error.what());
+    return contact_path::kBadInput;
+  }
+  if (arguments.scene_file.empty() && arguments.resume.empty()) {
+    contact_path::PrintError("SCENE is required");
     return contact_path::kBadInput;
   }
   if (arguments.csv_file == "-") arguments.csv_file.reset();

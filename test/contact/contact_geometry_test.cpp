@@ -85,7 +85,9 @@ TEST(ContactGeometry, GradientsAreThoseOfTheValues) {
       Eigen::VectorXd gradient = Eigen::VectorXd::Constant(structure.NumDofs(), 0.5);
       function->AddGradient(2.0, &gradient);
       const Eigen::MatrixXd expected = (0.5 * (gradient.array() - 0.5)).matrix().transpose();
-      const auto value = [&](const Eigen::VectorXd& u) { return Eigen::VectorXd::Constant(1, function->Value(u, 0.0)); };
+      const auto value = [&](const Eigen::VectorXd& u) {
+        return Eigen::VectorXd::Constant(1, function->Value(u, 0.0));
+      };
       EXPECT_TRUE(IsJacobian(value, structure.InitialPositions(), expected));
       const Eigen::VectorXd du = Eigen::VectorXd::LinSpaced(structure.NumDofs(), -1.0, 1.0);
       EXPECT_NEAR(function->Rate(du, 0.0), (expected * du)[0], kRounding);
