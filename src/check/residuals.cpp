@@ -12,8 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include "contact_path/scene/scaling.h"
-
 namespace contact_path {
 namespace {
 
@@ -116,7 +114,7 @@ struct ResidualCheck::Prepared {
     Surface surface;
   };
 
-  explicit Prepared(const Scene& scene) : scaling(CharacteristicScales(scene)) {
+  Prepared(const Scene& scene, const Scaling& scaling_in) : scaling(scaling_in) {
     std::unordered_map<std::string_view, std::size_t> index;
     for (const Node& node : scene.nodes) {
       index.emplace(node.name, index.size());
@@ -245,7 +243,9 @@ struct ResidualCheck::Prepared {
   std::vector<PreparedContact> contacts;
 };
 
-ResidualCheck::ResidualCheck(const Scene& scene) : prepared_(std::make_unique<Prepared>(scene)) {}
+ResidualCheck::ResidualCheck(const Scene& scene) : ResidualCheck(scene, CharacteristicScales(scene)) {}
+ResidualCheck::ResidualCheck(const Scene& scene, const Scaling& scaling)
+    : prepared_(std::make_unique<Prepared>(scene, scaling)) {}
 ResidualCheck::~ResidualCheck() = default;
 
 double Residuals::Contact() const {

@@ -14,7 +14,7 @@ Model::Model(const Scene& scene_in, const Scaling& scaling_in)
       scaled(ScaleScene(scene_in, scaling_in)),
       structure(scaled),
       contacts(BuildContacts(scaled, structure)),
-      check(scene_in) {}
+      check(scene_in, scaling_in) {}
 
 PathPoint Model::InitialPoint() const {
   PathPoint point;

@@ -38,7 +38,7 @@ class Verifier {
         first_(first),
         last_(last),
         scaling_(StageScales(request, stage)),
-        check_(scene_),
+        check_(scene_, scaling_),
         result_(*result) {
     double farthest = 0.0;
     for (std::size_t i = 0; i < scene_.nodes.size(); ++i) {

@@ -171,6 +171,26 @@ TEST(Program, SuperelementsAreStretchedByTheirSupports) {
   EXPECT_NEAR(path.rows.back().external_work, 0.5 * 2.0 * 0.25, kRounding);
 }
 
+// Without bars, the forces of the first stage are the measure for all.
+TEST_P(EachMethod, StagesOfVeryDifferentLoads) {
+  TraceRequest request = ReadExample("two_dof_friction");
+  const std::vector<Load> loads = request.scene.loads;
+  request.options = {};
+  request.scene.loads.clear();
+  std::vector<Load> tiny;
+  for (const Load& load : loads) {
+    if (load.constant)
+      request.scene.loads.push_back(load);
+    else
+      tiny.push_back({load.node, 1e-8 * load.fx, 1e-8 * load.fy, false});
+  }
+  request.program = {{"much", {}, {}, {}, 0.1}, {"hardly", tiny, {}, {}, 0.0}, {"back", {}, {}, {}, -0.1}};
+  for (const Load& load : loads)
+    if (!load.constant)
+      for (Stage* stage : {&request.program[0], &request.program[2]}) stage->loads.push_back(load);
+  TraceProgram(request, GetParam());
+}
+
 // Supports can move without a program, too: displacement control, through the snap of a shallow arch.
 TEST_P(EachMethod, SupportMotionOfTheSceneItself) {
   TraceRequest request;

@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "contact_path/scene/scaling.h"
 #include "contact_path/scene/scene.h"
 
 namespace contact_path {
@@ -39,8 +40,10 @@ struct CheckedState {
 // The check of one scene, with its names resolved once.
 class ResidualCheck {
  public:
-  // Throws std::invalid_argument or std::out_of_range for a name that the scene does not have.
+  // scaling: characteristic force and length that residuals are divided by; without it, those of the scene. Throws
+  // std::invalid_argument or std::out_of_range for a name that the scene does not have.
   explicit ResidualCheck(const Scene& scene);
+  ResidualCheck(const Scene& scene, const Scaling& scaling);
   ~ResidualCheck();
   ResidualCheck(const ResidualCheck&) = delete;
   ResidualCheck& operator=(const ResidualCheck&) = delete;
