@@ -77,8 +77,8 @@ install(TARGETS contact_path_ros contact_path_core
   LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
 install(TARGETS contact_path_node contact_path_trace contact_path_lattice contact_path_verify RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(DIRECTORY include/${PROJECT_NAME}/ DESTINATION ${CATKIN_PACKAGE_INCLUDE_DESTINATION})
-catkin_install_python(PROGRAMS scripts/plot scripts/shapes scripts/watch DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
-install(FILES scripts/path_file.py DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+catkin_install_python(PROGRAMS scripts/plot scripts/watch DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+install(FILES scripts/path_file.py scripts/plot_panels.py scripts/plot_shapes.py DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(DIRECTORY launch scenes DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
 
 if(CATKIN_ENABLE_TESTING)

@@ -137,10 +137,12 @@ endfunction()
 contact_path_add_python_test(cli_test test/cli/cli_test.py DEPENDS contact_path_trace
   VARIABLES CONTACT_PATH_TRACE=$<TARGET_FILE:contact_path_trace>)
 contact_path_add_python_test(plot_test test/cli/plot_test.py DEPENDS contact_path_trace
-  VARIABLES CONTACT_PATH_TRACE=$<TARGET_FILE:contact_path_trace> CONTACT_PATH_SCRIPTS=${CMAKE_CURRENT_SOURCE_DIR}/scripts)
+  VARIABLES CONTACT_PATH_TRACE=$<TARGET_FILE:contact_path_trace> CONTACT_PATH_PLOT=${CMAKE_CURRENT_SOURCE_DIR}/scripts/plot)
 if(CONTACT_PATH_ROS)
   foreach(test resume_test verify_test)
     contact_path_add_python_test(${test} test/ros/${test}.py DEPENDS contact_path_trace contact_path_verify
       VARIABLES CONTACT_PATH_TRACE=$<TARGET_FILE:contact_path_trace> CONTACT_PATH_VERIFY=$<TARGET_FILE:contact_path_verify>)
   endforeach()
+  contact_path_add_python_test(plot_bag_test test/ros/plot_bag_test.py DEPENDS contact_path_trace
+    VARIABLES CONTACT_PATH_TRACE=$<TARGET_FILE:contact_path_trace> CONTACT_PATH_PLOT=${contact_path_devel_programs}/plot)
 endif()

@@ -1,9 +1,21 @@
-"""Reads the path of a trace from the files that it leaves: CSV tables and bags."""
+"""Reads the path of a trace from the files that it leaves, CSV tables and bags, and the scene from its own file."""
 import csv
+import functools
 import itertools
 import os
 
 KINDS = ('start', 'regular', 'smooth_limit', 'corner_limit', 'contact_event', 'bifurcation')
+STATES = ('open', 'stick', 'slip+', 'slip-', 'closed')
+
+# The fields of a scene that are drawn, with their defaults; named as in scene files and messages.
+PARTS = {
+    'nodes': {'name': '', 'x': 0.0, 'y': 0.0, 'fixed_x': False, 'fixed_y': False},
+    'bars': {'nodes': []},
+    'superelements': {'nodes': []},
+    'loads': {'node': '', 'fx': 0.0, 'fy': 0.0, 'constant': False},
+    'obstacles': {'name': '', 'px': 0.0, 'py': 0.0, 'nx': 0.0, 'ny': 0.0, 'friction': 0.0},
+    'contacts': {'node': '', 'obstacle': ''},
+}
 
 
 class Path:
@@ -11,12 +23,14 @@ class Path:
 
     Where a message carries no positions and contacts (full_state_every), these numbers are nan and the states ''.
 
-    scene: as in a scene file, {'nodes': [{'name': ..}, ..], ..}, as far as it is drawn; None where it is not known (CSV).
+    scene: {'name': .., 'nodes': [{'name': .., 'x': ..}, ..], ..} with the fields of PARTS; None where it is not known (CSV).
+    options: the TraceOptions of the request; None where they are not known (CSV).
     """
 
-    def __init__(self, title, scene=None):
+    def __init__(self, title, scene=None, options=None):
         self.title = title
         self.scene = scene
+        self.options = options
         self.rows = []
 
     def column(self, name):
@@ -27,6 +41,11 @@ class Path:
 
     def contacts(self):
         return [name[6:] for name in self.rows[0] if name.startswith('state_')]
+
+    def full_rows(self):
+        """Those that carry positions and contacts."""
+        node = 'x_' + self.nodes()[0]
+        return [row for row in self.rows if row[node] == row[node]]  # not nan
 
 
 def read(name):
@@ -40,12 +59,19 @@ def read(name):
 def read_csv(name):
     path = Path(os.path.splitext(os.path.basename(name))[0])
     with open(name, newline='') as file:
-        table = csv.DictReader(file)
-        if 'kind' not in (table.fieldnames or []):
+        table = csv.reader(file)
+        columns = next(table, [])
+        if 'kind' not in columns:
             raise ValueError('no table of a path')
-        for row in table:
-            path.rows.append({key: value if key == 'kind' or key.startswith('state_') else float(value)
-                              for key, value in row.items()})
+        numbers = [not (column == 'kind' or column.startswith('state_')) for column in columns]
+        for line in table:
+            if len(line) != len(columns):
+                raise ValueError('line %d: %d values in a table of %d columns' % (table.line_num, len(line), len(columns)))
+            try:
+                values = [float(value) if number else value for value, number in zip(line, numbers)]
+            except ValueError as error:
+                raise ValueError('line %d: %s' % (table.line_num, error)) from error
+            path.rows.append(dict(zip(columns, values)))
     return path
 
 
@@ -56,7 +82,7 @@ def read_bag(name):
     with rosbag.Bag(name) as bag:
         for topic, message, _ in bag.read_messages():
             if topic.endswith('/request'):
-                path = Path(message.scene.name, scene_of(message.scene))
+                path = Path(message.scene.name, scene_of(message.scene), message.options)
             elif topic.endswith('/increments'):
                 if path is None:
                     raise ValueError('no request before the increments: not a bag that the node wrote')
@@ -67,27 +93,47 @@ def read_bag(name):
 
 
 def scene_of(message):
-    def plain(part, fields):
-        return {field: getattr(part, field) for field in fields}
-
-    return {
-        'name': message.name,
-        'nodes': [plain(node, ('name', 'x', 'y')) for node in message.nodes],
-        'bars': [plain(bar, ('nodes',)) for bar in message.bars],
-        'obstacles': [plain(obstacle, ('name', 'nx', 'ny')) for obstacle in message.obstacles],
-        'contacts': [plain(contact, ('node', 'obstacle')) for contact in message.contacts],
-    }
+    scene = {part: [{field: getattr(item, field) for field in fields} for item in getattr(message, part)]
+             for part, fields in PARTS.items()}
+    scene['name'] = message.name
+    return scene
 
 
-def constants(message, names):
+def read_scene(name):
+    """The scene in a scene file, as in Path. What it means is checked by contact_path_trace alone."""
+    import yaml  # not needed for bags
+
+    with open(name) as file:
+        # All scalars as they stand: a node may be named `n` or `1e3`.
+        request = yaml.load(file, Loader=getattr(yaml, 'CBaseLoader', yaml.BaseLoader))
+    try:
+        given = request['scene']
+        scene = {part: [{field: value_of(item.get(field), default) for field, default in fields.items()}
+                        for item in given.get(part) or []]
+                 for part, fields in PARTS.items()}
+        scene['name'] = given.get('name') or ''
+    except (AttributeError, KeyError, TypeError, ValueError) as error:
+        raise ValueError('not a scene file; contact_path_trace says what is wrong with it') from error
+    return scene
+
+
+def value_of(text, default):
+    if not text:
+        return default
+    if isinstance(default, bool):
+        return text.lower() in ('true', 'yes', 'on', '1')
+    return type(default)(text)
+
+
+@functools.lru_cache(maxsize=None)
+def constants(message_type, names):
     """Value of each constant of a message -> name."""
-    return {getattr(message, name.upper().replace('+', '_PLUS').replace('-', '_MINUS')): name for name in names}
+    return {getattr(message_type, name.upper().replace('+', '_PLUS').replace('-', '_MINUS')): name for name in names}
 
 
 def row_of(scene, message):
-    kinds = constants(message, KINDS)
     row = {key: getattr(message, key) for key in ('index', 'load_factor', 'arc_length')}
-    row['kind'] = kinds[message.kind]
+    row['kind'] = constants(type(message), KINDS)[message.kind]
     nan = float('nan')
     for node, x, y in itertools.zip_longest(scene['nodes'], message.x, message.y, fillvalue=nan):
         row['x_' + node['name']] = x
@@ -97,9 +143,8 @@ def row_of(scene, message):
         if state is None:
             row.update({'gap_' + name: nan, 'rn_' + name: nan, 'rt_' + name: nan, 'state_' + name: ''})
             continue
-        states = constants(state, ('open', 'stick', 'slip+', 'slip-', 'closed'))
         row.update({'gap_' + name: state.gap, 'rn_' + name: state.rn, 'rt_' + name: state.rt,
-                    'state_' + name: states[state.state]})
+                    'state_' + name: constants(type(state), STATES)[state.state]})
     for key in ('dissipation', 'strain_energy', 'external_work', 'equilibrium_residual', 'complementarity_residual'):
         row[key] = getattr(message, key)
     return row

@@ -1,67 +1,172 @@
 #!/usr/bin/env python3
-"""Plots paths with scripts/plot and scripts/shapes.
+"""Plots paths from CSV files with scripts/plot.
 
-CONTACT_PATH_TRACE: the program; CONTACT_PATH_SCENES, CONTACT_PATH_SCRIPTS: directories.
+CONTACT_PATH_TRACE, CONTACT_PATH_PLOT: the programs; CONTACT_PATH_SCENES: the directory of the example scenes.
 """
+import importlib.machinery
+import importlib.util
 import os
+import sys
 import unittest
 
-from program_test import ProgramTest, run, scene_file
+from plot_run import PLOT, PlotTest
+from program_test import scene_file
 
-TRACE = os.environ['CONTACT_PATH_TRACE']
-SCRIPTS = os.environ['CONTACT_PATH_SCRIPTS']
+sys.path.insert(0, os.path.dirname(PLOT))
+import matplotlib  # noqa: E402
+
+matplotlib.use('Agg')
+import matplotlib.pyplot as plt  # noqa: E402
+import numpy as np  # noqa: E402
+from matplotlib.quiver import Quiver  # noqa: E402
+
+import path_file  # noqa: E402
+import plot_panels  # noqa: E402
+import plot_shapes  # noqa: E402
 
 
-class PlotTest(ProgramTest):
+loader = importlib.machinery.SourceFileLoader('plot', PLOT)
+plot = importlib.util.module_from_spec(importlib.util.spec_from_loader('plot', loader))
+loader.exec_module(plot)
 
-    def trace(self, scene, name, *options):
-        table = self.path(name)
-        self.assertEqual(run(TRACE, scene_file(scene), '--csv', table, '--quiet', *options).returncode, 0)
-        return table
 
-    def run_script(self, script, *arguments):
-        return run(os.path.join(SCRIPTS, script), *arguments)
+class QuickPlotTest(PlotTest):
 
-    def assert_drawn(self, run, image, magic):
-        self.assertEqual(run.returncode, 0, run.stderr)
-        self.assertEqual(run.stdout, image + '\n')
-        with open(image, 'rb') as file:
-            self.assertIn(magic, file.read(200))
-
-    def assert_refused(self, run, *words):
-        self.assertNotEqual(run.returncode, 0)
-        self.assertEqual(run.stdout, '')
-        self.assertEqual(run.stderr.count('\n'), 1, run.stderr)
+    def assert_main_refuses(self, arguments, *words):
+        """Here and not in a process of its own, which takes longer."""
+        with self.assertRaises(SystemExit) as stopped:
+            plot.main(arguments)
+        message = stopped.exception.code
+        self.assertIsInstance(message, str)
+        self.assertNotIn('\n', message)
         for word in words:
-            self.assertIn(word, run.stderr)
+            self.assertIn(word, message)
 
-    def test_one_path_with_all_panels(self):
+
+class Panels(QuickPlotTest):
+
+    def test_one_path_with_all_panels_as_png(self):
         table = self.trace('two_dof_friction', 'a.csv')
-        self.assert_drawn(self.run_script('plot', table, '--states', '--energy'), self.path('a.png'), b'PNG')
+        drawn = self.plot(table, '--states', '--energy', '--shapes', '--scene', scene_file('two_dof_friction'))
+        self.assertEqual(drawn.returncode, 0, drawn.stderr)
+        self.assertEqual(drawn.stdout, self.path('a.png') + '\n')
+        with open(self.path('a.png'), 'rb') as file:
+            self.assertEqual(file.read(4), b'\x89PNG')
 
-    def test_several_paths_over_each_other_as_svg(self):
-        tables = [self.trace('sliding_bar', 'branch.csv'), self.trace('sliding_bar', 'fast.csv', '--accuracy', 'fast')]
-        image = self.path('both.svg')
-        run = self.run_script('plot', *tables, '-o', image, '--x', 'arc_length', '--states')
-        self.assert_drawn(run, image, b'<?xml')
+    def test_several_paths_over_each_other(self):
+        tables = [self.trace('sliding_bar', 'first.csv'), self.trace('sliding_bar', 'fast.csv', '--accuracy', 'fast')]
+        texts = self.texts(*tables, '--x', 'arc_length', '--states')
+        for text in ('first', 'fast', 'arc length [-]', 'load factor [-]', 'b@floor', 'slip+'):
+            self.assertIn(text, texts)
+
+    def test_the_same_file_twice_as_the_same_bytes(self):
+        table = self.trace('rigid_stop', 'a.csv')
+        images = []
+        for image in (self.path('1.svg'), self.path('2.svg')):
+            self.assertEqual(self.plot(table, '-o', image).returncode, 0)
+            with open(image, 'rb') as file:
+                images.append(file.read())
+        self.assertEqual(*images)
 
     def test_path_without_contacts(self):
         table = self.trace('von_mises', 'a.csv')
-        self.assert_drawn(self.run_script('plot', table, '--energy'), self.path('a.png'), b'PNG')
-        self.assert_refused(self.run_script('plot', table, '--states'), 'a.csv', 'no contacts')
+        texts = self.texts(table, '--energy', '--at', 'limits', '--scene', scene_file('von_mises'))
+        self.assertIn('energy [force length]', texts)
+        self.assertIn('row 0: start', texts)
+        self.assert_main_refuses([table, '--states'], 'a.csv', 'no contacts')
 
-    def test_shapes(self):
-        table = self.trace('sliding_bar', 'a.csv')
-        run = self.run_script('shapes', scene_file('sliding_bar'), table)
-        self.assert_drawn(run, self.path('a_shapes.png'), b'PNG')
+    def test_pieces_of_a_contact(self):
+        path = path_file.Path('path')
+        # The state of a row is that of the piece that ends there; rows where states change carry it, others may not.
+        states = ['stick', '', 'stick', '', 'slip+', '']
+        path.rows = [{'arc_length': float(i), 'state_a@b': state} for i, state in enumerate(states)]
+        self.assertEqual(plot_panels.pieces(path, 'a@b'), {'stick': [(0.0, 2.0)], 'slip+': [(2.0, 3.0)]})
 
     def test_what_cannot_be_plotted_is_one_line(self):
+        self.assert_refused(self.plot(self.path('none.csv')), 'none.csv')
         table = self.trace('sliding_bar', 'a.csv')
-        self.assert_refused(self.run_script('plot', table, '--x', 'nothing'), 'nothing', 'b.x')
-        self.assert_refused(self.run_script('plot', table, self.path('none.csv')), 'none.csv')
+        self.assert_main_refuses([table, '--x', 'nothing'], 'nothing', 'b.x')
+        self.assert_main_refuses([table, self.path('none.csv')], 'none.csv')
+        self.assert_main_refuses([table, '-o', self.path('image.nothing')], 'nothing')
         empty = self.path('empty.csv')
         open(empty, 'w').close()
-        self.assert_refused(self.run_script('plot', empty), 'no table of a path')
+        self.assert_main_refuses([empty], 'no table of a path')
+        with open(table) as file:
+            text = file.read()
+        with open(self.path('cut.csv'), 'w') as file:
+            file.write(text[:len(text) * 2 // 3])
+        self.assert_main_refuses([self.path('cut.csv')], 'cut.csv', 'line')
+
+
+class Shapes(QuickPlotTest):
+
+    def setUp(self):
+        super().setUp()
+        self.table = self.trace('sliding_bar', 'a.csv')
+        self.scene = ['--scene', scene_file('sliding_bar')]
+
+    def test_start_limit_points_and_end(self):
+        path = path_file.read(self.table)
+        rows = [int(row['index']) for row in path.rows if row['kind'] == 'smooth_limit']
+        texts = self.texts(self.table, '--shapes', *self.scene)
+        for text in ('row 0: start', 'row %d: smooth limit' % rows[0], 'row %d: smooth limit' % rows[1], 'load factor 2.1915',
+                     'friction cone, mu = 0.3', 'x [length]', 'slip+', 'stick'):
+            self.assertIn(text, texts)
+        self.assertTrue(any('[force]; arrows' in text for text in texts), texts)
+
+    def test_rows(self):
+        last = int(path_file.read(self.table).rows[-1]['index'])
+        texts = self.texts(self.table, '--rows', '0,30,end', *self.scene)
+        titles = [text for text in texts if text.startswith('row ')]
+        self.assertEqual(titles[:2] + [titles[2][:len('row %d' % last)]], ['row 0: start', 'row 30: regular', 'row %d' % last])
+        for rows, word in (('0,9999', 'no row 9999'), ('0,x', 'x'), ('', 'empty'), (','.join('0' * 25), '24')):
+            self.assert_main_refuses([self.table, '--rows', rows, *self.scene], '--rows', word)
+
+    def test_the_scene_must_be_that_of_the_path(self):
+        self.assert_main_refuses([self.table, '--shapes'], 'a.csv', '--scene')
+        self.assert_main_refuses([self.table, '--shapes', '--scene', scene_file('von_mises')], 'a.csv', 'von_mises.yaml')
+        self.assert_main_refuses([self.table, '--shapes', '--scene', self.table], 'a.csv', 'not a scene file')
+        self.assert_main_refuses([self.table, '--shapes', *self.scene, *self.scene], '--scene', '2 scene files')
+
+    def test_what_is_chosen_where_there_is_much(self):
+        path = path_file.Path('path')
+        kinds = ['start'] + ['contact_event', 'regular'] * 20 + ['smooth_limit', 'bifurcation', 'corner_limit', 'regular']
+        path.rows = [{'index': i, 'kind': kind, 'x_a': 0.0} for i, kind in enumerate(kinds)]
+        rows, left_out = plot_shapes.at_kinds(path, None)
+        self.assertEqual([row['index'] for row in rows], [0, 1, 3, 5, 7, 9, 41, 43, 44])
+        self.assertEqual(left_out, 16)
+        rows, left_out = plot_shapes.at_kinds(path, 'limits')
+        self.assertEqual([row['index'] for row in rows], [0, 41, 43, 44])
+        self.assertEqual(left_out, 0)
+        self.assertEqual(len(plot_shapes.at_kinds(path, 'events')[0]), 23)
+        self.assertEqual(plot_shapes.at_kinds(path, 'all')[1], 1)
+
+    def test_rows_without_positions_are_not_drawn(self):
+        path = path_file.Path('path')
+        nan = float('nan')
+        path.rows = [{'index': i, 'kind': 'regular', 'x_a': 0.0 if i % 4 == 0 else nan} for i in range(7)]
+        self.assertEqual([row['index'] for row in plot_shapes.by_index(path, [0, 'end'])], [0, 4])
+        with self.assertRaisesRegex(ValueError, 'row 5 .*full_state_every.* 4'):
+            plot_shapes.by_index(path, [5])
+        self.assertEqual([row['index'] for row in plot_shapes.at_kinds(path, None)[0]], [0, 4])
+
+    def test_drawn_forces_are_in_equilibrium(self):
+        """The arch has no supports: loads and reactions are all forces that act on it, so their arrows add up to nothing."""
+        path = path_file.read(self.trace('arch19', 'arch.csv'))
+        structure = plot_shapes.Structure(path_file.read_scene(scene_file('arch19')))
+        rows, _ = plot_shapes.at_kinds(path, None)
+        shapes = [plot_shapes.Shape(structure, row) for row in rows]
+        view = plot_shapes.View(shapes)
+        for shape in shapes[1:]:
+            axes = plt.figure().add_subplot(1, 1, 1)
+            plot_shapes.draw(axes, shape, view, (4.0, 3.0), named=False)
+            forces = {matplotlib.colors.to_hex(arrows.get_facecolor()[0]): np.column_stack((arrows.U, arrows.V))
+                      for arrows in axes.findobj(Quiver) if arrows.width == plot_shapes.ARROW_WIDTH}
+            plt.close('all')
+            loads, reactions = forces[plot_shapes.LOAD], forces[plot_shapes.REACTION]
+            self.assertAlmostEqual(loads[0, 1], shape.row['load_factor'] * view.length_per_force)
+            np.testing.assert_allclose(loads.sum(axis=0) + reactions.sum(axis=0), 0.0, atol=1e-8 * view.size)
+            self.assertLessEqual(np.hypot(*np.vstack((loads, reactions)).T).max(), 0.2001 * view.size)
 
 
 if __name__ == '__main__':

@@ -1,0 +1,252 @@
+"""Panels of numbers along paths: the load factor, the states of the contacts, the energies."""
+import math
+
+import numpy as np
+from matplotlib.patches import Rectangle
+
+# Kinds that are marked: label, marker, colour.
+MARKS = {
+    'start': ('start', 'o', 'black'),
+    'smooth_limit': ('smooth limit point', 's', 'tab:red'),
+    'corner_limit': ('corner limit point', '^', 'tab:purple'),
+    'contact_event': ('contact event', 'D', 'tab:green'),
+    'bifurcation': ('bifurcation', '*', 'tab:orange'),
+}
+
+# Colours of the contact states: they differ for those who see no red or no green, too.
+STATES = {'open': 'white', 'stick': '#d55e00', 'slip+': '#f0c000', 'slip-': '#56b4e9', 'closed': '#009e73'}
+EDGE = '0.35'  # around fields in these colours
+
+UNITS = {'load_factor': '[-]', 'arc_length': '[-]', 'dissipation': '[force length]', 'strain_energy': '[force length]',
+         'external_work': '[force length]', 'equilibrium_residual': '[-]', 'complementarity_residual': '[-]',
+         'solve_time': '[s]'}
+
+MOST_CONTACTS = 40  # from here on, contacts that stay open all along get no bar
+TALLEST_STATES = 7.0  # inches of bars, and of one:
+TALLEST_BAR = 0.3
+NEAR = 30.0  # points: rows as near as this on the figure share a label
+
+
+def quantities(path):
+    """Name as the user writes it -> column, of everything that can be plotted."""
+    known = {name: name for name in path.rows[0] if name != 'kind' and not name.startswith('state_')}
+    for node in path.nodes():
+        for axis in 'xy':
+            known['%s.%s' % (node, axis)] = known.pop('%s_%s' % (axis, node))
+    return known
+
+
+def default_quantity(path):
+    """The coordinate that moves most."""
+    known = quantities(path)
+    rows = path.full_rows()
+
+    def travel(name):
+        values = [row[known[name]] for row in rows]
+        return max(values) - min(values)
+
+    return max(('%s.%s' % (node, axis) for node in path.nodes() for axis in 'xy'), key=travel)
+
+
+def label(quantity):
+    if quantity.endswith(('.x', '.y')):
+        return 'position %s of node %s [length]' % (quantity[-1], quantity[:-2])
+    for start, text, unit in (('gap_', 'gap of ', '[length]'), ('rn_', 'normal reaction of ', '[force]'),
+                              ('rt_', 'tangential reaction of ', '[force]')):
+        if quantity.startswith(start):
+            return '%s%s %s' % (text, quantity[len(start):], unit)
+    return ' '.join((quantity.replace('_', ' '), UNITS.get(quantity, ''))).strip()
+
+
+def draw_path(axes, paths, quantity, numbered=()):
+    """Load factor against the quantity, a line for each path; critical points in the colours of their kinds, or, where there
+    are several paths, in the colours of the lines. Those drawn first are broad: they show below the later ones.
+
+    numbered: for each path, the rows that get their index beside them.
+    """
+    several = len(paths) > 1
+    marked = [[row for row in path.rows if row['kind'] != 'regular'] for path in paths]
+    size = 65 if max(len(rows) for rows in marked) <= 30 else 30
+    lines = []
+    for number, (path, critical) in enumerate(zip(paths, marked)):
+        column = quantities(path)[quantity]
+        shown = [row for row in path.rows if not math.isnan(row[column])]
+        line, = axes.plot([row[column] for row in shown], [row['load_factor'] for row in shown],
+                          label=path.title if several else None, **line_style(number, len(paths)))
+        lines.append(line)
+        for kind, (_, marker, colour) in MARKS.items():
+            rows = [row for row in critical if row['kind'] == kind]
+            axes.scatter([row[column] for row in rows], [row['load_factor'] for row in rows], marker=marker,
+                         color=line.get_color() if several else colour, edgecolors='white', linewidths=0.6,
+                         s=(1.8 - 0.8 * (number + 1) / len(paths)) * size * (2 if marker == '*' else 1), zorder=20 + number)
+    for kind, (text, marker, colour) in MARKS.items():
+        count = sum(row['kind'] == kind for rows in marked for row in rows)
+        if count:
+            axes.scatter([], [], marker=marker, color='0.4' if several else colour, s=130 if marker == '*' else 65,
+                         label=text if several else '%s (%d)' % (text, count))
+    axes.axhline(0.0, color='0.6', linewidth=0.8, zorder=0)
+    axes.margins(0.06)
+    axes.set_xlabel(label(quantity), fontsize=12)
+    axes.set_ylabel(label('load_factor'), fontsize=12)
+    axes.autoscale_view()
+    texts = [draw_legend(axes)]
+    for path, rows, line in zip(paths, numbered, lines):
+        write_indices(axes, path, rows, quantities(path)[quantity], line.get_color() if several else 'black', texts)
+
+
+def draw_legend(axes):
+    """Where it covers least; fixed there, for the resolution of the figure decides, too. Returns its box, in points."""
+    box = axes.legend(fontsize=10).get_window_extent(axes.figure.canvas.get_renderer())
+    axes.legend(fontsize=10, loc='lower left', bbox_to_anchor=axes.transAxes.inverted().transform(box.get_points()[0]),
+                borderaxespad=0.0)
+    return box.get_points() * 72.0 / axes.figure.dpi
+
+
+def line_style(number, count):
+    """Of a path among several: the first ones are broad, they show below the later ones."""
+    below = (count - 1 - number) / max(count - 1, 1)
+    return {'color': 'C%d' % (number % 10), 'linewidth': 1.5 + 2.5 * below, 'alpha': 0.6 if below else 1.0, 'zorder': 1 + number}
+
+
+def write_indices(axes, path, rows, column, colour, texts):
+    """Beside their points; rows that lie close together share a label. texts: boxes of those that are there already."""
+    rows_seen = [row for row in path.rows if not math.isnan(row[column])]
+    line = to_points(axes, [(row[column], row['load_factor']) for row in rows_seen])
+    low, high = (corner * 72.0 / axes.figure.dpi for corner in axes.get_window_extent().get_points())
+    groups = []  # index into rows_seen, indices of rows
+    for row in rows:
+        i = rows_seen.index(row)
+        if row['kind'] == 'regular':
+            axes.plot(row[column], row['load_factor'], 'o', color='white', markeredgecolor=colour, markersize=5, zorder=15)
+        for other, indices in groups:
+            if np.hypot(*(line[i] - line[other])) < NEAR:
+                indices.append(int(row['index']))
+                break
+        else:
+            groups.append((i, [int(row['index'])]))
+    for i, indices in groups:
+        text = ', '.join(map(str, indices)) if len(indices) <= 3 else '%d ... %d' % (indices[0], indices[-1])
+        around = line - line[i]
+        distance = np.hypot(*around.T)
+        near = (distance > 4.0) & (distance < NEAR)
+        near[[max(i - 1, 0), min(i + 1, len(line) - 1)]] = True
+        near &= distance > 0.0
+        size = np.array([6.0 * len(text), 11.0])
+
+        def has_room(direction):
+            begin, end = text_box(line[i], direction, 9.0, size)
+            return np.all(begin > low) and np.all(end < high) and all(
+                np.any(end < other_begin) or np.any(begin > other_end) for other_begin, other_end in texts)
+
+        direction = free_direction(around[near] / distance[near, None], has_room)
+        texts.append(text_box(line[i], direction, 9.0, size))
+        row = rows_seen[i]
+        axes.annotate(text, (row[column], row['load_factor']), xytext=np.mean(texts[-1], axis=0) - line[i],
+                      textcoords='offset points', fontsize=9, color=colour, ha='center', va='center', zorder=40,
+                      bbox={'facecolor': 'white', 'alpha': 0.7, 'pad': 0.6, 'edgecolor': 'none'})
+
+
+def to_points(axes, places):
+    """Places in the data on the figure, in points."""
+    return axes.transData.transform(np.array(places)) * 72.0 / axes.figure.dpi
+
+
+def free_direction(taken, admitted=lambda direction: True):
+    """One of eight directions, that which is farthest from those taken (of unit length)."""
+    directions = [np.array([math.cos(angle), math.sin(angle)]) for angle in np.radians((45, 135, 90, 0, 180, -45, -135, -90))]
+    return min([direction for direction in directions if admitted(direction)] or directions,
+               key=lambda direction: round(max([direction.dot(other) for other in taken], default=0.0), 3))
+
+
+def text_box(place, direction, gap, size):
+    """Two corners of a text that lies in this direction from a place."""
+    middle = place + direction * (gap + 0.5 * size)
+    return middle - 0.5 * size, middle + 0.5 * size
+
+
+def contacts_shown(path):
+    """Those that get a bar: all, unless there are many."""
+    contacts = path.contacts()
+    if len(contacts) <= MOST_CONTACTS:
+        return contacts
+    return [contact for contact in contacts if any(row['state_' + contact] not in ('', 'open') for row in path.rows)]
+
+
+def states_height(path):
+    """Of the bars, in inches."""
+    count = max(len(contacts_shown(path)), 1)
+    return count * min(TALLEST_BAR, TALLEST_STATES / count)
+
+
+def pieces(path, contact):
+    """State -> [(arc length of the beginning, length)]. A row that carries no state is on the piece of the next one that does:
+    rows where states change carry them."""
+    found = {}
+    states = path.column('state_' + contact)
+    for i in range(len(states) - 2, -1, -1):
+        states[i] = states[i] or states[i + 1]
+    for i in range(1, len(states)):
+        states[i] = states[i] or states[i - 1]
+    arc = path.column('arc_length')
+    begin = 0
+    for i in range(1, len(states)):  # the state of a row is that of the piece that ends in it
+        if i + 1 == len(states) or states[i + 1] != states[i]:
+            found.setdefault(states[i], []).append((arc[begin], arc[i] - arc[begin]))
+            begin = i
+    return found
+
+
+def draw_states(axes, path, arc_length):
+    """A bar for each contact, over arc length, in the colours of its states. arc_length: as far as the panel goes."""
+    contacts = contacts_shown(path)
+    used = set()
+    for line, contact in enumerate(contacts):
+        for state, spans in pieces(path, contact).items():
+            axes.broken_barh(spans, (line - 0.4, 0.8), facecolor=STATES[state], edgecolor=EDGE, linewidth=0.4)
+            used.add(state)
+    height = 72.0 * states_height(path) / max(len(contacts), 1)  # of a line, in points
+    step = math.ceil(7.0 / height)
+    axes.set_yticks(range(0, len(contacts), step))
+    axes.set_yticklabels([short(contact) for contact in contacts[::step]], fontsize=max(7.0, min(10.0, 0.6 * height)))
+    axes.set_ylim(max(len(contacts), 1) - 0.5, -0.5)
+    axes.set_xlim(0.0, arc_length)
+    axes.set_xlabel(label('arc_length'), fontsize=12)
+    left_out = len(path.contacts()) - len(contacts)
+    if left_out:
+        axes.text(0.0, 1.02, '%d more stay open' % left_out, transform=axes.transAxes, fontsize=10)
+    axes.legend(handles=[Rectangle((0, 0), 1, 1, facecolor=colour, edgecolor=EDGE, linewidth=0.6, label=state)
+                         for state, colour in STATES.items() if state in used],
+                fontsize=10, loc='lower right', bbox_to_anchor=(1.0, 1.0), ncol=len(STATES), frameon=False, borderpad=0.2,
+                handlelength=1.2, columnspacing=1.2)
+
+
+def short(name):
+    return name if len(name) <= 24 else name[:11] + '...' + name[-10:]
+
+
+# Energies: column, label, style of the line. A CSV has no work of the loads.
+ENERGIES = (('strain_energy', 'strain energy since the start', '-'), ('dissipation', 'dissipation', '--'),
+            ('external_work', 'work of the loads', ':'))
+
+
+def draw_energies(axes, paths, arc_length):
+    """A colour for each energy; where there are several paths, for each path."""
+    several = len(paths) > 1
+    for number, path in enumerate(paths):
+        arc = path.column('arc_length')
+        for i, (column, text, dashes) in enumerate(ENERGIES):
+            if column not in path.rows[0]:
+                continue
+            start = path.rows[0][column]
+            style = dict(line_style(number, len(paths)), linestyle=dashes) if several else {'color': 'C%d' % i, 'linestyle': dashes}
+            axes.plot(arc, [value - start for value in path.column(column)], label=None if several else text, **style)
+    if several:
+        for number, path in enumerate(paths):
+            axes.plot([], [], label=path.title, **line_style(number, len(paths)))
+        for column, text, dashes in ENERGIES:
+            if any(column in path.rows[0] for path in paths):
+                axes.plot([], [], color='0.4', linestyle=dashes, label=text)
+    axes.set_xlim(0.0, arc_length)
+    axes.set_xlabel(label('arc_length'), fontsize=12)
+    axes.set_ylabel('energy [force length]', fontsize=12)
+    axes.legend(fontsize=10)

@@ -1,0 +1,370 @@
+"""Draws deformed structures: bars, supports, obstacles, contacts in the colours of their states, loads and reactions."""
+import math
+
+import numpy as np
+from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch, Polygon
+from matplotlib.path import Path as Outline
+from matplotlib.patheffects import withStroke
+
+from plot_panels import MARKS, STATES, free_direction, text_box
+
+MOST = 9  # shapes that are chosen where nothing is said
+MOST_WANTED = 24  # shapes in a figure
+LIMITS = ('smooth_limit', 'corner_limit')
+KINDS_AT = {'events': ('corner_limit', 'contact_event'), 'limits': LIMITS, 'all': tuple(MARKS)}
+
+BARS, INITIAL, REACTION, LOAD, CONSTANT_LOAD, OBSTACLE = '#44546a', '0.8', '#b2182b', '#2166ac', '#7fb3d5', '0.45'
+LONGEST_ARROW = 0.2  # of the size of the structure
+SHORTEST_ARROW = 0.01  # shorter ones are not drawn
+ARROW_WIDTH = 0.022  # of the shaft, in inches
+HATCH_DEPTH = 0.06  # behind the boundary of an obstacle, of the size
+NEAR = 0.15  # a gap as small as this, of the size, brings the obstacle into view
+FEW = 12  # as few contacts show the parts of their reactions, as few nodes their names
+FLATTEST, STEEPEST = 0.22, 2.0  # height over width of a shape
+
+
+class Structure:
+    """The scene as arrays: nodes (n, 2), bars (m, 2) of indices, normals and tangents (k, 2) of the k contacts."""
+
+    def __init__(self, scene):
+        self.names = [node['name'] for node in scene['nodes']]
+        index = {name: i for i, name in enumerate(self.names)}
+        self.initial = np.array([[node['x'], node['y']] for node in scene['nodes']])
+        self.fixed = np.array([[node['fixed_x'], node['fixed_y']] for node in scene['nodes']])
+        self.bars = np.array([[index[name] for name in bar['nodes']] for bar in scene['bars']], dtype=int).reshape(-1, 2)
+        self.superelements = [[index[name] for name in part['nodes']] for part in scene['superelements']]
+        self.loads = [(index[load['node']], np.array([load['fx'], load['fy']]), load['constant']) for load in scene['loads']]
+        self.obstacles = {}  # name -> point, normal, friction
+        for obstacle in scene['obstacles']:
+            normal = np.array([obstacle['nx'], obstacle['ny']])
+            self.obstacles[obstacle['name']] = (np.array([obstacle['px'], obstacle['py']]), normal / np.hypot(*normal),
+                                                obstacle['friction'])
+        self.contact_nodes = np.array([index[contact['node']] for contact in scene['contacts']], dtype=int)
+        self.contact_obstacles = [contact['obstacle'] for contact in scene['contacts']]
+        self.contacts = ['%s@%s' % (contact['node'], contact['obstacle']) for contact in scene['contacts']]
+        self.normals = np.array([self.obstacles[name][1] for name in self.contact_obstacles]).reshape(-1, 2)
+        self.tangents = np.column_stack((self.normals[:, 1], -self.normals[:, 0]))
+        self.friction = np.array([self.obstacles[name][2] for name in self.contact_obstacles])
+
+    def positions(self, row):
+        return np.array([[row['x_' + name], row['y_' + name]] for name in self.names])
+
+    def of_contacts(self, row, quantity):
+        return np.array([row[quantity + name] for name in self.contacts])
+
+    def bar_directions(self):
+        """For each node the directions, of unit length, to those that it is joined to at the start."""
+        directions = [[] for _ in self.names]
+        for a, b in self.bars:
+            direction = self.initial[b] - self.initial[a]
+            direction = direction / (np.hypot(*direction) or 1.0)
+            directions[a].append(direction)
+            directions[b].append(-direction)
+        return directions
+
+
+class Shape:
+    """The structure in a row of the path. Forces are where they act: (node's place, force), each (., 2)."""
+
+    def __init__(self, structure, row):
+        self.structure = structure
+        self.row = row
+        self.places = structure.positions(row)
+        self.states = [row['state_' + name] for name in structure.contacts]
+        self.gaps = structure.of_contacts(row, 'gap_')
+        rn = structure.of_contacts(row, 'rn_')[:, None]
+        self.normal_parts = rn * structure.normals
+        self.tangential_parts = structure.of_contacts(row, 'rt_')[:, None] * structure.tangents
+        self.reactions = self.normal_parts + self.tangential_parts
+        self.cone = structure.friction[:, None] * rn * structure.tangents  # half of its base
+        self.touching = self.places[structure.contact_nodes]
+        self.loads = self.loads_of(False, row['load_factor'])
+        self.constant_loads = self.loads_of(True, 1.0)
+
+    def loads_of(self, constant, factor):
+        loads = [(self.places[node], factor * force) for node, force, is_constant in self.structure.loads
+                 if is_constant == constant]
+        return (np.array([place for place, _ in loads]).reshape(-1, 2), np.array([force for _, force in loads]).reshape(-1, 2))
+
+    def forces(self):
+        return np.vstack((self.reactions, self.loads[1], self.constant_loads[1]))
+
+
+def at_kinds(path, at):
+    """The rows to draw, and how many were left out because a figure holds no more.
+
+    at: 'events', 'limits' or 'all' of them; None: some of all. The first and the last row that carry positions are always
+    drawn. Limit points come first, then what happens earlier.
+    """
+    rows = path.full_rows()
+    kinds = KINDS_AT[at or 'all']
+    wanted = [row for row in rows[1:-1] if row['kind'] in kinds]
+    wanted.sort(key=lambda row: (row['kind'] not in LIMITS, row['index']))
+    room = (MOST_WANTED if at else MOST) - 2
+    shown = sorted(wanted[:room], key=lambda row: row['index'])
+    return rows[:1] + shown + rows[1:][-1:], len(wanted[room:])
+
+
+def by_index(path, indices):
+    """The rows of these indices; 'end': the last one that carries positions."""
+    rows = {int(row['index']): row for row in path.rows}
+    full = sorted(int(row['index']) for row in path.full_rows())
+    shown = []
+    for index in indices:
+        index = full[-1] if index == 'end' else index
+        if index not in rows:
+            raise ValueError('--rows: no row %d: the last one is %d' % (index, max(rows)))
+        if index not in full:
+            near = sorted(full, key=lambda other: (abs(other - index), other))[0]
+            raise ValueError('--rows: row %d carries no positions (full_state_every), the next that does is %d' % (index, near))
+        shown.append(rows[index])
+    return shown
+
+
+class View:
+    """What all shapes of a figure have in common: what is seen, the scale of the arrows, the extent of obstacles."""
+
+    def __init__(self, shapes):
+        places = np.vstack([shape.places for shape in shapes] + [shape.structure.initial for shape in shapes])
+        low, high = places.min(axis=0), places.max(axis=0)
+        self.size = max(high - low) or 1.0
+        self.largest_force = max([np.hypot(*shape.forces().T).max() for shape in shapes if len(shape.forces())], default=0.0)
+        self.length_per_force = LONGEST_ARROW * self.size / self.largest_force if self.largest_force > 0.0 else 0.0
+        points = [places]
+        for shape in shapes:
+            scale = self.length_per_force
+            points.append(shape.touching + scale * (shape.normal_parts + shape.cone))
+            points.append(shape.touching + scale * (shape.normal_parts - shape.cone))
+            for at, force in (shape.loads, shape.constant_loads):
+                points.append(at + scale * force)
+            depth = (np.maximum(shape.gaps, 0.0) + HATCH_DEPTH * self.size)[:, None]
+            supports = support_directions(shape.structure)
+            points += [shape.places[node] + [0.1 * self.size * np.array(direction)] for node, direction in supports.items()]
+            points.append((shape.touching - depth * shape.structure.normals)[shape.gaps < NEAR * self.size])
+        points = np.vstack(points)
+        low, high = points.min(axis=0), points.max(axis=0)
+        margin = self.size * np.array([0.09, 0.07])
+        width, height = high - low + 2.0 * margin
+        more = 0.5 * np.array([max(height / STEEPEST - width, 0.0), max(FLATTEST * width - height, 0.0)])
+        self.low, self.high = low - margin - more, high + margin + more
+        self.aspect = (self.high - self.low)[1] / (self.high - self.low)[0]
+        self.obstacles = self.extents(shapes)
+
+    def extents(self, shapes):
+        """(point, normal, first, last) of the obstacles: as far as they are drawn along t. A part of the structure that is no
+        candidate may lie behind one; then it is drawn where its candidates are, otherwise across the view."""
+        found = {}
+        for shape in shapes:
+            structure = shape.structure
+            for name, (point, normal, _) in structure.obstacles.items():
+                along = (np.vstack((shape.places, structure.initial)) - point).dot((normal[1], -normal[0]))
+                above = (np.vstack((shape.places, structure.initial)) - point).dot(normal)
+                nodes = structure.contact_nodes[[other == name for other in structure.contact_obstacles]]
+                if not len(nodes):
+                    continue
+                candidates = along[:len(shape.places)][nodes]
+                key = (tuple(point), tuple(normal))
+                first, last, crossed = found.get(key, (math.inf, -math.inf, False))
+                found[key] = (min(first, candidates.min()), max(last, candidates.max()),
+                              crossed or above.min() < -1e-6 * self.size)
+        reach = 2.0 * np.hypot(*(self.high - self.low))
+        extents = []
+        for (point, normal), (first, last, crossed) in found.items():
+            middle = (0.5 * (self.low + self.high) - point).dot((normal[1], -normal[0]))
+            margin = 0.06 * self.size
+            extents.append((np.array(point), np.array(normal), *((first - margin, last + margin) if crossed else
+                                                                 (middle - reach, middle + reach))))
+        return extents
+
+
+def draw(axes, shape, view, size, named):
+    """size: of the panel, in inches; named: with the names of the nodes, if they are few."""
+    structure = shape.structure
+    many = len(structure.names) > 100
+    for point, normal, first, last in view.obstacles:
+        draw_obstacle(axes, point, normal, first, last, HATCH_DEPTH * view.size)
+    thin = 0.5 if many else 1.0
+    axes.add_collection(LineCollection(structure.initial[structure.bars], colors=INITIAL, linewidths=thin, zorder=1))
+    axes.add_collection(LineCollection(shape.places[structure.bars], colors=BARS, linewidths=0.6 if many else 1.5, zorder=3))
+    for nodes in structure.superelements:
+        hub = shape.places[nodes].mean(axis=0) if len(nodes) > 1 else structure.initial[nodes[0]]
+        axes.add_collection(LineCollection([(hub, shape.places[node]) for node in nodes], colors=BARS, linewidths=1.2,
+                                           linestyles='dashed', zorder=3))
+    if not many:
+        axes.scatter(*structure.initial.T, s=8, color=INITIAL, zorder=2, linewidths=0)
+        axes.scatter(*shape.places.T, s=12, color=BARS, zorder=4, linewidths=0)
+    supports = support_directions(structure)
+    draw_supports(axes, shape, supports, 300.0 if not many else 60.0)
+    draw_forces(axes, shape, view)
+    draw_states(axes, shape, 40.0 if len(structure.contacts) <= 30 else 12.0)
+    if named and len(structure.names) <= FEW:
+        draw_names(axes, shape, view, supports, (view.high - view.low)[0] / size[0])
+    axes.set_xlim(view.low[0], view.high[0])
+    axes.set_ylim(view.low[1], view.high[1])
+    axes.set_aspect('equal', adjustable='box', anchor='C')
+    axes.tick_params(labelsize=8, length=2.5)
+    axes.locator_params(nbins=max(3, int(2.0 * size[0])), axis='x')
+    axes.locator_params(nbins=max(3, int(2.5 * size[1])), axis='y')
+
+
+def draw_obstacle(axes, point, normal, first, last, depth):
+    tangent = np.array([normal[1], -normal[0]])
+    begin, end = point + first * tangent, point + last * tangent
+    axes.add_patch(Polygon([begin, end, end - depth * normal, begin - depth * normal], closed=True, facecolor='none',
+                           edgecolor=OBSTACLE, hatch='/////', linewidth=0.0, zorder=0))
+    axes.plot(*zip(begin, end), color=OBSTACLE, linewidth=1.2, zorder=0, solid_capstyle='butt')
+
+
+# Tips at the node, which lies above.
+PINNED = np.array([(0.0, 0.0), (-0.6, -1.0), (0.6, -1.0), (0.0, 0.0)])
+ROLLER = np.vstack((PINNED, [(-0.8, -1.25), (0.8, -1.25)]))
+MOVES = [Outline.MOVETO, Outline.LINETO, Outline.LINETO, Outline.CLOSEPOLY]
+
+
+def support_marker(roller, direction):
+    """direction: from the node to the ground, (0, -1) as it stands."""
+    points = ROLLER if roller else PINNED
+    x, y = direction
+    turned = points.dot(np.array([[-y, x], [-x, -y]]))
+    return Outline(turned, MOVES + [Outline.MOVETO, Outline.LINETO] if roller else MOVES)
+
+
+def support_directions(structure):
+    """Node -> direction to the ground of its support: away from the structure, as far as the support allows."""
+    inwards = [sum(directions, np.zeros(2)) for directions in structure.bar_directions()]
+    found = {}
+    for node in np.flatnonzero(structure.fixed.any(axis=1)):
+        fixed_x, fixed_y = structure.fixed[node]
+        directions = ([(0, -1), (0, 1)] if fixed_y else []) + ([(-1, 0), (1, 0)] if fixed_x else [])
+        found[node] = min(directions, key=lambda direction: round(inwards[node].dot(direction), 6))
+    return found
+
+
+def draw_supports(axes, shape, supports, area):
+    groups = {}
+    for node, direction in supports.items():
+        groups.setdefault((not shape.structure.fixed[node].all(), direction), []).append(node)
+    for (roller, direction), nodes in groups.items():
+        axes.scatter(*shape.places[nodes].T, marker=support_marker(roller, direction), s=area,
+                     facecolor='white' if roller else '0.6', edgecolor='0.25', linewidths=0.8, zorder=3.5)
+
+
+def draw_names(axes, shape, view, supports, inch):
+    """Beside the nodes, where bars, supports, obstacles and loads leave most room. inch: the length that is an inch."""
+    structure = shape.structure
+    taken = structure.bar_directions()
+    for node, direction in supports.items():
+        taken[node].append(np.array(direction))
+    for node, normal, tangent in zip(structure.contact_nodes, structure.normals, structure.tangents):
+        taken[node] += [normal, -normal, tangent, -tangent]
+    for node, force, _ in structure.loads:
+        taken[node].append(force / (np.hypot(*force) or 1.0))
+    for name, place, directions in zip(structure.names, shape.places, taken):
+        size = np.array([0.06 * len(name) + 0.03, 0.12]) * inch
+
+        def is_in_view(direction):
+            begin, end = text_box(place, direction, 0.09 * inch, size)
+            return np.all(begin > view.low) and np.all(end < view.high)
+
+        box = text_box(place, free_direction(directions, is_in_view), 0.09 * inch, size)
+        axes.text(*np.mean(box, axis=0), name, fontsize=8, color='0.25', ha='center', va='center', zorder=9,
+                  path_effects=[withStroke(linewidth=2.0, foreground='white')])
+
+
+def draw_arrows(axes, view, places, forces, colour, width, zorder, alpha=1.0):
+    """From the places on; width in inches."""
+    lengths = view.length_per_force * np.hypot(*forces.T)
+    long = lengths > SHORTEST_ARROW * view.size
+    if long.any():
+        arrows(axes, places[long], view.length_per_force * forces[long], colour, width, alpha=alpha, zorder=zorder)
+
+
+def arrows(axes, begins, vectors, colour, width, **style):
+    axes.quiver(*np.transpose(begins), *np.transpose(vectors), angles='xy', scale_units='xy', scale=1.0, units='inches', width=width,
+                headwidth=4.0, headlength=5.0, headaxislength=4.5, minlength=0.1, color=colour, **style)
+
+
+def shows_parts(shape):
+    """Whether the normal and tangential parts of the reactions are drawn beside their sums."""
+    return len(shape.states) <= FEW and np.any(shape.structure.friction > 0.0)
+
+
+def draw_forces(axes, shape, view):
+    scale = view.length_per_force
+    base = shape.touching + scale * shape.normal_parts
+    cones = np.stack((shape.touching, base - scale * shape.cone, base + scale * shape.cone), axis=1)
+    pressed = scale * np.hypot(*shape.normal_parts.T) > SHORTEST_ARROW * view.size
+    axes.add_collection(PolyCollection(cones[pressed], facecolors=REACTION, alpha=0.15, linewidths=0.0, zorder=2.5))
+    width = ARROW_WIDTH * (1.0 if max(len(shape.states), len(shape.loads[0]), len(shape.constant_loads[0])) <= 30 else 0.5)
+    draw_arrows(axes, view, *shape.constant_loads, CONSTANT_LOAD, width, 5)
+    draw_arrows(axes, view, *shape.loads, LOAD, width, 5.1)
+    if shows_parts(shape):
+        draw_arrows(axes, view, shape.touching, shape.normal_parts, REACTION, 0.5 * width, 5.2, 0.7)
+        draw_arrows(axes, view, shape.touching, shape.tangential_parts, REACTION, 0.5 * width, 5.2, 0.7)
+    draw_arrows(axes, view, shape.touching, shape.reactions, REACTION, width, 5.3)
+
+
+def draw_states(axes, shape, area):
+    """A mark on each candidate. One that touches two obstacles has two, one within the other."""
+    drawn = {}  # node -> marks
+    layers = {}
+    closed_first = sorted(range(len(shape.states)), key=lambda i: shape.states[i] == 'open')
+    for i in closed_first:
+        node = shape.structure.contact_nodes[i]
+        layer = drawn.get(node, 0)
+        if layer and shape.states[i] == 'open':
+            continue
+        drawn[node] = layer + 1
+        layers.setdefault((layer, shape.states[i]), []).append(i)
+    for (layer, state), contacts in sorted(layers.items()):
+        axes.scatter(*shape.touching[contacts].T, s=area / (1.0 + 2.0 * layer), color=STATES[state], edgecolors='black',
+                     linewidths=0.7 if area > 20.0 else 0.4, zorder=7 + layer)
+
+
+def title(shape, ends):
+    """ends: the row is the last one of the path."""
+    load = shape.row['load_factor']
+    kind = shape.row['kind'].replace('_', ' ')
+    if ends:
+        kind = 'end' if kind == 'regular' else kind + ', end'
+    return 'row %d: %s\nload factor %.5g' % (shape.row['index'], kind, load if abs(load) > 1e-12 else 0.0)
+
+
+def legend_handles(shapes, view):
+    """Of all that is drawn in the shapes."""
+    structures = [shape.structure for shape in shapes]
+
+    def arrow(colour, text):
+        return Line2D([], [], color=colour, linewidth=2.0, marker='>', markevery=[1], markersize=6, label=text)
+
+    states = {state for shape in shapes for state in shape.states}
+    handles = [Line2D([], [], marker='o', linestyle='', markersize=6.5, color=colour, markeredgecolor='black',
+                      markeredgewidth=0.7, label=state) for state, colour in STATES.items() if state in states]
+    if any(np.any(shape.reactions) for shape in shapes):
+        handles.append(arrow(REACTION, 'reaction' + (', thin: its parts' if any(map(shows_parts, shapes)) else '')))
+    coefficients = sorted({mu for structure in structures for mu in structure.friction if mu > 0.0})
+    if coefficients:
+        mu = '%.3g' % coefficients[0] if len(coefficients) == 1 else '%.3g to %.3g' % (coefficients[0], coefficients[-1])
+        handles.append(Patch(facecolor=REACTION, alpha=0.15, label='friction cone, mu = ' + mu))
+    if any(np.any(shape.loads[1]) for shape in shapes):
+        handles.append(arrow(LOAD, 'load'))
+    if any(np.any(shape.constant_loads[1]) for shape in shapes):
+        handles.append(arrow(CONSTANT_LOAD, 'constant load'))
+    handles.append(Line2D([], [], color=INITIAL, linewidth=1.5, marker='o', markersize=3, label='initial shape'))
+    if any(structure.superelements for structure in structures):
+        handles.append(Line2D([], [], color=BARS, linewidth=1.2, linestyle='dashed', label='superelement'))
+    if view.obstacles:
+        handles.append(Patch(facecolor='white', edgecolor=OBSTACLE, hatch='/////', linewidth=0.0, label='obstacle'))
+    return handles
+
+
+def draw_scale(axes, view, inches_per_length, middle, height):
+    """An arrow and the force that it stands for, a round number. The units of the axes are inches."""
+    inches = view.length_per_force * inches_per_length  # per force
+    powers = [10.0 ** (math.floor(math.log10(1.0 / inches)) + i) for i in (-1, 0)]
+    force = max(digit * power for power in powers for digit in (1, 2, 5) if digit * power * inches <= 1.0)
+    length = force * inches
+    arrows(axes, [(middle - length - 0.5, height)], [(length, 0.0)], 'black', ARROW_WIDTH)
+    axes.text(middle - 0.4, height, '%g [force]; arrows begin at their nodes' % force, fontsize=9, va='center')

@@ -1,0 +1,40 @@
+#!/usr/bin/env python3
+"""Plots paths from bags as `rosrun contact_path plot` does: the scene and what tells paths apart come from the request.
+
+CONTACT_PATH_TRACE, CONTACT_PATH_PLOT: the programs; CONTACT_PATH_SCENES: the directory of the example scenes.
+"""
+import unittest
+
+from plot_run import PlotTest
+
+
+class PlotBagTest(PlotTest):
+
+    def test_shapes_need_no_scene_file(self):
+        bag = self.trace('rough_truss', 'a.bag')
+        texts = self.texts(bag, '--shapes', '--states', '--energy')
+        for text in ('rough_truss, branch, 21 increments', 'row 10: corner limit', 'work of the loads', 'foot@floor'):
+            self.assertIn(text, texts)
+        self.assert_refused(self.plot(bag, '--shapes', '--scene', 'any.yaml'), '--scene', 'bag holds')
+
+    def test_paths_are_told_apart_by_what_differs(self):
+        rough = self.changed_scene('sliding_bar', 'friction: 0.3', 'friction: 0.6')
+        first, second = self.trace('sliding_bar', 'first.bag'), self.trace(rough, 'second.bag')
+        texts = self.texts(first, second)
+        self.assertIn('friction 0.3', texts)
+        self.assertIn('friction 0.6', texts)
+        other, again = self.trace('sliding_bar', 'other.bag', '--method', 'mpec'), self.trace('sliding_bar', 'again.bag')
+        texts = self.texts(first, other, again)
+        for text in ('branch (first)', 'mpec', 'branch (again)'):
+            self.assertIn(text, texts)
+
+    def test_rows_without_positions(self):
+        scene = self.changed_scene('sliding_bar', 'options:', 'options:\n  full_state_every: 10')
+        bag = self.trace(scene, 'a.bag', '--max-increments', '15')
+        texts = self.texts(bag, '--shapes', '--states')
+        self.assertEqual([text for text in texts if text.startswith('row ')], ['row 0: start', 'row 10: regular'])
+        self.assert_refused(self.plot(bag, '--rows', '0,14'), 'a.bag', 'row 14', 'full_state_every', '10')
+
+
+if __name__ == '__main__':
+    unittest.main()
