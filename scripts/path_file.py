@@ -23,7 +23,8 @@ class Path:
 
     Where a message carries no positions and contacts (full_state_every), these numbers are nan and the states ''.
 
-    scene: {'name': .., 'nodes': [{'name': .., 'x': ..}, ..], ..} with the fields of PARTS; None where it is not known (CSV).
+    scene: {'name': .., 'nodes': [{'name': .., 'x': ..}, ..], ..} with the fields of PARTS; None where it is not known
+    (CSV).
     options: the TraceOptions of the request; None where they are not known (CSV).
     """
 
@@ -66,7 +67,8 @@ def read_csv(name):
         numbers = [not (column == 'kind' or column.startswith('state_')) for column in columns]
         for line in table:
             if len(line) != len(columns):
-                raise ValueError('line %d: %d values in a table of %d columns' % (table.line_num, len(line), len(columns)))
+                raise ValueError('line %d: %d values in a table of %d columns' %
+                                 (table.line_num, len(line), len(columns)))
             try:
                 values = [float(value) if number else value for value, number in zip(line, numbers)]
             except ValueError as error:

@@ -59,8 +59,8 @@ def label(quantity):
 
 
 def draw_path(axes, paths, quantity, numbered=()):
-    """Load factor against the quantity, a line for each path; critical points in the colours of their kinds, or, where there
-    are several paths, in the colours of the lines. Those drawn first are broad: they show below the later ones.
+    """Load factor against the quantity, a line for each path; critical points in the colours of their kinds, or, where
+    there are several paths, in the colours of the lines.
 
     numbered: for each path, the rows that get their index beside them.
     """
@@ -78,7 +78,8 @@ def draw_path(axes, paths, quantity, numbered=()):
             rows = [row for row in critical if row['kind'] == kind]
             axes.scatter([row[column] for row in rows], [row['load_factor'] for row in rows], marker=marker,
                          color=line.get_color() if several else colour, edgecolors='white', linewidths=0.6,
-                         s=(1.8 - 0.8 * (number + 1) / len(paths)) * size * (2 if marker == '*' else 1), zorder=20 + number)
+                         s=(1.8 - 0.8 * (number + 1) / len(paths)) * size * (2 if marker == '*' else 1),
+                         zorder=20 + number)
     for kind, (text, marker, colour) in MARKS.items():
         count = sum(row['kind'] == kind for rows in marked for row in rows)
         if count:
@@ -105,11 +106,12 @@ def draw_legend(axes):
 def line_style(number, count):
     """Of a path among several: the first ones are broad, they show below the later ones."""
     below = (count - 1 - number) / max(count - 1, 1)
-    return {'color': 'C%d' % (number % 10), 'linewidth': 1.5 + 2.5 * below, 'alpha': 0.6 if below else 1.0, 'zorder': 1 + number}
+    return {'color': 'C%d' % (number % 10), 'linewidth': 1.5 + 2.5 * below, 'alpha': 0.6 if below else 1.0,
+            'zorder': 1 + number}
 
 
 def write_indices(axes, path, rows, column, colour, texts):
-    """Beside their points; rows that lie close together share a label. texts: boxes of those that are there already."""
+    """Beside their points; rows that lie close together share a label. texts: boxes of those that stand already."""
     rows_seen = [row for row in path.rows if not math.isnan(row[column])]
     line = to_points(axes, [(row[column], row['load_factor']) for row in rows_seen])
     low, high = (corner * 72.0 / axes.figure.dpi for corner in axes.get_window_extent().get_points())
@@ -117,7 +119,8 @@ def write_indices(axes, path, rows, column, colour, texts):
     for row in rows:
         i = rows_seen.index(row)
         if row['kind'] == 'regular':
-            axes.plot(row[column], row['load_factor'], 'o', color='white', markeredgecolor=colour, markersize=5, zorder=15)
+            axes.plot(row[column], row['load_factor'], 'o', color='white', markeredgecolor=colour, markersize=5,
+                      zorder=15)
         for other, indices in groups:
             if np.hypot(*(line[i] - line[other])) < NEAR:
                 indices.append(int(row['index']))
@@ -153,7 +156,8 @@ def to_points(axes, places):
 
 def free_direction(taken, admitted=lambda direction: True):
     """One of eight directions, that which is farthest from those taken (of unit length)."""
-    directions = [np.array([math.cos(angle), math.sin(angle)]) for angle in np.radians((45, 135, 90, 0, 180, -45, -135, -90))]
+    angles = np.radians((45, 135, 90, 0, 180, -45, -135, -90))
+    directions = [np.array([math.cos(angle), math.sin(angle)]) for angle in angles]
     return min([direction for direction in directions if admitted(direction)] or directions,
                key=lambda direction: round(max([direction.dot(other) for other in taken], default=0.0), 3))
 
@@ -172,6 +176,11 @@ def contacts_shown(path):
     return [contact for contact in contacts if any(row['state_' + contact] not in ('', 'open') for row in path.rows)]
 
 
+def states_title(path, several):
+    left_out = len(path.contacts()) - len(contacts_shown(path))
+    return (path.title if several else 'Contacts') + (', %d more stay open' % left_out if left_out else '')
+
+
 def states_height(path):
     """Of the bars, in inches."""
     count = max(len(contacts_shown(path)), 1)
@@ -179,8 +188,8 @@ def states_height(path):
 
 
 def pieces(path, contact):
-    """State -> [(arc length of the beginning, length)]. A row that carries no state is on the piece of the next one that does:
-    rows where states change carry them."""
+    """State -> [(arc length of the beginning, length)]. A row that carries no state is on the piece of the next one
+    that does: rows where states change carry them."""
     found = {}
     states = path.column('state_' + contact)
     for i in range(len(states) - 2, -1, -1):
@@ -211,13 +220,10 @@ def draw_states(axes, path, arc_length):
     axes.set_ylim(max(len(contacts), 1) - 0.5, -0.5)
     axes.set_xlim(0.0, arc_length)
     axes.set_xlabel(label('arc_length'), fontsize=12)
-    left_out = len(path.contacts()) - len(contacts)
-    if left_out:
-        axes.text(0.0, 1.02, '%d more stay open' % left_out, transform=axes.transAxes, fontsize=10)
     axes.legend(handles=[Rectangle((0, 0), 1, 1, facecolor=colour, edgecolor=EDGE, linewidth=0.6, label=state)
                          for state, colour in STATES.items() if state in used],
-                fontsize=10, loc='lower right', bbox_to_anchor=(1.0, 1.0), ncol=len(STATES), frameon=False, borderpad=0.2,
-                handlelength=1.2, columnspacing=1.2)
+                fontsize=10, loc='lower right', bbox_to_anchor=(1.0, 1.0), ncol=len(STATES), frameon=False,
+                borderpad=0.2, handlelength=1.2, columnspacing=1.2)
 
 
 def short(name):
@@ -238,8 +244,9 @@ def draw_energies(axes, paths, arc_length):
             if column not in path.rows[0]:
                 continue
             start = path.rows[0][column]
-            style = dict(line_style(number, len(paths)), linestyle=dashes) if several else {'color': 'C%d' % i, 'linestyle': dashes}
-            axes.plot(arc, [value - start for value in path.column(column)], label=None if several else text, **style)
+            style = line_style(number, len(paths)) if several else {'color': 'C%d' % i}
+            axes.plot(arc, [value - start for value in path.column(column)], linestyle=dashes,
+                      label=None if several else text, **style)
     if several:
         for number, path in enumerate(paths):
             axes.plot([], [], label=path.title, **line_style(number, len(paths)))

@@ -1,10 +1,10 @@
-"""Draws deformed structures: bars, supports, obstacles, contacts in the colours of their states, loads and reactions."""
+"""Draws deformed structures: bars, supports, obstacles, contacts in the colours of their states, loads, reactions."""
 import math
 
 import numpy as np
-from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.collections import PolyCollection
 from matplotlib.lines import Line2D
-from matplotlib.patches import Patch, Polygon
+from matplotlib.patches import Patch
 from matplotlib.path import Path as Outline
 from matplotlib.patheffects import withStroke
 
@@ -20,9 +20,11 @@ LONGEST_ARROW = 0.2  # of the size of the structure
 SHORTEST_ARROW = 0.01  # shorter ones are not drawn
 ARROW_WIDTH = 0.022  # of the shaft, in inches
 HATCH_DEPTH = 0.06  # behind the boundary of an obstacle, of the size
+SUPPORT_DEPTH = 0.1  # kept free for supports, of the size
 NEAR = 0.15  # a gap as small as this, of the size, brings the obstacle into view
-FEW = 12  # as few contacts show the parts of their reactions, as few nodes their names
-FLATTEST, STEEPEST = 0.22, 2.0  # height over width of a shape
+FEW_CONTACTS, FEW_NODES = 6, 12  # as few show the parts of their reactions and their names
+MANY_NODES, MANY_MARKS = 100, 30  # from here on they are small
+FLATTEST, STEEPEST = 0.22, 1.25  # height over width of a shape
 
 
 class Structure:
@@ -33,9 +35,13 @@ class Structure:
         index = {name: i for i, name in enumerate(self.names)}
         self.initial = np.array([[node['x'], node['y']] for node in scene['nodes']])
         self.fixed = np.array([[node['fixed_x'], node['fixed_y']] for node in scene['nodes']])
-        self.bars = np.array([[index[name] for name in bar['nodes']] for bar in scene['bars']], dtype=int).reshape(-1, 2)
+        self.bars = np.array([[index[name] for name in bar['nodes']] for bar in scene['bars']],
+                             dtype=int).reshape(-1, 2)
+        self.bar_directions = self.find_bar_directions()
+        self.supports = self.find_supports()
         self.superelements = [[index[name] for name in part['nodes']] for part in scene['superelements']]
-        self.loads = [(index[load['node']], np.array([load['fx'], load['fy']]), load['constant']) for load in scene['loads']]
+        self.loads = [(index[load['node']], np.array([load['fx'], load['fy']]), load['constant'])
+                      for load in scene['loads']]
         self.obstacles = {}  # name -> point, normal, friction
         for obstacle in scene['obstacles']:
             normal = np.array([obstacle['nx'], obstacle['ny']])
@@ -48,21 +54,36 @@ class Structure:
         self.tangents = np.column_stack((self.normals[:, 1], -self.normals[:, 0]))
         self.friction = np.array([self.obstacles[name][2] for name in self.contact_obstacles])
 
+    def is_at(self, point, normal):
+        """For each contact, whether its obstacle is this one."""
+        return np.array([tuple(self.obstacles[name][0]) == point and tuple(self.obstacles[name][1]) == normal
+                         for name in self.contact_obstacles], dtype=bool)
+
     def positions(self, row):
         return np.array([[row['x_' + name], row['y_' + name]] for name in self.names])
 
     def of_contacts(self, row, quantity):
         return np.array([row[quantity + name] for name in self.contacts])
 
-    def bar_directions(self):
+    def find_bar_directions(self):
         """For each node the directions, of unit length, to those that it is joined to at the start."""
         directions = [[] for _ in self.names]
-        for a, b in self.bars:
-            direction = self.initial[b] - self.initial[a]
-            direction = direction / (np.hypot(*direction) or 1.0)
-            directions[a].append(direction)
-            directions[b].append(-direction)
+        vectors = self.initial[self.bars[:, 1]] - self.initial[self.bars[:, 0]]
+        vectors /= np.maximum(np.hypot(*vectors.T), 1e-300)[:, None]
+        for (a, b), vector in zip(self.bars, vectors):
+            directions[a].append(vector)
+            directions[b].append(-vector)
         return directions
+
+    def find_supports(self):
+        """Node -> direction to the ground of its support: away from the structure, as far as the support allows."""
+        found = {}
+        for node in np.flatnonzero(self.fixed.any(axis=1)):
+            inwards = sum(self.bar_directions[node], np.zeros(2))
+            fixed_x, fixed_y = self.fixed[node]
+            directions = ([(0, -1), (0, 1)] if fixed_y else []) + ([(-1, 0), (1, 0)] if fixed_x else [])
+            found[node] = np.array(min(directions, key=lambda direction: round(inwards.dot(direction), 6)))
+        return found
 
 
 class Shape:
@@ -86,7 +107,8 @@ class Shape:
     def loads_of(self, constant, factor):
         loads = [(self.places[node], factor * force) for node, force, is_constant in self.structure.loads
                  if is_constant == constant]
-        return (np.array([place for place, _ in loads]).reshape(-1, 2), np.array([force for _, force in loads]).reshape(-1, 2))
+        return (np.array([place for place, _ in loads]).reshape(-1, 2),
+                np.array([force for _, force in loads]).reshape(-1, 2))
 
     def forces(self):
         return np.vstack((self.reactions, self.loads[1], self.constant_loads[1]))
@@ -95,8 +117,8 @@ class Shape:
 def at_kinds(path, at):
     """The rows to draw, and how many were left out because a figure holds no more.
 
-    at: 'events', 'limits' or 'all' of them; None: some of all. The first and the last row that carry positions are always
-    drawn. Limit points come first, then what happens earlier.
+    at: 'events', 'limits' or 'all' of them; None: some of all. The first and the last row that carry positions are
+    always drawn. Limit points come first, then what happens earlier.
     """
     rows = path.full_rows()
     kinds = KINDS_AT[at or 'all']
@@ -118,7 +140,8 @@ def by_index(path, indices):
             raise ValueError('--rows: no row %d: the last one is %d' % (index, max(rows)))
         if index not in full:
             near = sorted(full, key=lambda other: (abs(other - index), other))[0]
-            raise ValueError('--rows: row %d carries no positions (full_state_every), the next that does is %d' % (index, near))
+            raise ValueError('--rows: row %d carries no positions (full_state_every), the nearest that does is %d' %
+                             (index, near))
         shown.append(rows[index])
     return shown
 
@@ -129,9 +152,11 @@ class View:
     def __init__(self, shapes):
         places = np.vstack([shape.places for shape in shapes] + [shape.structure.initial for shape in shapes])
         low, high = places.min(axis=0), places.max(axis=0)
-        self.size = max(high - low) or 1.0
-        self.largest_force = max([np.hypot(*shape.forces().T).max() for shape in shapes if len(shape.forces())], default=0.0)
-        self.length_per_force = LONGEST_ARROW * self.size / self.largest_force if self.largest_force > 0.0 else 0.0
+        self.size = max(high - low)
+        if self.size <= 1e-9 * np.abs(places).max():
+            self.size = 1.0  # one node that does not move
+        largest = max([np.hypot(*shape.forces().T).max() for shape in shapes if len(shape.forces())], default=0.0)
+        self.length_per_force = LONGEST_ARROW * self.size / largest if largest > 0.0 else 0.0
         points = [places]
         for shape in shapes:
             scale = self.length_per_force
@@ -140,8 +165,8 @@ class View:
             for at, force in (shape.loads, shape.constant_loads):
                 points.append(at + scale * force)
             depth = (np.maximum(shape.gaps, 0.0) + HATCH_DEPTH * self.size)[:, None]
-            supports = support_directions(shape.structure)
-            points += [shape.places[node] + [0.1 * self.size * np.array(direction)] for node, direction in supports.items()]
+            points += [shape.places[[node]] + SUPPORT_DEPTH * self.size * direction
+                       for node, direction in shape.structure.supports.items()]
             points.append((shape.touching - depth * shape.structure.normals)[shape.gaps < NEAR * self.size])
         points = np.vstack(points)
         low, high = points.min(axis=0), points.max(axis=0)
@@ -153,68 +178,73 @@ class View:
         self.obstacles = self.extents(shapes)
 
     def extents(self, shapes):
-        """(point, normal, first, last) of the obstacles: as far as they are drawn along t. A part of the structure that is no
-        candidate may lie behind one; then it is drawn where its candidates are, otherwise across the view."""
-        found = {}
-        for shape in shapes:
-            structure = shape.structure
-            for name, (point, normal, _) in structure.obstacles.items():
-                along = (np.vstack((shape.places, structure.initial)) - point).dot((normal[1], -normal[0]))
-                above = (np.vstack((shape.places, structure.initial)) - point).dot(normal)
-                nodes = structure.contact_nodes[[other == name for other in structure.contact_obstacles]]
-                if not len(nodes):
-                    continue
-                candidates = along[:len(shape.places)][nodes]
-                key = (tuple(point), tuple(normal))
-                first, last, crossed = found.get(key, (math.inf, -math.inf, False))
-                found[key] = (min(first, candidates.min()), max(last, candidates.max()),
-                              crossed or above.min() < -1e-6 * self.size)
-        reach = 2.0 * np.hypot(*(self.high - self.low))
+        """(point, normal, first, last) of the obstacles in view: as far as they are drawn along t. Nodes that are no
+        candidates may lie behind one; then it is drawn where its candidates are, otherwise across the view."""
+        obstacles = {(tuple(point), tuple(normal)) for shape in shapes
+                     for name, (point, normal, _) in shape.structure.obstacles.items()}
+        corners = np.array([(x, y) for x in (self.low[0], self.high[0]) for y in (self.low[1], self.high[1])])
         extents = []
-        for (point, normal), (first, last, crossed) in found.items():
-            middle = (0.5 * (self.low + self.high) - point).dot((normal[1], -normal[0]))
+        for point, normal in sorted(obstacles):
+            tangent = (normal[1], -normal[0])
+            above = (corners - point).dot(normal)
+            if above.min() > 0.0 or above.max() < 0.0:  # out of view
+                continue
+            along = (corners - point).dot(tangent)
+            crossed = any((places - point).dot(normal).min() < -1e-6 * self.size
+                          for shape in shapes for places in (shape.places, shape.structure.initial))
+            if crossed:
+                candidates = np.concatenate([shape.touching[shape.structure.is_at(point, normal)] for shape in shapes])
+                if not len(candidates):
+                    continue
+                along = (candidates - point).dot(tangent)
             margin = 0.06 * self.size
-            extents.append((np.array(point), np.array(normal), *((first - margin, last + margin) if crossed else
-                                                                 (middle - reach, middle + reach))))
+            extents.append((point, normal, along.min() - margin, along.max() + margin))
         return extents
 
 
 def draw(axes, shape, view, size, named):
     """size: of the panel, in inches; named: with the names of the nodes, if they are few."""
     structure = shape.structure
-    many = len(structure.names) > 100
+    many = len(structure.names) > MANY_NODES
     for point, normal, first, last in view.obstacles:
         draw_obstacle(axes, point, normal, first, last, HATCH_DEPTH * view.size)
-    thin = 0.5 if many else 1.0
-    axes.add_collection(LineCollection(structure.initial[structure.bars], colors=INITIAL, linewidths=thin, zorder=1))
-    axes.add_collection(LineCollection(shape.places[structure.bars], colors=BARS, linewidths=0.6 if many else 1.5, zorder=3))
+    width = min(1.5, 20.0 / math.sqrt(len(structure.bars) + 1.0))
+    draw_lines(axes, structure.initial[structure.bars], color=INITIAL, linewidth=0.7 * width, zorder=1)
+    draw_lines(axes, shape.places[structure.bars], color=BARS, linewidth=width, zorder=3)
     for nodes in structure.superelements:
         hub = shape.places[nodes].mean(axis=0) if len(nodes) > 1 else structure.initial[nodes[0]]
-        axes.add_collection(LineCollection([(hub, shape.places[node]) for node in nodes], colors=BARS, linewidths=1.2,
-                                           linestyles='dashed', zorder=3))
+        draw_lines(axes, [(hub, shape.places[node]) for node in nodes], color=BARS, linewidth=1.2, linestyle='--',
+                   zorder=3)
     if not many:
         axes.scatter(*structure.initial.T, s=8, color=INITIAL, zorder=2, linewidths=0)
         axes.scatter(*shape.places.T, s=12, color=BARS, zorder=4, linewidths=0)
-    supports = support_directions(structure)
-    draw_supports(axes, shape, supports, 300.0 if not many else 60.0)
+    draw_supports(axes, shape, 300.0 if not many else 60.0)
     draw_forces(axes, shape, view)
-    draw_states(axes, shape, 40.0 if len(structure.contacts) <= 30 else 12.0)
-    if named and len(structure.names) <= FEW:
-        draw_names(axes, shape, view, supports, (view.high - view.low)[0] / size[0])
+    draw_states(axes, shape, view)
+    if named and len(structure.names) <= FEW_NODES:
+        draw_names(axes, shape, view, (view.high - view.low)[0] / size[0])
     axes.set_xlim(view.low[0], view.high[0])
     axes.set_ylim(view.low[1], view.high[1])
     axes.set_aspect('equal', adjustable='box', anchor='C')
     axes.tick_params(labelsize=8, length=2.5)
-    axes.locator_params(nbins=max(3, int(2.0 * size[0])), axis='x')
-    axes.locator_params(nbins=max(3, int(2.5 * size[1])), axis='y')
+    axes.locator_params(nbins=min(6, max(3, int(2.0 * size[0]))), axis='x')
+    axes.locator_params(nbins=min(6, max(3, int(2.5 * size[1]))), axis='y')
+
+
+def draw_lines(axes, lines, **style):
+    """Lines (m, 2, 2) from point to point as one path: thousands of bars are quickly drawn, and small in a file."""
+    gaps = np.full((len(lines), 1, 2), math.nan)
+    axes.plot(*np.concatenate((np.reshape(lines, (-1, 2, 2)), gaps), axis=1).reshape(-1, 2).T, **style)
 
 
 def draw_obstacle(axes, point, normal, first, last, depth):
-    tangent = np.array([normal[1], -normal[0]])
-    begin, end = point + first * tangent, point + last * tangent
-    axes.add_patch(Polygon([begin, end, end - depth * normal, begin - depth * normal], closed=True, facecolor='none',
-                           edgecolor=OBSTACLE, hatch='/////', linewidth=0.0, zorder=0))
-    axes.plot(*zip(begin, end), color=OBSTACLE, linewidth=1.2, zorder=0, solid_capstyle='butt')
+    """The boundary from first to last along t, and strokes on the side that is not admissible."""
+    normal, tangent = np.array(normal), np.array([normal[1], -normal[0]])
+    strokes = max(1, round((last - first) / (0.4 * depth)))
+    feet = point + np.linspace(first, last, strokes + 1)[1:, None] * tangent
+    draw_lines(axes, np.stack((feet, feet - depth * (normal + tangent)), axis=1), color=OBSTACLE, linewidth=0.6,
+               zorder=0)
+    draw_lines(axes, [(point + first * tangent, point + last * tangent)], color=OBSTACLE, linewidth=1.2, zorder=0)
 
 
 # Tips at the node, which lies above.
@@ -231,32 +261,21 @@ def support_marker(roller, direction):
     return Outline(turned, MOVES + [Outline.MOVETO, Outline.LINETO] if roller else MOVES)
 
 
-def support_directions(structure):
-    """Node -> direction to the ground of its support: away from the structure, as far as the support allows."""
-    inwards = [sum(directions, np.zeros(2)) for directions in structure.bar_directions()]
-    found = {}
-    for node in np.flatnonzero(structure.fixed.any(axis=1)):
-        fixed_x, fixed_y = structure.fixed[node]
-        directions = ([(0, -1), (0, 1)] if fixed_y else []) + ([(-1, 0), (1, 0)] if fixed_x else [])
-        found[node] = min(directions, key=lambda direction: round(inwards[node].dot(direction), 6))
-    return found
-
-
-def draw_supports(axes, shape, supports, area):
+def draw_supports(axes, shape, area):
     groups = {}
-    for node, direction in supports.items():
-        groups.setdefault((not shape.structure.fixed[node].all(), direction), []).append(node)
+    for node, direction in shape.structure.supports.items():
+        groups.setdefault((not shape.structure.fixed[node].all(), tuple(direction)), []).append(node)
     for (roller, direction), nodes in groups.items():
         axes.scatter(*shape.places[nodes].T, marker=support_marker(roller, direction), s=area,
                      facecolor='white' if roller else '0.6', edgecolor='0.25', linewidths=0.8, zorder=3.5)
 
 
-def draw_names(axes, shape, view, supports, inch):
+def draw_names(axes, shape, view, inch):
     """Beside the nodes, where bars, supports, obstacles and loads leave most room. inch: the length that is an inch."""
     structure = shape.structure
-    taken = structure.bar_directions()
-    for node, direction in supports.items():
-        taken[node].append(np.array(direction))
+    taken = [list(directions) for directions in structure.bar_directions]
+    for node, direction in structure.supports.items():
+        taken[node].append(direction)
     for node, normal, tangent in zip(structure.contact_nodes, structure.normals, structure.tangents):
         taken[node] += [normal, -normal, tangent, -tangent]
     for node, force, _ in structure.loads:
@@ -273,22 +292,23 @@ def draw_names(axes, shape, view, supports, inch):
                   path_effects=[withStroke(linewidth=2.0, foreground='white')])
 
 
-def draw_arrows(axes, view, places, forces, colour, width, zorder, alpha=1.0):
-    """From the places on; width in inches."""
+def draw_arrows(axes, view, places, forces, **style):
+    """From the places on."""
     lengths = view.length_per_force * np.hypot(*forces.T)
     long = lengths > SHORTEST_ARROW * view.size
     if long.any():
-        arrows(axes, places[long], view.length_per_force * forces[long], colour, width, alpha=alpha, zorder=zorder)
+        style.setdefault('width', ARROW_WIDTH if long.sum() <= MANY_MARKS else 0.5 * ARROW_WIDTH)
+        arrows(axes, places[long], view.length_per_force * forces[long], **style)
 
 
-def arrows(axes, begins, vectors, colour, width, **style):
-    axes.quiver(*np.transpose(begins), *np.transpose(vectors), angles='xy', scale_units='xy', scale=1.0, units='inches', width=width,
-                headwidth=4.0, headlength=5.0, headaxislength=4.5, minlength=0.1, color=colour, **style)
+def arrows(axes, begins, vectors, **style):
+    axes.quiver(*np.transpose(begins), *np.transpose(vectors), angles='xy', scale_units='xy', scale=1.0, units='inches',
+                headwidth=4.0, headlength=5.0, headaxislength=4.5, minlength=0.1, **style)
 
 
 def shows_parts(shape):
     """Whether the normal and tangential parts of the reactions are drawn beside their sums."""
-    return len(shape.states) <= FEW and np.any(shape.structure.friction > 0.0)
+    return len(shape.states) <= FEW_CONTACTS and np.any(shape.structure.friction > 0.0)
 
 
 def draw_forces(axes, shape, view):
@@ -297,24 +317,28 @@ def draw_forces(axes, shape, view):
     cones = np.stack((shape.touching, base - scale * shape.cone, base + scale * shape.cone), axis=1)
     pressed = scale * np.hypot(*shape.normal_parts.T) > SHORTEST_ARROW * view.size
     axes.add_collection(PolyCollection(cones[pressed], facecolors=REACTION, alpha=0.15, linewidths=0.0, zorder=2.5))
-    width = ARROW_WIDTH * (1.0 if max(len(shape.states), len(shape.loads[0]), len(shape.constant_loads[0])) <= 30 else 0.5)
-    draw_arrows(axes, view, *shape.constant_loads, CONSTANT_LOAD, width, 5)
-    draw_arrows(axes, view, *shape.loads, LOAD, width, 5.1)
+    draw_arrows(axes, view, *shape.constant_loads, color=CONSTANT_LOAD, zorder=5)
+    draw_arrows(axes, view, *shape.loads, color=LOAD, zorder=5.1)
     if shows_parts(shape):
-        draw_arrows(axes, view, shape.touching, shape.normal_parts, REACTION, 0.5 * width, 5.2, 0.7)
-        draw_arrows(axes, view, shape.touching, shape.tangential_parts, REACTION, 0.5 * width, 5.2, 0.7)
-    draw_arrows(axes, view, shape.touching, shape.reactions, REACTION, width, 5.3)
+        thin = {'width': 0.5 * ARROW_WIDTH, 'color': REACTION, 'alpha': 0.7, 'zorder': 5.2}
+        draw_arrows(axes, view, shape.touching, shape.normal_parts, **thin)
+        draw_arrows(axes, view, shape.touching, shape.tangential_parts, **thin)
+    draw_arrows(axes, view, shape.touching, shape.reactions, color=REACTION, zorder=5.3)
 
 
-def draw_states(axes, shape, area):
-    """A mark on each candidate. One that touches two obstacles has two, one within the other."""
+def draw_states(axes, shape, view):
+    """A mark on each candidate for an obstacle in view. A node that touches two has two, one within the other."""
+    in_view = np.zeros(len(shape.states), dtype=bool)
+    for point, normal, _, _ in view.obstacles:
+        in_view |= shape.structure.is_at(point, normal)
+    area = 40.0 if in_view.sum() <= MANY_MARKS and len(shape.places) <= MANY_NODES else 20.0
     drawn = {}  # node -> marks
     layers = {}
     closed_first = sorted(range(len(shape.states)), key=lambda i: shape.states[i] == 'open')
     for i in closed_first:
         node = shape.structure.contact_nodes[i]
         layer = drawn.get(node, 0)
-        if layer and shape.states[i] == 'open':
+        if shape.states[i] == 'open' and (layer or not in_view[i]):
             continue
         drawn[node] = layer + 1
         layers.setdefault((layer, shape.states[i]), []).append(i)
@@ -346,7 +370,7 @@ def legend_handles(shapes, view):
         handles.append(arrow(REACTION, 'reaction' + (', thin: its parts' if any(map(shows_parts, shapes)) else '')))
     coefficients = sorted({mu for structure in structures for mu in structure.friction if mu > 0.0})
     if coefficients:
-        mu = '%.3g' % coefficients[0] if len(coefficients) == 1 else '%.3g to %.3g' % (coefficients[0], coefficients[-1])
+        mu = ' to '.join('%.3g' % value for value in sorted({coefficients[0], coefficients[-1]}))
         handles.append(Patch(facecolor=REACTION, alpha=0.15, label='friction cone, mu = ' + mu))
     if any(np.any(shape.loads[1]) for shape in shapes):
         handles.append(arrow(LOAD, 'load'))
@@ -366,5 +390,5 @@ def draw_scale(axes, view, inches_per_length, middle, height):
     powers = [10.0 ** (math.floor(math.log10(1.0 / inches)) + i) for i in (-1, 0)]
     force = max(digit * power for power in powers for digit in (1, 2, 5) if digit * power * inches <= 1.0)
     length = force * inches
-    arrows(axes, [(middle - length - 0.5, height)], [(length, 0.0)], 'black', ARROW_WIDTH)
+    arrows(axes, [(middle - length - 0.5, height)], [(length, 0.0)], color='black', width=ARROW_WIDTH)
     axes.text(middle - 0.4, height, '%g [force]; arrows begin at their nodes' % force, fontsize=9, va='center')

@@ -13,7 +13,7 @@ class PlotBagTest(PlotTest):
     def test_shapes_need_no_scene_file(self):
         bag = self.trace('rough_truss', 'a.bag')
         texts = self.texts(bag, '--shapes', '--states', '--energy')
-        for text in ('rough_truss, branch, 21 increments', 'row 10: corner limit', 'work of the loads', 'foot@floor'):
+        for text in ('rough_truss, branch, rows 0 to 21', 'row 10: corner limit', 'work of the loads', 'foot@floor'):
             self.assertIn(text, texts)
         self.assert_refused(self.plot(bag, '--shapes', '--scene', 'any.yaml'), '--scene', 'bag holds')
 
@@ -23,8 +23,8 @@ class PlotBagTest(PlotTest):
         texts = self.texts(first, second)
         self.assertIn('friction 0.3', texts)
         self.assertIn('friction 0.6', texts)
-        other, again = self.trace('sliding_bar', 'other.bag', '--method', 'mpec'), self.trace('sliding_bar', 'again.bag')
-        texts = self.texts(first, other, again)
+        other = self.trace('sliding_bar', 'other.bag', '--method', 'mpec')
+        texts = self.texts(first, other, self.trace('sliding_bar', 'again.bag'))
         for text in ('branch (first)', 'mpec', 'branch (again)'):
             self.assertIn(text, texts)
 
