@@ -31,12 +31,15 @@ class PlotTest(ProgramTest):
     def plot(self, *arguments):
         return run(PLOT, *arguments)
 
+    def draw(self, *arguments):
+        drawn = self.plot(*arguments)
+        self.assertEqual(drawn.returncode, 0, drawn.stderr)
+        self.assertIn(drawn.stdout.strip(), arguments)
+
     def texts(self, *arguments):
         """All that is written in the figure: matplotlib draws letters in SVG and tells the text in a comment."""
         image = self.path('plot.svg')
-        drawn = self.plot(*arguments, '-o', image)
-        self.assertEqual(drawn.returncode, 0, drawn.stderr)
-        self.assertEqual(drawn.stdout, image + '\n')
+        self.draw(*arguments, '-o', image)
         with open(image, encoding='utf-8') as file:
             return [html.unescape(text) for text in re.findall('<!-- (.*?) -->', file.read(), re.DOTALL)]
 
