@@ -11,11 +11,13 @@ STATES = ('open', 'stick', 'slip+', 'slip-', 'closed')
 PARTS = {
     'nodes': {'name': '', 'x': 0.0, 'y': 0.0, 'fixed_x': False, 'fixed_y': False},
     'bars': {'nodes': []},
-    'superelements': {'nodes': []},
+    'superelements': {'nodes': [], 'rest_positions': []},
     'loads': {'node': '', 'fx': 0.0, 'fy': 0.0, 'constant': False},
     'obstacles': {'name': '', 'px': 0.0, 'py': 0.0, 'nx': 0.0, 'ny': 0.0, 'friction': 0.0},
     'contacts': {'node': '', 'obstacle': ''},
+    'obstacle_motions': {'obstacle': '', 'dx': 0.0, 'dy': 0.0},
 }
+STAGE_PARTS = ('loads', 'obstacle_motions')
 
 
 class Path:
@@ -23,8 +25,8 @@ class Path:
 
     Where a message carries no positions and contacts (full_state_every), these numbers are nan and the states ''.
 
-    scene: {'name': .., 'nodes': [{'name': .., 'x': ..}, ..], ..} with the fields of PARTS; None where it is not known
-    (CSV).
+    scene: {'name': .., 'nodes': [{'name': .., 'x': ..}, ..], ..} with the fields of PARTS, and the stages of the
+    program, 'program': [{'name': .., 'target': .., 'loads': [..], ..}, ..]; None where it is not known (CSV).
     options: the TraceOptions of the request; None where they are not known (CSV).
     """
 
@@ -84,7 +86,7 @@ def read_bag(name):
     with rosbag.Bag(name) as bag:
         for topic, message, _ in bag.read_messages():
             if topic.endswith('/request'):
-                path = Path(message.scene.name, scene_of(message.scene), message.options)
+                path = Path(message.scene.name, scene_of(message), message.options)
             elif topic.endswith('/increments'):
                 if path is None:
                     raise ValueError('no request before the increments: not a bag that the node wrote')
@@ -94,10 +96,17 @@ def read_bag(name):
     return path
 
 
-def scene_of(message):
-    scene = {part: [{field: getattr(item, field) for field in fields} for item in getattr(message, part)]
-             for part, fields in PARTS.items()}
-    scene['name'] = message.name
+def scene_of(request):
+    """The scene of a request, as in Path. Bags may be older than some fields."""
+    def items(message, part):
+        return [{field: getattr(item, field, default) for field, default in PARTS[part].items()}
+                for item in getattr(message, part, [])]
+
+    scene = {part: items(request.scene, part) for part in PARTS}
+    scene['name'] = request.scene.name
+    scene['program'] = [{'name': stage.name, 'target': stage.target or 1.0,
+                         **{part: items(stage, part) for part in STAGE_PARTS}}
+                        for stage in getattr(request, 'program', [])]
     return scene
 
 
@@ -105,15 +114,19 @@ def read_scene(name):
     """The scene in a scene file, as in Path. What it means is checked by contact_path_trace alone."""
     import yaml  # not needed for bags
 
+    def items(given, part):
+        return [{field: value_of(item.get(field), default) for field, default in PARTS[part].items()}
+                for item in given.get(part) or []]
+
     with open(name) as file:
         # All scalars as they stand: a node may be named `n` or `1e3`.
         request = yaml.load(file, Loader=getattr(yaml, 'CBaseLoader', yaml.BaseLoader))
     try:
-        given = request['scene']
-        scene = {part: [{field: value_of(item.get(field), default) for field, default in fields.items()}
-                        for item in given.get(part) or []]
-                 for part, fields in PARTS.items()}
-        scene['name'] = given.get('name') or ''
+        scene = {part: items(request['scene'], part) for part in PARTS}
+        scene['name'] = request['scene'].get('name') or ''
+        scene['program'] = [{'name': stage.get('name') or '', 'target': value_of(stage.get('target'), 0.0) or 1.0,
+                             **{part: items(stage, part) for part in STAGE_PARTS}}
+                            for stage in request.get('program') or []]
     except (AttributeError, KeyError, TypeError, ValueError) as error:
         raise ValueError('not a scene file; contact_path_trace says what is wrong with it') from error
     return scene
@@ -135,6 +148,8 @@ def constants(message_type, names):
 
 def row_of(scene, message):
     row = {key: getattr(message, key) for key in ('index', 'load_factor', 'arc_length')}
+    if scene['program']:
+        row['stage'] = message.stage
     row['kind'] = constants(type(message), KINDS)[message.kind]
     nan = float('nan')
     for node, x, y in itertools.zip_longest(scene['nodes'], message.x, message.y, fillvalue=nan):

@@ -1,4 +1,4 @@
-"""Panels of numbers along paths: the load factor, the states of the contacts, the energies."""
+"""Panels of numbers along paths: one quantity against another, the states of the contacts, the energies."""
 import math
 
 import numpy as np
@@ -37,15 +37,19 @@ def quantities(path):
 
 
 def default_quantity(path):
-    """The coordinate that moves most."""
+    """The coordinate that moves most; one that is free where that is known."""
     known = quantities(path)
     rows = path.full_rows()
+    nodes = [(node, axis) for node in path.nodes() for axis in 'xy']
+    if path.scene is not None:
+        held = {(node['name'], axis) for node in path.scene['nodes'] for axis in 'xy' if node['fixed_' + axis]}
+        nodes = [coordinate for coordinate in nodes if coordinate not in held] or nodes
 
     def travel(name):
         values = [row[known[name]] for row in rows]
         return max(values) - min(values)
 
-    return max(('%s.%s' % (node, axis) for node in path.nodes() for axis in 'xy'), key=travel)
+    return max(('%s.%s' % coordinate for coordinate in nodes), key=travel)
 
 
 def label(quantity):
@@ -58,41 +62,47 @@ def label(quantity):
     return ' '.join((quantity.replace('_', ' '), UNITS.get(quantity, ''))).strip()
 
 
-def draw_path(axes, paths, quantity, numbered=()):
-    """Load factor against the quantity, a line for each path; critical points in the colours of their kinds, or, where
+def draw_path(axes, paths, x, y, numbered=()):
+    """A quantity y against another, x, a line for each path; critical points in the colours of their kinds, or, where
     there are several paths, in the colours of the lines.
 
     numbered: for each path, the rows that get their index beside them.
     """
     several = len(paths) > 1
-    marked = [[row for row in path.rows if row['kind'] != 'regular'] for path in paths]
-    size = 65 if max(len(rows) for rows in marked) <= 30 else 30
+    counts = [sum(row['kind'] != 'regular' for row in path.rows) for path in paths]
+    size = 65 if max(counts) <= 30 else 30
     lines = []
-    for number, (path, critical) in enumerate(zip(paths, marked)):
-        column = quantities(path)[quantity]
-        shown = [row for row in path.rows if not math.isnan(row[column])]
-        line, = axes.plot([row[column] for row in shown], [row['load_factor'] for row in shown],
-                          label=path.title if several else None, **line_style(number, len(paths)))
+    for number, path in enumerate(paths):
+        rows, places = points(path, x, y)
+        # The load factor is 0 again where a stage starts: no line goes there.
+        starts = [i for i, row in enumerate(rows) if i > 0 and row['kind'] == 'start']
+        line, = axes.plot(*np.insert(places, starts, math.nan, axis=0).T, label=path.title if several else None,
+                          **line_style(number, len(paths)))
         lines.append(line)
         for kind, (_, marker, colour) in MARKS.items():
-            rows = [row for row in critical if row['kind'] == kind]
-            axes.scatter([row[column] for row in rows], [row['load_factor'] for row in rows], marker=marker,
+            axes.scatter(*places[[row['kind'] == kind for row in rows]].T, marker=marker, zorder=20 + number,
                          color=line.get_color() if several else colour, edgecolors='white', linewidths=0.6,
-                         s=(1.8 - 0.8 * (number + 1) / len(paths)) * size * (2 if marker == '*' else 1),
-                         zorder=20 + number)
+                         s=(1.8 - 0.8 * (number + 1) / len(paths)) * size * (2 if marker == '*' else 1))
     for kind, (text, marker, colour) in MARKS.items():
-        count = sum(row['kind'] == kind for rows in marked for row in rows)
+        count = sum(row['kind'] == kind for path in paths for row in path.rows)
         if count:
             axes.scatter([], [], marker=marker, color='0.4' if several else colour, s=130 if marker == '*' else 65,
                          label=text if several else '%s (%d)' % (text, count))
     axes.axhline(0.0, color='0.6', linewidth=0.8, zorder=0)
     axes.margins(0.06)
-    axes.set_xlabel(label(quantity), fontsize=12)
-    axes.set_ylabel(label('load_factor'), fontsize=12)
+    axes.set_xlabel(label(x), fontsize=12)
+    axes.set_ylabel(label(y), fontsize=12)
     axes.autoscale_view()
     texts = [draw_legend(axes)]
     for path, rows, line in zip(paths, numbered, lines):
-        write_indices(axes, path, rows, quantities(path)[quantity], line.get_color() if several else 'black', texts)
+        write_indices(axes, path, rows, x, y, line.get_color() if several else 'black', texts)
+
+
+def points(path, x, y):
+    """The rows that carry both quantities, and their values (., 2)."""
+    x, y = quantities(path)[x], quantities(path)[y]
+    rows = [row for row in path.rows if not math.isnan(row[x] + row[y])]
+    return rows, np.array([(row[x], row[y]) for row in rows]).reshape(-1, 2)
 
 
 def draw_legend(axes):
@@ -110,17 +120,16 @@ def line_style(number, count):
             'zorder': 1 + number}
 
 
-def write_indices(axes, path, rows, column, colour, texts):
+def write_indices(axes, path, rows, x, y, colour, texts):
     """Beside their points; rows that lie close together share a label. texts: boxes of those that stand already."""
-    rows_seen = [row for row in path.rows if not math.isnan(row[column])]
-    line = to_points(axes, [(row[column], row['load_factor']) for row in rows_seen])
+    all_rows, data = points(path, x, y)
+    line = axes.transData.transform(data) * 72.0 / axes.figure.dpi  # places on the figure, in points
     low, high = (corner * 72.0 / axes.figure.dpi for corner in axes.get_window_extent().get_points())
-    groups = []  # index into rows_seen, indices of rows
+    groups = []  # place in the path, indices of rows
     for row in rows:
-        i = rows_seen.index(row)
+        i = all_rows.index(row)
         if row['kind'] == 'regular':
-            axes.plot(row[column], row['load_factor'], 'o', color='white', markeredgecolor=colour, markersize=5,
-                      zorder=15)
+            axes.plot(*data[i], 'o', color='white', markeredgecolor=colour, markersize=5, zorder=15)
         for other, indices in groups:
             if np.hypot(*(line[i] - line[other])) < NEAR:
                 indices.append(int(row['index']))
@@ -132,7 +141,7 @@ def write_indices(axes, path, rows, column, colour, texts):
         around = line - line[i]
         distance = np.hypot(*around.T)
         near = (distance > 4.0) & (distance < NEAR)
-        near[[max(i - 1, 0), min(i + 1, len(line) - 1)]] = True
+        near[[j for j in (i - 1, i + 1) if 0 <= j < len(line) and all_rows[max(i, j)]['kind'] != 'start']] = True
         near &= distance > 0.0
         size = np.array([6.0 * len(text), 11.0])
 
@@ -143,15 +152,9 @@ def write_indices(axes, path, rows, column, colour, texts):
 
         direction = free_direction(around[near] / distance[near, None], has_room)
         texts.append(text_box(line[i], direction, 9.0, size))
-        row = rows_seen[i]
-        axes.annotate(text, (row[column], row['load_factor']), xytext=np.mean(texts[-1], axis=0) - line[i],
+        axes.annotate(text, data[i], xytext=np.mean(texts[-1], axis=0) - line[i],
                       textcoords='offset points', fontsize=9, color=colour, ha='center', va='center', zorder=40,
                       bbox={'facecolor': 'white', 'alpha': 0.7, 'pad': 0.6, 'edgecolor': 'none'})
-
-
-def to_points(axes, places):
-    """Places in the data on the figure, in points."""
-    return axes.transData.transform(np.array(places)) * 72.0 / axes.figure.dpi
 
 
 def free_direction(taken, admitted=lambda direction: True):
@@ -191,7 +194,8 @@ def pieces(path, contact):
     """State -> [(arc length of the beginning, length)]. A row that carries no state is on the piece of the next one
     that does: rows where states change carry them."""
     found = {}
-    states = path.column('state_' + contact)
+    # At the start of a stage a piece of no length ends.
+    states = ['' if i > 0 and row['kind'] == 'start' else row['state_' + contact] for i, row in enumerate(path.rows)]
     for i in range(len(states) - 2, -1, -1):
         states[i] = states[i] or states[i + 1]
     for i in range(1, len(states)):
@@ -230,9 +234,9 @@ def short(name):
     return name if len(name) <= 24 else name[:11] + '...' + name[-10:]
 
 
-# Energies: column, label, style of the line. A CSV has no work of the loads.
-ENERGIES = (('strain_energy', 'strain energy since the start', '-'), ('dissipation', 'dissipation', '--'),
-            ('external_work', 'work of the loads', ':'))
+# Energies: column, label, style and colour of the line. A CSV has no external work.
+ENERGIES = (('strain_energy', 'strain energy since the start', '-', 'tab:blue'),
+            ('dissipation', 'dissipation', '--', 'tab:orange'), ('external_work', 'external work', ':', 'black'))
 
 
 def draw_energies(axes, paths, arc_length):
@@ -240,17 +244,17 @@ def draw_energies(axes, paths, arc_length):
     several = len(paths) > 1
     for number, path in enumerate(paths):
         arc = path.column('arc_length')
-        for i, (column, text, dashes) in enumerate(ENERGIES):
+        for column, text, dashes, colour in ENERGIES:
             if column not in path.rows[0]:
                 continue
             start = path.rows[0][column]
-            style = line_style(number, len(paths)) if several else {'color': 'C%d' % i}
+            style = line_style(number, len(paths)) if several else {'color': colour}
             axes.plot(arc, [value - start for value in path.column(column)], linestyle=dashes,
                       label=None if several else text, **style)
     if several:
         for number, path in enumerate(paths):
             axes.plot([], [], label=path.title, **line_style(number, len(paths)))
-        for column, text, dashes in ENERGIES:
+        for column, text, dashes, _ in ENERGIES:
             if any(column in path.rows[0] for path in paths):
                 axes.plot([], [], color='0.4', linestyle=dashes, label=text)
     axes.set_xlim(0.0, arc_length)

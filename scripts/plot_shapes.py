@@ -28,7 +28,11 @@ FLATTEST, STEEPEST = 0.22, 1.25  # height over width of a shape
 
 
 class Structure:
-    """The scene as arrays: nodes (n, 2), bars (m, 2) of indices, normals and tangents (k, 2) of the k contacts."""
+    """The scene as arrays: nodes (n, 2), bars (m, 2) of indices, normals and tangents (k, 2) of the k contacts.
+
+    stages: what the load factor of each stage brings on: (name, target, loads, displacements of obstacles). Without a
+    program there is one, of the scene's own.
+    """
 
     def __init__(self, scene):
         self.names = [node['name'] for node in scene['nodes']]
@@ -39,9 +43,14 @@ class Structure:
                              dtype=int).reshape(-1, 2)
         self.bar_directions = self.find_bar_directions()
         self.supports = self.find_supports()
-        self.superelements = [[index[name] for name in part['nodes']] for part in scene['superelements']]
-        self.loads = [(index[load['node']], np.array([load['fx'], load['fy']]), load['constant'])
-                      for load in scene['loads']]
+        self.superelements = [([index[name] for name in part['nodes']], np.array(part['rest_positions'], dtype=float))
+                              for part in scene['superelements']]
+        self.constant_loads = self.loads_of(load for load in scene['loads'] if load['constant'])
+        own = {'name': '', 'target': 1.0, 'loads': [load for load in scene['loads'] if not load['constant']],
+               'obstacle_motions': scene['obstacle_motions']}
+        self.stages = [(stage['name'], stage['target'], self.loads_of(stage['loads']),
+                        {motion['obstacle']: np.array([motion['dx'], motion['dy']])
+                         for motion in stage['obstacle_motions']}) for stage in scene['program'] or [own]]
         self.obstacles = {}  # name -> point, normal, friction
         for obstacle in scene['obstacles']:
             normal = np.array([obstacle['nx'], obstacle['ny']])
@@ -54,10 +63,19 @@ class Structure:
         self.tangents = np.column_stack((self.normals[:, 1], -self.normals[:, 0]))
         self.friction = np.array([self.obstacles[name][2] for name in self.contact_obstacles])
 
-    def is_at(self, point, normal):
+    def loads_of(self, loads):
+        """Forces (n, 2) on the nodes."""
+        forces = np.zeros_like(self.initial)
+        for load in loads:
+            forces[self.names.index(load['node'])] += (load['fx'], load['fy'])
+        return forces
+
+    def has(self, obstacle, normal):
+        return obstacle in self.obstacles and tuple(self.obstacles[obstacle][1]) == normal
+
+    def is_at(self, obstacle, normal):
         """For each contact, whether its obstacle is this one."""
-        return np.array([tuple(self.obstacles[name][0]) == point and tuple(self.obstacles[name][1]) == normal
-                         for name in self.contact_obstacles], dtype=bool)
+        return np.array([name == obstacle and self.has(name, normal) for name in self.contact_obstacles], dtype=bool)
 
     def positions(self, row):
         return np.array([[row['x_' + name], row['y_' + name]] for name in self.names])
@@ -87,7 +105,7 @@ class Structure:
 
 
 class Shape:
-    """The structure in a row of the path. Forces are where they act: (node's place, force), each (., 2)."""
+    """The structure in a row of the path. Loads (n, 2) on the nodes; reactions (k, 2) on the contacts."""
 
     def __init__(self, structure, row):
         self.structure = structure
@@ -101,29 +119,30 @@ class Shape:
         self.reactions = self.normal_parts + self.tangential_parts
         self.cone = structure.friction[:, None] * rn * structure.tangents  # half of its base
         self.touching = self.places[structure.contact_nodes]
-        self.loads = self.loads_of(False, row['load_factor'])
-        self.constant_loads = self.loads_of(True, 1.0)
-
-    def loads_of(self, constant, factor):
-        loads = [(self.places[node], factor * force) for node, force, is_constant in self.structure.loads
-                 if is_constant == constant]
-        return (np.array([place for place, _ in loads]).reshape(-1, 2),
-                np.array([force for _, force in loads]).reshape(-1, 2))
+        number = int(row.get('stage', 1))
+        self.stage, _, loads, motions = structure.stages[number - 1]
+        self.loads = row['load_factor'] * loads
+        self.constant_loads = structure.constant_loads + sum(
+            target * loads for _, target, loads, _ in structure.stages[:number - 1])  # they stay
+        self.obstacles = {name: point + row['load_factor'] * motions.get(name, 0.0) + sum(
+            target * motions.get(name, 0.0) for _, target, _, motions in structure.stages[:number - 1])
+                          for name, (point, _, _) in structure.obstacles.items()}
 
     def forces(self):
-        return np.vstack((self.reactions, self.loads[1], self.constant_loads[1]))
+        """(place, force) of all arrows, each (., 2)."""
+        return ((self.touching, self.reactions), (self.places, self.loads), (self.places, self.constant_loads))
 
 
 def at_kinds(path, at):
     """The rows to draw, and how many were left out because a figure holds no more.
 
     at: 'events', 'limits' or 'all' of them; None: some of all. The first and the last row that carry positions are
-    always drawn. Limit points come first, then what happens earlier.
+    always drawn. Limit points and starts of stages come first, then what happens earlier.
     """
     rows = path.full_rows()
     kinds = KINDS_AT[at or 'all']
     wanted = [row for row in rows[1:-1] if row['kind'] in kinds]
-    wanted.sort(key=lambda row: (row['kind'] not in LIMITS, row['index']))
+    wanted.sort(key=lambda row: (row['kind'] not in (*LIMITS, 'start'), row['index']))
     room = (MOST_WANTED if at else MOST) - 2
     shown = sorted(wanted[:room], key=lambda row: row['index'])
     return rows[:1] + shown + rows[1:][-1:], len(wanted[room:])
@@ -155,15 +174,14 @@ class View:
         self.size = max(high - low)
         if self.size <= 1e-9 * np.abs(places).max():
             self.size = 1.0  # one node that does not move
-        largest = max([np.hypot(*shape.forces().T).max() for shape in shapes if len(shape.forces())], default=0.0)
+        largest = max([np.hypot(*force.T).max() for shape in shapes for _, force in shape.forces() if len(force)])
         self.length_per_force = LONGEST_ARROW * self.size / largest if largest > 0.0 else 0.0
         points = [places]
         for shape in shapes:
             scale = self.length_per_force
             points.append(shape.touching + scale * (shape.normal_parts + shape.cone))
             points.append(shape.touching + scale * (shape.normal_parts - shape.cone))
-            for at, force in (shape.loads, shape.constant_loads):
-                points.append(at + scale * force)
+            points += [place + scale * force for place, force in shape.forces()]
             depth = (np.maximum(shape.gaps, 0.0) + HATCH_DEPTH * self.size)[:, None]
             points += [shape.places[[node]] + SUPPORT_DEPTH * self.size * direction
                        for node, direction in shape.structure.supports.items()]
@@ -178,27 +196,27 @@ class View:
         self.obstacles = self.extents(shapes)
 
     def extents(self, shapes):
-        """(point, normal, first, last) of the obstacles in view: as far as they are drawn along t. Nodes that are no
-        candidates may lie behind one; then it is drawn where its candidates are, otherwise across the view."""
-        obstacles = {(tuple(point), tuple(normal)) for shape in shapes
-                     for name, (point, normal, _) in shape.structure.obstacles.items()}
+        """(name, normal) of the obstacles in view -> (first, last), as far as they are drawn, along t. Nodes that are
+        no candidates may lie behind one; then it is drawn where its candidates are, otherwise across the view."""
+        extents = {}
         corners = np.array([(x, y) for x in (self.low[0], self.high[0]) for y in (self.low[1], self.high[1])])
-        extents = []
-        for point, normal in sorted(obstacles):
-            tangent = (normal[1], -normal[0])
-            above = (corners - point).dot(normal)
+        for name, normal in sorted({(name, tuple(normal)) for shape in shapes
+                                    for name, (_, normal, _) in shape.structure.obstacles.items()}):
+            bounded = [shape for shape in shapes if shape.structure.has(name, normal)]
+            above = np.array([(corners - shape.obstacles[name]).dot(normal) for shape in bounded])
             if above.min() > 0.0 or above.max() < 0.0:  # out of view
                 continue
-            along = (corners - point).dot(tangent)
-            crossed = any((places - point).dot(normal).min() < -1e-6 * self.size
-                          for shape in shapes for places in (shape.places, shape.structure.initial))
+            crossed = any(min((shape.places - shape.obstacles[name]).dot(normal).min(),
+                              (shape.structure.initial - shape.structure.obstacles[name][0]).dot(normal).min())
+                          < -1e-6 * self.size for shape in bounded)
+            seen = corners
             if crossed:
-                candidates = np.concatenate([shape.touching[shape.structure.is_at(point, normal)] for shape in shapes])
-                if not len(candidates):
+                seen = np.concatenate([shape.touching[shape.structure.is_at(name, normal)] for shape in bounded])
+                if not len(seen):
                     continue
-                along = (candidates - point).dot(tangent)
+            along = seen.dot((normal[1], -normal[0]))
             margin = 0.06 * self.size
-            extents.append((point, normal, along.min() - margin, along.max() + margin))
+            extents[name, normal] = (along.min() - margin, along.max() + margin)
         return extents
 
 
@@ -206,13 +224,16 @@ def draw(axes, shape, view, size, named):
     """size: of the panel, in inches; named: with the names of the nodes, if they are few."""
     structure = shape.structure
     many = len(structure.names) > MANY_NODES
-    for point, normal, first, last in view.obstacles:
-        draw_obstacle(axes, point, normal, first, last, HATCH_DEPTH * view.size)
+    for (name, normal), (first, last) in view.obstacles.items():
+        if structure.has(name, normal):
+            draw_obstacle(axes, shape.obstacles[name], np.array(normal), first, last, HATCH_DEPTH * view.size)
     width = min(1.5, 20.0 / math.sqrt(len(structure.bars) + 1.0))
     draw_lines(axes, structure.initial[structure.bars], color=INITIAL, linewidth=0.7 * width, zorder=1)
     draw_lines(axes, shape.places[structure.bars], color=BARS, linewidth=width, zorder=3)
-    for nodes in structure.superelements:
-        hub = shape.places[nodes].mean(axis=0) if len(nodes) > 1 else structure.initial[nodes[0]]
+    for nodes, rest in structure.superelements:
+        hub = shape.places[nodes].mean(axis=0)
+        if len(nodes) == 1:
+            hub = rest if len(rest) else structure.initial[nodes[0]]
         draw_lines(axes, [(hub, shape.places[node]) for node in nodes], color=BARS, linewidth=1.2, linestyle='--',
                    zorder=3)
     if not many:
@@ -239,12 +260,13 @@ def draw_lines(axes, lines, **style):
 
 def draw_obstacle(axes, point, normal, first, last, depth):
     """The boundary from first to last along t, and strokes on the side that is not admissible."""
-    normal, tangent = np.array(normal), np.array([normal[1], -normal[0]])
+    tangent = np.array([normal[1], -normal[0]])
+    origin = point.dot(normal) * normal
     strokes = max(1, round((last - first) / (0.4 * depth)))
-    feet = point + np.linspace(first, last, strokes + 1)[1:, None] * tangent
+    feet = origin + np.linspace(first, last, strokes + 1)[1:, None] * tangent
     draw_lines(axes, np.stack((feet, feet - depth * (normal + tangent)), axis=1), color=OBSTACLE, linewidth=0.6,
                zorder=0)
-    draw_lines(axes, [(point + first * tangent, point + last * tangent)], color=OBSTACLE, linewidth=1.2, zorder=0)
+    draw_lines(axes, [(origin + first * tangent, origin + last * tangent)], color=OBSTACLE, linewidth=1.2, zorder=0)
 
 
 # Tips at the node, which lies above.
@@ -278,8 +300,9 @@ def draw_names(axes, shape, view, inch):
         taken[node].append(direction)
     for node, normal, tangent in zip(structure.contact_nodes, structure.normals, structure.tangents):
         taken[node] += [normal, -normal, tangent, -tangent]
-    for node, force, _ in structure.loads:
-        taken[node].append(force / (np.hypot(*force) or 1.0))
+    for _, force in shape.forces()[1:]:
+        for node in np.flatnonzero(force.any(axis=1)):
+            taken[node].append(force[node] / np.hypot(*force[node]))
     for name, place, directions in zip(structure.names, shape.places, taken):
         size = np.array([0.06 * len(name) + 0.03, 0.12]) * inch
 
@@ -317,8 +340,8 @@ def draw_forces(axes, shape, view):
     cones = np.stack((shape.touching, base - scale * shape.cone, base + scale * shape.cone), axis=1)
     pressed = scale * np.hypot(*shape.normal_parts.T) > SHORTEST_ARROW * view.size
     axes.add_collection(PolyCollection(cones[pressed], facecolors=REACTION, alpha=0.15, linewidths=0.0, zorder=2.5))
-    draw_arrows(axes, view, *shape.constant_loads, color=CONSTANT_LOAD, zorder=5)
-    draw_arrows(axes, view, *shape.loads, color=LOAD, zorder=5.1)
+    draw_arrows(axes, view, shape.places, shape.constant_loads, color=CONSTANT_LOAD, zorder=5)
+    draw_arrows(axes, view, shape.places, shape.loads, color=LOAD, zorder=5.1)
     if shows_parts(shape):
         thin = {'width': 0.5 * ARROW_WIDTH, 'color': REACTION, 'alpha': 0.7, 'zorder': 5.2}
         draw_arrows(axes, view, shape.touching, shape.normal_parts, **thin)
@@ -329,8 +352,8 @@ def draw_forces(axes, shape, view):
 def draw_states(axes, shape, view):
     """A mark on each candidate for an obstacle in view. A node that touches two has two, one within the other."""
     in_view = np.zeros(len(shape.states), dtype=bool)
-    for point, normal, _, _ in view.obstacles:
-        in_view |= shape.structure.is_at(point, normal)
+    for name, normal in view.obstacles:
+        in_view |= shape.structure.is_at(name, normal)
     area = 40.0 if in_view.sum() <= MANY_MARKS and len(shape.places) <= MANY_NODES else 20.0
     drawn = {}  # node -> marks
     layers = {}
@@ -353,7 +376,9 @@ def title(shape, ends):
     kind = shape.row['kind'].replace('_', ' ')
     if ends:
         kind = 'end' if kind == 'regular' else kind + ', end'
-    return 'row %d: %s\nload factor %.5g' % (shape.row['index'], kind, load if abs(load) > 1e-12 else 0.0)
+    stage = shape.stage or ('stage %d' % shape.row['stage'] if len(shape.structure.stages) > 1 else '')
+    return 'row %d: %s\n%sload factor %.5g' % (shape.row['index'], kind, stage and stage + ', ',
+                                               load if abs(load) > 1e-12 else 0.0)
 
 
 def legend_handles(shapes, view):
@@ -372,9 +397,9 @@ def legend_handles(shapes, view):
     if coefficients:
         mu = ' to '.join('%.3g' % value for value in sorted({coefficients[0], coefficients[-1]}))
         handles.append(Patch(facecolor=REACTION, alpha=0.15, label='friction cone, mu = ' + mu))
-    if any(np.any(shape.loads[1]) for shape in shapes):
+    if any(np.any(shape.loads) for shape in shapes):
         handles.append(arrow(LOAD, 'load'))
-    if any(np.any(shape.constant_loads[1]) for shape in shapes):
+    if any(np.any(shape.constant_loads) for shape in shapes):
         handles.append(arrow(CONSTANT_LOAD, 'constant load'))
     handles.append(Line2D([], [], color=INITIAL, linewidth=1.5, marker='o', markersize=3, label='initial shape'))
     if any(structure.superelements for structure in structures):

@@ -87,6 +87,11 @@ class Panels(QuickPlotTest):
         # The state of a row is that of the piece that ends there; rows where states change carry it, others may not.
         states = ['stick', '', 'stick', '', 'slip+', '']
         path.rows = [{'arc_length': float(i), 'state_a@b': state} for i, state in enumerate(states)]
+        for row in path.rows:
+            row['kind'] = 'regular'
+        self.assertEqual(plot_panels.pieces(path, 'a@b'), {'stick': [(0.0, 2.0)], 'slip+': [(2.0, 3.0)]})
+        # The start of a stage, at the place of the row before, is on no piece.
+        path.rows.insert(3, {'arc_length': 2.0, 'state_a@b': 'open', 'kind': 'start'})
         self.assertEqual(plot_panels.pieces(path, 'a@b'), {'stick': [(0.0, 2.0)], 'slip+': [(2.0, 3.0)]})
 
     def test_what_cannot_be_plotted_is_one_line(self):
@@ -157,6 +162,32 @@ class Shapes(QuickPlotTest):
         with self.assertRaisesRegex(ValueError, 'row 5 .*full_state_every.* 4'):
             plot_shapes.by_index(path, [5])
         self.assertEqual([row['index'] for row in plot_shapes.at_kinds(path, None)[0]], [0, 4])
+
+    def test_stages_of_a_program(self):
+        """What a stage has brought on stays: loads, and obstacles where they were moved."""
+        with open(scene_file('rigid_stop')) as file:
+            scene = file.read().split('options:')[0].replace('  loads:\n  - {node: b, fx: 1.0, fy: 0.0}\n', '')
+        name = self.path('program.yaml')
+        with open(name, 'w') as file:
+            file.write(scene + 'program:\n- {name: pull, loads: [{node: b, fx: 1.0}], target: 0.3}\n'
+                       '- {obstacle_motions: [{obstacle: wall, dx: -1.0}], target: 0.05}\n'
+                       '- {name: ease, loads: [{node: b, fx: -1.0}], obstacle_motions: [{obstacle: wall, dx: 0.5}]}\n')
+        table = self.trace(name, 'program.csv')
+        structure = plot_shapes.Structure(path_file.read_scene(name))
+        rows = path_file.read(table).rows
+        self.assertEqual({row['stage'] for row in rows}, {1.0, 2.0, 3.0})
+        for row in rows:
+            shape = plot_shapes.Shape(structure, row)
+            b = structure.names.index('b')
+            tension = row['x_b'] - 1.0  # of the bar, EA = l0 = 1
+            self.assertAlmostEqual((shape.loads + shape.constant_loads)[b, 0] + shape.reactions[0, 0], tension)
+            self.assertAlmostEqual(shape.obstacles['wall'][0] - row['x_b'], row['gap_b@wall'])
+        texts = self.texts(table, '--scene', name, '--shapes', '--states', '--y', 'rn_b@wall')
+        for text in ('start (3)', 'pull, load factor 0', 'stage 2, load factor 0', 'constant load'):
+            self.assertIn(text, texts)
+        self.assertIn('normal reaction of b@wall [force]', texts)
+        other = scene_file('rigid_stop')
+        self.assert_main_refuses([table, '--scene', other, '--shapes'], 'program.csv', 'stages differ')
 
     def test_drawn_forces_are_in_equilibrium(self):
         """The arch has no supports: loads and reactions are all forces on it, so their arrows add up to nothing."""

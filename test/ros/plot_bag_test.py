@@ -13,7 +13,7 @@ class PlotBagTest(PlotTest):
     def test_shapes_need_no_scene_file(self):
         bag = self.trace('rough_truss', 'a.bag')
         texts = self.texts(bag, '--shapes', '--states', '--energy')
-        for text in ('rough_truss, branch, rows 0 to 21', 'row 10: corner limit', 'work of the loads', 'foot@floor'):
+        for text in ('rough_truss, branch, rows 0 to 21', 'row 10: corner limit', 'external work', 'foot@floor'):
             self.assertIn(text, texts)
         self.assert_refused(self.plot(bag, '--shapes', '--scene', 'any.yaml'), '--scene', 'bag holds')
 
