@@ -394,7 +394,19 @@ TEST(ConvertTest, AResponseThatNobodyFilledInSaysFailed) {
   EXPECT_EQ(Response().end_reason, Response::END_NONE);
 }
 
-TEST(ConvertTest, ResultHoldsTheResponse) {
+TEST(ConvertTest, RequestsOfServiceAndActionAreTheRecordedOne) {
+  const msgs::TraceRequest request = ToMessage(FullRequest());
+  // Nothing but the same fields in the same order: their bytes are the same.
+  const std::vector<std::uint8_t> bytes = Bytes(request);
+  const msgs::TracePathRequest of_service = FromBytes<msgs::TracePathRequest>(bytes);
+  const msgs::TracePathGoal of_action = FromBytes<msgs::TracePathGoal>(bytes);
+  EXPECT_EQ(Bytes(of_service), bytes);
+  EXPECT_EQ(Bytes(of_action), bytes);
+  EXPECT_EQ(Bytes(ToRequest(of_service)), bytes);
+  EXPECT_EQ(Bytes(ToRequest(of_action)), bytes);
+}
+
+TEST(ConvertTest, ResultsHoldTheResponse) {
   Response response;
   response.status = Response::ENDED_EARLY;
   response.message = "no way on";
@@ -402,13 +414,16 @@ TEST(ConvertTest, ResultHoldsTheResponse) {
   response.end_reason = Response::END_PATH_END;
   response.end_reason_name = "path_end";
   response.bag = "000001_scene.bag";
-  const msgs::TraceResult result = ThroughTheWire(ToResult(response));
-  EXPECT_EQ(result.status, response.status);
-  EXPECT_EQ(result.message, response.message);
-  EXPECT_EQ(result.increments, response.increments);
-  EXPECT_EQ(result.end_reason, response.end_reason);
-  EXPECT_EQ(result.end_reason_name, response.end_reason_name);
-  EXPECT_EQ(result.bag, response.bag);
+  const auto expect_same = [&response](const auto& result) {
+    EXPECT_EQ(result.status, response.status);
+    EXPECT_EQ(result.message, response.message);
+    EXPECT_EQ(result.increments, response.increments);
+    EXPECT_EQ(result.end_reason, response.end_reason);
+    EXPECT_EQ(result.end_reason_name, response.end_reason_name);
+    EXPECT_EQ(result.bag, response.bag);
+  };
+  expect_same(ThroughTheWire(ToResult(response)));
+  expect_same(ThroughTheWire(ToActionResult(response)));
 }
 
 }  // namespace

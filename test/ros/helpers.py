@@ -5,6 +5,7 @@ import threading
 import time
 import xmlrpc.client
 
+import actionlib
 import genpy
 import rosbag
 import rosgraph
@@ -12,7 +13,7 @@ import roslib.packages
 import rospy
 import yaml
 
-from contact_path.msg import Increment
+from contact_path.msg import Increment, TracePathAction, TracePathGoal
 from contact_path.srv import TracePath, TracePathRequest
 
 PACKAGE = 'contact_path'
@@ -67,6 +68,22 @@ def is_subscribed(node, topic):
 def service(name, kind=TracePath):
     rospy.wait_for_service(name, PATIENCE)
     return rospy.ServiceProxy(name, kind)
+
+
+def action_client(name):
+    client = actionlib.SimpleActionClient(name, TracePathAction)
+    assert client.wait_for_server(rospy.Duration(PATIENCE)), name + ' is not there'
+    return client
+
+
+def goal_from(request):
+    return TracePathGoal(**{field: getattr(request, field) for field in request.__slots__})
+
+
+def finish(client):
+    """State and result of the goal that the client has sent."""
+    assert client.wait_for_result(rospy.Duration(PATIENCE)), 'the goal does not end'
+    return client.get_state(), client.get_result()
 
 
 class Collector:
