@@ -17,16 +17,26 @@ namespace {
 namespace msgs = contact_path_msgs;
 using Response = msgs::TracePathResponse;
 
-// What arrives at the other side of a connection, or of a bag.
 template <typename Message>
-Message ThroughTheWire(const Message& message) {
+std::vector<std::uint8_t> Bytes(const Message& message) {
   std::vector<std::uint8_t> bytes(ros::serialization::serializationLength(message));
   ros::serialization::OStream out(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
   ros::serialization::serialize(out, message);
-  Message received;
+  return bytes;
+}
+
+template <typename Message>
+Message FromBytes(std::vector<std::uint8_t> bytes) {
+  Message message;
   ros::serialization::IStream in(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
-  ros::serialization::deserialize(in, received);
-  return received;
+  ros::serialization::deserialize(in, message);
+  return message;
+}
+
+// What arrives at the other side of a connection, or of a bag.
+template <typename Message>
+Message ThroughTheWire(const Message& message) {
+  return FromBytes<Message>(Bytes(message));
 }
 
 // Every field differs from its default and from its neighbours.

@@ -71,7 +71,7 @@ def service(name, kind=TracePath):
 
 
 def action_client(name):
-    client = actionlib.SimpleActionClient(name, TracePathAction)
+    client = actionlib.ActionClient(name, TracePathAction)
     assert client.wait_for_server(rospy.Duration(PATIENCE)), name + ' is not there'
     return client
 
@@ -80,10 +80,26 @@ def goal_from(request):
     return TracePathGoal(**{field: getattr(request, field) for field in request.__slots__})
 
 
-def finish(client):
-    """State and result of the goal that the client has sent."""
-    assert client.wait_for_result(rospy.Duration(PATIENCE)), 'the goal does not end'
-    return client.get_state(), client.get_result()
+class Goal:
+    """A goal that was sent, and the feedback that has come."""
+
+    def __init__(self, client, request):
+        self.feedback = []
+        self._handle = client.send_goal(goal_from(request), feedback_cb=lambda _, feedback: self.feedback.append(feedback))
+
+    def cancel(self):
+        self._handle.cancel()
+
+    def state(self):
+        return self._handle.get_goal_status()
+
+    def text(self):
+        return self._handle.get_goal_status_text()
+
+    def finish(self):
+        """Last state and result."""
+        wait_until(lambda: self._handle.get_comm_state() == actionlib.CommState.DONE, 'the goal has ended')
+        return self._handle.get_terminal_state(), self._handle.get_result()
 
 
 class Collector:

@@ -68,14 +68,12 @@ class ShutdownTest(unittest.TestCase):
 
     def expect_signal_aborts_goal(self, number):
         self.start()
-        client = helpers.action_client(self.name + '/trace_action')
-        feedback = []
-        client.send_goal(helpers.goal_from(helpers.long_request()), feedback_cb=feedback.append)
-        helpers.wait_until(lambda: len(feedback) > 50, 'the trace is on its way')
+        goal = helpers.Goal(helpers.action_client(self.name + '/trace_action'), helpers.long_request())
+        helpers.wait_until(lambda: len(goal.feedback) > 50, 'the trace is on its way')
         sent = time.monotonic()
         self.node.send_signal(number)
         self.expect_exit(sent)
-        state, answer = helpers.finish(client)
+        state, answer = goal.finish()
         self.assertEqual(state, GoalStatus.ABORTED)
         result = self.expect_closed_bag()
         self.assertEqual((answer.status, answer.message, answer.increments, answer.end_reason, answer.bag),
@@ -120,9 +118,10 @@ class ShutdownTest(unittest.TestCase):
 
     def test_bag_of_a_crashed_node_can_be_reindexed(self):
         self.start_trace()
+        path = os.path.join(self.bags, os.listdir(self.bags)[0])
+        helpers.wait_until(lambda: os.path.getsize(path) > 64 * 1024, 'several chunks are on the disk')
         self.node.kill()
         self.node.wait()
-        path = os.path.join(self.bags, os.listdir(self.bags)[0])
         with rosbag.Bag(path, 'a', allow_unindexed=True) as bag:
             for _ in bag.reindex():
                 pass
