@@ -23,12 +23,13 @@ add_message_files(FILES
   Way.msg
 )
 add_service_files(FILES TracePath.srv)
-generate_messages(DEPENDENCIES std_msgs)
+add_action_files(FILES TracePath.action)
+generate_messages(DEPENDENCIES actionlib_msgs std_msgs)
 
 catkin_package(
   INCLUDE_DIRS include
   LIBRARIES contact_path_ros contact_path_core
-  CATKIN_DEPENDS message_runtime rosbag roscpp std_msgs std_srvs
+  CATKIN_DEPENDS actionlib actionlib_msgs message_runtime rosbag roscpp std_msgs std_srvs
 )
 
 add_library(contact_path_ros
@@ -37,6 +38,7 @@ add_library(contact_path_ros
   src/ros/convert.cpp
   src/ros/limits.cpp
   src/ros/shutdown_signal.cpp
+  src/ros/trace_action.cpp
   src/ros/trace_service.cpp
 )
 add_dependencies(contact_path_ros ${PROJECT_NAME}_generate_messages_cpp)
@@ -95,7 +97,7 @@ if(CATKIN_ENABLE_TESTING)
   # catkin runs tests in a snapshot of the environment from before the messages were generated; this one is read when
   # the tests run.
   set(CATKIN_ENV ${CATKIN_DEVEL_PREFIX}/env.sh)
-  foreach(test shutdown trace_service)
+  foreach(test shutdown trace_action trace_service)
     add_rostest(test/ros/${test}.test DEPENDENCIES contact_path_node contact_path_trace)
   endforeach()
   unset(CATKIN_ENV)

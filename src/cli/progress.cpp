@@ -1,6 +1,5 @@
 #include "progress.h"
 
-#include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <locale>
@@ -13,9 +12,8 @@ namespace {
 using std::chrono::steady_clock;
 
 constexpr auto kTimeBetweenDrawings = std::chrono::milliseconds(100);
-constexpr int kBarWidth = 14;                   // characters; the whole line fits into 80
-constexpr std::size_t kLimitPointsListed = 10;  // in the summary
-constexpr char kWipeLine[] = "\r\x1b[K";        // ANSI: to the first column, erase to the end of the line
+constexpr int kBarWidth = 14;             // characters; the whole line fits into 80
+constexpr char kWipeLine[] = "\r\x1b[K";  // ANSI: to the first column, erase to the end of the line
 
 // An estimate of the time left is worth its place after this share of the way, and this time.
 constexpr double kLeastFraction = 0.02;
@@ -47,10 +45,7 @@ Progress::Progress(const TraceRequest& request, bool show_bar, std::ostream& out
 
 void Progress::Add(const Increment& increment) {
   const double done = estimate_.Add(increment);
-  if (increment.kind == RowKind::kSmoothLimit || increment.kind == RowKind::kCornerLimit) {
-    limit_points_.push_back({increment.kind, increment.index, increment.load_factor});
-  }
-  if (increment.event.number > 0) ++events_;
+  summary_.Add(increment);
   const auto now = clock_();
   if (increment.index == 0) first_row_ = now;
   if (show_bar_ && (increment.index == 0 || now - drawn_ >= kTimeBetweenDrawings)) {
@@ -68,16 +63,8 @@ void Progress::Wipe() {
 std::string Progress::Summary(const TraceResult& result) const {
   const double seconds = std::chrono::duration<double>(clock_() - begin_).count();
   std::ostringstream line = NewLine();
-  line << ToString(result.reason) << ": " << result.message << "; " << result.increments << " rows in " << std::fixed
-       << std::setprecision(2) << seconds << " s; limit points: " << std::defaultfloat << std::setprecision(10);
-  if (limit_points_.empty()) line << "none";
-  const std::size_t listed = std::min(limit_points_.size(), kLimitPointsListed);
-  for (std::size_t i = 0; i < listed; ++i) {
-    const LimitPoint& point = limit_points_[i];
-    line << (i == 0 ? "" : ", ") << ToString(point.kind) << " at load factor " << point.load_factor << " (row "
-         << point.index << ')';
-  }
-  if (listed < limit_points_.size()) line << " and " << limit_points_.size() - listed << " more";
+  line << summary_.ToText(ToString(result.reason), result.message) << "; " << std::fixed << std::setprecision(2)
+       << seconds << " s";
   return line.str();
 }
 
@@ -90,7 +77,7 @@ void Progress::Draw(const Increment& increment, double done) {
          << static_cast<int>(100.0 * done) << "%  ";
   }
   line << "row " << increment.index << "  load factor " << std::setprecision(4) << increment.load_factor << "  events "
-       << events_;
+       << summary_.events();
   const double seconds = std::chrono::duration<double>(clock_() - first_row_).count();
   if (done >= kLeastFraction && seconds >= kLeastSeconds)
     line << "  " << InMinutes(seconds * (1.0 - done) / done) << " left";

@@ -6,9 +6,9 @@
 #include <functional>
 #include <ostream>
 #include <string>
-#include <vector>
 
 #include "contact_path/path/increment.h"
+#include "contact_path/path/path_summary.h"
 #include "contact_path/path/progress_estimate.h"
 #include "contact_path/path/trace.h"
 #include "contact_path/scene/scene.h"
@@ -31,24 +31,17 @@ class Progress {
   // Takes the bar off the terminal.
   void Wipe();
 
-  // One line without line break: how the trace ended, rows, time, limit points.
+  // One line without line break: how the trace ended, rows, limit points, events, time.
   std::string Summary(const TraceResult& result) const;
 
  private:
-  struct LimitPoint {
-    RowKind kind = RowKind::kSmoothLimit;
-    int index = 0;
-    double load_factor = 0.0;
-  };
-
   void Draw(const Increment& increment, double done);
 
   ProgressEstimate estimate_;
   const bool show_bar_;
   std::ostream& out_;
   const Clock clock_;
-  std::vector<LimitPoint> limit_points_;
-  int events_ = 0;
+  PathSummary summary_;
   const std::chrono::steady_clock::time_point begin_;
   std::chrono::steady_clock::time_point first_row_;
   std::chrono::steady_clock::time_point drawn_;  // time of the last drawing

@@ -113,7 +113,7 @@ std::optional<EndReason> BranchMethod::PassEvent(const PathPoint& point, const A
                                                  std::string* message) {
   const WaysOn on = FindWays(model_.structure, model_.contacts, point, arrival, kAtLimit, &mpec_, cancelled_);
   if (on.cancelled) {
-    *message = "cancelled by the caller";
+    *message = "the caller asked for it";
     return EndReason::kCancelled;
   }
   record->concerned = on.concerned;

@@ -294,7 +294,7 @@ Advance MpecMethod::Next(const PathPoint& from) {
       trial.verdict = Verdict::kBeyondTarget;
     if (trial.verdict == Verdict::kCancelled || (cancelled_ && cancelled_())) {
       advance.reason = EndReason::kCancelled;
-      advance.message = "cancelled by the caller";
+      advance.message = "the caller asked for it";
       return advance;
     }
     if (trial.verdict != Verdict::kAccepted) {

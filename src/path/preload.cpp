@@ -70,7 +70,7 @@ Preload TracePreload(const Model& model, int max_increments, const MethodFactory
   if (const std::optional<EndReason> reason = method->Start(preload.point, &ways, &preload.message))
     return end(*reason, preload.message);
   for (int i = 0; i < max_increments; ++i) {
-    if (cancelled && cancelled()) return end(EndReason::kCancelled, "cancelled by the caller");
+    if (cancelled && cancelled()) return end(EndReason::kCancelled, "the caller asked for it");
     Advance advance = method->Next(preload.point);
     for (AcceptedPoint& row : advance.rows) {
       preload.point = std::move(row.point);

@@ -253,7 +253,7 @@ class Tracer {
   bool Follow(const Model& model, std::optional<double> target, PathMethod* method) {
     const int most_increments = request_.options.MaxIncrements();
     for (;;) {
-      if (Cancelled()) return End(EndReason::kCancelled, "cancelled by the caller");
+      if (Cancelled()) return End(EndReason::kCancelled, "the caller asked for it");
       if (recorder_.rows() > most_increments)
         return End(EndReason::kMaxIncrements, "the wanted number of increments was accepted");
       const Clock::time_point start = Clock::now();

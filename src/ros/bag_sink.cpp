@@ -2,6 +2,7 @@
 
 #include <ros/time.h>
 
+#include "contact_path/path/path_summary.h"
 #include "contact_path/ros/bag_recorder.h"
 #include "contact_path/ros/convert.h"
 #include "contact_path/ros/names.h"
@@ -13,6 +14,7 @@ struct BagSink::Implementation {
   explicit Implementation(const std::string& file) : recorder(file, std::string("/") + names::kNode) {}
 
   BagRecorder recorder;
+  PathSummary summary;
   int full_state_every = 0;
   std::uint32_t increments = 0;
 };
@@ -31,16 +33,17 @@ void BagSink::Add(const Increment& increment) {
   message.header.stamp = StampNow();
   message.header.seq = implementation_->increments++;
   implementation_->recorder.WriteIncrement(message);
+  implementation_->summary.Add(increment);
 }
 
 void BagSink::End(const TraceResult& result) {
   contact_path_msgs::TraceResult message;
   message.status = StatusOf(result.reason);
-  message.message = result.message;
   message.increments = implementation_->increments;
   message.end_reason = ToConstant(result.reason);
   message.end_reason_name = EndReasonName(message.end_reason);
   message.bag = implementation_->recorder.file_name();
+  message.message = EndMessage(message.end_reason_name, result.message, implementation_->summary, message.bag);
   implementation_->recorder.WriteResult(message);
   implementation_->recorder.Close();
 }

@@ -1,16 +1,20 @@
-// The ROS node: reads its parameters and serves until it is told to stop. See trace_service.h.
+// The ROS node: reads its parameters and serves until it is told to stop. See trace_service.h and trace_action.h.
 #include <exception>
 
 #include <ros/ros.h>
 
 #include "contact_path/ros/names.h"
 #include "contact_path/ros/shutdown_signal.h"
+#include "contact_path/ros/trace_action.h"
 #include "contact_path/ros/trace_service.h"
 #include "one_thread.h"
 
 namespace {
 
-constexpr int kThreads = 4;  // one traces, the others answer ~cancel and further requests
+constexpr int kThreads = 4;  // one traces for ~trace, the others answer ~cancel and further requests
+
+// What was published is sent by a thread of roscpp that cannot be waited for. It needs far less.
+constexpr double kTimeToSend = 0.1;  // [s]
 
 }  // namespace
 
@@ -23,13 +27,17 @@ int main(int argc, char** argv) {
   }
   const ros::NodeHandle node("~");  // the log works as long as it lives
   try {
-    contact_path::TraceService service(node, contact_path::ReadParameters(node));
+    const contact_path::NodeParameters parameters = contact_path::ReadParameters(node);
+    contact_path::TraceService service(node, parameters);
+    contact_path::TraceAction action(node, parameters, &service);
     ros::AsyncSpinner spinner(kThreads);
     spinner.start();
     while (ros::ok() && !shutdown.WaitFor(0.05)) {
     }
     service.Shutdown();
-    spinner.stop();  // waits for the running trace to end, its bag to be closed and its caller to be answered
+    spinner.stop();   // waits for the running trace to end, its bag to be closed and its caller to be answered
+    action.Finish();  // likewise
+    ros::WallDuration(kTimeToSend).sleep();
   } catch (const std::exception& error) {
     ROS_FATAL("%s", error.what());
     return 1;

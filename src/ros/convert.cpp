@@ -94,6 +94,27 @@ std::string Key(const std::string& list, std::size_t index, const std::string& f
   return list + "[" + std::to_string(index) + "]." + field;
 }
 
+template <typename Request>
+msgs::TraceRequest SameRequest(const Request& request) {
+  msgs::TraceRequest same;
+  same.scene = request.scene;
+  same.options = request.options;
+  same.program = request.program;
+  return same;
+}
+
+template <typename Result>
+Result SameResult(const msgs::TracePathResponse& response) {
+  Result result;
+  result.status = response.status;
+  result.message = response.message;
+  result.increments = response.increments;
+  result.end_reason = response.end_reason;
+  result.end_reason_name = response.end_reason_name;
+  result.bag = response.bag;
+  return result;
+}
+
 msgs::Event ToMessage(const EventRecord& event) {
   msgs::Event message;
   for (const WayRecord& way : event.ways) {
@@ -311,6 +332,10 @@ msgs::TraceRequest ToMessage(const TraceRequest& request) {
   return message;
 }
 
+msgs::TraceRequest ToRequest(const msgs::TracePathRequest& request) { return SameRequest(request); }
+
+msgs::TraceRequest ToRequest(const msgs::TracePathGoal& goal) { return SameRequest(goal); }
+
 msgs::Increment ToMessage(const Increment& increment, int full_state_every) {
   msgs::Increment message;
   message.index = ToCount(increment.index);
@@ -421,20 +446,20 @@ std::string EndReasonName(std::uint8_t end_reason) {
   return std::string(ToString(ValueOf(kEndReasons, end_reason, "end_reason")));
 }
 
+std::string EndMessage(const std::string& name, const std::string& why, const PathSummary& path,
+                       const std::string& bag) {
+  return path.ToText(name, why) + "; bag " + bag;
+}
+
 std::uint8_t StatusOf(EndReason reason) {
   const bool as_asked = reason == EndReason::kStopCriterion || reason == EndReason::kMaxIncrements;
   return as_asked ? Response::OK : Response::ENDED_EARLY;
 }
 
-msgs::TraceResult ToResult(const msgs::TracePathResponse& response) {
-  msgs::TraceResult result;
-  result.status = response.status;
-  result.message = response.message;
-  result.increments = response.increments;
-  result.end_reason = response.end_reason;
-  result.end_reason_name = response.end_reason_name;
-  result.bag = response.bag;
-  return result;
+msgs::TraceResult ToResult(const msgs::TracePathResponse& response) { return SameResult<msgs::TraceResult>(response); }
+
+msgs::TracePathResult ToActionResult(const msgs::TracePathResponse& response) {
+  return SameResult<msgs::TracePathResult>(response);
 }
 
 }  // namespace contact_path

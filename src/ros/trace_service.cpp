@@ -81,38 +81,44 @@ void TraceService::Shutdown() {
   RequestStop(StopCause::kShutdown);
 }
 
-bool TraceService::HandleTrace(Request& request, Response& response) {
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    if (shutting_down_) {
-      response.status = Response::SHUTTING_DOWN;
-      response.message = "the node is being shut down";
-      return true;
-    }
-    if (running_) {
-      response.status = Response::BUSY;
-      response.message = "the node is tracing \"" + running_scene_ + "\": call ~cancel or wait for its end";
-      return true;
-    }
-    running_ = true;
-    running_scene_ = request.scene.name;
-    stop_cause_ = StopCause::kNone;
+bool TraceService::Admit(const std::string& scene_name, Response* response) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (shutting_down_) {
+    response->status = Response::SHUTTING_DOWN;
+    response->message = "the node is being shut down";
+    return false;
   }
+  if (running_) {
+    response->status = Response::BUSY;
+    response->message = "the node is tracing \"" + running_scene_ + "\": call ~cancel or wait for its end";
+    return false;
+  }
+  running_ = true;
+  running_scene_ = scene_name;
+  stop_cause_ = StopCause::kNone;
+  return true;
+}
 
+void TraceService::Run(const contact_path_msgs::TraceRequest& request, const TraceObserver& observer,
+                       Response* response) {
   try {
-    Serve(request, &response);
+    Serve(request, observer, response);
   } catch (const std::exception& error) {
-    response.status = Response::FAILED;
-    response.message = error.what();
+    response->status = Response::FAILED;
+    response->message = error.what();
   }
-  if (response.status != Response::OK) {
-    ROS_WARN("trace of \"%s\": %s", request.scene.name.c_str(), response.message.c_str());
+  if (response->status != Response::OK) {
+    ROS_WARN("trace of \"%s\": %s", request.scene.name.c_str(), response->message.c_str());
   }
 
   // Whoever sees the status or the answer finds the node ready for the next request.
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (!response.bag.empty()) PublishEnd(response);
+  if (!response->bag.empty()) PublishEnd(*response);
   running_ = false;
+}
+
+bool TraceService::HandleTrace(Request& request, Response& response) {
+  if (Admit(request.scene.name, &response)) Run(ToRequest(request), TraceObserver(), &response);
   return true;
 }
 
@@ -124,7 +130,8 @@ bool TraceService::HandleCancel(std_srvs::Trigger::Request& /*request*/, std_srv
   return true;
 }
 
-void TraceService::Serve(const Request& request, Response* response) {
+void TraceService::Serve(const contact_path_msgs::TraceRequest& request, const TraceObserver& observer,
+                         Response* response) {
   const std::string exceeded = ExceededLimit(request.scene, request.options, request.program, parameters_.limits);
   if (!exceeded.empty()) {
     response->status = Response::LIMIT_EXCEEDED;
@@ -143,14 +150,10 @@ void TraceService::Serve(const Request& request, Response* response) {
     return;
   }
 
-  contact_path_msgs::TraceRequest recorded;
-  recorded.scene = request.scene;
-  recorded.options = request.options;
-  recorded.program = request.program;
   std::unique_ptr<BagRecorder> bag;
   try {
     bag = std::make_unique<BagRecorder>(parameters_.bag_directory, request.scene.name, topic_prefix_);
-    bag->WriteRequest(recorded);
+    bag->WriteRequest(request);
   } catch (const BagError& error) {
     response->status = Response::BAG_FAILED;
     response->message = error.what();
@@ -163,14 +166,17 @@ void TraceService::Serve(const Request& request, Response* response) {
   status_.trace_id = bag->number();
   status_.scene = request.scene.name;
   status_.bag = response->bag;
-  request_publisher_.publish(recorded);
+  request_publisher_.publish(request);
   PublishStatus();
+  if (observer.on_start) observer.on_start();
 
   full_state_every_ = core_request.options.full_state_every;
   progress_.emplace(core_request);
-  RunTrace(core_request, bag.get(), response);
+  summary_ = PathSummary();
+  RunTrace(core_request, observer, bag.get(), response);
   response->increments = status_.increments;
   response->end_reason_name = EndReasonName(response->end_reason);
+  response->message = EndMessage(response->end_reason_name, response->message, summary_, response->bag);
   try {
     bag->WriteResult(ToResult(*response));
     bag->Close();
@@ -182,11 +188,12 @@ void TraceService::Serve(const Request& request, Response* response) {
   }
 }
 
-void TraceService::RunTrace(const TraceRequest& request, BagRecorder* bag, Response* response) {
+void TraceService::RunTrace(const TraceRequest& request, const TraceObserver& observer, BagRecorder* bag,
+                            Response* response) {
   const Clock::time_point start = Clock::now();
   TraceControl control;
-  control.on_increment = [this, bag](const Increment& increment) { TakeIncrement(increment, bag); };
-  control.cancelled = [this, start] { return StopWanted(start); };
+  control.on_increment = [&](const Increment& increment) { TakeIncrement(increment, observer, bag); };
+  control.cancelled = [&] { return StopWanted(start, observer); };
   try {
     const TraceResult result = Trace(request, control);
     response->status = StatusOf(result.reason);
@@ -196,10 +203,10 @@ void TraceService::RunTrace(const TraceRequest& request, BagRecorder* bag, Respo
     if (stop_cause_ == StopCause::kTimeLimit) {
       response->end_reason = Response::END_TIME_LIMIT;
       response->message =
-          "time limit: the node admits " + InSeconds(parameters_.limits.max_seconds) + " (~" + names::kMaxSeconds + ")";
+          "the node admits " + InSeconds(parameters_.limits.max_seconds) + " (~" + names::kMaxSeconds + ")";
     } else if (stop_cause_ == StopCause::kShutdown) {
       response->status = Response::SHUTTING_DOWN;
-      response->message = "cut short: the node is being shut down";
+      response->message = "the node is being shut down";
     }
   } catch (const BagError& error) {
     response->status = Response::BAG_FAILED;
@@ -210,7 +217,7 @@ void TraceService::RunTrace(const TraceRequest& request, BagRecorder* bag, Respo
   }
 }
 
-void TraceService::TakeIncrement(const Increment& increment, BagRecorder* bag) {
+void TraceService::TakeIncrement(const Increment& increment, const TraceObserver& observer, BagRecorder* bag) {
   contact_path_msgs::Increment message = ToMessage(increment, full_state_every_);
   message.header.stamp = StampNow();
   // What the publisher makes of it on the wire: the recorded message is the one that subscribers get.
@@ -224,7 +231,23 @@ void TraceService::TakeIncrement(const Increment& increment, BagRecorder* bag) {
   status_.load_factor = increment.load_factor;
   status_.arc_length = increment.arc_length;
   status_.progress = progress_->Add(increment);
+  summary_.Add(increment);
   if (Clock::now() - status_time_ >= kStatusPeriod) PublishStatus();
+  if (observer.on_increment) observer.on_increment(FeedbackOn(message));
+}
+
+contact_path_msgs::TracePathFeedback TraceService::FeedbackOn(const contact_path_msgs::Increment& increment) const {
+  contact_path_msgs::TracePathFeedback feedback;
+  feedback.trace_id = increment.trace_id;
+  feedback.index = increment.index;
+  feedback.stage = increment.stage;
+  feedback.load_factor = increment.load_factor;
+  feedback.arc_length = increment.arc_length;
+  feedback.kind = increment.kind;
+  feedback.limit_points = static_cast<std::uint32_t>(summary_.limit_points());
+  feedback.events = static_cast<std::uint32_t>(summary_.events());
+  feedback.progress = status_.progress;
+  return feedback;
 }
 
 void TraceService::PublishStatus() {
@@ -247,8 +270,9 @@ void TraceService::RequestStop(StopCause cause) {
   stop_cause_.compare_exchange_strong(none, cause);
 }
 
-bool TraceService::StopWanted(Clock::time_point start) {
+bool TraceService::StopWanted(Clock::time_point start, const TraceObserver& observer) {
   if (!ros::ok()) RequestStop(StopCause::kShutdown);
+  if (observer.cancelled && observer.cancelled()) RequestStop(StopCause::kCancel);
   const double limit = parameters_.limits.max_seconds;
   const std::chrono::duration<double> elapsed = Clock::now() - start;
   if (limit > 0.0 && elapsed.count() > limit) RequestStop(StopCause::kTimeLimit);

@@ -17,16 +17,26 @@ namespace {
 namespace msgs = contact_path_msgs;
 using Response = msgs::TracePathResponse;
 
-// What arrives at the other side of a connection, or of a bag.
 template <typename Message>
-Message ThroughTheWire(const Message& message) {
+std::vector<std::uint8_t> Bytes(const Message& message) {
   std::vector<std::uint8_t> bytes(ros::serialization::serializationLength(message));
   ros::serialization::OStream out(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
   ros::serialization::serialize(out, message);
-  Message received;
+  return bytes;
+}
+
+template <typename Message>
+Message FromBytes(std::vector<std::uint8_t> bytes) {
+  Message message;
   ros::serialization::IStream in(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
-  ros::serialization::deserialize(in, received);
-  return received;
+  ros::serialization::deserialize(in, message);
+  return message;
+}
+
+// What arrives at the other side of a connection, or of a bag.
+template <typename Message>
+Message ThroughTheWire(const Message& message) {
+  return FromBytes<Message>(Bytes(message));
 }
 
 // Every field differs from its default and from its neighbours.
@@ -394,7 +404,19 @@ TEST(ConvertTest, AResponseThatNobodyFilledInSaysFailed) {
   EXPECT_EQ(Response().end_reason, Response::END_NONE);
 }
 
-TEST(ConvertTest, ResultHoldsTheResponse) {
+TEST(ConvertTest, RequestsOfServiceAndActionAreTheRecordedOne) {
+  const msgs::TraceRequest request = ToMessage(FullRequest());
+  // Nothing but the same fields in the same order: their bytes are the same.
+  const std::vector<std::uint8_t> bytes = Bytes(request);
+  const msgs::TracePathRequest of_service = FromBytes<msgs::TracePathRequest>(bytes);
+  const msgs::TracePathGoal of_action = FromBytes<msgs::TracePathGoal>(bytes);
+  EXPECT_EQ(Bytes(of_service), bytes);
+  EXPECT_EQ(Bytes(of_action), bytes);
+  EXPECT_EQ(Bytes(ToRequest(of_service)), bytes);
+  EXPECT_EQ(Bytes(ToRequest(of_action)), bytes);
+}
+
+TEST(ConvertTest, ResultsHoldTheResponse) {
   Response response;
   response.status = Response::ENDED_EARLY;
   response.message = "no way on";
@@ -402,13 +424,16 @@ TEST(ConvertTest, ResultHoldsTheResponse) {
   response.end_reason = Response::END_PATH_END;
   response.end_reason_name = "path_end";
   response.bag = "000001_scene.bag";
-  const msgs::TraceResult result = ThroughTheWire(ToResult(response));
-  EXPECT_EQ(result.status, response.status);
-  EXPECT_EQ(result.message, response.message);
-  EXPECT_EQ(result.increments, response.increments);
-  EXPECT_EQ(result.end_reason, response.end_reason);
-  EXPECT_EQ(result.end_reason_name, response.end_reason_name);
-  EXPECT_EQ(result.bag, response.bag);
+  const auto expect_same = [&response](const auto& result) {
+    EXPECT_EQ(result.status, response.status);
+    EXPECT_EQ(result.message, response.message);
+    EXPECT_EQ(result.increments, response.increments);
+    EXPECT_EQ(result.end_reason, response.end_reason);
+    EXPECT_EQ(result.end_reason_name, response.end_reason_name);
+    EXPECT_EQ(result.bag, response.bag);
+  };
+  expect_same(ThroughTheWire(ToResult(response)));
+  expect_same(ThroughTheWire(ToActionResult(response)));
 }
 
 }  // namespace

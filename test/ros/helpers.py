@@ -5,6 +5,7 @@ import threading
 import time
 import xmlrpc.client
 
+import actionlib
 import genpy
 import rosbag
 import rosgraph
@@ -12,7 +13,7 @@ import roslib.packages
 import rospy
 import yaml
 
-from contact_path.msg import Increment
+from contact_path.msg import Increment, TracePathAction, TracePathGoal
 from contact_path.srv import TracePath, TracePathRequest
 
 PACKAGE = 'contact_path'
@@ -67,6 +68,38 @@ def is_subscribed(node, topic):
 def service(name, kind=TracePath):
     rospy.wait_for_service(name, PATIENCE)
     return rospy.ServiceProxy(name, kind)
+
+
+def action_client(name):
+    client = actionlib.ActionClient(name, TracePathAction)
+    assert client.wait_for_server(rospy.Duration(PATIENCE)), name + ' is not there'
+    return client
+
+
+def goal_from(request):
+    return TracePathGoal(**{field: getattr(request, field) for field in request.__slots__})
+
+
+class Goal:
+    """A goal that was sent, and the feedback that has come."""
+
+    def __init__(self, client, request):
+        self.feedback = []
+        self._handle = client.send_goal(goal_from(request), feedback_cb=lambda _, feedback: self.feedback.append(feedback))
+
+    def cancel(self):
+        self._handle.cancel()
+
+    def state(self):
+        return self._handle.get_goal_status()
+
+    def text(self):
+        return self._handle.get_goal_status_text()
+
+    def finish(self):
+        """Last state and result."""
+        wait_until(lambda: self._handle.get_comm_state() == actionlib.CommState.DONE, 'the goal has ended')
+        return self._handle.get_terminal_state(), self._handle.get_result()
 
 
 class Collector:

@@ -12,11 +12,10 @@ import rosbag
 import rosnode
 import rospy
 import rostest
+from actionlib_msgs.msg import GoalStatus
 from contact_path.srv import TracePathResponse as Response
 
 import helpers
-
-NODE = '/stopped'
 
 
 class ShutdownTest(unittest.TestCase):
@@ -25,6 +24,7 @@ class ShutdownTest(unittest.TestCase):
         rospy.init_node('shutdown_test')
 
     def setUp(self):
+        self.name = '/' + self._testMethodName  # no connection of a former node is taken for one of this
         self.bags = tempfile.mkdtemp()
         self.node = None
 
@@ -35,15 +35,15 @@ class ShutdownTest(unittest.TestCase):
         shutil.rmtree(self.bags)
 
     def start(self, *parameters):
-        self.node = subprocess.Popen([helpers.program('contact_path_node'), '__name:=' + NODE.strip('/'),
+        self.node = subprocess.Popen([helpers.program('contact_path_node'), '__name:=' + self.name.strip('/'),
                                       '_bag_directory:=' + self.bags] + list(parameters),
                                      stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
 
     def start_trace(self):
         """A node with a trace on its way; the call."""
         self.start()
-        trace = helpers.service(NODE + '/trace')
-        with helpers.Collector(NODE + '/increments') as collector:
+        trace = helpers.service(self.name + '/trace')
+        with helpers.Collector(self.name + '/increments') as collector:
             call = helpers.Call(trace, helpers.long_request())
             helpers.wait_until(lambda: len(collector.messages) > 50, 'the trace is on its way')
         return call
@@ -66,6 +66,19 @@ class ShutdownTest(unittest.TestCase):
         self.assertEqual((result.status, result.end_reason), (Response.SHUTTING_DOWN, Response.END_CANCELLED))
         return result
 
+    def expect_signal_aborts_goal(self, number):
+        self.start()
+        goal = helpers.Goal(helpers.action_client(self.name + '/trace_action'), helpers.long_request())
+        helpers.wait_until(lambda: len(goal.feedback) > 50, 'the trace is on its way')
+        sent = time.monotonic()
+        self.node.send_signal(number)
+        self.expect_exit(sent)
+        state, answer = goal.finish()
+        self.assertEqual(state, GoalStatus.ABORTED)
+        result = self.expect_closed_bag()
+        self.assertEqual((answer.status, answer.message, answer.increments, answer.end_reason, answer.bag),
+                         (result.status, result.message, result.increments, result.end_reason, result.bag))
+
     def expect_signal_ends_trace(self, number):
         call = self.start_trace()
         sent = time.monotonic()
@@ -83,32 +96,39 @@ class ShutdownTest(unittest.TestCase):
     def test_termination_ends_the_trace_and_closes_its_bag(self):
         self.expect_signal_ends_trace(signal.SIGTERM)
 
+    def test_interrupt_aborts_the_goal_and_closes_its_bag(self):
+        self.expect_signal_aborts_goal(signal.SIGINT)
+
+    def test_termination_aborts_the_goal_and_closes_its_bag(self):
+        self.expect_signal_aborts_goal(signal.SIGTERM)
+
     def test_shutdown_by_the_master_closes_the_bag(self):
         self.start_trace()
         sent = time.monotonic()
-        rosnode.kill_nodes([NODE])
+        rosnode.kill_nodes([self.name])
         self.expect_exit(sent)
         self.expect_closed_bag()
 
     def test_interrupt_ends_an_idle_node(self):
         self.start()
-        helpers.service(NODE + '/trace')
+        helpers.service(self.name + '/trace')
         sent = time.monotonic()
         self.node.send_signal(signal.SIGINT)
         self.expect_exit(sent)
 
     def test_bag_of_a_crashed_node_can_be_reindexed(self):
         self.start_trace()
+        path = os.path.join(self.bags, os.listdir(self.bags)[0])
+        helpers.wait_until(lambda: os.path.getsize(path) > 64 * 1024, 'several chunks are on the disk')
         self.node.kill()
         self.node.wait()
-        path = os.path.join(self.bags, os.listdir(self.bags)[0])
         with rosbag.Bag(path, 'a', allow_unindexed=True) as bag:
             for _ in bag.reindex():
                 pass
         with rosbag.Bag(path) as bag:
             topics = [topic for topic, _, _ in bag.read_messages()]
-        self.assertEqual(topics[0], NODE + '/request')
-        self.assertGreater(topics.count(NODE + '/increments'), 10)
+        self.assertEqual(topics[0], self.name + '/request')
+        self.assertGreater(topics.count(self.name + '/increments'), 10)
 
     def test_wrong_parameters_are_named_at_the_start(self):
         for parameter, line in (('max_nodes:=0', '~max_nodes = 0: must be > 0'),
@@ -121,7 +141,7 @@ class ShutdownTest(unittest.TestCase):
             output, _ = self.node.communicate(timeout=helpers.PATIENCE)
             self.assertEqual(self.node.returncode, 1)
             self.assertIn(line, output)
-            rospy.delete_param(NODE)
+            rospy.delete_param(self.name)
 
 
 if __name__ == '__main__':

@@ -102,6 +102,19 @@ class TraceServiceTest(unittest.TestCase):
         self.assertIn('status: %d' % Response.OK, answer)
         self.assertIn('end_reason_name: "stop_criterion"', answer)
 
+    def test_message_tells_the_end_the_limit_points_the_events_and_the_bag(self):
+        for scene in 'sliding_bar', 'von_mises':
+            response = self.trace(helpers.request_of(scene))
+            _, increments, _ = self.read_bag(response)
+            limits = ['%s at load factor %.10g (row %d)' % (name, row.load_factor, row.index)
+                      for row in increments for name in ('smooth_limit', 'corner_limit') if row.kind == KINDS[name]]
+            self.assertGreater(len(limits), 0)
+            events = max(row.event.number for row in increments)  # they are numbered from 1
+            stop, = helpers.request_of(scene).options.stop
+            self.assertEqual(response.message, 'stop_criterion: %s %s %g; %d rows; limit points: %s; %d event%s; bag %s' %
+                             (stop.quantity, stop.when, stop.value, response.increments, ', '.join(limits), events,
+                              '' if events == 1 else 's', response.bag))
+
     def test_end_by_number_of_increments_is_as_asked_for(self):
         response = self.trace(helpers.request_of('von_mises', step=1e-3, max_increments=5))
         self.assertEqual((response.status, response.end_reason, response.end_reason_name),
@@ -177,9 +190,7 @@ class TraceServiceTest(unittest.TestCase):
             self.assertEqual(len(told), 1, said)
             self.assertIn('load factor %.6g' % row.load_factor, told[0])
         self.assertIn('b@floor stick -> slip+', said)
-        self.assertIn('ended stop_criterion: ' + response.message, lines[-2])
-        self.assertIn('%d rows, limit loads: ' % response.increments, lines[-1])
-        self.assertTrue(lines[-1].endswith('bag: ' + response.bag), said)
+        self.assertTrue(lines[-1].endswith('of sliding_bar ended: ' + response.message), said)
 
     def test_none_of_2000_increments_is_lost(self):
         with helpers.Collector(NODE + '/increments') as collector:

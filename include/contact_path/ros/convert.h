@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "contact_path/path/increment.h"
+#include "contact_path/path/path_summary.h"
 #include "contact_path/path/trace.h"
 #include "contact_path/ros/messages.h"
 #include "contact_path/scene/scene.h"
@@ -20,6 +21,10 @@ TraceRequest FromMessage(const contact_path_msgs::Scene& scene, const contact_pa
 
 // Words are written out, also where they are the default.
 contact_path_msgs::TraceRequest ToMessage(const TraceRequest& request);
+
+// The same fields.
+contact_path_msgs::TraceRequest ToRequest(const contact_path_msgs::TracePathRequest& request);
+contact_path_msgs::TraceRequest ToRequest(const contact_path_msgs::TracePathGoal& goal);
 
 // Leaves `header` and `trace_id` to the caller. full_state_every: as in TraceOptions.
 contact_path_msgs::Increment ToMessage(const Increment& increment, int full_state_every = 1);
@@ -35,11 +40,17 @@ std::uint8_t ToConstant(EndReason reason);
 // Throws std::invalid_argument for a constant that is not known.
 std::string EndReasonName(std::uint8_t end_reason);
 
+// The field `message` of a trace that has a bag: "stop_criterion: b.x > 4.95; 98 rows; ...; bag 000001_bar.bag".
+// name: as by EndReasonName(); why: one line.
+std::string EndMessage(const std::string& name, const std::string& why, const PathSummary& path,
+                       const std::string& bag);
+
 // OK or ENDED_EARLY.
 std::uint8_t StatusOf(EndReason reason);
 
-// The fields that both have.
+// The same fields.
 contact_path_msgs::TraceResult ToResult(const contact_path_msgs::TracePathResponse& response);
+contact_path_msgs::TracePathResult ToActionResult(const contact_path_msgs::TracePathResponse& response);
 
 }  // namespace contact_path
 

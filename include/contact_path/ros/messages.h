@@ -13,6 +13,8 @@
 #include <string>
 #include <vector>
 
+#include <actionlib_msgs/GoalID.h>
+#include <actionlib_msgs/GoalStatus.h>
 #include <ros/builtin_message_traits.h>
 #include <ros/message_operations.h>
 #include <ros/serialization.h>
@@ -23,6 +25,7 @@
 #define contact_path contact_path_msgs
 #include <contact_path/Increment.h>
 #include <contact_path/TracePath.h>
+#include <contact_path/TracePathAction.h>
 #include <contact_path/TraceRequest.h>
 #include <contact_path/TraceResult.h>
 #include <contact_path/TraceStatus.h>

@@ -11,6 +11,8 @@ inline constexpr char kNode[] = "contact_path";  // unless it is remapped
 inline constexpr char kTrace[] = "trace";    // TracePath
 inline constexpr char kCancel[] = "cancel";  // std_srvs/Trigger
 
+inline constexpr char kTraceAction[] = "trace_action";  // action TracePath
+
 // Topics.
 inline constexpr char kIncrements[] = "increments";  // Increment, also in the bags
 inline constexpr char kStatus[] = "status";          // TraceStatus, latched

@@ -1,10 +1,12 @@
-// The node: answers the service ~trace, streams increments and status, and records every trace.
+// The node's traces: for the service ~trace, and for the action (trace_action.h). Streams increments and status, and
+// records every trace.
 #ifndef CONTACT_PATH_ROS_TRACE_SERVICE_H_
 #define CONTACT_PATH_ROS_TRACE_SERVICE_H_
 
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -12,6 +14,7 @@
 #include <ros/ros.h>
 #include <std_srvs/Trigger.h>
 
+#include "contact_path/path/path_summary.h"
 #include "contact_path/path/progress_estimate.h"
 #include "contact_path/path/trace.h"
 #include "contact_path/ros/bag_recorder.h"
@@ -30,32 +33,46 @@ struct NodeParameters {
 // Throws std::invalid_argument naming the parameter that has a wrong type or value.
 NodeParameters ReadParameters(const ros::NodeHandle& private_node);
 
-// Traces one request at a time, on the thread of its service call: ~cancel and the refusal of further requests need
+// How the one who asked for a trace takes part besides the answer. Called on the thread that traces; each may be empty.
+struct TraceObserver {
+  std::function<void()> on_start;  // the request is sound and its bag is open
+  std::function<void(const contact_path_msgs::TracePathFeedback&)> on_increment;
+  std::function<bool()> cancelled;  // asked often; true ends the trace as ~cancel does
+};
+
+// Traces one request at a time, on the thread that asks for it: ~cancel and the refusal of further requests need
 // threads besides it. No request, and no trouble with the bag, leaves it other than as an answer.
 class TraceService {
  public:
+  using Response = contact_path_msgs::TracePathResponse;
+
   TraceService(ros::NodeHandle private_node, const NodeParameters& parameters);
+
+  // Takes the node for a trace of this scene. False where another one has it, or while shutting down: `response` tells.
+  bool Admit(const std::string& scene_name, Response* response);
+
+  // Traces what was admitted, and gives the node free. `response->bag` is empty where nothing was traced.
+  void Run(const contact_path_msgs::TraceRequest& request, const TraceObserver& observer, Response* response);
 
   // Refuses what comes from now on and asks the running trace to end; does not wait for it.
   void Shutdown();
 
  private:
   using Request = contact_path_msgs::TracePathRequest;
-  using Response = contact_path_msgs::TracePathResponse;
   enum class StopCause { kNone, kCancel, kTimeLimit, kShutdown };
 
   bool HandleTrace(Request& request, Response& response);
   bool HandleCancel(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
 
-  // Everything between the admission of a request and its answer; `response->bag` is empty where nothing was traced.
-  void Serve(const Request& request, Response* response);
-  void RunTrace(const TraceRequest& request, BagRecorder* bag, Response* response);
-  void TakeIncrement(const Increment& increment, BagRecorder* bag);
+  void Serve(const contact_path_msgs::TraceRequest& request, const TraceObserver& observer, Response* response);
+  void RunTrace(const TraceRequest& request, const TraceObserver& observer, BagRecorder* bag, Response* response);
+  void TakeIncrement(const Increment& increment, const TraceObserver& observer, BagRecorder* bag);
+  contact_path_msgs::TracePathFeedback FeedbackOn(const contact_path_msgs::Increment& increment) const;
   void PublishStatus();
   void PublishEnd(const Response& response);
 
   void RequestStop(StopCause cause);  // the first cause stays
-  bool StopWanted(std::chrono::steady_clock::time_point start);
+  bool StopWanted(std::chrono::steady_clock::time_point start, const TraceObserver& observer);
 
   const NodeParameters parameters_;
   const std::string topic_prefix_;  // of the bags' topics: the name of the node
@@ -76,6 +93,7 @@ class TraceService {
   std::uint32_t increments_published_ = 0;
   int full_state_every_ = 0;  // as in the request
   std::optional<ProgressEstimate> progress_;
+  PathSummary summary_;
 
   // Last, so that no call comes in before the rest is there.
   ros::ServiceServer trace_server_;

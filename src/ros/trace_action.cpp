@@ -1,0 +1,89 @@
+#include "contact_path/ros/trace_action.h"
+
+#include <actionlib_msgs/GoalStatus.h>
+
+#include "contact_path/ros/convert.h"
+#include "contact_path/ros/names.h"
+
+namespace contact_path {
+namespace {
+
+using Response = TraceService::Response;
+
+constexpr char kQueueParameter[] = "actionlib_server_pub_queue_size";  // of actionlib, 50 by default
+
+}  // namespace
+
+TraceAction::TraceAction(const ros::NodeHandle& private_node, const NodeParameters& parameters, TraceService* service)
+    : service_(*service),
+      server_(
+          private_node, names::kTraceAction, [this](const Server::GoalHandle& goal) { TakeGoal(goal); },
+          // The goal says so itself: see Trace().
+          [](const Server::GoalHandle& /*goal*/) {}, /*auto_start=*/false) {
+  ros::NodeHandle(private_node, names::kTraceAction).setParam(kQueueParameter, parameters.increments_queue);
+  server_.start();
+  thread_ = std::thread([this] { Work(); });
+}
+
+void TraceAction::Finish() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    finishing_ = true;
+  }
+  changed_.notify_one();
+  if (thread_.joinable()) thread_.join();
+}
+
+void TraceAction::TakeGoal(Server::GoalHandle goal) {
+  Response response;
+  if (!service_.Admit(goal.getGoal()->scene.name, &response)) {
+    goal.setRejected(ToActionResult(response), response.message);
+    return;
+  }
+  {
+    // Empty: whoever was admitted before has been traced.
+    const std::lock_guard<std::mutex> lock(mutex_);
+    admitted_ = goal;
+  }
+  changed_.notify_one();
+}
+
+void TraceAction::Work() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  for (;;) {
+    changed_.wait(lock, [this] { return admitted_ || finishing_; });
+    if (!admitted_) return;
+    Server::GoalHandle goal = *admitted_;
+    admitted_.reset();
+    lock.unlock();
+    Trace(goal);
+    lock.lock();
+  }
+}
+
+void TraceAction::Trace(Server::GoalHandle goal) {
+  Response response;
+  bool accepted = false;
+  TraceObserver observer;
+  observer.on_start = [&] {
+    goal.setAccepted();
+    accepted = true;
+  };
+  observer.on_increment = [&](const contact_path_msgs::TracePathFeedback& feedback) { goal.publishFeedback(feedback); };
+  // Asked for while the goal was still being checked, too: then it is accepted as one that is to be preempted.
+  observer.cancelled = [&] { return goal.getGoalStatus().status == actionlib_msgs::GoalStatus::PREEMPTING; };
+  service_.Run(ToRequest(*goal.getGoal()), observer, &response);
+
+  const contact_path_msgs::TracePathResult result = ToActionResult(response);
+  if (!accepted) {
+    goal.setRejected(result, response.message);
+  } else if (response.status == Response::OK) {
+    goal.setSucceeded(result, response.message);
+  } else if (response.status == Response::ENDED_EARLY && response.end_reason == Response::END_CANCELLED) {
+    goal.setCanceled(result, response.message);
+  } else {
+    goal.setAborted(result, response.message);
+  }
+}
+
+}  // namespace contact_path
