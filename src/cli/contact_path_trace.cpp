@@ -21,8 +21,8 @@
 #include "contact_path/scene/read_scene.h"
 #include "contact_path/scene/validate.h"
 #ifdef CONTACT_PATH_WITH_ROS
-#include "bag_rows.h"
 #include "bag_sink.h"
+#include "contact_path/ros/resume.h"
 #endif
 #include "event_table.h"
 #include "one_thread.h"
@@ -136,9 +136,13 @@ Task ReadTask(const Arguments& arguments) {
   Task task;
 #ifdef CONTACT_PATH_WITH_ROS
   if (arguments.scene_file.empty()) {
-    RecordedRows recorded = ReadRows(arguments.resume);
-    task.request = std::move(recorded.request);
-    task.rows = std::move(recorded.rows);
+    TraceSoFar so_far = ReadTraceSoFar(arguments.resume);
+    for (const Increment& row : so_far.rows)
+      if (row.positions.empty())
+        throw std::runtime_error(arguments.resume + ": row " + std::to_string(row.index) +
+                                 " has no state (full_state_every): the CSV could not have it");
+    task.request = std::move(so_far.request);
+    task.rows = std::move(so_far.rows);
   } else {
     task.request = ReadRequest(arguments);
   }

@@ -100,6 +100,7 @@ msgs::TraceRequest SameRequest(const Request& request) {
   same.scene = request.scene;
   same.options = request.options;
   same.program = request.program;
+  same.resume = request.resume;
   return same;
 }
 

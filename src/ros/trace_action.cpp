@@ -36,7 +36,7 @@ void TraceAction::Finish() {
 
 void TraceAction::TakeGoal(Server::GoalHandle goal) {
   Response response;
-  if (!service_.Admit(goal.getGoal()->scene.name, &response)) {
+  if (!service_.Admit(NameOf(*goal.getGoal()), &response)) {
     goal.setRejected(ToActionResult(response), response.message);
     return;
   }

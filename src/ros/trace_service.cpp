@@ -9,6 +9,7 @@
 
 #include "contact_path/ros/convert.h"
 #include "contact_path/ros/names.h"
+#include "contact_path/ros/resume.h"
 #include "contact_path/ros/stamp.h"
 #include "contact_path/scene/validate.h"
 
@@ -118,7 +119,7 @@ void TraceService::Run(const contact_path_msgs::TraceRequest& request, const Tra
 }
 
 bool TraceService::HandleTrace(Request& request, Response& response) {
-  if (Admit(request.scene.name, &response)) Run(ToRequest(request), TraceObserver(), &response);
+  if (Admit(NameOf(request), &response)) Run(ToRequest(request), TraceObserver(), &response);
   return true;
 }
 
@@ -130,8 +131,22 @@ bool TraceService::HandleCancel(std_srvs::Trigger::Request& /*request*/, std_srv
   return true;
 }
 
-void TraceService::Serve(const contact_path_msgs::TraceRequest& request, const TraceObserver& observer,
+void TraceService::Serve(const contact_path_msgs::TraceRequest& asked, const TraceObserver& observer,
                          Response* response) {
+  contact_path_msgs::TraceRequest request = asked;
+  std::optional<std::vector<Increment>> rows;  // of the trace to go on with
+  if (!asked.resume.empty()) {
+    try {
+      TraceSoFar so_far = ReadTraceSoFar(parameters_.bag_directory, asked);
+      request = ToMessage(so_far.request);
+      request.resume = asked.resume;
+      rows = std::move(so_far.rows);
+    } catch (const InvalidRequest& error) {
+      response->status = Response::INVALID_REQUEST;
+      response->message = error.what();
+      return;
+    }
+  }
   const std::string exceeded = ExceededLimit(request.scene, request.options, request.program, parameters_.limits);
   if (!exceeded.empty()) {
     response->status = Response::LIMIT_EXCEEDED;
@@ -173,7 +188,7 @@ void TraceService::Serve(const contact_path_msgs::TraceRequest& request, const T
   full_state_every_ = core_request.options.full_state_every;
   progress_.emplace(core_request);
   summary_ = PathSummary();
-  RunTrace(core_request, observer, bag.get(), response);
+  RunTrace(core_request, rows, observer, bag.get(), response);
   response->increments = status_.increments;
   response->end_reason_name = EndReasonName(response->end_reason);
   response->message = EndMessage(response->end_reason_name, response->message, summary_, response->bag);
@@ -188,14 +203,14 @@ void TraceService::Serve(const contact_path_msgs::TraceRequest& request, const T
   }
 }
 
-void TraceService::RunTrace(const TraceRequest& request, const TraceObserver& observer, BagRecorder* bag,
-                            Response* response) {
+void TraceService::RunTrace(const TraceRequest& request, const std::optional<std::vector<Increment>>& rows,
+                            const TraceObserver& observer, BagRecorder* bag, Response* response) {
   const Clock::time_point start = Clock::now();
   TraceControl control;
   control.on_increment = [&](const Increment& increment) { TakeIncrement(increment, observer, bag); };
   control.cancelled = [&] { return StopWanted(start, observer); };
   try {
-    const TraceResult result = Trace(request, control);
+    const TraceResult result = rows ? ResumeTrace(request, *rows, control) : Trace(request, control);
     response->status = StatusOf(result.reason);
     response->end_reason = ToConstant(result.reason);
     response->message = result.message;

@@ -13,7 +13,7 @@ import rosbag
 import rospy
 import rostest
 from contact_path.msg import ContactState, Increment, TraceRequest, TraceStatus
-from contact_path.srv import TracePathResponse as Response
+from contact_path.srv import TracePathRequest, TracePathResponse as Response
 from std_srvs.srv import Trigger
 
 import helpers
@@ -310,6 +310,53 @@ class TraceServiceTest(unittest.TestCase):
         self.expect_refusal(self.trace(), Response.INVALID_REQUEST)
         self.assertEqual(self.number_of_bags(), bags)
         self.assertEqual(self.trace(helpers.request_of('von_mises')).status, Response.OK)
+
+    # Going on
+
+    def test_resumed_trace_is_the_one_without_interruption(self):
+        whole = self.trace(helpers.request_of('two_dof_friction'))
+        part = self.trace(helpers.request_of('two_dof_friction', max_increments=25))
+        self.assertEqual(part.increments, 26)
+        request = TracePathRequest(resume=part.bag)
+        request.options.max_increments = 1000
+        resumed = self.trace(request)
+        self.assertEqual(resumed.status, Response.OK, resumed.message)
+        recorded, rows, _ = self.read_bag(resumed)
+        self.assertEqual(recorded.resume, part.bag)
+        self.assertEqual(recorded.scene.name, 'two_dof_friction')
+        expected = self.read_bag(whole)[1]
+        self.assertEqual(len(rows), len(expected))
+        for a, b in zip(rows, expected):
+            self.assertEqual((a.index, a.kind), (b.index, b.kind))
+            self.assertAlmostEqual(a.load_factor, b.load_factor, delta=1e-9)
+            for x, y in zip(a.x, b.x):
+                self.assertAlmostEqual(x, y, delta=1e-9)
+
+    def test_only_bags_of_the_bag_directory_are_resumed(self):
+        bag = self.trace(helpers.request_of('sliding_bar', max_increments=5)).bag
+        outside = os.path.join(os.path.dirname(self.bags), 'outside.bag')
+        shutil.copy(os.path.join(self.bags, bag), outside)
+        os.symlink(outside, os.path.join(self.bags, 'link.bag'))
+        bags = self.number_of_bags()
+        rule = 'must be the name of a bag in the bag directory'
+        for name in outside, '../outside.bag', './' + bag, 'link.bag', '.', '..', 'none.bag', '/dev/zero', bag + '\n':
+            response = self.trace(TracePathRequest(resume=name))
+            self.assertEqual(response.status, Response.INVALID_REQUEST, name)
+            self.assertIn(rule, response.message)
+            self.assertEqual(response.message.count('\n'), 0)
+        os.remove(os.path.join(self.bags, 'link.bag'))
+        with open(os.path.join(self.bags, 'broken.bag'), 'w') as file:
+            file.write('no bag')
+        response = self.trace(TracePathRequest(resume='broken.bag'))
+        self.assertEqual(response.status, Response.INVALID_REQUEST)
+        self.assertIn('broken.bag', response.message)
+        os.remove(os.path.join(self.bags, 'broken.bag'))
+        request = helpers.request_of('sliding_bar')
+        request.resume = bag
+        response = self.trace(request)
+        self.assertEqual(response.status, Response.INVALID_REQUEST)
+        self.assertIn('scene: must be left out where a bag is resumed', response.message)
+        self.assertEqual(self.number_of_bags(), bags - 1)
 
     def test_requests_beyond_a_limit_are_refused(self):
         trace = helpers.service('/limited' + NODE + '/trace')

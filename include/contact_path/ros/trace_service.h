@@ -10,6 +10,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <ros/ros.h>
 #include <std_srvs/Trigger.h>
@@ -32,6 +33,12 @@ struct NodeParameters {
 
 // Throws std::invalid_argument naming the parameter that has a wrong type or value.
 NodeParameters ReadParameters(const ros::NodeHandle& private_node);
+
+// What a trace is called before it runs: its scene, or the bag that it goes on with.
+template <typename Request>
+const std::string& NameOf(const Request& request) {
+  return request.resume.empty() ? request.scene.name : request.resume;
+}
 
 // How the one who asked for a trace takes part besides the answer. Called on the thread that traces; each may be empty.
 struct TraceObserver {
@@ -64,8 +71,10 @@ class TraceService {
   bool HandleTrace(Request& request, Response& response);
   bool HandleCancel(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
 
-  void Serve(const contact_path_msgs::TraceRequest& request, const TraceObserver& observer, Response* response);
-  void RunTrace(const TraceRequest& request, const TraceObserver& observer, BagRecorder* bag, Response* response);
+  void Serve(const contact_path_msgs::TraceRequest& asked, const TraceObserver& observer, Response* response);
+  // rows: of the trace to go on with; nothing: from the start.
+  void RunTrace(const TraceRequest& request, const std::optional<std::vector<Increment>>& rows,
+                const TraceObserver& observer, BagRecorder* bag, Response* response);
   void TakeIncrement(const Increment& increment, const TraceObserver& observer, BagRecorder* bag);
   contact_path_msgs::TracePathFeedback FeedbackOn(const contact_path_msgs::Increment& increment) const;
   void PublishStatus();
