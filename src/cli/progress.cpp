@@ -76,7 +76,9 @@ void Progress::Draw(const Increment& increment, double done) {
     line << '[' << std::string(filled, '#') << std::string(kBarWidth - filled, ' ') << "] " << std::setw(3)
          << static_cast<int>(100.0 * done) << "%  ";
   }
-  line << "row " << increment.index << "  load factor " << std::setprecision(4) << increment.load_factor << "  events "
+  line << "row " << increment.index;
+  if (increment.stage > 0) line << "  stage " << increment.stage;
+  line << "  load factor " << std::setprecision(4) << increment.load_factor << "  events "
        << summary_.events();
   const double seconds = std::chrono::duration<double>(clock_() - first_row_).count();
   if (done >= kLeastFraction && seconds >= kLeastSeconds)

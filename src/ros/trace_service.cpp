@@ -243,6 +243,7 @@ void TraceService::TakeIncrement(const Increment& increment, const TraceObserver
   ++increments_published_;
 
   ++status_.increments;
+  status_.stage = static_cast<std::uint32_t>(increment.stage);
   status_.load_factor = increment.load_factor;
   status_.arc_length = increment.arc_length;
   status_.progress = progress_->Add(increment);
