@@ -29,7 +29,7 @@ generate_messages(DEPENDENCIES actionlib_msgs std_msgs)
 catkin_package(
   INCLUDE_DIRS include
   LIBRARIES contact_path_ros contact_path_core
-  CATKIN_DEPENDS actionlib actionlib_msgs message_runtime rosbag roscpp std_msgs std_srvs
+  CATKIN_DEPENDS actionlib actionlib_msgs message_runtime rosbag roscpp std_msgs std_srvs visualization_msgs
 )
 
 add_library(contact_path_ros
@@ -37,7 +37,9 @@ add_library(contact_path_ros
   src/ros/bag_recorder.cpp
   src/ros/convert.cpp
   src/ros/limits.cpp
+  src/ros/marker_publisher.cpp
   src/ros/resume.cpp
+  src/ros/scene_markers.cpp
   src/ros/shutdown_signal.cpp
   src/ros/trace_action.cpp
   src/ros/trace_service.cpp
@@ -53,6 +55,9 @@ target_link_libraries(contact_path_ros
 add_executable(contact_path_node src/ros/contact_path_node.cpp src/cli/one_thread.cpp)
 target_include_directories(contact_path_node PRIVATE src/cli)
 target_link_libraries(contact_path_node PRIVATE contact_path_ros contact_path_warnings)
+
+add_executable(contact_path_markers src/ros/contact_path_markers.cpp)
+target_link_libraries(contact_path_markers PRIVATE contact_path_ros contact_path_warnings)
 
 add_executable(contact_path_verify src/ros/verify.cpp)
 set_target_properties(contact_path_verify PROPERTIES OUTPUT_NAME verify)
@@ -78,11 +83,12 @@ endforeach()
 install(TARGETS contact_path_ros contact_path_core
   ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
   LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
-install(TARGETS contact_path_node contact_path_trace contact_path_lattice contact_path_verify RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+install(TARGETS contact_path_node contact_path_markers contact_path_trace contact_path_lattice contact_path_verify
+  RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(DIRECTORY include/${PROJECT_NAME}/ DESTINATION ${CATKIN_PACKAGE_INCLUDE_DESTINATION})
-catkin_install_python(PROGRAMS scripts/plot scripts/watch DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+catkin_install_python(PROGRAMS scripts/play scripts/plot scripts/watch DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(FILES scripts/path_file.py scripts/plot_panels.py scripts/plot_shapes.py DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
-install(DIRECTORY launch scenes DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
+install(DIRECTORY config launch scenes DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
 
 if(CATKIN_ENABLE_TESTING)
   find_package(rostest REQUIRED)
@@ -92,14 +98,15 @@ if(CATKIN_ENABLE_TESTING)
     test/ros/convert_test.cpp
     test/ros/limits_test.cpp
     test/ros/ros_test_main.cpp
+    test/ros/scene_markers_test.cpp
   )
   target_link_libraries(contact_path_ros_test contact_path_ros contact_path_warnings)
 
   # catkin runs tests in a snapshot of the environment from before the messages were generated; this one is read when
   # the tests run.
   set(CATKIN_ENV ${CATKIN_DEVEL_PREFIX}/env.sh)
-  foreach(test shutdown trace_action trace_service)
-    add_rostest(test/ros/${test}.test DEPENDENCIES contact_path_node contact_path_trace)
+  foreach(test markers shutdown trace_action trace_service)
+    add_rostest(test/ros/${test}.test DEPENDENCIES contact_path_node contact_path_markers contact_path_trace)
   endforeach()
   unset(CATKIN_ENV)
 endif()

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <rosbag/bag.h>
+#include <boost/make_shared.hpp>
 
 #include "contact_path/ros/names.h"
 #include "contact_path/ros/stamp.h"
@@ -89,7 +90,7 @@ BagRecorder::~BagRecorder() {
 
 void BagRecorder::WriteRequest(const contact_path_msgs::TraceRequest& request) {
   CheckSpace();
-  Write(names::kRequest, request);
+  Write(names::kRequest, request, /*latched=*/true);
 }
 
 void BagRecorder::WriteIncrement(const contact_path_msgs::Increment& increment) {
@@ -152,12 +153,20 @@ void BagRecorder::CheckSpace() const {
 }
 
 template <typename Message>
-void BagRecorder::Write(const char* topic, const Message& message) {
+void BagRecorder::Write(const char* topic, const Message& message, bool latched) {
   if (!bag_) throw BagError("bag " + file_name_ + " is closed");
   // Readers sort by time: the order must survive clocks that stand still or jump back.
   last_stamp_ = std::max(StampNow(), last_stamp_ + ros::Duration(0, 1));
+  boost::shared_ptr<ros::M_string> connection;  // null: the bag makes one, of a topic that is not latched
+  if (latched) {
+    connection = boost::make_shared<ros::M_string>();
+    (*connection)["type"] = ros::message_traits::datatype(message);
+    (*connection)["md5sum"] = ros::message_traits::md5sum(message);
+    (*connection)["message_definition"] = ros::message_traits::definition(message);
+    (*connection)["latching"] = "1";
+  }
   try {
-    bag_->write(topic_prefix_ + "/" + topic, last_stamp_, message);
+    bag_->write(topic_prefix_ + "/" + topic, last_stamp_, message, connection);
   } catch (const rosbag::BagException& error) {
     throw BagError("bag " + file_name_ + " cannot be written: " + error.what());
   }

@@ -7,8 +7,11 @@
 #include <stdexcept>
 #include <vector>
 
+#include <boost/make_shared.hpp>
+
 #include "contact_path/ros/convert.h"
 #include "contact_path/ros/names.h"
+#include "contact_path/ros/read_parameter.h"
 #include "contact_path/ros/resume.h"
 #include "contact_path/ros/stamp.h"
 #include "contact_path/scene/validate.h"
@@ -19,14 +22,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kStatusPeriod{200};
-
-// Leaves `value` as it is where the parameter is not set.
-template <typename Value>
-void ReadParameter(const ros::NodeHandle& node, const char* name, const char* type, Value* value) {
-  if (node.hasParam(name) && !node.getParam(name, *value)) {
-    throw std::invalid_argument("~" + std::string(name) + ": must be " + type);
-  }
-}
 
 // `path` with a leading ~ replaced by the home directory.
 std::string ExpandHome(const std::string& path) {
@@ -47,6 +42,7 @@ NodeParameters ReadParameters(const ros::NodeHandle& private_node) {
   NodeParameters parameters;
   ReadParameter(private_node, names::kBagDirectory, "a string", &parameters.bag_directory);
   ReadParameter(private_node, names::kIncrementsQueue, "an integer", &parameters.increments_queue);
+  parameters.markers = ReadMarkerOptions(private_node);
   ReadParameter(private_node, names::kMaxNodes, "an integer", &parameters.limits.max_nodes);
   ReadParameter(private_node, names::kMaxElements, "an integer", &parameters.limits.max_elements);
   ReadParameter(private_node, names::kMaxContacts, "an integer", &parameters.limits.max_contacts);
@@ -66,7 +62,7 @@ NodeParameters ReadParameters(const ros::NodeHandle& private_node) {
 }
 
 TraceService::TraceService(ros::NodeHandle private_node, const NodeParameters& parameters)
-    : parameters_(parameters), topic_prefix_(private_node.getNamespace()) {
+    : parameters_(parameters), topic_prefix_(private_node.getNamespace()), markers_(private_node, parameters.markers) {
   request_publisher_ = private_node.advertise<contact_path_msgs::TraceRequest>(names::kRequest, 1, /*latch=*/true);
   increments_publisher_ = private_node.advertise<contact_path_msgs::Increment>(
       names::kIncrements, static_cast<std::uint32_t>(parameters_.increments_queue));
@@ -182,6 +178,7 @@ void TraceService::Serve(const contact_path_msgs::TraceRequest& asked, const Tra
   status_.scene = request.scene.name;
   status_.bag = response->bag;
   request_publisher_.publish(request);
+  markers_.TakeRequest(core_request);
   PublishStatus();
   if (observer.on_start) observer.on_start();
 
@@ -192,6 +189,7 @@ void TraceService::Serve(const contact_path_msgs::TraceRequest& asked, const Tra
   response->increments = status_.increments;
   response->end_reason_name = EndReasonName(response->end_reason);
   response->message = EndMessage(response->end_reason_name, response->message, summary_, response->bag);
+  markers_.Publish();  // who has the answer finds the last row
   try {
     bag->WriteResult(ToResult(*response));
     bag->Close();
@@ -233,14 +231,15 @@ void TraceService::RunTrace(const TraceRequest& request, const std::optional<std
 }
 
 void TraceService::TakeIncrement(const Increment& increment, const TraceObserver& observer, BagRecorder* bag) {
-  contact_path_msgs::Increment message = ToMessage(increment, full_state_every_);
-  message.header.stamp = StampNow();
+  const auto message = boost::make_shared<contact_path_msgs::Increment>(ToMessage(increment, full_state_every_));
+  message->header.stamp = StampNow();
   // What the publisher makes of it on the wire: the recorded message is the one that subscribers get.
-  message.header.seq = increments_published_;
-  message.trace_id = status_.trace_id;
-  bag->WriteIncrement(message);
+  message->header.seq = increments_published_;
+  message->trace_id = status_.trace_id;
+  bag->WriteIncrement(*message);
   increments_publisher_.publish(message);
   ++increments_published_;
+  markers_.TakeRow(message);
 
   ++status_.increments;
   status_.stage = static_cast<std::uint32_t>(increment.stage);
@@ -249,7 +248,7 @@ void TraceService::TakeIncrement(const Increment& increment, const TraceObserver
   status_.progress = progress_->Add(increment);
   summary_.Add(increment);
   if (Clock::now() - status_time_ >= kStatusPeriod) PublishStatus();
-  if (observer.on_increment) observer.on_increment(FeedbackOn(message));
+  if (observer.on_increment) observer.on_increment(FeedbackOn(*message));
 }
 
 contact_path_msgs::TracePathFeedback TraceService::FeedbackOn(const contact_path_msgs::Increment& increment) const {

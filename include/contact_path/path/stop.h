@@ -2,6 +2,7 @@
 #ifndef CONTACT_PATH_PATH_STOP_H_
 #define CONTACT_PATH_PATH_STOP_H_
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,8 @@ class StopQuantity {
   StopQuantity(const Scene& scene, const std::string& name);
 
   bool IsLoadFactor() const { return component_ == kLoadFactor; }
+  // Into Increment::positions; not of the load factor.
+  std::size_t Component() const { return static_cast<std::size_t>(component_); }
   double Value(const Increment& row) const;
 
  private:

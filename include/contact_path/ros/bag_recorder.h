@@ -1,4 +1,5 @@
-// Records one trace to one bag: first the request, then every increment in order, last the result.
+// Records one trace to one bag: first the request, then every increment in order, last the result. The request is
+// marked as latched: `rosbag play` keeps it for subscribers that come late.
 #ifndef CONTACT_PATH_ROS_BAG_RECORDER_H_
 #define CONTACT_PATH_ROS_BAG_RECORDER_H_
 
@@ -64,7 +65,7 @@ class BagRecorder {
   void CreateFile(const std::string& scene_name);  // an empty one; sets number_ and file_name_
   void CheckSpace() const;
   template <typename Message>
-  void Write(const char* topic, const Message& message);
+  void Write(const char* topic, const Message& message, bool latched = false);
 
   std::filesystem::path directory_;
   std::string topic_prefix_;

@@ -1,5 +1,5 @@
-// The node's traces: for the service ~trace, and for the action (trace_action.h). Streams increments and status, and
-// records every trace.
+// The node's traces: for the service ~trace, and for the action (trace_action.h). Streams increments, status and
+// pictures, and records every trace.
 #ifndef CONTACT_PATH_ROS_TRACE_SERVICE_H_
 #define CONTACT_PATH_ROS_TRACE_SERVICE_H_
 
@@ -20,6 +20,7 @@
 #include "contact_path/path/trace.h"
 #include "contact_path/ros/bag_recorder.h"
 #include "contact_path/ros/limits.h"
+#include "contact_path/ros/marker_publisher.h"
 #include "contact_path/ros/messages.h"
 
 namespace contact_path {
@@ -28,6 +29,7 @@ namespace contact_path {
 struct NodeParameters {
   std::string bag_directory = "~/.ros/contact_path";  // a leading ~ is the home directory; absolute once it is read
   int increments_queue = 100000;  // increments kept for a subscriber that is slower than the trace, > 0
+  MarkerOptions markers;          // frame_id, picture_size
   TraceLimits limits;             // max_nodes, max_elements, max_contacts, max_increments, max_seconds
 };
 
@@ -88,6 +90,7 @@ class TraceService {
   ros::Publisher request_publisher_;
   ros::Publisher increments_publisher_;
   ros::Publisher status_publisher_;
+  MarkerPublisher markers_;
 
   std::mutex mutex_;  // guards the next three
   bool running_ = false;

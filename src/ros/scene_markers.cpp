@@ -1,0 +1,491 @@
+#include "contact_path/ros/scene_markers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <iomanip>
+#include <locale>
+#include <sstream>
+#include <stdexcept>
+#include <unordered_map>
+#include <utility>
+
+#include "contact_path/path/stop.h"
+#include "contact_path/scene/program.h"
+#include "contact_path/scene/scaling.h"
+
+namespace contact_path {
+namespace {
+
+namespace msgs = contact_path_msgs;
+using Eigen::Vector2d;
+using std_msgs::ColorRGBA;
+using visualization_msgs::Marker;
+
+// Lengths in parts of the scene's size.
+constexpr double kFullArrow = 0.2;
+constexpr double kStripDepth = 0.05;
+constexpr double kTextHeight = 0.045;
+constexpr double kFarthestStop = 5.0;
+constexpr double kMostCone = 0.12;  // edge of a cone
+constexpr double kLayer = 0.002;    // distance in z
+
+// Lengths in parts of the detail.
+constexpr double kBarWidth = 0.35;
+constexpr double kThinWidth = 0.2;
+constexpr double kContactDiameter = 1.6;
+constexpr double kSupportHeight = 2.2;
+constexpr double kShaftWidth = 0.35;
+constexpr double kHeadWidth = 1.3;
+constexpr double kHeadLength = 1.8;
+constexpr double kConeEdge = 6.0;
+
+// Where an arrow is too short for its head, the head is this part of it.
+constexpr double kMostHead = 0.6;
+// Arrows that are shorter, in parts of the full length, are left out.
+constexpr double kShortest = 1e-3;
+
+constexpr double kRounding = 1e-6;  // of sums of unit vectors
+
+// From below to above.
+enum Layer { kStrips, kBoundaries, kInitial, kCones, kSprings, kBars, kNodes, kCandidates, kTouching, kArrows, kText };
+
+ColorRGBA Colour(float red, float green, float blue, float alpha = 1.0F) {
+  ColorRGBA colour;
+  colour.r = red;
+  colour.g = green;
+  colour.b = blue;
+  colour.a = alpha;
+  return colour;
+}
+
+// As in the drawings of scripts/plot.
+const ColorRGBA kGround = Colour(0.85F, 0.85F, 0.85F);
+const ColorRGBA kGroundLine = Colour(0.45F, 0.45F, 0.45F);
+const ColorRGBA kInitialColour = Colour(0.80F, 0.80F, 0.80F);
+const ColorRGBA kBarColour = Colour(0.27F, 0.33F, 0.42F);
+const ColorRGBA kSpringColour = Colour(0.35F, 0.55F, 0.65F);
+const ColorRGBA kSupportColour = Colour(0.60F, 0.60F, 0.60F);
+const ColorRGBA kLoadColour = Colour(0.13F, 0.40F, 0.67F);
+const ColorRGBA kConstantLoadColour = Colour(0.50F, 0.70F, 0.84F);
+const ColorRGBA kReactionColour = Colour(0.70F, 0.09F, 0.17F);
+const ColorRGBA kConeColour = Colour(0.70F, 0.09F, 0.17F, 0.45F);
+const ColorRGBA kTextColour = Colour(0.25F, 0.25F, 0.25F);
+
+ColorRGBA StateColour(std::uint8_t state) {
+  switch (state) {
+    case msgs::ContactState::STICK: return Colour(0.84F, 0.37F, 0.00F);
+    case msgs::ContactState::SLIP_PLUS: return Colour(0.94F, 0.75F, 0.00F);
+    case msgs::ContactState::SLIP_MINUS: return Colour(0.34F, 0.71F, 0.91F);
+    case msgs::ContactState::CLOSED: return Colour(0.00F, 0.62F, 0.45F);
+    default: return Colour(0.70F, 0.70F, 0.70F);
+  }
+}
+
+// As a part of the caption; nothing for a regular row.
+const char* KindInWords(std::uint8_t kind) {
+  switch (kind) {
+    case msgs::Increment::START: return ", start";
+    case msgs::Increment::SMOOTH_LIMIT: return ", smooth limit point";
+    case msgs::Increment::CORNER_LIMIT: return ", corner limit point";
+    case msgs::Increment::CONTACT_EVENT: return ", contact event";
+    case msgs::Increment::BIFURCATION: return ", bifurcation";
+    default: return "";
+  }
+}
+
+Vector2d Tangent(const Vector2d& normal) { return {normal.y(), -normal.x()}; }
+
+// `least` times a power of two, at least `largest`.
+double FullForce(double largest, double least) {
+  return largest <= least ? least : least * std::exp2(std::ceil(std::log2(largest / least)));
+}
+
+}  // namespace
+
+// The markers of one picture as they come to be.
+class SceneMarkers::Picture {
+ public:
+  Picture(double size, double detail) : layer_(kLayer * size), detail_(detail) {}
+
+  // Each begins a marker, to be filled by what follows.
+  void BeginLines(const char* name, int id, double width, const ColorRGBA& colour, Layer layer) {
+    Begin(name, id, Marker::LINE_LIST, colour, layer).scale.x = width;
+  }
+  void BeginTriangles(const char* name, int id, const ColorRGBA& colour, Layer layer) {
+    Marker& marker = Begin(name, id, Marker::TRIANGLE_LIST, colour, layer);
+    marker.scale.x = marker.scale.y = marker.scale.z = 1.0;
+  }
+  // `type`: SPHERE_LIST or CUBE_LIST.
+  void BeginDots(const char* name, int id, int type, double diameter, const ColorRGBA& colour, Layer layer) {
+    Marker& marker = Begin(name, id, type, colour, layer);
+    marker.scale.x = marker.scale.y = marker.scale.z = diameter;
+  }
+
+  void AddPoint(const Vector2d& place) { AddPointAt(place, height_); }
+  void AddPoint(const Vector2d& place, const ColorRGBA& colour, Layer layer) {
+    AddPointAt(place, layer_ * layer);
+    Last().colors.push_back(colour);
+  }
+  void AddLine(const Vector2d& from, const Vector2d& to) {
+    AddPoint(from);
+    AddPoint(to);
+  }
+  // Colours by vertex keep rviz from shading what is flat.
+  void AddTriangle(const Vector2d& a, const Vector2d& b, const Vector2d& c, const ColorRGBA& colour) {
+    for (const Vector2d& corner : {a, b, c}) {
+      AddPoint(corner);
+      Last().colors.push_back(colour);
+    }
+  }
+  void AddTriangle(const Vector2d& a, const Vector2d& b, const Vector2d& c) { AddTriangle(a, b, c, Last().color); }
+  void AddArrow(const Vector2d& from, const Vector2d& vector, const ColorRGBA& colour) {
+    const double length = vector.norm();
+    const Vector2d along = vector / length;
+    const Vector2d across = Tangent(along);
+    const double head = std::min(kHeadLength * detail_, kMostHead * length);
+    const Vector2d head_side = (0.5 * kHeadWidth / kHeadLength * head) * across;
+    const Vector2d shaft_side = (0.5 * kShaftWidth / kHeadLength * head) * across;
+    const Vector2d neck = from + (length - head) * along;
+    AddTriangle(from - shaft_side, neck - shaft_side, neck + shaft_side, colour);
+    AddTriangle(from - shaft_side, neck + shaft_side, from + shaft_side, colour);
+    AddTriangle(neck - head_side, from + vector, neck + head_side, colour);
+  }
+  void AddText(const char* name, int id, const Vector2d& centre, double height, const std::string& text) {
+    Marker& marker = Begin(name, id, Marker::TEXT_VIEW_FACING, kTextColour, kText);
+    marker.scale.z = height;
+    marker.pose.position.x = centre.x();
+    marker.pose.position.y = centre.y();
+    marker.pose.position.z = height_;
+    marker.text = text;
+  }
+
+  // The picture in its frame: `centre` at the origin, all lengths times `scale`.
+  visualization_msgs::MarkerArray Finish(const std::string& frame_id, const Vector2d& centre, double scale) {
+    const auto place = [&](geometry_msgs::Point* point) {
+      point->x = scale * (point->x - centre.x());
+      point->y = scale * (point->y - centre.y());
+      point->z *= scale;
+    };
+    for (Marker& marker : array_.markers) {
+      marker.header.frame_id = frame_id;
+      if (marker.points.empty() && marker.text.empty()) marker.action = Marker::DELETE;
+      for (geometry_msgs::Point& point : marker.points) place(&point);
+      if (marker.type == Marker::TEXT_VIEW_FACING) place(&marker.pose.position);
+      if (marker.type == Marker::TRIANGLE_LIST) continue;  // points alone
+      marker.scale.x *= scale;
+      marker.scale.y *= scale;
+      marker.scale.z *= scale;
+    }
+    return std::move(array_);
+  }
+
+ private:
+  Marker& Begin(const char* name, int id, int type, const ColorRGBA& colour, Layer layer) {
+    Marker& marker = array_.markers.emplace_back();
+    marker.ns = name;
+    marker.id = id;
+    marker.type = type;
+    marker.pose.orientation.w = 1.0;
+    marker.color = colour;
+    height_ = layer_ * layer;
+    return marker;
+  }
+  Marker& Last() { return array_.markers.back(); }
+  void AddPointAt(const Vector2d& place, double height) {
+    geometry_msgs::Point& point = Last().points.emplace_back();
+    point.x = place.x();
+    point.y = place.y();
+    point.z = height;
+  }
+
+  const double layer_;
+  const double detail_;
+  double height_ = 0.0;
+  visualization_msgs::MarkerArray array_;
+};
+
+void MarkerOptions::Validate() const {
+  if (frame_id.empty() || frame_id.front() == '/') {
+    throw std::invalid_argument("frame_id = \"" + frame_id + "\": must not be empty or begin with a slash");
+  }
+  if (!std::isfinite(picture_size) || picture_size < 0.0) {
+    throw std::invalid_argument("picture_size = " + std::to_string(picture_size) + ": must be finite and >= 0");
+  }
+}
+
+SceneMarkers::SceneMarkers(const TraceRequest& request, const MarkerOptions& options)
+    : options_(options), name_(request.scene.name) {
+  const Scene& scene = request.scene;
+  std::unordered_map<std::string, std::size_t> nodes;
+  for (const Node& node : scene.nodes) {
+    nodes.emplace(node.name, initial_.size());
+    initial_.emplace_back(node.x, node.y);
+    box_.extend(initial_.back());
+  }
+  for (const Bar& bar : scene.bars) bars_.push_back({nodes.at(bar.nodes[0]), nodes.at(bar.nodes[1])});
+  for (const Superelement& superelement : scene.superelements) {
+    std::vector<std::size_t>& members = superelements_.emplace_back();
+    for (const std::string& node : superelement.nodes) members.push_back(nodes.at(node));
+    const std::vector<double>& rest = superelement.rest_positions;
+    rest_.push_back(rest.empty() ? initial_[members[0]] : Vector2d(rest[0], rest[1]));
+  }
+  FindSupports(scene);
+  std::unordered_map<std::string, std::size_t> obstacles;
+  for (const Obstacle& obstacle : scene.obstacles) obstacles.emplace(obstacle.name, obstacles.size());
+  for (const ContactCandidate& contact : scene.contacts) {
+    contacts_.push_back({nodes.at(contact.node), obstacles.at(contact.obstacle)});
+  }
+
+  has_program_ = !request.program.empty();
+  for (std::size_t i = 0; i < NumStages(request); ++i) {
+    const Scene stage = StageScene(request, i);
+    StageParts& parts = stages_.emplace_back();
+    if (has_program_) {
+      const std::string& name = request.program[i].name;
+      parts.title = name.empty() ? "stage " + std::to_string(i + 1) : name;
+    }
+    for (const Load& load : stage.loads) {
+      parts.loads.push_back({nodes.at(load.node), Vector2d(load.fx, load.fy), load.constant});
+    }
+    for (const Obstacle& obstacle : stage.obstacles) {
+      HalfPlane& half_plane = parts.obstacles.emplace_back();
+      half_plane.point = {obstacle.px, obstacle.py};
+      half_plane.normal = Vector2d(obstacle.nx, obstacle.ny).stableNormalized();
+      half_plane.friction = obstacle.friction;
+    }
+    for (const ObstacleMotion& motion : stage.obstacle_motions) {
+      parts.obstacles[obstacles.at(motion.obstacle)].motion += Vector2d(motion.dx, motion.dy);
+    }
+    if (!has_program_) continue;
+    for (const SupportMotion& motion : stage.support_motions) {
+      const Node& node = stage.nodes[nodes.at(motion.node)];
+      box_.extend(Vector2d(node.x, node.y) + request.program[i].Target() * Vector2d(motion.dx, motion.dy));
+    }
+  }
+
+  const Scaling scales = StageScales(request, 0);
+  ExtendBox(request, kFarthestStop * std::max(box_.diagonal().norm(), scales.length));
+  const double diagonal = box_.diagonal().norm();
+  size_ = diagonal > 0.0 ? diagonal : scales.length;
+  detail_ = std::min(0.025 * size_, bars_.empty() ? size_ : 0.12 * scales.length);
+  least_force_ = 1e-3 * scales.force;
+}
+
+// The ground is where no bars are, as far as the fixed components let it be.
+void SceneMarkers::FindSupports(const Scene& scene) {
+  Places inwards(initial_.size(), Vector2d::Zero());
+  for (const auto& [a, b] : bars_) {
+    const Vector2d along = (initial_[b] - initial_[a]).stableNormalized();
+    inwards[a] += along;
+    inwards[b] -= along;
+  }
+  for (std::size_t i = 0; i < initial_.size(); ++i) {
+    const Node& node = scene.nodes[i];
+    if (!node.fixed_x && !node.fixed_y) continue;
+    Places directions;
+    if (node.fixed_y) directions = {{0.0, -1.0}, {0.0, 1.0}};
+    if (node.fixed_x) directions.insert(directions.end(), {{-1.0, 0.0}, {1.0, 0.0}});
+    Vector2d ground = directions.front();
+    for (const Vector2d& direction : directions) {
+      if (direction.dot(inwards[i]) < ground.dot(inwards[i]) - kRounding) ground = direction;
+    }
+    supports_.push_back({i, ground, !(node.fixed_x && node.fixed_y)});
+  }
+}
+
+// By the places that nodes are to reach: where stop criteria lie, unless that is farther than `reach` from the start.
+void SceneMarkers::ExtendBox(const TraceRequest& request, double reach) {
+  for (const StopCriterion& stop : request.options.stop) {
+    const StopQuantity quantity(request.scene, stop.quantity);
+    if (quantity.IsLoadFactor()) continue;
+    const Vector2d& start = initial_[quantity.Component() / 2];
+    Vector2d place = start;
+    place[static_cast<Eigen::Index>(quantity.Component() % 2)] = stop.value;
+    if ((place - start).norm() <= reach) box_.extend(place);
+  }
+}
+
+const SceneMarkers::StageParts& SceneMarkers::StageOf(const msgs::Increment& row) const {
+  return stages_[has_program_ ? row.stage - 1 : 0];
+}
+
+bool SceneMarkers::Fits(const msgs::Increment& row) const {
+  const bool of_a_stage = has_program_ ? row.stage >= 1 && row.stage <= stages_.size() : row.stage == 0;
+  return of_a_stage && row.x.size() == initial_.size() && row.y.size() == initial_.size() &&
+         row.contacts.size() == contacts_.size();
+}
+
+double SceneMarkers::LargestForce(const msgs::Increment& row) const {
+  double square = 0.0;
+  for (const NodalLoad& load : StageOf(row).loads) {
+    square = std::max(square, load.Force(row.load_factor).squaredNorm());
+  }
+  for (const msgs::ContactState& contact : row.contacts) {
+    square = std::max(square, contact.rn * contact.rn + contact.rt * contact.rt);
+  }
+  return std::sqrt(square);
+}
+
+visualization_msgs::MarkerArray SceneMarkers::Draw(const msgs::Increment& row, double largest_force) const {
+  std::ostringstream caption;
+  caption.imbue(std::locale::classic());
+  caption << name_ << "   ";
+  if (has_program_) caption << StageOf(row).title << "   ";
+  caption << "row " << row.index << KindInWords(row.kind) << "\nload factor " << row.load_factor;
+  return Draw(row, largest_force, caption.str());
+}
+
+visualization_msgs::MarkerArray SceneMarkers::DrawInitial() const {
+  msgs::Increment row;
+  row.stage = has_program_ ? 1 : 0;
+  for (const Vector2d& place : initial_) {
+    row.x.push_back(place.x());
+    row.y.push_back(place.y());
+  }
+  row.contacts.resize(contacts_.size());
+  return Draw(row, LargestForce(row), name_ + "   initial shape");
+}
+
+visualization_msgs::MarkerArray SceneMarkers::Draw(const msgs::Increment& row, double largest_force,
+                                                   const std::string& caption) const {
+  Places places;
+  places.reserve(row.x.size());
+  for (std::size_t i = 0; i < row.x.size(); ++i) places.emplace_back(row.x[i], row.y[i]);
+  const double full_force = FullForce(largest_force, least_force_);
+  Picture picture(size_, detail_);
+  DrawObstacles(places, row, &picture);
+  DrawStructure(places, &picture);
+  DrawSuperelements(places, &picture);
+  DrawSupports(places, &picture);
+  DrawContacts(places, row.contacts, &picture);
+  DrawForces(places, row, full_force, &picture);
+  DrawCaption(caption, full_force, &picture);
+  if (options_.picture_size == 0.0) return picture.Finish(options_.frame_id, Vector2d::Zero(), 1.0);
+  return picture.Finish(options_.frame_id, box_.center(), options_.picture_size / size_);
+}
+
+void SceneMarkers::DrawObstacles(const Places& places, const msgs::Increment& row, Picture* picture) const {
+  // Long enough for the nodes, and of a length that hardly ever changes.
+  const Vector2d centre = box_.center();
+  double reach = 0.0;
+  for (const Vector2d& place : places) reach = std::max(reach, (place - centre).norm());
+  const double half_length = size_ * std::ceil(reach / size_ + 0.25);
+  const std::vector<HalfPlane>& obstacles = StageOf(row).obstacles;
+  std::vector<std::array<Vector2d, 2>> boundaries;  // from and to
+  for (const HalfPlane& obstacle : obstacles) {
+    const Vector2d point = obstacle.point + row.load_factor * obstacle.motion;
+    const Vector2d foot = centre - obstacle.normal.dot(centre - point) * obstacle.normal;
+    const Vector2d half = half_length * Tangent(obstacle.normal);
+    boundaries.push_back({foot - half, foot + half});
+  }
+
+  picture->BeginTriangles("obstacles", 0, kGround, kStrips);
+  for (std::size_t i = 0; i < obstacles.size(); ++i) {
+    const auto& [from, to] = boundaries[i];
+    const Vector2d depth = kStripDepth * size_ * obstacles[i].normal;
+    picture->AddTriangle(from, from - depth, to - depth);
+    picture->AddTriangle(from, to - depth, to);
+  }
+  picture->BeginLines("obstacles", 1, kBarWidth * detail_, kGroundLine, kBoundaries);
+  for (const auto& [from, to] : boundaries) picture->AddLine(from, to);
+}
+
+void SceneMarkers::DrawStructure(const Places& places, Picture* picture) const {
+  picture->BeginLines("initial", 0, kThinWidth * detail_, kInitialColour, kInitial);
+  for (const auto& [a, b] : bars_) picture->AddLine(initial_[a], initial_[b]);
+  picture->BeginDots("initial", 1, Marker::SPHERE_LIST, 0.6 * detail_, kInitialColour, kInitial);
+  for (const Vector2d& place : initial_) picture->AddPoint(place);
+
+  picture->BeginLines("structure", 0, kBarWidth * detail_, kBarColour, kBars);
+  for (const auto& [a, b] : bars_) picture->AddLine(places[a], places[b]);
+  picture->BeginDots("structure", 1, Marker::SPHERE_LIST, detail_, kBarColour, kNodes);
+  for (const Vector2d& place : places) picture->AddPoint(place);
+}
+
+void SceneMarkers::DrawSuperelements(const Places& places, Picture* picture) const {
+  Places middles;
+  for (std::size_t i = 0; i < superelements_.size(); ++i) {
+    const std::vector<std::size_t>& nodes = superelements_[i];
+    Vector2d sum = Vector2d::Zero();
+    for (const std::size_t node : nodes) sum += places[node];
+    middles.push_back(nodes.size() == 1 ? rest_[i] : Vector2d(sum / static_cast<double>(nodes.size())));
+  }
+  picture->BeginLines("superelements", 0, kBarWidth * detail_, kSpringColour, kSprings);
+  for (std::size_t i = 0; i < superelements_.size(); ++i) {
+    for (const std::size_t node : superelements_[i]) picture->AddLine(places[node], middles[i]);
+  }
+  picture->BeginDots("superelements", 1, Marker::CUBE_LIST, detail_, kSpringColour, kSprings);
+  for (const Vector2d& middle : middles) picture->AddPoint(middle);
+}
+
+void SceneMarkers::DrawSupports(const Places& places, Picture* picture) const {
+  const double height = kSupportHeight * detail_;
+  picture->BeginTriangles("supports", 0, kSupportColour, kSprings);
+  for (const Support& support : supports_) {
+    const Vector2d& node = places[support.node];
+    const Vector2d side = 0.6 * height * Tangent(support.ground);
+    const Vector2d foot = node + height * support.ground;
+    picture->AddTriangle(node, foot - side, foot + side);
+    if (!support.slides) continue;
+    const Vector2d above = foot + 0.2 * height * support.ground;
+    const Vector2d below = foot + 0.4 * height * support.ground;
+    picture->AddTriangle(above - side, below - side, below + side);
+    picture->AddTriangle(above - side, below + side, above + side);
+  }
+}
+
+void SceneMarkers::DrawContacts(const Places& places, const std::vector<msgs::ContactState>& states,
+                                Picture* picture) const {
+  picture->BeginDots("contacts", 0, Marker::SPHERE_LIST, kContactDiameter * detail_, StateColour(0), kCandidates);
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    // A node in a corner has several candidates: seen is one that touches.
+    const Layer layer = states[i].state == msgs::ContactState::OPEN ? kCandidates : kTouching;
+    picture->AddPoint(places[contacts_[i].node], StateColour(states[i].state), layer);
+  }
+
+  picture->BeginTriangles("cones", 0, kConeColour, kCones);
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const HalfPlane& obstacle = stages_.front().obstacles[contacts_[i].obstacle];  // which do not turn
+    const std::uint8_t state = states[i].state;
+    if (obstacle.friction <= 0.0 || state == msgs::ContactState::OPEN || state == msgs::ContactState::CLOSED) continue;
+    const Vector2d& apex = places[contacts_[i].node];
+    const Vector2d side = obstacle.friction * Tangent(obstacle.normal);
+    const double edge = std::min(kConeEdge * detail_, kMostCone * size_);
+    picture->AddTriangle(apex, apex + edge * (obstacle.normal - side).normalized(),
+                         apex + edge * (obstacle.normal + side).normalized());
+  }
+}
+
+void SceneMarkers::DrawForces(const Places& places, const msgs::Increment& row, double full_force,
+                              Picture* picture) const {
+  const double scale = kFullArrow * size_ / full_force;
+  const auto draw = [&](std::size_t node, const Vector2d& force, const ColorRGBA& colour) {
+    if (force.norm() > kShortest * full_force) picture->AddArrow(places[node], scale * force, colour);
+  };
+  picture->BeginTriangles("loads", 0, kLoadColour, kArrows);
+  for (const NodalLoad& load : StageOf(row).loads) {
+    draw(load.node, load.Force(row.load_factor), load.constant ? kConstantLoadColour : kLoadColour);
+  }
+  picture->BeginTriangles("reactions", 0, kReactionColour, kArrows);
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const Vector2d& normal = stages_.front().obstacles[contacts_[i].obstacle].normal;
+    draw(contacts_[i].node, row.contacts[i].rn * normal + row.contacts[i].rt * Tangent(normal), kReactionColour);
+  }
+}
+
+// Above the initial shape.
+void SceneMarkers::DrawCaption(const std::string& caption, double full_force, Picture* picture) const {
+  const double height = kTextHeight * size_;
+  const Vector2d above(box_.center().x(), box_.max().y() + 0.2 * size_);
+  const double length = kFullArrow * size_;
+  std::ostringstream force;
+  force.imbue(std::locale::classic());
+  force << std::setprecision(3) << full_force;
+  picture->AddText("caption", 0, above + Vector2d(0.0, 2.0 * height), height, caption);
+  picture->BeginTriangles("caption", 1, kTextColour, kText);
+  picture->AddArrow(above - Vector2d(length, 0.0), Vector2d(length, 0.0), kTextColour);
+  picture->AddText("caption", 2, above + Vector2d(0.5 * length, 0.0), height, force.str());
+}
+
+}  // namespace contact_path

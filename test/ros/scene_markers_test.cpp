@@ -1,0 +1,523 @@
+#include "contact_path/ros/scene_markers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <visualization_msgs/Marker.h>
+
+#include "contact_path/scene/lattice.h"
+
+namespace contact_path {
+namespace {
+
+namespace msgs = contact_path_msgs;
+using Eigen::Vector2d;
+using visualization_msgs::Marker;
+using visualization_msgs::MarkerArray;
+
+MarkerOptions World() {
+  MarkerOptions options;
+  options.frame_id = "world";
+  return options;
+}
+
+constexpr double kRounding = 1e-9;  // of lengths of order 1
+
+// A bar from a support over a slope to a free node; the slope's normal is not of unit length.
+TraceRequest Slope() {
+  TraceRequest request;
+  Scene& scene = request.scene;
+  scene.name = "slope";
+  scene.nodes = {{"pin", 0.0, 2.0, true, true}, {"foot", 3.0, 1.0, false, false}, {"roll", 5.0, 3.0, false, true}};
+  scene.bars = {{{"pin", "foot"}, 10.0, 0.0, StrainMeasure::kBiot},
+                {{"foot", "roll"}, 10.0, 0.0, StrainMeasure::kBiot}};
+  scene.loads = {{"roll", 2.0, 0.0, false}, {"foot", 0.0, -0.5, true}};
+  scene.obstacles = {{"slope", ObstacleShape::kHalfPlane, 3.0, 1.0, -3.0, 4.0, 0.5},
+                     {"wall", ObstacleShape::kHalfPlane, 7.0, 0.0, -1.0, 0.0, 0.0}};
+  scene.contacts = {{"foot", "slope"}, {"roll", "wall"}};
+  return request;
+}
+
+const Vector2d kNormal(-0.6, 0.8);
+const Vector2d kTangent(0.8, 0.6);
+
+msgs::ContactState State(std::uint8_t state, double rn = 0.0, double rt = 0.0) {
+  msgs::ContactState contact;
+  contact.state = state;
+  contact.rn = rn;
+  contact.rt = rt;
+  return contact;
+}
+
+// The foot slides on the slope, the roll is free.
+msgs::Increment SlopeRow(double load_factor = 1.0) {
+  msgs::Increment row;
+  row.index = 17;
+  row.kind = msgs::Increment::CORNER_LIMIT;
+  row.load_factor = load_factor;
+  row.x = {0.0, 3.8, 5.5};
+  row.y = {2.0, 1.6, 3.0};
+  row.contacts = {State(msgs::ContactState::SLIP_PLUS, 1.2, -0.6), State(msgs::ContactState::OPEN)};
+  return row;
+}
+
+// One node on a spring between two walls.
+TraceRequest Spring() {
+  TraceRequest request;
+  Scene& scene = request.scene;
+  scene.name = "spring";
+  scene.nodes = {{"p", 1.0, 1.0, false, false}};
+  scene.superelements = {{{"p"}, {1.0, 0.0, 0.0, 1.0}, {}}};
+  scene.loads = {{"p", 1.0, 0.0, false}};
+  return request;
+}
+
+msgs::Increment SpringRow(double load_factor) {
+  msgs::Increment row;
+  row.load_factor = load_factor;
+  row.x = {1.0 + load_factor};
+  row.y = {1.0};
+  return row;
+}
+
+const Marker& Find(const MarkerArray& picture, const std::string& name, int id = 0) {
+  for (const Marker& marker : picture.markers) {
+    if (marker.ns == name && marker.id == id) return marker;
+  }
+  throw std::out_of_range(name);
+}
+
+std::vector<Vector2d> Points(const Marker& marker) {
+  std::vector<Vector2d> points;
+  for (const geometry_msgs::Point& point : marker.points) points.emplace_back(point.x, point.y);
+  return points;
+}
+
+// The point that lies farthest from `from`: of an arrow, its tip.
+Vector2d Farthest(const Marker& marker, const Vector2d& from) {
+  Vector2d farthest = from;
+  for (const Vector2d& point : Points(marker)) {
+    if ((point - from).norm() > (farthest - from).norm()) farthest = point;
+  }
+  return farthest;
+}
+
+double ArrowLength(const MarkerArray& picture, const std::string& name, const Vector2d& from, int id = 0) {
+  return (Farthest(Find(picture, name, id), from) - from).norm();
+}
+
+using Name = std::tuple<std::string, int, int>;  // namespace, id, type
+
+std::vector<Name> Names(const MarkerArray& picture) {
+  std::vector<Name> names;
+  for (const Marker& marker : picture.markers) names.emplace_back(marker.ns, marker.id, marker.type);
+  return names;
+}
+
+// What rviz asks of markers.
+void ExpectSound(const MarkerArray& picture) {
+  for (const Marker& marker : picture.markers) {
+    SCOPED_TRACE(marker.ns + std::to_string(marker.id));
+    EXPECT_EQ(marker.header.frame_id, "world");
+    EXPECT_TRUE(marker.header.stamp.isZero());
+    if (marker.action == Marker::DELETE) continue;
+    EXPECT_EQ(marker.action, Marker::ADD);
+    EXPECT_EQ(marker.pose.orientation.w, 1.0);
+    const bool text = marker.type == Marker::TEXT_VIEW_FACING;
+    const bool lines = marker.type == Marker::LINE_LIST;
+    EXPECT_EQ(marker.scale.x > 0.0, !text);
+    EXPECT_EQ(marker.scale.y > 0.0, !text && !lines);
+    EXPECT_EQ(marker.scale.z > 0.0, !lines);
+    EXPECT_GT(marker.color.a, 0.0F);
+    if (text) {
+      EXPECT_FALSE(marker.text.empty());
+      continue;
+    }
+    const std::size_t group = marker.type == Marker::TRIANGLE_LIST ? 3 : lines ? 2 : 1;
+    EXPECT_FALSE(marker.points.empty());
+    EXPECT_EQ(marker.points.size() % group, 0U);
+    EXPECT_TRUE(marker.colors.empty() || marker.colors.size() == marker.points.size());
+    for (const geometry_msgs::Point& point : marker.points) {
+      EXPECT_TRUE(std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z));
+    }
+  }
+}
+
+TEST(SceneMarkersTest, AnyPictureReplacesAnyOther) {
+  const SceneMarkers slope(Slope(), World());
+  const SceneMarkers spring(Spring(), World());
+  const std::vector<Name> names = Names(slope.Draw(SlopeRow(), 2.0));
+  EXPECT_EQ(std::set<Name>(names.begin(), names.end()).size(), names.size());
+  for (const MarkerArray& picture :
+       {slope.Draw(SlopeRow(), 2.0), slope.DrawInitial(), spring.Draw(SpringRow(0.0), 0.0), spring.DrawInitial()}) {
+    EXPECT_EQ(Names(picture), names);
+    ExpectSound(picture);
+  }
+  const MarkerArray picture = spring.Draw(SpringRow(0.0), 0.0);
+  for (const char* const name : {"obstacles", "supports", "contacts", "cones", "reactions", "loads"}) {
+    EXPECT_EQ(Find(picture, name).action, Marker::DELETE) << name;
+  }
+  EXPECT_EQ(Find(picture, "structure").action, Marker::DELETE);  // no bars
+  EXPECT_EQ(Find(picture, "structure", 1).action, Marker::ADD);
+}
+
+TEST(SceneMarkersTest, DrawsTheStructureNowAndAsItWas) {
+  const MarkerArray picture = SceneMarkers(Slope(), World()).Draw(SlopeRow(), 2.0);
+  const std::vector<Vector2d> was = {{0.0, 2.0}, {3.0, 1.0}, {5.0, 3.0}};
+  const std::vector<Vector2d> is = {{0.0, 2.0}, {3.8, 1.6}, {5.5, 3.0}};
+  EXPECT_EQ(Points(Find(picture, "initial", 1)), was);
+  EXPECT_EQ(Points(Find(picture, "structure", 1)), is);
+  EXPECT_EQ(Points(Find(picture, "initial", 0)), (std::vector<Vector2d>{was[0], was[1], was[1], was[2]}));
+  EXPECT_EQ(Points(Find(picture, "structure", 0)), (std::vector<Vector2d>{is[0], is[1], is[1], is[2]}));
+}
+
+TEST(SceneMarkersTest, SupportsStandOnTheGroundAwayFromTheirBars) {
+  const std::vector<Vector2d> points = Points(Find(SceneMarkers(Slope(), World()).Draw(SlopeRow(), 2.0), "supports"));
+  ASSERT_EQ(points.size(), 3U + 9U);  // the pin, and the roll with its stroke
+  EXPECT_EQ(points[0], Vector2d(0.0, 2.0));
+  EXPECT_EQ(points[3], Vector2d(5.5, 3.0));
+  for (std::size_t i = 1; i < 3; ++i) {  // its bar goes to the right, and down
+    EXPECT_LT(points[i].x(), -0.1);
+    EXPECT_NEAR(points[i].y(), 2.0, 0.3);
+  }
+  for (std::size_t i = 4; i < 12; ++i) {  // its bar comes from below, and it is free along x
+    EXPECT_GT(points[i].y(), 3.1);
+    EXPECT_NEAR(points[i].x(), 5.5, 0.3);
+  }
+}
+
+TEST(SceneMarkersTest, ObstaclesAreOnTheForbiddenSideAlongAllNodes) {
+  const SceneMarkers markers(Slope(), World());
+  for (const double far : {5.5, 60.0}) {
+    msgs::Increment row = SlopeRow();
+    row.x[2] = far;
+    const MarkerArray picture = markers.Draw(row, 2.0);
+    const std::vector<Vector2d> strips = Points(Find(picture, "obstacles", 0));
+    ASSERT_EQ(strips.size(), 12U);
+    double least = 0.0;
+    double from = 0.0;
+    double to = 0.0;
+    for (std::size_t i = 0; i < 6; ++i) {  // the slope
+      const double height = kNormal.dot(strips[i] - Vector2d(3.0, 1.0));
+      EXPECT_LE(height, kRounding);
+      least = std::min(least, height);
+      from = std::min(from, kTangent.dot(strips[i]));
+      to = std::max(to, kTangent.dot(strips[i]));
+    }
+    EXPECT_LT(least, -0.1);
+    for (std::size_t node = 0; node < 3; ++node) {
+      const double along = kTangent.dot(Vector2d(row.x[node], row.y[node]));
+      EXPECT_GT(along, from);
+      EXPECT_LT(along, to);
+    }
+    for (std::size_t i = 6; i < 12; ++i) EXPECT_GE(strips[i].x(), 7.0 - kRounding);  // the wall
+    const std::vector<Vector2d> boundaries = Points(Find(picture, "obstacles", 1));
+    ASSERT_EQ(boundaries.size(), 4U);
+    for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(kNormal.dot(boundaries[i] - Vector2d(3.0, 1.0)), 0.0, kRounding);
+    for (std::size_t i = 2; i < 4; ++i) EXPECT_NEAR(boundaries[i].x(), 7.0, kRounding);
+  }
+}
+
+TEST(SceneMarkersTest, SlidingReactionLiesOnTheEdgeOfItsCone) {
+  const Vector2d foot(3.8, 1.6);
+  for (const double sign : {1.0, -1.0}) {
+    msgs::Increment row = SlopeRow();
+    row.contacts[0] =
+        State(sign > 0.0 ? msgs::ContactState::SLIP_PLUS : msgs::ContactState::SLIP_MINUS, 1.2, -sign * 0.6);
+    const MarkerArray picture = SceneMarkers(Slope(), World()).Draw(row, 2.0);
+    const Vector2d reaction = Farthest(Find(picture, "reactions"), foot) - foot;
+    EXPECT_LT((reaction.normalized() - (kNormal - sign * 0.5 * kTangent).normalized()).norm(), kRounding);
+    const std::vector<Vector2d> cone = Points(Find(picture, "cones"));
+    ASSERT_EQ(cone.size(), 3U);
+    EXPECT_EQ(cone[0], foot);
+    const Vector2d edge = (cone[sign > 0.0 ? 1 : 2] - foot).normalized();
+    EXPECT_LT((edge - reaction.normalized()).norm(), kRounding);
+  }
+}
+
+TEST(SceneMarkersTest, ConesAreWhereThereIsFrictionToLimit) {
+  const SceneMarkers markers(Slope(), World());
+  msgs::Increment row = SlopeRow();
+  row.contacts = {State(msgs::ContactState::STICK, 1.0, 0.2), State(msgs::ContactState::CLOSED, 1.0)};
+  EXPECT_EQ(Find(markers.Draw(row, 2.0), "cones").points.size(), 3U);
+  row.contacts = {State(msgs::ContactState::OPEN), State(msgs::ContactState::CLOSED, 1.0)};
+  EXPECT_EQ(Find(markers.Draw(row, 2.0), "cones").action, Marker::DELETE);
+}
+
+TEST(SceneMarkersTest, EachContactStateHasItsColour) {
+  const SceneMarkers markers(Slope(), World());
+  std::set<std::tuple<float, float, float>> colours;
+  for (const std::uint8_t state : {msgs::ContactState::OPEN, msgs::ContactState::STICK, msgs::ContactState::SLIP_PLUS,
+                                   msgs::ContactState::SLIP_MINUS, msgs::ContactState::CLOSED}) {
+    msgs::Increment row = SlopeRow();
+    row.contacts = {State(state), State(msgs::ContactState::OPEN)};
+    const Marker contacts = Find(markers.Draw(row, 2.0), "contacts");
+    EXPECT_EQ(Points(contacts), (std::vector<Vector2d>{{3.8, 1.6}, {5.5, 3.0}}));
+    ASSERT_EQ(contacts.colors.size(), 2U);
+    colours.emplace(contacts.colors[0].r, contacts.colors[0].g, contacts.colors[0].b);
+    EXPECT_EQ(contacts.colors[0] == contacts.colors[1], state == msgs::ContactState::OPEN);
+  }
+  EXPECT_EQ(colours.size(), 5U);
+}
+
+TEST(SceneMarkersTest, LoadsFollowTheLoadFactorUnlessTheyAreConstant) {
+  const SceneMarkers markers(Slope(), World());
+  const auto tips = [&markers](double load_factor) {
+    const std::vector<Vector2d> points = Points(Find(markers.Draw(SlopeRow(load_factor), 2.0), "loads"));
+    std::pair<double, double> reach;  // of the load along x at (5.5, 3), of the constant one along y at (3.8, 1.6)
+    for (const Vector2d& point : points) {
+      if (std::abs(point.y() - 3.0) < 0.3 && std::abs(point.x() - 5.5) > std::abs(reach.first))
+        reach.first = point.x() - 5.5;
+      if (std::abs(point.x() - 3.8) < 0.3 && std::abs(point.y() - 1.6) > std::abs(reach.second))
+        reach.second = point.y() - 1.6;
+    }
+    return reach;
+  };
+  const auto [full, constant] = tips(1.0);
+  EXPECT_GT(full, 0.0);
+  EXPECT_NEAR(constant, -0.25 * full, kRounding);  // 0.5 down against 2.0
+  EXPECT_NEAR(tips(-0.5).first, -0.5 * full, kRounding);
+  EXPECT_NEAR(tips(-0.5).second, constant, kRounding);
+  EXPECT_EQ(tips(0.0).first, 0.0);
+}
+
+TEST(SceneMarkersTest, ArrowsReadWellAndKeepTheirScale) {
+  const SceneMarkers markers(Spring(), World());
+  double largest = 0.0;
+  double scale = 0.0;
+  int changes = 0;
+  double full = 0.0;
+  for (int i = 0; i <= 1000; ++i) {
+    const double load_factor = 1e-3 * i;
+    const msgs::Increment row = SpringRow(load_factor);
+    EXPECT_NEAR(markers.LargestForce(row), load_factor, kRounding);
+    largest = std::max(largest, markers.LargestForce(row));
+    const MarkerArray picture = markers.Draw(row, largest);
+    if (i == 0) continue;
+    const double length = ArrowLength(picture, "loads", {1.0 + load_factor, 1.0});
+    const Marker& sample = Find(picture, "caption", 1);
+    full = 0.0;
+    for (const Vector2d& a : Points(sample)) {
+      for (const Vector2d& b : Points(sample)) full = std::max(full, (a - b).norm());
+    }
+    EXPECT_LE(length, full * (1.0 + kRounding));
+    EXPECT_GE(length, 0.5 * full * (1.0 - 1e-2));  // the shaft of the sample has a width
+    changes += std::abs(length / load_factor - scale) > 1e-6 * scale;
+    scale = length / load_factor;
+    // The caption says what an arrow of full length is.
+    EXPECT_NEAR(std::stod(Find(picture, "caption", 2).text) * scale, full, 1e-2 * full);
+  }
+  EXPECT_LE(changes, 11);
+  // Smaller forces are drawn in the scale of the largest.
+  const double before = ArrowLength(markers.Draw(SpringRow(1.0), largest), "loads", {2.0, 1.0});
+  const double after = ArrowLength(markers.Draw(SpringRow(0.25), largest), "loads", {1.25, 1.0});
+  EXPECT_NEAR(after, 0.25 * before, kRounding);
+}
+
+TEST(SceneMarkersTest, LargestForceIsThatOfReactionsAndLoads) {
+  const SceneMarkers markers(Slope(), World());
+  EXPECT_NEAR(markers.LargestForce(SlopeRow(3.0)), 6.0, kRounding);
+  EXPECT_NEAR(markers.LargestForce(SlopeRow(0.0)), std::hypot(1.2, 0.6), kRounding);
+}
+
+TEST(SceneMarkersTest, SuperelementsAreTiedToTheirMiddleOrToTheGround) {
+  const MarkerArray spring = SceneMarkers(Spring(), World()).Draw(SpringRow(0.5), 1.0);
+  EXPECT_EQ(Points(Find(spring, "superelements", 0)), (std::vector<Vector2d>{{1.5, 1.0}, {1.0, 1.0}}));
+  EXPECT_EQ(Points(Find(spring, "superelements", 1)), (std::vector<Vector2d>{{1.0, 1.0}}));
+  TraceRequest strained = Spring();
+  strained.scene.superelements[0].rest_positions = {0.0, 0.5};
+  const MarkerArray at_rest = SceneMarkers(strained, World()).Draw(SpringRow(0.5), 1.0);
+  EXPECT_EQ(Points(Find(at_rest, "superelements", 1)), (std::vector<Vector2d>{{0.0, 0.5}}));
+
+  TraceRequest request = Slope();
+  request.scene.superelements = {{{"pin", "foot", "roll"}, std::vector<double>(36, 0.0), {}}};
+  const MarkerArray picture = SceneMarkers(request, World()).Draw(SlopeRow(), 2.0);
+  EXPECT_EQ(Find(picture, "superelements", 0).points.size(), 6U);
+  const Vector2d middle = Points(Find(picture, "superelements", 1))[0];
+  EXPECT_LT((middle - Vector2d(3.1, 2.2)).norm(), kRounding);
+}
+
+TEST(SceneMarkersTest, CaptionNamesSceneRowKindAndLoad) {
+  const SceneMarkers markers(Slope(), World());
+  const std::string text = Find(markers.Draw(SlopeRow(-0.125), 2.0), "caption").text;
+  for (const char* const part : {"slope", "17", "corner limit point", "-0.125"}) {
+    EXPECT_NE(text.find(part), std::string::npos) << part;
+  }
+  EXPECT_NE(Find(markers.DrawInitial(), "caption").text.find("slope"), std::string::npos);
+}
+
+TEST(SceneMarkersTest, InitialShapeHasNoReactions) {
+  const MarkerArray picture = SceneMarkers(Slope(), World()).DrawInitial();
+  EXPECT_EQ(Points(Find(picture, "structure", 0)), Points(Find(picture, "initial", 0)));
+  EXPECT_EQ(Find(picture, "reactions").action, Marker::DELETE);
+  EXPECT_EQ(Find(picture, "cones").action, Marker::DELETE);
+}
+
+TEST(SceneMarkersTest, RowsThatAreNotOfTheSceneDoNotFit) {
+  const SceneMarkers markers(Slope(), World());
+  EXPECT_TRUE(markers.Fits(SlopeRow()));
+  EXPECT_FALSE(markers.Fits(msgs::Increment()));  // thinned out
+  EXPECT_FALSE(markers.Fits(SpringRow(1.0)));
+  msgs::Increment row = SlopeRow();
+  row.contacts.pop_back();
+  EXPECT_FALSE(markers.Fits(row));
+  row = SlopeRow();
+  row.y.pop_back();
+  EXPECT_FALSE(markers.Fits(row));
+}
+
+// The picture looks the same in any units of length and force.
+TEST(SceneMarkersTest, PictureGrowsWithTheScene) {
+  const double length = 1000.0;
+  const double force = 1e-3;
+  TraceRequest request = Slope();
+  Scene& scene = request.scene;
+  for (Node& node : scene.nodes) node = {node.name, length * node.x, length * node.y, node.fixed_x, node.fixed_y};
+  for (Bar& bar : scene.bars) bar.EA *= force;
+  for (Load& load : scene.loads) load = {load.node, force * load.fx, force * load.fy, load.constant};
+  for (Obstacle& obstacle : scene.obstacles) {
+    obstacle.px *= length;
+    obstacle.py *= length;
+  }
+  msgs::Increment row = SlopeRow();
+  for (double& x : row.x) x *= length;
+  for (double& y : row.y) y *= length;
+  for (msgs::ContactState& contact : row.contacts) {
+    contact.rn *= force;
+    contact.rt *= force;
+  }
+  const MarkerArray small = SceneMarkers(Slope(), World()).Draw(SlopeRow(), 2.0);
+  const MarkerArray large = SceneMarkers(request, World()).Draw(row, 2.0 * force);
+  ASSERT_EQ(small.markers.size(), large.markers.size());
+  for (std::size_t i = 0; i < small.markers.size(); ++i) {
+    const std::vector<Vector2d> a = Points(small.markers[i]);
+    const std::vector<Vector2d> b = Points(large.markers[i]);
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t j = 0; j < a.size(); ++j) EXPECT_LT((length * a[j] - b[j]).norm(), kRounding * length);
+  }
+}
+
+// The slope is turned into a belt, after a stage that presses the foot onto it.
+TraceRequest Belt() {
+  TraceRequest request = Slope();
+  request.scene.loads.pop_back();
+  request.scene.loads[0].constant = true;  // at the roll, 2.0 along x
+  Stage press;
+  press.name = "press";
+  press.loads = {{"foot", 0.0, -1.0, false}};
+  press.support_motions = {{"pin", 0.0, -0.5}};
+  press.target = 3.0;
+  Stage drive;
+  drive.obstacle_motions = {{"slope", 0.8, 0.6}, {"wall", 1.0, 0.0}};
+  drive.loads = {{"foot", 4.0, 0.0, false}};
+  request.program = {press, drive};
+  return request;
+}
+
+TEST(SceneMarkersTest, StagesHaveTheirLoadsAndObstacles) {
+  const SceneMarkers markers(Belt(), World());
+  msgs::Increment row = SlopeRow(0.5);
+  row.contacts = {State(msgs::ContactState::OPEN), State(msgs::ContactState::OPEN)};
+  EXPECT_FALSE(markers.Fits(row));
+  row.stage = 3;
+  EXPECT_FALSE(markers.Fits(row));
+
+  row.stage = 1;
+  ASSERT_TRUE(markers.Fits(row));
+  EXPECT_NEAR(markers.LargestForce(row), 2.0, kRounding);
+  const MarkerArray press = markers.Draw(row, 3.0);
+  EXPECT_NE(Find(press, "caption").text.find("press"), std::string::npos);
+  EXPECT_EQ(Find(press, "loads").points.size(), 18U);  // two arrows
+  EXPECT_NEAR(Points(Find(press, "obstacles", 1))[2].x(), 7.0, kRounding);
+
+  row.stage = 2;
+  ASSERT_TRUE(markers.Fits(row));
+  EXPECT_NEAR(markers.LargestForce(row), 3.0, kRounding);  // what was pressed on stays
+  const MarkerArray drive = markers.Draw(row, 3.0);
+  EXPECT_NE(Find(drive, "caption").text.find("stage 2"), std::string::npos);
+  EXPECT_EQ(Find(drive, "loads").points.size(), 27U);
+  const std::vector<Vector2d> boundaries = Points(Find(drive, "obstacles", 1));
+  EXPECT_NEAR(kNormal.dot(boundaries[0] - Vector2d(3.0, 1.0)), 0.0, kRounding);  // along itself
+  EXPECT_NEAR(boundaries[2].x(), 7.5, kRounding);
+  ExpectSound(drive);
+  EXPECT_EQ(Names(markers.DrawInitial()), Names(drive));
+
+  // The size is that of the way of the supports, too: the pin goes down by 1.5.
+  const std::vector<Vector2d> boundary = Points(Find(press, "obstacles", 1));
+  EXPECT_NEAR((boundary[1] - boundary[0]).norm(), 2.0 * std::hypot(5.0, 2.5), kRounding);
+}
+
+// Distance of the two points of a boundary.
+double BoundaryLength(const MarkerArray& picture) {
+  const std::vector<Vector2d> points = Points(Find(picture, "obstacles", 1));
+  return (points[1] - points[0]).norm();
+}
+
+TEST(SceneMarkersTest, SizeIsThatOfTheWayToTheStopCriterion) {
+  TraceRequest request = Slope();
+  request.options.stop = {{"roll.x", ">", 12.0}, {"load_factor", ">", 1e6}, {"foot.y", "<", -1e6}};
+  const double size = (Vector2d(12.0, 3.0) - Vector2d(0.0, 1.0)).norm();
+  EXPECT_NEAR(BoundaryLength(SceneMarkers(request, World()).DrawInitial()), 2.0 * size, kRounding);
+  request.options.stop.clear();
+  EXPECT_NEAR(BoundaryLength(SceneMarkers(request, World()).DrawInitial()), 2.0 * std::hypot(5.0, 2.0), kRounding);
+}
+
+TEST(SceneMarkersTest, PictureSizeMovesAndScalesEverything) {
+  MarkerOptions fitting = World();
+  fitting.picture_size = 10.0;
+  const double scale = 10.0 / std::hypot(5.0, 2.0);
+  const Vector2d centre(2.5, 2.0);
+  const MarkerArray as_it_is = SceneMarkers(Slope(), World()).Draw(SlopeRow(), 2.0);
+  const MarkerArray fitted = SceneMarkers(Slope(), fitting).Draw(SlopeRow(), 2.0);
+  ExpectSound(fitted);
+  ASSERT_EQ(Names(fitted), Names(as_it_is));
+  for (std::size_t i = 0; i < fitted.markers.size(); ++i) {
+    const Marker& before = as_it_is.markers[i];
+    const Marker& after = fitted.markers[i];
+    for (std::size_t j = 0; j < before.points.size(); ++j) {
+      EXPECT_LT((scale * (Points(before)[j] - centre) - Points(after)[j]).norm(), kRounding);
+      EXPECT_NEAR(scale * before.points[j].z, after.points[j].z, kRounding);
+    }
+    EXPECT_NEAR((before.type == Marker::TRIANGLE_LIST ? 1.0 : scale) * before.scale.x, after.scale.x, kRounding);
+    if (before.type == Marker::TEXT_VIEW_FACING) {
+      EXPECT_NEAR(scale * before.scale.z, after.scale.z, kRounding);
+      EXPECT_NEAR(scale * (before.pose.position.y - centre.y()), after.pose.position.y, kRounding);
+    }
+  }
+}
+
+TEST(SceneMarkersTest, OptionsThatMakeNoSenseAreNamed) {
+  MarkerOptions options;
+  EXPECT_NO_THROW(options.Validate());
+  for (const char* const frame_id : {"", "/map"}) {
+    options.frame_id = frame_id;
+    EXPECT_THROW(options.Validate(), std::invalid_argument) << frame_id;
+  }
+  options.frame_id = "map";
+  for (const double size : {-1.0, std::nan("")}) {
+    options.picture_size = size;
+    EXPECT_THROW(options.Validate(), std::invalid_argument) << size;
+  }
+}
+
+TEST(SceneMarkersTest, BigScenesHaveAsManyMarkersAsSmallOnes) {
+  LatticeOptions options;
+  options.columns = 60;
+  options.rows = 15;
+  const TraceRequest request = LatticeRequest(options);
+  const MarkerArray picture = SceneMarkers(request, World()).DrawInitial();
+  EXPECT_EQ(picture.markers.size(), SceneMarkers(Slope(), World()).DrawInitial().markers.size());
+  EXPECT_EQ(Find(picture, "structure").points.size(), 2 * request.scene.bars.size());
+  ExpectSound(picture);
+}
+
+}  // namespace
+}  // namespace contact_path
