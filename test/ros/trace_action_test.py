@@ -212,7 +212,8 @@ class TraceActionTest(unittest.TestCase):
 
     def test_goal_cancelled_before_it_comes_is_recalled(self):
         bags = self.number_of_bags()
-        goal = TracePathActionGoal(goal=helpers.goal_from(helpers.long_request()), goal_id=GoalID(id='cancelled before'))
+        goal = TracePathActionGoal(goal_id=GoalID(id='cancelled before'))
+        goal.goal = helpers.goal_from(helpers.long_request())
         sender = rospy.Publisher(ACTION + '/goal', TracePathActionGoal, queue_size=1)
         helpers.wait_until(lambda: sender.get_num_connections() > 0, 'goals can be sent')
         with helpers.Collector(ACTION + '/result', TracePathActionResult) as results:

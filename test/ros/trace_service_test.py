@@ -111,9 +111,9 @@ class TraceServiceTest(unittest.TestCase):
             self.assertGreater(len(limits), 0)
             events = max(row.event.number for row in increments)  # they are numbered from 1
             stop, = helpers.request_of(scene).options.stop
-            self.assertEqual(response.message, 'stop_criterion: %s %s %g; %d rows; limit points: %s; %d event%s; bag %s' %
-                             (stop.quantity, stop.when, stop.value, response.increments, ', '.join(limits), events,
-                              '' if events == 1 else 's', response.bag))
+            self.assertEqual(response.message, 'stop_criterion: %s %s %g; %d rows; limit points: %s; %s; bag %s' %
+                             (stop.quantity, stop.when, stop.value, response.increments, ', '.join(limits),
+                              '1 event' if events == 1 else '%d events' % events, response.bag))
 
     def test_end_by_number_of_increments_is_as_asked_for(self):
         response = self.trace(helpers.request_of('von_mises', step=1e-3, max_increments=5))
