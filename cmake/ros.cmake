@@ -1,36 +1,4 @@
-# The ROS side: messages, library, node, launch tests. Needs the target contact_path_core and find_package(catkin).
-
-add_message_files(FILES
-  Bar.msg
-  BranchChoice.msg
-  Contact.msg
-  ContactState.msg
-  Event.msg
-  Increment.msg
-  Load.msg
-  Node.msg
-  Obstacle.msg
-  ObstacleMotion.msg
-  Scene.msg
-  Stage.msg
-  StopCriterion.msg
-  Superelement.msg
-  SupportMotion.msg
-  TraceOptions.msg
-  TraceRequest.msg
-  TraceResult.msg
-  TraceStatus.msg
-  Way.msg
-)
-add_service_files(FILES TracePath.srv)
-add_action_files(FILES TracePath.action)
-generate_messages(DEPENDENCIES actionlib_msgs std_msgs)
-
-catkin_package(
-  INCLUDE_DIRS include
-  LIBRARIES contact_path_ros contact_path_core
-  CATKIN_DEPENDS actionlib actionlib_msgs message_runtime rosbag roscpp std_msgs std_srvs visualization_msgs
-)
+# The ROS side: library, node, launch tests. Needs the target contact_path_core and messages.cmake.
 
 add_library(contact_path_ros
   src/ros/bag_reader.cpp
@@ -45,6 +13,8 @@ add_library(contact_path_ros
   src/ros/trace_service.cpp
 )
 add_dependencies(contact_path_ros ${PROJECT_NAME}_generate_messages_cpp)
+# The generated headers, and those of ROS that they include.
+#catkin_lint: ignore_once external_directory external_interface_path
 target_include_directories(contact_path_ros SYSTEM
   PUBLIC ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION} ${catkin_INCLUDE_DIRS})
 target_precompile_headers(contact_path_ros PRIVATE <ros/ros.h> <algorithm> <memory> <string> <vector>)
@@ -53,7 +23,7 @@ target_link_libraries(contact_path_ros
   PRIVATE contact_path_warnings)
 
 add_executable(contact_path_node src/ros/contact_path_node.cpp src/cli/one_thread.cpp)
-target_include_directories(contact_path_node PRIVATE src/cli)
+target_include_directories(contact_path_node PRIVATE src)
 target_link_libraries(contact_path_node PRIVATE contact_path_ros contact_path_warnings)
 
 add_executable(contact_path_markers src/ros/contact_path_markers.cpp)
@@ -66,19 +36,11 @@ target_link_libraries(contact_path_verify PRIVATE contact_path_ros contact_path_
 
 # With ROS the command-line program can record bags.
 target_sources(contact_path_trace PRIVATE src/ros/bag_sink.cpp)
-target_include_directories(contact_path_trace PRIVATE src/ros)
 target_compile_definitions(contact_path_trace PRIVATE CONTACT_PATH_WITH_ROS)
 target_link_libraries(contact_path_trace PRIVATE contact_path_ros)
 
-# `rosrun contact_path ...` finds the command-line programs too.
+# Where programs are, for tests.
 set(contact_path_devel_programs ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_BIN_DESTINATION})
-foreach(program contact_path_trace contact_path_lattice)
-  add_custom_command(TARGET ${program} POST_BUILD
-    COMMAND ${CMAKE_COMMAND} -E make_directory ${contact_path_devel_programs}
-    COMMAND ${CMAKE_COMMAND} -E create_symlink
-      $<TARGET_FILE:${program}> ${contact_path_devel_programs}/${program}
-    VERBATIM)
-endforeach()
 
 install(TARGETS contact_path_ros contact_path_core
   ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
@@ -87,8 +49,11 @@ install(TARGETS contact_path_node contact_path_markers contact_path_trace contac
   RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(DIRECTORY include/${PROJECT_NAME}/ DESTINATION ${CATKIN_PACKAGE_INCLUDE_DESTINATION})
 catkin_install_python(PROGRAMS scripts/play scripts/plot scripts/watch DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
-install(FILES scripts/path_file.py scripts/plot_panels.py scripts/plot_shapes.py DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+install(FILES scripts/path_file.py scripts/plot_panels.py scripts/plot_shapes.py
+  DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(DIRECTORY config launch scenes DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
+install(FILES CHANGELOG.rst CITATION.cff LICENSE README.md DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
+install(DIRECTORY docs DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION} FILES_MATCHING PATTERN *.md PATTERN *.png)
 
 if(CATKIN_ENABLE_TESTING)
   find_package(rostest REQUIRED)

@@ -21,12 +21,12 @@
 #include "contact_path/scene/read_scene.h"
 #include "contact_path/scene/validate.h"
 #ifdef CONTACT_PATH_WITH_ROS
-#include "bag_sink.h"
 #include "contact_path/ros/resume.h"
+#include "ros/bag_sink.h"
 #endif
-#include "event_table.h"
-#include "one_thread.h"
-#include "progress.h"
+#include "cli/event_table.h"
+#include "cli/one_thread.h"
+#include "cli/progress.h"
 
 namespace contact_path {
 namespace {

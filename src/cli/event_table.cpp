@@ -1,4 +1,4 @@
-#include "event_table.h"
+#include "cli/event_table.h"
 
 #include <cstddef>
 #include <iomanip>

@@ -1,4 +1,4 @@
-#include "one_thread.h"
+#include "cli/one_thread.h"
 
 #include <unistd.h>
 

@@ -1,4 +1,4 @@
-#include "progress.h"
+#include "cli/progress.h"
 
 #include <cmath>
 #include <iomanip>
@@ -78,8 +78,7 @@ void Progress::Draw(const Increment& increment, double done) {
   }
   line << "row " << increment.index;
   if (increment.stage > 0) line << "  stage " << increment.stage;
-  line << "  load factor " << std::setprecision(4) << increment.load_factor << "  events "
-       << summary_.events();
+  line << "  load factor " << std::setprecision(4) << increment.load_factor << "  events " << summary_.events();
   const double seconds = std::chrono::duration<double>(clock_() - first_row_).count();
   if (done >= kLeastFraction && seconds >= kLeastSeconds)
     line << "  " << InMinutes(seconds * (1.0 - done) / done) << " left";

@@ -1,4 +1,4 @@
-#include "bag_sink.h"
+#include "ros/bag_sink.h"
 
 #include <ros/time.h>
 

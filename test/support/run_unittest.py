@@ -1,4 +1,4 @@
-#!/ usr / bin / python3
+#!/usr/bin/python3
 """Runs one file of unittests and leaves the results as XML, as the C++ tests do.
 
 Usage: run_unittest.py TEST.py RESULTS.xml [NAME=VALUE...]: environment variables for the tests.

@@ -1,0 +1,8 @@
+# Install rules without ROS: the library with its headers, the command-line programs, the scenes.
+include(GNUInstallDirs)
+install(TARGETS contact_path_core contact_path_trace contact_path_lattice
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
+  RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(DIRECTORY include/${PROJECT_NAME} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} PATTERN ros EXCLUDE)
+install(DIRECTORY scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/${PROJECT_NAME})

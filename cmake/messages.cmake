@@ -1,0 +1,35 @@
+# The messages, and what other packages get from this one. catkin_package() also decides where libraries and programs go, so it
+# comes before any target.
+
+add_message_files(FILES
+  Bar.msg
+  BranchChoice.msg
+  Contact.msg
+  ContactState.msg
+  Event.msg
+  Increment.msg
+  Load.msg
+  Node.msg
+  Obstacle.msg
+  ObstacleMotion.msg
+  Scene.msg
+  Stage.msg
+  StopCriterion.msg
+  Superelement.msg
+  SupportMotion.msg
+  TraceOptions.msg
+  TraceRequest.msg
+  TraceResult.msg
+  TraceStatus.msg
+  Way.msg
+)
+add_service_files(FILES TracePath.srv)
+add_action_files(FILES TracePath.action)
+generate_messages(DEPENDENCIES actionlib_msgs std_msgs)
+
+catkin_package(
+  INCLUDE_DIRS include
+  LIBRARIES contact_path_ros contact_path_core
+  CATKIN_DEPENDS actionlib actionlib_msgs message_runtime rosbag roscpp std_msgs std_srvs visualization_msgs
+  DEPENDS EIGEN3
+)
