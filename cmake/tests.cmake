@@ -146,4 +146,11 @@ if(CONTACT_PATH_ROS)
   endforeach()
   contact_path_add_python_test(plot_bag_test test/ros/plot_bag_test.py DEPENDS contact_path_trace
     VARIABLES CONTACT_PATH_TRACE=$<TARGET_FILE:contact_path_trace> CONTACT_PATH_PLOT=${contact_path_devel_programs}/plot)
+  set(contact_path_all_programs contact_path_trace contact_path_lattice contact_path_node
+    contact_path_markers contact_path_verify ${PROJECT_NAME}_generate_messages)
+  contact_path_add_python_test(docs_test test/docs/docs_test.py DEPENDS ${contact_path_all_programs}
+    VARIABLES CONTACT_PATH_ROOT=${CMAKE_CURRENT_SOURCE_DIR} CONTACT_PATH_PROGRAMS=${contact_path_devel_programs}
+      CONTACT_PATH_MODULES=${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_PYTHON_DESTINATION})
+  contact_path_add_python_test(install_test test/install/install_test.py DEPENDS ${contact_path_all_programs}
+    VARIABLES CONTACT_PATH_ROOT=${CMAKE_CURRENT_SOURCE_DIR} CONTACT_PATH_BUILD=${CMAKE_BINARY_DIR})
 endif()
