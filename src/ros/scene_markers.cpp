@@ -264,6 +264,12 @@ SceneMarkers::SceneMarkers(const TraceRequest& request, const MarkerOptions& opt
     }
   }
 
+  for (std::size_t i = 0; i < scene.obstacles.size(); ++i) {
+    const bool moves = std::any_of(stages_.begin(), stages_.end(),
+                                   [i](const StageParts& stage) { return !stage.obstacles[i].motion.isZero(0.0); });
+    for (StageParts& stage : stages_) stage.obstacles[i].moves = moves;
+  }
+
   const Scaling scales = StageScales(request, 0);
   ExtendBox(request, kFarthestStop * std::max(box_.diagonal().norm(), scales.length));
   const double diagonal = box_.diagonal().norm();
@@ -374,7 +380,7 @@ void SceneMarkers::DrawObstacles(const Places& places, const msgs::Increment& ro
   const std::vector<HalfPlane>& obstacles = StageOf(row).obstacles;
   std::vector<std::array<Vector2d, 2>> boundaries;  // from and to
   for (const HalfPlane& obstacle : obstacles) {
-    const Vector2d point = obstacle.point + row.load_factor * obstacle.motion;
+    const Vector2d point = obstacle.PointAt(row.load_factor);
     const Vector2d foot = centre - obstacle.normal.dot(centre - point) * obstacle.normal;
     const Vector2d half = half_length * Tangent(obstacle.normal);
     boundaries.push_back({foot - half, foot + half});
@@ -389,6 +395,19 @@ void SceneMarkers::DrawObstacles(const Places& places, const msgs::Increment& ro
   }
   picture->BeginLines("obstacles", 1, kBarWidth * detail_, kGroundLine, kBoundaries);
   for (const auto& [from, to] : boundaries) picture->AddLine(from, to);
+  picture->BeginLines("obstacles", 2, kThinWidth * detail_, kGroundLine, kBoundaries);
+  const double distance = 2.0 * kStripDepth * size_;
+  for (std::size_t i = 0; i < obstacles.size(); ++i) {
+    if (!obstacles[i].moves) continue;
+    const Vector2d tangent = Tangent(obstacles[i].normal);
+    const Vector2d stroke = kStripDepth * size_ * (obstacles[i].normal + tangent);
+    // Multiples of the distance from the point that moves.
+    const Vector2d& from = boundaries[i][0];
+    const double begin = tangent.dot(obstacles[i].PointAt(row.load_factor) - from);
+    for (double along = begin - distance * std::floor(begin / distance); along < 2.0 * half_length; along += distance) {
+      picture->AddLine(from + along * tangent, from + along * tangent - stroke);
+    }
+  }
 }
 
 void SceneMarkers::DrawStructure(const Places& places, Picture* picture) const {

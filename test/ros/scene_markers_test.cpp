@@ -223,6 +223,7 @@ TEST(SceneMarkersTest, ObstaclesAreOnTheForbiddenSideAlongAllNodes) {
     ASSERT_EQ(boundaries.size(), 4U);
     for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(kNormal.dot(boundaries[i] - Vector2d(3.0, 1.0)), 0.0, kRounding);
     for (std::size_t i = 2; i < 4; ++i) EXPECT_NEAR(boundaries[i].x(), 7.0, kRounding);
+    EXPECT_EQ(Find(picture, "obstacles", 2).action, Marker::DELETE);  // they do not move
   }
 }
 
@@ -447,6 +448,15 @@ TEST(SceneMarkersTest, StagesHaveTheirLoadsAndObstacles) {
   const std::vector<Vector2d> boundaries = Points(Find(drive, "obstacles", 1));
   EXPECT_NEAR(kNormal.dot(boundaries[0] - Vector2d(3.0, 1.0)), 0.0, kRounding);  // along itself
   EXPECT_NEAR(boundaries[2].x(), 7.5, kRounding);
+  // A stroke sticks to the point of the slope, wherever it is.
+  const auto has_stroke_at = [](const MarkerArray& picture, const Vector2d& place) {
+    const std::vector<Vector2d> strokes = Points(Find(picture, "obstacles", 2));
+    return std::any_of(strokes.begin(), strokes.end(),
+                       [&](const Vector2d& point) { return (point - place).norm() < kRounding; });
+  };
+  EXPECT_TRUE(has_stroke_at(press, {3.0, 1.0}));
+  EXPECT_TRUE(has_stroke_at(drive, {3.4, 1.3}));
+  EXPECT_FALSE(has_stroke_at(drive, {3.0, 1.0}));
   ExpectSound(drive);
   EXPECT_EQ(Names(markers.DrawInitial()), Names(drive));
 

@@ -6,6 +6,7 @@
 //   namespace      id  what
 //   obstacles       0  strips of the half planes, on the forbidden side
 //                   1  their boundaries
+//                   2  strokes on those that move, which go along
 //   initial         0  bars in the initial shape
 //                   1  nodes
 //   superelements   0  lines from the nodes to their middle; of a single node, to its rest position
@@ -85,6 +86,9 @@ class SceneMarkers {
     Eigen::Vector2d motion = Eigen::Vector2d::Zero();  // of the point, per unit of the load factor
     Eigen::Vector2d normal = Eigen::Vector2d::Zero();  // of unit length
     double friction = 0.0;
+    bool moves = false;  // in any stage
+
+    Eigen::Vector2d PointAt(double load_factor) const { return point + load_factor * motion; }
   };
   struct Candidate {
     std::size_t node = 0;
