@@ -72,6 +72,8 @@ if(CATKIN_ENABLE_TESTING)
   set(CATKIN_ENV ${CATKIN_DEVEL_PREFIX}/env.sh)
   foreach(test markers shutdown trace_action trace_service)
     add_rostest(test/ros/${test}.test DEPENDENCIES contact_path_node contact_path_markers contact_path_trace)
+    # They wait for nodes: nothing beside them.
+    set_property(TEST _ctest_${PROJECT_NAME}_rostest_test_ros_${test}.test PROPERTY RUN_SERIAL ON)
   endforeach()
   unset(CATKIN_ENV)
 endif()
