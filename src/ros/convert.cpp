@@ -155,18 +155,21 @@ EventRecord FromMessage(const msgs::Event& message) {
 
 std::vector<Load> FromMessages(const std::vector<msgs::Load>& loads) {
   std::vector<Load> result;
+  result.reserve(loads.size());
   for (const msgs::Load& load : loads) result.push_back({load.node, load.fx, load.fy, load.constant != 0});
   return result;
 }
 
 std::vector<SupportMotion> FromMessages(const std::vector<msgs::SupportMotion>& motions) {
   std::vector<SupportMotion> result;
+  result.reserve(motions.size());
   for (const msgs::SupportMotion& motion : motions) result.push_back({motion.node, motion.dx, motion.dy});
   return result;
 }
 
 std::vector<ObstacleMotion> FromMessages(const std::vector<msgs::ObstacleMotion>& motions) {
   std::vector<ObstacleMotion> result;
+  result.reserve(motions.size());
   for (const msgs::ObstacleMotion& motion : motions) result.push_back({motion.obstacle, motion.dx, motion.dy});
   return result;
 }

@@ -169,9 +169,9 @@ class TraceActionTest(unittest.TestCase):
             self.assertEqual(state, GoalStatus.SUCCEEDED, result.message)
             self.assertTrue(result.bag.endswith(scene + '.bag'))
 
-    def test_example_of_the_readme(self):
+    def test_example_of_the_documentation(self):
         package = os.path.dirname(os.path.dirname(helpers.scene_path('sliding_bar')))
-        with open(os.path.join(package, 'README.md')) as file:
+        with open(os.path.join(package, 'docs', 'messages.md')) as file:
             examples = re.findall(r'^```python\n(.*?)^```\n', file.read(), re.DOTALL | re.MULTILINE)
         self.assertEqual(len(examples), 1)
         said = subprocess.run([sys.executable, '-c', examples[0]], cwd=package, check=True, stdout=subprocess.PIPE,
