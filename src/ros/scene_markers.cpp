@@ -124,7 +124,7 @@ class SceneMarkers::Picture {
 
   void AddPoint(const Vector2d& place) { AddPointAt(place, height_); }
   void AddPoint(const Vector2d& place, const ColorRGBA& colour, Layer layer) {
-    AddPointAt(place, layer_ * layer);
+    AddPointAt(place, layer_ * static_cast<double>(layer));
     Last().colors.push_back(colour);
   }
   void AddLine(const Vector2d& from, const Vector2d& to) {
@@ -188,7 +188,7 @@ class SceneMarkers::Picture {
     marker.type = type;
     marker.pose.orientation.w = 1.0;
     marker.color = colour;
-    height_ = layer_ * layer;
+    height_ = layer_ * static_cast<double>(layer);
     return marker;
   }
   Marker& Last() { return array_.markers.back(); }
