@@ -42,8 +42,11 @@ class TraceActionTest(unittest.TestCase):
         cls.trace = helpers.service(NODE + '/trace')
         cls.cancel = helpers.service(NODE + '/cancel', Trigger)
         cls.client = helpers.action_client(ACTION)
+        # Without a client, which gives a goal up for lost where a status from before the goal comes after its cancel.
+        cls.send_goal = rospy.Publisher(ACTION + '/goal', TracePathActionGoal, queue_size=10)
         cls.cancel_goal = rospy.Publisher(ACTION + '/cancel', GoalID, queue_size=10)
-        helpers.wait_until(lambda: cls.cancel_goal.get_num_connections() > 0, 'goals can be cancelled')
+        for publisher in cls.send_goal, cls.cancel_goal:
+            helpers.wait_until(lambda: publisher.get_num_connections() > 0, 'the node listens')
 
     @classmethod
     def tearDownClass(cls):
@@ -58,7 +61,7 @@ class TraceActionTest(unittest.TestCase):
 
     def start_long_goal(self):
         goal = self.send(helpers.long_request())
-        helpers.wait_until(lambda: len(goal.feedback) > 5, 'the trace is on its way')
+        helpers.wait_until(lambda: len(goal.feedback) > 5 and goal.state() == GoalStatus.ACTIVE, 'it is on its way')
         return goal
 
     def expect_goes_on(self, messages):
@@ -175,14 +178,15 @@ class TraceActionTest(unittest.TestCase):
             examples = re.findall(r'^```python\n(.*?)^```\n', file.read(), re.DOTALL | re.MULTILINE)
         self.assertEqual(len(examples), 1)
         said = subprocess.run([sys.executable, '-c', examples[0]], cwd=package, check=True, stdout=subprocess.PIPE,
-                              universal_newlines=True, timeout=helpers.PATIENCE).stdout.splitlines()
+                              universal_newlines=True, timeout=helpers.PATIENCE).stdout
         status = rospy.wait_for_message(NODE + '/status', TraceStatus, helpers.PATIENCE)
-        self.assertEqual((status.scene, said[-1]), ('sliding_bar', status.message))
+        self.assertEqual(status.scene, 'sliding_bar')
+        self.assertIn(status.message, said)
         _, increments, _ = self.read_bag(status)
-        rows = {str(row.index): row for row in increments}
-        self.assertGreater(len(said), 1)
-        for line in said[:-1]:
-            self.assertIn('load factor %.6g,' % rows[line.split()[1].rstrip(',')].load_factor, line)
+        rows = re.findall(r'row (\d+), load factor (\S+), ', said)
+        self.assertGreater(len(rows), 10)
+        for index, load_factor in rows:
+            self.assertEqual(load_factor, '%.6g' % increments[int(index)].load_factor)
 
     # Goals that are cancelled
 
@@ -199,26 +203,32 @@ class TraceActionTest(unittest.TestCase):
         self.expect_kept(self.expect_cancelled(goal))
 
     def test_goal_cancelled_as_soon_as_it_is_sent(self):
-        for _ in range(5):
-            goal = self.send(helpers.long_request())
-            goal.cancel()
-            state, result = goal.finish()
-            # Goal and cancel come by connections of their own.
-            self.assertIn(state, (GoalStatus.PREEMPTED, GoalStatus.RECALLED))
-            if state == GoalStatus.PREEMPTED:
-                self.assertEqual(result.end_reason, Response.END_CANCELLED)
-                self.assertEqual(len(self.read_bag(result)[1]), result.increments)
+        with helpers.Collector(ACTION + '/result', TracePathActionResult) as results:
+            for i in range(5):
+                goal = self.long_goal('cancelled at once %d' % i)
+                self.send_goal.publish(goal)
+                self.cancel_goal.publish(goal.goal_id)
+                helpers.wait_until(lambda: len(results.messages) > i, 'the goal has ended')
+                status, result = results.messages[i].status, results.messages[i].result
+                self.assertEqual(status.goal_id.id, goal.goal_id.id)
+                # Goal and cancel come by connections of their own.
+                self.assertIn(status.status, (GoalStatus.PREEMPTED, GoalStatus.RECALLED))
+                if status.status == GoalStatus.PREEMPTED:
+                    self.assertEqual(result.end_reason, Response.END_CANCELLED)
+                    self.assertEqual(len(self.read_bag(result)[1]), result.increments)
         self.assertFalse(self.cancel().success)
+
+    def long_goal(self, name):
+        goal = TracePathActionGoal(goal_id=GoalID(id=name))
+        goal.goal = helpers.goal_from(helpers.long_request())
+        return goal
 
     def test_goal_cancelled_before_it_comes_is_recalled(self):
         bags = self.number_of_bags()
-        goal = TracePathActionGoal(goal_id=GoalID(id='cancelled before'))
-        goal.goal = helpers.goal_from(helpers.long_request())
-        sender = rospy.Publisher(ACTION + '/goal', TracePathActionGoal, queue_size=1)
-        helpers.wait_until(lambda: sender.get_num_connections() > 0, 'goals can be sent')
+        goal = self.long_goal('cancelled before')
         with helpers.Collector(ACTION + '/result', TracePathActionResult) as results:
             self.expect_noticed_cancel(goal.goal_id)
-            sender.publish(goal)
+            self.send_goal.publish(goal)
             helpers.wait_until(lambda: results.messages, 'the goal has ended')
         self.assertEqual(results.messages[0].status.goal_id.id, goal.goal_id.id)
         self.assertEqual(results.messages[0].status.status, GoalStatus.RECALLED)
