@@ -31,7 +31,8 @@ PYTHON = [path.name for path in sorted((ROOT / 'scripts').iterdir())
           if path.suffix == '' and path.is_file() and path.read_text(encoding='utf-8').startswith('#!/usr/bin/python3')]
 WITH_HELP = ['contact_path_trace', 'contact_path_lattice', 'verify', *PYTHON]
 # What stands for a program in a command.
-SCRIPTS = {'scripts/trace': 'contact_path_trace', **{'scripts/' + name: name for name in PYTHON}}
+SCRIPTS = {**{'scripts/' + name: name for name in ('contact_path_trace', 'contact_path_lattice', 'contact_path_markers')},
+           'scripts/trace': 'contact_path_trace', **{'scripts/' + name: name for name in PYTHON}}
 QUICK = ('contact_path_trace', 'contact_path_lattice', 'verify', 'sed')  # of the examples, run here
 
 SAME = 1e-6  # relative, of numbers that an example prints
