@@ -114,9 +114,6 @@ Watched Watch(SmoothPiece* piece, const Segment& segment, std::optional<double> 
   const Eigen::Index s = system.NumDofs();
   const auto load = [s](const Eigen::VectorXd& x) { return x[s]; };
   const Quintic load_factor = segment.Interpolate(load, load);
-  if (target)
-    if (const std::optional<double> t = FirstAt(load_factor, *target, segment.length))
-      consider(Happening::kTarget, *t, {});
   const Quintic load_rate = Derivative(load_factor);
   Quintic reversed = load_rate;
   for (double& coefficient : reversed) coefficient = -coefficient;
@@ -131,6 +128,10 @@ Watched Watch(SmoothPiece* piece, const Segment& segment, std::optional<double> 
     else if (t < first.t)
       first = {Happening::kBifurcation, t, {}, true};
   }
+  // Whatever lies behind the target, however near, is not of this path.
+  if (target)
+    if (const std::optional<double> t = FirstAt(load_factor, *target, segment.length); t && *t <= first.t)
+      first = {Happening::kTarget, *t, {}, false};
   return first;
 }
 

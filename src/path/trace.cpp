@@ -24,7 +24,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double kRegularised = 1e-5;           // the same of a regularised row to go on from
-constexpr double kAtTarget = 1e-12;             // scaled load factor: rounding
+constexpr double kAtTarget = 1e-12;             // relative, of the load factor: rounding
 constexpr double kStartTolerance = 1e-9;        // residuals of row 0
 constexpr int kMostPreloadIncrements = 100000;  // to bring the constant loads on; not counted with the others
 
@@ -134,6 +134,10 @@ class Tracer {
     for (std::size_t stage = first; stage < NumStages(request_); ++stage) {
       const Clock::time_point start = Clock::now();
       auto next = std::make_unique<const Model>(StageScene(request_, stage), StageScales(request_, stage));
+      if (stage > first && recorder_.rows() > request_.options.MaxIncrements()) {
+        End(EndReason::kMaxIncrements, "the wanted number of increments was accepted");
+        break;
+      }
       if (stage > first)
         point_ = next->Take(*model, point_);
       else if (resumption)
@@ -241,7 +245,9 @@ class Tracer {
     return goes_on && EndStage(stage);
   }
 
-  bool IsAt(std::optional<double> target) const { return target && std::abs(point_.s - *target) <= kAtTarget; }
+  bool IsAt(std::optional<double> target) const {
+    return target && std::abs(point_.s - *target) <= kAtTarget * std::abs(*target);
+  }
 
   // At its target. False: it was the last one.
   bool EndStage(std::size_t stage) {

@@ -25,6 +25,10 @@ constexpr double kAtTarget = 1e-9;     // relative, of the load factor
 constexpr double kTurn = 1e-9;         // of the load factor: a smaller change is none
 constexpr double kLongestArc = 1.05;   // of its chord: increments turn by less than 60 degrees
 
+bool AtTarget(double target, double load_factor) {
+  return std::abs(load_factor - target) <= kAtTarget * std::abs(target);
+}
+
 // The rows of one stage.
 class Verifier {
  public:
@@ -33,6 +37,7 @@ class Verifier {
            std::size_t last, Verification* result)
       : scene_(StageScene(request, stage)),
         stage_(request.program.empty() ? 0 : static_cast<int>(stage) + 1),
+        target_(request.program.empty() ? std::nullopt : std::optional(request.program[stage].Target())),
         full_state_every_(std::max(request.options.full_state_every, 1)),
         rows_(rows),
         first_(first),
@@ -166,6 +171,9 @@ class Verifier {
   }
 
   void CheckProgress(const Increment& before, const Increment& row) {
+    if (target_ && !AtTarget(*target_, row.load_factor) && !AtTarget(*target_, before.load_factor) &&
+        (before.load_factor - *target_) * (row.load_factor - *target_) < 0.0)
+      Report("goes past the target of its stage, ", *target_);
     if (row.arc_length < before.arc_length) Report("arc length falls from ", before.arc_length, " to ", row.arc_length);
     const double energy = scaling_.force * scaling_.length;
     Bound("dissipation falls", (before.dissipation - row.dissipation) / energy, kRecorded);
@@ -370,6 +378,7 @@ class Verifier {
 
   const Scene scene_;
   const int stage_;
+  const std::optional<double> target_;  // of the stage; nothing without a program
   const int full_state_every_;
   const std::vector<Increment>& rows_;
   const std::size_t first_, last_;
@@ -407,8 +416,7 @@ Verification VerifyPath(const TraceRequest& request, const std::vector<Increment
 
 bool AtTarget(const TraceRequest& request, const Increment& row) {
   if (row.stage < 1 || row.stage > static_cast<int>(request.program.size())) return false;
-  const double target = request.program[static_cast<std::size_t>(row.stage) - 1].Target();
-  return std::abs(row.load_factor - target) <= kAtTarget * std::abs(target);
+  return AtTarget(request.program[static_cast<std::size_t>(row.stage) - 1].Target(), row.load_factor);
 }
 
 }  // namespace contact_path

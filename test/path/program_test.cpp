@@ -228,6 +228,28 @@ TEST(Program, UnitsDoNotMatter) {
       EXPECT_NEAR(a.rows[i].positions[k], b.rows[i].positions[k], 1e-10);
 }
 
+// The block slips at 0.3: whatever the distance of the target from there, the stage ends at it.
+TEST(Program, TargetsNextToAnEventAreHit) {
+  for (const double step : {0.02, 0.2, 2.0})
+    for (const double off : {-1e-3, -1e-5, -1e-6, -1e-7, -1e-9, -1e-11, -1e-13, 0.0, 1e-13, 1e-11, 1e-9, 1e-7, 1e-5}) {
+      TraceRequest request = ReadExample("stick_slip_cycle");
+      request.options.step = step;
+      request.program.resize(2);
+      request.program[0].target = 0.3 + off;
+      const TracedPath path = TraceProgram(request);
+      EXPECT_NEAR(LastOfStage(path, 1).load_factor, 0.3 + off, 1e-12) << off;
+      EXPECT_NEAR(Contact(path, path.rows.back(), "b@belt").rt, -0.3, kRounding) << off;
+    }
+}
+
+TEST(Program, NumberOfIncrementsIsKeptAlsoWhereAStageEnds) {
+  TraceRequest request = ReadExample("press_slide_lift");
+  for (int most = 1; most < 40; ++most) {
+    request.options.max_increments = most;
+    EXPECT_LE(TraceRows(request).rows.size(), static_cast<std::size_t>(most) + 1);
+  }
+}
+
 TEST(Program, EventsAndRowsAreNumberedThroughAllStages) {
   const TracedPath path = TraceProgram(ReadExample("stick_slip_cycle"));
   int events = 0, starts = 0;
