@@ -21,10 +21,12 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--far-candidates", options.far_candidates, "Candidates out of reach")->capture_default_str();
   app.add_option("--friction", options.friction, "Of the floor")->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
   try {
+    app.parse(argc, argv);
     options.kind = *contact_path::ParseLatticeKind(kind);
     std::cout << contact_path::WriteTraceRequest(contact_path::LatticeRequest(options)) << std::flush;
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
   } catch (const std::exception& error) {
     std::cerr << "contact_path_lattice: " << error.what() << '\n';
     return 2;

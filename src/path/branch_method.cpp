@@ -32,11 +32,14 @@ std::string Name(const BranchChoice& choice) {
   return choice.event > 0 ? "event " + std::to_string(choice.event) : "row " + std::to_string(choice.row);
 }
 
-std::string NoWayOn(const WaysOn& on) {
+// moves: a support or an obstacle does.
+std::string NoWayOn(const WaysOn& on, bool moves) {
   if (on.rigid_modes > 0)
     return "no admissible way on, and the structure is a mechanism here: nothing resists " +
            std::to_string(on.rigid_modes) + (on.rigid_modes == 1 ? " motion" : " motions") + "; is it supported?";
   if (!on.complete) return "no admissible way on was found among the combinations of contact states tried";
+  if (moves)
+    return "no admissible way on: only a dynamic jump leads further, or reactions have to change while nothing moves";
   return "no admissible way on: the quasi-static path ends here, only a dynamic jump leads further";
 }
 
@@ -120,7 +123,7 @@ std::optional<EndReason> BranchMethod::PassEvent(const PathPoint& point, const A
   record->complete = on.complete;
   for (const Way& way : on.ways) record->ways.push_back({way.states, way.load_rate, way.dissipation_rate, way.turn});
   if (on.ways.empty()) {
-    *message = NoWayOn(on);
+    *message = NoWayOn(on, !model_.scene.support_motions.empty() || !model_.scene.obstacle_motions.empty());
     return EndReason::kPathEnd;
   }
   std::size_t taken = 0;

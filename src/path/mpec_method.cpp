@@ -40,6 +40,8 @@ constexpr double kLevel = 1e-9;
 
 constexpr double kBroken = 1e-11;        // scaled: an inequality at an exact point
 constexpr double kFarthestTarget = 2.0;  // of the increment that goes past the target: farther is another branch
+constexpr double kLevelling =
+    0.25;  // a rate at the end of an increment that may be none, relative to the one at its begin
 
 constexpr int kFirstDirections = 8;
 constexpr double kShortPath = 20.0;          // of the corner tolerance
@@ -243,10 +245,29 @@ bool MpecMethod::ConfirmedByHalves(const PathPoint& from, const Eigen::VectorXd&
          Distance(second.increment.point, to) <= options_.corner_tolerance;
 }
 
+bool MpecMethod::MayMissTarget(const PathPoint& from, const PathPoint& to) const {
+  if (!options_.target || !started_) return false;
+  // Rates of the load factor over arc length: chords of the last increment and of this one, and from them at the ends.
+  const double length = Distance(from, to), chord = (to.s - from.s) / length;
+  const double last_chord = direction_[direction_.size() - 1];
+  const double at_from = (last_chord * length + chord * last_length_) / (last_length_ + length);
+  const double at_to = 2.0 * chord - at_from;
+  const bool turns = chord * last_chord < 0.0 || at_to * last_chord < kLevelling * at_from * last_chord;
+  // No load factor of a concave piece, or of two straight ones, is larger.
+  const double reached = from.s + last_chord * length;
+  return turns && (from.s - *options_.target) * (to.s - *options_.target) > 0.0 &&
+         (from.s - *options_.target) * (reached - *options_.target) < 0.0;
+}
+
 bool MpecMethod::EndAtTarget(const PathPoint& from, Trial* trial) const {
+  // The contacts may change their states on either side of the target.
+  return EndAtTarget(from, trial->increment.point.states, trial) || EndAtTarget(from, from.states, trial);
+}
+
+bool MpecMethod::EndAtTarget(const PathPoint& from, const std::vector<ContactState>& states, Trial* trial) const {
   const PathPoint& to = trial->increment.point;
   FixedStateSystem system(model_.structure, model_.contacts);
-  system.SetStates(to.states, TangentialPositions(model_.contacts, from));
+  system.SetStates(states, TangentialPositions(model_.contacts, from));
   system.PinLoadFactor(*options_.target);
   const double share = (*options_.target - from.s) / (to.s - from.s);
   const Eigen::VectorXd start = (1.0 - share) * system.Pack(from) + share * system.Pack(to);
@@ -266,6 +287,7 @@ bool MpecMethod::EndAtTarget(const PathPoint& from, Trial* trial) const {
 bool MpecMethod::Resume(const PathPoint& before, const PathPoint& from, const SolveRecord& record) {
   if (!(record.next_step > 0.0) || !(Distance(before, from) > 0.0)) return false;
   direction_ = Direction(before, from);
+  last_length_ = Distance(before, from);
   bent_ = before.states != from.states;
   step_ = record.next_step;
   growth_ = record.growth;
@@ -292,6 +314,7 @@ Advance MpecMethod::Next(const PathPoint& from) {
     if (trial.verdict == Verdict::kAccepted && options_.target &&
         (from.s - *options_.target) * (to.s - *options_.target) < 0.0 && !EndAtTarget(from, &trial))
       trial.verdict = Verdict::kBeyondTarget;
+    if (trial.verdict == Verdict::kAccepted && MayMissTarget(from, to)) trial.verdict = Verdict::kBeyondTarget;
     if (trial.verdict == Verdict::kCancelled || (cancelled_ && cancelled_())) {
       advance.reason = EndReason::kCancelled;
       advance.message = "the caller asked for it";
@@ -329,6 +352,7 @@ Advance MpecMethod::Next(const PathPoint& from) {
     // gamma_2 grows with the length of the increment relative to what was wanted (Algorithm 3.2, step 4).
     growth_ = std::clamp(growth_ * Distance(from, to) / length, 1.0, IncrementSolver::kLongestIncrement);
     direction_ = direction;
+    last_length_ = row.arc_length;
     bent_ = changed;
     started_ = true;
     step_ = std::min(options_.step, rejected == 0 ? 2.0 * std::max(length, step_) : 2.0 * length);

@@ -1,6 +1,5 @@
 #include "contact_path/path/preload.h"
 
-#include <cmath>
 #include <locale>
 #include <optional>
 #include <sstream>
@@ -9,8 +8,7 @@
 namespace contact_path {
 namespace {
 
-constexpr double kAtTarget = 1e-12;  // relative: rounding
-constexpr double kNothing = 1e-14;   // scaled force: rounding of an unstressed start
+constexpr double kNothing = 1e-14;  // scaled force: rounding of an unstressed start
 const char* const kWhere = "while the constant loads were brought on: ";
 
 std::string LimitMessage(double share) {
@@ -74,7 +72,7 @@ Preload TracePreload(const Model& model, int max_increments, const MethodFactory
     Advance advance = method->Next(preload.point);
     for (AcceptedPoint& row : advance.rows) {
       preload.point = std::move(row.point);
-      if (std::abs(preload.point.s - target) <= kAtTarget * target) {
+      if (IsAtTarget(preload.point.s, target)) {
         preload.point.s = 0.0;
         preload.done = true;
         return preload;

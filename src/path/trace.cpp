@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -23,9 +22,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kRegularised = 1e-5;           // the same of a regularised row to go on from
-constexpr double kAtTarget = 1e-12;             // relative, of the load factor: rounding
-constexpr double kStartTolerance = 1e-9;        // residuals of row 0
+constexpr double kStartTolerance = 1e-9;        // residuals of row 0, or of an exact row to go on from
+constexpr double kRegularised = 1e-5;           // residuals of a regularised row to go on from
 constexpr int kMostPreloadIncrements = 100000;  // to bring the constant loads on; not counted with the others
 
 double Seconds(Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
@@ -100,7 +98,10 @@ struct Resumption {
   int events = 0;  // passed up to there
 };
 
-bool CanGoOnFrom(const Increment& row) {
+// mpec measures the direction and the bend of the path from the row before.
+bool CanGoOnFrom(const Increment& before, const Increment& row) {
+  if (before.stage != row.stage) return false;
+  if (row.solve.method == Method::kMpec && before.index + 1 != row.index) return false;
   return !row.positions.empty() && row.event.number == 0 && row.event.ways.empty() && row.solve.next_step > 0.0 &&
          (row.kind == RowKind::kRegular || row.kind == RowKind::kSmoothLimit);
 }
@@ -112,7 +113,7 @@ std::optional<Resumption> FindResumption(const std::vector<Increment>& rows) {
   int events = 0;
   for (const Increment& row : rows) {
     events = std::max(events, row.event.number);
-    if (before != nullptr && before->stage == row.stage && CanGoOnFrom(row)) last = Resumption{before, &row, events};
+    if (before != nullptr && CanGoOnFrom(*before, row)) last = Resumption{before, &row, events};
     if (!row.positions.empty()) before = &row;
   }
   return last;
@@ -245,9 +246,7 @@ class Tracer {
     return goes_on && EndStage(stage);
   }
 
-  bool IsAt(std::optional<double> target) const {
-    return target && std::abs(point_.s - *target) <= kAtTarget * std::abs(*target);
-  }
+  bool IsAt(std::optional<double> target) const { return target && IsAtTarget(point_.s, *target); }
 
   // At its target. False: it was the last one.
   bool EndStage(std::size_t stage) {

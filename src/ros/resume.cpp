@@ -59,7 +59,10 @@ TraceSoFar ReadTraceSoFar(const std::filesystem::path& directory, const contact_
     Refuse("resume", request.resume, "must be the name of a bag in the bag directory");
   const std::filesystem::path file = directory / name;
   std::error_code error;
-  if (std::filesystem::symlink_status(file, error).type() != std::filesystem::file_type::regular)
+  const std::filesystem::file_type type = std::filesystem::symlink_status(file, error).type();
+  if (type == std::filesystem::file_type::not_found)
+    Refuse("resume", request.resume, "there is no such bag in the bag directory");
+  if (type != std::filesystem::file_type::regular)
     Refuse("resume", request.resume, "must be the name of a bag in the bag directory");
   CheckNothingElse(request);
   TraceSoFar so_far;

@@ -105,7 +105,7 @@ void TraceService::Run(const contact_path_msgs::TraceRequest& request, const Tra
     response->message = error.what();
   }
   if (response->status != Response::OK) {
-    ROS_WARN("trace of \"%s\": %s", request.scene.name.c_str(), response->message.c_str());
+    ROS_WARN("trace of \"%s\": %s", NameOf(request).c_str(), response->message.c_str());
   }
 
   // Whoever sees the status or the answer finds the node ready for the next request.
@@ -131,27 +131,20 @@ void TraceService::Serve(const contact_path_msgs::TraceRequest& asked, const Tra
                          Response* response) {
   contact_path_msgs::TraceRequest request = asked;
   std::optional<std::vector<Increment>> rows;  // of the trace to go on with
-  if (!asked.resume.empty()) {
-    try {
+  TraceRequest core_request;
+  try {
+    if (!asked.resume.empty()) {
       TraceSoFar so_far = ReadTraceSoFar(parameters_.bag_directory, asked);
       request = ToMessage(so_far.request);
       request.resume = asked.resume;
       rows = std::move(so_far.rows);
-    } catch (const InvalidRequest& error) {
-      response->status = Response::INVALID_REQUEST;
-      response->message = error.what();
+    }
+    const std::string exceeded = ExceededLimit(request.scene, request.options, request.program, parameters_.limits);
+    if (!exceeded.empty()) {
+      response->status = Response::LIMIT_EXCEEDED;
+      response->message = exceeded;
       return;
     }
-  }
-  const std::string exceeded = ExceededLimit(request.scene, request.options, request.program, parameters_.limits);
-  if (!exceeded.empty()) {
-    response->status = Response::LIMIT_EXCEEDED;
-    response->message = exceeded;
-    return;
-  }
-
-  TraceRequest core_request;
-  try {
     core_request = FromMessage(request.scene, request.options, request.program);
     const std::vector<Violation> violations = Validate(core_request);
     if (!violations.empty()) throw InvalidRequest(violations);

@@ -46,8 +46,7 @@ INSTANTIATE_TEST_SUITE_P(Programs, EachMethod, testing::Values(Method::kBranch, 
 TEST_P(EachMethod, StickSlipCycleIsTheHysteresisLoopOfCoulomb) {
   const TracedPath path = TraceProgram(ReadExample("stick_slip_cycle"), GetParam());
   const bool exact = GetParam() == Method::kBranch;
-  const double tolerance = exact ? kRounding : 1e-3;  // of the work of an increment that cuts a corner
-  const double belt[] = {0.5, -0.5, 0.5};             // where it is at the end of each stage
+  const double tolerance = exact ? kRounding : 1e-6;  // of the work of an increment that cuts a corner
   const double dissipated[] = {0.06, 0.18, 0.30};
   for (int stage = 1; stage <= 3; ++stage) {
     const Increment& end = LastOfStage(path, stage);
@@ -61,10 +60,10 @@ TEST_P(EachMethod, StickSlipCycleIsTheHysteresisLoopOfCoulomb) {
   }
   // Between: the friction force against the way of the belt, row by row.
   for (const Increment& row : path.rows) {
-    const double start = row.stage == 1 ? 0.0 : belt[row.stage - 2], sign = row.stage == 2 ? -1.0 : 1.0;
+    const double sign = row.stage == 2 ? -1.0 : 1.0;
     const double stuck = row.stage == 1 ? 0.3 : 0.6, gone = std::abs(row.load_factor);
     const double force = (row.stage == 1 ? 0.0 : -0.3 * sign) + sign * std::min(gone, stuck);
-    EXPECT_NEAR(Contact(path, row, "b@belt").rt, force, exact ? kRounding : 0.01) << "row " << row.index << start;
+    EXPECT_NEAR(Contact(path, row, "b@belt").rt, force, exact ? kRounding : 1e-7) << "row " << row.index;
   }
   if (!exact) return;
   // Slip sets in where the theory says.
@@ -101,7 +100,7 @@ TEST_P(EachMethod, FootIsPressedDraggedAndLifted) {
   EXPECT_NEAR(PositionX(path, lifted, "b"), 0.3, 1e-9);
   EXPECT_NEAR(PositionY(path, lifted, "b"), 0.12, 1e-9);
   EXPECT_NEAR(lifted.strain_energy, 0.0, 1e-15);
-  EXPECT_NEAR(lifted.external_work, lifted.dissipation, GetParam() == Method::kBranch ? kRounding : 1e-4);
+  EXPECT_NEAR(lifted.external_work, lifted.dissipation, GetParam() == Method::kBranch ? kRounding : 1e-7);
 }
 
 TEST(Program, GripperIsSymmetricAndSlipsAtItsPullOutForce) {
@@ -214,7 +213,7 @@ TEST_P(EachMethod, SupportMotionOfTheSceneItself) {
     const double arch = 2.0 * (l / l0 - 1.0) * y / l, push = 100.0 * ((1.0 - row.load_factor - y) / 0.7 - 1.0);
     EXPECT_NEAR(arch, push, 1e-11);
   }
-  EXPECT_LE(EnergyImbalance(path), GetParam() == Method::kBranch ? 1e-9 : 1e-4);
+  EXPECT_LE(EnergyImbalance(path), GetParam() == Method::kBranch ? 1e-9 : 1e-7);
   EXPECT_LT(PositionY(path, path.rows.back(), "b"), 0.0);  // through
 }
 
@@ -286,6 +285,31 @@ TEST_P(EachMethod, AStageGoesThroughLimitPoints) {
   EXPECT_EQ(path.rows.back().load_factor, 1.0);
 }
 
+// On this side of the limit point, not where the load factor comes by again after the snap.
+TEST_P(EachMethod, TargetsJustBelowALimitPointAreHit) {
+  TraceRequest request = ReadExample("von_mises");
+  const TracedPath snap = TraceRows(request);
+  const Increment limit = RowsOfKind(snap, RowKind::kSmoothLimit).front();
+  request.options = {};
+  const std::vector<Load> loads = request.scene.loads;
+  request.scene.loads.clear();
+  for (const double below : {1e-2, 1e-3, 1e-4, 1e-6}) {
+    request.program = {{"up", loads, {}, {}, (1.0 - below) * limit.load_factor}};
+    const TracedPath path = TraceProgram(request, GetParam());
+    EXPECT_GT(PositionY(path, path.rows.back(), "apex"), PositionY(snap, limit, "apex")) << below;
+  }
+}
+
+TEST(Program, TargetsNextToAnEventAreHitByMpec) {
+  for (const double off : {-1e-3, -1e-7, -1e-9, -1e-10, 1e-10, 1e-9, 1e-7}) {
+    TraceRequest request = ReadExample("stick_slip_cycle");
+    request.program.resize(1);
+    request.program[0].target = 0.3 + off;
+    const TracedPath path = TraceProgram(request, Method::kMpec);
+    EXPECT_NEAR(path.rows.back().load_factor, 0.3 + off, 1e-12) << off;
+  }
+}
+
 TEST(StageScene, HoldsWhatEarlierStagesBroughtOn) {
   const TraceRequest request = ReadExample("press_slide_lift");
   EXPECT_EQ(NumStages(request), 3u);
@@ -344,6 +368,30 @@ TEST(VerifyProgram, FindsWhatWasChanged) {
   TraceRequest other = request;
   other.program[1].support_motions[0].dx = 1.1;
   EXPECT_FALSE(VerifyPath(other, path.rows).findings.empty());
+}
+
+// Right records that it once refused.
+TEST(VerifyProgram, ShortRecordsOfMpecWithoutAllStatesAreProved) {
+  TraceRequest request = ReadExample("press_slide_lift");
+  request.options.method = Method::kMpec;
+  request.options.full_state_every = 3;
+  for (request.options.max_increments = 1; request.options.max_increments <= 8; ++request.options.max_increments) {
+    std::vector<Increment> rows = TraceRows(request).rows;
+    for (Increment& row : rows)
+      if (row.kind == RowKind::kRegular && row.index % 3 != 0) {
+        row.positions.clear();
+        row.contacts.clear();
+      }
+    for (const Finding& finding : VerifyPath(request, rows).findings)
+      ADD_FAILURE() << request.options.max_increments << " increments, row " << finding.row << ": " << finding.what;
+  }
+}
+
+TEST(VerifyProgram, LongMotionsAreProved) {
+  TraceRequest request = ReadExample("stick_slip_cycle");
+  request.program = {{"far", {}, {}, {{"belt", 1.0, 0.0}}, 1e6}};
+  request.options.step = 1e5;
+  TraceProgram(Rotate(request, 0.3));  // the belt not along an axis
 }
 
 // ----- rules -----

@@ -27,7 +27,12 @@ msgs::TraceRequest LargestRequest() {
   request.scene.superelements.resize(2);
   request.scene.superelements[0].stiffness.resize(2);
   request.scene.superelements[1].stiffness.resize(1);
+  request.scene.superelements[0].rest_positions.resize(3);
   request.scene.loads.resize(3);
+  request.scene.support_motions.resize(3);
+  request.scene.obstacle_motions.resize(4);
+  request.program.resize(2);
+  request.program[0].loads.resize(1);
   request.scene.obstacles.resize(4);
   request.scene.contacts.resize(4);
   request.options.stop.resize(4);
@@ -43,63 +48,45 @@ std::string Exceeded(const msgs::TraceRequest& request) {
 TEST(LimitsTest, AdmitsWhatReachesEveryLimit) { EXPECT_EQ(Exceeded(LargestRequest()), ""); }
 
 TEST(LimitsTest, NamesWhatIsTooLargeAndTheLimit) {
-  msgs::TraceRequest request = LargestRequest();
-  request.scene.nodes.resize(3);
-  EXPECT_EQ(Exceeded(request), "scene.nodes: 3, but the node admits 2 (~max_nodes)");
-
-  request = LargestRequest();
-  request.scene.bars.resize(4);
-  EXPECT_EQ(Exceeded(request), "scene.bars: 4, but the node admits 3 (~max_elements)");
-
-  request = LargestRequest();
-  request.scene.superelements.resize(4);
-  EXPECT_EQ(Exceeded(request), "scene.superelements: 4, but the node admits 3 (~max_elements)");
-
-  request = LargestRequest();
-  request.scene.superelements[1].stiffness.resize(2);
-  EXPECT_EQ(Exceeded(request), "stiffness entries of scene.superelements: 4, but the node admits 3 (~max_elements)");
-
-  request = LargestRequest();
-  request.scene.loads.resize(4);
-  EXPECT_EQ(Exceeded(request), "scene.loads: 4, but the node admits 3 (~max_elements)");
-
-  request = LargestRequest();
-  request.scene.superelements.resize(1);
-  request.scene.superelements[0].rest_positions.resize(4);
-  EXPECT_EQ(Exceeded(request), "rest positions of scene.superelements: 4, but the node admits 3 (~max_elements)");
-
-  request = LargestRequest();
-  request.scene.support_motions.resize(4);
-  EXPECT_EQ(Exceeded(request), "scene.support_motions: 4, but the node admits 3 (~max_elements)");
-
-  request = LargestRequest();
-  request.scene.obstacle_motions.resize(5);
-  EXPECT_EQ(Exceeded(request), "scene.obstacle_motions: 5, but the node admits 4 (~max_contacts)");
-
-  request = LargestRequest();
-  request.program.resize(2);
-  request.program[1].loads.resize(2);
-  EXPECT_EQ(Exceeded(request), "loads and motions of program: 4, but the node admits 3 (~max_elements)");
-
-  request = LargestRequest();
-  request.scene.obstacles.resize(5);
-  EXPECT_EQ(Exceeded(request), "scene.obstacles: 5, but the node admits 4 (~max_contacts)");
-
-  request = LargestRequest();
-  request.scene.contacts.resize(5);
-  EXPECT_EQ(Exceeded(request), "scene.contacts: 5, but the node admits 4 (~max_contacts)");
-
-  request = LargestRequest();
-  request.options.stop.resize(5);
-  EXPECT_EQ(Exceeded(request), "options.stop: 5, but the node admits 4 (~max_contacts)");
-
-  request = LargestRequest();
-  request.options.branch_choices.resize(5);
-  EXPECT_EQ(Exceeded(request), "options.branch_choices: 5, but the node admits 4 (~max_contacts)");
-
-  request = LargestRequest();
-  request.options.max_increments = 6;
-  EXPECT_EQ(Exceeded(request), "options.max_increments: 6, but the node admits 5 (~max_increments)");
+  struct Row {
+    void (*enlarge)(msgs::TraceRequest& request);
+    const char* line;
+  };
+  const Row rows[] = {
+      {[](auto& request) { request.scene.nodes.resize(3); }, "scene.nodes: 3, but the node admits 2 (~max_nodes)"},
+      {[](auto& request) { request.scene.bars.resize(4); }, "scene.bars: 4, but the node admits 3 (~max_elements)"},
+      {[](auto& request) { request.scene.superelements.resize(4); },
+       "scene.superelements: 4, but the node admits 3 (~max_elements)"},
+      {[](auto& request) { request.scene.superelements[1].stiffness.resize(2); },
+       "stiffness entries of scene.superelements: 4, but the node admits 3 (~max_elements)"},
+      {[](auto& request) { request.scene.superelements[0].rest_positions.resize(4); },
+       "rest positions of scene.superelements: 4, but the node admits 3 (~max_elements)"},
+      {[](auto& request) { request.scene.support_motions.resize(4); },
+       "scene.support_motions: 4, but the node admits 3 (~max_elements)"},
+      {[](auto& request) { request.scene.obstacle_motions.resize(5); },
+       "scene.obstacle_motions: 5, but the node admits 4 (~max_contacts)"},
+      {[](auto& request) { request.program[0].loads.resize(2); },
+       "loads and motions of program: 4, but the node admits 3 (~max_elements)"},
+      {[](auto& request) { request.program[0].support_motions.resize(1); },
+       "loads and motions of program: 4, but the node admits 3 (~max_elements)"},
+      {[](auto& request) { request.program[0].obstacle_motions.resize(1); },
+       "loads and motions of program: 4, but the node admits 3 (~max_elements)"},
+      {[](auto& request) { request.scene.loads.resize(4); }, "scene.loads: 4, but the node admits 3 (~max_elements)"},
+      {[](auto& request) { request.scene.obstacles.resize(5); },
+       "scene.obstacles: 5, but the node admits 4 (~max_contacts)"},
+      {[](auto& request) { request.scene.contacts.resize(5); },
+       "scene.contacts: 5, but the node admits 4 (~max_contacts)"},
+      {[](auto& request) { request.options.stop.resize(5); }, "options.stop: 5, but the node admits 4 (~max_contacts)"},
+      {[](auto& request) { request.options.branch_choices.resize(5); },
+       "options.branch_choices: 5, but the node admits 4 (~max_contacts)"},
+      {[](auto& request) { request.options.max_increments = 6; },
+       "options.max_increments: 6, but the node admits 5 (~max_increments)"},
+  };
+  for (const Row& row : rows) {
+    msgs::TraceRequest request = LargestRequest();
+    row.enlarge(request);
+    EXPECT_EQ(Exceeded(request), row.line);
+  }
 }
 
 TEST(LimitsTest, CountsTheDefaultNumberOfIncrements) {

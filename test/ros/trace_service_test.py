@@ -339,11 +339,15 @@ class TraceServiceTest(unittest.TestCase):
         os.symlink(outside, os.path.join(self.bags, 'link.bag'))
         bags = self.number_of_bags()
         rule = 'must be the name of a bag in the bag directory'
-        for name in outside, '../outside.bag', './' + bag, 'link.bag', '.', '..', 'none.bag', '/dev/zero', bag + '\n':
+        for name in outside, '../outside.bag', './' + bag, 'link.bag', '.', '..', '/dev/zero':
             response = self.trace(TracePathRequest(resume=name))
             self.assertEqual(response.status, Response.INVALID_REQUEST, name)
             self.assertIn(rule, response.message)
             self.assertEqual(response.message.count('\n'), 0)
+        for name in 'none.bag', bag + '\n':
+            response = self.trace(TracePathRequest(resume=name))
+            self.assertEqual(response.status, Response.INVALID_REQUEST, name)
+            self.assertIn('there is no such bag in the bag directory', response.message)
         os.remove(os.path.join(self.bags, 'link.bag'))
         with open(os.path.join(self.bags, 'broken.bag'), 'w') as file:
             file.write('no bag')

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "contact_path/mpec/increment_solver.h"
 #include "contact_path/mpec/ipopt_solver.h"
@@ -70,8 +71,12 @@ class MpecMethod : public PathMethod {
   Trial Try(const PathPoint& from, const Eigen::VectorXd& direction, double length);
   // The first increment has no last one: directions are improved until the increment is as long as wanted.
   Trial TryFirst(const PathPoint& from, double length);
-  // Replaces the point of a trial beyond the target by the exact one at it, with the same states. False: there is none.
+  // Whether the load factor turns back on the increment, and may have been past the target and back.
+  bool MayMissTarget(const PathPoint& from, const PathPoint& to) const;
+  // Replaces the point of a trial beyond the target by the exact one at it, with its states
+  // or those of `from`. False: there is none.
   bool EndAtTarget(const PathPoint& from, Trial* trial) const;
+  bool EndAtTarget(const PathPoint& from, const std::vector<ContactState>& states, Trial* trial) const;
   bool ConfirmedByHalves(const PathPoint& from, const Eigen::VectorXd& direction, double length, const Trial& whole);
 
   const Model& model_;
@@ -85,6 +90,7 @@ class MpecMethod : public PathMethod {
   bool started_ = false;
   bool bent_ = false;  // a contact changed its state in the last increment: its direction is a chord over the bend
   Eigen::VectorXd direction_;  // of the last accepted increment
+  double last_length_ = 0.0;   // of it
   int iterations_ = 0;         // since the last accepted row
 };
 

@@ -2,6 +2,7 @@
 #ifndef CONTACT_PATH_PATH_PATH_METHOD_H_
 #define CONTACT_PATH_PATH_PATH_METHOD_H_
 
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,6 +24,11 @@ struct AcceptedPoint {
   SolveRecord solve;  // without time
   EventRecord event;
 };
+
+// Whether a load factor is at a target that a method has located, but for rounding.
+inline bool IsAtTarget(double load_factor, double target) {
+  return std::abs(load_factor - target) <= 1e-12 * std::abs(target);
+}
 
 struct Advance {
   std::vector<AcceptedPoint> rows;  // in order; may hold rows also where the path ended
