@@ -259,8 +259,10 @@ std::vector<Setting> AllSettings(double unit) {
 
 void Measure(const std::string& name, const TraceRequest& request) {
   const Model model(request.scene, CharacteristicScales(request.scene));
-  const Preload preload = TracePreload(model, 100000, [](const Model& of) {
-    return std::make_unique<BranchMethod>(of, BranchOptions::For(TraceOptions(), of.structure.NumDofs()), nullptr);
+  const Preload preload = TracePreload(model, 100000, [](const Model& of, double target) {
+    BranchOptions options = BranchOptions::For(TraceOptions(), of.structure.NumDofs());
+    options.target = target;
+    return std::make_unique<BranchMethod>(of, options, nullptr);
   });
   if (!preload.done) {
     std::fprintf(stderr, "%s: %s\n", name.c_str(), preload.message.c_str());

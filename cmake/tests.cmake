@@ -59,6 +59,15 @@ function(contact_path_add_test source)
   endif()
 endfunction()
 
+set(contact_path_extremes
+  test/extremes/contact_cases.cpp
+  test/extremes/extreme_case.cpp
+  test/extremes/friction_cases.cpp
+  test/extremes/geometry_cases.cpp
+  test/extremes/length_cases.cpp
+  test/extremes/number_cases.cpp
+  test/extremes/run_case.cpp)
+
 # One for each header, but for those that only declare an interface: structure/element.h, mpec/nonlinear_program.h,
 # path/path_method.h.
 contact_path_add_test(support/derivative_checker_test)
@@ -86,6 +95,7 @@ contact_path_add_test(branch/polynomial_test)
 contact_path_add_test(branch/rate_problem_test)
 contact_path_add_test(branch/smooth_piece_test)
 contact_path_add_test(branch/event_watch_test)
+contact_path_add_test(branch/motionless_reactions_test)
 if(NOT CONTACT_PATH_SANITIZE)
   contact_path_add_test(branch/allocations_test)
 endif()
@@ -104,6 +114,7 @@ contact_path_add_test(path/csv_test)
 contact_path_add_test(path/diagnosis_test)
 contact_path_add_test(path/increment_test)
 contact_path_add_test(path/model_test)
+contact_path_add_test(path/motionless_test)
 contact_path_add_test(path/mpec_method_test LONG)
 contact_path_add_test(path/path_summary_test)
 contact_path_add_test(path/preload_test)
@@ -119,6 +130,13 @@ contact_path_add_test(path/mpec_cases_test LONG)
 contact_path_add_test(path/mpec_random_paths_test LONG)
 contact_path_add_test(path/invariance_test LONG)
 contact_path_add_test(path/hard_scenes_test)
+contact_path_add_test(extremes/extremes_test LONG)
+target_sources(extremes_extremes_test PRIVATE ${contact_path_extremes})
+# What scripts/stress writes docs/extremes.md with.
+add_executable(contact_path_extremes EXCLUDE_FROM_ALL test/extremes/extremes_table.cpp ${contact_path_extremes})
+target_precompile_headers(contact_path_extremes REUSE_FROM contact_path_test_support)
+target_compile_options(contact_path_extremes PRIVATE ${contact_path_test_options})
+target_link_libraries(contact_path_extremes PRIVATE contact_path_test_support contact_path_core contact_path_warnings)
 
 # contact_path_add_python_test(<name> <file> DEPENDS target... VARIABLES NAME=VALUE...): unittests that run programs as
 # their users do, told where these are by environment variables.

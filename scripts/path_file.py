@@ -3,6 +3,7 @@ import csv
 import functools
 import itertools
 import os
+import sys
 
 KINDS = ('start', 'regular', 'smooth_limit', 'corner_limit', 'contact_event', 'bifurcation')
 STATES = ('open', 'stick', 'slip+', 'slip-', 'closed')
@@ -82,18 +83,22 @@ def read_csv(name):
 def read_bag(name):
     import rosbag  # not needed for CSV files
 
-    path = None
+    paths = []
     with rosbag.Bag(name) as bag:
         for topic, message, _ in bag.read_messages():
             if topic.endswith('/request'):
-                path = Path(message.scene.name, scene_of(message), message.options)
+                paths.append(Path(message.scene.name, scene_of(message), message.options))
             elif topic.endswith('/increments'):
-                if path is None:
+                if not paths:
                     raise ValueError('no request before the increments: not a bag that the node wrote')
-                path.rows.append(row_of(path.scene, message))
-    if path is None:
+                paths[-1].rows.append(row_of(paths[-1].scene, message))
+    if not paths:
         raise ValueError('no request: not the bag of a trace')
-    return path
+    # The latched request of the trace before has no rows.
+    with_rows = [path for path in paths if path.rows] or paths
+    if len(with_rows) > 1:
+        print('%s: holds %d traces, the last one is taken' % (name, len(with_rows)), file=sys.stderr)
+    return with_rows[-1]
 
 
 def scene_of(request):

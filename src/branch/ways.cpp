@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 
+#include "contact_path/branch/motionless_reactions.h"
 #include "contact_path/branch/rate_problem.h"
 #include "contact_path/contact/fixed_state_system.h"
 #include "contact_path/linear/bordered_solver.h"
@@ -427,11 +428,10 @@ void TryLikely(const std::vector<States>& options, const PathPoint& point, const
   }
 }
 
-}  // namespace
-
-WaysOn FindWays(const Structure& structure, const std::vector<ContactGeometry>& contacts, const PathPoint& point,
-                const Arrival& arrival, double tolerance, IncrementSolver* mpec,
-                const std::function<bool()>& cancelled) {
+// With the reactions of the point. In no order, and twins are not told.
+WaysOn WaysWithReactions(const Structure& structure, const std::vector<ContactGeometry>& contacts,
+                         const PathPoint& point, const Arrival& arrival, double tolerance, IncrementSolver* mpec,
+                         const std::function<bool()>& cancelled) {
   WaysOn result;
   std::vector<States> options;
   States natural;
@@ -463,6 +463,42 @@ WaysOn FindWays(const Structure& structure, const std::vector<ContactGeometry>& 
   if (result.ways.empty() && condensed != nullptr) finder.Try(natural, &result.ways);  // for its rigid modes
   result.rigid_modes = finder.rigid_modes();
   result.cancelled = finder.Cancelled();
+  return result;
+}
+
+bool GoesOn(const Way& way) { return std::cos(way.turn) > kRateTolerance; }
+
+// A way that needs no change of reactions comes before one in the same direction that does.
+void AddOthers(WaysOn&& others, const PathPoint& begin, WaysOn* result) {
+  for (Way& way : others.ways) {
+    const bool known = std::any_of(result->ways.begin(), result->ways.end(), [&](const Way& other) {
+      return (other.direction - way.direction).norm() < kSameDirection;
+    });
+    if (known) continue;
+    way.begin = begin;
+    result->ways.push_back(std::move(way));
+  }
+  result->concerned = std::max(result->concerned, others.concerned);
+  result->complete = result->complete && others.complete;
+  result->cancelled = result->cancelled || others.cancelled;
+  result->combinations += others.combinations;
+  result->rigid_modes = std::max(result->rigid_modes, others.rigid_modes);
+}
+
+}  // namespace
+
+WaysOn FindWays(const Structure& structure, const std::vector<ContactGeometry>& contacts, const PathPoint& point,
+                const Arrival& arrival, double tolerance, IncrementSolver* mpec,
+                const std::function<bool()>& cancelled) {
+  WaysOn result = WaysWithReactions(structure, contacts, point, arrival, tolerance, mpec, cancelled);
+  if (!result.cancelled && std::none_of(result.ways.begin(), result.ways.end(), GoesOn)) {
+    const MotionlessReactions others = FindMotionlessReactions(contacts, point, tolerance);
+    result.complete = result.complete && others.complete;
+    for (const PathPoint& begin : others.points) {
+      if (result.cancelled) break;
+      AddOthers(WaysWithReactions(structure, contacts, begin, arrival, tolerance, mpec, cancelled), begin, &result);
+    }
+  }
   FindTwins(&result.ways);
   std::stable_sort(result.ways.begin(), result.ways.end(), Better);
   return result;

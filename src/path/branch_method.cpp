@@ -28,22 +28,19 @@ double Trend(double rate, double change, double level) {
   return std::abs(change) > level ? change : 0.0;
 }
 
-std::string Name(const BranchChoice& choice) {
-  return choice.event > 0 ? "event " + std::to_string(choice.event) : "row " + std::to_string(choice.row);
-}
-
-// moves: a support or an obstacle does.
-std::string NoWayOn(const WaysOn& on, bool moves) {
+std::string NoWayOn(const WaysOn& on) {
   if (on.rigid_modes > 0)
     return "no admissible way on, and the structure is a mechanism here: nothing resists " +
            std::to_string(on.rigid_modes) + (on.rigid_modes == 1 ? " motion" : " motions") + "; is it supported?";
   if (!on.complete) return "no admissible way on was found among the combinations of contact states tried";
-  if (moves)
-    return "no admissible way on: only a dynamic jump leads further, or reactions have to change while nothing moves";
   return "no admissible way on: the quasi-static path ends here, only a dynamic jump leads further";
 }
 
 }  // namespace
+
+std::string PlaceOf(const BranchChoice& choice) {
+  return choice.event > 0 ? "event " + std::to_string(choice.event) : "row " + std::to_string(choice.row);
+}
 
 BranchOptions BranchOptions::For(const TraceOptions& options, Eigen::Index num_dofs) {
   BranchOptions result;
@@ -123,14 +120,14 @@ std::optional<EndReason> BranchMethod::PassEvent(const PathPoint& point, const A
   record->complete = on.complete;
   for (const Way& way : on.ways) record->ways.push_back({way.states, way.load_rate, way.dissipation_rate, way.turn});
   if (on.ways.empty()) {
-    *message = NoWayOn(on, !model_.scene.support_motions.empty() || !model_.scene.obstacle_motions.empty());
+    *message = NoWayOn(on);
     return EndReason::kPathEnd;
   }
   std::size_t taken = 0;
   if (choice != nullptr) {
     taken = static_cast<std::size_t>(std::max(choice->way, 1) - 1);
     if (taken >= on.ways.size()) {
-      *message = "branch_choices wants way " + std::to_string(choice->way) + " at " + Name(*choice) +
+      *message = "branch_choices wants way " + std::to_string(choice->way) + " at " + PlaceOf(*choice) +
                  ": the number of ways there is " + std::to_string(on.ways.size());
       return EndReason::kNumericalFailure;
     }
@@ -140,7 +137,8 @@ std::optional<EndReason> BranchMethod::PassEvent(const PathPoint& point, const A
     return EndReason::kPathEnd;
   }
   record->taken = static_cast<int>(taken);
-  if (!Leave(point, on.ways[taken])) {
+  begin_ = on.ways[taken].begin;
+  if (!Leave(begin_ ? *begin_ : point, on.ways[taken])) {
     *message = "the way on from an event could not be followed";
     return EndReason::kNumericalFailure;
   }
@@ -240,15 +238,35 @@ bool BranchMethod::Resume(const PathPoint& before, const PathPoint& from, const 
   return true;
 }
 
-std::string BranchMethod::Remark() const {
-  std::string text;
-  for (const BranchChoice& choice : options_.choices)
-    if (choice.event > events_ || (choice.event == 0 && choice.row > rows_))
-      text += (text.empty() ? "branch_choices: never came to " : ", ") + Name(choice);
-  return text;
+Advance BranchMethod::ChangeReactions(const PathPoint& from) {
+  AcceptedPoint row;
+  row.point = *begin_;
+  row.point.states = piece_.system().states();
+  begin_.reset();
+  row.residuals = model_.Check(from, row.point);
+  row.solve.method = Method::kBranch;
+  row.solve.exact = true;
+  row.solve.variables = static_cast<int>(piece_.system().NumUnknowns());
+  row.solve.constraints = static_cast<int>(piece_.system().NumEquations());
+  row.solve.next_step = step_;
+  Advance advance;
+  if (ChoiceForRow(rows_ + 1) != nullptr) {
+    advance.message = "branch_choices wants a way at row " + std::to_string(rows_ + 1) +
+                      ": only reactions change there, and the ways part in the row before";
+    return advance;
+  }
+  if (!(row.residuals.Largest() <= kAccepted)) {
+    advance.message = "the reactions with which a way on begins are not in equilibrium";
+    return advance;
+  }
+  ++rows_;
+  advance.ended = false;
+  advance.rows.push_back(std::move(row));
+  return advance;
 }
 
 Advance BranchMethod::Next(const PathPoint& from) {
+  if (begin_) return ChangeReactions(from);
   Advance advance;
   const int factorisations_before = piece_.factorisations();
   int rejected = 0;

@@ -13,6 +13,7 @@
 #include "contact_path/path/mpec_method.h"
 #include "contact_path/path/path_method.h"
 #include "contact_path/path/preload.h"
+#include "contact_path/path/recorder.h"
 #include "contact_path/path/stop.h"
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/validate.h"
@@ -28,69 +29,6 @@ constexpr int kMostPreloadIncrements = 100000;  // to bring the constant loads o
 
 double Seconds(Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
 
-// Turns accepted points into rows and hands them out.
-class Recorder {
- public:
-  explicit Recorder(const TraceControl& control) : control_(control) {}
-
-  const Increment& row() const { return row_; }
-  int rows() const { return rows_; }
-
-  // The first row of a stage.
-  void Start(const Model& model, int stage, const PathPoint& point, const Residuals& residuals, const EventRecord& ways,
-             double time) {
-    row_.stage = stage;
-    AcceptedPoint accepted;
-    accepted.kind = RowKind::kStart;
-    accepted.residuals = residuals;
-    accepted.solve.exact = true;
-    accepted.event = ways;
-    Fill(model, point, accepted, time);
-    Give();
-  }
-
-  // A row of an earlier trace, as it is.
-  void Repeat(const Increment& row) {
-    row_ = row;
-    Give();
-  }
-
-  void Append(const Model& model, const AcceptedPoint& accepted, double time) {
-    row_.dissipation += accepted.work.friction;
-    row_.external_work += accepted.work.loads;
-    row_.arc_length += accepted.arc_length;
-    Fill(model, accepted.point, accepted, time);
-    Give();
-  }
-
- private:
-  void Fill(const Model& model, const PathPoint& point, const AcceptedPoint& accepted, double time) {
-    CheckedState state = model.InSceneUnits(point);
-    row_.index = rows_;
-    row_.load_factor = state.load_factor;
-    row_.kind = accepted.kind;
-    row_.positions = std::move(state.positions);
-    row_.contacts.resize(model.contacts.size());
-    for (std::size_t i = 0; i < model.contacts.size(); ++i)
-      row_.contacts[i] = {model.contacts[i].gap.Value(point.u, point.s) * model.scaling.length, state.rn[i],
-                          state.rt[i], point.states[i]};
-    row_.strain_energy = model.structure.Energy(point.u) * model.scaling.force * model.scaling.length;
-    row_.residuals = accepted.residuals;
-    row_.solve = accepted.solve;
-    row_.solve.time = time;
-    row_.event = accepted.event;
-  }
-
-  void Give() {
-    ++rows_;
-    if (control_.on_increment) control_.on_increment(row_);
-  }
-
-  const TraceControl& control_;
-  Increment row_;
-  int rows_ = 0;
-};
-
 // Where an earlier trace can be gone on from.
 struct Resumption {
   const Increment* before = nullptr;
@@ -100,7 +38,7 @@ struct Resumption {
 
 // mpec measures the direction and the bend of the path from the row before.
 bool CanGoOnFrom(const Increment& before, const Increment& row) {
-  if (before.stage != row.stage) return false;
+  if (before.stage != row.stage || !(row.arc_length > before.arc_length)) return false;
   if (row.solve.method == Method::kMpec && before.index + 1 != row.index) return false;
   return !row.positions.empty() && row.event.number == 0 && row.event.ways.empty() && row.solve.next_step > 0.0 &&
          (row.kind == RowKind::kRegular || row.kind == RowKind::kSmoothLimit);
@@ -123,7 +61,7 @@ std::optional<Resumption> FindResumption(const std::vector<Increment>& rows) {
 class Tracer {
  public:
   Tracer(const TraceRequest& request, const TraceControl& control)
-      : request_(request), control_(control), recorder_(control), stop_(request) {}
+      : request_(request), control_(control), recorder_(control.on_increment), stop_(request) {}
 
   // A row of an earlier trace that is kept.
   void Repeat(const Increment& row) { recorder_.Repeat(row); }
@@ -150,7 +88,7 @@ class Tracer {
         break;
     }
     result_.increments = recorder_.rows();
-    if (!remark_.empty()) result_.message += "; " + remark_;
+    result_.message += recorder_.Remark() + remarks_ + MissedChoices();
     return std::move(result_);
   }
 
@@ -242,7 +180,7 @@ class Tracer {
   bool FollowStage(const Model& model, std::size_t stage, PathMethod* method) {
     const bool goes_on = Follow(model, TargetOf(model, stage), method);
     events_ = method->NumEvents();
-    remark_ = method->Remark();
+    if (const std::string remark = method->Remark(); !remark.empty()) remarks_ += "; " + remark;
     return goes_on && EndStage(stage);
   }
 
@@ -277,13 +215,23 @@ class Tracer {
     }
   }
 
+  // What the user wanted and never was asked for.
+  std::string MissedChoices() const {
+    std::string text;
+    if (request_.options.method != Method::kBranch) return text;
+    for (const BranchChoice& choice : request_.options.branch_choices)
+      if (choice.event > events_ || (choice.event == 0 && choice.row >= recorder_.rows()))
+        text += (text.empty() ? "; branch_choices: never came to " : ", ") + PlaceOf(choice);
+    return text;
+  }
+
   const TraceRequest& request_;
   const TraceControl& control_;
   Recorder recorder_;
   const StopTest stop_;
   PathPoint point_;
   int events_ = 0;
-  std::string remark_;
+  std::string remarks_;  // for the end of the message
   TraceResult result_;
 };
 

@@ -3,6 +3,7 @@
 #include <exception>
 #include <filesystem>
 #include <fstream>
+#include <utility>
 
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
@@ -34,33 +35,33 @@ typename Message::ConstPtr Read(const rosbag::MessageInstance& instance) {
   return message;
 }
 
-RecordedTrace ReadOpen(const rosbag::Bag& bag) {
-  RecordedTrace trace;
-  bool requested = false;
+std::vector<RecordedTrace> ReadOpen(const rosbag::Bag& bag) {
+  std::vector<RecordedTrace> traces;
   rosbag::View view(bag);
   for (const rosbag::MessageInstance& instance : view) {
     const std::string& topic = instance.getTopic();
     if (EndsIn(topic, names::kRequest)) {
-      if (requested) throw BagError("holds several traces");
       const auto message = Read<contact_path_msgs::TraceRequest>(instance);
+      if (!traces.empty() && traces.back().rows.empty()) traces.pop_back();
+      RecordedTrace& trace = traces.emplace_back();
       trace.request = FromMessage(message->scene, message->options, message->program);
       const std::vector<Violation> violations = Validate(trace.request);
       if (!violations.empty()) throw InvalidRequest(violations);
-      requested = true;
     } else if (EndsIn(topic, names::kIncrements)) {
-      if (!requested) throw BagError("no request before the increments: not the bag of a trace");
-      trace.rows.push_back(FromMessage(*Read<contact_path_msgs::Increment>(instance)));
-    } else if (EndsIn(topic, names::kResult)) {
-      trace.result = *Read<contact_path_msgs::TraceResult>(instance);
+      if (traces.empty()) throw BagError("no request before the increments: not the bag of a trace");
+      traces.back().rows.push_back(FromMessage(*Read<contact_path_msgs::Increment>(instance)));
+    } else if (EndsIn(topic, names::kResult) && !traces.empty()) {
+      traces.back().result = *Read<contact_path_msgs::TraceResult>(instance);
     }
   }
-  if (!requested) throw BagError("no request: not the bag of a trace");
-  return trace;
+  if (traces.empty()) throw BagError("no request: not the bag of a trace");
+  if (traces.size() > 1 && traces.back().rows.empty()) traces.pop_back();
+  return traces;
 }
 
 }  // namespace
 
-RecordedTrace ReadTrace(const std::string& file) {
+std::vector<RecordedTrace> ReadTraces(const std::string& file) {
   try {
     rosbag::Bag bag;
     bag.open(file, rosbag::bagmode::Read);
@@ -78,6 +79,12 @@ RecordedTrace ReadTrace(const std::string& file) {
   } catch (const std::exception& error) {
     throw BagError(file + ": cannot be read: " + error.what());
   }
+}
+
+RecordedTrace ReadTrace(const std::string& file) {
+  std::vector<RecordedTrace> traces = ReadTraces(file);
+  if (traces.size() > 1) throw BagError(file + ": holds several traces");
+  return std::move(traces.front());
 }
 
 }  // namespace contact_path

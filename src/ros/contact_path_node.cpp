@@ -32,6 +32,8 @@ int main(int argc, char** argv) {
     contact_path::TraceAction action(node, parameters, &service);
     ros::AsyncSpinner spinner(kThreads);
     spinner.start();
+    ROS_INFO("ready: %s, bags in %s", node.resolveName(contact_path::names::kTrace).c_str(),
+             parameters.bag_directory.c_str());
     while (ros::ok() && !shutdown.WaitFor(0.05)) {
     }
     service.Shutdown();

@@ -106,6 +106,8 @@ void TraceService::Run(const contact_path_msgs::TraceRequest& request, const Tra
   }
   if (response->status != Response::OK) {
     ROS_WARN("trace of \"%s\": %s", NameOf(request).c_str(), response->message.c_str());
+  } else {
+    ROS_INFO("trace of \"%s\" to %s: %s", NameOf(request).c_str(), response->bag.c_str(), response->message.c_str());
   }
 
   // Whoever sees the status or the answer finds the node ready for the next request.

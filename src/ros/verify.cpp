@@ -1,11 +1,13 @@
 // `rosrun contact_path verify BAG`: computes anew what can be computed from the scene alone, and tells whether the bag
-// proves its path. Exit status: 0 it does, 1 it does not, 2 bad usage or no bag of a trace.
+// proves its path, or all of its paths. Exit status: 0 it does, 1 it does not, 2 bad usage or no bag of a trace.
 #include <CLI/CLI.hpp>
+#include <cstddef>
 #include <exception>
 #include <iomanip>
 #include <iostream>
 #include <locale>
 #include <string>
+#include <vector>
 
 #include "contact_path/path/stop.h"
 #include "contact_path/path/trace.h"
@@ -59,10 +61,8 @@ std::string Lacks(const RecordedTrace& trace) {
   return "";
 }
 
-int Run(const std::string& file) {
-  const RecordedTrace trace = ReadTrace(file);
+bool Verify(const RecordedTrace& trace) {
   const Verification verification = VerifyPath(trace.request, trace.rows);
-  std::cout.imbue(std::locale::classic());
   PrintTable(trace, verification);
   for (const Finding& finding : verification.findings)
     std::cout << "row " << finding.row << ": " << finding.what << '\n';
@@ -75,8 +75,20 @@ int Run(const std::string& file) {
               << trace.result->end_reason_name << '\n';
   else
     std::cout << "NOT proved\n";
+  return proved;
+}
+
+int Run(const std::string& file) {
+  const std::vector<RecordedTrace> traces = ReadTraces(file);
+  std::cout.imbue(std::locale::classic());
+  std::size_t proved = 0;
+  for (std::size_t i = 0; i < traces.size(); ++i) {
+    if (traces.size() > 1) std::cout << (i > 0 ? "\n" : "") << "trace " << i + 1 << " of " << traces.size() << '\n';
+    proved += Verify(traces[i]) ? 1 : 0;
+  }
+  if (traces.size() > 1) std::cout << '\n' << proved << " of " << traces.size() << " traces proved\n";
   std::cout << std::flush;
-  return proved ? 0 : 1;
+  return proved == traces.size() ? 0 : 1;
 }
 
 }  // namespace

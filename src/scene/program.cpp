@@ -43,6 +43,24 @@ void BringOn(const Stage& stage, Scene* scene) {
     }
 }
 
+// With the loads and motions that the load factor scales as large as at this load factor.
+Scene AtTarget(Scene scene, double target) {
+  for (Load& load : scene.loads) {
+    if (load.constant) continue;
+    load.fx *= target;
+    load.fy *= target;
+  }
+  for (SupportMotion& motion : scene.support_motions) {
+    motion.dx *= target;
+    motion.dy *= target;
+  }
+  for (ObstacleMotion& motion : scene.obstacle_motions) {
+    motion.dx *= target;
+    motion.dy *= target;
+  }
+  return scene;
+}
+
 }  // namespace
 
 std::size_t NumStages(const TraceRequest& request) { return std::max<std::size_t>(1, request.program.size()); }
@@ -60,7 +78,15 @@ Scene StageScene(const TraceRequest& request, std::size_t stage) {
 
 Scaling StageScales(const TraceRequest& request, std::size_t stage) {
   Scaling scaling = CharacteristicScales(StageScene(request, 0));
-  if (stage > 0) scaling.load_factor = LoadFactorScale(StageScene(request, stage), scaling.length, scaling.force);
+  if (request.scene.bars.empty() && !request.program.empty()) {
+    scaling.force = 0.0;
+    for (std::size_t i = 0; i < request.program.size(); ++i) {
+      const Scaling of_stage = CharacteristicScales(AtTarget(StageScene(request, i), request.program[i].Target()));
+      if (of_stage.force > scaling.force) scaling = of_stage;
+    }
+  }
+  if (!request.program.empty())
+    scaling.load_factor = LoadFactorScale(StageScene(request, stage), scaling.length, scaling.force);
   return scaling;
 }
 

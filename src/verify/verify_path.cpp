@@ -299,6 +299,8 @@ class Verifier {
     if (before_ == row_ - 1 && arc > kLongestArc * chord + kRecorded)
       Report("arc length grows by ", arc, ", more than a curve with the chord ", chord, " would");
 
+    if (before_ == row_ - 1 && !(arc > 0.0) && before.event.ways.empty()) CheckSameReactions(before, row);
+
     // States: method branch has a row of its own where they change; a row of method mpec tells that they have.
     const bool branch = row.solve.method == Method::kBranch;
     bool changed = false;
@@ -313,6 +315,16 @@ class Verifier {
     bool as_taken = states.size() == row.contacts.size();
     for (std::size_t i = 0; as_taken && i < states.size(); ++i) as_taken = states[i] == row.contacts[i].state;
     if (!as_taken) Report("contact states are not those of the way taken from the row before");
+  }
+
+  // They may change at rest where a way on begins, and nowhere else.
+  void CheckSameReactions(const Increment& before, const Increment& row) {
+    double force = 0.0;
+    for (std::size_t i = 0; i < row.contacts.size(); ++i) {
+      const ContactRecord &a = before.contacts[i], &b = row.contacts[i];
+      force = std::max({force, std::abs(a.rn - b.rn) / scaling_.force, std::abs(a.rt - b.rt) / scaling_.force});
+    }
+    Bound("reactions change while nothing moves, and not at an event", force, rounding_);
   }
 
   // Work and dissipation between two full rows: between the products with the smallest and with the largest force,

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "contact_path/scene/program.h"
 #include "contact_path/scene/scaling.h"
 
 namespace contact_path {
@@ -197,7 +198,7 @@ TracedPath UndoReversal(TracedPath path) {
 }
 
 void ExpectSamePath(const TracedPath& actual, const TracedPath& expected, double tolerance) {
-  const Scaling scaling = CharacteristicScales(expected.request.scene);
+  const Scaling scaling = StageScales(expected.request, 0);
   const double length = tolerance * scaling.length, force = tolerance * scaling.force;
   const double energy = tolerance * scaling.length * scaling.force;
   EXPECT_EQ(ToString(actual.result.reason), ToString(expected.result.reason));
@@ -205,7 +206,8 @@ void ExpectSamePath(const TracedPath& actual, const TracedPath& expected, double
   for (std::size_t i = 0; i < expected.rows.size(); ++i) {
     const Increment &a = actual.rows[i], &e = expected.rows[i];
     SCOPED_TRACE("row " + std::to_string(i));
-    EXPECT_NEAR(a.load_factor, e.load_factor, tolerance * scaling.load_factor);
+    const std::size_t stage = e.stage > 0 ? static_cast<std::size_t>(e.stage) - 1 : 0;
+    EXPECT_NEAR(a.load_factor, e.load_factor, tolerance * StageScales(expected.request, stage).load_factor);
     EXPECT_NEAR(a.arc_length, e.arc_length, tolerance);
     EXPECT_EQ(ToString(a.kind), ToString(e.kind));
     ASSERT_EQ(a.positions.size(), e.positions.size());

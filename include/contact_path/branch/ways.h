@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "contact_path/contact/contact_geometry.h"
@@ -24,6 +25,7 @@ struct Way {
   double turn = 0.0;              // angle to the direction of arrival [rad]
   bool loose = false;             // one of several motions without any change of load and reactions: not to be followed
   bool has_twin = false;          // another way has exactly these rates: each would break a symmetry of the scene
+  std::optional<PathPoint> begin;  // where the reactions have to change first while nothing moves: with the new ones
 };
 
 // Where the point comes from.
@@ -46,6 +48,9 @@ struct WaysOn {
 // All ways on from `point`, an equilibrium, without the way back. Concerned are the contacts with an inequality within
 // `tolerance` of zero, and all that slip. Of ways with the same direction one is kept:
 // that in which fewest contacts slip without moving.
+// Where all ways turn by 90 degrees or more, or there is none, reactions may have to change while nothing moves, as
+// where a block that is carried along meets a stop: then the ways with all other reactions that the point can have
+// (motionless_reactions.h) are added.
 // Up to 4^6 combinations of states are all tried; of more, those that principal pivoting on the rates (rate_problem.h)
 // leads to from many first guesses. `mpec`, the increment problem in the limit of a short increment, adds what it finds
 // where the structure is small or nothing else was found. Each is certified like any other. cancelled: asked often, may

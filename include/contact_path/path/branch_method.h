@@ -32,6 +32,9 @@ struct BranchOptions {
   static BranchOptions For(const TraceOptions& options, Eigen::Index num_dofs);
 };
 
+// As messages name it: "event 3" or "row 40".
+std::string PlaceOf(const BranchChoice& choice);
+
 class BranchMethod : public PathMethod {
  public:
   // model must outlive the method. cancelled may be empty.
@@ -41,7 +44,6 @@ class BranchMethod : public PathMethod {
   bool Resume(const PathPoint& before, const PathPoint& from, const SolveRecord& record) override;
   // `from` must be the point that was given last.
   Advance Next(const PathPoint& from) override;
-  std::string Remark() const override;
   int NumEvents() const override { return events_; }
 
  private:
@@ -53,6 +55,8 @@ class BranchMethod : public PathMethod {
   // Finds the ways on from `point` and sets out on one. Nothing: done. Otherwise why not, with *message.
   std::optional<EndReason> PassEvent(const PathPoint& point, const Arrival& arrival, const BranchChoice* choice,
                                      EventRecord* record, std::string* message);
+  // A row in which nothing moves: the reactions with which the way on begins.
+  Advance ChangeReactions(const PathPoint& from);
   const BranchChoice* ChoiceForEvent(int event) const;
   const BranchChoice* ChoiceForRow(int row) const;
   Work WorkOf(const Segment& segment) const;
@@ -66,6 +70,7 @@ class BranchMethod : public PathMethod {
   IncrementSolver mpec_;  // for events with very many contacts
   SmoothPiece piece_;
   CurvePoint current_;
+  std::optional<PathPoint> begin_;  // of the way on, where its reactions are not those of the event
   double step_;
   int rows_;                  // given so far, row 0 not counted
   int events_;                // passed so far, starts not counted

@@ -18,9 +18,13 @@ struct RecordedTrace {
   std::optional<contact_path_msgs::TraceResult> result;  // none: the trace did not come to its end
 };
 
-// Throws BagError (bag_recorder.h), one line for a person: for what is no bag, a bag without index (its node was
-// killed; `rosbag reindex` mends it), a bag without a trace or with several, a request that is not valid, and a message
-// that cannot be read.
+// All traces in a bag, in its order: `rosbag record` may have been there for several. A request of which nothing
+// followed, as the latched one of the trace before, is left out if there is another. Throws BagError (bag_recorder.h),
+// one line for a person: for what is no bag, a bag without index (its node was killed; `rosbag reindex` mends it), a
+// bag without a trace, a request that is not valid, and a message that cannot be read.
+std::vector<RecordedTrace> ReadTraces(const std::string& file);
+
+// The only trace in a bag. Throws BagError where there are several, too.
 RecordedTrace ReadTrace(const std::string& file);
 
 }  // namespace contact_path

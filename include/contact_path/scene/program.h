@@ -17,7 +17,8 @@ std::size_t NumStages(const TraceRequest& request);
 // where supports were moved. Without a program: the scene of the request. `request` must be sound.
 Scene StageScene(const TraceRequest& request, std::size_t stage);
 
-// Length and force of the first stage for all, so that points can be handed on; the load factor's of the stage.
+// One length and one force for all stages, so that points can be handed on: with bars those of the scene, without bars
+// those of the stage with the largest force at its target. The load factor's of the stage.
 Scaling StageScales(const TraceRequest& request, std::size_t stage);
 
 }  // namespace contact_path

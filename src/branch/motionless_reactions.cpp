@@ -1,0 +1,194 @@
+#include "contact_path/branch/motionless_reactions.h"
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <utility>
+
+namespace contact_path {
+namespace {
+
+constexpr double kParallel = 1e-9;         // sine between two edges of cones
+constexpr std::size_t kMostAtOneNode = 4;  // contacts that are looked at together
+constexpr std::size_t kMostPoints = 200;   // combinations over all nodes
+
+// An edge of a friction cone, or the normal of a frictionless contact: the force of a unit normal reaction there.
+struct Edge {
+  std::size_t contact;
+  double slip;  // rt / rn: mu, -mu or 0
+  Eigen::Vector2d force;
+};
+
+// Reactions of the contacts at one node, as weights of the edges, each >= 0.
+using Weights = std::vector<double>;
+
+struct Touching {
+  std::vector<std::size_t> contacts;
+  std::vector<Edge> edges;
+};
+
+Eigen::Vector2d Gradient(const SparseLinear& function) {
+  return {function.coefficients[0], function.coefficients[1]};  // 0 where the component is not free
+}
+
+// Contacts that touch, by the free components of their node.
+std::vector<Touching> TouchingByNode(const std::vector<ContactGeometry>& contacts, const PathPoint& point,
+                                     double tolerance) {
+  std::map<std::array<int, 2>, Touching> nodes;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const ContactGeometry& contact = contacts[i];
+    if (contact.gap.Value(point.u, point.s) > tolerance) continue;
+    const std::array<int, 2> dofs = {std::max(contact.gap.dofs[0], contact.tangential.dofs[0]),
+                                     std::max(contact.gap.dofs[1], contact.tangential.dofs[1])};
+    if (dofs[0] < 0 && dofs[1] < 0) continue;
+    Touching& node = nodes[dofs];
+    node.contacts.push_back(i);
+    const Eigen::Vector2d normal = Gradient(contact.gap), tangent = Gradient(contact.tangential);
+    if (!contact.Frictional()) {
+      node.edges.push_back({i, 0.0, normal});
+    } else {
+      for (const double slip : {contact.friction, -contact.friction})
+        node.edges.push_back({i, slip, normal + slip * tangent});
+    }
+  }
+  std::vector<Touching> result;
+  for (auto& [dofs, node] : nodes) result.push_back(std::move(node));
+  return result;
+}
+
+Eigen::Vector2d TotalForce(const Touching& node, const std::vector<ContactGeometry>& contacts, const PathPoint& point) {
+  Eigen::Vector2d force = Eigen::Vector2d::Zero();
+  for (const std::size_t i : node.contacts) {
+    const auto k = static_cast<Eigen::Index>(i);
+    force += point.rn[k] * Gradient(contacts[i].gap) + point.rt[k] * Gradient(contacts[i].tangential);
+  }
+  return force;
+}
+
+// Vertices of the polytope { weights >= 0 : sum of weight . edge = force }: at most two edges carry.
+std::vector<Weights> Vertices(const std::vector<Edge>& edges, const Eigen::Vector2d& force, double tolerance) {
+  std::vector<Weights> vertices;
+  const auto add = [&](Weights weights) {
+    for (double& weight : weights) {
+      if (weight < -tolerance) return;
+      weight = std::max(weight, 0.0);
+    }
+    vertices.push_back(std::move(weights));
+  };
+  const Weights none(edges.size(), 0.0);
+  if (force.norm() <= tolerance) add(none);
+  for (std::size_t a = 0; a < edges.size(); ++a) {
+    const Eigen::Vector2d& g = edges[a].force;
+    if (!(g.norm() > 0.0)) continue;
+    const double alone = g.dot(force) / g.squaredNorm();
+    if (alone > tolerance && (force - alone * g).norm() <= tolerance) {
+      Weights weights = none;
+      weights[a] = alone;
+      add(std::move(weights));
+      continue;  // every pair with it is the same
+    }
+    for (std::size_t b = a + 1; b < edges.size(); ++b) {
+      Eigen::Matrix2d pair;
+      pair << g, edges[b].force;
+      if (!(std::abs(pair.determinant()) > kParallel * g.norm() * edges[b].force.norm())) continue;
+      const Eigen::Vector2d both = pair.inverse() * force;
+      if (std::min(both[0], both[1]) <= tolerance) continue;  // one edge alone, or none
+      Weights weights = none;
+      weights[a] = both[0];
+      weights[b] = both[1];
+      add(std::move(weights));
+    }
+  }
+  return vertices;
+}
+
+// Which edges carry, as bits.
+std::size_t Support(const Weights& weights) {
+  std::size_t bits = 0;
+  for (std::size_t e = 0; e < weights.size(); ++e)
+    if (weights[e] > 0.0) bits |= std::size_t{1} << e;
+  return bits;
+}
+
+Weights PresentWeights(const Touching& node, const PathPoint& point, double tolerance) {
+  Weights weights;
+  for (const Edge& edge : node.edges) {
+    const auto k = static_cast<Eigen::Index>(edge.contact);
+    const double share = edge.slip == 0.0 ? point.rn[k] : 0.5 * (point.rn[k] + point.rt[k] / edge.slip);
+    weights.push_back(share > tolerance ? share : 0.0);
+  }
+  return weights;
+}
+
+// Means of the vertices of each face that `present` is not in. A face is the set of edges that may carry there.
+std::vector<Weights> OtherFaces(const Touching& node, const std::vector<Weights>& vertices, const Weights& present) {
+  std::vector<Weights> means;
+  for (std::size_t face = 0; face < std::size_t{1} << node.edges.size(); ++face) {
+    if ((Support(present) & ~face) == 0) continue;
+    Weights mean(node.edges.size(), 0.0);
+    double count = 0.0;
+    for (const Weights& vertex : vertices) {
+      if ((Support(vertex) & ~face) != 0) continue;
+      count += 1.0;
+      for (std::size_t e = 0; e < mean.size(); ++e) mean[e] += vertex[e];
+    }
+    if (count == 0.0) continue;
+    for (double& weight : mean) weight /= count;
+    if (std::find(means.begin(), means.end(), mean) == means.end()) means.push_back(std::move(mean));
+  }
+  return means;
+}
+
+void SetReactions(const Touching& node, const Weights& weights, PathPoint* point) {
+  for (const std::size_t i : node.contacts) {
+    point->rn[static_cast<Eigen::Index>(i)] = 0.0;
+    point->rt[static_cast<Eigen::Index>(i)] = 0.0;
+  }
+  for (std::size_t e = 0; e < node.edges.size(); ++e) {
+    const auto k = static_cast<Eigen::Index>(node.edges[e].contact);
+    point->rn[k] += weights[e];
+    point->rt[k] += node.edges[e].slip * weights[e];
+  }
+}
+
+}  // namespace
+
+MotionlessReactions FindMotionlessReactions(const std::vector<ContactGeometry>& contacts, const PathPoint& point,
+                                            double tolerance) {
+  MotionlessReactions result;
+  for (const Touching& node : TouchingByNode(contacts, point, tolerance)) {
+    if (node.contacts.size() < 2) {
+      // The cone of one contact gives each force in one way only, where both components of its node are free.
+      const ContactGeometry& contact = contacts[node.contacts.front()];
+      const bool one_component = contact.gap.dofs[0] < 0 && contact.tangential.dofs[0] < 0;
+      const bool other_component = contact.gap.dofs[1] < 0 && contact.tangential.dofs[1] < 0;
+      if (!contact.Frictional() || !(one_component || other_component)) continue;
+    }
+    if (node.contacts.size() > kMostAtOneNode) {
+      result.complete = false;
+      continue;
+    }
+    const std::vector<Weights> vertices = Vertices(node.edges, TotalForce(node, contacts, point), tolerance);
+    const std::vector<Weights> others = OtherFaces(node, vertices, PresentWeights(node, point, tolerance));
+    // Beside what the nodes before can have.
+    const std::size_t so_far = result.points.size();
+    for (std::size_t k = 0; k <= so_far; ++k) {
+      for (const Weights& weights : others) {
+        if (result.points.size() == kMostPoints) {
+          result.complete = false;
+          return result;
+        }
+        PathPoint other = k == 0 ? point : result.points[k - 1];
+        SetReactions(node, weights, &other);
+        result.points.push_back(std::move(other));
+      }
+    }
+  }
+  return result;
+}
+
+}  // namespace contact_path

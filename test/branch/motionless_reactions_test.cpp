@@ -1,0 +1,169 @@
+#include "contact_path/branch/motionless_reactions.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "contact_path/path/model.h"
+#include "contact_path/scene/scaling.h"
+
+namespace contact_path {
+namespace {
+
+constexpr ObstacleShape kHalfPlane = ObstacleShape::kHalfPlane;
+constexpr double kTolerance = 1e-10;
+
+// One node at the origin that touches these obstacles through it.
+struct Corner {
+  explicit Corner(const std::vector<Obstacle>& obstacles, bool fixed_x = false)
+      : model(SceneOf(obstacles, fixed_x), Scaling()), point(model.InitialPoint()) {
+    const auto count = static_cast<Eigen::Index>(obstacles.size());
+    point.rn = Eigen::VectorXd::Zero(count);
+    point.rt = Eigen::VectorXd::Zero(count);
+  }
+
+  static Scene SceneOf(const std::vector<Obstacle>& obstacles, bool fixed_x) {
+    Scene scene;
+    scene.nodes = {{"p", 0.0, 0.0, fixed_x, false}};
+    scene.superelements = {{{"p"}, {1.0, 0.0, 0.0, 1.0}}};
+    scene.loads = {{"p", 1.0, 0.0}};
+    scene.obstacles = obstacles;
+    for (const Obstacle& obstacle : obstacles) scene.contacts.push_back({"p", obstacle.name});
+    return scene;
+  }
+
+  Eigen::Vector2d Force(const PathPoint& with) const {
+    Eigen::VectorXd force = Eigen::VectorXd::Zero(2);
+    for (std::size_t i = 0; i < model.contacts.size(); ++i) {
+      model.contacts[i].gap.AddGradient(with.rn[static_cast<Eigen::Index>(i)], &force);
+      model.contacts[i].tangential.AddGradient(with.rt[static_cast<Eigen::Index>(i)], &force);
+    }
+    return force;
+  }
+
+  // What is found; each must hold the same force within all cones.
+  std::vector<PathPoint> Others() const {
+    const MotionlessReactions found = FindMotionlessReactions(model.contacts, point, kTolerance);
+    EXPECT_TRUE(found.complete);
+    for (const PathPoint& other : found.points) {
+      EXPECT_NEAR((Force(other) - Force(point)).norm(), 0.0, 1e-12);
+      EXPECT_GE(other.rn.minCoeff(), 0.0);
+      for (Eigen::Index i = 0; i < other.rn.size(); ++i)
+        EXPECT_LE(std::abs(other.rt[i]),
+                  model.contacts[static_cast<std::size_t>(i)].friction * other.rn[i] * (1.0 + 1e-12));
+      EXPECT_EQ(other.u, point.u);
+      EXPECT_EQ(other.s, point.s);
+    }
+    return found.points;
+  }
+
+  Model model;
+  PathPoint point;
+};
+
+// rn and rt of both contacts.
+bool Holds(const std::vector<PathPoint>& points, const std::array<double, 4>& reactions) {
+  return std::any_of(points.begin(), points.end(), [&](const PathPoint& point) {
+    return std::abs(point.rn[0] - reactions[0]) + std::abs(point.rt[0] - reactions[1]) +
+               std::abs(point.rn[1] - reactions[2]) + std::abs(point.rt[1] - reactions[3]) <
+           1e-12;
+  });
+}
+
+TEST(MotionlessReactions, NoneWhereReactionsAreUnique) {
+  Corner rough({{"floor", kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.5}});
+  rough.point.rn[0] = 2.0;
+  rough.point.rt[0] = 0.3;
+  EXPECT_TRUE(rough.Others().empty());
+  Corner smooth({{"floor", kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.0}, {"wall", kHalfPlane, 0.0, 0.0, 1.0, 0.0, 0.0}});
+  smooth.point.rn << 2.0, 1.0;
+  EXPECT_TRUE(smooth.Others().empty());
+}
+
+TEST(MotionlessReactions, NoneOfWhatDoesNotTouch) {
+  Corner corner({{"floor", kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.5}, {"deep", kHalfPlane, 0.0, -1.0, 0.0, 1.0, 0.0}});
+  corner.point.rn[0] = 1.0;
+  EXPECT_TRUE(corner.Others().empty());
+}
+
+// A block on a belt, without force at the stop: the belt may pull at the stop with up to mu N.
+TEST(MotionlessReactions, BeltAgainstStop) {
+  Corner corner({{"belt", kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.3}, {"stop", kHalfPlane, 0.0, 0.0, -1.0, 0.0, 0.0}});
+  corner.point.rn[0] = 2.0;
+  const std::vector<PathPoint> others = corner.Others();
+  EXPECT_TRUE(Holds(others, {2.0, 0.6, 0.6, 0.0}));   // the belt slips
+  EXPECT_FALSE(Holds(others, {2.0, 0.0, 0.0, 0.0}));  // as it is
+}
+
+// The lower of two tables in one plane, and the upper: who carries?
+TEST(MotionlessReactions, OneAboveTheOther) {
+  Corner smooth({{"table", kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.0}, {"lift", kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.0}});
+  smooth.point.rn << 3.0, 0.0;
+  std::vector<PathPoint> others = smooth.Others();
+  ASSERT_EQ(others.size(), 1u);  // that both carry is within the states of now
+  EXPECT_TRUE(Holds(others, {0.0, 0.0, 3.0, 0.0}));
+
+  // With a side force that only a rough one can hold.
+  Corner rough({{"table", kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.5}, {"lift", kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.5}});
+  rough.point.rn << 3.0, 0.0;
+  rough.point.rt << 0.3, 0.0;
+  others = rough.Others();
+  EXPECT_TRUE(Holds(others, {0.0, 0.0, 3.0, 0.3}));  // the lift alone
+}
+
+TEST(MotionlessReactions, ALiftTooSmoothCannotTakeOver) {
+  Corner corner({{"table", kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.5}, {"lift", kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.05}});
+  corner.point.rn << 3.0, 0.0;
+  corner.point.rt << 0.3, 0.0;
+  for (const PathPoint& other : corner.Others()) EXPECT_GT(other.rn[0], 0.0);
+}
+
+// Between two walls that face each other nothing need press; what they press is not bounded, but its vertices are.
+TEST(MotionlessReactions, Wedge) {
+  Corner corner({{"left", kHalfPlane, 0.0, 0.0, 1.0, 0.0, 0.5}, {"right", kHalfPlane, 0.0, 0.0, -1.0, 0.0, 0.5}});
+  corner.point.rn << 1.0, 1.0;
+  const std::vector<PathPoint> others = corner.Others();
+  ASSERT_EQ(others.size(), 1u);
+  EXPECT_TRUE(Holds(others, {0.0, 0.0, 0.0, 0.0}));
+}
+
+// Friction along a component that is free, a normal along one that is not: the floor presses with nothing or anything.
+TEST(MotionlessReactions, HalfFixedNode) {
+  Corner corner({{"slope", kHalfPlane, 0.0, 0.0, 1.0, 1.0, 0.5}}, true);
+  corner.point.rn[0] = 1.0;
+  const std::vector<PathPoint> others = corner.Others();
+  const double force = corner.Force(corner.point)[0];
+  EXPECT_FALSE(others.empty());
+  for (const PathPoint& other : others) EXPECT_NEAR(corner.Force(other)[0], force, 1e-12);
+}
+
+TEST(MotionlessReactions, CombinationsOfTwoNodes) {
+  Scene scene = Corner::SceneOf(
+      {{"belt", kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.3}, {"stop", kHalfPlane, 0.0, 0.0, -1.0, 0.0, 0.0}}, false);
+  scene.nodes.push_back({"q", 0.0, 0.0, false, false});
+  scene.superelements.push_back({{"q"}, {1.0, 0.0, 0.0, 1.0}});
+  scene.contacts.push_back({"q", "belt"});
+  scene.contacts.push_back({"q", "stop"});
+  const Model model(scene, Scaling());
+  PathPoint point = model.InitialPoint();
+  point.rn = Eigen::Vector4d(1.0, 0.0, 2.0, 0.0);
+  point.rt = Eigen::Vector4d::Zero();
+  const MotionlessReactions found = FindMotionlessReactions(model.contacts, point, kTolerance);
+  const auto holds = [&](double first, double second) {
+    return std::any_of(found.points.begin(), found.points.end(), [&](const PathPoint& other) {
+      return std::abs(other.rn[1] - first) + std::abs(other.rn[3] - second) < 1e-12;
+    });
+  };
+  EXPECT_TRUE(holds(0.3, 0.0));
+  EXPECT_TRUE(holds(0.0, 0.6));
+  EXPECT_TRUE(holds(0.3, 0.6));
+  EXPECT_FALSE(holds(0.0, 0.0));
+}
+
+}  // namespace
+}  // namespace contact_path

@@ -1,0 +1,47 @@
+// Increments from tiny to as large as the scene, and very long traces.
+#include <cmath>
+
+#include "extremes/extreme_case.h"
+#include "support/reference_cases.h"
+
+namespace contact_path {
+namespace {
+
+// The dissipation of method branch is an integral along the path, that of mpec a sum of products.
+double SlidingBarError(const Increment& row) {
+  const double x = row.positions[2];
+  const double dissipation = row.solve.method == Method::kBranch ? sliding_bar::Dissipation(x) : row.dissipation;
+  return Largest({row.load_factor - sliding_bar::LoadFactor(x), row.positions[3],
+                  row.contacts[0].rn - sliding_bar::NormalReaction(x), row.dissipation - dissipation});
+}
+
+ExtremeCase StepOf(double step) {
+  ExtremeCase extreme;
+  extreme.group = "length of the increments";
+  extreme.value = "step " + Text(step);
+  extreme.request = Until(sliding_bar::MakeScene(), "b.x", ">", 4.9, step, 1000);
+  extreme.exact = "closed form";
+  extreme.error = SlidingBarError;
+  return extreme;
+}
+
+// Both limit points of the path are within it.
+ExtremeCase ManyIncrements(int count) {
+  ExtremeCase extreme;
+  extreme.group = "number of increments";
+  extreme.value = Text(count);
+  extreme.request = Until(sliding_bar::MakeScene(), "b.x", ">", 4.9, 1.75 / count, count);
+  extreme.exact = "closed form";
+  extreme.error = SlidingBarError;
+  extreme.long_run = true;
+  return extreme;
+}
+
+}  // namespace
+
+void AddLengthCases(std::vector<ExtremeCase>* cases) {
+  for (const double step : {1e-8, 1e-6, 1e-4, 1e-2, 0.1, 1.0}) cases->push_back(StepOf(step));
+  cases->push_back(ManyIncrements(1000000));
+}
+
+}  // namespace contact_path

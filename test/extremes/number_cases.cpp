@@ -1,0 +1,169 @@
+// Stiffnesses, units and loads of very different size.
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "contact_path/scene/scaling.h"
+#include "extremes/extreme_case.h"
+#include "support/reference_cases.h"
+#include "support/traced_path.h"
+#include "support/transformations.h"
+
+namespace contact_path {
+namespace {
+
+// A soft and a stiff bar in a row press a node onto a wall.
+ExtremeCase Chain(double soft, double stiff) {
+  static constexpr double kGap = 0.05;
+  ExtremeCase extreme;
+  extreme.group = "stiffnesses in a row";
+  extreme.value = "EA = " + Text(soft) + " and " + Text(stiff);
+  Scene scene;
+  scene.nodes = {{"a", 0.0, 0.0, true, true}, {"b", 1.0, 0.0, false, true}, {"c", 2.0, 0.0, false, true}};
+  scene.bars = {{{"a", "b"}, soft}, {{"b", "c"}, stiff}};
+  scene.loads = {{"c", 1.0, 0.0, false}};
+  scene.obstacles = {{"wall", ObstacleShape::kHalfPlane, 2.0 + kGap, 0.0, -1.0, 0.0, 0.0}};
+  scene.contacts = {{"c", "wall"}};
+  const double compliance = 1.0 / soft + 1.0 / stiff, at_wall = kGap / compliance;
+  extreme.request = Until(scene, "load_factor", ">", 3.0 * at_wall);
+  // A regularised pair of gap and reaction needs forces of the size of the characteristic one.
+  extreme.exact = "closed form";
+  extreme.error = [compliance, at_wall](const Increment& row) {
+    const double s = row.load_factor, moved = std::min(s * compliance, kGap);
+    const double reaction = std::max(0.0, s - at_wall);
+    return Largest({row.positions[4] - 2.0 - moved, (row.contacts[0].rn - reaction) / at_wall});
+  };
+  return extreme;
+}
+
+// scenes/two_dof_friction.yaml, with a bar of another stiffness that stands beside it and does nothing.
+ExtremeCase BesideABar(double stiffness) {
+  ExtremeCase extreme;
+  extreme.group = "stiffness beside, sticking and sliding";
+  extreme.value = "EA / k = " + Text(stiffness);
+  TraceRequest example = ReadExample("two_dof_friction");
+  Scene scene = example.scene;
+  scene.nodes.push_back({"p", 5.0, 0.0, true, true});
+  scene.nodes.push_back({"q", 6.0, 0.0, false, true});
+  scene.bars = {{{"p", "q"}, stiffness}};
+  const std::size_t node = 2 * NodeNumber(scene, scene.contacts[0].node);
+  const double x0 = scene.nodes[node / 2].x;
+  extreme.request = example;
+  extreme.request.scene = scene;
+  extreme.request.options = {};
+  extreme.request.options.stop = {{scene.contacts[0].node + ".x", ">", x0 + 1.0}};
+  extreme.exact = "closed form";
+  extreme.ends = {"numerical_failure"};
+  extreme.error = [node, x0](const Increment& row) {
+    const double x = row.positions[node] - x0, y = row.positions[node + 1], s = row.load_factor;
+    switch (row.contacts[0].state) {
+      case ContactState::kStick: return Largest({x, y, std::max(0.0, s - 1.0)});
+      case ContactState::kSlipPlus: return Largest({s - (1.0 - 0.5 * x), y, std::max(0.0, x - 2.0 / 3.0)});
+      case ContactState::kOpen: return Largest({s - 2.0 / 3.0 - 0.4375 * (x - 2.0 / 3.0)});
+      default: return HUGE_VAL;
+    }
+  };
+  extreme.allowed = 1e-8;
+  return extreme;
+}
+
+// scenes/rough_truss.yaml on the same load as a stiff truss of its own.
+ExtremeCase TrussBesideABar(double stiffness) {
+  ExtremeCase extreme;
+  extreme.group = "stiffness beside, corner limit point";
+  extreme.value = "EA ratio " + Text(stiffness);
+  TraceRequest example = ReadExample("rough_truss");
+  Scene scene = example.scene;
+  scene.nodes.push_back({"p", 5.0, 0.0, true, true});
+  scene.nodes.push_back({"q", 6.0, 0.0, false, true});
+  scene.bars.push_back({{"p", "q"}, stiffness});
+  const std::size_t foot = 2 * NodeNumber(scene, scene.contacts[0].node);
+  const std::size_t apex = 2 * NodeNumber(scene, scene.loads[0].node);
+  extreme.request = example;
+  extreme.request.scene = scene;
+  extreme.request.options = {};
+  extreme.request.options.stop = {{scene.contacts[0].node + ".x", ">", 1.4}};
+  extreme.exact = "closed form";
+  extreme.ends = {"numerical_failure"};
+  extreme.error = [foot, apex](const Increment& row) {
+    const double x = row.positions[foot];
+    if (row.contacts[0].state == ContactState::kSlipPlus)
+      return std::abs(row.load_factor - rough_truss::SlidingLoad(x));
+    if (row.contacts[0].state != ContactState::kStick) return HUGE_VAL;
+    return Largest({row.load_factor - rough_truss::StickingLoad(row.positions[apex + 1]), x - 1.0});
+  };
+  extreme.allowed = 1e-8;
+  return extreme;
+}
+
+// A scene in other units has the path of the scene in other units.
+ExtremeCase Units(const std::string& name, double length, double force) {
+  ExtremeCase extreme;
+  extreme.group = "units";
+  extreme.value = name + ", lengths x " + Text(length) + ", forces x " + Text(force);
+  TraceRequest request = ReadExample(name);
+  request.options.max_increments = 150;
+  extreme.request = ChangeUnits(request, length, force);
+  extreme.exact = "the path in units of order 1";
+  // Of the same method and accuracy: the first row that comes tells which.
+  struct Reference {
+    std::vector<TracedPath> paths;
+  };
+  auto reference = std::make_shared<Reference>();
+  extreme.error = [reference, request, length, force](const Increment& row) {
+    if (row.index == 0) {
+      TraceRequest same = request;
+      same.options.method = row.solve.method;
+      reference->paths.assign(1, TraceRows(same));
+    }
+    const std::vector<Increment>& rows = reference->paths[0].rows;
+    const auto index = static_cast<std::size_t>(row.index);
+    if (index >= rows.size()) return HUGE_VAL;
+    const Increment& other = rows[index];
+    const Scaling scales = CharacteristicScales(request.scene);
+    double error = std::abs(row.load_factor - other.load_factor) / scales.load_factor;
+    for (std::size_t i = 0; i < row.positions.size(); ++i)
+      error = Largest({error, (row.positions[i] / length - other.positions[i]) / scales.length});
+    for (std::size_t i = 0; i < row.contacts.size(); ++i) {
+      error = Largest({error, (row.contacts[i].rn / force - other.contacts[i].rn) / scales.force});
+      if (row.contacts[i].state != other.contacts[i].state) error = HUGE_VAL;
+    }
+    return error;
+  };
+  return extreme;
+}
+
+// Two loads at one node that all but cancel, and a load factor as large as that makes it: k x = s p up to a stop.
+ExtremeCase Cancelling(double difference) {
+  ExtremeCase extreme;
+  extreme.group = "loads that nearly cancel";
+  extreme.value = "difference " + Text(difference) + ", s up to " + Text(2.0 / difference);
+  Scene scene;
+  scene.nodes = {{"p", 0.0, 0.0, false, false}};
+  scene.superelements = {{{"p"}, {1.0, 0.0, 0.0, 1.0}}};
+  scene.loads = {{"p", 1.0 + difference, 0.0, false}, {"p", -1.0, 0.0, false}};
+  scene.obstacles = {{"stop", ObstacleShape::kHalfPlane, 1.0, 0.0, -1.0, 0.0, 0.5}};
+  scene.contacts = {{"p", "stop"}};
+  const double load = (1.0 + difference) - 1.0;
+  extreme.request = Until(scene, "load_factor", ">", 2.0 / difference);
+  extreme.exact = "closed form";
+  extreme.error = [load](const Increment& row) {
+    const double force = load * row.load_factor;
+    return Largest({row.positions[0] - std::min(force, 1.0), row.contacts[0].rn - std::max(0.0, force - 1.0)});
+  };
+  return extreme;
+}
+
+}  // namespace
+
+void AddNumberCases(std::vector<ExtremeCase>* cases) {
+  for (const double ratio : {1.0, 1e6, 1e12}) cases->push_back(Chain(1.0 / std::sqrt(ratio), std::sqrt(ratio)));
+  for (const double stiffness : {1e-12, 1e-6, 1.0, 1e3, 1e6, 1e9, 1e12}) cases->push_back(BesideABar(stiffness));
+  for (const double stiffness : {1e-12, 1e-6, 1e6, 1e12}) cases->push_back(TrussBesideABar(stiffness));
+  for (const char* const name : {"sliding_bar", "rough_truss", "arch19"})
+    for (const auto& [length, force] : {std::pair<double, double>{1e-9, 1e9}, {1e9, 1e-9}, {1e9, 1e9}, {1e-9, 1e-9}})
+      cases->push_back(Units(name, length, force));
+  for (const double difference : {1e-3, 1e-9, 1e-12}) cases->push_back(Cancelling(difference));
+}
+
+}  // namespace contact_path

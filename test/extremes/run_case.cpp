@@ -1,0 +1,109 @@
+#include "extremes/run_case.h"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "contact_path/contact/contact_geometry.h"
+#include "contact_path/contact/fixed_state_system.h"
+#include "contact_path/path/model.h"
+#include "contact_path/scene/program.h"
+#include "contact_path/verify/verify_path.h"
+#include "support/dense.h"
+#include "support/traced_path.h"
+
+namespace contact_path {
+namespace {
+
+constexpr std::size_t kMostNumbersToVerify = 20'000'000;  // of all rows together
+constexpr double kRegularised = 1e-3;                     // error of rows that are not exact
+
+bool AllFinite(const Increment& row) {
+  bool finite = std::isfinite(row.load_factor) && std::isfinite(row.arc_length) && std::isfinite(row.dissipation) &&
+                std::isfinite(row.strain_energy) && std::isfinite(row.external_work);
+  for (const double position : row.positions) finite = finite && std::isfinite(position);
+  for (const ContactRecord& contact : row.contacts)
+    finite = finite && std::isfinite(contact.gap) && std::isfinite(contact.rn) && std::isfinite(contact.rt);
+  return finite;
+}
+
+bool MayEnd(const ExtremeCase& extreme, Method method, EndReason reason) {
+  if (reason == EndReason::kStopCriterion || reason == EndReason::kMaxIncrements)
+    return extreme.error || extreme.ends.empty();
+  if (std::count(extreme.ends.begin(), extreme.ends.end(), ToString(reason)) > 0) return true;
+  return method == Method::kMpec && reason != EndReason::kCancelled;
+}
+
+}  // namespace
+
+Outcome RunCase(const ExtremeCase& extreme, Method method, Accuracy accuracy, double most_seconds) {
+  TraceRequest request = extreme.request;
+  request.options.method = method;
+  request.options.accuracy = accuracy;
+  Outcome outcome;
+  std::vector<Increment> rows;
+  bool finite = true;
+  double exact_error = 0.0;
+  const std::size_t most_rows = kMostNumbersToVerify / (request.scene.nodes.size() + request.scene.contacts.size());
+  TraceControl control;
+  control.on_increment = [&](const Increment& row) {
+    ++outcome.rows;
+    finite = finite && AllFinite(row);
+    if (extreme.error) {
+      const double error = extreme.error(row);
+      outcome.error = std::max(outcome.error, std::isnan(error) ? HUGE_VAL : error);
+      if (row.solve.exact) exact_error = std::max(exact_error, std::isnan(error) ? HUGE_VAL : error);
+    }
+    if (rows.size() < most_rows) rows.push_back(row);
+  };
+  const auto start = std::chrono::steady_clock::now();
+  control.cancelled = [&] {
+    const std::chrono::duration<double> gone = std::chrono::steady_clock::now() - start;
+    outcome.out_of_time = outcome.out_of_time || gone.count() > most_seconds;
+    return outcome.out_of_time;
+  };
+  const TraceResult result = Trace(request, control);
+  outcome.reason = result.reason;
+  outcome.message = result.message;
+  if (!finite)
+    outcome.fault = "a number is not finite";
+  else if (!(exact_error <= extreme.allowed) || !(outcome.error <= std::max(kRegularised, extreme.allowed)))
+    outcome.fault = "error " + Text(outcome.error);
+  else if (!(outcome.out_of_time && result.reason == EndReason::kCancelled) && !MayEnd(extreme, method, result.reason))
+    outcome.fault = std::string(ToString(result.reason)) + ": " + result.message;
+  else if (rows.size() < most_rows) {
+    for (const Finding& finding : VerifyPath(request, rows).findings)
+      if (outcome.fault.empty()) outcome.fault = "row " + std::to_string(finding.row) + ": " + finding.what;
+  }
+  return outcome;
+}
+
+double AttainableError(const ExtremeCase& extreme) {
+  constexpr Eigen::Index kMostUnknowns = 60;
+  constexpr int kMostRows = 2000, kSamples = 20;
+  TraceRequest request = extreme.request;
+  request.options.max_increments = std::min(request.options.MaxIncrements(), kMostRows);
+  const Model model(StageScene(request, 0), StageScales(request, 0));
+  if (model.structure.NumDofs() > kMostUnknowns) return -1.0;
+  const TracedPath path = TraceRows(request);
+  double largest = -1.0;
+  for (int i = 0; i < kSamples; ++i) {
+    const std::size_t index = path.rows.size() * static_cast<std::size_t>(i) / kSamples;
+    if (index >= path.rows.size()) continue;
+    const PathPoint point = model.FromRow(path.rows[index]);
+    FixedStateSystem system(model.structure, model.contacts);
+    system.SetStates(point.states, TangentialPositions(model.contacts, point));
+    const Eigen::VectorXd x = system.Pack(point);
+    const SingularValueDecomposition svd = Decompose(Eigen::MatrixXd(system.TransposedJacobian(x)));
+    if (svd.values.size() == 0) continue;
+    const Eigen::Index rank = std::max<Eigen::Index>(1, svd.Rank(1e-14));
+    largest =
+        std::max(largest, std::numeric_limits<double>::epsilon() * svd.values[0] * x.norm() / svd.values[rank - 1]);
+  }
+  return largest;
+}
+
+}  // namespace contact_path

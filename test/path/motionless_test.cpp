@@ -1,0 +1,160 @@
+// Reactions that have to change while nothing moves: exact answers, by both methods.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "contact_path/verify/verify_path.h"
+#include "support/traced_path.h"
+#include "support/transformations.h"
+
+namespace contact_path {
+namespace {
+
+constexpr ObstacleShape kHalfPlane = ObstacleShape::kHalfPlane;
+constexpr double kRounding = 1e-12;
+
+Scene Block(double side, double friction_of_floor) {
+  Scene scene;
+  scene.name = "block";
+  scene.nodes = {{"b", 0.0, 0.0, false, false}};
+  scene.superelements = {{{"b"}, {1.0, 0.0, 0.0, 1.0}}};
+  scene.obstacles = {{"floor", kHalfPlane, 0.0, 0.0, 0.0, 1.0, friction_of_floor}};
+  scene.contacts = {{"b", "floor"}};
+  scene.loads = {{"b", side, -1.0, true}};
+  return scene;
+}
+
+class EachMethod : public testing::TestWithParam<Method> {
+ protected:
+  // Complete and proved.
+  TracedPath Trace(TraceRequest request) {
+    request.options.method = GetParam();
+    TracedPath path = TraceRows(request);
+    EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+    for (const Finding& finding : VerifyPath(request, path.rows).findings)
+      ADD_FAILURE() << "row " << finding.row << ": " << finding.what;
+    for (const Increment& row : path.rows) EXPECT_LE(row.residuals.Largest(), 1e-9) << "row " << row.index;
+    return path;
+  }
+  // What mpec cuts off at corners.
+  double Tolerance() const { return GetParam() == Method::kBranch ? kRounding : 1e-3; }
+};
+INSTANTIATE_TEST_SUITE_P(Motionless, EachMethod, testing::Values(Method::kBranch, Method::kMpec),
+                         [](const auto& method) { return std::string(ToString(method.param)); });
+
+TraceRequest BeltAgainstStop(double clearance) {
+  TraceRequest request;
+  request.scene = Block(0.0, 0.3);
+  request.scene.obstacles.push_back({"stop", kHalfPlane, clearance, 0.0, -1.0, 0.0, 0.0});
+  request.scene.contacts.push_back({"b", "stop"});
+  request.program = {{"forth", {}, {}, {{"floor", 1.0, 0.0}}, 0.5}};
+  return request;
+}
+
+// The belt pulls with the spring's force x; then the stop holds the block, and all at once the belt slips.
+TEST_P(EachMethod, ABlockOnABeltMeetsAStop) {
+  for (const double clearance : {0.0, 0.1, 0.2}) {
+    const TracedPath path = Trace(BeltAgainstStop(clearance));
+    const Increment& end = path.rows.back();
+    EXPECT_NEAR(PositionX(path, end, "b"), clearance, kRounding);
+    EXPECT_NEAR(Contact(path, end, "b@floor").rt, 0.3, kRounding);
+    EXPECT_NEAR(Contact(path, end, "b@stop").rn, 0.3 - clearance, kRounding);
+    EXPECT_EQ(Contact(path, end, "b@floor").state, ContactState::kSlipMinus);
+    EXPECT_NEAR(end.dissipation, 0.3 * (0.5 - clearance), Tolerance());
+    EXPECT_NEAR(end.strain_energy, 0.5 * clearance * clearance, kRounding);
+  }
+}
+
+// The change is a row of its own: same place, same load factor, other reactions.
+TEST(Motionless, TheChangeIsARow) {
+  const TraceRequest request = BeltAgainstStop(0.1);
+  TracedPath path = TraceRows(request);
+  std::size_t changes = 0;
+  for (std::size_t i = 1; i < path.rows.size(); ++i) {
+    const Increment &before = path.rows[i - 1], &row = path.rows[i];
+    if (row.arc_length > before.arc_length) continue;
+    ++changes;
+    EXPECT_EQ(row.positions, before.positions);
+    EXPECT_EQ(row.load_factor, before.load_factor);
+    EXPECT_EQ(row.dissipation, before.dissipation);
+    EXPECT_EQ(row.kind, RowKind::kRegular);
+    EXPECT_EQ(before.kind, RowKind::kContactEvent);
+    EXPECT_NEAR(Contact(path, before, "b@stop").rn, 0.0, kRounding);
+    EXPECT_NEAR(Contact(path, row, "b@stop").rn, 0.2, kRounding);
+  }
+  EXPECT_EQ(changes, 1u);
+  // Anywhere else it is not proved.
+  std::vector<Increment> rows = path.rows;
+  rows[2].positions = rows[1].positions;
+  rows[2].load_factor = rows[1].load_factor;
+  rows[2].arc_length = rows[1].arc_length;
+  EXPECT_FALSE(VerifyPath(request, rows).findings.empty());
+}
+
+// A lift takes the node off the table; a side load rests on friction before and after.
+TEST_P(EachMethod, ALiftTakesANodeOffATable) {
+  TraceRequest request;
+  request.scene = Block(0.1, 0.3);
+  request.scene.obstacles.push_back({"lift", kHalfPlane, 0.0, -0.05, 0.0, 1.0, 0.3});
+  request.scene.contacts.push_back({"b", "lift"});
+  request.program = {{"up", {}, {}, {{"lift", 0.0, 1.0}}, 0.15}};
+  const TracedPath path = Trace(request);
+  const Increment& end = path.rows.back();
+  EXPECT_NEAR(PositionX(path, end, "b"), 0.0, kRounding);
+  EXPECT_NEAR(PositionY(path, end, "b"), 0.1, kRounding);
+  EXPECT_NEAR(Contact(path, end, "b@lift").rn, 1.1, kRounding);
+  EXPECT_NEAR(Contact(path, end, "b@lift").rt, -0.1, kRounding);
+  EXPECT_EQ(Contact(path, end, "b@floor").state, ContactState::kOpen);
+  EXPECT_NEAR(end.dissipation, 0.0, kRounding);
+}
+
+TraceRequest TableAbove(double friction_of_low) {
+  TraceRequest request;
+  request.scene = Block(0.2, 0.3);
+  request.scene.obstacles.push_back({"low", kHalfPlane, 0.0, -0.1, 0.0, 1.0, friction_of_low});
+  request.scene.contacts.push_back({"b", "low"});
+  request.program = {{"down", {}, {}, {{"floor", 0.0, -1.0}}, 0.25}};
+  return request;
+}
+
+// A table goes down and hands a node over to a lower one that can hold its side load.
+TEST_P(EachMethod, ATableHandsANodeOver) {
+  const TracedPath path = Trace(TableAbove(0.6));
+  const Increment& end = path.rows.back();
+  EXPECT_NEAR(PositionX(path, end, "b"), 0.0, kRounding);
+  EXPECT_NEAR(PositionY(path, end, "b"), -0.1, kRounding);
+  EXPECT_NEAR(Contact(path, end, "b@low").rn, 0.9, kRounding);
+  EXPECT_NEAR(Contact(path, end, "b@low").rt, -0.2, kRounding);
+  EXPECT_EQ(Contact(path, end, "b@floor").state, ContactState::kOpen);
+}
+
+// The lower one cannot: while the tables are level, the node slides as far as the spring takes its share. Friction of
+// both, 0.3 r + 0.1 (0.9 - r) = 0.2 - x, with all of the weight on the upper one at first and none in the end.
+TEST(Motionless, ATableHandsANodeOverThatSlides) {
+  const TraceRequest request = TableAbove(0.1);
+  const TracedPath path = TraceRows(request);
+  EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+  EXPECT_TRUE(VerifyPath(request, path.rows).findings.empty());
+  const Increment& end = path.rows.back();
+  EXPECT_NEAR(PositionX(path, end, "b"), 0.11, kRounding);
+  EXPECT_NEAR(PositionY(path, end, "b"), -0.1, kRounding);
+  EXPECT_NEAR(Contact(path, end, "b@low").rt, -0.09, kRounding);
+  EXPECT_NEAR(end.dissipation, 0.2 * 0.11 - 0.5 * 0.11 * 0.11, kRounding);
+  for (const Increment& row : path.rows)
+    if (PositionX(path, row, "b") > 0.0 && PositionX(path, row, "b") < 0.11) {
+      EXPECT_NEAR(row.load_factor, 0.1, kRounding);
+    }
+}
+
+TEST(Motionless, IsTheSameInOtherWords) {
+  const TraceRequest request = BeltAgainstStop(0.1);
+  const TracedPath path = TraceRows(request);
+  ExpectSamePath(UndoRotation(TraceRows(Rotate(request, 0.7)), 0.7), path, 1e-9);
+  ExpectSamePath(UndoMirror(TraceRows(Mirror(request))), path, 1e-9);
+  ExpectSamePath(UndoReversal(TraceRows(Reverse(request))), path, 1e-9);
+  ExpectSamePath(UndoUnits(TraceRows(ChangeUnits(request, 1e-3, 1e6)), 1e-3, 1e6), path, 1e-9);
+}
+
+}  // namespace
+}  // namespace contact_path
