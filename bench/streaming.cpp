@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -22,7 +23,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kRepetitions = 9;
+constexpr int kRepetitions = 7;
 
 double Seconds(Clock::time_point since) { return std::chrono::duration<double>(Clock::now() - since).count(); }
 
@@ -50,7 +51,7 @@ double ServiceTime(ros::ServiceClient* client, const TraceRequest& request, cons
   return seconds;
 }
 
-void Measure(const std::string& file) {
+void Measure(const std::string& file, std::ostream* table) {
   ros::NodeHandle node("~");
   NodeParameters parameters;
   parameters.bag_directory =
@@ -65,7 +66,7 @@ void Measure(const std::string& file) {
   client.waitForExistence();
 
   TraceRequest request = ReadTraceRequestFile(file);
-  std::puts("full_state_every,ratio,bag_bytes");
+  *table << "full_state_every,ratio,bag_bytes\n";
   for (const int every : {1, 10}) {
     request.options.full_state_every = every;
     std::vector<double> ratios;
@@ -75,7 +76,7 @@ void Measure(const std::string& file) {
       ratios.push_back(ServiceTime(&client, request, parameters.bag_directory, &bytes) / core);
     }
     std::sort(ratios.begin(), ratios.end());
-    std::printf("%d,%.6g,%.0f\n", every, ratios[kRepetitions / 2], bytes);
+    *table << every << ',' << ratios[kRepetitions / 2] << ',' << bytes << '\n';
   }
   std::filesystem::remove_all(parameters.bag_directory);
   if (received == 0) throw std::runtime_error("the subscriber got nothing");
@@ -86,12 +87,13 @@ void Measure(const std::string& file) {
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "contact_path_streaming", ros::init_options::AnonymousName);
-  if (argc != 2) {
-    std::fputs("usage: contact_path_streaming SCENE\n", stderr);
+  if (argc != 3) {
+    std::fputs("usage: contact_path_streaming SCENE TABLE\n", stderr);
     return 2;
   }
   try {
-    contact_path::Measure(argv[1]);
+    std::ofstream table(argv[2]);  // the log of the node goes to standard output
+    contact_path::Measure(argv[1], &table);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "contact_path_streaming: %s\n", error.what());
     return 1;

@@ -158,9 +158,9 @@ void SetReactions(const Touching& node, const Weights& weights, PathPoint* point
 }  // namespace
 
 MotionlessReactions FindMotionlessReactions(const std::vector<ContactGeometry>& contacts, const PathPoint& point,
-                                            double tolerance) {
+                                            const AtLimit& limit) {
   MotionlessReactions result;
-  for (const Touching& node : TouchingByNode(contacts, point, tolerance)) {
+  for (const Touching& node : TouchingByNode(contacts, point, limit.gap)) {
     if (node.contacts.size() < 2) {
       // The cone of one contact gives each force in one way only, where both components of its node are free.
       const ContactGeometry& contact = contacts[node.contacts.front()];
@@ -172,8 +172,8 @@ MotionlessReactions FindMotionlessReactions(const std::vector<ContactGeometry>& 
       result.complete = false;
       continue;
     }
-    const std::vector<Weights> vertices = Vertices(node.edges, TotalForce(node, contacts, point), tolerance);
-    const std::vector<Weights> others = OtherFaces(node, vertices, PresentWeights(node, point, tolerance));
+    const std::vector<Weights> vertices = Vertices(node.edges, TotalForce(node, contacts, point), limit.force);
+    const std::vector<Weights> others = OtherFaces(node, vertices, PresentWeights(node, point, limit.force));
     // Beside what the nodes before can have.
     const std::size_t so_far = result.points.size();
     for (std::size_t k = 0; k <= so_far; ++k) {

@@ -14,7 +14,7 @@ constexpr double kStagnation = 1e-10;     // relative: below this a step that no
 constexpr double kRounding = 1e-13;       // the same with factors of another point, which may be slow, too
 constexpr double kReuse = 1e-5;           // relative: below this step the factorisation is good enough to finish with
 constexpr double kSlow = 0.1;             // ratio of two steps beyond which that of another point is not
-constexpr double kResidualTolerance = 1e-11;  // scaled
+constexpr double kResidualTolerance = 1e-11;  // scaled, relative to 1 + the largest of load factor and reactions
 
 // The six quintic Hermite basis polynomials: value, first, second at the start, then at the end.
 std::array<Quintic, 6> HermiteBasis(double length) {
@@ -91,7 +91,8 @@ Correction SmoothPiece::Newton(const Eigen::VectorXd& guess, const Eigen::Vector
     const bool stagnates = norm >= 0.5 * previous && norm <= (at_hand ? kRounding : kStagnation) * scale;
     if (norm <= kStepTolerance * scale || stagnates) {
       system_.Residual(result.x, &residual_);
-      result.converged = residual_.lpNorm<Eigen::Infinity>() <= kResidualTolerance &&
+      const double force = 1.0 + result.x.tail(result.x.size() - system_.NumDofs()).lpNorm<Eigen::Infinity>();
+      result.converged = residual_.lpNorm<Eigen::Infinity>() <= kResidualTolerance * force &&
                          std::abs(row.dot(result.x) - value) <= kResidualTolerance * scale;
       ++result.iterations;
       return result;

@@ -39,11 +39,11 @@ using States = std::vector<ContactState>;
 
 // The states that a contact can take on from `point`: one if it is not concerned. The natural one, as it was, comes
 // first.
-States Options(const ContactGeometry& contact, const PathPoint& point, std::size_t i, double tolerance) {
+States Options(const ContactGeometry& contact, const PathPoint& point, std::size_t i, const AtLimit& limit) {
   const auto k = static_cast<Eigen::Index>(i);
   const double gap = contact.gap.Value(point.u, point.s), rn = point.rn[k], rt = point.rt[k];
-  if (gap > tolerance) return {ContactState::kOpen};
-  const bool loaded = rn > tolerance;
+  if (gap > limit.gap) return {ContactState::kOpen};
+  const bool loaded = rn > limit.force;
   States options;
   if (!contact.Frictional()) {
     options = {ContactState::kClosed};
@@ -51,8 +51,8 @@ States Options(const ContactGeometry& contact, const PathPoint& point, std::size
     options = {ContactState::kStick, ContactState::kSlipPlus, ContactState::kSlipMinus};
   } else {
     options = {ContactState::kStick};
-    if (contact.friction * rn + rt <= tolerance) options.push_back(ContactState::kSlipPlus);
-    if (contact.friction * rn - rt <= tolerance) options.push_back(ContactState::kSlipMinus);
+    if (contact.friction * rn + rt <= limit.force) options.push_back(ContactState::kSlipPlus);
+    if (contact.friction * rn - rt <= limit.force) options.push_back(ContactState::kSlipMinus);
   }
   if (!loaded) options.push_back(ContactState::kOpen);
   const auto natural = std::find(options.begin(), options.end(), point.states[i]);
@@ -73,11 +73,11 @@ Eigen::MatrixXd Split(const Eigen::MatrixXd& basis, Eigen::Index from, Eigen::In
 class Finder {
  public:
   Finder(const Structure& structure, const std::vector<ContactGeometry>& contacts, const PathPoint& point,
-         const Arrival& arrival, double tolerance, const std::function<bool()>& cancelled)
+         const Arrival& arrival, const AtLimit& limit, const std::function<bool()>& cancelled)
       : contacts_(contacts),
         point_(point),
         arrival_(arrival),
-        tolerance_(tolerance),
+        at_limit_(limit),
         cancelled_(cancelled),
         system_(structure, contacts),
         reference_(TangentialPositions(contacts, point)) {}
@@ -112,8 +112,8 @@ class Finder {
     const std::optional<CondensedRates> rates = condensed.Rates(states);
     if (!rates) return false;
     if (arrival_.is_start && std::abs(rates->load) <= kStartRate) return true;
-    return condensed.Broken(states, *rates, 1.0, tolerance_, kExcluded, nullptr) &&
-           condensed.Broken(states, *rates, -1.0, tolerance_, kExcluded, nullptr);
+    return condensed.Broken(states, *rates, 1.0, at_limit_.force, kExcluded, nullptr) &&
+           condensed.Broken(states, *rates, -1.0, at_limit_.force, kExcluded, nullptr);
   }
 
   int rigid_modes() const { return rigid_modes_; }
@@ -129,6 +129,12 @@ class Finder {
   static constexpr int kSinglePivots = 200;
 
   Eigen::Index NumMotion() const { return system_.NumDofs() + 1; }
+
+  // Whether its rate counts. The slip rate always does.
+  bool IsAtLimit(const Limit& limit, const Eigen::VectorXd& x) const {
+    if (limit.inequality == Inequality::kSlip) return true;
+    return system_.Value(limit, x) <= (limit.inequality == Inequality::kGap ? at_limit_.gap : at_limit_.force);
+  }
 
   // The state that a contact takes on where the rate of `limit` is negative.
   static ContactState Next(const Limit& limit, const ContactGeometry& contact) {
@@ -151,7 +157,7 @@ class Finder {
       const Eigen::VectorXd first = (along < 0.0 ? -sign : sign) * *tangent;
       bool changed = false;
       for (const Limit& limit : system_.Inequalities()) {
-        if (limit.inequality != Inequality::kSlip && system_.Value(limit, x) > tolerance_) continue;
+        if (!IsAtLimit(limit, x)) continue;
         if (system_.Rate(limit, first) >= -kRateTolerance) continue;
         ContactState& state = states[static_cast<std::size_t>(limit.contact)];
         state = Next(limit, contacts_[static_cast<std::size_t>(limit.contact)]);
@@ -169,7 +175,7 @@ class Finder {
       const std::optional<CondensedRates> rates = condensed.UniqueRates(states);
       if (!rates) return std::nullopt;
       broken.clear();
-      condensed.Broken(states, *rates, rates->along < 0.0 ? -sign : sign, tolerance_, kRateTolerance, &broken);
+      condensed.Broken(states, *rates, rates->along < 0.0 ? -sign : sign, at_limit_.force, kRateTolerance, &broken);
       if (broken.empty()) return states;
       if (round >= kBlockPivots) broken.resize(1);
       for (const Limit& limit : broken) {
@@ -280,7 +286,7 @@ class Finder {
     if (!arrival_.is_start && IsWayBack(first)) return false;
     for (const Limit& limit : system_.Inequalities()) {
       double rate = system_.Rate(limit, first), curvature = system_.Rate(limit, second);
-      if (limit.inequality != Inequality::kSlip && system_.Value(limit, x) > tolerance_) continue;
+      if (!IsAtLimit(limit, x)) continue;
       // A graze, located to the root of rounding only: the value is past its minimum before it counts as negative.
       const bool grazes = limit.inequality != Inequality::kSlip && rate < 0.0 && curvature > kCurvatureTolerance &&
                           rate * rate <= 2.0 * curvature * kGraze;
@@ -334,7 +340,7 @@ class Finder {
   const std::vector<ContactGeometry>& contacts_;
   const PathPoint& point_;
   const Arrival& arrival_;
-  double tolerance_;
+  AtLimit at_limit_;
   const std::function<bool()>& cancelled_;
   bool was_cancelled_ = false;
   FixedStateSystem system_;
@@ -430,7 +436,7 @@ void TryLikely(const std::vector<States>& options, const PathPoint& point, const
 
 // With the reactions of the point. In no order, and twins are not told.
 WaysOn WaysWithReactions(const Structure& structure, const std::vector<ContactGeometry>& contacts,
-                         const PathPoint& point, const Arrival& arrival, double tolerance, IncrementSolver* mpec,
+                         const PathPoint& point, const Arrival& arrival, const AtLimit& limit, IncrementSolver* mpec,
                          const std::function<bool()>& cancelled) {
   WaysOn result;
   std::vector<States> options;
@@ -438,13 +444,13 @@ WaysOn WaysWithReactions(const Structure& structure, const std::vector<ContactGe
   std::vector<int> concerned;
   double combinations = 1.0;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    options.push_back(Options(contacts[i], point, i, tolerance));
+    options.push_back(Options(contacts[i], point, i, limit));
     natural.push_back(options[i].front());
     combinations *= static_cast<double>(options[i].size());
     if (options[i].size() > 1) concerned.push_back(static_cast<int>(i));
   }
   result.concerned = static_cast<int>(concerned.size());
-  Finder finder(structure, contacts, point, arrival, tolerance, cancelled);
+  Finder finder(structure, contacts, point, arrival, limit, cancelled);
   // Where another path crosses, rates are not unique, and every combination is looked at as a whole.
   std::optional<RateProblem> problem;
   const double entries = static_cast<double>(point.u.size()) * static_cast<double>(2 * concerned.size() + 1);
@@ -488,15 +494,15 @@ void AddOthers(WaysOn&& others, const PathPoint& begin, WaysOn* result) {
 }  // namespace
 
 WaysOn FindWays(const Structure& structure, const std::vector<ContactGeometry>& contacts, const PathPoint& point,
-                const Arrival& arrival, double tolerance, IncrementSolver* mpec,
+                const Arrival& arrival, const AtLimit& limit, IncrementSolver* mpec,
                 const std::function<bool()>& cancelled) {
-  WaysOn result = WaysWithReactions(structure, contacts, point, arrival, tolerance, mpec, cancelled);
+  WaysOn result = WaysWithReactions(structure, contacts, point, arrival, limit, mpec, cancelled);
   if (!result.cancelled && std::none_of(result.ways.begin(), result.ways.end(), GoesOn)) {
-    const MotionlessReactions others = FindMotionlessReactions(contacts, point, tolerance);
+    const MotionlessReactions others = FindMotionlessReactions(contacts, point, limit);
     result.complete = result.complete && others.complete;
     for (const PathPoint& begin : others.points) {
       if (result.cancelled) break;
-      AddOthers(WaysWithReactions(structure, contacts, begin, arrival, tolerance, mpec, cancelled), begin, &result);
+      AddOthers(WaysWithReactions(structure, contacts, begin, arrival, limit, mpec, cancelled), begin, &result);
     }
   }
   FindTwins(&result.ways);

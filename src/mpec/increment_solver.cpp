@@ -110,6 +110,14 @@ IncrementTrial IncrementSolver::Keep(const std::vector<int>& working_set, Primal
 
 void IncrementSolver::MakeExact(const PathPoint& from, const IncrementProblem& problem, const IncrementGoal& goal,
                                 IncrementTrial* trial) {
+  // Redundant reactions, of which an interior point is as large as it may be, change as little as they can.
+  IncrementTrial least = *trial;
+  least.point.rn = from.rn;
+  least.point.rt = from.rt;
+  if (MakeExact(from, problem.Aim(), goal.length, &least)) {
+    *trial = std::move(least);
+    return;
+  }
   if (MakeExact(from, problem.Aim(), goal.length, trial)) return;
   // Next to a corner the nonlinear solver may stop where the aim is not reached: the equilibrium there is what it
   // found.

@@ -100,6 +100,11 @@ bool BranchMethod::Leave(const PathPoint& point, const Way& way) {
   return current_.second.allFinite();
 }
 
+void BranchMethod::NoteReactions(const PathPoint& point) {
+  if (point.rn.size() == 0) return;
+  largest_reaction_ = std::max({largest_reaction_, point.rn.maxCoeff(), point.rt.lpNorm<Eigen::Infinity>()});
+}
+
 Arrival BranchMethod::StartArrival() const {
   Arrival arrival;
   arrival.is_start = true;
@@ -111,7 +116,8 @@ Arrival BranchMethod::StartArrival() const {
 std::optional<EndReason> BranchMethod::PassEvent(const PathPoint& point, const Arrival& arrival,
                                                  const BranchChoice* choice, EventRecord* record,
                                                  std::string* message) {
-  const WaysOn on = FindWays(model_.structure, model_.contacts, point, arrival, kAtLimit, &mpec_, cancelled_);
+  const AtLimit limit = AtLimit::For(largest_reaction_, point.s);
+  const WaysOn on = FindWays(model_.structure, model_.contacts, point, arrival, limit, &mpec_, cancelled_);
   if (on.cancelled) {
     *message = "the caller asked for it";
     return EndReason::kCancelled;
@@ -225,10 +231,13 @@ std::vector<double> BranchMethod::CrossingPath(const Segment& segment) {
 }
 
 std::optional<EndReason> BranchMethod::Start(const PathPoint& from, EventRecord* ways, std::string* message) {
+  NoteReactions(from);
   return PassEvent(from, StartArrival(), ChoiceForRow(rows_), ways, message);
 }
 
 bool BranchMethod::Resume(const PathPoint& before, const PathPoint& from, const SolveRecord& record) {
+  NoteReactions(before);
+  NoteReactions(from);
   piece_.SetStates(from.states, from);
   Eigen::VectorXd towards(piece_.NumMotion());
   towards << from.u - before.u, from.s - before.s;
@@ -328,6 +337,7 @@ Advance BranchMethod::Next(const PathPoint& from) {
     advance.message = "the residuals of the next point are too large";
     return advance;
   }
+  NoteReactions(row.point);
   const bool moved = segment->length > 0.0;
   if (moved) {
     row.arc_length = segment->ArcLength();

@@ -1,5 +1,8 @@
 #include "contact_path/path/diagnosis.h"
 
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <locale>
@@ -33,6 +36,27 @@ std::string CollapsedBar(const Scene& scene, const std::vector<double>& position
     text = out.str();
   }
   return text;
+}
+
+std::string ContactTooSoft(const Model& model, const PathPoint& point, double least) {
+  Eigen::SparseMatrix<double> tangent = model.structure.TangentPattern();
+  model.structure.Tangent(point.u, &tangent);
+  const Eigen::VectorXd stiffness = tangent.diagonal().cwiseAbs();
+  for (std::size_t i = 0; i < model.contacts.size(); ++i) {
+    double largest = 0.0;
+    for (const SparseLinear& along : {model.contacts[i].gap, model.contacts[i].tangential})
+      for (const int dof : along.dofs)
+        if (dof >= 0) largest = std::max(largest, stiffness[dof]);
+    if (largest == 0.0 || !(largest < least)) continue;
+    std::ostringstream out;
+    out.imbue(std::locale::classic());
+    out.precision(2);
+    out << "the parts at node " << model.scene.contacts[i].node << " are " << 1.0 / largest
+        << " times softer than the characteristic stiffness: reactions of contact " << model.scene.contacts[i].node
+        << '@' << model.scene.contacts[i].obstacle << " cannot be told from rounding";
+    return out.str();
+  }
+  return {};
 }
 
 }  // namespace contact_path

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "contact_path/path/branch_method.h"
+#include "contact_path/path/diagnosis.h"
 #include "contact_path/path/model.h"
 #include "contact_path/path/mpec_method.h"
 #include "contact_path/path/path_method.h"
@@ -25,6 +26,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kStartTolerance = 1e-9;        // residuals of row 0, or of an exact row to go on from
 constexpr double kRegularised = 1e-5;           // residuals of a regularised row to go on from
+constexpr double kSoftest = 1e-8;               // scaled stiffness at a contact: below, reactions are lost in rounding
 constexpr int kMostPreloadIncrements = 100000;  // to bring the constant loads on; not counted with the others
 
 double Seconds(Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
@@ -152,6 +154,8 @@ class Tracer {
     const Residuals residuals = model.Check(point_, point_);
     if (!(residuals.Largest() <= kStartTolerance))
       return End(EndReason::kNumericalFailure, "the start is not an equilibrium");
+    if (const std::string soft = ContactTooSoft(model, point_, kSoftest); !soft.empty())
+      return End(EndReason::kNumericalFailure, soft);
     const std::unique_ptr<PathMethod> method = MakeMethod(model, TargetOf(model, stage), recorder_.rows());
     EventRecord ways;
     std::string message;

@@ -21,6 +21,7 @@ constexpr double kSlack = 1e-3;        // of what the energy balance may be off 
 constexpr double kChord = 1e-9;        // relative: arc length against chord
 constexpr double kEnergy = 1e-2;       // of the work done: energies are quadratures
 constexpr double kEnergyMpec = 3e-2;   // the same where increments may cut corners
+constexpr double kBend = 0.25;         // of a force along an arc of length 1: what a trapezoid cannot know
 constexpr double kAtTarget = 1e-9;     // relative, of the load factor
 constexpr double kTurn = 1e-9;         // of the load factor: a smaller change is none
 constexpr double kLongestArc = 1.05;   // of its chord: increments turn by less than 60 degrees
@@ -50,7 +51,7 @@ class Verifier {
       nodes_.emplace(scene_.nodes[i].name, i);
       farthest = std::max({farthest, std::abs(scene_.nodes[i].x), std::abs(scene_.nodes[i].y)});
     }
-    // What moves takes nodes along.
+    // What moves takes nodes along, and lengths of arc are of the load factor, too.
     double load = 0.0;
     for (std::size_t i = first_; i < last_; ++i)
       if (std::isfinite(rows_[i].load_factor)) load = std::max(load, std::abs(rows_[i].load_factor));
@@ -58,7 +59,8 @@ class Verifier {
     for (const ObstacleMotion& motion : scene_.obstacle_motions) farthest += load * std::hypot(motion.dx, motion.dy);
     for (const Obstacle& obstacle : scene_.obstacles)
       farthest = std::max({farthest, std::abs(obstacle.px), std::abs(obstacle.py)});
-    rounding_ = kRecorded + kRoundings * std::numeric_limits<double>::epsilon() * farthest / scaling_.length;
+    rounding_ = kRecorded + kRoundings * std::numeric_limits<double>::epsilon() *
+                                (farthest / scaling_.length + load / scaling_.load_factor);
     for (const ContactCandidate& contact : scene_.contacts) {
       const auto obstacle = std::find_if(scene_.obstacles.begin(), scene_.obstacles.end(),
                                          [&](const Obstacle& other) { return other.name == contact.obstacle; });
@@ -339,12 +341,14 @@ class Verifier {
       (load.constant ? work : along) += product;
     }
     work += 0.5 * (before.load_factor + row.load_factor) * along;
-    double open_work = 0.5 * std::abs((row.load_factor - before.load_factor) * along) / unit;
+    // Where a force has its largest value on the increment, both ends may be alike. It bends over the length L.
+    const double bend = kBend * std::pow(row.arc_length - before.arc_length, 2);
+    double open_work = (0.5 * std::abs((row.load_factor - before.load_factor) * along) + bend * std::abs(work)) / unit;
     if (!scene_.support_motions.empty() || !scene_.obstacle_motions.empty()) {
       const double from = check_.DrivingForce(StateOf(before)), to = check_.DrivingForce(StateOf(row));
       const double moved = row.load_factor - before.load_factor;
       work += 0.5 * (from + to) * moved;
-      open_work += 0.5 * std::abs((to - from) * moved) / unit;
+      open_work += (0.5 * std::abs(to - from) + bend * std::abs(from + to)) * std::abs(moved) / unit;
     }
     double dissipation = 0.0, open_dissipation = 0.0;
     for (std::size_t i = 0; i < surfaces_.size(); ++i) {
@@ -353,7 +357,8 @@ class Verifier {
       const Surface& surface = surfaces_[i];
       const double slip = std::abs(surface.Slip(before, row));
       dissipation += 0.5 * surface.friction * (before.contacts[i].rn + row.contacts[i].rn) * slip;
-      open_dissipation += 0.5 * surface.friction * std::abs(row.contacts[i].rn - before.contacts[i].rn) * slip / unit;
+      const double rn = before.contacts[i].rn, change = std::abs(row.contacts[i].rn - rn);
+      open_dissipation += surface.friction * (0.5 * change + bend * (rn + change)) * slip / unit;
     }
     if (row.solve.method == Method::kMpec) open_ += open_work + open_dissipation;
     if (!OnePiece(row)) return;  // trapezoids over several increments tell too little

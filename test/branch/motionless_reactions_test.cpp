@@ -16,8 +16,6 @@ namespace contact_path {
 namespace {
 
 constexpr ObstacleShape kHalfPlane = ObstacleShape::kHalfPlane;
-constexpr double kTolerance = 1e-10;
-
 // One node at the origin that touches these obstacles through it.
 struct Corner {
   explicit Corner(const std::vector<Obstacle>& obstacles, bool fixed_x = false)
@@ -48,7 +46,7 @@ struct Corner {
 
   // What is found; each must hold the same force within all cones.
   std::vector<PathPoint> Others() const {
-    const MotionlessReactions found = FindMotionlessReactions(model.contacts, point, kTolerance);
+    const MotionlessReactions found = FindMotionlessReactions(model.contacts, point, AtLimit());
     EXPECT_TRUE(found.complete);
     for (const PathPoint& other : found.points) {
       EXPECT_NEAR((Force(other) - Force(point)).norm(), 0.0, 1e-12);
@@ -153,7 +151,7 @@ TEST(MotionlessReactions, CombinationsOfTwoNodes) {
   PathPoint point = model.InitialPoint();
   point.rn = Eigen::Vector4d(1.0, 0.0, 2.0, 0.0);
   point.rt = Eigen::Vector4d::Zero();
-  const MotionlessReactions found = FindMotionlessReactions(model.contacts, point, kTolerance);
+  const MotionlessReactions found = FindMotionlessReactions(model.contacts, point, AtLimit());
   const auto holds = [&](double first, double second) {
     return std::any_of(found.points.begin(), found.points.end(), [&](const PathPoint& other) {
       return std::abs(other.rn[1] - first) + std::abs(other.rn[3] - second) < 1e-12;

@@ -38,7 +38,7 @@ struct Rest {
   }
 
   WaysOn Ways(const Arrival& arrival) {
-    return FindWays(model.structure, model.contacts, point, arrival, kAtLimit, &mpec);
+    return FindWays(model.structure, model.contacts, point, arrival, AtLimit(), &mpec);
   }
   WaysOn FromStart(double sign) {
     Arrival arrival;

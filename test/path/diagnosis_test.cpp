@@ -25,5 +25,23 @@ TEST(CollapsedBar, NamesTheOneThatHasShrunkMost) {
 
 TEST(CollapsedBar, SaysNothingOfLongOnes) { EXPECT_EQ(CollapsedBar(TwoBars(), {0.0, 0.0, 0.1, 0.0, 0.1, 0.1}), ""); }
 
+// A soft bar with a contact and a stiff one without: F = 1e4.
+TEST(ContactTooSoft, NamesTheContact) {
+  Scene scene = TwoBars();
+  scene.nodes[2].fixed_x = scene.nodes[2].fixed_y = true;
+  scene.bars[0].EA = 1e-4;
+  scene.bars[1] = {{"a", "c"}, 1e12};
+  scene.loads = {{"b", 1.0, 0.0}};
+  scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.5}};
+  scene.contacts = {{"b", "floor"}};
+  const Model model(scene, CharacteristicScales(scene));
+  const PathPoint point = model.InitialPoint();
+  EXPECT_EQ(
+      ContactTooSoft(model, point, 1e-7),
+      "the parts at node b are 9.4e+07 times softer than the characteristic stiffness: reactions of contact b@floor "
+      "cannot be told from rounding");
+  EXPECT_EQ(ContactTooSoft(model, point, 1e-9), "");
+}
+
 }  // namespace
 }  // namespace contact_path

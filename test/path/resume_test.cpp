@@ -33,7 +33,11 @@ void ExpectSamePath(const TracedPath& whole, const TracedPath& resumed, double t
     EXPECT_EQ(a.stage, b.stage) << where;
     EXPECT_EQ(a.kind, b.kind) << where << ", row " << i;
     EXPECT_EQ(a.event.number, b.event.number) << where << ", row " << i;
-    EXPECT_EQ(a.event.ways.size(), b.event.ways.size()) << where << ", row " << i;
+    EXPECT_EQ(a.event.taken, b.event.taken) << where << ", row " << i;
+    // Where the structure has come loose, and no way is taken, rounding names its motions.
+    if (a.event.taken >= 0) {
+      EXPECT_EQ(a.event.ways.size(), b.event.ways.size()) << where << ", row " << i;
+    }
     for (std::size_t k = 0; k < a.positions.size(); ++k)
       worst = std::max(worst, std::abs(a.positions[k] - b.positions[k]));
     for (std::size_t k = 0; k < a.contacts.size(); ++k) {

@@ -9,9 +9,6 @@
 
 namespace contact_path {
 
-// Scaled length or force within which an inequality is at its limit. Points are exact to about 1e-14.
-constexpr double kAtLimit = 1e-10;
-
 enum class Happening {
   kNone,         // the whole step is good
   kNearTouch,    // an inequality comes so near to zero inside that only a row there can tell

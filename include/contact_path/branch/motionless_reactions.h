@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "contact_path/branch/at_limit.h"
 #include "contact_path/contact/contact_geometry.h"
 #include "contact_path/contact/path_point.h"
 
@@ -21,7 +22,7 @@ struct MotionlessReactions {
 // of `point` are not in: the mean of its vertices; of several such nodes, all combinations. point: scaled, an
 // equilibrium; tolerance: scaled gap of what touches, and scaled force that counts as none.
 MotionlessReactions FindMotionlessReactions(const std::vector<ContactGeometry>& contacts, const PathPoint& point,
-                                            double tolerance);
+                                            const AtLimit& limit);
 
 }  // namespace contact_path
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "contact_path/branch/at_limit.h"
 #include "contact_path/contact/contact_geometry.h"
 #include "contact_path/contact/path_point.h"
 #include "contact_path/mpec/increment_solver.h"
@@ -45,8 +46,8 @@ struct WaysOn {
   int rigid_modes = 0;     // most motions found that change neither load nor reactions where nothing else moves
 };
 
-// All ways on from `point`, an equilibrium, without the way back. Concerned are the contacts with an inequality within
-// `tolerance` of zero, and all that slip. Of ways with the same direction one is kept:
+// All ways on from `point`, an equilibrium, without the way back. Concerned are the contacts with an inequality at its
+// limit, and all that slip. Of ways with the same direction one is kept:
 // that in which fewest contacts slip without moving.
 // Where all ways turn by 90 degrees or more, or there is none, reactions may have to change while nothing moves, as
 // where a block that is carried along meets a stop: then the ways with all other reactions that the point can have
@@ -56,7 +57,7 @@ struct WaysOn {
 // where the structure is small or nothing else was found. Each is certified like any other. cancelled: asked often, may
 // be empty.
 WaysOn FindWays(const Structure& structure, const std::vector<ContactGeometry>& contacts, const PathPoint& point,
-                const Arrival& arrival, double tolerance, IncrementSolver* mpec,
+                const Arrival& arrival, const AtLimit& limit, IncrementSolver* mpec,
                 const std::function<bool()>& cancelled = nullptr);
 
 }  // namespace contact_path

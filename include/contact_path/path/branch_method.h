@@ -57,6 +57,7 @@ class BranchMethod : public PathMethod {
                                      EventRecord* record, std::string* message);
   // A row in which nothing moves: the reactions with which the way on begins.
   Advance ChangeReactions(const PathPoint& from);
+  void NoteReactions(const PathPoint& point);
   const BranchChoice* ChoiceForEvent(int event) const;
   const BranchChoice* ChoiceForRow(int row) const;
   Work WorkOf(const Segment& segment) const;
@@ -72,12 +73,13 @@ class BranchMethod : public PathMethod {
   CurvePoint current_;
   std::optional<PathPoint> begin_;  // of the way on, where its reactions are not those of the event
   double step_;
-  int rows_;                  // given so far, row 0 not counted
-  int events_;                // passed so far, starts not counted
-  int events_in_place_ = 0;   // passed without moving
-  bool at_start_ = true;      // not moved yet
-  int iterations_ = 0;        // of the last step
-  double contraction_ = 0.0;  // of the last step
+  int rows_;                       // given so far, row 0 not counted
+  int events_;                     // passed so far, starts not counted
+  int events_in_place_ = 0;        // passed without moving
+  bool at_start_ = true;           // not moved yet
+  double largest_reaction_ = 0.0;  // of the points so far
+  int iterations_ = 0;             // of the last step
+  double contraction_ = 0.0;       // of the last step
 };
 
 }  // namespace contact_path
