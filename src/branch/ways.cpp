@@ -26,10 +26,11 @@ constexpr double kSingularRank = 1e-6;  // rank tolerance where another path cro
 constexpr Eigen::Index kMostDenseEquations = 500;  // for a dense singular value decomposition
 constexpr double kClearlyRegular = 1e-10;          // ratio of pivots: no null space but the tangent
 constexpr double kRigid = 1e-9;                    // singular value below which load and reactions do not change
-constexpr double kExcluded = 1e-6;              // of unit rates: broken by more, a combination is not looked at again
-constexpr double kFewCombinations = 8.0;        // not worth condensing the rate problem for
-constexpr double kMostCondensed = 5e7;          // numbers that may be held for that
-constexpr int kMostRestarts = 64;               // contacts, one after another in another state, to pivot from
+constexpr double kExcluded = 1e-6;        // of unit rates: broken by more, a combination is not looked at again
+constexpr double kFewCombinations = 8.0;  // not worth condensing the rate problem for
+constexpr double kMostCondensed = 5e7;    // numbers that may be held for that
+constexpr std::size_t kMostCondensedContacts = 200;  // of more, dense equations take longer than the sparse ones of all
+constexpr int kMostRestarts = 64;                    // contacts, one after another in another state, to pivot from
 constexpr Eigen::Index kMostDofsForMpec = 300;  // beyond, the increment problem is solved only if nothing else helps
 constexpr double kMostCombinations = 4096.0;    // 4^6
 constexpr double kMostIfNone = 65536.0;         // 4^8: tried before the path is said to end
@@ -454,7 +455,8 @@ WaysOn WaysWithReactions(const Structure& structure, const std::vector<ContactGe
   // Where another path crosses, rates are not unique, and every combination is looked at as a whole.
   std::optional<RateProblem> problem;
   const double entries = static_cast<double>(point.u.size()) * static_cast<double>(2 * concerned.size() + 1);
-  if (combinations > kFewCombinations && !arrival.singular && entries <= kMostCondensed)
+  if (combinations > kFewCombinations && concerned.size() <= kMostCondensedContacts && !arrival.singular &&
+      entries <= kMostCondensed)
     problem.emplace(structure, contacts, point, natural, concerned, arrival.direction);
   const RateProblem* condensed = problem && problem->regular() ? &*problem : nullptr;
   result.complete = combinations <= kMostCombinations;

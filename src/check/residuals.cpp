@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <map>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -139,7 +140,14 @@ struct ResidualCheck::Prepared {
           prepared.rest.insert(prepared.rest.end(), {initial[2 * node], initial[2 * node + 1]});
       parts.push_back(std::move(prepared));
     }
-    for (const Load& load : scene.loads) loads.push_back({index.at(load.node), load.fx, load.fy, load.constant});
+    // Summed by node, so that what cancels does so before the load factor makes it large.
+    std::map<std::pair<std::size_t, bool>, std::size_t> sums;
+    for (const Load& load : scene.loads) {
+      const auto [at, is_new] = sums.try_emplace({index.at(load.node), load.constant}, loads.size());
+      if (is_new) loads.push_back({index.at(load.node), 0.0L, 0.0L, load.constant});
+      loads[at->second].fx += load.fx;
+      loads[at->second].fy += load.fy;
+    }
     rates.resize(initial.size());
     for (const SupportMotion& motion : scene.support_motions) {
       rates[2 * index.at(motion.node)] = motion.dx;

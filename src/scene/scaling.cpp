@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <map>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -42,6 +44,23 @@ double GeometricMeanOfAxialStiffness(const Scene& scene) {
   logarithms.reserve(scene.bars.size());
   for (const Bar& bar : scene.bars) logarithms.push_back(std::log(bar.EA));
   return std::exp(OrderedSum(std::move(logarithms)) / static_cast<double>(scene.bars.size()));
+}
+
+// One constant load and one that the load factor scales for each node, in the order in which they come: what cancels is
+// to do so before anything is rounded.
+std::vector<Load> SumByNode(const std::vector<Load>& loads) {
+  std::map<std::pair<std::string, bool>, std::size_t> sums;
+  std::vector<Load> result;
+  for (const Load& load : loads) {
+    const auto [at, is_new] = sums.try_emplace({load.node, load.constant}, result.size());
+    if (is_new) {
+      result.push_back(load);
+      continue;
+    }
+    result[at->second].fx += load.fx;
+    result[at->second].fy += load.fy;
+  }
+  return result;
 }
 
 // Euclidean norm of the loads that the load factor scales, summed by node, over the free components [force].
@@ -125,6 +144,7 @@ Scene ScaleScene(const Scene& scene, const Scaling& scaling) {
     for (double& entry : element.stiffness) entry /= stiffness;
     for (double& position : element.rest_positions) position /= scaling.length;
   }
+  scaled.loads = SumByNode(scene.loads);
   for (Load& load : scaled.loads) {
     const double unit = load.constant ? scaling.force : reference_load;
     load.fx /= unit;

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "contact_path/scene/validate.h"
@@ -202,15 +203,32 @@ TEST_P(ScalingTest, NamesOrderAndSupportsAreKept) {
     EXPECT_EQ(scaled.bars[i].nodes, scene.bars[i].nodes);
     EXPECT_EQ(scaled.bars[i].strain, scene.bars[i].strain);
   }
-  ASSERT_EQ(scaled.loads.size(), scene.loads.size());
-  for (std::size_t i = 0; i < scene.loads.size(); ++i) {
-    EXPECT_EQ(scaled.loads[i].node, scene.loads[i].node);
-    EXPECT_EQ(scaled.loads[i].constant, scene.loads[i].constant);
+  // One of each kind for a node, in the order of the first ones.
+  std::vector<std::pair<std::string, bool>> kinds;
+  for (const Load& load : scene.loads)
+    if (std::find(kinds.begin(), kinds.end(), std::make_pair(load.node, load.constant)) == kinds.end())
+      kinds.emplace_back(load.node, load.constant);
+  ASSERT_EQ(scaled.loads.size(), kinds.size());
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    EXPECT_EQ(scaled.loads[i].node, kinds[i].first);
+    EXPECT_EQ(scaled.loads[i].constant, kinds[i].second);
   }
   ASSERT_EQ(scaled.contacts.size(), scene.contacts.size());
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
     EXPECT_EQ(scaled.contacts[i].Name(), scene.contacts[i].Name());
   }
+}
+
+TEST(ScaleSceneTest, LoadsOfANodeCancelBeforeTheyAreRounded) {
+  Scene scene;
+  scene.nodes = {{"p", 0.0, 0.0, false, false}};
+  scene.superelements = {{{"p"}, {3.0, 0.0, 0.0, 3.0}}};
+  scene.loads = {{"p", 1.0 + 1e-9, 0.0, false}, {"p", 0.0, 7.0, true}, {"p", -1.0, 0.0, false}};
+  const Scaling scaling = CharacteristicScales(scene);
+  const Scene scaled = ScaleScene(scene, scaling);
+  ASSERT_EQ(scaled.loads.size(), 2u);
+  EXPECT_DOUBLE_EQ(scaled.loads[0].fx * scaling.force / scaling.load_factor, (1.0 + 1e-9) - 1.0);
+  EXPECT_DOUBLE_EQ(scaled.loads[1].fy * scaling.force, 7.0);
 }
 
 // Three bars of length 3, 4 and 5 with EA 1, 4 and 16; a load of norm 5 after summing, one on a support, one constant.

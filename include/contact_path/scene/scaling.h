@@ -22,7 +22,7 @@ Scaling CharacteristicScales(const Scene& scene);
 double LoadFactorScale(const Scene& scene, double length, double force);
 
 // `scene` in scaled units: positions over L, forces over F, stiffnesses over F / L, reference loads and motions of norm
-// 1 together. Normals of unit length, rest lengths filled in. Names and order are kept.
+// 1 together, summed by node. Normals of unit length, rest lengths filled in. Names and order are kept.
 Scene ScaleScene(const Scene& scene, const Scaling& scaling);
 
 }  // namespace contact_path
