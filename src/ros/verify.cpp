@@ -84,7 +84,7 @@ int Run(const std::string& file) {
   std::size_t proved = 0;
   for (std::size_t i = 0; i < traces.size(); ++i) {
     if (traces.size() > 1) std::cout << (i > 0 ? "\n" : "") << "trace " << i + 1 << " of " << traces.size() << '\n';
-    proved += Verify(traces[i]) ? 1 : 0;
+    if (Verify(traces[i])) ++proved;
   }
   if (traces.size() > 1) std::cout << '\n' << proved << " of " << traces.size() << " traces proved\n";
   std::cout << std::flush;

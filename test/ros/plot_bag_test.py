@@ -5,6 +5,9 @@ CONTACT_PATH_TRACE, CONTACT_PATH_PLOT: the programs; CONTACT_PATH_SCENES: the di
 """
 import unittest
 
+import rosbag
+import rospy
+
 from plot_run import PlotTest
 
 
@@ -27,6 +30,20 @@ class PlotBagTest(PlotTest):
         texts = self.texts(first, other, self.trace('sliding_bar', 'again.bag'))
         for text in ('branch (first)', 'mpec', 'branch (again)'):
             self.assertIn(text, texts)
+
+    def test_last_of_several_traces_is_drawn(self):
+        first, second = self.trace('sliding_bar', 'first.bag'), self.trace('rough_truss', 'second.bag')
+        both, stamp = self.path('both.bag'), 1
+        with rosbag.Bag(both, 'w') as new:
+            for bag in (first, second):
+                with rosbag.Bag(bag) as old:
+                    for topic, message, _ in old.read_messages():
+                        new.write(topic, message, rospy.Time(stamp))
+                        stamp += 1
+        told = self.plot(both)
+        self.assertEqual(told.returncode, 0, told.stderr)
+        self.assertIn('holds 2 traces, the last one is taken', told.stderr)
+        self.assertIn('rough_truss', ' '.join(self.texts(both, '--shapes')))
 
     def test_rows_without_positions(self):
         scene = self.changed_scene('sliding_bar', 'options:', 'options:\n  full_state_every: 10')

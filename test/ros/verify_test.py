@@ -7,6 +7,7 @@ import os
 import unittest
 
 import rosbag
+import rospy
 
 from program_test import ProgramTest, run, scene_file
 
@@ -91,6 +92,42 @@ class VerifyTest(ProgramTest):
     def test_missing_result_is_found(self):
         self.assert_not_proved(self.rewrite(self.record(), lambda kind, message: None if kind == 'result' else message),
                                'truncated: no result')
+
+    def join(self, name, *parts):
+        """One bag of the messages of others, as `rosbag record` has them that was there for several traces: parts are
+        (bag, kinds of messages)."""
+        joined, stamp = self.path(name), 1
+        with rosbag.Bag(joined, 'w') as new:
+            for bag, kinds in parts:
+                with rosbag.Bag(bag) as old:
+                    for topic, message, _ in old.read_messages():
+                        if topic.rsplit('/', 1)[-1] in kinds:
+                            new.write(topic, message, rospy.Time(stamp))
+                            stamp += 1
+        return joined
+
+    def test_bag_of_several_traces_is_proved_one_by_one(self):
+        everything = ('request', 'increments', 'result')
+        bags = []
+        for scene in ('two_dof_friction', 'rigid_stop'):
+            os.rename(self.record(scene), self.path(scene + '.bag'))
+            bags.append(self.path(scene + '.bag'))
+        told = self.verify(self.join('both.bag', *[(bag, everything) for bag in bags]))
+        self.assertEqual(told.returncode, 0, told.stdout + told.stderr)
+        for line in ('trace 1 of 2', 'scene two_dof_friction', 'scene rigid_stop', '2 of 2 traces proved'):
+            self.assertIn(line, told.stdout)
+        told = self.verify(self.join('one.bag', (bags[0], ('request', 'increments')), (bags[1], everything)))
+        self.assertEqual(told.returncode, 1)
+        self.assertIn('1 of 2 traces proved', told.stdout)
+
+    def test_latched_request_of_the_trace_before_is_left_out(self):
+        bag = self.record('rigid_stop')
+        os.rename(bag, self.path('before.bag'))
+        told = self.verify(self.join('recorded.bag', (self.path('before.bag'), ('request',)),
+                                     (self.record('two_dof_friction'), ('request', 'increments', 'result'))))
+        self.assertEqual(told.returncode, 0, told.stdout + told.stderr)
+        self.assertIn('scene two_dof_friction', told.stdout)
+        self.assertNotIn('rigid_stop', told.stdout)
 
     def test_bag_that_was_cut_off_is_told(self):
         bag = self.record()
