@@ -4,8 +4,10 @@ add_library(contact_path_ros
   src/ros/bag_reader.cpp
   src/ros/bag_recorder.cpp
   src/ros/convert.cpp
+  src/ros/increment_publisher.cpp
   src/ros/limits.cpp
   src/ros/marker_publisher.cpp
+  src/ros/memory_share.cpp
   src/ros/resume.cpp
   src/ros/scene_markers.cpp
   src/ros/shutdown_signal.cpp
@@ -60,8 +62,10 @@ if(CATKIN_ENABLE_TESTING)
 
   catkin_add_gtest(contact_path_ros_test
     test/ros/bag_recorder_test.cpp
+    test/ros/bounded_stream_test.cpp
     test/ros/convert_test.cpp
     test/ros/limits_test.cpp
+    test/ros/memory_share_test.cpp
     test/ros/ros_test_main.cpp
     test/ros/scene_markers_test.cpp
   )

@@ -72,6 +72,7 @@ set(contact_path_extremes
 # path/path_method.h.
 contact_path_add_test(support/derivative_checker_test)
 contact_path_add_test(scene/lattice_test)
+contact_path_add_test(scene/one_line_test)
 contact_path_add_test(scene/read_scene_test)
 contact_path_add_test(scene/scaling_test)
 contact_path_add_test(scene/scene_test)
@@ -169,6 +170,13 @@ if(CONTACT_PATH_ROS)
   contact_path_add_python_test(docs_test test/docs/docs_test.py DEPENDS ${contact_path_all_programs}
     VARIABLES CONTACT_PATH_ROOT=${CMAKE_CURRENT_SOURCE_DIR} CONTACT_PATH_PROGRAMS=${contact_path_devel_programs}
       CONTACT_PATH_MODULES=${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_PYTHON_DESTINATION})
+  contact_path_add_python_test(service_stress_test test/stress/service_stress_test.py
+    DEPENDS ${contact_path_all_programs}
+    VARIABLES CONTACT_PATH_ROOT=${CMAKE_CURRENT_SOURCE_DIR} CONTACT_PATH_BUILD=${CMAKE_BINARY_DIR})
+  if(contact_path_test_with_catkin)
+    # It waits for nodes: nothing beside it.
+    set_property(TEST _ctest_${PROJECT_NAME}_python_service_stress_test PROPERTY RUN_SERIAL ON)
+  endif()
   contact_path_add_python_test(install_test test/install/install_test.py DEPENDS ${contact_path_all_programs}
     VARIABLES CONTACT_PATH_ROOT=${CMAKE_CURRENT_SOURCE_DIR} CONTACT_PATH_BUILD=${CMAKE_BINARY_DIR})
 endif()

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <vector>
 
 #include "contact_path/linear/minimum_norm.h"
@@ -82,8 +83,9 @@ struct BorderedSolver::Factors {
       klu_free_symbolic(&symbolic, &common);
       symbolic = klu_analyze(static_cast<int>(matrix.rows()), outer, inner, &common);
     }
-    if (symbolic == nullptr) return false;
-    numeric = klu_factor(outer, inner, matrix.valuePtr(), symbolic, &common);
+    if (symbolic != nullptr) numeric = klu_factor(outer, inner, matrix.valuePtr(), symbolic, &common);
+    // Not to be taken for a singular matrix.
+    if (common.status == KLU_OUT_OF_MEMORY || common.status == KLU_TOO_LARGE) throw std::bad_alloc();
     return numeric != nullptr && common.status == KLU_OK && Regular();
   }
 

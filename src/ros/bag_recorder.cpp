@@ -1,11 +1,16 @@
 #include "contact_path/ros/bag_recorder.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstddef>
+#include <cstdio>
+#include <exception>
+#include <limits>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -20,7 +25,9 @@ namespace contact_path {
 namespace {
 
 constexpr std::size_t kMaxNamePart = 64;
-constexpr std::uint32_t kChunkBytes = 16 * 1024;
+constexpr std::size_t kChunkBytes = 16 * 1024;
+constexpr std::chrono::milliseconds kChunkTime{100};
+constexpr std::uint32_t kNever = std::numeric_limits<std::uint32_t>::max();
 constexpr char kExtension[] = ".bag";
 
 bool IsDigit(char c) { return c >= '0' && c <= '9'; }
@@ -41,10 +48,32 @@ std::string FileName(std::uint32_t number, const std::string& part) {
   return std::string(digits.size() < 6 ? 6 - digits.size() : 0, '0') + digits + "_" + part + kExtension;
 }
 
-// Keeps a bag that cannot be closed: its destructor would try again, and end the program by throwing.
-void Abandon(std::unique_ptr<rosbag::Bag> bag) {
-  static auto* const abandoned = new std::vector<std::unique_ptr<rosbag::Bag>>;
-  abandoned->push_back(std::move(bag));
+// Has what is still to be written to `file` go nowhere, and cuts off what is there beyond `size`.
+void CutOff(const std::filesystem::path& file, std::uintmax_t size) {
+  struct stat wanted {};
+  if (::stat(file.c_str(), &wanted) != 0) return;
+  const int nowhere = ::open("/dev/null", O_RDWR | O_CLOEXEC);
+  if (nowhere < 0) return;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
+    const int descriptor = std::stoi(entry.path().filename().string());
+    struct stat status {};
+    if (::fstat(descriptor, &status) == 0 && status.st_dev == wanted.st_dev && status.st_ino == wanted.st_ino)
+      ::dup2(nowhere, descriptor);
+  }
+  ::close(nowhere);
+  if (size < static_cast<std::uintmax_t>(wanted.st_size)) std::filesystem::resize_file(file, size);
+}
+
+// Gives up a bag that cannot be written, whose first `size` bytes are whole chunks. Its destructor would try once more,
+// and end the program by throwing.
+void Abandon(const std::filesystem::path& file, std::uintmax_t size, std::unique_ptr<rosbag::Bag> bag) {
+  try {
+    CutOff(file, size);
+    bag->close();
+  } catch (const std::exception&) {
+    static auto* const abandoned = new std::vector<std::unique_ptr<rosbag::Bag>>;
+    abandoned->push_back(std::move(bag));
+  }
 }
 
 }  // namespace
@@ -96,9 +125,14 @@ void BagRecorder::WriteRequest(const contact_path_msgs::TraceRequest& request) {
 void BagRecorder::WriteIncrement(const contact_path_msgs::Increment& increment) {
   CheckSpace();
   Write(names::kIncrements, increment);
+  chunk_bytes_ += ros::serialization::serializationLength(increment);
+  if (increment.index == 0 || chunk_bytes_ >= kChunkBytes || Clock::now() - chunk_time_ > kChunkTime) EndChunk();
 }
 
-void BagRecorder::WriteResult(const contact_path_msgs::TraceResult& result) { Write(names::kResult, result); }
+void BagRecorder::WriteResult(const contact_path_msgs::TraceResult& result) {
+  EndChunk();
+  Write(names::kResult, result);
+}
 
 void BagRecorder::Close() {
   if (!bag_) return;
@@ -106,17 +140,33 @@ void BagRecorder::Close() {
   try {
     bag->close();
   } catch (const rosbag::BagException& error) {
-    Abandon(std::move(bag));
+    Abandon(directory_ / file_name_, whole_, std::move(bag));
     throw BagError("bag " + file_name_ + " cannot be closed, `rosbag reindex` restores what it holds: " + error.what());
   }
 }
 
+// `rosbag reindex` takes chunks that are followed by their index, and gives up a bag where the definition of a topic is
+// the last thing. So rosbag never ends a chunk by itself, the first one holds the request and the first row, and what
+// is still in the buffers of the C library is written.
+void BagRecorder::EndChunk() {
+  if (!bag_) return;
+  try {
+    bag_->setChunkThreshold(kNever);  // ends the chunk that is open, too
+  } catch (const rosbag::BagException& error) {
+    throw BagError("bag " + file_name_ + " cannot be written: " + error.what());
+  }
+  // rosbag keeps its stream to itself. Where this fails, so does what is written next.
+  if (std::fflush(nullptr) == 0) whole_ = std::filesystem::file_size(directory_ / file_name_);
+  chunk_time_ = Clock::now();
+  chunk_bytes_ = 0;
+}
+
 void BagRecorder::Open() {
   try {
-    bag_->setChunkThreshold(kChunkBytes);
+    bag_->setChunkThreshold(kNever);
     bag_->open((directory_ / file_name_).string(), rosbag::bagmode::Write);
   } catch (const rosbag::BagException& error) {
-    Abandon(std::move(bag_));
+    Abandon(directory_ / file_name_, whole_, std::move(bag_));
     throw BagError("bag " + (directory_ / file_name_).string() + " cannot be opened: " + error.what());
   }
 }

@@ -1,9 +1,12 @@
 // The ROS node: reads its parameters and serves until it is told to stop. See trace_service.h and trace_action.h.
+#include <csignal>
+#include <cstdlib>
 #include <exception>
 
 #include <ros/ros.h>
 
 #include "cli/one_thread.h"
+#include "contact_path/ros/memory_share.h"
 #include "contact_path/ros/names.h"
 #include "contact_path/ros/shutdown_signal.h"
 #include "contact_path/ros/trace_action.h"
@@ -21,6 +24,7 @@ constexpr double kTimeToSend = 0.1;  // [s]
 int main(int argc, char** argv) {
   contact_path::UseOneThread(argv);
   const contact_path::ShutdownSignal shutdown;
+  std::signal(SIGXFSZ, SIG_IGN);  // a bag beyond a limit on the size of files is an error of writing
   ros::init(argc, argv, contact_path::names::kNode, ros::init_options::NoSigintHandler);
   while (!ros::master::check()) {
     if (shutdown.WaitFor(0.5)) return 0;
@@ -28,6 +32,7 @@ int main(int argc, char** argv) {
   const ros::NodeHandle node("~");  // the log works as long as it lives
   try {
     const contact_path::NodeParameters parameters = contact_path::ReadParameters(node);
+    contact_path::LimitData(parameters.limits.max_memory);
     contact_path::TraceService service(node, parameters);
     contact_path::TraceAction action(node, parameters, &service);
     ros::AsyncSpinner spinner(kThreads);
@@ -35,6 +40,10 @@ int main(int argc, char** argv) {
     ROS_INFO("ready: %s, bags in %s", node.resolveName(contact_path::names::kTrace).c_str(),
              parameters.bag_directory.c_str());
     while (ros::ok() && !shutdown.WaitFor(0.05)) {
+      if (!service.IsStuck()) continue;
+      ROS_FATAL("a step of the trace goes on far beyond ~%s: the node ends; `rosbag reindex` saves the bag",
+                contact_path::names::kMaxSeconds);
+      std::_Exit(1);
     }
     service.Shutdown();
     spinner.stop();   // waits for the running trace to end, its bag to be closed and its caller to be answered

@@ -82,6 +82,7 @@ template <typename Value>
 Value Known(std::optional<Value> parsed, const std::string& key, const std::string& word, const std::string& rule,
             std::vector<Violation>* violations) {
   if (parsed) return *parsed;
+  if (violations->size() >= kMostViolations) return Value{};
   Violation violation;
   violation.key = key;
   violation.value = word;
@@ -447,6 +448,7 @@ std::uint8_t ToConstant(EndReason reason) { return ConstantOf(kEndReasons, reaso
 std::string EndReasonName(std::uint8_t end_reason) {
   if (end_reason == Response::END_NONE) return "";
   if (end_reason == Response::END_TIME_LIMIT) return "time_limit";
+  if (end_reason == Response::END_MEMORY_LIMIT) return "memory_limit";
   return std::string(ToString(ValueOf(kEndReasons, end_reason, "end_reason")));
 }
 

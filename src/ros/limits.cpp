@@ -30,6 +30,17 @@ std::size_t ProgramEntries(const std::vector<contact_path_msgs::Stage>& program)
   return entries;
 }
 
+// Every stage keeps the loads of those before it, and has all obstacles: what a picture of each stage takes.
+std::size_t LoadsOfAllStages(const contact_path_msgs::Scene& scene,
+                             const std::vector<contact_path_msgs::Stage>& program) {
+  std::size_t now = scene.loads.size(), all = 0;
+  for (const contact_path_msgs::Stage& stage : program) {
+    now += stage.loads.size();
+    all += now;
+  }
+  return all;
+}
+
 std::size_t RestEntries(const contact_path_msgs::Scene& scene) {
   std::size_t entries = 0;
   for (const contact_path_msgs::Superelement& superelement : scene.superelements)
@@ -54,6 +65,11 @@ void TraceLimits::Validate() const {
     throw std::invalid_argument("~" + std::string(names::kMaxSeconds) + " = " + std::to_string(max_seconds) +
                                 ": must be finite and >= 0");
   }
+  if (max_memory < 0) {
+    throw std::invalid_argument("~" + std::string(names::kMaxMemory) + " = " + std::to_string(max_memory) +
+                                ": must be >= 0");
+  }
+  CheckPositive(names::kKeepFree, keep_free);
 }
 
 std::string ExceededLimit(const contact_path_msgs::Scene& scene, const contact_path_msgs::TraceOptions& options,
@@ -73,6 +89,9 @@ std::string ExceededLimit(const contact_path_msgs::Scene& scene, const contact_p
       {"scene.support_motions", scene.support_motions.size(), names::kMaxElements, limits.max_elements},
       {"scene.obstacle_motions", scene.obstacle_motions.size(), names::kMaxContacts, limits.max_contacts},
       {"loads and motions of program", ProgramEntries(program), names::kMaxElements, limits.max_elements},
+      {"loads of all stages of program", LoadsOfAllStages(scene, program), names::kMaxElements, limits.max_elements},
+      {"obstacles of all stages of program", program.size() * scene.obstacles.size(), names::kMaxElements,
+       limits.max_elements},
       {"scene.loads", scene.loads.size(), names::kMaxElements, limits.max_elements},
       {"scene.obstacles", scene.obstacles.size(), names::kMaxContacts, limits.max_contacts},
       {"scene.contacts", scene.contacts.size(), names::kMaxContacts, limits.max_contacts},

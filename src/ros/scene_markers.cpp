@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "contact_path/path/stop.h"
+#include "contact_path/scene/one_line.h"
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/scaling.h"
 
@@ -215,7 +216,7 @@ void MarkerOptions::Validate() const {
 }
 
 SceneMarkers::SceneMarkers(const TraceRequest& request, const MarkerOptions& options)
-    : options_(options), name_(request.scene.name) {
+    : options_(options), name_(OneLine(request.scene.name)) {
   const Scene& scene = request.scene;
   std::unordered_map<std::string, std::size_t> nodes;
   for (const Node& node : scene.nodes) {
@@ -237,30 +238,42 @@ SceneMarkers::SceneMarkers(const TraceRequest& request, const MarkerOptions& opt
     contacts_.push_back({nodes.at(contact.node), obstacles.at(contact.obstacle)});
   }
 
-  has_program_ = !request.program.empty();
-  for (std::size_t i = 0; i < NumStages(request); ++i) {
-    const Scene stage = StageScene(request, i);
-    StageParts& parts = stages_.emplace_back();
-    if (has_program_) {
-      const std::string& name = request.program[i].name;
-      parts.title = name.empty() ? "stage " + std::to_string(i + 1) : name;
-    }
-    for (const Load& load : stage.loads) {
-      parts.loads.push_back({nodes.at(load.node), Vector2d(load.fx, load.fy), load.constant});
-    }
-    for (const Obstacle& obstacle : stage.obstacles) {
-      HalfPlane& half_plane = parts.obstacles.emplace_back();
-      half_plane.point = {obstacle.px, obstacle.py};
-      half_plane.normal = Vector2d(obstacle.nx, obstacle.ny).stableNormalized();
-      half_plane.friction = obstacle.friction;
-    }
-    for (const ObstacleMotion& motion : stage.obstacle_motions) {
+  // What a stage begins with: of the scene, and what the stages before have brought on.
+  StageParts now;
+  Places places = initial_;
+  const auto add_loads = [&](const std::vector<Load>& loads, StageParts* parts) {
+    for (const Load& load : loads)
+      parts->loads.push_back({nodes.at(load.node), Vector2d(load.fx, load.fy), load.constant});
+  };
+  const auto add_stage = [&](const std::vector<ObstacleMotion>& motions) -> StageParts& {
+    StageParts& parts = stages_.emplace_back(now);
+    for (const ObstacleMotion& motion : motions)
       parts.obstacles[obstacles.at(motion.obstacle)].motion += Vector2d(motion.dx, motion.dy);
-    }
-    if (!has_program_) continue;
+    return parts;
+  };
+  add_loads(scene.loads, &now);
+  for (const Obstacle& obstacle : scene.obstacles) {
+    HalfPlane& half_plane = now.obstacles.emplace_back();
+    half_plane.point = {obstacle.px, obstacle.py};
+    half_plane.normal = Vector2d(obstacle.nx, obstacle.ny).stableNormalized();
+    half_plane.friction = obstacle.friction;
+  }
+
+  has_program_ = !request.program.empty();
+  if (!has_program_) add_stage(scene.obstacle_motions);
+  for (const Stage& stage : request.program) {
+    StageParts& parts = add_stage(stage.obstacle_motions);
+    parts.title = stage.name.empty() ? "stage " + std::to_string(stages_.size()) : OneLine(stage.name);
+    add_loads(stage.loads, &parts);
+    const double target = stage.Target();
+    for (const Load& load : stage.loads)
+      now.loads.push_back({nodes.at(load.node), target * Vector2d(load.fx, load.fy), /*constant=*/true});
+    for (const ObstacleMotion& motion : stage.obstacle_motions)
+      now.obstacles[obstacles.at(motion.obstacle)].point += target * Vector2d(motion.dx, motion.dy);
     for (const SupportMotion& motion : stage.support_motions) {
-      const Node& node = stage.nodes[nodes.at(motion.node)];
-      box_.extend(Vector2d(node.x, node.y) + request.program[i].Target() * Vector2d(motion.dx, motion.dy));
+      Vector2d& place = places[nodes.at(motion.node)];
+      place += target * Vector2d(motion.dx, motion.dy);
+      box_.extend(place);
     }
   }
 
@@ -302,12 +315,13 @@ void SceneMarkers::FindSupports(const Scene& scene) {
 
 // By the places that nodes are to reach: where stop criteria lie, unless that is farther than `reach` from the start.
 void SceneMarkers::ExtendBox(const TraceRequest& request, double reach) {
-  for (const StopCriterion& stop : request.options.stop) {
-    const StopQuantity quantity(request.scene, stop.quantity);
+  const std::vector<StopQuantity> quantities = StopQuantity::Of(request);
+  for (std::size_t i = 0; i < quantities.size(); ++i) {
+    const StopQuantity& quantity = quantities[i];
     if (quantity.IsLoadFactor()) continue;
     const Vector2d& start = initial_[quantity.Component() / 2];
     Vector2d place = start;
-    place[static_cast<Eigen::Index>(quantity.Component() % 2)] = stop.value;
+    place[static_cast<Eigen::Index>(quantity.Component() % 2)] = request.options.stop[i].value;
     if ((place - start).norm() <= reach) box_.extend(place);
   }
 }

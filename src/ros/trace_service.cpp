@@ -3,17 +3,21 @@
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <new>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include <boost/make_shared.hpp>
 
 #include "contact_path/ros/convert.h"
+#include "contact_path/ros/memory_share.h"
 #include "contact_path/ros/names.h"
 #include "contact_path/ros/read_parameter.h"
 #include "contact_path/ros/resume.h"
 #include "contact_path/ros/stamp.h"
+#include "contact_path/scene/one_line.h"
 #include "contact_path/scene/validate.h"
 
 namespace contact_path {
@@ -22,6 +26,12 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kStatusPeriod{200};
+constexpr std::chrono::milliseconds kMemoryPeriod{10};
+constexpr std::size_t kMegabyte = std::size_t{1} << 20U;
+
+// A trace that is asked to end for its time has as much longer: a tenth of it, and so many seconds.
+constexpr double kMoreTime = 0.1;
+constexpr double kMoreSeconds = 10.0;
 
 // `path` with a leading ~ replaced by the home directory.
 std::string ExpandHome(const std::string& path) {
@@ -36,36 +46,48 @@ std::string InSeconds(double seconds) {
   return text.str();
 }
 
+std::string MemoryLimitText(const TraceLimits& limits) {
+  return "the node admits " + std::to_string(limits.max_memory) + " MB of memory (~" + names::kMaxMemory + ")";
+}
+
+double SecondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
 }  // namespace
 
 NodeParameters ReadParameters(const ros::NodeHandle& private_node) {
   NodeParameters parameters;
   ReadParameter(private_node, names::kBagDirectory, "a string", &parameters.bag_directory);
   ReadParameter(private_node, names::kIncrementsQueue, "an integer", &parameters.increments_queue);
+  ReadParameter(private_node, names::kIncrementsMegabytes, "an integer", &parameters.increments_megabytes);
   parameters.markers = ReadMarkerOptions(private_node);
   ReadParameter(private_node, names::kMaxNodes, "an integer", &parameters.limits.max_nodes);
   ReadParameter(private_node, names::kMaxElements, "an integer", &parameters.limits.max_elements);
   ReadParameter(private_node, names::kMaxContacts, "an integer", &parameters.limits.max_contacts);
   ReadParameter(private_node, names::kMaxIncrements, "an integer", &parameters.limits.max_increments);
   ReadParameter(private_node, names::kMaxSeconds, "a number", &parameters.limits.max_seconds);
+  ReadParameter(private_node, names::kMaxMemory, "an integer", &parameters.limits.max_memory);
+  ReadParameter(private_node, names::kKeepFree, "an integer", &parameters.limits.keep_free);
 
   if (parameters.bag_directory.empty()) {
     throw std::invalid_argument("~" + std::string(names::kBagDirectory) + " = \"\": must not be empty");
   }
   parameters.bag_directory = std::filesystem::absolute(ExpandHome(parameters.bag_directory)).string();
-  if (parameters.increments_queue <= 0) {
-    throw std::invalid_argument("~" + std::string(names::kIncrementsQueue) + " = " +
-                                std::to_string(parameters.increments_queue) + ": must be > 0");
+  for (const auto& [name, value] : {std::pair(names::kIncrementsQueue, parameters.increments_queue),
+                                    std::pair(names::kIncrementsMegabytes, parameters.increments_megabytes)}) {
+    if (value <= 0)
+      throw std::invalid_argument("~" + std::string(name) + " = " + std::to_string(value) + ": must be > 0");
   }
   parameters.limits.Validate();
   return parameters;
 }
 
 TraceService::TraceService(ros::NodeHandle private_node, const NodeParameters& parameters)
-    : parameters_(parameters), topic_prefix_(private_node.getNamespace()), markers_(private_node, parameters.markers) {
+    : parameters_(parameters),
+      topic_prefix_(private_node.getNamespace()),
+      increments_publisher_(private_node, static_cast<std::uint32_t>(parameters.increments_queue),
+                            static_cast<std::size_t>(parameters.increments_megabytes) * kMegabyte),
+      markers_(private_node, parameters.markers) {
   request_publisher_ = private_node.advertise<contact_path_msgs::TraceRequest>(names::kRequest, 1, /*latch=*/true);
-  increments_publisher_ = private_node.advertise<contact_path_msgs::Increment>(
-      names::kIncrements, static_cast<std::uint32_t>(parameters_.increments_queue));
   status_publisher_ = private_node.advertise<contact_path_msgs::TraceStatus>(names::kStatus, 10, /*latch=*/true);
   PublishStatus();
   trace_server_ = private_node.advertiseService(names::kTrace, &TraceService::HandleTrace, this);
@@ -76,6 +98,12 @@ void TraceService::Shutdown() {
   const std::lock_guard<std::mutex> lock(mutex_);
   shutting_down_ = true;
   RequestStop(StopCause::kShutdown);
+}
+
+bool TraceService::IsStuck() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const double limit = parameters_.limits.max_seconds;
+  return running_ && limit > 0.0 && SecondsSince(running_since_) > (1.0 + kMoreTime) * limit + kMoreSeconds;
 }
 
 bool TraceService::Admit(const std::string& scene_name, Response* response) {
@@ -91,7 +119,8 @@ bool TraceService::Admit(const std::string& scene_name, Response* response) {
     return false;
   }
   running_ = true;
-  running_scene_ = scene_name;
+  running_since_ = Clock::now();
+  running_scene_ = OneLine(scene_name);
   stop_cause_ = StopCause::kNone;
   return true;
 }
@@ -100,14 +129,18 @@ void TraceService::Run(const contact_path_msgs::TraceRequest& request, const Tra
                        Response* response) {
   try {
     Serve(request, observer, response);
+  } catch (const std::bad_alloc&) {
+    response->status = Response::LIMIT_EXCEEDED;
+    response->message = MemoryLimitText(parameters_.limits);
   } catch (const std::exception& error) {
     response->status = Response::FAILED;
     response->message = error.what();
   }
   if (response->status != Response::OK) {
-    ROS_WARN("trace of \"%s\": %s", NameOf(request).c_str(), response->message.c_str());
+    ROS_WARN("trace of \"%s\": %s", OneLine(NameOf(request)).c_str(), response->message.c_str());
   } else {
-    ROS_INFO("trace of \"%s\" to %s: %s", NameOf(request).c_str(), response->bag.c_str(), response->message.c_str());
+    ROS_INFO("trace of \"%s\" to %s: %s", OneLine(NameOf(request)).c_str(), response->bag.c_str(),
+             response->message.c_str());
   }
 
   // Whoever sees the status or the answer finds the node ready for the next request.
@@ -131,16 +164,17 @@ bool TraceService::HandleCancel(std_srvs::Trigger::Request& /*request*/, std_srv
 
 void TraceService::Serve(const contact_path_msgs::TraceRequest& asked, const TraceObserver& observer,
                          Response* response) {
-  contact_path_msgs::TraceRequest request = asked;
+  std::optional<contact_path_msgs::TraceRequest> resumed;
   std::optional<std::vector<Increment>> rows;  // of the trace to go on with
   TraceRequest core_request;
   try {
     if (!asked.resume.empty()) {
       TraceSoFar so_far = ReadTraceSoFar(parameters_.bag_directory, asked);
-      request = ToMessage(so_far.request);
-      request.resume = asked.resume;
+      resumed = ToMessage(so_far.request);
+      resumed->resume = asked.resume;
       rows = std::move(so_far.rows);
     }
+    const contact_path_msgs::TraceRequest& request = resumed ? *resumed : asked;
     const std::string exceeded = ExceededLimit(request.scene, request.options, request.program, parameters_.limits);
     if (!exceeded.empty()) {
       response->status = Response::LIMIT_EXCEEDED;
@@ -148,17 +182,19 @@ void TraceService::Serve(const contact_path_msgs::TraceRequest& asked, const Tra
       return;
     }
     core_request = FromMessage(request.scene, request.options, request.program);
-    const std::vector<Violation> violations = Validate(core_request);
-    if (!violations.empty()) throw InvalidRequest(violations);
+    std::vector<Violation> violations = Validate(core_request);
+    if (!violations.empty()) throw InvalidRequest(std::move(violations));
   } catch (const InvalidRequest& error) {
     response->status = Response::INVALID_REQUEST;
     response->message = error.what();
     return;
   }
 
+  const contact_path_msgs::TraceRequest& request = resumed ? *resumed : asked;
   std::unique_ptr<BagRecorder> bag;
   try {
-    bag = std::make_unique<BagRecorder>(parameters_.bag_directory, request.scene.name, topic_prefix_);
+    bag = std::make_unique<BagRecorder>(parameters_.bag_directory, request.scene.name, topic_prefix_,
+                                        static_cast<std::size_t>(parameters_.limits.keep_free) * kMegabyte);
     bag->WriteRequest(request);
   } catch (const BagError& error) {
     response->status = Response::BAG_FAILED;
@@ -178,6 +214,7 @@ void TraceService::Serve(const contact_path_msgs::TraceRequest& asked, const Tra
   if (observer.on_start) observer.on_start();
 
   full_state_every_ = core_request.options.full_state_every;
+  increments_left_out_ = 0;
   progress_.emplace(core_request);
   summary_ = PathSummary();
   RunTrace(core_request, rows, observer, bag.get(), response);
@@ -185,6 +222,9 @@ void TraceService::Serve(const contact_path_msgs::TraceRequest& asked, const Tra
   response->end_reason_name = EndReasonName(response->end_reason);
   response->message = EndMessage(response->end_reason_name, response->message, summary_, response->bag);
   markers_.Publish();  // who has the answer finds the last row
+  if (increments_left_out_ > 0)
+    ROS_WARN("%u rows were not sent: %d MB wait for subscribers that are too slow (~%s); the bag has them",
+             increments_left_out_, parameters_.increments_megabytes, names::kIncrementsMegabytes);
   try {
     bag->WriteResult(ToResult(*response));
     bag->Close();
@@ -198,10 +238,9 @@ void TraceService::Serve(const contact_path_msgs::TraceRequest& asked, const Tra
 
 void TraceService::RunTrace(const TraceRequest& request, const std::optional<std::vector<Increment>>& rows,
                             const TraceObserver& observer, BagRecorder* bag, Response* response) {
-  const Clock::time_point start = Clock::now();
   TraceControl control;
   control.on_increment = [&](const Increment& increment) { TakeIncrement(increment, observer, bag); };
-  control.cancelled = [&] { return StopWanted(start, observer); };
+  control.cancelled = [&] { return StopWanted(observer); };
   try {
     const TraceResult result = rows ? ResumeTrace(request, *rows, control) : Trace(request, control);
     response->status = StatusOf(result.reason);
@@ -212,10 +251,17 @@ void TraceService::RunTrace(const TraceRequest& request, const std::optional<std
       response->end_reason = Response::END_TIME_LIMIT;
       response->message =
           "the node admits " + InSeconds(parameters_.limits.max_seconds) + " (~" + names::kMaxSeconds + ")";
+    } else if (stop_cause_ == StopCause::kMemoryLimit) {
+      response->end_reason = Response::END_MEMORY_LIMIT;
+      response->message = MemoryLimitText(parameters_.limits);
     } else if (stop_cause_ == StopCause::kShutdown) {
       response->status = Response::SHUTTING_DOWN;
       response->message = "the node is being shut down";
     }
+  } catch (const std::bad_alloc&) {
+    response->status = Response::ENDED_EARLY;
+    response->end_reason = Response::END_MEMORY_LIMIT;
+    response->message = MemoryLimitText(parameters_.limits);
   } catch (const BagError& error) {
     response->status = Response::BAG_FAILED;
     response->message = error.what();
@@ -232,7 +278,7 @@ void TraceService::TakeIncrement(const Increment& increment, const TraceObserver
   message->header.seq = increments_published_;
   message->trace_id = status_.trace_id;
   bag->WriteIncrement(*message);
-  increments_publisher_.publish(message);
+  if (!increments_publisher_.Publish(*message)) ++increments_left_out_;
   ++increments_published_;
   markers_.TakeRow(message);
 
@@ -280,12 +326,16 @@ void TraceService::RequestStop(StopCause cause) {
   stop_cause_.compare_exchange_strong(none, cause);
 }
 
-bool TraceService::StopWanted(Clock::time_point start, const TraceObserver& observer) {
+bool TraceService::StopWanted(const TraceObserver& observer) {
   if (!ros::ok()) RequestStop(StopCause::kShutdown);
   if (observer.cancelled && observer.cancelled()) RequestStop(StopCause::kCancel);
-  const double limit = parameters_.limits.max_seconds;
-  const std::chrono::duration<double> elapsed = Clock::now() - start;
-  if (limit > 0.0 && elapsed.count() > limit) RequestStop(StopCause::kTimeLimit);
+  const TraceLimits& limits = parameters_.limits;
+  const Clock::time_point now = Clock::now();
+  if (limits.max_seconds > 0.0 && SecondsSince(running_since_) > limits.max_seconds) RequestStop(StopCause::kTimeLimit);
+  if (limits.max_memory > 0 && now - memory_time_ > kMemoryPeriod) {
+    memory_time_ = now;
+    if (DataMegabytes() > kShareOfTraces * limits.max_memory) RequestStop(StopCause::kMemoryLimit);
+  }
   return stop_cause_ != StopCause::kNone;
 }
 

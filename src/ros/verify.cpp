@@ -12,6 +12,7 @@
 #include "contact_path/path/stop.h"
 #include "contact_path/path/trace.h"
 #include "contact_path/ros/bag_reader.h"
+#include "contact_path/scene/one_line.h"
 #include "contact_path/verify/verify_path.h"
 
 namespace contact_path {
@@ -26,7 +27,7 @@ void PrintResiduals(const char* name, int rows, const Residuals& residuals) {
 }
 
 void PrintTable(const RecordedTrace& trace, const Verification& verification) {
-  std::cout << std::scientific << std::setprecision(1) << "scene " << trace.request.scene.name << ", "
+  std::cout << std::scientific << std::setprecision(1) << "scene " << OneLine(trace.request.scene.name) << ", "
             << verification.rows << " rows:";
   for (const auto& [kind, count] : verification.kinds) std::cout << ' ' << count << ' ' << ToString(kind);
   std::cout << "\n\nlargest residuals, computed anew\n"

@@ -2,45 +2,65 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
 
 namespace contact_path {
 namespace {
 
-Node& Find(const std::string& name, std::vector<Node>* nodes) {
-  return *std::find_if(nodes->begin(), nodes->end(), [&](const Node& node) { return node.name == name; });
-}
+// Nodes by name; of several with one name the first.
+class NodesByName {
+ public:
+  explicit NodesByName(std::vector<Node>* nodes) {
+    for (Node& node : *nodes) nodes_.emplace(node.name, &node);
+  }
+  Node& operator[](const std::string& name) const { return *nodes_.at(name); }
+
+ private:
+  std::unordered_map<std::string_view, Node*> nodes_;
+};
 
 // What elements take from the initial positions of their nodes.
-void FillInRest(Scene* scene) {
+void FillInRest(const NodesByName& nodes, Scene* scene) {
   for (Bar& bar : scene->bars) {
     if (bar.rest_length > 0.0) continue;
-    const Node &a = Find(bar.nodes[0], &scene->nodes), &b = Find(bar.nodes[1], &scene->nodes);
+    const Node &a = nodes[bar.nodes[0]], &b = nodes[bar.nodes[1]];
     bar.rest_length = std::hypot(b.x - a.x, b.y - a.y);
   }
   for (Superelement& part : scene->superelements) {
     if (!part.rest_positions.empty()) continue;
-    for (const std::string& name : part.nodes) {
-      const Node& node = Find(name, &scene->nodes);
-      part.rest_positions.insert(part.rest_positions.end(), {node.x, node.y});
-    }
+    for (const std::string& name : part.nodes)
+      part.rest_positions.insert(part.rest_positions.end(), {nodes[name].x, nodes[name].y});
   }
 }
 
-void BringOn(const Stage& stage, Scene* scene) {
-  const double target = stage.Target();
-  for (const Load& load : stage.loads) scene->loads.push_back({load.node, target * load.fx, target * load.fy, true});
-  if (!stage.support_motions.empty()) FillInRest(scene);
-  for (const SupportMotion& motion : stage.support_motions) {
-    Node& node = Find(motion.node, &scene->nodes);
-    node.x += target * motion.dx;
-    node.y += target * motion.dy;
-  }
-  for (const ObstacleMotion& motion : stage.obstacle_motions)
-    for (Obstacle& obstacle : scene->obstacles) {
-      if (obstacle.name != motion.obstacle) continue;
+// All stages before `stage`.
+void BringOn(const std::vector<Stage>& program, std::size_t stage, Scene* scene) {
+  const NodesByName nodes(&scene->nodes);
+  std::unordered_map<std::string_view, Obstacle*> obstacles;
+  for (Obstacle& obstacle : scene->obstacles) obstacles.emplace(obstacle.name, &obstacle);
+  bool supports_moved = false;
+  for (std::size_t i = 0; i < stage; ++i) {
+    const double target = program[i].Target();
+    for (const Load& load : program[i].loads)
+      scene->loads.push_back({load.node, target * load.fx, target * load.fy, true});
+    if (!program[i].support_motions.empty() && !supports_moved) {
+      FillInRest(nodes, scene);
+      supports_moved = true;
+    }
+    for (const SupportMotion& motion : program[i].support_motions) {
+      Node& node = nodes[motion.node];
+      node.x += target * motion.dx;
+      node.y += target * motion.dy;
+    }
+    for (const ObstacleMotion& motion : program[i].obstacle_motions) {
+      Obstacle& obstacle = *obstacles.at(motion.obstacle);
       obstacle.px += target * motion.dx;
       obstacle.py += target * motion.dy;
     }
+  }
 }
 
 // With the loads and motions that the load factor scales as large as at this load factor.
@@ -68,7 +88,7 @@ std::size_t NumStages(const TraceRequest& request) { return std::max<std::size_t
 Scene StageScene(const TraceRequest& request, std::size_t stage) {
   Scene scene = request.scene;
   if (request.program.empty()) return scene;
-  for (std::size_t i = 0; i < stage; ++i) BringOn(request.program[i], &scene);
+  BringOn(request.program, stage, &scene);
   const Stage& now = request.program[stage];
   scene.loads.insert(scene.loads.end(), now.loads.begin(), now.loads.end());
   scene.support_motions = now.support_motions;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <iomanip>
+#include <iterator>
 #include <limits>
 #include <locale>
 #include <map>
@@ -15,6 +16,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "contact_path/scene/one_line.h"
 #include "contact_path/scene/program.h"
 
 namespace contact_path {
@@ -65,23 +67,6 @@ bool IsAllowedInName(char c) {
   return code > 0x20 && code != 0x7f && std::string_view("@,\"./").find(c) == std::string_view::npos;
 }
 
-// `text` on one line and not much longer than a line; UTF-8 sequences are kept whole.
-std::string OneLine(const std::string& text) {
-  constexpr std::size_t kLongest = 160;
-  std::string line;
-  for (const char c : text) {
-    const auto code = static_cast<unsigned char>(c);
-    if (line.size() >= kLongest && (code & 0xC0U) != 0x80U) return line + "...";
-    if (code < 0x20 || code == 0x7f) {
-      constexpr std::string_view kHex = "0123456789abcdef";
-      line += {'\\', 'x', kHex[code >> 4U], kHex[code & 15U]};
-    } else {
-      line += c;
-    }
-  }
-  return line;
-}
-
 // Goes through a request in its own order and collects what is wrong. A rule that needs something which is already
 // known to be wrong is left out, so that one mistake is not reported several times.
 class Checker {
@@ -89,36 +74,50 @@ class Checker {
   explicit Checker(const TraceRequest& request) : request_(request), scene_(request.scene), options_(request.options) {
     for (const Node& node : scene_.nodes) nodes_.emplace(node.name, &node);
     for (const Obstacle& obstacle : scene_.obstacles) obstacles_.emplace(obstacle.name, &obstacle);
+    for (const ContactCandidate& contact : scene_.contacts) {
+      contact_nodes_.insert(contact.node);
+      const auto node = nodes_.find(contact.node);
+      const auto obstacle = obstacles_.find(contact.obstacle);
+      if (node != nodes_.end() && obstacle != obstacles_.end() && IsHeld(*node->second, *obstacle->second))
+        held_.emplace(obstacle->second, node->second);
+    }
   }
 
   std::vector<Violation> Run() {
-    CheckNodes();
-    CheckBars();
-    CheckSuperelements();
-    CheckLoads("scene", scene_.loads);
-    CheckWhatMoves();
-    const bool structure_is_sound = violations_.empty();
-    CheckObstacles();
-    std::vector<Violation> of_scene = std::move(violations_);
-    violations_.clear();
-    CheckMotions("scene", scene_.support_motions, scene_.obstacle_motions);
-    CheckProgram();
-    std::vector<Violation> of_program = std::move(violations_);
-    violations_ = std::move(of_scene);
-    // Lengths are compared with the characteristic one, which may be that of the program.
-    CheckContacts(structure_is_sound && of_program.empty() ? StageScales(request_, 0).length : 0.0);
-    CheckOptions();
-    violations_.insert(violations_.end(), of_program.begin(), of_program.end());
-    return std::move(violations_);
+    std::vector<Violation> all, of_program;
+    try {
+      CheckNodes();
+      CheckBars();
+      CheckSuperelements();
+      CheckLoads("scene", scene_.loads);
+      CheckWhatMoves();
+      const bool structure_is_sound = violations_.empty();
+      CheckObstacles();
+      std::swap(all, violations_);
+      CheckMotions("scene", scene_.support_motions, scene_.obstacle_motions);
+      CheckProgram();
+      std::swap(of_program, violations_);
+      // Lengths are compared with the characteristic one, which may be that of the program.
+      CheckContacts(structure_is_sound && of_program.empty() ? StageScales(request_, 0).length : 0.0);
+      CheckOptions();
+    } catch (const Enough&) {
+      // What was found so far tells.
+    }
+    for (std::vector<Violation>* const part : {&violations_, &of_program})
+      std::move(part->begin(), part->end(), std::back_inserter(all));
+    return all;
   }
 
  private:
+  struct Enough {};  // thrown as soon as there are kMostViolations
+
   void Add(std::string key, std::string value, std::string rule) {
     Violation violation;
     violation.key = std::move(key);
     violation.value = std::move(value);
     violation.rule = std::move(rule);
     violations_.push_back(std::move(violation));
+    if (++found_ >= kMostViolations) throw Enough();
   }
 
   bool CheckNumber(const std::string& key, double value) {
@@ -333,9 +332,8 @@ class Checker {
         Add(key + ".dx", NumberText(motion.dx), "must be 0: node " + node->name + " is not fixed in x");
       if (motion.dy != 0.0 && !node->fixed_y)
         Add(key + ".dy", NumberText(motion.dy), "must be 0: node " + node->name + " is not fixed in y");
-      for (const ContactCandidate& contact : scene_.contacts)
-        if (contact.node == motion.node)
-          Add(key + ".node", motion.node, "must not be a contact candidate: its reactions would not be determined");
+      if (contact_nodes_.count(motion.node) > 0)
+        Add(key + ".node", motion.node, "must not be a contact candidate: its reactions would not be determined");
     }
     moved.clear();
     for (std::size_t i = 0; i < obstacles.size(); ++i) {
@@ -355,15 +353,16 @@ class Checker {
     const double norm = std::hypot(obstacle.nx, obstacle.ny);
     const double along = std::abs(obstacle.ny * motion.dx - obstacle.nx * motion.dy) / norm;
     if (!(obstacle.friction > 0.0) || along <= kNormalOnFree * std::hypot(motion.dx, motion.dy)) return;
-    for (const ContactCandidate& contact : scene_.contacts) {
-      const auto node = nodes_.find(contact.node);
-      if (contact.obstacle != obstacle.name || node == nodes_.end()) continue;
-      const double free_part = std::hypot(node->second->fixed_x ? 0.0 : obstacle.ny,  //
-                                          node->second->fixed_y ? 0.0 : obstacle.nx);
-      if (free_part <= kNormalOnFree * norm)
-        Add(key + ".obstacle", motion.obstacle,
-            "moves along itself with friction: node " + contact.node + " must be free to move that way");
-    }
+    const auto held = held_.find(&obstacle);
+    if (held != held_.end())
+      Add(key + ".obstacle", motion.obstacle,
+          "moves along itself with friction: node " + held->second->name + " must be free to move that way");
+  }
+
+  // Whether the node cannot move along the obstacle.
+  static bool IsHeld(const Node& node, const Obstacle& obstacle) {
+    const double free_part = std::hypot(node.fixed_x ? 0.0 : obstacle.ny, node.fixed_y ? 0.0 : obstacle.nx);
+    return free_part <= kNormalOnFree * std::hypot(obstacle.nx, obstacle.ny);
   }
 
   // Whether the loads that the load factor scales, summed by node, leave something on a free component.
@@ -489,9 +488,12 @@ class Checker {
   const TraceOptions& options_;
   std::unordered_map<std::string, const Node*> nodes_;  // the first of each name
   std::unordered_map<std::string, const Obstacle*> obstacles_;
-  std::unordered_set<const Obstacle*> usable_obstacles_;  // with a sound point and normal
-  bool loads_are_sound_ = true;                           // as far as checked
-  std::vector<Violation> violations_;
+  std::unordered_set<std::string_view> contact_nodes_;
+  std::unordered_map<const Obstacle*, const Node*> held_;  // the first candidate of each that cannot follow it
+  std::unordered_set<const Obstacle*> usable_obstacles_;   // with a sound point and normal
+  bool loads_are_sound_ = true;                            // as far as checked
+  std::vector<Violation> violations_;                      // of the part that is being checked
+  std::size_t found_ = 0;                                  // in all parts
 };
 
 }  // namespace

@@ -1,10 +1,14 @@
 #include "contact_path/ros/bag_recorder.h"
 
+#include <chrono>
 #include <csignal>
+#include <cstddef>
 #include <cstdlib>
 #include <fstream>
+#include <iterator>
 #include <limits>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -39,6 +43,10 @@ class BagRecorderTest : public testing::Test {
 
   fs::path directory_;
 };
+
+std::ptrdiff_t NumberOfDescriptors() {
+  return std::distance(fs::directory_iterator("/proc/self/fd"), fs::directory_iterator());
+}
 
 msgs::Increment IncrementOf(std::uint32_t index, std::size_t nodes = 2) {
   msgs::Increment increment;
@@ -209,8 +217,29 @@ TEST_F(BagRecorderTest, RefusesToOpenWithoutItsReserve) {
   EXPECT_TRUE(Files().empty());
 }
 
+// What a killed node leaves: the file as it is while the recorder lives. A bag without index cannot be opened, but what
+// is in its chunks is in the file.
+TEST_F(BagRecorderTest, RowsOfASlowTraceReachTheFileAtOnce) {
+  BagRecorder recorder(directory_, "s", kPrefix);
+  recorder.WriteRequest(msgs::TraceRequest());
+  const fs::path file = directory_ / recorder.file_name();
+  const auto holds = [&](const std::string& text) {
+    std::ifstream in(file, std::ios::binary);
+    const std::string content{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+    return content.find(text) != std::string::npos;
+  };
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(110));
+    msgs::Increment increment = IncrementOf(i);
+    increment.header.frame_id = "row number " + std::to_string(i);
+    recorder.WriteIncrement(increment);
+    EXPECT_TRUE(holds(increment.header.frame_id)) << i;
+  }
+}
+
 // A limit on the size of files stands for a full disk: writing fails in the middle of the trace.
 TEST_F(BagRecorderTest, SaysSoWhenWritingFailsAndGoesOnLiving) {
+  const auto descriptors = NumberOfDescriptors();
   struct rlimit before {};
   ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
   struct rlimit limited = before;
@@ -228,6 +257,7 @@ TEST_F(BagRecorderTest, SaysSoWhenWritingFailsAndGoesOnLiving) {
     ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
   }
   std::signal(SIGXFSZ, handler);
+  EXPECT_EQ(NumberOfDescriptors(), descriptors);
 
   BagRecorder next(directory_, "recorded", kPrefix);
   Record(&next, 1);

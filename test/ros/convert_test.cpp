@@ -396,6 +396,7 @@ TEST(ConvertTest, EndReasonsHaveConstantNameAndStatus) {
   }
   EXPECT_EQ(EndReasonName(Response::END_NONE), "");
   EXPECT_EQ(EndReasonName(Response::END_TIME_LIMIT), "time_limit");
+  EXPECT_EQ(EndReasonName(Response::END_MEMORY_LIMIT), "memory_limit");
   EXPECT_THROW(EndReasonName(200), std::invalid_argument);
 }
 

@@ -31,8 +31,6 @@ msgs::TraceRequest LargestRequest() {
   request.scene.loads.resize(3);
   request.scene.support_motions.resize(3);
   request.scene.obstacle_motions.resize(4);
-  request.program.resize(2);
-  request.program[0].loads.resize(1);
   request.scene.obstacles.resize(4);
   request.scene.contacts.resize(4);
   request.options.stop.resize(4);
@@ -65,12 +63,6 @@ TEST(LimitsTest, NamesWhatIsTooLargeAndTheLimit) {
        "scene.support_motions: 4, but the node admits 3 (~max_elements)"},
       {[](auto& request) { request.scene.obstacle_motions.resize(5); },
        "scene.obstacle_motions: 5, but the node admits 4 (~max_contacts)"},
-      {[](auto& request) { request.program[0].loads.resize(2); },
-       "loads and motions of program: 4, but the node admits 3 (~max_elements)"},
-      {[](auto& request) { request.program[0].support_motions.resize(1); },
-       "loads and motions of program: 4, but the node admits 3 (~max_elements)"},
-      {[](auto& request) { request.program[0].obstacle_motions.resize(1); },
-       "loads and motions of program: 4, but the node admits 3 (~max_elements)"},
       {[](auto& request) { request.scene.loads.resize(4); }, "scene.loads: 4, but the node admits 3 (~max_elements)"},
       {[](auto& request) { request.scene.obstacles.resize(5); },
        "scene.obstacles: 5, but the node admits 4 (~max_contacts)"},
@@ -89,6 +81,34 @@ TEST(LimitsTest, NamesWhatIsTooLargeAndTheLimit) {
   }
 }
 
+// Stages take what is in them, and what they carry along.
+TEST(LimitsTest, NamesWhatIsTooLargeInAProgram) {
+  msgs::TraceRequest largest;
+  largest.scene.loads.resize(1);
+  largest.scene.obstacles.resize(2);
+  largest.program.resize(2);
+  largest.program[0].loads.resize(1);  // 2 in this stage, 2 in the next
+  TraceLimits limits;
+  limits.max_elements = 4;
+  const auto exceeded = [&](const msgs::TraceRequest& request) {
+    return ExceededLimit(request.scene, request.options, request.program, limits);
+  };
+  EXPECT_EQ(exceeded(largest), "");
+
+  for (const auto enlarge : {+[](msgs::Stage* stage) { stage->support_motions.resize(2); },
+                             +[](msgs::Stage* stage) { stage->obstacle_motions.resize(2); }}) {
+    msgs::TraceRequest request = largest;
+    enlarge(&request.program[1]);
+    EXPECT_EQ(exceeded(request), "loads and motions of program: 5, but the node admits 4 (~max_elements)");
+  }
+  msgs::TraceRequest request = largest;
+  request.program[1].loads.resize(1);
+  EXPECT_EQ(exceeded(request), "loads of all stages of program: 5, but the node admits 4 (~max_elements)");
+  request = largest;
+  request.scene.obstacles.resize(3);
+  EXPECT_EQ(exceeded(request), "obstacles of all stages of program: 6, but the node admits 4 (~max_elements)");
+}
+
 TEST(LimitsTest, CountsTheDefaultNumberOfIncrements) {
   msgs::TraceRequest request = LargestRequest();
   request.options.max_increments = 0;
@@ -104,12 +124,15 @@ TEST(LimitsTest, LeavesANegativeNumberOfIncrementsToTheRulesOfRequests) {
 TEST(LimitsTest, RefusesLimitsThatMakeNoSense) {
   EXPECT_NO_THROW(TraceLimits().Validate());
   for (int TraceLimits::*const limit : {&TraceLimits::max_nodes, &TraceLimits::max_elements, &TraceLimits::max_contacts,
-                                        &TraceLimits::max_increments}) {
+                                        &TraceLimits::max_increments, &TraceLimits::keep_free}) {
     TraceLimits limits;
     limits.*limit = 0;
     EXPECT_THROW(limits.Validate(), std::invalid_argument);
   }
   TraceLimits limits;
+  limits.max_memory = -1;
+  EXPECT_THROW(limits.Validate(), std::invalid_argument);
+  limits.max_memory = 0;
   limits.max_seconds = 0.0;
   EXPECT_NO_THROW(limits.Validate());
   for (const double seconds :

@@ -135,6 +135,8 @@ class ShutdownTest(unittest.TestCase):
                                 ('max_contacts:=many', '~max_contacts: must be an integer'),
                                 ('increments_queue:=-1', '~increments_queue = -1: must be > 0'),
                                 ('max_seconds:=-1.0', '~max_seconds = -1.000000: must be finite and >= 0'),
+                                ('max_memory_megabytes:=1', '~max_memory_megabytes = 1: the node itself takes'),
+                                ('keep_free_megabytes:=0', '~keep_free_megabytes = 0: must be > 0'),
                                 ('picture_size:=-1.0', '~picture_size = -1.000000: must be finite and >= 0'),
                                 ('frame_id:=/map', '~frame_id = "/map": must not be empty or begin with a slash'),
                                 ('bag_directory:=', '~bag_directory = "": must not be empty'),

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <functional>
 #include <limits>
 #include <string>
@@ -405,6 +406,38 @@ TEST(ViolationTest, LineLeavesOutWhatIsNotKnown) {
   EXPECT_EQ(MakeViolation("", 0, "EA", "").ToLine(), "EA: must be > 0");
   EXPECT_EQ(MakeViolation("a.yaml", 3, "", "").ToLine(), "a.yaml:3: must be > 0");
   EXPECT_EQ(MakeViolation("", 0, "", "").ToLine(), "must be > 0");
+}
+
+TEST(ValidateSizeTest, ReportsNoMoreThanAnybodyReads) {
+  TraceRequest request = SoundRequest();
+  Bar broken = request.scene.bars[0];
+  broken.EA = -1.0;
+  request.scene.bars.assign(1000, broken);
+  const std::vector<Violation> violations = Validate(request);
+  ASSERT_EQ(violations.size(), kMostViolations);
+  EXPECT_EQ(violations[0].key, "scene.bars[0].EA");
+  EXPECT_EQ(violations[99].key, "scene.bars[99].EA");
+}
+
+// Each motion is asked for all contacts, by an index: 10^10 comparisons would be seen here.
+TEST(ValidateSizeTest, TakesTimeInProportionToTheRequest) {
+  TraceRequest request = SoundRequest();
+  constexpr int kMany = 100000;
+  request.scene.loads.clear();
+  request.options.stop.clear();
+  request.scene.superelements.clear();
+  request.scene.nodes.resize(2);
+  request.scene.contacts.resize(1);
+  Stage stage;
+  stage.obstacle_motions = {{"floor", 1.0, 0.0}};
+  request.program.assign(kMany, stage);
+  for (int i = 0; i < kMany; ++i) {
+    request.scene.obstacles.push_back({"o" + std::to_string(i), ObstacleShape::kHalfPlane, 0.0, -9.0, 0.0, 1.0, 0.3});
+    request.scene.contacts.push_back({"b", "o" + std::to_string(i)});
+  }
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_TRUE(Validate(request).empty());
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
 }
 
 TEST(ViolationTest, LineIsOneLineWhateverTheText) {

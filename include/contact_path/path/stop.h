@@ -14,8 +14,8 @@ namespace contact_path {
 // What a stop criterion speaks of: the load factor, or a coordinate of a node.
 class StopQuantity {
  public:
-  // name: "load_factor", or "<node>.x", "<node>.y" of a node of the scene.
-  StopQuantity(const Scene& scene, const std::string& name);
+  // Those of options.stop, in its order. `request` must be sound.
+  static std::vector<StopQuantity> Of(const TraceRequest& request);
 
   bool IsLoadFactor() const { return component_ == kLoadFactor; }
   // Into Increment::positions; not of the load factor.

@@ -3,6 +3,8 @@
 #ifndef CONTACT_PATH_ROS_BAG_RECORDER_H_
 #define CONTACT_PATH_ROS_BAG_RECORDER_H_
 
+#include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -32,8 +34,9 @@ std::string FileNamePart(const std::string& scene_name);
 // A bag of the node is DIRECTORY/NUMBER_SCENE.bag: NUMBER has six digits or more and is one more than the largest in
 // the directory, so that nothing is ever overwritten; SCENE is FileNamePart().
 //
-// Entries reach the file in chunks of 16 KiB. After a crash the bag has no index; `rosbag reindex` restores every
-// complete chunk. Not for use by several threads at a time.
+// Entries reach the file in chunks: the request at once, increments when there are 16 KiB of them or with the first one
+// after a tenth of a second. After a crash the bag has no index; `rosbag reindex` restores every complete chunk. Not
+// for use by several threads at a time.
 class BagRecorder {
  public:
   // Room left on the file system so that the result and the index can always be written.
@@ -61,9 +64,12 @@ class BagRecorder {
   void Close();
 
  private:
+  using Clock = std::chrono::steady_clock;
+
   void Open();
   void CreateFile(const std::string& scene_name);  // an empty one; sets number_ and file_name_
   void CheckSpace() const;
+  void EndChunk();
   template <typename Message>
   void Write(const char* topic, const Message& message, bool latched = false);
 
@@ -73,6 +79,9 @@ class BagRecorder {
   std::uint32_t number_ = 0;
   std::string file_name_;
   ros::Time last_stamp_;
+  Clock::time_point chunk_time_;  // when the last chunk ended
+  std::size_t chunk_bytes_ = 0;   // in the one that is open
+  std::uintmax_t whole_ = 0;      // of the file: whole chunks with their index [bytes]
   std::unique_ptr<rosbag::Bag> bag_;
 };
 

@@ -36,7 +36,7 @@ Increment FromMessage(const contact_path_msgs::Increment& message);
 // END_* of the response of TracePath.
 std::uint8_t ToConstant(EndReason reason);
 
-// "stop_criterion", ..., "time_limit"; "" for END_NONE.
+// "stop_criterion", ..., "time_limit", "memory_limit"; "" for END_NONE.
 // Throws std::invalid_argument for a constant that is not known.
 std::string EndReasonName(std::uint8_t end_reason);
 

@@ -15,6 +15,8 @@ struct TraceLimits {
   int max_contacts = 100000;     // contact candidates; obstacles; stop criteria; branch choices; each > 0
   int max_increments = 1000000;  // increments of a trace, > 0
   double max_seconds = 86400.0;  // wall time of a trace [s]; 0 = no limit
+  int max_memory = 8192;         // of the node [MB], >= 0; 0 = no limit
+  int keep_free = 16;            // on the file system of the bags [MB], > 0
 
   // Throws std::invalid_argument naming the parameter and its value.
   void Validate() const;

@@ -31,4 +31,30 @@
 #include <contact_path/TraceStatus.h>
 #undef contact_path
 
+#include "contact_path/ros/bounded_stream.h"
+
+// What comes from outside, by a service, an action, a topic or a bag, is read by BoundedIStream.
+namespace ros {
+namespace serialization {
+
+template <>
+inline void deserialize(IStream& stream, contact_path_msgs::TracePathRequest& message) {
+  contact_path::BoundedIStream(stream.getData(), stream.getLength()).next(message);
+}
+template <>
+inline void deserialize(IStream& stream, contact_path_msgs::TracePathActionGoal& message) {
+  contact_path::BoundedIStream(stream.getData(), stream.getLength()).next(message);
+}
+template <>
+inline void deserialize(IStream& stream, contact_path_msgs::TraceRequest& message) {
+  contact_path::BoundedIStream(stream.getData(), stream.getLength()).next(message);
+}
+template <>
+inline void deserialize(IStream& stream, contact_path_msgs::Increment& message) {
+  contact_path::BoundedIStream(stream.getData(), stream.getLength()).next(message);
+}
+
+}  // namespace serialization
+}  // namespace ros
+
 #endif  // CONTACT_PATH_ROS_MESSAGES_H_

@@ -26,6 +26,7 @@ inline constexpr char kResult[] = "result";  // TraceResult, the last one
 // Parameters (trace_service.h).
 inline constexpr char kBagDirectory[] = "bag_directory";
 inline constexpr char kIncrementsQueue[] = "increments_queue";
+inline constexpr char kIncrementsMegabytes[] = "increments_megabytes";
 inline constexpr char kFrameId[] = "frame_id";          // marker_publisher.h
 inline constexpr char kPictureSize[] = "picture_size";  // marker_publisher.h
 inline constexpr char kMaxNodes[] = "max_nodes";
@@ -33,6 +34,8 @@ inline constexpr char kMaxElements[] = "max_elements";
 inline constexpr char kMaxContacts[] = "max_contacts";
 inline constexpr char kMaxIncrements[] = "max_increments";
 inline constexpr char kMaxSeconds[] = "max_seconds";
+inline constexpr char kMaxMemory[] = "max_memory_megabytes";
+inline constexpr char kKeepFree[] = "keep_free_megabytes";
 
 }  // namespace names
 }  // namespace contact_path

@@ -19,6 +19,7 @@
 #include "contact_path/path/progress_estimate.h"
 #include "contact_path/path/trace.h"
 #include "contact_path/ros/bag_recorder.h"
+#include "contact_path/ros/increment_publisher.h"
 #include "contact_path/ros/limits.h"
 #include "contact_path/ros/marker_publisher.h"
 #include "contact_path/ros/messages.h"
@@ -28,9 +29,10 @@ namespace contact_path {
 // Parameters of the node, by their names in names.h.
 struct NodeParameters {
   std::string bag_directory = "~/.ros/contact_path";  // a leading ~ is the home directory; absolute once it is read
-  int increments_queue = 100000;  // increments kept for a subscriber that is slower than the trace, > 0
-  MarkerOptions markers;          // frame_id, picture_size
-  TraceLimits limits;             // max_nodes, max_elements, max_contacts, max_increments, max_seconds
+  int increments_queue = 100000;   // increments kept for a subscriber that is slower than the trace, > 0
+  int increments_megabytes = 256;  // of increments kept for all such subscribers [MB], > 0
+  MarkerOptions markers;           // frame_id, picture_size
+  TraceLimits limits;              // max_nodes, max_elements, ..., keep_free_megabytes
 };
 
 // Throws std::invalid_argument naming the parameter that has a wrong type or value.
@@ -66,9 +68,13 @@ class TraceService {
   // Refuses what comes from now on and asks the running trace to end; does not wait for it.
   void Shutdown();
 
+  // Whether the running trace is far beyond its time: a single step of it takes so long, and steps cannot be
+  // interrupted. Only the end of the process ends it.
+  bool IsStuck();
+
  private:
   using Request = contact_path_msgs::TracePathRequest;
-  enum class StopCause { kNone, kCancel, kTimeLimit, kShutdown };
+  enum class StopCause { kNone, kCancel, kTimeLimit, kMemoryLimit, kShutdown };
 
   bool HandleTrace(Request& request, Response& response);
   bool HandleCancel(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
@@ -83,17 +89,18 @@ class TraceService {
   void PublishEnd(const Response& response);
 
   void RequestStop(StopCause cause);  // the first cause stays
-  bool StopWanted(std::chrono::steady_clock::time_point start, const TraceObserver& observer);
+  bool StopWanted(const TraceObserver& observer);
 
   const NodeParameters parameters_;
   const std::string topic_prefix_;  // of the bags' topics: the name of the node
   ros::Publisher request_publisher_;
-  ros::Publisher increments_publisher_;
+  IncrementPublisher increments_publisher_;
   ros::Publisher status_publisher_;
   MarkerPublisher markers_;
 
-  std::mutex mutex_;  // guards the next three
+  std::mutex mutex_;  // guards the next four
   bool running_ = false;
+  std::chrono::steady_clock::time_point running_since_;
   bool shutting_down_ = false;
   std::string running_scene_;
 
@@ -102,8 +109,10 @@ class TraceService {
   // Of the thread that traces.
   contact_path_msgs::TraceStatus status_;
   std::chrono::steady_clock::time_point status_time_;
+  std::chrono::steady_clock::time_point memory_time_;  // when it was looked at
   std::uint32_t increments_published_ = 0;
-  int full_state_every_ = 0;  // as in the request
+  std::uint32_t increments_left_out_ = 0;  // of them, in this trace
+  int full_state_every_ = 0;               // as in the request
   std::optional<ProgressEstimate> progress_;
   PathSummary summary_;
 

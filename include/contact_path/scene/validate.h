@@ -2,6 +2,7 @@
 #ifndef CONTACT_PATH_SCENE_VALIDATE_H_
 #define CONTACT_PATH_SCENE_VALIDATE_H_
 
+#include <cstddef>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -32,7 +33,11 @@ class InvalidRequest : public std::invalid_argument {
   std::vector<Violation> violations_;
 };
 
-// All rules that `request` breaks, in the order of the request; empty if it is sound. Lines and files are left unset.
+// Nobody reads more, and a large request can break its rules a million times.
+constexpr std::size_t kMostViolations = 100;
+
+// The rules that `request` breaks, in the order of the request, at most kMostViolations; empty if it is sound. Lines
+// and files are left unset.
 std::vector<Violation> Validate(const TraceRequest& request);
 
 }  // namespace contact_path

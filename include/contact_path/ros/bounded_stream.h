@@ -1,0 +1,42 @@
+// Reads messages without trusting the lengths in them.
+//
+// roscpp makes room for as many elements as an array says that it has before it looks whether they are there: four
+// bytes of a message could take all memory. Here an array that says more than the rest of the message can hold is a
+// ros::serialization::StreamOverrunException, which roscpp answers or logs as any message that is cut off.
+#ifndef CONTACT_PATH_ROS_BOUNDED_STREAM_H_
+#define CONTACT_PATH_ROS_BOUNDED_STREAM_H_
+
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+#include <ros/serialization.h>
+
+namespace contact_path {
+
+// As ros::serialization::IStream otherwise.
+class BoundedIStream : public ros::serialization::Stream {
+ public:
+  BoundedIStream(std::uint8_t* data, std::uint32_t size) : Stream(data, size) {}
+
+  template <typename T>
+  void next(T& value) {
+    ros::serialization::deserialize(*this, value);
+  }
+
+  template <typename T, typename Allocator>
+  void next(std::vector<T, Allocator>& values) {
+    std::uint32_t count = 0;
+    if (getLength() >= sizeof(count)) {
+      std::memcpy(&count, getData(), sizeof(count));
+      // Of an element whose texts and arrays are empty.
+      const std::uint64_t least = ros::serialization::serializationLength(T());
+      if (count * least > getLength() - sizeof(count)) ros::serialization::throwStreamOverrun();
+    }
+    ros::serialization::deserialize(*this, values);
+  }
+};
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_ROS_BOUNDED_STREAM_H_
