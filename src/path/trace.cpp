@@ -63,7 +63,11 @@ std::optional<Resumption> FindResumption(const std::vector<Increment>& rows) {
 class Tracer {
  public:
   Tracer(const TraceRequest& request, const TraceControl& control)
-      : request_(request), control_(control), recorder_(control.on_increment), stop_(request) {}
+      : request_(request),
+        control_(control),
+        scales_(ProgramScales(request)),
+        recorder_(control.on_increment),
+        stop_(request) {}
 
   // A row of an earlier trace that is kept.
   void Repeat(const Increment& row) { recorder_.Repeat(row); }
@@ -74,7 +78,7 @@ class Tracer {
     const std::size_t first = resumption ? static_cast<std::size_t>(std::max(resumption->from->stage, 1) - 1) : 0;
     for (std::size_t stage = first; stage < NumStages(request_); ++stage) {
       const Clock::time_point start = Clock::now();
-      auto next = std::make_unique<const Model>(StageScene(request_, stage), StageScales(request_, stage));
+      auto next = std::make_unique<const Model>(StageScene(request_, stage), StageScales(request_, stage, scales_));
       if (stage > first && recorder_.rows() > request_.options.MaxIncrements()) {
         End(EndReason::kMaxIncrements, "the wanted number of increments was accepted");
         break;
@@ -231,6 +235,7 @@ class Tracer {
 
   const TraceRequest& request_;
   const TraceControl& control_;
+  const Scaling scales_;  // of the program
   Recorder recorder_;
   const StopTest stop_;
   PathPoint point_;

@@ -63,10 +63,13 @@ void BringOn(const std::vector<Stage>& program, std::size_t stage, Scene* scene)
   }
 }
 
-// With the loads and motions that the load factor scales as large as at this load factor.
-Scene AtTarget(Scene scene, double target) {
+// Of a scene with superelements only, whose loads and motions are those of one stage at its target.
+Scene LoadedAtTarget(const Stage& stage, Scene scene) {
+  const double target = stage.Target();
+  scene.loads = stage.loads;
+  scene.support_motions = stage.support_motions;
+  scene.obstacle_motions = stage.obstacle_motions;
   for (Load& load : scene.loads) {
-    if (load.constant) continue;
     load.fx *= target;
     load.fy *= target;
   }
@@ -96,18 +99,31 @@ Scene StageScene(const TraceRequest& request, std::size_t stage) {
   return scene;
 }
 
-Scaling StageScales(const TraceRequest& request, std::size_t stage) {
-  Scaling scaling = CharacteristicScales(StageScene(request, 0));
-  if (request.scene.bars.empty() && !request.program.empty()) {
-    scaling.force = 0.0;
-    for (std::size_t i = 0; i < request.program.size(); ++i) {
-      const Scaling of_stage = CharacteristicScales(AtTarget(StageScene(request, i), request.program[i].Target()));
-      if (of_stage.force > scaling.force) scaling = of_stage;
-    }
+Scaling ProgramScales(const TraceRequest& request) {
+  if (!request.scene.bars.empty() || request.program.empty()) return CharacteristicScales(StageScene(request, 0));
+  Scaling largest;
+  largest.force = 0.0;
+  for (const Stage& stage : request.program) {
+    const Scaling scaling = CharacteristicScales(LoadedAtTarget(stage, request.scene));
+    if (scaling.force > largest.force) largest = scaling;
   }
-  if (!request.program.empty())
-    scaling.load_factor = LoadFactorScale(StageScene(request, stage), scaling.length, scaling.force);
+  return largest;
+}
+
+Scaling StageScales(const TraceRequest& request, std::size_t stage, const Scaling& of_program) {
+  Scaling scaling = of_program;
+  if (request.program.empty()) return scaling;
+  Scene scene = request.scene;
+  const Stage& now = request.program[stage];
+  scene.loads = now.loads;
+  scene.support_motions = now.support_motions;
+  scene.obstacle_motions = now.obstacle_motions;
+  scaling.load_factor = LoadFactorScale(scene, scaling.length, scaling.force);
   return scaling;
+}
+
+Scaling StageScales(const TraceRequest& request, std::size_t stage) {
+  return StageScales(request, stage, ProgramScales(request));
 }
 
 }  // namespace contact_path

@@ -98,7 +98,7 @@ class Checker {
       CheckProgram();
       std::swap(of_program, violations_);
       // Lengths are compared with the characteristic one, which may be that of the program.
-      CheckContacts(structure_is_sound && of_program.empty() ? StageScales(request_, 0).length : 0.0);
+      CheckContacts(structure_is_sound && of_program.empty() ? ProgramScales(request_).length : 0.0);
       CheckOptions();
     } catch (const Enough&) {
       // What was found so far tells.

@@ -34,8 +34,9 @@ bool AtTarget(double target, double load_factor) {
 class Verifier {
  public:
   // rows: all that were recorded; those from `first` up to `last`, not included, are of the stage.
-  Verifier(const TraceRequest& request, std::size_t stage, const std::vector<Increment>& rows, std::size_t first,
-           std::size_t last, Verification* result)
+  // of_program: the scales of the program.
+  Verifier(const TraceRequest& request, const Scaling& of_program, std::size_t stage,
+           const std::vector<Increment>& rows, std::size_t first, std::size_t last, Verification* result)
       : scene_(StageScene(request, stage)),
         stage_(request.program.empty() ? 0 : static_cast<int>(stage) + 1),
         target_(request.program.empty() ? std::nullopt : std::optional(request.program[stage].Target())),
@@ -43,7 +44,7 @@ class Verifier {
         rows_(rows),
         first_(first),
         last_(last),
-        scaling_(StageScales(request, stage)),
+        scaling_(StageScales(request, stage, of_program)),
         check_(scene_, scaling_),
         result_(*result) {
     double farthest = 0.0;
@@ -427,6 +428,7 @@ class Verifier {
 Verification VerifyPath(const TraceRequest& request, const std::vector<Increment>& rows) {
   Verification result;
   if (rows.empty()) result.findings.push_back({0, "the record has no rows"});
+  const Scaling of_program = ProgramScales(request);
   std::size_t stage = 0;
   for (std::size_t first = 0, last = 0; first < rows.size(); first = last, ++stage) {
     last = first + 1;
@@ -435,7 +437,7 @@ Verification VerifyPath(const TraceRequest& request, const std::vector<Increment
       result.findings.push_back({static_cast<int>(first), "is of a stage that the request does not have"});
       break;
     }
-    Verifier(request, stage, rows, first, last, &result).Run();
+    Verifier(request, of_program, stage, rows, first, last, &result).Run();
     if (last < rows.size() && !AtTarget(request, rows[last - 1]))
       result.findings.push_back({static_cast<int>(last - 1), "ends its stage, but not at its target"});
   }

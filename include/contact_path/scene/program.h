@@ -18,7 +18,11 @@ std::size_t NumStages(const TraceRequest& request);
 Scene StageScene(const TraceRequest& request, std::size_t stage);
 
 // One length and one force for all stages, so that points can be handed on: with bars those of the scene, without bars
-// those of the stage with the largest force at its target. The load factor's of the stage.
+// those of the stage with the largest force at its target.
+Scaling ProgramScales(const TraceRequest& request);
+
+// These, with the scale of the load factor of one stage. of_program: ProgramScales(request), for who wants many stages.
+Scaling StageScales(const TraceRequest& request, std::size_t stage, const Scaling& of_program);
 Scaling StageScales(const TraceRequest& request, std::size_t stage);
 
 }  // namespace contact_path
