@@ -56,6 +56,7 @@ std::vector<Touching> TouchingByNode(const std::vector<ContactGeometry>& contact
     }
   }
   std::vector<Touching> result;
+  result.reserve(nodes.size());
   for (auto& [dofs, node] : nodes) result.push_back(std::move(node));
   return result;
 }

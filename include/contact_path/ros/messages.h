@@ -38,20 +38,20 @@ namespace ros {
 namespace serialization {
 
 template <>
-inline void deserialize(IStream& stream, contact_path_msgs::TracePathRequest& message) {
-  contact_path::BoundedIStream(stream.getData(), stream.getLength()).next(message);
+inline void deserialize(IStream& stream, contact_path_msgs::TracePathRequest& t) {
+  contact_path::BoundedIStream(stream.getData(), stream.getLength()).next(t);
 }
 template <>
-inline void deserialize(IStream& stream, contact_path_msgs::TracePathActionGoal& message) {
-  contact_path::BoundedIStream(stream.getData(), stream.getLength()).next(message);
+inline void deserialize(IStream& stream, contact_path_msgs::TracePathActionGoal& t) {
+  contact_path::BoundedIStream(stream.getData(), stream.getLength()).next(t);
 }
 template <>
-inline void deserialize(IStream& stream, contact_path_msgs::TraceRequest& message) {
-  contact_path::BoundedIStream(stream.getData(), stream.getLength()).next(message);
+inline void deserialize(IStream& stream, contact_path_msgs::TraceRequest& t) {
+  contact_path::BoundedIStream(stream.getData(), stream.getLength()).next(t);
 }
 template <>
-inline void deserialize(IStream& stream, contact_path_msgs::Increment& message) {
-  contact_path::BoundedIStream(stream.getData(), stream.getLength()).next(message);
+inline void deserialize(IStream& stream, contact_path_msgs::Increment& t) {
+  contact_path::BoundedIStream(stream.getData(), stream.getLength()).next(t);
 }
 
 }  // namespace serialization
