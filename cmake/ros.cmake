@@ -60,6 +60,7 @@ if(CATKIN_ENABLE_TESTING)
 
   catkin_add_gtest(contact_path_ros_test
     test/ros/bag_recorder_test.cpp
+    test/ros/bounded_stream_test.cpp
     test/ros/convert_test.cpp
     test/ros/limits_test.cpp
     test/ros/ros_test_main.cpp

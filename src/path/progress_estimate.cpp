@@ -5,8 +5,9 @@
 namespace contact_path {
 
 ProgressEstimate::ProgressEstimate(const TraceRequest& request) : max_increments_(request.options.max_increments) {
-  for (const StopCriterion& stop : request.options.stop)
-    goals_.push_back({StopQuantity(request.scene, stop.quantity), 0.0, stop.value});
+  const std::vector<StopQuantity> quantities = StopQuantities(request);
+  for (std::size_t i = 0; i < quantities.size(); ++i)
+    goals_.push_back({quantities[i], 0.0, request.options.stop[i].value});
   for (const Stage& stage : request.program) targets_.push_back(stage.Target());
 }
 

@@ -1,7 +1,8 @@
 #include "contact_path/path/stop.h"
 
-#include <algorithm>
 #include <sstream>
+#include <string_view>
+#include <unordered_map>
 
 #include "contact_path/scene/scaling.h"
 
@@ -12,12 +13,17 @@ constexpr double kRounding = 1e-14;  // scaled
 
 }  // namespace
 
-StopQuantity::StopQuantity(const Scene& scene, const std::string& name) {
-  if (name == "load_factor") return;
-  const std::size_t dot = name.rfind('.');
-  const auto node = std::find_if(scene.nodes.begin(), scene.nodes.end(),
-                                 [&](const Node& other) { return name.compare(0, dot, other.name) == 0; });
-  component_ = 2 * static_cast<int>(node - scene.nodes.begin()) + (name.back() == 'y' ? 1 : 0);
+std::vector<StopQuantity> StopQuantities(const TraceRequest& request) {
+  std::unordered_map<std::string_view, int> nodes;
+  for (const Node& node : request.scene.nodes) nodes.emplace(node.name, static_cast<int>(nodes.size()));
+  std::vector<StopQuantity> quantities;
+  for (const StopCriterion& criterion : request.options.stop) {
+    StopQuantity& quantity = quantities.emplace_back();
+    if (criterion.quantity == "load_factor") continue;
+    const std::string_view name = criterion.quantity;
+    quantity.component_ = 2 * nodes.at(name.substr(0, name.rfind('.'))) + (name.back() == 'y' ? 1 : 0);
+  }
+  return quantities;
 }
 
 double StopQuantity::Value(const Increment& row) const {
@@ -26,10 +32,10 @@ double StopQuantity::Value(const Increment& row) const {
 
 StopTest::StopTest(const TraceRequest& request) {
   const Scaling scaling = CharacteristicScales(request.scene);
-  for (const StopCriterion& criterion : request.options.stop) {
-    const StopQuantity quantity(request.scene, criterion.quantity);
-    items_.push_back(
-        {&criterion, quantity, kRounding * (quantity.IsLoadFactor() ? scaling.load_factor : scaling.length)});
+  const std::vector<StopQuantity> quantities = StopQuantities(request);
+  for (std::size_t i = 0; i < quantities.size(); ++i) {
+    const double unit = quantities[i].IsLoadFactor() ? scaling.load_factor : scaling.length;
+    items_.push_back({&request.options.stop[i], quantities[i], kRounding * unit});
   }
 }
 

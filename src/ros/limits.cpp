@@ -10,6 +10,8 @@
 namespace contact_path {
 namespace {
 
+constexpr std::size_t kPartsOfStages = 20;  // times max_elements
+
 void CheckPositive(const std::string& name, int value) {
   if (value <= 0) throw std::invalid_argument("~" + name + " = " + std::to_string(value) + ": must be > 0");
 }
@@ -35,6 +37,13 @@ std::size_t RestEntries(const contact_path_msgs::Scene& scene) {
   for (const contact_path_msgs::Superelement& superelement : scene.superelements)
     entries += superelement.rest_positions.size();
   return entries;
+}
+
+// Each stage has a scene of its own, with all that the stages before have brought on.
+std::size_t PartsOfAllStages(const contact_path_msgs::Scene& scene,
+                             const std::vector<contact_path_msgs::Stage>& program) {
+  return program.size() * (scene.nodes.size() + scene.bars.size() + scene.superelements.size() + scene.loads.size() +
+                           scene.obstacles.size() + scene.contacts.size() + ProgramEntries(program));
 }
 
 std::size_t IncrementsWanted(const contact_path_msgs::TraceOptions& options) {
@@ -63,6 +72,7 @@ std::string ExceededLimit(const contact_path_msgs::Scene& scene, const contact_p
     std::size_t value;
     const char* limit_name;
     int limit;
+    std::size_t times = 1;
   };
   const Row rows[] = {
       {"scene.nodes", scene.nodes.size(), names::kMaxNodes, limits.max_nodes},
@@ -73,6 +83,8 @@ std::string ExceededLimit(const contact_path_msgs::Scene& scene, const contact_p
       {"scene.support_motions", scene.support_motions.size(), names::kMaxElements, limits.max_elements},
       {"scene.obstacle_motions", scene.obstacle_motions.size(), names::kMaxContacts, limits.max_contacts},
       {"loads and motions of program", ProgramEntries(program), names::kMaxElements, limits.max_elements},
+      {"parts of the scenes of all stages", PartsOfAllStages(scene, program), names::kMaxElements, limits.max_elements,
+       kPartsOfStages},
       {"scene.loads", scene.loads.size(), names::kMaxElements, limits.max_elements},
       {"scene.obstacles", scene.obstacles.size(), names::kMaxContacts, limits.max_contacts},
       {"scene.contacts", scene.contacts.size(), names::kMaxContacts, limits.max_contacts},
@@ -81,9 +93,10 @@ std::string ExceededLimit(const contact_path_msgs::Scene& scene, const contact_p
       {"options.max_increments", IncrementsWanted(options), names::kMaxIncrements, limits.max_increments},
   };
   for (const Row& row : rows) {
-    if (row.value > static_cast<std::size_t>(row.limit)) {
+    const std::size_t limit = row.times * static_cast<std::size_t>(row.limit);
+    if (row.value > limit) {
       return std::string(row.what) + ": " + std::to_string(row.value) + ", but the node admits " +
-             std::to_string(row.limit) + " (~" + row.limit_name + ")";
+             std::to_string(limit) + " (~" + row.limit_name + ")";
     }
   }
   return "";

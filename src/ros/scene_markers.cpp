@@ -302,12 +302,13 @@ void SceneMarkers::FindSupports(const Scene& scene) {
 
 // By the places that nodes are to reach: where stop criteria lie, unless that is farther than `reach` from the start.
 void SceneMarkers::ExtendBox(const TraceRequest& request, double reach) {
-  for (const StopCriterion& stop : request.options.stop) {
-    const StopQuantity quantity(request.scene, stop.quantity);
+  const std::vector<StopQuantity> quantities = StopQuantities(request);
+  for (std::size_t i = 0; i < quantities.size(); ++i) {
+    const StopQuantity& quantity = quantities[i];
     if (quantity.IsLoadFactor()) continue;
     const Vector2d& start = initial_[quantity.Component() / 2];
     Vector2d place = start;
-    place[static_cast<Eigen::Index>(quantity.Component() % 2)] = stop.value;
+    place[static_cast<Eigen::Index>(quantity.Component() % 2)] = request.options.stop[i].value;
     if ((place - start).norm() <= reach) box_.extend(place);
   }
 }

@@ -89,6 +89,10 @@ class Checker {
   explicit Checker(const TraceRequest& request) : request_(request), scene_(request.scene), options_(request.options) {
     for (const Node& node : scene_.nodes) nodes_.emplace(node.name, &node);
     for (const Obstacle& obstacle : scene_.obstacles) obstacles_.emplace(obstacle.name, &obstacle);
+    for (const ContactCandidate& contact : scene_.contacts) {
+      contact_nodes_.insert(contact.node);
+      contacts_[contact.obstacle].push_back(&contact);
+    }
   }
 
   std::vector<Violation> Run() {
@@ -333,9 +337,8 @@ class Checker {
         Add(key + ".dx", NumberText(motion.dx), "must be 0: node " + node->name + " is not fixed in x");
       if (motion.dy != 0.0 && !node->fixed_y)
         Add(key + ".dy", NumberText(motion.dy), "must be 0: node " + node->name + " is not fixed in y");
-      for (const ContactCandidate& contact : scene_.contacts)
-        if (contact.node == motion.node)
-          Add(key + ".node", motion.node, "must not be a contact candidate: its reactions would not be determined");
+      if (contact_nodes_.count(motion.node) > 0)
+        Add(key + ".node", motion.node, "must not be a contact candidate: its reactions would not be determined");
     }
     moved.clear();
     for (std::size_t i = 0; i < obstacles.size(); ++i) {
@@ -355,14 +358,16 @@ class Checker {
     const double norm = std::hypot(obstacle.nx, obstacle.ny);
     const double along = std::abs(obstacle.ny * motion.dx - obstacle.nx * motion.dy) / norm;
     if (!(obstacle.friction > 0.0) || along <= kNormalOnFree * std::hypot(motion.dx, motion.dy)) return;
-    for (const ContactCandidate& contact : scene_.contacts) {
-      const auto node = nodes_.find(contact.node);
-      if (contact.obstacle != obstacle.name || node == nodes_.end()) continue;
+    const auto contacts = contacts_.find(obstacle.name);
+    if (contacts == contacts_.end()) return;
+    for (const ContactCandidate* const contact : contacts->second) {
+      const auto node = nodes_.find(contact->node);
+      if (node == nodes_.end()) continue;
       const double free_part = std::hypot(node->second->fixed_x ? 0.0 : obstacle.ny,  //
                                           node->second->fixed_y ? 0.0 : obstacle.nx);
       if (free_part <= kNormalOnFree * norm)
         Add(key + ".obstacle", motion.obstacle,
-            "moves along itself with friction: node " + contact.node + " must be free to move that way");
+            "moves along itself with friction: node " + contact->node + " must be free to move that way");
     }
   }
 
@@ -489,8 +494,10 @@ class Checker {
   const TraceOptions& options_;
   std::unordered_map<std::string, const Node*> nodes_;  // the first of each name
   std::unordered_map<std::string, const Obstacle*> obstacles_;
-  std::unordered_set<const Obstacle*> usable_obstacles_;  // with a sound point and normal
-  bool loads_are_sound_ = true;                           // as far as checked
+  std::unordered_set<std::string> contact_nodes_;
+  std::unordered_map<std::string, std::vector<const ContactCandidate*>> contacts_;  // by obstacle
+  std::unordered_set<const Obstacle*> usable_obstacles_;                            // with a sound point and normal
+  bool loads_are_sound_ = true;                                                     // as far as checked
   std::vector<Violation> violations_;
 };
 

@@ -130,6 +130,33 @@ class YamlTreeBuilder : public YAML::EventHandler {
   std::size_t count_ = 0;
 };
 
+// The first byte that belongs to no character of UTF-8, or npos.
+inline std::size_t FindNoUtf8(const std::string& text) {
+  for (std::size_t i = 0; i < text.size();) {
+    const auto byte = [&](std::size_t k) { return k < text.size() ? static_cast<unsigned char>(text[k]) : 0U; };
+    const unsigned first = byte(i);
+    std::size_t size = 1;
+    unsigned smallest = 0, code = first;
+    if (first >= 0xF0 && first < 0xF8) {
+      size = 4, smallest = 0x10000, code = first & 7U;
+    } else if (first >= 0xE0 && first < 0xF0) {
+      size = 3, smallest = 0x800, code = first & 15U;
+    } else if (first >= 0xC0 && first < 0xE0) {
+      size = 2, smallest = 0x80, code = first & 31U;
+    } else if (first >= 0x80) {
+      return i;
+    }
+    for (std::size_t k = 1; k < size; ++k) {
+      if ((byte(i + k) & 0xC0U) != 0x80U) return i;
+      code = (code << 6U) | (byte(i + k) & 0x3FU);
+    }
+    const bool surrogate = code >= 0xD800 && code < 0xE000;
+    if (code < smallest || code > 0x10FFFF || surrogate) return i;
+    i += size;
+  }
+  return std::string::npos;
+}
+
 // The tree of `text`. `file` is used in messages only.
 // Throws InvalidRequest: larger than the bounds above, not YAML, empty, or more than one document.
 inline YamlValue ParseYaml(const std::string& text, const std::string& file) {
@@ -144,6 +171,12 @@ inline YamlValue ParseYaml(const std::string& text, const std::string& file) {
   if (control != text.end()) {
     const auto line = static_cast<int>(std::count(text.begin(), control, '\n')) + 1;
     Refuse(file, line, "must be YAML, without control characters");
+  }
+  // Others, of UTF-16 or ISO 8859, would be replaced, and names become equal.
+  if (const std::size_t at = FindNoUtf8(text); at != std::string::npos) {
+    const auto line =
+        static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n')) + 1;
+    Refuse(file, line, "must be UTF-8");
   }
   try {
     std::istringstream stream(text);

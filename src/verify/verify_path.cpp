@@ -59,16 +59,28 @@ class Verifier {
     for (const Obstacle& obstacle : scene_.obstacles)
       farthest = std::max({farthest, std::abs(obstacle.px), std::abs(obstacle.py)});
     rounding_ = kRecorded + kRoundings * std::numeric_limits<double>::epsilon() * farthest / scaling_.length;
+    std::unordered_map<std::string, const Obstacle*> obstacles;
+    for (const Obstacle& obstacle : scene_.obstacles) obstacles.emplace(obstacle.name, &obstacle);
+    std::unordered_map<std::string, const ObstacleMotion*> motions;
+    for (const ObstacleMotion& motion : scene_.obstacle_motions) motions.emplace(motion.obstacle, &motion);
     for (const ContactCandidate& contact : scene_.contacts) {
-      const auto obstacle = std::find_if(scene_.obstacles.begin(), scene_.obstacles.end(),
-                                         [&](const Obstacle& other) { return other.name == contact.obstacle; });
+      const Obstacle* const obstacle = obstacles.at(contact.obstacle);
+      const Node& node = scene_.nodes[nodes_.at(contact.node)];
+      // A node that cannot move along the obstacle has no friction.
+      const bool can_slide = (!node.fixed_x && obstacle->ny != 0.0) || (!node.fixed_y && obstacle->nx != 0.0);
       const double length = std::hypot(obstacle->nx, obstacle->ny);
-      Surface surface{nodes_.at(contact.node), obstacle->px,          obstacle->py,       0.0,           0.0,
-                      obstacle->nx / length,   obstacle->ny / length, obstacle->friction, contact.Name()};
-      for (const ObstacleMotion& motion : scene_.obstacle_motions) {
-        if (motion.obstacle != contact.obstacle) continue;
-        surface.dx = motion.dx;
-        surface.dy = motion.dy;
+      Surface surface{nodes_.at(contact.node),
+                      obstacle->px,
+                      obstacle->py,
+                      0.0,
+                      0.0,
+                      obstacle->nx / length,
+                      obstacle->ny / length,
+                      can_slide ? obstacle->friction : 0.0,
+                      contact.Name()};
+      if (const auto motion = motions.find(contact.obstacle); motion != motions.end()) {
+        surface.dx = motion->second->dx;
+        surface.dy = motion->second->dy;
       }
       surfaces_.push_back(surface);
     }

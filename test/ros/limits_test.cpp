@@ -71,6 +71,11 @@ TEST(LimitsTest, NamesWhatIsTooLargeAndTheLimit) {
        "loads and motions of program: 4, but the node admits 3 (~max_elements)"},
       {[](auto& request) { request.program[0].obstacle_motions.resize(1); },
        "loads and motions of program: 4, but the node admits 3 (~max_elements)"},
+      {[](auto& request) {
+         request.program.resize(3);
+         request.program[0].loads.clear();
+       },
+       "parts of the scenes of all stages: 63, but the node admits 60 (~max_elements)"},
       {[](auto& request) { request.scene.loads.resize(4); }, "scene.loads: 4, but the node admits 3 (~max_elements)"},
       {[](auto& request) { request.scene.obstacles.resize(5); },
        "scene.obstacles: 5, but the node admits 4 (~max_contacts)"},

@@ -14,18 +14,20 @@ namespace contact_path {
 // What a stop criterion speaks of: the load factor, or a coordinate of a node.
 class StopQuantity {
  public:
-  // name: "load_factor", or "<node>.x", "<node>.y" of a node of the scene.
-  StopQuantity(const Scene& scene, const std::string& name);
-
   bool IsLoadFactor() const { return component_ == kLoadFactor; }
   // Into Increment::positions; not of the load factor.
   std::size_t Component() const { return static_cast<std::size_t>(component_); }
   double Value(const Increment& row) const;
 
  private:
+  friend std::vector<StopQuantity> StopQuantities(const TraceRequest& request);
+
   static constexpr int kLoadFactor = -1;
   int component_ = kLoadFactor;  // into Increment::positions
 };
+
+// That of each criterion of `request`, which must be sound.
+std::vector<StopQuantity> StopQuantities(const TraceRequest& request);
 
 class StopTest {
  public:

@@ -31,4 +31,20 @@
 #include <contact_path/TraceStatus.h>
 #undef contact_path
 
+#include "contact_path/ros/bounded_stream.h"
+
+namespace ros::serialization {
+
+template <>
+struct Serializer<contact_path_msgs::TracePathRequest>
+    : contact_path::RequestSerializer<contact_path_msgs::TracePathRequest> {};
+template <>
+struct Serializer<contact_path_msgs::TracePathGoal>
+    : contact_path::RequestSerializer<contact_path_msgs::TracePathGoal> {};
+template <>
+struct Serializer<contact_path_msgs::TraceRequest> : contact_path::RequestSerializer<contact_path_msgs::TraceRequest> {
+};
+
+}  // namespace ros::serialization
+
 #endif  // CONTACT_PATH_ROS_MESSAGES_H_
