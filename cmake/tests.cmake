@@ -20,6 +20,7 @@ add_library(contact_path_test_support STATIC EXCLUDE_FROM_ALL
   test/support/derivative_checker.cpp
   test/support/random_scene.cpp
   test/support/reference_cases.cpp
+  test/support/same_request.cpp
   test/support/traced_path.cpp
   test/support/transformations.cpp
 )
@@ -76,6 +77,7 @@ contact_path_add_test(scene/one_line_test)
 contact_path_add_test(scene/read_scene_test)
 contact_path_add_test(scene/scaling_test)
 contact_path_add_test(scene/scene_test)
+contact_path_add_test(scene/utf8_test)
 contact_path_add_test(scene/validate_test)
 contact_path_add_test(scene/write_scene_test)
 contact_path_add_test(structure/bar_test)
@@ -131,6 +133,8 @@ contact_path_add_test(path/mpec_cases_test LONG)
 contact_path_add_test(path/mpec_random_paths_test LONG)
 contact_path_add_test(path/invariance_test LONG)
 contact_path_add_test(path/hard_scenes_test)
+contact_path_add_test(path/determinism_test)
+contact_path_add_test(path/large_requests_test)
 contact_path_add_test(extremes/extremes_test LONG)
 if(CONTACT_PATH_LONG_TESTS)
   target_sources(extremes_extremes_test PRIVATE ${contact_path_extremes})
@@ -140,6 +144,32 @@ add_executable(contact_path_extremes EXCLUDE_FROM_ALL test/extremes/extremes_tab
 target_precompile_headers(contact_path_extremes REUSE_FROM contact_path_test_support)
 target_compile_options(contact_path_extremes PRIVATE ${contact_path_test_options})
 target_link_libraries(contact_path_extremes PRIVATE contact_path_test_support contact_path_core contact_path_warnings)
+
+# contact_path_add_replay(<target> <library> <count> [source...]): runs test/fuzz/<target>_fuzz.cpp over its corpus, and over
+# so many random changes of it.
+function(contact_path_add_replay target library count)
+  set(name fuzz_${target})
+  set(sources test/fuzz/replay_test.cpp test/fuzz/${target}_fuzz.cpp ${ARGN})
+  if(contact_path_test_with_catkin)
+    catkin_add_gtest(${name} ${sources})
+    set(test _ctest_${PROJECT_NAME}_gtest_${name})
+  else()
+    add_executable(${name} ${sources})
+    set(test ${name})
+    add_test(NAME ${test} COMMAND ${name} --gtest_output=xml:${contact_path_test_results}/gtest-${name}.xml)
+  endif()
+  target_compile_options(${name} PRIVATE ${contact_path_test_options})
+  target_compile_definitions(${name} PRIVATE CONTACT_PATH_CHANGED=${count}
+    CONTACT_PATH_CORPUS="${CMAKE_CURRENT_SOURCE_DIR}/test/fuzz/corpus/${target}")
+  target_link_libraries(${name} GTest::gtest_main contact_path_test_support ${library} contact_path_warnings)
+  set_property(TEST ${test} PROPERTY ENVIRONMENT OMP_NUM_THREADS=1)
+endfunction()
+
+contact_path_add_replay(read_scene contact_path_core 20000)
+contact_path_add_replay(trace_scene contact_path_core 100 test/fuzz/varied_request.cpp)
+if(CONTACT_PATH_ROS)
+  contact_path_add_replay(convert_request contact_path_ros 20000)
+endif()
 
 # contact_path_add_python_test(<name> <file> DEPENDS target... VARIABLES NAME=VALUE...): unittests that run programs as
 # their users do, told where these are by environment variables.
@@ -157,6 +187,8 @@ function(contact_path_add_python_test name file)
 endfunction()
 
 contact_path_add_python_test(cli_test test/cli/cli_test.py DEPENDS contact_path_trace
+  VARIABLES CONTACT_PATH_TRACE=$<TARGET_FILE:contact_path_trace>)
+contact_path_add_python_test(determinism_test test/cli/determinism_test.py DEPENDS contact_path_trace
   VARIABLES CONTACT_PATH_TRACE=$<TARGET_FILE:contact_path_trace>)
 contact_path_add_python_test(plot_test test/cli/plot_test.py DEPENDS contact_path_trace
   VARIABLES CONTACT_PATH_TRACE=$<TARGET_FILE:contact_path_trace> CONTACT_PATH_PLOT=${CMAKE_CURRENT_SOURCE_DIR}/scripts/plot)

@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <string_view>
 
+#include "contact_path/scene/utf8.h"
+
 namespace contact_path {
 namespace {
 
@@ -10,22 +12,13 @@ constexpr std::size_t kLongest = 160;
 
 // Bytes of the character that begins `text`; 0 if it is no UTF-8, or nothing to print on a line.
 std::size_t PrintableSize(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
-  const auto follows = [&](std::size_t i) { return byte(i) >= 0x80 && byte(i) <= 0xBF; };
-  const unsigned first = byte(0), second = byte(1);
-  if (first < 0x80) return first >= 0x20 && first != 0x7F ? 1 : 0;
-  if (!follows(1)) return 0;
-  if (first == 0xC2 && second < 0xA0) return 0;  // control characters
-  if (first >= 0xC2 && first <= 0xDF) return 2;
-  if (!follows(2)) return 0;
-  if (first == 0xE0 && second < 0xA0) return 0;                                           // longer than need be
-  if (first == 0xED && second > 0x9F) return 0;                                           // surrogates
-  if (first == 0xE2 && second == 0x80 && (byte(2) == 0xA8 || byte(2) == 0xA9)) return 0;  // line separators
-  if (first >= 0xE0 && first <= 0xEF) return 3;
-  if (!follows(3)) return 0;
-  if (first == 0xF0 && second < 0x90) return 0;  // longer than need be
-  if (first == 0xF4 && second > 0x8F) return 0;  // beyond Unicode
-  return first >= 0xF0 && first <= 0xF4 ? 4 : 0;
+  const std::size_t size = Utf8Size(text);
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  if (size == 1) return byte(0) >= 0x20 && byte(0) != 0x7F ? 1 : 0;
+  if (size == 2 && byte(0) == 0xC2 && byte(1) < 0xA0) return 0;  // control characters
+  if (size == 3 && byte(0) == 0xE2 && byte(1) == 0x80 && (byte(2) == 0xA8 || byte(2) == 0xA9))
+    return 0;  // line separators
+  return size;
 }
 
 }  // namespace

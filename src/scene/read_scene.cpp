@@ -29,7 +29,8 @@ bool IsPlain(const YamlValue& value) { return value.kind == YamlValue::Kind::kTe
 // Whole numbers with a leading zero are refused: octal to some readers of YAML, decimal to others.
 bool HasLeadingZero(const std::string& word) {
   const std::size_t first = word.find_first_not_of("+-");
-  return first + 1 < word.size() && word[first] == '0' && word.find_first_not_of("0123456789", first) == word.npos;
+  return first != word.npos && first + 1 < word.size() && word[first] == '0' &&
+         word.find_first_not_of("0123456789", first) == word.npos;
 }
 
 // The truth values of YAML 1.1, as ROS reads them too, and 0 and 1.

@@ -18,6 +18,7 @@
 
 #include "contact_path/scene/one_line.h"
 #include "contact_path/scene/program.h"
+#include "contact_path/scene/utf8.h"
 
 namespace contact_path {
 namespace {
@@ -86,6 +87,7 @@ class Checker {
   std::vector<Violation> Run() {
     std::vector<Violation> all, of_program;
     try {
+      CheckUtf8("scene.name", scene_.name);
       CheckNodes();
       CheckBars();
       CheckSuperelements();
@@ -131,10 +133,19 @@ class Checker {
     return false;
   }
 
+  // Others could not be read by clients in Python.
+  bool CheckUtf8(const std::string& key, const std::string& name) {
+    if (FindNoUtf8(name) == std::string_view::npos) return true;
+    Add(key, name, "must be UTF-8");
+    return false;
+  }
+
   // `earlier` holds the names before this one.
   void CheckName(const std::string& key, const std::string& name, std::unordered_set<std::string>& earlier) {
     if (name.empty()) {
       Add(key, TextOrQuotes(name), "must not be empty");
+    } else if (!CheckUtf8(key, name)) {
+      return;
     } else if (!std::all_of(name.begin(), name.end(), IsAllowedInName)) {
       Add(key, name, "must not contain white space, control characters or any of @ , \" . /");
     } else if (!earlier.insert(name).second) {
@@ -299,6 +310,7 @@ class Checker {
     for (std::size_t i = 0; i < request_.program.size(); ++i) {
       const Stage& stage = request_.program[i];
       const std::string key = Indexed("program", i);
+      CheckUtf8(key + ".name", stage.name);
       CheckLoads(key, stage.loads);
       for (std::size_t k = 0; k < stage.loads.size(); ++k)
         if (stage.loads[k].constant)

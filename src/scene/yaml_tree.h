@@ -12,10 +12,12 @@
 #include <cstddef>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
+#include "contact_path/scene/utf8.h"
 #include "contact_path/scene/validate.h"
 
 namespace contact_path {
@@ -144,6 +146,12 @@ inline YamlValue ParseYaml(const std::string& text, const std::string& file) {
   if (control != text.end()) {
     const auto line = static_cast<int>(std::count(text.begin(), control, '\n')) + 1;
     Refuse(file, line, "must be YAML, without control characters");
+  }
+  // Others, of UTF-16 or ISO 8859, would be replaced, and names become equal.
+  if (const std::size_t at = FindNoUtf8(text); at != std::string_view::npos) {
+    const auto line =
+        static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n')) + 1;
+    Refuse(file, line, "must be UTF-8");
   }
   try {
     std::istringstream stream(text);

@@ -68,9 +68,19 @@ class Verifier {
     for (const ObstacleMotion& motion : scene_.obstacle_motions) motions.emplace(motion.obstacle, &motion);
     for (const ContactCandidate& contact : scene_.contacts) {
       const Obstacle* const obstacle = obstacles.at(contact.obstacle);
+      const Node& node = scene_.nodes[nodes_.at(contact.node)];
+      // A node that cannot move along the obstacle has no friction.
+      const bool can_slide = (!node.fixed_x && obstacle->ny != 0.0) || (!node.fixed_y && obstacle->nx != 0.0);
       const double length = std::hypot(obstacle->nx, obstacle->ny);
-      Surface surface{nodes_.at(contact.node), obstacle->px,          obstacle->py,       0.0,           0.0,
-                      obstacle->nx / length,   obstacle->ny / length, obstacle->friction, contact.Name()};
+      Surface surface{nodes_.at(contact.node),
+                      obstacle->px,
+                      obstacle->py,
+                      0.0,
+                      0.0,
+                      obstacle->nx / length,
+                      obstacle->ny / length,
+                      can_slide ? obstacle->friction : 0.0,
+                      contact.Name()};
       if (const auto motion = motions.find(contact.obstacle); motion != motions.end()) {
         surface.dx = motion->second->dx;
         surface.dy = motion->second->dy;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,40 +11,14 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-// SplitMix64 (Steele, Lea, Flood 2014): the standard library's distributions differ from one implementation to another.
-class Generator {
- public:
-  explicit Generator(std::uint64_t seed) : state_(Mix(seed * 0xD1B54A32D192ED03U)) {}
-
-  double Number(double lower, double upper) {
-    return lower + (upper - lower) * std::ldexp(static_cast<double>(Bits() >> 11U), -53);
-  }
-  // 0..count - 1.
-  std::size_t Index(std::size_t count) { return static_cast<std::size_t>(Bits() % count); }
-  bool Chance(double probability) { return Number(0.0, 1.0) < probability; }
-
- private:
-  std::uint64_t Bits() {
-    state_ += 0x9E3779B97F4A7C15U;
-    return Mix(state_);
-  }
-  static std::uint64_t Mix(std::uint64_t z) {
-    z = (z ^ (z >> 30U)) * 0xBF58476D1CE4E5B9U;
-    z = (z ^ (z >> 27U)) * 0x94D049BB133111EBU;
-    return z ^ (z >> 31U);
-  }
-
-  std::uint64_t state_;
-};
-
 double Distance(const Node& a, const Node& b) { return std::hypot(b.x - a.x, b.y - a.y); }
 
 std::string NodeName(std::size_t i) { return "n" + std::to_string(i); }
 
 class Builder {
  public:
-  explicit Builder(unsigned seed) : random_(seed) {
-    scene_.name = "random_" + std::to_string(seed);
+  Builder(Decisions* random, const std::string& name) : random_(*random) {
+    scene_.name = name;
     prestressed_ = random_.Chance(0.1);
   }
 
@@ -198,7 +171,7 @@ class Builder {
     }
   }
 
-  Generator random_;
+  Decisions& random_;
   Scene scene_;
   bool prestressed_ = false;
   bool pressed_ = false;  // held by a contact
@@ -206,7 +179,12 @@ class Builder {
 
 }  // namespace
 
-TraceRequest RandomRequest(unsigned seed) { return Builder(seed).Build(); }
+TraceRequest RandomRequest(unsigned seed) {
+  Decisions decisions{SplitMix64(seed)};
+  return RandomRequest(&decisions, "random_" + std::to_string(seed));
+}
+
+TraceRequest RandomRequest(Decisions* decisions, const std::string& name) { return Builder(decisions, name).Build(); }
 
 bool CanBeRotated(const Scene& scene) {
   return std::all_of(scene.nodes.begin(), scene.nodes.end(),

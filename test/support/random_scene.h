@@ -2,7 +2,10 @@
 #ifndef CONTACT_PATH_TEST_SUPPORT_RANDOM_SCENE_H_
 #define CONTACT_PATH_TEST_SUPPORT_RANDOM_SCENE_H_
 
+#include <string>
+
 #include "contact_path/scene/scene.h"
+#include "support/decisions.h"
 
 namespace contact_path {
 
@@ -12,6 +15,8 @@ namespace contact_path {
 // some scenes constant loads, bars with prestress, nodes held along one axis, structures held by a contact alone,
 // wedges (two obstacles for a node). No stop criteria, default options but for the direction.
 TraceRequest RandomRequest(unsigned seed);
+// The same from any source of decisions.
+TraceRequest RandomRequest(Decisions* decisions, const std::string& name);
 
 // Whether every node is either fixed or free: then the scene can be turned.
 bool CanBeRotated(const Scene& scene);

@@ -42,6 +42,16 @@ TEST(VerifyPath, ProvesWhatBothMethodsTrace) {
     }
 }
 
+// Where a node cannot move along an obstacle, there is no friction, whatever its coefficient.
+TEST(VerifyPath, ProvesContactsThatCannotSlide) {
+  TraceRequest request = ReadExample("rigid_stop");
+  for (Obstacle& obstacle : request.scene.obstacles) obstacle.friction = 0.3;
+  const TracedPath path = TraceRows(request);
+  EXPECT_EQ(path.rows.back().contacts[0].state, ContactState::kClosed);
+  const Verification verification = VerifyPath(path.request, path.rows);
+  EXPECT_TRUE(verification.findings.empty()) << Listed(verification);
+}
+
 // A path with slip both ways, corners and contact events.
 const TracedPath& Genuine() {
   static const TracedPath path = Traced("two_dof_friction", Method::kBranch);

@@ -1,0 +1,21 @@
+# The fuzz targets as libFuzzer programs; scripts/stress runs them. With CONTACT_PATH_SANITIZE they find more.
+if(NOT CMAKE_CXX_COMPILER_ID MATCHES Clang)
+  message(FATAL_ERROR "CONTACT_PATH_FUZZ needs clang: -DCMAKE_CXX_COMPILER=clang++")
+endif()
+find_package(GTest REQUIRED)  # for what of test/support is used
+
+# contact_path_add_fuzz_target(<target> <library> [source...]): test/fuzz/<target>_fuzz.cpp as fuzz_<target>.
+function(contact_path_add_fuzz_target target library)
+  add_executable(fuzz_${target} test/fuzz/${target}_fuzz.cpp ${ARGN})
+  target_include_directories(fuzz_${target} PRIVATE test)
+  target_link_options(fuzz_${target} PRIVATE -fsanitize=fuzzer)
+  target_link_libraries(fuzz_${target} PRIVATE ${library} contact_path_warnings)
+endfunction()
+
+contact_path_add_fuzz_target(read_scene contact_path_core test/support/same_request.cpp)
+contact_path_add_fuzz_target(trace_scene contact_path_core test/fuzz/varied_request.cpp test/support/random_scene.cpp
+  test/support/transformations.cpp)
+target_link_libraries(fuzz_trace_scene PRIVATE GTest::gtest)
+if(CONTACT_PATH_ROS)
+  contact_path_add_fuzz_target(convert_request contact_path_ros test/support/same_request.cpp)
+endif()

@@ -1,0 +1,82 @@
+// Bytes as the request of a service call, as they come from a connection: they are read or refused, then held against
+// the limits of a node, converted and validated, as the node does. Converted back, they are the same request.
+#include <string>
+#include <vector>
+
+#include "contact_path/ros/convert.h"
+#include "contact_path/ros/limits.h"
+#include "fuzz/target.h"
+#include "support/same_request.h"
+
+namespace contact_path {
+namespace {
+
+namespace msgs = contact_path_msgs;
+
+constexpr int kMostParts = 32;  // that the node admits, of each list
+
+template <typename Message>
+std::vector<std::uint8_t> Bytes(const Message& message) {
+  std::vector<std::uint8_t> bytes(ros::serialization::serializationLength(message));
+  ros::serialization::OStream out(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
+  ros::serialization::serialize(out, message);
+  return bytes;
+}
+
+void WriteOut(std::string* word, const char* meaning) {
+  if (word->empty()) *word = meaning;
+}
+
+// The only changes that a conversion may make: words are written out, truth values are 0 or 1, and there is no bag.
+msgs::TraceRequest Normalised(msgs::TraceRequest message) {
+  WriteOut(&message.options.method, "branch");
+  WriteOut(&message.options.accuracy, "balanced");
+  for (msgs::Bar& bar : message.scene.bars) WriteOut(&bar.strain, "biot");
+  for (msgs::Obstacle& obstacle : message.scene.obstacles) WriteOut(&obstacle.shape, "half_plane");
+  for (msgs::Node& node : message.scene.nodes) {
+    node.fixed_x = node.fixed_x != 0;
+    node.fixed_y = node.fixed_y != 0;
+  }
+  for (msgs::Load& load : message.scene.loads) load.constant = load.constant != 0;
+  for (msgs::Stage& stage : message.program)
+    for (msgs::Load& load : stage.loads) load.constant = load.constant != 0;
+  message.resume.clear();
+  return message;
+}
+
+void CheckConverter(std::vector<std::uint8_t> bytes) {
+  msgs::TracePathRequest asked;
+  try {
+    ros::serialization::IStream in(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
+    ros::serialization::deserialize(in, asked);
+  } catch (const ros::serialization::StreamOverrunException&) {
+    return;  // roscpp refuses the call
+  }
+  const msgs::TraceRequest message = ToRequest(asked);
+
+  TraceLimits limits;
+  limits.max_nodes = limits.max_elements = limits.max_contacts = kMostParts;
+  const std::string exceeded = ExceededLimit(message.scene, message.options, message.program, limits);
+  if (!exceeded.empty()) return RequireLine(exceeded);
+  Require(message.scene.nodes.size() <= kMostParts && message.program.size() <= kMostParts, "limits hold");
+
+  TraceRequest request;
+  try {
+    request = FromMessage(message.scene, message.options, message.program);
+  } catch (const InvalidRequest& refused) {
+    return RequireLines(refused.violations());
+  }
+  RequireLines(Validate(request));
+  const msgs::TraceRequest back = ToMessage(request);
+  Require(Bytes(back) == Bytes(Normalised(message)), "a request is the same after it was converted and back");
+  const std::string difference = FirstDifference(request, FromMessage(back.scene, back.options, back.program));
+  if (!difference.empty()) throw std::logic_error("not the same after it was converted again: " + difference);
+}
+
+}  // namespace
+}  // namespace contact_path
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  contact_path::CheckConverter(std::vector<std::uint8_t>(data, data + size));
+  return 0;
+}

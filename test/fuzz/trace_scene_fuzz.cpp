@@ -1,0 +1,58 @@
+// Bytes as a valid request (varied_request.h): its trace ends with a named reason, soon after it was cancelled if need
+// be, and all of its rows are proved.
+#include <ctime>
+#include <string>
+#include <vector>
+
+#include "contact_path/path/increment.h"
+#include "contact_path/path/trace.h"
+#include "contact_path/scene/write_scene.h"
+#include "contact_path/verify/verify_path.h"
+#include "fuzz/target.h"
+#include "fuzz/varied_request.h"
+
+namespace contact_path {
+namespace {
+
+// Of the processor: other work on the machine does not count. Sanitizers and debuggers take their share.
+constexpr double kSeconds = 4.0;           // until the trace is cancelled
+constexpr double kSecondsToCancel = 10.0;  // until it has to be back then
+
+double Now() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+void CheckTrace(const TraceRequest& request) {
+  std::vector<Increment> rows;
+  const double start = Now();
+  bool cancelled = false;
+  TraceControl control;
+  control.on_increment = [&rows](const Increment& row) { rows.push_back(row); };
+  control.cancelled = [&] { return cancelled = cancelled || Now() - start > kSeconds; };
+  const TraceResult result = Trace(request, control);
+
+  Require(Now() - start < kSeconds + kSecondsToCancel, "a cancelled trace ends soon");
+  Require(!ToString(result.reason).empty(), "a trace ends for a named reason");
+  RequireLine(result.message);
+  Require(cancelled || result.reason != EndReason::kCancelled, "only what was cancelled ends as cancelled");
+  Require(result.increments == static_cast<int>(rows.size()), "all rows are given and counted");
+  Require(result.increments <= request.options.MaxIncrements() + 1, "no more rows than wanted");
+  if (rows.empty()) {
+    const bool expected = result.reason != EndReason::kStopCriterion && result.reason != EndReason::kMaxIncrements;
+    return Require(expected, "a trace without rows ended early");
+  }
+  const Verification verification = VerifyPath(request, rows);
+  if (verification.findings.empty()) return;
+  const Finding& finding = verification.findings.front();
+  throw std::logic_error("row " + std::to_string(finding.row) + " of " + std::to_string(rows.size()) + ": " +
+                         finding.what + "\nended " + std::string(ToString(result.reason)) + ": " + result.message +
+                         "\n" + WriteTraceRequest(request));
+}
+
+}  // namespace
+}  // namespace contact_path
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const contact_path::TraceRequest request = contact_path::VariedRequest(contact_path::BitsOf(data, size));
+  contact_path::Require(contact_path::Validate(request).empty(), "the generator makes valid requests");
+  contact_path::CheckTrace(request);
+  return 0;
+}

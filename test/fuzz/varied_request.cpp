@@ -1,0 +1,225 @@
+#include "fuzz/varied_request.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "contact_path/scene/validate.h"
+#include "support/decisions.h"
+#include "support/random_scene.h"
+#include "support/transformations.h"
+
+namespace contact_path {
+namespace {
+
+class Variation {
+ public:
+  explicit Variation(std::function<std::uint64_t()> bits)
+      : random_(std::move(bits)), request_(RandomRequest(&random_, "varied")) {}
+
+  TraceRequest Build() {
+    Try(0.3, &Variation::SnapToGrid);
+    Try(0.2, &Variation::ChangeFriction);
+    Try(0.2, &Variation::SpreadStiffness);
+    Try(0.2, &Variation::AddSuperelement);
+    Try(0.2, &Variation::AddObstacleForContact);
+    Try(0.15, &Variation::ChangeLoads);
+    Try(0.15, &Variation::MoveObstacle);
+    Try(0.15, &Variation::MoveSupport);
+    Try(0.2, &Variation::MakeProgram);
+    Try(0.2, &Variation::ChangeUnits);
+    Try(0.5, &Variation::ChangeOptions);
+    TraceOptions& options = request_.options;
+    options.max_increments = static_cast<int>(1 + random_.Index(options.method == Method::kMpec ? 12 : 60));
+    return std::move(request_);
+  }
+
+ private:
+  // Takes a change back that breaks a rule.
+  void Try(double probability, void (Variation::*change)()) {
+    if (!random_.Chance(probability)) return;
+    TraceRequest before = request_;
+    (this->*change)();
+    if (!Validate(request_).empty()) request_ = std::move(before);
+  }
+
+  Scene& scene() { return request_.scene; }
+
+  void SnapToGrid() {
+    const double cell = random_.OneOf(std::array<double, 3>{0.125, 0.25, 0.5});
+    const auto snap = [cell](double* x) { *x = cell * std::round(*x / cell); };
+    for (Node& node : scene().nodes) {
+      snap(&node.x);
+      snap(&node.y);
+    }
+    for (Obstacle& obstacle : scene().obstacles) {
+      const double quarter = std::atan(1.0);  // normals along the axes and diagonals
+      const double angle = quarter * std::round(std::atan2(obstacle.ny, obstacle.nx) / quarter);
+      obstacle.nx = std::round(2.0 * std::cos(angle));
+      obstacle.ny = std::round(2.0 * std::sin(angle));
+      snap(&obstacle.px);
+      snap(&obstacle.py);
+    }
+    for (Load& load : scene().loads) {
+      snap(&load.fx);
+      snap(&load.fy);
+    }
+  }
+
+  void ChangeFriction() {
+    for (Obstacle& obstacle : scene().obstacles)
+      if (random_.Chance(0.7))
+        obstacle.friction = random_.OneOf(std::array<double, 7>{0, 1e-12, 1e-3, 1, 10, 1e3, 1e6});
+  }
+
+  void SpreadStiffness() {
+    const double decades = random_.OneOf(std::array<double, 3>{1.0, 3.0, 6.0});
+    for (Bar& bar : scene().bars) bar.EA *= std::pow(10.0, random_.Number(-decades, decades));
+  }
+
+  // A spring to the ground, at times of no or of negative stiffness in one direction.
+  void AddSuperelement() {
+    const double angle = random_.Number(0.0, 3.2), c = std::cos(angle), s = std::sin(angle);
+    const double k1 = random_.OneOf(std::array<double, 3>{0.1, 1.0, 10.0});
+    const double k2 = random_.OneOf(std::array<double, 4>{0.0, 1.0, -0.05, 1e4});
+    const double xy = (k1 - k2) * c * s;
+    scene().superelements.push_back(
+        {{random_.OneOf(scene().nodes).name}, {k1 * c * c + k2 * s * s, xy, xy, k1 * s * s + k2 * c * c}, {}});
+  }
+
+  // For a node that has one: the same once more, a wall opposite to it without clearance, or the other side of a
+  // corner.
+  void AddObstacleForContact() {
+    const ContactCandidate contact = random_.OneOf(scene().contacts);
+    const auto is_its = [&](const Obstacle& obstacle) { return obstacle.name == contact.obstacle; };
+    Obstacle other = *std::find_if(scene().obstacles.begin(), scene().obstacles.end(), is_its);
+    const auto is_node = [&](const Node& node) { return node.name == contact.node; };
+    const Node& node = *std::find_if(scene().nodes.begin(), scene().nodes.end(), is_node);
+    other.name += "_too";
+    switch (random_.Index(3)) {
+      case 0: break;
+      case 1:
+        other.nx = -other.nx;
+        other.ny = -other.ny;
+        other.px = node.x;
+        other.py = node.y;
+        break;
+      default:
+        std::swap(other.nx, other.ny);
+        other.px = node.x;
+        other.py = node.y;
+    }
+    scene().contacts.push_back({contact.node, other.name});
+    scene().obstacles.push_back(std::move(other));
+  }
+
+  void ChangeLoads() {
+    if (random_.Chance(0.5)) {
+      const double factor = random_.OneOf(std::array<double, 4>{1e-9, 1e-3, 1e3, 1e9});
+      for (Load& load : scene().loads) {
+        load.fx *= factor;
+        load.fy *= factor;
+      }
+      return;
+    }
+    Load opposite = random_.OneOf(scene().loads);
+    const double nearly = random_.OneOf(std::array<double, 3>{1.0, 1.0 - 1e-3, 1.0 - 1e-9});
+    opposite.fx *= -nearly;
+    opposite.fy *= -nearly;
+    scene().loads.push_back(std::move(opposite));
+  }
+
+  ObstacleMotion AnyObstacleMotion() {
+    const std::string& obstacle = random_.OneOf(scene().obstacles).name;
+    return {obstacle, random_.Number(-0.3, 0.3), random_.Number(-0.3, 0.3)};
+  }
+  SupportMotion AnySupportMotion() {
+    const Node& node = random_.OneOf(scene().nodes);
+    return {node.name, node.fixed_x ? random_.Number(-0.3, 0.3) : 0.0, node.fixed_y ? random_.Number(-0.3, 0.3) : 0.0};
+  }
+
+  void MoveObstacle() { scene().obstacle_motions.push_back(AnyObstacleMotion()); }
+  void MoveSupport() { scene().support_motions.push_back(AnySupportMotion()); }
+
+  // The scaled loads and the motions of the scene as a first stage, and others.
+  void MakeProgram() {
+    Stage first;
+    first.name = "first";
+    for (Load& load : scene().loads)
+      if (!load.constant) first.loads.push_back(load);
+    const auto scaled = [](const Load& load) { return !load.constant; };
+    scene().loads.erase(std::remove_if(scene().loads.begin(), scene().loads.end(), scaled), scene().loads.end());
+    first.support_motions = std::move(scene().support_motions);
+    first.obstacle_motions = std::move(scene().obstacle_motions);
+    scene().support_motions.clear();
+    scene().obstacle_motions.clear();
+    request_.options.direction = 0.0;
+    request_.options.stop.clear();
+    request_.program.push_back(std::move(first));
+    const std::size_t stages = 1 + random_.Index(3);
+    while (request_.program.size() < stages) {
+      Stage stage;
+      switch (random_.Index(3)) {
+        case 0: stage.loads = request_.program.front().loads; break;
+        case 1: stage.obstacle_motions = {AnyObstacleMotion()}; break;
+        default: stage.support_motions = {AnySupportMotion()};
+      }
+      request_.program.push_back(std::move(stage));
+    }
+    for (Stage& stage : request_.program)
+      stage.target = random_.OneOf(std::array<double, 6>{0.0, 0.02, -0.02, 0.2, -1.0, 1e-9});
+  }
+
+  void ChangeUnits() {
+    const auto unit = [&] { return std::pow(10.0, std::round(random_.Number(-9.0, 9.0))); };
+    const double length = unit();
+    request_ = contact_path::ChangeUnits(std::move(request_), length, unit());
+  }
+
+  void ChangeOptions() {
+    TraceOptions& options = request_.options;
+    if (random_.Chance(0.3)) options.method = Method::kMpec;
+    options.accuracy =
+        random_.OneOf(std::array<Accuracy, 3>{Accuracy::kFast, Accuracy::kBalanced, Accuracy::kAccurate});
+    // Of long increments, mpec says itself that they cut corners.
+    const bool branch = options.method == Method::kBranch;
+    options.step = random_.OneOf(std::array<double, 6>{0.0, 0.0, 1e-6, 1e-3, branch ? 0.2 : 0.01, branch ? 1.0 : 0.05});
+    if (request_.program.empty()) options.direction = random_.OneOf(std::array<double, 3>{0.0, 1.0, -1.0});
+    options.full_state_every = static_cast<int>(random_.Index(4));
+    if (random_.Chance(0.3)) {
+      const Node& node = random_.OneOf(scene().nodes);
+      options.stop.push_back({node.name + ".x", random_.Chance(0.5) ? ">" : "<", node.x + random_.Number(-0.2, 0.2)});
+    }
+    if (branch && random_.Chance(0.5)) {
+      const bool event = random_.Chance(0.7);
+      const auto number = static_cast<int>(random_.Index(4));
+      options.branch_choices.push_back(
+          {event ? number + 1 : 0, event ? 0 : number, static_cast<int>(random_.Index(4))});
+    }
+  }
+
+  Decisions random_;
+  TraceRequest request_;
+};
+
+}  // namespace
+
+std::function<std::uint64_t()> BitsOf(const std::uint8_t* data, std::size_t size) {
+  const std::vector<std::uint8_t> bytes(data, data + size);
+  std::uint64_t hash = size;
+  for (const std::uint8_t byte : bytes) hash = SplitMix64::Mix(hash ^ byte);
+  return [bytes, at = std::size_t{0}, rest = SplitMix64(hash)]() mutable {
+    if (at + 2 > bytes.size()) return rest();
+    const std::uint64_t two = (std::uint64_t{bytes[at]} << 8U) | bytes[at + 1];
+    at += 2;
+    // The largest bits decide numbers, the smallest ones indices.
+    return (two << 48U) | (SplitMix64::Mix(two) & 0xFFFFFFFFU);
+  };
+}
+
+TraceRequest VariedRequest(std::function<std::uint64_t()> bits) { return Variation(std::move(bits)).Build(); }
+
+}  // namespace contact_path

@@ -1,0 +1,25 @@
+// Valid requests of all kinds, from bytes.
+#ifndef CONTACT_PATH_TEST_FUZZ_VARIED_REQUEST_H_
+#define CONTACT_PATH_TEST_FUZZ_VARIED_REQUEST_H_
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+
+#include "contact_path/scene/scene.h"
+
+namespace contact_path {
+
+// Each two bytes are one decision, so that a change of bytes changes something of the request; beyond their end they go
+// on with pseudo-random numbers that depend on all of them.
+std::function<std::uint64_t()> BitsOf(const std::uint8_t* data, std::size_t size);
+
+// A small scene of RandomRequest() (support/random_scene.h), then, each by chance: coordinates on a coarse grid, so
+// that things coincide; friction, stiffness, loads and units of extreme size; linear parts; redundant obstacles and
+// opposite walls without clearance; moving obstacles and supports; a load program; any options. Always valid; at most
+// 60 increments, 12 by method mpec.
+TraceRequest VariedRequest(std::function<std::uint64_t()> bits);
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_TEST_FUZZ_VARIED_REQUEST_H_
