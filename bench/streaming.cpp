@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -23,7 +24,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kRepetitions = 7;
+constexpr int kRounds = 9;
+constexpr int kSettings[] = {1, 10};  // of full_state_every
 
 double Seconds(Clock::time_point since) { return std::chrono::duration<double>(Clock::now() - since).count(); }
 
@@ -65,18 +67,22 @@ void Measure(const std::string& file, std::ostream* table) {
   ros::ServiceClient client = node.serviceClient<contact_path_msgs::TracePath>(names::kTrace);
   client.waitForExistence();
 
-  TraceRequest request = ReadTraceRequestFile(file);
-  *table << "full_state_every,ratio,bag_bytes\n";
-  for (const int every : {1, 10}) {
-    request.options.full_state_every = every;
-    std::vector<double> ratios;
-    double bytes = 0.0;
-    for (int i = 0; i < kRepetitions; ++i) {  // in turn, so that a slow moment of the machine meets both
-      const double core = CoreTime(request);
-      ratios.push_back(ServiceTime(&client, request, parameters.bag_directory, &bytes) / core);
+  const TraceRequest request = ReadTraceRequestFile(file);
+  std::vector<double> ratios[std::size(kSettings)];
+  double bytes[std::size(kSettings)];
+  for (int round = 0; round < kRounds; ++round) {  // in turn, so that a slow moment of the machine meets all
+    const double core = CoreTime(request);
+    for (std::size_t i = 0; i < std::size(kSettings); ++i) {
+      TraceRequest recorded = request;
+      recorded.options.full_state_every = kSettings[i];
+      ratios[i].push_back(ServiceTime(&client, recorded, parameters.bag_directory, &bytes[i]) / core);
     }
-    std::sort(ratios.begin(), ratios.end());
-    *table << every << ',' << ratios[kRepetitions / 2] << ',' << bytes << '\n';
+  }
+  *table << "full_state_every,ratio,lower_quartile,upper_quartile,bag_bytes\n";
+  for (std::size_t i = 0; i < std::size(kSettings); ++i) {
+    std::sort(ratios[i].begin(), ratios[i].end());
+    *table << kSettings[i] << ',' << ratios[i][kRounds / 2] << ',' << ratios[i][kRounds / 4] << ','
+           << ratios[i][kRounds - 1 - kRounds / 4] << ',' << bytes[i] << '\n';
   }
   std::filesystem::remove_all(parameters.bag_directory);
   if (received == 0) throw std::runtime_error("the subscriber got nothing");
