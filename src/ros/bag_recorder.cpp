@@ -27,7 +27,8 @@ namespace {
 constexpr std::size_t kMaxNamePart = 64;
 constexpr std::size_t kChunkBytes = 16 * 1024;
 constexpr std::chrono::milliseconds kChunkTime{100};
-constexpr std::uint32_t kNever = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t kNever = std::numeric_limits<std::uint32_t>::max();  // thresholds of chunks
+constexpr std::uint32_t kAtOnce = 0;
 constexpr char kExtension[] = ".bag";
 
 bool IsDigit(char c) { return c >= '0' && c <= '9'; }
@@ -124,13 +125,16 @@ void BagRecorder::WriteRequest(const contact_path_msgs::TraceRequest& request) {
 
 void BagRecorder::WriteIncrement(const contact_path_msgs::Increment& increment) {
   CheckSpace();
-  Write(names::kIncrements, increment);
+  const bool first = increment.index == 0;
   chunk_bytes_ += ros::serialization::serializationLength(increment);
-  if (increment.index == 0 || chunk_bytes_ >= kChunkBytes || Clock::now() - chunk_time_ > kChunkTime) EndChunk();
+  const bool full = chunk_bytes_ >= kChunkBytes || Clock::now() - chunk_time_ > kChunkTime;
+  if (full && !first) EndChunk(kAtOnce);
+  Write(names::kIncrements, increment);
+  if (full || first) EndChunk(kNever);
 }
 
 void BagRecorder::WriteResult(const contact_path_msgs::TraceResult& result) {
-  EndChunk();
+  EndChunk(kNever);
   Write(names::kResult, result);
 }
 
@@ -146,15 +150,19 @@ void BagRecorder::Close() {
 }
 
 // `rosbag reindex` takes chunks that are followed by their index, and gives up a bag where the definition of a topic is
-// the last thing. So rosbag never ends a chunk by itself, the first one holds the request and the first row, and what
-// is still in the buffers of the C library is written.
-void BagRecorder::EndChunk() {
+// the last thing. So the first chunk holds the request and the first row, no chunk ends but here, and what is still in
+// the buffers of the C library is written.
+//
+// rosbag keeps what it has written until a chunk has grown beyond its threshold. So the last row of each 16 KiB is a
+// chunk of its own that does so at once: or else the memory would grow with the bag.
+void BagRecorder::EndChunk(std::uint32_t next_threshold) {
   if (!bag_) return;
   try {
-    bag_->setChunkThreshold(kNever);  // ends the chunk that is open, too
+    bag_->setChunkThreshold(next_threshold);  // ends the chunk that is open, too
   } catch (const rosbag::BagException& error) {
     throw BagError("bag " + file_name_ + " cannot be written: " + error.what());
   }
+  if (next_threshold == kAtOnce) return;
   // rosbag keeps its stream to itself. Where this fails, so does what is written next.
   if (std::fflush(nullptr) == 0) whole_ = std::filesystem::file_size(directory_ / file_name_);
   chunk_time_ = Clock::now();

@@ -72,7 +72,7 @@ void TraceAction::Trace(Server::GoalHandle goal) {
   observer.on_increment = [&](const contact_path_msgs::TracePathFeedback& feedback) { goal.publishFeedback(feedback); };
   // Asked for while the goal was still being checked, too: then it is accepted as one that is to be preempted.
   observer.cancelled = [&] { return goal.getGoalStatus().status == actionlib_msgs::GoalStatus::PREEMPTING; };
-  service_.Run(ToRequest(*goal.getGoal()), observer, &response);
+  service_.Run([&] { return ToRequest(*goal.getGoal()); }, observer, &response);
 
   const contact_path_msgs::TracePathResult result = ToActionResult(response);
   if (!accepted) {

@@ -125,10 +125,10 @@ bool TraceService::Admit(const std::string& scene_name, Response* response) {
   return true;
 }
 
-void TraceService::Run(const contact_path_msgs::TraceRequest& request, const TraceObserver& observer,
+void TraceService::Run(const std::function<contact_path_msgs::TraceRequest()>& request, const TraceObserver& observer,
                        Response* response) {
   try {
-    Serve(request, observer, response);
+    Serve(request(), observer, response);
   } catch (const std::bad_alloc&) {
     response->status = Response::LIMIT_EXCEEDED;
     response->message = MemoryLimitText(parameters_.limits);
@@ -137,20 +137,23 @@ void TraceService::Run(const contact_path_msgs::TraceRequest& request, const Tra
     response->message = error.what();
   }
   if (response->status != Response::OK) {
-    ROS_WARN("trace of \"%s\": %s", OneLine(NameOf(request)).c_str(), response->message.c_str());
+    ROS_WARN("trace of \"%s\": %s", running_scene_.c_str(), response->message.c_str());
   } else {
-    ROS_INFO("trace of \"%s\" to %s: %s", OneLine(NameOf(request)).c_str(), response->bag.c_str(),
-             response->message.c_str());
+    ROS_INFO("trace of \"%s\" to %s: %s", running_scene_.c_str(), response->bag.c_str(), response->message.c_str());
   }
 
   // Whoever sees the status or the answer finds the node ready for the next request.
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (!response->bag.empty()) PublishEnd(*response);
+  try {
+    if (!response->bag.empty()) PublishEnd(*response);
+  } catch (const std::exception& error) {
+    ROS_ERROR("the end of the trace is not published: %s", error.what());
+  }
   running_ = false;
 }
 
 bool TraceService::HandleTrace(Request& request, Response& response) {
-  if (Admit(NameOf(request), &response)) Run(ToRequest(request), TraceObserver(), &response);
+  if (Admit(NameOf(request), &response)) Run([&] { return ToRequest(request); }, TraceObserver(), &response);
   return true;
 }
 

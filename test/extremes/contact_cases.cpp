@@ -88,12 +88,14 @@ ExtremeCase Wedge(double friction, double clearance) {
   scene.contacts = {{"p", "left"}, {"p", "right"}};
   extreme.request = Until(scene, "load_factor", ">", 2.0);
   extreme.exact = "closed form, the free wall without reaction";
+  // A clearance that the check of a row cannot tell from none.
+  const bool tight = clearance <= 1e-9;
   // eps of mpec takes in what is nearer than its root.
   if (clearance > 0.0) extreme.allowed_regularised = 5e-2;
-  extreme.error = [friction, clearance](const TraceRequest& request, const Increment& row) {
+  extreme.error = [friction, clearance, tight](const TraceRequest& request, const Increment& row) {
     // Two rough walls may squeeze the node between them as much as it takes to hold it, which mpec follows.
-    if (friction > 0.0 && clearance == 0.0 && request.options.method == Method::kMpec)
-      return Largest({row.positions[0], row.contacts[1].rn - row.contacts[0].rn - kPress});
+    if (friction > 0.0 && tight && request.options.method == Method::kMpec)
+      return Largest({row.positions[0] - clearance, row.contacts[1].rn - row.contacts[0].rn - kPress});
     const double press = kPress - clearance, slid = std::max(0.0, row.load_factor - friction * press);
     return Largest(
         {row.positions[0] - clearance, row.positions[1] - slid, row.contacts[0].rn, row.contacts[1].rn - press});

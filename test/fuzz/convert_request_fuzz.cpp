@@ -1,6 +1,7 @@
 // Bytes as the request of a service call, as they come from a connection: they are read or refused, then held against
 // the limits of a node, converted and validated, as the node does. Converted back, they are the same request.
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "contact_path/ros/convert.h"
@@ -77,6 +78,8 @@ void CheckConverter(std::vector<std::uint8_t> bytes) {
 }  // namespace contact_path
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  contact_path::CheckConverter(std::vector<std::uint8_t>(data, data + size));
+  std::vector<std::uint8_t> bytes(data, data + size);
+  bytes.reserve(1);  // roscpp moves its pointer on before it looks whether there is anything
+  contact_path::CheckConverter(std::move(bytes));
   return 0;
 }

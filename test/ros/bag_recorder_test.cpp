@@ -16,6 +16,8 @@
 #include <rosbag/view.h>
 #include <sys/resource.h>
 
+#include "contact_path/ros/memory_share.h"
+
 namespace contact_path {
 namespace {
 
@@ -234,6 +236,24 @@ TEST_F(BagRecorderTest, RowsOfASlowTraceReachTheFileAtOnce) {
     increment.header.frame_id = "row number " + std::to_string(i);
     recorder.WriteIncrement(increment);
     EXPECT_TRUE(holds(increment.header.frame_id)) << i;
+  }
+}
+
+// Of long rows, and of short ones that share their chunks.
+TEST_F(BagRecorderTest, MemoryDoesNotGrowWithTheBag) {
+  if (DataMegabytes() == 0.0) GTEST_SKIP() << "not counted in this build";
+  for (const std::size_t nodes : {2000, 20}) {
+    BagRecorder recorder(directory_, "s", kPrefix);
+    recorder.WriteRequest(msgs::TraceRequest());
+    msgs::Increment increment = IncrementOf(0, nodes);
+    const auto write = [&](std::size_t megabytes) {
+      const std::size_t rows = (megabytes << 20U) / ros::serialization::serializationLength(increment);
+      for (std::size_t i = 0; i < rows; ++i, ++increment.index) recorder.WriteIncrement(increment);
+    };
+    write(2);
+    const double before = DataMegabytes();
+    write(40);
+    EXPECT_LT(DataMegabytes() - before, 4.0) << nodes;
   }
 }
 

@@ -69,7 +69,7 @@ class BagRecorder {
   void Open();
   void CreateFile(const std::string& scene_name);  // an empty one; sets number_ and file_name_
   void CheckSpace() const;
-  void EndChunk();
+  void EndChunk(std::uint32_t next_threshold);  // [bytes]
   template <typename Message>
   void Write(const char* topic, const Message& message, bool latched = false);
 

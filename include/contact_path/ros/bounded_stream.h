@@ -8,6 +8,8 @@
 
 #include <cstdint>
 #include <cstring>
+#include <new>
+#include <stdexcept>
 #include <vector>
 
 #include <ros/serialization.h>
@@ -36,6 +38,17 @@ class BoundedIStream : public ros::serialization::Stream {
     ros::serialization::deserialize(*this, values);
   }
 };
+
+// As roscpp deserializes. Throws std::runtime_error, which tells a caller more than std::bad_alloc, where memory ends.
+template <typename Message>
+void ReadBounded(ros::serialization::IStream& stream, Message& message) {
+  try {
+    BoundedIStream(stream.getData(), stream.getLength()).next(message);
+  } catch (const std::bad_alloc&) {
+    message = Message();
+    throw std::runtime_error("not enough MB of memory to read the message");
+  }
+}
 
 }  // namespace contact_path
 

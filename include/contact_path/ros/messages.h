@@ -39,19 +39,19 @@ namespace serialization {
 
 template <>
 inline void deserialize(IStream& stream, contact_path_msgs::TracePathRequest& t) {
-  contact_path::BoundedIStream(stream.getData(), stream.getLength()).next(t);
+  contact_path::ReadBounded(stream, t);
 }
 template <>
 inline void deserialize(IStream& stream, contact_path_msgs::TracePathActionGoal& t) {
-  contact_path::BoundedIStream(stream.getData(), stream.getLength()).next(t);
+  contact_path::ReadBounded(stream, t);
 }
 template <>
 inline void deserialize(IStream& stream, contact_path_msgs::TraceRequest& t) {
-  contact_path::BoundedIStream(stream.getData(), stream.getLength()).next(t);
+  contact_path::ReadBounded(stream, t);
 }
 template <>
 inline void deserialize(IStream& stream, contact_path_msgs::Increment& t) {
-  contact_path::BoundedIStream(stream.getData(), stream.getLength()).next(t);
+  contact_path::ReadBounded(stream, t);
 }
 
 }  // namespace serialization

@@ -62,8 +62,10 @@ class TraceService {
   // Takes the node for a trace of this scene. False where another one has it, or while shutting down: `response` tells.
   bool Admit(const std::string& scene_name, Response* response);
 
-  // Traces what was admitted, and gives the node free. `response->bag` is empty where nothing was traced.
-  void Run(const contact_path_msgs::TraceRequest& request, const TraceObserver& observer, Response* response);
+  // Traces what was admitted, and gives the node free, whatever happens. `request` is called once; it may throw.
+  // `response->bag` is empty where nothing was traced.
+  void Run(const std::function<contact_path_msgs::TraceRequest()>& request, const TraceObserver& observer,
+           Response* response);
 
   // Refuses what comes from now on and asks the running trace to end; does not wait for it.
   void Shutdown();
