@@ -2,7 +2,6 @@
 if(NOT CMAKE_CXX_COMPILER_ID MATCHES Clang)
   message(FATAL_ERROR "CONTACT_PATH_FUZZ needs clang: -DCMAKE_CXX_COMPILER=clang++")
 endif()
-find_package(GTest REQUIRED)  # for what of test/support is used
 
 # contact_path_add_fuzz_target(<target> <library> [source...]): test/fuzz/<target>_fuzz.cpp as fuzz_<target>.
 function(contact_path_add_fuzz_target target library)

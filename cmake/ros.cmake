@@ -64,6 +64,7 @@ if(CATKIN_ENABLE_TESTING)
     test/ros/bag_recorder_test.cpp
     test/ros/bounded_stream_test.cpp
     test/ros/convert_test.cpp
+    test/ros/goal_id_test.cpp
     test/ros/limits_test.cpp
     test/ros/memory_share_test.cpp
     test/ros/ros_test_main.cpp

@@ -5,7 +5,6 @@
 # test_results/ of the build directory. The label `long` marks what takes more than a few seconds; it can be left out.
 
 option(CONTACT_PATH_LONG_TESTS "Build the tests that take more than a few seconds, too" ON)
-find_package(GTest REQUIRED)
 find_program(CONTACT_PATH_PYTHON python3 PATHS /usr/bin NO_DEFAULT_PATH REQUIRED)
 if(CONTACT_PATH_ROS AND CATKIN_ENABLE_TESTING)
   set(contact_path_test_with_catkin ON)

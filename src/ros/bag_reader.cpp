@@ -3,6 +3,7 @@
 #include <exception>
 #include <filesystem>
 #include <fstream>
+#include <new>
 #include <utility>
 
 #include <rosbag/bag.h>
@@ -76,6 +77,8 @@ std::vector<RecordedTrace> ReadTraces(const std::string& file) {
     throw BagError(file + ": " + error.what());
   } catch (const InvalidRequest& error) {
     throw BagError(file + ": the request is not valid: " + error.violations().front().ToLine());
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
     throw BagError(file + ": cannot be read: " + error.what());
   }

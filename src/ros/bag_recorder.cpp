@@ -113,7 +113,7 @@ BagRecorder::BagRecorder(const std::filesystem::path& file, const std::string& t
 BagRecorder::~BagRecorder() {
   try {
     Close();
-  } catch (const BagError&) {
+  } catch (const std::exception&) {
     // A caller that wants to know calls Close().
   }
 }
@@ -143,7 +143,7 @@ void BagRecorder::Close() {
   std::unique_ptr<rosbag::Bag> bag = std::move(bag_);
   try {
     bag->close();
-  } catch (const rosbag::BagException& error) {
+  } catch (const std::exception& error) {
     Abandon(directory_ / file_name_, whole_, std::move(bag));
     throw BagError("bag " + file_name_ + " cannot be closed, `rosbag reindex` restores what it holds: " + error.what());
   }
@@ -164,7 +164,12 @@ void BagRecorder::EndChunk(std::uint32_t next_threshold) {
   }
   if (next_threshold == kAtOnce) return;
   // rosbag keeps its stream to itself. Where this fails, so does what is written next.
-  if (std::fflush(nullptr) == 0) whole_ = std::filesystem::file_size(directory_ / file_name_);
+  if (std::fflush(nullptr) == 0) {
+    std::error_code error;  // of a bag that was removed meanwhile
+    const std::uintmax_t size = std::filesystem::file_size(directory_ / file_name_, error);
+    if (error) throw BagError("bag " + file_name_ + ": " + error.message());
+    whole_ = size;
+  }
   chunk_time_ = Clock::now();
   chunk_bytes_ = 0;
 }

@@ -46,7 +46,13 @@ int main(int argc, char** argv) {
       std::_Exit(1);
     }
     service.Shutdown();
-    spinner.stop();   // waits for the running trace to end, its bag to be closed and its caller to be answered
+    // The running trace ends after its step. Who does not want to wait for that sends another signal.
+    while (service.IsRunning()) {
+      if (!shutdown.WaitFor(0.05)) continue;
+      ROS_FATAL("ended in the middle of a step; `rosbag reindex` saves the bag");
+      std::_Exit(1);
+    }
+    spinner.stop();   // waits for its caller to be answered
     action.Finish();  // likewise
     ros::WallDuration(kTimeToSend).sleep();
   } catch (const std::exception& error) {

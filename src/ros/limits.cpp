@@ -10,6 +10,9 @@
 namespace contact_path {
 namespace {
 
+constexpr std::size_t kLongestName = std::size_t{1} << 17U;  // of a scene: it comes with each status
+constexpr std::size_t kMostBytes = std::size_t{1} << 28U;    // some times as many are taken while it is checked
+
 void CheckPositive(const std::string& name, int value) {
   if (value <= 0) throw std::invalid_argument("~" + name + " = " + std::to_string(value) + ": must be > 0");
 }
@@ -99,6 +102,14 @@ std::string ExceededLimit(const contact_path_msgs::Scene& scene, const contact_p
       {"options.branch_choices", options.branch_choices.size(), names::kMaxContacts, limits.max_contacts},
       {"options.max_increments", IncrementsWanted(options), names::kMaxIncrements, limits.max_increments},
   };
+  if (scene.name.size() > kLongestName) {
+    return "scene.name: " + std::to_string(scene.name.size()) + " bytes, but the node admits " +
+           std::to_string(kLongestName);
+  }
+  std::size_t bytes = ros::serialization::serializationLength(scene) + ros::serialization::serializationLength(options);
+  for (const contact_path_msgs::Stage& stage : program) bytes += ros::serialization::serializationLength(stage);
+  if (bytes > kMostBytes)
+    return "the request has " + std::to_string(bytes) + " bytes, but the node admits " + std::to_string(kMostBytes);
   for (const Row& row : rows) {
     if (row.value > static_cast<std::size_t>(row.limit)) {
       return std::string(row.what) + ": " + std::to_string(row.value) + ", but the node admits " +

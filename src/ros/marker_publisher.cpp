@@ -74,7 +74,11 @@ void MarkerPublisher::Tick() {
     taken_before_ = taken_;
     if (published_ || start < next_ || (!at_rest && publisher_.getNumSubscribers() == 0)) return;
   }
-  Publish();
+  try {
+    Publish();
+  } catch (const std::exception& error) {  // where memory ends: nobody else would catch it
+    ROS_ERROR("no picture: %s", error.what());
+  }
   const Clock::time_point end = Clock::now();
   const std::lock_guard<std::mutex> lock(mutex_);
   next_ = end + kPause * (end - start);

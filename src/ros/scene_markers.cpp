@@ -25,6 +25,7 @@ using visualization_msgs::Marker;
 
 // Lengths in parts of the scene's size.
 constexpr double kFullArrow = 0.2;
+constexpr int kMostStrokes = 200;  // of a moving obstacle
 constexpr double kStripDepth = 0.05;
 constexpr double kTextHeight = 0.045;
 constexpr double kFarthestStop = 5.0;
@@ -410,15 +411,17 @@ void SceneMarkers::DrawObstacles(const Places& places, const msgs::Increment& ro
   picture->BeginLines("obstacles", 1, kBarWidth * detail_, kGroundLine, kBoundaries);
   for (const auto& [from, to] : boundaries) picture->AddLine(from, to);
   picture->BeginLines("obstacles", 2, kThinWidth * detail_, kGroundLine, kBoundaries);
-  const double distance = 2.0 * kStripDepth * size_;
+  const double distance = std::max(2.0 * kStripDepth * size_, 2.0 * half_length / kMostStrokes);
   for (std::size_t i = 0; i < obstacles.size(); ++i) {
     if (!obstacles[i].moves) continue;
     const Vector2d tangent = Tangent(obstacles[i].normal);
     const Vector2d stroke = kStripDepth * size_ * (obstacles[i].normal + tangent);
     // Multiples of the distance from the point that moves.
     const Vector2d& from = boundaries[i][0];
-    const double begin = tangent.dot(obstacles[i].PointAt(row.load_factor) - from);
-    for (double along = begin - distance * std::floor(begin / distance); along < 2.0 * half_length; along += distance) {
+    const double begin = std::fmod(tangent.dot(obstacles[i].PointAt(row.load_factor) - from), distance);
+    for (int k = begin < 0.0 ? 1 : 0; k <= kMostStrokes; ++k) {
+      const double along = begin + k * distance;
+      if (!(along < 2.0 * half_length)) break;
       picture->AddLine(from + along * tangent, from + along * tangent - stroke);
     }
   }

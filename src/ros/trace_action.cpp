@@ -1,5 +1,7 @@
 #include "contact_path/ros/trace_action.h"
 
+#include <exception>
+
 #include <actionlib_msgs/GoalStatus.h>
 
 #include "contact_path/ros/convert.h"
@@ -36,8 +38,13 @@ void TraceAction::Finish() {
 
 void TraceAction::TakeGoal(Server::GoalHandle goal) {
   Response response;
-  if (!service_.Admit(NameOf(*goal.getGoal()), &response)) {
-    goal.setRejected(ToActionResult(response), response.message);
+  try {
+    if (!service_.Admit(NameOf(*goal.getGoal()), &response)) {
+      goal.setRejected(ToActionResult(response), response.message);
+      return;
+    }
+  } catch (const std::exception& error) {  // where memory ends
+    ROS_ERROR("a goal is not taken: %s", error.what());
     return;
   }
   {
@@ -56,7 +63,11 @@ void TraceAction::Work() {
     Server::GoalHandle goal = *admitted_;
     admitted_.reset();
     lock.unlock();
-    Trace(goal);
+    try {
+      Trace(goal);
+    } catch (const std::exception& error) {  // where memory ends; the node is free again
+      ROS_ERROR("a goal is left without an answer: %s", error.what());
+    }
     lock.lock();
   }
 }

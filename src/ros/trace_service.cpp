@@ -100,6 +100,11 @@ void TraceService::Shutdown() {
   RequestStop(StopCause::kShutdown);
 }
 
+bool TraceService::IsRunning() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return running_;
+}
+
 bool TraceService::IsStuck() {
   const std::lock_guard<std::mutex> lock(mutex_);
   const double limit = parameters_.limits.max_seconds;
@@ -118,38 +123,47 @@ bool TraceService::Admit(const std::string& scene_name, Response* response) {
     response->message = "the node is tracing \"" + running_scene_ + "\": call ~cancel or wait for its end";
     return false;
   }
+  running_scene_ = OneLine(scene_name);  // first: it may throw
   running_ = true;
   running_since_ = Clock::now();
-  running_scene_ = OneLine(scene_name);
   stop_cause_ = StopCause::kNone;
   return true;
 }
 
 void TraceService::Run(const std::function<contact_path_msgs::TraceRequest()>& request, const TraceObserver& observer,
                        Response* response) {
+  // Where memory ends once more, in what follows, there is no message any more, but the node must become free.
   try {
-    Serve(request(), observer, response);
-  } catch (const std::bad_alloc&) {
-    response->status = Response::LIMIT_EXCEEDED;
-    response->message = MemoryLimitText(parameters_.limits);
-  } catch (const std::exception& error) {
+    try {
+      Serve(request(), observer, response);
+    } catch (const std::bad_alloc&) {
+      response->status = Response::LIMIT_EXCEEDED;
+      response->message = MemoryLimitText(parameters_.limits);
+    } catch (const std::exception& error) {
+      response->status = Response::FAILED;
+      response->message = error.what();
+    }
+    Log(*response);
+  } catch (const std::exception&) {
     response->status = Response::FAILED;
-    response->message = error.what();
-  }
-  if (response->status != Response::OK) {
-    ROS_WARN("trace of \"%s\": %s", running_scene_.c_str(), response->message.c_str());
-  } else {
-    ROS_INFO("trace of \"%s\" to %s: %s", running_scene_.c_str(), response->bag.c_str(), response->message.c_str());
   }
 
   // Whoever sees the status or the answer finds the node ready for the next request.
   const std::lock_guard<std::mutex> lock(mutex_);
   try {
     if (!response->bag.empty()) PublishEnd(*response);
-  } catch (const std::exception& error) {
-    ROS_ERROR("the end of the trace is not published: %s", error.what());
+  } catch (const std::exception&) {
+    // The answer tells the end, too.
   }
   running_ = false;
+}
+
+void TraceService::Log(const Response& response) const {
+  if (response.status != Response::OK) {
+    ROS_WARN("trace of \"%s\": %s", running_scene_.c_str(), response.message.c_str());
+  } else {
+    ROS_INFO("trace of \"%s\" to %s: %s", running_scene_.c_str(), response.bag.c_str(), response.message.c_str());
+  }
 }
 
 bool TraceService::HandleTrace(Request& request, Response& response) {
@@ -224,7 +238,11 @@ void TraceService::Serve(const contact_path_msgs::TraceRequest& asked, const Tra
   response->increments = status_.increments;
   response->end_reason_name = EndReasonName(response->end_reason);
   response->message = EndMessage(response->end_reason_name, response->message, summary_, response->bag);
-  markers_.Publish();  // who has the answer finds the last row
+  try {
+    markers_.Publish();  // who has the answer finds the last row
+  } catch (const std::exception& error) {
+    ROS_ERROR("no picture of the last row: %s", error.what());
+  }
   if (increments_left_out_ > 0)
     ROS_WARN("%u rows were not sent: %d MB wait for subscribers that are too slow (~%s); the bag has them",
              increments_left_out_, parameters_.increments_megabytes, names::kIncrementsMegabytes);

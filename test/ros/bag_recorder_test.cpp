@@ -239,6 +239,14 @@ TEST_F(BagRecorderTest, RowsOfASlowTraceReachTheFileAtOnce) {
   }
 }
 
+TEST_F(BagRecorderTest, SaysSoWhenTheBagIsRemoved) {
+  BagRecorder recorder(directory_, "s", kPrefix);
+  recorder.WriteRequest(msgs::TraceRequest());
+  fs::remove(directory_ / recorder.file_name());
+  EXPECT_THROW(recorder.WriteIncrement(IncrementOf(0)), BagError);
+  EXPECT_THROW(recorder.WriteResult(msgs::TraceResult()), BagError);
+}
+
 // Of long rows, and of short ones that share their chunks.
 TEST_F(BagRecorderTest, MemoryDoesNotGrowWithTheBag) {
   if (DataMegabytes() == 0.0) GTEST_SKIP() << "not counted in this build";

@@ -74,6 +74,9 @@ TEST(LimitsTest, NamesWhatIsTooLargeAndTheLimit) {
       {[](auto& request) { request.options.max_increments = 6; },
        "options.max_increments: 6, but the node admits 5 (~max_increments)"},
   };
+  msgs::TraceRequest named = LargestRequest();
+  named.scene.name = std::string(131073, 'x');
+  EXPECT_EQ(Exceeded(named), "scene.name: 131073 bytes, but the node admits 131072");
   for (const Row& row : rows) {
     msgs::TraceRequest request = LargestRequest();
     row.enlarge(request);

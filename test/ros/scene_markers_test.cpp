@@ -423,6 +423,18 @@ TraceRequest Belt() {
   return request;
 }
 
+TEST(SceneMarkersTest, MovingObstaclesHaveABoundedNumberOfStrokes) {
+  const SceneMarkers markers(Belt(), World());
+  msgs::Increment row = SlopeRow(0.5);
+  row.stage = 2;
+  for (const double far : {1e3, 1e12, 1e90}) {
+    row.x[0] = far;
+    const std::size_t points = Find(markers.Draw(row, 3.0), "obstacles", 2).points.size();
+    EXPECT_GE(points, 100U) << far;
+    EXPECT_LE(points, 2U * 2U * 201U) << far;
+  }
+}
+
 TEST(SceneMarkersTest, StagesHaveTheirLoadsAndObstacles) {
   const SceneMarkers markers(Belt(), World());
   msgs::Increment row = SlopeRow(0.5);

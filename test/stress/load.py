@@ -9,7 +9,7 @@ from contact_path.srv import TracePath, TracePathResponse as Response
 
 import helpers
 from wire import Subscriber
-from world import Failed, quickly, require
+from world import quickly, require
 
 PATIENCE = 30.0  # [s] for any one answer
 
@@ -105,10 +105,15 @@ def clients(world, short):
     for thread in threads:
         thread.join(max(deadline - time.monotonic(), 0.0))
     require(len(answers) == count * rounds, '%d of %d calls hang' % (count * rounds - len(answers), count * rounds))
+    # roscpp itself loses the answer to a call now and then, where a client closes its side early: ros_comm, issue 1976.
+    errors = ['%s: %s' % (name, answer) for name, answer, _ in answers if isinstance(answer, Exception)]
+    lost = sum('transport error completing service call' in error for error in errors)
+    require(len(errors) == lost <= count * rounds // 100, '%d calls without answer, %s; the node %s, its log ends %s' % (
+        len(errors), errors[:3], 'lives' if node.process.poll() is None else 'has died', node.log()[-500:]))
     traced = refused = 0
     for name, answer, _ in answers:
         if isinstance(answer, Exception):
-            raise Failed('%s: %s' % (name, answer))
+            continue
         if answer.status == Response.BUSY:
             require(answer.message.startswith('the node is tracing "client_'), answer.message)
             require(answer.bag == '' and answer.increments == 0, 'a refusal with a trace')
@@ -119,11 +124,12 @@ def clients(world, short):
             require(recorded.scene.name == name, 'the bag of another client')
             require(len(increments) == expected.options.max_increments + 1, 'not the whole trace')
             traced += 1
-    require(traced >= rounds and refused > 0, '%d traced, %d refused' % (traced, refused))
+    require(traced >= rounds - lost and refused > 0, '%d traced, %d refused' % (traced, refused))
     node.require_traces()
-    slowest = max(seconds for _, answer, seconds in answers if answer.status == Response.BUSY)
-    return '%d clients, %d calls: %d traced, %d refused (BUSY, after %.0f ms at most), none hung' % (
-        count, len(answers), traced, refused, 1e3 * slowest)
+    slowest = max(seconds for _, answer, seconds in answers
+                  if not isinstance(answer, Exception) and answer.status == Response.BUSY)
+    return '%d clients, %d calls: %d traced, %d refused (BUSY, after %.0f ms at most), none hung, %d answers lost by ' \
+        'roscpp' % (count, len(answers), traced, refused, 1e3 * slowest, lost)
 
 
 def cancel(world, short):

@@ -32,6 +32,7 @@
 #undef contact_path
 
 #include "contact_path/ros/bounded_stream.h"
+#include "contact_path/ros/goal_id.h"
 
 // What comes from outside, by a service, an action, a topic or a bag, is read by BoundedIStream.
 namespace ros {
@@ -44,6 +45,12 @@ inline void deserialize(IStream& stream, contact_path_msgs::TracePathRequest& t)
 template <>
 inline void deserialize(IStream& stream, contact_path_msgs::TracePathActionGoal& t) {
   contact_path::ReadBounded(stream, t);
+  contact_path::BoundGoalId(&t.goal_id);
+}
+template <>
+inline void deserialize(IStream& stream, actionlib_msgs::GoalID& t) {
+  contact_path::ReadBounded(stream, t);
+  contact_path::BoundCancel(&t);
 }
 template <>
 inline void deserialize(IStream& stream, contact_path_msgs::TraceRequest& t) {

@@ -70,6 +70,8 @@ class TraceService {
   // Refuses what comes from now on and asks the running trace to end; does not wait for it.
   void Shutdown();
 
+  bool IsRunning();
+
   // Whether the running trace is far beyond its time: a single step of it takes so long, and steps cannot be
   // interrupted. Only the end of the process ends it.
   bool IsStuck();
@@ -87,6 +89,7 @@ class TraceService {
                 const TraceObserver& observer, BagRecorder* bag, Response* response);
   void TakeIncrement(const Increment& increment, const TraceObserver& observer, BagRecorder* bag);
   contact_path_msgs::TracePathFeedback FeedbackOn(const contact_path_msgs::Increment& increment) const;
+  void Log(const Response& response) const;
   void PublishStatus();
   void PublishEnd(const Response& response);
 
