@@ -371,7 +371,9 @@ class Verifier {
       const double slip = std::abs(surface.Slip(before, row));
       dissipation += 0.5 * surface.friction * (before.contacts[i].rn + row.contacts[i].rn) * slip;
       const double rn = before.contacts[i].rn, change = std::abs(row.contacts[i].rn - rn);
-      open_dissipation += surface.friction * (0.5 * change + bend * (rn + change)) * slip / unit;
+      // A contact that closes and opens on the increment has no reaction at both ends.
+      const double largest = rn + change + scaling_.force;
+      open_dissipation += surface.friction * (0.5 * change + bend * largest) * slip / unit;
     }
     if (row.solve.method == Method::kMpec) open_ += open_work + open_dissipation;
     if (!OnePiece(row)) return;  // trapezoids over several increments tell too little

@@ -9,20 +9,21 @@ import re
 import sys
 
 FRAME = re.compile(r'^ +#\d+ (.*)')
-THROUGH = re.compile(r'operator (delete|new)|pthread_|mem(cpy|move|set)\b|(void |bool )?boost::|std::|__|(free|malloc|close|poll|send|recv|read|write)\b')
+# Also what roscpp reads messages with.
+THROUGH = re.compile(r'.*contact_path::(BoundedIStream|ReadBounded)|operator (delete|new)|pthread_|mem(cpy|move|set)\b|(void |bool )?boost::|std::|__|(free|malloc|close|poll|send|recv|read|write)\b')
 THEIRS = re.compile(r'(\w+ )?(ros|log4cxx)::|.*\((libroscpp|librosconsole|liblog4cxx|libxmlrpcpp)\.')
 
 
 def first_frames(report):
-    """Of each stack the first frame that is not of the standard library."""
-    frames, stack_is_new = [], True
+    """Of each stack the first frame that is not of the standard library, or the last one if all are."""
+    frames, in_stack = [], False
     for line in report.splitlines():
         frame = FRAME.match(line)
-        if not frame:
-            stack_is_new = True
-        elif stack_is_new and not THROUGH.match(frame.group(1)):
+        if frame and not in_stack:
             frames.append(frame.group(1))
-            stack_is_new = False
+        elif frame and THROUGH.match(frames[-1]):
+            frames[-1] = frame.group(1)
+        in_stack = bool(frame)
     return frames
 
 
