@@ -15,16 +15,21 @@ THEIRS = re.compile(r'(\w+ )?(ros|log4cxx)::|.*\((libroscpp|librosconsole|liblog
 
 
 def first_frames(report):
-    """Of each stack the first frame that is not of the standard library, or the last one if all are."""
-    frames, in_stack = [], False
+    """Of each stack the first frame that is not of the standard library; if all are, one of roscpp, if there is one."""
+    stacks, in_stack = [], False
     for line in report.splitlines():
         frame = FRAME.match(line)
-        if frame and not in_stack:
-            frames.append(frame.group(1))
-        elif frame and THROUGH.match(frames[-1]):
-            frames[-1] = frame.group(1)
+        if frame:
+            if not in_stack:
+                stacks.append([])
+            stacks[-1].append(frame.group(1))
         in_stack = bool(frame)
-    return frames
+    firsts = []
+    for stack in stacks:
+        candidates = [frame for frame in stack if not THROUGH.match(frame)]
+        candidates += [frame for frame in stack if THEIRS.match(frame)] + stack
+        firsts.append(candidates[0])
+    return firsts
 
 
 def is_theirs(report):
