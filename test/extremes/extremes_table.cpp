@@ -69,7 +69,7 @@ std::string Table(const std::string& filter, int* faults) {
     const double before = MebibytesInUse();
     for (const Method method : kMethods)
       for (const Accuracy accuracy : kPresets) {
-        const double most_seconds = method == Method::kMpec ? 1.0 : 60.0;
+        const double most_seconds = method == Method::kMpec ? 1.0 : extreme.long_run ? 120.0 : 15.0;
         const Outcome outcome = RunCase(extreme, method, accuracy, most_seconds);
         page << " | " << Cell(extreme, outcome);
         *faults += outcome.fault.empty() ? 0 : 1;
