@@ -7,6 +7,7 @@
 #include "contact_path/ros/convert.h"
 #include "contact_path/ros/limits.h"
 #include "fuzz/target.h"
+#include "ros/bytes.h"
 #include "support/same_request.h"
 
 namespace contact_path {
@@ -15,14 +16,6 @@ namespace {
 namespace msgs = contact_path_msgs;
 
 constexpr int kMostParts = 32;  // that the node admits, of each list
-
-template <typename Message>
-std::vector<std::uint8_t> Bytes(const Message& message) {
-  std::vector<std::uint8_t> bytes(ros::serialization::serializationLength(message));
-  ros::serialization::OStream out(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
-  ros::serialization::serialize(out, message);
-  return bytes;
-}
 
 void WriteOut(std::string* word, const char* meaning) {
   if (word->empty()) *word = meaning;

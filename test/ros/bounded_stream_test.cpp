@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "bytes.h"
 #include "contact_path/ros/messages.h"
 
 namespace contact_path {
@@ -15,14 +16,6 @@ namespace {
 
 namespace msgs = contact_path_msgs;
 namespace ser = ros::serialization;
-
-template <typename Message>
-std::vector<std::uint8_t> Bytes(const Message& message) {
-  std::vector<std::uint8_t> bytes(ser::serializationLength(message));
-  ser::OStream stream(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
-  ser::serialize(stream, message);
-  return bytes;
-}
 
 // As roscpp reads what comes in.
 template <typename Message>

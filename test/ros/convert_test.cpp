@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "bytes.h"
 #include "contact_path/scene/validate.h"
 
 namespace contact_path {
@@ -16,14 +17,6 @@ namespace {
 
 namespace msgs = contact_path_msgs;
 using Response = msgs::TracePathResponse;
-
-template <typename Message>
-std::vector<std::uint8_t> Bytes(const Message& message) {
-  std::vector<std::uint8_t> bytes(ros::serialization::serializationLength(message));
-  ros::serialization::OStream out(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
-  ros::serialization::serialize(out, message);
-  return bytes;
-}
 
 template <typename Message>
 Message FromBytes(std::vector<std::uint8_t> bytes) {

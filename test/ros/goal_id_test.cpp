@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "bytes.h"
 #include "contact_path/ros/messages.h"
 
 namespace contact_path {
@@ -15,9 +16,7 @@ namespace {
 // As roscpp reads it from a connection.
 template <typename Message>
 Message Received(const Message& sent) {
-  std::vector<std::uint8_t> bytes(ros::serialization::serializationLength(sent));
-  ros::serialization::OStream out(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
-  ros::serialization::serialize(out, sent);
+  std::vector<std::uint8_t> bytes = Bytes(sent);
   ros::serialization::IStream in(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
   Message message;
   ros::serialization::deserialize(in, message);
