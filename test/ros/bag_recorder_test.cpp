@@ -250,7 +250,7 @@ TEST_F(BagRecorderTest, SaysSoWhenTheBagIsRemoved) {
 // Of long rows, and of short ones that share their chunks.
 TEST_F(BagRecorderTest, MemoryDoesNotGrowWithTheBag) {
   if (DataMegabytes() == 0.0) GTEST_SKIP() << "not counted in this build";
-  for (const std::size_t nodes : {2000, 20}) {
+  for (const std::size_t nodes : {2000U, 20U}) {
     BagRecorder recorder(directory_, "s", kPrefix);
     recorder.WriteRequest(msgs::TraceRequest());
     msgs::Increment increment = IncrementOf(0, nodes);
