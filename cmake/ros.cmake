@@ -70,6 +70,8 @@ if(CATKIN_ENABLE_TESTING)
     test/ros/ros_test_main.cpp
     test/ros/scene_markers_test.cpp
   )
+  # For a quick build, as those of the core (tests.cmake).
+  target_compile_options(contact_path_ros_test PRIVATE -O1 -g0)
   target_link_libraries(contact_path_ros_test contact_path_ros contact_path_warnings)
 
   # catkin runs tests in a snapshot of the environment from before the messages were generated; this one is read when
