@@ -16,5 +16,11 @@ contact_path_add_fuzz_target(trace_scene contact_path_core test/fuzz/varied_requ
   test/support/transformations.cpp)
 target_link_libraries(fuzz_trace_scene PRIVATE GTest::gtest)
 if(CONTACT_PATH_ROS)
-  contact_path_add_fuzz_target(convert_request contact_path_ros test/support/same_request.cpp)
+  # Of the ROS side only what it runs: the rest takes minutes to compile.
+  contact_path_add_fuzz_target(convert_request contact_path_core src/ros/convert.cpp src/ros/limits.cpp
+    test/support/same_request.cpp)
+  add_dependencies(fuzz_convert_request ${PROJECT_NAME}_generate_messages_cpp)
+  target_include_directories(fuzz_convert_request SYSTEM
+    PRIVATE ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION} ${catkin_INCLUDE_DIRS})
+  target_link_libraries(fuzz_convert_request PRIVATE ${catkin_LIBRARIES})
 endif()

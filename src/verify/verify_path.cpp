@@ -346,17 +346,22 @@ class Verifier {
   // which a trapezoid is in the middle of; as much again for paths that turn in between.
   void CheckWork(const Increment& before, const Increment& row) {
     const double unit = scaling_.force * scaling_.length;
-    double along = 0.0, work = 0.0;
+    double along = 0.0, work = 0.0, scaled_loads = 0.0;
     for (const Load& load : scene_.loads) {
       const std::size_t x = 2 * nodes_.at(load.node), y = x + 1;
       const double product =
           load.fx * (row.positions[x] - before.positions[x]) + load.fy * (row.positions[y] - before.positions[y]);
       (load.constant ? work : along) += product;
+      if (!load.constant) scaled_loads += std::hypot(load.fx, load.fy);
     }
     work += 0.5 * (before.load_factor + row.load_factor) * along;
     // Where a force has its largest value on the increment, both ends may be alike. It bends over the length L.
     const double bend = kBend * std::pow(row.arc_length - before.arc_length, 2);
-    double open_work = (0.5 * std::abs((row.load_factor - before.load_factor) * along) + bend * std::abs(work)) / unit;
+    // So may the way of the loads, which goes forth and back then.
+    const double load_change = std::abs(row.load_factor - before.load_factor);
+    double open_work =
+        (0.5 * load_change * std::abs(along) + bend * (std::abs(work) + load_change * scaled_loads * scaling_.length)) /
+        unit;
     if (!scene_.support_motions.empty() || !scene_.obstacle_motions.empty()) {
       const double from = check_.DrivingForce(StateOf(before)), to = check_.DrivingForce(StateOf(row));
       const double moved = row.load_factor - before.load_factor;

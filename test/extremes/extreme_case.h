@@ -26,6 +26,7 @@ struct ExtremeCase {
   double allowed = 1e-9;              // error of exact rows, if no more than that is attainable
   double allowed_regularised = 1e-3;  // of the other rows
   bool long_run = false;              // more than a second
+  double most_seconds = 15.0;         // for the table, by method branch
 };
 
 inline std::ostream& operator<<(std::ostream& out, const ExtremeCase& extreme) {

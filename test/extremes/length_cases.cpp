@@ -37,6 +37,7 @@ ExtremeCase ManyIncrements(int count) {
         {SlidingBarError(request, row), row.solve.method == Method::kBranch ? row.dissipation - dissipation : 0.0});
   };
   extreme.long_run = true;
+  extreme.most_seconds = 120.0;
   return extreme;
 }
 

@@ -2,7 +2,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
+#include <map>
+#include <string>
 #include <utility>
 
 #include "contact_path/scene/scaling.h"
@@ -102,6 +103,16 @@ ExtremeCase TrussBesideABar(double stiffness) {
   return extreme;
 }
 
+// What scenes in other units are compared with: traced once for all of them.
+const TracedPath& Reference(const std::string& name, const TraceRequest& request) {
+  static std::map<std::string, TracedPath> paths;
+  const TraceOptions& options = request.options;
+  const std::string key =
+      name + ' ' + std::string(ToString(options.method)) + ' ' + std::string(ToString(options.accuracy));
+  const auto found = paths.find(key);
+  return found != paths.end() ? found->second : paths.emplace(key, TraceRows(request)).first->second;
+}
+
 // A scene in other units has the path of the scene in other units.
 ExtremeCase Units(const std::string& name, double length, double force) {
   ExtremeCase extreme;
@@ -111,15 +122,11 @@ ExtremeCase Units(const std::string& name, double length, double force) {
   request.options.max_increments = 150;
   extreme.request = ChangeUnits(request, length, force);
   extreme.exact = "the path in units of order 1";
-  auto reference = std::make_shared<TracedPath>();  // of the same method and accuracy
-  extreme.error = [reference, request, length, force](const TraceRequest& as_run, const Increment& row) {
-    if (row.index == 0) {
-      TraceRequest same = request;
-      same.options.method = as_run.options.method;
-      same.options.accuracy = as_run.options.accuracy;
-      *reference = TraceRows(same);
-    }
-    const std::vector<Increment>& rows = reference->rows;
+  extreme.error = [name, request, length, force](const TraceRequest& as_run, const Increment& row) {
+    TraceRequest same = request;
+    same.options.method = as_run.options.method;
+    same.options.accuracy = as_run.options.accuracy;
+    const std::vector<Increment>& rows = Reference(name, same).rows;
     const auto index = static_cast<std::size_t>(row.index);
     if (index >= rows.size()) return HUGE_VAL;
     const Increment& other = rows[index];

@@ -21,7 +21,7 @@ struct Outcome {
   std::string fault;
 };
 
-// most_seconds: then the trace is cancelled.
+// most_seconds: of tracing; then the trace is cancelled, but with fewer than four rows only after five times as long.
 Outcome RunCase(const ExtremeCase& extreme, Method method, Accuracy accuracy, double most_seconds);
 
 // What rounding alone may do to the answer: eps |J| |x| / sigma, the largest of up to 20 rows of method branch, with
