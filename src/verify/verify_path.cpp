@@ -30,6 +30,8 @@ bool AtTarget(double target, double load_factor) {
   return std::abs(load_factor - target) <= kAtTarget * std::abs(target);
 }
 
+bool IsSlip(ContactState state) { return state == ContactState::kSlipPlus || state == ContactState::kSlipMinus; }
+
 // The rows of one stage.
 class Verifier {
  public:
@@ -345,6 +347,7 @@ class Verifier {
   // Work and dissipation between two full rows: between the products with the smallest and with the largest force,
   // which a trapezoid is in the middle of; as much again for paths that turn in between.
   void CheckWork(const Increment& before, const Increment& row) {
+    const bool mpec = row.solve.method == Method::kMpec;
     const double unit = scaling_.force * scaling_.length;
     double along = 0.0, work = 0.0, scaled_loads = 0.0;
     for (const Load& load : scene_.loads) {
@@ -370,17 +373,20 @@ class Verifier {
     }
     double dissipation = 0.0, open_dissipation = 0.0;
     for (std::size_t i = 0; i < surfaces_.size(); ++i) {
-      const ContactState state = row.contacts[i].state;
-      if (state != ContactState::kSlipPlus && state != ContactState::kSlipMinus) continue;
+      const ContactState state = row.contacts[i].state, was = before.contacts[i].state;
       const Surface& surface = surfaces_[i];
       const double slip = std::abs(surface.Slip(before, row));
+      // Where within an increment of mpec it stopped to slip, or turned, is not known.
+      if (mpec && IsSlip(was) && state != was)
+        open_dissipation += surface.friction * std::max(before.contacts[i].rn, row.contacts[i].rn) * slip / unit;
+      if (!IsSlip(state)) continue;
       dissipation += 0.5 * surface.friction * (before.contacts[i].rn + row.contacts[i].rn) * slip;
       const double rn = before.contacts[i].rn, change = std::abs(row.contacts[i].rn - rn);
       // A contact that closes and opens on the increment has no reaction at both ends.
       const double largest = rn + change + scaling_.force;
       open_dissipation += surface.friction * (0.5 * change + bend * largest) * slip / unit;
     }
-    if (row.solve.method == Method::kMpec) open_ += open_work + open_dissipation;
+    if (mpec) open_ += open_work + open_dissipation;
     if (!OnePiece(row)) return;  // trapezoids over several increments tell too little
     const double slack = kEnergy * result_.work * kSlack + rounding_;
     const double work_off = std::abs(row.external_work - before.external_work - work) / unit;

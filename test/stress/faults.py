@@ -182,7 +182,7 @@ def full_disk(world, short):
     told = []
     with SmallDisk(world, RESERVE + 2 * MEGABYTE) as disk:
         if disk.mounted:
-            told += [disk_runs_full(world, disk), disk_is_filled(world, disk, 1 if short else 10)]
+            told += [disk_runs_full(world, disk), disk_is_filled(world, disk, 2 if short else 10)]
     told.append(file_size_is_limited(world))
     return '; '.join(told)
 
@@ -230,7 +230,8 @@ def disk_is_filled(world, disk, count):
         for name in os.listdir(bags):
             os.remove(os.path.join(bags, name))
         node.require_traces()
-    require(node.files() <= files, 'descriptors: %d -> %d' % (files, node.files()))
+    # One may be of a connection that is being closed; a bag that keeps its descriptor would take one each time.
+    require(node.files() <= files + 1, 'descriptors: %d -> %d' % (files, node.files()))
     node.stop()
     return 'a disk that others fill to the last byte, %d times: BAG_FAILED, the bag can be reindexed but for the last ' \
         '%d rows at most, no descriptor is lost' % (count, most_lost)
