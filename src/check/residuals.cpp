@@ -70,12 +70,12 @@ Real Strain(StrainMeasure measure, const BarLengths& lengths) {
   return std::numeric_limits<Real>::quiet_NaN();
 }
 
-// de/dl
-Real StrainRate(StrainMeasure measure, const BarLengths& lengths) {
+// de/dl / l: by Green and Lagrange's measure a bar of no length has one, too.
+Real StrainRatePerLength(StrainMeasure measure, const BarLengths& lengths) {
   switch (measure) {
-    case StrainMeasure::kBiot: return 1.0L / lengths.rest;
-    case StrainMeasure::kGreenLagrange: return lengths.current / (lengths.rest * lengths.rest);
-    case StrainMeasure::kLogarithmic: return 1.0L / lengths.current;
+    case StrainMeasure::kBiot: return 1.0L / (lengths.rest * lengths.current);
+    case StrainMeasure::kGreenLagrange: return 1.0L / (lengths.rest * lengths.rest);
+    case StrainMeasure::kLogarithmic: return 1.0L / (lengths.current * lengths.current);
   }
   return std::numeric_limits<Real>::quiet_NaN();
 }
@@ -206,9 +206,10 @@ struct ResidualCheck::Prepared {
     std::vector<Real> forces(state.positions.size(), 0.0L);
     for (const PreparedBar& bar : bars) {
       const BarLengths lengths = Measure(bar, state.positions);
-      // N = dW/dl = EA l0 e de/dl, along the bar.
-      const Real tension = bar.EA * lengths.rest * Strain(bar.strain, lengths) * StrainRate(bar.strain, lengths);
-      const Vector pull{tension * (lengths.span.x / lengths.current), tension * (lengths.span.y / lengths.current)};
+      // N = dW/dl = EA l0 e de/dl, along the bar: N / l times its span.
+      const Real per_length =
+          bar.EA * lengths.rest * Strain(bar.strain, lengths) * StrainRatePerLength(bar.strain, lengths);
+      const Vector pull{per_length * lengths.span.x, per_length * lengths.span.y};
       forces[2 * bar.first] -= pull.x;
       forces[2 * bar.first + 1] -= pull.y;
       forces[2 * bar.second] += pull.x;

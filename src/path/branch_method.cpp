@@ -360,7 +360,7 @@ Advance BranchMethod::Next(const PathPoint& from) {
     arrival.direction = end.first.head(piece_.NumMotion());
     arrival.singular = watched.singular;
     if (at_start_) arrival = StartArrival();
-    if (forced == nullptr) row.event.number = ++events_;
+    if (watched.happening == Happening::kEvent) row.event.number = ++events_;
     const BranchChoice* choice = forced != nullptr ? forced : ChoiceForEvent(events_);
     if (const std::optional<EndReason> reason = PassEvent(row.point, arrival, choice, &row.event, &advance.message)) {
       advance.ended = true;

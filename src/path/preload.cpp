@@ -1,5 +1,6 @@
 #include "contact_path/path/preload.h"
 
+#include <algorithm>
 #include <locale>
 #include <optional>
 #include <sstream>
@@ -11,11 +12,18 @@ namespace {
 constexpr double kNothing = 1e-14;  // scaled force: rounding of an unstressed start
 const char* const kWhere = "while the constant loads were brought on: ";
 
-std::string LimitMessage(double share) {
+// event: of the row that is the limit point.
+std::string LimitMessage(double share, const EventRecord& event) {
   std::ostringstream text;
   text.imbue(std::locale::classic());
   text.precision(6);
-  text << "a limit point at " << share << " of their full size; only a dynamic jump leads further";
+  text << "a limit point at " << share << " of their full size; ";
+  const bool goes_on =
+      std::any_of(event.ways.begin(), event.ways.end(), [](const WayRecord& way) { return way.load_rate > 0.0; });
+  text << (goes_on
+               ? "the way that dissipates most turns back there, and another one goes on: bring them on in a stage of "
+                 "a program, where branch_choices can take it"
+               : "only a dynamic jump leads further");
   return text.str();
 }
 
@@ -78,7 +86,7 @@ Preload TracePreload(const Model& model, int max_increments, const MethodFactory
         return preload;
       }
       if (row.kind == RowKind::kSmoothLimit || row.kind == RowKind::kCornerLimit)
-        return end(EndReason::kPathEnd, LimitMessage(preload.point.s / target));
+        return end(EndReason::kPathEnd, LimitMessage(preload.point.s / target, row.event));
     }
     if (advance.ended) return end(advance.reason, advance.message);
   }

@@ -19,6 +19,8 @@ double ProgressEstimate::Add(const Increment& row) {
     done = std::max(done, (static_cast<double>(stage) + share) / static_cast<double>(targets_.size()));
   }
   for (Goal& goal : goals_) {
+    // Rows that were recorded without their state have no positions.
+    if (!goal.quantity.IsLoadFactor() && row.positions.empty()) continue;
     if (row.index == 0) goal.start = goal.quantity.Value(row);
     if (goal.end != goal.start)
       done = std::max(done, (goal.quantity.Value(row) - goal.start) / (goal.end - goal.start));

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <unordered_map>
 
+#include "contact_path/scene/program.h"
 #include "contact_path/scene/scaling.h"
 
 namespace contact_path {
@@ -31,7 +32,7 @@ double StopQuantity::Value(const Increment& row) const {
 }
 
 StopTest::StopTest(const TraceRequest& request) {
-  const Scaling scaling = CharacteristicScales(request.scene);
+  const Scaling scaling = ProgramScales(request);
   const std::vector<StopQuantity> quantities = StopQuantity::Of(request);
   for (std::size_t i = 0; i < quantities.size(); ++i) {
     const double unit = quantities[i].IsLoadFactor() ? scaling.load_factor : scaling.length;

@@ -22,7 +22,9 @@ the largest error of all rows of the path against the exact answer: in the scale
 what is at play in the scene. "proved" stands for it where no answer is known: each row passed the check from the scene alone, as all
 others did, too. A word is the named reason of an early end, with the number of rows until there, all of which were right;
 "time" means that the limit of the table was reached, after that many rows: a second by `mpec`, 15 by `branch`, and five times
-as long for the first increments. What is wrong would stand in bold.
+as long for the first increments. What is wrong would stand in bold: errors above 1e-9 of exact rows and above 1e-3 of those of `mpec`
+that are not exact, where no more is attainable or admitted in the case (a limit load that is itself tiny, bars of 1e12 times the
+stiffness, gaps that eps takes in).
 
 "Attainable" is what rounding alone may do: the bound eps |J| |x| / sigma on the error of a solution of equations whose entries are
 known to rounding, with the scaled Jacobian J of the fixed-state equations, its smallest singular value sigma, the unknowns x, and eps =

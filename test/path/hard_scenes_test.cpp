@@ -41,6 +41,25 @@ TEST(HardScenes, ReactionThatTouchesItsConeWhereSlipOnceTurned) {
   }
 }
 
+TEST(HardScenes, BarWithoutLengthThatMeetsAWall) {
+  for (const Accuracy accuracy : kPresets) {
+    const TracedPath path = TraceData("zero_length_at_wall", Method::kBranch, accuracy);
+    EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+    ExpectSoundRows(path, 1e-9);
+    EXPECT_NEAR(path.rows[LargestLoad(path)].load_factor, 0.5, 0.1);
+    const std::vector<Increment> limits = RowsOfKind(path, RowKind::kSmoothLimit);
+    ASSERT_EQ(limits.size(), 1U);
+    EXPECT_NEAR(limits[0].load_factor, 1.0 / (3.0 * std::sqrt(3.0)), 1e-12);
+    for (const Increment& row : path.rows) {
+      const double length = PositionX(path, row, "b") - 1.0;
+      const double reaction = row.load_factor - 0.5 * length * (1.0 - length * length);
+      EXPECT_GE(length, -1e-15);
+      EXPECT_NEAR(row.contacts[0].rn, reaction, 1e-12);
+      EXPECT_NEAR(length * reaction, 0.0, 1e-12);
+    }
+  }
+}
+
 TEST(HardScenes, WayOnNextToStraightBack) {
   constexpr double kFriction = 0.00018, kCoupling = 0.0009;
   for (const Accuracy accuracy : kPresets) {

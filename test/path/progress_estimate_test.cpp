@@ -40,6 +40,17 @@ TEST(ProgressEstimate, IsThatOfTheNearestEnd) {
   EXPECT_EQ(estimate.Add(Row(5, -3.0, 1.0)), 1.0);
 }
 
+TEST(ProgressEstimate, RowsWithoutStateTellByTheLoadFactor) {
+  TraceRequest request = WithNodes();
+  request.options.stop = {{"b.c.x", ">", 5.0}, {"load_factor", "<", -2.0}};
+  ProgressEstimate estimate(request);
+  EXPECT_EQ(estimate.Add(Row(0, 0.0, 1.0)), 0.0);
+  Increment row = Row(1, -1.0, 4.0);
+  row.positions.clear();
+  EXPECT_EQ(estimate.Add(row), 0.5);
+  EXPECT_EQ(estimate.Add(Row(2, -1.0, 4.0)), 0.75);
+}
+
 TEST(ProgressEstimate, StartOnTheCriterionCountsForNothing) {
   TraceRequest request = WithNodes();
   request.options.stop = {{"b.c.y", ">", 7.0}};

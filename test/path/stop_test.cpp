@@ -54,6 +54,17 @@ TEST_F(Stop, TheFirstInTheListWins) {
   EXPECT_EQ(ValueThatHolds({}), -1.0);
 }
 
+TEST_F(Stop, RoundingOfAProgramWithoutBars) {
+  request_.scene.bars.clear();
+  request_.scene.superelements = {{{"b"}, {1.0, 0.0, 0.0, 1.0}}};
+  request_.scene.loads.clear();
+  Stage stage;
+  stage.loads = {{"b", 1.0, 0.0, false}};
+  request_.program = {stage};
+  EXPECT_EQ(ValueThatHolds({{"a.x", ">", 1.0 - 1e-15}}), -1.0);
+  EXPECT_EQ(ValueThatHolds({{"a.x", ">", 0.9}}), 0.9);
+}
+
 TEST_F(Stop, RowZeroIsNotAsked) {
   row_.index = 0;
   EXPECT_EQ(ValueThatHolds({{"a.x", ">", 0.9}}), -1.0);
