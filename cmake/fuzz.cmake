@@ -20,6 +20,7 @@ if(CONTACT_PATH_ROS)
   contact_path_add_fuzz_target(convert_request contact_path_core src/ros/convert.cpp src/ros/limits.cpp
     test/support/same_request.cpp)
   add_dependencies(fuzz_convert_request ${PROJECT_NAME}_generate_messages_cpp)
+  #catkin_lint: ignore_once external_directory external_interface_path
   target_include_directories(fuzz_convert_request SYSTEM
     PRIVATE ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION} ${catkin_INCLUDE_DIRS})
   target_link_libraries(fuzz_convert_request PRIVATE ${catkin_LIBRARIES})

@@ -13,7 +13,9 @@
 namespace contact_path {
 namespace {
 
-constexpr double kNearlyNothing = 1e-2;  // of the initial length
+constexpr double kNearlyNothing = 1e-2;    // of the initial length
+constexpr double kPullOfRounding = 1e-13;  // of the characteristic force
+constexpr double kPullOfLargest = 1e-2;    // of the largest reaction so far
 
 }  // namespace
 
@@ -36,6 +38,22 @@ std::string CollapsedBar(const Scene& scene, const std::vector<double>& position
     text = out.str();
   }
   return text;
+}
+
+std::string PullingContact(const Model& model, const PathPoint& point, double largest_reaction) {
+  const double most = std::max(kPullOfRounding, kPullOfLargest * largest_reaction);
+  for (std::size_t i = 0; i < model.contacts.size(); ++i) {
+    const double pull = -point.rn[static_cast<Eigen::Index>(i)];
+    if (!(pull > most)) continue;
+    std::ostringstream out;
+    out.imbue(std::locale::classic());
+    out.precision(2);
+    out << "contact " << model.scene.contacts[i].node << '@' << model.scene.contacts[i].obstacle << " pulls with "
+        << pull << " of the characteristic force, where contacts have pushed with at most " << largest_reaction
+        << ": reactions so small cannot be told from rounding";
+    return out.str();
+  }
+  return {};
 }
 
 std::string ContactTooSoft(const Model& model, const PathPoint& point, double least) {

@@ -70,7 +70,11 @@ class Tracer {
         stop_(request) {}
 
   // A row of an earlier trace that is kept.
-  void Repeat(const Increment& row) { recorder_.Repeat(row); }
+  void Repeat(const Increment& row) {
+    for (const ContactRecord& contact : row.contacts)
+      largest_reaction_ = std::max(largest_reaction_, contact.rn / scales_.force);
+    recorder_.Repeat(row);
+  }
 
   // resumption: where to go on after the rows of an earlier trace, which were repeated; nothing: from the start.
   TraceResult Run(const std::optional<Resumption>& resumption) {
@@ -185,7 +189,12 @@ class Tracer {
     return FollowStage(model, stage, method.get());
   }
 
+  void NoteReactions(const PathPoint& point) {
+    if (point.rn.size() > 0) largest_reaction_ = std::max(largest_reaction_, point.rn.maxCoeff());
+  }
+
   bool FollowStage(const Model& model, std::size_t stage, PathMethod* method) {
+    NoteReactions(point_);
     const bool goes_on = Follow(model, TargetOf(model, stage), method);
     events_ = method->NumEvents();
     if (const std::string remark = method->Remark(); !remark.empty()) remarks_ += "; " + remark;
@@ -212,6 +221,9 @@ class Tracer {
       const auto rows = static_cast<double>(std::max<std::size_t>(1, advance.rows.size()));
       const double time = Seconds(Clock::now() - start) / rows;
       for (AcceptedPoint& row : advance.rows) {
+        NoteReactions(row.point);
+        if (const std::string pulls = PullingContact(model, row.point, largest_reaction_); !pulls.empty())
+          return End(EndReason::kNumericalFailure, pulls);
         recorder_.Append(model, row, time);
         point_ = std::move(row.point);
         if (const StopCriterion* criterion = stop_.FirstThatHolds(recorder_.row()))
@@ -240,7 +252,8 @@ class Tracer {
   const StopTest stop_;
   PathPoint point_;
   int events_ = 0;
-  std::string remarks_;  // for the end of the message
+  double largest_reaction_ = 0.0;  // r_n so far, scaled
+  std::string remarks_;            // for the end of the message
   TraceResult result_;
 };
 

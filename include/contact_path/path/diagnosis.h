@@ -18,6 +18,11 @@ std::string CollapsedBar(const Scene& scene, const std::vector<double>& position
 // drown in the rounding of the stiff parts; else empty. point: where to look, scaled.
 std::string ContactTooSoft(const Model& model, const PathPoint& point, double least);
 
+// Names a contact that pulls at its node, by a share of what any contact has pushed with so far and by more than
+// rounding: it should have opened, and did not since its reactions are too small beside the characteristic force; else
+// empty. largest_reaction: r_n, scaled, at least that of the point.
+std::string PullingContact(const Model& model, const PathPoint& point, double largest_reaction);
+
 }  // namespace contact_path
 
 #endif  // CONTACT_PATH_PATH_DIAGNOSIS_H_
