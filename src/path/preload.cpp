@@ -17,13 +17,15 @@ std::string LimitMessage(double share, const EventRecord& event) {
   std::ostringstream text;
   text.imbue(std::locale::classic());
   text.precision(6);
-  text << "a limit point at " << share << " of their full size; ";
   const bool goes_on =
       std::any_of(event.ways.begin(), event.ways.end(), [](const WayRecord& way) { return way.load_rate > 0.0; });
-  text << (goes_on
-               ? "the way that dissipates most turns back there, and another one goes on: bring them on in a stage of "
-                 "a program, where branch_choices can take it"
-               : "only a dynamic jump leads further");
+  text << "a limit point at " << share;
+  if (goes_on)
+    text << " of their full size; the way that dissipates most turns back there, and another one goes on: bring them "
+            "on in a "
+            "stage of a program, where branch_choices can take it";
+  else
+    text << " of their full size; only a dynamic jump leads further";
   return text.str();
 }
 
