@@ -304,7 +304,7 @@ class Finder {
   double DissipationRate(const States& states, const Eigen::VectorXd& direction) const {
     double rate = 0.0;
     for (std::size_t i = 0; i < contacts_.size(); ++i)
-      if (states[i] == ContactState::kSlipPlus || states[i] == ContactState::kSlipMinus)
+      if (Slips(states[i]))
         rate -= point_.rt[static_cast<Eigen::Index>(i)] *
                 contacts_[i].tangential.Rate(direction, direction[NumMotion() - 1]);
     return std::max(rate, 0.0);  // but for rounding
@@ -314,7 +314,7 @@ class Finder {
   int IdleSlips(const Way& way) const {
     int idle = 0;
     for (std::size_t i = 0; i < contacts_.size(); ++i)
-      if ((way.states[i] == ContactState::kSlipPlus || way.states[i] == ContactState::kSlipMinus) &&
+      if (Slips(way.states[i]) &&
           std::abs(contacts_[i].tangential.Rate(way.direction, way.load_rate)) <= kRateTolerance)
         ++idle;
     return idle;

@@ -22,7 +22,7 @@ void PrintWays(const Scene& scene, const Increment& row, std::ostream& out) {
     text << (taken ? "* way " : "  way ") << i + 1 << ": dissipation rate " << way.dissipation_rate << ", load rate "
          << way.load_rate << ", turn " << way.turn;
     for (std::size_t k = 0; k < way.states.size(); ++k)
-      text << (k == 0 ? "; " : ", ") << scene.contacts[k].node << '@' << scene.contacts[k].obstacle << ' '
+      text << (k == 0 ? "; " : ", ") << scene.contacts[k].Name() << ' '
            << ToString(way.states[k]);
     text << '\n';
   }

@@ -6,7 +6,6 @@
 namespace contact_path {
 namespace {
 
-bool Slips(ContactState state) { return state == ContactState::kSlipPlus || state == ContactState::kSlipMinus; }
 
 }  // namespace
 

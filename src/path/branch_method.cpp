@@ -200,7 +200,7 @@ Work BranchMethod::WorkOf(const Segment& segment) const {
   for (const std::size_t i : system.Touching()) {
     const Limit normal = {static_cast<int>(i), Inequality::kNormalReaction};
     const Limit slip = {static_cast<int>(i), Inequality::kSlip};
-    if (system.states()[i] != ContactState::kSlipPlus && system.states()[i] != ContactState::kSlipMinus) continue;
+    if (!Slips(system.states()[i])) continue;
     const auto interpolate = [&](const Limit& of) {
       return segment.Interpolate([&](const Eigen::VectorXd& x) { return system.Value(of, x); },
                                  [&](const Eigen::VectorXd& dx) { return system.Rate(of, dx); });

@@ -93,7 +93,7 @@ bool StatesAgree(const std::vector<ContactGeometry>& contacts, const PathPoint& 
     }
     if (contacts[i].gap.Value(to.u, to.s) > length) return false;
     if (state == ContactState::kStick && std::abs(slip) > length) return false;
-    if ((state == ContactState::kSlipPlus || state == ContactState::kSlipMinus) && margin > force) return false;
+    if (Slips(state) && margin > force) return false;
   }
   return true;
 }

@@ -30,8 +30,6 @@ bool AtTarget(double target, double load_factor) {
   return std::abs(load_factor - target) <= kAtTarget * std::abs(target);
 }
 
-bool IsSlip(ContactState state) { return state == ContactState::kSlipPlus || state == ContactState::kSlipMinus; }
-
 // The rows of one stage.
 class Verifier {
  public:
@@ -377,9 +375,9 @@ class Verifier {
       const Surface& surface = surfaces_[i];
       const double slip = std::abs(surface.Slip(before, row));
       // Where within an increment of mpec it stopped to slip, or turned, is not known.
-      if (mpec && IsSlip(was) && state != was)
+      if (mpec && Slips(was) && state != was)
         open_dissipation += surface.friction * std::max(before.contacts[i].rn, row.contacts[i].rn) * slip / unit;
-      if (!IsSlip(state)) continue;
+      if (!Slips(state)) continue;
       dissipation += 0.5 * surface.friction * (before.contacts[i].rn + row.contacts[i].rn) * slip;
       const double rn = before.contacts[i].rn, change = std::abs(row.contacts[i].rn - rn);
       // A contact that closes and opens on the increment has no reaction at both ends.

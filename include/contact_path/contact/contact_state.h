@@ -18,6 +18,11 @@ enum class ContactState {
 // "open", "stick", "slip+", "slip-", "closed".
 std::string_view ToString(ContactState state);
 
+// slip+ or slip-.
+inline bool Slips(ContactState state) {
+  return state == ContactState::kSlipPlus || state == ContactState::kSlipMinus;
+}
+
 // r_t = ratio * r_n of a slipping contact; 0 in the other states.
 double SlipRatio(ContactState state, double friction);
 
