@@ -26,13 +26,13 @@ double FactorisationTime(const Model& model, const PathPoint& point) {
   FixedStateSystem system(model.structure, model.contacts);
   system.SetStates(point.states, TangentialPositions(model.contacts, point));
   const Eigen::SparseMatrix<double> transposed = system.TransposedJacobian(system.Pack(point));
-  const Eigen::VectorXd row = Eigen::VectorXd::LinSpaced(system.NumUnknowns(), 0.5, 1.0);
+  const Eigen::VectorXd increment = Eigen::VectorXd::LinSpaced(system.NumUnknowns(), 0.5, 1.0);
   BorderedSolver solver;
-  solver.Factorize(transposed, row);
+  solver.Factorize(transposed, increment);
   double least = 1e9;
   for (int i = 0; i < 3; ++i) {
     const Clock::time_point start = Clock::now();
-    solver.Factorize(transposed, row);
+    solver.Factorize(transposed, increment);
     least = std::min(least, Seconds(start));
   }
   return least;
@@ -47,20 +47,20 @@ void RegularIncrements(benchmark::State& state, int far_candidates, double floor
   for (auto iteration : state) {
     BranchMethod method(model, BranchOptions::For(request.options, model.structure.NumDofs()), nullptr);
     PathPoint point = model.InitialPoint();
-    EventRecord ways;
+    EventRecord branches;
     std::string message;
-    if (method.Start(point, &ways, &message)) throw std::runtime_error(message);
+    if (method.Start(point, &branches, &message)) throw std::runtime_error(message);
     double seconds = 0.0;
     int regular = 0, factorised = 0;
     while (regular < kIncrements) {
       const Clock::time_point start = Clock::now();
       const Advance advance = method.Next(point);
       const double time = Seconds(start);
-      if (advance.rows.empty()) throw std::runtime_error(advance.message);
-      point = advance.rows.back().point;
-      if (advance.rows.back().kind != RowKind::kRegular) continue;
+      if (advance.increments.empty()) throw std::runtime_error(advance.message);
+      point = advance.increments.back().point;
+      if (advance.increments.back().kind != IncrementKind::kRegular) continue;
       seconds += time;
-      factorised += advance.rows.back().solve.factorisations;
+      factorised += advance.increments.back().solve.factorisations;
       ++regular;
     }
     state.SetIterationTime(seconds / regular);

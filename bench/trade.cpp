@@ -1,9 +1,9 @@
-// Error against time: traces each scene with many settings and measures how far their rows, and the lines between the
-// rows, are from the exact path. Writes one line of CSV per setting. A path that takes too long is cut short; its time
-// is then that of the whole path, by arc length.
+// Error against time: traces each scene with many settings and measures how far their increments, and the lines between
+// the increments, are from the exact path. Writes one line of CSV per setting. A path that takes too long is cut short;
+// its time is then that of the whole path, by arc length.
 //
 // The exact path: method branch with a hundredth of the step of the preset (a tenth for big scenes), interpolated
-// between its rows by a polynomial of degree 5 in arc length, which never reaches over an event.
+// between its increments by a polynomial of degree 5 in arc length, which never reaches over an event.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -30,7 +30,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kLongest = 12.0;  // seconds for one path
 
-struct Row {
+struct Increment {
   Eigen::VectorXd x;  // (u, s), scaled
   double load = 0.0;  // in the scene's unit
   double arc_length = 0.0;
@@ -40,7 +40,7 @@ struct Row {
 };
 
 struct Path {
-  std::vector<Row> rows;
+  std::vector<Increment> increments;
   double seconds = 0.0;
   long iterations = 0, factorisations = 0, rejected = 0;
   std::string end;
@@ -60,7 +60,7 @@ std::unique_ptr<PathMethod> MakeMethod(const Model& model, const TraceOptions& o
     return std::make_unique<BranchMethod>(model, BranchOptions::For(options, model.structure.NumDofs()), cancelled);
   MpecOptions mpec = MpecOptions::For(options, model.structure.NumDofs());
   if (setting.minimum > 0.0) mpec.regularisation.minimum = setting.minimum;
-  if (setting.cold) mpec.regularisation.from_last = false;
+  if (setting.cold) mpec.regularisation.warm_start = false;
   return std::make_unique<MpecMethod>(model, mpec, cancelled);
 }
 
@@ -74,7 +74,7 @@ TraceOptions OptionsOf(const TraceRequest& request, const Setting& setting) {
   return options;
 }
 
-// Row 0 is not timed: it is the same for all.
+// Increment 0 is not timed: it is the same for all.
 Path Follow(const TraceRequest& request, const Model& model, const PathPoint& start, const Setting& setting,
             double longest) {
   Path path;
@@ -84,43 +84,43 @@ Path Follow(const TraceRequest& request, const Model& model, const PathPoint& st
   const auto late = [&] { return std::chrono::duration<double>(Clock::now() - begin).count() > longest; };
   const std::unique_ptr<PathMethod> method = MakeMethod(model, options, setting, late);
   const auto append = [&](const PathPoint& point, const AcceptedPoint* accepted) {
-    Row row;
-    row.x.resize(point.u.size() + 1);
-    row.x << point.u, point.s;
-    row.load = point.s * model.scaling.load_factor;
+    Increment increment;
+    increment.x.resize(point.u.size() + 1);
+    increment.x << point.u, point.s;
+    increment.load = point.s * model.scaling.load_factor;
     if (accepted != nullptr) {
-      row.arc_length = path.rows.back().arc_length + accepted->arc_length;
-      row.dissipation = path.rows.back().dissipation + accepted->work.friction;
-      row.smooth = accepted->kind == RowKind::kRegular || accepted->kind == RowKind::kSmoothLimit;
-      row.limit = accepted->kind == RowKind::kSmoothLimit || accepted->kind == RowKind::kCornerLimit;
+      increment.arc_length = path.increments.back().arc_length + accepted->arc_length;
+      increment.dissipation = path.increments.back().dissipation + accepted->work.friction;
+      increment.smooth = accepted->kind == IncrementKind::kRegular || accepted->kind == IncrementKind::kSmoothLimit;
+      increment.limit = accepted->kind == IncrementKind::kSmoothLimit || accepted->kind == IncrementKind::kCornerLimit;
     }
-    path.rows.push_back(std::move(row));
+    path.increments.push_back(std::move(increment));
   };
   append(start, nullptr);
-  EventRecord ways;
+  EventRecord branches;
   std::string message;
   PathPoint point = start;
-  bool ended = method->Start(point, &ways, &message).has_value();
+  bool ended = method->Start(point, &branches, &message).has_value();
   path.end = ended ? message : "";
   while (!ended) {
     const Advance advance = method->Next(point);
-    for (const AcceptedPoint& accepted : advance.rows) {
+    for (const AcceptedPoint& accepted : advance.increments) {
       point = accepted.point;
       append(point, &accepted);
       path.iterations += accepted.solve.iterations;
       path.factorisations += accepted.solve.factorisations;
       path.rejected += accepted.solve.rejected;
-      Increment row;
+      Increment increment;
       const CheckedState state = model.InSceneUnits(point);
-      row.index = static_cast<int>(path.rows.size()) - 1;
-      row.load_factor = state.load_factor;
-      row.positions = state.positions;
-      const StopCriterion* criterion = stop.FirstThatHolds(row);
+      increment.index = static_cast<int>(path.increments.size()) - 1;
+      increment.load_factor = state.load_factor;
+      increment.positions = state.positions;
+      const StopCriterion* criterion = stop.FirstThatHolds(increment);
       ended = ended || criterion != nullptr;
       if (criterion != nullptr) path.end = "stop";
     }
     if (advance.ended && !ended) path.end = advance.message;
-    path.cut = !ended && (late() || path.rows.size() > 100000);
+    path.cut = !ended && (late() || path.increments.size() > 100000);
     ended = ended || path.cut || advance.ended;
   }
   path.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
@@ -130,11 +130,11 @@ Path Follow(const TraceRequest& request, const Model& model, const PathPoint& st
 // The exact path as a curve.
 class Curve {
  public:
-  explicit Curve(const Path& path) : rows_(path.rows) {
-    // First and last row of the smooth piece that each interval between two rows belongs to.
+  explicit Curve(const Path& path) : increments_(path.increments) {
+    // First and last increment of the smooth arc that each interval between two increments belongs to.
     std::size_t begin = 0;
-    for (std::size_t i = 1; i < rows_.size(); ++i)
-      if (!rows_[i].smooth || i + 1 == rows_.size()) {
+    for (std::size_t i = 1; i < increments_.size(); ++i)
+      if (!increments_[i].smooth || i + 1 == increments_.size()) {
         for (std::size_t k = begin; k < i; ++k) pieces_.push_back({begin, i});
         begin = i;
       }
@@ -143,7 +143,8 @@ class Curve {
   std::size_t Intervals() const { return pieces_.size(); }
 
   Eigen::VectorXd At(std::size_t k, double t) const {
-    return Interpolate<Eigen::VectorXd>(k, t, [](const Row& row) -> const Eigen::VectorXd& { return row.x; });
+    return Interpolate<Eigen::VectorXd>(
+        k, t, [](const Increment& increment) -> const Eigen::VectorXd& { return increment.x; });
   }
 
   // From a point, looked for near and after interval *near, which becomes that of the nearest point; *dissipation:
@@ -151,14 +152,14 @@ class Curve {
   double Distance(const Eigen::VectorXd& x, std::size_t* near, double reach, double* dissipation) const {
     std::size_t best = *near;
     double smallest = std::numeric_limits<double>::infinity();
-    const double from = rows_[*near].arc_length;
-    for (std::size_t k = *near; k < rows_.size() && rows_[k].arc_length <= from + reach; ++k) {
-      const double distance = (rows_[k].x - x).squaredNorm();
+    const double from = increments_[*near].arc_length;
+    for (std::size_t k = *near; k < increments_.size() && increments_[k].arc_length <= from + reach; ++k) {
+      const double distance = (increments_[k].x - x).squaredNorm();
       if (distance < smallest) smallest = distance, best = k;
     }
     *near = std::min(best, Intervals() - 1);
     double least = std::sqrt(smallest);
-    *dissipation = rows_[best].dissipation;
+    *dissipation = increments_[best].dissipation;
     for (const std::size_t k : {best > 0 ? best - 1 : 0, std::min(best, Intervals() - 1)}) {
       double a = 0.0, b = 1.0;  // golden section
       const double ratio = 0.5 * (std::sqrt(5.0) - 1.0);
@@ -170,7 +171,7 @@ class Curve {
       const double t = 0.5 * (a + b), distance = (At(k, t) - x).norm();
       if (distance >= least) continue;
       least = distance;
-      *dissipation = Interpolate<double>(k, t, [](const Row& row) { return row.dissipation; });
+      *dissipation = Interpolate<double>(k, t, [](const Increment& increment) { return increment.dissipation; });
     }
     return least;
   }
@@ -180,40 +181,41 @@ class Curve {
     std::size_t begin, end;
   };
 
-  // At share t of interval k, by the six rows of its piece that are nearest.
+  // At share t of interval k, by the six increments of its piece that are nearest.
   template <typename Value, typename Get>
   Value Interpolate(std::size_t k, double t, const Get& get) const {
     const auto [begin, end] = pieces_[k];
     const std::size_t count = std::min<std::size_t>(6, end - begin + 1);
     std::size_t first = k >= begin + 2 ? k - 2 : begin;
     first = std::min(first, end + 1 - count);
-    const double s = (1.0 - t) * rows_[k].arc_length + t * rows_[k + 1].arc_length;
-    Value sum = 0.0 * get(rows_[k]);
+    const double s = (1.0 - t) * increments_[k].arc_length + t * increments_[k + 1].arc_length;
+    Value sum = 0.0 * get(increments_[k]);
     for (std::size_t i = first; i < first + count; ++i) {
       double weight = 1.0;
       for (std::size_t j = first; j < first + count; ++j)
-        if (j != i) weight *= (s - rows_[j].arc_length) / (rows_[i].arc_length - rows_[j].arc_length);
-      // About a row of the interval, so that rounding is that of a difference.
-      sum += weight * (get(rows_[i]) - get(rows_[k]));
+        if (j != i) weight *= (s - increments_[j].arc_length) / (increments_[i].arc_length - increments_[j].arc_length);
+      // About an increment of the interval, so that rounding is that of a difference.
+      sum += weight * (get(increments_[i]) - get(increments_[k]));
     }
-    return get(rows_[k]) + sum;
+    return get(increments_[k]) + sum;
   }
 
-  const std::vector<Row>& rows_;
+  const std::vector<Increment>& increments_;
   std::vector<Piece> pieces_;
 };
 
-// Largest distance of the exact rows from the line through these rows, up to the end of the shorter path.
+// Largest distance of the exact increments from the line through these increments, up to the end of the shorter path.
 double LineError(const Path& exact, const Path& path) {
   double worst = 0.0;
   std::size_t k = 0;
-  const double length = path.rows.back().arc_length;
-  for (const Row& row : exact.rows) {
-    if (row.arc_length > 0.999 * length) break;
+  const double length = path.increments.back().arc_length;
+  for (const Increment& increment : exact.increments) {
+    if (increment.arc_length > 0.999 * length) break;
     double least = std::numeric_limits<double>::infinity();
     std::size_t best = k;
-    for (std::size_t i = k; i + 1 < path.rows.size() && i < k + 40; ++i) {
-      const Eigen::VectorXd along = path.rows[i + 1].x - path.rows[i].x, to = row.x - path.rows[i].x;
+    for (std::size_t i = k; i + 1 < path.increments.size() && i < k + 40; ++i) {
+      const Eigen::VectorXd along = path.increments[i + 1].x - path.increments[i].x,
+                            to = increment.x - path.increments[i].x;
       const double square = along.squaredNorm();
       const double t = square > 0.0 ? std::clamp(along.dot(to) / square, 0.0, 1.0) : 0.0;
       const double distance = (to - t * along).norm();
@@ -227,8 +229,8 @@ double LineError(const Path& exact, const Path& path) {
 
 std::vector<double> LimitLoads(const Path& path) {
   std::vector<double> loads;
-  for (const Row& row : path.rows)
-    if (row.limit) loads.push_back(row.load);
+  for (const Increment& increment : path.increments)
+    if (increment.limit) loads.push_back(increment.load);
   return loads;
 }
 
@@ -283,22 +285,22 @@ void Measure(const std::string& name, const TraceRequest& request) {
     }
     double row_error = 0.0, dissipation_error = 0.0;
     std::size_t near = 0;
-    // The last row of a path may lie beyond the end of the exact one.
-    for (const Row& row : path.rows)
-      if (row.arc_length <= exact.rows.back().arc_length) {
+    // The last increment of a path may lie beyond the end of the exact one.
+    for (const Increment& increment : path.increments)
+      if (increment.arc_length <= exact.increments.back().arc_length) {
         double there = 0.0;
-        row_error = std::max(row_error, curve.Distance(row.x, &near, 4.0 * preset + 4.0 * setting.step, &there));
-        dissipation_error = std::abs(row.dissipation - there);
+        row_error = std::max(row_error, curve.Distance(increment.x, &near, 4.0 * preset + 4.0 * setting.step, &there));
+        dissipation_error = std::abs(increment.dissipation - there);
       }
-    if (path.cut) path.seconds *= exact.rows.back().arc_length / path.rows.back().arc_length;
-    const double rows = static_cast<double>(std::max<std::size_t>(path.rows.size(), 2) - 1);
-    const double total_dissipation = exact.rows.back().dissipation;
+    if (path.cut) path.seconds *= exact.increments.back().arc_length / path.increments.back().arc_length;
+    const double increments = static_cast<double>(std::max<std::size_t>(path.increments.size(), 2) - 1);
+    const double total_dissipation = exact.increments.back().dissipation;
     if (total_dissipation > 0.0) dissipation_error /= total_dissipation;
     std::printf("%s,%s,%s,%g,%g,%d,%zu,%.6g,%.3g,%.3g,%.3g,%.3g,%.4g,%.4g,%ld,%s\n", name.c_str(),
                 setting.method.c_str(), setting.accuracy.c_str(), setting.step, setting.minimum, setting.cold ? 1 : 0,
-                path.rows.size(), path.seconds, row_error, LineError(exact, path), LimitError(exact, path),
-                dissipation_error, static_cast<double>(path.iterations) / rows,
-                static_cast<double>(path.factorisations) / rows, path.rejected,
+                path.increments.size(), path.seconds, row_error, LineError(exact, path), LimitError(exact, path),
+                dissipation_error, static_cast<double>(path.iterations) / increments,
+                static_cast<double>(path.factorisations) / increments, path.rejected,
                 path.cut             ? "cut"
                 : path.end == "stop" ? "stop"
                                      : "early");
@@ -312,7 +314,7 @@ void MeasureModels() {
   LatticeOptions lattice;
   lattice.kind = LatticeKind::kWall;
   lattice.columns = 20;
-  lattice.rows = 4;
+  lattice.increments = 4;
   lattice.contacts = 4;
   for (const char* name : {"no contact in reach", "frictionless contact", "friction on one node", "friction on all"}) {
     TraceRequest request = LatticeRequest(lattice);
@@ -334,21 +336,21 @@ void MeasureModels() {
       const std::unique_ptr<PathMethod> tracer =
           MakeMethod(model, OptionsOf(request, {method, "balanced", 0.0, 0.0}), {method, "balanced", 0.0, 0.0});
       PathPoint point = model.InitialPoint();
-      EventRecord ways;
+      EventRecord branches;
       std::string message;
-      if (tracer->Start(point, &ways, &message)) std::fprintf(stderr, "%s: %s\n", name, message.c_str());
+      if (tracer->Start(point, &branches, &message)) std::fprintf(stderr, "%s: %s\n", name, message.c_str());
       const Clock::time_point begin = Clock::now();
       SolveRecord solve;
-      int rows = 0;
-      while (rows < kRows) {
+      int increments = 0;
+      while (increments < kRows) {
         const Advance advance = tracer->Next(point);
-        if (advance.rows.empty()) break;
-        point = advance.rows.back().point;
-        solve = advance.rows.back().solve;
-        rows += static_cast<int>(advance.rows.size());
+        if (advance.increments.empty()) break;
+        point = advance.increments.back().point;
+        solve = advance.increments.back().solve;
+        increments += static_cast<int>(advance.increments.size());
       }
       std::printf("%s,%s,%d,%d,%.6g\n", name, method, solve.variables, solve.constraints,
-                  std::chrono::duration<double>(Clock::now() - begin).count() / rows);
+                  std::chrono::duration<double>(Clock::now() - begin).count() / increments);
     }
   }
 }
@@ -363,7 +365,7 @@ int main(int argc, char** argv) {
     return 0;
   }
   std::puts(
-      "scene,method,accuracy,step,eps_min,cold,rows,seconds,row_error,line_error,limit_error,dissipation_error,"
+      "scene,method,accuracy,step,eps_min,cold,increments,seconds,row_error,line_error,limit_error,dissipation_error,"
       "iterations,factorisations,rejected,end");
   for (int i = 1; i < argc; ++i) {
     const std::string file = argv[i];

@@ -21,7 +21,7 @@ add_message_files(FILES
   TraceRequest.msg
   TraceResult.msg
   TraceStatus.msg
-  Way.msg
+  Branch.msg
 )
 add_service_files(FILES TracePath.srv)
 add_action_files(FILES TracePath.action)

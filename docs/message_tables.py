@@ -15,41 +15,41 @@ def escaped(text):
 
 
 class Table:
-    """Rows of fields or of constants, under the comment that stands above them."""
+    """Increments of fields or of constants, under the comment that stands above them."""
 
     def __init__(self):
         self.note = []
-        self.rows = []  # [names, type or value, meaning]
+        self.increments = []  # [names, type or value, meaning]
         self.of_constants = False
 
 
 def tables_of(lines):
-    """The tables of one part of a file, which empty lines and comments part; the first one may be without rows."""
+    """The tables of one part of a file, which empty lines and comments part; the first one may be without increments."""
     tables = [Table()]
     for line in lines:
         comment = re.match(r'( *)# ?(.*)', line)
         if comment and comment.group(1):  # goes on with the meaning of the line above
-            tables[-1].rows[-1][2] += ' ' + comment.group(2).strip()
+            tables[-1].increments[-1][2] += ' ' + comment.group(2).strip()
         elif comment:
-            if tables[-1].rows:
+            if tables[-1].increments:
                 tables.append(Table())
             tables[-1].note.append(comment.group(2))
         elif not line.strip():
-            if tables[-1].rows:
+            if tables[-1].increments:
                 tables.append(Table())
         else:
             found = LINE.match(line)
             if not found:
                 raise ValueError('no line of a message: ' + line)
             constant = found['value'] is not None
-            if tables[-1].rows and tables[-1].of_constants != constant:
+            if tables[-1].increments and tables[-1].of_constants != constant:
                 tables.append(Table())
             tables[-1].of_constants = constant
-            rows, meaning = tables[-1].rows, found['meaning'] or ''
-            if not meaning and not constant and rows and rows[-1][2] and rows[-1][1] == found['type']:
-                rows[-1][0].append(found['name'])  # shares the meaning of the line above
+            increments, meaning = tables[-1].increments, found['meaning'] or ''
+            if not meaning and not constant and increments and increments[-1][2] and increments[-1][1] == found['type']:
+                increments[-1][0].append(found['name'])  # shares the meaning of the line above
             else:
-                rows.append([[found['name']], found['value'] or found['type'], meaning])
+                increments.append([[found['name']], found['value'] or found['type'], meaning])
     return tables
 
 
@@ -67,10 +67,10 @@ def section(path, known):
         for table in tables_of(part.splitlines()):
             if table.note:
                 out.append(escaped(' '.join(table.note)) + '\n')
-            if table.rows:
+            if table.increments:
                 out.append('| %s | meaning |\n| --- | --- | --- |' %
                            ('constant | value' if table.of_constants else 'field | type'))
-                for names, kind, meaning in table.rows:
+                for names, kind, meaning in table.increments:
                     spans = ', '.join('`%s`' % name for name in names)
                     out.append('| %s | %s | %s |' % (spans, linked(kind, known), escaped(meaning)))
                 out.append('')

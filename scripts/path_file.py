@@ -22,7 +22,7 @@ STAGE_PARTS = ('loads', 'obstacle_motions')
 
 
 class Path:
-    """Rows as dictionaries with the columns of the CSV: kind and states as text, all others numbers.
+    """Increments as dictionaries with the columns of the CSV: kind and states as text, all others numbers.
 
     Where a message carries no positions and contacts (full_state_every), these numbers are nan and the states ''.
 
@@ -35,27 +35,27 @@ class Path:
         self.title = title
         self.scene = scene
         self.options = options
-        self.rows = []
+        self.increments = []
 
     def column(self, name):
-        return [row[name] for row in self.rows]
+        return [increment[name] for increment in self.increments]
 
     def nodes(self):
-        return [name[2:] for name in self.rows[0] if name.startswith('x_')]
+        return [name[2:] for name in self.increments[0] if name.startswith('x_')]
 
     def contacts(self):
-        return [name[6:] for name in self.rows[0] if name.startswith('state_')]
+        return [name[6:] for name in self.increments[0] if name.startswith('state_')]
 
-    def full_rows(self):
+    def full_increments(self):
         """Those that carry positions and contacts."""
         node = 'x_' + self.nodes()[0]
-        return [row for row in self.rows if row[node] == row[node]]  # not nan
+        return [increment for increment in self.increments if increment[node] == increment[node]]  # not nan
 
 
 def read(name):
     """The path in the file. Raises ValueError where it holds none."""
     path = read_bag(name) if name.endswith('.bag') else read_csv(name)
-    if not path.rows:
+    if not path.increments:
         raise ValueError('no increments')
     return path
 
@@ -76,7 +76,7 @@ def read_csv(name):
                 values = [float(value) if number else value for value, number in zip(line, numbers)]
             except ValueError as error:
                 raise ValueError('line %d: %s' % (table.line_num, error)) from error
-            path.rows.append(dict(zip(columns, values)))
+            path.increments.append(dict(zip(columns, values)))
     return path
 
 
@@ -91,14 +91,14 @@ def read_bag(name):
             elif topic.endswith('/increments'):
                 if not paths:
                     raise ValueError('no request before the increments: not a bag that the node wrote')
-                paths[-1].rows.append(row_of(paths[-1].scene, message))
+                paths[-1].increments.append(row_of(paths[-1].scene, message))
     if not paths:
         raise ValueError('no request: not the bag of a trace')
-    # The latched request of the trace before has no rows.
-    with_rows = [path for path in paths if path.rows] or paths
-    if len(with_rows) > 1:
-        print('%s: holds %d traces, the last one is taken' % (name, len(with_rows)), file=sys.stderr)
-    return with_rows[-1]
+    # The latched request of the trace before has no increments.
+    with_increments = [path for path in paths if path.increments] or paths
+    if len(with_increments) > 1:
+        print('%s: holds %d traces, the last one is taken' % (name, len(with_increments)), file=sys.stderr)
+    return with_increments[-1]
 
 
 def scene_of(request):
@@ -152,21 +152,21 @@ def constants(message_type, names):
 
 
 def row_of(scene, message):
-    row = {key: getattr(message, key) for key in ('index', 'load_factor', 'arc_length')}
+    increment = {key: getattr(message, key) for key in ('index', 'load_factor', 'arc_length')}
     if scene['program']:
-        row['stage'] = message.stage
-    row['kind'] = constants(type(message), KINDS)[message.kind]
+        increment['stage'] = message.stage
+    increment['kind'] = constants(type(message), KINDS)[message.kind]
     nan = float('nan')
     for node, x, y in itertools.zip_longest(scene['nodes'], message.x, message.y, fillvalue=nan):
-        row['x_' + node['name']] = x
-        row['y_' + node['name']] = y
+        increment['x_' + node['name']] = x
+        increment['y_' + node['name']] = y
     for contact, state in itertools.zip_longest(scene['contacts'], message.contacts):
         name = contact['node'] + '@' + contact['obstacle']
         if state is None:
-            row.update({'gap_' + name: nan, 'rn_' + name: nan, 'rt_' + name: nan, 'state_' + name: ''})
+            increment.update({'gap_' + name: nan, 'rn_' + name: nan, 'rt_' + name: nan, 'state_' + name: ''})
             continue
-        row.update({'gap_' + name: state.gap, 'rn_' + name: state.rn, 'rt_' + name: state.rt,
+        increment.update({'gap_' + name: state.gap, 'rn_' + name: state.rn, 'rt_' + name: state.rt,
                     'state_' + name: constants(type(state), STATES)[state.state]})
     for key in ('dissipation', 'strain_energy', 'external_work', 'equilibrium_residual', 'complementarity_residual'):
-        row[key] = getattr(message, key)
-    return row
+        increment[key] = getattr(message, key)
+    return increment

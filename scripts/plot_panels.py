@@ -24,12 +24,12 @@ UNITS = {'load_factor': '[-]', 'arc_length': '[-]', 'dissipation': '[force lengt
 MOST_CONTACTS = 40  # from here on, contacts that stay open all along get no bar
 TALLEST_STATES = 7.0  # inches of bars, and of one:
 TALLEST_BAR = 0.3
-NEAR = 30.0  # points: rows as near as this on the figure share a label
+NEAR = 30.0  # points: increments as near as this on the figure share a label
 
 
 def quantities(path):
     """Name as the user writes it -> column, of everything that can be plotted."""
-    known = {name: name for name in path.rows[0] if name != 'kind' and not name.startswith('state_')}
+    known = {name: name for name in path.increments[0] if name != 'kind' and not name.startswith('state_')}
     for node in path.nodes():
         for axis in 'xy':
             known['%s.%s' % (node, axis)] = known.pop('%s_%s' % (axis, node))
@@ -39,14 +39,14 @@ def quantities(path):
 def default_quantity(path):
     """The coordinate that moves most; one that is free where that is known."""
     known = quantities(path)
-    rows = path.full_rows()
+    increments = path.full_increments()
     nodes = [(node, axis) for node in path.nodes() for axis in 'xy']
     if path.scene is not None:
         held = {(node['name'], axis) for node in path.scene['nodes'] for axis in 'xy' if node['fixed_' + axis]}
         nodes = [coordinate for coordinate in nodes if coordinate not in held] or nodes
 
     def travel(name):
-        values = [row[known[name]] for row in rows]
+        values = [increment[known[name]] for increment in increments]
         return max(values) - min(values)
 
     return max(('%s.%s' % coordinate for coordinate in nodes), key=travel)
@@ -66,25 +66,25 @@ def draw_path(axes, paths, x, y, numbered=()):
     """A quantity y against another, x, a line for each path; critical points in the colours of their kinds, or, where
     there are several paths, in the colours of the lines.
 
-    numbered: for each path, the rows that get their index beside them.
+    numbered: for each path, the increments that get their index beside them.
     """
     several = len(paths) > 1
-    counts = [sum(row['kind'] != 'regular' for row in path.rows) for path in paths]
+    counts = [sum(increment['kind'] != 'regular' for increment in path.increments) for path in paths]
     size = 65 if max(counts) <= 30 else 30
     lines = []
     for number, path in enumerate(paths):
-        rows, places = points(path, x, y)
+        increments, places = points(path, x, y)
         # The load factor is 0 again where a stage starts: no line goes there.
-        starts = [i for i, row in enumerate(rows) if i > 0 and row['kind'] == 'start']
+        starts = [i for i, increment in enumerate(increments) if i > 0 and increment['kind'] == 'start']
         line, = axes.plot(*np.insert(places, starts, math.nan, axis=0).T, label=path.title if several else None,
                           **line_style(number, len(paths)))
         lines.append(line)
         for kind, (_, marker, colour) in MARKS.items():
-            axes.scatter(*places[[row['kind'] == kind for row in rows]].T, marker=marker, zorder=20 + number,
+            axes.scatter(*places[[increment['kind'] == kind for increment in increments]].T, marker=marker, zorder=20 + number,
                          color=line.get_color() if several else colour, edgecolors='white', linewidths=0.6,
                          s=(1.8 - 0.8 * (number + 1) / len(paths)) * size * (2 if marker == '*' else 1))
     for kind, (text, marker, colour) in MARKS.items():
-        count = sum(row['kind'] == kind for path in paths for row in path.rows)
+        count = sum(increment['kind'] == kind for path in paths for increment in path.increments)
         if count:
             axes.scatter([], [], marker=marker, color='0.4' if several else colour, s=130 if marker == '*' else 65,
                          label=text if several else '%s (%d)' % (text, count))
@@ -94,15 +94,15 @@ def draw_path(axes, paths, x, y, numbered=()):
     axes.set_ylabel(label(y), fontsize=12)
     axes.autoscale_view()
     texts = [draw_legend(axes)]
-    for path, rows, line in zip(paths, numbered, lines):
-        write_indices(axes, path, rows, x, y, line.get_color() if several else 'black', texts)
+    for path, increments, line in zip(paths, numbered, lines):
+        write_indices(axes, path, increments, x, y, line.get_color() if several else 'black', texts)
 
 
 def points(path, x, y):
-    """The rows that carry both quantities, and their values (., 2)."""
+    """The increments that carry both quantities, and their values (., 2)."""
     x, y = quantities(path)[x], quantities(path)[y]
-    rows = [row for row in path.rows if not math.isnan(row[x] + row[y])]
-    return rows, np.array([(row[x], row[y]) for row in rows]).reshape(-1, 2)
+    increments = [increment for increment in path.increments if not math.isnan(increment[x] + increment[y])]
+    return increments, np.array([(increment[x], increment[y]) for increment in increments]).reshape(-1, 2)
 
 
 def draw_legend(axes):
@@ -120,28 +120,28 @@ def line_style(number, count):
             'zorder': 1 + number}
 
 
-def write_indices(axes, path, rows, x, y, colour, texts):
-    """Beside their points; rows that lie close together share a label. texts: boxes of those that stand already."""
-    all_rows, data = points(path, x, y)
+def write_indices(axes, path, increments, x, y, colour, texts):
+    """Beside their points; increments that lie close together share a label. texts: boxes of those that stand already."""
+    all_increments, data = points(path, x, y)
     line = axes.transData.transform(data) * 72.0 / axes.figure.dpi  # places on the figure, in points
     low, high = (corner * 72.0 / axes.figure.dpi for corner in axes.get_window_extent().get_points())
-    groups = []  # place in the path, indices of rows
-    for row in rows:
-        i = all_rows.index(row)
-        if row['kind'] == 'regular':
+    groups = []  # place in the path, indices of increments
+    for increment in increments:
+        i = all_increments.index(increment)
+        if increment['kind'] == 'regular':
             axes.plot(*data[i], 'o', color='white', markeredgecolor=colour, markersize=5, zorder=15)
         for other, indices in groups:
             if np.hypot(*(line[i] - line[other])) < NEAR:
-                indices.append(int(row['index']))
+                indices.append(int(increment['index']))
                 break
         else:
-            groups.append((i, [int(row['index'])]))
+            groups.append((i, [int(increment['index'])]))
     for i, indices in groups:
         text = ', '.join(map(str, indices)) if len(indices) <= 3 else '%d ... %d' % (indices[0], indices[-1])
         around = line - line[i]
         distance = np.hypot(*around.T)
         near = (distance > 4.0) & (distance < NEAR)
-        near[[j for j in (i - 1, i + 1) if 0 <= j < len(line) and all_rows[max(i, j)]['kind'] != 'start']] = True
+        near[[j for j in (i - 1, i + 1) if 0 <= j < len(line) and all_increments[max(i, j)]['kind'] != 'start']] = True
         near &= distance > 0.0
         size = np.array([6.0 * len(text), 11.0])
 
@@ -176,7 +176,7 @@ def contacts_shown(path):
     contacts = path.contacts()
     if len(contacts) <= MOST_CONTACTS:
         return contacts
-    return [contact for contact in contacts if any(row['state_' + contact] not in ('', 'open') for row in path.rows)]
+    return [contact for contact in contacts if any(increment['state_' + contact] not in ('', 'open') for increment in path.increments)]
 
 
 def states_title(path, several):
@@ -191,18 +191,18 @@ def states_height(path):
 
 
 def pieces(path, contact):
-    """State -> [(arc length of the beginning, length)]. A row that carries no state is on the piece of the next one
-    that does: rows where states change carry them."""
+    """State -> [(arc length of the beginning, length)]. An increment that carries no state is on the piece of the next one
+    that does: increments where states change carry them."""
     found = {}
     # At the start of a stage a piece of no length ends.
-    states = ['' if i > 0 and row['kind'] == 'start' else row['state_' + contact] for i, row in enumerate(path.rows)]
+    states = ['' if i > 0 and increment['kind'] == 'start' else increment['state_' + contact] for i, increment in enumerate(path.increments)]
     for i in range(len(states) - 2, -1, -1):
         states[i] = states[i] or states[i + 1]
     for i in range(1, len(states)):
         states[i] = states[i] or states[i - 1]
     arc = path.column('arc_length')
     begin = 0
-    for i in range(1, len(states)):  # the state of a row is that of the piece that ends in it
+    for i in range(1, len(states)):  # the state of an increment is that of the piece that ends in it
         if i + 1 == len(states) or states[i + 1] != states[i]:
             found.setdefault(states[i], []).append((arc[begin], arc[i] - arc[begin]))
             begin = i
@@ -245,9 +245,9 @@ def draw_energies(axes, paths, arc_length):
     for number, path in enumerate(paths):
         arc = path.column('arc_length')
         for column, text, dashes, colour in ENERGIES:
-            if column not in path.rows[0]:
+            if column not in path.increments[0]:
                 continue
-            start = path.rows[0][column]
+            start = path.increments[0][column]
             style = line_style(number, len(paths)) if several else {'color': colour}
             axes.plot(arc, [value - start for value in path.column(column)], linestyle=dashes,
                       label=None if several else text, **style)
@@ -255,7 +255,7 @@ def draw_energies(axes, paths, arc_length):
         for number, path in enumerate(paths):
             axes.plot([], [], label=path.title, **line_style(number, len(paths)))
         for column, text, dashes, _ in ENERGIES:
-            if any(column in path.rows[0] for path in paths):
+            if any(column in path.increments[0] for path in paths):
                 axes.plot([], [], color='0.4', linestyle=dashes, label=text)
     axes.set_xlim(0.0, arc_length)
     axes.set_xlabel(label('arc_length'), fontsize=12)

@@ -77,11 +77,11 @@ class Structure:
         """For each contact, whether its obstacle is this one."""
         return np.array([name == obstacle and self.has(name, normal) for name in self.contact_obstacles], dtype=bool)
 
-    def positions(self, row):
-        return np.array([[row['x_' + name], row['y_' + name]] for name in self.names])
+    def positions(self, increment):
+        return np.array([[increment['x_' + name], increment['y_' + name]] for name in self.names])
 
-    def of_contacts(self, row, quantity):
-        return np.array([row[quantity + name] for name in self.contacts])
+    def of_contacts(self, increment, quantity):
+        return np.array([increment[quantity + name] for name in self.contacts])
 
     def find_bar_directions(self):
         """For each node the directions, of unit length, to those that it is joined to at the start."""
@@ -105,26 +105,26 @@ class Structure:
 
 
 class Shape:
-    """The structure in a row of the path. Loads (n, 2) on the nodes; reactions (k, 2) on the contacts."""
+    """The structure in an increment of the path. Loads (n, 2) on the nodes; reactions (k, 2) on the contacts."""
 
-    def __init__(self, structure, row):
+    def __init__(self, structure, increment):
         self.structure = structure
-        self.row = row
-        self.places = structure.positions(row)
-        self.states = [row['state_' + name] for name in structure.contacts]
-        self.gaps = structure.of_contacts(row, 'gap_')
-        rn = structure.of_contacts(row, 'rn_')[:, None]
+        self.increment = increment
+        self.places = structure.positions(increment)
+        self.states = [increment['state_' + name] for name in structure.contacts]
+        self.gaps = structure.of_contacts(increment, 'gap_')
+        rn = structure.of_contacts(increment, 'rn_')[:, None]
         self.normal_parts = rn * structure.normals
-        self.tangential_parts = structure.of_contacts(row, 'rt_')[:, None] * structure.tangents
+        self.tangential_parts = structure.of_contacts(increment, 'rt_')[:, None] * structure.tangents
         self.reactions = self.normal_parts + self.tangential_parts
         self.cone = structure.friction[:, None] * rn * structure.tangents  # half of its base
         self.touching = self.places[structure.contact_nodes]
-        number = int(row.get('stage', 1))
+        number = int(increment.get('stage', 1))
         self.stage, _, loads, motions = structure.stages[number - 1]
-        self.loads = row['load_factor'] * loads
+        self.loads = increment['load_factor'] * loads
         self.constant_loads = structure.constant_loads + sum(
             target * loads for _, target, loads, _ in structure.stages[:number - 1])  # they stay
-        self.obstacles = {name: point + row['load_factor'] * motions.get(name, 0.0) + sum(
+        self.obstacles = {name: point + increment['load_factor'] * motions.get(name, 0.0) + sum(
             target * motions.get(name, 0.0) for _, target, _, motions in structure.stages[:number - 1])
                           for name, (point, _, _) in structure.obstacles.items()}
 
@@ -134,34 +134,34 @@ class Shape:
 
 
 def at_kinds(path, at):
-    """The rows to draw, and how many were left out because a figure holds no more.
+    """The increments to draw, and how many were left out because a figure holds no more.
 
-    at: 'events', 'limits' or 'all' of them; None: some of all. The first and the last row that carry positions are
+    at: 'events', 'limits' or 'all' of them; None: some of all. The first and the last increment that carry positions are
     always drawn. Limit points and starts of stages come first, then what happens earlier.
     """
-    rows = path.full_rows()
+    increments = path.full_increments()
     kinds = KINDS_AT[at or 'all']
-    wanted = [row for row in rows[1:-1] if row['kind'] in kinds]
-    wanted.sort(key=lambda row: (row['kind'] not in (*LIMITS, 'start'), row['index']))
+    wanted = [increment for increment in increments[1:-1] if increment['kind'] in kinds]
+    wanted.sort(key=lambda increment: (increment['kind'] not in (*LIMITS, 'start'), increment['index']))
     room = (MOST_WANTED if at else MOST) - 2
-    shown = sorted(wanted[:room], key=lambda row: row['index'])
-    return rows[:1] + shown + rows[1:][-1:], len(wanted[room:])
+    shown = sorted(wanted[:room], key=lambda increment: increment['index'])
+    return increments[:1] + shown + increments[1:][-1:], len(wanted[room:])
 
 
 def by_index(path, indices):
-    """The rows of these indices; 'end': the last one that carries positions."""
-    rows = {int(row['index']): row for row in path.rows}
-    full = sorted(int(row['index']) for row in path.full_rows())
+    """The increments of these indices; 'end': the last one that carries positions."""
+    increments = {int(increment['index']): increment for increment in path.increments}
+    full = sorted(int(increment['index']) for increment in path.full_increments())
     shown = []
     for index in indices:
         index = full[-1] if index == 'end' else index
-        if index not in rows:
-            raise ValueError('--rows: no row %d: the last one is %d' % (index, max(rows)))
+        if index not in increments:
+            raise ValueError('--increments: no increment %d: the last one is %d' % (index, max(increments)))
         if index not in full:
             near = sorted(full, key=lambda other: (abs(other - index), other))[0]
-            raise ValueError('--rows: row %d carries no positions (full_state_every), the nearest that does is %d' %
+            raise ValueError('--increments: increment %d carries no positions (full_state_every), the nearest that does is %d' %
                              (index, near))
-        shown.append(rows[index])
+        shown.append(increments[index])
     return shown
 
 
@@ -371,13 +371,13 @@ def draw_states(axes, shape, view):
 
 
 def title(shape, ends):
-    """ends: the row is the last one of the path."""
-    load = shape.row['load_factor']
-    kind = shape.row['kind'].replace('_', ' ')
+    """ends: the increment is the last one of the path."""
+    load = shape.increment['load_factor']
+    kind = shape.increment['kind'].replace('_', ' ')
     if ends:
         kind = 'end' if kind == 'regular' else kind + ', end'
-    stage = shape.stage or ('stage %d' % shape.row['stage'] if len(shape.structure.stages) > 1 else '')
-    return 'row %d: %s\n%sload factor %.5g' % (shape.row['index'], kind, stage and stage + ', ',
+    stage = shape.stage or ('stage %d' % shape.increment['stage'] if len(shape.structure.stages) > 1 else '')
+    return 'increment %d: %s\n%sload factor %.5g' % (shape.increment['index'], kind, stage and stage + ', ',
                                                load if abs(load) > 1e-12 else 0.0)
 
 

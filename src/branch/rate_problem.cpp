@@ -34,17 +34,17 @@ void AddSpring(const SparseLinear& along, double stiffness, Eigen::Index nd, Eig
 
 RateProblem::RateProblem(const Structure& structure, const std::vector<ContactGeometry>& contacts,
                          const PathPoint& point, const std::vector<ContactState>& states,
-                         const std::vector<int>& concerned, const Eigen::VectorXd& arrival)
-    : contacts_(contacts), point_(point), concerned_(concerned) {
+                         const std::vector<int>& weakly_active, const Eigen::VectorXd& arrival)
+    : contacts_(contacts), point_(point), weakly_active_(weakly_active) {
   std::vector<ContactState> base = states;
-  for (const int i : concerned_) base[static_cast<std::size_t>(i)] = ContactState::kOpen;
+  for (const int i : weakly_active_) base[static_cast<std::size_t>(i)] = ContactState::kOpen;
   FixedStateSystem system(structure, contacts);
   system.SetStates(base, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(contacts.size())));
   const Eigen::VectorXd x = system.Pack(point);
   const Eigen::Index nd = system.NumDofs();
   // Scaled stiffnesses are of the order of 1, and so are the springs.
   Eigen::SparseMatrix<double> transposed = system.TransposedJacobian(x);
-  for (const int i : concerned_) {
+  for (const int i : weakly_active_) {
     AddSpring(contacts[static_cast<std::size_t>(i)].gap, 1.0, nd, &transposed);
     AddSpring(contacts[static_cast<std::size_t>(i)].tangential, 1.0, nd, &transposed);
   }
@@ -53,12 +53,12 @@ RateProblem::RateProblem(const Structure& structure, const std::vector<ContactGe
   if (!solver.Factorize(transposed, Eigen::VectorXd::Unit(system.NumUnknowns(), nd)) || solver.DeterminantSign() == 0)
     return;
 
-  const auto count = static_cast<Eigen::Index>(concerned_.size());
+  const auto count = static_cast<Eigen::Index>(weakly_active_.size());
   Eigen::MatrixXd motions(nd, 2 * count + 1);
   motions.col(0) = solver.Solve(Eigen::VectorXd::Zero(system.NumEquations()), 1.0).head(nd);
   Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(system.NumEquations(), 2), moved;
   for (Eigen::Index k = 0; k < count; ++k) {
-    const ContactGeometry& contact = contacts[static_cast<std::size_t>(concerned_[static_cast<std::size_t>(k)])];
+    const ContactGeometry& contact = contacts[static_cast<std::size_t>(weakly_active_[static_cast<std::size_t>(k)])];
     const auto set = [&](double value) {
       for (const Eigen::Index axis : {0, 1}) {
         const SparseLinear& along = axis == 0 ? contact.gap : contact.tangential;
@@ -75,7 +75,7 @@ RateProblem::RateProblem(const Structure& structure, const std::vector<ContactGe
   gap_.resize(count, motions.cols());
   slip_.resize(count, motions.cols());
   for (Eigen::Index k = 0; k < count; ++k) {
-    const ContactGeometry& contact = contacts[static_cast<std::size_t>(concerned_[static_cast<std::size_t>(k)])];
+    const ContactGeometry& contact = contacts[static_cast<std::size_t>(weakly_active_[static_cast<std::size_t>(k)])];
     for (Eigen::Index j = 0; j < motions.cols(); ++j) {
       const double ds = j == 0 ? 1.0 : 0.0;
       gap_(k, j) = contact.gap.Rate(motions.col(j), ds);
@@ -141,7 +141,7 @@ Eigen::MatrixXd RateProblem::Equations(const std::vector<ContactState>& states) 
   };
   Eigen::MatrixXd equations(2 * count, columns);
   for (Eigen::Index k = 0; k < count; ++k) {
-    const auto i = static_cast<std::size_t>(concerned_[static_cast<std::size_t>(k)]);
+    const auto i = static_cast<std::size_t>(weakly_active_[static_cast<std::size_t>(k)]);
     const Eigen::RowVectorXd rn = reaction(1 + 2 * k, gap_.row(k)), rt = reaction(2 + 2 * k, slip_.row(k));
     if (states[i] == ContactState::kOpen) {
       equations.row(2 * k) = rn;
@@ -188,18 +188,18 @@ std::optional<CondensedRates> RateProblem::RatesOf(Eigen::VectorXd z) const {
   return rates;
 }
 
-std::optional<Limit> RateProblem::Broken(const std::vector<ContactState>& states, const CondensedRates& rates,
-                                         double sign, double at_limit, double tolerance,
-                                         std::vector<Limit>* all) const {
+std::optional<Constraint> RateProblem::Broken(const std::vector<ContactState>& states, const CondensedRates& rates,
+                                              double sign, double active, double tolerance,
+                                              std::vector<Constraint>* all) const {
   const double force = 1.0 + std::max(rates.rn.lpNorm<Eigen::Infinity>(), rates.rt.lpNorm<Eigen::Infinity>());
-  std::optional<Limit> first;
+  std::optional<Constraint> first;
   const auto require = [&](int contact, Inequality inequality, double rate, double scale) {
     if (sign * rate >= -tolerance * scale) return;
-    if (!first) first = Limit{contact, inequality};
+    if (!first) first = Constraint{contact, inequality};
     if (all != nullptr) all->push_back({contact, inequality});
   };
-  for (std::size_t k = 0; k < concerned_.size(); ++k) {
-    const int contact = concerned_[k];
+  for (std::size_t k = 0; k < weakly_active_.size(); ++k) {
+    const int contact = weakly_active_[k];
     const auto i = static_cast<std::size_t>(contact);
     const auto e = static_cast<Eigen::Index>(k), c = static_cast<Eigen::Index>(i);
     const double friction = contacts_[i].friction, rn = point_.rn[c], rt = point_.rt[c];
@@ -207,11 +207,11 @@ std::optional<Limit> RateProblem::Broken(const std::vector<ContactState>& states
       require(contact, Inequality::kGap, rates.gap[e], 1.0);
       continue;
     }
-    if (rn <= at_limit) require(contact, Inequality::kNormalReaction, rates.rn[e], force);
+    if (rn <= active) require(contact, Inequality::kNormalReaction, rates.rn[e], force);
     if (states[i] == ContactState::kStick) {
-      if (friction * rn + rt <= at_limit)
+      if (friction * rn + rt <= active)
         require(contact, Inequality::kConePlus, friction * rates.rn[e] + rates.rt[e], force);
-      if (friction * rn - rt <= at_limit)
+      if (friction * rn - rt <= active)
         require(contact, Inequality::kConeMinus, friction * rates.rn[e] - rates.rt[e], force);
     } else if (states[i] == ContactState::kSlipPlus) {
       require(contact, Inequality::kSlip, rates.slip[e], 1.0);

@@ -259,7 +259,7 @@ ResidualCheck::~ResidualCheck() = default;
 
 double Residuals::Contact() const {
   double worst = 0.0;
-  for (const double residual : {penetration, adhesion, complementarity, cone, friction_law}) {
+  for (const double residual : {penetration, tensile_reaction, complementarity, cone, friction_law}) {
     worst = Worst(worst, residual);
   }
   return worst;
@@ -303,7 +303,7 @@ Residuals ResidualCheck::Check(const CheckedState& before, const CheckedState& n
     const Real rt = static_cast<Real>(now.rt[i]) / scaling.force;
     const Real bound = surface.friction * std::max(rn, 0.0L);
     residuals.penetration = Worst(residuals.penetration, -gap);
-    residuals.adhesion = Worst(residuals.adhesion, -rn);
+    residuals.tensile_reaction = Worst(residuals.tensile_reaction, -rn);
     residuals.complementarity = Worst(residuals.complementarity, std::abs(std::min(gap, rn)));
     residuals.cone = Worst(residuals.cone, std::abs(rt) - surface.friction * rn);
     residuals.friction_law = Worst(residuals.friction_law, std::abs(rt - std::clamp(rt - slip, -bound, bound)));

@@ -1,8 +1,8 @@
-// contact_path_trace SCENE.yaml: traces the equilibrium path of a scene file and writes its rows as CSV.
+// contact_path_trace SCENE.yaml: traces the equilibrium path of a scene file and writes its increments as CSV.
 // contact_path_trace --resume BAG: goes on with a trace that was cut short.
 //
-// Exit status: 0 ended by a stop criterion or the number of increments; 1 ended earlier, all accepted rows written;
-// 2 bad usage or invalid scene.
+// Exit status: 0 ended by a stop criterion or the number of increments; 1 ended earlier, all accepted increments
+// written; 2 bad usage or invalid scene.
 #include <CLI/CLI.hpp>
 #include <cerrno>
 #include <csignal>
@@ -48,13 +48,13 @@ struct Arguments {
   bool quiet = false;
 };
 
-// Rows could not be written.
+// Increments could not be written.
 class WriteError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-// Takes each row as it is accepted; throws WriteError.
+// Takes each increment as it is accepted; throws WriteError.
 using Sink = std::function<void(const Increment&)>;
 
 // Set by SIGINT and SIGTERM.
@@ -73,13 +73,13 @@ void HandleSignals() {
 
 void DeclareOptions(CLI::App& app, Arguments& arguments) {
   CLI::Option* const scene = app.add_option("SCENE", arguments.scene_file, "Scene file (YAML)");
-  app.add_option("--csv", arguments.csv_file, "Write the rows to this file; -, or none: standard output")
+  app.add_option("--csv", arguments.csv_file, "Write the increments to this file; -, or none: standard output")
       ->type_name("FILE");
 #ifdef CONTACT_PATH_WITH_ROS
   app.add_option("--bag", arguments.bag_file, "Record the trace to this bag too")->type_name("FILE");
   CLI::Option* const resume =
       app.add_option("--resume", arguments.resume,
-                     "Go on with the trace of this bag; of its rows, those that can be kept are")
+                     "Go on with the trace of this bag; of its increments, those that can be kept are")
           ->type_name("BAG");
   scene->excludes(resume);
 #else
@@ -98,7 +98,7 @@ void DeclareOptions(CLI::App& app, Arguments& arguments) {
                  "Largest number, instead of that of the scene or bag; 0 = 1000")
       ->type_name("NUMBER");
   app.add_flag("--events", arguments.events,
-               "Print each event and the ways on from there on standard error: what branch_choices chooses from");
+               "Print each event and the branches from there on standard error: what branch_choices chooses from");
   app.add_flag("--quiet", arguments.quiet, "Say nothing on standard error unless the trace ends early");
 }
 
@@ -113,7 +113,7 @@ T KnownWord(const std::optional<T>& parsed, const std::string& option, const std
 // What is to be traced, and what there is of it.
 struct Task {
   TraceRequest request;
-  std::optional<std::vector<Increment>> rows;  // of the trace to go on with
+  std::optional<std::vector<Increment>> increments;  // of the trace to go on with
 };
 
 // The scene file with the options of the command line. Throws InvalidRequest.
@@ -137,12 +137,12 @@ Task ReadTask(const Arguments& arguments) {
 #ifdef CONTACT_PATH_WITH_ROS
   if (arguments.scene_file.empty()) {
     TraceSoFar so_far = ReadTraceSoFar(arguments.resume);
-    for (const Increment& row : so_far.rows)
-      if (row.positions.empty())
-        throw std::runtime_error(arguments.resume + ": row " + std::to_string(row.index) +
+    for (const Increment& increment : so_far.increments)
+      if (increment.positions.empty())
+        throw std::runtime_error(arguments.resume + ": increment " + std::to_string(increment.index) +
                                  " has no state (full_state_every): the CSV could not have it");
     task.request = std::move(so_far.request);
-    task.rows = std::move(so_far.rows);
+    task.increments = std::move(so_far.increments);
   } else {
     task.request = ReadRequest(arguments);
   }
@@ -184,7 +184,7 @@ std::optional<std::ofstream> OpenCsv(const std::string& file) {
   return csv;
 }
 
-// Flushes, so that every row is out before the next one is computed.
+// Flushes, so that every increment is out before the next one is computed.
 void RequireWritten(std::ostream& out, const std::string& name) {
   if (!out.flush()) throw WriteError("cannot write " + name + ": " + std::strerror(errno));
 }
@@ -198,7 +198,7 @@ Sink StartCsv(const TraceRequest& request, std::ostream& out, const std::string&
   };
 }
 
-// Traces with the rows going to `csv`. Throws WriteError.
+// Traces with the increments going to `csv`. Throws WriteError.
 ExitStatus RunTrace(const Task& task, const Arguments& arguments, std::ostream& csv) {
   const TraceRequest& request = task.request;
   const bool csv_on_terminal = !arguments.csv_file && isatty(STDOUT_FILENO) == 1;
@@ -210,7 +210,7 @@ ExitStatus RunTrace(const Task& task, const Arguments& arguments, std::ostream& 
   if (arguments.events) {
     sinks.emplace_back([&](const Increment& increment) {
       progress.Wipe();
-      PrintWays(request.scene, increment, std::cerr);
+      PrintBranches(request.scene, increment, std::cerr);
     });
   }
 #ifdef CONTACT_PATH_WITH_ROS
@@ -227,7 +227,8 @@ ExitStatus RunTrace(const Task& task, const Arguments& arguments, std::ostream& 
     for (const Sink& sink : sinks) sink(increment);
   };
   control.cancelled = [] { return cancel_requested != 0; };
-  const TraceResult result = task.rows ? ResumeTrace(request, *task.rows, control) : Trace(request, control);
+  const TraceResult result =
+      task.increments ? ResumeTrace(request, *task.increments, control) : Trace(request, control);
 #ifdef CONTACT_PATH_WITH_ROS
   if (bag) bag->End(result);
 #endif

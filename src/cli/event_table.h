@@ -1,4 +1,4 @@
-// The events of a path and the ways on from each, as text: what branch_choices chooses from.
+// The events of a path and the branches from each, as text: what branch_choices chooses from.
 #ifndef CONTACT_PATH_CLI_EVENT_TABLE_H_
 #define CONTACT_PATH_CLI_EVENT_TABLE_H_
 
@@ -9,8 +9,8 @@
 
 namespace contact_path {
 
-// Writes the ways on from `row`, a line each, best first; nothing where no ways part.
-void PrintWays(const Scene& scene, const Increment& row, std::ostream& out);
+// Writes the branches from `increment`, a line each, best first; nothing where no branches part.
+void PrintBranches(const Scene& scene, const Increment& increment, std::ostream& out);
 
 }  // namespace contact_path
 

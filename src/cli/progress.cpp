@@ -15,7 +15,7 @@ constexpr auto kTimeBetweenDrawings = std::chrono::milliseconds(100);
 constexpr int kBarWidth = 14;             // characters; the whole line fits into 80
 constexpr char kWipeLine[] = "\r\x1b[K";  // ANSI: to the first column, erase to the end of the line
 
-// An estimate of the time left is worth its place after this share of the way, and this time.
+// An estimate of the time left is worth its place after this share of the branch, and this time.
 constexpr double kLeastFraction = 0.02;
 constexpr double kLeastSeconds = 3.0;
 
@@ -47,7 +47,7 @@ void Progress::Add(const Increment& increment) {
   const double done = estimate_.Add(increment);
   summary_.Add(increment);
   const auto now = clock_();
-  if (increment.index == 0) first_row_ = now;
+  if (increment.index == 0) first_increment_ = now;
   if (show_bar_ && (increment.index == 0 || now - drawn_ >= kTimeBetweenDrawings)) {
     Draw(increment, done);
     drawn_ = now;
@@ -76,10 +76,10 @@ void Progress::Draw(const Increment& increment, double done) {
     line << '[' << std::string(filled, '#') << std::string(kBarWidth - filled, ' ') << "] " << std::setw(3)
          << static_cast<int>(100.0 * done) << "%  ";
   }
-  line << "row " << increment.index;
+  line << "increment " << increment.index;
   if (increment.stage > 0) line << "  stage " << increment.stage;
   line << "  load factor " << std::setprecision(4) << increment.load_factor << "  events " << summary_.events();
-  const double seconds = std::chrono::duration<double>(clock_() - first_row_).count();
+  const double seconds = std::chrono::duration<double>(clock_() - first_increment_).count();
   if (done >= kLeastFraction && seconds >= kLeastSeconds)
     line << "  " << InMinutes(seconds * (1.0 - done) / done) << " left";
   out_ << line.str() << std::flush;

@@ -25,13 +25,13 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  // Takes every row, in order.
+  // Takes every increment, in order.
   void Add(const Increment& increment);
 
   // Takes the bar off the terminal.
   void Wipe();
 
-  // One line without line break: how the trace ended, rows, limit points, events, time.
+  // One line without line break: how the trace ended, increments, limit points, events, time.
   std::string Summary(const TraceResult& result) const;
 
  private:
@@ -43,7 +43,7 @@ class Progress {
   const Clock clock_;
   PathSummary summary_;
   const std::chrono::steady_clock::time_point begin_;
-  std::chrono::steady_clock::time_point first_row_;
+  std::chrono::steady_clock::time_point first_increment_;
   std::chrono::steady_clock::time_point drawn_;  // time of the last drawing
   bool visible_ = false;                         // the bar stands on the terminal
 };

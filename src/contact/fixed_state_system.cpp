@@ -4,10 +4,7 @@
 #include <cmath>
 
 namespace contact_path {
-namespace {
-
-
-}  // namespace
+namespace {}  // namespace
 
 FixedStateSystem::FixedStateSystem(const Structure& structure, const std::vector<ContactGeometry>& contacts)
     : structure_(structure), contacts_(contacts), tangent_(structure.TangentPattern()) {
@@ -18,8 +15,8 @@ FixedStateSystem::FixedStateSystem(const Structure& structure, const std::vector
 void FixedStateSystem::SetStates(const std::vector<ContactState>& states, const Eigen::VectorXd& tangential_reference) {
   states_ = states;
   tangential_reference_ = tangential_reference;
-  pinned_.clear();
-  load_factor_pinned_ = false;
+  active_.clear();
+  load_factor_fixed_ = false;
   rn_unknown_.assign(contacts_.size(), -1);
   rt_unknown_.assign(contacts_.size(), -1);
   num_unknowns_ = NumDofs() + 1;
@@ -35,19 +32,19 @@ void FixedStateSystem::SetStates(const std::vector<ContactState>& states, const 
   Rebuild();
 }
 
-void FixedStateSystem::Pin(const std::vector<Limit>& limits) {
-  pinned_ = limits;
+void FixedStateSystem::SetActive(const std::vector<Constraint>& limits) {
+  active_ = limits;
   Rebuild();
 }
 
-void FixedStateSystem::PinLoadFactor(double value) {
-  load_factor_pinned_ = true;
+void FixedStateSystem::FixLoadFactor(double value) {
+  load_factor_fixed_ = true;
   load_factor_ = value;
   Rebuild();
 }
 
-void FixedStateSystem::UnpinLoadFactor() {
-  load_factor_pinned_ = false;
+void FixedStateSystem::FreeLoadFactor() {
+  load_factor_fixed_ = false;
   Rebuild();
 }
 
@@ -71,7 +68,7 @@ FixedStateSystem::LinearEquation FixedStateSystem::TangentialMotion(std::size_t 
   return equation;
 }
 
-FixedStateSystem::LinearEquation FixedStateSystem::InequalityAsEquation(const Limit& limit) const {
+FixedStateSystem::LinearEquation FixedStateSystem::InequalityAsEquation(const Constraint& limit) const {
   const auto i = static_cast<std::size_t>(limit.contact);
   LinearEquation equation;
   switch (limit.inequality) {
@@ -99,8 +96,8 @@ void FixedStateSystem::Rebuild() {
     equation.Add(NumDofs(), -prescribed.rate);
     equation.constant = -prescribed.start;
   }
-  for (const Limit& limit : pinned_) linear_.push_back(InequalityAsEquation(limit));
-  if (load_factor_pinned_) {
+  for (const Constraint& limit : active_) linear_.push_back(InequalityAsEquation(limit));
+  if (load_factor_fixed_) {
     linear_.emplace_back().Add(NumDofs(), 1.0);
     linear_.back().constant = -load_factor_;
   }
@@ -192,7 +189,7 @@ const Eigen::SparseMatrix<double>& FixedStateSystem::TransposedJacobian(const Ei
   return transposed_;
 }
 
-void FixedStateSystem::AddInequalities(std::size_t contact, std::vector<Limit>* limits) const {
+void FixedStateSystem::AddInequalities(std::size_t contact, std::vector<Constraint>* limits) const {
   const auto i = static_cast<int>(contact);
   if (states_[contact] == ContactState::kOpen) {
     limits->push_back({i, Inequality::kGap});
@@ -207,14 +204,14 @@ void FixedStateSystem::AddInequalities(std::size_t contact, std::vector<Limit>* 
   }
 }
 
-std::vector<Limit> FixedStateSystem::Inequalities() const {
-  std::vector<Limit> limits;
+std::vector<Constraint> FixedStateSystem::Inequalities() const {
+  std::vector<Constraint> limits;
   for (std::size_t i = 0; i < contacts_.size(); ++i) AddInequalities(i, &limits);
   return limits;
 }
 
-std::vector<Limit> FixedStateSystem::InequalitiesInReach(const Eigen::VectorXd& x, double reach) const {
-  std::vector<Limit> limits;
+std::vector<Constraint> FixedStateSystem::InequalitiesInReach(const Eigen::VectorXd& x, double reach) const {
+  std::vector<Constraint> limits;
   for (std::size_t i = 0; i < contacts_.size(); ++i)
     if (states_[i] != ContactState::kOpen ||
         contacts_[i].gap.Value(x, x[NumDofs()]) <= reach * (1.0 + std::abs(contacts_[i].gap.load)))
@@ -222,7 +219,7 @@ std::vector<Limit> FixedStateSystem::InequalitiesInReach(const Eigen::VectorXd& 
   return limits;
 }
 
-double FixedStateSystem::Value(const Limit& limit, const Eigen::VectorXd& x) const {
+double FixedStateSystem::Value(const Constraint& limit, const Eigen::VectorXd& x) const {
   const LinearEquation equation = InequalityAsEquation(limit);
   return equation.constant + equation.Rate(x);
 }
@@ -239,11 +236,11 @@ double FixedStateSystem::DrivingForce(const Eigen::VectorXd& x) const {
   return force;
 }
 
-double FixedStateSystem::Rate(const Limit& limit, const Eigen::VectorXd& dx) const {
+double FixedStateSystem::Rate(const Constraint& limit, const Eigen::VectorXd& dx) const {
   return InequalityAsEquation(limit).Rate(dx);
 }
 
-Eigen::VectorXd FixedStateSystem::Gradient(const Limit& limit) const {
+Eigen::VectorXd FixedStateSystem::Gradient(const Constraint& limit) const {
   Eigen::VectorXd gradient = Eigen::VectorXd::Zero(num_unknowns_);
   const LinearEquation equation = InequalityAsEquation(limit);
   for (std::size_t k = 0; k < equation.count; ++k) gradient[equation.terms[k].unknown] += equation.terms[k].coefficient;

@@ -169,7 +169,7 @@ void BorderedSolver::SolveAll(const Eigen::MatrixXd& B, Eigen::MatrixXd* x) cons
              &factors_->common);
 }
 
-Eigen::Index BorderedSolver::Deficiency() const {
+Eigen::Index BorderedSolver::Nullity() const {
   return factors_->regular ? 0 : factors_->matrix.rows() - factors_->minimum_norm.Rank();
 }
 

@@ -119,14 +119,14 @@ double IncrementProblem::ObjectiveAt(const PathPoint& point) const {
   Eigen::VectorXd y(structure_.NumDofs() + 1);
   y << point.u - from_.u, point.s - from_.s;
   y /= goal_.length;
-  return linear_objective_.dot(y) + 0.5 * goal_.growth * y.squaredNorm();
+  return linear_objective_.dot(y) + 0.5 * goal_.gamma2_factor * y.squaredNorm();
 }
 
-Eigen::VectorXd IncrementProblem::Aim() const {
-  Eigen::VectorXd aim = -goal_.length / goal_.growth * linear_objective_;
-  aim.head(structure_.NumDofs()) += from_.u;
-  aim[structure_.NumDofs()] += from_.s;
-  return aim;
+Eigen::VectorXd IncrementProblem::UnconstrainedMinimiser() const {
+  Eigen::VectorXd minimiser = -goal_.length / goal_.gamma2_factor * linear_objective_;
+  minimiser.head(structure_.NumDofs()) += from_.u;
+  minimiser[structure_.NumDofs()] += from_.s;
+  return minimiser;
 }
 
 Eigen::VectorXd IncrementProblem::VariableLowerBounds() const {
@@ -158,12 +158,12 @@ Eigen::VectorXd IncrementProblem::ConstraintUpperBounds() const {
 
 double IncrementProblem::Objective(const Eigen::VectorXd& x) const {
   const auto y = x.head(linear_objective_.size());
-  return linear_objective_.dot(y) + 0.5 * goal_.growth * y.squaredNorm();
+  return linear_objective_.dot(y) + 0.5 * goal_.gamma2_factor * y.squaredNorm();
 }
 
 void IncrementProblem::Gradient(const Eigen::VectorXd& x, Eigen::VectorXd* gradient) const {
   gradient->setZero(num_variables_);
-  gradient->head(linear_objective_.size()) = linear_objective_ + goal_.growth * x.head(linear_objective_.size());
+  gradient->head(linear_objective_.size()) = linear_objective_ + goal_.gamma2_factor * x.head(linear_objective_.size());
 }
 
 void IncrementProblem::Constraints(const Eigen::VectorXd& x, Eigen::VectorXd* values) const {
@@ -258,8 +258,8 @@ void IncrementProblem::ForEachHessianEntry(const Eigen::VectorXd& x, double fact
   for (Eigen::Index column = 0; column < nd; ++column)
     for (Eigen::SparseMatrix<double>::InnerIterator it(tangent_, column); it; ++it)
       if (it.row() >= column)
-        emit(it.row(), column, goal_.length * it.value() + (it.row() == column ? factor * goal_.growth : 0.0));
-  emit(nd, nd, factor * goal_.growth);
+        emit(it.row(), column, goal_.length * it.value() + (it.row() == column ? factor * goal_.gamma2_factor : 0.0));
+  emit(nd, nd, factor * goal_.gamma2_factor);
   for (const Slot& slot : slots_) {
     const SparseLinear &normal = slot.geometry->gap, &tangential = slot.geometry->tangential;
     for (std::size_t a = 0; a < 2; ++a)

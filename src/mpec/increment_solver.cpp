@@ -65,18 +65,18 @@ IncrementTrial IncrementSolver::SolveWith(const PathPoint& from, const std::vect
 
   const bool regularised = !working_set.empty();
   trial.regularisation = regularised ? schedule.minimum * goal.length * goal.length : 0.0;
-  if (regularised && schedule.from_last && schedule.minimum <= kLargestAtOnce && last_working_set_ == working_set &&
+  if (regularised && schedule.warm_start && schedule.minimum <= kLargestAtOnce && last_working_set_ == working_set &&
       last_.x.size() == trial.variables && last_.multipliers.size() == trial.constraints) {
     RegularisationSchedule at_once = schedule;
     at_once.initial = schedule.minimum;
     PrimalDual point = last_;
-    trial.from_last = true;
+    trial.warm_start = true;
     if (Follow(&problem, at_once, &point, &trial)) {
-      MakeExact(from, problem, goal, &trial);
+      PolishActiveSet(from, problem, goal, &trial);
       if (trial.exact) return Keep(working_set, std::move(point), std::move(trial));
     }
     if (trial.status == SolveStatus::kCancelled) return trial;
-    trial.from_last = false;
+    trial.warm_start = false;
   }
 
   PrimalDual point;
@@ -84,7 +84,7 @@ IncrementTrial IncrementSolver::SolveWith(const PathPoint& from, const std::vect
   RegularisationSchedule wanted = schedule;
   if (!regularised) wanted.initial = wanted.minimum = 0.0;
   if (!Follow(&problem, wanted, &point, &trial)) return trial;
-  MakeExact(from, problem, goal, &trial);
+  PolishActiveSet(from, problem, goal, &trial);
   return Keep(working_set, std::move(point), std::move(trial));
 }
 
@@ -108,28 +108,28 @@ IncrementTrial IncrementSolver::Keep(const std::vector<int>& working_set, Primal
   return trial;
 }
 
-void IncrementSolver::MakeExact(const PathPoint& from, const IncrementProblem& problem, const IncrementGoal& goal,
-                                IncrementTrial* trial) {
+void IncrementSolver::PolishActiveSet(const PathPoint& from, const IncrementProblem& problem, const IncrementGoal& goal,
+                                      IncrementTrial* trial) {
   // Redundant reactions, of which an interior point is as large as it may be, change as little as they can.
   IncrementTrial least = *trial;
   least.point.rn = from.rn;
   least.point.rt = from.rt;
-  if (MakeExact(from, problem.Aim(), goal.length, &least)) {
+  if (PolishActiveSet(from, problem.UnconstrainedMinimiser(), goal.length, &least)) {
     *trial = std::move(least);
     return;
   }
-  if (MakeExact(from, problem.Aim(), goal.length, trial)) return;
-  // Next to a corner the nonlinear solver may stop where the aim is not reached: the equilibrium there is what it
+  if (PolishActiveSet(from, problem.UnconstrainedMinimiser(), goal.length, trial)) return;
+  // Next to a corner the nonlinear solver may stop where the minimiser is not reached: the equilibrium there is what it
   // found.
   Eigen::VectorXd here(trial->point.u.size() + 1);
   here << trial->point.u, trial->point.s;
-  MakeExact(from, here, goal.length, trial);
+  PolishActiveSet(from, here, goal.length, trial);
 }
 
-bool IncrementSolver::MakeExact(const PathPoint& from, const Eigen::VectorXd& wanted, double length,
-                                IncrementTrial* trial) {
+bool IncrementSolver::PolishActiveSet(const PathPoint& from, const Eigen::VectorXd& wanted, double length,
+                                      IncrementTrial* trial) {
   system_.SetStates(trial->point.states, TangentialPositions(contacts_, from));
-  std::vector<Limit> pinned;
+  std::vector<Constraint> active;
   Eigen::VectorXd start = system_.Pack(trial->point);
   for (int change = 0; change <= kMaxActiveSetChanges; ++change) {
     const NearestPoint nearest = FindNearestPoint(&system_, start, wanted);
@@ -137,19 +137,19 @@ bool IncrementSolver::MakeExact(const PathPoint& from, const Eigen::VectorXd& wa
     PathPoint exact = system_.Unpack(nearest.x);
     if (Distance(exact, trial->point) > kSamePoint * length) return false;
     // An inequality that fails is active at the minimum: it becomes an equation.
-    const std::size_t before = pinned.size();
-    for (const Limit& limit : system_.Inequalities())
-      if (system_.Value(limit, nearest.x) < -kInequalityTolerance) pinned.push_back(limit);
-    if (pinned.size() == before) {
+    const std::size_t before = active.size();
+    for (const Constraint& limit : system_.Inequalities())
+      if (system_.Value(limit, nearest.x) < -kInequalityTolerance) active.push_back(limit);
+    if (active.size() == before) {
       // Slip held at zero motion: the contact stuck, and is about to slip.
-      for (const Limit& limit : pinned)
+      for (const Constraint& limit : active)
         if (limit.inequality == Inequality::kSlip)
           exact.states[static_cast<std::size_t>(limit.contact)] = ContactState::kStick;
       trial->point = std::move(exact);
       trial->exact = true;
       return true;
     }
-    system_.Pin(pinned);
+    system_.SetActive(active);
     start = nearest.x;
   }
   return false;

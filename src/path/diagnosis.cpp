@@ -48,8 +48,8 @@ std::string PullingContact(const Model& model, const PathPoint& point, double la
     std::ostringstream out;
     out.imbue(std::locale::classic());
     out.precision(2);
-    out << "contact " << model.scene.contacts[i].Name() << " pulls with "
-        << pull << " of the characteristic force, where contacts have pushed with at most " << largest_reaction
+    out << "contact " << model.scene.contacts[i].Name() << " pulls with " << pull
+        << " of the characteristic force, where contacts have pushed with at most " << largest_reaction
         << ": reactions so small cannot be told from rounding";
     return out.str();
   }
@@ -70,7 +70,8 @@ std::string ContactTooSoft(const Model& model, const PathPoint& point, double le
     out.imbue(std::locale::classic());
     out.precision(2);
     out << "the parts at node " << model.scene.contacts[i].node << " are " << 1.0 / largest
-        << " times softer than the characteristic stiffness: reactions of contact " << model.scene.contacts[i].Name() << " cannot be told from rounding";
+        << " times softer than the characteristic stiffness: reactions of contact " << model.scene.contacts[i].Name()
+        << " cannot be told from rounding";
     return out.str();
   }
   return {};

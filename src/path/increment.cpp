@@ -2,25 +2,25 @@
 
 namespace contact_path {
 
-CheckedState StateOf(const Increment& row) {
+CheckedState StateOf(const Increment& increment) {
   CheckedState state;
-  state.load_factor = row.load_factor;
-  state.positions = row.positions;
-  for (const ContactRecord& contact : row.contacts) {
+  state.load_factor = increment.load_factor;
+  state.positions = increment.positions;
+  for (const ContactRecord& contact : increment.contacts) {
     state.rn.push_back(contact.rn);
     state.rt.push_back(contact.rt);
   }
   return state;
 }
 
-std::string_view ToString(RowKind kind) {
+std::string_view ToString(IncrementKind kind) {
   switch (kind) {
-    case RowKind::kStart: return "start";
-    case RowKind::kRegular: return "regular";
-    case RowKind::kSmoothLimit: return "smooth_limit";
-    case RowKind::kCornerLimit: return "corner_limit";
-    case RowKind::kContactEvent: return "contact_event";
-    case RowKind::kBifurcation: return "bifurcation";
+    case IncrementKind::kStart: return "start";
+    case IncrementKind::kRegular: return "regular";
+    case IncrementKind::kSmoothLimit: return "smooth_limit";
+    case IncrementKind::kCornerLimit: return "corner_limit";
+    case IncrementKind::kContactEvent: return "contact_event";
+    case IncrementKind::kBifurcation: return "bifurcation";
   }
   return "unknown";
 }

@@ -29,7 +29,7 @@ PathPoint Model::InitialPoint() const {
   return point;
 }
 
-PathPoint Model::Take(const Model& other, const PathPoint& point) const {
+PathPoint Model::Transfer(const Model& other, const PathPoint& point) const {
   PathPoint taken = point;
   taken.s = 0.0;
   taken.u.resize(structure.NumDofs());
@@ -56,18 +56,18 @@ CheckedState Model::InSceneUnits(const PathPoint& point) const {
   return state;
 }
 
-PathPoint Model::FromRow(const Increment& row) const {
+PathPoint Model::FromIncrement(const Increment& increment) const {
   PathPoint point;
-  point.s = row.load_factor / scaling.load_factor;
+  point.s = increment.load_factor / scaling.load_factor;
   point.u.resize(structure.NumDofs());
-  for (int i = 0; i < static_cast<int>(row.positions.size()); ++i)
+  for (int i = 0; i < static_cast<int>(increment.positions.size()); ++i)
     if (const int dof = structure.Dof(i / 2, i % 2); dof >= 0)
-      point.u[dof] = row.positions[static_cast<std::size_t>(i)] / scaling.length;
-  const auto count = static_cast<Eigen::Index>(row.contacts.size());
+      point.u[dof] = increment.positions[static_cast<std::size_t>(i)] / scaling.length;
+  const auto count = static_cast<Eigen::Index>(increment.contacts.size());
   point.rn.resize(count);
   point.rt.resize(count);
   for (Eigen::Index i = 0; i < count; ++i) {
-    const ContactRecord& contact = row.contacts[static_cast<std::size_t>(i)];
+    const ContactRecord& contact = increment.contacts[static_cast<std::size_t>(i)];
     point.rn[i] = contact.rn / scaling.force;
     point.rt[i] = contact.rt / scaling.force;
     point.states.push_back(contact.state);

@@ -28,8 +28,8 @@ constexpr double kSmallestCosine = 0.5;
 // A start along which the load changes less, of the length moved, is a mechanism.
 constexpr double kStartRate = 1e-13;
 
-// Shares of the dissipation term in the aim. Small: the path is followed; larger where nothing but dissipation leads
-// on.
+// Shares of the dissipation term in the minimiser. Small: the path is followed; larger where nothing but dissipation
+// leads on.
 constexpr double kDissipationShares[] = {0.2, 0.6, 1.0};
 
 // Scaled force or length: an inequality this close to zero is about to change a contact's state.
@@ -49,7 +49,7 @@ constexpr double kCornerShare = 0.04;        // of the wanted step: largest corn
 constexpr double kSmallestStepRatio = 1e-7;  // of the wanted step
 
 // Whether this contact is about to change its state, so that the path may bend here by any angle.
-bool AtLimit(const ContactGeometry& contact, const PathPoint& point, std::size_t i) {
+bool ActiveSetTolerance(const ContactGeometry& contact, const PathPoint& point, std::size_t i) {
   const auto k = static_cast<Eigen::Index>(i);
   const bool open = point.states[i] == ContactState::kOpen;
   if ((open ? contact.gap.Value(point.u, point.s) : point.rn[k]) <= kAtLimit) return true;
@@ -58,7 +58,7 @@ bool AtLimit(const ContactGeometry& contact, const PathPoint& point, std::size_t
 
 bool SomeAtLimit(const std::vector<ContactGeometry>& contacts, const PathPoint& point) {
   for (std::size_t i = 0; i < contacts.size(); ++i)
-    if (AtLimit(contacts[i], point, i)) return true;
+    if (ActiveSetTolerance(contacts[i], point, i)) return true;
   return false;
 }
 
@@ -67,7 +67,7 @@ bool SomeAtLimit(const std::vector<ContactGeometry>& contacts, const PathPoint& 
 bool MayHaveCutCorner(const std::vector<ContactGeometry>& contacts, const PathPoint& from, const PathPoint& to) {
   if (to.states != from.states) return true;
   for (std::size_t i = 0; i < contacts.size(); ++i)
-    if (AtLimit(contacts[i], to, i) && !AtLimit(contacts[i], from, i)) return true;
+    if (ActiveSetTolerance(contacts[i], to, i) && !ActiveSetTolerance(contacts[i], from, i)) return true;
   return false;
 }
 
@@ -102,7 +102,7 @@ bool StatesAgree(const std::vector<ContactGeometry>& contacts, const PathPoint& 
 
 MpecOptions MpecOptions::For(const TraceOptions& options, Eigen::Index num_dofs) {
   MpecOptions result;
-  result.regularisation.from_last = true;
+  result.regularisation.warm_start = true;
   switch (options.accuracy) {
     case Accuracy::kFast:
       result.step = 0.05;
@@ -129,7 +129,7 @@ MpecMethod::MpecMethod(const Model& model, const MpecOptions& options, std::func
       cancelled_(std::move(cancelled)),
       ipopt_(cancelled_),
       solver_(model.structure, model.contacts, &ipopt_),
-      step_(options.step) {
+      step_length_(options.step) {
   direction_ = Eigen::VectorXd::Zero(model.structure.NumDofs() + 1);
   direction_[model.structure.NumDofs()] = options.direction;
 }
@@ -160,13 +160,13 @@ Eigen::VectorXd MpecMethod::Direction(const PathPoint& from, const PathPoint& to
 MpecMethod::Trial MpecMethod::SolveOnce(const PathPoint& from, const Eigen::VectorXd& direction, double length,
                                         double dissipation, const RegularisationSchedule& schedule) {
   Trial trial;
-  trial.increment = solver_.Solve(from, {length, direction, dissipation, growth_}, schedule);
+  trial.increment = solver_.Solve(from, {length, direction, dissipation, gamma2_factor_}, schedule);
   iterations_ += trial.increment.iterations;
   Judge(from, direction, length, &trial);
-  if (trial.verdict == Verdict::kAccepted || !trial.increment.from_last) return trial;
+  if (trial.verdict == Verdict::kAccepted || !trial.increment.warm_start) return trial;
   // Another solution may lie nearer to the first guess than to the last increment.
   RegularisationSchedule anew = schedule;
-  anew.from_last = false;
+  anew.warm_start = false;
   return SolveOnce(from, direction, length, dissipation, anew);
 }
 
@@ -204,7 +204,7 @@ MpecMethod::Trial MpecMethod::Try(const PathPoint& from, const Eigen::VectorXd& 
     trial = SolveOnce(from, direction, length, share, options_.regularisation);
     if (trial.verdict == Verdict::kNotSolved) {
       RegularisationSchedule raised = options_.regularisation;
-      raised.from_last = false;
+      raised.warm_start = false;
       raised.initial = 1.0;
       raised.factor = 0.1;
       raised.minimum *= 100.0;
@@ -253,7 +253,7 @@ bool MpecMethod::MayMissTarget(const PathPoint& from, const PathPoint& to) const
   const double at_from = (last_chord * length + chord * last_length_) / (last_length_ + length);
   const double at_to = 2.0 * chord - at_from;
   const bool turns = chord * last_chord < 0.0 || at_to * last_chord < kLevelling * at_from * last_chord;
-  // No load factor of a concave piece, or of two straight ones, is larger.
+  // No load factor of a concave arc, or of two straight ones, is larger.
   const double reached = from.s + last_chord * length;
   return turns && (from.s - *options_.target) * (to.s - *options_.target) > 0.0 &&
          (from.s - *options_.target) * (reached - *options_.target) < 0.0;
@@ -268,12 +268,12 @@ bool MpecMethod::EndAtTarget(const PathPoint& from, const std::vector<ContactSta
   const PathPoint& to = trial->increment.point;
   FixedStateSystem system(model_.structure, model_.contacts);
   system.SetStates(states, TangentialPositions(model_.contacts, from));
-  system.PinLoadFactor(*options_.target);
+  system.FixLoadFactor(*options_.target);
   const double share = (*options_.target - from.s) / (to.s - from.s);
   const Eigen::VectorXd start = (1.0 - share) * system.Pack(from) + share * system.Pack(to);
   const NearestPoint nearest = FindNearestPoint(&system, start, start.head(from.u.size() + 1));
   if (!nearest.converged) return false;
-  for (const Limit& limit : system.Inequalities())
+  for (const Constraint& limit : system.Inequalities())
     if (system.Value(limit, nearest.x) < -kBroken) return false;
   PathPoint point = system.Unpack(nearest.x);
   if (Distance(from, point) > kFarthestTarget * Distance(from, to)) return false;
@@ -289,8 +289,8 @@ bool MpecMethod::Resume(const PathPoint& before, const PathPoint& from, const So
   direction_ = Direction(before, from);
   last_length_ = Distance(before, from);
   bent_ = before.states != from.states;
-  step_ = record.next_step;
-  growth_ = record.growth;
+  step_length_ = record.next_step;
+  gamma2_factor_ = record.gamma2_factor;
   length_ = std::numeric_limits<double>::infinity();  // not known, and not short
   started_ = true;
   return true;
@@ -304,7 +304,7 @@ std::string MpecMethod::Remark() const {
 Advance MpecMethod::Next(const PathPoint& from) {
   Advance advance;
   iterations_ = 0;
-  double length = step_;
+  double length = step_length_;
   for (int rejected = 0;; ++rejected) {
     Trial trial = started_ ? Try(from, direction_, length) : TryFirst(from, length);
     const PathPoint& to = trial.increment.point;
@@ -328,38 +328,38 @@ Advance MpecMethod::Next(const PathPoint& from) {
       return advance;
     }
 
-    AcceptedPoint row;
+    AcceptedPoint increment;
     const bool changed = started_ && to.states != from.states;
     const Eigen::VectorXd direction = Direction(from, to);
     const Eigen::Index s = direction.size() - 1;
     if (started_ && direction[s] * direction_[s] < 0.0 &&
         std::min(std::abs(direction[s]), std::abs(direction_[s])) > kLevel)
-      row.kind = changed || bent_ ? RowKind::kCornerLimit : RowKind::kSmoothLimit;
+      increment.kind = changed || bent_ ? IncrementKind::kCornerLimit : IncrementKind::kSmoothLimit;
     else if (changed)
-      row.kind = RowKind::kContactEvent;
-    row.arc_length = Distance(from, to);
-    length_ += row.arc_length;
-    row.work = WorkOfIncrement(model_, from, to);
-    row.residuals = trial.residuals;
-    row.solve.method = Method::kMpec;
-    row.solve.regularisation = trial.increment.regularisation;
-    row.solve.exact = trial.increment.exact;
-    row.solve.iterations = iterations_;
-    row.solve.variables = trial.increment.variables;
-    row.solve.constraints = trial.increment.constraints;
-    row.solve.rejected = rejected;
+      increment.kind = IncrementKind::kContactEvent;
+    increment.arc_length = Distance(from, to);
+    length_ += increment.arc_length;
+    increment.work = WorkOfIncrement(model_, from, to);
+    increment.residuals = trial.residuals;
+    increment.solve.method = Method::kMpec;
+    increment.solve.regularisation = trial.increment.regularisation;
+    increment.solve.exact = trial.increment.exact;
+    increment.solve.iterations = iterations_;
+    increment.solve.variables = trial.increment.variables;
+    increment.solve.constraints = trial.increment.constraints;
+    increment.solve.rejected = rejected;
 
     // gamma_2 grows with the length of the increment relative to what was wanted (Algorithm 3.2, step 4).
-    growth_ = std::clamp(growth_ * Distance(from, to) / length, 1.0, IncrementSolver::kLongestIncrement);
+    gamma2_factor_ = std::clamp(gamma2_factor_ * Distance(from, to) / length, 1.0, IncrementSolver::kLongestIncrement);
     direction_ = direction;
-    last_length_ = row.arc_length;
+    last_length_ = increment.arc_length;
     bent_ = changed;
     started_ = true;
-    step_ = std::min(options_.step, rejected == 0 ? 2.0 * std::max(length, step_) : 2.0 * length);
-    row.solve.next_step = step_;
-    row.solve.growth = growth_;
-    row.point = trial.increment.point;
-    advance.rows.push_back(std::move(row));
+    step_length_ = std::min(options_.step, rejected == 0 ? 2.0 * std::max(length, step_length_) : 2.0 * length);
+    increment.solve.next_step = step_length_;
+    increment.solve.gamma2_factor = gamma2_factor_;
+    increment.point = trial.increment.point;
+    advance.increments.push_back(std::move(increment));
     advance.ended = false;
     return advance;
   }

@@ -22,21 +22,23 @@ std::string Counted(int count, const char* what) {
 
 }  // namespace
 
-void PathSummary::Add(const Increment& row) {
-  ++rows_;
-  if (row.event.number > 0 || row.kind == RowKind::kContactEvent || row.kind == RowKind::kCornerLimit) ++events_;
-  if (row.kind != RowKind::kSmoothLimit && row.kind != RowKind::kCornerLimit) return;
+void PathSummary::Add(const Increment& increment) {
+  ++increments_;
+  if (increment.event.number > 0 || increment.kind == IncrementKind::kContactEvent ||
+      increment.kind == IncrementKind::kCornerLimit)
+    ++events_;
+  if (increment.kind != IncrementKind::kSmoothLimit && increment.kind != IncrementKind::kCornerLimit) return;
   ++limit_points_;
   if (listed_.size() == kLimitPointsListed) return;
   std::ostringstream text = NewText();
-  text << ToString(row.kind) << " at load factor " << std::setprecision(10) << row.load_factor << " (row " << row.index
-       << ')';
+  text << ToString(increment.kind) << " at load factor " << std::setprecision(10) << increment.load_factor
+       << " (increment " << increment.index << ')';
   listed_.push_back(text.str());
 }
 
 std::string PathSummary::ToText() const {
   std::ostringstream text = NewText();
-  text << Counted(rows_, "row") << "; limit points: ";
+  text << Counted(increments_, "increment") << "; limit points: ";
   if (listed_.empty()) text << "none";
   for (std::size_t i = 0; i < listed_.size(); ++i) text << (i == 0 ? "" : ", ") << listed_[i];
   const int more = limit_points_ - static_cast<int>(listed_.size());

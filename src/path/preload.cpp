@@ -12,18 +12,19 @@ namespace {
 constexpr double kNothing = 1e-14;  // scaled force: rounding of an unstressed start
 const char* const kWhere = "while the constant loads were brought on: ";
 
-// event: of the row that is the limit point.
+// event: of the increment that is the limit point.
 std::string LimitMessage(double share, const EventRecord& event) {
   std::ostringstream text;
   text.imbue(std::locale::classic());
   text.precision(6);
-  const bool goes_on =
-      std::any_of(event.ways.begin(), event.ways.end(), [](const WayRecord& way) { return way.load_rate > 0.0; });
+  const bool goes_on = std::any_of(event.branches.begin(), event.branches.end(),
+                                   [](const BranchRecord& branch) { return branch.load_rate > 0.0; });
   text << "a limit point at " << share;
   if (goes_on)
-    text << " of their full size; the way that dissipates most turns back there, and another one goes on: bring them "
-            "on in a "
-            "stage of a program, where branch_choices can take it";
+    text
+        << " of their full size; the branch that dissipates most turns back there, and another one goes on: bring them "
+           "on in a "
+           "stage of a program, where branch_choices can take it";
   else
     text << " of their full size; only a dynamic jump leads further";
   return text.str();
@@ -74,21 +75,21 @@ Preload TracePreload(const Model& model, int max_increments, const MethodFactory
     preload.message = kWhere + message;
     return preload;
   };
-  EventRecord ways;
-  if (const std::optional<EndReason> reason = method->Start(preload.point, &ways, &preload.message))
+  EventRecord branches;
+  if (const std::optional<EndReason> reason = method->Start(preload.point, &branches, &preload.message))
     return end(*reason, preload.message);
   for (int i = 0; i < max_increments; ++i) {
     if (cancelled && cancelled()) return end(EndReason::kCancelled, "the caller asked for it");
     Advance advance = method->Next(preload.point);
-    for (AcceptedPoint& row : advance.rows) {
-      preload.point = std::move(row.point);
+    for (AcceptedPoint& increment : advance.increments) {
+      preload.point = std::move(increment.point);
       if (IsAtTarget(preload.point.s, target)) {
         preload.point.s = 0.0;
         preload.done = true;
         return preload;
       }
-      if (row.kind == RowKind::kSmoothLimit || row.kind == RowKind::kCornerLimit)
-        return end(EndReason::kPathEnd, LimitMessage(preload.point.s / target, row.event));
+      if (increment.kind == IncrementKind::kSmoothLimit || increment.kind == IncrementKind::kCornerLimit)
+        return end(EndReason::kPathEnd, LimitMessage(preload.point.s / target, increment.event));
     }
     if (advance.ended) return end(advance.reason, advance.message);
   }

@@ -11,19 +11,19 @@ ProgressEstimate::ProgressEstimate(const TraceRequest& request) : max_increments
   for (const Stage& stage : request.program) targets_.push_back(stage.Target());
 }
 
-double ProgressEstimate::Add(const Increment& row) {
-  double done = max_increments_ > 0 ? static_cast<double>(row.index) / max_increments_ : 0.0;
-  if (row.stage > 0) {
-    const auto stage = static_cast<std::size_t>(row.stage - 1);
-    const double share = std::clamp(row.load_factor / targets_[stage], 0.0, 1.0);
+double ProgressEstimate::Add(const Increment& increment) {
+  double done = max_increments_ > 0 ? static_cast<double>(increment.index) / max_increments_ : 0.0;
+  if (increment.stage > 0) {
+    const auto stage = static_cast<std::size_t>(increment.stage - 1);
+    const double share = std::clamp(increment.load_factor / targets_[stage], 0.0, 1.0);
     done = std::max(done, (static_cast<double>(stage) + share) / static_cast<double>(targets_.size()));
   }
   for (Goal& goal : goals_) {
-    // Rows that were recorded without their state have no positions.
-    if (!goal.quantity.IsLoadFactor() && row.positions.empty()) continue;
-    if (row.index == 0) goal.start = goal.quantity.Value(row);
+    // Increments that were recorded without their state have no positions.
+    if (!goal.quantity.IsLoadFactor() && increment.positions.empty()) continue;
+    if (increment.index == 0) goal.start = goal.quantity.Value(increment);
     if (goal.end != goal.start)
-      done = std::max(done, (goal.quantity.Value(row) - goal.start) / (goal.end - goal.start));
+      done = std::max(done, (goal.quantity.Value(increment) - goal.start) / (goal.end - goal.start));
   }
   return std::min(done, 1.0);
 }

@@ -27,8 +27,8 @@ std::vector<StopQuantity> StopQuantity::Of(const TraceRequest& request) {
   return quantities;
 }
 
-double StopQuantity::Value(const Increment& row) const {
-  return IsLoadFactor() ? row.load_factor : row.positions[static_cast<std::size_t>(component_)];
+double StopQuantity::Value(const Increment& increment) const {
+  return IsLoadFactor() ? increment.load_factor : increment.positions[static_cast<std::size_t>(component_)];
 }
 
 StopTest::StopTest(const TraceRequest& request) {
@@ -40,10 +40,10 @@ StopTest::StopTest(const TraceRequest& request) {
   }
 }
 
-const StopCriterion* StopTest::FirstThatHolds(const Increment& row) const {
-  if (row.index == 0) return nullptr;
+const StopCriterion* StopTest::FirstThatHolds(const Increment& increment) const {
+  if (increment.index == 0) return nullptr;
   for (const Item& item : items_) {
-    const double value = item.quantity.Value(row);
+    const double value = item.quantity.Value(increment);
     const StopCriterion& criterion = *item.criterion;
     const double beyond = criterion.when == ">" ? value - criterion.value : criterion.value - value;
     if (beyond > item.rounding) return &criterion;

@@ -24,8 +24,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kStartTolerance = 1e-9;        // residuals of row 0, or of an exact row to go on from
-constexpr double kRegularised = 1e-5;           // residuals of a regularised row to go on from
+constexpr double kStartTolerance = 1e-9;        // residuals of increment 0, or of an exact increment to go on from
+constexpr double kRegularised = 1e-5;           // residuals of a regularised increment to go on from
 constexpr double kSoftest = 1e-8;               // scaled stiffness at a contact: below, reactions are lost in rounding
 constexpr int kMostPreloadIncrements = 100000;  // to bring the constant loads on; not counted with the others
 
@@ -38,23 +38,24 @@ struct Resumption {
   int events = 0;  // passed up to there
 };
 
-// mpec measures the direction and the bend of the path from the row before.
-bool CanGoOnFrom(const Increment& before, const Increment& row) {
-  if (before.stage != row.stage || !(row.arc_length > before.arc_length)) return false;
-  if (row.solve.method == Method::kMpec && before.index + 1 != row.index) return false;
-  return !row.positions.empty() && row.event.number == 0 && row.event.ways.empty() && row.solve.next_step > 0.0 &&
-         (row.kind == RowKind::kRegular || row.kind == RowKind::kSmoothLimit);
+// mpec measures the direction and the bend of the path from the increment before.
+bool CanGoOnFrom(const Increment& before, const Increment& increment) {
+  if (before.stage != increment.stage || !(increment.arc_length > before.arc_length)) return false;
+  if (increment.solve.method == Method::kMpec && before.index + 1 != increment.index) return false;
+  return !increment.positions.empty() && increment.event.number == 0 && increment.event.branches.empty() &&
+         increment.solve.next_step > 0.0 &&
+         (increment.kind == IncrementKind::kRegular || increment.kind == IncrementKind::kSmoothLimit);
 }
 
-// The last row that can be; nothing: none can.
-std::optional<Resumption> FindResumption(const std::vector<Increment>& rows) {
+// The last increment that can be; nothing: none can.
+std::optional<Resumption> FindResumption(const std::vector<Increment>& increments) {
   std::optional<Resumption> last;
   const Increment* before = nullptr;
   int events = 0;
-  for (const Increment& row : rows) {
-    events = std::max(events, row.event.number);
-    if (before != nullptr && CanGoOnFrom(*before, row)) last = Resumption{before, &row, events};
-    if (!row.positions.empty()) before = &row;
+  for (const Increment& increment : increments) {
+    events = std::max(events, increment.event.number);
+    if (before != nullptr && CanGoOnFrom(*before, increment)) last = Resumption{before, &increment, events};
+    if (!increment.positions.empty()) before = &increment;
   }
   return last;
 }
@@ -69,35 +70,35 @@ class Tracer {
         recorder_(control.on_increment),
         stop_(request) {}
 
-  // A row of an earlier trace that is kept.
-  void Repeat(const Increment& row) {
-    for (const ContactRecord& contact : row.contacts)
+  // An increment of an earlier trace that is kept.
+  void Repeat(const Increment& increment) {
+    for (const ContactRecord& contact : increment.contacts)
       largest_reaction_ = std::max(largest_reaction_, contact.rn / scales_.force);
-    recorder_.Repeat(row);
+    recorder_.Repeat(increment);
   }
 
-  // resumption: where to go on after the rows of an earlier trace, which were repeated; nothing: from the start.
+  // resumption: where to go on after the increments of an earlier trace, which were repeated; nothing: from the start.
   TraceResult Run(const std::optional<Resumption>& resumption) {
     std::unique_ptr<const Model> model;
     const std::size_t first = resumption ? static_cast<std::size_t>(std::max(resumption->from->stage, 1) - 1) : 0;
     for (std::size_t stage = first; stage < NumStages(request_); ++stage) {
       const Clock::time_point start = Clock::now();
       auto next = std::make_unique<const Model>(StageScene(request_, stage), StageScales(request_, stage, scales_));
-      if (stage > first && recorder_.rows() > request_.options.MaxIncrements()) {
+      if (stage > first && recorder_.increments() > request_.options.MaxIncrements()) {
         End(EndReason::kMaxIncrements, "the wanted number of increments was accepted");
         break;
       }
       if (stage > first)
-        point_ = next->Take(*model, point_);
+        point_ = next->Transfer(*model, point_);
       else if (resumption)
-        point_ = next->FromRow(*resumption->from);
+        point_ = next->FromIncrement(*resumption->from);
       else if (!Begin(*next))
         break;
       model = std::move(next);
       if (!(resumption && stage == first ? ResumeStage(*model, stage, *resumption) : TraceStage(*model, stage, start)))
         break;
     }
-    result_.increments = recorder_.rows();
+    result_.increments = recorder_.increments();
     result_.message += recorder_.Remark() + remarks_ + MissedChoices();
     return std::move(result_);
   }
@@ -131,18 +132,18 @@ class Tracer {
     if (!preload.done)
       return End(preload.reason == EndReason::kMaxIncrements ? EndReason::kNumericalFailure : preload.reason,
                  preload.message);
-    point_ = moves ? model.Take(start, preload.point) : std::move(preload.point);
+    point_ = moves ? model.Transfer(start, preload.point) : std::move(preload.point);
     return true;
   }
 
-  // row: index of the one to set out from.
-  std::unique_ptr<PathMethod> MakeMethod(const Model& model, std::optional<double> target, int row) const {
+  // increment: index of the one to set out from.
+  std::unique_ptr<PathMethod> MakeMethod(const Model& model, std::optional<double> target, int increment) const {
     TraceOptions options = request_.options;
     if (target) options.direction = *target < 0.0 ? -1.0 : 1.0;
     if (options.method == Method::kBranch) {
       BranchOptions branch = BranchOptions::For(options, model.structure.NumDofs());
       branch.target = target;
-      branch.rows = row;
+      branch.increments = increment;
       branch.events = events_;
       return std::make_unique<BranchMethod>(model, branch, control_.cancelled);
     }
@@ -157,35 +158,35 @@ class Tracer {
     return request_.program[stage].Target() / model.scaling.load_factor;
   }
 
-  // From its first row until its target. False: the trace has ended.
+  // From its first increment until its target. False: the trace has ended.
   bool TraceStage(const Model& model, std::size_t stage, Clock::time_point start) {
     const Residuals residuals = model.Check(point_, point_);
     if (!(residuals.Largest() <= kStartTolerance))
       return End(EndReason::kNumericalFailure, "the start is not an equilibrium");
     if (const std::string soft = ContactTooSoft(model, point_, kSoftest); !soft.empty())
       return End(EndReason::kNumericalFailure, soft);
-    const std::unique_ptr<PathMethod> method = MakeMethod(model, TargetOf(model, stage), recorder_.rows());
-    EventRecord ways;
+    const std::unique_ptr<PathMethod> method = MakeMethod(model, TargetOf(model, stage), recorder_.increments());
+    EventRecord branches;
     std::string message;
-    const std::optional<EndReason> not_started = method->Start(point_, &ways, &message);
-    recorder_.Start(model, request_.program.empty() ? 0 : static_cast<int>(stage) + 1, point_, residuals, ways,
+    const std::optional<EndReason> not_started = method->Start(point_, &branches, &message);
+    recorder_.Start(model, request_.program.empty() ? 0 : static_cast<int>(stage) + 1, point_, residuals, branches,
                     Seconds(Clock::now() - start));
     return not_started ? End(*not_started, message) : FollowStage(model, stage, method.get());
   }
 
-  // The same from a row inside.
+  // The same from an increment inside.
   bool ResumeStage(const Model& model, std::size_t stage, const Resumption& resumption) {
     const Residuals residuals = model.Check(point_, point_);
     if (!(residuals.Largest() <= (resumption.from->solve.exact ? kStartTolerance : kRegularised)))
-      return End(EndReason::kNumericalFailure, "the row to go on from is not an equilibrium");
+      return End(EndReason::kNumericalFailure, "the increment to go on from is not an equilibrium");
     events_ = resumption.events;
     const std::optional<double> target = TargetOf(model, stage);
-    if (const StopCriterion* criterion = stop_.FirstThatHolds(recorder_.row()))
+    if (const StopCriterion* criterion = stop_.FirstThatHolds(recorder_.increment()))
       return End(EndReason::kStopCriterion, ToText(*criterion));
     if (IsAt(target)) return EndStage(stage);
-    const std::unique_ptr<PathMethod> method = MakeMethod(model, target, recorder_.rows() - 1);
-    if (!method->Resume(model.FromRow(*resumption.before), point_, resumption.from->solve))
-      return End(EndReason::kNumericalFailure, "the path cannot be followed from the row to go on from");
+    const std::unique_ptr<PathMethod> method = MakeMethod(model, target, recorder_.increments() - 1);
+    if (!method->Resume(model.FromIncrement(*resumption.before), point_, resumption.from->solve))
+      return End(EndReason::kNumericalFailure, "the path cannot be followed from the increment to go on from");
     return FollowStage(model, stage, method.get());
   }
 
@@ -214,24 +215,24 @@ class Tracer {
     const int most_increments = request_.options.MaxIncrements();
     for (;;) {
       if (Cancelled()) return End(EndReason::kCancelled, "the caller asked for it");
-      if (recorder_.rows() > most_increments)
+      if (recorder_.increments() > most_increments)
         return End(EndReason::kMaxIncrements, "the wanted number of increments was accepted");
       const Clock::time_point start = Clock::now();
       Advance advance = method->Next(point_);
-      const auto rows = static_cast<double>(std::max<std::size_t>(1, advance.rows.size()));
-      const double time = Seconds(Clock::now() - start) / rows;
-      for (AcceptedPoint& row : advance.rows) {
-        NoteReactions(row.point);
-        if (const std::string pulls = PullingContact(model, row.point, largest_reaction_); !pulls.empty())
+      const auto increments = static_cast<double>(std::max<std::size_t>(1, advance.increments.size()));
+      const double time = Seconds(Clock::now() - start) / increments;
+      for (AcceptedPoint& increment : advance.increments) {
+        NoteReactions(increment.point);
+        if (const std::string pulls = PullingContact(model, increment.point, largest_reaction_); !pulls.empty())
           return End(EndReason::kNumericalFailure, pulls);
-        recorder_.Append(model, row, time);
-        point_ = std::move(row.point);
-        if (const StopCriterion* criterion = stop_.FirstThatHolds(recorder_.row()))
+        recorder_.Append(model, increment, time);
+        point_ = std::move(increment.point);
+        if (const StopCriterion* criterion = stop_.FirstThatHolds(recorder_.increment()))
           return End(EndReason::kStopCriterion, ToText(*criterion));
         if (IsAt(target)) return true;
-        if (recorder_.rows() > most_increments) break;
+        if (recorder_.increments() > most_increments) break;
       }
-      if (advance.ended && recorder_.rows() <= most_increments) return End(advance.reason, advance.message);
+      if (advance.ended && recorder_.increments() <= most_increments) return End(advance.reason, advance.message);
     }
   }
 
@@ -240,7 +241,7 @@ class Tracer {
     std::string text;
     if (request_.options.method != Method::kBranch) return text;
     for (const BranchChoice& choice : request_.options.branch_choices)
-      if (choice.event > events_ || (choice.event == 0 && choice.row >= recorder_.rows()))
+      if (choice.event > events_ || (choice.event == 0 && choice.increment >= recorder_.increments()))
         text += (text.empty() ? "; branch_choices: never came to " : ", ") + PlaceOf(choice);
     return text;
   }
@@ -277,25 +278,27 @@ TraceResult Trace(const TraceRequest& request, const TraceControl& control) {
   return Tracer(request, control).Run(std::nullopt);
 }
 
-TraceResult ResumeTrace(const TraceRequest& request, const std::vector<Increment>& rows, const TraceControl& control) {
+TraceResult ResumeTrace(const TraceRequest& request, const std::vector<Increment>& increments,
+                        const TraceControl& control) {
   std::vector<Violation> violations = Validate(request);
   if (!violations.empty()) throw InvalidRequest(std::move(violations));
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const Increment& row = rows[i];
-    if (row.index != static_cast<int>(i))
-      throw std::invalid_argument("row " + std::to_string(i) + " has the index " + std::to_string(row.index));
-    const bool full = !row.positions.empty();
-    if (full && (row.positions.size() != 2 * request.scene.nodes.size() ||
-                 row.contacts.size() != request.scene.contacts.size()))
-      throw std::invalid_argument("row " + std::to_string(i) + " is not of this scene");
-    if (row.stage < 0 || row.stage > static_cast<int>(request.program.size()) ||
-        (row.stage == 0) != request.program.empty())
-      throw std::invalid_argument("row " + std::to_string(i) + " is not of this program");
+  for (std::size_t i = 0; i < increments.size(); ++i) {
+    const Increment& increment = increments[i];
+    if (increment.index != static_cast<int>(i))
+      throw std::invalid_argument("increment " + std::to_string(i) + " has the index " +
+                                  std::to_string(increment.index));
+    const bool full = !increment.positions.empty();
+    if (full && (increment.positions.size() != 2 * request.scene.nodes.size() ||
+                 increment.contacts.size() != request.scene.contacts.size()))
+      throw std::invalid_argument("increment " + std::to_string(i) + " is not of this scene");
+    if (increment.stage < 0 || increment.stage > static_cast<int>(request.program.size()) ||
+        (increment.stage == 0) != request.program.empty())
+      throw std::invalid_argument("increment " + std::to_string(i) + " is not of this program");
   }
-  const std::optional<Resumption> resumption = FindResumption(rows);
+  const std::optional<Resumption> resumption = FindResumption(increments);
   Tracer tracer(request, control);
   if (resumption)
-    for (int i = 0; i <= resumption->from->index; ++i) tracer.Repeat(rows[static_cast<std::size_t>(i)]);
+    for (int i = 0; i <= resumption->from->index; ++i) tracer.Repeat(increments[static_cast<std::size_t>(i)]);
   return tracer.Run(resumption);
 }
 

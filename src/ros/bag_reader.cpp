@@ -43,20 +43,20 @@ std::vector<RecordedTrace> ReadOpen(const rosbag::Bag& bag) {
     const std::string& topic = instance.getTopic();
     if (EndsIn(topic, names::kRequest)) {
       const auto message = Read<contact_path_msgs::TraceRequest>(instance);
-      if (!traces.empty() && traces.back().rows.empty()) traces.pop_back();
+      if (!traces.empty() && traces.back().increments.empty()) traces.pop_back();
       RecordedTrace& trace = traces.emplace_back();
       trace.request = FromMessage(message->scene, message->options, message->program);
       const std::vector<Violation> violations = Validate(trace.request);
       if (!violations.empty()) throw InvalidRequest(violations);
     } else if (EndsIn(topic, names::kIncrements)) {
       if (traces.empty()) throw BagError("no request before the increments: not the bag of a trace");
-      traces.back().rows.push_back(FromMessage(*Read<contact_path_msgs::Increment>(instance)));
+      traces.back().increments.push_back(FromMessage(*Read<contact_path_msgs::Increment>(instance)));
     } else if (EndsIn(topic, names::kResult) && !traces.empty()) {
       traces.back().result = *Read<contact_path_msgs::TraceResult>(instance);
     }
   }
   if (traces.empty()) throw BagError("no request: not the bag of a trace");
-  if (traces.size() > 1 && traces.back().rows.empty()) traces.pop_back();
+  if (traces.size() > 1 && traces.back().increments.empty()) traces.pop_back();
   return traces;
 }
 

@@ -150,11 +150,11 @@ void BagRecorder::Close() {
 }
 
 // `rosbag reindex` takes chunks that are followed by their index, and gives up a bag where the definition of a topic is
-// the last thing. So the first chunk holds the request and the first row, no chunk ends but here, and what is still in
-// the buffers of the C library is written.
+// the last thing. So the first chunk holds the request and the first increment, no chunk ends but here, and what is
+// still in the buffers of the C library is written.
 //
-// rosbag keeps what it has written until a chunk has grown beyond its threshold. So the last row of each 16 KiB is a
-// chunk of its own that does so at once: or else the memory would grow with the bag.
+// rosbag keeps what it has written until a chunk has grown beyond its threshold. So the last increment of each 16 KiB
+// is a chunk of its own that does so at once: or else the memory would grow with the bag.
 void BagRecorder::EndChunk(std::uint32_t next_threshold) {
   if (!bag_) return;
   try {

@@ -20,21 +20,21 @@ namespace msgs = contact_path_msgs;
 
 constexpr std::uint32_t kIncrementsQueue = 10000;
 
-// Request and rows have connections of their own: the first rows of a trace may overtake its request.
+// Request and increments have connections of their own: the first increments of a trace may overtake its request.
 class Listener {
  public:
   Listener(ros::NodeHandle node, const MarkerOptions& options)
       : markers_(node, options),
         requests_(node.subscribe(names::kRequest, 1, &Listener::TakeRequest, this)),
-        increments_(node.subscribe(names::kIncrements, kIncrementsQueue, &Listener::TakeRow, this)) {}
+        increments_(node.subscribe(names::kIncrements, kIncrementsQueue, &Listener::TakeIncrement, this)) {}
 
  private:
   void TakeRequest(const msgs::TraceRequest::ConstPtr& message) {
     awaits_request_ = false;
     valid_ = false;
-    rows_ = 0;
-    const msgs::Increment::ConstPtr early = early_row_;
-    early_row_ = nullptr;
+    received_ = 0;
+    const msgs::Increment::ConstPtr early = early_increment_;
+    early_increment_ = nullptr;
     try {
       const TraceRequest request = FromMessage(message->scene, message->options, message->program);
       const std::vector<Violation> violations = Validate(request);
@@ -45,24 +45,24 @@ class Listener {
       return;
     }
     valid_ = true;
-    if (early) TakeRow(early);
+    if (early) TakeIncrement(early);
   }
 
-  void TakeRow(const msgs::Increment::ConstPtr& row) {
-    if (row->index == 0 && rows_ > 0) awaits_request_ = true;  // of a new trace
+  void TakeIncrement(const msgs::Increment::ConstPtr& increment) {
+    if (increment->index == 0 && received_ > 0) awaits_request_ = true;  // of a new trace
     if (awaits_request_) {
-      if (!row->x.empty()) early_row_ = row;
+      if (!increment->x.empty()) early_increment_ = increment;
       return;
     }
-    ++rows_;
-    if (valid_) markers_.TakeRow(row);
+    ++received_;
+    if (valid_) markers_.TakeIncrement(increment);
   }
 
   MarkerPublisher markers_;
-  bool awaits_request_ = true;           // of the rows that come in
-  bool valid_ = false;                   // the last request
-  std::uint64_t rows_ = 0;               // of it
-  msgs::Increment::ConstPtr early_row_;  // the last one that came before its request; null: none
+  bool awaits_request_ = true;                 // of the increments that come in
+  bool valid_ = false;                         // the last request
+  std::uint64_t received_ = 0;                 // increments of it
+  msgs::Increment::ConstPtr early_increment_;  // the last one that came before its request; null: none
 
   ros::Subscriber requests_;
   ros::Subscriber increments_;

@@ -29,13 +29,13 @@ constexpr Table<ContactState, 5> kContactStates{{
     {ContactState::kClosed, msgs::ContactState::CLOSED},
 }};
 
-constexpr Table<RowKind, 6> kRowKinds{{
-    {RowKind::kStart, msgs::Increment::START},
-    {RowKind::kRegular, msgs::Increment::REGULAR},
-    {RowKind::kSmoothLimit, msgs::Increment::SMOOTH_LIMIT},
-    {RowKind::kCornerLimit, msgs::Increment::CORNER_LIMIT},
-    {RowKind::kContactEvent, msgs::Increment::CONTACT_EVENT},
-    {RowKind::kBifurcation, msgs::Increment::BIFURCATION},
+constexpr Table<IncrementKind, 6> kIncrementKinds{{
+    {IncrementKind::kStart, msgs::Increment::START},
+    {IncrementKind::kRegular, msgs::Increment::REGULAR},
+    {IncrementKind::kSmoothLimit, msgs::Increment::SMOOTH_LIMIT},
+    {IncrementKind::kCornerLimit, msgs::Increment::CORNER_LIMIT},
+    {IncrementKind::kContactEvent, msgs::Increment::CONTACT_EVENT},
+    {IncrementKind::kBifurcation, msgs::Increment::BIFURCATION},
 }};
 
 constexpr Table<Method, 2> kMethods{{
@@ -119,16 +119,16 @@ Result SameResult(const msgs::TracePathResponse& response) {
 
 msgs::Event ToMessage(const EventRecord& event) {
   msgs::Event message;
-  for (const WayRecord& way : event.ways) {
-    msgs::Way& to = message.ways.emplace_back();
-    for (const ContactState state : way.states) to.states.push_back(ConstantOf(kContactStates, state));
-    to.load_rate = way.load_rate;
-    to.dissipation_rate = way.dissipation_rate;
-    to.turn = way.turn;
+  for (const BranchRecord& branch : event.branches) {
+    msgs::Branch& to = message.branches.emplace_back();
+    for (const ContactState state : branch.states) to.states.push_back(ConstantOf(kContactStates, state));
+    to.load_rate = branch.load_rate;
+    to.dissipation_rate = branch.dissipation_rate;
+    to.turn = branch.turn;
   }
   message.number = ToCount(event.number);
   message.taken = event.taken;
-  message.concerned = ToCount(event.concerned);
+  message.weakly_active = ToCount(event.weakly_active);
   message.complete = event.complete;
   message.null_vector = event.null_vector;
   return message;
@@ -136,19 +136,19 @@ msgs::Event ToMessage(const EventRecord& event) {
 
 EventRecord FromMessage(const msgs::Event& message) {
   EventRecord event;
-  for (std::size_t i = 0; i < message.ways.size(); ++i) {
-    const msgs::Way& way = message.ways[i];
-    WayRecord& to = event.ways.emplace_back();
-    for (const std::uint8_t state : way.states) {
-      to.states.push_back(ValueOf(kContactStates, state, Key("event.ways", i, "states")));
+  for (std::size_t i = 0; i < message.branches.size(); ++i) {
+    const msgs::Branch& branch = message.branches[i];
+    BranchRecord& to = event.branches.emplace_back();
+    for (const std::uint8_t state : branch.states) {
+      to.states.push_back(ValueOf(kContactStates, state, Key("event.branches", i, "states")));
     }
-    to.load_rate = way.load_rate;
-    to.dissipation_rate = way.dissipation_rate;
-    to.turn = way.turn;
+    to.load_rate = branch.load_rate;
+    to.dissipation_rate = branch.dissipation_rate;
+    to.turn = branch.turn;
   }
   event.number = FromCount(message.number, "event.number");
   event.taken = message.taken;
-  event.concerned = FromCount(message.concerned, "event.concerned");
+  event.weakly_active = FromCount(message.weakly_active, "event.weakly_active");
   event.complete = message.complete != 0;
   event.null_vector = message.null_vector;
   return event;
@@ -255,7 +255,7 @@ TraceRequest FromMessage(const msgs::Scene& scene, const msgs::TraceOptions& opt
     request.options.stop.push_back({stop.quantity, stop.when, stop.value});
   }
   for (const msgs::BranchChoice& choice : options.branch_choices) {
-    request.options.branch_choices.push_back({choice.event, choice.row, choice.way});
+    request.options.branch_choices.push_back({choice.event, choice.increment, choice.branch});
   }
 
   for (const msgs::Stage& stage : program)
@@ -323,8 +323,8 @@ msgs::TraceRequest ToMessage(const TraceRequest& request) {
   for (const BranchChoice& choice : request.options.branch_choices) {
     msgs::BranchChoice& to = message.options.branch_choices.emplace_back();
     to.event = choice.event;
-    to.row = choice.row;
-    to.way = choice.way;
+    to.increment = choice.increment;
+    to.branch = choice.branch;
   }
   for (const Stage& stage : request.program) {
     msgs::Stage& to = message.program.emplace_back();
@@ -347,8 +347,8 @@ msgs::Increment ToMessage(const Increment& increment, int full_state_every) {
   message.stage = ToCount(increment.stage);
   message.load_factor = increment.load_factor;
   message.arc_length = increment.arc_length;
-  message.kind = ConstantOf(kRowKinds, increment.kind);
-  if (increment.kind != RowKind::kRegular || increment.index % std::max(full_state_every, 1) == 0) {
+  message.kind = ConstantOf(kIncrementKinds, increment.kind);
+  if (increment.kind != IncrementKind::kRegular || increment.index % std::max(full_state_every, 1) == 0) {
     message.x.reserve(increment.positions.size() / 2);
     message.y.reserve(increment.positions.size() / 2);
     for (std::size_t i = 0; i + 1 < increment.positions.size(); i += 2) {
@@ -369,7 +369,7 @@ msgs::Increment ToMessage(const Increment& increment, int full_state_every) {
   message.external_work = increment.external_work;
   message.equilibrium_residual = increment.residuals.equilibrium;
   message.penetration_residual = increment.residuals.penetration;
-  message.adhesion_residual = increment.residuals.adhesion;
+  message.tensile_reaction_residual = increment.residuals.tensile_reaction;
   message.min_form_residual = increment.residuals.complementarity;
   message.cone_residual = increment.residuals.cone;
   message.friction_law_residual = increment.residuals.friction_law;
@@ -383,12 +383,12 @@ msgs::Increment ToMessage(const Increment& increment, int full_state_every) {
   message.constraints = ToCount(increment.solve.constraints);
   message.rejected = ToCount(increment.solve.rejected);
   message.factorisations = ToCount(increment.solve.factorisations);
-  message.deficiency = ToCount(increment.solve.deficiency);
+  message.nullity = ToCount(increment.solve.nullity);
   message.determinant_sign = increment.solve.determinant_sign;
   message.stiffness_sign = increment.solve.stiffness_sign;
   message.contraction = increment.solve.contraction;
   message.next_step = increment.solve.next_step;
-  message.growth = increment.solve.growth;
+  message.gamma2_factor = increment.solve.gamma2_factor;
   message.solve_time = increment.solve.time;
   message.event = ToMessage(increment.event);
   return message;
@@ -404,7 +404,7 @@ Increment FromMessage(const msgs::Increment& message) {
   increment.stage = FromCount(message.stage, "stage");
   increment.load_factor = message.load_factor;
   increment.arc_length = message.arc_length;
-  increment.kind = ValueOf(kRowKinds, message.kind, "kind");
+  increment.kind = ValueOf(kIncrementKinds, message.kind, "kind");
   for (std::size_t i = 0; i < message.x.size(); ++i) {
     increment.positions.push_back(message.x[i]);
     increment.positions.push_back(message.y[i]);
@@ -419,7 +419,7 @@ Increment FromMessage(const msgs::Increment& message) {
   increment.external_work = message.external_work;
   increment.residuals.equilibrium = message.equilibrium_residual;
   increment.residuals.penetration = message.penetration_residual;
-  increment.residuals.adhesion = message.adhesion_residual;
+  increment.residuals.tensile_reaction = message.tensile_reaction_residual;
   increment.residuals.complementarity = message.min_form_residual;
   increment.residuals.cone = message.cone_residual;
   increment.residuals.friction_law = message.friction_law_residual;
@@ -432,12 +432,12 @@ Increment FromMessage(const msgs::Increment& message) {
   increment.solve.constraints = FromCount(message.constraints, "constraints");
   increment.solve.rejected = FromCount(message.rejected, "rejected");
   increment.solve.factorisations = FromCount(message.factorisations, "factorisations");
-  increment.solve.deficiency = FromCount(message.deficiency, "deficiency");
+  increment.solve.nullity = FromCount(message.nullity, "nullity");
   increment.solve.determinant_sign = message.determinant_sign;
   increment.solve.stiffness_sign = message.stiffness_sign;
   increment.solve.contraction = message.contraction;
   increment.solve.next_step = message.next_step;
-  increment.solve.growth = message.growth;
+  increment.solve.gamma2_factor = message.gamma2_factor;
   increment.solve.time = message.solve_time;
   increment.event = FromMessage(message.event);
   return increment;

@@ -10,9 +10,9 @@ namespace {
 
 using Bytes = std::atomic<std::size_t>;
 
-// The row as it is sent; it counts in `waiting` until the last subscriber has it.
-ros::SerializedMessage Serialise(const contact_path_msgs::Increment& row, const std::shared_ptr<Bytes>& waiting) {
-  ros::SerializedMessage message = ros::serialization::serializeMessage(row);
+// The increment as it is sent; it counts in `waiting` until the last subscriber has it.
+ros::SerializedMessage Serialise(const contact_path_msgs::Increment& increment, const std::shared_ptr<Bytes>& waiting) {
+  ros::SerializedMessage message = ros::serialization::serializeMessage(increment);
   *waiting += message.num_bytes;
   message.buf = boost::shared_array<std::uint8_t>(
       message.buf.get(),
@@ -25,7 +25,7 @@ ros::SerializedMessage Serialise(const contact_path_msgs::Increment& row, const 
 IncrementPublisher::IncrementPublisher(ros::NodeHandle node, std::uint32_t queue, std::size_t most_bytes)
     : publisher_(node.advertise<contact_path_msgs::Increment>(names::kIncrements, queue)), most_bytes_(most_bytes) {}
 
-bool IncrementPublisher::Publish(const contact_path_msgs::Increment& row) {
+bool IncrementPublisher::Publish(const contact_path_msgs::Increment& increment) {
   // ros::Publisher does the same, with a buffer that cannot be watched.
   ros::TopicManager& topics = *ros::TopicManager::instance();
   if (*waiting_ > most_bytes_) {
@@ -34,7 +34,7 @@ bool IncrementPublisher::Publish(const contact_path_msgs::Increment& row) {
   }
   ros::SerializedMessage message;
   topics.publish(
-      publisher_.getTopic(), [&] { return Serialise(row, waiting_); }, message);
+      publisher_.getTopic(), [&] { return Serialise(increment, waiting_); }, message);
   return true;
 }
 

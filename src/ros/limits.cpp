@@ -77,13 +77,13 @@ void TraceLimits::Validate() const {
 
 std::string ExceededLimit(const contact_path_msgs::Scene& scene, const contact_path_msgs::TraceOptions& options,
                           const std::vector<contact_path_msgs::Stage>& program, const TraceLimits& limits) {
-  struct Row {
+  struct Increment {
     const char* what;
     std::size_t value;
     const char* limit_name;
     int limit;
   };
-  const Row rows[] = {
+  const Increment increments[] = {
       {"scene.nodes", scene.nodes.size(), names::kMaxNodes, limits.max_nodes},
       {"scene.bars", scene.bars.size(), names::kMaxElements, limits.max_elements},
       {"scene.superelements", scene.superelements.size(), names::kMaxElements, limits.max_elements},
@@ -110,10 +110,10 @@ std::string ExceededLimit(const contact_path_msgs::Scene& scene, const contact_p
   for (const contact_path_msgs::Stage& stage : program) bytes += ros::serialization::serializationLength(stage);
   if (bytes > kMostBytes)
     return "the request has " + std::to_string(bytes) + " bytes, but the node admits " + std::to_string(kMostBytes);
-  for (const Row& row : rows) {
-    if (row.value > static_cast<std::size_t>(row.limit)) {
-      return std::string(row.what) + ": " + std::to_string(row.value) + ", but the node admits " +
-             std::to_string(row.limit) + " (~" + row.limit_name + ")";
+  for (const Increment& increment : increments) {
+    if (increment.value > static_cast<std::size_t>(increment.limit)) {
+      return std::string(increment.what) + ": " + std::to_string(increment.value) + ", but the node admits " +
+             std::to_string(increment.limit) + " (~" + increment.limit_name + ")";
     }
   }
   return "";

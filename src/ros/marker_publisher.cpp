@@ -39,17 +39,17 @@ void MarkerPublisher::TakeRequest(const TraceRequest& request) {
   auto markers = std::make_shared<const SceneMarkers>(request, options_);
   const std::lock_guard<std::mutex> lock(mutex_);
   scene_ = std::move(markers);
-  row_ = nullptr;
+  increment_ = nullptr;
   largest_force_ = 0.0;
   published_ = false;
   ++taken_;
 }
 
-void MarkerPublisher::TakeRow(const contact_path_msgs::Increment::ConstPtr& row) {
+void MarkerPublisher::TakeIncrement(const contact_path_msgs::Increment::ConstPtr& increment) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (!scene_ || !scene_->Fits(*row)) return;
-  largest_force_ = std::max(largest_force_, scene_->LargestForce(*row));
-  row_ = row;
+  if (!scene_ || !scene_->Fits(*increment)) return;
+  largest_force_ = std::max(largest_force_, scene_->LargestForce(*increment));
+  increment_ = increment;
   published_ = false;
   ++taken_;
 }
@@ -59,11 +59,11 @@ void MarkerPublisher::Publish() {
   std::unique_lock<std::mutex> lock(mutex_);
   if (published_) return;
   const std::shared_ptr<const SceneMarkers> scene = scene_;
-  const contact_path_msgs::Increment::ConstPtr row = row_;
+  const contact_path_msgs::Increment::ConstPtr increment = increment_;
   const double largest_force = largest_force_;
   published_ = true;
   lock.unlock();
-  publisher_.publish(row ? scene->Draw(*row, largest_force) : scene->DrawInitial());
+  publisher_.publish(increment ? scene->Draw(*increment, largest_force) : scene->DrawInitial());
 }
 
 void MarkerPublisher::Tick() {

@@ -42,15 +42,15 @@ void CheckNothingElse(const contact_path_msgs::TraceRequest& request) {
 
 TraceSoFar ReadTraceSoFar(const std::string& bag) {
   RecordedTrace trace = ReadTrace(bag);
-  if (!trace.rows.empty()) {
-    const Verification verification = VerifyPath(trace.request, trace.rows);
+  if (!trace.increments.empty()) {
+    const Verification verification = VerifyPath(trace.request, trace.increments);
     if (!verification.findings.empty()) {
       const Finding& finding = verification.findings.front();
-      throw std::runtime_error(bag + " does not prove its path: row " + std::to_string(finding.row) + ": " +
+      throw std::runtime_error(bag + " does not prove its path: increment " + std::to_string(finding.increment) + ": " +
                                finding.what);
     }
   }
-  return {std::move(trace.request), std::move(trace.rows)};
+  return {std::move(trace.request), std::move(trace.increments)};
 }
 
 TraceSoFar ReadTraceSoFar(const std::filesystem::path& directory, const contact_path_msgs::TraceRequest& request) {

@@ -84,7 +84,7 @@ ColorRGBA StateColour(std::uint8_t state) {
   }
 }
 
-// As a part of the caption; nothing for a regular row.
+// As a part of the caption; nothing for a regular increment.
 const char* KindInWords(std::uint8_t kind) {
   switch (kind) {
     case msgs::Increment::START: return ", start";
@@ -327,75 +327,77 @@ void SceneMarkers::ExtendBox(const TraceRequest& request, double reach) {
   }
 }
 
-const SceneMarkers::StageParts& SceneMarkers::StageOf(const msgs::Increment& row) const {
-  return stages_[has_program_ ? row.stage - 1 : 0];
+const SceneMarkers::StageParts& SceneMarkers::StageOf(const msgs::Increment& increment) const {
+  return stages_[has_program_ ? increment.stage - 1 : 0];
 }
 
-bool SceneMarkers::Fits(const msgs::Increment& row) const {
-  const bool of_a_stage = has_program_ ? row.stage >= 1 && row.stage <= stages_.size() : row.stage == 0;
-  return of_a_stage && row.x.size() == initial_.size() && row.y.size() == initial_.size() &&
-         row.contacts.size() == contacts_.size();
+bool SceneMarkers::Fits(const msgs::Increment& increment) const {
+  const bool of_a_stage =
+      has_program_ ? increment.stage >= 1 && increment.stage <= stages_.size() : increment.stage == 0;
+  return of_a_stage && increment.x.size() == initial_.size() && increment.y.size() == initial_.size() &&
+         increment.contacts.size() == contacts_.size();
 }
 
-double SceneMarkers::LargestForce(const msgs::Increment& row) const {
+double SceneMarkers::LargestForce(const msgs::Increment& increment) const {
   double square = 0.0;
-  for (const NodalLoad& load : StageOf(row).loads) {
-    square = std::max(square, load.Force(row.load_factor).squaredNorm());
+  for (const NodalLoad& load : StageOf(increment).loads) {
+    square = std::max(square, load.Force(increment.load_factor).squaredNorm());
   }
-  for (const msgs::ContactState& contact : row.contacts) {
+  for (const msgs::ContactState& contact : increment.contacts) {
     square = std::max(square, contact.rn * contact.rn + contact.rt * contact.rt);
   }
   return std::sqrt(square);
 }
 
-visualization_msgs::MarkerArray SceneMarkers::Draw(const msgs::Increment& row, double largest_force) const {
+visualization_msgs::MarkerArray SceneMarkers::Draw(const msgs::Increment& increment, double largest_force) const {
   std::ostringstream caption;
   caption.imbue(std::locale::classic());
   caption << name_ << "   ";
-  if (has_program_) caption << StageOf(row).title << "   ";
-  caption << "row " << row.index << KindInWords(row.kind) << "\nload factor " << row.load_factor;
-  return Draw(row, largest_force, caption.str());
+  if (has_program_) caption << StageOf(increment).title << "   ";
+  caption << "increment " << increment.index << KindInWords(increment.kind) << "\nload factor "
+          << increment.load_factor;
+  return Draw(increment, largest_force, caption.str());
 }
 
 visualization_msgs::MarkerArray SceneMarkers::DrawInitial() const {
-  msgs::Increment row;
-  row.stage = has_program_ ? 1 : 0;
+  msgs::Increment increment;
+  increment.stage = has_program_ ? 1 : 0;
   for (const Vector2d& place : initial_) {
-    row.x.push_back(place.x());
-    row.y.push_back(place.y());
+    increment.x.push_back(place.x());
+    increment.y.push_back(place.y());
   }
-  row.contacts.resize(contacts_.size());
-  return Draw(row, LargestForce(row), name_ + "   initial shape");
+  increment.contacts.resize(contacts_.size());
+  return Draw(increment, LargestForce(increment), name_ + "   initial shape");
 }
 
-visualization_msgs::MarkerArray SceneMarkers::Draw(const msgs::Increment& row, double largest_force,
+visualization_msgs::MarkerArray SceneMarkers::Draw(const msgs::Increment& increment, double largest_force,
                                                    const std::string& caption) const {
   Places places;
-  places.reserve(row.x.size());
-  for (std::size_t i = 0; i < row.x.size(); ++i) places.emplace_back(row.x[i], row.y[i]);
+  places.reserve(increment.x.size());
+  for (std::size_t i = 0; i < increment.x.size(); ++i) places.emplace_back(increment.x[i], increment.y[i]);
   const double full_force = FullForce(largest_force, least_force_);
   Picture picture(size_, detail_);
-  DrawObstacles(places, row, &picture);
+  DrawObstacles(places, increment, &picture);
   DrawStructure(places, &picture);
   DrawSuperelements(places, &picture);
   DrawSupports(places, &picture);
-  DrawContacts(places, row.contacts, &picture);
-  DrawForces(places, row, full_force, &picture);
+  DrawContacts(places, increment.contacts, &picture);
+  DrawForces(places, increment, full_force, &picture);
   DrawCaption(caption, full_force, &picture);
   if (options_.picture_size == 0.0) return picture.Finish(options_.frame_id, Vector2d::Zero(), 1.0);
   return picture.Finish(options_.frame_id, box_.center(), options_.picture_size / size_);
 }
 
-void SceneMarkers::DrawObstacles(const Places& places, const msgs::Increment& row, Picture* picture) const {
+void SceneMarkers::DrawObstacles(const Places& places, const msgs::Increment& increment, Picture* picture) const {
   // Long enough for the nodes, and of a length that hardly ever changes.
   const Vector2d centre = box_.center();
   double reach = 0.0;
   for (const Vector2d& place : places) reach = std::max(reach, (place - centre).norm());
   const double half_length = size_ * std::ceil(reach / size_ + 0.25);
-  const std::vector<HalfPlane>& obstacles = StageOf(row).obstacles;
+  const std::vector<HalfPlane>& obstacles = StageOf(increment).obstacles;
   std::vector<std::array<Vector2d, 2>> boundaries;  // from and to
   for (const HalfPlane& obstacle : obstacles) {
-    const Vector2d point = obstacle.PointAt(row.load_factor);
+    const Vector2d point = obstacle.PointAt(increment.load_factor);
     const Vector2d foot = centre - obstacle.normal.dot(centre - point) * obstacle.normal;
     const Vector2d half = half_length * Tangent(obstacle.normal);
     boundaries.push_back({foot - half, foot + half});
@@ -418,7 +420,7 @@ void SceneMarkers::DrawObstacles(const Places& places, const msgs::Increment& ro
     const Vector2d stroke = kStripDepth * size_ * (obstacles[i].normal + tangent);
     // Multiples of the distance from the point that moves.
     const Vector2d& from = boundaries[i][0];
-    const double begin = std::fmod(tangent.dot(obstacles[i].PointAt(row.load_factor) - from), distance);
+    const double begin = std::fmod(tangent.dot(obstacles[i].PointAt(increment.load_factor) - from), distance);
     for (int k = begin < 0.0 ? 1 : 0; k <= kMostStrokes; ++k) {
       const double along = begin + k * distance;
       if (!(along < 2.0 * half_length)) break;
@@ -493,20 +495,21 @@ void SceneMarkers::DrawContacts(const Places& places, const std::vector<msgs::Co
   }
 }
 
-void SceneMarkers::DrawForces(const Places& places, const msgs::Increment& row, double full_force,
+void SceneMarkers::DrawForces(const Places& places, const msgs::Increment& increment, double full_force,
                               Picture* picture) const {
   const double scale = kFullArrow * size_ / full_force;
   const auto draw = [&](std::size_t node, const Vector2d& force, const ColorRGBA& colour) {
     if (force.norm() > kShortest * full_force) picture->AddArrow(places[node], scale * force, colour);
   };
   picture->BeginTriangles("loads", 0, kLoadColour, kArrows);
-  for (const NodalLoad& load : StageOf(row).loads) {
-    draw(load.node, load.Force(row.load_factor), load.constant ? kConstantLoadColour : kLoadColour);
+  for (const NodalLoad& load : StageOf(increment).loads) {
+    draw(load.node, load.Force(increment.load_factor), load.constant ? kConstantLoadColour : kLoadColour);
   }
   picture->BeginTriangles("reactions", 0, kReactionColour, kArrows);
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const Vector2d& normal = stages_.front().obstacles[contacts_[i].obstacle].normal;
-    draw(contacts_[i].node, row.contacts[i].rn * normal + row.contacts[i].rt * Tangent(normal), kReactionColour);
+    draw(contacts_[i].node, increment.contacts[i].rn * normal + increment.contacts[i].rt * Tangent(normal),
+         kReactionColour);
   }
 }
 

@@ -182,14 +182,14 @@ bool TraceService::HandleCancel(std_srvs::Trigger::Request& /*request*/, std_srv
 void TraceService::Serve(const contact_path_msgs::TraceRequest& asked, const TraceObserver& observer,
                          Response* response) {
   std::optional<contact_path_msgs::TraceRequest> resumed;
-  std::optional<std::vector<Increment>> rows;  // of the trace to go on with
+  std::optional<std::vector<Increment>> increments;  // of the trace to go on with
   TraceRequest core_request;
   try {
     if (!asked.resume.empty()) {
       TraceSoFar so_far = ReadTraceSoFar(parameters_.bag_directory, asked);
       resumed = ToMessage(so_far.request);
       resumed->resume = asked.resume;
-      rows = std::move(so_far.rows);
+      increments = std::move(so_far.increments);
     }
     const contact_path_msgs::TraceRequest& request = resumed ? *resumed : asked;
     const std::string exceeded = ExceededLimit(request.scene, request.options, request.program, parameters_.limits);
@@ -234,17 +234,17 @@ void TraceService::Serve(const contact_path_msgs::TraceRequest& asked, const Tra
   increments_left_out_ = 0;
   progress_.emplace(core_request);
   summary_ = PathSummary();
-  RunTrace(core_request, rows, observer, bag.get(), response);
+  RunTrace(core_request, increments, observer, bag.get(), response);
   response->increments = status_.increments;
   response->end_reason_name = EndReasonName(response->end_reason);
   response->message = EndMessage(response->end_reason_name, response->message, summary_, response->bag);
   try {
-    markers_.Publish();  // who has the answer finds the last row
+    markers_.Publish();  // who has the answer finds the last increment
   } catch (const std::exception& error) {
-    ROS_ERROR("no picture of the last row: %s", error.what());
+    ROS_ERROR("no picture of the last increment: %s", error.what());
   }
   if (increments_left_out_ > 0)
-    ROS_WARN("%u rows were not sent: %d MB wait for subscribers that are too slow (~%s); the bag has them",
+    ROS_WARN("%u increments were not sent: %d MB wait for subscribers that are too slow (~%s); the bag has them",
              increments_left_out_, parameters_.increments_megabytes, names::kIncrementsMegabytes);
   try {
     bag->WriteResult(ToResult(*response));
@@ -257,13 +257,13 @@ void TraceService::Serve(const contact_path_msgs::TraceRequest& asked, const Tra
   }
 }
 
-void TraceService::RunTrace(const TraceRequest& request, const std::optional<std::vector<Increment>>& rows,
+void TraceService::RunTrace(const TraceRequest& request, const std::optional<std::vector<Increment>>& increments,
                             const TraceObserver& observer, BagRecorder* bag, Response* response) {
   TraceControl control;
   control.on_increment = [&](const Increment& increment) { TakeIncrement(increment, observer, bag); };
   control.cancelled = [&] { return StopWanted(observer); };
   try {
-    const TraceResult result = rows ? ResumeTrace(request, *rows, control) : Trace(request, control);
+    const TraceResult result = increments ? ResumeTrace(request, *increments, control) : Trace(request, control);
     response->status = StatusOf(result.reason);
     response->end_reason = ToConstant(result.reason);
     response->message = result.message;
@@ -301,7 +301,7 @@ void TraceService::TakeIncrement(const Increment& increment, const TraceObserver
   bag->WriteIncrement(*message);
   if (!increments_publisher_.Publish(*message)) ++increments_left_out_;
   ++increments_published_;
-  markers_.TakeRow(message);
+  markers_.TakeIncrement(message);
 
   ++status_.increments;
   status_.stage = static_cast<std::uint32_t>(increment.stage);

@@ -18,9 +18,9 @@
 namespace contact_path {
 namespace {
 
-void PrintResiduals(const char* name, int rows, const Residuals& residuals) {
-  std::cout << std::left << std::setw(22) << name << std::right << std::setw(7) << rows;
-  for (const double residual : {residuals.equilibrium, residuals.penetration, residuals.adhesion,
+void PrintResiduals(const char* name, int increments, const Residuals& residuals) {
+  std::cout << std::left << std::setw(22) << name << std::right << std::setw(7) << increments;
+  for (const double residual : {residuals.equilibrium, residuals.penetration, residuals.tensile_reaction,
                                 residuals.complementarity, residuals.cone, residuals.friction_law, residuals.support})
     std::cout << std::setw(13) << residual;
   std::cout << '\n';
@@ -28,51 +28,52 @@ void PrintResiduals(const char* name, int rows, const Residuals& residuals) {
 
 void PrintTable(const RecordedTrace& trace, const Verification& verification) {
   std::cout << std::scientific << std::setprecision(1) << "scene " << OneLine(trace.request.scene.name) << ", "
-            << verification.rows << " rows:";
+            << verification.increments << " increments:";
   for (const auto& [kind, count] : verification.kinds) std::cout << ' ' << count << ' ' << ToString(kind);
   std::cout << "\n\nlargest residuals, computed anew\n"
-            << std::left << std::setw(22) << "" << std::right << std::setw(7) << "rows" << std::setw(13)
+            << std::left << std::setw(22) << "" << std::right << std::setw(7) << "increments" << std::setw(13)
             << "equilibrium" << std::setw(13) << "penetration" << std::setw(13) << "adhesion" << std::setw(13)
             << "min form" << std::setw(13) << "cone" << std::setw(13) << "friction law" << std::setw(13) << "supports"
             << '\n';
-  PrintResiduals("exact rows", verification.exact_rows, verification.exact);
-  const int regularised = verification.full_rows - verification.exact_rows;
-  if (regularised > 0) PrintResiduals("regularised rows", regularised, verification.regularised);
-  if (verification.full_rows < verification.rows)
-    std::cout << "rows without state    " << std::setw(7) << verification.rows - verification.full_rows << '\n';
+  PrintResiduals("exact increments", verification.exact_increments, verification.exact);
+  const int regularised = verification.full_increments - verification.exact_increments;
+  if (regularised > 0) PrintResiduals("regularised increments", regularised, verification.regularised);
+  if (verification.full_increments < verification.increments)
+    std::cout << "increments without state    " << std::setw(7)
+              << verification.increments - verification.full_increments << '\n';
   std::cout << "\nenergy balance: off by " << verification.energy_balance << " of F L at most, with "
             << verification.work << " of work done by the loads\n\n";
 }
 
 bool ProgramDone(const RecordedTrace& trace) {
-  const Increment& last = trace.rows.back();
+  const Increment& last = trace.increments.back();
   return last.stage == static_cast<int>(trace.request.program.size()) && AtTarget(trace.request, last);
 }
 
 // What the record as a whole lacks; empty if nothing.
 std::string Lacks(const RecordedTrace& trace) {
   if (!trace.result) return "truncated: no result, the trace was cut off before its end";
-  if (trace.result->increments != trace.rows.size())
-    return "truncated: " + std::to_string(trace.rows.size()) + " rows, the result speaks of " +
+  if (trace.result->increments != trace.increments.size())
+    return "truncated: " + std::to_string(trace.increments.size()) + " increments, the result speaks of " +
            std::to_string(trace.result->increments);
-  if (trace.result->end_reason_name == ToString(EndReason::kStopCriterion) && !trace.rows.empty() &&
-      !trace.rows.back().positions.empty() && !ProgramDone(trace) &&
-      StopTest(trace.request).FirstThatHolds(trace.rows.back()) == nullptr)
-    return "the result says stop_criterion, but none holds in the last row";
+  if (trace.result->end_reason_name == ToString(EndReason::kStopCriterion) && !trace.increments.empty() &&
+      !trace.increments.back().positions.empty() && !ProgramDone(trace) &&
+      StopTest(trace.request).FirstThatHolds(trace.increments.back()) == nullptr)
+    return "the result says stop_criterion, but none holds in the last increment";
   return "";
 }
 
 bool Verify(const RecordedTrace& trace) {
-  const Verification verification = VerifyPath(trace.request, trace.rows);
+  const Verification verification = VerifyPath(trace.request, trace.increments);
   PrintTable(trace, verification);
   for (const Finding& finding : verification.findings)
-    std::cout << "row " << finding.row << ": " << finding.what << '\n';
+    std::cout << "increment " << finding.increment << ": " << finding.what << '\n';
   if (verification.findings.size() == static_cast<std::size_t>(kMostFindings)) std::cout << "...\n";
   const std::string lacks = Lacks(trace);
   if (!lacks.empty()) std::cout << lacks << '\n';
   const bool proved = verification.findings.empty() && lacks.empty();
   if (proved)
-    std::cout << "proved: every row that has its state is an equilibrium of the scene; the trace ended "
+    std::cout << "proved: every increment that has its state is an equilibrium of the scene; the trace ended "
               << trace.result->end_reason_name << '\n';
   else
     std::cout << "NOT proved\n";

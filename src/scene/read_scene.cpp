@@ -262,7 +262,8 @@ void Read(Reader& in, const YamlValue& value, const std::string& path, StopCrite
 
 void Read(Reader& in, const YamlValue& value, const std::string& path, BranchChoice& choice) {
   in.ReadMap(value, path,
-             {in.Integer("event", choice.event), in.Integer("row", choice.row), in.Integer("way", choice.way)});
+             {in.Integer("event", choice.event), in.Integer("increment", choice.increment),
+              in.Integer("branch", choice.branch)});
 }
 
 void Read(Reader& in, const YamlValue& value, const std::string& path, Scene& scene) {

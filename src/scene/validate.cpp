@@ -360,7 +360,7 @@ class Checker {
     }
   }
 
-  // What an obstacle with friction drags along must be able to move that way, or its reaction is not determined.
+  // What an obstacle with friction drags along must be able to move that branch, or its reaction is not determined.
   void CheckNodesCanFollow(const std::string& key, const ObstacleMotion& motion, const Obstacle& obstacle) {
     const double norm = std::hypot(obstacle.nx, obstacle.ny);
     const double along = std::abs(obstacle.ny * motion.dx - obstacle.nx * motion.dy) / norm;
@@ -368,7 +368,7 @@ class Checker {
     const auto held = held_.find(&obstacle);
     if (held != held_.end())
       Add(key + ".obstacle", motion.obstacle,
-          "moves along itself with friction: node " + held->second->name + " must be free to move that way");
+          "moves along itself with friction: node " + held->second->name + " must be free to move that branch");
   }
 
   // Whether the node cannot move along the obstacle.
@@ -473,10 +473,10 @@ class Checker {
       const BranchChoice& choice = options_.branch_choices[i];
       const std::string key = Indexed("options.branch_choices", i);
       if (choice.event < 0) Add(key + ".event", std::to_string(choice.event), "must be >= 0");
-      if (choice.row < 0) Add(key + ".row", std::to_string(choice.row), "must be >= 0");
-      if (choice.way < 0) Add(key + ".way", std::to_string(choice.way), "must be >= 0");
-      if (choice.event > 0 && choice.row > 0)
-        Add(key + ".row", std::to_string(choice.row), "must be 0 where event is given");
+      if (choice.increment < 0) Add(key + ".increment", std::to_string(choice.increment), "must be >= 0");
+      if (choice.branch < 0) Add(key + ".branch", std::to_string(choice.branch), "must be >= 0");
+      if (choice.event > 0 && choice.increment > 0)
+        Add(key + ".increment", std::to_string(choice.increment), "must be 0 where event is given");
     }
   }
 

@@ -133,8 +133,8 @@ void WriteOptions(const TraceOptions& options, YAML::Emitter* out) {
   });
   WriteList("branch_choices", options.branch_choices, out, [](const BranchChoice& choice, Line& line) {
     line.Value("event", choice.event);
-    line.Value("row", choice.row);
-    line.Value("way", choice.way);
+    line.Value("increment", choice.increment);
+    line.Value("branch", choice.branch);
   });
   *out << YAML::EndMap;
 }

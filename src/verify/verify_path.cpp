@@ -13,11 +13,11 @@
 namespace contact_path {
 namespace {
 
-constexpr double kExact = 1e-9;        // of an exact row: all that should be zero, scaled
+constexpr double kExact = 1e-9;        // of an exact increment: all that should be zero, scaled
 constexpr double kRegularised = 1e-5;  // of the others
 constexpr double kRecorded = 1e-11;    // what was recorded, against what is computed anew: rounding, scaled
 constexpr double kRoundings = 64.0;    // of a coordinate
-constexpr double kSlack = 1e-3;        // of what the energy balance may be off by: for one row
+constexpr double kSlack = 1e-3;        // of what the energy balance may be off by: for one increment
 constexpr double kChord = 1e-9;        // relative: arc length against chord
 constexpr double kEnergy = 1e-2;       // of the work done: energies are quadratures
 constexpr double kEnergyMpec = 3e-2;   // the same where increments may cut corners
@@ -30,18 +30,18 @@ bool AtTarget(double target, double load_factor) {
   return std::abs(load_factor - target) <= kAtTarget * std::abs(target);
 }
 
-// The rows of one stage.
+// The increments of one stage.
 class Verifier {
  public:
-  // rows: all that were recorded; those from `first` up to `last`, not included, are of the stage.
+  // increments: all that were recorded; those from `first` up to `last`, not included, are of the stage.
   // of_program: the scales of the program.
   Verifier(const TraceRequest& request, const Scaling& of_program, std::size_t stage,
-           const std::vector<Increment>& rows, std::size_t first, std::size_t last, Verification* result)
+           const std::vector<Increment>& increments, std::size_t first, std::size_t last, Verification* result)
       : scene_(StageScene(request, stage)),
         stage_(request.program.empty() ? 0 : static_cast<int>(stage) + 1),
         target_(request.program.empty() ? std::nullopt : std::optional(request.program[stage].Target())),
         full_state_every_(std::max(request.options.full_state_every, 1)),
-        rows_(rows),
+        increments_(increments),
         first_(first),
         last_(last),
         scaling_(StageScales(request, stage, of_program)),
@@ -55,7 +55,7 @@ class Verifier {
     // What moves takes nodes along, and lengths of arc are of the load factor, too.
     double load = 0.0;
     for (std::size_t i = first_; i < last_; ++i)
-      if (std::isfinite(rows_[i].load_factor)) load = std::max(load, std::abs(rows_[i].load_factor));
+      if (std::isfinite(increments_[i].load_factor)) load = std::max(load, std::abs(increments_[i].load_factor));
     for (const SupportMotion& motion : scene_.support_motions) farthest += load * std::hypot(motion.dx, motion.dy);
     for (const ObstacleMotion& motion : scene_.obstacle_motions) farthest += load * std::hypot(motion.dx, motion.dy);
     for (const Obstacle& obstacle : scene_.obstacles)
@@ -95,28 +95,29 @@ class Verifier {
   }
 
   void Run() {
-    for (row_ = first_; row_ < last_; ++row_) {
-      const Increment& row = Row();
-      ++result_.rows;
-      ++result_.kinds[row.kind];
-      CheckPlace(row);
-      if (!AllFinite(row)) {
+    for (increment_ = first_; increment_ < last_; ++increment_) {
+      const Increment& increment = Current();
+      ++result_.increments;
+      ++result_.kinds[increment.kind];
+      CheckPlace(increment);
+      if (!AllFinite(increment)) {
         Report("a number is not finite");
         before_.reset();
         continue;
       }
-      if (row_ > first_) CheckProgress(rows_[row_ - 1], row);
-      if (!row.positions.empty()) {
-        if (row.positions.size() != 2 * scene_.nodes.size() || row.contacts.size() != scene_.contacts.size()) {
+      if (increment_ > first_) CheckProgress(increments_[increment_ - 1], increment);
+      if (!increment.positions.empty()) {
+        if (increment.positions.size() != 2 * scene_.nodes.size() ||
+            increment.contacts.size() != scene_.contacts.size()) {
           Report("the numbers of positions and contacts are not those of the scene");
           continue;
         }
-        CheckState(row);
-        before_ = row_;
-      } else if (row.kind != RowKind::kRegular || row.index % full_state_every_ == 0) {
+        CheckState(increment);
+        before_ = increment_;
+      } else if (increment.kind != IncrementKind::kRegular || increment.index % full_state_every_ == 0) {
         Report("has no state, though full_state_every = ", full_state_every_, " wants it");
       }
-      CheckEvent(row);
+      CheckEvent(increment);
       CheckLimit();
     }
     CheckEnergy();
@@ -128,16 +129,16 @@ class Verifier {
     double px, py, dx, dy, nx, ny, friction;
     std::string name;
 
-    // Of the node, as the obstacle sees it at the load factor of the row.
-    double Along(double ax, double ay, const Increment& row) const {
-      return ax * (row.positions[2 * node] - px - row.load_factor * dx) +
-             ay * (row.positions[2 * node + 1] - py - row.load_factor * dy);
+    // Of the node, as the obstacle sees it at the load factor of the increment.
+    double Along(double ax, double ay, const Increment& increment) const {
+      return ax * (increment.positions[2 * node] - px - increment.load_factor * dx) +
+             ay * (increment.positions[2 * node + 1] - py - increment.load_factor * dy);
     }
-    double Gap(const Increment& row) const { return Along(nx, ny, row); }
+    double Gap(const Increment& increment) const { return Along(nx, ny, increment); }
     double Slip(const Increment& from, const Increment& to) const { return Along(ny, -nx, to) - Along(ny, -nx, from); }
   };
 
-  const Increment& Row() const { return rows_[row_]; }
+  const Increment& Current() const { return increments_[increment_]; }
 
   template <typename... Parts>
   void Report(const Parts&... parts) {
@@ -145,7 +146,7 @@ class Verifier {
     std::ostringstream text;
     text.precision(6);
     (text << ... << parts);
-    result_.findings.push_back({static_cast<int>(row_), text.str()});
+    result_.findings.push_back({static_cast<int>(increment_), text.str()});
   }
 
   // What should be zero, or less.
@@ -153,38 +154,42 @@ class Verifier {
     if (!(value <= tolerance)) Report(what, ": ", value, " > ", tolerance);
   }
 
-  static bool AllFinite(const Increment& row) {
-    bool finite = std::isfinite(row.load_factor) && std::isfinite(row.arc_length) && std::isfinite(row.dissipation) &&
-                  std::isfinite(row.strain_energy) && std::isfinite(row.external_work);
-    for (const double x : row.positions) finite = finite && std::isfinite(x);
-    for (const ContactRecord& contact : row.contacts)
+  static bool AllFinite(const Increment& increment) {
+    bool finite = std::isfinite(increment.load_factor) && std::isfinite(increment.arc_length) &&
+                  std::isfinite(increment.dissipation) && std::isfinite(increment.strain_energy) &&
+                  std::isfinite(increment.external_work);
+    for (const double x : increment.positions) finite = finite && std::isfinite(x);
+    for (const ContactRecord& contact : increment.contacts)
       finite = finite && std::isfinite(contact.gap) && std::isfinite(contact.rn) && std::isfinite(contact.rt);
     return finite;
   }
 
-  void CheckPlace(const Increment& row) {
-    if (row.index != static_cast<int>(row_)) Report("has the index ", row.index, ": rows are missing or out of order");
-    if ((row.kind == RowKind::kStart) != (row_ == first_)) Report("is of the kind ", ToString(row.kind));
-    if (row.stage != stage_) Report("is of stage ", row.stage, ", but stands in stage ", stage_);
-    if (row_ != first_) return;
-    if (row.load_factor != 0.0 || row.positions.empty())
+  void CheckPlace(const Increment& increment) {
+    if (increment.index != static_cast<int>(increment_))
+      Report("has the index ", increment.index, ": increments are missing or out of order");
+    if ((increment.kind == IncrementKind::kStart) != (increment_ == first_))
+      Report("is of the kind ", ToString(increment.kind));
+    if (increment.stage != stage_) Report("is of stage ", increment.stage, ", but stands in stage ", stage_);
+    if (increment_ != first_) return;
+    if (increment.load_factor != 0.0 || increment.positions.empty())
       Report("is no start: the load factor is 0 there, and the state is recorded");
-    if (row_ == 0 && row.arc_length != 0.0) Report("is no start: the arc length is 0 there");
-    if (row_ > 0 && AllFinite(row)) CheckHandOver(rows_[row_ - 1], row);
+    if (increment_ == 0 && increment.arc_length != 0.0) Report("is no start: the arc length is 0 there");
+    if (increment_ > 0 && AllFinite(increment)) CheckHandOver(increments_[increment_ - 1], increment);
   }
 
   // A stage begins where the one before has ended.
-  void CheckHandOver(const Increment& last, const Increment& row) {
-    if (row.arc_length != last.arc_length || row.dissipation != last.dissipation ||
-        row.external_work != last.external_work)
-      Report("arc length, dissipation and work do not go on from the last row of the stage before");
-    if (last.positions.size() != row.positions.size() || last.contacts.size() != row.contacts.size()) return;
+  void CheckHandOver(const Increment& last, const Increment& increment) {
+    if (increment.arc_length != last.arc_length || increment.dissipation != last.dissipation ||
+        increment.external_work != last.external_work)
+      Report("arc length, dissipation and work do not go on from the last increment of the stage before");
+    if (last.positions.size() != increment.positions.size() || last.contacts.size() != increment.contacts.size())
+      return;
     double motion = 0.0, force = 0.0;
-    for (std::size_t i = 0; i < row.positions.size(); ++i)
-      motion = std::max(motion, std::abs(row.positions[i] - last.positions[i]) / scaling_.length);
+    for (std::size_t i = 0; i < increment.positions.size(); ++i)
+      motion = std::max(motion, std::abs(increment.positions[i] - last.positions[i]) / scaling_.length);
     bool same = true;
-    for (std::size_t i = 0; i < row.contacts.size(); ++i) {
-      const ContactRecord &a = last.contacts[i], &b = row.contacts[i];
+    for (std::size_t i = 0; i < increment.contacts.size(); ++i) {
+      const ContactRecord &a = last.contacts[i], &b = increment.contacts[i];
       force = std::max({force, std::abs(a.rn - b.rn) / scaling_.force, std::abs(a.rt - b.rt) / scaling_.force});
       same = same && a.state == b.state;
     }
@@ -193,94 +198,98 @@ class Verifier {
     if (!same) Report("contact states differ from those at the end of the stage before");
   }
 
-  void CheckProgress(const Increment& before, const Increment& row) {
-    if (target_ && !AtTarget(*target_, row.load_factor) && !AtTarget(*target_, before.load_factor) &&
-        (before.load_factor - *target_) * (row.load_factor - *target_) < 0.0)
+  void CheckProgress(const Increment& before, const Increment& increment) {
+    if (target_ && !AtTarget(*target_, increment.load_factor) && !AtTarget(*target_, before.load_factor) &&
+        (before.load_factor - *target_) * (increment.load_factor - *target_) < 0.0)
       Report("goes past the target of its stage, ", *target_);
-    if (row.arc_length < before.arc_length) Report("arc length falls from ", before.arc_length, " to ", row.arc_length);
+    if (increment.arc_length < before.arc_length)
+      Report("arc length falls from ", before.arc_length, " to ", increment.arc_length);
     const double energy = scaling_.force * scaling_.length;
-    Bound("dissipation falls", (before.dissipation - row.dissipation) / energy, kRecorded);
-    result_.work += std::abs(row.external_work - before.external_work) / energy;
+    Bound("dissipation falls", (before.dissipation - increment.dissipation) / energy, kRecorded);
+    result_.work += std::abs(increment.external_work - before.external_work) / energy;
     const EventRecord& event = before.event;
-    if (event.taken < -1 || event.taken >= static_cast<int>(event.ways.size()))
-      Report("the way taken from the row before, ", event.taken, ", is none of its ", event.ways.size());
+    if (event.taken < -1 || event.taken >= static_cast<int>(event.branches.size()))
+      Report("the branch taken from the increment before, ", event.taken, ", is none of its ", event.branches.size());
   }
 
-  // What method branch records where ways part. From the last row of a stage no way is taken.
-  void CheckEvent(const Increment& row) {
-    if (row.solve.method != Method::kBranch || row_ == first_ || row_ + 1 == last_) return;
-    const bool event = row.kind == RowKind::kContactEvent || row.kind == RowKind::kCornerLimit;
-    if (event != !row.event.ways.empty()) Report(event ? "an event without ways on" : "ways on, but no event");
-    if (event && row.event.taken < 0) Report("an event where no way is taken");
-    if ((row.kind == RowKind::kBifurcation) == row.event.null_vector.empty())
+  // What method branch records where branches part. From the last increment of a stage no branch is taken.
+  void CheckEvent(const Increment& increment) {
+    if (increment.solve.method != Method::kBranch || increment_ == first_ || increment_ + 1 == last_) return;
+    const bool event = increment.kind == IncrementKind::kContactEvent || increment.kind == IncrementKind::kCornerLimit;
+    if (event != !increment.event.branches.empty())
+      Report(event ? "an event without branches" : "branches, but no event");
+    if (event && increment.event.taken < 0) Report("an event where no branch is taken");
+    if ((increment.kind == IncrementKind::kBifurcation) == increment.event.null_vector.empty())
       Report("a bifurcation has a direction of the crossing path, and nothing else has");
   }
 
-  // Whether what happened since the last full row is one piece of path.
-  bool OnePiece(const Increment& row) const {
-    return row_ == first_ || before_ == row_ - 1 || row.solve.method == Method::kBranch;
+  // Whether what happened since the last full increment is one arc of the path.
+  bool OnePiece(const Increment& increment) const {
+    return increment_ == first_ || before_ == increment_ - 1 || increment.solve.method == Method::kBranch;
   }
 
-  void CheckState(const Increment& row) {
-    ++result_.full_rows;
-    if (row.solve.exact) ++result_.exact_rows;
-    if (row.solve.method == Method::kBranch && !row.solve.exact) Report("a row of method branch that is not exact");
-    const double tolerance = row.solve.exact ? kExact : kRegularised;
-    const Increment& before = before_ ? rows_[*before_] : row;
-    const Residuals residuals = check_.Check(StateOf(before), StateOf(row));
+  void CheckState(const Increment& increment) {
+    ++result_.full_increments;
+    if (increment.solve.exact) ++result_.exact_increments;
+    if (increment.solve.method == Method::kBranch && !increment.solve.exact)
+      Report("an increment of method branch that is not exact");
+    const double tolerance = increment.solve.exact ? kExact : kRegularised;
+    const Increment& before = before_ ? increments_[*before_] : increment;
+    const Residuals residuals = check_.Check(StateOf(before), StateOf(increment));
     Bound("equilibrium residual", residuals.equilibrium, tolerance);
     Bound("penetration", residuals.penetration, tolerance);
-    Bound("adhesion", residuals.adhesion, tolerance);
+    Bound("tensile_reaction", residuals.tensile_reaction, tolerance);
     Bound("gap and reaction are both positive", residuals.complementarity, tolerance);
     Bound("reaction outside of the friction cone", residuals.cone, tolerance);
-    if (OnePiece(row)) Bound("friction law", residuals.friction_law, tolerance);
-    Keep(residuals, row.solve.exact ? &result_.exact : &result_.regularised);
-    CheckRecorded(row, residuals);
+    if (OnePiece(increment)) Bound("friction law", residuals.friction_law, tolerance);
+    Keep(residuals, increment.solve.exact ? &result_.exact : &result_.regularised);
+    CheckRecorded(increment, residuals);
     for (std::size_t i = 0; i < scene_.nodes.size(); ++i) {
       const Node& node = scene_.nodes[i];
       const auto off = [&](std::size_t k, double initial) {
-        return std::abs(row.positions[k] - initial - rates_[k] * row.load_factor) / scaling_.length > rounding_;
+        return std::abs(increment.positions[k] - initial - rates_[k] * increment.load_factor) / scaling_.length >
+               rounding_;
       };
       if ((node.fixed_x && off(2 * i, node.x)) || (node.fixed_y && off(2 * i + 1, node.y)))
         Report("support ", node.name, " is not where it has to be");
     }
-    for (std::size_t i = 0; i < surfaces_.size(); ++i) CheckContact(surfaces_[i], before, row, i, tolerance);
-    if (before_) CheckPiece(before, row);
-    if (before_) CheckWork(before, row);
+    for (std::size_t i = 0; i < surfaces_.size(); ++i) CheckContact(surfaces_[i], before, increment, i, tolerance);
+    if (before_) CheckPiece(before, increment);
+    if (before_) CheckWork(before, increment);
   }
 
   static void Keep(const Residuals& residuals, Residuals* largest) {
     for (double Residuals::*const field :
-         {&Residuals::equilibrium, &Residuals::penetration, &Residuals::adhesion, &Residuals::complementarity,
+         {&Residuals::equilibrium, &Residuals::penetration, &Residuals::tensile_reaction, &Residuals::complementarity,
           &Residuals::cone, &Residuals::friction_law, &Residuals::support})
       largest->*field = std::max(largest->*field, residuals.*field);
   }
 
-  void CheckRecorded(const Increment& row, const Residuals& residuals) {
+  void CheckRecorded(const Increment& increment, const Residuals& residuals) {
     const auto same = [&](const char* what, double recorded, double anew) {
       if (!(std::abs(recorded - anew) <= rounding_ * (1.0 + std::abs(anew))))
         Report(what, " is recorded as ", recorded, ", but is ", anew);
     };
-    same("equilibrium residual", row.residuals.equilibrium, residuals.equilibrium);
-    same("penetration residual", row.residuals.penetration, residuals.penetration);
-    same("adhesion residual", row.residuals.adhesion, residuals.adhesion);
-    same("min form residual", row.residuals.complementarity, residuals.complementarity);
-    same("cone residual", row.residuals.cone, residuals.cone);
-    same("support residual", row.residuals.support, residuals.support);
-    // Depends on the row before, which may have been left out.
-    if (row_ == first_ || before_ == row_ - 1)
-      same("friction law residual", row.residuals.friction_law, residuals.friction_law);
+    same("equilibrium residual", increment.residuals.equilibrium, residuals.equilibrium);
+    same("penetration residual", increment.residuals.penetration, residuals.penetration);
+    same("tensile_reaction residual", increment.residuals.tensile_reaction, residuals.tensile_reaction);
+    same("min form residual", increment.residuals.complementarity, residuals.complementarity);
+    same("cone residual", increment.residuals.cone, residuals.cone);
+    same("support residual", increment.residuals.support, residuals.support);
+    // Depends on the increment before, which may have been left out.
+    if (increment_ == first_ || before_ == increment_ - 1)
+      same("friction law residual", increment.residuals.friction_law, residuals.friction_law);
     const double unit = scaling_.force * scaling_.length;
-    same("scaled strain energy", row.strain_energy / unit, check_.StrainEnergy(row.positions) / unit);
+    same("scaled strain energy", increment.strain_energy / unit, check_.StrainEnergy(increment.positions) / unit);
   }
 
-  void CheckContact(const Surface& surface, const Increment& before, const Increment& row, std::size_t i,
+  void CheckContact(const Surface& surface, const Increment& before, const Increment& increment, std::size_t i,
                     double tolerance) {
-    const ContactRecord& contact = row.contacts[i];
-    const double gap = surface.Gap(row) / scaling_.length;
+    const ContactRecord& contact = increment.contacts[i];
+    const double gap = surface.Gap(increment) / scaling_.length;
     Bound("recorded gap of " + surface.name + " less the true one", std::abs(contact.gap / scaling_.length - gap),
           rounding_);
-    const double slip = OnePiece(row) ? surface.Slip(before, row) / scaling_.length : 0.0;
+    const double slip = OnePiece(increment) ? surface.Slip(before, increment) / scaling_.length : 0.0;
     const double rn = contact.rn / scaling_.force, rt = contact.rt / scaling_.force;
     const auto wrong = [&](const char* state) { Report(surface.name, " is recorded as ", state, ", but is not"); };
     switch (contact.state) {
@@ -304,105 +313,107 @@ class Verifier {
     }
   }
 
-  // The piece of path between two full rows.
-  void CheckPiece(const Increment& before, const Increment& row) {
-    double square = std::pow((row.load_factor - before.load_factor) / scaling_.load_factor, 2);
-    for (std::size_t i = 0; i < row.positions.size(); ++i)
-      square += std::pow((row.positions[i] - before.positions[i]) / scaling_.length, 2);
-    const double chord = std::sqrt(square), arc = row.arc_length - before.arc_length;
+  // The arc of the path between two full increments.
+  void CheckPiece(const Increment& before, const Increment& increment) {
+    double square = std::pow((increment.load_factor - before.load_factor) / scaling_.load_factor, 2);
+    for (std::size_t i = 0; i < increment.positions.size(); ++i)
+      square += std::pow((increment.positions[i] - before.positions[i]) / scaling_.length, 2);
+    const double chord = std::sqrt(square), arc = increment.arc_length - before.arc_length;
     if (arc < chord * (1.0 - kChord) - rounding_) Report("arc length grows by ", arc, ", less than the chord ", chord);
-    if (before_ == row_ - 1 && arc > kLongestArc * chord + kRecorded)
+    if (before_ == increment_ - 1 && arc > kLongestArc * chord + kRecorded)
       Report("arc length grows by ", arc, ", more than a curve with the chord ", chord, " would");
 
-    if (before_ == row_ - 1 && !(arc > 0.0) && before.event.ways.empty()) CheckSameReactions(before, row);
+    if (before_ == increment_ - 1 && !(arc > 0.0) && before.event.branches.empty())
+      CheckSameReactions(before, increment);
 
-    // States: method branch has a row of its own where they change; a row of method mpec tells that they have.
-    const bool branch = row.solve.method == Method::kBranch;
+    // States: method branch has an increment of its own where they change; an increment of method mpec tells that they
+    // have.
+    const bool branch = increment.solve.method == Method::kBranch;
     bool changed = false;
-    for (std::size_t i = 0; i < row.contacts.size(); ++i)
-      changed = changed || row.contacts[i].state != before.contacts[i].state;
-    const RowKind kind = branch ? before.kind : row.kind;
-    if (changed && before_ != first_ && kind != RowKind::kContactEvent && kind != RowKind::kCornerLimit)
+    for (std::size_t i = 0; i < increment.contacts.size(); ++i)
+      changed = changed || increment.contacts[i].state != before.contacts[i].state;
+    const IncrementKind kind = branch ? before.kind : increment.kind;
+    if (changed && before_ != first_ && kind != IncrementKind::kContactEvent && kind != IncrementKind::kCornerLimit)
       Report("contact states change without an event");
     const EventRecord& event = before.event;
-    if (event.taken < 0 || event.taken >= static_cast<int>(event.ways.size()) || before_ != row_ - 1) return;
-    const std::vector<ContactState>& states = event.ways[static_cast<std::size_t>(event.taken)].states;
-    bool as_taken = states.size() == row.contacts.size();
-    for (std::size_t i = 0; as_taken && i < states.size(); ++i) as_taken = states[i] == row.contacts[i].state;
-    if (!as_taken) Report("contact states are not those of the way taken from the row before");
+    if (event.taken < 0 || event.taken >= static_cast<int>(event.branches.size()) || before_ != increment_ - 1) return;
+    const std::vector<ContactState>& states = event.branches[static_cast<std::size_t>(event.taken)].states;
+    bool as_taken = states.size() == increment.contacts.size();
+    for (std::size_t i = 0; as_taken && i < states.size(); ++i) as_taken = states[i] == increment.contacts[i].state;
+    if (!as_taken) Report("contact states are not those of the branch taken from the increment before");
   }
 
-  // They may change at rest where a way on begins, and nowhere else.
-  void CheckSameReactions(const Increment& before, const Increment& row) {
+  // They may change at rest where a branch begins, and nowhere else.
+  void CheckSameReactions(const Increment& before, const Increment& increment) {
     double force = 0.0;
-    for (std::size_t i = 0; i < row.contacts.size(); ++i) {
-      const ContactRecord &a = before.contacts[i], &b = row.contacts[i];
+    for (std::size_t i = 0; i < increment.contacts.size(); ++i) {
+      const ContactRecord &a = before.contacts[i], &b = increment.contacts[i];
       force = std::max({force, std::abs(a.rn - b.rn) / scaling_.force, std::abs(a.rt - b.rt) / scaling_.force});
     }
     Bound("reactions change while nothing moves, and not at an event", force, rounding_);
   }
 
-  // Work and dissipation between two full rows: between the products with the smallest and with the largest force,
-  // which a trapezoid is in the middle of; as much again for paths that turn in between.
-  void CheckWork(const Increment& before, const Increment& row) {
-    const bool mpec = row.solve.method == Method::kMpec;
+  // Work and dissipation between two full increments: between the products with the smallest and with the largest
+  // force, which a trapezoid is in the middle of; as much again for paths that turn in between.
+  void CheckWork(const Increment& before, const Increment& increment) {
+    const bool mpec = increment.solve.method == Method::kMpec;
     const double unit = scaling_.force * scaling_.length;
     double along = 0.0, work = 0.0, scaled_loads = 0.0;
     for (const Load& load : scene_.loads) {
       const std::size_t x = 2 * nodes_.at(load.node), y = x + 1;
-      const double product =
-          load.fx * (row.positions[x] - before.positions[x]) + load.fy * (row.positions[y] - before.positions[y]);
+      const double product = load.fx * (increment.positions[x] - before.positions[x]) +
+                             load.fy * (increment.positions[y] - before.positions[y]);
       (load.constant ? work : along) += product;
       if (!load.constant) scaled_loads += std::hypot(load.fx, load.fy);
     }
-    work += 0.5 * (before.load_factor + row.load_factor) * along;
+    work += 0.5 * (before.load_factor + increment.load_factor) * along;
     // Where a force has its largest value on the increment, both ends may be alike. It bends over the length L.
-    const double bend = kBend * std::pow(row.arc_length - before.arc_length, 2);
-    // So may the way of the loads, which goes forth and back then.
-    const double load_change = std::abs(row.load_factor - before.load_factor);
+    const double bend = kBend * std::pow(increment.arc_length - before.arc_length, 2);
+    // So may the branch of the loads, which goes forth and back then.
+    const double load_change = std::abs(increment.load_factor - before.load_factor);
     double open_work =
         (0.5 * load_change * std::abs(along) + bend * (std::abs(work) + load_change * scaled_loads * scaling_.length)) /
         unit;
     if (!scene_.support_motions.empty() || !scene_.obstacle_motions.empty()) {
-      const double from = check_.DrivingForce(StateOf(before)), to = check_.DrivingForce(StateOf(row));
-      const double moved = row.load_factor - before.load_factor;
+      const double from = check_.DrivingForce(StateOf(before)), to = check_.DrivingForce(StateOf(increment));
+      const double moved = increment.load_factor - before.load_factor;
       work += 0.5 * (from + to) * moved;
       open_work += (0.5 * std::abs(to - from) + bend * std::abs(from + to)) * std::abs(moved) / unit;
     }
     double dissipation = 0.0, open_dissipation = 0.0;
     for (std::size_t i = 0; i < surfaces_.size(); ++i) {
-      const ContactState state = row.contacts[i].state, was = before.contacts[i].state;
+      const ContactState state = increment.contacts[i].state, was = before.contacts[i].state;
       const Surface& surface = surfaces_[i];
-      const double slip = std::abs(surface.Slip(before, row));
+      const double slip = std::abs(surface.Slip(before, increment));
       // Where within an increment of mpec it stopped to slip, or turned, is not known.
       if (mpec && Slips(was) && state != was)
-        open_dissipation += surface.friction * std::max(before.contacts[i].rn, row.contacts[i].rn) * slip / unit;
+        open_dissipation += surface.friction * std::max(before.contacts[i].rn, increment.contacts[i].rn) * slip / unit;
       if (!Slips(state)) continue;
-      dissipation += 0.5 * surface.friction * (before.contacts[i].rn + row.contacts[i].rn) * slip;
-      const double rn = before.contacts[i].rn, change = std::abs(row.contacts[i].rn - rn);
+      dissipation += 0.5 * surface.friction * (before.contacts[i].rn + increment.contacts[i].rn) * slip;
+      const double rn = before.contacts[i].rn, change = std::abs(increment.contacts[i].rn - rn);
       // A contact that closes and opens on the increment has no reaction at both ends.
       const double largest = rn + change + scaling_.force;
       open_dissipation += surface.friction * (0.5 * change + bend * largest) * slip / unit;
     }
     if (mpec) open_ += open_work + open_dissipation;
-    if (!OnePiece(row)) return;  // trapezoids over several increments tell too little
+    if (!OnePiece(increment)) return;  // trapezoids over several increments tell too little
     const double slack = kEnergy * result_.work * kSlack + rounding_;
-    const double work_off = std::abs(row.external_work - before.external_work - work) / unit;
+    const double work_off = std::abs(increment.external_work - before.external_work - work) / unit;
     if (!(work_off <= 2.0 * open_work + slack)) Report("work of the loads is off by ", work_off, " of F L");
-    const double dissipation_off = std::abs(row.dissipation - before.dissipation - dissipation) / unit;
+    const double dissipation_off = std::abs(increment.dissipation - before.dissipation - dissipation) / unit;
     if (!(dissipation_off <= 2.0 * open_dissipation + slack))
       Report("dissipation is off by ", dissipation_off, " of F L");
   }
 
-  // The load factor turns between the last three rows where a limit point is, and nowhere else.
+  // The load factor turns between the last three increments where a limit point is, and nowhere else.
   void CheckLimit() {
-    if (row_ < first_ + 2) return;
-    const Increment &a = rows_[row_ - 2], &b = rows_[row_ - 1], &c = rows_[row_];
+    if (increment_ < first_ + 2) return;
+    const Increment &a = increments_[increment_ - 2], &b = increments_[increment_ - 1], &c = increments_[increment_];
     const double before = b.load_factor - a.load_factor, after = c.load_factor - b.load_factor;
     const double level = kTurn * scaling_.load_factor;
-    // mpec tells in the row after.
+    // mpec tells in the increment after.
     const Increment& located = c.solve.method == Method::kBranch ? b : c;
-    const bool limit = located.kind == RowKind::kSmoothLimit || located.kind == RowKind::kCornerLimit;
+    const bool limit = located.kind == IncrementKind::kSmoothLimit || located.kind == IncrementKind::kCornerLimit;
     if (before * after < 0.0 && std::min(std::abs(before), std::abs(after)) > level && !limit)
       Report("the load factor turns without a limit point");
     if (before * after > 0.0 && std::min(std::abs(before), std::abs(after)) > level && limit)
@@ -411,18 +422,19 @@ class Verifier {
 
   void CheckEnergy() {
     const double unit = scaling_.force * scaling_.length;
-    const Increment& start = rows_[first_];
-    const bool mpec = rows_[last_ - 1].solve.method == Method::kMpec;
+    const Increment& start = increments_[first_];
+    const bool mpec = increments_[last_ - 1].solve.method == Method::kMpec;
     const double share = mpec ? kEnergyMpec : kEnergy;
     double pressed = 0.0;  // work of the reactions along the gaps that may be left, or penetrated
-    for (row_ = first_; row_ < last_; ++row_) {
-      const Increment& row = Row();
+    for (increment_ = first_; increment_ < last_; ++increment_) {
+      const Increment& increment = Current();
       double reactions = 0.0;
-      for (const ContactRecord& contact : row.contacts) reactions += std::abs(contact.rn);
+      for (const ContactRecord& contact : increment.contacts) reactions += std::abs(contact.rn);
       if (mpec) pressed = std::max(pressed, kExact * reactions / scaling_.force);
-      const double balance = (row.external_work - start.external_work - (row.strain_energy - start.strain_energy) -
-                              (row.dissipation - start.dissipation)) /
-                             unit;
+      const double balance =
+          (increment.external_work - start.external_work - (increment.strain_energy - start.strain_energy) -
+           (increment.dissipation - start.dissipation)) /
+          unit;
       if (!(std::abs(balance) <= share * result_.work + open_ + pressed + rounding_)) {
         Report("energy balance: ", balance, " of F L, with ", result_.work, " of work done on the whole path");
         return;
@@ -435,15 +447,15 @@ class Verifier {
   const int stage_;
   const std::optional<double> target_;  // of the stage; nothing without a program
   const int full_state_every_;
-  const std::vector<Increment>& rows_;
+  const std::vector<Increment>& increments_;
   const std::size_t first_, last_;
   const Scaling scaling_;
   const ResidualCheck check_;
   std::unordered_map<std::string, std::size_t> nodes_;
   std::vector<Surface> surfaces_;
   std::vector<double> rates_;          // of the fixed components, per unit of the load factor
-  std::size_t row_ = 0;                // being checked
-  std::optional<std::size_t> before_;  // the last full row
+  std::size_t increment_ = 0;          // being checked
+  std::optional<std::size_t> before_;  // the last full increment
   double rounding_ = 0.0;              // of what was recorded, scaled
   double open_ = 0.0;                  // what trapezoids leave open of works and dissipations
   Verification& result_;
@@ -451,28 +463,28 @@ class Verifier {
 
 }  // namespace
 
-Verification VerifyPath(const TraceRequest& request, const std::vector<Increment>& rows) {
+Verification VerifyPath(const TraceRequest& request, const std::vector<Increment>& increments) {
   Verification result;
-  if (rows.empty()) result.findings.push_back({0, "the record has no rows"});
+  if (increments.empty()) result.findings.push_back({0, "the record has no increments"});
   const Scaling of_program = ProgramScales(request);
   std::size_t stage = 0;
-  for (std::size_t first = 0, last = 0; first < rows.size(); first = last, ++stage) {
+  for (std::size_t first = 0, last = 0; first < increments.size(); first = last, ++stage) {
     last = first + 1;
-    while (last < rows.size() && rows[last].stage == rows[first].stage) ++last;
+    while (last < increments.size() && increments[last].stage == increments[first].stage) ++last;
     if (stage >= NumStages(request)) {
       result.findings.push_back({static_cast<int>(first), "is of a stage that the request does not have"});
       break;
     }
-    Verifier(request, of_program, stage, rows, first, last, &result).Run();
-    if (last < rows.size() && !AtTarget(request, rows[last - 1]))
+    Verifier(request, of_program, stage, increments, first, last, &result).Run();
+    if (last < increments.size() && !AtTarget(request, increments[last - 1]))
       result.findings.push_back({static_cast<int>(last - 1), "ends its stage, but not at its target"});
   }
   return result;
 }
 
-bool AtTarget(const TraceRequest& request, const Increment& row) {
-  if (row.stage < 1 || row.stage > static_cast<int>(request.program.size())) return false;
-  return AtTarget(request.program[static_cast<std::size_t>(row.stage) - 1].Target(), row.load_factor);
+bool AtTarget(const TraceRequest& request, const Increment& increment) {
+  if (increment.stage < 1 || increment.stage > static_cast<int>(request.program.size())) return false;
+  return AtTarget(request.program[static_cast<std::size_t>(increment.stage) - 1].Target(), increment.load_factor);
 }
 
 }  // namespace contact_path

@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-#include "contact_path/branch/smooth_piece.h"
+#include "contact_path/branch/smooth_arc.h"
 #include "contact_path/path/model.h"
 #include "support/traced_path.h"
 
@@ -29,10 +29,10 @@ struct Counted {
   Correction correction;
 };
 
-Counted Correct(SmoothPiece* piece, const Eigen::VectorXd& guess, const Eigen::VectorXd& row, double value) {
+Counted Correct(SmoothArc* arc, const Eigen::VectorXd& guess, const Eigen::VectorXd& increment, double value) {
   Counted counted;
   const long before = allocations;
-  counted.correction = piece->Correct(guess, row, value);
+  counted.correction = arc->Correct(guess, increment, value);
   counted.allocations = allocations - before;
   return counted;
 }
@@ -42,15 +42,15 @@ TEST(Allocations, AreAsManyForFewIterationsOfTheCorrectorAsForMany) {
     SCOPED_TRACE(scene);
     const Scene example = ReadExample(scene).scene;
     const Model model(example, CharacteristicScales(example));
-    SmoothPiece piece(model.structure, model.contacts);
+    SmoothArc arc(model.structure, model.contacts);
     const PathPoint start = model.InitialPoint();
-    piece.SetStates(start.states, start);
-    const Eigen::VectorXd x = piece.system().Pack(start);
-    const Eigen::VectorXd row = Eigen::VectorXd::Unit(x.size(), piece.NumMotion() - 1);  // the load factor
-    const Counted warm_up = Correct(&piece, x, row, row.dot(x));
+    arc.SetStates(start.states, start);
+    const Eigen::VectorXd x = arc.system().Pack(start);
+    const Eigen::VectorXd increment = Eigen::VectorXd::Unit(x.size(), arc.NumMotion() - 1);  // the load factor
+    const Counted warm_up = Correct(&arc, x, increment, increment.dot(x));
     static_cast<void>(warm_up);
-    const Counted few = Correct(&piece, x, row, row.dot(x));
-    const Counted many = Correct(&piece, x, row, row.dot(x) + 0.01);
+    const Counted few = Correct(&arc, x, increment, increment.dot(x));
+    const Counted many = Correct(&arc, x, increment, increment.dot(x) + 0.01);
     EXPECT_GT(many.correction.iterations, few.correction.iterations);
     EXPECT_EQ(many.allocations, few.allocations);
     EXPECT_GT(few.allocations, 0);  // the result: counting works

@@ -1,4 +1,4 @@
-// Other ways on than the best one: branch_choices.
+// Other branches than the best one: branch_choices.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,37 +16,37 @@ namespace {
 constexpr double kExact = 2e-13;  // of loads, reactions and positions
 constexpr double kDissipation = 1e-9;
 
-// From any row the bar may stick instead: then b rests, the load falls, r_n stays and r_t goes from -mu r_n to +mu r_n;
-// from there b slips back, at s = -q (x + h mu), q = r_n / h.
+// From any increment the bar may stick instead: then b rests, the load falls, r_n stays and r_t goes from -mu r_n to
+// +mu r_n; from there b slips back, at s = -q (x + h mu), q = r_n / h.
 TEST(BranchChoices, SlidingBarUnloaded) {
   namespace bar = sliding_bar;
-  for (const int row : {5, 15, 24, 40, 55, 65, 72}) {
-    SCOPED_TRACE("from row " + std::to_string(row));
+  for (const int increment : {5, 15, 24, 40, 55, 65, 72}) {
+    SCOPED_TRACE("from increment " + std::to_string(increment));
     TraceRequest request = ReadExample("sliding_bar");
-    request.options.branch_choices = {{0, row, 2}};
+    request.options.branch_choices = {{0, increment, 2}};
     request.options.stop = {{"b.x", "<", -4.9}, {"b.x", ">", 4.95}};
     request.options.max_increments = 3000;
-    const TracedPath path = TraceRows(request);
-    ExpectSoundRows(path, 1e-13);
+    const TracedPath path = TraceIncrements(request);
+    ExpectSoundIncrements(path, 1e-13);
     EXPECT_LE(EnergyImbalance(path), 1e-10);
-    ASSERT_GT(path.rows.size(), static_cast<std::size_t>(row) + 1);
-    const Increment& turn = path.rows[static_cast<std::size_t>(row)];
+    ASSERT_GT(path.increments.size(), static_cast<std::size_t>(increment) + 1);
+    const Increment& turn = path.increments[static_cast<std::size_t>(increment)];
     const double x0 = PositionX(path, turn, "b"), rn = bar::NormalReaction(x0), q = rn / bar::kHeight;
     EXPECT_NEAR(turn.load_factor, bar::LoadFactor(x0), kExact);
-    ASSERT_EQ(turn.event.ways.size(), 2U);
+    ASSERT_EQ(turn.event.branches.size(), 2U);
     EXPECT_EQ(turn.event.taken, 1);
-    EXPECT_EQ(turn.event.ways[0].states[0], ContactState::kSlipPlus);
-    EXPECT_NEAR(turn.event.ways[0].turn, 0.0, 1e-7);
-    EXPECT_EQ(turn.event.ways[1].states[0], ContactState::kStick);
-    EXPECT_NEAR(turn.event.ways[1].load_rate, -1.0, 1e-14);
+    EXPECT_EQ(turn.event.branches[0].states[0], ContactState::kSlipPlus);
+    EXPECT_NEAR(turn.event.branches[0].turn, 0.0, 1e-7);
+    EXPECT_EQ(turn.event.branches[1].states[0], ContactState::kStick);
+    EXPECT_NEAR(turn.event.branches[1].load_rate, -1.0, 1e-14);
     // The load rose before, or it was on the way down already.
-    EXPECT_EQ(turn.kind, bar::LoadFactorSlope(x0) > 0.0 ? RowKind::kCornerLimit : RowKind::kContactEvent);
+    EXPECT_EQ(turn.kind, bar::LoadFactorSlope(x0) > 0.0 ? IncrementKind::kCornerLimit : IncrementKind::kContactEvent);
 
     const double reversal = -q * (x0 + bar::kHeight * bar::kFriction);
     double worst = 0.0, dissipated = 0.0;
     bool reversed = false;
-    for (std::size_t i = static_cast<std::size_t>(row) + 1; i < path.rows.size(); ++i) {
-      const Increment& now = path.rows[i];
+    for (std::size_t i = static_cast<std::size_t>(increment) + 1; i < path.increments.size(); ++i) {
+      const Increment& now = path.increments[i];
       const double x = PositionX(path, now, "b");
       const ContactRecord& contact = now.contacts[0];
       if (contact.state == ContactState::kStick) {
@@ -58,8 +58,8 @@ TEST(BranchChoices, SlidingBarUnloaded) {
       } else {
         ASSERT_EQ(contact.state, ContactState::kSlipMinus);
         if (!reversed) {
-          EXPECT_NE(path.rows[i - 1].kind, RowKind::kRegular);
-          EXPECT_NEAR(path.rows[i - 1].load_factor, reversal, 1e-13);
+          EXPECT_NE(path.increments[i - 1].kind, IncrementKind::kRegular);
+          EXPECT_NEAR(path.increments[i - 1].load_factor, reversal, 1e-13);
         }
         reversed = true;
         const double here = bar::NormalReaction(x);
@@ -73,7 +73,7 @@ TEST(BranchChoices, SlidingBarUnloaded) {
     EXPECT_LE(worst, kExact);
     EXPECT_LE(dissipated, kDissipation);
     EXPECT_EQ(path.result.reason, EndReason::kStopCriterion);
-    EXPECT_LE(PositionX(path, path.rows.back(), "b"), -4.9);
+    EXPECT_LE(PositionX(path, path.increments.back(), "b"), -4.9);
   }
 }
 
@@ -83,14 +83,14 @@ TEST(BranchChoices, HysteresisLoop) {
   TraceRequest request;
   request.scene = SpringAndBlock();
   request.options.max_increments = 900;
-  for (const int row : {60, 200, 340, 480, 620, 760}) request.options.branch_choices.push_back({0, row, 2});
-  const TracedPath path = TraceRows(request);
-  ExpectSoundRows(path, 1e-14);
+  for (const int increment : {60, 200, 340, 480, 620, 760}) request.options.branch_choices.push_back({0, increment, 2});
+  const TracedPath path = TraceIncrements(request);
+  ExpectSoundIncrements(path, 1e-14);
   EXPECT_LE(EnergyImbalance(path), 1e-13);
   std::vector<const Increment*> turns;
   double slid = 0.0, worst = 0.0, area = 0.0;
-  for (std::size_t i = 1; i < path.rows.size(); ++i) {
-    const Increment &before = path.rows[i - 1], &now = path.rows[i];
+  for (std::size_t i = 1; i < path.increments.size(); ++i) {
+    const Increment &before = path.increments[i - 1], &now = path.increments[i];
     const double u = now.positions[0], du = u - before.positions[0];
     slid += std::abs(du);
     area += 0.5 * (before.load_factor + now.load_factor) * du;
@@ -102,7 +102,7 @@ TEST(BranchChoices, HysteresisLoop) {
       EXPECT_EQ(du, 0.0);
       worst = std::max(worst, std::abs(now.contacts[0].rt - (kSpring * u - now.load_factor)));
     }
-    if (now.kind == RowKind::kCornerLimit) turns.push_back(&now);
+    if (now.kind == IncrementKind::kCornerLimit) turns.push_back(&now);
   }
   EXPECT_LE(worst, 1e-13);
   ASSERT_EQ(turns.size(), 6U);
@@ -116,65 +116,67 @@ TEST(BranchChoices, HysteresisLoop) {
 
 // The foot of the rough truss slides and sticks again: it unloads, elastically, from where it is.
 TEST(BranchChoices, ByRowAndByEvent) {
-  const TracedPath plain = TraceRows(ReadExample("rough_truss"));
-  const Increment corner = RowsOfKind(plain, RowKind::kCornerLimit).at(0);
+  const TracedPath plain = TraceIncrements(ReadExample("rough_truss"));
+  const Increment corner = IncrementsOfKind(plain, IncrementKind::kCornerLimit).at(0);
   TraceRequest request = ReadExample("rough_truss");
   request.options.branch_choices = {{0, corner.index + 4, 2}};
-  const TracedPath back = TraceRows(request);
-  ExpectSoundRows(back, 1e-13);
-  const Increment& turn = back.rows[static_cast<std::size_t>(corner.index) + 4];
+  const TracedPath back = TraceIncrements(request);
+  ExpectSoundIncrements(back, 1e-13);
+  const Increment& turn = back.increments[static_cast<std::size_t>(corner.index) + 4];
   EXPECT_EQ(turn.event.taken, 1);
-  EXPECT_EQ(turn.event.ways[1].states[0], ContactState::kStick);
-  EXPECT_EQ(turn.kind, RowKind::kContactEvent);  // the load falls before and after
+  EXPECT_EQ(turn.event.branches[1].states[0], ContactState::kStick);
+  EXPECT_EQ(turn.kind, IncrementKind::kContactEvent);  // the load falls before and after
   const double foot = PositionX(back, turn, "foot"), middle = 0.5 * (foot - 1.0), half = 0.5 * (foot + 1.0);
   const double rest = std::hypot(1.0, rough_truss::kRise);
   double worst = 0.0;
-  for (std::size_t i = static_cast<std::size_t>(turn.index) + 1; i < back.rows.size(); ++i) {
-    const Increment& row = back.rows[i];
-    if (row.contacts[0].state == ContactState::kOpen) break;
-    EXPECT_EQ(row.contacts[0].state, ContactState::kStick);
-    const double y = PositionY(back, row, "apex");
-    worst = std::max({worst, std::abs(row.load_factor - 2.0 * y * (1.0 / std::hypot(half, y) - 1.0 / rest)),
-                      std::abs(PositionX(back, row, "apex") - middle), std::abs(PositionX(back, row, "foot") - foot)});
-    EXPECT_EQ(row.dissipation, turn.dissipation);
+  for (std::size_t i = static_cast<std::size_t>(turn.index) + 1; i < back.increments.size(); ++i) {
+    const Increment& increment = back.increments[i];
+    if (increment.contacts[0].state == ContactState::kOpen) break;
+    EXPECT_EQ(increment.contacts[0].state, ContactState::kStick);
+    const double y = PositionY(back, increment, "apex");
+    worst = std::max({worst, std::abs(increment.load_factor - 2.0 * y * (1.0 / std::hypot(half, y) - 1.0 / rest)),
+                      std::abs(PositionX(back, increment, "apex") - middle),
+                      std::abs(PositionX(back, increment, "foot") - foot)});
+    EXPECT_EQ(increment.dissipation, turn.dissipation);
   }
   EXPECT_LE(worst, kExact);
 
-  // The best way, asked for at the first event: the same path as without asking.
+  // The best branch, asked for at the first event: the same path as without asking.
   request.options.branch_choices = {{1, 0, 1}};
-  const TracedPath best = TraceRows(request);
-  ASSERT_EQ(best.rows.size(), plain.rows.size());
-  EXPECT_EQ(best.rows.back().positions, plain.rows.back().positions);
-  // A way that is not there ends the path, and says so.
+  const TracedPath best = TraceIncrements(request);
+  ASSERT_EQ(best.increments.size(), plain.increments.size());
+  EXPECT_EQ(best.increments.back().positions, plain.increments.back().positions);
+  // A branch that is not there ends the path, and says so.
   request.options.branch_choices = {{1, 0, 7}};
-  const TracedPath none = TraceRows(request);
+  const TracedPath none = TraceIncrements(request);
   EXPECT_EQ(none.result.reason, EndReason::kNumericalFailure);
-  EXPECT_NE(none.result.message.find("way 7 at event 1"), std::string::npos) << none.result.message;
-  EXPECT_EQ(none.rows.size(), static_cast<std::size_t>(corner.index) + 1);
+  EXPECT_NE(none.result.message.find("branch 7 at event 1"), std::string::npos) << none.result.message;
+  EXPECT_EQ(none.increments.size(), static_cast<std::size_t>(corner.index) + 1);
   // A choice that the path never comes to is mentioned.
   request.options.branch_choices = {{9, 0, 2}, {0, 5000, 1}};
-  const TracedPath unused = TraceRows(request);
-  EXPECT_EQ(unused.rows.size(), plain.rows.size());
-  EXPECT_NE(unused.result.message.find("never came to event 9, row 5000"), std::string::npos) << unused.result.message;
+  const TracedPath unused = TraceIncrements(request);
+  EXPECT_EQ(unused.increments.size(), plain.increments.size());
+  EXPECT_NE(unused.result.message.find("never came to event 9, increment 5000"), std::string::npos)
+      << unused.result.message;
 }
 
-// All ways but the way back are on record: where sticking ends, sticking on is the way back.
-TEST(BranchChoices, WaysOnRecord) {
-  const TracedPath path = TraceRows(ReadExample("two_dof_friction"));
-  for (const Increment& row : path.rows) {
-    const bool event = row.kind != RowKind::kRegular;
-    EXPECT_EQ(row.event.ways.empty(), !event) << row.index;
-    EXPECT_EQ(row.event.taken, event ? 0 : -1);
-    EXPECT_TRUE(row.event.complete);
-    EXPECT_EQ(row.event.concerned, row.kind == RowKind::kCornerLimit ? 1 : 0);
+// All branches but the branch of arrival are on record: where sticking ends, sticking on is the branch of arrival.
+TEST(BranchChoices, BranchesOnRecord) {
+  const TracedPath path = TraceIncrements(ReadExample("two_dof_friction"));
+  for (const Increment& increment : path.increments) {
+    const bool event = increment.kind != IncrementKind::kRegular;
+    EXPECT_EQ(increment.event.branches.empty(), !event) << increment.index;
+    EXPECT_EQ(increment.event.taken, event ? 0 : -1);
+    EXPECT_TRUE(increment.event.complete);
+    EXPECT_EQ(increment.event.weakly_active, increment.kind == IncrementKind::kCornerLimit ? 1 : 0);
   }
-  const std::vector<Increment> corners = RowsOfKind(path, RowKind::kCornerLimit);
+  const std::vector<Increment> corners = IncrementsOfKind(path, IncrementKind::kCornerLimit);
   ASSERT_EQ(corners.size(), 2U);
-  ASSERT_EQ(corners[0].event.ways.size(), 1U);
-  EXPECT_EQ(corners[0].event.ways[0].states[0], ContactState::kSlipPlus);
-  EXPECT_LT(corners[0].event.ways[0].load_rate, 0.0);
-  EXPECT_GT(corners[0].event.ways[0].dissipation_rate, 0.0);
-  EXPECT_EQ(corners[1].event.ways[0].states[0], ContactState::kOpen);
+  ASSERT_EQ(corners[0].event.branches.size(), 1U);
+  EXPECT_EQ(corners[0].event.branches[0].states[0], ContactState::kSlipPlus);
+  EXPECT_LT(corners[0].event.branches[0].load_rate, 0.0);
+  EXPECT_GT(corners[0].event.branches[0].dissipation_rate, 0.0);
+  EXPECT_EQ(corners[1].event.branches[0].states[0], ContactState::kOpen);
 }
 
 }  // namespace

@@ -15,10 +15,11 @@ namespace contact_path {
 namespace {
 
 std::vector<Increment> Events(const TracedPath& path) {
-  std::vector<Increment> rows;
-  for (const Increment& row : path.rows)
-    if (row.kind != RowKind::kRegular && row.kind != RowKind::kStart) rows.push_back(row);
-  return rows;
+  std::vector<Increment> increments;
+  for (const Increment& increment : path.increments)
+    if (increment.kind != IncrementKind::kRegular && increment.kind != IncrementKind::kStart)
+      increments.push_back(increment);
+  return increments;
 }
 
 ContactState MirrorState(ContactState state) {
@@ -45,14 +46,14 @@ class Arch : public testing::TestWithParam<std::pair<Accuracy, double>> {
     const std::vector<std::pair<std::string, std::string>> pairs = {
         {"d", "i"}, {"a", "g"}, {"e", "j"}, {"b", "h"}, {"f", "k"}};
     double worst = 0.0;
-    for (const Increment& row : path.rows) {
-      worst = std::max(worst, std::abs(PositionX(path, row, "c")));
+    for (const Increment& increment : path.increments) {
+      worst = std::max(worst, std::abs(PositionX(path, increment, "c")));
       for (const auto& [right, left] : pairs)
-        worst = std::max({worst, std::abs(PositionX(path, row, right) + PositionX(path, row, left)),
-                          std::abs(PositionY(path, row, right) - PositionY(path, row, left))});
-      for (std::size_t i = 0; i < row.contacts.size(); i += 2) {
-        const ContactRecord &a = row.contacts[i], &b = row.contacts[i + 1];
-        EXPECT_EQ(a.state, MirrorState(b.state)) << "row " << row.index;
+        worst = std::max({worst, std::abs(PositionX(path, increment, right) + PositionX(path, increment, left)),
+                          std::abs(PositionY(path, increment, right) - PositionY(path, increment, left))});
+      for (std::size_t i = 0; i < increment.contacts.size(); i += 2) {
+        const ContactRecord &a = increment.contacts[i], &b = increment.contacts[i + 1];
+        EXPECT_EQ(a.state, MirrorState(b.state)) << "increment " << increment.index;
         worst = std::max({worst, std::abs(a.rn - b.rn), std::abs(a.rt + b.rt)});
       }
     }
@@ -62,79 +63,81 @@ class Arch : public testing::TestWithParam<std::pair<Accuracy, double>> {
 
 // A, B and C, as they are known from an independent computation on the half model.
 TEST_P(Arch, UpToTheStop) {
-  const TracedPath path = TraceRows(Request({"a.y", ">", 2.9}));
+  const TracedPath path = TraceIncrements(Request({"a.y", ">", 2.9}));
   EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
-  ExpectSoundRows(path, 1e-11);
+  ExpectSoundIncrements(path, 1e-11);
   EXPECT_LE(Asymmetry(path), 1e-9);
   EXPECT_LE(EnergyImbalance(path), 1e-9);
   // A: f and k slide inwards from the start; t = (-1, 0) on a ceiling.
-  ASSERT_GT(path.rows.size(), 2U);
-  EXPECT_EQ(Contact(path, path.rows[1], "f@roof_f").state, ContactState::kSlipPlus);
-  EXPECT_LT(PositionX(path, path.rows[1], "f"), PositionX(path, path.rows[0], "f"));
-  ASSERT_EQ(path.rows[0].event.ways.size(), 3U);  // both slide, or one of them, twice
+  ASSERT_GT(path.increments.size(), 2U);
+  EXPECT_EQ(Contact(path, path.increments[1], "f@roof_f").state, ContactState::kSlipPlus);
+  EXPECT_LT(PositionX(path, path.increments[1], "f"), PositionX(path, path.increments[0], "f"));
+  ASSERT_EQ(path.increments[0].event.branches.size(), 3U);  // both slide, or one of them, twice
   const std::vector<Increment> events = Events(path);
   ASSERT_EQ(events.size(), 2U);
   // B
-  EXPECT_EQ(events[0].kind, RowKind::kSmoothLimit);
+  EXPECT_EQ(events[0].kind, IncrementKind::kSmoothLimit);
   EXPECT_NEAR(events[0].load_factor, 0.03558, 5e-6);
   EXPECT_NEAR(PositionY(path, events[0], "a"), 2.68, 5e-3);
   EXPECT_NEAR(events[0].load_factor, 0.0355808181879, 1e-12);
   EXPECT_NEAR(PositionY(path, events[0], "a"), 2.68254718989, 1e-9);
   // C: e and j touch while f still slides inwards; then the load rises again.
-  EXPECT_EQ(events[1].kind, RowKind::kCornerLimit);
+  EXPECT_EQ(events[1].kind, IncrementKind::kCornerLimit);
   EXPECT_NEAR(events[1].load_factor, 0.03532, 5e-6);
   EXPECT_NEAR(PositionY(path, events[1], "a"), 2.8529, 5e-5);
   EXPECT_NEAR(events[1].load_factor, 0.0353215634226, 1e-12);
   EXPECT_NEAR(Contact(path, events[1], "e@roof_e").gap, 0.0, 1e-11);
   EXPECT_NEAR(Contact(path, events[1], "j@roof_e").gap, 0.0, 1e-11);
   EXPECT_EQ(Contact(path, events[1], "f@roof_f").state, ContactState::kSlipPlus);
-  EXPECT_EQ(Contact(path, path.rows.back(), "e@roof_e").state, ContactState::kSlipPlus);
-  EXPECT_GT(path.rows.back().load_factor, events[1].load_factor);
+  EXPECT_EQ(Contact(path, path.increments.back(), "e@roof_e").state, ContactState::kSlipPlus);
+  EXPECT_GT(path.increments.back().load_factor, events[1].load_factor);
 }
 
-// Beyond the stop of the scene, until it hangs loose. What happens, and the loads, are the same however it is stepped.
+// Beyond the stop of the scene, until it hangs mechanism. What happens, and the loads, are the same however it is
+// stepped.
 TEST_P(Arch, ToItsEnd) {
-  const TracedPath path = TraceRows(Request({"a.y", ">", 30.0}));
+  const TracedPath path = TraceIncrements(Request({"a.y", ">", 30.0}));
   EXPECT_EQ(path.result.reason, EndReason::kPathEnd);
-  EXPECT_NE(path.result.message.find("come loose"), std::string::npos) << path.result.message;
+  EXPECT_NE(path.result.message.find("become a mechanism"), std::string::npos) << path.result.message;
   EXPECT_LE(Asymmetry(path), 1e-9);
   EXPECT_LE(EnergyImbalance(path), GetParam() == std::make_pair(Accuracy::kBalanced, 0.0) ? 1e-11 : 2e-8);
-  for (std::size_t i = 1; i < path.rows.size(); ++i) {
-    EXPECT_LE(std::max(path.rows[i].residuals.equilibrium, path.rows[i].residuals.Contact()), 1e-9) << "row " << i;
-    EXPECT_GE(path.rows[i].dissipation, path.rows[i - 1].dissipation);
+  for (std::size_t i = 1; i < path.increments.size(); ++i) {
+    EXPECT_LE(std::max(path.increments[i].residuals.equilibrium, path.increments[i].residuals.Contact()), 1e-9)
+        << "increment " << i;
+    EXPECT_GE(path.increments[i].dissipation, path.increments[i - 1].dissipation);
   }
   struct Expected {
-    RowKind kind;
+    IncrementKind kind;
     double load, arc_length, dissipation;
-    const char* f;  // state of f and of e on the piece after the event
+    const char* f;  // state of f and of e on the arc after the event
     const char* e;
   };
   const std::vector<Expected> expected = {
-      {RowKind::kSmoothLimit, 0.0355808181879, 4.031655663, 0.001169566112, "slip+", "open"},
-      {RowKind::kCornerLimit, 0.0353215634226, 4.276381517, 0.001192731552, "slip+", "slip+"},
-      {RowKind::kContactEvent, 0.0854623234107, 5.452296207, 0.002879757976, "stick", "slip+"},
-      {RowKind::kSmoothLimit, 0.0868624974956, 5.681085787, 0.002989904462, "stick", "slip+"},
-      {RowKind::kBifurcation, 0.08686068, 5.689117, 0.00299026435, "stick", "slip+"},
-      {RowKind::kContactEvent, 0.0868557086463, 5.696597771, 0.002990373614, "stick", "stick"},
-      {RowKind::kContactEvent, 0.0851754325154, 5.926992041, 0.002990373614, "slip+", "stick"},
-      {RowKind::kContactEvent, 0.0629090331819, 6.598988365, 0.003066348579, "stick", "slip-"},
-      {RowKind::kContactEvent, 0.0475859101538, 6.725952340, 0.003647779472, "slip-", "slip-"},
-      {RowKind::kCornerLimit, 0.0340662155164, 6.803715325, 0.003922604706, "stick", "open"},
-      {RowKind::kBifurcation, 0.03921602, 7.528398, 0.003922604706, "stick", "open"},
-      {RowKind::kSmoothLimit, 0.0393308238945, 7.661865485, 0.003922604706, "stick", "open"},
-      {RowKind::kContactEvent, 0.0359270389377, 8.423959592, 0.003922604706, "slip-", "open"},
-      {RowKind::kContactEvent, 0.0, 11.662021098, 0.005032026459, "", ""}};
+      {IncrementKind::kSmoothLimit, 0.0355808181879, 4.031655663, 0.001169566112, "slip+", "open"},
+      {IncrementKind::kCornerLimit, 0.0353215634226, 4.276381517, 0.001192731552, "slip+", "slip+"},
+      {IncrementKind::kContactEvent, 0.0854623234107, 5.452296207, 0.002879757976, "stick", "slip+"},
+      {IncrementKind::kSmoothLimit, 0.0868624974956, 5.681085787, 0.002989904462, "stick", "slip+"},
+      {IncrementKind::kBifurcation, 0.08686068, 5.689117, 0.00299026435, "stick", "slip+"},
+      {IncrementKind::kContactEvent, 0.0868557086463, 5.696597771, 0.002990373614, "stick", "stick"},
+      {IncrementKind::kContactEvent, 0.0851754325154, 5.926992041, 0.002990373614, "slip+", "stick"},
+      {IncrementKind::kContactEvent, 0.0629090331819, 6.598988365, 0.003066348579, "stick", "slip-"},
+      {IncrementKind::kContactEvent, 0.0475859101538, 6.725952340, 0.003647779472, "slip-", "slip-"},
+      {IncrementKind::kCornerLimit, 0.0340662155164, 6.803715325, 0.003922604706, "stick", "open"},
+      {IncrementKind::kBifurcation, 0.03921602, 7.528398, 0.003922604706, "stick", "open"},
+      {IncrementKind::kSmoothLimit, 0.0393308238945, 7.661865485, 0.003922604706, "stick", "open"},
+      {IncrementKind::kContactEvent, 0.0359270389377, 8.423959592, 0.003922604706, "slip-", "open"},
+      {IncrementKind::kContactEvent, 0.0, 11.662021098, 0.005032026459, "", ""}};
   const std::vector<Increment> events = Events(path);
   ASSERT_EQ(events.size(), expected.size());
   for (std::size_t i = 0; i < events.size(); ++i) {
     SCOPED_TRACE("event " + std::to_string(i));
-    const bool crossing = expected[i].kind == RowKind::kBifurcation;  // located by the sign of a determinant
+    const bool crossing = expected[i].kind == IncrementKind::kBifurcation;  // located by the sign of a determinant
     EXPECT_EQ(ToString(events[i].kind), ToString(expected[i].kind));
     EXPECT_NEAR(events[i].load_factor, expected[i].load, crossing ? 2e-8 : 1e-11);
     EXPECT_NEAR(events[i].arc_length, expected[i].arc_length, crossing ? 1e-5 : 1e-7);
     EXPECT_NEAR(events[i].dissipation, expected[i].dissipation, crossing ? 1e-8 : 1e-9);
     if (i + 1 == events.size()) continue;
-    const Increment& next = path.rows[static_cast<std::size_t>(events[i].index) + 1];
+    const Increment& next = path.increments[static_cast<std::size_t>(events[i].index) + 1];
     EXPECT_EQ(ToString(Contact(path, next, "f@roof_f").state), expected[i].f);
     EXPECT_EQ(ToString(Contact(path, next, "e@roof_e").state), expected[i].e);
   }
@@ -156,42 +159,43 @@ TraceRequest TwoFeet(double friction) {
   return request;
 }
 
-// Both feet stick up to the load at which one of them would slide, if the other one were pinned; then both slide.
+// Both feet stick up to the load at which one of them would slide, if the other one were active; then both slide.
 TEST(RestingStructure, SlidesApartOnBothFeet) {
-  const TracedPath path = TraceRows(TwoFeet(rough_truss::kFriction));
+  const TracedPath path = TraceIncrements(TwoFeet(rough_truss::kFriction));
   EXPECT_EQ(path.result.reason, EndReason::kStopCriterion);
-  ExpectSoundRows(path, 1e-13);
+  ExpectSoundIncrements(path, 1e-13);
   EXPECT_LE(EnergyImbalance(path), 1e-12);
   double worst = 0.0;
-  for (const Increment& row : path.rows) {
-    const double left = PositionX(path, row, "left"), right = PositionX(path, row, "foot");
-    worst = std::max({worst, std::abs(left + right), std::abs(PositionX(path, row, "apex")),
-                      std::abs(row.contacts[0].rn - 0.5 * row.load_factor),
-                      std::abs(row.contacts[0].rt + row.contacts[1].rt)});
-    if (row.contacts[1].state == ContactState::kStick)
-      worst = std::max(worst, std::abs(row.load_factor - rough_truss::StickingLoad(PositionY(path, row, "apex"))));
+  for (const Increment& increment : path.increments) {
+    const double left = PositionX(path, increment, "left"), right = PositionX(path, increment, "foot");
+    worst = std::max({worst, std::abs(left + right), std::abs(PositionX(path, increment, "apex")),
+                      std::abs(increment.contacts[0].rn - 0.5 * increment.load_factor),
+                      std::abs(increment.contacts[0].rt + increment.contacts[1].rt)});
+    if (increment.contacts[1].state == ContactState::kStick)
+      worst = std::max(worst,
+                       std::abs(increment.load_factor - rough_truss::StickingLoad(PositionY(path, increment, "apex"))));
     else  // as far apart as with one foot sliding
-      worst = std::max({worst, std::abs(row.load_factor - rough_truss::SlidingLoad(2.0 * right - 1.0)),
-                        std::abs(row.dissipation - rough_truss::Dissipation(2.0 * right - 1.0))});
-    EXPECT_EQ(row.contacts[0].state, MirrorState(row.contacts[1].state));
+      worst = std::max({worst, std::abs(increment.load_factor - rough_truss::SlidingLoad(2.0 * right - 1.0)),
+                        std::abs(increment.dissipation - rough_truss::Dissipation(2.0 * right - 1.0))});
+    EXPECT_EQ(increment.contacts[0].state, MirrorState(increment.contacts[1].state));
   }
   EXPECT_LE(worst, 1e-12);
   const std::vector<Increment> events = Events(path);
   ASSERT_FALSE(events.empty());
-  EXPECT_EQ(events[0].kind, RowKind::kCornerLimit);
+  EXPECT_EQ(events[0].kind, IncrementKind::kCornerLimit);
   EXPECT_NEAR(events[0].load_factor, rough_truss::CornerLoad(), 1e-14);
-  EXPECT_NEAR(path.rows.back().dissipation, rough_truss::TotalDissipation(), 1e-12);
+  EXPECT_NEAR(path.increments.back().dissipation, rough_truss::TotalDissipation(), 1e-12);
 }
 
 // On too smooth a floor it gives way at once: there is no equilibrium, not even under the smallest load.
 TEST(RestingStructure, GivesWayAtOnce) {
   for (const double friction : {0.0, 0.5, 0.8}) {  // 1 / 1.2 would hold
-    const TracedPath path = TraceRows(TwoFeet(friction));
+    const TracedPath path = TraceIncrements(TwoFeet(friction));
     EXPECT_EQ(path.result.reason, EndReason::kPathEnd);
-    EXPECT_EQ(path.rows.size(), 1U);
+    EXPECT_EQ(path.increments.size(), 1U);
   }
-  const TracedPath holds = TraceRows(TwoFeet(0.84));
-  EXPECT_GT(holds.rows.size(), 2U);
+  const TracedPath holds = TraceIncrements(TwoFeet(0.84));
+  EXPECT_GT(holds.increments.size(), 2U);
 }
 
 // ----- many contacts at once -----
@@ -238,17 +242,17 @@ TEST(Strip, TwelveNodesTouchAtOnce) {
     SCOPED_TRACE("mu " + std::to_string(friction));
     TraceRequest request = Strip(friction, 1.0, 0.5, Constant(0.0), Constant(-1.0));
     request.options.stop = {{"load_factor", ">", 0.3}};
-    const TracedPath path = TraceRows(request);
+    const TracedPath path = TraceIncrements(request);
     EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
-    ExpectSoundRows(path, 1e-12);
+    ExpectSoundIncrements(path, 1e-12);
     EXPECT_LE(EnergyImbalance(path), 1e-11);
     const std::vector<Increment> events = Events(path);
     ASSERT_FALSE(events.empty());
     const Increment& touch = events[0];
     EXPECT_NEAR(touch.load_factor, 0.05, 1e-13);
-    EXPECT_EQ(touch.event.concerned, kColumns);
+    EXPECT_EQ(touch.event.weakly_active, kColumns);
     EXPECT_EQ(touch.event.complete, friction == 0.0);  // 2^12 are tried
-    const Increment& next = path.rows[static_cast<std::size_t>(touch.index) + 1];
+    const Increment& next = path.increments[static_cast<std::size_t>(touch.index) + 1];
     for (std::size_t i = 0; i < kColumns; ++i) {
       EXPECT_NEAR(touch.contacts[i].gap, 0.0, 1e-13);
       EXPECT_NE(next.contacts[i].state, ContactState::kOpen);
@@ -262,9 +266,9 @@ TEST(Strip, TwelveNodesTouchAtOnce) {
       EXPECT_EQ(next.contacts[kColumns - 1].state, ContactState::kSlipPlus);
     }
     double asymmetry = 0.0;
-    for (const Increment& row : path.rows) {
+    for (const Increment& increment : path.increments) {
       for (std::size_t i = 0; i < kColumns; ++i) {
-        const ContactRecord &a = row.contacts[i], &b = row.contacts[kColumns - 1 - i];
+        const ContactRecord &a = increment.contacts[i], &b = increment.contacts[kColumns - 1 - i];
         EXPECT_EQ(a.state, MirrorState(b.state));
         asymmetry = std::max({asymmetry, std::abs(a.rn - b.rn), std::abs(a.rt + b.rt)});
       }
@@ -281,7 +285,7 @@ class UnevenStrip : public testing::TestWithParam<double> {
     for (int i = 0; i < kColumns; ++i)
       request.scene.nodes[static_cast<std::size_t>(2 * i)].y += unevenness * std::sin(1.0 + 2.3 * i);
     request.options.stop = {{"load_factor", ">", 0.3}};
-    return TraceRows(request);
+    return TraceIncrements(request);
   }
 };
 
@@ -290,10 +294,10 @@ TEST_P(UnevenStrip, TouchesAlmostAtOnce) {
   // Known limit: gaps that differ by just the tolerance, some within and some beyond. The trace ends there, by name.
   if (GetParam() == 1e-10 && path.result.reason == EndReason::kStepTooSmall) return;
   ASSERT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
-  const Increment &a = path.rows.back(), &b = even.rows.back();
+  const Increment &a = path.increments.back(), &b = even.increments.back();
   for (std::size_t i = 0; i < kColumns; ++i) {
     EXPECT_EQ(a.contacts[i].state, ContactState::kStick) << i;
-    // Per unit of load: the last rows are not at the same load.
+    // Per unit of load: the last increments are not at the same load.
     const double rate_a = a.contacts[i].rn / (a.load_factor - 0.05), rate_b = b.contacts[i].rn / (b.load_factor - 0.05);
     EXPECT_NEAR(rate_a, rate_b, 2e-3 + 100.0 * GetParam()) << i;
   }
@@ -304,21 +308,23 @@ TEST_P(UnevenStrip, TouchesAlmostAtOnce) {
 INSTANTIATE_TEST_SUITE_P(Unevenness, UnevenStrip,
                          testing::Values(1e-14, 1e-12, 1e-11, 3e-11, 3e-10, 1e-9, 1e-8, 1e-7, 1e-5));
 
-// Next to the tolerance some nodes count as touching and others do not, and the tracer may not find a way between: a
-// known limit. Then it says so (step_too_small) where they touch, and no row before that is wrong.
+// Next to the tolerance some nodes count as touching and others do not, and the tracer may not find a branch between: a
+// known limit. Then it says so (step_too_small) where they touch, and no increment before that is wrong.
 TEST(UnevenStripNextToTheTolerance, EndsHonestlyOrPasses) {
   for (const double unevenness : {5e-11, 7e-11, 8.5e-11, 1e-10, 1.2e-10, 1.5e-10, 2e-10}) {
     SCOPED_TRACE("unevenness " + std::to_string(unevenness * 1e12) + "e-12");
     const TracedPath path = UnevenStrip::Trace(unevenness);
-    ASSERT_FALSE(path.rows.empty());
-    for (const Increment& row : path.rows)
-      EXPECT_LE(std::max(row.residuals.equilibrium, row.residuals.Contact()), 1e-9) << "row " << row.index;
+    ASSERT_FALSE(path.increments.empty());
+    for (const Increment& increment : path.increments)
+      EXPECT_LE(std::max(increment.residuals.equilibrium, increment.residuals.Contact()), 1e-9)
+          << "increment " << increment.index;
     if (path.result.reason == EndReason::kStopCriterion) {
-      for (const ContactRecord& contact : path.rows.back().contacts) EXPECT_EQ(contact.state, ContactState::kStick);
+      for (const ContactRecord& contact : path.increments.back().contacts)
+        EXPECT_EQ(contact.state, ContactState::kStick);
       continue;
     }
     EXPECT_EQ(path.result.reason, EndReason::kStepTooSmall) << path.result.message;
-    EXPECT_NEAR(path.rows.back().load_factor, 0.05, 1e-9);
+    EXPECT_NEAR(path.increments.back().load_factor, 0.05, 1e-9);
   }
 }
 
@@ -339,31 +345,31 @@ class PushedStrip : public testing::Test {
 };
 
 TEST_F(PushedStrip, SlipsNodeByNode) {
-  const TracedPath path = TraceRows(Request());
+  const TracedPath path = TraceIncrements(Request());
   EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
-  ExpectSoundRows(path, 1e-12);
+  ExpectSoundIncrements(path, 1e-12);
   EXPECT_LE(EnergyImbalance(path), 1e-10);
   const std::vector<Increment> events = Events(path);
   EXPECT_GE(events.size(), 14U);
   int touching = 0, slipping = 0;
-  for (const ContactRecord& contact : path.rows.back().contacts) {
+  for (const ContactRecord& contact : path.increments.back().contacts) {
     touching += contact.state != ContactState::kOpen ? 1 : 0;
     slipping += contact.state == ContactState::kSlipPlus || contact.state == ContactState::kSlipMinus ? 1 : 0;
   }
   EXPECT_GE(touching, 10);
   EXPECT_GE(slipping, 4);
-  EXPECT_GT(path.rows.back().dissipation, 0.0);
+  EXPECT_GT(path.increments.back().dissipation, 0.0);
 }
 
 TEST_F(PushedStrip, SameForAllStepsAndInOtherFrames) {
-  const TracedPath path = TraceRows(Request());
+  const TracedPath path = TraceIncrements(Request());
   const std::vector<Increment> expected = Events(path);
   for (const double step : {0.004, 0.1}) {
     SCOPED_TRACE("step " + std::to_string(step));
     TraceRequest request = Request();
     request.options.step = step;
-    const std::vector<Increment> actual = Events(TraceRows(request));
-    // The rows stop at different loads: one may have seen an event more.
+    const std::vector<Increment> actual = Events(TraceIncrements(request));
+    // The increments stop at different loads: one may have seen an event more.
     ASSERT_NEAR(static_cast<double>(actual.size()), static_cast<double>(expected.size()), 1.0);
     for (std::size_t i = 0; i < std::min(actual.size(), expected.size()); ++i) {
       EXPECT_EQ(ToString(actual[i].kind), ToString(expected[i].kind)) << i;
@@ -372,10 +378,10 @@ TEST_F(PushedStrip, SameForAllStepsAndInOtherFrames) {
       for (std::size_t k = 0; k < kColumns; ++k) EXPECT_EQ(actual[i].contacts[k].state, expected[i].contacts[k].state);
     }
   }
-  ExpectSamePath(UndoMirror(TraceRows(Mirror(Request()))), path, 1e-9);
-  ExpectSamePath(UndoReversal(TraceRows(Reverse(Request()))), path, 1e-9);
-  ExpectSamePath(UndoUnits(TraceRows(ChangeUnits(Request(), 1e-3, 1e6)), 1e-3, 1e6), path, 1e-9);
-  ExpectSamePath(UndoRotation(TraceRows(Rotate(Request(), 0.65)), 0.65), path, 1e-9);
+  ExpectSamePath(UndoMirror(TraceIncrements(Mirror(Request()))), path, 1e-9);
+  ExpectSamePath(UndoReversal(TraceIncrements(Reverse(Request()))), path, 1e-9);
+  ExpectSamePath(UndoUnits(TraceIncrements(ChangeUnits(Request(), 1e-3, 1e6)), 1e-3, 1e6), path, 1e-9);
+  ExpectSamePath(UndoRotation(TraceIncrements(Rotate(Request(), 0.65)), 0.65), path, 1e-9);
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 namespace contact_path {
 
 // A node that passes under the top of a circle: a von Mises truss (half span 1, rise 1, load (0, -s) at the apex) and a
-// node q, without load, on bars from the apex and from the pinned point c = (0.5, 1). The bars of q stay without
+// node q, without load, on bars from the apex and from the active point c = (0.5, 1). The bars of q stay without
 // stress, so q moves on the circle of radius 0.5 about c and is on top of it, at (0.5, 1.5), where the apex is at y =
 // 0.9. Ceiling over q at the height `clearance` above the circle; 0: it touches the circle.
 namespace swing {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "branch/model_point.h"
-#include "contact_path/branch/smooth_piece.h"
+#include "contact_path/branch/smooth_arc.h"
 #include "contact_path/path/model.h"
 #include "contact_path/path/trace.h"
 #include "contact_path/scene/scaling.h"
@@ -32,14 +32,14 @@ constexpr double kTouching = 1e-9;  // scaled
 enum class Cause {
   kNone,
   // A node without load on bars without stress, two of which come in line, or fold: the path reaches, exactly, a point
-  // where it crosses another one (the taut bars) and where it turns itself: all happenings coincide.
+  // where it crosses another one (the taut bars) and where it turns itself: all events coincide.
   kHinge,
   // A node between two obstacles: more reactions than equations, their split is not determined, nor is what follows
   // from it.
   kWedge,
   // Parts that move without any change of load and reactions: where to is not determined.
-  kLoose,
-  // The constant loads cannot be brought on: there is no way, or a very long one.
+  kMechanism,
+  // The constant loads cannot be brought on: there is no branch, or a very long one.
   kPreload,
   kUnexplained,
 };
@@ -49,7 +49,7 @@ const char* ToString(Cause cause) {
     case Cause::kNone: return "none";
     case Cause::kHinge: return "hinge";
     case Cause::kWedge: return "wedge";
-    case Cause::kLoose: return "loose";
+    case Cause::kMechanism: return "mechanism";
     case Cause::kPreload: return "preload";
     case Cause::kUnexplained: return "unexplained";
   }
@@ -59,12 +59,12 @@ const char* ToString(Cause cause) {
 // Those of 1..kSeeds whose traces are not all the same, with the cause.
 const std::map<unsigned, Cause>& ListedDifferences() {
   static const std::map<unsigned, Cause> listed = {
-      {14, Cause::kLoose},   // comes loose at s = 0: how many of the free motions are named depends on the order
-      {86, Cause::kWedge},   // fast: the cone of a redundant reaction is reached 1e-7 earlier
-      {92, Cause::kLoose},   // a four-bar chain hangs free from the start
-      {213, Cause::kLoose},  // short steps: what is free is named in two ways
-      {267, Cause::kLoose},  // fast: a reaction and its cone vanish together, while a hinge is free
-      {281, Cause::kWedge},  // held by two obstacles, it rests as slip+ in the mirror image, too
+      {14, Cause::kMechanism},  // comes mechanism at s = 0: how many of the free motions are named depends on the order
+      {86, Cause::kWedge},      // fast: the cone of a redundant reaction is reached 1e-7 earlier
+      {92, Cause::kMechanism},  // a four-bar chain hangs free from the start
+      {213, Cause::kMechanism},  // short steps: what is free is named in two branches
+      {267, Cause::kMechanism},  // fast: a reaction and its cone vanish together, while a hinge is free
+      {281, Cause::kWedge},      // held by two obstacles, it rests as slip+ in the mirror image, too
   };
   return listed;
 }
@@ -75,32 +75,38 @@ const std::map<unsigned, Cause>& ListedFailures() {
   return listed;
 }
 
-bool Reached(const TracedPath& path) { return !path.rows.empty() && path.rows.back().arc_length > kArcLength; }
-bool CameLoose(const TracedPath& path) { return path.result.message.find("come loose") != std::string::npos; }
-bool InPreload(const TracedPath& path) { return path.rows.empty(); }
+bool Reached(const TracedPath& path) {
+  return !path.increments.empty() && path.increments.back().arc_length > kArcLength;
+}
+bool BecameAMechanism(const TracedPath& path) {
+  return path.result.message.find("become a mechanism") != std::string::npos;
+}
+bool InPreload(const TracedPath& path) { return path.increments.empty(); }
 
-// Rows where something happens, the start and the end of the path among them; not too near to where tracing stopped.
+// Increments where something happens, the start and the end of the path among them; not too near to where tracing
+// stopped.
 std::vector<const Increment*> Events(const TracedPath& path) {
-  std::vector<const Increment*> rows;
-  for (const Increment& row : path.rows)
-    if (row.kind != RowKind::kRegular && row.arc_length < kArcLength - 1e-3) rows.push_back(&row);
-  return rows;
+  std::vector<const Increment*> increments;
+  for (const Increment& increment : path.increments)
+    if (increment.kind != IncrementKind::kRegular && increment.arc_length < kArcLength - 1e-3)
+      increments.push_back(&increment);
+  return increments;
 }
 
 // ----- causes -----
 
-bool IsWedged(const TracedPath& path, const Increment& row) {
+bool IsWedged(const TracedPath& path, const Increment& increment) {
   const Scaling scaling = CharacteristicScales(path.request.scene);
   std::set<std::string> touching;
-  for (std::size_t i = 0; i < row.contacts.size(); ++i)
-    if (row.contacts[i].gap < kTouching * scaling.length &&
+  for (std::size_t i = 0; i < increment.contacts.size(); ++i)
+    if (increment.contacts[i].gap < kTouching * scaling.length &&
         !touching.insert(path.request.scene.contacts[i].node).second)
       return true;
   return false;
 }
 
 // A node without load and touching contact, all of whose bars are without stress, two of them in line.
-bool HasHingeInLine(const TracedPath& path, const Increment& row) {
+bool HasHingeInLine(const TracedPath& path, const Increment& increment) {
   constexpr double kInLine = 3e-3, kUnstressed = 1e-5;
   const Scene& scene = path.request.scene;
   const Scaling scaling = CharacteristicScales(scene);
@@ -111,15 +117,15 @@ bool HasHingeInLine(const TracedPath& path, const Increment& row) {
         std::any_of(scene.loads.begin(), scene.loads.end(), [&](const Load& load) { return load.node == name; });
     bool touches = false;
     for (std::size_t i = 0; i < scene.contacts.size(); ++i)
-      touches = touches || (scene.contacts[i].node == name && row.contacts[i].gap < kTouching * scaling.length);
+      touches = touches || (scene.contacts[i].node == name && increment.contacts[i].gap < kTouching * scaling.length);
     std::vector<Eigen::Vector2d> directions;
     bool stressed = false;
     for (const Bar& bar : scene.bars) {
       for (const std::size_t end : {0U, 1U}) {
         if (bar.nodes[end] != name) continue;
         const std::size_t other = NodeNumber(scene, bar.nodes[1 - end]);
-        const Eigen::Vector2d span(row.positions[2 * other] - row.positions[2 * n],
-                                   row.positions[2 * other + 1] - row.positions[2 * n + 1]);
+        const Eigen::Vector2d span(increment.positions[2 * other] - increment.positions[2 * n],
+                                   increment.positions[2 * other + 1] - increment.positions[2 * n + 1]);
         const double start =
             std::hypot(scene.nodes[other].x - scene.nodes[n].x, scene.nodes[other].y - scene.nodes[n].y);
         const double rest = bar.rest_length > 0.0 ? bar.rest_length : start;
@@ -136,18 +142,19 @@ bool HasHingeInLine(const TracedPath& path, const Increment& row) {
   return false;
 }
 
-// What there is on the path up to the row `last` that explains a difference there or later.
+// What there is on the path up to the increment `last` that explains a difference there or later.
 Cause Explain(const TracedPath& path, std::size_t last) {
   if (InPreload(path)) return Cause::kPreload;
-  if (CameLoose(path)) return Cause::kLoose;
-  last = std::min(last, path.rows.size() - 1);
+  if (BecameAMechanism(path)) return Cause::kMechanism;
+  last = std::min(last, path.increments.size() - 1);
   for (std::size_t i = 0; i <= last; ++i)
-    if (HasHingeInLine(path, path.rows[i]) && path.rows[i].kind != RowKind::kRegular) return Cause::kHinge;
-  if (HasHingeInLine(path, path.rows[last])) return Cause::kHinge;
+    if (HasHingeInLine(path, path.increments[i]) && path.increments[i].kind != IncrementKind::kRegular)
+      return Cause::kHinge;
+  if (HasHingeInLine(path, path.increments[last])) return Cause::kHinge;
   for (std::size_t i = 0; i <= last; ++i)
-    if (IsWedged(path, path.rows[i])) return Cause::kWedge;
+    if (IsWedged(path, path.increments[i])) return Cause::kWedge;
   for (std::size_t i = 0; i <= last; ++i)
-    if (path.rows[i].solve.deficiency > 0) return Cause::kLoose;
+    if (path.increments[i].solve.nullity > 0) return Cause::kMechanism;
   return Cause::kUnexplained;
 }
 
@@ -159,18 +166,18 @@ struct Tolerances {
 };
 
 struct Difference {
-  std::string what;     // empty: none
-  std::size_t row = 0;  // of the first path
-  double load = 0.0;    // largest differences seen, scaled
+  std::string what;           // empty: none
+  std::size_t increment = 0;  // of the first path
+  double load = 0.0;          // largest differences seen, scaled
   double state = 0.0;
 };
 
 // Event by event, up to the first difference. Both in the frame and the units of `a`.
 Difference Compare(const TracedPath& a, const TracedPath& b, const Tolerances& tolerances) {
   Difference difference;
-  const auto differ = [&difference](const Increment* row, const std::string& what) {
+  const auto differ = [&difference](const Increment* increment, const std::string& what) {
     difference.what = what;
-    difference.row = row == nullptr ? 0 : static_cast<std::size_t>(row->index);
+    difference.increment = increment == nullptr ? 0 : static_cast<std::size_t>(increment->index);
     return difference;
   };
   if (InPreload(a) || InPreload(b)) {
@@ -184,9 +191,9 @@ Difference Compare(const TracedPath& a, const TracedPath& b, const Tolerances& t
     const Increment &x = *events_a[i], &y = *events_b[i];
     if (x.kind != y.kind) return differ(&x, "kind of event " + std::to_string(i));
     // Where other paths cross, the place is that of a sign change of a determinant.
-    const double slack = x.kind == RowKind::kBifurcation ? 1e3 : 1.0;
-    if (x.event.ways.size() != y.event.ways.size() || x.event.taken != y.event.taken)
-      return differ(&x, "ways on from event " + std::to_string(i));
+    const double slack = x.kind == IncrementKind::kBifurcation ? 1e3 : 1.0;
+    if (x.event.branches.size() != y.event.branches.size() || x.event.taken != y.event.taken)
+      return differ(&x, "branches from event " + std::to_string(i));
     double state = 0.0;
     for (std::size_t k = 0; k < x.contacts.size(); ++k) {
       if (x.contacts[k].state != y.contacts[k].state) return differ(&x, "states at event " + std::to_string(i));
@@ -207,10 +214,11 @@ Difference Compare(const TracedPath& a, const TracedPath& b, const Tolerances& t
   }
   if (events_a.size() != events_b.size()) {
     const bool more = events_a.size() > events_b.size();
-    return differ(more ? events_a[events_b.size()] : &a.rows.back(), "number of events");
+    return differ(more ? events_a[events_b.size()] : &a.increments.back(), "number of events");
   }
-  const double ends = std::min({a.rows.back().arc_length, b.rows.back().arc_length, kArcLength});
-  if (ends < kArcLength - 1e-3 && a.result.reason != b.result.reason) return differ(&a.rows.back(), "end of the path");
+  const double ends = std::min({a.increments.back().arc_length, b.increments.back().arc_length, kArcLength});
+  if (ends < kArcLength - 1e-3 && a.result.reason != b.result.reason)
+    return differ(&a.increments.back(), "end of the path");
   return difference;
 }
 
@@ -233,41 +241,41 @@ struct Study {
   std::map<unsigned, std::vector<Finding>> differences;
   std::map<unsigned, std::pair<EndReason, Cause>> ends;  // that come before the arc length, of the balanced path
   std::map<std::string, Summary> summaries;              // by variant
-  std::map<std::string, int> counts;                     // kinds of rows, states
+  std::map<std::string, int> counts;                     // kinds of increments, states
   std::vector<TracedPath> balanced;                      // by seed, from 1
   double residual = 0.0;
   std::map<std::string, double> imbalance;  // by variant
   std::vector<std::string> unsound;
 };
 
-// Residuals, work, order of the rows: what holds whatever the path.
-void CheckRows(const std::string& variant, const TracedPath& path, Study* study) {
-  if (path.rows.empty()) return;
+// Residuals, work, order of the increments: what holds whatever the path.
+void CheckIncrements(const std::string& variant, const TracedPath& path, Study* study) {
+  if (path.increments.empty()) return;
   const Scaling scaling = CharacteristicScales(path.request.scene);
   const double energy = scaling.force * scaling.length;
-  const auto complain = [&](const Increment& row, const std::string& what) {
-    study->unsound.push_back(path.request.scene.name + " " + variant + " row " + std::to_string(row.index) + ": " +
-                             what);
+  const auto complain = [&](const Increment& increment, const std::string& what) {
+    study->unsound.push_back(path.request.scene.name + " " + variant + " increment " + std::to_string(increment.index) +
+                             ": " + what);
   };
   double& imbalance = study->imbalance[variant];
-  for (std::size_t i = 0; i < path.rows.size(); ++i) {
-    const Increment &row = path.rows[i], &before = path.rows[i == 0 ? 0 : i - 1];
-    const double residual = std::max(row.residuals.equilibrium, row.residuals.Contact());
+  for (std::size_t i = 0; i < path.increments.size(); ++i) {
+    const Increment &increment = path.increments[i], &before = path.increments[i == 0 ? 0 : i - 1];
+    const double residual = std::max(increment.residuals.equilibrium, increment.residuals.Contact());
     study->residual = std::max(study->residual, residual);
-    if (!(residual <= 1e-9)) complain(row, "residual");
-    if (row.dissipation < before.dissipation) complain(row, "dissipation falls");
-    if (i > 0 && row.arc_length < before.arc_length) complain(row, "arc length falls");
-    const double change = row.strain_energy - path.rows[0].strain_energy;
-    const double off = std::abs(row.external_work - change - row.dissipation) / energy;
+    if (!(residual <= 1e-9)) complain(increment, "residual");
+    if (increment.dissipation < before.dissipation) complain(increment, "dissipation falls");
+    if (i > 0 && increment.arc_length < before.arc_length) complain(increment, "arc length falls");
+    const double change = increment.strain_energy - path.increments[0].strain_energy;
+    const double off = std::abs(increment.external_work - change - increment.dissipation) / energy;
     imbalance = std::max(imbalance, off);
-    if (!(off <= 1e-8)) complain(row, "work");
-    // No jump: a row is where its increment of arc length says.
+    if (!(off <= 1e-8)) complain(increment, "work");
+    // No jump: an increment is where its increment of arc length says.
     double moved = 0.0;
-    for (std::size_t k = 0; k < row.positions.size(); ++k)
-      moved += std::pow((row.positions[k] - before.positions[k]) / scaling.length, 2);
-    moved = std::sqrt(moved + std::pow((row.load_factor - before.load_factor) / scaling.load_factor, 2));
-    if (moved > row.arc_length - before.arc_length + 1e-9) complain(row, "farther than its arc length");
-    if (row.event.taken > 0) complain(row, "not the best way");
+    for (std::size_t k = 0; k < increment.positions.size(); ++k)
+      moved += std::pow((increment.positions[k] - before.positions[k]) / scaling.length, 2);
+    moved = std::sqrt(moved + std::pow((increment.load_factor - before.load_factor) / scaling.load_factor, 2));
+    if (moved > increment.arc_length - before.arc_length + 1e-9) complain(increment, "farther than its arc length");
+    if (increment.event.taken > 0) complain(increment, "not the best branch");
   }
 }
 
@@ -278,13 +286,13 @@ const Study& TheStudy() {
     for (unsigned seed = 1; seed <= kSeeds; ++seed) {
       const TraceRequest request = RandomRequest(seed);
       const TracedPath& balanced = result->balanced[seed] = TraceArc(request, kArcLength);
-      CheckRows("balanced", balanced, result);
-      for (const Increment& row : balanced.rows) {
-        ++result->counts[std::string(ToString(row.kind))];
-        for (const ContactRecord& contact : row.contacts) ++result->counts[std::string(ToString(contact.state))];
+      CheckIncrements("balanced", balanced, result);
+      for (const Increment& increment : balanced.increments) {
+        ++result->counts[std::string(ToString(increment.kind))];
+        for (const ContactRecord& contact : increment.contacts) ++result->counts[std::string(ToString(contact.state))];
       }
       if (!Reached(balanced)) {
-        const std::size_t last = balanced.rows.empty() ? 0 : balanced.rows.size() - 1;
+        const std::size_t last = balanced.increments.empty() ? 0 : balanced.increments.size() - 1;
         result->ends[seed] = {balanced.result.reason, Explain(balanced, last)};
       }
 
@@ -298,8 +306,9 @@ const Study& TheStudy() {
           return;
         }
         ++summary.different;
-        Cause cause = Explain(balanced, difference.row + 1);
-        if (cause == Cause::kUnexplained) cause = Explain(path, path.rows.empty() ? 0 : path.rows.size() - 1);
+        Cause cause = Explain(balanced, difference.increment + 1);
+        if (cause == Cause::kUnexplained)
+          cause = Explain(path, path.increments.empty() ? 0 : path.increments.size() - 1);
         result->differences[seed].push_back({variant, difference.what, cause});
       };
       const auto variant = [&](const std::string& name, double step, Accuracy accuracy, const Tolerances& tolerances) {
@@ -307,14 +316,14 @@ const Study& TheStudy() {
         other.options.step = step;
         other.options.accuracy = accuracy;
         const TracedPath path = TraceArc(other, kArcLength);
-        CheckRows(name, path, result);
+        CheckIncrements(name, path, result);
         compare(name, path, tolerances);
       };
       // The work of long steps is integrated less exactly, and where a load turns is found less exactly.
-      const Tolerances strict, loose = {1e-8, 1e-7};
+      const Tolerances strict, mechanism = {1e-8, 1e-7};
       variant("short steps", 0.002, Accuracy::kBalanced, strict);
-      variant("long steps", 0.2, Accuracy::kBalanced, loose);
-      variant("fast", 0.0, Accuracy::kFast, loose);
+      variant("long steps", 0.2, Accuracy::kBalanced, mechanism);
+      variant("fast", 0.0, Accuracy::kFast, mechanism);
       variant("accurate", 0.0, Accuracy::kAccurate, strict);
       compare("units", UndoUnits(TraceArc(ChangeUnits(request, 1e-3, 1e6), kArcLength), 1e-3, 1e6), strict);
       compare("mirror image", UndoMirror(TraceArc(Mirror(request), kArcLength)), strict);
@@ -383,8 +392,8 @@ TEST(RandomPaths, EndForAReason) {
   std::map<unsigned, Cause> failures;
   for (const auto& [seed, end] : TheStudy().ends) {
     const TracedPath& path = TheStudy().balanced[seed];
-    std::cout << "seed " << seed << ": " << ToString(end.first) << " after " << path.rows.size()
-              << " rows: " << path.result.message << "\n";
+    std::cout << "seed " << seed << ": " << ToString(end.first) << " after " << path.increments.size()
+              << " increments: " << path.result.message << "\n";
     if (end.first != EndReason::kPathEnd) failures[seed] = end.second;
   }
   for (const auto& [seed, cause] : failures) {
@@ -405,10 +414,10 @@ class Neighbourhood {
   Neighbourhood(const TracedPath& path)
       : path_(path),
         model_(path.request.scene, CharacteristicScales(path.request.scene)),
-        piece_(model_.structure, model_.contacts),
-        point_(PointOf(model_, path.rows.back())) {
-    if (path.rows.size() > 1) {
-      const PathPoint before = PointOf(model_, path.rows[path.rows.size() - 2]);
+        arc_(model_.structure, model_.contacts),
+        point_(PointOf(model_, path.increments.back())) {
+    if (path.increments.size() > 1) {
+      const PathPoint before = PointOf(model_, path.increments[path.increments.size() - 2]);
       back_.resize(point_.u.size() + 1);
       back_ << before.u - point_.u, before.s - point_.s;
       back_.normalize();
@@ -455,12 +464,12 @@ class Neighbourhood {
   }
 
   void Try(const std::vector<ContactState>& states) {
-    piece_.SetStates(states, point_);
-    const Eigen::VectorXd x = piece_.system().Pack(point_);
-    FixedStateSystem system = piece_.system();
+    arc_.SetStates(states, point_);
+    const Eigen::VectorXd x = arc_.system().Pack(point_);
+    FixedStateSystem system = arc_.system();
     const Eigen::MatrixXd jacobian = Eigen::MatrixXd(system.TransposedJacobian(x)).transpose();
     const SingularValueDecomposition dense = Decompose(jacobian);
-    const Eigen::Index motion = piece_.NumMotion();
+    const Eigen::Index motion = arc_.NumMotion();
     for (Eigen::Index column = 0; column < dense.v.cols(); ++column) {
       const bool null = column >= dense.values.size() || dense.values[column] < 1e-9;
       if (!null) continue;
@@ -477,16 +486,16 @@ class Neighbourhood {
   }
 
   bool Admissible(const Eigen::VectorXd& x, const Eigen::VectorXd& unit, double distance) {
-    const Correction correction = piece_.CorrectOnPlane(x + distance * unit, unit.head(piece_.NumMotion()));
+    const Correction correction = arc_.CorrectOnPlane(x + distance * unit, unit.head(arc_.NumMotion()));
     if (!correction.converged) return false;
-    for (const Limit& limit : piece_.system().Inequalities())
-      if (piece_.system().Value(limit, correction.x) < -1e-5 * distance * distance) return false;
+    for (const Constraint& limit : arc_.system().Inequalities())
+      if (arc_.system().Value(limit, correction.x) < -1e-5 * distance * distance) return false;
     return true;
   }
 
   const TracedPath& path_;
   Model model_;
-  SmoothPiece piece_;
+  SmoothArc arc_;
   PathPoint point_;
   Eigen::VectorXd back_;
   int found_ = 0;
@@ -498,9 +507,9 @@ TEST(RandomPaths, EndWhereNoEquilibriumIsNear) {
   int ends = 0;
   for (const auto& [seed, end] : TheStudy().ends) {
     const TracedPath& path = TheStudy().balanced[seed];
-    if (end.first != EndReason::kPathEnd || CameLoose(path) || InPreload(path)) continue;
+    if (end.first != EndReason::kPathEnd || BecameAMechanism(path) || InPreload(path)) continue;
     Neighbourhood neighbourhood(path);
-    EXPECT_EQ(neighbourhood.Count(), 0) << "seed " << seed << ", " << path.rows.size() << " rows";
+    EXPECT_EQ(neighbourhood.Count(), 0) << "seed " << seed << ", " << path.increments.size() << " increments";
     EXPECT_GE(neighbourhood.combinations(), 1);
     ++ends;
   }
@@ -512,15 +521,15 @@ TEST(RandomPaths, EquilibriaAreNearElsewhere) {
   int checked = 0;
   for (unsigned seed = 1; seed <= kSeeds; ++seed) {
     TracedPath path = TheStudy().balanced[seed];
-    if (path.rows.size() < 20) continue;
+    if (path.increments.size() < 20) continue;
     const std::vector<const Increment*> events = Events(path);
     if (events.size() < 2) continue;
     const auto at = static_cast<std::size_t>(events[1]->index);
-    if (events[1]->event.ways.empty() || at + 1 >= path.rows.size()) continue;
+    if (events[1]->event.branches.empty() || at + 1 >= path.increments.size()) continue;
     if (events.size() > 2 && events[2]->arc_length < events[1]->arc_length + 0.01)
       continue;                                                  // the neighbours are beyond that
     if (Explain(path, at + 1) != Cause::kUnexplained) continue;  // nothing special up to there
-    path.rows.resize(at + 1);
+    path.increments.resize(at + 1);
     EXPECT_GE(Neighbourhood(path).Count(), 1) << "seed " << seed;
     ++checked;
   }

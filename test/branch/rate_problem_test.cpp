@@ -32,41 +32,42 @@ class RestingColumn : public testing::Test {
     return scene;
   }
 
-  RateProblem Condense(const States& states, const std::vector<int>& concerned) const {
-    return Condense(states, concerned,
+  RateProblem Condense(const States& states, const std::vector<int>& weakly_active) const {
+    return Condense(states, weakly_active,
                     Eigen::VectorXd::Unit(model_.structure.NumDofs() + 1, model_.structure.NumDofs()));
   }
-  RateProblem Condense(const States& states, const std::vector<int>& concerned, const Eigen::VectorXd& arrival) const {
-    return {model_.structure, model_.contacts, point_, states, concerned, arrival};
+  RateProblem Condense(const States& states, const std::vector<int>& weakly_active,
+                       const Eigen::VectorXd& arrival) const {
+    return {model_.structure, model_.contacts, point_, states, weakly_active, arrival};
   }
 
-  // Load and motions and reactions of the concerned contacts, of each column of unknowns.
-  Eigen::MatrixXd Concerned(const FixedStateSystem& system, const std::vector<int>& concerned,
-                            const Eigen::MatrixXd& unknowns) const {
-    Eigen::MatrixXd rates(1 + 4 * static_cast<Eigen::Index>(concerned.size()), unknowns.cols());
+  // Load and motions and reactions of the weakly_active contacts, of each column of unknowns.
+  Eigen::MatrixXd WeaklyActive(const FixedStateSystem& system, const std::vector<int>& weakly_active,
+                               const Eigen::MatrixXd& unknowns) const {
+    Eigen::MatrixXd rates(1 + 4 * static_cast<Eigen::Index>(weakly_active.size()), unknowns.cols());
     for (Eigen::Index j = 0; j < unknowns.cols(); ++j) {
       const PathPoint change = system.Unpack(unknowns.col(j));
       rates(0, j) = change.s;
-      for (std::size_t k = 0; k < concerned.size(); ++k) {
-        const ContactGeometry& contact = model_.contacts[static_cast<std::size_t>(concerned[k])];
+      for (std::size_t k = 0; k < weakly_active.size(); ++k) {
+        const ContactGeometry& contact = model_.contacts[static_cast<std::size_t>(weakly_active[k])];
         rates.col(j).segment<4>(1 + 4 * static_cast<Eigen::Index>(k)) << contact.gap.Rate(change.u, change.s),
-            contact.tangential.Rate(change.u, change.s), change.rn[concerned[k]], change.rt[concerned[k]];
+            contact.tangential.Rate(change.u, change.s), change.rn[weakly_active[k]], change.rt[weakly_active[k]];
       }
     }
     return rates;
   }
 
   // Where the null space has several dimensions: a member of it, without rigid modes, of unit length.
-  void ExpectShortestMember(const FixedStateSystem& system, const std::vector<int>& concerned,
+  void ExpectShortestMember(const FixedStateSystem& system, const std::vector<int>& weakly_active,
                             const Eigen::MatrixXd& null_space, const CondensedRates& rates) const {
     const Eigen::Index motion = system.NumDofs() + 1;
     Eigen::VectorXd wanted(1 + 4 * rates.gap.size());
     wanted[0] = rates.load;
     for (Eigen::Index k = 0; k < rates.gap.size(); ++k)
       wanted.segment<4>(1 + 4 * k) << rates.gap[k], rates.slip[k], rates.rn[k], rates.rt[k];
-    const Eigen::MatrixXd seen = Concerned(system, concerned, null_space);
+    const Eigen::MatrixXd seen = WeaklyActive(system, weakly_active, null_space);
     const Eigen::VectorXd member = null_space * ShortestSolution(seen, wanted);
-    EXPECT_LE((Concerned(system, concerned, member) - wanted).norm(), kExact);
+    EXPECT_LE((WeaklyActive(system, weakly_active, member) - wanted).norm(), kExact);
     EXPECT_NEAR(member.head(motion).norm(), 1.0, kExact);
     const Eigen::MatrixXd forces = null_space.bottomRows(null_space.rows() - motion + 1);
     const SingularValueDecomposition dense = Decompose(forces);
@@ -77,7 +78,7 @@ class RestingColumn : public testing::Test {
   }
 
   // Against the null vector of all equations.
-  void ExpectRatesOfTheWhole(const RateProblem& problem, const States& states, const std::vector<int>& concerned,
+  void ExpectRatesOfTheWhole(const RateProblem& problem, const States& states, const std::vector<int>& weakly_active,
                              int* compared) {
     FixedStateSystem system(model_.structure, model_.contacts);
     system.SetStates(states, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(states.size())));
@@ -88,13 +89,13 @@ class RestingColumn : public testing::Test {
     const std::optional<CondensedRates> rates = problem.Rates(states);
     ASSERT_TRUE(rates.has_value());
     ++*compared;
-    if (null_space.cols() > 1) return ExpectShortestMember(system, concerned, null_space, *rates);
+    if (null_space.cols() > 1) return ExpectShortestMember(system, weakly_active, null_space, *rates);
     const Eigen::Index motion = system.NumDofs() + 1;
     Eigen::VectorXd tangent = null_space.col(0) / null_space.col(0).head(motion).norm();
     // The sign is free, and the load may rest.
     double same = tangent[motion - 1] * rates->load;
-    for (std::size_t k = 0; k < concerned.size(); ++k) {
-      const ContactGeometry& contact = model_.contacts[static_cast<std::size_t>(concerned[k])];
+    for (std::size_t k = 0; k < weakly_active.size(); ++k) {
+      const ContactGeometry& contact = model_.contacts[static_cast<std::size_t>(weakly_active[k])];
       same += rates->gap[static_cast<Eigen::Index>(k)] * contact.gap.Rate(tangent, 0.0) +
               rates->slip[static_cast<Eigen::Index>(k)] * contact.tangential.Rate(tangent, 0.0);
     }
@@ -102,8 +103,8 @@ class RestingColumn : public testing::Test {
     const PathPoint change = system.Unpack(tangent);
     EXPECT_NEAR(rates->load, change.s, kExact);
     EXPECT_NEAR(rates->along, change.s, kExact);
-    for (std::size_t k = 0; k < concerned.size(); ++k) {
-      const auto i = static_cast<std::size_t>(concerned[k]);
+    for (std::size_t k = 0; k < weakly_active.size(); ++k) {
+      const auto i = static_cast<std::size_t>(weakly_active[k]);
       const auto e = static_cast<Eigen::Index>(k), c = static_cast<Eigen::Index>(i);
       EXPECT_NEAR(rates->gap[e], model_.contacts[i].gap.Rate(change.u, change.s), kExact);
       EXPECT_NEAR(rates->slip[e], model_.contacts[i].tangential.Rate(change.u, change.s), kExact);
@@ -119,37 +120,37 @@ class RestingColumn : public testing::Test {
 TEST_F(RestingColumn, RatesAreThoseOfTheWholeStructure) {
   const States all_states = {ContactState::kOpen, ContactState::kStick, ContactState::kSlipPlus,
                              ContactState::kSlipMinus};
-  const std::vector<int> concerned = {0, 1, 2, 3, 4};
-  const RateProblem problem = Condense(point_.states, concerned);
+  const std::vector<int> weakly_active = {0, 1, 2, 3, 4};
+  const RateProblem problem = Condense(point_.states, weakly_active);
   ASSERT_TRUE(problem.regular());
   Random random(3);
   int compared = 0;
   for (int trial = 0; trial < 200; ++trial) {
     States states;
     for (int i = 0; i < 5; ++i) states.push_back(all_states[static_cast<std::size_t>(random.Number(0.0, 3.999))]);
-    ExpectRatesOfTheWhole(problem, states, concerned, &compared);
+    ExpectRatesOfTheWhole(problem, states, weakly_active, &compared);
   }
   EXPECT_GT(compared, 190);
 }
 
 TEST_F(RestingColumn, OtherContactsKeepTheirStates) {
-  const std::vector<int> concerned = {1, 3};
+  const std::vector<int> weakly_active = {1, 3};
   States states = {ContactState::kStick, ContactState::kOpen, ContactState::kSlipPlus, ContactState::kStick,
                    ContactState::kOpen};
-  const RateProblem problem = Condense(states, concerned);
+  const RateProblem problem = Condense(states, weakly_active);
   ASSERT_TRUE(problem.regular());
   int compared = 0;
   for (const ContactState a : {ContactState::kOpen, ContactState::kStick, ContactState::kSlipMinus})
     for (const ContactState b : {ContactState::kOpen, ContactState::kStick, ContactState::kSlipPlus}) {
       states[1] = a;
       states[3] = b;
-      ExpectRatesOfTheWhole(problem, states, concerned, &compared);
+      ExpectRatesOfTheWhole(problem, states, weakly_active, &compared);
     }
   EXPECT_GT(compared, 5);
 }
 
 TEST_F(RestingColumn, UniqueRatesMayBeOrthogonalToTheArrival) {
-  const std::vector<int> concerned = {0, 1, 2, 3, 4};
+  const std::vector<int> weakly_active = {0, 1, 2, 3, 4};
   const States states = {ContactState::kStick, ContactState::kSlipPlus, ContactState::kStick, ContactState::kOpen,
                          ContactState::kSlipPlus};
   FixedStateSystem system(model_.structure, model_.contacts);
@@ -163,8 +164,8 @@ TEST_F(RestingColumn, UniqueRatesMayBeOrthogonalToTheArrival) {
   arrival -= arrival.dot(motion) * motion;
   arrival.normalize();
 
-  const std::optional<CondensedRates> expected = Condense(states, concerned).UniqueRates(states);
-  const std::optional<CondensedRates> rates = Condense(states, concerned, arrival).UniqueRates(states);
+  const std::optional<CondensedRates> expected = Condense(states, weakly_active).UniqueRates(states);
+  const std::optional<CondensedRates> rates = Condense(states, weakly_active, arrival).UniqueRates(states);
   ASSERT_TRUE(expected && rates);
   EXPECT_NEAR(rates->along, 0.0, kExact);
   const double sign = rates->load * expected->load > 0.0 ? 1.0 : -1.0;
@@ -174,15 +175,15 @@ TEST_F(RestingColumn, UniqueRatesMayBeOrthogonalToTheArrival) {
 }
 
 TEST_F(RestingColumn, NamesWhatIsBroken) {
-  const std::vector<int> concerned = {0, 4};
+  const std::vector<int> weakly_active = {0, 4};
   const States states(5, ContactState::kStick);
-  const RateProblem problem = Condense(states, concerned);
+  const RateProblem problem = Condense(states, weakly_active);
   CondensedRates rates;
   rates.gap = rates.slip = Eigen::VectorXd::Zero(2);
   rates.rn = Eigen::Vector2d(1.0, -0.5);
   rates.rt = Eigen::Vector2d(0.5, 0.0);  // mu = 0.3
-  std::vector<Limit> all;
-  const std::optional<Limit> first = problem.Broken(states, rates, 1.0, 1e-10, 1e-9, &all);
+  std::vector<Constraint> all;
+  const std::optional<Constraint> first = problem.Broken(states, rates, 1.0, 1e-10, 1e-9, &all);
   ASSERT_TRUE(first);
   EXPECT_EQ(first->contact, 0);
   EXPECT_EQ(first->inequality, Inequality::kConeMinus);

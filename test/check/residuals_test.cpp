@@ -150,7 +150,7 @@ TEST_F(SlidingBarResiduals, Penetration) {
   const Residuals residuals = Check();
   EXPECT_NEAR(residuals.penetration, 0.01 / length_, kRounding);
   EXPECT_NEAR(residuals.complementarity, 0.01 / length_, kRounding);
-  EXPECT_EQ(residuals.adhesion, 0.0);
+  EXPECT_EQ(residuals.tensile_reaction, 0.0);
   EXPECT_LE(residuals.friction_law, kRounding);
 }
 
@@ -158,7 +158,7 @@ TEST_F(SlidingBarResiduals, Adhesion) {
   now_.rn[0] = -0.01;
   now_.rt[0] = 0.0;
   const Residuals residuals = Check();
-  EXPECT_NEAR(residuals.adhesion, 0.01 / force_, kRounding);
+  EXPECT_NEAR(residuals.tensile_reaction, 0.01 / force_, kRounding);
   EXPECT_NEAR(residuals.complementarity, 0.01 / force_, kRounding);
   EXPECT_NEAR(residuals.cone, kFriction * 0.01 / force_, kRounding);
   EXPECT_EQ(residuals.penetration, 0.0);
@@ -309,9 +309,9 @@ TEST_F(SlidingBarResiduals, UnitsDoNotMatter) {
   for (const CheckedState& state : states) {
     const Residuals r = ResidualCheck(scene_).Check(before_, state);
     const Residuals c = ResidualCheck(converted).Check(convert(before_), convert(state));
-    const std::array<double, 6> here{r.equilibrium,     r.penetration, r.adhesion,
+    const std::array<double, 6> here{r.equilibrium,     r.penetration, r.tensile_reaction,
                                      r.complementarity, r.cone,        r.friction_law};
-    const std::array<double, 6> there{c.equilibrium,     c.penetration, c.adhesion,
+    const std::array<double, 6> there{c.equilibrium,     c.penetration, c.tensile_reaction,
                                       c.complementarity, c.cone,        c.friction_law};
     for (std::size_t i = 0; i < here.size(); ++i) {
       EXPECT_NEAR(here[i], there[i], kRounding) << i;
@@ -324,7 +324,7 @@ TEST_F(SlidingBarResiduals, UnitsDoNotMatter) {
 void ExpectAllInfinite(const Residuals& residuals, const std::string& what) {
   EXPECT_EQ(residuals.equilibrium, kInfinity) << what;
   EXPECT_EQ(residuals.penetration, kInfinity) << what;
-  EXPECT_EQ(residuals.adhesion, kInfinity) << what;
+  EXPECT_EQ(residuals.tensile_reaction, kInfinity) << what;
   EXPECT_EQ(residuals.complementarity, kInfinity) << what;
   EXPECT_EQ(residuals.cone, kInfinity) << what;
   EXPECT_EQ(residuals.friction_law, kInfinity) << what;
@@ -369,7 +369,7 @@ TEST_F(SlidingBarResiduals, WrongSizesThrow) {
 }
 
 TEST(ResidualsContact, IsTheLargestOfAllButEquilibrium) {
-  const std::array<double Residuals::*, 5> members{&Residuals::penetration, &Residuals::adhesion,
+  const std::array<double Residuals::*, 5> members{&Residuals::penetration, &Residuals::tensile_reaction,
                                                    &Residuals::complementarity, &Residuals::cone,
                                                    &Residuals::friction_law};
   for (double Residuals::*member : members) {

@@ -33,19 +33,19 @@ def read(path):
         return file.read()
 
 
-def rows_of(text):
+def increments_of(text):
     return list(csv.DictReader(io.StringIO(text)))
 
 
 def without_time(text):
-    return [{key: value for key, value in row.items() if key != 'solve_time'} for row in rows_of(text)]
+    return [{key: value for key, value in increment.items() if key != 'solve_time'} for increment in increments_of(text)]
 
 
 class CliTest(program_test.ProgramTest):
 
     def setUp(self):
         super().setUp()
-        self.csv = self.path('rows.csv')
+        self.csv = self.path('increments.csv')
 
     def start(self, *arguments, **options):
         """Runs in the background, not longer than the time limit."""
@@ -78,13 +78,13 @@ class CliTest(program_test.ProgramTest):
         self.assertTrue(all(line.strip() for line in lines), text)
         return lines
 
-    def expect_whole_rows(self, text):
+    def expect_whole_increments(self, text):
         self.assertTrue(text.endswith('\n'), text[-200:])
-        rows = list(csv.reader(io.StringIO(text)))
-        self.assertEqual(rows[0], HEADER)
-        for index, row in enumerate(rows[1:]):
-            self.assertEqual(len(row), len(HEADER), row)
-            self.assertEqual(row[0], str(index))
+        increments = list(csv.reader(io.StringIO(text)))
+        self.assertEqual(increments[0], HEADER)
+        for index, increment in enumerate(increments[1:]):
+            self.assertEqual(len(increment), len(HEADER), increment)
+            self.assertEqual(increment[0], str(index))
 
 
 class CompleteTraces(CliTest):
@@ -92,41 +92,41 @@ class CompleteTraces(CliTest):
     def test_stop_criterion(self):
         result = run(SCENE)
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.expect_whole_rows(result.stdout)
-        rows = rows_of(result.stdout)
-        self.assertEqual(rows[0]['kind'], 'start')
-        self.assertGreater(float(rows[-1]['x_b']), 4.95)
-        self.assertTrue(all(float(row['x_b']) <= 4.95 for row in rows[:-1]))
-        self.assertTrue(all(float(row['equilibrium_residual']) < 1e-8 for row in rows))
-        self.assertTrue(all(float(row['complementarity_residual']) < 1e-8 for row in rows))
+        self.expect_whole_increments(result.stdout)
+        increments = increments_of(result.stdout)
+        self.assertEqual(increments[0]['kind'], 'start')
+        self.assertGreater(float(increments[-1]['x_b']), 4.95)
+        self.assertTrue(all(float(increment['x_b']) <= 4.95 for increment in increments[:-1]))
+        self.assertTrue(all(float(increment['equilibrium_residual']) < 1e-8 for increment in increments))
+        self.assertTrue(all(float(increment['complementarity_residual']) < 1e-8 for increment in increments))
         line, = self.expect_lines(result.stderr, 1)
         self.assertIn('stop_criterion', line)
-        self.assertIn('%d rows' % len(rows), line)
+        self.assertIn('%d increments' % len(increments), line)
         self.assertNotIn('\r', result.stderr)
         self.assertNotIn('\x1b', result.stderr)
 
     def test_max_increments(self):
         result = run(SCENE, '--max-increments', '3')
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.expect_whole_rows(result.stdout)
-        self.assertIn(len(rows_of(result.stdout)), (3, 4))
+        self.expect_whole_increments(result.stdout)
+        self.assertIn(len(increments_of(result.stdout)), (3, 4))
         line, = self.expect_lines(result.stderr, 1)
         self.assertIn('max_increments', line)
 
     def test_summary_names_the_limit_points_of_the_rows(self):
         result = run(SCENE)
         kinds = ('smooth_limit', 'corner_limit')
-        limits = [row for row in rows_of(result.stdout) if row['kind'] in kinds]
+        limits = [increment for increment in increments_of(result.stdout) if increment['kind'] in kinds]
         self.assertEqual(sum(result.stderr.count(kind) for kind in kinds), min(len(limits), 10), result.stderr)
-        for row in limits[:10]:
-            self.assertIn('%s at load factor %.10g (row %s)' % (row['kind'], float(row['load_factor']), row['index']),
+        for increment in limits[:10]:
+            self.assertIn('%s at load factor %.10g (increment %s)' % (increment['kind'], float(increment['load_factor']), increment['index']),
                           result.stderr)
 
     def test_quiet(self):
         result = run(SCENE, '--max-increments', '3', '--quiet')
         self.assertEqual(result.returncode, 0)
         self.assertEqual(result.stderr, '')
-        self.expect_whole_rows(result.stdout)
+        self.expect_whole_increments(result.stdout)
 
     def test_csv_file_has_the_rows_of_standard_output(self):
         with open(self.csv, 'w', encoding='utf-8') as file:
@@ -134,30 +134,30 @@ class CompleteTraces(CliTest):
         result = run(SCENE, '--max-increments', '3', '--csv', self.csv)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(result.stdout, '')
-        self.expect_whole_rows(read(self.csv))
+        self.expect_whole_increments(read(self.csv))
         self.assertEqual(without_time(read(self.csv)), without_time(run(SCENE, '--max-increments', '3').stdout))
 
     def test_dash_is_standard_output(self):
         result = run(SCENE, '--quiet', '--max-increments', '3', '--csv', '-', cwd=self.directory)
-        self.assertEqual(len(rows_of(result.stdout)), 4)
+        self.assertEqual(len(increments_of(result.stdout)), 4)
         self.assertEqual(os.listdir(self.directory), [])
 
-    def test_events_are_printed_with_their_ways(self):
+    def test_events_are_printed_with_their_branches(self):
         truss = os.path.join(os.path.dirname(SCENE), 'rough_truss.yaml')
         lines = run(truss, '--events', '--csv', self.csv).stderr.splitlines()
-        rows = rows_of(read(self.csv))
-        corner = next(row for row in rows if row['kind'] == 'corner_limit')
+        increments = increments_of(read(self.csv))
+        corner = next(increment for increment in increments if increment['kind'] == 'corner_limit')
         first = next(i for i, line in enumerate(lines) if line.startswith('event 1, '))
-        self.assertTrue(lines[first].startswith('event 1, row %s, corner_limit at load factor 0.13384476' %
+        self.assertTrue(lines[first].startswith('event 1, increment %s, corner_limit at load factor 0.13384476' %
                                                 corner['index']), lines[first])
-        self.assertTrue(lines[first + 1].startswith('* way 1: dissipation rate '), lines[first + 1])
+        self.assertTrue(lines[first + 1].startswith('* branch 1: dissipation rate '), lines[first + 1])
         self.assertTrue(lines[first + 1].endswith('; foot@floor slip+'), lines[first + 1])
-        self.assertNotIn('way', ''.join(run(truss, '--csv', self.csv).stderr.splitlines()))
+        self.assertNotIn('branch', ''.join(run(truss, '--csv', self.csv).stderr.splitlines()))
 
     def test_step_overrides_the_scene(self):
         def length(step):
-            rows = rows_of(run(SCENE, '--max-increments', '3', '--step', step).stdout)
-            return float(rows[-1]['arc_length']) / (len(rows) - 1)
+            increments = increments_of(run(SCENE, '--max-increments', '3', '--step', step).stdout)
+            return float(increments[-1]['arc_length']) / (len(increments) - 1)
 
         self.assertLess(length('0.0005'), 0.5 * length('0.005'))
 
@@ -165,7 +165,7 @@ class CompleteTraces(CliTest):
         for arguments in (['--method', 'mpec'], ['--accuracy', 'fast'], ['--accuracy', 'accurate']):
             result = run(SCENE, '--max-increments', '3', *arguments)
             self.assertEqual(result.returncode, 0, (arguments, result.stderr))
-            self.expect_whole_rows(result.stdout)
+            self.expect_whole_increments(result.stdout)
 
     def test_help(self):
         result = run('--help')
@@ -217,14 +217,14 @@ class TracesThatEndEarly(CliTest):
             for quiet in ([], ['--quiet']):
                 with self.subTest(signal=number, quiet=quiet):
                     process = self.start(SCENE, *ENDLESS, *quiet)
-                    text = process.stdout.readline() + process.stdout.readline()  # header and row 0: it is tracing
+                    text = process.stdout.readline() + process.stdout.readline()  # header and increment 0: it is tracing
                     process.send_signal(number)
                     text += process.stdout.read()
                     errors = process.stderr.read()
                     self.assertEqual(process.wait(), 1, errors)
                     line, = self.expect_lines(errors, 1)
                     self.assertIn('cancelled', line)
-                    self.expect_whole_rows(text)
+                    self.expect_whole_increments(text)
 
     def test_rows_are_written_as_they_come(self):
         process = self.start(SCENE, '--csv', self.csv, *ENDLESS)
@@ -237,7 +237,7 @@ class TracesThatEndEarly(CliTest):
             except subprocess.TimeoutExpired:
                 pass
         else:
-            self.fail('no rows while the trace goes on')
+            self.fail('no increments while the trace goes on')
         self.assertIsNone(process.poll())
 
     @unittest.skipUnless(os.path.exists('/dev/full'), 'needs /dev/full')
@@ -345,13 +345,13 @@ class BadInput(CliTest):
 
     def test_invalid_scene_leaves_the_csv_file_alone(self):
         with open(self.csv, 'w', encoding='utf-8') as file:
-            file.write('rows of yesterday\n')
+            file.write('increments of yesterday\n')
         self.assertEqual(run(self.write_scene('surprise: 1\n'), '--csv', self.csv).returncode, 2)
         self.assertEqual(run(SCENE, '--step', '-1', '--csv', self.csv).returncode, 2)
-        self.assertEqual(read(self.csv), 'rows of yesterday\n')
+        self.assertEqual(read(self.csv), 'increments of yesterday\n')
 
     def test_csv_file_that_cannot_be_opened(self):
-        for path in (self.path('absent/rows.csv'), self.directory, ''):
+        for path in (self.path('absent/increments.csv'), self.directory, ''):
             line, = self.expect_refused(SCENE, '--csv', path)
             self.assertIn('--csv', line)
             self.assertIn(path, line)

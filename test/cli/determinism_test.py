@@ -14,7 +14,7 @@ LONGER = int(os.environ.get('CONTACT_PATH_LONGER', '1'))
 INCREMENTS = {'branch': 60 * LONGER, 'mpec': 12 * LONGER}  # these take longer
 
 
-def rows(scene, method, threads):
+def increments(scene, method, threads):
     """The CSV without its column of times, and how the trace ended."""
     process = program_test.run(PROGRAM, scene, '--method', method, '--max-increments', str(INCREMENTS[method]), '--quiet',
                                env=dict(os.environ, OMP_NUM_THREADS=threads))
@@ -30,10 +30,10 @@ class DeterminismTest(program_test.ProgramTest):
             for method in INCREMENTS:
                 with self.subTest(file, method=method):
                     scene = os.path.join(program_test.SCENES, file)
-                    once = rows(scene, method, '1')
+                    once = increments(scene, method, '1')
                     self.assertGreater(len(once[0]), 5)
-                    self.assertEqual(rows(scene, method, '1'), once)
-                    self.assertEqual(rows(scene, method, '4'), once)
+                    self.assertEqual(increments(scene, method, '1'), once)
+                    self.assertEqual(increments(scene, method, '4'), once)
 
 
 if __name__ == '__main__':

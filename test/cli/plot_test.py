@@ -79,19 +79,19 @@ class Panels(QuickPlotTest):
         table = self.trace('von_mises', 'a.csv')
         texts = self.texts(table, '--energy', '--at', 'limits', '--scene', scene_file('von_mises'))
         self.assertIn('energy [force length]', texts)
-        self.assertIn('row 0: start', texts)
+        self.assertIn('increment 0: start', texts)
         self.assert_main_refuses([table, '--states'], 'a.csv', 'no contacts')
 
     def test_pieces_of_a_contact(self):
         path = path_file.Path('path')
-        # The state of a row is that of the piece that ends there; rows where states change carry it, others may not.
+        # The state of an increment is that of the piece that ends there; increments where states change carry it, others may not.
         states = ['stick', '', 'stick', '', 'slip+', '']
-        path.rows = [{'arc_length': float(i), 'state_a@b': state} for i, state in enumerate(states)]
-        for row in path.rows:
-            row['kind'] = 'regular'
+        path.increments = [{'arc_length': float(i), 'state_a@b': state} for i, state in enumerate(states)]
+        for increment in path.increments:
+            increment['kind'] = 'regular'
         self.assertEqual(plot_panels.pieces(path, 'a@b'), {'stick': [(0.0, 2.0)], 'slip+': [(2.0, 3.0)]})
-        # The start of a stage, at the place of the row before, is on no piece.
-        path.rows.insert(3, {'arc_length': 2.0, 'state_a@b': 'open', 'kind': 'start'})
+        # The start of a stage, at the place of the increment before, is on no piece.
+        path.increments.insert(3, {'arc_length': 2.0, 'state_a@b': 'open', 'kind': 'start'})
         self.assertEqual(plot_panels.pieces(path, 'a@b'), {'stick': [(0.0, 2.0)], 'slip+': [(2.0, 3.0)]})
 
     def test_what_cannot_be_plotted_is_one_line(self):
@@ -119,20 +119,20 @@ class Shapes(QuickPlotTest):
 
     def test_start_limit_points_and_end(self):
         path = path_file.read(self.table)
-        rows = [int(row['index']) for row in path.rows if row['kind'] == 'smooth_limit']
+        increments = [int(increment['index']) for increment in path.increments if increment['kind'] == 'smooth_limit']
         texts = self.texts(self.table, '--shapes', *self.scene)
-        for text in ('row 0: start', 'row %d: smooth limit' % rows[0], 'row %d: smooth limit' % rows[1],
+        for text in ('increment 0: start', 'increment %d: smooth limit' % increments[0], 'increment %d: smooth limit' % increments[1],
                      'load factor 2.1915', 'friction cone, mu = 0.3', 'x [length]', 'slip+', 'stick'):
             self.assertIn(text, texts)
         self.assertTrue(any('[force]; arrows' in text for text in texts), texts)
 
     def test_rows(self):
-        last = int(path_file.read(self.table).rows[-1]['index'])
-        texts = self.texts(self.table, '--rows', '0,30,end', *self.scene)
-        titles = [text.partition(':')[0] for text in texts if text.startswith('row ')]
-        self.assertEqual(titles, ['row 0', 'row 30', 'row %d' % last])
-        for rows, word in (('0,9999', 'no row 9999'), ('0,x', 'x'), ('', 'empty'), (','.join('0' * 25), '24')):
-            self.assert_main_refuses([self.table, '--rows', rows, *self.scene], '--rows', word)
+        last = int(path_file.read(self.table).increments[-1]['index'])
+        texts = self.texts(self.table, '--increments', '0,30,end', *self.scene)
+        titles = [text.partition(':')[0] for text in texts if text.startswith('increment ')]
+        self.assertEqual(titles, ['increment 0', 'increment 30', 'increment %d' % last])
+        for increments, word in (('0,9999', 'no increment 9999'), ('0,x', 'x'), ('', 'empty'), (','.join('0' * 25), '24')):
+            self.assert_main_refuses([self.table, '--increments', increments, *self.scene], '--increments', word)
 
     def test_the_scene_must_be_that_of_the_path(self):
         self.assert_main_refuses([self.table, '--shapes'], 'a.csv', '--scene')
@@ -144,12 +144,12 @@ class Shapes(QuickPlotTest):
     def test_what_is_chosen_where_there_is_much(self):
         path = path_file.Path('path')
         kinds = ['start', *['contact_event', 'regular'] * 20, 'smooth_limit', 'bifurcation', 'corner_limit', 'regular']
-        path.rows = [{'index': i, 'kind': kind, 'x_a': 0.0} for i, kind in enumerate(kinds)]
-        rows, left_out = plot_shapes.at_kinds(path, None)
-        self.assertEqual([row['index'] for row in rows], [0, 1, 3, 5, 7, 9, 41, 43, 44])
+        path.increments = [{'index': i, 'kind': kind, 'x_a': 0.0} for i, kind in enumerate(kinds)]
+        increments, left_out = plot_shapes.at_kinds(path, None)
+        self.assertEqual([increment['index'] for increment in increments], [0, 1, 3, 5, 7, 9, 41, 43, 44])
         self.assertEqual(left_out, 16)
-        rows, left_out = plot_shapes.at_kinds(path, 'limits')
-        self.assertEqual([row['index'] for row in rows], [0, 41, 43, 44])
+        increments, left_out = plot_shapes.at_kinds(path, 'limits')
+        self.assertEqual([increment['index'] for increment in increments], [0, 41, 43, 44])
         self.assertEqual(left_out, 0)
         self.assertEqual(len(plot_shapes.at_kinds(path, 'events')[0]), 23)
         self.assertEqual(plot_shapes.at_kinds(path, 'all')[1], 1)
@@ -157,11 +157,11 @@ class Shapes(QuickPlotTest):
     def test_rows_without_positions_are_not_drawn(self):
         path = path_file.Path('path')
         nan = float('nan')
-        path.rows = [{'index': i, 'kind': 'regular', 'x_a': 0.0 if i % 4 == 0 else nan} for i in range(7)]
-        self.assertEqual([row['index'] for row in plot_shapes.by_index(path, [0, 'end'])], [0, 4])
-        with self.assertRaisesRegex(ValueError, 'row 5 .*full_state_every.* 4'):
+        path.increments = [{'index': i, 'kind': 'regular', 'x_a': 0.0 if i % 4 == 0 else nan} for i in range(7)]
+        self.assertEqual([increment['index'] for increment in plot_shapes.by_index(path, [0, 'end'])], [0, 4])
+        with self.assertRaisesRegex(ValueError, 'increment 5 .*full_state_every.* 4'):
             plot_shapes.by_index(path, [5])
-        self.assertEqual([row['index'] for row in plot_shapes.at_kinds(path, None)[0]], [0, 4])
+        self.assertEqual([increment['index'] for increment in plot_shapes.at_kinds(path, None)[0]], [0, 4])
 
     def test_stages_of_a_program(self):
         """What a stage has brought on stays: loads, and obstacles where they were moved."""
@@ -174,14 +174,14 @@ class Shapes(QuickPlotTest):
                        '- {name: ease, loads: [{node: b, fx: -1.0}], obstacle_motions: [{obstacle: wall, dx: 0.5}]}\n')
         table = self.trace(name, 'program.csv')
         structure = plot_shapes.Structure(path_file.read_scene(name))
-        rows = path_file.read(table).rows
-        self.assertEqual({row['stage'] for row in rows}, {1.0, 2.0, 3.0})
-        for row in rows:
-            shape = plot_shapes.Shape(structure, row)
+        increments = path_file.read(table).increments
+        self.assertEqual({increment['stage'] for increment in increments}, {1.0, 2.0, 3.0})
+        for increment in increments:
+            shape = plot_shapes.Shape(structure, increment)
             b = structure.names.index('b')
-            tension = row['x_b'] - 1.0  # of the bar, EA = l0 = 1
+            tension = increment['x_b'] - 1.0  # of the bar, EA = l0 = 1
             self.assertAlmostEqual((shape.loads + shape.constant_loads)[b, 0] + shape.reactions[0, 0], tension)
-            self.assertAlmostEqual(shape.obstacles['wall'][0] - row['x_b'], row['gap_b@wall'])
+            self.assertAlmostEqual(shape.obstacles['wall'][0] - increment['x_b'], increment['gap_b@wall'])
         texts = self.texts(table, '--scene', name, '--shapes', '--states', '--y', 'rn_b@wall')
         for text in ('start (3)', 'pull, load factor 0', 'stage 2, load factor 0', 'constant load'):
             self.assertIn(text, texts)
@@ -193,8 +193,8 @@ class Shapes(QuickPlotTest):
         """The arch has no supports: loads and reactions are all forces on it, so their arrows add up to nothing."""
         path = path_file.read(self.trace('arch19', 'arch.csv'))
         structure = plot_shapes.Structure(path_file.read_scene(scene_file('arch19')))
-        rows, _ = plot_shapes.at_kinds(path, None)
-        shapes = [plot_shapes.Shape(structure, row) for row in rows]
+        increments, _ = plot_shapes.at_kinds(path, None)
+        shapes = [plot_shapes.Shape(structure, increment) for increment in increments]
         view = plot_shapes.View(shapes)
         for shape in shapes[1:]:
             axes = plt.figure().add_subplot(1, 1, 1)
@@ -203,7 +203,7 @@ class Shapes(QuickPlotTest):
                       for arrows in axes.findobj(Quiver) if arrows.width == plot_shapes.ARROW_WIDTH}
             plt.close('all')
             loads, reactions = forces[plot_shapes.LOAD], forces[plot_shapes.REACTION]
-            self.assertAlmostEqual(loads[0, 1], shape.row['load_factor'] * view.length_per_force)
+            self.assertAlmostEqual(loads[0, 1], shape.increment['load_factor'] * view.length_per_force)
             np.testing.assert_allclose(loads.sum(axis=0) + reactions.sum(axis=0), 0.0, atol=1e-8 * view.size)
             self.assertLessEqual(np.hypot(*np.vstack((loads, reactions)).T).max(), 0.2001 * view.size)
 

@@ -14,7 +14,7 @@ using std::chrono::steady_clock;
 // A bar whose time is told by the test.
 class ProgressBar : public testing::Test {
  protected:
-  // What stands on the terminal after a row at this time [s] since the first one.
+  // What stands on the terminal after an increment at this time [s] since the first one.
   std::string After(double seconds, int index, double load_factor) {
     if (!progress_) progress_ = std::make_unique<Progress>(request_, true, out_, [this] { return now_; });
     now_ = start_ + std::chrono::duration_cast<steady_clock::duration>(std::chrono::duration<double>(seconds));
@@ -39,16 +39,16 @@ class ProgressBar : public testing::Test {
 
 TEST_F(ProgressBar, TellsTheTimeLeftOfTheWantedIncrements) {
   request_.options.max_increments = 200;
-  EXPECT_EQ(After(0.0, 0, 0.0), "[              ]   0%  row 0  load factor 0  events 0");
-  EXPECT_EQ(After(10.0, 50, 0.25), "[###           ]  25%  row 50  load factor 0.25  events 0  0:30 left");
-  EXPECT_EQ(After(80.0, 100, 0.5), "[#######       ]  50%  row 100  load factor 0.5  events 0  1:20 left");
+  EXPECT_EQ(After(0.0, 0, 0.0), "[              ]   0%  increment 0  load factor 0  events 0");
+  EXPECT_EQ(After(10.0, 50, 0.25), "[###           ]  25%  increment 50  load factor 0.25  events 0  0:30 left");
+  EXPECT_EQ(After(80.0, 100, 0.5), "[#######       ]  50%  increment 100  load factor 0.5  events 0  1:20 left");
 }
 
 TEST_F(ProgressBar, EstimatesByTheCriterionThatIsNearest) {
   request_.options.max_increments = 1000;
   request_.options.stop = {{"load_factor", ">", 4.0}};
   After(0.0, 0, 0.0);
-  EXPECT_EQ(After(3600.0, 10, 1.0), "[###           ]  25%  row 10  load factor 1  events 0  3:00:00 left");
+  EXPECT_EQ(After(3600.0, 10, 1.0), "[###           ]  25%  increment 10  load factor 1  events 0  3:00:00 left");
 }
 
 TEST_F(ProgressBar, EstimatesNothingFromTooLittle) {
@@ -68,7 +68,7 @@ TEST_F(ProgressBar, EstimatesNothingInTheFirstMoments) {
 TEST_F(ProgressBar, WithoutAnEndShowsWhereItIs) {
   After(0.0, 0, 0.0);
   increment_.event.number = 1;
-  EXPECT_EQ(After(100.0, 7, -1.5), "row 7  load factor -1.5  events 1");
+  EXPECT_EQ(After(100.0, 7, -1.5), "increment 7  load factor -1.5  events 1");
 }
 
 }  // namespace

@@ -67,11 +67,11 @@ TEST_F(MixedSystem, CountsUnknownsAndEquations) {
   // One r_n and one gap each of the four that touch, one r_t and one u_t of the one that sticks.
   EXPECT_EQ(system_.NumUnknowns(), 6 + 1 + 4 + 1);
   EXPECT_EQ(system_.NumEquations(), 6 + 4 + 1);
-  system_.PinLoadFactor(0.5);
+  system_.FixLoadFactor(0.5);
   EXPECT_EQ(system_.NumEquations(), system_.NumUnknowns());
-  system_.Pin({{0, Inequality::kConeMinus}, {3, Inequality::kSlip}});
+  system_.SetActive({{0, Inequality::kConeMinus}, {3, Inequality::kSlip}});
   EXPECT_EQ(system_.NumEquations(), 6 + 4 + 1 + 1 + 2);
-  system_.UnpinLoadFactor();
+  system_.FreeLoadFactor();
   EXPECT_EQ(system_.NumEquations(), 6 + 4 + 1 + 2);
   system_.SetStates(states, reference_);
   EXPECT_EQ(system_.NumEquations(), 6 + 4 + 1);
@@ -91,10 +91,10 @@ TEST_F(MixedSystem, JacobianMeetsDifferencesInEveryCombinationOfStates) {
       const std::string what = "contact " + std::to_string(i) + " " + std::string(ToString(state));
       system_.SetStates(states, reference_);
       ExpectJacobian(what);
-      system_.Pin(system_.Inequalities());
-      ExpectJacobian(what + ", all pinned");
-      system_.PinLoadFactor(0.3);
-      ExpectJacobian(what + ", all and the load factor pinned");
+      system_.SetActive(system_.Inequalities());
+      ExpectJacobian(what + ", all active");
+      system_.FixLoadFactor(0.3);
+      ExpectJacobian(what + ", all and the load factor active");
     }
   }
 }
@@ -118,7 +118,7 @@ TEST(MovingSystem, DerivativesMeetDifferences) {
     return value;
   };
   EXPECT_TRUE(IsJacobian(residual, x, Eigen::MatrixXd(system.TransposedJacobian(x)).transpose()));
-  for (const Limit& limit : system.Inequalities()) {
+  for (const Constraint& limit : system.Inequalities()) {
     const auto value = [&](const Eigen::VectorXd& at) { return Eigen::VectorXd::Constant(1, system.Value(limit, at)); };
     EXPECT_TRUE(IsJacobian(value, x, system.Gradient(limit).transpose()));
   }
@@ -188,7 +188,7 @@ TEST_F(MixedSystem, InequalitiesOfEachStateAndTheirValues) {
                                           {3, Inequality::kSlip, -slip(3)},
                                           {4, Inequality::kGap, contacts_[4].gap.Value(point.u, point.s)},
                                           {5, Inequality::kGap, contacts_[5].gap.Value(point.u, point.s)}};
-  const std::vector<Limit> limits = system_.Inequalities();
+  const std::vector<Constraint> limits = system_.Inequalities();
   ASSERT_EQ(limits.size(), expected.size());
   for (std::size_t k = 0; k < limits.size(); ++k) {
     EXPECT_EQ(limits[k].contact, expected[k].contact) << k;
@@ -200,10 +200,10 @@ TEST_F(MixedSystem, InequalitiesOfEachStateAndTheirValues) {
 TEST_F(MixedSystem, PinnedInequalitiesAreTheLastEquations) {
   system_.SetStates({State::kStick, State::kClosed, State::kSlipPlus, State::kSlipMinus, State::kOpen, State::kOpen},
                     reference_);
-  const std::vector<Limit> limits = system_.Inequalities();
+  const std::vector<Constraint> limits = system_.Inequalities();
   const Eigen::VectorXd x = system_.Pack(RandomPoint());
-  system_.Pin(limits);
-  system_.PinLoadFactor(0.25);
+  system_.SetActive(limits);
+  system_.FixLoadFactor(0.25);
   Eigen::VectorXd residual;
   system_.Residual(x, &residual);
   const Eigen::Index first = residual.size() - 1 - static_cast<Eigen::Index>(limits.size());
@@ -216,7 +216,7 @@ TEST_F(MixedSystem, GradientsAndRatesOfInequalitiesMeetDifferences) {
   system_.SetStates({State::kStick, State::kClosed, State::kSlipPlus, State::kSlipMinus, State::kOpen, State::kOpen},
                     reference_);
   const Eigen::VectorXd x = system_.Pack(RandomPoint()), dx = random_.Vector(system_.NumUnknowns(), -1.0, 1.0);
-  for (const Limit& limit : system_.Inequalities()) {
+  for (const Constraint& limit : system_.Inequalities()) {
     const auto value = [&](const Eigen::VectorXd& at) {
       return Eigen::VectorXd::Constant(1, system_.Value(limit, at));
     };
@@ -228,7 +228,7 @@ TEST_F(MixedSystem, GradientsAndRatesOfInequalitiesMeetDifferences) {
 TEST_F(MixedSystem, SecondDerivativeMeetsDifferences) {
   for (const State state : {State::kOpen, State::kStick, State::kSlipPlus, State::kSlipMinus}) {
     system_.SetStates({state, State::kClosed, State::kStick, state, state, State::kOpen}, reference_);
-    system_.PinLoadFactor(0.2);
+    system_.FixLoadFactor(0.2);
     const Eigen::VectorXd x = system_.Pack(RandomPoint()), dx = random_.Vector(system_.NumUnknowns(), -1.0, 1.0);
     const auto rate = [&](const Eigen::VectorXd& h) {
       return Eigen::VectorXd(system_.TransposedJacobian(x + h[0] * dx).transpose() * dx);

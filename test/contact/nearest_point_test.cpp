@@ -56,7 +56,7 @@ TEST_F(SlidingBarNearest, IsOnThePathAndTheWayToItIsNormal) {
 }
 
 TEST_F(SlidingBarNearest, PinnedLoadFactorIsMet) {
-  system_.PinLoadFactor(1.0);
+  system_.FixLoadFactor(1.0);
   const NearestPoint nearest = FindNearestPoint(&system_, PackClosedForm(-4.0), PackClosedForm(-4.0).head(3));
   ASSERT_TRUE(nearest.converged);
   EXPECT_NEAR(nearest.x[2], 1.0, kRounding);
@@ -65,7 +65,7 @@ TEST_F(SlidingBarNearest, PinnedLoadFactorIsMet) {
 
 TEST_F(SlidingBarNearest, EquationsThatContradictEachOtherDoNotConverge) {
   system_.SetStates({ContactState::kStick}, Eigen::VectorXd::Constant(1, -3.0));
-  system_.Pin({{0, Inequality::kNormalReaction}});  // b held away from rest length without a normal reaction
+  system_.SetActive({{0, Inequality::kNormalReaction}});  // b held away from rest length without a normal reaction
   const Eigen::VectorXd start = PackClosedForm(-3.0);
   EXPECT_FALSE(FindNearestPoint(&system_, start, start.head(3)).converged);
 }

@@ -23,12 +23,12 @@ ExtremeCase SeveralFloors(int count) {
   }
   extreme.request = Until(scene, "b.x", ">", 4.9);
   extreme.exact = "closed form";
-  extreme.error = [](const TraceRequest&, const Increment& row) {
-    const double x = row.positions[2];
+  extreme.error = [](const TraceRequest&, const Increment& increment) {
+    const double x = increment.positions[2];
     double reaction = 0.0;
-    for (const ContactRecord& contact : row.contacts) reaction += contact.rn;
-    return Largest(
-        {row.load_factor - sliding_bar::LoadFactor(x), row.positions[3], reaction - sliding_bar::NormalReaction(x)});
+    for (const ContactRecord& contact : increment.contacts) reaction += contact.rn;
+    return Largest({increment.load_factor - sliding_bar::LoadFactor(x), increment.positions[3],
+                    reaction - sliding_bar::NormalReaction(x)});
   };
   return extreme;
 }
@@ -44,8 +44,8 @@ ExtremeCase RedundantSupports() {
   scene.loads = {{"b", 1.0, 0.0, false}};
   extreme.request = Until(scene, "b.x", ">", 0.5);
   extreme.exact = "closed form";
-  extreme.error = [](const TraceRequest&, const Increment& row) {
-    return std::abs(row.load_factor - 2.0 * row.positions[2]);
+  extreme.error = [](const TraceRequest&, const Increment& increment) {
+    return std::abs(increment.load_factor - 2.0 * increment.positions[2]);
   };
   return extreme;
 }
@@ -64,11 +64,11 @@ ExtremeCase Corner(double friction) {
   scene.contacts = {{"p", "floor"}, {"p", "wall"}};
   extreme.request = Until(scene, "load_factor", ">", 1.0);
   extreme.exact = "closed form";
-  extreme.error = [](const TraceRequest&, const Increment& row) {
-    const ContactRecord &floor = row.contacts[0], &wall = row.contacts[1];
-    const double s = row.load_factor;
+  extreme.error = [](const TraceRequest&, const Increment& increment) {
+    const ContactRecord &floor = increment.contacts[0], &wall = increment.contacts[1];
+    const double s = increment.load_factor;
     // t = (1, 0) on the floor, (0, 1) on the wall.
-    return Largest({row.positions[0], row.positions[1], s - wall.rn + floor.rt, -s + floor.rn + wall.rt});
+    return Largest({increment.positions[0], increment.positions[1], s - wall.rn + floor.rt, -s + floor.rn + wall.rt});
   };
   return extreme;
 }
@@ -88,17 +88,18 @@ ExtremeCase Wedge(double friction, double clearance) {
   scene.contacts = {{"p", "left"}, {"p", "right"}};
   extreme.request = Until(scene, "load_factor", ">", 2.0);
   extreme.exact = "closed form, the free wall without reaction";
-  // A clearance that the check of a row cannot tell from none.
+  // A clearance that the check of an increment cannot tell from none.
   const bool tight = clearance <= 1e-9;
   // eps of mpec takes in what is nearer than its root.
   if (clearance > 0.0) extreme.allowed_regularised = 5e-2;
-  extreme.error = [friction, clearance, tight](const TraceRequest& request, const Increment& row) {
+  extreme.error = [friction, clearance, tight](const TraceRequest& request, const Increment& increment) {
     // Two rough walls may squeeze the node between them as much as it takes to hold it, which mpec follows.
     if (friction > 0.0 && tight && request.options.method == Method::kMpec)
-      return Largest({row.positions[0] - clearance, row.contacts[1].rn - row.contacts[0].rn - kPress});
-    const double press = kPress - clearance, slid = std::max(0.0, row.load_factor - friction * press);
-    return Largest(
-        {row.positions[0] - clearance, row.positions[1] - slid, row.contacts[0].rn, row.contacts[1].rn - press});
+      return Largest(
+          {increment.positions[0] - clearance, increment.contacts[1].rn - increment.contacts[0].rn - kPress});
+    const double press = kPress - clearance, slid = std::max(0.0, increment.load_factor - friction * press);
+    return Largest({increment.positions[0] - clearance, increment.positions[1] - slid, increment.contacts[0].rn,
+                    increment.contacts[1].rn - press});
   };
   return extreme;
 }
@@ -118,11 +119,12 @@ ExtremeCase CoincidentNodes() {
   scene.obstacles = {{"wall", ObstacleShape::kHalfPlane, 0.25, 0.0, -1.0, 0.0, 0.3}};
   extreme.request = Until(scene, "load_factor", ">", 1.0);
   extreme.exact = "closed form";
-  extreme.error = [](const TraceRequest&, const Increment& row) {
+  extreme.error = [](const TraceRequest&, const Increment& increment) {
     double error = 0.0;
     for (std::size_t i = 0; i < 3; ++i)
-      error = Largest({error, row.positions[2 * i] - std::min(row.load_factor, 0.25), row.positions[2 * i + 1],
-                       row.contacts[i].rn - std::max(0.0, row.load_factor - 0.25)});
+      error = Largest({error, increment.positions[2 * i] - std::min(increment.load_factor, 0.25),
+                       increment.positions[2 * i + 1],
+                       increment.contacts[i].rn - std::max(0.0, increment.load_factor - 0.25)});
     return error;
   };
   return extreme;
@@ -147,12 +149,13 @@ ExtremeCase ManyAtOnce(std::size_t count, double more, double friction) {
   extreme.request = Until(scene, "load_factor", ">", 0.02, 0.5, 5000);
   extreme.exact = "closed form";
   extreme.long_run = count > 100;
-  extreme.error = [count, more](const TraceRequest&, const Increment& row) {
+  extreme.error = [count, more](const TraceRequest&, const Increment& increment) {
     double error = 0.0;
     for (std::size_t i = 0; i < count; ++i) {
       const double gap = kFirst + static_cast<double>(i) * more;
-      error = Largest({error, row.positions[2 * i] - std::min(row.load_factor, gap), row.positions[2 * i + 1],
-                       row.contacts[i].rn - std::max(0.0, row.load_factor - gap)});
+      error = Largest({error, increment.positions[2 * i] - std::min(increment.load_factor, gap),
+                       increment.positions[2 * i + 1],
+                       increment.contacts[i].rn - std::max(0.0, increment.load_factor - gap)});
     }
     return error;
   };

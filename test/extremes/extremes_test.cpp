@@ -31,11 +31,11 @@ INSTANTIATE_TEST_SUITE_P(Cases, Extremes, testing::ValuesIn(ShortCases()), [](co
 TEST_P(Extremes, AreRightOrEndByName) {
   for (const Accuracy accuracy : {Accuracy::kFast, Accuracy::kBalanced, Accuracy::kAccurate}) {
     const Outcome outcome = RunCase(GetParam(), Method::kBranch, accuracy, 20.0);
-    EXPECT_EQ(outcome.fault, "") << "branch, " << ToString(accuracy) << ", " << outcome.rows << " rows";
+    EXPECT_EQ(outcome.fault, "") << "branch, " << ToString(accuracy) << ", " << outcome.increments << " increments";
     EXPECT_FALSE(outcome.out_of_time);
   }
   const Outcome outcome = RunCase(GetParam(), Method::kMpec, Accuracy::kBalanced, 0.2);
-  EXPECT_EQ(outcome.fault, "") << "mpec, " << outcome.rows << " rows";
+  EXPECT_EQ(outcome.fault, "") << "mpec, " << outcome.increments << " increments";
 }
 
 }  // namespace

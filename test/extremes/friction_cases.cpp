@@ -19,15 +19,16 @@ ExtremeCase SlidingBar(double friction) {
   extreme.exact = "closed form";
   // At its top the path turns within a millionth of its length.
   if (friction > 1e5) extreme.ends = {"step_too_small"};
-  extreme.error = [friction](const TraceRequest&, const Increment& row) {
-    if (row.index == 0) return std::abs(row.load_factor);
+  extreme.error = [friction](const TraceRequest&, const Increment& increment) {
+    if (increment.index == 0) return std::abs(increment.load_factor);
     const ContactState sliding = friction > 0.0 ? ContactState::kSlipPlus : ContactState::kClosed;
-    if (row.contacts[0].state != sliding) return HUGE_VAL;
-    const double x = row.positions[2], y = row.positions[3];
+    if (increment.contacts[0].state != sliding) return HUGE_VAL;
+    const double x = increment.positions[2], y = increment.positions[3];
     const double stiffness =
         sliding_bar::kEA * (1.0 / std::hypot(x, sliding_bar::kHeight) - 1.0 / sliding_bar::kRestLength);
     const double load = stiffness * (sliding_bar::kHeight * friction - x), unit = std::max(1.0, friction);
-    return Largest({(row.load_factor - load) / unit, y, row.contacts[0].rn - stiffness * sliding_bar::kHeight});
+    return Largest(
+        {(increment.load_factor - load) / unit, y, increment.contacts[0].rn - stiffness * sliding_bar::kHeight});
   };
   return extreme;
 }
@@ -46,13 +47,13 @@ ExtremeCase StickingTruss(double friction) {
   // Slope of the bars 1 / mu: there it would slip.
   extreme.request = Until(scene, "apex.y", "<", 1.01 / friction);
   extreme.exact = "closed form";
-  extreme.error = [friction](const TraceRequest&, const Increment& row) {
-    const double y = row.positions[5];
-    // A last row beyond the end slips, at the slope 1 / mu.
-    if (row.contacts[0].state == ContactState::kSlipPlus) return std::abs(y - row.positions[2] / friction);
-    if (row.contacts[0].state != ContactState::kStick) return HUGE_VAL;
-    return Largest({row.load_factor - rough_truss::StickingLoad(y), row.positions[2] - 1.0, row.positions[3],
-                    row.contacts[0].rn - 0.5 * rough_truss::StickingLoad(y)});
+  extreme.error = [friction](const TraceRequest&, const Increment& increment) {
+    const double y = increment.positions[5];
+    // A last increment beyond the end slips, at the slope 1 / mu.
+    if (increment.contacts[0].state == ContactState::kSlipPlus) return std::abs(y - increment.positions[2] / friction);
+    if (increment.contacts[0].state != ContactState::kStick) return HUGE_VAL;
+    return Largest({increment.load_factor - rough_truss::StickingLoad(y), increment.positions[2] - 1.0,
+                    increment.positions[3], increment.contacts[0].rn - 0.5 * rough_truss::StickingLoad(y)});
   };
   return extreme;
 }

@@ -24,12 +24,12 @@ ExtremeCase ThroughZero(StrainMeasure strain) {
     extreme.request = Until(scene, "b.x", "<", -1.2, 0.0, 3000);
   }
   if (strain == StrainMeasure::kBiot) extreme.ends = {"step_too_small", "path_end", "numerical_failure"};
-  extreme.error = [strain](const TraceRequest&, const Increment& row) {
-    const double x = row.positions[2];
-    if (strain == StrainMeasure::kGreenLagrange) return std::abs(row.load_factor - 0.5 * x * (1.0 - x * x));
+  extreme.error = [strain](const TraceRequest&, const Increment& increment) {
+    const double x = increment.positions[2];
+    if (strain == StrainMeasure::kGreenLagrange) return std::abs(increment.load_factor - 0.5 * x * (1.0 - x * x));
     if (!(x > 0.0)) return HUGE_VAL;
     const double load = strain == StrainMeasure::kBiot ? 1.0 - x : -std::log(x) / x;
-    return std::abs(row.load_factor - load) / std::max(1.0, load);
+    return std::abs(increment.load_factor - load) / std::max(1.0, load);
   };
   return extreme;
 }
@@ -52,11 +52,11 @@ ExtremeCase FlatArch(double rise) {
   const double limit = von_mises::BiotLimit(1.0, rise);
   // Strains of rise^2 from lengths of 1: this is what rounding leaves of the load.
   extreme.allowed = std::max(1e-9, 1e-14 / (rise * rise));
-  extreme.error = [rise, limit](const TraceRequest&, const Increment& row) {
+  extreme.error = [rise, limit](const TraceRequest&, const Increment& increment) {
     // From the difference of the squares of the lengths, which does not cancel.
-    const double y = row.positions[5], l = std::hypot(1.0, y), l0 = std::hypot(1.0, rise);
+    const double y = increment.positions[5], l = std::hypot(1.0, y), l0 = std::hypot(1.0, rise);
     const double load = 2.0 * y * (rise - y) * (rise + y) / (l * l0 * (l + l0));
-    return std::abs(row.load_factor - load) / limit;
+    return std::abs(increment.load_factor - load) / limit;
   };
   return extreme;
 }
@@ -69,9 +69,9 @@ ExtremeCase Straight() {
   extreme.request = Until(Arch(0.0), "apex.y", "<", -0.5);
   extreme.exact = "closed form";
   extreme.ends = {"path_end", "numerical_failure", "step_too_small"};
-  extreme.error = [](const TraceRequest&, const Increment& row) {
-    const double y = -row.positions[5];
-    return std::abs(row.load_factor - 2.0 * y * (1.0 - 1.0 / std::hypot(1.0, y)));
+  extreme.error = [](const TraceRequest&, const Increment& increment) {
+    const double y = -increment.positions[5];
+    return std::abs(increment.load_factor - 2.0 * y * (1.0 - 1.0 / std::hypot(1.0, y)));
   };
   return extreme;
 }
@@ -86,8 +86,8 @@ ExtremeCase NextToLimit(double below) {
   scene.loads.push_back({"apex", 0.0, -constant, true});
   extreme.request = Until(scene, "apex.y", "<", -0.4);
   extreme.exact = "closed form";
-  extreme.error = [constant](const TraceRequest&, const Increment& row) {
-    return std::abs(row.load_factor + constant - von_mises::BiotLoad(1.0, 0.5, row.positions[5]));
+  extreme.error = [constant](const TraceRequest&, const Increment& increment) {
+    return std::abs(increment.load_factor + constant - von_mises::BiotLoad(1.0, 0.5, increment.positions[5]));
   };
   if (below < 0.0) extreme.ends = {"path_end"};
   return extreme;
@@ -133,10 +133,10 @@ ExtremeCase Tangential(double clearance, double friction) {
   extreme.exact = "closed form";
   // A ceiling that is lower than the top presses with that much.
   extreme.allowed = 1e-9 + 10.0 * std::max(0.0, -clearance);
-  extreme.error = [](const TraceRequest&, const Increment& row) {
-    const double x = row.positions[8] - swing::kCentreX, y = row.positions[9] - swing::kCentreY;
-    return Largest({row.load_factor - von_mises::BiotLoad(1.0, 1.0, row.positions[3]),
-                    std::hypot(x, y) - swing::kRadius, row.contacts[0].rn});
+  extreme.error = [](const TraceRequest&, const Increment& increment) {
+    const double x = increment.positions[8] - swing::kCentreX, y = increment.positions[9] - swing::kCentreY;
+    return Largest({increment.load_factor - von_mises::BiotLoad(1.0, 1.0, increment.positions[3]),
+                    std::hypot(x, y) - swing::kRadius, increment.contacts[0].rn});
   };
   return extreme;
 }

@@ -7,10 +7,10 @@
 namespace contact_path {
 namespace {
 
-double SlidingBarError(const TraceRequest&, const Increment& row) {
-  const double x = row.positions[2];
-  return Largest({row.load_factor - sliding_bar::LoadFactor(x), row.positions[3],
-                  row.contacts[0].rn - sliding_bar::NormalReaction(x)});
+double SlidingBarError(const TraceRequest&, const Increment& increment) {
+  const double x = increment.positions[2];
+  return Largest({increment.load_factor - sliding_bar::LoadFactor(x), increment.positions[3],
+                  increment.contacts[0].rn - sliding_bar::NormalReaction(x)});
 }
 
 ExtremeCase StepOf(double step) {
@@ -31,10 +31,10 @@ ExtremeCase ManyIncrements(int count) {
   extreme.request = Until(sliding_bar::MakeScene(), "b.x", ">", 4.9, 1.75 / count, count);
   extreme.exact = "closed form";
   // The dissipation of method branch is an integral along the path, that of mpec a sum of products.
-  extreme.error = [](const TraceRequest& request, const Increment& row) {
-    const double dissipation = sliding_bar::Dissipation(row.positions[2]);
-    return Largest(
-        {SlidingBarError(request, row), row.solve.method == Method::kBranch ? row.dissipation - dissipation : 0.0});
+  extreme.error = [](const TraceRequest& request, const Increment& increment) {
+    const double dissipation = sliding_bar::Dissipation(increment.positions[2]);
+    return Largest({SlidingBarError(request, increment),
+                    increment.solve.method == Method::kBranch ? increment.dissipation - dissipation : 0.0});
   };
   extreme.long_run = true;
   extreme.most_seconds = 120.0;

@@ -34,10 +34,10 @@ ExtremeCase Chain(double soft, double stiff) {
   extreme.allowed = std::max(1e-9, 10.0 * std::numeric_limits<double>::epsilon() * stiff / at_wall);
   extreme.allowed_regularised = std::max(extreme.allowed_regularised, extreme.allowed);
   extreme.exact = "closed form";
-  extreme.error = [compliance, at_wall](const TraceRequest&, const Increment& row) {
-    const double s = row.load_factor, moved = std::min(s * compliance, kGap);
+  extreme.error = [compliance, at_wall](const TraceRequest&, const Increment& increment) {
+    const double s = increment.load_factor, moved = std::min(s * compliance, kGap);
     const double reaction = std::max(0.0, s - at_wall);
-    return Largest({row.positions[4] - 2.0 - moved, (row.contacts[0].rn - reaction) / at_wall});
+    return Largest({increment.positions[4] - 2.0 - moved, (increment.contacts[0].rn - reaction) / at_wall});
   };
   return extreme;
 }
@@ -60,9 +60,9 @@ ExtremeCase BesideABar(double stiffness) {
   extreme.request.options.stop = {{scene.contacts[0].node + ".x", ">", x0 + 1.0}};
   extreme.exact = "closed form";
   extreme.ends = {"numerical_failure", "step_too_small"};
-  extreme.error = [node, x0](const TraceRequest&, const Increment& row) {
-    const double x = row.positions[node] - x0, y = row.positions[node + 1], s = row.load_factor;
-    switch (row.contacts[0].state) {
+  extreme.error = [node, x0](const TraceRequest&, const Increment& increment) {
+    const double x = increment.positions[node] - x0, y = increment.positions[node + 1], s = increment.load_factor;
+    switch (increment.contacts[0].state) {
       case ContactState::kStick: return Largest({x, y, std::max(0.0, s - 1.0)});
       case ContactState::kSlipPlus: return Largest({s - (1.0 - 0.5 * x), y, std::max(0.0, x - 2.0 / 3.0)});
       case ContactState::kOpen: return Largest({s - 2.0 / 3.0 - 0.4375 * (x - 2.0 / 3.0)});
@@ -92,12 +92,12 @@ ExtremeCase TrussBesideABar(double stiffness) {
   extreme.request.options.max_increments = 20000;
   extreme.exact = "closed form";
   extreme.ends = {"numerical_failure"};
-  extreme.error = [foot, apex](const TraceRequest&, const Increment& row) {
-    const double x = row.positions[foot];
-    if (row.contacts[0].state == ContactState::kSlipPlus)
-      return std::abs(row.load_factor - rough_truss::SlidingLoad(x));
-    if (row.contacts[0].state != ContactState::kStick) return HUGE_VAL;
-    return Largest({row.load_factor - rough_truss::StickingLoad(row.positions[apex + 1]), x - 1.0});
+  extreme.error = [foot, apex](const TraceRequest&, const Increment& increment) {
+    const double x = increment.positions[foot];
+    if (increment.contacts[0].state == ContactState::kSlipPlus)
+      return std::abs(increment.load_factor - rough_truss::SlidingLoad(x));
+    if (increment.contacts[0].state != ContactState::kStick) return HUGE_VAL;
+    return Largest({increment.load_factor - rough_truss::StickingLoad(increment.positions[apex + 1]), x - 1.0});
   };
   extreme.allowed = 1e-8;
   return extreme;
@@ -122,21 +122,21 @@ ExtremeCase Units(const std::string& name, double length, double force) {
   request.options.max_increments = 150;
   extreme.request = ChangeUnits(request, length, force);
   extreme.exact = "the path in units of order 1";
-  extreme.error = [name, request, length, force](const TraceRequest& as_run, const Increment& row) {
+  extreme.error = [name, request, length, force](const TraceRequest& as_run, const Increment& increment) {
     TraceRequest same = request;
     same.options.method = as_run.options.method;
     same.options.accuracy = as_run.options.accuracy;
-    const std::vector<Increment>& rows = Reference(name, same).rows;
-    const auto index = static_cast<std::size_t>(row.index);
-    if (index >= rows.size()) return HUGE_VAL;
-    const Increment& other = rows[index];
+    const std::vector<Increment>& increments = Reference(name, same).increments;
+    const auto index = static_cast<std::size_t>(increment.index);
+    if (index >= increments.size()) return HUGE_VAL;
+    const Increment& other = increments[index];
     const Scaling scales = CharacteristicScales(request.scene);
-    double error = std::abs(row.load_factor - other.load_factor) / scales.load_factor;
-    for (std::size_t i = 0; i < row.positions.size(); ++i)
-      error = Largest({error, (row.positions[i] / length - other.positions[i]) / scales.length});
-    for (std::size_t i = 0; i < row.contacts.size(); ++i) {
-      error = Largest({error, (row.contacts[i].rn / force - other.contacts[i].rn) / scales.force});
-      if (row.contacts[i].state != other.contacts[i].state) error = HUGE_VAL;
+    double error = std::abs(increment.load_factor - other.load_factor) / scales.load_factor;
+    for (std::size_t i = 0; i < increment.positions.size(); ++i)
+      error = Largest({error, (increment.positions[i] / length - other.positions[i]) / scales.length});
+    for (std::size_t i = 0; i < increment.contacts.size(); ++i) {
+      error = Largest({error, (increment.contacts[i].rn / force - other.contacts[i].rn) / scales.force});
+      if (increment.contacts[i].state != other.contacts[i].state) error = HUGE_VAL;
     }
     return error;
   };
@@ -160,9 +160,10 @@ ExtremeCase Cancelling(double difference) {
   // F is the sum of the loads, and L as small.
   extreme.request = Until(scene, "load_factor", ">", 2.0 / difference, 0.1 / difference);
   extreme.exact = "closed form";
-  extreme.error = [load](const TraceRequest&, const Increment& row) {
-    const double force = load * row.load_factor;
-    return Largest({row.positions[0] - std::min(force, 1.0), row.contacts[0].rn - std::max(0.0, force - 1.0)});
+  extreme.error = [load](const TraceRequest&, const Increment& increment) {
+    const double force = load * increment.load_factor;
+    return Largest(
+        {increment.positions[0] - std::min(force, 1.0), increment.contacts[0].rn - std::max(0.0, force - 1.0)});
   };
   return extreme;
 }

@@ -18,18 +18,19 @@
 namespace contact_path {
 namespace {
 
-constexpr std::size_t kMostNumbersToVerify = 20'000'000;  // of all rows together
-constexpr double kOfAttainable = 10.0;                    // error of rows that are, where rounding matters
+constexpr std::size_t kMostNumbersToVerify = 20'000'000;  // of all increments together
+constexpr double kOfAttainable = 10.0;                    // error of increments that are, where rounding matters
 constexpr int kFewRows = 4;                               // for fewer there is more time
 constexpr double kTimeForFew = 5.0;
 
 using Clock = std::chrono::steady_clock;
 
-bool AllFinite(const Increment& row) {
-  bool finite = std::isfinite(row.load_factor) && std::isfinite(row.arc_length) && std::isfinite(row.dissipation) &&
-                std::isfinite(row.strain_energy) && std::isfinite(row.external_work);
-  for (const double position : row.positions) finite = finite && std::isfinite(position);
-  for (const ContactRecord& contact : row.contacts)
+bool AllFinite(const Increment& increment) {
+  bool finite = std::isfinite(increment.load_factor) && std::isfinite(increment.arc_length) &&
+                std::isfinite(increment.dissipation) && std::isfinite(increment.strain_energy) &&
+                std::isfinite(increment.external_work);
+  for (const double position : increment.positions) finite = finite && std::isfinite(position);
+  for (const ContactRecord& contact : increment.contacts)
     finite = finite && std::isfinite(contact.gap) && std::isfinite(contact.rn) && std::isfinite(contact.rt);
   return finite;
 }
@@ -48,28 +49,28 @@ Outcome RunCase(const ExtremeCase& extreme, Method method, Accuracy accuracy, do
   request.options.method = method;
   request.options.accuracy = accuracy;
   Outcome outcome;
-  std::vector<Increment> rows;
+  std::vector<Increment> increments;
   bool finite = true;
   double exact_error = 0.0;
   const std::size_t most_rows = kMostNumbersToVerify / (request.scene.nodes.size() + request.scene.contacts.size());
   const Clock::time_point start = Clock::now();
   Clock::duration judging = {};
   TraceControl control;
-  control.on_increment = [&](const Increment& row) {
+  control.on_increment = [&](const Increment& increment) {
     const Clock::time_point before = Clock::now();
-    ++outcome.rows;
-    finite = finite && AllFinite(row);
+    ++outcome.increments;
+    finite = finite && AllFinite(increment);
     if (extreme.error) {
-      const double error = extreme.error(request, row);
+      const double error = extreme.error(request, increment);
       outcome.error = std::max(outcome.error, std::isnan(error) ? HUGE_VAL : error);
-      if (row.solve.exact) exact_error = std::max(exact_error, std::isnan(error) ? HUGE_VAL : error);
+      if (increment.solve.exact) exact_error = std::max(exact_error, std::isnan(error) ? HUGE_VAL : error);
     }
-    if (rows.size() < most_rows) rows.push_back(row);
+    if (increments.size() < most_rows) increments.push_back(increment);
     judging += Clock::now() - before;
   };
   control.cancelled = [&] {
     const std::chrono::duration<double> gone = Clock::now() - start - judging;
-    const double seconds = outcome.rows < kFewRows ? kTimeForFew * most_seconds : most_seconds;
+    const double seconds = outcome.increments < kFewRows ? kTimeForFew * most_seconds : most_seconds;
     outcome.out_of_time = outcome.out_of_time || gone.count() > seconds;
     return outcome.out_of_time;
   };
@@ -88,9 +89,9 @@ Outcome RunCase(const ExtremeCase& extreme, Method method, Accuracy accuracy, do
     outcome.fault = "error " + Text(outcome.error);
   else if (!(outcome.out_of_time && result.reason == EndReason::kCancelled) && !MayEnd(extreme, method, result.reason))
     outcome.fault = std::string(ToString(result.reason)) + ": " + result.message;
-  else if (!rows.empty() && rows.size() < most_rows) {
-    for (const Finding& finding : VerifyPath(request, rows).findings)
-      if (outcome.fault.empty()) outcome.fault = "row " + std::to_string(finding.row) + ": " + finding.what;
+  else if (!increments.empty() && increments.size() < most_rows) {
+    for (const Finding& finding : VerifyPath(request, increments).findings)
+      if (outcome.fault.empty()) outcome.fault = "increment " + std::to_string(finding.increment) + ": " + finding.what;
   }
   return outcome;
 }
@@ -105,9 +106,9 @@ double AttainableError(const ExtremeCase& extreme) {
   const TracedPath path = TraceRows(request);
   double largest = -1.0;
   for (int i = 0; i < kSamples; ++i) {
-    const std::size_t index = path.rows.size() * static_cast<std::size_t>(i) / kSamples;
-    if (index >= path.rows.size()) continue;
-    const PathPoint point = model.FromRow(path.rows[index]);
+    const std::size_t index = path.increments.size() * static_cast<std::size_t>(i) / kSamples;
+    if (index >= path.increments.size()) continue;
+    const PathPoint point = model.FromRow(path.increments[index]);
     FixedStateSystem system(model.structure, model.contacts);
     system.SetStates(point.states, TangentialPositions(model.contacts, point));
     const Eigen::VectorXd x = system.Pack(point);

@@ -49,7 +49,7 @@ TEST(BorderedSolver, SolvesRegularSystems) {
     if (values[0] > 1e4 * values[n - 1]) continue;
     BorderedSolver solver;
     ASSERT_TRUE(solver.Factorize(Transposed(jacobian), row));
-    EXPECT_EQ(solver.Deficiency(), 0);
+    EXPECT_EQ(solver.Nullity(), 0);
     const VectorXd x = solver.Solve(b.head(n - 1), b[n - 1]);
     worst = std::max(worst, (matrix * x - b).norm() / (1.0 + x.norm()));
     EXPECT_EQ(solver.DeterminantSign(), matrix.determinant() > 0.0 ? 1 : -1);
@@ -86,7 +86,7 @@ TEST(BorderedSolver, ShortestSolutionWhereSingular) {
     const VectorXd b = matrix * random.Vector(n, -1.0, 1.0);
     BorderedSolver solver;
     ASSERT_TRUE(solver.Factorize(Transposed(jacobian), row));
-    EXPECT_EQ(solver.Deficiency(), n - rank);
+    EXPECT_EQ(solver.Nullity(), n - rank);
     EXPECT_EQ(solver.DeterminantSign(), 0);
     const VectorXd x = solver.Solve(b.head(n - 1), b[n - 1]);
     worst = std::max(worst, (x - ShortestSolution(matrix, b)).norm() / (1.0 + x.norm()));
@@ -106,7 +106,7 @@ TEST(BorderedSolver, ShortestSolutionWhereNotSquare) {
     if (values[0] > 1e4 * values[matrix.rows() - 1]) continue;
     BorderedSolver solver;
     ASSERT_TRUE(solver.Factorize(Transposed(jacobian), row));
-    EXPECT_EQ(solver.Deficiency(), missing);
+    EXPECT_EQ(solver.Nullity(), missing);
     EXPECT_EQ(solver.DeterminantSign(), 0);
     const VectorXd b = random.Vector(matrix.rows(), -1.0, 1.0);
     const VectorXd x = solver.Solve(b.head(b.size() - 1), b[b.size() - 1]);
@@ -123,7 +123,7 @@ TEST(BorderedSolver, LeavesOutRedundantEquations) {
       2.0, -1.0, 0.0;
   BorderedSolver solver;
   ASSERT_TRUE(solver.Factorize(Transposed(jacobian), Eigen::Vector3d(0.0, 0.0, 2.0)));
-  EXPECT_EQ(solver.Deficiency(), 0);
+  EXPECT_EQ(solver.Nullity(), 0);
   EXPECT_EQ(solver.DeterminantSign(), 0);
   EXPECT_TRUE(solver.Solve(Eigen::Vector3d(1.0, 2.0, 0.0), 6.0).isApprox(Eigen::Vector3d(1.0, 2.0, 3.0), 1e-14));
 }
@@ -146,7 +146,7 @@ TEST(BorderedSolver, SingularWhereTheDeterminantChangesItsSign) {
   }
   ASSERT_TRUE(solver.Factorize(Transposed(jacobian(0.0)), row));
   EXPECT_EQ(solver.DeterminantSign(), 0);
-  EXPECT_EQ(solver.Deficiency(), 1);
+  EXPECT_EQ(solver.Nullity(), 1);
 }
 
 TEST(BorderedSolver, RefusesWhatIsNotFinite) {

@@ -39,7 +39,7 @@ TEST(SingularVectors, OfMatricesOfEveryShape) {
       MatrixXd matrix(rows, columns);
       for (Index j = 0; j < columns; ++j) matrix.col(j) = random.Vector(rows, -1.0, 1.0);
       ExpectRightSingularVectors(matrix);
-      matrix.col(columns - 1) = 2.0 * matrix.col(0);  // rank deficient, for more than one column
+      matrix.col(columns - 1) = 2.0 * matrix.col(0);  // rank rank-deficient, for more than one column
       ExpectRightSingularVectors(matrix);
     }
 }

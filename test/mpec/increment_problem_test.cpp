@@ -77,7 +77,7 @@ class MixedProblem : public testing::TestWithParam<WorkingSet> {
     goal_.length = 0.2;
     goal_.direction = random_.Vector(7, -1.0, 1.0).normalized();
     goal_.dissipation = 0.3;
-    goal_.growth = 1.7;
+    goal_.gamma2_factor = 1.7;
   }
   IncrementProblem Problem() const { return IncrementProblem(structure_, contacts_, from_, GetParam(), goal_); }
   Eigen::VectorXd RandomVariables(const IncrementProblem& problem) {
@@ -270,12 +270,12 @@ TEST_P(MixedProblem, StandingStillKeepsTheFrictionLaw) {
 TEST_P(MixedProblem, AimIsTheUnconstrainedMinimumAndNoFartherThanWanted) {
   for (const double share : {0.0, 0.2, 0.6, 1.0}) {
     goal_.dissipation = share;
-    goal_.growth = 1.0;
+    goal_.gamma2_factor = 1.0;
     const IncrementProblem problem = Problem();
-    const Eigen::VectorXd aim = problem.Aim();
+    const Eigen::VectorXd minimiser = problem.UnconstrainedMinimiser();
     Eigen::VectorXd x = Eigen::VectorXd::Zero(problem.NumVariables());
-    x.head(6) = (aim.head(6) - from_.u) / goal_.length;
-    x[6] = (aim[6] - from_.s) / goal_.length;
+    x.head(6) = (minimiser.head(6) - from_.u) / goal_.length;
+    x[6] = (minimiser[6] - from_.s) / goal_.length;
     EXPECT_LE(GradientOf(problem, x).norm(), kRounding);
     EXPECT_GT(GradientOf(problem, 1.1 * x).norm(), 1e-3);
     EXPECT_LE(x.norm(), 1.0 + kRounding);
@@ -288,12 +288,12 @@ TEST_P(MixedProblem, AimIsTheUnconstrainedMinimumAndNoFartherThanWanted) {
 
 TEST_P(MixedProblem, GrowthShortensTheAimAndDissipationTurnsItAgainstTheReaction) {
   goal_.dissipation = 0.0;
-  goal_.growth = 2.0;
-  const Eigen::VectorXd along = Problem().Aim();
+  goal_.gamma2_factor = 2.0;
+  const Eigen::VectorXd along = Problem().UnconstrainedMinimiser();
   EXPECT_LE((along.head(6) - from_.u - 0.5 * goal_.length * goal_.direction.head(6)).norm(), kRounding);
   EXPECT_NEAR(along[6], from_.s + 0.5 * goal_.length * goal_.direction[6], kRounding);
   goal_.dissipation = 1.0;
-  const Eigen::VectorXd against = Problem().Aim();
+  const Eigen::VectorXd against = Problem().UnconstrainedMinimiser();
   double power = 0.0, friction = 0.0;
   for (const int contact : GetParam()) {
     const ContactGeometry& geometry = contacts_[static_cast<std::size_t>(contact)];

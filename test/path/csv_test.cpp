@@ -29,20 +29,21 @@ Increment FullIncrement() {
   increment.index = 1234567;
   increment.load_factor = 0.5;
   increment.arc_length = 2.0;
-  increment.kind = RowKind::kCornerLimit;
+  increment.kind = IncrementKind::kCornerLimit;
   increment.positions = {-1.0, 0.25, 3.0, -4.5};
   increment.contacts = {{0.125, 0.0, 0.0, ContactState::kOpen}, {0.0, 8.0, -2.0, ContactState::kSlipPlus}};
   increment.dissipation = 16.0;
   increment.strain_energy = 32.0;
   increment.external_work = 77.0;
   increment.residuals.equilibrium = 64.0;
-  increment.residuals.adhesion = 128.0;
+  increment.residuals.tensile_reaction = 128.0;
   increment.residuals.friction_law = 256.0;
   increment.solve.time = 512.0;
   return increment;
 }
 
-constexpr char kFullRow[] = "1234567,0.5,2,corner_limit,-1,0.25,3,-4.5,0.125,0,0,open,0,8,-2,slip+,16,32,64,256,512\n";
+constexpr char kFullIncrement[] =
+    "1234567,0.5,2,corner_limit,-1,0.25,3,-4.5,0.125,0,0,open,0,8,-2,slip+,16,32,64,256,512\n";
 
 std::string Row(const Increment& increment) {
   std::ostringstream out;
@@ -67,10 +68,10 @@ TEST(CsvHeader, NamesNodesAndContactsInSceneOrder) {
 }
 
 TEST(CsvRow, HasAllColumnsInTheOrderOfTheHeader) {
-  EXPECT_EQ(Row(FullIncrement()), kFullRow);
+  EXPECT_EQ(Row(FullIncrement()), kFullIncrement);
   std::ostringstream header;
   WriteCsvHeader(TwoNodes(), header);
-  EXPECT_EQ(Cells(header.str()).size(), Cells(kFullRow).size());
+  EXPECT_EQ(Cells(header.str()).size(), Cells(kFullIncrement).size());
 }
 
 TEST(CsvRow, EndsWithTheStageOfAProgram) {
@@ -114,12 +115,12 @@ TEST(CsvRow, NumbersReadBackExactly) {
 }
 
 TEST(CsvRow, KindsAndStatesHaveTheirWords) {
-  const std::array<std::pair<RowKind, const char*>, 6> kinds{{{RowKind::kStart, "start"},
-                                                              {RowKind::kRegular, "regular"},
-                                                              {RowKind::kSmoothLimit, "smooth_limit"},
-                                                              {RowKind::kCornerLimit, "corner_limit"},
-                                                              {RowKind::kContactEvent, "contact_event"},
-                                                              {RowKind::kBifurcation, "bifurcation"}}};
+  const std::array<std::pair<IncrementKind, const char*>, 6> kinds{{{IncrementKind::kStart, "start"},
+                                                                    {IncrementKind::kRegular, "regular"},
+                                                                    {IncrementKind::kSmoothLimit, "smooth_limit"},
+                                                                    {IncrementKind::kCornerLimit, "corner_limit"},
+                                                                    {IncrementKind::kContactEvent, "contact_event"},
+                                                                    {IncrementKind::kBifurcation, "bifurcation"}}};
   for (const auto& [kind, word] : kinds) {
     Increment increment;
     increment.kind = kind;
@@ -152,7 +153,7 @@ TEST(CsvRow, DoesNotDependOnLocaleOrFlagsOfTheStream) {
   out << std::fixed << std::setprecision(1) << std::showpos << std::hex;
   WriteCsvRow(FullIncrement(), out);
   std::locale::global(before);
-  EXPECT_EQ(out.str(), kFullRow);
+  EXPECT_EQ(out.str(), kFullIncrement);
 }
 
 TEST(Csv, ErrorsAreLeftInTheStream) {

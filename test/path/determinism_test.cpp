@@ -17,15 +17,15 @@ constexpr const char* kExamples[] = {"sliding_bar",      "arch19",           "ro
 constexpr int kIncrements = 60;      // of branch
 constexpr int kMpecIncrements = 12;  // these take longer
 
-// The rows as CSV, but for the times.
+// The increments as CSV, but for the times.
 std::string Csv(TraceRequest request, Method method) {
   request.options.method = method;
   request.options.max_increments = method == Method::kBranch ? kIncrements : kMpecIncrements;
   std::ostringstream csv;
   TraceControl control;
-  control.on_increment = [&csv](Increment row) {
-    row.solve.time = 0.0;
-    WriteCsvRow(row, csv);
+  control.on_increment = [&csv](Increment increment) {
+    increment.solve.time = 0.0;
+    WriteCsvRow(increment, csv);
   };
   const TraceResult result = Trace(request, control);
   return csv.str() + std::string(ToString(result.reason)) + result.message;

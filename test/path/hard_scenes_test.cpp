@@ -18,13 +18,14 @@ TracedPath TraceData(const std::string& name, Method method, Accuracy accuracy) 
   TraceRequest request = ReadTraceRequestFile(std::string(CONTACT_PATH_TEST_DATA) + "/" + name + ".yaml");
   request.options.method = method;
   request.options.accuracy = accuracy;
-  return TraceRows(request);
+  return TraceIncrements(request);
 }
 
 std::vector<double> LimitLoads(const TracedPath& path) {
   std::vector<double> loads;
-  for (const Increment& row : path.rows)
-    if (row.kind == RowKind::kSmoothLimit || row.kind == RowKind::kCornerLimit) loads.push_back(row.load_factor);
+  for (const Increment& increment : path.increments)
+    if (increment.kind == IncrementKind::kSmoothLimit || increment.kind == IncrementKind::kCornerLimit)
+      loads.push_back(increment.load_factor);
   return loads;
 }
 
@@ -33,7 +34,7 @@ TEST(HardScenes, ReactionThatTouchesItsConeWhereSlipOnceTurned) {
   for (const Accuracy accuracy : kPresets) {
     const TracedPath path = TraceData("reversal_revisited", Method::kBranch, accuracy);
     EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
-    ExpectSoundRows(path, 1e-9);
+    ExpectSoundIncrements(path, 1e-9);
     const std::vector<double> loads = LimitLoads(path);
     ASSERT_EQ(loads.size(), 4U);
     if (first.empty()) first = loads;
@@ -48,11 +49,12 @@ TEST(HardScenes, ContactThatIsSoftAcrossAndStiffAlong) {
     if (path.result.reason != EndReason::kStopCriterion) {
       EXPECT_EQ(path.result.reason, EndReason::kNumericalFailure) << path.result.message;
     }
-    for (const Increment& row : path.rows) {
+    for (const Increment& increment : path.increments) {
       // k = 1e-10: what the support of the spring has moved up since the press, less the depth of the press.
-      const double lifted = PositionY(path, row, "c") - 1.0;
-      EXPECT_NEAR(row.contacts[0].gap, std::max(lifted, 0.0), 2e-3) << ToString(method) << ", row " << row.index;
-      EXPECT_NEAR(row.contacts[0].rn, 1e-10 * std::max(-lifted, 0.0), 2e-13);
+      const double lifted = PositionY(path, increment, "c") - 1.0;
+      EXPECT_NEAR(increment.contacts[0].gap, std::max(lifted, 0.0), 2e-3)
+          << ToString(method) << ", increment " << increment.index;
+      EXPECT_NEAR(increment.contacts[0].rn, 1e-10 * std::max(-lifted, 0.0), 2e-13);
     }
   }
 }
@@ -61,36 +63,36 @@ TEST(HardScenes, BarWithoutLengthThatMeetsAWall) {
   for (const Accuracy accuracy : kPresets) {
     const TracedPath path = TraceData("zero_length_at_wall", Method::kBranch, accuracy);
     EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
-    ExpectSoundRows(path, 1e-9);
-    EXPECT_NEAR(path.rows[LargestLoad(path)].load_factor, 0.5, 0.1);
-    const std::vector<Increment> limits = RowsOfKind(path, RowKind::kSmoothLimit);
+    ExpectSoundIncrements(path, 1e-9);
+    EXPECT_NEAR(path.increments[LargestLoad(path)].load_factor, 0.5, 0.1);
+    const std::vector<Increment> limits = IncrementsOfKind(path, IncrementKind::kSmoothLimit);
     ASSERT_EQ(limits.size(), 1U);
     EXPECT_NEAR(limits[0].load_factor, 1.0 / (3.0 * std::sqrt(3.0)), 1e-12);
-    for (const Increment& row : path.rows) {
-      const double length = PositionX(path, row, "b") - 1.0;
-      const double reaction = row.load_factor - 0.5 * length * (1.0 - length * length);
+    for (const Increment& increment : path.increments) {
+      const double length = PositionX(path, increment, "b") - 1.0;
+      const double reaction = increment.load_factor - 0.5 * length * (1.0 - length * length);
       EXPECT_GE(length, -1e-15);
-      EXPECT_NEAR(row.contacts[0].rn, reaction, 1e-12);
+      EXPECT_NEAR(increment.contacts[0].rn, reaction, 1e-12);
       EXPECT_NEAR(length * reaction, 0.0, 1e-12);
     }
   }
 }
 
-TEST(HardScenes, WayOnNextToStraightBack) {
+TEST(HardScenes, BranchNextToStraightBack) {
   constexpr double kFriction = 0.00018, kCoupling = 0.0009;
   for (const Accuracy accuracy : kPresets) {
     const TracedPath path = TraceData("almost_straight_back", Method::kBranch, accuracy);
-    ExpectSoundRows(path, 1e-9);
-    ASSERT_EQ(LimitLoads(path), std::vector<double>{path.rows[LargestLoad(path)].load_factor});
-    EXPECT_NEAR(path.rows[LargestLoad(path)].load_factor, kFriction / kCoupling, 1e-12);
-    for (std::size_t i = LargestLoad(path) + 1; i < path.rows.size(); ++i) {
-      const Increment& row = path.rows[i];
-      const double moved = (kFriction - kCoupling * row.load_factor) / (1.0 + kCoupling * kCoupling);
-      EXPECT_EQ(row.contacts[0].state, ContactState::kSlipPlus);
-      EXPECT_NEAR(PositionX(path, row, "p"), moved, 1e-13);
-      EXPECT_NEAR(row.dissipation, kFriction * moved, 1e-15);
+    ExpectSoundIncrements(path, 1e-9);
+    ASSERT_EQ(LimitLoads(path), std::vector<double>{path.increments[LargestLoad(path)].load_factor});
+    EXPECT_NEAR(path.increments[LargestLoad(path)].load_factor, kFriction / kCoupling, 1e-12);
+    for (std::size_t i = LargestLoad(path) + 1; i < path.increments.size(); ++i) {
+      const Increment& increment = path.increments[i];
+      const double moved = (kFriction - kCoupling * increment.load_factor) / (1.0 + kCoupling * kCoupling);
+      EXPECT_EQ(increment.contacts[0].state, ContactState::kSlipPlus);
+      EXPECT_NEAR(PositionX(path, increment, "p"), moved, 1e-13);
+      EXPECT_NEAR(increment.dissipation, kFriction * moved, 1e-15);
     }
-    EXPECT_LT(path.rows.back().load_factor, 0.195);
+    EXPECT_LT(path.increments.back().load_factor, 0.195);
   }
 }
 
@@ -101,9 +103,9 @@ TEST(HardScenes, ConstantLoadNextToTheLimitLoad) {
   for (const Method method : {Method::kBranch, Method::kMpec})
     for (const Accuracy accuracy : kPresets) {
       const TracedPath path = TraceData("preload_near_limit", method, accuracy);
-      ASSERT_FALSE(path.rows.empty()) << path.result.message;
+      ASSERT_FALSE(path.increments.empty()) << path.result.message;
       // On the side of the limit point from which the load was put on.
-      const double y = PositionY(path, path.rows[0], "a");
+      const double y = PositionY(path, path.increments[0], "a");
       EXPECT_NEAR(von_mises::BiotLoad(1.0, 1.0, y), -path.request.scene.loads[1].fy, 1e-12);
       EXPECT_GT(y, limit_height);
     }
@@ -114,8 +116,8 @@ TEST(HardScenes, ConstantLoadBeyondTheLimitLoad) {
   request.scene.loads[1].fy *= 1.01 / 0.999;
   for (const Method method : {Method::kBranch, Method::kMpec}) {
     request.options.method = method;
-    const TracedPath path = TraceRows(request);
-    EXPECT_TRUE(path.rows.empty());
+    const TracedPath path = TraceIncrements(request);
+    EXPECT_TRUE(path.increments.empty());
     EXPECT_EQ(path.result.reason, EndReason::kPathEnd);
     EXPECT_NE(path.result.message.find("limit point at 0.990099"), std::string::npos) << path.result.message;
   }
@@ -126,13 +128,13 @@ TEST(HardScenes, ConstantLoadBeyondTheLimitLoad) {
 TEST(HardScenes, ForcesFarBelowTheCharacteristicOne) {
   const TracedPath path = TraceData("stiff_neighbour", Method::kMpec, Accuracy::kBalanced);
   EXPECT_EQ(path.result.reason, EndReason::kStepTooSmall) << path.result.message;
-  for (const Increment& row : path.rows) {
-    EXPECT_GE(row.load_factor, 0.0);
-    EXPECT_LE(row.load_factor, 1.0 + 1e-12);
-    EXPECT_NEAR(PositionX(path, row, "p"), 0.0, 1e-12);
-    EXPECT_NEAR(row.contacts[0].rn, 1.0, 1e-12);
-    EXPECT_NEAR(row.contacts[0].rt, -row.load_factor, 1e-12);
-    EXPECT_NE(row.contacts[0].state, ContactState::kOpen);
+  for (const Increment& increment : path.increments) {
+    EXPECT_GE(increment.load_factor, 0.0);
+    EXPECT_LE(increment.load_factor, 1.0 + 1e-12);
+    EXPECT_NEAR(PositionX(path, increment, "p"), 0.0, 1e-12);
+    EXPECT_NEAR(increment.contacts[0].rn, 1.0, 1e-12);
+    EXPECT_NEAR(increment.contacts[0].rt, -increment.load_factor, 1e-12);
+    EXPECT_NE(increment.contacts[0].state, ContactState::kOpen);
   }
   // The exact method is not in the way of its bar.
   const TracedPath exact = TraceData("stiff_neighbour", Method::kBranch, Accuracy::kBalanced);
@@ -141,7 +143,7 @@ TEST(HardScenes, ForcesFarBelowTheCharacteristicOne) {
   ASSERT_EQ(loads.size(), 2U);
   EXPECT_NEAR(loads[0], 1.0, 1e-9);
   EXPECT_NEAR(loads[1], 2.0 / 3.0, 1e-9);
-  EXPECT_NEAR(exact.rows.back().dissipation, 1.0 / 3.0, 1e-7);
+  EXPECT_NEAR(exact.increments.back().dissipation, 1.0 / 3.0, 1e-7);
 }
 
 }  // namespace

@@ -5,13 +5,13 @@
 namespace contact_path {
 namespace {
 
-TEST(RowKind, WordsAreThoseOfTheOutput) {
-  EXPECT_EQ(ToString(RowKind::kStart), "start");
-  EXPECT_EQ(ToString(RowKind::kRegular), "regular");
-  EXPECT_EQ(ToString(RowKind::kSmoothLimit), "smooth_limit");
-  EXPECT_EQ(ToString(RowKind::kCornerLimit), "corner_limit");
-  EXPECT_EQ(ToString(RowKind::kContactEvent), "contact_event");
-  EXPECT_EQ(ToString(RowKind::kBifurcation), "bifurcation");
+TEST(IncrementKind, WordsAreThoseOfTheOutput) {
+  EXPECT_EQ(ToString(IncrementKind::kStart), "start");
+  EXPECT_EQ(ToString(IncrementKind::kRegular), "regular");
+  EXPECT_EQ(ToString(IncrementKind::kSmoothLimit), "smooth_limit");
+  EXPECT_EQ(ToString(IncrementKind::kCornerLimit), "corner_limit");
+  EXPECT_EQ(ToString(IncrementKind::kContactEvent), "contact_event");
+  EXPECT_EQ(ToString(IncrementKind::kBifurcation), "bifurcation");
 }
 
 }  // namespace

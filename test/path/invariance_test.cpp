@@ -36,7 +36,7 @@ class Invariance : public testing::TestWithParam<Case> {
     static TracedPath path;
     if (name != GetParam().name) {
       name = GetParam().name;
-      path = TraceRows(Request());
+      path = TraceIncrements(Request());
     }
     return path;
   }
@@ -51,20 +51,22 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Invariance,
 
 TEST_P(Invariance, PathIsLongEnoughToMeanSomething) {
   EXPECT_EQ(Expected().result.reason, EndReason::kMaxIncrements);
-  ExpectSoundRows(Expected(), 1e-9);
+  ExpectSoundIncrements(Expected(), 1e-9);
 }
 
 TEST_P(Invariance, Units) {
-  ExpectSamePath(UndoUnits(TraceRows(ChangeUnits(Request(), 1e-3, 1e6)), 1e-3, 1e6), Expected(), kSame);
+  ExpectSamePath(UndoUnits(TraceIncrements(ChangeUnits(Request(), 1e-3, 1e6)), 1e-3, 1e6), Expected(), kSame);
 }
 
 TEST_P(Invariance, Rotation) {
-  ExpectSamePath(UndoRotation(TraceRows(Rotate(Request(), 37.0 * kDegree)), 37.0 * kDegree), Expected(), kSame);
+  ExpectSamePath(UndoRotation(TraceIncrements(Rotate(Request(), 37.0 * kDegree)), 37.0 * kDegree), Expected(), kSame);
 }
 
-TEST_P(Invariance, MirrorImage) { ExpectSamePath(UndoMirror(TraceRows(Mirror(Request()))), Expected(), kSame); }
+TEST_P(Invariance, MirrorImage) { ExpectSamePath(UndoMirror(TraceIncrements(Mirror(Request()))), Expected(), kSame); }
 
-TEST_P(Invariance, OrderOfParts) { ExpectSamePath(UndoReversal(TraceRows(Reverse(Request()))), Expected(), kSame); }
+TEST_P(Invariance, OrderOfParts) {
+  ExpectSamePath(UndoReversal(TraceIncrements(Reverse(Request()))), Expected(), kSame);
+}
 
 }  // namespace
 }  // namespace contact_path

@@ -46,9 +46,9 @@ TEST(LargeRequests, CostNoSquareOfTheirSize) {
   EXPECT_DOUBLE_EQ(second.nodes[2].y, 0.9);
   EXPECT_DOUBLE_EQ(second.obstacles[1].py, -0.9);
   EXPECT_EQ(StopTest(request).FirstThatHolds(Increment()), nullptr);
-  Increment row;
-  row.stage = 1;
-  EXPECT_FALSE(VerifyPath(request, {row}).findings.empty());
+  Increment increment;
+  increment.stage = 1;
+  EXPECT_FALSE(VerifyPath(request, {increment}).findings.empty());
   EXPECT_LE(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, kSeconds);
 }
 

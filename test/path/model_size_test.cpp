@@ -20,7 +20,7 @@ TraceRequest Wall(Touch touch, Method method, int far_candidates = 0) {
   LatticeOptions lattice;
   lattice.kind = LatticeKind::kWall;
   lattice.columns = 8;
-  lattice.rows = 2;
+  lattice.increments = 2;
   lattice.contacts = kCandidates;
   lattice.far_candidates = far_candidates;
   lattice.friction = 0.3;
@@ -40,18 +40,18 @@ TraceRequest Wall(Touch touch, Method method, int far_candidates = 0) {
   return request;
 }
 
-Increment LastRow(const TraceRequest& request) {
+Increment LastIncrement(const TraceRequest& request) {
   Increment last;
   TraceControl control;
-  control.on_increment = [&last](const Increment& row) { last = row; };
+  control.on_increment = [&last](const Increment& increment) { last = increment; };
   const TraceResult result = Trace(request, control);
   EXPECT_EQ(result.reason, EndReason::kMaxIncrements) << result.message;
   return last;
 }
 
-int Count(const Increment& row, ContactState state) {
+int Count(const Increment& increment, ContactState state) {
   int count = 0;
-  for (const ContactRecord& contact : row.contacts) count += contact.state == state;
+  for (const ContactRecord& contact : increment.contacts) count += contact.state == state;
   return count;
 }
 
@@ -59,37 +59,38 @@ constexpr int kDofs = 48;
 
 TEST(ModelSize, BranchHasReactionsOfTouchingContactsOnly) {
   for (const Touch touch : {Touch::kOutOfReach, Touch::kFrictionless, Touch::kSomeRough, Touch::kAllRough}) {
-    const Increment row = LastRow(Wall(touch, Method::kBranch));
-    const int touching = kCandidates - Count(row, ContactState::kOpen), sticking = Count(row, ContactState::kStick);
-    EXPECT_EQ(row.solve.variables, kDofs + 1 + touching + sticking);
-    EXPECT_EQ(row.solve.constraints, kDofs + touching + sticking);
+    const Increment increment = LastIncrement(Wall(touch, Method::kBranch));
+    const int touching = kCandidates - Count(increment, ContactState::kOpen),
+              sticking = Count(increment, ContactState::kStick);
+    EXPECT_EQ(increment.solve.variables, kDofs + 1 + touching + sticking);
+    EXPECT_EQ(increment.solve.constraints, kDofs + touching + sticking);
     EXPECT_EQ(touching == 0, touch == Touch::kOutOfReach);
     if (touch == Touch::kFrictionless) {
-      EXPECT_EQ(touching, Count(row, ContactState::kClosed));
+      EXPECT_EQ(touching, Count(increment, ContactState::kClosed));
     }
   }
 }
 
 TEST(ModelSize, MpecHasNothingForCandidatesOutOfReachAndNoFrictionWhereThereIsNone) {
-  const Increment none = LastRow(Wall(Touch::kOutOfReach, Method::kMpec));
+  const Increment none = LastIncrement(Wall(Touch::kOutOfReach, Method::kMpec));
   EXPECT_EQ(none.solve.variables, kDofs + 1);
   EXPECT_EQ(none.solve.constraints, kDofs);
   EXPECT_EQ(none.solve.regularisation, 0.0);  // no complementarity: nothing is regularised
-  const Increment smooth = LastRow(Wall(Touch::kFrictionless, Method::kMpec));
+  const Increment smooth = LastIncrement(Wall(Touch::kFrictionless, Method::kMpec));
   EXPECT_EQ(smooth.solve.variables, kDofs + 1 + kCandidates);    // r_n
   EXPECT_EQ(smooth.solve.constraints, kDofs + 2 * kCandidates);  // gap and product
-  const Increment some = LastRow(Wall(Touch::kSomeRough, Method::kMpec));
+  const Increment some = LastIncrement(Wall(Touch::kSomeRough, Method::kMpec));
   EXPECT_EQ(some.solve.variables, smooth.solve.variables + 2 * kRough);      // r_t and lambda
   EXPECT_EQ(some.solve.constraints, smooth.solve.constraints + 5 * kRough);  // their five inequalities
-  const Increment rough = LastRow(Wall(Touch::kAllRough, Method::kMpec));
+  const Increment rough = LastIncrement(Wall(Touch::kAllRough, Method::kMpec));
   EXPECT_EQ(rough.solve.variables, smooth.solve.variables + 2 * kCandidates);
   EXPECT_EQ(rough.solve.constraints, smooth.solve.constraints + 5 * kCandidates);
 }
 
 TEST(ModelSize, FarCandidatesChangeNothing) {
   for (const Method method : {Method::kBranch, Method::kMpec}) {
-    const Increment without = LastRow(Wall(Touch::kAllRough, method));
-    const Increment with = LastRow(Wall(Touch::kAllRough, method, 500));
+    const Increment without = LastIncrement(Wall(Touch::kAllRough, method));
+    const Increment with = LastIncrement(Wall(Touch::kAllRough, method, 500));
     EXPECT_EQ(with.contacts.size(), without.contacts.size() + 500U);
     EXPECT_EQ(with.solve.variables, without.solve.variables);
     EXPECT_EQ(with.solve.constraints, without.solve.constraints);
@@ -102,10 +103,10 @@ TEST(ModelSize, OneFactorisationAnIncrementOnASmoothStretch) {
   request.options.max_increments = 30;
   int factorisations = 0, regular = 0;
   TraceControl control;
-  control.on_increment = [&](const Increment& row) {
-    if (row.kind != RowKind::kRegular) return;
+  control.on_increment = [&](const Increment& increment) {
+    if (increment.kind != IncrementKind::kRegular) return;
     ++regular;
-    factorisations += row.solve.factorisations;
+    factorisations += increment.solve.factorisations;
   };
   Trace(request, control);
   ASSERT_GT(regular, 20);

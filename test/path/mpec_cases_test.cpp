@@ -15,11 +15,11 @@
 namespace contact_path {
 namespace {
 
-// Rows are equilibria to rounding. Largest distance from the closed forms that was measured: 9e-15 (sliding_bar, forces
-// of order 10), 3e-16 (the others, of order 1).
+// Increments are equilibria to rounding. Largest distance from the closed forms that was measured: 9e-15 (sliding_bar,
+// forces of order 10), 3e-16 (the others, of order 1).
 constexpr double kClosedForm = 1e-13;
 
-// Residuals that any accepted row may have; measured up to 2e-15 (arch19).
+// Residuals that any accepted increment may have; measured up to 2e-15 (arch19).
 constexpr double kResidual = 1e-9;
 
 TraceRequest Example(const std::string& name, double step) {
@@ -33,54 +33,55 @@ TraceRequest Example(const std::string& name, double step) {
 class SlidingBar : public testing::Test {
  protected:
   static const TracedPath& Path() {
-    static const TracedPath path = TraceRows(Example("sliding_bar", 0.05));
+    static const TracedPath path = TraceIncrements(Example("sliding_bar", 0.05));
     return path;
   }
-  static double X(const Increment& row) { return PositionX(Path(), row, "b"); }
+  static double X(const Increment& increment) { return PositionX(Path(), increment, "b"); }
 };
 
-TEST_F(SlidingBar, ReachesItsEndWithSoundRows) {
+TEST_F(SlidingBar, ReachesItsEndWithSoundIncrements) {
   EXPECT_EQ(Path().result.reason, EndReason::kStopCriterion);
-  EXPECT_GT(Path().rows.size(), 30u);
-  ExpectSoundRows(Path(), kResidual);
+  EXPECT_GT(Path().increments.size(), 30u);
+  ExpectSoundIncrements(Path(), kResidual);
 }
 
 TEST_F(SlidingBar, EveryRowIsOnTheClosedForm) {
-  for (const Increment& row : Path().rows) {
-    const double x = X(row);
-    EXPECT_NEAR(PositionY(Path(), row, "b"), 0.0, kClosedForm);
-    EXPECT_NEAR(row.load_factor, sliding_bar::LoadFactor(x), kClosedForm) << x;
-    EXPECT_NEAR(row.contacts[0].rn, sliding_bar::NormalReaction(x), kClosedForm) << x;
-    EXPECT_NEAR(row.contacts[0].rt, -sliding_bar::kFriction * sliding_bar::NormalReaction(x), kClosedForm) << x;
-    EXPECT_TRUE(row.index == 0 || row.contacts[0].state == ContactState::kSlipPlus) << x;
+  for (const Increment& increment : Path().increments) {
+    const double x = X(increment);
+    EXPECT_NEAR(PositionY(Path(), increment, "b"), 0.0, kClosedForm);
+    EXPECT_NEAR(increment.load_factor, sliding_bar::LoadFactor(x), kClosedForm) << x;
+    EXPECT_NEAR(increment.contacts[0].rn, sliding_bar::NormalReaction(x), kClosedForm) << x;
+    EXPECT_NEAR(increment.contacts[0].rt, -sliding_bar::kFriction * sliding_bar::NormalReaction(x), kClosedForm) << x;
+    EXPECT_TRUE(increment.index == 0 || increment.contacts[0].state == ContactState::kSlipPlus) << x;
   }
 }
 
 TEST_F(SlidingBar, SlidesOnAndNeverBack) {
-  for (std::size_t i = 1; i < Path().rows.size(); ++i) EXPECT_GT(X(Path().rows[i]), X(Path().rows[i - 1]));
+  for (std::size_t i = 1; i < Path().increments.size(); ++i)
+    EXPECT_GT(X(Path().increments[i]), X(Path().increments[i - 1]));
 }
 
 TEST_F(SlidingBar, BothLimitPointsAreBracketedAndNamed) {
   std::size_t limits = 0;
-  for (std::size_t i = 2; i < Path().rows.size(); ++i) {
-    const Increment& row = Path().rows[i];
-    if (row.kind != RowKind::kSmoothLimit) {
-      EXPECT_EQ(row.kind, RowKind::kRegular);
+  for (std::size_t i = 2; i < Path().increments.size(); ++i) {
+    const Increment& increment = Path().increments[i];
+    if (increment.kind != IncrementKind::kSmoothLimit) {
+      EXPECT_EQ(increment.kind, IncrementKind::kRegular);
       continue;
     }
-    // The row after the limit point: it lies within the last two increments.
+    // The increment after the limit point: it lies within the last two increments.
     const double expected = limits++ == 0 ? sliding_bar::kFirstLimitX : sliding_bar::kSecondLimitX;
-    EXPECT_LT(X(Path().rows[i - 2]), expected);
-    EXPECT_GT(X(row), expected);
+    EXPECT_LT(X(Path().increments[i - 2]), expected);
+    EXPECT_GT(X(increment), expected);
   }
   EXPECT_EQ(limits, 2u);
 }
 
 TEST_F(SlidingBar, LimitLoadsComeOutToTheSquareOfTheStep) {
   double largest = 0.0, smallest = 0.0;
-  for (const Increment& row : Path().rows) {
-    largest = std::max(largest, row.load_factor);
-    smallest = std::min(smallest, row.load_factor);
+  for (const Increment& increment : Path().increments) {
+    largest = std::max(largest, increment.load_factor);
+    smallest = std::min(smallest, increment.load_factor);
   }
   EXPECT_LE(largest, sliding_bar::kFirstLimit + 1e-9);  // the limit is known to 1e-9
   EXPECT_NEAR(largest, sliding_bar::kFirstLimit, 0.02);
@@ -88,15 +89,15 @@ TEST_F(SlidingBar, LimitLoadsComeOutToTheSquareOfTheStep) {
   EXPECT_NEAR(smallest, sliding_bar::kSecondLimit, 0.02);
 }
 
-// Errors of the trapezoidal rule in the last row, at three steps.
+// Errors of the trapezoidal rule in the last increment, at three steps.
 TEST(SlidingBarWork, DissipationAndEnergyBalanceConvergeWithSecondOrder) {
   double dissipation_error = 0.0, balance_error = 0.0;
   for (const double step : {0.1, 0.05, 0.025}) {
-    const TracedPath path = TraceRows(Example("sliding_bar", step));
-    const Increment& last = path.rows.back();
+    const TracedPath path = TraceIncrements(Example("sliding_bar", step));
+    const Increment& last = path.increments.back();
     const double dissipation = std::abs(last.dissipation - sliding_bar::Dissipation(PositionX(path, last, "b")));
     const double balance =
-        std::abs(last.external_work - last.dissipation - (last.strain_energy - path.rows[0].strain_energy));
+        std::abs(last.external_work - last.dissipation - (last.strain_energy - path.increments[0].strain_energy));
     RecordProperty("dissipation_error_" + std::to_string(step), std::to_string(dissipation));
     RecordProperty("balance_error_" + std::to_string(step), std::to_string(balance));
     if (dissipation_error > 0.0) {
@@ -113,62 +114,62 @@ TEST(SlidingBarWork, DissipationAndEnergyBalanceConvergeWithSecondOrder) {
 class RoughTruss : public testing::Test {
  protected:
   static const TracedPath& Path() {
-    static const TracedPath path = TraceRows(Example("rough_truss", 0.05));
+    static const TracedPath path = TraceIncrements(Example("rough_truss", 0.05));
     return path;
   }
 };
 
-TEST_F(RoughTruss, ReachesItsEndWithSoundRows) {
+TEST_F(RoughTruss, ReachesItsEndWithSoundIncrements) {
   EXPECT_EQ(Path().result.reason, EndReason::kStopCriterion);
-  ExpectSoundRows(Path(), kResidual);
+  ExpectSoundIncrements(Path(), kResidual);
 }
 
 TEST_F(RoughTruss, EveryRowIsOnOneOfTheTwoPieces) {
   std::size_t stuck = 0, sliding = 0;
-  for (const Increment& row : Path().rows) {
-    const double foot = PositionX(Path(), row, "foot"), apex = PositionY(Path(), row, "apex");
-    switch (row.contacts[0].state) {
+  for (const Increment& increment : Path().increments) {
+    const double foot = PositionX(Path(), increment, "foot"), apex = PositionY(Path(), increment, "apex");
+    switch (increment.contacts[0].state) {
       case ContactState::kStick:
         ++stuck;
         EXPECT_NEAR(foot, rough_truss::kHalfSpan, kClosedForm);
-        EXPECT_NEAR(row.load_factor, rough_truss::StickingLoad(apex), kClosedForm);
+        EXPECT_NEAR(increment.load_factor, rough_truss::StickingLoad(apex), kClosedForm);
         break;
       case ContactState::kSlipPlus:
         ++sliding;
         EXPECT_NEAR(apex / (0.5 * (foot + rough_truss::kHalfSpan)), 1.0 / rough_truss::kFriction, kClosedForm);
-        EXPECT_NEAR(row.load_factor, rough_truss::SlidingLoad(foot), kClosedForm);
+        EXPECT_NEAR(increment.load_factor, rough_truss::SlidingLoad(foot), kClosedForm);
         break;
-      default: EXPECT_NEAR(row.load_factor, 0.0, kClosedForm);
+      default: EXPECT_NEAR(increment.load_factor, 0.0, kClosedForm);
     }
-    EXPECT_NEAR(row.contacts[0].rn, 0.5 * row.load_factor, kClosedForm);
+    EXPECT_NEAR(increment.contacts[0].rn, 0.5 * increment.load_factor, kClosedForm);
   }
   EXPECT_GT(stuck, 3u);
   EXPECT_GT(sliding, 3u);
 }
 
 TEST_F(RoughTruss, LoadFallsInAStraightLineWhileTheFootSlides) {
-  const std::vector<Increment>& rows = Path().rows;
-  for (std::size_t i = LargestLoad(Path()) + 1; i < rows.size(); ++i) {
-    if (rows[i].contacts[0].state != ContactState::kSlipPlus ||
-        rows[i - 1].contacts[0].state != ContactState::kSlipPlus)
+  const std::vector<Increment>& increments = Path().increments;
+  for (std::size_t i = LargestLoad(Path()) + 1; i < increments.size(); ++i) {
+    if (increments[i].contacts[0].state != ContactState::kSlipPlus ||
+        increments[i - 1].contacts[0].state != ContactState::kSlipPlus)
       continue;
-    const double foot = PositionX(Path(), rows[i], "foot"), before = PositionX(Path(), rows[i - 1], "foot");
+    const double foot = PositionX(Path(), increments[i], "foot"), before = PositionX(Path(), increments[i - 1], "foot");
     ASSERT_GT(foot, before);
-    const double slope = (rows[i].load_factor - rows[i - 1].load_factor) / (foot - before);
+    const double slope = (increments[i].load_factor - increments[i - 1].load_factor) / (foot - before);
     // l0 and the slope of the bars are constants of the case: ds / dx = -tan(a) / l0.
     EXPECT_NEAR(slope, -1.0 / std::hypot(1.0, 1.2), 1e-10);
   }
 }
 
 TEST_F(RoughTruss, DissipatesWhatIsLeftInTheBarsAtTheCorner) {
-  // Cutting the corner short and the last piece to s = 0 short; measured 5e-6 of 7e-3.
-  EXPECT_NEAR(Path().rows.back().dissipation, rough_truss::TotalDissipation(), 1e-5);
-  // On the straight piece the trapezoidal rule is exact: between any two sliding rows.
+  // Cutting the corner short and the last arc to s = 0 short; measured 5e-6 of 7e-3.
+  EXPECT_NEAR(Path().increments.back().dissipation, rough_truss::TotalDissipation(), 1e-5);
+  // On the straight arc the trapezoidal rule is exact: between any two sliding increments.
   const Increment *first = nullptr, *last = nullptr;
-  for (const Increment& row : Path().rows) {
-    if (row.contacts[0].state != ContactState::kSlipPlus) continue;
-    if (first == nullptr) first = &row;
-    last = &row;
+  for (const Increment& increment : Path().increments) {
+    if (increment.contacts[0].state != ContactState::kSlipPlus) continue;
+    if (first == nullptr) first = &increment;
+    last = &increment;
   }
   ASSERT_NE(first, last);
   EXPECT_NEAR(last->dissipation - first->dissipation,
@@ -182,13 +183,13 @@ TEST(RoughTrussCorner, LargestLoadIsTheCornerLoadAtStepsThatDifferAHundredfold) 
   for (const double step : {0.05, 0.005, 0.0005}) {
     TraceRequest request = Example("rough_truss", step);
     request.options.stop = {{"foot.x", ">", 1.005}};
-    const TracedPath path = TraceRows(request);
+    const TracedPath path = TraceIncrements(request);
     EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << step;
-    const double largest = path.rows[LargestLoad(path)].load_factor;
+    const double largest = path.increments[LargestLoad(path)].load_factor;
     RecordProperty("error_" + std::to_string(step), std::to_string(largest / rough_truss::CornerLoad() - 1.0));
     EXPECT_NEAR(largest, rough_truss::CornerLoad(), 0.01 * rough_truss::CornerLoad()) << step;
     EXPECT_LE(largest, rough_truss::CornerLoad() + kClosedForm) << step;
-    ExpectSoundRows(path, kResidual);
+    ExpectSoundIncrements(path, kResidual);
   }
 }
 
@@ -197,9 +198,9 @@ TEST(RoughTrussCorner, IsCutByNoMoreThanTheAccuracyAllows) {
     TraceRequest request = Example("rough_truss", 0.05);
     request.options.accuracy = accuracy;
     request.options.stop = {{"foot.x", ">", 1.005}};
-    const TracedPath path = TraceRows(request);
-    ExpectSoundRows(path, kResidual);
-    const double largest = path.rows[LargestLoad(path)].load_factor;
+    const TracedPath path = TraceIncrements(request);
+    ExpectSoundIncrements(path, kResidual);
+    const double largest = path.increments[LargestLoad(path)].load_factor;
     EXPECT_NEAR(largest, rough_truss::CornerLoad(), MpecOptions::For(request.options, 1).corner_tolerance);
     EXPECT_LE(largest, rough_truss::CornerLoad() + kClosedForm) << ToString(accuracy);
   }
@@ -208,59 +209,63 @@ TEST(RoughTrussCorner, IsCutByNoMoreThanTheAccuracyAllows) {
 class TwoDofFriction : public testing::Test {
  protected:
   static const TracedPath& Path() {
-    static const TracedPath path = TraceRows(Example("two_dof_friction", 0.1));
+    static const TracedPath path = TraceIncrements(Example("two_dof_friction", 0.1));
     return path;
   }
 };
 
-TEST_F(TwoDofFriction, ReachesItsEndWithSoundRows) {
+TEST_F(TwoDofFriction, ReachesItsEndWithSoundIncrements) {
   EXPECT_EQ(Path().result.reason, EndReason::kStopCriterion);
-  ExpectSoundRows(Path(), kResidual);
+  ExpectSoundIncrements(Path(), kResidual);
 }
 
 TEST_F(TwoDofFriction, ThreeStretches) {
   // Stick: u = 0. Slip: u_y = 0, s = 1 - u_x / 2. Open: K u = (s, -1), so s = 0.375 + 0.4375 u_x.
   std::size_t stretches[3] = {0, 0, 0};
-  for (const Increment& row : Path().rows) {
-    const double x = PositionX(Path(), row, "p"), y = PositionY(Path(), row, "p");
-    switch (row.contacts[0].state) {
+  for (const Increment& increment : Path().increments) {
+    const double x = PositionX(Path(), increment, "p"), y = PositionY(Path(), increment, "p");
+    switch (increment.contacts[0].state) {
       case ContactState::kStick:
         ++stretches[0];
         EXPECT_NEAR(x, 0.0, kClosedForm);
-        EXPECT_NEAR(row.contacts[0].rn, 1.0, kClosedForm);
-        EXPECT_NEAR(row.contacts[0].rt, -row.load_factor, kClosedForm);
+        EXPECT_NEAR(increment.contacts[0].rn, 1.0, kClosedForm);
+        EXPECT_NEAR(increment.contacts[0].rt, -increment.load_factor, kClosedForm);
         break;
       case ContactState::kSlipPlus:
         ++stretches[1];
         EXPECT_NEAR(y, 0.0, kClosedForm);
-        EXPECT_NEAR(row.load_factor, 1.0 - 0.5 * x, kClosedForm);
-        EXPECT_NEAR(row.contacts[0].rn, 1.0 - 1.5 * x, kClosedForm);
+        EXPECT_NEAR(increment.load_factor, 1.0 - 0.5 * x, kClosedForm);
+        EXPECT_NEAR(increment.contacts[0].rn, 1.0 - 1.5 * x, kClosedForm);
         break;
       case ContactState::kOpen:
         ++stretches[2];
-        EXPECT_NEAR(row.load_factor, 0.375 + 0.4375 * x, kClosedForm);
+        EXPECT_NEAR(increment.load_factor, 0.375 + 0.4375 * x, kClosedForm);
         EXPECT_NEAR(y, (1.5 * x - 1.0) / 4.0, kClosedForm);
         break;
-      default: ADD_FAILURE() << ToString(row.contacts[0].state);
+      default: ADD_FAILURE() << ToString(increment.contacts[0].state);
     }
   }
-  for (const std::size_t rows : stretches) EXPECT_GT(rows, 3u);
+  for (const std::size_t increments : stretches) EXPECT_GT(increments, 3u);
 }
 
 TEST_F(TwoDofFriction, CornersAreNamedAndNear) {
-  // A corner is cut by no more than the corner tolerance, 5e-4 by default, and the row after it is up to a step away.
-  const std::vector<Increment>& rows = Path().rows;
+  // A corner is cut by no more than the corner tolerance, 5e-4 by default, and the increment after it is up to a step
+  // away.
+  const std::vector<Increment>& increments = Path().increments;
   double largest = 0.0, after_slip = 1.0, lift_off = 0.0;
   std::size_t corners = 0;
-  for (std::size_t i = 1; i < rows.size(); ++i) {
-    if (rows[i].kind == RowKind::kCornerLimit) ++corners;
-    EXPECT_NE(rows[i].kind, RowKind::kSmoothLimit);
-    if (rows[i].contacts[0].state != ContactState::kOpen) largest = std::max(largest, rows[i].load_factor);
-    if (rows[i].contacts[0].state == ContactState::kSlipPlus) after_slip = std::min(after_slip, rows[i].load_factor);
-    if (rows[i].contacts[0].state == ContactState::kOpen && lift_off == 0.0) lift_off = rows[i].load_factor;
+  for (std::size_t i = 1; i < increments.size(); ++i) {
+    if (increments[i].kind == IncrementKind::kCornerLimit) ++corners;
+    EXPECT_NE(increments[i].kind, IncrementKind::kSmoothLimit);
+    if (increments[i].contacts[0].state != ContactState::kOpen) largest = std::max(largest, increments[i].load_factor);
+    if (increments[i].contacts[0].state == ContactState::kSlipPlus)
+      after_slip = std::min(after_slip, increments[i].load_factor);
+    if (increments[i].contacts[0].state == ContactState::kOpen && lift_off == 0.0) lift_off = increments[i].load_factor;
     // From stick to slip to open, and never back.
-    EXPECT_GE(rows[i].contacts[0].state == ContactState::kOpen, rows[i - 1].contacts[0].state == ContactState::kOpen);
-    EXPECT_GE(rows[i].contacts[0].state != ContactState::kStick, rows[i - 1].contacts[0].state != ContactState::kStick);
+    EXPECT_GE(increments[i].contacts[0].state == ContactState::kOpen,
+              increments[i - 1].contacts[0].state == ContactState::kOpen);
+    EXPECT_GE(increments[i].contacts[0].state != ContactState::kStick,
+              increments[i - 1].contacts[0].state != ContactState::kStick);
   }
   EXPECT_EQ(corners, 2u);
   EXPECT_NEAR(largest, 1.0, 1e-3);
@@ -271,16 +276,16 @@ TEST_F(TwoDofFriction, CornersAreNamedAndNear) {
 
 TEST_F(TwoDofFriction, DissipatesTheFrictionOverTheSlip) {
   // Integral of 1 - 1.5 x from 0 to 2/3. The trapezoidal rule is exact; the corners are cut, by up to 5e-4 each.
-  EXPECT_NEAR(Path().rows.back().dissipation, 1.0 / 3.0, 1e-6);
+  EXPECT_NEAR(Path().increments.back().dissipation, 1.0 / 3.0, 1e-6);
 }
 
 class Arch19 : public testing::Test {
  protected:
   static const TracedPath& Path() {
-    static const TracedPath path = TraceRows(Example("arch19", 0.05));
+    static const TracedPath path = TraceIncrements(Example("arch19", 0.05));
     return path;
   }
-  static double Rise(const Increment& row) { return PositionY(Path(), row, "a"); }
+  static double Rise(const Increment& increment) { return PositionY(Path(), increment, "a"); }
 };
 
 // It once fell off its ceilings here: a mechanism is no start.
@@ -288,56 +293,62 @@ TEST(Arch19Fast, IsHeldByItsCeilingsToTheSmoothLimitPoint) {
   TraceRequest request = Example("arch19", 0.05);
   request.options.accuracy = Accuracy::kFast;
   request.options.max_increments = 30;
-  const TracedPath path = TraceRows(request);
-  ASSERT_EQ(path.rows.size(), 31U);
-  for (std::size_t i = 1; i < path.rows.size(); ++i)
-    EXPECT_GT(path.rows[i].load_factor, path.rows[i - 1].load_factor) << "row " << i;
+  const TracedPath path = TraceIncrements(request);
+  ASSERT_EQ(path.increments.size(), 31U);
+  for (std::size_t i = 1; i < path.increments.size(); ++i)
+    EXPECT_GT(path.increments[i].load_factor, path.increments[i - 1].load_factor) << "increment " << i;
 }
 
-TEST_F(Arch19, ReachesItsEndWithSoundRows) {
+TEST_F(Arch19, ReachesItsEndWithSoundIncrements) {
   EXPECT_EQ(Path().result.reason, EndReason::kStopCriterion);
-  ExpectSoundRows(Path(), kResidual);
+  ExpectSoundIncrements(Path(), kResidual);
 }
 
 TEST_F(Arch19, StaysSymmetric) {
   constexpr double kSymmetry = 1e-10;  // of lengths of order 1; measured 6e-13
   const char* const mirrored[][2] = {{"a", "g"}, {"b", "h"}, {"d", "i"}, {"e", "j"}, {"f", "k"}, {"c", "c"}};
   const char* const contacts[][2] = {{"f@roof_f", "k@roof_f"}, {"e@roof_e", "j@roof_e"}, {"d@roof_d", "i@roof_d"}};
-  for (const Increment& row : Path().rows) {
+  for (const Increment& increment : Path().increments) {
     for (const auto& [right, left] : mirrored) {
-      EXPECT_NEAR(PositionX(Path(), row, right), -PositionX(Path(), row, left), kSymmetry) << row.index << " " << right;
-      EXPECT_NEAR(PositionY(Path(), row, right), PositionY(Path(), row, left), kSymmetry) << row.index << " " << right;
+      EXPECT_NEAR(PositionX(Path(), increment, right), -PositionX(Path(), increment, left), kSymmetry)
+          << increment.index << " " << right;
+      EXPECT_NEAR(PositionY(Path(), increment, right), PositionY(Path(), increment, left), kSymmetry)
+          << increment.index << " " << right;
     }
     for (const auto& [right, left] : contacts) {
-      const ContactRecord &r = Contact(Path(), row, right), &l = Contact(Path(), row, left);
-      EXPECT_NEAR(r.rn, l.rn, kSymmetry) << row.index << " " << right;
-      EXPECT_NEAR(r.rt, -l.rt, kSymmetry) << row.index << " " << right;
-      EXPECT_EQ(r.state == ContactState::kSlipPlus, l.state == ContactState::kSlipMinus) << row.index << " " << right;
-      EXPECT_EQ(r.state == ContactState::kSlipMinus, l.state == ContactState::kSlipPlus) << row.index << " " << right;
+      const ContactRecord &r = Contact(Path(), increment, right), &l = Contact(Path(), increment, left);
+      EXPECT_NEAR(r.rn, l.rn, kSymmetry) << increment.index << " " << right;
+      EXPECT_NEAR(r.rt, -l.rt, kSymmetry) << increment.index << " " << right;
+      EXPECT_EQ(r.state == ContactState::kSlipPlus, l.state == ContactState::kSlipMinus)
+          << increment.index << " " << right;
+      EXPECT_EQ(r.state == ContactState::kSlipMinus, l.state == ContactState::kSlipPlus)
+          << increment.index << " " << right;
     }
   }
 }
 
 TEST_F(Arch19, HeldFromTheStartAndFSlidesInwards) {
   // Never the trivial solution in which the arch falls away; towards -x is towards +t under a ceiling, t = (-1, 0).
-  for (std::size_t i = 1; i < Path().rows.size(); ++i) {
-    const Increment& row = Path().rows[i];
-    EXPECT_GT(row.load_factor, 0.0);
-    EXPECT_GT(Contact(Path(), row, "f@roof_f").rn, 0.0);
-    EXPECT_EQ(Contact(Path(), row, "f@roof_f").state, ContactState::kSlipPlus) << i;
-    EXPECT_LT(PositionX(Path(), row, "f"), PositionX(Path(), Path().rows[i - 1], "f")) << i;
-    EXPECT_EQ(Contact(Path(), row, "d@roof_d").state, ContactState::kOpen) << i;
+  for (std::size_t i = 1; i < Path().increments.size(); ++i) {
+    const Increment& increment = Path().increments[i];
+    EXPECT_GT(increment.load_factor, 0.0);
+    EXPECT_GT(Contact(Path(), increment, "f@roof_f").rn, 0.0);
+    EXPECT_EQ(Contact(Path(), increment, "f@roof_f").state, ContactState::kSlipPlus) << i;
+    EXPECT_LT(PositionX(Path(), increment, "f"), PositionX(Path(), Path().increments[i - 1], "f")) << i;
+    EXPECT_EQ(Contact(Path(), increment, "d@roof_d").state, ContactState::kOpen) << i;
   }
 }
 
 TEST_F(Arch19, LimitPointB) {
-  // The largest load before e touches, by the parabola through the three rows around it.
+  // The largest load before e touches, by the parabola through the three increments around it.
   std::size_t top = 1;
-  for (std::size_t i = 1; i + 1 < Path().rows.size(); ++i) {
-    if (Contact(Path(), Path().rows[i + 1], "e@roof_e").state != ContactState::kOpen) break;
-    if (Path().rows[i].load_factor > Path().rows[top].load_factor) top = i;
+  for (std::size_t i = 1; i + 1 < Path().increments.size(); ++i) {
+    if (Contact(Path(), Path().increments[i + 1], "e@roof_e").state != ContactState::kOpen) break;
+    if (Path().increments[i].load_factor > Path().increments[top].load_factor) top = i;
   }
-  const auto point = [&](std::size_t i) { return std::pair(Rise(Path().rows[i]), Path().rows[i].load_factor); };
+  const auto point = [&](std::size_t i) {
+    return std::pair(Rise(Path().increments[i]), Path().increments[i].load_factor);
+  };
   const auto [x0, y0] = point(top - 1);
   const auto [x1, y1] = point(top);
   const auto [x2, y2] = point(top + 1);
@@ -346,31 +357,33 @@ TEST_F(Arch19, LimitPointB) {
   const double load = y0 + d01 * (rise - x0) + curvature * (rise - x0) * (rise - x1);
   EXPECT_NEAR(rise, 2.68, 0.01);  // known to its digits
   EXPECT_NEAR(load, 0.03558, 0.00001);
-  EXPECT_TRUE(std::any_of(Path().rows.begin(), Path().rows.end(), [&](const Increment& row) {
-    return row.kind == RowKind::kSmoothLimit && std::abs(Rise(row) - 2.68) < 0.1;
+  EXPECT_TRUE(std::any_of(Path().increments.begin(), Path().increments.end(), [&](const Increment& increment) {
+    return increment.kind == IncrementKind::kSmoothLimit && std::abs(Rise(increment) - 2.68) < 0.1;
   }));
 }
 
 TEST_F(Arch19, CornerC) {
-  const std::vector<Increment>& rows = Path().rows;
+  const std::vector<Increment>& increments = Path().increments;
   std::size_t touch = 1;
-  while (touch < rows.size() && Contact(Path(), rows[touch], "e@roof_e").state == ContactState::kOpen) ++touch;
-  ASSERT_LT(touch + 1, rows.size());
-  // It lies between two rows, which are close together there.
+  while (touch < increments.size() && Contact(Path(), increments[touch], "e@roof_e").state == ContactState::kOpen)
+    ++touch;
+  ASSERT_LT(touch + 1, increments.size());
+  // It lies between two increments, which are close together there.
   const double known = 0.00005;
-  EXPECT_LE(Rise(rows[touch - 1]), 2.8529 + known);
-  EXPECT_GE(Rise(rows[touch]), 2.8529 - known);
-  EXPECT_LE(rows[touch].arc_length - rows[touch - 1].arc_length, 0.01);
-  const double lowest = std::min(rows[touch - 1].load_factor, rows[touch].load_factor);
+  EXPECT_LE(Rise(increments[touch - 1]), 2.8529 + known);
+  EXPECT_GE(Rise(increments[touch]), 2.8529 - known);
+  EXPECT_LE(increments[touch].arc_length - increments[touch - 1].arc_length, 0.01);
+  const double lowest = std::min(increments[touch - 1].load_factor, increments[touch].load_factor);
   EXPECT_NEAR(lowest, 0.03532, 0.0001);
   // Falling before, rising after, named as a corner, with f sliding inwards throughout.
-  EXPECT_LT(rows[touch - 1].load_factor, rows[touch - 2].load_factor);
-  EXPECT_GT(rows[touch + 1].load_factor, rows[touch].load_factor);
-  EXPECT_TRUE(rows[touch].kind == RowKind::kCornerLimit || rows[touch + 1].kind == RowKind::kCornerLimit);
-  EXPECT_GT(rows.back().load_factor, 0.036);
+  EXPECT_LT(increments[touch - 1].load_factor, increments[touch - 2].load_factor);
+  EXPECT_GT(increments[touch + 1].load_factor, increments[touch].load_factor);
+  EXPECT_TRUE(increments[touch].kind == IncrementKind::kCornerLimit ||
+              increments[touch + 1].kind == IncrementKind::kCornerLimit);
+  EXPECT_GT(increments.back().load_factor, 0.036);
 }
 
-// Limit loads at the square of the step, by the largest and smallest row.
+// Constraint loads at the square of the step, by the largest and smallest increment.
 TEST(VonMises, BiotLimits) {
   for (const auto& [half_span, rise] : {std::pair(1.0, 1.0), std::pair(1.0, 0.3)}) {
     TraceRequest request = Example("von_mises", 0.01 * rise);
@@ -378,19 +391,20 @@ TEST(VonMises, BiotLimits) {
     request.scene.nodes[1].y = rise;
     request.scene.nodes[2].x = half_span;
     request.options.stop = {{"apex.y", "<", -1.1 * rise}};
-    const TracedPath path = TraceRows(request);
+    const TracedPath path = TraceIncrements(request);
     ASSERT_EQ(path.result.reason, EndReason::kStopCriterion);
-    ExpectSoundRows(path, kResidual);
+    ExpectSoundIncrements(path, kResidual);
     double largest = 0.0, smallest = 0.0;
     std::size_t limits = 0;
-    for (const Increment& row : path.rows) {
-      const double y = PositionY(path, row, "apex");
-      EXPECT_NEAR(PositionX(path, row, "apex"), 0.0, kClosedForm);
-      EXPECT_NEAR(row.load_factor, von_mises::BiotLoad(half_span, rise, y), kClosedForm) << y;
-      largest = std::max(largest, row.load_factor);
-      smallest = std::min(smallest, row.load_factor);
-      if (row.kind == RowKind::kSmoothLimit) ++limits;
-      EXPECT_TRUE(row.kind == RowKind::kStart || row.kind == RowKind::kRegular || row.kind == RowKind::kSmoothLimit);
+    for (const Increment& increment : path.increments) {
+      const double y = PositionY(path, increment, "apex");
+      EXPECT_NEAR(PositionX(path, increment, "apex"), 0.0, kClosedForm);
+      EXPECT_NEAR(increment.load_factor, von_mises::BiotLoad(half_span, rise, y), kClosedForm) << y;
+      largest = std::max(largest, increment.load_factor);
+      smallest = std::min(smallest, increment.load_factor);
+      if (increment.kind == IncrementKind::kSmoothLimit) ++limits;
+      EXPECT_TRUE(increment.kind == IncrementKind::kStart || increment.kind == IncrementKind::kRegular ||
+                  increment.kind == IncrementKind::kSmoothLimit);
     }
     EXPECT_EQ(limits, 2u);
     const double limit = von_mises::BiotLimit(half_span, rise);
@@ -402,17 +416,17 @@ TEST(VonMises, BiotLimits) {
 TEST(VonMises, GreenLagrangeLimits) {
   TraceRequest request = Example("von_mises", 0.01);
   for (Bar& bar : request.scene.bars) bar.strain = StrainMeasure::kGreenLagrange;
-  const TracedPath path = TraceRows(request);
+  const TracedPath path = TraceIncrements(request);
   ASSERT_EQ(path.result.reason, EndReason::kStopCriterion);
-  ExpectSoundRows(path, kResidual);
+  ExpectSoundIncrements(path, kResidual);
   double largest = 0.0, smallest = 0.0;
-  for (const Increment& row : path.rows) {
+  for (const Increment& increment : path.increments) {
     // s = EA y (h^2 - y^2) / l0^3
-    const double y = PositionY(path, row, "apex");
-    EXPECT_NEAR(row.load_factor, y * (1.0 - y * y) / std::pow(2.0, 1.5), kClosedForm) << y;
+    const double y = PositionY(path, increment, "apex");
+    EXPECT_NEAR(increment.load_factor, y * (1.0 - y * y) / std::pow(2.0, 1.5), kClosedForm) << y;
     if (std::abs(y) > 1.0) continue;  // snapped through, and pulled on
-    largest = std::max(largest, row.load_factor);
-    smallest = std::min(smallest, row.load_factor);
+    largest = std::max(largest, increment.load_factor);
+    smallest = std::min(smallest, increment.load_factor);
   }
   const double limit = von_mises::GreenLagrangeLimit(1.0, 1.0);
   EXPECT_NEAR(largest, limit, 1e-3 * limit);
@@ -420,31 +434,31 @@ TEST(VonMises, GreenLagrangeLimits) {
 }
 
 TEST(RigidStop, KinkWhereTheGapCloses) {
-  const TracedPath path = TraceRows(Example("rigid_stop", 0.02));
+  const TracedPath path = TraceIncrements(Example("rigid_stop", 0.02));
   EXPECT_EQ(path.result.reason, EndReason::kStopCriterion);
-  ExpectSoundRows(path, kResidual);
+  ExpectSoundIncrements(path, kResidual);
   std::size_t open = 0, closed = 0, events = 0;
-  for (const Increment& row : path.rows) {
-    const double x = PositionX(path, row, "b");
-    if (row.contacts[0].state == ContactState::kOpen) {
+  for (const Increment& increment : path.increments) {
+    const double x = PositionX(path, increment, "b");
+    if (increment.contacts[0].state == ContactState::kOpen) {
       ++open;
       EXPECT_EQ(closed, 0u);
-      EXPECT_NEAR(x, 1.0 + row.load_factor, kClosedForm);
-      EXPECT_LE(row.load_factor, 0.1 + kClosedForm);
+      EXPECT_NEAR(x, 1.0 + increment.load_factor, kClosedForm);
+      EXPECT_LE(increment.load_factor, 0.1 + kClosedForm);
     } else {
       ++closed;
       EXPECT_NEAR(x, 1.1, kClosedForm);
-      EXPECT_NEAR(row.contacts[0].rn, row.load_factor - 0.1, kClosedForm);
+      EXPECT_NEAR(increment.contacts[0].rn, increment.load_factor - 0.1, kClosedForm);
     }
-    if (row.kind == RowKind::kContactEvent) ++events;
+    if (increment.kind == IncrementKind::kContactEvent) ++events;
   }
   EXPECT_GT(open, 3u);
   EXPECT_GT(closed, 3u);
   EXPECT_EQ(events, 1u);
 }
 
-// A block of weight 1 on a rough floor, dragged by a bar that is stretched from 0.8 to 1 at the start: row 0 is where
-// friction 0.1 stops it, at 0.8 (1 + 0.1). Pulled on with s, it sticks until the bar would push: s = 0.2.
+// A block of weight 1 on a rough floor, dragged by a bar that is stretched from 0.8 to 1 at the start: increment 0 is
+// where friction 0.1 stops it, at 0.8 (1 + 0.1). Pulled on with s, it sticks until the bar would push: s = 0.2.
 TEST(Prestress, RowZeroIsInEquilibriumWithItsFrictionHistory) {
   TraceRequest request;
   request.options.method = Method::kMpec;
@@ -456,23 +470,23 @@ TEST(Prestress, RowZeroIsInEquilibriumWithItsFrictionHistory) {
   request.scene.loads = {{"b", 1.0, 0.0, false}, {"b", 0.0, -1.0, true}};
   request.scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.1}};
   request.scene.contacts = {{"b", "floor"}};
-  const TracedPath path = TraceRows(request);
+  const TracedPath path = TraceIncrements(request);
   ASSERT_EQ(path.result.reason, EndReason::kStopCriterion);
-  ExpectSoundRows(path, kResidual);
-  EXPECT_NEAR(PositionX(path, path.rows[0], "b"), 0.88, kClosedForm);
-  EXPECT_NEAR(path.rows[0].contacts[0].rn, 1.0, kClosedForm);
-  EXPECT_NEAR(path.rows[0].contacts[0].rt, 0.1, kClosedForm);
-  EXPECT_EQ(path.rows[0].contacts[0].state, ContactState::kSlipMinus);
-  for (const Increment& row : path.rows) {
-    if (row.index == 0) continue;
-    const double x = PositionX(path, row, "b");
-    if (row.contacts[0].state == ContactState::kStick)
+  ExpectSoundIncrements(path, kResidual);
+  EXPECT_NEAR(PositionX(path, path.increments[0], "b"), 0.88, kClosedForm);
+  EXPECT_NEAR(path.increments[0].contacts[0].rn, 1.0, kClosedForm);
+  EXPECT_NEAR(path.increments[0].contacts[0].rt, 0.1, kClosedForm);
+  EXPECT_EQ(path.increments[0].contacts[0].state, ContactState::kSlipMinus);
+  for (const Increment& increment : path.increments) {
+    if (increment.index == 0) continue;
+    const double x = PositionX(path, increment, "b");
+    if (increment.contacts[0].state == ContactState::kStick)
       EXPECT_NEAR(x, 0.88, kClosedForm);
     else
-      EXPECT_NEAR(x / 0.8 - 1.0, row.load_factor - 0.1, kClosedForm);
+      EXPECT_NEAR(x / 0.8 - 1.0, increment.load_factor - 0.1, kClosedForm);
   }
-  EXPECT_EQ(path.rows[1].contacts[0].state, ContactState::kStick);
-  EXPECT_EQ(path.rows.back().contacts[0].state, ContactState::kSlipPlus);
+  EXPECT_EQ(path.increments[1].contacts[0].state, ContactState::kStick);
+  EXPECT_EQ(path.increments.back().contacts[0].state, ContactState::kSlipPlus);
 }
 
 TEST(Prestress, FreeTrussGoesToItsRestLength) {
@@ -481,10 +495,10 @@ TEST(Prestress, FreeTrussGoesToItsRestLength) {
   request.options.stop = {{"load_factor", ">", 0.02}};
   for (Bar& bar : request.scene.bars) bar.rest_length = 1.3;
   request.scene.loads.push_back({"apex", 0.0, -0.05, true});
-  const TracedPath path = TraceRows(request);
+  const TracedPath path = TraceIncrements(request);
   ASSERT_EQ(path.result.reason, EndReason::kStopCriterion);
-  ExpectSoundRows(path, kResidual);
-  const double y = PositionY(path, path.rows[0], "apex");
+  ExpectSoundIncrements(path, kResidual);
+  const double y = PositionY(path, path.increments[0], "apex");
   EXPECT_NEAR(2.0 * y * (1.0 / std::hypot(1.0, y) - 1.0 / 1.3), 0.05, kClosedForm);
 }
 

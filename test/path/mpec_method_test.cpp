@@ -55,18 +55,18 @@ TEST_F(SlidingBarMethod, GivesOneExactRowAtATime) {
   for (int i = 0; i < 5; ++i) {
     const Advance advance = method.Next(point);
     ASSERT_FALSE(advance.ended) << advance.message;
-    ASSERT_EQ(advance.rows.size(), 1u);
-    const AcceptedPoint& row = advance.rows[0];
-    EXPECT_LE(row.residuals.equilibrium, kRounding);
-    EXPECT_LE(row.residuals.Contact(), kRounding);
-    EXPECT_TRUE(row.solve.exact);
-    EXPECT_EQ(row.solve.method, Method::kMpec);
-    EXPECT_GT(row.solve.regularisation, 0.0);
-    EXPECT_EQ(row.solve.variables, 6);
-    EXPECT_EQ(row.solve.constraints, 9);
-    EXPECT_EQ(row.arc_length, Distance(point, row.point));
-    EXPECT_EQ(row.work.friction, WorkOfIncrement(model_, point, row.point).friction);
-    point = row.point;
+    ASSERT_EQ(advance.increments.size(), 1u);
+    const AcceptedPoint& increment = advance.increments[0];
+    EXPECT_LE(increment.residuals.equilibrium, kRounding);
+    EXPECT_LE(increment.residuals.Contact(), kRounding);
+    EXPECT_TRUE(increment.solve.exact);
+    EXPECT_EQ(increment.solve.method, Method::kMpec);
+    EXPECT_GT(increment.solve.regularisation, 0.0);
+    EXPECT_EQ(increment.solve.variables, 6);
+    EXPECT_EQ(increment.solve.constraints, 9);
+    EXPECT_EQ(increment.arc_length, Distance(point, increment.point));
+    EXPECT_EQ(increment.work.friction, WorkOfIncrement(model_, point, increment.point).friction);
+    point = increment.point;
   }
 }
 
@@ -75,16 +75,16 @@ TEST_F(SlidingBarMethod, EndsAtTheTarget) {
   options.target = 0.112;
   MpecMethod method(model_, options, nullptr);
   PathPoint point = model_.InitialPoint();
-  int rows = 0;
+  int increments = 0;
   while (point.s < *options.target) {
     const Advance advance = method.Next(point);
-    ASSERT_EQ(advance.rows.size(), 1u) << advance.message;
-    EXPECT_LE(advance.rows[0].residuals.Largest(), kRounding);
-    point = advance.rows[0].point;
-    ++rows;
+    ASSERT_EQ(advance.increments.size(), 1u) << advance.message;
+    EXPECT_LE(advance.increments[0].residuals.Largest(), kRounding);
+    point = advance.increments[0].point;
+    ++increments;
   }
   EXPECT_NEAR(point.s, *options.target, kRounding);
-  EXPECT_GE(rows, 2);
+  EXPECT_GE(increments, 2);
 }
 
 TEST_F(SlidingBarMethod, CancelledGivesNoRow) {
@@ -93,12 +93,12 @@ TEST_F(SlidingBarMethod, CancelledGivesNoRow) {
   const Advance first = method.Next(model_.InitialPoint());
   ASSERT_FALSE(first.ended);
   cancel = true;
-  const Advance second = method.Next(first.rows[0].point);
+  const Advance second = method.Next(first.increments[0].point);
   EXPECT_TRUE(second.ended);
-  EXPECT_TRUE(second.rows.empty());
+  EXPECT_TRUE(second.increments.empty());
   EXPECT_EQ(second.reason, EndReason::kCancelled);
   cancel = false;
-  EXPECT_FALSE(method.Next(first.rows[0].point).ended);
+  EXPECT_FALSE(method.Next(first.increments[0].point).ended);
 }
 
 TEST_F(SlidingBarMethod, EndsWhereNoIncrementCanBeAccepted) {
@@ -106,10 +106,10 @@ TEST_F(SlidingBarMethod, EndsWhereNoIncrementCanBeAccepted) {
   nowhere.u[0] += 0.3;  // no equilibrium: the bar is shorter, and nothing pushes
   MpecMethod method(model_, Options(0.05), nullptr);
   Advance advance = method.Next(nowhere);
-  // The increment problem asks for equilibrium at its end only, so a first row may lead back to the path.
+  // The increment problem asks for equilibrium at its end only, so a first increment may lead back to the path.
   if (!advance.ended) {
-    ASSERT_EQ(advance.rows.size(), 1u);
-    EXPECT_LE(advance.rows[0].residuals.equilibrium, kRounding);
+    ASSERT_EQ(advance.increments.size(), 1u);
+    EXPECT_LE(advance.increments[0].residuals.equilibrium, kRounding);
   } else {
     EXPECT_EQ(advance.reason, EndReason::kStepTooSmall);
     EXPECT_NE(advance.message.find("no increment could be accepted"), std::string::npos) << advance.message;
@@ -130,7 +130,8 @@ class StickSlipCycle : public testing::Test {
     scene_.contacts = {{"p", "floor"}};
   }
 
-  // From *point until the load factor passes `target`; every row is on the expected line. Returns the dissipation.
+  // From *point until the load factor passes `target`; every increment is on the expected line. Returns the
+  // dissipation.
   double Drive(const Model& model, double direction, double target, double stick_until, double offset,
                PathPoint* point) {
     MpecMethod method(model, Options(0.15, direction), nullptr);
@@ -140,16 +141,17 @@ class StickSlipCycle : public testing::Test {
       const Advance advance = method.Next(*point);
       EXPECT_FALSE(advance.ended) << advance.message;
       if (advance.ended) return dissipation;
-      for (const AcceptedPoint& row : advance.rows) {
-        const double s = row.point.s;
+      for (const AcceptedPoint& increment : advance.increments) {
+        const double s = increment.point.s;
         const bool sticks = direction * (s - stick_until) < 0.0;
-        EXPECT_NEAR(row.point.u[0], sticks ? held : s + offset, 1e-3) << s;  // a corner is cut by less than this
-        if (!sticks && row.point.states[0] != ContactState::kStick) {
-          EXPECT_NEAR(row.point.u[0], s + offset, kRounding) << s;
-          EXPECT_EQ(row.point.states[0], direction > 0.0 ? ContactState::kSlipPlus : ContactState::kSlipMinus) << s;
+        EXPECT_NEAR(increment.point.u[0], sticks ? held : s + offset, 1e-3) << s;  // a corner is cut by less than this
+        if (!sticks && increment.point.states[0] != ContactState::kStick) {
+          EXPECT_NEAR(increment.point.u[0], s + offset, kRounding) << s;
+          EXPECT_EQ(increment.point.states[0], direction > 0.0 ? ContactState::kSlipPlus : ContactState::kSlipMinus)
+              << s;
         }
-        dissipation += row.work.friction;
-        *point = row.point;
+        dissipation += increment.work.friction;
+        *point = increment.point;
       }
     }
     return dissipation;
@@ -177,9 +179,9 @@ TEST_F(StickSlipCycle, DissipatesFrictionTimesTheWayInEveryCycle) {
   EXPECT_NEAR(bottom_u, bottom_s + 0.3, kRounding);
   dissipation += Drive(model, +1.0, 1.0, bottom_s + 0.6, -0.3, &point);
   EXPECT_NEAR(point.u[0], point.s - 0.3, kRounding);
-  const double way = (top_u - bottom_u) + (point.u[0] - bottom_u);
-  EXPECT_GE(way, 0.8);  // it turns in the row after the load was reached
-  EXPECT_NEAR(dissipation, 0.3 * way, kRounding);
+  const double branch = (top_u - bottom_u) + (point.u[0] - bottom_u);
+  EXPECT_GE(branch, 0.8);  // it turns in the increment after the load was reached
+  EXPECT_NEAR(dissipation, 0.3 * branch, kRounding);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // Random scenes by Algorithm 3.2, against their exact paths.
 #include <gtest/gtest.h>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <iostream>
@@ -13,8 +14,8 @@
 namespace contact_path {
 namespace {
 
-// Distance of a row from the polygon of a path, in (u, s), scaled; *place: arc length there.
-double DistanceFromPath(const Increment& row, const TracedPath& path, double* place) {
+// Distance of an increment from the polygon of a path, in (u, s), scaled; *place: arc length there.
+double DistanceFromPath(const Increment& increment, const TracedPath& path, double* place) {
   const Scaling scaling = CharacteristicScales(path.request.scene);
   const auto point = [&scaling](const Increment& of) {
     const auto size = static_cast<Eigen::Index>(of.positions.size());
@@ -23,16 +24,16 @@ double DistanceFromPath(const Increment& row, const TracedPath& path, double* pl
         of.load_factor / scaling.load_factor;
     return x;
   };
-  const Eigen::VectorXd x = point(row);
+  const Eigen::VectorXd x = point(increment);
   double nearest = std::numeric_limits<double>::infinity();
-  Eigen::VectorXd a = point(path.rows[0]);
-  for (std::size_t i = 1; i < path.rows.size(); ++i) {
-    const Eigen::VectorXd b = point(path.rows[i]), edge = b - a;
+  Eigen::VectorXd a = point(path.increments[0]);
+  for (std::size_t i = 1; i < path.increments.size(); ++i) {
+    const Eigen::VectorXd b = point(path.increments[i]), edge = b - a;
     const double share = edge.squaredNorm() > 0.0 ? std::clamp(edge.dot(x - a) / edge.squaredNorm(), 0.0, 1.0) : 0.0;
     const double distance = (a + share * edge - x).norm();
     if (distance < nearest) {
       nearest = distance;
-      *place = path.rows[i].arc_length;
+      *place = path.increments[i].arc_length;
     }
     a = b;
   }
@@ -49,15 +50,15 @@ TEST(RandomPathsByMpec, FollowTheExactPath) {
     TraceRequest request = RandomRequest(seed);
     request.options.step = 0.001;
     const TracedPath exact = TraceArc(request, 2.0 * kArc);
-    ASSERT_FALSE(exact.rows.empty());
+    ASSERT_FALSE(exact.increments.empty());
     request.options.method = Method::kMpec;
     std::vector<double> farthest;
     for (const double step : {0.04, 0.02}) {
       request.options.step = step;
       const TracedPath path = TraceArc(request, kArc);
       double worst = 0.0, place = 0.0;
-      for (const Increment& row : path.rows) {
-        const double distance = DistanceFromPath(row, exact, &place);
+      for (const Increment& increment : path.increments) {
+        const double distance = DistanceFromPath(increment, exact, &place);
         worst = std::max(worst, distance);
         EXPECT_LE(distance, kCorner) << "seed " << seed << " at " << place;
         ++increments;

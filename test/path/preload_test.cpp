@@ -162,13 +162,13 @@ TEST(Preload, EndsAtALimitPoint) {
   Scene scene = Block(0.0, 0.5);
   scene.loads.push_back({"b", 0.0, 1.0, true});
   const Model model(scene, CharacteristicScales(scene));
-  for (const RowKind kind : {RowKind::kSmoothLimit, RowKind::kCornerLimit}) {
+  for (const IncrementKind kind : {IncrementKind::kSmoothLimit, IncrementKind::kCornerLimit}) {
     Advance advance;
     advance.ended = false;
-    advance.rows.resize(1);
-    advance.rows[0].point = model.InitialPoint();
-    advance.rows[0].point.s = 0.25 * model.structure.ConstantLoad().norm();
-    advance.rows[0].kind = kind;
+    advance.increments.resize(1);
+    advance.increments[0].point = model.InitialPoint();
+    advance.increments[0].point.s = 0.25 * model.structure.ConstantLoad().norm();
+    advance.increments[0].kind = kind;
     const Preload preload =
         TracePreload(model, 100, [&](const Model&, double) { return std::make_unique<FakeMethod>(true, advance); });
     EXPECT_FALSE(preload.done);

@@ -20,21 +20,22 @@ constexpr double kRounding = 1e-12;
 
 const Increment& LastOfStage(const TracedPath& path, int stage) {
   const Increment* last = nullptr;
-  for (const Increment& row : path.rows)
-    if (row.stage == stage) last = &row;
+  for (const Increment& increment : path.increments)
+    if (increment.stage == stage) last = &increment;
   EXPECT_NE(last, nullptr) << "stage " << stage;
-  return last != nullptr ? *last : path.rows.back();
+  return last != nullptr ? *last : path.increments.back();
 }
 
 // Complete, sound, and proved.
 TracedPath TraceProgram(TraceRequest request, Method method = Method::kBranch) {
   request.options.method = method;
-  TracedPath path = TraceRows(request);
+  TracedPath path = TraceIncrements(request);
   EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
   EXPECT_EQ(path.result.message.rfind("the program was traced to its end", 0), 0u);  // remarks may follow
-  for (const Finding& finding : VerifyPath(request, path.rows).findings)
-    ADD_FAILURE() << "row " << finding.row << ": " << finding.what;
-  for (const Increment& row : path.rows) EXPECT_LE(row.residuals.Largest(), 1e-9) << "row " << row.index;
+  for (const Finding& finding : VerifyPath(request, path.increments).findings)
+    ADD_FAILURE() << "increment " << finding.increment << ": " << finding.what;
+  for (const Increment& increment : path.increments)
+    EXPECT_LE(increment.residuals.Largest(), 1e-9) << "increment " << increment.index;
   return path;
 }
 
@@ -58,20 +59,21 @@ TEST_P(EachMethod, StickSlipCycleIsTheHysteresisLoopOfCoulomb) {
     EXPECT_NEAR(end.strain_energy, 0.045, kRounding);
     EXPECT_NEAR(end.external_work, dissipated[stage - 1] + 0.045, tolerance);
   }
-  // Between: the friction force against the way of the belt, row by row.
-  for (const Increment& row : path.rows) {
-    const double sign = row.stage == 2 ? -1.0 : 1.0;
-    const double stuck = row.stage == 1 ? 0.3 : 0.6, gone = std::abs(row.load_factor);
-    const double force = (row.stage == 1 ? 0.0 : -0.3 * sign) + sign * std::min(gone, stuck);
-    EXPECT_NEAR(Contact(path, row, "b@belt").rt, force, exact ? kRounding : 1e-7) << "row " << row.index;
+  // Between: the friction force against the branch of the belt, row by row.
+  for (const Increment& increment : path.increments) {
+    const double sign = increment.stage == 2 ? -1.0 : 1.0;
+    const double stuck = increment.stage == 1 ? 0.3 : 0.6, gone = std::abs(increment.load_factor);
+    const double force = (increment.stage == 1 ? 0.0 : -0.3 * sign) + sign * std::min(gone, stuck);
+    EXPECT_NEAR(Contact(path, increment, "b@belt").rt, force, exact ? kRounding : 1e-7)
+        << "increment " << increment.index;
   }
   if (!exact) return;
   // Slip sets in where the theory says.
   for (int stage = 1; stage <= 3; ++stage) {
-    const auto begins = std::find_if(path.rows.begin(), path.rows.end(), [&](const Increment& row) {
-      return row.stage == stage && row.kind == RowKind::kContactEvent;
+    const auto begins = std::find_if(path.increments.begin(), path.increments.end(), [&](const Increment& increment) {
+      return increment.stage == stage && increment.kind == IncrementKind::kContactEvent;
     });
-    ASSERT_NE(begins, path.rows.end());
+    ASSERT_NE(begins, path.increments.end());
     EXPECT_NEAR(begins->load_factor, stage == 1 ? 0.3 : 0.6, kRounding);
   }
 }
@@ -106,14 +108,15 @@ TEST_P(EachMethod, FootIsPressedDraggedAndLifted) {
 TEST(Program, GripperIsSymmetricAndSlipsAtItsPullOutForce) {
   const TracedPath path = TraceProgram(ReadExample("gripper"));
   double pull_out = -1.0;
-  for (const Increment& row : path.rows) {
-    const ContactRecord &left = Contact(path, row, "l@left_face"), &right = Contact(path, row, "r@right_face");
+  for (const Increment& increment : path.increments) {
+    const ContactRecord &left = Contact(path, increment, "l@left_face"),
+                        &right = Contact(path, increment, "r@right_face");
     EXPECT_NEAR(left.rn, right.rn, 1e-11);
     EXPECT_NEAR(left.rt, -right.rt, 1e-11);  // the tangents of the faces are opposed
-    EXPECT_NEAR(PositionX(path, row, "l"), -PositionX(path, row, "r"), 1e-12);
+    EXPECT_NEAR(PositionX(path, increment, "l"), -PositionX(path, increment, "r"), 1e-12);
     pull_out = std::max(pull_out, left.rt - right.rt);
   }
-  const Increment& end = path.rows.back();
+  const Increment& end = path.increments.back();
   EXPECT_NEAR(std::abs(Contact(path, end, "l@left_face").rt), 0.5 * Contact(path, end, "l@left_face").rn, 1e-11);
   EXPECT_NEAR(pull_out, 2.0 * Contact(path, end, "l@left_face").rt, 1e-11);
   EXPECT_NEAR(pull_out, 1.74, 0.005);  // as its file says
@@ -129,13 +132,13 @@ TEST_P(EachMethod, OneStageIsThePathUpToItsTarget) {
   program.options.stop.clear();
   program.program = {{"all", program.scene.loads, {}, {}, 0.5}};
   program.scene.loads.clear();
-  const TracedPath whole = TraceRows(plain), staged = TraceProgram(program, GetParam());
-  for (std::size_t i = 0; i + 1 < staged.rows.size(); ++i) {
-    EXPECT_EQ(staged.rows[i].positions, whole.rows[i].positions);
-    EXPECT_EQ(staged.rows[i].load_factor, whole.rows[i].load_factor);
-    EXPECT_EQ(staged.rows[i].stage, 1);
+  const TracedPath whole = TraceIncrements(plain), staged = TraceProgram(program, GetParam());
+  for (std::size_t i = 0; i + 1 < staged.increments.size(); ++i) {
+    EXPECT_EQ(staged.increments[i].positions, whole.increments[i].positions);
+    EXPECT_EQ(staged.increments[i].load_factor, whole.increments[i].load_factor);
+    EXPECT_EQ(staged.increments[i].stage, 1);
   }
-  EXPECT_EQ(staged.rows.back().load_factor, 0.5);
+  EXPECT_EQ(staged.increments.back().load_factor, 0.5);
 }
 
 TEST(Program, AStageInTwoHalvesEndsAtTheSamePoint) {
@@ -167,7 +170,7 @@ TEST(Program, SuperelementsAreStretchedByTheirSupports) {
   const TracedPath path = TraceProgram(request);
   EXPECT_NEAR(Contact(path, LastOfStage(path, 1), "b@wall").rn, 2.0 * 0.25, kRounding);
   EXPECT_NEAR(Contact(path, LastOfStage(path, 2), "b@wall").rn, 2.0 * 0.5, kRounding);
-  EXPECT_NEAR(path.rows.back().external_work, 0.5 * 2.0 * 0.25, kRounding);
+  EXPECT_NEAR(path.increments.back().external_work, 0.5 * 2.0 * 0.25, kRounding);
 }
 
 // Without bars, the forces of the first stage are the measure for all.
@@ -202,29 +205,29 @@ TEST_P(EachMethod, SupportMotionOfTheSceneItself) {
   request.scene.support_motions = {{"d", 0.0, -1.0}};
   request.options.method = GetParam();
   request.options.stop = {{"d.y", "<", 0.3}};
-  const TracedPath path = TraceRows(request);
+  const TracedPath path = TraceIncrements(request);
   ASSERT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
-  EXPECT_TRUE(VerifyPath(request, path.rows).findings.empty());
-  for (const Increment& row : path.rows) {
-    EXPECT_NEAR(PositionY(path, row, "d"), 1.0 - row.load_factor, kRounding);
-    EXPECT_LE(row.residuals.support, kRounding);
+  EXPECT_TRUE(VerifyPath(request, path.increments).findings.empty());
+  for (const Increment& increment : path.increments) {
+    EXPECT_NEAR(PositionY(path, increment, "d"), 1.0 - increment.load_factor, kRounding);
+    EXPECT_LE(increment.residuals.support, kRounding);
     // The bar from above carries what the arch resists.
-    const double y = PositionY(path, row, "b"), l = std::hypot(1.0, y), l0 = std::hypot(1.0, 0.3);
-    const double arch = 2.0 * (l / l0 - 1.0) * y / l, push = 100.0 * ((1.0 - row.load_factor - y) / 0.7 - 1.0);
+    const double y = PositionY(path, increment, "b"), l = std::hypot(1.0, y), l0 = std::hypot(1.0, 0.3);
+    const double arch = 2.0 * (l / l0 - 1.0) * y / l, push = 100.0 * ((1.0 - increment.load_factor - y) / 0.7 - 1.0);
     EXPECT_NEAR(arch, push, 1e-11);
   }
   EXPECT_LE(EnergyImbalance(path), GetParam() == Method::kBranch ? 1e-9 : 1e-6);
-  EXPECT_LT(PositionY(path, path.rows.back(), "b"), 0.0);  // through
+  EXPECT_LT(PositionY(path, path.increments.back(), "b"), 0.0);  // through
 }
 
 TEST(Program, UnitsDoNotMatter) {
   const TraceRequest request = ReadExample("press_slide_lift");
   const TracedPath a = TraceProgram(request);
   const TracedPath b = UndoUnits(TraceProgram(ChangeUnits(request, 1e-3, 1e6)), 1e-3, 1e6);
-  ASSERT_EQ(a.rows.size(), b.rows.size());
-  for (std::size_t i = 0; i < a.rows.size(); ++i)
-    for (std::size_t k = 0; k < a.rows[i].positions.size(); ++k)
-      EXPECT_NEAR(a.rows[i].positions[k], b.rows[i].positions[k], 1e-10);
+  ASSERT_EQ(a.increments.size(), b.increments.size());
+  for (std::size_t i = 0; i < a.increments.size(); ++i)
+    for (std::size_t k = 0; k < a.increments[i].positions.size(); ++k)
+      EXPECT_NEAR(a.increments[i].positions[k], b.increments[i].positions[k], 1e-10);
 }
 
 // The block slips at 0.3: whatever the distance of the target from there, the stage ends at it.
@@ -237,7 +240,7 @@ TEST(Program, TargetsNextToAnEventAreHit) {
       request.program[0].target = 0.3 + off;
       const TracedPath path = TraceProgram(request);
       EXPECT_NEAR(LastOfStage(path, 1).load_factor, 0.3 + off, 1e-12) << off;
-      EXPECT_NEAR(Contact(path, path.rows.back(), "b@belt").rt, -0.3, kRounding) << off;
+      EXPECT_NEAR(Contact(path, path.increments.back(), "b@belt").rt, -0.3, kRounding) << off;
     }
 }
 
@@ -245,19 +248,19 @@ TEST(Program, NumberOfIncrementsIsKeptAlsoWhereAStageEnds) {
   TraceRequest request = ReadExample("press_slide_lift");
   for (int most = 1; most < 40; ++most) {
     request.options.max_increments = most;
-    EXPECT_LE(TraceRows(request).rows.size(), static_cast<std::size_t>(most) + 1);
+    EXPECT_LE(TraceIncrements(request).increments.size(), static_cast<std::size_t>(most) + 1);
   }
 }
 
 TEST(Program, EventsAndRowsAreNumberedThroughAllStages) {
   const TracedPath path = TraceProgram(ReadExample("stick_slip_cycle"));
   int events = 0, starts = 0;
-  for (std::size_t i = 0; i < path.rows.size(); ++i) {
-    EXPECT_EQ(path.rows[i].index, static_cast<int>(i));
-    if (path.rows[i].event.number > 0) {
-      EXPECT_EQ(path.rows[i].event.number, ++events);
+  for (std::size_t i = 0; i < path.increments.size(); ++i) {
+    EXPECT_EQ(path.increments[i].index, static_cast<int>(i));
+    if (path.increments[i].event.number > 0) {
+      EXPECT_EQ(path.increments[i].event.number, ++events);
     }
-    starts += path.rows[i].kind == RowKind::kStart ? 1 : 0;
+    starts += path.increments[i].kind == IncrementKind::kStart ? 1 : 0;
   }
   EXPECT_EQ(events, 3);
   EXPECT_EQ(starts, 3);
@@ -266,12 +269,12 @@ TEST(Program, EventsAndRowsAreNumberedThroughAllStages) {
 TEST(Program, StopCriterionEndsAllOfIt) {
   TraceRequest request = ReadExample("press_slide_lift");
   request.options.stop = {{"b.x", ">", 0.1}};
-  const TracedPath path = TraceRows(request);
+  const TracedPath path = TraceIncrements(request);
   EXPECT_EQ(path.result.reason, EndReason::kStopCriterion);
-  EXPECT_EQ(path.rows.back().stage, 2);
+  EXPECT_EQ(path.increments.back().stage, 2);
   request.options.stop.clear();
   request.options.max_increments = 3;
-  EXPECT_EQ(TraceRows(request).rows.size(), 4u);
+  EXPECT_EQ(TraceIncrements(request).increments.size(), 4u);
 }
 
 // The load factor turns twice before it comes to its target.
@@ -281,22 +284,22 @@ TEST_P(EachMethod, AStageGoesThroughLimitPoints) {
   request.program = {{"snap", request.scene.loads, {}, {}, 0.0}};
   request.scene.loads.clear();
   const TracedPath path = TraceProgram(request, GetParam());
-  EXPECT_EQ(RowsOfKind(path, RowKind::kSmoothLimit).size(), 2u);
-  EXPECT_EQ(path.rows.back().load_factor, 1.0);
+  EXPECT_EQ(IncrementsOfKind(path, IncrementKind::kSmoothLimit).size(), 2u);
+  EXPECT_EQ(path.increments.back().load_factor, 1.0);
 }
 
 // On this side of the limit point, not where the load factor comes by again after the snap.
 TEST_P(EachMethod, TargetsJustBelowALimitPointAreHit) {
   TraceRequest request = ReadExample("von_mises");
-  const TracedPath snap = TraceRows(request);
-  const Increment limit = RowsOfKind(snap, RowKind::kSmoothLimit).front();
+  const TracedPath snap = TraceIncrements(request);
+  const Increment limit = IncrementsOfKind(snap, IncrementKind::kSmoothLimit).front();
   request.options = {};
   const std::vector<Load> loads = request.scene.loads;
   request.scene.loads.clear();
   for (const double below : {1e-2, 1e-3, 1e-4, 1e-6}) {
     request.program = {{"up", loads, {}, {}, (1.0 - below) * limit.load_factor}};
     const TracedPath path = TraceProgram(request, GetParam());
-    EXPECT_GT(PositionY(path, path.rows.back(), "apex"), PositionY(snap, limit, "apex")) << below;
+    EXPECT_GT(PositionY(path, path.increments.back(), "apex"), PositionY(snap, limit, "apex")) << below;
   }
 }
 
@@ -306,7 +309,7 @@ TEST(Program, TargetsNextToAnEventAreHitByMpec) {
     request.program.resize(1);
     request.program[0].target = 0.3 + off;
     const TracedPath path = TraceProgram(request, Method::kMpec);
-    EXPECT_NEAR(path.rows.back().load_factor, 0.3 + off, 1e-12) << off;
+    EXPECT_NEAR(path.increments.back().load_factor, 0.3 + off, 1e-12) << off;
   }
 }
 
@@ -354,38 +357,40 @@ TEST(StageScales, FollowTheForcesAtTheTargets) {
 
 TEST(VerifyProgram, FindsWhatWasChanged) {
   const TraceRequest request = ReadExample("press_slide_lift");
-  const TracedPath path = TraceRows(request);
-  const auto findings = [&](const std::vector<Increment>& rows) { return VerifyPath(request, rows).findings; };
-  const auto first_of = [&](int stage) {
-    return static_cast<std::size_t>(
-        std::find_if(path.rows.begin(), path.rows.end(), [&](const Increment& row) { return row.stage == stage; }) -
-        path.rows.begin());
+  const TracedPath path = TraceIncrements(request);
+  const auto findings = [&](const std::vector<Increment>& increments) {
+    return VerifyPath(request, increments).findings;
   };
-  ASSERT_TRUE(findings(path.rows).empty());
+  const auto first_of = [&](int stage) {
+    return static_cast<std::size_t>(std::find_if(path.increments.begin(), path.increments.end(),
+                                                 [&](const Increment& increment) { return increment.stage == stage; }) -
+                                    path.increments.begin());
+  };
+  ASSERT_TRUE(findings(path.increments).empty());
   const std::size_t second = first_of(2), third = first_of(3);
-  std::vector<Increment> rows = path.rows;
-  rows[second + 1].positions[0] += 1e-6;  // a support
-  EXPECT_FALSE(findings(rows).empty());
-  rows = path.rows;
-  rows[second].dissipation += 1e-3;
-  EXPECT_FALSE(findings(rows).empty());
-  rows = path.rows;
-  rows[second].contacts[0].rn *= 1.0 + 1e-6;
-  EXPECT_FALSE(findings(rows).empty());
-  rows = path.rows;
-  for (std::size_t i = second; i < third; ++i) rows[i].stage = 3;
-  EXPECT_FALSE(findings(rows).empty());
-  rows = path.rows;
-  rows.erase(rows.begin() + static_cast<std::ptrdiff_t>(third) - 1);
-  for (std::size_t i = 0; i < rows.size(); ++i) rows[i].index = static_cast<int>(i);
-  EXPECT_FALSE(findings(rows).empty());
-  rows = path.rows;
-  for (std::size_t i = second + 1; i < rows.size(); ++i) rows[i].external_work += 1e-2;
-  EXPECT_FALSE(findings(rows).empty());
+  std::vector<Increment> increments = path.increments;
+  increments[second + 1].positions[0] += 1e-6;  // a support
+  EXPECT_FALSE(findings(increments).empty());
+  increments = path.increments;
+  increments[second].dissipation += 1e-3;
+  EXPECT_FALSE(findings(increments).empty());
+  increments = path.increments;
+  increments[second].contacts[0].rn *= 1.0 + 1e-6;
+  EXPECT_FALSE(findings(increments).empty());
+  increments = path.increments;
+  for (std::size_t i = second; i < third; ++i) increments[i].stage = 3;
+  EXPECT_FALSE(findings(increments).empty());
+  increments = path.increments;
+  increments.erase(increments.begin() + static_cast<std::ptrdiff_t>(third) - 1);
+  for (std::size_t i = 0; i < increments.size(); ++i) increments[i].index = static_cast<int>(i);
+  EXPECT_FALSE(findings(increments).empty());
+  increments = path.increments;
+  for (std::size_t i = second + 1; i < increments.size(); ++i) increments[i].external_work += 1e-2;
+  EXPECT_FALSE(findings(increments).empty());
   // The scene's own motions, not those recorded.
   TraceRequest other = request;
   other.program[1].support_motions[0].dx = 1.1;
-  EXPECT_FALSE(VerifyPath(other, path.rows).findings.empty());
+  EXPECT_FALSE(VerifyPath(other, path.increments).findings.empty());
 }
 
 // Right records that it once refused.
@@ -394,14 +399,15 @@ TEST(VerifyProgram, ShortRecordsOfMpecWithoutAllStatesAreProved) {
   request.options.method = Method::kMpec;
   request.options.full_state_every = 3;
   for (request.options.max_increments = 1; request.options.max_increments <= 8; ++request.options.max_increments) {
-    std::vector<Increment> rows = TraceRows(request).rows;
-    for (Increment& row : rows)
-      if (row.kind == RowKind::kRegular && row.index % 3 != 0) {
-        row.positions.clear();
-        row.contacts.clear();
+    std::vector<Increment> increments = TraceIncrements(request).increments;
+    for (Increment& increment : increments)
+      if (increment.kind == IncrementKind::kRegular && increment.index % 3 != 0) {
+        increment.positions.clear();
+        increment.contacts.clear();
       }
-    for (const Finding& finding : VerifyPath(request, rows).findings)
-      ADD_FAILURE() << request.options.max_increments << " increments, row " << finding.row << ": " << finding.what;
+    for (const Finding& finding : VerifyPath(request, increments).findings)
+      ADD_FAILURE() << request.options.max_increments << " increments, increment " << finding.increment << ": "
+                    << finding.what;
   }
 }
 
@@ -467,7 +473,7 @@ TEST(ProgramRules, AreTold) {
   request = sound;
   request.scene.nodes[1].fixed_x = true;
   request.program[1].obstacle_motions = {{"floor", 1.0, 0.0}};
-  ExpectViolation(request, "program[1].obstacle_motions[0].obstacle", "node b must be free to move that way");
+  ExpectViolation(request, "program[1].obstacle_motions[0].obstacle", "node b must be free to move that branch");
   request = ReadExample("two_dof_friction");
   request.scene.superelements[0].rest_positions = {0.0};
   ExpectViolation(request, "scene.superelements[0].rest_positions", "must be empty or have");

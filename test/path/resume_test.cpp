@@ -13,35 +13,35 @@
 namespace contact_path {
 namespace {
 
-TracedPath Resume(const TraceRequest& request, std::vector<Increment> rows) {
+TracedPath Resume(const TraceRequest& request, std::vector<Increment> increments) {
   TracedPath path;
   path.request = request;
   TraceControl control;
-  control.on_increment = [&](const Increment& row) { path.rows.push_back(row); };
-  path.result = ResumeTrace(request, rows, control);
+  control.on_increment = [&](const Increment& increment) { path.increments.push_back(increment); };
+  path.result = ResumeTrace(request, increments, control);
   return path;
 }
 
 void ExpectSamePath(const TracedPath& whole, const TracedPath& resumed, double tolerance, const std::string& where) {
-  ASSERT_EQ(whole.rows.size(), resumed.rows.size()) << where;
+  ASSERT_EQ(whole.increments.size(), resumed.increments.size()) << where;
   EXPECT_EQ(whole.result.reason, resumed.result.reason) << where;
   EXPECT_EQ(whole.result.message, resumed.result.message) << where;
   double worst = 0.0;
-  for (std::size_t i = 0; i < whole.rows.size(); ++i) {
-    const Increment &a = whole.rows[i], &b = resumed.rows[i];
+  for (std::size_t i = 0; i < whole.increments.size(); ++i) {
+    const Increment &a = whole.increments[i], &b = resumed.increments[i];
     EXPECT_EQ(a.index, b.index) << where;
     EXPECT_EQ(a.stage, b.stage) << where;
-    EXPECT_EQ(a.kind, b.kind) << where << ", row " << i;
-    EXPECT_EQ(a.event.number, b.event.number) << where << ", row " << i;
-    EXPECT_EQ(a.event.taken, b.event.taken) << where << ", row " << i;
-    // Where the structure has come loose, and no way is taken, rounding names its motions.
+    EXPECT_EQ(a.kind, b.kind) << where << ", increment " << i;
+    EXPECT_EQ(a.event.number, b.event.number) << where << ", increment " << i;
+    EXPECT_EQ(a.event.taken, b.event.taken) << where << ", increment " << i;
+    // Where the structure has become a mechanism, and no branch is taken, rounding names its motions.
     if (a.event.taken >= 0) {
-      EXPECT_EQ(a.event.ways.size(), b.event.ways.size()) << where << ", row " << i;
+      EXPECT_EQ(a.event.branches.size(), b.event.branches.size()) << where << ", increment " << i;
     }
     for (std::size_t k = 0; k < a.positions.size(); ++k)
       worst = std::max(worst, std::abs(a.positions[k] - b.positions[k]));
     for (std::size_t k = 0; k < a.contacts.size(); ++k) {
-      EXPECT_EQ(a.contacts[k].state, b.contacts[k].state) << where << ", row " << i;
+      EXPECT_EQ(a.contacts[k].state, b.contacts[k].state) << where << ", increment " << i;
       worst = std::max(
           {worst, std::abs(a.contacts[k].rn - b.contacts[k].rn), std::abs(a.contacts[k].rt - b.contacts[k].rt)});
     }
@@ -55,14 +55,15 @@ TEST(Resume, FromAnyRowOfAnyExampleByBranch) {
   for (const char* name : {"sliding_bar", "von_mises", "rough_truss", "two_dof_friction", "rigid_stop",
                            "stick_slip_cycle", "press_slide_lift", "gripper"}) {
     const TraceRequest request = ReadExample(name);
-    const TracedPath whole = TraceRows(request);
-    const std::size_t stride = whole.rows.size() / 40 + 1;
-    for (std::size_t cut = 1; cut <= whole.rows.size(); cut += stride) {
-      const std::vector<Increment> rows(whole.rows.begin(), whole.rows.begin() + static_cast<std::ptrdiff_t>(cut));
-      ExpectSamePath(whole, Resume(request, rows), 1e-9, std::string(name) + " after " + std::to_string(cut));
+    const TracedPath whole = TraceIncrements(request);
+    const std::size_t stride = whole.increments.size() / 40 + 1;
+    for (std::size_t cut = 1; cut <= whole.increments.size(); cut += stride) {
+      const std::vector<Increment> increments(whole.increments.begin(),
+                                              whole.increments.begin() + static_cast<std::ptrdiff_t>(cut));
+      ExpectSamePath(whole, Resume(request, increments), 1e-9, std::string(name) + " after " + std::to_string(cut));
     }
-    for (const Finding& finding : VerifyPath(request, Resume(request, whole.rows).rows).findings)
-      ADD_FAILURE() << name << ", row " << finding.row << ": " << finding.what;
+    for (const Finding& finding : VerifyPath(request, Resume(request, whole.increments).increments).findings)
+      ADD_FAILURE() << name << ", increment " << finding.increment << ": " << finding.what;
   }
 }
 
@@ -70,68 +71,70 @@ TEST(Resume, ByMpec) {
   for (const char* name : {"sliding_bar", "stick_slip_cycle"}) {
     TraceRequest request = ReadExample(name);
     request.options.method = Method::kMpec;
-    const TracedPath whole = TraceRows(request);
-    for (std::size_t cut = 1; cut <= whole.rows.size(); cut += whole.rows.size() / 6 + 1) {
-      const std::vector<Increment> rows(whole.rows.begin(), whole.rows.begin() + static_cast<std::ptrdiff_t>(cut));
-      ExpectSamePath(whole, Resume(request, rows), 1e-9, std::string(name) + " after " + std::to_string(cut));
+    const TracedPath whole = TraceIncrements(request);
+    for (std::size_t cut = 1; cut <= whole.increments.size(); cut += whole.increments.size() / 6 + 1) {
+      const std::vector<Increment> increments(whole.increments.begin(),
+                                              whole.increments.begin() + static_cast<std::ptrdiff_t>(cut));
+      ExpectSamePath(whole, Resume(request, increments), 1e-9, std::string(name) + " after " + std::to_string(cut));
     }
   }
 }
 
 TEST(Resume, KeepsRowsAsTheyAre) {
   const TraceRequest request = ReadExample("sliding_bar");
-  std::vector<Increment> rows = TraceRows(request).rows;
-  rows.resize(20);
-  const TracedPath resumed = Resume(request, rows);
+  std::vector<Increment> increments = TraceIncrements(request).increments;
+  increments.resize(20);
+  const TracedPath resumed = Resume(request, increments);
   int kept = 0;
-  for (std::size_t i = 0; i < rows.size(); ++i) kept += resumed.rows[i].solve.time == rows[i].solve.time ? 1 : 0;
+  for (std::size_t i = 0; i < increments.size(); ++i)
+    kept += resumed.increments[i].solve.time == increments[i].solve.time ? 1 : 0;
   EXPECT_GE(kept, 15);
 }
 
 TEST(Resume, MoreIncrementsThanWereWanted) {
   TraceRequest request = ReadExample("sliding_bar");
-  const TracedPath whole = TraceRows(request);
+  const TracedPath whole = TraceIncrements(request);
   request.options.max_increments = 17;
-  const TracedPath part = TraceRows(request);
-  ASSERT_EQ(part.rows.size(), 18u);
+  const TracedPath part = TraceIncrements(request);
+  ASSERT_EQ(part.increments.size(), 18u);
   request.options.max_increments = 0;
-  ExpectSamePath(whole, Resume(request, part.rows), 1e-9, "after max_increments");
+  ExpectSamePath(whole, Resume(request, part.increments), 1e-9, "after max_increments");
 }
 
 TEST(Resume, OfNothingIsATrace) {
   const TraceRequest request = ReadExample("sliding_bar");
-  ExpectSamePath(TraceRows(request), Resume(request, {}), 0.0, "nothing");
+  ExpectSamePath(TraceIncrements(request), Resume(request, {}), 0.0, "nothing");
 }
 
 TEST(Resume, RowsWithoutStateAreGoneOnFromTheLastWithIt) {
   for (const Method method : {Method::kBranch, Method::kMpec}) {
     TraceRequest request = ReadExample("sliding_bar");
     request.options.method = method;
-    const TracedPath whole = TraceRows(request);
-    std::vector<Increment> rows = whole.rows;
-    rows.resize(whole.rows.size() / 2);
-    for (Increment& row : rows)
-      if (row.kind == RowKind::kRegular && row.index % 4 != 0) {
-        row.positions.clear();
-        row.contacts.clear();
+    const TracedPath whole = TraceIncrements(request);
+    std::vector<Increment> increments = whole.increments;
+    increments.resize(whole.increments.size() / 2);
+    for (Increment& increment : increments)
+      if (increment.kind == IncrementKind::kRegular && increment.index % 4 != 0) {
+        increment.positions.clear();
+        increment.contacts.clear();
       }
-    TracedPath resumed = Resume(request, rows);
-    ASSERT_EQ(resumed.rows.size(), whole.rows.size());
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      if (resumed.rows[i].positions.empty()) resumed.rows[i] = whole.rows[i];  // left out, not other
+    TracedPath resumed = Resume(request, increments);
+    ASSERT_EQ(resumed.increments.size(), whole.increments.size());
+    for (std::size_t i = 0; i < increments.size(); ++i)
+      if (resumed.increments[i].positions.empty()) resumed.increments[i] = whole.increments[i];  // left out, not other
     ExpectSamePath(whole, resumed, 1e-9, std::string(ToString(method)));
   }
 }
 
 TEST(Resume, RowsOfSomethingElseAreRefused) {
   const TraceRequest request = ReadExample("sliding_bar");
-  const std::vector<Increment> rows = TraceRows(request).rows;
-  std::vector<Increment> other = TraceRows(ReadExample("rough_truss")).rows;
+  const std::vector<Increment> increments = TraceIncrements(request).increments;
+  std::vector<Increment> other = TraceIncrements(ReadExample("rough_truss")).increments;
   EXPECT_THROW(Resume(request, other), std::invalid_argument);
-  other = rows;
+  other = increments;
   other.erase(other.begin() + 3);
   EXPECT_THROW(Resume(request, other), std::invalid_argument);
-  other = rows;
+  other = increments;
   other[2].stage = 1;
   EXPECT_THROW(Resume(request, other), std::invalid_argument);
 }

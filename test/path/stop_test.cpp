@@ -11,20 +11,20 @@ class Stop : public testing::Test {
     request_.scene.nodes = {{"a", 0.0, 0.0, false, false}, {"b", 1.0, 0.0, false, false}};
     request_.scene.bars = {{{"a", "b"}, 1.0}};
     request_.scene.loads = {{"b", 1.0, 0.0, false}};
-    row_.index = 1;
-    row_.load_factor = 0.5;
-    row_.positions = {1.0, 2.0, 3.0, 4.0};
+    increment_.index = 1;
+    increment_.load_factor = 0.5;
+    increment_.positions = {1.0, 2.0, 3.0, 4.0};
   }
   // The value of the criterion that holds, or -1.
   double ValueThatHolds(const std::vector<StopCriterion>& criteria) {
     request_.options.stop = criteria;
     const StopTest test(request_);
-    const StopCriterion* criterion = test.FirstThatHolds(row_);
+    const StopCriterion* criterion = test.FirstThatHolds(increment_);
     return criterion == nullptr ? -1.0 : criterion->value;
   }
 
   TraceRequest request_;
-  Increment row_;
+  Increment increment_;
 };
 
 TEST_F(Stop, EachQuantityIsItsOwn) {
@@ -66,7 +66,7 @@ TEST_F(Stop, RoundingOfAProgramWithoutBars) {
 }
 
 TEST_F(Stop, RowZeroIsNotAsked) {
-  row_.index = 0;
+  increment_.index = 0;
   EXPECT_EQ(ValueThatHolds({{"a.x", ">", 0.9}}), -1.0);
 }
 

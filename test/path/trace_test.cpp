@@ -36,16 +36,16 @@ TEST(Trace, InvalidRequestThrowsBeforeAnyRow) {
   TraceRequest request = SlidingBar(2);
   request.scene.bars[0].EA = -1.0;
   TraceControl control;
-  control.on_increment = [](const Increment&) { ADD_FAILURE() << "a row of an invalid request"; };
+  control.on_increment = [](const Increment&) { ADD_FAILURE() << "an increment of an invalid request"; };
   EXPECT_THROW(Trace(request, control), InvalidRequest);
   EXPECT_THROW(Trace(request, control), std::invalid_argument);
 }
 
 TEST(Trace, MaxIncrementsCountsIncrementsAndNotRowZero) {
   for (const int increments : {1, 2, 5}) {
-    const TracedPath path = TraceRows(SlidingBar(increments));
+    const TracedPath path = TraceIncrements(SlidingBar(increments));
     EXPECT_EQ(path.result.reason, EndReason::kMaxIncrements);
-    EXPECT_EQ(path.rows.size(), static_cast<std::size_t>(increments) + 1);
+    EXPECT_EQ(path.increments.size(), static_cast<std::size_t>(increments) + 1);
     EXPECT_EQ(path.result.increments, increments + 1);
   }
 }
@@ -54,73 +54,75 @@ TEST(Trace, MaxIncrementsDoesNotCountWhatBringsTheConstantLoadsOn) {
   TraceRequest request = ReadExample("two_dof_friction");
   request.options.method = Method::kMpec;
   request.options.max_increments = 1;
-  const TracedPath path = TraceRows(request);
+  const TracedPath path = TraceIncrements(request);
   EXPECT_EQ(path.result.reason, EndReason::kMaxIncrements) << path.result.message;
-  EXPECT_EQ(path.rows.size(), 2u);
+  EXPECT_EQ(path.increments.size(), 2u);
 }
 
 TEST(Trace, StopCriterionHoldsInTheLastRowAndInNoneBefore) {
   TraceRequest request = SlidingBar(0);
   request.options.stop = {{"load_factor", ">", 1.0}};
-  const TracedPath path = TraceRows(request);
+  const TracedPath path = TraceIncrements(request);
   EXPECT_EQ(path.result.reason, EndReason::kStopCriterion);
   EXPECT_EQ(path.result.message, "load_factor > 1");
-  ASSERT_GE(path.rows.size(), 3u);
-  EXPECT_GT(path.rows.back().load_factor, 1.0);
-  for (std::size_t i = 0; i + 1 < path.rows.size(); ++i) EXPECT_LE(path.rows[i].load_factor, 1.0);
+  ASSERT_GE(path.increments.size(), 3u);
+  EXPECT_GT(path.increments.back().load_factor, 1.0);
+  for (std::size_t i = 0; i + 1 < path.increments.size(); ++i) EXPECT_LE(path.increments[i].load_factor, 1.0);
 }
 
 TEST(Trace, StopCriterionThatHoldsAtTheStartDoesNotForbidIt) {
   TraceRequest request = SlidingBar(4);
   request.options.stop = {{"b.x", "<", 0.0}};
-  const TracedPath path = TraceRows(request);
+  const TracedPath path = TraceIncrements(request);
   EXPECT_EQ(path.result.reason, EndReason::kStopCriterion);
-  EXPECT_EQ(path.rows.size(), 2u);
+  EXPECT_EQ(path.increments.size(), 2u);
 }
 
 TEST(Trace, RowsArriveAsSoonAsTheyAreAccepted) {
-  // Cancelled from within the first rows: the trace ends there, with these rows and no others.
+  // Cancelled from within the first increments: the trace ends there, with these increments and no others.
   for (const int wanted : {1, 2, 4}) {
-    int rows = 0;
+    int increments = 0;
     TraceControl control;
-    control.on_increment = [&](const Increment& row) { EXPECT_EQ(row.index, rows++); };
-    control.cancelled = [&] { return rows >= wanted; };
+    control.on_increment = [&](const Increment& increment) { EXPECT_EQ(increment.index, increments++); };
+    control.cancelled = [&] { return increments >= wanted; };
     const TraceResult result = Trace(SlidingBar(0), control);
     EXPECT_EQ(result.reason, EndReason::kCancelled);
     EXPECT_EQ(result.increments, wanted);
-    EXPECT_EQ(rows, wanted);
+    EXPECT_EQ(increments, wanted);
     EXPECT_FALSE(result.message.empty());
   }
 }
 
-// Counts how often the question is asked before each row, then says yes in the middle of the longest increment.
+// Counts how often the question is asked before each increment, then says yes in the middle of the longest increment.
 void ExpectCancelledInsideAnIncrement(const TraceRequest& request) {
   long asked = 0;
-  std::vector<long> asked_at_row;
+  std::vector<long> asked_at_increment;
   TraceControl count;
-  count.on_increment = [&](const Increment&) { asked_at_row.push_back(asked); };
+  count.on_increment = [&](const Increment&) { asked_at_increment.push_back(asked); };
   count.cancelled = [&] {
     ++asked;
     return false;
   };
   Trace(request, count);
-  ASSERT_GE(asked_at_row.size(), 2u);
+  ASSERT_GE(asked_at_increment.size(), 2u);
   std::size_t longest = 1;
-  for (std::size_t row = 2; row < asked_at_row.size(); ++row)
-    if (asked_at_row[row] - asked_at_row[row - 1] > asked_at_row[longest] - asked_at_row[longest - 1]) longest = row;
-  ASSERT_GT(asked_at_row[longest], asked_at_row[longest - 1] + 10);  // often, also inside an increment
+  for (std::size_t increment = 2; increment < asked_at_increment.size(); ++increment)
+    if (asked_at_increment[increment] - asked_at_increment[increment - 1] >
+        asked_at_increment[longest] - asked_at_increment[longest - 1])
+      longest = increment;
+  ASSERT_GT(asked_at_increment[longest], asked_at_increment[longest - 1] + 10);  // often, also inside an increment
 
-  const long last_no = (asked_at_row[longest - 1] + asked_at_row[longest]) / 2;
+  const long last_no = (asked_at_increment[longest - 1] + asked_at_increment[longest]) / 2;
   asked = 0;
-  std::size_t rows = 0;
+  std::size_t increments = 0;
   TraceControl cancel;
-  cancel.on_increment = [&](const Increment&) { ++rows; };
+  cancel.on_increment = [&](const Increment&) { ++increments; };
   cancel.cancelled = [&] { return ++asked > last_no; };
   const TraceResult result = Trace(request, cancel);
   EXPECT_EQ(result.reason, EndReason::kCancelled);
-  EXPECT_GE(rows, longest);
-  EXPECT_LE(rows, longest + 1);  // an event that was reached stays, though its ways on were being sought
-  EXPECT_EQ(result.increments, static_cast<int>(rows));
+  EXPECT_GE(increments, longest);
+  EXPECT_LE(increments, longest + 1);  // an event that was reached stays, though its branches were being sought
+  EXPECT_EQ(result.increments, static_cast<int>(increments));
   EXPECT_LE(asked, last_no + 3);  // once it was yes, nothing goes on
 }
 
@@ -150,8 +152,8 @@ TEST(Trace, CancelledDuringThePreloadGivesNoRow) {
 
 TEST(Trace, WhatTheSinkThrowsLeavesTheTrace) {
   TraceControl control;
-  control.on_increment = [](const Increment& row) {
-    if (row.index == 2) throw std::runtime_error("disk full");
+  control.on_increment = [](const Increment& increment) {
+    if (increment.index == 2) throw std::runtime_error("disk full");
   };
   try {
     Trace(SlidingBar(0), control);
@@ -168,15 +170,15 @@ TEST(Trace, NeedsNeitherSinkNorCancellation) {
 }
 
 TEST(Trace, SameRequestTwiceGivesTheSameRowsBitForBit) {
-  const TracedPath first = TraceRows(SlidingBar(6)), second = TraceRows(SlidingBar(6));
-  ASSERT_EQ(first.rows.size(), second.rows.size());
-  for (std::size_t i = 0; i < first.rows.size(); ++i) {
-    EXPECT_EQ(first.rows[i].load_factor, second.rows[i].load_factor);
-    EXPECT_EQ(first.rows[i].positions, second.rows[i].positions);
-    EXPECT_EQ(first.rows[i].contacts[0].rn, second.rows[i].contacts[0].rn);
-    EXPECT_EQ(first.rows[i].contacts[0].rt, second.rows[i].contacts[0].rt);
-    EXPECT_EQ(first.rows[i].dissipation, second.rows[i].dissipation);
-    EXPECT_EQ(first.rows[i].solve.iterations, second.rows[i].solve.iterations);
+  const TracedPath first = TraceIncrements(SlidingBar(6)), second = TraceIncrements(SlidingBar(6));
+  ASSERT_EQ(first.increments.size(), second.increments.size());
+  for (std::size_t i = 0; i < first.increments.size(); ++i) {
+    EXPECT_EQ(first.increments[i].load_factor, second.increments[i].load_factor);
+    EXPECT_EQ(first.increments[i].positions, second.increments[i].positions);
+    EXPECT_EQ(first.increments[i].contacts[0].rn, second.increments[i].contacts[0].rn);
+    EXPECT_EQ(first.increments[i].contacts[0].rt, second.increments[i].contacts[0].rt);
+    EXPECT_EQ(first.increments[i].dissipation, second.increments[i].dissipation);
+    EXPECT_EQ(first.increments[i].solve.iterations, second.increments[i].solve.iterations);
   }
 }
 
@@ -186,10 +188,10 @@ TEST(Trace, DirectionIsTheSignOfTheFirstChangeOfTheLoadFactor) {
   request.options.max_increments = 2;
   for (const double direction : {1.0, 0.0, -1.0, -0.1}) {
     request.options.direction = direction;
-    const TracedPath path = TraceRows(request);
-    ASSERT_EQ(path.rows.size(), 3u);
-    EXPECT_EQ(path.rows[1].load_factor < 0.0, direction < 0.0);
-    EXPECT_EQ(PositionY(path, path.rows[1], "apex") > 1.0, direction < 0.0);  // the load pushes down
+    const TracedPath path = TraceIncrements(request);
+    ASSERT_EQ(path.increments.size(), 3u);
+    EXPECT_EQ(path.increments[1].load_factor < 0.0, direction < 0.0);
+    EXPECT_EQ(PositionY(path, path.increments[1], "apex") > 1.0, direction < 0.0);  // the load pushes down
   }
 }
 
@@ -199,21 +201,21 @@ TEST(Trace, StepIsTheLengthOfIncrements) {
   request.options.max_increments = 10;
   for (const double step : {0.1, 0.01, 0.001}) {
     request.options.step = step;
-    const TracedPath path = TraceRows(request);
-    ASSERT_EQ(path.rows.size(), 11u);
+    const TracedPath path = TraceIncrements(request);
+    ASSERT_EQ(path.increments.size(), 11u);
     // The first increment, which has no direction from a last one, may be shorter. The others aim along the last chord.
-    for (std::size_t i = 2; i < path.rows.size(); ++i)
-      EXPECT_NEAR(path.rows[i].arc_length - path.rows[i - 1].arc_length, step, 0.1 * step) << i;
+    for (std::size_t i = 2; i < path.increments.size(); ++i)
+      EXPECT_NEAR(path.increments[i].arc_length - path.increments[i - 1].arc_length, step, 0.1 * step) << i;
   }
 }
 
 TEST(Trace, SolveTimeIsTheWallTimeOfTheRow) {
-  const TracedPath path = TraceRows(SlidingBar(3));
-  for (const Increment& row : path.rows) {
-    EXPECT_GE(row.solve.time, 0.0);
-    EXPECT_LT(row.solve.time, 60.0);
+  const TracedPath path = TraceIncrements(SlidingBar(3));
+  for (const Increment& increment : path.increments) {
+    EXPECT_GE(increment.solve.time, 0.0);
+    EXPECT_LT(increment.solve.time, 60.0);
   }
-  EXPECT_GT(path.rows[1].solve.time, 1e-5);
+  EXPECT_GT(path.increments[1].solve.time, 1e-5);
 }
 
 TEST(Trace, SceneThatCannotStandIsANumericalFailureWithoutRows) {
@@ -224,8 +226,8 @@ TEST(Trace, SceneThatCannotStandIsANumericalFailureWithoutRows) {
   request.scene.nodes = {{"a", 0.0, 0.0, true, true}, {"b", 1.0, 0.0, false, false}};
   request.scene.superelements = {{{"b"}, {1.0, 0.0, 0.0, 0.0}}};
   request.scene.loads = {{"b", 1.0, 0.0, false}, {"b", 0.0, 1.0, true}};
-  const TracedPath path = TraceRows(request);
-  EXPECT_TRUE(path.rows.empty());
+  const TracedPath path = TraceIncrements(request);
+  EXPECT_TRUE(path.increments.empty());
   EXPECT_EQ(path.result.increments, 0);
   EXPECT_NE(path.result.reason, EndReason::kStopCriterion);
   EXPECT_NE(path.result.reason, EndReason::kMaxIncrements);

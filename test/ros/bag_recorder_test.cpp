@@ -233,7 +233,7 @@ TEST_F(BagRecorderTest, RowsOfASlowTraceReachTheFileAtOnce) {
   for (std::uint32_t i = 0; i < 3; ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(110));
     msgs::Increment increment = IncrementOf(i);
-    increment.header.frame_id = "row number " + std::to_string(i);
+    increment.header.frame_id = "increment number " + std::to_string(i);
     recorder.WriteIncrement(increment);
     EXPECT_TRUE(holds(increment.header.frame_id)) << i;
   }
@@ -247,7 +247,7 @@ TEST_F(BagRecorderTest, SaysSoWhenTheBagIsRemoved) {
   EXPECT_THROW(recorder.WriteResult(msgs::TraceResult()), BagError);
 }
 
-// Of long rows, and of short ones that share their chunks.
+// Of long increments, and of short ones that share their chunks.
 TEST_F(BagRecorderTest, MemoryDoesNotGrowWithTheBag) {
   if (DataMegabytes() == 0.0) GTEST_SKIP() << "not counted in this build";
   for (const std::size_t nodes : {2000U, 20U}) {
@@ -255,8 +255,8 @@ TEST_F(BagRecorderTest, MemoryDoesNotGrowWithTheBag) {
     recorder.WriteRequest(msgs::TraceRequest());
     msgs::Increment increment = IncrementOf(0, nodes);
     const auto write = [&](std::size_t megabytes) {
-      const std::size_t rows = (megabytes << 20U) / ros::serialization::serializationLength(increment);
-      for (std::size_t i = 0; i < rows; ++i, ++increment.index) recorder.WriteIncrement(increment);
+      const std::size_t increments = (megabytes << 20U) / ros::serialization::serializationLength(increment);
+      for (std::size_t i = 0; i < increments; ++i, ++increment.index) recorder.WriteIncrement(increment);
     };
     write(2);
     const double before = DataMegabytes();

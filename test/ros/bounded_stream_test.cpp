@@ -47,11 +47,11 @@ TEST(BoundedStreamTest, ReadsWhatWasWritten) {
   goal.goal_id.id = "goal";
   goal.goal.scene = SmallRequest().scene;
   EXPECT_EQ(Bytes(Read<msgs::TracePathActionGoal>(Bytes(goal))), Bytes(goal));
-  msgs::Increment row;
-  row.x = {1.0, 2.0};
-  row.event.ways.resize(2);
-  row.event.ways[1].states = {1, 2, 3};
-  EXPECT_EQ(Bytes(Read<msgs::Increment>(Bytes(row))), Bytes(row));
+  msgs::Increment increment;
+  increment.x = {1.0, 2.0};
+  increment.event.branches.resize(2);
+  increment.event.branches[1].states = {1, 2, 3};
+  EXPECT_EQ(Bytes(Read<msgs::Increment>(Bytes(increment))), Bytes(increment));
 }
 
 TEST(BoundedStreamTest, RefusesWhatIsCutOffAnywhere) {

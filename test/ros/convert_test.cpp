@@ -125,8 +125,8 @@ void ExpectFullRequest(const TraceRequest& request) {
   EXPECT_EQ(options.stop[1].when, "<");
   ASSERT_EQ(options.branch_choices.size(), 1U);
   EXPECT_EQ(options.branch_choices[0].event, 21);
-  EXPECT_EQ(options.branch_choices[0].row, 22);
-  EXPECT_EQ(options.branch_choices[0].way, 23);
+  EXPECT_EQ(options.branch_choices[0].increment, 22);
+  EXPECT_EQ(options.branch_choices[0].branch, 23);
 }
 
 TEST(ConvertTest, RequestSurvivesTheWayThroughMessages) {
@@ -162,8 +162,8 @@ TEST(ConvertTest, FieldsLeftOutHaveTheDefaultsOfTheCore) {
   EXPECT_EQ(request.options.step, defaults.step);
   EXPECT_EQ(request.options.max_increments, defaults.max_increments);
   EXPECT_EQ(request.options.branch_choices[0].event, BranchChoice().event);
-  EXPECT_EQ(request.options.branch_choices[0].row, BranchChoice().row);
-  EXPECT_EQ(request.options.branch_choices[0].way, BranchChoice().way);
+  EXPECT_EQ(request.options.branch_choices[0].increment, BranchChoice().increment);
+  EXPECT_EQ(request.options.branch_choices[0].branch, BranchChoice().branch);
   EXPECT_EQ(request.scene.bars[0].strain, Bar().strain);
   EXPECT_EQ(request.scene.obstacles[0].shape, Obstacle().shape);
 }
@@ -192,7 +192,7 @@ Increment FullIncrement() {
   increment.index = 1;
   increment.load_factor = 2.0;
   increment.arc_length = 3.0;
-  increment.kind = RowKind::kCornerLimit;
+  increment.kind = IncrementKind::kCornerLimit;
   increment.positions = {4.0, 5.0, 6.0, 7.0};
   increment.contacts = {{8.0, 9.0, 10.0, ContactState::kSlipMinus}, {11.0, 12.0, 13.0, ContactState::kStick}};
   increment.dissipation = 14.0;
@@ -208,15 +208,15 @@ Increment FullIncrement() {
   increment.solve.rejected = 27;
   increment.solve.time = 28.0;
   increment.solve.factorisations = 29;
-  increment.solve.deficiency = 30;
+  increment.solve.nullity = 30;
   increment.solve.determinant_sign = -1;
   increment.solve.stiffness_sign = 1;
   increment.solve.contraction = 31.0;
-  increment.event.ways = {{{ContactState::kOpen, ContactState::kSlipPlus}, 32.0, 33.0, 34.0},
-                          {{ContactState::kStick, ContactState::kOpen}, 35.0, 36.0, 37.0}};
+  increment.event.branches = {{{ContactState::kOpen, ContactState::kSlipPlus}, 32.0, 33.0, 34.0},
+                              {{ContactState::kStick, ContactState::kOpen}, 35.0, 36.0, 37.0}};
   increment.event.number = 41;
   increment.event.taken = 1;
-  increment.event.concerned = 38;
+  increment.event.weakly_active = 38;
   increment.event.complete = false;
   increment.event.null_vector = {39.0, 40.0, 41.0, 42.0};
   return increment;
@@ -241,7 +241,7 @@ TEST(ConvertTest, IncrementMessageHoldsEveryFieldUnderItsName) {
   EXPECT_EQ(message.external_work, 16.0);
   EXPECT_EQ(message.equilibrium_residual, 17.0);
   EXPECT_EQ(message.penetration_residual, 18.0);
-  EXPECT_EQ(message.adhesion_residual, 19.0);
+  EXPECT_EQ(message.tensile_reaction_residual, 19.0);
   EXPECT_EQ(message.min_form_residual, 20.0);
   EXPECT_EQ(message.cone_residual, 21.0);
   EXPECT_EQ(message.friction_law_residual, 22.0);
@@ -255,26 +255,26 @@ TEST(ConvertTest, IncrementMessageHoldsEveryFieldUnderItsName) {
   EXPECT_EQ(message.rejected, 27U);
   EXPECT_EQ(message.solve_time, 28.0);
   EXPECT_EQ(message.factorisations, 29U);
-  EXPECT_EQ(message.deficiency, 30U);
+  EXPECT_EQ(message.nullity, 30U);
   EXPECT_EQ(message.determinant_sign, -1);
   EXPECT_EQ(message.stiffness_sign, 1);
   EXPECT_EQ(message.contraction, 31.0);
-  ASSERT_EQ(message.event.ways.size(), 2U);
-  EXPECT_EQ(message.event.ways[0].states,
+  ASSERT_EQ(message.event.branches.size(), 2U);
+  EXPECT_EQ(message.event.branches[0].states,
             (std::vector<std::uint8_t>{msgs::ContactState::OPEN, msgs::ContactState::SLIP_PLUS}));
-  EXPECT_EQ(message.event.ways[0].load_rate, 32.0);
-  EXPECT_EQ(message.event.ways[0].dissipation_rate, 33.0);
-  EXPECT_EQ(message.event.ways[0].turn, 34.0);
+  EXPECT_EQ(message.event.branches[0].load_rate, 32.0);
+  EXPECT_EQ(message.event.branches[0].dissipation_rate, 33.0);
+  EXPECT_EQ(message.event.branches[0].turn, 34.0);
   EXPECT_EQ(message.event.number, 41U);
   EXPECT_EQ(message.event.taken, 1);
-  EXPECT_EQ(message.event.concerned, 38U);
+  EXPECT_EQ(message.event.weakly_active, 38U);
   EXPECT_FALSE(message.event.complete);
   EXPECT_EQ(message.event.null_vector, (std::vector<double>{39.0, 40.0, 41.0, 42.0}));
 }
 
 TEST(ConvertTest, RegularIncrementsMayLeaveTheirStateOut) {
   Increment increment = FullIncrement();
-  const auto has_state = [&](int index, RowKind kind, int every) {
+  const auto has_state = [&](int index, IncrementKind kind, int every) {
     increment.index = index;
     increment.kind = kind;
     const msgs::Increment message = ToMessage(increment, every);
@@ -284,13 +284,13 @@ TEST(ConvertTest, RegularIncrementsMayLeaveTheirStateOut) {
     EXPECT_EQ(message.x.empty(), message.y.empty());
     return !message.x.empty();
   };
-  for (const int every : {0, 1}) EXPECT_TRUE(has_state(7, RowKind::kRegular, every));
-  EXPECT_TRUE(has_state(0, RowKind::kStart, 3));
-  EXPECT_FALSE(has_state(1, RowKind::kRegular, 3));
-  EXPECT_FALSE(has_state(2, RowKind::kRegular, 3));
-  EXPECT_TRUE(has_state(3, RowKind::kRegular, 3));
-  for (const RowKind kind :
-       {RowKind::kSmoothLimit, RowKind::kCornerLimit, RowKind::kContactEvent, RowKind::kBifurcation})
+  for (const int every : {0, 1}) EXPECT_TRUE(has_state(7, IncrementKind::kRegular, every));
+  EXPECT_TRUE(has_state(0, IncrementKind::kStart, 3));
+  EXPECT_FALSE(has_state(1, IncrementKind::kRegular, 3));
+  EXPECT_FALSE(has_state(2, IncrementKind::kRegular, 3));
+  EXPECT_TRUE(has_state(3, IncrementKind::kRegular, 3));
+  for (const IncrementKind kind : {IncrementKind::kSmoothLimit, IncrementKind::kCornerLimit,
+                                   IncrementKind::kContactEvent, IncrementKind::kBifurcation})
     EXPECT_TRUE(has_state(4, kind, 3));
 }
 
@@ -317,8 +317,9 @@ TEST(ConvertTest, NumbersSurviveToTheLastBit) {
 TEST(ConvertTest, EveryKindStateAndMethodHasItsConstant) {
   Increment increment;
   std::set<std::uint8_t> constants;
-  for (const RowKind kind : {RowKind::kStart, RowKind::kRegular, RowKind::kSmoothLimit, RowKind::kCornerLimit,
-                             RowKind::kContactEvent, RowKind::kBifurcation}) {
+  for (const IncrementKind kind :
+       {IncrementKind::kStart, IncrementKind::kRegular, IncrementKind::kSmoothLimit, IncrementKind::kCornerLimit,
+        IncrementKind::kContactEvent, IncrementKind::kBifurcation}) {
     increment.kind = kind;
     constants.insert(ToMessage(increment).kind);
     EXPECT_EQ(FromMessage(ToMessage(increment)).kind, kind);
@@ -355,7 +356,7 @@ TEST(ConvertTest, RefusesIncrementMessagesThatContradictThemselves) {
   EXPECT_THROW(FromMessage(message), std::invalid_argument);
 
   message = ToMessage(FullIncrement());
-  message.event.ways[1].states[0] = 200;
+  message.event.branches[1].states[0] = 200;
   EXPECT_THROW(FromMessage(message), std::invalid_argument);
 
   message = ToMessage(FullIncrement());
@@ -368,13 +369,13 @@ TEST(ConvertTest, RefusesIncrementMessagesThatContradictThemselves) {
 }
 
 TEST(ConvertTest, EndReasonsHaveConstantNameAndStatus) {
-  struct Row {
+  struct Increment {
     EndReason reason;
     std::uint8_t constant;
     std::string name;
     std::uint8_t status;
   };
-  const std::vector<Row> rows = {
+  const std::vector<Increment> increments = {
       {EndReason::kNumericalFailure, Response::END_NUMERICAL_FAILURE, "numerical_failure", Response::ENDED_EARLY},
       {EndReason::kStopCriterion, Response::END_STOP_CRITERION, "stop_criterion", Response::OK},
       {EndReason::kMaxIncrements, Response::END_MAX_INCREMENTS, "max_increments", Response::OK},
@@ -382,10 +383,10 @@ TEST(ConvertTest, EndReasonsHaveConstantNameAndStatus) {
       {EndReason::kStepTooSmall, Response::END_STEP_TOO_SMALL, "step_too_small", Response::ENDED_EARLY},
       {EndReason::kCancelled, Response::END_CANCELLED, "cancelled", Response::ENDED_EARLY},
   };
-  for (const Row& row : rows) {
-    EXPECT_EQ(ToConstant(row.reason), row.constant);
-    EXPECT_EQ(EndReasonName(row.constant), row.name);
-    EXPECT_EQ(StatusOf(row.reason), row.status);
+  for (const Increment& increment : increments) {
+    EXPECT_EQ(ToConstant(increment.reason), increment.constant);
+    EXPECT_EQ(EndReasonName(increment.constant), increment.name);
+    EXPECT_EQ(StatusOf(increment.reason), increment.status);
   }
   EXPECT_EQ(EndReasonName(Response::END_NONE), "");
   EXPECT_EQ(EndReasonName(Response::END_TIME_LIMIT), "time_limit");
@@ -413,7 +414,7 @@ TEST(ConvertTest, RequestsOfServiceAndActionAreTheRecordedOne) {
 TEST(ConvertTest, ResultsHoldTheResponse) {
   Response response;
   response.status = Response::ENDED_EARLY;
-  response.message = "no way on";
+  response.message = "no branch";
   response.increments = 7;
   response.end_reason = Response::END_PATH_END;
   response.end_reason_name = "path_end";

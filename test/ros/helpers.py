@@ -85,7 +85,7 @@ class Goal:
 
     def __init__(self, client, request):
         self.feedback = []
-        self._handle = client.send_goal(goal_from(request), feedback_cb=lambda _, row: self.feedback.append(row))
+        self._handle = client.send_goal(goal_from(request), feedback_cb=lambda _, increment: self.feedback.append(increment))
 
     def cancel(self):
         self._handle.cancel()

@@ -46,11 +46,11 @@ std::string Exceeded(const msgs::TraceRequest& request) {
 TEST(LimitsTest, AdmitsWhatReachesEveryLimit) { EXPECT_EQ(Exceeded(LargestRequest()), ""); }
 
 TEST(LimitsTest, NamesWhatIsTooLargeAndTheLimit) {
-  struct Row {
+  struct Increment {
     void (*enlarge)(msgs::TraceRequest& request);
     const char* line;
   };
-  const Row rows[] = {
+  const Increment increments[] = {
       {[](auto& request) { request.scene.nodes.resize(3); }, "scene.nodes: 3, but the node admits 2 (~max_nodes)"},
       {[](auto& request) { request.scene.bars.resize(4); }, "scene.bars: 4, but the node admits 3 (~max_elements)"},
       {[](auto& request) { request.scene.superelements.resize(4); },
@@ -77,10 +77,10 @@ TEST(LimitsTest, NamesWhatIsTooLargeAndTheLimit) {
   msgs::TraceRequest named = LargestRequest();
   named.scene.name = std::string(131073, 'x');
   EXPECT_EQ(Exceeded(named), "scene.name: 131073 bytes, but the node admits 131072");
-  for (const Row& row : rows) {
+  for (const Increment& increment : increments) {
     msgs::TraceRequest request = LargestRequest();
-    row.enlarge(request);
-    EXPECT_EQ(Exceeded(request), row.line);
+    increment.enlarge(request);
+    EXPECT_EQ(Exceeded(request), increment.line);
   }
 }
 

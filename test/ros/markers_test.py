@@ -32,15 +32,15 @@ def by_name(picture):
 
 
 def row_of(picture):
-    """Index of the row that the caption names; -1 for the shape before the first row."""
-    match = re.search(r'row (\d+)', by_name(picture)['caption', 0].text)
+    """Index of the increment that the caption names; -1 for the shape before the first increment."""
+    match = re.search(r'increment (\d+)', by_name(picture)['caption', 0].text)
     return int(match.group(1)) if match else -1
 
 
-def shows(picture, row):
-    """Whether the nodes are where the row has them."""
+def shows(picture, increment):
+    """Whether the nodes are where the increment has them."""
     points = by_name(picture)['structure', 1].points
-    return (row_of(picture), [p.x for p in points], [p.y for p in points]) == (row.index, list(row.x), list(row.y))
+    return (row_of(picture), [p.x for p in points], [p.y for p in points]) == (increment.index, list(increment.x), list(increment.y))
 
 
 class MarkersTest(unittest.TestCase):
@@ -70,9 +70,9 @@ class MarkersTest(unittest.TestCase):
     def bag_of(self, response):
         return os.path.join(self.bags, response.bag)
 
-    def rows_of(self, response):
+    def increments_of(self, response):
         """Those that carry their state."""
-        return [row for row in helpers.read_bag(self.bag_of(response))[1] if row.x]
+        return [increment for increment in helpers.read_bag(self.bag_of(response))[1] if increment.x]
 
     def latched(self, topic=MARKERS):
         return rospy.wait_for_message(topic, MarkerArray, helpers.PATIENCE)
@@ -83,7 +83,7 @@ class MarkersTest(unittest.TestCase):
         for scene in 'sliding_bar', 'two_dof_friction', 'rigid_stop':
             response = self.trace(helpers.request_of(scene))
             picture = self.latched()
-            self.assertTrue(shows(picture, self.rows_of(response)[-1]), scene)
+            self.assertTrue(shows(picture, self.increments_of(response)[-1]), scene)
             self.assertIn(scene, by_name(picture)['caption', 0].text)
             self.assertEqual({marker.header.frame_id for marker in picture.markers}, {'table'})
 
@@ -99,13 +99,13 @@ class MarkersTest(unittest.TestCase):
 
     def test_thinned_out_rows_give_no_pictures(self):
         response = self.trace(helpers.request_of('von_mises', full_state_every=7, max_increments=12, stop=[]))
-        rows = self.rows_of(response)
-        self.assertLess(rows[-1].index, 12)
-        self.assertTrue(shows(self.latched(), rows[-1]))
+        increments = self.increments_of(response)
+        self.assertLess(increments[-1].index, 12)
+        self.assertTrue(shows(self.latched(), increments[-1]))
 
     def test_pictures_come_at_a_bounded_rate_and_the_last_row_always(self):
         with helpers.Collector(MARKERS, MarkerArray) as pictures:
-            # Thousands of rows a second.
+            # Thousands of increments a second.
             call = helpers.Call(self.trace, helpers.request_of('von_mises', step=1e-5, max_increments=1000000, stop=[]))
             begin, first = time.monotonic(), len(pictures.messages)
             helpers.wait_until(lambda: len(pictures.messages) >= first + 15, 'pictures come')
@@ -114,8 +114,8 @@ class MarkersTest(unittest.TestCase):
             helpers.service(NODE + '/cancel', Trigger)()
             response = call.result()
             self.assertGreater(response.increments, 5 * number)
-            last = self.rows_of(response)[-1]
-            helpers.wait_until(lambda: shows(pictures.messages[-1], last), 'the last row is shown')
+            last = self.increments_of(response)[-1]
+            helpers.wait_until(lambda: shows(pictures.messages[-1], last), 'the last increment is shown')
 
     # Bags that are played
 
@@ -127,8 +127,8 @@ class MarkersTest(unittest.TestCase):
                 self.start('rosbag', 'play', self.bag_of(response), '--quiet', '--queue', '100000', '--prefix',
                            '/played', '--wait-for-subscribers', '--topics', NODE + '/request', NODE + '/increments')
                 helpers.wait_until(lambda: pictures.messages and helpers.serialized(pictures.messages[-1]) == live,
-                                   'the last row of %s is shown' % scene)
-            # Who comes when the bag is over sees its last row, too.
+                                   'the last increment of %s is shown' % scene)
+            # Who comes when the bag is over sees its last increment, too.
             self.assertEqual(helpers.serialized(self.latched('/played' + MARKERS)), live)
 
     def test_request_of_a_played_bag_waits_for_who_comes_late(self):
@@ -144,15 +144,15 @@ class MarkersTest(unittest.TestCase):
     def test_play_launch_shows_the_bag_where_the_node_would(self):
         played = self.trace(helpers.request_of('rough_truss'))
         other = self.trace(helpers.request_of('von_mises'))
-        last = self.rows_of(played)[-1]
+        last = self.increments_of(played)[-1]
         with helpers.Collector(MARKERS, MarkerArray) as pictures:
-            helpers.wait_until(lambda: pictures.messages and shows(pictures.messages[-1], self.rows_of(other)[-1]),
+            helpers.wait_until(lambda: pictures.messages and shows(pictures.messages[-1], self.increments_of(other)[-1]),
                                'the last trace is shown')
             self.start('roslaunch', 'contact_path', 'play.launch', 'bag:=' + played.bag, 'seconds:=1', 'rviz:=false',
                        'frame_id:=table', 'options:=--delay 1', cwd=self.bags, env=dict(os.environ, PWD=self.bags))
             helpers.wait_until(lambda: shows(pictures.messages[-1], last), 'the bag is shown')
-            rows = [row_of(picture) for picture in pictures.messages]
-            self.assertGreater(len(set(rows)), 5)  # not in a flash
+            increments = [row_of(picture) for picture in pictures.messages]
+            self.assertGreater(len(set(increments)), 5)  # not in a flash
 
     def test_play_tells_what_is_no_bag(self):
         for arguments, line in ((['none.bag'], 'play: none.bag: no such file'),
@@ -190,13 +190,13 @@ class MarkersTest(unittest.TestCase):
         self.assertEqual(manager['Views']['Current']['Class'], 'rviz/TopDownOrtho')
 
     def test_layout_of_plotjuggler_plots_numbers_of_the_rows(self):
-        row = self.rows_of(self.trace(helpers.request_of('sliding_bar')))[-1]
+        increment = self.increments_of(self.trace(helpers.request_of('sliding_bar')))[-1]
         curves = list(tree.parse(self.package_file('config', 'plotjuggler.xml')).getroot().iter('curve'))
         self.assertGreater(len(curves), 5)
         for curve in curves:
             for name in curve.get('curve_x'), curve.get('curve_y'):
                 self.assertTrue(name.startswith(NODE + '/increments/'), name)
-                value = row
+                value = increment
                 for field in name[len(NODE + '/increments/'):].split('/'):
                     field, _, index = field.partition('[')
                     value = getattr(value, field)

@@ -16,7 +16,7 @@ class PlotBagTest(PlotTest):
     def test_shapes_need_no_scene_file(self):
         bag = self.trace('rough_truss', 'a.bag')
         texts = self.texts(bag, '--shapes', '--states', '--energy')
-        for text in ('rough_truss, branch, rows 0 to 21', 'row 10: corner limit', 'external work', 'foot@floor'):
+        for text in ('rough_truss, branch, increments 0 to 21', 'increment 10: corner limit', 'external work', 'foot@floor'):
             self.assertIn(text, texts)
         self.assert_refused(self.plot(bag, '--shapes', '--scene', 'any.yaml'), '--scene', 'bag holds')
 
@@ -49,8 +49,8 @@ class PlotBagTest(PlotTest):
         scene = self.changed_scene('sliding_bar', 'options:', 'options:\n  full_state_every: 10')
         bag = self.trace(scene, 'a.bag', '--max-increments', '15')
         texts = self.texts(bag, '--shapes', '--states')
-        self.assertEqual([text for text in texts if text.startswith('row ')], ['row 0: start', 'row 10: regular'])
-        self.assert_refused(self.plot(bag, '--rows', '0,14'), 'a.bag', 'row 14', 'full_state_every', '10')
+        self.assertEqual([text for text in texts if text.startswith('increment ')], ['increment 0: start', 'increment 10: regular'])
+        self.assert_refused(self.plot(bag, '--increments', '0,14'), 'a.bag', 'increment 14', 'full_state_every', '10')
 
 
 if __name__ == '__main__':

@@ -16,7 +16,7 @@ VERIFY = os.environ['CONTACT_PATH_VERIFY']
 WORDS = 'kind', 'state_'
 
 
-def rows_of(path):
+def increments_of(path):
     with open(path, newline='', encoding='utf-8') as file:
         return list(csv.DictReader(file))
 
@@ -29,12 +29,12 @@ class ResumeTest(ProgramTest):
         self.assertEqual(told.returncode, 0, told.stderr)
         return bag, table
 
-    def cut(self, bag, rows, change=None):
-        """The bag of a node that was killed after so many rows."""
+    def cut(self, bag, increments, change=None):
+        """The bag of a node that was killed after so many increments."""
         short = self.path('short.bag')
         with rosbag.Bag(bag) as old, rosbag.Bag(short, 'w') as new:
             for topic, message, stamp in old.read_messages():
-                if topic.endswith('/result') or topic.endswith('/increments') and message.index >= rows:
+                if topic.endswith('/result') or topic.endswith('/increments') and message.index >= increments:
                     continue
                 if change:
                     change(topic.rsplit('/', 1)[-1], message)
@@ -46,7 +46,7 @@ class ResumeTest(ProgramTest):
         return run(TRACE, '--resume', bag, '--bag', new_bag, '--csv', table, *options), new_bag, table
 
     def assert_same(self, table, other):
-        whole, resumed = rows_of(table), rows_of(other)
+        whole, resumed = increments_of(table), increments_of(other)
         self.assertEqual(len(whole), len(resumed))
         for a, b in zip(whole, resumed):
             for key, value in a.items():
@@ -61,9 +61,9 @@ class ResumeTest(ProgramTest):
         self.assertEqual(told.stderr.count('\n'), 1, told.stderr)
 
     def test_goes_on_as_if_nothing_had_happened(self):
-        for scene, rows in (('two_dof_friction', 30), ('stick_slip_cycle', 45), ('sliding_bar', 0)):
+        for scene, increments in (('two_dof_friction', 30), ('stick_slip_cycle', 45), ('sliding_bar', 0)):
             bag, table = self.record(scene)
-            told, new_bag, resumed = self.resume(self.cut(bag, rows))
+            told, new_bag, resumed = self.resume(self.cut(bag, increments))
             self.assertEqual(told.returncode, 0, told.stderr)
             self.assert_same(table, resumed)
             self.assertEqual(run(VERIFY, new_bag).returncode, 0)
@@ -81,7 +81,7 @@ class ResumeTest(ProgramTest):
             if kind == 'increments' and message.index == 5:
                 message.contacts[0].rn *= 1.001
         told = self.resume(self.cut(self.record('two_dof_friction')[0], 30, change))[0]
-        self.assert_refused(told, 'does not prove its path: row 5')
+        self.assert_refused(told, 'does not prove its path: increment 5')
 
     def test_rows_without_state_are_refused(self):
         def change(_, message):

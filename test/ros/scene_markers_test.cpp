@@ -59,14 +59,14 @@ msgs::ContactState State(std::uint8_t state, double rn = 0.0, double rt = 0.0) {
 
 // The foot slides on the slope, the roll is free.
 msgs::Increment SlopeRow(double load_factor = 1.0) {
-  msgs::Increment row;
-  row.index = 17;
-  row.kind = msgs::Increment::CORNER_LIMIT;
-  row.load_factor = load_factor;
-  row.x = {0.0, 3.8, 5.5};
-  row.y = {2.0, 1.6, 3.0};
-  row.contacts = {State(msgs::ContactState::SLIP_PLUS, 1.2, -0.6), State(msgs::ContactState::OPEN)};
-  return row;
+  msgs::Increment increment;
+  increment.index = 17;
+  increment.kind = msgs::Increment::CORNER_LIMIT;
+  increment.load_factor = load_factor;
+  increment.x = {0.0, 3.8, 5.5};
+  increment.y = {2.0, 1.6, 3.0};
+  increment.contacts = {State(msgs::ContactState::SLIP_PLUS, 1.2, -0.6), State(msgs::ContactState::OPEN)};
+  return increment;
 }
 
 // One node on a spring between two walls.
@@ -81,11 +81,11 @@ TraceRequest Spring() {
 }
 
 msgs::Increment SpringRow(double load_factor) {
-  msgs::Increment row;
-  row.load_factor = load_factor;
-  row.x = {1.0 + load_factor};
-  row.y = {1.0};
-  return row;
+  msgs::Increment increment;
+  increment.load_factor = load_factor;
+  increment.x = {1.0 + load_factor};
+  increment.y = {1.0};
+  return increment;
 }
 
 const Marker& Find(const MarkerArray& picture, const std::string& name, int id = 0) {
@@ -197,9 +197,9 @@ TEST(SceneMarkersTest, SupportsStandOnTheGroundAwayFromTheirBars) {
 TEST(SceneMarkersTest, ObstaclesAreOnTheForbiddenSideAlongAllNodes) {
   const SceneMarkers markers(Slope(), World());
   for (const double far : {5.5, 60.0}) {
-    msgs::Increment row = SlopeRow();
-    row.x[2] = far;
-    const MarkerArray picture = markers.Draw(row, 2.0);
+    msgs::Increment increment = SlopeRow();
+    increment.x[2] = far;
+    const MarkerArray picture = markers.Draw(increment, 2.0);
     const std::vector<Vector2d> strips = Points(Find(picture, "obstacles", 0));
     ASSERT_EQ(strips.size(), 12U);
     double least = 0.0;
@@ -214,7 +214,7 @@ TEST(SceneMarkersTest, ObstaclesAreOnTheForbiddenSideAlongAllNodes) {
     }
     EXPECT_LT(least, -0.1);
     for (std::size_t node = 0; node < 3; ++node) {
-      const double along = kTangent.dot(Vector2d(row.x[node], row.y[node]));
+      const double along = kTangent.dot(Vector2d(increment.x[node], increment.y[node]));
       EXPECT_GT(along, from);
       EXPECT_LT(along, to);
     }
@@ -230,10 +230,10 @@ TEST(SceneMarkersTest, ObstaclesAreOnTheForbiddenSideAlongAllNodes) {
 TEST(SceneMarkersTest, SlidingReactionLiesOnTheEdgeOfItsCone) {
   const Vector2d foot(3.8, 1.6);
   for (const double sign : {1.0, -1.0}) {
-    msgs::Increment row = SlopeRow();
-    row.contacts[0] =
+    msgs::Increment increment = SlopeRow();
+    increment.contacts[0] =
         State(sign > 0.0 ? msgs::ContactState::SLIP_PLUS : msgs::ContactState::SLIP_MINUS, 1.2, -sign * 0.6);
-    const MarkerArray picture = SceneMarkers(Slope(), World()).Draw(row, 2.0);
+    const MarkerArray picture = SceneMarkers(Slope(), World()).Draw(increment, 2.0);
     const Vector2d reaction = Farthest(Find(picture, "reactions"), foot) - foot;
     EXPECT_LT((reaction.normalized() - (kNormal - sign * 0.5 * kTangent).normalized()).norm(), kRounding);
     const std::vector<Vector2d> cone = Points(Find(picture, "cones"));
@@ -246,11 +246,11 @@ TEST(SceneMarkersTest, SlidingReactionLiesOnTheEdgeOfItsCone) {
 
 TEST(SceneMarkersTest, ConesAreWhereThereIsFrictionToLimit) {
   const SceneMarkers markers(Slope(), World());
-  msgs::Increment row = SlopeRow();
-  row.contacts = {State(msgs::ContactState::STICK, 1.0, 0.2), State(msgs::ContactState::CLOSED, 1.0)};
-  EXPECT_EQ(Find(markers.Draw(row, 2.0), "cones").points.size(), 3U);
-  row.contacts = {State(msgs::ContactState::OPEN), State(msgs::ContactState::CLOSED, 1.0)};
-  EXPECT_EQ(Find(markers.Draw(row, 2.0), "cones").action, Marker::DELETE);
+  msgs::Increment increment = SlopeRow();
+  increment.contacts = {State(msgs::ContactState::STICK, 1.0, 0.2), State(msgs::ContactState::CLOSED, 1.0)};
+  EXPECT_EQ(Find(markers.Draw(increment, 2.0), "cones").points.size(), 3U);
+  increment.contacts = {State(msgs::ContactState::OPEN), State(msgs::ContactState::CLOSED, 1.0)};
+  EXPECT_EQ(Find(markers.Draw(increment, 2.0), "cones").action, Marker::DELETE);
 }
 
 TEST(SceneMarkersTest, EachContactStateHasItsColour) {
@@ -258,9 +258,9 @@ TEST(SceneMarkersTest, EachContactStateHasItsColour) {
   std::set<std::tuple<float, float, float>> colours;
   for (const std::uint8_t state : {msgs::ContactState::OPEN, msgs::ContactState::STICK, msgs::ContactState::SLIP_PLUS,
                                    msgs::ContactState::SLIP_MINUS, msgs::ContactState::CLOSED}) {
-    msgs::Increment row = SlopeRow();
-    row.contacts = {State(state), State(msgs::ContactState::OPEN)};
-    const Marker contacts = Find(markers.Draw(row, 2.0), "contacts");
+    msgs::Increment increment = SlopeRow();
+    increment.contacts = {State(state), State(msgs::ContactState::OPEN)};
+    const Marker contacts = Find(markers.Draw(increment, 2.0), "contacts");
     EXPECT_EQ(Points(contacts), (std::vector<Vector2d>{{3.8, 1.6}, {5.5, 3.0}}));
     ASSERT_EQ(contacts.colors.size(), 2U);
     colours.emplace(contacts.colors[0].r, contacts.colors[0].g, contacts.colors[0].b);
@@ -298,10 +298,10 @@ TEST(SceneMarkersTest, ArrowsReadWellAndKeepTheirScale) {
   double full = 0.0;
   for (int i = 0; i <= 1000; ++i) {
     const double load_factor = 1e-3 * i;
-    const msgs::Increment row = SpringRow(load_factor);
-    EXPECT_NEAR(markers.LargestForce(row), load_factor, kRounding);
-    largest = std::max(largest, markers.LargestForce(row));
-    const MarkerArray picture = markers.Draw(row, largest);
+    const msgs::Increment increment = SpringRow(load_factor);
+    EXPECT_NEAR(markers.LargestForce(increment), load_factor, kRounding);
+    largest = std::max(largest, markers.LargestForce(increment));
+    const MarkerArray picture = markers.Draw(increment, largest);
     if (i == 0) continue;
     const double length = ArrowLength(picture, "loads", {1.0 + load_factor, 1.0});
     const Marker& sample = Find(picture, "caption", 1);
@@ -367,12 +367,12 @@ TEST(SceneMarkersTest, RowsThatAreNotOfTheSceneDoNotFit) {
   EXPECT_TRUE(markers.Fits(SlopeRow()));
   EXPECT_FALSE(markers.Fits(msgs::Increment()));  // thinned out
   EXPECT_FALSE(markers.Fits(SpringRow(1.0)));
-  msgs::Increment row = SlopeRow();
-  row.contacts.pop_back();
-  EXPECT_FALSE(markers.Fits(row));
-  row = SlopeRow();
-  row.y.pop_back();
-  EXPECT_FALSE(markers.Fits(row));
+  msgs::Increment increment = SlopeRow();
+  increment.contacts.pop_back();
+  EXPECT_FALSE(markers.Fits(increment));
+  increment = SlopeRow();
+  increment.y.pop_back();
+  EXPECT_FALSE(markers.Fits(increment));
 }
 
 // The picture looks the same in any units of length and force.
@@ -388,15 +388,15 @@ TEST(SceneMarkersTest, PictureGrowsWithTheScene) {
     obstacle.px *= length;
     obstacle.py *= length;
   }
-  msgs::Increment row = SlopeRow();
-  for (double& x : row.x) x *= length;
-  for (double& y : row.y) y *= length;
-  for (msgs::ContactState& contact : row.contacts) {
+  msgs::Increment increment = SlopeRow();
+  for (double& x : increment.x) x *= length;
+  for (double& y : increment.y) y *= length;
+  for (msgs::ContactState& contact : increment.contacts) {
     contact.rn *= force;
     contact.rt *= force;
   }
   const MarkerArray small = SceneMarkers(Slope(), World()).Draw(SlopeRow(), 2.0);
-  const MarkerArray large = SceneMarkers(request, World()).Draw(row, 2.0 * force);
+  const MarkerArray large = SceneMarkers(request, World()).Draw(increment, 2.0 * force);
   ASSERT_EQ(small.markers.size(), large.markers.size());
   for (std::size_t i = 0; i < small.markers.size(); ++i) {
     const std::vector<Vector2d> a = Points(small.markers[i]);
@@ -425,11 +425,11 @@ TraceRequest Belt() {
 
 TEST(SceneMarkersTest, MovingObstaclesHaveABoundedNumberOfStrokes) {
   const SceneMarkers markers(Belt(), World());
-  msgs::Increment row = SlopeRow(0.5);
-  row.stage = 2;
+  msgs::Increment increment = SlopeRow(0.5);
+  increment.stage = 2;
   for (const double far : {1e3, 1e12, 1e90}) {
-    row.x[0] = far;
-    const std::size_t points = Find(markers.Draw(row, 3.0), "obstacles", 2).points.size();
+    increment.x[0] = far;
+    const std::size_t points = Find(markers.Draw(increment, 3.0), "obstacles", 2).points.size();
     EXPECT_GE(points, 100U) << far;
     EXPECT_LE(points, 2U * 2U * 201U) << far;
   }
@@ -437,24 +437,24 @@ TEST(SceneMarkersTest, MovingObstaclesHaveABoundedNumberOfStrokes) {
 
 TEST(SceneMarkersTest, StagesHaveTheirLoadsAndObstacles) {
   const SceneMarkers markers(Belt(), World());
-  msgs::Increment row = SlopeRow(0.5);
-  row.contacts = {State(msgs::ContactState::OPEN), State(msgs::ContactState::OPEN)};
-  EXPECT_FALSE(markers.Fits(row));
-  row.stage = 3;
-  EXPECT_FALSE(markers.Fits(row));
+  msgs::Increment increment = SlopeRow(0.5);
+  increment.contacts = {State(msgs::ContactState::OPEN), State(msgs::ContactState::OPEN)};
+  EXPECT_FALSE(markers.Fits(increment));
+  increment.stage = 3;
+  EXPECT_FALSE(markers.Fits(increment));
 
-  row.stage = 1;
-  ASSERT_TRUE(markers.Fits(row));
-  EXPECT_NEAR(markers.LargestForce(row), 2.0, kRounding);
-  const MarkerArray press = markers.Draw(row, 3.0);
+  increment.stage = 1;
+  ASSERT_TRUE(markers.Fits(increment));
+  EXPECT_NEAR(markers.LargestForce(increment), 2.0, kRounding);
+  const MarkerArray press = markers.Draw(increment, 3.0);
   EXPECT_NE(Find(press, "caption").text.find("press"), std::string::npos);
   EXPECT_EQ(Find(press, "loads").points.size(), 18U);  // two arrows
   EXPECT_NEAR(Points(Find(press, "obstacles", 1))[2].x(), 7.0, kRounding);
 
-  row.stage = 2;
-  ASSERT_TRUE(markers.Fits(row));
-  EXPECT_NEAR(markers.LargestForce(row), 3.0, kRounding);  // what was pressed on stays
-  const MarkerArray drive = markers.Draw(row, 3.0);
+  increment.stage = 2;
+  ASSERT_TRUE(markers.Fits(increment));
+  EXPECT_NEAR(markers.LargestForce(increment), 3.0, kRounding);  // what was pressed on stays
+  const MarkerArray drive = markers.Draw(increment, 3.0);
   EXPECT_NE(Find(drive, "caption").text.find("stage 2"), std::string::npos);
   EXPECT_EQ(Find(drive, "loads").points.size(), 27U);
   const std::vector<Vector2d> boundaries = Points(Find(drive, "obstacles", 1));
@@ -472,7 +472,7 @@ TEST(SceneMarkersTest, StagesHaveTheirLoadsAndObstacles) {
   ExpectSound(drive);
   EXPECT_EQ(Names(markers.DrawInitial()), Names(drive));
 
-  // The size is that of the way of the supports, too: the pin goes down by 1.5.
+  // The size is that of the branch of the supports, too: the pin goes down by 1.5.
   const std::vector<Vector2d> boundary = Points(Find(press, "obstacles", 1));
   EXPECT_NEAR((boundary[1] - boundary[0]).norm(), 2.0 * std::hypot(5.0, 2.5), kRounding);
 }

@@ -147,12 +147,12 @@ class TraceActionTest(unittest.TestCase):
         self.assertEqual(len(feedback), result.increments)
         _, recorded, _ = self.read_bag(result)
         limit_points = events = 0
-        for told, row, sent in zip(feedback, recorded, increments.messages):
-            self.assertTrue(helpers.same(row, sent), 'increment %d' % row.index)
-            limit_points += row.kind in LIMITS
-            events = max(events, row.event.number)  # numbered from 1
+        for told, increment, sent in zip(feedback, recorded, increments.messages):
+            self.assertTrue(helpers.same(increment, sent), 'increment %d' % increment.index)
+            limit_points += increment.kind in LIMITS
+            events = max(events, increment.event.number)  # numbered from 1
             for field in 'trace_id', 'index', 'stage', 'load_factor', 'arc_length', 'kind':
-                self.assertEqual(getattr(told, field), getattr(row, field), field)
+                self.assertEqual(getattr(told, field), getattr(increment, field), field)
             self.assertEqual((told.limit_points, told.events), (limit_points, events))
         self.assertGreater(limit_points, 0)
         self.assertGreater(events, 0)
@@ -183,9 +183,9 @@ class TraceActionTest(unittest.TestCase):
         self.assertEqual(status.scene, 'sliding_bar')
         self.assertIn(status.message, said)
         _, increments, _ = self.read_bag(status)
-        rows = re.findall(r'row (\d+), load factor (\S+), ', said)
-        self.assertGreater(len(rows), 10)
-        for index, load_factor in rows:
+        increments = re.findall(r'increment (\d+), load factor (\S+), ', said)
+        self.assertGreater(len(increments), 10)
+        for index, load_factor in increments:
             self.assertEqual(load_factor, '%.6g' % increments[int(index)].load_factor)
 
     # Goals that are cancelled

@@ -68,23 +68,23 @@ class TraceServiceTest(unittest.TestCase):
             subprocess.run([helpers.program('contact_path_trace'), helpers.scene_path(scene), '--csv', table,
                             '--quiet'], check=True)
             with open(table) as file:
-                rows = list(csv.DictReader(file))
-        self.assertEqual(len(rows), len(increments))
-        for row, increment in zip(rows, increments):
-            self.assertEqual(int(row['index']), increment.index)
-            self.assertEqual(KINDS[row['kind']], increment.kind)
+                increments = list(csv.DictReader(file))
+        self.assertEqual(len(increments), len(increments))
+        for increment, increment in zip(increments, increments):
+            self.assertEqual(int(increment['index']), increment.index)
+            self.assertEqual(KINDS[increment['kind']], increment.kind)
             for i, node in enumerate(request.scene.nodes):
-                self.assertEqual(float(row['x_' + node.name]), increment.x[i])
-                self.assertEqual(float(row['y_' + node.name]), increment.y[i])
+                self.assertEqual(float(increment['x_' + node.name]), increment.x[i])
+                self.assertEqual(float(increment['y_' + node.name]), increment.y[i])
             for i, contact in enumerate(request.scene.contacts):
                 name = contact.node + '@' + contact.obstacle
-                self.assertEqual(float(row['gap_' + name]), increment.contacts[i].gap)
-                self.assertEqual(float(row['rn_' + name]), increment.contacts[i].rn)
-                self.assertEqual(float(row['rt_' + name]), increment.contacts[i].rt)
-                self.assertEqual(STATES[row['state_' + name]], increment.contacts[i].state)
+                self.assertEqual(float(increment['gap_' + name]), increment.contacts[i].gap)
+                self.assertEqual(float(increment['rn_' + name]), increment.contacts[i].rn)
+                self.assertEqual(float(increment['rt_' + name]), increment.contacts[i].rt)
+                self.assertEqual(STATES[increment['state_' + name]], increment.contacts[i].state)
             for field in ('load_factor', 'arc_length', 'dissipation', 'strain_energy', 'equilibrium_residual',
                           'complementarity_residual'):
-                self.assertEqual(float(row[field]), getattr(increment, field), field)
+                self.assertEqual(float(increment[field]), getattr(increment, field), field)
 
     def test_path_is_that_of_the_command_line_with_contact(self):
         self.expect_path_of_command_line('sliding_bar')
@@ -106,12 +106,12 @@ class TraceServiceTest(unittest.TestCase):
         for scene in 'sliding_bar', 'von_mises':
             response = self.trace(helpers.request_of(scene))
             _, increments, _ = self.read_bag(response)
-            limits = ['%s at load factor %.10g (row %d)' % (name, row.load_factor, row.index)
-                      for row in increments for name in ('smooth_limit', 'corner_limit') if row.kind == KINDS[name]]
+            limits = ['%s at load factor %.10g (increment %d)' % (name, increment.load_factor, increment.index)
+                      for increment in increments for name in ('smooth_limit', 'corner_limit') if increment.kind == KINDS[name]]
             self.assertGreater(len(limits), 0)
-            events = max(row.event.number for row in increments)  # they are numbered from 1
+            events = max(increment.event.number for increment in increments)  # they are numbered from 1
             stop, = helpers.request_of(scene).options.stop
-            self.assertEqual(response.message, 'stop_criterion: %s %s %g; %d rows; limit points: %s; %s; bag %s' %
+            self.assertEqual(response.message, 'stop_criterion: %s %s %g; %d increments; limit points: %s; %s; bag %s' %
                              (stop.quantity, stop.when, stop.value, response.increments, ', '.join(limits),
                               '1 event' if events == 1 else '%d events' % events, response.bag))
 
@@ -183,12 +183,12 @@ class TraceServiceTest(unittest.TestCase):
             watcher.kill()
         lines = said.splitlines()
         _, increments, _ = self.read_bag(response)
-        events = [row for row in increments if row.kind not in (Increment.START, Increment.REGULAR)]
-        self.assertEqual(len([line for line in lines if line.startswith('row ')]), len(events), said)
-        for row in events:
-            told = [line for line in lines if line.startswith('row %6d ' % row.index)]
+        events = [increment for increment in increments if increment.kind not in (Increment.START, Increment.REGULAR)]
+        self.assertEqual(len([line for line in lines if line.startswith('increment ')]), len(events), said)
+        for increment in events:
+            told = [line for line in lines if line.startswith('increment %6d ' % increment.index)]
             self.assertEqual(len(told), 1, said)
-            self.assertIn('load factor %.6g' % row.load_factor, told[0])
+            self.assertIn('load factor %.6g' % increment.load_factor, told[0])
         self.assertIn('b@floor stick -> slip+', said)
         self.assertTrue(lines[-1].endswith('of sliding_bar ended: ' + response.message), said)
 
@@ -292,7 +292,7 @@ class TraceServiceTest(unittest.TestCase):
                              ('shape: half_plane', 'shape: circle'),
                              ('friction: 0.3', 'friction: -0.3'),
                              ('options:', 'options:\n  max_increments: -1'),
-                             ('options:', 'options:\n  branch_choices: [{event: 1, way: -2}]'),
+                             ('options:', 'options:\n  branch_choices: [{event: 1, branch: -2}]'),
                              ('options:', 'options:\n  method: magic')):
             self.assertIn(part, text)
             invalid = text.replace(part, broken)
@@ -321,12 +321,12 @@ class TraceServiceTest(unittest.TestCase):
         request.options.max_increments = 1000
         resumed = self.trace(request)
         self.assertEqual(resumed.status, Response.OK, resumed.message)
-        recorded, rows, _ = self.read_bag(resumed)
+        recorded, increments, _ = self.read_bag(resumed)
         self.assertEqual(recorded.resume, part.bag)
         self.assertEqual(recorded.scene.name, 'two_dof_friction')
         expected = self.read_bag(whole)[1]
-        self.assertEqual(len(rows), len(expected))
-        for a, b in zip(rows, expected):
+        self.assertEqual(len(increments), len(expected))
+        for a, b in zip(increments, expected):
             self.assertEqual((a.index, a.kind), (b.index, b.kind))
             self.assertAlmostEqual(a.load_factor, b.load_factor, delta=1e-9)
             for x, y in zip(a.x, b.x):

@@ -62,7 +62,7 @@ class VerifyTest(ProgramTest):
     def test_bag_of_a_trace_that_ended_early_is_proved(self):
         told = self.verify(self.record('sliding_bar', '--max-increments', '7'))
         self.assertEqual(told.returncode, 0, told.stdout)
-        self.assertIn('8 rows', told.stdout)
+        self.assertIn('8 increments', told.stdout)
         self.assertIn('max_increments', told.stdout)
 
     def test_number_that_was_changed_is_found(self):
@@ -70,24 +70,24 @@ class VerifyTest(ProgramTest):
             if kind == 'increments' and message.index == 20:
                 message.contacts[0].rt *= 1.001
             return message
-        self.assert_not_proved(self.rewrite(self.record(), change), 'row 20: ')
+        self.assert_not_proved(self.rewrite(self.record(), change), 'increment 20: ')
 
     def test_scene_that_was_changed_is_found(self):
         def change(kind, message):
             if kind == 'request':
                 message.scene.obstacles[0].friction += 0.01
             return message
-        self.assert_not_proved(self.rewrite(self.record(), change), 'row ')
+        self.assert_not_proved(self.rewrite(self.record(), change), 'increment ')
 
     def test_row_that_was_left_out_is_found(self):
         def change(kind, message):
             return None if kind == 'increments' and message.index == 20 else message
-        self.assert_not_proved(self.rewrite(self.record(), change), 'rows are missing')
+        self.assert_not_proved(self.rewrite(self.record(), change), 'increments are missing')
 
     def test_end_that_was_cut_off_is_found(self):
         def change(kind, message):
             return None if kind == 'increments' and message.index >= 20 else message
-        self.assert_not_proved(self.rewrite(self.record(), change), 'truncated: 20 rows, the result speaks of')
+        self.assert_not_proved(self.rewrite(self.record(), change), 'truncated: 20 increments, the result speaks of')
 
     def test_missing_result_is_found(self):
         self.assert_not_proved(self.rewrite(self.record(), lambda kind, message: None if kind == 'result' else message),
@@ -154,7 +154,7 @@ class VerifyTest(ProgramTest):
             file.write(text.replace('\noptions:\n', '\noptions:\n  full_state_every: 5\n'))
         told = self.verify(self.record_file(scene))
         self.assertEqual(told.returncode, 0, told.stdout + told.stderr)
-        self.assertIn('rows without state', told.stdout)
+        self.assertIn('increments without state', told.stdout)
 
 
 if __name__ == '__main__':

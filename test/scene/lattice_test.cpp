@@ -40,17 +40,17 @@ TEST(Lattice, FarCandidatesChangeNothing) {
     options.contacts = 2;
     TraceRequest request = LatticeRequest(options);
     request.options.max_increments = 30;
-    const TracedPath without = TraceRows(request);
+    const TracedPath without = TraceIncrements(request);
     options.far_candidates = 40;
     request.scene = LatticeRequest(options).scene;
-    const TracedPath with = TraceRows(request);
+    const TracedPath with = TraceIncrements(request);
     ASSERT_EQ(with.rows.size(), without.rows.size());
     ASSERT_GT(with.rows.size(), 5U) << without.result.message;
     for (std::size_t i = 0; i < with.rows.size(); ++i) {
       EXPECT_EQ(with.rows[i].load_factor, without.rows[i].load_factor);
       EXPECT_EQ(with.rows[i].positions, without.rows[i].positions);
     }
-    ExpectSoundRows(with, 1e-9);
+    ExpectSoundIncrements(with, 1e-9);
   }
 }
 

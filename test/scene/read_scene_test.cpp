@@ -210,8 +210,8 @@ const BadLine kUnknownAndRepeatedKeys[] = {
      "unknown key"},
     {"UnknownInOptions", 45, "  steps: [1]", "options.steps", 45, "a list", "unknown key"},
     {"UnknownInStop", 50, "    value: 4.95\n    unit: mm", "options.stop[0].unit", 51, "mm", "unknown key"},
-    {"UnknownInBranchChoice", 47, "  branch_choices:\n  - {at: 1, way: 2}\n  stop:", "options.branch_choices[0].at", 48,
-     "1", "unknown key, must be one of: event, row, way"},
+    {"UnknownInBranchChoice", 47, "  branch_choices:\n  - {at: 1, branch: 2}\n  stop:", "options.branch_choices[0].at",
+     48, "1", "unknown key, must be one of: event, row, branch"},
     {"KeysAreCaseSensitive", 45, "  Step: 1.0", "options.Step", 45, "1.0", "unknown key"},
     {"KeyThatIsNoText", 45, "  [1, 2]: 1.0", "options.a list", 45, "1.0", "unknown key"},
     {"KeyThatIsNull", 45, "  ~: 1.0", "options.null", 45, "1.0", "unknown key"},
@@ -261,8 +261,8 @@ const BadLine kWrongTypes[] = {
      "must be biot, green_lagrange or logarithmic"},
     {"UnknownShape", 31, "    shape: circle", "scene.obstacles[0].shape", 31, "circle", "must be half_plane"},
     {"ListForWord", 42, "  method: [mpec]", "options.method", 42, "a list", "must be branch or mpec"},
-    {"RealForWay", 47, "  branch_choices:\n  - {event: 1, way: 2.0}\n  stop:", "options.branch_choices[0].way", 48,
-     "2.0", "must be an integer"},
+    {"RealForWay", 47, "  branch_choices:\n  - {event: 1, branch: 2.0}\n  stop:", "options.branch_choices[0].branch",
+     48, "2.0", "must be an integer"},
     {"TextForList", 12, "  - nodes: a", "scene.bars[0].nodes", 12, "a", "must be a list"},
     {"MapForList", 12, "  - nodes: {a: b}", "scene.bars[0].nodes", 12, "a map", "must be a list"},
     {"NumberInListOfText", 12, "  - nodes: [1, b]", "scene.bars[0].nodes[0]", 12, "1", "must be text"},
@@ -342,8 +342,8 @@ const BadLine kRules[] = {
     {"StepNotFinite", 45, "  step: .NaN", "options.step", 45, ".nan", "must be finite"},
     {"DirectionNotFinite", 44, "  direction: +.inf", "options.direction", 44, ".inf", "must be finite"},
     {"IncrementsNegative", 46, "  max_increments: -1", "options.max_increments", 46, "-1", "must be >= 0"},
-    {"EventAndRow", 47, "  branch_choices:\n  - event: 1\n    row: 5\n  stop:", "options.branch_choices[0].row", 49,
-     "5", "must be 0 where event is given"},
+    {"EventAndIncrement", 47, "  branch_choices:\n  - event: 1\n    row: 5\n  stop:", "options.branch_choices[0].row",
+     49, "5", "must be 0 where event is given"},
     {"UnknownQuantity", 48, "  - quantity: force", "options.stop[0].quantity", 48, "force", "must be load_factor, "},
     {"QuantityOfUnknownNode", 48, "  - quantity: zz.x", "options.stop[0].quantity", 48, "zz.x", "must refer to a node"},
     {"UnknownWhen", 49, "    when: '='", "options.stop[0].when", 49, "=", "must be \">\" or \"<\""},
@@ -433,15 +433,15 @@ TEST(ReadSceneTest, TruthValuesAndIntegersInTheSpellingsOfYaml) {
 }
 
 TEST(ReadSceneTest, TakesBranchChoices) {
-  const std::string text = BaseWith({{47, "  branch_choices: [{event: 2, way: 3}, {row: 7}]\n  stop:"}});
+  const std::string text = BaseWith({{47, "  branch_choices: [{event: 2, branch: 3}, {row: 7}]\n  stop:"}});
   const std::vector<BranchChoice> choices = ReadTraceRequest(text, "").options.branch_choices;
   ASSERT_EQ(choices.size(), 2U);
   EXPECT_EQ(choices[0].event, 2);
   EXPECT_EQ(choices[0].row, 0);
-  EXPECT_EQ(choices[0].way, 3);
+  EXPECT_EQ(choices[0].branch, 3);
   EXPECT_EQ(choices[1].event, 0);
   EXPECT_EQ(choices[1].row, 7);
-  EXPECT_EQ(choices[1].way, 0);
+  EXPECT_EQ(choices[1].branch, 0);
 }
 
 TEST(ReadSceneTest, QuotedWordsAreText) {

@@ -275,12 +275,12 @@ const BrokenRule kOptionRules[] = {
        r.options.branch_choices = {{0, -1, 2}};
      },
      "options.branch_choices[0].row", "-1", "must be >= 0"},
-    {"WayNegative",
+    {"BranchNegative",
      [](auto& r) {
        r.options.branch_choices = {{1, 0, -2}};
      },
-     "options.branch_choices[0].way", "-2", "must be >= 0"},
-    {"EventAndRow",
+     "options.branch_choices[0].branch", "-2", "must be >= 0"},
+    {"EventAndIncrement",
      [](auto& r) {
        r.options.branch_choices = {{1, 5, 2}};
      },

@@ -30,7 +30,7 @@ def reindex(bag):
                    timeout=helpers.PATIENCE, check=True)
 
 
-def recorded_rows(bag):
+def recorded_increments(bag):
     """The increments of a bag as bytes; the request is the first message, a result there may be."""
     with rosbag.Bag(bag) as entries:
         messages = [(topic.rsplit('/', 1)[1], message[1]) for topic, message, _ in entries.read_messages(raw=True)]
@@ -50,14 +50,14 @@ def require_named_truncation(bag):
 
 
 def kill(world, short):
-    """kill -9 at random moments: what was streamed is in the bag, but for the last rows."""
+    """kill -9 at random moments: what was streamed is in the bag, but for the last increments."""
     count, longest, seed = (3, 0.3, 20261122) if short else (50, 1.0, 20261122)
     dice = random.Random(seed)
     fast = helpers.request_of('sliding_bar', step=1e-6, max_increments=1000000, stop=[])
-    requests = [('short rows', fast), ('slow rows', helpers.long_request()),
-                ('rows of 8 kB', wide_request(500, max_increments=1000000))]
+    requests = [('short increments', fast), ('slow increments', helpers.long_request()),
+                ('increments of 8 kB', wide_request(500, max_increments=1000000))]
     lost = {name: 0 for name, _ in requests}
-    most_rows = 0
+    most_increments = 0
     bytes_lost = 0
     for i in range(count):
         name, request = requests[i % len(requests)]
@@ -65,28 +65,28 @@ def kill(world, short):
         subscriber = Subscriber(node.name)
         with Client(node.name) as client:
             client.send(request)
-            helpers.wait_until(lambda: subscriber.rows, 'the trace is on its way')
+            helpers.wait_until(lambda: subscriber.increments, 'the trace is on its way')
             time.sleep(longest * 10.0 ** dice.uniform(-3.0, 0.0))
             node.kill()
             subscriber.wait_for_end()
         subscriber.close()
-        streamed = subscriber.rows
+        streamed = subscriber.increments
         files = os.listdir(node.bags)
         require(files == ['000001_%s.bag' % request.scene.name], 'files: %s' % files)
         bag = os.path.join(node.bags, files[0])
         require_named_truncation(bag)
-        rows = recorded_rows(bag)
-        same = min(len(rows), len(streamed))
-        require(rows[:same] == streamed[:same], 'the bag has other rows than the topic')
-        lost[name] = max(lost[name], len(streamed) - len(rows))
-        bytes_lost = max(bytes_lost, sum(map(len, streamed[len(rows):])))
-        most_rows = max(most_rows, len(streamed))
-    told = '%d kills (seed %d), up to %d rows streamed: every bag reindexed, verify names the truncation; last rows ' \
-        'lost at most: %s; at most %.0f kB' % (count, seed, most_rows,
+        increments = recorded_increments(bag)
+        same = min(len(increments), len(streamed))
+        require(increments[:same] == streamed[:same], 'the bag has other increments than the topic')
+        lost[name] = max(lost[name], len(streamed) - len(increments))
+        bytes_lost = max(bytes_lost, sum(map(len, streamed[len(increments):])))
+        most_increments = max(most_increments, len(streamed))
+    told = '%d kills (seed %d), up to %d increments streamed: every bag reindexed, verify names the truncation; last increments ' \
+        'lost at most: %s; at most %.0f kB' % (count, seed, most_increments,
                                                ', '.join('%d (%s)' % (n, name) for name, n in lost.items()),
                                                bytes_lost / 1024)
     require(bytes_lost < 64 * 1024, told)
-    require(lost['slow rows'] <= 20, told)
+    require(lost['slow increments'] <= 20, told)
     return told
 
 
@@ -194,7 +194,7 @@ def disk_runs_full(world, disk):
     request = wide_request(100, max_increments=1000000)
     response = node.trace(request)
     require(response.status == Response.BAG_FAILED and 'bytes are free' in response.message, response.message)
-    require(response.increments > 10, 'only %d rows' % response.increments)
+    require(response.increments > 10, 'only %d increments' % response.increments)
     node.read(response)
     refused = node.trace(request)
     require((refused.status, refused.bag, refused.increments) == (Response.BAG_FAILED, '', 0), refused.message)
@@ -202,7 +202,7 @@ def disk_runs_full(world, disk):
     os.remove(os.path.join(bags, response.bag))
     node.require_traces()
     node.stop()
-    return 'a full disk ends the trace with BAG_FAILED after %d rows, all of them in a whole bag, refuses the next ' \
+    return 'a full disk ends the trace with BAG_FAILED after %d increments, all of them in a whole bag, refuses the next ' \
         'one, and after making room the node traces' % response.increments
 
 
@@ -226,7 +226,7 @@ def disk_is_filled(world, disk, count):
         bag = os.path.join(bags, response.bag)
         if verify(bag).returncode != 0:  # or the end of the bag just found room
             require_named_truncation(bag)
-        most_lost = max(most_lost, response.increments - len(recorded_rows(bag)))
+        most_lost = max(most_lost, response.increments - len(recorded_increments(bag)))
         for name in os.listdir(bags):
             os.remove(os.path.join(bags, name))
         node.require_traces()
@@ -234,7 +234,7 @@ def disk_is_filled(world, disk, count):
     require(node.files() <= files + 1, 'descriptors: %d -> %d' % (files, node.files()))
     node.stop()
     return 'a disk that others fill to the last byte, %d times: BAG_FAILED, the bag can be reindexed but for the last ' \
-        '%d rows at most, no descriptor is lost' % (count, most_lost)
+        '%d increments at most, no descriptor is lost' % (count, most_lost)
 
 
 def file_size_is_limited(world):
@@ -246,4 +246,4 @@ def file_size_is_limited(world):
     require_named_truncation(os.path.join(node.bags, response.bag))
     node.require_traces()
     node.stop()
-    return 'files of at most 1 MB: BAG_FAILED after %d rows, likewise' % response.increments
+    return 'files of at most 1 MB: BAG_FAILED after %d increments, likewise' % response.increments

@@ -81,7 +81,7 @@ def huge_requests(short):
     yield 'superelement entries', superelements(matrix), invalid
     yield 'stages', program(Stage(), MILLION), invalid
     yield 'stages with a motion each', program(slide, MILLION // 2), traced
-    yield 'branch choices', of_options('branch_choices', BranchChoice(event=1, way=1)), limit
+    yield 'branch choices', of_options('branch_choices', BranchChoice(event=1, branch=1)), limit
     yield 'stop criteria', of_options('stop', StopCriterion(quantity='b.x', when='>', value=1.0)), limit
 
 

@@ -116,8 +116,8 @@ def superelement(count):
     request = base([Bar(nodes=['b', 'n0'], EA=1.0)],
                    [Node(name='n%d' % i, x=float(i), y=2.0) for i in range(count)])
     size = 2 * count
-    rows = Encoded(struct.pack('<d', 2.0 * size if i == j else 1.0) for i in range(size) for j in range(size))
-    request.scene.superelements = [Superelement(nodes=['n%d' % i for i in range(count)], stiffness=rows)]
+    increments = Encoded(struct.pack('<d', 2.0 * size if i == j else 1.0) for i in range(size) for j in range(size))
+    request.scene.superelements = [Superelement(nodes=['n%d' % i for i in range(count)], stiffness=increments)]
     return request
 
 

@@ -14,29 +14,29 @@ from world import quickly, require
 PATIENCE = 30.0  # [s] for any one answer
 
 
-def lattice_request(columns, rows, **options):
+def lattice_request(columns, increments, **options):
     """A column of a lattice truss that comes down on a floor; built here, so that its size is free."""
     request = helpers.request_of('von_mises', **options)
     scene = request.scene
     node, bar = type(scene.nodes[0]), type(scene.bars[0])
-    scene.name = 'lattice_%d_%d' % (columns, rows)
+    scene.name = 'lattice_%d_%d' % (columns, increments)
     name = 'n{}_{}'.format
     scene.nodes = [node(name=name(i, j), x=float(i), y=float(j), fixed_x=j == 0, fixed_y=j == 0)
-                   for j in range(rows + 1) for i in range(columns + 1)]
+                   for j in range(increments + 1) for i in range(columns + 1)]
     scene.bars = []
-    for j in range(rows + 1):
+    for j in range(increments + 1):
         for i in range(columns + 1):
             for di, dj in ((1, 0), (0, 1), (1, 1), (-1, 1)):
-                if 0 <= i + di <= columns and j + dj <= rows and (j > 0 or dj > 0):
+                if 0 <= i + di <= columns and j + dj <= increments and (j > 0 or dj > 0):
                     scene.bars.append(bar(nodes=[name(i, j), name(i + di, j + dj)], EA=100.0))
     for load in scene.loads:
-        load.node, load.fx, load.fy = name(columns, rows), 1.0, 0.1
+        load.node, load.fx, load.fy = name(columns, increments), 1.0, 0.1
     request.options.stop = []
     return request
 
 
 def wide_request(nodes, **options):
-    """The sliding bar in short steps; fixed nodes beside it make each row long, 16 bytes each, and cost nothing."""
+    """The sliding bar in short steps; fixed nodes beside it make each increment long, 16 bytes each, and cost nothing."""
     request = helpers.request_of('sliding_bar', stop=[], step=1e-6, **options)
     node = type(request.scene.nodes[0])
     request.scene.name = 'wide'
@@ -145,7 +145,7 @@ def cancel(world, short):
                 lattice_request(20, 20, **tiny)]
     ends = {'cancelled': 0, 'complete': 0}
     slowest = 0.0
-    rows = 0
+    increments = 0
     for i in range(count):
         call = helpers.Call(node.trace, dice.choice(requests))
         time.sleep(10.0 ** dice.uniform(-4.0, -1.0))
@@ -161,37 +161,37 @@ def cancel(world, short):
         require(cancelled or response.status == Response.OK, 'cancel %d: %s' % (i, response.message))
         ends['cancelled' if cancelled else 'complete'] += 1
         slowest = max(slowest, call.end_time - asked)
-        rows = max(rows, len(node.read(response)[1]))
+        increments = max(increments, len(node.read(response)[1]))
     node.require_traces()
-    return '%d cancels (seed %d): %d cancelled, %d complete; every bag whole (up to %d rows); answered after %.0f ms ' \
-        'at most' % (count, seed, ends['cancelled'], ends['complete'], rows, 1e3 * slowest)
+    return '%d cancels (seed %d): %d cancelled, %d complete; every bag whole (up to %d increments); answered after %.0f ms ' \
+        'at most' % (count, seed, ends['cancelled'], ends['complete'], increments, 1e3 * slowest)
 
 
 def deaf_subscriber(world, short):
     """A subscriber that never reads: the memory is bounded, the trace does not wait."""
     del short
-    megabytes, rows = 64, 4000
+    megabytes, increments = 64, 4000
     node = world.node('deaf', increments_megabytes=megabytes)
-    request = wide_request(2000, max_increments=rows)
+    request = wide_request(2000, max_increments=increments)
     alone = min(quickly(lambda: node.trace(request), 60.0, 'the trace')[1] for _ in range(2))
     before = node.memory()
     node.reset_peak_memory()
     deaf = Subscriber(node.name, deaf=True)
     response, took = quickly(lambda: node.trace(request), 60.0, 'the trace')
-    require(response.status == Response.OK and response.increments == rows + 1, response.message)
+    require(response.status == Response.OK and response.increments == increments + 1, response.message)
     _, increments, _ = node.read(response)
     size = len(helpers.serialized(increments[-1])) * len(increments) / 2.0 ** 20
     growth = node.peak_memory() - before
-    warned = 'rows were not sent' in node.log()
+    warned = 'increments were not sent' in node.log()
     deaf.close()
-    told = '%.0f MB of rows, %d MB admitted: memory grew by %.0f MB; the trace took %.1f s, without it %.1f s' % (
+    told = '%.0f MB of increments, %d MB admitted: memory grew by %.0f MB; the trace took %.1f s, without it %.1f s' % (
         size, megabytes, growth, took, alone)
-    require(size > 1.5 * megabytes, 'too few rows to tell: ' + told)
+    require(size > 1.5 * megabytes, 'too few increments to tell: ' + told)
     require(growth < 1.2 * megabytes + 10.0, told)
     require(took < 2.0 * alone + 1.0, told)
-    require(warned, 'no warning of the rows that were left out')
+    require(warned, 'no warning of the increments that were left out')
     with helpers.Collector(node.name + '/increments') as collector:
         after = node.trace(helpers.request_of('sliding_bar'))
-        helpers.wait_until(lambda: len(collector.messages) == after.increments, 'all rows have come')
+        helpers.wait_until(lambda: len(collector.messages) == after.increments, 'all increments have come')
     node.require_traces()
     return told

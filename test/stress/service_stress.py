@@ -38,12 +38,12 @@ def experiments():
             ('processes', hostile.processes, True), ('master', faults.restarted_master, False))
 
 
-def write_table(file, rows):
+def write_table(file, increments):
     directory = os.path.dirname(os.path.abspath(file))
     os.makedirs(directory, exist_ok=True)
     with open(file, 'w') as table:
         table.write('| experiment | measured | outcome | s |\n| --- | --- | --- | --- |\n')
-        for name, figures, outcome, seconds in rows:
+        for name, figures, outcome, seconds in increments:
             table.write('| %s | %s | %s | %.0f |\n' % (name, figures.replace('|', '\\|'), outcome, seconds))
 
 
@@ -84,13 +84,13 @@ def main():
     from world import World  # pylint: disable=import-outside-toplevel
     world = World()
     try:
-        rows = [run(world, experiment, arguments.short) for experiment in chosen]
+        increments = [run(world, experiment, arguments.short) for experiment in chosen]
     finally:
         world.close()
     if arguments.table:
-        write_table(arguments.table, rows)
-    bad = sum(outcome != 'ok' for _, _, outcome, _ in rows)
-    print('%d passed, %d failed' % (len(rows) - bad, bad))
+        write_table(arguments.table, increments)
+    bad = sum(outcome != 'ok' for _, _, outcome, _ in increments)
+    print('%d passed, %d failed' % (len(increments) - bad, bad))
     return 1 if bad else 0
 
 

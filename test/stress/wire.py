@@ -109,7 +109,7 @@ class Client:
 
 
 class Subscriber:
-    """A connection to the rows of a node. It keeps them as bytes; a deaf one never reads."""
+    """A connection to the increments of a node. It keeps them as bytes; a deaf one never reads."""
 
     def __init__(self, node, deaf=False):
         api = xmlrpc.client.ServerProxy(rosgraph.Master(CALLER).lookupNode(node))
@@ -122,7 +122,7 @@ class Subscriber:
         self._connection.sendall(_header(callerid=CALLER, topic=topic, type=Increment._type,
                                          md5sum=Increment._md5sum, message_definition=''))
         _receive_block(self._connection)
-        self.rows = []
+        self.increments = []
         self._thread = threading.Thread(target=self._read, daemon=True)
         if not deaf:
             self._thread.start()
@@ -131,10 +131,10 @@ class Subscriber:
         with self._connection.makefile('rb', 2 ** 20) as stream:
             while True:
                 size = stream.read(4)
-                row = stream.read(struct.unpack('<I', size)[0]) if len(size) == 4 else b''
-                if not row or len(row) < struct.unpack('<I', size)[0]:
-                    return  # the node is gone, in the middle of a row or not
-                self.rows.append(row)
+                increment = stream.read(struct.unpack('<I', size)[0]) if len(size) == 4 else b''
+                if not increment or len(increment) < struct.unpack('<I', size)[0]:
+                    return  # the node is gone, in the middle of an increment or not
+                self.increments.append(increment)
 
     def wait_for_end(self):
         """Until the node has closed the connection, and all that came before has been read."""

@@ -110,7 +110,7 @@ class Node:
                 (self.process.returncode, self.log()[-500:]))
 
     def require_traces(self):
-        """The node goes on as ever: one more trace, with all its rows."""
+        """The node goes on as ever: one more trace, with all its increments."""
         self.require_alive()
         response = self.trace(helpers.request_of('von_mises', max_increments=5))
         require(response.increments == 6, 'the next trace: ' + response.message)
@@ -121,7 +121,7 @@ class Node:
         request, increments, result = helpers.read_bag(os.path.join(self.bags, response.bag))
         require(len(increments) == response.increments, '%d increments in the bag, %d answered' %
                 (len(increments), response.increments))
-        require([row.index for row in increments] == list(range(len(increments))), 'increments are missing')
+        require([increment.index for increment in increments] == list(range(len(increments))), 'increments are missing')
         require(result.message == response.message, 'the result in the bag is another one')
         return request, increments, result
 

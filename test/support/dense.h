@@ -1,4 +1,4 @@
-// Dense matrices of a few rows, for comparison.
+// Dense matrices of a few increments, for comparison.
 #ifndef CONTACT_PATH_TEST_SUPPORT_DENSE_H_
 #define CONTACT_PATH_TEST_SUPPORT_DENSE_H_
 

@@ -97,8 +97,8 @@ class Comparison {
   }
   void Compare(const std::string& key, const BranchChoice& a, const BranchChoice& b) {
     Field(key + ".event", a.event, b.event);
-    Field(key + ".row", a.row, b.row);
-    Field(key + ".way", a.way, b.way);
+    Field(key + ".increment", a.increment, b.increment);
+    Field(key + ".branch", a.branch, b.branch);
   }
   void Compare(const std::string& key, const Stage& a, const Stage& b) {
     Field(key + ".name", a.name, b.name);

@@ -13,7 +13,7 @@
 namespace contact_path {
 namespace {
 
-// The state agrees with what the contact does on the piece from `before` to `now`.
+// The state agrees with what the contact does on the arc from `before` to `now`.
 void ExpectSoundContact(const ContactRecord& before, const ContactRecord& now, double motion, double friction,
                         double force_tolerance, double length_tolerance, const std::string& where) {
   const bool smooth = friction == 0.0;
@@ -31,7 +31,7 @@ void ExpectSoundContact(const ContactRecord& before, const ContactRecord& now, d
     case ContactState::kStick:
       EXPECT_FALSE(smooth) << where;
       EXPECT_NEAR(now.gap, 0.0, length_tolerance) << where;
-      // Where the piece starts with a gap, the contact is made on it, and sticks from there.
+      // Where the arc starts with a gap, the contact is made on it, and sticks from there.
       if (before.gap <= length_tolerance) {
         EXPECT_NEAR(motion, 0.0, length_tolerance) << where;
       }
@@ -55,11 +55,11 @@ TraceRequest ReadExample(const std::string& name) {
   return ReadTraceRequestFile(std::string(CONTACT_PATH_SCENES) + "/" + name + ".yaml");
 }
 
-TracedPath TraceRows(const TraceRequest& request) {
+TracedPath TraceIncrements(const TraceRequest& request) {
   TracedPath path;
   path.request = request;
   TraceControl control;
-  control.on_increment = [&path](const Increment& row) { path.rows.push_back(row); };
+  control.on_increment = [&path](const Increment& increment) { path.increments.push_back(increment); };
   path.result = Trace(request, control);
   return path;
 }
@@ -70,9 +70,9 @@ TracedPath TraceArc(TraceRequest request, double arc_length) {
   path.request = request;
   bool done = false;
   TraceControl control;
-  control.on_increment = [&](const Increment& row) {
-    path.rows.push_back(row);
-    done = row.arc_length > arc_length;
+  control.on_increment = [&](const Increment& increment) {
+    path.increments.push_back(increment);
+    done = increment.arc_length > arc_length;
   };
   control.cancelled = [&] { return done; };
   path.result = Trace(path.request, control);
@@ -85,81 +85,82 @@ std::size_t NodeNumber(const Scene& scene, const std::string& node) {
   throw std::invalid_argument("no node " + node);
 }
 
-double PositionX(const TracedPath& path, const Increment& row, const std::string& node) {
-  return row.positions.at(2 * NodeNumber(path.request.scene, node));
+double PositionX(const TracedPath& path, const Increment& increment, const std::string& node) {
+  return increment.positions.at(2 * NodeNumber(path.request.scene, node));
 }
 
-double PositionY(const TracedPath& path, const Increment& row, const std::string& node) {
-  return row.positions.at(2 * NodeNumber(path.request.scene, node) + 1);
+double PositionY(const TracedPath& path, const Increment& increment, const std::string& node) {
+  return increment.positions.at(2 * NodeNumber(path.request.scene, node) + 1);
 }
 
-const ContactRecord& Contact(const TracedPath& path, const Increment& row, const std::string& contact) {
+const ContactRecord& Contact(const TracedPath& path, const Increment& increment, const std::string& contact) {
   const std::vector<ContactCandidate>& contacts = path.request.scene.contacts;
   for (std::size_t i = 0; i < contacts.size(); ++i)
-    if (contacts[i].Name() == contact) return row.contacts.at(i);
+    if (contacts[i].Name() == contact) return increment.contacts.at(i);
   throw std::invalid_argument("no contact " + contact);
 }
 
 std::size_t LargestLoad(const TracedPath& path) {
-  const auto largest = std::max_element(path.rows.begin(), path.rows.end(), [](const Increment& a, const Increment& b) {
-    return a.load_factor < b.load_factor;
-  });
-  return static_cast<std::size_t>(largest - path.rows.begin());
+  const auto largest =
+      std::max_element(path.increments.begin(), path.increments.end(),
+                       [](const Increment& a, const Increment& b) { return a.load_factor < b.load_factor; });
+  return static_cast<std::size_t>(largest - path.increments.begin());
 }
 
-std::vector<Increment> RowsOfKind(const TracedPath& path, RowKind kind) {
-  std::vector<Increment> rows;
-  for (const Increment& row : path.rows)
-    if (row.kind == kind) rows.push_back(row);
-  return rows;
+std::vector<Increment> IncrementsOfKind(const TracedPath& path, IncrementKind kind) {
+  std::vector<Increment> increments;
+  for (const Increment& increment : path.increments)
+    if (increment.kind == kind) increments.push_back(increment);
+  return increments;
 }
 
 double EnergyImbalance(const TracedPath& path) {
   const Scaling scaling = CharacteristicScales(path.request.scene);
   double worst = 0.0;
-  for (const Increment& row : path.rows)
-    worst = std::max(worst,
-                     std::abs(row.external_work - (row.strain_energy - path.rows[0].strain_energy) - row.dissipation));
+  for (const Increment& increment : path.increments)
+    worst =
+        std::max(worst, std::abs(increment.external_work -
+                                 (increment.strain_energy - path.increments[0].strain_energy) - increment.dissipation));
   return worst / (scaling.force * scaling.length);
 }
 
-void ExpectSoundRows(const TracedPath& path, double tolerance) {
+void ExpectSoundIncrements(const TracedPath& path, double tolerance) {
   const Scene& scene = path.request.scene;
   const Scaling scaling = CharacteristicScales(scene);
-  ASSERT_FALSE(path.rows.empty());
-  EXPECT_EQ(path.result.increments, static_cast<int>(path.rows.size()));
+  ASSERT_FALSE(path.increments.empty());
+  EXPECT_EQ(path.result.increments, static_cast<int>(path.increments.size()));
   EXPECT_FALSE(path.result.message.empty());
-  EXPECT_EQ(path.rows[0].kind, RowKind::kStart);
-  EXPECT_EQ(path.rows[0].load_factor, 0.0);
-  EXPECT_EQ(path.rows[0].arc_length, 0.0);
-  EXPECT_EQ(path.rows[0].dissipation, 0.0);
-  EXPECT_EQ(path.rows[0].external_work, 0.0);
-  for (std::size_t i = 0; i < path.rows.size(); ++i) {
-    const Increment& row = path.rows[i];
-    const Increment& before = path.rows[i == 0 ? 0 : i - 1];
-    const std::string where = scene.name + ", row " + std::to_string(i);
+  EXPECT_EQ(path.increments[0].kind, IncrementKind::kStart);
+  EXPECT_EQ(path.increments[0].load_factor, 0.0);
+  EXPECT_EQ(path.increments[0].arc_length, 0.0);
+  EXPECT_EQ(path.increments[0].dissipation, 0.0);
+  EXPECT_EQ(path.increments[0].external_work, 0.0);
+  for (std::size_t i = 0; i < path.increments.size(); ++i) {
+    const Increment& increment = path.increments[i];
+    const Increment& before = path.increments[i == 0 ? 0 : i - 1];
+    const std::string where = scene.name + ", increment " + std::to_string(i);
     SCOPED_TRACE(where);
-    ASSERT_EQ(row.positions.size(), 2 * scene.nodes.size());
-    ASSERT_EQ(row.contacts.size(), scene.contacts.size());
-    EXPECT_EQ(row.index, static_cast<int>(i));
-    EXPECT_EQ(row.kind == RowKind::kStart, i == 0);
+    ASSERT_EQ(increment.positions.size(), 2 * scene.nodes.size());
+    ASSERT_EQ(increment.contacts.size(), scene.contacts.size());
+    EXPECT_EQ(increment.index, static_cast<int>(i));
+    EXPECT_EQ(increment.kind == IncrementKind::kStart, i == 0);
 
-    const Residuals residuals = ResidualCheck(scene).Check(StateOf(before), StateOf(row));
+    const Residuals residuals = ResidualCheck(scene).Check(StateOf(before), StateOf(increment));
     EXPECT_LE(residuals.equilibrium, tolerance);
     EXPECT_LE(residuals.Contact(), tolerance);
-    EXPECT_NEAR(residuals.equilibrium, row.residuals.equilibrium, 1e-15 + tolerance);
-    EXPECT_NEAR(residuals.Contact(), row.residuals.Contact(), 1e-15 + tolerance);
-    EXPECT_NEAR(ResidualCheck(scene).StrainEnergy(row.positions), row.strain_energy,
+    EXPECT_NEAR(residuals.equilibrium, increment.residuals.equilibrium, 1e-15 + tolerance);
+    EXPECT_NEAR(residuals.Contact(), increment.residuals.Contact(), 1e-15 + tolerance);
+    EXPECT_NEAR(ResidualCheck(scene).StrainEnergy(increment.positions), increment.strain_energy,
                 1e-13 * scaling.force * scaling.length);
 
     if (i > 0) {
-      EXPECT_GT(row.arc_length, before.arc_length);
-      EXPECT_GE(row.dissipation, before.dissipation);
-      EXPECT_TRUE(row.solve.exact);
+      EXPECT_GT(increment.arc_length, before.arc_length);
+      EXPECT_GE(increment.dissipation, before.dissipation);
+      EXPECT_TRUE(increment.solve.exact);
     }
     for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
-      EXPECT_TRUE(!scene.nodes[n].fixed_x || row.positions[2 * n] == scene.nodes[n].x);
-      EXPECT_TRUE(!scene.nodes[n].fixed_y || row.positions[2 * n + 1] == scene.nodes[n].y);
+      EXPECT_TRUE(!scene.nodes[n].fixed_x || increment.positions[2 * n] == scene.nodes[n].x);
+      EXPECT_TRUE(!scene.nodes[n].fixed_y || increment.positions[2 * n + 1] == scene.nodes[n].y);
     }
     for (std::size_t c = 0; c < scene.contacts.size(); ++c) {
       const auto obstacle =
@@ -167,9 +168,9 @@ void ExpectSoundRows(const TracedPath& path, double tolerance) {
                        [&](const Obstacle& candidate) { return candidate.name == scene.contacts[c].obstacle; });
       const std::size_t n = NodeNumber(scene, scene.contacts[c].node);
       const double norm = std::hypot(obstacle->nx, obstacle->ny);
-      const double dx = row.positions[2 * n] - before.positions[2 * n];
-      const double dy = row.positions[2 * n + 1] - before.positions[2 * n + 1];
-      ExpectSoundContact(before.contacts[c], row.contacts[c], (obstacle->ny * dx - obstacle->nx * dy) / norm,
+      const double dx = increment.positions[2 * n] - before.positions[2 * n];
+      const double dy = increment.positions[2 * n + 1] - before.positions[2 * n + 1];
+      ExpectSoundContact(before.contacts[c], increment.contacts[c], (obstacle->ny * dx - obstacle->nx * dy) / norm,
                          obstacle->friction, tolerance * scaling.force, tolerance * scaling.length,
                          where + ", " + scene.contacts[c].Name());
     }

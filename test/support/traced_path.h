@@ -15,35 +15,35 @@ namespace contact_path {
 struct TracedPath {
   TraceRequest request;
   TraceResult result;
-  std::vector<Increment> rows;
+  std::vector<Increment> increments;
 };
 
 // The request in scenes/<name>.yaml.
 TraceRequest ReadExample(const std::string& name);
 
-// All rows of a request.
-TracedPath TraceRows(const TraceRequest& request);
+// All increments of a request.
+TracedPath TraceIncrements(const TraceRequest& request);
 
-// The rows up to the first one beyond this arc length (scaled), at most 4000.
+// The increments up to the first one beyond this arc length (scaled), at most 4000.
 TracedPath TraceArc(TraceRequest request, double arc_length);
 
 // By name; the node or contact must exist.
 std::size_t NodeNumber(const Scene& scene, const std::string& node);
-double PositionX(const TracedPath& path, const Increment& row, const std::string& node);
-double PositionY(const TracedPath& path, const Increment& row, const std::string& node);
-const ContactRecord& Contact(const TracedPath& path, const Increment& row, const std::string& contact);
+double PositionX(const TracedPath& path, const Increment& increment, const std::string& node);
+double PositionY(const TracedPath& path, const Increment& increment, const std::string& node);
+const ContactRecord& Contact(const TracedPath& path, const Increment& increment, const std::string& contact);
 
-// Index of the row with the largest load factor.
+// Index of the increment with the largest load factor.
 std::size_t LargestLoad(const TracedPath& path);
 
-std::vector<Increment> RowsOfKind(const TracedPath& path, RowKind kind);
+std::vector<Increment> IncrementsOfKind(const TracedPath& path, IncrementKind kind);
 
 // Largest |external work - change of energy - dissipation| over the characteristic energy.
 double EnergyImbalance(const TracedPath& path);
 
-// What every accepted path keeps, whatever the scene and the method: residuals computed anew from the rows alone,
+// What every accepted path keeps, whatever the scene and the method: residuals computed anew from the increments alone,
 // kinds, states, signs, counters. `tolerance` bounds the residuals.
-void ExpectSoundRows(const TracedPath& path, double tolerance);
+void ExpectSoundIncrements(const TracedPath& path, double tolerance);
 
 }  // namespace contact_path
 

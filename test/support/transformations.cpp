@@ -28,13 +28,13 @@ void ForEachPoint(std::vector<double>* components, Map map) {
 
 // Q K Q' for the block-diagonal Q of the map.
 template <typename Map>
-void TransformStiffness(std::vector<double>* stiffness, std::size_t rows, Map map) {
-  for (std::size_t column = 0; column < rows; ++column)
-    for (std::size_t row = 0; row < rows; row += 2)
-      map(&(*stiffness)[row * rows + column], &(*stiffness)[(row + 1) * rows + column]);
-  for (std::size_t row = 0; row < rows; ++row)
-    for (std::size_t column = 0; column < rows; column += 2)
-      map(&(*stiffness)[row * rows + column], &(*stiffness)[row * rows + column + 1]);
+void TransformStiffness(std::vector<double>* stiffness, std::size_t increments, Map map) {
+  for (std::size_t column = 0; column < increments; ++column)
+    for (std::size_t increment = 0; increment < increments; increment += 2)
+      map(&(*stiffness)[increment * increments + column], &(*stiffness)[(increment + 1) * increments + column]);
+  for (std::size_t increment = 0; increment < increments; ++increment)
+    for (std::size_t column = 0; column < increments; column += 2)
+      map(&(*stiffness)[increment * increments + column], &(*stiffness)[increment * increments + column + 1]);
 }
 
 // Calls change(&loads, &support motions, &obstacle motions) for those of the scene and of each stage.
@@ -113,14 +113,15 @@ TraceRequest ChangeUnits(TraceRequest request, double length, double force) {
 }
 
 TracedPath UndoUnits(TracedPath path, double length, double force) {
-  for (Increment& row : path.rows) {
-    for (double& position : row.positions) position /= length;
-    for (ContactRecord& contact : row.contacts) {
+  for (Increment& increment : path.increments) {
+    for (double& position : increment.positions) position /= length;
+    for (ContactRecord& contact : increment.contacts) {
       contact.gap /= length;
       contact.rn /= force;
       contact.rt /= force;
     }
-    for (double* work : {&row.dissipation, &row.strain_energy, &row.external_work}) *work /= length * force;
+    for (double* work : {&increment.dissipation, &increment.strain_energy, &increment.external_work})
+      *work /= length * force;
   }
   return path;
 }
@@ -137,8 +138,8 @@ TraceRequest Rotate(TraceRequest request, double angle) {
 
 TracedPath UndoRotation(TracedPath path, double angle) {
   const double cosine = std::cos(angle), sine = std::sin(-angle);
-  for (Increment& row : path.rows)
-    ForEachPoint(&row.positions, [=](double* x, double* y) { Turn(cosine, sine, x, y); });
+  for (Increment& increment : path.increments)
+    ForEachPoint(&increment.positions, [=](double* x, double* y) { Turn(cosine, sine, x, y); });
   return path;
 }
 
@@ -154,9 +155,9 @@ TraceRequest Mirror(TraceRequest request) {
 }
 
 TracedPath UndoMirror(TracedPath path) {
-  for (Increment& row : path.rows) {
-    ForEachPoint(&row.positions, [](double* x, double*) { *x = -*x; });
-    for (ContactRecord& contact : row.contacts) FlipTangent(&contact);
+  for (Increment& increment : path.increments) {
+    ForEachPoint(&increment.positions, [](double* x, double*) { *x = -*x; });
+    for (ContactRecord& contact : increment.contacts) FlipTangent(&contact);
   }
   return path;
 }
@@ -189,10 +190,10 @@ TraceRequest Reverse(TraceRequest request) {
 }
 
 TracedPath UndoReversal(TracedPath path) {
-  for (Increment& row : path.rows) {
-    std::reverse(row.positions.begin(), row.positions.end());
-    ForEachPoint(&row.positions, [](double* y, double* x) { std::swap(*x, *y); });
-    std::reverse(row.contacts.begin(), row.contacts.end());
+  for (Increment& increment : path.increments) {
+    std::reverse(increment.positions.begin(), increment.positions.end());
+    ForEachPoint(&increment.positions, [](double* y, double* x) { std::swap(*x, *y); });
+    std::reverse(increment.contacts.begin(), increment.contacts.end());
   }
   return path;
 }
@@ -202,10 +203,10 @@ void ExpectSamePath(const TracedPath& actual, const TracedPath& expected, double
   const double length = tolerance * scaling.length, force = tolerance * scaling.force;
   const double energy = tolerance * scaling.length * scaling.force;
   EXPECT_EQ(ToString(actual.result.reason), ToString(expected.result.reason));
-  ASSERT_EQ(actual.rows.size(), expected.rows.size());
-  for (std::size_t i = 0; i < expected.rows.size(); ++i) {
-    const Increment &a = actual.rows[i], &e = expected.rows[i];
-    SCOPED_TRACE("row " + std::to_string(i));
+  ASSERT_EQ(actual.increments.size(), expected.increments.size());
+  for (std::size_t i = 0; i < expected.increments.size(); ++i) {
+    const Increment &a = actual.increments[i], &e = expected.increments[i];
+    SCOPED_TRACE("increment " + std::to_string(i));
     const std::size_t stage = e.stage > 0 ? static_cast<std::size_t>(e.stage) - 1 : 0;
     EXPECT_NEAR(a.load_factor, e.load_factor, tolerance * StageScales(expected.request, stage).load_factor);
     EXPECT_NEAR(a.arc_length, e.arc_length, tolerance);

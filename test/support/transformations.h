@@ -25,8 +25,8 @@ TracedPath UndoMirror(TracedPath path);
 TraceRequest Reverse(TraceRequest request);
 TracedPath UndoReversal(TracedPath path);
 
-// Row by row: the same kinds and states, and numbers that differ by no more than `tolerance`, lengths by the
-// characteristic length, forces by the characteristic force of `expected`.
+// Increment by increment: the same kinds and states, and numbers that differ by no more than `tolerance`, lengths by
+// the characteristic length, forces by the characteristic force of `expected`.
 void ExpectSamePath(const TracedPath& actual, const TracedPath& expected, double tolerance);
 
 }  // namespace contact_path

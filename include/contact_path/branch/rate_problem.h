@@ -13,7 +13,7 @@
 
 namespace contact_path {
 
-// Rates by arc length |(du, ds)|, of one combination of states. By concerned contact, in their order.
+// Rates by arc length |(du, ds)|, of one combination of states. By weakly_active contact, in their order.
 struct CondensedRates {
   double load = 0.0;     // ds
   double along = 0.0;    // cosine to the direction of arrival
@@ -23,31 +23,31 @@ struct CondensedRates {
   Eigen::VectorXd rt;
 };
 
-// du = ds w + W p, w the displacement by the load and W those by unit reactions of the concerned contacts, all other
-// contacts in their states. Springs hold the concerned contacts while w and W are computed, so that a structure that
-// only they support can be condensed, too; their forces are then part of p. One factorisation of the structure serves
-// all combinations of states.
+// du = ds w + W p, w the displacement by the load and W those by unit reactions of the weakly_active contacts, all
+// other contacts in their states. Springs hold the weakly_active contacts while w and W are computed, so that a
+// structure that only they support can be condensed, too; their forces are then part of p. One factorisation of the
+// structure serves all combinations of states.
 class RateProblem {
  public:
-  // states: by candidate; those of the concerned contacts (indices of candidates) do not matter. arrival: (du, ds).
+  // states: by candidate; those of the weakly_active contacts (indices of candidates) do not matter. arrival: (du, ds).
   // structure and contacts must outlive the problem.
   RateProblem(const Structure& structure, const std::vector<ContactGeometry>& contacts, const PathPoint& point,
-              const std::vector<ContactState>& states, const std::vector<int>& concerned,
+              const std::vector<ContactState>& states, const std::vector<int>& weakly_active,
               const Eigen::VectorXd& arrival);
 
   // False: the structure is singular even with the springs, and nothing below can be asked.
   bool regular() const { return regular_; }
 
   // The rates for these states of all candidates, up to their sign: where they are not unique, without rigid modes and
-  // nearest to the arrival, as a way on is chosen. Nothing where that cannot be told from the condensed problem.
+  // nearest to the arrival, as a branch is chosen. Nothing where that cannot be told from the condensed problem.
   std::optional<CondensedRates> Rates(const std::vector<ContactState>& states) const;
   // The same; nothing where they are not unique.
   std::optional<CondensedRates> UniqueRates(const std::vector<ContactState>& states) const;
 
   // The first inequality at its limit that these rates, times sign, break by more than `tolerance` of the largest rate
-  // of its kind; all of them in `all` if that is not null. at_limit: value below which an inequality is at its limit.
-  std::optional<Limit> Broken(const std::vector<ContactState>& states, const CondensedRates& rates, double sign,
-                              double at_limit, double tolerance, std::vector<Limit>* all) const;
+  // of its kind; all of them in `all` if that is not null. active: value below which an inequality is at its limit.
+  std::optional<Constraint> Broken(const std::vector<ContactState>& states, const CondensedRates& rates, double sign,
+                                   double active, double tolerance, std::vector<Constraint>* all) const;
 
  private:
   Eigen::MatrixXd Equations(const std::vector<ContactState>& states) const;
@@ -59,10 +59,10 @@ class RateProblem {
 
   const std::vector<ContactGeometry>& contacts_;
   const PathPoint& point_;
-  std::vector<int> concerned_;
+  std::vector<int> weakly_active_;
   bool regular_ = false;
-  // Rows: concerned contacts; columns: ds, then the normal and tangential force of each concerned contact, springs
-  // included.
+  // Rows: weakly_active contacts; columns: ds, then the normal and tangential force of each weakly_active contact,
+  // springs included.
   Eigen::MatrixXd gap_;
   Eigen::MatrixXd slip_;
   Eigen::MatrixXd gram_;   // z . gram z = |(du, ds)|^2

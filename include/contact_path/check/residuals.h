@@ -1,5 +1,5 @@
-// Residuals of a row of a path, computed from the scene alone. Nothing here comes from the code that solved for the
-// row.
+// Residuals of an increment of a path, computed from the scene alone. Nothing here comes from the code that solved for
+// the increment.
 #ifndef CONTACT_PATH_CHECK_RESIDUALS_H_
 #define CONTACT_PATH_CHECK_RESIDUALS_H_
 
@@ -13,11 +13,11 @@ namespace contact_path {
 
 // All without unit: forces over the characteristic force F, lengths over the characteristic length L (scene/scaling.h).
 struct Residuals {
-  double equilibrium = 0.0;      // max |phi - T r| over the free components / F (eq. 1)
-  double penetration = 0.0;      // max (-gap) / L, 0 if none
-  double adhesion = 0.0;         // max (-r_n) / F, 0 if none
-  double complementarity = 0.0;  // max |min(gap / L, r_n / F)| (eq. 2)
-  double cone = 0.0;             // max (|r_t| - mu r_n) / F, 0 if inside
+  double equilibrium = 0.0;       // max |phi - T r| over the free components / F (eq. 1)
+  double penetration = 0.0;       // max (-gap) / L, 0 if none
+  double tensile_reaction = 0.0;  // max (-r_n) / F, 0 if none
+  double complementarity = 0.0;   // max |min(gap / L, r_n / F)| (eq. 2)
+  double cone = 0.0;              // max (|r_t| - mu r_n) / F, 0 if inside
   // Friction law (eq. 3) with rt = r_t / F, rn = r_n / F, d = du_t / L: max |rt - clamp(rt - d, -mu rn, mu rn)|:
   // no slip inside the cone, slip opposed to r_t on its boundary.
   double friction_law = 0.0;
@@ -48,7 +48,7 @@ class ResidualCheck {
   ResidualCheck(const ResidualCheck&) = delete;
   ResidualCheck& operator=(const ResidualCheck&) = delete;
 
-  // Residuals of `now`, reached from `before` in one increment (for the first row: `before` = `now`).
+  // Residuals of `now`, reached from `before` in one increment (for the first increment: `before` = `now`).
   // Throws std::invalid_argument where the sizes are not those of the scene.
   Residuals Check(const CheckedState& before, const CheckedState& now) const;
   // The force that moving supports and obstacles exert along their motion per unit of the load factor [force length]:

@@ -1,4 +1,4 @@
-// State of a contact candidate on a piece of path.
+// State of a contact candidate on a arc of path.
 #ifndef CONTACT_PATH_CONTACT_CONTACT_STATE_H_
 #define CONTACT_PATH_CONTACT_CONTACT_STATE_H_
 
@@ -19,9 +19,7 @@ enum class ContactState {
 std::string_view ToString(ContactState state);
 
 // slip+ or slip-.
-inline bool Slips(ContactState state) {
-  return state == ContactState::kSlipPlus || state == ContactState::kSlipMinus;
-}
+inline bool Slips(ContactState state) { return state == ContactState::kSlipPlus || state == ContactState::kSlipMinus; }
 
 // r_t = ratio * r_n of a slipping contact; 0 in the other states.
 double SlipRatio(ContactState state, double friction);

@@ -22,7 +22,7 @@ enum class Inequality {
   kSlip,            // slip+-: +-(u_t - u_t,ref), the motion since the reference
 };
 
-struct Limit {
+struct Constraint {
   int contact = 0;
   Inequality inequality = Inequality::kGap;
 };
@@ -33,8 +33,8 @@ struct Limit {
 //   u = start + rate s                        each prescribed component
 //   u_n = 0                                   each touching contact         (eq. 2)
 //   u_t = u_t,ref                             each sticking contact         (eq. 3)
-// and one equation "inequality = 0" for each limit that is pinned, and s = value where the load factor is pinned. With
-// nothing pinned there is one unknown more than equations: the solutions are a curve where the rank is full.
+// and one equation "inequality = 0" for each limit that is active, and s = value where the load factor is active. With
+// nothing active there is one unknown more than equations: the solutions are a curve where the rank is full.
 // Slip has r_t = -+mu r_n eliminated.
 class FixedStateSystem {
  public:
@@ -43,9 +43,9 @@ class FixedStateSystem {
 
   // states, tangential_reference (u_t,ref): by candidate.
   void SetStates(const std::vector<ContactState>& states, const Eigen::VectorXd& tangential_reference);
-  void Pin(const std::vector<Limit>& limits);
-  void PinLoadFactor(double value);
-  void UnpinLoadFactor();
+  void SetActive(const std::vector<Constraint>& limits);
+  void FixLoadFactor(double value);
+  void FreeLoadFactor();
 
   Eigen::Index NumUnknowns() const { return num_unknowns_; }
   Eigen::Index NumEquations() const { return num_equations_; }
@@ -62,16 +62,16 @@ class FixedStateSystem {
   const Eigen::SparseMatrix<double>& TransposedJacobian(const Eigen::VectorXd& x);
 
   // All inequalities of the fixed states, in contact order, and their values at x (>= 0: holds).
-  std::vector<Limit> Inequalities() const;
+  std::vector<Constraint> Inequalities() const;
   // The same without the gaps at x that an increment of length `reach` cannot close.
-  std::vector<Limit> InequalitiesInReach(const Eigen::VectorXd& x, double reach) const;
-  double Value(const Limit& limit, const Eigen::VectorXd& x) const;
+  std::vector<Constraint> InequalitiesInReach(const Eigen::VectorXd& x, double reach) const;
+  double Value(const Constraint& limit, const Eigen::VectorXd& x) const;
   // The force that moving supports and obstacles exert along their motion: their work is its integral over s. Linear in
   // x; with a change of the unknowns, its change.
   double DrivingForce(const Eigen::VectorXd& x) const;
   // Change of the value per change dx of the unknowns, and its gradient, NumUnknowns().
-  double Rate(const Limit& limit, const Eigen::VectorXd& dx) const;
-  Eigen::VectorXd Gradient(const Limit& limit) const;
+  double Rate(const Constraint& limit, const Eigen::VectorXd& dx) const;
+  Eigen::VectorXd Gradient(const Constraint& limit) const;
   // Second derivative of the residual along dx, d2/dh2 residual(x + h dx) at h = 0: NumEquations().
   Eigen::VectorXd SecondDerivative(const Eigen::VectorXd& x, const Eigen::VectorXd& dx);
 
@@ -96,16 +96,16 @@ class FixedStateSystem {
   void AddFunction(const SparseLinear& function, double sign, LinearEquation* equation) const;
   LinearEquation Gap(std::size_t contact) const;
   LinearEquation TangentialMotion(std::size_t contact, double sign) const;
-  LinearEquation InequalityAsEquation(const Limit& limit) const;
-  void AddInequalities(std::size_t contact, std::vector<Limit>* limits) const;
+  LinearEquation InequalityAsEquation(const Constraint& limit) const;
+  void AddInequalities(std::size_t contact, std::vector<Constraint>* limits) const;
   void Rebuild();
 
   const Structure& structure_;
   const std::vector<ContactGeometry>& contacts_;
   std::vector<ContactState> states_;
   Eigen::VectorXd tangential_reference_;
-  std::vector<Limit> pinned_;
-  bool load_factor_pinned_ = false;
+  std::vector<Constraint> active_;
+  bool load_factor_fixed_ = false;
   double load_factor_ = 0.0;
 
   std::vector<std::size_t> touching_;

@@ -15,7 +15,7 @@ struct PathPoint {
   double s = 0.0;                    // load factor
   Eigen::VectorXd rn;                // normal reactions, by candidate
   Eigen::VectorXd rt;                // tangential reactions, by candidate
-  std::vector<ContactState> states;  // on the piece of path that ends here, by candidate
+  std::vector<ContactState> states;  // on the arc of path that ends here, by candidate
 };
 
 // Length of the increment between two points in (u, s): the norm of arc length.

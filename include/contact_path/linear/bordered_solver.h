@@ -1,4 +1,4 @@
-// Linear systems of a smooth piece: the Jacobian of the fixed-state equations with one row added.
+// Linear systems of a smooth arc: the Jacobian of the fixed-state equations with one row added.
 #ifndef CONTACT_PATH_LINEAR_BORDERED_SOLVER_H_
 #define CONTACT_PATH_LINEAR_BORDERED_SOLVER_H_
 
@@ -35,7 +35,7 @@ class BorderedSolver {
   void SolveAll(const Eigen::MatrixXd& B, Eigen::MatrixXd* x) const;
 
   // unknowns - rank of M: 0 if regular.
-  Eigen::Index Deficiency() const;
+  Eigen::Index Nullity() const;
   // Sign of the determinant of M; 0 if M is singular or not square.
   int DeterminantSign() const;
   // The same also where M is singular to kSingular: of use between points with different signs only.

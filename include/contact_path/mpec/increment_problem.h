@@ -15,17 +15,17 @@ namespace contact_path {
 
 // What an increment is asked to do. In scaled quantities.
 struct IncrementGoal {
-  double length = 0.0;        // wanted length S of (du, ds), > 0
-  Eigen::VectorXd direction;  // of the last increment: unit vector (du, ds), NumDofs() + 1
-  double dissipation = 0.0;   // share w of the dissipation term, 0..1
-  double growth = 1.0;        // factor >= 1 on gamma_2 from the lengths of earlier increments
+  double length = 0.0;         // wanted length S of (du, ds), > 0
+  Eigen::VectorXd direction;   // of the last increment: unit vector (du, ds), NumDofs() + 1
+  double dissipation = 0.0;    // share w of the dissipation term, 0..1
+  double gamma2_factor = 1.0;  // factor >= 1 on gamma_2 from the lengths of earlier increments
 };
 
 // Variables, with dz = (du, ds) = S y and reactions over S:
 //   y (NumDofs() + 1), r_n / S by contact, then r_t / S and lambda / S by frictional contact, then the reactions of the
 //   prescribed components over S.
-// Objective, eq. (4) over gamma_2 S^2 at growth 1:
-//   w rhat . y_t - (1 - w) direction . y + growth |y|^2 / 2,   rhat = r_t^k / |T_t r_t^k|,
+// Objective, eq. (4) over gamma_2 S^2 at gamma2_factor 1:
+//   w rhat . y_t - (1 - w) direction . y + gamma2_factor |y|^2 / 2,   rhat = r_t^k / |T_t r_t^k|,
 // so gamma_1 and gamma_2 are those for which the unconstrained minimum is no longer than S for any w: no term, alone or
 // with the others, asks for more than the wanted length.
 // Constraints, all over S (products over S^2): equilibrium = 0; gaps >= 0; gap r_n <= eps; lambda -+ du_t >= 0;
@@ -48,7 +48,7 @@ class IncrementProblem : public NonlinearProgram {
   // Objective of a point, without its reactions.
   double ObjectiveAt(const PathPoint& point) const;
   // The unconstrained minimum of the objective, (u, s): what an increment would be if nothing were in its way.
-  Eigen::VectorXd Aim() const;
+  Eigen::VectorXd UnconstrainedMinimiser() const;
 
   Eigen::Index NumVariables() const override { return num_variables_; }
   Eigen::Index NumConstraints() const override { return num_constraints_; }

@@ -22,14 +22,14 @@ struct RegularisationSchedule {
   // Sets out from the variables and multipliers of the last increment solved for with as many of them, at `minimum` at
   // once: where the next increment is much like it, a few iterations do. Where that fails, or `minimum` is above 1e-8,
   // the schedule from `initial`.
-  bool from_last = false;
+  bool warm_start = false;
 };
 
 struct IncrementTrial {
   SolveStatus status = SolveStatus::kFailed;
   PathPoint point;
   double regularisation = 0.0;  // smallest eps that was solved for, on products of scaled quantities
-  bool from_last = false;       // set out from the last increment
+  bool warm_start = false;      // set out from the last increment
   bool exact = false;           // point solves the unregularised equations of its states and keeps their inequalities
   int iterations = 0;           // of the nonlinear solver
   int variables = 0;            // of the last problem solved
@@ -59,10 +59,10 @@ class IncrementSolver {
   IncrementTrial Keep(const std::vector<int>& working_set, PrimalDual point, IncrementTrial trial);
   // Replaces trial->point by the minimum of the same objective on the exact equations of its states, if that holds;
   // otherwise by the exact point that is nearest to it.
-  void MakeExact(const PathPoint& from, const IncrementProblem& problem, const IncrementGoal& goal,
-                 IncrementTrial* trial);
+  void PolishActiveSet(const PathPoint& from, const IncrementProblem& problem, const IncrementGoal& goal,
+                       IncrementTrial* trial);
   // By the solution of those equations nearest to `wanted`, unless that is another point. length: of the increment.
-  bool MakeExact(const PathPoint& from, const Eigen::VectorXd& wanted, double length, IncrementTrial* trial);
+  bool PolishActiveSet(const PathPoint& from, const Eigen::VectorXd& wanted, double length, IncrementTrial* trial);
 
   const Structure& structure_;
   const std::vector<ContactGeometry>& contacts_;

@@ -1,4 +1,4 @@
-// The exact path: smooth pieces between located events, the way on chosen by the dissipation rate.
+// The exact path: smooth arcs between located events, the branch chosen by the dissipation rate.
 #ifndef CONTACT_PATH_PATH_BRANCH_METHOD_H_
 #define CONTACT_PATH_PATH_BRANCH_METHOD_H_
 
@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "contact_path/branch/event_watch.h"
-#include "contact_path/branch/smooth_piece.h"
-#include "contact_path/branch/ways.h"
+#include "contact_path/branch/branches.h"
+#include "contact_path/branch/smooth_arc.h"
+#include "contact_path/branch/test_functions.h"
 #include "contact_path/mpec/increment_solver.h"
 #include "contact_path/mpec/ipopt_solver.h"
 #include "contact_path/path/model.h"
@@ -25,14 +25,14 @@ struct BranchOptions {
   double smallest_cosine = 0.98;  // between the tangents at both ends of an increment
   double direction = 1.0;         // sign of the first change of the load factor
   std::vector<BranchChoice> choices;
-  std::optional<double> target;  // load factor at which the path is to end, in a row of its own
-  int rows = 0;                  // given before this path, of which it goes on
+  std::optional<double> target;  // load factor at which the path is to end, in an increment of its own
+  int increments = 0;            // given before this path, of which it goes on
   int events = 0;                // passed before this path
 
   static BranchOptions For(const TraceOptions& options, Eigen::Index num_dofs);
 };
 
-// As messages name it: "event 3" or "row 40".
+// As messages name it: "event 3" or "increment 40".
 std::string PlaceOf(const BranchChoice& choice);
 
 class BranchMethod : public PathMethod {
@@ -40,7 +40,7 @@ class BranchMethod : public PathMethod {
   // model must outlive the method. cancelled may be empty.
   BranchMethod(const Model& model, const BranchOptions& options, std::function<bool()> cancelled);
 
-  std::optional<EndReason> Start(const PathPoint& from, EventRecord* ways, std::string* message) override;
+  std::optional<EndReason> Start(const PathPoint& from, EventRecord* branches, std::string* message) override;
   bool Resume(const PathPoint& before, const PathPoint& from, const SolveRecord& record) override;
   // `from` must be the point that was given last.
   Advance Next(const PathPoint& from) override;
@@ -48,20 +48,20 @@ class BranchMethod : public PathMethod {
 
  private:
   // A step from current_; nothing where it has to be shorter.
-  std::optional<Segment> Step(double length);
+  std::optional<Step> TryStep(double length);
   Arrival StartArrival() const;
-  // Sets out on a way from `point`.
-  bool Leave(const PathPoint& point, const Way& way);
-  // Finds the ways on from `point` and sets out on one. Nothing: done. Otherwise why not, with *message.
+  // Sets out on a branch from `point`.
+  bool Leave(const PathPoint& point, const Branch& branch);
+  // Finds the branches from `point` and sets out on one. Nothing: done. Otherwise why not, with *message.
   std::optional<EndReason> PassEvent(const PathPoint& point, const Arrival& arrival, const BranchChoice* choice,
                                      EventRecord* record, std::string* message);
-  // A row in which nothing moves: the reactions with which the way on begins.
+  // An increment in which nothing moves: the reactions with which the branch begins.
   Advance ChangeReactions(const PathPoint& from);
   void NoteReactions(const PathPoint& point);
   const BranchChoice* ChoiceForEvent(int event) const;
-  const BranchChoice* ChoiceForRow(int row) const;
-  Work WorkOf(const Segment& segment) const;
-  std::vector<double> CrossingPath(const Segment& segment);
+  const BranchChoice* ChoiceForIncrement(int increment) const;
+  Work WorkOf(const Step& step) const;
+  std::vector<double> CrossingPath(const Step& step);
   int StiffnessSign(const CurvePoint& point) const;
 
   const Model& model_;
@@ -69,11 +69,11 @@ class BranchMethod : public PathMethod {
   std::function<bool()> cancelled_;
   IpoptSolver ipopt_;
   IncrementSolver mpec_;  // for events with very many contacts
-  SmoothPiece piece_;
+  SmoothArc arc_;
   CurvePoint current_;
-  std::optional<PathPoint> begin_;  // of the way on, where its reactions are not those of the event
-  double step_;
-  int rows_;                       // given so far, row 0 not counted
+  std::optional<PathPoint> begin_;  // of the branch, where its reactions are not those of the event
+  double step_length_;
+  int increments_;                 // given so far, increment 0 not counted
   int events_;                     // passed so far, starts not counted
   int events_in_place_ = 0;        // passed without moving
   bool at_start_ = true;           // not moved yet

@@ -1,4 +1,4 @@
-// One accepted row of a path, as data, in the units of the scene.
+// One accepted increment of a path, as data, in the units of the scene.
 #ifndef CONTACT_PATH_PATH_INCREMENT_H_
 #define CONTACT_PATH_PATH_INCREMENT_H_
 
@@ -11,10 +11,10 @@
 
 namespace contact_path {
 
-enum class RowKind {
-  kStart,         // row 0, or the first of a stage: the same state as in the row before, at load factor 0
+enum class IncrementKind {
+  kStart,         // increment 0, or the first of a stage: the same state as in the increment before, at load factor 0
   kRegular,       // none of the others
-  kSmoothLimit,   // the load factor turns on a smooth piece
+  kSmoothLimit,   // the load factor turns on a smooth arc
   kCornerLimit,   // the load factor turns where a contact changes its state
   kContactEvent,  // a contact changes its state, and the load factor does not turn
   kBifurcation,   // another equilibrium path crosses, and neither of the above
@@ -25,10 +25,10 @@ struct ContactRecord {
   double gap = 0.0;                          // n . (x - p) [length]
   double rn = 0.0;                           // normal reaction on the node [force], >= 0
   double rt = 0.0;                           // tangential reaction along t = (n_y, -n_x) [force]
-  ContactState state = ContactState::kOpen;  // on the piece of path that ends in this row
+  ContactState state = ContactState::kOpen;  // on the arc of the path that ends in this increment
 };
 
-// What it took to compute the row. Counts are of the last problem solved for it; iterations and time are sums.
+// What it took to compute the increment. Counts are of the last problem solved for it; iterations and time are sums.
 struct SolveRecord {
   Method method = Method::kMpec;
   double regularisation = 0.0;  // mpec: eps reached, of products of scaled quantities; 0 = not used
@@ -38,32 +38,32 @@ struct SolveRecord {
   int constraints = 0;          // of the problem solved
   int rejected = 0;             // increments tried and not accepted before this one
   int factorisations = 0;       // branch: of the Jacobian
-  int deficiency = 0;        // branch: null directions of the equations besides the tangent (rigid modes, redundancy)
+  int nullity = 0;           // branch: null directions of the equations besides the tangent (rigid modes, redundancy)
   int determinant_sign = 0;  // branch: sign of det of the Jacobian bordered by the tangent; 0 = singular; changes where
                              // another path crosses
   int stiffness_sign = 0;  // branch: sign of det of the tangent at fixed load, contacts in their states; +1 on a stable
                            // path; changes at limit points and where another path crosses; 0 = singular
-  double contraction = 0.0;  // branch: second Newton step over the first
-  double next_step = 0.0;    // length with which the next increment is tried, scaled norm; 0 = there is none
-  double growth = 1.0;       // mpec: factor on gamma_2 in the next increment (Algorithm 3.2, step 4)
-  double time = 0.0;         // wall time [s]
+  double contraction = 0.0;    // branch: second Newton step over the first
+  double next_step = 0.0;      // length with which the next increment is tried, scaled norm; 0 = there is none
+  double gamma2_factor = 1.0;  // mpec: factor on gamma_2 in the next increment (Algorithm 3.2, step 4)
+  double time = 0.0;           // wall time [s]
 };
 
-// One way on from an event: states and rates, by arc length in the scaled norm.
-struct WayRecord {
+// One branch from an event: states and rates, by arc length in the scaled norm.
+struct BranchRecord {
   std::vector<ContactState> states;  // by candidate, in scene order
   double load_rate = 0.0;            // of the scaled load factor, -1..1
   double dissipation_rate = 0.0;     // scaled, >= 0
   double turn = 0.0;                 // angle to the direction of arrival [rad]
 };
 
-// What the branch method found at a row where ways part; empty elsewhere.
+// What the branch method found at an increment where branches part; empty elsewhere.
 struct EventRecord {
-  int number = 0;               // of the event, from 1; 0 = not one that the method came upon
-  std::vector<WayRecord> ways;  // all admissible ways on but the way back, best first
-  int taken = -1;               // index into ways; -1 = none
-  int concerned = 0;            // contacts that could change their state
-  bool complete = true;         // false: too many combinations of states to try them all
+  int number = 0;                      // of the event, from 1; 0 = not one that the method came upon
+  std::vector<BranchRecord> branches;  // all admissible branches but the branch of arrival, best first
+  int taken = -1;                      // index into branches; -1 = none
+  int weakly_active = 0;               // contacts that could change their state
+  bool complete = true;                // false: too many combinations of states to try them all
   std::vector<double>
       null_vector;  // bifurcation: direction of the crossing path, x0, y0, x1, ..., unit norm; else empty
 };
@@ -72,23 +72,23 @@ struct Increment {
   int index = 0;
   int stage = 0;             // of the program, from 1; 0 = there is none
   double load_factor = 0.0;  // of the stage
-  double arc_length = 0.0;   // since row 0, in the scaled norm
-  RowKind kind = RowKind::kRegular;
+  double arc_length = 0.0;   // since increment 0, in the scaled norm
+  IncrementKind kind = IncrementKind::kRegular;
   std::vector<double> positions;        // current x0, y0, x1, y1, ...: 2 x nodes, in scene order [length]
   std::vector<ContactRecord> contacts;  // in scene order
-  double dissipation = 0.0;             // frictional work since row 0 [force length]
+  double dissipation = 0.0;             // frictional work since increment 0 [force length]
   double strain_energy = 0.0;           // now [force length]
-  double external_work = 0.0;           // of all loads since row 0 [force length]
+  double external_work = 0.0;           // of all loads since increment 0 [force length]
   Residuals residuals;                  // by check/, from the scene alone
   SolveRecord solve;
   EventRecord event;
 };
 
-// What check/ looks at of a row that has its state.
-CheckedState StateOf(const Increment& row);
+// What check/ looks at of an increment that has its state.
+CheckedState StateOf(const Increment& increment);
 
 // "start", "regular", "smooth_limit", "corner_limit", "contact_event", "bifurcation".
-std::string_view ToString(RowKind kind);
+std::string_view ToString(IncrementKind kind);
 
 }  // namespace contact_path
 

@@ -26,11 +26,11 @@ struct Model {
   PathPoint InitialPoint() const;
   // A point of another model with the same nodes, contacts and scales of length and force, as this one sees it at load
   // factor 0: where supports and obstacles are must agree.
-  PathPoint Take(const Model& other, const PathPoint& point) const;
+  PathPoint Transfer(const Model& other, const PathPoint& point) const;
   // The point in the units of the scene, as the check and the records want it. Fixed components are those of the scene.
   CheckedState InSceneUnits(const PathPoint& point) const;
-  // The point of a row that has its state: the other way round, with one rounding.
-  PathPoint FromRow(const Increment& row) const;
+  // The point of an increment that has its state: the other way round, with one rounding.
+  PathPoint FromIncrement(const Increment& increment) const;
   // By check/, of `now` reached from `before`.
   Residuals Check(const PathPoint& before, const PathPoint& now) const;
 

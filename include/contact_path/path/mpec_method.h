@@ -23,7 +23,7 @@ struct MpecOptions {
   double corner_tolerance = 5e-4;
   RegularisationSchedule regularisation;
   double direction = 1.0;        // sign of the first change of the load factor
-  std::optional<double> target;  // load factor at which the path is to end, in a row of its own
+  std::optional<double> target;  // load factor at which the path is to end, in an increment of its own
 
   static MpecOptions For(const TraceOptions& options, Eigen::Index num_dofs);
 };
@@ -84,14 +84,14 @@ class MpecMethod : public PathMethod {
   std::function<bool()> cancelled_;
   IpoptSolver ipopt_;
   IncrementSolver solver_;
-  double step_;
-  double growth_ = 1.0;
+  double step_length_;
+  double gamma2_factor_ = 1.0;
   double length_ = 0.0;  // of the path so far
   bool started_ = false;
   bool bent_ = false;  // a contact changed its state in the last increment: its direction is a chord over the bend
   Eigen::VectorXd direction_;  // of the last accepted increment
   double last_length_ = 0.0;   // of it
-  int iterations_ = 0;         // since the last accepted row
+  int iterations_ = 0;         // since the last accepted increment
 };
 
 }  // namespace contact_path

@@ -1,4 +1,4 @@
-// What the tracer asks of a method: the next accepted rows of the path.
+// What the tracer asks of a method: the next accepted increments of the path.
 #ifndef CONTACT_PATH_PATH_PATH_METHOD_H_
 #define CONTACT_PATH_PATH_PATH_METHOD_H_
 
@@ -17,7 +17,7 @@ namespace contact_path {
 // A point that passed the check.
 struct AcceptedPoint {
   PathPoint point;
-  RowKind kind = RowKind::kRegular;
+  IncrementKind kind = IncrementKind::kRegular;
   double arc_length = 0.0;  // of the increment, scaled norm
   Work work;                // of the increment
   Residuals residuals;
@@ -31,7 +31,7 @@ inline bool IsAtTarget(double load_factor, double target) {
 }
 
 struct Advance {
-  std::vector<AcceptedPoint> rows;  // in order; may hold rows also where the path ended
+  std::vector<AcceptedPoint> increments;  // in order; may hold increments also where the path ended
   bool ended = true;
   EndReason reason = EndReason::kNumericalFailure;  // if ended
   std::string message;                              // if ended: one line for a person
@@ -41,16 +41,16 @@ class PathMethod {
  public:
   virtual ~PathMethod() = default;
 
-  // Sets out from the initial point, once, before the first Next(). `ways`: those found there. Nothing: done. Otherwise
-  // the path ends where it begins, for this reason; *message: one line for a person.
-  virtual std::optional<EndReason> Start(const PathPoint& from, EventRecord* ways, std::string* message) = 0;
+  // Sets out from the initial point, once, before the first Next(). `branches`: those found there. Nothing: done.
+  // Otherwise the path ends where it begins, for this reason; *message: one line for a person.
+  virtual std::optional<EndReason> Start(const PathPoint& from, EventRecord* branches, std::string* message) = 0;
 
-  // Goes on in place of Start() from a row of an earlier path, one that is no event: its point `from`, what was
-  // recorded of it, and the point `before` of an earlier row. False: that is not possible here.
+  // Goes on in place of Start() from an increment of an earlier path, one that is no event: its point `from`, what was
+  // recorded of it, and the point `before` of an earlier increment. False: that is not possible here.
   virtual bool Resume(const PathPoint& before, const PathPoint& from, const SolveRecord& record) = 0;
 
-  // The next rows after `from`, which is the last accepted point: the initial point, or the last row that this method
-  // gave.
+  // The next increments after `from`, which is the last accepted point: the initial point, or the last increment that
+  // this method gave.
   virtual Advance Next(const PathPoint& from) = 0;
   // Events passed so far, those before this path included; 0 for a method that does not number them.
   virtual int NumEvents() const { return 0; }

@@ -17,9 +17,10 @@ class ProgressEstimate {
   // Whether the request names an end: a stop criterion, a number of increments, or a program.
   bool HasEnd() const { return max_increments_ > 0 || !goals_.empty() || !targets_.empty(); }
 
-  // Takes every row, from row 0 on. Part of the way done, 0 to 1: the largest over the stop criteria, from their value
-  // at row 0, the wanted number of increments, and the stages; 0 without an end. May fall: paths turn.
-  double Add(const Increment& row);
+  // Takes every increment, from increment 0 on. Part of the way done, 0 to 1: the largest over the stop criteria, from
+  // their value at increment 0, the wanted number of increments, and the stages; 0 without an end. May fall: paths
+  // turn.
+  double Add(const Increment& increment);
 
  private:
   // A stop criterion as the way from where the path started to where it would end.

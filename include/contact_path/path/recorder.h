@@ -1,4 +1,4 @@
-// Turns accepted points into rows and hands them out.
+// Turns accepted points into increments and hands them out.
 #ifndef CONTACT_PATH_PATH_RECORDER_H_
 #define CONTACT_PATH_PATH_RECORDER_H_
 
@@ -15,34 +15,35 @@ namespace contact_path {
 
 class Recorder {
  public:
-  // on_increment takes each row; may be empty.
+  // on_increment takes each increment; may be empty.
   explicit Recorder(std::function<void(const Increment&)> on_increment) : on_increment_(std::move(on_increment)) {}
 
-  // The last row.
-  const Increment& row() const { return row_; }
+  // The last increment.
+  const Increment& increment() const { return increment_; }
   // Given so far.
-  int rows() const { return rows_; }
+  int increments() const { return increments_; }
 
-  // The first row of a stage. stage: from 1; 0 = there is no program. ways: those found there.
-  void Start(const Model& model, int stage, const PathPoint& point, const Residuals& residuals, const EventRecord& ways,
-             double time);
-  // A row of an earlier trace, as it is.
-  void Repeat(const Increment& row);
-  // accepted: from the last row on. time: what it took [s].
+  // The first increment of a stage. stage: from 1; 0 = there is no program. branches: those found there.
+  void Start(const Model& model, int stage, const PathPoint& point, const Residuals& residuals,
+             const EventRecord& branches, double time);
+  // An increment of an earlier trace, as it is.
+  void Repeat(const Increment& increment);
+  // accepted: from the last increment on. time: what it took [s].
   void Append(const Model& model, const AcceptedPoint& accepted, double time);
 
-  // For the end of the message, "; at row ..": where the load was turned back although it could go on. Empty: nowhere.
+  // For the end of the message, "; at increment ..": where the load was turned back although it could go on. Empty:
+  // nowhere.
   std::string Remark() const;
 
  private:
   void Fill(const Model& model, const PathPoint& point, const AcceptedPoint& accepted, double time);
-  // load_before: of the row before.
+  // load_before: of the increment before.
   void Give(double load_before);
 
   std::function<void(const Increment&)> on_increment_;
-  Increment row_;
-  int rows_ = 0;
-  int turned_back_ = 0;        // rows from which the load goes back and need not
+  Increment increment_;
+  int increments_ = 0;
+  int turned_back_ = 0;        // increments from which the load goes back and need not
   int first_turned_back_ = 0;  // the first of them
 };
 

@@ -1,4 +1,4 @@
-// Stop criteria of a request, ready to be asked after every row.
+// Stop criteria of a request, ready to be asked after every increment.
 #ifndef CONTACT_PATH_PATH_STOP_H_
 #define CONTACT_PATH_PATH_STOP_H_
 
@@ -20,7 +20,7 @@ class StopQuantity {
   bool IsLoadFactor() const { return component_ == kLoadFactor; }
   // Into Increment::positions; not of the load factor.
   std::size_t Component() const { return static_cast<std::size_t>(component_); }
-  double Value(const Increment& row) const;
+  double Value(const Increment& increment) const;
 
  private:
   static constexpr int kLoadFactor = -1;
@@ -32,9 +32,9 @@ class StopTest {
   // `request` must be sound and outlive the test.
   explicit StopTest(const TraceRequest& request);
 
-  // The first criterion that holds in `row`, by more than rounding, or null. Row 0 is not asked: a criterion can end a
-  // path, not forbid its start.
-  const StopCriterion* FirstThatHolds(const Increment& row) const;
+  // The first criterion that holds in `increment`, by more than rounding, or null. Increment 0 is not asked: a
+  // criterion can end a path, not forbid its start.
+  const StopCriterion* FirstThatHolds(const Increment& increment) const;
 
  private:
   struct Item {

@@ -15,9 +15,9 @@ namespace contact_path {
 // Why a trace ended.
 enum class EndReason {
   kNumericalFailure,  // no trustworthy increment could be computed
-  kStopCriterion,     // a stop criterion of the request holds in the last row, or the last stage is at its target
+  kStopCriterion,     // a stop criterion of the request holds in the last increment, or the last stage is at its target
   kMaxIncrements,     // the wanted number of increments was accepted
-  kPathEnd,           // no admissible way on: only a dynamic jump leads further
+  kPathEnd,           // no admissible branch: only a dynamic jump leads further
   kStepTooSmall,      // increments had to be shortened below the smallest allowed
   kCancelled,         // the caller asked for it
 };
@@ -28,29 +28,31 @@ std::string_view ToString(EndReason reason);
 struct TraceResult {
   EndReason reason = EndReason::kNumericalFailure;
   std::string message;  // one line for a person: why and where
-  int increments = 0;   // rows accepted, row 0 included
+  int increments = 0;   // increments accepted, increment 0 included
 };
 
 // How the caller takes part. Both functions are called on the thread of Trace().
 struct TraceControl {
-  // Takes each accepted row, in order, as soon as it is accepted; row 0 first. What it throws leaves Trace().
+  // Takes each accepted increment, in order, as soon as it is accepted; increment 0 first. What it throws leaves
+  // Trace().
   std::function<void(const Increment&)> on_increment;
   // Asked often, also inside an increment; true ends the trace with kCancelled. May be left empty.
   std::function<bool()> cancelled;
 };
 
-// Traces until a stop criterion holds or another end. Row 0 is the equilibrium at load factor 0 with all constant
-// loads. Each stage of a program begins with a row at load factor 0 and ends with one at its target. Everything
+// Traces until a stop criterion holds or another end. Increment 0 is the equilibrium at load factor 0 with all constant
+// loads. Each stage of a program begins with an increment at load factor 0 and ends with one at its target. Everything
 // accepted has been given to `control.on_increment` when this returns, whatever the reason. Throws InvalidRequest
 // (scene/validate.h) for a request that breaks a rule; numerical trouble is a reason, never thrown.
 TraceResult Trace(const TraceRequest& request, const TraceControl& control);
 
-// Goes on with a trace of `request` that was cut short: rows are its first ones, from row 0. As many of them as can be
-// gone on from are given to `control.on_increment` again, unchanged, then the new ones: a path that is the one of a
-// trace without interruption but for rounding. The last row kept is no event and has its state, and so has one before
-// it in its stage; without such a row, all is traced anew. Throws std::invalid_argument for rows that are not those of
-// `request`, by number.
-TraceResult ResumeTrace(const TraceRequest& request, const std::vector<Increment>& rows, const TraceControl& control);
+// Goes on with a trace of `request` that was cut short: increments are its first ones, from increment 0. As many of
+// them as can be gone on from are given to `control.on_increment` again, unchanged, then the new ones: a path that is
+// the one of a trace without interruption but for rounding. The last increment kept is no event and has its state, and
+// so has one before it in its stage; without such an increment, all is traced anew. Throws std::invalid_argument for
+// increments that are not those of `request`, by number.
+TraceResult ResumeTrace(const TraceRequest& request, const std::vector<Increment>& increments,
+                        const TraceControl& control);
 
 }  // namespace contact_path
 

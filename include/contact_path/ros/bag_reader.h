@@ -14,7 +14,7 @@ namespace contact_path {
 
 struct RecordedTrace {
   TraceRequest request;                                  // valid
-  std::vector<Increment> rows;                           // in the order of the bag
+  std::vector<Increment> increments;                     // in the order of the bag
   std::optional<contact_path_msgs::TraceResult> result;  // none: the trace did not come to its end
 };
 

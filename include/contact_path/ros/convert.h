@@ -40,7 +40,7 @@ std::uint8_t ToConstant(EndReason reason);
 // Throws std::invalid_argument for a constant that is not known.
 std::string EndReasonName(std::uint8_t end_reason);
 
-// The field `message` of a trace that has a bag: "stop_criterion: b.x > 4.95; 98 rows; ...; bag 000001_bar.bag".
+// The field `message` of a trace that has a bag: "stop_criterion: b.x > 4.95; 98 increments; ...; bag 000001_bar.bag".
 // name: as by EndReasonName(); why: one line.
 std::string EndMessage(const std::string& name, const std::string& why, const PathSummary& path,
                        const std::string& bag);

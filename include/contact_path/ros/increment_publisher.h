@@ -21,13 +21,13 @@ class IncrementPublisher {
   // for some subscriber.
   IncrementPublisher(ros::NodeHandle node, std::uint32_t queue, std::size_t most_bytes);
 
-  // False where more than most_bytes wait: then nobody gets this row.
-  bool Publish(const contact_path_msgs::Increment& row);
+  // False where more than most_bytes wait: then nobody gets this increment.
+  bool Publish(const contact_path_msgs::Increment& increment);
 
  private:
   ros::Publisher publisher_;
   const std::size_t most_bytes_;
-  // Of serialised rows that roscpp still holds; they may outlive this.
+  // Of serialised increments that roscpp still holds; they may outlive this.
   std::shared_ptr<std::atomic<std::size_t>> waiting_ = std::make_shared<std::atomic<std::size_t>>(0);
 };
 

@@ -19,9 +19,9 @@ namespace contact_path {
 // value.
 MarkerOptions ReadMarkerOptions(const ros::NodeHandle& private_node);
 
-// Draws on the threads that serve callbacks, not on the one that traces: of the rows that came in meanwhile the last
-// one, at most 20 times a second and for at most a tenth of the time. Where nobody subscribes, only once no row has
-// come for a while, so that who comes late finds the last one.
+// Draws on the threads that serve callbacks, not on the one that traces: of the increments that came in meanwhile the
+// last one, at most 20 times a second and for at most a tenth of the time. Where nobody subscribes, only once no
+// increment has come for a while, so that who comes late finds the last one.
 class MarkerPublisher {
  public:
   // The topic is that of `node`.
@@ -29,9 +29,9 @@ class MarkerPublisher {
 
   // A new trace begins. `request` must be sound (validate.h).
   void TakeRequest(const TraceRequest& request);
-  // The next row of the trace; not to be changed any more. One that carries no state, or that is not of the scene,
-  // gives no picture. Quick: nothing is drawn here.
-  void TakeRow(const contact_path_msgs::Increment::ConstPtr& row);
+  // The next increment of the trace; not to be changed any more. One that carries no state, or that is not of the
+  // scene, gives no picture. Quick: nothing is drawn here.
+  void TakeIncrement(const contact_path_msgs::Increment::ConstPtr& increment);
   // Publishes what is not published yet, at once.
   void Publish();
 
@@ -47,12 +47,12 @@ class MarkerPublisher {
 
   std::mutex mutex_;  // guards all of these
   std::shared_ptr<const SceneMarkers> scene_;
-  contact_path_msgs::Increment::ConstPtr row_;  // null: none yet
-  double largest_force_ = 0.0;                  // of the trace so far
-  bool published_ = true;                       // this scene and row
-  std::uint64_t taken_ = 0;                     // scenes and rows
-  std::uint64_t taken_before_ = 0;              // at the last tick
-  Clock::time_point next_;                      // the earliest time of the next picture
+  contact_path_msgs::Increment::ConstPtr increment_;  // null: none yet
+  double largest_force_ = 0.0;                        // of the trace so far
+  bool published_ = true;                             // this scene and increment
+  std::uint64_t taken_ = 0;                           // scenes and increments
+  std::uint64_t taken_before_ = 0;                    // at the last tick
+  Clock::time_point next_;                            // the earliest time of the next picture
 
   ros::WallTimer timer_;  // last, so that it does not tick before the rest is there
 };

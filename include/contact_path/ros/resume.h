@@ -14,10 +14,11 @@ namespace contact_path {
 
 struct TraceSoFar {
   TraceRequest request;
-  std::vector<Increment> rows;  // from row 0; the bag proves them
+  std::vector<Increment> increments;  // from increment 0; the bag proves them
 };
 
-// Throws std::runtime_error, one line, for a bag that cannot be read and for one whose rows are not proved (verify/).
+// Throws std::runtime_error, one line, for a bag that cannot be read and for one whose increments are not proved
+// (verify/).
 TraceSoFar ReadTraceSoFar(const std::string& bag);
 
 // The same for a request of the node that names a bag to resume: a file in `directory`, by its plain name. The limit of

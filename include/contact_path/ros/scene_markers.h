@@ -1,4 +1,4 @@
-// Draws the rows of a trace as markers for rviz, in the plane z = 0; z only says what lies over what.
+// Draws the increments of a trace as markers for rviz, in the plane z = 0; z only says what lies over what.
 //
 // Every picture is the same list of markers, by namespace and id: each is added, or deleted where there is nothing of
 // its kind. So a picture replaces the one before, whatever the scene, and is whole by itself.
@@ -18,7 +18,7 @@
 //   cones           0  friction cones at contacts that touch
 //   reactions       0  arrows, from the node
 //   loads           0  arrows, from the node; constant loads are lighter
-//   caption         0  scene, stage, row, load factor
+//   caption         0  scene, stage, increment, load factor
 //                   1  arrow of full length
 //                   2  the force that it stands for
 #ifndef CONTACT_PATH_ROS_SCENE_MARKERS_H_
@@ -53,19 +53,19 @@ class SceneMarkers {
   // `request` and `options` must be sound (validate.h).
   SceneMarkers(const TraceRequest& request, const MarkerOptions& options);
 
-  // Whether the row is of a stage of the request and has as many positions and contacts as the scene; rows that are
-  // thinned out (full_state_every) have none.
-  bool Fits(const contact_path_msgs::Increment& row) const;
+  // Whether the increment is of a stage of the request and has as many positions and contacts as the scene; increments
+  // that are thinned out (full_state_every) have none.
+  bool Fits(const contact_path_msgs::Increment& increment) const;
 
-  // The largest of all loads and reactions of a row that fits [force].
-  double LargestForce(const contact_path_msgs::Increment& row) const;
+  // The largest of all loads and reactions of an increment that fits [force].
+  double LargestForce(const contact_path_msgs::Increment& increment) const;
 
-  // `row` must fit. `largest_force` [force]: of the path so far. Arrows have one scale, which is halved each time that
-  // this force outgrows it: the largest so far is drawn at half of the full length or more, and lengths can be compared
-  // between rows. Forces below a thousandth of the characteristic force do not get there.
-  visualization_msgs::MarkerArray Draw(const contact_path_msgs::Increment& row, double largest_force) const;
+  // `increment` must fit. `largest_force` [force]: of the path so far. Arrows have one scale, which is halved each time
+  // that this force outgrows it: the largest so far is drawn at half of the full length or more, and lengths can be
+  // compared between increments. Forces below a thousandth of the characteristic force do not get there.
+  visualization_msgs::MarkerArray Draw(const contact_path_msgs::Increment& increment, double largest_force) const;
 
-  // The scene before its first row: the initial shape, without reactions and with all contacts open.
+  // The scene before its first increment: the initial shape, without reactions and with all contacts open.
   visualization_msgs::MarkerArray DrawInitial() const;
 
  private:
@@ -105,17 +105,17 @@ class SceneMarkers {
 
   void FindSupports(const Scene& scene);
   void ExtendBox(const TraceRequest& request, double reach);
-  const StageParts& StageOf(const contact_path_msgs::Increment& row) const;
+  const StageParts& StageOf(const contact_path_msgs::Increment& increment) const;
 
-  visualization_msgs::MarkerArray Draw(const contact_path_msgs::Increment& row, double largest_force,
+  visualization_msgs::MarkerArray Draw(const contact_path_msgs::Increment& increment, double largest_force,
                                        const std::string& caption) const;
-  void DrawObstacles(const Places& places, const contact_path_msgs::Increment& row, Picture* picture) const;
+  void DrawObstacles(const Places& places, const contact_path_msgs::Increment& increment, Picture* picture) const;
   void DrawStructure(const Places& places, Picture* picture) const;
   void DrawSuperelements(const Places& places, Picture* picture) const;
   void DrawSupports(const Places& places, Picture* picture) const;
   void DrawContacts(const Places& places, const std::vector<contact_path_msgs::ContactState>& states,
                     Picture* picture) const;
-  void DrawForces(const Places& places, const contact_path_msgs::Increment& row, double full_force,
+  void DrawForces(const Places& places, const contact_path_msgs::Increment& increment, double full_force,
                   Picture* picture) const;
   void DrawCaption(const std::string& caption, double full_force, Picture* picture) const;
 

@@ -84,8 +84,8 @@ class TraceService {
   bool HandleCancel(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
 
   void Serve(const contact_path_msgs::TraceRequest& asked, const TraceObserver& observer, Response* response);
-  // rows: of the trace to go on with; nothing: from the start.
-  void RunTrace(const TraceRequest& request, const std::optional<std::vector<Increment>>& rows,
+  // increments: of the trace to go on with; nothing: from the start.
+  void RunTrace(const TraceRequest& request, const std::optional<std::vector<Increment>>& increments,
                 const TraceObserver& observer, BagRecorder* bag, Response* response);
   void TakeIncrement(const Increment& increment, const TraceObserver& observer, BagRecorder* bag);
   contact_path_msgs::TracePathFeedback FeedbackOn(const contact_path_msgs::Increment& increment) const;

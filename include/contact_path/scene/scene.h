@@ -111,11 +111,12 @@ struct StopCriterion {
   double value = 0.0;
 };
 
-// Takes another way than the best one (method branch): at the n-th event, or at a row, which then counts as an event.
+// Takes another branch than the best one (method branch): at the n-th event, or at an increment, which then counts as
+// an event.
 struct BranchChoice {
-  int event = 0;  // n, from 1; 0 = `row` is meant
-  int row = 0;    // index of the row, from 0; used where event = 0
-  int way = 0;    // number of the way in the record of that event, from 1; 0 = 1, the best
+  int event = 0;      // n, from 1; 0 = `increment` is meant
+  int increment = 0;  // index of the increment, from 0; used where event = 0
+  int branch = 0;     // number of the branch in the record of that event, from 1; 0 = 1, the best
 };
 
 struct TraceOptions {
@@ -124,8 +125,8 @@ struct TraceOptions {
   double direction = 0.0;  // sign of the first change of the load factor; 0 = +1
   double step = 0.0;       // target increment length in the scaled norm, >= 0; 0 = automatic (by accuracy)
   int max_increments = 0;  // >= 0; 0 = 1000
-  // Of messages and bags, not of the CSV: every n-th regular row has positions and contacts, and all located rows have;
-  // the others leave them empty. >= 0; 0 = 1, all of them.
+  // Of messages and bags, not of the CSV: every n-th regular increment has positions and contacts, and all located
+  // increments have; the others leave them empty. >= 0; 0 = 1, all of them.
   int full_state_every = 0;
   std::vector<StopCriterion> stop;
   std::vector<BranchChoice> branch_choices;

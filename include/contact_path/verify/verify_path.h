@@ -12,40 +12,40 @@
 
 namespace contact_path {
 
-// What is wrong with a row.
+// What is wrong with an increment.
 struct Finding {
-  int row = 0;       // its place in the record, from 0
-  std::string what;  // one line
+  int increment = 0;  // its place in the record, from 0
+  std::string what;   // one line
 };
 
 struct Verification {
-  std::vector<Finding> findings;  // none: the path is proved; in the order of the rows, at most kMostFindings
-  int rows = 0;
-  int full_rows = 0;             // with positions and contacts: the others can only be counted
-  int exact_rows = 0;            // of the full ones, those that solve the unregularised equations
-  Residuals exact;               // largest of the exact rows, computed anew
-  Residuals regularised;         // of the other ones
-  double energy_balance = 0.0;   // largest |work of the loads - change of strain energy - dissipation| / (F L)
-  double work = 0.0;             // what that is to be compared with: sum of |work of the loads| of all rows / (F L)
-  std::map<RowKind, int> kinds;  // number of rows of each
+  std::vector<Finding> findings;  // none: the path is proved; in the order of the increments, at most kMostFindings
+  int increments = 0;
+  int full_increments = 0;      // with positions and contacts: the others can only be counted
+  int exact_increments = 0;     // of the full ones, those that solve the unregularised equations
+  Residuals exact;              // largest of the exact increments, computed anew
+  Residuals regularised;        // of the other ones
+  double energy_balance = 0.0;  // largest |work of the loads - change of strain energy - dissipation| / (F L)
+  double work = 0.0;  // what that is to be compared with: sum of |work of the loads| of all increments / (F L)
+  std::map<IncrementKind, int> kinds;  // number of increments of each
 };
 
 constexpr int kMostFindings = 20;
 
-// Request: valid. Rows: all that were recorded, in their order; regular rows that full_state_every leaves out have
-// empty positions and contacts.
+// Request: valid. Increments: all that were recorded, in their order; regular increments that full_state_every leaves
+// out have empty positions and contacts.
 //
-// Checked of each row: its place; fixed nodes are where they have to be; the residuals, computed from the scene alone,
-// are within the tolerance of the method (1e-9, regularised 1e-5) and as recorded; gaps, strain energy; the contact
-// states against gaps, reactions and motions. From row to row: arc length (between the chord and 1.05 of it),
-// dissipation and work (to what a trapezoid between the rows leaves open), energy balance (to 1 % of the work done,
-// mpec: 3 %, and what trapezoids leave open), states change only at events, the load factor turns at limit points and
-// only there, and the way taken at an event is the one that follows; stages follow each other at their targets, in the
-// same state. Not checked: the other ways on record, counters and times.
-Verification VerifyPath(const TraceRequest& request, const std::vector<Increment>& rows);
+// Checked of each increment: its place; fixed nodes are where they have to be; the residuals, computed from the scene
+// alone, are within the tolerance of the method (1e-9, regularised 1e-5) and as recorded; gaps, strain energy; the
+// contact states against gaps, reactions and motions. From increment to increment: arc length (between the chord
+// and 1.05 of it), dissipation and work (to what a trapezoid between the increments leaves open), energy balance (to 1
+// % of the work done, mpec: 3 %, and what trapezoids leave open), states change only at events, the load factor turns
+// at limit points and only there, and the branch taken at an event is the one that follows; stages follow each other at
+// their targets, in the same state. Not checked: the other branches record, counters and times.
+Verification VerifyPath(const TraceRequest& request, const std::vector<Increment>& increments);
 
-// Whether the row is at the target of its stage; false without a program.
-bool AtTarget(const TraceRequest& request, const Increment& row);
+// Whether the increment is at the target of its stage; false without a program.
+bool AtTarget(const TraceRequest& request, const Increment& increment);
 
 }  // namespace contact_path
 

@@ -1,4 +1,4 @@
-#include "contact_path/branch/motionless_reactions.h"
+#include "contact_path/branch/reaction_redistribution.h"
 
 #include <gtest/gtest.h>
 
@@ -46,7 +46,7 @@ struct Corner {
 
   // What is found; each must hold the same force within all cones.
   std::vector<PathPoint> Others() const {
-    const MotionlessReactions found = FindMotionlessReactions(model.contacts, point, AtLimit());
+    const ReactionRedistributions found = FindReactionRedistributions(model.contacts, point, ActiveSetTolerance());
     EXPECT_TRUE(found.complete);
     for (const PathPoint& other : found.points) {
       EXPECT_NEAR((Force(other) - Force(point)).norm(), 0.0, 1e-12);
@@ -73,7 +73,7 @@ bool Holds(const std::vector<PathPoint>& points, const std::array<double, 4>& re
   });
 }
 
-TEST(MotionlessReactions, NoneWhereReactionsAreUnique) {
+TEST(ReactionRedistributions, NoneWhereReactionsAreUnique) {
   Corner rough({{"floor", kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.5}});
   rough.point.rn[0] = 2.0;
   rough.point.rt[0] = 0.3;
@@ -83,14 +83,14 @@ TEST(MotionlessReactions, NoneWhereReactionsAreUnique) {
   EXPECT_TRUE(smooth.Others().empty());
 }
 
-TEST(MotionlessReactions, NoneOfWhatDoesNotTouch) {
+TEST(ReactionRedistributions, NoneOfWhatDoesNotTouch) {
   Corner corner({{"floor", kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.5}, {"deep", kHalfPlane, 0.0, -1.0, 0.0, 1.0, 0.0}});
   corner.point.rn[0] = 1.0;
   EXPECT_TRUE(corner.Others().empty());
 }
 
 // A block on a belt, without force at the stop: the belt may pull at the stop with up to mu N.
-TEST(MotionlessReactions, BeltAgainstStop) {
+TEST(ReactionRedistributions, BeltAgainstStop) {
   Corner corner({{"belt", kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.3}, {"stop", kHalfPlane, 0.0, 0.0, -1.0, 0.0, 0.0}});
   corner.point.rn[0] = 2.0;
   const std::vector<PathPoint> others = corner.Others();
@@ -99,7 +99,7 @@ TEST(MotionlessReactions, BeltAgainstStop) {
 }
 
 // The lower of two tables in one plane, and the upper: who carries?
-TEST(MotionlessReactions, OneAboveTheOther) {
+TEST(ReactionRedistributions, OneAboveTheOther) {
   Corner smooth({{"table", kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.0}, {"lift", kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.0}});
   smooth.point.rn << 3.0, 0.0;
   std::vector<PathPoint> others = smooth.Others();
@@ -114,7 +114,7 @@ TEST(MotionlessReactions, OneAboveTheOther) {
   EXPECT_TRUE(Holds(others, {0.0, 0.0, 3.0, 0.3}));  // the lift alone
 }
 
-TEST(MotionlessReactions, ALiftTooSmoothCannotTakeOver) {
+TEST(ReactionRedistributions, ALiftTooSmoothCannotTakeOver) {
   Corner corner({{"table", kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.5}, {"lift", kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.05}});
   corner.point.rn << 3.0, 0.0;
   corner.point.rt << 0.3, 0.0;
@@ -122,7 +122,7 @@ TEST(MotionlessReactions, ALiftTooSmoothCannotTakeOver) {
 }
 
 // Between two walls that face each other nothing need press; what they press is not bounded, but its vertices are.
-TEST(MotionlessReactions, Wedge) {
+TEST(ReactionRedistributions, Wedge) {
   Corner corner({{"left", kHalfPlane, 0.0, 0.0, 1.0, 0.0, 0.5}, {"right", kHalfPlane, 0.0, 0.0, -1.0, 0.0, 0.5}});
   corner.point.rn << 1.0, 1.0;
   const std::vector<PathPoint> others = corner.Others();
@@ -131,7 +131,7 @@ TEST(MotionlessReactions, Wedge) {
 }
 
 // Friction along a component that is free, a normal along one that is not: the floor presses with nothing or anything.
-TEST(MotionlessReactions, HalfFixedNode) {
+TEST(ReactionRedistributions, HalfFixedNode) {
   Corner corner({{"slope", kHalfPlane, 0.0, 0.0, 1.0, 1.0, 0.5}}, true);
   corner.point.rn[0] = 1.0;
   const std::vector<PathPoint> others = corner.Others();
@@ -140,7 +140,7 @@ TEST(MotionlessReactions, HalfFixedNode) {
   for (const PathPoint& other : others) EXPECT_NEAR(corner.Force(other)[0], force, 1e-12);
 }
 
-TEST(MotionlessReactions, CombinationsOfTwoNodes) {
+TEST(ReactionRedistributions, CombinationsOfTwoNodes) {
   Scene scene = Corner::SceneOf(
       {{"belt", kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.3}, {"stop", kHalfPlane, 0.0, 0.0, -1.0, 0.0, 0.0}}, false);
   scene.nodes.push_back({"q", 0.0, 0.0, false, false});
@@ -151,7 +151,7 @@ TEST(MotionlessReactions, CombinationsOfTwoNodes) {
   PathPoint point = model.InitialPoint();
   point.rn = Eigen::Vector4d(1.0, 0.0, 2.0, 0.0);
   point.rt = Eigen::Vector4d::Zero();
-  const MotionlessReactions found = FindMotionlessReactions(model.contacts, point, AtLimit());
+  const ReactionRedistributions found = FindReactionRedistributions(model.contacts, point, ActiveSetTolerance());
   const auto holds = [&](double first, double second) {
     return std::any_of(found.points.begin(), found.points.end(), [&](const PathPoint& other) {
       return std::abs(other.rn[1] - first) + std::abs(other.rn[3] - second) < 1e-12;

@@ -1,4 +1,4 @@
-#include "contact_path/branch/motionless_reactions.h"
+#include "contact_path/branch/reaction_redistribution.h"
 
 #include <Eigen/Core>
 #include <Eigen/LU>
@@ -158,9 +158,9 @@ void SetReactions(const Touching& node, const Weights& weights, PathPoint* point
 
 }  // namespace
 
-MotionlessReactions FindMotionlessReactions(const std::vector<ContactGeometry>& contacts, const PathPoint& point,
-                                            const AtLimit& limit) {
-  MotionlessReactions result;
+ReactionRedistributions FindReactionRedistributions(const std::vector<ContactGeometry>& contacts,
+                                                    const PathPoint& point, const ActiveSetTolerance& limit) {
+  ReactionRedistributions result;
   for (const Touching& node : TouchingByNode(contacts, point, limit.gap)) {
     if (node.contacts.size() < 2) {
       // The cone of one contact gives each force in one way only, where both components of its node are free.

@@ -1,16 +1,16 @@
 // Other reactions that hold the same configuration under the same load.
-#ifndef CONTACT_PATH_BRANCH_MOTIONLESS_REACTIONS_H_
-#define CONTACT_PATH_BRANCH_MOTIONLESS_REACTIONS_H_
+#ifndef CONTACT_PATH_BRANCH_REACTION_REDISTRIBUTION_H_
+#define CONTACT_PATH_BRANCH_REACTION_REDISTRIBUTION_H_
 
 #include <vector>
 
-#include "contact_path/branch/at_limit.h"
+#include "contact_path/branch/active_set_tolerance.h"
 #include "contact_path/contact/contact_geometry.h"
 #include "contact_path/contact/path_point.h"
 
 namespace contact_path {
 
-struct MotionlessReactions {
+struct ReactionRedistributions {
   std::vector<PathPoint> points;  // as the given one, but for rn and rt; that itself is not among them
   bool complete = true;           // false: there are more
 };
@@ -21,9 +21,9 @@ struct MotionlessReactions {
 // there (a contact without reaction may open, one at the edge of its cone may slip). For each face that the reactions
 // of `point` are not in: the mean of its vertices; of several such nodes, all combinations. point: scaled, an
 // equilibrium; tolerance: scaled gap of what touches, and scaled force that counts as none.
-MotionlessReactions FindMotionlessReactions(const std::vector<ContactGeometry>& contacts, const PathPoint& point,
-                                            const AtLimit& limit);
+ReactionRedistributions FindReactionRedistributions(const std::vector<ContactGeometry>& contacts,
+                                                    const PathPoint& point, const ActiveSetTolerance& limit);
 
 }  // namespace contact_path
 
-#endif  // CONTACT_PATH_BRANCH_MOTIONLESS_REACTIONS_H_
+#endif  // CONTACT_PATH_BRANCH_REACTION_REDISTRIBUTION_H_

@@ -30,17 +30,18 @@ class EachMethod : public testing::TestWithParam<Method> {
   // Complete and proved.
   TracedPath Trace(TraceRequest request) {
     request.options.method = GetParam();
-    TracedPath path = TraceRows(request);
+    TracedPath path = TraceIncrements(request);
     EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
-    for (const Finding& finding : VerifyPath(request, path.rows).findings)
-      ADD_FAILURE() << "row " << finding.row << ": " << finding.what;
-    for (const Increment& row : path.rows) EXPECT_LE(row.residuals.Largest(), 1e-9) << "row " << row.index;
+    for (const Finding& finding : VerifyPath(request, path.increments).findings)
+      ADD_FAILURE() << "increment " << finding.increment << ": " << finding.what;
+    for (const Increment& increment : path.increments)
+      EXPECT_LE(increment.residuals.Largest(), 1e-9) << "increment " << increment.index;
     return path;
   }
   // What mpec cuts off at corners.
   double Tolerance() const { return GetParam() == Method::kBranch ? kRounding : 1e-3; }
 };
-INSTANTIATE_TEST_SUITE_P(Motionless, EachMethod, testing::Values(Method::kBranch, Method::kMpec),
+INSTANTIATE_TEST_SUITE_P(Redistribution, EachMethod, testing::Values(Method::kBranch, Method::kMpec),
                          [](const auto& method) { return std::string(ToString(method.param)); });
 
 TraceRequest BeltAgainstStop(double clearance) {
@@ -56,7 +57,7 @@ TraceRequest BeltAgainstStop(double clearance) {
 TEST_P(EachMethod, ABlockOnABeltMeetsAStop) {
   for (const double clearance : {0.0, 0.1, 0.2}) {
     const TracedPath path = Trace(BeltAgainstStop(clearance));
-    const Increment& end = path.rows.back();
+    const Increment& end = path.increments.back();
     EXPECT_NEAR(PositionX(path, end, "b"), clearance, kRounding);
     EXPECT_NEAR(Contact(path, end, "b@floor").rt, 0.3, kRounding);
     EXPECT_NEAR(Contact(path, end, "b@stop").rn, 0.3 - clearance, kRounding);
@@ -66,30 +67,30 @@ TEST_P(EachMethod, ABlockOnABeltMeetsAStop) {
   }
 }
 
-// The change is a row of its own: same place, same load factor, other reactions.
-TEST(Motionless, TheChangeIsARow) {
+// The change is an increment of its own: same place, same load factor, other reactions.
+TEST(Redistribution, TheChangeIsARow) {
   const TraceRequest request = BeltAgainstStop(0.1);
-  TracedPath path = TraceRows(request);
+  TracedPath path = TraceIncrements(request);
   std::size_t changes = 0;
-  for (std::size_t i = 1; i < path.rows.size(); ++i) {
-    const Increment &before = path.rows[i - 1], &row = path.rows[i];
-    if (row.arc_length > before.arc_length) continue;
+  for (std::size_t i = 1; i < path.increments.size(); ++i) {
+    const Increment &before = path.increments[i - 1], &increment = path.increments[i];
+    if (increment.arc_length > before.arc_length) continue;
     ++changes;
-    EXPECT_EQ(row.positions, before.positions);
-    EXPECT_EQ(row.load_factor, before.load_factor);
-    EXPECT_EQ(row.dissipation, before.dissipation);
-    EXPECT_EQ(row.kind, RowKind::kRegular);
-    EXPECT_EQ(before.kind, RowKind::kContactEvent);
+    EXPECT_EQ(increment.positions, before.positions);
+    EXPECT_EQ(increment.load_factor, before.load_factor);
+    EXPECT_EQ(increment.dissipation, before.dissipation);
+    EXPECT_EQ(increment.kind, IncrementKind::kRegular);
+    EXPECT_EQ(before.kind, IncrementKind::kContactEvent);
     EXPECT_NEAR(Contact(path, before, "b@stop").rn, 0.0, kRounding);
-    EXPECT_NEAR(Contact(path, row, "b@stop").rn, 0.2, kRounding);
+    EXPECT_NEAR(Contact(path, increment, "b@stop").rn, 0.2, kRounding);
   }
   EXPECT_EQ(changes, 1u);
   // Anywhere else it is not proved.
-  std::vector<Increment> rows = path.rows;
-  rows[2].positions = rows[1].positions;
-  rows[2].load_factor = rows[1].load_factor;
-  rows[2].arc_length = rows[1].arc_length;
-  EXPECT_FALSE(VerifyPath(request, rows).findings.empty());
+  std::vector<Increment> increments = path.increments;
+  increments[2].positions = increments[1].positions;
+  increments[2].load_factor = increments[1].load_factor;
+  increments[2].arc_length = increments[1].arc_length;
+  EXPECT_FALSE(VerifyPath(request, increments).findings.empty());
 }
 
 // A lift takes the node off the table; a side load rests on friction before and after.
@@ -100,7 +101,7 @@ TEST_P(EachMethod, ALiftTakesANodeOffATable) {
   request.scene.contacts.push_back({"b", "lift"});
   request.program = {{"up", {}, {}, {{"lift", 0.0, 1.0}}, 0.15}};
   const TracedPath path = Trace(request);
-  const Increment& end = path.rows.back();
+  const Increment& end = path.increments.back();
   EXPECT_NEAR(PositionX(path, end, "b"), 0.0, kRounding);
   EXPECT_NEAR(PositionY(path, end, "b"), 0.1, kRounding);
   EXPECT_NEAR(Contact(path, end, "b@lift").rn, 1.1, kRounding);
@@ -121,7 +122,7 @@ TraceRequest TableAbove(double friction_of_low) {
 // A table goes down and hands a node over to a lower one that can hold its side load.
 TEST_P(EachMethod, ATableHandsANodeOver) {
   const TracedPath path = Trace(TableAbove(0.6));
-  const Increment& end = path.rows.back();
+  const Increment& end = path.increments.back();
   EXPECT_NEAR(PositionX(path, end, "b"), 0.0, kRounding);
   EXPECT_NEAR(PositionY(path, end, "b"), -0.1, kRounding);
   EXPECT_NEAR(Contact(path, end, "b@low").rn, 0.9, kRounding);
@@ -131,29 +132,29 @@ TEST_P(EachMethod, ATableHandsANodeOver) {
 
 // The lower one cannot: while the tables are level, the node slides as far as the spring takes its share. Friction of
 // both, 0.3 r + 0.1 (0.9 - r) = 0.2 - x, with all of the weight on the upper one at first and none in the end.
-TEST(Motionless, ATableHandsANodeOverThatSlides) {
+TEST(Redistribution, ATableHandsANodeOverThatSlides) {
   const TraceRequest request = TableAbove(0.1);
-  const TracedPath path = TraceRows(request);
+  const TracedPath path = TraceIncrements(request);
   EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
-  EXPECT_TRUE(VerifyPath(request, path.rows).findings.empty());
-  const Increment& end = path.rows.back();
+  EXPECT_TRUE(VerifyPath(request, path.increments).findings.empty());
+  const Increment& end = path.increments.back();
   EXPECT_NEAR(PositionX(path, end, "b"), 0.11, kRounding);
   EXPECT_NEAR(PositionY(path, end, "b"), -0.1, kRounding);
   EXPECT_NEAR(Contact(path, end, "b@low").rt, -0.09, kRounding);
   EXPECT_NEAR(end.dissipation, 0.2 * 0.11 - 0.5 * 0.11 * 0.11, kRounding);
-  for (const Increment& row : path.rows)
-    if (PositionX(path, row, "b") > 0.0 && PositionX(path, row, "b") < 0.11) {
-      EXPECT_NEAR(row.load_factor, 0.1, kRounding);
+  for (const Increment& increment : path.increments)
+    if (PositionX(path, increment, "b") > 0.0 && PositionX(path, increment, "b") < 0.11) {
+      EXPECT_NEAR(increment.load_factor, 0.1, kRounding);
     }
 }
 
-TEST(Motionless, IsTheSameInOtherWords) {
+TEST(Redistribution, IsTheSameInOtherWords) {
   const TraceRequest request = BeltAgainstStop(0.1);
-  const TracedPath path = TraceRows(request);
-  ExpectSamePath(UndoRotation(TraceRows(Rotate(request, 0.7)), 0.7), path, 1e-9);
-  ExpectSamePath(UndoMirror(TraceRows(Mirror(request))), path, 1e-9);
-  ExpectSamePath(UndoReversal(TraceRows(Reverse(request))), path, 1e-9);
-  ExpectSamePath(UndoUnits(TraceRows(ChangeUnits(request, 1e-3, 1e6)), 1e-3, 1e6), path, 1e-9);
+  const TracedPath path = TraceIncrements(request);
+  ExpectSamePath(UndoRotation(TraceIncrements(Rotate(request, 0.7)), 0.7), path, 1e-9);
+  ExpectSamePath(UndoMirror(TraceIncrements(Mirror(request))), path, 1e-9);
+  ExpectSamePath(UndoReversal(TraceIncrements(Reverse(request))), path, 1e-9);
+  ExpectSamePath(UndoUnits(TraceIncrements(ChangeUnits(request, 1e-3, 1e6)), 1e-3, 1e6), path, 1e-9);
 }
 
 }  // namespace

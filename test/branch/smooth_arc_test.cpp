@@ -1,4 +1,4 @@
-#include "contact_path/branch/smooth_piece.h"
+#include "contact_path/branch/smooth_arc.h"
 
 #include <gtest/gtest.h>
 
@@ -18,44 +18,43 @@ namespace {
 
 using Eigen::VectorXd;
 
-// A piece of a traced path: the fixed states of row `index`, from the row before, with the curve's derivatives there.
+// A arc of a traced path: the fixed states of row `index`, from the row before, with the curve's derivatives there.
 class TracedPiece {
  public:
   TracedPiece(const TracedPath& path, std::size_t index)
-      : model_(path.request.scene, CharacteristicScales(path.request.scene)),
-        piece_(model_.structure, model_.contacts) {
+      : model_(path.request.scene, CharacteristicScales(path.request.scene)), arc_(model_.structure, model_.contacts) {
     const PathPoint from = PointOf(model_, path.rows[index - 1]), to = PointOf(model_, path.rows[index]);
-    piece_.SetStates(to.states, from);
-    const VectorXd start = piece_.system().Pack(from);
-    end_ = piece_.system().Pack(to);
-    EXPECT_TRUE(piece_.Derivatives(start, (end_ - start).head(piece_.NumMotion()), &start_));
+    arc_.SetStates(to.states, from);
+    const VectorXd start = arc_.system().Pack(from);
+    end_ = arc_.system().Pack(to);
+    EXPECT_TRUE(arc_.Derivatives(start, (end_ - start).head(arc_.NumMotion()), &start_));
   }
 
-  SmoothPiece& piece() { return piece_; }
+  SmoothArc& arc() { return arc_; }
   const CurvePoint& start() const { return start_; }
   const VectorXd& end() const { return end_; }
-  Eigen::Index motion() const { return piece_.NumMotion(); }
+  Eigen::Index motion() const { return arc_.NumMotion(); }
   VectorXd normal() const { return start_.first.head(motion()); }
 
   // The point of the curve on the plane at distance t from the start.
   VectorXd At(double t) {
     const Correction correction =
-        piece_.CorrectOnPlane(start_.x + t * start_.first + 0.5 * t * t * start_.second, normal());
+        arc_.CorrectOnPlane(start_.x + t * start_.first + 0.5 * t * t * start_.second, normal());
     EXPECT_TRUE(correction.converged) << t;
     return correction.x;
   }
 
   CurvePoint CurveAt(double t) {
     CurvePoint point;
-    EXPECT_TRUE(piece_.Derivatives(At(t), normal(), &point));
+    EXPECT_TRUE(arc_.Derivatives(At(t), normal(), &point));
     return point;
   }
 
-  Segment SegmentTo(double t) { return MakeSegment(start_, CurveAt(t), motion()); }
+  Step StepTo(double t) { return MakeStep(start_, CurveAt(t), motion()); }
 
  private:
   Model model_;
-  SmoothPiece piece_;
+  SmoothArc arc_;
   CurvePoint start_;
   VectorXd end_;
 };
@@ -63,19 +62,19 @@ class TracedPiece {
 TracedPath Trace(const std::string& scene, int rows) {
   TraceRequest request = ReadExample(scene);
   request.options.max_increments = rows;
-  return TraceRows(request);
+  return TraceIncrements(request);
 }
 
-// Pieces with slip, stick, a free structure, rigid modes, and many unknowns.
-std::vector<std::pair<std::string, std::size_t>> Pieces() {
+// Arcs with slip, stick, a free structure, rigid modes, and many unknowns.
+std::vector<std::pair<std::string, std::size_t>> Arcs() {
   return {{"sliding_bar", 20}, {"sliding_bar", 60}, {"rough_truss", 5}, {"von_mises", 10},
           {"von_mises", 50},   {"arch19", 40},      {"arch19", 150}};
 }
 
 constexpr int kRows = 160;
 
-TEST(SmoothPiece, DerivativesAreTheUnitTangentAndTheCurvature) {
-  for (const auto& [scene, index] : Pieces()) {
+TEST(SmoothArc, DerivativesAreTheUnitTangentAndTheCurvature) {
+  for (const auto& [scene, index] : Arcs()) {
     SCOPED_TRACE(scene + " row " + std::to_string(index));
     TracedPiece traced(Trace(scene, kRows), index);
     const CurvePoint& start = traced.start();
@@ -104,10 +103,10 @@ TEST(SmoothPiece, DerivativesAreTheUnitTangentAndTheCurvature) {
   }
 }
 
-TEST(SmoothPiece, DirectionIsTheOneAskedFor) {
+TEST(SmoothArc, DirectionIsTheOneAskedFor) {
   TracedPiece traced(Trace("sliding_bar", kRows), 20);
   CurvePoint back;
-  ASSERT_TRUE(traced.piece().Derivatives(traced.start().x, -traced.normal(), &back));
+  ASSERT_TRUE(traced.arc().Derivatives(traced.start().x, -traced.normal(), &back));
   EXPECT_LE((back.first + traced.start().first).norm(), 1e-14);
   EXPECT_LE((back.second - traced.start().second).norm(), 1e-12);  // by arc length squared
   EXPECT_EQ(back.determinant_sign, -traced.start().determinant_sign);
@@ -116,10 +115,10 @@ TEST(SmoothPiece, DirectionIsTheOneAskedFor) {
   across[0] = traced.normal()[2];
   across[2] = -traced.normal()[0];
   CurvePoint none;
-  EXPECT_FALSE(traced.piece().Derivatives(traced.start().x, across, &none));
+  EXPECT_FALSE(traced.arc().Derivatives(traced.start().x, across, &none));
 }
 
-TEST(SmoothPiece, KeepsTheClosedFormOfTheSlidingBar) {
+TEST(SmoothArc, KeepsTheClosedFormOfTheSlidingBar) {
   TracedPiece traced(Trace("sliding_bar", kRows), 20);
   const Scaling scaling = CharacteristicScales(sliding_bar::MakeScene());
   double worst = 0.0;
@@ -130,7 +129,7 @@ TEST(SmoothPiece, KeepsTheClosedFormOfTheSlidingBar) {
                       std::abs(x[3] * scaling.force - sliding_bar::NormalReaction(position))});
     // ds/dx of the tangent.
     CurvePoint point;
-    ASSERT_TRUE(traced.piece().Derivatives(x, traced.normal(), &point));
+    ASSERT_TRUE(traced.arc().Derivatives(x, traced.normal(), &point));
     worst = std::max(worst, std::abs(point.first[2] * scaling.load_factor / (point.first[0] * scaling.length) -
                                      sliding_bar::LoadFactorSlope(position)));
   }
@@ -138,8 +137,8 @@ TEST(SmoothPiece, KeepsTheClosedFormOfTheSlidingBar) {
 }
 
 // Errors e of Newton's method: e(k+1) <= C e(k)^2 while the factorisation is renewed, then at least 1e-4 of the last.
-TEST(SmoothPiece, NewtonConvergesQuadratically) {
-  for (const auto& [scene, index] : Pieces()) {
+TEST(SmoothArc, NewtonConvergesQuadratically) {
+  for (const auto& [scene, index] : Arcs()) {
     SCOPED_TRACE(scene + " row " + std::to_string(index));
     TracedPiece traced(Trace(scene, kRows), index);
     std::vector<double> constants;
@@ -147,7 +146,7 @@ TEST(SmoothPiece, NewtonConvergesQuadratically) {
       const Eigen::VectorXd guess = traced.start().x + t * traced.start().first;
       Eigen::VectorXd row = Eigen::VectorXd::Zero(guess.size());
       row.head(traced.normal().size()) = traced.normal();
-      const Correction correction = traced.piece().Correct(guess, row, row.dot(guess));
+      const Correction correction = traced.arc().Correct(guess, row, row.dot(guess));
       ASSERT_TRUE(correction.converged);
       ASSERT_GE(correction.steps.size(), 3U);
       EXPECT_EQ(correction.iterations, static_cast<int>(correction.steps.size()));
@@ -168,59 +167,59 @@ TEST(SmoothPiece, NewtonConvergesQuadratically) {
   }
 }
 
-TEST(SmoothPiece, CorrectionStaysOnTheGivenPlane) {
+TEST(SmoothArc, CorrectionStaysOnTheGivenPlane) {
   TracedPiece traced(Trace("arch19", kRows), 40);
   const VectorXd guess = traced.start().x + 0.05 * traced.start().first;
-  const Correction correction = traced.piece().CorrectOnPlane(guess, traced.normal());
+  const Correction correction = traced.arc().CorrectOnPlane(guess, traced.normal());
   ASSERT_TRUE(correction.converged);
   EXPECT_NEAR(traced.normal().dot((correction.x - guess).head(traced.motion())), 0.0, 1e-14);
   // Any other row: here the load factor is prescribed.
   VectorXd row = VectorXd::Unit(guess.size(), traced.motion() - 1);
-  const Correction at_load = traced.piece().Correct(guess, row, 0.031);
+  const Correction at_load = traced.arc().Correct(guess, row, 0.031);
   ASSERT_TRUE(at_load.converged);
   EXPECT_NEAR(at_load.x[traced.motion() - 1], 0.031, 1e-15);
 }
 
-TEST(SmoothPiece, NotConvergedWhereThereIsNoPoint) {
+TEST(SmoothArc, NotConvergedWhereThereIsNoPoint) {
   // Rest at the stop: the node does not move, whatever the load.
   const TracedPath path = Trace("rigid_stop", kRows);
   TracedPiece traced(path, path.rows.size() - 1);
   VectorXd guess = traced.start().x;
   const VectorXd row = VectorXd::Unit(guess.size(), 0);
-  EXPECT_TRUE(traced.piece().Correct(guess, row, guess[0]).converged);
-  EXPECT_FALSE(traced.piece().Correct(guess, row, guess[0] + 0.01).converged);
+  EXPECT_TRUE(traced.arc().Correct(guess, row, guess[0]).converged);
+  EXPECT_FALSE(traced.arc().Correct(guess, row, guess[0] + 0.01).converged);
 }
 
-TEST(Segment, EndsAreItsPoints) {
-  for (const auto& [scene, index] : Pieces()) {
+TEST(Step, EndsAreItsPoints) {
+  for (const auto& [scene, index] : Arcs()) {
     SCOPED_TRACE(scene);
     TracedPiece traced(Trace(scene, kRows), index);
-    const Segment segment = traced.SegmentTo(0.05);
-    EXPECT_NEAR(segment.length, 0.05, 1e-14);
-    EXPECT_LE((segment.Point(0.0) - segment.start.x).norm(), 1e-15);
-    EXPECT_LE((segment.Point(segment.length) - segment.end.x).norm(), 1e-14);
-    for (const double t : {0.0, segment.length}) {
-      const CurvePoint point = segment.At(t);
-      const CurvePoint& exact = t == 0.0 ? segment.start : segment.end;
+    const Step step = traced.StepTo(0.05);
+    EXPECT_NEAR(step.length, 0.05, 1e-14);
+    EXPECT_LE((step.Point(0.0) - step.start.x).norm(), 1e-15);
+    EXPECT_LE((step.Point(step.length) - step.end.x).norm(), 1e-14);
+    for (const double t : {0.0, step.length}) {
+      const CurvePoint point = step.At(t);
+      const CurvePoint& exact = t == 0.0 ? step.start : step.end;
       EXPECT_LE((point.first - exact.first).norm(), 1e-12);
       EXPECT_LE((point.second - exact.second).norm(), 1e-9 * (1.0 + exact.second.norm()));
     }
-    const CurvePoint middle = segment.At(0.02);
+    const CurvePoint middle = step.At(0.02);
     EXPECT_NEAR(middle.first.head(traced.motion()).norm(), 1.0, 1e-14);
     EXPECT_NEAR(middle.first.head(traced.motion()).dot(middle.second.head(traced.motion())), 0.0, 1e-12);
   }
 }
 
 // Positions, load and reactions between the ends: error of order length^6; tangents length^5, curvatures length^4.
-TEST(Segment, InterpolatesWithOrderSix) {
-  for (const auto& [scene, index] : Pieces()) {
+TEST(Step, InterpolatesWithOrderSix) {
+  for (const auto& [scene, index] : Arcs()) {
     SCOPED_TRACE(scene + " row " + std::to_string(index));
     TracedPiece traced(Trace(scene, kRows), index);
     const auto errors = [&](double length) {
-      const Segment segment = traced.SegmentTo(length);
+      const Step step = traced.StepTo(length);
       Eigen::Vector3d worst = Eigen::Vector3d::Zero();
       for (const double share : {0.3, 0.5, 0.7}) {
-        const CurvePoint exact = traced.CurveAt(share * length), given = segment.At(share * length);
+        const CurvePoint exact = traced.CurveAt(share * length), given = step.At(share * length);
         worst = worst.cwiseMax(Eigen::Vector3d((given.x - exact.x).norm(), (given.first - exact.first).norm(),
                                                (given.second - exact.second).norm()));
       }
@@ -237,17 +236,16 @@ TEST(Segment, InterpolatesWithOrderSix) {
   }
 }
 
-TEST(Segment, InterpolatesFunctionsThatAreLinearInX) {
+TEST(Step, InterpolatesFunctionsThatAreLinearInX) {
   TracedPiece traced(Trace("sliding_bar", kRows), 20);
-  const Segment segment = traced.SegmentTo(0.04);
+  const Step step = traced.StepTo(0.04);
   const auto load = [&](const VectorXd& x) { return x[traced.motion() - 1]; };
-  const Quintic polynomial = segment.Interpolate(load, load);
-  for (double t = 0.0; t <= segment.length; t += 0.004)
-    EXPECT_NEAR(Evaluate(polynomial, t), load(segment.Point(t)), 1e-15);
+  const Quintic polynomial = step.Interpolate(load, load);
+  for (double t = 0.0; t <= step.length; t += 0.004) EXPECT_NEAR(Evaluate(polynomial, t), load(step.Point(t)), 1e-15);
 }
 
-TEST(Segment, ArcLengthIsThatOfTheCurve) {
-  for (const auto& [scene, index] : Pieces()) {
+TEST(Step, ArcLengthIsThatOfTheCurve) {
+  for (const auto& [scene, index] : Arcs()) {
     SCOPED_TRACE(scene);
     TracedPiece traced(Trace(scene, kRows), index);
     // Chords with Richardson's extrapolation: their sum has an error of h^2, h^4, ...
@@ -266,16 +264,16 @@ TEST(Segment, ArcLengthIsThatOfTheCurve) {
       const double r1 = (4.0 * c2 - c1) / 3.0, r2 = (4.0 * c3 - c2) / 3.0;
       return (16.0 * r2 - r1) / 15.0;
     };
-    EXPECT_NEAR(traced.SegmentTo(0.08).ArcLength(), exact(0.08), 1e-8);
-    EXPECT_NEAR(traced.SegmentTo(0.02).ArcLength(), exact(0.02), 1e-12);
-    EXPECT_GE(traced.SegmentTo(0.08).ArcLength(), 0.08);
+    EXPECT_NEAR(traced.StepTo(0.08).ArcLength(), exact(0.08), 1e-8);
+    EXPECT_NEAR(traced.StepTo(0.02).ArcLength(), exact(0.02), 1e-12);
+    EXPECT_GE(traced.StepTo(0.08).ArcLength(), 0.08);
   }
 }
 
 // Each step of a traced path, made again in two halves, ends at the same point.
-TEST(SmoothPiece, TwoHalvesEndWhereTheWholeStepDoes) {
+TEST(SmoothArc, TwoHalvesEndWhereTheWholeStepDoes) {
   double worst = 0.0;
-  int pieces = 0;
+  int arcs = 0;
   for (const char* scene : {"sliding_bar", "rough_truss", "two_dof_friction", "von_mises", "rigid_stop", "arch19"}) {
     const TracedPath path = Trace(scene, 1000);
     for (std::size_t i = 1; i < path.rows.size(); ++i) {
@@ -284,18 +282,18 @@ TEST(SmoothPiece, TwoHalvesEndWhereTheWholeStepDoes) {
       const CurvePoint half = traced.CurveAt(0.5 * length);
       VectorXd row = VectorXd::Zero(half.x.size());
       row.head(traced.motion()) = traced.normal();
-      const Correction rest = traced.piece().Correct(
+      const Correction rest = traced.arc().Correct(
           half.x + 0.5 * length * half.first + 0.125 * length * length * half.second, row, row.dot(traced.end()));
       ASSERT_TRUE(rest.converged) << scene << " row " << i;
       worst = std::max(worst, (rest.x - traced.end()).norm());
-      ++pieces;
+      ++arcs;
     }
   }
   EXPECT_LE(worst, 1e-12);
-  EXPECT_GE(pieces, 500);
+  EXPECT_GE(arcs, 500);
 }
 
-TEST(SmoothPiece, CountsNullDirections) {
+TEST(SmoothArc, CountsNullDirections) {
   // A bar on a hinge: one rigid mode that neither load nor reactions know of.
   Scene scene;
   scene.nodes = {{"a", 0.0, 0.0, true, true},
@@ -305,12 +303,12 @@ TEST(SmoothPiece, CountsNullDirections) {
   scene.bars = {{{"a", "b"}, 1.0, 0.0, StrainMeasure::kBiot}, {{"c", "d"}, 1.0, 0.0, StrainMeasure::kBiot}};
   scene.loads = {{"d", 1.0, 0.0, false}};
   const Model model(scene, CharacteristicScales(scene));
-  SmoothPiece piece(model.structure, model.contacts);
+  SmoothArc arc(model.structure, model.contacts);
   const PathPoint start = model.InitialPoint();
-  piece.SetStates(start.states, start);
+  arc.SetStates(start.states, start);
   CurvePoint point;
-  ASSERT_TRUE(piece.Derivatives(piece.system().Pack(start), Eigen::Vector4d(0.0, 0.0, 0.0, 1.0), &point));
-  EXPECT_EQ(point.deficiency, 1);
+  ASSERT_TRUE(arc.Derivatives(arc.system().Pack(start), Eigen::Vector4d(0.0, 0.0, 0.0, 1.0), &point));
+  EXPECT_EQ(point.nullity, 1);
   EXPECT_EQ(point.determinant_sign, 0);
   // The shortest motion leaves b where it is.
   EXPECT_LE((point.first - Eigen::Vector4d(0.0, 0.0, 1.0, 1.0).normalized()).norm(), 1e-14);

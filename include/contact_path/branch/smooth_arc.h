@@ -1,6 +1,6 @@
 // The path between two events: a smooth curve of the fixed-state equations.
-#ifndef CONTACT_PATH_BRANCH_SMOOTH_PIECE_H_
-#define CONTACT_PATH_BRANCH_SMOOTH_PIECE_H_
+#ifndef CONTACT_PATH_BRANCH_SMOOTH_ARC_H_
+#define CONTACT_PATH_BRANCH_SMOOTH_ARC_H_
 
 #include <Eigen/Core>
 #include <vector>
@@ -14,11 +14,11 @@ namespace contact_path {
 // A point of the curve with its derivatives by arc length |(du, ds)|. All vectors: unknowns of the fixed-state system.
 struct CurvePoint {
   Eigen::VectorXd x;
-  Eigen::VectorXd first;        // |(u, s) part| = 1
-  Eigen::VectorXd second;       // orthogonal to first in (u, s)
-  Eigen::Index deficiency = 0;  // null directions of the equations besides the tangent
-  int pivot_sign = 0;           // the same also where singular: see BorderedSolver::PivotSign()
-  int determinant_sign = 0;     // of the equations with the tangent as last row; 0 = singular
+  Eigen::VectorXd first;     // |(u, s) part| = 1
+  Eigen::VectorXd second;    // orthogonal to first in (u, s)
+  Eigen::Index nullity = 0;  // null directions of the equations besides the tangent
+  int pivot_sign = 0;        // the same also where singular: see BorderedSolver::PivotSign()
+  int determinant_sign = 0;  // of the equations with the tangent as last row; 0 = singular
 };
 
 struct Correction {
@@ -30,10 +30,10 @@ struct Correction {
   std::vector<double> steps;  // norms of all Newton steps
 };
 
-class SmoothPiece {
+class SmoothArc {
  public:
-  // Both must outlive the piece.
-  SmoothPiece(const Structure& structure, const std::vector<ContactGeometry>& contacts);
+  // Both must outlive the arc.
+  SmoothArc(const Structure& structure, const std::vector<ContactGeometry>& contacts);
 
   // Fixes the states; stick and slip are measured from the tangential positions at `from`.
   void SetStates(const std::vector<ContactState>& states, const PathPoint& from);
@@ -69,13 +69,13 @@ class SmoothPiece {
   FixedStateSystem system_;
   BorderedSolver solver_;
   bool at_hand_ = false;  // regular factors of a point of the curve with these states, the last row along the tangent
-  Eigen::VectorXd residual_, step_;
+  Eigen::VectorXd residual_, step_length_;
   int factorisations_ = 0;
 };
 
-// A step on a piece: both ends with derivatives, parameter t in [0, length] = the projection of (u, s) - start on the
+// A step on a arc: both ends with derivatives, parameter t in [0, length] = the projection of (u, s) - start on the
 // tangent at the start. Between the ends, quintic Hermite interpolation: error of order length^6.
-struct Segment {
+struct Step {
   CurvePoint start;
   CurvePoint end;
   Eigen::VectorXd normal;  // (u, s) part of start.first
@@ -97,8 +97,8 @@ struct Segment {
   double ArcLength() const;
 };
 
-Segment MakeSegment(const CurvePoint& start, const CurvePoint& end, Eigen::Index num_motion);
+Step MakeStep(const CurvePoint& start, const CurvePoint& end, Eigen::Index num_motion);
 
 }  // namespace contact_path
 
-#endif  // CONTACT_PATH_BRANCH_SMOOTH_PIECE_H_
+#endif  // CONTACT_PATH_BRANCH_SMOOTH_ARC_H_

@@ -1,6 +1,6 @@
 // When an inequality counts as being at its limit.
-#ifndef CONTACT_PATH_BRANCH_AT_LIMIT_H_
-#define CONTACT_PATH_BRANCH_AT_LIMIT_H_
+#ifndef CONTACT_PATH_BRANCH_ACTIVE_SET_TOLERANCE_H_
+#define CONTACT_PATH_BRANCH_ACTIVE_SET_TOLERANCE_H_
 
 #include <algorithm>
 #include <cmath>
@@ -9,16 +9,16 @@ namespace contact_path {
 
 // Scaled values up to which gaps, and reactions and margins to the friction cone, are at their limit. Points are exact
 // to about 1e-14, next to singular ones to about 1e-10.
-struct AtLimit {
+struct ActiveSetTolerance {
   double gap = 1e-10;
   double force = 1e-10;
 
   // Where the reactions of the path are far below the characteristic force, as in soft parts beside stiff ones, the
   // limit follows them down to rounding. largest_reaction: of the path so far; load_factor: now, for the rounding that
   // its loads leave. Both scaled.
-  static AtLimit For(double largest_reaction, double load_factor) {
+  static ActiveSetTolerance For(double largest_reaction, double load_factor) {
     constexpr double kShare = 1e-7, kRounding = 1e-14;
-    AtLimit limit;
+    ActiveSetTolerance limit;
     limit.force =
         std::min(limit.force, std::max(kShare * largest_reaction, kRounding * std::max(1.0, std::abs(load_factor))));
     return limit;
@@ -27,4 +27,4 @@ struct AtLimit {
 
 }  // namespace contact_path
 
-#endif  // CONTACT_PATH_BRANCH_AT_LIMIT_H_
+#endif  // CONTACT_PATH_BRANCH_ACTIVE_SET_TOLERANCE_H_

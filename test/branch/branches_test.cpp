@@ -1,4 +1,4 @@
-#include "contact_path/branch/ways.h"
+#include "contact_path/branch/branches.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "branch/model_point.h"
-#include "contact_path/branch/event_watch.h"
+#include "contact_path/branch/test_functions.h"
 #include "contact_path/mpec/ipopt_solver.h"
 #include "contact_path/path/model.h"
 #include "support/dense.h"
@@ -37,14 +37,14 @@ struct Rest {
     point = model.InitialPoint();
   }
 
-  WaysOn Ways(const Arrival& arrival) {
-    return FindWays(model.structure, model.contacts, point, arrival, AtLimit(), &mpec);
+  BranchSet Branches(const Arrival& arrival) {
+    return FindBranches(model.structure, model.contacts, point, arrival, ActiveSetTolerance(), &mpec);
   }
-  WaysOn FromStart(double sign) {
+  BranchSet FromStart(double sign) {
     Arrival arrival;
     arrival.is_start = true;
     arrival.direction = sign * VectorXd::Unit(model.structure.NumDofs() + 1, model.structure.NumDofs());
-    return Ways(arrival);
+    return Branches(arrival);
   }
 
   Model model;
@@ -77,90 +77,90 @@ Eigen::Matrix2d Diagonal(double x, double y) { return Vector2d(x, y).asDiagonal(
 
 // ----- by hand -----
 
-TEST(FindWays, StickInsideTheCone) {
+TEST(FindBranches, StickInsideTheCone) {
   const auto rest = RestingNode(Diagonal(2.0, 2.0), Vector2d(1.0, 0.0), 0.5, 1.0, 0.1, kStick);
   for (const double sign : {1.0, -1.0}) {
-    const WaysOn on = rest->FromStart(sign);
-    ASSERT_EQ(on.ways.size(), 1U);
-    EXPECT_EQ(on.ways[0].states, States{kStick});
-    EXPECT_EQ(on.ways[0].load_rate, sign);
-    EXPECT_EQ(on.ways[0].dissipation_rate, 0.0);
-    EXPECT_EQ(on.ways[0].direction, Eigen::Vector3d(0.0, 0.0, sign));
-    EXPECT_EQ(on.concerned, 0);
+    const BranchSet on = rest->FromStart(sign);
+    ASSERT_EQ(on.branches.size(), 1U);
+    EXPECT_EQ(on.branches[0].states, States{kStick});
+    EXPECT_EQ(on.branches[0].load_rate, sign);
+    EXPECT_EQ(on.branches[0].dissipation_rate, 0.0);
+    EXPECT_EQ(on.branches[0].direction, Eigen::Vector3d(0.0, 0.0, sign));
+    EXPECT_EQ(on.weakly_active, 0);
     EXPECT_EQ(on.combinations, 1);
     EXPECT_TRUE(on.complete);
   }
 }
 
 // At the edge of the cone, rt = -mu rn: slip towards +x with k du = ds, or stick and unload.
-TEST(FindWays, EdgeOfTheCone) {
+TEST(FindBranches, EdgeOfTheCone) {
   const auto rest = RestingNode(Diagonal(2.0, 2.0), Vector2d(1.0, 0.0), 0.5, 1.0, -0.5, kStick);
   Arrival arrival;
   arrival.direction = Eigen::Vector3d(0.0, 0.0, 1.0);
-  const WaysOn on = rest->Ways(arrival);
-  ASSERT_EQ(on.ways.size(), 1U);  // sticking back is the way back
-  EXPECT_EQ(on.concerned, 1);
-  EXPECT_EQ(on.ways[0].states, States{kSlipPlus});
+  const BranchSet on = rest->Branches(arrival);
+  ASSERT_EQ(on.branches.size(), 1U);  // sticking back is the branch of arrival
+  EXPECT_EQ(on.weakly_active, 1);
+  EXPECT_EQ(on.branches[0].states, States{kSlipPlus});
   const double norm = std::sqrt(5.0);
-  EXPECT_NEAR(on.ways[0].load_rate, 2.0 / norm, 1e-15);
-  EXPECT_NEAR(on.ways[0].direction[0], 1.0 / norm, 1e-15);
-  EXPECT_NEAR(on.ways[0].dissipation_rate, 0.5 / norm, 1e-15);
-  EXPECT_NEAR(on.ways[0].turn, std::atan(0.5), 1e-14);
+  EXPECT_NEAR(on.branches[0].load_rate, 2.0 / norm, 1e-15);
+  EXPECT_NEAR(on.branches[0].direction[0], 1.0 / norm, 1e-15);
+  EXPECT_NEAR(on.branches[0].dissipation_rate, 0.5 / norm, 1e-15);
+  EXPECT_NEAR(on.branches[0].turn, std::atan(0.5), 1e-14);
 }
 
-TEST(FindWays, SlippingItMaySlipOnOrStick) {
+TEST(FindBranches, SlippingItMaySlipOnOrStick) {
   const auto rest = RestingNode(Diagonal(2.0, 2.0), Vector2d(1.0, 0.0), 0.5, 1.0, -0.5, kSlipPlus);
   Arrival arrival;
   arrival.direction = Eigen::Vector3d(1.0, 0.0, 2.0).normalized();
-  const WaysOn on = rest->Ways(arrival);
-  ASSERT_EQ(on.ways.size(), 2U);
-  EXPECT_EQ(on.ways[0].states, States{kSlipPlus});
-  EXPECT_NEAR(on.ways[0].turn, 0.0, 1e-7);
-  EXPECT_NEAR(on.ways[0].dissipation_rate, 0.5 / std::sqrt(5.0), 1e-15);
-  EXPECT_EQ(on.ways[1].states, States{kStick});
-  EXPECT_EQ(on.ways[1].dissipation_rate, 0.0);
-  EXPECT_NEAR(on.ways[1].load_rate, -1.0, 1e-15);
+  const BranchSet on = rest->Branches(arrival);
+  ASSERT_EQ(on.branches.size(), 2U);
+  EXPECT_EQ(on.branches[0].states, States{kSlipPlus});
+  EXPECT_NEAR(on.branches[0].turn, 0.0, 1e-7);
+  EXPECT_NEAR(on.branches[0].dissipation_rate, 0.5 / std::sqrt(5.0), 1e-15);
+  EXPECT_EQ(on.branches[1].states, States{kStick});
+  EXPECT_EQ(on.branches[1].dissipation_rate, 0.0);
+  EXPECT_NEAR(on.branches[1].load_rate, -1.0, 1e-15);
 }
 
 // Without reactions all four states are open to it; K = I, the load decides: inside the cone it sticks, beside it it
 // slips, upwards it leaves.
-TEST(FindWays, TouchingWithoutReactions) {
+TEST(FindBranches, TouchingWithoutReactions) {
   const double mu = 0.5;
-  const auto ways = [&](double fx, double fy) {
+  const auto branches = [&](double fx, double fy) {
     const auto rest = RestingNode(Diagonal(1.0, 1.0), Vector2d(fx, fy), mu, 0.0, 0.0, kStick);
     return rest->FromStart(1.0);
   };
-  const WaysOn pressed = ways(0.3, -1.0);
-  ASSERT_EQ(pressed.ways.size(), 1U);
-  EXPECT_EQ(pressed.ways[0].states, States{kStick});
+  const BranchSet pressed = branches(0.3, -1.0);
+  ASSERT_EQ(pressed.branches.size(), 1U);
+  EXPECT_EQ(pressed.branches[0].states, States{kStick});
   EXPECT_EQ(pressed.combinations, 4);
   for (const double sign : {1.0, -1.0}) {
-    const WaysOn beside = ways(sign * 0.8, -1.0);
-    ASSERT_EQ(beside.ways.size(), 1U);
-    EXPECT_EQ(beside.ways[0].states, States{sign > 0.0 ? kSlipPlus : kSlipMinus});
+    const BranchSet beside = branches(sign * 0.8, -1.0);
+    ASSERT_EQ(beside.branches.size(), 1U);
+    EXPECT_EQ(beside.branches[0].states, States{sign > 0.0 ? kSlipPlus : kSlipMinus});
     // du = 0.8 - mu for ds = 1.
-    EXPECT_NEAR(beside.ways[0].direction[0] / beside.ways[0].load_rate, sign * 0.3, 1e-15);
-    EXPECT_EQ(beside.ways[0].dissipation_rate, 0.0);  // no reaction yet
+    EXPECT_NEAR(beside.branches[0].direction[0] / beside.branches[0].load_rate, sign * 0.3, 1e-15);
+    EXPECT_EQ(beside.branches[0].dissipation_rate, 0.0);  // no reaction yet
   }
-  const WaysOn lifted = ways(0.3, 1.0);
-  ASSERT_EQ(lifted.ways.size(), 1U);
-  EXPECT_EQ(lifted.ways[0].states, States{kOpen});
-  EXPECT_NEAR(lifted.ways[0].direction[1] / lifted.ways[0].load_rate, 1.0, 1e-15);
+  const BranchSet lifted = branches(0.3, 1.0);
+  ASSERT_EQ(lifted.branches.size(), 1U);
+  EXPECT_EQ(lifted.branches[0].states, States{kOpen});
+  EXPECT_NEAR(lifted.branches[0].direction[1] / lifted.branches[0].load_rate, 1.0, 1e-15);
 }
 
-TEST(FindWays, FrictionlessContactIsOpenOrClosed) {
+TEST(FindBranches, FrictionlessContactIsOpenOrClosed) {
   for (const double sign : {1.0, -1.0}) {
     const auto rest = RestingNode(Diagonal(1.0, 1.0), Vector2d(0.3, -1.0), 0.0, 0.0, 0.0, kClosed);
-    const WaysOn on = rest->FromStart(sign);
-    ASSERT_EQ(on.ways.size(), 1U);
-    EXPECT_EQ(on.ways[0].states, States{sign > 0.0 ? kClosed : kOpen});
+    const BranchSet on = rest->FromStart(sign);
+    ASSERT_EQ(on.branches.size(), 1U);
+    EXPECT_EQ(on.branches[0].states, States{sign > 0.0 ? kClosed : kOpen});
     EXPECT_EQ(on.combinations, 2);
   }
 }
 
 // Klarbring's example: mu = 2 > K_tt / |K_nt|. With the reaction gone, load as on the way up, stick, slip and open are
 // all possible.
-TEST(FindWays, SeveralWaysAtOnce) {
+TEST(FindBranches, SeveralBranchesAtOnce) {
   Eigen::Matrix2d stiffness;
   stiffness << 1.0, -1.5, -1.5, 4.0;
   const double mu = 1.0;
@@ -168,18 +168,18 @@ TEST(FindWays, SeveralWaysAtOnce) {
   const auto rest = RestingNode(stiffness, Vector2d(1.0, 0.0), mu, 1.0, -1.0, kStick);
   Arrival arrival;
   arrival.direction = Eigen::Vector3d(0.0, 0.0, 1.0);
-  const WaysOn on = rest->Ways(arrival);
-  ASSERT_EQ(on.ways.size(), 1U);
-  EXPECT_EQ(on.ways[0].states, States{kSlipPlus});
-  EXPECT_NEAR(on.ways[0].load_rate / on.ways[0].direction[0], -0.5, 1e-15);
-  EXPECT_NEAR(on.ways[0].dissipation_rate, on.ways[0].direction[0], 1e-15);
+  const BranchSet on = rest->Branches(arrival);
+  ASSERT_EQ(on.branches.size(), 1U);
+  EXPECT_EQ(on.branches[0].states, States{kSlipPlus});
+  EXPECT_NEAR(on.branches[0].load_rate / on.branches[0].direction[0], -0.5, 1e-15);
+  EXPECT_NEAR(on.branches[0].dissipation_rate, on.branches[0].direction[0], 1e-15);
   // Where it lifts off: slip no further; open with ds/du = 1.75 / 4.
   const auto lifting = RestingNode(stiffness, Vector2d(1.0, 0.0), mu, 0.0, 0.0, kSlipPlus);
   arrival.direction = Eigen::Vector3d(1.0, 0.0, -0.5).normalized();
-  const WaysOn open = lifting->Ways(arrival);
-  ASSERT_FALSE(open.ways.empty());
-  EXPECT_EQ(open.ways[0].states, States{kOpen});
-  EXPECT_NEAR(open.ways[0].load_rate / open.ways[0].direction[0], 0.4375, 1e-15);
+  const BranchSet open = lifting->Branches(arrival);
+  ASSERT_FALSE(open.branches.empty());
+  EXPECT_EQ(open.branches[0].states, States{kOpen});
+  EXPECT_NEAR(open.branches[0].load_rate / open.branches[0].direction[0], 0.4375, 1e-15);
 }
 
 // ----- against an enumeration of its own -----
@@ -218,13 +218,13 @@ struct LinearProblem {
                                  Normal(i).x(), Normal(i).y(), friction[Size(i)]});
       scene.contacts.push_back({name, "o" + std::to_string(i)});
     }
-    for (Index row = 0; row < 2 * n(); ++row)
-      for (Index column = 0; column < 2 * n(); ++column) part.stiffness.push_back(stiffness(row, column));
+    for (Index increment = 0; increment < 2 * n(); ++increment)
+      for (Index column = 0; column < 2 * n(); ++column) part.stiffness.push_back(stiffness(increment, column));
     scene.superelements = {part};
     return scene;
   }
 
-  // All admissible rays, the way back included. nearest: how near to zero a decisive rate came.
+  // All admissible rays, the branch of arrival included. nearest: how near to zero a decisive rate came.
   std::vector<Ray> Rays(double* nearest) const {
     std::vector<Ray> rays;
     *nearest = 1.0;
@@ -268,23 +268,23 @@ struct LinearProblem {
     equations.topLeftCorner(2 * n(), 2 * n()) = stiffness;
     equations.block(0, 2 * n(), 2 * n(), 1) = -load;
     for (Index i = 0; i < n(); ++i) {
-      const Index rn_column = 2 * n() + 1 + 2 * i, rt_column = rn_column + 1, row = 2 * n() + 2 * i;
+      const Index rn_column = 2 * n() + 1 + 2 * i, rt_column = rn_column + 1, increment = 2 * n() + 2 * i;
       equations.block(2 * i, rn_column, 2, 1) = -Normal(i);
       equations.block(2 * i, rt_column, 2, 1) = -Tangent(i);
       const double mu = friction[Size(i)];
       switch (combination[Size(i)]) {
         case ContactState::kOpen:
-          equations(row, rn_column) = 1.0;
-          equations(row + 1, rt_column) = 1.0;
+          equations(increment, rn_column) = 1.0;
+          equations(increment + 1, rt_column) = 1.0;
           break;
         case ContactState::kStick:
-          equations.block(row, 2 * i, 1, 2) = Normal(i).transpose();
-          equations.block(row + 1, 2 * i, 1, 2) = Tangent(i).transpose();
+          equations.block(increment, 2 * i, 1, 2) = Normal(i).transpose();
+          equations.block(increment + 1, 2 * i, 1, 2) = Tangent(i).transpose();
           break;
         default:
-          equations.block(row, 2 * i, 1, 2) = Normal(i).transpose();
-          equations(row + 1, rt_column) = 1.0;
-          equations(row + 1, rn_column) = combination[Size(i)] == kSlipPlus ? mu : -mu;
+          equations.block(increment, 2 * i, 1, 2) = Normal(i).transpose();
+          equations(increment + 1, rt_column) = 1.0;
+          equations(increment + 1, rn_column) = combination[Size(i)] == kSlipPlus ? mu : -mu;
       }
     }
     const SingularValueDecomposition dense = Decompose(equations);
@@ -336,9 +336,9 @@ LinearProblem RandomProblem(Random* random, Index n) {
   return problem;
 }
 
-TEST(FindWays, FindsExactlyTheAdmissibleRays) {
+TEST(FindBranches, FindsExactlyTheAdmissibleRays) {
   Random random(1);
-  std::vector<int> with_ways(12, 0);
+  std::vector<int> with_branches(12, 0);
   int compared = 0, close = 0;
   for (int i = 0; i < 600; ++i) {
     const Index n = 1 + i % 3;
@@ -359,54 +359,55 @@ TEST(FindWays, FindsExactlyTheAdmissibleRays) {
     }
     Arrival arrival;  // from where no ray leads
     arrival.direction = random.Vector(2 * n + 1, -1.0, 1.0).normalized();
-    const WaysOn on = rest.Ways(arrival);
-    ASSERT_EQ(on.ways.size(), rays.size()) << "problem " << i;
+    const BranchSet on = rest.Branches(arrival);
+    ASSERT_EQ(on.branches.size(), rays.size()) << "problem " << i;
     EXPECT_TRUE(on.complete);
     for (const Ray& ray : rays) {
-      const auto way = std::min_element(on.ways.begin(), on.ways.end(), [&](const Way& a, const Way& b) {
-        return (a.direction - ray.direction).norm() < (b.direction - ray.direction).norm();
-      });
-      EXPECT_LE((way->direction - ray.direction).norm(), 1e-9) << "problem " << i;
-      EXPECT_NEAR(way->dissipation_rate, ray.dissipation, 1e-9);
-      EXPECT_NEAR(way->direction.norm(), 1.0, 1e-14);
-      EXPECT_EQ(way->load_rate, way->direction[2 * n]);
-      EXPECT_NEAR(std::cos(way->turn), way->direction.dot(arrival.direction), 1e-12);
-      EXPECT_FALSE(way->loose);
+      const auto branch =
+          std::min_element(on.branches.begin(), on.branches.end(), [&](const Branch& a, const Branch& b) {
+            return (a.direction - ray.direction).norm() < (b.direction - ray.direction).norm();
+          });
+      EXPECT_LE((branch->direction - ray.direction).norm(), 1e-9) << "problem " << i;
+      EXPECT_NEAR(branch->dissipation_rate, ray.dissipation, 1e-9);
+      EXPECT_NEAR(branch->direction.norm(), 1.0, 1e-14);
+      EXPECT_EQ(branch->load_rate, branch->direction[2 * n]);
+      EXPECT_NEAR(std::cos(branch->turn), branch->direction.dot(arrival.direction), 1e-12);
+      EXPECT_FALSE(branch->mechanism);
     }
-    for (std::size_t k = 0; k + 1 < on.ways.size(); ++k) {
-      EXPECT_GE(on.ways[k].dissipation_rate, on.ways[k + 1].dissipation_rate - 1e-9);
-      const bool tie = std::abs(on.ways[k].dissipation_rate - on.ways[k + 1].dissipation_rate) < 1e-10;
-      EXPECT_TRUE(!tie || on.ways[k].turn <= on.ways[k + 1].turn + 1e-9);
+    for (std::size_t k = 0; k + 1 < on.branches.size(); ++k) {
+      EXPECT_GE(on.branches[k].dissipation_rate, on.branches[k + 1].dissipation_rate - 1e-9);
+      const bool tie = std::abs(on.branches[k].dissipation_rate - on.branches[k + 1].dissipation_rate) < 1e-10;
+      EXPECT_TRUE(!tie || on.branches[k].turn <= on.branches[k + 1].turn + 1e-9);
     }
 
     // Arrived along one of them backwards: all the others.
     if (!rays.empty()) {
       arrival.direction = -rays[0].direction;
-      const WaysOn others = rest.Ways(arrival);
-      EXPECT_EQ(others.ways.size(), rays.size() - 1);
-      for (const Way& way : others.ways) EXPECT_GE((way.direction - rays[0].direction).norm(), 1e-6);
+      const BranchSet others = rest.Branches(arrival);
+      EXPECT_EQ(others.branches.size(), rays.size() - 1);
+      for (const Branch& branch : others.branches) EXPECT_GE((branch.direction - rays[0].direction).norm(), 1e-6);
     }
     // From a start: those with the wanted sign.
     for (const double sign : {1.0, -1.0}) {
       const auto wanted =
           std::count_if(rays.begin(), rays.end(), [&](const Ray& ray) { return sign * ray.direction[2 * n] > 0.0; });
-      EXPECT_EQ(rest.FromStart(sign).ways.size(), static_cast<std::size_t>(wanted));
+      EXPECT_EQ(rest.FromStart(sign).branches.size(), static_cast<std::size_t>(wanted));
     }
-    ++with_ways[std::min<std::size_t>(rays.size(), 11)];
+    ++with_branches[std::min<std::size_t>(rays.size(), 11)];
     ++compared;
   }
   EXPECT_GE(compared, 550);
   EXPECT_LE(close, 50);
-  EXPECT_GE(with_ways[0], 1);
-  EXPECT_GE(with_ways[2], 100);
-  EXPECT_GE(with_ways[4], 5);
+  EXPECT_GE(with_branches[0], 1);
+  EXPECT_GE(with_branches[2], 100);
+  EXPECT_GE(with_branches[4], 5);
 }
 
 // ----- many contacts -----
 
 // Nodes that do not know of each other, one spring each: the states of each are known, and 4^n combinations are too
 // many.
-TEST(FindWays, ManyContactsAtOnce) {
+TEST(FindBranches, ManyContactsAtOnce) {
   Scene scene;
   States expected;
   Random random(2);
@@ -426,16 +427,16 @@ TEST(FindWays, ManyContactsAtOnce) {
   }
   scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.5}};
   Rest rest(scene);
-  const WaysOn on = rest.FromStart(1.0);
-  EXPECT_EQ(on.concerned, 12);
+  const BranchSet on = rest.FromStart(1.0);
+  EXPECT_EQ(on.weakly_active, 12);
   EXPECT_FALSE(on.complete);
   EXPECT_LE(on.combinations, 100);
-  ASSERT_EQ(on.ways.size(), 1U);
-  EXPECT_EQ(on.ways[0].states, expected);
+  ASSERT_EQ(on.branches.size(), 1U);
+  EXPECT_EQ(on.branches[0].states, expected);
 }
 
-// Unloaded contacts, all touching, ds = 1: the admissible ways by trying all 4^n combinations on the compliance.
-std::vector<VectorXd> WaysWithRisingLoad(const LinearProblem& problem) {
+// Unloaded contacts, all touching, ds = 1: the admissible branches by trying all 4^n combinations on the compliance.
+std::vector<VectorXd> BranchesWithRisingLoad(const LinearProblem& problem) {
   using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 14, 14>;
   using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 14, 1>;
   const Index n = problem.n();
@@ -447,7 +448,7 @@ std::vector<VectorXd> WaysWithRisingLoad(const LinearProblem& problem) {
   }
   const MatrixXd motion = directions.transpose() * compliance * directions;  // of the contacts, by their reactions
   const VectorXd free_motion = directions.transpose() * compliance * problem.load;
-  std::vector<VectorXd> ways;
+  std::vector<VectorXd> branches;
   for (int code = 0; code < 1 << (2 * n); ++code) {
     SmallMatrix matrix = SmallMatrix::Zero(2 * n, 2 * n);
     SmallVector right = SmallVector::Zero(2 * n);
@@ -480,15 +481,15 @@ std::vector<VectorXd> WaysWithRisingLoad(const LinearProblem& problem) {
       if (state >= 2) admissible = r[2 * i] > 0.0 && (state == 2 ? 1.0 : -1.0) * moved[2 * i + 1] > 0.0;
     }
     if (!admissible) continue;
-    VectorXd way(2 * n + 1);
-    way << compliance * (problem.load + directions * r), 1.0;
-    ways.push_back(way.normalized());
+    VectorXd branch(2 * n + 1);
+    branch << compliance * (problem.load + directions * r), 1.0;
+    branches.push_back(branch.normalized());
   }
-  return ways;
+  return branches;
 }
 
-// More contacts than are enumerated: what is found is admissible, and something is found where there is a way.
-TEST(FindWays, ManyCoupledContacts) {
+// More contacts than are enumerated: what is found is admissible, and something is found where there is a branch.
+TEST(FindBranches, ManyCoupledContacts) {
   Random random(3);
   int found = 0, missed = 0;
   for (int i = 0; i < 36; ++i) {
@@ -500,19 +501,19 @@ TEST(FindWays, ManyCoupledContacts) {
       problem.rn[k] = problem.rt[k] = 0.0;
     }
     if (i % 31 > 4) continue;
-    const std::vector<VectorXd> all = WaysWithRisingLoad(problem);
+    const std::vector<VectorXd> all = BranchesWithRisingLoad(problem);
     Rest rest(problem.ToScene());
-    const WaysOn on = rest.FromStart(1.0);
+    const BranchSet on = rest.FromStart(1.0);
     EXPECT_EQ(on.complete, on.combinations >= 1 << 14);
-    for (const Way& way : on.ways) {
+    for (const Branch& branch : on.branches) {
       double distance = 1.0;
-      for (const VectorXd& other : all) distance = std::min(distance, (other - way.direction).norm());
+      for (const VectorXd& other : all) distance = std::min(distance, (other - branch.direction).norm());
       EXPECT_LE(distance, 1e-9) << "problem " << i;
     }
-    if (!on.ways.empty()) ++found;
-    if (on.ways.empty() && !all.empty()) {
+    if (!on.branches.empty()) ++found;
+    if (on.branches.empty() && !all.empty()) {
       ++missed;
-      ADD_FAILURE() << "problem " << i << ": none of " << all.size() << " ways was found";
+      ADD_FAILURE() << "problem " << i << ": none of " << all.size() << " branches was found";
     }
   }
   EXPECT_GE(found, 8);
@@ -522,41 +523,42 @@ TEST(FindWays, ManyCoupledContacts) {
 // ----- symmetry, rigid modes -----
 
 // Two feet on a rough floor, one pressed as the other: each may slide alone, which breaks the symmetry, or both.
-TEST(FindWays, WaysThatBreakASymmetryAreTwins) {
+TEST(FindBranches, BranchesThatBreakASymmetryAreMirrors) {
   const TracedPath path = [] {
     TraceRequest request = ReadExample("rough_truss");
     request.scene.nodes[0] = {"left", -1.0, 0.0, false, false};
     request.scene.contacts.push_back({"left", "floor"});
-    return TraceRows(request);
+    return TraceIncrements(request);
   }();
-  const auto corner = std::find_if(path.rows.begin(), path.rows.end(),
-                                   [](const Increment& row) { return row.kind == RowKind::kCornerLimit; });
-  ASSERT_NE(corner, path.rows.end());
+  const auto corner = std::find_if(path.increments.begin(), path.increments.end(), [](const Increment& increment) {
+    return increment.kind == IncrementKind::kCornerLimit;
+  });
+  ASSERT_NE(corner, path.increments.end());
   EXPECT_NEAR(corner->load_factor, rough_truss::CornerLoad(), 1e-14);
-  ASSERT_EQ(corner->event.ways.size(), 3U);
-  EXPECT_EQ(corner->event.ways[0].states, (States{kSlipPlus, kSlipMinus}));
+  ASSERT_EQ(corner->event.branches.size(), 3U);
+  EXPECT_EQ(corner->event.branches[0].states, (States{kSlipPlus, kSlipMinus}));
   EXPECT_EQ(corner->event.taken, 0);
-  EXPECT_NEAR(corner->event.ways[1].dissipation_rate, corner->event.ways[2].dissipation_rate, 1e-12);
-  EXPECT_NEAR(corner->event.ways[1].load_rate, corner->event.ways[2].load_rate, 1e-12);
+  EXPECT_NEAR(corner->event.branches[1].dissipation_rate, corner->event.branches[2].dissipation_rate, 1e-12);
+  EXPECT_NEAR(corner->event.branches[1].load_rate, corner->event.branches[2].load_rate, 1e-12);
 }
 
 // Two bars in a row, hinged and free at the end.
-TEST(FindWays, RigidModes) {
+TEST(FindBranches, RigidModes) {
   Scene scene;
   scene.nodes = {{"a", 0.0, 0.0, true, true}, {"b", 1.0, 0.0, false, false}, {"c", 2.0, 0.5, false, false}};
   scene.bars = {{{"a", "b"}, 1.0, 0.0, StrainMeasure::kBiot}, {{"b", "c"}, 1.0, 0.0, StrainMeasure::kBiot}};
   scene.loads = {{"b", 1.0, 0.0, false}};
   Rest rest(scene);
-  const WaysOn on = rest.FromStart(1.0);
+  const BranchSet on = rest.FromStart(1.0);
   // The load stretches the first bar; the second swings freely, and of all motions that keep its length this is the
   // shortest.
-  ASSERT_EQ(on.ways.size(), 1U);
-  EXPECT_FALSE(on.ways[0].loose);
-  EXPECT_NEAR(on.ways[0].direction[1] / on.ways[0].direction[0], -1.0 / 3.0, 1e-12);
-  EXPECT_NEAR(on.ways[0].load_rate / on.ways[0].direction[0], 1.0, 1e-12);
+  ASSERT_EQ(on.branches.size(), 1U);
+  EXPECT_FALSE(on.branches[0].mechanism);
+  EXPECT_NEAR(on.branches[0].direction[1] / on.branches[0].direction[0], -1.0 / 3.0, 1e-12);
+  EXPECT_NEAR(on.branches[0].load_rate / on.branches[0].direction[0], 1.0, 1e-12);
   // Nothing bears a load across the bars.
   scene.loads = {{"c", 0.0, 1.0, false}};
-  EXPECT_TRUE(Rest(scene).FromStart(1.0).ways.empty());
+  EXPECT_TRUE(Rest(scene).FromStart(1.0).branches.empty());
 }
 
 }  // namespace

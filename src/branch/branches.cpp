@@ -1,12 +1,12 @@
-#include "contact_path/branch/ways.h"
+#include "contact_path/branch/branches.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <set>
 
-#include "contact_path/branch/motionless_reactions.h"
 #include "contact_path/branch/rate_problem.h"
+#include "contact_path/branch/reaction_redistribution.h"
 #include "contact_path/contact/fixed_state_system.h"
 #include "contact_path/linear/bordered_solver.h"
 #include "contact_path/linear/minimum_norm.h"
@@ -18,8 +18,8 @@ namespace {
 constexpr double kRateTolerance = 1e-9;       // of unit rates
 constexpr double kCurvatureTolerance = 1e-9;  // of second derivatives, where the rate is zero
 constexpr double kSameDirection = 1e-7;       // norm of the difference of unit vectors
-constexpr double kWayBack = 1e-6;             // the same, to the way back
-constexpr double kWayBackSingular = 1e-3;     // where the arrival is interpolated
+constexpr double kReversed = 1e-6;            // the same, to the branch of arrival
+constexpr double kReversedSingular = 1e-3;    // where the arrival is interpolated
 constexpr double kStartRate = 1e-13;          // of the load: a start along which it changes less is a mechanism
 constexpr double kGraze = 1e-12;              // depth to which an inequality may be broken next to the point: rounding
 constexpr double kSingularRank = 1e-6;  // rank tolerance where another path crosses: the point is known to about 1e-10
@@ -38,9 +38,9 @@ constexpr double kRateLength = 1e-5;            // scaled length of an increment
 
 using States = std::vector<ContactState>;
 
-// The states that a contact can take on from `point`: one if it is not concerned. The natural one, as it was, comes
+// The states that a contact can take on from `point`: one if it is not weakly_active. The natural one, as it was, comes
 // first.
-States Options(const ContactGeometry& contact, const PathPoint& point, std::size_t i, const AtLimit& limit) {
+States Options(const ContactGeometry& contact, const PathPoint& point, std::size_t i, const ActiveSetTolerance& limit) {
   const auto k = static_cast<Eigen::Index>(i);
   const double gap = contact.gap.Value(point.u, point.s), rn = point.rn[k], rt = point.rt[k];
   if (gap > limit.gap) return {ContactState::kOpen};
@@ -74,17 +74,17 @@ Eigen::MatrixXd Split(const Eigen::MatrixXd& basis, Eigen::Index from, Eigen::In
 class Finder {
  public:
   Finder(const Structure& structure, const std::vector<ContactGeometry>& contacts, const PathPoint& point,
-         const Arrival& arrival, const AtLimit& limit, const std::function<bool()>& cancelled)
+         const Arrival& arrival, const ActiveSetTolerance& limit, const std::function<bool()>& cancelled)
       : contacts_(contacts),
         point_(point),
         arrival_(arrival),
-        at_limit_(limit),
+        tolerance_(limit),
         cancelled_(cancelled),
         system_(structure, contacts),
         reference_(TangentialPositions(contacts, point)) {}
 
-  // Adds the ways with these states.
-  void Try(const States& states, std::vector<Way>* ways) {
+  // Adds the branches with these states.
+  void Try(const States& states, std::vector<Branch>* branches) {
     Eigen::VectorXd x;
     const std::optional<Eigen::VectorXd> tangent = TangentOf(states, &x);
     if (!tangent) return;
@@ -94,7 +94,7 @@ class Finder {
       const Eigen::VectorXd second = Second(x, along);
       for (const double sign : {1.0, -1.0}) {
         const Eigen::VectorXd first = sign * along;
-        if (Admissible(x, first, second)) Add(first, second, ways);
+        if (Admissible(x, first, second)) Add(first, second, branches);
       }
     }
   }
@@ -113,8 +113,8 @@ class Finder {
     const std::optional<CondensedRates> rates = condensed.Rates(states);
     if (!rates) return false;
     if (arrival_.is_start && std::abs(rates->load) <= kStartRate) return true;
-    return condensed.Broken(states, *rates, 1.0, at_limit_.force, kExcluded, nullptr) &&
-           condensed.Broken(states, *rates, -1.0, at_limit_.force, kExcluded, nullptr);
+    return condensed.Broken(states, *rates, 1.0, tolerance_.force, kExcluded, nullptr) &&
+           condensed.Broken(states, *rates, -1.0, tolerance_.force, kExcluded, nullptr);
   }
 
   int rigid_modes() const { return rigid_modes_; }
@@ -132,13 +132,13 @@ class Finder {
   Eigen::Index NumMotion() const { return system_.NumDofs() + 1; }
 
   // Whether its rate counts. The slip rate always does.
-  bool IsAtLimit(const Limit& limit, const Eigen::VectorXd& x) const {
+  bool IsActive(const Constraint& limit, const Eigen::VectorXd& x) const {
     if (limit.inequality == Inequality::kSlip) return true;
-    return system_.Value(limit, x) <= (limit.inequality == Inequality::kGap ? at_limit_.gap : at_limit_.force);
+    return system_.Value(limit, x) <= (limit.inequality == Inequality::kGap ? tolerance_.gap : tolerance_.force);
   }
 
   // The state that a contact takes on where the rate of `limit` is negative.
-  static ContactState Next(const Limit& limit, const ContactGeometry& contact) {
+  static ContactState Next(const Constraint& limit, const ContactGeometry& contact) {
     switch (limit.inequality) {
       case Inequality::kGap: return contact.Frictional() ? ContactState::kStick : ContactState::kClosed;
       case Inequality::kNormalReaction: return ContactState::kOpen;
@@ -157,8 +157,8 @@ class Finder {
       const double along = tangent->head(NumMotion()).dot(arrival_.direction);
       const Eigen::VectorXd first = (along < 0.0 ? -sign : sign) * *tangent;
       bool changed = false;
-      for (const Limit& limit : system_.Inequalities()) {
-        if (!IsAtLimit(limit, x)) continue;
+      for (const Constraint& limit : system_.Inequalities()) {
+        if (!IsActive(limit, x)) continue;
         if (system_.Rate(limit, first) >= -kRateTolerance) continue;
         ContactState& state = states[static_cast<std::size_t>(limit.contact)];
         state = Next(limit, contacts_[static_cast<std::size_t>(limit.contact)]);
@@ -171,15 +171,15 @@ class Finder {
   }
 
   std::optional<States> PivotCondensed(States states, double sign, const RateProblem& condensed) const {
-    std::vector<Limit> broken;
+    std::vector<Constraint> broken;
     for (int round = 0; round < kBlockPivots + kSinglePivots; ++round) {
       const std::optional<CondensedRates> rates = condensed.UniqueRates(states);
       if (!rates) return std::nullopt;
       broken.clear();
-      condensed.Broken(states, *rates, rates->along < 0.0 ? -sign : sign, at_limit_.force, kRateTolerance, &broken);
+      condensed.Broken(states, *rates, rates->along < 0.0 ? -sign : sign, tolerance_.force, kRateTolerance, &broken);
       if (broken.empty()) return states;
       if (round >= kBlockPivots) broken.resize(1);
-      for (const Limit& limit : broken) {
+      for (const Constraint& limit : broken) {
         const auto i = static_cast<std::size_t>(limit.contact);
         states[i] = Next(limit, contacts_[i]);
       }
@@ -196,7 +196,7 @@ class Finder {
       row.head(NumMotion()) = arrival_.direction;
       regular_ = lu_.FactorizeRegular(transposed, row, kClearlyRegular);
       if (regular_) {
-        loose_ = false;
+        mechanism_ = false;
         const Eigen::VectorXd tangent = lu_.Solve(Eigen::VectorXd::Zero(system_.NumEquations()), 1.0);
         return Eigen::VectorXd(tangent / tangent.head(NumMotion()).norm());
       }
@@ -212,11 +212,11 @@ class Finder {
     return regular_ ? lu_.Solve(right, 0.0) : solver_.Solve(right);
   }
 
-  // The direction of the piece: of the null space, what is neither a rigid mode (no change of load and reactions) nor a
-  // redundant reaction (no motion). A mechanism has rigid modes only: with one of them it moves that way, with more it
-  // is loose, and the one nearest to the arrival stands for all.
+  // The direction of the arc: of the null space, what is neither a rigid mode (no change of load and reactions) nor a
+  // redundant reaction (no motion). A mechanism has rigid modes only: with one of them it moves that branch, with more
+  // it is a mechanism, and the one nearest to the arrival stands for all.
   std::optional<Eigen::VectorXd> Tangent() {
-    loose_ = false;
+    mechanism_ = false;
     const Eigen::MatrixXd null_space = solver_.NullSpace();
     const Eigen::Index motion = NumMotion();
     Eigen::VectorXd tangent;
@@ -237,7 +237,7 @@ class Finder {
       }
       const Eigen::MatrixXd& candidates = proper.cols() > 0 ? proper : rigid;
       if (candidates.cols() == 0) return std::nullopt;
-      loose_ = proper.cols() == 0 && rigid.cols() > 1;
+      mechanism_ = proper.cols() == 0 && rigid.cols() > 1;
       if (proper.cols() == 0) rigid_modes_ = std::max(rigid_modes_, static_cast<int>(rigid.cols()));
       if (candidates.cols() == 1)
         tangent = candidates.col(0);
@@ -284,10 +284,10 @@ class Finder {
   bool Admissible(const Eigen::VectorXd& x, const Eigen::VectorXd& first, const Eigen::VectorXd& second) const {
     const Eigen::Index n = NumMotion();
     if (arrival_.is_start && first[n - 1] * arrival_.direction[n - 1] <= kStartRate) return false;
-    if (!arrival_.is_start && IsWayBack(first)) return false;
-    for (const Limit& limit : system_.Inequalities()) {
+    if (!arrival_.is_start && IsReversed(first)) return false;
+    for (const Constraint& limit : system_.Inequalities()) {
       double rate = system_.Rate(limit, first), curvature = system_.Rate(limit, second);
-      if (!IsAtLimit(limit, x)) continue;
+      if (!IsActive(limit, x)) continue;
       // A graze, located to the root of rounding only: the value is past its minimum before it counts as negative.
       const bool grazes = limit.inequality != Inequality::kSlip && rate < 0.0 && curvature > kCurvatureTolerance &&
                           rate * rate <= 2.0 * curvature * kGraze;
@@ -297,8 +297,8 @@ class Finder {
     return true;
   }
 
-  bool IsWayBack(const Eigen::VectorXd& first) const {
-    return (first.head(NumMotion()) + arrival_.direction).norm() < (arrival_.singular ? kWayBackSingular : kWayBack);
+  bool IsReversed(const Eigen::VectorXd& first) const {
+    return (first.head(NumMotion()) + arrival_.direction).norm() < (arrival_.singular ? kReversedSingular : kReversed);
   }
 
   double DissipationRate(const States& states, const Eigen::VectorXd& direction) const {
@@ -311,37 +311,37 @@ class Finder {
   }
 
   // Contacts that slip by name but do not move.
-  int IdleSlips(const Way& way) const {
+  int IdleSlips(const Branch& branch) const {
     int idle = 0;
     for (std::size_t i = 0; i < contacts_.size(); ++i)
-      if (Slips(way.states[i]) &&
-          std::abs(contacts_[i].tangential.Rate(way.direction, way.load_rate)) <= kRateTolerance)
+      if (Slips(branch.states[i]) &&
+          std::abs(contacts_[i].tangential.Rate(branch.direction, branch.load_rate)) <= kRateTolerance)
         ++idle;
     return idle;
   }
 
-  void Add(const Eigen::VectorXd& first, const Eigen::VectorXd& second, std::vector<Way>* ways) const {
-    Way way;
-    way.states = system_.states();
-    way.loose = loose_;
-    way.direction = first.head(NumMotion());
-    way.first = first;
-    way.second = second - first.head(NumMotion()).dot(second.head(NumMotion())) * first;
-    way.load_rate = first[NumMotion() - 1];
-    way.dissipation_rate = DissipationRate(way.states, way.direction);
-    way.turn = std::acos(std::clamp(way.direction.dot(arrival_.direction), -1.0, 1.0));
-    for (Way& other : *ways) {
-      if ((other.direction - way.direction).norm() >= kSameDirection) continue;
-      if (IdleSlips(way) < IdleSlips(other)) other = std::move(way);
+  void Add(const Eigen::VectorXd& first, const Eigen::VectorXd& second, std::vector<Branch>* branches) const {
+    Branch branch;
+    branch.states = system_.states();
+    branch.mechanism = mechanism_;
+    branch.direction = first.head(NumMotion());
+    branch.first = first;
+    branch.second = second - first.head(NumMotion()).dot(second.head(NumMotion())) * first;
+    branch.load_rate = first[NumMotion() - 1];
+    branch.dissipation_rate = DissipationRate(branch.states, branch.direction);
+    branch.turn = std::acos(std::clamp(branch.direction.dot(arrival_.direction), -1.0, 1.0));
+    for (Branch& other : *branches) {
+      if ((other.direction - branch.direction).norm() >= kSameDirection) continue;
+      if (IdleSlips(branch) < IdleSlips(other)) other = std::move(branch);
       return;
     }
-    ways->push_back(std::move(way));
+    branches->push_back(std::move(branch));
   }
 
   const std::vector<ContactGeometry>& contacts_;
   const PathPoint& point_;
   const Arrival& arrival_;
-  AtLimit at_limit_;
+  ActiveSetTolerance tolerance_;
   const std::function<bool()>& cancelled_;
   bool was_cancelled_ = false;
   FixedStateSystem system_;
@@ -349,35 +349,35 @@ class Finder {
   BorderedSolver lu_;         // where the equations are clearly regular
   MinimumNormSolver solver_;  // elsewhere
   bool regular_ = false;      // which of them the last tangent is of
-  bool loose_ = false;        // of the last tangent
+  bool mechanism_ = false;    // of the last tangent
   int rigid_modes_ = 0;       // most of all tangents that are rigid modes
 };
 
-// Two ways with the same rates are images of each other under a symmetry of the scene, and break it.
-void FindTwins(std::vector<Way>* ways) {
+// Two branches with the same rates are images of each other under a symmetry of the scene, and break it.
+void FindMirrorBranches(std::vector<Branch>* branches) {
   const auto same = [](double a, double b) { return std::abs(a - b) <= kRateTolerance; };
-  for (Way& a : *ways)
-    for (Way& b : *ways)
+  for (Branch& a : *branches)
+    for (Branch& b : *branches)
       if (&a != &b && same(a.dissipation_rate, b.dissipation_rate) && same(a.load_rate, b.load_rate) &&
           same(std::cos(a.turn), std::cos(b.turn)))
-        a.has_twin = true;
+        a.has_mirror = true;
 }
 
-bool Better(const Way& a, const Way& b) {
+bool Better(const Branch& a, const Branch& b) {
   if (std::abs(a.dissipation_rate - b.dissipation_rate) > kRateTolerance)
     return a.dissipation_rate > b.dissipation_rate;
-  if (a.has_twin != b.has_twin) return b.has_twin;
+  if (a.has_mirror != b.has_mirror) return b.has_mirror;
   return a.turn < b.turn - kRateTolerance;
 }
 
 // Every combination of the options: an odometer, the last contact turning fastest.
-void TryAll(const std::vector<States>& options, const RateProblem* condensed, Finder* finder, WaysOn* result) {
+void TryAll(const std::vector<States>& options, const RateProblem* condensed, Finder* finder, BranchSet* result) {
   States states;
   for (const States& option : options) states.push_back(option.front());
   std::vector<std::size_t> digits(options.size(), 0);
   bool turned = true;
   while (turned && !finder->Cancelled()) {
-    if (condensed == nullptr || !finder->Excluded(states, *condensed)) finder->Try(states, &result->ways);
+    if (condensed == nullptr || !finder->Excluded(states, *condensed)) finder->Try(states, &result->branches);
     ++result->combinations;
     turned = false;
     for (std::size_t i = options.size(); i-- > 0 && !turned;) {
@@ -392,7 +392,7 @@ void TryAll(const std::vector<States>& options, const RateProblem* condensed, Fi
 // for an increment so small that it is the rate problem, with and without the pull of the dissipation. Each result is
 // tried like any other combination.
 void TryLikely(const std::vector<States>& options, const PathPoint& point, const Arrival& arrival,
-               const RateProblem* condensed, IncrementSolver* mpec, Finder* finder, WaysOn* result) {
+               const RateProblem* condensed, IncrementSolver* mpec, Finder* finder, BranchSet* result) {
   std::vector<States> guesses;
   for (const ContactState preferred : {ContactState::kOpen, ContactState::kStick, ContactState::kSlipPlus,
                                        ContactState::kSlipMinus, ContactState::kClosed}) {
@@ -407,7 +407,7 @@ void TryLikely(const std::vector<States>& options, const PathPoint& point, const
   std::set<States> tried;
   const auto attempt = [&](const States& states) {
     if (finder->Cancelled() || !tried.insert(states).second) return;
-    if (condensed == nullptr || !finder->Excluded(states, *condensed)) finder->Try(states, &result->ways);
+    if (condensed == nullptr || !finder->Excluded(states, *condensed)) finder->Try(states, &result->branches);
     ++result->combinations;
   };
   const auto pivot_from = [&](const States& guess) {
@@ -417,7 +417,7 @@ void TryLikely(const std::vector<States>& options, const PathPoint& point, const
   };
   for (const States& guess : guesses) pivot_from(guess);
   // Next to what was found: one contact after another in another of its states.
-  if (condensed != nullptr && result->concerned <= kMostRestarts) {
+  if (condensed != nullptr && result->weakly_active <= kMostRestarts) {
     for (const States& found : std::set<States>(tried))
       for (std::size_t i = 0; i < options.size(); ++i)
         for (const ContactState other : options[i]) {
@@ -427,7 +427,7 @@ void TryLikely(const std::vector<States>& options, const PathPoint& point, const
           pivot_from(guess);
         }
   }
-  if (point.u.size() > kMostDofsForMpec && !result->ways.empty()) return;
+  if (point.u.size() > kMostDofsForMpec && !result->branches.empty()) return;
   for (const double share : {0.0, 0.5, 1.0}) {
     const IncrementTrial trial =
         mpec->Solve(point, {kRateLength, arrival.direction, share, 1.0}, RegularisationSchedule());
@@ -435,58 +435,58 @@ void TryLikely(const std::vector<States>& options, const PathPoint& point, const
   }
 }
 
-// With the reactions of the point. In no order, and twins are not told.
-WaysOn WaysWithReactions(const Structure& structure, const std::vector<ContactGeometry>& contacts,
-                         const PathPoint& point, const Arrival& arrival, const AtLimit& limit, IncrementSolver* mpec,
-                         const std::function<bool()>& cancelled) {
-  WaysOn result;
+// With the reactions of the point. In no order, and mirror branches are not told.
+BranchSet BranchesWithReactions(const Structure& structure, const std::vector<ContactGeometry>& contacts,
+                                const PathPoint& point, const Arrival& arrival, const ActiveSetTolerance& limit,
+                                IncrementSolver* mpec, const std::function<bool()>& cancelled) {
+  BranchSet result;
   std::vector<States> options;
   States natural;
-  std::vector<int> concerned;
+  std::vector<int> weakly_active;
   double combinations = 1.0;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     options.push_back(Options(contacts[i], point, i, limit));
     natural.push_back(options[i].front());
     combinations *= static_cast<double>(options[i].size());
-    if (options[i].size() > 1) concerned.push_back(static_cast<int>(i));
+    if (options[i].size() > 1) weakly_active.push_back(static_cast<int>(i));
   }
-  result.concerned = static_cast<int>(concerned.size());
+  result.weakly_active = static_cast<int>(weakly_active.size());
   Finder finder(structure, contacts, point, arrival, limit, cancelled);
   // Where another path crosses, rates are not unique, and every combination is looked at as a whole.
   std::optional<RateProblem> problem;
-  const double entries = static_cast<double>(point.u.size()) * static_cast<double>(2 * concerned.size() + 1);
-  if (combinations > kFewCombinations && concerned.size() <= kMostCondensedContacts && !arrival.singular &&
+  const double entries = static_cast<double>(point.u.size()) * static_cast<double>(2 * weakly_active.size() + 1);
+  if (combinations > kFewCombinations && weakly_active.size() <= kMostCondensedContacts && !arrival.singular &&
       entries <= kMostCondensed)
-    problem.emplace(structure, contacts, point, natural, concerned, arrival.direction);
+    problem.emplace(structure, contacts, point, natural, weakly_active, arrival.direction);
   const RateProblem* condensed = problem && problem->regular() ? &*problem : nullptr;
   result.complete = combinations <= kMostCombinations;
   if (result.complete)
     TryAll(options, condensed, &finder, &result);
   else
     TryLikely(options, point, arrival, condensed, mpec, &finder, &result);
-  if (result.ways.empty() && !result.complete && combinations <= kMostIfNone) {
+  if (result.branches.empty() && !result.complete && combinations <= kMostIfNone) {
     TryAll(options, condensed, &finder, &result);
     result.complete = true;
   }
-  if (result.ways.empty() && condensed != nullptr) finder.Try(natural, &result.ways);  // for its rigid modes
+  if (result.branches.empty() && condensed != nullptr) finder.Try(natural, &result.branches);  // for its rigid modes
   result.rigid_modes = finder.rigid_modes();
   result.cancelled = finder.Cancelled();
   return result;
 }
 
-bool GoesOn(const Way& way) { return std::cos(way.turn) > kRateTolerance; }
+bool GoesOn(const Branch& branch) { return std::cos(branch.turn) > kRateTolerance; }
 
-// A way that needs no change of reactions comes before one in the same direction that does.
-void AddOthers(WaysOn&& others, const PathPoint& begin, WaysOn* result) {
-  for (Way& way : others.ways) {
-    const bool known = std::any_of(result->ways.begin(), result->ways.end(), [&](const Way& other) {
-      return (other.direction - way.direction).norm() < kSameDirection;
+// A branch that needs no change of reactions comes before one in the same direction that does.
+void AddOthers(BranchSet&& others, const PathPoint& begin, BranchSet* result) {
+  for (Branch& branch : others.branches) {
+    const bool known = std::any_of(result->branches.begin(), result->branches.end(), [&](const Branch& other) {
+      return (other.direction - branch.direction).norm() < kSameDirection;
     });
     if (known) continue;
-    way.begin = begin;
-    result->ways.push_back(std::move(way));
+    branch.begin = begin;
+    result->branches.push_back(std::move(branch));
   }
-  result->concerned = std::max(result->concerned, others.concerned);
+  result->weakly_active = std::max(result->weakly_active, others.weakly_active);
   result->complete = result->complete && others.complete;
   result->cancelled = result->cancelled || others.cancelled;
   result->combinations += others.combinations;
@@ -495,20 +495,20 @@ void AddOthers(WaysOn&& others, const PathPoint& begin, WaysOn* result) {
 
 }  // namespace
 
-WaysOn FindWays(const Structure& structure, const std::vector<ContactGeometry>& contacts, const PathPoint& point,
-                const Arrival& arrival, const AtLimit& limit, IncrementSolver* mpec,
-                const std::function<bool()>& cancelled) {
-  WaysOn result = WaysWithReactions(structure, contacts, point, arrival, limit, mpec, cancelled);
-  if (!result.cancelled && std::none_of(result.ways.begin(), result.ways.end(), GoesOn)) {
-    const MotionlessReactions others = FindMotionlessReactions(contacts, point, limit);
+BranchSet FindBranches(const Structure& structure, const std::vector<ContactGeometry>& contacts, const PathPoint& point,
+                       const Arrival& arrival, const ActiveSetTolerance& limit, IncrementSolver* mpec,
+                       const std::function<bool()>& cancelled) {
+  BranchSet result = BranchesWithReactions(structure, contacts, point, arrival, limit, mpec, cancelled);
+  if (!result.cancelled && std::none_of(result.branches.begin(), result.branches.end(), GoesOn)) {
+    const ReactionRedistributions others = FindReactionRedistributions(contacts, point, limit);
     result.complete = result.complete && others.complete;
     for (const PathPoint& begin : others.points) {
       if (result.cancelled) break;
-      AddOthers(WaysWithReactions(structure, contacts, begin, arrival, limit, mpec, cancelled), begin, &result);
+      AddOthers(BranchesWithReactions(structure, contacts, begin, arrival, limit, mpec, cancelled), begin, &result);
     }
   }
-  FindTwins(&result.ways);
-  std::stable_sort(result.ways.begin(), result.ways.end(), Better);
+  FindMirrorBranches(&result.branches);
+  std::stable_sort(result.branches.begin(), result.branches.end(), Better);
   return result;
 }
 

@@ -1,4 +1,4 @@
-#include "contact_path/branch/smooth_piece.h"
+#include "contact_path/branch/smooth_arc.h"
 
 #include <array>
 #include <cmath>
@@ -28,31 +28,31 @@ std::array<Quintic, 6> HermiteBasis(double length) {
   return basis;
 }
 
-// Derivatives at the end of a segment by its parameter.
-void EndDerivatives(const Segment& segment, Eigen::VectorXd* first, Eigen::VectorXd* second) {
-  const Eigen::Index n = segment.normal.size();
-  const double c = segment.normal.dot(segment.end.first.head(n));
-  const double bend = segment.normal.dot(segment.end.second.head(n));
-  *first = segment.end.first / c;
-  *second = (segment.end.second - *first * bend) / (c * c);
+// Derivatives at the end of a step by its parameter.
+void EndDerivatives(const Step& step, Eigen::VectorXd* first, Eigen::VectorXd* second) {
+  const Eigen::Index n = step.normal.size();
+  const double c = step.normal.dot(step.end.first.head(n));
+  const double bend = step.normal.dot(step.end.second.head(n));
+  *first = step.end.first / c;
+  *second = (step.end.second - *first * bend) / (c * c);
 }
 
 }  // namespace
 
-SmoothPiece::SmoothPiece(const Structure& structure, const std::vector<ContactGeometry>& contacts)
+SmoothArc::SmoothArc(const Structure& structure, const std::vector<ContactGeometry>& contacts)
     : contacts_(contacts), system_(structure, contacts) {}
 
-void SmoothPiece::SetStates(const std::vector<ContactState>& states, const PathPoint& from) {
+void SmoothArc::SetStates(const std::vector<ContactState>& states, const PathPoint& from) {
   system_.SetStates(states, TangentialPositions(contacts_, from));
   at_hand_ = false;
 }
 
-bool SmoothPiece::Derivatives(const Eigen::VectorXd& x, const Eigen::VectorXd& towards, CurvePoint* point) {
+bool SmoothArc::Derivatives(const Eigen::VectorXd& x, const Eigen::VectorXd& towards, CurvePoint* point) {
   const Eigen::Index n = NumMotion();
   Eigen::VectorXd row = Eigen::VectorXd::Zero(system_.NumUnknowns());
   row.head(n) = towards;
   if (!Factorize(x, row)) return false;
-  at_hand_ = solver_.Deficiency() == 0;
+  at_hand_ = solver_.Nullity() == 0;
   point->x = x;
   point->first = solver_.Solve(Eigen::VectorXd::Zero(system_.NumEquations()), 1.0);
   const double norm = point->first.head(n).norm();
@@ -60,17 +60,17 @@ bool SmoothPiece::Derivatives(const Eigen::VectorXd& x, const Eigen::VectorXd& t
   point->first /= norm;
   point->second = solver_.Solve(-system_.SecondDerivative(x, point->first), 0.0);
   point->second -= point->first.head(n).dot(point->second.head(n)) * point->first;
-  point->deficiency = solver_.Deficiency();
+  point->nullity = solver_.Nullity();
   point->determinant_sign = solver_.DeterminantSign();
   point->pivot_sign = solver_.PivotSign();
   return point->second.allFinite();
 }
 
-Correction SmoothPiece::Correct(const Eigen::VectorXd& guess, const Eigen::VectorXd& row, double value) {
+Correction SmoothArc::Correct(const Eigen::VectorXd& guess, const Eigen::VectorXd& row, double value) {
   return Newton(guess, row, value, false);
 }
 
-Correction SmoothPiece::Newton(const Eigen::VectorXd& guess, const Eigen::VectorXd& row, double value, bool at_hand) {
+Correction SmoothArc::Newton(const Eigen::VectorXd& guess, const Eigen::VectorXd& row, double value, bool at_hand) {
   Correction result;
   result.x = guess;
   result.steps.reserve(kMaxIterations);
@@ -81,10 +81,10 @@ Correction SmoothPiece::Newton(const Eigen::VectorXd& guess, const Eigen::Vector
     if (!residual_.allFinite()) return result;
     if (factorise && !Factorize(result.x, row)) return result;
     residual_ = -residual_;
-    solver_.Solve(residual_, value - row.dot(result.x), &step_);
-    const double norm = step_.norm(), scale = 1.0 + result.x.norm();
+    solver_.Solve(residual_, value - row.dot(result.x), &step_length_);
+    const double norm = step_length_.norm(), scale = 1.0 + result.x.norm();
     if (!std::isfinite(norm)) return result;
-    result.x += step_;
+    result.x += step_length_;
     result.steps.push_back(norm);
     if (result.iterations == 0) result.first_step = norm;
     if (result.iterations == 1) result.contraction = norm / result.first_step;
@@ -104,13 +104,13 @@ Correction SmoothPiece::Newton(const Eigen::VectorXd& guess, const Eigen::Vector
   return result;
 }
 
-bool SmoothPiece::Factorize(const Eigen::VectorXd& x, const Eigen::VectorXd& row, double rank_tolerance) {
+bool SmoothArc::Factorize(const Eigen::VectorXd& x, const Eigen::VectorXd& row, double rank_tolerance) {
   ++factorisations_;
   at_hand_ = false;
   return solver_.Factorize(system_.TransposedJacobian(x), row, rank_tolerance);
 }
 
-Correction SmoothPiece::CorrectOnPlane(const Eigen::VectorXd& guess, const Eigen::VectorXd& normal) {
+Correction SmoothArc::CorrectOnPlane(const Eigen::VectorXd& guess, const Eigen::VectorXd& normal) {
   Eigen::VectorXd row = Eigen::VectorXd::Zero(system_.NumUnknowns());
   row.head(normal.size()) = normal;
   if (at_hand_) {
@@ -120,7 +120,7 @@ Correction SmoothPiece::CorrectOnPlane(const Eigen::VectorXd& guess, const Eigen
   return Newton(guess, row, row.dot(guess), false);
 }
 
-Eigen::VectorXd SmoothPiece::CorrectSingular(const Eigen::VectorXd& guess, const Eigen::VectorXd& normal) {
+Eigen::VectorXd SmoothArc::CorrectSingular(const Eigen::VectorXd& guess, const Eigen::VectorXd& normal) {
   Eigen::VectorXd row = Eigen::VectorXd::Zero(system_.NumUnknowns());
   row.head(normal.size()) = normal;
   Eigen::VectorXd x = guess;
@@ -132,7 +132,7 @@ Eigen::VectorXd SmoothPiece::CorrectSingular(const Eigen::VectorXd& guess, const
   return x.allFinite() ? x : guess;
 }
 
-Eigen::VectorXd SmoothPiece::CrossingDirection(const Eigen::VectorXd& x, const Eigen::VectorXd& towards) {
+Eigen::VectorXd SmoothArc::CrossingDirection(const Eigen::VectorXd& x, const Eigen::VectorXd& towards) {
   Eigen::VectorXd row = Eigen::VectorXd::Zero(system_.NumUnknowns());
   row.head(NumMotion()) = towards;
   Eigen::VectorXd none = Eigen::VectorXd::Zero(NumMotion());
@@ -146,15 +146,15 @@ Eigen::VectorXd SmoothPiece::CrossingDirection(const Eigen::VectorXd& x, const E
   return std::isfinite(norm) && norm > 0.0 ? Eigen::VectorXd(direction / norm) : none;
 }
 
-Segment MakeSegment(const CurvePoint& start, const CurvePoint& end, Eigen::Index num_motion) {
-  Segment segment{start, end, start.first.head(num_motion), 0.0};
-  segment.length = segment.normal.dot((end.x - start.x).head(num_motion));
-  return segment;
+Step MakeStep(const CurvePoint& start, const CurvePoint& end, Eigen::Index num_motion) {
+  Step step{start, end, start.first.head(num_motion), 0.0};
+  step.length = step.normal.dot((end.x - start.x).head(num_motion));
+  return step;
 }
 
-Eigen::VectorXd Segment::Point(double t) const { return At(t).x; }
+Eigen::VectorXd Step::Point(double t) const { return At(t).x; }
 
-CurvePoint Segment::At(double t) const {
+CurvePoint Step::At(double t) const {
   Eigen::VectorXd first, second;
   EndDerivatives(*this, &first, &second);
   const std::array<Quintic, 6> basis = HermiteBasis(length);
@@ -185,7 +185,7 @@ CurvePoint Segment::At(double t) const {
   return point;
 }
 
-double Segment::ArcLength() const {
+double Step::ArcLength() const {
   // Gauss-Legendre, four points on [0, 1].
   constexpr std::array<double, 4> kPoints = {0.06943184420297371, 0.33000947820757187, 0.66999052179242813,
                                              0.93056815579702629};

@@ -1,0 +1,63 @@
+// The branches from a point of the path: every combination of contact states whose one-sided rates are admissible.
+#ifndef CONTACT_PATH_BRANCH_BRANCHES_H_
+#define CONTACT_PATH_BRANCH_BRANCHES_H_
+
+#include <Eigen/Core>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "contact_path/branch/active_set_tolerance.h"
+#include "contact_path/contact/contact_geometry.h"
+#include "contact_path/contact/path_point.h"
+#include "contact_path/mpec/increment_solver.h"
+#include "contact_path/structure/structure.h"
+
+namespace contact_path {
+
+// Scaled quantities and rates by arc length |(du, ds)|.
+struct Branch {
+  std::vector<ContactState> states;  // by candidate, on the arc that starts here
+  Eigen::VectorXd direction;         // (du, ds), unit vector, NumDofs() + 1
+  Eigen::VectorXd first;             // all unknowns of the fixed-state system: derivatives by arc length
+  Eigen::VectorXd second;
+  double load_rate = 0.0;         // ds
+  double dissipation_rate = 0.0;  // -r_t . du_t, >= 0
+  double turn = 0.0;              // angle to the direction of arrival [rad]
+  bool mechanism = false;         // one of several motions without any change of load and reactions: not to be followed
+  bool has_mirror = false;        // another branch has exactly these rates: each would break a symmetry of the scene
+  std::optional<PathPoint> begin;  // where the reactions have to change first while nothing moves: with the new ones
+};
+
+// Where the point comes from.
+struct Arrival {
+  Eigen::VectorXd direction;  // (du, ds), unit vector; for a start: what is wanted, (0, +-1)
+  bool is_start = false;      // then ds must have the wanted sign, and there is no branch of arrival
+  bool singular = false;      // another path crosses here: nearly singular counts as singular
+};
+
+struct BranchSet {
+  std::vector<Branch> branches;  // best first: largest dissipation rate, then without mirror branch, then smallest
+                                 // turn, then a fixed order
+  int weakly_active = 0;         // contacts that could change their state
+  bool complete = true;          // false: too many combinations to try them all, the likely ones were
+  bool cancelled = false;        // before the end: nothing else counts
+  int combinations = 0;          // tried
+  int rigid_modes = 0;           // most motions found that change neither load nor reactions where nothing else moves
+};
+
+// All branches from `point`, an equilibrium, without the branch of arrival. WeaklyActive are the contacts with an
+// inequality at its limit, and all that slip. Of branches with the same direction one is kept: that in which fewest
+// contacts slip without moving. Where all branches turn by 90 degrees or more, or there is none, reactions may have to
+// change while nothing moves, as where a block that is carried along meets a stop: then the branches with all other
+// reactions that the point can have (reaction_redistribution.h) are added. Up to 4^6 combinations of states are all
+// tried; of more, those that principal pivoting on the rates (rate_problem.h) leads to from many first guesses. `mpec`,
+// the increment problem in the limit of a short increment, adds what it finds where the structure is small or nothing
+// else was found. Each is certified like any other. cancelled: asked often, may be empty.
+BranchSet FindBranches(const Structure& structure, const std::vector<ContactGeometry>& contacts, const PathPoint& point,
+                       const Arrival& arrival, const ActiveSetTolerance& limit, IncrementSolver* mpec,
+                       const std::function<bool()>& cancelled = nullptr);
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_BRANCH_BRANCHES_H_

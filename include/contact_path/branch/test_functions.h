@@ -1,0 +1,45 @@
+// Watches a step of a smooth arc for what ends it: a broken inequality, a limit point, a bifurcation.
+#ifndef CONTACT_PATH_BRANCH_EVENT_WATCH_H_
+#define CONTACT_PATH_BRANCH_EVENT_WATCH_H_
+
+#include <optional>
+
+#include "contact_path/branch/smooth_arc.h"
+#include "contact_path/contact/fixed_state_system.h"
+
+namespace contact_path {
+
+enum class EventKind {
+  kNone,          // the whole step is good
+  kNearTouch,     // an inequality comes so near to zero inside that only an increment there can tell
+  kContactEvent,  // an inequality reaches zero and would be broken
+  kTarget,        // the load factor comes to where the path is to end
+  kLimitPoint,    // ds = 0
+  kBifurcation,   // the bordered determinant changes its sign
+};
+
+struct StepEvent {
+  EventKind kind = EventKind::kNone;
+  double t = 0.0;    // parameter of the step, of the first kind
+  Constraint limit;  // kContactEvent: the inequality that fails first
+  // The equations are singular there: another path crosses at the very point. Then the interpolation is more exact than
+  // Newton's method.
+  bool singular = false;
+};
+
+// The first kind on the step, from its interpolation: all inequalities as quintics on the whole step, so roots
+// inside it count too. A pair of roots could only be missed where the curve differs from its quintic interpolation by
+// more than a twentieth of the difference between the quintic and the cubic interpolation at the middle of the step:
+// minima that come nearer to zero than that are reported as kNearTouch. A bifurcation shows by the sign of the
+// determinant at the ends, and is then found by bisection; two of them within one step are not seen.
+// target: load factor to end at, other than that of the start; nothing = none.
+StepEvent FirstEvent(SmoothArc* arc, const Step& step, std::optional<double> target = std::nullopt);
+
+// The exact point of a kind near t, by Newton's method, with its parameter within the step. Nothing if it is
+// not found.
+std::optional<CurvePoint> Locate(SmoothArc* arc, const Step& step, const StepEvent& event,
+                                 std::optional<double> target = std::nullopt);
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_BRANCH_EVENT_WATCH_H_

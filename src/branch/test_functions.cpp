@@ -1,0 +1,198 @@
+#include "contact_path/branch/test_functions.h"
+
+#include <cmath>
+
+#include "contact_path/branch/polynomial.h"
+
+namespace contact_path {
+namespace {
+
+constexpr double kZero = 1e-11;      // of scaled quantities on a step: rounding
+constexpr double kFlat = 1e-9;       // of unit rates on a step: a load or a contact that moves slower rests
+constexpr double kNearShare = 0.05;  // of the difference of quintic and cubic interpolation
+constexpr double kRateZero = 1e-13;  // of a unit rate
+constexpr double kReach = 2.0;       // of the length of a step: wider gaps stay open on it
+constexpr int kNewtonIterations = 25;
+constexpr double kCoincident = 1e-5;  // relative to the step: a bifurcation this near to something else is one with it
+constexpr double kSlack = 1e-9;       // relative to the step: of the place of a located point
+constexpr double kSameDerivative = 1e-2;  // of unit tangents: more is the mark of singular equations
+constexpr int kBisections = 60;
+constexpr double kBifurcationWidth = 1e-10;  // relative to the step
+
+// The function of an inequality that must stay >= 0: its value, or for slip its rate.
+Quintic FunctionOf(const FixedStateSystem& system, const Step& step, const Constraint& limit) {
+  const Quintic value = step.Interpolate([&](const Eigen::VectorXd& x) { return system.Value(limit, x); },
+                                         [&](const Eigen::VectorXd& dx) { return system.Rate(limit, dx); });
+  return limit.inequality == Inequality::kSlip ? Derivative(value) : value;
+}
+
+// By how much the cubic interpolation of the same ends differs from the quintic at the middle.
+double CubicDifference(const Quintic& quintic, double length) {
+  const Quintic derivative = Derivative(quintic);
+  const double a = Evaluate(quintic, 0.0), b = Evaluate(quintic, length);
+  const double da = Evaluate(derivative, 0.0), db = Evaluate(derivative, length);
+  return std::abs(Evaluate(quintic, 0.5 * length) - (0.5 * (a + b) + 0.125 * length * (da - db)));
+}
+
+// The point of the curve on the plane through its interpolation at t.
+std::optional<CurvePoint> PointAt(SmoothArc* arc, const Step& step, double t) {
+  const Correction correction = arc->CorrectOnPlane(step.Point(t), step.normal);
+  CurvePoint point;
+  if (!correction.converged || !arc->Derivatives(correction.x, step.normal, &point)) return std::nullopt;
+  return point;
+}
+
+// Zero of a rate that is linear in the first derivative, by Newton's method along the curve.
+template <typename Rate>
+std::optional<CurvePoint> LocateRate(SmoothArc* arc, const Step& step, double t, Rate rate) {
+  std::optional<CurvePoint> point = PointAt(arc, step, t);
+  double previous = std::numeric_limits<double>::infinity();
+  for (int i = 0; point && i < kNewtonIterations; ++i) {
+    const double value = rate(point->first), slope = rate(point->second);
+    if (std::abs(value) <= kRateZero || std::abs(value) >= 0.5 * previous) return point;
+    previous = std::abs(value);
+    const double move = -value / slope;
+    if (!(std::abs(move) <= step.length)) return std::nullopt;
+    const Eigen::VectorXd guess = point->x + move * point->first + 0.5 * move * move * point->second;
+    const Correction correction = arc->CorrectOnPlane(guess, step.normal);
+    if (!correction.converged || !arc->Derivatives(correction.x, step.normal, &*point)) return std::nullopt;
+  }
+  return point;
+}
+
+// Where the determinant changes its sign.
+double FindBifurcation(SmoothArc* arc, const Step& step) {
+  double before = 0.0, beyond = step.length;
+  for (int i = 0; i < kBisections && beyond - before > kBifurcationWidth * step.length; ++i) {
+    const double t = 0.5 * (before + beyond);
+    const std::optional<CurvePoint> point = PointAt(arc, step, t);
+    if (!point || point->pivot_sign == 0) return t;  // singular to the last bit: this is it
+    (point->pivot_sign == step.start.determinant_sign ? before : beyond) = t;
+  }
+  return 0.5 * (before + beyond);
+}
+
+// Where the load factor first is `target` on (0, length]; nothing if it is not, or at the start.
+std::optional<double> FirstAt(Quintic load, double target, double length) {
+  load[0] -= target;
+  if (load[0] == 0.0) return std::nullopt;
+  if (load[0] < 0.0)
+    for (double& coefficient : load) coefficient = -coefficient;
+  return FirstNegative(load, length, 0.0);
+}
+
+std::optional<CurvePoint> LocateRegular(SmoothArc* arc, const Step& step, const StepEvent& event, double target);
+
+}  // namespace
+
+StepEvent FirstEvent(SmoothArc* arc, const Step& step, std::optional<double> target) {
+  const FixedStateSystem& system = arc->system();
+  StepEvent first;
+  first.t = step.length;
+  const double width = kCoincident * step.length;
+  const auto consider = [&](EventKind kind, double t, const Constraint& limit) {
+    // An event that coincides with something else is the one to act on.
+    const double head_start = first.kind == EventKind::kContactEvent && kind != EventKind::kContactEvent ? width : 0.0;
+    if (t + head_start > first.t || (t == first.t && first.kind != EventKind::kNone)) return;
+    first = {kind, t, limit, false};
+  };
+  // No node moves further than the arc length, and that is hardly longer than the step.
+  for (const Constraint& limit : system.InequalitiesInReach(step.start.x, kReach * step.length)) {
+    const Quintic quintic = FunctionOf(system, step, limit);
+    const double zero = limit.inequality == Inequality::kSlip ? kFlat : kZero;
+    if (const std::optional<double> t = FirstNegative(quintic, step.length, zero)) {
+      consider(EventKind::kContactEvent, *t, limit);
+      continue;
+    }
+    double where = 0.0;
+    const double smallest = Minimum(quintic, step.length, &where);
+    const bool inside = where > 1e-3 * step.length && where < 0.999 * step.length;
+    if (inside && smallest > zero && smallest < kNearShare * CubicDifference(quintic, step.length))
+      consider(EventKind::kNearTouch, where, limit);
+  }
+  const Eigen::Index s = system.NumDofs();
+  const auto load = [s](const Eigen::VectorXd& x) { return x[s]; };
+  const Quintic load_factor = step.Interpolate(load, load);
+  const Quintic load_rate = Derivative(load_factor);
+  Quintic reversed = load_rate;
+  for (double& coefficient : reversed) coefficient = -coefficient;
+  for (const Quintic& rate : {load_rate, reversed}) {
+    const std::optional<double> t = FirstNegative(rate, step.length, kFlat);
+    if (t && *t > 0.0) consider(EventKind::kLimitPoint, *t, {});
+  }
+  if (step.start.determinant_sign * step.end.determinant_sign < 0) {
+    const double t = FindBifurcation(arc, step);
+    if (first.kind != EventKind::kNone && std::abs(t - first.t) <= width)
+      first.singular = true;
+    else if (t < first.t)
+      first = {EventKind::kBifurcation, t, {}, true};
+  }
+  // Whatever lies behind the target, however near, is not of this path.
+  if (target)
+    if (const std::optional<double> t = FirstAt(load_factor, *target, step.length); t && *t <= first.t)
+      first = {EventKind::kTarget, *t, {}, false};
+  return first;
+}
+
+std::optional<CurvePoint> Locate(SmoothArc* arc, const Step& step, const StepEvent& event,
+                                 std::optional<double> target) {
+  if (event.singular) {
+    CurvePoint point = step.At(event.t);
+    point.x = arc->CorrectSingular(point.x, step.normal);
+    point.determinant_sign = 0;
+    return point;
+  }
+  std::optional<CurvePoint> point = LocateRegular(arc, step, event, target.value_or(0.0));
+  if (!point) return std::nullopt;
+  const double t = step.normal.dot((point->x - step.start.x).head(step.normal.size()));
+  const double slack = kSlack * step.length;
+  if (!(t >= -slack && t <= step.length + slack)) return std::nullopt;
+  return point;
+}
+
+namespace {
+
+std::optional<CurvePoint> LocateRegular(SmoothArc* arc, const Step& step, const StepEvent& event, double target) {
+  const FixedStateSystem& system = arc->system();
+  switch (event.kind) {
+    case EventKind::kNone: return step.end;
+    case EventKind::kNearTouch: return PointAt(arc, step, event.t);
+    case EventKind::kBifurcation: return step.At(event.t);
+    case EventKind::kLimitPoint:
+      return LocateRate(arc, step, event.t, [&](const Eigen::VectorXd& rate) { return rate[system.NumDofs()]; });
+    case EventKind::kTarget: {
+      const Correction correction =
+          arc->Correct(step.Point(event.t), Eigen::VectorXd::Unit(system.NumUnknowns(), system.NumDofs()), target);
+      CurvePoint point;
+      if (!correction.converged || !arc->Derivatives(correction.x, step.normal, &point)) return std::nullopt;
+      return point;
+    }
+    case EventKind::kContactEvent: break;
+  }
+  if (event.limit.inequality == Inequality::kSlip)
+    return LocateRate(arc, step, event.t, [&](const Eigen::VectorXd& rate) { return system.Rate(event.limit, rate); });
+  // The inequality as the last equation. Where it only grazes zero, that has no solution: then its minimum counts, or
+  // else the point itself. At the event itself the equations may be singular: then derivatives are those of the step
+  // that crossed it.
+  const Eigen::VectorXd guess = step.Point(event.t);
+  const Eigen::VectorXd row = system.Gradient(event.limit);
+  Correction correction = arc->Correct(guess, row, row.dot(guess) - system.Value(event.limit, guess));
+  const double reach = 0.1 * step.length + 1e-9;
+  if (!correction.converged || !((correction.x - guess).head(arc->NumMotion()).norm() <= reach)) {
+    std::optional<CurvePoint> lowest =
+        LocateRate(arc, step, event.t, [&](const Eigen::VectorXd& rate) { return system.Rate(event.limit, rate); });
+    if (lowest) return lowest;
+    correction = arc->CorrectOnPlane(guess, step.normal);
+  }
+  if (!correction.converged) return std::nullopt;
+  const CurvePoint interpolated = step.At(step.normal.dot((correction.x - step.start.x).head(step.normal.size())));
+  CurvePoint point;
+  const bool regular = arc->Derivatives(correction.x, interpolated.first.head(step.normal.size()), &point) &&
+                       (point.first - interpolated.first).norm() <= kSameDerivative;
+  if (!regular) point = interpolated;
+  point.x = correction.x;
+  return point;
+}
+
+}  // namespace
+}  // namespace contact_path
