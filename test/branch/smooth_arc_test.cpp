@@ -18,12 +18,13 @@ namespace {
 
 using Eigen::VectorXd;
 
-// A arc of a traced path: the fixed states of row `index`, from the row before, with the curve's derivatives there.
-class TracedPiece {
+// An arc of a traced path: the fixed states of increment `index`, from the increment before, with the curve's
+// derivatives there.
+class TracedArc {
  public:
-  TracedPiece(const TracedPath& path, std::size_t index)
+  TracedArc(const TracedPath& path, std::size_t index)
       : model_(path.request.scene, CharacteristicScales(path.request.scene)), arc_(model_.structure, model_.contacts) {
-    const PathPoint from = PointOf(model_, path.rows[index - 1]), to = PointOf(model_, path.rows[index]);
+    const PathPoint from = PointOf(model_, path.increments[index - 1]), to = PointOf(model_, path.increments[index]);
     arc_.SetStates(to.states, from);
     const VectorXd start = arc_.system().Pack(from);
     end_ = arc_.system().Pack(to);
@@ -76,7 +77,7 @@ constexpr int kRows = 160;
 TEST(SmoothArc, DerivativesAreTheUnitTangentAndTheCurvature) {
   for (const auto& [scene, index] : Arcs()) {
     SCOPED_TRACE(scene + " row " + std::to_string(index));
-    TracedPiece traced(Trace(scene, kRows), index);
+    TracedArc traced(Trace(scene, kRows), index);
     const CurvePoint& start = traced.start();
     const Eigen::Index n = traced.motion();
     EXPECT_NEAR(start.first.head(n).norm(), 1.0, 1e-14);
@@ -104,7 +105,7 @@ TEST(SmoothArc, DerivativesAreTheUnitTangentAndTheCurvature) {
 }
 
 TEST(SmoothArc, DirectionIsTheOneAskedFor) {
-  TracedPiece traced(Trace("sliding_bar", kRows), 20);
+  TracedArc traced(Trace("sliding_bar", kRows), 20);
   CurvePoint back;
   ASSERT_TRUE(traced.arc().Derivatives(traced.start().x, -traced.normal(), &back));
   EXPECT_LE((back.first + traced.start().first).norm(), 1e-14);
@@ -119,7 +120,7 @@ TEST(SmoothArc, DirectionIsTheOneAskedFor) {
 }
 
 TEST(SmoothArc, KeepsTheClosedFormOfTheSlidingBar) {
-  TracedPiece traced(Trace("sliding_bar", kRows), 20);
+  TracedArc traced(Trace("sliding_bar", kRows), 20);
   const Scaling scaling = CharacteristicScales(sliding_bar::MakeScene());
   double worst = 0.0;
   for (double t = -0.2; t <= 0.2; t += 0.02) {
@@ -140,7 +141,7 @@ TEST(SmoothArc, KeepsTheClosedFormOfTheSlidingBar) {
 TEST(SmoothArc, NewtonConvergesQuadratically) {
   for (const auto& [scene, index] : Arcs()) {
     SCOPED_TRACE(scene + " row " + std::to_string(index));
-    TracedPiece traced(Trace(scene, kRows), index);
+    TracedArc traced(Trace(scene, kRows), index);
     std::vector<double> constants;
     for (const double t : {0.12, 0.08, 0.05, 0.03}) {
       const Eigen::VectorXd guess = traced.start().x + t * traced.start().first;
@@ -168,7 +169,7 @@ TEST(SmoothArc, NewtonConvergesQuadratically) {
 }
 
 TEST(SmoothArc, CorrectionStaysOnTheGivenPlane) {
-  TracedPiece traced(Trace("arch19", kRows), 40);
+  TracedArc traced(Trace("arch19", kRows), 40);
   const VectorXd guess = traced.start().x + 0.05 * traced.start().first;
   const Correction correction = traced.arc().CorrectOnPlane(guess, traced.normal());
   ASSERT_TRUE(correction.converged);
@@ -183,7 +184,7 @@ TEST(SmoothArc, CorrectionStaysOnTheGivenPlane) {
 TEST(SmoothArc, NotConvergedWhereThereIsNoPoint) {
   // Rest at the stop: the node does not move, whatever the load.
   const TracedPath path = Trace("rigid_stop", kRows);
-  TracedPiece traced(path, path.rows.size() - 1);
+  TracedArc traced(path, path.increments.size() - 1);
   VectorXd guess = traced.start().x;
   const VectorXd row = VectorXd::Unit(guess.size(), 0);
   EXPECT_TRUE(traced.arc().Correct(guess, row, guess[0]).converged);
@@ -193,7 +194,7 @@ TEST(SmoothArc, NotConvergedWhereThereIsNoPoint) {
 TEST(Step, EndsAreItsPoints) {
   for (const auto& [scene, index] : Arcs()) {
     SCOPED_TRACE(scene);
-    TracedPiece traced(Trace(scene, kRows), index);
+    TracedArc traced(Trace(scene, kRows), index);
     const Step step = traced.StepTo(0.05);
     EXPECT_NEAR(step.length, 0.05, 1e-14);
     EXPECT_LE((step.Point(0.0) - step.start.x).norm(), 1e-15);
@@ -214,7 +215,7 @@ TEST(Step, EndsAreItsPoints) {
 TEST(Step, InterpolatesWithOrderSix) {
   for (const auto& [scene, index] : Arcs()) {
     SCOPED_TRACE(scene + " row " + std::to_string(index));
-    TracedPiece traced(Trace(scene, kRows), index);
+    TracedArc traced(Trace(scene, kRows), index);
     const auto errors = [&](double length) {
       const Step step = traced.StepTo(length);
       Eigen::Vector3d worst = Eigen::Vector3d::Zero();
@@ -237,7 +238,7 @@ TEST(Step, InterpolatesWithOrderSix) {
 }
 
 TEST(Step, InterpolatesFunctionsThatAreLinearInX) {
-  TracedPiece traced(Trace("sliding_bar", kRows), 20);
+  TracedArc traced(Trace("sliding_bar", kRows), 20);
   const Step step = traced.StepTo(0.04);
   const auto load = [&](const VectorXd& x) { return x[traced.motion() - 1]; };
   const Quintic polynomial = step.Interpolate(load, load);
@@ -247,7 +248,7 @@ TEST(Step, InterpolatesFunctionsThatAreLinearInX) {
 TEST(Step, ArcLengthIsThatOfTheCurve) {
   for (const auto& [scene, index] : Arcs()) {
     SCOPED_TRACE(scene);
-    TracedPiece traced(Trace(scene, kRows), index);
+    TracedArc traced(Trace(scene, kRows), index);
     // Chords with Richardson's extrapolation: their sum has an error of h^2, h^4, ...
     const auto exact = [&](double length) {
       const auto chords = [&](int count) {
@@ -276,8 +277,8 @@ TEST(SmoothArc, TwoHalvesEndWhereTheWholeStepDoes) {
   int arcs = 0;
   for (const char* scene : {"sliding_bar", "rough_truss", "two_dof_friction", "von_mises", "rigid_stop", "arch19"}) {
     const TracedPath path = Trace(scene, 1000);
-    for (std::size_t i = 1; i < path.rows.size(); ++i) {
-      TracedPiece traced(path, i);
+    for (std::size_t i = 1; i < path.increments.size(); ++i) {
+      TracedArc traced(path, i);
       const double length = traced.normal().dot((traced.end() - traced.start().x).head(traced.motion()));
       const CurvePoint half = traced.CurveAt(0.5 * length);
       VectorXd row = VectorXd::Zero(half.x.size());

@@ -16,7 +16,7 @@
 namespace contact_path {
 namespace {
 
-// A arc of the path of a scene, from one of its increments on, with the states of the increment after it.
+// An arc of the path of a scene, from one of its increments on, with the states of the increment after it.
 class Arc {
  public:
   Arc(const TracedPath& path, std::size_t increment)

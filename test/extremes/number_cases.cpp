@@ -110,7 +110,7 @@ const TracedPath& Reference(const std::string& name, const TraceRequest& request
   const std::string key =
       name + ' ' + std::string(ToString(options.method)) + ' ' + std::string(ToString(options.accuracy));
   const auto found = paths.find(key);
-  return found != paths.end() ? found->second : paths.emplace(key, TraceRows(request)).first->second;
+  return found != paths.end() ? found->second : paths.emplace(key, TraceIncrements(request)).first->second;
 }
 
 // A scene in other units has the path of the scene in other units.

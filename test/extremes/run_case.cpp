@@ -103,12 +103,12 @@ double AttainableError(const ExtremeCase& extreme) {
   request.options.max_increments = std::min(request.options.MaxIncrements(), kMostRows);
   const Model model(StageScene(request, 0), StageScales(request, 0));
   if (model.structure.NumDofs() > kMostUnknowns) return -1.0;
-  const TracedPath path = TraceRows(request);
+  const TracedPath path = TraceIncrements(request);
   double largest = -1.0;
   for (int i = 0; i < kSamples; ++i) {
     const std::size_t index = path.increments.size() * static_cast<std::size_t>(i) / kSamples;
     if (index >= path.increments.size()) continue;
-    const PathPoint point = model.FromRow(path.increments[index]);
+    const PathPoint point = model.FromIncrement(path.increments[index]);
     FixedStateSystem system(model.structure, model.contacts);
     system.SetStates(point.states, TangentialPositions(model.contacts, point));
     const Eigen::VectorXd x = system.Pack(point);

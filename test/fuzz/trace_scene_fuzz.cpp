@@ -1,5 +1,5 @@
 // Bytes as a valid request (varied_request.h): its trace ends with a named reason, soon after it was cancelled if need
-// be, and all of its rows are proved.
+// be, and all of its increments are proved.
 #include <ctime>
 #include <string>
 #include <vector>
@@ -21,11 +21,11 @@ constexpr double kSecondsToCancel = 10.0;  // until it has to be back then
 double Now() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 void CheckTrace(const TraceRequest& request) {
-  std::vector<Increment> rows;
+  std::vector<Increment> increments;
   const double start = Now();
   bool cancelled = false;
   TraceControl control;
-  control.on_increment = [&rows](const Increment& row) { rows.push_back(row); };
+  control.on_increment = [&increments](const Increment& increment) { increments.push_back(increment); };
   control.cancelled = [&] { return cancelled = cancelled || Now() - start > kSeconds; };
   const TraceResult result = Trace(request, control);
 
@@ -33,18 +33,18 @@ void CheckTrace(const TraceRequest& request) {
   Require(!ToString(result.reason).empty(), "a trace ends for a named reason");
   RequireLine(result.message);
   Require(cancelled || result.reason != EndReason::kCancelled, "only what was cancelled ends as cancelled");
-  Require(result.increments == static_cast<int>(rows.size()), "all rows are given and counted");
-  Require(result.increments <= request.options.MaxIncrements() + 1, "no more rows than wanted");
-  if (rows.empty()) {
+  Require(result.increments == static_cast<int>(increments.size()), "all increments are given and counted");
+  Require(result.increments <= request.options.MaxIncrements() + 1, "no more increments than wanted");
+  if (increments.empty()) {
     const bool expected = result.reason != EndReason::kStopCriterion && result.reason != EndReason::kMaxIncrements;
-    return Require(expected, "a trace without rows ended early");
+    return Require(expected, "a trace without increments ended early");
   }
-  const Verification verification = VerifyPath(request, rows);
+  const Verification verification = VerifyPath(request, increments);
   if (verification.findings.empty()) return;
   const Finding& finding = verification.findings.front();
-  throw std::logic_error("row " + std::to_string(finding.row) + " of " + std::to_string(rows.size()) + ": " +
-                         finding.what + "\nended " + std::string(ToString(result.reason)) + ": " + result.message +
-                         "\n" + WriteTraceRequest(request));
+  throw std::logic_error("increment " + std::to_string(finding.increment) + " of " + std::to_string(increments.size()) +
+                         ": " + finding.what + "\nended " + std::string(ToString(result.reason)) + ": " +
+                         result.message + "\n" + WriteTraceRequest(request));
 }
 
 }  // namespace

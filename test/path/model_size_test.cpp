@@ -20,7 +20,7 @@ TraceRequest Wall(Touch touch, Method method, int far_candidates = 0) {
   LatticeOptions lattice;
   lattice.kind = LatticeKind::kWall;
   lattice.columns = 8;
-  lattice.increments = 2;
+  lattice.rows = 2;
   lattice.contacts = kCandidates;
   lattice.far_candidates = far_candidates;
   lattice.friction = 0.3;

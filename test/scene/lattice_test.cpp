@@ -44,11 +44,11 @@ TEST(Lattice, FarCandidatesChangeNothing) {
     options.far_candidates = 40;
     request.scene = LatticeRequest(options).scene;
     const TracedPath with = TraceIncrements(request);
-    ASSERT_EQ(with.rows.size(), without.rows.size());
-    ASSERT_GT(with.rows.size(), 5U) << without.result.message;
-    for (std::size_t i = 0; i < with.rows.size(); ++i) {
-      EXPECT_EQ(with.rows[i].load_factor, without.rows[i].load_factor);
-      EXPECT_EQ(with.rows[i].positions, without.rows[i].positions);
+    ASSERT_EQ(with.increments.size(), without.increments.size());
+    ASSERT_GT(with.increments.size(), 5U) << without.result.message;
+    for (std::size_t i = 0; i < with.increments.size(); ++i) {
+      EXPECT_EQ(with.increments[i].load_factor, without.increments[i].load_factor);
+      EXPECT_EQ(with.increments[i].positions, without.increments[i].positions);
     }
     ExpectSoundIncrements(with, 1e-9);
   }

@@ -211,7 +211,7 @@ const BadLine kUnknownAndRepeatedKeys[] = {
     {"UnknownInOptions", 45, "  steps: [1]", "options.steps", 45, "a list", "unknown key"},
     {"UnknownInStop", 50, "    value: 4.95\n    unit: mm", "options.stop[0].unit", 51, "mm", "unknown key"},
     {"UnknownInBranchChoice", 47, "  branch_choices:\n  - {at: 1, branch: 2}\n  stop:", "options.branch_choices[0].at",
-     48, "1", "unknown key, must be one of: event, row, branch"},
+     48, "1", "unknown key, must be one of: event, increment, branch"},
     {"KeysAreCaseSensitive", 45, "  Step: 1.0", "options.Step", 45, "1.0", "unknown key"},
     {"KeyThatIsNoText", 45, "  [1, 2]: 1.0", "options.a list", 45, "1.0", "unknown key"},
     {"KeyThatIsNull", 45, "  ~: 1.0", "options.null", 45, "1.0", "unknown key"},
@@ -342,7 +342,7 @@ const BadLine kRules[] = {
     {"StepNotFinite", 45, "  step: .NaN", "options.step", 45, ".nan", "must be finite"},
     {"DirectionNotFinite", 44, "  direction: +.inf", "options.direction", 44, ".inf", "must be finite"},
     {"IncrementsNegative", 46, "  max_increments: -1", "options.max_increments", 46, "-1", "must be >= 0"},
-    {"EventAndIncrement", 47, "  branch_choices:\n  - event: 1\n    row: 5\n  stop:", "options.branch_choices[0].row",
+    {"EventAndIncrement", 47, "  branch_choices:\n  - event: 1\n    increment: 5\n  stop:", "options.branch_choices[0].increment",
      49, "5", "must be 0 where event is given"},
     {"UnknownQuantity", 48, "  - quantity: force", "options.stop[0].quantity", 48, "force", "must be load_factor, "},
     {"QuantityOfUnknownNode", 48, "  - quantity: zz.x", "options.stop[0].quantity", 48, "zz.x", "must refer to a node"},
@@ -433,14 +433,14 @@ TEST(ReadSceneTest, TruthValuesAndIntegersInTheSpellingsOfYaml) {
 }
 
 TEST(ReadSceneTest, TakesBranchChoices) {
-  const std::string text = BaseWith({{47, "  branch_choices: [{event: 2, branch: 3}, {row: 7}]\n  stop:"}});
+  const std::string text = BaseWith({{47, "  branch_choices: [{event: 2, branch: 3}, {increment: 7}]\n  stop:"}});
   const std::vector<BranchChoice> choices = ReadTraceRequest(text, "").options.branch_choices;
   ASSERT_EQ(choices.size(), 2U);
   EXPECT_EQ(choices[0].event, 2);
-  EXPECT_EQ(choices[0].row, 0);
+  EXPECT_EQ(choices[0].increment, 0);
   EXPECT_EQ(choices[0].branch, 3);
   EXPECT_EQ(choices[1].event, 0);
-  EXPECT_EQ(choices[1].row, 7);
+  EXPECT_EQ(choices[1].increment, 7);
   EXPECT_EQ(choices[1].branch, 0);
 }
 

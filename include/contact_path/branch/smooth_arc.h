@@ -73,7 +73,7 @@ class SmoothArc {
   int factorisations_ = 0;
 };
 
-// A step on a arc: both ends with derivatives, parameter t in [0, length] = the projection of (u, s) - start on the
+// A step on an arc: both ends with derivatives, parameter t in [0, length] = the projection of (u, s) - start on the
 // tangent at the start. Between the ends, quintic Hermite interpolation: error of order length^6.
 struct Step {
   CurvePoint start;

@@ -1,4 +1,4 @@
-// State of a contact candidate on a arc of path.
+// State of a contact candidate on an arc of path.
 #ifndef CONTACT_PATH_CONTACT_CONTACT_STATE_H_
 #define CONTACT_PATH_CONTACT_CONTACT_STATE_H_
 
