@@ -274,7 +274,7 @@ const BrokenRule kOptionRules[] = {
      [](auto& r) {
        r.options.branch_choices = {{0, -1, 2}};
      },
-     "options.branch_choices[0].row", "-1", "must be >= 0"},
+     "options.branch_choices[0].increment", "-1", "must be >= 0"},
     {"BranchNegative",
      [](auto& r) {
        r.options.branch_choices = {{1, 0, -2}};
@@ -284,7 +284,7 @@ const BrokenRule kOptionRules[] = {
      [](auto& r) {
        r.options.branch_choices = {{1, 5, 2}};
      },
-     "options.branch_choices[0].row", "5", "must be 0 where event is given"},
+     "options.branch_choices[0].increment", "5", "must be 0 where event is given"},
 };
 INSTANTIATE_TEST_SUITE_P(Options, ValidateTest, testing::ValuesIn(kOptionRules), NameOf<BrokenRule>);
 
