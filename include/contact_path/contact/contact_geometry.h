@@ -22,10 +22,10 @@ struct SparseLinear {
   // u, du: may have more entries than dofs.
   double Value(const Eigen::VectorXd& u, double s) const { return offset + Rate(u, s); }
   double Rate(const Eigen::VectorXd& du, double ds) const {
-    double sum = load * ds;
+    double sum = 0.0;
     for (std::size_t a = 0; a < 2; ++a)
       if (dofs[a] >= 0) sum += coefficients[a] * du[dofs[a]];
-    return sum;
+    return sum + load * ds;
   }
   // out += factor * gradient by u: how a force along the function acts on the structure.
   void AddGradient(double factor, Eigen::VectorXd* out) const {
