@@ -24,7 +24,7 @@ double Seconds(Clock::time_point since) { return std::chrono::duration<double>(C
 // One factorisation of the matrix of the increments at `point`, pattern and pivots known.
 double FactorisationTime(const Model& model, const PathPoint& point) {
   FixedStateSystem system(model.structure, model.contacts);
-  system.SetStates(point.states, TangentialPositions(model.contacts, point));
+  system.SetStates(point.states, SurfaceCoordinates(model.contacts, point));
   const Eigen::SparseMatrix<double> transposed = system.TransposedJacobian(system.Pack(point));
   const Eigen::VectorXd increment = Eigen::VectorXd::LinSpaced(system.NumUnknowns(), 0.5, 1.0);
   BorderedSolver solver;

@@ -40,9 +40,9 @@ using States = std::vector<ContactState>;
 
 // The states that a contact can take on from `point`: one if it is not weakly_active. The natural one, as it was, comes
 // first.
-States Options(const ContactGeometry& contact, const PathPoint& point, std::size_t i, const ActiveSetTolerance& limit) {
+States Options(const ContactPair& contact, const PathPoint& point, std::size_t i, const ActiveSetTolerance& limit) {
   const auto k = static_cast<Eigen::Index>(i);
-  const double gap = contact.gap.Value(point.u, point.s), rn = point.rn[k], rt = point.rt[k];
+  const double gap = contact.Gap(point.u, point.s), rn = point.rn[k], rt = point.rt[k];
   if (gap > limit.gap) return {ContactState::kOpen};
   const bool loaded = rn > limit.force;
   States options;
@@ -52,8 +52,8 @@ States Options(const ContactGeometry& contact, const PathPoint& point, std::size
     options = {ContactState::kStick, ContactState::kSlipPlus, ContactState::kSlipMinus};
   } else {
     options = {ContactState::kStick};
-    if (contact.friction * rn + rt <= limit.force) options.push_back(ContactState::kSlipPlus);
-    if (contact.friction * rn - rt <= limit.force) options.push_back(ContactState::kSlipMinus);
+    if (contact.Friction() * rn + rt <= limit.force) options.push_back(ContactState::kSlipPlus);
+    if (contact.Friction() * rn - rt <= limit.force) options.push_back(ContactState::kSlipMinus);
   }
   if (!loaded) options.push_back(ContactState::kOpen);
   const auto natural = std::find(options.begin(), options.end(), point.states[i]);
@@ -73,15 +73,15 @@ Eigen::MatrixXd Split(const Eigen::MatrixXd& basis, Eigen::Index from, Eigen::In
 
 class Finder {
  public:
-  Finder(const Structure& structure, const std::vector<ContactGeometry>& contacts, const PathPoint& point,
-         const Arrival& arrival, const ActiveSetTolerance& limit, const std::function<bool()>& cancelled)
+  Finder(const Structure& structure, const ContactPairs& contacts, const PathPoint& point, const Arrival& arrival,
+         const ActiveSetTolerance& limit, const std::function<bool()>& cancelled)
       : contacts_(contacts),
         point_(point),
         arrival_(arrival),
         tolerance_(limit),
         cancelled_(cancelled),
         system_(structure, contacts),
-        reference_(TangentialPositions(contacts, point)) {}
+        reference_(SurfaceCoordinates(contacts, point)) {}
 
   // Adds the branches with these states.
   void Try(const States& states, std::vector<Branch>* branches) {
@@ -138,7 +138,7 @@ class Finder {
   }
 
   // The state that a contact takes on where the rate of `limit` is negative.
-  static ContactState Next(const Constraint& limit, const ContactGeometry& contact) {
+  static ContactState Next(const Constraint& limit, const ContactPair& contact) {
     switch (limit.inequality) {
       case Inequality::kGap: return contact.Frictional() ? ContactState::kStick : ContactState::kClosed;
       case Inequality::kNormalReaction: return ContactState::kOpen;
@@ -159,9 +159,9 @@ class Finder {
       bool changed = false;
       for (const Constraint& limit : system_.Inequalities()) {
         if (!IsActive(limit, x)) continue;
-        if (system_.Rate(limit, first) >= -kRateTolerance) continue;
+        if (system_.Rate(limit, x, first) >= -kRateTolerance) continue;
         ContactState& state = states[static_cast<std::size_t>(limit.contact)];
-        state = Next(limit, contacts_[static_cast<std::size_t>(limit.contact)]);
+        state = Next(limit, *contacts_[static_cast<std::size_t>(limit.contact)]);
         changed = true;
         if (round >= kBlockPivots) break;
       }
@@ -181,7 +181,7 @@ class Finder {
       if (round >= kBlockPivots) broken.resize(1);
       for (const Constraint& limit : broken) {
         const auto i = static_cast<std::size_t>(limit.contact);
-        states[i] = Next(limit, contacts_[i]);
+        states[i] = Next(limit, *contacts_[i]);
       }
     }
     return std::nullopt;
@@ -286,8 +286,9 @@ class Finder {
     if (arrival_.is_start && first[n - 1] * arrival_.direction[n - 1] <= kStartRate) return false;
     if (!arrival_.is_start && IsReversed(first)) return false;
     for (const Constraint& limit : system_.Inequalities()) {
-      double rate = system_.Rate(limit, first), curvature = system_.Rate(limit, second);
       if (!IsActive(limit, x)) continue;
+      const Jet along = system_.ValueAlong(limit, x, first, second);
+      const double rate = along.first, curvature = along.second;
       // A graze, located to the root of rounding only: the value is past its minimum before it counts as negative.
       const bool grazes = limit.inequality != Inequality::kSlip && rate < 0.0 && curvature > kCurvatureTolerance &&
                           rate * rate <= 2.0 * curvature * kGraze;
@@ -306,7 +307,7 @@ class Finder {
     for (std::size_t i = 0; i < contacts_.size(); ++i)
       if (Slips(states[i]))
         rate -= point_.rt[static_cast<Eigen::Index>(i)] *
-                contacts_[i].tangential.Rate(direction, direction[NumMotion() - 1]);
+                contacts_[i]->SlipRate(point_.u, point_.s, direction, direction[NumMotion() - 1]);
     return std::max(rate, 0.0);  // but for rounding
   }
 
@@ -315,7 +316,7 @@ class Finder {
     int idle = 0;
     for (std::size_t i = 0; i < contacts_.size(); ++i)
       if (Slips(branch.states[i]) &&
-          std::abs(contacts_[i].tangential.Rate(branch.direction, branch.load_rate)) <= kRateTolerance)
+          std::abs(contacts_[i]->SlipRate(point_.u, point_.s, branch.direction, branch.load_rate)) <= kRateTolerance)
         ++idle;
     return idle;
   }
@@ -338,7 +339,7 @@ class Finder {
     branches->push_back(std::move(branch));
   }
 
-  const std::vector<ContactGeometry>& contacts_;
+  const ContactPairs& contacts_;
   const PathPoint& point_;
   const Arrival& arrival_;
   ActiveSetTolerance tolerance_;
@@ -436,16 +437,16 @@ void TryLikely(const std::vector<States>& options, const PathPoint& point, const
 }
 
 // With the reactions of the point. In no order, and mirror branches are not told.
-BranchSet BranchesWithReactions(const Structure& structure, const std::vector<ContactGeometry>& contacts,
-                                const PathPoint& point, const Arrival& arrival, const ActiveSetTolerance& limit,
-                                IncrementSolver* mpec, const std::function<bool()>& cancelled) {
+BranchSet BranchesWithReactions(const Structure& structure, const ContactPairs& contacts, const PathPoint& point,
+                                const Arrival& arrival, const ActiveSetTolerance& limit, IncrementSolver* mpec,
+                                const std::function<bool()>& cancelled) {
   BranchSet result;
   std::vector<States> options;
   States natural;
   std::vector<int> weakly_active;
   double combinations = 1.0;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    options.push_back(Options(contacts[i], point, i, limit));
+    options.push_back(Options(*contacts[i], point, i, limit));
     natural.push_back(options[i].front());
     combinations *= static_cast<double>(options[i].size());
     if (options[i].size() > 1) weakly_active.push_back(static_cast<int>(i));
@@ -495,7 +496,7 @@ void AddOthers(BranchSet&& others, const PathPoint& begin, BranchSet* result) {
 
 }  // namespace
 
-BranchSet FindBranches(const Structure& structure, const std::vector<ContactGeometry>& contacts, const PathPoint& point,
+BranchSet FindBranches(const Structure& structure, const ContactPairs& contacts, const PathPoint& point,
                        const Arrival& arrival, const ActiveSetTolerance& limit, IncrementSolver* mpec,
                        const std::function<bool()>& cancelled) {
   BranchSet result = BranchesWithReactions(structure, contacts, point, arrival, limit, mpec, cancelled);

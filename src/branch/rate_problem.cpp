@@ -19,22 +19,37 @@ constexpr double kRestsBelow = 1e-7;
 constexpr double kMovesAbove = 1e-6;
 constexpr double kNoChange = 1e-9;  // of load and reactions, of a unit motion that is a rigid mode
 
-// matrix: transposed, nd components before the load factor.
-void AddSpring(const SparseLinear& along, double stiffness, Eigen::Index nd, Eigen::SparseMatrix<double>* matrix) {
-  for (std::size_t a = 0; a < 2; ++a) {
-    if (along.dofs[a] >= 0 && along.load != 0.0)
-      matrix->coeffRef(nd, along.dofs[a]) += stiffness * along.coefficients[a] * along.load;
-    for (std::size_t b = 0; b < 2; ++b)
-      if (along.dofs[a] >= 0 && along.dofs[b] >= 0)
-        matrix->coeffRef(along.dofs[a], along.dofs[b]) += stiffness * along.coefficients[a] * along.coefficients[b];
+// A force stiffness . motion along a gap or xi with this gradient. matrix: transposed, nd components before the load
+// factor.
+void AddSpring(const ContactPair& pair, const PairVector& gradient, double stiffness, Eigen::Index nd,
+               Eigen::SparseMatrix<double>* matrix) {
+  const auto m = static_cast<Eigen::Index>(pair.Dofs().size());
+  for (Eigen::Index a = 0; a < m; ++a) {
+    const int column = pair.Dofs()[static_cast<std::size_t>(a)];
+    if (gradient[a] == 0.0) continue;
+    if (gradient[m] != 0.0) matrix->coeffRef(nd, column) += stiffness * gradient[a] * gradient[m];
+    for (Eigen::Index b = 0; b < m; ++b)
+      if (gradient[b] != 0.0)
+        matrix->coeffRef(pair.Dofs()[static_cast<std::size_t>(b)], column) += stiffness * gradient[a] * gradient[b];
   }
+}
+
+// The change of the force r_n grad u_n + r_t grad xi by the curvature of the surface.
+void AddCurvature(const ContactPair& pair, const Kinematics& at, double rn, double rt, Eigen::Index nd,
+                  Eigen::SparseMatrix<double>* matrix) {
+  const PairMatrix hessian = rn * at.gap_hessian + rt * at.xi_hessian;
+  const auto m = static_cast<Eigen::Index>(pair.Dofs().size());
+  for (Eigen::Index a = 0; a < m; ++a)
+    for (Eigen::Index b = 0; b <= m; ++b)
+      matrix->coeffRef(b < m ? pair.Dofs()[static_cast<std::size_t>(b)] : nd,
+                       pair.Dofs()[static_cast<std::size_t>(a)]) -= hessian(b, a);
 }
 
 }  // namespace
 
-RateProblem::RateProblem(const Structure& structure, const std::vector<ContactGeometry>& contacts,
-                         const PathPoint& point, const std::vector<ContactState>& states,
-                         const std::vector<int>& weakly_active, const Eigen::VectorXd& arrival)
+RateProblem::RateProblem(const Structure& structure, const ContactPairs& contacts, const PathPoint& point,
+                         const std::vector<ContactState>& states, const std::vector<int>& weakly_active,
+                         const Eigen::VectorXd& arrival)
     : contacts_(contacts), point_(point), weakly_active_(weakly_active) {
   std::vector<ContactState> base = states;
   for (const int i : weakly_active_) base[static_cast<std::size_t>(i)] = ContactState::kOpen;
@@ -42,11 +57,16 @@ RateProblem::RateProblem(const Structure& structure, const std::vector<ContactGe
   system.SetStates(base, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(contacts.size())));
   const Eigen::VectorXd x = system.Pack(point);
   const Eigen::Index nd = system.NumDofs();
-  // Scaled stiffnesses are of the order of 1, and so are the springs.
+  std::vector<Kinematics> kinematics(weakly_active_.size());
   Eigen::SparseMatrix<double> transposed = system.TransposedJacobian(x);
-  for (const int i : weakly_active_) {
-    AddSpring(contacts[static_cast<std::size_t>(i)].gap, 1.0, nd, &transposed);
-    AddSpring(contacts[static_cast<std::size_t>(i)].tangential, 1.0, nd, &transposed);
+  for (std::size_t k = 0; k < weakly_active_.size(); ++k) {
+    const int i = weakly_active_[k];
+    const ContactPair& pair = *contacts[static_cast<std::size_t>(i)];
+    pair.Evaluate(point.u, point.s, 0.0, &kinematics[k]);
+    // Scaled stiffnesses are of the order of 1, and so are the springs.
+    AddSpring(pair, kinematics[k].gap_gradient, 1.0, nd, &transposed);
+    AddSpring(pair, kinematics[k].xi_gradient, 1.0, nd, &transposed);
+    if (pair.Curved()) AddCurvature(pair, kinematics[k], point.rn[i], point.rt[i], nd, &transposed);
   }
   transposed.makeCompressed();
   BorderedSolver solver;
@@ -58,12 +78,12 @@ RateProblem::RateProblem(const Structure& structure, const std::vector<ContactGe
   motions.col(0) = solver.Solve(Eigen::VectorXd::Zero(system.NumEquations()), 1.0).head(nd);
   Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(system.NumEquations(), 2), moved;
   for (Eigen::Index k = 0; k < count; ++k) {
-    const ContactGeometry& contact = contacts[static_cast<std::size_t>(weakly_active_[static_cast<std::size_t>(k)])];
+    const ContactPair& pair = *contacts[static_cast<std::size_t>(weakly_active_[static_cast<std::size_t>(k)])];
+    const Kinematics& at = kinematics[static_cast<std::size_t>(k)];
     const auto set = [&](double value) {
-      for (const Eigen::Index axis : {0, 1}) {
-        const SparseLinear& along = axis == 0 ? contact.gap : contact.tangential;
-        for (std::size_t a = 0; a < 2; ++a)
-          if (along.dofs[a] >= 0) forces(along.dofs[a], axis) = value * along.coefficients[a];
+      for (std::size_t a = 0; a < pair.Dofs().size(); ++a) {
+        forces(pair.Dofs()[a], 0) = value * at.gap_gradient[static_cast<Eigen::Index>(a)];
+        forces(pair.Dofs()[a], 1) = value * at.xi_gradient[static_cast<Eigen::Index>(a)];
       }
     };
     set(1.0);
@@ -75,11 +95,12 @@ RateProblem::RateProblem(const Structure& structure, const std::vector<ContactGe
   gap_.resize(count, motions.cols());
   slip_.resize(count, motions.cols());
   for (Eigen::Index k = 0; k < count; ++k) {
-    const ContactGeometry& contact = contacts[static_cast<std::size_t>(weakly_active_[static_cast<std::size_t>(k)])];
+    const ContactPair& pair = *contacts[static_cast<std::size_t>(weakly_active_[static_cast<std::size_t>(k)])];
+    const Kinematics& at = kinematics[static_cast<std::size_t>(k)];
     for (Eigen::Index j = 0; j < motions.cols(); ++j) {
       const double ds = j == 0 ? 1.0 : 0.0;
-      gap_(k, j) = contact.gap.Rate(motions.col(j), ds);
-      slip_(k, j) = contact.tangential.Rate(motions.col(j), ds);
+      gap_(k, j) = pair.Rate(at.gap_gradient, motions.col(j), ds);
+      slip_(k, j) = pair.Rate(at.xi_gradient, motions.col(j), ds);
     }
   }
   gram_ = motions.transpose() * motions;
@@ -152,7 +173,7 @@ Eigen::MatrixXd RateProblem::Equations(const std::vector<ContactState>& states) 
     if (states[i] == ContactState::kStick)
       equations.row(2 * k + 1) = slip_.row(k);
     else
-      equations.row(2 * k + 1) = rt - SlipRatio(states[i], contacts_[i].friction) * rn;
+      equations.row(2 * k + 1) = rt - SlipRatio(states[i], contacts_[i]->Friction()) * rn;
   }
   return equations;
 }
@@ -202,7 +223,7 @@ std::optional<Constraint> RateProblem::Broken(const std::vector<ContactState>& s
     const int contact = weakly_active_[k];
     const auto i = static_cast<std::size_t>(contact);
     const auto e = static_cast<Eigen::Index>(k), c = static_cast<Eigen::Index>(i);
-    const double friction = contacts_[i].friction, rn = point_.rn[c], rt = point_.rt[c];
+    const double friction = contacts_[i]->Friction(), rn = point_.rn[c], rt = point_.rt[c];
     if (states[i] == ContactState::kOpen) {
       require(contact, Inequality::kGap, rates.gap[e], 1.0);
       continue;

@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 #include <Eigen/LU>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <map>
@@ -12,9 +11,10 @@
 namespace contact_path {
 namespace {
 
-constexpr double kParallel = 1e-9;         // sine between two edges of cones
-constexpr std::size_t kMostAtOneNode = 4;  // contacts that are looked at together
-constexpr std::size_t kMostPoints = 200;   // combinations over all nodes
+constexpr double kParallel = 1e-9;          // sine between two edges of cones
+constexpr std::size_t kMostAtOneNode = 4;   // contacts that are looked at together
+constexpr std::size_t kMostComponents = 2;  // of a node: contacts that move more are not looked at
+constexpr std::size_t kMostPoints = 200;    // combinations over all nodes
 
 // An edge of a friction cone, or the normal of a frictionless contact: the force of a unit normal reaction there.
 struct Edge {
@@ -31,28 +31,37 @@ struct Touching {
   std::vector<Edge> edges;
 };
 
-Eigen::Vector2d Gradient(const SparseLinear& function) {
-  return {function.coefficients[0], function.coefficients[1]};  // 0 where the component is not free
+// The force of a unit reaction on a node, in x and y; 0 where the component is not free.
+struct UnitForces {
+  Eigen::Vector2d normal = Eigen::Vector2d::Zero();
+  Eigen::Vector2d tangential = Eigen::Vector2d::Zero();
+};
+
+UnitForces UnitForcesOf(const ContactPair& pair, const PathPoint& point) {
+  Kinematics at;
+  pair.Evaluate(point.u, point.s, 0.0, &at);
+  const auto m = static_cast<Eigen::Index>(pair.Dofs().size());
+  UnitForces forces;
+  forces.normal.head(m) = at.gap_gradient.head(m);
+  forces.tangential.head(m) = at.xi_gradient.head(m);
+  return forces;
 }
 
 // Contacts that touch, by the free components of their node.
-std::vector<Touching> TouchingByNode(const std::vector<ContactGeometry>& contacts, const PathPoint& point,
-                                     double tolerance) {
-  std::map<std::array<int, 2>, Touching> nodes;
+std::vector<Touching> TouchingByNode(const ContactPairs& contacts, const PathPoint& point, double tolerance) {
+  std::map<std::vector<int>, Touching> nodes;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    const ContactGeometry& contact = contacts[i];
-    if (contact.gap.Value(point.u, point.s) > tolerance) continue;
-    const std::array<int, 2> dofs = {std::max(contact.gap.dofs[0], contact.tangential.dofs[0]),
-                                     std::max(contact.gap.dofs[1], contact.tangential.dofs[1])};
-    if (dofs[0] < 0 && dofs[1] < 0) continue;
-    Touching& node = nodes[dofs];
+    const ContactPair& contact = *contacts[i];
+    if (contact.Gap(point.u, point.s) > tolerance) continue;
+    if (contact.Dofs().empty() || contact.Dofs().size() > kMostComponents) continue;
+    Touching& node = nodes[contact.Dofs()];
     node.contacts.push_back(i);
-    const Eigen::Vector2d normal = Gradient(contact.gap), tangent = Gradient(contact.tangential);
+    const UnitForces unit = UnitForcesOf(contact, point);
     if (!contact.Frictional()) {
-      node.edges.push_back({i, 0.0, normal});
+      node.edges.push_back({i, 0.0, unit.normal});
     } else {
-      for (const double slip : {contact.friction, -contact.friction})
-        node.edges.push_back({i, slip, normal + slip * tangent});
+      for (const double slip : {contact.Friction(), -contact.Friction()})
+        node.edges.push_back({i, slip, unit.normal + slip * unit.tangential});
     }
   }
   std::vector<Touching> result;
@@ -61,11 +70,12 @@ std::vector<Touching> TouchingByNode(const std::vector<ContactGeometry>& contact
   return result;
 }
 
-Eigen::Vector2d TotalForce(const Touching& node, const std::vector<ContactGeometry>& contacts, const PathPoint& point) {
+Eigen::Vector2d TotalForce(const Touching& node, const ContactPairs& contacts, const PathPoint& point) {
   Eigen::Vector2d force = Eigen::Vector2d::Zero();
   for (const std::size_t i : node.contacts) {
     const auto k = static_cast<Eigen::Index>(i);
-    force += point.rn[k] * Gradient(contacts[i].gap) + point.rt[k] * Gradient(contacts[i].tangential);
+    const UnitForces unit = UnitForcesOf(*contacts[i], point);
+    force += point.rn[k] * unit.normal + point.rt[k] * unit.tangential;
   }
   return force;
 }
@@ -158,16 +168,14 @@ void SetReactions(const Touching& node, const Weights& weights, PathPoint* point
 
 }  // namespace
 
-ReactionRedistributions FindReactionRedistributions(const std::vector<ContactGeometry>& contacts,
-                                                    const PathPoint& point, const ActiveSetTolerance& limit) {
+ReactionRedistributions FindReactionRedistributions(const ContactPairs& contacts, const PathPoint& point,
+                                                    const ActiveSetTolerance& limit) {
   ReactionRedistributions result;
   for (const Touching& node : TouchingByNode(contacts, point, limit.gap)) {
     if (node.contacts.size() < 2) {
       // The cone of one contact gives each force in one way only, where both components of its node are free.
-      const ContactGeometry& contact = contacts[node.contacts.front()];
-      const bool one_component = contact.gap.dofs[0] < 0 && contact.tangential.dofs[0] < 0;
-      const bool other_component = contact.gap.dofs[1] < 0 && contact.tangential.dofs[1] < 0;
-      if (!contact.Frictional() || !(one_component || other_component)) continue;
+      const ContactPair& contact = *contacts[node.contacts.front()];
+      if (!contact.Frictional() || contact.Dofs().size() == kMostComponents) continue;
     }
     if (node.contacts.size() > kMostAtOneNode) {
       result.complete = false;

@@ -8,6 +8,7 @@ namespace {
 
 constexpr int kMaxIterations = 12;
 constexpr int kSingularIterations = 3;
+constexpr int kLinearisations = 8;
 constexpr double kSingularRank = 1e-6;    // rank tolerance where another path crosses
 constexpr double kStepTolerance = 1e-14;  // relative to 1 + |x|: rounding
 constexpr double kStagnation = 1e-10;     // relative: below this a step that no longer shrinks is rounding
@@ -39,11 +40,11 @@ void EndDerivatives(const Step& step, Eigen::VectorXd* first, Eigen::VectorXd* s
 
 }  // namespace
 
-SmoothArc::SmoothArc(const Structure& structure, const std::vector<ContactGeometry>& contacts)
+SmoothArc::SmoothArc(const Structure& structure, const ContactPairs& contacts)
     : contacts_(contacts), system_(structure, contacts) {}
 
 void SmoothArc::SetStates(const std::vector<ContactState>& states, const PathPoint& from) {
-  system_.SetStates(states, TangentialPositions(contacts_, from));
+  system_.SetStates(states, SurfaceCoordinates(contacts_, from));
   at_hand_ = false;
 }
 
@@ -68,6 +69,21 @@ bool SmoothArc::Derivatives(const Eigen::VectorXd& x, const Eigen::VectorXd& tow
 
 Correction SmoothArc::Correct(const Eigen::VectorXd& guess, const Eigen::VectorXd& row, double value) {
   return Newton(guess, row, value, false);
+}
+
+Correction SmoothArc::CorrectOnto(const Constraint& constraint, const Eigen::VectorXd& guess) {
+  // The inequality as the last equation, linearised anew where it is curved.
+  Eigen::VectorXd from = guess;
+  Correction correction;
+  for (int round = 0; round < kLinearisations; ++round) {
+    const Eigen::VectorXd row = system_.Gradient(constraint, from);
+    correction = Correct(from, row, row.dot(from) - system_.Value(constraint, from));
+    if (!correction.converged) break;
+    const double scale = 1.0 + correction.x.norm();
+    if (std::abs(system_.Value(constraint, correction.x)) <= kResidualTolerance * scale) break;
+    from = correction.x;
+  }
+  return correction;
 }
 
 Correction SmoothArc::Newton(const Eigen::VectorXd& guess, const Eigen::VectorXd& row, double value, bool at_hand) {

@@ -19,10 +19,13 @@ constexpr double kSameDerivative = 1e-2;  // of unit tangents: more is the mark 
 constexpr int kBisections = 60;
 constexpr double kBifurcationWidth = 1e-10;  // relative to the step
 
+Jet ValueAlong(const FixedStateSystem& system, const Constraint& constraint, const CurvePoint& point) {
+  return system.ValueAlong(constraint, point.x, point.first, point.second);
+}
+
 // The function of an inequality that must stay >= 0: its value, or for slip its rate.
 Quintic FunctionOf(const FixedStateSystem& system, const Step& step, const Constraint& limit) {
-  const Quintic value = step.Interpolate([&](const Eigen::VectorXd& x) { return system.Value(limit, x); },
-                                         [&](const Eigen::VectorXd& dx) { return system.Rate(limit, dx); });
+  const Quintic value = step.Interpolate([&](const CurvePoint& at) { return ValueAlong(system, limit, at); });
   return limit.inequality == Inequality::kSlip ? Derivative(value) : value;
 }
 
@@ -42,13 +45,14 @@ std::optional<CurvePoint> PointAt(SmoothArc* arc, const Step& step, double t) {
   return point;
 }
 
-// Zero of a rate that is linear in the first derivative, by Newton's method along the curve.
-template <typename Rate>
-std::optional<CurvePoint> LocateRate(SmoothArc* arc, const Step& step, double t, Rate rate) {
+// Zero of a rate, by Newton's method along the curve. along(point): the jet whose first derivative it is.
+template <typename Along>
+std::optional<CurvePoint> LocateRate(SmoothArc* arc, const Step& step, double t, Along along) {
   std::optional<CurvePoint> point = PointAt(arc, step, t);
   double previous = std::numeric_limits<double>::infinity();
   for (int i = 0; point && i < kNewtonIterations; ++i) {
-    const double value = rate(point->first), slope = rate(point->second);
+    const Jet jet = along(*point);
+    const double value = jet.first, slope = jet.second;
     if (std::abs(value) <= kRateZero || std::abs(value) >= 0.5 * previous) return point;
     previous = std::abs(value);
     const double move = -value / slope;
@@ -112,7 +116,7 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, std::optional<double> tar
   }
   const Eigen::Index s = system.NumDofs();
   const auto load = [s](const Eigen::VectorXd& x) { return x[s]; };
-  const Quintic load_factor = step.Interpolate(load, load);
+  const Quintic load_factor = step.InterpolateLinear(load);
   const Quintic load_rate = Derivative(load_factor);
   Quintic reversed = load_rate;
   for (double& coefficient : reversed) coefficient = -coefficient;
@@ -159,7 +163,9 @@ std::optional<CurvePoint> LocateRegular(SmoothArc* arc, const Step& step, const 
     case EventKind::kNearTouch: return PointAt(arc, step, event.t);
     case EventKind::kBifurcation: return step.At(event.t);
     case EventKind::kLimitPoint:
-      return LocateRate(arc, step, event.t, [&](const Eigen::VectorXd& rate) { return rate[system.NumDofs()]; });
+      return LocateRate(arc, step, event.t, [s = system.NumDofs()](const CurvePoint& at) {
+        return Jet{at.x[s], at.first[s], at.second[s]};
+      });
     case EventKind::kTarget: {
       const Correction correction =
           arc->Correct(step.Point(event.t), Eigen::VectorXd::Unit(system.NumUnknowns(), system.NumDofs()), target);
@@ -170,17 +176,16 @@ std::optional<CurvePoint> LocateRegular(SmoothArc* arc, const Step& step, const 
     case EventKind::kContactEvent: break;
   }
   if (event.limit.inequality == Inequality::kSlip)
-    return LocateRate(arc, step, event.t, [&](const Eigen::VectorXd& rate) { return system.Rate(event.limit, rate); });
+    return LocateRate(arc, step, event.t, [&](const CurvePoint& at) { return ValueAlong(system, event.limit, at); });
   // The inequality as the last equation. Where it only grazes zero, that has no solution: then its minimum counts, or
   // else the point itself. At the event itself the equations may be singular: then derivatives are those of the step
   // that crossed it.
   const Eigen::VectorXd guess = step.Point(event.t);
-  const Eigen::VectorXd row = system.Gradient(event.limit);
-  Correction correction = arc->Correct(guess, row, row.dot(guess) - system.Value(event.limit, guess));
+  Correction correction = arc->CorrectOnto(event.limit, guess);
   const double reach = 0.1 * step.length + 1e-9;
   if (!correction.converged || !((correction.x - guess).head(arc->NumMotion()).norm() <= reach)) {
     std::optional<CurvePoint> lowest =
-        LocateRate(arc, step, event.t, [&](const Eigen::VectorXd& rate) { return system.Rate(event.limit, rate); });
+        LocateRate(arc, step, event.t, [&](const CurvePoint& at) { return ValueAlong(system, event.limit, at); });
     if (lowest) return lowest;
     correction = arc->CorrectOnPlane(guess, step.normal);
   }

@@ -1,20 +1,18 @@
 #include "contact_path/contact/fixed_state_system.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace contact_path {
-namespace {}  // namespace
 
-FixedStateSystem::FixedStateSystem(const Structure& structure, const std::vector<ContactGeometry>& contacts)
+FixedStateSystem::FixedStateSystem(const Structure& structure, const ContactPairs& contacts)
     : structure_(structure), contacts_(contacts), tangent_(structure.TangentPattern()) {
   SetStates(std::vector<ContactState>(contacts.size(), ContactState::kOpen),
             Eigen::VectorXd::Zero(static_cast<Eigen::Index>(contacts.size())));
 }
 
-void FixedStateSystem::SetStates(const std::vector<ContactState>& states, const Eigen::VectorXd& tangential_reference) {
+void FixedStateSystem::SetStates(const std::vector<ContactState>& states, const Eigen::VectorXd& reference) {
   states_ = states;
-  tangential_reference_ = tangential_reference;
+  reference_ = reference;
   active_.clear();
   load_factor_fixed_ = false;
   rn_unknown_.assign(contacts_.size(), -1);
@@ -32,8 +30,8 @@ void FixedStateSystem::SetStates(const std::vector<ContactState>& states, const 
   Rebuild();
 }
 
-void FixedStateSystem::SetActive(const std::vector<Constraint>& limits) {
-  active_ = limits;
+void FixedStateSystem::SetActive(const std::vector<Constraint>& constraints) {
+  active_ = constraints;
   Rebuild();
 }
 
@@ -48,88 +46,152 @@ void FixedStateSystem::FreeLoadFactor() {
   Rebuild();
 }
 
-void FixedStateSystem::AddFunction(const SparseLinear& function, double sign, LinearEquation* equation) const {
-  for (std::size_t a = 0; a < 2; ++a)
-    if (function.dofs[a] >= 0) equation->Add(function.dofs[a], sign * function.coefficients[a]);
-  if (function.load != 0.0) equation->Add(NumDofs(), sign * function.load);
-  equation->constant = sign * function.offset;
+bool FixedStateSystem::IsMotion(const Constraint& constraint) {
+  return constraint.inequality == Inequality::kGap || constraint.inequality == Inequality::kSlip;
 }
 
-FixedStateSystem::LinearEquation FixedStateSystem::Gap(std::size_t contact) const {
-  LinearEquation equation;
-  AddFunction(contacts_[contact].gap, 1.0, &equation);
-  return equation;
+FixedStateSystem::Motion FixedStateSystem::MotionOf(const Constraint& constraint) const {
+  const auto i = static_cast<std::size_t>(constraint.contact);
+  const bool is_gap = constraint.inequality == Inequality::kGap;
+  return {i, is_gap, is_gap || states_[i] == ContactState::kSlipPlus ? 1.0 : -1.0};
 }
 
-FixedStateSystem::LinearEquation FixedStateSystem::TangentialMotion(std::size_t contact, double sign) const {
-  LinearEquation equation;
-  AddFunction(contacts_[contact].tangential, sign, &equation);
-  equation.constant -= sign * tangential_reference_[static_cast<Eigen::Index>(contact)];
-  return equation;
-}
-
-FixedStateSystem::LinearEquation FixedStateSystem::InequalityAsEquation(const Constraint& limit) const {
-  const auto i = static_cast<std::size_t>(limit.contact);
-  LinearEquation equation;
-  switch (limit.inequality) {
-    case Inequality::kGap: return Gap(i);
-    case Inequality::kSlip: return TangentialMotion(i, states_[i] == ContactState::kSlipPlus ? 1.0 : -1.0);
-    case Inequality::kNormalReaction: equation.Add(rn_unknown_[i], 1.0); break;
-    case Inequality::kConePlus:
-    case Inequality::kConeMinus:
-      equation.Add(rn_unknown_[i], contacts_[i].friction);
-      equation.Add(rt_unknown_[i], limit.inequality == Inequality::kConePlus ? 1.0 : -1.0);
-      break;
+FixedStateSystem::ReactionTerms FixedStateSystem::ReactionTermsOf(const Constraint& constraint) const {
+  const auto i = static_cast<std::size_t>(constraint.contact);
+  switch (constraint.inequality) {
+    case Inequality::kConePlus: return {contacts_[i]->Friction(), 1.0};
+    case Inequality::kConeMinus: return {contacts_[i]->Friction(), -1.0};
+    default: return {1.0, 0.0};
   }
-  return equation;
+}
+
+Kinematics FixedStateSystem::Evaluate(std::size_t contact, const Eigen::VectorXd& x) const {
+  Kinematics at;
+  contacts_[contact]->Evaluate(x, x[NumDofs()], reference_[static_cast<Eigen::Index>(contact)], &at);
+  return at;
+}
+
+FixedStateSystem::Reaction FixedStateSystem::ReactionOf(std::size_t contact, const Eigen::VectorXd& x) const {
+  const double rn = x[rn_unknown_[contact]];
+  const double rt = rt_unknown_[contact] >= 0 ? x[rt_unknown_[contact]]
+                                              : SlipRatio(states_[contact], contacts_[contact]->Friction()) * rn;
+  return {rn, rt};
+}
+
+void FixedStateSystem::NumberEquations() {
+  motions_.clear();
+  Eigen::Index next = NumDofs();
+  for (const std::size_t i : touching_) {
+    motions_.push_back({{i, true, 1.0}, next++});
+    if (states_[i] == ContactState::kStick) motions_.push_back({{i, false, 1.0}, next++});
+  }
+  first_support_equation_ = next;
+  next += static_cast<Eigen::Index>(structure_.PrescribedDofs().size());
+  first_active_equation_ = next;
+  for (const Constraint& constraint : active_) {
+    if (IsMotion(constraint)) motions_.push_back({MotionOf(constraint), next});
+    ++next;
+  }
+  num_equations_ = next + (load_factor_fixed_ ? 1 : 0);
+  curved_ = std::any_of(motions_.begin(), motions_.end(),
+                        [this](const MotionEquation& of) { return contacts_[of.motion.contact]->Curved(); });
+}
+
+template <typename Emit>
+void FixedStateSystem::ForEachMotionEntry(const MotionEquation& of, const Kinematics& at, Emit emit) const {
+  const ContactPair& pair = *contacts_[of.motion.contact];
+  const PairVector& gradient = of.motion.is_gap ? at.gap_gradient : at.xi_gradient;
+  const std::size_t m = pair.Dofs().size();
+  for (std::size_t k = 0; k <= m; ++k)
+    if (of.motion.is_gap ? pair.MovesGap(k) : pair.MovesXi(k))
+      emit(k < m ? pair.Dofs()[k] : NumDofs(), of.equation, of.motion.sign * gradient[static_cast<Eigen::Index>(k)]);
+}
+
+template <typename Emit>
+void FixedStateSystem::ForEachReactionEntry(std::size_t contact, const Kinematics& at, Emit emit) const {
+  const ContactPair& pair = *contacts_[contact];
+  const Eigen::Index rn = rn_unknown_[contact], rt = rt_unknown_[contact];
+  const double ratio = SlipRatio(states_[contact], pair.Friction());
+  for (std::size_t k = 0; k < pair.Dofs().size(); ++k) {
+    const auto e = static_cast<Eigen::Index>(k);
+    if (pair.MovesGap(k)) emit(rn, pair.Dofs()[k], -at.gap_gradient[e]);
+    if (!pair.MovesXi(k)) continue;
+    if (rt >= 0) emit(rt, pair.Dofs()[k], -at.xi_gradient[e]);
+    if (ratio != 0.0) emit(rn, pair.Dofs()[k], -ratio * at.xi_gradient[e]);
+  }
+}
+
+template <typename Emit>
+void FixedStateSystem::ForEachCurvatureEntry(std::size_t contact, const Kinematics& at, const Reaction& reaction,
+                                             Emit emit) const {
+  const ContactPair& pair = *contacts_[contact];
+  const PairMatrix hessian = reaction.rn * at.gap_hessian + reaction.rt * at.xi_hessian;
+  const std::size_t m = pair.Dofs().size();
+  for (std::size_t column = 0; column < m; ++column)
+    for (std::size_t row = 0; row <= m; ++row)
+      emit(row < m ? pair.Dofs()[row] : NumDofs(), pair.Dofs()[column],
+           -hessian(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column)));
+}
+
+template <typename Emit>
+void FixedStateSystem::ForEachConstantEntry(Emit emit) const {
+  for (Eigen::Index column = 0; column < NumDofs(); ++column)
+    emit(NumDofs(), column, -structure_.ReferenceLoad()[column]);
+  Eigen::Index k = 0;
+  for (const PrescribedDof& prescribed : structure_.PrescribedDofs()) {
+    emit(first_support_ + k, prescribed.dof, -1.0);
+    emit(prescribed.dof, first_support_equation_ + k, 1.0);
+    emit(NumDofs(), first_support_equation_ + k, -prescribed.rate);
+    ++k;
+  }
+  for (std::size_t c = 0; c < active_.size(); ++c) {
+    if (IsMotion(active_[c])) continue;
+    const auto i = static_cast<std::size_t>(active_[c].contact);
+    const Eigen::Index equation = first_active_equation_ + static_cast<Eigen::Index>(c);
+    const ReactionTerms terms = ReactionTermsOf(active_[c]);
+    emit(rn_unknown_[i], equation, terms.rn);
+    if (terms.rt != 0.0) emit(rt_unknown_[i], equation, terms.rt);
+  }
+  if (load_factor_fixed_) emit(NumDofs(), num_equations_ - 1, 1.0);
 }
 
 void FixedStateSystem::Rebuild() {
-  linear_.clear();
-  for (const std::size_t i : touching_) {
-    linear_.push_back(Gap(i));
-    if (states_[i] == ContactState::kStick) linear_.push_back(TangentialMotion(i, 1.0));
-  }
-  for (const PrescribedDof& prescribed : structure_.PrescribedDofs()) {
-    LinearEquation& equation = linear_.emplace_back();
-    equation.Add(prescribed.dof, 1.0);
-    equation.Add(NumDofs(), -prescribed.rate);
-    equation.constant = -prescribed.start;
-  }
-  for (const Constraint& limit : active_) linear_.push_back(InequalityAsEquation(limit));
-  if (load_factor_fixed_) {
-    linear_.emplace_back().Add(NumDofs(), 1.0);
-    linear_.back().constant = -load_factor_;
-  }
-  num_equations_ = NumDofs() + static_cast<Eigen::Index>(linear_.size());
-
-  // Columns of the transposed Jacobian are equations. All but the tangent is constant and is written here once.
+  NumberEquations();
   std::vector<Eigen::Triplet<double>> triplets;
-  triplets.reserve(static_cast<std::size_t>(tangent_.nonZeros() + NumDofs()) + 8 * linear_.size());
-  for (Eigen::Index column = 0; column < NumDofs(); ++column) {
-    for (Eigen::SparseMatrix<double>::InnerIterator it(tangent_, column); it; ++it)
-      triplets.emplace_back(it.row(), column, 0.0);
-    triplets.emplace_back(NumDofs(), column, -structure_.ReferenceLoad()[column]);
-  }
+  triplets.reserve(static_cast<std::size_t>(tangent_.nonZeros() + NumDofs()) + 6 * touching_.size() +
+                   4 * static_cast<std::size_t>(num_equations_ - NumDofs()));
+  const auto add = [&triplets](Eigen::Index unknown, Eigen::Index equation, double value) {
+    triplets.emplace_back(unknown, equation, value);
+  };
+  const auto add_place = [&triplets](Eigen::Index unknown, Eigen::Index equation, double) {
+    triplets.emplace_back(unknown, equation, 0.0);
+  };
+  for (Eigen::Index column = 0; column < NumDofs(); ++column)
+    for (Eigen::SparseMatrix<double>::InnerIterator it(tangent_, column); it; ++it) add(it.row(), column, 0.0);
+  ForEachConstantEntry(add);
+  // Derivatives of flat contacts are the same everywhere. Those of curved ones come with each point.
+  Eigen::VectorXd anywhere = Eigen::VectorXd::Zero(NumDofs() + 1);
+  anywhere.head(NumDofs()) = structure_.InitialPositions();
   for (const std::size_t i : touching_) {
-    const double ratio = SlipRatio(states_[i], contacts_[i].friction);
-    for (std::size_t a = 0; a < 2; ++a) {
-      const SparseLinear &gap = contacts_[i].gap, &tangential = contacts_[i].tangential;
-      if (gap.dofs[a] >= 0) triplets.emplace_back(rn_unknown_[i], gap.dofs[a], -gap.coefficients[a]);
-      if (tangential.dofs[a] < 0) continue;
-      if (rt_unknown_[i] >= 0) triplets.emplace_back(rt_unknown_[i], tangential.dofs[a], -tangential.coefficients[a]);
-      if (ratio != 0.0) triplets.emplace_back(rn_unknown_[i], tangential.dofs[a], -ratio * tangential.coefficients[a]);
+    const Kinematics at = Evaluate(i, anywhere);
+    if (contacts_[i]->Curved()) {
+      ForEachReactionEntry(i, at, add_place);
+      ForEachCurvatureEntry(i, at, {0.0, 0.0}, add_place);
+    } else {
+      ForEachReactionEntry(i, at, add);
     }
   }
-  for (std::size_t k = 0; k < structure_.PrescribedDofs().size(); ++k)
-    triplets.emplace_back(first_support_ + static_cast<Eigen::Index>(k), structure_.PrescribedDofs()[k].dof, -1.0);
-  for (std::size_t e = 0; e < linear_.size(); ++e)
-    for (std::size_t k = 0; k < linear_[e].count; ++k)
-      triplets.emplace_back(linear_[e].terms[k].unknown, NumDofs() + static_cast<Eigen::Index>(e),
-                            linear_[e].terms[k].coefficient);
+  for (const MotionEquation& of : motions_) {
+    const Kinematics at = Evaluate(of.motion.contact, anywhere);
+    if (contacts_[of.motion.contact]->Curved())
+      ForEachMotionEntry(of, at, add_place);
+    else
+      ForEachMotionEntry(of, at, add);
+  }
   transposed_.resize(num_unknowns_, num_equations_);
   transposed_.setFromTriplets(triplets.begin(), triplets.end());
   transposed_.makeCompressed();
+  if (curved_) constant_ = Eigen::Map<const Eigen::VectorXd>(transposed_.valuePtr(), transposed_.nonZeros());
 }
 
 Eigen::VectorXd FixedStateSystem::Pack(const PathPoint& point) const {
@@ -157,101 +219,193 @@ PathPoint FixedStateSystem::Unpack(const Eigen::VectorXd& x) const {
     if (rt_unknown_[i] >= 0)
       point.rt[k] = x[rt_unknown_[i]];
     else if (Slips(states_[i]))
-      point.rt[k] = SlipRatio(states_[i], contacts_[i].friction) * point.rn[k];
+      point.rt[k] = SlipRatio(states_[i], contacts_[i]->Friction()) * point.rn[k];
   }
   return point;
 }
 
 void FixedStateSystem::Residual(const Eigen::VectorXd& x, Eigen::VectorXd* residual) const {
+  const double s = x[NumDofs()];
   residual->resize(num_equations_);
   structure_.InternalForce(x.head(NumDofs()), residual->head(NumDofs()));
-  residual->head(NumDofs()) -= x[NumDofs()] * structure_.ReferenceLoad() + structure_.ConstantLoad();
+  residual->head(NumDofs()) -= s * structure_.ReferenceLoad() + structure_.ConstantLoad();
   for (const std::size_t i : touching_) {
-    const double rn = x[rn_unknown_[i]];
-    const double rt = rt_unknown_[i] >= 0 ? x[rt_unknown_[i]] : SlipRatio(states_[i], contacts_[i].friction) * rn;
-    contacts_[i].gap.AddGradient(-rn, residual);
-    contacts_[i].tangential.AddGradient(-rt, residual);
+    const Kinematics at = Evaluate(i, x);
+    const Reaction reaction = ReactionOf(i, x);
+    contacts_[i]->AddForce(at.gap_gradient, -reaction.rn, residual);
+    contacts_[i]->AddForce(at.xi_gradient, -reaction.rt, residual);
   }
-  for (std::size_t k = 0; k < structure_.PrescribedDofs().size(); ++k)
-    (*residual)[structure_.PrescribedDofs()[k].dof] -= x[first_support_ + static_cast<Eigen::Index>(k)];
-  for (std::size_t e = 0; e < linear_.size(); ++e)
-    (*residual)[NumDofs() + static_cast<Eigen::Index>(e)] = linear_[e].constant + linear_[e].Rate(x);
+  for (const MotionEquation& of : motions_) (*residual)[of.equation] = MotionValue(of.motion, x);
+  Eigen::Index k = 0;
+  for (const PrescribedDof& prescribed : structure_.PrescribedDofs()) {
+    (*residual)[prescribed.dof] -= x[first_support_ + k];
+    (*residual)[first_support_equation_ + k] = -prescribed.start + (x[prescribed.dof] - prescribed.rate * s);
+    ++k;
+  }
+  for (std::size_t c = 0; c < active_.size(); ++c)
+    if (!IsMotion(active_[c]))
+      (*residual)[first_active_equation_ + static_cast<Eigen::Index>(c)] = Value(active_[c], x);
+  if (load_factor_fixed_) (*residual)[num_equations_ - 1] = s - load_factor_;
 }
 
 const Eigen::SparseMatrix<double>& FixedStateSystem::TransposedJacobian(const Eigen::VectorXd& x) {
   structure_.Tangent(x.head(NumDofs()), &tangent_);
-  // The rows of the tangent come first in each column, in the same order.
+  if (curved_) std::copy_n(constant_.data(), constant_.size(), transposed_.valuePtr());
+  // The places of the tangent are among those of transposed_, in the same order.
   for (Eigen::Index column = 0; column < NumDofs(); ++column) {
-    const int first = tangent_.outerIndexPtr()[column];
-    const int count = tangent_.outerIndexPtr()[column + 1] - first;
-    std::copy_n(tangent_.valuePtr() + first, count, transposed_.valuePtr() + transposed_.outerIndexPtr()[column]);
+    Eigen::Index place = transposed_.outerIndexPtr()[column];
+    for (Eigen::SparseMatrix<double>::InnerIterator it(tangent_, column); it; ++it, ++place) {
+      while (transposed_.innerIndexPtr()[place] != it.row()) ++place;
+      transposed_.valuePtr()[place] = it.value();
+    }
   }
+  if (!curved_) return transposed_;
+  const auto add = [this](Eigen::Index unknown, Eigen::Index equation, double value) {
+    transposed_.coeffRef(unknown, equation) += value;
+  };
+  for (const std::size_t i : touching_) {
+    if (!contacts_[i]->Curved()) continue;
+    const Kinematics at = Evaluate(i, x);
+    ForEachReactionEntry(i, at, add);
+    ForEachCurvatureEntry(i, at, ReactionOf(i, x), add);
+  }
+  for (const MotionEquation& of : motions_)
+    if (contacts_[of.motion.contact]->Curved()) ForEachMotionEntry(of, Evaluate(of.motion.contact, x), add);
   return transposed_;
 }
 
-void FixedStateSystem::AddInequalities(std::size_t contact, std::vector<Constraint>* limits) const {
+void FixedStateSystem::AddInequalities(std::size_t contact, std::vector<Constraint>* inequalities) const {
   const auto i = static_cast<int>(contact);
   if (states_[contact] == ContactState::kOpen) {
-    limits->push_back({i, Inequality::kGap});
+    inequalities->push_back({i, Inequality::kGap});
     return;
   }
-  limits->push_back({i, Inequality::kNormalReaction});
+  inequalities->push_back({i, Inequality::kNormalReaction});
   if (states_[contact] == ContactState::kStick) {
-    limits->push_back({i, Inequality::kConePlus});
-    limits->push_back({i, Inequality::kConeMinus});
+    inequalities->push_back({i, Inequality::kConePlus});
+    inequalities->push_back({i, Inequality::kConeMinus});
   } else if (Slips(states_[contact])) {
-    limits->push_back({i, Inequality::kSlip});
+    inequalities->push_back({i, Inequality::kSlip});
   }
 }
 
 std::vector<Constraint> FixedStateSystem::Inequalities() const {
-  std::vector<Constraint> limits;
-  for (std::size_t i = 0; i < contacts_.size(); ++i) AddInequalities(i, &limits);
-  return limits;
+  std::vector<Constraint> inequalities;
+  for (std::size_t i = 0; i < contacts_.size(); ++i) AddInequalities(i, &inequalities);
+  return inequalities;
 }
 
 std::vector<Constraint> FixedStateSystem::InequalitiesInReach(const Eigen::VectorXd& x, double reach) const {
-  std::vector<Constraint> limits;
+  std::vector<Constraint> inequalities;
   for (std::size_t i = 0; i < contacts_.size(); ++i)
     if (states_[i] != ContactState::kOpen ||
-        contacts_[i].gap.Value(x, x[NumDofs()]) <= reach * (1.0 + std::abs(contacts_[i].gap.load)))
-      AddInequalities(i, &limits);
-  return limits;
+        contacts_[i]->Gap(x, x[NumDofs()]) <= reach * contacts_[i]->LargestGapRate())
+      AddInequalities(i, &inequalities);
+  return inequalities;
 }
 
-double FixedStateSystem::Value(const Constraint& limit, const Eigen::VectorXd& x) const {
-  const LinearEquation equation = InequalityAsEquation(limit);
-  return equation.constant + equation.Rate(x);
+double FixedStateSystem::MotionValue(const Motion& motion, const Eigen::VectorXd& x) const {
+  return motion.sign *
+         (motion.is_gap ? contacts_[motion.contact]->Gap(x, x[NumDofs()]) : Evaluate(motion.contact, x).xi);
 }
 
-double FixedStateSystem::DrivingForce(const Eigen::VectorXd& x) const {
-  double force = 0.0;
-  for (std::size_t k = 0; k < structure_.PrescribedDofs().size(); ++k)
-    force += structure_.PrescribedDofs()[k].rate * x[first_support_ + static_cast<Eigen::Index>(k)];
+double FixedStateSystem::Value(const Constraint& constraint, const Eigen::VectorXd& x) const {
+  if (IsMotion(constraint)) return MotionValue(MotionOf(constraint), x);
+  const ReactionTerms terms = ReactionTermsOf(constraint);
+  const Reaction reaction = ReactionOf(static_cast<std::size_t>(constraint.contact), x);
+  return terms.rn * reaction.rn + terms.rt * reaction.rt;
+}
+
+double FixedStateSystem::Rate(const Constraint& constraint, const Eigen::VectorXd& x, const Eigen::VectorXd& dx) const {
+  if (!IsMotion(constraint)) return Value(constraint, dx);
+  const Motion motion = MotionOf(constraint);
+  const Kinematics at = Evaluate(motion.contact, x);
+  return motion.sign *
+         contacts_[motion.contact]->Rate(motion.is_gap ? at.gap_gradient : at.xi_gradient, dx, dx[NumDofs()]);
+}
+
+Eigen::VectorXd FixedStateSystem::Gradient(const Constraint& constraint, const Eigen::VectorXd& x) const {
+  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(num_unknowns_);
+  const auto i = static_cast<std::size_t>(constraint.contact);
+  if (IsMotion(constraint)) {
+    ForEachMotionEntry({MotionOf(constraint), 0}, Evaluate(i, x),
+                       [&gradient](Eigen::Index unknown, Eigen::Index, double value) { gradient[unknown] += value; });
+  } else {
+    const ReactionTerms terms = ReactionTermsOf(constraint);
+    gradient[rn_unknown_[i]] = terms.rn;
+    if (terms.rt != 0.0) gradient[rt_unknown_[i]] = terms.rt;
+  }
+  return gradient;
+}
+
+Jet FixedStateSystem::ValueAlong(const Constraint& constraint, const Eigen::VectorXd& x, const Eigen::VectorXd& first,
+                                 const Eigen::VectorXd& second) const {
+  if (!IsMotion(constraint)) return {Value(constraint, x), Value(constraint, first), Value(constraint, second)};
+  const Motion motion = MotionOf(constraint);
+  const ContactPair& pair = *contacts_[motion.contact];
+  const Kinematics at = Evaluate(motion.contact, x);
+  const PairVector& gradient = motion.is_gap ? at.gap_gradient : at.xi_gradient;
+  const Eigen::Index s = NumDofs();
+  Jet jet = {motion.is_gap ? at.gap : at.xi, pair.Rate(gradient, first, first[s]),
+             pair.Rate(gradient, second, second[s])};
+  if (pair.Curved()) jet.second += Bend(motion, at, first);
+  return {motion.sign * jet.value, motion.sign * jet.first, motion.sign * jet.second};
+}
+
+double FixedStateSystem::Bend(const Motion& motion, const Kinematics& at, const Eigen::VectorXd& dx) const {
+  const PairVector along = contacts_[motion.contact]->Local(dx, dx[NumDofs()]);
+  return along.dot((motion.is_gap ? at.gap_hessian : at.xi_hessian) * along);
+}
+
+Jet FixedStateSystem::DrivingForceAlong(const Eigen::VectorXd& x, const Eigen::VectorXd& first,
+                                        const Eigen::VectorXd& second) const {
+  Jet force;
+  Eigen::Index k = first_support_;
+  for (const PrescribedDof& prescribed : structure_.PrescribedDofs()) {
+    force.value += prescribed.rate * x[k];
+    force.first += prescribed.rate * first[k];
+    force.second += prescribed.rate * second[k];
+    ++k;
+  }
   for (const std::size_t i : touching_) {
-    const double rn = x[rn_unknown_[i]];
-    const double rt = rt_unknown_[i] >= 0 ? x[rt_unknown_[i]] : SlipRatio(states_[i], contacts_[i].friction) * rn;
-    force -= rn * contacts_[i].gap.load + rt * contacts_[i].tangential.load;
+    const ContactPair& pair = *contacts_[i];
+    const Kinematics at = Evaluate(i, x);
+    const auto last = static_cast<Eigen::Index>(pair.Dofs().size());
+    const double gap = at.gap_gradient[last], xi = at.xi_gradient[last];
+    const Reaction reaction = ReactionOf(i, x), rate = ReactionOf(i, first), change = ReactionOf(i, second);
+    force.value -= reaction.rn * gap + reaction.rt * xi;
+    force.first -= rate.rn * gap + rate.rt * xi;
+    force.second -= change.rn * gap + change.rt * xi;
+    if (!pair.Curved()) continue;
+    const PairVector along = pair.Local(first, first[NumDofs()]), bend = pair.Local(second, second[NumDofs()]);
+    const PairMatrix hessian = reaction.rn * at.gap_hessian + reaction.rt * at.xi_hessian;
+    const PairMatrix hessian_rate = rate.rn * at.gap_hessian + rate.rt * at.xi_hessian;
+    force.first -= hessian.row(last).dot(along);
+    force.second -= 2.0 * hessian_rate.row(last).dot(along) + hessian.row(last).dot(bend) +
+                    pair.SecondDirectional(x, x[NumDofs()], reaction.rn, reaction.rt, along)[last];
   }
   return force;
 }
 
-double FixedStateSystem::Rate(const Constraint& limit, const Eigen::VectorXd& dx) const {
-  return InequalityAsEquation(limit).Rate(dx);
-}
-
-Eigen::VectorXd FixedStateSystem::Gradient(const Constraint& limit) const {
-  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(num_unknowns_);
-  const LinearEquation equation = InequalityAsEquation(limit);
-  for (std::size_t k = 0; k < equation.count; ++k) gradient[equation.terms[k].unknown] += equation.terms[k].coefficient;
-  return gradient;
-}
-
 Eigen::VectorXd FixedStateSystem::SecondDerivative(const Eigen::VectorXd& x, const Eigen::VectorXd& dx) {
-  // All equations but the internal force are linear. tangent_ is scratch between calls.
+  // tangent_ is scratch between calls.
   structure_.TangentDerivative(x.head(NumDofs()), dx.head(NumDofs()), &tangent_);
   Eigen::VectorXd second = Eigen::VectorXd::Zero(num_equations_);
   second.head(NumDofs()) = tangent_ * dx.head(NumDofs());
+  if (!curved_) return second;
+  for (const std::size_t i : touching_) {
+    const ContactPair& pair = *contacts_[i];
+    if (!pair.Curved()) continue;
+    const Kinematics at = Evaluate(i, x);
+    const Reaction reaction = ReactionOf(i, x), rate = ReactionOf(i, dx);
+    const PairVector along = pair.Local(dx, dx[NumDofs()]);
+    pair.AddForce(pair.SecondDirectional(x, x[NumDofs()], reaction.rn, reaction.rt, along) +
+                      2.0 * (rate.rn * at.gap_hessian + rate.rt * at.xi_hessian) * along,
+                  -1.0, &second);
+  }
+  for (const MotionEquation& of : motions_)
+    if (contacts_[of.motion.contact]->Curved())
+      second[of.equation] = of.motion.sign * Bend(of.motion, Evaluate(of.motion.contact, x), dx);
   return second;
 }
 

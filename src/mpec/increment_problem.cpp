@@ -14,8 +14,8 @@ int Int(Eigen::Index index) { return static_cast<int>(index); }
 
 }  // namespace
 
-IncrementProblem::IncrementProblem(const Structure& structure, const std::vector<ContactGeometry>& contacts,
-                                   const PathPoint& from, std::vector<int> working_set, IncrementGoal goal)
+IncrementProblem::IncrementProblem(const Structure& structure, const ContactPairs& contacts, const PathPoint& from,
+                                   std::vector<int> working_set, IncrementGoal goal)
     : structure_(structure),
       contacts_(contacts),
       from_(from),
@@ -27,21 +27,17 @@ IncrementProblem::IncrementProblem(const Structure& structure, const std::vector
   num_constraints_ = nd;
   Eigen::VectorXd drive = Eigen::VectorXd::Zero(nd);  // T_t r_t^k
   for (std::size_t i = 0; i < working_set_.size(); ++i) {
-    const ContactGeometry& geometry = contacts_[static_cast<std::size_t>(working_set_[i])];
-    Slot slot{&geometry,
-              geometry.gap.Value(from_.u, from_.s),
-              nd + 1 + static_cast<Eigen::Index>(i),
-              -1,
-              -1,
-              num_constraints_,
-              -1};
+    const ContactPair& pair = *contacts_[static_cast<std::size_t>(working_set_[i])];
+    Kinematics at_start;
+    pair.Evaluate(from_.u, from_.s, 0.0, &at_start);
+    Slot slot{&pair, at_start, nd + 1 + static_cast<Eigen::Index>(i), -1, -1, num_constraints_, -1};
     num_constraints_ += 2;
-    if (geometry.Frictional()) {
+    if (pair.Frictional()) {
       slot.rt = num_variables_++;
       slot.lambda = num_variables_++;
       slot.friction_row = num_constraints_;
       num_constraints_ += 5;
-      geometry.tangential.AddGradient(from_.rt[working_set_[i]], &drive);
+      pair.AddForce(at_start.xi_gradient, from_.rt[working_set_[i]], &drive);
     }
     slots_.push_back(slot);
   }
@@ -61,12 +57,22 @@ IncrementProblem::IncrementProblem(const Structure& structure, const std::vector
   ForEachHessianEntry(x, 1.0, Eigen::VectorXd::Zero(num_constraints_), record(&hessian_structure_));
 }
 
-double IncrementProblem::ScaledGap(const Slot& slot, const Eigen::VectorXd& x) const {
-  return slot.gap / goal_.length + slot.geometry->gap.Rate(x, x[structure_.NumDofs()]);
-}
-
-double IncrementProblem::ScaledSlip(const Slot& slot, const Eigen::VectorXd& x) const {
-  return slot.geometry->tangential.Rate(x, x[structure_.NumDofs()]);
+Kinematics IncrementProblem::ScaledKinematics(const Slot& slot, const Eigen::VectorXd& x) const {
+  const Eigen::Index nd = structure_.NumDofs();
+  Kinematics at;
+  if (!slot.pair->Curved()) {
+    at.gap_gradient = slot.at_start.gap_gradient;
+    at.xi_gradient = slot.at_start.xi_gradient;
+    at.gap = slot.at_start.gap / goal_.length + slot.pair->Rate(at.gap_gradient, x.head(nd), x[nd]);
+    at.xi = slot.pair->Rate(at.xi_gradient, x.head(nd), x[nd]);
+    return at;
+  }
+  slot.pair->Evaluate(from_.u + goal_.length * x.head(nd), from_.s + goal_.length * x[nd], slot.at_start.xi, &at);
+  at.gap /= goal_.length;
+  at.xi /= goal_.length;
+  at.gap_hessian *= goal_.length;
+  at.xi_hessian *= goal_.length;
+  return at;
 }
 
 Eigen::VectorXd IncrementProblem::StartingPoint(const Eigen::VectorXd& y) const {
@@ -77,7 +83,7 @@ Eigen::VectorXd IncrementProblem::StartingPoint(const Eigen::VectorXd& y) const 
     x[slot.rn] = from_.rn[working_set_[i]] / goal_.length;
     if (slot.rt < 0) continue;
     x[slot.rt] = from_.rt[working_set_[i]] / goal_.length;
-    x[slot.lambda] = std::abs(ScaledSlip(slot, x));
+    x[slot.lambda] = std::abs(ScaledKinematics(slot, x).xi);
   }
   const Eigen::VectorXd reactions = structure_.SupportReactions(from_.u, from_.s);
   for (std::size_t k = 0; k < supports_.size(); ++k)
@@ -98,13 +104,14 @@ PathPoint IncrementProblem::Point(const Eigen::VectorXd& x) const {
     point.rn[working_set_[i]] = goal_.length * x[slot.rn];
     if (slot.rt >= 0) point.rt[working_set_[i]] = goal_.length * x[slot.rt];
     ContactState& state = point.states[static_cast<std::size_t>(working_set_[i])];
-    if (ScaledGap(slot, x) > x[slot.rn]) continue;
+    const Kinematics at = ScaledKinematics(slot, x);
+    if (at.gap > x[slot.rn]) continue;
     if (slot.rt < 0) {
       state = ContactState::kClosed;
       continue;
     }
-    const double slip = ScaledSlip(slot, x);
-    const double margin = slot.geometry->friction * x[slot.rn] - std::abs(x[slot.rt]);
+    const double slip = at.xi;
+    const double margin = slot.pair->Friction() * x[slot.rn] - std::abs(x[slot.rt]);
     if (std::abs(slip) <= margin)
       state = ContactState::kStick;
     else
@@ -174,14 +181,15 @@ void IncrementProblem::Constraints(const Eigen::VectorXd& x, Eigen::VectorXd* va
   force /= goal_.length;
   values->resize(num_constraints_);
   for (const Slot& slot : slots_) {
-    const double gap = ScaledGap(slot, x), rn = x[slot.rn];
-    slot.geometry->gap.AddGradient(-rn, &force);
+    const Kinematics at = ScaledKinematics(slot, x);
+    const double gap = at.gap, rn = x[slot.rn];
+    slot.pair->AddForce(at.gap_gradient, -rn, &force);
     (*values)[slot.gap_row] = gap;
     (*values)[slot.gap_row + 1] = gap * rn;
     if (slot.rt < 0) continue;
-    const double slip = ScaledSlip(slot, x), rt = x[slot.rt], lambda = x[slot.lambda];
-    const double mu = slot.geometry->friction;
-    slot.geometry->tangential.AddGradient(-rt, &force);
+    const double slip = at.xi, rt = x[slot.rt], lambda = x[slot.lambda];
+    const double mu = slot.pair->Friction();
+    slot.pair->AddForce(at.xi_gradient, -rt, &force);
     values->segment<5>(slot.friction_row) << lambda - slip, lambda + slip, mu * rn - rt, mu * rn + rt,
         lambda * mu * rn + slip * rt;
   }
@@ -194,6 +202,28 @@ void IncrementProblem::Constraints(const Eigen::VectorXd& x, Eigen::VectorXd* va
   values->head(nd) = force;
 }
 
+// The variables of (y) that move a pair, with their number in its q.
+template <typename Visit>
+void IncrementProblem::ForEachVariable(const ContactPair& pair, Visit visit) const {
+  Eigen::Index k = 0;
+  for (const int dof : pair.Dofs()) visit(static_cast<Eigen::Index>(dof), k++);
+  visit(structure_.NumDofs(), k);
+}
+
+template <typename Visit>
+void IncrementProblem::ForEachGapVariable(const ContactPair& pair, Visit visit) const {
+  ForEachVariable(pair, [&](Eigen::Index variable, Eigen::Index k) {
+    if (pair.MovesGap(static_cast<std::size_t>(k))) visit(variable, k);
+  });
+}
+
+template <typename Visit>
+void IncrementProblem::ForEachXiVariable(const ContactPair& pair, Visit visit) const {
+  ForEachVariable(pair, [&](Eigen::Index variable, Eigen::Index k) {
+    if (pair.MovesXi(static_cast<std::size_t>(k))) visit(variable, k);
+  });
+}
+
 template <typename Emit>
 void IncrementProblem::ForEachJacobianEntry(const Eigen::VectorXd& x, Emit emit) const {
   const Eigen::Index nd = structure_.NumDofs();
@@ -203,35 +233,34 @@ void IncrementProblem::ForEachJacobianEntry(const Eigen::VectorXd& x, Emit emit)
   for (Eigen::Index row = 0; row < nd; ++row)
     if (structure_.ReferenceLoad()[row] != 0.0) emit(row, nd, -structure_.ReferenceLoad()[row]);
   for (const Slot& slot : slots_) {
-    const SparseLinear &normal = slot.geometry->gap, &tangential = slot.geometry->tangential;
-    const double gap = ScaledGap(slot, x), rn = x[slot.rn];
-    for (std::size_t a = 0; a < 2; ++a) {
-      if (normal.dofs[a] < 0) continue;
-      emit(normal.dofs[a], slot.rn, -normal.coefficients[a]);
-      emit(slot.gap_row, normal.dofs[a], normal.coefficients[a]);
-      emit(slot.gap_row + 1, normal.dofs[a], normal.coefficients[a] * rn);
+    const Kinematics at = ScaledKinematics(slot, x);
+    const double rn = x[slot.rn];
+    ForEachGapVariable(*slot.pair, [&](Eigen::Index variable, Eigen::Index k) {
+      const double gradient = at.gap_gradient[k];
+      if (variable < nd) emit(variable, slot.rn, -gradient);
+      emit(slot.gap_row, variable, gradient);
+      emit(slot.gap_row + 1, variable, gradient * rn);
+    });
+    emit(slot.gap_row + 1, slot.rn, at.gap);
+    if (slot.pair->Curved()) {
+      // r_n and r_t over S, and Hessians times S.
+      PairMatrix change = rn * at.gap_hessian;
+      if (slot.rt >= 0) change += x[slot.rt] * at.xi_hessian;
+      ForEachVariable(*slot.pair, [&](Eigen::Index row, Eigen::Index a) {
+        if (row == nd) return;
+        ForEachVariable(*slot.pair, [&](Eigen::Index column, Eigen::Index b) { emit(row, column, -change(a, b)); });
+      });
     }
-    if (normal.load != 0.0) {
-      emit(slot.gap_row, nd, normal.load);
-      emit(slot.gap_row + 1, nd, normal.load * rn);
-    }
-    emit(slot.gap_row + 1, slot.rn, gap);
     if (slot.rt < 0) continue;
-    const double slip = ScaledSlip(slot, x), rt = x[slot.rt], lambda = x[slot.lambda];
-    const double mu = slot.geometry->friction;
-    for (std::size_t a = 0; a < 2; ++a) {
-      if (tangential.dofs[a] < 0) continue;
-      const double coefficient = tangential.coefficients[a];
-      emit(tangential.dofs[a], slot.rt, -coefficient);
-      emit(slot.friction_row, tangential.dofs[a], -coefficient);
-      emit(slot.friction_row + 1, tangential.dofs[a], coefficient);
-      emit(slot.friction_row + 4, tangential.dofs[a], coefficient * rt);
-    }
-    if (tangential.load != 0.0) {
-      emit(slot.friction_row, nd, -tangential.load);
-      emit(slot.friction_row + 1, nd, tangential.load);
-      emit(slot.friction_row + 4, nd, tangential.load * rt);
-    }
+    const double slip = at.xi, rt = x[slot.rt], lambda = x[slot.lambda];
+    const double mu = slot.pair->Friction();
+    ForEachXiVariable(*slot.pair, [&](Eigen::Index variable, Eigen::Index k) {
+      const double gradient = at.xi_gradient[k];
+      if (variable < nd) emit(variable, slot.rt, -gradient);
+      emit(slot.friction_row, variable, -gradient);
+      emit(slot.friction_row + 1, variable, gradient);
+      emit(slot.friction_row + 4, variable, gradient * rt);
+    });
     emit(slot.friction_row, slot.lambda, 1.0);
     emit(slot.friction_row + 1, slot.lambda, 1.0);
     emit(slot.friction_row + 2, slot.rn, mu);
@@ -261,17 +290,49 @@ void IncrementProblem::ForEachHessianEntry(const Eigen::VectorXd& x, double fact
         emit(it.row(), column, goal_.length * it.value() + (it.row() == column ? factor * goal_.gamma2_factor : 0.0));
   emit(nd, nd, factor * goal_.gamma2_factor);
   for (const Slot& slot : slots_) {
-    const SparseLinear &normal = slot.geometry->gap, &tangential = slot.geometry->tangential;
-    for (std::size_t a = 0; a < 2; ++a)
-      if (normal.dofs[a] >= 0) emit(slot.rn, normal.dofs[a], multipliers[slot.gap_row + 1] * normal.coefficients[a]);
-    if (normal.load != 0.0) emit(slot.rn, nd, multipliers[slot.gap_row + 1] * normal.load);
-    if (slot.rt < 0) continue;
-    const double product = multipliers[slot.friction_row + 4];
-    emit(slot.lambda, slot.rn, product * slot.geometry->friction);
-    for (std::size_t a = 0; a < 2; ++a)
-      if (tangential.dofs[a] >= 0) emit(slot.rt, tangential.dofs[a], product * tangential.coefficients[a]);
-    if (tangential.load != 0.0) emit(slot.rt, nd, product * tangential.load);
+    const ContactPair& pair = *slot.pair;
+    const Kinematics at = ScaledKinematics(slot, x);
+    const double gap_product = multipliers[slot.gap_row + 1];
+    ForEachGapVariable(pair, [&](Eigen::Index variable, Eigen::Index k) {
+      emit(slot.rn, variable, gap_product * at.gap_gradient[k]);
+    });
+    const double slip_product = slot.rt < 0 ? 0.0 : multipliers[slot.friction_row + 4];
+    if (slot.rt >= 0) {
+      emit(slot.lambda, slot.rn, slip_product * pair.Friction());
+      ForEachXiVariable(pair, [&](Eigen::Index variable, Eigen::Index k) {
+        emit(slot.rt, variable, slip_product * at.xi_gradient[k]);
+      });
+    }
+    if (pair.Curved()) ForEachCurvatureEntry(slot, at, x, multipliers, emit);
   }
+}
+
+template <typename Emit>
+void IncrementProblem::ForEachCurvatureEntry(const Slot& slot, const Kinematics& at, const Eigen::VectorXd& x,
+                                             const Eigen::VectorXd& multipliers, Emit emit) const {
+  const Eigen::Index nd = structure_.NumDofs();
+  const ContactPair& pair = *slot.pair;
+  const bool frictional = slot.rt >= 0;
+  const double rn = x[slot.rn], rt = frictional ? x[slot.rt] : 0.0;
+  // The multipliers of the equilibrium equations; that of the load factor is none.
+  const PairVector weights = pair.Local(multipliers.head(nd), 0.0);
+  const PairVector by_rn = at.gap_hessian * weights;
+  ForEachVariable(pair, [&](Eigen::Index variable, Eigen::Index k) { emit(slot.rn, variable, -by_rn[k]); });
+  double along_gap = multipliers[slot.gap_row] + multipliers[slot.gap_row + 1] * rn, along_xi = 0.0;
+  if (frictional) {
+    const PairVector by_rt = at.xi_hessian * weights;
+    ForEachVariable(pair, [&](Eigen::Index variable, Eigen::Index k) { emit(slot.rt, variable, -by_rt[k]); });
+    along_xi =
+        multipliers[slot.friction_row + 1] - multipliers[slot.friction_row] + multipliers[slot.friction_row + 4] * rt;
+  }
+  PairMatrix second;
+  pair.HessianDerivative(from_.u + goal_.length * x.head(nd), from_.s + goal_.length * x[nd], rn, rt, weights, &second);
+  second = along_gap * at.gap_hessian + along_xi * at.xi_hessian - goal_.length * goal_.length * second;
+  ForEachVariable(pair, [&](Eigen::Index row, Eigen::Index a) {
+    ForEachVariable(pair, [&](Eigen::Index column, Eigen::Index b) {
+      if (row >= column) emit(row, column, second(a, b));
+    });
+  });
 }
 
 void IncrementProblem::JacobianValues(const Eigen::VectorXd& x, Eigen::VectorXd* values) const {

@@ -28,16 +28,14 @@ constexpr double kSameEps = 1.0 + 1e-9;  // rounding of powers of the factor
 
 }  // namespace
 
-IncrementSolver::IncrementSolver(const Structure& structure, const std::vector<ContactGeometry>& contacts,
-                                 NonlinearSolver* solver)
+IncrementSolver::IncrementSolver(const Structure& structure, const ContactPairs& contacts, NonlinearSolver* solver)
     : structure_(structure), contacts_(contacts), solver_(solver), system_(structure, contacts) {}
 
 IncrementTrial IncrementSolver::Solve(const PathPoint& from, const IncrementGoal& goal,
                                       const RegularisationSchedule& schedule) {
   std::vector<bool> included(contacts_.size());
   for (std::size_t i = 0; i < contacts_.size(); ++i)
-    included[i] = contacts_[i].gap.Value(from.u, from.s) <=
-                  kLongestIncrement * goal.length * (1.0 + std::abs(contacts_[i].gap.load));
+    included[i] = contacts_[i]->Gap(from.u, from.s) <= kLongestIncrement * goal.length * contacts_[i]->LargestGapRate();
   int iterations = 0;
   for (;;) {
     std::vector<int> working_set;
@@ -48,7 +46,7 @@ IncrementTrial IncrementSolver::Solve(const PathPoint& from, const IncrementGoal
     if (trial.status != SolveStatus::kSolved) return trial;
     bool closed = false;
     for (std::size_t i = 0; i < contacts_.size(); ++i) {
-      if (included[i] || contacts_[i].gap.Value(trial.point.u, trial.point.s) >= 0.0) continue;
+      if (included[i] || contacts_[i]->Gap(trial.point.u, trial.point.s) >= 0.0) continue;
       included[i] = closed = true;
     }
     if (!closed) return trial;
@@ -128,7 +126,7 @@ void IncrementSolver::PolishActiveSet(const PathPoint& from, const IncrementProb
 
 bool IncrementSolver::PolishActiveSet(const PathPoint& from, const Eigen::VectorXd& wanted, double length,
                                       IncrementTrial* trial) {
-  system_.SetStates(trial->point.states, TangentialPositions(contacts_, from));
+  system_.SetStates(trial->point.states, SurfaceCoordinates(contacts_, from));
   std::vector<Constraint> active;
   Eigen::VectorXd start = system_.Pack(trial->point);
   for (int change = 0; change <= kMaxActiveSetChanges; ++change) {

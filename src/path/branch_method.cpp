@@ -205,17 +205,16 @@ Work BranchMethod::WorkOf(const Step& step) const {
     const Constraint slip = {static_cast<int>(i), Inequality::kSlip};
     if (!Slips(system.states()[i])) continue;
     const auto interpolate = [&](const Constraint& of) {
-      return step.Interpolate([&](const Eigen::VectorXd& x) { return system.Value(of, x); },
-                              [&](const Eigen::VectorXd& dx) { return system.Rate(of, dx); });
+      return step.Interpolate([&](const CurvePoint& at) { return system.ValueAlong(of, at.x, at.first, at.second); });
     };
-    work.friction += std::max(0.0, model_.contacts[i].friction * integrate(interpolate(normal), interpolate(slip)));
+    work.friction += std::max(0.0, model_.contacts[i]->Friction() * integrate(interpolate(normal), interpolate(slip)));
   }
   const auto load = [&](const Eigen::VectorXd& x) { return x[nd]; };
   const auto along = [&](const Eigen::VectorXd& x) { return model_.structure.ReferenceLoad().dot(x.head(nd)); };
-  work.loads = integrate(step.Interpolate(load, load), step.Interpolate(along, along)) +
+  work.loads = integrate(step.InterpolateLinear(load), step.InterpolateLinear(along)) +
                model_.structure.ConstantLoad().dot((step.end.x - step.start.x).head(nd));
-  const auto driving = [&](const Eigen::VectorXd& x) { return system.DrivingForce(x); };
-  work.loads += integrate(step.Interpolate(driving, driving), step.Interpolate(load, load));
+  const auto driving = [&](const CurvePoint& at) { return system.DrivingForceAlong(at.x, at.first, at.second); };
+  work.loads += integrate(step.Interpolate(driving), step.InterpolateLinear(load));
   const double unit = model_.scaling.force * model_.scaling.length;
   work.friction *= unit;
   work.loads *= unit;

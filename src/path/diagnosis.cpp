@@ -62,9 +62,7 @@ std::string ContactTooSoft(const Model& model, const PathPoint& point, double le
   const Eigen::VectorXd stiffness = tangent.diagonal().cwiseAbs();
   for (std::size_t i = 0; i < model.contacts.size(); ++i) {
     double largest = 0.0;
-    for (const SparseLinear& along : {model.contacts[i].gap, model.contacts[i].tangential})
-      for (const int dof : along.dofs)
-        if (dof >= 0) largest = std::max(largest, stiffness[dof]);
+    for (const int dof : model.contacts[i]->Dofs()) largest = std::max(largest, stiffness[dof]);
     if (largest == 0.0 || !(largest < least)) continue;
     std::ostringstream out;
     out.imbue(std::locale::classic());

@@ -1,5 +1,7 @@
 #include "contact_path/path/model.h"
 
+#include "contact_path/contact/scene_contacts.h"
+
 namespace contact_path {
 namespace {
 
@@ -21,9 +23,9 @@ PathPoint Model::InitialPoint() const {
   point.u = structure.InitialPositions();
   point.rn = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(contacts.size()));
   point.rt = point.rn;
-  for (const ContactGeometry& contact : contacts) {
-    const bool touches = contact.gap.Value(point.u, point.s) <= kTouching;
-    const ContactState rest = contact.Frictional() ? ContactState::kStick : ContactState::kClosed;
+  for (const auto& contact : contacts) {
+    const bool touches = contact->Gap(point.u, point.s) <= kTouching;
+    const ContactState rest = contact->Frictional() ? ContactState::kStick : ContactState::kClosed;
     point.states.push_back(touches ? rest : ContactState::kOpen);
   }
   return point;

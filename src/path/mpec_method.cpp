@@ -49,25 +49,26 @@ constexpr double kCornerShare = 0.04;        // of the wanted step: largest corn
 constexpr double kSmallestStepRatio = 1e-7;  // of the wanted step
 
 // Whether this contact is about to change its state, so that the path may bend here by any angle.
-bool ActiveSetTolerance(const ContactGeometry& contact, const PathPoint& point, std::size_t i) {
+bool ActiveSetTolerance(const ContactPair& contact, const PathPoint& point, std::size_t i) {
   const auto k = static_cast<Eigen::Index>(i);
   const bool open = point.states[i] == ContactState::kOpen;
-  if ((open ? contact.gap.Value(point.u, point.s) : point.rn[k]) <= kAtLimit) return true;
-  return point.states[i] == ContactState::kStick && contact.friction * point.rn[k] - std::abs(point.rt[k]) <= kAtLimit;
+  if ((open ? contact.Gap(point.u, point.s) : point.rn[k]) <= kAtLimit) return true;
+  return point.states[i] == ContactState::kStick &&
+         contact.Friction() * point.rn[k] - std::abs(point.rt[k]) <= kAtLimit;
 }
 
-bool SomeAtLimit(const std::vector<ContactGeometry>& contacts, const PathPoint& point) {
+bool SomeAtLimit(const ContactPairs& contacts, const PathPoint& point) {
   for (std::size_t i = 0; i < contacts.size(); ++i)
-    if (ActiveSetTolerance(contacts[i], point, i)) return true;
+    if (ActiveSetTolerance(*contacts[i], point, i)) return true;
   return false;
 }
 
 // Whether a contact has another state than before, or has come to where it may change: the increment may have cut a
 // corner. A contact that slides on without a reaction, say, has lost it somewhere on the way.
-bool MayHaveCutCorner(const std::vector<ContactGeometry>& contacts, const PathPoint& from, const PathPoint& to) {
+bool MayHaveCutCorner(const ContactPairs& contacts, const PathPoint& from, const PathPoint& to) {
   if (to.states != from.states) return true;
   for (std::size_t i = 0; i < contacts.size(); ++i)
-    if (ActiveSetTolerance(contacts[i], to, i) && !ActiveSetTolerance(contacts[i], from, i)) return true;
+    if (ActiveSetTolerance(*contacts[i], to, i) && !ActiveSetTolerance(*contacts[i], from, i)) return true;
   return false;
 }
 
@@ -79,19 +80,19 @@ double LargestForce(const PathPoint& point) {
 
 // Whether what a regularised point says of each contact is what its numbers say. They may all be small against the
 // characteristic force, and then small residuals prove nothing.
-bool StatesAgree(const std::vector<ContactGeometry>& contacts, const PathPoint& from, const PathPoint& to) {
+bool StatesAgree(const ContactPairs& contacts, const PathPoint& from, const PathPoint& to) {
   const double force = kStateTolerance * LargestForce(to);
   const double length = kStateTolerance * Distance(from, to);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
-    const double slip = contacts[i].tangential.Rate(to.u - from.u, to.s - from.s);
-    const double margin = contacts[i].friction * to.rn[k] - std::abs(to.rt[k]);
+    const double slip = contacts[i]->Slip(from.u, from.s, to.u - from.u, to.s - from.s);
+    const double margin = contacts[i]->Friction() * to.rn[k] - std::abs(to.rt[k]);
     const ContactState state = to.states[i];
     if (state == ContactState::kOpen) {
       if (std::max(to.rn[k], std::abs(to.rt[k])) > force) return false;
       continue;
     }
-    if (contacts[i].gap.Value(to.u, to.s) > length) return false;
+    if (contacts[i]->Gap(to.u, to.s) > length) return false;
     if (state == ContactState::kStick && std::abs(slip) > length) return false;
     if (Slips(state) && margin > force) return false;
   }
@@ -267,7 +268,7 @@ bool MpecMethod::EndAtTarget(const PathPoint& from, Trial* trial) const {
 bool MpecMethod::EndAtTarget(const PathPoint& from, const std::vector<ContactState>& states, Trial* trial) const {
   const PathPoint& to = trial->increment.point;
   FixedStateSystem system(model_.structure, model_.contacts);
-  system.SetStates(states, TangentialPositions(model_.contacts, from));
+  system.SetStates(states, SurfaceCoordinates(model_.contacts, from));
   system.FixLoadFactor(*options_.target);
   const double share = (*options_.target - from.s) / (to.s - from.s);
   const Eigen::VectorXd start = (1.0 - share) * system.Pack(from) + share * system.Pack(to);

@@ -62,8 +62,8 @@ void Recorder::Fill(const Model& model, const PathPoint& point, const AcceptedPo
   increment_.positions = std::move(state.positions);
   increment_.contacts.resize(model.contacts.size());
   for (std::size_t i = 0; i < model.contacts.size(); ++i)
-    increment_.contacts[i] = {model.contacts[i].gap.Value(point.u, point.s) * model.scaling.length, state.rn[i],
-                              state.rt[i], point.states[i]};
+    increment_.contacts[i] = {model.contacts[i]->Gap(point.u, point.s) * model.scaling.length, state.rn[i], state.rt[i],
+                              point.states[i]};
   increment_.strain_energy = model.structure.Energy(point.u) * model.scaling.force * model.scaling.length;
   increment_.residuals = accepted.residuals;
   increment_.solve = accepted.solve;

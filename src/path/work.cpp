@@ -13,7 +13,10 @@ double DrivingForce(const Model& model, const PathPoint& point) {
     force += model.structure.PrescribedDofs()[k].rate * reactions[static_cast<Eigen::Index>(k)];
   for (std::size_t i = 0; i < model.contacts.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
-    force -= point.rn[k] * model.contacts[i].gap.load + point.rt[k] * model.contacts[i].tangential.load;
+    Kinematics at;
+    model.contacts[i]->Evaluate(point.u, point.s, 0.0, &at);
+    const auto s = static_cast<Eigen::Index>(model.contacts[i]->Dofs().size());
+    force -= point.rn[k] * at.gap_gradient[s] + point.rt[k] * at.xi_gradient[s];
   }
   return force;
 }
@@ -27,7 +30,8 @@ Work WorkOfIncrement(const Model& model, const PathPoint& from, const PathPoint&
     if (to.states[i] != ContactState::kSlipPlus && to.states[i] != ContactState::kSlipMinus) continue;
     const auto k = static_cast<Eigen::Index>(i);
     const double mean = 0.5 * (from.rn[k] + to.rn[k]);
-    work.friction += model.contacts[i].friction * mean * std::abs(model.contacts[i].tangential.Rate(du, to.s - from.s));
+    work.friction +=
+        model.contacts[i]->Friction() * mean * std::abs(model.contacts[i]->Slip(from.u, from.s, du, to.s - from.s));
   }
   const Structure& structure = model.structure;
   work.loads = 0.5 * (from.s + to.s) * structure.ReferenceLoad().dot(du) + structure.ConstantLoad().dot(du) +

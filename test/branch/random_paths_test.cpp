@@ -434,9 +434,9 @@ class Neighbourhood {
 
  private:
   std::vector<ContactState> Options(std::size_t i) const {
-    const ContactGeometry& contact = model_.contacts[i];
+    const ContactPair& contact = *model_.contacts[i];
     const auto k = static_cast<Eigen::Index>(i);
-    if (contact.gap.Value(point_.u, point_.s) > kTouching) return {ContactState::kOpen};
+    if (contact.Gap(point_.u, point_.s) > kTouching) return {ContactState::kOpen};
     std::vector<ContactState> options;
     if (point_.rn[k] < kTouching) options = {ContactState::kOpen};
     if (!contact.Frictional()) {
@@ -444,7 +444,7 @@ class Neighbourhood {
       return options;
     }
     options.push_back(ContactState::kStick);
-    const double limit = contact.friction * point_.rn[k];
+    const double limit = contact.Friction() * point_.rn[k];
     if (limit + point_.rt[k] < kTouching) options.push_back(ContactState::kSlipPlus);
     if (limit - point_.rt[k] < kTouching) options.push_back(ContactState::kSlipMinus);
     return options;

@@ -9,6 +9,7 @@
 #include "contact_path/path/model.h"
 #include "contact_path/scene/lattice.h"
 #include "support/dense.h"
+#include "support/kinematics.h"
 #include "support/random.h"
 
 namespace contact_path {
@@ -49,9 +50,11 @@ class RestingColumn : public testing::Test {
       const PathPoint change = system.Unpack(unknowns.col(j));
       rates(0, j) = change.s;
       for (std::size_t k = 0; k < weakly_active.size(); ++k) {
-        const ContactGeometry& contact = model_.contacts[static_cast<std::size_t>(weakly_active[k])];
-        rates.col(j).segment<4>(1 + 4 * static_cast<Eigen::Index>(k)) << contact.gap.Rate(change.u, change.s),
-            contact.tangential.Rate(change.u, change.s), change.rn[weakly_active[k]], change.rt[weakly_active[k]];
+        const ContactPair& contact = *model_.contacts[static_cast<std::size_t>(weakly_active[k])];
+        rates.col(j).segment<4>(1 + 4 * static_cast<Eigen::Index>(k))
+            << GapRate(contact, point_.u, point_.s, change.u, change.s),
+            contact.SlipRate(point_.u, point_.s, change.u, change.s), change.rn[weakly_active[k]],
+            change.rt[weakly_active[k]];
       }
     }
     return rates;
@@ -95,9 +98,9 @@ class RestingColumn : public testing::Test {
     // The sign is free, and the load may rest.
     double same = tangent[motion - 1] * rates->load;
     for (std::size_t k = 0; k < weakly_active.size(); ++k) {
-      const ContactGeometry& contact = model_.contacts[static_cast<std::size_t>(weakly_active[k])];
-      same += rates->gap[static_cast<Eigen::Index>(k)] * contact.gap.Rate(tangent, 0.0) +
-              rates->slip[static_cast<Eigen::Index>(k)] * contact.tangential.Rate(tangent, 0.0);
+      const ContactPair& contact = *model_.contacts[static_cast<std::size_t>(weakly_active[k])];
+      same += rates->gap[static_cast<Eigen::Index>(k)] * GapRate(contact, point_.u, point_.s, tangent, 0.0) +
+              rates->slip[static_cast<Eigen::Index>(k)] * contact.SlipRate(point_.u, point_.s, tangent, 0.0);
     }
     if (same < 0.0) tangent = -tangent;
     const PathPoint change = system.Unpack(tangent);
@@ -106,8 +109,8 @@ class RestingColumn : public testing::Test {
     for (std::size_t k = 0; k < weakly_active.size(); ++k) {
       const auto i = static_cast<std::size_t>(weakly_active[k]);
       const auto e = static_cast<Eigen::Index>(k), c = static_cast<Eigen::Index>(i);
-      EXPECT_NEAR(rates->gap[e], model_.contacts[i].gap.Rate(change.u, change.s), kExact);
-      EXPECT_NEAR(rates->slip[e], model_.contacts[i].tangential.Rate(change.u, change.s), kExact);
+      EXPECT_NEAR(rates->gap[e], GapRate(*model_.contacts[i], point_.u, point_.s, change.u, change.s), kExact);
+      EXPECT_NEAR(rates->slip[e], model_.contacts[i]->SlipRate(point_.u, point_.s, change.u, change.s), kExact);
       EXPECT_NEAR(rates->rn[e], change.rn[c], kExact);
       EXPECT_NEAR(rates->rt[e], change.rt[c], kExact);
     }

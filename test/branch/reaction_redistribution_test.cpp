@@ -11,6 +11,7 @@
 
 #include "contact_path/path/model.h"
 #include "contact_path/scene/scaling.h"
+#include "support/kinematics.h"
 
 namespace contact_path {
 namespace {
@@ -38,8 +39,9 @@ struct Corner {
   Eigen::Vector2d Force(const PathPoint& with) const {
     Eigen::VectorXd force = Eigen::VectorXd::Zero(2);
     for (std::size_t i = 0; i < model.contacts.size(); ++i) {
-      model.contacts[i].gap.AddGradient(with.rn[static_cast<Eigen::Index>(i)], &force);
-      model.contacts[i].tangential.AddGradient(with.rt[static_cast<Eigen::Index>(i)], &force);
+      const Kinematics at = KinematicsAt(*model.contacts[i], with.u, with.s);
+      model.contacts[i]->AddForce(at.gap_gradient, with.rn[static_cast<Eigen::Index>(i)], &force);
+      model.contacts[i]->AddForce(at.xi_gradient, with.rt[static_cast<Eigen::Index>(i)], &force);
     }
     return force;
   }
@@ -53,7 +55,7 @@ struct Corner {
       EXPECT_GE(other.rn.minCoeff(), 0.0);
       for (Eigen::Index i = 0; i < other.rn.size(); ++i)
         EXPECT_LE(std::abs(other.rt[i]),
-                  model.contacts[static_cast<std::size_t>(i)].friction * other.rn[i] * (1.0 + 1e-12));
+                  model.contacts[static_cast<std::size_t>(i)]->Friction() * other.rn[i] * (1.0 + 1e-12));
       EXPECT_EQ(other.u, point.u);
       EXPECT_EQ(other.s, point.s);
     }

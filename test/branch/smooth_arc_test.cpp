@@ -241,7 +241,7 @@ TEST(Step, InterpolatesFunctionsThatAreLinearInX) {
   TracedArc traced(Trace("sliding_bar", kRows), 20);
   const Step step = traced.StepTo(0.04);
   const auto load = [&](const VectorXd& x) { return x[traced.motion() - 1]; };
-  const Quintic polynomial = step.Interpolate(load, load);
+  const Quintic polynomial = step.InterpolateLinear(load);
   for (double t = 0.0; t <= step.length; t += 0.004) EXPECT_NEAR(Evaluate(polynomial, t), load(step.Point(t)), 1e-15);
 }
 

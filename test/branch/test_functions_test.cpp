@@ -137,7 +137,7 @@ TEST(Watch, SlipStops) {
   EXPECT_EQ(event.limit.inequality, Inequality::kSlip);
   const std::optional<CurvePoint> located = Locate(&arc.arc(), step, event);
   ASSERT_TRUE(located);
-  EXPECT_NEAR(arc.arc().system().Rate(event.limit, located->first), 0.0, 1e-12);
+  EXPECT_NEAR(arc.arc().system().Rate(event.limit, located->x, located->first), 0.0, 1e-12);
   EXPECT_NEAR(located->x[0] * arc.model().scaling.length, snap_block::kEndX, 1e-14);
 }
 

@@ -5,7 +5,10 @@
 #include <cmath>
 #include <string>
 
+#include "contact_path/contact/scene_contacts.h"
+#include "support/curved_contacts.h"
 #include "support/derivative_checker.h"
+#include "support/kinematics.h"
 #include "support/mixed_scene.h"
 #include "support/random.h"
 #include "support/reference_cases.h"
@@ -18,7 +21,7 @@ constexpr double kRounding = 1e-14;  // of sums of a few terms of order 1
 using State = ContactState;
 
 // States that a contact can have.
-std::vector<State> StatesOf(const ContactGeometry& contact) {
+std::vector<State> StatesOf(const ContactPair& contact) {
   if (contact.Frictional()) return {State::kOpen, State::kStick, State::kSlipPlus, State::kSlipMinus};
   return {State::kOpen, State::kClosed};
 }
@@ -48,7 +51,7 @@ class MixedSystem : public testing::Test {
 
   const Scene scene_ = MixedScene();
   const Structure structure_{scene_};
-  const std::vector<ContactGeometry> contacts_ = BuildContacts(scene_, structure_);
+  const ContactPairs contacts_ = BuildContacts(scene_, structure_);
   const Eigen::VectorXd reference_ = Eigen::VectorXd::LinSpaced(6, -0.4, 0.7);
   FixedStateSystem system_{structure_, contacts_};
   Random random_{4};
@@ -80,10 +83,10 @@ TEST_F(MixedSystem, CountsUnknownsAndEquations) {
 TEST_F(MixedSystem, JacobianMeetsDifferencesInEveryCombinationOfStates) {
   // All states of each contact with the others random: 18 states, and pins on all inequalities they have.
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    for (const State state : StatesOf(contacts_[i])) {
+    for (const State state : StatesOf(*contacts_[i])) {
       std::vector<State> states;
-      for (const ContactGeometry& contact : contacts_) {
-        const std::vector<State> possible = StatesOf(contact);
+      for (const auto& contact : contacts_) {
+        const std::vector<State> possible = StatesOf(*contact);
         states.push_back(
             possible[static_cast<std::size_t>(random_.Number(0.0, 1.0) * static_cast<double>(possible.size()))]);
       }
@@ -103,7 +106,7 @@ TEST_F(MixedSystem, JacobianMeetsDifferencesInEveryCombinationOfStates) {
 TEST(MovingSystem, DerivativesMeetDifferences) {
   const Scene scene = MovingScene();
   const Structure structure(scene);
-  const std::vector<ContactGeometry> contacts = BuildContacts(scene, structure);
+  const ContactPairs contacts = BuildContacts(scene, structure);
   FixedStateSystem system(structure, contacts);
   Random random(5);
   const std::vector<State> states = {State::kStick,     State::kClosed, State::kSlipPlus,
@@ -120,7 +123,7 @@ TEST(MovingSystem, DerivativesMeetDifferences) {
   EXPECT_TRUE(IsJacobian(residual, x, Eigen::MatrixXd(system.TransposedJacobian(x)).transpose()));
   for (const Constraint& limit : system.Inequalities()) {
     const auto value = [&](const Eigen::VectorXd& at) { return Eigen::VectorXd::Constant(1, system.Value(limit, at)); };
-    EXPECT_TRUE(IsJacobian(value, x, system.Gradient(limit).transpose()));
+    EXPECT_TRUE(IsJacobian(value, x, system.Gradient(limit, x).transpose()));
   }
   // The power of supports and obstacles: that of the reactions on the nodes less what friction takes.
   const PathPoint point = system.Unpack(x);
@@ -129,14 +132,90 @@ TEST(MovingSystem, DerivativesMeetDifferences) {
   double moved = 0.0, friction = 0.0;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
-    moved += point.rn[k] * (contacts[i].gap.Rate(dx, 1.0) - contacts[i].gap.load) +
-             point.rt[k] * (contacts[i].tangential.Rate(dx, 1.0) - contacts[i].tangential.load);
-    friction += point.rn[k] * contacts[i].gap.Rate(dx, 1.0) + point.rt[k] * contacts[i].tangential.Rate(dx, 1.0);
+    const Kinematics at = KinematicsAt(*contacts[i], point.u, point.s);
+    moved += point.rn[k] * contacts[i]->Rate(at.gap_gradient, dx, 0.0) +
+             point.rt[k] * contacts[i]->Rate(at.xi_gradient, dx, 0.0);
+    friction += point.rn[k] * contacts[i]->Rate(at.gap_gradient, dx, 1.0) +
+                point.rt[k] * contacts[i]->Rate(at.xi_gradient, dx, 1.0);
   }
   double supports = 0.0;
   for (std::size_t k = 0; k < structure.PrescribedDofs().size(); ++k)
     supports += structure.PrescribedDofs()[k].rate * x[x.size() - 2 + static_cast<Eigen::Index>(k)];
-  EXPECT_NEAR(system.DrivingForce(x), supports + moved - friction, kRounding * 10.0);
+  EXPECT_NEAR(system.DrivingForceAlong(x, x, x).value, supports + moved - friction, kRounding * 10.0);
+}
+
+// Discs and a spiral, some of which move.
+class CurvedSystem : public testing::Test {
+ protected:
+  Eigen::VectorXd RandomUnknowns() {
+    Eigen::VectorXd x = random_.Vector(system_.NumUnknowns(), 0.1, 1.0);
+    x.head(structure_.NumDofs()) = structure_.InitialPositions() + random_.Vector(structure_.NumDofs(), -0.03, 0.03);
+    x[structure_.NumDofs()] = 0.1;
+    return x;
+  }
+
+  static constexpr double kStep = 1e-3;  // of differences: the curvature changes over about 1
+  const Scene scene_ = MovingScene();
+  const Structure structure_{scene_};
+  const ContactPairs contacts_ = CurvedContacts(scene_, structure_);
+  FixedStateSystem system_{structure_, contacts_};
+  Random random_{9};
+};
+
+TEST_F(CurvedSystem, DerivativesMeetDifferencesInEveryState) {
+  for (const State state : {State::kOpen, State::kStick, State::kSlipPlus, State::kSlipMinus}) {
+    const State other = state == State::kStick ? State::kSlipPlus : State::kStick;
+    system_.SetStates({state, other, state, other, state == State::kOpen ? State::kOpen : State::kClosed},
+                      random_.Vector(5, -0.3, 0.3));
+    for (const bool active : {false, true}) {
+      if (active) system_.SetActive(system_.Inequalities());
+      const Eigen::VectorXd x = RandomUnknowns(), dx = random_.Vector(system_.NumUnknowns(), -1.0, 1.0);
+      const auto residual = [&](const Eigen::VectorXd& at) {
+        Eigen::VectorXd value;
+        system_.Residual(at, &value);
+        return value;
+      };
+      const Eigen::MatrixXd jacobian = Eigen::MatrixXd(system_.TransposedJacobian(x)).transpose();
+      EXPECT_TRUE(IsJacobian(residual, x, jacobian, kDerivativeTolerance, kStep)) << ToString(state);
+      const auto rate = [&](const Eigen::VectorXd& h) {
+        return Eigen::VectorXd(system_.TransposedJacobian(x + h[0] * dx).transpose() * dx);
+      };
+      EXPECT_TRUE(
+          IsJacobian(rate, Eigen::VectorXd::Zero(1), system_.SecondDerivative(x, dx), kDerivativeTolerance, kStep))
+          << ToString(state);
+    }
+  }
+}
+
+TEST_F(CurvedSystem, ValuesAlongACurveMeetDifferences) {
+  system_.SetStates({State::kSlipPlus, State::kStick, State::kSlipMinus, State::kSlipPlus, State::kOpen},
+                    random_.Vector(5, -0.3, 0.3));
+  const Eigen::VectorXd x = RandomUnknowns(), first = random_.Vector(system_.NumUnknowns(), -1.0, 1.0),
+                        second = random_.Vector(system_.NumUnknowns(), -1.0, 1.0);
+  const auto on_curve = [&](double h) { return Eigen::VectorXd(x + h * first + 0.5 * h * h * second); };
+  const auto velocity = [&](double h) { return Eigen::VectorXd(first + h * second); };
+  for (const Constraint& constraint : system_.Inequalities()) {
+    const auto value = [&](const Eigen::VectorXd& at) {
+      return Eigen::VectorXd::Constant(1, system_.Value(constraint, at));
+    };
+    EXPECT_TRUE(IsJacobian(value, x, system_.Gradient(constraint, x).transpose(), kDerivativeTolerance, kStep));
+    EXPECT_NEAR(system_.Rate(constraint, x, first), system_.Gradient(constraint, x).dot(first), 10.0 * kRounding);
+    const auto along = [&](const Eigen::VectorXd& h) {
+      return Eigen::VectorXd::Constant(1, system_.Rate(constraint, on_curve(h[0]), velocity(h[0])));
+    };
+    const Jet jet = system_.ValueAlong(constraint, x, first, second);
+    EXPECT_EQ(jet.value, system_.Value(constraint, x));
+    EXPECT_EQ(jet.first, system_.Rate(constraint, x, first));
+    EXPECT_TRUE(IsJacobian(along, Eigen::VectorXd::Zero(1), Eigen::MatrixXd::Constant(1, 1, jet.second),
+                           kDerivativeTolerance, kStep));
+  }
+  const auto force = [&](const Eigen::VectorXd& h) {
+    const Jet jet = system_.DrivingForceAlong(on_curve(h[0]), velocity(h[0]), second);
+    return Eigen::Vector2d(jet.value, jet.first);
+  };
+  const Jet jet = system_.DrivingForceAlong(x, first, second);
+  EXPECT_TRUE(
+      IsJacobian(force, Eigen::VectorXd::Zero(1), Eigen::Vector2d(jet.first, jet.second), kDerivativeTolerance, kStep));
 }
 
 TEST_F(MixedSystem, PatternStaysTheSameBetweenEvaluations) {
@@ -171,7 +250,7 @@ TEST_F(MixedSystem, InequalitiesOfEachStateAndTheirValues) {
   const PathPoint point = RandomPoint();
   const Eigen::VectorXd x = system_.Pack(point);
   const auto slip = [&](std::size_t i) {
-    return contacts_[i].tangential.Value(point.u, point.s) - reference_[static_cast<Eigen::Index>(i)];
+    return contacts_[i]->Xi(point.u, point.s) - reference_[static_cast<Eigen::Index>(i)];
   };
   struct Expected {
     int contact;
@@ -186,8 +265,8 @@ TEST_F(MixedSystem, InequalitiesOfEachStateAndTheirValues) {
                                           {2, Inequality::kSlip, slip(2)},
                                           {3, Inequality::kNormalReaction, point.rn[3]},
                                           {3, Inequality::kSlip, -slip(3)},
-                                          {4, Inequality::kGap, contacts_[4].gap.Value(point.u, point.s)},
-                                          {5, Inequality::kGap, contacts_[5].gap.Value(point.u, point.s)}};
+                                          {4, Inequality::kGap, contacts_[4]->Gap(point.u, point.s)},
+                                          {5, Inequality::kGap, contacts_[5]->Gap(point.u, point.s)}};
   const std::vector<Constraint> limits = system_.Inequalities();
   ASSERT_EQ(limits.size(), expected.size());
   for (std::size_t k = 0; k < limits.size(); ++k) {
@@ -220,8 +299,8 @@ TEST_F(MixedSystem, GradientsAndRatesOfInequalitiesMeetDifferences) {
     const auto value = [&](const Eigen::VectorXd& at) {
       return Eigen::VectorXd::Constant(1, system_.Value(limit, at));
     };
-    EXPECT_TRUE(IsJacobian(value, x, system_.Gradient(limit).transpose()));
-    EXPECT_NEAR(system_.Rate(limit, dx), system_.Gradient(limit).dot(dx), kRounding);
+    EXPECT_TRUE(IsJacobian(value, x, system_.Gradient(limit, x).transpose()));
+    EXPECT_NEAR(system_.Rate(limit, x, dx), system_.Gradient(limit, x).dot(dx), kRounding);
   }
 }
 
@@ -270,7 +349,7 @@ class SlidingBarSystem : public testing::Test {
 
   const Scene scene_ = sliding_bar::MakeScene();
   const Structure structure_{scene_};
-  const std::vector<ContactGeometry> contacts_ = BuildContacts(scene_, structure_);
+  const ContactPairs contacts_ = BuildContacts(scene_, structure_);
   FixedStateSystem system_{structure_, contacts_};
 };
 

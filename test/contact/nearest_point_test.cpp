@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "contact_path/contact/scene_contacts.h"
 #include "support/reference_cases.h"
 
 namespace contact_path {
@@ -28,7 +29,7 @@ class SlidingBarNearest : public testing::Test {
 
   const Scene scene_ = sliding_bar::MakeScene();
   const Structure structure_{scene_};
-  const std::vector<ContactGeometry> contacts_ = BuildContacts(scene_, structure_);
+  const ContactPairs contacts_ = BuildContacts(scene_, structure_);
   FixedStateSystem system_{structure_, contacts_};
 };
 
@@ -89,7 +90,7 @@ TEST(NearestPoint, RedundantContactsAreNoObstacle) {
   Scene scene = sliding_bar::MakeScene();
   scene.contacts.push_back(scene.contacts[0]);
   const Structure structure(scene);
-  const std::vector<ContactGeometry> contacts = BuildContacts(scene, structure);
+  const ContactPairs contacts = BuildContacts(scene, structure);
   FixedStateSystem system(structure, contacts);
   system.SetStates({ContactState::kSlipPlus, ContactState::kSlipPlus}, Eigen::Vector2d(-5.0, -5.0));
   PathPoint start;
@@ -112,7 +113,7 @@ TEST(NearestPoint, RigidModesAreNoObstacle) {
   scene.bars = {{{"p", "q"}, 1.0, 0.0, StrainMeasure::kBiot}};
   scene.loads = {{"p", -1.0, 0.0, false}, {"q", 1.0, 0.0, false}};
   const Structure structure(scene);
-  const std::vector<ContactGeometry> contacts;
+  const ContactPairs contacts;
   FixedStateSystem system(structure, contacts);
   Eigen::VectorXd start(5), wanted(5);
   start << 0.0, 0.0, 1.0, 0.0, 0.0;

@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "contact_path/contact/contact_geometry.h"
+#include "contact_path/contact/contact_pair.h"
 #include "contact_path/contact/fixed_state_system.h"
 #include "contact_path/path/model.h"
 #include "contact_path/scene/program.h"
@@ -110,7 +110,7 @@ double AttainableError(const ExtremeCase& extreme) {
     if (index >= path.increments.size()) continue;
     const PathPoint point = model.FromIncrement(path.increments[index]);
     FixedStateSystem system(model.structure, model.contacts);
-    system.SetStates(point.states, TangentialPositions(model.contacts, point));
+    system.SetStates(point.states, SurfaceCoordinates(model.contacts, point));
     const Eigen::VectorXd x = system.Pack(point);
     const SingularValueDecomposition svd = Decompose(Eigen::MatrixXd(system.TransposedJacobian(x)));
     if (svd.values.size() == 0) continue;

@@ -8,6 +8,8 @@
 #include <set>
 #include <utility>
 
+#include "contact_path/contact/scene_contacts.h"
+#include "support/curved_contacts.h"
 #include "support/derivative_checker.h"
 #include "support/mixed_scene.h"
 #include "support/random.h"
@@ -86,7 +88,7 @@ class MixedProblem : public testing::TestWithParam<WorkingSet> {
 
   const Scene scene_ = MixedScene();
   const Structure structure_{scene_};
-  const std::vector<ContactGeometry> contacts_ = BuildContacts(scene_, structure_);
+  const ContactPairs contacts_ = BuildContacts(scene_, structure_);
   Random random_{6};
   PathPoint from_;
   IncrementGoal goal_;
@@ -157,7 +159,7 @@ TEST_P(MixedProblem, StructuresHoldEveryEntryThatCanBeOtherThanZeroAndNoOther) {
 TEST(MovingProblem, DerivativesMeetDifferences) {
   const Scene scene = MovingScene();
   const Structure structure(scene);
-  const std::vector<ContactGeometry> contacts = BuildContacts(scene, structure);
+  const ContactPairs contacts = BuildContacts(scene, structure);
   ASSERT_EQ(structure.PrescribedDofs().size(), 2u);
   Random random(8);
   PathPoint from;
@@ -189,6 +191,37 @@ TEST(MovingProblem, DerivativesMeetDifferences) {
   for (const PrescribedDof& prescribed : structure.PrescribedDofs())
     EXPECT_NEAR(values[prescribed.dof], 0.0, kRounding);
   EXPECT_LE(values.tail<2>().lpNorm<Eigen::Infinity>(), kRounding);
+}
+
+// Discs and a spiral, some of which move.
+TEST(CurvedProblem, DerivativesMeetDifferences) {
+  constexpr double kStep = 1e-2;
+  const Scene scene = MovingScene();
+  const Structure structure(scene);
+  const ContactPairs contacts = CurvedContacts(scene, structure);
+  Random random(8);
+  PathPoint from;
+  from.u = structure.InitialPositions() + random.Vector(8, -0.02, 0.02);
+  from.s = 0.1;
+  from.rn = random.Vector(5, 0.1, 1.0);
+  from.rt = random.Vector(5, -1.0, 1.0);
+  from.states.assign(5, ContactState::kStick);
+  const IncrementProblem problem(structure, contacts, from, {0, 1, 2, 3, 4},
+                                 {0.05, random.Vector(9, -1.0, 1.0).normalized(), 0.3, 1.7});
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::VectorXd x = random.Vector(problem.NumVariables(), 0.1, 1.0);
+    EXPECT_TRUE(IsJacobian([&](const Eigen::VectorXd& at) { return ConstraintsOf(problem, at); }, x,
+                           JacobianOf(problem, x), kDerivativeTolerance, kStep));
+    const Eigen::VectorXd multipliers = random.Vector(problem.NumConstraints(), -1.0, 1.0);
+    const auto gradient = [&](const Eigen::VectorXd& at) {
+      return Eigen::VectorXd(0.8 * GradientOf(problem, at) + JacobianOf(problem, at).transpose() * multipliers);
+    };
+    EXPECT_TRUE(IsJacobian(gradient, x, HessianOf(problem, x, 0.8, multipliers), kDerivativeTolerance, kStep));
+  }
+  // Slip and gaps are those of the point that the variables stand for.
+  const Eigen::VectorXd x = random.Vector(problem.NumVariables(), 0.1, 1.0), values = ConstraintsOf(problem, x);
+  const PathPoint point = problem.Point(x);
+  EXPECT_NEAR(values[8], contacts[0]->Gap(point.u, point.s) / 0.05, 1e-12);
 }
 
 TEST_P(MixedProblem, StructuresNameEachPlaceOnce) {
@@ -236,7 +269,7 @@ TEST_P(MixedProblem, PointUndoesTheScalingOfTheVariables) {
   const std::set<int> included(GetParam().begin(), GetParam().end());
   for (int i = 0; i < 6; ++i) {
     const bool in = included.count(i) > 0;
-    const bool frictional = contacts_[static_cast<std::size_t>(i)].Frictional();
+    const bool frictional = contacts_[static_cast<std::size_t>(i)]->Frictional();
     EXPECT_NEAR(point.rn[i], in ? from_.rn[i] : 0.0, kRounding) << i;
     EXPECT_NEAR(point.rt[i], in && frictional ? from_.rt[i] : 0.0, kRounding) << i;
     EXPECT_TRUE(in || point.states[static_cast<std::size_t>(i)] == ContactState::kOpen) << i;
@@ -250,17 +283,17 @@ TEST_P(MixedProblem, StandingStillKeepsTheFrictionLaw) {
   // lambda = du_t = 0: of each frictional contact's five rows, only the cone is other than zero.
   Eigen::Index row = 6;
   for (const int contact : GetParam()) {
-    const ContactGeometry& geometry = contacts_[static_cast<std::size_t>(contact)];
-    const double gap = geometry.gap.Value(from_.u, from_.s) / goal_.length, rn = from_.rn[contact] / goal_.length;
+    const ContactPair& pair = *contacts_[static_cast<std::size_t>(contact)];
+    const double gap = pair.Gap(from_.u, from_.s) / goal_.length, rn = from_.rn[contact] / goal_.length;
     EXPECT_NEAR(values[row], gap, 10.0 * kRounding);
     EXPECT_NEAR(values[row + 1], gap * rn, 100.0 * kRounding);
     row += 2;
-    if (!geometry.Frictional()) continue;
+    if (!pair.Frictional()) continue;
     const double rt = from_.rt[contact] / goal_.length;
     EXPECT_EQ(values[row], 0.0);
     EXPECT_EQ(values[row + 1], 0.0);
-    EXPECT_NEAR(values[row + 2], geometry.friction * rn - rt, 10.0 * kRounding);
-    EXPECT_NEAR(values[row + 3], geometry.friction * rn + rt, 10.0 * kRounding);
+    EXPECT_NEAR(values[row + 2], pair.Friction() * rn - rt, 10.0 * kRounding);
+    EXPECT_NEAR(values[row + 3], pair.Friction() * rn + rt, 10.0 * kRounding);
     EXPECT_EQ(values[row + 4], 0.0);
     row += 5;
   }
@@ -296,9 +329,9 @@ TEST_P(MixedProblem, GrowthShortensTheAimAndDissipationTurnsItAgainstTheReaction
   const Eigen::VectorXd against = Problem().UnconstrainedMinimiser();
   double power = 0.0, friction = 0.0;
   for (const int contact : GetParam()) {
-    const ContactGeometry& geometry = contacts_[static_cast<std::size_t>(contact)];
-    if (!geometry.Frictional()) continue;
-    power += from_.rt[contact] * geometry.tangential.Rate(against.head(6) - from_.u, 0.0);
+    const ContactPair& pair = *contacts_[static_cast<std::size_t>(contact)];
+    if (!pair.Frictional()) continue;
+    power += from_.rt[contact] * pair.Slip(from_.u, from_.s, against.head(6) - from_.u, 0.0);
     friction += std::abs(from_.rt[contact]);
   }
   if (friction > 0.0) {
@@ -325,7 +358,7 @@ class SlidingBarProblem : public testing::Test {
 
   const Scene scene_ = sliding_bar::MakeScene();
   const Structure structure_{scene_};
-  const std::vector<ContactGeometry> contacts_ = BuildContacts(scene_, structure_);
+  const ContactPairs contacts_ = BuildContacts(scene_, structure_);
   PathPoint from_;
   IncrementGoal goal_;
 };
@@ -372,7 +405,7 @@ TEST_F(SlidingBarProblem, StateIsTheLargerSideOfEachPair) {
 TEST_F(SlidingBarProblem, FrictionlessContactIsOpenOrClosed) {
   Scene smooth = scene_;
   smooth.obstacles[0].friction = 0.0;
-  const std::vector<ContactGeometry> contacts = BuildContacts(smooth, structure_);
+  const ContactPairs contacts = BuildContacts(smooth, structure_);
   const IncrementProblem problem(structure_, contacts, from_, {0}, goal_);
   EXPECT_EQ(problem.Point(Eigen::Vector4d(0.5, 1e-6, 0.0, 1.0)).states.at(0), ContactState::kClosed);
   EXPECT_EQ(problem.Point(Eigen::Vector4d(0.5, 1.0, 0.0, 1e-6)).states.at(0), ContactState::kOpen);

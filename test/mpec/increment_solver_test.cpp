@@ -11,6 +11,7 @@
 #include "contact_path/mpec/ipopt_solver.h"
 #include "support/random.h"
 #include "support/reference_cases.h"
+#include "contact_path/contact/scene_contacts.h"
 
 namespace contact_path {
 namespace {
@@ -98,7 +99,7 @@ class SlidingBarIncrement : public testing::Test {
 
   const Scene scene_ = MakeScene();
   const Structure structure_{scene_};
-  const std::vector<ContactGeometry> contacts_ = BuildContacts(scene_, structure_);
+  const ContactPairs contacts_ = BuildContacts(scene_, structure_);
   PathPoint from_;
   IncrementGoal goal_;
   RegularisationSchedule schedule_;
@@ -184,7 +185,7 @@ TEST_F(SlidingBarIncrement, ScheduleGoesDownToItsMinimumWithWarmStarts) {
 }
 
 TEST_F(SlidingBarIncrement, WithoutCandidatesThereIsNothingToRegularise) {
-  const std::vector<ContactGeometry> none;
+  const ContactPairs none;
   from_.rn = from_.rt = Eigen::VectorXd();
   from_.states.clear();
   FakeSolver solver([](const NonlinearProgram&, double, PrimalDual*) { return Outcome(SolveStatus::kSolved, 1); });

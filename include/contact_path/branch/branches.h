@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "contact_path/branch/active_set_tolerance.h"
-#include "contact_path/contact/contact_geometry.h"
+#include "contact_path/contact/contact_pair.h"
 #include "contact_path/contact/path_point.h"
 #include "contact_path/mpec/increment_solver.h"
 #include "contact_path/structure/structure.h"
@@ -54,7 +54,7 @@ struct BranchSet {
 // tried; of more, those that principal pivoting on the rates (rate_problem.h) leads to from many first guesses. `mpec`,
 // the increment problem in the limit of a short increment, adds what it finds where the structure is small or nothing
 // else was found. Each is certified like any other. cancelled: asked often, may be empty.
-BranchSet FindBranches(const Structure& structure, const std::vector<ContactGeometry>& contacts, const PathPoint& point,
+BranchSet FindBranches(const Structure& structure, const ContactPairs& contacts, const PathPoint& point,
                        const Arrival& arrival, const ActiveSetTolerance& limit, IncrementSolver* mpec,
                        const std::function<bool()>& cancelled = nullptr);
 

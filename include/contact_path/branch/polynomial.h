@@ -5,14 +5,9 @@
 #include <array>
 #include <optional>
 
-namespace contact_path {
+#include "contact_path/contact/jet.h"
 
-// Value and first two derivatives of a scalar by the parameter of a step.
-struct Jet {
-  double value = 0.0;
-  double first = 0.0;
-  double second = 0.0;
-};
+namespace contact_path {
 
 // c[0] + c[1] t + ... + c[5] t^5.
 using Quintic = std::array<double, 6>;

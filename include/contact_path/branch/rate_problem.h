@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "contact_path/contact/contact_geometry.h"
+#include "contact_path/contact/contact_pair.h"
 #include "contact_path/contact/fixed_state_system.h"
 #include "contact_path/contact/path_point.h"
 #include "contact_path/structure/structure.h"
@@ -31,7 +31,7 @@ class RateProblem {
  public:
   // states: by candidate; those of the weakly_active contacts (indices of candidates) do not matter. arrival: (du, ds).
   // structure and contacts must outlive the problem.
-  RateProblem(const Structure& structure, const std::vector<ContactGeometry>& contacts, const PathPoint& point,
+  RateProblem(const Structure& structure, const ContactPairs& contacts, const PathPoint& point,
               const std::vector<ContactState>& states, const std::vector<int>& weakly_active,
               const Eigen::VectorXd& arrival);
 
@@ -57,7 +57,7 @@ class RateProblem {
   // Of a kernel of several columns, not scaled; empty where it cannot be told.
   Eigen::VectorXd ShortestMember(const Eigen::MatrixXd& kernel) const;
 
-  const std::vector<ContactGeometry>& contacts_;
+  const ContactPairs& contacts_;
   const PathPoint& point_;
   std::vector<int> weakly_active_;
   bool regular_ = false;

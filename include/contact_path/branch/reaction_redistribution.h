@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "contact_path/branch/active_set_tolerance.h"
-#include "contact_path/contact/contact_geometry.h"
+#include "contact_path/contact/contact_pair.h"
 #include "contact_path/contact/path_point.h"
 
 namespace contact_path {
@@ -21,8 +21,8 @@ struct ReactionRedistributions {
 // there (a contact without reaction may open, one at the edge of its cone may slip). For each face that the reactions
 // of `point` are not in: the mean of its vertices; of several such nodes, all combinations. point: scaled, an
 // equilibrium; tolerance: scaled gap of what touches, and scaled force that counts as none.
-ReactionRedistributions FindReactionRedistributions(const std::vector<ContactGeometry>& contacts,
-                                                    const PathPoint& point, const ActiveSetTolerance& limit);
+ReactionRedistributions FindReactionRedistributions(const ContactPairs& contacts, const PathPoint& point,
+                                                    const ActiveSetTolerance& limit);
 
 }  // namespace contact_path
 

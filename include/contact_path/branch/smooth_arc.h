@@ -33,7 +33,7 @@ struct Correction {
 class SmoothArc {
  public:
   // Both must outlive the arc.
-  SmoothArc(const Structure& structure, const std::vector<ContactGeometry>& contacts);
+  SmoothArc(const Structure& structure, const ContactPairs& contacts);
 
   // Fixes the states; stick and slip are measured from the tangential positions at `from`.
   void SetStates(const std::vector<ContactState>& states, const PathPoint& from);
@@ -46,6 +46,8 @@ class SmoothArc {
 
   // Newton's method for the point of the curve with row . x = value, from guess. row: unknowns.
   Correction Correct(const Eigen::VectorXd& guess, const Eigen::VectorXd& row, double value);
+  // Newton's method for the point of the curve where an inequality of the states is exactly zero, from guess.
+  Correction CorrectOnto(const Constraint& constraint, const Eigen::VectorXd& guess);
   // The same with the row given on (u, s) only, near the tangent. Sets out with the factors of the last Derivatives()
   // of these states, and anew with others where they do not lead on fast.
   Correction CorrectOnPlane(const Eigen::VectorXd& guess, const Eigen::VectorXd& normal);
@@ -65,7 +67,7 @@ class SmoothArc {
   // False if the matrix is not finite.
   bool Factorize(const Eigen::VectorXd& x, const Eigen::VectorXd& row, double rank_tolerance = 0.0);
 
-  const std::vector<ContactGeometry>& contacts_;
+  const ContactPairs& contacts_;
   FixedStateSystem system_;
   BorderedSolver solver_;
   bool at_hand_ = false;  // regular factors of a point of the curve with these states, the last row along the tangent
@@ -81,14 +83,22 @@ struct Step {
   Eigen::VectorXd normal;  // (u, s) part of start.first
   double length = 0.0;
 
-  // Of a function that is linear in x, from its value at x and its rates along first and second.
-  template <typename Value, typename Rate>
-  Quintic Interpolate(Value value, Rate rate) const {
+  // Of a function of x, from along(point): its value and its derivatives by arc length at a point of the curve.
+  template <typename Along>
+  Quintic Interpolate(Along along) const {
     const double c = normal.dot(end.first.head(normal.size()));
     const double bend = normal.dot(end.second.head(normal.size()));
-    const double first = rate(end.first) / c;
-    return HermiteQuintic({value(start.x), rate(start.first), rate(start.second)},
-                          {value(end.x), first, (rate(end.second) - first * bend) / (c * c)}, length);
+    Jet at_end = along(end);
+    at_end.first /= c;
+    at_end.second = (at_end.second - at_end.first * bend) / (c * c);
+    return HermiteQuintic(along(start), at_end, length);
+  }
+  // Of a linear function of x.
+  template <typename Function>
+  Quintic InterpolateLinear(Function function) const {
+    return Interpolate([&function](const CurvePoint& point) {
+      return Jet{function(point.x), function(point.first), function(point.second)};
+    });
   }
   // All unknowns at t, and the whole point with derivatives by arc length; the rest as at the start.
   Eigen::VectorXd Point(double t) const;

@@ -4,10 +4,10 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
-#include <array>
 #include <vector>
 
-#include "contact_path/contact/contact_geometry.h"
+#include "contact_path/contact/contact_pair.h"
+#include "contact_path/contact/jet.h"
 #include "contact_path/contact/path_point.h"
 #include "contact_path/structure/structure.h"
 
@@ -19,7 +19,7 @@ enum class Inequality {
   kNormalReaction,  // touching: r_n
   kConePlus,        // stick: mu r_n + r_t (at zero, slip+ is next)
   kConeMinus,       // stick: mu r_n - r_t (at zero, slip- is next)
-  kSlip,            // slip+-: +-(u_t - u_t,ref), the motion since the reference
+  kSlip,            // slip+-: +-(xi - xi_ref), the motion since the reference
 };
 
 struct Constraint {
@@ -32,18 +32,18 @@ struct Constraint {
 //   phi(u, s) - T r = 0                       NumDofs()                     (eq. 1)
 //   u = start + rate s                        each prescribed component
 //   u_n = 0                                   each touching contact         (eq. 2)
-//   u_t = u_t,ref                             each sticking contact         (eq. 3)
+//   xi = xi_ref                               each sticking contact         (eq. 3)
 // and one equation "inequality = 0" for each limit that is active, and s = value where the load factor is active. With
 // nothing active there is one unknown more than equations: the solutions are a curve where the rank is full.
 // Slip has r_t = -+mu r_n eliminated.
 class FixedStateSystem {
  public:
   // Both must outlive the system.
-  FixedStateSystem(const Structure& structure, const std::vector<ContactGeometry>& contacts);
+  FixedStateSystem(const Structure& structure, const ContactPairs& contacts);
 
-  // states, tangential_reference (u_t,ref): by candidate.
-  void SetStates(const std::vector<ContactState>& states, const Eigen::VectorXd& tangential_reference);
-  void SetActive(const std::vector<Constraint>& limits);
+  // states, reference (xi_ref): by candidate.
+  void SetStates(const std::vector<ContactState>& states, const Eigen::VectorXd& reference);
+  void SetActive(const std::vector<Constraint>& constraints);
   void FixLoadFactor(double value);
   void FreeLoadFactor();
 
@@ -65,45 +65,65 @@ class FixedStateSystem {
   std::vector<Constraint> Inequalities() const;
   // The same without the gaps at x that an increment of length `reach` cannot close.
   std::vector<Constraint> InequalitiesInReach(const Eigen::VectorXd& x, double reach) const;
-  double Value(const Constraint& limit, const Eigen::VectorXd& x) const;
-  // The force that moving supports and obstacles exert along their motion: their work is its integral over s. Linear in
-  // x; with a change of the unknowns, its change.
-  double DrivingForce(const Eigen::VectorXd& x) const;
-  // Change of the value per change dx of the unknowns, and its gradient, NumUnknowns().
-  double Rate(const Constraint& limit, const Eigen::VectorXd& dx) const;
-  Eigen::VectorXd Gradient(const Constraint& limit) const;
+  double Value(const Constraint& constraint, const Eigen::VectorXd& x) const;
+  // Change of the value per change dx of the unknowns at x, and its gradient, NumUnknowns().
+  double Rate(const Constraint& constraint, const Eigen::VectorXd& x, const Eigen::VectorXd& dx) const;
+  Eigen::VectorXd Gradient(const Constraint& constraint, const Eigen::VectorXd& x) const;
+  // The value along a curve with these derivatives at x.
+  Jet ValueAlong(const Constraint& constraint, const Eigen::VectorXd& x, const Eigen::VectorXd& first,
+                 const Eigen::VectorXd& second) const;
+  // The same of the force that moving supports and obstacles exert along their motion: their work is its integral over
+  // s.
+  Jet DrivingForceAlong(const Eigen::VectorXd& x, const Eigen::VectorXd& first, const Eigen::VectorXd& second) const;
   // Second derivative of the residual along dx, d2/dh2 residual(x + h dx) at h = 0: NumEquations().
   Eigen::VectorXd SecondDerivative(const Eigen::VectorXd& x, const Eigen::VectorXd& dx);
 
  private:
-  struct Term {
-    Eigen::Index unknown;
-    double coefficient;
+  // sign u_n, or sign (xi - xi_ref), of a contact.
+  struct Motion {
+    std::size_t contact;
+    bool is_gap;
+    double sign;
   };
-  struct LinearEquation {
-    std::array<Term, 3> terms = {};  // the first `count`, ascending unknowns
-    std::size_t count = 0;
-    double constant = 0.0;
-
-    void Add(Eigen::Index unknown, double coefficient) { terms[count++] = {unknown, coefficient}; }
-    double Rate(const Eigen::VectorXd& dx) const {
-      double sum = 0.0;
-      for (std::size_t k = 0; k < count; ++k) sum += terms[k].coefficient * dx[terms[k].unknown];
-      return sum;
-    }
+  struct MotionEquation {  // motion = 0
+    Motion motion;
+    Eigen::Index equation;
+  };
+  // On the node of a touching contact; with a change of the unknowns, the change.
+  struct Reaction {
+    double rn, rt;
+  };
+  struct ReactionTerms {  // rn r_n + rt r_t
+    double rn, rt;
   };
 
-  void AddFunction(const SparseLinear& function, double sign, LinearEquation* equation) const;
-  LinearEquation Gap(std::size_t contact) const;
-  LinearEquation TangentialMotion(std::size_t contact, double sign) const;
-  LinearEquation InequalityAsEquation(const Constraint& limit) const;
-  void AddInequalities(std::size_t contact, std::vector<Constraint>* limits) const;
+  static bool IsMotion(const Constraint& constraint);  // kGap, kSlip
+  Motion MotionOf(const Constraint& constraint) const;
+  ReactionTerms ReactionTermsOf(const Constraint& constraint) const;  // of the other inequalities
+  double MotionValue(const Motion& motion, const Eigen::VectorXd& x) const;
+  // Its second derivative along dx that comes from the curvature of the surface.
+  double Bend(const Motion& motion, const Kinematics& at, const Eigen::VectorXd& dx) const;
+  Reaction ReactionOf(std::size_t contact, const Eigen::VectorXd& x) const;
+  Kinematics Evaluate(std::size_t contact, const Eigen::VectorXd& x) const;
+  void AddInequalities(std::size_t contact, std::vector<Constraint>* inequalities) const;
+
+  // Each calls emit(unknown, equation, value) for the structural entries of the Jacobian: those of a motion, of the
+  // reactions of a contact in the equilibrium equations, and of their change by the curvature of the surface there.
+  template <typename Emit>
+  void ForEachMotionEntry(const MotionEquation& equation, const Kinematics& at, Emit emit) const;
+  template <typename Emit>
+  void ForEachReactionEntry(std::size_t contact, const Kinematics& at, Emit emit) const;
+  template <typename Emit>
+  void ForEachCurvatureEntry(std::size_t contact, const Kinematics& at, const Reaction& reaction, Emit emit) const;
+  template <typename Emit>
+  void ForEachConstantEntry(Emit emit) const;  // besides those of flat contacts
+  void NumberEquations();
   void Rebuild();
 
   const Structure& structure_;
-  const std::vector<ContactGeometry>& contacts_;
+  const ContactPairs& contacts_;
   std::vector<ContactState> states_;
-  Eigen::VectorXd tangential_reference_;
+  Eigen::VectorXd reference_;
   std::vector<Constraint> active_;
   bool load_factor_fixed_ = false;
   double load_factor_ = 0.0;
@@ -111,12 +131,17 @@ class FixedStateSystem {
   std::vector<std::size_t> touching_;
   std::vector<Eigen::Index> rn_unknown_;  // by candidate, -1 = none
   std::vector<Eigen::Index> rt_unknown_;
-  Eigen::Index first_support_ = 0;      // unknown: reaction of the first prescribed component
-  std::vector<LinearEquation> linear_;  // all equations but equilibrium
+  Eigen::Index first_support_ = 0;  // unknown: reaction of the first prescribed component
+  // Equations: equilibrium, then motions of the touching contacts, supports, active constraints, load factor.
+  std::vector<MotionEquation> motions_;
+  Eigen::Index first_support_equation_ = 0;
+  Eigen::Index first_active_equation_ = 0;
   Eigen::Index num_unknowns_ = 0;
   Eigen::Index num_equations_ = 0;
+  bool curved_ = false;  // some of the contacts in the equations are
   Eigen::SparseMatrix<double> tangent_;
   Eigen::SparseMatrix<double> transposed_;
+  Eigen::VectorXd constant_;  // values of transposed_ that do not change; kept where some contacts are curved
 };
 
 }  // namespace contact_path

@@ -6,7 +6,7 @@
 #include <Eigen/SparseCore>
 #include <vector>
 
-#include "contact_path/contact/contact_geometry.h"
+#include "contact_path/contact/contact_pair.h"
 #include "contact_path/contact/path_point.h"
 #include "contact_path/mpec/nonlinear_program.h"
 #include "contact_path/structure/structure.h"
@@ -34,7 +34,7 @@ struct IncrementGoal {
 class IncrementProblem : public NonlinearProgram {
  public:
   // working_set: the candidates that take part, ascending. All arguments but the last two must outlive the problem.
-  IncrementProblem(const Structure& structure, const std::vector<ContactGeometry>& contacts, const PathPoint& from,
+  IncrementProblem(const Structure& structure, const ContactPairs& contacts, const PathPoint& from,
                    std::vector<int> working_set, IncrementGoal goal);
 
   void SetRegularisation(double eps) { eps_ = eps; }
@@ -67,8 +67,8 @@ class IncrementProblem : public NonlinearProgram {
  private:
   // Where a contact of the working set keeps its variables and constraints.
   struct Slot {
-    const ContactGeometry* geometry;
-    double gap;                   // at the start of the increment
+    const ContactPair* pair;
+    Kinematics at_start;          // of the increment
     Eigen::Index rn, rt, lambda;  // variables; rt, lambda -1 if frictionless
     Eigen::Index gap_row;         // constraints: gap, gap r_n
     Eigen::Index friction_row;    // lambda - y_t, lambda + y_t, mu r_n - r_t, mu r_n + r_t, product; -1 if frictionless
@@ -80,17 +80,28 @@ class IncrementProblem : public NonlinearProgram {
     Eigen::Index row;       // constraint
   };
 
-  double ScaledGap(const Slot& slot, const Eigen::VectorXd& x) const;
-  double ScaledSlip(const Slot& slot, const Eigen::VectorXd& x) const;
+  // By y: gap and slip over S; gradients as they are, Hessians times S.
+  Kinematics ScaledKinematics(const Slot& slot, const Eigen::VectorXd& x) const;
+  // Calls visit(variable, k) for each variable that moves a pair, its gap, its xi; k: its number in the q of the pair.
+  template <typename Visit>
+  void ForEachVariable(const ContactPair& pair, Visit visit) const;
+  template <typename Visit>
+  void ForEachGapVariable(const ContactPair& pair, Visit visit) const;
+  template <typename Visit>
+  void ForEachXiVariable(const ContactPair& pair, Visit visit) const;
   // Calls emit(row, column, value) for each structural entry, in a fixed order.
   template <typename Emit>
   void ForEachJacobianEntry(const Eigen::VectorXd& x, Emit emit) const;
   template <typename Emit>
   void ForEachHessianEntry(const Eigen::VectorXd& x, double factor, const Eigen::VectorXd& multipliers,
                            Emit emit) const;
+  // What the curvature of a surface adds to the Hessian.
+  template <typename Emit>
+  void ForEachCurvatureEntry(const Slot& slot, const Kinematics& at, const Eigen::VectorXd& x,
+                             const Eigen::VectorXd& multipliers, Emit emit) const;
 
   const Structure& structure_;
-  const std::vector<ContactGeometry>& contacts_;
+  const ContactPairs& contacts_;
   const PathPoint& from_;
   std::vector<int> working_set_;
   IncrementGoal goal_;

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "contact_path/contact/contact_geometry.h"
+#include "contact_path/contact/contact_pair.h"
 #include "contact_path/contact/fixed_state_system.h"
 #include "contact_path/contact/path_point.h"
 #include "contact_path/mpec/increment_problem.h"
@@ -43,7 +43,7 @@ class IncrementSolver {
   static constexpr double kLongestIncrement = 2.5;
 
   // All must outlive the solver.
-  IncrementSolver(const Structure& structure, const std::vector<ContactGeometry>& contacts, NonlinearSolver* solver);
+  IncrementSolver(const Structure& structure, const ContactPairs& contacts, NonlinearSolver* solver);
 
   // From `from`, an equilibrium. Candidates out of reach are left out of the problem; should a gap among them turn
   // negative all the same, the increment is solved again with them.
@@ -65,7 +65,7 @@ class IncrementSolver {
   bool PolishActiveSet(const PathPoint& from, const Eigen::VectorXd& wanted, double length, IncrementTrial* trial);
 
   const Structure& structure_;
-  const std::vector<ContactGeometry>& contacts_;
+  const ContactPairs& contacts_;
   NonlinearSolver* solver_;
   FixedStateSystem system_;
   std::vector<int> last_working_set_;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "contact_path/check/residuals.h"
-#include "contact_path/contact/contact_geometry.h"
+#include "contact_path/contact/contact_pair.h"
 #include "contact_path/contact/path_point.h"
 #include "contact_path/path/increment.h"
 #include "contact_path/scene/scaling.h"
@@ -37,9 +37,9 @@ struct Model {
   const Scene scene;  // as the user wrote it
   const Scaling scaling;
   const Scene scaled;
-  const Structure structure;                    // of the scaled scene
-  const std::vector<ContactGeometry> contacts;  // of the scaled scene
-  const ResidualCheck check;                    // of the scene
+  const Structure structure;    // of the scaled scene
+  const ContactPairs contacts;  // of the scaled scene
+  const ResidualCheck check;    // of the scene
 };
 
 }  // namespace contact_path

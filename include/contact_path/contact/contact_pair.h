@@ -1,0 +1,86 @@
+// A contact candidate: where its node stands relative to its surface, and how its reaction acts on the structure.
+#ifndef CONTACT_PATH_CONTACT_CONTACT_PAIR_H_
+#define CONTACT_PATH_CONTACT_CONTACT_PAIR_H_
+
+#include <Eigen/Core>
+#include <bitset>
+#include <cstddef>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "contact_path/contact/kinematics.h"
+#include "contact_path/contact/path_point.h"
+
+namespace contact_path {
+
+// Gap u_n and surface coordinate xi as functions of the unknowns that move the pair, its dofs, and of the load factor.
+// The columns of the matrix T of eq. (1) are their gradients: the force r_n grad u_n + r_t grad xi acts on the
+// structure. q stands for (dofs, s) throughout: m + 1 entries with m = Dofs().size() <= kMostPairDofs, the load factor
+// last.
+class ContactPair {
+ public:
+  virtual ~ContactPair() = default;
+
+  const std::vector<int>& Dofs() const { return traits_.dofs; }  // into u, ascending
+  double Friction() const { return traits_.friction; }           // mu; 0 where the pair cannot slide
+  bool Frictional() const { return traits_.friction > 0.0; }
+  // Whether Hessians can be other than zero.
+  bool Curved() const { return traits_.curved; }
+  // Whether the gradient of the gap, of xi, can be other than zero in the entry k of q: their sparsity.
+  bool MovesGap(std::size_t k) const { return traits_.moves_gap[k]; }
+  bool MovesXi(std::size_t k) const { return traits_.moves_xi[k]; }
+  // An upper bound of |d u_n| over |(du, ds)|.
+  double LargestGapRate() const { return traits_.largest_gap_rate; }
+
+  // u: may have more entries than dofs. reference: the value of xi from which xi is measured.
+  virtual void Evaluate(const Eigen::VectorXd& u, double s, double reference, Kinematics* kinematics) const = 0;
+  // The gap alone.
+  virtual double Gap(const Eigen::VectorXd& u, double s) const = 0;
+  // *derivative = d/dh of the matrix r_n hess u_n + r_t hess xi along q + h direction at h = 0: m + 1 square,
+  // symmetric. Asked of curved pairs only.
+  virtual void HessianDerivative(const Eigen::VectorXd& u, double s, double rn, double rt, const PairVector& direction,
+                                 PairMatrix* derivative) const = 0;
+
+  // d2/dh2 of the force r_n grad u_n + r_t grad xi along q + h direction at h = 0, by q; r_n and r_t do not change.
+  PairVector SecondDirectional(const Eigen::VectorXd& u, double s, double rn, double rt,
+                               const PairVector& direction) const;
+  // xi, measured from 0.
+  double Xi(const Eigen::VectorXd& u, double s) const;
+  // grad xi . (du, ds) at (u, s).
+  double SlipRate(const Eigen::VectorXd& u, double s, const Eigen::VectorXd& du, double ds) const;
+  // Change of xi from (u, s) to (u + du, s + ds).
+  double Slip(const Eigen::VectorXd& u, double s, const Eigen::VectorXd& du, double ds) const;
+
+  // The entries of (u, s) that belong to the pair.
+  PairVector Local(const Eigen::VectorXd& u, double s) const;
+  // gradient . (du, ds), the gradient by q.
+  double Rate(const PairVector& gradient, const Eigen::Ref<const Eigen::VectorXd>& du, double ds) const;
+  // out += factor * gradient by u.
+  void AddForce(const PairVector& gradient, double factor, Eigen::VectorXd* out) const;
+
+ protected:
+  using Terms = std::bitset<kMostPairDofs + 1>;
+  struct Traits {
+    std::vector<int> dofs;
+    double friction = 0.0;
+    bool curved = false;
+    Terms moves_gap, moves_xi;
+    double largest_gap_rate = 1.0;
+  };
+  // What does not change; set once, by the constructor of the pair.
+  void SetTraits(Traits traits) { traits_ = std::move(traits); }
+
+ private:
+  Traits traits_;
+};
+
+// In scene order.
+using ContactPairs = std::vector<std::unique_ptr<const ContactPair>>;
+
+// xi of all candidates, measured from 0.
+Eigen::VectorXd SurfaceCoordinates(const ContactPairs& contacts, const PathPoint& point);
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_CONTACT_CONTACT_PAIR_H_

@@ -1,0 +1,48 @@
+// A node against the surface of a rigid obstacle that may move.
+#ifndef CONTACT_PATH_CONTACT_RIGID_PAIR_H_
+#define CONTACT_PATH_CONTACT_RIGID_PAIR_H_
+
+#include <Eigen/Core>
+#include <array>
+#include <memory>
+
+#include "contact_path/contact/contact_pair.h"
+#include "contact_path/contact/surface.h"
+
+namespace contact_path {
+
+// The position of the node, as the obstacle sees it: x = (dofs, or where a component is held its place) - velocity s.
+struct NodeMotion {
+  std::array<int, 2> dofs = {-1, -1};                  // of x and y, ascending; -1 = held
+  Eigen::Vector2d held = Eigen::Vector2d::Zero();      // positions of what is held [length]
+  Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  // of the obstacle [length] per unit of the load factor
+};
+
+// gap(q) and xi(q) are those of the surface at x(q), which is affine: derivatives by x are those of the projection
+// (surface.h), derivatives by q follow by the chain rule. Of a flat surface everything but the values is constant.
+class RigidPair : public ContactPair {
+ public:
+  // friction: mu; has no effect on a node that cannot move along the surface.
+  RigidPair(std::shared_ptr<const Surface> surface, const NodeMotion& motion, double friction);
+
+  void Evaluate(const Eigen::VectorXd& u, double s, double reference, Kinematics* kinematics) const override;
+  double Gap(const Eigen::VectorXd& u, double s) const override;
+  void HessianDerivative(const Eigen::VectorXd& u, double s, double rn, double rt, const PairVector& direction,
+                         PairMatrix* derivative) const override;
+
+ private:
+  using Motion = Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, 3>;
+
+  Eigen::Vector2d Position(const Eigen::VectorXd& u, double s) const;
+
+  std::shared_ptr<const Surface> surface_;
+  Eigen::Vector2d held_;
+  Motion motion_;  // dx/dq
+  // Of a flat surface: offset + gradient . q.
+  double gap_offset_ = 0.0, xi_offset_ = 0.0;
+  PairVector gap_gradient_, xi_gradient_;
+};
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_CONTACT_RIGID_PAIR_H_

@@ -1,0 +1,16 @@
+// The contact candidates of a scene.
+#ifndef CONTACT_PATH_CONTACT_SCENE_CONTACTS_H_
+#define CONTACT_PATH_CONTACT_SCENE_CONTACTS_H_
+
+#include "contact_path/contact/contact_pair.h"
+#include "contact_path/scene/scene.h"
+#include "contact_path/structure/structure.h"
+
+namespace contact_path {
+
+// All candidates in scene order. `scene` must be sound and `structure` built from it.
+ContactPairs BuildContacts(const Scene& scene, const Structure& structure);
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_CONTACT_SCENE_CONTACTS_H_

@@ -1,0 +1,58 @@
+#include "contact_path/contact/contact_pair.h"
+
+namespace contact_path {
+
+PairVector ContactPair::SecondDirectional(const Eigen::VectorXd& u, double s, double rn, double rt,
+                                          const PairVector& direction) const {
+  PairMatrix derivative;
+  HessianDerivative(u, s, rn, rt, direction, &derivative);
+  return derivative * direction;
+}
+
+double ContactPair::Xi(const Eigen::VectorXd& u, double s) const {
+  Kinematics kinematics;
+  Evaluate(u, s, 0.0, &kinematics);
+  return kinematics.xi;
+}
+
+double ContactPair::SlipRate(const Eigen::VectorXd& u, double s, const Eigen::VectorXd& du, double ds) const {
+  Kinematics kinematics;
+  Evaluate(u, s, 0.0, &kinematics);
+  return Rate(kinematics.xi_gradient, du, ds);
+}
+
+double ContactPair::Slip(const Eigen::VectorXd& u, double s, const Eigen::VectorXd& du, double ds) const {
+  if (!Curved()) return SlipRate(u, s, du, ds);
+  Kinematics to;
+  Evaluate(u + du, s + ds, Xi(u, s), &to);
+  return to.xi;
+}
+
+PairVector ContactPair::Local(const Eigen::VectorXd& u, double s) const {
+  const auto m = static_cast<Eigen::Index>(Dofs().size());
+  PairVector q(m + 1);
+  for (Eigen::Index k = 0; k < m; ++k) q[k] = u[Dofs()[static_cast<std::size_t>(k)]];
+  q[m] = s;
+  return q;
+}
+
+double ContactPair::Rate(const PairVector& gradient, const Eigen::Ref<const Eigen::VectorXd>& du, double ds) const {
+  double sum = 0.0;
+  Eigen::Index k = 0;
+  for (const int dof : Dofs()) sum += gradient[k++] * du[dof];
+  return sum + gradient[k] * ds;
+}
+
+void ContactPair::AddForce(const PairVector& gradient, double factor, Eigen::VectorXd* out) const {
+  Eigen::Index k = 0;
+  for (const int dof : Dofs()) (*out)[dof] += factor * gradient[k++];
+}
+
+Eigen::VectorXd SurfaceCoordinates(const ContactPairs& contacts, const PathPoint& point) {
+  Eigen::VectorXd coordinates(static_cast<Eigen::Index>(contacts.size()));
+  for (std::size_t i = 0; i < contacts.size(); ++i)
+    coordinates[static_cast<Eigen::Index>(i)] = contacts[i]->Xi(point.u, point.s);
+  return coordinates;
+}
+
+}  // namespace contact_path

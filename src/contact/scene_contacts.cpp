@@ -1,0 +1,47 @@
+#include "contact_path/contact/scene_contacts.h"
+
+#include <array>
+#include <memory>
+#include <string>
+#include <unordered_map>
+
+#include "contact_path/contact/rigid_pair.h"
+#include "contact_path/contact/surface.h"
+
+namespace contact_path {
+namespace {
+
+std::shared_ptr<const Surface> MakeSurface(const Obstacle& obstacle) {
+  switch (obstacle.shape) {
+    case ObstacleShape::kHalfPlane: break;
+  }
+  return std::make_shared<HalfPlane>(Eigen::Vector2d(obstacle.px, obstacle.py),
+                                     Eigen::Vector2d(obstacle.nx, obstacle.ny));
+}
+
+}  // namespace
+
+ContactPairs BuildContacts(const Scene& scene, const Structure& structure) {
+  struct Placed {
+    std::shared_ptr<const Surface> surface;
+    Eigen::Vector2d velocity = Eigen::Vector2d::Zero();
+    double friction = 0.0;
+  };
+  std::unordered_map<std::string, Placed> obstacles;
+  for (const Obstacle& obstacle : scene.obstacles)
+    obstacles[obstacle.name] = {MakeSurface(obstacle), Eigen::Vector2d::Zero(), obstacle.friction};
+  for (const ObstacleMotion& motion : scene.obstacle_motions)
+    obstacles.at(motion.obstacle).velocity = {motion.dx, motion.dy};
+
+  ContactPairs contacts;
+  for (const ContactCandidate& candidate : scene.contacts) {
+    const Placed& obstacle = obstacles.at(candidate.obstacle);
+    const int node = structure.NodeIndex(candidate.node);
+    const Node& at = scene.nodes[static_cast<std::size_t>(node)];
+    const NodeMotion motion = {{structure.Dof(node, 0), structure.Dof(node, 1)}, {at.x, at.y}, obstacle.velocity};
+    contacts.push_back(std::make_unique<RigidPair>(obstacle.surface, motion, obstacle.friction));
+  }
+  return contacts;
+}
+
+}  // namespace contact_path
