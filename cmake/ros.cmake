@@ -60,6 +60,8 @@ install(DIRECTORY docs DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION} FILES_MAT
 if(CATKIN_ENABLE_TESTING)
   find_package(rostest REQUIRED)
 
+  set(contact_path_programs_directory "${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
+  set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/tests)  # as those of the core (tests.cmake)
   catkin_add_gtest(contact_path_ros_test
     test/ros/bag_recorder_test.cpp
     test/ros/bounded_stream_test.cpp
@@ -70,6 +72,7 @@ if(CATKIN_ENABLE_TESTING)
     test/ros/ros_test_main.cpp
     test/ros/scene_markers_test.cpp
   )
+  set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${contact_path_programs_directory}")
   # For a quick build, as those of the core (tests.cmake).
   target_compile_options(contact_path_ros_test PRIVATE -O1 -g0)
   target_link_libraries(contact_path_ros_test contact_path_ros contact_path_warnings)

@@ -14,6 +14,9 @@ else()
   set(contact_path_test_results ${CMAKE_CURRENT_BINARY_DIR}/test_results/${PROJECT_NAME})
 endif()
 
+# Apart from the users' programs, which rosrun finds beside each other.
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/tests)
+
 add_library(contact_path_test_support STATIC EXCLUDE_FROM_ALL
   test/support/dense.cpp
   test/support/derivative_checker.cpp
