@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact_path/contact/fixed_state_system.h"
+#include "contact_path/equations/fixed_state_system.h"
 
 namespace contact_path {
 

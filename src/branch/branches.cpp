@@ -7,7 +7,7 @@
 
 #include "contact_path/branch/rate_problem.h"
 #include "contact_path/branch/reaction_redistribution.h"
-#include "contact_path/contact/fixed_state_system.h"
+#include "contact_path/equations/fixed_state_system.h"
 #include "contact_path/linear/bordered_solver.h"
 #include "contact_path/linear/minimum_norm.h"
 #include "contact_path/linear/singular_vectors.h"
@@ -31,10 +31,9 @@ constexpr double kFewCombinations = 8.0;  // not worth condensing the rate probl
 constexpr double kMostCondensed = 5e7;    // numbers that may be held for that
 constexpr std::size_t kMostCondensedContacts = 200;  // of more, dense equations take longer than the sparse ones of all
 constexpr int kMostRestarts = 64;                    // contacts, one after another in another state, to pivot from
-constexpr Eigen::Index kMostDofsForMpec = 300;  // beyond, the increment problem is solved only if nothing else helps
-constexpr double kMostCombinations = 4096.0;    // 4^6
-constexpr double kMostIfNone = 65536.0;         // 4^8: tried before the path is said to end
-constexpr double kRateLength = 1e-5;            // scaled length of an increment that stands for a rate
+constexpr Eigen::Index kMostDofsForFurther = 300;    // beyond, further candidates are asked for if nothing else helps
+constexpr double kMostCombinations = 4096.0;         // 4^6
+constexpr double kMostIfNone = 65536.0;              // 4^8: tried before the path is said to end
 
 using States = std::vector<ContactState>;
 
@@ -389,11 +388,10 @@ void TryAll(const std::vector<States>& options, const RateProblem* condensed, Fi
   }
 }
 
-// Where there are too many combinations: principal pivoting from several first guesses, and the increment problem (9)
-// for an increment so small that it is the rate problem, with and without the pull of the dissipation. Each result is
-// tried like any other combination.
+// Where there are too many combinations: principal pivoting from several first guesses, and the further candidates.
+// Each result is tried like any other combination.
 void TryLikely(const std::vector<States>& options, const PathPoint& point, const Arrival& arrival,
-               const RateProblem* condensed, IncrementSolver* mpec, Finder* finder, BranchSet* result) {
+               const RateProblem* condensed, const FurtherStates& further, Finder* finder, BranchSet* result) {
   std::vector<States> guesses;
   for (const ContactState preferred : {ContactState::kOpen, ContactState::kStick, ContactState::kSlipPlus,
                                        ContactState::kSlipMinus, ContactState::kClosed}) {
@@ -428,17 +426,13 @@ void TryLikely(const std::vector<States>& options, const PathPoint& point, const
           pivot_from(guess);
         }
   }
-  if (point.u.size() > kMostDofsForMpec && !result->branches.empty()) return;
-  for (const double share : {0.0, 0.5, 1.0}) {
-    const IncrementTrial trial =
-        mpec->Solve(point, {kRateLength, arrival.direction, share, 1.0}, RegularisationSchedule());
-    if (trial.status == SolveStatus::kSolved) attempt(trial.point.states);
-  }
+  if (!further || (point.u.size() > kMostDofsForFurther && !result->branches.empty())) return;
+  for (const States& states : further(point, arrival.direction)) attempt(states);
 }
 
 // With the reactions of the point. In no order, and mirror branches are not told.
 BranchSet BranchesWithReactions(const Structure& structure, const ContactPairs& contacts, const PathPoint& point,
-                                const Arrival& arrival, const ActiveSetTolerance& limit, IncrementSolver* mpec,
+                                const Arrival& arrival, const ActiveSetTolerance& limit, const FurtherStates& further,
                                 const std::function<bool()>& cancelled) {
   BranchSet result;
   std::vector<States> options;
@@ -464,7 +458,7 @@ BranchSet BranchesWithReactions(const Structure& structure, const ContactPairs& 
   if (result.complete)
     TryAll(options, condensed, &finder, &result);
   else
-    TryLikely(options, point, arrival, condensed, mpec, &finder, &result);
+    TryLikely(options, point, arrival, condensed, further, &finder, &result);
   if (result.branches.empty() && !result.complete && combinations <= kMostIfNone) {
     TryAll(options, condensed, &finder, &result);
     result.complete = true;
@@ -497,15 +491,15 @@ void AddOthers(BranchSet&& others, const PathPoint& begin, BranchSet* result) {
 }  // namespace
 
 BranchSet FindBranches(const Structure& structure, const ContactPairs& contacts, const PathPoint& point,
-                       const Arrival& arrival, const ActiveSetTolerance& limit, IncrementSolver* mpec,
+                       const Arrival& arrival, const ActiveSetTolerance& limit, const FurtherStates& further,
                        const std::function<bool()>& cancelled) {
-  BranchSet result = BranchesWithReactions(structure, contacts, point, arrival, limit, mpec, cancelled);
+  BranchSet result = BranchesWithReactions(structure, contacts, point, arrival, limit, further, cancelled);
   if (!result.cancelled && std::none_of(result.branches.begin(), result.branches.end(), GoesOn)) {
     const ReactionRedistributions others = FindReactionRedistributions(contacts, point, limit);
     result.complete = result.complete && others.complete;
     for (const PathPoint& begin : others.points) {
       if (result.cancelled) break;
-      AddOthers(BranchesWithReactions(structure, contacts, begin, arrival, limit, mpec, cancelled), begin, &result);
+      AddOthers(BranchesWithReactions(structure, contacts, begin, arrival, limit, further, cancelled), begin, &result);
     }
   }
   FindMirrorBranches(&result.branches);

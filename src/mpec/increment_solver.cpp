@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "contact_path/contact/nearest_point.h"
+#include "contact_path/equations/nearest_point.h"
 
 namespace contact_path {
 namespace {

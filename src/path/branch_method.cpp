@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "contact_path/mpec/short_increment.h"
 #include "contact_path/path/automatic_step.h"
 #include "contact_path/path/diagnosis.h"
 
@@ -117,7 +118,10 @@ std::optional<EndReason> BranchMethod::PassEvent(const PathPoint& point, const A
                                                  const BranchChoice* choice, EventRecord* record,
                                                  std::string* message) {
   const ActiveSetTolerance limit = ActiveSetTolerance::For(largest_reaction_, point.s);
-  const BranchSet on = FindBranches(model_.structure, model_.contacts, point, arrival, limit, &mpec_, cancelled_);
+  const BranchSet on = FindBranches(
+      model_.structure, model_.contacts, point, arrival, limit,
+      [this](const PathPoint& at, const Eigen::VectorXd& along) { return StatesOfShortIncrements(at, along, &mpec_); },
+      cancelled_);
   if (on.cancelled) {
     *message = "the caller asked for it";
     return EndReason::kCancelled;

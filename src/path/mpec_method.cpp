@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
-#include "contact_path/contact/fixed_state_system.h"
-#include "contact_path/contact/nearest_point.h"
+#include "contact_path/equations/fixed_state_system.h"
+#include "contact_path/equations/nearest_point.h"
 #include "contact_path/path/automatic_step.h"
 
 namespace contact_path {

@@ -12,6 +12,7 @@
 #include "branch/model_point.h"
 #include "contact_path/branch/test_functions.h"
 #include "contact_path/mpec/ipopt_solver.h"
+#include "contact_path/mpec/short_increment.h"
 #include "contact_path/path/model.h"
 #include "support/dense.h"
 #include "support/random.h"
@@ -38,7 +39,9 @@ struct Rest {
   }
 
   BranchSet Branches(const Arrival& arrival) {
-    return FindBranches(model.structure, model.contacts, point, arrival, ActiveSetTolerance(), &mpec);
+    return FindBranches(
+        model.structure, model.contacts, point, arrival, ActiveSetTolerance(),
+        [this](const PathPoint& at, const VectorXd& along) { return StatesOfShortIncrements(at, along, &mpec); });
   }
   BranchSet FromStart(double sign) {
     Arrival arrival;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "contact_path/contact/contact_pair.h"
-#include "contact_path/contact/fixed_state_system.h"
+#include "contact_path/equations/fixed_state_system.h"
 #include "contact_path/path/model.h"
 #include "contact_path/scene/program.h"
 #include "contact_path/verify/verify_path.h"

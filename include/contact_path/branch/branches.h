@@ -10,7 +10,6 @@
 #include "contact_path/branch/active_set_tolerance.h"
 #include "contact_path/contact/contact_pair.h"
 #include "contact_path/contact/path_point.h"
-#include "contact_path/mpec/increment_solver.h"
 #include "contact_path/structure/structure.h"
 
 namespace contact_path {
@@ -46,16 +45,20 @@ struct BranchSet {
   int rigid_modes = 0;           // most motions found that change neither load nor reactions where nothing else moves
 };
 
+// Combinations of the states of all contacts that may lead on from a point, found elsewhere. direction: of the arrival.
+using FurtherStates =
+    std::function<std::vector<std::vector<ContactState>>(const PathPoint& point, const Eigen::VectorXd& direction)>;
+
 // All branches from `point`, an equilibrium, without the branch of arrival. WeaklyActive are the contacts with an
 // inequality at its limit, and all that slip. Of branches with the same direction one is kept: that in which fewest
 // contacts slip without moving. Where all branches turn by 90 degrees or more, or there is none, reactions may have to
 // change while nothing moves, as where a block that is carried along meets a stop: then the branches with all other
 // reactions that the point can have (reaction_redistribution.h) are added. Up to 4^6 combinations of states are all
-// tried; of more, those that principal pivoting on the rates (rate_problem.h) leads to from many first guesses. `mpec`,
-// the increment problem in the limit of a short increment, adds what it finds where the structure is small or nothing
-// else was found. Each is certified like any other. cancelled: asked often, may be empty.
+// tried; of more, those that principal pivoting on the rates (rate_problem.h) leads to from many first guesses, and the
+// `further` ones where the structure is small or nothing else was found. Each is certified like any other. cancelled:
+// asked often. further, cancelled: may be empty.
 BranchSet FindBranches(const Structure& structure, const ContactPairs& contacts, const PathPoint& point,
-                       const Arrival& arrival, const ActiveSetTolerance& limit, IncrementSolver* mpec,
+                       const Arrival& arrival, const ActiveSetTolerance& limit, const FurtherStates& further,
                        const std::function<bool()>& cancelled = nullptr);
 
 }  // namespace contact_path

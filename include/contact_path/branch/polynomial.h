@@ -5,7 +5,7 @@
 #include <array>
 #include <optional>
 
-#include "contact_path/contact/jet.h"
+#include "contact_path/equations/jet.h"
 
 namespace contact_path {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "contact_path/branch/polynomial.h"
-#include "contact_path/contact/fixed_state_system.h"
+#include "contact_path/equations/fixed_state_system.h"
 #include "contact_path/linear/bordered_solver.h"
 
 namespace contact_path {

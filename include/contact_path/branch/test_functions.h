@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "contact_path/branch/smooth_arc.h"
-#include "contact_path/contact/fixed_state_system.h"
+#include "contact_path/equations/fixed_state_system.h"
 
 namespace contact_path {
 

@@ -1,14 +1,14 @@
 // The equations of equilibrium with the state of every contact fixed: a smooth system.
-#ifndef CONTACT_PATH_CONTACT_FIXED_STATE_SYSTEM_H_
-#define CONTACT_PATH_CONTACT_FIXED_STATE_SYSTEM_H_
+#ifndef CONTACT_PATH_EQUATIONS_FIXED_STATE_SYSTEM_H_
+#define CONTACT_PATH_EQUATIONS_FIXED_STATE_SYSTEM_H_
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <vector>
 
 #include "contact_path/contact/contact_pair.h"
-#include "contact_path/contact/jet.h"
 #include "contact_path/contact/path_point.h"
+#include "contact_path/equations/jet.h"
 #include "contact_path/structure/structure.h"
 
 namespace contact_path {
@@ -146,4 +146,4 @@ class FixedStateSystem {
 
 }  // namespace contact_path
 
-#endif  // CONTACT_PATH_CONTACT_FIXED_STATE_SYSTEM_H_
+#endif  // CONTACT_PATH_EQUATIONS_FIXED_STATE_SYSTEM_H_

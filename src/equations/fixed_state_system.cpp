@@ -1,4 +1,4 @@
-#include "contact_path/contact/fixed_state_system.h"
+#include "contact_path/equations/fixed_state_system.h"
 
 #include <algorithm>
 

@@ -1,10 +1,10 @@
 // Newton's method on the equations of fixed contact states, to the solution nearest to a wanted point.
-#ifndef CONTACT_PATH_CONTACT_NEAREST_POINT_H_
-#define CONTACT_PATH_CONTACT_NEAREST_POINT_H_
+#ifndef CONTACT_PATH_EQUATIONS_NEAREST_POINT_H_
+#define CONTACT_PATH_EQUATIONS_NEAREST_POINT_H_
 
 #include <Eigen/Core>
 
-#include "contact_path/contact/fixed_state_system.h"
+#include "contact_path/equations/fixed_state_system.h"
 
 namespace contact_path {
 
@@ -24,4 +24,4 @@ NearestPoint FindNearestPoint(FixedStateSystem* system, const Eigen::VectorXd& s
 
 }  // namespace contact_path
 
-#endif  // CONTACT_PATH_CONTACT_NEAREST_POINT_H_
+#endif  // CONTACT_PATH_EQUATIONS_NEAREST_POINT_H_

@@ -1,4 +1,4 @@
-#include "contact_path/contact/nearest_point.h"
+#include "contact_path/equations/nearest_point.h"
 
 #include <cmath>
 

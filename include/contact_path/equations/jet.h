@@ -1,6 +1,6 @@
 // A scalar along a curve.
-#ifndef CONTACT_PATH_CONTACT_JET_H_
-#define CONTACT_PATH_CONTACT_JET_H_
+#ifndef CONTACT_PATH_EQUATIONS_JET_H_
+#define CONTACT_PATH_EQUATIONS_JET_H_
 
 namespace contact_path {
 
@@ -13,4 +13,4 @@ struct Jet {
 
 }  // namespace contact_path
 
-#endif  // CONTACT_PATH_CONTACT_JET_H_
+#endif  // CONTACT_PATH_EQUATIONS_JET_H_
