@@ -46,6 +46,12 @@ class Path:
     def contacts(self):
         return [name[6:] for name in self.increments[0] if name.startswith('state_')]
 
+    def stages(self):
+        """The names of the stages of the program that were traced; none without a program."""
+        count = int(self.increments[-1].get('stage', 0))
+        names = [stage['name'] for stage in self.scene['program']] if self.scene is not None else []
+        return ['stage %d' % (i + 1) + (': ' + names[i] if i < len(names) and names[i] else '') for i in range(count)]
+
     def full_increments(self):
         """Those that carry positions and contacts."""
         node = 'x_' + self.nodes()[0]

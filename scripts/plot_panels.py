@@ -4,6 +4,9 @@ import math
 import numpy as np
 from matplotlib.patches import Rectangle
 
+from path_curve import line_through
+from path_quantities import column, label
+
 # Kinds that are marked: label, marker, colour.
 MARKS = {
     'start': ('start', 'o', 'black'),
@@ -11,15 +14,21 @@ MARKS = {
     'corner_limit': ('corner limit point', '^', 'tab:purple'),
     'contact_event': ('contact event', 'D', 'tab:green'),
     'bifurcation': ('bifurcation', '*', 'tab:orange'),
+    'stage_end': ('end of a stage', 'X', '0.3'),
 }
 
 # Colours of the contact states: they differ for those who see no red or no green, too.
 STATES = {'open': 'white', 'stick': '#d55e00', 'slip+': '#f0c000', 'slip-': '#56b4e9', 'closed': '#009e73'}
 EDGE = '0.35'  # around fields in these colours
 
-UNITS = {'load_factor': '[-]', 'arc_length': '[-]', 'dissipation': '[force length]', 'strain_energy': '[force length]',
-         'external_work': '[force length]', 'equilibrium_residual': '[-]', 'complementarity_residual': '[-]',
-         'solve_time': '[s]'}
+# Of lines where there are several paths: told apart by colour and dashes together. Colours differ for those who see no red
+# or no green, too.
+COLOURS = ('#0072b2', '#d55e00', '#009e73', '#cc79a7', '#56b4e9', '#e69f00', '0.2', '#7b4b2a', '#6a3d9a', '0.6')
+DASHES = ('-', (0, (6, 2)), (0, (1.5, 1.5)), (0, (6, 2, 1.5, 2)), (0, (3, 1, 3, 1, 1, 1)), (0, (9, 2, 3, 2)))
+FEW_PATHS = 3  # drawn over each other, the first ones broad; more of them are numbered
+SAMPLES = 100  # points of a line, for the place of its number
+MOST_LISTED = 24  # stages in a legend
+BESIDE = {'fontsize': 9, 'loc': 'upper left', 'bbox_to_anchor': (1.01, 1.0), 'borderaxespad': 0.0, 'handlelength': 3.0}
 
 MOST_CONTACTS = 40  # from here on, contacts that stay open all along get no bar
 TALLEST_STATES = 7.0  # inches of bars, and of one:
@@ -27,64 +36,45 @@ TALLEST_BAR = 0.3
 NEAR = 30.0  # points: increments as near as this on the figure share a label
 
 
-def quantities(path):
-    """Name as the user writes it -> column, of everything that can be plotted."""
-    known = {name: name for name in path.increments[0] if name != 'kind' and not name.startswith('state_')}
-    for node in path.nodes():
-        for axis in 'xy':
-            known['%s.%s' % (node, axis)] = known.pop('%s_%s' % (axis, node))
-    return known
-
-
 def default_quantity(path):
     """The coordinate that moves most; one that is free where that is known."""
-    known = quantities(path)
     increments = path.full_increments()
     nodes = [(node, axis) for node in path.nodes() for axis in 'xy']
     if path.scene is not None:
         held = {(node['name'], axis) for node in path.scene['nodes'] for axis in 'xy' if node['fixed_' + axis]}
         nodes = [coordinate for coordinate in nodes if coordinate not in held] or nodes
 
-    def travel(name):
-        values = [increment[known[name]] for increment in increments]
+    def travel(coordinate):
+        values = [increment['%s_%s' % coordinate[::-1]] for increment in increments]
         return max(values) - min(values)
 
-    return max(('%s.%s' % coordinate for coordinate in nodes), key=travel)
-
-
-def label(quantity):
-    if quantity.endswith(('.x', '.y')):
-        return 'position %s of node %s [length]' % (quantity[-1], quantity[:-2])
-    for start, text, unit in (('gap_', 'gap of ', '[length]'), ('rn_', 'normal reaction of ', '[force]'),
-                              ('rt_', 'tangential reaction of ', '[force]')):
-        if quantity.startswith(start):
-            return '%s%s %s' % (text, quantity[len(start):], unit)
-    return ' '.join((quantity.replace('_', ' '), UNITS.get(quantity, ''))).strip()
+    return '%s.%s' % max(nodes, key=travel)
 
 
 def draw_path(axes, paths, x, y, numbered=()):
     """A quantity y against another, x, a line for each path; critical points in the colours of their kinds, or, where
-    there are several paths, in the colours of the lines.
+    there are several paths, in the colours of the lines. A single path of a program has a colour for each stage.
 
     numbered: for each path, the increments that get their index beside them.
     """
     several = len(paths) > 1
     counts = [sum(increment['kind'] != 'regular' for increment in path.increments) for path in paths]
     size = 65 if max(counts) <= 30 else 30
-    lines = []
     for number, path in enumerate(paths):
         increments, places = points(path, x, y)
-        # The load factor is 0 again where a stage starts: no line goes there.
-        starts = [i for i, increment in enumerate(increments) if i > 0 and increment['kind'] == 'start']
-        line, = axes.plot(*np.insert(places, starts, math.nan, axis=0).T, label=path.title if several else None,
-                          **line_style(number, len(paths)))
-        lines.append(line)
+        style = line_style(number, len(paths))
+        if several or len(path.stages()) < 2:
+            text = ('%d: %s' % (number + 1, path.title) if len(paths) > FEW_PATHS else path.title) if several else None
+            axes.plot(*line_through(increments, places).T, label=text, **style)
+        else:
+            draw_stages(axes, path, increments, places)
         for kind, (_, marker, colour) in MARKS.items():
-            axes.scatter(*places[[increment['kind'] == kind for increment in increments]].T, marker=marker, zorder=20 + number,
-                         color=line.get_color() if several else colour, edgecolors='white', linewidths=0.6,
+            marked = [kind_of(increments, i) == kind for i in range(len(increments))]
+            axes.scatter(*places[marked].T, marker=marker, zorder=20 + number,
+                         color=style['color'] if several else colour, edgecolors='white', linewidths=0.6,
                          s=(1.8 - 0.8 * (number + 1) / len(paths)) * size * (2 if marker == '*' else 1))
     for kind, (text, marker, colour) in MARKS.items():
-        count = sum(increment['kind'] == kind for path in paths for increment in path.increments)
+        count = sum(kind_of(path.increments, i) == kind for path in paths for i in range(len(path.increments)))
         if count:
             axes.scatter([], [], marker=marker, color='0.4' if several else colour, s=130 if marker == '*' else 65,
                          label=text if several else '%s (%d)' % (text, count))
@@ -93,14 +83,60 @@ def draw_path(axes, paths, x, y, numbered=()):
     axes.set_xlabel(label(x), fontsize=12)
     axes.set_ylabel(label(y), fontsize=12)
     axes.autoscale_view()
-    texts = [draw_legend(axes)]
-    for path, increments, line in zip(paths, numbered, lines):
-        write_indices(axes, path, increments, x, y, line.get_color() if several else 'black', texts)
+    if has_legend_beside(paths):
+        axes.legend(**BESIDE)
+        texts = []
+    else:
+        texts = [draw_legend(axes)]
+    if len(paths) > FEW_PATHS:
+        write_numbers(axes, [points(path, x, y)[1] for path in paths])
+    for number, (path, increments) in enumerate(zip(paths, numbered)):
+        write_indices(axes, path, increments, x, y, line_style(number, len(paths))['color'] if several else 'black', texts)
+
+
+def write_numbers(axes, lines):
+    """The number of each line (n, 2), from 1, upon it: where it is farthest from all other lines and numbers."""
+    places = [axes.transData.transform(line[np.linspace(0, len(line) - 1, min(len(line), SAMPLES), dtype=int)]) for line in lines]
+    for number, place in enumerate(places):
+        others = np.vstack(places[:number] + places[number + 1:])
+        distances = np.hypot(*(place[:, None] - others[None]).transpose(2, 0, 1)).min(axis=1)
+        best = place[np.argmax(distances)]
+        axes.annotate('%d' % (number + 1), axes.transData.inverted().transform(best), fontsize=9, ha='center', va='center',
+                      color=line_style(number, len(lines))['color'], zorder=40,
+                      bbox={'facecolor': 'white', 'alpha': 0.85, 'pad': 0.8, 'edgecolor': 'none'})
+
+
+def has_legend_beside(paths):
+    """Many lines leave no room for their legend among them."""
+    return len(paths) > FEW_PATHS or len(paths) == 1 and len(paths[0].stages()) > FEW_PATHS
+
+
+def legend_width(paths):
+    """Of a legend beside the panel, in inches."""
+    texts = [path.title for path in paths] if len(paths) > 1 else paths[0].stages()
+    return 0.9 + 0.068 * max(20, max(map(len, texts))) if has_legend_beside(paths) else 0.0
+
+
+def draw_stages(axes, path, increments, places):
+    """A line in a colour of its own for each stage."""
+    line = line_through(increments, places)
+    cuts = [0, *np.flatnonzero(np.isnan(line[:, 0])), len(line)]
+    stages = path.stages()
+    for number, (begin, end) in enumerate(zip(cuts, cuts[1:])):
+        text = stages[number] if number < MOST_LISTED else '... %d stages' % len(stages) if number == MOST_LISTED else None
+        axes.plot(*line[begin:end].T, label=text, **{**line_style(number, len(stages)), 'alpha': 1.0})
+
+
+def kind_of(increments, i):
+    """As MARKS has it: the last increment of a stage of a program is marked unless it is critical itself."""
+    kind = increments[i]['kind']
+    ends = 'stage' in increments[i] and (i + 1 == len(increments) or increments[i + 1]['kind'] == 'start')
+    return 'stage_end' if ends and kind == 'regular' else kind
 
 
 def points(path, x, y):
     """The increments that carry both quantities, and their values (., 2)."""
-    x, y = quantities(path)[x], quantities(path)[y]
+    x, y = column(x), column(y)
     increments = [increment for increment in path.increments if not math.isnan(increment[x] + increment[y])]
     return increments, np.array([(increment[x], increment[y]) for increment in increments]).reshape(-1, 2)
 
@@ -114,17 +150,18 @@ def draw_legend(axes):
 
 
 def line_style(number, count):
-    """Of a path among several: the first ones are broad, they show below the later ones."""
+    """Of a line among several. A few are drawn over each other, the first ones broad: they show below the later ones."""
+    if count > FEW_PATHS:
+        return {'color': COLOURS[number % len(COLOURS)], 'linestyle': DASHES[number % len(DASHES)], 'linewidth': 1.7,
+                'zorder': 1 + number}
     below = (count - 1 - number) / max(count - 1, 1)
-    return {'color': 'C%d' % (number % 10), 'linewidth': 1.5 + 2.5 * below, 'alpha': 0.6 if below else 1.0,
-            'zorder': 1 + number}
+    return {'color': COLOURS[number], 'linewidth': 1.5 + 2.5 * below, 'alpha': 0.6 if below else 1.0, 'zorder': 1 + number}
 
 
 def write_indices(axes, path, increments, x, y, colour, texts):
     """Beside their points; increments that lie close together share a label. texts: boxes of those that stand already."""
     all_increments, data = points(path, x, y)
     line = axes.transData.transform(data) * 72.0 / axes.figure.dpi  # places on the figure, in points
-    low, high = (corner * 72.0 / axes.figure.dpi for corner in axes.get_window_extent().get_points())
     groups = []  # place in the path, indices of increments
     for increment in increments:
         i = all_increments.index(increment)
@@ -136,6 +173,7 @@ def write_indices(axes, path, increments, x, y, colour, texts):
                 break
         else:
             groups.append((i, [int(increment['index'])]))
+    low, high = (corner * 72.0 / axes.figure.dpi for corner in axes.get_window_extent().get_points())
     for i, indices in groups:
         text = ', '.join(map(str, indices)) if len(indices) <= 3 else '%d ... %d' % (indices[0], indices[-1])
         around = line - line[i]
@@ -244,20 +282,22 @@ def draw_energies(axes, paths, arc_length):
     several = len(paths) > 1
     for number, path in enumerate(paths):
         arc = path.column('arc_length')
-        for column, text, dashes, colour in ENERGIES:
-            if column not in path.increments[0]:
+        for name, text, dashes, colour in ENERGIES:
+            if name not in path.increments[0]:
                 continue
-            start = path.increments[0][column]
-            style = line_style(number, len(paths)) if several else {'color': colour}
-            axes.plot(arc, [value - start for value in path.column(column)], linestyle=dashes,
-                      label=None if several else text, **style)
+            start = path.increments[0][name]
+            style = {**line_style(number, len(paths)), 'linestyle': dashes} if several else {'color': colour, 'linestyle': dashes}
+            axes.plot(arc, [value - start for value in path.column(name)], label=None if several else text, **style)
     if several:
         for number, path in enumerate(paths):
-            axes.plot([], [], label=path.title, **line_style(number, len(paths)))
-        for column, text, dashes, _ in ENERGIES:
-            if any(column in path.increments[0] for path in paths):
+            axes.plot([], [], label=path.title, **{**line_style(number, len(paths)), 'linestyle': '-'})
+        for name, text, dashes, _ in ENERGIES:
+            if any(name in path.increments[0] for path in paths):
                 axes.plot([], [], color='0.4', linestyle=dashes, label=text)
     axes.set_xlim(0.0, arc_length)
     axes.set_xlabel(label('arc_length'), fontsize=12)
     axes.set_ylabel('energy [force length]', fontsize=12)
-    axes.legend(fontsize=10)
+    if len(paths) > FEW_PATHS:
+        axes.legend(**BESIDE)
+    else:
+        axes.legend(fontsize=10)

@@ -9,6 +9,7 @@ from matplotlib.path import Path as Outline
 from matplotlib.patheffects import withStroke
 
 from plot_panels import MARKS, STATES, free_direction, text_box
+from scene_arrays import Structure  # noqa: F401  the first argument of Shape
 
 MOST = 9  # shapes that are chosen where nothing is said
 MOST_WANTED = 24  # shapes in a figure
@@ -27,83 +28,6 @@ MANY_NODES, MANY_MARKS = 100, 30  # from here on they are small
 FLATTEST, STEEPEST = 0.22, 1.25  # height over width of a shape
 
 
-class Structure:
-    """The scene as arrays: nodes (n, 2), bars (m, 2) of indices, normals and tangents (k, 2) of the k contacts.
-
-    stages: what the load factor of each stage brings on: (name, target, loads, displacements of obstacles). Without a
-    program there is one, of the scene's own.
-    """
-
-    def __init__(self, scene):
-        self.names = [node['name'] for node in scene['nodes']]
-        index = {name: i for i, name in enumerate(self.names)}
-        self.initial = np.array([[node['x'], node['y']] for node in scene['nodes']])
-        self.fixed = np.array([[node['fixed_x'], node['fixed_y']] for node in scene['nodes']])
-        self.bars = np.array([[index[name] for name in bar['nodes']] for bar in scene['bars']],
-                             dtype=int).reshape(-1, 2)
-        self.bar_directions = self.find_bar_directions()
-        self.supports = self.find_supports()
-        self.superelements = [([index[name] for name in part['nodes']], np.array(part['rest_positions'], dtype=float))
-                              for part in scene['superelements']]
-        self.constant_loads = self.loads_of(load for load in scene['loads'] if load['constant'])
-        own = {'name': '', 'target': 1.0, 'loads': [load for load in scene['loads'] if not load['constant']],
-               'obstacle_motions': scene['obstacle_motions']}
-        self.stages = [(stage['name'], stage['target'], self.loads_of(stage['loads']),
-                        {motion['obstacle']: np.array([motion['dx'], motion['dy']])
-                         for motion in stage['obstacle_motions']}) for stage in scene['program'] or [own]]
-        self.obstacles = {}  # name -> point, normal, friction
-        for obstacle in scene['obstacles']:
-            normal = np.array([obstacle['nx'], obstacle['ny']])
-            self.obstacles[obstacle['name']] = (np.array([obstacle['px'], obstacle['py']]), normal / np.hypot(*normal),
-                                                obstacle['friction'])
-        self.contact_nodes = np.array([index[contact['node']] for contact in scene['contacts']], dtype=int)
-        self.contact_obstacles = [contact['obstacle'] for contact in scene['contacts']]
-        self.contacts = ['%s@%s' % (contact['node'], contact['obstacle']) for contact in scene['contacts']]
-        self.normals = np.array([self.obstacles[name][1] for name in self.contact_obstacles]).reshape(-1, 2)
-        self.tangents = np.column_stack((self.normals[:, 1], -self.normals[:, 0]))
-        self.friction = np.array([self.obstacles[name][2] for name in self.contact_obstacles])
-
-    def loads_of(self, loads):
-        """Forces (n, 2) on the nodes."""
-        forces = np.zeros_like(self.initial)
-        for load in loads:
-            forces[self.names.index(load['node'])] += (load['fx'], load['fy'])
-        return forces
-
-    def has(self, obstacle, normal):
-        return obstacle in self.obstacles and tuple(self.obstacles[obstacle][1]) == normal
-
-    def is_at(self, obstacle, normal):
-        """For each contact, whether its obstacle is this one."""
-        return np.array([name == obstacle and self.has(name, normal) for name in self.contact_obstacles], dtype=bool)
-
-    def positions(self, increment):
-        return np.array([[increment['x_' + name], increment['y_' + name]] for name in self.names])
-
-    def of_contacts(self, increment, quantity):
-        return np.array([increment[quantity + name] for name in self.contacts])
-
-    def find_bar_directions(self):
-        """For each node the directions, of unit length, to those that it is joined to at the start."""
-        directions = [[] for _ in self.names]
-        vectors = self.initial[self.bars[:, 1]] - self.initial[self.bars[:, 0]]
-        vectors /= np.maximum(np.hypot(*vectors.T), 1e-300)[:, None]
-        for (a, b), vector in zip(self.bars, vectors):
-            directions[a].append(vector)
-            directions[b].append(-vector)
-        return directions
-
-    def find_supports(self):
-        """Node -> direction to the ground of its support: away from the structure, as far as the support allows."""
-        found = {}
-        for node in np.flatnonzero(self.fixed.any(axis=1)):
-            inwards = sum(self.bar_directions[node], np.zeros(2))
-            fixed_x, fixed_y = self.fixed[node]
-            directions = ([(0, -1), (0, 1)] if fixed_y else []) + ([(-1, 0), (1, 0)] if fixed_x else [])
-            found[node] = np.array(min(directions, key=lambda direction: round(inwards.dot(direction), 6)))
-        return found
-
-
 class Shape:
     """The structure in an increment of the path. Loads (n, 2) on the nodes; reactions (k, 2) on the contacts."""
 
@@ -119,13 +43,9 @@ class Shape:
         self.reactions = self.normal_parts + self.tangential_parts
         self.cone = structure.friction[:, None] * rn * structure.tangents  # half of its base
         self.touching = self.places[structure.contact_nodes]
-        number = int(increment.get('stage', 1))
-        self.stage, _, loads, motions = structure.stages[number - 1]
-        self.loads = increment['load_factor'] * loads
-        self.constant_loads = structure.constant_loads + sum(
-            target * loads for _, target, loads, _ in structure.stages[:number - 1])  # they stay
-        self.obstacles = {name: point + increment['load_factor'] * motions.get(name, 0.0) + sum(
-            target * motions.get(name, 0.0) for _, target, _, motions in structure.stages[:number - 1])
+        self.stage = structure.stages[structure.stage_index(increment)][0]
+        self.loads, self.constant_loads = structure.loads_by_stage(increment)
+        self.obstacles = {name: point + structure.obstacle_shift(name, increment)
                           for name, (point, _, _) in structure.obstacles.items()}
 
     def forces(self):

@@ -22,7 +22,9 @@ import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 from matplotlib.quiver import Quiver  # noqa: E402
 
+import path_curve  # noqa: E402
 import path_file  # noqa: E402
+import path_quantities  # noqa: E402
 import plot_panels  # noqa: E402
 import plot_shapes  # noqa: E402
 
@@ -108,6 +110,100 @@ class Panels(QuickPlotTest):
         with open(self.path('cut.csv'), 'w') as file:
             file.write(text[:len(text) * 2 // 3])
         self.assert_main_refuses([self.path('cut.csv')], 'cut.csv', 'line')
+
+
+class Curves(QuickPlotTest):
+    """The line that is drawn through the increments."""
+
+    def read(self, scene, *options):
+        path = path_file.read(self.trace(scene, 'a.csv', *options))
+        path.scene = path_file.read_scene(scene_file(scene))
+        return path
+
+    def line(self, path, x, y):
+        increments, places = plot_panels.points(path, x, y)
+        return increments, places, path_curve.line_through(increments, places)
+
+    def test_closed_form(self):
+        """The load of the sliding bar, as docs/scenes.md has it."""
+        _, places, line = self.line(self.read('sliding_bar', '--accuracy', 'fast'), 'b.x', 'load_factor')
+        x, load = line.T
+        wanted = 100.0 / 50.0 ** 0.5 * (1.0 / np.hypot(x, 5.0) - 1.0 / 50.0 ** 0.5) * (1.5 - x)
+        self.assertGreater(len(line), 10 * len(places))
+        self.assertLess(np.abs(load - wanted).max(), 1e-3 * np.ptp(load))
+
+    def test_no_kink_at_a_smooth_limit_point(self):
+        path = self.read('von_mises', '--accuracy', 'fast')
+        increments, places, line = self.line(path, 'apex.y', 'load_factor')
+
+        def turns(points):
+            steps = np.diff(points / np.ptp(places, axis=0), axis=0)
+            steps = steps[np.hypot(*steps.T) > 0.0]
+            return np.abs(np.diff(np.unwrap(np.arctan2(*steps.T))))
+
+        self.assertEqual(sum(increment['kind'] == 'smooth_limit' for increment in increments), 2)
+        self.assertLess(turns(line).max(), 0.25 * turns(places).max())
+
+    def test_line_stays_between_its_increments(self):
+        """Reactions that begin and end at 0, gaps that close: no line below 0, none beyond the neighbours."""
+        for scene, x, y in (('arch19', 'a.y', 'e@roof_e.rn'), ('press_slide_lift', 'gap_b@floor', 'rn_b@floor'),
+                            ('two_dof_friction', 'rt_p@floor', 'p.y')):
+            _, places, line = self.line(self.read(scene), x, y)
+            line = line[~np.isnan(line[:, 0]), None]
+            low, high = np.minimum(places[:-1], places[1:]), np.maximum(places[:-1], places[1:])
+            between = np.all((line >= low - 1e-12) & (line <= high + 1e-12), axis=2)
+            self.assertTrue(np.all(between.any(axis=1)), scene)
+
+    def test_corner_at_an_event(self):
+        """The rigid stop is two straight lines with a kink where the gap closes."""
+        path = self.read('rigid_stop')
+        increments, _, line = self.line(path, 'b.x', 'load_factor')
+        x, load = line.T
+        np.testing.assert_allclose(x, np.minimum(1.0 + load, 1.1), atol=1e-12)
+
+    def test_slip(self):
+        """The belt goes 0.5 forth, 1 back, 1 forth; the spring takes 0.3, then 0.6 each time."""
+        path = self.read('stick_slip_cycle')
+        path_quantities.provide(path, 'b@belt.slip')
+        ends = [i for i in range(len(path.increments)) if plot_panels.kind_of(path.increments, i) == 'stage_end']
+        np.testing.assert_allclose([path.increments[i]['slip_b@belt'] for i in ends], (-0.2, 0.2, -0.2), atol=1e-12)
+
+    def test_loads(self):
+        path = self.read('two_dof_friction')
+        for quantity in 'p.fx', 'fy_p', 'load_x':
+            path_quantities.provide(path, quantity)
+        for increment in path.increments:
+            self.assertEqual((increment['fx_p'], increment['fy_p']), (increment['load_factor'], -1.0))
+            self.assertEqual(increment['load_x'], increment['load_factor'])
+
+    def test_quantities_are_spelled_as_columns_or_as_stop_criteria(self):
+        table = self.trace('sliding_bar', 'a.csv')
+        images = []
+        for x, y in ('b.x', 'b@floor.rn'), ('x_b', 'rn_b@floor'):
+            self.draw(table, '--x', x, '--y', y, '-o', self.path('a.svg'))
+            with open(self.path('a.svg'), 'rb') as file:
+                images.append(file.read())
+        self.assertEqual(*images)
+        self.assert_main_refuses([table, '--x', 'c.x'], 'did you mean b.x?')
+        self.assert_main_refuses([table, '--x', 'b@floor.slip'], 'b@floor.slip needs the scene', '--scene')
+
+    def test_many_paths_are_told_apart(self):
+        for count in 2, 3, 10, 30:
+            styles = [plot_panels.line_style(number, count) for number in range(count)]
+            self.assertEqual(len({(style['color'], style.get('linestyle')) for style in styles}), count)
+        table = self.trace('rigid_stop', 'a.csv')
+        tables = [self.path('%d.csv' % number) for number in range(10)]
+        for copy in tables:
+            os.link(table, copy)
+        texts = self.texts(*tables)
+        for number in range(10):
+            self.assertIn('%d: %d' % (number + 1, number), texts)  # in the legend
+            self.assertIn('%d' % (number + 1), texts)  # on the line
+
+    def test_stages_have_colours_and_ends(self):
+        texts = self.texts(self.trace('stick_slip_cycle', 'a.csv'), '--scene', scene_file('stick_slip_cycle'))
+        for text in 'stage 1: forth', 'stage 2: back', 'stage 3: forth again', 'end of a stage (3)':
+            self.assertIn(text, texts)
 
 
 class Shapes(QuickPlotTest):
