@@ -25,6 +25,7 @@ void Recorder::Start(const Model& model, int stage, const PathPoint& point, cons
   AcceptedPoint accepted;
   accepted.kind = IncrementKind::kStart;
   accepted.residuals = residuals;
+  accepted.solve.method = method_;
   accepted.solve.exact = true;
   accepted.event = branches;
   Fill(model, point, accepted, time);

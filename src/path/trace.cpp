@@ -67,7 +67,7 @@ class Tracer {
       : request_(request),
         control_(control),
         scales_(ProgramScales(request)),
-        recorder_(control.on_increment),
+        recorder_(request.options.method, control.on_increment),
         stop_(request) {}
 
   // An increment of an earlier trace that is kept.

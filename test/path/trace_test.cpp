@@ -59,6 +59,17 @@ TEST(Trace, MaxIncrementsDoesNotCountWhatBringsTheConstantLoadsOn) {
   EXPECT_EQ(path.increments.size(), 2u);
 }
 
+TEST(Trace, EveryIncrementNamesTheMethodOfTheRequest) {
+  for (const Method method : {Method::kBranch, Method::kMpec}) {
+    TraceRequest request = ReadExample("press_slide_lift");  // several stages: several starts
+    request.options.method = method;
+    const TracedPath path = TraceIncrements(request);
+    EXPECT_GT(IncrementsOfKind(path, IncrementKind::kStart).size(), 1U);
+    for (const Increment& increment : path.increments)
+      EXPECT_EQ(increment.solve.method, method) << "increment " << increment.index;
+  }
+}
+
 TEST(Trace, StopCriterionHoldsInTheLastRowAndInNoneBefore) {
   TraceRequest request = SlidingBar(0);
   request.options.stop = {{"load_factor", ">", 1.0}};

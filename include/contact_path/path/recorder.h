@@ -15,8 +15,9 @@ namespace contact_path {
 
 class Recorder {
  public:
-  // on_increment takes each increment; may be empty.
-  explicit Recorder(std::function<void(const Increment&)> on_increment) : on_increment_(std::move(on_increment)) {}
+  // method: of the request. on_increment takes each increment; may be empty.
+  Recorder(Method method, std::function<void(const Increment&)> on_increment)
+      : method_(method), on_increment_(std::move(on_increment)) {}
 
   // The last increment.
   const Increment& increment() const { return increment_; }
@@ -40,6 +41,7 @@ class Recorder {
   // load_before: of the increment before.
   void Give(double load_before);
 
+  Method method_;
   std::function<void(const Increment&)> on_increment_;
   Increment increment_;
   int increments_ = 0;
