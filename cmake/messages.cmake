@@ -8,6 +8,7 @@ add_message_files(FILES
   ContactState.msg
   Event.msg
   Increment.msg
+  LimitPoint.msg
   Load.msg
   Node.msg
   Obstacle.msg

@@ -1,5 +1,6 @@
 #include "contact_path/path/path_summary.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <iomanip>
 #include <locale>
@@ -28,21 +29,20 @@ void PathSummary::Add(const Increment& increment) {
       increment.kind == IncrementKind::kCornerLimit)
     ++events_;
   if (increment.kind != IncrementKind::kSmoothLimit && increment.kind != IncrementKind::kCornerLimit) return;
-  ++limit_points_;
-  if (listed_.size() == kLimitPointsListed) return;
-  std::ostringstream text = NewText();
-  text << ToString(increment.kind) << " at load factor " << std::setprecision(10) << increment.load_factor
-       << " (increment " << increment.index << ')';
-  listed_.push_back(text.str());
+  limit_points_.push_back({increment.index, increment.stage, increment.kind, increment.load_factor});
 }
 
 std::string PathSummary::ToText() const {
   std::ostringstream text = NewText();
   text << Counted(increments_, "increment") << "; limit points: ";
-  if (listed_.empty()) text << "none";
-  for (std::size_t i = 0; i < listed_.size(); ++i) text << (i == 0 ? "" : ", ") << listed_[i];
-  const int more = limit_points_ - static_cast<int>(listed_.size());
-  if (more > 0) text << " and " << more << " more";
+  if (limit_points_.empty()) text << "none";
+  const std::size_t listed = std::min(limit_points_.size(), kLimitPointsListed);
+  for (std::size_t i = 0; i < listed; ++i) {
+    const LimitPoint& point = limit_points_[i];
+    text << (i == 0 ? "" : ", ") << ToString(point.kind) << " at load factor " << std::setprecision(10)
+         << point.load_factor << " (increment " << point.index << ')';
+  }
+  if (listed < limit_points_.size()) text << " and " << limit_points_.size() - listed << " more";
   text << "; " << Counted(events_, "event");
   return text.str();
 }

@@ -44,6 +44,7 @@ void BagSink::End(const TraceResult& result) {
   message.end_reason_name = EndReasonName(message.end_reason);
   message.bag = implementation_->recorder.file_name();
   message.message = EndMessage(message.end_reason_name, result.message, implementation_->summary, message.bag);
+  message.limit_points = ToMessages(implementation_->summary.limit_points());
   implementation_->recorder.WriteResult(message);
   implementation_->recorder.Close();
 }

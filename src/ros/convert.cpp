@@ -114,6 +114,7 @@ Result SameResult(const msgs::TracePathResponse& response) {
   result.end_reason = response.end_reason;
   result.end_reason_name = response.end_reason_name;
   result.bag = response.bag;
+  result.limit_points = response.limit_points;
   return result;
 }
 
@@ -441,6 +442,19 @@ Increment FromMessage(const msgs::Increment& message) {
   increment.solve.time = message.solve_time;
   increment.event = FromMessage(message.event);
   return increment;
+}
+
+std::vector<msgs::LimitPoint> ToMessages(const std::vector<LimitPoint>& points) {
+  std::vector<msgs::LimitPoint> messages;
+  messages.reserve(points.size());
+  for (const LimitPoint& point : points) {
+    msgs::LimitPoint& to = messages.emplace_back();
+    to.index = ToCount(point.index);
+    to.stage = ToCount(point.stage);
+    to.kind = ConstantOf(kIncrementKinds, point.kind);
+    to.load_factor = point.load_factor;
+  }
+  return messages;
 }
 
 std::uint8_t ToConstant(EndReason reason) { return ConstantOf(kEndReasons, reason); }

@@ -237,6 +237,7 @@ void TraceService::Serve(const contact_path_msgs::TraceRequest& asked, const Tra
   RunTrace(core_request, increments, observer, bag.get(), response);
   response->increments = status_.increments;
   response->end_reason_name = EndReasonName(response->end_reason);
+  response->limit_points = ToMessages(summary_.limit_points());
   response->message = EndMessage(response->end_reason_name, response->message, summary_, response->bag);
   try {
     markers_.Publish();  // who has the answer finds the last increment
@@ -321,7 +322,7 @@ contact_path_msgs::TracePathFeedback TraceService::FeedbackOn(const contact_path
   feedback.load_factor = increment.load_factor;
   feedback.arc_length = increment.arc_length;
   feedback.kind = increment.kind;
-  feedback.limit_points = static_cast<std::uint32_t>(summary_.limit_points());
+  feedback.limit_points = static_cast<std::uint32_t>(summary_.limit_points().size());
   feedback.events = static_cast<std::uint32_t>(summary_.events());
   feedback.progress = status_.progress;
   return feedback;

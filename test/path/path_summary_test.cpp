@@ -30,7 +30,13 @@ TEST_F(SummaryOfIncrements, NamesLimitPointsInTheirOrder) {
   Add(IncrementKind::kSmoothLimit, 2.191505308);
   Add(IncrementKind::kBifurcation, 1.5);
   Add(IncrementKind::kCornerLimit, -1.0 / 3.0, 1);
-  EXPECT_EQ(summary_.limit_points(), 2);
+  ASSERT_EQ(summary_.limit_points().size(), 2U);
+  EXPECT_EQ(summary_.limit_points()[0].index, 2);
+  EXPECT_EQ(summary_.limit_points()[0].kind, IncrementKind::kSmoothLimit);
+  EXPECT_EQ(summary_.limit_points()[0].load_factor, 2.191505308);
+  EXPECT_EQ(summary_.limit_points()[1].index, 4);
+  EXPECT_EQ(summary_.limit_points()[1].kind, IncrementKind::kCornerLimit);
+  EXPECT_EQ(summary_.limit_points()[1].load_factor, -1.0 / 3.0);
   EXPECT_EQ(
       summary_.ToText(),
       "5 increments; limit points: smooth_limit at load factor 2.191505308 (increment 2), corner_limit at load factor "
@@ -49,9 +55,19 @@ TEST_F(SummaryOfIncrements, CountsEventsThatTheMethodNumbersAndThoseThatTheState
 
 TEST_F(SummaryOfIncrements, ListsTenLimitPointsAndCountsTheRest) {
   for (int i = 0; i < 12; ++i) Add(IncrementKind::kSmoothLimit, i);
-  EXPECT_EQ(summary_.limit_points(), 12);
+  ASSERT_EQ(summary_.limit_points().size(), 12U);
+  EXPECT_EQ(summary_.limit_points()[11].index, 11);
   const std::string text = summary_.ToText();
   EXPECT_NE(text.find("smooth_limit at load factor 9 (increment 9) and 2 more; 0 events"), std::string::npos) << text;
+}
+
+TEST_F(SummaryOfIncrements, TellsTheStageOfALimitPoint) {
+  Increment increment;
+  increment.kind = IncrementKind::kSmoothLimit;
+  increment.stage = 3;
+  summary_.Add(increment);
+  ASSERT_EQ(summary_.limit_points().size(), 1U);
+  EXPECT_EQ(summary_.limit_points()[0].stage, 3);
 }
 
 TEST_F(SummaryOfIncrements, FollowsTheReasonOfTheEnd) {

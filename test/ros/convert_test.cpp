@@ -419,6 +419,8 @@ TEST(ConvertTest, ResultsHoldTheResponse) {
   response.end_reason = Response::END_PATH_END;
   response.end_reason_name = "path_end";
   response.bag = "000001_scene.bag";
+  response.limit_points =
+      ToMessages({{3, 1, IncrementKind::kSmoothLimit, 2.5}, {5, 2, IncrementKind::kCornerLimit, -0.25}});
   const auto expect_same = [&response](const auto& result) {
     EXPECT_EQ(result.status, response.status);
     EXPECT_EQ(result.message, response.message);
@@ -426,6 +428,13 @@ TEST(ConvertTest, ResultsHoldTheResponse) {
     EXPECT_EQ(result.end_reason, response.end_reason);
     EXPECT_EQ(result.end_reason_name, response.end_reason_name);
     EXPECT_EQ(result.bag, response.bag);
+    ASSERT_EQ(result.limit_points.size(), 2U);
+    EXPECT_EQ(result.limit_points[0].index, 3U);
+    EXPECT_EQ(result.limit_points[0].stage, 1U);
+    EXPECT_EQ(result.limit_points[0].kind, msgs::Increment::SMOOTH_LIMIT);
+    EXPECT_EQ(result.limit_points[0].load_factor, 2.5);
+    EXPECT_EQ(result.limit_points[1].stage, 2U);
+    EXPECT_EQ(result.limit_points[1].kind, msgs::Increment::CORNER_LIMIT);
   };
   expect_same(ThroughTheWire(ToResult(response)));
   expect_same(ThroughTheWire(ToActionResult(response)));

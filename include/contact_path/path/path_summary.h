@@ -10,14 +10,22 @@
 
 namespace contact_path {
 
+// Where the load factor turns.
+struct LimitPoint {
+  int index = 0;                                     // of its increment
+  int stage = 0;                                     // as in Increment
+  IncrementKind kind = IncrementKind::kSmoothLimit;  // kSmoothLimit or kCornerLimit
+  double load_factor = 0.0;                          // of the stage
+};
+
 class PathSummary {
  public:
   // Takes every increment, in order.
   void Add(const Increment& increment);
 
-  int increments() const { return increments_; }      // increment 0 included
-  int limit_points() const { return limit_points_; }  // smooth ones and corners
-  int events() const { return events_; }              // increments where contacts change their states, or could
+  int increments() const { return increments_; }                                 // increment 0 included
+  const std::vector<LimitPoint>& limit_points() const { return limit_points_; }  // in the order of the path
+  int events() const { return events_; }  // increments where contacts change their states, or could
 
   // "98 increments; limit points: smooth_limit at load factor 2.191505308 (increment 31); 4 events". Ten limit points
   // at most.
@@ -28,9 +36,8 @@ class PathSummary {
 
  private:
   int increments_ = 0;
-  int limit_points_ = 0;
   int events_ = 0;
-  std::vector<std::string> listed_;  // the first limit points
+  std::vector<LimitPoint> limit_points_;
 };
 
 }  // namespace contact_path
