@@ -71,6 +71,8 @@ void HandleSignals() {
   sigaction(SIGTERM, &action, nullptr);
 }
 
+bool IsCancelled() { return cancel_requested != 0; }
+
 void DeclareOptions(CLI::App& app, Arguments& arguments) {
   CLI::Option* const scene = app.add_option("SCENE", arguments.scene_file, "Scene file (YAML)");
   app.add_option("--csv", arguments.csv_file, "Write the increments to this file; -, or none: standard output")
@@ -136,7 +138,8 @@ Task ReadTask(const Arguments& arguments) {
   Task task;
 #ifdef CONTACT_PATH_WITH_ROS
   if (arguments.scene_file.empty()) {
-    TraceSoFar so_far = ReadTraceSoFar(arguments.resume);
+    HandleSignals();
+    TraceSoFar so_far = ReadTraceSoFar(arguments.resume, IsCancelled);
     for (const Increment& increment : so_far.increments)
       if (increment.positions.empty())
         throw std::runtime_error(arguments.resume + ": increment " + std::to_string(increment.index) +
@@ -226,7 +229,7 @@ ExitStatus RunTrace(const Task& task, const Arguments& arguments, std::ostream& 
   control.on_increment = [&sinks](const Increment& increment) {
     for (const Sink& sink : sinks) sink(increment);
   };
-  control.cancelled = [] { return cancel_requested != 0; };
+  control.cancelled = IsCancelled;
   const TraceResult result =
       task.increments ? ResumeTrace(request, *task.increments, control) : Trace(request, control);
 #ifdef CONTACT_PATH_WITH_ROS

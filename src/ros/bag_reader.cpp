@@ -36,10 +36,11 @@ typename Message::ConstPtr Read(const rosbag::MessageInstance& instance) {
   return message;
 }
 
-std::vector<RecordedTrace> ReadOpen(const rosbag::Bag& bag) {
+std::vector<RecordedTrace> ReadOpen(const rosbag::Bag& bag, const std::function<bool()>& cancelled) {
   std::vector<RecordedTrace> traces;
   rosbag::View view(bag);
   for (const rosbag::MessageInstance& instance : view) {
+    if (cancelled && cancelled()) throw ReadingCancelled(bag.getFileName());
     const std::string& topic = instance.getTopic();
     if (EndsIn(topic, names::kRequest)) {
       const auto message = Read<contact_path_msgs::TraceRequest>(instance);
@@ -62,11 +63,13 @@ std::vector<RecordedTrace> ReadOpen(const rosbag::Bag& bag) {
 
 }  // namespace
 
-std::vector<RecordedTrace> ReadTraces(const std::string& file) {
+std::vector<RecordedTrace> ReadTraces(const std::string& file, const std::function<bool()>& cancelled) {
   try {
     rosbag::Bag bag;
     bag.open(file, rosbag::bagmode::Read);
-    return ReadOpen(bag);
+    return ReadOpen(bag, cancelled);
+  } catch (const ReadingCancelled&) {
+    throw;
   } catch (const rosbag::BagUnindexedException&) {
     throw BagError(file + ": was never closed: run `rosbag reindex` on it first");
   } catch (const rosbag::BagIOException& error) {
@@ -84,8 +87,8 @@ std::vector<RecordedTrace> ReadTraces(const std::string& file) {
   }
 }
 
-RecordedTrace ReadTrace(const std::string& file) {
-  std::vector<RecordedTrace> traces = ReadTraces(file);
+RecordedTrace ReadTrace(const std::string& file, const std::function<bool()>& cancelled) {
+  std::vector<RecordedTrace> traces = ReadTraces(file, cancelled);
   if (traces.size() > 1) throw BagError(file + ": holds several traces");
   return std::move(traces.front());
 }

@@ -40,10 +40,12 @@ void CheckNothingElse(const contact_path_msgs::TraceRequest& request) {
 
 }  // namespace
 
-TraceSoFar ReadTraceSoFar(const std::string& bag) {
-  RecordedTrace trace = ReadTrace(bag);
+TraceSoFar ReadTraceSoFar(const std::string& bag, const std::function<bool()>& cancelled) {
+  RecordedTrace trace = ReadTrace(bag, cancelled);
   if (!trace.increments.empty()) {
-    const Verification verification = VerifyPath(trace.request, trace.increments);
+    const Verification verification = VerifyPath(trace.request, trace.increments, [&] {
+      if (cancelled && cancelled()) throw ReadingCancelled(bag);
+    });
     if (!verification.findings.empty()) {
       const Finding& finding = verification.findings.front();
       throw std::runtime_error(bag + " does not prove its path: increment " + std::to_string(finding.increment) + ": " +
@@ -53,7 +55,8 @@ TraceSoFar ReadTraceSoFar(const std::string& bag) {
   return {std::move(trace.request), std::move(trace.increments)};
 }
 
-TraceSoFar ReadTraceSoFar(const std::filesystem::path& directory, const contact_path_msgs::TraceRequest& request) {
+TraceSoFar ReadTraceSoFar(const std::filesystem::path& directory, const contact_path_msgs::TraceRequest& request,
+                          const std::function<bool()>& cancelled) {
   const std::filesystem::path name = request.resume;
   if (name.filename() != name || request.resume == "." || request.resume == "..")
     Refuse("resume", request.resume, "must be the name of a bag in the bag directory");
@@ -67,7 +70,9 @@ TraceSoFar ReadTraceSoFar(const std::filesystem::path& directory, const contact_
   CheckNothingElse(request);
   TraceSoFar so_far;
   try {
-    so_far = ReadTraceSoFar(file.string());
+    so_far = ReadTraceSoFar(file.string(), cancelled);
+  } catch (const ReadingCancelled&) {
+    throw;
   } catch (const std::runtime_error& unreadable) {
     Refuse("resume", request.resume, unreadable.what());
   }

@@ -81,17 +81,20 @@ void TraceAction::Trace(Server::GoalHandle goal) {
     accepted = true;
   };
   observer.on_increment = [&](const contact_path_msgs::TracePathFeedback& feedback) { goal.publishFeedback(feedback); };
-  // Asked for while the goal was still being checked, too: then it is accepted as one that is to be preempted.
-  observer.cancelled = [&] { return goal.getGoalStatus().status == actionlib_msgs::GoalStatus::PREEMPTING; };
+  // RECALLING: asked for while the goal is still being checked. It is accepted then as one that is to be preempted.
+  observer.cancelled = [&] {
+    const std::uint8_t status = goal.getGoalStatus().status;
+    return status == actionlib_msgs::GoalStatus::PREEMPTING || status == actionlib_msgs::GoalStatus::RECALLING;
+  };
   service_.Run([&] { return ToRequest(*goal.getGoal()); }, observer, &response);
 
   const contact_path_msgs::TracePathResult result = ToActionResult(response);
-  if (!accepted) {
+  if (response.status == Response::ENDED_EARLY && response.end_reason == Response::END_CANCELLED) {
+    goal.setCanceled(result, response.message);
+  } else if (!accepted) {
     goal.setRejected(result, response.message);
   } else if (response.status == Response::OK) {
     goal.setSucceeded(result, response.message);
-  } else if (response.status == Response::ENDED_EARLY && response.end_reason == Response::END_CANCELLED) {
-    goal.setCanceled(result, response.message);
   } else {
     goal.setAborted(result, response.message);
   }

@@ -11,6 +11,7 @@
 
 #include <boost/make_shared.hpp>
 
+#include "contact_path/ros/bag_reader.h"
 #include "contact_path/ros/convert.h"
 #include "contact_path/ros/memory_share.h"
 #include "contact_path/ros/names.h"
@@ -186,7 +187,7 @@ void TraceService::Serve(const contact_path_msgs::TraceRequest& asked, const Tra
   TraceRequest core_request;
   try {
     if (!asked.resume.empty()) {
-      TraceSoFar so_far = ReadTraceSoFar(parameters_.bag_directory, asked);
+      TraceSoFar so_far = ReadTraceSoFar(parameters_.bag_directory, asked, [&] { return StopWanted(observer); });
       resumed = ToMessage(so_far.request);
       resumed->resume = asked.resume;
       increments = std::move(so_far.increments);
@@ -204,6 +205,11 @@ void TraceService::Serve(const contact_path_msgs::TraceRequest& asked, const Tra
   } catch (const InvalidRequest& error) {
     response->status = Response::INVALID_REQUEST;
     response->message = error.what();
+    return;
+  } catch (const ReadingCancelled&) {
+    response->message = "the caller asked for it while the bag to resume was read";
+    TellStop(response);
+    response->end_reason_name = EndReasonName(response->end_reason);
     return;
   }
 
@@ -268,18 +274,7 @@ void TraceService::RunTrace(const TraceRequest& request, const std::optional<std
     response->status = StatusOf(result.reason);
     response->end_reason = ToConstant(result.reason);
     response->message = result.message;
-    if (result.reason != EndReason::kCancelled) return;
-    if (stop_cause_ == StopCause::kTimeLimit) {
-      response->end_reason = Response::END_TIME_LIMIT;
-      response->message =
-          "the node admits " + InSeconds(parameters_.limits.max_seconds) + " (~" + names::kMaxSeconds + ")";
-    } else if (stop_cause_ == StopCause::kMemoryLimit) {
-      response->end_reason = Response::END_MEMORY_LIMIT;
-      response->message = MemoryLimitText(parameters_.limits);
-    } else if (stop_cause_ == StopCause::kShutdown) {
-      response->status = Response::SHUTTING_DOWN;
-      response->message = "the node is being shut down";
-    }
+    if (result.reason == EndReason::kCancelled) TellStop(response);
   } catch (const std::bad_alloc&) {
     response->status = Response::ENDED_EARLY;
     response->end_reason = Response::END_MEMORY_LIMIT;
@@ -290,6 +285,22 @@ void TraceService::RunTrace(const TraceRequest& request, const std::optional<std
   } catch (const std::exception& error) {
     response->status = Response::FAILED;
     response->message = error.what();
+  }
+}
+
+void TraceService::TellStop(Response* response) const {
+  response->status = Response::ENDED_EARLY;
+  response->end_reason = Response::END_CANCELLED;
+  if (stop_cause_ == StopCause::kTimeLimit) {
+    response->end_reason = Response::END_TIME_LIMIT;
+    response->message =
+        "the node admits " + InSeconds(parameters_.limits.max_seconds) + " (~" + names::kMaxSeconds + ")";
+  } else if (stop_cause_ == StopCause::kMemoryLimit) {
+    response->end_reason = Response::END_MEMORY_LIMIT;
+    response->message = MemoryLimitText(parameters_.limits);
+  } else if (stop_cause_ == StopCause::kShutdown) {
+    response->status = Response::SHUTTING_DOWN;
+    response->message = "the node is being shut down";
   }
 }
 

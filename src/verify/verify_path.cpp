@@ -94,8 +94,9 @@ class Verifier {
     }
   }
 
-  void Run() {
+  void Run(const std::function<void()>& before_each) {
     for (increment_ = first_; increment_ < last_; ++increment_) {
+      if (before_each) before_each();
       const Increment& increment = Current();
       ++result_.increments;
       ++result_.kinds[increment.kind];
@@ -463,7 +464,8 @@ class Verifier {
 
 }  // namespace
 
-Verification VerifyPath(const TraceRequest& request, const std::vector<Increment>& increments) {
+Verification VerifyPath(const TraceRequest& request, const std::vector<Increment>& increments,
+                        const std::function<void()>& before_each) {
   Verification result;
   if (increments.empty()) result.findings.push_back({0, "the record has no increments"});
   const Scaling of_program = ProgramScales(request);
@@ -475,7 +477,7 @@ Verification VerifyPath(const TraceRequest& request, const std::vector<Increment
       result.findings.push_back({static_cast<int>(first), "is of a stage that the request does not have"});
       break;
     }
-    Verifier(request, of_program, stage, increments, first, last, &result).Run();
+    Verifier(request, of_program, stage, increments, first, last, &result).Run(before_each);
     if (last < increments.size() && !AtTarget(request, increments[last - 1]))
       result.findings.push_back({static_cast<int>(last - 1), "ends its stage, but not at its target"});
   }

@@ -5,6 +5,9 @@ CONTACT_PATH_TRACE, CONTACT_PATH_VERIFY: the programs; CONTACT_PATH_SCENES: the 
 """
 import csv
 import os
+import signal
+import subprocess
+import time
 import unittest
 
 import rosbag
@@ -19,6 +22,17 @@ WORDS = 'kind', 'state_'
 def increments_of(path):
     with open(path, newline='', encoding='utf-8') as file:
         return list(csv.DictReader(file))
+
+
+def open_files(pid):
+    directory = '/proc/%d/fd' % pid
+    files = set()
+    for name in os.listdir(directory):
+        try:
+            files.add(os.readlink(os.path.join(directory, name)))
+        except OSError:
+            pass  # closed meanwhile
+    return files
 
 
 class ResumeTest(ProgramTest):
@@ -94,6 +108,21 @@ class ResumeTest(ProgramTest):
                 change(kind, message)
         told = self.resume(self.cut(self.record('two_dof_friction')[0], 30, wanted))[0]
         self.assert_refused(told, 'has no state (full_state_every)')
+
+    def test_reading_can_be_cancelled(self):
+        bag = self.record('sliding_bar', '--step', '1e-5', '--max-increments', '20000')[0]
+        table = self.path('resumed.csv')
+        reading = subprocess.Popen([TRACE, '--resume', bag, '--csv', table], stderr=subprocess.PIPE,
+                                   universal_newlines=True)
+        while bag not in open_files(reading.pid):
+            self.assertIsNone(reading.poll())
+        asked = time.monotonic()
+        reading.send_signal(signal.SIGINT)
+        told = reading.communicate(timeout=60)[1]
+        self.assertLess(time.monotonic() - asked, 0.2)
+        self.assertEqual(reading.returncode, 1)
+        self.assertEqual(told, 'contact_path_trace: cancelled: the caller asked for it while %s was read\n' % bag)
+        self.assertFalse(os.path.exists(table))
 
     def test_bad_usage(self):
         bag = self.record('sliding_bar')[0]

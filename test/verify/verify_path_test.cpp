@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <limits>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -241,6 +242,15 @@ TEST(VerifyPath, RowsWithoutStateAreCounted) {
   const Verification verification = VerifyPath(request, increments);
   EXPECT_TRUE(verification.findings.empty()) << Listed(verification);
   EXPECT_EQ(verification.full_increments, verification.increments - left);
+}
+
+TEST(VerifyPath, EndsWhereTheCallerWantsNoMore) {
+  int asked = 0;
+  const auto interrupt = [&asked] {
+    if (++asked == 5) throw std::runtime_error("enough");
+  };
+  EXPECT_THROW(VerifyPath(Genuine().request, Genuine().increments, interrupt), std::runtime_error);
+  EXPECT_EQ(asked, 5);
 }
 
 TEST(VerifyPath, FindingsHaveAnEnd) {

@@ -3,6 +3,7 @@
 #define CONTACT_PATH_ROS_RESUME_H_
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -18,13 +19,14 @@ struct TraceSoFar {
 };
 
 // Throws std::runtime_error, one line, for a bag that cannot be read and for one whose increments are not proved
-// (verify/).
-TraceSoFar ReadTraceSoFar(const std::string& bag);
+// (verify/). `cancelled` is asked often: true throws ReadingCancelled (bag_reader.h). It may be empty.
+TraceSoFar ReadTraceSoFar(const std::string& bag, const std::function<bool()>& cancelled);
 
 // The same for a request of the node that names a bag to resume: a file in `directory`, by its plain name. The limit of
 // the number of increments is the request's if it has one. Throws InvalidRequest (scene/validate.h) for any other name,
 // for a bag as above, and for a request that also has a scene, a program or other options.
-TraceSoFar ReadTraceSoFar(const std::filesystem::path& directory, const contact_path_msgs::TraceRequest& request);
+TraceSoFar ReadTraceSoFar(const std::filesystem::path& directory, const contact_path_msgs::TraceRequest& request,
+                          const std::function<bool()>& cancelled);
 
 }  // namespace contact_path
 

@@ -20,7 +20,7 @@ namespace contact_path {
 // the next one waiting instead of refusing it: goals are traced on a thread of their own.
 //
 // Ends of a goal: REJECTED nothing was traced; SUCCEEDED as asked for (OK); PREEMPTED cancelled, by a client or by
-// ~cancel, what was accepted is kept; ABORTED any other end. RECALLED: cancelled before the node had seen it.
+// ~cancel, what was accepted is kept; ABORTED any other end. RECALLED: cancelled before it was traced.
 class TraceAction {
  public:
   // Feedback is kept for a slow subscriber as increments are. `service` must outlive this.

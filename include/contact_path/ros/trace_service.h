@@ -94,6 +94,8 @@ class TraceService {
   void PublishEnd(const Response& response);
 
   void RequestStop(StopCause cause);  // the first cause stays
+  // Status and end reason of what was asked to stop; but for ~cancel, the message, too.
+  void TellStop(Response* response) const;
   bool StopWanted(const TraceObserver& observer);
 
   const NodeParameters parameters_;

@@ -2,6 +2,7 @@
 #ifndef CONTACT_PATH_VERIFY_VERIFY_PATH_H_
 #define CONTACT_PATH_VERIFY_VERIFY_PATH_H_
 
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -42,7 +43,10 @@ constexpr int kMostFindings = 20;
 // % of the work done, mpec: 3 %, and what trapezoids leave open), states change only at events, the load factor turns
 // at limit points and only there, and the branch taken at an event is the one that follows; stages follow each other at
 // their targets, in the same state. Not checked: the other branches record, counters and times.
-Verification VerifyPath(const TraceRequest& request, const std::vector<Increment>& increments);
+//
+// before_each: called before each increment is checked; what it throws leaves VerifyPath(). May be empty.
+Verification VerifyPath(const TraceRequest& request, const std::vector<Increment>& increments,
+                        const std::function<void()>& before_each = {});
 
 // Whether the increment is at the target of its stage; false without a program.
 bool AtTarget(const TraceRequest& request, const Increment& increment);
