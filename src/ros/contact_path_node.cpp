@@ -19,6 +19,9 @@ constexpr int kThreads = 4;  // one traces for ~trace, the others answer ~cancel
 // What was published is sent by a thread of roscpp that cannot be waited for. It needs far less.
 constexpr double kTimeToSend = 0.1;  // [s]
 
+// What is left of the stream of a trace that was just cut short; the rest of a long one is dropped.
+constexpr double kTimeToStream = 0.3;  // [s]
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -54,6 +57,7 @@ int main(int argc, char** argv) {
     }
     spinner.stop();   // waits for its caller to be answered
     action.Finish();  // likewise
+    service.FinishStream(kTimeToStream);
     ros::WallDuration(kTimeToSend).sleep();
   } catch (const std::exception& error) {
     ROS_FATAL("%s", error.what());

@@ -1,5 +1,7 @@
 #include "contact_path/ros/trace_service.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
@@ -51,6 +53,21 @@ std::string MemoryLimitText(const TraceLimits& limits) {
   return "the node admits " + std::to_string(limits.max_memory) + " MB of memory (~" + names::kMaxMemory + ")";
 }
 
+// Of the megabytes that the node may take, increments that wait take a quarter at most.
+constexpr std::size_t kShareOfIncrements = 4;
+
+StreamOptions StreamOptionsOf(const NodeParameters& parameters) {
+  StreamOptions options;
+  options.queue = static_cast<std::uint32_t>(parameters.increments_queue);
+  options.most_bytes = static_cast<std::size_t>(parameters.increments_megabytes) * kMegabyte;
+  if (parameters.limits.max_memory > 0)
+    options.most_bytes = std::min(
+        options.most_bytes, static_cast<std::size_t>(parameters.limits.max_memory) * kMegabyte / kShareOfIncrements);
+  options.per_second = parameters.increments_per_second;
+  options.bytes_per_second = parameters.increments_megabytes_per_second * static_cast<double>(kMegabyte);
+  return options;
+}
+
 double SecondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 }  // namespace
@@ -60,6 +77,9 @@ NodeParameters ReadParameters(const ros::NodeHandle& private_node) {
   ReadParameter(private_node, names::kBagDirectory, "a string", &parameters.bag_directory);
   ReadParameter(private_node, names::kIncrementsQueue, "an integer", &parameters.increments_queue);
   ReadParameter(private_node, names::kIncrementsMegabytes, "an integer", &parameters.increments_megabytes);
+  ReadParameter(private_node, names::kIncrementsPerSecond, "a number", &parameters.increments_per_second);
+  ReadParameter(private_node, names::kIncrementsMegabytesPerSecond, "a number",
+                &parameters.increments_megabytes_per_second);
   parameters.markers = ReadMarkerOptions(private_node);
   ReadParameter(private_node, names::kMaxNodes, "an integer", &parameters.limits.max_nodes);
   ReadParameter(private_node, names::kMaxElements, "an integer", &parameters.limits.max_elements);
@@ -78,6 +98,14 @@ NodeParameters ReadParameters(const ros::NodeHandle& private_node) {
     if (value <= 0)
       throw std::invalid_argument("~" + std::string(name) + " = " + std::to_string(value) + ": must be > 0");
   }
+  for (const auto& [name, value] :
+       {std::pair(names::kIncrementsPerSecond, parameters.increments_per_second),
+        std::pair(names::kIncrementsMegabytesPerSecond, parameters.increments_megabytes_per_second)}) {
+    if (!(value >= 0.0) || std::isinf(value)) {
+      throw std::invalid_argument("~" + std::string(name) + " = " + std::to_string(value) +
+                                  ": must be finite and >= 0");
+    }
+  }
   parameters.limits.Validate();
   return parameters;
 }
@@ -85,10 +113,8 @@ NodeParameters ReadParameters(const ros::NodeHandle& private_node) {
 TraceService::TraceService(ros::NodeHandle private_node, const NodeParameters& parameters)
     : parameters_(parameters),
       topic_prefix_(private_node.getNamespace()),
-      increments_publisher_(private_node, static_cast<std::uint32_t>(parameters.increments_queue),
-                            static_cast<std::size_t>(parameters.increments_megabytes) * kMegabyte),
+      increments_publisher_(private_node, StreamOptionsOf(parameters)),
       markers_(private_node, parameters.markers) {
-  request_publisher_ = private_node.advertise<contact_path_msgs::TraceRequest>(names::kRequest, 1, /*latch=*/true);
   status_publisher_ = private_node.advertise<contact_path_msgs::TraceStatus>(names::kStatus, 10, /*latch=*/true);
   PublishStatus();
   trace_server_ = private_node.advertiseService(names::kTrace, &TraceService::HandleTrace, this);
@@ -99,6 +125,7 @@ void TraceService::Shutdown() {
   const std::lock_guard<std::mutex> lock(mutex_);
   shutting_down_ = true;
   RequestStop(StopCause::kShutdown);
+  answer_at_once_ = true;
 }
 
 bool TraceService::IsRunning() {
@@ -109,7 +136,15 @@ bool TraceService::IsRunning() {
 bool TraceService::IsStuck() {
   const std::lock_guard<std::mutex> lock(mutex_);
   const double limit = parameters_.limits.max_seconds;
-  return running_ && limit > 0.0 && SecondsSince(running_since_) > (1.0 + kMoreTime) * limit + kMoreSeconds;
+  return running_ && !streaming_ && limit > 0.0 &&
+         SecondsSince(running_since_) > (1.0 + kMoreTime) * limit + kMoreSeconds;
+}
+
+void TraceService::FinishStream(double seconds) {
+  const Clock::time_point start = Clock::now();
+  increments_publisher_.Flush([&] { return !ros::ok() || SecondsSince(start) > seconds; });
+  const std::size_t unsent = increments_publisher_.Discard();
+  if (unsent > 0) ROS_WARN("%zu increments were not sent, for the node ends; the bag has them", unsent);
 }
 
 bool TraceService::Admit(const std::string& scene_name, Response* response) {
@@ -121,13 +156,17 @@ bool TraceService::Admit(const std::string& scene_name, Response* response) {
   }
   if (running_) {
     response->status = Response::BUSY;
-    response->message = "the node is tracing \"" + running_scene_ + "\": call ~cancel or wait for its end";
+    response->message =
+        std::string(streaming_ ? "the node is sending the last increments of \"" : "the node is tracing \"") +
+        running_scene_ + "\": call ~cancel or wait for its end";
     return false;
   }
   running_scene_ = OneLine(scene_name);  // first: it may throw
   running_ = true;
   running_since_ = Clock::now();
+  streaming_ = false;
   stop_cause_ = StopCause::kNone;
+  answer_at_once_ = false;
   return true;
 }
 
@@ -174,9 +213,18 @@ bool TraceService::HandleTrace(Request& request, Response& response) {
 
 bool TraceService::HandleCancel(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (running_) RequestStop(StopCause::kCancel);
-  response.success = running_;
-  response.message = running_ ? "cancelling the trace of \"" + running_scene_ + "\"" : "no trace is running";
+  if (running_) {
+    RequestStop(StopCause::kCancel);
+    answer_at_once_ = true;
+    response.success = true;
+    response.message = "cancelling the trace of \"" + running_scene_ + "\"";
+    return true;
+  }
+  const std::size_t dropped = increments_publisher_.Discard();
+  response.success = dropped > 0;
+  response.message = "no trace is running";
+  if (dropped > 0)
+    response.message += "; " + std::to_string(dropped) + " increments that were still to be sent are dropped";
   return true;
 }
 
@@ -231,13 +279,12 @@ void TraceService::Serve(const contact_path_msgs::TraceRequest& asked, const Tra
   status_.trace_id = bag->number();
   status_.scene = request.scene.name;
   status_.bag = response->bag;
-  request_publisher_.publish(request);
+  increments_publisher_.PublishRequest(request);
   markers_.TakeRequest(core_request);
   PublishStatus();
   if (observer.on_start) observer.on_start();
 
   full_state_every_ = core_request.options.full_state_every;
-  increments_left_out_ = 0;
   progress_.emplace(core_request);
   summary_ = PathSummary();
   RunTrace(core_request, increments, observer, bag.get(), response);
@@ -250,9 +297,6 @@ void TraceService::Serve(const contact_path_msgs::TraceRequest& asked, const Tra
   } catch (const std::exception& error) {
     ROS_ERROR("no picture of the last increment: %s", error.what());
   }
-  if (increments_left_out_ > 0)
-    ROS_WARN("%u increments were not sent: %d MB wait for subscribers that are too slow (~%s); the bag has them",
-             increments_left_out_, parameters_.increments_megabytes, names::kIncrementsMegabytes);
   try {
     bag->WriteResult(ToResult(*response));
     bag->Close();
@@ -262,6 +306,23 @@ void TraceService::Serve(const contact_path_msgs::TraceRequest& asked, const Tra
       response->message = error.what();
     }
   }
+  WaitForStream(observer);
+}
+
+void TraceService::WaitForStream(const TraceObserver& observer) {
+  if (increments_publisher_.IsSending() && !answer_at_once_) {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      streaming_ = true;
+    }
+    PublishStatus();
+    increments_publisher_.Flush(
+        [&] { return answer_at_once_ || !ros::ok() || (observer.cancelled && observer.cancelled()); });
+  }
+  const std::size_t left_out = increments_publisher_.TakeLeftOut();
+  if (left_out > 0)
+    ROS_WARN("%zu increments were not sent: %d MB wait for subscribers that are too slow (~%s); the bag has them",
+             left_out, parameters_.increments_megabytes, names::kIncrementsMegabytes);
 }
 
 void TraceService::RunTrace(const TraceRequest& request, const std::optional<std::vector<Increment>>& increments,
@@ -311,7 +372,7 @@ void TraceService::TakeIncrement(const Increment& increment, const TraceObserver
   message->header.seq = increments_published_;
   message->trace_id = status_.trace_id;
   bag->WriteIncrement(*message);
-  if (!increments_publisher_.Publish(*message)) ++increments_left_out_;
+  increments_publisher_.Publish(*message, [&] { return StopWanted(observer); });
   ++increments_published_;
   markers_.TakeIncrement(message);
 
@@ -361,7 +422,10 @@ void TraceService::RequestStop(StopCause cause) {
 
 bool TraceService::StopWanted(const TraceObserver& observer) {
   if (!ros::ok()) RequestStop(StopCause::kShutdown);
-  if (observer.cancelled && observer.cancelled()) RequestStop(StopCause::kCancel);
+  if (observer.cancelled && observer.cancelled()) {
+    RequestStop(StopCause::kCancel);
+    answer_at_once_ = true;
+  }
   const TraceLimits& limits = parameters_.limits;
   const Clock::time_point now = Clock::now();
   if (limits.max_seconds > 0.0 && SecondsSince(running_since_) > limits.max_seconds) RequestStop(StopCause::kTimeLimit);

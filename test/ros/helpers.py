@@ -1,6 +1,8 @@
 """What the launch tests share: requests from scene files, clients that wait on conditions, readers of bags."""
 import io
 import os
+import signal
+import subprocess
 import threading
 import time
 import xmlrpc.client
@@ -115,6 +117,30 @@ class Collector:
 
     def __exit__(self, *_):
         self._subscriber.unregister()
+
+
+class Recorder:
+    """An ordinary `rosbag record` of a topic, with default options; the bag is closed when this ends."""
+
+    def __init__(self, topic, bag):
+        self.bag = bag
+        self._process = subprocess.Popen(['rosbag', 'record', '--quiet', '--output-name', bag, topic,
+                                          '__name:=recorder'], stdout=subprocess.DEVNULL)
+        wait_until(lambda: is_subscribed('/recorder', topic), 'rosbag record listens')
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        time.sleep(1.0)  # what the recorder has on its way is not to be seen from outside
+        self._process.send_signal(signal.SIGINT)
+        self._process.wait(PATIENCE)
+        # The recorder proper outlives the command; the bag has its name when it is closed.
+        wait_until(lambda: os.path.exists(self.bag), 'the recorded bag is closed')
+
+    def messages(self):
+        with rosbag.Bag(self.bag) as file:
+            return [message for _, message, _ in file.read_messages()]
 
 
 class Call:

@@ -13,6 +13,7 @@ import rosnode
 import rospy
 import rostest
 from actionlib_msgs.msg import GoalStatus
+from contact_path.msg import TraceStatus
 from contact_path.srv import TracePathResponse as Response
 
 import helpers
@@ -109,6 +110,23 @@ class ShutdownTest(unittest.TestCase):
         self.expect_exit(sent)
         self.expect_closed_bag()
 
+    def test_interrupt_does_not_wait_for_subscribers(self):
+        self.start()
+        trace = helpers.service(self.name + '/trace')
+        count = 20000  # sent in 40 s at the pace of the node
+        with helpers.Collector(self.name + '/increments'), \
+                helpers.Collector(self.name + '/status', TraceStatus) as status:
+            call = helpers.Call(trace, helpers.request_of('sliding_bar', step=1e-5, max_increments=count, stop=[]))
+            helpers.wait_until(lambda: status.messages[-1].increments == count + 1, 'all increments are accepted')
+            self.assertIsNone(call.end_time)
+            sent = time.monotonic()
+            self.node.send_signal(signal.SIGINT)
+            self.expect_exit(sent)
+        self.assertEqual(call.result().status, Response.OK)
+        _, increments, _ = self.read_bag()
+        self.assertEqual(len(increments), count + 1)
+        self.assertRegex(self.node.stdout.read(), r'\d+ increments were not sent, for the node ends; the bag has them')
+
     def test_interrupt_ends_an_idle_node(self):
         self.start()
         helpers.service(self.name + '/trace')
@@ -134,6 +152,8 @@ class ShutdownTest(unittest.TestCase):
         for parameter, line in (('max_nodes:=0', '~max_nodes = 0: must be > 0'),
                                 ('max_contacts:=many', '~max_contacts: must be an integer'),
                                 ('increments_queue:=-1', '~increments_queue = -1: must be > 0'),
+                                ('increments_per_second:=-1.0',
+                                 '~increments_per_second = -1.000000: must be finite and >= 0'),
                                 ('max_seconds:=-1.0', '~max_seconds = -1.000000: must be finite and >= 0'),
                                 ('max_memory_megabytes:=1', '~max_memory_megabytes = 1: the node itself takes'),
                                 ('keep_free_megabytes:=0', '~keep_free_megabytes = 0: must be > 0'),

@@ -77,7 +77,8 @@ class TraceActionTest(unittest.TestCase):
 
     def expect_same_result(self, recorded, result):
         for field in Response.__slots__:
-            self.assertEqual(getattr(recorded, field), getattr(result, field), field)
+            # As text: classes of messages in a bag are not those that are imported.
+            self.assertEqual(str(getattr(recorded, field)), str(getattr(result, field)), field)
 
     def expect_kept(self, result):
         """The bag of a trace that was ended from outside: closed, whole, and proved. Its increments."""
@@ -176,16 +177,16 @@ class TraceActionTest(unittest.TestCase):
         package = os.path.dirname(os.path.dirname(helpers.scene_path('sliding_bar')))
         with open(os.path.join(package, 'docs', 'messages.md')) as file:
             examples = re.findall(r'^```python\n(.*?)^```\n', file.read(), re.DOTALL | re.MULTILINE)
-        self.assertEqual(len(examples), 1)
-        said = subprocess.run([sys.executable, '-c', examples[0]], cwd=package, check=True, stdout=subprocess.PIPE,
+        example, = [example for example in examples if 'actionlib' in example]
+        said = subprocess.run([sys.executable, '-c', example], cwd=package, check=True, stdout=subprocess.PIPE,
                               universal_newlines=True, timeout=helpers.PATIENCE).stdout
         status = rospy.wait_for_message(NODE + '/status', TraceStatus, helpers.PATIENCE)
         self.assertEqual(status.scene, 'sliding_bar')
         self.assertIn(status.message, said)
         _, increments, _ = self.read_bag(status)
-        increments = re.findall(r'increment (\d+), load factor (\S+), ', said)
-        self.assertGreater(len(increments), 10)
-        for index, load_factor in increments:
+        told = re.findall(r'increment (\d+), load factor (\S+), ', said)
+        self.assertGreater(len(told), 10)
+        for index, load_factor in told:
             self.assertEqual(load_factor, '%.6g' % increments[int(index)].load_factor)
 
     # Goals that are cancelled

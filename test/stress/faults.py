@@ -61,7 +61,8 @@ def kill(world, short):
     bytes_lost = 0
     for i in range(count):
         name, request = requests[i % len(requests)]
-        node = world.node('kill_%d' % i)
+        # Without a pace: what the subscriber has is what was accepted.
+        node = world.node('kill_%d' % i, increments_per_second=0.0, increments_megabytes_per_second=0.0)
         subscriber = Subscriber(node.name)
         with Client(node.name) as client:
             client.send(request)

@@ -171,7 +171,8 @@ def deaf_subscriber(world, short):
     """A subscriber that never reads: the memory is bounded, the trace does not wait."""
     del short
     megabytes, increments = 64, 4000
-    node = world.node('deaf', increments_megabytes=megabytes)
+    node = world.node('deaf', increments_megabytes=megabytes, increments_per_second=0.0,
+                      increments_megabytes_per_second=0.0)
     request = wide_request(2000, max_increments=increments)
     alone = min(quickly(lambda: node.trace(request), 60.0, 'the trace')[1] for _ in range(2))
     before = node.memory()

@@ -29,10 +29,12 @@ namespace contact_path {
 // Parameters of the node, by their names in names.h.
 struct NodeParameters {
   std::string bag_directory = "~/.ros/contact_path";  // a leading ~ is the home directory; absolute once it is read
-  int increments_queue = 100000;   // increments kept for a subscriber that is slower than the trace, > 0
-  int increments_megabytes = 256;  // of increments kept for all such subscribers [MB], > 0
-  MarkerOptions markers;           // frame_id, picture_size
-  TraceLimits limits;              // max_nodes, max_elements, ..., keep_free_megabytes
+  int increments_queue = 100000;         // increments kept for a subscriber that is slower than they are sent, > 0
+  int increments_megabytes = 256;        // of increments that wait for subscribers [MB], > 0
+  double increments_per_second = 500.0;  // sent at most, >= 0; 0: no bound
+  double increments_megabytes_per_second = 32.0;  // likewise [MB/s]
+  MarkerOptions markers;                          // frame_id, picture_size
+  TraceLimits limits;                             // max_nodes, max_elements, ..., keep_free_megabytes
 };
 
 // Throws std::invalid_argument naming the parameter that has a wrong type or value.
@@ -76,6 +78,9 @@ class TraceService {
   // interrupted. Only the end of the process ends it.
   bool IsStuck();
 
+  // Waits until the increments of traces that were cut short are sent, or dropped after so many seconds.
+  void FinishStream(double seconds);
+
  private:
   using Request = contact_path_msgs::TracePathRequest;
   enum class StopCause { kNone, kCancel, kTimeLimit, kMemoryLimit, kShutdown };
@@ -97,29 +102,30 @@ class TraceService {
   // Status and end reason of what was asked to stop; but for ~cancel, the message, too.
   void TellStop(Response* response) const;
   bool StopWanted(const TraceObserver& observer);
+  void WaitForStream(const TraceObserver& observer);  // until the last increment is sent, or the caller will not wait
 
   const NodeParameters parameters_;
   const std::string topic_prefix_;  // of the bags' topics: the name of the node
-  ros::Publisher request_publisher_;
   IncrementPublisher increments_publisher_;
   ros::Publisher status_publisher_;
   MarkerPublisher markers_;
 
-  std::mutex mutex_;  // guards the next four
+  std::mutex mutex_;  // guards the next five
   bool running_ = false;
+  bool streaming_ = false;  // the running trace has ended, and its last increments are being sent
   std::chrono::steady_clock::time_point running_since_;
   bool shutting_down_ = false;
   std::string running_scene_;
 
   std::atomic<StopCause> stop_cause_{StopCause::kNone};
+  std::atomic<bool> answer_at_once_{false};  // the increments that wait are sent afterwards
 
   // Of the thread that traces.
   contact_path_msgs::TraceStatus status_;
   std::chrono::steady_clock::time_point status_time_;
   std::chrono::steady_clock::time_point memory_time_;  // when it was looked at
   std::uint32_t increments_published_ = 0;
-  std::uint32_t increments_left_out_ = 0;  // of them, in this trace
-  int full_state_every_ = 0;               // as in the request
+  int full_state_every_ = 0;  // as in the request
   std::optional<ProgressEstimate> progress_;
   PathSummary summary_;
 
