@@ -1,4 +1,4 @@
-# Tests of the core and of the command-line program: one for each x_test.cpp. They link the core alone.
+# Tests of the core and of the command-line program: one program a stage, and one for each long test. They link the core alone.
 #
 # In a catkin build they are catkin's tests: built by the target `tests`, run by `run_tests` and by ctest. Otherwise they
 # are built with everything else and run by ctest. Either way each leaves its results as XML, one file a test program, in
@@ -37,18 +37,13 @@ target_precompile_headers(contact_path_test_support PRIVATE <gtest/gtest.h> <Eig
   <algorithm> <cmath> <functional> <map> <string> <vector>)
 target_link_libraries(contact_path_test_support PUBLIC contact_path_core GTest::gtest PRIVATE contact_path_warnings)
 
-# contact_path_add_test(<stage>/<name> [LONG]): test/<stage>/<name>.cpp, as the program <stage>_<name>.
-function(contact_path_add_test source)
-  cmake_parse_arguments(ARG "LONG" "" "" ${ARGN})
-  if(ARG_LONG AND NOT CONTACT_PATH_LONG_TESTS)
-    return()
-  endif()
-  string(REPLACE "/" "_" name ${source})
+# contact_path_add_gtest(<name> <source>...): one test program.
+function(contact_path_add_gtest name)
   if(contact_path_test_with_catkin)
-    catkin_add_gtest(${name} test/${source}.cpp)
+    catkin_add_gtest(${name} ${ARGN})
     set(test _ctest_${PROJECT_NAME}_gtest_${name})
   else()
-    add_executable(${name} test/${source}.cpp)
+    add_executable(${name} ${ARGN})
     set(test ${name})
     add_test(NAME ${test} COMMAND ${name} --gtest_output=xml:${contact_path_test_results}/gtest-${name}.xml)
   endif()
@@ -57,8 +52,25 @@ function(contact_path_add_test source)
   # Without a keyword, as catkin does.
   target_link_libraries(${name} GTest::gtest_main contact_path_test_support contact_path_core contact_path_warnings)
   set_property(TEST ${test} PROPERTY ENVIRONMENT OMP_NUM_THREADS=1)
-  if(ARG_LONG)
-    set_property(TEST ${test} PROPERTY LABELS long)
+endfunction()
+
+# contact_path_add_stage(<stage> <name>...): the short tests test/<stage>/<name>.cpp of a stage, as one program <stage>_tests.
+function(contact_path_add_stage stage)
+  list(TRANSFORM ARGN REPLACE "(.+)" "test/${stage}/\\1.cpp" OUTPUT_VARIABLE sources)
+  contact_path_add_gtest(${stage}_tests ${sources})
+endfunction()
+
+# contact_path_add_long_test(<stage> <name> [<source>...]): test/<stage>/<name>.cpp, which takes more than a few seconds, as a
+# program of its own, so that long tests run side by side.
+function(contact_path_add_long_test stage name)
+  if(NOT CONTACT_PATH_LONG_TESTS)
+    return()
+  endif()
+  contact_path_add_gtest(${stage}_${name} test/${stage}/${name}.cpp ${ARGN})
+  if(contact_path_test_with_catkin)
+    set_property(TEST _ctest_${PROJECT_NAME}_gtest_${stage}_${name} PROPERTY LABELS long)
+  else()
+    set_property(TEST ${stage}_${name} PROPERTY LABELS long)
   endif()
 endfunction()
 
@@ -71,80 +83,41 @@ set(contact_path_extremes
   test/extremes/number_cases.cpp
   test/extremes/run_case.cpp)
 
-# One for each header, but for those that only declare an interface: structure/element.h, mpec/nonlinear_program.h,
-# path/path_method.h.
-contact_path_add_test(support/derivative_checker_test)
-contact_path_add_test(scene/lattice_test)
-contact_path_add_test(scene/one_line_test)
-contact_path_add_test(scene/read_scene_test)
-contact_path_add_test(scene/scaling_test)
-contact_path_add_test(scene/scene_test)
-contact_path_add_test(scene/utf8_test)
-contact_path_add_test(scene/validate_test)
-contact_path_add_test(scene/write_scene_test)
-contact_path_add_test(structure/bar_test)
-contact_path_add_test(structure/structure_test)
-contact_path_add_test(structure/superelement_test)
-contact_path_add_test(linear/bordered_solver_test)
-contact_path_add_test(linear/minimum_norm_test)
-contact_path_add_test(linear/singular_vectors_test)
-contact_path_add_test(contact/contact_pair_test)
-contact_path_add_test(contact/contact_state_test)
-contact_path_add_test(contact/rigid_pair_test)
-contact_path_add_test(contact/scene_contacts_test)
-contact_path_add_test(contact/surface_test)
-contact_path_add_test(contact/path_point_test)
-contact_path_add_test(equations/fixed_state_system_test)
-contact_path_add_test(equations/nearest_point_test)
-contact_path_add_test(mpec/increment_problem_test)
-contact_path_add_test(mpec/increment_solver_test)
-contact_path_add_test(mpec/ipopt_solver_test)
-contact_path_add_test(mpec/short_increment_test)
-contact_path_add_test(branch/polynomial_test)
-contact_path_add_test(branch/rate_problem_test)
-contact_path_add_test(branch/smooth_arc_test)
-contact_path_add_test(branch/test_functions_test)
-contact_path_add_test(branch/reaction_redistribution_test)
+# A file for each header, except headers that only declare an interface (structure/element.h, mpec/nonlinear_program.h,
+# path/path_method.h), and files that trace whole paths.
+contact_path_add_stage(support derivative_checker_test)
+contact_path_add_stage(scene lattice_test one_line_test read_scene_test scaling_test scene_test utf8_test validate_test
+  write_scene_test)
+contact_path_add_stage(structure bar_test structure_test superelement_test)
+contact_path_add_stage(linear bordered_solver_test minimum_norm_test singular_vectors_test)
+contact_path_add_stage(contact contact_pair_test contact_state_test path_point_test rigid_pair_test scene_contacts_test
+  surface_test)
+contact_path_add_stage(equations fixed_state_system_test nearest_point_test)
+contact_path_add_stage(mpec increment_problem_test increment_solver_test ipopt_solver_test short_increment_test)
+contact_path_add_stage(branch branch_choices_test polynomial_test rate_problem_test reaction_redistribution_test
+  smooth_arc_test test_functions_test)
 if(NOT CONTACT_PATH_SANITIZE)
-  contact_path_add_test(branch/allocations_test)
+  # It counts allocations, in place of the allocator that a sanitizer brings.
+  contact_path_add_gtest(branch_allocations_test test/branch/allocations_test.cpp)
 endif()
-contact_path_add_test(branch/branches_test LONG)
-contact_path_add_test(verify/verify_path_test)
-contact_path_add_test(cli/progress_test)
-target_link_libraries(cli_progress_test contact_path_terminal)
-# The whole branch method: closed forms and events of many kinds.
-contact_path_add_test(branch/branch_method_test LONG)
-contact_path_add_test(branch/branch_choices_test)
-contact_path_add_test(branch/branch_events_test LONG)
-# Random scenes, each traced in many ways: it lists every scene whose path depends on how it is traced.
-contact_path_add_test(branch/random_paths_test LONG)
-contact_path_add_test(check/residuals_test)
-contact_path_add_test(path/csv_test)
-contact_path_add_test(path/diagnosis_test)
-contact_path_add_test(path/increment_test)
-contact_path_add_test(path/model_test)
-contact_path_add_test(path/redistribution_test)
-contact_path_add_test(path/mpec_method_test LONG)
-contact_path_add_test(path/path_summary_test)
-contact_path_add_test(path/preload_test)
-contact_path_add_test(path/program_test)
-contact_path_add_test(path/progress_estimate_test)
-contact_path_add_test(path/resume_test)
-contact_path_add_test(path/stop_test)
-contact_path_add_test(path/trace_test LONG)
-contact_path_add_test(path/model_size_test)
-contact_path_add_test(path/work_test)
-# The whole tracer: the reference cases, what must not change a path, and what once went wrong.
-contact_path_add_test(path/mpec_cases_test LONG)
-contact_path_add_test(path/mpec_random_paths_test LONG)
-contact_path_add_test(path/invariance_test LONG)
-contact_path_add_test(path/hard_scenes_test)
-contact_path_add_test(path/determinism_test)
-contact_path_add_test(path/large_requests_test)
-contact_path_add_test(extremes/extremes_test LONG)
-if(CONTACT_PATH_LONG_TESTS)
-  target_sources(extremes_extremes_test PRIVATE ${contact_path_extremes})
-endif()
+contact_path_add_long_test(branch branch_events_test)
+contact_path_add_long_test(branch branch_method_test)
+contact_path_add_long_test(branch branches_test)
+contact_path_add_long_test(branch random_paths_test)
+contact_path_add_stage(check residuals_test)
+contact_path_add_stage(path csv_test determinism_test diagnosis_test hard_scenes_test increment_test large_requests_test
+  model_size_test model_test path_summary_test preload_test program_test progress_estimate_test redistribution_test
+  stop_test work_test)
+contact_path_add_long_test(path invariance_test)
+contact_path_add_long_test(path mpec_cases_test)
+contact_path_add_long_test(path mpec_method_test)
+contact_path_add_long_test(path mpec_random_paths_test)
+contact_path_add_long_test(path resume_test)
+contact_path_add_long_test(path trace_test)
+contact_path_add_stage(verify verify_path_test)
+contact_path_add_stage(cli progress_test)
+target_link_libraries(cli_tests contact_path_terminal)
+contact_path_add_long_test(extremes extremes_test ${contact_path_extremes})
 # What scripts/stress writes docs/extremes.md with.
 add_executable(contact_path_extremes EXCLUDE_FROM_ALL test/extremes/extremes_table.cpp ${contact_path_extremes})
 target_precompile_headers(contact_path_extremes REUSE_FROM contact_path_test_support)
@@ -155,20 +128,10 @@ target_link_libraries(contact_path_extremes PRIVATE contact_path_test_support co
 # so many random changes of it.
 function(contact_path_add_replay target library count)
   set(name fuzz_${target})
-  set(sources test/fuzz/replay_test.cpp test/fuzz/${target}_fuzz.cpp ${ARGN})
-  if(contact_path_test_with_catkin)
-    catkin_add_gtest(${name} ${sources})
-    set(test _ctest_${PROJECT_NAME}_gtest_${name})
-  else()
-    add_executable(${name} ${sources})
-    set(test ${name})
-    add_test(NAME ${test} COMMAND ${name} --gtest_output=xml:${contact_path_test_results}/gtest-${name}.xml)
-  endif()
-  target_compile_options(${name} PRIVATE ${contact_path_test_options})
+  contact_path_add_gtest(${name} test/fuzz/replay_test.cpp test/fuzz/${target}_fuzz.cpp ${ARGN})
   target_compile_definitions(${name} PRIVATE CONTACT_PATH_CHANGED=${count}
     CONTACT_PATH_CORPUS="${CMAKE_CURRENT_SOURCE_DIR}/test/fuzz/corpus/${target}")
-  target_link_libraries(${name} GTest::gtest_main contact_path_test_support ${library} contact_path_warnings)
-  set_property(TEST ${test} PROPERTY ENVIRONMENT OMP_NUM_THREADS=1)
+  target_link_libraries(${name} ${library})
 endfunction()
 
 contact_path_add_replay(read_scene contact_path_core 20000)

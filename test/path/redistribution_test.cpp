@@ -25,7 +25,7 @@ Scene Block(double side, double friction_of_floor) {
   return scene;
 }
 
-class EachMethod : public testing::TestWithParam<Method> {
+class BothMethods : public testing::TestWithParam<Method> {
  protected:
   // Complete and proved.
   TracedPath Trace(TraceRequest request) {
@@ -41,7 +41,7 @@ class EachMethod : public testing::TestWithParam<Method> {
   // What mpec cuts off at corners.
   double Tolerance() const { return GetParam() == Method::kBranch ? kRounding : 1e-3; }
 };
-INSTANTIATE_TEST_SUITE_P(Redistribution, EachMethod, testing::Values(Method::kBranch, Method::kMpec),
+INSTANTIATE_TEST_SUITE_P(Redistribution, BothMethods, testing::Values(Method::kBranch, Method::kMpec),
                          [](const auto& method) { return std::string(ToString(method.param)); });
 
 TraceRequest BeltAgainstStop(double clearance) {
@@ -54,7 +54,7 @@ TraceRequest BeltAgainstStop(double clearance) {
 }
 
 // The belt pulls with the spring's force x; then the stop holds the block, and all at once the belt slips.
-TEST_P(EachMethod, ABlockOnABeltMeetsAStop) {
+TEST_P(BothMethods, ABlockOnABeltMeetsAStop) {
   for (const double clearance : {0.0, 0.1, 0.2}) {
     const TracedPath path = Trace(BeltAgainstStop(clearance));
     const Increment& end = path.increments.back();
@@ -94,7 +94,7 @@ TEST(Redistribution, TheChangeIsARow) {
 }
 
 // A lift takes the node off the table; a side load rests on friction before and after.
-TEST_P(EachMethod, ALiftTakesANodeOffATable) {
+TEST_P(BothMethods, ALiftTakesANodeOffATable) {
   TraceRequest request;
   request.scene = Block(0.1, 0.3);
   request.scene.obstacles.push_back({"lift", kHalfPlane, 0.0, -0.05, 0.0, 1.0, 0.3});
@@ -120,7 +120,7 @@ TraceRequest TableAbove(double friction_of_low) {
 }
 
 // A table goes down and hands a node over to a lower one that can hold its side load.
-TEST_P(EachMethod, ATableHandsANodeOver) {
+TEST_P(BothMethods, ATableHandsANodeOver) {
   const TracedPath path = Trace(TableAbove(0.6));
   const Increment& end = path.increments.back();
   EXPECT_NEAR(PositionX(path, end, "b"), 0.0, kRounding);
