@@ -118,7 +118,7 @@ contact_path_add_stage(verify verify_path_test)
 contact_path_add_stage(cli progress_test)
 target_link_libraries(cli_tests contact_path_terminal)
 contact_path_add_long_test(extremes extremes_test ${contact_path_extremes})
-# What scripts/stress writes docs/extremes.md with.
+# What scripts/stress writes docs/maintainers/extremes.md with.
 add_executable(contact_path_extremes EXCLUDE_FROM_ALL test/extremes/extremes_table.cpp ${contact_path_extremes})
 target_precompile_headers(contact_path_extremes REUSE_FROM contact_path_test_support)
 target_compile_options(contact_path_extremes PRIVATE ${contact_path_test_options})

@@ -5,7 +5,7 @@
 namespace contact_path {
 
 // The OpenMP runtime reads its number of threads while it is loaded, before main(): starts the program over with one,
-// unless the user set OMP_NUM_THREADS. The systems are small, and more threads only get in each other's branch. Where
+// unless the user set OMP_NUM_THREADS. The systems are small, and more threads only hinder each other. Where
 // that fails, the program goes on as it is. To be called first in main(), with its argv.
 void UseOneThread(char** argv);
 

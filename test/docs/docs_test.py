@@ -23,7 +23,7 @@ from program_test import ProgramTest
 
 ROOT = pathlib.Path(os.environ['CONTACT_PATH_ROOT'])
 PROGRAMS = pathlib.Path(os.environ['CONTACT_PATH_PROGRAMS'])
-PAGES = [ROOT / 'README.md', ROOT / 'bench' / 'README.md', *sorted((ROOT / 'docs').glob('*.md'))]
+PAGES = [ROOT / 'README.md', ROOT / 'bench' / 'README.md', *sorted((ROOT / 'docs').rglob('*.md'))]
 ENVIRONMENT = {**os.environ, 'OMP_NUM_THREADS': '1', 'PYTHONPATH': os.pathsep.join(
     filter(None, [os.environ['CONTACT_PATH_MODULES'], os.environ.get('PYTHONPATH')]))}
 
@@ -117,7 +117,7 @@ class Complete(unittest.TestCase):
             self.assertRegex(text, r'`(/contact_path/)?%s`|`/%s`' % (name, name))
 
     def test_fields_of_scene_files(self):
-        pages = {'Scene': 'Scene files', 'Node': 'nodes', 'Bar': 'bars', 'Superelement': 'superelements', 'Load': 'loads',
+        pages = {'Scene': 'scene', 'Node': 'nodes', 'Bar': 'bars', 'Superelement': 'superelements', 'Load': 'loads',
                  'Obstacle': 'obstacles', 'Contact': 'contacts', 'SupportMotion': 'support_motions',
                  'ObstacleMotion': 'obstacle_motions', 'Stage': 'Load programs', 'TraceOptions': 'Options of a trace',
                  'StopCriterion': 'stop', 'BranchChoice': 'branch_choices'}
@@ -125,14 +125,14 @@ class Complete(unittest.TestCase):
             lines = [re.sub('#.*', '', line).split() for line in read('msg/%s.msg' % message).splitlines()]
             fields = [line[1] for line in lines if line]
             self.assertGreater(len(fields), 1)
-            text = section('docs/options.md', title).split('\n### ')[0]
+            text = section('docs/scene_file.md', title).split('\n### ')[0]
             self.assertEqual([span for span in first_column(text) if not span.startswith('mpec')], fields, message)
 
     def test_settings_of_cmake(self):
         text = ''.join(path.read_text() for path in [ROOT / 'CMakeLists.txt', *sorted((ROOT / 'cmake').iterdir())])
         settings = set(re.findall(r'^ *option\((CONTACT_PATH_\w+)', text, re.M))
         settings |= set(re.findall(r'^set\((CONTACT_PATH_\w+) .* CACHE', text, re.M))
-        self.assertEqual(set(first_column(section('docs/options.md', 'Building'))), settings)
+        self.assertEqual(set(first_column(section('docs/install.md', 'Building'))), settings)
 
     def test_scripts(self):
         told = {span.split()[0] for span in first_column(section('docs/options.md', 'Scripts'))}
@@ -140,7 +140,7 @@ class Complete(unittest.TestCase):
         self.assertEqual(told, there)
 
     def test_tables_of_messages_are_those_of_the_message_files(self):
-        spec = importlib.util.spec_from_file_location('message_tables', str(ROOT / 'docs' / 'message_tables.py'))
+        spec = importlib.util.spec_from_file_location('message_tables', str(ROOT / 'docs' / 'maintainers' / 'message_tables.py'))
         tables = importlib.util.module_from_spec(spec)
         spec.loader.exec_module(tables)
         self.assertEqual(tables.page(), read('docs/messages.md'), 'scripts/docs writes them again')
@@ -240,7 +240,7 @@ def numbers_masked(line):
 
 
 class Examples(ProgramTest):
-    """The blocks marked `console`: commands after `$`, then what they print."""
+    """The blocks marked `console`: commands after `$`, then what they print. A block after "file `NAME`:" is that file."""
 
     def run_command(self, line):
         line, _, target = line.partition(' > ')
@@ -270,7 +270,10 @@ class Examples(ProgramTest):
             os.symlink(str(ROOT / name), self.path(name))
         seen = 0
         for page in PAGES:
-            for block in re.findall(r'^```console\n(.*?)^```', page.read_text(encoding='utf-8'), re.M | re.S):
+            text = page.read_text(encoding='utf-8')
+            for name, content in re.findall(r'file `([\w.]+)`:\n\n```\w+\n(.*?)^```', text, re.M | re.S):
+                pathlib.Path(self.path(name)).write_text(content, encoding='utf-8')
+            for block in re.findall(r'^```console\n(.*?)^```', text, re.M | re.S):
                 for command, wanted in re.findall(r'^\$ (.*)\n((?:(?!\$ ).*\n)*)', block, re.M):
                     said = self.run_command(command)
                     if said is not None:

@@ -5,6 +5,7 @@ CONTACT_PATH_ROOT: the sources; CONTACT_PATH_BUILD: the build directory.
 """
 import glob
 import os
+import re
 import shutil
 import signal
 import socket
@@ -80,7 +81,7 @@ class InstallTest(unittest.TestCase):
         for folder in 'action', 'config', 'launch', 'msg', 'scenes', 'srv':
             self.assertLessEqual(set(names(ROOT, folder)), set(names(self.share, folder)))
         self.assertLessEqual(set(names(ROOT, 'include', 'contact_path')), set(names(self.prefix, 'include', 'contact_path')))
-        for file in 'package.xml', 'LICENSE', 'README.md', 'docs/options.md', 'docs/figures/arch19.png':
+        for file in 'package.xml', 'LICENSE', 'README.md', 'docs/scene_file.md', 'docs/figures/arch19.png':
             self.assertTrue(os.path.exists(os.path.join(self.share, file)), file)
 
     def test_rosrun_offers_the_programs_for_users_alone(self):
@@ -119,12 +120,23 @@ class InstallTest(unittest.TestCase):
         bag, = glob.glob(bags + '/*_sliding_bar.bag')
         self.assertIn('\nproved: ', self.run_here('rosrun', 'contact_path', 'verify', bag))
 
-    def test_library_serves_a_program_of_its_own(self):
-        client = os.path.join(self.directory, 'client')
-        include, library = (os.path.join(self.prefix, name) for name in ('include', 'lib'))
-        self.run_here('c++', '-std=c++17', os.path.join(ROOT, 'test', 'install', 'client.cpp'), '-o', client, '-I' + include,
-                      '-L' + library, '-lcontact_path_core', '-Wl,-rpath-link,' + library)
-        self.assertRegex(self.run_here(client, self.scene('von_mises')), r'^\d+ stop_criterion$')
+    def test_package_of_the_library_page(self):
+        """The package on docs/library.md, built and run as it stands there."""
+        with open(os.path.join(self.share, 'docs', 'library.md'), encoding='utf-8') as page:
+            text = page.read()
+        package = os.path.join(self.directory, 'limit_points')
+        os.mkdir(package)
+        files = dict(re.findall(r'file `([\w.]+)`:\n\n```\w+\n(.*?)^```', text, re.M | re.S))
+        self.assertEqual(sorted(files), ['CMakeLists.txt', 'main.cpp', 'package.xml'])
+        for name, content in files.items():
+            with open(os.path.join(package, name), 'w', encoding='utf-8') as file:
+                file.write(content)
+        build = os.path.join(package, 'build')
+        self.run_here('cmake', '-S', package, '-B', build)
+        self.run_here('cmake', '--build', build)
+        program = os.path.join(build, 'devel', 'lib', 'limit_points', 'limit_points')
+        wanted = re.search(r'^    \$ rosrun limit_points limit_points scenes/von_mises.yaml\n((?:    .*\n)+)', text, re.M).group(1)
+        self.assertEqual(self.run_here(program, self.scene('von_mises')), re.sub('^    ', '', wanted, flags=re.M))
 
 
 if __name__ == '__main__':

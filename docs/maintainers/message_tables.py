@@ -3,7 +3,7 @@
 import pathlib
 import re
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 PAGE = ROOT / 'docs' / 'messages.md'
 START, END = '<!-- tables -->\n', '<!-- end of tables -->\n'
 PARTS = {'.msg': [''], '.srv': ['request', 'response'], '.action': ['goal', 'result', 'feedback']}
