@@ -79,7 +79,7 @@ void Umfpack(benchmark::State& state) {
 void CholmodTangent(benchmark::State& state) {
   const System system(static_cast<int>(state.range(0)), StateOf(state));
   Eigen::SparseMatrix<double> tangent = system.model.structure.TangentPattern();
-  system.model.structure.Tangent(system.model.structure.InitialPositions(), &tangent);
+  system.model.structure.Tangent(system.model.structure.Start(), &tangent);
   cholmod_common common;
   cholmod_start(&common);
   cholmod_sparse matrix{};

@@ -37,8 +37,8 @@ ContactPairs BuildContacts(const Scene& scene, const Structure& structure) {
   for (const ContactCandidate& candidate : scene.contacts) {
     const Placed& obstacle = obstacles.at(candidate.obstacle);
     const int node = structure.NodeIndex(candidate.node);
-    const Node& at = scene.nodes[static_cast<std::size_t>(node)];
-    const NodeMotion motion = {{structure.Dof(node, 0), structure.Dof(node, 1)}, {at.x, at.y}, obstacle.velocity};
+    const NodeMotion motion = {
+        {structure.Dof(node, 0), structure.Dof(node, 1)}, structure.StartPosition(node), obstacle.velocity};
     contacts.push_back(std::make_unique<RigidPair>(obstacle.surface, motion, obstacle.friction));
   }
   return contacts;

@@ -171,7 +171,7 @@ void FixedStateSystem::Rebuild() {
   ForEachConstantEntry(add);
   // Derivatives of flat contacts are the same everywhere. Those of curved ones come with each point.
   Eigen::VectorXd anywhere = Eigen::VectorXd::Zero(NumDofs() + 1);
-  anywhere.head(NumDofs()) = structure_.InitialPositions();
+  anywhere.head(NumDofs()) = structure_.Start();
   for (const std::size_t i : touching_) {
     const Kinematics at = Evaluate(i, anywhere);
     if (contacts_[i]->Curved()) {

@@ -229,10 +229,10 @@ std::vector<double> BranchMethod::CrossingPath(const Step& step) {
   // A little before the bifurcation, where the equations are regular.
   const CurvePoint near = step.At((1.0 - kNearBifurcation) * step.length);
   const Eigen::VectorXd direction = arc_.CrossingDirection(near.x, near.first.head(arc_.NumMotion()));
-  std::vector<double> components(2 * model_.scene.nodes.size(), 0.0);
-  for (std::size_t i = 0; i < components.size(); ++i)
-    if (const int dof = model_.structure.Dof(static_cast<int>(i / 2), static_cast<int>(i % 2)); dof >= 0)
-      components[i] = direction[dof];
+  std::vector<double> components(model_.configuration.start.size(), 0.0);
+  for (const DofMap::Component& of : model_.structure.Dofs().Components())
+    if (of.field == Field::kPosition && of.dof >= 0)
+      components[static_cast<std::size_t>(kPositionComponents * of.node + of.component)] = direction[of.dof];
   return components;
 }
 

@@ -8,19 +8,28 @@ namespace {
 // A candidate closer than this touches: rounding of the scene's coordinates. Scaled length.
 constexpr double kTouching = 1e-9;
 
+// Where the records have it: x0, y0, x1, ...
+std::size_t PositionIndex(const DofMap::Component& position) {
+  return static_cast<std::size_t>(kPositionComponents * position.node + position.component);
+}
+
 }  // namespace
 
 Model::Model(const Scene& scene_in, const Scaling& scaling_in)
+    : Model(scene_in, Configuration::Of(scene_in), scaling_in) {}
+
+Model::Model(const Scene& scene_in, const Configuration& configuration_in, const Scaling& scaling_in)
     : scene(scene_in),
+      configuration(configuration_in),
       scaling(scaling_in),
       scaled(ScaleScene(scene_in, scaling_in)),
-      structure(scaled),
+      structure(scaled, configuration.Over(scaling.length)),
       contacts(BuildContacts(scaled, structure)),
       check(scene_in, scaling_in) {}
 
 PathPoint Model::InitialPoint() const {
   PathPoint point;
-  point.u = structure.InitialPositions();
+  point.u = structure.Start();
   point.rn = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(contacts.size()));
   point.rt = point.rn;
   for (const auto& contact : contacts) {
@@ -35,22 +44,19 @@ PathPoint Model::Transfer(const Model& other, const PathPoint& point) const {
   PathPoint taken = point;
   taken.s = 0.0;
   taken.u.resize(structure.NumDofs());
-  const Eigen::VectorXd positions = other.structure.FullPositions(point.u);
-  for (int node = 0; node < static_cast<int>(scene.nodes.size()); ++node)
-    for (const int axis : {0, 1})
-      if (const int dof = structure.Dof(node, axis); dof >= 0) taken.u[dof] = positions[2 * node + axis];
+  const Eigen::VectorXd values = other.structure.AllValues(point.u);
+  for (const DofMap::Component& to : structure.Dofs().Components())
+    if (to.dof >= 0) taken.u[to.dof] = values[other.structure.Dofs().Index(to.node, to.field, to.component)];
   return taken;
 }
 
 CheckedState Model::InSceneUnits(const PathPoint& point) const {
   CheckedState state;
   state.load_factor = point.s * scaling.load_factor;
-  state.positions.reserve(2 * scene.nodes.size());
-  for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
-    const int dof_x = structure.Dof(static_cast<int>(i), 0), dof_y = structure.Dof(static_cast<int>(i), 1);
-    state.positions.push_back(dof_x < 0 ? scene.nodes[i].x : point.u[dof_x] * scaling.length);
-    state.positions.push_back(dof_y < 0 ? scene.nodes[i].y : point.u[dof_y] * scaling.length);
-  }
+  state.positions = configuration.start;
+  for (const DofMap::Component& from : structure.Dofs().Components())
+    if (from.field == Field::kPosition && from.dof >= 0)
+      state.positions[PositionIndex(from)] = point.u[from.dof] * UnitOf(from.field, scaling.length);
   for (Eigen::Index i = 0; i < point.rn.size(); ++i) {
     state.rn.push_back(point.rn[i] * scaling.force);
     state.rt.push_back(point.rt[i] * scaling.force);
@@ -62,9 +68,9 @@ PathPoint Model::FromIncrement(const Increment& increment) const {
   PathPoint point;
   point.s = increment.load_factor / scaling.load_factor;
   point.u.resize(structure.NumDofs());
-  for (int i = 0; i < static_cast<int>(increment.positions.size()); ++i)
-    if (const int dof = structure.Dof(i / 2, i % 2); dof >= 0)
-      point.u[dof] = increment.positions[static_cast<std::size_t>(i)] / scaling.length;
+  for (const DofMap::Component& to : structure.Dofs().Components())
+    if (to.field == Field::kPosition && to.dof >= 0)
+      point.u[to.dof] = increment.positions[PositionIndex(to)] / UnitOf(to.field, scaling.length);
   const auto count = static_cast<Eigen::Index>(increment.contacts.size());
   point.rn.resize(count);
   point.rt.resize(count);

@@ -20,6 +20,11 @@ void Scatter(const Eigen::Matrix2d& block, Eigen::Ref<Eigen::MatrixXd> out) {
 BarElement::BarElement(double EA, double rest_length, StrainMeasure strain)
     : EA_(EA), rest_length_(rest_length), strain_(strain) {}
 
+const std::vector<LocalDof>& BarElement::Dofs() const {
+  static const std::vector<LocalDof> dofs = PositionsOfNodes(2);
+  return dofs;
+}
+
 double BarElement::Energy(const Eigen::Ref<const Eigen::VectorXd>& x) const {
   const double stretch = Span(x).norm() / rest_length_;
   double strain = 0.0;

@@ -2,12 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <tuple>
 #include <unordered_map>
 #include <utility>
-
-#include "contact_path/structure/bar.h"
-#include "contact_path/structure/superelement.h"
 
 namespace contact_path {
 namespace {
@@ -38,30 +34,52 @@ void Scatter(const std::vector<int>& to, const double* values, double* out) {
 
 }  // namespace
 
-Structure::Structure(const Scene& scene) {
-  const auto num_nodes = static_cast<Eigen::Index>(scene.nodes.size());
-  initial_positions_.resize(2 * num_nodes);
-  std::vector<double> free_positions;
+Structure::Structure(const Scene& scene) : Structure(scene, Configuration::Of(scene)) {}
+
+Structure::Structure(const Scene& scene, const Configuration& configuration)
+    : Structure(scene, configuration, MakeElements(scene, configuration.reference)) {}
+
+Structure::Structure(const Scene& scene, const Configuration& configuration, std::vector<PlacedElement> elements)
+    : dofs_(scene.nodes.size()) {
+  for (const Node& node : scene.nodes) node_index_.emplace(node.name, static_cast<int>(node_index_.size()));
+  NumberUnknowns(scene, configuration.start, elements);
+  AddLoads(scene);
+  for (PlacedElement& placed : elements) AddPart(std::move(placed));
+  BuildPattern();
+}
+
+void Structure::NumberUnknowns(const Scene& scene, const std::vector<double>& start,
+                               const std::vector<PlacedElement>& elements) {
+  std::vector<bool> rotates(scene.nodes.size(), false);
+  for (const PlacedElement& placed : elements)
+    for (const LocalDof& local : placed.element->Dofs())
+      if (local.field == Field::kRotation)
+        rotates[static_cast<std::size_t>(placed.nodes[static_cast<std::size_t>(local.node)])] = true;
   std::unordered_map<std::string, const SupportMotion*> motions;
   for (const SupportMotion& motion : scene.support_motions) motions.emplace(motion.node, &motion);
-  for (const Node& node : scene.nodes) {
-    const auto index = static_cast<int>(node_index_.size());
-    node_index_.emplace(node.name, index);
-    initial_positions_[2 * index] = node.x;
-    initial_positions_[2 * index + 1] = node.y;
+
+  std::vector<double> values, unknowns;
+  const auto add = [&](int node, Field field, int component, double value, bool fixed, double rate) {
+    const bool rests = fixed && rate == 0.0;
+    const int dof = dofs_.Add(node, field, component, rests);
+    if (fixed && !rests) prescribed_.push_back({dof, value, rate});
+    values.push_back(value);
+    if (!rests) unknowns.push_back(value);
+  };
+  for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+    const Node& node = scene.nodes[i];
+    const auto number = static_cast<int>(i);
     const auto motion = motions.find(node.name);
     const bool moves = motion != motions.end();
-    for (const auto& [fixed, position, rate] : {std::tuple(node.fixed_x, node.x, moves ? motion->second->dx : 0.0),
-                                                std::tuple(node.fixed_y, node.y, moves ? motion->second->dy : 0.0)}) {
-      const auto dof = static_cast<int>(free_positions.size());
-      const bool rests = fixed && rate == 0.0;
-      dofs_.push_back(rests ? -1 : dof);
-      if (fixed && !rests) prescribed_.push_back({dof, position, rate});
-      if (!rests) free_positions.push_back(position);
-    }
+    add(number, Field::kPosition, 0, start[2 * i], node.fixed_x, moves ? motion->second->dx : 0.0);
+    add(number, Field::kPosition, 1, start[2 * i + 1], node.fixed_y, moves ? motion->second->dy : 0.0);
+    if (rotates[i]) add(number, Field::kRotation, 0, 0.0, false, 0.0);
   }
-  initial_ = Eigen::Map<const Eigen::VectorXd>(free_positions.data(), static_cast<Eigen::Index>(free_positions.size()));
+  start_values_ = Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+  start_ = Eigen::Map<const Eigen::VectorXd>(unknowns.data(), static_cast<Eigen::Index>(unknowns.size()));
+}
 
+void Structure::AddLoads(const Scene& scene) {
   reference_load_ = Eigen::VectorXd::Zero(NumDofs());
   constant_load_ = Eigen::VectorXd::Zero(NumDofs());
   for (const Load& load : scene.loads) {
@@ -70,38 +88,16 @@ Structure::Structure(const Scene& scene) {
     if (const int dof = Dof(node, 0); dof >= 0) total[dof] += load.fx;
     if (const int dof = Dof(node, 1); dof >= 0) total[dof] += load.fy;
   }
-
-  for (const Bar& bar : scene.bars) {
-    const int p = NodeIndex(bar.nodes[0]), q = NodeIndex(bar.nodes[1]);
-    const double distance = (initial_positions_.segment<2>(2 * q) - initial_positions_.segment<2>(2 * p)).norm();
-    AddPart(std::make_unique<BarElement>(bar.EA, bar.rest_length > 0.0 ? bar.rest_length : distance, bar.strain),
-            bar.nodes);
-  }
-  for (const Superelement& part : scene.superelements) {
-    const auto size = static_cast<Eigen::Index>(2 * part.nodes.size());
-    Eigen::VectorXd rest(size);
-    if (!part.rest_positions.empty())
-      rest = Eigen::Map<const Eigen::VectorXd>(part.rest_positions.data(), size);
-    else
-      for (std::size_t i = 0; i < part.nodes.size(); ++i)
-        rest.segment<2>(static_cast<Eigen::Index>(2 * i)) = initial_positions_.segment<2>(2 * NodeIndex(part.nodes[i]));
-    const Eigen::Map<const Eigen::MatrixXd> stiffness(part.stiffness.data(), size, size);
-    AddPart(std::make_unique<LinearSuperelement>(0.5 * (stiffness + stiffness.transpose()), std::move(rest)),
-            part.nodes);
-  }
-  BuildPattern();
 }
 
-void Structure::AddPart(std::unique_ptr<Element> element, const std::vector<std::string>& nodes) {
+void Structure::AddPart(PlacedElement placed) {
   Part part;
-  part.element = std::move(element);
-  for (const std::string& name : nodes) {
-    const int node = NodeIndex(name);
-    for (const int axis : {0, 1}) {
-      part.components.push_back(2 * node + axis);
-      part.dofs.push_back(Dof(node, axis));
-    }
+  for (const LocalDof& local : placed.element->Dofs()) {
+    const int node = placed.nodes[static_cast<std::size_t>(local.node)];
+    part.components.push_back(dofs_.Index(node, local.field, local.component));
+    part.dofs.push_back(dofs_.Dof(node, local.field, local.component));
   }
+  part.element = std::move(placed.element);
   parts_.push_back(std::move(part));
 }
 
@@ -131,17 +127,24 @@ void Structure::BuildPattern() {
       }
 }
 
-Eigen::VectorXd Structure::FullPositions(const Eigen::VectorXd& u) const {
-  Eigen::VectorXd full = initial_positions_;
-  for (std::size_t i = 0; i < dofs_.size(); ++i)
-    if (dofs_[i] >= 0) full[static_cast<Eigen::Index>(i)] = u[dofs_[i]];
-  return full;
+Eigen::Vector2d Structure::StartPosition(int node) const {
+  return {start_values_[dofs_.Index(node, Field::kPosition, 0)], start_values_[dofs_.Index(node, Field::kPosition, 1)]};
+}
+
+Eigen::VectorXd Structure::AllValues(const Eigen::VectorXd& u) const {
+  Eigen::VectorXd values = start_values_;
+  Eigen::Index k = 0;
+  for (const DofMap::Component& component : dofs_.Components()) {
+    if (component.dof >= 0) values[k] = u[component.dof];
+    ++k;
+  }
+  return values;
 }
 
 void Structure::Gather(const Part& part, const Eigen::Ref<const Eigen::VectorXd>& u,
                        Eigen::Ref<Eigen::VectorXd> x) const {
   for (std::size_t i = 0; i < part.dofs.size(); ++i)
-    x[static_cast<Eigen::Index>(i)] = part.dofs[i] >= 0 ? u[part.dofs[i]] : initial_positions_[part.components[i]];
+    x[static_cast<Eigen::Index>(i)] = part.dofs[i] >= 0 ? u[part.dofs[i]] : start_values_[part.components[i]];
 }
 
 double Structure::Energy(const Eigen::VectorXd& u) const {

@@ -16,8 +16,8 @@ class Pairs : public testing::Test {
  protected:
   const Scene scene_ = MovingScene();
   const Structure structure_{scene_};
-  const ContactPairs contacts_ = CurvedContacts(scene_, structure_);
-  const Eigen::VectorXd u_ = structure_.InitialPositions();
+  const ContactPairs contacts_ = CurvedContacts(structure_);
+  const Eigen::VectorXd u_ = structure_.Start();
   Random random_{7};
 };
 

@@ -20,7 +20,7 @@ class RigidPairs : public testing::Test {
   // u and s with the entries q of a pair.
   Eigen::VectorXd At(const ContactPair& pair, const Eigen::VectorXd& q) const {
     Eigen::VectorXd x(structure_.NumDofs() + 1);
-    x << structure_.InitialPositions(), 0.0;
+    x << structure_.Start(), 0.0;
     for (std::size_t k = 0; k < pair.Dofs().size(); ++k) x[pair.Dofs()[k]] = q[static_cast<Eigen::Index>(k)];
     x[structure_.NumDofs()] = q[q.size() - 1];
     return x;
@@ -29,11 +29,11 @@ class RigidPairs : public testing::Test {
     const Eigen::VectorXd x = At(pair, q);
     return KinematicsAt(pair, x, x[structure_.NumDofs()]);
   }
-  Eigen::VectorXd Start(const ContactPair& pair) const { return pair.Local(structure_.InitialPositions(), 0.3); }
+  Eigen::VectorXd Start(const ContactPair& pair) const { return pair.Local(structure_.Start(), 0.3); }
 
   const Scene scene_ = MovingScene();
   const Structure structure_{scene_};
-  const ContactPairs contacts_ = CurvedContacts(scene_, structure_);
+  const ContactPairs contacts_ = CurvedContacts(structure_);
   Random random_{2};
 };
 

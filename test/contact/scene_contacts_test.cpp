@@ -86,7 +86,7 @@ TEST(SceneContacts, FollowTheOrderOfTheScene) {
   const std::vector<double> friction = {0.3, 0.0, 0.3, 0.6, 0.3, 0.0};
   ASSERT_EQ(contacts.size(), friction.size());
   for (std::size_t i = 0; i < contacts.size(); ++i) EXPECT_EQ(contacts[i]->Friction(), friction[i]) << i;
-  for (const auto& contact : contacts) EXPECT_GT(contact->Gap(structure.InitialPositions(), 0.0), 0.0);
+  for (const auto& contact : contacts) EXPECT_GT(contact->Gap(structure.Start(), 0.0), 0.0);
 }
 
 // The obstacle moves with the load factor: gap and xi are those of the node relative to it.
@@ -94,7 +94,7 @@ TEST(SceneContacts, ObstaclesMoveWithTheLoadFactor) {
   const Scene scene = MovingScene();
   const Structure structure(scene);
   const ContactPairs contacts = BuildContacts(scene, structure);
-  const Eigen::VectorXd u = structure.InitialPositions();
+  const Eigen::VectorXd u = structure.Start();
   const ContactPair& slope = *contacts[0];  // n = (0.6, 0.8), t = (0.8, -0.6), velocity (0.4, 0.1)
   EXPECT_NEAR(slope.Gap(u, 2.0) - slope.Gap(u, 0.0), -2.0 * (0.6 * 0.4 + 0.8 * 0.1), kRounding);
   EXPECT_NEAR(slope.Xi(u, 2.0) - slope.Xi(u, 0.0), -2.0 * (0.8 * 0.4 - 0.6 * 0.1), kRounding);

@@ -30,7 +30,7 @@ class MixedSystem : public testing::Test {
  protected:
   PathPoint RandomPoint() {
     PathPoint point;
-    point.u = structure_.InitialPositions() + random_.Vector(structure_.NumDofs(), -0.15, 0.15);
+    point.u = structure_.Start() + random_.Vector(structure_.NumDofs(), -0.15, 0.15);
     point.s = random_.Number(-1.0, 1.0);
     point.rn = random_.Vector(6, 0.1, 1.0);
     point.rt = random_.Vector(6, -1.0, 1.0);
@@ -149,7 +149,7 @@ class CurvedSystem : public testing::Test {
  protected:
   Eigen::VectorXd RandomUnknowns() {
     Eigen::VectorXd x = random_.Vector(system_.NumUnknowns(), 0.1, 1.0);
-    x.head(structure_.NumDofs()) = structure_.InitialPositions() + random_.Vector(structure_.NumDofs(), -0.03, 0.03);
+    x.head(structure_.NumDofs()) = structure_.Start() + random_.Vector(structure_.NumDofs(), -0.03, 0.03);
     x[structure_.NumDofs()] = 0.1;
     return x;
   }
@@ -157,7 +157,7 @@ class CurvedSystem : public testing::Test {
   static constexpr double kStep = 1e-3;  // of differences: the curvature changes over about 1
   const Scene scene_ = MovingScene();
   const Structure structure_{scene_};
-  const ContactPairs contacts_ = CurvedContacts(scene_, structure_);
+  const ContactPairs contacts_ = CurvedContacts(structure_);
   FixedStateSystem system_{structure_, contacts_};
   Random random_{9};
 };

@@ -71,7 +71,7 @@ using WorkingSet = std::vector<int>;
 class MixedProblem : public testing::TestWithParam<WorkingSet> {
  protected:
   MixedProblem() {
-    from_.u = structure_.InitialPositions() + random_.Vector(6, -0.1, 0.1);
+    from_.u = structure_.Start() + random_.Vector(6, -0.1, 0.1);
     from_.s = 0.3;
     from_.rn = random_.Vector(6, 0.1, 1.0);
     from_.rt = random_.Vector(6, -1.0, 1.0);
@@ -163,7 +163,7 @@ TEST(MovingProblem, DerivativesMeetDifferences) {
   ASSERT_EQ(structure.PrescribedDofs().size(), 2u);
   Random random(8);
   PathPoint from;
-  from.u = structure.InitialPositions() + random.Vector(8, -0.1, 0.1);
+  from.u = structure.Start() + random.Vector(8, -0.1, 0.1);
   from.s = 0.3;
   from.rn = random.Vector(6, 0.1, 1.0);
   from.rt = random.Vector(6, -1.0, 1.0);
@@ -198,10 +198,10 @@ TEST(CurvedProblem, DerivativesMeetDifferences) {
   constexpr double kStep = 1e-2;
   const Scene scene = MovingScene();
   const Structure structure(scene);
-  const ContactPairs contacts = CurvedContacts(scene, structure);
+  const ContactPairs contacts = CurvedContacts(structure);
   Random random(8);
   PathPoint from;
-  from.u = structure.InitialPositions() + random.Vector(8, -0.02, 0.02);
+  from.u = structure.Start() + random.Vector(8, -0.02, 0.02);
   from.s = 0.1;
   from.rn = random.Vector(5, 0.1, 1.0);
   from.rt = random.Vector(5, -1.0, 1.0);

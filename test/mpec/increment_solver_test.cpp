@@ -8,10 +8,10 @@
 #include <limits>
 
 #include "contact_path/check/residuals.h"
+#include "contact_path/contact/scene_contacts.h"
 #include "contact_path/mpec/ipopt_solver.h"
 #include "support/random.h"
 #include "support/reference_cases.h"
-#include "contact_path/contact/scene_contacts.h"
 
 namespace contact_path {
 namespace {
@@ -87,7 +87,7 @@ class SlidingBarIncrement : public testing::Test {
     const auto state = [this](const PathPoint& at) {
       CheckedState checked;
       checked.load_factor = at.s;
-      const Eigen::VectorXd full = structure_.FullPositions(at.u);
+      const Eigen::VectorXd full = structure_.AllValues(at.u);
       checked.positions.assign(full.data(), full.data() + full.size());
       checked.rn.assign(at.rn.data(), at.rn.data() + at.rn.size());
       checked.rt.assign(at.rt.data(), at.rt.data() + at.rt.size());

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <memory>
 #include <set>
 #include <utility>
 
@@ -32,7 +34,7 @@ class MixedStructure : public testing::Test {
     return derivative;
   }
   // Near the initial positions: no bar comes near zero length.
-  Eigen::VectorXd Configuration() { return structure_.InitialPositions() + random_.Vector(6, -0.15, 0.15); }
+  Eigen::VectorXd Configuration() { return structure_.Start() + random_.Vector(6, -0.15, 0.15); }
 
   const Structure structure_{MixedScene()};
   Random random_{3};
@@ -46,14 +48,14 @@ TEST_F(MixedStructure, NumbersTheFreeComponentsInNodeOrder) {
   EXPECT_EQ(structure_.NodeIndex("d"), 3);
   Eigen::VectorXd initial(6);
   initial << 1.1, 0.3, 1.2, 0.2, 1.3, 0.7;
-  EXPECT_EQ(structure_.InitialPositions(), initial);
+  EXPECT_EQ(structure_.Start(), initial);
 }
 
 TEST_F(MixedStructure, FullPositionsHoldTheFixedComponents) {
   Eigen::VectorXd u(6), full(10);
   u << 10.0, 11.0, 12.0, 13.0, 14.0, 15.0;
   full << 0.0, 0.1, 10.0, 11.0, 1.4, 12.0, 13.0, 14.0, 15.0, 0.9;
-  EXPECT_EQ(structure_.FullPositions(u), full);
+  EXPECT_EQ(structure_.AllValues(u), full);
 }
 
 TEST_F(MixedStructure, LoadsAddUpAndThoseOnSupportsAreLeftOut) {
@@ -163,11 +165,11 @@ TEST(Structure, RestLengthOtherThanTheDistanceStressesTheStart) {
   scene.bars = {{{"a", "b"}, 3.0, 1.6, StrainMeasure::kBiot}};
   const Structure stretched(scene);
   Eigen::VectorXd force(2);
-  stretched.InternalForce(stretched.InitialPositions(), force);
+  stretched.InternalForce(stretched.Start(), force);
   EXPECT_NEAR(force[0], 0.75, kRounding);
   scene.bars[0].rest_length = 0.0;
   const Structure relaxed(scene);
-  relaxed.InternalForce(relaxed.InitialPositions(), force);
+  relaxed.InternalForce(relaxed.Start(), force);
   EXPECT_EQ(force.norm(), 0.0);
 }
 
@@ -177,9 +179,81 @@ TEST(Structure, StiffnessSymmetricToRoundingIsMadeSymmetric) {
   scene.superelements = {{{"p"}, {1.0, 0.5, 0.5 + 1e-10, 2.0}}};
   const Structure structure(scene);
   Eigen::SparseMatrix<double> tangent = structure.TangentPattern();
-  structure.Tangent(structure.InitialPositions(), &tangent);
+  structure.Tangent(structure.Start(), &tangent);
   EXPECT_EQ(tangent.coeff(0, 1), tangent.coeff(1, 0));
   EXPECT_NEAR(tangent.coeff(0, 1), 0.5 + 0.5e-10, 1e-15);
+}
+
+// A rod from its first node to its second one, with a rotation at the second: W = EA (l - l0)^2 / 2 + K sin^2(phi -
+// angle of the rod).
+class RodWithRotation : public Element {
+ public:
+  const std::vector<LocalDof>& Dofs() const override {
+    static const std::vector<LocalDof> dofs = {{0, Field::kPosition, 0},
+                                               {0, Field::kPosition, 1},
+                                               {1, Field::kPosition, 0},
+                                               {1, Field::kPosition, 1},
+                                               {1, Field::kRotation, 0}};
+    return dofs;
+  }
+  double Energy(const Eigen::Ref<const Eigen::VectorXd>& x) const override {
+    const Eigen::Vector2d span = x.segment<2>(2) - x.segment<2>(0);
+    const double across = span.x() * std::sin(x[4]) - span.y() * std::cos(x[4]);
+    return 0.5 * std::pow(span.squaredNorm() - 1.0, 2) + 0.8 * across * across;
+  }
+  void Force(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::VectorXd> force) const override {
+    const auto energy = [this](const Eigen::VectorXd& at) { return Eigen::VectorXd::Constant(1, Energy(at)); };
+    force = DifferenceJacobian(energy, x).transpose();
+  }
+  void Tangent(const Eigen::Ref<const Eigen::VectorXd>&, Eigen::Ref<Eigen::MatrixXd> tangent) const override {
+    tangent.setOnes();
+  }
+  void TangentDerivative(const Eigen::Ref<const Eigen::VectorXd>&, const Eigen::Ref<const Eigen::VectorXd>&,
+                         Eigen::Ref<Eigen::MatrixXd> derivative) const override {
+    derivative.setZero();
+  }
+};
+
+// The unknowns follow from what elements ask for: c gets a rotation, after its positions.
+TEST(StructureWithRotation, ElementsSayWhichUnknownsThereAre) {
+  Scene scene = MixedScene();
+  scene.bars.clear();
+  scene.superelements.clear();
+  const Configuration configuration = Configuration::Of(scene);
+  std::vector<PlacedElement> elements;
+  elements.push_back({std::make_unique<RodWithRotation>(), {1, 2}});
+  const Structure structure(scene, configuration, std::move(elements));
+  EXPECT_EQ(structure.NumDofs(), 7);
+  EXPECT_EQ(structure.Dofs().Dof(2, Field::kRotation, 0), 3);  // after b.x, b.y, c.y
+  EXPECT_EQ(structure.Dof(3, 0), 4);
+  EXPECT_EQ(structure.Start()[3], 0.0);
+  EXPECT_EQ(structure.Dofs().Unit(5.0)[3], 1.0);
+
+  Eigen::VectorXd u = structure.Start();
+  u[3] = 0.4;
+  const Eigen::VectorXd values = structure.AllValues(u);
+  ASSERT_EQ(values.size(), 11);
+  EXPECT_EQ(values[6], 0.4);
+  EXPECT_EQ(values.segment<2>(4), Eigen::Vector2d(1.4, 1.2));
+  const double across = 0.3 * std::sin(0.4) - 0.9 * std::cos(0.4);
+  EXPECT_NEAR(structure.Energy(u), 0.5 * std::pow(0.3 * 0.3 + 0.9 * 0.9 - 1.0, 2) + 0.8 * across * across, kRounding);
+  Eigen::VectorXd force(7);
+  structure.InternalForce(u, force);
+  EXPECT_NEAR(force[3], 1.6 * across * (0.3 * std::cos(0.4) + 0.9 * std::sin(0.4)), 1e-9);  // the moment
+  EXPECT_EQ(force.tail<3>(), Eigen::Vector3d::Zero());
+  EXPECT_EQ(structure.TangentPattern().nonZeros(), 4 * 4 + 3);
+}
+
+// Held components and the start come from the start, rest lengths from the reference.
+TEST(StructureConfiguration, StartAndReferenceAreApart) {
+  Scene scene;
+  scene.nodes = {{"a", 0.0, 0.0, true, true}, {"b", 1.0, 0.0, false, false}};
+  scene.bars = {{{"a", "b"}, 1.0, 0.0, StrainMeasure::kBiot}};
+  Configuration configuration = Configuration::Of(scene);
+  configuration.start[0] = -1.0;  // the support has been moved: the bar is twice as long as it wants to be
+  const Structure structure(scene, configuration);
+  EXPECT_EQ(structure.StartPosition(0), Eigen::Vector2d(-1.0, 0.0));
+  EXPECT_NEAR(structure.Energy(structure.Start()), 0.5, kRounding);
 }
 
 }  // namespace

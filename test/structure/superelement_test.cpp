@@ -24,7 +24,9 @@ class Superelement : public testing::Test {
 
 TEST_F(Superelement, ForceIsStiffnessTimesDisplacement) {
   const LinearSuperelement element(stiffness_, initial_);
-  EXPECT_EQ(element.NumNodes(), 2);
+  ASSERT_EQ(element.Dofs().size(), 4u);
+  EXPECT_EQ(element.Dofs()[3].node, 1);
+  EXPECT_EQ(element.Dofs()[3].component, 1);
   Eigen::VectorXd force(4);
   element.Force(initial_, force);
   EXPECT_EQ(force.norm(), 0.0);

@@ -87,13 +87,13 @@ class Spiral : public Surface {
 //   c   on a disc beside it, c slides along y only, mu = 0.4   e   on a flat floor, mu = 0.2, the floor moves
 //   b   on a disc above it, frictionless
 // All gaps are between 0 and 0.6 at the start.
-inline ContactPairs CurvedContacts(const Scene& scene, const Structure& structure) {
+inline ContactPairs CurvedContacts(const Structure& structure) {
   ContactPairs contacts;
   const auto add = [&](const char* name, std::shared_ptr<const Surface> surface, const Eigen::Vector2d& velocity,
                        double friction) {
     const int node = structure.NodeIndex(name);
-    const Node& at = scene.nodes[static_cast<std::size_t>(node)];
-    const NodeMotion motion = {{structure.Dof(node, 0), structure.Dof(node, 1)}, {at.x, at.y}, velocity};
+    const NodeMotion motion = {
+        {structure.Dof(node, 0), structure.Dof(node, 1)}, structure.StartPosition(node), velocity};
     contacts.push_back(std::make_unique<RigidPair>(std::move(surface), motion, friction));
   };
   const Eigen::Vector2d at_rest = Eigen::Vector2d::Zero();

@@ -8,6 +8,7 @@
 #include "contact_path/contact/contact_pair.h"
 #include "contact_path/contact/path_point.h"
 #include "contact_path/path/increment.h"
+#include "contact_path/scene/configuration.h"
 #include "contact_path/scene/scaling.h"
 #include "contact_path/scene/scene.h"
 #include "contact_path/structure/structure.h"
@@ -16,8 +17,10 @@ namespace contact_path {
 
 // Not to be copied or moved: the solvers keep references to its parts.
 struct Model {
-  // `scene` must be sound. `scaling`: CharacteristicScales(scene), or those of a scene with other loads.
+  // `scene` must be sound. `scaling`: CharacteristicScales(scene), or those of a scene with other loads. configuration:
+  // in scene units; where not given, that of the scene.
   Model(const Scene& scene, const Scaling& scaling);
+  Model(const Scene& scene, const Configuration& configuration, const Scaling& scaling);
   Model(const Model&) = delete;
   Model& operator=(const Model&) = delete;
 
@@ -35,6 +38,7 @@ struct Model {
   Residuals Check(const PathPoint& before, const PathPoint& now) const;
 
   const Scene scene;  // as the user wrote it
+  const Configuration configuration;
   const Scaling scaling;
   const Scene scaled;
   const Structure structure;    // of the scaled scene

@@ -2,6 +2,8 @@
 #ifndef CONTACT_PATH_STRUCTURE_BAR_H_
 #define CONTACT_PATH_STRUCTURE_BAR_H_
 
+#include <vector>
+
 #include "contact_path/scene/scene.h"
 #include "contact_path/structure/element.h"
 
@@ -14,7 +16,7 @@ class BarElement : public Element {
   // EA > 0 [force], rest_length > 0 [length].
   BarElement(double EA, double rest_length, StrainMeasure strain);
 
-  Eigen::Index NumNodes() const override { return 2; }
+  const std::vector<LocalDof>& Dofs() const override;
   double Energy(const Eigen::Ref<const Eigen::VectorXd>& x) const override;
   void Force(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::VectorXd> force) const override;
   void Tangent(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::MatrixXd> tangent) const override;

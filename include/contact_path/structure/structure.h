@@ -9,41 +9,48 @@
 #include <unordered_map>
 #include <vector>
 
+#include "contact_path/scene/configuration.h"
 #include "contact_path/scene/scene.h"
+#include "contact_path/structure/dof_map.h"
 #include "contact_path/structure/element.h"
+#include "contact_path/structure/scene_elements.h"
 
 namespace contact_path {
 
-// Total potential energy Pi(u, s) = sum of element energies - (s f + f_constant) . u, phi = dPi/du (Kanno & Martins
-// 2005, section 2). u: current positions of the free components, in node order, x before y: NumDofs() entries.
 // A component of a support whose position is prescribed: u[dof] = start + rate s. A free component otherwise, held by a
 // reaction.
 struct PrescribedDof {
   int dof = 0;
-  double start = 0.0;  // [length]
-  double rate = 0.0;   // [length] per unit of the load factor
+  double start = 0.0;  // unit of the unknown
+  double rate = 0.0;   // the same per unit of the load factor
 };
 
+// Total potential energy Pi(u, s) = sum of element energies - (s f + f_constant) . u, phi = dPi/du (Kanno & Martins
+// 2005, section 2). u: the unknowns, current positions and rotations, as DofMap numbers them: NumDofs() entries.
 class Structure {
  public:
-  // `scene` must be sound (scene/validate.h).
+  // `scene` must be sound (scene/validate.h). A node has a rotation where an element asks for it; it is free, and 0 at
+  // the start.
   explicit Structure(const Scene& scene);
+  Structure(const Scene& scene, const Configuration& configuration);
+  // The same with these elements in place of those of the scene.
+  Structure(const Scene& scene, const Configuration& configuration, std::vector<PlacedElement> elements);
 
-  Eigen::Index NumDofs() const { return initial_.size(); }
-  // Index of a free or prescribed component in u (axis 0 = x, 1 = y); -1 if it is fixed and rests.
-  int Dof(int node, int axis) const {
-    return dofs_[2 * static_cast<std::size_t>(node) + static_cast<std::size_t>(axis)];
-  }
+  const DofMap& Dofs() const { return dofs_; }
+  Eigen::Index NumDofs() const { return dofs_.NumDofs(); }
+  // The unknown of a position (axis 0 = x, 1 = y), free or prescribed; -1 if it is fixed and rests.
+  int Dof(int node, int axis) const { return dofs_.Dof(node, Field::kPosition, axis); }
   int NodeIndex(const std::string& name) const { return node_index_.at(name); }
 
-  const Eigen::VectorXd& InitialPositions() const { return initial_; }      // of the components in u
+  const Eigen::VectorXd& Start() const { return start_; }                   // u at the start
+  Eigen::Vector2d StartPosition(int node) const;                            // of its components, free or not
   const Eigen::VectorXd& ReferenceLoad() const { return reference_load_; }  // f, scaled by the load factor
   const Eigen::VectorXd& ConstantLoad() const { return constant_load_; }    // f_constant
   const std::vector<PrescribedDof>& PrescribedDofs() const { return prescribed_; }
   // The forces that hold the prescribed components at (u, s), in their order: phi - s f - f_constant [force].
   Eigen::VectorXd SupportReactions(const Eigen::Ref<const Eigen::VectorXd>& u, double s) const;
-  // All positions x0, y0, x1, ... with the free components from u.
-  Eigen::VectorXd FullPositions(const Eigen::VectorXd& u) const;
+  // The values of all Dofs().Components(), the unknown ones from u.
+  Eigen::VectorXd AllValues(const Eigen::VectorXd& u) const;
 
   // Strain energy [force length].
   double Energy(const Eigen::VectorXd& u) const;
@@ -60,20 +67,22 @@ class Structure {
 
  private:
   struct Part {
-    std::unique_ptr<Element> element;
-    std::vector<int> components;  // index into the full positions, 2n
-    std::vector<int> dofs;        // index into u or -1, 2n
-    std::vector<int> entries;     // index into the values of the pattern or -1, 2n x 2n column-major
+    std::unique_ptr<const Element> element;
+    std::vector<int> components;  // by local dof: into Dofs().Components()
+    std::vector<int> dofs;        // by local dof: into u, or -1
+    std::vector<int> entries;     // into the values of the pattern, or -1: a square, column-major
   };
 
-  void AddPart(std::unique_ptr<Element> element, const std::vector<std::string>& nodes);
+  void NumberUnknowns(const Scene& scene, const std::vector<double>& start, const std::vector<PlacedElement>& elements);
+  void AddLoads(const Scene& scene);
+  void AddPart(PlacedElement placed);
   void BuildPattern();
   void Gather(const Part& part, const Eigen::Ref<const Eigen::VectorXd>& u, Eigen::Ref<Eigen::VectorXd> x) const;
 
   std::unordered_map<std::string, int> node_index_;
-  std::vector<int> dofs_;              // 2 x nodes
-  Eigen::VectorXd initial_positions_;  // 2 x nodes
-  Eigen::VectorXd initial_;
+  DofMap dofs_;
+  Eigen::VectorXd start_values_;  // of all components
+  Eigen::VectorXd start_;
   Eigen::VectorXd reference_load_;
   Eigen::VectorXd constant_load_;
   std::vector<PrescribedDof> prescribed_;

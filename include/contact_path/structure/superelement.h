@@ -3,6 +3,7 @@
 #define CONTACT_PATH_STRUCTURE_SUPERELEMENT_H_
 
 #include <utility>
+#include <vector>
 
 #include "contact_path/structure/element.h"
 
@@ -13,9 +14,11 @@ class LinearSuperelement : public Element {
  public:
   // stiffness K: 2n x 2n, symmetric [force/length]; initial positions X: 2n [length].
   LinearSuperelement(Eigen::MatrixXd stiffness, Eigen::VectorXd initial)
-      : stiffness_(std::move(stiffness)), initial_(std::move(initial)) {}
+      : stiffness_(std::move(stiffness)),
+        initial_(std::move(initial)),
+        dofs_(PositionsOfNodes(static_cast<int>(initial_.size() / kPositionComponents))) {}
 
-  Eigen::Index NumNodes() const override { return initial_.size() / 2; }
+  const std::vector<LocalDof>& Dofs() const override { return dofs_; }
   double Energy(const Eigen::Ref<const Eigen::VectorXd>& x) const override {
     return 0.5 * (x - initial_).dot(stiffness_ * (x - initial_));
   }
@@ -34,6 +37,7 @@ class LinearSuperelement : public Element {
  private:
   Eigen::MatrixXd stiffness_;
   Eigen::VectorXd initial_;
+  std::vector<LocalDof> dofs_;
 };
 
 }  // namespace contact_path

@@ -1,0 +1,24 @@
+// Where the nodes of a scene are.
+#ifndef CONTACT_PATH_SCENE_CONFIGURATION_H_
+#define CONTACT_PATH_SCENE_CONFIGURATION_H_
+
+#include <vector>
+
+#include "contact_path/scene/scene.h"
+
+namespace contact_path {
+
+// x0, y0, x1, y1, ... by node [length].
+struct Configuration {
+  std::vector<double> reference;  // the shape from which elements take rest lengths and rest positions not given
+  std::vector<double> start;      // at load factor 0: the places of supports, and of all nodes before any load
+
+  // Both: the positions that the nodes of the scene have.
+  static Configuration Of(const Scene& scene);
+  // All positions over a length.
+  Configuration Over(double length) const;
+};
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_SCENE_CONFIGURATION_H_

@@ -1,0 +1,23 @@
+// The elements of a scene.
+#ifndef CONTACT_PATH_STRUCTURE_SCENE_ELEMENTS_H_
+#define CONTACT_PATH_STRUCTURE_SCENE_ELEMENTS_H_
+
+#include <memory>
+#include <vector>
+
+#include "contact_path/scene/scene.h"
+#include "contact_path/structure/element.h"
+
+namespace contact_path {
+
+struct PlacedElement {
+  std::unique_ptr<const Element> element;
+  std::vector<int> nodes;  // of the scene, for the nodes 0, 1, ... of the element
+};
+
+// In scene order: bars, then superelements. reference: x0, y0, x1, ... (scene/configuration.h). `scene` must be sound.
+std::vector<PlacedElement> MakeElements(const Scene& scene, const std::vector<double>& reference);
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_STRUCTURE_SCENE_ELEMENTS_H_

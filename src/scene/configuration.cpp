@@ -1,0 +1,19 @@
+#include "contact_path/scene/configuration.h"
+
+namespace contact_path {
+
+Configuration Configuration::Of(const Scene& scene) {
+  Configuration configuration;
+  for (const Node& node : scene.nodes) configuration.reference.insert(configuration.reference.end(), {node.x, node.y});
+  configuration.start = configuration.reference;
+  return configuration;
+}
+
+Configuration Configuration::Over(double length) const {
+  Configuration scaled = *this;
+  for (double& position : scaled.reference) position /= length;
+  for (double& position : scaled.start) position /= length;
+  return scaled;
+}
+
+}  // namespace contact_path

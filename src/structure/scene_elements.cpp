@@ -1,0 +1,61 @@
+#include "contact_path/structure/scene_elements.h"
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <string>
+#include <unordered_map>
+#include <utility>
+
+#include "contact_path/structure/bar.h"
+#include "contact_path/structure/superelement.h"
+
+namespace contact_path {
+namespace {
+
+// Places of the nodes of an element in the reference shape.
+Eigen::VectorXd PositionsOf(const std::vector<int>& nodes, const std::vector<double>& reference) {
+  Eigen::VectorXd positions(2 * static_cast<Eigen::Index>(nodes.size()));
+  Eigen::Index k = 0;
+  for (const int node : nodes) {
+    positions[k++] = reference[2 * static_cast<std::size_t>(node)];
+    positions[k++] = reference[2 * static_cast<std::size_t>(node) + 1];
+  }
+  return positions;
+}
+
+std::unique_ptr<const Element> Make(const Bar& bar, const std::vector<int>& nodes,
+                                    const std::vector<double>& reference) {
+  const Eigen::Vector4d ends = PositionsOf(nodes, reference);
+  const double distance = (ends.tail<2>() - ends.head<2>()).norm();
+  return std::make_unique<BarElement>(bar.EA, bar.rest_length > 0.0 ? bar.rest_length : distance, bar.strain);
+}
+
+std::unique_ptr<const Element> Make(const Superelement& part, const std::vector<int>& nodes,
+                                    const std::vector<double>& reference) {
+  const auto size = static_cast<Eigen::Index>(2 * nodes.size());
+  Eigen::VectorXd rest = PositionsOf(nodes, reference);
+  if (!part.rest_positions.empty()) rest = Eigen::Map<const Eigen::VectorXd>(part.rest_positions.data(), size);
+  const Eigen::Map<const Eigen::MatrixXd> stiffness(part.stiffness.data(), size, size);
+  return std::make_unique<LinearSuperelement>(0.5 * (stiffness + stiffness.transpose()), std::move(rest));
+}
+
+}  // namespace
+
+std::vector<PlacedElement> MakeElements(const Scene& scene, const std::vector<double>& reference) {
+  std::unordered_map<std::string, int> numbers;
+  for (const Node& node : scene.nodes) numbers.emplace(node.name, static_cast<int>(numbers.size()));
+  std::vector<PlacedElement> elements;
+  const auto add = [&](const auto& parts) {
+    for (const auto& part : parts) {
+      std::vector<int> nodes;
+      for (const std::string& name : part.nodes) nodes.push_back(numbers.at(name));
+      std::unique_ptr<const Element> element = Make(part, nodes, reference);
+      elements.push_back({std::move(element), std::move(nodes)});
+    }
+  };
+  add(scene.bars);
+  add(scene.superelements);
+  return elements;
+}
+
+}  // namespace contact_path
