@@ -115,19 +115,19 @@ struct ResidualCheck::Prepared {
     Surface surface;
   };
 
-  Prepared(const Scene& scene, const Scaling& scaling_in) : scaling(scaling_in) {
+  Prepared(const Scene& scene, const Configuration& configuration, const Scaling& scaling_in)
+      : scaling(scaling_in), start(configuration.start) {
+    const std::vector<double>& reference = configuration.reference;
     std::unordered_map<std::string_view, std::size_t> index;
     for (const Node& node : scene.nodes) {
       index.emplace(node.name, index.size());
-      initial.push_back(node.x);
-      initial.push_back(node.y);
       free.push_back(!node.fixed_x);
       free.push_back(!node.fixed_y);
     }
     for (const Bar& bar : scene.bars) {
       PreparedBar prepared{index.at(bar.nodes[0]), index.at(bar.nodes[1]), bar.EA, bar.rest_length, bar.strain};
       if (bar.rest_length == 0.0)
-        prepared.rest = Length(NodePosition(initial, prepared.second) - NodePosition(initial, prepared.first));
+        prepared.rest = Length(NodePosition(reference, prepared.second) - NodePosition(reference, prepared.first));
       bars.push_back(prepared);
     }
     for (const Superelement& part : scene.superelements) {
@@ -137,7 +137,7 @@ struct ResidualCheck::Prepared {
       prepared.rest.assign(part.rest_positions.begin(), part.rest_positions.end());
       if (prepared.rest.empty())
         for (const std::size_t node : prepared.nodes)
-          prepared.rest.insert(prepared.rest.end(), {initial[2 * node], initial[2 * node + 1]});
+          prepared.rest.insert(prepared.rest.end(), {reference[2 * node], reference[2 * node + 1]});
       parts.push_back(std::move(prepared));
     }
     // Summed by node, so that what cancels does so before the load factor makes it large.
@@ -148,7 +148,7 @@ struct ResidualCheck::Prepared {
       loads[at->second].fx += load.fx;
       loads[at->second].fy += load.fy;
     }
-    rates.resize(initial.size());
+    rates.resize(start.size());
     for (const SupportMotion& motion : scene.support_motions) {
       rates[2 * index.at(motion.node)] = motion.dx;
       rates[2 * index.at(motion.node) + 1] = motion.dy;
@@ -237,24 +237,25 @@ struct ResidualCheck::Prepared {
   }
 
   void RequireSizes(const CheckedState& state) const {
-    RequireSize(state.positions, initial.size(), "positions");
+    RequireSize(state.positions, start.size(), "positions");
     RequireSize(state.rn, contacts.size(), "rn");
     RequireSize(state.rt, contacts.size(), "rt");
   }
 
   Scaling scaling;
-  std::vector<double> initial;  // x0, y0, x1, ...
-  std::vector<bool> free;       // the same components
-  std::vector<double> rates;    // of the fixed ones, per unit of the load factor
+  std::vector<double> start;  // places at load factor 0: x0, y0, x1, ...
+  std::vector<bool> free;     // the same components
+  std::vector<double> rates;  // of the fixed ones, per unit of the load factor
   std::vector<PreparedBar> bars;
   std::vector<PreparedPart> parts;
   std::vector<PreparedLoad> loads;
   std::vector<PreparedContact> contacts;
 };
 
-ResidualCheck::ResidualCheck(const Scene& scene) : ResidualCheck(scene, CharacteristicScales(scene)) {}
-ResidualCheck::ResidualCheck(const Scene& scene, const Scaling& scaling)
-    : prepared_(std::make_unique<Prepared>(scene, scaling)) {}
+ResidualCheck::ResidualCheck(const Scene& scene)
+    : ResidualCheck(scene, Configuration::Of(scene), CharacteristicScales(scene)) {}
+ResidualCheck::ResidualCheck(const Scene& scene, const Configuration& configuration, const Scaling& scaling)
+    : prepared_(std::make_unique<Prepared>(scene, configuration, scaling)) {}
 ResidualCheck::~ResidualCheck() = default;
 
 double Residuals::Contact() const {
@@ -284,7 +285,7 @@ Residuals ResidualCheck::Check(const CheckedState& before, const CheckedState& n
       residuals.equilibrium = Worst(residuals.equilibrium, std::abs(unbalance[i]) / scaling.force);
       continue;
     }
-    const Real place = scene.initial[i] + static_cast<Real>(now.load_factor) * scene.rates[i];
+    const Real place = scene.start[i] + static_cast<Real>(now.load_factor) * scene.rates[i];
     residuals.support = Worst(residuals.support, std::abs(now.positions[i] - place) / scaling.length);
   }
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
@@ -325,7 +326,7 @@ double ResidualCheck::DrivingForce(const CheckedState& state) const {
 }
 
 double ResidualCheck::StrainEnergy(const std::vector<double>& positions) const {
-  RequireSize(positions, prepared_->initial.size(), "positions");
+  RequireSize(positions, prepared_->start.size(), "positions");
   Real energy = 0.0L;
   for (const Prepared::PreparedBar& bar : prepared_->bars) {
     const BarLengths lengths = prepared_->Measure(bar, positions);

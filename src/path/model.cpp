@@ -25,7 +25,7 @@ Model::Model(const Scene& scene_in, const Configuration& configuration_in, const
       scaled(ScaleScene(scene_in, scaling_in)),
       structure(scaled, configuration.Over(scaling.length)),
       contacts(BuildContacts(scaled, structure)),
-      check(scene_in, scaling_in) {}
+      check(scene_in, configuration_in, scaling_in) {}
 
 PathPoint Model::InitialPoint() const {
   PathPoint point;

@@ -67,7 +67,7 @@ Preload TracePreload(const Model& model, int max_increments, const MethodFactory
   const Scene scene = PreloadScene(model, model.scaling.force * holding);
   Scaling scaling = model.scaling;
   scaling.load_factor = LoadFactorScale(scene, scaling.length, scaling.force);
-  const Model preload_model(scene, scaling);
+  const Model preload_model(scene, model.configuration, scaling);
   const double target = 1.0 / scaling.load_factor;
   const std::unique_ptr<PathMethod> method = make_method(preload_model, target);
   const auto end = [&preload](EndReason reason, const std::string& message) {

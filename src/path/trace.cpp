@@ -83,7 +83,8 @@ class Tracer {
     const std::size_t first = resumption ? static_cast<std::size_t>(std::max(resumption->from->stage, 1) - 1) : 0;
     for (std::size_t stage = first; stage < NumStages(request_); ++stage) {
       const Clock::time_point start = Clock::now();
-      auto next = std::make_unique<const Model>(StageScene(request_, stage), StageScales(request_, stage, scales_));
+      auto next = std::make_unique<const Model>(StageScene(request_, stage), StageConfiguration(request_, stage),
+                                                StageScales(request_, stage, scales_));
       if (stage > first && recorder_.increments() > request_.options.MaxIncrements()) {
         End(EndReason::kMaxIncrements, "the wanted number of increments was accepted");
         break;
@@ -118,7 +119,8 @@ class Tracer {
     Scene resting = model.scene;
     resting.support_motions.clear();
     const bool moves = !model.structure.PrescribedDofs().empty();
-    const std::unique_ptr<const Model> other = moves ? std::make_unique<const Model>(resting, model.scaling) : nullptr;
+    const std::unique_ptr<const Model> other =
+        moves ? std::make_unique<const Model>(resting, model.configuration, model.scaling) : nullptr;
     const Model& start = moves ? *other : model;
     // The start does not depend on how the path from there is traced, but for the accuracy.
     const MethodFactory make_method = [&](const Model& of, double target) -> std::unique_ptr<PathMethod> {

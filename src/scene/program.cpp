@@ -1,8 +1,6 @@
 #include "contact_path/scene/program.h"
 
 #include <algorithm>
-#include <cmath>
-#include <string>
 #include <string_view>
 #include <unordered_map>
 #include <vector>
@@ -10,51 +8,14 @@
 namespace contact_path {
 namespace {
 
-// Nodes by name; of several with one name the first.
-class NodesByName {
- public:
-  explicit NodesByName(std::vector<Node>* nodes) {
-    for (Node& node : *nodes) nodes_.emplace(node.name, &node);
-  }
-  Node& operator[](const std::string& name) const { return *nodes_.at(name); }
-
- private:
-  std::unordered_map<std::string_view, Node*> nodes_;
-};
-
-// What elements take from the initial positions of their nodes.
-void FillInRest(const NodesByName& nodes, Scene* scene) {
-  for (Bar& bar : scene->bars) {
-    if (bar.rest_length > 0.0) continue;
-    const Node &a = nodes[bar.nodes[0]], &b = nodes[bar.nodes[1]];
-    bar.rest_length = std::hypot(b.x - a.x, b.y - a.y);
-  }
-  for (Superelement& part : scene->superelements) {
-    if (!part.rest_positions.empty()) continue;
-    for (const std::string& name : part.nodes)
-      part.rest_positions.insert(part.rest_positions.end(), {nodes[name].x, nodes[name].y});
-  }
-}
-
-// All stages before `stage`.
+// Loads and obstacle motions of all stages before `stage`.
 void BringOn(const std::vector<Stage>& program, std::size_t stage, Scene* scene) {
-  const NodesByName nodes(&scene->nodes);
   std::unordered_map<std::string_view, Obstacle*> obstacles;
   for (Obstacle& obstacle : scene->obstacles) obstacles.emplace(obstacle.name, &obstacle);
-  bool supports_moved = false;
   for (std::size_t i = 0; i < stage; ++i) {
     const double target = program[i].Target();
     for (const Load& load : program[i].loads)
       scene->loads.push_back({load.node, target * load.fx, target * load.fy, true});
-    if (!program[i].support_motions.empty() && !supports_moved) {
-      FillInRest(nodes, scene);
-      supports_moved = true;
-    }
-    for (const SupportMotion& motion : program[i].support_motions) {
-      Node& node = nodes[motion.node];
-      node.x += target * motion.dx;
-      node.y += target * motion.dy;
-    }
     for (const ObstacleMotion& motion : program[i].obstacle_motions) {
       Obstacle& obstacle = *obstacles.at(motion.obstacle);
       obstacle.px += target * motion.dx;
@@ -97,6 +58,21 @@ Scene StageScene(const TraceRequest& request, std::size_t stage) {
   scene.support_motions = now.support_motions;
   scene.obstacle_motions = now.obstacle_motions;
   return scene;
+}
+
+Configuration StageConfiguration(const TraceRequest& request, std::size_t stage) {
+  Configuration configuration = Configuration::Of(request.scene);
+  std::unordered_map<std::string_view, std::size_t> numbers;
+  for (const Node& node : request.scene.nodes) numbers.emplace(node.name, numbers.size());
+  for (std::size_t i = 0; i < std::min(stage, request.program.size()); ++i) {
+    const double target = request.program[i].Target();
+    for (const SupportMotion& motion : request.program[i].support_motions) {
+      const std::size_t node = numbers.at(motion.node);
+      configuration.start[2 * node] += target * motion.dx;
+      configuration.start[2 * node + 1] += target * motion.dy;
+    }
+  }
+  return configuration;
 }
 
 Scaling ProgramScales(const TraceRequest& request) {

@@ -38,6 +38,7 @@ class Verifier {
   Verifier(const TraceRequest& request, const Scaling& of_program, std::size_t stage,
            const std::vector<Increment>& increments, std::size_t first, std::size_t last, Verification* result)
       : scene_(StageScene(request, stage)),
+        configuration_(StageConfiguration(request, stage)),
         stage_(request.program.empty() ? 0 : static_cast<int>(stage) + 1),
         target_(request.program.empty() ? std::nullopt : std::optional(request.program[stage].Target())),
         full_state_every_(std::max(request.options.full_state_every, 1)),
@@ -45,12 +46,12 @@ class Verifier {
         first_(first),
         last_(last),
         scaling_(StageScales(request, stage, of_program)),
-        check_(scene_, scaling_),
+        check_(scene_, configuration_, scaling_),
         result_(*result) {
     double farthest = 0.0;
     for (std::size_t i = 0; i < scene_.nodes.size(); ++i) {
       nodes_.emplace(scene_.nodes[i].name, i);
-      farthest = std::max({farthest, std::abs(scene_.nodes[i].x), std::abs(scene_.nodes[i].y)});
+      farthest = std::max({farthest, std::abs(configuration_.start[2 * i]), std::abs(configuration_.start[2 * i + 1])});
     }
     // What moves takes nodes along, and lengths of arc are of the load factor, too.
     double load = 0.0;
@@ -247,11 +248,12 @@ class Verifier {
     CheckRecorded(increment, residuals);
     for (std::size_t i = 0; i < scene_.nodes.size(); ++i) {
       const Node& node = scene_.nodes[i];
-      const auto off = [&](std::size_t k, double initial) {
-        return std::abs(increment.positions[k] - initial - rates_[k] * increment.load_factor) / scaling_.length >
+      const auto off = [&](std::size_t k) {
+        return std::abs(increment.positions[k] - configuration_.start[k] - rates_[k] * increment.load_factor) /
+                   scaling_.length >
                rounding_;
       };
-      if ((node.fixed_x && off(2 * i, node.x)) || (node.fixed_y && off(2 * i + 1, node.y)))
+      if ((node.fixed_x && off(2 * i)) || (node.fixed_y && off(2 * i + 1)))
         Report("support ", node.name, " is not where it has to be");
     }
     for (std::size_t i = 0; i < surfaces_.size(); ++i) CheckContact(surfaces_[i], before, increment, i, tolerance);
@@ -445,6 +447,7 @@ class Verifier {
   }
 
   const Scene scene_;
+  const Configuration configuration_;
   const int stage_;
   const std::optional<double> target_;  // of the stage; nothing without a program
   const int full_state_every_;

@@ -458,5 +458,22 @@ TEST(StrainEnergy, ForcesOfSuperelementsAreItsGradient) {
   ExpectForcesAreTheGradient(scene, {0.3, 5.2, -4.1, 0.7});
 }
 
+// A support that an earlier stage has moved is where the configuration has it; the bar keeps its length at rest.
+TEST(ResidualCheckOfAStage, SupportsAreAtTheStartAndRestIsOfTheReference) {
+  Scene scene;
+  scene.nodes = {{"a", 0.0, 0.0, true, true}, {"b", 1.0, 0.0, false, false}};
+  scene.bars = {{{"a", "b"}, 2.0, 0.0, StrainMeasure::kBiot}};
+  scene.loads = {{"b", 0.5, 0.0, true}};
+  Configuration configuration = Configuration::Of(scene);
+  configuration.start[0] = -0.5;
+  const ResidualCheck check(scene, configuration, Scaling());
+  CheckedState state;
+  state.positions = {-0.5, 0.0, 0.75, 0.0};  // N = 2 (1.25 - 1) = 0.5
+  EXPECT_LE(check.Check(state, state).Largest(), kRounding);
+  state.positions = {0.0, 0.0, 1.25, 0.0};  // the same bar with its support where it was
+  EXPECT_LE(check.Check(state, state).equilibrium, kRounding);
+  EXPECT_NEAR(check.Check(state, state).support, 0.5, kRounding);
+}
+
 }  // namespace
 }  // namespace contact_path

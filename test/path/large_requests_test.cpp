@@ -43,7 +43,7 @@ TEST(LargeRequests, CostNoSquareOfTheirSize) {
   const std::vector<Violation> violations = Validate(request);
   EXPECT_TRUE(violations.empty()) << violations.front().ToLine();
   const Scene second = StageScene(request, 1);
-  EXPECT_DOUBLE_EQ(second.nodes[2].y, 0.9);
+  EXPECT_DOUBLE_EQ(StageConfiguration(request, 1).start[5], 0.9);
   EXPECT_DOUBLE_EQ(second.obstacles[1].py, -0.9);
   EXPECT_EQ(StopTest(request).FirstThatHolds(Increment()), nullptr);
   Increment increment;

@@ -317,9 +317,10 @@ TEST(StageScene, HoldsWhatEarlierStagesBroughtOn) {
   const TraceRequest request = ReadExample("press_slide_lift");
   EXPECT_EQ(NumStages(request), 3u);
   const Scene third = StageScene(request, 2);
-  EXPECT_DOUBLE_EQ(third.nodes[0].x, -1.0 + 0.3);
-  EXPECT_DOUBLE_EQ(third.nodes[0].y, 1.0 - 0.1);
-  EXPECT_DOUBLE_EQ(third.bars[0].rest_length, std::hypot(1.0, 0.98));
+  const Configuration configuration = StageConfiguration(request, 2);
+  EXPECT_DOUBLE_EQ(configuration.start[0], -1.0 + 0.3);
+  EXPECT_DOUBLE_EQ(configuration.start[1], 1.0 - 0.1);
+  EXPECT_EQ(configuration.reference, Configuration::Of(request.scene).reference);
   ASSERT_EQ(third.support_motions.size(), 2u);
   EXPECT_EQ(third.support_motions[0].dy, 1.0);
   TraceRequest loads = ReadExample("sliding_bar");

@@ -51,7 +51,7 @@ TEST_F(MixedStructure, NumbersTheFreeComponentsInNodeOrder) {
   EXPECT_EQ(structure_.Start(), initial);
 }
 
-TEST_F(MixedStructure, FullPositionsHoldTheFixedComponents) {
+TEST_F(MixedStructure, AllValuesHoldTheFixedComponents) {
   Eigen::VectorXd u(6), full(10);
   u << 10.0, 11.0, 12.0, 13.0, 14.0, 15.0;
   full << 0.0, 0.1, 10.0, 11.0, 1.4, 12.0, 13.0, 14.0, 15.0, 0.9;

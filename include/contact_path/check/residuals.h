@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "contact_path/scene/configuration.h"
 #include "contact_path/scene/scaling.h"
 #include "contact_path/scene/scene.h"
 
@@ -40,10 +41,11 @@ struct CheckedState {
 // The check of one scene, with its names resolved once.
 class ResidualCheck {
  public:
-  // scaling: characteristic force and length that residuals are divided by; without it, those of the scene. Throws
-  // std::invalid_argument or std::out_of_range for a name that the scene does not have.
+  // scaling: characteristic force and length that residuals are divided by; without it, those of the scene.
+  // configuration: without it, that of the scene. Throws std::invalid_argument or std::out_of_range for a name that the
+  // scene does not have.
   explicit ResidualCheck(const Scene& scene);
-  ResidualCheck(const Scene& scene, const Scaling& scaling);
+  ResidualCheck(const Scene& scene, const Configuration& configuration, const Scaling& scaling);
   ~ResidualCheck();
   ResidualCheck(const ResidualCheck&) = delete;
   ResidualCheck& operator=(const ResidualCheck&) = delete;

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 
+#include "contact_path/scene/configuration.h"
 #include "contact_path/scene/scaling.h"
 #include "contact_path/scene/scene.h"
 
@@ -13,9 +14,11 @@ namespace contact_path {
 std::size_t NumStages(const TraceRequest& request);
 
 // The scene of a stage, from 0, at whose load factor 0 all stages before have come to their targets: their loads are
-// constant, their supports and obstacles are where they were moved to. Rest lengths and rest positions are filled in
-// where supports were moved. Without a program: the scene of the request. `request` must be sound.
+// constant, their obstacles are where they were moved to. Without a program: the scene of the request. `request` must
+// be sound.
 Scene StageScene(const TraceRequest& request, std::size_t stage);
+// The shape of the scene, and its start in a stage: supports are where the stages before have moved them.
+Configuration StageConfiguration(const TraceRequest& request, std::size_t stage);
 
 // One length and one force for all stages, so that points can be handed on: with bars those of the scene, without bars
 // those of the stage with the largest force at its target.
