@@ -52,9 +52,9 @@ def setting(row):
 
 
 def pareto(rows, path):
-    """Error of the line through the rows, and of the rows, over time: one scene."""
+    """Error of the line through the increments, and of the increments, over time: one scene."""
     figure, axes = plt.subplots(1, 2, figsize=(11, 4.2), sharex=True)
-    for axis, error, label in ((axes[0], 'line_error', 'lines between rows'), (axes[1], 'row_error', 'rows')):
+    for axis, error, label in ((axes[0], 'line_error', 'lines between increments'), (axes[1], 'row_error', 'increments')):
         for method, colour in (('branch', 'tab:blue'), ('mpec', 'tab:orange')):
             for kind, marker in (('preset', 'o'), ('step', '.'), ('eps', 'x'), ('cold', '+')):
                 chosen = [row for row in rows if row['method'] == method and
@@ -96,8 +96,8 @@ def trade(results, figures):
                           number(row['dissipation_error']),
                           number(row['factorisations'] if row['method'] == 'branch' else row['iterations']),
                           row['rejected']])
-    return table(['scene', 'method', 'setting', 'rows', 'time / branch balanced', 'rows off by', 'lines off by',
-                  'limit loads off by', 'dissipation off by', 'factorisations or iterations per row', 'rejected'], cells)
+    return table(['scene', 'method', 'setting', 'increments', 'time / branch balanced', 'increments off by', 'lines off by',
+                  'limit loads off by', 'dissipation off by', 'factorisations or iterations per increment', 'rejected'], cells)
 
 
 def scaling(results, figures):

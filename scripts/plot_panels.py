@@ -228,11 +228,11 @@ def states_height(path):
     return count * min(TALLEST_BAR, TALLEST_STATES / count)
 
 
-def pieces(path, contact):
-    """State -> [(arc length of the beginning, length)]. An increment that carries no state is on the piece of the next one
+def arcs(path, contact):
+    """State -> [(arc length of the beginning, length)]. An increment that carries no state is on the arc of the next one
     that does: increments where states change carry them."""
     found = {}
-    # At the start of a stage a piece of no length ends.
+    # At the start of a stage an arc of no length ends.
     states = ['' if i > 0 and increment['kind'] == 'start' else increment['state_' + contact] for i, increment in enumerate(path.increments)]
     for i in range(len(states) - 2, -1, -1):
         states[i] = states[i] or states[i + 1]
@@ -240,7 +240,7 @@ def pieces(path, contact):
         states[i] = states[i] or states[i - 1]
     arc = path.column('arc_length')
     begin = 0
-    for i in range(1, len(states)):  # the state of an increment is that of the piece that ends in it
+    for i in range(1, len(states)):  # the state of an increment holds on the arc that ends in it
         if i + 1 == len(states) or states[i + 1] != states[i]:
             found.setdefault(states[i], []).append((arc[begin], arc[i] - arc[begin]))
             begin = i
@@ -252,7 +252,7 @@ def draw_states(axes, path, arc_length):
     contacts = contacts_shown(path)
     used = set()
     for line, contact in enumerate(contacts):
-        for state, spans in pieces(path, contact).items():
+        for state, spans in arcs(path, contact).items():
             axes.broken_barh(spans, (line - 0.4, 0.8), facecolor=STATES[state], edgecolor=EDGE, linewidth=0.4)
             used.add(state)
     height = 72.0 * states_height(path) / max(len(contacts), 1)  # of a line, in points

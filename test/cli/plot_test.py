@@ -84,17 +84,17 @@ class Panels(QuickPlotTest):
         self.assertIn('increment 0: start', texts)
         self.assert_main_refuses([table, '--states'], 'a.csv', 'no contacts')
 
-    def test_pieces_of_a_contact(self):
+    def test_arcs_of_a_contact(self):
         path = path_file.Path('path')
-        # The state of an increment is that of the piece that ends there; increments where states change carry it, others may not.
+        # The state of an increment holds on the arc that ends there; increments where states change carry it, others may not.
         states = ['stick', '', 'stick', '', 'slip+', '']
         path.increments = [{'arc_length': float(i), 'state_a@b': state} for i, state in enumerate(states)]
         for increment in path.increments:
             increment['kind'] = 'regular'
-        self.assertEqual(plot_panels.pieces(path, 'a@b'), {'stick': [(0.0, 2.0)], 'slip+': [(2.0, 3.0)]})
-        # The start of a stage, at the place of the increment before, is on no piece.
+        self.assertEqual(plot_panels.arcs(path, 'a@b'), {'stick': [(0.0, 2.0)], 'slip+': [(2.0, 3.0)]})
+        # The start of a stage, at the place of the increment before, is on no arc.
         path.increments.insert(3, {'arc_length': 2.0, 'state_a@b': 'open', 'kind': 'start'})
-        self.assertEqual(plot_panels.pieces(path, 'a@b'), {'stick': [(0.0, 2.0)], 'slip+': [(2.0, 3.0)]})
+        self.assertEqual(plot_panels.arcs(path, 'a@b'), {'stick': [(0.0, 2.0)], 'slip+': [(2.0, 3.0)]})
 
     def test_what_cannot_be_plotted_is_one_line(self):
         self.assert_refused(self.plot(self.path('none.csv')), 'none.csv')
