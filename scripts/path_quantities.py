@@ -48,7 +48,7 @@ def label(quantity):
 
 
 def derived(path):
-    """The columns that the scene adds to those of the file."""
+    """The columns that the scene adds to the columns of the file."""
     return (['slip_' + contact for contact in path.contacts()] +
             [axis + node for node in path.nodes() for axis in ('fx_', 'fy_')] + ['load_x', 'load_y'])
 
