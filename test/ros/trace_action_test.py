@@ -236,6 +236,22 @@ class TraceActionTest(unittest.TestCase):
         self.assertEqual(self.number_of_bags(), bags)
         self.assertFalse(self.cancel().success)
 
+    def test_goal_cancelled_while_its_bag_is_read_is_recalled(self):
+        bag = self.trace(helpers.request_of('sliding_bar', step=1e-5, max_increments=50000, stop=[])).bag
+        bags = self.number_of_bags()
+        goal = TracePathActionGoal(goal_id=GoalID(id='cancelled while reading'))
+        goal.goal = helpers.goal_from(TracePathRequest(resume=bag))
+        with helpers.Collector(ACTION + '/result', TracePathActionResult) as results:
+            self.send_goal.publish(goal)
+            helpers.wait_until(lambda: self.trace(TracePathRequest()).status == Response.BUSY, 'the goal is being checked')
+            self.cancel_goal.publish(goal.goal_id)
+            helpers.wait_until(lambda: results.messages, 'the goal has ended')
+        self.assertEqual(results.messages[0].status.status, GoalStatus.RECALLED)
+        result = results.messages[0].result
+        self.assertEqual((result.status, result.end_reason, result.bag),
+                         (Response.ENDED_EARLY, Response.END_CANCELLED, ''))
+        self.assertEqual(self.number_of_bags(), bags)
+
     def expect_noticed_cancel(self, goal_id):
         """Cancels a goal that the node does not know, and waits until it has heard of that."""
         with helpers.Collector(ACTION + '/status', GoalStatusArray) as collector:

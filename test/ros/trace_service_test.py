@@ -330,7 +330,7 @@ class TraceServiceTest(unittest.TestCase):
                 self.assertAlmostEqual(x, y, delta=1e-9)
 
     def test_reading_a_bag_to_resume_can_be_cancelled(self):
-        bag = self.trace(helpers.request_of('sliding_bar', step=1e-5, max_increments=20000, stop=[])).bag
+        bag = self.trace(helpers.request_of('sliding_bar', step=1e-5, max_increments=50000, stop=[])).bag
         bags = self.number_of_bags()
         call = helpers.Call(self.trace, TracePathRequest(resume=bag))
         helpers.wait_until(lambda: self.cancel().success, 'the request has come')
