@@ -212,7 +212,7 @@ class Finder {
   }
 
   // The direction of the arc: of the null space, what is neither a rigid mode (no change of load and reactions) nor a
-  // redundant reaction (no motion). A mechanism has rigid modes only: with one of them it moves that branch, with more
+  // redundant reaction (no motion). A mechanism has rigid modes only: with one of them it moves in that mode, with more
   // it is a mechanism, and the one nearest to the arrival stands for all.
   std::optional<Eigen::VectorXd> Tangent() {
     mechanism_ = false;

@@ -32,7 +32,7 @@ void PrintTable(const RecordedTrace& trace, const Verification& verification) {
   for (const auto& [kind, count] : verification.kinds) std::cout << ' ' << count << ' ' << ToString(kind);
   std::cout << "\n\nlargest residuals, computed anew\n"
             << std::left << std::setw(22) << "" << std::right << std::setw(7) << "increments" << std::setw(13)
-            << "equilibrium" << std::setw(13) << "penetration" << std::setw(13) << "adhesion" << std::setw(13)
+            << "equilibrium" << std::setw(13) << "penetration" << std::setw(13) << "tensile" << std::setw(13)
             << "min form" << std::setw(13) << "cone" << std::setw(13) << "friction law" << std::setw(13) << "supports"
             << '\n';
   PrintResiduals("exact increments", verification.exact_increments, verification.exact);

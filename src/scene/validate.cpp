@@ -360,7 +360,7 @@ class Checker {
     }
   }
 
-  // What an obstacle with friction drags along must be able to move that branch, or its reaction is not determined.
+  // What an obstacle with friction drags along must be able to follow it, or its reaction is not determined.
   void CheckNodesCanFollow(const std::string& key, const ObstacleMotion& motion, const Obstacle& obstacle) {
     const double norm = std::hypot(obstacle.nx, obstacle.ny);
     const double along = std::abs(obstacle.ny * motion.dx - obstacle.nx * motion.dy) / norm;
@@ -368,7 +368,7 @@ class Checker {
     const auto held = held_.find(&obstacle);
     if (held != held_.end())
       Add(key + ".obstacle", motion.obstacle,
-          "moves along itself with friction: node " + held->second->name + " must be free to move that branch");
+          "moves along itself with friction: node " + held->second->name + " must be free to move that way");
   }
 
   // Whether the node cannot move along the obstacle.

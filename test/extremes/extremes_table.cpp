@@ -21,7 +21,7 @@ Written by `scripts/stress`. Each row is a scene taken to an extreme, traced by 
 the largest error of all increments of the path against the exact answer: in the scaled position, load factor and reactions, relative to
 what is at play in the scene. "proved" stands for it where no answer is known: each increment passed the check from the scene alone, as all
 others did, too. A word is the named reason of an early end, with the number of increments until there, all of which were right;
-"time" means that the limit of the table was reached, after that many rows: a second by `mpec`, 15 by `branch`, and five times
+"time" means that the limit of the table was reached, after that many increments: a second by `mpec`, 15 by `branch`, and five times
 as long for the first increments. What is wrong would stand in bold: errors above 1e-9 of exact increments and above 1e-3 of those of `mpec`
 that are not exact, where no more is attainable or admitted in the case (a limit load that is itself tiny, bars of 1e12 times the
 stiffness, gaps that eps takes in).

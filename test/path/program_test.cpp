@@ -474,7 +474,7 @@ TEST(ProgramRules, AreTold) {
   request = sound;
   request.scene.nodes[1].fixed_x = true;
   request.program[1].obstacle_motions = {{"floor", 1.0, 0.0}};
-  ExpectViolation(request, "program[1].obstacle_motions[0].obstacle", "node b must be free to move that branch");
+  ExpectViolation(request, "program[1].obstacle_motions[0].obstacle", "node b must be free to move that way");
   request = ReadExample("two_dof_friction");
   request.scene.superelements[0].rest_positions = {0.0};
   ExpectViolation(request, "scene.superelements[0].rest_positions", "must be empty or have");

@@ -42,7 +42,7 @@ constexpr int kMostFindings = 20;
 // and 1.05 of it), dissipation and work (to what a trapezoid between the increments leaves open), energy balance (to 1
 // % of the work done, mpec: 3 %, and what trapezoids leave open), states change only at events, the load factor turns
 // at limit points and only there, and the branch taken at an event is the one that follows; stages follow each other at
-// their targets, in the same state. Not checked: the other branches record, counters and times.
+// their targets, in the same state. Not checked: the rest of the record of branches, counters and times.
 //
 // before_each: called before each increment is checked; what it throws leaves VerifyPath(). May be empty.
 Verification VerifyPath(const TraceRequest& request, const std::vector<Increment>& increments,
