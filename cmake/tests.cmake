@@ -166,6 +166,8 @@ if(CONTACT_PATH_ROS)
     contact_path_add_python_test(${test} test/ros/${test}.py DEPENDS contact_path_trace contact_path_verify
       VARIABLES CONTACT_PATH_TRACE=$<TARGET_FILE:contact_path_trace> CONTACT_PATH_VERIFY=$<TARGET_FILE:contact_path_verify>)
   endforeach()
+  contact_path_add_python_test(run_built_test test/ros/run_built_test.py
+    VARIABLES CONTACT_PATH_ROOT=${CMAKE_CURRENT_SOURCE_DIR})
   contact_path_add_python_test(plot_bag_test test/ros/plot_bag_test.py DEPENDS contact_path_trace
     VARIABLES CONTACT_PATH_TRACE=$<TARGET_FILE:contact_path_trace> CONTACT_PATH_PLOT=${contact_path_devel_programs}/plot)
   set(contact_path_all_programs contact_path_trace contact_path_lattice contact_path_node
