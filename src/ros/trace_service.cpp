@@ -217,7 +217,9 @@ bool TraceService::HandleCancel(std_srvs::Trigger::Request& /*request*/, std_srv
     RequestStop(StopCause::kCancel);
     answer_at_once_ = true;
     response.success = true;
-    response.message = "cancelling the trace of \"" + running_scene_ + "\"";
+    response.message =
+        streaming_ ? "the caller is answered now; the last increments of \"" + running_scene_ + "\" are still sent"
+                   : "cancelling the trace of \"" + running_scene_ + "\"";
     return true;
   }
   const std::size_t dropped = increments_publisher_.Discard();
