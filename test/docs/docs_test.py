@@ -134,6 +134,16 @@ class Complete(unittest.TestCase):
         settings |= set(re.findall(r'^set\((CONTACT_PATH_\w+) .* CACHE', text, re.M))
         self.assertEqual(set(first_column(section('docs/install.md', 'Building'))), settings)
 
+    def test_packages(self):
+        """The page may give a prefix once for several packages."""
+        script = re.sub('#.*', '', read('scripts/install_dependencies'))
+        lists = re.findall(r'^ *packages(?:=|\+=)\(\n(.*?)^ *\)', script, re.M | re.S)
+        needed = set(' '.join(lists).split())
+        self.assertGreater(len(needed), 50)
+        spans = set(code_spans(section('docs/install.md', 'Packages')))
+        told = spans | {prefix + span for prefix in ('python3-', 'ros-noetic-') for span in spans}
+        self.assertEqual(needed - told, set())
+
     def test_scripts(self):
         told = {span.split()[0] for span in first_column(section('docs/options.md', 'Scripts'))}
         there = {'scripts/' + path.name for path in (ROOT / 'scripts').iterdir() if path.suffix == '' and path.is_file()}
