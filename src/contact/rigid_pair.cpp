@@ -108,7 +108,6 @@ RigidPair::RigidPair(std::shared_ptr<const Surface> surface, const NodeMotion& m
       traits.moves_xi[static_cast<std::size_t>(i)] = xi_gradient_[i] != 0.0;
     }
     traits.largest_gap_rate = 1.0 + std::abs(gap_gradient_[last]);
-    if (xi_gradient_.head(last).isZero(0.0)) traits.friction = 0.0;
   }
   SetTraits(std::move(traits));
 }

@@ -7,6 +7,7 @@
 
 #include "contact_path/contact/rigid_pair.h"
 #include "contact_path/contact/surface.h"
+#include "contact_path/scene/can_slide.h"
 
 namespace contact_path {
 namespace {
@@ -23,23 +24,25 @@ std::shared_ptr<const Surface> MakeSurface(const Obstacle& obstacle) {
 
 ContactPairs BuildContacts(const Scene& scene, const Structure& structure) {
   struct Placed {
+    const Obstacle* obstacle = nullptr;
     std::shared_ptr<const Surface> surface;
     Eigen::Vector2d velocity = Eigen::Vector2d::Zero();
-    double friction = 0.0;
   };
   std::unordered_map<std::string, Placed> obstacles;
   for (const Obstacle& obstacle : scene.obstacles)
-    obstacles[obstacle.name] = {MakeSurface(obstacle), Eigen::Vector2d::Zero(), obstacle.friction};
+    obstacles[obstacle.name] = {&obstacle, MakeSurface(obstacle), Eigen::Vector2d::Zero()};
   for (const ObstacleMotion& motion : scene.obstacle_motions)
     obstacles.at(motion.obstacle).velocity = {motion.dx, motion.dy};
 
   ContactPairs contacts;
   for (const ContactCandidate& candidate : scene.contacts) {
-    const Placed& obstacle = obstacles.at(candidate.obstacle);
+    const Placed& placed = obstacles.at(candidate.obstacle);
     const int node = structure.NodeIndex(candidate.node);
     const NodeMotion motion = {
-        {structure.Dof(node, 0), structure.Dof(node, 1)}, structure.StartPosition(node), obstacle.velocity};
-    contacts.push_back(std::make_unique<RigidPair>(obstacle.surface, motion, obstacle.friction));
+        {structure.Dof(node, 0), structure.Dof(node, 1)}, structure.StartPosition(node), placed.velocity};
+    const bool can_slide = CanSlide(motion.dofs[0] >= 0, motion.dofs[1] >= 0, *placed.obstacle);
+    contacts.push_back(
+        std::make_unique<RigidPair>(placed.surface, motion, can_slide ? placed.obstacle->friction : 0.0));
   }
   return contacts;
 }

@@ -7,6 +7,7 @@
 #include <sstream>
 #include <unordered_map>
 
+#include "contact_path/scene/can_slide.h"
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/scaling.h"
 
@@ -67,31 +68,26 @@ class Verifier {
     for (const Obstacle& obstacle : scene_.obstacles) obstacles.emplace(obstacle.name, &obstacle);
     std::unordered_map<std::string, const ObstacleMotion*> motions;
     for (const ObstacleMotion& motion : scene_.obstacle_motions) motions.emplace(motion.obstacle, &motion);
+    rates_.resize(2 * scene_.nodes.size());
+    for (const SupportMotion& motion : scene_.support_motions) {
+      rates_[2 * nodes_.at(motion.node)] = motion.dx;
+      rates_[2 * nodes_.at(motion.node) + 1] = motion.dy;
+    }
     for (const ContactCandidate& contact : scene_.contacts) {
       const Obstacle* const obstacle = obstacles.at(contact.obstacle);
-      const Node& node = scene_.nodes[nodes_.at(contact.node)];
-      // A node that cannot move along the obstacle has no friction.
-      const bool can_slide = (!node.fixed_x && obstacle->ny != 0.0) || (!node.fixed_y && obstacle->nx != 0.0);
+      const std::size_t number = nodes_.at(contact.node);
+      const Node& node = scene_.nodes[number];
+      const bool can_slide = CanSlide(!node.fixed_x || rates_[2 * number] != 0.0,
+                                      !node.fixed_y || rates_[2 * number + 1] != 0.0, *obstacle);
       const double length = std::hypot(obstacle->nx, obstacle->ny);
-      Surface surface{nodes_.at(contact.node),
-                      obstacle->px,
-                      obstacle->py,
-                      0.0,
-                      0.0,
-                      obstacle->nx / length,
-                      obstacle->ny / length,
-                      can_slide ? obstacle->friction : 0.0,
+      Surface surface{number,        obstacle->px,          obstacle->py,          0.0,
+                      0.0,           obstacle->nx / length, obstacle->ny / length, can_slide ? obstacle->friction : 0.0,
                       contact.Name()};
       if (const auto motion = motions.find(contact.obstacle); motion != motions.end()) {
         surface.dx = motion->second->dx;
         surface.dy = motion->second->dy;
       }
       surfaces_.push_back(surface);
-    }
-    rates_.resize(2 * scene_.nodes.size());
-    for (const SupportMotion& motion : scene_.support_motions) {
-      rates_[2 * nodes_.at(motion.node)] = motion.dx;
-      rates_[2 * nodes_.at(motion.node) + 1] = motion.dy;
     }
   }
 

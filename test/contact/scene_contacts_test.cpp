@@ -73,6 +73,7 @@ TEST_F(OneNode, FixedComponentsAreInTheOffset) {
 TEST_F(OneNode, FrictionNeedsRoomToSlide) {
   fixed_x_ = true;
   EXPECT_FALSE(Against(0.0, 1.0).Frictional());
+  EXPECT_FALSE(Against(6e-17, 1.0).Frictional());
   fixed_x_ = false;
   EXPECT_TRUE(Against(0.0, 1.0).Frictional());
   fixed_y_ = true;

@@ -22,7 +22,7 @@ struct NodeMotion {
 // (surface.h), derivatives by q follow by the chain rule. Of a flat surface everything but the values is constant.
 class RigidPair : public ContactPair {
  public:
-  // friction: mu; has no effect on a node that cannot move along the surface.
+  // friction: mu; 0 where the node cannot slide (scene/can_slide.h).
   RigidPair(std::shared_ptr<const Surface> surface, const NodeMotion& motion, double friction);
 
   void Evaluate(const Eigen::VectorXd& u, double s, double reference, Kinematics* kinematics) const override;
