@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 
+#include "contact_path/branch/gauss_rule.h"
+
 namespace contact_path {
 namespace {
 
@@ -202,23 +204,18 @@ CurvePoint Step::At(double t) const {
 }
 
 double Step::ArcLength() const {
-  // Gauss-Legendre, four points on [0, 1].
-  constexpr std::array<double, 4> kPoints = {0.06943184420297371, 0.33000947820757187, 0.66999052179242813,
-                                             0.93056815579702629};
-  constexpr std::array<double, 4> kWeights = {0.17392742256872693, 0.32607257743127307, 0.32607257743127307,
-                                              0.17392742256872693};
   const Eigen::Index n = normal.size();
   Eigen::VectorXd first, second;
   EndDerivatives(*this, &first, &second);
   const Eigen::VectorXd change = (end.x - start.x).head(n);
   const std::array<Quintic, 6> basis = HermiteBasis(length);
   double sum = 0.0;
-  for (std::size_t i = 0; i < kPoints.size(); ++i) {
+  for (std::size_t i = 0; i < kGauss4.points.size(); ++i) {
     std::array<double, 6> b{};
-    for (std::size_t k = 0; k < 6; ++k) b[k] = Evaluate(Derivative(basis[k]), kPoints[i] * length);
-    sum += kWeights[i] * (b[1] * start.first.head(n) + b[2] * start.second.head(n) + b[3] * change +
-                          b[4] * first.head(n) + b[5] * second.head(n))
-                             .norm();
+    for (std::size_t k = 0; k < 6; ++k) b[k] = Evaluate(Derivative(basis[k]), kGauss4.points[i] * length);
+    sum += kGauss4.weights[i] * (b[1] * start.first.head(n) + b[2] * start.second.head(n) + b[3] * change +
+                                 b[4] * first.head(n) + b[5] * second.head(n))
+                                    .norm();
   }
   return sum * length;
 }

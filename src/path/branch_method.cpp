@@ -1,10 +1,10 @@
 #include "contact_path/path/branch_method.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
+#include "contact_path/branch/gauss_rule.h"
 #include "contact_path/mpec/short_increment.h"
 #include "contact_path/path/automatic_step.h"
 #include "contact_path/path/diagnosis.h"
@@ -187,17 +187,13 @@ int BranchMethod::StiffnessSign(const CurvePoint& point) const {
 }
 
 Work BranchMethod::WorkOf(const Step& step) const {
-  // Gauss-Legendre with five points is exact for the products of a quintic and the derivative of another.
-  constexpr std::array<double, 5> kPoints = {0.046910077030668, 0.23076534494715845, 0.5, 0.76923465505284155,
-                                             0.953089922969332};
-  constexpr std::array<double, 5> kWeights = {0.11846344252809454, 0.23931433524968324, 0.28444444444444444,
-                                              0.23931433524968324, 0.11846344252809454};
+  // Five points are exact for the products of a quintic and the derivative of another.
   const auto integrate = [&](const Quintic& force, const Quintic& position) {
     const Quintic rate = Derivative(position);
     double sum = 0.0;
-    for (std::size_t i = 0; i < kPoints.size(); ++i) {
-      const double t = kPoints[i] * step.length;
-      sum += kWeights[i] * Evaluate(force, t) * Evaluate(rate, t);
+    for (std::size_t i = 0; i < kGauss5.points.size(); ++i) {
+      const double t = kGauss5.points[i] * step.length;
+      sum += kGauss5.weights[i] * Evaluate(force, t) * Evaluate(rate, t);
     }
     return sum * step.length;
   };

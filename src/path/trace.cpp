@@ -262,18 +262,6 @@ class Tracer {
 
 }  // namespace
 
-std::string_view ToString(EndReason reason) {
-  switch (reason) {
-    case EndReason::kNumericalFailure: return "numerical_failure";
-    case EndReason::kStopCriterion: return "stop_criterion";
-    case EndReason::kMaxIncrements: return "max_increments";
-    case EndReason::kPathEnd: return "path_end";
-    case EndReason::kStepTooSmall: return "step_too_small";
-    case EndReason::kCancelled: return "cancelled";
-  }
-  return "";
-}
-
 TraceResult Trace(const TraceRequest& request, const TraceControl& control) {
   std::vector<Violation> violations = Validate(request);
   if (!violations.empty()) throw InvalidRequest(std::move(violations));

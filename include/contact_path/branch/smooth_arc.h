@@ -17,8 +17,8 @@ struct CurvePoint {
   Eigen::VectorXd first;     // |(u, s) part| = 1
   Eigen::VectorXd second;    // orthogonal to first in (u, s)
   Eigen::Index nullity = 0;  // null directions of the equations besides the tangent
-  int pivot_sign = 0;        // the same also where singular: see BorderedSolver::PivotSign()
   int determinant_sign = 0;  // of the equations with the tangent as last row; 0 = singular
+  int pivot_sign = 0;        // the same, and other than 0 also where singular: see BorderedSolver::PivotSign()
 };
 
 struct Correction {

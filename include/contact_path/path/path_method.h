@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "contact_path/contact/path_point.h"
+#include "contact_path/path/end_reason.h"
 #include "contact_path/path/increment.h"
-#include "contact_path/path/trace.h"
 #include "contact_path/path/work.h"
 
 namespace contact_path {

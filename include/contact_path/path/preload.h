@@ -6,9 +6,9 @@
 #include <memory>
 #include <string>
 
+#include "contact_path/path/end_reason.h"
 #include "contact_path/path/model.h"
 #include "contact_path/path/path_method.h"
-#include "contact_path/path/trace.h"
 
 namespace contact_path {
 

@@ -4,26 +4,13 @@
 
 #include <functional>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "contact_path/path/end_reason.h"
 #include "contact_path/path/increment.h"
 #include "contact_path/scene/scene.h"
 
 namespace contact_path {
-
-// Why a trace ended.
-enum class EndReason {
-  kNumericalFailure,  // no trustworthy increment could be computed
-  kStopCriterion,     // a stop criterion of the request holds in the last increment, or the last stage is at its target
-  kMaxIncrements,     // the wanted number of increments was accepted
-  kPathEnd,           // no admissible branch: only a dynamic jump leads further
-  kStepTooSmall,      // increments had to be shortened below the smallest allowed
-  kCancelled,         // the caller asked for it
-};
-
-// "stop_criterion", "max_increments", "path_end", "step_too_small", "cancelled", "numerical_failure".
-std::string_view ToString(EndReason reason);
 
 struct TraceResult {
   EndReason reason = EndReason::kNumericalFailure;

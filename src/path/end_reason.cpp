@@ -1,0 +1,17 @@
+#include "contact_path/path/end_reason.h"
+
+namespace contact_path {
+
+std::string_view ToString(EndReason reason) {
+  switch (reason) {
+    case EndReason::kNumericalFailure: return "numerical_failure";
+    case EndReason::kStopCriterion: return "stop_criterion";
+    case EndReason::kMaxIncrements: return "max_increments";
+    case EndReason::kPathEnd: return "path_end";
+    case EndReason::kStepTooSmall: return "step_too_small";
+    case EndReason::kCancelled: return "cancelled";
+  }
+  return "";
+}
+
+}  // namespace contact_path
