@@ -1,29 +1,8 @@
 # The messages, and what other packages get from this one. catkin_package() also decides where libraries and programs go, so it
 # comes before any target.
 
-add_message_files(FILES
-  Bar.msg
-  BranchChoice.msg
-  Contact.msg
-  ContactState.msg
-  Event.msg
-  Increment.msg
-  LimitPoint.msg
-  Load.msg
-  Node.msg
-  Obstacle.msg
-  ObstacleMotion.msg
-  Scene.msg
-  Stage.msg
-  StopCriterion.msg
-  Superelement.msg
-  SupportMotion.msg
-  TraceOptions.msg
-  TraceRequest.msg
-  TraceResult.msg
-  TraceStatus.msg
-  Branch.msg
-)
+file(GLOB contact_path_messages RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}/msg CONFIGURE_DEPENDS msg/*.msg)
+add_message_files(FILES ${contact_path_messages})
 add_service_files(FILES TracePath.srv)
 add_action_files(FILES TracePath.action)
 generate_messages(DEPENDENCIES actionlib_msgs std_msgs)

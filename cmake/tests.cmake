@@ -86,8 +86,9 @@ set(contact_path_extremes
 # A file for each header, except headers that only declare an interface (structure/element.h, mpec/nonlinear_program.h,
 # path/path_method.h), and files that trace whole paths.
 contact_path_add_stage(support derivative_checker_test)
-contact_path_add_stage(scene can_slide_test configuration_test lattice_test one_line_test read_scene_test scaling_test scene_test
-  utf8_test validate_test write_scene_test)
+contact_path_add_stage(scene can_slide_test change_units_test configuration_test field_test lattice_test nearest_name_test
+  one_line_test quantity_test read_scene_test scaling_test scene_index_test scene_test utf8_test validate_test
+  write_scene_test)
 contact_path_add_stage(structure bar_test dof_map_test scene_elements_test structure_test superelement_test)
 contact_path_add_stage(linear bordered_solver_test minimum_norm_test singular_vectors_test)
 contact_path_add_stage(contact contact_pair_test contact_state_test path_point_test rigid_pair_test scene_contacts_test

@@ -27,7 +27,8 @@ class Path:
     Where a message carries no positions and contacts (full_state_every), these numbers are nan and the states ''.
 
     scene: {'name': .., 'nodes': [{'name': .., 'x': ..}, ..], ..} with the fields of PARTS, and the stages of the
-    program, 'program': [{'name': .., 'target': .., 'loads': [..], ..}, ..]; None where it is not known (CSV).
+    program as stages_as_traced gives them, 'program': [{'name': .., 'target': .., 'loads': [..], ..}, ..]; None where it is
+    not known (CSV).
     options: the TraceOptions of the request; None where they are not known (CSV).
     """
 
@@ -115,10 +116,29 @@ def scene_of(request):
 
     scene = {part: items(request.scene, part) for part in PARTS}
     scene['name'] = request.scene.name
-    scene['program'] = [{'name': stage.name, 'target': stage.target or 1.0,
-                         **{part: items(stage, part) for part in STAGE_PARTS}}
-                        for stage in getattr(request, 'program', [])]
+    scene['program'] = stages_as_traced(
+        {'name': stage.name, 'target': stage.target or 1.0, 'unload': getattr(stage, 'unload', False),
+         **{part: items(stage, part) for part in STAGE_PARTS}} for stage in getattr(request, 'program', []))
     return scene
+
+
+def stages_as_traced(program):
+    """The stages, where one that unloads has the loads and motions that the stages before have left, with the opposite
+    sign: one of each node and obstacle."""
+    stages = []
+    left = {part: {} for part in STAGE_PARTS}  # name of the node or obstacle -> components
+    for stage in program:
+        stage = dict(stage)
+        for part in STAGE_PARTS:
+            key, *components = [field for field in PARTS[part] if field != 'constant']
+            if stage['unload']:
+                stage[part] = [dict(PARTS[part], **{key: name}, **{c: -v for c, v in zip(components, values)})
+                               for name, values in left[part].items() if any(values)]
+            for item in stage[part]:
+                values = left[part].setdefault(item[key], [0.0] * len(components))
+                left[part][item[key]] = [v + stage['target'] * item[c] for v, c in zip(values, components)]
+        stages.append(stage)
+    return stages
 
 
 def read_scene(name):
@@ -135,9 +155,10 @@ def read_scene(name):
     try:
         scene = {part: items(request['scene'], part) for part in PARTS}
         scene['name'] = request['scene'].get('name') or ''
-        scene['program'] = [{'name': stage.get('name') or '', 'target': value_of(stage.get('target'), 0.0) or 1.0,
-                             **{part: items(stage, part) for part in STAGE_PARTS}}
-                            for stage in request.get('program') or []]
+        scene['program'] = stages_as_traced(
+            {'name': stage.get('name') or '', 'target': value_of(stage.get('target'), 0.0) or 1.0,
+             'unload': value_of(stage.get('unload'), False), **{part: items(stage, part) for part in STAGE_PARTS}}
+            for stage in request.get('program') or [])
     except (AttributeError, KeyError, TypeError, ValueError) as error:
         raise ValueError('not a scene file; contact_path_trace says what is wrong with it') from error
     return scene

@@ -104,12 +104,12 @@ void DeclareOptions(CLI::App& app, Arguments& arguments) {
   app.add_flag("--quiet", arguments.quiet, "Say nothing on standard error unless the trace ends early");
 }
 
-// The word as an option of the trace. Throws InvalidRequest where `parsed` is nothing.
-template <typename T>
-T KnownWord(const std::optional<T>& parsed, const std::string& option, const std::string& word,
-            const std::string& rule) {
-  if (!parsed) throw InvalidRequest({{option, '"' + word + '"', rule, "command line", 0}});
-  return *parsed;
+// The word as an option of the trace. Throws InvalidRequest where it is not known.
+template <typename Enum>
+Enum KnownWord(const std::string& option, const std::string& word) {
+  const std::optional<Enum> value = ParseWord<Enum>(word);
+  if (!value) throw InvalidRequest({{option, '"' + word + '"', WordRule<Enum>(word), "command line", 0}});
+  return *value;
 }
 
 // What is to be traced, and what there is of it.
@@ -122,13 +122,8 @@ struct Task {
 TraceRequest ReadRequest(const Arguments& arguments) {
   TraceRequest request = ReadTraceRequestFile(arguments.scene_file);
   TraceOptions& options = request.options;
-  if (arguments.method) {
-    options.method = KnownWord(ParseMethod(*arguments.method), "--method", *arguments.method, "must be branch or mpec");
-  }
-  if (arguments.accuracy) {
-    options.accuracy = KnownWord(ParseAccuracy(*arguments.accuracy), "--accuracy", *arguments.accuracy,
-                                 "must be fast, balanced or accurate");
-  }
+  if (arguments.method) options.method = KnownWord<Method>("--method", *arguments.method);
+  if (arguments.accuracy) options.accuracy = KnownWord<Accuracy>("--accuracy", *arguments.accuracy);
   if (arguments.step) options.step = *arguments.step;
   return request;
 }
@@ -241,6 +236,7 @@ ExitStatus RunTrace(const Task& task, const Arguments& arguments, std::ostream& 
     progress.Wipe();
     PrintError(progress.Summary(result));
   }
+  if (result.reason == EndReason::kNoSuchBranch) return kBadInput;
   return complete ? kComplete : kEndedEarly;
 }
 

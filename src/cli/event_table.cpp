@@ -19,7 +19,7 @@ void PrintBranches(const Scene& scene, const Increment& increment, std::ostream&
   if (increment.event.branches.empty()) text << "  no branch was found\n";
   for (std::size_t i = 0; i < increment.event.branches.size(); ++i) {
     const BranchRecord& branch = increment.event.branches[i];
-    const bool taken = static_cast<int>(i) == increment.event.taken;
+    const bool taken = static_cast<int>(i) + 1 == increment.event.taken;
     text << (taken ? "* branch " : "  branch ") << i + 1 << ": dissipation rate " << branch.dissipation_rate
          << ", load rate " << branch.load_rate << ", turn " << branch.turn;
     for (std::size_t k = 0; k < branch.states.size(); ++k)

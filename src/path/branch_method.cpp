@@ -140,7 +140,7 @@ std::optional<EndReason> BranchMethod::PassEvent(const PathPoint& point, const A
     if (taken >= on.branches.size()) {
       *message = "branch_choices wants branch " + std::to_string(choice->branch) + " at " + PlaceOf(*choice) +
                  ": the number of branches there is " + std::to_string(on.branches.size());
-      return EndReason::kNumericalFailure;
+      return EndReason::kNoSuchBranch;
     }
   }
   if (on.branches[taken].mechanism) {
@@ -149,7 +149,7 @@ std::optional<EndReason> BranchMethod::PassEvent(const PathPoint& point, const A
         "reactions";
     return EndReason::kPathEnd;
   }
-  record->taken = static_cast<int>(taken);
+  record->taken = static_cast<int>(taken) + 1;
   begin_ = on.branches[taken].begin;
   if (!Leave(begin_ ? *begin_ : point, on.branches[taken])) {
     *message = "the branch from an event could not be followed";
@@ -262,6 +262,7 @@ Advance BranchMethod::ChangeReactions(const PathPoint& from) {
   increment.solve.next_step = step_length_;
   Advance advance;
   if (ChoiceForIncrement(increments_ + 1) != nullptr) {
+    advance.reason = EndReason::kNoSuchBranch;
     advance.message = "branch_choices wants a branch at increment " + std::to_string(increments_ + 1) +
                       ": only reactions change there, and the branches part in the increment before";
     return advance;

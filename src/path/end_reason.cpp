@@ -10,6 +10,7 @@ std::string_view ToString(EndReason reason) {
     case EndReason::kPathEnd: return "path_end";
     case EndReason::kStepTooSmall: return "step_too_small";
     case EndReason::kCancelled: return "cancelled";
+    case EndReason::kNoSuchBranch: return "no_such_branch";
   }
   return "";
 }

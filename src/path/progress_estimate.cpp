@@ -5,7 +5,7 @@
 namespace contact_path {
 
 ProgressEstimate::ProgressEstimate(const TraceRequest& request) : max_increments_(request.options.max_increments) {
-  const std::vector<StopQuantity> quantities = StopQuantity::Of(request);
+  const std::vector<Quantity> quantities = StopQuantities(request, SceneIndex(request.scene));
   for (std::size_t i = 0; i < quantities.size(); ++i)
     goals_.push_back({quantities[i], 0.0, request.options.stop[i].value});
   for (const Stage& stage : request.program) targets_.push_back(stage.Target());
@@ -20,10 +20,10 @@ double ProgressEstimate::Add(const Increment& increment) {
   }
   for (Goal& goal : goals_) {
     // Increments that were recorded without their state have no positions.
-    if (!goal.quantity.IsLoadFactor() && increment.positions.empty()) continue;
-    if (increment.index == 0) goal.start = goal.quantity.Value(increment);
+    if (goal.quantity.kind != Quantity::Kind::kLoadFactor && increment.positions.empty()) continue;
+    if (increment.index == 0) goal.start = ValueOf(goal.quantity, increment);
     if (goal.end != goal.start)
-      done = std::max(done, (goal.quantity.Value(increment) - goal.start) / (goal.end - goal.start));
+      done = std::max(done, (ValueOf(goal.quantity, increment) - goal.start) / (goal.end - goal.start));
   }
   return std::min(done, 1.0);
 }

@@ -10,7 +10,7 @@ constexpr double kLevel = 1e-9;  // of a unit rate: the load neither rises nor f
 
 // Whether the best branch turns the load back while another goes on with it. change: of the load until there.
 bool TurnsBackByChoice(const EventRecord& event, double change) {
-  if (event.taken != 0) return false;
+  if (event.taken != 1) return false;
   const double sign = change > 0.0 ? 1.0 : -1.0;
   return event.branches[0].load_rate * sign < -kLevel &&
          std::any_of(event.branches.begin(), event.branches.end(),

@@ -1,9 +1,9 @@
 #include "contact_path/path/stop.h"
 
+#include <cstddef>
 #include <sstream>
-#include <string_view>
-#include <unordered_map>
 
+#include "contact_path/scene/change_units.h"
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/scaling.h"
 
@@ -14,28 +14,31 @@ constexpr double kRounding = 1e-14;  // scaled
 
 }  // namespace
 
-std::vector<StopQuantity> StopQuantity::Of(const TraceRequest& request) {
-  std::vector<StopQuantity> quantities(request.options.stop.size());
-  if (quantities.empty()) return quantities;
-  std::unordered_map<std::string_view, int> nodes;
-  for (const Node& node : request.scene.nodes) nodes.emplace(node.name, static_cast<int>(nodes.size()));
-  for (std::size_t i = 0; i < quantities.size(); ++i) {
-    const std::string_view name = request.options.stop[i].quantity;
-    if (name == "load_factor") continue;
-    quantities[i].component_ = 2 * nodes.at(name.substr(0, name.size() - 2)) + (name.back() == 'y' ? 1 : 0);
-  }
+std::vector<Quantity> StopQuantities(const TraceRequest& request, const SceneIndex& index) {
+  std::vector<Quantity> quantities;
+  quantities.reserve(request.options.stop.size());
+  for (const StopCriterion& criterion : request.options.stop)
+    quantities.push_back(FindQuantity(criterion.quantity, index).value());
   return quantities;
 }
 
-double StopQuantity::Value(const Increment& increment) const {
-  return IsLoadFactor() ? increment.load_factor : increment.positions[static_cast<std::size_t>(component_)];
+double ValueOf(const Quantity& quantity, const Increment& increment) {
+  switch (quantity.kind) {
+    case Quantity::Kind::kLoadFactor: return increment.load_factor;
+    case Quantity::Kind::kX: return increment.positions[2 * quantity.part];
+    case Quantity::Kind::kY: return increment.positions[2 * quantity.part + 1];
+    case Quantity::Kind::kGap: return increment.contacts[quantity.part].gap;
+    case Quantity::Kind::kRn: return increment.contacts[quantity.part].rn;
+    case Quantity::Kind::kRt: return increment.contacts[quantity.part].rt;
+  }
+  return 0.0;
 }
 
-StopTest::StopTest(const TraceRequest& request) {
-  const Scaling scaling = ProgramScales(request);
-  const std::vector<StopQuantity> quantities = StopQuantity::Of(request);
+StopTest::StopTest(const TraceRequest& request, const SceneIndex& index) {
+  const Scaling scaling = ProgramScales(request, index);
+  const std::vector<Quantity> quantities = StopQuantities(request, index);
   for (std::size_t i = 0; i < quantities.size(); ++i) {
-    const double unit = quantities[i].IsLoadFactor() ? scaling.load_factor : scaling.length;
+    const double unit = SizeOf(UnitOf(quantities[i].kind), {scaling.length, scaling.force, scaling.load_factor});
     items_.push_back({&request.options.stop[i], quantities[i], kRounding * unit});
   }
 }
@@ -43,7 +46,7 @@ StopTest::StopTest(const TraceRequest& request) {
 const StopCriterion* StopTest::FirstThatHolds(const Increment& increment) const {
   if (increment.index == 0) return nullptr;
   for (const Item& item : items_) {
-    const double value = item.quantity.Value(increment);
+    const double value = ValueOf(item.quantity, increment);
     const StopCriterion& criterion = *item.criterion;
     const double beyond = criterion.when == ">" ? value - criterion.value : criterion.value - value;
     if (beyond > item.rounding) return &criterion;

@@ -17,6 +17,7 @@
 #include "contact_path/path/recorder.h"
 #include "contact_path/path/stop.h"
 #include "contact_path/scene/program.h"
+#include "contact_path/scene/scene_index.h"
 #include "contact_path/scene/validate.h"
 
 namespace contact_path {
@@ -66,9 +67,10 @@ class Tracer {
   Tracer(const TraceRequest& request, const TraceControl& control)
       : request_(request),
         control_(control),
-        scales_(ProgramScales(request)),
+        index_(request.scene),
+        scales_(ProgramScales(request, index_)),
         recorder_(request.options.method, control.on_increment),
-        stop_(request) {}
+        stop_(request, index_) {}
 
   // An increment of an earlier trace that is kept.
   void Repeat(const Increment& increment) {
@@ -83,8 +85,9 @@ class Tracer {
     const std::size_t first = resumption ? static_cast<std::size_t>(std::max(resumption->from->stage, 1) - 1) : 0;
     for (std::size_t stage = first; stage < NumStages(request_); ++stage) {
       const Clock::time_point start = Clock::now();
-      auto next = std::make_unique<const Model>(StageScene(request_, stage), StageConfiguration(request_, stage),
-                                                StageScales(request_, stage, scales_));
+      auto next = std::make_unique<const Model>(StageScene(request_, index_, stage),
+                                                StageConfiguration(request_, index_, stage),
+                                                StageScales(request_, index_, stage, scales_));
       if (stage > first && recorder_.increments() > request_.options.MaxIncrements()) {
         End(EndReason::kMaxIncrements, "the wanted number of increments was accepted");
         break;
@@ -250,7 +253,8 @@ class Tracer {
 
   const TraceRequest& request_;
   const TraceControl& control_;
-  const Scaling scales_;  // of the program
+  const SceneIndex index_;  // of all stages
+  const Scaling scales_;    // of the program
   Recorder recorder_;
   const StopTest stop_;
   PathPoint point_;

@@ -6,10 +6,14 @@
 #include <limits>
 #include <optional>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
+#include "contact_path/scene/field.h"
+#include "contact_path/scene/key_path.h"
 #include "contact_path/scene/validate.h"
+#include "contact_path/scene/words.h"
 
 namespace contact_path {
 namespace {
@@ -43,13 +47,14 @@ constexpr Table<Method, 2> kMethods{{
     {Method::kMpec, msgs::Increment::MPEC},
 }};
 
-constexpr Table<EndReason, 6> kEndReasons{{
+constexpr Table<EndReason, 7> kEndReasons{{
     {EndReason::kNumericalFailure, Response::END_NUMERICAL_FAILURE},
     {EndReason::kStopCriterion, Response::END_STOP_CRITERION},
     {EndReason::kMaxIncrements, Response::END_MAX_INCREMENTS},
     {EndReason::kPathEnd, Response::END_PATH_END},
     {EndReason::kStepTooSmall, Response::END_STEP_TOO_SMALL},
     {EndReason::kCancelled, Response::END_CANCELLED},
+    {EndReason::kNoSuchBranch, Response::END_NO_SUCH_BRANCH},
 }};
 
 template <typename Value, std::size_t kSize>
@@ -77,22 +82,66 @@ int FromCount(std::uint32_t count, const std::string& field) {
   return static_cast<int>(count);
 }
 
-// The word's value; for a word that is not known the default, and a violation.
-template <typename Value>
-Value Known(std::optional<Value> parsed, const std::string& key, const std::string& word, const std::string& rule,
-            std::vector<Violation>* violations) {
-  if (parsed) return *parsed;
-  if (violations->size() >= kMostViolations) return Value{};
-  Violation violation;
-  violation.key = key;
-  violation.value = word;
-  violation.rule = rule;
-  violations->push_back(violation);
-  return Value{};
-}
-
+// "event.branches[3].states".
 std::string Key(const std::string& list, std::size_t index, const std::string& field) {
   return list + "[" + std::to_string(index) + "]." + field;
+}
+
+// Copies parts of messages to parts of the core, which have fields of the same names. Words that are not known become
+// violations.
+class FromMessages {
+ public:
+  template <typename From, typename To>
+  void Copy(const From& from, const KeyPath& path, To* to) {
+    if constexpr (kIsPart<To>) {
+      ForEachFieldPair<To, From>([&](const auto& field, const auto& message_field) {
+        Copy(from.*message_field.member, path.Key(field.name), &(to->*field.member));
+      });
+    } else if constexpr (kIsPartList<To>) {
+      to->resize(from.size());
+      for (std::size_t i = 0; i < from.size(); ++i) Copy(from[i], path[i], &(*to)[i]);
+    } else if constexpr (std::is_enum_v<To>) {
+      CopyWord(from, path, to);
+    } else if constexpr (std::is_same_v<To, bool>) {
+      *to = from != 0;
+    } else {
+      *to = from;
+    }
+  }
+
+  const std::vector<Violation>& violations() const { return violations_; }
+
+ private:
+  template <typename Enum>
+  void CopyWord(const std::string& word, const KeyPath& path, Enum* to) {
+    if (const std::optional<Enum> value = ParseWord<Enum>(word)) {
+      *to = *value;
+    } else if (violations_.size() < kMostViolations) {
+      Violation& violation = violations_.emplace_back();
+      violation.key = path.ToString();
+      violation.value = word;
+      violation.rule = WordRule<Enum>(word);
+    }
+  }
+
+  std::vector<Violation> violations_;
+};
+
+// The other way round; words are written out.
+template <typename From, typename To>
+void CopyToMessage(const From& from, To* to) {
+  if constexpr (kIsPart<From>) {
+    ForEachFieldPair<From, To>([&](const auto& field, const auto& message_field) {
+      CopyToMessage(from.*field.member, &(to->*message_field.member));
+    });
+  } else if constexpr (kIsPartList<From>) {
+    to->resize(from.size());
+    for (std::size_t i = 0; i < from.size(); ++i) CopyToMessage(from[i], &(*to)[i]);
+  } else if constexpr (std::is_enum_v<From>) {
+    *to = ToString(from);
+  } else {
+    *to = from;
+  }
 }
 
 template <typename Request>
@@ -128,7 +177,7 @@ msgs::Event ToMessage(const EventRecord& event) {
     to.turn = branch.turn;
   }
   message.number = ToCount(event.number);
-  message.taken = event.taken;
+  message.taken = ToCount(event.taken);
   message.weakly_active = ToCount(event.weakly_active);
   message.complete = event.complete;
   message.null_vector = event.null_vector;
@@ -148,66 +197,11 @@ EventRecord FromMessage(const msgs::Event& message) {
     to.turn = branch.turn;
   }
   event.number = FromCount(message.number, "event.number");
-  event.taken = message.taken;
+  event.taken = FromCount(message.taken, "event.taken");
   event.weakly_active = FromCount(message.weakly_active, "event.weakly_active");
   event.complete = message.complete != 0;
   event.null_vector = message.null_vector;
   return event;
-}
-
-std::vector<Load> FromMessages(const std::vector<msgs::Load>& loads) {
-  std::vector<Load> result;
-  result.reserve(loads.size());
-  for (const msgs::Load& load : loads) result.push_back({load.node, load.fx, load.fy, load.constant != 0});
-  return result;
-}
-
-std::vector<SupportMotion> FromMessages(const std::vector<msgs::SupportMotion>& motions) {
-  std::vector<SupportMotion> result;
-  result.reserve(motions.size());
-  for (const msgs::SupportMotion& motion : motions) result.push_back({motion.node, motion.dx, motion.dy});
-  return result;
-}
-
-std::vector<ObstacleMotion> FromMessages(const std::vector<msgs::ObstacleMotion>& motions) {
-  std::vector<ObstacleMotion> result;
-  result.reserve(motions.size());
-  for (const msgs::ObstacleMotion& motion : motions) result.push_back({motion.obstacle, motion.dx, motion.dy});
-  return result;
-}
-
-std::vector<msgs::Load> ToMessages(const std::vector<Load>& loads) {
-  std::vector<msgs::Load> result;
-  for (const Load& load : loads) {
-    msgs::Load& to = result.emplace_back();
-    to.node = load.node;
-    to.fx = load.fx;
-    to.fy = load.fy;
-    to.constant = load.constant;
-  }
-  return result;
-}
-
-std::vector<msgs::SupportMotion> ToMessages(const std::vector<SupportMotion>& motions) {
-  std::vector<msgs::SupportMotion> result;
-  for (const SupportMotion& motion : motions) {
-    msgs::SupportMotion& to = result.emplace_back();
-    to.node = motion.node;
-    to.dx = motion.dx;
-    to.dy = motion.dy;
-  }
-  return result;
-}
-
-std::vector<msgs::ObstacleMotion> ToMessages(const std::vector<ObstacleMotion>& motions) {
-  std::vector<msgs::ObstacleMotion> result;
-  for (const ObstacleMotion& motion : motions) {
-    msgs::ObstacleMotion& to = result.emplace_back();
-    to.obstacle = motion.obstacle;
-    to.dx = motion.dx;
-    to.dy = motion.dy;
-  }
-  return result;
 }
 
 }  // namespace
@@ -215,126 +209,17 @@ std::vector<msgs::ObstacleMotion> ToMessages(const std::vector<ObstacleMotion>& 
 TraceRequest FromMessage(const msgs::Scene& scene, const msgs::TraceOptions& options,
                          const std::vector<msgs::Stage>& program) {
   TraceRequest request;
-  std::vector<Violation> violations;
-
-  request.scene.name = scene.name;
-  for (const msgs::Node& node : scene.nodes) {
-    request.scene.nodes.push_back({node.name, node.x, node.y, node.fixed_x != 0, node.fixed_y != 0});
-  }
-  for (std::size_t i = 0; i < scene.bars.size(); ++i) {
-    const msgs::Bar& bar = scene.bars[i];
-    const StrainMeasure strain = Known(ParseStrainMeasure(bar.strain), Key("scene.bars", i, "strain"), bar.strain,
-                                       "must be biot, green_lagrange or logarithmic", &violations);
-    request.scene.bars.push_back({bar.nodes, bar.EA, bar.rest_length, strain});
-  }
-  for (const msgs::Superelement& superelement : scene.superelements) {
-    request.scene.superelements.push_back({superelement.nodes, superelement.stiffness, superelement.rest_positions});
-  }
-  request.scene.loads = FromMessages(scene.loads);
-  for (std::size_t i = 0; i < scene.obstacles.size(); ++i) {
-    const msgs::Obstacle& obstacle = scene.obstacles[i];
-    const ObstacleShape shape = Known(ParseObstacleShape(obstacle.shape), Key("scene.obstacles", i, "shape"),
-                                      obstacle.shape, "must be half_plane", &violations);
-    request.scene.obstacles.push_back(
-        {obstacle.name, shape, obstacle.px, obstacle.py, obstacle.nx, obstacle.ny, obstacle.friction});
-  }
-  for (const msgs::Contact& contact : scene.contacts) {
-    request.scene.contacts.push_back({contact.node, contact.obstacle});
-  }
-  request.scene.support_motions = FromMessages(scene.support_motions);
-  request.scene.obstacle_motions = FromMessages(scene.obstacle_motions);
-
-  request.options.method =
-      Known(ParseMethod(options.method), "options.method", options.method, "must be branch or mpec", &violations);
-  request.options.accuracy = Known(ParseAccuracy(options.accuracy), "options.accuracy", options.accuracy,
-                                   "must be fast, balanced or accurate", &violations);
-  request.options.direction = options.direction;
-  request.options.step = options.step;
-  request.options.max_increments = options.max_increments;
-  request.options.full_state_every = options.full_state_every;
-  for (const msgs::StopCriterion& stop : options.stop) {
-    request.options.stop.push_back({stop.quantity, stop.when, stop.value});
-  }
-  for (const msgs::BranchChoice& choice : options.branch_choices) {
-    request.options.branch_choices.push_back({choice.event, choice.increment, choice.branch});
-  }
-
-  for (const msgs::Stage& stage : program)
-    request.program.push_back({stage.name, FromMessages(stage.loads), FromMessages(stage.support_motions),
-                               FromMessages(stage.obstacle_motions), stage.target});
-
-  if (!violations.empty()) throw InvalidRequest(violations);
+  FromMessages from;
+  from.Copy(scene, KeyPath("scene"), &request.scene);
+  from.Copy(options, KeyPath("options"), &request.options);
+  from.Copy(program, KeyPath("program"), &request.program);
+  if (!from.violations().empty()) throw InvalidRequest(from.violations());
   return request;
 }
 
 msgs::TraceRequest ToMessage(const TraceRequest& request) {
   msgs::TraceRequest message;
-  message.scene.name = request.scene.name;
-  for (const Node& node : request.scene.nodes) {
-    msgs::Node& to = message.scene.nodes.emplace_back();
-    to.name = node.name;
-    to.x = node.x;
-    to.y = node.y;
-    to.fixed_x = node.fixed_x;
-    to.fixed_y = node.fixed_y;
-  }
-  for (const Bar& bar : request.scene.bars) {
-    msgs::Bar& to = message.scene.bars.emplace_back();
-    to.nodes = bar.nodes;
-    to.EA = bar.EA;
-    to.rest_length = bar.rest_length;
-    to.strain = ToString(bar.strain);
-  }
-  for (const Superelement& superelement : request.scene.superelements) {
-    msgs::Superelement& to = message.scene.superelements.emplace_back();
-    to.nodes = superelement.nodes;
-    to.stiffness = superelement.stiffness;
-    to.rest_positions = superelement.rest_positions;
-  }
-  message.scene.loads = ToMessages(request.scene.loads);
-  for (const Obstacle& obstacle : request.scene.obstacles) {
-    msgs::Obstacle& to = message.scene.obstacles.emplace_back();
-    to.name = obstacle.name;
-    to.shape = ToString(obstacle.shape);
-    to.px = obstacle.px;
-    to.py = obstacle.py;
-    to.nx = obstacle.nx;
-    to.ny = obstacle.ny;
-    to.friction = obstacle.friction;
-  }
-  for (const ContactCandidate& contact : request.scene.contacts) {
-    msgs::Contact& to = message.scene.contacts.emplace_back();
-    to.node = contact.node;
-    to.obstacle = contact.obstacle;
-  }
-  message.scene.support_motions = ToMessages(request.scene.support_motions);
-  message.scene.obstacle_motions = ToMessages(request.scene.obstacle_motions);
-  message.options.method = ToString(request.options.method);
-  message.options.accuracy = ToString(request.options.accuracy);
-  message.options.direction = request.options.direction;
-  message.options.step = request.options.step;
-  message.options.max_increments = request.options.max_increments;
-  message.options.full_state_every = request.options.full_state_every;
-  for (const StopCriterion& stop : request.options.stop) {
-    msgs::StopCriterion& to = message.options.stop.emplace_back();
-    to.quantity = stop.quantity;
-    to.when = stop.when;
-    to.value = stop.value;
-  }
-  for (const BranchChoice& choice : request.options.branch_choices) {
-    msgs::BranchChoice& to = message.options.branch_choices.emplace_back();
-    to.event = choice.event;
-    to.increment = choice.increment;
-    to.branch = choice.branch;
-  }
-  for (const Stage& stage : request.program) {
-    msgs::Stage& to = message.program.emplace_back();
-    to.name = stage.name;
-    to.loads = ToMessages(stage.loads);
-    to.support_motions = ToMessages(stage.support_motions);
-    to.obstacle_motions = ToMessages(stage.obstacle_motions);
-    to.target = stage.target;
-  }
+  CopyToMessage(request, &message);
   return message;
 }
 
@@ -472,6 +357,7 @@ std::string EndMessage(const std::string& name, const std::string& why, const Pa
 }
 
 std::uint8_t StatusOf(EndReason reason) {
+  if (reason == EndReason::kNoSuchBranch) return Response::INVALID_REQUEST;
   const bool as_asked = reason == EndReason::kStopCriterion || reason == EndReason::kMaxIncrements;
   return as_asked ? Response::OK : Response::ENDED_EARLY;
 }

@@ -39,7 +39,7 @@ std::size_t LoadsOfAllStages(const contact_path_msgs::Scene& scene,
   std::size_t now = scene.loads.size(), all = 0;
   for (const contact_path_msgs::Stage& stage : program) {
     now += stage.loads.size();
-    all += now;
+    all += stage.unload != 0 ? 2 * now : now;  // what is left, and what is taken back
   }
   return all;
 }

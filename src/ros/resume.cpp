@@ -1,9 +1,13 @@
 #include "contact_path/ros/resume.h"
 
 #include <stdexcept>
+#include <tuple>
 #include <utility>
+#include <vector>
 
 #include "contact_path/ros/bag_reader.h"
+#include "contact_path/scene/field.h"
+#include "contact_path/scene/scene.h"
 #include "contact_path/scene/validate.h"
 #include "contact_path/verify/verify_path.h"
 
@@ -18,23 +22,31 @@ namespace {
   throw InvalidRequest({violation});
 }
 
-// The bag has them; only the number of increments may be another one.
+template <typename T>
+bool IsEmpty(const T& value) {
+  return value == T();
+}
+template <typename T>
+bool IsEmpty(const std::vector<T>& values) {
+  return values.empty();
+}
+
+// Calls visit(name, whether it is left out) for each field of a message that has the fields of Part.
+template <typename Part, typename Message, typename Visit>
+void ForEachMessageField(const Message& message, Visit visit) {
+  std::apply([&](const auto&... field) { (visit(std::string(field.name), IsEmpty(message.*field.member)), ...); },
+             Fields<Part>::template Of<Message>());
+}
+
+// The bag has the request; only the number of increments may be another one.
 void CheckNothingElse(const contact_path_msgs::TraceRequest& request) {
   const auto require_empty = [](const std::string& key, bool empty) {
     if (!empty) Refuse(key, "", "must be left out where a bag is resumed");
   };
-  const contact_path_msgs::Scene& scene = request.scene;
-  const contact_path_msgs::TraceOptions& options = request.options;
-  require_empty("scene", scene.name.empty() && scene.nodes.empty() && scene.bars.empty() &&
-                             scene.superelements.empty() && scene.loads.empty() && scene.obstacles.empty() &&
-                             scene.contacts.empty() && scene.support_motions.empty() && scene.obstacle_motions.empty());
-  require_empty("options.method", options.method.empty());
-  require_empty("options.accuracy", options.accuracy.empty());
-  require_empty("options.direction", options.direction == 0.0);
-  require_empty("options.step", options.step == 0.0);
-  require_empty("options.full_state_every", options.full_state_every == 0);
-  require_empty("options.stop", options.stop.empty());
-  require_empty("options.branch_choices", options.branch_choices.empty());
+  ForEachMessageField<Scene>(request.scene, [&](const std::string&, bool empty) { require_empty("scene", empty); });
+  ForEachMessageField<TraceOptions>(request.options, [&](const std::string& name, bool empty) {
+    if (name != "max_increments") require_empty("options." + name, empty);
+  });
   require_empty("program", request.program.empty());
 }
 

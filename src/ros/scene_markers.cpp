@@ -7,13 +7,14 @@
 #include <locale>
 #include <sstream>
 #include <stdexcept>
-#include <unordered_map>
 #include <utility>
 
 #include "contact_path/path/stop.h"
 #include "contact_path/scene/one_line.h"
 #include "contact_path/scene/program.h"
+#include "contact_path/scene/quantity.h"
 #include "contact_path/scene/scaling.h"
+#include "contact_path/scene/scene_index.h"
 
 namespace contact_path {
 namespace {
@@ -219,24 +220,21 @@ void MarkerOptions::Validate() const {
 SceneMarkers::SceneMarkers(const TraceRequest& request, const MarkerOptions& options)
     : options_(options), name_(OneLine(request.scene.name)) {
   const Scene& scene = request.scene;
-  std::unordered_map<std::string, std::size_t> nodes;
+  const SceneIndex index(scene);
   for (const Node& node : scene.nodes) {
-    nodes.emplace(node.name, initial_.size());
     initial_.emplace_back(node.x, node.y);
     box_.extend(initial_.back());
   }
-  for (const Bar& bar : scene.bars) bars_.push_back({nodes.at(bar.nodes[0]), nodes.at(bar.nodes[1])});
+  for (const Bar& bar : scene.bars) bars_.push_back({index.Node(bar.nodes[0]), index.Node(bar.nodes[1])});
   for (const Superelement& superelement : scene.superelements) {
     std::vector<std::size_t>& members = superelements_.emplace_back();
-    for (const std::string& node : superelement.nodes) members.push_back(nodes.at(node));
+    for (const std::string& node : superelement.nodes) members.push_back(index.Node(node));
     const std::vector<double>& rest = superelement.rest_positions;
     rest_.push_back(rest.empty() ? initial_[members[0]] : Vector2d(rest[0], rest[1]));
   }
   FindSupports(scene);
-  std::unordered_map<std::string, std::size_t> obstacles;
-  for (const Obstacle& obstacle : scene.obstacles) obstacles.emplace(obstacle.name, obstacles.size());
   for (const ContactCandidate& contact : scene.contacts) {
-    contacts_.push_back({nodes.at(contact.node), obstacles.at(contact.obstacle)});
+    contacts_.push_back({index.Node(contact.node), index.Obstacle(contact.obstacle)});
   }
 
   // What a stage begins with: of the scene, and what the stages before have brought on.
@@ -244,12 +242,12 @@ SceneMarkers::SceneMarkers(const TraceRequest& request, const MarkerOptions& opt
   Places places = initial_;
   const auto add_loads = [&](const std::vector<Load>& loads, StageParts* parts) {
     for (const Load& load : loads)
-      parts->loads.push_back({nodes.at(load.node), Vector2d(load.fx, load.fy), load.constant});
+      parts->loads.push_back({index.Node(load.node), Vector2d(load.fx, load.fy), load.constant});
   };
   const auto add_stage = [&](const std::vector<ObstacleMotion>& motions) -> StageParts& {
     StageParts& parts = stages_.emplace_back(now);
     for (const ObstacleMotion& motion : motions)
-      parts.obstacles[obstacles.at(motion.obstacle)].motion += Vector2d(motion.dx, motion.dy);
+      parts.obstacles[index.Obstacle(motion.obstacle)].motion += Vector2d(motion.dx, motion.dy);
     return parts;
   };
   add_loads(scene.loads, &now);
@@ -262,17 +260,25 @@ SceneMarkers::SceneMarkers(const TraceRequest& request, const MarkerOptions& opt
 
   has_program_ = !request.program.empty();
   if (!has_program_) add_stage(scene.obstacle_motions);
-  for (const Stage& stage : request.program) {
+  for (std::size_t i = 0; i < request.program.size(); ++i) {
+    const Stage stage = StageAsTraced(request, i);
     StageParts& parts = add_stage(stage.obstacle_motions);
     parts.title = stage.name.empty() ? "stage " + std::to_string(stages_.size()) : OneLine(stage.name);
-    add_loads(stage.loads, &parts);
     const double target = stage.Target();
-    for (const Load& load : stage.loads)
-      now.loads.push_back({nodes.at(load.node), target * Vector2d(load.fx, load.fy), /*constant=*/true});
+    if (stage.unload) {
+      for (std::size_t k = scene.loads.size(); k < now.loads.size(); ++k) {
+        parts.loads[k].taken_back = true;
+        now.loads[k].force *= 1.0 - target;
+      }
+    } else {
+      add_loads(stage.loads, &parts);
+      for (const Load& load : stage.loads)
+        now.loads.push_back({index.Node(load.node), target * Vector2d(load.fx, load.fy), /*constant=*/true});
+    }
     for (const ObstacleMotion& motion : stage.obstacle_motions)
-      now.obstacles[obstacles.at(motion.obstacle)].point += target * Vector2d(motion.dx, motion.dy);
+      now.obstacles[index.Obstacle(motion.obstacle)].point += target * Vector2d(motion.dx, motion.dy);
     for (const SupportMotion& motion : stage.support_motions) {
-      Vector2d& place = places[nodes.at(motion.node)];
+      Vector2d& place = places[index.Node(motion.node)];
       place += target * Vector2d(motion.dx, motion.dy);
       box_.extend(place);
     }
@@ -284,8 +290,8 @@ SceneMarkers::SceneMarkers(const TraceRequest& request, const MarkerOptions& opt
     for (StageParts& stage : stages_) stage.obstacles[i].moves = moves;
   }
 
-  const Scaling scales = StageScales(request, 0);
-  ExtendBox(request, kFarthestStop * std::max(box_.diagonal().norm(), scales.length));
+  const Scaling scales = StageScales(request, index, 0, ProgramScales(request, index));
+  ExtendBox(request, index, kFarthestStop * std::max(box_.diagonal().norm(), scales.length));
   const double diagonal = box_.diagonal().norm();
   size_ = diagonal > 0.0 ? diagonal : scales.length;
   detail_ = std::min(0.025 * size_, bars_.empty() ? size_ : 0.12 * scales.length);
@@ -315,14 +321,14 @@ void SceneMarkers::FindSupports(const Scene& scene) {
 }
 
 // By the places that nodes are to reach: where stop criteria lie, unless that is farther than `reach` from the start.
-void SceneMarkers::ExtendBox(const TraceRequest& request, double reach) {
-  const std::vector<StopQuantity> quantities = StopQuantity::Of(request);
+void SceneMarkers::ExtendBox(const TraceRequest& request, const SceneIndex& index, double reach) {
+  const std::vector<Quantity> quantities = StopQuantities(request, index);
   for (std::size_t i = 0; i < quantities.size(); ++i) {
-    const StopQuantity& quantity = quantities[i];
-    if (quantity.IsLoadFactor()) continue;
-    const Vector2d& start = initial_[quantity.Component() / 2];
+    const Quantity& quantity = quantities[i];
+    if (!quantity.IsOfNode()) continue;
+    const Vector2d& start = initial_[quantity.part];
     Vector2d place = start;
-    place[static_cast<Eigen::Index>(quantity.Component() % 2)] = request.options.stop[i].value;
+    (quantity.kind == Quantity::Kind::kX ? place.x() : place.y()) = request.options.stop[i].value;
     if ((place - start).norm() <= reach) box_.extend(place);
   }
 }

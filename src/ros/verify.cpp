@@ -58,7 +58,7 @@ std::string Lacks(const RecordedTrace& trace) {
            std::to_string(trace.result->increments);
   if (trace.result->end_reason_name == ToString(EndReason::kStopCriterion) && !trace.increments.empty() &&
       !trace.increments.back().positions.empty() && !ProgramDone(trace) &&
-      StopTest(trace.request).FirstThatHolds(trace.increments.back()) == nullptr)
+      StopTest(trace.request, SceneIndex(trace.request.scene)).FirstThatHolds(trace.increments.back()) == nullptr)
     return "the result says stop_criterion, but none holds in the last increment";
   return "";
 }

@@ -8,28 +8,61 @@
 namespace contact_path {
 namespace {
 
+// The load factors of the stages before `stage` that are on there: their targets, less what stages that unload have
+// taken back.
+std::vector<double> SharesBefore(const std::vector<Stage>& program, std::size_t stage) {
+  std::vector<double> shares(stage, 0.0);
+  double left = 1.0;
+  for (std::size_t i = stage; i-- > 0;) {
+    if (program[i].unload)
+      left *= 1.0 - program[i].Target();
+    else
+      shares[i] = left * program[i].Target();
+  }
+  return shares;
+}
+
 // Loads and obstacle motions of all stages before `stage`.
-void BringOn(const std::vector<Stage>& program, std::size_t stage, Scene* scene) {
-  std::unordered_map<std::string_view, Obstacle*> obstacles;
-  for (Obstacle& obstacle : scene->obstacles) obstacles.emplace(obstacle.name, &obstacle);
+void BringOn(const std::vector<Stage>& program, std::size_t stage, const SceneIndex& index, Scene* scene) {
+  const std::vector<double> shares = SharesBefore(program, stage);
   for (std::size_t i = 0; i < stage; ++i) {
-    const double target = program[i].Target();
+    const double share = shares[i];
+    if (share == 0.0) continue;
     for (const Load& load : program[i].loads)
-      scene->loads.push_back({load.node, target * load.fx, target * load.fy, true});
+      scene->loads.push_back({load.node, share * load.fx, share * load.fy, true});
     for (const ObstacleMotion& motion : program[i].obstacle_motions) {
-      Obstacle& obstacle = *obstacles.at(motion.obstacle);
-      obstacle.px += target * motion.dx;
-      obstacle.py += target * motion.dy;
+      Obstacle& obstacle = scene->obstacles[index.Obstacle(motion.obstacle)];
+      obstacle.px += share * motion.dx;
+      obstacle.py += share * motion.dy;
     }
   }
+}
+
+// Adds factor * motion to the motion of the same support or obstacle. places: of the motions in `sums`, by name.
+template <typename Motion>
+void AddMotion(std::string_view name, const Motion& motion, double factor,
+               std::unordered_map<std::string_view, std::size_t>* places, std::vector<Motion>* sums) {
+  const auto [at, is_new] = places->emplace(name, sums->size());
+  if (is_new) {
+    sums->push_back(motion);
+    sums->back().dx = sums->back().dy = 0.0;
+  }
+  Motion& sum = (*sums)[at->second];
+  sum.dx += factor * motion.dx;
+  sum.dy += factor * motion.dy;
+}
+
+// With the loads and motions of a stage.
+void SetLoading(const Stage& stage, Scene* scene) {
+  scene->loads = stage.loads;
+  scene->support_motions = stage.support_motions;
+  scene->obstacle_motions = stage.obstacle_motions;
 }
 
 // Of a scene with superelements only, whose loads and motions are those of one stage at its target.
 Scene LoadedAtTarget(const Stage& stage, Scene scene) {
   const double target = stage.Target();
-  scene.loads = stage.loads;
-  scene.support_motions = stage.support_motions;
-  scene.obstacle_motions = stage.obstacle_motions;
+  SetLoading(stage, &scene);
   for (Load& load : scene.loads) {
     load.fx *= target;
     load.fy *= target;
@@ -49,57 +82,75 @@ Scene LoadedAtTarget(const Stage& stage, Scene scene) {
 
 std::size_t NumStages(const TraceRequest& request) { return std::max<std::size_t>(1, request.program.size()); }
 
-Scene StageScene(const TraceRequest& request, std::size_t stage) {
+Stage StageAsTraced(const TraceRequest& request, std::size_t stage) {
+  Stage traced = request.program[stage];
+  if (!traced.unload) return traced;
+  const std::vector<double> shares = SharesBefore(request.program, stage);
+  std::unordered_map<std::string_view, std::size_t> supports, obstacles;
+  for (std::size_t i = 0; i < stage; ++i) {
+    if (shares[i] == 0.0) continue;
+    const Stage& before = request.program[i];
+    for (const Load& load : before.loads)
+      traced.loads.push_back({load.node, -shares[i] * load.fx, -shares[i] * load.fy, false});
+    for (const SupportMotion& motion : before.support_motions)
+      AddMotion(motion.node, motion, -shares[i], &supports, &traced.support_motions);
+    for (const ObstacleMotion& motion : before.obstacle_motions)
+      AddMotion(motion.obstacle, motion, -shares[i], &obstacles, &traced.obstacle_motions);
+  }
+  return traced;
+}
+
+Scene StageScene(const TraceRequest& request, const SceneIndex& index, std::size_t stage) {
   Scene scene = request.scene;
   if (request.program.empty()) return scene;
-  BringOn(request.program, stage, &scene);
-  const Stage& now = request.program[stage];
+  BringOn(request.program, stage, index, &scene);
+  const Stage now = StageAsTraced(request, stage);
   scene.loads.insert(scene.loads.end(), now.loads.begin(), now.loads.end());
   scene.support_motions = now.support_motions;
   scene.obstacle_motions = now.obstacle_motions;
   return scene;
 }
 
-Configuration StageConfiguration(const TraceRequest& request, std::size_t stage) {
+Configuration StageConfiguration(const TraceRequest& request, const SceneIndex& index, std::size_t stage) {
   Configuration configuration = Configuration::Of(request.scene);
-  std::unordered_map<std::string_view, std::size_t> numbers;
-  for (const Node& node : request.scene.nodes) numbers.emplace(node.name, numbers.size());
-  for (std::size_t i = 0; i < std::min(stage, request.program.size()); ++i) {
-    const double target = request.program[i].Target();
+  if (request.program.empty()) return configuration;
+  const std::vector<double> shares = SharesBefore(request.program, stage);
+  for (std::size_t i = 0; i < stage; ++i) {
     for (const SupportMotion& motion : request.program[i].support_motions) {
-      const std::size_t node = numbers.at(motion.node);
-      configuration.start[2 * node] += target * motion.dx;
-      configuration.start[2 * node + 1] += target * motion.dy;
+      const std::size_t node = index.Node(motion.node);
+      configuration.start[2 * node] += shares[i] * motion.dx;
+      configuration.start[2 * node + 1] += shares[i] * motion.dy;
     }
   }
   return configuration;
 }
 
-Scaling ProgramScales(const TraceRequest& request) {
-  if (!request.scene.bars.empty() || request.program.empty()) return CharacteristicScales(StageScene(request, 0));
+Scaling ProgramScales(const TraceRequest& request, const SceneIndex& index) {
+  if (!request.scene.bars.empty() || request.program.empty())
+    return CharacteristicScales(StageScene(request, index, 0), index);
   Scaling largest;
   largest.force = 0.0;
   for (const Stage& stage : request.program) {
-    const Scaling scaling = CharacteristicScales(LoadedAtTarget(stage, request.scene));
+    if (stage.unload) continue;  // brings no force on
+    const Scaling scaling = CharacteristicScales(LoadedAtTarget(stage, request.scene), index);
     if (scaling.force > largest.force) largest = scaling;
   }
   return largest;
 }
 
-Scaling StageScales(const TraceRequest& request, std::size_t stage, const Scaling& of_program) {
+Scaling StageScales(const TraceRequest& request, const SceneIndex& index, std::size_t stage,
+                    const Scaling& of_program) {
   Scaling scaling = of_program;
   if (request.program.empty()) return scaling;
   Scene scene = request.scene;
-  const Stage& now = request.program[stage];
-  scene.loads = now.loads;
-  scene.support_motions = now.support_motions;
-  scene.obstacle_motions = now.obstacle_motions;
-  scaling.load_factor = LoadFactorScale(scene, scaling.length, scaling.force);
+  SetLoading(StageAsTraced(request, stage), &scene);
+  scaling.load_factor = LoadFactorScale(scene, index, scaling.length, scaling.force);
   return scaling;
 }
 
 Scaling StageScales(const TraceRequest& request, std::size_t stage) {
-  return StageScales(request, stage, ProgramScales(request));
+  const SceneIndex index(request.scene);
+  return StageScales(request, index, stage, ProgramScales(request, index));
 }
 
 }  // namespace contact_path

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <fstream>
-#include <functional>
 #include <iterator>
 #include <limits>
 #include <locale>
@@ -18,7 +17,11 @@
 #include <utility>
 #include <vector>
 
+#include "contact_path/scene/field.h"
+#include "contact_path/scene/key_path.h"
+#include "contact_path/scene/nearest_name.h"
 #include "contact_path/scene/validate.h"
+#include "contact_path/scene/words.h"
 #include "scene/yaml_tree.h"
 
 namespace contact_path {
@@ -84,9 +87,6 @@ std::optional<std::string> ParseText(const YamlValue& value) {
   return value.text;
 }
 
-constexpr const char* kNumberRule = "must be a number";
-constexpr const char* kTextRule = "must be text (in quotes if it could be a number or a truth value)";
-
 // What stands in the file, for a message.
 std::string Show(const YamlValue& value) {
   switch (value.kind) {
@@ -98,198 +98,135 @@ std::string Show(const YamlValue& value) {
   return "";
 }
 
-// Reads maps by tables of keys, each of which knows how to take its value, and collects what is wrong.
-// Violations of line 0 stand where their key does.
+// How a value without parts is read, and what to say where it cannot be.
+template <typename T>
+struct Scalar;
+template <>
+struct Scalar<bool> {
+  static std::optional<bool> Parse(const YamlValue& value) { return ParseFlag(value); }
+  static std::string Rule(const YamlValue&) { return "must be true or false"; }
+};
+template <>
+struct Scalar<int> {
+  static std::optional<int> Parse(const YamlValue& value) { return ParseInteger(value); }
+  static std::string Rule(const YamlValue&) { return "must be an integer"; }
+};
+template <>
+struct Scalar<double> {
+  static std::optional<double> Parse(const YamlValue& value) { return ParseNumber(value); }
+  static std::string Rule(const YamlValue&) { return "must be a number"; }
+};
+template <>
+struct Scalar<std::string> {
+  static std::optional<std::string> Parse(const YamlValue& value) { return ParseText(value); }
+  static std::string Rule(const YamlValue&) {
+    return "must be text (in quotes if it could be a number or a truth value)";
+  }
+};
+// A word of an enumeration.
+template <typename Enum>
+struct Scalar {
+  static std::optional<Enum> Parse(const YamlValue& value) {
+    return value.kind == YamlValue::Kind::kText ? ParseWord<Enum>(value.text) : std::nullopt;
+  }
+  static std::string Rule(const YamlValue& value) { return WordRule<Enum>(value.text); }
+};
+
+// Reads a request by the descriptions of its parts, and collects what is wrong. Violations of line 0 stand where their
+// key does.
 class Reader {
  public:
-  struct Key {
-    std::string_view name;
-    std::function<void(const YamlValue& value, const std::string& path)> take;
-  };
-
   const std::vector<Violation>& violations() const { return violations_; }
   // False where a value could not be read and is missing from the result.
   bool complete() const { return complete_; }
 
-  void ReadMap(const YamlValue& map, const std::string& path, const std::vector<Key>& keys) {
-    if (map.kind == YamlValue::Kind::kNull) return;
-    if (map.kind != YamlValue::Kind::kMap) return WrongType(map, path, "must be a map with keys of: " + Names(keys));
-    std::unordered_map<std::string, int> lines;
-    for (std::size_t i = 0; i + 1 < map.items.size(); i += 2) {
-      const YamlValue& value = map.items[i + 1];
-      const int line = map.items[i].line;
-      const std::string name = map.items[i].kind == YamlValue::Kind::kText ? map.items[i].text : Show(map.items[i]);
-      const std::string key_path = path.empty() ? name : path + "." + name;
-      const auto key = std::find_if(keys.begin(), keys.end(), [&](const Key& known) { return known.name == name; });
-      const auto [earlier, is_new] = lines.emplace(name, line);
-      if (!is_new) {
-        Add(line, key_path, Show(value), "repeated key, first in line " + std::to_string(earlier->second));
-      } else if (key == keys.end()) {
-        Add(line, key_path, Show(value), "unknown key, must be one of: " + Names(keys));
-      } else if (value.kind != YamlValue::Kind::kNull) {
-        key->take(value, key_path);
-      }
+  template <typename T>
+  void Read(const YamlValue& value, const KeyPath& path, T* out) {
+    if constexpr (kIsPart<T>) {
+      ReadPart(value, path, out);
+    } else if constexpr (kIsList<T>) {
+      ReadList(value, path, out);
+    } else if (const auto parsed = Scalar<T>::Parse(value)) {
+      *out = *parsed;
+    } else {
+      WrongType(value, path, Scalar<T>::Rule(value));
     }
-  }
-
-  template <typename T>
-  void Take(const YamlValue& value, const std::string& path, const std::optional<T>& parsed, const char* rule, T& out) {
-    if (!parsed) return WrongType(value, path, rule);
-    out = *parsed;
-  }
-
-  Key Text(const char* name, std::string& out) { return Scalar(name, ParseText, kTextRule, out); }
-  Key Number(const char* name, double& out) { return Scalar(name, ParseNumber, kNumberRule, out); }
-  Key Integer(const char* name, int& out) { return Scalar(name, ParseInteger, "must be an integer", out); }
-  Key Flag(const char* name, bool& out) { return Scalar(name, ParseFlag, "must be true or false", out); }
-
-  // A word that `parse` knows.
-  template <typename Enum>
-  Key Word(const char* name, std::optional<Enum> (*parse)(std::string_view), const char* rule, Enum& out) {
-    return {name, [this, parse, rule, &out](const YamlValue& value, const std::string& path) {
-              const bool is_text = value.kind == YamlValue::Kind::kText;
-              Take(value, path, is_text ? parse(value.text) : std::nullopt, rule, out);
-            }};
-  }
-
-  // A list of what Read() takes.
-  template <typename T>
-  Key List(const char* name, std::vector<T>& out) {
-    return {name, [this, &out](const YamlValue& list, const std::string& path) {
-              if (list.kind != YamlValue::Kind::kList) return WrongType(list, path, "must be a list");
-              out.resize(list.items.size());
-              for (std::size_t i = 0; i < out.size(); ++i) {
-                Read(*this, list.items[i], path + "[" + std::to_string(i) + "]", out[i]);
-              }
-            }};
-  }
-
-  // A map or list of maps that Read() takes.
-  template <typename T>
-  Key Part(const char* name, T& out) {
-    return {name, [this, &out](const YamlValue& value, const std::string& path) { Read(*this, value, path, out); }};
   }
 
  private:
   template <typename T>
-  Key Scalar(const char* name, std::optional<T> (*parse)(const YamlValue&), const char* rule, T& out) {
-    return {name, [this, parse, rule, &out](const YamlValue& value, const std::string& path) {
-              Take(value, path, parse(value), rule, out);
-            }};
+  void ReadList(const YamlValue& list, const KeyPath& path, std::vector<T>* out) {
+    if (list.kind != YamlValue::Kind::kList) return WrongType(list, path, "must be a list");
+    out->resize(list.items.size());
+    for (std::size_t i = 0; i < out->size(); ++i) Read(list.items[i], path[i], &(*out)[i]);
   }
 
-  static std::string Names(const std::vector<Key>& keys) {
+  template <typename Part>
+  void ReadPart(const YamlValue& map, const KeyPath& path, Part* out) {
+    if (map.kind == YamlValue::Kind::kNull) return;
+    if (map.kind != YamlValue::Kind::kMap)
+      return WrongType(map, path, "must be a map with keys of: " + FieldNames<Part>());
+    std::unordered_map<std::string, int> lines;
+    for (std::size_t i = 0; i + 1 < map.items.size(); i += 2) {
+      const YamlValue &key = map.items[i], &value = map.items[i + 1];
+      const std::string name = key.kind == YamlValue::Kind::kText ? key.text : Show(key);
+      if (const auto [earlier, is_new] = lines.emplace(name, key.line); !is_new) {
+        Add(key.line, path.Key(name), value, "repeated key, first in line " + std::to_string(earlier->second));
+      } else if (!ReadField(name, value, path, out)) {
+        Add(key.line, path.Key(name), value, UnknownKey<Part>(name));
+      }
+    }
+  }
+
+  // False where the part has no such field.
+  template <typename Part>
+  bool ReadField(std::string_view name, const YamlValue& value, const KeyPath& path, Part* out) {
+    bool known = false;
+    ForEachField<Part>([&](const auto& field) {
+      if (field.name != name) return;
+      known = true;
+      if (value.kind != YamlValue::Kind::kNull) Read(value, path.Key(name), &(out->*field.member));
+    });
+    return known;
+  }
+
+  template <typename Part>
+  static std::string FieldNames() {
     std::string names;
-    for (const Key& key : keys) names.append(names.empty() ? "" : ", ").append(key.name);
+    ForEachField<Part>([&](const auto& field) { names.append(names.empty() ? "" : ", ").append(field.name); });
     return names;
   }
 
-  void Add(int line, std::string path, std::string value, std::string rule) {
+  template <typename Part>
+  static std::string UnknownKey(std::string_view name) {
+    std::string new_name;
+    NearestName nearest(name);
+    ForEachField<Part>([&](const auto& field) {
+      if (field.formerly == name) new_name = field.name;
+      nearest.Offer(field.name);
+    });
+    if (!new_name.empty()) return "unknown key, is named " + new_name + " now";
+    const std::string question = nearest.Get().empty() ? "" : " (did you mean " + nearest.Get() + "?)";
+    return "unknown key" + question + ", must be one of: " + FieldNames<Part>();
+  }
+
+  void Add(int line, const KeyPath& path, const YamlValue& value, std::string rule) {
     Violation violation;
-    violation.key = std::move(path);
-    violation.value = std::move(value);
+    violation.key = path.ToString();
+    violation.value = Show(value);
     violation.rule = std::move(rule);
     violation.line = line;
     violations_.push_back(std::move(violation));
   }
 
-  void WrongType(const YamlValue& value, const std::string& path, std::string rule) {
-    Add(0, path, Show(value), std::move(rule));
+  void WrongType(const YamlValue& value, const KeyPath& path, std::string rule) {
+    Add(0, path, value, std::move(rule));
     complete_ = false;
   }
 
   std::vector<Violation> violations_;
   bool complete_ = true;
 };
-
-void Read(Reader& in, const YamlValue& value, const std::string& path, std::string& out) {
-  in.Take(value, path, ParseText(value), kTextRule, out);
-}
-
-void Read(Reader& in, const YamlValue& value, const std::string& path, double& out) {
-  in.Take(value, path, ParseNumber(value), kNumberRule, out);
-}
-
-void Read(Reader& in, const YamlValue& value, const std::string& path, Node& node) {
-  in.ReadMap(value, path,
-             {in.Text("name", node.name), in.Number("x", node.x), in.Number("y", node.y),
-              in.Flag("fixed_x", node.fixed_x), in.Flag("fixed_y", node.fixed_y)});
-}
-
-void Read(Reader& in, const YamlValue& value, const std::string& path, Bar& bar) {
-  in.ReadMap(value, path,
-             {in.List("nodes", bar.nodes), in.Number("EA", bar.EA), in.Number("rest_length", bar.rest_length),
-              in.Word("strain", ParseStrainMeasure, "must be biot, green_lagrange or logarithmic", bar.strain)});
-}
-
-void Read(Reader& in, const YamlValue& value, const std::string& path, Superelement& element) {
-  in.ReadMap(value, path,
-             {in.List("nodes", element.nodes), in.List("stiffness", element.stiffness),
-              in.List("rest_positions", element.rest_positions)});
-}
-
-void Read(Reader& in, const YamlValue& value, const std::string& path, Load& load) {
-  in.ReadMap(value, path,
-             {in.Text("node", load.node), in.Number("fx", load.fx), in.Number("fy", load.fy),
-              in.Flag("constant", load.constant)});
-}
-
-void Read(Reader& in, const YamlValue& value, const std::string& path, Obstacle& obstacle) {
-  in.ReadMap(
-      value, path,
-      {in.Text("name", obstacle.name), in.Word("shape", ParseObstacleShape, "must be half_plane", obstacle.shape),
-       in.Number("px", obstacle.px), in.Number("py", obstacle.py), in.Number("nx", obstacle.nx),
-       in.Number("ny", obstacle.ny), in.Number("friction", obstacle.friction)});
-}
-
-void Read(Reader& in, const YamlValue& value, const std::string& path, ContactCandidate& contact) {
-  in.ReadMap(value, path, {in.Text("node", contact.node), in.Text("obstacle", contact.obstacle)});
-}
-
-void Read(Reader& in, const YamlValue& value, const std::string& path, SupportMotion& motion) {
-  in.ReadMap(value, path, {in.Text("node", motion.node), in.Number("dx", motion.dx), in.Number("dy", motion.dy)});
-}
-
-void Read(Reader& in, const YamlValue& value, const std::string& path, ObstacleMotion& motion) {
-  in.ReadMap(value, path,
-             {in.Text("obstacle", motion.obstacle), in.Number("dx", motion.dx), in.Number("dy", motion.dy)});
-}
-
-void Read(Reader& in, const YamlValue& value, const std::string& path, StopCriterion& stop) {
-  in.ReadMap(value, path,
-             {in.Text("quantity", stop.quantity), in.Text("when", stop.when), in.Number("value", stop.value)});
-}
-
-void Read(Reader& in, const YamlValue& value, const std::string& path, BranchChoice& choice) {
-  in.ReadMap(value, path,
-             {in.Integer("event", choice.event), in.Integer("increment", choice.increment),
-              in.Integer("branch", choice.branch)});
-}
-
-void Read(Reader& in, const YamlValue& value, const std::string& path, Scene& scene) {
-  in.ReadMap(value, path,
-             {in.Text("name", scene.name), in.List("nodes", scene.nodes), in.List("bars", scene.bars),
-              in.List("superelements", scene.superelements), in.List("loads", scene.loads),
-              in.List("obstacles", scene.obstacles), in.List("contacts", scene.contacts),
-              in.List("support_motions", scene.support_motions), in.List("obstacle_motions", scene.obstacle_motions)});
-}
-
-void Read(Reader& in, const YamlValue& value, const std::string& path, TraceOptions& options) {
-  in.ReadMap(
-      value, path,
-      {in.Word("method", ParseMethod, "must be branch or mpec", options.method),
-       in.Word("accuracy", ParseAccuracy, "must be fast, balanced or accurate", options.accuracy),
-       in.Number("direction", options.direction), in.Number("step", options.step),
-       in.Integer("max_increments", options.max_increments), in.Integer("full_state_every", options.full_state_every),
-       in.List("stop", options.stop), in.List("branch_choices", options.branch_choices)});
-}
-
-void Read(Reader& in, const YamlValue& value, const std::string& path, Stage& stage) {
-  in.ReadMap(
-      value, path,
-      {in.Text("name", stage.name), in.List("loads", stage.loads), in.List("support_motions", stage.support_motions),
-       in.List("obstacle_motions", stage.obstacle_motions), in.Number("target", stage.target)});
-}
 
 // The line of the deepest key or list element on `path` that stands in the file.
 int LineOf(const YamlValue& root, std::string_view path) {
@@ -325,9 +262,7 @@ TraceRequest ReadTraceRequest(const std::string& text, const std::string& file_n
   const YamlValue root = ParseYaml(text, file_name);
   TraceRequest request;
   Reader in;
-  in.ReadMap(
-      root, "",
-      {in.Part("scene", request.scene), in.Part("options", request.options), in.List("program", request.program)});
+  in.Read(root, KeyPath(), &request);
   std::vector<Violation> violations = in.violations();
   if (in.complete()) {  // otherwise the request would be judged by what is missing
     std::vector<Violation> broken_rules = Validate(request);

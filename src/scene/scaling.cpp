@@ -9,16 +9,10 @@
 #include <utility>
 #include <vector>
 
+#include "contact_path/scene/change_units.h"
+
 namespace contact_path {
 namespace {
-
-using NodesByName = std::unordered_map<std::string, const Node*>;
-
-NodesByName IndexNodes(const Scene& scene) {
-  NodesByName nodes;
-  for (const Node& node : scene.nodes) nodes.emplace(node.name, &node);
-  return nodes;
-}
 
 // Sum in the order of size, so that it does not depend on the order of the terms, not even by rounding.
 double OrderedSum(std::vector<double> terms) {
@@ -30,11 +24,15 @@ double OrderedSum(std::vector<double> terms) {
 
 double Distance(const Node& a, const Node& b) { return std::hypot(b.x - a.x, b.y - a.y); }
 
+double InitialLength(const Scene& scene, const SceneIndex& index, const Bar& bar) {
+  return Distance(scene.nodes[index.Node(bar.nodes[0])], scene.nodes[index.Node(bar.nodes[1])]);
+}
+
 // Initial lengths of all bars [length].
-std::vector<double> BarLengths(const Scene& scene, const NodesByName& nodes) {
+std::vector<double> BarLengths(const Scene& scene, const SceneIndex& index) {
   std::vector<double> lengths;
   lengths.reserve(scene.bars.size());
-  for (const Bar& bar : scene.bars) lengths.push_back(Distance(*nodes.at(bar.nodes[0]), *nodes.at(bar.nodes[1])));
+  for (const Bar& bar : scene.bars) lengths.push_back(InitialLength(scene, index, bar));
   return lengths;
 }
 
@@ -64,21 +62,21 @@ std::vector<Load> SumByNode(const std::vector<Load>& loads) {
 }
 
 // Euclidean norm of the loads that the load factor scales, summed by node, over the free components [force].
-double ReferenceLoadNorm(const Scene& scene, const NodesByName& nodes) {
+double ReferenceLoadNorm(const Scene& scene, const SceneIndex& index) {
   struct Terms {
     std::vector<double> x, y;
   };
-  std::unordered_map<const Node*, Terms> loads;
+  std::unordered_map<std::size_t, Terms> loads;  // by node
   for (const Load& load : scene.loads) {
     if (load.constant) continue;
-    Terms& terms = loads[nodes.at(load.node)];
+    Terms& terms = loads[index.Node(load.node)];
     terms.x.push_back(load.fx);
     terms.y.push_back(load.fy);
   }
   std::vector<double> squares;
   for (const auto& [node, terms] : loads) {
-    if (!node->fixed_x) squares.push_back(std::pow(OrderedSum(terms.x), 2));
-    if (!node->fixed_y) squares.push_back(std::pow(OrderedSum(terms.y), 2));
+    if (!scene.nodes[node].fixed_x) squares.push_back(std::pow(OrderedSum(terms.x), 2));
+    if (!scene.nodes[node].fixed_y) squares.push_back(std::pow(OrderedSum(terms.y), 2));
   }
   return std::sqrt(OrderedSum(std::move(squares)));
 }
@@ -106,65 +104,35 @@ double MeanStiffness(const Scene& scene) {
 
 }  // namespace
 
-Scaling CharacteristicScales(const Scene& scene) {
-  const NodesByName nodes = IndexNodes(scene);
+Scaling CharacteristicScales(const Scene& scene, const SceneIndex& index) {
   Scaling scaling;
   if (!scene.bars.empty()) {
-    scaling.length = OrderedSum(BarLengths(scene, nodes)) / static_cast<double>(scene.bars.size());
+    scaling.length = OrderedSum(BarLengths(scene, index)) / static_cast<double>(scene.bars.size());
     scaling.force = GeometricMeanOfAxialStiffness(scene);
   } else {
-    const double reference_load = ReferenceLoadNorm(scene, nodes), stiffness = MeanStiffness(scene);
+    const double reference_load = ReferenceLoadNorm(scene, index), stiffness = MeanStiffness(scene);
     scaling.force = reference_load > 0.0 ? reference_load : stiffness * MotionNorm(scene);
     scaling.length = scaling.force / stiffness;
   }
-  scaling.load_factor = LoadFactorScale(scene, scaling.length, scaling.force);
+  scaling.load_factor = LoadFactorScale(scene, index, scaling.length, scaling.force);
   return scaling;
 }
 
-double LoadFactorScale(const Scene& scene, double length, double force) {
-  const double load = ReferenceLoadNorm(scene, IndexNodes(scene)), motion = MotionNorm(scene);
+double LoadFactorScale(const Scene& scene, const SceneIndex& index, double length, double force) {
+  const double load = ReferenceLoadNorm(scene, index), motion = MotionNorm(scene);
   return motion > 0.0 ? 1.0 / std::hypot(load / force, motion / length) : force / load;
 }
 
-Scene ScaleScene(const Scene& scene, const Scaling& scaling) {
-  const double reference_load = scaling.force / scaling.load_factor;
-  const double stiffness = scaling.force / scaling.length;
+Scene ScaleScene(const Scene& scene, const SceneIndex& index, const Scaling& scaling) {
   Scene scaled = scene;
-  for (Node& node : scaled.nodes) {
-    node.x /= scaling.length;
-    node.y /= scaling.length;
-  }
-  const NodesByName nodes = IndexNodes(scaled);
-  for (Bar& bar : scaled.bars) {
-    bar.EA /= scaling.force;
-    bar.rest_length = bar.rest_length > 0.0 ? bar.rest_length / scaling.length
-                                            : Distance(*nodes.at(bar.nodes[0]), *nodes.at(bar.nodes[1]));
-  }
-  for (Superelement& element : scaled.superelements) {
-    for (double& entry : element.stiffness) entry /= stiffness;
-    for (double& position : element.rest_positions) position /= scaling.length;
-  }
   scaled.loads = SumByNode(scene.loads);
-  for (Load& load : scaled.loads) {
-    const double unit = load.constant ? scaling.force : reference_load;
-    load.fx /= unit;
-    load.fy /= unit;
-  }
+  ChangeUnits(&scaled, {scaling.length, scaling.force, scaling.load_factor});
+  for (Bar& bar : scaled.bars)
+    if (!(bar.rest_length > 0.0)) bar.rest_length = InitialLength(scaled, index, bar);
   for (Obstacle& obstacle : scaled.obstacles) {
-    obstacle.px /= scaling.length;
-    obstacle.py /= scaling.length;
     const double norm = std::hypot(obstacle.nx, obstacle.ny);
     obstacle.nx /= norm;
     obstacle.ny /= norm;
-  }
-  const double motion_unit = scaling.length / scaling.load_factor;
-  for (SupportMotion& motion : scaled.support_motions) {
-    motion.dx /= motion_unit;
-    motion.dy /= motion_unit;
-  }
-  for (ObstacleMotion& motion : scaled.obstacle_motions) {
-    motion.dx /= motion_unit;
-    motion.dy /= motion_unit;
   }
   return scaled;
 }

@@ -35,18 +35,18 @@ bool AtTarget(double target, double load_factor) {
 class Verifier {
  public:
   // increments: all that were recorded; those from `first` up to `last`, not included, are of the stage.
-  // of_program: the scales of the program.
-  Verifier(const TraceRequest& request, const Scaling& of_program, std::size_t stage,
+  // index: of the scene of the request; of_program: the scales of the program.
+  Verifier(const TraceRequest& request, const SceneIndex& index, const Scaling& of_program, std::size_t stage,
            const std::vector<Increment>& increments, std::size_t first, std::size_t last, Verification* result)
-      : scene_(StageScene(request, stage)),
-        configuration_(StageConfiguration(request, stage)),
+      : scene_(StageScene(request, index, stage)),
+        configuration_(StageConfiguration(request, index, stage)),
         stage_(request.program.empty() ? 0 : static_cast<int>(stage) + 1),
         target_(request.program.empty() ? std::nullopt : std::optional(request.program[stage].Target())),
         full_state_every_(std::max(request.options.full_state_every, 1)),
         increments_(increments),
         first_(first),
         last_(last),
-        scaling_(StageScales(request, stage, of_program)),
+        scaling_(StageScales(request, index, stage, of_program)),
         check_(scene_, configuration_, scaling_),
         result_(*result) {
     double farthest = 0.0;
@@ -206,7 +206,7 @@ class Verifier {
     Bound("dissipation falls", (before.dissipation - increment.dissipation) / energy, kRecorded);
     result_.work += std::abs(increment.external_work - before.external_work) / energy;
     const EventRecord& event = before.event;
-    if (event.taken < -1 || event.taken >= static_cast<int>(event.branches.size()))
+    if (event.taken < 0 || event.taken > static_cast<int>(event.branches.size()))
       Report("the branch taken from the increment before, ", event.taken, ", is none of its ", event.branches.size());
   }
 
@@ -216,7 +216,7 @@ class Verifier {
     const bool event = increment.kind == IncrementKind::kContactEvent || increment.kind == IncrementKind::kCornerLimit;
     if (event != !increment.event.branches.empty())
       Report(event ? "an event without branches" : "branches, but no event");
-    if (event && increment.event.taken < 0) Report("an event where no branch is taken");
+    if (event && increment.event.taken == 0) Report("an event where no branch is taken");
     if ((increment.kind == IncrementKind::kBifurcation) == increment.event.null_vector.empty())
       Report("a bifurcation has a direction of the crossing path, and nothing else has");
   }
@@ -335,8 +335,8 @@ class Verifier {
     if (changed && before_ != first_ && kind != IncrementKind::kContactEvent && kind != IncrementKind::kCornerLimit)
       Report("contact states change without an event");
     const EventRecord& event = before.event;
-    if (event.taken < 0 || event.taken >= static_cast<int>(event.branches.size()) || before_ != increment_ - 1) return;
-    const std::vector<ContactState>& states = event.branches[static_cast<std::size_t>(event.taken)].states;
+    if (event.taken < 1 || event.taken > static_cast<int>(event.branches.size()) || before_ != increment_ - 1) return;
+    const std::vector<ContactState>& states = event.branches[static_cast<std::size_t>(event.taken) - 1].states;
     bool as_taken = states.size() == increment.contacts.size();
     for (std::size_t i = 0; as_taken && i < states.size(); ++i) as_taken = states[i] == increment.contacts[i].state;
     if (!as_taken) Report("contact states are not those of the branch taken from the increment before");
@@ -467,7 +467,8 @@ Verification VerifyPath(const TraceRequest& request, const std::vector<Increment
                         const std::function<void()>& before_each) {
   Verification result;
   if (increments.empty()) result.findings.push_back({0, "the record has no increments"});
-  const Scaling of_program = ProgramScales(request);
+  const SceneIndex index(request.scene);
+  const Scaling of_program = ProgramScales(request, index);
   std::size_t stage = 0;
   for (std::size_t first = 0, last = 0; first < increments.size(); first = last, ++stage) {
     last = first + 1;
@@ -476,7 +477,7 @@ Verification VerifyPath(const TraceRequest& request, const std::vector<Increment
       result.findings.push_back({static_cast<int>(first), "is of a stage that the request does not have"});
       break;
     }
-    Verifier(request, of_program, stage, increments, first, last, &result).Run(before_each);
+    Verifier(request, index, of_program, stage, increments, first, last, &result).Run(before_each);
     if (last < increments.size() && !AtTarget(request, increments[last - 1]))
       result.findings.push_back({static_cast<int>(last - 1), "ends its stage, but not at its target"});
   }

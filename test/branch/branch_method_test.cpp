@@ -267,7 +267,7 @@ TEST_P(ClosedForm, SnapBlock) {
   EXPECT_NEAR(PositionY(path, last, "up"), 0.0, 1e-11);
   EXPECT_NEAR(last.load_factor, 0.0, 1e-11);
   EXPECT_TRUE(last.event.branches.empty());
-  EXPECT_EQ(last.event.taken, -1);
+  EXPECT_EQ(last.event.taken, 0);
   EXPECT_EQ(last.event.weakly_active, 1);
 }
 

@@ -540,7 +540,7 @@ TEST(FindBranches, BranchesThatBreakASymmetryAreMirrors) {
   EXPECT_NEAR(corner->load_factor, rough_truss::CornerLoad(), 1e-14);
   ASSERT_EQ(corner->event.branches.size(), 3U);
   EXPECT_EQ(corner->event.branches[0].states, (States{kSlipPlus, kSlipMinus}));
-  EXPECT_EQ(corner->event.taken, 0);
+  EXPECT_EQ(corner->event.taken, 1);
   EXPECT_NEAR(corner->event.branches[1].dissipation_rate, corner->event.branches[2].dissipation_rate, 1e-12);
   EXPECT_NEAR(corner->event.branches[1].load_rate, corner->event.branches[2].load_rate, 1e-12);
 }

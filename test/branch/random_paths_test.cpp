@@ -275,7 +275,7 @@ void CheckIncrements(const std::string& variant, const TracedPath& path, Study* 
       moved += std::pow((increment.positions[k] - before.positions[k]) / scaling.length, 2);
     moved = std::sqrt(moved + std::pow((increment.load_factor - before.load_factor) / scaling.load_factor, 2));
     if (moved > increment.arc_length - before.arc_length + 1e-9) complain(increment, "farther than its arc length");
-    if (increment.event.taken > 0) complain(increment, "not the best branch");
+    if (increment.event.taken > 1) complain(increment, "not the best branch");
   }
 }
 

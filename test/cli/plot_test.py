@@ -62,6 +62,14 @@ class Panels(QuickPlotTest):
         with open(self.path('a.png'), 'rb') as file:
             self.assertEqual(file.read(4), b'\x89PNG')
 
+    def test_quantities_in_the_spellings_of_stop_criteria_and_of_columns(self):
+        table = self.trace('sliding_bar', 'a.csv')
+        for quantity, column, label in (('b.x', 'x_b', 'position x of node b [length]'),
+                                        ('b@floor.rn', 'rn_b@floor', 'normal reaction of b@floor [force]')):
+            texts = self.texts(table, '--x', quantity, '--y', 'arc_length')
+            self.assertIn(label, texts)
+            self.assertEqual(self.texts(table, '--x', column, '--y', 'arc_length'), texts)
+
     def test_several_paths_over_each_other(self):
         tables = [self.trace('sliding_bar', 'first.csv'), self.trace('sliding_bar', 'fast.csv', '--accuracy', 'fast')]
         texts = self.texts(*tables, '--x', 'arc_length', '--states')
@@ -100,6 +108,7 @@ class Panels(QuickPlotTest):
         self.assert_refused(self.plot(self.path('none.csv')), 'none.csv')
         table = self.trace('sliding_bar', 'a.csv')
         self.assert_main_refuses([table, '--x', 'nothing'], 'nothing', 'b.x')
+        self.assert_main_refuses([table, '--x', 'b@flor.rn'], 'did you mean b@floor.rn?')
         self.assert_main_refuses([table, self.path('none.csv')], 'none.csv')
         self.assert_main_refuses([table, '-o', self.path('image.nothing')], 'nothing')
         empty = self.path('empty.csv')

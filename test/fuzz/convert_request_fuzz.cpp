@@ -32,8 +32,10 @@ msgs::TraceRequest Normalised(msgs::TraceRequest message) {
     node.fixed_y = node.fixed_y != 0;
   }
   for (msgs::Load& load : message.scene.loads) load.constant = load.constant != 0;
-  for (msgs::Stage& stage : message.program)
+  for (msgs::Stage& stage : message.program) {
     for (msgs::Load& load : stage.loads) load.constant = load.constant != 0;
+    stage.unload = stage.unload != 0;
+  }
   message.resume.clear();
   return message;
 }

@@ -45,7 +45,7 @@ TEST(LargeRequests, CostNoSquareOfTheirSize) {
   const Scene second = StageScene(request, 1);
   EXPECT_DOUBLE_EQ(StageConfiguration(request, 1).start[5], 0.9);
   EXPECT_DOUBLE_EQ(second.obstacles[1].py, -0.9);
-  EXPECT_EQ(StopTest(request).FirstThatHolds(Increment()), nullptr);
+  EXPECT_EQ(StopTest(request, SceneIndex(request.scene)).FirstThatHolds(Increment()), nullptr);
   Increment increment;
   increment.stage = 1;
   EXPECT_FALSE(VerifyPath(request, {increment}).findings.empty());

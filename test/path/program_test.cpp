@@ -354,6 +354,95 @@ TEST(StageScales, FollowTheForcesAtTheTargets) {
   EXPECT_DOUBLE_EQ(StageScales(other, 1).load_factor, 2e4);
 }
 
+// ----- stages that unload -----
+
+// The belt of the cycle comes back: it goes 0.5, less than the 0.6 that would make the block slip the other way, so the
+// block goes back with it from 1.3 to 0.8.
+TEST_P(EachMethod, UnloadingTakesTheBeltBack) {
+  TraceRequest request = ReadExample("stick_slip_cycle");
+  request.program.resize(2);
+  request.program[1] = Stage();
+  request.program[1].unload = true;
+  const TracedPath path = TraceProgram(request, GetParam());
+  const Increment &forth = LastOfStage(path, 1), &back = LastOfStage(path, 2);
+  EXPECT_EQ(back.load_factor, 1.0);
+  EXPECT_NEAR(PositionX(path, back, "b"), 0.8, kRounding);
+  EXPECT_NEAR(Contact(path, back, "b@belt").rt, -0.2, kRounding);
+  EXPECT_EQ(Contact(path, back, "b@belt").state, ContactState::kStick);
+  EXPECT_EQ(back.dissipation, forth.dissipation);
+  EXPECT_NEAR(back.strain_energy, 0.02, kRounding);
+}
+
+// A block on a spring of stiffness 2 with mu N = 0.5 is pulled with P = 1.5: it slips to u = (P - 0.5) / 2 = 0.5. While
+// P falls to 0 it sticks until P = 2 u - 0.5 = 0.5, then slips back to u = 0.25, in one stage or in several.
+TEST_P(EachMethod, UnloadingLeavesAResidualDisplacement) {
+  TraceRequest request;
+  request.scene.nodes = {{"p", 0.0, 0.0, false, false}};
+  request.scene.superelements = {{{"p"}, {2.0, 0.0, 0.0, 2.0}}};
+  request.scene.loads = {{"p", 0.0, -1.0, true}};
+  request.scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.5}};
+  request.scene.contacts = {{"p", "floor"}};
+  request.program = {{"pull", {{"p", 1.0, 0.0}}, {}, {}, 1.5}};
+  Stage unload;
+  unload.unload = true;
+  const double tolerance = GetParam() == Method::kBranch ? kRounding : 1e-6;
+  for (const std::vector<double>& parts : std::vector<std::vector<double>>{{0.0}, {1.0}, {0.5, 0.25, 1.0}}) {
+    request.program.resize(1);
+    for (const double part : parts) {
+      unload.target = part;
+      request.program.push_back(unload);
+    }
+    const TracedPath path = TraceProgram(request, GetParam());
+    EXPECT_NEAR(PositionX(path, LastOfStage(path, 1), "p"), 0.5, kRounding);
+    const Increment& end = path.increments.back();
+    EXPECT_NEAR(PositionX(path, end, "p"), 0.25, kRounding);
+    EXPECT_NEAR(Contact(path, end, "p@floor").rt, 0.5, kRounding);
+    EXPECT_EQ(Contact(path, end, "p@floor").state, ContactState::kSlipMinus);
+    EXPECT_NEAR(end.dissipation, 0.5 * 0.75, tolerance);
+  }
+}
+
+TEST(StageScene, AfterUnloadingAllIsThatOfTheSceneToTheLastBit) {
+  TraceRequest request = ReadExample("press_slide_lift");
+  for (Stage& stage : request.program) stage.loads = {{"b", 0.1, 0.7, false}};
+  Stage unload;
+  unload.unload = true;
+  request.program.push_back(unload);
+  request.program.push_back({"again", {{"b", 1.0, 0.0}}, {}, {}, 0.0});
+  ASSERT_TRUE(Validate(request).empty());
+  const Scene after = StageScene(request, 4);
+  ASSERT_EQ(after.loads.size(), 1u);
+  EXPECT_EQ(StageConfiguration(request, 4).start, Configuration::Of(request.scene).start);
+  // One motion for each support, the sum of the three stages: down by 0.1, aside by 0.3, up by 0.2.
+  const Stage traced = StageAsTraced(request, 3);
+  ASSERT_EQ(traced.support_motions.size(), 2u);
+  EXPECT_NEAR(traced.support_motions[0].dx, -0.3, 1e-15);
+  EXPECT_NEAR(traced.support_motions[0].dy, -0.1, 1e-15);
+  ASSERT_EQ(traced.loads.size(), 3u);
+  EXPECT_DOUBLE_EQ(traced.loads[1].fx, -0.03);
+}
+
+// Half of what is left, and then half of what is left of that and of a load in between.
+TEST(StageScene, PartsThatAreTakenBack) {
+  TraceRequest request = ReadExample("sliding_bar");
+  request.scene.loads.clear();
+  request.options.stop.clear();
+  Stage half;
+  half.unload = true;
+  half.target = 0.5;
+  request.program = {
+      {"one", {{"b", 8.0, 0.0}}, {}, {}, 2.0}, half, {"two", {{"b", 0.0, -4.0}}, {}, {}, 0.0}, half, half};
+  ASSERT_TRUE(Validate(request).empty());
+  const Scene last = StageScene(request, 4);
+  ASSERT_EQ(last.loads.size(), 4u);
+  EXPECT_EQ(last.loads[0].fx, 4.0);
+  EXPECT_EQ(last.loads[1].fy, -2.0);
+  EXPECT_TRUE(last.loads[0].constant && last.loads[1].constant);
+  EXPECT_EQ(last.loads[2].fx, -4.0);
+  EXPECT_EQ(last.loads[3].fy, 2.0);
+  EXPECT_FALSE(last.loads[2].constant || last.loads[3].constant);
+}
+
 // ----- what a record of a program must not be able to hide -----
 
 TEST(VerifyProgram, FindsWhatWasChanged) {

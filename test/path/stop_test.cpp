@@ -14,11 +14,14 @@ class Stop : public testing::Test {
     increment_.index = 1;
     increment_.load_factor = 0.5;
     increment_.positions = {1.0, 2.0, 3.0, 4.0};
+    request_.scene.obstacles = {{"wall"}, {"floor"}};
+    request_.scene.contacts = {{"a", "floor"}, {"b", "floor"}};
+    increment_.contacts = {{5.0, 6.0, 7.0, ContactState::kStick}, {8.0, 9.0, -10.0, ContactState::kStick}};
   }
   // The value of the criterion that holds, or -1.
   double ValueThatHolds(const std::vector<StopCriterion>& criteria) {
     request_.options.stop = criteria;
-    const StopTest test(request_);
+    const StopTest test(request_, SceneIndex(request_.scene));
     const StopCriterion* criterion = test.FirstThatHolds(increment_);
     return criterion == nullptr ? -1.0 : criterion->value;
   }
@@ -39,6 +42,25 @@ TEST_F(Stop, EachQuantityIsItsOwn) {
   EXPECT_EQ(ValueThatHolds({{"b.y", "<", 3.9}}), -1.0);
   EXPECT_EQ(ValueThatHolds({{"load_factor", ">", 0.4}}), 0.4);
   EXPECT_EQ(ValueThatHolds({{"load_factor", "<", 0.4}}), -1.0);
+}
+
+TEST_F(Stop, QuantitiesOfContacts) {
+  EXPECT_EQ(ValueThatHolds({{"a@floor.gap", ">", 4.9}}), 4.9);
+  EXPECT_EQ(ValueThatHolds({{"a@floor.gap", ">", 5.1}}), -1.0);
+  EXPECT_EQ(ValueThatHolds({{"a@floor.rn", "<", 6.1}}), 6.1);
+  EXPECT_EQ(ValueThatHolds({{"a@floor.rn", "<", 5.9}}), -1.0);
+  EXPECT_EQ(ValueThatHolds({{"a@floor.rt", ">", 6.9}}), 6.9);
+  EXPECT_EQ(ValueThatHolds({{"b@floor.gap", ">", 7.9}}), 7.9);
+  EXPECT_EQ(ValueThatHolds({{"b@floor.rn", "<", 9.1}}), 9.1);
+  EXPECT_EQ(ValueThatHolds({{"b@floor.rt", "<", -9.9}}), -9.9);
+  EXPECT_EQ(ValueThatHolds({{"b@floor.rt", "<", -10.1}}), -1.0);
+}
+
+TEST_F(Stop, ColumnsOfTheTableAreTheSameQuantities) {
+  EXPECT_EQ(ValueThatHolds({{"y_a", ">", 1.9}}), 1.9);
+  EXPECT_EQ(ValueThatHolds({{"x_b", "<", 2.9}}), -1.0);
+  EXPECT_EQ(ValueThatHolds({{"gap_b@floor", ">", 7.9}}), 7.9);
+  EXPECT_EQ(ValueThatHolds({{"rn_a@floor", ">", 6.1}}), -1.0);
 }
 
 TEST_F(Stop, TheValueItselfIsNotBeyond) {

@@ -29,6 +29,7 @@ TEST(EndReason, WordsAreThoseOfTheOutput) {
   EXPECT_EQ(ToString(EndReason::kPathEnd), "path_end");
   EXPECT_EQ(ToString(EndReason::kStepTooSmall), "step_too_small");
   EXPECT_EQ(ToString(EndReason::kCancelled), "cancelled");
+  EXPECT_EQ(ToString(EndReason::kNoSuchBranch), "no_such_branch");
   EXPECT_EQ(ToString(EndReason::kNumericalFailure), "numerical_failure");
 }
 

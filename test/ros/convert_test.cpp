@@ -46,6 +46,7 @@ TraceRequest FullRequest() {
   request.scene.support_motions = {{"a", 27.0, 0.0}};
   request.scene.obstacle_motions = {{"floor", 28.0, 29.0}};
   request.program = {{"first", {{"b", 30.0, 31.0, false}}, {{"b", 32.0, 33.0}}, {{"floor", 34.0, 35.0}}, 36.0}, {}};
+  request.program[1].unload = true;
   request.options.method = Method::kMpec;
   request.options.accuracy = Accuracy::kAccurate;
   request.options.direction = -1.0;
@@ -111,6 +112,8 @@ void ExpectFullRequest(const TraceRequest& request) {
   ASSERT_EQ(stage.obstacle_motions.size(), 1U);
   EXPECT_EQ(stage.obstacle_motions[0].dx, 34.0);
   EXPECT_EQ(stage.target, 36.0);
+  EXPECT_FALSE(stage.unload);
+  EXPECT_TRUE(request.program[1].unload);
   const TraceOptions& options = request.options;
   EXPECT_EQ(options.method, Method::kMpec);
   EXPECT_EQ(options.accuracy, Accuracy::kAccurate);
@@ -181,6 +184,7 @@ TEST(ConvertTest, RefusesEveryWordThatIsNotKnown) {
     ASSERT_EQ(error.violations().size(), 4U);
     EXPECT_EQ(error.violations()[0].key, "scene.bars[1].strain");
     EXPECT_EQ(error.violations()[0].value, "hencky");
+    EXPECT_EQ(error.violations()[0].rule, "must be biot, green_lagrange or logarithmic");
     EXPECT_EQ(error.violations()[1].key, "scene.obstacles[0].shape");
     EXPECT_EQ(error.violations()[2].key, "options.method");
     EXPECT_EQ(error.violations()[3].key, "options.accuracy");
@@ -382,6 +386,7 @@ TEST(ConvertTest, EndReasonsHaveConstantNameAndStatus) {
       {EndReason::kPathEnd, Response::END_PATH_END, "path_end", Response::ENDED_EARLY},
       {EndReason::kStepTooSmall, Response::END_STEP_TOO_SMALL, "step_too_small", Response::ENDED_EARLY},
       {EndReason::kCancelled, Response::END_CANCELLED, "cancelled", Response::ENDED_EARLY},
+      {EndReason::kNoSuchBranch, Response::END_NO_SUCH_BRANCH, "no_such_branch", Response::INVALID_REQUEST},
   };
   for (const Increment& increment : increments) {
     EXPECT_EQ(ToConstant(increment.reason), increment.constant);

@@ -342,8 +342,8 @@ const BadLine kRules[] = {
     {"StepNotFinite", 45, "  step: .NaN", "options.step", 45, ".nan", "must be finite"},
     {"DirectionNotFinite", 44, "  direction: +.inf", "options.direction", 44, ".inf", "must be finite"},
     {"IncrementsNegative", 46, "  max_increments: -1", "options.max_increments", 46, "-1", "must be >= 0"},
-    {"EventAndIncrement", 47, "  branch_choices:\n  - event: 1\n    increment: 5\n  stop:", "options.branch_choices[0].increment",
-     49, "5", "must be 0 where event is given"},
+    {"EventAndIncrement", 47, "  branch_choices:\n  - event: 1\n    increment: 5\n  stop:",
+     "options.branch_choices[0].increment", 49, "5", "must be 0 where event is given"},
     {"UnknownQuantity", 48, "  - quantity: force", "options.stop[0].quantity", 48, "force", "must be load_factor, "},
     {"QuantityOfUnknownNode", 48, "  - quantity: zz.x", "options.stop[0].quantity", 48, "zz.x", "must refer to a node"},
     {"UnknownWhen", 49, "    when: '='", "options.stop[0].when", 49, "=", "must be \">\" or \"<\""},
@@ -442,6 +442,39 @@ TEST(ReadSceneTest, TakesBranchChoices) {
   EXPECT_EQ(choices[1].event, 0);
   EXPECT_EQ(choices[1].increment, 7);
   EXPECT_EQ(choices[1].branch, 0);
+}
+
+// A name of an earlier version is answered by the new one, a misspelt one by the nearest.
+TEST(ReadSceneTest, NamesTheKeyOrWordThatWasMeant) {
+  struct Case {
+    std::size_t replaced;
+    std::string by, line;
+  };
+  const std::vector<Case> cases = {
+      {47, "  branch_choices: [{event: 1, way: 2}]\n  stop:",
+       "file.yaml:47: options.branch_choices[0].way = 2: unknown key, is named branch now"},
+      {47, "  branch_choices: [{row: 5}]\n  stop:",
+       "file.yaml:47: options.branch_choices[0].row = 5: unknown key, is named increment now"},
+      {14, "    restlength: 7.0",
+       "file.yaml:14: scene.bars[0].restlength = 7.0: unknown key (did you mean rest_length?), must be one of: nodes, "
+       "EA, "
+       "rest_length, strain"},
+      {45, "  Step: 1.0",
+       "file.yaml:45: options.Step = 1.0: unknown key (did you mean step?), must be one of: method, accuracy, "
+       "direction, "
+       "step, max_increments, full_state_every, stop, branch_choices"},
+      {43, "  accuracy: Fast",
+       "file.yaml:43: options.accuracy = Fast: must be fast, balanced or accurate; did you mean fast?"},
+      {39, "    obstacle: flor",
+       "file.yaml:39: scene.contacts[0].obstacle = flor: must name an obstacle of the scene; did you mean floor?"},
+      {48, "  - quantity: B.x",
+       "file.yaml:48: options.stop[0].quantity = B.x: must refer to a node of the scene; did you mean b.x?"},
+  };
+  for (const Case& c : cases) {
+    const std::vector<Violation> violations = ViolationsOf(BaseWith({{c.replaced, c.by}}));
+    ASSERT_EQ(violations.size(), 1U) << c.by;
+    EXPECT_EQ(violations[0].ToLine(), c.line);
+  }
 }
 
 TEST(ReadSceneTest, QuotedWordsAreText) {

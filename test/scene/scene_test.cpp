@@ -12,8 +12,8 @@ namespace {
 
 // Every enumerator has the word of the scene format, both ways; "" is the first; nothing else is a word.
 template <typename Enum>
-void ExpectWords(std::optional<Enum> (*parse)(std::string_view),
-                 const std::vector<std::pair<std::string, Enum>>& words) {
+void ExpectWords(const std::vector<std::pair<std::string, Enum>>& words) {
+  const auto parse = [](const std::string& word) { return ParseWord<Enum>(word); };
   for (const auto& [word, value] : words) {
     EXPECT_EQ(parse(word), value) << word;
     EXPECT_EQ(ToString(value), word);
@@ -26,29 +26,25 @@ void ExpectWords(std::optional<Enum> (*parse)(std::string_view),
 }
 
 TEST(SceneTest, WordsOfStrainMeasures) {
-  ExpectWords<StrainMeasure>(ParseStrainMeasure, {{"biot", StrainMeasure::kBiot},
-                                                  {"green_lagrange", StrainMeasure::kGreenLagrange},
-                                                  {"logarithmic", StrainMeasure::kLogarithmic}});
+  ExpectWords<StrainMeasure>({{"biot", StrainMeasure::kBiot},
+                              {"green_lagrange", StrainMeasure::kGreenLagrange},
+                              {"logarithmic", StrainMeasure::kLogarithmic}});
 }
 
-TEST(SceneTest, WordsOfObstacleShapes) {
-  ExpectWords<ObstacleShape>(ParseObstacleShape, {{"half_plane", ObstacleShape::kHalfPlane}});
-}
+TEST(SceneTest, WordsOfObstacleShapes) { ExpectWords<ObstacleShape>({{"half_plane", ObstacleShape::kHalfPlane}}); }
 
-TEST(SceneTest, WordsOfMethods) {
-  ExpectWords<Method>(ParseMethod, {{"branch", Method::kBranch}, {"mpec", Method::kMpec}});
-}
+TEST(SceneTest, WordsOfMethods) { ExpectWords<Method>({{"branch", Method::kBranch}, {"mpec", Method::kMpec}}); }
 
 TEST(SceneTest, WordsOfAccuracies) {
   ExpectWords<Accuracy>(
-      ParseAccuracy, {{"balanced", Accuracy::kBalanced}, {"fast", Accuracy::kFast}, {"accurate", Accuracy::kAccurate}});
+      {{"balanced", Accuracy::kBalanced}, {"fast", Accuracy::kFast}, {"accurate", Accuracy::kAccurate}});
 }
 
 TEST(SceneTest, DefaultsAreThoseOfTheEmptyWord) {
-  EXPECT_EQ(Bar().strain, ParseStrainMeasure(""));
-  EXPECT_EQ(Obstacle().shape, ParseObstacleShape(""));
-  EXPECT_EQ(TraceOptions().method, ParseMethod(""));
-  EXPECT_EQ(TraceOptions().accuracy, ParseAccuracy(""));
+  EXPECT_EQ(Bar().strain, ParseWord<StrainMeasure>(""));
+  EXPECT_EQ(Obstacle().shape, ParseWord<ObstacleShape>(""));
+  EXPECT_EQ(TraceOptions().method, ParseWord<Method>(""));
+  EXPECT_EQ(TraceOptions().accuracy, ParseWord<Accuracy>(""));
 }
 
 TEST(SceneTest, ZeroOptionsStandForTheirDefaults) {

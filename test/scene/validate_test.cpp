@@ -223,6 +223,8 @@ const BrokenRule kContactRules[] = {
      "must name a node"},
     {"ContactWithUnknownObstacle", [](auto& r) { r.scene.contacts[1].obstacle = "wall"; }, "scene.contacts[1].obstacle",
      "wall", "must name an obstacle"},
+    {"ContactWithMisspeltObstacle", [](auto& r) { r.scene.contacts[1].obstacle = "flor"; },
+     "scene.contacts[1].obstacle", "flor", "must name an obstacle of the scene; did you mean floor?"},
     {"RepeatedContact", [](auto& r) { r.scene.contacts.push_back(r.scene.contacts[0]); }, "scene.contacts[2]",
      "b@floor", "must not be repeated"},
     {"ContactOfFixedNode", [](auto& r) { r.scene.contacts[0].node = "a"; }, "scene.contacts[0].node", "a",
@@ -250,15 +252,21 @@ const BrokenRule kOptionRules[] = {
     {"FullStateNegative", [](auto& r) { r.options.full_state_every = -2; }, "options.full_state_every", "-2",
      "must be >= 0"},
     {"EmptyQuantity", [](auto& r) { r.options.stop[0].quantity = ""; }, "options.stop[0].quantity", "\"\"",
-     "must be load_factor, <node>.x or <node>.y"},
+     "must be load_factor, <node>.x, <node>.y, <contact>.gap, <contact>.rn or <contact>.rt"},
     {"QuantityWithoutComponent", [](auto& r) { r.options.stop[0].quantity = "b"; }, "options.stop[0].quantity", "b",
-     "must be load_factor, <node>.x or <node>.y"},
+     "must be load_factor, <node>.x, <node>.y, <contact>.gap, <contact>.rn or <contact>.rt"},
     {"QuantityWithoutNode", [](auto& r) { r.options.stop[0].quantity = ".x"; }, "options.stop[0].quantity", ".x",
-     "must be load_factor, <node>.x or <node>.y"},
+     "must be load_factor, <node>.x, <node>.y, <contact>.gap, <contact>.rn or <contact>.rt"},
     {"QuantityWithWrongComponent", [](auto& r) { r.options.stop[0].quantity = "b.z"; }, "options.stop[0].quantity",
-     "b.z", "must be load_factor, <node>.x or <node>.y"},
+     "b.z", "must be load_factor, <node>.x, <node>.y, <contact>.gap, <contact>.rn or <contact>.rt"},
     {"QuantityOfUnknownNode", [](auto& r) { r.options.stop[2].quantity = "zz.y"; }, "options.stop[2].quantity", "zz.y",
      "must refer to a node"},
+    {"QuantityOfMisspeltNode", [](auto& r) { r.options.stop[0].quantity = "B.x"; }, "options.stop[0].quantity", "B.x",
+     "must refer to a node of the scene; did you mean b.x?"},
+    {"ColumnOfMisspeltContact", [](auto& r) { r.options.stop[0].quantity = "rn_c@flor"; }, "options.stop[0].quantity",
+     "rn_c@flor", "must refer to a contact of the scene; did you mean rn_c@floor?"},
+    {"ReactionOfNode", [](auto& r) { r.options.stop[0].quantity = "b.rn"; }, "options.stop[0].quantity", "b.rn",
+     "must refer to a contact of the scene"},
     {"EmptyWhen", [](auto& r) { r.options.stop[0].when = ""; }, "options.stop[0].when", "\"\"",
      "must be \">\" or \"<\""},
     {"UnknownWhen", [](auto& r) { r.options.stop[1].when = ">="; }, "options.stop[1].when",
@@ -287,6 +295,70 @@ const BrokenRule kOptionRules[] = {
      "options.branch_choices[0].increment", "5", "must be 0 where event is given"},
 };
 INSTANTIATE_TEST_SUITE_P(Options, ValidateTest, testing::ValuesIn(kOptionRules), NameOf<BrokenRule>);
+
+// A stage that presses b and moves the floor down, and one that takes that back.
+TraceRequest SoundProgram() {
+  TraceRequest request = SoundRequest();
+  request.scene.loads = {{"b", 0.0, -1.0, true}};
+  request.options.stop.clear();
+  request.program.resize(2);
+  request.program[0].loads = {{"b", 2.0, 0.0, false}};
+  request.program[0].obstacle_motions = {{"floor", 0.0, -1.0}};
+  request.program[1].unload = true;
+  return request;
+}
+
+struct BrokenProgram {
+  std::string name;
+  std::function<void(std::vector<Stage>&)> change;
+  std::string line;
+};
+
+class ValidateProgramTest : public testing::TestWithParam<BrokenProgram> {};
+
+TEST_P(ValidateProgramTest, ReportsTheBrokenRuleAlone) {
+  TraceRequest request = SoundProgram();
+  GetParam().change(request.program);
+  const std::vector<Violation> violations = Validate(request);
+  ASSERT_EQ(violations.size(), GetParam().line.empty() ? 0U : 1U);
+  if (!violations.empty()) {
+    EXPECT_EQ(violations[0].ToLine(), GetParam().line);
+  }
+}
+
+const char kNothingLeft[] = "= true: the stages before must have left a load or a motion that can be taken back";
+const BrokenProgram kPrograms[] = {
+    {"Sound", [](auto&) {}, ""},
+    {"Half", [](auto& p) { p[1].target = 0.5; }, ""},
+    {"HalfAndTheRest", [](auto& p) { p[1].target = 0.5, p.push_back(p[1]), p[2].target = 1.0; }, ""},
+    {"LoadedAgain", [](auto& p) { p.push_back(p[0]), p.push_back(p[1]); }, ""},
+    {"NothingBefore", [](auto& p) { p.erase(p.begin()); }, std::string("program[0].unload ") + kNothingLeft},
+    {"Twice", [](auto& p) { p.push_back(p[1]); }, std::string("program[2].unload ") + kNothingLeft},
+    {"CancelledBefore",
+     [](auto& p) {
+       p.insert(p.begin() + 1, p[0]);
+       p[1].target = -1.0;
+     },
+     std::string("program[2].unload ") + kNothingLeft},
+    // 0.1 + 0.2 - 0.3 is not 0 in doubles.
+    {"CancelledBeforeButForRounding",
+     [](auto& p) {
+       p[0].obstacle_motions.clear();
+       p = {p[0], p[0], p[0], p[1]};
+       p[0].target = 0.1, p[1].target = 0.2, p[2].target = -0.3;
+     },
+     std::string("program[3].unload ") + kNothingLeft},
+    {"MoreThanAll", [](auto& p) { p[1].target = 1.5; },
+     "program[1].target = 1.5: must be from 0 to 1 where the stage unloads: the part that is taken back, 0 = all"},
+    {"LessThanNothing", [](auto& p) { p[1].target = -0.5; },
+     "program[1].target = -0.5: must be from 0 to 1 where the stage unloads: the part that is taken back, 0 = all"},
+    {"WithLoads", [](auto& p) { p[1].loads = p[0].loads; },
+     "program[1].loads: must be empty where the stage unloads: it takes back what the stages before have left"},
+    {"WithMotions", [](auto& p) { p[1].obstacle_motions = p[0].obstacle_motions; },
+     "program[1].obstacle_motions: must be empty where the stage unloads: it takes back what the stages before have "
+     "left"},
+};
+INSTANTIATE_TEST_SUITE_P(Programs, ValidateProgramTest, testing::ValuesIn(kPrograms), NameOf<BrokenProgram>);
 
 // What looks odd but breaks no rule.
 struct SoundVariant {
@@ -344,6 +416,10 @@ const SoundVariant kSoundVariants[] = {
     {"NegativeDirection", [](auto& r) { r.options.direction = -1.0; }},
     {"Step", [](auto& r) { r.options.step = 0.01; }},
     {"NoStopCriterion", [](auto& r) { r.options.stop.clear(); }},
+    {"StopAtContacts",
+     [](auto& r) {
+       r.options.stop = {{"b@floor.rn", ">", 1.0}, {"gap_c@floor", ">", 1.0}, {"x_b", "<", 1.0}};
+     }},
     {"StopAtFixedNode", [](auto& r) { r.options.stop[0].quantity = "a.x"; }},
 };
 INSTANTIATE_TEST_SUITE_P(Variants, SoundRequestTest, testing::ValuesIn(kSoundVariants), NameOf<SoundVariant>);
@@ -420,6 +496,23 @@ TEST(ValidateSizeTest, ReportsNoMoreThanAnybodyReads) {
   ASSERT_EQ(violations.size(), kMostViolations);
   EXPECT_EQ(violations[0].key, "scene.bars[0].EA");
   EXPECT_EQ(violations[99].key, "scene.bars[99].EA");
+}
+
+// Each stage takes a part of what many loads have left: 10^10 sums would be seen here.
+TEST(ValidateSizeTest, UnloadingTakesTimeInProportionToTheRequest) {
+  TraceRequest request = SoundProgram();
+  constexpr int kMany = 100000;
+  request.program[0].loads.clear();
+  for (int i = 0; i < kMany; ++i) {
+    request.scene.nodes.push_back({"n" + std::to_string(i), 1.0, 1.0 + i, false, false});
+    request.scene.bars.push_back({{"a", "n" + std::to_string(i)}, 1.0});
+    request.program[0].loads.push_back({"n" + std::to_string(i), 1.0, 0.0, false});
+  }
+  request.program[1].target = 1e-5;
+  request.program.resize(kMany, request.program[1]);
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_TRUE(Validate(request).empty());
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
 }
 
 // Each motion is asked for all contacts, by an index: 10^10 comparisons would be seen here.

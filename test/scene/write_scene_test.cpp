@@ -42,6 +42,39 @@ TEST(WriteTraceRequest, EveryFieldThatDiffersFromItsDefault) {
   ExpectRoundTrip(request);
 }
 
+TEST(WriteTraceRequest, StagesThatUnload) {
+  TraceRequest request = ReadExample("stick_slip_cycle");
+  Stage unload;
+  unload.name = "back";
+  unload.target = 0.5;
+  unload.unload = true;
+  request.program.push_back(unload);
+  ExpectRoundTrip(request);
+}
+
+// Whoever reads the file sees what was meant, and no defaults.
+TEST(WriteTraceRequest, OnePartALineWithoutDefaults) {
+  TraceRequest request;
+  request.scene.name = "two";
+  request.scene.nodes = {{"a", 0.0, 0.0, true, true}, {"b", 1.0, 0.5, false, false}};
+  request.scene.bars = {{{"a", "b"}, 2.0, 0.0, StrainMeasure::kGreenLagrange}};
+  request.scene.loads = {{"b", 1.0, 0.0, false}};
+  request.options.stop = {{"b.x", ">", 2.0}};
+  EXPECT_EQ(WriteTraceRequest(request),
+            "scene:\n"
+            "  name: \"two\"\n"
+            "  nodes:\n"
+            "    - {name: \"a\", fixed_x: true, fixed_y: true}\n"
+            "    - {name: \"b\", x: 1, y: 0.5}\n"
+            "  bars:\n"
+            "    - {nodes: [\"a\", \"b\"], EA: 2, strain: green_lagrange}\n"
+            "  loads:\n"
+            "    - {node: \"b\", fx: 1}\n"
+            "options:\n"
+            "  stop:\n"
+            "    - {quantity: \"b.x\", when: \">\", value: 2}\n");
+}
+
 TEST(WriteTraceRequest, LatticesAreSound) {
   for (const LatticeKind kind : {LatticeKind::kColumn, LatticeKind::kArch, LatticeKind::kWall}) {
     LatticeOptions options;

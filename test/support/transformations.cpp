@@ -8,7 +8,9 @@
 #include <string>
 #include <utility>
 
+#include "contact_path/scene/change_units.h"
 #include "contact_path/scene/program.h"
+#include "contact_path/scene/quantity.h"
 #include "contact_path/scene/scaling.h"
 
 namespace contact_path {
@@ -64,7 +66,10 @@ void TransformRequest(TraceRequest* request, Map map) {
   }
 }
 
-bool IsPosition(const StopCriterion& criterion) { return criterion.quantity != "load_factor"; }
+bool IsPosition(const StopCriterion& criterion) {
+  const Quantity::Kind kind = ReadQuantity(criterion.quantity)->kind;
+  return kind == Quantity::Kind::kX || kind == Quantity::Kind::kY;
+}
 
 void FlipTangent(ContactRecord* contact) {
   contact->rt = -contact->rt;
@@ -77,38 +82,10 @@ void FlipTangent(ContactRecord* contact) {
 }  // namespace
 
 TraceRequest ChangeUnits(TraceRequest request, double length, double force) {
-  for (Node& node : request.scene.nodes) {
-    node.x *= length;
-    node.y *= length;
-  }
-  for (Bar& bar : request.scene.bars) {
-    bar.EA *= force;
-    bar.rest_length *= length;
-  }
-  for (Superelement& part : request.scene.superelements) {
-    for (double& entry : part.stiffness) entry *= force / length;
-    for (double& position : part.rest_positions) position *= length;
-  }
-  ForEachLoading(&request, [&](auto* loads, auto* supports, auto* obstacles) {
-    for (Load& load : *loads) {
-      load.fx *= force;
-      load.fy *= force;
-    }
-    for (SupportMotion& motion : *supports) {
-      motion.dx *= length;
-      motion.dy *= length;
-    }
-    for (ObstacleMotion& motion : *obstacles) {
-      motion.dx *= length;
-      motion.dy *= length;
-    }
-  });
-  for (Obstacle& obstacle : request.scene.obstacles) {
-    obstacle.px *= length;
-    obstacle.py *= length;
-  }
+  const UnitSizes sizes = {1.0 / length, 1.0 / force, 1.0};
+  ChangeUnits(&request, sizes);
   for (StopCriterion& criterion : request.options.stop)
-    if (IsPosition(criterion)) criterion.value *= length;
+    criterion.value /= SizeOf(UnitOf(ReadQuantity(criterion.quantity)->kind), sizes);
   return request;
 }
 
@@ -146,8 +123,8 @@ TracedPath UndoRotation(TracedPath path, double angle) {
 TraceRequest Mirror(TraceRequest request) {
   TransformRequest(&request, [](double* x, double*) { *x = -*x; });
   for (StopCriterion& criterion : request.options.stop) {
-    const std::string& quantity = criterion.quantity;
-    if (quantity.size() < 2 || quantity.substr(quantity.size() - 2) != ".x") continue;
+    const Quantity::Kind kind = ReadQuantity(criterion.quantity)->kind;
+    if (kind != Quantity::Kind::kX && kind != Quantity::Kind::kRt) continue;
     criterion.value = -criterion.value;
     criterion.when = criterion.when == ">" ? "<" : ">";
   }

@@ -120,7 +120,7 @@ const Tampering kTamperings[] = {
      "has no state"},
     {"BranchesRemoved", [](auto& increments) { increments[FirstCorner(increments)].event.branches.clear(); },
      "an event without branches"},
-    {"NoBranchTaken", [](auto& increments) { increments[FirstCorner(increments)].event.taken = -1; },
+    {"NoBranchTaken", [](auto& increments) { increments[FirstCorner(increments)].event.taken = 0; },
      "no branch is taken"},
     {"EventInvented",
      [](auto& increments) { increments[FirstRegular(increments)].kind = IncrementKind::kContactEvent; },
@@ -152,7 +152,7 @@ const Tampering kTamperings[] = {
     {"OtherStates",
      [](auto& increments) {
        EventRecord& event = increments[FirstCorner(increments)].event;
-       event.branches[static_cast<std::size_t>(event.taken)].states[0] = ContactState::kOpen;
+       event.branches[static_cast<std::size_t>(event.taken) - 1].states[0] = ContactState::kOpen;
      },
      "not those of the branch taken"},
     {"ArcLengthFalls", [](auto& increments) { increments[6].arc_length = increments[4].arc_length; },

@@ -13,9 +13,10 @@ enum class EndReason {
   kPathEnd,           // no admissible branch: only a dynamic jump leads further
   kStepTooSmall,      // increments had to be shortened below the smallest allowed
   kCancelled,         // the caller asked for it
+  kNoSuchBranch,      // branch_choices wants a branch that does not exist: the request is invalid
 };
 
-// "stop_criterion", "max_increments", "path_end", "step_too_small", "cancelled", "numerical_failure".
+// "stop_criterion", "max_increments", "path_end", "step_too_small", "cancelled", "no_such_branch", "numerical_failure".
 std::string_view ToString(EndReason reason);
 
 }  // namespace contact_path

@@ -61,7 +61,7 @@ struct BranchRecord {
 struct EventRecord {
   int number = 0;                      // of the event, from 1; 0 = not one that the method came upon
   std::vector<BranchRecord> branches;  // all admissible branches but the branch of arrival, best first
-  int taken = -1;                      // index into branches; -1 = none
+  int taken = 0;                       // number of the branch, from 1; 0 = none
   int weakly_active = 0;               // contacts that could change their state
   bool complete = true;                // false: too many combinations of states to try them all
   std::vector<double>

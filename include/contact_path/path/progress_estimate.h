@@ -25,7 +25,7 @@ class ProgressEstimate {
  private:
   // A stop criterion as the way from where the path started to where it would end.
   struct Goal {
-    StopQuantity quantity;
+    Quantity quantity;
     double start = 0.0;
     double end = 0.0;
   };

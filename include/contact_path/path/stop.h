@@ -2,35 +2,26 @@
 #ifndef CONTACT_PATH_PATH_STOP_H_
 #define CONTACT_PATH_PATH_STOP_H_
 
-#include <cstddef>
 #include <string>
 #include <vector>
 
 #include "contact_path/path/increment.h"
+#include "contact_path/scene/quantity.h"
 #include "contact_path/scene/scene.h"
+#include "contact_path/scene/scene_index.h"
 
 namespace contact_path {
 
-// What a stop criterion speaks of: the load factor, or a coordinate of a node.
-class StopQuantity {
- public:
-  // Those of options.stop, in its order. `request` must be sound.
-  static std::vector<StopQuantity> Of(const TraceRequest& request);
+// The quantities of options.stop, in its order. `request` must be sound, `index` of its scene.
+std::vector<Quantity> StopQuantities(const TraceRequest& request, const SceneIndex& index);
 
-  bool IsLoadFactor() const { return component_ == kLoadFactor; }
-  // Into Increment::positions; not of the load factor.
-  std::size_t Component() const { return static_cast<std::size_t>(component_); }
-  double Value(const Increment& increment) const;
-
- private:
-  static constexpr int kLoadFactor = -1;
-  int component_ = kLoadFactor;  // into Increment::positions
-};
+// The value of a quantity in an increment that has its state; of the load factor in any increment.
+double ValueOf(const Quantity& quantity, const Increment& increment);
 
 class StopTest {
  public:
-  // `request` must be sound and outlive the test.
-  explicit StopTest(const TraceRequest& request);
+  // `request` must be sound and outlive the test, `index` of its scene.
+  StopTest(const TraceRequest& request, const SceneIndex& index);
 
   // The first criterion that holds in `increment`, by more than rounding, or null. Increment 0 is not asked: a
   // criterion can end a path, not forbid its start.
@@ -39,7 +30,7 @@ class StopTest {
  private:
   struct Item {
     const StopCriterion* criterion;
-    StopQuantity quantity;
+    Quantity quantity;
     double rounding;  // of the quantity
   };
   std::vector<Item> items_;

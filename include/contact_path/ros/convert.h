@@ -47,7 +47,7 @@ std::string EndReasonName(std::uint8_t end_reason);
 std::string EndMessage(const std::string& name, const std::string& why, const PathSummary& path,
                        const std::string& bag);
 
-// OK or ENDED_EARLY.
+// OK, ENDED_EARLY, or INVALID_REQUEST for a branch that does not exist.
 std::uint8_t StatusOf(EndReason reason);
 
 // The same fields.

@@ -35,6 +35,7 @@
 
 #include "contact_path/ros/messages.h"
 #include "contact_path/scene/scene.h"
+#include "contact_path/scene/scene_index.h"
 
 namespace contact_path {
 
@@ -78,8 +79,11 @@ class SceneMarkers {
     std::size_t node = 0;
     Eigen::Vector2d force = Eigen::Vector2d::Zero();
     bool constant = false;
+    bool taken_back = false;  // by this stage, in proportion to the load factor
 
-    Eigen::Vector2d Force(double load_factor) const { return (constant ? 1.0 : load_factor) * force; }
+    Eigen::Vector2d Force(double load_factor) const {
+      return (constant ? (taken_back ? 1.0 - load_factor : 1.0) : load_factor) * force;
+    }
   };
   struct HalfPlane {
     Eigen::Vector2d point = Eigen::Vector2d::Zero();   // at load factor 0
@@ -104,7 +108,7 @@ class SceneMarkers {
   class Picture;
 
   void FindSupports(const Scene& scene);
-  void ExtendBox(const TraceRequest& request, double reach);
+  void ExtendBox(const TraceRequest& request, const SceneIndex& index, double reach);
   const StageParts& StageOf(const contact_path_msgs::Increment& increment) const;
 
   visualization_msgs::MarkerArray Draw(const contact_path_msgs::Increment& increment, double largest_force,

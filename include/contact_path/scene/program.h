@@ -7,25 +7,39 @@
 #include "contact_path/scene/configuration.h"
 #include "contact_path/scene/scaling.h"
 #include "contact_path/scene/scene.h"
+#include "contact_path/scene/scene_index.h"
 
 namespace contact_path {
+
+// `request` must be sound (validate.h) and have the stage; `index` is of its scene.
 
 // At least 1: a request without a program is one stage.
 std::size_t NumStages(const TraceRequest& request);
 
+// A stage of the program with its loads and motions per unit of its load factor. The loads and motions of a stage that
+// unloads are those that the stages before have left, with the opposite sign: one load for each load of these stages,
+// one motion for each support and obstacle.
+Stage StageAsTraced(const TraceRequest& request, std::size_t stage);
+
 // The scene of a stage, from 0, at whose load factor 0 all stages before have come to their targets: their loads are
-// constant, their obstacles are where they were moved to. Without a program: the scene of the request. `request` must
-// be sound.
-Scene StageScene(const TraceRequest& request, std::size_t stage);
+// constant, their obstacles are where they were moved to. Without a program: the scene of the request.
+Scene StageScene(const TraceRequest& request, const SceneIndex& index, std::size_t stage);
+inline Scene StageScene(const TraceRequest& request, std::size_t stage) {
+  return StageScene(request, SceneIndex(request.scene), stage);
+}
 // The shape of the scene, and its start in a stage: supports are where the stages before have moved them.
-Configuration StageConfiguration(const TraceRequest& request, std::size_t stage);
+Configuration StageConfiguration(const TraceRequest& request, const SceneIndex& index, std::size_t stage);
+inline Configuration StageConfiguration(const TraceRequest& request, std::size_t stage) {
+  return StageConfiguration(request, SceneIndex(request.scene), stage);
+}
 
 // One length and one force for all stages, so that points can be handed on: with bars those of the scene, without bars
 // those of the stage with the largest force at its target.
-Scaling ProgramScales(const TraceRequest& request);
+Scaling ProgramScales(const TraceRequest& request, const SceneIndex& index);
+inline Scaling ProgramScales(const TraceRequest& request) { return ProgramScales(request, SceneIndex(request.scene)); }
 
-// These, with the scale of the load factor of one stage. of_program: ProgramScales(request), for who wants many stages.
-Scaling StageScales(const TraceRequest& request, std::size_t stage, const Scaling& of_program);
+// These, with the scale of the load factor of one stage. of_program: ProgramScales(request, index).
+Scaling StageScales(const TraceRequest& request, const SceneIndex& index, std::size_t stage, const Scaling& of_program);
 Scaling StageScales(const TraceRequest& request, std::size_t stage);
 
 }  // namespace contact_path

@@ -3,6 +3,7 @@
 #define CONTACT_PATH_SCENE_SCALING_H_
 
 #include "contact_path/scene/scene.h"
+#include "contact_path/scene/scene_index.h"
 
 namespace contact_path {
 
@@ -15,15 +16,19 @@ struct Scaling {
   double load_factor = 1.0;  // LoadFactorScale
 };
 
-// `scene` must be sound (validate.h).
-Scaling CharacteristicScales(const Scene& scene);
+// `scene` must be sound (validate.h). index: of the scene, here and below.
+Scaling CharacteristicScales(const Scene& scene, const SceneIndex& index);
+inline Scaling CharacteristicScales(const Scene& scene) { return CharacteristicScales(scene, SceneIndex(scene)); }
 
 // 1 / |(norm of the reference load on the free components / F, norm of the motions of supports and obstacles / L)|.
-double LoadFactorScale(const Scene& scene, double length, double force);
+double LoadFactorScale(const Scene& scene, const SceneIndex& index, double length, double force);
 
 // `scene` in scaled units: positions over L, forces over F, stiffnesses over F / L, reference loads and motions of norm
 // 1 together, summed by node. Normals of unit length, rest lengths filled in. Names and order are kept.
-Scene ScaleScene(const Scene& scene, const Scaling& scaling);
+Scene ScaleScene(const Scene& scene, const SceneIndex& index, const Scaling& scaling);
+inline Scene ScaleScene(const Scene& scene, const Scaling& scaling) {
+  return ScaleScene(scene, SceneIndex(scene), scaling);
+}
 
 }  // namespace contact_path
 

@@ -2,13 +2,21 @@
 //
 // Any consistent set of units: [length], [force]; the load factor has no unit. Names tie the parts together and are
 // unique within their list. The structs hold what the user wrote; nothing is checked or normalised here (validate.h).
+//
+// Each struct is followed by the description of its fields (field.h). A new field is a member and its description here,
+// and the field of the same name in the message of the part. A new kind of part is a struct with its description and a
+// list in Scene here, a message, and a list in Scene.msg.
 #ifndef CONTACT_PATH_SCENE_SCENE_H_
 #define CONTACT_PATH_SCENE_SCENE_H_
 
-#include <optional>
 #include <string>
 #include <string_view>
+#include <tuple>
+#include <utility>
 #include <vector>
+
+#include "contact_path/scene/field.h"
+#include "contact_path/scene/words.h"
 
 namespace contact_path {
 
@@ -19,14 +27,42 @@ enum class StrainMeasure {
   kLogarithmic,    // ln(l / l0)
 };
 
+template <>
+struct Words<StrainMeasure> {
+  static constexpr StrainMeasure kDefault = StrainMeasure::kBiot;
+  static constexpr std::pair<std::string_view, StrainMeasure> kAll[] = {
+      {"biot", StrainMeasure::kBiot},
+      {"green_lagrange", StrainMeasure::kGreenLagrange},
+      {"logarithmic", StrainMeasure::kLogarithmic}};
+};
+
 enum class ObstacleShape { kHalfPlane };
+
+template <>
+struct Words<ObstacleShape> {
+  static constexpr ObstacleShape kDefault = ObstacleShape::kHalfPlane;
+  static constexpr std::pair<std::string_view, ObstacleShape> kAll[] = {{"half_plane", ObstacleShape::kHalfPlane}};
+};
 
 enum class Method {
   kBranch,  // piecewise smooth continuation with located events
   kMpec,    // Algorithm 3.2 of Kanno & Martins 2005
 };
 
+template <>
+struct Words<Method> {
+  static constexpr Method kDefault = Method::kBranch;
+  static constexpr std::pair<std::string_view, Method> kAll[] = {{"branch", Method::kBranch}, {"mpec", Method::kMpec}};
+};
+
 enum class Accuracy { kFast, kBalanced, kAccurate };
+
+template <>
+struct Words<Accuracy> {
+  static constexpr Accuracy kDefault = Accuracy::kBalanced;
+  static constexpr std::pair<std::string_view, Accuracy> kAll[] = {
+      {"fast", Accuracy::kFast}, {"balanced", Accuracy::kBalanced}, {"accurate", Accuracy::kAccurate}};
+};
 
 struct Node {
   std::string name;
@@ -34,6 +70,16 @@ struct Node {
   double y = 0.0;
   bool fixed_x = false;
   bool fixed_y = false;
+};
+
+template <>
+struct Fields<Node> {
+  template <typename P>
+  static constexpr auto Of() {
+    return std::tuple(Member("name", &P::name).Naming(TextKind::kNewName), Member("x", &P::x).In(units::kLength),
+                      Member("y", &P::y).In(units::kLength), Member("fixed_x", &P::fixed_x),
+                      Member("fixed_y", &P::fixed_y));
+  }
 };
 
 // Straight bar with energy EA l0 e^2 / 2, e by `strain`.
@@ -44,6 +90,17 @@ struct Bar {
   StrainMeasure strain = StrainMeasure::kBiot;
 };
 
+template <>
+struct Fields<Bar> {
+  template <typename P>
+  static constexpr auto Of() {
+    return std::tuple(Member("nodes", &P::nodes).Naming(TextKind::kNode),
+                      Member("EA", &P::EA).In(units::kForce).Within(Range::kPositive),
+                      Member("rest_length", &P::rest_length).In(units::kLength).Within(Range::kZeroOrPositive),
+                      Member("strain", &P::strain));
+  }
+};
+
 // Linear elastic part: force = K (x - X), both ordered x0, y0, x1, y1, ... over `nodes`.
 struct Superelement {
   std::vector<std::string> nodes;           // n names
@@ -51,11 +108,30 @@ struct Superelement {
   std::vector<double> rest_positions = {};  // X, 2n [length]; empty = the initial positions of the nodes
 };
 
+template <>
+struct Fields<Superelement> {
+  template <typename P>
+  static constexpr auto Of() {
+    return std::tuple(Member("nodes", &P::nodes).Naming(TextKind::kNode),
+                      Member("stiffness", &P::stiffness).In(units::kStiffness),
+                      Member("rest_positions", &P::rest_positions).In(units::kLength));
+  }
+};
+
 struct Load {
   std::string node;
   double fx = 0.0;  // [force], per unit of the load factor unless constant
   double fy = 0.0;
   bool constant = false;  // true: not scaled by the load factor
+};
+
+template <>
+struct Fields<Load> {
+  template <typename P>
+  static constexpr auto Of() {
+    return std::tuple(Member("node", &P::node).Naming(TextKind::kNode), Member("fx", &P::fx).In(units::kForceRate),
+                      Member("fy", &P::fy).In(units::kForceRate), Member("constant", &P::constant));
+  }
 };
 
 // Half plane of admissible points: n . (x - p) >= 0. The tangent is t = (n_y, -n_x).
@@ -69,12 +145,32 @@ struct Obstacle {
   double friction = 0.0;  // Coulomb's coefficient, >= 0; 0 = frictionless
 };
 
+template <>
+struct Fields<Obstacle> {
+  template <typename P>
+  static constexpr auto Of() {
+    return std::tuple(Member("name", &P::name).Naming(TextKind::kNewName), Member("shape", &P::shape),
+                      Member("px", &P::px).In(units::kLength), Member("py", &P::py).In(units::kLength),
+                      Member("nx", &P::nx), Member("ny", &P::ny),
+                      Member("friction", &P::friction).Within(Range::kNotNegative));
+  }
+};
+
 // A node that may touch an obstacle. Its name is "<node>@<obstacle>".
 struct ContactCandidate {
   std::string node;
   std::string obstacle;
 
   std::string Name() const { return node + "@" + obstacle; }
+};
+
+template <>
+struct Fields<ContactCandidate> {
+  template <typename P>
+  static constexpr auto Of() {
+    return std::tuple(Member("node", &P::node).Naming(TextKind::kNode),
+                      Member("obstacle", &P::obstacle).Naming(TextKind::kObstacle));
+  }
 };
 
 // Prescribed displacement of a support: the fixed components of the node are at their initial position + (dx, dy) x
@@ -85,11 +181,29 @@ struct SupportMotion {
   double dy = 0.0;
 };
 
+template <>
+struct Fields<SupportMotion> {
+  template <typename P>
+  static constexpr auto Of() {
+    return std::tuple(Member("node", &P::node).Naming(TextKind::kNode), Member("dx", &P::dx).In(units::kLengthRate),
+                      Member("dy", &P::dy).In(units::kLengthRate));
+  }
+};
+
 // Translation of an obstacle: its point is at (px, py) + (dx, dy) x load factor. Slip is motion relative to it.
 struct ObstacleMotion {
   std::string obstacle;
   double dx = 0.0;  // [length] per unit of the load factor
   double dy = 0.0;
+};
+
+template <>
+struct Fields<ObstacleMotion> {
+  template <typename P>
+  static constexpr auto Of() {
+    return std::tuple(Member("obstacle", &P::obstacle).Naming(TextKind::kObstacle),
+                      Member("dx", &P::dx).In(units::kLengthRate), Member("dy", &P::dy).In(units::kLengthRate));
+  }
 };
 
 struct Scene {
@@ -104,11 +218,31 @@ struct Scene {
   std::vector<ObstacleMotion> obstacle_motions;
 };
 
+template <>
+struct Fields<Scene> {
+  template <typename P>
+  static constexpr auto Of() {
+    return std::tuple(Member("name", &P::name), Member("nodes", &P::nodes), Member("bars", &P::bars),
+                      Member("superelements", &P::superelements), Member("loads", &P::loads),
+                      Member("obstacles", &P::obstacles), Member("contacts", &P::contacts),
+                      Member("support_motions", &P::support_motions), Member("obstacle_motions", &P::obstacle_motions));
+  }
+};
+
 // Holds when `quantity` lies beyond `value` on the side that `when` names.
 struct StopCriterion {
-  std::string quantity;  // "<node>.x", "<node>.y" (current position) or "load_factor"
+  std::string quantity;  // "b.x", "b@floor.rn", "load_factor", ... (quantity.h)
   std::string when;      // ">" or "<"
   double value = 0.0;
+};
+
+template <>
+struct Fields<StopCriterion> {
+  template <typename P>
+  static constexpr auto Of() {
+    return std::tuple(Member("quantity", &P::quantity).Naming(TextKind::kQuantity), Member("when", &P::when),
+                      Member("value", &P::value));
+  }
 };
 
 // Takes another branch than the best one (method branch): at the n-th event, or at an increment, which then counts as
@@ -117,6 +251,16 @@ struct BranchChoice {
   int event = 0;      // n, from 1; 0 = `increment` is meant
   int increment = 0;  // index of the increment, from 0; used where event = 0
   int branch = 0;     // number of the branch in the record of that event, from 1; 0 = 1, the best
+};
+
+template <>
+struct Fields<BranchChoice> {
+  template <typename P>
+  static constexpr auto Of() {
+    return std::tuple(Member("event", &P::event).Within(Range::kNotNegative),
+                      Member("increment", &P::increment).Within(Range::kNotNegative).Formerly("row"),
+                      Member("branch", &P::branch).Within(Range::kNotNegative).Formerly("way"));
+  }
 };
 
 struct TraceOptions {
@@ -135,15 +279,41 @@ struct TraceOptions {
   double Direction() const { return direction < 0.0 ? -1.0 : 1.0; }
 };
 
-// A part of a load program. Its load factor goes from 0 to `target`; then what it has brought on stays.
+template <>
+struct Fields<TraceOptions> {
+  template <typename P>
+  static constexpr auto Of() {
+    return std::tuple(Member("method", &P::method), Member("accuracy", &P::accuracy),
+                      Member("direction", &P::direction), Member("step", &P::step).Within(Range::kNotNegative),
+                      Member("max_increments", &P::max_increments).Within(Range::kNotNegative),
+                      Member("full_state_every", &P::full_state_every).Within(Range::kNotNegative),
+                      Member("stop", &P::stop), Member("branch_choices", &P::branch_choices));
+  }
+};
+
+// A part of a load program. Its load factor goes from 0 to `target`; then the stage leaves its loads and motions on,
+// until a stage unloads.
 struct Stage {
   std::string name;
   std::vector<Load> loads;  // none constant
   std::vector<SupportMotion> support_motions;
   std::vector<ObstacleMotion> obstacle_motions;
   double target = 0.0;  // load factor at its end; 0 = 1
+  // true: takes the loads and motions that the stages before have left back, in proportion to its load factor, from 0
+  // to `target` <= 1; it has none of its own.
+  bool unload = false;
 
   double Target() const { return target == 0.0 ? 1.0 : target; }
+};
+
+template <>
+struct Fields<Stage> {
+  template <typename P>
+  static constexpr auto Of() {
+    return std::tuple(Member("name", &P::name), Member("loads", &P::loads),
+                      Member("support_motions", &P::support_motions), Member("obstacle_motions", &P::obstacle_motions),
+                      Member("target", &P::target).In(units::kLoadFactor), Member("unload", &P::unload));
+  }
 };
 
 struct TraceRequest {
@@ -154,15 +324,13 @@ struct TraceRequest {
   std::vector<Stage> program;
 };
 
-// Words of the scene format. Parse* take "" for the default and give nothing for a word that is not known.
-std::optional<StrainMeasure> ParseStrainMeasure(std::string_view word);
-std::optional<ObstacleShape> ParseObstacleShape(std::string_view word);
-std::optional<Method> ParseMethod(std::string_view word);
-std::optional<Accuracy> ParseAccuracy(std::string_view word);
-std::string_view ToString(StrainMeasure strain);
-std::string_view ToString(ObstacleShape shape);
-std::string_view ToString(Method method);
-std::string_view ToString(Accuracy accuracy);
+template <>
+struct Fields<TraceRequest> {
+  template <typename P>
+  static constexpr auto Of() {
+    return std::tuple(Member("scene", &P::scene), Member("options", &P::options), Member("program", &P::program));
+  }
+};
 
 }  // namespace contact_path
 

@@ -1,0 +1,141 @@
+// The words in which scene.h describes the fields of a request: the name of a field, the member that holds it, its
+// unit, the numbers that it admits, and what a text of it names.
+//
+// A description is written once, for any struct with these members: the struct of the core and the generated message.
+// Reader, writer, checks, change of units, comparison and conversion go through the descriptions.
+#ifndef CONTACT_PATH_SCENE_FIELD_H_
+#define CONTACT_PATH_SCENE_FIELD_H_
+
+#include <cstddef>
+#include <string_view>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace contact_path {
+
+// Exponents of a unit: EA is a force, {0, 1, 0}; a stiffness is a force per length, {-1, 1, 0}; the velocity of a
+// support is a length per unit of the load factor, {1, 0, -1}.
+struct Unit {
+  int length = 0;
+  int force = 0;
+  int load_factor = 0;
+};
+
+namespace units {
+constexpr Unit kNone = {0, 0, 0};
+constexpr Unit kLength = {1, 0, 0};
+constexpr Unit kForce = {0, 1, 0};
+constexpr Unit kStiffness = {-1, 1, 0};
+constexpr Unit kLoadFactor = {0, 0, 1};
+constexpr Unit kLengthRate = {1, 0, -1};
+constexpr Unit kForceRate = {0, 1, -1};
+}  // namespace units
+
+// The numbers that a field admits. All must be finite and at most 1e100 in magnitude.
+enum class Range {
+  kAny,
+  kNotNegative,     // >= 0
+  kPositive,        // >= 1e-100
+  kZeroOrPositive,  // 0, or >= 1e-100
+};
+
+// What a text, or each text of a list, is.
+enum class TextKind {
+  kAny,       // for people; UTF-8
+  kNewName,   // the name of the part: unique in its list, and fit for the columns of a table
+  kNode,      // the name of a node of the scene
+  kObstacle,  // the name of an obstacle of the scene
+  kQuantity,  // a quantity of a path (quantity.h)
+};
+
+// One field of Part, which is a struct of scene.h or a message with the same members.
+template <typename PartType, typename ValueType>
+struct Member {
+  using Part = PartType;
+  using Value = ValueType;
+
+  constexpr Member(std::string_view field_name, Value Part::*field_member) : name(field_name), member(field_member) {}
+
+  constexpr Member In(Unit of_number) const {
+    Member changed = *this;
+    changed.unit = of_number;
+    return changed;
+  }
+  constexpr Member Within(Range admitted) const {
+    Member changed = *this;
+    changed.range = admitted;
+    return changed;
+  }
+  constexpr Member Naming(TextKind kind) const {
+    Member changed = *this;
+    changed.text = kind;
+    return changed;
+  }
+  // The name of the field in earlier versions, for a message that tells the new one.
+  constexpr Member Formerly(std::string_view old_name) const {
+    Member changed = *this;
+    changed.formerly = old_name;
+    return changed;
+  }
+
+  std::string_view name;  // the same in scene files and messages
+  Value Part::*member;
+  Unit unit = {};
+  Range range = Range::kAny;
+  TextKind text = TextKind::kAny;
+  std::string_view formerly = {};
+};
+
+// The description of a part: Fields<Part>::Of<Struct>() is a tuple of Member<Struct, ...>, where Struct is Part or a
+// message with the same members. A member that Struct lacks is an error of compilation. The default of a field is the
+// initialiser of its member.
+template <typename Part>
+struct Fields;
+
+// Calls visit(field) for each field of Part, in the order of the description.
+template <typename Part, typename Visit>
+constexpr void ForEachField(Visit&& visit) {
+  std::apply([&](const auto&... field) { (visit(field), ...); }, Fields<Part>::template Of<Part>());
+}
+
+namespace field_internal {
+
+template <typename Fields, typename OtherFields, typename Visit, std::size_t... i>
+constexpr void ForEachPair(const Fields& fields, const OtherFields& others, Visit& visit, std::index_sequence<i...>) {
+  (visit(std::get<i>(fields), std::get<i>(others)), ...);
+}
+
+template <typename T, typename = void>
+struct IsDescribed : std::false_type {};
+template <typename T>
+struct IsDescribed<T, std::void_t<decltype(Fields<T>::template Of<T>())>> : std::true_type {};
+
+}  // namespace field_internal
+
+// Calls visit(field of Part, field of Other) for each field of Part. Other has the same members.
+template <typename Part, typename Other, typename Visit>
+constexpr void ForEachFieldPair(Visit&& visit) {
+  constexpr auto fields = Fields<Part>::template Of<Part>();
+  field_internal::ForEachPair(fields, Fields<Part>::template Of<Other>(), visit,
+                              std::make_index_sequence<std::tuple_size_v<decltype(fields)>>());
+}
+
+// Whether T is a part: a struct with a description.
+template <typename T>
+constexpr bool kIsPart = field_internal::IsDescribed<T>::value;
+
+// Whether T is a list, and whether its elements are parts.
+template <typename T>
+constexpr bool kIsList = false;
+template <typename T>
+constexpr bool kIsList<std::vector<T>> = true;
+template <typename T>
+constexpr bool kIsPartList = false;
+template <typename T>
+constexpr bool kIsPartList<std::vector<T>> = kIsPart<T>;
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_SCENE_FIELD_H_

@@ -1,0 +1,14 @@
+#include "contact_path/scene/scene_index.h"
+
+namespace contact_path {
+
+SceneIndex::SceneIndex(const Scene& scene) {
+  nodes_.reserve(scene.nodes.size());
+  for (std::size_t i = 0; i < scene.nodes.size(); ++i) nodes_.emplace(scene.nodes[i].name, i);
+  obstacles_.reserve(scene.obstacles.size());
+  for (std::size_t i = 0; i < scene.obstacles.size(); ++i) obstacles_.emplace(scene.obstacles[i].name, i);
+  contacts_.reserve(scene.contacts.size());
+  for (std::size_t i = 0; i < scene.contacts.size(); ++i) contacts_.emplace(scene.contacts[i].Name(), i);
+}
+
+}  // namespace contact_path
