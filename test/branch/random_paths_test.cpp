@@ -63,7 +63,6 @@ const std::map<unsigned, Cause>& ListedDifferences() {
       {86, Cause::kWedge},      // fast: the cone of a redundant reaction is reached 1e-7 earlier
       {92, Cause::kMechanism},  // a four-bar chain hangs free from the start
       {213, Cause::kMechanism},  // short steps: what is free is named in two branches
-      {267, Cause::kMechanism},  // fast: a reaction and its cone vanish together, while a hinge is free
       {281, Cause::kWedge},      // held by two obstacles, it rests as slip+ in the mirror image, too
   };
   return listed;
