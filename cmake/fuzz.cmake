@@ -15,6 +15,7 @@ contact_path_add_fuzz_target(read_scene contact_path_core test/support/same_requ
 contact_path_add_fuzz_target(trace_scene contact_path_core test/fuzz/varied_request.cpp test/support/random_scene.cpp
   test/support/transformations.cpp)
 target_link_libraries(fuzz_trace_scene PRIVATE GTest::gtest)
+target_compile_definitions(fuzz_trace_scene PRIVATE CONTACT_PATH_QUICK_SCENES)
 if(CONTACT_PATH_ROS)
   # Of the ROS side only what it runs: the rest takes minutes to compile.
   contact_path_add_fuzz_target(convert_request contact_path_core src/ros/convert.cpp src/ros/limits.cpp

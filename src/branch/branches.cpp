@@ -282,7 +282,7 @@ class Finder {
 
   bool Admissible(const Eigen::VectorXd& x, const Eigen::VectorXd& first, const Eigen::VectorXd& second) const {
     const Eigen::Index n = NumMotion();
-    if (arrival_.is_start && first[n - 1] * arrival_.direction[n - 1] <= kStartRate) return false;
+    if (arrival_.is_start && !SetsOut(first[n - 1], second[n - 1])) return false;
     if (!arrival_.is_start && IsReversed(first)) return false;
     for (const Constraint& limit : system_.Inequalities()) {
       if (!IsActive(limit, x)) continue;
@@ -295,6 +295,13 @@ class Finder {
       if (rate <= kRateTolerance && curvature < -kCurvatureTolerance) return false;
     }
     return true;
+  }
+
+  // Whether the load starts to change in the wanted sense. At a smooth limit point it rests, and its curvature tells.
+  bool SetsOut(double load_rate, double load_curvature) const {
+    const double sense = arrival_.direction[NumMotion() - 1];
+    if (load_rate * sense > kStartRate) return true;
+    return std::abs(load_rate) <= kRateTolerance && load_curvature * sense > kCurvatureTolerance;
   }
 
   bool IsReversed(const Eigen::VectorXd& first) const {

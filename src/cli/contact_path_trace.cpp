@@ -1,8 +1,8 @@
 // contact_path_trace SCENE.yaml: traces the equilibrium path of a scene file and writes its increments as CSV.
 // contact_path_trace --resume BAG: goes on with a trace that was cut short.
 //
-// Exit status: 0 ended by a stop criterion or the number of increments; 1 ended earlier, all accepted increments
-// written; 2 bad usage or invalid scene.
+// Exit status: 0 ended by a stop criterion, the number of increments or a closed path; 1 ended earlier, all accepted
+// increments written; 2 bad usage or invalid scene.
 #include <CLI/CLI.hpp>
 #include <cerrno>
 #include <csignal>
@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "contact_path/path/csv.h"
+#include "contact_path/path/restored_states.h"
 #include "contact_path/path/trace.h"
 #include "contact_path/scene/read_scene.h"
 #include "contact_path/scene/validate.h"
@@ -135,10 +136,8 @@ Task ReadTask(const Arguments& arguments) {
   if (arguments.scene_file.empty()) {
     HandleSignals();
     TraceSoFar so_far = ReadTraceSoFar(arguments.resume, IsCancelled);
-    for (const Increment& increment : so_far.increments)
-      if (increment.positions.empty())
-        throw std::runtime_error(arguments.resume + ": increment " + std::to_string(increment.index) +
-                                 " has no state (full_state_every): the CSV could not have it");
+    // The CSV has all states.
+    so_far.increments.resize(RestoreStates(so_far.request, &so_far.increments));
     task.request = std::move(so_far.request);
     task.increments = std::move(so_far.increments);
   } else {
@@ -208,7 +207,7 @@ ExitStatus RunTrace(const Task& task, const Arguments& arguments, std::ostream& 
   if (arguments.events) {
     sinks.emplace_back([&](const Increment& increment) {
       progress.Wipe();
-      PrintBranches(request.scene, increment, std::cerr);
+      PrintBranches(request, increment, std::cerr);
     });
   }
 #ifdef CONTACT_PATH_WITH_ROS
@@ -231,7 +230,7 @@ ExitStatus RunTrace(const Task& task, const Arguments& arguments, std::ostream& 
   if (bag) bag->End(result);
 #endif
 
-  const bool complete = result.reason == EndReason::kStopCriterion || result.reason == EndReason::kMaxIncrements;
+  const bool complete = IsComplete(result.reason);
   if (!complete || !arguments.quiet) {
     progress.Wipe();
     PrintError(progress.Summary(result));

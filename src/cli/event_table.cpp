@@ -5,15 +5,18 @@
 #include <locale>
 #include <sstream>
 
+#include "contact_path/path/path_summary.h"
+#include "contact_path/scene/program.h"
+
 namespace contact_path {
 
-void PrintBranches(const Scene& scene, const Increment& increment, std::ostream& out) {
+void PrintBranches(const TraceRequest& request, const Increment& increment, std::ostream& out) {
   if (increment.event.branches.empty() && increment.event.number == 0) return;
   std::ostringstream text;
   text.imbue(std::locale::classic());
   if (increment.event.number > 0) text << "event " << increment.event.number << ", ";
   text << "increment " << increment.index << ", " << ToString(increment.kind) << " at load factor "
-       << std::setprecision(10) << increment.load_factor
+       << LoadFactorText(increment.load_factor, ProgramScales(request).load_factor)
        << (increment.event.complete ? "" : "; not all combinations of states were tried") << '\n'
        << std::setprecision(4);
   if (increment.event.branches.empty()) text << "  no branch was found\n";
@@ -23,7 +26,7 @@ void PrintBranches(const Scene& scene, const Increment& increment, std::ostream&
     text << (taken ? "* branch " : "  branch ") << i + 1 << ": dissipation rate " << branch.dissipation_rate
          << ", load rate " << branch.load_rate << ", turn " << branch.turn;
     for (std::size_t k = 0; k < branch.states.size(); ++k)
-      text << (k == 0 ? "; " : ", ") << scene.contacts[k].Name() << ' ' << ToString(branch.states[k]);
+      text << (k == 0 ? "; " : ", ") << request.scene.contacts[k].Name() << ' ' << ToString(branch.states[k]);
     text << '\n';
   }
   out << text.str();

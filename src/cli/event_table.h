@@ -10,7 +10,7 @@
 namespace contact_path {
 
 // Writes the branches from `increment`, a line each, best first; nothing where no branches part.
-void PrintBranches(const Scene& scene, const Increment& increment, std::ostream& out);
+void PrintBranches(const TraceRequest& request, const Increment& increment, std::ostream& out);
 
 }  // namespace contact_path
 

@@ -6,6 +6,8 @@
 #include <sstream>
 #include <utility>
 
+#include "contact_path/scene/program.h"
+
 namespace contact_path {
 namespace {
 
@@ -38,7 +40,12 @@ std::string InMinutes(double seconds) {
 }  // namespace
 
 Progress::Progress(const TraceRequest& request, bool show_bar, std::ostream& out, Clock clock)
-    : estimate_(request), show_bar_(show_bar), out_(out), clock_(std::move(clock)), begin_(clock_()) {
+    : estimate_(request),
+      show_bar_(show_bar),
+      out_(out),
+      clock_(std::move(clock)),
+      summary_(ProgramScales(request).load_factor),
+      begin_(clock_()) {
   if (show_bar_) out_ << kWipeLine << "looking for the start" << std::flush;
   visible_ = show_bar_;
 }

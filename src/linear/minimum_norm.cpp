@@ -2,12 +2,56 @@
 
 #include <Eigen/SPQRSupport>
 #include <cmath>
+#include <memory>
+#include <new>
+
+#include "contact_path/linear/linear_solver_error.h"
 
 namespace contact_path {
+namespace {
+
+using Spqr = Eigen::SPQR<Eigen::SparseMatrix<double>>;
+
+// Eigen takes lack of memory for a singular matrix, and does not look whether a product was computed.
+class SparseQr : public Spqr {
+ public:
+  SparseQr() { cholmodCommon()->print = 0; }  // standard output is not its own
+
+  // Throws std::bad_alloc or LinearSolverError.
+  void Factorize(const Eigen::SparseMatrix<double>& matrix) {
+    compute(matrix);
+    if (m_cR != nullptr) return;
+    RequireMemory();
+    throw LinearSolverError("SuiteSparseQR", cholmodCommon()->status);
+  }
+
+  // Q v. Throws std::bad_alloc or LinearSolverError.
+  Eigen::VectorXd Multiply(Eigen::VectorXd v) const {
+    cholmod_common* const common = cholmodCommon();
+    cholmod_dense dense = Eigen::viewAsCholmod(v);
+    const auto free = [common](cholmod_dense* product) { cholmod_l_free_dense(&product, common); };
+    const std::unique_ptr<cholmod_dense, decltype(free)> product(
+        SuiteSparseQR_qmult<double>(SPQR_QX, m_H, m_HTau, m_HPinv, &dense, common), free);
+    if (product == nullptr) {
+      RequireMemory();
+      throw LinearSolverError("SuiteSparseQR", common->status);
+    }
+    return Eigen::Map<const Eigen::VectorXd>(static_cast<const double*>(product->x),
+                                             static_cast<Eigen::Index>(product->nrow));
+  }
+
+ private:
+  void RequireMemory() const {
+    const int status = cholmodCommon()->status;
+    if (status == CHOLMOD_OUT_OF_MEMORY || status == CHOLMOD_TOO_LARGE) throw std::bad_alloc();
+  }
+};
+
+}  // namespace
 
 struct MinimumNormSolver::Factors {
-  Eigen::SPQR<Eigen::SparseMatrix<double>> qr;
-  Eigen::SPQR<Eigen::SparseMatrix<double>>::MatrixType r;
+  std::unique_ptr<SparseQr> qr;  // a new one each time: after a failure, Eigen frees what it has freed
+  Spqr::MatrixType r;
   Eigen::Index rank = 0;
   Eigen::Index unknowns = 0;
   Eigen::SparseMatrix<double> scaled;
@@ -19,21 +63,28 @@ MinimumNormSolver::~MinimumNormSolver() = default;
 
 bool MinimumNormSolver::Factorize(const Eigen::SparseMatrix<double>& transposed, double rank_tolerance) {
   // Equations of unit norm: so that what is soft beside something stiff counts as much.
-  factors_->scaled = transposed;
-  factors_->scale = Eigen::VectorXd::Ones(transposed.cols());
+  Eigen::VectorXd norms(transposed.cols());
   for (Eigen::Index column = 0; column < transposed.cols(); ++column) {
     const double norm = transposed.col(column).norm();
-    if (!std::isfinite(norm)) return false;
-    if (norm == 0.0) continue;
-    factors_->scale[column] = 1.0 / norm;
-    for (Eigen::SparseMatrix<double>::InnerIterator it(factors_->scaled, column); it; ++it) it.valueRef() /= norm;
+    norms[column] = norm == 0.0 ? 1.0 : norm;
   }
-  factors_->qr.setPivotThreshold(rank_tolerance);
-  factors_->qr.compute(factors_->scaled);
-  if (factors_->qr.info() != Eigen::Success) return false;
-  factors_->rank = factors_->qr.rank();
+  return Factorize(transposed, norms, rank_tolerance);
+}
+
+bool MinimumNormSolver::Factorize(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& norms,
+                                  double rank_tolerance) {
+  if (!norms.allFinite()) return false;
+  factors_->scaled = transposed;
+  factors_->scale = norms.cwiseInverse();
+  for (Eigen::Index column = 0; column < transposed.cols(); ++column)
+    for (Eigen::SparseMatrix<double>::InnerIterator it(factors_->scaled, column); it; ++it)
+      it.valueRef() /= norms[column];
+  factors_->qr = std::make_unique<SparseQr>();
+  factors_->qr->setPivotThreshold(rank_tolerance);
+  factors_->qr->Factorize(factors_->scaled);
+  factors_->rank = factors_->qr->rank();
   factors_->unknowns = transposed.rows();
-  factors_->r = factors_->qr.matrixR();
+  factors_->r = factors_->qr->matrixR();
   return true;
 }
 
@@ -41,26 +92,45 @@ Eigen::Index MinimumNormSolver::Rank() const { return factors_->rank; }
 
 Eigen::VectorXd MinimumNormSolver::Solve(const Eigen::VectorXd& b) const {
   // A' E = Q R, so A x = b is R' (Q' x) = E' b: forward substitution, and zero in the rest of Q' x for the shortest x.
-  const Eigen::VectorXd permuted = factors_->qr.colsPermutation().transpose() * factors_->scale.cwiseProduct(b);
+  const Eigen::VectorXd permuted = factors_->qr->colsPermutation().transpose() * factors_->scale.cwiseProduct(b);
   Eigen::VectorXd y = Eigen::VectorXd::Zero(factors_->unknowns);
   for (Eigen::Index j = 0; j < factors_->rank; ++j) {
     double sum = permuted[j], diagonal = 0.0;
-    for (Eigen::SPQR<Eigen::SparseMatrix<double>>::MatrixType::InnerIterator it(factors_->r, j); it; ++it) {
+    for (Spqr::MatrixType::InnerIterator it(factors_->r, j); it; ++it) {
       if (it.row() < j) sum -= it.value() * y[it.row()];
       if (it.row() == j) diagonal = it.value();
     }
     y[j] = sum / diagonal;
   }
-  return factors_->qr.matrixQ() * y;
+  return factors_->qr->Multiply(y);
+}
+
+Eigen::VectorXd MinimumNormSolver::DependentEquations() const {
+  // A' E = Q R with the last column of R dependent on the others: R y = 0 by back substitution, and psi = E y.
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(factors_->scale.size());
+  y[factors_->rank] = 1.0;
+  for (Eigen::Index j = factors_->rank; j >= 0; --j) {
+    double diagonal = 0.0;
+    if (j < factors_->rank) {
+      for (Spqr::MatrixType::InnerIterator it(factors_->r, j); it; ++it)
+        if (it.row() == j) diagonal = it.value();
+      y[j] /= diagonal;
+    }
+    for (Spqr::MatrixType::InnerIterator it(factors_->r, j); it; ++it)
+      if (it.row() < j) y[it.row()] -= it.value() * y[j];
+  }
+  return factors_->scale.cwiseProduct(Eigen::VectorXd(factors_->qr->colsPermutation() * y));
 }
 
 Eigen::MatrixXd MinimumNormSolver::NullSpace() const {
   const Eigen::Index size = factors_->unknowns - factors_->rank;
   Eigen::MatrixXd basis(factors_->unknowns, size);
-  for (Eigen::Index k = 0; k < size; ++k)
-    basis.col(k) =
-        factors_->qr.matrixQ() * Eigen::VectorXd(Eigen::VectorXd::Unit(factors_->unknowns, factors_->rank + k));
+  for (Eigen::Index k = 0; k < size; ++k) basis.col(k) = NullVector(k);
   return basis;
+}
+
+Eigen::VectorXd MinimumNormSolver::NullVector(Eigen::Index column) const {
+  return factors_->qr->Multiply(Eigen::VectorXd::Unit(factors_->unknowns, factors_->rank + column));
 }
 
 }  // namespace contact_path

@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <stdexcept>
 #include <utility>
+
+#include "contact_path/linear/linear_solver_error.h"
 
 namespace contact_path {
 namespace {
@@ -179,6 +182,10 @@ SolveOutcome IpoptSolver::Solve(const NonlinearProgram& program, double barrier,
   Adapter* adapter = new Adapter(program, warm, implementation_->cancelled, point);
   const Ipopt::SmartPtr<Ipopt::TNLP> owner = adapter;
   const Ipopt::ApplicationReturnStatus status = implementation_->application->OptimizeTNLP(owner);
+  // Neither is a statement about the program.
+  if (status == Ipopt::Insufficient_Memory) throw std::bad_alloc();
+  if (status == Ipopt::Unrecoverable_Exception || status == Ipopt::NonIpopt_Exception_Thrown)
+    throw LinearSolverError("of Ipopt", status);
   SolveOutcome outcome;
   outcome.iterations = adapter->iterations();
   if (adapter->was_cancelled())

@@ -32,7 +32,7 @@ double Trend(double rate, double change, double level) {
 std::string NoBranch(const BranchSet& on) {
   if (on.rigid_modes > 0)
     return "no admissible branch, and the structure is a mechanism here: nothing resists " +
-           std::to_string(on.rigid_modes) + (on.rigid_modes == 1 ? " motion" : " motions") + "; is it supported?";
+           std::to_string(on.rigid_modes) + (on.rigid_modes == 1 ? " motion" : " motions");
   if (!on.complete) return "no admissible branch was found among the combinations of contact states tried";
   return "no admissible branch: the quasi-static path ends here, only a dynamic jump leads further";
 }
@@ -134,7 +134,7 @@ std::optional<EndReason> BranchMethod::PassEvent(const PathPoint& point, const A
     *message = NoBranch(on);
     return EndReason::kPathEnd;
   }
-  std::size_t taken = 0;
+  std::size_t taken = options_.keep_loading ? BestThatLoads(on.branches) : 0;
   if (choice != nullptr) {
     taken = static_cast<std::size_t>(std::max(choice->branch, 1) - 1);
     if (taken >= on.branches.size()) {
@@ -156,6 +156,13 @@ std::optional<EndReason> BranchMethod::PassEvent(const PathPoint& point, const A
     return EndReason::kNumericalFailure;
   }
   return std::nullopt;
+}
+
+std::size_t BranchMethod::BestThatLoads(const std::vector<Branch>& branches) const {
+  const auto loads = [&](const Branch& branch) { return branch.load_rate * options_.direction > kLevel; };
+  if (branches.front().load_rate * options_.direction >= -kLevel) return 0;
+  const auto best = std::find_if(branches.begin(), branches.end(), loads);
+  return best == branches.end() ? 0 : static_cast<std::size_t>(best - branches.begin());
 }
 
 std::optional<Step> BranchMethod::TryStep(double length) {
@@ -249,6 +256,60 @@ bool BranchMethod::Resume(const PathPoint& before, const PathPoint& from, const 
   return true;
 }
 
+bool BranchMethod::TurnsLoad(const CurvePoint& arrival, double level) const {
+  // By the second derivative where the first is zero.
+  const Eigen::Index s = arc_.NumMotion() - 1;
+  return Trend(arrival.first[s], -arrival.second[s], level) * Trend(current_.first[s], current_.second[s], level) < 0.0;
+}
+
+BranchRecord BranchMethod::RecordOf(const Eigen::VectorXd& first) const {
+  const Eigen::Index s = arc_.NumMotion() - 1;
+  const PathPoint point = arc_.system().Unpack(current_.x);
+  BranchRecord record;
+  record.states = arc_.system().states();
+  record.load_rate = first[s];
+  record.turn = std::acos(std::clamp(first.head(s + 1).dot(current_.first.head(s + 1)), -1.0, 1.0));
+  for (std::size_t i = 0; i < record.states.size(); ++i)
+    if (Slips(record.states[i]))
+      record.dissipation_rate -=
+          point.rt[static_cast<Eigen::Index>(i)] * model_.contacts[i]->SlipRate(point.u, point.s, first, first[s]);
+  record.dissipation_rate = std::max(record.dissipation_rate, 0.0);  // but for rounding
+  return record;
+}
+
+std::optional<EndReason> BranchMethod::PassBifurcation(const Eigen::VectorXd& before, const BranchChoice* choice,
+                                                       EventRecord* record, std::string* message) {
+  std::vector<Eigen::VectorXd> directions = {current_.first};
+  const std::optional<Crossing> crossing = arc_.FindCrossing(before, current_.x, current_.first);
+  const std::vector<Constraint> constraints = arc_.system().Inequalities();
+  // Where a contact slides, not both directions need be admissible.
+  const auto slips = [&](const Eigen::VectorXd& first) {
+    return std::all_of(constraints.begin(), constraints.end(), [&](const Constraint& constraint) {
+      return constraint.inequality != Inequality::kSlip || arc_.system().Rate(constraint, current_.x, first) >= -kLevel;
+    });
+  };
+  if (crossing)
+    for (const double sense : {1.0, -1.0})
+      if (const Eigen::VectorXd first = sense * crossing->first; slips(first)) directions.push_back(first);
+  for (const Eigen::VectorXd& first : directions) record->branches.push_back(RecordOf(first));
+  record->branches.front().turn = 0.0;  // but for rounding
+  std::size_t taken = 0;
+  if (choice != nullptr) {
+    taken = static_cast<std::size_t>(std::max(choice->branch, 1) - 1);
+    if (taken >= directions.size()) {
+      *message = "branch_choices wants branch " + std::to_string(choice->branch) + " at " + PlaceOf(*choice) +
+                 ": the number of branches there is " + std::to_string(directions.size());
+      return EndReason::kNoSuchBranch;
+    }
+  }
+  record->taken = static_cast<int>(taken) + 1;
+  if (taken > 0) {
+    current_.first = directions[taken];
+    current_.second = crossing->second;
+  }
+  return std::nullopt;
+}
+
 Advance BranchMethod::ChangeReactions(const PathPoint& from) {
   AcceptedPoint increment;
   increment.point = *begin_;
@@ -275,6 +336,22 @@ Advance BranchMethod::ChangeReactions(const PathPoint& from) {
   advance.ended = false;
   advance.increments.push_back(std::move(increment));
   return advance;
+}
+
+bool BranchMethod::HasChoicesAhead() const {
+  return std::any_of(options_.choices.begin(), options_.choices.end(), [&](const BranchChoice& choice) {
+    return choice.event > 0 ? choice.event > events_ : choice.increment > increments_;
+  });
+}
+
+std::optional<int> BranchMethod::EndAtReturn(const PathPoint& from, Step* step) {
+  if (options_.returns == nullptr || !(step->length > 0.0) || HasChoicesAhead()) return std::nullopt;
+  const FixedStateSystem& system = arc_.system();
+  const std::optional<ReturnDetector::Return> found = options_.returns->Find(from, system.Unpack(step->end.x));
+  CurvePoint end;
+  if (!found || !arc_.Derivatives(system.Pack(found->point), step->normal, &end)) return std::nullopt;
+  *step = MakeStep(step->start, end, arc_.NumMotion());
+  return found->increment;
 }
 
 Advance BranchMethod::Next(const PathPoint& from) {
@@ -323,6 +400,9 @@ Advance BranchMethod::Next(const PathPoint& from) {
     length *= 0.5;
   }
 
+  const std::optional<int> returned = EndAtReturn(from, &*step);
+  if (returned) event = StepEvent();
+
   AcceptedPoint increment;
   increment.point = arc_.system().Unpack(step->end.x);
   increment.residuals = model_.Check(from, increment.point);
@@ -352,13 +432,30 @@ Advance BranchMethod::Next(const PathPoint& from) {
     return advance;
   }
   const CurvePoint end = step->end;
-  const double load_rate = end.first[arc_.NumMotion() - 1];
   current_ = end;
   advance.ended = false;
   ++increments_;
 
+  if (returned) {
+    advance.ended = true;
+    advance.reason = EndReason::kClosedPath;
+    advance.message = ClosedPathText(*returned);
+  }
   const BranchChoice* forced = ChoiceForIncrement(increments_);
-  if (event.kind == EventKind::kContactEvent || forced != nullptr) {
+  if (event.kind == EventKind::kBifurcation) {
+    increment.kind = IncrementKind::kBifurcation;
+    increment.event.null_vector = CrossingPath(*step);
+    increment.event.number = ++events_;
+    const BranchChoice* choice = forced != nullptr ? forced : ChoiceForEvent(events_);
+    if (const std::optional<EndReason> reason =
+            PassBifurcation(step->start.x, choice, &increment.event, &advance.message)) {
+      advance.ended = true;
+      advance.reason = *reason;
+    } else if (increment.event.taken > 1 && TurnsLoad(end, kLevelSingular)) {
+      increment.kind = IncrementKind::kCornerLimit;
+      increment.event.null_vector.clear();
+    }
+  } else if (event.kind == EventKind::kContactEvent || forced != nullptr) {
     Arrival arrival;
     arrival.direction = end.first.head(arc_.NumMotion());
     arrival.singular = event.singular;
@@ -371,18 +468,11 @@ Advance BranchMethod::Next(const PathPoint& from) {
       advance.reason = *reason;
       increment.kind = IncrementKind::kContactEvent;
     } else {
-      const Eigen::Index s = arc_.NumMotion() - 1;
-      // Which way the load was going and goes on: by the second derivative where the first is zero.
-      const double leaving = current_.first[s];
-      const double level = event.singular ? kLevelSingular : kLevel;
-      const double before = Trend(load_rate, -end.second[s], level), after = Trend(leaving, current_.second[s], level);
-      increment.kind = before * after < 0.0 ? IncrementKind::kCornerLimit : IncrementKind::kContactEvent;
+      const bool turns = TurnsLoad(end, event.singular ? kLevelSingular : kLevel);
+      increment.kind = turns ? IncrementKind::kCornerLimit : IncrementKind::kContactEvent;
     }
   } else if (event.kind == EventKind::kLimitPoint) {
     increment.kind = IncrementKind::kSmoothLimit;
-  } else if (event.kind == EventKind::kBifurcation) {
-    increment.kind = IncrementKind::kBifurcation;
-    increment.event.null_vector = CrossingPath(*step);
   }
   // The next step: as long as wanted unless this one had to be shortened.
   step_length_ = std::min(options_.step, rejected > 0 ? 1.5 * length : 2.0 * step_length_);

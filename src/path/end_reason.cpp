@@ -11,8 +11,14 @@ std::string_view ToString(EndReason reason) {
     case EndReason::kStepTooSmall: return "step_too_small";
     case EndReason::kCancelled: return "cancelled";
     case EndReason::kNoSuchBranch: return "no_such_branch";
+    case EndReason::kClosedPath: return "closed_path";
+    case EndReason::kMemoryLimit: return "memory_limit";
   }
   return "";
+}
+
+bool IsComplete(EndReason reason) {
+  return reason == EndReason::kStopCriterion || reason == EndReason::kMaxIncrements || reason == EndReason::kClosedPath;
 }
 
 }  // namespace contact_path

@@ -285,6 +285,19 @@ bool MpecMethod::EndAtTarget(const PathPoint& from, const std::vector<ContactSta
   return true;
 }
 
+std::optional<int> MpecMethod::EndAtReturn(const PathPoint& from, Trial* trial) const {
+  const PathPoint& to = trial->increment.point;
+  // Between two states the increment is no arc, and a regularised one is not exact enough.
+  if (options_.returns == nullptr || !trial->increment.exact || to.states != from.states) return std::nullopt;
+  const std::optional<ReturnDetector::Return> found = options_.returns->Find(from, to);
+  if (!found) return std::nullopt;
+  const Residuals residuals = model_.Check(from, found->point);
+  if (!(residuals.Largest() <= kExactTolerance)) return std::nullopt;
+  trial->increment.point = found->point;
+  trial->residuals = residuals;
+  return found->increment;
+}
+
 bool MpecMethod::Resume(const PathPoint& before, const PathPoint& from, const SolveRecord& record) {
   if (!(record.next_step > 0.0) || !(Distance(before, from) > 0.0)) return false;
   direction_ = Direction(before, from);
@@ -329,6 +342,7 @@ Advance MpecMethod::Next(const PathPoint& from) {
       return advance;
     }
 
+    const std::optional<int> returned = EndAtReturn(from, &trial);
     AcceptedPoint increment;
     const bool changed = started_ && to.states != from.states;
     const Eigen::VectorXd direction = Direction(from, to);
@@ -361,7 +375,11 @@ Advance MpecMethod::Next(const PathPoint& from) {
     increment.solve.gamma2_factor = gamma2_factor_;
     increment.point = trial.increment.point;
     advance.increments.push_back(std::move(increment));
-    advance.ended = false;
+    advance.ended = returned.has_value();
+    if (returned) {
+      advance.reason = EndReason::kClosedPath;
+      advance.message = ClosedPathText(*returned);
+    }
     return advance;
   }
 }

@@ -1,6 +1,7 @@
 #include "contact_path/path/path_summary.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <iomanip>
 #include <locale>
@@ -10,6 +11,7 @@ namespace contact_path {
 namespace {
 
 constexpr std::size_t kLimitPointsListed = 10;
+constexpr double kRounding = 1e-14;  // of the scale of the load factor
 
 std::ostringstream NewText() {
   std::ostringstream text;
@@ -22,6 +24,13 @@ std::string Counted(int count, const char* what) {
 }
 
 }  // namespace
+
+std::string LoadFactorText(double load_factor, double scale) {
+  if (std::abs(load_factor) <= kRounding * scale) return "0";
+  std::ostringstream text = NewText();
+  text << std::setprecision(10) << load_factor;
+  return text.str();
+}
 
 void PathSummary::Add(const Increment& increment) {
   ++increments_;
@@ -39,8 +48,8 @@ std::string PathSummary::ToText() const {
   const std::size_t listed = std::min(limit_points_.size(), kLimitPointsListed);
   for (std::size_t i = 0; i < listed; ++i) {
     const LimitPoint& point = limit_points_[i];
-    text << (i == 0 ? "" : ", ") << ToString(point.kind) << " at load factor " << std::setprecision(10)
-         << point.load_factor << " (increment " << point.index << ')';
+    text << (i == 0 ? "" : ", ") << ToString(point.kind) << " at load factor "
+         << LoadFactorText(point.load_factor, load_scale_) << " (increment " << point.index << ')';
   }
   if (listed < limit_points_.size()) text << " and " << limit_points_.size() - listed << " more";
   text << "; " << Counted(events_, "event");

@@ -1,6 +1,5 @@
 #include "contact_path/path/preload.h"
 
-#include <algorithm>
 #include <locale>
 #include <optional>
 #include <sstream>
@@ -12,21 +11,11 @@ namespace {
 constexpr double kNothing = 1e-14;  // scaled force: rounding of an unstressed start
 const char* const kWhere = "while the constant loads were brought on: ";
 
-// event: of the increment that is the limit point.
-std::string LimitMessage(double share, const EventRecord& event) {
+std::string LimitMessage(double share) {
   std::ostringstream text;
   text.imbue(std::locale::classic());
   text.precision(6);
-  const bool goes_on = std::any_of(event.branches.begin(), event.branches.end(),
-                                   [](const BranchRecord& branch) { return branch.load_rate > 0.0; });
-  text << "a limit point at " << share;
-  if (goes_on)
-    text
-        << " of their full size; the branch that dissipates most turns back there, and another one goes on: bring them "
-           "on in a "
-           "stage of a program, where branch_choices can take it";
-  else
-    text << " of their full size; only a dynamic jump leads further";
+  text << "a limit point at " << share << " of their full size; only a dynamic jump leads further";
   return text.str();
 }
 
@@ -89,7 +78,7 @@ Preload TracePreload(const Model& model, int max_increments, const MethodFactory
         return preload;
       }
       if (increment.kind == IncrementKind::kSmoothLimit || increment.kind == IncrementKind::kCornerLimit)
-        return end(EndReason::kPathEnd, LimitMessage(preload.point.s / target, increment.event));
+        return end(EndReason::kPathEnd, LimitMessage(preload.point.s / target));
     }
     if (advance.ended) return end(advance.reason, advance.message);
   }

@@ -19,6 +19,15 @@ bool TurnsBackByChoice(const EventRecord& event, double change) {
 
 }  // namespace
 
+void FillState(const Model& model, const PathPoint& point, Increment* increment) {
+  CheckedState state = model.InSceneUnits(point);
+  increment->positions = std::move(state.positions);
+  increment->contacts.resize(model.contacts.size());
+  for (std::size_t i = 0; i < model.contacts.size(); ++i)
+    increment->contacts[i] = {model.contacts[i]->Gap(point.u, point.s) * model.scaling.length, state.rn[i], state.rt[i],
+                              point.states[i]};
+}
+
 void Recorder::Start(const Model& model, int stage, const PathPoint& point, const Residuals& residuals,
                      const EventRecord& branches, double time) {
   increment_.stage = stage;
@@ -56,15 +65,10 @@ std::string Recorder::Remark() const {
 }
 
 void Recorder::Fill(const Model& model, const PathPoint& point, const AcceptedPoint& accepted, double time) {
-  CheckedState state = model.InSceneUnits(point);
+  FillState(model, point, &increment_);
   increment_.index = increments_;
-  increment_.load_factor = state.load_factor;
+  increment_.load_factor = point.s * model.scaling.load_factor;
   increment_.kind = accepted.kind;
-  increment_.positions = std::move(state.positions);
-  increment_.contacts.resize(model.contacts.size());
-  for (std::size_t i = 0; i < model.contacts.size(); ++i)
-    increment_.contacts[i] = {model.contacts[i]->Gap(point.u, point.s) * model.scaling.length, state.rn[i], state.rt[i],
-                              point.states[i]};
   increment_.strain_energy = model.structure.Energy(point.u) * model.scaling.force * model.scaling.length;
   increment_.residuals = accepted.residuals;
   increment_.solve = accepted.solve;

@@ -3,18 +3,23 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
+#include <new>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
+#include "contact_path/branch/active_set_tolerance.h"
+#include "contact_path/linear/linear_solver_error.h"
 #include "contact_path/path/branch_method.h"
 #include "contact_path/path/diagnosis.h"
+#include "contact_path/path/free_motion.h"
 #include "contact_path/path/model.h"
 #include "contact_path/path/mpec_method.h"
 #include "contact_path/path/path_method.h"
 #include "contact_path/path/preload.h"
 #include "contact_path/path/recorder.h"
+#include "contact_path/path/return_detector.h"
 #include "contact_path/path/stop.h"
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/scene_index.h"
@@ -30,10 +35,14 @@ constexpr double kRegularised = 1e-5;           // residuals of a regularised in
 constexpr double kSoftest = 1e-8;               // scaled stiffness at a contact: below, reactions are lost in rounding
 constexpr int kMostPreloadIncrements = 100000;  // to bring the constant loads on; not counted with the others
 
+constexpr double kUnloaded = 1e-9;          // of the largest load factor: none
+constexpr std::size_t kCriteriaListed = 3;  // in a message
+
 double Seconds(Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
 
 // Where an earlier trace can be gone on from.
 struct Resumption {
+  const std::vector<Increment>* increments = nullptr;  // of the earlier trace
   const Increment* before = nullptr;
   const Increment* from = nullptr;
   int events = 0;  // passed up to there
@@ -55,7 +64,8 @@ std::optional<Resumption> FindResumption(const std::vector<Increment>& increment
   int events = 0;
   for (const Increment& increment : increments) {
     events = std::max(events, increment.event.number);
-    if (before != nullptr && CanGoOnFrom(*before, increment)) last = Resumption{before, &increment, events};
+    if (before != nullptr && CanGoOnFrom(*before, increment))
+      last = Resumption{&increments, before, &increment, events};
     if (!increment.positions.empty()) before = &increment;
   }
   return last;
@@ -69,7 +79,7 @@ class Tracer {
         control_(control),
         index_(request.scene),
         scales_(ProgramScales(request, index_)),
-        recorder_(request.options.method, control.on_increment),
+        recorder_(request.options.method, Receiver()),
         stop_(request, index_) {}
 
   // An increment of an earlier trace that is kept.
@@ -81,7 +91,31 @@ class Tracer {
 
   // resumption: where to go on after the increments of an earlier trace, which were repeated; nothing: from the start.
   TraceResult Run(const std::optional<Resumption>& resumption) {
-    std::unique_ptr<const Model> model;
+    try {
+      TraceStages(resumption);
+    } catch (const std::bad_alloc&) {
+      if (handing_out_) throw;  // of the caller
+      End(EndReason::kMemoryLimit, "there is not enough memory " + Onwards());
+    } catch (const LinearSolverError& error) {
+      End(EndReason::kNumericalFailure, std::string(error.what()) + ", " + Onwards());
+    }
+    result_.increments = recorder_.increments();
+    result_.message += MissedEnd() + WhatMovesFreely() + recorder_.Remark() + remarks_ + MissedChoices();
+    return std::move(result_);
+  }
+
+ private:
+  // What takes the increments, so that its failures can be told from those of the trace.
+  std::function<void(const Increment&)> Receiver() {
+    if (!control_.on_increment) return nullptr;
+    return [this](const Increment& increment) {
+      handing_out_ = true;
+      control_.on_increment(increment);
+      handing_out_ = false;
+    };
+  }
+
+  void TraceStages(const std::optional<Resumption>& resumption) {
     const std::size_t first = resumption ? static_cast<std::size_t>(std::max(resumption->from->stage, 1) - 1) : 0;
     for (std::size_t stage = first; stage < NumStages(request_); ++stage) {
       const Clock::time_point start = Clock::now();
@@ -90,29 +124,64 @@ class Tracer {
                                                 StageScales(request_, index_, stage, scales_));
       if (stage > first && recorder_.increments() > request_.options.MaxIncrements()) {
         End(EndReason::kMaxIncrements, "the wanted number of increments was accepted");
-        break;
+        return;
       }
       if (stage > first)
-        point_ = next->Transfer(*model, point_);
+        point_ = next->Transfer(*model_, point_);
       else if (resumption)
         point_ = next->FromIncrement(*resumption->from);
       else if (!Begin(*next))
-        break;
-      model = std::move(next);
-      if (!(resumption && stage == first ? ResumeStage(*model, stage, *resumption) : TraceStage(*model, stage, start)))
-        break;
+        return;
+      model_ = std::move(next);
+      returns_.emplace(*model_, std::max(request_.options.full_state_every, 1));
+      if (!(resumption && stage == first ? ResumeStage(*model_, stage, *resumption)
+                                         : TraceStage(*model_, stage, start)))
+        return;
     }
-    result_.increments = recorder_.increments();
-    result_.message += recorder_.Remark() + remarks_ + MissedChoices();
-    return std::move(result_);
   }
 
- private:
   // Sets what ends the trace; false, for the callers to return.
   bool End(EndReason reason, std::string message) {
     result_.reason = reason;
     result_.message = std::move(message);
     return false;
+  }
+
+  // Where the trace was.
+  std::string Onwards() const {
+    if (recorder_.increments() == 0) return "before increment 0";
+    return "after increment " + std::to_string(recorder_.increments() - 1);
+  }
+
+  bool EndedBeforeItsEnd() const {
+    return result_.reason == EndReason::kMaxIncrements || result_.reason == EndReason::kClosedPath;
+  }
+
+  // The end that the user had in mind and the path did not come to.
+  std::string MissedEnd() const {
+    if (!EndedBeforeItsEnd()) return {};
+    if (!request_.program.empty())
+      return "; the target of stage " + std::to_string(recorder_.increment().stage) + " of " +
+             std::to_string(request_.program.size()) + " was not reached";
+    const std::vector<StopCriterion>& stop = request_.options.stop;
+    if (stop.empty()) return "; no stop criterion was given";
+    std::string text = "; no stop criterion was met (";
+    for (std::size_t i = 0; i < std::min(stop.size(), kCriteriaListed); ++i)
+      text += (i == 0 ? "" : ", ") + ToText(stop[i]);
+    return text + (stop.size() > kCriteriaListed ? ", ...)" : ")");
+  }
+
+  // Nodes that nothing holds: where no branch leads on, and where the path wanders about without a load.
+  std::string WhatMovesFreely() const {
+    if (model_ == nullptr) return {};
+    const bool stuck = result_.reason == EndReason::kPathEnd || result_.reason == EndReason::kStepTooSmall;
+    const bool wanders = EndedBeforeItsEnd() && std::abs(point_.s) <= kUnloaded * largest_load_;
+    if (!stuck && !wanders) return {};
+    const double force = ActiveSetTolerance::For(largest_reaction_, point_.s).force;
+    const std::string text = stuck && recorder_.increments() <= 1 ? FreeMotionQuestion(*model_, point_, force)
+                                                                  : FreeMotionText(*model_, point_, force);
+    if (text.empty()) return {};
+    return (wanders ? "; without a load, " : "; ") + text;
   }
 
   bool Cancelled() const { return control_.cancelled && control_.cancelled(); }
@@ -131,18 +200,23 @@ class Tracer {
       upwards.accuracy = request_.options.accuracy;
       BranchOptions options = BranchOptions::For(upwards, of.structure.NumDofs());
       options.target = target;
+      options.keep_loading = true;
       return std::make_unique<BranchMethod>(of, options, control_.cancelled);
     };
     Preload preload = TracePreload(start, kMostPreloadIncrements, make_method, control_.cancelled);
-    if (!preload.done)
+    if (!preload.done) {
+      const bool stuck = preload.reason == EndReason::kPathEnd || preload.reason == EndReason::kStepTooSmall;
+      const double force = ActiveSetTolerance::For(0.0, 0.0).force;
+      const std::string free = stuck ? FreeMotionQuestion(start, preload.point, force) : "";
       return End(preload.reason == EndReason::kMaxIncrements ? EndReason::kNumericalFailure : preload.reason,
-                 preload.message);
+                 preload.message + (free.empty() ? "" : "; " + free));
+    }
     point_ = moves ? model.Transfer(start, preload.point) : std::move(preload.point);
     return true;
   }
 
   // increment: index of the one to set out from.
-  std::unique_ptr<PathMethod> MakeMethod(const Model& model, std::optional<double> target, int increment) const {
+  std::unique_ptr<PathMethod> MakeMethod(const Model& model, std::optional<double> target, int increment) {
     TraceOptions options = request_.options;
     if (target) options.direction = *target < 0.0 ? -1.0 : 1.0;
     if (options.method == Method::kBranch) {
@@ -150,10 +224,12 @@ class Tracer {
       branch.target = target;
       branch.increments = increment;
       branch.events = events_;
+      branch.returns = &*returns_;
       return std::make_unique<BranchMethod>(model, branch, control_.cancelled);
     }
     MpecOptions mpec = MpecOptions::For(options, model.structure.NumDofs());
     mpec.target = target;
+    mpec.returns = &*returns_;
     return std::make_unique<MpecMethod>(model, mpec, control_.cancelled);
   }
 
@@ -185,6 +261,7 @@ class Tracer {
     if (!(residuals.Largest() <= (resumption.from->solve.exact ? kStartTolerance : kRegularised)))
       return End(EndReason::kNumericalFailure, "the increment to go on from is not an equilibrium");
     events_ = resumption.events;
+    RememberStage(model, resumption);
     const std::optional<double> target = TargetOf(model, stage);
     if (const StopCriterion* criterion = stop_.FirstThatHolds(recorder_.increment()))
       return End(EndReason::kStopCriterion, ToText(*criterion));
@@ -195,12 +272,26 @@ class Tracer {
     return FollowStage(model, stage, method.get());
   }
 
-  void NoteReactions(const PathPoint& point) {
+  // The increments of the stage before the one to go on from.
+  void RememberStage(const Model& model, const Resumption& resumption) {
+    std::optional<PathPoint> before;
+    for (const Increment& increment : *resumption.increments) {
+      if (increment.index > resumption.from->index) break;
+      if (increment.stage != resumption.from->stage || increment.positions.empty()) continue;
+      PathPoint point = model.FromIncrement(increment);
+      largest_load_ = std::max(largest_load_, std::abs(point.s));
+      if (before) returns_->Add(increment.index, *before, point);
+      before = std::move(point);
+    }
+  }
+
+  void NotePoint(const PathPoint& point) {
+    largest_load_ = std::max(largest_load_, std::abs(point.s));
     if (point.rn.size() > 0) largest_reaction_ = std::max(largest_reaction_, point.rn.maxCoeff());
   }
 
   bool FollowStage(const Model& model, std::size_t stage, PathMethod* method) {
-    NoteReactions(point_);
+    NotePoint(point_);
     const bool goes_on = Follow(model, TargetOf(model, stage), method);
     events_ = method->NumEvents();
     if (const std::string remark = method->Remark(); !remark.empty()) remarks_ += "; " + remark;
@@ -227,10 +318,11 @@ class Tracer {
       const auto increments = static_cast<double>(std::max<std::size_t>(1, advance.increments.size()));
       const double time = Seconds(Clock::now() - start) / increments;
       for (AcceptedPoint& increment : advance.increments) {
-        NoteReactions(increment.point);
+        NotePoint(increment.point);
         if (const std::string pulls = PullingContact(model, increment.point, largest_reaction_); !pulls.empty())
           return End(EndReason::kNumericalFailure, pulls);
         recorder_.Append(model, increment, time);
+        returns_->Add(recorder_.increment().index, point_, increment.point);
         point_ = std::move(increment.point);
         if (const StopCriterion* criterion = stop_.FirstThatHolds(recorder_.increment()))
           return End(EndReason::kStopCriterion, ToText(*criterion));
@@ -259,8 +351,12 @@ class Tracer {
   const StopTest stop_;
   PathPoint point_;
   int events_ = 0;
-  double largest_reaction_ = 0.0;  // r_n so far, scaled
-  std::string remarks_;            // for the end of the message
+  std::unique_ptr<const Model> model_;     // of the stage
+  std::optional<ReturnDetector> returns_;  // of the stage
+  bool handing_out_ = false;               // an increment, to the caller
+  double largest_reaction_ = 0.0;          // r_n so far, scaled
+  double largest_load_ = 0.0;              // so far, scaled
+  std::string remarks_;                    // for the end of the message
   TraceResult result_;
 };
 

@@ -7,11 +7,13 @@
 #include "contact_path/ros/convert.h"
 #include "contact_path/ros/names.h"
 #include "contact_path/ros/stamp.h"
+#include "contact_path/scene/program.h"
 
 namespace contact_path {
 
 struct BagSink::Implementation {
-  explicit Implementation(const std::string& file) : recorder(file, std::string("/") + names::kNode) {}
+  Implementation(const std::string& file, const TraceRequest& request)
+      : recorder(file, std::string("/") + names::kNode), summary(ProgramScales(request).load_factor) {}
 
   BagRecorder recorder;
   PathSummary summary;
@@ -21,7 +23,7 @@ struct BagSink::Implementation {
 
 BagSink::BagSink(const std::string& file, const TraceRequest& request) {
   ros::Time::init();  // wall time: there is no node here
-  implementation_ = std::make_unique<Implementation>(file);
+  implementation_ = std::make_unique<Implementation>(file, request);
   implementation_->full_state_every = request.options.full_state_every;
   implementation_->recorder.WriteRequest(ToMessage(request));
 }

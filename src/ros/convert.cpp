@@ -47,7 +47,7 @@ constexpr Table<Method, 2> kMethods{{
     {Method::kMpec, msgs::Increment::MPEC},
 }};
 
-constexpr Table<EndReason, 7> kEndReasons{{
+constexpr Table<EndReason, 9> kEndReasons{{
     {EndReason::kNumericalFailure, Response::END_NUMERICAL_FAILURE},
     {EndReason::kStopCriterion, Response::END_STOP_CRITERION},
     {EndReason::kMaxIncrements, Response::END_MAX_INCREMENTS},
@@ -55,6 +55,8 @@ constexpr Table<EndReason, 7> kEndReasons{{
     {EndReason::kStepTooSmall, Response::END_STEP_TOO_SMALL},
     {EndReason::kCancelled, Response::END_CANCELLED},
     {EndReason::kNoSuchBranch, Response::END_NO_SUCH_BRANCH},
+    {EndReason::kClosedPath, Response::END_CLOSED_PATH},
+    {EndReason::kMemoryLimit, Response::END_MEMORY_LIMIT},
 }};
 
 template <typename Value, std::size_t kSize>
@@ -347,7 +349,6 @@ std::uint8_t ToConstant(EndReason reason) { return ConstantOf(kEndReasons, reaso
 std::string EndReasonName(std::uint8_t end_reason) {
   if (end_reason == Response::END_NONE) return "";
   if (end_reason == Response::END_TIME_LIMIT) return "time_limit";
-  if (end_reason == Response::END_MEMORY_LIMIT) return "memory_limit";
   return std::string(ToString(ValueOf(kEndReasons, end_reason, "end_reason")));
 }
 
@@ -358,8 +359,7 @@ std::string EndMessage(const std::string& name, const std::string& why, const Pa
 
 std::uint8_t StatusOf(EndReason reason) {
   if (reason == EndReason::kNoSuchBranch) return Response::INVALID_REQUEST;
-  const bool as_asked = reason == EndReason::kStopCriterion || reason == EndReason::kMaxIncrements;
-  return as_asked ? Response::OK : Response::ENDED_EARLY;
+  return IsComplete(reason) ? Response::OK : Response::ENDED_EARLY;
 }
 
 msgs::TraceResult ToResult(const msgs::TracePathResponse& response) { return SameResult<msgs::TraceResult>(response); }

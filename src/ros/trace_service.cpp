@@ -21,6 +21,7 @@
 #include "contact_path/ros/resume.h"
 #include "contact_path/ros/stamp.h"
 #include "contact_path/scene/one_line.h"
+#include "contact_path/scene/program.h"
 #include "contact_path/scene/validate.h"
 
 namespace contact_path {
@@ -288,7 +289,7 @@ void TraceService::Serve(const contact_path_msgs::TraceRequest& asked, const Tra
 
   full_state_every_ = core_request.options.full_state_every;
   progress_.emplace(core_request);
-  summary_ = PathSummary();
+  summary_ = PathSummary(ProgramScales(core_request).load_factor);
   RunTrace(core_request, increments, observer, bag.get(), response);
   response->increments = status_.increments;
   response->end_reason_name = EndReasonName(response->end_reason);
@@ -337,6 +338,7 @@ void TraceService::RunTrace(const TraceRequest& request, const std::optional<std
     response->status = StatusOf(result.reason);
     response->end_reason = ToConstant(result.reason);
     response->message = result.message;
+    if (result.reason == EndReason::kMemoryLimit) response->message = MemoryLimitText(parameters_.limits);
     if (result.reason == EndReason::kCancelled) TellStop(response);
   } catch (const std::bad_alloc&) {
     response->status = Response::ENDED_EARLY;

@@ -9,10 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "contact_path/path/stop.h"
-#include "contact_path/path/trace.h"
 #include "contact_path/ros/bag_reader.h"
 #include "contact_path/scene/one_line.h"
+#include "contact_path/verify/verify_end.h"
 #include "contact_path/verify/verify_path.h"
 
 namespace contact_path {
@@ -45,22 +44,13 @@ void PrintTable(const RecordedTrace& trace, const Verification& verification) {
             << verification.work << " of work done by the loads\n\n";
 }
 
-bool ProgramDone(const RecordedTrace& trace) {
-  const Increment& last = trace.increments.back();
-  return last.stage == static_cast<int>(trace.request.program.size()) && AtTarget(trace.request, last);
-}
-
 // What the record as a whole lacks; empty if nothing.
 std::string Lacks(const RecordedTrace& trace) {
   if (!trace.result) return "truncated: no result, the trace was cut off before its end";
   if (trace.result->increments != trace.increments.size())
     return "truncated: " + std::to_string(trace.increments.size()) + " increments, the result speaks of " +
            std::to_string(trace.result->increments);
-  if (trace.result->end_reason_name == ToString(EndReason::kStopCriterion) && !trace.increments.empty() &&
-      !trace.increments.back().positions.empty() && !ProgramDone(trace) &&
-      StopTest(trace.request, SceneIndex(trace.request.scene)).FirstThatHolds(trace.increments.back()) == nullptr)
-    return "the result says stop_criterion, but none holds in the last increment";
-  return "";
+  return EndContradicted(trace.request, trace.increments, trace.result->end_reason_name);
 }
 
 bool Verify(const RecordedTrace& trace) {

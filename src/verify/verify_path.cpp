@@ -10,6 +10,7 @@
 #include "contact_path/scene/can_slide.h"
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/scaling.h"
+#include "contact_path/verify/verify_events.h"
 
 namespace contact_path {
 namespace {
@@ -25,6 +26,8 @@ constexpr double kEnergyMpec = 3e-2;   // the same where increments may cut corn
 constexpr double kBend = 0.25;         // of a force along an arc of length 1: what a trapezoid cannot know
 constexpr double kAtTarget = 1e-9;     // relative, of the load factor
 constexpr double kTurn = 1e-9;         // of the load factor: a smaller change is none
+constexpr double kPull = 2e-13;        // of a force: a contact that pulls with more is not at rounding
+constexpr double kPullShare = 0.02;    // of the largest reaction before: nor is one that pulls with more
 constexpr double kLongestArc = 1.05;   // of its chord: increments turn by less than 60 degrees
 
 bool AtTarget(double target, double load_factor) {
@@ -214,7 +217,7 @@ class Verifier {
   void CheckEvent(const Increment& increment) {
     if (increment.solve.method != Method::kBranch || increment_ == first_ || increment_ + 1 == last_) return;
     const bool event = increment.kind == IncrementKind::kContactEvent || increment.kind == IncrementKind::kCornerLimit;
-    if (event != !increment.event.branches.empty())
+    if (increment.kind != IncrementKind::kBifurcation && event != !increment.event.branches.empty())
       Report(event ? "an event without branches" : "branches, but no event");
     if (event && increment.event.taken == 0) Report("an event where no branch is taken");
     if ((increment.kind == IncrementKind::kBifurcation) == increment.event.null_vector.empty())
@@ -229,6 +232,7 @@ class Verifier {
   void CheckState(const Increment& increment) {
     ++result_.full_increments;
     if (increment.solve.exact) ++result_.exact_increments;
+    CheckPull(increment);
     if (increment.solve.method == Method::kBranch && !increment.solve.exact)
       Report("an increment of method branch that is not exact");
     const double tolerance = increment.solve.exact ? kExact : kRegularised;
@@ -255,6 +259,19 @@ class Verifier {
     for (std::size_t i = 0; i < surfaces_.size(); ++i) CheckContact(surfaces_[i], before, increment, i, tolerance);
     if (before_) CheckPiece(before, increment);
     if (before_) CheckWork(before, increment);
+  }
+
+  // Where reactions are so small that the residuals above cannot tell: against what contacts have pushed with.
+  void CheckPull(const Increment& increment) {
+    for (const ContactRecord& contact : increment.contacts)
+      result_.largest_reaction = std::max(result_.largest_reaction, contact.rn / scaling_.force);
+    const double most = std::max(kPull, kPullShare * result_.largest_reaction);
+    for (std::size_t i = 0; i < increment.contacts.size(); ++i) {
+      const double pull = -increment.contacts[i].rn / scaling_.force;
+      if (pull > most)
+        Report(surfaces_[i].name, " pulls with ", pull,
+               " of the characteristic force, where contacts push with at most ", result_.largest_reaction);
+    }
   }
 
   static void Keep(const Residuals& residuals, Residuals* largest) {
@@ -481,6 +498,7 @@ Verification VerifyPath(const TraceRequest& request, const std::vector<Increment
     if (last < increments.size() && !AtTarget(request, increments[last - 1]))
       result.findings.push_back({static_cast<int>(last - 1), "ends its stage, but not at its target"});
   }
+  if (result.findings.empty()) VerifyEvents(request, increments, &result.findings);
   return result;
 }
 

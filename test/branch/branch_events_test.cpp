@@ -384,5 +384,44 @@ TEST_F(PushedStrip, SameForAllStepsAndInOtherFrames) {
   ExpectSamePath(UndoRotation(TraceIncrements(Rotate(Request(), 0.65)), 0.65), path, 1e-9);
 }
 
+// A Green-Lagrange bar whose linear stiffness a linear part takes away: s = ((1 + u)^3 - (1 + u)) / 2 - u = 3/2 u^2 +
+// ..., so that the start is a smooth limit point, from which the load can only rise, to both sides.
+TraceRequest StartAtLimit(double direction) {
+  TraceRequest request;
+  request.scene.nodes = {{"a", 0.0, 0.0, true, true}, {"p", 1.0, 0.0, false, true}};
+  Bar bar;
+  bar.nodes = {"a", "p"};
+  bar.EA = 1.0;
+  bar.strain = StrainMeasure::kGreenLagrange;
+  request.scene.bars = {bar};
+  request.scene.superelements = {{{"p"}, {-1.0, 0.0, 0.0, 0.0}, {}}};
+  request.scene.loads = {{"p", 1.0, 0.0, false}};
+  request.options.direction = direction;
+  request.options.max_increments = 30;
+  return request;
+}
+
+TEST(Branches, StartAtASmoothLimitPoint) {
+  for (const int branch : {1, 2}) {
+    TraceRequest request = StartAtLimit(1.0);
+    request.options.branch_choices = {{0, 0, branch}};
+    const TracedPath path = TraceIncrements(request);
+    EXPECT_EQ(path.result.reason, EndReason::kMaxIncrements) << path.result.message;
+    ASSERT_EQ(path.increments[0].event.branches.size(), 2U);
+    double worst = 0.0;
+    for (std::size_t i = 1; i < path.increments.size(); ++i) {
+      const double length = PositionX(path, path.increments[i], "p");
+      worst = std::max(worst, std::abs(path.increments[i].load_factor -
+                                       (0.5 * (length * length * length - length) - (length - 1.0))));
+      EXPECT_GT(path.increments[i].load_factor, path.increments[i - 1].load_factor);
+    }
+    EXPECT_LE(worst, 1e-12);
+    const double first = PositionX(path, path.increments[1], "p") - 1.0;
+    const double other = PositionX(path, path.increments.back(), "p") - 1.0;
+    EXPECT_GT(first * other, 0.0);
+  }
+  EXPECT_EQ(TraceIncrements(StartAtLimit(-1.0)).result.reason, EndReason::kPathEnd);
+}
+
 }  // namespace
 }  // namespace contact_path

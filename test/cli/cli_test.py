@@ -7,6 +7,8 @@ import csv
 import io
 import os
 import pty
+import re
+import resource
 import signal
 import subprocess
 import threading
@@ -87,6 +89,24 @@ class CliTest(program_test.ProgramTest):
             self.assertEqual(increment[0], str(index))
 
 
+class Memory(CliTest):
+
+    def test_lack_of_memory_is_no_statement_about_the_structure(self):
+        """A long chain that hangs from one end moves freely in thousands of ways."""
+        count = 6000
+        nodes = ['  - {name: n%d, x: %d.0, y: %.1f}' % (i, i, 0.5 * (i % 2)) for i in range(1, count)]
+        bars = ['  - {nodes: [n%d, n%d], EA: 1.0}' % (i - 1, i) for i in range(1, count)]
+        scene = self.write_scene('\n'.join(
+            ['scene:', '  nodes:', '  - {name: n0, x: 0.0, y: 0.0, fixed_x: true, fixed_y: true}', *nodes,
+             '  bars:', *bars, '  loads:', '  - {node: n%d, fx: 0.3, fy: -1.0}' % (count - 1), '']))
+        limit = 400 * 2**20
+        result = run(scene, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
+        self.assertEqual(result.returncode, 1, result.stderr)
+        line, = self.expect_lines(result.stderr, 1)
+        self.assertIn('memory_limit: there is not enough memory before increment 0; 0 increments', line)
+        self.expect_lines(result.stdout, 1)  # nothing but the header
+
+
 class CompleteTraces(CliTest):
 
     def test_stop_criterion(self):
@@ -104,6 +124,27 @@ class CompleteTraces(CliTest):
         self.assertIn('%d increments' % len(increments), line)
         self.assertNotIn('\r', result.stderr)
         self.assertNotIn('\x1b', result.stderr)
+
+    def test_closed_path(self):
+        """Without a stop criterion, the bar goes round and round."""
+        text = read(SCENE)
+        result = run(self.write_scene(text[:text.index('  stop:')]))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        line, = self.expect_lines(result.stderr, 1)
+        told = re.search(r'closed_path: the path has come back to increment (\d+) and repeats from there on; '
+                         r'no stop criterion was given; (\d+) increments', line)
+        self.assertTrue(told, line)
+        increments = increments_of(result.stdout)
+        self.assertEqual(int(told.group(2)), len(increments))
+        named, last = increments[int(told.group(1))], increments[-1]
+        for key in named:
+            if key.startswith(('x_', 'y_', 'rn_', 'rt_', 'load')):
+                self.assertAlmostEqual(float(named[key]), float(last[key]), delta=1e-9)
+
+    def test_zero_load_is_printed_as_zero(self):
+        result = run(self.changed_scene('{quantity: b.x, when: ">", value: 4.95}',
+                                        '{quantity: b.x, when: ">", value: 5.5}'), '--events')
+        self.assertIn('contact_event at load factor 0\n', result.stderr)
 
     def test_max_increments(self):
         result = run(SCENE, '--max-increments', '3')

@@ -50,8 +50,15 @@ void CheckTrace(const TraceRequest& request) {
 }  // namespace
 }  // namespace contact_path
 
+// The fuzzer tries many quick ones; the corpus, and its changes in the test, are long ones that once found something.
+#ifdef CONTACT_PATH_QUICK_SCENES
+constexpr bool kQuick = true;
+#else
+constexpr bool kQuick = false;
+#endif
+
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const contact_path::TraceRequest request = contact_path::VariedRequest(contact_path::BitsOf(data, size));
+  const contact_path::TraceRequest request = contact_path::VariedRequest(contact_path::BitsOf(data, size), kQuick);
   contact_path::Require(contact_path::Validate(request).empty(), "the generator makes valid requests");
   contact_path::CheckTrace(request);
   return 0;

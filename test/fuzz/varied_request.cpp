@@ -17,8 +17,10 @@ namespace {
 
 class Variation {
  public:
-  explicit Variation(std::function<std::uint64_t()> bits)
-      : random_(std::move(bits)), request_(RandomRequest(&random_, "varied")) {}
+  Variation(std::function<std::uint64_t()> bits, bool quick)
+      : quick_(quick),
+        random_(std::move(bits)),
+        request_(quick ? RandomRequest(&random_, "varied", 5, 2) : RandomRequest(&random_, "varied")) {}
 
   TraceRequest Build() {
     Try(0.3, &Variation::SnapToGrid);
@@ -33,7 +35,9 @@ class Variation {
     Try(0.2, &Variation::ChangeUnits);
     Try(0.5, &Variation::ChangeOptions);
     TraceOptions& options = request_.options;
-    options.max_increments = static_cast<int>(1 + random_.Index(options.method == Method::kMpec ? 12 : 60));
+    const bool mpec = options.method == Method::kMpec;
+    options.max_increments = static_cast<int>(1 + random_.Index(quick_ ? (mpec ? 3 : 15) : (mpec ? 12 : 60)));
+    if (quick_ && options.step > 0.0) options.step = std::max(options.step, 1e-3);
     return std::move(request_);
   }
 
@@ -181,7 +185,7 @@ class Variation {
 
   void ChangeOptions() {
     TraceOptions& options = request_.options;
-    if (random_.Chance(0.3)) options.method = Method::kMpec;
+    if (random_.Chance(quick_ ? 0.01 : 0.3)) options.method = Method::kMpec;
     options.accuracy =
         random_.OneOf(std::array<Accuracy, 3>{Accuracy::kFast, Accuracy::kBalanced, Accuracy::kAccurate});
     // Of long increments, mpec says itself that they cut corners.
@@ -201,6 +205,7 @@ class Variation {
     }
   }
 
+  const bool quick_;
   Decisions random_;
   TraceRequest request_;
 };
@@ -220,6 +225,8 @@ std::function<std::uint64_t()> BitsOf(const std::uint8_t* data, std::size_t size
   };
 }
 
-TraceRequest VariedRequest(std::function<std::uint64_t()> bits) { return Variation(std::move(bits)).Build(); }
+TraceRequest VariedRequest(std::function<std::uint64_t()> bits, bool quick) {
+  return Variation(std::move(bits), quick).Build();
+}
 
 }  // namespace contact_path

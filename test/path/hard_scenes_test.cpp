@@ -1,6 +1,7 @@
 // Scenes that once went wrong, with what is right.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -120,6 +121,42 @@ TEST(HardScenes, ConstantLoadBeyondTheLimitLoad) {
     EXPECT_TRUE(path.increments.empty());
     EXPECT_EQ(path.result.reason, EndReason::kPathEnd);
     EXPECT_NE(path.result.message.find("limit point at 0.990099"), std::string::npos) << path.result.message;
+  }
+}
+
+// The branch that dissipates most turns the loads back before they have their full size, and another one goes on with
+// them: the path that a stage of a program takes where branch_choices wants that one.
+TEST(HardScenes, ConstantLoadGoesOnWhereItCan) {
+  const TracedPath path = TraceData("preload_corner", Method::kBranch, Accuracy::kBalanced);
+  ASSERT_FALSE(path.increments.empty()) << path.result.message;
+  TraceRequest request = path.request;
+  Stage stage;
+  for (Load& load : request.scene.loads)
+    if (load.constant) {
+      load.constant = false;
+      stage.loads.push_back(load);
+    }
+  request.scene.loads.clear();
+  request.program = {stage};
+  request.options.max_increments = 500;
+  const TracedPath turning = TraceIncrements(request);
+  const auto turns = [](const Increment& increment) {
+    return increment.event.branches.size() > 1 && increment.event.branches[0].load_rate < 0.0;
+  };
+  const auto event = std::find_if(turning.increments.begin() + 1, turning.increments.end(), turns);
+  ASSERT_NE(event, turning.increments.end());
+  EXPECT_NEAR(event->load_factor, 1.0 / 1.02, 1e-9);
+  int rising = 1;
+  while (event->event.branches.at(static_cast<std::size_t>(rising)).load_rate < 0.0) ++rising;
+  request.options.branch_choices = {{event->event.number, 0, rising + 1}};
+  const TracedPath chosen = TraceIncrements(request);
+  ASSERT_EQ(chosen.result.reason, EndReason::kStopCriterion) << chosen.result.message;
+  const Increment &start = path.increments[0], &end = chosen.increments.back();
+  for (std::size_t i = 0; i < end.positions.size(); ++i) EXPECT_NEAR(start.positions[i], end.positions[i], 1e-9);
+  for (std::size_t i = 0; i < end.contacts.size(); ++i) {
+    EXPECT_NEAR(start.contacts[i].rn, end.contacts[i].rn, 1e-9);
+    EXPECT_NEAR(start.contacts[i].rt, end.contacts[i].rt, 1e-9);
+    EXPECT_EQ(start.contacts[i].state, end.contacts[i].state);
   }
 }
 

@@ -17,7 +17,7 @@ class SummaryOfIncrements : public testing::Test {
     summary_.Add(increment);
   }
 
-  PathSummary summary_;
+  PathSummary summary_{1.0};
 };
 
 TEST_F(SummaryOfIncrements, OfNoRowsSaysSo) {

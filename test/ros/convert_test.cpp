@@ -387,6 +387,8 @@ TEST(ConvertTest, EndReasonsHaveConstantNameAndStatus) {
       {EndReason::kStepTooSmall, Response::END_STEP_TOO_SMALL, "step_too_small", Response::ENDED_EARLY},
       {EndReason::kCancelled, Response::END_CANCELLED, "cancelled", Response::ENDED_EARLY},
       {EndReason::kNoSuchBranch, Response::END_NO_SUCH_BRANCH, "no_such_branch", Response::INVALID_REQUEST},
+      {EndReason::kClosedPath, Response::END_CLOSED_PATH, "closed_path", Response::OK},
+      {EndReason::kMemoryLimit, Response::END_MEMORY_LIMIT, "memory_limit", Response::ENDED_EARLY},
   };
   for (const Increment& increment : increments) {
     EXPECT_EQ(ToConstant(increment.reason), increment.constant);

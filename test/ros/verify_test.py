@@ -89,6 +89,35 @@ class VerifyTest(ProgramTest):
             return None if kind == 'increments' and message.index >= 20 else message
         self.assert_not_proved(self.rewrite(self.record(), change), 'truncated: 20 increments, the result speaks of')
 
+    def test_end_that_the_increments_contradict_is_found(self):
+        """The last ones are cut off, and the result says of another end."""
+        for reason, told in (('max_increments', 'the request wants 1000 increments'),
+                             ('path_end', 'the path goes on from the last increment'),
+                             ('closed_path', 'no earlier increment has the state of the last one')):
+            def change(kind, message):
+                if kind == 'increments' and message.index >= 20:
+                    return None
+                if kind == 'result':
+                    message.increments, message.end_reason_name = 20, reason
+                return message
+            self.assert_not_proved(self.rewrite(self.record(), change), 'the result says %s, but %s' % (reason, told))
+
+    def test_events_and_signs_that_were_changed_are_found(self):
+        for field, value, told in (('determinant_sign', -1, 'the determinant changes its sign'),
+                                   ('stiffness_sign', -1, 'the sign of the stiffness'),
+                                   ('method', 1, 'is of the method mpec')):
+            def change(kind, message):
+                if kind == 'increments' and message.index == 20:
+                    setattr(message, field, value if field == 'method' else -getattr(message, field))
+                return message
+            self.assert_not_proved(self.rewrite(self.record(), change), told)
+
+        def renumber(kind, message):
+            if kind == 'increments' and message.event.number == 1:
+                message.event.number = 2
+            return message
+        self.assert_not_proved(self.rewrite(self.record(), renumber), 'is event 2')
+
     def test_missing_result_is_found(self):
         self.assert_not_proved(self.rewrite(self.record(), lambda kind, message: None if kind == 'result' else message),
                                'truncated: no result')

@@ -17,14 +17,15 @@ std::string NodeName(std::size_t i) { return "n" + std::to_string(i); }
 
 class Builder {
  public:
-  Builder(Decisions* random, const std::string& name) : random_(*random) {
+  Builder(Decisions* random, const std::string& name, std::size_t most_nodes, std::size_t most_contacts)
+      : random_(*random), most_nodes_(most_nodes), most_contacts_(most_contacts) {
     scene_.name = name;
     prestressed_ = random_.Chance(0.1);
   }
 
   TraceRequest Build() {
     AddBase();
-    const std::size_t nodes = 3 + random_.Index(6);
+    const std::size_t nodes = 3 + random_.Index(most_nodes_ - 2);
     while (scene_.nodes.size() < nodes) AddNode();
     AddContacts();
     AddLoads();
@@ -110,7 +111,7 @@ class Builder {
   }
 
   void AddContacts() {
-    const std::size_t count = std::max(scene_.contacts.size(), 1 + random_.Index(4));
+    const std::size_t count = std::max(scene_.contacts.size(), 1 + random_.Index(most_contacts_));
     while (scene_.contacts.size() < count) {
       // A node that has a contact already gets another one now and then: a wedge.
       std::size_t node = 1 + random_.Index(scene_.nodes.size() - 1);
@@ -172,6 +173,7 @@ class Builder {
   }
 
   Decisions& random_;
+  const std::size_t most_nodes_, most_contacts_;
   Scene scene_;
   bool prestressed_ = false;
   bool pressed_ = false;  // held by a contact
@@ -184,7 +186,10 @@ TraceRequest RandomRequest(unsigned seed) {
   return RandomRequest(&decisions, "random_" + std::to_string(seed));
 }
 
-TraceRequest RandomRequest(Decisions* decisions, const std::string& name) { return Builder(decisions, name).Build(); }
+TraceRequest RandomRequest(Decisions* decisions, const std::string& name, std::size_t most_nodes,
+                           std::size_t most_contacts) {
+  return Builder(decisions, name, most_nodes, most_contacts).Build();
+}
 
 bool CanBeRotated(const Scene& scene) {
   return std::all_of(scene.nodes.begin(), scene.nodes.end(),

@@ -2,6 +2,7 @@
 #ifndef CONTACT_PATH_TEST_SUPPORT_RANDOM_SCENE_H_
 #define CONTACT_PATH_TEST_SUPPORT_RANDOM_SCENE_H_
 
+#include <cstddef>
 #include <string>
 
 #include "contact_path/scene/scene.h"
@@ -15,8 +16,9 @@ namespace contact_path {
 // some scenes constant loads, bars with prestress, nodes held along one axis, structures held by a contact alone,
 // wedges (two obstacles for a node). No stop criteria, default options but for the direction.
 TraceRequest RandomRequest(unsigned seed);
-// The same from any source of decisions.
-TraceRequest RandomRequest(Decisions* decisions, const std::string& name);
+// The same from any source of decisions. most_nodes, most_contacts: other bounds.
+TraceRequest RandomRequest(Decisions* decisions, const std::string& name, std::size_t most_nodes = 8,
+                           std::size_t most_contacts = 4);
 
 // Whether every node is either fixed or free: then the scene can be turned.
 bool CanBeRotated(const Scene& scene);

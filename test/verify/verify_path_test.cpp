@@ -170,6 +170,13 @@ const Tampering kTamperings[] = {
     {"NotFinite", [](auto& increments) { increments[5].load_factor = std::numeric_limits<double>::quiet_NaN(); },
      "not finite"},
     {"OtherScene", [](auto& increments) { increments[5].positions.pop_back(); }, "not those of the scene"},
+    {"Pull",
+     [](auto& increments) {
+       for (auto& increment : increments)
+         for (ContactRecord* contact : {&increment.contacts[0]}) contact->rn = contact->rt = 0.0;
+       increments[5].contacts[0].rn = -1e-12;
+     },
+     "pulls with"},
     {"Start", [](auto& increments) { increments[0].load_factor = 0.1; }, "is no start"},
     {"KindOfStart", [](auto& increments) { increments[0].kind = IncrementKind::kRegular; }, "is of the kind regular"},
     {"Nothing", [](auto& increments) { increments.clear(); }, "no increments"},

@@ -3,8 +3,10 @@
 #define CONTACT_PATH_BRANCH_SMOOTH_ARC_H_
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
+#include "contact_path/branch/crossing.h"
 #include "contact_path/branch/polynomial.h"
 #include "contact_path/equations/fixed_state_system.h"
 #include "contact_path/linear/bordered_solver.h"
@@ -58,6 +60,12 @@ class SmoothArc {
   // Near a bifurcation: the direction of the crossing path, normal to the tangent `towards` in (u, s); |(u, s) part|
   // = 1. Zero where it cannot be told.
   Eigen::VectorXd CrossingDirection(const Eigen::VectorXd& x, const Eigen::VectorXd& towards);
+
+  // At a bifurcation x of the curve with the tangent `first`, after the point `before`: the path that crosses there.
+  std::optional<Crossing> FindCrossing(const Eigen::VectorXd& before, const Eigen::VectorXd& x,
+                                       const Eigen::VectorXd& first) {
+    return contact_path::FindCrossing(&system_, before, x, first);
+  }
 
   int factorisations() const { return factorisations_; }
 

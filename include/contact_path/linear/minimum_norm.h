@@ -20,13 +20,21 @@ class MinimumNormSolver {
   MinimumNormSolver(const MinimumNormSolver&) = delete;
   MinimumNormSolver& operator=(const MinimumNormSolver&) = delete;
 
-  // transposed: A', unknowns x equations. False if it is not finite or the factorisation fails.
+  // transposed: A', unknowns x equations. False if it is not finite. Throws std::bad_alloc where there is not enough
+  // memory, as all of the functions below, and LinearSolverError where the factorisation fails.
   bool Factorize(const Eigen::SparseMatrix<double>& transposed, double rank_tolerance = kRankTolerance);
+  // The same with given norms of the equations, > 0, by which they are divided in place of their own: an equation that
+  // vanishes at the very point is to count as dependent.
+  bool Factorize(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& norms, double rank_tolerance);
   Eigen::Index Rank() const;
   // x for b of the number of equations; Factorize() must have returned true.
   Eigen::VectorXd Solve(const Eigen::VectorXd& b) const;
-  // Orthonormal basis of {x: A x = 0}, unknowns x (unknowns - rank).
+  // Orthonormal basis of {x: A x = 0}, unknowns x (unknowns - rank), and one column of it.
   Eigen::MatrixXd NullSpace() const;
+  Eigen::VectorXd NullVector(Eigen::Index column) const;
+  // How the equations depend on each other where one of them is too many: psi with A' psi = 0. The rank must be the
+  // number of equations less 1.
+  Eigen::VectorXd DependentEquations() const;
 
  private:
   struct Factors;

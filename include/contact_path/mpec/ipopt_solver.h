@@ -17,6 +17,7 @@ class IpoptSolver : public NonlinearSolver {
   explicit IpoptSolver(std::function<bool()> cancelled);
   ~IpoptSolver() override;
 
+  // Throws std::bad_alloc where there is not enough memory, LinearSolverError where Ipopt breaks down.
   SolveOutcome Solve(const NonlinearProgram& program, double barrier, PrimalDual* point) override;
 
  private:

@@ -14,6 +14,7 @@
 #include "contact_path/mpec/ipopt_solver.h"
 #include "contact_path/path/model.h"
 #include "contact_path/path/path_method.h"
+#include "contact_path/path/return_detector.h"
 
 namespace contact_path {
 
@@ -25,9 +26,11 @@ struct BranchOptions {
   double smallest_cosine = 0.98;  // between the tangents at both ends of an increment
   double direction = 1.0;         // sign of the first change of the load factor
   std::vector<BranchChoice> choices;
+  bool keep_loading = false;     // at an event, rather than turn the load back, the best branch with which it goes on
   std::optional<double> target;  // load factor at which the path is to end, in an increment of its own
   int increments = 0;            // given before this path, of which it goes on
   int events = 0;                // passed before this path
+  ReturnDetector* returns = nullptr;  // tells whether the path has come back to where it was; null: that is no end
 
   static BranchOptions For(const TraceOptions& options, Eigen::Index num_dofs);
 };
@@ -55,12 +58,26 @@ class BranchMethod : public PathMethod {
   // Finds the branches from `point` and sets out on one. Nothing: done. Otherwise why not, with *message.
   std::optional<EndReason> PassEvent(const PathPoint& point, const Arrival& arrival, const BranchChoice* choice,
                                      EventRecord* record, std::string* message);
+  // The branch to take where the load is to go on: the best one, or if that turns back, the best that does not.
+  std::size_t BestThatLoads(const std::vector<Branch>& branches) const;
   // An increment in which nothing moves: the reactions with which the branch begins.
   Advance ChangeReactions(const PathPoint& from);
+  // Whether a branch is to be chosen farther on: then a path that comes back need not repeat.
+  bool HasChoicesAhead() const;
+  // Where the path comes back to an earlier increment on the step: its number, and the step ends there.
+  std::optional<int> EndAtReturn(const PathPoint& from, Step* step);
   void NoteReactions(const PathPoint& point);
   const BranchChoice* ChoiceForEvent(int event) const;
   const BranchChoice* ChoiceForIncrement(int increment) const;
   Work WorkOf(const Step& step) const;
+  // Where another path crosses the arc, at current_: records to go on and both directions of the crossing path, and
+  // sets out on one of them. before: a point of the arc before. Nothing: done. Otherwise why not, with *message.
+  std::optional<EndReason> PassBifurcation(const Eigen::VectorXd& before, const BranchChoice* choice,
+                                           EventRecord* record, std::string* message);
+  // Whether the load was going the other way at the end of the last arc than it goes at current_. level: of a unit rate
+  // that counts as zero.
+  bool TurnsLoad(const CurvePoint& arrival, double level) const;
+  BranchRecord RecordOf(const Eigen::VectorXd& first) const;
   std::vector<double> CrossingPath(const Step& step);
   int StiffnessSign(const CurvePoint& point) const;
 

@@ -14,10 +14,16 @@ enum class EndReason {
   kStepTooSmall,      // increments had to be shortened below the smallest allowed
   kCancelled,         // the caller asked for it
   kNoSuchBranch,      // branch_choices wants a branch that does not exist: the request is invalid
+  kClosedPath,        // the last increment is an earlier one again: the path repeats from there on
+  kMemoryLimit,       // there was not enough memory to go on
 };
 
-// "stop_criterion", "max_increments", "path_end", "step_too_small", "cancelled", "no_such_branch", "numerical_failure".
+// "stop_criterion", "max_increments", "path_end", "step_too_small", "cancelled", "no_such_branch", "numerical_failure",
+// "closed_path", "memory_limit".
 std::string_view ToString(EndReason reason);
+
+// Whether the trace went as far as it was asked to, or as far as there is anything new.
+bool IsComplete(EndReason reason);
 
 }  // namespace contact_path
 

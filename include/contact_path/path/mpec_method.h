@@ -11,6 +11,7 @@
 #include "contact_path/mpec/ipopt_solver.h"
 #include "contact_path/path/model.h"
 #include "contact_path/path/path_method.h"
+#include "contact_path/path/return_detector.h"
 
 namespace contact_path {
 
@@ -22,8 +23,9 @@ struct MpecOptions {
   // between them be no larger: it bounds how far the path is cut short at a corner.
   double corner_tolerance = 5e-4;
   RegularisationSchedule regularisation;
-  double direction = 1.0;        // sign of the first change of the load factor
-  std::optional<double> target;  // load factor at which the path is to end, in an increment of its own
+  double direction = 1.0;             // sign of the first change of the load factor
+  std::optional<double> target;       // load factor at which the path is to end, in an increment of its own
+  ReturnDetector* returns = nullptr;  // tells whether the path has come back to where it was; null: that is no end
 
   static MpecOptions For(const TraceOptions& options, Eigen::Index num_dofs);
 };
@@ -77,6 +79,8 @@ class MpecMethod : public PathMethod {
   // or those of `from`. False: there is none.
   bool EndAtTarget(const PathPoint& from, Trial* trial) const;
   bool EndAtTarget(const PathPoint& from, const std::vector<ContactState>& states, Trial* trial) const;
+  // Where the path comes back to an earlier increment on the increment: its number, and the trial ends there.
+  std::optional<int> EndAtReturn(const PathPoint& from, Trial* trial) const;
   bool ConfirmedByHalves(const PathPoint& from, const Eigen::VectorXd& direction, double length, const Trial& whole);
 
   const Model& model_;

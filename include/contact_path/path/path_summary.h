@@ -18,8 +18,14 @@ struct LimitPoint {
   double load_factor = 0.0;                          // of the stage
 };
 
+// A load factor for a person: ten digits, and 0 where it is rounding. scale: of the load factor of the request.
+std::string LoadFactorText(double load_factor, double scale);
+
 class PathSummary {
  public:
+  // load_scale: ProgramScales(request).load_factor.
+  explicit PathSummary(double load_scale) : load_scale_(load_scale) {}
+
   // Takes every increment, in order.
   void Add(const Increment& increment);
 
@@ -35,6 +41,7 @@ class PathSummary {
   std::string ToText(std::string_view reason, const std::string& message) const;
 
  private:
+  double load_scale_;
   int increments_ = 0;
   int events_ = 0;
   std::vector<LimitPoint> limit_points_;

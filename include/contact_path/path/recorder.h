@@ -13,6 +13,9 @@
 
 namespace contact_path {
 
+// Positions and contacts of the increment as of the point.
+void FillState(const Model& model, const PathPoint& point, Increment* increment);
+
 class Recorder {
  public:
   // method: of the request. on_increment takes each increment; may be empty.

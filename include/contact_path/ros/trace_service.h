@@ -127,7 +127,7 @@ class TraceService {
   std::uint32_t increments_published_ = 0;
   int full_state_every_ = 0;  // as in the request
   std::optional<ProgressEstimate> progress_;
-  PathSummary summary_;
+  PathSummary summary_{1.0};
 
   // Last, so that no call comes in before the rest is there.
   ros::ServiceServer trace_server_;

@@ -28,6 +28,7 @@ struct Verification {
   Residuals regularised;        // of the other ones
   double energy_balance = 0.0;  // largest |work of the loads - change of strain energy - dissipation| / (F L)
   double work = 0.0;  // what that is to be compared with: sum of |work of the loads| of all increments / (F L)
+  double largest_reaction = 0.0;       // normal, over F
   std::map<IncrementKind, int> kinds;  // number of increments of each
 };
 
@@ -42,7 +43,9 @@ constexpr int kMostFindings = 20;
 // and 1.05 of it), dissipation and work (to what a trapezoid between the increments leaves open), energy balance (to 1
 // % of the work done, mpec: 3 %, and what trapezoids leave open), states change only at events, the load factor turns
 // at limit points and only there, and the branch taken at an event is the one that follows; stages follow each other at
-// their targets, in the same state. Not checked: the rest of the record of branches, counters and times.
+// their targets, in the same state. A contact that pulls with more than 0.02 of the largest reaction so far is a
+// finding, however small both are. Where nothing of all that is found, events and signs are looked at
+// (verify_events.h). Not checked: rates of branches that were not taken, counters and times.
 //
 // before_each: called before each increment is checked; what it throws leaves VerifyPath(). May be empty.
 Verification VerifyPath(const TraceRequest& request, const std::vector<Increment>& increments,

@@ -1,0 +1,28 @@
+// Which nodes nothing holds: what a mistake in a scene looks like, and what is left of a structure that came free.
+#ifndef CONTACT_PATH_PATH_FREE_MOTION_H_
+#define CONTACT_PATH_PATH_FREE_MOTION_H_
+
+#include <string>
+#include <vector>
+
+#include "contact_path/contact/path_point.h"
+#include "contact_path/path/model.h"
+
+namespace contact_path {
+
+// Nodes, ascending, that take part in a motion without resistance: the null space of the tangent stiffness at a fixed
+// load factor, with supports held and every contact that carries more than `force` (scaled) stuck, or closed where it
+// cannot rub. Of a null space of more than 64 dimensions, 64 motions are looked at.
+std::vector<int> FreeNodes(const Model& model, const PathPoint& point, double force);
+
+// "node b moves freely; b@floor touches", or "nodes a, b and 7 more move freely"; empty where no node does. Contacts
+// are those of the nodes that move, and five names of a kind are listed.
+std::string FreeMotionText(const Model& model, const PathPoint& point, double force);
+
+// The same with the question that goes with a start from which no branch leads: ": does the normal of floor point to
+// the side where the node may be, and is no contact or support missing?". Empty where no node moves freely.
+std::string FreeMotionQuestion(const Model& model, const PathPoint& point, double force);
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_PATH_FREE_MOTION_H_

@@ -1,0 +1,67 @@
+// Whether a path has come back to where it was: from there on it repeats.
+#ifndef CONTACT_PATH_PATH_RETURN_DETECTOR_H_
+#define CONTACT_PATH_PATH_RETURN_DETECTOR_H_
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "contact_path/branch/smooth_arc.h"
+#include "contact_path/contact/path_point.h"
+#include "contact_path/path/model.h"
+
+namespace contact_path {
+
+// Positions, load factor, reactions and contact states make up the whole state: friction remembers nothing but where
+// contacts stick, and those are positions. An earlier point that is met again in the same direction is therefore met
+// for ever. The path need not hit an increment again: it crosses the plane through it.
+// Memory: some increments of a stage, evenly spread, at most 8 MB of them or 4. A path that is closed is so found after
+// at most a sixteenth of it more than once round where it has few unknowns.
+class ReturnDetector {
+ public:
+  struct Return {
+    int increment = 0;  // that the path came back to
+    PathPoint point;    // of the path, scaled: the same point but for rounding
+  };
+
+  // model must outlive the test. every: only increments whose index is a multiple of it are remembered, > 0.
+  ReturnDetector(const Model& model, int every);
+
+  // The next increment of the stage, which ends in `to`, and the point before.
+  void Add(int increment, const PathPoint& from, const PathPoint& to);
+
+  // The first return between two points on the same arc, the later one with its states. Not before there is proof:
+  // positions and load factor agree to 1e-9 of the extent of the path, reactions to 1e-9 of the largest so far, the
+  // contact states are the same, and so is the direction, to 1e-6.
+  std::optional<Return> Find(const PathPoint& from, const PathPoint& to);
+
+ private:
+  struct Reference {
+    int increment;
+    PathPoint point;
+    Eigen::VectorXd direction;  // of the increment that ends there: unit chord in (u, s)
+  };
+  // Where the path crosses the plane through the reference between the two points; nothing where it does not.
+  std::optional<PathPoint> CrossingOf(const Reference& reference, const PathPoint& from, const PathPoint& to);
+  bool IsSame(const PathPoint& a, const PathPoint& b) const;
+  // Unit tangent of the path at a point with its states, along `towards`; empty where there is none.
+  Eigen::VectorXd TangentAt(const PathPoint& point, const Eigen::VectorXd& towards);
+
+  const Model& model_;
+  const std::size_t most_references_;
+  int spacing_;
+  std::vector<Reference> references_;  // in the order of the path
+  SmoothArc arc_;
+  std::optional<PathPoint> first_;
+  double extent_ = 0.0;            // largest distance from the first point
+  double largest_reaction_ = 0.0;  // so far
+};
+
+// Why a trace ends there: one line for a person.
+std::string ClosedPathText(int increment);
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_PATH_RETURN_DETECTOR_H_

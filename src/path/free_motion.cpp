@@ -1,0 +1,132 @@
+#include "contact_path/path/free_motion.h"
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <algorithm>
+#include <cstddef>
+#include <new>
+
+#include "contact_path/linear/minimum_norm.h"
+
+namespace contact_path {
+namespace {
+
+constexpr double kTouches = 1e-10;         // scaled gap
+constexpr double kMoves = 1e-6;            // of a unit null vector
+constexpr double kSoft = 1e-10;            // of the largest entry of the tangent: no resistance but rounding
+constexpr Eigen::Index kMostMotions = 64;  // looked at
+constexpr std::size_t kMostNames = 5;      // listed
+
+using Triplets = std::vector<Eigen::Triplet<double>>;
+
+// A row of the equations: gradient . du = 0.
+void AddEquation(const ContactPair& pair, const PairVector& gradient, int equation, Triplets* entries) {
+  for (std::size_t k = 0; k < pair.Dofs().size(); ++k)
+    entries->emplace_back(pair.Dofs()[k], equation, gradient[static_cast<Eigen::Index>(k)]);
+}
+
+// What resists a motion du, one column an equation: tangent . du, supports, contacts that carry.
+Eigen::SparseMatrix<double> Resistance(const Model& model, const PathPoint& point, double force) {
+  Eigen::SparseMatrix<double> tangent = model.structure.TangentPattern();
+  model.structure.Tangent(point.u, &tangent);
+  const double least = kSoft * tangent.coeffs().cwiseAbs().maxCoeff();
+  Triplets entries;
+  for (int column = 0; column < tangent.outerSize(); ++column)
+    for (Eigen::SparseMatrix<double>::InnerIterator it(tangent, column); it; ++it)
+      if (std::abs(it.value()) > least) entries.emplace_back(it.row(), column, it.value());
+  auto equation = static_cast<int>(tangent.cols());
+  for (const PrescribedDof& prescribed : model.structure.PrescribedDofs())
+    entries.emplace_back(prescribed.dof, equation++, 1.0);
+  for (std::size_t i = 0; i < model.contacts.size(); ++i) {
+    if (!(point.rn[static_cast<Eigen::Index>(i)] > force)) continue;
+    const ContactPair& pair = *model.contacts[i];
+    Kinematics kinematics;
+    pair.Evaluate(point.u, point.s, 0.0, &kinematics);
+    AddEquation(pair, kinematics.gap_gradient, equation++, &entries);
+    if (pair.Frictional()) AddEquation(pair, kinematics.xi_gradient, equation++, &entries);
+  }
+  Eigen::SparseMatrix<double> resistance(tangent.rows(), equation);
+  resistance.setFromTriplets(entries.begin(), entries.end());
+  return resistance;
+}
+
+// The first names, and how many there are beside.
+std::string Listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(names.size(), kMostNames); ++i) text += (i == 0 ? "" : ", ") + names[i];
+  if (names.size() > kMostNames) text += " and " + std::to_string(names.size() - kMostNames) + " more";
+  return text;
+}
+
+// One word for one of them, another for several.
+std::string Counted(const std::vector<std::string>& names, const char* one, const char* several) {
+  return names.size() == 1 ? one : several;
+}
+
+struct Names {
+  std::vector<std::string> nodes, contacts, obstacles;
+};
+
+// Nodes that move freely, their contacts that touch, and the obstacles of these.
+Names FreeNames(const Model& model, const PathPoint& point, double force) {
+  Names names;
+  const Scene& scene = model.scene;
+  for (const int node : FreeNodes(model, point, force))
+    names.nodes.push_back(scene.nodes[static_cast<std::size_t>(node)].name);
+  for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
+    const ContactCandidate& contact = scene.contacts[i];
+    const bool free = std::find(names.nodes.begin(), names.nodes.end(), contact.node) != names.nodes.end();
+    if (!free || model.contacts[i]->Gap(point.u, point.s) > kTouches) continue;
+    names.contacts.push_back(contact.Name());
+    if (std::find(names.obstacles.begin(), names.obstacles.end(), contact.obstacle) == names.obstacles.end())
+      names.obstacles.push_back(contact.obstacle);
+  }
+  return names;
+}
+
+std::string TextOf(const Names& names) {
+  if (names.nodes.empty()) return {};
+  std::string text = Counted(names.nodes, "node ", "nodes ") + Listed(names.nodes) +
+                     Counted(names.nodes, " moves freely", " move freely");
+  if (!names.contacts.empty()) text += "; " + Listed(names.contacts) + Counted(names.contacts, " touches", " touch");
+  return text;
+}
+
+}  // namespace
+
+std::vector<int> FreeNodes(const Model& model, const PathPoint& point, double force) {
+  std::vector<int> nodes;
+  try {
+    MinimumNormSolver solver;
+    if (!solver.Factorize(Resistance(model, point, force))) return nodes;
+    const Eigen::Index motions = std::min(point.u.size() - solver.Rank(), kMostMotions);
+    Eigen::VectorXd largest = Eigen::VectorXd::Zero(point.u.size());
+    for (Eigen::Index k = 0; k < motions; ++k) largest = largest.cwiseMax(solver.NullVector(k).cwiseAbs());
+    for (std::size_t i = 0; i < model.scene.nodes.size(); ++i)
+      for (const int axis : {0, 1}) {
+        const int dof = model.structure.Dof(static_cast<int>(i), axis);
+        if (dof < 0 || !(largest[dof] > kMoves)) continue;
+        nodes.push_back(static_cast<int>(i));
+        break;
+      }
+  } catch (const std::bad_alloc&) {
+    nodes.clear();  // nothing can be said
+  }
+  return nodes;
+}
+
+std::string FreeMotionText(const Model& model, const PathPoint& point, double force) {
+  return TextOf(FreeNames(model, point, force));
+}
+
+std::string FreeMotionQuestion(const Model& model, const PathPoint& point, double force) {
+  const Names names = FreeNames(model, point, force);
+  if (names.nodes.empty()) return {};
+  std::string question = "is a contact or a support missing?";
+  if (!names.obstacles.empty())
+    question = Counted(names.obstacles, "does the normal of ", "do the normals of ") + Listed(names.obstacles) +
+               " point to the side where the " + Counted(names.contacts, "node", "nodes") + " may be? " + question;
+  return TextOf(names) + ": " + question;
+}
+
+}  // namespace contact_path

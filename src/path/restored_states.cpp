@@ -1,0 +1,132 @@
+#include "contact_path/path/restored_states.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <optional>
+
+#include "contact_path/branch/smooth_arc.h"
+#include "contact_path/path/model.h"
+#include "contact_path/path/recorder.h"
+#include "contact_path/scene/program.h"
+
+namespace contact_path {
+namespace {
+
+constexpr double kSameLoad = 1e-9;    // scaled, relative to 1 + |s|
+constexpr double kSameArc = 1e-12;    // relative to the increment
+constexpr double kMovingLoad = 1e-2;  // of the arc length: a smaller change does not tell the direction
+constexpr int kIterations = 20;       // for the arc length
+
+Eigen::VectorXd Chord(const PathPoint& from, const PathPoint& to) {
+  Eigen::VectorXd chord(to.u.size() + 1);
+  chord << to.u - from.u, to.s - from.s;
+  return chord;
+}
+
+// The increments of one stage.
+class Restorer {
+ public:
+  explicit Restorer(const Model& model) : model_(model), arc_(model.structure, model.contacts) {}
+
+  // Finds the state of the increment at `at`, the one before having its own; false: it is not found.
+  bool Restore(std::vector<Increment>* increments, std::size_t at) {
+    Increment& wanted = (*increments)[at];
+    const Increment& before = (*increments)[at - 1];
+    if (before.stage != wanted.stage || before.positions.empty() || !wanted.solve.exact) return false;
+    const PathPoint from = model_.FromIncrement(before);
+    const std::optional<Eigen::VectorXd> towards = Towards(*increments, at, from);
+    if (!towards) return false;
+    const bool parts = before.event.taken >= 1 && before.event.taken <= static_cast<int>(before.event.branches.size());
+    std::vector<ContactState> states = from.states;
+    if (parts) states = before.event.branches[static_cast<std::size_t>(before.event.taken) - 1].states;
+    // mpec does not say with which states it sets out.
+    if (!parts && before.kind == IncrementKind::kStart) {
+      const Increment* const next = NextWithState(*increments, at);
+      if (next == nullptr) return false;
+      states = model_.FromIncrement(*next).states;
+    }
+    arc_.SetStates(states, from);
+    CurvePoint start;
+    if (!arc_.Derivatives(arc_.system().Pack(from), *towards, &start)) return false;
+    const std::optional<PathPoint> point =
+        PointAfter(start, from, wanted.arc_length - before.arc_length, wanted.solve.method);
+    const double load = wanted.load_factor / model_.scaling.load_factor;
+    if (!point || !(std::abs(point->s - load) <= kSameLoad * (1.0 + std::abs(load)))) return false;
+    FillState(model_, *point, &wanted);
+    return true;
+  }
+
+ private:
+  // A direction on the side to which the path goes: as it came, or from an event, where it may turn, the sense of the
+  // load, or, where that rests, to the next increment that has its state.
+  std::optional<Eigen::VectorXd> Towards(const std::vector<Increment>& increments, std::size_t at,
+                                         const PathPoint& from) const {
+    const Increment& before = increments[at - 1];
+    if (before.event.branches.empty() && at >= 2 && increments[at - 2].stage == before.stage)
+      return Chord(model_.FromIncrement(increments[at - 2]), from);
+    const double change = (increments[at].load_factor - before.load_factor) / model_.scaling.load_factor;
+    if (std::abs(change) > kMovingLoad * (increments[at].arc_length - before.arc_length))
+      return Eigen::VectorXd(change * Eigen::VectorXd::Unit(from.u.size() + 1, from.u.size()));
+    const Increment* const next = NextWithState(increments, at);
+    if (next == nullptr) return std::nullopt;
+    return Chord(from, model_.FromIncrement(*next));
+  }
+
+  // Of the same stage, from `at` on; null: there is none.
+  static const Increment* NextWithState(const std::vector<Increment>& increments, std::size_t at) {
+    for (std::size_t i = at; i < increments.size() && increments[i].stage == increments[at].stage; ++i)
+      if (!increments[i].positions.empty()) return &increments[i];
+    return nullptr;
+  }
+
+  // On the arc: along it for method branch, along the chord for mpec.
+  std::optional<PathPoint> PointAfter(const CurvePoint& start, const PathPoint& from, double length, Method method) {
+    if (!(length > 0.0)) return std::nullopt;
+    const Eigen::VectorXd normal = start.first.head(arc_.NumMotion());
+    double t = length, last_error = std::numeric_limits<double>::infinity();
+    std::optional<PathPoint> point;
+    for (int i = 0; i < kIterations; ++i) {
+      const Correction correction = arc_.CorrectOnPlane(start.x + t * start.first + 0.5 * t * t * start.second, normal);
+      CurvePoint end;
+      if (!correction.converged || !arc_.Derivatives(correction.x, normal, &end)) return std::nullopt;
+      point = arc_.system().Unpack(end.x);
+      const double reached =
+          method == Method::kBranch ? MakeStep(start, end, arc_.NumMotion()).ArcLength() : Distance(from, *point);
+      const double error = std::abs(reached - length);
+      if (error <= kSameArc * length || error >= last_error) return point;
+      last_error = error;
+      t += length - reached;
+    }
+    return point;
+  }
+
+  const Model& model_;
+  SmoothArc arc_;
+};
+
+}  // namespace
+
+std::size_t RestoreStates(const TraceRequest& request, std::vector<Increment>* increments) {
+  std::unique_ptr<const Model> model;
+  std::unique_ptr<Restorer> restorer;
+  int stage = -1;
+  for (std::size_t i = 0; i < increments->size(); ++i) {
+    const Increment& increment = (*increments)[i];
+    if (!increment.positions.empty()) continue;
+    if (i == 0) return 0;
+    if (increment.stage != stage) {
+      stage = increment.stage;
+      const auto number = static_cast<std::size_t>(std::max(stage, 1) - 1);
+      restorer.reset();
+      model = std::make_unique<const Model>(StageScene(request, number), StageConfiguration(request, number),
+                                            StageScales(request, number));
+      restorer = std::make_unique<Restorer>(*model);
+    }
+    if (!restorer->Restore(increments, i)) return i;
+  }
+  return increments->size();
+}
+
+}  // namespace contact_path

@@ -1,0 +1,110 @@
+#include "contact_path/path/return_detector.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace contact_path {
+namespace {
+
+constexpr double kSamePoint = 1e-9;      // of the extent of the path
+constexpr double kSameReaction = 1e-9;   // of the largest so far
+constexpr double kRounding = 1e-13;      // of the characteristic force
+constexpr double kSameDirection = 1e-6;  // difference of unit tangents
+constexpr double kReach = 2.0;           // of the chord: a point on the increment is no farther from its end
+constexpr double kSlack = 1e-9;          // of the chord: of the place of a crossing
+constexpr std::size_t kMostNumbers = 1000000;
+constexpr std::size_t kMostReferences = 32;
+constexpr std::size_t kFewestReferences = 4;
+
+std::size_t MostReferences(const Model& model) {
+  const std::size_t numbers = 2 * (static_cast<std::size_t>(model.structure.NumDofs()) + model.contacts.size()) + 1;
+  return std::clamp(kMostNumbers / numbers, kFewestReferences, kMostReferences);
+}
+
+Eigen::VectorXd Chord(const PathPoint& from, const PathPoint& to) {
+  Eigen::VectorXd chord(to.u.size() + 1);
+  chord << to.u - from.u, to.s - from.s;
+  return chord;
+}
+
+double LargestReaction(const PathPoint& point) {
+  if (point.rn.size() == 0) return 0.0;
+  return std::max(point.rn.lpNorm<Eigen::Infinity>(), point.rt.lpNorm<Eigen::Infinity>());
+}
+
+}  // namespace
+
+ReturnDetector::ReturnDetector(const Model& model, int every)
+    : model_(model), most_references_(MostReferences(model)), spacing_(every), arc_(model.structure, model.contacts) {}
+
+void ReturnDetector::Add(int increment, const PathPoint& from, const PathPoint& to) {
+  if (!first_) first_ = from;
+  extent_ = std::max(extent_, Distance(*first_, to));
+  largest_reaction_ = std::max(largest_reaction_, LargestReaction(to));
+  const double length = Distance(from, to);
+  if (increment % spacing_ != 0 || !(length > 0.0) || to.states != from.states) return;
+  if (references_.size() == most_references_) {
+    spacing_ *= 2;
+    const auto between = [&](const Reference& reference) { return reference.increment % spacing_ != 0; };
+    references_.erase(std::remove_if(references_.begin(), references_.end(), between), references_.end());
+    if (increment % spacing_ != 0) return;
+  }
+  references_.push_back({increment, to, Chord(from, to) / length});
+}
+
+std::optional<ReturnDetector::Return> ReturnDetector::Find(const PathPoint& from, const PathPoint& to) {
+  const double reach = kReach * Distance(from, to);
+  for (const Reference& reference : references_) {
+    const PathPoint& point = reference.point;
+    if (std::abs(point.s - to.s) > reach || point.states != to.states || Distance(point, to) > reach) continue;
+    std::optional<PathPoint> crossing = CrossingOf(reference, from, to);
+    if (!crossing || !IsSame(*crossing, point)) continue;
+    const Eigen::VectorXd now = TangentAt(*crossing, Chord(from, to));
+    const Eigen::VectorXd then = TangentAt(point, reference.direction);
+    if (now.size() == 0 || then.size() == 0 || !((now - then).norm() <= kSameDirection)) continue;
+    return Return{reference.increment, std::move(*crossing)};
+  }
+  return std::nullopt;
+}
+
+std::optional<PathPoint> ReturnDetector::CrossingOf(const Reference& reference, const PathPoint& from,
+                                                    const PathPoint& to) {
+  const double before = reference.direction.dot(Chord(reference.point, from));
+  const double beyond = reference.direction.dot(Chord(reference.point, to));
+  const double slack = kSlack * Distance(from, to);
+  if (!(before < -slack) || !(beyond >= -slack)) return std::nullopt;
+  arc_.SetStates(to.states, from);
+  const FixedStateSystem& system = arc_.system();
+  const double share = std::min(1.0, before / (before - beyond));
+  Eigen::VectorXd row = Eigen::VectorXd::Zero(system.NumUnknowns());
+  row.head(arc_.NumMotion()) = reference.direction;
+  const Correction correction = arc_.Correct((1.0 - share) * system.Pack(from) + share * system.Pack(to), row,
+                                             row.dot(system.Pack(reference.point)));
+  if (!correction.converged) return std::nullopt;
+  PathPoint crossing = system.Unpack(correction.x);
+  const Eigen::VectorXd chord = Chord(from, to);
+  const double place = chord.dot(Chord(from, crossing)) / chord.squaredNorm();
+  if (!(place > 0.0) || !(place <= 1.0 + kSlack)) return std::nullopt;
+  return crossing;
+}
+
+bool ReturnDetector::IsSame(const PathPoint& a, const PathPoint& b) const {
+  if (!(Distance(a, b) <= kSamePoint * extent_)) return false;
+  if (a.rn.size() == 0) return true;
+  const double difference = std::max((a.rn - b.rn).lpNorm<Eigen::Infinity>(), (a.rt - b.rt).lpNorm<Eigen::Infinity>());
+  return difference <= kRounding + kSameReaction * largest_reaction_;
+}
+
+Eigen::VectorXd ReturnDetector::TangentAt(const PathPoint& point, const Eigen::VectorXd& towards) {
+  arc_.SetStates(point.states, point);
+  CurvePoint derivatives;
+  if (!arc_.Derivatives(arc_.system().Pack(point), towards, &derivatives)) return {};
+  return derivatives.first.head(arc_.NumMotion());
+}
+
+std::string ClosedPathText(int increment) {
+  return "the path has come back to increment " + std::to_string(increment) + " and repeats from there on";
+}
+
+}  // namespace contact_path

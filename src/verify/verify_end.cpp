@@ -1,0 +1,66 @@
+#include "contact_path/verify/verify_end.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "contact_path/path/stop.h"
+#include "contact_path/scene/program.h"
+#include "contact_path/scene/scaling.h"
+#include "contact_path/verify/verify_path.h"
+
+namespace contact_path {
+namespace {
+
+constexpr double kSame = 1e-8;  // scaled
+
+bool ProgramDone(const TraceRequest& request, const Increment& last) {
+  return last.stage == static_cast<int>(request.program.size()) && AtTarget(request, last);
+}
+
+bool SameState(const Increment& a, const Increment& b, const Scaling& scaling) {
+  if (a.stage != b.stage || a.positions.size() != b.positions.size() || a.contacts.size() != b.contacts.size())
+    return false;
+  double worst = std::abs(a.load_factor - b.load_factor) / scaling.load_factor;
+  for (std::size_t i = 0; i < a.positions.size(); ++i)
+    worst = std::max(worst, std::abs(a.positions[i] - b.positions[i]) / scaling.length);
+  for (std::size_t i = 0; i < a.contacts.size(); ++i) {
+    const ContactRecord &p = a.contacts[i], &q = b.contacts[i];
+    if (p.state != q.state) return false;
+    worst = std::max({worst, std::abs(p.rn - q.rn) / scaling.force, std::abs(p.rt - q.rt) / scaling.force});
+  }
+  return worst <= kSame;
+}
+
+}  // namespace
+
+std::string EndContradicted(const TraceRequest& request, const std::vector<Increment>& increments,
+                            std::string_view reason) {
+  if (increments.empty()) return {};
+  const Increment& last = increments.back();
+  const std::string says = "the result says " + std::string(reason) + ", but ";
+  if (reason == "stop_criterion") {
+    if (last.positions.empty() || ProgramDone(request, last)) return {};
+    return StopTest(request, SceneIndex(request.scene)).FirstThatHolds(last) == nullptr ? says + "none holds in the last increment" : "";
+  }
+  if (reason == "max_increments") {
+    if (last.index == request.options.MaxIncrements()) return {};
+    return says + "the request wants " + std::to_string(request.options.MaxIncrements()) + " increments";
+  }
+  if (reason == "path_end") {
+    if (request.options.method == Method::kMpec) return says + "mpec cannot tell the end of a path";
+    const bool parts = last.kind == IncrementKind::kStart || last.event.number > 0 || !last.event.branches.empty();
+    return parts && last.event.taken == 0 ? "" : says + "the path goes on from the last increment";
+  }
+  if (reason == "closed_path") {
+    if (last.positions.empty()) return {};
+    const auto stage = static_cast<std::size_t>(std::max(last.stage, 1) - 1);
+    const Scaling scaling = StageScales(request, stage);
+    const bool met = std::any_of(increments.begin(), increments.end() - 1,
+                                 [&](const Increment& other) { return SameState(other, last, scaling); });
+    return met ? "" : says + "no earlier increment has the state of the last one";
+  }
+  return {};
+}
+
+}  // namespace contact_path

@@ -1,0 +1,223 @@
+#include "contact_path/verify/verify_events.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <sstream>
+#include <string>
+
+#include "contact_path/scene/program.h"
+#include "contact_path/scene/scaling.h"
+
+namespace contact_path {
+namespace {
+
+constexpr double kRate = 1e-6;      // of unit rates
+constexpr double kOpenGap = 1e-8;   // of L: wider is open
+constexpr double kBend = 0.25;      // of F: what forces may change within an increment of length 1
+constexpr double kLevel = 1e-9;     // of the scale of the load factor: a smaller change has no sense
+constexpr double kMoreTurn = 1.5;   // of the angle between the tangents at both ends: the chord is within it
+constexpr double kShortest = 1e-6;  // arc length of an increment that has a direction
+const double kPi = std::acos(-1.0);
+
+// By how much the tangent may turn in an increment [rad].
+double LargestTurn(Accuracy accuracy) {
+  switch (accuracy) {
+    case Accuracy::kFast: return std::acos(0.9);
+    case Accuracy::kBalanced: return std::acos(0.98);
+    case Accuracy::kAccurate: return std::acos(0.998);
+  }
+  return kPi;
+}
+
+class EventVerifier {
+ public:
+  EventVerifier(const TraceRequest& request, const std::vector<Increment>& increments, std::vector<Finding>* findings)
+      : request_(request),
+        increments_(increments),
+        turn_(kMoreTurn * LargestTurn(request.options.accuracy)),
+        findings_(*findings) {}
+
+  void Run() {
+    for (at_ = 0; at_ < increments_.size(); ++at_) {
+      const Increment& now = increments_[at_];
+      if (at_ == 0 || now.stage != increments_[at_ - 1].stage) EnterStage(now);
+      if (now.kind != IncrementKind::kStart && now.solve.method != request_.options.method)
+        Report("is of the method ", ToString(now.solve.method), ", the request wants ",
+               ToString(request_.options.method));
+      CheckNumber(now);
+      CheckBranches(now);
+      CheckTaken(now);
+      CheckSigns(now);
+    }
+  }
+
+ private:
+  template <typename... Parts>
+  void Report(const Parts&... parts) {
+    if (findings_.size() >= static_cast<std::size_t>(kMostFindings)) return;
+    std::ostringstream text;
+    text.precision(6);
+    (text << ... << parts);
+    findings_.push_back({static_cast<int>(at_), text.str()});
+  }
+
+  void EnterStage(const Increment& start) {
+    const std::size_t stage = static_cast<std::size_t>(std::max(start.stage, 1) - 1);
+    scaling_ = StageScales(request_, stage);
+    direction_ = request_.options.Direction();
+    if (!request_.program.empty()) direction_ = request_.program[stage].Target() < 0.0 ? -1.0 : 1.0;
+    relation_ = 0;
+  }
+
+  bool ByBranch() const { return request_.options.method == Method::kBranch; }
+
+  // The choice of the request for this increment; null: none.
+  const BranchChoice* ChoiceFor(const Increment& now) const {
+    const BranchChoice* by_event = nullptr;
+    for (const BranchChoice& choice : request_.options.branch_choices) {
+      if (choice.event == 0 && choice.increment == now.index) return &choice;
+      if (by_event == nullptr && choice.event > 0 && choice.event == now.event.number) by_event = &choice;
+    }
+    return by_event;
+  }
+
+  void CheckNumber(const Increment& now) {
+    const EventRecord& event = now.event;
+    if (!ByBranch()) {
+      if (event.number != 0 || !event.branches.empty()) Report("an event, though mpec records none");
+      return;
+    }
+    if (event.number != 0 && event.number != ++events_)
+      Report("is event ", event.number, ", but the event after ", events_ - 1);
+    if (event.number != 0 || event.branches.empty() || now.kind == IncrementKind::kStart) return;
+    const BranchChoice* const choice = ChoiceFor(now);
+    if (choice == nullptr || choice->event != 0) Report("an event without a number that no choice asks for");
+  }
+
+  // What holds for any branches from here.
+  void CheckBranches(const Increment& now) {
+    const std::vector<BranchRecord>& branches = now.event.branches;
+    for (std::size_t k = 0; k < branches.size(); ++k) {
+      const BranchRecord& branch = branches[k];
+      const auto wrong = [&](const char* what) { Report("branch ", k + 1, ": ", what); };
+      if (!(std::abs(branch.load_rate) <= 1.0 + kRate)) wrong("a load rate beyond 1");
+      if (!(branch.dissipation_rate >= 0.0)) wrong("a negative dissipation rate");
+      if (!(branch.turn >= 0.0 && branch.turn <= kPi + kRate)) wrong("an angle beyond pi");
+      if (now.kind == IncrementKind::kStart &&
+          !(std::abs(std::cos(branch.turn) - direction_ * branch.load_rate) <= kRate))
+        wrong("the angle to the load is not the one of its load rate");
+      // A bifurcation lists the path itself before the one that crosses.
+      const bool first = k == 0 || (k == 1 && branches[0].turn == 0.0);
+      if (!first && branch.dissipation_rate > branches[k - 1].dissipation_rate + kRate)
+        wrong("dissipates more than the one before");
+      if (now.contacts.empty()) continue;
+      if (branch.states.size() != now.contacts.size()) {
+        wrong("the number of states is not that of the contacts");
+        continue;
+      }
+      for (std::size_t i = 0; i < branch.states.size(); ++i)
+        if (branch.states[i] != ContactState::kOpen && now.contacts[i].gap > kOpenGap * scaling_.length)
+          wrong("closes an open contact");
+    }
+  }
+
+  // The unit chord of an increment and the lengths that belong to it; nothing where that is too short or has no state.
+  struct Chord {
+    std::vector<double> motion;  // scaled, and the load factor last
+    double arc = 0.0;
+  };
+  std::optional<Chord> ChordOf(const Increment& from, const Increment& to) const {
+    if (from.positions.empty() || from.positions.size() != to.positions.size() || from.stage != to.stage)
+      return std::nullopt;
+    Chord chord;
+    chord.arc = to.arc_length - from.arc_length;
+    if (!(chord.arc > kShortest)) return std::nullopt;
+    double square = 0.0;
+    for (std::size_t i = 0; i < to.positions.size(); ++i)
+      chord.motion.push_back((to.positions[i] - from.positions[i]) / scaling_.length);
+    chord.motion.push_back((to.load_factor - from.load_factor) / scaling_.load_factor);
+    for (const double component : chord.motion) square += component * component;
+    for (double& component : chord.motion) component /= std::sqrt(square);
+    return chord;
+  }
+
+  // The first increment after this one that moves.
+  const Increment* Next() const {
+    for (std::size_t i = at_ + 1; i < increments_.size() && increments_[i].stage == increments_[at_].stage; ++i)
+      if (increments_[i].arc_length > increments_[at_].arc_length) return &increments_[i];
+    return nullptr;
+  }
+
+  void CheckTaken(const Increment& now) {
+    const EventRecord& event = now.event;
+    if (event.taken < 1 || event.taken > static_cast<int>(event.branches.size())) return;
+    const BranchChoice* const choice = ChoiceFor(now);
+    const int wanted = choice == nullptr ? 1 : std::max(choice->branch, 1);
+    if (event.taken != wanted) Report("branch ", event.taken, " is taken, but ", wanted, " is wanted");
+    const Increment* const next = Next();
+    if (next == nullptr) return;
+    const std::optional<Chord> after = ChordOf(now, *next);
+    if (!after) return;
+    const BranchRecord& taken = event.branches[static_cast<std::size_t>(event.taken) - 1];
+    const double reach = 2.0 * std::sin(0.5 * turn_) + kRate;
+    if (!(std::abs(taken.load_rate - after->motion.back()) <= reach))
+      Report("the branch taken has the load rate ", taken.load_rate, ", the increment after it ", after->motion.back());
+    double friction = 0.0, change = 0.0;
+    for (std::size_t i = 0; i < now.contacts.size() && i < next->contacts.size(); ++i) {
+      friction += std::abs(now.contacts[i].rt) / scaling_.force;
+      change += std::abs(next->contacts[i].rt - now.contacts[i].rt) / scaling_.force;
+    }
+    const double rate = (next->dissipation - now.dissipation) / (scaling_.force * scaling_.length) / after->arc;
+    if (!(std::abs(taken.dissipation_rate - rate) <=
+          reach * friction + change + kBend * after->arc * (1.0 + friction) + kRate))
+      Report("the branch taken has the dissipation rate ", taken.dissipation_rate, ", the increment after it ", rate);
+    if (at_ == 0 || now.kind == IncrementKind::kStart) return;
+    const std::optional<Chord> before = ChordOf(increments_[at_ - 1], now);
+    if (!before) return;
+    double cosine = 0.0;
+    for (std::size_t i = 0; i < after->motion.size(); ++i) cosine += before->motion[i] * after->motion[i];
+    const double angle = std::acos(std::clamp(cosine, -1.0, 1.0));
+    if (!(std::abs(taken.turn - angle) <= 2.0 * turn_ + kRate))
+      Report("the branch taken turns by ", taken.turn, ", the increments do by ", angle);
+  }
+
+  // Signs on arcs of method branch.
+  void CheckSigns(const Increment& now) {
+    if (!ByBranch() || at_ == 0 || now.kind == IncrementKind::kStart) return;
+    const Increment& before = increments_[at_ - 1];
+    const bool on_arc =
+        before.event.branches.empty() || (before.kind == IncrementKind::kBifurcation && before.event.taken == 1);
+    const bool goes_on = on_arc && before.stage == now.stage;
+    if (!goes_on || now.arc_length == before.arc_length) relation_ = 0;
+    const int sign = now.solve.determinant_sign;
+    if (goes_on && sign * before.solve.determinant_sign < 0)
+      Report("the determinant changes its sign, but there is no bifurcation");
+    const double change = now.load_factor - before.load_factor;
+    if (now.kind != IncrementKind::kRegular || std::abs(change) <= kLevel * scaling_.load_factor) return;
+    const int relation = sign * now.solve.stiffness_sign * (change > 0.0 ? 1 : -1);
+    if (relation == 0) return;
+    if (relation_ != 0 && relation != relation_)
+      Report("the sign of the stiffness is not that of the determinant and the load");
+    relation_ = relation;
+  }
+
+  const TraceRequest& request_;
+  const std::vector<Increment>& increments_;
+  const double turn_;  // of an increment, with a margin [rad]
+  Scaling scaling_;         // of the stage
+  double direction_ = 1.0;  // of the load at the start of the stage
+  int events_ = 0;          // numbered so far
+  int relation_ = 0;        // of the signs on this arc; 0: not known
+  std::size_t at_ = 0;      // being checked
+  std::vector<Finding>& findings_;
+};
+
+}  // namespace
+
+void VerifyEvents(const TraceRequest& request, const std::vector<Increment>& increments,
+                  std::vector<Finding>* findings) {
+  EventVerifier(request, increments, findings).Run();
+}
+
+}  // namespace contact_path

@@ -1,0 +1,160 @@
+#include "contact_path/branch/crossing.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "contact_path/path/model.h"
+#include "contact_path/verify/verify_path.h"
+#include "support/traced_path.h"
+
+namespace contact_path {
+namespace {
+
+// A von Mises truss, half span 1 and rise 3: under a load -s at its apex it sways to one side before it snaps.
+constexpr double kRise = 3.0;
+
+TraceRequest HighTruss(double sideways = 0.0) {
+  TraceRequest request;
+  Scene& scene = request.scene;
+  scene.name = "high_truss";
+  scene.nodes = {{"left", -1.0, 0.0, true, true}, {"apex", 0.0, kRise, false, false}, {"right", 1.0, 0.0, true, true}};
+  for (const char* foot : {"left", "right"}) {
+    Bar bar;
+    bar.nodes = {foot, "apex"};
+    bar.EA = 1.0;
+    scene.bars.push_back(bar);
+  }
+  scene.loads = {{"apex", sideways, -1.0, false}};
+  request.options.max_increments = 120;
+  return request;
+}
+
+// Horizontal equilibrium of the apex over EA: N / l of a Biot bar is EA (1/l_0 - 1/l).
+double Horizontal(double x, double y) {
+  const double rest = std::hypot(1.0, kRise), left = std::hypot(1.0 + x, y), right = std::hypot(1.0 - x, y);
+  return (1.0 + x) * (1.0 / rest - 1.0 / left) - (1.0 - x) * (1.0 / rest - 1.0 / right);
+}
+double Load(double x, double y) {
+  const double rest = std::hypot(1.0, kRise), left = std::hypot(1.0 + x, y), right = std::hypot(1.0 - x, y);
+  return -y * (2.0 / rest - 1.0 / left - 1.0 / right);
+}
+
+TracedPath Swaying(int branch) {
+  TraceRequest request = HighTruss();
+  request.options.branch_choices = {{1, 0, branch}};
+  return TraceIncrements(request);
+}
+
+// The increment at the first bifurcation: a limit point where the path leaves for the sway.
+const Increment& First(const TracedPath& path) {
+  for (const Increment& increment : path.increments)
+    if (increment.event.number == 1) return increment;
+  ADD_FAILURE() << "no event";
+  return path.increments[0];
+}
+
+TEST(Crossing, IsOnRecordInBothDirections) {
+  const TracedPath path = TraceIncrements(HighTruss());
+  const std::vector<Increment> crossings = IncrementsOfKind(path, IncrementKind::kBifurcation);
+  ASSERT_FALSE(crossings.empty());
+  const EventRecord& event = crossings[0].event;
+  EXPECT_EQ(event.number, 1);
+  EXPECT_EQ(event.taken, 1);
+  ASSERT_EQ(event.branches.size(), 3U);
+  EXPECT_EQ(event.branches[0].turn, 0.0);
+  EXPECT_GT(event.branches[0].load_rate, 0.0);
+  for (const std::size_t k : {1U, 2U}) {
+    EXPECT_NEAR(event.branches[k].load_rate, 0.0, 1e-7);
+    EXPECT_NEAR(event.branches[k].turn, std::acos(0.0), 1e-7);
+    EXPECT_EQ(event.branches[k].dissipation_rate, 0.0);
+  }
+  // The path itself stays straight.
+  for (const Increment& increment : path.increments) EXPECT_NEAR(PositionX(path, increment, "apex"), 0.0, 1e-9);
+}
+
+TEST(Crossing, IsTheSwayOfAHighTruss) {
+  for (const int branch : {2, 3}) {
+    const TracedPath path = Swaying(branch);
+    const Increment crossing = First(path);
+    EXPECT_EQ(crossing.event.taken, branch);
+    EXPECT_EQ(crossing.kind, IncrementKind::kCornerLimit);
+    double worst = 0.0, farthest = 0.0;
+    for (std::size_t i = static_cast<std::size_t>(crossing.index) + 1; i < path.increments.size(); ++i) {
+      const Increment& increment = path.increments[i];
+      const double x = PositionX(path, increment, "apex"), y = PositionY(path, increment, "apex");
+      EXPECT_GT(branch == 2 ? x : -x, 0.0) << i;
+      worst = std::max({worst, std::abs(Horizontal(x, y)), std::abs(increment.load_factor - Load(x, y))});
+      farthest = std::max(farthest, std::abs(x));
+    }
+    EXPECT_LE(worst, 1e-12);
+    EXPECT_GT(farthest, 0.3);
+    EXPECT_LE(EnergyImbalance(path), 1e-9);
+    for (const Finding& finding : VerifyPath(path.request, path.increments).findings)
+      ADD_FAILURE() << "increment " << finding.increment << ": " << finding.what;
+  }
+}
+
+TEST(Crossing, BothDirectionsAreMirrorImages) {
+  const TracedPath right = Swaying(2), left = Swaying(3);
+  ASSERT_EQ(right.increments.size(), left.increments.size());
+  for (std::size_t i = 0; i < right.increments.size(); ++i) {
+    const Increment &a = right.increments[i], &b = left.increments[i];
+    EXPECT_NEAR(PositionX(right, a, "apex"), -PositionX(left, b, "apex"), 1e-8);
+    EXPECT_NEAR(PositionY(right, a, "apex"), PositionY(left, b, "apex"), 1e-8);
+    EXPECT_NEAR(a.load_factor, b.load_factor, 1e-8);
+  }
+}
+
+// A load that is a little oblique follows the crossing path at a distance of its order.
+TEST(Crossing, IsWhereASmallImperfectionLeads) {
+  for (const double sideways : {1e-3, 1e-4}) {
+    const TracedPath path = TraceIncrements(HighTruss(sideways));
+    double worst = 0.0;
+    int seen = 0;
+    for (const Increment& increment : path.increments) {
+      const double x = PositionX(path, increment, "apex"), y = PositionY(path, increment, "apex");
+      if (x < 0.2 || x > 0.6) continue;
+      worst = std::max(worst, std::abs(increment.load_factor - Load(x, y)));
+      EXPECT_NEAR(Horizontal(x, y), sideways * increment.load_factor, 1e-9);
+      ++seen;
+    }
+    EXPECT_GT(seen, 5) << path.result.message;
+    EXPECT_LE(worst, 1e-12);
+  }
+}
+
+// The load along the crossing path is s_c + s'' h^2 / 2: its second derivative needs the third one of the equations.
+TEST(Crossing, HasTheSecondDerivativeOfThePath) {
+  const TracedPath path = Swaying(2);
+  const Model model(path.request.scene, CharacteristicScales(path.request.scene));
+  const Increment crossing = First(path);
+  FixedStateSystem system(model.structure, model.contacts);
+  system.SetStates({}, Eigen::VectorXd());
+  const auto at = static_cast<std::size_t>(crossing.index);
+  const Eigen::VectorXd x = system.Pack(model.FromIncrement(crossing));
+  const Eigen::VectorXd before = system.Pack(model.FromIncrement(path.increments[at - 1]));
+  Eigen::VectorXd tangent = x - before;
+  tangent.normalize();
+  tangent[0] = 0.0;
+  const std::optional<Crossing> found = FindCrossing(&system, before, x, tangent.normalized());
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->first[0], 1.0, 1e-6);
+  const Eigen::VectorXd next = system.Pack(model.FromIncrement(path.increments[at + 1]));
+  const double length = found->first.dot(next - x);
+  for (const Eigen::Index i : {1, 2})
+    EXPECT_NEAR(0.5 * found->second[i] * length * length, next[i] - x[i], 1e-2 * std::abs(next[i] - x[i]) + 1e-9);
+}
+
+TEST(Crossing, OfABranchThatIsNotThereEndsTheTrace) {
+  const TracedPath path = Swaying(4);
+  EXPECT_EQ(path.result.reason, EndReason::kNoSuchBranch);
+  EXPECT_NE(path.result.message.find("branch_choices wants branch 4 at event 1: the number of branches there is 3"),
+            std::string::npos)
+      << path.result.message;
+}
+
+}  // namespace
+}  // namespace contact_path

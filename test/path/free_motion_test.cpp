@@ -1,0 +1,86 @@
+#include "contact_path/path/free_motion.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "support/traced_path.h"
+
+namespace contact_path {
+namespace {
+
+constexpr double kForce = 1e-10;
+
+std::string Question(const TraceRequest& request) {
+  const Model model(request.scene, CharacteristicScales(request.scene));
+  return FreeMotionQuestion(model, model.InitialPoint(), kForce);
+}
+
+// The bar from a, pinned, to b on the floor can swing about a: only pressed on the floor would b be held.
+TEST(FreeMotion, OfABarAboutItsSupport) {
+  const TraceRequest request = ReadExample("sliding_bar");
+  const Model model(request.scene, CharacteristicScales(request.scene));
+  PathPoint point = model.InitialPoint();
+  EXPECT_EQ(FreeNodes(model, point, kForce), std::vector<int>{1});
+  EXPECT_EQ(FreeMotionText(model, point, kForce), "node b moves freely; b@floor touches");
+  point.rn[0] = 0.1;
+  EXPECT_TRUE(FreeNodes(model, point, kForce).empty());
+  EXPECT_EQ(FreeMotionText(model, point, kForce), "");
+  EXPECT_EQ(FreeMotionQuestion(model, point, kForce), "");
+}
+
+TEST(FreeMotion, AsksTheLikelyQuestion) {
+  TraceRequest request = ReadExample("sliding_bar");
+  EXPECT_EQ(Question(request),
+            "node b moves freely; b@floor touches: does the normal of floor point to the side where the node may be? "
+            "is a contact or a support missing?");
+  request.scene.contacts.clear();
+  EXPECT_EQ(Question(request), "node b moves freely: is a contact or a support missing?");
+  request.scene.nodes[0].fixed_x = request.scene.nodes[0].fixed_y = false;
+  EXPECT_EQ(Question(request), "nodes a, b move freely: is a contact or a support missing?");
+}
+
+// A chain of seven bars that hangs loose, beside a truss that does not move.
+TEST(FreeMotion, ListsFiveNodesAndCountsTheRest) {
+  TraceRequest request = ReadExample("von_mises");
+  std::string before = request.scene.nodes[0].name;
+  for (int i = 0; i < 7; ++i) {
+    const std::string name = "link" + std::to_string(i);
+    request.scene.nodes.push_back({name, -2.0 - i, 0.3 * (i % 2), false, false});
+    Bar bar;
+    bar.nodes = {before, name};
+    bar.EA = 1.0;
+    request.scene.bars.push_back(bar);
+    before = name;
+  }
+  EXPECT_EQ(Question(request),
+            "nodes link0, link1, link2, link3, link4 and 2 more move freely: is a contact or a support missing?");
+}
+
+// The three mistakes of a beginner, as the trace tells them.
+TEST(FreeMotion, IsToldWhereThePathEndsAtItsStart) {
+  TraceRequest reversed = ReadExample("sliding_bar"), forgotten = reversed, hanging = reversed;
+  reversed.scene.obstacles[0].ny = -1.0;
+  forgotten.scene.contacts.clear();
+  hanging.scene.nodes[0].fixed_x = hanging.scene.nodes[0].fixed_y = false;
+  for (const TraceRequest& request : {reversed, forgotten, hanging}) {
+    const TracedPath path = TraceIncrements(request);
+    EXPECT_EQ(path.result.reason, EndReason::kPathEnd);
+    EXPECT_NE(path.result.message.find(Question(request)), std::string::npos) << path.result.message;
+  }
+}
+
+// Above the floor, without a load.
+TEST(FreeMotion, IsToldWhereThePathWandersWithoutALoad) {
+  TraceRequest request = ReadExample("sliding_bar");
+  request.options.stop = {{"load_factor", ">", 7.0}};
+  request.options.max_increments = 150;
+  const TracedPath path = TraceIncrements(request);
+  EXPECT_EQ(path.result.reason, EndReason::kMaxIncrements);
+  EXPECT_EQ(path.result.message,
+            "the wanted number of increments was accepted; no stop criterion was met (load_factor > 7); without a "
+            "load, node b moves freely");
+}
+
+}  // namespace
+}  // namespace contact_path
