@@ -111,7 +111,7 @@ contact_path_add_long_test(branch random_paths_test)
 contact_path_add_stage(check residuals_test)
 contact_path_add_stage(path csv_test determinism_test diagnosis_test free_motion_test hard_scenes_test increment_test
   large_requests_test model_size_test model_test path_summary_test preload_test program_test progress_estimate_test
-  redistribution_test restored_states_test return_detector_test stop_test work_test)
+  redistribution_test restored_states_test return_detector_test singular_scenes_test stop_test work_test)
 contact_path_add_long_test(path invariance_test)
 contact_path_add_long_test(path mpec_cases_test)
 contact_path_add_long_test(path mpec_method_test)

@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 
+#include "contact_path/branch/plane_tangents.h"
 #include "contact_path/branch/rate_problem.h"
 #include "contact_path/branch/reaction_redistribution.h"
 #include "contact_path/equations/fixed_state_system.h"
@@ -23,12 +24,11 @@ constexpr double kReversedSingular = 1e-3;    // where the arrival is interpolat
 constexpr double kStartRate = 1e-13;          // of the load: a start along which it changes less is a mechanism
 constexpr double kGraze = 1e-12;              // depth to which an inequality may be broken next to the point: rounding
 constexpr double kSingularRank = 1e-6;  // rank tolerance where another path crosses: the point is known to about 1e-10
-constexpr Eigen::Index kMostDenseEquations = 500;  // for a dense singular value decomposition
-constexpr double kClearlyRegular = 1e-10;          // ratio of pivots: no null space but the tangent
-constexpr double kRigid = 1e-9;                    // singular value below which load and reactions do not change
-constexpr double kExcluded = 1e-6;        // of unit rates: broken by more, a combination is not looked at again
-constexpr double kFewCombinations = 8.0;  // not worth condensing the rate problem for
-constexpr double kMostCondensed = 5e7;    // numbers that may be held for that
+constexpr double kClearlyRegular = 1e-10;  // ratio of pivots: no null space but the tangent
+constexpr double kRigid = 1e-9;            // singular value below which load and reactions do not change
+constexpr double kExcluded = 1e-6;         // of unit rates: broken by more, a combination is not looked at again
+constexpr double kFewCombinations = 8.0;   // not worth condensing the rate problem for
+constexpr double kMostCondensed = 5e7;     // numbers that may be held for that
 constexpr std::size_t kMostCondensedContacts = 200;  // of more, dense equations take longer than the sparse ones of all
 constexpr int kMostRestarts = 64;                    // contacts, one after another in another state, to pivot from
 constexpr Eigen::Index kMostDofsForFurther = 300;    // beyond, further candidates are asked for if nothing else helps
@@ -85,11 +85,7 @@ class Finder {
   // Adds the branches with these states.
   void Try(const States& states, std::vector<Branch>* branches) {
     Eigen::VectorXd x;
-    const std::optional<Eigen::VectorXd> tangent = TangentOf(states, &x);
-    if (!tangent) return;
-    std::vector<Eigen::VectorXd> tangents = CrossingTangents(x);
-    if (tangents.empty()) tangents = {*tangent};
-    for (const Eigen::VectorXd& along : tangents) {
+    for (const Eigen::VectorXd& along : TangentsOf(states, &x)) {
       const Eigen::VectorXd second = Second(x, along);
       for (const double sign : {1.0, -1.0}) {
         const Eigen::VectorXd first = sign * along;
@@ -151,10 +147,10 @@ class Finder {
   std::optional<States> PivotWhole(States states, double sign) {
     for (int round = 0; round < kBlockPivots + kSinglePivots && !Cancelled(); ++round) {
       Eigen::VectorXd x;
-      const std::optional<Eigen::VectorXd> tangent = TangentOf(states, &x);
-      if (!tangent) return std::nullopt;
-      const double along = tangent->head(NumMotion()).dot(arrival_.direction);
-      const Eigen::VectorXd first = (along < 0.0 ? -sign : sign) * *tangent;
+      const std::vector<Eigen::VectorXd> tangents = TangentsOf(states, &x);
+      if (tangents.empty()) return std::nullopt;
+      const double along = tangents.front().head(NumMotion()).dot(arrival_.direction);
+      const Eigen::VectorXd first = (along < 0.0 ? -sign : sign) * tangents.front();
       bool changed = false;
       for (const Constraint& limit : system_.Inequalities()) {
         if (!IsActive(limit, x)) continue;
@@ -186,23 +182,37 @@ class Finder {
     return std::nullopt;
   }
 
-  std::optional<Eigen::VectorXd> TangentOf(const States& states, Eigen::VectorXd* x) {
+  // The tangents of the curves with these states, up to their sign; *x: the point.
+  std::vector<Eigen::VectorXd> TangentsOf(const States& states, Eigen::VectorXd* x) {
     system_.SetStates(states, reference_);
     *x = system_.Pack(point_);
+    mechanism_ = false;
+    rests_ = false;
+    regular_ = false;
     const Eigen::SparseMatrix<double>& transposed = system_.TransposedJacobian(*x);
     if (!arrival_.singular) {
       Eigen::VectorXd row = Eigen::VectorXd::Zero(system_.NumUnknowns());
       row.head(NumMotion()) = arrival_.direction;
       regular_ = lu_.FactorizeRegular(transposed, row, kClearlyRegular);
       if (regular_) {
-        mechanism_ = false;
         const Eigen::VectorXd tangent = lu_.Solve(Eigen::VectorXd::Zero(system_.NumEquations()), 1.0);
-        return Eigen::VectorXd(tangent / tangent.head(NumMotion()).norm());
+        return {tangent / tangent.head(NumMotion()).norm()};
       }
     }
     if (!solver_.Factorize(transposed, arrival_.singular ? kSingularRank : MinimumNormSolver::kRankTolerance))
-      return std::nullopt;
-    return Tangent();
+      return {};
+    const NullSpaceParts parts = PartsOfNullSpace();
+    const Eigen::MatrixXd& plane = arrival_.singular ? parts.moving : parts.proper;
+    if (plane.cols() == 2 && (arrival_.singular || parts.rigid.cols() == 0)) {
+      const PlaneTangents tangents = TangentsInPlane(&system_, *x, plane, solver_.LeftNullSpace());
+      if (tangents.determined) {
+        rests_ = !arrival_.singular;
+        return tangents.directions;
+      }
+      if (!arrival_.singular && TakesUpReactions(*x, plane)) return {};
+    }
+    const std::optional<Eigen::VectorXd> tangent = Tangent(parts);
+    return tangent ? std::vector<Eigen::VectorXd>{*tangent} : std::vector<Eigen::VectorXd>{};
   }
 
   // How the unknowns bend along the tangent.
@@ -211,38 +221,55 @@ class Finder {
     return regular_ ? lu_.Solve(right, 0.0) : solver_.Solve(right);
   }
 
-  // The direction of the arc: of the null space, what is neither a rigid mode (no change of load and reactions) nor a
-  // redundant reaction (no motion). A mechanism has rigid modes only: with one of them it moves in that mode, with more
-  // it is a mechanism, and the one nearest to the arrival stands for all.
-  std::optional<Eigen::VectorXd> Tangent() {
-    mechanism_ = false;
+  // The null vectors that move: rigid modes change neither the load factor nor a reaction, the proper ones do and have
+  // no share of the rigid modes.
+  struct NullSpaceParts {
+    Eigen::MatrixXd moving, rigid, proper;
+  };
+
+  NullSpaceParts PartsOfNullSpace() const {
     const Eigen::MatrixXd null_space = solver_.NullSpace();
-    const Eigen::Index motion = NumMotion();
-    Eigen::VectorXd tangent;
+    const Eigen::Index motion = NumMotion(), forces = system_.NumUnknowns() - motion + 1;
+    NullSpaceParts parts;
     if (null_space.cols() == 1) {
-      tangent = null_space.col(0);
-    } else {
-      const Eigen::MatrixXd moving = Split(null_space, 0, motion, false);
-      const Eigen::MatrixXd rigid = Split(moving, motion - 1, system_.NumUnknowns() - motion + 1, true);
-      Eigen::MatrixXd proper = Split(moving, motion - 1, system_.NumUnknowns() - motion + 1, false);
-      // Shortest motion: nothing of the rigid modes.
-      for (Eigen::Index k = 0; k < rigid.cols(); ++k) {
-        const Eigen::VectorXd mode = rigid.col(k).head(motion).normalized();
-        for (Eigen::Index j = 0; j < proper.cols(); ++j) {
-          Eigen::VectorXd column = proper.col(j);
-          column.head(motion) -= mode.dot(column.head(motion)) * mode;
-          proper.col(j) = column;
-        }
-      }
-      const Eigen::MatrixXd& candidates = proper.cols() > 0 ? proper : rigid;
-      if (candidates.cols() == 0) return std::nullopt;
-      mechanism_ = proper.cols() == 0 && rigid.cols() > 1;
-      if (proper.cols() == 0) rigid_modes_ = std::max(rigid_modes_, static_cast<int>(rigid.cols()));
-      if (candidates.cols() == 1)
-        tangent = candidates.col(0);
-      else
-        tangent = NearestToArrival(candidates);
+      parts.moving = parts.proper = null_space;
+      return parts;
     }
+    parts.moving = Split(null_space, 0, motion, false);
+    parts.rigid = Split(parts.moving, motion - 1, forces, true);
+    parts.proper = Split(parts.moving, motion - 1, forces, false);
+    for (Eigen::Index k = 0; k < parts.rigid.cols(); ++k) {
+      const Eigen::VectorXd mode = parts.rigid.col(k).head(motion).normalized();
+      for (Eigen::Index j = 0; j < parts.proper.cols(); ++j) {
+        Eigen::VectorXd column = parts.proper.col(j);
+        column.head(motion) -= mode.dot(column.head(motion)) * mode;
+        parts.proper.col(j) = column;
+      }
+    }
+    return parts;
+  }
+
+  // Whether directions of a plane of solutions give a reaction to a contact that has none. In a guide without clearance
+  // the wall that is not pressed has no reason to take up a reaction: the combination in which it is open has the
+  // direction in which it does not.
+  bool TakesUpReactions(const Eigen::VectorXd& x, const Eigen::MatrixXd& plane) const {
+    for (const Constraint& constraint : system_.Inequalities())
+      if (constraint.inequality == Inequality::kNormalReaction && IsActive(constraint, x))
+        for (Eigen::Index k = 0; k < plane.cols(); ++k)
+          if (std::abs(system_.Rate(constraint, x, plane.col(k))) > kRateTolerance) return true;
+    return false;
+  }
+
+  // The direction of the arc where the equations leave more than one. A mechanism has rigid modes only: with one of
+  // them it moves in that direction; with more, the direction nearest to the arrival stands for all of them.
+  std::optional<Eigen::VectorXd> Tangent(const NullSpaceParts& parts) {
+    const Eigen::Index motion = NumMotion();
+    const Eigen::MatrixXd& candidates = parts.proper.cols() > 0 ? parts.proper : parts.rigid;
+    if (candidates.cols() == 0) return std::nullopt;
+    mechanism_ = parts.proper.cols() == 0 && parts.rigid.cols() > 1;
+    if (parts.proper.cols() == 0) rigid_modes_ = std::max(rigid_modes_, static_cast<int>(parts.rigid.cols()));
+    Eigen::VectorXd tangent =
+        candidates.cols() == 1 ? Eigen::VectorXd(candidates.col(0)) : NearestToArrival(candidates);
     const double norm = tangent.head(motion).norm();
     if (!(norm > kRigid)) return std::nullopt;
     tangent /= norm;
@@ -255,29 +282,6 @@ class Finder {
     const SingularVectors s = RightSingularVectors(motions);
     const Eigen::VectorXd along = s.v.transpose() * (motions.transpose() * arrival_.direction);
     return candidates * (s.v * along.cwiseQuotient(s.values.cwiseAbs2()));
-  }
-
-  // Where two paths of the same states cross, the null space is a plane, and the tangents in it are the zeros of
-  // psi . F''(z, z), psi the left null vector of the Jacobian of F. Empty where there is no such crossing.
-  std::vector<Eigen::VectorXd> CrossingTangents(const Eigen::VectorXd& x) {
-    if (!arrival_.singular || system_.NumEquations() > kMostDenseEquations) return {};
-    const Eigen::MatrixXd plane = Split(solver_.NullSpace(), 0, NumMotion(), false);
-    if (plane.cols() != 2) return {};
-    const Eigen::MatrixXd transposed = system_.TransposedJacobian(x);
-    const Eigen::VectorXd psi = RightSingularVectors(transposed).v.rightCols<1>();
-    const auto form = [&](const Eigen::VectorXd& z) { return psi.dot(system_.SecondDerivative(x, z)); };
-    const double a = form(plane.col(0)), c = form(plane.col(1));
-    const double b = 0.5 * (form(plane.col(0) + plane.col(1)) - a - c);
-    // a y^2 + 2 b y z + c z^2 = 0
-    if (!(b * b > a * c)) return {};
-    const double q = -b - std::copysign(std::sqrt(b * b - a * c), b);
-    std::vector<Eigen::VectorXd> tangents;
-    for (const Eigen::Vector2d& zero : {Eigen::Vector2d(q, a), Eigen::Vector2d(c, q)}) {
-      Eigen::VectorXd tangent = plane * zero;
-      tangent /= tangent.head(NumMotion()).norm();
-      tangents.push_back(std::move(tangent));
-    }
-    return tangents;
   }
 
   bool Admissible(const Eigen::VectorXd& x, const Eigen::VectorXd& first, const Eigen::VectorXd& second) const {
@@ -331,12 +335,15 @@ class Finder {
     Branch branch;
     branch.states = system_.states();
     branch.mechanism = mechanism_;
+    branch.rests = rests_ || first.head(NumMotion() - 1).norm() <= kRateTolerance;
     branch.direction = first.head(NumMotion());
     branch.first = first;
     branch.second = second - first.head(NumMotion()).dot(second.head(NumMotion())) * first;
     branch.load_rate = first[NumMotion() - 1];
     branch.dissipation_rate = DissipationRate(branch.states, branch.direction);
-    branch.turn = std::acos(std::clamp(branch.direction.dot(arrival_.direction), -1.0, 1.0));
+    const double along = branch.direction.dot(arrival_.direction);
+    const double along_before = arrival_.before ? branch.direction.dot(*arrival_.before) : along;
+    branch.turn = std::acos(std::clamp(std::max(along, along_before), -1.0, 1.0));
     for (Branch& other : *branches) {
       if ((other.direction - branch.direction).norm() >= kSameDirection) continue;
       if (IdleSlips(branch) < IdleSlips(other)) other = std::move(branch);
@@ -357,6 +364,7 @@ class Finder {
   MinimumNormSolver solver_;  // elsewhere
   bool regular_ = false;      // which of them the last tangent is of
   bool mechanism_ = false;    // of the last tangent
+  bool rests_ = false;        // of the last tangents: see Branch::rests
   int rigid_modes_ = 0;       // most of all tangents that are rigid modes
 };
 

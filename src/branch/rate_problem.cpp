@@ -148,6 +148,8 @@ Eigen::VectorXd RateProblem::ShortestMember(const Eigen::MatrixXd& kernel) const
   while (proper < changes.values.size() && changes.values[proper] >= kMovesAbove) ++proper;
   if (proper < changes.values.size() && !(changes.values[proper] <= kNoChange)) return {};
   const Eigen::MatrixXd candidates = moving * (proper > 0 ? changes.v.leftCols(proper) : changes.v);
+  // Among several proper directions second derivatives choose, which are not condensed.
+  if (candidates.cols() > 1 && proper > 0) return {};
   if (candidates.cols() == 1) return candidates.col(0);
   return candidates * (candidates.transpose() * along_);  // nearest to the arrival
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "contact_path/branch/gauss_rule.h"
+#include "contact_path/branch/plane_tangents.h"
 
 namespace contact_path {
 namespace {
@@ -11,12 +12,15 @@ namespace {
 constexpr int kMaxIterations = 12;
 constexpr int kSingularIterations = 3;
 constexpr int kLinearisations = 8;
+constexpr double kRestingRank = 1e-9;     // rank tolerance while a part rests at its limit point, known to rounding
 constexpr double kSingularRank = 1e-6;    // rank tolerance where another path crosses
 constexpr double kStepTolerance = 1e-14;  // relative to 1 + |x|: rounding
 constexpr double kStagnation = 1e-10;     // relative: below this a step that no longer shrinks is rounding
 constexpr double kRounding = 1e-13;       // the same with factors of another point, which may be slow, too
 constexpr double kReuse = 1e-5;           // relative: below this step the factorisation is good enough to finish with
 constexpr double kSlow = 0.1;             // ratio of two steps beyond which that of another point is not
+constexpr double kSingularResidual = 1e-10;  // the same at a point that another path crosses, which is less exact
+constexpr double kNoBend = 1e-7;  // second derivative along a unit null vector: below, there is no limit point
 constexpr double kResidualTolerance = 1e-11;  // scaled, relative to 1 + the largest of load factor and reactions
 
 // The six quintic Hermite basis polynomials: value, first, second at the start, then at the end.
@@ -45,9 +49,10 @@ void EndDerivatives(const Step& step, Eigen::VectorXd* first, Eigen::VectorXd* s
 SmoothArc::SmoothArc(const Structure& structure, const ContactPairs& contacts)
     : contacts_(contacts), system_(structure, contacts) {}
 
-void SmoothArc::SetStates(const std::vector<ContactState>& states, const PathPoint& from) {
+void SmoothArc::SetStates(const std::vector<ContactState>& states, const PathPoint& from, bool rests) {
   system_.SetStates(states, SurfaceCoordinates(contacts_, from));
   at_hand_ = false;
+  rests_ = rests;
 }
 
 bool SmoothArc::Derivatives(const Eigen::VectorXd& x, const Eigen::VectorXd& towards, CurvePoint* point) {
@@ -58,15 +63,43 @@ bool SmoothArc::Derivatives(const Eigen::VectorXd& x, const Eigen::VectorXd& tow
   at_hand_ = solver_.Nullity() == 0;
   point->x = x;
   point->first = solver_.Solve(Eigen::VectorXd::Zero(system_.NumEquations()), 1.0);
+  if (solver_.Nullity() == 1) ChooseInPlane(x, towards, &point->first);
   const double norm = point->first.head(n).norm();
   if (!std::isfinite(norm) || norm == 0.0 || point->first.head(n).dot(towards) <= 0.0) return false;
   point->first /= norm;
   point->second = solver_.Solve(-system_.SecondDerivative(x, point->first), 0.0);
+  HoldLimitPoint(x, &point->second);
   point->second -= point->first.head(n).dot(point->second.head(n)) * point->first;
   point->nullity = solver_.Nullity();
   point->determinant_sign = solver_.DeterminantSign();
   point->pivot_sign = solver_.PivotSign();
   return point->second.allFinite();
+}
+
+void SmoothArc::ChooseInPlane(const Eigen::VectorXd& x, const Eigen::VectorXd& towards, Eigen::VectorXd* first) {
+  Eigen::MatrixXd plane(first->size(), 2);
+  plane << first->normalized(), solver_.NullSpace().col(0);
+  const PlaneTangents tangents =
+      TangentsInPlane(&system_, x, plane, solver_.LeftNullSpace().topRows(system_.NumEquations()));
+  double largest = 0.0;
+  for (const Eigen::VectorXd& direction : tangents.directions) {
+    const double along = direction.head(towards.size()).dot(towards);
+    if (std::abs(along) <= largest) continue;
+    largest = std::abs(along);
+    *first = direction / along;
+  }
+}
+
+void SmoothArc::HoldLimitPoint(const Eigen::VectorXd& x, Eigen::VectorXd* change) {
+  const double size = change->norm();
+  if (!rests_ || solver_.Nullity() != 1 || !(size > 0.0)) return;
+  const Eigen::VectorXd null_vector = solver_.NullSpace().col(0), unit = *change / size;
+  const Eigen::VectorXd psi = solver_.LeftNullSpace().col(0).head(system_.NumEquations()).normalized();
+  const auto form = [&](const Eigen::VectorXd& z) { return psi.dot(system_.SecondDerivative(x, z)); };
+  const double bend = form(null_vector);
+  if (std::abs(bend) < kNoBend) return;
+  const double mixed = 0.5 * (form(null_vector + unit) - bend - form(unit));
+  *change -= size * mixed / bend * null_vector;
 }
 
 Correction SmoothArc::Correct(const Eigen::VectorXd& guess, const Eigen::VectorXd& row, double value) {
@@ -100,6 +133,7 @@ Correction SmoothArc::Newton(const Eigen::VectorXd& guess, const Eigen::VectorXd
     if (factorise && !Factorize(result.x, row)) return result;
     residual_ = -residual_;
     solver_.Solve(residual_, value - row.dot(result.x), &step_length_);
+    HoldLimitPoint(result.x, &step_length_);
     const double norm = step_length_.norm(), scale = 1.0 + result.x.norm();
     if (!std::isfinite(norm)) return result;
     result.x += step_length_;
@@ -125,6 +159,7 @@ Correction SmoothArc::Newton(const Eigen::VectorXd& guess, const Eigen::VectorXd
 bool SmoothArc::Factorize(const Eigen::VectorXd& x, const Eigen::VectorXd& row, double rank_tolerance) {
   ++factorisations_;
   at_hand_ = false;
+  if (rests_ && rank_tolerance == 0.0) rank_tolerance = kRestingRank;
   return solver_.Factorize(system_.TransposedJacobian(x), row, rank_tolerance);
 }
 
@@ -148,6 +183,12 @@ Eigen::VectorXd SmoothArc::CorrectSingular(const Eigen::VectorXd& guess, const E
     x += solver_.Solve(-residual_, 0.0);
   }
   return x.allFinite() ? x : guess;
+}
+
+bool SmoothArc::IsOnCurve(const Eigen::VectorXd& x) {
+  system_.Residual(x, &residual_);
+  const double force = 1.0 + x.tail(x.size() - system_.NumDofs()).lpNorm<Eigen::Infinity>();
+  return residual_.lpNorm<Eigen::Infinity>() <= kSingularResidual * force;
 }
 
 Eigen::VectorXd SmoothArc::CrossingDirection(const Eigen::VectorXd& x, const Eigen::VectorXd& towards) {

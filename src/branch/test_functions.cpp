@@ -1,5 +1,6 @@
 #include "contact_path/branch/test_functions.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "contact_path/branch/polynomial.h"
@@ -14,10 +15,14 @@ constexpr double kRateZero = 1e-13;  // of a unit rate
 constexpr double kReach = 2.0;       // of the length of a step: wider gaps stay open on it
 constexpr int kNewtonIterations = 25;
 constexpr double kCoincident = 1e-5;  // relative to the step: a bifurcation this near to something else is one with it
+constexpr double kUnclear = 1e-4;     // the same: nearer than this, a shorter step tells whether they are one
 constexpr double kSlack = 1e-9;       // relative to the step: of the place of a located point
 constexpr double kSameDerivative = 1e-2;  // of unit tangents: more is the mark of singular equations
 constexpr int kBisections = 60;
 constexpr double kBifurcationWidth = 1e-10;  // relative to the step
+constexpr double kLeapWidth = 1e-4;          // relative to the step: width at which points of two curves are told apart
+constexpr double kLeap = 10.0;               // of that width: points of one curve are nearer to each other
+constexpr double kSmallestLeap = 1e-6;       // scaled length: what Newton's method may be off by next to a bifurcation
 
 Jet ValueAlong(const FixedStateSystem& system, const Constraint& constraint, const CurvePoint& point) {
   return system.ValueAlong(constraint, point.x, point.first, point.second);
@@ -53,7 +58,9 @@ std::optional<CurvePoint> LocateRate(SmoothArc* arc, const Step& step, double t,
   for (int i = 0; point && i < kNewtonIterations; ++i) {
     const Jet jet = along(*point);
     const double value = jet.first, slope = jet.second;
-    if (std::abs(value) <= kRateZero || std::abs(value) >= 0.5 * previous) return point;
+    if (std::abs(value) <= kRateZero) return point;
+    if (std::abs(value) >= 0.5 * previous)  // rounding, or there is no zero
+      return std::abs(value) <= kFlat ? point : std::nullopt;
     previous = std::abs(value);
     const double move = -value / slope;
     if (!(std::abs(move) <= step.length)) return std::nullopt;
@@ -64,16 +71,31 @@ std::optional<CurvePoint> LocateRate(SmoothArc* arc, const Step& step, double t,
   return point;
 }
 
-// Where the determinant changes its sign.
-double FindBifurcation(SmoothArc* arc, const Step& step) {
+struct Bracket {
+  double t = 0.0;  // middle
+  double width = 0.0;
+};
+
+// Where the determinant changes its sign; nothing where it does so because the ends of the step are on two curves. Next
+// to a bifurcation that a small imperfection has broken, a step may leap from one curve to the other.
+std::optional<Bracket> FindBifurcation(SmoothArc* arc, const Step& step) {
+  const Eigen::Index n = step.normal.size();
   double before = 0.0, beyond = step.length;
+  CurvePoint near_before = step.start, near_beyond = step.end;
+  bool same_curve = false;  // looked at once, where points are still more exact than they are apart
   for (int i = 0; i < kBisections && beyond - before > kBifurcationWidth * step.length; ++i) {
     const double t = 0.5 * (before + beyond);
     const std::optional<CurvePoint> point = PointAt(arc, step, t);
-    if (!point || point->pivot_sign == 0) return t;  // singular to the last bit: this is it
-    (point->pivot_sign == step.start.determinant_sign ? before : beyond) = t;
+    if (!point || point->pivot_sign == 0) return Bracket{t, beyond - before};  // singular to rounding
+    const bool is_before = point->pivot_sign == step.start.determinant_sign;
+    (is_before ? before : beyond) = t;
+    (is_before ? near_before : near_beyond) = *point;
+    const double width = beyond - before;
+    if (same_curve || width > kLeapWidth * step.length) continue;
+    if ((near_beyond.x - near_before.x).head(n).norm() > kLeap * width + kSmallestLeap) return std::nullopt;
+    same_curve = true;
   }
-  return 0.5 * (before + beyond);
+  return Bracket{0.5 * (before + beyond), beyond - before};
 }
 
 // Where the load factor first is `target` on (0, length]; nothing if it is not, or at the start.
@@ -125,11 +147,15 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, std::optional<double> tar
     if (t && *t > 0.0) consider(EventKind::kLimitPoint, *t, {});
   }
   if (step.start.determinant_sign * step.end.determinant_sign < 0) {
-    const double t = FindBifurcation(arc, step);
-    if (first.kind != EventKind::kNone && std::abs(t - first.t) <= width)
+    const std::optional<Bracket> bifurcation = FindBifurcation(arc, step);
+    if (!bifurcation) return {EventKind::kTooLong, 0.0, {}, false};
+    const double apart = std::abs(bifurcation->t - first.t), near = std::max(width, bifurcation->width);
+    if (first.kind != EventKind::kNone && apart > near && apart <= kUnclear * step.length)
+      return {EventKind::kTooLong, 0.0, {}, false};
+    if (first.kind != EventKind::kNone && apart <= near)
       first.singular = true;
-    else if (t < first.t)
-      first = {EventKind::kBifurcation, t, {}, true};
+    else if (bifurcation->t < first.t)
+      first = {EventKind::kBifurcation, bifurcation->t, {}, true};
   }
   // Whatever lies behind the target, however near, is not of this path.
   if (target)
@@ -144,6 +170,7 @@ std::optional<CurvePoint> Locate(SmoothArc* arc, const Step& step, const StepEve
     CurvePoint point = step.At(event.t);
     point.x = arc->CorrectSingular(point.x, step.normal);
     point.determinant_sign = 0;
+    if (!arc->IsOnCurve(point.x)) return std::nullopt;
     return point;
   }
   std::optional<CurvePoint> point = LocateRegular(arc, step, event, target.value_or(0.0));
@@ -160,6 +187,7 @@ std::optional<CurvePoint> LocateRegular(SmoothArc* arc, const Step& step, const 
   const FixedStateSystem& system = arc->system();
   switch (event.kind) {
     case EventKind::kNone: return step.end;
+    case EventKind::kTooLong: return std::nullopt;
     case EventKind::kNearTouch: return PointAt(arc, step, event.t);
     case EventKind::kBifurcation: return step.At(event.t);
     case EventKind::kLimitPoint:

@@ -169,6 +169,10 @@ void BorderedSolver::SolveAll(const Eigen::MatrixXd& B, Eigen::MatrixXd* x) cons
              &factors_->common);
 }
 
+Eigen::MatrixXd BorderedSolver::NullSpace() const { return factors_->minimum_norm.NullSpace(); }
+
+Eigen::MatrixXd BorderedSolver::LeftNullSpace() const { return factors_->minimum_norm.LeftNullSpace(); }
+
 Eigen::Index BorderedSolver::Nullity() const {
   return factors_->regular ? 0 : factors_->matrix.rows() - factors_->minimum_norm.Rank();
 }

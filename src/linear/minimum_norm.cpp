@@ -1,6 +1,7 @@
 #include "contact_path/linear/minimum_norm.h"
 
 #include <Eigen/SPQRSupport>
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <new>
@@ -46,6 +47,20 @@ class SparseQr : public Spqr {
     if (status == CHOLMOD_OUT_OF_MEMORY || status == CHOLMOD_TOO_LARGE) throw std::bad_alloc();
   }
 };
+constexpr double kFading = 1e-3;  // of the entries around: the norm of an equation counts as no less than that
+
+// For each equation the largest entry, in any equation, of the unknowns that it has.
+Eigen::VectorXd NormsAround(const Eigen::SparseMatrix<double>& transposed) {
+  Eigen::VectorXd of_unknown = Eigen::VectorXd::Zero(transposed.rows());
+  Eigen::VectorXd norms = Eigen::VectorXd::Zero(transposed.cols());
+  for (Eigen::Index column = 0; column < transposed.cols(); ++column)
+    for (Eigen::SparseMatrix<double>::InnerIterator it(transposed, column); it; ++it)
+      of_unknown[it.row()] = std::max(of_unknown[it.row()], std::abs(it.value()));
+  for (Eigen::Index column = 0; column < transposed.cols(); ++column)
+    for (Eigen::SparseMatrix<double>::InnerIterator it(transposed, column); it; ++it)
+      norms[column] = std::max(norms[column], of_unknown[it.row()]);
+  return norms;
+}
 
 }  // namespace
 
@@ -63,9 +78,11 @@ MinimumNormSolver::~MinimumNormSolver() = default;
 
 bool MinimumNormSolver::Factorize(const Eigen::SparseMatrix<double>& transposed, double rank_tolerance) {
   // Equations of unit norm: so that what is soft beside something stiff counts as much.
+  const Eigen::VectorXd floors =
+      rank_tolerance > kRankTolerance ? NormsAround(transposed) : Eigen::VectorXd::Zero(transposed.cols());
   Eigen::VectorXd norms(transposed.cols());
   for (Eigen::Index column = 0; column < transposed.cols(); ++column) {
-    const double norm = transposed.col(column).norm();
+    const double norm = std::max(transposed.col(column).norm(), kFading * floors[column]);
     norms[column] = norm == 0.0 ? 1.0 : norm;
   }
   return Factorize(transposed, norms, rank_tolerance);
@@ -131,6 +148,29 @@ Eigen::MatrixXd MinimumNormSolver::NullSpace() const {
 
 Eigen::VectorXd MinimumNormSolver::NullVector(Eigen::Index column) const {
   return factors_->qr->Multiply(Eigen::VectorXd::Unit(factors_->unknowns, factors_->rank + column));
+}
+
+Eigen::MatrixXd MinimumNormSolver::LeftNullSpace() const {
+  // A' E = Q [R1 R2]: R1 w + R2 v = 0 for each unit vector v, by backward substitution.
+  const Eigen::Index equations = factors_->r.cols(), rank = factors_->rank;
+  Eigen::MatrixXd basis(equations, equations - rank);
+  for (Eigen::Index k = 0; k < basis.cols(); ++k) {
+    Eigen::VectorXd w = Eigen::VectorXd::Zero(equations);
+    w[rank + k] = 1.0;
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(rank);
+    for (Spqr::MatrixType::InnerIterator it(factors_->r, rank + k); it; ++it)
+      if (it.row() < rank) right[it.row()] -= it.value();
+    for (Eigen::Index j = rank; j-- > 0;) {
+      double diagonal = 0.0;
+      for (Spqr::MatrixType::InnerIterator it(factors_->r, j); it; ++it)
+        if (it.row() == j) diagonal = it.value();
+      w[j] = right[j] / diagonal;
+      for (Spqr::MatrixType::InnerIterator it(factors_->r, j); it; ++it)
+        if (it.row() < j) right[it.row()] -= it.value() * w[j];
+    }
+    basis.col(k) = factors_->scale.cwiseProduct(factors_->qr->colsPermutation() * w);
+  }
+  return basis;
 }
 
 }  // namespace contact_path

@@ -89,7 +89,7 @@ const BranchChoice* BranchMethod::ChoiceForIncrement(int increment) const {
 }
 
 bool BranchMethod::Leave(const PathPoint& point, const Branch& branch) {
-  arc_.SetStates(branch.states, point);
+  arc_.SetStates(branch.states, point, branch.rests);
   const bool regular = arc_.Derivatives(arc_.system().Pack(point), branch.direction, &current_) &&
                        (current_.first - branch.first).norm() <= kSameTangent;
   if (regular) return true;
@@ -150,6 +150,10 @@ std::optional<EndReason> BranchMethod::PassEvent(const PathPoint& point, const A
     return EndReason::kPathEnd;
   }
   record->taken = static_cast<int>(taken) + 1;
+  if (!on.branches[taken].rests)
+    moved_.reset();
+  else if (!moved_ && !arrival.is_start)
+    moved_ = arrival.direction;
   begin_ = on.branches[taken].begin;
   if (!Leave(begin_ ? *begin_ : point, on.branches[taken])) {
     *message = "the branch from an event could not be followed";
@@ -376,7 +380,7 @@ Advance BranchMethod::Next(const PathPoint& from) {
       continue;
     }
     event = FirstEvent(&arc_, *step, options_.target);
-    // Locate what happens first; the exact point may show something earlier.
+      // Locate what happens first; the exact point may show something earlier.
     bool located = event.kind == EventKind::kNone;
     for (int attempt = 0; attempt < kLocatingAttempts && !located; ++attempt) {
       const std::optional<CurvePoint> point = Locate(&arc_, *step, event, options_.target);
@@ -459,6 +463,7 @@ Advance BranchMethod::Next(const PathPoint& from) {
     Arrival arrival;
     arrival.direction = end.first.head(arc_.NumMotion());
     arrival.singular = event.singular;
+    arrival.before = moved_;
     if (at_start_) arrival = StartArrival();
     if (event.kind == EventKind::kContactEvent) increment.event.number = ++events_;
     const BranchChoice* choice = forced != nullptr ? forced : ChoiceForEvent(events_);
@@ -473,6 +478,7 @@ Advance BranchMethod::Next(const PathPoint& from) {
     }
   } else if (event.kind == EventKind::kLimitPoint) {
     increment.kind = IncrementKind::kSmoothLimit;
+    if (event.singular) increment.event.null_vector = CrossingPath(*step);
   }
   // The next step: as long as wanted unless this one had to be shortened.
   step_length_ = std::min(options_.step, rejected > 0 ? 1.5 * length : 2.0 * step_length_);

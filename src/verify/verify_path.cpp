@@ -220,8 +220,12 @@ class Verifier {
     if (increment.kind != IncrementKind::kBifurcation && event != !increment.event.branches.empty())
       Report(event ? "an event without branches" : "branches, but no event");
     if (event && increment.event.taken == 0) Report("an event where no branch is taken");
-    if ((increment.kind == IncrementKind::kBifurcation) == increment.event.null_vector.empty())
-      Report("a bifurcation has a direction of the crossing path, and nothing else has");
+    // At a smooth limit point another path may cross too.
+    const bool crosses = !increment.event.null_vector.empty();
+    if (increment.kind == IncrementKind::kBifurcation && !crosses)
+      Report("a bifurcation without the direction of the crossing path");
+    if (crosses && increment.kind != IncrementKind::kBifurcation && increment.kind != IncrementKind::kSmoothLimit)
+      Report("the direction of a crossing path, but neither a bifurcation nor a limit point");
   }
 
   // Whether what happened since the last full increment is one arc of the path.

@@ -127,7 +127,7 @@ const Tampering kTamperings[] = {
      "an event without branches"},
     {"BifurcationInvented",
      [](auto& increments) { increments[FirstRegular(increments)].kind = IncrementKind::kBifurcation; },
-     "a bifurcation has a direction"},
+     "a bifurcation without the direction"},
     {"SaidToBeRegularised", [](auto& increments) { increments[5].solve.exact = false; }, "not exact"},
     {"DissipationFalls", [](auto& increments) { increments[FirstSlipping(increments)].dissipation = -1e-3; },
      "dissipation falls"},

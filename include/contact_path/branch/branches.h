@@ -22,9 +22,12 @@ struct Branch {
   Eigen::VectorXd second;
   double load_rate = 0.0;         // ds
   double dissipation_rate = 0.0;  // -r_t . du_t, >= 0
-  double turn = 0.0;              // angle to the direction of arrival [rad]
+  double turn = 0.0;              // angle to the direction of arrival, or to the one before if smaller [rad]
   bool mechanism = false;         // one of several motions without any change of load and reactions: not to be followed
-  bool has_mirror = false;        // another branch has exactly these rates: each would break a symmetry of the scene
+  // The whole structure, or a part of it that is at a limit point of its own, stands still while load and reactions go
+  // on.
+  bool rests = false;
+  bool has_mirror = false;         // another branch has exactly these rates: each would break a symmetry of the scene
   std::optional<PathPoint> begin;  // where the reactions have to change first while nothing moves: with the new ones
 };
 
@@ -33,6 +36,8 @@ struct Arrival {
   Eigen::VectorXd direction;  // (du, ds), unit vector; for a start: what is wanted, (0, +-1)
   bool is_start = false;      // then ds must have the wanted sign, and there is no branch of arrival
   bool singular = false;      // another path crosses here: nearly singular counts as singular
+  // After an arc that rests: the direction in which the path moved before that arc. To go on so is no turn either.
+  std::optional<Eigen::VectorXd> before;
 };
 
 struct BranchSet {

@@ -38,7 +38,9 @@ class SmoothArc {
   SmoothArc(const Structure& structure, const ContactPairs& contacts);
 
   // Fixes the states; stick and slip are measured from the tangential positions at `from`.
-  void SetStates(const std::vector<ContactState>& states, const PathPoint& from);
+  // rests: part of the structure stands still at a limit point of its own (Branch::rests), so that the equations are
+  // singular all along the arc.
+  void SetStates(const std::vector<ContactState>& states, const PathPoint& from, bool rests = false);
   const FixedStateSystem& system() const { return system_; }
   Eigen::Index NumMotion() const { return system_.NumDofs() + 1; }  // size of (u, s)
 
@@ -57,6 +59,8 @@ class SmoothArc {
   // The point of the curve nearest to guess, itself near, where another path crosses: nothing is moved along the null
   // vector.
   Eigen::VectorXd CorrectSingular(const Eigen::VectorXd& guess, const Eigen::VectorXd& normal);
+  // Whether the equations hold at x.
+  bool IsOnCurve(const Eigen::VectorXd& x);
   // Near a bifurcation: the direction of the crossing path, normal to the tangent `towards` in (u, s); |(u, s) part|
   // = 1. Zero where it cannot be told.
   Eigen::VectorXd CrossingDirection(const Eigen::VectorXd& x, const Eigen::VectorXd& towards);
@@ -72,6 +76,11 @@ class SmoothArc {
  private:
   // at_hand: with the factors that there are; gives up where they do not lead on fast.
   Correction Newton(const Eigen::VectorXd& guess, const Eigen::VectorXd& row, double value, bool at_hand);
+  // Where the Jacobian has a null plane with *first in it: puts the tangent that is nearest to `towards` into *first.
+  void ChooseInPlane(const Eigen::VectorXd& x, const Eigen::VectorXd& towards, Eigen::VectorXd* first);
+  // Takes from *change, a solution of the singular equations, what would move the part at rest off its limit point:
+  // with the null vectors n on the right, psi on the left, psi . F''(n, change) = 0.
+  void HoldLimitPoint(const Eigen::VectorXd& x, Eigen::VectorXd* change);
   // False if the matrix is not finite.
   bool Factorize(const Eigen::VectorXd& x, const Eigen::VectorXd& row, double rank_tolerance = 0.0);
 
@@ -79,6 +88,8 @@ class SmoothArc {
   FixedStateSystem system_;
   BorderedSolver solver_;
   bool at_hand_ = false;  // regular factors of a point of the curve with these states, the last row along the tangent
+  bool rests_ =
+      false;  // at the last Derivatives() of these states part of the structure was at a limit point of its own
   Eigen::VectorXd residual_, step_length_;
   int factorisations_ = 0;
 };

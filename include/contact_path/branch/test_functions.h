@@ -16,6 +16,7 @@ enum class EventKind {
   kTarget,        // the load factor comes to where the path is to end
   kLimitPoint,    // ds = 0
   kBifurcation,   // the bordered determinant changes its sign
+  kTooLong,       // a shorter step is needed: it leapt to another curve, or what coincides cannot be told
 };
 
 struct StepEvent {
@@ -32,6 +33,9 @@ struct StepEvent {
 // more than a twentieth of the difference between the quintic and the cubic interpolation at the middle of the step:
 // minima that come nearer to zero than that are reported as kNearTouch. A bifurcation shows by the sign of the
 // determinant at the ends, and is then found by bisection; two of them within one step are not seen.
+// Where the bisection comes upon two points that are farther apart than one curve could take them, the step has leapt
+// to another curve. A bifurcation that is next to another event, but not at its place to rounding, is looked at with a
+// shorter step.
 // target: load factor to end at, other than that of the start; nothing = none.
 StepEvent FirstEvent(SmoothArc* arc, const Step& step, std::optional<double> target = std::nullopt);
 

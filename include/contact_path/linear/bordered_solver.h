@@ -1,4 +1,4 @@
-// Linear systems of a smooth arc: the Jacobian of the fixed-state equations with one row added.
+// Linear systems of a smooth piece: the Jacobian of the fixed-state equations with one row added.
 #ifndef CONTACT_PATH_LINEAR_BORDERED_SOLVER_H_
 #define CONTACT_PATH_LINEAR_BORDERED_SOLVER_H_
 
@@ -34,6 +34,9 @@ class BorderedSolver {
   // Solves M x = (b, 0) for each column of B, where M is regular; *x: unknowns x columns.
   void SolveAll(const Eigen::MatrixXd& B, Eigen::MatrixXd* x) const;
 
+  // Of a singular M: bases of {x: M x = 0} and {y: M' y = 0}.
+  Eigen::MatrixXd NullSpace() const;
+  Eigen::MatrixXd LeftNullSpace() const;
   // unknowns - rank of M: 0 if regular.
   Eigen::Index Nullity() const;
   // Sign of the determinant of M; 0 if M is singular or not square.

@@ -20,6 +20,8 @@ class MinimumNormSolver {
   MinimumNormSolver(const MinimumNormSolver&) = delete;
   MinimumNormSolver& operator=(const MinimumNormSolver&) = delete;
 
+  // With a larger tolerance than that, an equation far below those around it, as across bars that become straight
+  // without stress, counts as dependent too.
   // transposed: A', unknowns x equations. False if it is not finite. Throws std::bad_alloc where there is not enough
   // memory, as all of the functions below, and LinearSolverError where the factorisation fails.
   bool Factorize(const Eigen::SparseMatrix<double>& transposed, double rank_tolerance = kRankTolerance);
@@ -35,6 +37,8 @@ class MinimumNormSolver {
   // How the equations depend on each other where one of them is too many: psi with A' psi = 0. The rank must be the
   // number of equations less 1.
   Eigen::VectorXd DependentEquations() const;
+  // Basis of {y: A' y = 0}, equations x (equations - rank): which combinations of equations say nothing.
+  Eigen::MatrixXd LeftNullSpace() const;
 
  private:
   struct Factors;

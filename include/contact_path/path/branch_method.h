@@ -89,6 +89,7 @@ class BranchMethod : public PathMethod {
   SmoothArc arc_;
   CurvePoint current_;
   std::optional<PathPoint> begin_;  // of the branch, where its reactions are not those of the event
+  std::optional<Eigen::VectorXd> moved_;  // while the path rests: the direction in which it moved before
   double step_length_;
   int increments_;                 // given so far, increment 0 not counted
   int events_;                     // passed so far, starts not counted

@@ -65,7 +65,7 @@ struct EventRecord {
   int weakly_active = 0;               // contacts that could change their state
   bool complete = true;                // false: too many combinations of states to try them all
   std::vector<double>
-      null_vector;  // bifurcation: direction of the crossing path, x0, y0, x1, ..., unit norm; else empty
+      null_vector;  // where another path crosses: its direction, x0, y0, x1, ..., unit norm; else empty
 };
 
 struct Increment {

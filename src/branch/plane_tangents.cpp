@@ -1,0 +1,66 @@
+#include "contact_path/branch/plane_tangents.h"
+
+#include <cmath>
+
+namespace contact_path {
+namespace {
+
+constexpr double kNoForm = 1e-7;      // of unit null vectors: a form that is smaller says nothing
+constexpr double kDoubleRoot = 1e-9;  // discriminant relative to the form's square: nearer to zero, it is zero
+constexpr double kOtherForm = 1e-5;   // value at a root, relative to the form: larger, the root is none of that form
+
+// a y^2 + 2 b y z + c z^2
+struct Form {
+  double a = 0.0, b = 0.0, c = 0.0;
+  double Size() const { return std::abs(a) + std::abs(b) + std::abs(c); }
+  double operator()(const Eigen::Vector2d& v) const {
+    return a * v[0] * v[0] + 2.0 * b * v[0] * v[1] + c * v[1] * v[1];
+  }
+};
+
+// Unit zeros of the form, up to their sign.
+std::vector<Eigen::Vector2d> Zeros(const Form& form) {
+  const auto& [a, b, c] = form;
+  const double discriminant = b * b - a * c;
+  if (std::abs(discriminant) <= kDoubleRoot * form.Size() * form.Size()) {
+    const Eigen::Vector2d zero = std::abs(a) >= std::abs(c) ? Eigen::Vector2d(-b, a) : Eigen::Vector2d(c, -b);
+    return {zero.normalized()};
+  }
+  if (discriminant < 0.0) return {};
+  const double q = -b - std::copysign(std::sqrt(discriminant), b);
+  return {Eigen::Vector2d(q, a).normalized(), Eigen::Vector2d(c, q).normalized()};
+}
+
+}  // namespace
+
+PlaneTangents TangentsInPlane(FixedStateSystem* system, const Eigen::VectorXd& x, const Eigen::MatrixXd& plane,
+                              const Eigen::MatrixXd& left) {
+  const Eigen::VectorXd first = system->SecondDerivative(x, plane.col(0));
+  const Eigen::VectorXd second = system->SecondDerivative(x, plane.col(1));
+  const Eigen::VectorXd sum = system->SecondDerivative(x, plane.col(0) + plane.col(1));
+  std::vector<Form> forms;
+  std::size_t largest = 0;
+  for (Eigen::Index k = 0; k < left.cols(); ++k) {
+    const Eigen::VectorXd psi = left.col(k).normalized();
+    Form form;
+    form.a = psi.dot(first);
+    form.c = psi.dot(second);
+    form.b = 0.5 * (psi.dot(sum) - form.a - form.c);
+    forms.push_back(form);
+    if (form.Size() > forms[largest].Size()) largest = forms.size() - 1;
+  }
+  PlaneTangents result;
+  if (forms.empty() || !(forms[largest].Size() > kNoForm)) return result;
+  result.determined = true;
+  const Eigen::Index motion = system->NumDofs() + 1;
+  for (const Eigen::Vector2d& zero : Zeros(forms[largest])) {
+    bool common = true;
+    for (const Form& form : forms) common = common && std::abs(form(zero)) <= kOtherForm * forms[largest].Size();
+    const Eigen::VectorXd direction = plane * zero;
+    const double norm = direction.head(motion).norm();
+    if (common && norm > 0.0) result.directions.emplace_back(direction / norm);
+  }
+  return result;
+}
+
+}  // namespace contact_path

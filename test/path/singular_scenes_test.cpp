@@ -1,0 +1,291 @@
+// Scenes whose fixed-state equations become singular: parts that rest at a limit point of their own, guides without
+// clearance, paths that cross or nearly do. Each is held against a closed form, or against itself for other steps.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "contact_path/scene/read_scene.h"
+#include "contact_path/verify/verify_path.h"
+#include "support/traced_path.h"
+
+namespace contact_path {
+namespace {
+
+constexpr Accuracy kPresets[] = {Accuracy::kFast, Accuracy::kBalanced, Accuracy::kAccurate};
+
+TraceRequest ReadData(const std::string& name) {
+  return ReadTraceRequestFile(std::string(CONTACT_PATH_TEST_DATA) + "/" + name + ".yaml");
+}
+
+// Sound, and proved by verify.
+TracedPath TraceProved(const TraceRequest& request) {
+  TracedPath path = TraceIncrements(request);
+  for (const Increment& increment : path.increments)
+    EXPECT_LE(increment.residuals.Largest(), 1e-9) << "increment " << increment.index;
+  for (const Finding& finding : VerifyPath(request, path.increments).findings)
+    ADD_FAILURE() << request.scene.name << ", increment " << finding.increment << ": " << finding.what;
+  return path;
+}
+
+TracedPath TraceData(const std::string& name, Accuracy accuracy) {
+  TraceRequest request = ReadData(name);
+  request.options.accuracy = accuracy;
+  request.options.max_increments = 4 * request.options.MaxIncrements();
+  return TraceProved(request);
+}
+
+std::vector<double> Loads(const TracedPath& path, IncrementKind kind) {
+  std::vector<double> loads;
+  for (const Increment& increment : IncrementsOfKind(path, kind)) loads.push_back(increment.load_factor);
+  return loads;
+}
+
+// Load factors of the first events.
+std::vector<double> EventLoads(const TracedPath& path, std::size_t most) {
+  std::vector<double> loads;
+  for (const Increment& increment : path.increments)
+    if (increment.event.number > 0 && loads.size() < most) loads.push_back(increment.load_factor);
+  return loads;
+}
+
+void ExpectNear(const std::vector<double>& a, const std::vector<double>& b, double tolerance) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], tolerance) << i;
+}
+
+// With the apex of the truss at x its load is P(x), the dragged end is at x - 1 + P(x) / 0.3, and s = P + 0.1 while
+// that end slides forth, P - 0.1 while it slides back. It turns where P' = sqrt(2) - 2 / l^3 = -0.3: nothing moves
+// there until friction has turned.
+TEST(SingularScenes, SnapBackWithFriction) {
+  const double turn = std::sqrt(std::pow(2.0 / (std::sqrt(2.0) + 0.3), 2.0 / 3.0) - 1.0);
+  const auto load = [](double x) {
+    const double l = std::hypot(2.0 - x, 1.0);
+    return 2.0 * (1.0 - l / std::sqrt(2.0)) * (2.0 - x) / l;
+  };
+  const auto end = [&](double x) { return x - 1.0 + load(x) / 0.3; };
+  const double first = 2.0 - turn, second = 2.0 + turn;
+  for (const Accuracy accuracy : kPresets) {
+    const TracedPath path = TraceData("drag_snapback", accuracy);
+    EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+    std::vector<ContactState> states;
+    for (const Increment& increment : path.increments) {
+      if (increment.index == 0) continue;
+      const ContactState state = increment.contacts[0].state;
+      if (states.empty() || states.back() != state) states.push_back(state);
+      const double x = PositionX(path, increment, "c"), p = load(x);
+      if (states.size() > 1) {
+        EXPECT_NEAR(PositionX(path, increment, "b"), end(x), 1e-9);
+      }
+      switch (states.size()) {
+        case 2: EXPECT_NEAR(increment.load_factor, p + 0.1, 1e-9); break;
+        case 3: EXPECT_NEAR(x, first, 1e-9); break;
+        case 4: EXPECT_NEAR(increment.load_factor, p - 0.1, 1e-9); break;
+        case 5: EXPECT_NEAR(x, second, 1e-9); break;
+        case 6: EXPECT_NEAR(increment.load_factor, p + 0.1, 1e-9); break;
+        default: EXPECT_NEAR(PositionX(path, increment, "b"), 0.0, 1e-12);
+      }
+    }
+    const std::vector<ContactState> wanted = {ContactState::kStick, ContactState::kSlipPlus,
+                                              ContactState::kStick, ContactState::kSlipMinus,
+                                              ContactState::kStick, ContactState::kSlipPlus};
+    EXPECT_EQ(states, wanted);
+    const std::vector<double> events = {0.1, load(first) + 0.1, load(first) - 0.1, load(second) - 0.1,
+                                        load(second) + 0.1};
+    ExpectNear(EventLoads(path, 9), events, 1e-10);
+    const double slid =
+        end(first) + (end(first) - end(second)) + (end(PositionX(path, path.increments.back(), "c")) - end(second));
+    EXPECT_NEAR(path.increments.back().dissipation, 0.1 * slid, 1e-7);
+  }
+}
+
+// The tie of two bars becomes straight without stress, where the end that slides would turn if the tie folded to the
+// other side. It goes on with the tie taut: s = 0.1 + (force of the bar) + (force of the tie).
+TEST(SingularScenes, SlackTieBecomesTaut) {
+  const double tie = 2.0 * std::hypot(0.5, 0.2);
+  for (const double step : {0.0, 0.003, 0.01, 0.05}) {
+    TraceRequest request = ReadData("slack_tie");
+    request.options.step = step;
+    request.options.max_increments = 3000;
+    const TracedPath path = TraceProved(request);
+    EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+    for (const Increment& increment : path.increments) {
+      const double b = PositionX(path, increment, "b");
+      const double taut = std::max(0.0, (1.0 - b) / tie - 1.0);
+      if (increment.contacts[0].state == ContactState::kSlipMinus) {
+        EXPECT_NEAR(increment.load_factor, 0.1 - 0.5 * b + taut, 1e-9);
+      }
+    }
+    EXPECT_LT(PositionX(path, path.increments.back(), "b"), 1.0 - tie);
+    EXPECT_NEAR(path.increments.back().dissipation, -0.1 * PositionX(path, path.increments.back(), "b"), 1e-9);
+  }
+}
+
+// The rest of the structure is at a limit point while n5 sticks, and the load acts on n5: friction turns at rest.
+TEST(SingularScenes, LoadOnTheNodeThatStopsSliding) {
+  for (const Accuracy accuracy : kPresets) {
+    const TracedPath path = TraceData("wrong_path_end", accuracy);
+    EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+    int at_rest = 0;
+    for (std::size_t i = 1; i < path.increments.size(); ++i) {
+      const Increment &before = path.increments[i - 1], &increment = path.increments[i];
+      if (increment.contacts[0].state != ContactState::kStick) continue;
+      ++at_rest;
+      for (std::size_t k = 0; k < increment.positions.size(); ++k)
+        EXPECT_NEAR(increment.positions[k], before.positions[k], 1e-12);
+    }
+    EXPECT_GE(at_rest, 2);
+    ExpectNear(EventLoads(path, 5), {0.007807830041, 0.3662055768, 0.118735902, 0.03472924716, 0.0491156351}, 1e-9);
+  }
+}
+
+// Both once ended where a contact stops sliding next to a smooth limit point.
+TEST(SingularScenes, PartsAtRestWhileOthersMove) {
+  for (const char* name : {"stall_333", "stall_354"}) {
+    std::vector<double> first;
+    for (const Accuracy accuracy : kPresets) {
+      const TracedPath path = TraceData(name, accuracy);
+      EXPECT_TRUE(path.result.reason == EndReason::kStopCriterion || path.result.reason == EndReason::kMaxIncrements)
+          << path.result.message;
+      const std::vector<double> loads = EventLoads(path, 6);
+      if (first.empty()) first = loads;
+      ExpectNear(loads, first, 1e-9);
+      EXPECT_EQ(loads.size(), 6U);
+    }
+  }
+}
+
+// b = (0, y): s = (1 - y) + (force of the bar to c along y). The smooth wall takes the rest along x.
+TEST(SingularScenes, GuideWithoutClearance) {
+  for (const Accuracy accuracy : kPresets) {
+    const TracedPath path = TraceData("slot", accuracy);
+    EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+    for (const Increment& increment : path.increments) {
+      const double y = PositionY(path, increment, "b"), l = std::hypot(1.0, y);
+      const double force = l / std::sqrt(2.0) - 1.0;
+      EXPECT_NEAR(PositionX(path, increment, "b"), 0.0, 1e-14);
+      EXPECT_NEAR(increment.load_factor, (1.0 - y) - force * y / l, 1e-12);
+      EXPECT_NEAR(Contact(path, increment, "b@smooth").rn, increment.load_factor - force / l, 1e-12);
+      EXPECT_EQ(Contact(path, increment, "b@rough").rn, 0.0);
+      EXPECT_EQ(Contact(path, increment, "b@rough").rt, 0.0);
+    }
+  }
+}
+
+TEST(SingularScenes, GuideWithoutClearanceForAnyStep) {
+  std::vector<double> first;
+  for (const double step : {0.02, 0.01, 0.05}) {
+    TraceRequest request = ReadData("slot_step_dependent");
+    request.options.step = step;
+    request.options.max_increments = 600;
+    const TracedPath path = TraceProved(request);
+    EXPECT_EQ(path.result.reason, EndReason::kMaxIncrements) << path.result.message;
+    const std::vector<double> loads = EventLoads(path, 4);
+    ASSERT_EQ(loads.size(), 4U);
+    if (first.empty()) first = loads;
+    ExpectNear(loads, first, 1e-9);
+    // One wall of the two carries.
+    for (const Increment& increment : path.increments)
+      EXPECT_LE(std::min(Contact(path, increment, "n1@o1").rn, Contact(path, increment, "n1@o2").rn), 1e-12);
+  }
+}
+
+// Perfect truss: sway begins where the stiffness across vanishes. The imperfect one leaves next to it.
+TEST(SingularScenes, HighTrussWithASmallImperfection) {
+  const double rest = std::sqrt(10.0);
+  const auto force = [&](double y) { return std::hypot(1.0, y) / rest - 1.0; };
+  const auto across = [&](double y) {
+    const double l = std::hypot(1.0, y);
+    return 1.0 / (rest * l * l) + force(y) * y * y / (l * l * l);
+  };
+  double low = 2.0, high = 3.0;
+  for (int i = 0; i < 100; ++i) (across(0.5 * (low + high)) < 0.0 ? low : high) = 0.5 * (low + high);
+  const double critical = -2.0 * force(low) * low / std::hypot(1.0, low);
+  std::vector<double> first;
+  for (const Accuracy accuracy : kPresets) {
+    const TracedPath path = TraceData("imperfect_truss", accuracy);
+    EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+    const std::vector<double> limits = Loads(path, IncrementKind::kSmoothLimit);
+    ASSERT_EQ(limits.size(), 1U);
+    EXPECT_NEAR(limits[0], critical, 1e-5 * critical);
+    EXPECT_LT(limits[0], critical);
+    if (first.empty()) first = limits;
+    EXPECT_NEAR(limits[0], first[0], 1e-10);
+  }
+}
+
+// The supports are off the line by 1e-9: the path turns onto the one along the line, on which s is known.
+TEST(SingularScenes, CrossingPathNextToALimitPoint) {
+  const double a = std::hypot(0.5, 1.0), b = std::hypot(1.5, 1.0);
+  for (const Accuracy accuracy : kPresets) {
+    const TracedPath path = TraceData("cross_numfail", accuracy);
+    EXPECT_EQ(path.result.reason, EndReason::kMaxIncrements) << path.result.message;
+    int along = 0;
+    for (const Increment& increment : path.increments) {
+      const double x = PositionX(path, increment, "n");
+      if (std::abs(PositionY(path, increment, "n")) > 1e-6) continue;
+      EXPECT_NEAR(increment.load_factor, (-x / a - 1.0) + ((1.0 - x) / b - 1.0), 1e-7);
+      ++along;
+    }
+    EXPECT_GE(along, 50);
+  }
+}
+
+// Limit point and crossing path at one point: the path goes on through the limit point, the other one is on record.
+TEST(SingularScenes, PathThatCrossesAtALimitPointIsOnRecord) {
+  const auto first_limit = [](const TracedPath& path) {
+    const std::vector<Increment> limits = IncrementsOfKind(path, IncrementKind::kSmoothLimit);
+    return limits.empty() ? Increment() : limits.front();
+  };
+  for (const Accuracy accuracy : kPresets) {
+    const TracedPath line = TraceData("cross_symmetry", accuracy);
+    const Increment limit = first_limit(line);
+    ASSERT_EQ(limit.event.null_vector.size(), 6U);
+    EXPECT_NEAR(PositionY(line, limit, "n"), 0.0, 1e-8);
+    EXPECT_NEAR(limit.event.null_vector[5], 0.0, 1e-6);  // along the line, s rises along it
+    EXPECT_GT(std::abs(limit.event.null_vector[4]), 0.1);
+    EXPECT_LT(PositionY(line, line.increments[static_cast<std::size_t>(limit.index) + 5], "n"), -0.01);
+  }
+}
+
+// Two trusses side by side, one stiffer by 1e-8: the softer one snaps, the other one goes back.
+TEST(SingularScenes, TwoTrussesNearlyEqual) {
+  const double limit = 2.0 * std::pow(1.0 - std::pow(0.5, 1.0 / 3.0), 1.5);
+  for (const Accuracy accuracy : kPresets) {
+    TraceRequest request = ReadData("two_nearly_equal");
+    request.options.accuracy = accuracy;
+    request.options.max_increments = accuracy == Accuracy::kAccurate ? 600 : 150;
+    const TracedPath path = TraceProved(request);
+    EXPECT_EQ(path.result.reason, EndReason::kMaxIncrements) << path.result.message;
+    const std::vector<double> limits = Loads(path, IncrementKind::kSmoothLimit);
+    ASSERT_GE(limits.size(), 1U);
+    EXPECT_NEAR(limits[0], limit, 1e-12);
+    double deepest = 0.0;
+    for (const Increment& increment : path.increments)
+      deepest = std::min(deepest, PositionY(path, increment, "n1") - PositionY(path, increment, "n0"));
+    EXPECT_LT(deepest, -0.1);
+  }
+}
+
+// Two halves that do not touch each other reach their limit loads together, symmetric for any step.
+TEST(SingularScenes, SymmetricHalvesAtTheirLimitPoints) {
+  for (const double step : {0.0, 0.01, 0.005, 0.002}) {
+    TraceRequest request = ReadData("sym_51");
+    request.options.step = step;
+    request.options.max_increments = 3000;
+    const TracedPath path = TraceProved(request);
+    EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+    ExpectNear(Loads(path, IncrementKind::kSmoothLimit), {0.05167840441, 0.05162508545}, 1e-10);
+    for (const Increment& increment : path.increments)
+      for (const char* node : {"n0", "n1", "n2"}) {
+        const std::string left = std::string(node) + "L", right = std::string(node) + "R";
+        EXPECT_NEAR(PositionX(path, increment, left), -PositionX(path, increment, right), 1e-6);
+        EXPECT_NEAR(PositionY(path, increment, left), PositionY(path, increment, right), 1e-6);
+      }
+  }
+}
+
+}  // namespace
+}  // namespace contact_path
