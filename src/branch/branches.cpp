@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 
+#include "contact_path/branch/branch_order.h"
 #include "contact_path/branch/plane_tangents.h"
 #include "contact_path/branch/rate_problem.h"
 #include "contact_path/branch/reaction_redistribution.h"
@@ -368,23 +369,6 @@ class Finder {
   int rigid_modes_ = 0;       // most of all tangents that are rigid modes
 };
 
-// Two branches with the same rates are images of each other under a symmetry of the scene, and break it.
-void FindMirrorBranches(std::vector<Branch>* branches) {
-  const auto same = [](double a, double b) { return std::abs(a - b) <= kRateTolerance; };
-  for (Branch& a : *branches)
-    for (Branch& b : *branches)
-      if (&a != &b && same(a.dissipation_rate, b.dissipation_rate) && same(a.load_rate, b.load_rate) &&
-          same(std::cos(a.turn), std::cos(b.turn)))
-        a.has_mirror = true;
-}
-
-bool Better(const Branch& a, const Branch& b) {
-  if (std::abs(a.dissipation_rate - b.dissipation_rate) > kRateTolerance)
-    return a.dissipation_rate > b.dissipation_rate;
-  if (a.has_mirror != b.has_mirror) return b.has_mirror;
-  return a.turn < b.turn - kRateTolerance;
-}
-
 // Every combination of the options: an odometer, the last contact turning fastest.
 void TryAll(const std::vector<States>& options, const RateProblem* condensed, Finder* finder, BranchSet* result) {
   States states;
@@ -517,8 +501,7 @@ BranchSet FindBranches(const Structure& structure, const ContactPairs& contacts,
       AddOthers(BranchesWithReactions(structure, contacts, begin, arrival, limit, further, cancelled), begin, &result);
     }
   }
-  FindMirrorBranches(&result.branches);
-  std::stable_sort(result.branches.begin(), result.branches.end(), Better);
+  SortBranches(point.states, &result.branches);
   return result;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 #include <memory>
 #include <new>
 #include <optional>
@@ -62,10 +63,18 @@ std::optional<Resumption> FindResumption(const std::vector<Increment>& increment
   std::optional<Resumption> last;
   const Increment* before = nullptr;
   int events = 0;
+  // Null directions of the arc before the last event. An arc with more of them, or on which no node moves, may rest,
+  // and the direction in which the path moved before such an arc is not on record.
+  int nullity = std::numeric_limits<int>::max();
   for (const Increment& increment : increments) {
     events = std::max(events, increment.event.number);
-    if (before != nullptr && CanGoOnFrom(*before, increment))
-      last = Resumption{&increments, before, &increment, events};
+    if (increment.kind == IncrementKind::kStart)
+      nullity = std::numeric_limits<int>::max();
+    else if (!increment.event.branches.empty())
+      nullity = increment.solve.nullity;
+    const bool rests =
+        before != nullptr && (increment.solve.nullity > nullity || increment.positions == before->positions);
+    if (before != nullptr && !rests && CanGoOnFrom(*before, increment)) last = Resumption{&increments, before, &increment, events};
     if (!increment.positions.empty()) before = &increment;
   }
   return last;

@@ -35,6 +35,13 @@ class MinimumNorm : public testing::Test {
     const Eigen::Index size = null_space.cols();
     EXPECT_LE((a * null_space).norm(), kRounding * (1.0 + a.norm()));
     EXPECT_LE((null_space.transpose() * null_space - Eigen::MatrixXd::Identity(size, size)).norm(), kRounding);
+    const Eigen::MatrixXd left = solver_.LeftNullSpace();
+    ASSERT_EQ(left.rows(), a.rows());
+    ASSERT_EQ(left.cols(), a.rows() - rank);
+    EXPECT_LE((left.transpose() * a).norm(), 10.0 * kRounding * (1.0 + left.norm() * a.norm()));
+    if (left.cols() > 0) {
+      EXPECT_GE(left.colwise().norm().minCoeff(), 1e-3);
+    }
   }
 
   MinimumNormSolver solver_;

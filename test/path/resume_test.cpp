@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "contact_path/scene/read_scene.h"
 #include "contact_path/verify/verify_path.h"
 #include "support/traced_path.h"
 
@@ -64,6 +65,19 @@ TEST(Resume, FromAnyRowOfAnyExampleByBranch) {
     }
     for (const Finding& finding : VerifyPath(request, Resume(request, whole.increments).increments).findings)
       ADD_FAILURE() << name << ", increment " << finding.increment << ": " << finding.what;
+  }
+}
+
+// From each increment of a smooth path, and of one that rests while load and reactions change.
+TEST(Resume, ToRounding) {
+  for (const char* name : {"resume", "drag_snapback", "stall_333"}) {
+    const TraceRequest request = ReadTraceRequestFile(std::string(CONTACT_PATH_TEST_DATA) + "/" + name + ".yaml");
+    const TracedPath whole = TraceIncrements(request);
+    for (std::size_t cut = 1; cut <= whole.increments.size(); ++cut) {
+      const std::vector<Increment> increments(whole.increments.begin(),
+                                              whole.increments.begin() + static_cast<std::ptrdiff_t>(cut));
+      ExpectSamePath(whole, Resume(request, increments), 1e-11, std::string(name) + " after " + std::to_string(cut));
+    }
   }
 }
 

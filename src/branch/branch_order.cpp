@@ -1,0 +1,82 @@
+#include "contact_path/branch/branch_order.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <iterator>
+#include <utility>
+
+namespace contact_path {
+namespace {
+
+constexpr double kSameRate = 1e-9;  // of unit rates
+constexpr double kSameTurn = 1e-7;  // [rad]; an angle is known to the root of rounding where it is 0
+
+using Iterator = std::vector<Branch>::iterator;
+
+// Two branches with the same rates are images of each other under a symmetry of the scene, and break it.
+void MarkMirrorBranches(std::vector<Branch>* branches) {
+  const auto same = [](double a, double b) { return std::abs(a - b) <= kSameRate; };
+  for (Branch& a : *branches)
+    for (const Branch& b : *branches)
+      if (&a != &b && same(a.dissipation_rate, b.dissipation_rate) && same(a.load_rate, b.load_rate) &&
+          same(std::cos(a.turn), std::cos(b.turn)))
+        a.has_mirror = true;
+}
+
+// The state of arrival comes first.
+int Rank(ContactState state, ContactState arrival) {
+  if (state == arrival) return 0;
+  switch (state) {
+    case ContactState::kClosed: return 1;
+    case ContactState::kStick: return 2;
+    case ContactState::kSlipPlus: return 3;
+    case ContactState::kSlipMinus: return 4;
+    case ContactState::kOpen: return 5;
+  }
+  return 6;
+}
+
+// Exact, and of any two branches with different states or directions.
+bool Before(const std::vector<ContactState>& arrival, const Branch& a, const Branch& b) {
+  for (std::size_t i = 0; i < arrival.size(); ++i)
+    if (a.states[i] != b.states[i]) return Rank(a.states[i], arrival[i]) < Rank(b.states[i], arrival[i]);
+  if (a.begin.has_value() != b.begin.has_value()) return b.begin.has_value();
+  return std::lexicographical_compare(b.direction.data(), b.direction.data() + b.direction.size(), a.direction.data(),
+                                      a.direction.data() + a.direction.size());
+}
+
+// Sorts by `value`, ascending, and calls `each` for every group of values without a gap larger than `gap`.
+void ForEachGroup(Iterator begin, Iterator end, double gap, const std::function<double(const Branch&)>& value,
+                  const std::function<void(Iterator, Iterator)>& each) {
+  std::sort(begin, end, [&](const Branch& a, const Branch& b) { return value(a) < value(b); });
+  while (begin != end) {
+    Iterator last = begin;
+    while (std::next(last) != end && value(*std::next(last)) - value(*last) <= gap) ++last;
+    each(begin, std::next(last));
+    begin = std::next(last);
+  }
+}
+
+}  // namespace
+
+void SortBranches(const std::vector<ContactState>& arrival, std::vector<Branch>* branches) {
+  MarkMirrorBranches(branches);
+  const auto by_turn = [&](Iterator from, Iterator to) {
+    ForEachGroup(
+        from, to, kSameTurn, [](const Branch& branch) { return branch.turn; },
+        [&](Iterator begin, Iterator end) {
+          std::sort(begin, end, [&](const Branch& a, const Branch& b) { return Before(arrival, a, b); });
+        });
+  };
+  ForEachGroup(
+      branches->begin(), branches->end(), kSameRate, [](const Branch& branch) { return -branch.dissipation_rate; },
+      [&](Iterator begin, Iterator end) {
+        const Iterator mirrors = std::partition(begin, end, [](const Branch& branch) { return !branch.has_mirror; });
+        by_turn(begin, mirrors);
+        by_turn(mirrors, end);
+      });
+}
+
+}  // namespace contact_path

@@ -1,0 +1,76 @@
+#include "contact_path/branch/branch_order.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+namespace contact_path {
+namespace {
+
+constexpr ContactState kOpen = ContactState::kOpen, kStick = ContactState::kStick, kSlip = ContactState::kSlipPlus;
+
+Branch Make(std::vector<ContactState> states, double dissipation, double load, double turn, double first = 1.0) {
+  Branch branch;
+  branch.states = std::move(states);
+  branch.dissipation_rate = dissipation;
+  branch.load_rate = load;
+  branch.turn = turn;
+  branch.direction = Eigen::Vector2d(first, load);
+  return branch;
+}
+
+// The load rates, which name the branches.
+std::vector<double> Sorted(std::vector<Branch> branches, const std::vector<ContactState>& arrival) {
+  SortBranches(arrival, &branches);
+  std::vector<double> names;
+  for (const Branch& branch : branches) names.push_back(branch.load_rate);
+  return names;
+}
+
+// All orders of up to five branches.
+void ExpectOrder(const std::vector<Branch>& branches, const std::vector<ContactState>& arrival,
+                 const std::vector<double>& wanted) {
+  std::vector<std::size_t> order(branches.size());
+  std::iota(order.begin(), order.end(), 0U);
+  do {
+    std::vector<Branch> given;
+    for (const std::size_t i : order) given.push_back(branches[i]);
+    EXPECT_EQ(Sorted(given, arrival), wanted);
+  } while (std::next_permutation(order.begin(), order.end()));
+}
+
+TEST(BranchOrder, DissipationThenTurn) {
+  ExpectOrder({Make({kSlip}, 0.1, 1.0, 2.0), Make({kSlip}, 0.3, 2.0, 3.0), Make({kStick}, 0.1, 3.0, 1.0)}, {kSlip},
+              {2.0, 3.0, 1.0});
+}
+
+TEST(BranchOrder, OfEqualDissipationOneWithoutMirror) {
+  ExpectOrder({Make({kSlip}, 0.1, 0.5, 0.2, 1.0), Make({kOpen}, 0.1, 0.5, 0.2, -1.0), Make({kStick}, 0.1, 0.7, 1.0)},
+              {kSlip}, {0.7, 0.5, 0.5});
+}
+
+// Rates 0, 0.6e-9 and 1.2e-9: a comparison with a tolerance of 1e-9 calls neighbours equal but not the ends, and what
+// comes first would depend on the order.
+TEST(BranchOrder, ChainOfNearlyEqualRates) {
+  ExpectOrder({Make({kSlip}, 0.0, 1.0, 0.1), Make({kStick}, 0.6e-9, 2.0, 0.2), Make({kOpen}, 1.2e-9, 3.0, 0.3)},
+              {kSlip}, {1.0, 2.0, 3.0});
+  ExpectOrder({Make({kSlip}, 0.0, 1.0, 0.3), Make({kStick}, 0.6e-9, 2.0, 0.2), Make({kOpen}, 1.2e-9, 3.0, 0.1)},
+              {kSlip}, {3.0, 2.0, 1.0});
+}
+
+TEST(BranchOrder, AnglesAreKnownToTheRootOfRounding) {
+  ExpectOrder({Make({kStick}, 0.0, 1.0, 0.0), Make({kSlip}, 0.0, 2.0, 1.5e-8)}, {kSlip}, {2.0, 1.0});
+}
+
+TEST(BranchOrder, TheStatesOfArrivalComeFirst) {
+  ExpectOrder(
+      {Make({kStick, kOpen}, 0.0, 1.0, 0.1), Make({kOpen, kStick}, 0.0, 2.0, 0.1), Make({kOpen, kSlip}, 0.0, 3.0, 0.1)},
+      {kOpen, kStick}, {2.0, 3.0, 1.0});
+  ExpectOrder({Make({kStick}, 0.0, 1.0, 0.1, 0.5), Make({kStick}, 0.0, -1.0, 0.1, -0.5)}, {kStick}, {1.0, -1.0});
+}
+
+}  // namespace
+}  // namespace contact_path
