@@ -210,8 +210,8 @@ class Finder {
         rests_ = !arrival_.singular;
         return tangents.directions;
       }
-      if (!arrival_.singular && TakesUpReactions(*x, plane)) return {};
     }
+    if (!arrival_.singular && parts.proper.cols() > 1 && TakesUpReactions(*x, parts.proper)) return {};
     const std::optional<Eigen::VectorXd> tangent = Tangent(parts);
     return tangent ? std::vector<Eigen::VectorXd>{*tangent} : std::vector<Eigen::VectorXd>{};
   }
@@ -250,14 +250,14 @@ class Finder {
     return parts;
   }
 
-  // Whether directions of a plane of solutions give a reaction to a contact that has none. In a guide without clearance
-  // the wall that is not pressed has no reason to take up a reaction: the combination in which it is open has the
-  // direction in which it does not.
-  bool TakesUpReactions(const Eigen::VectorXd& x, const Eigen::MatrixXd& plane) const {
+  // Whether directions of a surface of solutions give a reaction to a contact that has none. In a guide without
+  // clearance the wall that is not pressed has no reason to take up a reaction: the combination in which it is open has
+  // the direction in which it does not.
+  bool TakesUpReactions(const Eigen::VectorXd& x, const Eigen::MatrixXd& directions) const {
     for (const Constraint& constraint : system_.Inequalities())
       if (constraint.inequality == Inequality::kNormalReaction && IsActive(constraint, x))
-        for (Eigen::Index k = 0; k < plane.cols(); ++k)
-          if (std::abs(system_.Rate(constraint, x, plane.col(k))) > kRateTolerance) return true;
+        for (Eigen::Index k = 0; k < directions.cols(); ++k)
+          if (std::abs(system_.Rate(constraint, x, directions.col(k))) > kRateTolerance) return true;
     return false;
   }
 

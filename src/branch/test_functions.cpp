@@ -22,7 +22,8 @@ constexpr int kBisections = 60;
 constexpr double kBifurcationWidth = 1e-10;  // relative to the step
 constexpr double kLeapWidth = 1e-4;          // relative to the step: width at which points of two curves are told apart
 constexpr double kLeap = 10.0;               // of that width: points of one curve are nearer to each other
-constexpr double kSmallestLeap = 1e-6;       // scaled length: what Newton's method may be off by next to a bifurcation
+constexpr double kNoise = 1e-13;             // over the distance to a bifurcation: how exact points there are (scaled)
+constexpr double kNarrowest = 1e-9;          // scaled width below which rounding hides whether points are of one curve
 
 Jet ValueAlong(const FixedStateSystem& system, const Constraint& constraint, const CurvePoint& point) {
   return system.ValueAlong(constraint, point.x, point.first, point.second);
@@ -82,7 +83,6 @@ std::optional<Bracket> FindBifurcation(SmoothArc* arc, const Step& step) {
   const Eigen::Index n = step.normal.size();
   double before = 0.0, beyond = step.length;
   CurvePoint near_before = step.start, near_beyond = step.end;
-  bool same_curve = false;  // looked at once, where points are still more exact than they are apart
   for (int i = 0; i < kBisections && beyond - before > kBifurcationWidth * step.length; ++i) {
     const double t = 0.5 * (before + beyond);
     const std::optional<CurvePoint> point = PointAt(arc, step, t);
@@ -91,9 +91,9 @@ std::optional<Bracket> FindBifurcation(SmoothArc* arc, const Step& step) {
     (is_before ? before : beyond) = t;
     (is_before ? near_before : near_beyond) = *point;
     const double width = beyond - before;
-    if (same_curve || width > kLeapWidth * step.length) continue;
-    if ((near_beyond.x - near_before.x).head(n).norm() > kLeap * width + kSmallestLeap) return std::nullopt;
-    same_curve = true;
+    if (width > kLeapWidth * step.length || width < kNarrowest) continue;
+    const double apart = (near_beyond.x - near_before.x).head(n).norm();
+    if (apart > kLeap * width + kNoise / width) return std::nullopt;
   }
   return Bracket{0.5 * (before + beyond), beyond - before};
 }

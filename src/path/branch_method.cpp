@@ -12,13 +12,14 @@
 namespace contact_path {
 namespace {
 
-constexpr double kAccepted = 1e-9;       // residuals of an accepted increment
-constexpr double kNoMove = 1e-12;        // an event nearer than this to the last one happens in place
-constexpr double kRounding = 1e-12;      // of a Newton step
-constexpr int kMostEventsInPlace = 8;    // then the contacts chatter, and no branch is trusted
-constexpr double kLevel = 1e-9;          // of a unit rate: the load neither rises nor falls
-constexpr double kLevelSingular = 1e-6;  // where the rate is not exact
-constexpr double kSameTangent = 1e-6;    // difference of unit tangents
+constexpr double kAccepted = 1e-9;                 // residuals of an accepted increment
+constexpr double kNoMove = 1e-12;                  // an event nearer than this to the last one happens in place
+constexpr double kRounding = 1e-12;                // of a Newton step
+constexpr int kMostEventsInPlace = 8;              // then the contacts chatter, and no branch is trusted
+constexpr double kLevel = 1e-9;                    // of a unit rate: the load neither rises nor falls
+constexpr double kLevelSingular = 1e-6;            // where the rate is not exact
+constexpr double kSameTangent = 1e-6;              // difference of unit tangents
+constexpr double kPredictionAfterSingular = 0.05;  // largest error of the predictor there, where no smaller one is met
 constexpr double kAfterSingular = 0.05;  // of the step: derivatives at a singular point are not exact to second order
 constexpr int kLocatingAttempts = 6;
 constexpr double kNearBifurcation = 1e-6;  // of a step
@@ -169,9 +170,9 @@ std::size_t BranchMethod::BestThatLoads(const std::vector<Branch>& branches) con
   return best == branches.end() ? 0 : static_cast<std::size_t>(best - branches.begin());
 }
 
-std::optional<Step> BranchMethod::TryStep(double length) {
+std::optional<Step> BranchMethod::TryStep(double length, double prediction) {
   const Eigen::VectorXd normal = current_.first.head(arc_.NumMotion());
-  const double tolerance = options_.prediction * length;
+  const double tolerance = prediction * length;
   const Eigen::VectorXd straight = current_.x + length * current_.first;
   const Eigen::VectorXd bend = 0.5 * length * length * current_.second;
   const auto good = [&](const Correction& correction) {
@@ -365,8 +366,13 @@ Advance BranchMethod::Next(const PathPoint& from) {
   int rejected = 0;
   std::optional<Step> step;
   StepEvent event;
-  double length = step_length_;
+  double length = step_length_, prediction = options_.prediction;
   for (;; ++rejected) {
+    if (length < options_.smallest_step && after_singular_ && prediction == options_.prediction) {
+      // The point at which another path crosses is as inexact as rounding of the forces, taken across both, may be.
+      prediction = kPredictionAfterSingular;
+      length = step_length_;
+    }
     if (length < options_.smallest_step) {
       advance.reason = EndReason::kStepTooSmall;
       advance.message = "no increment could be accepted, however short: Newton's method does not stay on the branch";
@@ -374,13 +380,13 @@ Advance BranchMethod::Next(const PathPoint& from) {
       if (!bar.empty()) advance.message += "; " + bar;
       return advance;
     }
-    step = TryStep(length);
+    step = TryStep(length, prediction);
     if (!step) {
       length *= 0.5;
       continue;
     }
     event = FirstEvent(&arc_, *step, options_.target);
-      // Locate what happens first; the exact point may show something earlier.
+    // Locate what happens first; the exact point may show something earlier.
     bool located = event.kind == EventKind::kNone;
     for (int attempt = 0; attempt < kLocatingAttempts && !located; ++attempt) {
       const std::optional<CurvePoint> point = Locate(&arc_, *step, event, options_.target);
@@ -482,7 +488,8 @@ Advance BranchMethod::Next(const PathPoint& from) {
   }
   // The next step: as long as wanted unless this one had to be shortened.
   step_length_ = std::min(options_.step, rejected > 0 ? 1.5 * length : 2.0 * step_length_);
-  if (event.singular) step_length_ *= kAfterSingular;
+  after_singular_ = event.singular;
+  if (after_singular_) step_length_ *= kAfterSingular;
   increment.solve.next_step = step_length_;
   increment.solve.factorisations = arc_.factorisations() - factorisations_before;
   advance.increments.push_back(std::move(increment));

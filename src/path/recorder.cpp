@@ -13,8 +13,10 @@ bool TurnsBackByChoice(const EventRecord& event, double change) {
   if (event.taken != 1) return false;
   const double sign = change > 0.0 ? 1.0 : -1.0;
   return event.branches[0].load_rate * sign < -kLevel &&
-         std::any_of(event.branches.begin(), event.branches.end(),
-                     [&](const BranchRecord& branch) { return branch.load_rate * sign > kLevel; });
+         std::any_of(event.branches.begin(), event.branches.end(), [&](const BranchRecord& branch) {
+           return branch.load_rate * sign > kLevel &&
+                  branch.dissipation_rate < event.branches[0].dissipation_rate - kLevel;
+         });
 }
 
 }  // namespace

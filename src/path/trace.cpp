@@ -74,7 +74,8 @@ std::optional<Resumption> FindResumption(const std::vector<Increment>& increment
       nullity = increment.solve.nullity;
     const bool rests =
         before != nullptr && (increment.solve.nullity > nullity || increment.positions == before->positions);
-    if (before != nullptr && !rests && CanGoOnFrom(*before, increment)) last = Resumption{&increments, before, &increment, events};
+    if (before != nullptr && !rests && CanGoOnFrom(*before, increment))
+      last = Resumption{&increments, before, &increment, events};
     if (!increment.positions.empty()) before = &increment;
   }
   return last;

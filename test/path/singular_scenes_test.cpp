@@ -9,6 +9,7 @@
 
 #include "contact_path/scene/read_scene.h"
 #include "contact_path/verify/verify_path.h"
+#include "support/decisions.h"
 #include "support/traced_path.h"
 
 namespace contact_path {
@@ -285,6 +286,98 @@ TEST(SingularScenes, SymmetricHalvesAtTheirLimitPoints) {
         EXPECT_NEAR(PositionY(path, increment, left), PositionY(path, increment, right), 1e-6);
       }
   }
+}
+
+// A spring of negative stiffness takes away the stiffness of the truss at rest: the start is a smooth limit point. Of
+// the two signs of the load one has branches, the other has none.
+TEST(SingularScenes, StartAtALimitPoint) {
+  const double spring = -std::sqrt(0.5);
+  TraceRequest request;
+  request.scene.name = "limit_at_start";
+  request.scene.nodes = {{"a", -1.0, 0.0, true, true}, {"n", 0.0, 1.0, false, false}, {"b", 1.0, 0.0, true, true}};
+  request.scene.bars = {{{"a", "n"}, 1.0}, {{"n", "b"}, 1.0}};
+  request.scene.superelements = {{{"n"}, {1.0, 0.0, 0.0, spring}}};
+  request.scene.loads = {{"n", 0.0, -1.0}};
+  request.options.max_increments = 20;
+  int begun = 0;
+  for (const double direction : {1.0, -1.0}) {
+    request.options.direction = direction;
+    const TracedPath path = TraceProved(request);
+    if (path.result.reason == EndReason::kPathEnd) continue;
+    EXPECT_EQ(path.result.reason, EndReason::kMaxIncrements) << path.result.message;
+    ++begun;
+    EXPECT_EQ(path.increments[0].event.branches.size(), 2U);
+    for (const Increment& increment : path.increments) {
+      const double y = PositionY(path, increment, "n"), l = std::hypot(1.0, y);
+      const double force = 2.0 * (l / std::sqrt(2.0) - 1.0) * y / l + spring * (y - 1.0);
+      EXPECT_NEAR(increment.load_factor, -force, 1e-12);
+      EXPECT_GE(direction * increment.load_factor, -1e-15);
+    }
+  }
+  EXPECT_EQ(begun, 1);
+}
+
+// Imperfections down to rounding: the path goes on past the bifurcation that they break, or is one with it.
+TEST(SingularScenes, HighTrussWithTinyImperfections) {
+  for (const double imperfection : {1e-6, 1e-10, 1e-12, 1e-13, 1e-14, 1e-16, 0.0})
+    for (const Accuracy accuracy : kPresets) {
+      TraceRequest request = ReadData("imperfect_truss");
+      request.scene.loads[0].fx = imperfection;
+      request.options.accuracy = accuracy;
+      request.options.max_increments = 400;
+      request.options.stop = {{"n.x", ">", 0.5}, {"n.y", "<", 1.0}};
+      const TracedPath path = TraceProved(request);
+      EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << imperfection << ": " << path.result.message;
+    }
+}
+
+// A chain of soft bars on a rough floor, dragged at either end, that pushes a von Mises truss, equal bars or not:
+// stick, slip and snap-back in any order.
+TraceRequest RandomDrag(unsigned seed) {
+  Decisions decide{SplitMix64(seed)};
+  TraceRequest request;
+  Scene& scene = request.scene;
+  scene.name = "drag_" + std::to_string(seed);
+  scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0,
+                      decide.OneOf(std::vector<double>{0.05, 0.1, 0.2, 0.5, 1.0})}};
+  const std::size_t links = 1 + decide.Index(3);
+  const auto name = [](std::size_t i) { return "n" + std::to_string(i); };
+  for (std::size_t i = 0; i <= links; ++i) {
+    const bool rides = i > 0 && (i == links || decide.Chance(0.7));  // off the floor, guided
+    scene.nodes.push_back({name(i), static_cast<double>(i), 0.0, false, rides});
+    if (rides) continue;
+    scene.contacts.push_back({name(i), "floor"});
+    scene.loads.push_back({name(i), 0.0, -decide.OneOf(std::vector<double>{0.2, 0.5, 1.0}), true});
+  }
+  for (std::size_t i = 0; i < links; ++i)
+    scene.bars.push_back({{name(i), name(i + 1)}, decide.OneOf(std::vector<double>{0.1, 0.2, 0.3, 0.5, 1.0, 2.0})});
+  const double width = decide.OneOf(std::vector<double>{0.5, 1.0, 1.5}), rise = decide.Number(0.5, 1.0);
+  const double end = static_cast<double>(links) + width;
+  scene.nodes.push_back({"above", end, rise, true, true});
+  scene.nodes.push_back({"below", end, -rise, true, true});
+  scene.bars.push_back({{name(links), "above"}, 1.0});
+  scene.bars.push_back({{name(links), "below"}, decide.OneOf(std::vector<double>{1.0, 0.8})});
+  scene.loads.push_back(
+      {decide.Chance(0.7) ? name(0) : name(links), decide.OneOf(std::vector<double>{1.0, -1.0}), 0.0});
+  request.options.max_increments = 300;
+  return request;
+}
+
+// They end early only where a bar has shrunk to a point, where a Biot bar has no direction.
+TEST(SingularScenes, RandomDragsEndOnlyWithABarWithoutLength) {
+  int rests = 0;
+  for (unsigned seed = 1; seed <= 60; ++seed) {
+    const TracedPath path = TraceProved(RandomDrag(seed));
+    if (path.result.reason == EndReason::kStepTooSmall) {
+      EXPECT_NE(path.result.message.find("has shrunk to"), std::string::npos) << seed << ": " << path.result.message;
+    } else {
+      EXPECT_EQ(path.result.reason, EndReason::kMaxIncrements) << seed << ": " << path.result.message;
+    }
+    for (std::size_t i = 2; i < path.increments.size(); ++i)
+      if (path.increments[i - 1].event.number > 1 && path.increments[i].positions == path.increments[i - 1].positions)
+        ++rests;
+  }
+  EXPECT_GE(rests, 10);
 }
 
 }  // namespace

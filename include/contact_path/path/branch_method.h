@@ -50,8 +50,8 @@ class BranchMethod : public PathMethod {
   int NumEvents() const override { return events_; }
 
  private:
-  // A step from current_; nothing where it has to be shorter.
-  std::optional<Step> TryStep(double length);
+  // A step from current_; nothing where it has to be shorter. prediction: largest error of the predictor, relative.
+  std::optional<Step> TryStep(double length, double prediction);
   Arrival StartArrival() const;
   // Sets out on a branch from `point`.
   bool Leave(const PathPoint& point, const Branch& branch);
@@ -88,11 +88,12 @@ class BranchMethod : public PathMethod {
   IncrementSolver mpec_;  // for events with very many contacts
   SmoothArc arc_;
   CurvePoint current_;
-  std::optional<PathPoint> begin_;  // of the branch, where its reactions are not those of the event
+  std::optional<PathPoint> begin_;        // of the branch, where its reactions are not those of the event
   std::optional<Eigen::VectorXd> moved_;  // while the path rests: the direction in which it moved before
   double step_length_;
   int increments_;                 // given so far, increment 0 not counted
   int events_;                     // passed so far, starts not counted
+  bool after_singular_ = false;    // the last increment is where another path crosses
   int events_in_place_ = 0;        // passed without moving
   bool at_start_ = true;           // not moved yet
   double largest_reaction_ = 0.0;  // of the points so far
