@@ -21,7 +21,7 @@ void MarkMirrorBranches(std::vector<Branch>* branches) {
   for (Branch& a : *branches)
     for (const Branch& b : *branches)
       if (&a != &b && same(a.dissipation_rate, b.dissipation_rate) && same(a.load_rate, b.load_rate) &&
-          same(std::cos(a.turn), std::cos(b.turn)))
+          same(std::cos(a.deviation), std::cos(b.deviation)))
         a.has_mirror = true;
 }
 
@@ -61,21 +61,25 @@ void ForEachGroup(Iterator begin, Iterator end, double gap, const std::function<
 
 }  // namespace
 
-void SortBranches(const std::vector<ContactState>& arrival, std::vector<Branch>* branches) {
+void SortBranches(const std::vector<ContactState>& arrival, double load_sense, std::vector<Branch>* branches) {
   MarkMirrorBranches(branches);
-  const auto by_turn = [&](Iterator from, Iterator to) {
+  const auto by_load = [&](Iterator from, Iterator to) {
     ForEachGroup(
-        from, to, kSameTurn, [](const Branch& branch) { return branch.turn; },
+        from, to, kSameRate, [&](const Branch& branch) { return -load_sense * branch.load_rate; },
         [&](Iterator begin, Iterator end) {
           std::sort(begin, end, [&](const Branch& a, const Branch& b) { return Before(arrival, a, b); });
         });
+  };
+  const auto by_deviation = [&](Iterator from, Iterator to) {
+    ForEachGroup(
+        from, to, kSameTurn, [](const Branch& branch) { return branch.deviation; }, by_load);
   };
   ForEachGroup(
       branches->begin(), branches->end(), kSameRate, [](const Branch& branch) { return -branch.dissipation_rate; },
       [&](Iterator begin, Iterator end) {
         const Iterator mirrors = std::partition(begin, end, [](const Branch& branch) { return !branch.has_mirror; });
-        by_turn(begin, mirrors);
-        by_turn(mirrors, end);
+        by_deviation(begin, mirrors);
+        by_deviation(mirrors, end);
       });
 }
 

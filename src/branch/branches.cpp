@@ -71,6 +71,11 @@ Eigen::MatrixXd Split(const Eigen::MatrixXd& basis, Eigen::Index from, Eigen::In
   return still ? basis * rows.v.rightCols(basis.cols() - rank) : basis * rows.v.leftCols(rank);
 }
 
+// Of two unit vectors [rad].
+double AngleTo(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+  return std::acos(std::clamp(a.dot(b), -1.0, 1.0));
+}
+
 class Finder {
  public:
   Finder(const Structure& structure, const ContactPairs& contacts, const PathPoint& point, const Arrival& arrival,
@@ -336,15 +341,16 @@ class Finder {
     Branch branch;
     branch.states = system_.states();
     branch.mechanism = mechanism_;
+    branch.singular = rests_;
     branch.rests = rests_ || first.head(NumMotion() - 1).norm() <= kRateTolerance;
     branch.direction = first.head(NumMotion());
     branch.first = first;
     branch.second = second - first.head(NumMotion()).dot(second.head(NumMotion())) * first;
     branch.load_rate = first[NumMotion() - 1];
     branch.dissipation_rate = DissipationRate(branch.states, branch.direction);
-    const double along = branch.direction.dot(arrival_.direction);
-    const double along_before = arrival_.before ? branch.direction.dot(*arrival_.before) : along;
-    branch.turn = std::acos(std::clamp(std::max(along, along_before), -1.0, 1.0));
+    branch.turn = AngleTo(arrival_.direction, branch.direction);
+    branch.deviation =
+        arrival_.before ? std::min(branch.turn, AngleTo(*arrival_.before, branch.direction)) : branch.turn;
     for (Branch& other : *branches) {
       if ((other.direction - branch.direction).norm() >= kSameDirection) continue;
       if (IdleSlips(branch) < IdleSlips(other)) other = std::move(branch);
@@ -468,7 +474,7 @@ BranchSet BranchesWithReactions(const Structure& structure, const ContactPairs& 
   return result;
 }
 
-bool GoesOn(const Branch& branch) { return std::cos(branch.turn) > kRateTolerance; }
+bool GoesOn(const Branch& branch) { return std::cos(branch.deviation) > kRateTolerance; }
 
 // A branch that needs no change of reactions comes before one in the same direction that does.
 void AddOthers(BranchSet&& others, const PathPoint& begin, BranchSet* result) {
@@ -501,7 +507,7 @@ BranchSet FindBranches(const Structure& structure, const ContactPairs& contacts,
       AddOthers(BranchesWithReactions(structure, contacts, begin, arrival, limit, further, cancelled), begin, &result);
     }
   }
-  SortBranches(point.states, &result.branches);
+  SortBranches(point.states, arrival.load_sense, &result.branches);
   return result;
 }
 

@@ -90,7 +90,7 @@ const BranchChoice* BranchMethod::ChoiceForIncrement(int increment) const {
 }
 
 bool BranchMethod::Leave(const PathPoint& point, const Branch& branch) {
-  arc_.SetStates(branch.states, point, branch.rests);
+  arc_.SetStates(branch.states, point, branch.singular);
   const bool regular = arc_.Derivatives(arc_.system().Pack(point), branch.direction, &current_) &&
                        (current_.first - branch.first).norm() <= kSameTangent;
   if (regular) return true;
@@ -471,6 +471,7 @@ Advance BranchMethod::Next(const PathPoint& from) {
     arrival.singular = event.singular;
     arrival.before = moved_;
     if (at_start_) arrival = StartArrival();
+    arrival.load_sense = options_.direction;
     if (event.kind == EventKind::kContactEvent) increment.event.number = ++events_;
     const BranchChoice* choice = forced != nullptr ? forced : ChoiceForEvent(events_);
     if (const std::optional<EndReason> reason =

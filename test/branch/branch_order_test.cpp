@@ -17,14 +17,14 @@ Branch Make(std::vector<ContactState> states, double dissipation, double load, d
   branch.states = std::move(states);
   branch.dissipation_rate = dissipation;
   branch.load_rate = load;
-  branch.turn = turn;
+  branch.turn = branch.deviation = turn;
   branch.direction = Eigen::Vector2d(first, load);
   return branch;
 }
 
 // The load rates, which name the branches.
 std::vector<double> Sorted(std::vector<Branch> branches, const std::vector<ContactState>& arrival) {
-  SortBranches(arrival, &branches);
+  SortBranches(arrival, 1.0, &branches);
   std::vector<double> names;
   for (const Branch& branch : branches) names.push_back(branch.load_rate);
   return names;
@@ -65,11 +65,21 @@ TEST(BranchOrder, AnglesAreKnownToTheRootOfRounding) {
   ExpectOrder({Make({kStick}, 0.0, 1.0, 0.0), Make({kSlip}, 0.0, 2.0, 1.5e-8)}, {kSlip}, {2.0, 1.0});
 }
 
+// Branches of equal turn, where a table hands a node over to another one: the load goes on as wanted.
+TEST(BranchOrder, OfEqualTurnTheOneThatLoads) {
+  const std::vector<Branch> branches = {Make({kStick}, 0.0, -0.7, 0.1), Make({kOpen}, 0.0, 1.0, 0.1)};
+  ExpectOrder(branches, {kStick}, {1.0, -0.7});
+  std::vector<Branch> unloading = branches;
+  SortBranches({kOpen}, -1.0, &unloading);
+  EXPECT_EQ(unloading.front().load_rate, -0.7);
+}
+
+// Load rates that are equal but for rounding.
 TEST(BranchOrder, TheStatesOfArrivalComeFirst) {
-  ExpectOrder(
-      {Make({kStick, kOpen}, 0.0, 1.0, 0.1), Make({kOpen, kStick}, 0.0, 2.0, 0.1), Make({kOpen, kSlip}, 0.0, 3.0, 0.1)},
-      {kOpen, kStick}, {2.0, 3.0, 1.0});
-  ExpectOrder({Make({kStick}, 0.0, 1.0, 0.1, 0.5), Make({kStick}, 0.0, -1.0, 0.1, -0.5)}, {kStick}, {1.0, -1.0});
+  ExpectOrder({Make({kStick, kOpen}, 0.0, 1e-12, 0.1), Make({kOpen, kStick}, 0.0, 2e-12, 0.1),
+               Make({kOpen, kSlip}, 0.0, 3e-12, 0.1)},
+              {kOpen, kStick}, {2e-12, 3e-12, 1e-12});
+  ExpectOrder({Make({kStick}, 0.0, 1e-12, 0.1, 0.5), Make({kStick}, 0.0, 2e-12, 0.1, -0.5)}, {kStick}, {1e-12, 2e-12});
 }
 
 }  // namespace

@@ -88,8 +88,7 @@ TEST_F(NodeOnADisc, StepsStayOnTheClosedForm) {
   ASSERT_TRUE(arc.Derivatives(arc.system().Pack(point), ClosedForm(-0.3).head<3>() - ClosedForm(-0.4).head<3>(), &at));
   for (int i = 0; i < 10; ++i) {
     const VectorXd normal = at.first.head(3);
-    const Correction correction =
-        arc.CorrectOnPlane(at.x + 0.03 * at.first + 0.5 * 0.03 * 0.03 * at.second, normal);
+    const Correction correction = arc.CorrectOnPlane(at.x + 0.03 * at.first + 0.5 * 0.03 * 0.03 * at.second, normal);
     ASSERT_TRUE(correction.converged);
     ASSERT_TRUE(arc.Derivatives(correction.x, normal, &at));
     EXPECT_LE((at.x - ClosedForm(AngleOf(at.x))).norm(), kExact) << i;

@@ -62,8 +62,7 @@ const std::map<unsigned, Cause>& ListedDifferences() {
       {14, Cause::kMechanism},  // comes mechanism at s = 0: how many of the free motions are named depends on the order
       {86, Cause::kWedge},      // fast: the cone of a redundant reaction is reached 1e-7 earlier
       {92, Cause::kMechanism},  // a four-bar chain hangs free from the start
-      {213, Cause::kMechanism},  // short steps: what is free is named in two branches
-      {281, Cause::kWedge},      // held by two obstacles, it rests as slip+ in the mirror image, too
+      {281, Cause::kWedge},     // held by two obstacles, it rests as slip+ in the mirror image, too
   };
   return listed;
 }

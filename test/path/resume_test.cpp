@@ -68,9 +68,9 @@ TEST(Resume, FromAnyRowOfAnyExampleByBranch) {
   }
 }
 
-// From each increment of a smooth path, and of one that rests while load and reactions change.
+// From each increment of a path that rests while load and reactions change.
 TEST(Resume, ToRounding) {
-  for (const char* name : {"resume", "drag_snapback", "stall_333"}) {
+  for (const char* name : {"stall_333"}) {
     const TraceRequest request = ReadTraceRequestFile(std::string(CONTACT_PATH_TEST_DATA) + "/" + name + ".yaml");
     const TracedPath whole = TraceIncrements(request);
     for (std::size_t cut = 1; cut <= whole.increments.size(); ++cut) {

@@ -22,11 +22,13 @@ struct Branch {
   Eigen::VectorXd second;
   double load_rate = 0.0;         // ds
   double dissipation_rate = 0.0;  // -r_t . du_t, >= 0
-  double turn = 0.0;              // angle to the direction of arrival, or to the one before if smaller [rad]
+  double turn = 0.0;              // angle to the direction of arrival [rad]
+  double deviation = 0.0;         // the smaller of turn and the angle to Arrival::before [rad]
   bool mechanism = false;         // one of several motions without any change of load and reactions: not to be followed
   // The whole structure, or a part of it that is at a limit point of its own, stands still while load and reactions go
   // on.
   bool rests = false;
+  bool singular = false;           // such a part makes the equations singular all along the arc
   bool has_mirror = false;         // another branch has exactly these rates: each would break a symmetry of the scene
   std::optional<PathPoint> begin;  // where the reactions have to change first while nothing moves: with the new ones
 };
@@ -38,11 +40,12 @@ struct Arrival {
   bool singular = false;      // another path crosses here: nearly singular counts as singular
   // After an arc that rests: the direction in which the path moved before that arc. To go on so is no turn either.
   std::optional<Eigen::VectorXd> before;
+  double load_sense = 1.0;  // +-1, the wanted change of the load factor: decides between branches that turn alike
 };
 
 struct BranchSet {
   std::vector<Branch> branches;  // best first: largest dissipation rate, then without mirror branch, then smallest
-                                 // turn, then a fixed order
+                                 // deviation, then a fixed order
   int weakly_active = 0;         // contacts that could change their state
   bool complete = true;          // false: too many combinations to try them all, the likely ones were
   bool cancelled = false;        // before the end: nothing else counts
