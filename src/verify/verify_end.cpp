@@ -41,7 +41,9 @@ std::string EndContradicted(const TraceRequest& request, const std::vector<Incre
   const std::string says = "the result says " + std::string(reason) + ", but ";
   if (reason == "stop_criterion") {
     if (last.positions.empty() || ProgramDone(request, last)) return {};
-    return StopTest(request, SceneIndex(request.scene)).FirstThatHolds(last) == nullptr ? says + "none holds in the last increment" : "";
+    return StopTest(request, SceneIndex(request.scene)).FirstThatHolds(last) == nullptr
+               ? says + "none holds in the last increment"
+               : "";
   }
   if (reason == "max_increments") {
     if (last.index == request.options.MaxIncrements()) return {};

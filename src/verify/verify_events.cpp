@@ -204,7 +204,7 @@ class EventVerifier {
 
   const TraceRequest& request_;
   const std::vector<Increment>& increments_;
-  const double turn_;  // of an increment, with a margin [rad]
+  const double turn_;       // of an increment, with a margin [rad]
   Scaling scaling_;         // of the stage
   double direction_ = 1.0;  // of the load at the start of the stage
   int events_ = 0;          // numbered so far

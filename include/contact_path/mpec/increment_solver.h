@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "contact_path/contact/contact_pair.h"
-#include "contact_path/equations/fixed_state_system.h"
 #include "contact_path/contact/path_point.h"
+#include "contact_path/equations/fixed_state_system.h"
 #include "contact_path/mpec/increment_problem.h"
 #include "contact_path/mpec/nonlinear_program.h"
 #include "contact_path/structure/structure.h"

@@ -64,8 +64,7 @@ struct EventRecord {
   int taken = 0;                       // number of the branch, from 1; 0 = none
   int weakly_active = 0;               // contacts that could change their state
   bool complete = true;                // false: too many combinations of states to try them all
-  std::vector<double>
-      null_vector;  // where another path crosses: its direction, x0, y0, x1, ..., unit norm; else empty
+  std::vector<double> null_vector;  // where another path crosses: its direction, x0, y0, x1, ..., unit norm; else empty
 };
 
 struct Increment {
