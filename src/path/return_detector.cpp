@@ -36,7 +36,7 @@ double LargestReaction(const PathPoint& point) {
 }  // namespace
 
 ReturnDetector::ReturnDetector(const Model& model, int every)
-    : model_(model), most_references_(MostReferences(model)), spacing_(every), arc_(model.structure, model.contacts) {}
+    : most_references_(MostReferences(model)), spacing_(every), arc_(model.structure, model.contacts) {}
 
 void ReturnDetector::Add(int increment, const PathPoint& from, const PathPoint& to) {
   if (!first_) first_ = from;

@@ -110,7 +110,7 @@ class FixedStateSystem {
   // Each calls emit(unknown, equation, value) for the structural entries of the Jacobian: those of a motion, of the
   // reactions of a contact in the equilibrium equations, and of their change by the curvature of the surface there.
   template <typename Emit>
-  void ForEachMotionEntry(const MotionEquation& equation, const Kinematics& at, Emit emit) const;
+  void ForEachMotionEntry(const MotionEquation& of, const Kinematics& at, Emit emit) const;
   template <typename Emit>
   void ForEachReactionEntry(std::size_t contact, const Kinematics& at, Emit emit) const;
   template <typename Emit>

@@ -49,7 +49,6 @@ class ReturnDetector {
   // Unit tangent of the path at a point with its states, along `towards`; empty where there is none.
   Eigen::VectorXd TangentAt(const PathPoint& point, const Eigen::VectorXd& towards);
 
-  const Model& model_;
   const std::size_t most_references_;
   int spacing_;
   std::vector<Reference> references_;  // in the order of the path
