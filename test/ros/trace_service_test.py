@@ -185,7 +185,8 @@ class TraceServiceTest(unittest.TestCase):
         for increment in events:
             told = [line for line in lines if line.startswith('increment %6d ' % increment.index)]
             self.assertEqual(len(told), 1, said)
-            self.assertIn('load factor %.6g' % increment.load_factor, told[0])
+            # The bar loses its load where the reaction vanishes: the load factor there is rounding, and told as 0.
+            self.assertIn('load factor %.6g ' % (increment.load_factor if abs(increment.load_factor) > 1e-12 else 0), told[0])
         self.assertIn('b@floor stick -> slip+', said)
         self.assertTrue(lines[-1].endswith('of sliding_bar ended: ' + response.message), said)
 
