@@ -7,17 +7,16 @@
 #include <iterator>
 #include <utility>
 
+#include "contact_path/tolerances.h"
+
 namespace contact_path {
 namespace {
-
-constexpr double kSameRate = 1e-9;  // of unit rates
-constexpr double kSameTurn = 1e-7;  // [rad]; an angle is known to the root of rounding where it is 0
 
 using Iterator = std::vector<Branch>::iterator;
 
 // Two branches with the same rates are images of each other under a symmetry of the scene, and break it.
 void MarkMirrorBranches(std::vector<Branch>* branches) {
-  const auto same = [](double a, double b) { return std::abs(a - b) <= kSameRate; };
+  const auto same = [](double a, double b) { return std::abs(a - b) <= tolerances::kSameRate; };
   for (Branch& a : *branches)
     for (const Branch& b : *branches)
       if (&a != &b && same(a.dissipation_rate, b.dissipation_rate) && same(a.load_rate, b.load_rate) &&
@@ -65,17 +64,18 @@ void SortBranches(const std::vector<ContactState>& arrival, double load_sense, s
   MarkMirrorBranches(branches);
   const auto by_load = [&](Iterator from, Iterator to) {
     ForEachGroup(
-        from, to, kSameRate, [&](const Branch& branch) { return -load_sense * branch.load_rate; },
+        from, to, tolerances::kSameRate, [&](const Branch& branch) { return -load_sense * branch.load_rate; },
         [&](Iterator begin, Iterator end) {
           std::sort(begin, end, [&](const Branch& a, const Branch& b) { return Before(arrival, a, b); });
         });
   };
   const auto by_deviation = [&](Iterator from, Iterator to) {
     ForEachGroup(
-        from, to, kSameTurn, [](const Branch& branch) { return branch.deviation; }, by_load);
+        from, to, tolerances::kSameTurn, [](const Branch& branch) { return branch.deviation; }, by_load);
   };
   ForEachGroup(
-      branches->begin(), branches->end(), kSameRate, [](const Branch& branch) { return -branch.dissipation_rate; },
+      branches->begin(), branches->end(), tolerances::kSameRate,
+      [](const Branch& branch) { return -branch.dissipation_rate; },
       [&](Iterator begin, Iterator end) {
         const Iterator mirrors = std::partition(begin, end, [](const Branch& branch) { return !branch.has_mirror; });
         by_deviation(begin, mirrors);

@@ -13,23 +13,13 @@
 #include "contact_path/linear/bordered_solver.h"
 #include "contact_path/linear/minimum_norm.h"
 #include "contact_path/linear/singular_vectors.h"
+#include "contact_path/tolerances.h"
 
 namespace contact_path {
 namespace {
 
-constexpr double kRateTolerance = 1e-9;       // of unit rates
-constexpr double kCurvatureTolerance = 1e-9;  // of second derivatives, where the rate is zero
-constexpr double kSameDirection = 1e-7;       // norm of the difference of unit vectors
-constexpr double kReversed = 1e-6;            // the same, to the branch of arrival
-constexpr double kReversedSingular = 1e-3;    // where the arrival is interpolated
-constexpr double kStartRate = 1e-13;          // of the load: a start along which it changes less is a mechanism
-constexpr double kGraze = 1e-12;              // depth to which an inequality may be broken next to the point: rounding
-constexpr double kSingularRank = 1e-6;  // rank tolerance where another path crosses: the point is known to about 1e-10
-constexpr double kClearlyRegular = 1e-10;  // ratio of pivots: no null space but the tangent
-constexpr double kRigid = 1e-9;            // singular value below which load and reactions do not change
-constexpr double kExcluded = 1e-6;         // of unit rates: broken by more, a combination is not looked at again
-constexpr double kFewCombinations = 8.0;   // not worth condensing the rate problem for
-constexpr double kMostCondensed = 5e7;     // numbers that may be held for that
+constexpr double kFewCombinations = 8.0;             // not worth condensing the rate problem for
+constexpr double kMostCondensed = 5e7;               // numbers that may be held for that
 constexpr std::size_t kMostCondensedContacts = 200;  // of more, dense equations take longer than the sparse ones of all
 constexpr int kMostRestarts = 64;                    // contacts, one after another in another state, to pivot from
 constexpr Eigen::Index kMostDofsForFurther = 300;    // beyond, further candidates are asked for if nothing else helps
@@ -67,7 +57,7 @@ Eigen::MatrixXd Split(const Eigen::MatrixXd& basis, Eigen::Index from, Eigen::In
   if (basis.cols() == 0) return basis;
   const SingularVectors rows = RightSingularVectors(basis.middleRows(from, count));
   Eigen::Index rank = 0;
-  while (rank < rows.values.size() && rows.values[rank] > kRigid) ++rank;
+  while (rank < rows.values.size() && rows.values[rank] > tolerances::kRigid) ++rank;
   return still ? basis * rows.v.rightCols(basis.cols() - rank) : basis * rows.v.leftCols(rank);
 }
 
@@ -113,9 +103,9 @@ class Finder {
   bool Excluded(const States& states, const RateProblem& condensed) const {
     const std::optional<CondensedRates> rates = condensed.Rates(states);
     if (!rates) return false;
-    if (arrival_.is_start && std::abs(rates->load) <= kStartRate) return true;
-    return condensed.Broken(states, *rates, 1.0, tolerance_.force, kExcluded, nullptr) &&
-           condensed.Broken(states, *rates, -1.0, tolerance_.force, kExcluded, nullptr);
+    if (arrival_.is_start && std::abs(rates->load) <= tolerances::kUnitComponent) return true;
+    return condensed.Broken(states, *rates, 1.0, tolerance_.force, tolerances::kExcludedRate, nullptr) &&
+           condensed.Broken(states, *rates, -1.0, tolerance_.force, tolerances::kExcludedRate, nullptr);
   }
 
   int rigid_modes() const { return rigid_modes_; }
@@ -160,7 +150,7 @@ class Finder {
       bool changed = false;
       for (const Constraint& limit : system_.Inequalities()) {
         if (!IsActive(limit, x)) continue;
-        if (system_.Rate(limit, x, first) >= -kRateTolerance) continue;
+        if (system_.Rate(limit, x, first) >= -tolerances::kRate) continue;
         ContactState& state = states[static_cast<std::size_t>(limit.contact)];
         state = Next(limit, *contacts_[static_cast<std::size_t>(limit.contact)]);
         changed = true;
@@ -177,7 +167,7 @@ class Finder {
       const std::optional<CondensedRates> rates = condensed.UniqueRates(states);
       if (!rates) return std::nullopt;
       broken.clear();
-      condensed.Broken(states, *rates, rates->along < 0.0 ? -sign : sign, tolerance_.force, kRateTolerance, &broken);
+      condensed.Broken(states, *rates, rates->along < 0.0 ? -sign : sign, tolerance_.force, tolerances::kRate, &broken);
       if (broken.empty()) return states;
       if (round >= kBlockPivots) broken.resize(1);
       for (const Constraint& limit : broken) {
@@ -199,13 +189,14 @@ class Finder {
     if (!arrival_.singular) {
       Eigen::VectorXd row = Eigen::VectorXd::Zero(system_.NumUnknowns());
       row.head(NumMotion()) = arrival_.direction;
-      regular_ = lu_.FactorizeRegular(transposed, row, kClearlyRegular);
+      regular_ = lu_.FactorizeRegular(transposed, row, tolerances::kRegularPivot);
       if (regular_) {
         const Eigen::VectorXd tangent = lu_.Solve(Eigen::VectorXd::Zero(system_.NumEquations()), 1.0);
         return {tangent / tangent.head(NumMotion()).norm()};
       }
     }
-    if (!solver_.Factorize(transposed, arrival_.singular ? kSingularRank : MinimumNormSolver::kRankTolerance))
+    if (!solver_.Factorize(transposed,
+                           arrival_.singular ? tolerances::kDependentColumnSingular : tolerances::kDependentColumn))
       return {};
     const NullSpaceParts parts = PartsOfNullSpace();
     const Eigen::MatrixXd& plane = arrival_.singular ? parts.moving : parts.proper;
@@ -262,7 +253,7 @@ class Finder {
     for (const Constraint& constraint : system_.Inequalities())
       if (constraint.inequality == Inequality::kNormalReaction && IsActive(constraint, x))
         for (Eigen::Index k = 0; k < directions.cols(); ++k)
-          if (std::abs(system_.Rate(constraint, x, directions.col(k))) > kRateTolerance) return true;
+          if (std::abs(system_.Rate(constraint, x, directions.col(k))) > tolerances::kRate) return true;
     return false;
   }
 
@@ -277,7 +268,7 @@ class Finder {
     Eigen::VectorXd tangent =
         candidates.cols() == 1 ? Eigen::VectorXd(candidates.col(0)) : NearestToArrival(candidates);
     const double norm = tangent.head(motion).norm();
-    if (!(norm > kRigid)) return std::nullopt;
+    if (!(norm > tolerances::kRigid)) return std::nullopt;
     tangent /= norm;
     return tangent;
   }
@@ -299,10 +290,10 @@ class Finder {
       const Jet along = system_.ValueAlong(limit, x, first, second);
       const double rate = along.first, curvature = along.second;
       // A graze, located to the root of rounding only: the value is past its minimum before it counts as negative.
-      const bool grazes = limit.inequality != Inequality::kSlip && rate < 0.0 && curvature > kCurvatureTolerance &&
-                          rate * rate <= 2.0 * curvature * kGraze;
-      if (rate < -kRateTolerance && !grazes) return false;
-      if (rate <= kRateTolerance && curvature < -kCurvatureTolerance) return false;
+      const bool grazes = limit.inequality != Inequality::kSlip && rate < 0.0 && curvature > tolerances::kCurvature &&
+                          rate * rate <= 2.0 * curvature * tolerances::kGraze;
+      if (rate < -tolerances::kRate && !grazes) return false;
+      if (rate <= tolerances::kRate && curvature < -tolerances::kCurvature) return false;
     }
     return true;
   }
@@ -310,12 +301,13 @@ class Finder {
   // Whether the load starts to change in the wanted sense. At a smooth limit point it rests, and its curvature tells.
   bool SetsOut(double load_rate, double load_curvature) const {
     const double sense = arrival_.direction[NumMotion() - 1];
-    if (load_rate * sense > kStartRate) return true;
-    return std::abs(load_rate) <= kRateTolerance && load_curvature * sense > kCurvatureTolerance;
+    if (load_rate * sense > tolerances::kUnitComponent) return true;
+    return std::abs(load_rate) <= tolerances::kRate && load_curvature * sense > tolerances::kCurvature;
   }
 
   bool IsReversed(const Eigen::VectorXd& first) const {
-    return (first.head(NumMotion()) + arrival_.direction).norm() < (arrival_.singular ? kReversedSingular : kReversed);
+    return (first.head(NumMotion()) + arrival_.direction).norm() <
+           (arrival_.singular ? tolerances::kReversedSingular : tolerances::kReversed);
   }
 
   double DissipationRate(const States& states, const Eigen::VectorXd& direction) const {
@@ -332,7 +324,7 @@ class Finder {
     int idle = 0;
     for (std::size_t i = 0; i < contacts_.size(); ++i)
       if (Slips(branch.states[i]) &&
-          std::abs(contacts_[i]->SlipRate(point_.u, point_.s, branch.direction, branch.load_rate)) <= kRateTolerance)
+          std::abs(contacts_[i]->SlipRate(point_.u, point_.s, branch.direction, branch.load_rate)) <= tolerances::kRate)
         ++idle;
     return idle;
   }
@@ -342,7 +334,7 @@ class Finder {
     branch.states = system_.states();
     branch.mechanism = mechanism_;
     branch.singular = rests_;
-    branch.rests = rests_ || first.head(NumMotion() - 1).norm() <= kRateTolerance;
+    branch.rests = rests_ || first.head(NumMotion() - 1).norm() <= tolerances::kRate;
     branch.direction = first.head(NumMotion());
     branch.first = first;
     branch.second = second - first.head(NumMotion()).dot(second.head(NumMotion())) * first;
@@ -352,7 +344,7 @@ class Finder {
     branch.deviation =
         arrival_.before ? std::min(branch.turn, AngleTo(*arrival_.before, branch.direction)) : branch.turn;
     for (Branch& other : *branches) {
-      if ((other.direction - branch.direction).norm() >= kSameDirection) continue;
+      if ((other.direction - branch.direction).norm() >= tolerances::kSameDirection) continue;
       if (IdleSlips(branch) < IdleSlips(other)) other = std::move(branch);
       return;
     }
@@ -474,13 +466,13 @@ BranchSet BranchesWithReactions(const Structure& structure, const ContactPairs& 
   return result;
 }
 
-bool GoesOn(const Branch& branch) { return std::cos(branch.deviation) > kRateTolerance; }
+bool GoesOn(const Branch& branch) { return std::cos(branch.deviation) > tolerances::kRate; }
 
 // A branch that needs no change of reactions comes before one in the same direction that does.
 void AddOthers(BranchSet&& others, const PathPoint& begin, BranchSet* result) {
   for (Branch& branch : others.branches) {
     const bool known = std::any_of(result->branches.begin(), result->branches.end(), [&](const Branch& other) {
-      return (other.direction - branch.direction).norm() < kSameDirection;
+      return (other.direction - branch.direction).norm() < tolerances::kSameDirection;
     });
     if (known) continue;
     branch.begin = begin;

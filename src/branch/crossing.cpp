@@ -3,16 +3,13 @@
 #include <cmath>
 
 #include "contact_path/linear/minimum_norm.h"
+#include "contact_path/tolerances.h"
 
 namespace contact_path {
 namespace {
 
-constexpr double kSingularRank = 1e-6;  // rank tolerance: the point is known to about 1e-10
-constexpr double kLeastNorm = 1e-4;     // of the largest: an equation that vanishes at both points is not blown up
-constexpr double kTransversal = 1e-6;   // of unit vectors: paths that cross at a smaller angle are not told apart
+constexpr double kLeastNorm = 1e-4;   // of the largest: an equation that vanishes at both points is not blown up
 constexpr double kDifference = 1e-4;  // step of the central difference of F''; its error is of the order of the square
-constexpr double kAtRest = 1e-9;      // of a unit rate
-constexpr double kAsLarge = 1e-6;     // relative: of equally large components the first counts
 
 // Of the equations at a point.
 Eigen::VectorXd Norms(FixedStateSystem* system, const Eigen::VectorXd& x) {
@@ -47,10 +44,10 @@ class Form {
 // Makes the sense of a unit vector in (u, s) the same whatever it was.
 void Orient(Eigen::Index motion, Eigen::VectorXd* direction) {
   double sense = (*direction)[motion - 1];
-  if (std::abs(sense) <= kAtRest) {
+  if (std::abs(sense) <= tolerances::kLevel) {
     const double largest = direction->head(motion).cwiseAbs().maxCoeff();
     Eigen::Index i = 0;
-    while (std::abs((*direction)[i]) < (1.0 - kAsLarge) * largest) ++i;
+    while (std::abs((*direction)[i]) < (1.0 - tolerances::kSameComponent) * largest) ++i;
     sense = (*direction)[i];
   }
   if (sense < 0.0) *direction = -*direction;
@@ -64,20 +61,21 @@ std::optional<Crossing> FindCrossing(FixedStateSystem* system, const Eigen::Vect
   MinimumNormSolver solver;
   const Eigen::VectorXd norms = Norms(system, before).cwiseMax(Norms(system, x));
   const Eigen::VectorXd least = Eigen::VectorXd::Constant(norms.size(), kLeastNorm * norms.maxCoeff());
-  if (!solver.Factorize(system->TransposedJacobian(x), norms.cwiseMax(least), kSingularRank)) return std::nullopt;
+  if (!solver.Factorize(system->TransposedJacobian(x), norms.cwiseMax(least), tolerances::kDependentColumnSingular))
+    return std::nullopt;
   if (solver.Rank() != system->NumEquations() - 1 || solver.Rank() != system->NumUnknowns() - 2) return std::nullopt;
   const Eigen::MatrixXd plane = solver.NullSpace();
   const Eigen::Vector2d along = plane.transpose() * tangent;
   Eigen::VectorXd v = plane * Eigen::Vector2d(-along[1], along[0]).normalized();
   v -= v.head(motion).dot(tangent.head(motion)) * tangent;
   const double length = v.head(motion).norm();
-  if (!(length > kTransversal)) return std::nullopt;
+  if (!(length > tolerances::kTransversal)) return std::nullopt;
   v /= length;
 
   const Eigen::VectorXd psi = solver.DependentEquations().normalized();
   const Form form(system, x, psi);
   const double b = form(tangent, v), c = form(v);
-  if (!(std::abs(b) > kTransversal * std::hypot(b, c))) return std::nullopt;
+  if (!(std::abs(b) > tolerances::kTransversal * std::hypot(b, c))) return std::nullopt;
   Crossing crossing;
   crossing.first = c * tangent - 2.0 * b * v;
   crossing.first /= crossing.first.head(motion).norm();

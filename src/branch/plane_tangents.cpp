@@ -2,12 +2,10 @@
 
 #include <cmath>
 
+#include "contact_path/tolerances.h"
+
 namespace contact_path {
 namespace {
-
-constexpr double kNoForm = 1e-7;      // of unit null vectors: a form that is smaller says nothing
-constexpr double kDoubleRoot = 1e-9;  // discriminant relative to the form's square: nearer to zero, it is zero
-constexpr double kOtherForm = 1e-5;   // value at a root, relative to the form: larger, the root is none of that form
 
 // a y^2 + 2 b y z + c z^2
 struct Form {
@@ -22,7 +20,7 @@ struct Form {
 std::vector<Eigen::Vector2d> Zeros(const Form& form) {
   const auto& [a, b, c] = form;
   const double discriminant = b * b - a * c;
-  if (std::abs(discriminant) <= kDoubleRoot * form.Size() * form.Size()) {
+  if (std::abs(discriminant) <= tolerances::kDoubleRoot * form.Size() * form.Size()) {
     const Eigen::Vector2d zero = std::abs(a) >= std::abs(c) ? Eigen::Vector2d(-b, a) : Eigen::Vector2d(c, -b);
     return {zero.normalized()};
   }
@@ -50,12 +48,13 @@ PlaneTangents TangentsInPlane(FixedStateSystem* system, const Eigen::VectorXd& x
     if (form.Size() > forms[largest].Size()) largest = forms.size() - 1;
   }
   PlaneTangents result;
-  if (forms.empty() || !(forms[largest].Size() > kNoForm)) return result;
+  if (forms.empty() || !(forms[largest].Size() > tolerances::kNoForm)) return result;
   result.determined = true;
   const Eigen::Index motion = system->NumDofs() + 1;
   for (const Eigen::Vector2d& zero : Zeros(forms[largest])) {
     bool common = true;
-    for (const Form& form : forms) common = common && std::abs(form(zero)) <= kOtherForm * forms[largest].Size();
+    for (const Form& form : forms)
+      common = common && std::abs(form(zero)) <= tolerances::kOtherForm * forms[largest].Size();
     const Eigen::VectorXd direction = plane * zero;
     const double norm = direction.head(motion).norm();
     if (common && norm > 0.0) result.directions.emplace_back(direction / norm);

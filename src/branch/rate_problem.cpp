@@ -7,17 +7,10 @@
 
 #include "contact_path/linear/bordered_solver.h"
 #include "contact_path/linear/singular_vectors.h"
+#include "contact_path/tolerances.h"
 
 namespace contact_path {
 namespace {
-
-constexpr double kRank = 1e-9;  // of the largest pivot: below, rates are not unique
-// Where rates are not unique: unit solutions with a motion up to the first rest, with more than the second they move,
-// and what lies between is not decided here. The first is the root of rounding, since motions are known by their
-// squares.
-constexpr double kRestsBelow = 1e-7;
-constexpr double kMovesAbove = 1e-6;
-constexpr double kNoChange = 1e-9;  // of load and reactions, of a unit motion that is a rigid mode
 
 // A force stiffness . motion along a gap or xi with this gradient. matrix: transposed, nd components before the load
 // factor.
@@ -115,9 +108,10 @@ Eigen::MatrixXd RateProblem::Kernel(const Eigen::MatrixXd& equations) const {
   Eigen::MatrixXd square(equations.cols(), equations.cols());
   square << equations, along_.transpose();
   const Eigen::PartialPivLU<Eigen::MatrixXd> bordered(square);
-  if (bordered.rcond() > kRank) return bordered.solve(Eigen::VectorXd::Unit(square.cols(), square.cols() - 1));
+  if (bordered.rcond() > tolerances::kCondensedPivot)
+    return bordered.solve(Eigen::VectorXd::Unit(square.cols(), square.cols() - 1));
   Eigen::FullPivLU<Eigen::MatrixXd> lu(equations);
-  lu.setThreshold(kRank);
+  lu.setThreshold(tolerances::kCondensedPivot);
   return lu.kernel();
 }
 
@@ -130,8 +124,8 @@ Eigen::VectorXd RateProblem::ShortestMember(const Eigen::MatrixXd& kernel) const
   Eigen::MatrixXd moving(kernel.rows(), 0);
   for (Eigen::Index k = 0; k < kernel.cols(); ++k) {
     const double rate = std::sqrt(motions.values[k] / largest);
-    if (rate <= kRestsBelow) break;
-    if (!(rate >= kMovesAbove)) return {};
+    if (rate <= tolerances::kRestsBelow) break;
+    if (!(rate >= tolerances::kMovesAbove)) return {};
     moving.conservativeResize(Eigen::NoChange, moving.cols() + 1);
     moving.rightCols<1>() = basis * motions.v.col(k) / (rate * std::sqrt(largest));
   }
@@ -145,8 +139,8 @@ Eigen::VectorXd RateProblem::ShortestMember(const Eigen::MatrixXd& kernel) const
   }
   const SingularVectors changes = RightSingularVectors(forces);
   Eigen::Index proper = 0;
-  while (proper < changes.values.size() && changes.values[proper] >= kMovesAbove) ++proper;
-  if (proper < changes.values.size() && !(changes.values[proper] <= kNoChange)) return {};
+  while (proper < changes.values.size() && changes.values[proper] >= tolerances::kMovesAbove) ++proper;
+  if (proper < changes.values.size() && !(changes.values[proper] <= tolerances::kRigid)) return {};
   const Eigen::MatrixXd candidates = moving * (proper > 0 ? changes.v.leftCols(proper) : changes.v);
   // Among several proper directions second derivatives choose, which are not condensed.
   if (candidates.cols() > 1 && proper > 0) return {};

@@ -8,10 +8,11 @@
 #include <map>
 #include <utility>
 
+#include "contact_path/tolerances.h"
+
 namespace contact_path {
 namespace {
 
-constexpr double kParallel = 1e-9;          // sine between two edges of cones
 constexpr std::size_t kMostAtOneNode = 4;   // contacts that are looked at together
 constexpr std::size_t kMostComponents = 2;  // of a node: contacts that move more are not looked at
 constexpr std::size_t kMostPoints = 200;    // combinations over all nodes
@@ -105,7 +106,7 @@ std::vector<Weights> Vertices(const std::vector<Edge>& edges, const Eigen::Vecto
     for (std::size_t b = a + 1; b < edges.size(); ++b) {
       Eigen::Matrix2d pair;
       pair << g, edges[b].force;
-      if (!(std::abs(pair.determinant()) > kParallel * g.norm() * edges[b].force.norm())) continue;
+      if (!(std::abs(pair.determinant()) > tolerances::kParallelEdges * g.norm() * edges[b].force.norm())) continue;
       const Eigen::Vector2d both = pair.inverse() * force;
       if (std::min(both[0], both[1]) <= tolerance) continue;  // one edge alone, or none
       Weights weights = none;

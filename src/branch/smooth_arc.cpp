@@ -5,6 +5,7 @@
 
 #include "contact_path/branch/gauss_rule.h"
 #include "contact_path/branch/plane_tangents.h"
+#include "contact_path/tolerances.h"
 
 namespace contact_path {
 namespace {
@@ -12,16 +13,7 @@ namespace {
 constexpr int kMaxIterations = 12;
 constexpr int kSingularIterations = 3;
 constexpr int kLinearisations = 8;
-constexpr double kRestingRank = 1e-9;     // rank tolerance while a part rests at its limit point, known to rounding
-constexpr double kSingularRank = 1e-6;    // rank tolerance where another path crosses
-constexpr double kStepTolerance = 1e-14;  // relative to 1 + |x|: rounding
-constexpr double kStagnation = 1e-10;     // relative: below this a step that no longer shrinks is rounding
-constexpr double kRounding = 1e-13;       // the same with factors of another point, which may be slow, too
-constexpr double kReuse = 1e-5;           // relative: below this step the factorisation is good enough to finish with
-constexpr double kSlow = 0.1;             // ratio of two steps beyond which that of another point is not
-constexpr double kSingularResidual = 1e-10;  // the same at a point that another path crosses, which is less exact
-constexpr double kNoBend = 1e-7;  // second derivative along a unit null vector: below, there is no limit point
-constexpr double kResidualTolerance = 1e-11;  // scaled, relative to 1 + the largest of load factor and reactions
+constexpr double kSlow = 0.1;  // ratio of two steps beyond which that of another point is not
 
 // The six quintic Hermite basis polynomials: value, first, second at the start, then at the end.
 std::array<Quintic, 6> HermiteBasis(double length) {
@@ -97,7 +89,7 @@ void SmoothArc::HoldLimitPoint(const Eigen::VectorXd& x, Eigen::VectorXd* change
   const Eigen::VectorXd psi = solver_.LeftNullSpace().col(0).head(system_.NumEquations()).normalized();
   const auto form = [&](const Eigen::VectorXd& z) { return psi.dot(system_.SecondDerivative(x, z)); };
   const double bend = form(null_vector);
-  if (std::abs(bend) < kNoBend) return;
+  if (std::abs(bend) < tolerances::kNoForm) return;
   const double mixed = 0.5 * (form(null_vector + unit) - bend - form(unit));
   *change -= size * mixed / bend * null_vector;
 }
@@ -115,7 +107,7 @@ Correction SmoothArc::CorrectOnto(const Constraint& constraint, const Eigen::Vec
     correction = Correct(from, row, row.dot(from) - system_.Value(constraint, from));
     if (!correction.converged) break;
     const double scale = 1.0 + correction.x.norm();
-    if (std::abs(system_.Value(constraint, correction.x)) <= kResidualTolerance * scale) break;
+    if (std::abs(system_.Value(constraint, correction.x)) <= tolerances::kResidual * scale) break;
     from = correction.x;
   }
   return correction;
@@ -140,17 +132,18 @@ Correction SmoothArc::Newton(const Eigen::VectorXd& guess, const Eigen::VectorXd
     result.steps.push_back(norm);
     if (result.iterations == 0) result.first_step = norm;
     if (result.iterations == 1) result.contraction = norm / result.first_step;
-    const bool stagnates = norm >= 0.5 * previous && norm <= (at_hand ? kRounding : kStagnation) * scale;
-    if (norm <= kStepTolerance * scale || stagnates) {
+    const bool stagnates =
+        norm >= 0.5 * previous && norm <= (at_hand ? tolerances::kStagnationReused : tolerances::kStagnation) * scale;
+    if (norm <= tolerances::kNewtonStep * scale || stagnates) {
       system_.Residual(result.x, &residual_);
       const double force = 1.0 + result.x.tail(result.x.size() - system_.NumDofs()).lpNorm<Eigen::Infinity>();
-      result.converged = residual_.lpNorm<Eigen::Infinity>() <= kResidualTolerance * force &&
-                         std::abs(row.dot(result.x) - value) <= kResidualTolerance * scale;
+      result.converged = residual_.lpNorm<Eigen::Infinity>() <= tolerances::kResidual * force &&
+                         std::abs(row.dot(result.x) - value) <= tolerances::kResidual * scale;
       ++result.iterations;
       return result;
     }
     if (at_hand && norm > kSlow * previous) return result;
-    factorise = !at_hand && norm > kReuse * scale;
+    factorise = !at_hand && norm > tolerances::kReuseFactors * scale;
     previous = norm;
   }
   return result;
@@ -159,7 +152,7 @@ Correction SmoothArc::Newton(const Eigen::VectorXd& guess, const Eigen::VectorXd
 bool SmoothArc::Factorize(const Eigen::VectorXd& x, const Eigen::VectorXd& row, double rank_tolerance) {
   ++factorisations_;
   at_hand_ = false;
-  if (rests_ && rank_tolerance == 0.0) rank_tolerance = kRestingRank;
+  if (rests_ && rank_tolerance == 0.0) rank_tolerance = tolerances::kDependentColumnResting;
   return solver_.Factorize(system_.TransposedJacobian(x), row, rank_tolerance);
 }
 
@@ -179,7 +172,7 @@ Eigen::VectorXd SmoothArc::CorrectSingular(const Eigen::VectorXd& guess, const E
   Eigen::VectorXd x = guess;
   for (int i = 0; i < kSingularIterations; ++i) {
     system_.Residual(x, &residual_);
-    if (!residual_.allFinite() || !Factorize(x, row, kSingularRank)) return guess;
+    if (!residual_.allFinite() || !Factorize(x, row, tolerances::kDependentColumnSingular)) return guess;
     x += solver_.Solve(-residual_, 0.0);
   }
   return x.allFinite() ? x : guess;
@@ -188,7 +181,7 @@ Eigen::VectorXd SmoothArc::CorrectSingular(const Eigen::VectorXd& guess, const E
 bool SmoothArc::IsOnCurve(const Eigen::VectorXd& x) {
   system_.Residual(x, &residual_);
   const double force = 1.0 + x.tail(x.size() - system_.NumDofs()).lpNorm<Eigen::Infinity>();
-  return residual_.lpNorm<Eigen::Infinity>() <= kSingularResidual * force;
+  return residual_.lpNorm<Eigen::Infinity>() <= tolerances::kResidualSingular * force;
 }
 
 Eigen::VectorXd SmoothArc::CrossingDirection(const Eigen::VectorXd& x, const Eigen::VectorXd& towards) {

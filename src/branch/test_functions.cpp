@@ -4,26 +4,16 @@
 #include <cmath>
 
 #include "contact_path/branch/polynomial.h"
+#include "contact_path/tolerances.h"
 
 namespace contact_path {
 namespace {
 
-constexpr double kZero = 1e-11;      // of scaled quantities on a step: rounding
-constexpr double kFlat = 1e-9;       // of unit rates on a step: a load or a contact that moves slower rests
 constexpr double kNearShare = 0.05;  // of the difference of quintic and cubic interpolation
-constexpr double kRateZero = 1e-13;  // of a unit rate
 constexpr double kReach = 2.0;       // of the length of a step: wider gaps stay open on it
 constexpr int kNewtonIterations = 25;
-constexpr double kCoincident = 1e-5;  // relative to the step: a bifurcation this near to something else is one with it
-constexpr double kUnclear = 1e-4;     // the same: nearer than this, a shorter step tells whether they are one
-constexpr double kSlack = 1e-9;       // relative to the step: of the place of a located point
-constexpr double kSameDerivative = 1e-2;  // of unit tangents: more is the mark of singular equations
 constexpr int kBisections = 60;
-constexpr double kBifurcationWidth = 1e-10;  // relative to the step
-constexpr double kLeapWidth = 1e-4;          // relative to the step: width at which points of two curves are told apart
-constexpr double kLeap = 10.0;               // of that width: points of one curve are nearer to each other
-constexpr double kNoise = 1e-13;             // over the distance to a bifurcation: how exact points there are (scaled)
-constexpr double kNarrowest = 1e-9;          // scaled width below which rounding hides whether points are of one curve
+constexpr double kLeap = 10.0;  // of that width: points of one curve are nearer to each other
 
 Jet ValueAlong(const FixedStateSystem& system, const Constraint& constraint, const CurvePoint& point) {
   return system.ValueAlong(constraint, point.x, point.first, point.second);
@@ -59,9 +49,9 @@ std::optional<CurvePoint> LocateRate(SmoothArc* arc, const Step& step, double t,
   for (int i = 0; point && i < kNewtonIterations; ++i) {
     const Jet jet = along(*point);
     const double value = jet.first, slope = jet.second;
-    if (std::abs(value) <= kRateZero) return point;
+    if (std::abs(value) <= tolerances::kUnitComponent) return point;
     if (std::abs(value) >= 0.5 * previous)  // rounding, or there is no zero
-      return std::abs(value) <= kFlat ? point : std::nullopt;
+      return std::abs(value) <= tolerances::kLevel ? point : std::nullopt;
     previous = std::abs(value);
     const double move = -value / slope;
     if (!(std::abs(move) <= step.length)) return std::nullopt;
@@ -83,7 +73,7 @@ std::optional<Bracket> FindBifurcation(SmoothArc* arc, const Step& step) {
   const Eigen::Index n = step.normal.size();
   double before = 0.0, beyond = step.length;
   CurvePoint near_before = step.start, near_beyond = step.end;
-  for (int i = 0; i < kBisections && beyond - before > kBifurcationWidth * step.length; ++i) {
+  for (int i = 0; i < kBisections && beyond - before > tolerances::kBifurcationWidth * step.length; ++i) {
     const double t = 0.5 * (before + beyond);
     const std::optional<CurvePoint> point = PointAt(arc, step, t);
     if (!point || point->pivot_sign == 0) return Bracket{t, beyond - before};  // singular to rounding
@@ -91,9 +81,9 @@ std::optional<Bracket> FindBifurcation(SmoothArc* arc, const Step& step) {
     (is_before ? before : beyond) = t;
     (is_before ? near_before : near_beyond) = *point;
     const double width = beyond - before;
-    if (width > kLeapWidth * step.length || width < kNarrowest) continue;
+    if (width > tolerances::kLeapWidth * step.length || width < tolerances::kLeapNarrowest) continue;
     const double apart = (near_beyond.x - near_before.x).head(n).norm();
-    if (apart > kLeap * width + kNoise / width) return std::nullopt;
+    if (apart > kLeap * width + tolerances::kLeapRounding / width) return std::nullopt;
   }
   return Bracket{0.5 * (before + beyond), beyond - before};
 }
@@ -115,7 +105,7 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, std::optional<double> tar
   const FixedStateSystem& system = arc->system();
   StepEvent first;
   first.t = step.length;
-  const double width = kCoincident * step.length;
+  const double width = tolerances::kCoincident * step.length;
   const auto consider = [&](EventKind kind, double t, const Constraint& limit) {
     // An event that coincides with something else is the one to act on.
     const double head_start = first.kind == EventKind::kContactEvent && kind != EventKind::kContactEvent ? width : 0.0;
@@ -125,7 +115,7 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, std::optional<double> tar
   // No node moves further than the arc length, and that is hardly longer than the step.
   for (const Constraint& limit : system.InequalitiesInReach(step.start.x, kReach * step.length)) {
     const Quintic quintic = FunctionOf(system, step, limit);
-    const double zero = limit.inequality == Inequality::kSlip ? kFlat : kZero;
+    const double zero = limit.inequality == Inequality::kSlip ? tolerances::kLevel : tolerances::kBrokenOnStep;
     if (const std::optional<double> t = FirstNegative(quintic, step.length, zero)) {
       consider(EventKind::kContactEvent, *t, limit);
       continue;
@@ -143,14 +133,14 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, std::optional<double> tar
   Quintic reversed = load_rate;
   for (double& coefficient : reversed) coefficient = -coefficient;
   for (const Quintic& rate : {load_rate, reversed}) {
-    const std::optional<double> t = FirstNegative(rate, step.length, kFlat);
+    const std::optional<double> t = FirstNegative(rate, step.length, tolerances::kLevel);
     if (t && *t > 0.0) consider(EventKind::kLimitPoint, *t, {});
   }
   if (step.start.determinant_sign * step.end.determinant_sign < 0) {
     const std::optional<Bracket> bifurcation = FindBifurcation(arc, step);
     if (!bifurcation) return {EventKind::kTooLong, 0.0, {}, false};
     const double apart = std::abs(bifurcation->t - first.t), near = std::max(width, bifurcation->width);
-    if (first.kind != EventKind::kNone && apart > near && apart <= kUnclear * step.length)
+    if (first.kind != EventKind::kNone && apart > near && apart <= tolerances::kUnclear * step.length)
       return {EventKind::kTooLong, 0.0, {}, false};
     if (first.kind != EventKind::kNone && apart <= near)
       first.singular = true;
@@ -176,7 +166,7 @@ std::optional<CurvePoint> Locate(SmoothArc* arc, const Step& step, const StepEve
   std::optional<CurvePoint> point = LocateRegular(arc, step, event, target.value_or(0.0));
   if (!point) return std::nullopt;
   const double t = step.normal.dot((point->x - step.start.x).head(step.normal.size()));
-  const double slack = kSlack * step.length;
+  const double slack = tolerances::kLocatedPlace * step.length;
   if (!(t >= -slack && t <= step.length + slack)) return std::nullopt;
   return point;
 }
@@ -210,7 +200,7 @@ std::optional<CurvePoint> LocateRegular(SmoothArc* arc, const Step& step, const 
   // that crossed it.
   const Eigen::VectorXd guess = step.Point(event.t);
   Correction correction = arc->CorrectOnto(event.limit, guess);
-  const double reach = 0.1 * step.length + 1e-9;
+  const double reach = 0.1 * step.length + tolerances::kLocatedReach;
   if (!correction.converged || !((correction.x - guess).head(arc->NumMotion()).norm() <= reach)) {
     std::optional<CurvePoint> lowest =
         LocateRate(arc, step, event.t, [&](const CurvePoint& at) { return ValueAlong(system, event.limit, at); });
@@ -221,7 +211,7 @@ std::optional<CurvePoint> LocateRegular(SmoothArc* arc, const Step& step, const 
   const CurvePoint interpolated = step.At(step.normal.dot((correction.x - step.start.x).head(step.normal.size())));
   CurvePoint point;
   const bool regular = arc->Derivatives(correction.x, interpolated.first.head(step.normal.size()), &point) &&
-                       (point.first - interpolated.first).norm() <= kSameDerivative;
+                       (point.first - interpolated.first).norm() <= tolerances::kSameDerivative;
   if (!regular) point = interpolated;
   point.x = correction.x;
   return point;

@@ -4,21 +4,16 @@
 
 #include "contact_path/linear/bordered_solver.h"
 #include "contact_path/linear/minimum_norm.h"
+#include "contact_path/tolerances.h"
 
 namespace contact_path {
 namespace {
 
 constexpr int kMaxIterations = 40;
-constexpr double kStepTolerance = 1e-14;      // relative to 1 + |x|: rounding level
-constexpr double kStagnationStep = 1e-9;      // relative: below this a step that no longer shrinks is rounding
-constexpr double kResidualTolerance = 1e-10;  // scaled force or length
 
 // Weight of the reactions in the norm of a step. They take no part in what is wanted; the weight only makes a step
 // unique where reactions are redundant, and acts on steps, so it leaves the converged point untouched.
 constexpr double kReactionWeight = 1.0 / 32.0;
-
-// Ratio of pivots below which equations may be redundant or leave more than a curve.
-constexpr double kClearlyRegular = 1e-8;
 
 // Shortest solutions of underdetermined equations. As a rule they describe a curve: then by LU, with a row added that
 // is not orthogonal to it, less what lies along the curve; otherwise by a rank-revealing QR.
@@ -27,7 +22,8 @@ class ShortestStep {
   // transposed: unknowns x equations. False if the matrix is not finite.
   bool Factorize(const Eigen::SparseMatrix<double>& transposed) {
     const Eigen::Index unknowns = transposed.rows();
-    curve_ = lu_.FactorizeRegular(transposed, Eigen::VectorXd::LinSpaced(unknowns, 0.5, 1.0), kClearlyRegular);
+    curve_ = lu_.FactorizeRegular(transposed, Eigen::VectorXd::LinSpaced(unknowns, 0.5, 1.0),
+                                  tolerances::kRegularPivotNearest);
     if (!curve_) return qr_.Factorize(transposed);
     along_ = lu_.Solve(Eigen::VectorXd::Zero(transposed.cols()), 1.0).normalized();
     rank_ = transposed.cols();
@@ -80,10 +76,11 @@ NearestPoint FindNearestPoint(FixedStateSystem* system, const Eigen::VectorXd& s
     result.residual = residual.size() == 0 ? 0.0 : residual.lpNorm<Eigen::Infinity>();
     if (!std::isfinite(result.residual)) return result;
     const double scale = 1.0 + result.x.norm();
-    const bool at_rounding = result.last_step <= kStepTolerance * scale ||
-                             (result.last_step <= kStagnationStep * scale && result.last_step >= 0.5 * previous);
+    const bool at_rounding =
+        result.last_step <= tolerances::kNewtonStep * scale ||
+        (result.last_step <= tolerances::kStagnationSingular * scale && result.last_step >= 0.5 * previous);
     if (at_rounding) {
-      result.converged = result.residual <= kResidualTolerance;
+      result.converged = result.residual <= tolerances::kResidualSingular;
       ++result.iterations;
       return result;
     }

@@ -98,7 +98,7 @@ struct BorderedSolver::Factors {
            Regular();
   }
 
-  bool Regular() { return klu_rcond(symbolic, numeric, &common) == 1 && common.rcond > kSingular; }
+  bool Regular() { return klu_rcond(symbolic, numeric, &common) == 1 && common.rcond > tolerances::kSingularPivot; }
 
   // Needs the factors.
   int DeterminantSign() const {
@@ -132,7 +132,7 @@ bool BorderedSolver::Factorize(const Eigen::SparseMatrix<double>& transposed, co
   }
   if (!factors_->matrix.coeffs().allFinite()) return false;
   return factors_->minimum_norm.Factorize(factors_->matrix,
-                                          rank_tolerance > 0.0 ? rank_tolerance : MinimumNormSolver::kRankTolerance);
+                                          rank_tolerance > 0.0 ? rank_tolerance : tolerances::kDependentColumn);
 }
 
 bool BorderedSolver::FactorizeRegular(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& row,
@@ -140,8 +140,8 @@ bool BorderedSolver::FactorizeRegular(const Eigen::SparseMatrix<double>& transpo
   const bool same_pattern = factors_->Assemble(transposed, row);
   const bool possible = factors_->matrix.rows() == factors_->matrix.cols() && factors_->matrix.coeffs().allFinite();
   if (!possible) factors_->Free();
-  factors_->regular =
-      possible && factors_->FactorizeLu(same_pattern) && factors_->common.rcond > std::max(regular, kSingular);
+  factors_->regular = possible && factors_->FactorizeLu(same_pattern) &&
+                      factors_->common.rcond > std::max(regular, tolerances::kSingularPivot);
   return factors_->regular;
 }
 

@@ -78,8 +78,9 @@ MinimumNormSolver::~MinimumNormSolver() = default;
 
 bool MinimumNormSolver::Factorize(const Eigen::SparseMatrix<double>& transposed, double rank_tolerance) {
   // Equations of unit norm: so that what is soft beside something stiff counts as much.
-  const Eigen::VectorXd floors =
-      rank_tolerance > kRankTolerance ? NormsAround(transposed) : Eigen::VectorXd::Zero(transposed.cols());
+  const Eigen::VectorXd floors = rank_tolerance > tolerances::kDependentColumn
+                                     ? NormsAround(transposed)
+                                     : Eigen::VectorXd::Zero(transposed.cols());
   Eigen::VectorXd norms(transposed.cols());
   for (Eigen::Index column = 0; column < transposed.cols(); ++column) {
     const double norm = std::max(transposed.col(column).norm(), kFading * floors[column]);

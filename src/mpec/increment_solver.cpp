@@ -5,12 +5,10 @@
 #include <utility>
 
 #include "contact_path/equations/nearest_point.h"
+#include "contact_path/tolerances.h"
 
 namespace contact_path {
 namespace {
-
-// Inequalities of the exact point may be violated by rounding only. Scaled quantities.
-constexpr double kInequalityTolerance = 1e-11;
 
 // Times eps: barrier parameter with which the solve for eps starts, so that the barrier never hides the relaxed
 // products.
@@ -137,7 +135,7 @@ bool IncrementSolver::PolishActiveSet(const PathPoint& from, const Eigen::Vector
     // An inequality that fails is active at the minimum: it becomes an equation.
     const std::size_t before = active.size();
     for (const Constraint& limit : system_.Inequalities())
-      if (system_.Value(limit, nearest.x) < -kInequalityTolerance) active.push_back(limit);
+      if (system_.Value(limit, nearest.x) < -tolerances::kBrokenAtPoint) active.push_back(limit);
     if (active.size() == before) {
       // Slip held at zero motion: the contact stuck, and is about to slip.
       for (const Constraint& limit : active)

@@ -8,21 +8,15 @@
 #include "contact_path/mpec/short_increment.h"
 #include "contact_path/path/automatic_step.h"
 #include "contact_path/path/diagnosis.h"
+#include "contact_path/tolerances.h"
 
 namespace contact_path {
 namespace {
 
-constexpr double kAccepted = 1e-9;                 // residuals of an accepted increment
-constexpr double kNoMove = 1e-12;                  // an event nearer than this to the last one happens in place
-constexpr double kRounding = 1e-12;                // of a Newton step
 constexpr int kMostEventsInPlace = 8;              // then the contacts chatter, and no branch is trusted
-constexpr double kLevel = 1e-9;                    // of a unit rate: the load neither rises nor falls
-constexpr double kLevelSingular = 1e-6;            // where the rate is not exact
-constexpr double kSameTangent = 1e-6;              // difference of unit tangents
 constexpr double kPredictionAfterSingular = 0.05;  // largest error of the predictor there, where no smaller one is met
 constexpr double kAfterSingular = 0.05;  // of the step: derivatives at a singular point are not exact to second order
 constexpr int kLocatingAttempts = 6;
-constexpr double kNearBifurcation = 1e-6;  // of a step
 
 // The rate of a quantity; where it is zero, how it changes next to there; 0 where both are.
 double Trend(double rate, double change, double level) {
@@ -92,7 +86,7 @@ const BranchChoice* BranchMethod::ChoiceForIncrement(int increment) const {
 bool BranchMethod::Leave(const PathPoint& point, const Branch& branch) {
   arc_.SetStates(branch.states, point, branch.singular);
   const bool regular = arc_.Derivatives(arc_.system().Pack(point), branch.direction, &current_) &&
-                       (current_.first - branch.first).norm() <= kSameTangent;
+                       (current_.first - branch.first).norm() <= tolerances::kSameTangent;
   if (regular) return true;
   // Another path crosses here, or the structure has rigid modes: the branch itself tells where to go.
   current_.x = arc_.system().Pack(point);
@@ -164,8 +158,8 @@ std::optional<EndReason> BranchMethod::PassEvent(const PathPoint& point, const A
 }
 
 std::size_t BranchMethod::BestThatLoads(const std::vector<Branch>& branches) const {
-  const auto loads = [&](const Branch& branch) { return branch.load_rate * options_.direction > kLevel; };
-  if (branches.front().load_rate * options_.direction >= -kLevel) return 0;
+  const auto loads = [&](const Branch& branch) { return branch.load_rate * options_.direction > tolerances::kLevel; };
+  if (branches.front().load_rate * options_.direction >= -tolerances::kLevel) return 0;
   const auto best = std::find_if(branches.begin(), branches.end(), loads);
   return best == branches.end() ? 0 : static_cast<std::size_t>(best - branches.begin());
 }
@@ -176,7 +170,7 @@ std::optional<Step> BranchMethod::TryStep(double length, double prediction) {
   const Eigen::VectorXd straight = current_.x + length * current_.first;
   const Eigen::VectorXd bend = 0.5 * length * length * current_.second;
   const auto good = [&](const Correction& correction) {
-    return correction.converged && correction.first_step <= tolerance + kRounding;
+    return correction.converged && correction.first_step <= tolerance + tolerances::kPredictor;
   };
   Correction correction = arc_.CorrectOnPlane(straight + bend, normal);
   // Next to a singular point the second derivatives are little but rounding.
@@ -235,7 +229,7 @@ Work BranchMethod::WorkOf(const Step& step) const {
 
 std::vector<double> BranchMethod::CrossingPath(const Step& step) {
   // A little before the bifurcation, where the equations are regular.
-  const CurvePoint near = step.At((1.0 - kNearBifurcation) * step.length);
+  const CurvePoint near = step.At((1.0 - tolerances::kBeforeBifurcation) * step.length);
   const Eigen::VectorXd direction = arc_.CrossingDirection(near.x, near.first.head(arc_.NumMotion()));
   std::vector<double> components(model_.configuration.start.size(), 0.0);
   for (const DofMap::Component& of : model_.structure.Dofs().Components())
@@ -290,7 +284,8 @@ std::optional<EndReason> BranchMethod::PassBifurcation(const Eigen::VectorXd& be
   // Where a contact slides, not both directions need be admissible.
   const auto slips = [&](const Eigen::VectorXd& first) {
     return std::all_of(constraints.begin(), constraints.end(), [&](const Constraint& constraint) {
-      return constraint.inequality != Inequality::kSlip || arc_.system().Rate(constraint, current_.x, first) >= -kLevel;
+      return constraint.inequality != Inequality::kSlip ||
+             arc_.system().Rate(constraint, current_.x, first) >= -tolerances::kLevel;
     });
   };
   if (crossing)
@@ -333,7 +328,7 @@ Advance BranchMethod::ChangeReactions(const PathPoint& from) {
                       ": only reactions change there, and the branches part in the increment before";
     return advance;
   }
-  if (!(increment.residuals.Largest() <= kAccepted)) {
+  if (!(increment.residuals.Largest() <= tolerances::kAcceptedExact)) {
     advance.message = "the reactions with which a branch begins are not in equilibrium";
     return advance;
   }
@@ -392,14 +387,14 @@ Advance BranchMethod::Next(const PathPoint& from) {
       const std::optional<CurvePoint> point = Locate(&arc_, *step, event, options_.target);
       if (!point) break;
       Step part = MakeStep(step->start, *point, arc_.NumMotion());
-      if (!(part.length > kNoMove)) {
+      if (!(part.length > tolerances::kNoMove)) {
         part.length = 0.0;
         step = part;
         located = true;
         break;
       }
       const StepEvent earlier = FirstEvent(&arc_, part, options_.target);
-      const bool first = earlier.kind == EventKind::kNone || earlier.t >= part.length - kNoMove;
+      const bool first = earlier.kind == EventKind::kNone || earlier.t >= part.length - tolerances::kNoMove;
       step = part;
       if (first)
         located = true;
@@ -426,7 +421,7 @@ Advance BranchMethod::Next(const PathPoint& from) {
   increment.solve.stiffness_sign = StiffnessSign(step->end);
   increment.solve.iterations = iterations_;
   increment.solve.contraction = contraction_;
-  if (!(increment.residuals.Largest() <= kAccepted)) {
+  if (!(increment.residuals.Largest() <= tolerances::kAcceptedExact)) {
     advance.message = "the residuals of the next point are too large";
     return advance;
   }
@@ -461,7 +456,7 @@ Advance BranchMethod::Next(const PathPoint& from) {
             PassBifurcation(step->start.x, choice, &increment.event, &advance.message)) {
       advance.ended = true;
       advance.reason = *reason;
-    } else if (increment.event.taken > 1 && TurnsLoad(end, kLevelSingular)) {
+    } else if (increment.event.taken > 1 && TurnsLoad(end, tolerances::kLevelSingular)) {
       increment.kind = IncrementKind::kCornerLimit;
       increment.event.null_vector.clear();
     }
@@ -480,7 +475,7 @@ Advance BranchMethod::Next(const PathPoint& from) {
       advance.reason = *reason;
       increment.kind = IncrementKind::kContactEvent;
     } else {
-      const bool turns = TurnsLoad(end, event.singular ? kLevelSingular : kLevel);
+      const bool turns = TurnsLoad(end, event.singular ? tolerances::kLevelSingular : tolerances::kLevel);
       increment.kind = turns ? IncrementKind::kCornerLimit : IncrementKind::kContactEvent;
     }
   } else if (event.kind == EventKind::kLimitPoint) {

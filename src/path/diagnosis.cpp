@@ -9,19 +9,12 @@
 #include <sstream>
 
 #include "contact_path/scene/scene_index.h"
+#include "contact_path/tolerances.h"
 
 namespace contact_path {
-namespace {
-
-constexpr double kNearlyNothing = 1e-2;    // of the initial length
-constexpr double kPullOfRounding = 1e-13;  // of the characteristic force
-constexpr double kPullOfLargest = 1e-2;    // of the largest reaction so far
-
-}  // namespace
-
 std::string CollapsedBar(const Scene& scene, const std::vector<double>& positions) {
   const SceneIndex index(scene);
-  double smallest = kNearlyNothing;
+  double smallest = tolerances::kCollapsed;
   std::string text;
   for (std::size_t i = 0; i < scene.bars.size(); ++i) {
     const std::size_t a = index.Node(scene.bars[i].nodes[0]), b = index.Node(scene.bars[i].nodes[1]);
@@ -40,7 +33,7 @@ std::string CollapsedBar(const Scene& scene, const std::vector<double>& position
 }
 
 std::string PullingContact(const Model& model, const PathPoint& point, double largest_reaction) {
-  const double most = std::max(kPullOfRounding, kPullOfLargest * largest_reaction);
+  const double most = std::max(tolerances::kReactionRounding, tolerances::kPullOfLargest * largest_reaction);
   for (std::size_t i = 0; i < model.contacts.size(); ++i) {
     const double pull = -point.rn[static_cast<Eigen::Index>(i)];
     if (!(pull > most)) continue;

@@ -7,13 +7,11 @@
 #include <new>
 
 #include "contact_path/linear/minimum_norm.h"
+#include "contact_path/tolerances.h"
 
 namespace contact_path {
 namespace {
 
-constexpr double kTouches = 1e-10;         // scaled gap
-constexpr double kMoves = 1e-6;            // of a unit null vector
-constexpr double kSoft = 1e-10;            // of the largest entry of the tangent: no resistance but rounding
 constexpr Eigen::Index kMostMotions = 64;  // looked at
 constexpr std::size_t kMostNames = 5;      // listed
 
@@ -29,7 +27,7 @@ void AddEquation(const ContactPair& pair, const PairVector& gradient, int equati
 Eigen::SparseMatrix<double> Resistance(const Model& model, const PathPoint& point, double force) {
   Eigen::SparseMatrix<double> tangent = model.structure.TangentPattern();
   model.structure.Tangent(point.u, &tangent);
-  const double least = kSoft * tangent.coeffs().cwiseAbs().maxCoeff();
+  const double least = tolerances::kNoResistance * tangent.coeffs().cwiseAbs().maxCoeff();
   Triplets entries;
   for (int column = 0; column < tangent.outerSize(); ++column)
     for (Eigen::SparseMatrix<double>::InnerIterator it(tangent, column); it; ++it)
@@ -76,7 +74,7 @@ Names FreeNames(const Model& model, const PathPoint& point, double force) {
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
     const ContactCandidate& contact = scene.contacts[i];
     const bool free = std::find(names.nodes.begin(), names.nodes.end(), contact.node) != names.nodes.end();
-    if (!free || model.contacts[i]->Gap(point.u, point.s) > kTouches) continue;
+    if (!free || model.contacts[i]->Gap(point.u, point.s) > tolerances::kActiveGap) continue;
     names.contacts.push_back(contact.Name());
     if (std::find(names.obstacles.begin(), names.obstacles.end(), contact.obstacle) == names.obstacles.end())
       names.obstacles.push_back(contact.obstacle);
@@ -105,7 +103,7 @@ std::vector<int> FreeNodes(const Model& model, const PathPoint& point, double fo
     for (std::size_t i = 0; i < model.scene.nodes.size(); ++i)
       for (const int axis : {0, 1}) {
         const int dof = model.structure.Dof(static_cast<int>(i), axis);
-        if (dof < 0 || !(largest[dof] > kMoves)) continue;
+        if (dof < 0 || !(largest[dof] > tolerances::kTakesPart)) continue;
         nodes.push_back(static_cast<int>(i));
         break;
       }

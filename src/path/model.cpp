@@ -1,12 +1,10 @@
 #include "contact_path/path/model.h"
 
 #include "contact_path/contact/scene_contacts.h"
+#include "contact_path/tolerances.h"
 
 namespace contact_path {
 namespace {
-
-// A candidate closer than this touches: rounding of the scene's coordinates. Scaled length.
-constexpr double kTouching = 1e-9;
 
 // Where the records have it: x0, y0, x1, ...
 std::size_t PositionIndex(const DofMap::Component& position) {
@@ -33,7 +31,7 @@ PathPoint Model::InitialPoint() const {
   point.rn = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(contacts.size()));
   point.rt = point.rn;
   for (const auto& contact : contacts) {
-    const bool touches = contact->Gap(point.u, point.s) <= kTouching;
+    const bool touches = contact->Gap(point.u, point.s) <= tolerances::kTouchingAtStart;
     const ContactState rest = contact->Frictional() ? ContactState::kStick : ContactState::kClosed;
     point.states.push_back(touches ? rest : ContactState::kOpen);
   }

@@ -9,15 +9,10 @@
 #include "contact_path/equations/fixed_state_system.h"
 #include "contact_path/equations/nearest_point.h"
 #include "contact_path/path/automatic_step.h"
+#include "contact_path/tolerances.h"
 
 namespace contact_path {
 namespace {
-
-// Residuals of an exact point are rounding; those of a regularised one are of the order of the root of its eps.
-constexpr double kExactTolerance = 1e-9;
-constexpr double kRegularisedTolerance = 1e-5;
-// Of the largest force, and of the increment: by this much a regularised point may differ from its contact states.
-constexpr double kStateTolerance = 0.1;
 
 // An increment shorter than this part of what was wanted has not moved: (0, 0) is always feasible.
 constexpr double kProgress = 0.05;
@@ -25,20 +20,10 @@ constexpr double kProgress = 0.05;
 // Without a change of state the path does not turn by more than 60 degrees in one increment.
 constexpr double kSmallestCosine = 0.5;
 
-// A start along which the load changes less, of the length moved, is a mechanism.
-constexpr double kStartRate = 1e-13;
-
 // Shares of the dissipation term in the minimiser. Small: the path is followed; larger where nothing but dissipation
 // leads on.
 constexpr double kDissipationShares[] = {0.2, 0.6, 1.0};
 
-// Scaled force or length: an inequality this close to zero is about to change a contact's state.
-constexpr double kAtLimit = 1e-9;
-
-// Of a unit direction: the load neither rises nor falls.
-constexpr double kLevel = 1e-9;
-
-constexpr double kBroken = 1e-11;        // scaled: an inequality at an exact point
 constexpr double kFarthestTarget = 2.0;  // of the increment that goes past the target: farther is another branch
 constexpr double kLevelling =
     0.25;  // a rate at the end of an increment that may be none, relative to the one at its begin
@@ -52,9 +37,9 @@ constexpr double kSmallestStepRatio = 1e-7;  // of the wanted step
 bool ActiveSetTolerance(const ContactPair& contact, const PathPoint& point, std::size_t i) {
   const auto k = static_cast<Eigen::Index>(i);
   const bool open = point.states[i] == ContactState::kOpen;
-  if ((open ? contact.Gap(point.u, point.s) : point.rn[k]) <= kAtLimit) return true;
+  if ((open ? contact.Gap(point.u, point.s) : point.rn[k]) <= tolerances::kNearlyActive) return true;
   return point.states[i] == ContactState::kStick &&
-         contact.Friction() * point.rn[k] - std::abs(point.rt[k]) <= kAtLimit;
+         contact.Friction() * point.rn[k] - std::abs(point.rt[k]) <= tolerances::kNearlyActive;
 }
 
 bool SomeAtLimit(const ContactPairs& contacts, const PathPoint& point) {
@@ -81,8 +66,8 @@ double LargestForce(const PathPoint& point) {
 // Whether what a regularised point says of each contact is what its numbers say. They may all be small against the
 // characteristic force, and then small residuals prove nothing.
 bool StatesAgree(const ContactPairs& contacts, const PathPoint& from, const PathPoint& to) {
-  const double force = kStateTolerance * LargestForce(to);
-  const double length = kStateTolerance * Distance(from, to);
+  const double force = tolerances::kRegularisedState * LargestForce(to);
+  const double length = tolerances::kRegularisedState * Distance(from, to);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
     const double slip = contacts[i]->Slip(from.u, from.s, to.u - from.u, to.s - from.s);
@@ -179,7 +164,7 @@ void MpecMethod::Judge(const PathPoint& from, const Eigen::VectorXd& direction, 
   }
   const PathPoint& to = trial.increment.point;
   trial.residuals = model_.Check(from, to);
-  const double tolerance = trial.increment.exact ? kExactTolerance : kRegularisedTolerance;
+  const double tolerance = trial.increment.exact ? tolerances::kAcceptedExact : tolerances::kAcceptedRegularised;
   const double moved = Distance(from, to);
   if (!(trial.residuals.Largest() <= tolerance))
     trial.verdict = Verdict::kResidual;
@@ -189,7 +174,7 @@ void MpecMethod::Judge(const PathPoint& from, const Eigen::VectorXd& direction, 
     trial.verdict = Verdict::kTooLong;
   else if (moved < kProgress * length)
     trial.verdict = Verdict::kNoProgress;
-  else if (!started_ && (to.s - from.s) * options_.direction <= kStartRate * moved)
+  else if (!started_ && (to.s - from.s) * options_.direction <= tolerances::kUnitComponent * moved)
     trial.verdict = Verdict::kWrongDirection;
   else if (started_ && !bent_ && to.states == from.states && Direction(from, to).dot(direction) < kSmallestCosine &&
            !SomeAtLimit(model_.contacts, from))
@@ -275,11 +260,11 @@ bool MpecMethod::EndAtTarget(const PathPoint& from, const std::vector<ContactSta
   const NearestPoint nearest = FindNearestPoint(&system, start, start.head(from.u.size() + 1));
   if (!nearest.converged) return false;
   for (const Constraint& limit : system.Inequalities())
-    if (system.Value(limit, nearest.x) < -kBroken) return false;
+    if (system.Value(limit, nearest.x) < -tolerances::kBrokenAtPoint) return false;
   PathPoint point = system.Unpack(nearest.x);
   if (Distance(from, point) > kFarthestTarget * Distance(from, to)) return false;
   trial->residuals = model_.Check(from, point);
-  if (!(trial->residuals.Largest() <= kExactTolerance)) return false;
+  if (!(trial->residuals.Largest() <= tolerances::kAcceptedExact)) return false;
   trial->increment.point = std::move(point);
   trial->increment.exact = true;
   return true;
@@ -292,7 +277,7 @@ std::optional<int> MpecMethod::EndAtReturn(const PathPoint& from, Trial* trial) 
   const std::optional<ReturnDetector::Return> found = options_.returns->Find(from, to);
   if (!found) return std::nullopt;
   const Residuals residuals = model_.Check(from, found->point);
-  if (!(residuals.Largest() <= kExactTolerance)) return std::nullopt;
+  if (!(residuals.Largest() <= tolerances::kAcceptedExact)) return std::nullopt;
   trial->increment.point = found->point;
   trial->residuals = residuals;
   return found->increment;
@@ -348,7 +333,7 @@ Advance MpecMethod::Next(const PathPoint& from) {
     const Eigen::VectorXd direction = Direction(from, to);
     const Eigen::Index s = direction.size() - 1;
     if (started_ && direction[s] * direction_[s] < 0.0 &&
-        std::min(std::abs(direction[s]), std::abs(direction_[s])) > kLevel)
+        std::min(std::abs(direction[s]), std::abs(direction_[s])) > tolerances::kLevel)
       increment.kind = changed || bent_ ? IncrementKind::kCornerLimit : IncrementKind::kSmoothLimit;
     else if (changed)
       increment.kind = IncrementKind::kContactEvent;

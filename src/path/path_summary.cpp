@@ -7,11 +7,12 @@
 #include <locale>
 #include <sstream>
 
+#include "contact_path/tolerances.h"
+
 namespace contact_path {
 namespace {
 
 constexpr std::size_t kLimitPointsListed = 10;
-constexpr double kRounding = 1e-14;  // of the scale of the load factor
 
 std::ostringstream NewText() {
   std::ostringstream text;
@@ -26,7 +27,7 @@ std::string Counted(int count, const char* what) {
 }  // namespace
 
 std::string LoadFactorText(double load_factor, double scale) {
-  if (std::abs(load_factor) <= kRounding * scale) return "0";
+  if (std::abs(load_factor) <= tolerances::kToldAsZero * scale) return "0";
   std::ostringstream text = NewText();
   text << std::setprecision(10) << load_factor;
   return text.str();

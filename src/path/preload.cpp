@@ -5,10 +5,11 @@
 #include <sstream>
 #include <utility>
 
+#include "contact_path/tolerances.h"
+
 namespace contact_path {
 namespace {
 
-constexpr double kNothing = 1e-14;  // scaled force: rounding of an unstressed start
 const char* const kWhere = "while the constant loads were brought on: ";
 
 std::string LimitMessage(double share) {
@@ -45,7 +46,7 @@ Preload TracePreload(const Model& model, int max_increments, const MethodFactory
   preload.point = model.InitialPoint();
   Eigen::VectorXd holding(model.structure.NumDofs());
   model.structure.InternalForce(preload.point.u, holding);
-  const bool stressed = holding.lpNorm<Eigen::Infinity>() > kNothing;
+  const bool stressed = holding.lpNorm<Eigen::Infinity>() > tolerances::kUnstressed;
   const double constant = model.structure.ConstantLoad().lpNorm<Eigen::Infinity>();
   if (!stressed && constant <= 0.0) {
     preload.done = true;

@@ -3,19 +3,19 @@
 #include <algorithm>
 #include <utility>
 
+#include "contact_path/tolerances.h"
+
 namespace contact_path {
 namespace {
-
-constexpr double kLevel = 1e-9;  // of a unit rate: the load neither rises nor falls
 
 // Whether the best branch turns the load back while another goes on with it. change: of the load until there.
 bool TurnsBackByChoice(const EventRecord& event, double change) {
   if (event.taken != 1) return false;
   const double sign = change > 0.0 ? 1.0 : -1.0;
-  return event.branches[0].load_rate * sign < -kLevel &&
+  return event.branches[0].load_rate * sign < -tolerances::kLevel &&
          std::any_of(event.branches.begin(), event.branches.end(), [&](const BranchRecord& branch) {
-           return branch.load_rate * sign > kLevel &&
-                  branch.dissipation_rate < event.branches[0].dissipation_rate - kLevel;
+           return branch.load_rate * sign > tolerances::kLevel &&
+                  branch.dissipation_rate < event.branches[0].dissipation_rate - tolerances::kLevel;
          });
 }
 

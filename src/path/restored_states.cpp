@@ -10,12 +10,11 @@
 #include "contact_path/path/model.h"
 #include "contact_path/path/recorder.h"
 #include "contact_path/scene/program.h"
+#include "contact_path/tolerances.h"
 
 namespace contact_path {
 namespace {
 
-constexpr double kSameLoad = 1e-9;    // scaled, relative to 1 + |s|
-constexpr double kSameArc = 1e-12;    // relative to the increment
 constexpr double kMovingLoad = 1e-2;  // of the arc length: a smaller change does not tell the direction
 constexpr int kIterations = 20;       // for the arc length
 
@@ -53,7 +52,7 @@ class Restorer {
     const std::optional<PathPoint> point =
         PointAfter(start, from, wanted.arc_length - before.arc_length, wanted.solve.method);
     const double load = wanted.load_factor / model_.scaling.load_factor;
-    if (!point || !(std::abs(point->s - load) <= kSameLoad * (1.0 + std::abs(load)))) return false;
+    if (!point || !(std::abs(point->s - load) <= tolerances::kRecordedLoad * (1.0 + std::abs(load)))) return false;
     FillState(model_, *point, &wanted);
     return true;
   }
@@ -95,7 +94,7 @@ class Restorer {
       const double reached =
           method == Method::kBranch ? MakeStep(start, end, arc_.NumMotion()).ArcLength() : Distance(from, *point);
       const double error = std::abs(reached - length);
-      if (error <= kSameArc * length || error >= last_error) return point;
+      if (error <= tolerances::kRecordedArc * length || error >= last_error) return point;
       last_error = error;
       t += length - reached;
     }

@@ -4,15 +4,12 @@
 #include <cmath>
 #include <utility>
 
+#include "contact_path/tolerances.h"
+
 namespace contact_path {
 namespace {
 
-constexpr double kSamePoint = 1e-9;      // of the extent of the path
-constexpr double kSameReaction = 1e-9;   // of the largest so far
-constexpr double kRounding = 1e-13;      // of the characteristic force
-constexpr double kSameDirection = 1e-6;  // difference of unit tangents
-constexpr double kReach = 2.0;           // of the chord: a point on the increment is no farther from its end
-constexpr double kSlack = 1e-9;          // of the chord: of the place of a crossing
+constexpr double kReach = 2.0;  // of the chord: a point on the increment is no farther from its end
 constexpr std::size_t kMostNumbers = 1000000;
 constexpr std::size_t kMostReferences = 32;
 constexpr std::size_t kFewestReferences = 4;
@@ -62,7 +59,7 @@ std::optional<ReturnDetector::Return> ReturnDetector::Find(const PathPoint& from
     if (!crossing || !IsSame(*crossing, point)) continue;
     const Eigen::VectorXd now = TangentAt(*crossing, Chord(from, to));
     const Eigen::VectorXd then = TangentAt(point, reference.direction);
-    if (now.size() == 0 || then.size() == 0 || !((now - then).norm() <= kSameDirection)) continue;
+    if (now.size() == 0 || then.size() == 0 || !((now - then).norm() <= tolerances::kSameTangent)) continue;
     return Return{reference.increment, std::move(*crossing)};
   }
   return std::nullopt;
@@ -72,7 +69,7 @@ std::optional<PathPoint> ReturnDetector::CrossingOf(const Reference& reference, 
                                                     const PathPoint& to) {
   const double before = reference.direction.dot(Chord(reference.point, from));
   const double beyond = reference.direction.dot(Chord(reference.point, to));
-  const double slack = kSlack * Distance(from, to);
+  const double slack = tolerances::kLocatedPlace * Distance(from, to);
   if (!(before < -slack) || !(beyond >= -slack)) return std::nullopt;
   arc_.SetStates(to.states, from);
   const FixedStateSystem& system = arc_.system();
@@ -85,15 +82,15 @@ std::optional<PathPoint> ReturnDetector::CrossingOf(const Reference& reference, 
   PathPoint crossing = system.Unpack(correction.x);
   const Eigen::VectorXd chord = Chord(from, to);
   const double place = chord.dot(Chord(from, crossing)) / chord.squaredNorm();
-  if (!(place > 0.0) || !(place <= 1.0 + kSlack)) return std::nullopt;
+  if (!(place > 0.0) || !(place <= 1.0 + tolerances::kLocatedPlace)) return std::nullopt;
   return crossing;
 }
 
 bool ReturnDetector::IsSame(const PathPoint& a, const PathPoint& b) const {
-  if (!(Distance(a, b) <= kSamePoint * extent_)) return false;
+  if (!(Distance(a, b) <= tolerances::kReturnPoint * extent_)) return false;
   if (a.rn.size() == 0) return true;
   const double difference = std::max((a.rn - b.rn).lpNorm<Eigen::Infinity>(), (a.rt - b.rt).lpNorm<Eigen::Infinity>());
-  return difference <= kRounding + kSameReaction * largest_reaction_;
+  return difference <= tolerances::kReactionRounding + tolerances::kReturnReaction * largest_reaction_;
 }
 
 Eigen::VectorXd ReturnDetector::TangentAt(const PathPoint& point, const Eigen::VectorXd& towards) {

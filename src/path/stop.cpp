@@ -6,14 +6,9 @@
 #include "contact_path/scene/change_units.h"
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/scaling.h"
+#include "contact_path/tolerances.h"
 
 namespace contact_path {
-namespace {
-
-constexpr double kRounding = 1e-14;  // scaled
-
-}  // namespace
-
 std::vector<Quantity> StopQuantities(const TraceRequest& request, const SceneIndex& index) {
   std::vector<Quantity> quantities;
   quantities.reserve(request.options.stop.size());
@@ -39,7 +34,7 @@ StopTest::StopTest(const TraceRequest& request, const SceneIndex& index) {
   const std::vector<Quantity> quantities = StopQuantities(request, index);
   for (std::size_t i = 0; i < quantities.size(); ++i) {
     const double unit = SizeOf(UnitOf(quantities[i].kind), {scaling.length, scaling.force, scaling.load_factor});
-    items_.push_back({&request.options.stop[i], quantities[i], kRounding * unit});
+    items_.push_back({&request.options.stop[i], quantities[i], tolerances::kStopMargin * unit});
   }
 }
 

@@ -25,18 +25,15 @@
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/scene_index.h"
 #include "contact_path/scene/validate.h"
+#include "contact_path/tolerances.h"
 
 namespace contact_path {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kStartTolerance = 1e-9;        // residuals of increment 0, or of an exact increment to go on from
-constexpr double kRegularised = 1e-5;           // residuals of a regularised increment to go on from
-constexpr double kSoftest = 1e-8;               // scaled stiffness at a contact: below, reactions are lost in rounding
 constexpr int kMostPreloadIncrements = 100000;  // to bring the constant loads on; not counted with the others
 
-constexpr double kUnloaded = 1e-9;          // of the largest load factor: none
 constexpr std::size_t kCriteriaListed = 3;  // in a message
 
 double Seconds(Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
@@ -185,7 +182,7 @@ class Tracer {
   std::string WhatMovesFreely() const {
     if (model_ == nullptr) return {};
     const bool stuck = result_.reason == EndReason::kPathEnd || result_.reason == EndReason::kStepTooSmall;
-    const bool wanders = EndedBeforeItsEnd() && std::abs(point_.s) <= kUnloaded * largest_load_;
+    const bool wanders = EndedBeforeItsEnd() && std::abs(point_.s) <= tolerances::kUnloaded * largest_load_;
     if (!stuck && !wanders) return {};
     const double force = ActiveSetTolerance::For(largest_reaction_, point_.s).force;
     const std::string text = stuck && recorder_.increments() <= 1 ? FreeMotionQuestion(*model_, point_, force)
@@ -252,9 +249,9 @@ class Tracer {
   // From its first increment until its target. False: the trace has ended.
   bool TraceStage(const Model& model, std::size_t stage, Clock::time_point start) {
     const Residuals residuals = model.Check(point_, point_);
-    if (!(residuals.Largest() <= kStartTolerance))
+    if (!(residuals.Largest() <= tolerances::kAcceptedExact))
       return End(EndReason::kNumericalFailure, "the start is not an equilibrium");
-    if (const std::string soft = ContactTooSoft(model, point_, kSoftest); !soft.empty())
+    if (const std::string soft = ContactTooSoft(model, point_, tolerances::kSoftestContact); !soft.empty())
       return End(EndReason::kNumericalFailure, soft);
     const std::unique_ptr<PathMethod> method = MakeMethod(model, TargetOf(model, stage), recorder_.increments());
     EventRecord branches;
@@ -268,7 +265,8 @@ class Tracer {
   // The same from an increment inside.
   bool ResumeStage(const Model& model, std::size_t stage, const Resumption& resumption) {
     const Residuals residuals = model.Check(point_, point_);
-    if (!(residuals.Largest() <= (resumption.from->solve.exact ? kStartTolerance : kRegularised)))
+    if (!(residuals.Largest() <=
+          (resumption.from->solve.exact ? tolerances::kAcceptedExact : tolerances::kAcceptedRegularised)))
       return End(EndReason::kNumericalFailure, "the increment to go on from is not an equilibrium");
     events_ = resumption.events;
     RememberStage(model, resumption);

@@ -2,17 +2,13 @@
 
 #include <cmath>
 
+#include "contact_path/tolerances.h"
+
 namespace contact_path {
-namespace {
-
-constexpr double kRounding = 1e-12;  // of a unit tangent: cos(pi / 2) is 6e-17
-
-}  // namespace
-
 bool CanSlide(bool x_moves, bool y_moves, const Obstacle& obstacle) {
   if (obstacle.shape != ObstacleShape::kHalfPlane) return x_moves || y_moves;                 // its tangent turns
   const double share = std::hypot(x_moves ? obstacle.ny : 0.0, y_moves ? obstacle.nx : 0.0);  // t = (n_y, -n_x)
-  return share > kRounding * std::hypot(obstacle.nx, obstacle.ny);
+  return share > tolerances::kTangentComponent * std::hypot(obstacle.nx, obstacle.ny);
 }
 
 }  // namespace contact_path

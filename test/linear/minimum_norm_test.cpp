@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "contact_path/tolerances.h"
 #include "support/dense.h"
 #include "support/random.h"
 
@@ -99,10 +100,10 @@ TEST_F(MinimumNorm, RankDoesNotDependOnTheScaleOfTheMatrix) {
 
 TEST_F(MinimumNorm, WhatIsAboveTheRankToleranceCounts) {
   Eigen::Matrix2d a;
-  for (const double off : {100.0 * MinimumNormSolver::kRankTolerance, 0.01 * MinimumNormSolver::kRankTolerance}) {
+  for (const double off : {100.0 * tolerances::kDependentColumn, 0.01 * tolerances::kDependentColumn}) {
     a << 1.0, 1.0, 1.0, 1.0 + off;
     ASSERT_TRUE(solver_.Factorize(Eigen::MatrixXd(a).sparseView()));
-    EXPECT_EQ(solver_.Rank(), off > MinimumNormSolver::kRankTolerance ? 2 : 1);
+    EXPECT_EQ(solver_.Rank(), off > tolerances::kDependentColumn ? 2 : 1);
   }
 }
 

@@ -5,22 +5,23 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact_path/tolerances.h"
+
 namespace contact_path {
 
 // Scaled values up to which gaps, and reactions and margins to the friction cone, are at their limit. Points are exact
 // to about 1e-14, next to singular ones to about 1e-10.
 struct ActiveSetTolerance {
-  double gap = 1e-10;
-  double force = 1e-10;
+  double gap = tolerances::kActiveGap;
+  double force = tolerances::kActiveForce;
 
   // Where the reactions of the path are far below the characteristic force, as in soft parts beside stiff ones, the
   // limit follows them down to rounding. largest_reaction: of the path so far; load_factor: now, for the rounding that
   // its loads leave. Both scaled.
   static ActiveSetTolerance For(double largest_reaction, double load_factor) {
-    constexpr double kShare = 1e-7, kRounding = 1e-14;
     ActiveSetTolerance limit;
-    limit.force =
-        std::min(limit.force, std::max(kShare * largest_reaction, kRounding * std::max(1.0, std::abs(load_factor))));
+    const double rounding = tolerances::kActiveRoundingOfLoads * std::max(1.0, std::abs(load_factor));
+    limit.force = std::min(limit.force, std::max(tolerances::kActiveShareOfReactions * largest_reaction, rounding));
     return limit;
   }
 };

@@ -6,6 +6,8 @@
 #include <Eigen/SparseCore>
 #include <memory>
 
+#include "contact_path/tolerances.h"
+
 namespace contact_path {
 
 // M = [J; row], J equations x unknowns. Square and regular as a rule: sparse LU (KLU), with ordering and pivots kept
@@ -13,9 +15,6 @@ namespace contact_path {
 // contacts): the shortest solution by a rank-revealing sparse QR factorisation.
 class BorderedSolver {
  public:
-  // Ratio of the smallest to the largest pivot of the LU factorisation below which M counts as singular.
-  static constexpr double kSingular = 1e-12;
-
   BorderedSolver();
   ~BorderedSolver();
   BorderedSolver(const BorderedSolver&) = delete;
@@ -27,7 +26,7 @@ class BorderedSolver {
                  double rank_tolerance = 0.0);
   // LU only: false if M is singular, not square, or its pivots are further apart than `regular` admits.
   bool FactorizeRegular(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& row,
-                        double regular = kSingular);
+                        double regular = tolerances::kSingularPivot);
   // Solves M x = (b, last). The second one allocates nothing where M is regular and *x has its size.
   Eigen::VectorXd Solve(const Eigen::VectorXd& b, double last) const;
   void Solve(const Eigen::VectorXd& b, double last, Eigen::VectorXd* x) const;
@@ -41,7 +40,7 @@ class BorderedSolver {
   Eigen::Index Nullity() const;
   // Sign of the determinant of M; 0 if M is singular or not square.
   int DeterminantSign() const;
-  // The same also where M is singular to kSingular: of use between points with different signs only.
+  // The same also where M is singular to tolerances::kSingularPivot: of use between points with different signs only.
   int PivotSign() const;
 
  private:

@@ -6,25 +6,24 @@
 #include <Eigen/SparseCore>
 #include <memory>
 
+#include "contact_path/tolerances.h"
+
 namespace contact_path {
 
 // Solves A x = b by a rank-revealing sparse QR factorisation of A' (SuiteSparseQR). Of all x the shortest is returned;
 // where rows of A depend on each other, the dependent ones are left out, which is right if b is consistent.
 class MinimumNormSolver {
  public:
-  // Relative to the largest column norm: what is smaller than that counts as dependent.
-  static constexpr double kRankTolerance = 1e-11;
-
   MinimumNormSolver();
   ~MinimumNormSolver();
   MinimumNormSolver(const MinimumNormSolver&) = delete;
   MinimumNormSolver& operator=(const MinimumNormSolver&) = delete;
 
-  // With a larger tolerance than that, an equation far below those around it, as across bars that become straight
-  // without stress, counts as dependent too.
-  // transposed: A', unknowns x equations. False if it is not finite. Throws std::bad_alloc where there is not enough
-  // memory, as all of the functions below, and LinearSolverError where the factorisation fails.
-  bool Factorize(const Eigen::SparseMatrix<double>& transposed, double rank_tolerance = kRankTolerance);
+  // rank_tolerance: with a larger one than the default, an equation far below those around it, as across bars that
+  // become straight without stress, counts as dependent too. transposed: A', unknowns x equations. False if it is not
+  // finite. Throws std::bad_alloc where there is not enough memory, as all of the functions below, and
+  // LinearSolverError where the factorisation fails.
+  bool Factorize(const Eigen::SparseMatrix<double>& transposed, double rank_tolerance = tolerances::kDependentColumn);
   // The same with given norms of the equations, > 0, by which they are divided in place of their own: an equation that
   // vanishes at the very point is to count as dependent.
   bool Factorize(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& norms, double rank_tolerance);

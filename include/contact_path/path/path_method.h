@@ -11,6 +11,7 @@
 #include "contact_path/path/end_reason.h"
 #include "contact_path/path/increment.h"
 #include "contact_path/path/work.h"
+#include "contact_path/tolerances.h"
 
 namespace contact_path {
 
@@ -27,7 +28,7 @@ struct AcceptedPoint {
 
 // Whether a load factor is at a target that a method has located, but for rounding.
 inline bool IsAtTarget(double load_factor, double target) {
-  return std::abs(load_factor - target) <= 1e-12 * std::abs(target);
+  return std::abs(load_factor - target) <= tolerances::kAtTarget * std::abs(target);
 }
 
 struct Advance {

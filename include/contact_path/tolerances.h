@@ -1,0 +1,182 @@
+// Every tolerance of the solvers, by its meaning. verify/, check/ and scene/validate.cpp keep their own: the first two
+// share nothing with the solvers, and the third judges what a person has written.
+//
+// Scaled: positions over L, forces over F, the load factor times c (scene/scaling.h), so that a scene is of the order
+// of
+// 1. Points of a path are exact to about 1e-14 where the equations are regular, and to about 1e-10 next to singular
+// points, where half of the digits are lost. That is why many tolerances stand in pairs.
+#ifndef CONTACT_PATH_TOLERANCES_H_
+#define CONTACT_PATH_TOLERANCES_H_
+
+namespace contact_path::tolerances {
+
+// ----- rounding: what cannot be told from zero -----
+
+// Length of a Newton step, relative to 1 + |x|: the iteration has converged.
+inline constexpr double kNewtonStep = 1e-14;
+// Length of a Newton step that no longer shrinks, relative to 1 + |x|: rounding. With the factors of another point
+// convergence is linear and may be slow, so the step must be shorter; towards the nearest point the equations may be
+// singular, so it may be longer.
+inline constexpr double kStagnation = 1e-10;
+inline constexpr double kStagnationReused = 1e-13;
+inline constexpr double kStagnationSingular = 1e-9;
+// Residual of a converged point, scaled; on an arc relative to 1 + the largest of load factor and reactions.
+inline constexpr double kResidual = 1e-11;
+inline constexpr double kResidualSingular = 1e-10;
+// Error of the predictor, scaled: a predictor this good needs no shorter step.
+inline constexpr double kPredictor = 1e-12;
+// Component of a unit vector (du, ds): zero. A start along which the load changes less is a mechanism.
+inline constexpr double kUnitComponent = 1e-13;
+// Component of a unit tangent of an obstacle: zero, as cos(pi / 2) = 6e-17.
+inline constexpr double kTangentComponent = 1e-12;
+// Reaction, of the characteristic force: zero.
+inline constexpr double kReactionRounding = 1e-13;
+// Scaled force of an unstressed start, scaled distance from a stop criterion, and load factor that is told as 0, of its
+// scale.
+inline constexpr double kUnstressed = 1e-14;
+inline constexpr double kStopMargin = 1e-14;
+inline constexpr double kToldAsZero = 1e-14;
+// Load factor, relative to the target that it was located at.
+inline constexpr double kAtTarget = 1e-12;
+// Load factor of a record, relative to 1 + |s|, scaled: the point found again is the recorded one. Records of other
+// programs may have fewer digits, so this is wider than kAtTarget.
+inline constexpr double kRecordedLoad = 1e-9;
+// Arc length, relative to the increment: the point found again is the recorded one.
+inline constexpr double kRecordedArc = 1e-12;
+
+// ----- active set: which inequalities are at zero -----
+
+// Scaled gap, and scaled reaction or margin to the friction cone, up to which an inequality is weakly active.
+inline constexpr double kActiveGap = 1e-10;
+inline constexpr double kActiveForce = 1e-10;
+// Where the reactions of a path are far below F: kActiveForce follows them down, to this share of the largest of them
+// ...
+inline constexpr double kActiveShareOfReactions = 1e-7;
+// ... and no further than the rounding that the loads leave, relative to max(1, |s|).
+inline constexpr double kActiveRoundingOfLoads = 1e-14;
+// Scaled gap: the candidate touches at the start. Wider than kActiveGap, since coordinates of scenes are rounded.
+inline constexpr double kTouchingAtStart = 1e-9;
+// Scaled value of an inequality between the ends of a step: less below zero is rounding of the interpolation.
+inline constexpr double kBrokenOnStep = 1e-11;
+// Scaled value of an inequality at an exact point of method mpec: less below zero is rounding.
+inline constexpr double kBrokenAtPoint = 1e-11;
+// Scaled value up to which method mpec expects an inequality to change a contact's state. Wider than kActiveForce: a
+// false alarm costs a shorter increment only.
+inline constexpr double kNearlyActive = 1e-9;
+// Scaled depth to which an inequality may be broken next to a point that it grazes.
+inline constexpr double kGraze = 1e-12;
+
+// ----- rates: of unit vectors (du, ds) unless said -----
+
+// One-sided rate of an inequality, and second derivative where its rate is zero: not negative.
+inline constexpr double kRate = 1e-9;
+inline constexpr double kCurvature = 1e-9;
+// Rate of the load, or of slip: the load neither rises nor falls, the contact rests. At a regular point, and where the
+// tangent is interpolated.
+inline constexpr double kLevel = 1e-9;
+inline constexpr double kLevelSingular = 1e-6;
+// Difference of two rates: the branches are equally good.
+inline constexpr double kSameRate = 1e-9;
+// Difference of two angles [rad]: the branches turn alike. An angle is known to the root of rounding where it is 0.
+inline constexpr double kSameTurn = 1e-7;
+// Rate by which a combination of states breaks an inequality: the combination is excluded.
+inline constexpr double kExcludedRate = 1e-6;
+// Norm of the difference of two unit tangents: the same branch; the branch of arrival, and where it is interpolated.
+inline constexpr double kSameDirection = 1e-7;
+inline constexpr double kReversed = 1e-6;
+inline constexpr double kReversedSingular = 1e-3;
+// Norm of the difference of two unit tangents that were computed at different points, or in different ways: the same.
+inline constexpr double kSameTangent = 1e-6;
+// Norm of the difference of a tangent and its interpolation on the step: more is the mark of singular equations.
+inline constexpr double kSameDerivative = 1e-2;
+// Second derivative psi . F''(z, z) along unit null vectors: below, it says nothing.
+inline constexpr double kNoForm = 1e-7;
+// Discriminant of a quadratic form, relative to the square of its size: a double root.
+inline constexpr double kDoubleRoot = 1e-9;
+// Value of a quadratic form at a root of another one, relative to its size: larger, the root is none of this form.
+inline constexpr double kOtherForm = 1e-5;
+// Sine of the angle at which two paths cross: below, they are not told apart.
+inline constexpr double kTransversal = 1e-6;
+// Difference of two components of a vector, relative: equally large.
+inline constexpr double kSameComponent = 1e-6;
+
+// ----- rank: of matrices -----
+
+// Smallest over largest pivot of an LU factorisation: singular.
+inline constexpr double kSingularPivot = 1e-12;
+// The same ratio, above which equations are surely regular: at an event, and on the way to the nearest point, where the
+// matrix is that of a point off the path.
+inline constexpr double kRegularPivot = 1e-10;
+inline constexpr double kRegularPivotNearest = 1e-8;
+// Norm of a column of a QR factorisation, relative to the largest: dependent. While a part rests at its limit point,
+// the matrix is known to rounding of that point; where another path crosses, the point is known to about 1e-10 only.
+inline constexpr double kDependentColumn = 1e-11;
+inline constexpr double kDependentColumnResting = 1e-9;
+inline constexpr double kDependentColumnSingular = 1e-6;
+// Singular value below which unit motions change neither load nor reactions: a rigid mode.
+inline constexpr double kRigid = 1e-9;
+// Entry of the tangent, relative to the largest: no resistance to a motion.
+inline constexpr double kNoResistance = 1e-10;
+// Component of a unit null vector: the node takes part in the motion.
+inline constexpr double kTakesPart = 1e-6;
+// Pivot of the condensed rate problem, relative to the largest: below, rates are not unique.
+inline constexpr double kCondensedPivot = 1e-9;
+// Motion of a unit solution of the condensed rate problem: up to the first it rests, from the second on it moves, and
+// between both the condensed problem does not decide. The first is the root of rounding: motions are known by their
+// squares.
+inline constexpr double kRestsBelow = 1e-7;
+inline constexpr double kMovesAbove = 1e-6;
+// Sine of the angle between two edges of friction cones: parallel.
+inline constexpr double kParallelEdges = 1e-9;
+
+// ----- acceptance -----
+
+// Largest residual, by check/, of an exact point and of a regularised one, whose residuals are of the order of the root
+// of its eps.
+inline constexpr double kAcceptedExact = 1e-9;
+inline constexpr double kAcceptedRegularised = 1e-5;
+// Difference of a regularised point from its contact states, of the largest force and of the increment.
+inline constexpr double kRegularisedState = 0.1;
+// Error of Ipopt's optimality conditions, as Ipopt scales them.
+inline constexpr double kInteriorPoint = 1e-9;
+// Scaled stiffness of the parts at a contact: below, reactions are lost in rounding.
+inline constexpr double kSoftestContact = 1e-8;
+// Reaction that pulls, of the largest reaction so far.
+inline constexpr double kPullOfLargest = 1e-2;
+// Length of a bar over its initial length: collapsed.
+inline constexpr double kCollapsed = 1e-2;
+// Load factor, of the largest so far: unloaded.
+inline constexpr double kUnloaded = 1e-9;
+// Positions and load factor, of the extent of the path, and reactions, of the largest so far: those of an earlier
+// point.
+inline constexpr double kReturnPoint = 1e-9;
+inline constexpr double kReturnReaction = 1e-9;
+
+// ----- steps: relative to the length of the step unless said -----
+
+// Scaled distance of an event from the last one, below which it happens in place.
+inline constexpr double kNoMove = 1e-12;
+// Place of a located point.
+inline constexpr double kLocatedPlace = 1e-9;
+// Scaled distance of a located point from its guess that is admitted on the shortest steps.
+inline constexpr double kLocatedReach = 1e-9;
+// Place of a bifurcation between its brackets.
+inline constexpr double kBifurcationWidth = 1e-10;
+// Distance of a bifurcation from another event: up to the first they are one; up to the second, a shorter step tells.
+inline constexpr double kCoincident = 1e-5;
+inline constexpr double kUnclear = 1e-4;
+// Width between brackets, at which points of two curves are told apart.
+inline constexpr double kLeapWidth = 1e-4;
+// The same width, scaled, below which rounding hides it, and rounding of points over their distance to a bifurcation.
+inline constexpr double kLeapNarrowest = 1e-9;
+inline constexpr double kLeapRounding = 1e-13;
+// Distance before a bifurcation at which the crossing path's direction is computed: the equations are regular there.
+inline constexpr double kBeforeBifurcation = 1e-6;
+// Scaled length of an increment of method mpec that stands for a rate.
+inline constexpr double kShortIncrement = 1e-5;
+// Newton step, relative to 1 + |x|, from which on the factors at hand are good enough to finish with.
+inline constexpr double kReuseFactors = 1e-5;
+
+}  // namespace contact_path::tolerances
+
+#endif  // CONTACT_PATH_TOLERANCES_H_
