@@ -72,7 +72,7 @@ std::optional<Crossing> FindCrossing(FixedStateSystem* system, const Eigen::Vect
   if (!(length > tolerances::kTransversal)) return std::nullopt;
   v /= length;
 
-  const Eigen::VectorXd psi = solver.DependentEquations().normalized();
+  const Eigen::VectorXd psi = solver.LeftNullSpace().col(0).normalized();
   const Form form(system, x, psi);
   const double b = form(tangent, v), c = form(v);
   if (!(std::abs(b) > tolerances::kTransversal * std::hypot(b, c))) return std::nullopt;

@@ -123,23 +123,6 @@ Eigen::VectorXd MinimumNormSolver::Solve(const Eigen::VectorXd& b) const {
   return factors_->qr->Multiply(y);
 }
 
-Eigen::VectorXd MinimumNormSolver::DependentEquations() const {
-  // A' E = Q R with the last column of R dependent on the others: R y = 0 by back substitution, and psi = E y.
-  Eigen::VectorXd y = Eigen::VectorXd::Zero(factors_->scale.size());
-  y[factors_->rank] = 1.0;
-  for (Eigen::Index j = factors_->rank; j >= 0; --j) {
-    double diagonal = 0.0;
-    if (j < factors_->rank) {
-      for (Spqr::MatrixType::InnerIterator it(factors_->r, j); it; ++it)
-        if (it.row() == j) diagonal = it.value();
-      y[j] /= diagonal;
-    }
-    for (Spqr::MatrixType::InnerIterator it(factors_->r, j); it; ++it)
-      if (it.row() < j) y[it.row()] -= it.value() * y[j];
-  }
-  return factors_->scale.cwiseProduct(Eigen::VectorXd(factors_->qr->colsPermutation() * y));
-}
-
 Eigen::MatrixXd MinimumNormSolver::NullSpace() const {
   const Eigen::Index size = factors_->unknowns - factors_->rank;
   Eigen::MatrixXd basis(factors_->unknowns, size);

@@ -33,9 +33,6 @@ class MinimumNormSolver {
   // Orthonormal basis of {x: A x = 0}, unknowns x (unknowns - rank), and one column of it.
   Eigen::MatrixXd NullSpace() const;
   Eigen::VectorXd NullVector(Eigen::Index column) const;
-  // How the equations depend on each other where one of them is too many: psi with A' psi = 0. The rank must be the
-  // number of equations less 1.
-  Eigen::VectorXd DependentEquations() const;
   // Basis of {y: A' y = 0}, equations x (equations - rank): which combinations of equations say nothing.
   Eigen::MatrixXd LeftNullSpace() const;
 
