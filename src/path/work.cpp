@@ -1,24 +1,21 @@
 #include "contact_path/path/work.h"
 
 #include <cmath>
+#include <vector>
+
+#include "contact_path/equations/fixed_state_system.h"
 
 namespace contact_path {
 namespace {
 
-// The force that moving supports and obstacles exert along their motion.
 double DrivingForce(const Model& model, const PathPoint& point) {
-  const Eigen::VectorXd reactions = model.structure.SupportReactions(point.u, point.s);
-  double force = 0.0;
-  for (std::size_t k = 0; k < model.structure.PrescribedDofs().size(); ++k)
-    force += model.structure.PrescribedDofs()[k].rate * reactions[static_cast<Eigen::Index>(k)];
-  for (std::size_t i = 0; i < model.contacts.size(); ++i) {
-    const auto k = static_cast<Eigen::Index>(i);
-    Kinematics at;
-    model.contacts[i]->Evaluate(point.u, point.s, 0.0, &at);
-    const auto s = static_cast<Eigen::Index>(model.contacts[i]->Dofs().size());
-    force -= point.rn[k] * at.gap_gradient[s] + point.rt[k] * at.xi_gradient[s];
-  }
-  return force;
+  // With both reactions of each contact among the unknowns, whatever its state: those of a regularised point are not
+  // zero where it is open.
+  FixedStateSystem system(model.structure, model.contacts);
+  system.SetStates(std::vector<ContactState>(model.contacts.size(), ContactState::kStick),
+                   Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model.contacts.size())));
+  const Eigen::VectorXd x = system.Pack(point), still = Eigen::VectorXd::Zero(x.size());
+  return system.DrivingForceAlong(x, still, still).value;
 }
 
 }  // namespace
