@@ -26,8 +26,8 @@
 #include "ros/bag_sink.h"
 #endif
 #include "cli/event_table.h"
-#include "cli/one_thread.h"
 #include "cli/progress.h"
+#include "process/one_thread.h"
 
 namespace contact_path {
 namespace {

@@ -5,12 +5,12 @@
 
 #include <ros/ros.h>
 
-#include "cli/one_thread.h"
 #include "contact_path/ros/memory_share.h"
 #include "contact_path/ros/names.h"
 #include "contact_path/ros/shutdown_signal.h"
 #include "contact_path/ros/trace_action.h"
 #include "contact_path/ros/trace_service.h"
+#include "process/one_thread.h"
 
 namespace {
 

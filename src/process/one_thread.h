@@ -1,6 +1,6 @@
 // One thread for the libraries that a trace uses.
-#ifndef CONTACT_PATH_CLI_ONE_THREAD_H_
-#define CONTACT_PATH_CLI_ONE_THREAD_H_
+#ifndef CONTACT_PATH_PROCESS_ONE_THREAD_H_
+#define CONTACT_PATH_PROCESS_ONE_THREAD_H_
 
 namespace contact_path {
 
@@ -11,4 +11,4 @@ void UseOneThread(char** argv);
 
 }  // namespace contact_path
 
-#endif  // CONTACT_PATH_CLI_ONE_THREAD_H_
+#endif  // CONTACT_PATH_PROCESS_ONE_THREAD_H_

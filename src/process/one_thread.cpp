@@ -1,4 +1,4 @@
-#include "cli/one_thread.h"
+#include "process/one_thread.h"
 
 #include <unistd.h>
 
