@@ -37,9 +37,8 @@ class SmoothArc {
   // Both must outlive the arc.
   SmoothArc(const Structure& structure, const ContactPairs& contacts);
 
-  // Fixes the states; stick and slip are measured from the tangential positions at `from`.
-  // rests: part of the structure stands still at a limit point of its own (Branch::rests), so that the equations are
-  // singular all along the arc.
+  // Fixes the states; stick and slip are measured from the tangential positions at `from`. rests: part of the structure
+  // stands still at a limit point of its own (Branch::rests), so that the equations are singular all along the arc.
   void SetStates(const std::vector<ContactState>& states, const PathPoint& from, bool rests = false);
   const FixedStateSystem& system() const { return system_; }
   Eigen::Index NumMotion() const { return system_.NumDofs() + 1; }  // size of (u, s)
@@ -50,11 +49,12 @@ class SmoothArc {
 
   // Newton's method for the point of the curve with row . x = value, from guess. row: unknowns.
   Correction Correct(const Eigen::VectorXd& guess, const Eigen::VectorXd& row, double value);
+  // Newton's method for the point of the curve on the plane through guess with this normal in (u, s), near the tangent.
+  // It sets out with the factors of the last Derivatives() of these states, and factorises anew where these do not
+  // lead on fast.
+  Correction CorrectOnPlane(const Eigen::VectorXd& guess, const Eigen::VectorXd& normal);
   // Newton's method for the point of the curve where an inequality of the states is exactly zero, from guess.
   Correction CorrectOnto(const Constraint& constraint, const Eigen::VectorXd& guess);
-  // The same with the row given on (u, s) only, near the tangent. Sets out with the factors of the last Derivatives()
-  // of these states, and anew with others where they do not lead on fast.
-  Correction CorrectOnPlane(const Eigen::VectorXd& guess, const Eigen::VectorXd& normal);
 
   // The point of the curve nearest to guess, itself near, where another path crosses: nothing is moved along the null
   // vector.
@@ -88,8 +88,7 @@ class SmoothArc {
   FixedStateSystem system_;
   BorderedSolver solver_;
   bool at_hand_ = false;  // regular factors of a point of the curve with these states, the last row along the tangent
-  bool rests_ =
-      false;  // at the last Derivatives() of these states part of the structure was at a limit point of its own
+  bool rests_ = false;    // part of the structure stands still at a limit point of its own (Branch::rests)
   Eigen::VectorXd residual_, step_length_;
   int factorisations_ = 0;
 };

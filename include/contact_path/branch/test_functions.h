@@ -1,6 +1,6 @@
 // Watches a step of a smooth arc for what ends it: a broken inequality, a limit point, a bifurcation.
-#ifndef CONTACT_PATH_BRANCH_EVENT_WATCH_H_
-#define CONTACT_PATH_BRANCH_EVENT_WATCH_H_
+#ifndef CONTACT_PATH_BRANCH_TEST_FUNCTIONS_H_
+#define CONTACT_PATH_BRANCH_TEST_FUNCTIONS_H_
 
 #include <optional>
 
@@ -46,4 +46,4 @@ std::optional<CurvePoint> Locate(SmoothArc* arc, const Step& step, const StepEve
 
 }  // namespace contact_path
 
-#endif  // CONTACT_PATH_BRANCH_EVENT_WATCH_H_
+#endif  // CONTACT_PATH_BRANCH_TEST_FUNCTIONS_H_

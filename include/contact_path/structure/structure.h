@@ -29,11 +29,11 @@ struct PrescribedDof {
 // 2005, section 2). u: the unknowns, current positions and rotations, as DofMap numbers them: NumDofs() entries.
 class Structure {
  public:
-  // `scene` must be sound (scene/validate.h). A node has a rotation where an element asks for it; it is free, and 0 at
-  // the start.
+  // `scene` must be sound (scene/validate.h). configuration: where not given, Configuration::Of(scene). A node has a
+  // rotation where an element asks for it; the rotation is free, and 0 at the start.
   explicit Structure(const Scene& scene);
   Structure(const Scene& scene, const Configuration& configuration);
-  // The same with these elements in place of those of the scene.
+  // elements: in place of the elements of the scene.
   Structure(const Scene& scene, const Configuration& configuration, std::vector<PlacedElement> elements);
 
   const DofMap& Dofs() const { return dofs_; }
