@@ -310,15 +310,6 @@ class Finder {
            (arrival_.singular ? tolerances::kReversedSingular : tolerances::kReversed);
   }
 
-  double DissipationRate(const States& states, const Eigen::VectorXd& direction) const {
-    double rate = 0.0;
-    for (std::size_t i = 0; i < contacts_.size(); ++i)
-      if (Slips(states[i]))
-        rate -= point_.rt[static_cast<Eigen::Index>(i)] *
-                contacts_[i]->SlipRate(point_.u, point_.s, direction, direction[NumMotion() - 1]);
-    return std::max(rate, 0.0);  // but for rounding
-  }
-
   // Contacts that slip by name but do not move.
   int IdleSlips(const Branch& branch) const {
     int idle = 0;
@@ -339,7 +330,7 @@ class Finder {
     branch.first = first;
     branch.second = second - first.head(NumMotion()).dot(second.head(NumMotion())) * first;
     branch.load_rate = first[NumMotion() - 1];
-    branch.dissipation_rate = DissipationRate(branch.states, branch.direction);
+    branch.dissipation_rate = DissipationRate(contacts_, branch.states, point_, branch.direction);
     branch.turn = AngleTo(arrival_.direction, branch.direction);
     branch.deviation =
         arrival_.before ? std::min(branch.turn, AngleTo(*arrival_.before, branch.direction)) : branch.turn;
@@ -486,6 +477,16 @@ void AddOthers(BranchSet&& others, const PathPoint& begin, BranchSet* result) {
 }
 
 }  // namespace
+
+double DissipationRate(const ContactPairs& contacts, const std::vector<ContactState>& states, const PathPoint& point,
+                       const Eigen::VectorXd& direction) {
+  double rate = 0.0;
+  for (std::size_t i = 0; i < contacts.size(); ++i)
+    if (Slips(states[i]))
+      rate -= point.rt[static_cast<Eigen::Index>(i)] *
+              contacts[i]->SlipRate(point.u, point.s, direction, direction[direction.size() - 1]);
+  return std::max(rate, 0.0);  // but for rounding
+}
 
 BranchSet FindBranches(const Structure& structure, const ContactPairs& contacts, const PathPoint& point,
                        const Arrival& arrival, const ActiveSetTolerance& limit, const FurtherStates& further,

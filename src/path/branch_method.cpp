@@ -1,22 +1,18 @@
 #include "contact_path/path/branch_method.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
-#include "contact_path/branch/gauss_rule.h"
+#include "contact_path/branch/bifurcation_branches.h"
 #include "contact_path/mpec/short_increment.h"
-#include "contact_path/path/automatic_step.h"
 #include "contact_path/path/diagnosis.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
 namespace {
 
-constexpr int kMostEventsInPlace = 8;              // then the contacts chatter, and no branch is trusted
-constexpr double kPredictionAfterSingular = 0.05;  // largest error of the predictor there, where no smaller one is met
+constexpr int kMostEventsInPlace = 8;    // then the contacts chatter, and no branch is trusted
 constexpr double kAfterSingular = 0.05;  // of the step: derivatives at a singular point are not exact to second order
-constexpr int kLocatingAttempts = 6;
 
 // The rate of a quantity; where it is zero, how it changes next to there; 0 where both are.
 double Trend(double rate, double change, double level) {
@@ -32,33 +28,36 @@ std::string NoBranch(const BranchSet& on) {
   return "no admissible branch: the quasi-static path ends here, only a dynamic jump leads further";
 }
 
+// Where the first derivative of the load factor is zero, by the second. level: of a unit rate that counts as zero.
+bool TurnsLoad(const CurvePoint& arrival, const CurvePoint& departure, Eigen::Index s, double level) {
+  return Trend(arrival.first[s], -arrival.second[s], level) * Trend(departure.first[s], departure.second[s], level) <
+         0.0;
+}
+
+void RecordBranches(const std::vector<Branch>& branches, EventRecord* record) {
+  for (const Branch& branch : branches)
+    record->branches.push_back({branch.states, branch.load_rate, branch.dissipation_rate, branch.turn});
+}
+
+// Index of the branch that was chosen, or else of the preferred one; nothing where there is no such branch.
+std::optional<std::size_t> ChosenOf(const std::vector<Branch>& branches, const BranchChoice* choice,
+                                    std::size_t preferred, std::string* message) {
+  if (choice == nullptr) return preferred;
+  const auto chosen = static_cast<std::size_t>(std::max(choice->branch, 1) - 1);
+  if (chosen < branches.size()) return chosen;
+  *message = "branch_choices wants branch " + std::to_string(choice->branch) + " at " + PlaceOf(*choice) +
+             ": the number of branches there is " + std::to_string(branches.size());
+  return std::nullopt;
+}
+
+Advance Ended(EndReason reason, std::string message) {
+  Advance advance;
+  advance.reason = reason;
+  advance.message = std::move(message);
+  return advance;
+}
+
 }  // namespace
-
-std::string PlaceOf(const BranchChoice& choice) {
-  return choice.event > 0 ? "event " + std::to_string(choice.event) : "increment " + std::to_string(choice.increment);
-}
-
-BranchOptions BranchOptions::For(const TraceOptions& options, Eigen::Index num_dofs) {
-  BranchOptions result;
-  switch (options.accuracy) {
-    case Accuracy::kFast:
-      result.step = 0.05;
-      result.prediction = 1e-2;
-      result.smallest_cosine = 0.9;
-      break;
-    case Accuracy::kBalanced: break;
-    case Accuracy::kAccurate:
-      result.step = 0.005;
-      result.prediction = 1e-4;
-      result.smallest_cosine = 0.998;
-      break;
-  }
-  result.step = options.step > 0.0 ? options.step : result.step * AutomaticStepGrowth(num_dofs);
-  result.smallest_step = std::min(result.smallest_step, 1e-3 * result.step);
-  result.direction = options.Direction();
-  result.choices = options.branch_choices;
-  return result;
-}
 
 BranchMethod::BranchMethod(const Model& model, const BranchOptions& options, std::function<bool()> cancelled)
     : model_(model),
@@ -70,18 +69,6 @@ BranchMethod::BranchMethod(const Model& model, const BranchOptions& options, std
       step_length_(options.step),
       increments_(options.increments),
       events_(options.events) {}
-
-const BranchChoice* BranchMethod::ChoiceForEvent(int event) const {
-  for (const BranchChoice& choice : options_.choices)
-    if (choice.event == event && event > 0) return &choice;
-  return nullptr;
-}
-
-const BranchChoice* BranchMethod::ChoiceForIncrement(int increment) const {
-  for (const BranchChoice& choice : options_.choices)
-    if (choice.event == 0 && choice.increment == increment) return &choice;
-  return nullptr;
-}
 
 bool BranchMethod::Leave(const PathPoint& point, const Branch& branch) {
   arc_.SetStates(branch.states, point, branch.singular);
@@ -109,9 +96,9 @@ Arrival BranchMethod::StartArrival() const {
   return arrival;
 }
 
-std::optional<EndReason> BranchMethod::PassEvent(const PathPoint& point, const Arrival& arrival,
-                                                 const BranchChoice* choice, EventRecord* record,
-                                                 std::string* message) {
+std::optional<EndReason> BranchMethod::LeaveEvent(const PathPoint& point, const Arrival& arrival,
+                                                  const BranchChoice* choice, EventRecord* record,
+                                                  std::string* message) {
   const ActiveSetTolerance limit = ActiveSetTolerance::For(largest_reaction_, point.s);
   const BranchSet on = FindBranches(
       model_.structure, model_.contacts, point, arrival, limit,
@@ -123,34 +110,28 @@ std::optional<EndReason> BranchMethod::PassEvent(const PathPoint& point, const A
   }
   record->weakly_active = on.weakly_active;
   record->complete = on.complete;
-  for (const Branch& branch : on.branches)
-    record->branches.push_back({branch.states, branch.load_rate, branch.dissipation_rate, branch.turn});
+  RecordBranches(on.branches, record);
   if (on.branches.empty()) {
     *message = NoBranch(on);
     return EndReason::kPathEnd;
   }
-  std::size_t taken = options_.keep_loading ? BestThatLoads(on.branches) : 0;
-  if (choice != nullptr) {
-    taken = static_cast<std::size_t>(std::max(choice->branch, 1) - 1);
-    if (taken >= on.branches.size()) {
-      *message = "branch_choices wants branch " + std::to_string(choice->branch) + " at " + PlaceOf(*choice) +
-                 ": the number of branches there is " + std::to_string(on.branches.size());
-      return EndReason::kNoSuchBranch;
-    }
-  }
-  if (on.branches[taken].mechanism) {
+  const std::size_t preferred = options_.keep_loading ? BestThatLoads(on.branches) : 0;
+  const std::optional<std::size_t> taken = ChosenOf(on.branches, choice, preferred, message);
+  if (!taken) return EndReason::kNoSuchBranch;
+  const Branch& branch = on.branches[*taken];
+  if (branch.mechanism) {
     *message =
         "the structure has become a mechanism: it can move in several directions without any change of load and "
         "reactions";
     return EndReason::kPathEnd;
   }
-  record->taken = static_cast<int>(taken) + 1;
-  if (!on.branches[taken].rests)
+  record->taken = static_cast<int>(*taken) + 1;
+  if (!branch.rests)
     moved_.reset();
   else if (!moved_ && !arrival.is_start)
     moved_ = arrival.direction;
-  begin_ = on.branches[taken].begin;
-  if (!Leave(begin_ ? *begin_ : point, on.branches[taken])) {
+  begin_ = branch.begin;
+  if (!Leave(begin_ ? *begin_ : point, branch)) {
     *message = "the branch from an event could not be followed";
     return EndReason::kNumericalFailure;
   }
@@ -164,67 +145,12 @@ std::size_t BranchMethod::BestThatLoads(const std::vector<Branch>& branches) con
   return best == branches.end() ? 0 : static_cast<std::size_t>(best - branches.begin());
 }
 
-std::optional<Step> BranchMethod::TryStep(double length, double prediction) {
-  const Eigen::VectorXd normal = current_.first.head(arc_.NumMotion());
-  const double tolerance = prediction * length;
-  const Eigen::VectorXd straight = current_.x + length * current_.first;
-  const Eigen::VectorXd bend = 0.5 * length * length * current_.second;
-  const auto good = [&](const Correction& correction) {
-    return correction.converged && correction.first_step <= tolerance + tolerances::kPredictor;
-  };
-  Correction correction = arc_.CorrectOnPlane(straight + bend, normal);
-  // Next to a singular point the second derivatives are little but rounding.
-  if (!good(correction) && bend.norm() > tolerance) correction = arc_.CorrectOnPlane(straight, normal);
-  iterations_ = correction.iterations;
-  contraction_ = correction.contraction;
-  if (!good(correction)) return std::nullopt;
-  CurvePoint end;
-  if (!arc_.Derivatives(correction.x, normal, &end)) return std::nullopt;
-  if (end.first.head(normal.size()).dot(normal) < options_.smallest_cosine) return std::nullopt;
-  return MakeStep(current_, end, arc_.NumMotion());
-}
-
 int BranchMethod::StiffnessSign(const CurvePoint& point) const {
   // By Cramer's rule from the rate of the load factor; the parity is that of the rows and columns of the reactions.
   const double rate = point.first[arc_.NumMotion() - 1];
   if (rate == 0.0) return 0;
   const Eigen::Index reactions = arc_.system().NumUnknowns() - arc_.NumMotion();
   return (rate > 0.0 ? 1 : -1) * point.determinant_sign * (reactions % 2 == 0 ? 1 : -1);
-}
-
-Work BranchMethod::WorkOf(const Step& step) const {
-  // Five points are exact for the products of a quintic and the derivative of another.
-  const auto integrate = [&](const Quintic& force, const Quintic& position) {
-    const Quintic rate = Derivative(position);
-    double sum = 0.0;
-    for (std::size_t i = 0; i < kGauss5.points.size(); ++i) {
-      const double t = kGauss5.points[i] * step.length;
-      sum += kGauss5.weights[i] * Evaluate(force, t) * Evaluate(rate, t);
-    }
-    return sum * step.length;
-  };
-  const FixedStateSystem& system = arc_.system();
-  const Eigen::Index nd = system.NumDofs();
-  Work work;
-  for (const std::size_t i : system.Touching()) {
-    const Constraint normal = {static_cast<int>(i), Inequality::kNormalReaction};
-    const Constraint slip = {static_cast<int>(i), Inequality::kSlip};
-    if (!Slips(system.states()[i])) continue;
-    const auto interpolate = [&](const Constraint& of) {
-      return step.Interpolate([&](const CurvePoint& at) { return system.ValueAlong(of, at.x, at.first, at.second); });
-    };
-    work.friction += std::max(0.0, model_.contacts[i]->Friction() * integrate(interpolate(normal), interpolate(slip)));
-  }
-  const auto load = [&](const Eigen::VectorXd& x) { return x[nd]; };
-  const auto along = [&](const Eigen::VectorXd& x) { return model_.structure.ReferenceLoad().dot(x.head(nd)); };
-  work.loads = integrate(step.InterpolateLinear(load), step.InterpolateLinear(along)) +
-               model_.structure.ConstantLoad().dot((step.end.x - step.start.x).head(nd));
-  const auto driving = [&](const CurvePoint& at) { return system.DrivingForceAlong(at.x, at.first, at.second); };
-  work.loads += integrate(step.Interpolate(driving), step.InterpolateLinear(load));
-  const double unit = model_.scaling.force * model_.scaling.length;
-  work.friction *= unit;
-  work.loads *= unit;
-  return work;
 }
 
 std::vector<double> BranchMethod::CrossingPath(const Step& step) {
@@ -240,7 +166,7 @@ std::vector<double> BranchMethod::CrossingPath(const Step& step) {
 
 std::optional<EndReason> BranchMethod::Start(const PathPoint& from, EventRecord* branches, std::string* message) {
   NoteReactions(from);
-  return PassEvent(from, StartArrival(), ChoiceForIncrement(increments_), branches, message);
+  return LeaveEvent(from, StartArrival(), options_.ChoiceAt(increments_, 0), branches, message);
 }
 
 bool BranchMethod::Resume(const PathPoint& before, const PathPoint& from, const SolveRecord& record) {
@@ -255,241 +181,165 @@ bool BranchMethod::Resume(const PathPoint& before, const PathPoint& from, const 
   return true;
 }
 
-bool BranchMethod::TurnsLoad(const CurvePoint& arrival, double level) const {
-  // By the second derivative where the first is zero.
-  const Eigen::Index s = arc_.NumMotion() - 1;
-  return Trend(arrival.first[s], -arrival.second[s], level) * Trend(current_.first[s], current_.second[s], level) < 0.0;
+Advance BranchMethod::ChangeReactions(const PathPoint& from) {
+  PathPoint point = *begin_;
+  point.states = arc_.system().states();
+  begin_.reset();
+  if (options_.ChoiceAt(increments_ + 1, 0) != nullptr)
+    return Ended(EndReason::kNoSuchBranch,
+                 "branch_choices wants a branch at increment " + std::to_string(increments_ + 1) +
+                     ": only reactions change there, and the branches part in the increment before");
+  AcceptedPoint increment = IncrementAt(std::move(point), from);
+  increment.solve.next_step = step_length_;
+  if (!(increment.residuals.Largest() <= tolerances::kAcceptedExact))
+    return Ended(EndReason::kNumericalFailure, "the reactions with which a branch begins are not in equilibrium");
+  ++increments_;
+  Advance advance;
+  advance.ended = false;
+  advance.increments.push_back(std::move(increment));
+  return advance;
 }
 
-BranchRecord BranchMethod::RecordOf(const Eigen::VectorXd& first) const {
-  const Eigen::Index s = arc_.NumMotion() - 1;
-  const PathPoint point = arc_.system().Unpack(current_.x);
-  BranchRecord record;
-  record.states = arc_.system().states();
-  record.load_rate = first[s];
-  record.turn = std::acos(std::clamp(first.head(s + 1).dot(current_.first.head(s + 1)), -1.0, 1.0));
-  for (std::size_t i = 0; i < record.states.size(); ++i)
-    if (Slips(record.states[i]))
-      record.dissipation_rate -=
-          point.rt[static_cast<Eigen::Index>(i)] * model_.contacts[i]->SlipRate(point.u, point.s, first, first[s]);
-  record.dissipation_rate = std::max(record.dissipation_rate, 0.0);  // but for rounding
-  return record;
+AcceptedPoint BranchMethod::IncrementAt(PathPoint point, const PathPoint& from) const {
+  AcceptedPoint increment;
+  increment.point = std::move(point);
+  increment.residuals = model_.Check(from, increment.point);
+  increment.solve.method = Method::kBranch;
+  increment.solve.exact = true;
+  increment.solve.variables = static_cast<int>(arc_.system().NumUnknowns());
+  increment.solve.constraints = static_cast<int>(arc_.system().NumEquations());
+  return increment;
 }
 
-std::optional<EndReason> BranchMethod::PassBifurcation(const Eigen::VectorXd& before, const BranchChoice* choice,
-                                                       EventRecord* record, std::string* message) {
-  std::vector<Eigen::VectorXd> directions = {current_.first};
-  const std::optional<Crossing> crossing = arc_.FindCrossing(before, current_.x, current_.first);
-  const std::vector<Constraint> constraints = arc_.system().Inequalities();
-  // Where a contact slides, not both directions need be admissible.
-  const auto slips = [&](const Eigen::VectorXd& first) {
-    return std::all_of(constraints.begin(), constraints.end(), [&](const Constraint& constraint) {
-      return constraint.inequality != Inequality::kSlip ||
-             arc_.system().Rate(constraint, current_.x, first) >= -tolerances::kLevel;
-    });
-  };
-  if (crossing)
-    for (const double sense : {1.0, -1.0})
-      if (const Eigen::VectorXd first = sense * crossing->first; slips(first)) directions.push_back(first);
-  for (const Eigen::VectorXd& first : directions) record->branches.push_back(RecordOf(first));
-  record->branches.front().turn = 0.0;  // but for rounding
-  std::size_t taken = 0;
-  if (choice != nullptr) {
-    taken = static_cast<std::size_t>(std::max(choice->branch, 1) - 1);
-    if (taken >= directions.size()) {
-      *message = "branch_choices wants branch " + std::to_string(choice->branch) + " at " + PlaceOf(*choice) +
-                 ": the number of branches there is " + std::to_string(directions.size());
-      return EndReason::kNoSuchBranch;
-    }
-  }
-  record->taken = static_cast<int>(taken) + 1;
-  if (taken > 0) {
-    current_.first = directions[taken];
-    current_.second = crossing->second;
+AcceptedPoint BranchMethod::IncrementOf(const ArcStep& step, const PathPoint& from) const {
+  const CurvePoint& end = step.step.end;
+  AcceptedPoint increment = IncrementAt(arc_.system().Unpack(end.x), from);
+  increment.solve.rejected = step.rejected;
+  increment.solve.nullity = static_cast<int>(end.nullity);
+  increment.solve.determinant_sign = end.determinant_sign;
+  increment.solve.stiffness_sign = StiffnessSign(end);
+  increment.solve.iterations = step.iterations;
+  increment.solve.contraction = step.contraction;
+  return increment;
+}
+
+std::optional<int> BranchMethod::EndAtReturn(const PathPoint& from, ArcStep* at) {
+  Step& step = at->step;
+  if (options_.returns == nullptr || !(step.length > 0.0) || options_.HasChoiceAfter(increments_, events_))
+    return std::nullopt;
+  const FixedStateSystem& system = arc_.system();
+  const std::optional<ReturnDetector::Return> found = options_.returns->Find(from, system.Unpack(step.end.x));
+  CurvePoint end;
+  if (!found || !arc_.Derivatives(system.Pack(found->point), step.normal, &end)) return std::nullopt;
+  step = MakeStep(step.start, end, arc_.NumMotion());
+  at->event = StepEvent();
+  return found->increment;
+}
+
+std::optional<EndReason> BranchMethod::PassEnd(const ArcStep& at, AcceptedPoint* increment, std::string* message) {
+  if (at.event.kind == EventKind::kBifurcation) return PassBifurcation(at, increment, message);
+  if (at.event.kind == EventKind::kContactEvent || options_.ChoiceAt(increments_, 0) != nullptr)
+    return PassContactEvent(at, increment, message);
+  if (at.event.kind == EventKind::kLimitPoint) {
+    increment->kind = IncrementKind::kSmoothLimit;
+    if (at.event.singular) increment->event.null_vector = CrossingPath(at.step);
   }
   return std::nullopt;
 }
 
-Advance BranchMethod::ChangeReactions(const PathPoint& from) {
-  AcceptedPoint increment;
-  increment.point = *begin_;
-  increment.point.states = arc_.system().states();
-  begin_.reset();
-  increment.residuals = model_.Check(from, increment.point);
-  increment.solve.method = Method::kBranch;
-  increment.solve.exact = true;
-  increment.solve.variables = static_cast<int>(arc_.system().NumUnknowns());
-  increment.solve.constraints = static_cast<int>(arc_.system().NumEquations());
-  increment.solve.next_step = step_length_;
-  Advance advance;
-  if (ChoiceForIncrement(increments_ + 1) != nullptr) {
-    advance.reason = EndReason::kNoSuchBranch;
-    advance.message = "branch_choices wants a branch at increment " + std::to_string(increments_ + 1) +
-                      ": only reactions change there, and the branches part in the increment before";
-    return advance;
+std::optional<EndReason> BranchMethod::PassBifurcation(const ArcStep& at, AcceptedPoint* increment,
+                                                       std::string* message) {
+  EventRecord* record = &increment->event;
+  increment->kind = IncrementKind::kBifurcation;
+  record->null_vector = CrossingPath(at.step);
+  record->number = ++events_;
+  const CurvePoint& end = at.step.end;
+  const std::vector<Branch> branches = BifurcationBranches(&arc_, model_.contacts, at.step.start.x, end);
+  RecordBranches(branches, record);
+  const std::optional<std::size_t> taken = ChosenOf(branches, options_.ChoiceAt(increments_, events_), 0, message);
+  if (!taken) return EndReason::kNoSuchBranch;
+  record->taken = static_cast<int>(*taken) + 1;
+  if (*taken == 0) return std::nullopt;
+  current_.first = branches[*taken].first;
+  current_.second = branches[*taken].second;
+  if (TurnsLoad(end, current_, LoadFactor(), tolerances::kLevelSingular)) {
+    increment->kind = IncrementKind::kCornerLimit;
+    record->null_vector.clear();
   }
-  if (!(increment.residuals.Largest() <= tolerances::kAcceptedExact)) {
-    advance.message = "the reactions with which a branch begins are not in equilibrium";
-    return advance;
-  }
-  ++increments_;
-  advance.ended = false;
-  advance.increments.push_back(std::move(increment));
-  return advance;
+  return std::nullopt;
 }
 
-bool BranchMethod::HasChoicesAhead() const {
-  return std::any_of(options_.choices.begin(), options_.choices.end(), [&](const BranchChoice& choice) {
-    return choice.event > 0 ? choice.event > events_ : choice.increment > increments_;
-  });
+std::optional<EndReason> BranchMethod::PassContactEvent(const ArcStep& at, AcceptedPoint* increment,
+                                                        std::string* message) {
+  increment->kind = IncrementKind::kContactEvent;
+  if (at.event.kind == EventKind::kContactEvent) increment->event.number = ++events_;
+  const CurvePoint& end = at.step.end;
+  Arrival arrival;
+  arrival.direction = end.first.head(arc_.NumMotion());
+  arrival.singular = at.event.singular;
+  arrival.before = moved_;
+  if (at_start_) arrival = StartArrival();
+  arrival.load_sense = options_.direction;
+  const std::optional<EndReason> reason =
+      LeaveEvent(increment->point, arrival, options_.ChoiceAt(increments_, events_), &increment->event, message);
+  if (reason) return reason;
+  const double level = at.event.singular ? tolerances::kLevelSingular : tolerances::kLevel;
+  if (TurnsLoad(end, current_, LoadFactor(), level)) increment->kind = IncrementKind::kCornerLimit;
+  return std::nullopt;
 }
 
-std::optional<int> BranchMethod::EndAtReturn(const PathPoint& from, Step* step) {
-  if (options_.returns == nullptr || !(step->length > 0.0) || HasChoicesAhead()) return std::nullopt;
-  const FixedStateSystem& system = arc_.system();
-  const std::optional<ReturnDetector::Return> found = options_.returns->Find(from, system.Unpack(step->end.x));
-  CurvePoint end;
-  if (!found || !arc_.Derivatives(system.Pack(found->point), step->normal, &end)) return std::nullopt;
-  *step = MakeStep(step->start, end, arc_.NumMotion());
-  return found->increment;
+void BranchMethod::SetNextLength(const ArcStep& at) {
+  // As long as wanted unless this step had to be shortened.
+  step_length_ = std::min(options_.step, at.rejected > 0 ? 1.5 * at.tried : 2.0 * step_length_);
+  after_singular_ = at.event.singular;
+  if (after_singular_) step_length_ *= kAfterSingular;
 }
 
 Advance BranchMethod::Next(const PathPoint& from) {
   if (begin_) return ChangeReactions(from);
-  Advance advance;
   const int factorisations_before = arc_.factorisations();
-  int rejected = 0;
-  std::optional<Step> step;
-  StepEvent event;
-  double length = step_length_, prediction = options_.prediction;
-  for (;; ++rejected) {
-    if (length < options_.smallest_step && after_singular_ && prediction == options_.prediction) {
-      // The point at which another path crosses is as inexact as rounding of the forces, taken across both, may be.
-      prediction = kPredictionAfterSingular;
-      length = step_length_;
-    }
-    if (length < options_.smallest_step) {
-      advance.reason = EndReason::kStepTooSmall;
-      advance.message = "no increment could be accepted, however short: Newton's method does not stay on the branch";
-      const std::string bar = CollapsedBar(model_.scene, model_.InSceneUnits(from).positions);
-      if (!bar.empty()) advance.message += "; " + bar;
-      return advance;
-    }
-    step = TryStep(length, prediction);
-    if (!step) {
-      length *= 0.5;
-      continue;
-    }
-    event = FirstEvent(&arc_, *step, options_.target);
-    // Locate what happens first; the exact point may show something earlier.
-    bool located = event.kind == EventKind::kNone;
-    for (int attempt = 0; attempt < kLocatingAttempts && !located; ++attempt) {
-      const std::optional<CurvePoint> point = Locate(&arc_, *step, event, options_.target);
-      if (!point) break;
-      Step part = MakeStep(step->start, *point, arc_.NumMotion());
-      if (!(part.length > tolerances::kNoMove)) {
-        part.length = 0.0;
-        step = part;
-        located = true;
-        break;
-      }
-      const StepEvent earlier = FirstEvent(&arc_, part, options_.target);
-      const bool first = earlier.kind == EventKind::kNone || earlier.t >= part.length - tolerances::kNoMove;
-      step = part;
-      if (first)
-        located = true;
-      else
-        event = earlier;
-    }
-    if (located) break;
-    length *= 0.5;
-  }
+  const StepLimits limits = {options_.smallest_step, options_.prediction, options_.smallest_cosine};
+  std::optional<ArcStep> at = NextStep(&arc_, current_, step_length_, after_singular_, limits, options_.target);
+  if (!at) return Ended(EndReason::kStepTooSmall, NoStep(from));
+  const std::optional<int> returned = EndAtReturn(from, &*at);
 
-  const std::optional<int> returned = EndAtReturn(from, &*step);
-  if (returned) event = StepEvent();
-
-  AcceptedPoint increment;
-  increment.point = arc_.system().Unpack(step->end.x);
-  increment.residuals = model_.Check(from, increment.point);
-  increment.solve.method = Method::kBranch;
-  increment.solve.exact = true;
-  increment.solve.variables = static_cast<int>(arc_.system().NumUnknowns());
-  increment.solve.constraints = static_cast<int>(arc_.system().NumEquations());
-  increment.solve.rejected = rejected;
-  increment.solve.nullity = static_cast<int>(step->end.nullity);
-  increment.solve.determinant_sign = step->end.determinant_sign;
-  increment.solve.stiffness_sign = StiffnessSign(step->end);
-  increment.solve.iterations = iterations_;
-  increment.solve.contraction = contraction_;
-  if (!(increment.residuals.Largest() <= tolerances::kAcceptedExact)) {
-    advance.message = "the residuals of the next point are too large";
-    return advance;
-  }
+  AcceptedPoint increment = IncrementOf(*at, from);
+  if (!(increment.residuals.Largest() <= tolerances::kAcceptedExact))
+    return Ended(EndReason::kNumericalFailure, "the residuals of the next point are too large");
   NoteReactions(increment.point);
-  const bool moved = step->length > 0.0;
+  const bool moved = at->step.length > 0.0;
+  events_in_place_ = moved ? 0 : events_in_place_ + 1;
+  if (events_in_place_ > kMostEventsInPlace)
+    return Ended(EndReason::kNumericalFailure, "contacts change their states again and again in one place");
   if (moved) {
-    increment.arc_length = step->ArcLength();
-    increment.work = WorkOf(*step);
-    events_in_place_ = 0;
+    increment.arc_length = at->step.ArcLength();
+    increment.work = WorkOfStep(model_, arc_.system(), at->step);
     at_start_ = false;
-  } else if (++events_in_place_ > kMostEventsInPlace) {
-    advance.message = "contacts change their states again and again in one place";
-    return advance;
   }
-  const CurvePoint end = step->end;
-  current_ = end;
-  advance.ended = false;
+  current_ = at->step.end;
   ++increments_;
 
+  Advance advance;
+  std::optional<EndReason> reason;
   if (returned) {
-    advance.ended = true;
-    advance.reason = EndReason::kClosedPath;
+    reason = EndReason::kClosedPath;
     advance.message = ClosedPathText(*returned);
+  } else {
+    reason = PassEnd(*at, &increment, &advance.message);
   }
-  const BranchChoice* forced = ChoiceForIncrement(increments_);
-  if (event.kind == EventKind::kBifurcation) {
-    increment.kind = IncrementKind::kBifurcation;
-    increment.event.null_vector = CrossingPath(*step);
-    increment.event.number = ++events_;
-    const BranchChoice* choice = forced != nullptr ? forced : ChoiceForEvent(events_);
-    if (const std::optional<EndReason> reason =
-            PassBifurcation(step->start.x, choice, &increment.event, &advance.message)) {
-      advance.ended = true;
-      advance.reason = *reason;
-    } else if (increment.event.taken > 1 && TurnsLoad(end, tolerances::kLevelSingular)) {
-      increment.kind = IncrementKind::kCornerLimit;
-      increment.event.null_vector.clear();
-    }
-  } else if (event.kind == EventKind::kContactEvent || forced != nullptr) {
-    Arrival arrival;
-    arrival.direction = end.first.head(arc_.NumMotion());
-    arrival.singular = event.singular;
-    arrival.before = moved_;
-    if (at_start_) arrival = StartArrival();
-    arrival.load_sense = options_.direction;
-    if (event.kind == EventKind::kContactEvent) increment.event.number = ++events_;
-    const BranchChoice* choice = forced != nullptr ? forced : ChoiceForEvent(events_);
-    if (const std::optional<EndReason> reason =
-            PassEvent(increment.point, arrival, choice, &increment.event, &advance.message)) {
-      advance.ended = true;
-      advance.reason = *reason;
-      increment.kind = IncrementKind::kContactEvent;
-    } else {
-      const bool turns = TurnsLoad(end, event.singular ? tolerances::kLevelSingular : tolerances::kLevel);
-      increment.kind = turns ? IncrementKind::kCornerLimit : IncrementKind::kContactEvent;
-    }
-  } else if (event.kind == EventKind::kLimitPoint) {
-    increment.kind = IncrementKind::kSmoothLimit;
-    if (event.singular) increment.event.null_vector = CrossingPath(*step);
-  }
-  // The next step: as long as wanted unless this one had to be shortened.
-  step_length_ = std::min(options_.step, rejected > 0 ? 1.5 * length : 2.0 * step_length_);
-  after_singular_ = event.singular;
-  if (after_singular_) step_length_ *= kAfterSingular;
+  advance.ended = reason.has_value();
+  if (reason) advance.reason = *reason;
+  SetNextLength(*at);
   increment.solve.next_step = step_length_;
   increment.solve.factorisations = arc_.factorisations() - factorisations_before;
   advance.increments.push_back(std::move(increment));
   return advance;
+}
+
+std::string BranchMethod::NoStep(const PathPoint& from) const {
+  const std::string bar = CollapsedBar(model_.scene, model_.InSceneUnits(from).positions);
+  return "no increment could be accepted, however short: Newton's method does not stay on the branch" +
+         (bar.empty() ? bar : "; " + bar);
 }
 
 }  // namespace contact_path

@@ -1,8 +1,10 @@
 #include "contact_path/path/work.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "contact_path/branch/gauss_rule.h"
 #include "contact_path/equations/fixed_state_system.h"
 
 namespace contact_path {
@@ -33,6 +35,40 @@ Work WorkOfIncrement(const Model& model, const PathPoint& from, const PathPoint&
   const Structure& structure = model.structure;
   work.loads = 0.5 * (from.s + to.s) * structure.ReferenceLoad().dot(du) + structure.ConstantLoad().dot(du) +
                0.5 * (DrivingForce(model, from) + DrivingForce(model, to)) * (to.s - from.s);
+  const double unit = model.scaling.force * model.scaling.length;
+  work.friction *= unit;
+  work.loads *= unit;
+  return work;
+}
+
+Work WorkOfStep(const Model& model, const FixedStateSystem& system, const Step& step) {
+  // Five points are exact for the products of a quintic and the derivative of another.
+  const auto integrate = [&](const Quintic& force, const Quintic& position) {
+    const Quintic rate = Derivative(position);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < kGauss5.points.size(); ++i) {
+      const double t = kGauss5.points[i] * step.length;
+      sum += kGauss5.weights[i] * Evaluate(force, t) * Evaluate(rate, t);
+    }
+    return sum * step.length;
+  };
+  const Eigen::Index nd = system.NumDofs();
+  Work work;
+  for (const std::size_t i : system.Touching()) {
+    const Constraint normal = {static_cast<int>(i), Inequality::kNormalReaction};
+    const Constraint slip = {static_cast<int>(i), Inequality::kSlip};
+    if (!Slips(system.states()[i])) continue;
+    const auto interpolate = [&](const Constraint& of) {
+      return step.Interpolate([&](const CurvePoint& at) { return system.ValueAlong(of, at.x, at.first, at.second); });
+    };
+    work.friction += std::max(0.0, model.contacts[i]->Friction() * integrate(interpolate(normal), interpolate(slip)));
+  }
+  const auto load = [&](const Eigen::VectorXd& x) { return x[nd]; };
+  const auto along = [&](const Eigen::VectorXd& x) { return model.structure.ReferenceLoad().dot(x.head(nd)); };
+  work.loads = integrate(step.InterpolateLinear(load), step.InterpolateLinear(along)) +
+               model.structure.ConstantLoad().dot((step.end.x - step.start.x).head(nd));
+  const auto driving = [&](const CurvePoint& at) { return system.DrivingForceAlong(at.x, at.first, at.second); };
+  work.loads += integrate(step.Interpolate(driving), step.InterpolateLinear(load));
   const double unit = model.scaling.force * model.scaling.length;
   work.friction *= unit;
   work.loads *= unit;

@@ -53,6 +53,10 @@ struct BranchSet {
   int rigid_modes = 0;           // most motions found that change neither load nor reactions where nothing else moves
 };
 
+// -r_t . du_t >= 0 of the contacts that slide, with the reactions of the point. direction: (du, ds).
+double DissipationRate(const ContactPairs& contacts, const std::vector<ContactState>& states, const PathPoint& point,
+                       const Eigen::VectorXd& direction);
+
 // Combinations of the states of all contacts that may lead on from a point, found elsewhere. direction: of the arrival.
 using FurtherStates =
     std::function<std::vector<std::vector<ContactState>>(const PathPoint& point, const Eigen::VectorXd& direction)>;

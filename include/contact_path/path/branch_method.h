@@ -7,36 +7,16 @@
 #include <string>
 #include <vector>
 
+#include "contact_path/branch/arc_step.h"
 #include "contact_path/branch/branches.h"
 #include "contact_path/branch/smooth_arc.h"
-#include "contact_path/branch/test_functions.h"
 #include "contact_path/mpec/increment_solver.h"
 #include "contact_path/mpec/ipopt_solver.h"
+#include "contact_path/path/branch_options.h"
 #include "contact_path/path/model.h"
 #include "contact_path/path/path_method.h"
-#include "contact_path/path/return_detector.h"
 
 namespace contact_path {
-
-// All lengths in the scaled norm.
-struct BranchOptions {
-  double step = 0.02;             // longest increment, > 0
-  double smallest_step = 1e-9;    // below this the path ends, > 0
-  double prediction = 1e-3;       // largest error of the predictor, relative to the increment
-  double smallest_cosine = 0.98;  // between the tangents at both ends of an increment
-  double direction = 1.0;         // sign of the first change of the load factor
-  std::vector<BranchChoice> choices;
-  bool keep_loading = false;     // at an event, rather than turn the load back, the best branch with which it goes on
-  std::optional<double> target;  // load factor at which the path is to end, in an increment of its own
-  int increments = 0;            // given before this path, of which it goes on
-  int events = 0;                // passed before this path
-  ReturnDetector* returns = nullptr;  // tells whether the path has come back to where it was; null: that is no end
-
-  static BranchOptions For(const TraceOptions& options, Eigen::Index num_dofs);
-};
-
-// As messages name it: "event 3" or "increment 40".
-std::string PlaceOf(const BranchChoice& choice);
 
 class BranchMethod : public PathMethod {
  public:
@@ -50,36 +30,35 @@ class BranchMethod : public PathMethod {
   int NumEvents() const override { return events_; }
 
  private:
-  // A step from current_; nothing where it has to be shorter. prediction: largest error of the predictor, relative.
-  std::optional<Step> TryStep(double length, double prediction);
+  Eigen::Index LoadFactor() const { return arc_.NumMotion() - 1; }  // its place among the unknowns
   Arrival StartArrival() const;
-  // Sets out on a branch from `point`.
+  // Sets out on a branch from `point`. False: it cannot be followed.
   bool Leave(const PathPoint& point, const Branch& branch);
   // Finds the branches from `point` and sets out on one. Nothing: done. Otherwise why not, with *message.
-  std::optional<EndReason> PassEvent(const PathPoint& point, const Arrival& arrival, const BranchChoice* choice,
-                                     EventRecord* record, std::string* message);
+  std::optional<EndReason> LeaveEvent(const PathPoint& point, const Arrival& arrival, const BranchChoice* choice,
+                                      EventRecord* record, std::string* message);
   // The branch to take where the load is to go on: the best one, or if that turns back, the best that does not.
   std::size_t BestThatLoads(const std::vector<Branch>& branches) const;
   // An increment in which nothing moves: the reactions with which the branch begins.
   Advance ChangeReactions(const PathPoint& from);
-  // Whether a branch is to be chosen farther on: then a path that comes back need not repeat.
-  bool HasChoicesAhead() const;
-  // Where the path comes back to an earlier increment on the step: its number, and the step ends there.
-  std::optional<int> EndAtReturn(const PathPoint& from, Step* step);
+  // An increment that ends at the point, and one that ends with the step, as far as both are known before the event
+  // there.
+  AcceptedPoint IncrementAt(PathPoint point, const PathPoint& from) const;
+  AcceptedPoint IncrementOf(const ArcStep& step, const PathPoint& from) const;
+  // Where the path comes back to an earlier increment on the step: its number, and the step ends there. Not where a
+  // branch is to be chosen farther on: then a path that comes back need not repeat.
+  std::optional<int> EndAtReturn(const PathPoint& from, ArcStep* at);
+  // Records the event at the end of the step, and sets out from there. Nothing: done. Otherwise why not, with *message.
+  std::optional<EndReason> PassEnd(const ArcStep& at, AcceptedPoint* increment, std::string* message);
+  std::optional<EndReason> PassBifurcation(const ArcStep& at, AcceptedPoint* increment, std::string* message);
+  std::optional<EndReason> PassContactEvent(const ArcStep& at, AcceptedPoint* increment, std::string* message);
+  void SetNextLength(const ArcStep& at);
   void NoteReactions(const PathPoint& point);
-  const BranchChoice* ChoiceForEvent(int event) const;
-  const BranchChoice* ChoiceForIncrement(int increment) const;
-  Work WorkOf(const Step& step) const;
-  // Where another path crosses the arc, at current_: records to go on and both directions of the crossing path, and
-  // sets out on one of them. before: a point of the arc before. Nothing: done. Otherwise why not, with *message.
-  std::optional<EndReason> PassBifurcation(const Eigen::VectorXd& before, const BranchChoice* choice,
-                                           EventRecord* record, std::string* message);
-  // Whether the load was going the other way at the end of the last arc than it goes at current_. level: of a unit rate
-  // that counts as zero.
-  bool TurnsLoad(const CurvePoint& arrival, double level) const;
-  BranchRecord RecordOf(const Eigen::VectorXd& first) const;
+  // Direction of the path that crosses at the end of the step: x0, y0, x1, ..., unit norm.
   std::vector<double> CrossingPath(const Step& step);
   int StiffnessSign(const CurvePoint& point) const;
+  // Why no step is accepted.
+  std::string NoStep(const PathPoint& from) const;
 
   const Model& model_;
   BranchOptions options_;
@@ -97,8 +76,6 @@ class BranchMethod : public PathMethod {
   int events_in_place_ = 0;        // passed without moving
   bool at_start_ = true;           // not moved yet
   double largest_reaction_ = 0.0;  // of the points so far
-  int iterations_ = 0;             // of the last step
-  double contraction_ = 0.0;       // of the last step
 };
 
 }  // namespace contact_path

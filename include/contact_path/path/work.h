@@ -2,6 +2,7 @@
 #ifndef CONTACT_PATH_PATH_WORK_H_
 #define CONTACT_PATH_PATH_WORK_H_
 
+#include "contact_path/branch/smooth_arc.h"
 #include "contact_path/contact/path_point.h"
 #include "contact_path/path/model.h"
 
@@ -16,6 +17,9 @@ struct Work {
 // From `from` to `to` by the trapezoidal rule: second order in the increment. A contact that slips in the state of `to`
 // dissipates mu r_n |du_t| with the mean of r_n; all others nothing.
 Work WorkOfIncrement(const Model& model, const PathPoint& from, const PathPoint& to);
+
+// Of a step on an arc of the system: exact for the interpolation of the step.
+Work WorkOfStep(const Model& model, const FixedStateSystem& system, const Step& step);
 
 }  // namespace contact_path
 

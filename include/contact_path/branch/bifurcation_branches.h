@@ -1,0 +1,20 @@
+// The branches from a bifurcation of a smooth arc.
+#ifndef CONTACT_PATH_BRANCH_BIFURCATION_BRANCHES_H_
+#define CONTACT_PATH_BRANCH_BIFURCATION_BRANCHES_H_
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "contact_path/branch/branches.h"
+#include "contact_path/branch/smooth_arc.h"
+
+namespace contact_path {
+
+// The arc itself, which goes on, comes first. Then both directions of the path that crosses it at the point `at`, where
+// they are found, without those that let a contact slide back (crossing.h). before: a point of the arc before.
+std::vector<Branch> BifurcationBranches(SmoothArc* arc, const ContactPairs& contacts, const Eigen::VectorXd& before,
+                                        const CurvePoint& at);
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_BRANCH_BIFURCATION_BRANCHES_H_

@@ -1,0 +1,42 @@
+// What method branch is asked for.
+#ifndef CONTACT_PATH_PATH_BRANCH_OPTIONS_H_
+#define CONTACT_PATH_PATH_BRANCH_OPTIONS_H_
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "contact_path/path/return_detector.h"
+#include "contact_path/scene/scene.h"
+
+namespace contact_path {
+
+// All lengths in the scaled norm.
+struct BranchOptions {
+  double step = 0.02;             // longest increment, > 0
+  double smallest_step = 1e-9;    // below this the path ends, > 0
+  double prediction = 1e-3;       // largest error of the predictor, relative to the increment
+  double smallest_cosine = 0.98;  // between the tangents at both ends of an increment
+  double direction = 1.0;         // sign of the first change of the load factor
+  std::vector<BranchChoice> choices;
+  bool keep_loading = false;     // at an event, rather than turn the load back, the best branch with which it goes on
+  std::optional<double> target;  // load factor at which the path is to end, in an increment of its own
+  int increments = 0;            // given before this path, of which it goes on
+  int events = 0;                // passed before this path
+  ReturnDetector* returns = nullptr;  // tells whether the path has come back to where it was; null: that is no end
+
+  static BranchOptions For(const TraceOptions& options, Eigen::Index num_dofs);
+
+  // The branch chosen for the increment, or else for the event (0 = none); null: no choice.
+  const BranchChoice* ChoiceAt(int increment, int event) const;
+  // Whether a branch is chosen for a later increment or event.
+  bool HasChoiceAfter(int increment, int event) const;
+};
+
+// As messages name it: "event 3" or "increment 40".
+std::string PlaceOf(const BranchChoice& choice);
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_PATH_BRANCH_OPTIONS_H_

@@ -1,0 +1,75 @@
+#include "contact_path/branch/arc_step.h"
+
+#include "contact_path/tolerances.h"
+
+namespace contact_path {
+namespace {
+
+constexpr double kPredictionAfterSingular = 0.05;  // largest error of the predictor there, where no smaller one is met
+constexpr int kLocatingAttempts = 6;
+
+// A whole step with this length along the tangent; nothing where it has to be shorter.
+std::optional<ArcStep> TryStep(SmoothArc* arc, const CurvePoint& start, double length, double prediction,
+                               double smallest_cosine) {
+  const Eigen::VectorXd normal = start.first.head(arc->NumMotion());
+  const double tolerance = prediction * length;
+  const Eigen::VectorXd straight = start.x + length * start.first;
+  const Eigen::VectorXd bend = 0.5 * length * length * start.second;
+  const auto good = [&](const Correction& correction) {
+    return correction.converged && correction.first_step <= tolerance + tolerances::kPredictor;
+  };
+  Correction correction = arc->CorrectOnPlane(straight + bend, normal);
+  // Next to a singular point the second derivatives are little but rounding.
+  if (!good(correction) && bend.norm() > tolerance) correction = arc->CorrectOnPlane(straight, normal);
+  if (!good(correction)) return std::nullopt;
+  CurvePoint end;
+  if (!arc->Derivatives(correction.x, normal, &end)) return std::nullopt;
+  if (end.first.head(normal.size()).dot(normal) < smallest_cosine) return std::nullopt;
+  ArcStep result;
+  result.step = MakeStep(start, end, arc->NumMotion());
+  result.tried = length;
+  result.iterations = correction.iterations;
+  result.contraction = correction.contraction;
+  return result;
+}
+
+// Ends the step at the first event on it. The exact point of an event may show an earlier one. False: it is not found.
+bool EndAtFirstEvent(SmoothArc* arc, std::optional<double> target, ArcStep* at) {
+  at->event = FirstEvent(arc, at->step, target);
+  if (at->event.kind == EventKind::kNone) return true;
+  for (int attempt = 0; attempt < kLocatingAttempts; ++attempt) {
+    const std::optional<CurvePoint> point = Locate(arc, at->step, at->event, target);
+    if (!point) return false;
+    at->step = MakeStep(at->step.start, *point, arc->NumMotion());
+    if (!(at->step.length > tolerances::kNoMove)) {
+      at->step.length = 0.0;
+      return true;
+    }
+    const StepEvent earlier = FirstEvent(arc, at->step, target);
+    if (earlier.kind == EventKind::kNone || earlier.t >= at->step.length - tolerances::kNoMove) return true;
+    at->event = earlier;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::optional<ArcStep> NextStep(SmoothArc* arc, const CurvePoint& start, double length, bool after_singular,
+                                const StepLimits& limits, std::optional<double> target) {
+  double tried = length, prediction = limits.prediction;
+  for (int rejected = 0;; ++rejected) {
+    if (tried < limits.smallest && after_singular && prediction == limits.prediction) {
+      prediction = kPredictionAfterSingular;
+      tried = length;
+    }
+    if (tried < limits.smallest) return std::nullopt;
+    std::optional<ArcStep> step = TryStep(arc, start, tried, prediction, limits.cosine);
+    if (step && EndAtFirstEvent(arc, target, &*step)) {
+      step->rejected = rejected;
+      return step;
+    }
+    tried *= 0.5;
+  }
+}
+
+}  // namespace contact_path

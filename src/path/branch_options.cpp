@@ -1,0 +1,49 @@
+#include "contact_path/path/branch_options.h"
+
+#include <algorithm>
+
+#include "contact_path/path/automatic_step.h"
+
+namespace contact_path {
+
+std::string PlaceOf(const BranchChoice& choice) {
+  return choice.event > 0 ? "event " + std::to_string(choice.event) : "increment " + std::to_string(choice.increment);
+}
+
+BranchOptions BranchOptions::For(const TraceOptions& options, Eigen::Index num_dofs) {
+  BranchOptions result;
+  switch (options.accuracy) {
+    case Accuracy::kFast:
+      result.step = 0.05;
+      result.prediction = 1e-2;
+      result.smallest_cosine = 0.9;
+      break;
+    case Accuracy::kBalanced: break;
+    case Accuracy::kAccurate:
+      result.step = 0.005;
+      result.prediction = 1e-4;
+      result.smallest_cosine = 0.998;
+      break;
+  }
+  result.step = options.step > 0.0 ? options.step : result.step * AutomaticStepGrowth(num_dofs);
+  result.smallest_step = std::min(result.smallest_step, 1e-3 * result.step);
+  result.direction = options.Direction();
+  result.choices = options.branch_choices;
+  return result;
+}
+
+const BranchChoice* BranchOptions::ChoiceAt(int increment, int event) const {
+  for (const BranchChoice& choice : choices)
+    if (choice.event == 0 && choice.increment == increment) return &choice;
+  for (const BranchChoice& choice : choices)
+    if (choice.event > 0 && choice.event == event) return &choice;
+  return nullptr;
+}
+
+bool BranchOptions::HasChoiceAfter(int increment, int event) const {
+  return std::any_of(choices.begin(), choices.end(), [&](const BranchChoice& choice) {
+    return choice.event > 0 ? choice.event > event : choice.increment > increment;
+  });
+}
+
+}  // namespace contact_path
