@@ -84,8 +84,7 @@ bool BranchMethod::Leave(const PathPoint& point, const Branch& branch) {
 }
 
 void BranchMethod::NoteReactions(const PathPoint& point) {
-  if (point.rn.size() == 0) return;
-  largest_reaction_ = std::max({largest_reaction_, point.rn.maxCoeff(), point.rt.lpNorm<Eigen::Infinity>()});
+  largest_reaction_ = std::max(largest_reaction_, LargestReaction(point));
 }
 
 Arrival BranchMethod::StartArrival() const {
@@ -169,14 +168,18 @@ std::optional<EndReason> BranchMethod::Start(const PathPoint& from, EventRecord*
   return LeaveEvent(from, StartArrival(), options_.ChoiceAt(increments_, 0), branches, message);
 }
 
-bool BranchMethod::Resume(const PathPoint& before, const PathPoint& from, const SolveRecord& record) {
-  NoteReactions(before);
-  NoteReactions(from);
-  arc_.SetStates(from.states, from);
+bool BranchMethod::Resume(const ResumePoint& at) {
+  if (!(at.solve.next_step > 0.0)) return false;
+  largest_reaction_ = at.largest_reaction;
+  arc_.SetStates(at.point.states, at.point);
   Eigen::VectorXd towards(arc_.NumMotion());
-  towards << from.u - before.u, from.s - before.s;
-  if (!(record.next_step > 0.0) || !arc_.Derivatives(arc_.system().Pack(from), towards, &current_)) return false;
-  step_length_ = record.next_step;
+  towards << at.point.u - at.before.u, at.point.s - at.before.s;
+  // The next increment sets out with the factors of this one's end, which are those of the tangent at its start: with
+  // another tangent Newton's method takes other steps, and the predictor is judged by the first of them.
+  CurvePoint start;
+  if (arc_.Derivatives(arc_.system().Pack(at.before), towards, &start)) towards = start.first.head(towards.size());
+  if (!arc_.Derivatives(arc_.system().Pack(at.point), towards, &current_)) return false;
+  step_length_ = at.solve.next_step;
   at_start_ = false;
   return true;
 }

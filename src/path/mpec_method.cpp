@@ -34,7 +34,7 @@ constexpr double kCornerShare = 0.04;        // of the wanted step: largest corn
 constexpr double kSmallestStepRatio = 1e-7;  // of the wanted step
 
 // Whether this contact is about to change its state, so that the path may bend here by any angle.
-bool ActiveSetTolerance(const ContactPair& contact, const PathPoint& point, std::size_t i) {
+bool IsNearlyActive(const ContactPair& contact, const PathPoint& point, std::size_t i) {
   const auto k = static_cast<Eigen::Index>(i);
   const bool open = point.states[i] == ContactState::kOpen;
   if ((open ? contact.Gap(point.u, point.s) : point.rn[k]) <= tolerances::kNearlyActive) return true;
@@ -42,9 +42,9 @@ bool ActiveSetTolerance(const ContactPair& contact, const PathPoint& point, std:
          contact.Friction() * point.rn[k] - std::abs(point.rt[k]) <= tolerances::kNearlyActive;
 }
 
-bool SomeAtLimit(const ContactPairs& contacts, const PathPoint& point) {
+bool SomeNearlyActive(const ContactPairs& contacts, const PathPoint& point) {
   for (std::size_t i = 0; i < contacts.size(); ++i)
-    if (ActiveSetTolerance(*contacts[i], point, i)) return true;
+    if (IsNearlyActive(*contacts[i], point, i)) return true;
   return false;
 }
 
@@ -53,15 +53,11 @@ bool SomeAtLimit(const ContactPairs& contacts, const PathPoint& point) {
 bool MayHaveCutCorner(const ContactPairs& contacts, const PathPoint& from, const PathPoint& to) {
   if (to.states != from.states) return true;
   for (std::size_t i = 0; i < contacts.size(); ++i)
-    if (ActiveSetTolerance(*contacts[i], to, i) && !ActiveSetTolerance(*contacts[i], from, i)) return true;
+    if (IsNearlyActive(*contacts[i], to, i) && !IsNearlyActive(*contacts[i], from, i)) return true;
   return false;
 }
 
-double LargestForce(const PathPoint& point) {
-  const double rn = point.rn.size() > 0 ? point.rn.lpNorm<Eigen::Infinity>() : 0.0;
-  const double rt = point.rt.size() > 0 ? point.rt.lpNorm<Eigen::Infinity>() : 0.0;
-  return std::max({std::abs(point.s), rn, rt});
-}
+double LargestForce(const PathPoint& point) { return std::max(std::abs(point.s), LargestReaction(point)); }
 
 // Whether what a regularised point says of each contact is what its numbers say. They may all be small against the
 // characteristic force, and then small residuals prove nothing.
@@ -177,7 +173,7 @@ void MpecMethod::Judge(const PathPoint& from, const Eigen::VectorXd& direction, 
   else if (!started_ && (to.s - from.s) * options_.direction <= tolerances::kUnitComponent * moved)
     trial.verdict = Verdict::kWrongDirection;
   else if (started_ && !bent_ && to.states == from.states && Direction(from, to).dot(direction) < kSmallestCosine &&
-           !SomeAtLimit(model_.contacts, from))
+           !SomeNearlyActive(model_.contacts, from))
     trial.verdict = Verdict::kTurnedBack;
   else
     trial.verdict = Verdict::kAccepted;
@@ -283,13 +279,13 @@ std::optional<int> MpecMethod::EndAtReturn(const PathPoint& from, Trial* trial) 
   return found->increment;
 }
 
-bool MpecMethod::Resume(const PathPoint& before, const PathPoint& from, const SolveRecord& record) {
-  if (!(record.next_step > 0.0) || !(Distance(before, from) > 0.0)) return false;
-  direction_ = Direction(before, from);
-  last_length_ = Distance(before, from);
-  bent_ = before.states != from.states;
-  step_length_ = record.next_step;
-  gamma2_factor_ = record.gamma2_factor;
+bool MpecMethod::Resume(const ResumePoint& at) {
+  if (!(at.solve.next_step > 0.0) || !(Distance(at.before, at.point) > 0.0)) return false;
+  direction_ = Direction(at.before, at.point);
+  last_length_ = Distance(at.before, at.point);
+  bent_ = at.before.states != at.point.states;
+  step_length_ = at.solve.next_step;
+  gamma2_factor_ = at.solve.gamma2_factor;
   length_ = std::numeric_limits<double>::infinity();  // not known, and not short
   started_ = true;
   return true;

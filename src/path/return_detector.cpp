@@ -25,11 +25,6 @@ Eigen::VectorXd Chord(const PathPoint& from, const PathPoint& to) {
   return chord;
 }
 
-double LargestReaction(const PathPoint& point) {
-  if (point.rn.size() == 0) return 0.0;
-  return std::max(point.rn.lpNorm<Eigen::Infinity>(), point.rt.lpNorm<Eigen::Infinity>());
-}
-
 }  // namespace
 
 ReturnDetector::ReturnDetector(const Model& model, int every)

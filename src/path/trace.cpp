@@ -46,10 +46,18 @@ struct Resumption {
   int events = 0;  // passed up to there
 };
 
+// Whether another path crosses right there: the point and its tangent are then less exact than what an increment
+// records. Nullity tells such a point from redundant contacts, which make the equations singular all along an arc.
+bool IsSingularPoint(const Increment& increment) {
+  return increment.solve.method == Method::kBranch && increment.solve.determinant_sign == 0 &&
+         increment.solve.nullity == 0;
+}
+
 // mpec measures the direction and the bend of the path from the increment before.
 bool CanGoOnFrom(const Increment& before, const Increment& increment) {
   if (before.stage != increment.stage || !(increment.arc_length > before.arc_length)) return false;
   if (increment.solve.method == Method::kMpec && before.index + 1 != increment.index) return false;
+  if (IsSingularPoint(increment)) return false;
   return !increment.positions.empty() && increment.event.number == 0 && increment.event.branches.empty() &&
          increment.solve.next_step > 0.0 &&
          (increment.kind == IncrementKind::kRegular || increment.kind == IncrementKind::kSmoothLimit);
@@ -269,28 +277,31 @@ class Tracer {
           (resumption.from->solve.exact ? tolerances::kAcceptedExact : tolerances::kAcceptedRegularised)))
       return End(EndReason::kNumericalFailure, "the increment to go on from is not an equilibrium");
     events_ = resumption.events;
-    RememberStage(model, resumption);
+    const double largest_reaction = RememberStage(model, resumption);
     const std::optional<double> target = TargetOf(model, stage);
     if (const StopCriterion* criterion = stop_.FirstThatHolds(recorder_.increment()))
       return End(EndReason::kStopCriterion, ToText(*criterion));
     if (IsAt(target)) return EndStage(stage);
     const std::unique_ptr<PathMethod> method = MakeMethod(model, target, recorder_.increments() - 1);
-    if (!method->Resume(model.FromIncrement(*resumption.before), point_, resumption.from->solve))
+    if (!method->Resume({model.FromIncrement(*resumption.before), point_, resumption.from->solve, largest_reaction}))
       return End(EndReason::kNumericalFailure, "the path cannot be followed from the increment to go on from");
     return FollowStage(model, stage, method.get());
   }
 
-  // The increments of the stage before the one to go on from.
-  void RememberStage(const Model& model, const Resumption& resumption) {
+  // The increments of the stage up to the one to go on from. Returns their largest reaction, scaled.
+  double RememberStage(const Model& model, const Resumption& resumption) {
     std::optional<PathPoint> before;
+    double largest_reaction = 0.0;
     for (const Increment& increment : *resumption.increments) {
       if (increment.index > resumption.from->index) break;
       if (increment.stage != resumption.from->stage || increment.positions.empty()) continue;
       PathPoint point = model.FromIncrement(increment);
       largest_load_ = std::max(largest_load_, std::abs(point.s));
+      largest_reaction = std::max(largest_reaction, LargestReaction(point));
       if (before) returns_->Add(increment.index, *before, point);
       before = std::move(point);
     }
+    return largest_reaction;
   }
 
   void NotePoint(const PathPoint& point) {

@@ -133,7 +133,7 @@ class FakeMethod : public PathMethod {
     if (starts_) return std::nullopt;
     return EndReason::kPathEnd;
   }
-  bool Resume(const PathPoint&, const PathPoint&, const SolveRecord&) override { return false; }
+  bool Resume(const ResumePoint&) override { return false; }
   Advance Next(const PathPoint&) override { return advance_; }
 
  private:

@@ -68,9 +68,10 @@ TEST(Resume, FromAnyRowOfAnyExampleByBranch) {
   }
 }
 
-// From each increment of a path that rests while load and reactions change.
+// From each increment of a path that rests while load and reactions change, of one that turns at smooth limit points,
+// where nearly each second step is shortened, and of one that snaps back with friction.
 TEST(Resume, ToRounding) {
-  for (const char* name : {"stall_333"}) {
+  for (const char* name : {"stall_333", "resume", "drag_snapback"}) {
     const TraceRequest request = ReadTraceRequestFile(std::string(CONTACT_PATH_TEST_DATA) + "/" + name + ".yaml");
     const TracedPath whole = TraceIncrements(request);
     for (std::size_t cut = 1; cut <= whole.increments.size(); ++cut) {

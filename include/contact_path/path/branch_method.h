@@ -24,7 +24,7 @@ class BranchMethod : public PathMethod {
   BranchMethod(const Model& model, const BranchOptions& options, std::function<bool()> cancelled);
 
   std::optional<EndReason> Start(const PathPoint& from, EventRecord* branches, std::string* message) override;
-  bool Resume(const PathPoint& before, const PathPoint& from, const SolveRecord& record) override;
+  bool Resume(const ResumePoint& at) override;
   // `from` must be the point that was given last.
   Advance Next(const PathPoint& from) override;
   int NumEvents() const override { return events_; }

@@ -37,7 +37,7 @@ class MpecMethod : public PathMethod {
 
   // Nothing to do: the first increment finds its own way.
   std::optional<EndReason> Start(const PathPoint&, EventRecord*, std::string*) override { return std::nullopt; }
-  bool Resume(const PathPoint& before, const PathPoint& from, const SolveRecord& record) override;
+  bool Resume(const ResumePoint& at) override;
   Advance Next(const PathPoint& from) override;
   std::string Remark() const override;
 

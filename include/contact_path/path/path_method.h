@@ -38,6 +38,14 @@ struct Advance {
   std::string message;                              // if ended: one line for a person
 };
 
+// An increment of an earlier path to go on from, one that is no event.
+struct ResumePoint {
+  PathPoint before;               // of the increment before it, or where that has no state on record, of an earlier one
+  PathPoint point;                // its own
+  SolveRecord solve;              // recorded of it
+  double largest_reaction = 0.0;  // scaled, normal or tangential, of all increments of its stage up to it
+};
+
 class PathMethod {
  public:
   virtual ~PathMethod() = default;
@@ -46,9 +54,8 @@ class PathMethod {
   // Otherwise the path ends where it begins, for this reason; *message: one line for a person.
   virtual std::optional<EndReason> Start(const PathPoint& from, EventRecord* branches, std::string* message) = 0;
 
-  // Goes on in place of Start() from an increment of an earlier path, one that is no event: its point `from`, what was
-  // recorded of it, and the point `before` of an earlier increment. False: that is not possible here.
-  virtual bool Resume(const PathPoint& before, const PathPoint& from, const SolveRecord& record) = 0;
+  // Goes on in place of Start(). False: that is not possible here.
+  virtual bool Resume(const ResumePoint& at) = 0;
 
   // The next increments after `from`, which is the last accepted point: the initial point, or the last increment that
   // this method gave.
