@@ -6,13 +6,12 @@
 #include <set>
 
 #include "contact_path/branch/branch_order.h"
-#include "contact_path/branch/plane_tangents.h"
+#include "contact_path/branch/pivoting.h"
 #include "contact_path/branch/rate_problem.h"
 #include "contact_path/branch/reaction_redistribution.h"
+#include "contact_path/branch/state_options.h"
+#include "contact_path/branch/tangents.h"
 #include "contact_path/equations/fixed_state_system.h"
-#include "contact_path/linear/bordered_solver.h"
-#include "contact_path/linear/minimum_norm.h"
-#include "contact_path/linear/singular_vectors.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
@@ -27,39 +26,6 @@ constexpr double kMostCombinations = 4096.0;         // 4^6
 constexpr double kMostIfNone = 65536.0;              // 4^8: tried before the path is said to end
 
 using States = std::vector<ContactState>;
-
-// The states that a contact can take on from `point`: one if it is not weakly_active. The natural one, as it was, comes
-// first.
-States Options(const ContactPair& contact, const PathPoint& point, std::size_t i, const ActiveSetTolerance& limit) {
-  const auto k = static_cast<Eigen::Index>(i);
-  const double gap = contact.Gap(point.u, point.s), rn = point.rn[k], rt = point.rt[k];
-  if (gap > limit.gap) return {ContactState::kOpen};
-  const bool loaded = rn > limit.force;
-  States options;
-  if (!contact.Frictional()) {
-    options = {ContactState::kClosed};
-  } else if (!loaded) {
-    options = {ContactState::kStick, ContactState::kSlipPlus, ContactState::kSlipMinus};
-  } else {
-    options = {ContactState::kStick};
-    if (contact.Friction() * rn + rt <= limit.force) options.push_back(ContactState::kSlipPlus);
-    if (contact.Friction() * rn - rt <= limit.force) options.push_back(ContactState::kSlipMinus);
-  }
-  if (!loaded) options.push_back(ContactState::kOpen);
-  const auto natural = std::find(options.begin(), options.end(), point.states[i]);
-  if (natural != options.end()) std::rotate(options.begin(), natural, natural + 1);
-  return options;
-}
-
-// Columns of `basis` without what lies in the span of the rows' null space: splits a null space by what moves.
-// Returns the part of basis in which the rows `from`..`from + count` vanish (still = true) or its complement.
-Eigen::MatrixXd Split(const Eigen::MatrixXd& basis, Eigen::Index from, Eigen::Index count, bool still) {
-  if (basis.cols() == 0) return basis;
-  const SingularVectors rows = RightSingularVectors(basis.middleRows(from, count));
-  Eigen::Index rank = 0;
-  while (rank < rows.values.size() && rows.values[rank] > tolerances::kRigid) ++rank;
-  return still ? basis * rows.v.rightCols(basis.cols() - rank) : basis * rows.v.leftCols(rank);
-}
 
 // Of two unit vectors [rad].
 double AngleTo(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
@@ -81,21 +47,20 @@ class Finder {
   // Adds the branches with these states.
   void Try(const States& states, std::vector<Branch>* branches) {
     Eigen::VectorXd x;
-    for (const Eigen::VectorXd& along : TangentsOf(states, &x)) {
-      const Eigen::VectorXd second = Second(x, along);
+    const Tangents tangents = TangentsOf(states, &x);
+    for (std::size_t k = 0; k < tangents.first.size(); ++k)
       for (const double sign : {1.0, -1.0}) {
-        const Eigen::VectorXd first = sign * along;
-        if (Admissible(x, first, second)) Add(first, second, branches);
+        const Eigen::VectorXd first = sign * tangents.first[k];
+        if (Admissible(x, first, tangents.second[k])) Add(tangents, first, tangents.second[k], branches);
       }
-    }
   }
 
-  // Principal pivoting on the rate problem from these states: contacts whose rates are inadmissible change their state,
-  // all at once at first, then only the first of them. Ends with admissible states, or gives up. sign: of the tangent,
-  // relative to the direction of arrival. condensed: null, or the rate problem condensed.
-  std::optional<States> Pivot(States states, double sign, const RateProblem* condensed) {
-    return condensed != nullptr ? PivotCondensed(std::move(states), sign, *condensed)
-                                : PivotWhole(std::move(states), sign);
+  // From these states to admissible ones. sign: of the tangent, relative to the direction of arrival. condensed: null,
+  // or the rate problem condensed.
+  std::optional<States> PivotFrom(States states, double sign, const RateProblem* condensed) {
+    return Pivot(contacts_, std::move(states), [&](const States& now) {
+      return condensed != nullptr ? BrokenCondensed(now, sign, *condensed) : Broken(now, sign);
+    });
   }
 
   // Whether the rates of these states are broken in both directions by far more than rounding, or the structure starts
@@ -117,168 +82,39 @@ class Finder {
   }
 
  private:
-  static constexpr int kBlockPivots = 20;
-  static constexpr int kSinglePivots = 200;
-
   Eigen::Index NumMotion() const { return system_.NumDofs() + 1; }
 
-  // Whether its rate counts. The slip rate always does.
-  bool IsActive(const Constraint& limit, const Eigen::VectorXd& x) const {
-    if (limit.inequality == Inequality::kSlip) return true;
-    return system_.Value(limit, x) <= (limit.inequality == Inequality::kGap ? tolerance_.gap : tolerance_.force);
-  }
-
-  // The state that a contact takes on where the rate of `limit` is negative.
-  static ContactState Next(const Constraint& limit, const ContactPair& contact) {
-    switch (limit.inequality) {
-      case Inequality::kGap: return contact.Frictional() ? ContactState::kStick : ContactState::kClosed;
-      case Inequality::kNormalReaction: return ContactState::kOpen;
-      case Inequality::kConePlus: return ContactState::kSlipPlus;
-      case Inequality::kConeMinus: return ContactState::kSlipMinus;
-      case Inequality::kSlip: return ContactState::kStick;
-    }
-    return ContactState::kOpen;
-  }
-
-  std::optional<States> PivotWhole(States states, double sign) {
-    for (int round = 0; round < kBlockPivots + kSinglePivots && !Cancelled(); ++round) {
-      Eigen::VectorXd x;
-      const std::vector<Eigen::VectorXd> tangents = TangentsOf(states, &x);
-      if (tangents.empty()) return std::nullopt;
-      const double along = tangents.front().head(NumMotion()).dot(arrival_.direction);
-      const Eigen::VectorXd first = (along < 0.0 ? -sign : sign) * tangents.front();
-      bool changed = false;
-      for (const Constraint& limit : system_.Inequalities()) {
-        if (!IsActive(limit, x)) continue;
-        if (system_.Rate(limit, x, first) >= -tolerances::kRate) continue;
-        ContactState& state = states[static_cast<std::size_t>(limit.contact)];
-        state = Next(limit, *contacts_[static_cast<std::size_t>(limit.contact)]);
-        changed = true;
-        if (round >= kBlockPivots) break;
-      }
-      if (!changed) return states;
-    }
-    return std::nullopt;
-  }
-
-  std::optional<States> PivotCondensed(States states, double sign, const RateProblem& condensed) const {
-    std::vector<Constraint> broken;
-    for (int round = 0; round < kBlockPivots + kSinglePivots; ++round) {
-      const std::optional<CondensedRates> rates = condensed.UniqueRates(states);
-      if (!rates) return std::nullopt;
-      broken.clear();
-      condensed.Broken(states, *rates, rates->along < 0.0 ? -sign : sign, tolerance_.force, tolerances::kRate, &broken);
-      if (broken.empty()) return states;
-      if (round >= kBlockPivots) broken.resize(1);
-      for (const Constraint& limit : broken) {
-        const auto i = static_cast<std::size_t>(limit.contact);
-        states[i] = Next(limit, *contacts_[i]);
-      }
-    }
-    return std::nullopt;
-  }
-
-  // The tangents of the curves with these states, up to their sign; *x: the point.
-  std::vector<Eigen::VectorXd> TangentsOf(const States& states, Eigen::VectorXd* x) {
+  // The system takes on these states; *x: the point.
+  Tangents TangentsOf(const States& states, Eigen::VectorXd* x) {
     system_.SetStates(states, reference_);
     *x = system_.Pack(point_);
-    mechanism_ = false;
-    rests_ = false;
-    regular_ = false;
-    const Eigen::SparseMatrix<double>& transposed = system_.TransposedJacobian(*x);
-    if (!arrival_.singular) {
-      Eigen::VectorXd row = Eigen::VectorXd::Zero(system_.NumUnknowns());
-      row.head(NumMotion()) = arrival_.direction;
-      regular_ = lu_.FactorizeRegular(transposed, row, tolerances::kRegularPivot);
-      if (regular_) {
-        const Eigen::VectorXd tangent = lu_.Solve(Eigen::VectorXd::Zero(system_.NumEquations()), 1.0);
-        return {tangent / tangent.head(NumMotion()).norm()};
-      }
-    }
-    if (!solver_.Factorize(transposed,
-                           arrival_.singular ? tolerances::kDependentColumnSingular : tolerances::kDependentColumn))
-      return {};
-    const NullSpaceParts parts = PartsOfNullSpace();
-    const Eigen::MatrixXd& plane = arrival_.singular ? parts.moving : parts.proper;
-    if (plane.cols() == 2 && (arrival_.singular || parts.rigid.cols() == 0)) {
-      const PlaneTangents tangents = TangentsInPlane(&system_, *x, plane, solver_.LeftNullSpace());
-      if (tangents.determined) {
-        rests_ = !arrival_.singular;
-        return tangents.directions;
-      }
-    }
-    if (!arrival_.singular && parts.proper.cols() > 1 && TakesUpReactions(*x, parts.proper)) return {};
-    const std::optional<Eigen::VectorXd> tangent = Tangent(parts);
-    return tangent ? std::vector<Eigen::VectorXd>{*tangent} : std::vector<Eigen::VectorXd>{};
+    Tangents tangents = FindTangents(*x, arrival_.direction, arrival_.singular, tolerance_, &system_, &solvers_);
+    rigid_modes_ = std::max(rigid_modes_, tangents.rigid_modes);
+    return tangents;
   }
 
-  // How the unknowns bend along the tangent.
-  Eigen::VectorXd Second(const Eigen::VectorXd& x, const Eigen::VectorXd& tangent) {
-    const Eigen::VectorXd right = -system_.SecondDerivative(x, tangent);
-    return regular_ ? lu_.Solve(right, 0.0) : solver_.Solve(right);
-  }
-
-  // The null vectors that move: rigid modes change neither the load factor nor a reaction, the proper ones do and have
-  // no share of the rigid modes.
-  struct NullSpaceParts {
-    Eigen::MatrixXd moving, rigid, proper;
-  };
-
-  NullSpaceParts PartsOfNullSpace() const {
-    const Eigen::MatrixXd null_space = solver_.NullSpace();
-    const Eigen::Index motion = NumMotion(), forces = system_.NumUnknowns() - motion + 1;
-    NullSpaceParts parts;
-    if (null_space.cols() == 1) {
-      parts.moving = parts.proper = null_space;
-      return parts;
-    }
-    parts.moving = Split(null_space, 0, motion, false);
-    parts.rigid = Split(parts.moving, motion - 1, forces, true);
-    parts.proper = Split(parts.moving, motion - 1, forces, false);
-    for (Eigen::Index k = 0; k < parts.rigid.cols(); ++k) {
-      const Eigen::VectorXd mode = parts.rigid.col(k).head(motion).normalized();
-      for (Eigen::Index j = 0; j < parts.proper.cols(); ++j) {
-        Eigen::VectorXd column = parts.proper.col(j);
-        column.head(motion) -= mode.dot(column.head(motion)) * mode;
-        parts.proper.col(j) = column;
-      }
-    }
-    return parts;
-  }
-
-  // Whether directions of a surface of solutions give a reaction to a contact that has none. In a guide without
-  // clearance the wall that is not pressed has no reason to take up a reaction: the combination in which it is open has
-  // the direction in which it does not.
-  bool TakesUpReactions(const Eigen::VectorXd& x, const Eigen::MatrixXd& directions) const {
+  // By the rates of these states, times sign relative to the direction of arrival.
+  std::optional<std::vector<Constraint>> Broken(const States& states, double sign) {
+    if (Cancelled()) return std::nullopt;
+    Eigen::VectorXd x;
+    const Tangents tangents = TangentsOf(states, &x);
+    if (tangents.first.empty()) return std::nullopt;
+    const double along = tangents.first[0].head(NumMotion()).dot(arrival_.direction);
+    const Eigen::VectorXd first = (along < 0.0 ? -sign : sign) * tangents.first[0];
+    std::vector<Constraint> broken;
     for (const Constraint& constraint : system_.Inequalities())
-      if (constraint.inequality == Inequality::kNormalReaction && IsActive(constraint, x))
-        for (Eigen::Index k = 0; k < directions.cols(); ++k)
-          if (std::abs(system_.Rate(constraint, x, directions.col(k))) > tolerances::kRate) return true;
-    return false;
+      if (IsWeaklyActive(system_, constraint, x, tolerance_) && system_.Rate(constraint, x, first) < -tolerances::kRate)
+        broken.push_back(constraint);
+    return broken;
   }
 
-  // The direction of the arc where the equations leave more than one. A mechanism has rigid modes only: with one of
-  // them it moves in that direction; with more, the direction nearest to the arrival stands for all of them.
-  std::optional<Eigen::VectorXd> Tangent(const NullSpaceParts& parts) {
-    const Eigen::Index motion = NumMotion();
-    const Eigen::MatrixXd& candidates = parts.proper.cols() > 0 ? parts.proper : parts.rigid;
-    if (candidates.cols() == 0) return std::nullopt;
-    mechanism_ = parts.proper.cols() == 0 && parts.rigid.cols() > 1;
-    if (parts.proper.cols() == 0) rigid_modes_ = std::max(rigid_modes_, static_cast<int>(parts.rigid.cols()));
-    Eigen::VectorXd tangent =
-        candidates.cols() == 1 ? Eigen::VectorXd(candidates.col(0)) : NearestToArrival(candidates);
-    const double norm = tangent.head(motion).norm();
-    if (!(norm > tolerances::kRigid)) return std::nullopt;
-    tangent /= norm;
-    return tangent;
-  }
-
-  // Of the combinations of the columns: that whose motion is nearest to the direction of arrival.
-  Eigen::VectorXd NearestToArrival(const Eigen::MatrixXd& candidates) const {
-    const auto motions = candidates.topRows(NumMotion());
-    const SingularVectors s = RightSingularVectors(motions);
-    const Eigen::VectorXd along = s.v.transpose() * (motions.transpose() * arrival_.direction);
-    return candidates * (s.v * along.cwiseQuotient(s.values.cwiseAbs2()));
+  std::optional<std::vector<Constraint>> BrokenCondensed(const States& states, double sign,
+                                                         const RateProblem& condensed) const {
+    const std::optional<CondensedRates> rates = condensed.UniqueRates(states);
+    if (!rates) return std::nullopt;
+    std::vector<Constraint> broken;
+    condensed.Broken(states, *rates, rates->along < 0.0 ? -sign : sign, tolerance_.force, tolerances::kRate, &broken);
+    return broken;
   }
 
   bool Admissible(const Eigen::VectorXd& x, const Eigen::VectorXd& first, const Eigen::VectorXd& second) const {
@@ -286,7 +122,7 @@ class Finder {
     if (arrival_.is_start && !SetsOut(first[n - 1], second[n - 1])) return false;
     if (!arrival_.is_start && IsReversed(first)) return false;
     for (const Constraint& limit : system_.Inequalities()) {
-      if (!IsActive(limit, x)) continue;
+      if (!IsWeaklyActive(system_, limit, x, tolerance_)) continue;
       const Jet along = system_.ValueAlong(limit, x, first, second);
       const double rate = along.first, curvature = along.second;
       // A graze, located to the root of rounding only: the value is past its minimum before it counts as negative.
@@ -320,12 +156,13 @@ class Finder {
     return idle;
   }
 
-  void Add(const Eigen::VectorXd& first, const Eigen::VectorXd& second, std::vector<Branch>* branches) const {
+  void Add(const Tangents& tangents, const Eigen::VectorXd& first, const Eigen::VectorXd& second,
+           std::vector<Branch>* branches) const {
     Branch branch;
     branch.states = system_.states();
-    branch.mechanism = mechanism_;
-    branch.singular = rests_;
-    branch.rests = rests_ || first.head(NumMotion() - 1).norm() <= tolerances::kRate;
+    branch.mechanism = tangents.mechanism;
+    branch.singular = tangents.rests;
+    branch.rests = tangents.rests || first.head(NumMotion() - 1).norm() <= tolerances::kRate;
     branch.direction = first.head(NumMotion());
     branch.first = first;
     branch.second = second - first.head(NumMotion()).dot(second.head(NumMotion())) * first;
@@ -350,12 +187,8 @@ class Finder {
   bool was_cancelled_ = false;
   FixedStateSystem system_;
   Eigen::VectorXd reference_;
-  BorderedSolver lu_;         // where the equations are clearly regular
-  MinimumNormSolver solver_;  // elsewhere
-  bool regular_ = false;      // which of them the last tangent is of
-  bool mechanism_ = false;    // of the last tangent
-  bool rests_ = false;        // of the last tangents: see Branch::rests
-  int rigid_modes_ = 0;       // most of all tangents that are rigid modes
+  TangentSolvers solvers_;
+  int rigid_modes_ = 0;  // most of all tangents that are rigid modes
 };
 
 // Every combination of the options: an odometer, the last contact turning fastest.
@@ -400,7 +233,7 @@ void TryLikely(const std::vector<States>& options, const PathPoint& point, const
   const auto pivot_from = [&](const States& guess) {
     if (finder->Cancelled()) return;
     for (const double sign : {1.0, -1.0})
-      if (const std::optional<States> states = finder->Pivot(guess, sign, condensed)) attempt(*states);
+      if (const std::optional<States> states = finder->PivotFrom(guess, sign, condensed)) attempt(*states);
   };
   for (const States& guess : guesses) pivot_from(guess);
   // Next to what was found: one contact after another in another of its states.
@@ -428,7 +261,7 @@ BranchSet BranchesWithReactions(const Structure& structure, const ContactPairs& 
   std::vector<int> weakly_active;
   double combinations = 1.0;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    options.push_back(Options(*contacts[i], point, i, limit));
+    options.push_back(StateOptions(*contacts[i], point, i, limit));
     natural.push_back(options[i].front());
     combinations *= static_cast<double>(options[i].size());
     if (options[i].size() > 1) weakly_active.push_back(static_cast<int>(i));

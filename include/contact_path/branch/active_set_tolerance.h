@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact_path/equations/fixed_state_system.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
@@ -25,6 +26,13 @@ struct ActiveSetTolerance {
     return limit;
   }
 };
+
+// Whether the rate of the constraint counts at x. The slip rate always does.
+inline bool IsWeaklyActive(const FixedStateSystem& system, const Constraint& constraint, const Eigen::VectorXd& x,
+                           const ActiveSetTolerance& tolerance) {
+  if (constraint.inequality == Inequality::kSlip) return true;
+  return system.Value(constraint, x) <= (constraint.inequality == Inequality::kGap ? tolerance.gap : tolerance.force);
+}
 
 }  // namespace contact_path
 

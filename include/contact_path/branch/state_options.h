@@ -1,0 +1,20 @@
+// The states that contacts can take on from a point of the path.
+#ifndef CONTACT_PATH_BRANCH_STATE_OPTIONS_H_
+#define CONTACT_PATH_BRANCH_STATE_OPTIONS_H_
+
+#include <vector>
+
+#include "contact_path/branch/active_set_tolerance.h"
+#include "contact_path/contact/contact_pair.h"
+#include "contact_path/contact/path_point.h"
+
+namespace contact_path {
+
+// Of the candidate: one state if the contact is not weakly active. The state that it has at `point` comes first, if it
+// is among them.
+std::vector<ContactState> StateOptions(const ContactPair& contact, const PathPoint& point, std::size_t candidate,
+                                       const ActiveSetTolerance& tolerance);
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_BRANCH_STATE_OPTIONS_H_

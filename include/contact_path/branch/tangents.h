@@ -1,0 +1,41 @@
+// The tangents of the arcs through a point of the path, with the states of all contacts fixed.
+#ifndef CONTACT_PATH_BRANCH_TANGENTS_H_
+#define CONTACT_PATH_BRANCH_TANGENTS_H_
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "contact_path/branch/active_set_tolerance.h"
+#include "contact_path/equations/fixed_state_system.h"
+#include "contact_path/linear/bordered_solver.h"
+#include "contact_path/linear/minimum_norm.h"
+
+namespace contact_path {
+
+// Derivatives of all unknowns by arc length |(du, ds)|. Each tangent stands for both senses.
+struct Tangents {
+  std::vector<Eigen::VectorXd> first;   // |(u, s) part| = 1
+  std::vector<Eigen::VectorXd> second;  // of each, up to a multiple of first
+  // The equations leave several motions without any change of load and reactions: first is the one nearest to the
+  // direction of arrival.
+  bool mechanism = false;
+  // A part of the structure is at a limit point of its own: the equations are singular all along the arcs.
+  bool rests = false;
+  int rigid_modes = 0;  // motions without any change of load and reactions, where nothing else moves
+};
+
+// Factors that FindTangents() leaves for its next call: equations of one pattern are factorised faster.
+struct TangentSolvers {
+  BorderedSolver regular;      // where the equations are clearly regular
+  MinimumNormSolver singular;  // elsewhere
+};
+
+// At the point x, by the states of *system; none where the states leave no arc through x. arrival: (du, ds), unit
+// vector; of several directions the one nearest to it counts. crossed: another path crosses at x, so that nearly
+// singular counts as singular.
+Tangents FindTangents(const Eigen::VectorXd& x, const Eigen::VectorXd& arrival, bool crossed,
+                      const ActiveSetTolerance& tolerance, FixedStateSystem* system, TangentSolvers* solvers);
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_BRANCH_TANGENTS_H_

@@ -1,0 +1,38 @@
+#include "contact_path/branch/pivoting.h"
+
+namespace contact_path {
+namespace {
+
+constexpr int kBlockPivots = 20;
+constexpr int kSinglePivots = 200;
+
+// The state that a contact takes on where the rate of the constraint is negative.
+ContactState Next(const Constraint& constraint, const ContactPair& contact) {
+  switch (constraint.inequality) {
+    case Inequality::kGap: return contact.Frictional() ? ContactState::kStick : ContactState::kClosed;
+    case Inequality::kNormalReaction: return ContactState::kOpen;
+    case Inequality::kConePlus: return ContactState::kSlipPlus;
+    case Inequality::kConeMinus: return ContactState::kSlipMinus;
+    case Inequality::kSlip: return ContactState::kStick;
+  }
+  return ContactState::kOpen;
+}
+
+}  // namespace
+
+std::optional<std::vector<ContactState>> Pivot(const ContactPairs& contacts, std::vector<ContactState> states,
+                                               const BrokenBy& broken_by) {
+  for (int round = 0; round < kBlockPivots + kSinglePivots; ++round) {
+    std::optional<std::vector<Constraint>> broken = broken_by(states);
+    if (!broken) return std::nullopt;
+    if (broken->empty()) return states;
+    if (round >= kBlockPivots) broken->resize(1);
+    for (const Constraint& constraint : *broken) {
+      const auto i = static_cast<std::size_t>(constraint.contact);
+      states[i] = Next(constraint, *contacts[i]);
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace contact_path

@@ -1,0 +1,29 @@
+#include "contact_path/branch/state_options.h"
+
+#include <algorithm>
+
+namespace contact_path {
+
+std::vector<ContactState> StateOptions(const ContactPair& contact, const PathPoint& point, std::size_t candidate,
+                                       const ActiveSetTolerance& tolerance) {
+  const auto k = static_cast<Eigen::Index>(candidate);
+  const double gap = contact.Gap(point.u, point.s), rn = point.rn[k], rt = point.rt[k];
+  if (gap > tolerance.gap) return {ContactState::kOpen};
+  const bool loaded = rn > tolerance.force;
+  std::vector<ContactState> options;
+  if (!contact.Frictional()) {
+    options = {ContactState::kClosed};
+  } else if (!loaded) {
+    options = {ContactState::kStick, ContactState::kSlipPlus, ContactState::kSlipMinus};
+  } else {
+    options = {ContactState::kStick};
+    if (contact.Friction() * rn + rt <= tolerance.force) options.push_back(ContactState::kSlipPlus);
+    if (contact.Friction() * rn - rt <= tolerance.force) options.push_back(ContactState::kSlipMinus);
+  }
+  if (!loaded) options.push_back(ContactState::kOpen);
+  const auto natural = std::find(options.begin(), options.end(), point.states[candidate]);
+  if (natural != options.end()) std::rotate(options.begin(), natural, natural + 1);
+  return options;
+}
+
+}  // namespace contact_path

@@ -1,0 +1,132 @@
+#include "contact_path/branch/tangents.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "contact_path/branch/plane_tangents.h"
+#include "contact_path/linear/singular_vectors.h"
+#include "contact_path/tolerances.h"
+
+namespace contact_path {
+namespace {
+
+// Columns of `basis` without what lies in the span of the rows' null space: splits a null space by what moves.
+// Returns the part of basis in which the rows `from`..`from + count` vanish (still = true) or its complement.
+Eigen::MatrixXd Split(const Eigen::MatrixXd& basis, Eigen::Index from, Eigen::Index count, bool still) {
+  if (basis.cols() == 0) return basis;
+  const SingularVectors rows = RightSingularVectors(basis.middleRows(from, count));
+  Eigen::Index rank = 0;
+  while (rank < rows.values.size() && rows.values[rank] > tolerances::kRigid) ++rank;
+  return still ? basis * rows.v.rightCols(basis.cols() - rank) : basis * rows.v.leftCols(rank);
+}
+
+// The null vectors that move: rigid modes change neither the load factor nor a reaction, the proper ones do and have
+// no share of the rigid modes.
+struct NullSpaceParts {
+  Eigen::MatrixXd moving, rigid, proper;
+};
+
+NullSpaceParts PartsOf(const Eigen::MatrixXd& null_space, Eigen::Index motion) {
+  const Eigen::Index forces = null_space.rows() - motion + 1;
+  NullSpaceParts parts;
+  if (null_space.cols() == 1) {
+    parts.moving = parts.proper = null_space;
+    return parts;
+  }
+  parts.moving = Split(null_space, 0, motion, false);
+  parts.rigid = Split(parts.moving, motion - 1, forces, true);
+  parts.proper = Split(parts.moving, motion - 1, forces, false);
+  for (Eigen::Index k = 0; k < parts.rigid.cols(); ++k) {
+    const Eigen::VectorXd mode = parts.rigid.col(k).head(motion).normalized();
+    for (Eigen::Index j = 0; j < parts.proper.cols(); ++j) {
+      Eigen::VectorXd column = parts.proper.col(j);
+      column.head(motion) -= mode.dot(column.head(motion)) * mode;
+      parts.proper.col(j) = column;
+    }
+  }
+  return parts;
+}
+
+// Whether directions of a surface of solutions give a reaction to a contact that has none. In a guide without
+// clearance the wall that is not pressed has no reason to take up a reaction: the combination in which it is open has
+// the direction in which it does not.
+bool TakesUpReactions(const FixedStateSystem& system, const Eigen::VectorXd& x, const Eigen::MatrixXd& directions,
+                      const ActiveSetTolerance& tolerance) {
+  for (const Constraint& constraint : system.Inequalities())
+    if (constraint.inequality == Inequality::kNormalReaction && IsWeaklyActive(system, constraint, x, tolerance))
+      for (Eigen::Index k = 0; k < directions.cols(); ++k)
+        if (std::abs(system.Rate(constraint, x, directions.col(k))) > tolerances::kRate) return true;
+  return false;
+}
+
+// Of the combinations of the columns: that whose motion is nearest to the direction of arrival.
+Eigen::VectorXd NearestTo(const Eigen::VectorXd& arrival, const Eigen::MatrixXd& candidates) {
+  const auto motions = candidates.topRows(arrival.size());
+  const SingularVectors s = RightSingularVectors(motions);
+  const Eigen::VectorXd along = s.v.transpose() * (motions.transpose() * arrival);
+  return candidates * (s.v * along.cwiseQuotient(s.values.cwiseAbs2()));
+}
+
+// The direction of the arc where the equations leave more than one. A mechanism has rigid modes only: with one of them
+// it moves in that direction; with more, the direction nearest to the arrival stands for all of them.
+void AddTangent(const NullSpaceParts& parts, const Eigen::VectorXd& arrival, Tangents* tangents) {
+  const bool rigid = parts.proper.cols() == 0;
+  const Eigen::MatrixXd& candidates = rigid ? parts.rigid : parts.proper;
+  if (candidates.cols() == 0) return;
+  tangents->mechanism = rigid && candidates.cols() > 1;
+  if (rigid) tangents->rigid_modes = static_cast<int>(candidates.cols());
+  Eigen::VectorXd tangent =
+      candidates.cols() == 1 ? Eigen::VectorXd(candidates.col(0)) : NearestTo(arrival, candidates);
+  const double norm = tangent.head(arrival.size()).norm();
+  if (!(norm > tolerances::kRigid)) return;
+  tangent /= norm;
+  tangents->first.push_back(std::move(tangent));
+}
+
+Tangents SingularTangents(const Eigen::VectorXd& x, const Eigen::VectorXd& arrival, bool crossed,
+                          const ActiveSetTolerance& tolerance, FixedStateSystem* system,
+                          const MinimumNormSolver& solver) {
+  Tangents tangents;
+  const NullSpaceParts parts = PartsOf(solver.NullSpace(), arrival.size());
+  const Eigen::MatrixXd& plane = crossed ? parts.moving : parts.proper;
+  if (plane.cols() == 2 && (crossed || parts.rigid.cols() == 0)) {
+    PlaneTangents in_plane = TangentsInPlane(system, x, plane, solver.LeftNullSpace());
+    if (in_plane.determined) {
+      tangents.rests = !crossed;
+      tangents.first = std::move(in_plane.directions);
+      return tangents;
+    }
+  }
+  if (crossed || parts.proper.cols() <= 1 || !TakesUpReactions(*system, x, parts.proper, tolerance))
+    AddTangent(parts, arrival, &tangents);
+  return tangents;
+}
+
+}  // namespace
+
+Tangents FindTangents(const Eigen::VectorXd& x, const Eigen::VectorXd& arrival, bool crossed,
+                      const ActiveSetTolerance& tolerance, FixedStateSystem* system, TangentSolvers* solvers) {
+  const Eigen::Index motion = arrival.size();
+  const Eigen::SparseMatrix<double>& transposed = system->TransposedJacobian(x);
+  Tangents tangents;
+  if (!crossed) {
+    Eigen::VectorXd row = Eigen::VectorXd::Zero(system->NumUnknowns());
+    row.head(motion) = arrival;
+    if (solvers->regular.FactorizeRegular(transposed, row, tolerances::kRegularPivot)) {
+      const Eigen::VectorXd tangent = solvers->regular.Solve(Eigen::VectorXd::Zero(system->NumEquations()), 1.0);
+      tangents.first = {tangent / tangent.head(motion).norm()};
+      tangents.second = {solvers->regular.Solve(-system->SecondDerivative(x, tangents.first[0]), 0.0)};
+      return tangents;
+    }
+  }
+  if (!solvers->singular.Factorize(transposed,
+                                   crossed ? tolerances::kDependentColumnSingular : tolerances::kDependentColumn))
+    return tangents;
+  tangents = SingularTangents(x, arrival, crossed, tolerance, system, solvers->singular);
+  for (const Eigen::VectorXd& first : tangents.first)
+    tangents.second.push_back(solvers->singular.Solve(-system->SecondDerivative(x, first)));
+  return tangents;
+}
+
+}  // namespace contact_path
