@@ -12,18 +12,22 @@
 namespace contact_path {
 namespace {
 
-// A force stiffness . motion along a gap or xi with this gradient. matrix: transposed, nd components before the load
+// Scaled stiffness of the springs: of the order of the structure's, so that neither is lost in rounding. Their forces
+// are part of the unknowns, and are taken out where reactions are wanted.
+constexpr double kSpring = 1.0;
+
+// A force kSpring . motion along a gap or xi with this gradient. matrix: transposed, nd components before the load
 // factor.
-void AddSpring(const ContactPair& pair, const PairVector& gradient, double stiffness, Eigen::Index nd,
+void AddSpring(const ContactPair& pair, const PairVector& gradient, Eigen::Index nd,
                Eigen::SparseMatrix<double>* matrix) {
   const auto m = static_cast<Eigen::Index>(pair.Dofs().size());
   for (Eigen::Index a = 0; a < m; ++a) {
     const int column = pair.Dofs()[static_cast<std::size_t>(a)];
     if (gradient[a] == 0.0) continue;
-    if (gradient[m] != 0.0) matrix->coeffRef(nd, column) += stiffness * gradient[a] * gradient[m];
+    if (gradient[m] != 0.0) matrix->coeffRef(nd, column) += kSpring * gradient[a] * gradient[m];
     for (Eigen::Index b = 0; b < m; ++b)
       if (gradient[b] != 0.0)
-        matrix->coeffRef(pair.Dofs()[static_cast<std::size_t>(b)], column) += stiffness * gradient[a] * gradient[b];
+        matrix->coeffRef(pair.Dofs()[static_cast<std::size_t>(b)], column) += kSpring * gradient[a] * gradient[b];
   }
 }
 
@@ -56,9 +60,8 @@ RateProblem::RateProblem(const Structure& structure, const ContactPairs& contact
     const int i = weakly_active_[k];
     const ContactPair& pair = *contacts[static_cast<std::size_t>(i)];
     pair.Evaluate(point.u, point.s, 0.0, &kinematics[k]);
-    // Scaled stiffnesses are of the order of 1, and so are the springs.
-    AddSpring(pair, kinematics[k].gap_gradient, 1.0, nd, &transposed);
-    AddSpring(pair, kinematics[k].xi_gradient, 1.0, nd, &transposed);
+    AddSpring(pair, kinematics[k].gap_gradient, nd, &transposed);
+    AddSpring(pair, kinematics[k].xi_gradient, nd, &transposed);
     if (pair.Curved()) AddCurvature(pair, kinematics[k], point.rn[i], point.rt[i], nd, &transposed);
   }
   transposed.makeCompressed();
@@ -134,8 +137,8 @@ Eigen::VectorXd RateProblem::ShortestMember(const Eigen::MatrixXd& kernel) const
   // Rigid modes change neither the load nor a reaction. What does, has nothing of them.
   Eigen::MatrixXd forces = moving;
   for (Eigen::Index k = 0; k < gap_.rows(); ++k) {
-    forces.row(1 + 2 * k) -= gap_.row(k) * moving;
-    forces.row(2 + 2 * k) -= slip_.row(k) * moving;
+    forces.row(1 + 2 * k) -= kSpring * (gap_.row(k) * moving);
+    forces.row(2 + 2 * k) -= kSpring * (slip_.row(k) * moving);
   }
   const SingularVectors changes = RightSingularVectors(forces);
   Eigen::Index proper = 0;
@@ -152,7 +155,7 @@ Eigen::MatrixXd RateProblem::Equations(const std::vector<ContactState>& states) 
   const Eigen::Index count = gap_.rows(), columns = gap_.cols();
   // A reaction is the force less that of its spring.
   const auto reaction = [&](Eigen::Index column, const auto& rate) {
-    Eigen::RowVectorXd row = -rate;
+    Eigen::RowVectorXd row = -kSpring * rate;
     row[column] += 1.0;
     return row;
   };
@@ -199,8 +202,8 @@ std::optional<CondensedRates> RateProblem::RatesOf(Eigen::VectorXd z) const {
   rates.rn.resize(count);
   rates.rt.resize(count);
   for (Eigen::Index k = 0; k < count; ++k) {
-    rates.rn[k] = z[1 + 2 * k] - rates.gap[k];
-    rates.rt[k] = z[2 + 2 * k] - rates.slip[k];
+    rates.rn[k] = z[1 + 2 * k] - kSpring * rates.gap[k];
+    rates.rt[k] = z[2 + 2 * k] - kSpring * rates.slip[k];
   }
   return rates;
 }

@@ -5,6 +5,7 @@
 
 #include "contact_path/branch/gauss_rule.h"
 #include "contact_path/branch/plane_tangents.h"
+#include "contact_path/linear/generic_vector.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
@@ -189,11 +190,8 @@ Eigen::VectorXd SmoothArc::CrossingDirection(const Eigen::VectorXd& x, const Eig
   row.head(NumMotion()) = towards;
   Eigen::VectorXd none = Eigen::VectorXd::Zero(NumMotion());
   if (!Factorize(x, row)) return none;
-  // Of nearly singular equations any solution points along the null vector. The right side only must not be orthogonal
-  // to it.
-  Eigen::VectorXd right(system_.NumEquations());
-  for (Eigen::Index i = 0; i < right.size(); ++i) right[i] = 1.0 + 0.5 * std::sin(static_cast<double>(i));
-  const Eigen::VectorXd direction = solver_.Solve(right, 0.0).head(NumMotion());
+  // Of nearly singular equations any solution points along the null vector.
+  const Eigen::VectorXd direction = solver_.Solve(GenericVector(system_.NumEquations()), 0.0).head(NumMotion());
   const double norm = direction.norm();
   return std::isfinite(norm) && norm > 0.0 ? Eigen::VectorXd(direction / norm) : none;
 }

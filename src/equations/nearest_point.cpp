@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "contact_path/linear/bordered_solver.h"
+#include "contact_path/linear/generic_vector.h"
 #include "contact_path/linear/minimum_norm.h"
 #include "contact_path/tolerances.h"
 
@@ -22,8 +23,7 @@ class ShortestStep {
   // transposed: unknowns x equations. False if the matrix is not finite.
   bool Factorize(const Eigen::SparseMatrix<double>& transposed) {
     const Eigen::Index unknowns = transposed.rows();
-    curve_ = lu_.FactorizeRegular(transposed, Eigen::VectorXd::LinSpaced(unknowns, 0.5, 1.0),
-                                  tolerances::kRegularPivotNearest);
+    curve_ = lu_.FactorizeRegular(transposed, GenericVector(unknowns), tolerances::kRegularPivotNearest);
     if (!curve_) return qr_.Factorize(transposed);
     along_ = lu_.Solve(Eigen::VectorXd::Zero(transposed.cols()), 1.0).normalized();
     rank_ = transposed.cols();
