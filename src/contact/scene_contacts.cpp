@@ -1,9 +1,9 @@
 #include "contact_path/contact/scene_contacts.h"
 
 #include <array>
+#include <cstddef>
 #include <memory>
-#include <string>
-#include <unordered_map>
+#include <vector>
 
 #include "contact_path/contact/rigid_pair.h"
 #include "contact_path/contact/surface.h"
@@ -23,26 +23,29 @@ std::shared_ptr<const Surface> MakeSurface(const Obstacle& obstacle) {
 }  // namespace
 
 ContactPairs BuildContacts(const Scene& scene, const Structure& structure) {
+  return BuildContacts(scene, SceneIndex(scene), structure);
+}
+
+ContactPairs BuildContacts(const Scene& scene, const SceneIndex& index, const Structure& structure) {
   struct Placed {
-    const Obstacle* obstacle = nullptr;
     std::shared_ptr<const Surface> surface;
     Eigen::Vector2d velocity = Eigen::Vector2d::Zero();
   };
-  std::unordered_map<std::string, Placed> obstacles;
+  std::vector<Placed> obstacles;
   for (const Obstacle& obstacle : scene.obstacles)
-    obstacles[obstacle.name] = {&obstacle, MakeSurface(obstacle), Eigen::Vector2d::Zero()};
+    obstacles.push_back({MakeSurface(obstacle), Eigen::Vector2d::Zero()});
   for (const ObstacleMotion& motion : scene.obstacle_motions)
-    obstacles.at(motion.obstacle).velocity = {motion.dx, motion.dy};
+    obstacles[index.Obstacle(motion.obstacle)].velocity = {motion.dx, motion.dy};
 
   ContactPairs contacts;
   for (const ContactCandidate& candidate : scene.contacts) {
-    const Placed& placed = obstacles.at(candidate.obstacle);
-    const int node = structure.NodeIndex(candidate.node);
+    const std::size_t at = index.Obstacle(candidate.obstacle);
+    const Obstacle& obstacle = scene.obstacles[at];
+    const auto node = static_cast<int>(index.Node(candidate.node));
     const NodeMotion motion = {
-        {structure.Dof(node, 0), structure.Dof(node, 1)}, structure.StartPosition(node), placed.velocity};
-    const bool can_slide = CanSlide(motion.dofs[0] >= 0, motion.dofs[1] >= 0, *placed.obstacle);
-    contacts.push_back(
-        std::make_unique<RigidPair>(placed.surface, motion, can_slide ? placed.obstacle->friction : 0.0));
+        {structure.Dof(node, 0), structure.Dof(node, 1)}, structure.StartPosition(node), obstacles[at].velocity};
+    const bool can_slide = CanSlide(motion.dofs[0] >= 0, motion.dofs[1] >= 0, obstacle);
+    contacts.push_back(std::make_unique<RigidPair>(obstacles[at].surface, motion, can_slide ? obstacle.friction : 0.0));
   }
   return contacts;
 }

@@ -18,11 +18,12 @@ Model::Model(const Scene& scene_in, const Scaling& scaling_in)
 
 Model::Model(const Scene& scene_in, const Configuration& configuration_in, const Scaling& scaling_in)
     : scene(scene_in),
+      index(scene),
       configuration(configuration_in),
       scaling(scaling_in),
       scaled(ScaleScene(scene_in, scaling_in)),
-      structure(scaled, configuration.Over(scaling.length)),
-      contacts(BuildContacts(scaled, structure)),
+      structure(scaled, index, configuration.Over(scaling.length)),
+      contacts(BuildContacts(scaled, index, structure)),
       check(scene_in, configuration_in, scaling_in) {}
 
 PathPoint Model::InitialPoint() const {

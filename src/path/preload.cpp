@@ -56,7 +56,7 @@ Preload TracePreload(const Model& model, int max_increments, const MethodFactory
   if (!stressed) holding.setZero();
   const Scene scene = PreloadScene(model, model.scaling.force * holding);
   Scaling scaling = model.scaling;
-  scaling.load_factor = LoadFactorScale(scene, SceneIndex(scene), scaling.length, scaling.force);
+  scaling.load_factor = LoadFactorScale(scene, model.index, scaling.length, scaling.force);
   const Model preload_model(scene, model.configuration, scaling);
   const double target = 1.0 / scaling.load_factor;
   const std::unique_ptr<PathMethod> method = make_method(preload_model, target);

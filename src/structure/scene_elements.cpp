@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <string>
-#include <unordered_map>
 #include <utility>
 
 #include "contact_path/structure/bar.h"
@@ -41,14 +40,13 @@ std::unique_ptr<const Element> Make(const Superelement& part, const std::vector<
 
 }  // namespace
 
-std::vector<PlacedElement> MakeElements(const Scene& scene, const std::vector<double>& reference) {
-  std::unordered_map<std::string, int> numbers;
-  for (const Node& node : scene.nodes) numbers.emplace(node.name, static_cast<int>(numbers.size()));
+std::vector<PlacedElement> MakeElements(const Scene& scene, const SceneIndex& index,
+                                        const std::vector<double>& reference) {
   std::vector<PlacedElement> elements;
   const auto add = [&](const auto& parts) {
     for (const auto& part : parts) {
       std::vector<int> nodes;
-      for (const std::string& name : part.nodes) nodes.push_back(numbers.at(name));
+      for (const std::string& name : part.nodes) nodes.push_back(static_cast<int>(index.Node(name)));
       std::unique_ptr<const Element> element = Make(part, nodes, reference);
       elements.push_back({std::move(element), std::move(nodes)});
     }

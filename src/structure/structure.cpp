@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <unordered_map>
 #include <utility>
 
 namespace contact_path {
@@ -34,29 +33,29 @@ void Scatter(const std::vector<int>& to, const double* values, double* out) {
 
 }  // namespace
 
-Structure::Structure(const Scene& scene) : Structure(scene, Configuration::Of(scene)) {}
+Structure::Structure(const Scene& scene) : Structure(scene, SceneIndex(scene), Configuration::Of(scene)) {}
 
-Structure::Structure(const Scene& scene, const Configuration& configuration)
-    : Structure(scene, configuration, MakeElements(scene, configuration.reference)) {}
+Structure::Structure(const Scene& scene, const SceneIndex& index, const Configuration& configuration)
+    : Structure(scene, index, configuration, MakeElements(scene, index, configuration.reference)) {}
 
-Structure::Structure(const Scene& scene, const Configuration& configuration, std::vector<PlacedElement> elements)
+Structure::Structure(const Scene& scene, const SceneIndex& index, const Configuration& configuration,
+                     std::vector<PlacedElement> elements)
     : dofs_(scene.nodes.size()) {
-  for (const Node& node : scene.nodes) node_index_.emplace(node.name, static_cast<int>(node_index_.size()));
-  NumberUnknowns(scene, configuration.start, elements);
-  AddLoads(scene);
+  NumberUnknowns(scene, index, configuration.start, elements);
+  AddLoads(scene, index);
   for (PlacedElement& placed : elements) AddPart(std::move(placed));
   BuildPattern();
 }
 
-void Structure::NumberUnknowns(const Scene& scene, const std::vector<double>& start,
+void Structure::NumberUnknowns(const Scene& scene, const SceneIndex& index, const std::vector<double>& start,
                                const std::vector<PlacedElement>& elements) {
   std::vector<bool> rotates(scene.nodes.size(), false);
   for (const PlacedElement& placed : elements)
     for (const LocalDof& local : placed.element->Dofs())
       if (local.field == Field::kRotation)
         rotates[static_cast<std::size_t>(placed.nodes[static_cast<std::size_t>(local.node)])] = true;
-  std::unordered_map<std::string, const SupportMotion*> motions;
-  for (const SupportMotion& motion : scene.support_motions) motions.emplace(motion.node, &motion);
+  std::vector<const SupportMotion*> motions(scene.nodes.size(), nullptr);
+  for (const SupportMotion& motion : scene.support_motions) motions[index.Node(motion.node)] = &motion;
 
   std::vector<double> values, unknowns;
   const auto add = [&](int node, Field field, int component, double value, bool fixed, double rate) {
@@ -69,22 +68,21 @@ void Structure::NumberUnknowns(const Scene& scene, const std::vector<double>& st
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
     const Node& node = scene.nodes[i];
     const auto number = static_cast<int>(i);
-    const auto motion = motions.find(node.name);
-    const bool moves = motion != motions.end();
-    add(number, Field::kPosition, 0, start[2 * i], node.fixed_x, moves ? motion->second->dx : 0.0);
-    add(number, Field::kPosition, 1, start[2 * i + 1], node.fixed_y, moves ? motion->second->dy : 0.0);
+    const SupportMotion* const motion = motions[i];
+    add(number, Field::kPosition, 0, start[2 * i], node.fixed_x, motion != nullptr ? motion->dx : 0.0);
+    add(number, Field::kPosition, 1, start[2 * i + 1], node.fixed_y, motion != nullptr ? motion->dy : 0.0);
     if (rotates[i]) add(number, Field::kRotation, 0, 0.0, false, 0.0);
   }
   start_values_ = Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
   start_ = Eigen::Map<const Eigen::VectorXd>(unknowns.data(), static_cast<Eigen::Index>(unknowns.size()));
 }
 
-void Structure::AddLoads(const Scene& scene) {
+void Structure::AddLoads(const Scene& scene, const SceneIndex& index) {
   reference_load_ = Eigen::VectorXd::Zero(NumDofs());
   constant_load_ = Eigen::VectorXd::Zero(NumDofs());
   for (const Load& load : scene.loads) {
     Eigen::VectorXd& total = load.constant ? constant_load_ : reference_load_;
-    const int node = NodeIndex(load.node);
+    const auto node = static_cast<int>(index.Node(load.node));
     if (const int dof = Dof(node, 0); dof >= 0) total[dof] += load.fx;
     if (const int dof = Dof(node, 1); dof >= 0) total[dof] += load.fy;
   }

@@ -10,7 +10,8 @@ namespace {
 
 TEST(SceneElements, BarsThenSuperelementsAtTheirNodes) {
   const Scene scene = MixedScene();
-  const std::vector<PlacedElement> elements = MakeElements(scene, Configuration::Of(scene).reference);
+  const std::vector<PlacedElement> elements =
+      MakeElements(scene, SceneIndex(scene), Configuration::Of(scene).reference);
   ASSERT_EQ(elements.size(), 7u);
   EXPECT_EQ(elements[2].nodes, (std::vector<int>{3, 2}));  // d, c
   EXPECT_EQ(elements[5].nodes, (std::vector<int>{3, 0}));  // d, a
@@ -24,7 +25,7 @@ TEST(SceneElements, RestIsTakenFromTheReferenceShape) {
   scene.bars = {{{"a", "b"}, 1.3, 0.0, StrainMeasure::kBiot}, {{"a", "b"}, 1.3, 2.0, StrainMeasure::kBiot}};
   std::vector<double> reference = Configuration::Of(scene).reference;
   reference[2] += 1.0;  // b
-  const std::vector<PlacedElement> elements = MakeElements(scene, reference);
+  const std::vector<PlacedElement> elements = MakeElements(scene, SceneIndex(scene), reference);
   const Eigen::Vector4d ends(reference[0], reference[1], reference[2], reference[3]);
   EXPECT_NEAR(elements[0].element->Energy(ends), 0.0, 1e-30);
   EXPECT_GT(elements[1].element->Energy(ends), 1e-3);

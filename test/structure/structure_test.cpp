@@ -45,7 +45,6 @@ TEST_F(MixedStructure, NumbersTheFreeComponentsInNodeOrder) {
   const int expected[5][2] = {{-1, -1}, {0, 1}, {-1, 2}, {3, 4}, {5, -1}};
   for (int node = 0; node < 5; ++node)
     for (int axis = 0; axis < 2; ++axis) EXPECT_EQ(structure_.Dof(node, axis), expected[node][axis]);
-  EXPECT_EQ(structure_.NodeIndex("d"), 3);
   Eigen::VectorXd initial(6);
   initial << 1.1, 0.3, 1.2, 0.2, 1.3, 0.7;
   EXPECT_EQ(structure_.Start(), initial);
@@ -222,7 +221,7 @@ TEST(StructureWithRotation, ElementsSayWhichUnknownsThereAre) {
   const Configuration configuration = Configuration::Of(scene);
   std::vector<PlacedElement> elements;
   elements.push_back({std::make_unique<RodWithRotation>(), {1, 2}});
-  const Structure structure(scene, configuration, std::move(elements));
+  const Structure structure(scene, SceneIndex(scene), configuration, std::move(elements));
   EXPECT_EQ(structure.NumDofs(), 7);
   EXPECT_EQ(structure.Dofs().Dof(2, Field::kRotation, 0), 3);  // after b.x, b.y, c.y
   EXPECT_EQ(structure.Dof(3, 0), 4);
@@ -251,7 +250,7 @@ TEST(StructureConfiguration, StartAndReferenceAreApart) {
   scene.bars = {{{"a", "b"}, 1.0, 0.0, StrainMeasure::kBiot}};
   Configuration configuration = Configuration::Of(scene);
   configuration.start[0] = -1.0;  // the support has been moved: the bar is twice as long as it wants to be
-  const Structure structure(scene, configuration);
+  const Structure structure(scene, SceneIndex(scene), configuration);
   EXPECT_EQ(structure.StartPosition(0), Eigen::Vector2d(-1.0, 0.0));
   EXPECT_NEAR(structure.Energy(structure.Start()), 0.5, kRounding);
 }

@@ -10,6 +10,7 @@
 #include "contact_path/contact/contact_pair.h"
 #include "contact_path/contact/rigid_pair.h"
 #include "contact_path/contact/surface.h"
+#include "contact_path/scene/scene_index.h"
 #include "contact_path/structure/structure.h"
 #include "support/mixed_scene.h"
 
@@ -88,10 +89,12 @@ class Spiral : public Surface {
 //   b   on a disc above it, frictionless
 // All gaps are between 0 and 0.6 at the start.
 inline ContactPairs CurvedContacts(const Structure& structure) {
+  const Scene scene = MovingScene();
+  const SceneIndex index(scene);
   ContactPairs contacts;
   const auto add = [&](const char* name, std::shared_ptr<const Surface> surface, const Eigen::Vector2d& velocity,
                        double friction) {
-    const int node = structure.NodeIndex(name);
+    const auto node = static_cast<int>(index.Node(name));
     const NodeMotion motion = {
         {structure.Dof(node, 0), structure.Dof(node, 1)}, structure.StartPosition(node), velocity};
     contacts.push_back(std::make_unique<RigidPair>(std::move(surface), motion, friction));

@@ -4,11 +4,14 @@
 
 #include "contact_path/contact/contact_pair.h"
 #include "contact_path/scene/scene.h"
+#include "contact_path/scene/scene_index.h"
 #include "contact_path/structure/structure.h"
 
 namespace contact_path {
 
-// All candidates in scene order. `scene` must be sound and `structure` built from it.
+// All candidates in scene order. `scene` must be sound, and `structure` built from it. index: of the scene, or of one
+// with the same nodes and obstacles; where not given, one is made.
+ContactPairs BuildContacts(const Scene& scene, const SceneIndex& index, const Structure& structure);
 ContactPairs BuildContacts(const Scene& scene, const Structure& structure);
 
 }  // namespace contact_path

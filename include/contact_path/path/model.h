@@ -11,6 +11,7 @@
 #include "contact_path/scene/configuration.h"
 #include "contact_path/scene/scaling.h"
 #include "contact_path/scene/scene.h"
+#include "contact_path/scene/scene_index.h"
 #include "contact_path/structure/structure.h"
 
 namespace contact_path {
@@ -37,7 +38,8 @@ struct Model {
   // By check/, of `now` reached from `before`.
   Residuals Check(const PathPoint& before, const PathPoint& now) const;
 
-  const Scene scene;  // as the user wrote it
+  const Scene scene;       // as the user wrote it
+  const SceneIndex index;  // of the scene: the scaled one has the same names
   const Configuration configuration;
   const Scaling scaling;
   const Scene scaled;

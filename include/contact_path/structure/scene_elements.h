@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "contact_path/scene/scene.h"
+#include "contact_path/scene/scene_index.h"
 #include "contact_path/structure/element.h"
 
 namespace contact_path {
@@ -15,8 +16,10 @@ struct PlacedElement {
   std::vector<int> nodes;  // of the scene, for the nodes 0, 1, ... of the element
 };
 
-// In scene order: bars, then superelements. reference: x0, y0, x1, ... (scene/configuration.h). `scene` must be sound.
-std::vector<PlacedElement> MakeElements(const Scene& scene, const std::vector<double>& reference);
+// In scene order: bars, then superelements. `scene` must be sound, index its own. reference: x0, y0, x1, ...
+// (scene/configuration.h).
+std::vector<PlacedElement> MakeElements(const Scene& scene, const SceneIndex& index,
+                                        const std::vector<double>& reference);
 
 }  // namespace contact_path
 

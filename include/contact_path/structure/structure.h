@@ -5,12 +5,11 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <memory>
-#include <string>
-#include <unordered_map>
 #include <vector>
 
 #include "contact_path/scene/configuration.h"
 #include "contact_path/scene/scene.h"
+#include "contact_path/scene/scene_index.h"
 #include "contact_path/structure/dof_map.h"
 #include "contact_path/structure/element.h"
 #include "contact_path/structure/scene_elements.h"
@@ -29,18 +28,19 @@ struct PrescribedDof {
 // 2005, section 2). u: the unknowns, current positions and rotations, as DofMap numbers them: NumDofs() entries.
 class Structure {
  public:
-  // `scene` must be sound (scene/validate.h). configuration: where not given, Configuration::Of(scene). A node has a
-  // rotation where an element asks for it; the rotation is free, and 0 at the start.
+  // `scene` must be sound (scene/validate.h). index: of the scene, or of one with the same nodes. configuration: where
+  // not given, Configuration::Of(scene). A node has a rotation where an element asks for it; the rotation is free, and
+  // 0 at the start.
   explicit Structure(const Scene& scene);
-  Structure(const Scene& scene, const Configuration& configuration);
+  Structure(const Scene& scene, const SceneIndex& index, const Configuration& configuration);
   // elements: in place of the elements of the scene.
-  Structure(const Scene& scene, const Configuration& configuration, std::vector<PlacedElement> elements);
+  Structure(const Scene& scene, const SceneIndex& index, const Configuration& configuration,
+            std::vector<PlacedElement> elements);
 
   const DofMap& Dofs() const { return dofs_; }
   Eigen::Index NumDofs() const { return dofs_.NumDofs(); }
   // The unknown of a position (axis 0 = x, 1 = y), free or prescribed; -1 if it is fixed and rests.
   int Dof(int node, int axis) const { return dofs_.Dof(node, Field::kPosition, axis); }
-  int NodeIndex(const std::string& name) const { return node_index_.at(name); }
 
   const Eigen::VectorXd& Start() const { return start_; }                   // u at the start
   Eigen::Vector2d StartPosition(int node) const;                            // of its components, free or not
@@ -73,13 +73,13 @@ class Structure {
     std::vector<int> entries;     // into the values of the pattern, or -1: a square, column-major
   };
 
-  void NumberUnknowns(const Scene& scene, const std::vector<double>& start, const std::vector<PlacedElement>& elements);
-  void AddLoads(const Scene& scene);
+  void NumberUnknowns(const Scene& scene, const SceneIndex& index, const std::vector<double>& start,
+                      const std::vector<PlacedElement>& elements);
+  void AddLoads(const Scene& scene, const SceneIndex& index);
   void AddPart(PlacedElement placed);
   void BuildPattern();
   void Gather(const Part& part, const Eigen::Ref<const Eigen::VectorXd>& u, Eigen::Ref<Eigen::VectorXd> x) const;
 
-  std::unordered_map<std::string, int> node_index_;
   DofMap dofs_;
   Eigen::VectorXd start_values_;  // of all components
   Eigen::VectorXd start_;
