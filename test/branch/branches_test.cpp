@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "branch/model_point.h"
 #include "contact_path/branch/test_functions.h"
 #include "contact_path/mpec/ipopt_solver.h"
 #include "contact_path/mpec/short_increment.h"

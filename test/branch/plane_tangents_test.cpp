@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "branch/model_point.h"
 #include "contact_path/linear/minimum_norm.h"
 #include "contact_path/path/model.h"
 
@@ -39,7 +38,7 @@ const double kLimitLoad = 2.0 * std::pow(1.0 - std::pow(0.5, 1.0 / 3.0), 1.5);
 
 // With the apexes at y1, y2 and the load factor kLimitLoad.
 PlaneTangents TangentsAt(const Scene& scene, double y1, double y2) {
-  const Model model = MakeModel(scene);
+  const Model model(scene, CharacteristicScales(scene));
   PathPoint point = model.InitialPoint();
   const double length = model.scaling.length;
   point.u[model.structure.Dof(1, 1)] = y1 / length;
@@ -85,7 +84,7 @@ TEST(PlaneTangents, LinearPartsLeaveASurface) {
   scene.nodes = {{"a", 0.0, 0.0, false, false}, {"b", 1.0, 0.0, false, false}};
   scene.superelements = {{{"a", "b"}, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1}}};
   scene.loads = {{"a", 1.0, 0.0, false}};
-  const Model model = MakeModel(scene);
+  const Model model(scene, CharacteristicScales(scene));
   FixedStateSystem system(model.structure, model.contacts);
   const Eigen::VectorXd x = system.Pack(model.InitialPoint());
   MinimumNormSolver solver;

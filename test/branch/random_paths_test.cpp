@@ -11,7 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "branch/model_point.h"
 #include "contact_path/branch/smooth_arc.h"
 #include "contact_path/path/model.h"
 #include "contact_path/path/trace.h"
@@ -413,9 +412,9 @@ class Neighbourhood {
       : path_(path),
         model_(path.request.scene, CharacteristicScales(path.request.scene)),
         arc_(model_.structure, model_.contacts),
-        point_(PointOf(model_, path.increments.back())) {
+        point_(model_.FromIncrement(path.increments.back())) {
     if (path.increments.size() > 1) {
-      const PathPoint before = PointOf(model_, path.increments[path.increments.size() - 2]);
+      const PathPoint before = model_.FromIncrement(path.increments[path.increments.size() - 2]);
       back_.resize(point_.u.size() + 1);
       back_ << before.u - point_.u, before.s - point_.s;
       back_.normalize();

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "branch/model_point.h"
+#include "branch/traced_arc.h"
 #include "contact_path/path/model.h"
 #include "support/reference_cases.h"
 #include "support/traced_path.h"
@@ -18,51 +18,9 @@ namespace {
 
 using Eigen::VectorXd;
 
-// An arc of a traced path: the fixed states of increment `index`, from the increment before, with the curve's
-// derivatives there.
-class TracedArc {
- public:
-  TracedArc(const TracedPath& path, std::size_t index)
-      : model_(path.request.scene, CharacteristicScales(path.request.scene)), arc_(model_.structure, model_.contacts) {
-    const PathPoint from = PointOf(model_, path.increments[index - 1]), to = PointOf(model_, path.increments[index]);
-    arc_.SetStates(to.states, from);
-    const VectorXd start = arc_.system().Pack(from);
-    end_ = arc_.system().Pack(to);
-    EXPECT_TRUE(arc_.Derivatives(start, (end_ - start).head(arc_.NumMotion()), &start_));
-  }
-
-  SmoothArc& arc() { return arc_; }
-  const CurvePoint& start() const { return start_; }
-  const VectorXd& end() const { return end_; }
-  Eigen::Index motion() const { return arc_.NumMotion(); }
-  VectorXd normal() const { return start_.first.head(motion()); }
-
-  // The point of the curve on the plane at distance t from the start.
-  VectorXd At(double t) {
-    const Correction correction =
-        arc_.CorrectOnPlane(start_.x + t * start_.first + 0.5 * t * t * start_.second, normal());
-    EXPECT_TRUE(correction.converged) << t;
-    return correction.x;
-  }
-
-  CurvePoint CurveAt(double t) {
-    CurvePoint point;
-    EXPECT_TRUE(arc_.Derivatives(At(t), normal(), &point));
-    return point;
-  }
-
-  Step StepTo(double t) { return MakeStep(start_, CurveAt(t), motion()); }
-
- private:
-  Model model_;
-  SmoothArc arc_;
-  CurvePoint start_;
-  VectorXd end_;
-};
-
-TracedPath Trace(const std::string& scene, int rows) {
+TracedPath Trace(const std::string& scene, int increments) {
   TraceRequest request = ReadExample(scene);
-  request.options.max_increments = rows;
+  request.options.max_increments = increments;
   return TraceIncrements(request);
 }
 
@@ -72,12 +30,12 @@ std::vector<std::pair<std::string, std::size_t>> Arcs() {
           {"von_mises", 50},   {"arch19", 40},      {"arch19", 150}};
 }
 
-constexpr int kRows = 160;
+constexpr int kIncrements = 160;
 
 TEST(SmoothArc, DerivativesAreTheUnitTangentAndTheCurvature) {
   for (const auto& [scene, index] : Arcs()) {
     SCOPED_TRACE(scene + " row " + std::to_string(index));
-    TracedArc traced(Trace(scene, kRows), index);
+    TracedArc traced(Trace(scene, kIncrements), index);
     const CurvePoint& start = traced.start();
     const Eigen::Index n = traced.motion();
     EXPECT_NEAR(start.first.head(n).norm(), 1.0, 1e-14);
@@ -88,8 +46,8 @@ TEST(SmoothArc, DerivativesAreTheUnitTangentAndTheCurvature) {
       double change = 1e9;
       for (double h = 0.016; h > 1e-3; h *= 0.5) {  // Richardson: O(h^4)
         const auto difference = [&](double step) {
-          if (order == 1) return VectorXd((traced.At(step) - traced.At(-step)) / (2.0 * step));
-          return VectorXd((traced.At(step) - 2.0 * start.x + traced.At(-step)) / (step * step));
+          if (order == 1) return VectorXd((traced.At(step).x - traced.At(-step).x) / (2.0 * step));
+          return VectorXd((traced.At(step).x - 2.0 * start.x + traced.At(-step).x) / (step * step));
         };
         const VectorXd estimate = (4.0 * difference(0.5 * h) - difference(h)) / 3.0;
         if (previous.size() > 0 && (estimate - previous).norm() < change) {
@@ -105,7 +63,7 @@ TEST(SmoothArc, DerivativesAreTheUnitTangentAndTheCurvature) {
 }
 
 TEST(SmoothArc, DirectionIsTheOneAskedFor) {
-  TracedArc traced(Trace("sliding_bar", kRows), 20);
+  TracedArc traced(Trace("sliding_bar", kIncrements), 20);
   CurvePoint back;
   ASSERT_TRUE(traced.arc().Derivatives(traced.start().x, -traced.normal(), &back));
   EXPECT_LE((back.first + traced.start().first).norm(), 1e-14);
@@ -120,11 +78,11 @@ TEST(SmoothArc, DirectionIsTheOneAskedFor) {
 }
 
 TEST(SmoothArc, KeepsTheClosedFormOfTheSlidingBar) {
-  TracedArc traced(Trace("sliding_bar", kRows), 20);
+  TracedArc traced(Trace("sliding_bar", kIncrements), 20);
   const Scaling scaling = CharacteristicScales(sliding_bar::MakeScene());
   double worst = 0.0;
   for (double t = -0.2; t <= 0.2; t += 0.02) {
-    const VectorXd x = traced.At(t);
+    const VectorXd x = traced.At(t).x;
     const double position = x[0] * scaling.length;
     worst = std::max({worst, std::abs(x[1]), std::abs(x[2] * scaling.load_factor - sliding_bar::LoadFactor(position)),
                       std::abs(x[3] * scaling.force - sliding_bar::NormalReaction(position))});
@@ -141,7 +99,7 @@ TEST(SmoothArc, KeepsTheClosedFormOfTheSlidingBar) {
 TEST(SmoothArc, NewtonConvergesQuadratically) {
   for (const auto& [scene, index] : Arcs()) {
     SCOPED_TRACE(scene + " row " + std::to_string(index));
-    TracedArc traced(Trace(scene, kRows), index);
+    TracedArc traced(Trace(scene, kIncrements), index);
     std::vector<double> constants;
     for (const double t : {0.12, 0.08, 0.05, 0.03}) {
       const Eigen::VectorXd guess = traced.start().x + t * traced.start().first;
@@ -169,7 +127,7 @@ TEST(SmoothArc, NewtonConvergesQuadratically) {
 }
 
 TEST(SmoothArc, CorrectionStaysOnTheGivenPlane) {
-  TracedArc traced(Trace("arch19", kRows), 40);
+  TracedArc traced(Trace("arch19", kIncrements), 40);
   const VectorXd guess = traced.start().x + 0.05 * traced.start().first;
   const Correction correction = traced.arc().CorrectOnPlane(guess, traced.normal());
   ASSERT_TRUE(correction.converged);
@@ -183,7 +141,7 @@ TEST(SmoothArc, CorrectionStaysOnTheGivenPlane) {
 
 TEST(SmoothArc, NotConvergedWhereThereIsNoPoint) {
   // Rest at the stop: the node does not move, whatever the load.
-  const TracedPath path = Trace("rigid_stop", kRows);
+  const TracedPath path = Trace("rigid_stop", kIncrements);
   TracedArc traced(path, path.increments.size() - 1);
   VectorXd guess = traced.start().x;
   const VectorXd row = VectorXd::Unit(guess.size(), 0);
@@ -194,8 +152,8 @@ TEST(SmoothArc, NotConvergedWhereThereIsNoPoint) {
 TEST(Step, EndsAreItsPoints) {
   for (const auto& [scene, index] : Arcs()) {
     SCOPED_TRACE(scene);
-    TracedArc traced(Trace(scene, kRows), index);
-    const Step step = traced.StepTo(0.05);
+    TracedArc traced(Trace(scene, kIncrements), index);
+    const Step step = traced.Between(0.0, 0.05);
     EXPECT_NEAR(step.length, 0.05, 1e-14);
     EXPECT_LE((step.Point(0.0) - step.start.x).norm(), 1e-15);
     EXPECT_LE((step.Point(step.length) - step.end.x).norm(), 1e-14);
@@ -215,12 +173,12 @@ TEST(Step, EndsAreItsPoints) {
 TEST(Step, InterpolatesWithOrderSix) {
   for (const auto& [scene, index] : Arcs()) {
     SCOPED_TRACE(scene + " row " + std::to_string(index));
-    TracedArc traced(Trace(scene, kRows), index);
+    TracedArc traced(Trace(scene, kIncrements), index);
     const auto errors = [&](double length) {
-      const Step step = traced.StepTo(length);
+      const Step step = traced.Between(0.0, length);
       Eigen::Vector3d worst = Eigen::Vector3d::Zero();
       for (const double share : {0.3, 0.5, 0.7}) {
-        const CurvePoint exact = traced.CurveAt(share * length), given = step.At(share * length);
+        const CurvePoint exact = traced.At(share * length), given = step.At(share * length);
         worst = worst.cwiseMax(Eigen::Vector3d((given.x - exact.x).norm(), (given.first - exact.first).norm(),
                                                (given.second - exact.second).norm()));
       }
@@ -238,8 +196,8 @@ TEST(Step, InterpolatesWithOrderSix) {
 }
 
 TEST(Step, InterpolatesFunctionsThatAreLinearInX) {
-  TracedArc traced(Trace("sliding_bar", kRows), 20);
-  const Step step = traced.StepTo(0.04);
+  TracedArc traced(Trace("sliding_bar", kIncrements), 20);
+  const Step step = traced.Between(0.0, 0.04);
   const auto load = [&](const VectorXd& x) { return x[traced.motion() - 1]; };
   const Quintic polynomial = step.InterpolateLinear(load);
   for (double t = 0.0; t <= step.length; t += 0.004) EXPECT_NEAR(Evaluate(polynomial, t), load(step.Point(t)), 1e-15);
@@ -248,14 +206,14 @@ TEST(Step, InterpolatesFunctionsThatAreLinearInX) {
 TEST(Step, ArcLengthIsThatOfTheCurve) {
   for (const auto& [scene, index] : Arcs()) {
     SCOPED_TRACE(scene);
-    TracedArc traced(Trace(scene, kRows), index);
+    TracedArc traced(Trace(scene, kIncrements), index);
     // Chords with Richardson's extrapolation: their sum has an error of h^2, h^4, ...
     const auto exact = [&](double length) {
       const auto chords = [&](int count) {
         double sum = 0.0;
         VectorXd before = traced.start().x;
         for (int i = 1; i <= count; ++i) {
-          const VectorXd now = traced.At(length * i / count);
+          const VectorXd now = traced.At(length * i / count).x;
           sum += (now - before).head(traced.motion()).norm();
           before = now;
         }
@@ -265,9 +223,9 @@ TEST(Step, ArcLengthIsThatOfTheCurve) {
       const double r1 = (4.0 * c2 - c1) / 3.0, r2 = (4.0 * c3 - c2) / 3.0;
       return (16.0 * r2 - r1) / 15.0;
     };
-    EXPECT_NEAR(traced.StepTo(0.08).ArcLength(), exact(0.08), 1e-8);
-    EXPECT_NEAR(traced.StepTo(0.02).ArcLength(), exact(0.02), 1e-12);
-    EXPECT_GE(traced.StepTo(0.08).ArcLength(), 0.08);
+    EXPECT_NEAR(traced.Between(0.0, 0.08).ArcLength(), exact(0.08), 1e-8);
+    EXPECT_NEAR(traced.Between(0.0, 0.02).ArcLength(), exact(0.02), 1e-12);
+    EXPECT_GE(traced.Between(0.0, 0.08).ArcLength(), 0.08);
   }
 }
 
@@ -280,7 +238,7 @@ TEST(SmoothArc, TwoHalvesEndWhereTheWholeStepDoes) {
     for (std::size_t i = 1; i < path.increments.size(); ++i) {
       TracedArc traced(path, i);
       const double length = traced.normal().dot((traced.end() - traced.start().x).head(traced.motion()));
-      const CurvePoint half = traced.CurveAt(0.5 * length);
+      const CurvePoint half = traced.At(0.5 * length);
       VectorXd row = VectorXd::Zero(half.x.size());
       row.head(traced.motion()) = traced.normal();
       const Correction rest = traced.arc().Correct(

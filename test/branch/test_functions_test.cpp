@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "branch/example_scenes.h"
-#include "branch/model_point.h"
+#include "branch/traced_arc.h"
 #include "contact_path/branch/branches.h"
 #include "contact_path/path/model.h"
 #include "support/reference_cases.h"
@@ -16,59 +16,13 @@
 namespace contact_path {
 namespace {
 
-// An arc of the path of a scene, from one of its increments on, with the states of the increment after it.
-class Arc {
- public:
-  Arc(const TracedPath& path, std::size_t increment)
-      : model_(path.request.scene, CharacteristicScales(path.request.scene)), arc_(model_.structure, model_.contacts) {
-    const PathPoint from = PointOf(model_, path.increments.at(increment)),
-                    to = PointOf(model_, path.increments.at(increment + 1));
-    arc_.SetStates(to.states, from);
-    const Eigen::VectorXd start = arc_.system().Pack(from);
-    EXPECT_TRUE(arc_.Derivatives(start, (arc_.system().Pack(to) - start).head(arc_.NumMotion()), &start_));
-  }
-
-  // From the point at distance t0 to that at t1, both along the tangent at the increment.
-  Step Between(double t0, double t1) {
-    const CurvePoint start = At(t0);
-    return MakeStep(start, At(t1), arc_.NumMotion());
-  }
-  CurvePoint At(double t) {
-    CurvePoint point;
-    if (t == 0.0) return start_;
-    const Eigen::VectorXd normal = start_.first.head(arc_.NumMotion());
-    // In short steps: the curve may bend.
-    Eigen::VectorXd x = start_.x;
-    const int steps = 1 + static_cast<int>(std::abs(t) / 0.01);
-    for (int i = 0; i < steps; ++i) x = arc_.CorrectOnPlane(x + t / steps * start_.first, normal).x;
-    EXPECT_TRUE(arc_.Derivatives(x, normal, &point));
-    return point;
-  }
-
-  SmoothArc& arc() { return arc_; }
-  const Model& model() const { return model_; }
-  double Load(const CurvePoint& point) const { return point.x[arc_.NumMotion() - 1] * model_.scaling.load_factor; }
-
- private:
-  Model model_;
-  SmoothArc arc_;
-  CurvePoint start_;
-};
-
-TracedPath Trace(const Scene& scene, int increments) {
-  TraceRequest request;
-  request.scene = scene;
-  request.options.max_increments = increments;
-  return TraceIncrements(request);
-}
-
 std::size_t FirstIncrement(const TracedPath& path, IncrementKind kind, std::size_t from = 1) {
   while (path.increments.at(from).kind != kind) ++from;
   return from;
 }
 
 TEST(Watch, NothingHappens) {
-  Arc arc(Trace(ReadExample("rigid_stop").scene, 3), 0);
+  TracedArc arc(TraceScene(ReadExample("rigid_stop").scene, 3), 1);
   const Step step = arc.Between(0.0, 0.1);
   const StepEvent event = FirstEvent(&arc.arc(), step);
   EXPECT_EQ(event.kind, EventKind::kNone);
@@ -80,7 +34,7 @@ TEST(Watch, NothingHappens) {
 
 // The scene is its own scaled scene, and u and s move by the same: the gap 0.1 is closed at sqrt(2) 0.1.
 TEST(Watch, AGapCloses) {
-  Arc arc(Trace(ReadExample("rigid_stop").scene, 3), 0);
+  TracedArc arc(TraceScene(ReadExample("rigid_stop").scene, 3), 1);
   for (const double length : {0.15, 1.0, 10.0}) {
     const Step step = arc.Between(0.0, length);
     const StepEvent event = FirstEvent(&arc.arc(), step);
@@ -100,8 +54,8 @@ TEST(Watch, AGapCloses) {
 }
 
 TEST(Watch, TheConeIsReached) {
-  const TracedPath path = Trace(ReadExample("rough_truss").scene, 60);
-  Arc arc(path, 1);
+  const TracedPath path = TraceScene(ReadExample("rough_truss").scene, 60);
+  TracedArc arc(path, 2);
   // t = 0 is increment 1; the corner limit point is where the slope of the bars is 1 / mu.
   const std::size_t corner = FirstIncrement(path, IncrementKind::kCornerLimit);
   const Step step = arc.Between(0.0, 0.3);
@@ -115,8 +69,8 @@ TEST(Watch, TheConeIsReached) {
 }
 
 TEST(Watch, TheReactionVanishes) {
-  const TracedPath path = Trace(ReadExample("two_dof_friction").scene, 100);
-  Arc arc(path, FirstIncrement(path, IncrementKind::kCornerLimit));  // slip starts
+  const TracedPath path = TraceScene(ReadExample("two_dof_friction").scene, 100);
+  TracedArc arc(path, FirstIncrement(path, IncrementKind::kCornerLimit) + 1);  // slip starts
   const Step step = arc.Between(0.0, 3.0);
   const StepEvent event = FirstEvent(&arc.arc(), step);
   ASSERT_EQ(event.kind, EventKind::kContactEvent);
@@ -128,9 +82,9 @@ TEST(Watch, TheReactionVanishes) {
 
 // The block comes to rest where the rate of slip is zero: the end of its path.
 TEST(Watch, SlipStops) {
-  const TracedPath path = Trace(snap_block::MakeScene(), 300);
+  const TracedPath path = TraceScene(snap_block::MakeScene(), 300);
   const std::size_t last = path.increments.size() - 1;
-  Arc arc(path, last - 2);
+  TracedArc arc(path, last - 1);
   const Step step = arc.Between(0.0, 0.03);
   const StepEvent event = FirstEvent(&arc.arc(), step);
   ASSERT_EQ(event.kind, EventKind::kContactEvent);
@@ -142,10 +96,10 @@ TEST(Watch, SlipStops) {
 }
 
 TEST(Watch, LimitPoints) {
-  const TracedPath path = Trace(ReadExample("von_mises").scene, 100);
+  const TracedPath path = TraceScene(ReadExample("von_mises").scene, 100);
   const std::size_t limit = FirstIncrement(path, IncrementKind::kSmoothLimit);
   for (const std::size_t before : {1U, 3U, 8U}) {
-    Arc arc(path, limit - before);
+    TracedArc arc(path, limit - before + 1);
     const Step step = arc.Between(0.0, 0.02 * static_cast<double>(before) + 0.01);
     const StepEvent event = FirstEvent(&arc.arc(), step);
     ASSERT_EQ(event.kind, EventKind::kLimitPoint);
@@ -157,8 +111,8 @@ TEST(Watch, LimitPoints) {
 }
 
 TEST(Watch, Bifurcations) {
-  const TracedPath path = Trace(tall_truss::MakeScene(), 40);
-  Arc arc(path, FirstIncrement(path, IncrementKind::kBifurcation) - 1);
+  const TracedPath path = TraceScene(tall_truss::MakeScene(), 40);
+  TracedArc arc(path, FirstIncrement(path, IncrementKind::kBifurcation));
   const Step step = arc.Between(0.0, 0.02);
   const StepEvent event = FirstEvent(&arc.arc(), step);
   ASSERT_EQ(event.kind, EventKind::kBifurcation);
@@ -176,10 +130,10 @@ TEST(Watch, TheFirstOfSeveral) {
   scene.obstacles = {{"low", ObstacleShape::kHalfPlane, 0.0, limit_y - 0.01, 0.0, 1.0, 0.0},
                      {"lower", ObstacleShape::kHalfPlane, 0.0, limit_y - 0.02, 0.0, 1.0, 0.0}};
   scene.contacts = {{"apex", "lower"}, {"apex", "low"}};
-  const TracedPath path = Trace(scene, 100);
-  Arc arc(path, FirstIncrement(path, IncrementKind::kSmoothLimit) - 2);
+  const TracedPath path = TraceScene(scene, 100);
+  TracedArc arc(path, FirstIncrement(path, IncrementKind::kSmoothLimit) - 1);
   EXPECT_EQ(FirstEvent(&arc.arc(), arc.Between(0.0, 0.1)).kind, EventKind::kLimitPoint);
-  Arc beyond(path, FirstIncrement(path, IncrementKind::kSmoothLimit));
+  TracedArc beyond(path, FirstIncrement(path, IncrementKind::kSmoothLimit) + 1);
   const Step step = beyond.Between(0.0, 0.1);
   const StepEvent event = FirstEvent(&beyond.arc(), step);
   ASSERT_EQ(event.kind, EventKind::kContactEvent);
@@ -197,7 +151,7 @@ TEST(Watch, AStartAtTheLimit) {
   request.scene = scene;
   request.options.max_increments = 2;
   request.options.direction = -1.0;
-  Arc arc(TraceIncrements(request), 0);
+  TracedArc arc(TraceIncrements(request), 1);
   EXPECT_EQ(FirstEvent(&arc.arc(), arc.Between(0.0, 0.1)).kind, EventKind::kNone);
   const Step towards = arc.Between(0.1, 0.1 - 1e-12);
   const CurvePoint start = arc.At(0.0);
@@ -215,20 +169,20 @@ TEST(Watch, AStartAtTheLimit) {
 class Swing : public testing::Test {
  protected:
   // A step over the top of the circle, from before to beyond it. q moves on the same circle whatever the clearance.
-  std::unique_ptr<Arc> Over(double clearance) {
+  std::unique_ptr<TracedArc> Over(double clearance) {
     const Scene far = swing::MakeScene(1.0, 0.0);
-    TracedPath path = Trace(far, 20);
+    TracedPath path = TraceScene(far, 20);
     path.request.scene = swing::MakeScene(clearance, 0.0);
     increment_ = 0;
     while (path.increments[increment_ + 1].load_factor < swing::Load(0.0)) ++increment_;
-    return std::make_unique<Arc>(path, increment_);
+    return std::make_unique<TracedArc>(path, increment_ + 1);
   }
   std::size_t increment_ = 0;
 };
 
 TEST_F(Swing, AnInequalityBrokenAndMendedWithinTheStepIsFound) {
   for (const double clearance : {-1e-3, -1e-6, -1e-8}) {
-    const std::unique_ptr<Arc> arc = Over(clearance);
+    const std::unique_ptr<TracedArc> arc = Over(clearance);
     const Step step = arc->Between(-0.05, 0.1);
     EXPECT_GT(step.start.x.size(), 0);
     ASSERT_GT(arc->arc().system().Value({0, Inequality::kGap}, step.end.x), 0.0);
@@ -244,7 +198,7 @@ TEST_F(Swing, AnInequalityBrokenAndMendedWithinTheStepIsFound) {
 
 TEST_F(Swing, ANearMissIsLookedAtMoreClosely) {
   for (const double clearance : {1e-7, 1e-8, 1e-9}) {
-    const std::unique_ptr<Arc> arc = Over(clearance);
+    const std::unique_ptr<TracedArc> arc = Over(clearance);
     const Step step = arc->Between(-0.05, 0.1);
     const StepEvent event = FirstEvent(&arc->arc(), step);
     ASSERT_TRUE(event.kind == EventKind::kNearTouch || event.kind == EventKind::kContactEvent) << clearance;
@@ -255,7 +209,7 @@ TEST_F(Swing, ANearMissIsLookedAtMoreClosely) {
     EXPECT_NEAR(located->x[3] * arc->model().scaling.length, swing::kCentreY + swing::kRadius, 1e-4);
     EXPECT_LE(arc->arc().CorrectOnPlane(located->x, step.normal).first_step, 1e-13);
   }
-  const std::unique_ptr<Arc> arc = Over(0.05);
+  const std::unique_ptr<TracedArc> arc = Over(0.05);
   EXPECT_EQ(FirstEvent(&arc->arc(), arc->Between(-0.05, 0.1)).kind, EventKind::kNone);
 }
 

@@ -64,6 +64,13 @@ TracedPath TraceIncrements(const TraceRequest& request) {
   return path;
 }
 
+TracedPath TraceScene(const Scene& scene, int increments) {
+  TraceRequest request;
+  request.scene = scene;
+  request.options.max_increments = increments;
+  return TraceIncrements(request);
+}
+
 TracedPath TraceArc(TraceRequest request, double arc_length) {
   TracedPath path;
   request.options.max_increments = 4000;

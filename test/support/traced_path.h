@@ -24,6 +24,9 @@ TraceRequest ReadExample(const std::string& name);
 // All increments of a request.
 TracedPath TraceIncrements(const TraceRequest& request);
 
+// At most so many increments of a scene, by default options.
+TracedPath TraceScene(const Scene& scene, int increments);
+
 // The increments up to the first one beyond this arc length (scaled), at most 4000.
 TracedPath TraceArc(TraceRequest request, double arc_length);
 
