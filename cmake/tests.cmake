@@ -90,7 +90,7 @@ contact_path_add_stage(scene can_slide_test change_units_test configuration_test
   one_line_test quantity_test read_scene_test scaling_test scene_index_test scene_test utf8_test validate_test
   write_scene_test)
 contact_path_add_stage(structure bar_test dof_map_test scene_elements_test structure_test superelement_test)
-contact_path_add_stage(linear bordered_solver_test minimum_norm_test out_of_memory_test singular_vectors_test)
+contact_path_add_stage(linear bordered_solver_test generic_vector_test minimum_norm_test out_of_memory_test singular_vectors_test)
 find_library(SUITESPARSECONFIG_LIBRARY suitesparseconfig REQUIRED)
 target_include_directories(linear_tests SYSTEM PRIVATE ${SUITESPARSE_INCLUDE_DIR})
 target_link_libraries(linear_tests ${SUITESPARSECONFIG_LIBRARY})
@@ -98,8 +98,9 @@ contact_path_add_stage(contact contact_pair_test contact_state_test path_point_t
   surface_test)
 contact_path_add_stage(equations fixed_state_system_test nearest_point_test)
 contact_path_add_stage(mpec increment_problem_test increment_solver_test ipopt_solver_test short_increment_test)
-contact_path_add_stage(branch branch_choices_test branch_order_test crossing_test curved_surface_test gauss_rule_test
-  plane_tangents_test polynomial_test rate_problem_test reaction_redistribution_test smooth_arc_test test_functions_test)
+contact_path_add_stage(branch arc_step_test branch_choices_test branch_order_test crossing_test curved_surface_test
+  gauss_rule_test pivoting_test plane_tangents_test polynomial_test rate_problem_test reaction_redistribution_test
+  smooth_arc_test state_options_test tangents_test test_functions_test)
 if(NOT CONTACT_PATH_SANITIZE)
   # It counts allocations, in place of the allocator that a sanitizer brings.
   contact_path_add_gtest(branch_allocations_test test/branch/allocations_test.cpp)
@@ -109,9 +110,10 @@ contact_path_add_long_test(branch branch_method_test)
 contact_path_add_long_test(branch branches_test)
 contact_path_add_long_test(branch random_paths_test)
 contact_path_add_stage(check residuals_test)
-contact_path_add_stage(path csv_test determinism_test diagnosis_test free_motion_test hard_scenes_test increment_test
-  large_requests_test model_size_test model_test path_summary_test preload_test program_test progress_estimate_test
-  redistribution_test restored_states_test return_detector_test singular_scenes_test stop_test work_test)
+contact_path_add_stage(path branch_options_test csv_test determinism_test diagnosis_test free_motion_test
+  hard_scenes_test increment_test large_requests_test model_size_test model_test path_summary_test preload_test
+  program_test progress_estimate_test redistribution_test restored_states_test return_detector_test
+  singular_scenes_test stop_test work_test)
 contact_path_add_long_test(path invariance_test)
 contact_path_add_long_test(path mpec_cases_test)
 contact_path_add_long_test(path mpec_method_test)
