@@ -8,7 +8,6 @@
 namespace contact_path {
 namespace {
 
-constexpr double kLeastNorm = 1e-4;   // of the largest: an equation that vanishes at both points is not blown up
 constexpr double kDifference = 1e-4;  // step of the central difference of F''; its error is of the order of the square
 
 // Of the equations at a point.
@@ -59,9 +58,8 @@ std::optional<Crossing> FindCrossing(FixedStateSystem* system, const Eigen::Vect
                                      const Eigen::VectorXd& tangent) {
   const Eigen::Index motion = system->NumDofs() + 1;
   MinimumNormSolver solver;
-  const Eigen::VectorXd norms = Norms(system, before).cwiseMax(Norms(system, x));
-  const Eigen::VectorXd least = Eigen::VectorXd::Constant(norms.size(), kLeastNorm * norms.maxCoeff());
-  if (!solver.Factorize(system->TransposedJacobian(x), norms.cwiseMax(least), tolerances::kDependentColumnSingular))
+  const Eigen::VectorXd norms = Norms(system, before);
+  if (!solver.Factorize(system->TransposedJacobian(x), tolerances::kDependentColumnSingular, norms))
     return std::nullopt;
   if (solver.Rank() != system->NumEquations() - 1 || solver.Rank() != system->NumUnknowns() - 2) return std::nullopt;
   const Eigen::MatrixXd plane = solver.NullSpace();

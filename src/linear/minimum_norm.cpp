@@ -62,6 +62,20 @@ Eigen::VectorXd NormsAround(const Eigen::SparseMatrix<double>& transposed) {
   return norms;
 }
 
+// The norms by which Factorize() divides the equations.
+Eigen::VectorXd NormsOf(const Eigen::SparseMatrix<double>& transposed, double rank_tolerance,
+                        const Eigen::VectorXd& least_norms) {
+  const bool singular = rank_tolerance > tolerances::kDependentColumn;
+  const Eigen::VectorXd around = singular ? NormsAround(transposed) : Eigen::VectorXd::Zero(transposed.cols());
+  Eigen::VectorXd norms = kFading * around;
+  if (least_norms.size() > 0) norms = norms.cwiseMax(least_norms);
+  for (Eigen::Index column = 0; column < transposed.cols(); ++column) {
+    const double norm = std::max(transposed.col(column).norm(), norms[column]);
+    norms[column] = norm == 0.0 ? 1.0 : norm;
+  }
+  return norms;
+}
+
 }  // namespace
 
 struct MinimumNormSolver::Factors {
@@ -76,21 +90,9 @@ struct MinimumNormSolver::Factors {
 MinimumNormSolver::MinimumNormSolver() : factors_(std::make_unique<Factors>()) {}
 MinimumNormSolver::~MinimumNormSolver() = default;
 
-bool MinimumNormSolver::Factorize(const Eigen::SparseMatrix<double>& transposed, double rank_tolerance) {
-  // Equations of unit norm: so that what is soft beside something stiff counts as much.
-  const Eigen::VectorXd floors = rank_tolerance > tolerances::kDependentColumn
-                                     ? NormsAround(transposed)
-                                     : Eigen::VectorXd::Zero(transposed.cols());
-  Eigen::VectorXd norms(transposed.cols());
-  for (Eigen::Index column = 0; column < transposed.cols(); ++column) {
-    const double norm = std::max(transposed.col(column).norm(), kFading * floors[column]);
-    norms[column] = norm == 0.0 ? 1.0 : norm;
-  }
-  return Factorize(transposed, norms, rank_tolerance);
-}
-
-bool MinimumNormSolver::Factorize(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& norms,
-                                  double rank_tolerance) {
+bool MinimumNormSolver::Factorize(const Eigen::SparseMatrix<double>& transposed, double rank_tolerance,
+                                  const Eigen::VectorXd& least_norms) {
+  const Eigen::VectorXd norms = NormsOf(transposed, rank_tolerance, least_norms);
   if (!norms.allFinite()) return false;
   factors_->scaled = transposed;
   factors_->scale = norms.cwiseInverse();

@@ -19,14 +19,14 @@ class MinimumNormSolver {
   MinimumNormSolver(const MinimumNormSolver&) = delete;
   MinimumNormSolver& operator=(const MinimumNormSolver&) = delete;
 
-  // rank_tolerance: with a larger one than the default, an equation far below those around it, as across bars that
-  // become straight without stress, counts as dependent too. transposed: A', unknowns x equations. False if it is not
-  // finite. Throws std::bad_alloc where there is not enough memory, as all of the functions below, and
-  // LinearSolverError where the factorisation fails.
-  bool Factorize(const Eigen::SparseMatrix<double>& transposed, double rank_tolerance = tolerances::kDependentColumn);
-  // The same with given norms of the equations, > 0, by which they are divided in place of their own: an equation that
-  // vanishes at the very point is to count as dependent.
-  bool Factorize(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& norms, double rank_tolerance);
+  // Equations are divided by their norms, so that a soft one beside a stiff one counts as much. rank_tolerance: with a
+  // larger one than the default, an equation far below those around it, as across bars that become straight without
+  // stress, counts as dependent. least_norms: by equation, or empty: its norm counts as no less, as its norm elsewhere
+  // on a curve of solutions does, so that an equation that vanishes at the very point counts as dependent. transposed:
+  // A', unknowns x equations. False if it is not finite. Throws std::bad_alloc where there is not enough memory, as all
+  // of the functions below, and LinearSolverError where the factorisation fails.
+  bool Factorize(const Eigen::SparseMatrix<double>& transposed, double rank_tolerance = tolerances::kDependentColumn,
+                 const Eigen::VectorXd& least_norms = {});
   Eigen::Index Rank() const;
   // x for b of the number of equations; Factorize() must have returned true.
   Eigen::VectorXd Solve(const Eigen::VectorXd& b) const;
