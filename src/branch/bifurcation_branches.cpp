@@ -36,7 +36,7 @@ std::vector<Branch> BifurcationBranches(SmoothArc* arc, const ContactPairs& cont
     return branch;
   };
   std::vector<Branch> branches = {branch_along(at.first, at.second)};
-  branches.front().turn = 0.0;  // but for rounding
+  branches.front().turn = 0.0;  // the arc cosine of 1 less rounding is not
   if (const std::optional<Crossing> crossing = arc->FindCrossing(before, at.x, at.first))
     for (const double sense : {1.0, -1.0})
       if (const Eigen::VectorXd first = sense * crossing->first; SlidesOn(system, at.x, first))

@@ -318,7 +318,7 @@ double DissipationRate(const ContactPairs& contacts, const std::vector<ContactSt
     if (Slips(states[i]))
       rate -= point.rt[static_cast<Eigen::Index>(i)] *
               contacts[i]->SlipRate(point.u, point.s, direction, direction[direction.size() - 1]);
-  return std::max(rate, 0.0);  // but for rounding
+  return std::max(rate, 0.0);  // rounding may leave less
 }
 
 BranchSet FindBranches(const Structure& structure, const ContactPairs& contacts, const PathPoint& point,

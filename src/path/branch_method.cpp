@@ -340,7 +340,7 @@ Advance BranchMethod::Next(const PathPoint& from) {
 }
 
 std::string BranchMethod::NoStep(const PathPoint& from) const {
-  const std::string bar = CollapsedBar(model_.scene, model_.InSceneUnits(from).positions);
+  const std::string bar = CollapsedBar(model_.scene, model_.index, model_.InSceneUnits(from).positions);
   return "no increment could be accepted, however short: Newton's method does not stay on the branch" +
          (bar.empty() ? bar : "; " + bar);
 }

@@ -8,12 +8,11 @@
 #include <locale>
 #include <sstream>
 
-#include "contact_path/scene/scene_index.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
-std::string CollapsedBar(const Scene& scene, const std::vector<double>& positions) {
-  const SceneIndex index(scene);
+
+std::string CollapsedBar(const Scene& scene, const SceneIndex& index, const std::vector<double>& positions) {
   double smallest = tolerances::kCollapsed;
   std::string text;
   for (std::size_t i = 0; i < scene.bars.size(); ++i) {

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <vector>
+
 namespace contact_path {
 namespace {
 
@@ -16,14 +19,17 @@ Scene TwoBars() {
   return scene;
 }
 
-TEST(CollapsedBar, NamesTheOneThatHasShrunkMost) {
-  EXPECT_EQ(CollapsedBar(TwoBars(), {0.0, 0.0, 0.015, 0.0, 0.015, 1e-3}),
-            "bar 1 (b, c) has shrunk to 0.001 of its initial length");
-  EXPECT_EQ(CollapsedBar(TwoBars(), {0.0, 0.0, 0.0, 1e-7, 0.0, 1e-3}),
-            "bar 0 (a, b) has shrunk to 5e-08 of its initial length");
+std::string Collapsed(const std::vector<double>& positions) {
+  const Scene scene = TwoBars();
+  return CollapsedBar(scene, SceneIndex(scene), positions);
 }
 
-TEST(CollapsedBar, SaysNothingOfLongOnes) { EXPECT_EQ(CollapsedBar(TwoBars(), {0.0, 0.0, 0.1, 0.0, 0.1, 0.1}), ""); }
+TEST(CollapsedBar, NamesTheOneThatHasShrunkMost) {
+  EXPECT_EQ(Collapsed({0.0, 0.0, 0.015, 0.0, 0.015, 1e-3}), "bar 1 (b, c) has shrunk to 0.001 of its initial length");
+  EXPECT_EQ(Collapsed({0.0, 0.0, 0.0, 1e-7, 0.0, 1e-3}), "bar 0 (a, b) has shrunk to 5e-08 of its initial length");
+}
+
+TEST(CollapsedBar, SaysNothingOfLongOnes) { EXPECT_EQ(Collapsed({0.0, 0.0, 0.1, 0.0, 0.1, 0.1}), ""); }
 
 // A soft bar with a contact and a stiff one without: F = 1e4.
 TEST(ContactTooSoft, NamesTheContact) {

@@ -7,12 +7,13 @@
 
 #include "contact_path/path/model.h"
 #include "contact_path/scene/scene.h"
+#include "contact_path/scene/scene_index.h"
 
 namespace contact_path {
 
 // Names the bar that has shrunk most if that is nearly to nothing, where its force has no direction; else empty.
-// positions: current x0, y0, x1, ..., 2 x nodes [length].
-std::string CollapsedBar(const Scene& scene, const std::vector<double>& positions);
+// index: of the scene. positions: current x0, y0, x1, ..., 2 x nodes [length].
+std::string CollapsedBar(const Scene& scene, const SceneIndex& index, const std::vector<double>& positions);
 
 // Names a contact at whose node all parts are softer than `least`, scaled, but not without stiffness: its reactions
 // drown in the rounding of the stiff parts; else empty. point: where to look, scaled.

@@ -40,7 +40,7 @@ struct Advance {
 
 // An increment of an earlier path to go on from, one that is no event.
 struct ResumePoint {
-  PathPoint before;               // of the increment before it, or where that has no state on record, of an earlier one
+  PathPoint before;               // of the last increment before it that has its state on record
   PathPoint point;                // its own
   SolveRecord solve;              // recorded of it
   double largest_reaction = 0.0;  // scaled, normal or tangential, of all increments of its stage up to it
