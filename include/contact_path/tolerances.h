@@ -1,10 +1,12 @@
 // Every tolerance of the solvers, by its meaning. verify/, check/ and scene/validate.cpp keep their own: the first two
 // share nothing with the solvers, and the third judges what a person has written.
 //
-// Scaled: positions over L, forces over F, the load factor times c (scene/scaling.h), so that a scene is of the order
-// of
-// 1. Points of a path are exact to about 1e-14 where the equations are regular, and to about 1e-10 next to singular
-// points, where half of the digits are lost. That is why many tolerances stand in pairs.
+// Scaled: positions over L, forces over F, the load factor times c (scene/scaling.h). A scene then has numbers of the
+// order of 1. Points of a path are exact to about 1e-14 where the equations are regular, and to about 1e-10 next to
+// singular points, where half of the digits are lost. That is why many tolerances stand in pairs.
+//
+// Tolerances of reactions and of their rates are multiplied with the force unit of the contact
+// (contact/contact_pair.h).
 #ifndef CONTACT_PATH_TOLERANCES_H_
 #define CONTACT_PATH_TOLERANCES_H_
 
@@ -23,8 +25,9 @@ inline constexpr double kStagnationSingular = 1e-9;
 // Residual of a converged point, scaled; on an arc relative to 1 + the largest of load factor and reactions.
 inline constexpr double kResidual = 1e-11;
 inline constexpr double kResidualSingular = 1e-10;
-// Error of the predictor, scaled: a predictor this good needs no shorter step.
+// Error of the predictor, scaled, and relative to |x|: a predictor this good needs no shorter step.
 inline constexpr double kPredictor = 1e-12;
+inline constexpr double kPredictorRounding = 1e-15;
 // Component of a unit vector (du, ds): zero. A start along which the load changes less is a mechanism.
 inline constexpr double kUnitComponent = 1e-13;
 // Component of a unit tangent of an obstacle: zero, as cos(pi / 2) = 6e-17.
@@ -44,11 +47,17 @@ inline constexpr double kRecordedLoad = 1e-9;
 // Arc length, relative to the increment: the point found again is the recorded one.
 inline constexpr double kRecordedArc = 1e-12;
 
+// Distance from the origin, over the extent of the scene and L: from here on coordinates are counted from the scene.
+// Nearer, their rounding is below 1e-12 L.
+inline constexpr double kFarFromOrigin = 1e3;
+
 // ----- active set: which inequalities are at zero -----
 
 // Scaled gap, and scaled reaction or margin to the friction cone, up to which an inequality is weakly active.
 inline constexpr double kActiveGap = 1e-10;
 inline constexpr double kActiveForce = 1e-10;
+// Scaled gap up to which kActiveGap is widened where it lies among gaps of one size.
+inline constexpr double kWidestActiveGap = 5e-10;
 // Where the reactions of a path are far below F: kActiveForce follows them down, to this share of the largest of them
 // ...
 inline constexpr double kActiveShareOfReactions = 1e-7;

@@ -21,8 +21,9 @@ Model::Model(const Scene& scene_in, const Configuration& configuration_in, const
       index(scene),
       configuration(configuration_in),
       scaling(scaling_in),
-      scaled(ScaleScene(scene_in, scaling_in)),
-      structure(scaled, index, configuration.Over(scaling.length)),
+      origin(OriginOf(scene_in, scaling_in.length)),
+      scaled(ScaleScene(CountedFrom(origin, scene_in), index, scaling_in)),
+      structure(scaled, index, CountedFrom(origin, configuration_in).Over(scaling.length)),
       contacts(BuildContacts(scaled, index, structure)),
       check(scene_in, configuration_in, scaling_in) {}
 
@@ -55,7 +56,8 @@ CheckedState Model::InSceneUnits(const PathPoint& point) const {
   state.positions = configuration.start;
   for (const DofMap::Component& from : structure.Dofs().Components())
     if (from.field == Field::kPosition && from.dof >= 0)
-      state.positions[PositionIndex(from)] = point.u[from.dof] * UnitOf(from.field, scaling.length);
+      state.positions[PositionIndex(from)] =
+          point.u[from.dof] * UnitOf(from.field, scaling.length) + origin[static_cast<std::size_t>(from.component)];
   for (Eigen::Index i = 0; i < point.rn.size(); ++i) {
     state.rn.push_back(point.rn[i] * scaling.force);
     state.rt.push_back(point.rt[i] * scaling.force);
@@ -69,7 +71,8 @@ PathPoint Model::FromIncrement(const Increment& increment) const {
   point.u.resize(structure.NumDofs());
   for (const DofMap::Component& to : structure.Dofs().Components())
     if (to.field == Field::kPosition && to.dof >= 0)
-      point.u[to.dof] = increment.positions[PositionIndex(to)] / UnitOf(to.field, scaling.length);
+      point.u[to.dof] = (increment.positions[PositionIndex(to)] - origin[static_cast<std::size_t>(to.component)]) /
+                        UnitOf(to.field, scaling.length);
   const auto count = static_cast<Eigen::Index>(increment.contacts.size());
   point.rn.resize(count);
   point.rt.resize(count);

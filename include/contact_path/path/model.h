@@ -9,6 +9,7 @@
 #include "contact_path/contact/path_point.h"
 #include "contact_path/path/increment.h"
 #include "contact_path/scene/configuration.h"
+#include "contact_path/scene/origin.h"
 #include "contact_path/scene/scaling.h"
 #include "contact_path/scene/scene.h"
 #include "contact_path/scene/scene_index.h"
@@ -42,6 +43,7 @@ struct Model {
   const SceneIndex index;  // of the scene: the scaled one has the same names
   const Configuration configuration;
   const Scaling scaling;
+  const Origin origin;  // of the coordinates of all scaled quantities
   const Scene scaled;
   const Structure structure;    // of the scaled scene
   const ContactPairs contacts;  // of the scaled scene
