@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -13,6 +14,10 @@
 
 namespace contact_path {
 namespace {
+
+// In L: where the nearest contact that does not touch is farther, a length that is made of forces only is no measure of
+// the scene.
+constexpr double kFarthestContact = 1e4;
 
 // Sum in the order of size, so that it does not depend on the order of the terms, not even by rounding.
 double OrderedSum(std::vector<double> terms) {
@@ -61,14 +66,15 @@ std::vector<Load> SumByNode(const std::vector<Load>& loads) {
   return result;
 }
 
-// Euclidean norm of the loads that the load factor scales, summed by node, over the free components [force].
-double ReferenceLoadNorm(const Scene& scene, const SceneIndex& index) {
+// Euclidean norm of the constant loads, or of those that the load factor scales, summed by node, over the free
+// components [force].
+double LoadNorm(const Scene& scene, const SceneIndex& index, bool constant) {
   struct Terms {
     std::vector<double> x, y;
   };
   std::unordered_map<std::size_t, Terms> loads;  // by node
   for (const Load& load : scene.loads) {
-    if (load.constant) continue;
+    if (load.constant != constant) continue;
     Terms& terms = loads[index.Node(load.node)];
     terms.x.push_back(load.fx);
     terms.y.push_back(load.fy);
@@ -102,6 +108,22 @@ double MeanStiffness(const Scene& scene) {
   return std::sqrt(OrderedSum(std::move(squares)) / static_cast<double>(rows));
 }
 
+// Smallest gap > 0 of a contact candidate at the start, 0 if there is none [length].
+double NearestGap(const Scene& scene, const SceneIndex& index) {
+  double nearest = 0.0;
+  for (const ContactCandidate& contact : scene.contacts) {
+    // The length is asked for while contacts are still being judged.
+    const std::optional<std::size_t> at = index.FindNode(contact.node), by = index.FindObstacle(contact.obstacle);
+    if (!at || !by) continue;
+    const Node& node = scene.nodes[*at];
+    const Obstacle& obstacle = scene.obstacles[*by];
+    const double gap = (obstacle.nx * (node.x - obstacle.px) + obstacle.ny * (node.y - obstacle.py)) /
+                       std::hypot(obstacle.nx, obstacle.ny);
+    if (gap > 0.0 && (nearest == 0.0 || gap < nearest)) nearest = gap;
+  }
+  return nearest;
+}
+
 }  // namespace
 
 Scaling CharacteristicScales(const Scene& scene, const SceneIndex& index) {
@@ -110,8 +132,10 @@ Scaling CharacteristicScales(const Scene& scene, const SceneIndex& index) {
     scaling.length = OrderedSum(BarLengths(scene, index)) / static_cast<double>(scene.bars.size());
     scaling.force = GeometricMeanOfAxialStiffness(scene);
   } else {
-    const double reference_load = ReferenceLoadNorm(scene, index), stiffness = MeanStiffness(scene);
+    const double reference_load = LoadNorm(scene, index, false), stiffness = MeanStiffness(scene);
     scaling.force = reference_load > 0.0 ? reference_load : stiffness * MotionNorm(scene);
+    scaling.force = std::max(
+        {scaling.force, LoadNorm(scene, index, true), stiffness * NearestGap(scene, index) / kFarthestContact});
     scaling.length = scaling.force / stiffness;
   }
   scaling.load_factor = LoadFactorScale(scene, index, scaling.length, scaling.force);
@@ -119,7 +143,7 @@ Scaling CharacteristicScales(const Scene& scene, const SceneIndex& index) {
 }
 
 double LoadFactorScale(const Scene& scene, const SceneIndex& index, double length, double force) {
-  const double load = ReferenceLoadNorm(scene, index), motion = MotionNorm(scene);
+  const double load = LoadNorm(scene, index, false), motion = MotionNorm(scene);
   return motion > 0.0 ? 1.0 / std::hypot(load / force, motion / length) : force / load;
 }
 

@@ -154,11 +154,9 @@ ExtremeCase Cancelling(double difference) {
   scene.loads = {{"p", 1.0 + difference, 0.0, false}, {"p", -1.0, 0.0, false}};
   scene.obstacles = {{"stop", ObstacleShape::kHalfPlane, 1.0, 0.0, -1.0, 0.0, 0.5}};
   scene.contacts = {{"p", "stop"}};
-  // Forces of 1 beside F = `difference`: the certificate, relative to F, is then below rounding.
-  if (difference < 1e-6) extreme.ends = {"numerical_failure"};
   const double load = (1.0 + difference) - 1.0;
-  // F is the sum of the loads, and L as small.
-  extreme.request = Until(scene, "load_factor", ">", 2.0 / difference, 0.1 / difference);
+  // L is the sum of the loads over k, and at least 1e-4 of the way to the stop.
+  extreme.request = Until(scene, "load_factor", ">", 2.0 / difference, 0.1 / std::max(difference, 1e-4));
   extreme.exact = "closed form";
   extreme.error = [load](const TraceRequest&, const Increment& increment) {
     const double force = load * increment.load_factor;

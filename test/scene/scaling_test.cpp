@@ -287,5 +287,30 @@ TEST(ScaleSceneTest, ByHand) {
   EXPECT_EQ(scaled.obstacles[0].friction, 0.5);
 }
 
+// k = 1, a load of 1e-3 that the load factor scales.
+Scene Spring(double constant, double gap) {
+  Scene scene;
+  scene.nodes = {{"p", 0.0, 0.0, false, false}};
+  scene.superelements = {{{"p"}, {1.0, 0.0, 0.0, 1.0}}};
+  scene.loads = {{"p", 1e-3, 0.0, false}, {"p", constant, 0.0, true}};
+  scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, -gap, 0.0, 2.0, 0.0},
+                     {"touched", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.0}};
+  scene.contacts = {{"p", "floor"}, {"p", "touched"}};
+  return scene;
+}
+
+TEST(CharacteristicScales, WithoutBarsTheLargestOfAllLoads) {
+  EXPECT_DOUBLE_EQ(CharacteristicScales(Spring(1e-4, 1.0)).force, 1e-3);
+  EXPECT_DOUBLE_EQ(CharacteristicScales(Spring(-1e6, 1.0)).force, 1e6);
+  EXPECT_DOUBLE_EQ(CharacteristicScales(Spring(-1e6, 1.0)).length, 1e6);
+  EXPECT_DOUBLE_EQ(CharacteristicScales(Spring(-1e6, 1.0)).load_factor, 1e9);
+}
+
+TEST(CharacteristicScales, WithoutBarsNoContactIsFartherThanTenThousandLengths) {
+  EXPECT_DOUBLE_EQ(CharacteristicScales(Spring(0.0, 9.0)).length, 1e-3);
+  EXPECT_DOUBLE_EQ(CharacteristicScales(Spring(0.0, 1e3)).length, 0.1);
+  EXPECT_DOUBLE_EQ(CharacteristicScales(Spring(0.0, 1e3)).force, 0.1);
+}
+
 }  // namespace
 }  // namespace contact_path
