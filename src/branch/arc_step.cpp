@@ -1,5 +1,7 @@
 #include "contact_path/branch/arc_step.h"
 
+#include <algorithm>
+
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
@@ -13,10 +15,11 @@ std::optional<ArcStep> TryStep(SmoothArc* arc, const CurvePoint& start, double l
                                double smallest_cosine) {
   const Eigen::VectorXd normal = start.first.head(arc->NumMotion());
   const double tolerance = prediction * length;
+  const double rounding = std::max(tolerances::kPredictor, tolerances::kPredictorRounding * start.x.norm());
   const Eigen::VectorXd straight = start.x + length * start.first;
   const Eigen::VectorXd bend = 0.5 * length * length * start.second;
   const auto good = [&](const Correction& correction) {
-    return correction.converged && correction.first_step <= tolerance + tolerances::kPredictor;
+    return correction.converged && correction.first_step <= tolerance + rounding;
   };
   Correction correction = arc->CorrectOnPlane(straight + bend, normal);
   // Next to a singular point the second derivatives are little but rounding.
