@@ -87,7 +87,7 @@ set(contact_path_extremes
 # path/path_method.h), and files that trace whole paths.
 contact_path_add_stage(support derivative_checker_test)
 contact_path_add_stage(scene can_slide_test change_units_test configuration_test field_test lattice_test nearest_name_test
-  one_line_test quantity_test read_scene_test scaling_test scene_index_test scene_test utf8_test validate_test
+  one_line_test origin_test quantity_test read_scene_test scaling_test scene_index_test scene_test utf8_test validate_test
   write_scene_test)
 contact_path_add_stage(structure bar_test dof_map_test scene_elements_test structure_test superelement_test)
 contact_path_add_stage(linear bordered_solver_test generic_vector_test minimum_norm_test out_of_memory_test singular_vectors_test)
@@ -119,6 +119,7 @@ contact_path_add_long_test(path mpec_cases_test)
 contact_path_add_long_test(path mpec_method_test)
 contact_path_add_long_test(path mpec_random_paths_test)
 contact_path_add_long_test(path resume_test)
+contact_path_add_long_test(path sizes_test)
 contact_path_add_long_test(path trace_test)
 contact_path_add_stage(verify verify_end_test verify_events_test verify_path_test)
 contact_path_add_stage(cli progress_test)

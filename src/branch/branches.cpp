@@ -103,7 +103,8 @@ class Finder {
     const Eigen::VectorXd first = (along < 0.0 ? -sign : sign) * tangents.first[0];
     std::vector<Constraint> broken;
     for (const Constraint& constraint : system_.Inequalities())
-      if (IsWeaklyActive(system_, constraint, x, tolerance_) && system_.Rate(constraint, x, first) < -tolerances::kRate)
+      if (IsWeaklyActive(system_, constraint, x, tolerance_) &&
+          system_.Rate(constraint, x, first) < -tolerances::kRate * system_.UnitOf(constraint))
         broken.push_back(constraint);
     return broken;
   }
@@ -124,7 +125,7 @@ class Finder {
     for (const Constraint& limit : system_.Inequalities()) {
       if (!IsWeaklyActive(system_, limit, x, tolerance_)) continue;
       const Jet along = system_.ValueAlong(limit, x, first, second);
-      const double rate = along.first, curvature = along.second;
+      const double unit = system_.UnitOf(limit), rate = along.first / unit, curvature = along.second / unit;
       // A graze, located to the root of rounding only: the value is past its minimum before it counts as negative.
       const bool grazes = limit.inequality != Inequality::kSlip && rate < 0.0 && curvature > tolerances::kCurvature &&
                           rate * rate <= 2.0 * curvature * tolerances::kGraze;

@@ -106,6 +106,10 @@ RateProblem::RateProblem(const Structure& structure, const ContactPairs& contact
   regular_ = true;
 }
 
+double RateProblem::Unit(Eigen::Index k) const {
+  return contacts_[static_cast<std::size_t>(weakly_active_[static_cast<std::size_t>(k)])]->ForceUnit();
+}
+
 Eigen::MatrixXd RateProblem::Kernel(const Eigen::MatrixXd& equations) const {
   // Nearly always one solution, and it is not orthogonal to the arrival.
   Eigen::MatrixXd square(equations.cols(), equations.cols());
@@ -137,8 +141,9 @@ Eigen::VectorXd RateProblem::ShortestMember(const Eigen::MatrixXd& kernel) const
   // Rigid modes change neither the load nor a reaction. What does, has nothing of them.
   Eigen::MatrixXd forces = moving;
   for (Eigen::Index k = 0; k < gap_.rows(); ++k) {
-    forces.row(1 + 2 * k) -= kSpring * (gap_.row(k) * moving);
-    forces.row(2 + 2 * k) -= kSpring * (slip_.row(k) * moving);
+    const double unit = Unit(k);
+    forces.row(1 + 2 * k) = (forces.row(1 + 2 * k) - kSpring * (gap_.row(k) * moving)) / unit;
+    forces.row(2 + 2 * k) = (forces.row(2 + 2 * k) - kSpring * (slip_.row(k) * moving)) / unit;
   }
   const SingularVectors changes = RightSingularVectors(forces);
   Eigen::Index proper = 0;
@@ -211,7 +216,9 @@ std::optional<CondensedRates> RateProblem::RatesOf(Eigen::VectorXd z) const {
 std::optional<Constraint> RateProblem::Broken(const std::vector<ContactState>& states, const CondensedRates& rates,
                                               double sign, double active, double tolerance,
                                               std::vector<Constraint>* all) const {
-  const double force = 1.0 + std::max(rates.rn.lpNorm<Eigen::Infinity>(), rates.rt.lpNorm<Eigen::Infinity>());
+  double force = 1.0;  // largest rate of a reaction, in the unit of its contact
+  for (Eigen::Index k = 0; k < rates.rn.size(); ++k)
+    force = std::max(force, 1.0 + std::max(std::abs(rates.rn[k]), std::abs(rates.rt[k])) / Unit(k));
   std::optional<Constraint> first;
   const auto require = [&](int contact, Inequality inequality, double rate, double scale) {
     if (sign * rate >= -tolerance * scale) return;
@@ -227,12 +234,13 @@ std::optional<Constraint> RateProblem::Broken(const std::vector<ContactState>& s
       require(contact, Inequality::kGap, rates.gap[e], 1.0);
       continue;
     }
-    if (rn <= active) require(contact, Inequality::kNormalReaction, rates.rn[e], force);
+    const double unit = Unit(e);
+    if (rn <= active * unit) require(contact, Inequality::kNormalReaction, rates.rn[e], force * unit);
     if (states[i] == ContactState::kStick) {
-      if (friction * rn + rt <= active)
-        require(contact, Inequality::kConePlus, friction * rates.rn[e] + rates.rt[e], force);
-      if (friction * rn - rt <= active)
-        require(contact, Inequality::kConeMinus, friction * rates.rn[e] - rates.rt[e], force);
+      if (friction * rn + rt <= active * unit)
+        require(contact, Inequality::kConePlus, friction * rates.rn[e] + rates.rt[e], force * unit);
+      if (friction * rn - rt <= active * unit)
+        require(contact, Inequality::kConeMinus, friction * rates.rn[e] - rates.rt[e], force * unit);
     } else if (states[i] == ContactState::kSlipPlus) {
       require(contact, Inequality::kSlip, rates.slip[e], 1.0);
     } else if (states[i] == ContactState::kSlipMinus) {

@@ -182,8 +182,11 @@ ReactionRedistributions FindReactionRedistributions(const ContactPairs& contacts
       result.complete = false;
       continue;
     }
-    const std::vector<Weights> vertices = Vertices(node.edges, TotalForce(node, contacts, point), limit.force);
-    const std::vector<Weights> others = OtherFaces(node, vertices, PresentWeights(node, point, limit.force));
+    double unit = 0.0;
+    for (const std::size_t i : node.contacts) unit = std::max(unit, contacts[i]->ForceUnit());
+    const double force = limit.force * unit;
+    const std::vector<Weights> vertices = Vertices(node.edges, TotalForce(node, contacts, point), force);
+    const std::vector<Weights> others = OtherFaces(node, vertices, PresentWeights(node, point, force));
     // Beside what the nodes before can have.
     const std::size_t so_far = result.points.size();
     for (std::size_t k = 0; k <= so_far; ++k) {

@@ -9,7 +9,8 @@ std::vector<ContactState> StateOptions(const ContactPair& contact, const PathPoi
   const auto k = static_cast<Eigen::Index>(candidate);
   const double gap = contact.Gap(point.u, point.s), rn = point.rn[k], rt = point.rt[k];
   if (gap > tolerance.gap) return {ContactState::kOpen};
-  const bool loaded = rn > tolerance.force;
+  const double force = tolerance.force * contact.ForceUnit();
+  const bool loaded = rn > force;
   std::vector<ContactState> options;
   if (!contact.Frictional()) {
     options = {ContactState::kClosed};
@@ -17,8 +18,8 @@ std::vector<ContactState> StateOptions(const ContactPair& contact, const PathPoi
     options = {ContactState::kStick, ContactState::kSlipPlus, ContactState::kSlipMinus};
   } else {
     options = {ContactState::kStick};
-    if (contact.Friction() * rn + rt <= tolerance.force) options.push_back(ContactState::kSlipPlus);
-    if (contact.Friction() * rn - rt <= tolerance.force) options.push_back(ContactState::kSlipMinus);
+    if (contact.Friction() * rn + rt <= force) options.push_back(ContactState::kSlipPlus);
+    if (contact.Friction() * rn - rt <= force) options.push_back(ContactState::kSlipMinus);
   }
   if (!loaded) options.push_back(ContactState::kOpen);
   const auto natural = std::find(options.begin(), options.end(), point.states[candidate]);

@@ -56,7 +56,8 @@ bool TakesUpReactions(const FixedStateSystem& system, const Eigen::VectorXd& x, 
   for (const Constraint& constraint : system.Inequalities())
     if (constraint.inequality == Inequality::kNormalReaction && IsWeaklyActive(system, constraint, x, tolerance))
       for (Eigen::Index k = 0; k < directions.cols(); ++k)
-        if (std::abs(system.Rate(constraint, x, directions.col(k))) > tolerances::kRate) return true;
+        if (std::abs(system.Rate(constraint, x, directions.col(k))) > tolerances::kRate * system.UnitOf(constraint))
+          return true;
   return false;
 }
 

@@ -115,7 +115,8 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, std::optional<double> tar
   // No node moves further than the arc length, and that is hardly longer than the step.
   for (const Constraint& limit : system.InequalitiesInReach(step.start.x, kReach * step.length)) {
     const Quintic quintic = FunctionOf(system, step, limit);
-    const double zero = limit.inequality == Inequality::kSlip ? tolerances::kLevel : tolerances::kBrokenOnStep;
+    const double zero =
+        limit.inequality == Inequality::kSlip ? tolerances::kLevel : tolerances::kBrokenOnStep * system.UnitOf(limit);
     if (const std::optional<double> t = FirstNegative(quintic, step.length, zero)) {
       consider(EventKind::kContactEvent, *t, limit);
       continue;

@@ -312,6 +312,12 @@ Residuals ResidualCheck::Check(const CheckedState& before, const CheckedState& n
   return residuals;
 }
 
+std::vector<double> ResidualCheck::Unbalance(const CheckedState& state) const {
+  prepared_->RequireSizes(state);
+  const std::vector<Real> unbalance = prepared_->Unbalance(state);
+  return {unbalance.begin(), unbalance.end()};
+}
+
 double ResidualCheck::DrivingForce(const CheckedState& state) const {
   const Prepared& scene = *prepared_;
   scene.RequireSizes(state);

@@ -1,5 +1,8 @@
 #include "contact_path/contact/contact_pair.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace contact_path {
 
 PairVector ContactPair::SecondDirectional(const Eigen::VectorXd& u, double s, double rn, double rt,
@@ -46,6 +49,15 @@ double ContactPair::Rate(const PairVector& gradient, const Eigen::Ref<const Eige
 void ContactPair::AddForce(const PairVector& gradient, double factor, Eigen::VectorXd* out) const {
   Eigen::Index k = 0;
   for (const int dof : Dofs()) (*out)[dof] += factor * gradient[k++];
+}
+
+double LargestReaction(const ContactPairs& contacts, const PathPoint& point) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    largest = std::max(largest, std::max(std::abs(point.rn[k]), std::abs(point.rt[k])) / contacts[i]->ForceUnit());
+  }
+  return largest;
 }
 
 Eigen::VectorXd SurfaceCoordinates(const ContactPairs& contacts, const PathPoint& point) {

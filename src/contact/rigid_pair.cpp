@@ -71,9 +71,19 @@ Eigen::Matrix2d XiHessianChange(const Projection& at, const Eigen::Vector2d& v) 
          bend_change * d.t * d.t.transpose() + bend * Symmetric(change.t, d.t);
 }
 
+// Scaling by a power of 2 is exact. The powers are far apart, so that nearly all scenes have the unit 1.
+constexpr int kPowersApart = 20;  // 2^20 is about 1e6
+
+// The smallest unit that is no less than `bound`, and at most 1.
+double ForceUnitAbove(double bound) {
+  if (!(bound > 0.0) || !(bound < 1.0)) return 1.0;
+  return std::ldexp(1.0, kPowersApart * static_cast<int>(std::ceil(std::log2(bound) / kPowersApart)));
+}
+
 }  // namespace
 
-RigidPair::RigidPair(std::shared_ptr<const Surface> surface, const NodeMotion& motion, double friction)
+RigidPair::RigidPair(std::shared_ptr<const Surface> surface, const NodeMotion& motion, double friction,
+                     const Eigen::VectorXd& force_bounds)
     : surface_(std::move(surface)), held_(Eigen::Vector2d::Zero()) {
   Traits traits;
   traits.friction = friction;
@@ -108,6 +118,13 @@ RigidPair::RigidPair(std::shared_ptr<const Surface> surface, const NodeMotion& m
       traits.moves_xi[static_cast<std::size_t>(i)] = xi_gradient_[i] != 0.0;
     }
     traits.largest_gap_rate = 1.0 + std::abs(gap_gradient_[last]);
+  }
+  if (force_bounds.size() > 0) {
+    double bound = 0.0;
+    for (std::size_t i = 0; i < traits.dofs.size(); ++i)
+      bound +=
+          (traits.curved ? 1.0 : std::abs(gap_gradient_[static_cast<Eigen::Index>(i)])) * force_bounds[traits.dofs[i]];
+    traits.force_unit = ForceUnitAbove(bound);
   }
   SetTraits(std::move(traits));
 }

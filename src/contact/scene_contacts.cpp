@@ -37,6 +37,7 @@ ContactPairs BuildContacts(const Scene& scene, const SceneIndex& index, const St
   for (const ObstacleMotion& motion : scene.obstacle_motions)
     obstacles[index.Obstacle(motion.obstacle)].velocity = {motion.dx, motion.dy};
 
+  const Eigen::VectorXd force_bounds = structure.ForceBounds();
   ContactPairs contacts;
   for (const ContactCandidate& candidate : scene.contacts) {
     const std::size_t at = index.Obstacle(candidate.obstacle);
@@ -45,7 +46,8 @@ ContactPairs BuildContacts(const Scene& scene, const SceneIndex& index, const St
     const NodeMotion motion = {
         {structure.Dof(node, 0), structure.Dof(node, 1)}, structure.StartPosition(node), obstacles[at].velocity};
     const bool can_slide = CanSlide(motion.dofs[0] >= 0, motion.dofs[1] >= 0, obstacle);
-    contacts.push_back(std::make_unique<RigidPair>(obstacles[at].surface, motion, can_slide ? obstacle.friction : 0.0));
+    contacts.push_back(
+        std::make_unique<RigidPair>(obstacles[at].surface, motion, can_slide ? obstacle.friction : 0.0, force_bounds));
   }
   return contacts;
 }

@@ -316,6 +316,10 @@ double FixedStateSystem::Value(const Constraint& constraint, const Eigen::Vector
   return terms.rn * reaction.rn + terms.rt * reaction.rt;
 }
 
+double FixedStateSystem::UnitOf(const Constraint& constraint) const {
+  return IsMotion(constraint) ? 1.0 : contacts_[static_cast<std::size_t>(constraint.contact)]->ForceUnit();
+}
+
 double FixedStateSystem::Rate(const Constraint& constraint, const Eigen::VectorXd& x, const Eigen::VectorXd& dx) const {
   if (!IsMotion(constraint)) return Value(constraint, dx);
   const Motion motion = MotionOf(constraint);

@@ -20,6 +20,24 @@ double Trend(double rate, double change, double level) {
   return std::abs(change) > level ? change : 0.0;
 }
 
+// Gaps of one size are all active or none: a tolerance that lies among them is widened to the largest.
+double CoverGaps(const ContactPairs& contacts, const PathPoint& point, double tolerance) {
+  std::vector<double> beyond;
+  bool among = false;
+  for (const auto& contact : contacts) {
+    const double gap = contact->Gap(point.u, point.s);
+    among = among || (gap > 0.5 * tolerance && gap <= tolerance);
+    if (gap > tolerance && gap <= tolerances::kWidestActiveGap) beyond.push_back(gap);
+  }
+  if (!among) return tolerance;
+  std::sort(beyond.begin(), beyond.end());
+  for (const double gap : beyond) {
+    if (gap > 2.0 * tolerance) break;
+    tolerance = gap;
+  }
+  return tolerance;
+}
+
 std::string NoBranch(const BranchSet& on) {
   if (on.rigid_modes > 0)
     return "no admissible branch, and the structure is a mechanism here: nothing resists " +
@@ -84,7 +102,7 @@ bool BranchMethod::Leave(const PathPoint& point, const Branch& branch) {
 }
 
 void BranchMethod::NoteReactions(const PathPoint& point) {
-  largest_reaction_ = std::max(largest_reaction_, LargestReaction(point));
+  largest_reaction_ = std::max(largest_reaction_, LargestReaction(model_.contacts, point));
 }
 
 Arrival BranchMethod::StartArrival() const {
@@ -98,7 +116,8 @@ Arrival BranchMethod::StartArrival() const {
 std::optional<EndReason> BranchMethod::LeaveEvent(const PathPoint& point, const Arrival& arrival,
                                                   const BranchChoice* choice, EventRecord* record,
                                                   std::string* message) {
-  const ActiveSetTolerance limit = ActiveSetTolerance::For(largest_reaction_, point.s);
+  ActiveSetTolerance limit = ActiveSetTolerance::For(largest_reaction_, point.s);
+  limit.gap = CoverGaps(model_.contacts, point, limit.gap);
   const BranchSet on = FindBranches(
       model_.structure, model_.contacts, point, arrival, limit,
       [this](const PathPoint& at, const Eigen::VectorXd& along) { return StatesOfShortIncrements(at, along, &mpec_); },

@@ -35,12 +35,13 @@ std::string PullingContact(const Model& model, const PathPoint& point, double la
   const double most = std::max(tolerances::kReactionRounding, tolerances::kPullOfLargest * largest_reaction);
   for (std::size_t i = 0; i < model.contacts.size(); ++i) {
     const double pull = -point.rn[static_cast<Eigen::Index>(i)];
-    if (!(pull > most)) continue;
+    const double unit = model.contacts[i]->ForceUnit();
+    if (!(pull > most * unit)) continue;
     std::ostringstream out;
     out.imbue(std::locale::classic());
     out.precision(2);
     out << "contact " << model.scene.contacts[i].Name() << " pulls with " << pull
-        << " of the characteristic force, where contacts have pushed with at most " << largest_reaction
+        << " of the characteristic force, where contacts have pushed with at most " << largest_reaction * unit
         << ": reactions so small cannot be told from rounding";
     return out.str();
   }

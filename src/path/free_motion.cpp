@@ -36,8 +36,8 @@ Eigen::SparseMatrix<double> Resistance(const Model& model, const PathPoint& poin
   for (const PrescribedDof& prescribed : model.structure.PrescribedDofs())
     entries.emplace_back(prescribed.dof, equation++, 1.0);
   for (std::size_t i = 0; i < model.contacts.size(); ++i) {
-    if (!(point.rn[static_cast<Eigen::Index>(i)] > force)) continue;
     const ContactPair& pair = *model.contacts[i];
+    if (!(point.rn[static_cast<Eigen::Index>(i)] > force * pair.ForceUnit())) continue;
     Kinematics kinematics;
     pair.Evaluate(point.u, point.s, 0.0, &kinematics);
     AddEquation(pair, kinematics.gap_gradient, equation++, &entries);

@@ -37,9 +37,10 @@ constexpr double kSmallestStepRatio = 1e-7;  // of the wanted step
 bool IsNearlyActive(const ContactPair& contact, const PathPoint& point, std::size_t i) {
   const auto k = static_cast<Eigen::Index>(i);
   const bool open = point.states[i] == ContactState::kOpen;
-  if ((open ? contact.Gap(point.u, point.s) : point.rn[k]) <= tolerances::kNearlyActive) return true;
+  const double unit = contact.ForceUnit();
+  if ((open ? contact.Gap(point.u, point.s) : point.rn[k] / unit) <= tolerances::kNearlyActive) return true;
   return point.states[i] == ContactState::kStick &&
-         contact.Friction() * point.rn[k] - std::abs(point.rt[k]) <= tolerances::kNearlyActive;
+         contact.Friction() * point.rn[k] - std::abs(point.rt[k]) <= tolerances::kNearlyActive * unit;
 }
 
 bool SomeNearlyActive(const ContactPairs& contacts, const PathPoint& point) {
@@ -256,7 +257,7 @@ bool MpecMethod::EndAtTarget(const PathPoint& from, const std::vector<ContactSta
   const NearestPoint nearest = FindNearestPoint(&system, start, start.head(from.u.size() + 1));
   if (!nearest.converged) return false;
   for (const Constraint& limit : system.Inequalities())
-    if (system.Value(limit, nearest.x) < -tolerances::kBrokenAtPoint) return false;
+    if (system.Value(limit, nearest.x) < -tolerances::kBrokenAtPoint * system.UnitOf(limit)) return false;
   PathPoint point = system.Unpack(nearest.x);
   if (Distance(from, point) > kFarthestTarget * Distance(from, to)) return false;
   trial->residuals = model_.Check(from, point);

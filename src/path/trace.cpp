@@ -259,7 +259,10 @@ class Tracer {
     const Residuals residuals = model.Check(point_, point_);
     if (!(residuals.Largest() <= tolerances::kAcceptedExact))
       return End(EndReason::kNumericalFailure, "the start is not an equilibrium");
-    if (const std::string soft = ContactTooSoft(model, point_, tolerances::kSoftestContact); !soft.empty())
+    // Method branch measures reactions by the force unit of the contact; where loads drive the path, the load factor is
+    // as small as the reactions, though.
+    const bool measured = request_.options.method == Method::kBranch && model.structure.ReferenceLoad().isZero(0.0);
+    if (const std::string soft = ContactTooSoft(model, point_, tolerances::kSoftestContact); !measured && !soft.empty())
       return End(EndReason::kNumericalFailure, soft);
     const std::unique_ptr<PathMethod> method = MakeMethod(model, TargetOf(model, stage), recorder_.increments());
     EventRecord branches;
@@ -288,7 +291,7 @@ class Tracer {
     return FollowStage(model, stage, method.get());
   }
 
-  // The increments of the stage up to the one to go on from. Returns their largest reaction, scaled.
+  // The increments of the stage up to the one to go on from. Returns their largest reaction, in force units.
   double RememberStage(const Model& model, const Resumption& resumption) {
     std::optional<PathPoint> before;
     double largest_reaction = 0.0;
@@ -296,8 +299,8 @@ class Tracer {
       if (increment.index > resumption.from->index) break;
       if (increment.stage != resumption.from->stage || increment.positions.empty()) continue;
       PathPoint point = model.FromIncrement(increment);
-      largest_load_ = std::max(largest_load_, std::abs(point.s));
-      largest_reaction = std::max(largest_reaction, LargestReaction(point));
+      NotePoint(point);
+      largest_reaction = std::max(largest_reaction, LargestReaction(model.contacts, point));
       if (before) returns_->Add(increment.index, *before, point);
       before = std::move(point);
     }
@@ -306,7 +309,9 @@ class Tracer {
 
   void NotePoint(const PathPoint& point) {
     largest_load_ = std::max(largest_load_, std::abs(point.s));
-    if (point.rn.size() > 0) largest_reaction_ = std::max(largest_reaction_, point.rn.maxCoeff());
+    for (std::size_t i = 0; i < model_->contacts.size(); ++i)
+      largest_reaction_ =
+          std::max(largest_reaction_, point.rn[static_cast<Eigen::Index>(i)] / model_->contacts[i]->ForceUnit());
   }
 
   bool FollowStage(const Model& model, std::size_t stage, PathMethod* method) {
@@ -373,7 +378,7 @@ class Tracer {
   std::unique_ptr<const Model> model_;     // of the stage
   std::optional<ReturnDetector> returns_;  // of the stage
   bool handing_out_ = false;               // an increment, to the caller
-  double largest_reaction_ = 0.0;          // r_n so far, scaled
+  double largest_reaction_ = 0.0;          // r_n so far, scaled, in the force unit of its contact
   double largest_load_ = 0.0;              // so far, scaled
   std::string remarks_;                    // for the end of the message
   TraceResult result_;

@@ -178,6 +178,23 @@ Eigen::VectorXd Structure::SupportReactions(const Eigen::Ref<const Eigen::Vector
   return reactions;
 }
 
+Eigen::VectorXd Structure::ForceBounds() const {
+  Eigen::VectorXd bounds = reference_load_.cwiseAbs() + constant_load_.cwiseAbs();
+  Scratch x_room, local_room;
+  for (const Part& part : parts_) {
+    auto x = x_room.Vector(part.dofs.size());
+    auto local = local_room.Square(part.dofs.size());
+    Gather(part, start_, x);
+    part.element->Tangent(x, local);
+    const Eigen::MatrixXd sizes = local.cwiseAbs();
+    for (std::size_t i = 0; i < part.dofs.size(); ++i)
+      if (part.dofs[i] >= 0)
+        bounds[part.dofs[i]] +=
+            part.element->Linear() ? sizes.row(static_cast<Eigen::Index>(i)).sum() : sizes.maxCoeff();
+  }
+  return bounds;
+}
+
 void Structure::Tangent(const Eigen::Ref<const Eigen::VectorXd>& u, Eigen::SparseMatrix<double>* tangent) const {
   std::fill_n(tangent->valuePtr(), tangent->nonZeros(), 0.0);
   Scratch x_room, local_room;

@@ -28,6 +28,7 @@ constexpr double kAtTarget = 1e-9;     // relative, of the load factor
 constexpr double kTurn = 1e-9;         // of the load factor: a smaller change is none
 constexpr double kPull = 2e-13;        // of a force: a contact that pulls with more is not at rounding
 constexpr double kPullShare = 0.02;    // of the largest reaction before: nor is one that pulls with more
+constexpr double kSoft = 1e-6;         // of F: where forces across a contact are smaller, F is no measure of them
 constexpr double kLongestArc = 1.05;   // of its chord: increments turn by less than 60 degrees
 
 bool AtTarget(double target, double load_factor) {
@@ -67,6 +68,7 @@ class Verifier {
       farthest = std::max({farthest, std::abs(obstacle.px), std::abs(obstacle.py)});
     rounding_ = kRecorded + kRoundings * std::numeric_limits<double>::epsilon() *
                                 (farthest / scaling_.length + load / scaling_.load_factor);
+    load_ = load;
     std::unordered_map<std::string, const Obstacle*> obstacles;
     for (const Obstacle& obstacle : scene_.obstacles) obstacles.emplace(obstacle.name, &obstacle);
     std::unordered_map<std::string, const ObstacleMotion*> motions;
@@ -91,6 +93,8 @@ class Verifier {
         surface.dy = motion->second->dy;
       }
       surfaces_.push_back(surface);
+      const double across = ForcesAcross(surface) / scaling_.force;
+      units_.push_back(across > 0.0 && across < kSoft ? across : 1.0);
     }
   }
 
@@ -261,20 +265,68 @@ class Verifier {
         Report("support ", node.name, " is not where it has to be");
     }
     for (std::size_t i = 0; i < surfaces_.size(); ++i) CheckContact(surfaces_[i], before, increment, i, tolerance);
+    if (increment.solve.exact) CheckSoftContacts(increment, tolerance);
     if (before_) CheckPiece(before, increment);
     if (before_) CheckWork(before, increment);
   }
 
+  // A bound of the forces across the surface on its node, of the loads and for a motion of L of the parts [force].
+  double ForcesAcross(const Surface& surface) const {
+    const auto across = [&surface](double fx, double fy) {
+      return std::abs(surface.nx * fx) + std::abs(surface.ny * fy);
+    };
+    double forces = 0.0;
+    for (const Bar& bar : scene_.bars) {
+      const std::size_t a = nodes_.at(bar.nodes[0]), b = nodes_.at(bar.nodes[1]);
+      if (a != surface.node && b != surface.node) continue;
+      const std::vector<double>& at = configuration_.reference;
+      const double span = std::hypot(at[2 * b] - at[2 * a], at[2 * b + 1] - at[2 * a + 1]);
+      forces += bar.EA / (bar.rest_length > 0.0 ? bar.rest_length : span) * scaling_.length;
+    }
+    for (const Superelement& part : scene_.superelements) {
+      const std::size_t size = 2 * part.nodes.size();
+      for (std::size_t k = 0; k < size; k += 2)
+        for (std::size_t j = 0; j < size && nodes_.at(part.nodes[k / 2]) == surface.node; ++j)
+          forces += across(part.stiffness[k * size + j], part.stiffness[(k + 1) * size + j]) * scaling_.length;
+    }
+    for (const Load& load : scene_.loads)
+      if (nodes_.at(load.node) == surface.node) forces += across(load.fx, load.fy) * (load.constant ? 1.0 : load_);
+    return forces;
+  }
+
+  // Equilibrium across the surfaces and the laws of reactions where F is no measure of them.
+  void CheckSoftContacts(const Increment& increment, double tolerance) {
+    if (std::all_of(units_.begin(), units_.end(), [](double unit) { return unit == 1.0; })) return;
+    const std::vector<double> unbalance = check_.Unbalance(StateOf(increment));
+    for (std::size_t i = 0; i < surfaces_.size(); ++i) {
+      if (units_[i] == 1.0) continue;
+      const Surface& surface = surfaces_[i];
+      const Node& node = scene_.nodes[surface.node];
+      const double unit = units_[i] * scaling_.force;
+      const double rn = increment.contacts[i].rn / unit, rt = increment.contacts[i].rt / unit;
+      const double fx = node.fixed_x ? 0.0 : surface.nx * unbalance[2 * surface.node];
+      const double fy = node.fixed_y ? 0.0 : surface.ny * unbalance[2 * surface.node + 1];
+      Bound("equilibrium residual across " + surface.name + ", of the forces there", std::abs(fx + fy) / unit,
+            tolerance);
+      Bound("tensile reaction of " + surface.name + ", of the forces there", -rn, tolerance);
+      Bound("gap and reaction of " + surface.name + " are both positive",
+            std::min(increment.contacts[i].gap / scaling_.length, rn), tolerance);
+      Bound("reaction of " + surface.name + " outside of the friction cone, of the forces there",
+            std::abs(rt) - surface.friction * rn, tolerance);
+    }
+  }
+
   // Where reactions are so small that the residuals above cannot tell: against what contacts have pushed with.
   void CheckPull(const Increment& increment) {
-    for (const ContactRecord& contact : increment.contacts)
-      result_.largest_reaction = std::max(result_.largest_reaction, contact.rn / scaling_.force);
+    for (std::size_t i = 0; i < increment.contacts.size(); ++i)
+      result_.largest_reaction =
+          std::max(result_.largest_reaction, increment.contacts[i].rn / (units_[i] * scaling_.force));
     const double most = std::max(kPull, kPullShare * result_.largest_reaction);
     for (std::size_t i = 0; i < increment.contacts.size(); ++i) {
-      const double pull = -increment.contacts[i].rn / scaling_.force;
+      const double pull = -increment.contacts[i].rn / (units_[i] * scaling_.force);
       if (pull > most)
-        Report(surfaces_[i].name, " pulls with ", pull,
-               " of the characteristic force, where contacts push with at most ", result_.largest_reaction);
+        Report(surfaces_[i].name, " pulls with ", pull, " of the forces there, where contacts push with at most ",
+               result_.largest_reaction);
     }
   }
 
@@ -477,6 +529,8 @@ class Verifier {
   std::vector<double> rates_;          // of the fixed components, per unit of the load factor
   std::size_t increment_ = 0;          // being checked
   std::optional<std::size_t> before_;  // the last full increment
+  std::vector<double> units_;          // by contact: forces across it that count as 1, over F
+  double load_ = 0.0;                  // largest load factor
   double rounding_ = 0.0;              // of what was recorded, scaled
   double open_ = 0.0;                  // what trapezoids leave open of works and dissipations
   Verification& result_;

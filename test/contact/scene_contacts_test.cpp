@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <memory>
+
 #include "support/derivative_checker.h"
 #include "support/kinematics.h"
 #include "support/mixed_scene.h"
@@ -99,6 +102,34 @@ TEST(SceneContacts, ObstaclesMoveWithTheLoadFactor) {
   const ContactPair& slope = *contacts[0];  // n = (0.6, 0.8), t = (0.8, -0.6), velocity (0.4, 0.1)
   EXPECT_NEAR(slope.Gap(u, 2.0) - slope.Gap(u, 0.0), -2.0 * (0.6 * 0.4 + 0.8 * 0.1), kRounding);
   EXPECT_NEAR(slope.Xi(u, 2.0) - slope.Xi(u, 0.0), -2.0 * (0.8 * 0.4 - 0.6 * 0.1), kRounding);
+}
+
+// A node on a part that is softer across the floor than along it.
+double ForceUnitOf(double along, double across, bool beside_a_bar = false, double load = 0.0) {
+  Scene scene;
+  scene.nodes = {{"p", 0.0, 0.0, false, false}, {"q", 1.0, 0.0, true, true}};
+  scene.superelements = {{{"p"}, {along, 0.0, 0.0, across}}};
+  if (beside_a_bar) scene.bars = {{{"p", "q"}, 1.0, 0.0, StrainMeasure::kBiot}};
+  scene.loads = {{"p", 0.0, load, false}};
+  scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.5}};
+  scene.contacts = {{"p", "floor"}};
+  const Structure structure(scene);
+  return BuildContacts(scene, structure).at(0)->ForceUnit();
+}
+
+TEST(ForceUnit, FollowsForcesAcrossTheSurfaceDown) {
+  EXPECT_EQ(ForceUnitOf(1.0, 1.0), 1.0);
+  EXPECT_EQ(ForceUnitOf(1.0, 1e9), 1.0);
+  EXPECT_EQ(ForceUnitOf(1.0, 2e-6), 1.0);
+  EXPECT_EQ(ForceUnitOf(1.0, 1e-10), std::ldexp(1.0, -20));
+  EXPECT_EQ(ForceUnitOf(1.0, 1e-13), std::ldexp(1.0, -40));
+  EXPECT_EQ(ForceUnitOf(1e-10, 1.0), 1.0);
+}
+
+// A bar turns: it may come to act across, too.
+TEST(ForceUnit, CountsBarsInAllDirectionsAndLoads) {
+  EXPECT_EQ(ForceUnitOf(1.0, 1e-10, true), 1.0);
+  EXPECT_EQ(ForceUnitOf(1.0, 1e-10, false, -0.1), 1.0);
 }
 
 }  // namespace

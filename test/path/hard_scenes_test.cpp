@@ -43,23 +43,6 @@ TEST(HardScenes, ReactionThatTouchesItsConeWhereSlipOnceTurned) {
   }
 }
 
-// Pressed with 5e-12 of F, and lifted: it comes off, or the trace says that it cannot tell.
-TEST(HardScenes, ContactThatIsSoftAcrossAndStiffAlong) {
-  for (const Method method : {Method::kBranch, Method::kMpec}) {
-    const TracedPath path = TraceData("soft_across_stiff_along", method, Accuracy::kFast);
-    if (path.result.reason != EndReason::kStopCriterion) {
-      EXPECT_EQ(path.result.reason, EndReason::kNumericalFailure) << path.result.message;
-    }
-    for (const Increment& increment : path.increments) {
-      // k = 1e-10: what the support of the spring has moved up since the press, less the depth of the press.
-      const double lifted = PositionY(path, increment, "c") - 1.0;
-      EXPECT_NEAR(increment.contacts[0].gap, std::max(lifted, 0.0), 2e-3)
-          << ToString(method) << ", increment " << increment.index;
-      EXPECT_NEAR(increment.contacts[0].rn, 1e-10 * std::max(-lifted, 0.0), 2e-13);
-    }
-  }
-}
-
 TEST(HardScenes, BarWithoutLengthThatMeetsAWall) {
   for (const Accuracy accuracy : kPresets) {
     const TracedPath path = TraceData("zero_length_at_wall", Method::kBranch, accuracy);

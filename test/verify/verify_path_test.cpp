@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "contact_path/scene/read_scene.h"
 #include "support/traced_path.h"
 
 namespace contact_path {
@@ -264,6 +265,42 @@ TEST(VerifyPath, FindingsHaveAnEnd) {
   std::vector<Increment> increments = Genuine().increments;
   for (Increment& increment : increments) increment.load_factor += 1.0;
   EXPECT_EQ(VerifyPath(Genuine().request, increments).findings.size(), static_cast<std::size_t>(kMostFindings));
+}
+
+// Pressed with 5e-12 of F and lifted: residuals over F see nothing of the reaction.
+class SoftContact : public testing::Test {
+ protected:
+  void SetUp() override {
+    path_ =
+        TraceIncrements(ReadTraceRequestFile(std::string(CONTACT_PATH_TEST_DATA) + "/soft_across_stiff_along.yaml"));
+    ASSERT_EQ(path_.result.reason, EndReason::kStopCriterion) << path_.result.message;
+    pressed_ = path_.increments.size();
+    for (const Increment& increment : path_.increments)
+      if (increment.stage == 2 && increment.contacts[0].rn > 1e-12) pressed_ = static_cast<std::size_t>(increment.index);
+    ASSERT_LT(pressed_, path_.increments.size());
+  }
+
+  std::string FindingsWith(double rn) {
+    path_.increments[pressed_].contacts[0].rn = rn;
+    return Listed(VerifyPath(path_.request, path_.increments));
+  }
+
+  TracedPath path_;
+  std::size_t pressed_ = 0;
+};
+
+TEST_F(SoftContact, IsProved) {
+  const Verification verification = VerifyPath(path_.request, path_.increments);
+  EXPECT_TRUE(verification.findings.empty()) << Listed(verification);
+}
+
+TEST_F(SoftContact, MustNotPull) {
+  EXPECT_NE(FindingsWith(-1e-12).find("pulls"), std::string::npos) << FindingsWith(-1e-12);
+}
+
+TEST_F(SoftContact, MustBeInEquilibrium) {
+  const double rn = path_.increments[pressed_].contacts[0].rn;
+  EXPECT_NE(FindingsWith(1.1 * rn).find("equilibrium residual across"), std::string::npos) << FindingsWith(1.1 * rn);
 }
 
 }  // namespace

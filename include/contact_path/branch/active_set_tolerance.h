@@ -31,7 +31,8 @@ struct ActiveSetTolerance {
 inline bool IsWeaklyActive(const FixedStateSystem& system, const Constraint& constraint, const Eigen::VectorXd& x,
                            const ActiveSetTolerance& tolerance) {
   if (constraint.inequality == Inequality::kSlip) return true;
-  return system.Value(constraint, x) <= (constraint.inequality == Inequality::kGap ? tolerance.gap : tolerance.force);
+  const double largest = constraint.inequality == Inequality::kGap ? tolerance.gap : tolerance.force;
+  return system.Value(constraint, x) <= largest * system.UnitOf(constraint);
 }
 
 }  // namespace contact_path

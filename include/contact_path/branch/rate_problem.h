@@ -45,11 +45,13 @@ class RateProblem {
   std::optional<CondensedRates> UniqueRates(const std::vector<ContactState>& states) const;
 
   // The first inequality at its limit that these rates, times sign, break by more than `tolerance` of the largest rate
-  // of its kind; all of them in `all` if that is not null. active: value below which an inequality is at its limit.
+  // of its kind; all of them in `all` if that is not null. active: value below which an inequality is at its limit, for
+  // reactions in the force unit of the contact, as `tolerance`.
   std::optional<Constraint> Broken(const std::vector<ContactState>& states, const CondensedRates& rates, double sign,
                                    double active, double tolerance, std::vector<Constraint>* all) const;
 
  private:
+  double Unit(Eigen::Index k) const;  // force unit of a weakly active contact
   Eigen::MatrixXd Equations(const std::vector<ContactState>& states) const;
   std::optional<CondensedRates> RatesOf(Eigen::VectorXd z) const;
   // Columns span the solutions of equations . z = 0; they are not scaled.

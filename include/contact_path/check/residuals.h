@@ -53,6 +53,8 @@ class ResidualCheck {
   // Residuals of `now`, reached from `before` in one increment (for the first increment: `before` = `now`).
   // Throws std::invalid_argument where the sizes are not those of the scene.
   Residuals Check(const CheckedState& before, const CheckedState& now) const;
+  // phi - T r by component x0, y0, x1, ... [force]; of a fixed component, the force that holds it.
+  std::vector<double> Unbalance(const CheckedState& state) const;
   // The force that moving supports and obstacles exert along their motion per unit of the load factor [force length]:
   // the integral over the load factor is their work.
   double DrivingForce(const CheckedState& state) const;

@@ -25,6 +25,9 @@ class ContactPair {
   const std::vector<int>& Dofs() const { return traits_.dofs; }  // into u, ascending
   double Friction() const { return traits_.friction; }           // mu; 0 where the pair cannot slide
   bool Frictional() const { return traits_.friction > 0.0; }
+  // A power of 2 up to 1, of the order of the forces across the surface where the parts at the node are far softer than
+  // the structure as a whole: reactions are compared with tolerances times this force.
+  double ForceUnit() const { return traits_.force_unit; }
   // Whether Hessians can be other than zero.
   bool Curved() const { return traits_.curved; }
   // Whether the gradient of the gap, of xi, can be other than zero in the entry k of q: their sparsity.
@@ -64,6 +67,7 @@ class ContactPair {
   struct Traits {
     std::vector<int> dofs;
     double friction = 0.0;
+    double force_unit = 1.0;
     bool curved = false;
     Terms moves_gap, moves_xi;
     double largest_gap_rate = 1.0;
@@ -77,6 +81,9 @@ class ContactPair {
 
 // In scene order.
 using ContactPairs = std::vector<std::unique_ptr<const ContactPair>>;
+
+// Largest of all |r_n| and |r_t|, in the force unit of the contact.
+double LargestReaction(const ContactPairs& contacts, const PathPoint& point);
 
 // xi of all candidates, measured from 0.
 Eigen::VectorXd SurfaceCoordinates(const ContactPairs& contacts, const PathPoint& point);

@@ -23,7 +23,9 @@ struct NodeMotion {
 class RigidPair : public ContactPair {
  public:
   // friction: mu; 0 where the node cannot slide (scene/can_slide.h).
-  RigidPair(std::shared_ptr<const Surface> surface, const NodeMotion& motion, double friction);
+  // force_bounds: of Structure::ForceBounds(); without them, the force unit is 1.
+  RigidPair(std::shared_ptr<const Surface> surface, const NodeMotion& motion, double friction,
+            const Eigen::VectorXd& force_bounds = Eigen::VectorXd());
 
   void Evaluate(const Eigen::VectorXd& u, double s, double reference, Kinematics* kinematics) const override;
   double Gap(const Eigen::VectorXd& u, double s) const override;

@@ -66,6 +66,8 @@ class FixedStateSystem {
   // The same without the gaps at x that an increment of length `reach` cannot close.
   std::vector<Constraint> InequalitiesInReach(const Eigen::VectorXd& x, double reach) const;
   double Value(const Constraint& constraint, const Eigen::VectorXd& x) const;
+  // What tolerances of the values and rates are multiplied with: 1, or for reactions the force unit of the contact.
+  double UnitOf(const Constraint& constraint) const;
   // Change of the value per change dx of the unknowns at x, and its gradient, NumUnknowns().
   double Rate(const Constraint& constraint, const Eigen::VectorXd& x, const Eigen::VectorXd& dx) const;
   Eigen::VectorXd Gradient(const Constraint& constraint, const Eigen::VectorXd& x) const;

@@ -75,7 +75,7 @@ class BranchMethod : public PathMethod {
   bool after_singular_ = false;    // the last increment is where another path crosses
   int events_in_place_ = 0;        // passed without moving
   bool at_start_ = true;           // not moved yet
-  double largest_reaction_ = 0.0;  // of the points so far
+  double largest_reaction_ = 0.0;  // of the points so far, in the force unit of its contact
 };
 
 }  // namespace contact_path

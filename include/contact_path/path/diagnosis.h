@@ -21,7 +21,7 @@ std::string ContactTooSoft(const Model& model, const PathPoint& point, double le
 
 // Names a contact that pulls at its node, by a share of what any contact has pushed with so far and by more than
 // rounding: it should have opened, and did not since its reactions are too small beside the characteristic force; else
-// empty. largest_reaction: r_n, scaled, at least that of the point.
+// empty. largest_reaction: r_n, scaled, over the force unit of its contact, no less than those of the point.
 std::string PullingContact(const Model& model, const PathPoint& point, double largest_reaction);
 
 }  // namespace contact_path

@@ -43,7 +43,7 @@ struct ResumePoint {
   PathPoint before;               // of the last increment before it that has its state on record
   PathPoint point;                // its own
   SolveRecord solve;              // recorded of it
-  double largest_reaction = 0.0;  // scaled, normal or tangential, of all increments of its stage up to it
+  double largest_reaction = 0.0;  // in force units, of all increments of its stage up to it
 };
 
 class PathMethod {

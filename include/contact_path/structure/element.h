@@ -26,6 +26,8 @@ class Element {
   virtual ~Element() = default;
 
   virtual const std::vector<LocalDof>& Dofs() const = 0;
+  // Whether the tangent is the same everywhere, in directions that do not turn.
+  virtual bool Linear() const { return false; }
   // W(x) [force length].
   virtual double Energy(const Eigen::Ref<const Eigen::VectorXd>& x) const = 0;
   // force = dW/dx, m [force].

@@ -52,6 +52,10 @@ class Structure {
   // The values of all Dofs().Components(), the unknown ones from u.
   Eigen::VectorXd AllValues(const Eigen::VectorXd& u) const;
 
+  // By unknown: an upper bound of the forces on it at the start per unit of a motion of the elements, and of the loads.
+  // An element that is not linear may turn: its largest stiffness counts in all directions.
+  Eigen::VectorXd ForceBounds() const;
+
   // Strain energy [force length].
   double Energy(const Eigen::VectorXd& u) const;
   // Gradient of the strain energy, NumDofs().

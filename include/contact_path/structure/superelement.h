@@ -19,6 +19,7 @@ class LinearSuperelement : public Element {
         dofs_(PositionsOfNodes(static_cast<int>(initial_.size() / kPositionComponents))) {}
 
   const std::vector<LocalDof>& Dofs() const override { return dofs_; }
+  bool Linear() const override { return true; }
   double Energy(const Eigen::Ref<const Eigen::VectorXd>& x) const override {
     return 0.5 * (x - initial_).dot(stiffness_ * (x - initial_));
   }
