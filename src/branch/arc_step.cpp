@@ -7,7 +7,7 @@
 namespace contact_path {
 namespace {
 
-constexpr double kPredictionAfterSingular = 0.05;  // largest error of the predictor there, where no smaller one is met
+constexpr double kCoarsePrediction = 0.05;  // largest error of the predictor where no smaller one is met
 constexpr int kLocatingAttempts = 6;
 
 // A whole step with this length along the tangent; nothing where it has to be shorter.
@@ -57,12 +57,14 @@ bool EndAtFirstEvent(SmoothArc* arc, std::optional<double> target, ArcStep* at) 
 
 }  // namespace
 
-std::optional<ArcStep> NextStep(SmoothArc* arc, const CurvePoint& start, double length, bool after_singular,
-                                const StepLimits& limits, std::optional<double> target) {
+std::optional<ArcStep> NextStep(SmoothArc* arc, const CurvePoint& start, double length, const StepLimits& limits,
+                                std::optional<double> target) {
   double tried = length, prediction = limits.prediction;
   for (int rejected = 0;; ++rejected) {
-    if (tried < limits.smallest && after_singular && prediction == limits.prediction) {
-      prediction = kPredictionAfterSingular;
+    // Where another path crosses, or an imperfection has broken the crossing, points are less exact than the predictor
+    // of a short step.
+    if (tried < limits.smallest && prediction == limits.prediction) {
+      prediction = kCoarsePrediction;
       tried = length;
     }
     if (tried < limits.smallest) return std::nullopt;

@@ -65,25 +65,31 @@ std::optional<CurvePoint> LocateRate(SmoothArc* arc, const Step& step, double t,
 struct Bracket {
   double t = 0.0;  // middle
   double width = 0.0;
+  bool sure = true;  // false: the ends of the step may be on two curves
 };
 
 // Where the determinant changes its sign; nothing where it does so because the ends of the step are on two curves. Next
 // to a bifurcation that a small imperfection has broken, a step may leap from one curve to the other.
 std::optional<Bracket> FindBifurcation(SmoothArc* arc, const Step& step) {
   const Eigen::Index n = step.normal.size();
+  const double narrow = tolerances::kLeapWidth * step.length;
   double before = 0.0, beyond = step.length;
   CurvePoint near_before = step.start, near_beyond = step.end;
   for (int i = 0; i < kBisections && beyond - before > tolerances::kBifurcationWidth * step.length; ++i) {
+    double width = beyond - before;
+    const auto on_two_curves = [&] {
+      const double apart = (near_beyond.x - near_before.x).head(n).norm();
+      return width >= tolerances::kLeapNarrowest && apart > kLeap * width + tolerances::kLeapRounding / width;
+    };
     const double t = 0.5 * (before + beyond);
     const std::optional<CurvePoint> point = PointAt(arc, step, t);
-    if (!point || point->pivot_sign == 0) return Bracket{t, beyond - before};  // singular to rounding
+    if (!point) return Bracket{t, width, width <= tolerances::kUnreachedWidth * step.length && !on_two_curves()};
+    if (point->pivot_sign == 0) return Bracket{t, width};  // singular to rounding
     const bool is_before = point->pivot_sign == step.start.determinant_sign;
     (is_before ? before : beyond) = t;
     (is_before ? near_before : near_beyond) = *point;
-    const double width = beyond - before;
-    if (width > tolerances::kLeapWidth * step.length || width < tolerances::kLeapNarrowest) continue;
-    const double apart = (near_beyond.x - near_before.x).head(n).norm();
-    if (apart > kLeap * width + tolerances::kLeapRounding / width) return std::nullopt;
+    width = beyond - before;
+    if (width <= narrow && on_two_curves()) return std::nullopt;
   }
   return Bracket{0.5 * (before + beyond), beyond - before};
 }
@@ -146,7 +152,8 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, std::optional<double> tar
     if (first.kind != EventKind::kNone && apart <= near)
       first.singular = true;
     else if (bifurcation->t < first.t)
-      first = {EventKind::kBifurcation, bifurcation->t, {}, true};
+      first = {
+          bifurcation->sure ? EventKind::kBifurcation : EventKind::kTooLong, bifurcation->t, {}, bifurcation->sure};
   }
   // Whatever lies behind the target, however near, is not of this path.
   if (target)

@@ -313,15 +313,14 @@ std::optional<EndReason> BranchMethod::PassContactEvent(const ArcStep& at, Accep
 void BranchMethod::SetNextLength(const ArcStep& at) {
   // As long as wanted unless this step had to be shortened.
   step_length_ = std::min(options_.step, at.rejected > 0 ? 1.5 * at.tried : 2.0 * step_length_);
-  after_singular_ = at.event.singular;
-  if (after_singular_) step_length_ *= kAfterSingular;
+  if (at.event.singular) step_length_ *= kAfterSingular;
 }
 
 Advance BranchMethod::Next(const PathPoint& from) {
   if (begin_) return ChangeReactions(from);
   const int factorisations_before = arc_.factorisations();
   const StepLimits limits = {options_.smallest_step, options_.prediction, options_.smallest_cosine};
-  std::optional<ArcStep> at = NextStep(&arc_, current_, step_length_, after_singular_, limits, options_.target);
+  std::optional<ArcStep> at = NextStep(&arc_, current_, step_length_, limits, options_.target);
   if (!at) return Ended(EndReason::kStepTooSmall, NoStep(from));
   const std::optional<int> returned = EndAtReturn(from, &*at);
 

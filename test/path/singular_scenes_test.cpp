@@ -317,8 +317,7 @@ TEST(SingularScenes, StartAtALimitPoint) {
   EXPECT_EQ(begun, 1);
 }
 
-// Imperfections down to rounding: the path goes on past the bifurcation that they break, or is one with it. Between
-// both the turn is too sharp to be followed with some steps, and the trace says so.
+// Imperfections down to rounding: the path goes on past the bifurcation that they break, or is one with it.
 TEST(SingularScenes, HighTrussWithTinyImperfections) {
   for (const double imperfection : {1e-6, 1e-10, 1e-12, 1e-13, 1e-14, 1e-16, 0.0})
     for (const Accuracy accuracy : kPresets) {
@@ -328,9 +327,33 @@ TEST(SingularScenes, HighTrussWithTinyImperfections) {
       request.options.max_increments = 400;
       request.options.stop = {{"n.x", ">", 0.5}, {"n.y", "<", 1.0}};
       const TracedPath path = TraceProved(request);
-      if (imperfection == 1e-10 && path.result.reason == EndReason::kStepTooSmall) continue;
       EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << imperfection << ": " << path.result.message;
     }
+}
+
+// A step as long as wanted leaps from the symmetric path, which the imperfection ends, over to where it would go on,
+// and there is no bifurcation in between: the path turns, and sways as the crossing path of the symmetric truss does.
+TEST(SingularScenes, BrokenBifurcationOfATruss) {
+  const auto load_when_swayed = [](const TraceRequest& request) {
+    const TracedPath path = TraceProved(request);
+    EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+    EXPECT_EQ(IncrementsOfKind(path, IncrementKind::kBifurcation).size(), request.options.branch_choices.size());
+    const Increment &before = path.increments[path.increments.size() - 2], &last = path.increments.back();
+    const double x = PositionX(path, last, "n1R"), moved = x - PositionX(path, before, "n1R");
+    return last.load_factor + (last.load_factor - before.load_factor) * (0.2 - x) / moved;
+  };
+  TraceRequest symmetric = ReadData("broken_bifurcation");
+  symmetric.scene.nodes[3].x = 0.75;
+  symmetric.scene.nodes[5].x = 0.5;
+  symmetric.scene.loads[0].fx = 0.0;
+  symmetric.options.branch_choices = {{1, 0, 3}};
+  const double expected = load_when_swayed(symmetric);
+  for (const Accuracy accuracy : kPresets) {
+    TraceRequest request = ReadData("broken_bifurcation");
+    request.options.accuracy = accuracy;
+    request.options.max_increments = 1000;
+    EXPECT_NEAR(load_when_swayed(request), expected, 1e-3);
+  }
 }
 
 // A chain of soft bars on a rough floor, dragged at either end, that pushes a von Mises truss, equal bars or not:

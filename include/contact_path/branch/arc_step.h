@@ -25,11 +25,12 @@ struct ArcStep {
 };
 
 // The step from `start`, a point of the arc, along its tangent: of this length, or of the first half, quarter, ... of
-// it that Newton's method, the limits and the location of the first event accept. after_singular: another path crosses
-// at `start`, which is then as inexact as rounding of the forces across both paths may be; where no step meets the
-// limits, the predictor may be further off. target: load factor to end at. Nothing: no step is accepted, however short.
-std::optional<ArcStep> NextStep(SmoothArc* arc, const CurvePoint& start, double length, bool after_singular,
-                                const StepLimits& limits, std::optional<double> target);
+// it that Newton's method, the limits and the location of the first event accept.
+// Where no step meets the limits, the predictor may be further off: at a point where another path crosses, or nearly,
+// rounding of the forces across both paths hides how good it is. target: load factor to end at. Nothing: no step is
+// accepted, however short.
+std::optional<ArcStep> NextStep(SmoothArc* arc, const CurvePoint& start, double length, const StepLimits& limits,
+                                std::optional<double> target);
 
 }  // namespace contact_path
 

@@ -72,7 +72,6 @@ class BranchMethod : public PathMethod {
   double step_length_;
   int increments_;                 // given so far, increment 0 not counted
   int events_;                     // passed so far, starts not counted
-  bool after_singular_ = false;    // the last increment is where another path crosses
   int events_in_place_ = 0;        // passed without moving
   bool at_start_ = true;           // not moved yet
   double largest_reaction_ = 0.0;  // of the points so far, in the force unit of its contact
