@@ -118,9 +118,8 @@ class Finder {
     return broken;
   }
 
-  bool Admissible(const Eigen::VectorXd& x, const Eigen::VectorXd& first, const Eigen::VectorXd& second) const {
-    const Eigen::Index n = NumMotion();
-    if (arrival_.is_start && !SetsOut(first[n - 1], second[n - 1])) return false;
+  bool Admissible(const Eigen::VectorXd& x, const Eigen::VectorXd& first, const Eigen::VectorXd& second) {
+    if (arrival_.is_start && !SetsOut(x, first, second)) return false;
     if (!arrival_.is_start && IsReversed(first)) return false;
     for (const Constraint& limit : system_.Inequalities()) {
       if (!IsWeaklyActive(system_, limit, x, tolerance_)) continue;
@@ -135,11 +134,28 @@ class Finder {
     return true;
   }
 
-  // Whether the load starts to change in the wanted sense. At a smooth limit point it rests, and its curvature tells.
-  bool SetsOut(double load_rate, double load_curvature) const {
-    const double sense = arrival_.direction[NumMotion() - 1];
-    if (load_rate * sense > tolerances::kUnitComponent) return true;
-    return std::abs(load_rate) <= tolerances::kRate && load_curvature * sense > tolerances::kCurvature;
+  // Whether the load starts to change in the wanted sense. At a smooth limit point it rests, and its curvature tells;
+  // where that is zero as well, as of a load across straight bars, the rate a little farther along the curve does.
+  bool SetsOut(const Eigen::VectorXd& x, const Eigen::VectorXd& first, const Eigen::VectorXd& second) {
+    const Eigen::Index s = NumMotion() - 1;
+    const double sense = arrival_.direction[s];
+    if (first[s] * sense > tolerances::kUnitComponent) return true;
+    if (std::abs(first[s]) > tolerances::kRate) return false;
+    if (std::abs(second[s]) > tolerances::kCurvature) return second[s] * sense > 0.0;
+    return LoadRateAhead(x, first, second) * sense > tolerances::kRate;
+  }
+
+  // 0 where the curve has no tangent there. The error of the Taylor polynomial is of a higher order than the rate.
+  double LoadRateAhead(const Eigen::VectorXd& x, const Eigen::VectorXd& first, const Eigen::VectorXd& second) {
+    const Eigen::Index n = NumMotion();
+    const double length = tolerances::kAhead;
+    const Eigen::VectorXd ahead = x + length * first + 0.5 * length * length * second;
+    Eigen::VectorXd row = Eigen::VectorXd::Zero(system_.NumUnknowns());
+    row.head(n) = first.head(n);
+    BorderedSolver solver;
+    if (!solver.FactorizeRegular(system_.TransposedJacobian(ahead), row, tolerances::kRegularPivot)) return 0.0;
+    const Eigen::VectorXd tangent = solver.Solve(Eigen::VectorXd::Zero(system_.NumEquations()), 1.0);
+    return tangent[n - 1] / tangent.head(n).norm();
   }
 
   bool IsReversed(const Eigen::VectorXd& first) const {

@@ -331,6 +331,24 @@ TEST(SingularScenes, HighTrussWithTinyImperfections) {
     }
 }
 
+// Straight bars resist a load across them only by the third power of the way: the start has neither a rate of the load
+// nor a curvature, and the load goes on in the wanted sense with the apex on either side.
+TEST(SingularScenes, FlatTruss) {
+  for (const double direction : {1.0, -1.0})
+    for (const Accuracy accuracy : kPresets) {
+      TraceRequest request = ReadData("flat_truss");
+      request.options.accuracy = accuracy;
+      request.options.direction = direction;
+      const TracedPath path = TraceProved(request);
+      EXPECT_EQ(path.result.reason, EndReason::kMaxIncrements) << path.result.message;
+      for (const Increment& increment : path.increments) {
+        const double depth = -increment.positions[3], length = std::hypot(1.0, depth);
+        EXPECT_NEAR(increment.load_factor, 2.0 * (length - 1.0) * depth / length, 1e-10);
+      }
+      EXPECT_GT(path.increments.back().load_factor * direction, 0.1);
+    }
+}
+
 // A step as long as wanted leaps from the symmetric path, which the imperfection ends, over to where it would go on,
 // and there is no bifurcation in between: the path turns, and sways as the crossing path of the symmetric truss does.
 TEST(SingularScenes, BrokenBifurcationOfATruss) {
