@@ -189,6 +189,7 @@ if(CONTACT_PATH_ROS)
     # It waits for nodes: nothing beside it.
     set_property(TEST _ctest_${PROJECT_NAME}_python_service_stress_test PROPERTY RUN_SERIAL ON)
   endif()
+  contact_path_add_python_test(enumerate_branches_test test/stress/enumerate_branches_test.py)
   contact_path_add_python_test(install_test test/install/install_test.py DEPENDS ${contact_path_all_programs}
     VARIABLES CONTACT_PATH_ROOT=${CMAKE_CURRENT_SOURCE_DIR} CONTACT_PATH_BUILD=${CMAKE_BINARY_DIR})
 endif()

@@ -1,0 +1,72 @@
+"""The enumeration of branches, where they can be told by hand."""
+import os
+import sys
+import unittest
+
+import numpy as np
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from enumerate_branches import Problem, branches_from
+
+
+def row(load_factor, **positions):
+    """Of a CSV. positions: b=(x, y)."""
+    result = {'load_factor': str(load_factor)}
+    for name, (x, y) in positions.items():
+        result['x_' + name], result['y_' + name] = str(x), str(y)
+    return result
+
+
+def block(friction, walls=1):
+    """A node b on a floor, pressed with 1 and pulled with s, on a bar of stiffness 1. walls: 2 = a ceiling as well."""
+    floor = {'name': 'floor', 'px': 0.0, 'py': 0.0, 'nx': 0.0, 'ny': 1.0, 'friction': friction}
+    ceiling = {'name': 'ceiling', 'px': 0.0, 'py': 0.0, 'nx': 0.0, 'ny': -1.0, 'friction': friction}
+    return {'scene': {
+        'nodes': [{'name': 'a', 'x': 0.0, 'y': 0.0, 'fixed_x': True, 'fixed_y': True}, {'name': 'b', 'x': 1.0, 'y': 0.0}],
+        'bars': [{'nodes': ['a', 'b'], 'EA': 1.0}],
+        'loads': [{'node': 'b', 'fy': -1.0, 'constant': True}, {'node': 'b', 'fx': 1.0}],
+        'obstacles': [floor, ceiling][:walls],
+        'contacts': [{'node': 'b', 'obstacle': name} for name in ('floor', 'ceiling')[:walls]]}}
+
+
+ENDS = {'a': (0.0, 0.0), 'b': (1.0, 0.0)}
+
+
+class EnumerateBranchesTest(unittest.TestCase):
+    def test_sticking_goes_on_inside_the_cone(self):
+        branches = branches_from(Problem(block(0.5)), [row(0.0, **ENDS), row(0.2, **ENDS)])
+        self.assertEqual({tuple(branch.states.items()) for branch in branches}, {(('b@floor', 'stick'),)})
+        for branch in branches:
+            np.testing.assert_allclose(branch.motion, [0.0, 0.0, 1.0], atol=1e-6)
+
+    def test_slides_at_the_edge_of_the_cone(self):
+        branches = branches_from(Problem(block(0.5)), [row(0.0, **ENDS), row(0.5, **ENDS)])
+        self.assertEqual({tuple(branch.states.items()) for branch in branches}, {(('b@floor', 'slip+'),)})
+        for branch in branches:
+            np.testing.assert_allclose(branch.motion, [np.sqrt(0.5), 0.0, np.sqrt(0.5)], atol=1e-6)
+
+    def test_a_guide_holds_a_node_with_reactions_that_are_not_unique(self):
+        branches = branches_from(Problem(block(0.5, walls=2)), [row(0.0, **ENDS), row(0.5, **ENDS)])
+        states = {tuple(branch.states.values()) for branch in branches}
+        self.assertEqual(states, {('slip+', 'open'), ('stick', 'stick')})
+
+    def test_the_way_back_is_no_branch(self):
+        # Free sliding: the curve goes on and comes from the other side.
+        branches = branches_from(Problem(block(0.0)), [row(0.0, **ENDS), row(0.1, a=(0.0, 0.0), b=(1.1, 0.0))])
+        self.assertEqual(len(branches), 1)
+        np.testing.assert_allclose(branches[0].motion, [np.sqrt(0.5), 0.0, np.sqrt(0.5)], atol=1e-6)
+
+    def test_a_start_has_the_wanted_sense(self):
+        # Bars in one line: s = u^3 for a small way u across.
+        request = {'scene': {
+            'nodes': [{'name': 'a', 'x': -1.0, 'y': 0.0, 'fixed_x': True, 'fixed_y': True}, {'name': 'b', 'x': 0.0, 'y': 0.0},
+                      {'name': 'c', 'x': 1.0, 'y': 0.0, 'fixed_x': True, 'fixed_y': True}],
+            'bars': [{'nodes': ['a', 'b'], 'EA': 1.0}, {'nodes': ['b', 'c'], 'EA': 1.0}],
+            'loads': [{'node': 'b', 'fy': -1.0}]}}
+        branches = branches_from(Problem(request), [row(0.0, a=(-1.0, 0.0), b=(0.0, 0.0), c=(1.0, 0.0))])
+        self.assertEqual(len(branches), 1)
+        np.testing.assert_allclose(branches[0].motion, [0.0, -1.0, 0.0], atol=1e-4)
+
+
+if __name__ == '__main__':
+    unittest.main()
