@@ -1,7 +1,6 @@
 #include "contact_path/ros/convert.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -21,76 +20,88 @@ namespace {
 namespace msgs = contact_path_msgs;
 using Response = msgs::TracePathResponse;
 
-// A type of the core and the message constants of its values, one pair each.
-template <typename Value, std::size_t kSize>
-using Table = std::array<std::pair<Value, std::uint8_t>, kSize>;
+// The message constants of a type of the core, one pair for each value. Other enumerations are words in messages.
+template <typename Value>
+struct Constants;
 
-constexpr Table<ContactState, 5> kContactStates{{
-    {ContactState::kOpen, msgs::ContactState::OPEN},
-    {ContactState::kStick, msgs::ContactState::STICK},
-    {ContactState::kSlipPlus, msgs::ContactState::SLIP_PLUS},
-    {ContactState::kSlipMinus, msgs::ContactState::SLIP_MINUS},
-    {ContactState::kClosed, msgs::ContactState::CLOSED},
-}};
+template <>
+struct Constants<ContactState> {
+  static constexpr std::pair<ContactState, std::uint8_t> kAll[] = {
+      {ContactState::kOpen, msgs::ContactState::OPEN},
+      {ContactState::kStick, msgs::ContactState::STICK},
+      {ContactState::kSlipPlus, msgs::ContactState::SLIP_PLUS},
+      {ContactState::kSlipMinus, msgs::ContactState::SLIP_MINUS},
+      {ContactState::kClosed, msgs::ContactState::CLOSED},
+  };
+};
 
-constexpr Table<IncrementKind, 6> kIncrementKinds{{
-    {IncrementKind::kStart, msgs::Increment::START},
-    {IncrementKind::kRegular, msgs::Increment::REGULAR},
-    {IncrementKind::kSmoothLimit, msgs::Increment::SMOOTH_LIMIT},
-    {IncrementKind::kCornerLimit, msgs::Increment::CORNER_LIMIT},
-    {IncrementKind::kContactEvent, msgs::Increment::CONTACT_EVENT},
-    {IncrementKind::kBifurcation, msgs::Increment::BIFURCATION},
-}};
+template <>
+struct Constants<IncrementKind> {
+  static constexpr std::pair<IncrementKind, std::uint8_t> kAll[] = {
+      {IncrementKind::kStart, msgs::Increment::START},
+      {IncrementKind::kRegular, msgs::Increment::REGULAR},
+      {IncrementKind::kSmoothLimit, msgs::Increment::SMOOTH_LIMIT},
+      {IncrementKind::kCornerLimit, msgs::Increment::CORNER_LIMIT},
+      {IncrementKind::kContactEvent, msgs::Increment::CONTACT_EVENT},
+      {IncrementKind::kBifurcation, msgs::Increment::BIFURCATION},
+  };
+};
 
-constexpr Table<Method, 2> kMethods{{
-    {Method::kBranch, msgs::Increment::BRANCH},
-    {Method::kMpec, msgs::Increment::MPEC},
-}};
+template <>
+struct Constants<Method> {
+  static constexpr std::pair<Method, std::uint8_t> kAll[] = {
+      {Method::kBranch, msgs::Increment::BRANCH},
+      {Method::kMpec, msgs::Increment::MPEC},
+  };
+};
 
-constexpr Table<EndReason, 9> kEndReasons{{
-    {EndReason::kNumericalFailure, Response::END_NUMERICAL_FAILURE},
-    {EndReason::kStopCriterion, Response::END_STOP_CRITERION},
-    {EndReason::kMaxIncrements, Response::END_MAX_INCREMENTS},
-    {EndReason::kPathEnd, Response::END_PATH_END},
-    {EndReason::kStepTooSmall, Response::END_STEP_TOO_SMALL},
-    {EndReason::kCancelled, Response::END_CANCELLED},
-    {EndReason::kNoSuchBranch, Response::END_NO_SUCH_BRANCH},
-    {EndReason::kClosedPath, Response::END_CLOSED_PATH},
-    {EndReason::kMemoryLimit, Response::END_MEMORY_LIMIT},
-}};
+template <>
+struct Constants<EndReason> {
+  static constexpr std::pair<EndReason, std::uint8_t> kAll[] = {
+      {EndReason::kNumericalFailure, Response::END_NUMERICAL_FAILURE},
+      {EndReason::kStopCriterion, Response::END_STOP_CRITERION},
+      {EndReason::kMaxIncrements, Response::END_MAX_INCREMENTS},
+      {EndReason::kPathEnd, Response::END_PATH_END},
+      {EndReason::kStepTooSmall, Response::END_STEP_TOO_SMALL},
+      {EndReason::kCancelled, Response::END_CANCELLED},
+      {EndReason::kNoSuchBranch, Response::END_NO_SUCH_BRANCH},
+      {EndReason::kClosedPath, Response::END_CLOSED_PATH},
+      {EndReason::kMemoryLimit, Response::END_MEMORY_LIMIT},
+  };
+};
 
-template <typename Value, std::size_t kSize>
-std::uint8_t ConstantOf(const Table<Value, kSize>& table, Value value) {
-  for (const auto& [known, constant] : table) {
+template <typename Value>
+std::uint8_t ConstantOf(Value value) {
+  for (const auto& [known, constant] : Constants<Value>::kAll) {
     if (known == value) return constant;
   }
   throw std::logic_error("a value of the core has no message constant");
 }
 
-template <typename Value, std::size_t kSize>
-Value ValueOf(const Table<Value, kSize>& table, std::uint8_t constant, const std::string& field) {
-  for (const auto& [value, known] : table) {
+template <typename Value>
+Value ValueOf(std::uint8_t constant, const KeyPath& path) {
+  for (const auto& [value, known] : Constants<Value>::kAll) {
     if (known == constant) return value;
   }
-  throw std::invalid_argument(field + " = " + std::to_string(constant) + ": no known constant");
+  throw std::invalid_argument(path.ToString() + " = " + std::to_string(constant) + ": no known constant");
 }
 
 std::uint32_t ToCount(int count) { return static_cast<std::uint32_t>(count); }
 
-int FromCount(std::uint32_t count, const std::string& field) {
+int FromCount(std::uint32_t count, const KeyPath& path) {
   if (count > static_cast<std::uint32_t>(std::numeric_limits<int>::max())) {
-    throw std::invalid_argument(field + " = " + std::to_string(count) + ": too large");
+    throw std::invalid_argument(path.ToString() + " = " + std::to_string(count) + ": too large");
   }
   return static_cast<int>(count);
 }
 
-// "event.branches[3].states".
-std::string Key(const std::string& list, std::size_t index, const std::string& field) {
-  return list + "[" + std::to_string(index) + "]." + field;
-}
+template <typename T>
+constexpr bool kIsEnumList = false;
+template <typename T>
+constexpr bool kIsEnumList<std::vector<T>> = std::is_enum_v<T>;
 
 // Copies parts of messages to parts of the core, which have fields of the same names. Words that are not known become
-// violations.
+// violations; constants that are not known, and counts that are too large, throw std::invalid_argument.
 class FromMessages {
  public:
   template <typename From, typename To>
@@ -99,11 +110,15 @@ class FromMessages {
       ForEachFieldPair<To, From>([&](const auto& field, const auto& message_field) {
         Copy(from.*message_field.member, path.Key(field.name), &(to->*field.member));
       });
-    } else if constexpr (kIsPartList<To>) {
+    } else if constexpr (kIsPartList<To> || kIsEnumList<To>) {
       to->resize(from.size());
       for (std::size_t i = 0; i < from.size(); ++i) Copy(from[i], path[i], &(*to)[i]);
-    } else if constexpr (std::is_enum_v<To>) {
+    } else if constexpr (std::is_enum_v<To> && std::is_same_v<From, std::string>) {
       CopyWord(from, path, to);
+    } else if constexpr (std::is_enum_v<To>) {
+      *to = ValueOf<To>(from, path);
+    } else if constexpr (std::is_same_v<To, int> && std::is_same_v<From, std::uint32_t>) {
+      *to = FromCount(from, path);
     } else if constexpr (std::is_same_v<To, bool>) {
       *to = from != 0;
     } else {
@@ -129,18 +144,22 @@ class FromMessages {
   std::vector<Violation> violations_;
 };
 
-// The other way round; words are written out.
+// Copies parts of the core to parts of messages; words are written out.
 template <typename From, typename To>
 void CopyToMessage(const From& from, To* to) {
   if constexpr (kIsPart<From>) {
     ForEachFieldPair<From, To>([&](const auto& field, const auto& message_field) {
       CopyToMessage(from.*field.member, &(to->*message_field.member));
     });
-  } else if constexpr (kIsPartList<From>) {
+  } else if constexpr (kIsPartList<From> || kIsEnumList<From>) {
     to->resize(from.size());
     for (std::size_t i = 0; i < from.size(); ++i) CopyToMessage(from[i], &(*to)[i]);
-  } else if constexpr (std::is_enum_v<From>) {
+  } else if constexpr (std::is_enum_v<From> && std::is_same_v<To, std::string>) {
     *to = ToString(from);
+  } else if constexpr (std::is_enum_v<From>) {
+    *to = ConstantOf(from);
+  } else if constexpr (std::is_same_v<From, int> && std::is_same_v<To, std::uint32_t>) {
+    *to = ToCount(from);
   } else {
     *to = from;
   }
@@ -169,43 +188,6 @@ Result SameResult(const msgs::TracePathResponse& response) {
   return result;
 }
 
-msgs::Event ToMessage(const EventRecord& event) {
-  msgs::Event message;
-  for (const BranchRecord& branch : event.branches) {
-    msgs::Branch& to = message.branches.emplace_back();
-    for (const ContactState state : branch.states) to.states.push_back(ConstantOf(kContactStates, state));
-    to.load_rate = branch.load_rate;
-    to.dissipation_rate = branch.dissipation_rate;
-    to.turn = branch.turn;
-  }
-  message.number = ToCount(event.number);
-  message.taken = ToCount(event.taken);
-  message.weakly_active = ToCount(event.weakly_active);
-  message.complete = event.complete;
-  message.null_vector = event.null_vector;
-  return message;
-}
-
-EventRecord FromMessage(const msgs::Event& message) {
-  EventRecord event;
-  for (std::size_t i = 0; i < message.branches.size(); ++i) {
-    const msgs::Branch& branch = message.branches[i];
-    BranchRecord& to = event.branches.emplace_back();
-    for (const std::uint8_t state : branch.states) {
-      to.states.push_back(ValueOf(kContactStates, state, Key("event.branches", i, "states")));
-    }
-    to.load_rate = branch.load_rate;
-    to.dissipation_rate = branch.dissipation_rate;
-    to.turn = branch.turn;
-  }
-  event.number = FromCount(message.number, "event.number");
-  event.taken = FromCount(message.taken, "event.taken");
-  event.weakly_active = FromCount(message.weakly_active, "event.weakly_active");
-  event.complete = message.complete != 0;
-  event.null_vector = message.null_vector;
-  return event;
-}
-
 }  // namespace
 
 TraceRequest FromMessage(const msgs::Scene& scene, const msgs::TraceOptions& options,
@@ -231,11 +213,8 @@ msgs::TraceRequest ToRequest(const msgs::TracePathGoal& goal) { return SameReque
 
 msgs::Increment ToMessage(const Increment& increment, int full_state_every) {
   msgs::Increment message;
-  message.index = ToCount(increment.index);
-  message.stage = ToCount(increment.stage);
-  message.load_factor = increment.load_factor;
-  message.arc_length = increment.arc_length;
-  message.kind = ConstantOf(kIncrementKinds, increment.kind);
+  CopyToMessage(increment, &message);
+  CopyToMessage(increment.solve, &message);
   if (increment.kind != IncrementKind::kRegular || increment.index % std::max(full_state_every, 1) == 0) {
     message.x.reserve(increment.positions.size() / 2);
     message.y.reserve(increment.positions.size() / 2);
@@ -243,18 +222,8 @@ msgs::Increment ToMessage(const Increment& increment, int full_state_every) {
       message.x.push_back(increment.positions[i]);
       message.y.push_back(increment.positions[i + 1]);
     }
-    message.contacts.reserve(increment.contacts.size());
-    for (const ContactRecord& contact : increment.contacts) {
-      msgs::ContactState& to = message.contacts.emplace_back();
-      to.gap = contact.gap;
-      to.rn = contact.rn;
-      to.rt = contact.rt;
-      to.state = ConstantOf(kContactStates, contact.state);
-    }
+    CopyToMessage(increment.contacts, &message.contacts);
   }
-  message.dissipation = increment.dissipation;
-  message.strain_energy = increment.strain_energy;
-  message.external_work = increment.external_work;
   message.equilibrium_residual = increment.residuals.equilibrium;
   message.penetration_residual = increment.residuals.penetration;
   message.tensile_reaction_residual = increment.residuals.tensile_reaction;
@@ -263,22 +232,7 @@ msgs::Increment ToMessage(const Increment& increment, int full_state_every) {
   message.friction_law_residual = increment.residuals.friction_law;
   message.complementarity_residual = increment.residuals.Contact();
   message.support_residual = increment.residuals.support;
-  message.method = ConstantOf(kMethods, increment.solve.method);
-  message.regularisation = increment.solve.regularisation;
-  message.exact = increment.solve.exact;
-  message.iterations = ToCount(increment.solve.iterations);
-  message.variables = ToCount(increment.solve.variables);
-  message.constraints = ToCount(increment.solve.constraints);
-  message.rejected = ToCount(increment.solve.rejected);
-  message.factorisations = ToCount(increment.solve.factorisations);
-  message.nullity = ToCount(increment.solve.nullity);
-  message.determinant_sign = increment.solve.determinant_sign;
-  message.stiffness_sign = increment.solve.stiffness_sign;
-  message.contraction = increment.solve.contraction;
-  message.next_step = increment.solve.next_step;
-  message.gamma2_factor = increment.solve.gamma2_factor;
   message.solve_time = increment.solve.time;
-  message.event = ToMessage(increment.event);
   return message;
 }
 
@@ -288,23 +242,14 @@ Increment FromMessage(const msgs::Increment& message) {
                                 std::to_string(message.y.size()));
   }
   Increment increment;
-  increment.index = FromCount(message.index, "index");
-  increment.stage = FromCount(message.stage, "stage");
-  increment.load_factor = message.load_factor;
-  increment.arc_length = message.arc_length;
-  increment.kind = ValueOf(kIncrementKinds, message.kind, "kind");
+  FromMessages from;
+  from.Copy(message, KeyPath(), &increment);
+  from.Copy(message, KeyPath(), &increment.solve);
+  from.Copy(message.contacts, KeyPath("contacts"), &increment.contacts);
   for (std::size_t i = 0; i < message.x.size(); ++i) {
     increment.positions.push_back(message.x[i]);
     increment.positions.push_back(message.y[i]);
   }
-  for (std::size_t i = 0; i < message.contacts.size(); ++i) {
-    const msgs::ContactState& contact = message.contacts[i];
-    const ContactState state = ValueOf(kContactStates, contact.state, Key("contacts", i, "state"));
-    increment.contacts.push_back({contact.gap, contact.rn, contact.rt, state});
-  }
-  increment.dissipation = message.dissipation;
-  increment.strain_energy = message.strain_energy;
-  increment.external_work = message.external_work;
   increment.residuals.equilibrium = message.equilibrium_residual;
   increment.residuals.penetration = message.penetration_residual;
   increment.residuals.tensile_reaction = message.tensile_reaction_residual;
@@ -312,22 +257,7 @@ Increment FromMessage(const msgs::Increment& message) {
   increment.residuals.cone = message.cone_residual;
   increment.residuals.friction_law = message.friction_law_residual;
   increment.residuals.support = message.support_residual;
-  increment.solve.method = ValueOf(kMethods, message.method, "method");
-  increment.solve.regularisation = message.regularisation;
-  increment.solve.exact = message.exact != 0;
-  increment.solve.iterations = FromCount(message.iterations, "iterations");
-  increment.solve.variables = FromCount(message.variables, "variables");
-  increment.solve.constraints = FromCount(message.constraints, "constraints");
-  increment.solve.rejected = FromCount(message.rejected, "rejected");
-  increment.solve.factorisations = FromCount(message.factorisations, "factorisations");
-  increment.solve.nullity = FromCount(message.nullity, "nullity");
-  increment.solve.determinant_sign = message.determinant_sign;
-  increment.solve.stiffness_sign = message.stiffness_sign;
-  increment.solve.contraction = message.contraction;
-  increment.solve.next_step = message.next_step;
-  increment.solve.gamma2_factor = message.gamma2_factor;
   increment.solve.time = message.solve_time;
-  increment.event = FromMessage(message.event);
   return increment;
 }
 
@@ -338,18 +268,18 @@ std::vector<msgs::LimitPoint> ToMessages(const std::vector<LimitPoint>& points) 
     msgs::LimitPoint& to = messages.emplace_back();
     to.index = ToCount(point.index);
     to.stage = ToCount(point.stage);
-    to.kind = ConstantOf(kIncrementKinds, point.kind);
+    to.kind = ConstantOf(point.kind);
     to.load_factor = point.load_factor;
   }
   return messages;
 }
 
-std::uint8_t ToConstant(EndReason reason) { return ConstantOf(kEndReasons, reason); }
+std::uint8_t ToConstant(EndReason reason) { return ConstantOf(reason); }
 
 std::string EndReasonName(std::uint8_t end_reason) {
   if (end_reason == Response::END_NONE) return "";
   if (end_reason == Response::END_TIME_LIMIT) return "time_limit";
-  return std::string(ToString(ValueOf(kEndReasons, end_reason, "end_reason")));
+  return std::string(ToString(ValueOf<EndReason>(end_reason, KeyPath("end_reason"))));
 }
 
 std::string EndMessage(const std::string& name, const std::string& why, const PathSummary& path,

@@ -1,12 +1,18 @@
 // One accepted increment of a path, as data, in the units of the scene.
+//
+// Each struct is followed by the description of the fields (scene/field.h) that a message has under the same name: the
+// conversion from and to messages goes through it. A new field of increments is a member and its description here, and
+// the field of the same name in the message.
 #ifndef CONTACT_PATH_PATH_INCREMENT_H_
 #define CONTACT_PATH_PATH_INCREMENT_H_
 
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "contact_path/check/residuals.h"
 #include "contact_path/contact/contact_state.h"
+#include "contact_path/scene/field.h"
 #include "contact_path/scene/scene.h"
 
 namespace contact_path {
@@ -26,6 +32,14 @@ struct ContactRecord {
   double rn = 0.0;                           // normal reaction on the node [force], >= 0
   double rt = 0.0;                           // tangential reaction along t = (n_y, -n_x) [force]
   ContactState state = ContactState::kOpen;  // on the arc of the path that ends in this increment
+};
+
+template <>
+struct Fields<ContactRecord> {
+  template <typename P>
+  static constexpr auto Of() {
+    return std::tuple(Member("gap", &P::gap), Member("rn", &P::rn), Member("rt", &P::rt), Member("state", &P::state));
+  }
 };
 
 // What it took to compute the increment. Counts are of the last problem solved for it; iterations and time are sums.
@@ -49,12 +63,36 @@ struct SolveRecord {
   double time = 0.0;           // wall time [s]
 };
 
+// All fields except the time, which the message calls solve_time.
+template <>
+struct Fields<SolveRecord> {
+  template <typename P>
+  static constexpr auto Of() {
+    return std::tuple(Member("method", &P::method), Member("regularisation", &P::regularisation),
+                      Member("exact", &P::exact), Member("iterations", &P::iterations),
+                      Member("variables", &P::variables), Member("constraints", &P::constraints),
+                      Member("rejected", &P::rejected), Member("factorisations", &P::factorisations),
+                      Member("nullity", &P::nullity), Member("determinant_sign", &P::determinant_sign),
+                      Member("stiffness_sign", &P::stiffness_sign), Member("contraction", &P::contraction),
+                      Member("next_step", &P::next_step), Member("gamma2_factor", &P::gamma2_factor));
+  }
+};
+
 // One branch from an event: states and rates, by arc length in the scaled norm.
 struct BranchRecord {
   std::vector<ContactState> states;  // by candidate, in scene order
   double load_rate = 0.0;            // of the scaled load factor, -1..1
   double dissipation_rate = 0.0;     // scaled, >= 0
   double turn = 0.0;                 // angle to the direction of arrival [rad]
+};
+
+template <>
+struct Fields<BranchRecord> {
+  template <typename P>
+  static constexpr auto Of() {
+    return std::tuple(Member("states", &P::states), Member("load_rate", &P::load_rate),
+                      Member("dissipation_rate", &P::dissipation_rate), Member("turn", &P::turn));
+  }
 };
 
 // What the branch method found at an increment where branches part; empty elsewhere.
@@ -65,6 +103,16 @@ struct EventRecord {
   int weakly_active = 0;               // contacts that could change their state
   bool complete = true;                // false: too many combinations of states to try them all
   std::vector<double> null_vector;  // where another path crosses: its direction, x0, y0, x1, ..., unit norm; else empty
+};
+
+template <>
+struct Fields<EventRecord> {
+  template <typename P>
+  static constexpr auto Of() {
+    return std::tuple(Member("number", &P::number), Member("branches", &P::branches), Member("taken", &P::taken),
+                      Member("weakly_active", &P::weakly_active), Member("complete", &P::complete),
+                      Member("null_vector", &P::null_vector));
+  }
 };
 
 struct Increment {
@@ -81,6 +129,18 @@ struct Increment {
   Residuals residuals;                  // by check/, from the scene alone
   SolveRecord solve;
   EventRecord event;
+};
+
+// All fields except positions, contacts and residuals: a message has them in another form, or leaves them out.
+template <>
+struct Fields<Increment> {
+  template <typename P>
+  static constexpr auto Of() {
+    return std::tuple(Member("index", &P::index), Member("stage", &P::stage), Member("load_factor", &P::load_factor),
+                      Member("arc_length", &P::arc_length), Member("kind", &P::kind),
+                      Member("dissipation", &P::dissipation), Member("strain_energy", &P::strain_energy),
+                      Member("external_work", &P::external_work), Member("event", &P::event));
+  }
 };
 
 // What check/ looks at of an increment that has its state.
