@@ -6,6 +6,7 @@ add_library(contact_path_ros
   src/ros/convert.cpp
   src/ros/increment_publisher.cpp
   src/ros/limits.cpp
+  src/ros/marker_picture.cpp
   src/ros/marker_publisher.cpp
   src/ros/memory_share.cpp
   src/ros/resume.cpp
@@ -17,6 +18,7 @@ add_library(contact_path_ros
 add_dependencies(contact_path_ros ${PROJECT_NAME}_generate_messages_cpp)
 # The generated headers, and those of ROS that they include.
 #catkin_lint: ignore_once external_directory external_interface_path
+target_include_directories(contact_path_ros PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
 target_include_directories(contact_path_ros SYSTEM
   PUBLIC ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION} ${catkin_INCLUDE_DIRS})
 target_precompile_headers(contact_path_ros PRIVATE <ros/ros.h> <algorithm> <memory> <string> <vector>)

@@ -87,15 +87,14 @@ set(contact_path_extremes
 # path/path_method.h), and files that trace whole paths.
 contact_path_add_stage(support derivative_checker_test)
 contact_path_add_stage(scene can_slide_test change_units_test configuration_test field_test lattice_test nearest_name_test
-  one_line_test origin_test quantity_test read_scene_test scaling_test scene_index_test scene_test utf8_test validate_test
-  write_scene_test)
+  one_line_test origin_test quantity_test read_scene_test scaling_test scene_index_test scene_test surface_test utf8_test
+  validate_test write_scene_test)
 contact_path_add_stage(structure bar_test dof_map_test scene_elements_test structure_test superelement_test)
 contact_path_add_stage(linear bordered_solver_test generic_vector_test minimum_norm_test out_of_memory_test singular_vectors_test)
 find_library(SUITESPARSECONFIG_LIBRARY suitesparseconfig REQUIRED)
 target_include_directories(linear_tests SYSTEM PRIVATE ${SUITESPARSE_INCLUDE_DIR})
 target_link_libraries(linear_tests ${SUITESPARSECONFIG_LIBRARY})
-contact_path_add_stage(contact contact_pair_test contact_state_test path_point_test rigid_pair_test scene_contacts_test
-  surface_test)
+contact_path_add_stage(contact contact_pair_test contact_state_test path_point_test rigid_pair_test scene_contacts_test)
 contact_path_add_stage(equations fixed_state_system_test nearest_point_test)
 contact_path_add_stage(mpec increment_problem_test increment_solver_test ipopt_solver_test short_increment_test)
 contact_path_add_stage(branch arc_step_test branch_choices_test branch_order_test crossing_test curved_surface_test

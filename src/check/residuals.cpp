@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <limits>
 #include <map>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -13,18 +14,17 @@
 #include <utility>
 #include <vector>
 
+#include "check/elements.h"
+#include "check/plane.h"
+#include "check/surfaces.h"
+
 namespace contact_path {
 namespace {
 
-using Real = long double;
-
-struct Vector {
-  Real x = 0.0L;
-  Real y = 0.0L;
-};
-
-Vector operator-(const Vector& a, const Vector& b) { return {a.x - b.x, a.y - b.y}; }
-Real Dot(const Vector& a, const Vector& b) { return a.x * b.x + a.y * b.y; }
+using check::Dot;
+using check::NodePosition;
+using check::Real;
+using check::Vector;
 
 // The larger of the two. What is no finite double counts as infinite, so that NaN never passes as small.
 double Worst(double worst, Real value) {
@@ -46,100 +46,36 @@ void RequireSize(const std::vector<double>& values, std::size_t size, const char
                               std::to_string(size));
 }
 
-Vector NodePosition(const std::vector<double>& positions, std::size_t node) {
-  return {positions[2 * node], positions[2 * node + 1]};
-}
-
-// Of long double squares, which neither overflow nor vanish for finite doubles.
-Real Length(const Vector& v) { return std::sqrt(v.x * v.x + v.y * v.y); }
-
-struct BarLengths {
-  Real current = 0.0L;
-  Real rest = 0.0L;
-  Vector span;  // from the first node to the second
-};
-
-// e
-Real Strain(StrainMeasure measure, const BarLengths& lengths) {
-  const Real stretch = lengths.current / lengths.rest;
-  switch (measure) {
-    case StrainMeasure::kBiot: return stretch - 1.0L;
-    case StrainMeasure::kGreenLagrange: return (stretch * stretch - 1.0L) / 2.0L;
-    case StrainMeasure::kLogarithmic: return std::log(stretch);
-  }
-  return std::numeric_limits<Real>::quiet_NaN();
-}
-
-// de/dl / l: by Green and Lagrange's measure a bar of no length has one, too.
-Real StrainRatePerLength(StrainMeasure measure, const BarLengths& lengths) {
-  switch (measure) {
-    case StrainMeasure::kBiot: return 1.0L / (lengths.rest * lengths.current);
-    case StrainMeasure::kGreenLagrange: return 1.0L / (lengths.rest * lengths.rest);
-    case StrainMeasure::kLogarithmic: return 1.0L / (lengths.current * lengths.current);
-  }
-  return std::numeric_limits<Real>::quiet_NaN();
-}
-
 }  // namespace
-
-// The obstacle's frame and friction as a contact candidate sees them.
-struct ResidualCheck::Surface {
-  Vector point;
-  Vector normal;   // n, of length 1
-  Vector tangent;  // t = (n_y, -n_x)
-  Vector motion;   // of the point, per unit of the load factor
-  Real friction = 0.0L;
-
-  Vector Displacement(double load_factor) const { return {load_factor * motion.x, load_factor * motion.y}; }
-};
 
 // The scene with all names resolved; vectors in the order of the scene's lists.
 struct ResidualCheck::Prepared {
-  struct PreparedBar {
-    std::size_t first = 0, second = 0;
-    Real EA = 0.0L, rest = 0.0L;
-    StrainMeasure strain = StrainMeasure::kBiot;
-  };
-  struct PreparedPart {
-    std::vector<std::size_t> nodes;
-    std::vector<Real> stiffness;  // row by row
-    std::vector<double> rest;     // x0, y0, x1, ...
-  };
   struct PreparedLoad {
     std::size_t node = 0;
     Real fx = 0.0L, fy = 0.0L;
     bool constant = false;
   };
   struct PreparedContact {
+    // The node as the obstacle sees it.
+    Vector Position(const CheckedState& state) const {
+      return NodePosition(state.positions, node) - Vector{state.load_factor * motion.x, state.load_factor * motion.y};
+    }
+
     std::size_t node = 0;
-    Surface surface;
+    std::shared_ptr<const check::Surface> surface;
+    Vector motion;  // of the obstacle, per unit of the load factor
+    Real friction = 0.0L;
   };
 
   Prepared(const Scene& scene, const Configuration& configuration, const Scaling& scaling_in)
       : scaling(scaling_in), start(configuration.start) {
-    const std::vector<double>& reference = configuration.reference;
-    std::unordered_map<std::string_view, std::size_t> index;
+    check::NodeNumbers index;
     for (const Node& node : scene.nodes) {
       index.emplace(node.name, index.size());
       free.push_back(!node.fixed_x);
       free.push_back(!node.fixed_y);
     }
-    for (const Bar& bar : scene.bars) {
-      PreparedBar prepared{index.at(bar.nodes[0]), index.at(bar.nodes[1]), bar.EA, bar.rest_length, bar.strain};
-      if (bar.rest_length == 0.0)
-        prepared.rest = Length(NodePosition(reference, prepared.second) - NodePosition(reference, prepared.first));
-      bars.push_back(prepared);
-    }
-    for (const Superelement& part : scene.superelements) {
-      PreparedPart prepared;
-      for (const std::string& name : part.nodes) prepared.nodes.push_back(index.at(name));
-      prepared.stiffness.assign(part.stiffness.begin(), part.stiffness.end());
-      prepared.rest.assign(part.rest_positions.begin(), part.rest_positions.end());
-      if (prepared.rest.empty())
-        for (const std::size_t node : prepared.nodes)
-          prepared.rest.insert(prepared.rest.end(), {reference[2 * node], reference[2 * node + 1]});
-      parts.push_back(std::move(prepared));
-    }
+    elements = check::MakeElements(scene, index, configuration.reference);
     // Summed by node, so that what cancels does so before the load factor makes it large.
     std::map<std::pair<std::size_t, bool>, std::size_t> sums;
     for (const Load& load : scene.loads) {
@@ -153,75 +89,23 @@ struct ResidualCheck::Prepared {
       rates[2 * index.at(motion.node)] = motion.dx;
       rates[2 * index.at(motion.node) + 1] = motion.dy;
     }
-    std::unordered_map<std::string_view, Surface> surfaces;
-    for (const Obstacle& obstacle : scene.obstacles) {
-      const Vector along{obstacle.nx, obstacle.ny};
-      const Real length = Length(along);
-      Surface surface;
-      surface.point = {obstacle.px, obstacle.py};
-      surface.normal = {along.x / length, along.y / length};
-      surface.tangent = {surface.normal.y, -surface.normal.x};
-      surface.friction = obstacle.friction;
-      surfaces.emplace(obstacle.name, surface);
-    }
+    std::unordered_map<std::string_view, PreparedContact> obstacles;
+    for (const Obstacle& obstacle : scene.obstacles)
+      obstacles.emplace(obstacle.name, PreparedContact{0, check::MakeSurface(obstacle), {}, obstacle.friction});
     for (const ObstacleMotion& motion : scene.obstacle_motions)
-      surfaces.at(motion.obstacle).motion = {motion.dx, motion.dy};
+      obstacles.at(motion.obstacle).motion = {motion.dx, motion.dy};
     for (const ContactCandidate& contact : scene.contacts) {
-      const auto surface = surfaces.find(contact.obstacle);
-      if (surface == surfaces.end()) throw std::invalid_argument("no obstacle has the name " + contact.obstacle);
-      contacts.push_back({index.at(contact.node), surface->second});
+      const auto obstacle = obstacles.find(contact.obstacle);
+      if (obstacle == obstacles.end()) throw std::invalid_argument("no obstacle has the name " + contact.obstacle);
+      contacts.push_back(obstacle->second);
+      contacts.back().node = index.at(contact.node);
     }
-  }
-
-  BarLengths Measure(const PreparedBar& bar, const std::vector<double>& positions) const {
-    const Vector span = NodePosition(positions, bar.second) - NodePosition(positions, bar.first);
-    return {Length(span), bar.rest, span};
-  }
-
-  // x - X of the nodes of `part`, in its order.
-  std::vector<Real> Displacements(const PreparedPart& part, const std::vector<double>& positions) const {
-    std::vector<Real> displacements;
-    for (std::size_t i = 0; i < part.nodes.size(); ++i) {
-      const Vector moved = NodePosition(positions, part.nodes[i]) - NodePosition(part.rest, i);
-      displacements.push_back(moved.x);
-      displacements.push_back(moved.y);
-    }
-    return displacements;
-  }
-
-  // K d
-  static std::vector<Real> ElasticForces(const PreparedPart& part, const std::vector<Real>& displacements) {
-    const std::size_t size = displacements.size();
-    std::vector<Real> forces(size, 0.0L);
-    for (std::size_t row = 0; row < size; ++row) {
-      for (std::size_t column = 0; column < size; ++column) {
-        forces[row] += part.stiffness[row * size + column] * displacements[column];
-      }
-    }
-    return forces;
   }
 
   // phi - T r on each component x0, y0, x1, ...: internal forces less loads less reactions.
   std::vector<Real> Unbalance(const CheckedState& state) const {
     std::vector<Real> forces(state.positions.size(), 0.0L);
-    for (const PreparedBar& bar : bars) {
-      const BarLengths lengths = Measure(bar, state.positions);
-      // N = dW/dl = EA l0 e de/dl, along the bar: N / l times its span.
-      const Real per_length =
-          bar.EA * lengths.rest * Strain(bar.strain, lengths) * StrainRatePerLength(bar.strain, lengths);
-      const Vector pull{per_length * lengths.span.x, per_length * lengths.span.y};
-      forces[2 * bar.first] -= pull.x;
-      forces[2 * bar.first + 1] -= pull.y;
-      forces[2 * bar.second] += pull.x;
-      forces[2 * bar.second + 1] += pull.y;
-    }
-    for (const PreparedPart& part : parts) {
-      const std::vector<Real> elastic = ElasticForces(part, Displacements(part, state.positions));
-      for (std::size_t i = 0; i < part.nodes.size(); ++i) {
-        forces[2 * part.nodes[i]] += elastic[2 * i];
-        forces[2 * part.nodes[i] + 1] += elastic[2 * i + 1];
-      }
-    }
+    for (const auto& element : elements) element->AddForce(state.positions, &forces);
     for (const PreparedLoad& load : loads) {
       const Real factor = load.constant ? 1.0L : static_cast<Real>(state.load_factor);
       forces[2 * load.node] -= factor * load.fx;
@@ -229,9 +113,10 @@ struct ResidualCheck::Prepared {
     }
     for (std::size_t i = 0; i < contacts.size(); ++i) {
       if (state.rn[i] == 0.0 && state.rt[i] == 0.0) continue;
-      const auto& [node, surface] = contacts[i];
-      forces[2 * node] -= state.rn[i] * surface.normal.x + state.rt[i] * surface.tangent.x;
-      forces[2 * node + 1] -= state.rn[i] * surface.normal.y + state.rt[i] * surface.tangent.y;
+      const PreparedContact& contact = contacts[i];
+      const Vector normal = contact.surface->Normal(contact.Position(state)), tangent{normal.y, -normal.x};
+      forces[2 * contact.node] -= state.rn[i] * normal.x + state.rt[i] * tangent.x;
+      forces[2 * contact.node + 1] -= state.rn[i] * normal.y + state.rt[i] * tangent.y;
     }
     return forces;
   }
@@ -246,8 +131,7 @@ struct ResidualCheck::Prepared {
   std::vector<double> start;  // places at load factor 0: x0, y0, x1, ...
   std::vector<bool> free;     // the same components
   std::vector<double> rates;  // of the fixed ones, per unit of the load factor
-  std::vector<PreparedBar> bars;
-  std::vector<PreparedPart> parts;
+  std::vector<std::unique_ptr<const check::Element>> elements;
   std::vector<PreparedLoad> loads;
   std::vector<PreparedContact> contacts;
 };
@@ -289,24 +173,21 @@ Residuals ResidualCheck::Check(const CheckedState& before, const CheckedState& n
     residuals.support = Worst(residuals.support, std::abs(now.positions[i] - place) / scaling.length);
   }
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
-    const auto& [node, surface] = scene.contacts[i];
-    // As the obstacle sees it.
-    const Vector position = NodePosition(now.positions, node) - surface.Displacement(now.load_factor);
-    const Real gap = Dot(surface.normal, position - surface.point) / scaling.length;
-    if (now.rn[i] == 0.0 && now.rt[i] == 0.0) {  // all else is zero then, but for a gap that is closed too far
+    const Prepared::PreparedContact& contact = scene.contacts[i];
+    const Real gap = contact.surface->Gap(contact.Position(now)) / scaling.length;
+    if (now.rn[i] == 0.0 && now.rt[i] == 0.0) {  // then only a gap that is closed too far breaks a rule
       residuals.penetration = Worst(residuals.penetration, -gap);
       residuals.complementarity = Worst(residuals.complementarity, std::abs(std::min(gap, 0.0L)));
       continue;
     }
-    const Vector motion = position - (NodePosition(before.positions, node) - surface.Displacement(before.load_factor));
-    const Real slip = Dot(surface.tangent, motion) / scaling.length;
+    const Real slip = contact.surface->Slip(contact.Position(before), contact.Position(now)) / scaling.length;
     const Real rn = static_cast<Real>(now.rn[i]) / scaling.force;
     const Real rt = static_cast<Real>(now.rt[i]) / scaling.force;
-    const Real bound = surface.friction * std::max(rn, 0.0L);
+    const Real bound = contact.friction * std::max(rn, 0.0L);
     residuals.penetration = Worst(residuals.penetration, -gap);
     residuals.tensile_reaction = Worst(residuals.tensile_reaction, -rn);
     residuals.complementarity = Worst(residuals.complementarity, std::abs(std::min(gap, rn)));
-    residuals.cone = Worst(residuals.cone, std::abs(rt) - surface.friction * rn);
+    residuals.cone = Worst(residuals.cone, std::abs(rt) - contact.friction * rn);
     residuals.friction_law = Worst(residuals.friction_law, std::abs(rt - std::clamp(rt - slip, -bound, bound)));
   }
   return residuals;
@@ -325,25 +206,27 @@ double ResidualCheck::DrivingForce(const CheckedState& state) const {
   Real force = 0.0L;
   for (std::size_t i = 0; i < unbalance.size(); ++i) force += scene.rates[i] * unbalance[i];
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
-    const Surface& surface = scene.contacts[i].surface;
-    force += state.rn[i] * Dot(surface.normal, surface.motion) + state.rt[i] * Dot(surface.tangent, surface.motion);
+    const Prepared::PreparedContact& contact = scene.contacts[i];
+    const Vector normal = contact.surface->Normal(contact.Position(state)), tangent{normal.y, -normal.x};
+    force += state.rn[i] * Dot(normal, contact.motion) + state.rt[i] * Dot(tangent, contact.motion);
   }
   return static_cast<double>(force);
+}
+
+double ResidualCheck::Gap(std::size_t contact, const CheckedState& state) const {
+  const Prepared::PreparedContact& prepared = prepared_->contacts[contact];
+  return static_cast<double>(prepared.surface->Gap(prepared.Position(state)));
+}
+
+double ResidualCheck::Slip(std::size_t contact, const CheckedState& from, const CheckedState& to) const {
+  const Prepared::PreparedContact& prepared = prepared_->contacts[contact];
+  return static_cast<double>(prepared.surface->Slip(prepared.Position(from), prepared.Position(to)));
 }
 
 double ResidualCheck::StrainEnergy(const std::vector<double>& positions) const {
   RequireSize(positions, prepared_->start.size(), "positions");
   Real energy = 0.0L;
-  for (const Prepared::PreparedBar& bar : prepared_->bars) {
-    const BarLengths lengths = prepared_->Measure(bar, positions);
-    const Real strain = Strain(bar.strain, lengths);
-    energy += bar.EA * lengths.rest * strain * strain / 2.0L;
-  }
-  for (const Prepared::PreparedPart& part : prepared_->parts) {
-    const std::vector<Real> displacements = prepared_->Displacements(part, positions);
-    const std::vector<Real> forces = Prepared::ElasticForces(part, displacements);
-    for (std::size_t i = 0; i < forces.size(); ++i) energy += forces[i] * displacements[i] / 2.0L;
-  }
+  for (const auto& element : prepared_->elements) element->AddEnergy(positions, &energy);
   return static_cast<double>(energy);
 }
 

@@ -1,26 +1,14 @@
 #include "contact_path/contact/scene_contacts.h"
 
-#include <array>
 #include <cstddef>
 #include <memory>
 #include <vector>
 
 #include "contact_path/contact/rigid_pair.h"
-#include "contact_path/contact/surface.h"
 #include "contact_path/scene/can_slide.h"
+#include "contact_path/scene/surface.h"
 
 namespace contact_path {
-namespace {
-
-std::shared_ptr<const Surface> MakeSurface(const Obstacle& obstacle) {
-  switch (obstacle.shape) {
-    case ObstacleShape::kHalfPlane: break;
-  }
-  return std::make_shared<HalfPlane>(Eigen::Vector2d(obstacle.px, obstacle.py),
-                                     Eigen::Vector2d(obstacle.nx, obstacle.ny));
-}
-
-}  // namespace
 
 ContactPairs BuildContacts(const Scene& scene, const Structure& structure) {
   return BuildContacts(scene, SceneIndex(scene), structure);

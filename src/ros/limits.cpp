@@ -3,8 +3,10 @@
 #include <cmath>
 #include <cstddef>
 #include <stdexcept>
+#include <type_traits>
 
 #include "contact_path/ros/names.h"
+#include "contact_path/scene/field.h"
 #include "contact_path/scene/scene.h"
 
 namespace contact_path {
@@ -15,14 +17,6 @@ constexpr std::size_t kMostBytes = std::size_t{1} << 28U;    // some times as ma
 
 void CheckPositive(const std::string& name, int value) {
   if (value <= 0) throw std::invalid_argument("~" + name + " = " + std::to_string(value) + ": must be > 0");
-}
-
-std::size_t StiffnessEntries(const contact_path_msgs::Scene& scene) {
-  std::size_t entries = 0;
-  for (const contact_path_msgs::Superelement& superelement : scene.superelements) {
-    entries += superelement.stiffness.size();
-  }
-  return entries;
 }
 
 // Entries of all lists of a program, and its stages.
@@ -44,11 +38,55 @@ std::size_t LoadsOfAllStages(const contact_path_msgs::Scene& scene,
   return all;
 }
 
-std::size_t RestEntries(const contact_path_msgs::Scene& scene) {
-  std::size_t entries = 0;
-  for (const contact_path_msgs::Superelement& superelement : scene.superelements)
-    entries += superelement.rest_positions.size();
-  return entries;
+struct Limit {
+  const char* name;
+  int value;
+};
+
+// A line if `value` exceeds the limit.
+std::string Exceeded(const std::string& what, std::size_t value, const Limit& limit) {
+  if (value <= static_cast<std::size_t>(limit.value)) return {};
+  return what + ": " + std::to_string(value) + ", but the node admits " + std::to_string(limit.value) + " (~" +
+         limit.name + ")";
+}
+
+// The limit for a list of parts of the core.
+template <typename Part>
+Limit LimitOf(const TraceLimits& limits) {
+  if constexpr (std::is_same_v<Part, Node>) return {names::kMaxNodes, limits.max_nodes};
+  if constexpr (std::is_same_v<Part, Obstacle> || std::is_same_v<Part, ObstacleMotion> ||
+                std::is_same_v<Part, ContactCandidate>)
+    return {names::kMaxContacts, limits.max_contacts};
+  return {names::kMaxElements, limits.max_elements};
+}
+
+// A list of parts of the scene, and the numbers in the lists of these parts. Part: of the core.
+template <typename Part, typename Messages>
+std::string ExceededByList(const std::string& list, const Messages& parts, const TraceLimits& limits) {
+  using Message = typename Messages::value_type;
+  std::string exceeded = Exceeded(list, parts.size(), LimitOf<Part>(limits));
+  ForEachFieldPair<Part, Message>([&](const auto& core_field, const auto& field) {
+    if constexpr (std::is_same_v<typename std::decay_t<decltype(core_field)>::Value, std::vector<double>>) {
+      std::size_t entries = 0;
+      for (const Message& part : parts) entries += (part.*field.member).size();
+      if (exceeded.empty())
+        exceeded = Exceeded(std::string(field.name) + " entries of " + list, entries,
+                            {names::kMaxElements, limits.max_elements});
+    }
+  });
+  return exceeded;
+}
+
+std::string ExceededByScene(const contact_path_msgs::Scene& scene, const TraceLimits& limits) {
+  std::string exceeded;
+  ForEachFieldPair<Scene, contact_path_msgs::Scene>([&](const auto& core_field, const auto& field) {
+    using List = typename std::decay_t<decltype(core_field)>::Value;
+    if constexpr (kIsPartList<List>)
+      if (exceeded.empty())
+        exceeded =
+            ExceededByList<typename List::value_type>("scene." + std::string(field.name), scene.*field.member, limits);
+  });
+  return exceeded;
 }
 
 std::size_t IncrementsWanted(const contact_path_msgs::TraceOptions& options) {
@@ -77,31 +115,6 @@ void TraceLimits::Validate() const {
 
 std::string ExceededLimit(const contact_path_msgs::Scene& scene, const contact_path_msgs::TraceOptions& options,
                           const std::vector<contact_path_msgs::Stage>& program, const TraceLimits& limits) {
-  struct Increment {
-    const char* what;
-    std::size_t value;
-    const char* limit_name;
-    int limit;
-  };
-  const Increment increments[] = {
-      {"scene.nodes", scene.nodes.size(), names::kMaxNodes, limits.max_nodes},
-      {"scene.bars", scene.bars.size(), names::kMaxElements, limits.max_elements},
-      {"scene.superelements", scene.superelements.size(), names::kMaxElements, limits.max_elements},
-      {"stiffness entries of scene.superelements", StiffnessEntries(scene), names::kMaxElements, limits.max_elements},
-      {"rest positions of scene.superelements", RestEntries(scene), names::kMaxElements, limits.max_elements},
-      {"scene.support_motions", scene.support_motions.size(), names::kMaxElements, limits.max_elements},
-      {"scene.obstacle_motions", scene.obstacle_motions.size(), names::kMaxContacts, limits.max_contacts},
-      {"loads and motions of program", ProgramEntries(program), names::kMaxElements, limits.max_elements},
-      {"loads of all stages of program", LoadsOfAllStages(scene, program), names::kMaxElements, limits.max_elements},
-      {"obstacles of all stages of program", program.size() * scene.obstacles.size(), names::kMaxElements,
-       limits.max_elements},
-      {"scene.loads", scene.loads.size(), names::kMaxElements, limits.max_elements},
-      {"scene.obstacles", scene.obstacles.size(), names::kMaxContacts, limits.max_contacts},
-      {"scene.contacts", scene.contacts.size(), names::kMaxContacts, limits.max_contacts},
-      {"options.stop", options.stop.size(), names::kMaxContacts, limits.max_contacts},
-      {"options.branch_choices", options.branch_choices.size(), names::kMaxContacts, limits.max_contacts},
-      {"options.max_increments", IncrementsWanted(options), names::kMaxIncrements, limits.max_increments},
-  };
   if (scene.name.size() > kLongestName) {
     return "scene.name: " + std::to_string(scene.name.size()) + " bytes, but the node admits " +
            std::to_string(kLongestName);
@@ -110,13 +123,18 @@ std::string ExceededLimit(const contact_path_msgs::Scene& scene, const contact_p
   for (const contact_path_msgs::Stage& stage : program) bytes += ros::serialization::serializationLength(stage);
   if (bytes > kMostBytes)
     return "the request has " + std::to_string(bytes) + " bytes, but the node admits " + std::to_string(kMostBytes);
-  for (const Increment& increment : increments) {
-    if (increment.value > static_cast<std::size_t>(increment.limit)) {
-      return std::string(increment.what) + ": " + std::to_string(increment.value) + ", but the node admits " +
-             std::to_string(increment.limit) + " (~" + increment.limit_name + ")";
-    }
-  }
-  return "";
+  const Limit elements{names::kMaxElements, limits.max_elements}, contacts{names::kMaxContacts, limits.max_contacts};
+  std::string exceeded = ExceededByScene(scene, limits);
+  const auto check = [&](const char* name, std::size_t value, const Limit& limit) {
+    if (exceeded.empty()) exceeded = Exceeded(name, value, limit);
+  };
+  check("loads and motions of program", ProgramEntries(program), elements);
+  check("loads of all stages of program", LoadsOfAllStages(scene, program), elements);
+  check("obstacles of all stages of program", program.size() * scene.obstacles.size(), elements);
+  check("options.stop", options.stop.size(), contacts);
+  check("options.branch_choices", options.branch_choices.size(), contacts);
+  check("options.max_increments", IncrementsWanted(options), {names::kMaxIncrements, limits.max_increments});
+  return exceeded;
 }
 
 }  // namespace contact_path

@@ -7,6 +7,8 @@
 #include <locale>
 #include <sstream>
 #include <stdexcept>
+#include <string_view>
+#include <type_traits>
 #include <utility>
 
 #include "contact_path/path/stop.h"
@@ -15,6 +17,7 @@
 #include "contact_path/scene/quantity.h"
 #include "contact_path/scene/scaling.h"
 #include "contact_path/scene/scene_index.h"
+#include "ros/marker_picture.h"
 
 namespace contact_path {
 namespace {
@@ -27,40 +30,23 @@ using visualization_msgs::Marker;
 // Lengths in parts of the scene's size.
 constexpr double kFullArrow = 0.2;
 constexpr int kMostStrokes = 200;  // of a moving obstacle
+constexpr int kCurveSteps = 100;   // of each half of a boundary that is no straight line
 constexpr double kStripDepth = 0.05;
 constexpr double kTextHeight = 0.045;
 constexpr double kFarthestStop = 5.0;
 constexpr double kMostCone = 0.12;  // edge of a cone
-constexpr double kLayer = 0.002;    // distance in z
 
 // Lengths in parts of the detail.
 constexpr double kBarWidth = 0.35;
 constexpr double kThinWidth = 0.2;
 constexpr double kContactDiameter = 1.6;
 constexpr double kSupportHeight = 2.2;
-constexpr double kShaftWidth = 0.35;
-constexpr double kHeadWidth = 1.3;
-constexpr double kHeadLength = 1.8;
 constexpr double kConeEdge = 6.0;
 
-// Where an arrow is too short for its head, the head is this part of it.
-constexpr double kMostHead = 0.6;
 // Arrows that are shorter, in parts of the full length, are left out.
 constexpr double kShortest = 1e-3;
 
 constexpr double kRounding = 1e-6;  // of sums of unit vectors
-
-// From below to above.
-enum Layer { kStrips, kBoundaries, kInitial, kCones, kSprings, kBars, kNodes, kCandidates, kTouching, kArrows, kText };
-
-ColorRGBA Colour(float red, float green, float blue, float alpha = 1.0F) {
-  ColorRGBA colour;
-  colour.r = red;
-  colour.g = green;
-  colour.b = blue;
-  colour.a = alpha;
-  return colour;
-}
 
 // As in the drawings of scripts/plot.
 const ColorRGBA kGround = Colour(0.85F, 0.85F, 0.85F);
@@ -97,7 +83,15 @@ const char* KindInWords(std::uint8_t kind) {
   }
 }
 
-Vector2d Tangent(const Vector2d& normal) { return {normal.y(), -normal.x()}; }
+// Where an element holds its first node; at the start, unless its description tells.
+template <typename Part>
+Vector2d RestOfFirstNode(const Part&, const Vector2d& start) {
+  return start;
+}
+Vector2d RestOfFirstNode(const Superelement& element, const Vector2d& start) {
+  const std::vector<double>& rest = element.rest_positions;
+  return rest.empty() ? start : Vector2d(rest[0], rest[1]);
+}
 
 // `least` times a power of two, at least `largest`.
 double FullForce(double largest, double least) {
@@ -105,108 +99,6 @@ double FullForce(double largest, double least) {
 }
 
 }  // namespace
-
-// The markers of one picture as they come to be.
-class SceneMarkers::Picture {
- public:
-  Picture(double size, double detail) : layer_(kLayer * size), detail_(detail) {}
-
-  // Each begins a marker, to be filled by what follows.
-  void BeginLines(const char* name, int id, double width, const ColorRGBA& colour, Layer layer) {
-    Begin(name, id, Marker::LINE_LIST, colour, layer).scale.x = width;
-  }
-  void BeginTriangles(const char* name, int id, const ColorRGBA& colour, Layer layer) {
-    Marker& marker = Begin(name, id, Marker::TRIANGLE_LIST, colour, layer);
-    marker.scale.x = marker.scale.y = marker.scale.z = 1.0;
-  }
-  // `type`: SPHERE_LIST or CUBE_LIST.
-  void BeginDots(const char* name, int id, int type, double diameter, const ColorRGBA& colour, Layer layer) {
-    Marker& marker = Begin(name, id, type, colour, layer);
-    marker.scale.x = marker.scale.y = marker.scale.z = diameter;
-  }
-
-  void AddPoint(const Vector2d& place) { AddPointAt(place, height_); }
-  void AddPoint(const Vector2d& place, const ColorRGBA& colour, Layer layer) {
-    AddPointAt(place, layer_ * static_cast<double>(layer));
-    Last().colors.push_back(colour);
-  }
-  void AddLine(const Vector2d& from, const Vector2d& to) {
-    AddPoint(from);
-    AddPoint(to);
-  }
-  // Colours by vertex keep rviz from shading what is flat.
-  void AddTriangle(const Vector2d& a, const Vector2d& b, const Vector2d& c, const ColorRGBA& colour) {
-    for (const Vector2d& corner : {a, b, c}) {
-      AddPoint(corner);
-      Last().colors.push_back(colour);
-    }
-  }
-  void AddTriangle(const Vector2d& a, const Vector2d& b, const Vector2d& c) { AddTriangle(a, b, c, Last().color); }
-  void AddArrow(const Vector2d& from, const Vector2d& vector, const ColorRGBA& colour) {
-    const double length = vector.norm();
-    const Vector2d along = vector / length;
-    const Vector2d across = Tangent(along);
-    const double head = std::min(kHeadLength * detail_, kMostHead * length);
-    const Vector2d head_side = (0.5 * kHeadWidth / kHeadLength * head) * across;
-    const Vector2d shaft_side = (0.5 * kShaftWidth / kHeadLength * head) * across;
-    const Vector2d neck = from + (length - head) * along;
-    AddTriangle(from - shaft_side, neck - shaft_side, neck + shaft_side, colour);
-    AddTriangle(from - shaft_side, neck + shaft_side, from + shaft_side, colour);
-    AddTriangle(neck - head_side, from + vector, neck + head_side, colour);
-  }
-  void AddText(const char* name, int id, const Vector2d& centre, double height, const std::string& text) {
-    Marker& marker = Begin(name, id, Marker::TEXT_VIEW_FACING, kTextColour, kText);
-    marker.scale.z = height;
-    marker.pose.position.x = centre.x();
-    marker.pose.position.y = centre.y();
-    marker.pose.position.z = height_;
-    marker.text = text;
-  }
-
-  // The picture in its frame: `centre` at the origin, all lengths times `scale`.
-  visualization_msgs::MarkerArray Finish(const std::string& frame_id, const Vector2d& centre, double scale) {
-    const auto place = [&](geometry_msgs::Point* point) {
-      point->x = scale * (point->x - centre.x());
-      point->y = scale * (point->y - centre.y());
-      point->z *= scale;
-    };
-    for (Marker& marker : array_.markers) {
-      marker.header.frame_id = frame_id;
-      if (marker.points.empty() && marker.text.empty()) marker.action = Marker::DELETE;
-      for (geometry_msgs::Point& point : marker.points) place(&point);
-      if (marker.type == Marker::TEXT_VIEW_FACING) place(&marker.pose.position);
-      if (marker.type == Marker::TRIANGLE_LIST) continue;  // points alone
-      marker.scale.x *= scale;
-      marker.scale.y *= scale;
-      marker.scale.z *= scale;
-    }
-    return std::move(array_);
-  }
-
- private:
-  Marker& Begin(const char* name, int id, int type, const ColorRGBA& colour, Layer layer) {
-    Marker& marker = array_.markers.emplace_back();
-    marker.ns = name;
-    marker.id = id;
-    marker.type = type;
-    marker.pose.orientation.w = 1.0;
-    marker.color = colour;
-    height_ = layer_ * static_cast<double>(layer);
-    return marker;
-  }
-  Marker& Last() { return array_.markers.back(); }
-  void AddPointAt(const Vector2d& place, double height) {
-    geometry_msgs::Point& point = Last().points.emplace_back();
-    point.x = place.x();
-    point.y = place.y();
-    point.z = height;
-  }
-
-  const double layer_;
-  const double detail_;
-  double height_ = 0.0;
-  visualization_msgs::MarkerArray array_;
-};
 
 void MarkerOptions::Validate() const {
   if (frame_id.empty() || frame_id.front() == '/') {
@@ -225,13 +117,18 @@ SceneMarkers::SceneMarkers(const TraceRequest& request, const MarkerOptions& opt
     initial_.emplace_back(node.x, node.y);
     box_.extend(initial_.back());
   }
-  for (const Bar& bar : scene.bars) bars_.push_back({index.Node(bar.nodes[0]), index.Node(bar.nodes[1])});
-  for (const Superelement& superelement : scene.superelements) {
-    std::vector<std::size_t>& members = superelements_.emplace_back();
-    for (const std::string& node : superelement.nodes) members.push_back(index.Node(node));
-    const std::vector<double>& rest = superelement.rest_positions;
-    rest_.push_back(rest.empty() ? initial_[members[0]] : Vector2d(rest[0], rest[1]));
-  }
+  ForEachElementList(scene, [&](std::string_view, const auto& elements) {
+    using Part = typename std::decay_t<decltype(elements)>::value_type;
+    for (const Part& element : elements) {
+      if constexpr (Fields<Part>::kNodes == 2) {
+        bars_.push_back({index.Node(element.nodes[0]), index.Node(element.nodes[1])});
+      } else {
+        std::vector<std::size_t>& members = stars_.emplace_back();
+        for (const std::string& node : element.nodes) members.push_back(index.Node(node));
+        rest_.push_back(RestOfFirstNode(element, initial_[members[0]]));
+      }
+    }
+  });
   FindSupports(scene);
   for (const ContactCandidate& contact : scene.contacts) {
     contacts_.push_back({index.Node(contact.node), index.Obstacle(contact.obstacle)});
@@ -252,10 +149,10 @@ SceneMarkers::SceneMarkers(const TraceRequest& request, const MarkerOptions& opt
   };
   add_loads(scene.loads, &now);
   for (const Obstacle& obstacle : scene.obstacles) {
-    HalfPlane& half_plane = now.obstacles.emplace_back();
-    half_plane.point = {obstacle.px, obstacle.py};
-    half_plane.normal = Vector2d(obstacle.nx, obstacle.ny).stableNormalized();
-    half_plane.friction = obstacle.friction;
+    DrawnObstacle& drawn = now.obstacles.emplace_back();
+    drawn.surface = MakeSurface(obstacle);
+    drawn.point = {obstacle.px, obstacle.py};
+    drawn.friction = obstacle.friction;
   }
 
   has_program_ = !request.program.empty();
@@ -276,7 +173,7 @@ SceneMarkers::SceneMarkers(const TraceRequest& request, const MarkerOptions& opt
         now.loads.push_back({index.Node(load.node), target * Vector2d(load.fx, load.fy), /*constant=*/true});
     }
     for (const ObstacleMotion& motion : stage.obstacle_motions)
-      now.obstacles[index.Obstacle(motion.obstacle)].point += target * Vector2d(motion.dx, motion.dy);
+      now.obstacles[index.Obstacle(motion.obstacle)].shift += target * Vector2d(motion.dx, motion.dy);
     for (const SupportMotion& motion : stage.support_motions) {
       Vector2d& place = places[index.Node(motion.node)];
       place += target * Vector2d(motion.dx, motion.dy);
@@ -382,60 +279,79 @@ visualization_msgs::MarkerArray SceneMarkers::Draw(const msgs::Increment& increm
   places.reserve(increment.x.size());
   for (std::size_t i = 0; i < increment.x.size(); ++i) places.emplace_back(increment.x[i], increment.y[i]);
   const double full_force = FullForce(largest_force, least_force_);
-  Picture picture(size_, detail_);
+  MarkerPicture picture(size_, detail_);
   DrawObstacles(places, increment, &picture);
   DrawStructure(places, &picture);
-  DrawSuperelements(places, &picture);
+  DrawStars(places, &picture);
   DrawSupports(places, &picture);
-  DrawContacts(places, increment.contacts, &picture);
+  DrawContacts(places, increment, &picture);
   DrawForces(places, increment, full_force, &picture);
   DrawCaption(caption, full_force, &picture);
   if (options_.picture_size == 0.0) return picture.Finish(options_.frame_id, Vector2d::Zero(), 1.0);
   return picture.Finish(options_.frame_id, box_.center(), options_.picture_size / size_);
 }
 
-void SceneMarkers::DrawObstacles(const Places& places, const msgs::Increment& increment, Picture* picture) const {
+std::vector<SceneMarkers::BoundaryPoint> SceneMarkers::BoundaryOf(const DrawnObstacle& obstacle, double load_factor,
+                                                                  const Vector2d& centre, double half_length) {
+  const auto foot_of = [&](const Vector2d& x) {
+    const Projection at = obstacle.ProjectAt(load_factor, x);
+    return BoundaryPoint{x - at.gap * at.normal, at.normal, at.xi};
+  };
+  const int steps = obstacle.surface->Flat() ? 1 : kCurveSteps;
+  const double length = half_length / steps;
+  std::vector<BoundaryPoint> points = {foot_of(centre)};
+  // First backwards to the begin, then forwards to the end.
+  for (int k = 0; k < steps; ++k)
+    points.push_back(foot_of(points.back().place - length * Tangent(points.back().normal)));
+  std::reverse(points.begin(), points.end());
+  for (int k = 0; k < steps; ++k)
+    points.push_back(foot_of(points.back().place + length * Tangent(points.back().normal)));
+  return points;
+}
+
+void SceneMarkers::DrawObstacles(const Places& places, const msgs::Increment& increment, MarkerPicture* picture) const {
   // Long enough for the nodes, and of a length that hardly ever changes.
   const Vector2d centre = box_.center();
   double reach = 0.0;
   for (const Vector2d& place : places) reach = std::max(reach, (place - centre).norm());
   const double half_length = size_ * std::ceil(reach / size_ + 0.25);
-  const std::vector<HalfPlane>& obstacles = StageOf(increment).obstacles;
-  std::vector<std::array<Vector2d, 2>> boundaries;  // from and to
-  for (const HalfPlane& obstacle : obstacles) {
-    const Vector2d point = obstacle.PointAt(increment.load_factor);
-    const Vector2d foot = centre - obstacle.normal.dot(centre - point) * obstacle.normal;
-    const Vector2d half = half_length * Tangent(obstacle.normal);
-    boundaries.push_back({foot - half, foot + half});
-  }
+  const std::vector<DrawnObstacle>& obstacles = StageOf(increment).obstacles;
+  std::vector<std::vector<BoundaryPoint>> boundaries;
+  for (const DrawnObstacle& obstacle : obstacles)
+    boundaries.push_back(BoundaryOf(obstacle, increment.load_factor, centre, half_length));
+  const double depth = kStripDepth * size_;
 
   picture->BeginTriangles("obstacles", 0, kGround, kStrips);
-  for (std::size_t i = 0; i < obstacles.size(); ++i) {
-    const auto& [from, to] = boundaries[i];
-    const Vector2d depth = kStripDepth * size_ * obstacles[i].normal;
-    picture->AddTriangle(from, from - depth, to - depth);
-    picture->AddTriangle(from, to - depth, to);
+  for (const std::vector<BoundaryPoint>& boundary : boundaries) {
+    for (std::size_t k = 1; k < boundary.size(); ++k) {
+      const BoundaryPoint &from = boundary[k - 1], &to = boundary[k];
+      picture->AddTriangle(from.place, from.place - depth * from.normal, to.place - depth * to.normal);
+      picture->AddTriangle(from.place, to.place - depth * to.normal, to.place);
+    }
   }
   picture->BeginLines("obstacles", 1, kBarWidth * detail_, kGroundLine, kBoundaries);
-  for (const auto& [from, to] : boundaries) picture->AddLine(from, to);
+  for (const std::vector<BoundaryPoint>& boundary : boundaries)
+    for (std::size_t k = 1; k < boundary.size(); ++k) picture->AddLine(boundary[k - 1].place, boundary[k].place);
   picture->BeginLines("obstacles", 2, kThinWidth * detail_, kGroundLine, kBoundaries);
-  const double distance = std::max(2.0 * kStripDepth * size_, 2.0 * half_length / kMostStrokes);
+  const double distance = std::max(2.0 * depth, 2.0 * half_length / kMostStrokes);
   for (std::size_t i = 0; i < obstacles.size(); ++i) {
     if (!obstacles[i].moves) continue;
-    const Vector2d tangent = Tangent(obstacles[i].normal);
-    const Vector2d stroke = kStripDepth * size_ * (obstacles[i].normal + tangent);
-    // Multiples of the distance from the point that moves.
-    const Vector2d& from = boundaries[i][0];
-    const double begin = std::fmod(tangent.dot(obstacles[i].PointAt(increment.load_factor) - from), distance);
-    for (int k = begin < 0.0 ? 1 : 0; k <= kMostStrokes; ++k) {
-      const double along = begin + k * distance;
-      if (!(along < 2.0 * half_length)) break;
-      picture->AddLine(from + along * tangent, from + along * tangent - stroke);
+    // At multiples of the distance from the point that moves.
+    const double xi_of_point = obstacles[i].surface->Project(obstacles[i].point).xi;
+    for (std::size_t k = 1; k < boundaries[i].size(); ++k) {
+      const BoundaryPoint &from = boundaries[i][k - 1], &to = boundaries[i][k];
+      const double length = to.xi - from.xi;
+      double along = std::fmod(xi_of_point - from.xi, distance);
+      if (along < 0.0) along += distance;
+      for (; along < length; along += distance) {
+        const Vector2d place = from.place + along / length * (to.place - from.place);
+        picture->AddLine(place, place - depth * (from.normal + Tangent(from.normal)));
+      }
     }
   }
 }
 
-void SceneMarkers::DrawStructure(const Places& places, Picture* picture) const {
+void SceneMarkers::DrawStructure(const Places& places, MarkerPicture* picture) const {
   picture->BeginLines("initial", 0, kThinWidth * detail_, kInitialColour, kInitial);
   for (const auto& [a, b] : bars_) picture->AddLine(initial_[a], initial_[b]);
   picture->BeginDots("initial", 1, Marker::SPHERE_LIST, 0.6 * detail_, kInitialColour, kInitial);
@@ -447,23 +363,23 @@ void SceneMarkers::DrawStructure(const Places& places, Picture* picture) const {
   for (const Vector2d& place : places) picture->AddPoint(place);
 }
 
-void SceneMarkers::DrawSuperelements(const Places& places, Picture* picture) const {
+void SceneMarkers::DrawStars(const Places& places, MarkerPicture* picture) const {
   Places middles;
-  for (std::size_t i = 0; i < superelements_.size(); ++i) {
-    const std::vector<std::size_t>& nodes = superelements_[i];
+  for (std::size_t i = 0; i < stars_.size(); ++i) {
+    const std::vector<std::size_t>& nodes = stars_[i];
     Vector2d sum = Vector2d::Zero();
     for (const std::size_t node : nodes) sum += places[node];
     middles.push_back(nodes.size() == 1 ? rest_[i] : Vector2d(sum / static_cast<double>(nodes.size())));
   }
   picture->BeginLines("superelements", 0, kBarWidth * detail_, kSpringColour, kSprings);
-  for (std::size_t i = 0; i < superelements_.size(); ++i) {
-    for (const std::size_t node : superelements_[i]) picture->AddLine(places[node], middles[i]);
+  for (std::size_t i = 0; i < stars_.size(); ++i) {
+    for (const std::size_t node : stars_[i]) picture->AddLine(places[node], middles[i]);
   }
   picture->BeginDots("superelements", 1, Marker::CUBE_LIST, detail_, kSpringColour, kSprings);
   for (const Vector2d& middle : middles) picture->AddPoint(middle);
 }
 
-void SceneMarkers::DrawSupports(const Places& places, Picture* picture) const {
+void SceneMarkers::DrawSupports(const Places& places, MarkerPicture* picture) const {
   const double height = kSupportHeight * detail_;
   picture->BeginTriangles("supports", 0, kSupportColour, kSprings);
   for (const Support& support : supports_) {
@@ -479,8 +395,8 @@ void SceneMarkers::DrawSupports(const Places& places, Picture* picture) const {
   }
 }
 
-void SceneMarkers::DrawContacts(const Places& places, const std::vector<msgs::ContactState>& states,
-                                Picture* picture) const {
+void SceneMarkers::DrawContacts(const Places& places, const msgs::Increment& increment, MarkerPicture* picture) const {
+  const std::vector<msgs::ContactState>& states = increment.contacts;
   picture->BeginDots("contacts", 0, Marker::SPHERE_LIST, kContactDiameter * detail_, StateColour(0), kCandidates);
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     // A node in a corner has several candidates: seen is one that touches.
@@ -490,19 +406,19 @@ void SceneMarkers::DrawContacts(const Places& places, const std::vector<msgs::Co
 
   picture->BeginTriangles("cones", 0, kConeColour, kCones);
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    const HalfPlane& obstacle = stages_.front().obstacles[contacts_[i].obstacle];  // which do not turn
+    const DrawnObstacle& obstacle = StageOf(increment).obstacles[contacts_[i].obstacle];
     const std::uint8_t state = states[i].state;
     if (obstacle.friction <= 0.0 || state == msgs::ContactState::OPEN || state == msgs::ContactState::CLOSED) continue;
     const Vector2d& apex = places[contacts_[i].node];
-    const Vector2d side = obstacle.friction * Tangent(obstacle.normal);
+    const Vector2d normal = obstacle.ProjectAt(increment.load_factor, apex).normal;
+    const Vector2d side = obstacle.friction * Tangent(normal);
     const double edge = std::min(kConeEdge * detail_, kMostCone * size_);
-    picture->AddTriangle(apex, apex + edge * (obstacle.normal - side).normalized(),
-                         apex + edge * (obstacle.normal + side).normalized());
+    picture->AddTriangle(apex, apex + edge * (normal - side).normalized(), apex + edge * (normal + side).normalized());
   }
 }
 
 void SceneMarkers::DrawForces(const Places& places, const msgs::Increment& increment, double full_force,
-                              Picture* picture) const {
+                              MarkerPicture* picture) const {
   const double scale = kFullArrow * size_ / full_force;
   const auto draw = [&](std::size_t node, const Vector2d& force, const ColorRGBA& colour) {
     if (force.norm() > kShortest * full_force) picture->AddArrow(places[node], scale * force, colour);
@@ -513,24 +429,25 @@ void SceneMarkers::DrawForces(const Places& places, const msgs::Increment& incre
   }
   picture->BeginTriangles("reactions", 0, kReactionColour, kArrows);
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    const Vector2d& normal = stages_.front().obstacles[contacts_[i].obstacle].normal;
+    const DrawnObstacle& obstacle = StageOf(increment).obstacles[contacts_[i].obstacle];
+    const Vector2d normal = obstacle.ProjectAt(increment.load_factor, places[contacts_[i].node]).normal;
     draw(contacts_[i].node, increment.contacts[i].rn * normal + increment.contacts[i].rt * Tangent(normal),
          kReactionColour);
   }
 }
 
 // Above the initial shape.
-void SceneMarkers::DrawCaption(const std::string& caption, double full_force, Picture* picture) const {
+void SceneMarkers::DrawCaption(const std::string& caption, double full_force, MarkerPicture* picture) const {
   const double height = kTextHeight * size_;
   const Vector2d above(box_.center().x(), box_.max().y() + 0.2 * size_);
   const double length = kFullArrow * size_;
   std::ostringstream force;
   force.imbue(std::locale::classic());
   force << std::setprecision(3) << full_force;
-  picture->AddText("caption", 0, above + Vector2d(0.0, 2.0 * height), height, caption);
+  picture->AddText("caption", 0, above + Vector2d(0.0, 2.0 * height), height, kTextColour, caption);
   picture->BeginTriangles("caption", 1, kTextColour, kText);
   picture->AddArrow(above - Vector2d(length, 0.0), Vector2d(length, 0.0), kTextColour);
-  picture->AddText("caption", 2, above + Vector2d(0.5 * length, 0.0), height, force.str());
+  picture->AddText("caption", 2, above + Vector2d(0.5 * length, 0.0), height, kTextColour, force.str());
 }
 
 }  // namespace contact_path

@@ -126,7 +126,7 @@ Configuration StageConfiguration(const TraceRequest& request, const SceneIndex& 
 }
 
 Scaling ProgramScales(const TraceRequest& request, const SceneIndex& index) {
-  if (!request.scene.bars.empty() || request.program.empty())
+  if (HasForceScale(request.scene) || request.program.empty())
     return CharacteristicScales(StageScene(request, index, 0), index);
   Scaling largest;
   largest.force = 0.0;

@@ -6,6 +6,8 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <type_traits>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -29,24 +31,52 @@ double OrderedSum(std::vector<double> terms) {
 
 double Distance(const Node& a, const Node& b) { return std::hypot(b.x - a.x, b.y - a.y); }
 
-double InitialLength(const Scene& scene, const SceneIndex& index, const Bar& bar) {
-  return Distance(scene.nodes[index.Node(bar.nodes[0])], scene.nodes[index.Node(bar.nodes[1])]);
+// A stiffness that is a force, as EA is.
+struct IsForceStiffness {
+  template <typename Field>
+  bool operator()(const Field& field) const {
+    return field.unit == units::kForce && field.range == Range::kPositive;
+  }
+};
+
+// The entries of a stiffness matrix, or the stiffness of a spring.
+struct IsStiffness {
+  template <typename Field>
+  bool operator()(const Field& field) const {
+    return field.unit == units::kStiffness;
+  }
+};
+
+// Calls visit(element, number) for each number of an element in a field that is wanted.
+template <typename Wanted, typename Visit>
+void ForEachElementNumber(const Scene& scene, Wanted wanted, Visit&& visit) {
+  ForEachElementList(scene, [&](std::string_view, const auto& elements) {
+    using Part = typename std::decay_t<decltype(elements)>::value_type;
+    ForEachField<Part>([&](const auto& field) {
+      using Value = typename std::decay_t<decltype(field)>::Value;
+      if (!wanted(field)) return;
+      for (const Part& element : elements) {
+        if constexpr (std::is_same_v<Value, double>) visit(element, element.*field.member);
+        if constexpr (std::is_same_v<Value, std::vector<double>>)
+          for (const double number : element.*field.member) visit(element, number);
+      }
+    });
+  });
 }
 
-// Initial lengths of all bars [length].
-std::vector<double> BarLengths(const Scene& scene, const SceneIndex& index) {
-  std::vector<double> lengths;
-  lengths.reserve(scene.bars.size());
-  for (const Bar& bar : scene.bars) lengths.push_back(InitialLength(scene, index, bar));
-  return lengths;
-}
-
-// exp(mean ln EA) [force].
-double GeometricMeanOfAxialStiffness(const Scene& scene) {
-  std::vector<double> logarithms;
-  logarithms.reserve(scene.bars.size());
-  for (const Bar& bar : scene.bars) logarithms.push_back(std::log(bar.EA));
-  return std::exp(OrderedSum(std::move(logarithms)) / static_cast<double>(scene.bars.size()));
+// Mean initial length [length] and exp(mean ln EA) [force] of the elements with a stiffness EA that is a force. There
+// must be one.
+Scaling ScalesOfBars(const Scene& scene, const SceneIndex& index) {
+  std::vector<double> lengths, logarithms;
+  ForEachElementNumber(scene, IsForceStiffness(), [&](const auto& bar, double EA) {
+    lengths.push_back(Distance(scene.nodes[index.Node(bar.nodes[0])], scene.nodes[index.Node(bar.nodes[1])]));
+    logarithms.push_back(std::log(EA));
+  });
+  const auto count = static_cast<double>(lengths.size());
+  Scaling scaling;
+  scaling.length = OrderedSum(std::move(lengths)) / count;
+  scaling.force = std::exp(OrderedSum(std::move(logarithms)) / count);
+  return scaling;
 }
 
 // One constant load and one that the load factor scales for each node, in the order in which they come: what cancels is
@@ -97,14 +127,17 @@ double MotionNorm(const Scene& scene) {
   return std::sqrt(OrderedSum(std::move(squares)));
 }
 
-// sqrt(sum K_ij^2 / rows) over all superelements [force/length]. The Frobenius norm does not change by rotation.
+// sqrt(sum K_ij^2 / rows) over all elements with a stiffness [force/length]. The Frobenius norm does not change by
+// rotation.
 double MeanStiffness(const Scene& scene) {
   std::vector<double> squares;
   std::size_t rows = 0;
-  for (const Superelement& element : scene.superelements) {
-    rows += 2 * element.nodes.size();
-    for (const double entry : element.stiffness) squares.push_back(entry * entry);
-  }
+  const void* before = nullptr;
+  ForEachElementNumber(scene, IsStiffness(), [&](const auto& element, double entry) {
+    if (before != &element) rows += 2 * element.nodes.size();
+    before = &element;
+    squares.push_back(entry * entry);
+  });
   return std::sqrt(OrderedSum(std::move(squares)) / static_cast<double>(rows));
 }
 
@@ -126,11 +159,16 @@ double NearestGap(const Scene& scene, const SceneIndex& index) {
 
 }  // namespace
 
+bool HasForceScale(const Scene& scene) {
+  bool found = false;
+  ForEachElementNumber(scene, IsForceStiffness(), [&](const auto&, double) { found = true; });
+  return found;
+}
+
 Scaling CharacteristicScales(const Scene& scene, const SceneIndex& index) {
   Scaling scaling;
-  if (!scene.bars.empty()) {
-    scaling.length = OrderedSum(BarLengths(scene, index)) / static_cast<double>(scene.bars.size());
-    scaling.force = GeometricMeanOfAxialStiffness(scene);
+  if (HasForceScale(scene)) {
+    scaling = ScalesOfBars(scene, index);
   } else {
     const double reference_load = LoadNorm(scene, index, false), stiffness = MeanStiffness(scene);
     scaling.force = reference_load > 0.0 ? reference_load : stiffness * MotionNorm(scene);
@@ -147,14 +185,13 @@ double LoadFactorScale(const Scene& scene, const SceneIndex& index, double lengt
   return motion > 0.0 ? 1.0 / std::hypot(load / force, motion / length) : force / load;
 }
 
-Scene ScaleScene(const Scene& scene, const SceneIndex& index, const Scaling& scaling) {
+Scene ScaleScene(const Scene& scene, const Scaling& scaling) {
   Scene scaled = scene;
   scaled.loads = SumByNode(scene.loads);
   ChangeUnits(&scaled, {scaling.length, scaling.force, scaling.load_factor});
-  for (Bar& bar : scaled.bars)
-    if (!(bar.rest_length > 0.0)) bar.rest_length = InitialLength(scaled, index, bar);
   for (Obstacle& obstacle : scaled.obstacles) {
     const double norm = std::hypot(obstacle.nx, obstacle.ny);
+    if (!(norm > 0.0)) continue;  // a shape without it
     obstacle.nx /= norm;
     obstacle.ny /= norm;
   }

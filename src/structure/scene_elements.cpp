@@ -1,8 +1,10 @@
 #include "contact_path/structure/scene_elements.h"
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "contact_path/structure/bar.h"
@@ -25,7 +27,7 @@ Eigen::VectorXd PositionsOf(const std::vector<int>& nodes, const std::vector<dou
 std::unique_ptr<const Element> Make(const Bar& bar, const std::vector<int>& nodes,
                                     const std::vector<double>& reference) {
   const Eigen::Vector4d ends = PositionsOf(nodes, reference);
-  const double distance = (ends.tail<2>() - ends.head<2>()).norm();
+  const double distance = std::hypot(ends[2] - ends[0], ends[3] - ends[1]);
   return std::make_unique<BarElement>(bar.EA, bar.rest_length > 0.0 ? bar.rest_length : distance, bar.strain);
 }
 
@@ -43,16 +45,14 @@ std::unique_ptr<const Element> Make(const Superelement& part, const std::vector<
 std::vector<PlacedElement> MakeElements(const Scene& scene, const SceneIndex& index,
                                         const std::vector<double>& reference) {
   std::vector<PlacedElement> elements;
-  const auto add = [&](const auto& parts) {
+  ForEachElementList(scene, [&](std::string_view, const auto& parts) {
     for (const auto& part : parts) {
       std::vector<int> nodes;
       for (const std::string& name : part.nodes) nodes.push_back(static_cast<int>(index.Node(name)));
       std::unique_ptr<const Element> element = Make(part, nodes, reference);
       elements.push_back({std::move(element), std::move(nodes)});
     }
-  };
-  add(scene.bars);
-  add(scene.superelements);
+  });
   return elements;
 }
 

@@ -58,7 +58,7 @@ TEST(LimitsTest, NamesWhatIsTooLargeAndTheLimit) {
       {[](auto& request) { request.scene.superelements[1].stiffness.resize(2); },
        "stiffness entries of scene.superelements: 4, but the node admits 3 (~max_elements)"},
       {[](auto& request) { request.scene.superelements[0].rest_positions.resize(4); },
-       "rest positions of scene.superelements: 4, but the node admits 3 (~max_elements)"},
+       "rest_positions entries of scene.superelements: 4, but the node admits 3 (~max_elements)"},
       {[](auto& request) { request.scene.support_motions.resize(4); },
        "scene.support_motions: 4, but the node admits 3 (~max_elements)"},
       {[](auto& request) { request.scene.obstacle_motions.resize(5); },

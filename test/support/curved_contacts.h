@@ -9,8 +9,8 @@
 
 #include "contact_path/contact/contact_pair.h"
 #include "contact_path/contact/rigid_pair.h"
-#include "contact_path/contact/surface.h"
 #include "contact_path/scene/scene_index.h"
+#include "contact_path/scene/surface.h"
 #include "contact_path/structure/structure.h"
 #include "support/mixed_scene.h"
 

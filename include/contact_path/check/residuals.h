@@ -3,6 +3,7 @@
 #ifndef CONTACT_PATH_CHECK_RESIDUALS_H_
 #define CONTACT_PATH_CHECK_RESIDUALS_H_
 
+#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -58,11 +59,14 @@ class ResidualCheck {
   // The force that moving supports and obstacles exert along their motion per unit of the load factor [force length]:
   // the integral over the load factor is their work.
   double DrivingForce(const CheckedState& state) const;
+  // Gap of a contact candidate in a state [length], and its slip between two: tangential motion along the obstacle, as
+  // the obstacle sees it [length].
+  double Gap(std::size_t contact, const CheckedState& state) const;
+  double Slip(std::size_t contact, const CheckedState& from, const CheckedState& to) const;
   // Strain energy of the structure at `positions` [force length].
   double StrainEnergy(const std::vector<double>& positions) const;
 
  private:
-  struct Surface;
   struct Prepared;
   std::unique_ptr<const Prepared> prepared_;
 };

@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "contact_path/contact/contact_pair.h"
-#include "contact_path/contact/surface.h"
+#include "contact_path/scene/surface.h"
 
 namespace contact_path {
 

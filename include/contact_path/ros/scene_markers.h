@@ -4,10 +4,10 @@
 // its kind. So a picture replaces the one before, whatever the scene, and is whole by itself.
 //
 //   namespace      id  what
-//   obstacles       0  strips of the half planes, on the forbidden side
+//   obstacles       0  strips along the boundaries, on the forbidden side
 //                   1  their boundaries
 //                   2  strokes on those that move, which go along
-//   initial         0  bars in the initial shape
+//   initial         0  bars, and all elements of two nodes, in the initial shape
 //                   1  nodes
 //   superelements   0  lines from the nodes to their middle; of a single node, to its rest position
 //                   1  these middles
@@ -28,6 +28,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,7 @@
 #include "contact_path/ros/messages.h"
 #include "contact_path/scene/scene.h"
 #include "contact_path/scene/scene_index.h"
+#include "contact_path/scene/surface.h"
 
 namespace contact_path {
 
@@ -48,6 +50,8 @@ struct MarkerOptions {
   // Throws std::invalid_argument naming the field and its value.
   void Validate() const;
 };
+
+class MarkerPicture;
 
 class SceneMarkers {
  public:
@@ -85,14 +89,23 @@ class SceneMarkers {
       return (constant ? (taken_back ? 1.0 - load_factor : 1.0) : load_factor) * force;
     }
   };
-  struct HalfPlane {
-    Eigen::Vector2d point = Eigen::Vector2d::Zero();   // at load factor 0
-    Eigen::Vector2d motion = Eigen::Vector2d::Zero();  // of the point, per unit of the load factor
-    Eigen::Vector2d normal = Eigen::Vector2d::Zero();  // of unit length
+  struct DrawnObstacle {
+    std::shared_ptr<const Surface> surface;
+    Eigen::Vector2d point = Eigen::Vector2d::Zero();   // that the strokes keep to, before it has moved
+    Eigen::Vector2d shift = Eigen::Vector2d::Zero();   // at load factor 0
+    Eigen::Vector2d motion = Eigen::Vector2d::Zero();  // per unit of the load factor
     double friction = 0.0;
     bool moves = false;  // in any stage
 
-    Eigen::Vector2d PointAt(double load_factor) const { return point + load_factor * motion; }
+    Projection ProjectAt(double load_factor, const Eigen::Vector2d& x) const {
+      return surface->Project(x - shift - load_factor * motion);
+    }
+  };
+  // A point of a boundary that is drawn.
+  struct BoundaryPoint {
+    Eigen::Vector2d place = Eigen::Vector2d::Zero();
+    Eigen::Vector2d normal = Eigen::Vector2d::Zero();
+    double xi = 0.0;
   };
   struct Candidate {
     std::size_t node = 0;
@@ -102,34 +115,35 @@ class SceneMarkers {
   struct StageParts {
     std::string title;
     std::vector<NodalLoad> loads;
-    std::vector<HalfPlane> obstacles;
+    std::vector<DrawnObstacle> obstacles;
   };
   using Places = std::vector<Eigen::Vector2d>;  // by node
-  class Picture;
 
   void FindSupports(const Scene& scene);
   void ExtendBox(const TraceRequest& request, const SceneIndex& index, double reach);
+  // The boundary of an obstacle around the foot of `centre`, along the tangent. half_length [length].
+  static std::vector<BoundaryPoint> BoundaryOf(const DrawnObstacle& obstacle, double load_factor,
+                                               const Eigen::Vector2d& centre, double half_length);
   const StageParts& StageOf(const contact_path_msgs::Increment& increment) const;
 
   visualization_msgs::MarkerArray Draw(const contact_path_msgs::Increment& increment, double largest_force,
                                        const std::string& caption) const;
-  void DrawObstacles(const Places& places, const contact_path_msgs::Increment& increment, Picture* picture) const;
-  void DrawStructure(const Places& places, Picture* picture) const;
-  void DrawSuperelements(const Places& places, Picture* picture) const;
-  void DrawSupports(const Places& places, Picture* picture) const;
-  void DrawContacts(const Places& places, const std::vector<contact_path_msgs::ContactState>& states,
-                    Picture* picture) const;
+  void DrawObstacles(const Places& places, const contact_path_msgs::Increment& increment, MarkerPicture* picture) const;
+  void DrawStructure(const Places& places, MarkerPicture* picture) const;
+  void DrawStars(const Places& places, MarkerPicture* picture) const;
+  void DrawSupports(const Places& places, MarkerPicture* picture) const;
+  void DrawContacts(const Places& places, const contact_path_msgs::Increment& increment, MarkerPicture* picture) const;
   void DrawForces(const Places& places, const contact_path_msgs::Increment& increment, double full_force,
-                  Picture* picture) const;
-  void DrawCaption(const std::string& caption, double full_force, Picture* picture) const;
+                  MarkerPicture* picture) const;
+  void DrawCaption(const std::string& caption, double full_force, MarkerPicture* picture) const;
 
   const MarkerOptions options_;
   std::string name_;
   bool has_program_ = false;
   Places initial_;
-  std::vector<std::array<std::size_t, 2>> bars_;
-  std::vector<std::vector<std::size_t>> superelements_;
-  std::vector<Eigen::Vector2d> rest_;  // by superelement: of its first node
+  std::vector<std::array<std::size_t, 2>> bars_;  // elements of two nodes
+  std::vector<std::vector<std::size_t>> stars_;   // elements of any other number of nodes
+  std::vector<Eigen::Vector2d> rest_;             // by star: of its first node
   std::vector<Support> supports_;
   std::vector<Candidate> contacts_;
   std::vector<StageParts> stages_;

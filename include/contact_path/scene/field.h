@@ -23,6 +23,10 @@ struct Unit {
   int load_factor = 0;
 };
 
+constexpr bool operator==(const Unit& a, const Unit& b) {
+  return a.length == b.length && a.force == b.force && a.load_factor == b.load_factor;
+}
+
 namespace units {
 constexpr Unit kNone = {0, 0, 0};
 constexpr Unit kLength = {1, 0, 0};
@@ -94,6 +98,9 @@ struct Member {
 template <typename Part>
 struct Fields;
 
+// The description of an element, a part that joins nodes and holds them by forces, tells their number besides:
+// Fields<Part>::kNodes, 0 for any number from 1. The field `nodes` of the part has their names.
+
 // Calls visit(field) for each field of Part, in the order of the description.
 template <typename Part, typename Visit>
 constexpr void ForEachField(Visit&& visit) {
@@ -111,6 +118,11 @@ template <typename T, typename = void>
 struct IsDescribed : std::false_type {};
 template <typename T>
 struct IsDescribed<T, std::void_t<decltype(Fields<T>::template Of<T>())>> : std::true_type {};
+
+template <typename T, typename = void>
+struct IsElement : std::false_type {};
+template <typename T>
+struct IsElement<T, std::void_t<decltype(Fields<T>::kNodes)>> : std::true_type {};
 
 }  // namespace field_internal
 
@@ -135,6 +147,12 @@ template <typename T>
 constexpr bool kIsPartList = false;
 template <typename T>
 constexpr bool kIsPartList<std::vector<T>> = kIsPart<T>;
+
+// Whether T is a list of elements.
+template <typename T>
+constexpr bool kIsElementList = false;
+template <typename T>
+constexpr bool kIsElementList<std::vector<T>> = field_internal::IsElement<T>::value;
 
 }  // namespace contact_path
 

@@ -17,6 +17,10 @@ struct Scaling {
   double load_factor = 1.0;  // LoadFactorScale
 };
 
+// Whether length and force follow from the elements alone: an element with a stiffness that is a force, as a bar, gives
+// both.
+bool HasForceScale(const Scene& scene);
+
 // `scene` must be sound (validate.h). index: of the scene, here and below.
 Scaling CharacteristicScales(const Scene& scene, const SceneIndex& index);
 inline Scaling CharacteristicScales(const Scene& scene) { return CharacteristicScales(scene, SceneIndex(scene)); }
@@ -25,11 +29,8 @@ inline Scaling CharacteristicScales(const Scene& scene) { return CharacteristicS
 double LoadFactorScale(const Scene& scene, const SceneIndex& index, double length, double force);
 
 // `scene` in scaled units: positions over L, forces over F, stiffnesses over F / L, reference loads and motions of norm
-// 1 together, summed by node. Normals of unit length, rest lengths filled in. Names and order are kept.
-Scene ScaleScene(const Scene& scene, const SceneIndex& index, const Scaling& scaling);
-inline Scene ScaleScene(const Scene& scene, const Scaling& scaling) {
-  return ScaleScene(scene, SceneIndex(scene), scaling);
-}
+// 1 together, summed by node. Normals of unit length. Names and order are kept.
+Scene ScaleScene(const Scene& scene, const Scaling& scaling);
 
 }  // namespace contact_path
 

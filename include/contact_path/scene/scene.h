@@ -9,9 +9,11 @@
 #ifndef CONTACT_PATH_SCENE_SCENE_H_
 #define CONTACT_PATH_SCENE_SCENE_H_
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -92,6 +94,7 @@ struct Bar {
 
 template <>
 struct Fields<Bar> {
+  static constexpr std::size_t kNodes = 2;
   template <typename P>
   static constexpr auto Of() {
     return std::tuple(Member("nodes", &P::nodes).Naming(TextKind::kNode),
@@ -110,6 +113,7 @@ struct Superelement {
 
 template <>
 struct Fields<Superelement> {
+  static constexpr std::size_t kNodes = 0;
   template <typename P>
   static constexpr auto Of() {
     return std::tuple(Member("nodes", &P::nodes).Naming(TextKind::kNode),
@@ -228,6 +232,14 @@ struct Fields<Scene> {
                       Member("support_motions", &P::support_motions), Member("obstacle_motions", &P::obstacle_motions));
   }
 };
+
+// Calls visit(name, list) for each list of elements of a scene, in the order of the scene.
+template <typename Visit>
+void ForEachElementList(const Scene& scene, Visit&& visit) {
+  ForEachField<Scene>([&](const auto& field) {
+    if constexpr (kIsElementList<typename std::decay_t<decltype(field)>::Value>) visit(field.name, scene.*field.member);
+  });
+}
 
 // Holds when `quantity` lies beyond `value` on the side that `when` names.
 struct StopCriterion {

@@ -16,8 +16,7 @@ struct PlacedElement {
   std::vector<int> nodes;  // of the scene, for the nodes 0, 1, ... of the element
 };
 
-// In scene order: bars, then superelements. `scene` must be sound, index its own. reference: x0, y0, x1, ...
-// (scene/configuration.h).
+// In the order of the scene. `scene` must be sound, index its own. reference: x0, y0, x1, ... (scene/configuration.h).
 std::vector<PlacedElement> MakeElements(const Scene& scene, const SceneIndex& index,
                                         const std::vector<double>& reference);
 

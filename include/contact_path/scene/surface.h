@@ -1,8 +1,12 @@
 // Boundaries of rigid obstacles: where a point stands relative to one.
-#ifndef CONTACT_PATH_CONTACT_SURFACE_H_
-#define CONTACT_PATH_CONTACT_SURFACE_H_
+#ifndef CONTACT_PATH_SCENE_SURFACE_H_
+#define CONTACT_PATH_SCENE_SURFACE_H_
 
 #include <Eigen/Core>
+#include <memory>
+#include <string_view>
+
+#include "contact_path/scene/scene.h"
 
 namespace contact_path {
 
@@ -43,6 +47,18 @@ class HalfPlane : public Surface {
   double offset_;  // n . p
 };
 
+// A number that does not fit the shape of its obstacle.
+struct ShapeFault {
+  std::string_view field;  // of the obstacle; empty: there is no fault
+  std::string_view rule;   // what must hold
+};
+
+// Of numbers that keep the rules of their fields.
+ShapeFault FindShapeFault(const Obstacle& obstacle);
+
+// The surface of an obstacle without a fault. An obstacle moves, and is placed, by its point (px, py).
+std::unique_ptr<const Surface> MakeSurface(const Obstacle& obstacle);
+
 }  // namespace contact_path
 
-#endif  // CONTACT_PATH_CONTACT_SURFACE_H_
+#endif  // CONTACT_PATH_SCENE_SURFACE_H_

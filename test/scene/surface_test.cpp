@@ -1,4 +1,4 @@
-#include "contact_path/contact/surface.h"
+#include "contact_path/scene/surface.h"
 
 #include <gtest/gtest.h>
 

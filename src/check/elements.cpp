@@ -1,0 +1,154 @@
+#include "check/elements.h"
+
+#include <limits>
+#include <string>
+#include <utility>
+
+namespace contact_path::check {
+namespace {
+
+struct BarLengths {
+  Real current = 0.0L;
+  Real rest = 0.0L;
+  Vector span;  // from the first node to the second
+};
+
+// e
+Real Strain(StrainMeasure measure, const BarLengths& lengths) {
+  const Real stretch = lengths.current / lengths.rest;
+  switch (measure) {
+    case StrainMeasure::kBiot: return stretch - 1.0L;
+    case StrainMeasure::kGreenLagrange: return (stretch * stretch - 1.0L) / 2.0L;
+    case StrainMeasure::kLogarithmic: return std::log(stretch);
+  }
+  return std::numeric_limits<Real>::quiet_NaN();
+}
+
+// de/dl / l: by Green and Lagrange's measure a bar of no length has one, too.
+Real StrainRatePerLength(StrainMeasure measure, const BarLengths& lengths) {
+  switch (measure) {
+    case StrainMeasure::kBiot: return 1.0L / (lengths.rest * lengths.current);
+    case StrainMeasure::kGreenLagrange: return 1.0L / (lengths.rest * lengths.rest);
+    case StrainMeasure::kLogarithmic: return 1.0L / (lengths.current * lengths.current);
+  }
+  return std::numeric_limits<Real>::quiet_NaN();
+}
+
+// W = EA l0 e^2 / 2.
+class BarElement : public Element {
+ public:
+  BarElement(const Bar& bar, const std::vector<std::size_t>& nodes, const std::vector<double>& reference)
+      : first_(nodes.at(0)), second_(nodes.at(1)), EA_(bar.EA), rest_(bar.rest_length), strain_(bar.strain) {
+    if (bar.rest_length == 0.0) rest_ = Length(NodePosition(reference, second_) - NodePosition(reference, first_));
+  }
+
+  void AddEnergy(const std::vector<double>& positions, Real* energy) const override {
+    const BarLengths lengths = Measure(positions);
+    const Real strain = Strain(strain_, lengths);
+    *energy += EA_ * lengths.rest * strain * strain / 2.0L;
+  }
+
+  void AddForce(const std::vector<double>& positions, std::vector<Real>* forces) const override {
+    const BarLengths lengths = Measure(positions);
+    // N = dW/dl = EA l0 e de/dl, along the bar: N / l times its span.
+    const Real per_length = EA_ * lengths.rest * Strain(strain_, lengths) * StrainRatePerLength(strain_, lengths);
+    const Vector pull{per_length * lengths.span.x, per_length * lengths.span.y};
+    (*forces)[2 * first_] -= pull.x;
+    (*forces)[2 * first_ + 1] -= pull.y;
+    (*forces)[2 * second_] += pull.x;
+    (*forces)[2 * second_ + 1] += pull.y;
+  }
+
+ private:
+  BarLengths Measure(const std::vector<double>& positions) const {
+    const Vector span = NodePosition(positions, second_) - NodePosition(positions, first_);
+    return {Length(span), rest_, span};
+  }
+
+  std::size_t first_, second_;
+  Real EA_, rest_;
+  StrainMeasure strain_;
+};
+
+// W = (x - X)' K (x - X) / 2.
+class LinearPart : public Element {
+ public:
+  LinearPart(const Superelement& part, std::vector<std::size_t> nodes, const std::vector<double>& reference)
+      : nodes_(std::move(nodes)),
+        stiffness_(part.stiffness.begin(), part.stiffness.end()),
+        rest_(part.rest_positions.begin(), part.rest_positions.end()) {
+    if (rest_.empty())
+      for (const std::size_t node : nodes_) rest_.insert(rest_.end(), {reference[2 * node], reference[2 * node + 1]});
+  }
+
+  void AddEnergy(const std::vector<double>& positions, Real* energy) const override {
+    const std::vector<Real> displacements = Displacements(positions), forces = Forces(displacements);
+    for (std::size_t i = 0; i < forces.size(); ++i) *energy += forces[i] * displacements[i] / 2.0L;
+  }
+
+  void AddForce(const std::vector<double>& positions, std::vector<Real>* forces) const override {
+    const std::vector<Real> elastic = Forces(Displacements(positions));
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+      (*forces)[2 * nodes_[i]] += elastic[2 * i];
+      (*forces)[2 * nodes_[i] + 1] += elastic[2 * i + 1];
+    }
+  }
+
+ private:
+  // x - X of the nodes, in their order.
+  std::vector<Real> Displacements(const std::vector<double>& positions) const {
+    std::vector<Real> displacements;
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+      const Vector moved = NodePosition(positions, nodes_[i]) - NodePosition(rest_, i);
+      displacements.push_back(moved.x);
+      displacements.push_back(moved.y);
+    }
+    return displacements;
+  }
+
+  // K d
+  std::vector<Real> Forces(const std::vector<Real>& displacements) const {
+    const std::size_t size = displacements.size();
+    std::vector<Real> forces(size, 0.0L);
+    for (std::size_t row = 0; row < size; ++row) {
+      for (std::size_t column = 0; column < size; ++column) {
+        forces[row] += stiffness_[row * size + column] * displacements[column];
+      }
+    }
+    return forces;
+  }
+
+  std::vector<std::size_t> nodes_;
+  std::vector<Real> stiffness_;  // row by row
+  std::vector<double> rest_;     // x0, y0, x1, ...
+};
+
+// The class of each kind of element.
+template <typename Part>
+struct ClassOf;
+template <>
+struct ClassOf<Bar> {
+  using Type = BarElement;
+};
+template <>
+struct ClassOf<Superelement> {
+  using Type = LinearPart;
+};
+
+}  // namespace
+
+std::vector<std::unique_ptr<const Element>> MakeElements(const Scene& scene, const NodeNumbers& numbers,
+                                                         const std::vector<double>& reference) {
+  std::vector<std::unique_ptr<const Element>> elements;
+  ForEachElementList(scene, [&](std::string_view, const auto& parts) {
+    using Class = typename ClassOf<typename std::decay_t<decltype(parts)>::value_type>::Type;
+    for (const auto& part : parts) {
+      std::vector<std::size_t> nodes;
+      for (const std::string& name : part.nodes) nodes.push_back(numbers.at(name));
+      elements.push_back(std::make_unique<Class>(part, nodes, reference));
+    }
+  });
+  return elements;
+}
+
+}  // namespace contact_path::check

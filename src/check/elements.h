@@ -1,0 +1,37 @@
+// The elements of a scene as the check sees them: written from their definitions (scene/scene.h), apart from
+// structure/.
+#ifndef CONTACT_PATH_SRC_CHECK_ELEMENTS_H_
+#define CONTACT_PATH_SRC_CHECK_ELEMENTS_H_
+
+#include <cstddef>
+#include <memory>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "check/plane.h"
+#include "contact_path/scene/scene.h"
+
+namespace contact_path::check {
+
+// positions and forces: x0, y0, x1, ... of all nodes of the scene.
+class Element {
+ public:
+  virtual ~Element() = default;
+
+  // Adds the strain energy W to *energy [force length].
+  virtual void AddEnergy(const std::vector<double>& positions, Real* energy) const = 0;
+  // Adds dW/dx to *forces [force].
+  virtual void AddForce(const std::vector<double>& positions, std::vector<Real>* forces) const = 0;
+};
+
+using NodeNumbers = std::unordered_map<std::string_view, std::size_t>;  // by name
+
+// In the order of the scene. reference: x0, y0, x1, ... (scene/configuration.h). Throws std::out_of_range for a name
+// that `numbers` does not have.
+std::vector<std::unique_ptr<const Element>> MakeElements(const Scene& scene, const NodeNumbers& numbers,
+                                                         const std::vector<double>& reference);
+
+}  // namespace contact_path::check
+
+#endif  // CONTACT_PATH_SRC_CHECK_ELEMENTS_H_

@@ -1,0 +1,30 @@
+// Vectors of the plane in extended precision: the check is more exact than the solvers.
+#ifndef CONTACT_PATH_SRC_CHECK_PLANE_H_
+#define CONTACT_PATH_SRC_CHECK_PLANE_H_
+
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace contact_path::check {
+
+using Real = long double;
+
+struct Vector {
+  Real x = 0.0L;
+  Real y = 0.0L;
+};
+
+inline Vector operator-(const Vector& a, const Vector& b) { return {a.x - b.x, a.y - b.y}; }
+inline Real Dot(const Vector& a, const Vector& b) { return a.x * b.x + a.y * b.y; }
+// Of long double squares, which neither overflow nor vanish for finite doubles.
+inline Real Length(const Vector& v) { return std::sqrt(v.x * v.x + v.y * v.y); }
+
+// positions: x0, y0, x1, ...
+inline Vector NodePosition(const std::vector<double>& positions, std::size_t node) {
+  return {positions[2 * node], positions[2 * node + 1]};
+}
+
+}  // namespace contact_path::check
+
+#endif  // CONTACT_PATH_SRC_CHECK_PLANE_H_

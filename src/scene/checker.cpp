@@ -1,0 +1,159 @@
+#include "scene/checker.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <limits>
+#include <locale>
+#include <optional>
+#include <sstream>
+
+#include "contact_path/scene/nearest_name.h"
+#include "contact_path/scene/quantity.h"
+#include "contact_path/scene/utf8.h"
+
+namespace contact_path {
+namespace {
+
+// Names become columns of a table and parts of "<node>@<obstacle>" and "<node>.x".
+bool IsAllowedInName(char c) {
+  const auto code = static_cast<unsigned char>(c);
+  return code > 0x20 && code != 0x7f && std::string_view("@,\"./").find(c) == std::string_view::npos;
+}
+
+std::string_view NameOf(const Node& node) { return node.name; }
+std::string_view NameOf(const Obstacle& obstacle) { return obstacle.name; }
+std::string NameOf(const ContactCandidate& contact) { return contact.Name(); }
+
+template <typename Part>
+NearestName NearestTo(const std::vector<Part>& parts, std::string_view wanted) {
+  NearestName nearest(wanted);
+  for (const Part& part : parts) nearest.Offer(NameOf(part));
+  return nearest;
+}
+
+}  // namespace
+
+std::string NumberText(double value) {
+  if (std::isnan(value)) return ".nan";
+  if (std::isinf(value)) return value > 0.0 ? ".inf" : "-.inf";
+  std::string text;
+  for (int digits = 15; digits <= std::numeric_limits<double>::max_digits10; ++digits) {
+    std::ostringstream out;
+    out.imbue(std::locale::classic());
+    out << std::setprecision(digits) << value;
+    text = out.str();
+    std::istringstream in(text);
+    in.imbue(std::locale::classic());
+    double back = 0.0;
+    if (in >> back && back == value) break;
+  }
+  return text;
+}
+
+std::string TextOrQuotes(const std::string& text) { return text.empty() ? "\"\"" : text; }
+
+std::string ListText(const std::vector<std::string>& names) {
+  constexpr std::size_t kShown = 8;
+  std::string text = "[";
+  for (std::size_t i = 0; i < names.size() && i < kShown; ++i) text += (i > 0 ? ", " : "") + TextOrQuotes(names[i]);
+  return text + (names.size() > kShown ? ", ...]" : "]");
+}
+
+const Node* Checker::KnownNode(const std::string& name) const {
+  const std::optional<std::size_t> place = index_.FindNode(name);
+  return place ? &request_.scene.nodes[*place] : nullptr;
+}
+
+const Obstacle* Checker::KnownObstacle(const std::string& name) const {
+  const std::optional<std::size_t> place = index_.FindObstacle(name);
+  return place ? &request_.scene.obstacles[*place] : nullptr;
+}
+
+bool Checker::HasFreeComponent() const {
+  return std::any_of(request_.scene.nodes.begin(), request_.scene.nodes.end(),
+                     [](const Node& node) { return !node.fixed_x || !node.fixed_y; });
+}
+
+void Checker::Add(const KeyPath& path, std::string value, std::string rule) {
+  Violation violation;
+  violation.key = path.ToString();
+  violation.value = std::move(value);
+  violation.rule = std::move(rule);
+  violations_.push_back(std::move(violation));
+  if (++found_ >= kMostViolations) throw Enough();
+}
+
+void Checker::CheckNumber(const KeyPath& key, double value, Range range) {
+  if (!std::isfinite(value)) {
+    Add(key, NumberText(value), "must be finite");
+  } else if (std::abs(value) > kLargestInput) {
+    Add(key, NumberText(value), "must not exceed 1e+100 in magnitude");
+  } else if (range == Range::kNotNegative && value < 0.0) {
+    Add(key, NumberText(value), "must be >= 0");
+  } else if (range == Range::kPositive && value < kSmallestInput) {
+    Add(key, NumberText(value), "must be > 0 (at least 1e-100)");
+  } else if (range == Range::kZeroOrPositive && value != 0.0 && value < kSmallestInput) {
+    Add(key, NumberText(value), "must be 0 or positive (at least 1e-100)");
+  }
+}
+
+void Checker::CheckText(const KeyPath& key, const std::string& text, TextKind kind,
+                        std::unordered_set<std::string>* earlier) {
+  switch (kind) {
+    case TextKind::kAny: CheckUtf8(key, text); break;
+    case TextKind::kNewName: CheckName(key, text, *earlier); break;
+    case TextKind::kNode:
+      if (!index_.FindNode(text))
+        Add(key, TextOrQuotes(text),
+            "must name a node of the scene" + NearestTo(request_.scene.nodes, text).Question());
+      break;
+    case TextKind::kObstacle:
+      if (!index_.FindObstacle(text))
+        Add(key, TextOrQuotes(text),
+            "must name an obstacle of the scene" + NearestTo(request_.scene.obstacles, text).Question());
+      break;
+    case TextKind::kQuantity: CheckQuantity(key, text); break;
+  }
+}
+
+bool Checker::CheckUtf8(const KeyPath& key, const std::string& name) {
+  if (FindNoUtf8(name) == std::string_view::npos) return true;
+  Add(key, name, "must be UTF-8");
+  return false;
+}
+
+// `earlier` holds the names before this one.
+void Checker::CheckName(const KeyPath& key, const std::string& name, std::unordered_set<std::string>& earlier) {
+  if (name.empty()) {
+    Add(key, TextOrQuotes(name), "must not be empty");
+  } else if (!CheckUtf8(key, name)) {
+    return;
+  } else if (!std::all_of(name.begin(), name.end(), IsAllowedInName)) {
+    Add(key, name, "must not contain white space, control characters or any of @ , \" . /");
+  } else if (!earlier.insert(name).second) {
+    Add(key, name, "must be unique, but an earlier one has the same name");
+  }
+}
+
+void Checker::CheckQuantity(const KeyPath& key, const std::string& text) {
+  const std::optional<SpelledQuantity> quantity = ReadQuantity(text);
+  if (!quantity) {
+    Add(key, TextOrQuotes(text),
+        "must be load_factor, <node>.x, <node>.y, <contact>.gap, <contact>.rn or <contact>.rt");
+  } else if (quantity->kind == Quantity::Kind::kLoadFactor) {
+    if (!request_.program.empty())
+      Add(key, text, "must be of a node or contact where there is a program: each stage has a target of its own");
+  } else if (!FindQuantity(text, index_)) {
+    const bool of_node = Quantity{quantity->kind, 0}.IsOfNode();
+    const NearestName nearest =
+        of_node ? NearestTo(request_.scene.nodes, quantity->name) : NearestTo(request_.scene.contacts, quantity->name);
+    const std::string question =
+        nearest.Get().empty()
+            ? ""
+            : "; did you mean " + QuantityText(quantity->kind, nearest.Get(), quantity->is_column) + "?";
+    Add(key, text, (of_node ? "must refer to a node of the scene" : "must refer to a contact of the scene") + question);
+  }
+}
+
+}  // namespace contact_path

@@ -1,0 +1,96 @@
+// What the rules of a request share: the request, its names, and what was found to be wrong so far.
+#ifndef CONTACT_PATH_SRC_SCENE_CHECKER_H_
+#define CONTACT_PATH_SRC_SCENE_CHECKER_H_
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <unordered_set>
+#include <utility>
+#include <vector>
+
+#include "contact_path/scene/field.h"
+#include "contact_path/scene/key_path.h"
+#include "contact_path/scene/scene.h"
+#include "contact_path/scene/scene_index.h"
+#include "contact_path/scene/validate.h"
+
+namespace contact_path {
+
+// Within these bounds no product or quotient that is formed of two inputs leaves the range of double.
+constexpr double kLargestInput = 1e100;
+constexpr double kSmallestInput = 1e-100;  // of what must be positive
+
+// Relative bound, far above rounding and far below anything meant: of the sum of loads that cancel.
+constexpr double kLoadLeft = 1e-12;
+
+// The shortest text that reads back as `value`, in YAML's spelling.
+std::string NumberText(double value);
+std::string TextOrQuotes(const std::string& text);
+// "[a, b]"; of a long list its beginning.
+std::string ListText(const std::vector<std::string>& names);
+
+// A rule that needs something which is already known to be wrong is left out, so that one mistake is not reported
+// several times.
+class Checker {
+ public:
+  struct Enough {};  // thrown as soon as there are kMostViolations
+
+  // `request` must outlive the checker.
+  explicit Checker(const TraceRequest& request) : request_(request), index_(request.scene) {}
+
+  const TraceRequest& Request() const { return request_; }
+  const Scene& GetScene() const { return request_.scene; }
+  const SceneIndex& Index() const { return index_; }
+
+  // Null for a name that the scene does not have.
+  const Node* KnownNode(const std::string& name) const;
+  const Obstacle* KnownObstacle(const std::string& name) const;
+  // Whether a component of a node is free.
+  bool HasFreeComponent() const;
+
+  void Add(const KeyPath& path, std::string value, std::string rule);
+  // The violations since the last call.
+  std::vector<Violation> Take() { return std::exchange(violations_, {}); }
+  bool NothingFound() const { return violations_.empty(); }
+
+  // Checks each field of a part by itself, as its description says. earlier: the names of the parts before it in its
+  // list; null for a part without a name. False after adding a violation.
+  template <typename Part>
+  bool CheckFields(const KeyPath& path, const Part& part, std::unordered_set<std::string>* earlier = nullptr) {
+    const std::size_t found_before = found_;
+    ForEachField<Part>([&](const auto& field) {
+      const auto& value = part.*field.member;
+      using Value = std::decay_t<decltype(value)>;
+      const KeyPath key = path.Key(field.name);
+      if constexpr (std::is_same_v<Value, double>) CheckNumber(key, value, field.range);
+      if constexpr (std::is_same_v<Value, int>)
+        if (value < 0 && field.range == Range::kNotNegative) Add(key, std::to_string(value), "must be >= 0");
+      if constexpr (std::is_same_v<Value, std::string>) CheckText(key, value, field.text, earlier);
+      if constexpr (std::is_same_v<Value, std::vector<double>>)
+        for (std::size_t i = 0; i < value.size(); ++i) CheckNumber(key[i], value[i], field.range);
+      if constexpr (std::is_same_v<Value, std::vector<std::string>>)
+        for (std::size_t i = 0; i < value.size(); ++i) CheckText(key[i], value[i], field.text, earlier);
+    });
+    return found_ == found_before;
+  }
+
+  // Clients in Python could not read another text. False after adding a violation.
+  bool CheckUtf8(const KeyPath& key, const std::string& name);
+
+ private:
+  void CheckNumber(const KeyPath& key, double value, Range range);
+  void CheckText(const KeyPath& key, const std::string& text, TextKind kind, std::unordered_set<std::string>* earlier);
+  void CheckName(const KeyPath& key, const std::string& name, std::unordered_set<std::string>& earlier);
+  void CheckQuantity(const KeyPath& key, const std::string& text);
+
+  const TraceRequest& request_;
+  const SceneIndex index_;
+  std::vector<Violation> violations_;
+  std::size_t found_ = 0;  // also those that were taken
+};
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_SRC_SCENE_CHECKER_H_

@@ -1,0 +1,86 @@
+#include "scene/contact_rules.h"
+
+#include <cmath>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "contact_path/scene/surface.h"
+
+namespace contact_path {
+namespace {
+
+// Relative bounds, far above rounding and far below anything meant.
+constexpr double kPenetration = 1e-9;    // of the initial gap, by the characteristic length
+constexpr double kNormalOnFree = 1e-12;  // of the normal's part along free components
+
+const KeyPath kScene("scene");
+
+double NumberOf(const Obstacle& obstacle, std::string_view name) {
+  double number = 0.0;
+  ForEachField<Obstacle>([&](const auto& field) {
+    if constexpr (std::is_same_v<typename std::decay_t<decltype(field)>::Value, double>)
+      if (field.name == name) number = obstacle.*field.member;
+  });
+  return number;
+}
+
+// Whether all its numbers are finite and not too large.
+bool HasSoundNumbers(const Obstacle& obstacle) {
+  bool sound = true;
+  ForEachField<Obstacle>([&](const auto& field) {
+    if constexpr (std::is_same_v<typename std::decay_t<decltype(field)>::Value, double>)
+      sound = sound && std::abs(obstacle.*field.member) <= kLargestInput;
+  });
+  return sound;
+}
+
+// Where a node stands, to the precision of its distance from the point of the obstacle.
+Projection ProjectNode(const Node& node, Obstacle obstacle) {
+  obstacle.px -= node.x;
+  obstacle.py -= node.y;
+  return MakeSurface(obstacle)->Project(Eigen::Vector2d::Zero());
+}
+
+}  // namespace
+
+void ContactRules::CheckObstacles() {
+  const KeyPath list = kScene.Key("obstacles");
+  std::unordered_set<std::string> earlier;
+  for (std::size_t i = 0; i < scene_.obstacles.size(); ++i) {
+    const Obstacle& obstacle = scene_.obstacles[i];
+    checker_.CheckFields(list[i], obstacle, &earlier);
+    const ShapeFault fault = FindShapeFault(obstacle);
+    if (!fault.field.empty())
+      checker_.Add(list[i].Key(fault.field), NumberText(NumberOf(obstacle, fault.field)), std::string(fault.rule));
+    else if (HasSoundNumbers(obstacle))
+      usable_obstacles_.insert(&obstacle);
+  }
+}
+
+void ContactRules::CheckContacts(double length) {
+  const KeyPath list = kScene.Key("contacts");
+  std::set<std::pair<std::string, std::string>> earlier;
+  for (std::size_t i = 0; i < scene_.contacts.size(); ++i) {
+    const ContactCandidate& contact = scene_.contacts[i];
+    checker_.CheckFields(list[i], contact);
+    const Node* const node = checker_.KnownNode(contact.node);
+    const Obstacle* const obstacle = checker_.KnownObstacle(contact.obstacle);
+    if (!earlier.emplace(contact.node, contact.obstacle).second)
+      checker_.Add(list[i], contact.Name(), "must not be repeated");
+    else if (node != nullptr && obstacle != nullptr && usable_obstacles_.count(obstacle) > 0)
+      CheckGeometry(list[i], contact, *node, *obstacle, length);
+  }
+}
+
+void ContactRules::CheckGeometry(const KeyPath& path, const ContactCandidate& contact, const Node& node,
+                                 const Obstacle& obstacle, double length) {
+  const Projection at = ProjectNode(node, obstacle);
+  const double free_part = std::hypot(node.fixed_x ? 0.0 : at.normal.x(), node.fixed_y ? 0.0 : at.normal.y());
+  if (free_part <= kNormalOnFree)
+    checker_.Add(path.Key("node"), contact.node, "must be free to move along the normal of the obstacle");
+  if (length > 0.0 && at.gap < -kPenetration * length)
+    checker_.Add(path, contact.Name(), "initial position penetrates the obstacle by " + NumberText(-at.gap));
+}
+
+}  // namespace contact_path

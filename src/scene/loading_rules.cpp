@@ -1,0 +1,202 @@
+#include "scene/loading_rules.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "contact_path/scene/can_slide.h"
+
+namespace contact_path {
+namespace {
+
+constexpr double kAlong = 1e-12;  // of a motion: its part along the obstacle, far above rounding
+
+const KeyPath kScene("scene");
+
+}  // namespace
+
+void BroughtOn::Add(Kind kind, std::size_t part, int component, double value) {
+  const auto at = sums_.try_emplace({kind, part, component}).first;
+  Sum& sum = at->second;
+  sum.value += value / left_;
+  sum.largest = std::max(sum.largest, std::abs(value / left_));
+  if (std::abs(sum.value) <= kLoadLeft * sum.largest) sums_.erase(at);
+}
+
+void BroughtOn::TakeBack(double share) {
+  left_ *= 1.0 - share;
+  if (left_ > kLoadLeft) return;
+  sums_.clear();
+  left_ = 1.0;
+}
+
+LoadingRules::LoadingRules(Checker* checker) : checker_(*checker), scene_(checker->GetScene()) {
+  for (const ContactCandidate& contact : scene_.contacts) {
+    contact_nodes_.insert(contact.node);
+    const Node* const node = checker_.KnownNode(contact.node);
+    const Obstacle* const obstacle = checker_.KnownObstacle(contact.obstacle);
+    if (node != nullptr && obstacle != nullptr && !CanSlide(!node->fixed_x, !node->fixed_y, *obstacle))
+      held_.emplace(obstacle, node);
+  }
+}
+
+void LoadingRules::CheckSceneLoads() {
+  CheckLoads(kScene.Key("loads"), scene_.loads);
+  CheckWhatMoves();
+}
+
+void LoadingRules::CheckSceneMotions() { CheckMotions(kScene, scene_.support_motions, scene_.obstacle_motions); }
+
+void LoadingRules::CheckLoads(const KeyPath& list, const std::vector<Load>& loads) {
+  for (std::size_t i = 0; i < loads.size(); ++i)
+    loads_are_sound_ = checker_.CheckFields(list[i], loads[i]) && loads_are_sound_;
+}
+
+// Something must change with the load factor, of the scene or of each stage.
+void LoadingRules::CheckWhatMoves() {
+  const KeyPath list = kScene.Key("loads");
+  if (!checker_.Request().program.empty()) {
+    for (std::size_t i = 0; i < scene_.loads.size(); ++i)
+      if (!scene_.loads[i].constant)
+        checker_.Add(list[i].Key("constant"), "false",
+                     "must be true where there is a program: loads that a load factor scales belong to a stage");
+    return;
+  }
+  if (loads_are_sound_ && checker_.HasFreeComponent() && !HasReferenceLoad(scene_.loads) &&
+      scene_.support_motions.empty() && scene_.obstacle_motions.empty()) {
+    checker_.Add(list, scene_.loads.empty() ? "[]" : "no net force",
+                 "a load that is not constant must act on a free component, or a support or an obstacle must move");
+  }
+}
+
+void LoadingRules::CheckProgram() {
+  const bool program = !checker_.Request().program.empty();
+  if (program && !scene_.support_motions.empty())
+    checker_.Add(kScene.Key("support_motions"), "",
+                 "must be empty where there is a program: motions belong to its stages");
+  if (program && !scene_.obstacle_motions.empty())
+    checker_.Add(kScene.Key("obstacle_motions"), "",
+                 "must be empty where there is a program: motions belong to its stages");
+  const KeyPath list("program");
+  for (std::size_t i = 0; i < checker_.Request().program.size(); ++i)
+    CheckStage(list[i], checker_.Request().program[i]);
+}
+
+void LoadingRules::CheckStage(const KeyPath& path, const Stage& stage) {
+  const KeyPath loads = path.Key("loads");
+  const bool sound = checker_.CheckFields(path, stage);
+  CheckLoads(loads, stage.loads);
+  for (std::size_t k = 0; k < stage.loads.size(); ++k)
+    if (stage.loads[k].constant)
+      checker_.Add(loads[k].Key("constant"), "true", "must be false: constant loads belong to the scene");
+  CheckMotions(path, stage.support_motions, stage.obstacle_motions);
+  if (stage.unload)
+    CheckUnloading(path, stage, sound);
+  else if (loads_are_sound_ && checker_.HasFreeComponent() && !HasReferenceLoad(stage.loads) &&
+           stage.support_motions.empty() && stage.obstacle_motions.empty())
+    checker_.Add(path, stage.name, "a load must act on a free component, or a support or an obstacle must move");
+  NoteBroughtOn(stage);
+}
+
+void LoadingRules::CheckUnloading(const KeyPath& path, const Stage& stage, bool sound) {
+  const char* const rule = "must be empty where the stage unloads: it takes back what the stages before have left";
+  if (!stage.loads.empty()) checker_.Add(path.Key("loads"), "", rule);
+  if (!stage.support_motions.empty()) checker_.Add(path.Key("support_motions"), "", rule);
+  if (!stage.obstacle_motions.empty()) checker_.Add(path.Key("obstacle_motions"), "", rule);
+  if (sound && !(stage.target >= 0.0 && stage.target <= 1.0))
+    checker_.Add(path.Key("target"), NumberText(stage.target),
+                 "must be from 0 to 1 where the stage unloads: the part that is taken back, 0 = all");
+  if (checker_.NothingFound() && brought_on_.IsNothing())
+    checker_.Add(path.Key("unload"), "true",
+                 "the stages before must have left a load or a motion that can be taken back");
+}
+
+void LoadingRules::NoteBroughtOn(const Stage& stage) {
+  if (!checker_.NothingFound() || !loads_are_sound_) return;
+  const double target = stage.Target();
+  if (stage.unload) return brought_on_.TakeBack(target);
+  for (const Load& load : stage.loads) {
+    const std::size_t node = checker_.Index().Node(load.node);
+    if (!scene_.nodes[node].fixed_x) brought_on_.Add(BroughtOn::Kind::kLoad, node, 0, target * load.fx);
+    if (!scene_.nodes[node].fixed_y) brought_on_.Add(BroughtOn::Kind::kLoad, node, 1, target * load.fy);
+  }
+  for (const SupportMotion& motion : stage.support_motions) {
+    const std::size_t node = checker_.Index().Node(motion.node);
+    brought_on_.Add(BroughtOn::Kind::kSupport, node, 0, target * motion.dx);
+    brought_on_.Add(BroughtOn::Kind::kSupport, node, 1, target * motion.dy);
+  }
+  for (const ObstacleMotion& motion : stage.obstacle_motions) {
+    const std::size_t obstacle = checker_.Index().Obstacle(motion.obstacle);
+    brought_on_.Add(BroughtOn::Kind::kObstacle, obstacle, 0, target * motion.dx);
+    brought_on_.Add(BroughtOn::Kind::kObstacle, obstacle, 1, target * motion.dy);
+  }
+}
+
+template <typename Motion>
+bool LoadingRules::CheckMotion(const KeyPath& path, const Motion& motion) {
+  if (!(std::abs(motion.dx) <= kLargestInput && std::abs(motion.dy) <= kLargestInput)) return false;
+  if (std::hypot(motion.dx, motion.dy) >= kSmallestInput) return true;
+  checker_.Add(path, "no motion", "dx or dy must not be zero (length at least 1e-100)");
+  return false;
+}
+
+void LoadingRules::CheckMotions(const KeyPath& where, const std::vector<SupportMotion>& supports,
+                                const std::vector<ObstacleMotion>& obstacles) {
+  const KeyPath support_list = where.Key("support_motions"), obstacle_list = where.Key("obstacle_motions");
+  std::unordered_set<std::string> moved;
+  for (std::size_t i = 0; i < supports.size(); ++i) {
+    const SupportMotion& motion = supports[i];
+    const KeyPath path = support_list[i];
+    checker_.CheckFields(path, motion);
+    if (!moved.insert(motion.node).second) checker_.Add(path.Key("node"), motion.node, "must not be repeated");
+    const Node* const node = checker_.KnownNode(motion.node);
+    if (!CheckMotion(path, motion) || node == nullptr) continue;
+    if (motion.dx != 0.0 && !node->fixed_x)
+      checker_.Add(path.Key("dx"), NumberText(motion.dx), "must be 0: node " + node->name + " is not fixed in x");
+    if (motion.dy != 0.0 && !node->fixed_y)
+      checker_.Add(path.Key("dy"), NumberText(motion.dy), "must be 0: node " + node->name + " is not fixed in y");
+    if (contact_nodes_.count(motion.node) > 0)
+      checker_.Add(path.Key("node"), motion.node,
+                   "must not be a contact candidate: its reactions would not be determined");
+  }
+  moved.clear();
+  for (std::size_t i = 0; i < obstacles.size(); ++i) {
+    const ObstacleMotion& motion = obstacles[i];
+    const KeyPath path = obstacle_list[i];
+    checker_.CheckFields(path, motion);
+    if (!moved.insert(motion.obstacle).second)
+      checker_.Add(path.Key("obstacle"), motion.obstacle, "must not be repeated");
+    const Obstacle* const obstacle = checker_.KnownObstacle(motion.obstacle);
+    if (CheckMotion(path, motion) && obstacle != nullptr) CheckNodesCanFollow(path, motion, *obstacle);
+  }
+}
+
+void LoadingRules::CheckNodesCanFollow(const KeyPath& path, const ObstacleMotion& motion, const Obstacle& obstacle) {
+  const double norm = std::hypot(obstacle.nx, obstacle.ny);
+  const double along = std::abs(obstacle.ny * motion.dx - obstacle.nx * motion.dy) / norm;
+  // Not along a normal, nor along one that turns: its candidates can follow.
+  if (!(obstacle.friction > 0.0) || !(along > kAlong * std::hypot(motion.dx, motion.dy))) return;
+  const auto held = held_.find(&obstacle);
+  if (held != held_.end())
+    checker_.Add(path.Key("obstacle"), motion.obstacle,
+                 "moves along itself with friction: node " + held->second->name + " must be free to move that way");
+}
+
+bool LoadingRules::HasReferenceLoad(const std::vector<Load>& loads) const {
+  std::map<const Node*, std::array<double, 2>> sums;
+  double largest = kSmallestInput / kLoadLeft;
+  for (const Load& load : loads) {
+    if (load.constant) continue;
+    const Node* const node = checker_.KnownNode(load.node);
+    const std::array<double, 2> force = {node->fixed_x ? 0.0 : load.fx, node->fixed_y ? 0.0 : load.fy};
+    for (std::size_t k = 0; k < 2; ++k) {
+      sums[node][k] += force[k];
+      largest = std::max(largest, std::abs(force[k]));
+    }
+  }
+  return std::any_of(sums.begin(), sums.end(),
+                     [&](const auto& sum) { return std::hypot(sum.second[0], sum.second[1]) >= kLoadLeft * largest; });
+}
+
+}  // namespace contact_path

@@ -1,0 +1,73 @@
+// The rules of loads, motions and load programs.
+#ifndef CONTACT_PATH_SRC_SCENE_LOADING_RULES_H_
+#define CONTACT_PATH_SRC_SCENE_LOADING_RULES_H_
+
+#include <cstddef>
+#include <map>
+#include <string_view>
+#include <tuple>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+#include "scene/checker.h"
+
+namespace contact_path {
+
+// What the stages of a program have brought on, summed by component: whether a stage that unloads has anything to take
+// back. Takes time in proportion to what is added.
+class BroughtOn {
+ public:
+  enum class Kind { kLoad, kSupport, kObstacle };
+
+  // part: the place of the node or obstacle.
+  void Add(Kind kind, std::size_t part, int component, double value);
+  void TakeBack(double share);
+  bool IsNothing() const { return sums_.empty(); }
+
+ private:
+  struct Sum {
+    double value = 0.0, largest = 0.0;
+  };
+  std::map<std::tuple<Kind, std::size_t, int>, Sum> sums_;  // over left_
+  double left_ = 1.0;
+};
+
+class LoadingRules {
+ public:
+  explicit LoadingRules(Checker* checker);
+
+  // The loads of the scene, and whether anything changes with the load factor.
+  void CheckSceneLoads();
+  void CheckSceneMotions();
+  void CheckProgram();
+
+ private:
+  void CheckLoads(const KeyPath& list, const std::vector<Load>& loads);
+  void CheckWhatMoves();
+  void CheckMotions(const KeyPath& where, const std::vector<SupportMotion>& supports,
+                    const std::vector<ObstacleMotion>& obstacles);
+  // Of a support or an obstacle.
+  template <typename Motion>
+  bool CheckMotion(const KeyPath& path, const Motion& motion);
+  // What an obstacle with friction drags along must be able to follow it, or its reaction is not determined.
+  void CheckNodesCanFollow(const KeyPath& path, const ObstacleMotion& motion, const Obstacle& obstacle);
+  void CheckStage(const KeyPath& path, const Stage& stage);
+  // sound: the numbers of the stage are.
+  void CheckUnloading(const KeyPath& path, const Stage& stage, bool sound);
+  // Nothing of a request that is not sound.
+  void NoteBroughtOn(const Stage& stage);
+  // Whether the loads that the load factor scales, summed by node, leave something on a free component.
+  bool HasReferenceLoad(const std::vector<Load>& loads) const;
+
+  Checker& checker_;
+  const Scene& scene_;
+  std::unordered_set<std::string_view> contact_nodes_;
+  std::unordered_map<const Obstacle*, const Node*> held_;  // the first candidate of each that cannot follow it
+  bool loads_are_sound_ = true;                            // as far as checked
+  BroughtOn brought_on_;                                   // by the stages so far
+};
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_SRC_SCENE_LOADING_RULES_H_

@@ -1,0 +1,157 @@
+#include "scene/structure_rules.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace contact_path {
+namespace {
+
+constexpr double kSymmetry = 1e-9;  // of a stiffness matrix, relative to its largest entry
+
+const KeyPath kScene("scene");
+
+// "bar or superelement".
+std::string ElementKinds() {
+  std::vector<std::string_view> kinds;
+  ForEachElementList(Scene(), [&](std::string_view list, const auto&) {
+    kinds.push_back(list.substr(0, list.size() - 1));  // one of them
+  });
+  std::string text;
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    if (i > 0) text += i + 1 < kinds.size() ? ", " : " or ";
+    text += kinds[i];
+  }
+  return text;
+}
+
+class StructureRules {
+ public:
+  explicit StructureRules(Checker* checker) : checker_(*checker), scene_(checker->GetScene()) {}
+
+  void CheckNodes() {
+    const KeyPath list = kScene.Key("nodes");
+    if (scene_.nodes.empty()) return checker_.Add(list, "[]", "at least one node is needed");
+    bool held_is_reliable = false;
+    const std::unordered_set<std::string> held = HeldNodes(&held_is_reliable);
+    std::unordered_set<std::string> earlier;
+    for (std::size_t i = 0; i < scene_.nodes.size(); ++i) {
+      const Node& node = scene_.nodes[i];
+      checker_.CheckFields(list[i], node, &earlier);
+      if (held_is_reliable && !(node.fixed_x && node.fixed_y) && held.count(node.name) == 0)
+        checker_.Add(list[i], TextOrQuotes(node.name),
+                     "a node that is free to move must belong to a " + ElementKinds());
+    }
+    if (!checker_.HasFreeComponent()) checker_.Add(list, "all fixed", "at least one component of a node must be free");
+  }
+
+  void CheckElements() {
+    bool any = false;
+    ForEachElementList(scene_, [&](std::string_view, const auto& elements) { any = any || !elements.empty(); });
+    bool is_first = true;
+    ForEachElementList(scene_, [&](std::string_view name, const auto& elements) {
+      const KeyPath list = kScene.Key(name);
+      if (!any && is_first && !scene_.nodes.empty())
+        checker_.Add(list, "[]", "at least one " + ElementKinds() + " is needed");
+      is_first = false;
+      for (std::size_t i = 0; i < elements.size(); ++i) CheckElement(list[i], elements[i]);
+    });
+  }
+
+ private:
+  // The nodes that elements hold; nothing where elements refer to unknown nodes or where there are no elements.
+  std::unordered_set<std::string> HeldNodes(bool* reliable) const {
+    std::unordered_set<std::string> held;
+    ForEachElementList(scene_, [&](std::string_view, const auto& elements) {
+      for (const auto& element : elements) held.insert(element.nodes.begin(), element.nodes.end());
+    });
+    *reliable = !held.empty() && std::all_of(held.begin(), held.end(),
+                                             [this](const auto& n) { return checker_.KnownNode(n) != nullptr; });
+    return held;
+  }
+
+  template <typename Part>
+  void CheckElement(const KeyPath& path, const Part& element) {
+    const bool sound = checker_.CheckFields(path, element);
+    const KeyPath nodes = path.Key("nodes");
+    if constexpr (Fields<Part>::kNodes == 2) {
+      CheckTwoNodes(nodes, element.nodes);
+    } else {
+      CheckNodeList(nodes, element.nodes, Fields<Part>::kNodes);
+    }
+    CheckOwnRules(path, element, sound);
+  }
+
+  void CheckTwoNodes(const KeyPath& key, const std::vector<std::string>& nodes) {
+    if (nodes.size() != 2) return checker_.Add(key, ListText(nodes), "must name two nodes");
+    const Node *const first = checker_.KnownNode(nodes[0]), *const second = checker_.KnownNode(nodes[1]);
+    if (first == nullptr || second == nullptr) return;
+    const double distance = std::hypot(second->x - first->x, second->y - first->y);
+    if (first == second) {
+      checker_.Add(key, ListText(nodes), "must name two different nodes");
+    } else if (distance < kSmallestInput) {  // false for a distance that is not finite
+      checker_.Add(key, ListText(nodes), "the two nodes must not be at the same point");
+    }
+  }
+
+  // count: 0 = at least one.
+  void CheckNodeList(const KeyPath& key, const std::vector<std::string>& nodes, std::size_t count) {
+    if (count == 0 && nodes.empty()) checker_.Add(key, "[]", "at least one node is needed");
+    if (count > 0 && nodes.size() != count)
+      checker_.Add(key, ListText(nodes), "must name " + std::to_string(count) + " nodes");
+    std::unordered_set<std::string> earlier;
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      if (!earlier.insert(nodes[i]).second && checker_.KnownNode(nodes[i]) != nullptr)
+        checker_.Add(key[i], nodes[i], "must not be repeated");
+  }
+
+  // What the description of an element does not tell. sound: its fields are.
+  template <typename Part>
+  void CheckOwnRules(const KeyPath&, const Part&, bool) {}
+
+  void CheckOwnRules(const KeyPath& path, const Superelement& element, bool sound) {
+    if (!element.nodes.empty()) CheckStiffness(path.Key("stiffness"), element, sound);
+    const std::size_t size = element.rest_positions.size();
+    if (size != 0 && size != 2 * element.nodes.size())
+      checker_.Add(path.Key("rest_positions"), std::to_string(size) + " entries",
+                   "must be empty or have " + std::to_string(2 * element.nodes.size()) + " entries: x, y of each node");
+  }
+
+  // sound: all entries are.
+  void CheckStiffness(const KeyPath& key, const Superelement& element, bool sound) {
+    const std::vector<double>& entries = element.stiffness;
+    const std::size_t rows = 2 * element.nodes.size();
+    if (entries.size() != rows * rows) {
+      return checker_.Add(key, std::to_string(entries.size()) + " entries",
+                          "must have " + std::to_string(rows * rows) + " entries: " + std::to_string(rows) +
+                              " rows of " + std::to_string(rows));
+    }
+    if (!sound) return;
+    double largest = 0.0;
+    for (const double entry : entries) largest = std::max(largest, std::abs(entry));
+    if (largest < kSmallestInput)
+      return checker_.Add(key, "all 0", "must not be zero (an entry of at least 1e-100 is needed)");
+    for (std::size_t row = 0; row < rows; ++row) {
+      for (std::size_t column = row + 1; column < rows; ++column) {
+        const std::size_t above = row * rows + column;
+        const std::size_t below = column * rows + row;
+        if (std::abs(entries[above] - entries[below]) <= kSymmetry * largest) continue;
+        return checker_.Add(
+            key[below], NumberText(entries[below]),
+            "the matrix must be symmetric, but entry [" + std::to_string(above) + "] is " + NumberText(entries[above]));
+      }
+    }
+  }
+
+  Checker& checker_;
+  const Scene& scene_;
+};
+
+}  // namespace
+
+void CheckStructure(Checker* checker) {
+  StructureRules rules(checker);
+  rules.CheckNodes();
+  rules.CheckElements();
+}
+
+}  // namespace contact_path
