@@ -9,7 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "contact_path/path/path_summary.h"
 #include "contact_path/ros/bag_reader.h"
+#include "contact_path/ros/convert.h"
 #include "contact_path/scene/one_line.h"
 #include "contact_path/verify/verify_end.h"
 #include "contact_path/verify/verify_path.h"
@@ -44,12 +46,30 @@ void PrintTable(const RecordedTrace& trace, const Verification& verification) {
             << verification.work << " of work done by the loads\n\n";
 }
 
+// What speaks against the limit points of the result, in a line; empty: nothing does.
+std::string LimitPointsContradicted(const contact_path_msgs::TraceResult& result,
+                                    const std::vector<Increment>& increments) {
+  PathSummary summary(1.0);
+  for (const Increment& increment : increments) summary.Add(increment);
+  const std::vector<contact_path_msgs::LimitPoint> points = ToMessages(summary.limit_points());
+  if (result.limit_points.size() != points.size())
+    return "the result lists " + std::to_string(result.limit_points.size()) +
+           " limit points, but the increments show " + std::to_string(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (result.limit_points[i] != points[i])
+      return "limit_points[" + std::to_string(i) + "] of the result is not the limit point of increment " +
+             std::to_string(points[i].index);
+  return {};
+}
+
 // What the record as a whole lacks; empty if nothing.
 std::string Lacks(const RecordedTrace& trace) {
   if (!trace.result) return "truncated: no result, the trace was cut off before its end";
   if (trace.result->increments != trace.increments.size())
     return "truncated: " + std::to_string(trace.increments.size()) + " increments, the result speaks of " +
            std::to_string(trace.result->increments);
+  const std::string limit_points = LimitPointsContradicted(*trace.result, trace.increments);
+  if (!limit_points.empty()) return limit_points;
   return EndContradicted(trace.request, trace.increments, trace.result->end_reason_name);
 }
 

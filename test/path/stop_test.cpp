@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "support/traced_path.h"
+
 namespace contact_path {
 namespace {
 
@@ -95,6 +97,47 @@ TEST_F(Stop, RowZeroIsNotAsked) {
 TEST_F(Stop, TextIsWhatThePersonWrote) {
   EXPECT_EQ(ToText({"b.x", ">", 4.95}), "b.x > 4.95");
   EXPECT_EQ(ToText({"load_factor", "<", -1.0}), "load_factor < -1");
+}
+
+// A block of weight 1 on a rough floor with mu = 0.5, on a spring of stiffness 2, under the load s (fx, fy).
+TraceRequest Block(double fx, double fy, const StopCriterion& stop, Method method) {
+  TraceRequest request;
+  request.scene.nodes = {{"p", 0.0, 0.0, false, false}};
+  request.scene.superelements = {{{"p"}, {2.0, 0.0, 0.0, 2.0}}};
+  request.scene.loads = {{"p", 0.0, -1.0, true}, {"p", fx, fy, false}};
+  request.scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.5}};
+  request.scene.contacts = {{"p", "floor"}};
+  request.options.method = method;
+  request.options.stop = {stop};
+  return request;
+}
+
+// Lifted, the block leaves the floor at s = 1 and goes up by (s - 1) / 2; pushed, it slips from s = 0.5 on.
+TEST(StopOfATrace, QuantitiesOfContactsEndItWhereTheyPassTheValue) {
+  for (const Method method : {Method::kBranch, Method::kMpec}) {
+    const TracedPath unloaded = TraceIncrements(Block(0.0, 1.0, {"p@floor.rn", "<", 0.4}, method));
+    EXPECT_EQ(unloaded.result.reason, EndReason::kStopCriterion) << unloaded.result.message;
+    EXPECT_LT(unloaded.increments.back().contacts[0].rn, 0.4);
+    EXPECT_GE(unloaded.increments[unloaded.increments.size() - 2].contacts[0].rn, 0.4);
+    EXPECT_GT(unloaded.increments.back().load_factor, 0.6);
+    EXPECT_LE(unloaded.increments.back().load_factor, 1.0);
+
+    const TracedPath lifted = TraceIncrements(Block(0.0, 1.0, {"gap_p@floor", ">", 0.1}, method));
+    EXPECT_EQ(lifted.result.reason, EndReason::kStopCriterion) << lifted.result.message;
+    EXPECT_GT(lifted.increments.back().contacts[0].gap, 0.1);
+    EXPECT_LE(lifted.increments[lifted.increments.size() - 2].contacts[0].gap, 0.1);
+    EXPECT_NEAR(lifted.increments.back().load_factor, 1.0 + 2.0 * lifted.increments.back().contacts[0].gap, 1e-6);
+
+    const TracedPath pushed = TraceIncrements(Block(1.0, 0.0, {"p@floor.rt", "<", -0.3}, method));
+    EXPECT_EQ(pushed.result.reason, EndReason::kStopCriterion) << pushed.result.message;
+    EXPECT_LT(pushed.increments.back().contacts[0].rt, -0.3);
+    EXPECT_GE(pushed.increments[pushed.increments.size() - 2].contacts[0].rt, -0.3);
+
+    // Friction is never larger than 0.5: this criterion is not met.
+    TraceRequest never = Block(1.0, 0.0, {"p@floor.rt", "<", -0.51}, method);
+    never.options.max_increments = 30;
+    EXPECT_EQ(TraceIncrements(never).result.reason, EndReason::kMaxIncrements);
+  }
 }
 
 }  // namespace

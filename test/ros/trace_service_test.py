@@ -25,6 +25,19 @@ KINDS = {'start': Increment.START, 'regular': Increment.REGULAR, 'smooth_limit':
 STATES = {'open': ContactState.OPEN, 'stick': ContactState.STICK, 'slip+': ContactState.SLIP_PLUS,
           'slip-': ContactState.SLIP_MINUS, 'closed': ContactState.CLOSED}
 
+UNLOADED_BLOCK = """
+scene:
+  name: block
+  nodes: [{name: p}]
+  superelements: [{nodes: [p], stiffness: [2.0, 0.0, 0.0, 2.0]}]
+  loads: [{node: p, fy: -1.0, constant: true}]
+  obstacles: [{name: floor, ny: 1.0, friction: 0.5}]
+  contacts: [{node: p, obstacle: floor}]
+program:
+- {name: pull, loads: [{node: p, fx: 1.0}], target: 1.5}
+- {name: let go, unload: true}
+"""
+
 
 class TraceServiceTest(unittest.TestCase):
     @classmethod
@@ -189,6 +202,38 @@ class TraceServiceTest(unittest.TestCase):
             self.assertIn('load factor %.6g ' % (increment.load_factor if abs(increment.load_factor) > 1e-12 else 0), told[0])
         self.assertIn('b@floor stick -> slip+', said)
         self.assertTrue(lines[-1].endswith('of sliding_bar ended: ' + response.message), said)
+
+    def test_watch_names_contacts_though_the_request_comes_after_the_increments(self):
+        scripts = os.path.join(os.path.dirname(os.path.dirname(helpers.scene_path('sliding_bar'))), 'scripts')
+        watcher = subprocess.Popen([os.path.join(scripts, 'watch'), '--node', '/late', '__name:=late_watcher'],
+                                   stdout=subprocess.PIPE, universal_newlines=True)
+        try:
+            increments = rospy.Publisher('/late/increments', Increment, queue_size=10)
+            requests = rospy.Publisher('/late/request', TraceRequest, queue_size=1)
+            for topic in 'request', 'increments':
+                helpers.wait_until(lambda: helpers.is_subscribed('/late_watcher', '/late/' + topic), 'watch listens')
+            helpers.wait_until(lambda: increments.get_num_connections() and requests.get_num_connections(), 'connections')
+            for index, state in enumerate((ContactState.STICK, ContactState.SLIP_PLUS)):
+                increments.publish(Increment(index=index, kind=Increment.REGULAR, contacts=[ContactState(state=state)]))
+            time.sleep(0.3)
+            request = helpers.request_of('sliding_bar')
+            requests.publish(TraceRequest(scene=request.scene, options=request.options))
+            self.assertEqual(watcher.stdout.readline(), 'trace 0\n')
+            self.assertEqual(watcher.stdout.readline().strip(), 'b@floor stick -> slip+')
+        finally:
+            watcher.kill()
+            watcher.communicate()
+
+    def test_stage_that_unloads_takes_the_loads_back(self):
+        """A block on a spring of stiffness 2 with mu N = 0.5, pulled with 1.5 and let go: it is left at 0.25."""
+        response = self.trace(helpers.request_from(UNLOADED_BLOCK))
+        self.assertEqual(response.status, Response.OK, response.message)
+        request, increments, _ = self.read_bag(response)
+        self.assertEqual([stage.unload for stage in request.program], [False, True])
+        pulled = [increment for increment in increments if increment.stage == 1][-1]
+        self.assertAlmostEqual(pulled.x[0], 0.5, delta=1e-11)
+        self.assertEqual(increments[-1].stage, 2)
+        self.assertAlmostEqual(increments[-1].x[0], 0.25, delta=1e-11)
 
     def test_none_of_2000_increments_is_lost(self):
         with helpers.Collector(NODE + '/increments') as collector:

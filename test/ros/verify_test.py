@@ -102,6 +102,23 @@ class VerifyTest(ProgramTest):
                 return message
             self.assert_not_proved(self.rewrite(self.record(), change), 'the result says %s, but %s' % (reason, told))
 
+    def test_limit_points_that_are_not_those_of_the_path_are_found(self):
+        bag = self.record('von_mises')
+        for changed_field, told in (('index', 'limit_points[1] of the result is not the limit point of increment'),
+                                    ('kind', 'limit_points[1] of the result is not the limit point of increment'),
+                                    ('load_factor', 'limit_points[1] of the result is not the limit point of increment'),
+                                    (None, 'the result lists 1 limit points, but the increments show 2')):
+            def change(kind, message):
+                if kind == 'result':
+                    self.assertEqual(len(message.limit_points), 2)
+                    if changed_field is None:
+                        message.limit_points.pop()
+                    else:
+                        point = message.limit_points[1]
+                        setattr(point, changed_field, getattr(point, changed_field) + 1)
+                return message
+            self.assert_not_proved(self.rewrite(bag, change), told)
+
     def test_events_and_signs_that_were_changed_are_found(self):
         for field, value, told in (('determinant_sign', -1, 'the determinant changes its sign'),
                                    ('stiffness_sign', -1, 'the sign of the stiffness'),
