@@ -297,14 +297,18 @@ std::vector<SceneMarkers::BoundaryPoint> SceneMarkers::BoundaryOf(const DrawnObs
     const Projection at = obstacle.ProjectAt(load_factor, x);
     return BoundaryPoint{x - at.gap * at.normal, at.normal, at.xi};
   };
-  const int steps = obstacle.surface->Flat() ? 1 : kCurveSteps;
-  const double length = half_length / steps;
-  std::vector<BoundaryPoint> points = {foot_of(centre)};
+  const BoundaryPoint middle = foot_of(centre);
+  if (obstacle.surface->Flat()) {
+    const Vector2d half = half_length * Tangent(middle.normal);
+    return {foot_of(middle.place - half), foot_of(middle.place + half)};
+  }
+  const double length = half_length / kCurveSteps;
+  std::vector<BoundaryPoint> points = {middle};
   // First backwards to the begin, then forwards to the end.
-  for (int k = 0; k < steps; ++k)
+  for (int k = 0; k < kCurveSteps; ++k)
     points.push_back(foot_of(points.back().place - length * Tangent(points.back().normal)));
   std::reverse(points.begin(), points.end());
-  for (int k = 0; k < steps; ++k)
+  for (int k = 0; k < kCurveSteps; ++k)
     points.push_back(foot_of(points.back().place + length * Tangent(points.back().normal)));
   return points;
 }

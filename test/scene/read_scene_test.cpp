@@ -72,8 +72,10 @@ const std::vector<std::string> kLines = {
     "  full_state_every: 5",                                        // 51
 };
 
-// The base with some lines replaced, by number.
-std::string BaseWith(const std::map<std::size_t, std::string>& replaced) {
+// The base with some lines replaced, by number. Choices of branches want the method branch.
+std::string BaseWith(std::map<std::size_t, std::string> replaced) {
+  for (const auto& [number, line] : replaced)
+    if (line.find("branch_choices") != line.npos) replaced.emplace(42, "  method: branch");
   std::string text;
   for (std::size_t i = 0; i < kLines.size(); ++i) {
     const auto other = replaced.find(i + 1);

@@ -38,6 +38,8 @@ TEST(WriteTraceRequest, EveryFieldThatDiffersFromItsDefault) {
   request.options.step = 0.1;
   request.options.max_increments = 7;
   request.options.full_state_every = 3;
+  ExpectRoundTrip(request);
+  request.options.method = Method::kBranch;  // the default; the other method takes no choices
   request.options.branch_choices = {{2, 0, 3}, {0, 4, 1}};
   ExpectRoundTrip(request);
 }
