@@ -115,11 +115,20 @@ def scene_of(request):
                 for item in getattr(message, part, [])]
 
     scene = {part: items(request.scene, part) for part in PARTS}
+    for kind in request.scene.__slots__:
+        if kind not in PARTS and isinstance(getattr(request.scene, kind), list):
+            add_elements(scene, [item.nodes for item in getattr(request.scene, kind) if hasattr(item, 'nodes')])
     scene['name'] = request.scene.name
     scene['program'] = stages_as_traced(
         {'name': stage.name, 'target': stage.target or 1.0, 'unload': getattr(stage, 'unload', False),
          **{part: items(stage, part) for part in STAGE_PARTS}} for stage in getattr(request, 'program', []))
     return scene
+
+
+def add_elements(scene, node_lists):
+    """Elements of further kinds are drawn as bars, or as superelements where they join more or fewer than two nodes."""
+    scene['bars'] += [{'nodes': list(nodes)} for nodes in node_lists if len(nodes) == 2]
+    scene['superelements'] += [{'nodes': list(nodes), 'rest_positions': []} for nodes in node_lists if len(nodes) != 2]
 
 
 def stages_as_traced(program):
@@ -154,6 +163,9 @@ def read_scene(name):
         request = yaml.load(file, Loader=getattr(yaml, 'CBaseLoader', yaml.BaseLoader))
     try:
         scene = {part: items(request['scene'], part) for part in PARTS}
+        for kind, given in request['scene'].items():
+            if kind not in PARTS and isinstance(given, list):
+                add_elements(scene, [item['nodes'] for item in given if 'nodes' in item])
         scene['name'] = request['scene'].get('name') or ''
         scene['program'] = stages_as_traced(
             {'name': stage.get('name') or '', 'target': value_of(stage.get('target'), 0.0) or 1.0,
