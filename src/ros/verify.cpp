@@ -68,9 +68,8 @@ std::string Lacks(const RecordedTrace& trace) {
   if (trace.result->increments != trace.increments.size())
     return "truncated: " + std::to_string(trace.increments.size()) + " increments, the result speaks of " +
            std::to_string(trace.result->increments);
-  const std::string limit_points = LimitPointsContradicted(*trace.result, trace.increments);
-  if (!limit_points.empty()) return limit_points;
-  return EndContradicted(trace.request, trace.increments, trace.result->end_reason_name);
+  const std::string end = EndContradicted(trace.request, trace.increments, trace.result->end_reason_name);
+  return end.empty() ? LimitPointsContradicted(*trace.result, trace.increments) : end;
 }
 
 bool Verify(const RecordedTrace& trace) {

@@ -146,19 +146,6 @@ class CompleteTraces(CliTest):
                                         '{quantity: b.x, when: ">", value: 5.5}'), '--events')
         self.assertIn('contact_event at load factor 0\n', result.stderr)
 
-    def test_branch_that_does_not_exist_is_bad_input(self):
-        scene = self.write_scene(read(SCENE) + '  branch_choices: [{event: 1, branch: 99}]\n')
-        result = run(scene, '--csv', self.csv)
-        self.assertEqual(result.returncode, 2, result.stderr)
-        line, = self.expect_lines(result.stderr, 1)
-        self.assertIn('no_such_branch: branch_choices wants branch 99 at event 1', line)
-        self.expect_whole_increments(read(self.csv))  # the increments up to the event stay
-
-    def test_choice_of_branches_is_refused_with_mpec(self):
-        scene = self.write_scene(read(SCENE) + '  branch_choices: [{event: 1, branch: 2}]\n')
-        line, = self.expect_refused(scene, '--csv', self.csv, '--method', 'mpec')
-        self.assertIn('options.branch_choices: must be empty with the method mpec', line)
-
     def test_max_increments(self):
         result = run(SCENE, '--max-increments', '3')
         self.assertEqual(result.returncode, 0, result.stderr)
@@ -340,6 +327,19 @@ class BadInput(CliTest):
             with self.subTest(arguments=arguments):
                 line, = self.expect_refused(*arguments)
                 self.assertIn(words, line)
+
+    def test_branch_that_does_not_exist_is_bad_input(self):
+        scene = self.write_scene(read(SCENE) + '  branch_choices: [{increment: 10, branch: 99}]\n')
+        result = run(scene, '--csv', self.csv)
+        self.assertEqual(result.returncode, 2, result.stderr)
+        line, = self.expect_lines(result.stderr, 1)
+        self.assertIn('no_such_branch: branch_choices wants branch 99 at increment 10', line)
+        self.expect_whole_increments(read(self.csv))  # the increments up to there stay
+
+    def test_choice_of_branches_is_refused_with_mpec(self):
+        scene = self.write_scene(read(SCENE) + '  branch_choices: [{event: 1, branch: 2}]\n')
+        line, = self.expect_refused(scene, '--csv', self.csv, '--method', 'mpec')
+        self.assertIn('options.branch_choices: must be empty with the method mpec', line)
 
     def test_overrides_keep_the_rules_of_the_scene(self):
         for option, value in (('--step', '-1'), ('--step', 'nan'), ('--step', 'inf'), ('--max-increments', '-3'),
