@@ -22,7 +22,7 @@ Model::Model(const Scene& scene_in, const Configuration& configuration_in, const
       configuration(configuration_in),
       scaling(scaling_in),
       origin(OriginOf(scene_in, scaling_in.length)),
-      scaled(ScaleScene(CountedFrom(origin, scene_in), index, scaling_in)),
+      scaled(ScaleScene(CountedFrom(origin, scene_in), scaling_in)),
       structure(scaled, index, CountedFrom(origin, configuration_in).Over(scaling.length)),
       contacts(BuildContacts(scaled, index, structure)),
       check(scene_in, configuration_in, scaling_in) {}

@@ -71,8 +71,6 @@ class Verifier {
     load_ = load;
     std::unordered_map<std::string, const Obstacle*> obstacles;
     for (const Obstacle& obstacle : scene_.obstacles) obstacles.emplace(obstacle.name, &obstacle);
-    std::unordered_map<std::string, const ObstacleMotion*> motions;
-    for (const ObstacleMotion& motion : scene_.obstacle_motions) motions.emplace(motion.obstacle, &motion);
     rates_.resize(2 * scene_.nodes.size());
     for (const SupportMotion& motion : scene_.support_motions) {
       rates_[2 * nodes_.at(motion.node)] = motion.dx;
@@ -85,13 +83,8 @@ class Verifier {
       const bool can_slide = CanSlide(!node.fixed_x || rates_[2 * number] != 0.0,
                                       !node.fixed_y || rates_[2 * number + 1] != 0.0, *obstacle);
       const double length = std::hypot(obstacle->nx, obstacle->ny);
-      Surface surface{number,        obstacle->px,          obstacle->py,          0.0,
-                      0.0,           obstacle->nx / length, obstacle->ny / length, can_slide ? obstacle->friction : 0.0,
-                      contact.Name()};
-      if (const auto motion = motions.find(contact.obstacle); motion != motions.end()) {
-        surface.dx = motion->second->dx;
-        surface.dy = motion->second->dy;
-      }
+      const Surface surface{number, obstacle->nx / length, obstacle->ny / length, can_slide ? obstacle->friction : 0.0,
+                            contact.Name()};
       surfaces_.push_back(surface);
       const double across = ForcesAcross(surface) / scaling_.force;
       units_.push_back(across > 0.0 && across < kSoft ? across : 1.0);
@@ -131,16 +124,8 @@ class Verifier {
  private:
   struct Surface {
     std::size_t node;
-    double px, py, dx, dy, nx, ny, friction;
+    double nx, ny, friction;
     std::string name;
-
-    // Of the node, as the obstacle sees it at the load factor of the increment.
-    double Along(double ax, double ay, const Increment& increment) const {
-      return ax * (increment.positions[2 * node] - px - increment.load_factor * dx) +
-             ay * (increment.positions[2 * node + 1] - py - increment.load_factor * dy);
-    }
-    double Gap(const Increment& increment) const { return Along(nx, ny, increment); }
-    double Slip(const Increment& from, const Increment& to) const { return Along(ny, -nx, to) - Along(ny, -nx, from); }
   };
 
   const Increment& Current() const { return increments_[increment_]; }
@@ -245,7 +230,8 @@ class Verifier {
       Report("an increment of method branch that is not exact");
     const double tolerance = increment.solve.exact ? kExact : kRegularised;
     const Increment& before = before_ ? increments_[*before_] : increment;
-    const Residuals residuals = check_.Check(StateOf(before), StateOf(increment));
+    const CheckedState from = StateOf(before), to = StateOf(increment);
+    const Residuals residuals = check_.Check(from, to);
     Bound("equilibrium residual", residuals.equilibrium, tolerance);
     Bound("penetration", residuals.penetration, tolerance);
     Bound("tensile_reaction", residuals.tensile_reaction, tolerance);
@@ -264,7 +250,7 @@ class Verifier {
       if ((node.fixed_x && off(2 * i)) || (node.fixed_y && off(2 * i + 1)))
         Report("support ", node.name, " is not where it has to be");
     }
-    for (std::size_t i = 0; i < surfaces_.size(); ++i) CheckContact(surfaces_[i], before, increment, i, tolerance);
+    for (std::size_t i = 0; i < surfaces_.size(); ++i) CheckContact(increment.contacts[i], from, to, i, tolerance);
     if (increment.solve.exact) CheckSoftContacts(increment, tolerance);
     if (before_) CheckPiece(before, increment);
     if (before_) CheckWork(before, increment);
@@ -355,13 +341,13 @@ class Verifier {
     same("scaled strain energy", increment.strain_energy / unit, check_.StrainEnergy(increment.positions) / unit);
   }
 
-  void CheckContact(const Surface& surface, const Increment& before, const Increment& increment, std::size_t i,
+  void CheckContact(const ContactRecord& contact, const CheckedState& from, const CheckedState& to, std::size_t i,
                     double tolerance) {
-    const ContactRecord& contact = increment.contacts[i];
-    const double gap = surface.Gap(increment) / scaling_.length;
+    const Surface& surface = surfaces_[i];
+    const double gap = check_.Gap(i, to) / scaling_.length;
     Bound("recorded gap of " + surface.name + " less the true one", std::abs(contact.gap / scaling_.length - gap),
           rounding_);
-    const double slip = OnePiece(increment) ? surface.Slip(before, increment) / scaling_.length : 0.0;
+    const double slip = OnePiece(Current()) ? check_.Slip(i, from, to) / scaling_.length : 0.0;
     const double rn = contact.rn / scaling_.force, rt = contact.rt / scaling_.force;
     const auto wrong = [&](const char* state) { Report(surface.name, " is recorded as ", state, ", but is not"); };
     switch (contact.state) {
@@ -430,6 +416,7 @@ class Verifier {
   void CheckWork(const Increment& before, const Increment& increment) {
     const bool mpec = increment.solve.method == Method::kMpec;
     const double unit = scaling_.force * scaling_.length;
+    const CheckedState from_state = StateOf(before), to_state = StateOf(increment);
     double along = 0.0, work = 0.0, scaled_loads = 0.0;
     for (const Load& load : scene_.loads) {
       const std::size_t x = 2 * nodes_.at(load.node), y = x + 1;
@@ -447,7 +434,7 @@ class Verifier {
         (0.5 * load_change * std::abs(along) + bend * (std::abs(work) + load_change * scaled_loads * scaling_.length)) /
         unit;
     if (!scene_.support_motions.empty() || !scene_.obstacle_motions.empty()) {
-      const double from = check_.DrivingForce(StateOf(before)), to = check_.DrivingForce(StateOf(increment));
+      const double from = check_.DrivingForce(from_state), to = check_.DrivingForce(to_state);
       const double moved = increment.load_factor - before.load_factor;
       work += 0.5 * (from + to) * moved;
       open_work += (0.5 * std::abs(to - from) + bend * std::abs(from + to)) * std::abs(moved) / unit;
@@ -456,7 +443,7 @@ class Verifier {
     for (std::size_t i = 0; i < surfaces_.size(); ++i) {
       const ContactState state = increment.contacts[i].state, was = before.contacts[i].state;
       const Surface& surface = surfaces_[i];
-      const double slip = std::abs(surface.Slip(before, increment));
+      const double slip = std::abs(check_.Slip(i, from_state, to_state));
       // Where within an increment of mpec it stopped to slip, or turned, is not known.
       if (mpec && Slips(was) && state != was)
         open_dissipation += surface.friction * std::max(before.contacts[i].rn, increment.contacts[i].rn) * slip / unit;
