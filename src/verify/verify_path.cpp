@@ -76,6 +76,7 @@ class Verifier {
       rates_[2 * nodes_.at(motion.node)] = motion.dx;
       rates_[2 * nodes_.at(motion.node) + 1] = motion.dy;
     }
+    const std::vector<ForceBounds> bounds = BoundForces();
     for (const ContactCandidate& contact : scene_.contacts) {
       const Obstacle* const obstacle = obstacles.at(contact.obstacle);
       const std::size_t number = nodes_.at(contact.node);
@@ -86,7 +87,9 @@ class Verifier {
       const Surface surface{number, obstacle->nx / length, obstacle->ny / length, can_slide ? obstacle->friction : 0.0,
                             contact.Name()};
       surfaces_.push_back(surface);
-      const double across = ForcesAcross(surface) / scaling_.force;
+      const ForceBounds& bound = bounds[surface.node];
+      const double across =
+          (bound.any + std::abs(surface.nx) * bound.x + std::abs(surface.ny) * bound.y) / scaling_.force;
       units_.push_back(across > 0.0 && across < kSoft ? across : 1.0);
     }
   }
@@ -256,28 +259,40 @@ class Verifier {
     if (before_) CheckWork(before, increment);
   }
 
-  // A bound of the forces across the surface on its node, of the loads and for a motion of L of the parts [force].
-  double ForcesAcross(const Surface& surface) const {
-    const auto across = [&surface](double fx, double fy) {
-      return std::abs(surface.nx * fx) + std::abs(surface.ny * fy);
-    };
-    double forces = 0.0;
+  // Bounds of the forces on a node, of the loads and for a motion of L of the parts [force]: of parts that turn, in any
+  // direction.
+  struct ForceBounds {
+    double any = 0.0, x = 0.0, y = 0.0;
+  };
+
+  // By node.
+  std::vector<ForceBounds> BoundForces() const {
+    std::vector<ForceBounds> bounds(scene_.nodes.size());
+    const std::vector<double>& at = configuration_.reference;
     for (const Bar& bar : scene_.bars) {
       const std::size_t a = nodes_.at(bar.nodes[0]), b = nodes_.at(bar.nodes[1]);
-      if (a != surface.node && b != surface.node) continue;
-      const std::vector<double>& at = configuration_.reference;
       const double span = std::hypot(at[2 * b] - at[2 * a], at[2 * b + 1] - at[2 * a + 1]);
-      forces += bar.EA / (bar.rest_length > 0.0 ? bar.rest_length : span) * scaling_.length;
+      const double force = bar.EA / (bar.rest_length > 0.0 ? bar.rest_length : span) * scaling_.length;
+      bounds[a].any += force;
+      bounds[b].any += force;
     }
     for (const Superelement& part : scene_.superelements) {
       const std::size_t size = 2 * part.nodes.size();
-      for (std::size_t k = 0; k < size; k += 2)
-        for (std::size_t j = 0; j < size && nodes_.at(part.nodes[k / 2]) == surface.node; ++j)
-          forces += across(part.stiffness[k * size + j], part.stiffness[(k + 1) * size + j]) * scaling_.length;
+      for (std::size_t k = 0; k < size; k += 2) {
+        ForceBounds& bound = bounds[nodes_.at(part.nodes[k / 2])];
+        for (std::size_t j = 0; j < size; ++j) {
+          bound.x += std::abs(part.stiffness[k * size + j]) * scaling_.length;
+          bound.y += std::abs(part.stiffness[(k + 1) * size + j]) * scaling_.length;
+        }
+      }
     }
-    for (const Load& load : scene_.loads)
-      if (nodes_.at(load.node) == surface.node) forces += across(load.fx, load.fy) * (load.constant ? 1.0 : load_);
-    return forces;
+    for (const Load& load : scene_.loads) {
+      ForceBounds& bound = bounds[nodes_.at(load.node)];
+      const double factor = load.constant ? 1.0 : load_;
+      bound.x += std::abs(load.fx) * factor;
+      bound.y += std::abs(load.fy) * factor;
+    }
+    return bounds;
   }
 
   // Equilibrium across the surfaces and the laws of reactions where F is no measure of them.
