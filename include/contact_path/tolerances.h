@@ -176,10 +176,10 @@ inline constexpr double kCoincident = 1e-5;
 inline constexpr double kUnclear = 1e-4;
 // Width between brackets, at which points of two curves are told apart.
 inline constexpr double kLeapWidth = 1e-4;
-// The same width, above which a point in between that Newton's method does not reach is the mark of two curves. Points
-// of one curve are reached until much nearer to a bifurcation.
-inline constexpr double kUnreachedWidth = 3e-4;
-// The same width, scaled, below which rounding hides it, and rounding of points over their distance to a bifurcation.
+// Scaled width between brackets, above which a point in between that Newton's method does not reach is the mark of two
+// curves. Points of one curve are reached until nearer than this to a bifurcation.
+inline constexpr double kUnreachedWidth = 1e-5;
+// Scaled width, below which rounding hides it, and rounding of points over their distance to a bifurcation.
 inline constexpr double kLeapNarrowest = 1e-9;
 inline constexpr double kLeapRounding = 1e-13;
 // Distance before a bifurcation at which the crossing path's direction is computed: the equations are regular there.

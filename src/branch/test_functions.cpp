@@ -81,9 +81,18 @@ std::optional<Bracket> FindBifurcation(SmoothArc* arc, const Step& step) {
       const double apart = (near_beyond.x - near_before.x).head(n).norm();
       return width >= tolerances::kLeapNarrowest && apart > kLeap * width + tolerances::kLeapRounding / width;
     };
-    const double t = 0.5 * (before + beyond);
-    const std::optional<CurvePoint> point = PointAt(arc, step, t);
-    if (!point) return Bracket{t, width, width <= tolerances::kUnreachedWidth * step.length && !on_two_curves()};
+    double t = 0.5 * (before + beyond);
+    std::optional<CurvePoint> point = PointAt(arc, step, t);
+    // Next to the bifurcation no point is reached; farther from it one is, unless the ends are on two curves.
+    for (const double share : {0.25, 0.75}) {
+      if (point || width <= tolerances::kUnreachedWidth) break;
+      t = before + share * width;
+      point = PointAt(arc, step, t);
+    }
+    if (!point) {
+      const bool sure = width <= tolerances::kUnreachedWidth && !on_two_curves();
+      return Bracket{0.5 * (before + beyond), width, sure};
+    }
     if (point->pivot_sign == 0) return Bracket{t, width};  // singular to rounding
     const bool is_before = point->pivot_sign == step.start.determinant_sign;
     (is_before ? before : beyond) = t;
