@@ -16,9 +16,9 @@ add_library(contact_path_ros
   src/ros/trace_service.cpp
 )
 add_dependencies(contact_path_ros ${PROJECT_NAME}_generate_messages_cpp)
+target_include_directories(contact_path_ros PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
 # The generated headers, and those of ROS that they include.
 #catkin_lint: ignore_once external_directory external_interface_path
-target_include_directories(contact_path_ros PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
 target_include_directories(contact_path_ros SYSTEM
   PUBLIC ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION} ${catkin_INCLUDE_DIRS})
 target_precompile_headers(contact_path_ros PRIVATE <ros/ros.h> <algorithm> <memory> <string> <vector>)
