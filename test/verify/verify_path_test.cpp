@@ -276,7 +276,8 @@ class SoftContact : public testing::Test {
     ASSERT_EQ(path_.result.reason, EndReason::kStopCriterion) << path_.result.message;
     pressed_ = path_.increments.size();
     for (const Increment& increment : path_.increments)
-      if (increment.stage == 2 && increment.contacts[0].rn > 1e-12) pressed_ = static_cast<std::size_t>(increment.index);
+      if (increment.stage == 2 && increment.contacts[0].rn > 1e-12)
+        pressed_ = static_cast<std::size_t>(increment.index);
     ASSERT_LT(pressed_, path_.increments.size());
   }
 
