@@ -321,6 +321,7 @@ void SceneMarkers::DrawObstacles(const Places& places, const msgs::Increment& in
   const double half_length = size_ * std::ceil(reach / size_ + 0.25);
   const std::vector<DrawnObstacle>& obstacles = StageOf(increment).obstacles;
   std::vector<std::vector<BoundaryPoint>> boundaries;
+  boundaries.reserve(obstacles.size());
   for (const DrawnObstacle& obstacle : obstacles)
     boundaries.push_back(BoundaryOf(obstacle, increment.load_factor, centre, half_length));
   const double depth = kStripDepth * size_;
