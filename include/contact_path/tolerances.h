@@ -148,8 +148,10 @@ inline constexpr double kAcceptedRegularised = 1e-5;
 inline constexpr double kRegularisedState = 0.1;
 // Error of Ipopt's optimality conditions, as Ipopt scales them.
 inline constexpr double kInteriorPoint = 1e-9;
-// Scaled stiffness of the parts at a contact: below, reactions are lost in rounding.
+// Scaled stiffness of the parts at a contact: below, reactions are lost in rounding. The second where reactions are
+// measured in the force unit of the contact: softer equations come near to what counts as singular (kSingularPivot).
 inline constexpr double kSoftestContact = 1e-8;
+inline constexpr double kSoftestMeasuredContact = 1e-11;
 // Reaction that pulls, of the largest reaction so far.
 inline constexpr double kPullOfLargest = 1e-2;
 // Length of a bar over its initial length: collapsed.

@@ -262,7 +262,8 @@ class Tracer {
     // Method branch measures reactions by the force unit of the contact; where loads drive the path, the load factor is
     // as small as the reactions, though.
     const bool measured = request_.options.method == Method::kBranch && model.structure.ReferenceLoad().isZero(0.0);
-    if (const std::string soft = ContactTooSoft(model, point_, tolerances::kSoftestContact); !measured && !soft.empty())
+    const double softest = measured ? tolerances::kSoftestMeasuredContact : tolerances::kSoftestContact;
+    if (const std::string soft = ContactTooSoft(model, point_, softest); !soft.empty())
       return End(EndReason::kNumericalFailure, soft);
     const std::unique_ptr<PathMethod> method = MakeMethod(model, TargetOf(model, stage), recorder_.increments());
     EventRecord branches;

@@ -155,6 +155,31 @@ TEST(Sizes, ContactThatIsTooSoftEndsByName) {
   }
 }
 
+// Down to where its equation cannot be told from a dependent one it is followed, and softer refused.
+TEST(Sizes, SoftestContactOfAll) {
+  constexpr double kSoft = 1e-10;
+  const TraceRequest request = TraceData("soft_support", Method::kBranch, Accuracy::kBalanced).request;
+  for (const double softer : {0.2, 0.02, 0.01, 0.002}) {
+    SCOPED_TRACE("stiffness times " + std::to_string(softer));
+    TraceRequest scaled = request;
+    for (Superelement& part : scaled.scene.superelements)
+      for (double& entry : part.stiffness)
+        if (std::abs(entry) < 1e-3) entry *= softer;
+    const TracedPath path = TraceIncrements(scaled);
+    if (path.result.reason == EndReason::kNumericalFailure) {
+      EXPECT_LT(softer, 0.2);
+      EXPECT_NE(path.result.message.find("times softer than the characteristic stiffness"), std::string::npos)
+          << path.result.message;
+      continue;
+    }
+    EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+    for (const Increment& increment : path.increments) {
+      const double pressed = std::max(1.0 - PositionY(path, increment, "c"), 0.0);
+      EXPECT_NEAR(increment.contacts[0].rn / (softer * kSoft), pressed, 1e-12);
+    }
+  }
+}
+
 TEST(Sizes, HeavyConstantLoadOnALinearPart) {
   constexpr double kLoad = 1e9;
   for (const Method method : kMethods)
