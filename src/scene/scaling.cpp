@@ -20,6 +20,8 @@ namespace {
 // In L: where the nearest contact that does not touch is farther, a length that is made of forces only is no measure of
 // the scene.
 constexpr double kFarthestContact = 1e4;
+// Of the size of the scene: a smaller gap is rounding of a contact that touches.
+constexpr double kTouches = 1e-9;
 
 // Sum in the order of size, so that it does not depend on the order of the terms, not even by rounding.
 double OrderedSum(std::vector<double> terms) {
@@ -141,19 +143,25 @@ double MeanStiffness(const Scene& scene) {
   return std::sqrt(OrderedSum(std::move(squares)) / static_cast<double>(rows));
 }
 
-// Smallest gap > 0 of a contact candidate at the start, 0 if there is none [length].
+// Smallest gap of a contact candidate at the start that is not rounding of a touching one, 0 if there is none [length].
 double NearestGap(const Scene& scene, const SceneIndex& index) {
-  double nearest = 0.0;
+  std::vector<double> gaps;
   for (const ContactCandidate& contact : scene.contacts) {
     // The length is asked for while contacts are still being judged.
     const std::optional<std::size_t> at = index.FindNode(contact.node), by = index.FindObstacle(contact.obstacle);
     if (!at || !by) continue;
     const Node& node = scene.nodes[*at];
     const Obstacle& obstacle = scene.obstacles[*by];
-    const double gap = (obstacle.nx * (node.x - obstacle.px) + obstacle.ny * (node.y - obstacle.py)) /
-                       std::hypot(obstacle.nx, obstacle.ny);
-    if (gap > 0.0 && (nearest == 0.0 || gap < nearest)) nearest = gap;
+    gaps.push_back((obstacle.nx * (node.x - obstacle.px) + obstacle.ny * (node.y - obstacle.py)) /
+                   std::hypot(obstacle.nx, obstacle.ny));
   }
+  double size = 0.0;
+  for (const double gap : gaps) size = std::max(size, gap);
+  for (const Node& node : scene.nodes)
+    size = std::max(size, std::hypot(node.x - scene.nodes[0].x, node.y - scene.nodes[0].y));
+  double nearest = 0.0;
+  for (const double gap : gaps)
+    if (gap > kTouches * size && (nearest == 0.0 || gap < nearest)) nearest = gap;
   return nearest;
 }
 

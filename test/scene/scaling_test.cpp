@@ -312,5 +312,15 @@ TEST(CharacteristicScales, WithoutBarsNoContactIsFartherThanTenThousandLengths) 
   EXPECT_DOUBLE_EQ(CharacteristicScales(Spring(0.0, 1e3)).force, 0.1);
 }
 
+// A node on a slanted plane may have a gap of rounding, and is as good as one at a gap of zero.
+TEST(CharacteristicScales, WithoutBarsRoundingOfATouchingContactIsNoGap) {
+  Scene scene = Spring(0.0, 1e3);
+  scene.obstacles.push_back({"slanted", ObstacleShape::kHalfPlane, 0.0, 0.0, 3.0, -1.0, 0.0});
+  scene.nodes.push_back({"touches", 0.1, 0.3, false, false});
+  scene.contacts.push_back({"touches", "slanted"});
+  ASSERT_GT(3.0 * scene.nodes.back().x - scene.nodes.back().y, 0.0);
+  EXPECT_DOUBLE_EQ(CharacteristicScales(scene).length, 0.1);
+}
+
 }  // namespace
 }  // namespace contact_path
