@@ -1,6 +1,9 @@
 #include "contact_path/path/stop.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <sstream>
 
 #include "contact_path/scene/change_units.h"
@@ -9,6 +12,12 @@
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
+namespace {
+
+constexpr double kLastDigits = 4.0 * std::numeric_limits<double>::epsilon();  // of a coordinate
+
+}  // namespace
+
 std::vector<Quantity> StopQuantities(const TraceRequest& request, const SceneIndex& index) {
   std::vector<Quantity> quantities;
   quantities.reserve(request.options.stop.size());
@@ -44,7 +53,9 @@ const StopCriterion* StopTest::FirstThatHolds(const Increment& increment) const 
     const double value = ValueOf(item.quantity, increment);
     const StopCriterion& criterion = *item.criterion;
     const double beyond = criterion.when == ">" ? value - criterion.value : criterion.value - value;
-    if (beyond > item.rounding) return &criterion;
+    // Where a coordinate is large, its last digit is larger than rounding of the scaled one.
+    const double digit = kLastDigits * std::max(std::abs(value), std::abs(criterion.value));
+    if (beyond > std::max(item.rounding, digit)) return &criterion;
   }
   return nullptr;
 }

@@ -73,6 +73,16 @@ TEST_F(Stop, TheValueItselfIsNotBeyond) {
   EXPECT_EQ(ValueThatHolds({{"load_factor", "<", 0.5 + 1e-15}}), -1.0);
 }
 
+// The last digit of a coordinate of 391 is 6e-14.
+TEST_F(Stop, RoundingOfALargeCoordinate) {
+  increment_.positions[2] = 391.27803160855876;
+  for (const double digits : {1.0, 2.0}) {
+    const double beside = increment_.positions[2] - digits * 5.7e-14;
+    EXPECT_EQ(ValueThatHolds({{"b.x", ">", beside}}), -1.0) << digits;
+  }
+  EXPECT_EQ(ValueThatHolds({{"b.x", ">", 391.278031608}}), 391.278031608);
+}
+
 TEST_F(Stop, TheFirstInTheListWins) {
   EXPECT_EQ(ValueThatHolds({{"a.x", ">", 7.0}, {"a.y", ">", 0.25}, {"load_factor", ">", 0.125}}), 0.25);
   EXPECT_EQ(ValueThatHolds({}), -1.0);
