@@ -19,6 +19,7 @@
 #include "contact_path/path/csv.h"
 #include "contact_path/path/restored_states.h"
 #include "contact_path/path/trace.h"
+#include "contact_path/scene/program.h"
 #include "contact_path/scene/read_scene.h"
 #include "contact_path/scene/validate.h"
 #ifdef CONTACT_PATH_WITH_ROS
@@ -205,9 +206,9 @@ ExitStatus RunTrace(const Task& task, const Arguments& arguments, std::ostream& 
       [&progress](const Increment& increment) { progress.Add(increment); },
   };
   if (arguments.events) {
-    sinks.emplace_back([&](const Increment& increment) {
+    sinks.emplace_back([&, load_scale = ProgramScales(request).load_factor](const Increment& increment) {
       progress.Wipe();
-      PrintBranches(request, increment, std::cerr);
+      PrintBranches(request, increment, load_scale, std::cerr);
     });
   }
 #ifdef CONTACT_PATH_WITH_ROS

@@ -6,17 +6,16 @@
 #include <sstream>
 
 #include "contact_path/path/path_summary.h"
-#include "contact_path/scene/program.h"
 
 namespace contact_path {
 
-void PrintBranches(const TraceRequest& request, const Increment& increment, std::ostream& out) {
+void PrintBranches(const TraceRequest& request, const Increment& increment, double load_scale, std::ostream& out) {
   if (increment.event.branches.empty() && increment.event.number == 0) return;
   std::ostringstream text;
   text.imbue(std::locale::classic());
   if (increment.event.number > 0) text << "event " << increment.event.number << ", ";
   text << "increment " << increment.index << ", " << ToString(increment.kind) << " at load factor "
-       << LoadFactorText(increment.load_factor, ProgramScales(request).load_factor)
+       << LoadFactorText(increment.load_factor, load_scale)
        << (increment.event.complete ? "" : "; not all combinations of states were tried") << '\n'
        << std::setprecision(4);
   if (increment.event.branches.empty()) text << "  no branch was found\n";

@@ -108,6 +108,8 @@ class Restorer {
 }  // namespace
 
 std::size_t RestoreStates(const TraceRequest& request, std::vector<Increment>* increments) {
+  const SceneIndex index(request.scene);
+  const Scaling of_program = ProgramScales(request, index);
   std::unique_ptr<const Model> model;
   std::unique_ptr<Restorer> restorer;
   int stage = -1;
@@ -120,7 +122,7 @@ std::size_t RestoreStates(const TraceRequest& request, std::vector<Increment>* i
       const auto number = static_cast<std::size_t>(std::max(stage, 1) - 1);
       restorer.reset();
       model = std::make_unique<const Model>(StageScene(request, number), StageConfiguration(request, number),
-                                            StageScales(request, number));
+                                            StageScales(request, index, number, of_program));
       restorer = std::make_unique<Restorer>(*model);
     }
     if (!restorer->Restore(increments, i)) return i;

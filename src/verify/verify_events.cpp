@@ -36,6 +36,8 @@ class EventVerifier {
       : request_(request),
         increments_(increments),
         turn_(kMoreTurn * LargestTurn(request.options.accuracy)),
+        index_(request.scene),
+        of_program_(ProgramScales(request, index_)),
         findings_(*findings) {}
 
   void Run() {
@@ -64,7 +66,7 @@ class EventVerifier {
 
   void EnterStage(const Increment& start) {
     const std::size_t stage = static_cast<std::size_t>(std::max(start.stage, 1) - 1);
-    scaling_ = StageScales(request_, stage);
+    scaling_ = StageScales(request_, index_, stage, of_program_);
     direction_ = request_.options.Direction();
     if (!request_.program.empty()) direction_ = request_.program[stage].Target() < 0.0 ? -1.0 : 1.0;
     relation_ = 0;
@@ -204,7 +206,9 @@ class EventVerifier {
 
   const TraceRequest& request_;
   const std::vector<Increment>& increments_;
-  const double turn_;       // of an increment, with a margin [rad]
+  const double turn_;  // of an increment, with a margin [rad]
+  const SceneIndex index_;
+  const Scaling of_program_;
   Scaling scaling_;         // of the stage
   double direction_ = 1.0;  // of the load at the start of the stage
   int events_ = 0;          // numbered so far
