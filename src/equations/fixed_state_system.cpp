@@ -251,7 +251,7 @@ void FixedStateSystem::Residual(const Eigen::VectorXd& x, Eigen::VectorXd* resid
 const Eigen::SparseMatrix<double>& FixedStateSystem::TransposedJacobian(const Eigen::VectorXd& x) {
   structure_.Tangent(x.head(NumDofs()), &tangent_);
   if (curved_) std::copy_n(constant_.data(), constant_.size(), transposed_.valuePtr());
-  // The places of the tangent are among those of transposed_, in the same order.
+  // The places of the tangent are among the places of transposed_, in the same order.
   for (Eigen::Index column = 0; column < NumDofs(); ++column) {
     Eigen::Index place = transposed_.outerIndexPtr()[column];
     for (Eigen::SparseMatrix<double>::InnerIterator it(tangent_, column); it; ++it, ++place) {

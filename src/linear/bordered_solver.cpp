@@ -45,7 +45,7 @@ struct BorderedSolver::Factors {
   }
   void FreeNumeric() { klu_free_numeric(&numeric, &common); }
 
-  // Puts `matrix` together; whether its pattern is that of the last time.
+  // Puts `matrix` together; whether its pattern is the pattern of the last time.
   bool Assemble(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& row) {
     const Eigen::Index rows = transposed.rows(), columns = transposed.cols(), entries = transposed.nonZeros();
     // A row of many entries has all of them in the pattern, so that one that happens to be zero does not change it.

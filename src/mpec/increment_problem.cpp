@@ -314,7 +314,7 @@ void IncrementProblem::ForEachCurvatureEntry(const Slot& slot, const Kinematics&
   const ContactPair& pair = *slot.pair;
   const bool frictional = slot.rt >= 0;
   const double rn = x[slot.rn], rt = frictional ? x[slot.rt] : 0.0;
-  // The multipliers of the equilibrium equations; that of the load factor is none.
+  // The multipliers of the equilibrium equations; the multiplier of the load factor is none.
   const PairVector weights = pair.Local(multipliers.head(nd), 0.0);
   const PairVector by_rn = at.gap_hessian * weights;
   ForEachVariable(pair, [&](Eigen::Index variable, Eigen::Index k) { emit(slot.rn, variable, -by_rn[k]); });

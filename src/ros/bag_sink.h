@@ -13,7 +13,7 @@ namespace contact_path {
 
 class BagSink {
  public:
-  // Creates `file`, overwriting one that is there, and writes the request. This and the others throw
+  // Creates `file`, overwriting one that is there, and writes the request. All functions throw
   // std::runtime_error, one line, where the bag cannot be written.
   BagSink(const std::string& file, const TraceRequest& request);
   ~BagSink();

@@ -14,7 +14,7 @@
 
 namespace {
 
-constexpr int kThreads = 4;  // one traces for ~trace, the others answer ~cancel and further requests
+constexpr int kThreads = 4;  // one thread traces for ~trace, three answer ~cancel and further requests
 
 // What was published is sent by a thread of roscpp that cannot be waited for. It needs far less.
 constexpr double kTimeToSend = 0.1;  // [s]

@@ -59,7 +59,7 @@ void SetLoading(const Stage& stage, Scene* scene) {
   scene->obstacle_motions = stage.obstacle_motions;
 }
 
-// Of a scene with superelements only, whose loads and motions are those of one stage at its target.
+// A scene with superelements only, with the loads and motions of one stage at its target.
 Scene LoadedAtTarget(const Stage& stage, Scene scene) {
   const double target = stage.Target();
   SetLoading(stage, &scene);

@@ -70,7 +70,7 @@ std::vector<Violation> Validate(const TraceRequest& request) {
     loading.CheckSceneMotions();
     loading.CheckProgram();
     of_program = checker.Take();
-    // Lengths are compared with the characteristic one, which may be that of the program.
+    // Lengths are compared with the characteristic length, which the program may give.
     contacts.CheckContacts(structure_is_sound && of_program.empty() ? ProgramScales(request).length : 0.0);
     CheckOptions(&checker);
   } catch (const Checker::Enough&) {

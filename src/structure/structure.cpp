@@ -7,7 +7,7 @@
 namespace contact_path {
 namespace {
 
-// Room for the numbers of one element; those of small elements cost no allocation.
+// Room for the numbers of one element; small elements cost no allocation.
 class Scratch {
  public:
   Eigen::Map<Eigen::VectorXd> Vector(std::size_t size) { return {Room(size), static_cast<Eigen::Index>(size)}; }

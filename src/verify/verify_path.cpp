@@ -16,7 +16,7 @@ namespace contact_path {
 namespace {
 
 constexpr double kExact = 1e-9;        // of an exact increment: all that should be zero, scaled
-constexpr double kRegularised = 1e-5;  // of the others
+constexpr double kRegularised = 1e-5;  // of a regularised increment
 constexpr double kRecorded = 1e-11;    // what was recorded, against what is computed anew: rounding, scaled
 constexpr double kRoundings = 64.0;    // of a coordinate
 constexpr double kSlack = 1e-3;        // of what the energy balance may be off by: for one increment

@@ -25,7 +25,7 @@ struct Residuals {
   double friction_law = 0.0;
   double support = 0.0;  // max distance of a fixed component from where it has to be / L
 
-  // Largest of those of the contacts: the column complementarity_residual.
+  // Largest residual of contacts: the column complementarity_residual.
   double Contact() const;
   // Largest of all.
   double Largest() const;
@@ -42,8 +42,8 @@ struct CheckedState {
 // The check of one scene, with its names resolved once.
 class ResidualCheck {
  public:
-  // scaling: characteristic force and length that residuals are divided by; without it, those of the scene.
-  // configuration: without it, that of the scene. Throws std::invalid_argument or std::out_of_range for a name that the
+  // scaling: characteristic force and length that residuals are divided by. Without scaling and configuration the check
+  // takes the scales and the shape of the scene. Throws std::invalid_argument or std::out_of_range for a name that the
   // scene does not have.
   explicit ResidualCheck(const Scene& scene);
   ResidualCheck(const Scene& scene, const Configuration& configuration, const Scaling& scaling);
@@ -52,7 +52,7 @@ class ResidualCheck {
   ResidualCheck& operator=(const ResidualCheck&) = delete;
 
   // Residuals of `now`, reached from `before` in one increment (for the first increment: `before` = `now`).
-  // Throws std::invalid_argument where the sizes are not those of the scene.
+  // Throws std::invalid_argument where the sizes do not fit the scene.
   Residuals Check(const CheckedState& before, const CheckedState& now) const;
   // phi - T r by component x0, y0, x1, ... [force]; of a fixed component, the force that holds it.
   std::vector<double> Unbalance(const CheckedState& state) const;

@@ -18,7 +18,7 @@ struct NodeMotion {
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  // of the obstacle [length] per unit of the load factor
 };
 
-// gap(q) and xi(q) are those of the surface at x(q), which is affine: derivatives by x are those of the projection
+// gap(q) and xi(q) are the values of the surface at x(q), which is affine: derivatives by x come from the projection
 // (surface.h), derivatives by q follow by the chain rule. Of a flat surface everything but the values is constant.
 class RigidPair : public ContactPair {
  public:

@@ -19,7 +19,7 @@ namespace contact_path {
 
 enum class IncrementKind {
   kStart,         // increment 0, or the first of a stage: the same state as in the increment before, at load factor 0
-  kRegular,       // none of the others
+  kRegular,       // none of the kinds below, and no start
   kSmoothLimit,   // the load factor turns on a smooth arc
   kCornerLimit,   // the load factor turns where a contact changes its state
   kContactEvent,  // a contact changes its state, and the load factor does not turn

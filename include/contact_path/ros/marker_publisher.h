@@ -24,7 +24,7 @@ MarkerOptions ReadMarkerOptions(const ros::NodeHandle& private_node);
 // increment has come for a while, so that who comes late finds the last one.
 class MarkerPublisher {
  public:
-  // The topic is that of `node`.
+  // The topic is a topic of `node`.
   MarkerPublisher(ros::NodeHandle node, const MarkerOptions& options);
 
   // A new trace begins. `request` must be sound (validate.h).

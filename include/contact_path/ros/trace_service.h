@@ -99,7 +99,7 @@ class TraceService {
   void PublishEnd(const Response& response);
 
   void RequestStop(StopCause cause);  // the first cause stays
-  // Status and end reason of what was asked to stop; but for ~cancel, the message, too.
+  // Status and end reason of what was asked to stop; also the message, unless ~cancel asked.
   void TellStop(Response* response) const;
   bool StopWanted(const TraceObserver& observer);
   void WaitForStream(const TraceObserver& observer);  // until the last increment is sent, or the caller will not wait

@@ -33,8 +33,8 @@ inline Configuration StageConfiguration(const TraceRequest& request, std::size_t
   return StageConfiguration(request, SceneIndex(request.scene), stage);
 }
 
-// One length and one force for all stages, so that points can be handed on: with bars those of the scene, without bars
-// those of the stage with the largest force at its target.
+// One length and one force for all stages, so that points can be handed on. A scene with bars gives both; without bars
+// the stage with the largest force at its target does.
 Scaling ProgramScales(const TraceRequest& request, const SceneIndex& index);
 inline Scaling ProgramScales(const TraceRequest& request) { return ProgramScales(request, SceneIndex(request.scene)); }
 

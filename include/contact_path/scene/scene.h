@@ -282,7 +282,7 @@ struct TraceOptions {
   double step = 0.0;       // target increment length in the scaled norm, >= 0; 0 = automatic (by accuracy)
   int max_increments = 0;  // >= 0; 0 = 1000
   // Of messages and bags, not of the CSV: every n-th regular increment has positions and contacts, and all located
-  // increments have; the others leave them empty. >= 0; 0 = 1, all of them.
+  // increments have; all further ones leave them empty. >= 0; 0 = 1, all of them.
   int full_state_every = 0;
   std::vector<StopCriterion> stop;
   std::vector<BranchChoice> branch_choices;

@@ -22,7 +22,7 @@ struct Finding {
 struct Verification {
   std::vector<Finding> findings;  // none: the path is proved; in the order of the increments, at most kMostFindings
   int increments = 0;
-  int full_increments = 0;      // with positions and contacts: the others can only be counted
+  int full_increments = 0;      // with positions and contacts: increments without them can only be counted
   int exact_increments = 0;     // of the full ones, those that solve the unregularised equations
   Residuals exact;              // largest of the exact increments, computed anew
   Residuals regularised;        // of the other ones
