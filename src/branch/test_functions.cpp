@@ -155,9 +155,6 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, std::optional<double> tar
   if (step.start.determinant_sign * step.end.determinant_sign < 0) {
     const std::optional<Bracket> bifurcation = FindBifurcation(arc, step);
     if (!bifurcation) return {EventKind::kTooLong, 0.0, {}, false};
-    // Whatever lies within a bracket whose ends may be on two curves is not located there.
-    if (!bifurcation->sure && first.kind != EventKind::kNone && first.t > bifurcation->t - 0.5 * bifurcation->width)
-      return {EventKind::kTooLong, 0.0, {}, false};
     const double apart = std::abs(bifurcation->t - first.t), near = std::max(width, bifurcation->width);
     if (first.kind != EventKind::kNone && apart > near && apart <= tolerances::kUnclear * step.length)
       return {EventKind::kTooLong, 0.0, {}, false};
