@@ -47,6 +47,10 @@ inline constexpr double kRecordedLoad = 1e-9;
 // Arc length, relative to the increment: the point found again is the recorded one.
 inline constexpr double kRecordedArc = 1e-12;
 
+// Gap, over the extent of the scene, where a gap is to give the scene its length: rounding of a contact that touches.
+inline constexpr double kNoGap = 1e-9;
+// Coordinate that a stop criterion compares with another one, relative: the last digits.
+inline constexpr double kLastDigits = 1e-15;
 // Distance from the origin, over the extent of the scene and L: from here on coordinates are counted from the scene.
 // Nearer, their rounding is below 1e-12 L.
 inline constexpr double kFarFromOrigin = 1e3;

@@ -12,11 +12,6 @@
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
-namespace {
-
-constexpr double kLastDigits = 4.0 * std::numeric_limits<double>::epsilon();  // of a coordinate
-
-}  // namespace
 
 std::vector<Quantity> StopQuantities(const TraceRequest& request, const SceneIndex& index) {
   std::vector<Quantity> quantities;
@@ -54,7 +49,7 @@ const StopCriterion* StopTest::FirstThatHolds(const Increment& increment) const 
     const StopCriterion& criterion = *item.criterion;
     const double beyond = criterion.when == ">" ? value - criterion.value : criterion.value - value;
     // Where a coordinate is large, its last digit is larger than rounding of the scaled one.
-    const double digit = kLastDigits * std::max(std::abs(value), std::abs(criterion.value));
+    const double digit = tolerances::kLastDigits * std::max(std::abs(value), std::abs(criterion.value));
     if (beyond > std::max(item.rounding, digit)) return &criterion;
   }
   return nullptr;
@@ -62,6 +57,7 @@ const StopCriterion* StopTest::FirstThatHolds(const Increment& increment) const 
 
 std::string ToText(const StopCriterion& criterion) {
   std::ostringstream text;
+  text.precision(std::numeric_limits<double>::digits10);
   text << criterion.quantity << " " << criterion.when << " " << criterion.value;
   return text.str();
 }

@@ -98,11 +98,7 @@ class Tracer {
         stop_(request, index_) {}
 
   // An increment of an earlier trace that is kept.
-  void Repeat(const Increment& increment) {
-    for (const ContactRecord& contact : increment.contacts)
-      largest_reaction_ = std::max(largest_reaction_, contact.rn / scales_.force);
-    recorder_.Repeat(increment);
-  }
+  void Repeat(const Increment& increment) { recorder_.Repeat(increment); }
 
   // resumption: where to go on after the increments of an earlier trace, which were repeated; nothing: from the start.
   TraceResult Run(const std::optional<Resumption>& resumption) {
@@ -281,7 +277,7 @@ class Tracer {
           (resumption.from->solve.exact ? tolerances::kAcceptedExact : tolerances::kAcceptedRegularised)))
       return End(EndReason::kNumericalFailure, "the increment to go on from is not an equilibrium");
     events_ = resumption.events;
-    const double largest_reaction = RememberStage(model, resumption);
+    const double largest_reaction = Remember(model, resumption);
     const std::optional<double> target = TargetOf(model, stage);
     if (const StopCriterion* criterion = stop_.FirstThatHolds(recorder_.increment()))
       return End(EndReason::kStopCriterion, ToText(*criterion));
@@ -292,15 +288,17 @@ class Tracer {
     return FollowStage(model, stage, method.get());
   }
 
-  // The increments of the stage up to the one to go on from. Returns their largest reaction, in force units.
-  double RememberStage(const Model& model, const Resumption& resumption) {
+  // The increments up to the one to go on from. Returns the largest reaction of those of the stage, in force units.
+  double Remember(const Model& model, const Resumption& resumption) {
     std::optional<PathPoint> before;
     double largest_reaction = 0.0;
     for (const Increment& increment : *resumption.increments) {
       if (increment.index > resumption.from->index) break;
-      if (increment.stage != resumption.from->stage || increment.positions.empty()) continue;
+      if (increment.positions.empty()) continue;
       PathPoint point = model.FromIncrement(increment);
-      NotePoint(point);
+      NoteReactions(point);
+      if (increment.stage != resumption.from->stage) continue;
+      largest_load_ = std::max(largest_load_, std::abs(point.s));
       largest_reaction = std::max(largest_reaction, LargestReaction(model.contacts, point));
       if (before) returns_->Add(increment.index, *before, point);
       before = std::move(point);
@@ -308,11 +306,15 @@ class Tracer {
     return largest_reaction;
   }
 
-  void NotePoint(const PathPoint& point) {
-    largest_load_ = std::max(largest_load_, std::abs(point.s));
+  void NoteReactions(const PathPoint& point) {
     for (std::size_t i = 0; i < model_->contacts.size(); ++i)
       largest_reaction_ =
           std::max(largest_reaction_, point.rn[static_cast<Eigen::Index>(i)] / model_->contacts[i]->ForceUnit());
+  }
+
+  void NotePoint(const PathPoint& point) {
+    largest_load_ = std::max(largest_load_, std::abs(point.s));
+    NoteReactions(point);
   }
 
   bool FollowStage(const Model& model, std::size_t stage, PathMethod* method) {

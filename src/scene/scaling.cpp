@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "contact_path/scene/change_units.h"
+#include "contact_path/scene/surface.h"
+#include "contact_path/tolerances.h"
 
 namespace contact_path {
 namespace {
@@ -20,8 +22,6 @@ namespace {
 // In L: where the nearest contact that does not touch is farther, a length that is made of forces only is no measure of
 // the scene.
 constexpr double kFarthestContact = 1e4;
-// Of the size of the scene: a smaller gap is rounding of a contact that touches.
-constexpr double kTouches = 1e-9;
 
 // Sum in the order of size, so that it does not depend on the order of the terms, not even by rounding.
 double OrderedSum(std::vector<double> terms) {
@@ -150,10 +150,9 @@ double NearestGap(const Scene& scene, const SceneIndex& index) {
     // The length is asked for while contacts are still being judged.
     const std::optional<std::size_t> at = index.FindNode(contact.node), by = index.FindObstacle(contact.obstacle);
     if (!at || !by) continue;
-    const Node& node = scene.nodes[*at];
     const Obstacle& obstacle = scene.obstacles[*by];
-    gaps.push_back((obstacle.nx * (node.x - obstacle.px) + obstacle.ny * (node.y - obstacle.py)) /
-                   std::hypot(obstacle.nx, obstacle.ny));
+    if (!FindShapeFault(obstacle).field.empty()) continue;
+    gaps.push_back(MakeSurface(obstacle)->Project({scene.nodes[*at].x, scene.nodes[*at].y}).gap);
   }
   double size = 0.0;
   for (const double gap : gaps) size = std::max(size, gap);
@@ -161,7 +160,7 @@ double NearestGap(const Scene& scene, const SceneIndex& index) {
     size = std::max(size, std::hypot(node.x - scene.nodes[0].x, node.y - scene.nodes[0].y));
   double nearest = 0.0;
   for (const double gap : gaps)
-    if (gap > kTouches * size && (nearest == 0.0 || gap < nearest)) nearest = gap;
+    if (gap > tolerances::kNoGap * size && (nearest == 0.0 || gap < nearest)) nearest = gap;
   return nearest;
 }
 

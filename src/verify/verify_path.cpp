@@ -5,12 +5,11 @@
 #include <limits>
 #include <optional>
 #include <sstream>
-#include <unordered_map>
 
-#include "contact_path/scene/can_slide.h"
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/scaling.h"
 #include "contact_path/verify/verify_events.h"
+#include "verify/verified_contacts.h"
 
 namespace contact_path {
 namespace {
@@ -28,7 +27,6 @@ constexpr double kAtTarget = 1e-9;     // relative, of the load factor
 constexpr double kTurn = 1e-9;         // of the load factor: a smaller change is none
 constexpr double kPull = 2e-13;        // of a force: a contact that pulls with more is not at rounding
 constexpr double kPullShare = 0.02;    // of the largest reaction before: nor is one that pulls with more
-constexpr double kSoft = 1e-6;         // of F: where forces across a contact are smaller, F is no measure of them
 constexpr double kLongestArc = 1.05;   // of its chord: increments turn by less than 60 degrees
 
 bool AtTarget(double target, double load_factor) {
@@ -42,7 +40,8 @@ class Verifier {
   // index: of the scene of the request; of_program: the scales of the program.
   Verifier(const TraceRequest& request, const SceneIndex& index, const Scaling& of_program, std::size_t stage,
            const std::vector<Increment>& increments, std::size_t first, std::size_t last, Verification* result)
-      : scene_(StageScene(request, index, stage)),
+      : index_(index),
+        scene_(StageScene(request, index, stage)),
         configuration_(StageConfiguration(request, index, stage)),
         stage_(request.program.empty() ? 0 : static_cast<int>(stage) + 1),
         target_(request.program.empty() ? std::nullopt : std::optional(request.program[stage].Target())),
@@ -54,10 +53,7 @@ class Verifier {
         check_(scene_, configuration_, scaling_),
         result_(*result) {
     double farthest = 0.0;
-    for (std::size_t i = 0; i < scene_.nodes.size(); ++i) {
-      nodes_.emplace(scene_.nodes[i].name, i);
-      farthest = std::max({farthest, std::abs(configuration_.start[2 * i]), std::abs(configuration_.start[2 * i + 1])});
-    }
+    for (const double coordinate : configuration_.start) farthest = std::max(farthest, std::abs(coordinate));
     // What moves takes nodes along, and lengths of arc are of the load factor, too.
     double load = 0.0;
     for (std::size_t i = first_; i < last_; ++i)
@@ -68,30 +64,12 @@ class Verifier {
       farthest = std::max({farthest, std::abs(obstacle.px), std::abs(obstacle.py)});
     rounding_ = kRecorded + kRoundings * std::numeric_limits<double>::epsilon() *
                                 (farthest / scaling_.length + load / scaling_.load_factor);
-    load_ = load;
-    std::unordered_map<std::string, const Obstacle*> obstacles;
-    for (const Obstacle& obstacle : scene_.obstacles) obstacles.emplace(obstacle.name, &obstacle);
     rates_.resize(2 * scene_.nodes.size());
     for (const SupportMotion& motion : scene_.support_motions) {
-      rates_[2 * nodes_.at(motion.node)] = motion.dx;
-      rates_[2 * nodes_.at(motion.node) + 1] = motion.dy;
+      rates_[2 * index_.Node(motion.node)] = motion.dx;
+      rates_[2 * index_.Node(motion.node) + 1] = motion.dy;
     }
-    const std::vector<ForceBounds> bounds = BoundForces();
-    for (const ContactCandidate& contact : scene_.contacts) {
-      const Obstacle* const obstacle = obstacles.at(contact.obstacle);
-      const std::size_t number = nodes_.at(contact.node);
-      const Node& node = scene_.nodes[number];
-      const bool can_slide = CanSlide(!node.fixed_x || rates_[2 * number] != 0.0,
-                                      !node.fixed_y || rates_[2 * number + 1] != 0.0, *obstacle);
-      const double length = std::hypot(obstacle->nx, obstacle->ny);
-      const Surface surface{number, obstacle->nx / length, obstacle->ny / length, can_slide ? obstacle->friction : 0.0,
-                            contact.Name()};
-      surfaces_.push_back(surface);
-      const ForceBounds& bound = bounds[surface.node];
-      const double across =
-          (bound.any + std::abs(surface.nx) * bound.x + std::abs(surface.ny) * bound.y) / scaling_.force;
-      units_.push_back(across > 0.0 && across < kSoft ? across : 1.0);
-    }
+    contacts_ = VerifiedContacts(scene_, index_, configuration_, scaling_, rates_, load);
   }
 
   void Run(const std::function<void()>& before_each) {
@@ -125,12 +103,6 @@ class Verifier {
   }
 
  private:
-  struct Surface {
-    std::size_t node;
-    double nx, ny, friction;
-    std::string name;
-  };
-
   const Increment& Current() const { return increments_[increment_]; }
 
   template <typename... Parts>
@@ -253,67 +225,32 @@ class Verifier {
       if ((node.fixed_x && off(2 * i)) || (node.fixed_y && off(2 * i + 1)))
         Report("support ", node.name, " is not where it has to be");
     }
-    for (std::size_t i = 0; i < surfaces_.size(); ++i) CheckContact(increment.contacts[i], from, to, i, tolerance);
+    for (std::size_t i = 0; i < contacts_.size(); ++i) CheckContact(increment.contacts[i], from, to, i, tolerance);
     if (increment.solve.exact) CheckSoftContacts(increment, tolerance);
     if (before_) CheckPiece(before, increment);
     if (before_) CheckWork(before, increment);
   }
 
-  // Bounds of the forces on a node, of the loads and for a motion of L of the parts [force]: of parts that turn, in any
-  // direction.
-  struct ForceBounds {
-    double any = 0.0, x = 0.0, y = 0.0;
-  };
-
-  // By node.
-  std::vector<ForceBounds> BoundForces() const {
-    std::vector<ForceBounds> bounds(scene_.nodes.size());
-    const std::vector<double>& at = configuration_.reference;
-    for (const Bar& bar : scene_.bars) {
-      const std::size_t a = nodes_.at(bar.nodes[0]), b = nodes_.at(bar.nodes[1]);
-      const double span = std::hypot(at[2 * b] - at[2 * a], at[2 * b + 1] - at[2 * a + 1]);
-      const double force = bar.EA / (bar.rest_length > 0.0 ? bar.rest_length : span) * scaling_.length;
-      bounds[a].any += force;
-      bounds[b].any += force;
-    }
-    for (const Superelement& part : scene_.superelements) {
-      const std::size_t size = 2 * part.nodes.size();
-      for (std::size_t k = 0; k < size; k += 2) {
-        ForceBounds& bound = bounds[nodes_.at(part.nodes[k / 2])];
-        for (std::size_t j = 0; j < size; ++j) {
-          bound.x += std::abs(part.stiffness[k * size + j]) * scaling_.length;
-          bound.y += std::abs(part.stiffness[(k + 1) * size + j]) * scaling_.length;
-        }
-      }
-    }
-    for (const Load& load : scene_.loads) {
-      ForceBounds& bound = bounds[nodes_.at(load.node)];
-      const double factor = load.constant ? 1.0 : load_;
-      bound.x += std::abs(load.fx) * factor;
-      bound.y += std::abs(load.fy) * factor;
-    }
-    return bounds;
-  }
-
   // Equilibrium across the surfaces and the laws of reactions where F is no measure of them.
   void CheckSoftContacts(const Increment& increment, double tolerance) {
-    if (std::all_of(units_.begin(), units_.end(), [](double unit) { return unit == 1.0; })) return;
+    if (std::all_of(contacts_.begin(), contacts_.end(),
+                    [](const VerifiedContact& contact) { return contact.unit == 1.0; }))
+      return;
     const std::vector<double> unbalance = check_.Unbalance(StateOf(increment));
-    for (std::size_t i = 0; i < surfaces_.size(); ++i) {
-      if (units_[i] == 1.0) continue;
-      const Surface& surface = surfaces_[i];
-      const Node& node = scene_.nodes[surface.node];
-      const double unit = units_[i] * scaling_.force;
+    for (std::size_t i = 0; i < contacts_.size(); ++i) {
+      if (contacts_[i].unit == 1.0) continue;
+      const VerifiedContact& at = contacts_[i];
+      const Node& node = scene_.nodes[at.node];
+      const double unit = contacts_[i].unit * scaling_.force;
       const double rn = increment.contacts[i].rn / unit, rt = increment.contacts[i].rt / unit;
-      const double fx = node.fixed_x ? 0.0 : surface.nx * unbalance[2 * surface.node];
-      const double fy = node.fixed_y ? 0.0 : surface.ny * unbalance[2 * surface.node + 1];
-      Bound("equilibrium residual across " + surface.name + ", of the forces there", std::abs(fx + fy) / unit,
-            tolerance);
-      Bound("tensile reaction of " + surface.name + ", of the forces there", -rn, tolerance);
-      Bound("gap and reaction of " + surface.name + " are both positive",
+      const double fx = node.fixed_x ? 0.0 : at.nx * unbalance[2 * at.node];
+      const double fy = node.fixed_y ? 0.0 : at.ny * unbalance[2 * at.node + 1];
+      Bound("equilibrium residual across " + at.name + ", of the forces there", std::abs(fx + fy) / unit, tolerance);
+      Bound("tensile reaction of " + at.name + ", of the forces there", -rn, tolerance);
+      Bound("gap and reaction of " + at.name + " are both positive",
             std::min(increment.contacts[i].gap / scaling_.length, rn), tolerance);
-      Bound("reaction of " + surface.name + " outside of the friction cone, of the forces there",
-            std::abs(rt) - surface.friction * rn, tolerance);
+      Bound("reaction of " + at.name + " outside of the friction cone, of the forces there",
+            std::abs(rt) - at.friction * rn, tolerance);
     }
   }
 
@@ -321,12 +258,12 @@ class Verifier {
   void CheckPull(const Increment& increment) {
     for (std::size_t i = 0; i < increment.contacts.size(); ++i)
       result_.largest_reaction =
-          std::max(result_.largest_reaction, increment.contacts[i].rn / (units_[i] * scaling_.force));
+          std::max(result_.largest_reaction, increment.contacts[i].rn / (contacts_[i].unit * scaling_.force));
     const double most = std::max(kPull, kPullShare * result_.largest_reaction);
     for (std::size_t i = 0; i < increment.contacts.size(); ++i) {
-      const double pull = -increment.contacts[i].rn / (units_[i] * scaling_.force);
+      const double pull = -increment.contacts[i].rn / (contacts_[i].unit * scaling_.force);
       if (pull > most)
-        Report(surfaces_[i].name, " pulls with ", pull, " of the forces there, where contacts push with at most ",
+        Report(contacts_[i].name, " pulls with ", pull, " of the forces there, where contacts push with at most ",
                result_.largest_reaction);
     }
   }
@@ -358,29 +295,29 @@ class Verifier {
 
   void CheckContact(const ContactRecord& contact, const CheckedState& from, const CheckedState& to, std::size_t i,
                     double tolerance) {
-    const Surface& surface = surfaces_[i];
+    const VerifiedContact& at = contacts_[i];
     const double gap = check_.Gap(i, to) / scaling_.length;
-    Bound("recorded gap of " + surface.name + " less the true one", std::abs(contact.gap / scaling_.length - gap),
+    Bound("recorded gap of " + at.name + " less the true one", std::abs(contact.gap / scaling_.length - gap),
           rounding_);
     const double slip = OnePiece(Current()) ? check_.Slip(i, from, to) / scaling_.length : 0.0;
     const double rn = contact.rn / scaling_.force, rt = contact.rt / scaling_.force;
-    const auto wrong = [&](const char* state) { Report(surface.name, " is recorded as ", state, ", but is not"); };
+    const auto wrong = [&](const char* state) { Report(at.name, " is recorded as ", state, ", but is not"); };
     switch (contact.state) {
       case ContactState::kOpen:
         if (std::max(std::abs(rn), std::abs(rt)) > tolerance) wrong("open");
         break;
       case ContactState::kClosed:
-        if (std::abs(gap) > tolerance || std::abs(rt) > tolerance || surface.friction != 0.0) wrong("closed");
+        if (std::abs(gap) > tolerance || std::abs(rt) > tolerance || at.friction != 0.0) wrong("closed");
         break;
       case ContactState::kStick:
         if (std::abs(gap) > tolerance || std::abs(slip) > tolerance) wrong("sticking");
         break;
       case ContactState::kSlipPlus:
-        if (std::abs(gap) > tolerance || slip < -tolerance || std::abs(rt + surface.friction * rn) > tolerance)
+        if (std::abs(gap) > tolerance || slip < -tolerance || std::abs(rt + at.friction * rn) > tolerance)
           wrong("slipping forwards");
         break;
       case ContactState::kSlipMinus:
-        if (std::abs(gap) > tolerance || slip > tolerance || std::abs(rt - surface.friction * rn) > tolerance)
+        if (std::abs(gap) > tolerance || slip > tolerance || std::abs(rt - at.friction * rn) > tolerance)
           wrong("slipping backwards");
         break;
     }
@@ -434,7 +371,7 @@ class Verifier {
     const CheckedState from_state = StateOf(before), to_state = StateOf(increment);
     double along = 0.0, work = 0.0, scaled_loads = 0.0;
     for (const Load& load : scene_.loads) {
-      const std::size_t x = 2 * nodes_.at(load.node), y = x + 1;
+      const std::size_t x = 2 * index_.Node(load.node), y = x + 1;
       const double product = load.fx * (increment.positions[x] - before.positions[x]) +
                              load.fy * (increment.positions[y] - before.positions[y]);
       (load.constant ? work : along) += product;
@@ -455,19 +392,19 @@ class Verifier {
       open_work += (0.5 * std::abs(to - from) + bend * std::abs(from + to)) * std::abs(moved) / unit;
     }
     double dissipation = 0.0, open_dissipation = 0.0;
-    for (std::size_t i = 0; i < surfaces_.size(); ++i) {
+    for (std::size_t i = 0; i < contacts_.size(); ++i) {
       const ContactState state = increment.contacts[i].state, was = before.contacts[i].state;
-      const Surface& surface = surfaces_[i];
+      const VerifiedContact& at = contacts_[i];
       const double slip = std::abs(check_.Slip(i, from_state, to_state));
       // Where within an increment of mpec it stopped to slip, or turned, is not known.
       if (mpec && Slips(was) && state != was)
-        open_dissipation += surface.friction * std::max(before.contacts[i].rn, increment.contacts[i].rn) * slip / unit;
+        open_dissipation += at.friction * std::max(before.contacts[i].rn, increment.contacts[i].rn) * slip / unit;
       if (!Slips(state)) continue;
-      dissipation += 0.5 * surface.friction * (before.contacts[i].rn + increment.contacts[i].rn) * slip;
+      dissipation += 0.5 * at.friction * (before.contacts[i].rn + increment.contacts[i].rn) * slip;
       const double rn = before.contacts[i].rn, change = std::abs(increment.contacts[i].rn - rn);
       // A contact that closes and opens on the increment has no reaction at both ends.
       const double largest = rn + change + scaling_.force;
-      open_dissipation += surface.friction * (0.5 * change + bend * largest) * slip / unit;
+      open_dissipation += at.friction * (0.5 * change + bend * largest) * slip / unit;
     }
     if (mpec) open_ += open_work + open_dissipation;
     if (!OnePiece(increment)) return;  // trapezoids over several increments tell too little
@@ -517,6 +454,7 @@ class Verifier {
     }
   }
 
+  const SceneIndex& index_;
   const Scene scene_;
   const Configuration configuration_;
   const int stage_;
@@ -526,15 +464,12 @@ class Verifier {
   const std::size_t first_, last_;
   const Scaling scaling_;
   const ResidualCheck check_;
-  std::unordered_map<std::string, std::size_t> nodes_;
-  std::vector<Surface> surfaces_;
-  std::vector<double> rates_;          // of the fixed components, per unit of the load factor
-  std::size_t increment_ = 0;          // being checked
-  std::optional<std::size_t> before_;  // the last full increment
-  std::vector<double> units_;          // by contact: forces across it that count as 1, over F
-  double load_ = 0.0;                  // largest load factor
-  double rounding_ = 0.0;              // of what was recorded, scaled
-  double open_ = 0.0;                  // what trapezoids leave open of works and dissipations
+  std::vector<VerifiedContact> contacts_;  // in the order of the scene
+  std::vector<double> rates_;              // of the fixed components, per unit of the load factor
+  std::size_t increment_ = 0;              // being checked
+  std::optional<std::size_t> before_;      // the last full increment
+  double rounding_ = 0.0;                  // of what was recorded, scaled
+  double open_ = 0.0;                      // what trapezoids leave open of works and dissipations
   Verification& result_;
 };
 

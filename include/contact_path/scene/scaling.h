@@ -13,7 +13,7 @@ struct Scaling {
   double length = 1.0;       // L: mean initial length of the bars; without bars, F / mean stiffness
   double force = 1.0;        // F: geometric mean of EA over the bars; without bars, the norm of the reference load, or
                              // mean stiffness x norm of the motions; no less than the norm of the constant loads, and
-                             // than 1e-4 x mean stiffness x the smallest gap > 0 of a contact
+                             // than 1e-4 x mean stiffness x the smallest gap of a contact that does not touch
   double load_factor = 1.0;  // LoadFactorScale
 };
 

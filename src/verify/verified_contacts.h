@@ -1,0 +1,33 @@
+// What the verification knows of the contacts of a scene.
+#ifndef CONTACT_PATH_SRC_VERIFY_VERIFIED_CONTACTS_H_
+#define CONTACT_PATH_SRC_VERIFY_VERIFIED_CONTACTS_H_
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "contact_path/scene/configuration.h"
+#include "contact_path/scene/scaling.h"
+#include "contact_path/scene/scene.h"
+#include "contact_path/scene/scene_index.h"
+
+namespace contact_path {
+
+struct VerifiedContact {
+  std::size_t node = 0;
+  double nx = 0.0, ny = 0.0;  // unit normal towards the admissible side
+  double friction = 0.0;      // 0 where the node cannot slide
+  std::string name;
+  // Forces across the contact that count as 1, over F: 1, or the forces there where these are far below F.
+  double unit = 1.0;
+};
+
+// In the order of the scene. rates: x, y by node, of the fixed components [length] per unit of the load factor. load:
+// largest load factor of the path.
+std::vector<VerifiedContact> VerifiedContacts(const Scene& scene, const SceneIndex& index,
+                                              const Configuration& configuration, const Scaling& scaling,
+                                              const std::vector<double>& rates, double load);
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_SRC_VERIFY_VERIFIED_CONTACTS_H_
