@@ -9,6 +9,7 @@
 #include "contact_path/branch/pivoting.h"
 #include "contact_path/branch/rate_problem.h"
 #include "contact_path/branch/reaction_redistribution.h"
+#include "contact_path/branch/redundant_contacts.h"
 #include "contact_path/branch/state_options.h"
 #include "contact_path/branch/tangents.h"
 #include "contact_path/equations/fixed_state_system.h"
@@ -41,17 +42,19 @@ class Finder {
         arrival_(arrival),
         tolerance_(limit),
         cancelled_(cancelled),
+        redundant_(contacts, point, limit.gap),
         system_(structure, contacts),
         reference_(SurfaceCoordinates(contacts, point)) {}
 
   // Adds the branches with these states.
   void Try(const States& states, std::vector<Branch>* branches) {
+    if (redundant_.Among(states)) return;
     Eigen::VectorXd x;
     const Tangents tangents = TangentsOf(states, &x);
     for (std::size_t k = 0; k < tangents.first.size(); ++k)
       for (const double sign : {1.0, -1.0}) {
         const Eigen::VectorXd first = sign * tangents.first[k];
-        if (Admissible(x, first, tangents.second[k])) Add(tangents, first, tangents.second[k], branches);
+        if (Admissible(x, first, tangents.second[k])) Add(tangents, x, first, tangents.second[k], branches);
       }
   }
 
@@ -88,7 +91,7 @@ class Finder {
   Tangents TangentsOf(const States& states, Eigen::VectorXd* x) {
     system_.SetStates(states, reference_);
     *x = system_.Pack(point_);
-    Tangents tangents = FindTangents(*x, arrival_.direction, arrival_.singular, tolerance_, &system_, &solvers_);
+    Tangents tangents = FindTangents(*x, arrival_.direction, arrival_.singular, &system_, &solvers_);
     rigid_modes_ = std::max(rigid_modes_, tangents.rigid_modes);
     return tangents;
   }
@@ -121,6 +124,7 @@ class Finder {
   bool Admissible(const Eigen::VectorXd& x, const Eigen::VectorXd& first, const Eigen::VectorXd& second) {
     if (arrival_.is_start && !SetsOut(x, first, second)) return false;
     if (!arrival_.is_start && IsReversed(first)) return false;
+    std::vector<Constraint> level;
     for (const Constraint& limit : system_.Inequalities()) {
       if (!IsWeaklyActive(system_, limit, x, tolerance_)) continue;
       const Jet along = system_.ValueAlong(limit, x, first, second);
@@ -130,8 +134,19 @@ class Finder {
                           rate * rate <= 2.0 * curvature * tolerances::kGraze;
       if (rate < -tolerances::kRate && !grazes) return false;
       if (rate <= tolerances::kRate && curvature < -tolerances::kCurvature) return false;
+      if (std::abs(rate) <= tolerances::kRate && std::abs(curvature) <= tolerances::kCurvature) level.push_back(limit);
     }
-    return true;
+    return level.empty() || HoldsAhead(level, x, first, second);
+  }
+
+  // Whether inequalities that neither rate nor curvature tells of hold a little farther along the curve.
+  bool HoldsAhead(const std::vector<Constraint>& limits, const Eigen::VectorXd& x, const Eigen::VectorXd& first,
+                  const Eigen::VectorXd& second) {
+    const std::optional<Ahead> ahead = LookAhead(x, first, second);
+    if (!ahead) return true;
+    return std::none_of(limits.begin(), limits.end(), [&](const Constraint& limit) {
+      return system_.Rate(limit, ahead->x, ahead->first) < -tolerances::kRate * system_.UnitOf(limit);
+    });
   }
 
   // Whether the load starts to change in the wanted sense. At a smooth limit point it rests, and its curvature tells;
@@ -142,20 +157,28 @@ class Finder {
     if (first[s] * sense > tolerances::kUnitComponent) return true;
     if (std::abs(first[s]) > tolerances::kRate) return false;
     if (std::abs(second[s]) > tolerances::kCurvature) return second[s] * sense > 0.0;
-    return LoadRateAhead(x, first, second) * sense > tolerances::kRate;
+    const std::optional<Ahead> ahead = LookAhead(x, first, second);
+    return ahead && ahead->first[s] * sense > tolerances::kRate;
   }
 
-  // 0 where the curve has no tangent there. The error of the Taylor polynomial is of a higher order than the rate.
-  double LoadRateAhead(const Eigen::VectorXd& x, const Eigen::VectorXd& first, const Eigen::VectorXd& second) {
+  // The tangent of the curve a little farther along; nothing where there is none. The error of the Taylor polynomial is
+  // of a higher order than the change of a rate.
+  struct Ahead {
+    Eigen::VectorXd x, first;
+  };
+  std::optional<Ahead> LookAhead(const Eigen::VectorXd& x, const Eigen::VectorXd& first,
+                                 const Eigen::VectorXd& second) {
     const Eigen::Index n = NumMotion();
     const double length = tolerances::kAhead;
-    const Eigen::VectorXd ahead = x + length * first + 0.5 * length * length * second;
+    Ahead ahead{x + length * first + 0.5 * length * length * second, {}};
     Eigen::VectorXd row = Eigen::VectorXd::Zero(system_.NumUnknowns());
     row.head(n) = first.head(n);
     BorderedSolver solver;
-    if (!solver.FactorizeRegular(system_.TransposedJacobian(ahead), row, tolerances::kRegularPivot)) return 0.0;
-    const Eigen::VectorXd tangent = solver.Solve(Eigen::VectorXd::Zero(system_.NumEquations()), 1.0);
-    return tangent[n - 1] / tangent.head(n).norm();
+    if (!solver.FactorizeRegular(system_.TransposedJacobian(ahead.x), row, tolerances::kRegularPivot))
+      return std::nullopt;
+    ahead.first = solver.Solve(Eigen::VectorXd::Zero(system_.NumEquations()), 1.0);
+    ahead.first /= ahead.first.head(n).norm();
+    return ahead;
   }
 
   bool IsReversed(const Eigen::VectorXd& first) const {
@@ -173,8 +196,25 @@ class Finder {
     return idle;
   }
 
-  void Add(const Tangents& tangents, const Eigen::VectorXd& first, const Eigen::VectorXd& second,
-           std::vector<Branch>* branches) const {
+  double PressingRate(const Eigen::VectorXd& x, const Eigen::VectorXd& first) const {
+    double rate = 0.0;
+    for (const std::size_t i : system_.Touching()) {
+      const Constraint pressed = {static_cast<int>(i), Inequality::kNormalReaction};
+      rate += system_.Rate(pressed, x, first) / system_.UnitOf(pressed);
+    }
+    return rate;
+  }
+
+  // Of two branches with one direction of motion: whether the first is to be kept. Walls that hold a node have several
+  // states that do; those that press least are kept, whatever the order of the contacts.
+  bool IsPlainer(const Branch& branch, const Branch& other) const {
+    const int idle = IdleSlips(branch), others = IdleSlips(other);
+    if (idle != others) return idle < others;
+    return branch.pressing_rate < other.pressing_rate - tolerances::kSameRate * (1.0 + std::abs(other.pressing_rate));
+  }
+
+  void Add(const Tangents& tangents, const Eigen::VectorXd& x, const Eigen::VectorXd& first,
+           const Eigen::VectorXd& second, std::vector<Branch>* branches) const {
     Branch branch;
     branch.states = system_.states();
     branch.mechanism = tangents.mechanism;
@@ -186,11 +226,12 @@ class Finder {
     branch.load_rate = first[NumMotion() - 1];
     branch.dissipation_rate = DissipationRate(contacts_, branch.states, point_, branch.direction);
     branch.turn = AngleTo(arrival_.direction, branch.direction);
+    branch.pressing_rate = PressingRate(x, first);
     branch.deviation =
         arrival_.before ? std::min(branch.turn, AngleTo(*arrival_.before, branch.direction)) : branch.turn;
     for (Branch& other : *branches) {
       if ((other.direction - branch.direction).norm() >= tolerances::kSameDirection) continue;
-      if (IdleSlips(branch) < IdleSlips(other)) other = std::move(branch);
+      if (IsPlainer(branch, other)) other = std::move(branch);
       return;
     }
     branches->push_back(std::move(branch));
@@ -202,6 +243,7 @@ class Finder {
   ActiveSetTolerance tolerance_;
   const std::function<bool()>& cancelled_;
   bool was_cancelled_ = false;
+  RedundantContacts redundant_;
   FixedStateSystem system_;
   Eigen::VectorXd reference_;
   TangentSolvers solvers_;

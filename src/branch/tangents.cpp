@@ -48,19 +48,6 @@ NullSpaceParts PartsOf(const Eigen::MatrixXd& null_space, Eigen::Index motion) {
   return parts;
 }
 
-// Whether directions of a surface of solutions give a reaction to a contact that has none. In a guide without
-// clearance the wall that is not pressed has no reason to take up a reaction: the combination in which it is open has
-// the direction in which it does not.
-bool TakesUpReactions(const FixedStateSystem& system, const Eigen::VectorXd& x, const Eigen::MatrixXd& directions,
-                      const ActiveSetTolerance& tolerance) {
-  for (const Constraint& constraint : system.Inequalities())
-    if (constraint.inequality == Inequality::kNormalReaction && IsWeaklyActive(system, constraint, x, tolerance))
-      for (Eigen::Index k = 0; k < directions.cols(); ++k)
-        if (std::abs(system.Rate(constraint, x, directions.col(k))) > tolerances::kRate * system.UnitOf(constraint))
-          return true;
-  return false;
-}
-
 // Of the combinations of the columns: that whose motion is nearest to the direction of arrival.
 Eigen::VectorXd NearestTo(const Eigen::VectorXd& arrival, const Eigen::MatrixXd& candidates) {
   const auto motions = candidates.topRows(arrival.size());
@@ -86,8 +73,7 @@ void AddTangent(const NullSpaceParts& parts, const Eigen::VectorXd& arrival, Tan
 }
 
 Tangents SingularTangents(const Eigen::VectorXd& x, const Eigen::VectorXd& arrival, bool crossed,
-                          const ActiveSetTolerance& tolerance, FixedStateSystem* system,
-                          const MinimumNormSolver& solver) {
+                          FixedStateSystem* system, const MinimumNormSolver& solver) {
   Tangents tangents;
   const NullSpaceParts parts = PartsOf(solver.NullSpace(), arrival.size());
   const Eigen::MatrixXd& plane = crossed ? parts.moving : parts.proper;
@@ -99,15 +85,14 @@ Tangents SingularTangents(const Eigen::VectorXd& x, const Eigen::VectorXd& arriv
       return tangents;
     }
   }
-  if (crossed || parts.proper.cols() <= 1 || !TakesUpReactions(*system, x, parts.proper, tolerance))
-    AddTangent(parts, arrival, &tangents);
+  AddTangent(parts, arrival, &tangents);
   return tangents;
 }
 
 }  // namespace
 
-Tangents FindTangents(const Eigen::VectorXd& x, const Eigen::VectorXd& arrival, bool crossed,
-                      const ActiveSetTolerance& tolerance, FixedStateSystem* system, TangentSolvers* solvers) {
+Tangents FindTangents(const Eigen::VectorXd& x, const Eigen::VectorXd& arrival, bool crossed, FixedStateSystem* system,
+                      TangentSolvers* solvers) {
   const Eigen::Index motion = arrival.size();
   const Eigen::SparseMatrix<double>& transposed = system->TransposedJacobian(x);
   Tangents tangents;
@@ -124,7 +109,7 @@ Tangents FindTangents(const Eigen::VectorXd& x, const Eigen::VectorXd& arrival, 
   if (!solvers->singular.Factorize(transposed,
                                    crossed ? tolerances::kDependentColumnSingular : tolerances::kDependentColumn))
     return tangents;
-  tangents = SingularTangents(x, arrival, crossed, tolerance, system, solvers->singular);
+  tangents = SingularTangents(x, arrival, crossed, system, solvers->singular);
   for (const Eigen::VectorXd& first : tangents.first)
     tangents.second.push_back(solvers->singular.Solve(-system->SecondDerivative(x, first)));
   return tangents;

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <iostream>
 #include <map>
-#include <set>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -33,9 +32,6 @@ enum class Cause {
   // A node without load on bars without stress, two of which come in line, or fold: the path reaches, exactly, a point
   // where it crosses another one (the taut bars) and where it turns itself: all events coincide.
   kHinge,
-  // A node between two obstacles: more reactions than equations, their split is not determined, nor is what follows
-  // from it.
-  kWedge,
   // Parts that move without any change of load and reactions: where to is not determined.
   kMechanism,
   // The constant loads cannot be brought on: there is no branch, or a very long one.
@@ -47,7 +43,6 @@ const char* ToString(Cause cause) {
   switch (cause) {
     case Cause::kNone: return "none";
     case Cause::kHinge: return "hinge";
-    case Cause::kWedge: return "wedge";
     case Cause::kMechanism: return "mechanism";
     case Cause::kPreload: return "preload";
     case Cause::kUnexplained: return "unexplained";
@@ -59,9 +54,7 @@ const char* ToString(Cause cause) {
 const std::map<unsigned, Cause>& ListedDifferences() {
   static const std::map<unsigned, Cause> listed = {
       {14, Cause::kMechanism},  // comes mechanism at s = 0: how many of the free motions are named depends on the order
-      {86, Cause::kWedge},      // fast: the cone of a redundant reaction is reached 1e-7 earlier
       {92, Cause::kMechanism},  // a four-bar chain hangs free from the start
-      {281, Cause::kWedge},     // held by two obstacles, it rests as slip+ in the mirror image, too
   };
   return listed;
 }
@@ -91,16 +84,6 @@ std::vector<const Increment*> Events(const TracedPath& path) {
 }
 
 // ----- causes -----
-
-bool IsWedged(const TracedPath& path, const Increment& increment) {
-  const Scaling scaling = CharacteristicScales(path.request.scene);
-  std::set<std::string> touching;
-  for (std::size_t i = 0; i < increment.contacts.size(); ++i)
-    if (increment.contacts[i].gap < kTouching * scaling.length &&
-        !touching.insert(path.request.scene.contacts[i].node).second)
-      return true;
-  return false;
-}
 
 // A node without load and touching contact, all of whose bars are without stress, two of them in line.
 bool HasHingeInLine(const TracedPath& path, const Increment& increment) {
@@ -148,8 +131,6 @@ Cause Explain(const TracedPath& path, std::size_t last) {
     if (HasHingeInLine(path, path.increments[i]) && path.increments[i].kind != IncrementKind::kRegular)
       return Cause::kHinge;
   if (HasHingeInLine(path, path.increments[last])) return Cause::kHinge;
-  for (std::size_t i = 0; i <= last; ++i)
-    if (IsWedged(path, path.increments[i])) return Cause::kWedge;
   for (std::size_t i = 0; i <= last; ++i)
     if (path.increments[i].solve.nullity > 0) return Cause::kMechanism;
   return Cause::kUnexplained;

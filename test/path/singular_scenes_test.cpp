@@ -57,6 +57,32 @@ void ExpectNear(const std::vector<double>& a, const std::vector<double>& b, doub
   for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], tolerance) << i;
 }
 
+// Two rough walls at right angles hold a node until the force on it leaves the hull of both friction cones.
+TEST(SingularScenes, WedgeHoldsANodeAsFarAsBothConesReach) {
+  const double slides = 1.3 / 0.7;
+  for (const Accuracy accuracy : kPresets) {
+    const TracedPath path = TraceData("wedge", accuracy);
+    EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+    for (const Increment& increment : path.increments) {
+      EXPECT_EQ(increment.solve.nullity, 0) << increment.index;
+      if (increment.load_factor > slides + 1e-9) continue;
+      EXPECT_NEAR(PositionX(path, increment, "b"), 0.0, 1e-12);
+    }
+    const std::vector<double> events = EventLoads(path, 9);
+    ASSERT_FALSE(events.empty());
+    EXPECT_NEAR(events.back(), slides, 1e-9);
+    EXPECT_EQ(path.increments.back().contacts[1].state, ContactState::kSlipPlus);
+  }
+}
+
+TEST(SingularScenes, AReactionThatBeginsWithTheThirdPower) {
+  for (const Accuracy accuracy : kPresets) {
+    const TracedPath path = TraceData("third_power", accuracy);
+    EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+    EXPECT_EQ(path.increments.back().event.number, 0);
+  }
+}
+
 // With the apex of the truss at x its load is P(x), the dragged end is at x - 1 + P(x) / 0.3, and s = P + 0.1 while
 // that end slides forth, P - 0.1 while it slides back. It turns where P' = sqrt(2) - 2 / l^3 = -0.3: nothing moves
 // there until friction has turned.

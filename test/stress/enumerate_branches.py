@@ -8,8 +8,9 @@ in given states, F lies in the cone of the forces
     open: none       closed: n       stick: n + mu t and n - mu t       slip+: n - mu t       slip-: n + mu t
 
 each times any number >= 0; n is the normal towards the admissible side, t = (n_y, -n_x). So reactions that are not unique, as
-between two walls, need no choice: each set of them that gives F is admissible. The motion since the point keeps the gap of
-closed contacts, the place of sticking ones, the sense of sliding ones and no negative gap.
+between two walls, need no choice: each set of them that gives F is admissible. One set is not: walls that face each other do
+not squeeze the node between them, since nothing tells with which force. The motion since the point keeps the gap of closed
+contacts, the place of sticking ones, the sense of sliding ones and no negative gap.
 
 For each combination of states, points on spheres around the point, |(dx, ds)| = rho in the free components, that fulfil the
 equations are searched by Newton's method, from the null directions of the equations. A branch is a point that fulfils the
@@ -28,6 +29,7 @@ AT_LIMIT = 1e-8     # force by which the force of a node may be outside of a con
 SOLVED = 1e-12      # largest residual of a solution
 INEXACT = 2e-10     # inequalities at the point are known to about this
 CURVED = 1e-3       # times rho^2: an inequality may be broken by that much
+GROWS = 2e-11       # by which an inequality is broken more on the larger sphere: not inexact, but broken by the curve
 WEAK = 0.05         # singular values of the equations below this share of the largest: null directions, or nearly
 MOST_WEAK = 6       # directions that are searched together
 STARTS = 12         # of Newton's method, where there is more than one null direction
@@ -212,11 +214,13 @@ class NodeState:
         self.states = dict(zip(contacts, states))
         self.components = [k for k in (0, 1) if 2 * node + k in problem.free]
         self.dofs = np.array([2 * node + k for k in self.components], dtype=int)
-        edges, kept, wanted = [], [], []
+        edges, kept, wanted, self.normals = [], [], [], []
         for i, state in self.states.items():
             contact = problem.contacts[i]
             edges += contact.edges(state)
             (wanted if state == 'open' else kept).append(problem.row_of(contact, contact.normal))
+            if state != 'open':
+                self.normals.append(contact.normal)
             tangential = problem.row_of(contact, contact.tangent)
             if state == 'stick':
                 kept.append(tangential)
@@ -236,8 +240,10 @@ class NodeState:
         return np.all(np.abs(self.equations @ own) <= AT_LIMIT) and np.all(self.faces @ own >= -AT_LIMIT)
 
     def squeezes(self):
-        """Whether the node slides between walls that carry any force: there, the solvers leave the unpressed wall unloaded."""
-        return len(self.equations) + len(self.kept) < len(self.components)
+        """Whether walls that carry face each other, or more walls carry than can be needed: any force of the node is the force
+        of at most two edges of cones."""
+        normals = np.array(self.normals).reshape(-1, 2)[:, self.components]
+        return len(independent(normals)) < len(normals)
 
     def includes(self, other):
         """Whether each motion and force of the other is one of this as well, and so it needs no look of its own."""
@@ -390,12 +396,14 @@ class Combination:
 
 class Branch:
     """states: contact -> state, of contacts that touch. motion: (dx, ds) of free components, of unit length. radius: of the
-    sphere on which it was found. dimension: of the set of solutions, 1 = a curve."""
+    sphere on which it was found. broken: by how much an inequality is, at most. dimension: of the set of solutions, 1 = a
+    curve."""
 
     def __init__(self, combination, y, radius):
         self.states = combination.states()
         self.motion = combination.motions @ y / radius
         self.radius = radius
+        self.broken = max(combination.broken(y), 0.0)
         self.dimension = combination.dimension()
 
     def __str__(self):
@@ -403,9 +411,12 @@ class Branch:
             self.radius, self.motion[-1], self.dimension,
             ' '.join('%s %s' % state for state in self.states.items()) or 'no contact touches')
 
+    def is_admissible(self):
+        return self.broken <= max(INEXACT, CURVED * self.radius**2)
 
-def admissible(combination, y, radius):
-    return combination.broken(y) <= max(INEXACT, CURVED * radius**2)
+    def goes_on_from(self, farther):
+        """Whether this is a point, on the smaller sphere, of the branch that meets the larger sphere there."""
+        return np.linalg.norm(self.motion - farther.motion) <= ALIKE and farther.broken - self.broken <= GROWS
 
 
 def way_back(problem, origin, combinations, rows, radius):
@@ -452,11 +463,10 @@ def branches_from(problem, rows, seed=0):
         starts = list(combination.starts(rng))
         before = []
         for radius in START_RADII if is_start else RADII:
-            branches = [Branch(combination, y, radius) for y in combination.solutions(radius, starts)
-                        if admissible(combination, y, radius)]
-            branches = [branch for branch in branches if goes_on(problem, branch, backwards(radius))]
-            result += [branch for branch in branches
-                       if any(np.linalg.norm(branch.motion - other.motion) <= ALIKE for other in before)]
+            branches = [Branch(combination, y, radius) for y in combination.solutions(radius, starts)]
+            branches = [branch for branch in branches
+                        if branch.is_admissible() and goes_on(problem, branch, backwards(radius))]
+            result += [branch for branch in branches if any(branch.goes_on_from(other) for other in before)]
             before = branches
     return result
 

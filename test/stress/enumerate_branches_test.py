@@ -1,4 +1,5 @@
 """The enumeration of branches, where they can be told by hand."""
+import copy
 import os
 import sys
 import unittest
@@ -45,10 +46,25 @@ class EnumerateBranchesTest(unittest.TestCase):
         for branch in branches:
             np.testing.assert_allclose(branch.motion, [np.sqrt(0.5), 0.0, np.sqrt(0.5)], atol=1e-6)
 
-    def test_a_guide_holds_a_node_with_reactions_that_are_not_unique(self):
+    def test_walls_that_face_each_other_do_not_squeeze(self):
         branches = branches_from(Problem(block(0.5, walls=2)), [row(0.0, **ENDS), row(0.5, **ENDS)])
-        states = {tuple(branch.states.values()) for branch in branches}
-        self.assertEqual(states, {('slip+', 'open'), ('stick', 'stick')})
+        self.assertEqual({tuple(branch.states.values()) for branch in branches}, {('slip+', 'open')})
+
+    def test_two_walls_hold_a_node_with_reactions_that_are_not_unique(self):
+        request = block(0.5)
+        request['scene']['obstacles'].append({'name': 'stop', 'px': 1.0, 'py': 0.0, 'nx': -1.0, 'ny': 0.0, 'friction': 0.5})
+        request['scene']['contacts'].append({'node': 'b', 'obstacle': 'stop'})
+        branches = branches_from(Problem(request), [row(0.0, **ENDS), row(0.5, **ENDS)])
+        self.assertTrue(branches)
+        for branch in branches:
+            np.testing.assert_allclose(branch.motion, [0.0, 0.0, 1.0], atol=1e-6)
+
+    def test_an_inequality_that_the_curve_breaks_is_no_inexact_one(self):
+        branch = branches_from(Problem(block(0.5)), [row(0.0, **ENDS), row(0.2, **ENDS)])[0]
+        farther = copy.copy(branch)
+        farther.broken = branch.broken + 1e-10
+        self.assertTrue(branch.goes_on_from(branch))
+        self.assertFalse(branch.goes_on_from(farther))
 
     def test_the_way_back_is_no_branch(self):
         # Free sliding: the curve goes on and comes from the other side.

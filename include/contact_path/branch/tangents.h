@@ -5,7 +5,6 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "contact_path/branch/active_set_tolerance.h"
 #include "contact_path/equations/fixed_state_system.h"
 #include "contact_path/linear/bordered_solver.h"
 #include "contact_path/linear/minimum_norm.h"
@@ -33,8 +32,8 @@ struct TangentSolvers {
 // At the point x, by the states of *system; none where the states leave no arc through x. arrival: (du, ds), unit
 // vector; of several directions the one nearest to it counts. crossed: another path crosses at x, so that nearly
 // singular counts as singular.
-Tangents FindTangents(const Eigen::VectorXd& x, const Eigen::VectorXd& arrival, bool crossed,
-                      const ActiveSetTolerance& tolerance, FixedStateSystem* system, TangentSolvers* solvers);
+Tangents FindTangents(const Eigen::VectorXd& x, const Eigen::VectorXd& arrival, bool crossed, FixedStateSystem* system,
+                      TangentSolvers* solvers);
 
 }  // namespace contact_path
 

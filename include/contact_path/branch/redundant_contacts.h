@@ -1,0 +1,43 @@
+// Contacts of one node that hold it more than once.
+#ifndef CONTACT_PATH_BRANCH_REDUNDANT_CONTACTS_H_
+#define CONTACT_PATH_BRANCH_REDUNDANT_CONTACTS_H_
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <map>
+#include <vector>
+
+#include "contact_path/contact/contact_pair.h"
+#include "contact_path/contact/path_point.h"
+
+namespace contact_path {
+
+// Where several walls touch a node, as in a guide, there are states with more equations for its motion than it has
+// unknowns, and their reactions are not unique. No such states are needed: each force that the walls can exert is one
+// of at most two edges of friction cones (Caratheodory), which states without redundancy exert as well. The one thing
+// that they leave out are walls that face each other and squeeze the node between them: in a guide without clearance
+// one wall carries at a time.
+class RedundantContacts {
+ public:
+  // contacts must outlive this. A gap up to `gap`, scaled, touches at the point.
+  RedundantContacts(const ContactPairs& contacts, const PathPoint& point, double gap);
+
+  // Whether, with these states, the conditions on the motion of some node, or the reactions on it, depend on each
+  // other. Looked at are nodes at which two contacts or more are not open.
+  bool Among(const std::vector<ContactState>& states) const;
+
+ private:
+  struct Touching {
+    std::size_t contact;
+    Kinematics at;
+  };
+
+  bool AtNode(const std::vector<Touching>& node, const std::vector<ContactState>& states) const;
+
+  const ContactPairs& contacts_;
+  std::map<std::vector<int>, std::vector<Touching>> nodes_;  // by dofs: those that two contacts or more touch
+};
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_BRANCH_REDUNDANT_CONTACTS_H_

@@ -1,0 +1,63 @@
+#include "contact_path/branch/redundant_contacts.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <iterator>
+
+#include "contact_path/contact/contact_state.h"
+#include "contact_path/tolerances.h"
+
+namespace contact_path {
+namespace {
+
+// Of vectors of length 1, or zero, as columns.
+bool Dependent(const Eigen::MatrixXd& columns) {
+  if (columns.cols() == 0) return false;
+  if (columns.cols() > columns.rows()) return true;
+  Eigen::FullPivLU<Eigen::MatrixXd> lu(columns);
+  lu.setThreshold(tolerances::kParallelEdges);
+  return lu.rank() < columns.cols();
+}
+
+}  // namespace
+
+RedundantContacts::RedundantContacts(const ContactPairs& contacts, const PathPoint& point, double gap)
+    : contacts_(contacts) {
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const ContactPair& contact = *contacts[i];
+    if (contact.Dofs().empty() || contact.Gap(point.u, point.s) > gap) continue;
+    std::vector<Touching>& node = nodes_[contact.Dofs()];
+    node.push_back({i, {}});
+    contact.Evaluate(point.u, point.s, 0.0, &node.back().at);
+  }
+  // One contact holds a node that moves in two directions in one way.
+  for (auto node = nodes_.begin(); node != nodes_.end();)
+    node = node->second.size() == 1 && node->first.size() > 1 ? nodes_.erase(node) : std::next(node);
+}
+
+bool RedundantContacts::Among(const std::vector<ContactState>& states) const {
+  return std::any_of(nodes_.begin(), nodes_.end(), [&](const auto& node) { return AtNode(node.second, states); });
+}
+
+bool RedundantContacts::AtNode(const std::vector<Touching>& node, const std::vector<ContactState>& states) const {
+  const auto q = static_cast<Eigen::Index>(contacts_[node.front().contact]->Dofs().size()) + 1;
+  Eigen::MatrixXd motions(q, 0), forces(q - 1, 0);
+  const auto append = [](Eigen::MatrixXd* columns, const auto& column) {
+    columns->conservativeResize(Eigen::NoChange, columns->cols() + 1);
+    columns->rightCols<1>() = column.normalized();
+  };
+  for (const Touching& touching : node) {
+    const ContactState state = states[touching.contact];
+    if (state == ContactState::kOpen) continue;
+    const PairVector &gap = touching.at.gap_gradient, &xi = touching.at.xi_gradient;
+    append(&motions, gap);
+    const double ratio = SlipRatio(state, contacts_[touching.contact]->Friction());
+    append(&forces, (gap + ratio * xi).head(q - 1));
+    if (state != ContactState::kStick) continue;
+    append(&motions, xi);
+    append(&forces, xi.head(q - 1));
+  }
+  return Dependent(motions) || Dependent(forces);
+}
+
+}  // namespace contact_path
