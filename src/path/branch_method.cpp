@@ -265,8 +265,21 @@ std::optional<EndReason> BranchMethod::PassEnd(const ArcStep& at, AcceptedPoint*
   if (at.event.kind == EventKind::kLimitPoint) {
     increment->kind = IncrementKind::kSmoothLimit;
     if (at.event.singular) increment->event.null_vector = CrossingPath(at.step);
+    if (at.event.singular && options_.keep_loading && TakeCrossingThatLoads(at))
+      increment->kind = IncrementKind::kBifurcation;
   }
   return std::nullopt;
+}
+
+bool BranchMethod::TakeCrossingThatLoads(const ArcStep& at) {
+  const std::vector<Branch> branches = BifurcationBranches(&arc_, model_.contacts, at.step.start.x, at.step.end);
+  const auto found = std::find_if(branches.begin(), branches.end(), [&](const Branch& branch) {
+    return branch.load_rate * options_.direction > tolerances::kLevelSingular;
+  });
+  if (found == branches.end()) return false;
+  current_.first = found->first;
+  current_.second = found->second;
+  return true;
 }
 
 std::optional<EndReason> BranchMethod::PassBifurcation(const ArcStep& at, AcceptedPoint* increment,

@@ -75,6 +75,20 @@ TEST(SingularScenes, WedgeHoldsANodeAsFarAsBothConesReach) {
   }
 }
 
+// With the load P at c: P = (x - 1) + (x - l) / l, with the length l of the chain.
+TEST(SingularScenes, SlackBarsBecomeTautUnderConstantLoads) {
+  const double chain = 2.0 * std::hypot(0.5, 0.05);
+  for (const Accuracy accuracy : kPresets) {
+    const TracedPath path = TraceData("slack_chain", accuracy);
+    EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+    for (const Increment& increment : path.increments) {
+      const double load = 0.1 * (1.0 + increment.load_factor);
+      EXPECT_NEAR(PositionX(path, increment, "c"), (load + 2.0) / (1.0 + 1.0 / chain), 1e-12);
+      EXPECT_NEAR(PositionX(path, increment, "m"), 0.5 * PositionX(path, increment, "c"), 1e-9);
+    }
+  }
+}
+
 TEST(SingularScenes, AReactionThatBeginsWithTheThirdPower) {
   for (const Accuracy accuracy : kPresets) {
     const TracedPath path = TraceData("third_power", accuracy);
