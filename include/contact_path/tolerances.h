@@ -190,8 +190,8 @@ inline constexpr double kLeapNarrowest = 1e-9;
 inline constexpr double kLeapRounding = 1e-13;
 // Distance before a bifurcation at which the crossing path's direction is computed: the equations are regular there.
 inline constexpr double kBeforeBifurcation = 1e-6;
-// Scaled length along a curve at whose end rates tell what its start does not: where the load, or an inequality, changes
-// with the third power of the arc length.
+// Scaled length along a curve at whose end rates tell what its start does not: where the load, or an inequality,
+// changes with the third power of the arc length.
 inline constexpr double kAhead = 1e-3;
 // Scaled length of an increment of method mpec that stands for a rate.
 inline constexpr double kShortIncrement = 1e-5;

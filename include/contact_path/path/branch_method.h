@@ -50,7 +50,8 @@ class BranchMethod : public PathMethod {
   std::optional<int> EndAtReturn(const PathPoint& from, ArcStep* at);
   // Records the event at the end of the step, and sets out from there. Nothing: done. Otherwise why not, with *message.
   std::optional<EndReason> PassEnd(const ArcStep& at, AcceptedPoint* increment, std::string* message);
-  // Where another path crosses at a limit point, as where slack bars become taut: sets out on it if the load grows there.
+  // Where another path crosses at a limit point, as where slack bars become taut: sets out on it if the load grows
+  // there.
   bool TakeCrossingThatLoads(const ArcStep& at);
   std::optional<EndReason> PassBifurcation(const ArcStep& at, AcceptedPoint* increment, std::string* message);
   std::optional<EndReason> PassContactEvent(const ArcStep& at, AcceptedPoint* increment, std::string* message);

@@ -3,8 +3,8 @@
 // Any consistent set of units: [length], [force]; the load factor has no unit. Names tie the parts together and are
 // unique within their list. The structs hold what the user wrote; nothing is checked or normalised here (validate.h).
 //
-// Each struct is followed by the description of its fields (field.h). A new field is a member and its description here; a
-// new kind of part is a struct with its description and a list in Scene. scripts/messages adds both to the messages.
+// Each struct is followed by the description of its fields (field.h). A new field is a member and its description here;
+// a new kind of part is a struct with its description and a list in Scene. scripts/messages adds both to the messages.
 #ifndef CONTACT_PATH_SCENE_SCENE_H_
 #define CONTACT_PATH_SCENE_SCENE_H_
 
