@@ -30,7 +30,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kLongest = 12.0;  // seconds for one path
 
-struct Increment {
+struct Sample {
   Eigen::VectorXd x;  // (u, s), scaled
   double load = 0.0;  // in the scene's unit
   double arc_length = 0.0;
@@ -40,7 +40,7 @@ struct Increment {
 };
 
 struct Path {
-  std::vector<Increment> increments;
+  std::vector<Sample> increments;
   double seconds = 0.0;
   long iterations = 0, factorisations = 0, rejected = 0;
   std::string end;
@@ -79,12 +79,13 @@ Path Follow(const TraceRequest& request, const Model& model, const PathPoint& st
             double longest) {
   Path path;
   const TraceOptions options = OptionsOf(request, setting);
-  const StopTest stop(request);
+  const SceneIndex index(request.scene);
+  const StopTest stop(request, index);
   const Clock::time_point begin = Clock::now();
   const auto late = [&] { return std::chrono::duration<double>(Clock::now() - begin).count() > longest; };
   const std::unique_ptr<PathMethod> method = MakeMethod(model, options, setting, late);
   const auto append = [&](const PathPoint& point, const AcceptedPoint* accepted) {
-    Increment increment;
+    Sample increment;
     increment.x.resize(point.u.size() + 1);
     increment.x << point.u, point.s;
     increment.load = point.s * model.scaling.load_factor;
@@ -143,8 +144,8 @@ class Curve {
   std::size_t Intervals() const { return pieces_.size(); }
 
   Eigen::VectorXd At(std::size_t k, double t) const {
-    return Interpolate<Eigen::VectorXd>(
-        k, t, [](const Increment& increment) -> const Eigen::VectorXd& { return increment.x; });
+    return Interpolate<Eigen::VectorXd>(k, t,
+                                        [](const Sample& increment) -> const Eigen::VectorXd& { return increment.x; });
   }
 
   // From a point, looked for near and after interval *near, which becomes that of the nearest point; *dissipation:
@@ -171,7 +172,7 @@ class Curve {
       const double t = 0.5 * (a + b), distance = (At(k, t) - x).norm();
       if (distance >= least) continue;
       least = distance;
-      *dissipation = Interpolate<double>(k, t, [](const Increment& increment) { return increment.dissipation; });
+      *dissipation = Interpolate<double>(k, t, [](const Sample& increment) { return increment.dissipation; });
     }
     return least;
   }
@@ -200,7 +201,7 @@ class Curve {
     return get(increments_[k]) + sum;
   }
 
-  const std::vector<Increment>& increments_;
+  const std::vector<Sample>& increments_;
   std::vector<Piece> pieces_;
 };
 
@@ -209,7 +210,7 @@ double LineError(const Path& exact, const Path& path) {
   double worst = 0.0;
   std::size_t k = 0;
   const double length = path.increments.back().arc_length;
-  for (const Increment& increment : exact.increments) {
+  for (const Sample& increment : exact.increments) {
     if (increment.arc_length > 0.999 * length) break;
     double least = std::numeric_limits<double>::infinity();
     std::size_t best = k;
@@ -229,7 +230,7 @@ double LineError(const Path& exact, const Path& path) {
 
 std::vector<double> LimitLoads(const Path& path) {
   std::vector<double> loads;
-  for (const Increment& increment : path.increments)
+  for (const Sample& increment : path.increments)
     if (increment.limit) loads.push_back(increment.load);
   return loads;
 }
@@ -286,7 +287,7 @@ void Measure(const std::string& name, const TraceRequest& request) {
     double row_error = 0.0, dissipation_error = 0.0;
     std::size_t near = 0;
     // The last increment of a path may lie beyond the end of the exact one.
-    for (const Increment& increment : path.increments)
+    for (const Sample& increment : path.increments)
       if (increment.arc_length <= exact.increments.back().arc_length) {
         double there = 0.0;
         row_error = std::max(row_error, curve.Distance(increment.x, &near, 4.0 * preset + 4.0 * setting.step, &there));
@@ -314,7 +315,7 @@ void MeasureModels() {
   LatticeOptions lattice;
   lattice.kind = LatticeKind::kWall;
   lattice.columns = 20;
-  lattice.increments = 4;
+  lattice.rows = 4;
   lattice.contacts = 4;
   for (const char* name : {"no contact in reach", "frictionless contact", "friction on one node", "friction on all"}) {
     TraceRequest request = LatticeRequest(lattice);

@@ -90,7 +90,7 @@ contact_path_add_stage(scene can_slide_test change_units_test configuration_test
   one_line_test origin_test quantity_test read_scene_test scaling_test scene_index_test scene_test surface_test utf8_test
   validate_test write_scene_test)
 contact_path_add_stage(structure bar_test dof_map_test scene_elements_test structure_test superelement_test)
-contact_path_add_stage(linear bordered_solver_test generic_vector_test minimum_norm_test out_of_memory_test singular_vectors_test)
+contact_path_add_stage(linear blas_test bordered_solver_test generic_vector_test minimum_norm_test out_of_memory_test singular_vectors_test)
 find_library(SUITESPARSECONFIG_LIBRARY suitesparseconfig REQUIRED)
 target_include_directories(linear_tests SYSTEM PRIVATE ${SUITESPARSE_INCLUDE_DIR})
 target_link_libraries(linear_tests ${SUITESPARSECONFIG_LIBRARY})

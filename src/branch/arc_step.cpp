@@ -36,6 +36,12 @@ std::optional<ArcStep> TryStep(SmoothArc* arc, const CurvePoint& start, double l
   return result;
 }
 
+// Whether the load factor goes beyond the target: where an event is as near to it as rounding.
+bool Passes(const SmoothArc& arc, const CurvePoint& start, const CurvePoint& end, double target) {
+  const Eigen::Index s = arc.system().NumDofs();
+  return (start.x[s] - target) * (end.x[s] - target) < 0.0;
+}
+
 // Ends the step at the first event on it. The exact point of an event may show an earlier one. False: it is not found.
 bool EndAtFirstEvent(SmoothArc* arc, std::optional<double> target, ArcStep* at) {
   at->event = FirstEvent(arc, at->step, target);
@@ -43,6 +49,10 @@ bool EndAtFirstEvent(SmoothArc* arc, std::optional<double> target, ArcStep* at) 
   for (int attempt = 0; attempt < kLocatingAttempts; ++attempt) {
     const std::optional<CurvePoint> point = Locate(arc, at->step, at->event, target);
     if (!point) return false;
+    if (at->event.kind != EventKind::kTarget && target && Passes(*arc, at->step.start, *point, *target)) {
+      at->event = {EventKind::kTarget, at->event.t, {}, false};
+      continue;
+    }
     at->step = MakeStep(at->step.start, *point, arc->NumMotion());
     if (!(at->step.length > tolerances::kNoMove)) {
       at->step.length = 0.0;

@@ -27,8 +27,9 @@ RedundantContacts::RedundantContacts(const ContactPairs& contacts, const PathPoi
     const ContactPair& contact = *contacts[i];
     if (contact.Dofs().empty() || contact.Gap(point.u, point.s) > gap) continue;
     std::vector<Touching>& node = nodes_[contact.Dofs()];
-    node.push_back({i, {}});
-    contact.Evaluate(point.u, point.s, 0.0, &node.back().at);
+    Kinematics at;
+    contact.Evaluate(point.u, point.s, 0.0, &at);
+    node.push_back({i, at.gap_gradient, at.xi_gradient});
   }
   // One contact holds a node that moves in two directions in one way.
   for (auto node = nodes_.begin(); node != nodes_.end();)
@@ -49,7 +50,8 @@ bool RedundantContacts::AtNode(const std::vector<Touching>& node, const std::vec
   for (const Touching& touching : node) {
     const ContactState state = states[touching.contact];
     if (state == ContactState::kOpen) continue;
-    const PairVector &gap = touching.at.gap_gradient, &xi = touching.at.xi_gradient;
+    if (motions.cols() == q) return true;  // one more is one too many
+    const PairVector &gap = touching.gap_gradient, &xi = touching.xi_gradient;
     append(&motions, gap);
     const double ratio = SlipRatio(state, contacts_[touching.contact]->Friction());
     append(&forces, (gap + ratio * xi).head(q - 1));

@@ -12,8 +12,8 @@ int main(int argc, char** argv) {
                "contact_path_lattice");
   contact_path::LatticeOptions options;
   std::string kind = "column";
-  app.add_option("KIND", kind, "column (on a rough floor), arch or wall (both above one)")
-      ->check(CLI::IsMember({"column", "arch", "wall"}))
+  app.add_option("KIND", kind, "column (on a rough floor), arch, wall or block (above one)")
+      ->check(CLI::IsMember({"column", "arch", "wall", "block"}))
       ->capture_default_str();
   app.add_option("--columns", options.columns, "Cells along the edge that may touch")->capture_default_str();
   app.add_option("--rows", options.rows, "Cells across")->capture_default_str();

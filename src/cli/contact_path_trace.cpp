@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "contact_path/linear/blas.h"
 #include "contact_path/path/csv.h"
 #include "contact_path/path/restored_states.h"
 #include "contact_path/path/trace.h"
@@ -219,6 +220,8 @@ ExitStatus RunTrace(const Task& task, const Arguments& arguments, std::ostream& 
   }
 #endif
 
+  if (const std::string advice = BlasAdvice(request.scene.nodes.size()); !advice.empty() && !arguments.quiet)
+    PrintError(advice);
   HandleSignals();
   TraceControl control;
   control.on_increment = [&sinks](const Increment& increment) {

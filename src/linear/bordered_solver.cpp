@@ -1,121 +1,183 @@
 #include "contact_path/linear/bordered_solver.h"
 
-#include <klu.h>
-
 #include <algorithm>
 #include <cmath>
-#include <new>
+#include <cstddef>
+#include <numeric>
+#include <utility>
 #include <vector>
 
 #include "contact_path/linear/minimum_norm.h"
+#include "linear/klu_factors.h"
+#include "linear/large_system.h"
+#include "linear/umfpack_factors.h"
 
 namespace contact_path {
 namespace {
 
-constexpr double kGrowth = 1e-4;  // reciprocal growth of the pivots below which they are chosen anew
-
-// Sign of a permutation of 0..n-1.
-int Parity(const int* permutation, int n) {
-  std::vector<bool> seen(static_cast<std::size_t>(n), false);
-  int sign = 1;
-  for (int i = 0; i < n; ++i) {
-    if (seen[static_cast<std::size_t>(i)]) continue;
-    int length = 0;
-    for (int j = i; !seen[static_cast<std::size_t>(j)]; j = permutation[j], ++length)
-      seen[static_cast<std::size_t>(j)] = true;
-    if (length % 2 == 0) sign = -sign;
-  }
-  return sign;
-}
+constexpr double kFewInRow = 1e-3;   // of the unknowns: a row with more entries is not put into a large matrix
+constexpr std::size_t kPlaces = 64;  // entries of the row that stands for it
+constexpr double kGoodPlaces = 0.5;  // of the largest entries together: places are kept from the matrix before
 
 }  // namespace
 
+// A large matrix has no row of many entries, which would fill its factors: N = [J; largest entries of row] stands for
+// M = [J; row]. With N v = (0, 1), the solution of M x = (b, last) is x = y + a v where N y = (b, 0) and row . x =
+// last, and det M = det N (row . v). The last row stands where it makes the pattern symmetric: beside the load factor.
 struct BorderedSolver::Factors {
-  Factors() {
-    klu_defaults(&common);
-    common.btf = 0;  // the matrix does not fall into blocks, and looking for them spoils its symmetric pattern
-  }
-  ~Factors() { Free(); }
-  Factors(const Factors&) = delete;
-  Factors& operator=(const Factors&) = delete;
-
-  void Free() {
-    FreeNumeric();
-    klu_free_symbolic(&symbolic, &common);
-  }
-  void FreeNumeric() { klu_free_numeric(&numeric, &common); }
-
   // Puts `matrix` together; whether its pattern is the pattern of the last time.
   bool Assemble(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& row) {
-    const Eigen::Index rows = transposed.rows(), columns = transposed.cols(), entries = transposed.nonZeros();
-    // A row of many entries has all of them in the pattern, so that one that happens to be zero does not change it.
+    const Eigen::Index rows = transposed.rows(), columns = transposed.cols();
     const Eigen::Index in_row = (row.array() != 0.0).count();
-    const bool full = 2 * in_row > rows;
-    const Eigen::Index all = entries + (full ? rows : in_row);
-    bool same = matrix.rows() == rows && matrix.cols() == columns + 1 && matrix.nonZeros() == all &&
-                std::equal(transposed.outerIndexPtr(), transposed.outerIndexPtr() + columns, matrix.outerIndexPtr()) &&
-                std::equal(transposed.innerIndexPtr(), transposed.innerIndexPtr() + entries, matrix.innerIndexPtr());
+    large = rows >= kLargeSystem;
+    replaced = large && static_cast<double>(in_row) > kFewInRow * static_cast<double>(rows);
+    if (replaced) ChoosePlaces(row);
+    last = large ? FirstWithoutDiagonal(transposed) : columns;
+    // A row of many entries has all of them in the pattern, so that one that happens to be zero does not change it.
+    const bool full = !replaced && 2 * in_row > rows;
+    const Eigen::Index in_matrix = replaced ? Count(places)
+                                   : full   ? rows
+                                            : in_row,
+                       all = transposed.nonZeros() + in_matrix;
+    bool same = matrix.rows() == rows && matrix.cols() == columns + 1 && matrix.nonZeros() == all;
     if (!same) {
       matrix.resize(rows, columns + 1);
       matrix.resizeNonZeros(all);
-      std::copy_n(transposed.outerIndexPtr(), columns + 1, matrix.outerIndexPtr());
-      std::copy_n(transposed.innerIndexPtr(), entries, matrix.innerIndexPtr());
-      matrix.outerIndexPtr()[columns + 1] = static_cast<int>(all);
     }
-    std::copy_n(transposed.valuePtr(), entries, matrix.valuePtr());
-    Eigen::Index end = entries;
-    for (Eigen::Index i = 0; i < rows; ++i) {
-      if (!full && row[i] == 0.0) continue;
-      same = same && matrix.innerIndexPtr()[end] == i;
-      matrix.innerIndexPtr()[end] = static_cast<int>(i);
-      matrix.valuePtr()[end++] = row[i];
+    const int *outer = transposed.outerIndexPtr(), *inner = transposed.innerIndexPtr();
+    // Equations from `first` up to `beyond`, which come so many columns and entries later in the matrix.
+    const auto copy = [&](Eigen::Index first, Eigen::Index beyond, Eigen::Index shift, int later) {
+      int* const starts = matrix.outerIndexPtr() + first + shift;
+      int* const unknowns = matrix.innerIndexPtr() + outer[first] + later;
+      const int count = outer[beyond] - outer[first];
+      same = same &&
+             std::equal(outer + first, outer + beyond, starts, [later](int a, int b) { return a + later == b; }) &&
+             std::equal(inner + outer[first], inner + outer[beyond], unknowns);
+      std::copy_n(transposed.valuePtr() + outer[first], count, matrix.valuePtr() + outer[first] + later);
+      if (same) return;
+      std::transform(outer + first, outer + beyond, starts, [later](int entry) { return entry + later; });
+      std::copy_n(inner + outer[first], count, unknowns);
+    };
+    copy(0, last, 0, 0);
+    int end = outer[last];
+    same = same && matrix.outerIndexPtr()[last] == end;
+    matrix.outerIndexPtr()[last] = end;
+    const auto append = [&](Eigen::Index unknown) {
+      same = same && matrix.innerIndexPtr()[end] == unknown;
+      matrix.innerIndexPtr()[end] = static_cast<int>(unknown);
+      matrix.valuePtr()[end++] = row[unknown];
+    };
+    if (replaced) {
+      for (const Eigen::Index i : places) append(i);
+    } else {
+      for (Eigen::Index i = 0; i < rows; ++i)
+        if (full || row[i] != 0.0) append(i);
     }
+    copy(last, columns, 1, static_cast<int>(in_matrix));
+    matrix.outerIndexPtr()[columns + 1] = static_cast<int>(all);
     return same;
   }
 
-  // LU of the transpose of `matrix`; false if it is singular. same_pattern: as of the last call.
-  bool FactorizeLu(bool same_pattern) {
-    auto* outer = matrix.outerIndexPtr();
-    auto* inner = matrix.innerIndexPtr();
-    if (same_pattern && numeric != nullptr && Refactorize()) return true;
-    FreeNumeric();
-    if (!same_pattern || symbolic == nullptr) {
-      klu_free_symbolic(&symbolic, &common);
-      symbolic = klu_analyze(static_cast<int>(matrix.rows()), outer, inner, &common);
+  // The first equation that lacks the unknown of its number: equations of equilibrium come first, and have it.
+  static Eigen::Index FirstWithoutDiagonal(const Eigen::SparseMatrix<double>& transposed) {
+    for (Eigen::Index column = 0; column < transposed.cols(); ++column) {
+      const int* const begin = transposed.innerIndexPtr() + transposed.outerIndexPtr()[column];
+      const int* const end = transposed.innerIndexPtr() + transposed.outerIndexPtr()[column + 1];
+      if (!std::binary_search(begin, end, static_cast<int>(column))) return column;
     }
-    if (symbolic != nullptr) numeric = klu_factor(outer, inner, matrix.valuePtr(), symbolic, &common);
-    // Not to be taken for a singular matrix.
-    if (common.status == KLU_OUT_OF_MEMORY || common.status == KLU_TOO_LARGE) throw std::bad_alloc();
-    return numeric != nullptr && common.status == KLU_OK && Regular();
+    return transposed.cols();
   }
 
-  // With the pivots of the last factorisation; false where they are no longer good, or the matrix is singular.
-  bool Refactorize() {
-    auto* outer = matrix.outerIndexPtr();
-    auto* inner = matrix.innerIndexPtr();
-    return klu_refactor(outer, inner, matrix.valuePtr(), symbolic, numeric, &common) == 1 && common.status == KLU_OK &&
-           klu_rgrowth(outer, inner, matrix.valuePtr(), symbolic, numeric, &common) == 1 && common.rgrowth > kGrowth &&
-           Regular();
+  static Eigen::Index Count(const std::vector<Eigen::Index>& list) { return static_cast<Eigen::Index>(list.size()); }
+
+  // Where the row, mostly a tangent, is large: for as long as it is so at the places of before, these, with the
+  // pattern.
+  void ChoosePlaces(const Eigen::VectorXd& row) {
+    std::vector<Eigen::Index> largest(static_cast<std::size_t>(row.size()));
+    std::iota(largest.begin(), largest.end(), Eigen::Index{0});
+    const std::size_t count = std::min(kPlaces, largest.size());
+    const auto before = [&row](Eigen::Index a, Eigen::Index b) {
+      return std::abs(row[a]) != std::abs(row[b]) ? std::abs(row[a]) > std::abs(row[b]) : a < b;
+    };
+    std::nth_element(largest.begin(), largest.begin() + static_cast<std::ptrdiff_t>(count) - 1, largest.end(), before);
+    largest.resize(count);
+    const auto sum = [&row](const std::vector<Eigen::Index>& at) {
+      return std::accumulate(at.begin(), at.end(), 0.0,
+                             [&row](double total, Eigen::Index i) { return total + std::abs(row[i]); });
+    };
+    const bool kept = !places.empty() && places.back() < row.size() && sum(places) >= kGoodPlaces * sum(largest);
+    if (kept) return;
+    places = std::move(largest);
+    std::sort(places.begin(), places.end());
   }
 
-  bool Regular() { return klu_rcond(symbolic, numeric, &common) == 1 && common.rcond > tolerances::kSingularPivot; }
+  void Free() {
+    klu.Free();
+    umfpack.Free();
+  }
+
+  // LU of `matrix`; false if M is singular. same_pattern: as of the last call.
+  bool FactorizeLu(bool same_pattern, const Eigen::VectorXd& row) {
+    if (!large) {
+      umfpack.Free();
+      pivot_ratio = 0.0;
+      if (!klu.Factorize(&matrix, same_pattern)) return false;
+      pivot_ratio = klu.PivotRatio();
+      return true;
+    }
+    klu.Free();
+    along = 1.0;
+    pivot_ratio = 0.0;
+    if (!umfpack.Factorize(matrix, same_pattern)) return false;
+    pivot_ratio = umfpack.PivotRatio();
+    if (!(pivot_ratio > tolerances::kSingularPivot)) return false;
+    if (!replaced) return true;
+    border = row;
+    direction.resize(matrix.rows());
+    right_side = Eigen::VectorXd::Unit(matrix.rows(), last);
+    umfpack.SolveTransposed(right_side.data(), direction.data());
+    along = row.dot(direction);
+    return std::abs(along) > tolerances::kSingularPivot * row.norm() * direction.norm();
+  }
+
+  // In place: M x = (b, value) for each column.
+  void SolveLu(double* x, Eigen::Index columns) {
+    const Eigen::Index n = matrix.rows();
+    if (!large) {
+      klu.SolveTransposed(x, static_cast<int>(columns));
+      return;
+    }
+    right_side.resize(n);
+    for (Eigen::Index k = 0; k < columns; ++k) {
+      Eigen::Map<Eigen::VectorXd> column(x + k * n, n);
+      const double value = column[n - 1];
+      right_side << column.head(last), replaced ? 0.0 : value, column.segment(last, n - 1 - last);
+      umfpack.SolveTransposed(right_side.data(), column.data());
+      if (replaced) column += (value - border.dot(column)) / along * direction;
+    }
+  }
 
   // Needs the factors.
   int DeterminantSign() const {
-    const auto n = static_cast<int>(matrix.rows());
-    int sign = Parity(numeric->Pnum, n) * Parity(symbolic->Q, n);
-    const auto* diagonal = static_cast<const double*>(numeric->Udiag);
-    for (int i = 0; i < n; ++i)
-      if (diagonal[i] < 0.0) sign = -sign;
-    return sign;
+    if (!large) return klu.DeterminantSign();
+    const bool moved = (matrix.rows() - 1 - last) % 2 != 0;  // by so many places
+    return moved == (along < 0.0) ? umfpack.DeterminantSign() : -umfpack.DeterminantSign();
   }
+  bool HasFactors() const { return large ? umfpack.HasFactors() : klu.HasFactors(); }
 
-  Eigen::SparseMatrix<double> matrix;  // M', unknowns x rows
+  Eigen::SparseMatrix<double> matrix;  // M', or N', unknowns x rows
+  bool large = false;
   bool regular = false;
-  klu_common common{};
-  klu_symbolic* symbolic = nullptr;
-  klu_numeric* numeric = nullptr;
-  MinimumNormSolver minimum_norm;  // where not regular
+  double pivot_ratio = 0.0;
+  KluFactors klu;
+  UmfpackFactors umfpack;
+  bool replaced = false;              // N stands for M
+  std::vector<Eigen::Index> places;   // of the entries of its row, ascending
+  Eigen::Index last = 0;              // where the last row stands
+  Eigen::VectorXd border, direction;  // row, v
+  double along = 1.0;                 // row . v
+  Eigen::VectorXd right_side;         // scratch
+  MinimumNormSolver minimum_norm;     // where not regular
 };
 
 BorderedSolver::BorderedSolver() : factors_(std::make_unique<Factors>()) {}
@@ -130,9 +192,13 @@ bool BorderedSolver::Factorize(const Eigen::SparseMatrix<double>& transposed, co
     factors_->Free();
     factors_->regular = false;
   }
-  if (!factors_->matrix.coeffs().allFinite()) return false;
-  return factors_->minimum_norm.Factorize(factors_->matrix,
-                                          rank_tolerance > 0.0 ? rank_tolerance : tolerances::kDependentColumn);
+  if (!transposed.coeffs().allFinite() || !row.allFinite()) return false;
+  if (rank_tolerance == 0.0) rank_tolerance = tolerances::kDependentColumn;
+  if (!factors_->replaced) return factors_->minimum_norm.Factorize(factors_->matrix, rank_tolerance);
+  Eigen::SparseMatrix<double> whole(transposed.rows(), transposed.cols() + 1);
+  whole.leftCols(transposed.cols()) = transposed;
+  whole.rightCols(1) = row.sparseView();
+  return factors_->minimum_norm.Factorize(whole, rank_tolerance);
 }
 
 bool BorderedSolver::FactorizeRegular(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& row,
@@ -140,8 +206,8 @@ bool BorderedSolver::FactorizeRegular(const Eigen::SparseMatrix<double>& transpo
   const bool same_pattern = factors_->Assemble(transposed, row);
   const bool possible = factors_->matrix.rows() == factors_->matrix.cols() && factors_->matrix.coeffs().allFinite();
   if (!possible) factors_->Free();
-  factors_->regular = possible && factors_->FactorizeLu(same_pattern) &&
-                      factors_->common.rcond > std::max(regular, tolerances::kSingularPivot);
+  factors_->regular = possible && factors_->FactorizeLu(same_pattern, row) &&
+                      factors_->pivot_ratio > std::max(regular, tolerances::kSingularPivot);
   return factors_->regular;
 }
 
@@ -158,15 +224,14 @@ void BorderedSolver::Solve(const Eigen::VectorXd& b, double last, Eigen::VectorX
     *x = factors_->minimum_norm.Solve(*x);
     return;
   }
-  klu_tsolve(factors_->symbolic, factors_->numeric, static_cast<int>(x->size()), 1, x->data(), &factors_->common);
+  factors_->SolveLu(x->data(), 1);
 }
 
 void BorderedSolver::SolveAll(const Eigen::MatrixXd& B, Eigen::MatrixXd* x) const {
   x->resize(factors_->matrix.rows(), B.cols());
   x->topRows(B.rows()) = B;
   x->bottomRows(1).setZero();
-  klu_tsolve(factors_->symbolic, factors_->numeric, static_cast<int>(x->rows()), static_cast<int>(x->cols()), x->data(),
-             &factors_->common);
+  factors_->SolveLu(x->data(), x->cols());
 }
 
 Eigen::MatrixXd BorderedSolver::NullSpace() const { return factors_->minimum_norm.NullSpace(); }
@@ -179,6 +244,6 @@ Eigen::Index BorderedSolver::Nullity() const {
 
 int BorderedSolver::DeterminantSign() const { return factors_->regular ? PivotSign() : 0; }
 
-int BorderedSolver::PivotSign() const { return factors_->numeric != nullptr ? factors_->DeterminantSign() : 0; }
+int BorderedSolver::PivotSign() const { return factors_->HasFactors() ? factors_->DeterminantSign() : 0; }
 
 }  // namespace contact_path

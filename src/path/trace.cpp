@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "contact_path/branch/active_set_tolerance.h"
+#include "contact_path/linear/blas.h"
 #include "contact_path/linear/linear_solver_error.h"
 #include "contact_path/path/branch_method.h"
 #include "contact_path/path/diagnosis.h"
@@ -102,6 +103,7 @@ class Tracer {
 
   // resumption: where to go on after the increments of an earlier trace, which were repeated; nothing: from the start.
   TraceResult Run(const std::optional<Resumption>& resumption) {
+    const OneBlasThread one_thread;
     try {
       TraceStages(resumption);
     } catch (const std::bad_alloc&) {

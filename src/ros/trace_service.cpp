@@ -13,6 +13,7 @@
 
 #include <boost/make_shared.hpp>
 
+#include "contact_path/linear/blas.h"
 #include "contact_path/ros/bag_reader.h"
 #include "contact_path/ros/convert.h"
 #include "contact_path/ros/memory_share.h"
@@ -290,6 +291,8 @@ void TraceService::Serve(const contact_path_msgs::TraceRequest& asked, const Tra
   full_state_every_ = core_request.options.full_state_every;
   progress_.emplace(core_request);
   summary_ = PathSummary(ProgramScales(core_request).load_factor);
+  if (const std::string advice = BlasAdvice(core_request.scene.nodes.size()); !advice.empty())
+    ROS_WARN_ONCE("%s", advice.c_str());
   RunTrace(core_request, increments, observer, bag.get(), response);
   response->increments = status_.increments;
   response->end_reason_name = EndReasonName(response->end_reason);

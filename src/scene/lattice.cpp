@@ -39,6 +39,7 @@ class Lattice {
       case LatticeKind::kColumn: MakeColumn(); break;
       case LatticeKind::kArch: MakeArch(); break;
       case LatticeKind::kWall: MakeWall(); break;
+      case LatticeKind::kBlock: MakeBlock(); break;
     }
     AddFarCandidates();
     return std::move(request_);
@@ -135,11 +136,21 @@ class Lattice {
     AddLoad(options_.columns / 2, options_.rows, 0.0, -1.0, false);
   }
 
-  void MakeWall() {
-    scene().name = "wall";
+  void HoldAboveFloor() {
     for (int row = 0; row <= options_.rows; ++row) At(0, row).fixed_x = At(0, row).fixed_y = true;
     AddFloor(-kClearance);
     AddCandidates(1, options_.columns);
+  }
+
+  void MakeBlock() {
+    scene().name = "block";
+    HoldAboveFloor();
+    for (int row = 0; row <= options_.rows; ++row) AddLoad(options_.columns, row, -1.0, -1.0, false);
+  }
+
+  void MakeWall() {
+    scene().name = "wall";
+    HoldAboveFloor();
     for (int column = 1; column <= options_.columns; ++column) AddLoad(column, options_.rows, 0.0, -1.0, false);
   }
 
@@ -175,6 +186,7 @@ std::optional<LatticeKind> ParseLatticeKind(std::string_view word) {
   if (word == "column") return LatticeKind::kColumn;
   if (word == "arch") return LatticeKind::kArch;
   if (word == "wall") return LatticeKind::kWall;
+  if (word == "block") return LatticeKind::kBlock;
   return std::nullopt;
 }
 

@@ -162,5 +162,85 @@ TEST(BorderedSolver, RefusesWhatIsNotFinite) {
   EXPECT_TRUE(solver.Factorize(Transposed(jacobian), Eigen::Vector2d(0.0, 1.0)));
 }
 
+// J: d_i x_i - x_{i+1} for i < n. With the null vector t of J, t_n = 1, det [J; row] = d_1 ... d_{n-1} (row . t).
+struct Chain {
+  Eigen::SparseMatrix<double> transposed;
+  Eigen::VectorXd null_vector;
+  int sign = 1;  // of d_1 ... d_{n-1}
+};
+
+Chain ChainOf(const Eigen::VectorXd& d) {
+  const Eigen::Index n = d.size() + 1;
+  Chain chain;
+  std::vector<Eigen::Triplet<double>> entries;
+  chain.null_vector = Eigen::VectorXd::Ones(n);
+  for (Eigen::Index i = n - 1; i-- > 0;) {
+    entries.emplace_back(i, i, d[i]);
+    entries.emplace_back(i + 1, i, -1.0);
+    chain.null_vector[i] = chain.null_vector[i + 1] / d[i];
+    if (d[i] < 0.0) chain.sign = -chain.sign;
+  }
+  chain.transposed.resize(n, n - 1);
+  chain.transposed.setFromTriplets(entries.begin(), entries.end());
+  return chain;
+}
+
+// Large matrices are factorised without a row of many entries.
+TEST(BorderedSolver, LargeWithARowOfManyEntries) {
+  const Eigen::Index n = 30000;
+  Eigen::VectorXd d = Eigen::VectorXd::Constant(n - 1, 1.1);
+  BorderedSolver solver;
+  for (const int negative : {0, 1, 2, 3}) {
+    for (int i = 0; i < negative; ++i) d[7 * i + 5] = -1.2;
+    const Chain chain = ChainOf(d);
+    // The null vector is other than zero at the end alone; the last row is small there where the one before was not.
+    for (const double at_end : {1.0, -1.0, 1e-3}) {
+      Eigen::VectorXd row = Eigen::VectorXd::LinSpaced(n, 0.1, 0.5);
+      row[n - 1] = at_end;
+      ASSERT_TRUE(solver.Factorize(chain.transposed, row));
+      EXPECT_EQ(solver.Nullity(), 0);
+      EXPECT_EQ(solver.DeterminantSign(), chain.sign * (row.dot(chain.null_vector) > 0.0 ? 1 : -1)) << at_end;
+      const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(n - 1, -1.0, 2.0);
+      const Eigen::VectorXd x = solver.Solve(b, 0.7);
+      EXPECT_LE((chain.transposed.transpose() * x - b).lpNorm<Eigen::Infinity>(), 1e-10 * x.lpNorm<Eigen::Infinity>());
+      EXPECT_NEAR(row.dot(x), 0.7, 1e-9 * x.norm());
+      Eigen::MatrixXd several, columns(n - 1, 2);
+      columns << b, Eigen::VectorXd::Unit(n - 1, 3);
+      solver.SolveAll(columns, &several);
+      EXPECT_LE((chain.transposed.transpose() * several - columns).lpNorm<Eigen::Infinity>(),
+                1e-10 * several.lpNorm<Eigen::Infinity>());
+      EXPECT_LE((row.transpose() * several).lpNorm<Eigen::Infinity>(), 1e-9 * several.norm());
+    }
+  }
+}
+
+TEST(BorderedSolver, LargeWithFewEntriesInTheRow) {
+  const Eigen::Index n = 30000;
+  const Chain chain = ChainOf(Eigen::VectorXd::Constant(n - 1, -1.1));
+  BorderedSolver solver;
+  ASSERT_TRUE(solver.FactorizeRegular(chain.transposed, Eigen::VectorXd::Unit(n, n - 2)));
+  EXPECT_EQ(solver.DeterminantSign(), chain.sign * (chain.null_vector[n - 2] > 0.0 ? 1 : -1));
+  const Eigen::VectorXd x = solver.Solve(Eigen::VectorXd::Zero(n - 1), 1.0);
+  EXPECT_LE((x - chain.null_vector / chain.null_vector[n - 2]).norm(), 1e-10 * x.norm());
+}
+
+// The row is orthogonal to the null vector, or an equation says nothing.
+TEST(BorderedSolver, LargeAndSingular) {
+  const Eigen::Index n = 30000;
+  Eigen::VectorXd d = Eigen::VectorXd::Constant(n - 1, 2.0);
+  const Chain chain = ChainOf(d);
+  Eigen::VectorXd row = Eigen::VectorXd::Ones(n);
+  row -= row.dot(chain.null_vector) / chain.null_vector.squaredNorm() * chain.null_vector;
+  BorderedSolver solver;
+  EXPECT_FALSE(solver.FactorizeRegular(chain.transposed, row));
+  Chain without = chain;
+  without.transposed.coeffRef(0, 0) = 0.0;
+  without.transposed.coeffRef(1, 0) = 0.0;
+  EXPECT_FALSE(solver.FactorizeRegular(without.transposed, Eigen::VectorXd::Ones(n)));
+  ASSERT_TRUE(solver.Factorize(without.transposed, Eigen::VectorXd::Ones(n)));
+  EXPECT_EQ(solver.Nullity(), 1);
+  EXPECT_EQ(solver.DeterminantSign(), 0);
+}
+
 }  // namespace
 }  // namespace contact_path

@@ -35,7 +35,7 @@ TEST(Lattice, CandidatesAreSpreadOverTheEdge) {
 }
 
 TEST(Lattice, FarCandidatesChangeNothing) {
-  for (const LatticeKind kind : {LatticeKind::kColumn, LatticeKind::kArch, LatticeKind::kWall}) {
+  for (const LatticeKind kind : {LatticeKind::kColumn, LatticeKind::kArch, LatticeKind::kWall, LatticeKind::kBlock}) {
     LatticeOptions options = Options(kind, 10, 1);
     options.contacts = 2;
     TraceRequest request = LatticeRequest(options);
@@ -74,6 +74,7 @@ TEST(Lattice, KnowsItsKinds) {
   EXPECT_EQ(ParseLatticeKind("column"), LatticeKind::kColumn);
   EXPECT_EQ(ParseLatticeKind("arch"), LatticeKind::kArch);
   EXPECT_EQ(ParseLatticeKind("wall"), LatticeKind::kWall);
+  EXPECT_EQ(ParseLatticeKind("block"), LatticeKind::kBlock);
   EXPECT_FALSE(ParseLatticeKind("tower"));
 }
 

@@ -29,7 +29,7 @@ class RedundantContacts {
  private:
   struct Touching {
     std::size_t contact;
-    Kinematics at;
+    PairVector gap_gradient, xi_gradient;
   };
 
   bool AtNode(const std::vector<Touching>& node, const std::vector<ContactState>& states) const;

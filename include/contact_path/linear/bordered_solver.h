@@ -10,9 +10,9 @@
 
 namespace contact_path {
 
-// M = [J; row], J equations x unknowns. Square and regular as a rule: sparse LU (KLU), with ordering and pivots kept
-// for as long as the pattern is the same and they are good. Where it is singular or not square (rigid modes, redundant
-// contacts): the shortest solution by a rank-revealing sparse QR factorisation.
+// M = [J; row], J equations x unknowns. Square and regular as a rule: sparse LU, with the ordering kept for as long as
+// the pattern is the same; by KLU, and where it is large by UMFPACK. Where it is singular or not square (rigid modes,
+// redundant contacts): the shortest solution by a rank-revealing sparse QR factorisation.
 class BorderedSolver {
  public:
   BorderedSolver();

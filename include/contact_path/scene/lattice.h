@@ -13,6 +13,7 @@ enum class LatticeKind {
   kColumn,  // stands on a rough floor, pressed down at its top by constant loads, and pushed sideways there
   kArch,    // pinned at both ends, its crown pressed down towards a rough floor
   kWall,    // held at its left edge above a rough floor, pressed down along its upper edge
+  kBlock,   // held in the same way, pushed back and down at its right edge
 };
 
 // Cells are squares of side 1 (of the arch: about), each with all its sides and both diagonals, EA = 1, Biot strain.
@@ -29,7 +30,7 @@ struct LatticeOptions {
 // std::invalid_argument for options out of range.
 TraceRequest LatticeRequest(const LatticeOptions& options);
 
-// "column", "arch", "wall"; nothing for another word.
+// "column", "arch", "wall", "block"; nothing for another word.
 std::optional<LatticeKind> ParseLatticeKind(std::string_view word);
 
 }  // namespace contact_path

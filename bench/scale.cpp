@@ -1,0 +1,153 @@
+// What increments and events of large structures cost, in factorisations of their tangent by CHOLMOD as it is set up
+// best: supernodal, ordered by METIS. A square lattice beside a rough floor, with a candidate for each node of its
+// edge.
+#include <benchmark/benchmark.h>
+#include <cholmod.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "contact_path/linear/blas.h"
+#include "contact_path/path/branch_method.h"
+#include "lattices.h"
+
+namespace contact_path {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int kIncrements = 4;
+constexpr double kNear = 1e-3;  // of a cell: gap of the floor where contacts are to touch soon
+
+double Seconds(Clock::time_point since) { return std::chrono::duration<double>(Clock::now() - since).count(); }
+
+double PeakMebibytes() {
+  struct rusage usage = {};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+// contacts: 0 = a candidate for each node of the edge.
+TraceRequest BlockOf(int dofs, int contacts, double gap) {
+  LatticeOptions options;
+  options.kind = LatticeKind::kBlock;
+  options.rows = std::max(2, static_cast<int>(std::lround(std::sqrt(0.5 * dofs))) - 1);
+  options.columns = options.rows + 1;
+  options.contacts = contacts;
+  TraceRequest request = LatticeRequest(options);
+  request.scene.obstacles.front().py = -gap;
+  return request;
+}
+
+// Least of three factorisations of the tangent at u, ordered and analysed before [s].
+double CholmodTime(const Structure& structure, const Eigen::VectorXd& u) {
+  Eigen::SparseMatrix<double> tangent = structure.TangentPattern();
+  structure.Tangent(u, &tangent);
+  cholmod_common common;
+  cholmod_start(&common);
+  common.nmethods = 1;
+  common.method[0].ordering = CHOLMOD_METIS;
+  common.supernodal = CHOLMOD_SUPERNODAL;
+  cholmod_sparse matrix{};
+  matrix.nrow = matrix.ncol = static_cast<std::size_t>(tangent.rows());
+  matrix.nzmax = static_cast<std::size_t>(tangent.nonZeros());
+  matrix.p = tangent.outerIndexPtr();
+  matrix.i = tangent.innerIndexPtr();
+  matrix.x = tangent.valuePtr();
+  matrix.stype = -1;
+  matrix.itype = CHOLMOD_INT;
+  matrix.xtype = CHOLMOD_REAL;
+  matrix.sorted = matrix.packed = 1;
+  cholmod_factor* factor = cholmod_analyze(&matrix, &common);
+  double least = 1e9;
+  for (int i = 0; i < 3; ++i) {
+    const Clock::time_point start = Clock::now();
+    cholmod_factorize(&matrix, factor, &common);
+    least = std::min(least, Seconds(start));
+  }
+  cholmod_free_factor(&factor, &common);
+  cholmod_finish(&common);
+  return least;
+}
+
+void Report(const Model& model, const PathPoint& point, double time, double peak, benchmark::State* state) {
+  state->SetIterationTime(time);
+  const double cholmod = CholmodTime(model.structure, point.u);
+  state->counters["dofs"] = static_cast<double>(model.structure.NumDofs());
+  state->counters["contacts"] = static_cast<double>(model.contacts.size());
+  state->counters["cholmod_ms"] = 1e3 * cholmod;
+  state->counters["per_cholmod"] = time / cholmod;
+  state->counters["peak_MiB"] = peak;
+  state->SetLabel(LoadedBlas());
+}
+
+// Mean of the regular increments before the first contact touches, or mean of the first events.
+void AlongThePath(benchmark::State& state, double gap, bool events) {
+  const OneBlasThread one_thread;
+  const TraceRequest request = BlockOf(static_cast<int>(state.range(0)), 0, gap);
+  const Model model(request.scene, CharacteristicScales(request.scene));
+  for (auto iteration : state) {
+    BranchMethod method(model, BranchOptions::For(request.options, model.structure.NumDofs()), nullptr);
+    PathPoint point = model.InitialPoint();
+    EventRecord branches;
+    std::string message;
+    if (method.Start(point, &branches, &message)) throw std::runtime_error(message);
+    double seconds = 0.0, factorisations = 0.0;
+    // The first increment finds the ordering.
+    for (int counted = -1; counted < kIncrements;) {
+      const Clock::time_point start = Clock::now();
+      const Advance advance = method.Next(point);
+      const double time = Seconds(start);
+      if (advance.increments.empty()) throw std::runtime_error(advance.message);
+      const AcceptedPoint& increment = advance.increments.back();
+      point = increment.point;
+      if ((increment.kind == IncrementKind::kRegular) == events) continue;
+      if (++counted == 0) continue;
+      seconds += time / kIncrements;
+      factorisations += static_cast<double>(increment.solve.factorisations) / kIncrements;
+    }
+    state.counters["factorisations"] = factorisations;
+    Report(model, point, seconds, PeakMebibytes(), &state);
+  }
+}
+
+void SmoothIncrement(benchmark::State& state) { AlongThePath(state, 5.0, false); }
+void Event(benchmark::State& state) { AlongThePath(state, kNear, true); }
+
+// A start with so many contacts that touch without a reaction: any of them can open, stick or slide.
+void EventOfContacts(benchmark::State& state) {
+  const OneBlasThread one_thread;
+  const TraceRequest request = BlockOf(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)), 0.0);
+  const Model model(request.scene, CharacteristicScales(request.scene));
+  for (auto iteration : state) {
+    BranchMethod method(model, BranchOptions::For(request.options, model.structure.NumDofs()), nullptr);
+    const PathPoint point = model.InitialPoint();
+    EventRecord branches;
+    std::string message;
+    const Clock::time_point start = Clock::now();
+    if (method.Start(point, &branches, &message)) throw std::runtime_error(message);
+    const double time = Seconds(start);
+    Report(model, point, time, PeakMebibytes(), &state);
+  }
+}
+
+BENCHMARK(SmoothIncrement)
+    ->Arg(1000)
+    ->Arg(10000)
+    ->Arg(100000)
+    ->UseManualTime()
+    ->Iterations(1)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(Event)->Arg(1000)->Arg(10000)->Arg(100000)->UseManualTime()->Iterations(1)->Unit(benchmark::kMillisecond);
+BENCHMARK(EventOfContacts)
+    ->ArgsProduct({{1000, 10000, 100000}, {1, 5, 20}})
+    ->UseManualTime()
+    ->Iterations(1)
+    ->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace contact_path

@@ -1,0 +1,82 @@
+#include "linear/klu_factors.h"
+
+#include <cstddef>
+#include <new>
+#include <vector>
+
+#include "contact_path/tolerances.h"
+
+namespace contact_path {
+namespace {
+
+constexpr double kGrowth = 1e-4;  // reciprocal growth of the pivots below which they are chosen anew
+
+// Sign of a permutation of 0..n-1.
+int Parity(const int* permutation, int n) {
+  std::vector<bool> seen(static_cast<std::size_t>(n), false);
+  int sign = 1;
+  for (int i = 0; i < n; ++i) {
+    if (seen[static_cast<std::size_t>(i)]) continue;
+    int length = 0;
+    for (int j = i; !seen[static_cast<std::size_t>(j)]; j = permutation[j], ++length)
+      seen[static_cast<std::size_t>(j)] = true;
+    if (length % 2 == 0) sign = -sign;
+  }
+  return sign;
+}
+
+}  // namespace
+
+KluFactors::KluFactors() {
+  klu_defaults(&common_);
+  common_.btf = 0;  // the matrix does not fall into blocks, and looking for them spoils its symmetric pattern
+}
+
+void KluFactors::Free() {
+  FreeNumeric();
+  klu_free_symbolic(&symbolic_, &common_);
+}
+
+void KluFactors::FreeNumeric() { klu_free_numeric(&numeric_, &common_); }
+
+bool KluFactors::Factorize(Eigen::SparseMatrix<double>* matrix, bool same_pattern) {
+  if (same_pattern && numeric_ != nullptr && Refactorize(matrix)) return true;
+  FreeNumeric();
+  int *outer = matrix->outerIndexPtr(), *inner = matrix->innerIndexPtr();
+  if (!same_pattern || symbolic_ == nullptr) {
+    klu_free_symbolic(&symbolic_, &common_);
+    symbolic_ = klu_analyze(static_cast<int>(matrix->rows()), outer, inner, &common_);
+  }
+  if (symbolic_ != nullptr) numeric_ = klu_factor(outer, inner, matrix->valuePtr(), symbolic_, &common_);
+  // Not to be taken for a singular matrix.
+  if (common_.status == KLU_OUT_OF_MEMORY || common_.status == KLU_TOO_LARGE) throw std::bad_alloc();
+  return numeric_ != nullptr && common_.status == KLU_OK && Regular();
+}
+
+// With the pivots of the last factorisation; false where they are no longer good, or the matrix is singular.
+bool KluFactors::Refactorize(Eigen::SparseMatrix<double>* matrix) {
+  int *outer = matrix->outerIndexPtr(), *inner = matrix->innerIndexPtr();
+  double* const values = matrix->valuePtr();
+  return klu_refactor(outer, inner, values, symbolic_, numeric_, &common_) == 1 && common_.status == KLU_OK &&
+         klu_rgrowth(outer, inner, values, symbolic_, numeric_, &common_) == 1 && common_.rgrowth > kGrowth &&
+         Regular();
+}
+
+bool KluFactors::Regular() {
+  return klu_rcond(symbolic_, numeric_, &common_) == 1 && common_.rcond > tolerances::kSingularPivot;
+}
+
+int KluFactors::DeterminantSign() const {
+  const int n = numeric_->n;
+  int sign = Parity(numeric_->Pnum, n) * Parity(symbolic_->Q, n);
+  const auto* diagonal = static_cast<const double*>(numeric_->Udiag);
+  for (int i = 0; i < n; ++i)
+    if (diagonal[i] < 0.0) sign = -sign;
+  return sign;
+}
+
+void KluFactors::SolveTransposed(double* x, int columns) {
+  klu_tsolve(symbolic_, numeric_, numeric_->n, columns, x, &common_);
+}
+
+}  // namespace contact_path
