@@ -5,10 +5,10 @@
 #include <utility>
 #include <vector>
 
-#include "linear/large_system.h"
-
 namespace contact_path {
 namespace {
+
+constexpr std::size_t kManyNodes = 10000;  // from which on another BLAS saves half of the time
 
 // A function of the libraries that are loaded; null if there is none of this name.
 template <typename Function>
@@ -52,7 +52,7 @@ std::string LoadedBlas() {
 }
 
 std::string BlasAdvice(std::size_t nodes) {
-  if (2 * nodes < static_cast<std::size_t>(kLargeSystem) || LoadedBlas() != "reference BLAS") return {};
+  if (nodes < kManyNodes || LoadedBlas() != "reference BLAS") return {};
   return "the reference BLAS is loaded, with which a structure of this size takes up to 2.5 times as long as with "
          "libopenblas0-serial";
 }
