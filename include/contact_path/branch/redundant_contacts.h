@@ -23,7 +23,7 @@ class RedundantContacts {
   RedundantContacts(const ContactPairs& contacts, const PathPoint& point, double gap);
 
   // Whether, with these states, the conditions on the motion of some node, or the reactions on it, depend on each
-  // other. Looked at are nodes at which two contacts or more are not open.
+  // other: also those of a single contact that sticks at a node which moves in one direction only.
   bool Among(const std::vector<ContactState>& states) const;
 
  private:
@@ -35,7 +35,7 @@ class RedundantContacts {
   bool AtNode(const std::vector<Touching>& node, const std::vector<ContactState>& states) const;
 
   const ContactPairs& contacts_;
-  std::map<std::vector<int>, std::vector<Touching>> nodes_;  // by dofs: those that two contacts or more touch
+  std::map<std::vector<int>, std::vector<Touching>> nodes_;  // by dofs: those that can be redundant
 };
 
 }  // namespace contact_path

@@ -8,7 +8,8 @@
 namespace contact_path {
 
 // Has the BLAS compute with one thread for as long as this lives, whatever the environment says: with several, sums are
-// rounded in another order. Known is the call of OpenBLAS; the reference BLAS has no threads.
+// rounded in another order. Known is the call of OpenBLAS; the reference BLAS has no threads. The number is one of
+// the whole process: traces side by side set it in turn.
 class OneBlasThread {
  public:
   OneBlasThread();
