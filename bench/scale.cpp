@@ -5,11 +5,13 @@
 #include <cholmod.h>
 #include <sys/resource.h>
 
+#include <Eigen/CholmodSupport>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "contact_path/linear/blas.h"
 #include "contact_path/path/branch_method.h"
@@ -52,16 +54,7 @@ double CholmodTime(const Structure& structure, const Eigen::VectorXd& u) {
   common.nmethods = 1;
   common.method[0].ordering = CHOLMOD_METIS;
   common.supernodal = CHOLMOD_SUPERNODAL;
-  cholmod_sparse matrix{};
-  matrix.nrow = matrix.ncol = static_cast<std::size_t>(tangent.rows());
-  matrix.nzmax = static_cast<std::size_t>(tangent.nonZeros());
-  matrix.p = tangent.outerIndexPtr();
-  matrix.i = tangent.innerIndexPtr();
-  matrix.x = tangent.valuePtr();
-  matrix.stype = -1;
-  matrix.itype = CHOLMOD_INT;
-  matrix.xtype = CHOLMOD_REAL;
-  matrix.sorted = matrix.packed = 1;
+  cholmod_sparse matrix = Eigen::viewAsCholmod(std::as_const(tangent).selfadjointView<Eigen::Lower>());
   cholmod_factor* factor = cholmod_analyze(&matrix, &common);
   double least = 1e9;
   for (int i = 0; i < 3; ++i) {

@@ -5,6 +5,7 @@
 #include <umfpack.h>
 
 #include <Eigen/SPQRSupport>
+#include <utility>
 #include <vector>
 
 #include "lattices.h"
@@ -82,16 +83,7 @@ void CholmodTangent(benchmark::State& state) {
   system.model.structure.Tangent(system.model.structure.Start(), &tangent);
   cholmod_common common;
   cholmod_start(&common);
-  cholmod_sparse matrix{};
-  matrix.nrow = matrix.ncol = static_cast<std::size_t>(tangent.rows());
-  matrix.nzmax = static_cast<std::size_t>(tangent.nonZeros());
-  matrix.p = tangent.outerIndexPtr();
-  matrix.i = tangent.innerIndexPtr();
-  matrix.x = tangent.valuePtr();
-  matrix.stype = -1;
-  matrix.itype = CHOLMOD_INT;
-  matrix.xtype = CHOLMOD_REAL;
-  matrix.sorted = matrix.packed = 1;
+  cholmod_sparse matrix = Eigen::viewAsCholmod(std::as_const(tangent).selfadjointView<Eigen::Lower>());
   cholmod_factor* factor = cholmod_analyze(&matrix, &common);
   for (auto iteration : state) cholmod_factorize(&matrix, factor, &common);
   cholmod_free_factor(&factor, &common);

@@ -65,12 +65,12 @@ TEST(SingularScenes, WedgeHoldsANodeAsFarAsBothConesReach) {
     EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
     for (const Increment& increment : path.increments) {
       EXPECT_EQ(increment.solve.nullity, 0) << increment.index;
-      if (increment.load_factor > slides + 1e-9) continue;
-      EXPECT_NEAR(PositionX(path, increment, "b"), 0.0, 1e-12);
+      if (increment.load_factor > slides + 1e-13) continue;
+      EXPECT_NEAR(PositionX(path, increment, "b"), 0.0, 1e-15);
     }
     const std::vector<double> events = EventLoads(path, 9);
     ASSERT_FALSE(events.empty());
-    EXPECT_NEAR(events.back(), slides, 1e-9);
+    EXPECT_NEAR(events.back(), slides, 1e-13);
     EXPECT_EQ(path.increments.back().contacts[1].state, ContactState::kSlipPlus);
   }
 }
@@ -83,8 +83,8 @@ TEST(SingularScenes, SlackBarsBecomeTautUnderConstantLoads) {
     EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
     for (const Increment& increment : path.increments) {
       const double load = 0.1 * (1.0 + increment.load_factor);
-      EXPECT_NEAR(PositionX(path, increment, "c"), (load + 2.0) / (1.0 + 1.0 / chain), 1e-12);
-      EXPECT_NEAR(PositionX(path, increment, "m"), 0.5 * PositionX(path, increment, "c"), 1e-9);
+      EXPECT_NEAR(PositionX(path, increment, "c"), (load + 2.0) / (1.0 + 1.0 / chain), 1e-14);
+      EXPECT_NEAR(PositionX(path, increment, "m"), 0.5 * PositionX(path, increment, "c"), 1e-14);
     }
   }
 }
