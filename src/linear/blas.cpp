@@ -8,6 +8,7 @@
 namespace contact_path {
 namespace {
 
+constexpr const char* kReferenceBlas = "reference BLAS";
 constexpr std::size_t kManyNodes = 10000;  // from which on another BLAS saves half of the time
 
 // A function of the libraries that are loaded; null if there is none of this name.
@@ -34,7 +35,7 @@ void WarmUpBlas() {
   using Multiply = void(const char*, const char*, const int*, const int*, const int*, const double*, const double*,
                         const int*, const double*, const int*, const double*, double*, const int*);
   auto* const multiply = Find<Multiply>("dgemm_");
-  if (multiply == nullptr) return;
+  if (multiply == nullptr || LoadedBlas() == kReferenceBlas) return;  // the reference BLAS keeps no memory
   const OneBlasThread one_thread;
   const int n = 128;
   const double one = 1.0, zero = 0.0;
@@ -48,11 +49,11 @@ std::string LoadedBlas() {
        {std::pair("openblas_get_config", "OpenBLAS"), std::pair("MKL_Get_Version", "MKL"),
         std::pair("bli_info_get_version_str", "BLIS"), std::pair("ATL_buildinfo", "ATLAS")})
     if (::dlsym(RTLD_DEFAULT, symbol) != nullptr) return name;
-  return "reference BLAS";
+  return kReferenceBlas;
 }
 
 std::string BlasAdvice(std::size_t nodes) {
-  if (nodes < kManyNodes || LoadedBlas() != "reference BLAS") return {};
+  if (nodes < kManyNodes || LoadedBlas() != kReferenceBlas) return {};
   return "the reference BLAS is loaded, with which a structure of this size takes up to 2.5 times as long as with "
          "libopenblas0-serial";
 }
