@@ -6,6 +6,11 @@
 #include "contact_path/equations/fixed_state_system.h"
 
 namespace contact_path {
+namespace {
+
+constexpr Eigen::Index kFewEntries = 64;
+
+}  // namespace
 
 TraceRequest WallOf(int dofs, int far_candidates) {
   LatticeOptions options;
@@ -16,6 +21,17 @@ TraceRequest WallOf(int dofs, int far_candidates) {
   options.contacts = std::min(options.columns, std::max(1, dofs / 200));
   options.far_candidates = far_candidates;
   return LatticeRequest(options);
+}
+
+TraceRequest BlockOf(int dofs, int contacts, double gap) {
+  LatticeOptions options;
+  options.kind = LatticeKind::kBlock;
+  options.rows = std::max(2, static_cast<int>(std::lround(std::sqrt(0.5 * dofs))) - 1);
+  options.columns = options.rows + 1;
+  options.contacts = contacts;
+  TraceRequest request = LatticeRequest(options);
+  request.scene.obstacles.front().py = -gap;
+  return request;
 }
 
 Eigen::SparseMatrix<double> BorderedMatrix(const Model& model, ContactState state) {
@@ -30,7 +46,7 @@ Eigen::SparseMatrix<double> BorderedMatrix(const Model& model, ContactState stat
   for (Eigen::Index k = 0; k < transposed.outerSize(); ++k)
     for (Eigen::SparseMatrix<double>::InnerIterator it(transposed, k); it; ++it)
       triplets.emplace_back(it.row(), it.col(), it.value());
-  for (Eigen::Index i = 0; i <= system.NumDofs(); ++i)
+  for (Eigen::Index i = 0; i <= system.NumDofs(); i += 1 + system.NumDofs() / kFewEntries)
     triplets.emplace_back(i, transposed.cols(), std::cos(static_cast<double>(i)));
   Eigen::SparseMatrix<double> matrix(transposed.rows(), transposed.cols() + 1);
   matrix.setFromTriplets(triplets.begin(), triplets.end());

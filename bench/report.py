@@ -100,16 +100,36 @@ def trade(results, figures):
                   'limit loads off by', 'dissipation off by', 'factorisations or iterations per increment', 'rejected'], cells)
 
 
+BLAS = (('openblas-serial', 'OpenBLAS'), ('blas', 'reference'))
+
+
+def scale_entries(results, blas, what):
+    """What was measured of one benchmark with one BLAS, by size and then by number of contacts."""
+    entries = [entry for path in results.glob('scale_%s_%s_*.json' % (blas, what)) for entry in read_benchmarks(path)]
+    return sorted(entries, key=lambda entry: (entry['dofs'], entry['contacts']))
+
+
 def scaling(results, figures):
-    points = [entry for path in results.glob('increment_*.json') for entry in read_benchmarks(path)]
-    points.sort(key=lambda entry: entry['dofs'])
-    first, last = points[0], points[-1]
-    exponent = math.log(last['real_time'] / first['real_time']) / math.log(last['dofs'] / first['dofs'])
     figure, axis = plt.subplots(figsize=(5.5, 4))
-    dofs = [entry['dofs'] for entry in points]
-    axis.loglog(dofs, [entry['real_time'] for entry in points], 'o-', label='increment')
-    axis.loglog(dofs, [entry['real_time'] / entry['per_factorisation'] for entry in points], 's--',
-                label='one factorisation')
+    cells, text = [], ''
+    for blas, name in BLAS:
+        smooth = scale_entries(results, blas, 'SmoothIncrement')
+        events = {entry['dofs']: entry for entry in scale_entries(results, blas, 'Event')}
+        starts = scale_entries(results, blas, 'EventOfContacts')
+        for entry in smooth:
+            event = events.get(entry['dofs'])
+            of_contacts = [number(start['per_cholmod']) for start in starts if start['dofs'] == entry['dofs']]
+            cells.append([name, '%d' % entry['dofs'], '%d' % entry['contacts'], number(entry['real_time']),
+                          number(entry['per_cholmod']), number(event['per_cholmod']) if event else '',
+                          ' / '.join(of_contacts), number(entry['peak_MiB']), number(event['peak_MiB']) if event else ''])
+        first = smooth[0]
+        last = next(entry for entry in smooth if entry['dofs'] > 5e4)
+        text += '\nExponent of the time per increment from 10^3 to 10^5 dofs, %s: %.2f.\n' % (
+            name, math.log(last['real_time'] / first['real_time']) / math.log(last['dofs'] / first['dofs']))
+        axis.loglog([entry['dofs'] for entry in smooth], [entry['real_time'] for entry in smooth], 'o-',
+                    label='increment, ' + name)
+        axis.loglog([entry['dofs'] for entry in smooth], [entry['cholmod_ms'] for entry in smooth], 's--',
+                    label='CHOLMOD, ' + name)
     axis.set_xlabel('degrees of freedom')
     axis.set_ylabel('time [ms]')
     axis.legend()
@@ -117,12 +137,19 @@ def scaling(results, figures):
     figure.tight_layout()
     figure.savefig(figures / 'scaling.png', dpi=110)
     plt.close(figure)
-    rows = [['%d' % entry['dofs'], '%d' % entry['candidates'], number(entry['real_time'] / first['real_time']),
-             number(entry['factorisations']), number(entry['per_factorisation']), number(entry['peak_MiB'])]
-            for entry in points]
-    text = table(['dofs', 'candidates', 'time per increment, of the first', 'factorisations per increment',
-                  'time of an increment / of one factorisation', 'peak memory [MiB]'], rows)
-    return text + '\nExponent of the time per increment from the first line to the last: %.2f.\n' % exponent
+    return table(['BLAS', 'dofs', 'candidates', 'increment [ms]', 'increment / CHOLMOD', 'event / CHOLMOD',
+                  'start with 1 / 5 / 20 contacts that touch / CHOLMOD', 'peak memory [MiB]', 'with events [MiB]'],
+                 cells) + text
+
+
+def sliding(results):
+    cells = []
+    for blas, name in BLAS:
+        entries = read_benchmarks(results / ('scale_%s_PointOfAnArc.json' % blas))
+        base = entries[0]['real_time']
+        cells += [[name, entry['name'].split('/')[1], number(entry['real_time'] / base), number(entry['per_cholmod'])]
+                  for entry in entries]
+    return table(['BLAS', 'contacts that slide', 'time, of the first', 'time / CHOLMOD'], cells)
 
 
 def contact(results):
@@ -142,25 +169,20 @@ def far(results):
 
 
 def solvers(results):
-    entries = read_benchmarks(results / 'solvers.json')
-    names = {'KluAgain': 'KLU, pattern and pivots kept (used)', 'KluAnew': 'KLU, pivots chosen anew',
-             'KluBlocks': 'the same, block triangular form first', 'KluColamd': 'KLU with COLAMD, pivots anew',
-             'CholmodTangent': 'CHOLMOD, tangent stiffness alone', 'Umfpack': 'UMFPACK', 'Spqr': 'SPQR'}
-    times = {tuple(entry['name'].split('/')): entry['real_time'] for entry in entries}
+    names = {'KluAgain': 'KLU, pattern and pivots kept (used below 3,000 unknowns)', 'KluAnew': 'KLU, pivots chosen anew',
+             'UmfpackMetis': 'UMFPACK, METIS, symmetric strategy (used from 3,000 on)', 'UmfpackDefaults': 'UMFPACK, defaults',
+             'Spqr': 'SPQR'}
+    sizes = (('1000', '10^3'), ('10000', '10^4'), ('100000', '10^5'))
+    states = (('0', 'sticking'), ('1', 'sliding'))
     rows = []
-    for key, name in names.items():
-        row = [name]
-        for dofs in ('1000', '10000', '100000'):
-            for state in ('0', '1'):
-                base = times[('KluAgain', dofs, state)]
-                row.append(number(times[(key, dofs, state)] / base) if (key, dofs, state) in times else '')
-        rows.append(row)
-    flops = [next(entry['flops'] for entry in entries if entry['name'] == 'KluAnew/%s/1' % dofs)
-             for dofs in ('1000', '10000', '100000')]
-    text = table(['solver'] + ['%s dofs, %s' % (dofs, state) for dofs in ('10^3', '10^4', '10^5')
-                               for state in ('sticking', 'sliding')], rows)
-    return text + ('\nOperations of the factorisation (KLU, sliding): %.2g, %.2g, %.2g; exponents %.2f and %.2f.\n' %
-                   (*flops, math.log10(flops[1] / flops[0]), math.log10(flops[2] / flops[1])))
+    for blas, blas_name in BLAS:
+        times = {tuple(entry['name'].split('/')): entry['real_time']
+                 for entry in read_benchmarks(results / ('solvers_%s.json' % blas))}
+        for key, name in names.items():
+            rows.append([blas_name, name] + [
+                number(times[(key, size, state)] / times[('CholmodTangent', size, '0')]) if (key, size, state) in times else ''
+                for size, _ in sizes for state, _ in states])
+    return table(['BLAS', 'solver'] + ['%s dofs, %s' % (size, state) for _, size in sizes for _, state in states], rows)
 
 
 def models(results):
@@ -182,7 +204,7 @@ def main():
     results, bench = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
     figures = bench / 'figures'
     figures.mkdir(exist_ok=True)
-    parts = {'trade': trade(results, figures), 'scaling': scaling(results, figures), 'contact': contact(results),
+    parts = {'trade': trade(results, figures), 'scaling': scaling(results, figures), 'sliding': sliding(results), 'contact': contact(results),
              'far': far(results), 'solvers': solvers(results), 'models': models(results), 'streaming': streaming(results)}
     readme = bench / 'README.md'
     text = readme.read_text()

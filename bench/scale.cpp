@@ -12,7 +12,9 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include "contact_path/branch/smooth_arc.h"
 #include "contact_path/linear/blas.h"
 #include "contact_path/path/branch_method.h"
 #include "lattices.h"
@@ -31,18 +33,6 @@ double PeakMebibytes() {
   struct rusage usage = {};
   getrusage(RUSAGE_SELF, &usage);
   return static_cast<double>(usage.ru_maxrss) / 1024.0;
-}
-
-// contacts: 0 = a candidate for each node of the edge.
-TraceRequest BlockOf(int dofs, int contacts, double gap) {
-  LatticeOptions options;
-  options.kind = LatticeKind::kBlock;
-  options.rows = std::max(2, static_cast<int>(std::lround(std::sqrt(0.5 * dofs))) - 1);
-  options.columns = options.rows + 1;
-  options.contacts = contacts;
-  TraceRequest request = LatticeRequest(options);
-  request.scene.obstacles.front().py = -gap;
-  return request;
 }
 
 // Least of three factorisations of the tangent at u, ordered and analysed before [s].
@@ -128,14 +118,46 @@ void EventOfContacts(benchmark::State& state) {
   }
 }
 
+// A point of an arc, with its derivatives, where so many contacts slide or none touches.
+void PointOfAnArc(benchmark::State& state) {
+  const OneBlasThread one_thread;
+  LatticeOptions options;
+  options.kind = LatticeKind::kBlock;
+  options.columns = 1000;
+  options.rows = 49;
+  const TraceRequest request = LatticeRequest(options);
+  const Model model(request.scene, CharacteristicScales(request.scene));
+  const PathPoint from = model.InitialPoint();
+  for (auto iteration : state) {
+    SmoothArc arc(model.structure, model.contacts);
+    std::vector<ContactState> states(model.contacts.size(), ContactState::kOpen);
+    std::fill_n(states.begin(), state.range(0), ContactState::kSlipPlus);
+    arc.SetStates(states, from);
+    const Eigen::VectorXd x = arc.system().Pack(from);
+    const Eigen::VectorXd towards = Eigen::VectorXd::Unit(model.structure.NumDofs() + 1, model.structure.NumDofs());
+    CurvePoint point;
+    double time = 0.0;
+    for (int counted = -1; counted < kIncrements; ++counted) {  // the first one finds the ordering
+      const Clock::time_point start = Clock::now();
+      if (!arc.Derivatives(x, towards, &point)) throw std::runtime_error("no tangent");
+      const Eigen::VectorXd normal = point.first.head(towards.size());
+      if (!arc.CorrectOnPlane(x + 1e-4 * point.first, normal).converged) throw std::runtime_error("no point");
+      if (counted >= 0) time += Seconds(start) / kIncrements;
+    }
+    Report(model, from, time, PeakMebibytes(), &state);
+  }
+}
+
 BENCHMARK(SmoothIncrement)
     ->Arg(1000)
     ->Arg(10000)
     ->Arg(100000)
+    ->Arg(1000000)
     ->UseManualTime()
     ->Iterations(1)
     ->Unit(benchmark::kMillisecond);
 BENCHMARK(Event)->Arg(1000)->Arg(10000)->Arg(100000)->UseManualTime()->Iterations(1)->Unit(benchmark::kMillisecond);
+BENCHMARK(PointOfAnArc)->Arg(0)->Arg(1000)->UseManualTime()->Iterations(1)->Unit(benchmark::kMillisecond);
 BENCHMARK(EventOfContacts)
     ->ArgsProduct({{1000, 10000, 100000}, {1, 5, 20}})
     ->UseManualTime()

@@ -13,12 +13,13 @@
 #include "contact_path/branch/state_options.h"
 #include "contact_path/branch/tangents.h"
 #include "contact_path/equations/fixed_state_system.h"
+#include "contact_path/linear/bordered_solver.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
 namespace {
 
-constexpr double kFewCombinations = 8.0;             // not worth condensing the rate problem for
+constexpr double kFewCombinations = 8.0;             // not worth condensing the rate problem of a small structure for
 constexpr double kMostCondensed = 5e7;               // numbers that may be held for that
 constexpr std::size_t kMostCondensedContacts = 200;  // of more, dense equations take longer than the sparse ones of all
 constexpr int kMostRestarts = 64;                    // contacts, one after another in another state, to pivot from
@@ -174,7 +175,8 @@ class Finder {
     Eigen::VectorXd row = Eigen::VectorXd::Zero(system_.NumUnknowns());
     row.head(n) = first.head(n);
     BorderedSolver solver;
-    if (!solver.FactorizeRegular(system_.TransposedJacobian(ahead.x), row, tolerances::kRegularPivot))
+    if (!solver.FactorizeRegular(system_.TransposedJacobian(ahead.x), row, tolerances::kRegularPivot,
+                                 system_.InFrame()))
       return std::nullopt;
     ahead.first = solver.Solve(Eigen::VectorXd::Zero(system_.NumEquations()), 1.0);
     ahead.first /= ahead.first.head(n).norm();
@@ -330,7 +332,8 @@ BranchSet BranchesWithReactions(const Structure& structure, const ContactPairs& 
   // Where another path crosses, rates are not unique, and every combination is looked at as a whole.
   std::optional<RateProblem> problem;
   const double entries = static_cast<double>(point.u.size()) * static_cast<double>(2 * weakly_active.size() + 1);
-  if (combinations > kFewCombinations && weakly_active.size() <= kMostCondensedContacts && !arrival.singular &&
+  const double few = point.u.size() < BorderedSolver::kLargeSystem ? kFewCombinations : 1.0;
+  if (combinations > few && weakly_active.size() <= kMostCondensedContacts && !arrival.singular &&
       entries <= kMostCondensed)
     problem.emplace(structure, contacts, point, natural, weakly_active, arrival.direction);
   const RateProblem* condensed = problem && problem->regular() ? &*problem : nullptr;

@@ -66,7 +66,8 @@ RateProblem::RateProblem(const Structure& structure, const ContactPairs& contact
   }
   transposed.makeCompressed();
   BorderedSolver solver;
-  if (!solver.Factorize(transposed, Eigen::VectorXd::Unit(system.NumUnknowns(), nd)) || solver.DeterminantSign() == 0)
+  if (!solver.Factorize(transposed, Eigen::VectorXd::Unit(system.NumUnknowns(), nd), system.InFrame()) ||
+      solver.DeterminantSign() == 0)
     return;
 
   const auto count = static_cast<Eigen::Index>(weakly_active_.size());

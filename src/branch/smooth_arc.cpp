@@ -40,7 +40,7 @@ void EndDerivatives(const Step& step, Eigen::VectorXd* first, Eigen::VectorXd* s
 }  // namespace
 
 SmoothArc::SmoothArc(const Structure& structure, const ContactPairs& contacts)
-    : contacts_(contacts), system_(structure, contacts) {}
+    : contacts_(contacts), system_(structure, contacts), tracker_(contacts) {}
 
 void SmoothArc::SetStates(const std::vector<ContactState>& states, const PathPoint& from, bool rests) {
   system_.SetStates(states, SurfaceCoordinates(contacts_, from));
@@ -154,7 +154,7 @@ bool SmoothArc::Factorize(const Eigen::VectorXd& x, const Eigen::VectorXd& row, 
   ++factorisations_;
   at_hand_ = false;
   if (rests_ && rank_tolerance == 0.0) rank_tolerance = tolerances::kDependentColumnResting;
-  return solver_.Factorize(system_.TransposedJacobian(x), row, rank_tolerance);
+  return solver_.Factorize(system_.TransposedJacobian(x), row, system_.InFrame(), rank_tolerance);
 }
 
 Correction SmoothArc::CorrectOnPlane(const Eigen::VectorXd& guess, const Eigen::VectorXd& normal) {

@@ -99,7 +99,7 @@ Tangents FindTangents(const Eigen::VectorXd& x, const Eigen::VectorXd& arrival, 
   if (!crossed) {
     Eigen::VectorXd row = Eigen::VectorXd::Zero(system->NumUnknowns());
     row.head(motion) = arrival;
-    if (solvers->regular.FactorizeRegular(transposed, row, tolerances::kRegularPivot)) {
+    if (solvers->regular.FactorizeRegular(transposed, row, tolerances::kRegularPivot, system->InFrame())) {
       const Eigen::VectorXd tangent = solvers->regular.Solve(Eigen::VectorXd::Zero(system->NumEquations()), 1.0);
       tangents.first = {tangent / tangent.head(motion).norm()};
       tangents.second = {solvers->regular.Solve(-system->SecondDerivative(x, tangents.first[0]), 0.0)};

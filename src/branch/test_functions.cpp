@@ -128,7 +128,7 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, std::optional<double> tar
     first = {kind, t, limit, false};
   };
   // No node moves further than the arc length, and that is hardly longer than the step.
-  for (const Constraint& limit : system.InequalitiesInReach(step.start.x, kReach * step.length)) {
+  for (const Constraint& limit : arc->InequalitiesInReach(step.start.x, kReach * step.length)) {
     const Quintic quintic = FunctionOf(system, step, limit);
     const double zero =
         limit.inequality == Inequality::kSlip ? tolerances::kLevel : tolerances::kBrokenOnStep * system.UnitOf(limit);

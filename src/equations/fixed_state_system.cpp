@@ -1,6 +1,10 @@
 #include "contact_path/equations/fixed_state_system.h"
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "contact_path/linear/bordered_solver.h"
 
 namespace contact_path {
 
@@ -157,6 +161,7 @@ void FixedStateSystem::ForEachConstantEntry(Emit emit) const {
 
 void FixedStateSystem::Rebuild() {
   NumberEquations();
+  placed_ = false;
   std::vector<Eigen::Triplet<double>> triplets;
   triplets.reserve(static_cast<std::size_t>(tangent_.nonZeros() + NumDofs()) + 6 * touching_.size() +
                    4 * static_cast<std::size_t>(num_equations_ - NumDofs()));
@@ -192,6 +197,91 @@ void FixedStateSystem::Rebuild() {
   transposed_.setFromTriplets(triplets.begin(), triplets.end());
   transposed_.makeCompressed();
   if (curved_) constant_ = Eigen::Map<const Eigen::VectorXd>(transposed_.valuePtr(), transposed_.nonZeros());
+}
+
+const Frame* FixedStateSystem::InFrame() {
+  if (num_unknowns_ < BorderedSolver::kLargeSystem || num_equations_ + 1 != num_unknowns_ || load_factor_fixed_ ||
+      !active_.empty())
+    return nullptr;
+  if (frame_.size == 0) BuildFrame();
+  if (!placed_) PlaceInFrame();
+  return &frame_;
+}
+
+// Unknowns: u, r_n and r_t of each contact, reactions of supports, s. Equations: equilibrium, u_n and xi of each
+// contact, supports.
+void FixedStateSystem::BuildFrame() {
+  const auto nd = static_cast<int>(NumDofs()), contacts = static_cast<int>(contacts_.size());
+  const int first_support = nd + 2 * contacts;
+  const int s = first_support + static_cast<int>(structure_.PrescribedDofs().size());
+  std::vector<std::pair<int, int>> forces;  // dof, unknown
+  for (int i = 0; i < contacts; ++i) {
+    const ContactPair& pair = *contacts_[static_cast<std::size_t>(i)];
+    for (std::size_t k = 0; k < pair.Dofs().size(); ++k) {
+      // Slip makes both components of r_n.
+      if (pair.MovesGap(k) || pair.MovesXi(k)) forces.emplace_back(pair.Dofs()[k], nd + 2 * i);
+      if (pair.MovesXi(k)) forces.emplace_back(pair.Dofs()[k], nd + 2 * i + 1);
+    }
+  }
+  int support = first_support;
+  for (const PrescribedDof& prescribed : structure_.PrescribedDofs()) forces.emplace_back(prescribed.dof, support++);
+  std::sort(forces.begin(), forces.end());
+
+  std::vector<int>&starts = frame_.starts, &entries = frame_.entries;
+  frame_.size = s + 1;
+  starts.assign(1, 0);
+  starts.reserve(static_cast<std::size_t>(frame_.size));
+  entries.clear();
+  entries.reserve(static_cast<std::size_t>(tangent_.nonZeros() + nd) + 8 * contacts_.size() + forces.size());
+  const auto end_equation = [&] { starts.push_back(static_cast<int>(entries.size())); };
+  auto force = forces.begin();
+  for (int column = 0; column < nd; ++column) {
+    entries.insert(entries.end(), tangent_.innerIndexPtr() + tangent_.outerIndexPtr()[column],
+                   tangent_.innerIndexPtr() + tangent_.outerIndexPtr()[column + 1]);
+    for (; force != forces.end() && force->first == column; ++force) entries.push_back(force->second);
+    entries.push_back(s);
+    end_equation();
+  }
+  for (int i = 0; i < contacts; ++i) {
+    const ContactPair& pair = *contacts_[static_cast<std::size_t>(i)];
+    const std::size_t m = pair.Dofs().size();
+    for (const bool gap : {true, false}) {
+      for (std::size_t k = 0; k < m; ++k)
+        if (gap ? pair.MovesGap(k) : pair.MovesXi(k)) entries.push_back(pair.Dofs()[k]);
+      entries.push_back(nd + 2 * i + (gap ? 0 : 1));
+      if (gap ? pair.MovesGap(m) : pair.MovesXi(m)) entries.push_back(s);
+      end_equation();
+    }
+  }
+  support = first_support;
+  for (const PrescribedDof& prescribed : structure_.PrescribedDofs()) {
+    entries.insert(entries.end(), {prescribed.dof, support++, s});
+    end_equation();
+  }
+}
+
+void FixedStateSystem::PlaceInFrame() {
+  const auto nd = static_cast<int>(NumDofs());
+  const auto contact_place = [nd](std::size_t contact) { return nd + 2 * static_cast<int>(contact); };
+  frame_.unknowns.assign(static_cast<std::size_t>(num_unknowns_), 0);
+  frame_.equations.assign(static_cast<std::size_t>(num_equations_), 0);
+  for (int k = 0; k < nd; ++k)
+    frame_.unknowns[static_cast<std::size_t>(k)] = frame_.equations[static_cast<std::size_t>(k)] = k;
+  frame_.unknowns[static_cast<std::size_t>(nd)] = frame_.size - 1;
+  for (const std::size_t i : touching_) {
+    frame_.unknowns[static_cast<std::size_t>(rn_unknown_[i])] = contact_place(i);
+    if (rt_unknown_[i] >= 0) frame_.unknowns[static_cast<std::size_t>(rt_unknown_[i])] = contact_place(i) + 1;
+  }
+  for (const MotionEquation& of : motions_)
+    frame_.equations[static_cast<std::size_t>(of.equation)] =
+        contact_place(of.motion.contact) + (of.motion.is_gap ? 0 : 1);
+  int place = nd + 2 * static_cast<int>(contacts_.size());
+  for (std::size_t k = 0; k < structure_.PrescribedDofs().size(); ++k, ++place) {
+    frame_.unknowns[static_cast<std::size_t>(first_support_) + k] = place;
+    frame_.equations[static_cast<std::size_t>(first_support_equation_) + k] = place;
+  }
+  frame_.odd = (num_unknowns_ - 1 - NumDofs()) % 2 != 0;
+  placed_ = true;
 }
 
 Eigen::VectorXd FixedStateSystem::Pack(const PathPoint& point) const {
@@ -295,12 +385,11 @@ std::vector<Constraint> FixedStateSystem::Inequalities() const {
   return inequalities;
 }
 
-std::vector<Constraint> FixedStateSystem::InequalitiesInReach(const Eigen::VectorXd& x, double reach) const {
+std::vector<Constraint> FixedStateSystem::InequalitiesOf(const std::vector<std::size_t>& candidates) const {
+  std::vector<std::size_t> all;
+  std::set_union(touching_.begin(), touching_.end(), candidates.begin(), candidates.end(), std::back_inserter(all));
   std::vector<Constraint> inequalities;
-  for (std::size_t i = 0; i < contacts_.size(); ++i)
-    if (states_[i] != ContactState::kOpen ||
-        contacts_[i]->Gap(x, x[NumDofs()]) <= reach * contacts_[i]->LargestGapRate())
-      AddInequalities(i, &inequalities);
+  for (const std::size_t i : all) AddInequalities(i, &inequalities);
   return inequalities;
 }
 

@@ -20,10 +20,10 @@ constexpr double kReactionWeight = 1.0 / 32.0;
 // is not orthogonal to it, less what lies along the curve; otherwise by a rank-revealing QR.
 class ShortestStep {
  public:
-  // transposed: unknowns x equations. False if the matrix is not finite.
-  bool Factorize(const Eigen::SparseMatrix<double>& transposed) {
+  // transposed: unknowns x equations. frame: of the system. False if the matrix is not finite.
+  bool Factorize(const Eigen::SparseMatrix<double>& transposed, const Frame* frame) {
     const Eigen::Index unknowns = transposed.rows();
-    curve_ = lu_.FactorizeRegular(transposed, GenericVector(unknowns), tolerances::kRegularPivotNearest);
+    curve_ = lu_.FactorizeRegular(transposed, GenericVector(unknowns), tolerances::kRegularPivotNearest, frame);
     if (!curve_) return qr_.Factorize(transposed);
     along_ = lu_.Solve(Eigen::VectorXd::Zero(transposed.cols()), 1.0).normalized();
     rank_ = transposed.cols();
@@ -61,7 +61,7 @@ NearestPoint FindNearestPoint(FixedStateSystem* system, const Eigen::VectorXd& s
     for (Eigen::Index column = 0; column < scaled.cols(); ++column)
       for (Eigen::SparseMatrix<double>::InnerIterator it(scaled, column); it; ++it)
         if (it.row() >= size) it.valueRef() /= kReactionWeight;
-    if (!residual.allFinite() || !solver.Factorize(scaled)) return result;
+    if (!residual.allFinite() || !solver.Factorize(scaled, system->InFrame())) return result;
     result.rank = solver.Rank();
 
     // Towards what is wanted, then back onto the linearised equations by the shortest branch.

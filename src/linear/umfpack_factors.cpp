@@ -4,6 +4,7 @@
 
 #include <array>
 #include <new>
+#include <utility>
 
 #include "contact_path/linear/linear_solver_error.h"
 
@@ -19,39 +20,41 @@ bool Require(int status) {
   return status == UMFPACK_OK;
 }
 
+Eigen::VectorXd Control() {
+  Eigen::VectorXd control(UMFPACK_CONTROL);
+  umfpack_di_defaults(control.data());
+  control[UMFPACK_ORDERING] = UMFPACK_ORDERING_METIS;
+  control[UMFPACK_STRATEGY] = UMFPACK_STRATEGY_SYMMETRIC;
+  // Taking them out first, as the conditions of contacts across an axis, spoils the symmetry of what is left.
+  control[UMFPACK_SINGLETONS] = 0.0;
+  control[UMFPACK_IRSTEP] = 0.0;  // whoever solves iterates himself where it matters
+  return control;
+}
+
 }  // namespace
 
-UmfpackFactors::UmfpackFactors() : control_(UMFPACK_CONTROL) {
-  umfpack_di_defaults(control_.data());
-  control_[UMFPACK_ORDERING] = UMFPACK_ORDERING_METIS;
-  control_[UMFPACK_STRATEGY] = UMFPACK_STRATEGY_SYMMETRIC;
-  // Taking them out first, as the conditions of contacts across an axis, spoils the symmetry of what is left.
-  control_[UMFPACK_SINGLETONS] = 0.0;
-  control_[UMFPACK_IRSTEP] = 0.0;  // whoever solves iterates himself where it matters
-}
-
-void UmfpackFactors::Free() {
-  FreeNumeric();
-  umfpack_di_free_symbolic(&symbolic_);
-}
-
-void UmfpackFactors::FreeNumeric() { umfpack_di_free_numeric(&numeric_); }
-
-bool UmfpackFactors::Factorize(const Eigen::SparseMatrix<double>& matrix, bool same_pattern) {
-  FreeNumeric();
-  const auto n = static_cast<int>(matrix.rows());
-  const int *outer = matrix.outerIndexPtr(), *inner = matrix.innerIndexPtr();
-  const double* const values = matrix.valuePtr();
+UmfpackAnalysis::UmfpackAnalysis(std::vector<int> starts, std::vector<int> entries)
+    : starts_(std::move(starts)), entries_(std::move(entries)) {
+  const Eigen::VectorXd control = Control();
   Info info{};
-  if (!same_pattern || symbolic_ == nullptr) {
-    umfpack_di_free_symbolic(&symbolic_);
-    Require(umfpack_di_symbolic(n, n, outer, inner, values, &symbolic_, control_.data(), info.data()));
-  }
-  const bool regular =
-      Require(umfpack_di_numeric(outer, inner, values, symbolic_, &numeric_, control_.data(), info.data()));
+  Require(umfpack_di_symbolic(Size(), Size(), starts_.data(), entries_.data(), nullptr, &symbolic_, control.data(),
+                              info.data()));
+}
+
+UmfpackAnalysis::~UmfpackAnalysis() { umfpack_di_free_symbolic(&symbolic_); }
+
+UmfpackFactors::UmfpackFactors() : control_(Control()) {}
+
+void UmfpackFactors::Free() { umfpack_di_free_numeric(&numeric_); }
+
+bool UmfpackFactors::Factorize(const UmfpackAnalysis& analysis, const Eigen::VectorXd& values) {
+  Free();
+  Info info{};
+  const bool regular = Require(umfpack_di_numeric(analysis.Starts().data(), analysis.Entries().data(), values.data(),
+                                                  analysis.Symbolic(), &numeric_, control_.data(), info.data()));
   pivot_ratio_ = info[UMFPACK_RCOND];
-  integers_.resize(n);
-  numbers_.resize(n);
+  integers_.resize(analysis.Size());
+  numbers_.resize(analysis.Size());
   return regular;
 }
 

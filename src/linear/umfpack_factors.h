@@ -3,12 +3,33 @@
 #define CONTACT_PATH_SRC_LINEAR_UMFPACK_FACTORS_H_
 
 #include <Eigen/Core>
-#include <Eigen/SparseCore>
+#include <memory>
+#include <vector>
 
 namespace contact_path {
 
-// A = L U by UMFPACK, with dense kernels of the BLAS and the fill-reducing ordering of METIS. All functions throw
-// std::bad_alloc where there is not enough memory.
+// Analysis of a square pattern by UMFPACK, with the fill-reducing ordering of METIS: all factors of matrices with this
+// pattern share it. Throws std::bad_alloc where there is not enough memory, and LinearSolverError where it fails.
+class UmfpackAnalysis {
+ public:
+  // By column: entries[starts[k]] up to entries[starts[k + 1]], ascending.
+  UmfpackAnalysis(std::vector<int> starts, std::vector<int> entries);
+  ~UmfpackAnalysis();
+  UmfpackAnalysis(const UmfpackAnalysis&) = delete;
+  UmfpackAnalysis& operator=(const UmfpackAnalysis&) = delete;
+
+  int Size() const { return static_cast<int>(starts_.size()) - 1; }
+  const std::vector<int>& Starts() const { return starts_; }
+  const std::vector<int>& Entries() const { return entries_; }
+  void* Symbolic() const { return symbolic_; }
+
+ private:
+  std::vector<int> starts_, entries_;
+  void* symbolic_ = nullptr;
+};
+
+// A = L U by UMFPACK, with dense kernels of the BLAS. All functions throw std::bad_alloc where there is not enough
+// memory.
 class UmfpackFactors {
  public:
   UmfpackFactors();
@@ -17,9 +38,9 @@ class UmfpackFactors {
   UmfpackFactors& operator=(const UmfpackFactors&) = delete;
 
   void Free();
-  // matrix: square, compressed, finite; it is not kept. same_pattern: as of the last call. False if it is singular.
-  // Throws LinearSolverError where the factorisation fails otherwise.
-  bool Factorize(const Eigen::SparseMatrix<double>& matrix, bool same_pattern);
+  // values: of the entries of the pattern, finite. False if the matrix is singular. Throws LinearSolverError where the
+  // factorisation fails otherwise.
+  bool Factorize(const UmfpackAnalysis& analysis, const Eigen::VectorXd& values);
   bool HasFactors() const { return numeric_ != nullptr; }
 
   // Of the pivots, smallest over largest.
@@ -29,9 +50,6 @@ class UmfpackFactors {
   void SolveTransposed(const double* b, double* x);
 
  private:
-  void FreeNumeric();
-
-  void* symbolic_ = nullptr;
   void* numeric_ = nullptr;
   double pivot_ratio_ = 0.0;
   Eigen::VectorXd control_;

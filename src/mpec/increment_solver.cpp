@@ -27,27 +27,24 @@ constexpr double kSameEps = 1.0 + 1e-9;  // rounding of powers of the factor
 }  // namespace
 
 IncrementSolver::IncrementSolver(const Structure& structure, const ContactPairs& contacts, NonlinearSolver* solver)
-    : structure_(structure), contacts_(contacts), solver_(solver), system_(structure, contacts) {}
+    : structure_(structure), contacts_(contacts), solver_(solver), system_(structure, contacts), tracker_(contacts) {}
 
 IncrementTrial IncrementSolver::Solve(const PathPoint& from, const IncrementGoal& goal,
                                       const RegularisationSchedule& schedule) {
-  std::vector<bool> included(contacts_.size());
-  for (std::size_t i = 0; i < contacts_.size(); ++i)
-    included[i] = contacts_[i]->Gap(from.u, from.s) <= kLongestIncrement * goal.length * contacts_[i]->LargestGapRate();
+  std::vector<std::size_t> included = tracker_.InReach(from.u, from.s, kLongestIncrement * goal.length);
   int iterations = 0;
   for (;;) {
-    std::vector<int> working_set;
-    for (std::size_t i = 0; i < contacts_.size(); ++i)
-      if (included[i]) working_set.push_back(static_cast<int>(i));
+    const std::vector<int> working_set(included.begin(), included.end());
     IncrementTrial trial = SolveWith(from, working_set, goal, schedule);
     trial.iterations += iterations;
     if (trial.status != SolveStatus::kSolved) return trial;
-    bool closed = false;
-    for (std::size_t i = 0; i < contacts_.size(); ++i) {
-      if (included[i] || contacts_[i]->Gap(trial.point.u, trial.point.s) >= 0.0) continue;
-      included[i] = closed = true;
+    const std::size_t before = included.size();
+    for (const std::size_t i : tracker_.InReach(trial.point.u, trial.point.s, 0.0)) {
+      const auto place = std::lower_bound(included.begin(), included.end(), i);
+      if ((place == included.end() || *place != i) && contacts_[i]->Gap(trial.point.u, trial.point.s) < 0.0)
+        included.insert(place, i);
     }
-    if (!closed) return trial;
+    if (included.size() == before) return trial;
     iterations = trial.iterations;
   }
 }
@@ -142,14 +139,33 @@ bool IncrementSolver::PolishActiveSet(const PathPoint& from, const Eigen::Vector
       for (const Constraint& limit : active)
         if (limit.inequality == Inequality::kSlip)
           exact.states[static_cast<std::size_t>(limit.contact)] = ContactState::kStick;
+      const bool rests = StickWhereAtRest(nearest.x, &exact);
       trial->point = std::move(exact);
       trial->exact = true;
+      if (rests) {
+        IncrementTrial stuck = *trial;
+        if (PolishActiveSet(from, wanted, length, &stuck)) *trial = std::move(stuck);
+      }
       return true;
     }
     system_.SetActive(active);
     start = nearest.x;
   }
   return false;
+}
+
+// An increment may end right at a corner, and rounding alone would tell whether a contact there has stuck or slipped.
+// Whether some contact slips by name and has not moved: its state in *point becomes stick.
+bool IncrementSolver::StickWhereAtRest(const Eigen::VectorXd& x, PathPoint* point) const {
+  bool some = false;
+  for (const Constraint& limit : system_.Inequalities()) {
+    ContactState& state = point->states[static_cast<std::size_t>(limit.contact)];
+    if (limit.inequality != Inequality::kSlip || !Slips(state)) continue;
+    if (system_.Value(limit, x) > tolerances::kRestsAtPoint) continue;
+    state = ContactState::kStick;
+    some = true;
+  }
+  return some;
 }
 
 }  // namespace contact_path

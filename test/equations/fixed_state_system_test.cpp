@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/SparseLU>
 #include <cmath>
 #include <string>
 
 #include "contact_path/contact/scene_contacts.h"
+#include "contact_path/linear/bordered_solver.h"
 #include "support/curved_contacts.h"
 #include "support/derivative_checker.h"
 #include "support/kinematics.h"
@@ -366,6 +368,79 @@ TEST_F(SlidingBarSystem, ClosedFormSolvesNoOtherState) {
     EXPECT_GT(LargestResidual(State::kOpen, x, -5.0), 1e-2) << x;
     EXPECT_GT(LargestResidual(State::kStick, x, x - 0.25), 1e-2) << x;
   }
+}
+
+// With a square lattice of so many nodes along each side, braced, that hangs on the node c and on one that is fixed.
+Scene WithLattice(Scene scene, int side) {
+  const auto name = [](int i, int j) { return "g" + std::to_string(i) + "_" + std::to_string(j); };
+  scene.nodes.push_back({"fixed", 1.0, 2.0, true, true});
+  for (int i = 0; i < side; ++i)
+    for (int j = 0; j < side; ++j) {
+      scene.nodes.push_back({name(i, j), 1.5 + 0.1 * i, 1.9 + 0.1 * j, false, false});
+      if (i > 0) scene.bars.push_back({{name(i - 1, j), name(i, j)}, 1.0, 0.0, StrainMeasure::kBiot});
+      if (j > 0) scene.bars.push_back({{name(i, j - 1), name(i, j)}, 1.0, 0.0, StrainMeasure::kBiot});
+      if (i > 0 && j > 0) scene.bars.push_back({{name(i - 1, j - 1), name(i, j)}, 0.7, 0.0, StrainMeasure::kBiot});
+    }
+  scene.bars.push_back({{"c", name(0, 0)}, 1.0, 0.0, StrainMeasure::kBiot});
+  scene.bars.push_back({{"c", name(1, 0)}, 1.0, 0.0, StrainMeasure::kBiot});
+  scene.bars.push_back({{"fixed", name(0, 1)}, 1.0, 0.0, StrainMeasure::kBiot});
+  scene.bars.push_back({{"fixed", name(0, 3)}, 1.0, 0.0, StrainMeasure::kBiot});
+  return scene;
+}
+
+// One pattern for all contact states: solutions and signs are those of the system alone.
+TEST(FixedStateSystem, LargeSystemsInTheirFrame) {
+  const Scene scene = WithLattice(MovingScene(), 40);
+  const Structure structure(scene);
+  const ContactPairs contacts = BuildContacts(scene, structure);
+  FixedStateSystem system(structure, contacts);
+  Random random(8);
+  BorderedSolver framed;
+  int other_signs = 0, before = 0;
+  for (int i = 0; i < 24; ++i) {
+    std::vector<State> states;
+    for (const auto& contact : contacts) {
+      const std::vector<State> options = StatesOf(*contact);
+      states.push_back(
+          options[static_cast<std::size_t>(random.Number(0.0, 0.999) * static_cast<double>(options.size()))]);
+    }
+    // Not both of two conditions for c, which moves along one axis.
+    if (states[2] != State::kOpen) states[5] = State::kOpen;
+    if (states[2] == State::kStick) states[2] = State::kSlipPlus;
+    if (states[4] == State::kStick) states[4] = State::kSlipMinus;
+    if (states[0] == State::kStick) states[1] = State::kOpen;
+    if (states[0] != State::kOpen && states[1] != State::kOpen) states[1] = State::kOpen;
+    if (states[3] == State::kStick) states[3] = State::kSlipPlus;
+    system.SetStates(states, Eigen::VectorXd::Zero(6));
+    PathPoint point;
+    point.u = structure.Start() + random.Vector(structure.NumDofs(), -0.01, 0.01);
+    point.s = 0.3;
+    point.rn = random.Vector(6, 0.1, 1.0);
+    point.rt = random.Vector(6, -1.0, 1.0);
+    const Eigen::VectorXd x = system.Pack(point);
+    const Eigen::SparseMatrix<double> transposed = system.TransposedJacobian(x);
+    // A tangent, and a row with one entry where the border has none.
+    Eigen::VectorXd row = Eigen::VectorXd::Unit(system.NumUnknowns(), system.NumDofs());
+    if (i % 3 != 0) row.head(system.NumDofs() + 1) = random.Vector(system.NumDofs() + 1, -1.0, 1.0);
+    ASSERT_NE(system.InFrame(), nullptr);
+    ASSERT_TRUE(framed.FactorizeRegular(transposed, row, 0.0, system.InFrame())) << i;
+
+    Eigen::SparseMatrix<double> matrix(system.NumUnknowns(), system.NumUnknowns());
+    matrix.leftCols(transposed.cols()) = transposed;
+    matrix.rightCols(1) = row.sparseView();
+    Eigen::SparseLU<Eigen::SparseMatrix<double>> whole(matrix);
+    ASSERT_EQ(whole.info(), Eigen::Success);
+    const int sign = whole.signDeterminant() > 0.0 ? 1 : -1;
+    EXPECT_EQ(framed.DeterminantSign(), sign) << i;
+    if (i > 0 && sign != before) ++other_signs;
+    before = sign;
+    const Eigen::VectorXd b = random.Vector(system.NumEquations(), -1.0, 1.0);
+    const Eigen::VectorXd solution = framed.Solve(b, 0.4);
+    Eigen::VectorXd right(system.NumUnknowns());
+    right << b, 0.4;
+    EXPECT_LE((matrix.transpose() * solution - right).norm(), 1e-12 * solution.norm()) << i;
+  }
+  EXPECT_GE(other_signs, 4);
 }
 
 }  // namespace

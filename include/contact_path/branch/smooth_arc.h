@@ -8,6 +8,7 @@
 
 #include "contact_path/branch/crossing.h"
 #include "contact_path/branch/polynomial.h"
+#include "contact_path/contact/reach_tracker.h"
 #include "contact_path/equations/fixed_state_system.h"
 #include "contact_path/linear/bordered_solver.h"
 
@@ -71,6 +72,12 @@ class SmoothArc {
     return contact_path::FindCrossing(&system_, before, x, first);
   }
 
+  // Of the touching contacts, and the gaps at x that an increment of length `reach` may close.
+  std::vector<Constraint> InequalitiesInReach(const Eigen::VectorXd& x, double reach) {
+    const Eigen::Index s = system_.NumDofs();
+    return system_.InequalitiesOf(tracker_.InReach(x.head(s), x[s], reach));
+  }
+
   int factorisations() const { return factorisations_; }
 
  private:
@@ -86,6 +93,7 @@ class SmoothArc {
 
   const ContactPairs& contacts_;
   FixedStateSystem system_;
+  ReachTracker tracker_;
   BorderedSolver solver_;
   bool at_hand_ = false;  // regular factors of a point of the curve with these states, the last row along the tangent
   bool rests_ = false;    // part of the structure stands still at a limit point of its own (Branch::rests)

@@ -9,6 +9,7 @@
 #include "contact_path/contact/contact_pair.h"
 #include "contact_path/contact/path_point.h"
 #include "contact_path/equations/jet.h"
+#include "contact_path/linear/frame.h"
 #include "contact_path/structure/structure.h"
 
 namespace contact_path {
@@ -61,10 +62,14 @@ class FixedStateSystem {
   // Transposed Jacobian, NumUnknowns() x NumEquations(), compressed; the pattern is the same until the next set or pin.
   const Eigen::SparseMatrix<double>& TransposedJacobian(const Eigen::VectorXd& x);
 
+  // The system among those of all contact states, for BorderedSolver; until the next set or pin. Null where the system
+  // is small, or has active constraints or a fixed load factor.
+  const Frame* InFrame();
+
   // All inequalities of the fixed states, in contact order, and their values at x (>= 0: holds).
   std::vector<Constraint> Inequalities() const;
-  // The same without the gaps at x that an increment of length `reach` cannot close.
-  std::vector<Constraint> InequalitiesInReach(const Eigen::VectorXd& x, double reach) const;
+  // The same of the touching contacts and of these candidates, ascending, alone.
+  std::vector<Constraint> InequalitiesOf(const std::vector<std::size_t>& candidates) const;
   double Value(const Constraint& constraint, const Eigen::VectorXd& x) const;
   // What tolerances of the values and rates are multiplied with: 1, or for reactions the force unit of the contact.
   double UnitOf(const Constraint& constraint) const;
@@ -121,6 +126,8 @@ class FixedStateSystem {
   void ForEachConstantEntry(Emit emit) const;  // besides those of flat contacts
   void NumberEquations();
   void Rebuild();
+  void BuildFrame();
+  void PlaceInFrame();
 
   const Structure& structure_;
   const ContactPairs& contacts_;
@@ -143,6 +150,8 @@ class FixedStateSystem {
   bool curved_ = false;  // some of the contacts in the equations are
   Eigen::SparseMatrix<double> tangent_;
   Eigen::SparseMatrix<double> transposed_;
+  Frame frame_;
+  bool placed_ = false;       // in the frame, as the states are
   Eigen::VectorXd constant_;  // values of transposed_ that do not change; kept where some contacts are curved
 };
 

@@ -6,6 +6,7 @@
 #include <Eigen/SparseCore>
 #include <memory>
 
+#include "contact_path/linear/frame.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
@@ -15,18 +16,23 @@ namespace contact_path {
 // redundant contacts): the shortest solution by a rank-revealing sparse QR factorisation.
 class BorderedSolver {
  public:
+  // Unknowns from which on a system is large: METIS and dense kernels are worth their overhead. KLU is as fast at 10^3,
+  // and takes three times as long at 10^4.
+  static constexpr Eigen::Index kLargeSystem = 3000;
+
   BorderedSolver();
   ~BorderedSolver();
   BorderedSolver(const BorderedSolver&) = delete;
   BorderedSolver& operator=(const BorderedSolver&) = delete;
 
   // transposed: J', unknowns x equations; row: NumUnknowns entries. False if the matrix is not finite.
-  // rank_tolerance > 0: by the QR factorisation in any case, with this tolerance (minimum_norm.h).
+  // frame: of the system, which saves large ones orderings, or null. rank_tolerance > 0: by the QR factorisation in any
+  // case, with this tolerance (minimum_norm.h).
   bool Factorize(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& row,
-                 double rank_tolerance = 0.0);
+                 const Frame* frame = nullptr, double rank_tolerance = 0.0);
   // LU only: false if M is singular, not square, or its pivots are further apart than `regular` admits.
   bool FactorizeRegular(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& row,
-                        double regular = tolerances::kSingularPivot);
+                        double regular = tolerances::kSingularPivot, const Frame* frame = nullptr);
   // Solves M x = (b, last). The second one allocates nothing where M is regular and *x has its size.
   Eigen::VectorXd Solve(const Eigen::VectorXd& b, double last) const;
   void Solve(const Eigen::VectorXd& b, double last, Eigen::VectorXd* x) const;

@@ -6,6 +6,7 @@
 
 #include "contact_path/contact/contact_pair.h"
 #include "contact_path/contact/path_point.h"
+#include "contact_path/contact/reach_tracker.h"
 #include "contact_path/equations/fixed_state_system.h"
 #include "contact_path/mpec/increment_problem.h"
 #include "contact_path/mpec/nonlinear_program.h"
@@ -63,11 +64,13 @@ class IncrementSolver {
                        IncrementTrial* trial);
   // By the solution of those equations nearest to `wanted`, unless that is another point. length: of the increment.
   bool PolishActiveSet(const PathPoint& from, const Eigen::VectorXd& wanted, double length, IncrementTrial* trial);
+  bool StickWhereAtRest(const Eigen::VectorXd& x, PathPoint* point) const;
 
   const Structure& structure_;
   const ContactPairs& contacts_;
   NonlinearSolver* solver_;
   FixedStateSystem system_;
+  ReachTracker tracker_;
   std::vector<int> last_working_set_;
   PrimalDual last_;  // of the last problem solved
 };

@@ -1,0 +1,39 @@
+#include "contact_path/contact/reach_tracker.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace contact_path {
+namespace {
+
+constexpr double kRounding = 1e-9;  // of distances, relative
+
+}  // namespace
+
+ReachTracker::ReachTracker(const ContactPairs& contacts) : contacts_(contacts) {
+  for (std::size_t i = 0; i < contacts.size(); ++i) looks_.emplace_back(0.0, i);  // a heap: all are equal
+}
+
+std::vector<std::size_t> ReachTracker::InReach(const Eigen::Ref<const Eigen::VectorXd>& u, double s, double reach) {
+  if (u_.size() == u.size()) moved_ += (1.0 + kRounding) * std::hypot((u - u_).norm(), s - s_);
+  u_ = u;
+  s_ = s;
+  const auto later = std::greater<>();
+  std::vector<std::size_t> in_reach;
+  auto end = looks_.end();  // of the heap; behind it what was looked at in this call
+  while (end != looks_.begin() && !(looks_.front().first > moved_ + reach)) {
+    std::pop_heap(looks_.begin(), end, later);
+    Look& look = *--end;
+    const ContactPair& pair = *contacts_[look.second];
+    const double gap = pair.Gap(u_, s_), rate = pair.LargestGapRate();
+    if (gap <= reach * rate) in_reach.push_back(look.second);
+    const double distance = (1.0 - kRounding) * gap / rate;
+    look.first = std::isfinite(distance) ? moved_ + distance : moved_;
+  }
+  while (end != looks_.end()) std::push_heap(looks_.begin(), ++end, later);
+  std::sort(in_reach.begin(), in_reach.end());
+  return in_reach;
+}
+
+}  // namespace contact_path

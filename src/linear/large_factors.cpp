@@ -1,0 +1,215 @@
+#include "linear/large_factors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+#include <utility>
+
+#include "contact_path/tolerances.h"
+
+namespace contact_path {
+namespace {
+
+constexpr std::size_t kPlaces = 64;   // entries of the border
+constexpr double kGoodPlaces = 0.5;   // of the largest entries of a row together: its entries there make a border
+constexpr double kGoodBorder = 1e-5;  // cosine between the border and the null vector of J
+
+// The first equation that lacks the unknown of its number: equations of equilibrium come first, and have it.
+Eigen::Index FirstWithoutDiagonal(const Eigen::SparseMatrix<double>& transposed) {
+  for (Eigen::Index column = 0; column < transposed.cols(); ++column) {
+    const int* const begin = transposed.innerIndexPtr() + transposed.outerIndexPtr()[column];
+    const int* const end = transposed.innerIndexPtr() + transposed.outerIndexPtr()[column + 1];
+    if (!std::binary_search(begin, end, static_cast<int>(column))) return column;
+  }
+  return transposed.cols();
+}
+
+// The system itself; the unknown that spoils the symmetry of the pattern, as a load factor, comes last.
+Frame FrameOf(const Eigen::SparseMatrix<double>& transposed) {
+  Frame frame;
+  frame.size = static_cast<int>(transposed.rows());
+  const int moved = static_cast<int>(FirstWithoutDiagonal(transposed));
+  frame.unknowns.resize(static_cast<std::size_t>(frame.size));
+  for (int i = 0; i < frame.size; ++i)
+    frame.unknowns[static_cast<std::size_t>(i)] = i < moved ? i : i == moved ? frame.size - 1 : i - 1;
+  frame.odd = (frame.size - 1 - moved) % 2 != 0;
+  frame.equations.resize(static_cast<std::size_t>(transposed.cols()));
+  std::iota(frame.equations.begin(), frame.equations.end(), 0);
+  frame.starts.assign(transposed.outerIndexPtr(), transposed.outerIndexPtr() + transposed.cols() + 1);
+  frame.entries.resize(static_cast<std::size_t>(transposed.nonZeros()));
+  std::transform(transposed.innerIndexPtr(), transposed.innerIndexPtr() + transposed.nonZeros(), frame.entries.begin(),
+                 [&frame](int unknown) { return frame.unknowns[static_cast<std::size_t>(unknown)]; });
+  for (std::size_t k = 0; k + 1 < frame.starts.size(); ++k)
+    std::sort(frame.entries.begin() + frame.starts[k], frame.entries.begin() + frame.starts[k + 1]);
+  return frame;
+}
+
+// Where the row is large, ascending.
+std::vector<int> LargestPlaces(const Eigen::VectorXd& row) {
+  std::vector<int> largest(static_cast<std::size_t>(row.size()));
+  std::iota(largest.begin(), largest.end(), 0);
+  const std::size_t count = std::min(kPlaces, largest.size());
+  std::nth_element(largest.begin(), largest.begin() + static_cast<std::ptrdiff_t>(count) - 1, largest.end(),
+                   [&row](int a, int b) {
+                     return std::abs(row[a]) != std::abs(row[b]) ? std::abs(row[a]) > std::abs(row[b]) : a < b;
+                   });
+  largest.resize(count);
+  std::sort(largest.begin(), largest.end());
+  return largest;
+}
+
+Eigen::VectorXd At(const std::vector<int>& places, const Eigen::VectorXd& row) {
+  Eigen::VectorXd values(static_cast<Eigen::Index>(places.size()));
+  std::transform(places.begin(), places.end(), values.data(), [&row](int place) { return row[place]; });
+  return values;
+}
+
+std::vector<int> Joined(std::vector<int> list, const std::vector<int>& further) {
+  list.insert(list.end(), further.begin(), further.end());
+  return list;
+}
+
+}  // namespace
+
+// Of the pattern of a frame and a border.
+struct LargeFactors::Ordering {
+  Ordering(const Frame& frame, std::vector<int> places_of, const Eigen::VectorXd& row)
+      : places(std::move(places_of)),
+        border(At(places, row)),
+        analysis(Joined(frame.starts, {frame.starts.back() + static_cast<int>(places.size())}),
+                 Joined(frame.entries, places)) {}
+
+  bool Suits(const Frame& frame) const {
+    const std::vector<int>&starts = analysis.Starts(), &entries = analysis.Entries();
+    return starts.size() == frame.starts.size() + 1 && entries.size() == frame.entries.size() + places.size() &&
+           std::equal(frame.starts.begin(), frame.starts.end(), starts.begin()) &&
+           std::equal(frame.entries.begin(), frame.entries.end(), entries.begin());
+  }
+
+  std::vector<int> places;  // ascending
+  Eigen::VectorXd border;   // of the row for which they were chosen
+  UmfpackAnalysis analysis;
+};
+
+thread_local std::vector<std::weak_ptr<const LargeFactors::Ordering>> LargeFactors::orderings_;
+
+void LargeFactors::Free() { factors_.Free(); }
+
+bool LargeFactors::Factorize(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& row,
+                             const Frame* frame) {
+  Free();
+  Frame own;
+  if (frame == nullptr || !SetValues(transposed, *frame)) {
+    own = FrameOf(transposed);
+    frame = &own;
+    SetValues(transposed, own);
+  }
+  Take(*frame, row);
+  const bool known = TakeKnownOrdering(*frame);
+  if (known && FactorizeBordered(false)) return true;
+  OrderAnew(*frame);  // where an ordering was known, its border may be what made N singular
+  return FactorizeBordered(true);
+}
+
+void LargeFactors::Take(const Frame& frame, const Eigen::VectorXd& row) {
+  unknowns_ = frame.unknowns;
+  equations_ = frame.equations;
+  odd_ = frame.odd;
+  row_ = Eigen::VectorXd::Zero(frame.size);
+  for (std::size_t i = 0; i < unknowns_.size(); ++i) row_[unknowns_[i]] = row[static_cast<Eigen::Index>(i)];
+}
+
+// Without the border. False if an entry has no place in the frame.
+bool LargeFactors::SetValues(const Eigen::SparseMatrix<double>& transposed, const Frame& frame) {
+  values_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(frame.entries.size()));
+  int next = 0;  // equation of the frame that has not been looked at
+  const auto leave_out = [&](int beyond) {
+    for (; next < beyond; ++next) {
+      const auto begin = frame.entries.begin() + frame.starts[static_cast<std::size_t>(next)];
+      const auto end = frame.entries.begin() + frame.starts[static_cast<std::size_t>(next) + 1];
+      values_[std::lower_bound(begin, end, next) - frame.entries.begin()] = 1.0;
+    }
+    ++next;
+  };
+  for (Eigen::Index column = 0; column < transposed.cols(); ++column) {
+    const int equation = frame.equations[static_cast<std::size_t>(column)];
+    leave_out(equation);
+    const auto begin = frame.entries.begin() + frame.starts[static_cast<std::size_t>(equation)];
+    const auto end = frame.entries.begin() + frame.starts[static_cast<std::size_t>(equation) + 1];
+    auto at = begin;
+    for (Eigen::SparseMatrix<double>::InnerIterator it(transposed, column); it; ++it) {
+      const int unknown = frame.unknowns[static_cast<std::size_t>(it.row())];
+      if (at == end || *at != unknown) at = std::lower_bound(begin, end, unknown);
+      if (at == end || *at != unknown) return false;
+      values_[at - frame.entries.begin()] = it.value();
+      ++at;
+    }
+  }
+  leave_out(frame.size - 1);
+  return true;
+}
+
+// Of the orderings at hand for this frame: one where the row is large, with its entries as the border; or any, with the
+// border of before. False if there is none.
+bool LargeFactors::TakeKnownOrdering(const Frame& frame) {
+  const auto expired = [](const std::weak_ptr<const Ordering>& ordering) { return ordering.expired(); };
+  orderings_.erase(std::remove_if(orderings_.begin(), orderings_.end(), expired), orderings_.end());
+  const std::shared_ptr<const Ordering> before = ordering_;
+  const double largest = kGoodPlaces * At(LargestPlaces(row_), row_).lpNorm<1>();
+  ordering_ = nullptr;
+  for (const std::weak_ptr<const Ordering>& known : orderings_) {
+    const std::shared_ptr<const Ordering> ordering = known.lock();
+    if (!ordering->Suits(frame)) continue;
+    const Eigen::VectorXd border = At(ordering->places, row_);
+    const bool good = border.lpNorm<1>() >= largest;
+    if (ordering_ != nullptr && !good) continue;
+    if (good)
+      border_ = border;
+    else if (ordering != before)
+      border_ = ordering->border;
+    ordering_ = ordering;
+    if (good) break;
+  }
+  return ordering_ != nullptr;
+}
+
+void LargeFactors::OrderAnew(const Frame& frame) {
+  ordering_ = std::make_shared<const Ordering>(frame, LargestPlaces(row_), row_);
+  orderings_.emplace_back(ordering_);
+  border_ = ordering_->border;
+}
+
+// any_border: also with one that is nearly orthogonal to the null vector of J.
+bool LargeFactors::FactorizeBordered(bool any_border) {
+  const Eigen::Index before = static_cast<Eigen::Index>(ordering_->analysis.Entries().size()) - border_.size();
+  values_.conservativeResize(before + border_.size());
+  values_.tail(border_.size()) = border_;
+  if (!factors_.Factorize(ordering_->analysis, values_) || !(PivotRatio() > tolerances::kSingularPivot)) return false;
+  right_ = Eigen::VectorXd::Unit(row_.size(), row_.size() - 1);
+  direction_.resize(row_.size());
+  factors_.SolveTransposed(right_.data(), direction_.data());
+  const double length = direction_.norm();
+  if (!any_border && !(border_.norm() * length < 1.0 / kGoodBorder)) return false;
+  along_ = row_.dot(direction_);
+  return std::abs(along_) > tolerances::kSingularPivot * row_.norm() * length;
+}
+
+void LargeFactors::Solve(double* x, Eigen::Index columns) {
+  const std::size_t equations = equations_.size();
+  solution_.resize(row_.size());
+  for (Eigen::Index k = 0; k < columns; ++k) {
+    double* const column = x + k * static_cast<Eigen::Index>(unknowns_.size());
+    right_.setZero();
+    for (std::size_t e = 0; e < equations; ++e) right_[equations_[e]] = column[e];
+    factors_.SolveTransposed(right_.data(), solution_.data());
+    solution_ += (column[equations] - row_.dot(solution_)) / along_ * direction_;
+    for (std::size_t i = 0; i < unknowns_.size(); ++i) column[i] = solution_[unknowns_[i]];
+  }
+}
+
+int LargeFactors::DeterminantSign() const {
+  return odd_ == (along_ < 0.0) ? factors_.DeterminantSign() : -factors_.DeterminantSign();
+}
+
+}  // namespace contact_path

@@ -1,0 +1,58 @@
+// LU factors of a large Jacobian with one row added.
+#ifndef CONTACT_PATH_SRC_LINEAR_LARGE_FACTORS_H_
+#define CONTACT_PATH_SRC_LINEAR_LARGE_FACTORS_H_
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <memory>
+#include <vector>
+
+#include "contact_path/linear/frame.h"
+#include "linear/umfpack_factors.h"
+
+namespace contact_path {
+
+// M = [J; row]. A row of many entries would fill the factors, and one of few is another in each solver: a border with
+// few entries, whose places stay, stands for it. N = [J; border], N v = (0, 1); the solution of M x = (b, last) is
+// x = y + a v where N y = (b, 0) and row . x = last, and det M = det N (row . v). N is regular where J has full rank
+// and the border is not orthogonal to its null vector.
+// All solvers of a thread share the orderings of frames that are alike, for as long as one of them holds them.
+class LargeFactors {
+ public:
+  void Free();
+  // transposed: J', n x (n - 1); row: n entries. frame: of the system, or null. Everything is finite. False if M is
+  // singular: a pivot below tolerances::kSingularPivot of the largest.
+  bool Factorize(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& row, const Frame* frame);
+  bool HasFactors() const { return factors_.HasFactors(); }
+
+  // Of the pivots, smallest over largest.
+  double PivotRatio() const { return factors_.PivotRatio(); }
+  int DeterminantSign() const;
+  // In place: M x = (b, last) for each of so many columns of n entries.
+  void Solve(double* x, Eigen::Index columns);
+
+ private:
+  struct Ordering;
+
+  void Take(const Frame& frame, const Eigen::VectorXd& row);
+  bool SetValues(const Eigen::SparseMatrix<double>& transposed, const Frame& frame);
+  bool TakeKnownOrdering(const Frame& frame);
+  void OrderAnew(const Frame& frame);
+  bool FactorizeBordered(bool any_border);
+
+  static thread_local std::vector<std::weak_ptr<const Ordering>> orderings_;
+
+  std::shared_ptr<const Ordering> ordering_;
+  UmfpackFactors factors_;  // of N, transposed
+  std::vector<int> unknowns_, equations_;
+  bool odd_ = false;
+  Eigen::VectorXd values_;           // of N
+  Eigen::VectorXd border_;           // at the places of the ordering
+  Eigen::VectorXd row_, direction_;  // row, v: in the frame
+  double along_ = 1.0;               // row . v
+  Eigen::VectorXd right_, solution_;
+};
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_SRC_LINEAR_LARGE_FACTORS_H_
