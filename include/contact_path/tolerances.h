@@ -173,6 +173,9 @@ inline constexpr double kReturnReaction = 1e-9;
 
 // Scaled distance of an event from the last one, below which it happens in place.
 inline constexpr double kNoMove = 1e-12;
+// Energy balance of a step, of the energy that it exchanges; rounding of energies, relative.
+inline constexpr double kEnergyOfStep = 2e-3;
+inline constexpr double kEnergyRounding = 1e-12;
 // Place of a located point.
 inline constexpr double kLocatedPlace = 1e-9;
 // Scaled distance of a located point from its guess that is admitted on the shortest steps.

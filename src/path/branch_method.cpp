@@ -11,6 +11,7 @@
 namespace contact_path {
 namespace {
 
+constexpr int kMostShorter = 6;  // times half as long, for the energies
 constexpr int kMostEventsInPlace = 8;    // then the contacts chatter, and no branch is trusted
 constexpr double kAfterSingular = 0.05;  // of the step: derivatives at a singular point are not exact to second order
 
@@ -329,11 +330,34 @@ void BranchMethod::SetNextLength(const ArcStep& at) {
   if (at.event.singular) step_length_ *= kAfterSingular;
 }
 
+std::optional<ArcStep> BranchMethod::NextBalancedStep() {
+  const StepLimits limits = {options_.smallest_step, options_.prediction, options_.smallest_cosine};
+  std::optional<ArcStep> at = NextStep(&arc_, current_, step_length_, limits, options_.target);
+  for (int shorter = 0; shorter < kMostShorter && at && !Balances(at->step); ++shorter) {
+    const double length = 0.5 * std::min(at->tried, at->step.length);
+    if (length < options_.smallest_step) break;
+    const int rejected = at->rejected + 1;
+    at = NextStep(&arc_, current_, length, limits, options_.target);
+    if (at) at->rejected += rejected;
+  }
+  return at;
+}
+
+bool BranchMethod::Balances(const Step& step) const {
+  const Eigen::Index nd = model_.structure.NumDofs();
+  const double unit = model_.scaling.force * model_.scaling.length;
+  const double before = model_.structure.Energy(step.start.x.head(nd)) * unit;
+  const double change = model_.structure.Energy(step.end.x.head(nd)) * unit - before;
+  const Work work = WorkOfStep(model_, arc_.system(), step);
+  const double exchanged = std::abs(work.loads) + work.friction + std::abs(change);
+  return std::abs(work.loads - work.friction - change) <=
+         tolerances::kEnergyOfStep * exchanged + tolerances::kEnergyRounding * (before + unit);
+}
+
 Advance BranchMethod::Next(const PathPoint& from) {
   if (begin_) return ChangeReactions(from);
   const int factorisations_before = arc_.factorisations();
-  const StepLimits limits = {options_.smallest_step, options_.prediction, options_.smallest_cosine};
-  std::optional<ArcStep> at = NextStep(&arc_, current_, step_length_, limits, options_.target);
+  std::optional<ArcStep> at = NextBalancedStep();
   if (!at) return Ended(EndReason::kStepTooSmall, NoStep(from));
   const std::optional<int> returned = EndAtReturn(from, &*at);
 

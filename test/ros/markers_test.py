@@ -115,7 +115,7 @@ class MarkersTest(unittest.TestCase):
             response = call.result()
             self.assertGreater(response.increments, 5 * number)
             last = self.increments_of(response)[-1]
-            helpers.wait_until(lambda: shows(pictures.messages[-1], last), 'the last increment is shown')
+            helpers.wait_until(lambda: pictures.messages and shows(pictures.messages[-1], last), 'the last increment is shown')
 
     # Bags that are played
 
@@ -152,7 +152,7 @@ class MarkersTest(unittest.TestCase):
             launch = os.path.join(os.path.dirname(os.path.dirname(helpers.scene_path('rough_truss'))), 'launch', 'play.launch')
             self.start('roslaunch', launch, 'bag:=' + played.bag, 'seconds:=1', 'rviz:=false',
                        'frame_id:=table', 'options:=--delay 1', cwd=self.bags, env=dict(os.environ, PWD=self.bags))
-            helpers.wait_until(lambda: shows(pictures.messages[-1], last), 'the bag is shown')
+            helpers.wait_until(lambda: pictures.messages and shows(pictures.messages[-1], last), 'the bag is shown')
             increments = [row_of(picture) for picture in pictures.messages]
             self.assertGreater(len(set(increments)), 5)  # not in a flash
 

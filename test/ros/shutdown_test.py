@@ -117,7 +117,8 @@ class ShutdownTest(unittest.TestCase):
         with helpers.Collector(self.name + '/increments'), \
                 helpers.Collector(self.name + '/status', TraceStatus) as status:
             call = helpers.Call(trace, helpers.request_of('sliding_bar', step=1e-5, max_increments=count, stop=[]))
-            helpers.wait_until(lambda: status.messages[-1].increments == count + 1, 'all increments are accepted')
+            helpers.wait_until(lambda: status.messages and status.messages[-1].increments == count + 1,
+                               'all increments are accepted')
             self.assertIsNone(call.end_time)
             sent = time.monotonic()
             self.node.send_signal(signal.SIGINT)

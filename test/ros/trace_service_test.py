@@ -249,7 +249,7 @@ class TraceServiceTest(unittest.TestCase):
                                            if s.state == TraceStatus.RUNNING), 'progress is told')
             self.cancel()
             response = call.result()
-            helpers.wait_until(lambda: collector.messages[-1].state == TraceStatus.ENDED, 'the end is told')
+            helpers.wait_until(lambda: collector.messages and collector.messages[-1].state == TraceStatus.ENDED, 'the end is told')
             running = [s for s in collector.messages if s.state == TraceStatus.RUNNING and s.scene == 'sliding_bar']
             self.assertEqual(running[0].increments, 0)
             for earlier, later in zip(running, running[1:]):

@@ -60,6 +60,12 @@ class BranchMethod : public PathMethod {
   // Direction of the path that crosses at the end of the step: x0, y0, x1, ..., unit norm.
   std::vector<double> CrossingPath(const Step& step);
   int StiffnessSign(const CurvePoint& point) const;
+  // A step that is short enough for the energies to tell, too: where only soft parts move, the force along the step may
+  // change by far more than what its predictor shows.
+  std::optional<ArcStep> NextBalancedStep();
+  // Whether the work of the loads is what the strain energy gains and friction takes, up to a share that a step may be
+  // off by.
+  bool Balances(const Step& step) const;
   // Why no step is accepted.
   std::string NoStep(const PathPoint& from) const;
 
