@@ -152,6 +152,16 @@ def sliding(results):
     return table(['BLAS', 'contacts that slide', 'time, of the first', 'time / CHOLMOD'], cells)
 
 
+def mpec(results):
+    cells = []
+    for blas, name in BLAS:
+        for entry in read_benchmarks(results / ('scale_%s_MpecIncrement.json' % blas)):
+            cells.append([name, '%d' % entry['dofs'], '%d' % entry['contacts'],
+                          ('out of reach', 'along the floor')[int(entry['name'].split('/')[2])], number(entry['real_time']),
+                          number(entry['iterations']), number(entry['per_cholmod'] / entry['iterations'])])
+    return table(['BLAS', 'dofs', 'candidates', 'where', 'increment [ms]', 'iterations of Ipopt', 'iteration / CHOLMOD'], cells)
+
+
 def contact(results):
     rows = [['%d' % entry['dofs'], number(entry['factorisations']), number(entry['per_factorisation'])]
             for entry in read_benchmarks(results / 'contact.json')]
@@ -204,7 +214,7 @@ def main():
     results, bench = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
     figures = bench / 'figures'
     figures.mkdir(exist_ok=True)
-    parts = {'trade': trade(results, figures), 'scaling': scaling(results, figures), 'sliding': sliding(results), 'contact': contact(results),
+    parts = {'trade': trade(results, figures), 'scaling': scaling(results, figures), 'sliding': sliding(results), 'mpec': mpec(results), 'contact': contact(results),
              'far': far(results), 'solvers': solvers(results), 'models': models(results), 'streaming': streaming(results)}
     readme = bench / 'README.md'
     text = readme.read_text()

@@ -17,6 +17,7 @@
 #include "contact_path/branch/smooth_arc.h"
 #include "contact_path/linear/blas.h"
 #include "contact_path/path/branch_method.h"
+#include "contact_path/path/mpec_method.h"
 #include "lattices.h"
 
 namespace contact_path {
@@ -148,6 +149,28 @@ void PointOfAnArc(benchmark::State& state) {
   }
 }
 
+// Increments of method mpec, out of reach of the floor or along it.
+void MpecIncrement(benchmark::State& state) {
+  const OneBlasThread one_thread;
+  const TraceRequest request = BlockOf(static_cast<int>(state.range(0)), 0, state.range(1) == 0 ? 5.0 : kNear);
+  const Model model(request.scene, CharacteristicScales(request.scene));
+  for (auto iteration : state) {
+    MpecMethod method(model, MpecOptions::For(request.options, model.structure.NumDofs()), nullptr);
+    PathPoint point = model.InitialPoint();
+    double iterations = 0.0;
+    const Clock::time_point start = Clock::now();
+    for (int k = 0; k < kIncrements; ++k) {
+      const Advance advance = method.Next(point);
+      if (advance.increments.empty()) throw std::runtime_error(advance.message);
+      point = advance.increments.back().point;
+      iterations += advance.increments.back().solve.iterations;
+    }
+    const double time = Seconds(start) / kIncrements;
+    state.counters["iterations"] = iterations / kIncrements;
+    Report(model, point, time, PeakMebibytes(), &state);
+  }
+}
+
 BENCHMARK(SmoothIncrement)
     ->Arg(1000)
     ->Arg(10000)
@@ -157,6 +180,14 @@ BENCHMARK(SmoothIncrement)
     ->Iterations(1)
     ->Unit(benchmark::kMillisecond);
 BENCHMARK(Event)->Arg(1000)->Arg(10000)->Arg(100000)->UseManualTime()->Iterations(1)->Unit(benchmark::kMillisecond);
+BENCHMARK(MpecIncrement)
+    ->Args({500, 0})
+    ->Args({500, 1})
+    ->Args({2000, 0})
+    ->Args({8000, 0})
+    ->UseManualTime()
+    ->Iterations(1)
+    ->Unit(benchmark::kMillisecond);
 BENCHMARK(PointOfAnArc)->Arg(0)->Arg(1000)->UseManualTime()->Iterations(1)->Unit(benchmark::kMillisecond);
 BENCHMARK(EventOfContacts)
     ->ArgsProduct({{1000, 10000, 100000}, {1, 5, 20}})
