@@ -152,7 +152,7 @@ IpoptSolver::IpoptSolver(std::function<bool()> cancelled) : implementation_(std:
   Ipopt::OptionsList& options = *application.Options();
   options.SetStringValue("linear_solver", "mumps");
   // AMD: of what MUMPS offers the fastest by far on equations that are nearly all zero on the diagonal (8 times faster
-  // than its own choice for a wall of 2,000 dofs; no difference for small scenes).
+  // than its own choice for a wall of 2,000 dofs, 1.5 to 4 times faster than METIS; no difference for small scenes).
   options.SetIntegerValue("mumps_pivot_order", 0);
   options.SetIntegerValue("print_level", 0);
   options.SetStringValue("sb", "yes");
