@@ -73,8 +73,11 @@ inline constexpr double kTouchingAtStart = 1e-9;
 inline constexpr double kBrokenOnStep = 1e-11;
 // Scaled value of an inequality at an exact point of method mpec: less below zero is rounding.
 inline constexpr double kBrokenAtPoint = 1e-11;
-// Slip of an increment of method mpec, of its length: the contact has not moved.
+// Slip of an increment of method mpec, of its length: the contact has not moved if there is a solution without slip,
+// too.
 inline constexpr double kRestsAtPoint = 1e-8;
+// Scaled slip of an increment of method mpec: rounding.
+inline constexpr double kNoSlip = 1e-14;
 // Scaled value up to which method mpec expects an inequality to change a contact's state. Wider than kActiveForce: a
 // false alarm costs a shorter increment only.
 inline constexpr double kNearlyActive = 1e-9;

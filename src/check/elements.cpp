@@ -1,11 +1,15 @@
 #include "check/elements.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
 
 namespace contact_path::check {
 namespace {
+
+constexpr double kStep = 0x1p-20;  // of difference quotients, of the extent of the element
 
 struct BarLengths {
   Real current = 0.0L;
@@ -38,7 +42,12 @@ Real StrainRatePerLength(StrainMeasure measure, const BarLengths& lengths) {
 class BarElement : public Element {
  public:
   BarElement(const Bar& bar, const std::vector<std::size_t>& nodes, const std::vector<double>& reference)
-      : first_(nodes.at(0)), second_(nodes.at(1)), EA_(bar.EA), rest_(bar.rest_length), strain_(bar.strain) {
+      : Element(nodes),
+        first_(nodes.at(0)),
+        second_(nodes.at(1)),
+        EA_(bar.EA),
+        rest_(bar.rest_length),
+        strain_(bar.strain) {
     if (bar.rest_length == 0.0) rest_ = Length(NodePosition(reference, second_) - NodePosition(reference, first_));
   }
 
@@ -73,13 +82,15 @@ class BarElement : public Element {
 // W = (x - X)' K (x - X) / 2.
 class LinearPart : public Element {
  public:
-  LinearPart(const Superelement& part, std::vector<std::size_t> nodes, const std::vector<double>& reference)
-      : nodes_(std::move(nodes)),
+  LinearPart(const Superelement& part, const std::vector<std::size_t>& nodes, const std::vector<double>& reference)
+      : Element(nodes),
         stiffness_(part.stiffness.begin(), part.stiffness.end()),
         rest_(part.rest_positions.begin(), part.rest_positions.end()) {
     if (rest_.empty())
-      for (const std::size_t node : nodes_) rest_.insert(rest_.end(), {reference[2 * node], reference[2 * node + 1]});
+      for (const std::size_t node : nodes) rest_.insert(rest_.end(), {reference[2 * node], reference[2 * node + 1]});
   }
+
+  bool Turns() const override { return false; }
 
   void AddEnergy(const std::vector<double>& positions, Real* energy) const override {
     const std::vector<Real> displacements = Displacements(positions), forces = Forces(displacements);
@@ -88,9 +99,9 @@ class LinearPart : public Element {
 
   void AddForce(const std::vector<double>& positions, std::vector<Real>* forces) const override {
     const std::vector<Real> elastic = Forces(Displacements(positions));
-    for (std::size_t i = 0; i < nodes_.size(); ++i) {
-      (*forces)[2 * nodes_[i]] += elastic[2 * i];
-      (*forces)[2 * nodes_[i] + 1] += elastic[2 * i + 1];
+    for (std::size_t i = 0; i < Nodes().size(); ++i) {
+      (*forces)[2 * Nodes()[i]] += elastic[2 * i];
+      (*forces)[2 * Nodes()[i] + 1] += elastic[2 * i + 1];
     }
   }
 
@@ -98,8 +109,8 @@ class LinearPart : public Element {
   // x - X of the nodes, in their order.
   std::vector<Real> Displacements(const std::vector<double>& positions) const {
     std::vector<Real> displacements;
-    for (std::size_t i = 0; i < nodes_.size(); ++i) {
-      const Vector moved = NodePosition(positions, nodes_[i]) - NodePosition(rest_, i);
+    for (std::size_t i = 0; i < Nodes().size(); ++i) {
+      const Vector moved = NodePosition(positions, Nodes()[i]) - NodePosition(rest_, i);
       displacements.push_back(moved.x);
       displacements.push_back(moved.y);
     }
@@ -118,7 +129,6 @@ class LinearPart : public Element {
     return forces;
   }
 
-  std::vector<std::size_t> nodes_;
   std::vector<Real> stiffness_;  // row by row
   std::vector<double> rest_;     // x0, y0, x1, ...
 };
@@ -149,6 +159,47 @@ std::vector<std::unique_ptr<const Element>> MakeElements(const Scene& scene, con
     }
   });
   return elements;
+}
+
+std::vector<StiffnessBound> BoundStiffness(const std::vector<std::unique_ptr<const Element>>& elements,
+                                           const std::vector<double>& positions) {
+  std::vector<StiffnessBound> bounds(positions.size() / 2);
+  std::vector<double> moved = positions;
+  std::vector<Real> forces(positions.size(), 0.0L);
+  for (const auto& element : elements) {
+    std::vector<std::size_t> components;
+    Real extent = 0.0L;
+    for (const std::size_t node : element->Nodes()) {
+      components.insert(components.end(), {2 * node, 2 * node + 1});
+      extent = std::max(extent, Length(NodePosition(positions, node) - NodePosition(positions, element->Nodes()[0])));
+    }
+    const double step = kStep * (extent > 0.0L ? static_cast<double>(extent) : 1.0);
+    // Calls visit(i, rate of the force in the component i) for a motion of the component k.
+    const auto for_each_rate = [&](std::size_t k, auto visit) {
+      const auto forces_at = [&](double value) {
+        for (const std::size_t i : components) forces[i] = 0.0L;
+        moved[k] = value;
+        element->AddForce(moved, &forces);
+        std::vector<Real> own;
+        for (const std::size_t i : components) own.push_back(forces[i]);
+        moved[k] = positions[k];
+        return own;
+      };
+      const double there = positions[k] + step;
+      const std::vector<Real> before = forces_at(positions[k]), after = forces_at(there);
+      for (std::size_t i = 0; i < components.size(); ++i)
+        visit(components[i], std::abs(static_cast<double>((after[i] - before[i]) / (Real{there} - positions[k]))));
+    };
+    double largest = 0.0;
+    for (const std::size_t k : components)
+      for_each_rate(k, [&](std::size_t i, double rate) {
+        largest = std::max(largest, rate);
+        if (!element->Turns()) (i % 2 == 0 ? bounds[i / 2].x : bounds[i / 2].y) += rate;
+      });
+    if (element->Turns())
+      for (const std::size_t node : element->Nodes()) bounds[node].any += largest;
+  }
+  return bounds;
 }
 
 }  // namespace contact_path::check

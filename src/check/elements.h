@@ -7,6 +7,7 @@
 #include <memory>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "check/plane.h"
@@ -19,11 +20,30 @@ class Element {
  public:
   virtual ~Element() = default;
 
+  const std::vector<std::size_t>& Nodes() const { return nodes_; }
+  // Whether the directions of its forces turn with the motion.
+  virtual bool Turns() const { return true; }
   // Adds the strain energy W to *energy [force length].
   virtual void AddEnergy(const std::vector<double>& positions, Real* energy) const = 0;
   // Adds dW/dx to *forces [force].
   virtual void AddForce(const std::vector<double>& positions, std::vector<Real>* forces) const = 0;
+
+ protected:
+  explicit Element(std::vector<std::size_t> nodes) : nodes_(std::move(nodes)) {}
+
+ private:
+  std::vector<std::size_t> nodes_;
 };
+
+// Upper bounds of the forces that elements exert on a node per unit of a motion of theirs [force/length]: along x and
+// y, and, of elements that turn, in any direction.
+struct StiffnessBound {
+  double x = 0.0, y = 0.0, any = 0.0;
+};
+
+// By node, at `positions`, by difference quotients of the forces.
+std::vector<StiffnessBound> BoundStiffness(const std::vector<std::unique_ptr<const Element>>& elements,
+                                           const std::vector<double>& positions);
 
 using NodeNumbers = std::unordered_map<std::string_view, std::size_t>;  // by name
 

@@ -223,6 +223,32 @@ double ResidualCheck::Slip(std::size_t contact, const CheckedState& from, const 
   return static_cast<double>(prepared.surface->Slip(prepared.Position(from), prepared.Position(to)));
 }
 
+std::array<double, 2> ResidualCheck::Normal(std::size_t contact, const CheckedState& state) const {
+  const Prepared::PreparedContact& prepared = prepared_->contacts[contact];
+  const Vector normal = prepared.surface->Normal(prepared.Position(state));
+  return {static_cast<double>(normal.x), static_cast<double>(normal.y)};
+}
+
+std::vector<double> ResidualCheck::ForcesAcross(double length, double load_factor) const {
+  const Prepared& scene = *prepared_;
+  std::vector<check::StiffnessBound> bounds = check::BoundStiffness(scene.elements, scene.start);
+  for (check::StiffnessBound& bound : bounds)
+    for (double* const part : {&bound.x, &bound.y, &bound.any}) *part *= length;
+  for (const Prepared::PreparedLoad& load : scene.loads) {
+    const Real factor = load.constant ? 1.0L : static_cast<Real>(load_factor);
+    bounds[load.node].x += static_cast<double>(std::abs(factor * load.fx));
+    bounds[load.node].y += static_cast<double>(std::abs(factor * load.fy));
+  }
+  std::vector<double> across;
+  for (const Prepared::PreparedContact& contact : scene.contacts) {
+    const check::StiffnessBound& bound = bounds[contact.node];
+    const Vector normal = contact.surface->Normal(NodePosition(scene.start, contact.node));
+    across.push_back(bound.any + std::abs(static_cast<double>(normal.x)) * bound.x +
+                     std::abs(static_cast<double>(normal.y)) * bound.y);
+  }
+  return across;
+}
+
 double ResidualCheck::StrainEnergy(const std::vector<double>& positions) const {
   RequireSize(positions, prepared_->start.size(), "positions");
   Real energy = 0.0L;

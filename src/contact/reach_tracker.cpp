@@ -11,18 +11,20 @@ constexpr double kRounding = 1e-9;  // of distances, relative
 
 }  // namespace
 
-ReachTracker::ReachTracker(const ContactPairs& contacts) : contacts_(contacts) {
-  for (std::size_t i = 0; i < contacts.size(); ++i) looks_.emplace_back(0.0, i);  // a heap: all are equal
-}
+ReachTracker::ReachTracker(const ContactPairs& contacts) : contacts_(contacts) {}
 
 std::vector<std::size_t> ReachTracker::InReach(const Eigen::Ref<const Eigen::VectorXd>& u, double s, double reach) {
-  if (u_.size() == u.size()) moved_ += (1.0 + kRounding) * std::hypot((u - u_).norm(), s - s_);
+  if (!sound_ || u_.size() != u.size()) LookAtAll();
+  sound_ = false;
+  if (u_.size() == u.size()) moved_ += std::hypot((u - u_).norm(), s - s_);
   u_ = u;
   s_ = s;
+  // Rounding of the sum and of the distances.
+  const double slack = kRounding * (moved_ + reach);
   const auto later = std::greater<>();
   std::vector<std::size_t> in_reach;
   auto end = looks_.end();  // of the heap; behind it what was looked at in this call
-  while (end != looks_.begin() && !(looks_.front().first > moved_ + reach)) {
+  while (end != looks_.begin() && !(looks_.front().first > moved_ + reach + slack)) {
     std::pop_heap(looks_.begin(), end, later);
     Look& look = *--end;
     const ContactPair& pair = *contacts_[look.second];
@@ -33,7 +35,13 @@ std::vector<std::size_t> ReachTracker::InReach(const Eigen::Ref<const Eigen::Vec
   }
   while (end != looks_.end()) std::push_heap(looks_.begin(), ++end, later);
   std::sort(in_reach.begin(), in_reach.end());
+  sound_ = true;
   return in_reach;
+}
+
+void ReachTracker::LookAtAll() {
+  looks_.clear();
+  for (std::size_t i = 0; i < contacts_.size(); ++i) looks_.emplace_back(moved_, i);  // a heap: all are equal
 }
 
 }  // namespace contact_path

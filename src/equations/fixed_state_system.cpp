@@ -7,6 +7,12 @@
 #include "contact_path/linear/bordered_solver.h"
 
 namespace contact_path {
+namespace {
+
+// Times the candidates, against the dofs: of more of them, mostly out of reach, a frame would make factors large.
+constexpr double kMostInFrame = 4.0;
+
+}  // namespace
 
 FixedStateSystem::FixedStateSystem(const Structure& structure, const ContactPairs& contacts)
     : structure_(structure), contacts_(contacts), tangent_(structure.TangentPattern()) {
@@ -200,17 +206,18 @@ void FixedStateSystem::Rebuild() {
 }
 
 const Frame* FixedStateSystem::InFrame() {
+  if (kMostInFrame * static_cast<double>(contacts_.size()) > static_cast<double>(NumDofs())) return nullptr;
   if (num_unknowns_ < BorderedSolver::kLargeSystem || num_equations_ + 1 != num_unknowns_ || load_factor_fixed_ ||
       !active_.empty())
     return nullptr;
-  if (frame_.size == 0) BuildFrame();
+  if (frame_.size == 0) frame_ = BuildFrame();
   if (!placed_) PlaceInFrame();
   return &frame_;
 }
 
 // Unknowns: u, r_n and r_t of each contact, reactions of supports, s. Equations: equilibrium, u_n and xi of each
 // contact, supports.
-void FixedStateSystem::BuildFrame() {
+Frame FixedStateSystem::BuildFrame() const {
   const auto nd = static_cast<int>(NumDofs()), contacts = static_cast<int>(contacts_.size());
   const int first_support = nd + 2 * contacts;
   const int s = first_support + static_cast<int>(structure_.PrescribedDofs().size());
@@ -227,11 +234,12 @@ void FixedStateSystem::BuildFrame() {
   for (const PrescribedDof& prescribed : structure_.PrescribedDofs()) forces.emplace_back(prescribed.dof, support++);
   std::sort(forces.begin(), forces.end());
 
-  std::vector<int>&starts = frame_.starts, &entries = frame_.entries;
-  frame_.size = s + 1;
-  starts.assign(1, 0);
-  starts.reserve(static_cast<std::size_t>(frame_.size));
-  entries.clear();
+  Frame frame;
+  std::vector<int>&starts = frame.starts, &entries = frame.entries;
+  frame.size = s + 1;
+  frame.orderings = structure_.SharedOrderings();
+  starts.reserve(static_cast<std::size_t>(frame.size));
+  starts.push_back(0);
   entries.reserve(static_cast<std::size_t>(tangent_.nonZeros() + nd) + 8 * contacts_.size() + forces.size());
   const auto end_equation = [&] { starts.push_back(static_cast<int>(entries.size())); };
   auto force = forces.begin();
@@ -258,6 +266,7 @@ void FixedStateSystem::BuildFrame() {
     entries.insert(entries.end(), {prescribed.dof, support++, s});
     end_equation();
   }
+  return frame;
 }
 
 void FixedStateSystem::PlaceInFrame() {

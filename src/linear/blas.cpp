@@ -32,16 +32,16 @@ OneBlasThread::~OneBlasThread() {
 }
 
 void WarmUpBlas() {
-  using Multiply = void(const char*, const char*, const int*, const int*, const int*, const double*, const double*,
-                        const int*, const double*, const int*, const double*, double*, const int*);
-  auto* const multiply = Find<Multiply>("dgemm_");
-  if (multiply == nullptr || LoadedBlas() == kReferenceBlas) return;  // the reference BLAS keeps no memory
+  using UpdateSymmetric = void(const char*, const char*, const int*, const int*, const double*, const double*,
+                               const int*, const double*, double*, const int*);
+  auto* const update = Find<UpdateSymmetric>("dsyrk_");
+  if (update == nullptr) return;
   const OneBlasThread one_thread;
-  const int n = 128;
+  const int n = 32;
   const double one = 1.0, zero = 0.0;
   const std::vector<double> a(static_cast<std::size_t>(n) * n, 1.0);
   std::vector<double> product(a.size());
-  multiply("N", "N", &n, &n, &n, &one, a.data(), &n, a.data(), &n, &zero, product.data(), &n);
+  update("L", "N", &n, &n, &one, a.data(), &n, &zero, product.data(), &n);
 }
 
 std::string LoadedBlas() {

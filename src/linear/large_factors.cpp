@@ -6,13 +6,13 @@
 #include <numeric>
 #include <utility>
 
+#include "contact_path/linear/orderings.h"
 #include "contact_path/tolerances.h"
+#include "linear/ordering.h"
 
 namespace contact_path {
 namespace {
 
-constexpr std::size_t kPlaces = 64;   // entries of the border
-constexpr double kGoodPlaces = 0.5;   // of the largest entries of a row together: its entries there make a border
 constexpr double kGoodBorder = 1e-5;  // cosine between the border and the null vector of J
 
 // The first equation that lacks the unknown of its number: equations of equilibrium come first, and have it.
@@ -45,70 +45,39 @@ Frame FrameOf(const Eigen::SparseMatrix<double>& transposed) {
   return frame;
 }
 
-// Where the row is large, ascending.
-std::vector<int> LargestPlaces(const Eigen::VectorXd& row) {
-  std::vector<int> largest(static_cast<std::size_t>(row.size()));
-  std::iota(largest.begin(), largest.end(), 0);
-  const std::size_t count = std::min(kPlaces, largest.size());
-  std::nth_element(largest.begin(), largest.begin() + static_cast<std::ptrdiff_t>(count) - 1, largest.end(),
-                   [&row](int a, int b) {
-                     return std::abs(row[a]) != std::abs(row[b]) ? std::abs(row[a]) > std::abs(row[b]) : a < b;
-                   });
-  largest.resize(count);
-  std::sort(largest.begin(), largest.end());
-  return largest;
-}
-
-Eigen::VectorXd At(const std::vector<int>& places, const Eigen::VectorXd& row) {
-  Eigen::VectorXd values(static_cast<Eigen::Index>(places.size()));
-  std::transform(places.begin(), places.end(), values.data(), [&row](int place) { return row[place]; });
-  return values;
-}
-
-std::vector<int> Joined(std::vector<int> list, const std::vector<int>& further) {
-  list.insert(list.end(), further.begin(), further.end());
-  return list;
-}
-
 }  // namespace
 
-// Of the pattern of a frame and a border.
-struct LargeFactors::Ordering {
-  Ordering(const Frame& frame, std::vector<int> places_of, const Eigen::VectorXd& row)
-      : places(std::move(places_of)),
-        border(At(places, row)),
-        analysis(Joined(frame.starts, {frame.starts.back() + static_cast<int>(places.size())}),
-                 Joined(frame.entries, places)) {}
-
-  bool Suits(const Frame& frame) const {
-    const std::vector<int>&starts = analysis.Starts(), &entries = analysis.Entries();
-    return starts.size() == frame.starts.size() + 1 && entries.size() == frame.entries.size() + places.size() &&
-           std::equal(frame.starts.begin(), frame.starts.end(), starts.begin()) &&
-           std::equal(frame.entries.begin(), frame.entries.end(), entries.begin());
-  }
-
-  std::vector<int> places;  // ascending
-  Eigen::VectorXd border;   // of the row for which they were chosen
-  UmfpackAnalysis analysis;
-};
-
-thread_local std::vector<std::weak_ptr<const LargeFactors::Ordering>> LargeFactors::orderings_;
-
-void LargeFactors::Free() { factors_.Free(); }
+void LargeFactors::Free() {
+  factors_.Free();
+  ordering_ = nullptr;
+}
 
 bool LargeFactors::Factorize(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& row,
                              const Frame* frame) {
-  Free();
+  factors_.Free();
+  along_ = 1.0;
   Frame own;
   if (frame == nullptr || !SetValues(transposed, *frame)) {
     own = FrameOf(transposed);
+    own.orderings = frame != nullptr ? frame->orderings : &own_orderings_;
     frame = &own;
     SetValues(transposed, own);
   }
   Take(*frame, row);
-  const bool known = TakeKnownOrdering(*frame);
-  if (known && FactorizeBordered(false)) return true;
-  OrderAnew(*frame);  // where an ordering was known, its border may be what made N singular
+  const std::shared_ptr<const Ordering> known = frame->orderings->Find(*frame, row_);
+  if (known != nullptr) {
+    if (AreGoodPlaces(known->places, row_))
+      border_ = EntriesAt(known->places, row_);
+    else if (known != ordering_)
+      border_ = known->border;
+    ordering_ = known;
+    if (FactorizeBordered(false)) return true;
+    // The border may be what made N singular, where it is not the row's own.
+    if (known->places == LargestPlaces(row_)) return false;
+    factors_.Free();
+  }
+  ordering_ = frame->orderings->Add(*frame, row_);
+  border_ = ordering_->border;
   return FactorizeBordered(true);
 }
 
@@ -150,48 +119,20 @@ bool LargeFactors::SetValues(const Eigen::SparseMatrix<double>& transposed, cons
   return true;
 }
 
-// Of the orderings at hand for this frame: one where the row is large, with its entries as the border; or any, with the
-// border of before. False if there is none.
-bool LargeFactors::TakeKnownOrdering(const Frame& frame) {
-  const auto expired = [](const std::weak_ptr<const Ordering>& ordering) { return ordering.expired(); };
-  orderings_.erase(std::remove_if(orderings_.begin(), orderings_.end(), expired), orderings_.end());
-  const std::shared_ptr<const Ordering> before = ordering_;
-  const double largest = kGoodPlaces * At(LargestPlaces(row_), row_).lpNorm<1>();
-  ordering_ = nullptr;
-  for (const std::weak_ptr<const Ordering>& known : orderings_) {
-    const std::shared_ptr<const Ordering> ordering = known.lock();
-    if (!ordering->Suits(frame)) continue;
-    const Eigen::VectorXd border = At(ordering->places, row_);
-    const bool good = border.lpNorm<1>() >= largest;
-    if (ordering_ != nullptr && !good) continue;
-    if (good)
-      border_ = border;
-    else if (ordering != before)
-      border_ = ordering->border;
-    ordering_ = ordering;
-    if (good) break;
-  }
-  return ordering_ != nullptr;
-}
-
-void LargeFactors::OrderAnew(const Frame& frame) {
-  ordering_ = std::make_shared<const Ordering>(frame, LargestPlaces(row_), row_);
-  orderings_.emplace_back(ordering_);
-  border_ = ordering_->border;
-}
-
 // any_border: also with one that is nearly orthogonal to the null vector of J.
 bool LargeFactors::FactorizeBordered(bool any_border) {
   const Eigen::Index before = static_cast<Eigen::Index>(ordering_->analysis.Entries().size()) - border_.size();
   values_.conservativeResize(before + border_.size());
   values_.tail(border_.size()) = border_;
-  if (!factors_.Factorize(ordering_->analysis, values_) || !(PivotRatio() > tolerances::kSingularPivot)) return false;
+  along_ = 1.0;
+  if (!factors_.Factorize(ordering_->analysis, values_)) return false;
   right_ = Eigen::VectorXd::Unit(row_.size(), row_.size() - 1);
   direction_.resize(row_.size());
   factors_.SolveTransposed(right_.data(), direction_.data());
+  along_ = row_.dot(direction_);  // its sign is of use also where N is singular but for rounding
   const double length = direction_.norm();
+  if (!(PivotRatio() > tolerances::kSingularPivot)) return false;
   if (!any_border && !(border_.norm() * length < 1.0 / kGoodBorder)) return false;
-  along_ = row_.dot(direction_);
   return std::abs(along_) > tolerances::kSingularPivot * row_.norm() * length;
 }
 

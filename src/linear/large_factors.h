@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "contact_path/linear/frame.h"
+#include "contact_path/linear/orderings.h"
 #include "linear/umfpack_factors.h"
 
 namespace contact_path {
@@ -16,7 +17,6 @@ namespace contact_path {
 // few entries, whose places stay, stands for it. N = [J; border], N v = (0, 1); the solution of M x = (b, last) is
 // x = y + a v where N y = (b, 0) and row . x = last, and det M = det N (row . v). N is regular where J has full rank
 // and the border is not orthogonal to its null vector.
-// All solvers of a thread share the orderings of frames that are alike, for as long as one of them holds them.
 class LargeFactors {
  public:
   void Free();
@@ -32,16 +32,11 @@ class LargeFactors {
   void Solve(double* x, Eigen::Index columns);
 
  private:
-  struct Ordering;
-
   void Take(const Frame& frame, const Eigen::VectorXd& row);
   bool SetValues(const Eigen::SparseMatrix<double>& transposed, const Frame& frame);
-  bool TakeKnownOrdering(const Frame& frame);
-  void OrderAnew(const Frame& frame);
   bool FactorizeBordered(bool any_border);
 
-  static thread_local std::vector<std::weak_ptr<const Ordering>> orderings_;
-
+  Orderings own_orderings_;  // of systems without a frame
   std::shared_ptr<const Ordering> ordering_;
   UmfpackFactors factors_;  // of N, transposed
   std::vector<int> unknowns_, equations_;

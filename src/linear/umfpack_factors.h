@@ -3,7 +3,6 @@
 #define CONTACT_PATH_SRC_LINEAR_UMFPACK_FACTORS_H_
 
 #include <Eigen/Core>
-#include <memory>
 #include <vector>
 
 namespace contact_path {

@@ -139,13 +139,13 @@ bool IncrementSolver::PolishActiveSet(const PathPoint& from, const Eigen::Vector
       for (const Constraint& limit : active)
         if (limit.inequality == Inequality::kSlip)
           exact.states[static_cast<std::size_t>(limit.contact)] = ContactState::kStick;
-      const bool rests = StickWhereAtRest(nearest.x, Distance(from, exact), &exact);
       trial->point = std::move(exact);
       trial->exact = true;
-      if (rests) {
-        IncrementTrial stuck = *trial;
-        if (PolishActiveSet(from, wanted, length, &stuck)) *trial = std::move(stuck);
-      }
+      IncrementTrial stuck = *trial;
+      const double slow = tolerances::kRestsAtPoint * Distance(from, trial->point);
+      StickWhereAtRest(nearest.x, tolerances::kNoSlip, &trial->point);
+      if (StickWhereAtRest(nearest.x, slow, &stuck.point) && PolishActiveSet(from, wanted, length, &stuck))
+        *trial = std::move(stuck);
       return true;
     }
     system_.SetActive(active);
@@ -155,13 +155,13 @@ bool IncrementSolver::PolishActiveSet(const PathPoint& from, const Eigen::Vector
 }
 
 // An increment may end right at a corner, and rounding alone would tell whether a contact there has stuck or slipped.
-// Whether some contact slips by name and has not moved: its state in *point becomes stick.
-bool IncrementSolver::StickWhereAtRest(const Eigen::VectorXd& x, double moved, PathPoint* point) const {
+// Whether some contact slips by name and has moved by no more than `slip`: its state in *point becomes stick.
+bool IncrementSolver::StickWhereAtRest(const Eigen::VectorXd& x, double slip, PathPoint* point) const {
   bool some = false;
   for (const Constraint& limit : system_.Inequalities()) {
     ContactState& state = point->states[static_cast<std::size_t>(limit.contact)];
     if (limit.inequality != Inequality::kSlip || !Slips(state)) continue;
-    if (system_.Value(limit, x) > tolerances::kRestsAtPoint * moved) continue;
+    if (system_.Value(limit, x) > slip) continue;
     state = ContactState::kStick;
     some = true;
   }

@@ -11,7 +11,7 @@
 namespace contact_path {
 namespace {
 
-constexpr int kMostShorter = 6;  // times half as long, for the energies
+constexpr int kMostShorter = 6;          // times half as long, for the energies
 constexpr int kMostEventsInPlace = 8;    // then the contacts chatter, and no branch is trusted
 constexpr double kAfterSingular = 0.05;  // of the step: derivatives at a singular point are not exact to second order
 
@@ -336,14 +336,16 @@ std::optional<ArcStep> BranchMethod::NextBalancedStep() {
   for (int shorter = 0; shorter < kMostShorter && at && !Balances(at->step); ++shorter) {
     const double length = 0.5 * std::min(at->tried, at->step.length);
     if (length < options_.smallest_step) break;
-    const int rejected = at->rejected + 1;
-    at = NextStep(&arc_, current_, length, limits, options_.target);
-    if (at) at->rejected += rejected;
+    std::optional<ArcStep> next = NextStep(&arc_, current_, length, limits, options_.target);
+    if (!next) break;
+    next->rejected += at->rejected + 1;
+    at = std::move(next);
   }
   return at;
 }
 
 bool BranchMethod::Balances(const Step& step) const {
+  if (!(step.length > 0.0)) return true;
   const Eigen::Index nd = model_.structure.NumDofs();
   const double unit = model_.scaling.force * model_.scaling.length;
   const double before = model_.structure.Energy(step.start.x.head(nd)) * unit;

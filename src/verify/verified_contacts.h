@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "contact_path/scene/configuration.h"
+#include "contact_path/check/residuals.h"
 #include "contact_path/scene/scaling.h"
 #include "contact_path/scene/scene.h"
 #include "contact_path/scene/scene_index.h"
@@ -15,18 +15,16 @@ namespace contact_path {
 
 struct VerifiedContact {
   std::size_t node = 0;
-  double nx = 0.0, ny = 0.0;  // unit normal towards the admissible side
-  double friction = 0.0;      // 0 where the node cannot slide
+  double friction = 0.0;  // 0 where the node cannot slide
   std::string name;
   // Forces across the contact that count as 1, over F: 1, or the forces there where these are far below F.
   double unit = 1.0;
 };
 
-// In the order of the scene. rates: x, y by node, of the fixed components [length] per unit of the load factor. load:
-// largest load factor of the path.
-std::vector<VerifiedContact> VerifiedContacts(const Scene& scene, const SceneIndex& index,
-                                              const Configuration& configuration, const Scaling& scaling,
-                                              const std::vector<double>& rates, double load);
+// In the order of the scene. check: of the scene. rates: x, y by node, of the fixed components [length] per unit of the
+// load factor. load: largest load factor of the path.
+std::vector<VerifiedContact> VerifiedContacts(const Scene& scene, const SceneIndex& index, const ResidualCheck& check,
+                                              const Scaling& scaling, const std::vector<double>& rates, double load);
 
 }  // namespace contact_path
 

@@ -1,6 +1,7 @@
 #include "contact_path/verify/verify_path.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -69,7 +70,7 @@ class Verifier {
       rates_[2 * index_.Node(motion.node)] = motion.dx;
       rates_[2 * index_.Node(motion.node) + 1] = motion.dy;
     }
-    contacts_ = VerifiedContacts(scene_, index_, configuration_, scaling_, rates_, load);
+    contacts_ = VerifiedContacts(scene_, index_, check_, scaling_, rates_, load);
   }
 
   void Run(const std::function<void()>& before_each) {
@@ -236,15 +237,17 @@ class Verifier {
     if (std::all_of(contacts_.begin(), contacts_.end(),
                     [](const VerifiedContact& contact) { return contact.unit == 1.0; }))
       return;
-    const std::vector<double> unbalance = check_.Unbalance(StateOf(increment));
+    const CheckedState state = StateOf(increment);
+    const std::vector<double> unbalance = check_.Unbalance(state);
     for (std::size_t i = 0; i < contacts_.size(); ++i) {
       if (contacts_[i].unit == 1.0) continue;
       const VerifiedContact& at = contacts_[i];
       const Node& node = scene_.nodes[at.node];
       const double unit = contacts_[i].unit * scaling_.force;
       const double rn = increment.contacts[i].rn / unit, rt = increment.contacts[i].rt / unit;
-      const double fx = node.fixed_x ? 0.0 : at.nx * unbalance[2 * at.node];
-      const double fy = node.fixed_y ? 0.0 : at.ny * unbalance[2 * at.node + 1];
+      const std::array<double, 2> normal = check_.Normal(i, state);
+      const double fx = node.fixed_x ? 0.0 : normal[0] * unbalance[2 * at.node];
+      const double fy = node.fixed_y ? 0.0 : normal[1] * unbalance[2 * at.node + 1];
       Bound("equilibrium residual across " + at.name + ", of the forces there", std::abs(fx + fy) / unit, tolerance);
       Bound("tensile reaction of " + at.name + ", of the forces there", -rn, tolerance);
       Bound("gap and reaction of " + at.name + " are both positive",

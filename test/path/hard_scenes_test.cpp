@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "contact_path/scene/read_scene.h"
+#include "contact_path/verify/verify_path.h"
 #include "support/reference_cases.h"
 #include "support/traced_path.h"
 
@@ -173,6 +174,25 @@ TEST(HardScenes, ForcesFarBelowTheCharacteristicOne) {
   EXPECT_NEAR(loads[0], 1.0, 1e-9);
   EXPECT_NEAR(loads[1], 2.0 / 3.0, 1e-9);
   EXPECT_NEAR(exact.increments.back().dissipation, 1.0 / 3.0, 1e-7);
+}
+
+// A step of the length that was asked for would be off by 4 % of the energy that it exchanges.
+TEST(HardScenes, StepsAreShortEnoughForTheEnergies) {
+  const TracedPath path = TraceData("soft_part", Method::kBranch, Accuracy::kFast);
+  ASSERT_EQ(path.result.reason, EndReason::kMaxIncrements) << path.result.message;
+  double exchanged = 0.0;
+  int rejected = 0;
+  for (std::size_t i = 1; i < path.increments.size(); ++i) {
+    const Increment &from = path.increments[i - 1], &to = path.increments[i];
+    const double work = to.external_work - from.external_work, stored = to.strain_energy - from.strain_energy;
+    const double dissipated = to.dissipation - from.dissipation;
+    EXPECT_LE(std::abs(work - stored - dissipated), 2e-3 * (std::abs(work) + std::abs(stored) + dissipated)) << i;
+    exchanged += std::abs(work);
+    rejected += to.solve.rejected;
+  }
+  EXPECT_GT(exchanged, 1e5);
+  EXPECT_GT(rejected, 0);
+  EXPECT_TRUE(VerifyPath(path.request, path.increments).findings.empty());
 }
 
 }  // namespace

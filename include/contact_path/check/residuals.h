@@ -3,6 +3,7 @@
 #ifndef CONTACT_PATH_CHECK_RESIDUALS_H_
 #define CONTACT_PATH_CHECK_RESIDUALS_H_
 
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <vector>
@@ -63,6 +64,11 @@ class ResidualCheck {
   // the obstacle sees it [length].
   double Gap(std::size_t contact, const CheckedState& state) const;
   double Slip(std::size_t contact, const CheckedState& from, const CheckedState& to) const;
+  // The normal of the obstacle at the foot of a contact candidate, of length 1, towards the admissible side.
+  std::array<double, 2> Normal(std::size_t contact, const CheckedState& state) const;
+  // By contact candidate: an upper bound of the forces on its node across the contact, at the start, for a motion of
+  // `length` of the elements and for the loads at `load_factor` [force].
+  std::vector<double> ForcesAcross(double length, double load_factor) const;
   // Strain energy of the structure at `positions` [force length].
   double StrainEnergy(const std::vector<double>& positions) const;
 

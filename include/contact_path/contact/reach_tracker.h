@@ -19,14 +19,17 @@ class ReachTracker {
   explicit ReachTracker(const ContactPairs& contacts);
 
   // The candidates with u_n <= reach times their largest rate at (u, s), ascending. u: the dofs, and maybe more
-  // entries; of one size in all calls.
+  // entries, which then count as motion, too; of another size than in the last call, all gaps are looked at.
   std::vector<std::size_t> InReach(const Eigen::Ref<const Eigen::VectorXd>& u, double s, double reach);
 
  private:
   using Look = std::pair<double, std::size_t>;  // at which distance moved, which candidate
 
+  void LookAtAll();
+
   const ContactPairs& contacts_;
   std::vector<Look> looks_;  // a heap: the next one first
+  bool sound_ = false;       // looks_ is; not after a call that an exception ended
   Eigen::VectorXd u_;        // of the last call; empty before
   double s_ = 0.0;
   double moved_ = 0.0;  // sum of the distances between calls

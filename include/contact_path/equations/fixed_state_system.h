@@ -63,7 +63,7 @@ class FixedStateSystem {
   const Eigen::SparseMatrix<double>& TransposedJacobian(const Eigen::VectorXd& x);
 
   // The system among those of all contact states, for BorderedSolver; until the next set or pin. Null where the system
-  // is small, or has active constraints or a fixed load factor.
+  // is small, or has active constraints or a fixed load factor, or where there are many candidates.
   const Frame* InFrame();
 
   // All inequalities of the fixed states, in contact order, and their values at x (>= 0: holds).
@@ -126,7 +126,7 @@ class FixedStateSystem {
   void ForEachConstantEntry(Emit emit) const;  // besides those of flat contacts
   void NumberEquations();
   void Rebuild();
-  void BuildFrame();
+  Frame BuildFrame() const;
   void PlaceInFrame();
 
   const Structure& structure_;

@@ -6,6 +6,8 @@
 
 namespace contact_path {
 
+class Orderings;
+
 // The larger system has `size` unknowns and one equation less; an equation k of it that belongs to none of the system
 // says that its unknown k, which then belongs to none either, is zero. All systems with one frame have one pattern, and
 // their factors one ordering.
@@ -16,7 +18,8 @@ struct Frame {
   std::vector<int> starts, entries;
   // Where the unknowns and equations of the system stand. The equations ascend.
   std::vector<int> unknowns, equations;
-  bool odd = false;  // whether an odd number of exchanges sorts `unknowns`
+  bool odd = false;                // whether an odd number of exchanges sorts `unknowns`
+  Orderings* orderings = nullptr;  // which the solvers of the systems of a structure share; not null
 };
 
 }  // namespace contact_path

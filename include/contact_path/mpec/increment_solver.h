@@ -64,7 +64,7 @@ class IncrementSolver {
                        IncrementTrial* trial);
   // By the solution of those equations nearest to `wanted`, unless that is another point. length: of the increment.
   bool PolishActiveSet(const PathPoint& from, const Eigen::VectorXd& wanted, double length, IncrementTrial* trial);
-  bool StickWhereAtRest(const Eigen::VectorXd& x, double moved, PathPoint* point) const;
+  bool StickWhereAtRest(const Eigen::VectorXd& x, double slip, PathPoint* point) const;
 
   const Structure& structure_;
   const ContactPairs& contacts_;

@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "contact_path/linear/orderings.h"
 #include "contact_path/scene/configuration.h"
 #include "contact_path/scene/scene.h"
 #include "contact_path/scene/scene_index.h"
@@ -47,6 +48,8 @@ class Structure {
   const Eigen::VectorXd& ReferenceLoad() const { return reference_load_; }  // f, scaled by the load factor
   const Eigen::VectorXd& ConstantLoad() const { return constant_load_; }    // f_constant
   const std::vector<PrescribedDof>& PrescribedDofs() const { return prescribed_; }
+  // Of the systems of the structure; the solvers of all of them share it.
+  Orderings* SharedOrderings() const { return orderings_.get(); }
   // The forces that hold the prescribed components at (u, s), in their order: phi - s f - f_constant [force].
   Eigen::VectorXd SupportReactions(const Eigen::Ref<const Eigen::VectorXd>& u, double s) const;
   // The values of all Dofs().Components(), the unknown ones from u.
@@ -92,6 +95,7 @@ class Structure {
   std::vector<PrescribedDof> prescribed_;
   std::vector<Part> parts_;
   Eigen::SparseMatrix<double> pattern_;
+  std::unique_ptr<Orderings> orderings_ = std::make_unique<Orderings>();
 };
 
 }  // namespace contact_path
