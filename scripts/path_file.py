@@ -14,7 +14,7 @@ PARTS = {
     'bars': {'nodes': []},
     'superelements': {'nodes': [], 'rest_positions': []},
     'loads': {'node': '', 'fx': 0.0, 'fy': 0.0, 'constant': False},
-    'obstacles': {'name': '', 'px': 0.0, 'py': 0.0, 'nx': 0.0, 'ny': 0.0, 'friction': 0.0},
+    'obstacles': {'name': '', 'shape': '', 'px': 0.0, 'py': 0.0, 'nx': 0.0, 'ny': 0.0, 'friction': 0.0},
     'contacts': {'node': '', 'obstacle': ''},
     'obstacle_motions': {'obstacle': '', 'dx': 0.0, 'dy': 0.0},
 }

@@ -246,6 +246,14 @@ class Shapes(QuickPlotTest):
         self.assert_main_refuses([self.table, '--shapes', '--scene', self.table], 'a.csv', 'not a scene file')
         self.assert_main_refuses([self.table, '--shapes', *self.scene, *self.scene], '--scene', '2 scene files')
 
+    def test_other_obstacles_than_half_planes_are_not_drawn(self):
+        with open(self.scene[1]) as file:
+            text = file.read().replace('shape: half_plane', 'shape: disc')
+        self.assertIn('disc', text)
+        with open(self.path('disc.yaml'), 'w') as file:
+            file.write(text)
+        self.assert_main_refuses([self.table, '--shapes', '--scene', self.path('disc.yaml')], 'obstacle floor', 'disc')
+
     def test_what_is_chosen_where_there_is_much(self):
         path = path_file.Path('path')
         kinds = ['start', *['contact_event', 'regular'] * 20, 'smooth_limit', 'bifurcation', 'corner_limit', 'regular']
