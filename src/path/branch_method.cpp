@@ -330,38 +330,48 @@ void BranchMethod::SetNextLength(const ArcStep& at) {
   if (at.event.singular) step_length_ *= kAfterSingular;
 }
 
-std::optional<ArcStep> BranchMethod::NextBalancedStep() {
+std::optional<BranchMethod::BalancedStep> BranchMethod::NextBalancedStep() {
   const StepLimits limits = {options_.smallest_step, options_.prediction, options_.smallest_cosine};
-  std::optional<ArcStep> at = NextStep(&arc_, current_, step_length_, limits, options_.target);
-  for (int shorter = 0; shorter < kMostShorter && at && !Balances(at->step); ++shorter) {
-    const double length = 0.5 * std::min(at->tried, at->step.length);
+  double length = step_length_;
+  std::optional<BalancedStep> best;
+  for (int shorter = 0; shorter <= kMostShorter; ++shorter) {
+    std::optional<ArcStep> at = NextStep(&arc_, current_, length, limits, options_.target);
+    if (!at) break;
+    if (best) at->rejected += best->at.rejected + 1;
+    best.emplace();
+    best->at = *std::move(at);
+    if (Balance(&*best)) break;
+    length = 0.5 * std::min(best->at.tried, best->at.step.length);
     if (length < options_.smallest_step) break;
-    std::optional<ArcStep> next = NextStep(&arc_, current_, length, limits, options_.target);
-    if (!next) break;
-    next->rejected += at->rejected + 1;
-    at = std::move(next);
   }
-  return at;
+  return best;
 }
 
-bool BranchMethod::Balances(const Step& step) const {
-  if (!(step.length > 0.0)) return true;
-  const Eigen::Index nd = model_.structure.NumDofs();
+bool BranchMethod::Balance(BalancedStep* step) const {
+  const Step& of = step->at.step;
   const double unit = model_.scaling.force * model_.scaling.length;
-  const double before = model_.structure.Energy(step.start.x.head(nd)) * unit;
-  const double change = model_.structure.Energy(step.end.x.head(nd)) * unit - before;
-  const Work work = WorkOfStep(model_, arc_.system(), step);
-  const double exchanged = std::abs(work.loads) + work.friction + std::abs(change);
-  return std::abs(work.loads - work.friction - change) <=
+  const auto stored_at = [&](const Eigen::VectorXd& x) {
+    return model_.structure.Energy(x.head(model_.structure.NumDofs())) * unit;
+  };
+  const double before = stored_ ? *stored_ : stored_at(of.start.x);
+  step->stored = before;
+  if (!(of.length > 0.0)) return true;
+  step->work = WorkOfStep(model_, arc_.system(), of);
+  step->stored = stored_at(of.end.x);
+  const double change = step->stored - before;
+  const double exchanged = std::abs(step->work.loads) + step->work.friction + std::abs(change);
+  return std::abs(step->work.loads - step->work.friction - change) <=
          tolerances::kEnergyOfStep * exchanged + tolerances::kEnergyRounding * (before + unit);
 }
 
 Advance BranchMethod::Next(const PathPoint& from) {
   if (begin_) return ChangeReactions(from);
   const int factorisations_before = arc_.factorisations();
-  std::optional<ArcStep> at = NextBalancedStep();
-  if (!at) return Ended(EndReason::kStepTooSmall, NoStep(from));
-  const std::optional<int> returned = EndAtReturn(from, &*at);
+  std::optional<BalancedStep> next = NextBalancedStep();
+  if (!next) return Ended(EndReason::kStepTooSmall, NoStep(from));
+  ArcStep* const at = &next->at;
+  const std::optional<int> returned = EndAtReturn(from, at);
+  if (returned) Balance(&*next);  // of the shorter step
 
   AcceptedPoint increment = IncrementOf(*at, from);
   if (!(increment.residuals.Largest() <= tolerances::kAcceptedExact))
@@ -373,10 +383,11 @@ Advance BranchMethod::Next(const PathPoint& from) {
     return Ended(EndReason::kNumericalFailure, "contacts change their states again and again in one place");
   if (moved) {
     increment.arc_length = at->step.ArcLength();
-    increment.work = WorkOfStep(model_, arc_.system(), at->step);
+    increment.work = next->work;
     at_start_ = false;
   }
   current_ = at->step.end;
+  stored_ = next->stored;
   ++increments_;
 
   Advance advance;

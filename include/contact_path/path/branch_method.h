@@ -15,6 +15,7 @@
 #include "contact_path/path/branch_options.h"
 #include "contact_path/path/model.h"
 #include "contact_path/path/path_method.h"
+#include "contact_path/path/work.h"
 
 namespace contact_path {
 
@@ -60,12 +61,17 @@ class BranchMethod : public PathMethod {
   // Direction of the path that crosses at the end of the step: x0, y0, x1, ..., unit norm.
   std::vector<double> CrossingPath(const Step& step);
   int StiffnessSign(const CurvePoint& point) const;
-  // A step that is short enough for the energies to tell, too: where only soft parts move, the force along the step may
-  // change by far more than what its predictor shows.
-  std::optional<ArcStep> NextBalancedStep();
-  // Whether the work of the loads is what the strain energy gains and friction takes, up to a share that a step may be
-  // off by.
-  bool Balances(const Step& step) const;
+  struct BalancedStep {
+    ArcStep at;
+    Work work;
+    double stored = 0.0;  // strain energy at its end [force length]
+  };
+  // The next step, short enough for the energies to tell, too: where only soft parts move, the load may change along
+  // the step by far more than what its predictor shows.
+  std::optional<BalancedStep> NextBalancedStep();
+  // Fills in the energies. Whether the work of the loads is what the strain energy gains and friction takes, up to a
+  // share that a step may be off by.
+  bool Balance(BalancedStep* step) const;
   // Why no step is accepted.
   std::string NoStep(const PathPoint& from) const;
 
@@ -84,6 +90,7 @@ class BranchMethod : public PathMethod {
   int events_in_place_ = 0;        // passed without moving
   bool at_start_ = true;           // not moved yet
   double largest_reaction_ = 0.0;  // of the points so far, in the force unit of its contact
+  std::optional<double> stored_;   // strain energy at current_, where it is known [force length]
 };
 
 }  // namespace contact_path
