@@ -5,6 +5,8 @@ import itertools
 import os
 import sys
 
+import scene_expand
+
 KINDS = ('start', 'regular', 'smooth_limit', 'corner_limit', 'contact_event', 'bifurcation')
 STATES = ('open', 'stick', 'slip+', 'slip-', 'closed')
 
@@ -18,6 +20,9 @@ PARTS = {
     'contacts': {'node': '', 'obstacle': ''},
     'obstacle_motions': {'obstacle': '', 'dx': 0.0, 'dy': 0.0},
 }
+# The same of the request, where groups and beams stand for several nodes.
+GIVEN = dict(PARTS, beams=scene_expand.BEAM, groups=scene_expand.GROUP, loads=dict(PARTS['loads'], **scene_expand.GIVEN_LOAD),
+             contacts=dict(PARTS['contacts'], **scene_expand.GIVEN_CONTACT))
 STAGE_PARTS = ('loads', 'obstacle_motions')
 
 
@@ -111,17 +116,19 @@ def read_bag(name):
 def scene_of(request):
     """The scene of a request, as in Path. Bags may be older than some fields."""
     def items(message, part):
-        return [{field: getattr(item, field, default) for field, default in PARTS[part].items()}
+        return [{field: getattr(item, field, default) for field, default in GIVEN[part].items()}
                 for item in getattr(message, part, [])]
 
     scene = {part: items(request.scene, part) for part in PARTS}
+    loads_on_nodes = scene_expand.expand(scene, items(request.scene, 'beams'), items(request.scene, 'groups'))
     for kind in request.scene.__slots__:
-        if kind not in PARTS and isinstance(getattr(request.scene, kind), list):
+        if kind not in GIVEN and isinstance(getattr(request.scene, kind), list):
             add_elements(scene, [item.nodes for item in getattr(request.scene, kind) if hasattr(item, 'nodes')])
     scene['name'] = request.scene.name
     scene['program'] = stages_as_traced(
         {'name': stage.name, 'target': stage.target or 1.0, 'unload': getattr(stage, 'unload', False),
-         **{part: items(stage, part) for part in STAGE_PARTS}} for stage in getattr(request, 'program', []))
+         'loads': loads_on_nodes(items(stage, 'loads')), 'obstacle_motions': items(stage, 'obstacle_motions')}
+        for stage in getattr(request, 'program', []))
     return scene
 
 
@@ -155,7 +162,7 @@ def read_scene(name):
     import yaml  # not needed for bags
 
     def items(given, part):
-        return [{field: value_of(item.get(field), default) for field, default in PARTS[part].items()}
+        return [{field: value_of(item.get(field), default) for field, default in GIVEN[part].items()}
                 for item in given.get(part) or []]
 
     with open(name) as file:
@@ -163,13 +170,15 @@ def read_scene(name):
         request = yaml.load(file, Loader=getattr(yaml, 'CBaseLoader', yaml.BaseLoader))
     try:
         scene = {part: items(request['scene'], part) for part in PARTS}
+        loads_on_nodes = scene_expand.expand(scene, items(request['scene'], 'beams'), items(request['scene'], 'groups'))
         for kind, given in request['scene'].items():
-            if kind not in PARTS and isinstance(given, list):
+            if kind not in GIVEN and isinstance(given, list):
                 add_elements(scene, [item['nodes'] for item in given if 'nodes' in item])
         scene['name'] = request['scene'].get('name') or ''
         scene['program'] = stages_as_traced(
             {'name': stage.get('name') or '', 'target': value_of(stage.get('target'), 0.0) or 1.0,
-             'unload': value_of(stage.get('unload'), False), **{part: items(stage, part) for part in STAGE_PARTS}}
+             'unload': value_of(stage.get('unload'), False), 'loads': loads_on_nodes(items(stage, 'loads')),
+             'obstacle_motions': items(stage, 'obstacle_motions')}
             for stage in request.get('program') or [])
     except (AttributeError, KeyError, TypeError, ValueError) as error:
         raise ValueError('not a scene file; contact_path_trace says what is wrong with it') from error
@@ -181,6 +190,8 @@ def value_of(text, default):
         return default
     if isinstance(default, bool):
         return text.lower() in ('true', 'yes', 'on', '1')
+    if default == [] and text[0] in ('true', 'false'):
+        return [value_of(item, False) for item in text]
     return type(default)(text)
 
 
@@ -196,9 +207,12 @@ def row_of(scene, message):
         increment['stage'] = message.stage
     increment['kind'] = constants(type(message), KINDS)[message.kind]
     nan = float('nan')
-    for node, x, y in itertools.zip_longest(scene['nodes'], message.x, message.y, fillvalue=nan):
+    rotations = getattr(message, 'rotation', [])
+    for node, x, y, rotation in itertools.zip_longest(scene['nodes'], message.x, message.y, rotations, fillvalue=nan):
         increment['x_' + node['name']] = x
         increment['y_' + node['name']] = y
+        if node['name'] in scene['turning']:
+            increment['rotation_' + node['name']] = rotation
     for contact, state in itertools.zip_longest(scene['contacts'], message.contacts):
         name = contact['node'] + '@' + contact['obstacle']
         if state is None:

@@ -12,6 +12,7 @@ import math
 from scene_arrays import Structure
 
 LABELS = {'x': ('position x of node', '[length]'), 'y': ('position y of node', '[length]'),
+          'rotation': ('rotation of node', '[rad]'),
           'fx': ('load fx on node', '[force]'), 'fy': ('load fy on node', '[force]'),
           'gap': ('gap of', '[length]'), 'rn': ('normal reaction of', '[force]'),
           'rt': ('tangential reaction of', '[force]'), 'slip': ('slip of', '[length]')}

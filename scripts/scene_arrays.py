@@ -3,7 +3,7 @@ import numpy as np
 
 
 class Structure:
-    """The scene as arrays: nodes (n, 2), bars (m, 2) of indices, normals and tangents (k, 2) of the k contacts.
+    """The scene as arrays: nodes (n, 2), bars and segments of beams (m, 2) of indices, normals and tangents (k, 2) of the k contacts.
 
     stages: what the load factor of each stage brings on: (name, target, loads, displacements of obstacles). Without a
     program there is one, of the scene's own.
@@ -14,8 +14,9 @@ class Structure:
         index = {name: i for i, name in enumerate(self.names)}
         self.initial = np.array([[node['x'], node['y']] for node in scene['nodes']])
         self.fixed = np.array([[node['fixed_x'], node['fixed_y']] for node in scene['nodes']])
-        self.bars = np.array([[index[name] for name in bar['nodes']] for bar in scene['bars']],
-                             dtype=int).reshape(-1, 2)
+        segments = [pair for axis in scene['beams'] for pair in zip(axis, axis[1:])]
+        self.bars = np.array([[index[name] for name in nodes]
+                              for nodes in [bar['nodes'] for bar in scene['bars']] + segments], dtype=int).reshape(-1, 2)
         self.bar_directions = self.find_bar_directions()
         self.supports = self.find_supports()
         self.superelements = [([index[name] for name in part['nodes']], np.array(part['rest_positions'], dtype=float))

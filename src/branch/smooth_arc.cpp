@@ -133,12 +133,12 @@ Correction SmoothArc::Newton(const Eigen::VectorXd& guess, const Eigen::VectorXd
     result.steps.push_back(norm);
     if (result.iterations == 0) result.first_step = norm;
     if (result.iterations == 1) result.contraction = norm / result.first_step;
-    const bool stagnates =
-        norm >= 0.5 * previous && norm <= (at_hand ? tolerances::kStagnationReused : tolerances::kStagnation) * scale;
+    const double stagnation = at_hand ? tolerances::kStagnationReused : tolerances::kStagnation;
+    const bool stagnates = norm >= 0.5 * previous && norm <= stagnation * system_.ResidualUnit() * scale;
     if (norm <= tolerances::kNewtonStep * scale || stagnates) {
       system_.Residual(result.x, &residual_);
       const double force = 1.0 + result.x.tail(result.x.size() - system_.NumDofs()).lpNorm<Eigen::Infinity>();
-      result.converged = residual_.lpNorm<Eigen::Infinity>() <= tolerances::kResidual * force &&
+      result.converged = system_.Largest(residual_) <= tolerances::kResidual * force &&
                          std::abs(row.dot(result.x) - value) <= tolerances::kResidual * scale;
       ++result.iterations;
       return result;
@@ -182,7 +182,7 @@ Eigen::VectorXd SmoothArc::CorrectSingular(const Eigen::VectorXd& guess, const E
 bool SmoothArc::IsOnCurve(const Eigen::VectorXd& x) {
   system_.Residual(x, &residual_);
   const double force = 1.0 + x.tail(x.size() - system_.NumDofs()).lpNorm<Eigen::Infinity>();
-  return residual_.lpNorm<Eigen::Infinity>() <= tolerances::kResidualSingular * force;
+  return system_.Largest(residual_) <= tolerances::kResidualSingular * force;
 }
 
 Eigen::VectorXd SmoothArc::CrossingDirection(const Eigen::VectorXd& x, const Eigen::VectorXd& towards) {

@@ -1,9 +1,12 @@
 #include "check/elements.h"
 
+#include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
+#include <unsupported/Eigen/AutoDiff>
 #include <utility>
 
 namespace contact_path::check {
@@ -51,6 +54,8 @@ class BarElement : public Element {
     if (bar.rest_length == 0.0) rest_ = Length(NodePosition(reference, second_) - NodePosition(reference, first_));
   }
 
+  Real Stiffness() const override { return EA_ / rest_; }
+
   void AddEnergy(const std::vector<double>& positions, Real* energy) const override {
     const BarLengths lengths = Measure(positions);
     const Real strain = Strain(strain_, lengths);
@@ -91,6 +96,12 @@ class LinearPart : public Element {
   }
 
   bool Turns() const override { return false; }
+
+  Real Stiffness() const override {
+    Real largest = 0.0L;
+    for (const Real entry : stiffness_) largest = std::max(largest, std::abs(entry));
+    return largest;
+  }
 
   void AddEnergy(const std::vector<double>& positions, Real* energy) const override {
     const std::vector<Real> displacements = Displacements(positions), forces = Forces(displacements);
@@ -133,17 +144,107 @@ class LinearPart : public Element {
   std::vector<double> rest_;     // x0, y0, x1, ...
 };
 
-// The class of each kind of element.
-template <typename Part>
-struct ClassOf;
-template <>
-struct ClassOf<Bar> {
-  using Type = BarElement;
+// A segment of a beam: the stretching of the chord and the bending by what its ends turn more than the chord does. Forces
+// by automatic differentiation of the energy.
+class Segment : public Element {
+ public:
+  // first_turns, second_turns: whether the end turns with its node, or is hinged.
+  Segment(const Beam& beam, std::size_t first, std::size_t second, bool first_turns, bool second_turns,
+          const std::vector<double>& reference)
+      : Element({first, second}),
+        beam_(beam),
+        turns_{first_turns, second_turns},
+        places_{2 * first,  2 * first + 1,  reference.size() + first,
+                2 * second, 2 * second + 1, reference.size() + second},
+        chord_(NodePosition(reference, second) - NodePosition(reference, first)) {}
+
+  Real Stiffness() const override {
+    const Real length = Length(chord_);
+    return beam_.EA / length + 12.0L * beam_.EI / (length * length * length);
+  }
+
+  void AddEnergy(const std::vector<double>& values, Real* energy) const override {
+    *energy += EnergyOf<Real>({values[places_[0]], values[places_[1]], Rotation(values, 0), values[places_[3]],
+                               values[places_[4]], Rotation(values, 1)});
+  }
+
+  void AddForce(const std::vector<double>& values, std::vector<Real>* forces) const override {
+    using Gradient = Eigen::Matrix<Real, 6, 1>;
+    std::array<Eigen::AutoDiffScalar<Gradient>, 6> variables;
+    for (std::size_t i = 0; i < variables.size(); ++i) {
+      const bool rotation = i % 3 == 2;
+      variables[i] = {rotation ? Rotation(values, i / 3) : Real{values[places_[i]]}, 6, static_cast<int>(i)};
+    }
+    const Gradient gradient = EnergyOf(variables).derivatives();
+    for (std::size_t i = 0; i < variables.size(); ++i)
+      if (i % 3 != 2 || turns_[i / 3]) (*forces)[places_[i]] += gradient[static_cast<Eigen::Index>(i)];
+  }
+
+ private:
+  // A hinged end has nothing of the rotation of its node.
+  Real Rotation(const std::vector<double>& values, std::size_t end) const {
+    return turns_[end] ? Real{values[places_[3 * end + 2]]} : 0.0L;
+  }
+
+  // variables: x, y, rotation of the first node, then of the second.
+  template <typename Number>
+  Number EnergyOf(const std::array<Number, 6>& variables) const {
+    using std::atan2;
+    using std::sqrt;
+    const Number dx = variables[3] - variables[0], dy = variables[4] - variables[1];
+    const Number length = sqrt(dx * dx + dy * dy);
+    const Real rest = Length(chord_);
+    const Number stretching = beam_.EA * (length - rest) * (length - rest) / (2.0L * rest);
+    if (!turns_[0] && !turns_[1]) return stretching;
+    // The rotation of the chord since the start: of its values, 2 pi apart, the nearest to the rotations of the ends.
+    const Number sine = chord_.x * dy - chord_.y * dx, cosine = chord_.x * dx + chord_.y * dy;
+    Number turn = atan2(sine, cosine);
+    const int ends = (turns_[0] ? 1 : 0) + (turns_[1] ? 1 : 0);
+    Real mean = 0.0L;
+    for (const std::size_t end : {std::size_t{0}, std::size_t{1}})
+      if (turns_[end]) mean += ValueOf(variables[3 * end + 2]) / ends;
+    turn += kTurn * std::round((mean - ValueOf(turn)) / kTurn);
+    const Real shear = beam_.GA > 0.0 ? 12.0L * beam_.EI / (beam_.GA * rest * rest) : 0.0L;
+    const Real near = (4.0L + shear) / (1.0L + shear), far = (2.0L - shear) / (1.0L + shear), half = beam_.EI / (2.0L * rest);
+    if (ends == 1) {  // the hinged end turns so that no moment acts on it
+      const Number bend = variables[turns_[0] ? 2 : 5] - turn;
+      return stretching + half * (near - far * far / near) * bend * bend;
+    }
+    const Number first = variables[2] - turn, second = variables[5] - turn;
+    return stretching + half * (near * first * first + 2.0L * far * first * second + near * second * second);
+  }
+
+  static Real ValueOf(Real value) { return value; }
+  template <typename Number>
+  static Real ValueOf(const Number& number) {
+    return number.value();
+  }
+
+  static constexpr Real kTurn = 6.283185307179586476925286766559L;
+
+  const Beam beam_;
+  std::array<bool, 2> turns_;
+  std::array<std::size_t, 6> places_;  // of the variables among the values
+  Vector chord_;                       // at the start
 };
-template <>
-struct ClassOf<Superelement> {
-  using Type = LinearPart;
-};
+
+using Elements = std::vector<std::unique_ptr<const Element>>;
+using NodeList = std::vector<std::size_t>;
+
+void Place(const Bar& bar, const NodeList& nodes, const std::vector<double>& reference, Elements* elements) {
+  elements->push_back(std::make_unique<BarElement>(bar, nodes, reference));
+}
+
+void Place(const Superelement& part, const NodeList& nodes, const std::vector<double>& reference, Elements* elements) {
+  elements->push_back(std::make_unique<LinearPart>(part, nodes, reference));
+}
+
+void Place(const Beam& beam, const NodeList& nodes, const std::vector<double>& reference, Elements* elements) {
+  const auto hinged = [&](std::size_t end) { return !beam.hinged.empty() && beam.hinged[end]; };
+  for (std::size_t i = 0; i + 1 < nodes.size(); ++i)
+    elements->push_back(std::make_unique<Segment>(beam, nodes[i], nodes[i + 1], i > 0 || !hinged(0),
+                                                  i + 2 < nodes.size() || !hinged(1), reference));
+}
 
 }  // namespace
 
@@ -151,27 +252,26 @@ std::vector<std::unique_ptr<const Element>> MakeElements(const Scene& scene, con
                                                          const std::vector<double>& reference) {
   std::vector<std::unique_ptr<const Element>> elements;
   ForEachElementList(scene, [&](std::string_view, const auto& parts) {
-    using Class = typename ClassOf<typename std::decay_t<decltype(parts)>::value_type>::Type;
     for (const auto& part : parts) {
       std::vector<std::size_t> nodes;
       for (const std::string& name : part.nodes) nodes.push_back(numbers.at(name));
-      elements.push_back(std::make_unique<Class>(part, nodes, reference));
+      Place(part, nodes, reference, &elements);
     }
   });
   return elements;
 }
 
 std::vector<StiffnessBound> BoundStiffness(const std::vector<std::unique_ptr<const Element>>& elements,
-                                           const std::vector<double>& positions) {
-  std::vector<StiffnessBound> bounds(positions.size() / 2);
-  std::vector<double> moved = positions;
-  std::vector<Real> forces(positions.size(), 0.0L);
+                                           const std::vector<double>& values, std::size_t num_nodes) {
+  std::vector<StiffnessBound> bounds(num_nodes);
+  std::vector<double> moved = values;
+  std::vector<Real> forces(values.size(), 0.0L);
   for (const auto& element : elements) {
     std::vector<std::size_t> components;
     Real extent = 0.0L;
     for (const std::size_t node : element->Nodes()) {
       components.insert(components.end(), {2 * node, 2 * node + 1});
-      extent = std::max(extent, Length(NodePosition(positions, node) - NodePosition(positions, element->Nodes()[0])));
+      extent = std::max(extent, Length(NodePosition(values, node) - NodePosition(values, element->Nodes()[0])));
     }
     const double step = kStep * (extent > 0.0L ? static_cast<double>(extent) : 1.0);
     // Calls visit(i, rate of the force in the component i) for a motion of the component k.
@@ -181,14 +281,15 @@ std::vector<StiffnessBound> BoundStiffness(const std::vector<std::unique_ptr<con
         moved[k] = value;
         element->AddForce(moved, &forces);
         std::vector<Real> own;
+        own.reserve(components.size());
         for (const std::size_t i : components) own.push_back(forces[i]);
-        moved[k] = positions[k];
+        moved[k] = values[k];
         return own;
       };
-      const double there = positions[k] + step;
-      const std::vector<Real> before = forces_at(positions[k]), after = forces_at(there);
+      const double there = values[k] + step;
+      const std::vector<Real> before = forces_at(values[k]), after = forces_at(there);
       for (std::size_t i = 0; i < components.size(); ++i)
-        visit(components[i], std::abs(static_cast<double>((after[i] - before[i]) / (Real{there} - positions[k]))));
+        visit(components[i], std::abs(static_cast<double>((after[i] - before[i]) / (Real{there} - values[k]))));
     };
     double largest = 0.0;
     for (const std::size_t k : components)

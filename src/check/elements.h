@@ -15,7 +15,13 @@
 
 namespace contact_path::check {
 
-// positions and forces: x0, y0, x1, ... of all nodes of the scene.
+// What elements depend on: x0, y0, x1, ... of all nodes of the scene, then their rotations where there are beams.
+inline std::vector<double> ValuesOf(std::vector<double> positions, const std::vector<double>& rotations) {
+  positions.insert(positions.end(), rotations.begin(), rotations.end());
+  return positions;
+}
+
+// values and forces: as ValuesOf() orders them.
 class Element {
  public:
   virtual ~Element() = default;
@@ -23,10 +29,12 @@ class Element {
   const std::vector<std::size_t>& Nodes() const { return nodes_; }
   // Whether the directions of its forces turn with the motion.
   virtual bool Turns() const { return true; }
+  // At least the largest force per motion that it exerts at the start [force/length].
+  virtual Real Stiffness() const = 0;
   // Adds the strain energy W to *energy [force length].
-  virtual void AddEnergy(const std::vector<double>& positions, Real* energy) const = 0;
-  // Adds dW/dx to *forces [force].
-  virtual void AddForce(const std::vector<double>& positions, std::vector<Real>* forces) const = 0;
+  virtual void AddEnergy(const std::vector<double>& values, Real* energy) const = 0;
+  // Adds dW by the values to *forces [force, force length].
+  virtual void AddForce(const std::vector<double>& values, std::vector<Real>* forces) const = 0;
 
  protected:
   explicit Element(std::vector<std::size_t> nodes) : nodes_(std::move(nodes)) {}
@@ -41,9 +49,9 @@ struct StiffnessBound {
   double x = 0.0, y = 0.0, any = 0.0;
 };
 
-// By node, at `positions`, by difference quotients of the forces.
+// By node, at `values`, by difference quotients of the forces.
 std::vector<StiffnessBound> BoundStiffness(const std::vector<std::unique_ptr<const Element>>& elements,
-                                           const std::vector<double>& positions);
+                                           const std::vector<double>& values, std::size_t num_nodes);
 
 using NodeNumbers = std::unordered_map<std::string_view, std::size_t>;  // by name
 

@@ -17,6 +17,7 @@
 #include "check/elements.h"
 #include "check/plane.h"
 #include "check/surfaces.h"
+#include "contact_path/scene/expand.h"
 
 namespace contact_path {
 namespace {
@@ -25,6 +26,9 @@ using check::Dot;
 using check::NodePosition;
 using check::Real;
 using check::Vector;
+
+// Force, of the stiffness at a node times L: the rounding of coordinates makes forces of 1e-11 of it.
+constexpr Real kStiffForce = 1e-4L;
 
 // The larger of the two. What is no finite double counts as infinite, so that NaN never passes as small.
 double Worst(double worst, Real value) {
@@ -37,7 +41,8 @@ bool AllFinite(const std::vector<double>& values) {
 }
 
 bool AllFinite(const CheckedState& state) {
-  return std::isfinite(state.load_factor) && AllFinite(state.positions) && AllFinite(state.rn) && AllFinite(state.rt);
+  return std::isfinite(state.load_factor) && AllFinite(state.positions) && AllFinite(state.rotations) &&
+         AllFinite(state.rn) && AllFinite(state.rt);
 }
 
 void RequireSize(const std::vector<double>& values, std::size_t size, const char* name) {
@@ -52,7 +57,7 @@ void RequireSize(const std::vector<double>& values, std::size_t size, const char
 struct ResidualCheck::Prepared {
   struct PreparedLoad {
     std::size_t node = 0;
-    Real fx = 0.0L, fy = 0.0L;
+    Real fx = 0.0L, fy = 0.0L, moment = 0.0L;
     bool constant = false;
   };
   struct PreparedContact {
@@ -68,26 +73,38 @@ struct ResidualCheck::Prepared {
   };
 
   Prepared(const Scene& scene, const Configuration& configuration, const Scaling& scaling_in)
-      : scaling(scaling_in), start(configuration.start) {
+      : scaling(scaling_in), num_positions(configuration.start.size()), start(configuration.start) {
     check::NodeNumbers index;
     for (const Node& node : scene.nodes) {
       index.emplace(node.name, index.size());
       free.push_back(!node.fixed_x);
       free.push_back(!node.fixed_y);
     }
+    if (!scene.beams.empty()) {
+      const std::vector<bool> turn = NodesThatTurn(scene);
+      for (std::size_t i = 0; i < turn.size(); ++i) free.push_back(turn[i] && !scene.nodes[i].fixed_rotation);
+      start.insert(start.end(), configuration.start_rotations.begin(), configuration.start_rotations.end());
+    }
     elements = check::MakeElements(scene, index, configuration.reference);
+    std::vector<Real> stiffness(scene.nodes.size(), 0.0L);
+    for (const auto& element : elements)
+      for (const std::size_t node : element->Nodes()) stiffness[node] += element->Stiffness();
+    for (const Real at_node : stiffness)
+      units.push_back(std::max<Real>(scaling.force, kStiffForce * at_node * scaling.length));
     // Summed by node, so that what cancels does so before the load factor makes it large.
     std::map<std::pair<std::size_t, bool>, std::size_t> sums;
     for (const Load& load : scene.loads) {
       const auto [at, is_new] = sums.try_emplace({index.at(load.node), load.constant}, loads.size());
-      if (is_new) loads.push_back({index.at(load.node), 0.0L, 0.0L, load.constant});
+      if (is_new) loads.push_back({index.at(load.node), 0.0L, 0.0L, 0.0L, load.constant});
       loads[at->second].fx += load.fx;
       loads[at->second].fy += load.fy;
+      loads[at->second].moment += load.moment;
     }
     rates.resize(start.size());
     for (const SupportMotion& motion : scene.support_motions) {
       rates[2 * index.at(motion.node)] = motion.dx;
       rates[2 * index.at(motion.node) + 1] = motion.dy;
+      if (motion.rotation != 0.0) rates.at(num_positions + index.at(motion.node)) = motion.rotation;
     }
     std::unordered_map<std::string_view, PreparedContact> obstacles;
     for (const Obstacle& obstacle : scene.obstacles)
@@ -102,14 +119,16 @@ struct ResidualCheck::Prepared {
     }
   }
 
-  // phi - T r on each component x0, y0, x1, ...: internal forces less loads less reactions.
+  // phi - T r on each component: internal forces less loads less reactions.
   std::vector<Real> Unbalance(const CheckedState& state) const {
-    std::vector<Real> forces(state.positions.size(), 0.0L);
-    for (const auto& element : elements) element->AddForce(state.positions, &forces);
+    const std::vector<double> values = check::ValuesOf(state.positions, state.rotations);
+    std::vector<Real> forces(values.size(), 0.0L);
+    for (const auto& element : elements) element->AddForce(values, &forces);
     for (const PreparedLoad& load : loads) {
       const Real factor = load.constant ? 1.0L : static_cast<Real>(state.load_factor);
       forces[2 * load.node] -= factor * load.fx;
       forces[2 * load.node + 1] -= factor * load.fy;
+      if (load.moment != 0.0L) forces.at(num_positions + load.node) -= factor * load.moment;
     }
     for (std::size_t i = 0; i < contacts.size(); ++i) {
       if (state.rn[i] == 0.0 && state.rt[i] == 0.0) continue;
@@ -122,14 +141,17 @@ struct ResidualCheck::Prepared {
   }
 
   void RequireSizes(const CheckedState& state) const {
-    RequireSize(state.positions, start.size(), "positions");
+    RequireSize(state.positions, num_positions, "positions");
+    RequireSize(state.rotations, start.size() - num_positions, "rotations");
     RequireSize(state.rn, contacts.size(), "rn");
     RequireSize(state.rt, contacts.size(), "rt");
   }
 
   Scaling scaling;
-  std::vector<double> start;  // places at load factor 0: x0, y0, x1, ...
+  std::size_t num_positions;  // the first values, x0, y0, x1, ...; rotations by node follow where there are beams
+  std::vector<double> start;  // values at load factor 0
   std::vector<bool> free;     // the same components
+  std::vector<Real> units;    // by node: what unbalanced forces are measured in
   std::vector<double> rates;  // of the fixed ones, per unit of the load factor
   std::vector<std::unique_ptr<const check::Element>> elements;
   std::vector<PreparedLoad> loads;
@@ -164,13 +186,17 @@ Residuals ResidualCheck::Check(const CheckedState& before, const CheckedState& n
   const Scaling& scaling = scene.scaling;
   Residuals residuals;
   const std::vector<Real> unbalance = scene.Unbalance(now);
+  const std::vector<double> values = check::ValuesOf(now.positions, now.rotations);
   for (std::size_t i = 0; i < unbalance.size(); ++i) {
+    const bool is_position = i < scene.num_positions;
+    const Real length = is_position ? 1.0L : static_cast<Real>(scaling.length);  // of a moment
     if (scene.free[i]) {
-      residuals.equilibrium = Worst(residuals.equilibrium, std::abs(unbalance[i]) / scaling.force);
+      const Real unit = scene.units[is_position ? i / 2 : i - scene.num_positions];
+      residuals.equilibrium = Worst(residuals.equilibrium, std::abs(unbalance[i]) / (unit * length));
       continue;
     }
     const Real place = scene.start[i] + static_cast<Real>(now.load_factor) * scene.rates[i];
-    residuals.support = Worst(residuals.support, std::abs(now.positions[i] - place) / scaling.length);
+    residuals.support = Worst(residuals.support, std::abs(values[i] - place) * length / scaling.length);
   }
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
     const Prepared::PreparedContact& contact = scene.contacts[i];
@@ -181,8 +207,8 @@ Residuals ResidualCheck::Check(const CheckedState& before, const CheckedState& n
       continue;
     }
     const Real slip = contact.surface->Slip(contact.Position(before), contact.Position(now)) / scaling.length;
-    const Real rn = static_cast<Real>(now.rn[i]) / scaling.force;
-    const Real rt = static_cast<Real>(now.rt[i]) / scaling.force;
+    const Real unit = scene.units[contact.node];
+    const Real rn = now.rn[i] / unit, rt = now.rt[i] / unit;
     const Real bound = contact.friction * std::max(rn, 0.0L);
     residuals.penetration = Worst(residuals.penetration, -gap);
     residuals.tensile_reaction = Worst(residuals.tensile_reaction, -rn);
@@ -231,7 +257,7 @@ std::array<double, 2> ResidualCheck::Normal(std::size_t contact, const CheckedSt
 
 std::vector<double> ResidualCheck::ForcesAcross(double length, double load_factor) const {
   const Prepared& scene = *prepared_;
-  std::vector<check::StiffnessBound> bounds = check::BoundStiffness(scene.elements, scene.start);
+  std::vector<check::StiffnessBound> bounds = check::BoundStiffness(scene.elements, scene.start, scene.num_positions / 2);
   for (check::StiffnessBound& bound : bounds)
     for (double* const part : {&bound.x, &bound.y, &bound.any}) *part *= length;
   for (const Prepared::PreparedLoad& load : scene.loads) {
@@ -249,10 +275,12 @@ std::vector<double> ResidualCheck::ForcesAcross(double length, double load_facto
   return across;
 }
 
-double ResidualCheck::StrainEnergy(const std::vector<double>& positions) const {
-  RequireSize(positions, prepared_->start.size(), "positions");
+double ResidualCheck::StrainEnergy(const std::vector<double>& positions, const std::vector<double>& rotations) const {
+  RequireSize(positions, prepared_->num_positions, "positions");
+  RequireSize(rotations, prepared_->start.size() - prepared_->num_positions, "rotations");
+  const std::vector<double> values = check::ValuesOf(positions, rotations);
   Real energy = 0.0L;
-  for (const auto& element : prepared_->elements) element->AddEnergy(positions, &energy);
+  for (const auto& element : prepared_->elements) element->AddEnergy(values, &energy);
   return static_cast<double>(energy);
 }
 

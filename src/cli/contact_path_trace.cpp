@@ -20,6 +20,7 @@
 #include "contact_path/path/csv.h"
 #include "contact_path/path/restored_states.h"
 #include "contact_path/path/trace.h"
+#include "contact_path/scene/expand.h"
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/read_scene.h"
 #include "contact_path/scene/validate.h"
@@ -189,10 +190,11 @@ void RequireWritten(std::ostream& out, const std::string& name) {
 }
 
 Sink StartCsv(const TraceRequest& request, std::ostream& out, const std::string& name) {
-  WriteCsvHeader(request, out);
+  const CsvWriter csv(request);
+  csv.WriteHeader(out);
   RequireWritten(out, name);
-  return [&out, name](const Increment& increment) {
-    WriteCsvRow(increment, out);
+  return [&out, name, csv](const Increment& increment) {
+    csv.WriteRow(increment, out);
     RequireWritten(out, name);
   };
 }
@@ -200,6 +202,7 @@ Sink StartCsv(const TraceRequest& request, std::ostream& out, const std::string&
 // Traces with the increments going to `csv`. Throws WriteError.
 ExitStatus RunTrace(const Task& task, const Arguments& arguments, std::ostream& csv) {
   const TraceRequest& request = task.request;
+  const ExpandedRequest expanded(request);
   const bool csv_on_terminal = !arguments.csv_file && isatty(STDOUT_FILENO) == 1;
   Progress progress(request, !arguments.quiet && !csv_on_terminal && isatty(STDERR_FILENO) == 1, std::cerr);
   std::vector<Sink> sinks = {
@@ -207,9 +210,9 @@ ExitStatus RunTrace(const Task& task, const Arguments& arguments, std::ostream& 
       [&progress](const Increment& increment) { progress.Add(increment); },
   };
   if (arguments.events) {
-    sinks.emplace_back([&, load_scale = ProgramScales(request).load_factor](const Increment& increment) {
+    sinks.emplace_back([&, load_scale = ProgramScales(expanded.Get()).load_factor](const Increment& increment) {
       progress.Wipe();
-      PrintBranches(request, increment, load_scale, std::cerr);
+      PrintBranches(expanded.Get(), increment, load_scale, std::cerr);
     });
   }
 #ifdef CONTACT_PATH_WITH_ROS

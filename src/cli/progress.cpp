@@ -6,6 +6,7 @@
 #include <sstream>
 #include <utility>
 
+#include "contact_path/scene/expand.h"
 #include "contact_path/scene/program.h"
 
 namespace contact_path {
@@ -44,7 +45,7 @@ Progress::Progress(const TraceRequest& request, bool show_bar, std::ostream& out
       show_bar_(show_bar),
       out_(out),
       clock_(std::move(clock)),
-      summary_(ProgramScales(request).load_factor),
+      summary_(ProgramScales(ExpandedRequest(request).Get()).load_factor),
       begin_(clock_()) {
   if (show_bar_) out_ << kWipeLine << "looking for the start" << std::flush;
   visible_ = show_bar_;

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "contact_path/tolerances.h"
+
 namespace contact_path {
 namespace {
 
@@ -74,8 +76,11 @@ Eigen::Matrix2d XiHessianChange(const Projection& at, const Eigen::Vector2d& v) 
 // Scaling by a power of 2 is exact. The powers are far apart, so that nearly all scenes have the unit 1.
 constexpr int kPowersApart = 20;  // 2^20 is about 1e6
 
-// The smallest unit that is no less than `bound`, and at most 1.
+// The smallest unit that is no less than `bound`, and at most 1; more only where rounding makes reactions uncertain, as
+// Structure::ResidualUnits() tells of forces.
 double ForceUnitAbove(double bound) {
+  const double rounding = tolerances::kStiffForce * bound;
+  if (rounding > 1.0 && std::isfinite(rounding)) return std::ldexp(1.0, static_cast<int>(std::ceil(std::log2(rounding))));
   if (!(bound > 0.0) || !(bound < 1.0)) return 1.0;
   return std::ldexp(1.0, kPowersApart * static_cast<int>(std::ceil(std::log2(bound) / kPowersApart)));
 }

@@ -16,6 +16,7 @@ constexpr double kMostInFrame = 4.0;
 
 FixedStateSystem::FixedStateSystem(const Structure& structure, const ContactPairs& contacts)
     : structure_(structure), contacts_(contacts), tangent_(structure.TangentPattern()) {
+  if (structure.NumDofs() > 0) residual_unit_ = structure.ResidualUnits().maxCoeff();
   SetStates(std::vector<ContactState>(contacts.size(), ContactState::kOpen),
             Eigen::VectorXd::Zero(static_cast<Eigen::Index>(contacts.size())));
 }
@@ -345,6 +346,13 @@ void FixedStateSystem::Residual(const Eigen::VectorXd& x, Eigen::VectorXd* resid
     if (!IsMotion(active_[c]))
       (*residual)[first_active_equation_ + static_cast<Eigen::Index>(c)] = Value(active_[c], x);
   if (load_factor_fixed_) (*residual)[num_equations_ - 1] = s - load_factor_;
+}
+
+double FixedStateSystem::Largest(const Eigen::VectorXd& residual) const {
+  double largest = 0.0;
+  for (Eigen::Index i = 0; i < residual.size(); ++i)
+    largest = std::max(largest, std::abs(residual[i]) / (i < NumDofs() ? structure_.ResidualUnits()[i] : 1.0));
+  return largest;
 }
 
 const Eigen::SparseMatrix<double>& FixedStateSystem::TransposedJacobian(const Eigen::VectorXd& x) {

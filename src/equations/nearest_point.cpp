@@ -73,12 +73,12 @@ NearestPoint FindNearestPoint(FixedStateSystem* system, const Eigen::VectorXd& s
     result.x += step;
     result.last_step = step.norm();
     system->Residual(result.x, &residual);
-    result.residual = residual.size() == 0 ? 0.0 : residual.lpNorm<Eigen::Infinity>();
+    result.residual = system->Largest(residual);
     if (!std::isfinite(result.residual)) return result;
     const double scale = 1.0 + result.x.norm();
     const bool at_rounding =
         result.last_step <= tolerances::kNewtonStep * scale ||
-        (result.last_step <= tolerances::kStagnationSingular * scale && result.last_step >= 0.5 * previous);
+        (result.last_step <= tolerances::kStagnationSingular * system->ResidualUnit() * scale && result.last_step >= 0.5 * previous);
     if (at_rounding) {
       result.converged = result.residual <= tolerances::kResidualSingular;
       ++result.iterations;

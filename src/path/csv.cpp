@@ -6,6 +6,8 @@
 #include <ostream>
 #include <sstream>
 
+#include "contact_path/scene/expand.h"
+
 namespace contact_path {
 namespace {
 
@@ -19,25 +21,36 @@ std::ostringstream NewLine() {
 
 }  // namespace
 
-void WriteCsvHeader(const TraceRequest& request, std::ostream& out) {
-  const Scene& scene = request.scene;
+CsvWriter::CsvWriter(const TraceRequest& request) : program_(!request.program.empty()) {
+  const ExpandedRequest expanded(request);
+  const Scene& scene = expanded.Get().scene;
+  for (const Node& node : scene.nodes) nodes_.push_back(node.name);
+  for (const ContactCandidate& contact : scene.contacts) contacts_.push_back(contact.Name());
+  turn_ = NodesThatTurn(scene);
+}
+
+void CsvWriter::WriteHeader(std::ostream& out) const {
   std::ostringstream line = NewLine();
   line << "index,load_factor,arc_length,kind";
-  for (const Node& node : scene.nodes) line << ",x_" << node.name << ",y_" << node.name;
-  for (const ContactCandidate& contact : scene.contacts) {
-    const std::string name = contact.Name();
-    line << ",gap_" << name << ",rn_" << name << ",rt_" << name << ",state_" << name;
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    line << ",x_" << nodes_[i] << ",y_" << nodes_[i];
+    if (turn_[i]) line << ",rotation_" << nodes_[i];
   }
+  for (const std::string& name : contacts_)
+    line << ",gap_" << name << ",rn_" << name << ",rt_" << name << ",state_" << name;
   line << ",dissipation,strain_energy,equilibrium_residual,complementarity_residual,solve_time"
-       << (request.program.empty() ? "\n" : ",stage\n");
+       << (program_ ? ",stage\n" : "\n");
   out << line.str();
 }
 
-void WriteCsvRow(const Increment& increment, std::ostream& out) {
+void CsvWriter::WriteRow(const Increment& increment, std::ostream& out) const {
   std::ostringstream line = NewLine();
   line << increment.index << ',' << increment.load_factor << ',' << increment.arc_length << ','
        << ToString(increment.kind);
-  for (const double position : increment.positions) line << ',' << position;
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    line << ',' << increment.positions[2 * i] << ',' << increment.positions[2 * i + 1];
+    if (turn_[i]) line << ',' << increment.rotations[i];
+  }
   for (const ContactRecord& contact : increment.contacts) {
     line << ',' << contact.gap << ',' << contact.rn << ',' << contact.rt << ',' << ToString(contact.state);
   }

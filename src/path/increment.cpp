@@ -6,6 +6,7 @@ CheckedState StateOf(const Increment& increment) {
   CheckedState state;
   state.load_factor = increment.load_factor;
   state.positions = increment.positions;
+  state.rotations = increment.rotations;
   for (const ContactRecord& contact : increment.contacts) {
     state.rn.push_back(contact.rn);
     state.rt.push_back(contact.rt);

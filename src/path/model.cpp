@@ -54,10 +54,16 @@ CheckedState Model::InSceneUnits(const PathPoint& point) const {
   CheckedState state;
   state.load_factor = point.s * scaling.load_factor;
   state.positions = configuration.start;
+  if (!scene.beams.empty()) state.rotations = configuration.start_rotations;
   for (const DofMap::Component& from : structure.Dofs().Components())
-    if (from.field == Field::kPosition && from.dof >= 0)
+    if (from.dof < 0) {
+      continue;
+    } else if (from.field == Field::kRotation) {
+      state.rotations[static_cast<std::size_t>(from.node)] = point.u[from.dof];
+    } else {
       state.positions[PositionIndex(from)] =
           point.u[from.dof] * UnitOf(from.field, scaling.length) + origin[static_cast<std::size_t>(from.component)];
+    }
   for (Eigen::Index i = 0; i < point.rn.size(); ++i) {
     state.rn.push_back(point.rn[i] * scaling.force);
     state.rt.push_back(point.rt[i] * scaling.force);
@@ -70,9 +76,14 @@ PathPoint Model::FromIncrement(const Increment& increment) const {
   point.s = increment.load_factor / scaling.load_factor;
   point.u.resize(structure.NumDofs());
   for (const DofMap::Component& to : structure.Dofs().Components())
-    if (to.field == Field::kPosition && to.dof >= 0)
+    if (to.dof < 0) {
+      continue;
+    } else if (to.field == Field::kRotation) {
+      point.u[to.dof] = increment.rotations[static_cast<std::size_t>(to.node)];
+    } else {
       point.u[to.dof] = (increment.positions[PositionIndex(to)] - origin[static_cast<std::size_t>(to.component)]) /
                         UnitOf(to.field, scaling.length);
+    }
   const auto count = static_cast<Eigen::Index>(increment.contacts.size());
   point.rn.resize(count);
   point.rt.resize(count);

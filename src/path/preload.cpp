@@ -27,13 +27,18 @@ Scene PreloadScene(const Model& model, const Eigen::VectorXd& holding) {
   scene.loads.clear();
   scene.obstacle_motions.clear();
   for (const Load& load : model.scene.loads)
-    if (load.constant) scene.loads.push_back({load.node, load.fx, load.fy, false});
+    if (load.constant) {
+      scene.loads.push_back(load);
+      scene.loads.back().constant = false;
+    }
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
     const int dof_x = model.structure.Dof(static_cast<int>(i), 0), dof_y = model.structure.Dof(static_cast<int>(i), 1);
+    const int dof_rotation = model.structure.Dofs().Dof(static_cast<int>(i), Field::kRotation, 0);
     const double fx = dof_x < 0 ? 0.0 : holding[dof_x], fy = dof_y < 0 ? 0.0 : holding[dof_y];
-    if (fx == 0.0 && fy == 0.0) continue;
-    scene.loads.push_back({scene.nodes[i].name, fx, fy, true});
-    scene.loads.push_back({scene.nodes[i].name, -fx, -fy, false});
+    const double moment = dof_rotation < 0 ? 0.0 : model.scaling.length * holding[dof_rotation];
+    if (fx == 0.0 && fy == 0.0 && moment == 0.0) continue;
+    scene.loads.push_back({scene.nodes[i].name, fx, fy, true, moment});
+    scene.loads.push_back({scene.nodes[i].name, -fx, -fy, false, -moment});
   }
   return scene;
 }

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 
+#include "contact_path/scene/expand.h"
+
 namespace contact_path {
 
 ProgressEstimate::ProgressEstimate(const TraceRequest& request) : max_increments_(request.options.max_increments) {
-  const std::vector<Quantity> quantities = StopQuantities(request, SceneIndex(request.scene));
+  const ExpandedRequest expanded(request);
+  const std::vector<Quantity> quantities = StopQuantities(request, SceneIndex(expanded.Get().scene));
   for (std::size_t i = 0; i < quantities.size(); ++i)
     goals_.push_back({quantities[i], 0.0, request.options.stop[i].value});
   for (const Stage& stage : request.program) targets_.push_back(stage.Target());

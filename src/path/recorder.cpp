@@ -24,6 +24,7 @@ bool TurnsBackByChoice(const EventRecord& event, double change) {
 void FillState(const Model& model, const PathPoint& point, Increment* increment) {
   CheckedState state = model.InSceneUnits(point);
   increment->positions = std::move(state.positions);
+  increment->rotations = std::move(state.rotations);
   increment->contacts.resize(model.contacts.size());
   for (std::size_t i = 0; i < model.contacts.size(); ++i)
     increment->contacts[i] = {model.contacts[i]->Gap(point.u, point.s) * model.scaling.length, state.rn[i], state.rt[i],

@@ -26,6 +26,7 @@ double ValueOf(const Quantity& quantity, const Increment& increment) {
     case Quantity::Kind::kLoadFactor: return increment.load_factor;
     case Quantity::Kind::kX: return increment.positions[2 * quantity.part];
     case Quantity::Kind::kY: return increment.positions[2 * quantity.part + 1];
+    case Quantity::Kind::kRotation: return increment.rotations[quantity.part];
     case Quantity::Kind::kGap: return increment.contacts[quantity.part].gap;
     case Quantity::Kind::kRn: return increment.contacts[quantity.part].rn;
     case Quantity::Kind::kRt: return increment.contacts[quantity.part].rt;

@@ -23,6 +23,7 @@
 #include "contact_path/path/recorder.h"
 #include "contact_path/path/return_detector.h"
 #include "contact_path/path/stop.h"
+#include "contact_path/scene/expand.h"
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/scene_index.h"
 #include "contact_path/scene/validate.h"
@@ -79,7 +80,8 @@ std::optional<Resumption> FindResumption(const std::vector<Increment>& increment
     else if (!increment.event.branches.empty())
       nullity = increment.solve.nullity;
     const bool rests =
-        before != nullptr && (increment.solve.nullity > nullity || increment.positions == before->positions);
+        before != nullptr && (increment.solve.nullity > nullity || (increment.positions == before->positions &&
+                                                                      increment.rotations == before->rotations));
     if (before != nullptr && !rests && CanGoOnFrom(*before, increment))
       last = Resumption{&increments, before, &increment, events};
     if (!increment.positions.empty()) before = &increment;
@@ -90,6 +92,7 @@ std::optional<Resumption> FindResumption(const std::vector<Increment>& increment
 // A request on its way: one stage after another.
 class Tracer {
  public:
+  // request: sound and expanded.
   Tracer(const TraceRequest& request, const TraceControl& control)
       : request_(request),
         control_(control),
@@ -389,25 +392,33 @@ class Tracer {
   TraceResult result_;
 };
 
+void RequireSound(const TraceRequest& request) {
+  std::vector<Violation> violations = Validate(request);
+  if (!violations.empty()) throw InvalidRequest(std::move(violations));
+}
+
 }  // namespace
 
 TraceResult Trace(const TraceRequest& request, const TraceControl& control) {
-  std::vector<Violation> violations = Validate(request);
-  if (!violations.empty()) throw InvalidRequest(std::move(violations));
-  return Tracer(request, control).Run(std::nullopt);
+  RequireSound(request);
+  const ExpandedRequest expanded(request);
+  return Tracer(expanded.Get(), control).Run(std::nullopt);
 }
 
-TraceResult ResumeTrace(const TraceRequest& request, const std::vector<Increment>& increments,
+TraceResult ResumeTrace(const TraceRequest& request_as_given, const std::vector<Increment>& increments,
                         const TraceControl& control) {
-  std::vector<Violation> violations = Validate(request);
-  if (!violations.empty()) throw InvalidRequest(std::move(violations));
+  RequireSound(request_as_given);
+  const ExpandedRequest expanded(request_as_given);
+  const TraceRequest& request = expanded.Get();
   for (std::size_t i = 0; i < increments.size(); ++i) {
     const Increment& increment = increments[i];
     if (increment.index != static_cast<int>(i))
       throw std::invalid_argument("increment " + std::to_string(i) + " has the index " +
                                   std::to_string(increment.index));
     const bool full = !increment.positions.empty();
-    if (full && (increment.positions.size() != 2 * request.scene.nodes.size() ||
+    const std::size_t nodes = request.scene.nodes.size();
+    if (full && (increment.positions.size() != 2 * nodes ||
+                 increment.rotations.size() != (request.scene.beams.empty() ? 0 : nodes) ||
                  increment.contacts.size() != request.scene.contacts.size()))
       throw std::invalid_argument("increment " + std::to_string(i) + " is not of this scene");
     if (increment.stage < 0 || increment.stage > static_cast<int>(request.program.size()) ||

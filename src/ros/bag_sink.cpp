@@ -7,13 +7,14 @@
 #include "contact_path/ros/convert.h"
 #include "contact_path/ros/names.h"
 #include "contact_path/ros/stamp.h"
+#include "contact_path/scene/expand.h"
 #include "contact_path/scene/program.h"
 
 namespace contact_path {
 
 struct BagSink::Implementation {
   Implementation(const std::string& file, const TraceRequest& request)
-      : recorder(file, std::string("/") + names::kNode), summary(ProgramScales(request).load_factor) {}
+      : recorder(file, std::string("/") + names::kNode), summary(ProgramScales(ExpandedRequest(request).Get()).load_factor) {}
 
   BagRecorder recorder;
   PathSummary summary;

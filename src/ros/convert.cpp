@@ -121,6 +121,8 @@ class FromMessages {
       *to = FromCount(from, path);
     } else if constexpr (std::is_same_v<To, bool>) {
       *to = from != 0;
+    } else if constexpr (std::is_same_v<To, std::vector<bool>>) {
+      to->assign(from.begin(), from.end());
     } else {
       *to = from;
     }
@@ -160,6 +162,8 @@ void CopyToMessage(const From& from, To* to) {
     *to = ConstantOf(from);
   } else if constexpr (std::is_same_v<From, int> && std::is_same_v<To, std::uint32_t>) {
     *to = ToCount(from);
+  } else if constexpr (std::is_same_v<From, std::vector<bool>>) {
+    to->assign(from.begin(), from.end());
   } else {
     *to = from;
   }
@@ -222,6 +226,7 @@ msgs::Increment ToMessage(const Increment& increment, int full_state_every) {
       message.x.push_back(increment.positions[i]);
       message.y.push_back(increment.positions[i + 1]);
     }
+    message.rotation = increment.rotations;
     CopyToMessage(increment.contacts, &message.contacts);
   }
   message.equilibrium_residual = increment.residuals.equilibrium;
@@ -250,6 +255,7 @@ Increment FromMessage(const msgs::Increment& message) {
     increment.positions.push_back(message.x[i]);
     increment.positions.push_back(message.y[i]);
   }
+  increment.rotations = message.rotation;
   increment.residuals.equilibrium = message.equilibrium_residual;
   increment.residuals.penetration = message.penetration_residual;
   increment.residuals.tensile_reaction = message.tensile_reaction_residual;

@@ -3,9 +3,12 @@
 #include <cmath>
 #include <cstddef>
 #include <stdexcept>
+#include <string>
 #include <type_traits>
+#include <unordered_map>
 
 #include "contact_path/ros/names.h"
+#include "contact_path/scene/expand.h"
 #include "contact_path/scene/field.h"
 #include "contact_path/scene/scene.h"
 
@@ -77,6 +80,32 @@ std::string ExceededByList(const std::string& list, const Messages& parts, const
   return exceeded;
 }
 
+// What beams and groups stand for.
+std::string ExceededByExpansion(const contact_path_msgs::Scene& scene, const TraceLimits& limits) {
+  std::size_t segments = 0, contacts = 0;
+  std::unordered_map<std::string, std::size_t> groups;  // numbers of nodes
+  for (std::size_t i = 0; i < scene.beams.size(); ++i) {
+    Beam beam;
+    beam.name = scene.beams[i].name;
+    beam.segments = scene.beams[i].segments;
+    const auto count = static_cast<std::size_t>(BeamSegments(beam));
+    segments += count;
+    groups.emplace(BeamName(beam, i), count + 1);
+  }
+  for (const contact_path_msgs::Group& group : scene.groups) groups.emplace(group.name, group.nodes.size());
+  for (const contact_path_msgs::Contact& contact : scene.contacts) {
+    const auto group = groups.find(contact.group);
+    contacts += group == groups.end() ? 1 : group->second;
+  }
+  std::string exceeded =
+      Exceeded("segments of scene.beams", segments, {names::kMaxElements, limits.max_elements});
+  if (exceeded.empty())
+    exceeded = Exceeded("nodes of the scene and its beams", scene.nodes.size() + segments, LimitOf<Node>(limits));
+  if (exceeded.empty())
+    exceeded = Exceeded("contacts of all nodes of groups", contacts, LimitOf<ContactCandidate>(limits));
+  return exceeded;
+}
+
 std::string ExceededByScene(const contact_path_msgs::Scene& scene, const TraceLimits& limits) {
   std::string exceeded;
   ForEachFieldPair<Scene, contact_path_msgs::Scene>([&](const auto& core_field, const auto& field) {
@@ -86,7 +115,7 @@ std::string ExceededByScene(const contact_path_msgs::Scene& scene, const TraceLi
         exceeded =
             ExceededByList<typename List::value_type>("scene." + std::string(field.name), scene.*field.member, limits);
   });
-  return exceeded;
+  return exceeded.empty() ? ExceededByExpansion(scene, limits) : exceeded;
 }
 
 std::size_t IncrementsWanted(const contact_path_msgs::TraceOptions& options) {

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "contact_path/path/stop.h"
+#include "contact_path/scene/expand.h"
 #include "contact_path/scene/one_line.h"
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/quantity.h"
@@ -109,8 +110,10 @@ void MarkerOptions::Validate() const {
   }
 }
 
-SceneMarkers::SceneMarkers(const TraceRequest& request, const MarkerOptions& options)
-    : options_(options), name_(OneLine(request.scene.name)) {
+SceneMarkers::SceneMarkers(const TraceRequest& request_given, const MarkerOptions& options)
+    : options_(options), name_(OneLine(request_given.scene.name)) {
+  const ExpandedRequest expanded(request_given);
+  const TraceRequest& request = expanded.Get();
   const Scene& scene = request.scene;
   const SceneIndex index(scene);
   for (const Node& node : scene.nodes) {
@@ -120,7 +123,10 @@ SceneMarkers::SceneMarkers(const TraceRequest& request, const MarkerOptions& opt
   ForEachElementList(scene, [&](std::string_view, const auto& elements) {
     using Part = typename std::decay_t<decltype(elements)>::value_type;
     for (const Part& element : elements) {
-      if constexpr (Fields<Part>::kNodes == 2) {
+      if constexpr (std::is_same_v<Part, Beam>) {
+        for (std::size_t i = 0; i + 1 < element.nodes.size(); ++i)
+          bars_.push_back({index.Node(element.nodes[i]), index.Node(element.nodes[i + 1])});
+      } else if constexpr (Fields<Part>::kNodes == 2) {
         bars_.push_back({index.Node(element.nodes[0]), index.Node(element.nodes[1])});
       } else {
         std::vector<std::size_t>& members = stars_.emplace_back();

@@ -22,6 +22,7 @@
 #include "contact_path/ros/resume.h"
 #include "contact_path/ros/stamp.h"
 #include "contact_path/scene/one_line.h"
+#include "contact_path/scene/expand.h"
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/validate.h"
 
@@ -290,7 +291,7 @@ void TraceService::Serve(const contact_path_msgs::TraceRequest& asked, const Tra
 
   full_state_every_ = core_request.options.full_state_every;
   progress_.emplace(core_request);
-  summary_ = PathSummary(ProgramScales(core_request).load_factor);
+  summary_ = PathSummary(ProgramScales(ExpandedRequest(core_request).Get()).load_factor);
   if (const std::string advice = BlasAdvice(core_request.scene.nodes.size()); !advice.empty())
     ROS_WARN_ONCE("%s", advice.c_str());
   RunTrace(core_request, increments, observer, bag.get(), response);

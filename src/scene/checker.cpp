@@ -71,8 +71,10 @@ const Obstacle* Checker::KnownObstacle(const std::string& name) const {
 }
 
 bool Checker::HasFreeComponent() const {
-  return std::any_of(request_.scene.nodes.begin(), request_.scene.nodes.end(),
-                     [](const Node& node) { return !node.fixed_x || !node.fixed_y; });
+  const std::vector<Node>& nodes = request_.scene.nodes;
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    if (!nodes[i].fixed_x || !nodes[i].fixed_y || (turning_[i] && !nodes[i].fixed_rotation)) return true;
+  return false;
 }
 
 void Checker::Add(const KeyPath& path, std::string value, std::string rule) {
@@ -80,6 +82,8 @@ void Checker::Add(const KeyPath& path, std::string value, std::string rule) {
   violation.key = path.ToString();
   violation.value = std::move(value);
   violation.rule = std::move(rule);
+  // The nodes of a group share their load.
+  if (!violations_.empty() && violations_.back().ToLine() == violation.ToLine()) return;
   violations_.push_back(std::move(violation));
   if (++found_ >= kMostViolations) throw Enough();
 }
@@ -140,7 +144,7 @@ void Checker::CheckQuantity(const KeyPath& key, const std::string& text) {
   const std::optional<SpelledQuantity> quantity = ReadQuantity(text);
   if (!quantity) {
     Add(key, TextOrQuotes(text),
-        "must be load_factor, <node>.x, <node>.y, <contact>.gap, <contact>.rn or <contact>.rt");
+        "must be load_factor, <node>.x, <node>.y, <node>.rotation, <contact>.gap, <contact>.rn or <contact>.rt");
   } else if (quantity->kind == Quantity::Kind::kLoadFactor) {
     if (!request_.program.empty())
       Add(key, text, "must be of a node or contact where there is a program: each stage has a target of its own");
@@ -153,6 +157,8 @@ void Checker::CheckQuantity(const KeyPath& key, const std::string& text) {
             ? ""
             : "; did you mean " + QuantityText(quantity->kind, nearest.Get(), quantity->is_column) + "?";
     Add(key, text, (of_node ? "must refer to a node of the scene" : "must refer to a contact of the scene") + question);
+  } else if (quantity->kind == Quantity::Kind::kRotation && !Turns(std::string(quantity->name))) {
+    Add(key, text, "must be of a node that a beam turns");
   }
 }
 

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "contact_path/scene/expand.h"
 #include "contact_path/scene/field.h"
 #include "contact_path/scene/key_path.h"
 #include "contact_path/scene/scene.h"
@@ -38,16 +39,35 @@ class Checker {
   struct Enough {};  // thrown as soon as there are kMostViolations
 
   // `request` must outlive the checker.
-  explicit Checker(const TraceRequest& request) : request_(request), index_(request.scene) {}
+  explicit Checker(const TraceRequest& request)
+      : request_(request), index_(request.scene), turning_(NodesThatTurn(request.scene)) {}
+  // Of an expanded request; keys are those of the request before. num_nodes: listed there. `expansion` must outlive the
+  // checker.
+  Checker(const Expansion& expansion, std::size_t num_nodes) : Checker(expansion.request) {
+    expansion_ = &expansion;
+    num_nodes_ = num_nodes;
+  }
 
   const TraceRequest& Request() const { return request_; }
   const Scene& GetScene() const { return request_.scene; }
   const SceneIndex& Index() const { return index_; }
+  // The nodes that are listed in the request, the first ones of the scene.
+  std::size_t NumListedNodes() const { return expansion_ == nullptr ? GetScene().nodes.size() : num_nodes_; }
+  // Where a load of the scene, a contact, or a load of a stage, stands in the list of the request.
+  std::size_t LoadPlace(std::size_t load) const { return expansion_ == nullptr ? load : expansion_->loads[load]; }
+  std::size_t ContactPlace(std::size_t contact) const {
+    return expansion_ == nullptr ? contact : expansion_->contacts[contact];
+  }
+  std::size_t StageLoadPlace(std::size_t stage, std::size_t load) const {
+    return expansion_ == nullptr ? load : expansion_->stage_loads[stage][load];
+  }
 
   // Null for a name that the scene does not have.
   const Node* KnownNode(const std::string& name) const;
   const Obstacle* KnownObstacle(const std::string& name) const;
-  // Whether a component of a node is free.
+  // Whether a beam turns a node that the scene has.
+  bool Turns(const std::string& node) const { return turning_[index_.Node(node)]; }
+  // Whether a component of a node is free, or its rotation.
   bool HasFreeComponent() const;
 
   void Add(const KeyPath& path, std::string value, std::string rule);
@@ -76,6 +96,11 @@ class Checker {
     return found_ == found_before;
   }
 
+  // A name that is given or made up.
+  void CheckNewName(const KeyPath& key, const std::string& name, std::unordered_set<std::string>* earlier) {
+    CheckName(key, name, *earlier);
+  }
+
   // Clients in Python could not read another text. False after adding a violation.
   bool CheckUtf8(const KeyPath& key, const std::string& name);
 
@@ -87,6 +112,9 @@ class Checker {
 
   const TraceRequest& request_;
   const SceneIndex index_;
+  const std::vector<bool> turning_;  // by node
+  const Expansion* expansion_ = nullptr;
+  std::size_t num_nodes_ = 0;  // listed, where there is an expansion
   std::vector<Violation> violations_;
   std::size_t found_ = 0;  // also those that were taken
 };

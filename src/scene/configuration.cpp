@@ -6,6 +6,7 @@ Configuration Configuration::Of(const Scene& scene) {
   Configuration configuration;
   for (const Node& node : scene.nodes) configuration.reference.insert(configuration.reference.end(), {node.x, node.y});
   configuration.start = configuration.reference;
+  configuration.start_rotations.assign(scene.nodes.size(), 0.0);
   return configuration;
 }
 

@@ -63,13 +63,14 @@ void ContactRules::CheckContacts(double length) {
   std::set<std::pair<std::string, std::string>> earlier;
   for (std::size_t i = 0; i < scene_.contacts.size(); ++i) {
     const ContactCandidate& contact = scene_.contacts[i];
-    checker_.CheckFields(list[i], contact);
+    const KeyPath path = list[checker_.ContactPlace(i)];
+    checker_.CheckFields(path, contact);
     const Node* const node = checker_.KnownNode(contact.node);
     const Obstacle* const obstacle = checker_.KnownObstacle(contact.obstacle);
     if (!earlier.emplace(contact.node, contact.obstacle).second)
-      checker_.Add(list[i], contact.Name(), "must not be repeated");
+      checker_.Add(path, contact.Name(), "must not be repeated");
     else if (node != nullptr && obstacle != nullptr && usable_obstacles_.count(obstacle) > 0)
-      CheckGeometry(list[i], contact, *node, *obstacle, length);
+      CheckGeometry(path, contact, *node, *obstacle, length);
   }
 }
 

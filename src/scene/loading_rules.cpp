@@ -1,9 +1,9 @@
 #include "scene/loading_rules.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string>
+#include <type_traits>
 
 #include "contact_path/scene/can_slide.h"
 
@@ -42,15 +42,23 @@ LoadingRules::LoadingRules(Checker* checker) : checker_(*checker), scene_(checke
 }
 
 void LoadingRules::CheckSceneLoads() {
-  CheckLoads(kScene.Key("loads"), scene_.loads);
+  CheckLoads(kScene.Key("loads"), scene_.loads, [this](std::size_t i) { return checker_.LoadPlace(i); });
   CheckWhatMoves();
 }
 
 void LoadingRules::CheckSceneMotions() { CheckMotions(kScene, scene_.support_motions, scene_.obstacle_motions); }
 
-void LoadingRules::CheckLoads(const KeyPath& list, const std::vector<Load>& loads) {
-  for (std::size_t i = 0; i < loads.size(); ++i)
-    loads_are_sound_ = checker_.CheckFields(list[i], loads[i]) && loads_are_sound_;
+template <typename Place>
+void LoadingRules::CheckLoads(const KeyPath& list, const std::vector<Load>& loads, Place&& place) {
+  for (std::size_t i = 0; i < loads.size(); ++i) {
+    const KeyPath path = list[place(i)];
+    bool sound = checker_.CheckFields(path, loads[i]);
+    if (sound && loads[i].moment != 0.0 && !checker_.Turns(loads[i].node)) {
+      checker_.Add(path.Key("moment"), NumberText(loads[i].moment), "must be 0: no beam turns node " + loads[i].node);
+      sound = false;
+    }
+    loads_are_sound_ = loads_are_sound_ && sound;
+  }
 }
 
 // Something must change with the load factor, of the scene or of each stage.
@@ -59,7 +67,7 @@ void LoadingRules::CheckWhatMoves() {
   if (!checker_.Request().program.empty()) {
     for (std::size_t i = 0; i < scene_.loads.size(); ++i)
       if (!scene_.loads[i].constant)
-        checker_.Add(list[i].Key("constant"), "false",
+        checker_.Add(list[checker_.LoadPlace(i)].Key("constant"), "false",
                      "must be true where there is a program: loads that a load factor scales belong to a stage");
     return;
   }
@@ -80,16 +88,18 @@ void LoadingRules::CheckProgram() {
                  "must be empty where there is a program: motions belong to its stages");
   const KeyPath list("program");
   for (std::size_t i = 0; i < checker_.Request().program.size(); ++i)
-    CheckStage(list[i], checker_.Request().program[i]);
+    CheckStage(list[i], i);
 }
 
-void LoadingRules::CheckStage(const KeyPath& path, const Stage& stage) {
+void LoadingRules::CheckStage(const KeyPath& path, std::size_t number) {
+  const Stage& stage = checker_.Request().program[number];
+  const auto place = [&](std::size_t load) { return checker_.StageLoadPlace(number, load); };
   const KeyPath loads = path.Key("loads");
   const bool sound = checker_.CheckFields(path, stage);
-  CheckLoads(loads, stage.loads);
+  CheckLoads(loads, stage.loads, place);
   for (std::size_t k = 0; k < stage.loads.size(); ++k)
     if (stage.loads[k].constant)
-      checker_.Add(loads[k].Key("constant"), "true", "must be false: constant loads belong to the scene");
+      checker_.Add(loads[place(k)].Key("constant"), "true", "must be false: constant loads belong to the scene");
   CheckMotions(path, stage.support_motions, stage.obstacle_motions);
   if (stage.unload)
     CheckUnloading(path, stage, sound);
@@ -120,11 +130,13 @@ void LoadingRules::NoteBroughtOn(const Stage& stage) {
     const std::size_t node = checker_.Index().Node(load.node);
     if (!scene_.nodes[node].fixed_x) brought_on_.Add(BroughtOn::Kind::kLoad, node, 0, target * load.fx);
     if (!scene_.nodes[node].fixed_y) brought_on_.Add(BroughtOn::Kind::kLoad, node, 1, target * load.fy);
+    if (!scene_.nodes[node].fixed_rotation) brought_on_.Add(BroughtOn::Kind::kLoad, node, 2, target * load.moment);
   }
   for (const SupportMotion& motion : stage.support_motions) {
     const std::size_t node = checker_.Index().Node(motion.node);
     brought_on_.Add(BroughtOn::Kind::kSupport, node, 0, target * motion.dx);
     brought_on_.Add(BroughtOn::Kind::kSupport, node, 1, target * motion.dy);
+    brought_on_.Add(BroughtOn::Kind::kSupport, node, 2, target * motion.rotation);
   }
   for (const ObstacleMotion& motion : stage.obstacle_motions) {
     const std::size_t obstacle = checker_.Index().Obstacle(motion.obstacle);
@@ -135,9 +147,14 @@ void LoadingRules::NoteBroughtOn(const Stage& stage) {
 
 template <typename Motion>
 bool LoadingRules::CheckMotion(const KeyPath& path, const Motion& motion) {
-  if (!(std::abs(motion.dx) <= kLargestInput && std::abs(motion.dy) <= kLargestInput)) return false;
-  if (std::hypot(motion.dx, motion.dy) >= kSmallestInput) return true;
-  checker_.Add(path, "no motion", "dx or dy must not be zero (length at least 1e-100)");
+  constexpr bool turns = std::is_same_v<Motion, SupportMotion>;
+  double turn = 0.0;
+  if constexpr (turns) turn = std::abs(motion.rotation);
+  if (!(std::abs(motion.dx) <= kLargestInput && std::abs(motion.dy) <= kLargestInput && turn <= kLargestInput))
+    return false;
+  if (std::hypot(motion.dx, motion.dy) >= kSmallestInput || turn >= kSmallestInput) return true;
+  checker_.Add(path, "no motion",
+               (turns ? "dx, dy or rotation" : "dx or dy") + std::string(" must not be zero (length at least 1e-100)"));
   return false;
 }
 
@@ -156,7 +173,10 @@ void LoadingRules::CheckMotions(const KeyPath& where, const std::vector<SupportM
       checker_.Add(path.Key("dx"), NumberText(motion.dx), "must be 0: node " + node->name + " is not fixed in x");
     if (motion.dy != 0.0 && !node->fixed_y)
       checker_.Add(path.Key("dy"), NumberText(motion.dy), "must be 0: node " + node->name + " is not fixed in y");
-    if (contact_nodes_.count(motion.node) > 0)
+    if (motion.rotation != 0.0 && !node->fixed_rotation)
+      checker_.Add(path.Key("rotation"), NumberText(motion.rotation),
+                   "must be 0: the rotation of node " + node->name + " is not fixed");
+    if ((motion.dx != 0.0 || motion.dy != 0.0) && contact_nodes_.count(motion.node) > 0)
       checker_.Add(path.Key("node"), motion.node,
                    "must not be a contact candidate: its reactions would not be determined");
   }
@@ -184,19 +204,27 @@ void LoadingRules::CheckNodesCanFollow(const KeyPath& path, const ObstacleMotion
 }
 
 bool LoadingRules::HasReferenceLoad(const std::vector<Load>& loads) const {
-  std::map<const Node*, std::array<double, 2>> sums;
-  double largest = kSmallestInput / kLoadLeft;
+  struct Sums {
+    double fx = 0.0, fy = 0.0, moment = 0.0;
+  };
+  std::map<const Node*, Sums> by_node;
+  double largest = kSmallestInput / kLoadLeft, largest_moment = largest;
   for (const Load& load : loads) {
     if (load.constant) continue;
     const Node* const node = checker_.KnownNode(load.node);
-    const std::array<double, 2> force = {node->fixed_x ? 0.0 : load.fx, node->fixed_y ? 0.0 : load.fy};
-    for (std::size_t k = 0; k < 2; ++k) {
-      sums[node][k] += force[k];
-      largest = std::max(largest, std::abs(force[k]));
-    }
+    const Sums part = {node->fixed_x ? 0.0 : load.fx, node->fixed_y ? 0.0 : load.fy,
+                       node->fixed_rotation ? 0.0 : load.moment};
+    Sums& sums = by_node[node];
+    sums.fx += part.fx;
+    sums.fy += part.fy;
+    sums.moment += part.moment;
+    largest = std::max({largest, std::abs(part.fx), std::abs(part.fy)});
+    largest_moment = std::max(largest_moment, std::abs(part.moment));
   }
-  return std::any_of(sums.begin(), sums.end(),
-                     [&](const auto& sum) { return std::hypot(sum.second[0], sum.second[1]) >= kLoadLeft * largest; });
+  return std::any_of(by_node.begin(), by_node.end(), [&](const auto& item) {
+    const Sums& sums = item.second;
+    return std::hypot(sums.fx, sums.fy) >= kLoadLeft * largest || std::abs(sums.moment) >= kLoadLeft * largest_moment;
+  });
 }
 
 }  // namespace contact_path

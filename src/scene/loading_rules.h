@@ -43,7 +43,9 @@ class LoadingRules {
   void CheckProgram();
 
  private:
-  void CheckLoads(const KeyPath& list, const std::vector<Load>& loads);
+  // place(i): of a load in the list of the request.
+  template <typename Place>
+  void CheckLoads(const KeyPath& list, const std::vector<Load>& loads, Place&& place);
   void CheckWhatMoves();
   void CheckMotions(const KeyPath& where, const std::vector<SupportMotion>& supports,
                     const std::vector<ObstacleMotion>& obstacles);
@@ -52,7 +54,7 @@ class LoadingRules {
   bool CheckMotion(const KeyPath& path, const Motion& motion);
   // What an obstacle with friction drags along must be able to follow it, or its reaction is not determined.
   void CheckNodesCanFollow(const KeyPath& path, const ObstacleMotion& motion, const Obstacle& obstacle);
-  void CheckStage(const KeyPath& path, const Stage& stage);
+  void CheckStage(const KeyPath& path, std::size_t number);
   // sound: the numbers of the stage are.
   void CheckUnloading(const KeyPath& path, const Stage& stage, bool sound);
   // Nothing of a request that is not sound.

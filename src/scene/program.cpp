@@ -22,20 +22,36 @@ std::vector<double> SharesBefore(const std::vector<Stage>& program, std::size_t 
   return shares;
 }
 
+// A load at a share of its size.
+Load Times(double share, Load load, bool constant) {
+  for (double* const part : {&load.fx, &load.fy, &load.moment}) *part *= share;
+  load.constant = constant;
+  return load;
+}
+
 // Loads and obstacle motions of all stages before `stage`.
 void BringOn(const std::vector<Stage>& program, std::size_t stage, const SceneIndex& index, Scene* scene) {
   const std::vector<double> shares = SharesBefore(program, stage);
   for (std::size_t i = 0; i < stage; ++i) {
     const double share = shares[i];
     if (share == 0.0) continue;
-    for (const Load& load : program[i].loads)
-      scene->loads.push_back({load.node, share * load.fx, share * load.fy, true});
+    for (const Load& load : program[i].loads) scene->loads.push_back(Times(share, load, /*constant=*/true));
     for (const ObstacleMotion& motion : program[i].obstacle_motions) {
       Obstacle& obstacle = scene->obstacles[index.Obstacle(motion.obstacle)];
       obstacle.px += share * motion.dx;
       obstacle.py += share * motion.dy;
     }
   }
+}
+
+void AddTimes(double factor, const SupportMotion& motion, SupportMotion* sum) {
+  sum->dx += factor * motion.dx;
+  sum->dy += factor * motion.dy;
+  sum->rotation += factor * motion.rotation;
+}
+void AddTimes(double factor, const ObstacleMotion& motion, ObstacleMotion* sum) {
+  sum->dx += factor * motion.dx;
+  sum->dy += factor * motion.dy;
 }
 
 // Adds factor * motion to the motion of the same support or obstacle. places: of the motions in `sums`, by name.
@@ -45,11 +61,9 @@ void AddMotion(std::string_view name, const Motion& motion, double factor,
   const auto [at, is_new] = places->emplace(name, sums->size());
   if (is_new) {
     sums->push_back(motion);
-    sums->back().dx = sums->back().dy = 0.0;
+    AddTimes(-1.0, motion, &sums->back());
   }
-  Motion& sum = (*sums)[at->second];
-  sum.dx += factor * motion.dx;
-  sum.dy += factor * motion.dy;
+  AddTimes(factor, motion, &(*sums)[at->second]);
 }
 
 // With the loads and motions of a stage.
@@ -63,10 +77,7 @@ void SetLoading(const Stage& stage, Scene* scene) {
 Scene LoadedAtTarget(const Stage& stage, Scene scene) {
   const double target = stage.Target();
   SetLoading(stage, &scene);
-  for (Load& load : scene.loads) {
-    load.fx *= target;
-    load.fy *= target;
-  }
+  for (Load& load : scene.loads) load = Times(target, load, load.constant);
   for (SupportMotion& motion : scene.support_motions) {
     motion.dx *= target;
     motion.dy *= target;
@@ -91,7 +102,7 @@ Stage StageAsTraced(const TraceRequest& request, std::size_t stage) {
     if (shares[i] == 0.0) continue;
     const Stage& before = request.program[i];
     for (const Load& load : before.loads)
-      traced.loads.push_back({load.node, -shares[i] * load.fx, -shares[i] * load.fy, false});
+      traced.loads.push_back(Times(-shares[i], load, /*constant=*/false));
     for (const SupportMotion& motion : before.support_motions)
       AddMotion(motion.node, motion, -shares[i], &supports, &traced.support_motions);
     for (const ObstacleMotion& motion : before.obstacle_motions)
@@ -120,6 +131,7 @@ Configuration StageConfiguration(const TraceRequest& request, const SceneIndex& 
       const std::size_t node = index.Node(motion.node);
       configuration.start[2 * node] += shares[i] * motion.dx;
       configuration.start[2 * node + 1] += shares[i] * motion.dy;
+      configuration.start_rotations[node] += shares[i] * motion.rotation;
     }
   }
   return configuration;

@@ -12,8 +12,9 @@ struct Component {
 };
 
 // Of nodes and contacts.
-constexpr std::array<Component, 5> kComponents = {{{"x", Quantity::Kind::kX, units::kLength},
+constexpr std::array<Component, 6> kComponents = {{{"x", Quantity::Kind::kX, units::kLength},
                                                    {"y", Quantity::Kind::kY, units::kLength},
+                                                   {"rotation", Quantity::Kind::kRotation, units::kNone},
                                                    {"gap", Quantity::Kind::kGap, units::kLength},
                                                    {"rn", Quantity::Kind::kRn, units::kForce},
                                                    {"rt", Quantity::Kind::kRt, units::kForce}}};

@@ -158,7 +158,11 @@ class Reader {
   void ReadList(const YamlValue& list, const KeyPath& path, std::vector<T>* out) {
     if (list.kind != YamlValue::Kind::kList) return WrongType(list, path, "must be a list");
     out->resize(list.items.size());
-    for (std::size_t i = 0; i < out->size(); ++i) Read(list.items[i], path[i], &(*out)[i]);
+    for (std::size_t i = 0; i < out->size(); ++i) {
+      T item = {};
+      Read(list.items[i], path[i], &item);
+      (*out)[i] = std::move(item);
+    }
   }
 
   template <typename Part>

@@ -22,6 +22,7 @@ namespace {
 // In L: where the nearest contact that does not touch is farther, a length that is made of forces only is no measure of
 // the scene.
 constexpr double kFarthestContact = 1e4;
+constexpr double kNoBeam = 1.0;  // a length for moments and rotations where there are none
 
 // Sum in the order of size, so that it does not depend on the order of the terms, not even by rounding.
 double OrderedSum(std::vector<double> terms) {
@@ -66,13 +67,30 @@ void ForEachElementNumber(const Scene& scene, Wanted wanted, Visit&& visit) {
   });
 }
 
-// Mean initial length [length] and exp(mean ln EA) [force] of the elements with a stiffness EA that is a force. There
-// must be one.
+// The length between the first node of an element and its last one, along all of its nodes.
+template <typename Part>
+double LengthOf(const Part& element, const Scene& scene, const SceneIndex& index) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < element.nodes.size(); ++i)
+    length += Distance(scene.nodes[index.Node(element.nodes[i - 1])], scene.nodes[index.Node(element.nodes[i])]);
+  return length;
+}
+
+// The force that deforms an element by something like its length: EA of a bar, EI / length^2 of a beam.
+template <typename Part>
+double ForceOf(const Part& element, double EA, double length) {
+  if constexpr (std::is_same_v<Part, Beam>) return element.EI / (length * length);
+  return EA;
+}
+
+// Mean initial length [length] and exp(mean ln force) of the elements with a stiffness EA that is a force. There must
+// be one.
 Scaling ScalesOfBars(const Scene& scene, const SceneIndex& index) {
   std::vector<double> lengths, logarithms;
   ForEachElementNumber(scene, IsForceStiffness(), [&](const auto& bar, double EA) {
-    lengths.push_back(Distance(scene.nodes[index.Node(bar.nodes[0])], scene.nodes[index.Node(bar.nodes[1])]));
-    logarithms.push_back(std::log(EA));
+    const double length = LengthOf(bar, scene, index);
+    lengths.push_back(length);
+    logarithms.push_back(std::log(ForceOf(bar, EA, length)));
   });
   const auto count = static_cast<double>(lengths.size());
   Scaling scaling;
@@ -94,15 +112,16 @@ std::vector<Load> SumByNode(const std::vector<Load>& loads) {
     }
     result[at->second].fx += load.fx;
     result[at->second].fy += load.fy;
+    result[at->second].moment += load.moment;
   }
   return result;
 }
 
 // Euclidean norm of the constant loads, or of those that the load factor scales, summed by node, over the free
-// components [force].
-double LoadNorm(const Scene& scene, const SceneIndex& index, bool constant) {
+// components [force]. Moments count by the force that they are at `length`.
+double LoadNorm(const Scene& scene, const SceneIndex& index, bool constant, double length) {
   struct Terms {
-    std::vector<double> x, y;
+    std::vector<double> x, y, moments;
   };
   std::unordered_map<std::size_t, Terms> loads;  // by node
   for (const Load& load : scene.loads) {
@@ -110,20 +129,23 @@ double LoadNorm(const Scene& scene, const SceneIndex& index, bool constant) {
     Terms& terms = loads[index.Node(load.node)];
     terms.x.push_back(load.fx);
     terms.y.push_back(load.fy);
+    if (load.moment != 0.0) terms.moments.push_back(load.moment);
   }
   std::vector<double> squares;
   for (const auto& [node, terms] : loads) {
     if (!scene.nodes[node].fixed_x) squares.push_back(std::pow(OrderedSum(terms.x), 2));
     if (!scene.nodes[node].fixed_y) squares.push_back(std::pow(OrderedSum(terms.y), 2));
+    if (!scene.nodes[node].fixed_rotation && !terms.moments.empty())
+      squares.push_back(std::pow(OrderedSum(terms.moments) / length, 2));
   }
   return std::sqrt(OrderedSum(std::move(squares)));
 }
 
-// Euclidean norm of all prescribed motions [length].
-double MotionNorm(const Scene& scene) {
+// Euclidean norm of all prescribed motions [length]. Rotations count by the motion that they are at `length`.
+double MotionNorm(const Scene& scene, double length) {
   std::vector<double> squares;
   for (const SupportMotion& motion : scene.support_motions)
-    for (const double part : {motion.dx, motion.dy}) squares.push_back(part * part);
+    for (const double part : {motion.dx, motion.dy, motion.rotation * length}) squares.push_back(part * part);
   for (const ObstacleMotion& motion : scene.obstacle_motions)
     for (const double part : {motion.dx, motion.dy}) squares.push_back(part * part);
   return std::sqrt(OrderedSum(std::move(squares)));
@@ -177,10 +199,10 @@ Scaling CharacteristicScales(const Scene& scene, const SceneIndex& index) {
   if (HasForceScale(scene)) {
     scaling = ScalesOfBars(scene, index);
   } else {
-    const double reference_load = LoadNorm(scene, index, false), stiffness = MeanStiffness(scene);
-    scaling.force = reference_load > 0.0 ? reference_load : stiffness * MotionNorm(scene);
+    const double reference_load = LoadNorm(scene, index, false, kNoBeam), stiffness = MeanStiffness(scene);
+    scaling.force = reference_load > 0.0 ? reference_load : stiffness * MotionNorm(scene, kNoBeam);
     scaling.force = std::max(
-        {scaling.force, LoadNorm(scene, index, true), stiffness * NearestGap(scene, index) / kFarthestContact});
+        {scaling.force, LoadNorm(scene, index, true, kNoBeam), stiffness * NearestGap(scene, index) / kFarthestContact});
     scaling.length = scaling.force / stiffness;
   }
   scaling.load_factor = LoadFactorScale(scene, index, scaling.length, scaling.force);
@@ -188,7 +210,7 @@ Scaling CharacteristicScales(const Scene& scene, const SceneIndex& index) {
 }
 
 double LoadFactorScale(const Scene& scene, const SceneIndex& index, double length, double force) {
-  const double load = LoadNorm(scene, index, false), motion = MotionNorm(scene);
+  const double load = LoadNorm(scene, index, false, length), motion = MotionNorm(scene, length);
   return motion > 0.0 ? 1.0 / std::hypot(load / force, motion / length) : force / load;
 }
 

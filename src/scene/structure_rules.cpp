@@ -36,7 +36,10 @@ class StructureRules {
     std::unordered_set<std::string> earlier;
     for (std::size_t i = 0; i < scene_.nodes.size(); ++i) {
       const Node& node = scene_.nodes[i];
+      if (i >= checker_.NumListedNodes()) break;
       checker_.CheckFields(list[i], node, &earlier);
+      if (node.fixed_rotation && !node.name.empty() && !checker_.Turns(node.name))
+        checker_.Add(list[i].Key("fixed_rotation"), "true", "must be false: no beam turns this node");
       if (held_is_reliable && !(node.fixed_x && node.fixed_y) && held.count(node.name) == 0)
         checker_.Add(list[i], TextOrQuotes(node.name),
                      "a node that is free to move must belong to a " + ElementKinds());
@@ -74,23 +77,11 @@ class StructureRules {
     const bool sound = checker_.CheckFields(path, element);
     const KeyPath nodes = path.Key("nodes");
     if constexpr (Fields<Part>::kNodes == 2) {
-      CheckTwoNodes(nodes, element.nodes);
+      CheckTwoNodes(&checker_, nodes, element.nodes);
     } else {
       CheckNodeList(nodes, element.nodes, Fields<Part>::kNodes);
     }
     CheckOwnRules(path, element, sound);
-  }
-
-  void CheckTwoNodes(const KeyPath& key, const std::vector<std::string>& nodes) {
-    if (nodes.size() != 2) return checker_.Add(key, ListText(nodes), "must name two nodes");
-    const Node *const first = checker_.KnownNode(nodes[0]), *const second = checker_.KnownNode(nodes[1]);
-    if (first == nullptr || second == nullptr) return;
-    const double distance = std::hypot(second->x - first->x, second->y - first->y);
-    if (first == second) {
-      checker_.Add(key, ListText(nodes), "must name two different nodes");
-    } else if (distance < kSmallestInput) {  // false for a distance that is not finite
-      checker_.Add(key, ListText(nodes), "the two nodes must not be at the same point");
-    }
   }
 
   // count: 0 = at least one.
@@ -152,6 +143,18 @@ void CheckStructure(Checker* checker) {
   StructureRules rules(checker);
   rules.CheckNodes();
   rules.CheckElements();
+}
+
+void CheckTwoNodes(Checker* checker, const KeyPath& key, const std::vector<std::string>& nodes) {
+  if (nodes.size() != 2) return checker->Add(key, ListText(nodes), "must name two nodes");
+  const Node *const first = checker->KnownNode(nodes[0]), *const second = checker->KnownNode(nodes[1]);
+  if (first == nullptr || second == nullptr) return;
+  const double distance = std::hypot(second->x - first->x, second->y - first->y);
+  if (first == second) {
+    checker->Add(key, ListText(nodes), "must name two different nodes");
+  } else if (distance < kSmallestInput) {  // false for a distance that is not finite
+    checker->Add(key, ListText(nodes), "the two nodes must not be at the same point");
+  }
 }
 
 }  // namespace contact_path

@@ -4,10 +4,12 @@
 #include <iterator>
 #include <utility>
 
+#include "contact_path/scene/expand.h"
 #include "contact_path/scene/one_line.h"
 #include "contact_path/scene/program.h"
 #include "scene/checker.h"
 #include "scene/contact_rules.h"
+#include "scene/expansion_rules.h"
 #include "scene/loading_rules.h"
 #include "scene/structure_rules.h"
 
@@ -36,6 +38,44 @@ void CheckOptions(Checker* checker) {
   }
 }
 
+std::vector<Violation> FoundBy(void (*check)(Checker*), const TraceRequest& request) {
+  Checker checker(request);
+  try {
+    check(&checker);
+  } catch (const Checker::Enough&) {
+    // What was found so far tells.
+  }
+  return checker.Take();
+}
+
+// The rules of a request in which every node, load and contact is listed by itself, in its own order.
+std::vector<Violation> ValidateExpanded(Checker* checker_of_request) {
+  Checker& checker = *checker_of_request;
+  LoadingRules loading(&checker);
+  ContactRules contacts(&checker);
+  std::vector<Violation> all, of_program;
+  try {
+    checker.CheckUtf8(KeyPath("scene").Key("name"), checker.GetScene().name);
+    CheckStructure(&checker);
+    loading.CheckSceneLoads();
+    const bool structure_is_sound = checker.NothingFound();
+    contacts.CheckObstacles();
+    all = checker.Take();
+    loading.CheckSceneMotions();
+    loading.CheckProgram();
+    of_program = checker.Take();
+    // Lengths are compared with the characteristic length, which the program may give.
+    contacts.CheckContacts(structure_is_sound && of_program.empty() ? ProgramScales(checker.Request()).length : 0.0);
+    CheckOptions(&checker);
+  } catch (const Checker::Enough&) {
+    // What was found so far tells.
+  }
+  std::vector<Violation> last = checker.Take();
+  for (std::vector<Violation>* const part : {&last, &of_program})
+    std::move(part->begin(), part->end(), std::back_inserter(all));
+  return all;
+}
+
 }  // namespace
 
 std::string Violation::ToLine() const {
@@ -54,32 +94,21 @@ InvalidRequest::InvalidRequest(std::vector<Violation> violations)
     : std::invalid_argument(violations.empty() ? "invalid request" : violations.front().ToLine()),
       violations_(std::move(violations)) {}
 
-// Goes through the request in its own order.
+// What stands for several nodes is judged first: the rules of nodes, loads and contacts cannot be told without it.
 std::vector<Violation> Validate(const TraceRequest& request) {
-  Checker checker(request);
-  LoadingRules loading(&checker);
-  ContactRules contacts(&checker);
-  std::vector<Violation> all, of_program;
-  try {
-    checker.CheckUtf8(KeyPath("scene").Key("name"), request.scene.name);
-    CheckStructure(&checker);
-    loading.CheckSceneLoads();
-    const bool structure_is_sound = checker.NothingFound();
-    contacts.CheckObstacles();
-    all = checker.Take();
-    loading.CheckSceneMotions();
-    loading.CheckProgram();
-    of_program = checker.Take();
-    // Lengths are compared with the characteristic length, which the program may give.
-    contacts.CheckContacts(structure_is_sound && of_program.empty() ? ProgramScales(request).length : 0.0);
-    CheckOptions(&checker);
-  } catch (const Checker::Enough&) {
-    // What was found so far tells.
+  if (!NeedsExpansion(request)) {
+    Checker checker(request);
+    return ValidateExpanded(&checker);
   }
-  std::vector<Violation> last = checker.Take();
-  for (std::vector<Violation>* const part : {&last, &of_program})
-    std::move(part->begin(), part->end(), std::back_inserter(all));
-  return all;
+  std::vector<Violation> violations = FoundBy(CheckBeams, request);
+  if (!violations.empty()) return violations;
+  TraceRequest with_nodes = request;
+  ExpandBeams(&with_nodes.scene);
+  violations = FoundBy(CheckGroups, with_nodes);
+  if (!violations.empty()) return violations;
+  const Expansion expansion = Expand(request);
+  Checker checker(expansion, request.scene.nodes.size());
+  return ValidateExpanded(&checker);
 }
 
 }  // namespace contact_path

@@ -61,7 +61,7 @@ BeamSegment::BeamSegment(const Stiffness& stiffness, const Eigen::Vector2d& chor
     : EA_(stiffness.EA),
       length_(chord.norm()),
       bending_(BendingStiffness(stiffness, length_, hinged_first, hinged_second)),
-      direction_(std::atan2(chord[1], chord[0])),
+      along_(Chord(chord).along),
       hinged_first_(hinged_first),
       hinged_second_(hinged_second) {
   for (const int node : {0, 1}) {
@@ -82,7 +82,8 @@ BeamSegment::Coordinates BeamSegment::CoordinatesOf(const Eigen::Ref<const Eigen
 Eigen::Vector2d BeamSegment::EndRotations(const Chord& chord, const Coordinates& at) const {
   const double first = hinged_first_ ? at[3] : at[2], second = hinged_second_ ? at[2] : at[3];
   const double mean = 0.5 * (first + second);
-  const double turned = std::atan2(chord.along[1], chord.along[0]) - direction_ - mean;
+  const double turned =
+      std::atan2(along_[0] * chord.along[1] - along_[1] * chord.along[0], along_.dot(chord.along)) - mean;
   const double beta = mean + turned - kTurn * std::round(turned / kTurn);
   return {hinged_first_ ? 0.0 : first - beta, hinged_second_ ? 0.0 : second - beta};
 }

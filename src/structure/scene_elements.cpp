@@ -7,7 +7,9 @@
 #include <string_view>
 #include <utility>
 
+#include "contact_path/scene/expand.h"
 #include "contact_path/structure/bar.h"
+#include "contact_path/structure/beam.h"
 #include "contact_path/structure/superelement.h"
 
 namespace contact_path {
@@ -24,20 +26,35 @@ Eigen::VectorXd PositionsOf(const std::vector<int>& nodes, const std::vector<dou
   return positions;
 }
 
-std::unique_ptr<const Element> Make(const Bar& bar, const std::vector<int>& nodes,
-                                    const std::vector<double>& reference) {
+void Place(const Bar& bar, std::vector<int> nodes, const std::vector<double>& reference,
+           std::vector<PlacedElement>* elements) {
   const Eigen::Vector4d ends = PositionsOf(nodes, reference);
   const double distance = std::hypot(ends[2] - ends[0], ends[3] - ends[1]);
-  return std::make_unique<BarElement>(bar.EA, bar.rest_length > 0.0 ? bar.rest_length : distance, bar.strain);
+  const double rest_length = bar.rest_length > 0.0 ? bar.rest_length : distance;
+  elements->push_back({std::make_unique<BarElement>(bar.EA, rest_length, bar.strain), std::move(nodes)});
 }
 
-std::unique_ptr<const Element> Make(const Superelement& part, const std::vector<int>& nodes,
-                                    const std::vector<double>& reference) {
+void Place(const Superelement& part, std::vector<int> nodes, const std::vector<double>& reference,
+           std::vector<PlacedElement>* elements) {
   const auto size = static_cast<Eigen::Index>(2 * nodes.size());
   Eigen::VectorXd rest = PositionsOf(nodes, reference);
   if (!part.rest_positions.empty()) rest = Eigen::Map<const Eigen::VectorXd>(part.rest_positions.data(), size);
   const Eigen::Map<const Eigen::MatrixXd> stiffness(part.stiffness.data(), size, size);
-  return std::make_unique<LinearSuperelement>(0.5 * (stiffness + stiffness.transpose()), std::move(rest));
+  elements->push_back({std::make_unique<LinearSuperelement>(0.5 * (stiffness + stiffness.transpose()), std::move(rest)),
+                       std::move(nodes)});
+}
+
+// One element for each segment. nodes: of all segments.
+void Place(const Beam& beam, const std::vector<int>& nodes, const std::vector<double>& reference,
+           std::vector<PlacedElement>* elements) {
+  const BeamSegment::Stiffness stiffness = {beam.EA, beam.EI, beam.GA};
+  for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+    const Eigen::Vector4d ends = PositionsOf({nodes[i], nodes[i + 1]}, reference);
+    const Eigen::Vector2d chord = ends.tail<2>() - ends.head<2>();
+    elements->push_back(
+        {std::make_unique<BeamSegment>(stiffness, chord, !TurnsNode(beam, i), !TurnsNode(beam, i + 1)),
+         {nodes[i], nodes[i + 1]}});
+  }
 }
 
 }  // namespace
@@ -49,8 +66,7 @@ std::vector<PlacedElement> MakeElements(const Scene& scene, const SceneIndex& in
     for (const auto& part : parts) {
       std::vector<int> nodes;
       for (const std::string& name : part.nodes) nodes.push_back(static_cast<int>(index.Node(name)));
-      std::unique_ptr<const Element> element = Make(part, nodes, reference);
-      elements.push_back({std::move(element), std::move(nodes)});
+      Place(part, std::move(nodes), reference, &elements);
     }
   });
   return elements;

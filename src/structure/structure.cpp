@@ -4,6 +4,8 @@
 #include <array>
 #include <utility>
 
+#include "contact_path/tolerances.h"
+
 namespace contact_path {
 namespace {
 
@@ -41,14 +43,16 @@ Structure::Structure(const Scene& scene, const SceneIndex& index, const Configur
 Structure::Structure(const Scene& scene, const SceneIndex& index, const Configuration& configuration,
                      std::vector<PlacedElement> elements)
     : dofs_(scene.nodes.size()) {
-  NumberUnknowns(scene, index, configuration.start, elements);
+  NumberUnknowns(scene, index, configuration, elements);
   AddLoads(scene, index);
   for (PlacedElement& placed : elements) AddPart(std::move(placed));
   BuildPattern();
+  residual_units_ = (tolerances::kStiffForce * StiffnessBounds()).cwiseMax(1.0);
 }
 
-void Structure::NumberUnknowns(const Scene& scene, const SceneIndex& index, const std::vector<double>& start,
+void Structure::NumberUnknowns(const Scene& scene, const SceneIndex& index, const Configuration& configuration,
                                const std::vector<PlacedElement>& elements) {
+  const std::vector<double>& start = configuration.start;
   std::vector<bool> rotates(scene.nodes.size(), false);
   for (const PlacedElement& placed : elements)
     for (const LocalDof& local : placed.element->Dofs())
@@ -71,7 +75,9 @@ void Structure::NumberUnknowns(const Scene& scene, const SceneIndex& index, cons
     const SupportMotion* const motion = motions[i];
     add(number, Field::kPosition, 0, start[2 * i], node.fixed_x, motion != nullptr ? motion->dx : 0.0);
     add(number, Field::kPosition, 1, start[2 * i + 1], node.fixed_y, motion != nullptr ? motion->dy : 0.0);
-    if (rotates[i]) add(number, Field::kRotation, 0, 0.0, false, 0.0);
+    if (rotates[i])
+      add(number, Field::kRotation, 0, configuration.start_rotations[i], node.fixed_rotation,
+          motion != nullptr ? motion->rotation : 0.0);
   }
   start_values_ = Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
   start_ = Eigen::Map<const Eigen::VectorXd>(unknowns.data(), static_cast<Eigen::Index>(unknowns.size()));
@@ -85,6 +91,7 @@ void Structure::AddLoads(const Scene& scene, const SceneIndex& index) {
     const auto node = static_cast<int>(index.Node(load.node));
     if (const int dof = Dof(node, 0); dof >= 0) total[dof] += load.fx;
     if (const int dof = Dof(node, 1); dof >= 0) total[dof] += load.fy;
+    if (const int dof = dofs_.Dof(node, Field::kRotation, 0); dof >= 0) total[dof] += load.moment;
   }
 }
 
@@ -179,7 +186,11 @@ Eigen::VectorXd Structure::SupportReactions(const Eigen::Ref<const Eigen::Vector
 }
 
 Eigen::VectorXd Structure::ForceBounds() const {
-  Eigen::VectorXd bounds = reference_load_.cwiseAbs() + constant_load_.cwiseAbs();
+  return reference_load_.cwiseAbs() + constant_load_.cwiseAbs() + StiffnessBounds();
+}
+
+Eigen::VectorXd Structure::StiffnessBounds() const {
+  Eigen::VectorXd bounds = Eigen::VectorXd::Zero(NumDofs());
   Scratch x_room, local_room;
   for (const Part& part : parts_) {
     auto x = x_room.Vector(part.dofs.size());

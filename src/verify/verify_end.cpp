@@ -5,9 +5,11 @@
 #include <cstddef>
 
 #include "contact_path/path/stop.h"
+#include "contact_path/scene/expand.h"
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/scaling.h"
 #include "contact_path/verify/verify_path.h"
+#include "verify/scaled_motion.h"
 
 namespace contact_path {
 namespace {
@@ -19,11 +21,9 @@ bool ProgramDone(const TraceRequest& request, const Increment& last) {
 }
 
 bool SameState(const Increment& a, const Increment& b, const Scaling& scaling) {
-  if (a.stage != b.stage || a.positions.size() != b.positions.size() || a.contacts.size() != b.contacts.size())
-    return false;
+  if (a.stage != b.stage || !SameSizes(a, b)) return false;
   double worst = std::abs(a.load_factor - b.load_factor) / scaling.load_factor;
-  for (std::size_t i = 0; i < a.positions.size(); ++i)
-    worst = std::max(worst, std::abs(a.positions[i] - b.positions[i]) / scaling.length);
+  for (const double component : ScaledMotion(a, b, scaling.length)) worst = std::max(worst, std::abs(component));
   for (std::size_t i = 0; i < a.contacts.size(); ++i) {
     const ContactRecord &p = a.contacts[i], &q = b.contacts[i];
     if (p.state != q.state) return false;
@@ -34,8 +34,10 @@ bool SameState(const Increment& a, const Increment& b, const Scaling& scaling) {
 
 }  // namespace
 
-std::string EndContradicted(const TraceRequest& request, const std::vector<Increment>& increments,
+std::string EndContradicted(const TraceRequest& request_given, const std::vector<Increment>& increments,
                             std::string_view reason) {
+  const ExpandedRequest expanded(request_given);
+  const TraceRequest& request = expanded.Get();
   if (increments.empty()) return {};
   const Increment& last = increments.back();
   const std::string says = "the result says " + std::string(reason) + ", but ";

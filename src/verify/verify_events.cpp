@@ -8,6 +8,7 @@
 
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/scaling.h"
+#include "verify/scaled_motion.h"
 
 namespace contact_path {
 namespace {
@@ -130,14 +131,12 @@ class EventVerifier {
     double arc = 0.0;
   };
   std::optional<Chord> ChordOf(const Increment& from, const Increment& to) const {
-    if (from.positions.empty() || from.positions.size() != to.positions.size() || from.stage != to.stage)
-      return std::nullopt;
+    if (from.positions.empty() || !SameSizes(from, to) || from.stage != to.stage) return std::nullopt;
     Chord chord;
     chord.arc = to.arc_length - from.arc_length;
     if (!(chord.arc > kShortest)) return std::nullopt;
     double square = 0.0;
-    for (std::size_t i = 0; i < to.positions.size(); ++i)
-      chord.motion.push_back((to.positions[i] - from.positions[i]) / scaling_.length);
+    chord.motion = ScaledMotion(from, to, scaling_.length);
     chord.motion.push_back((to.load_factor - from.load_factor) / scaling_.load_factor);
     for (const double component : chord.motion) square += component * component;
     for (double& component : chord.motion) component /= std::sqrt(square);

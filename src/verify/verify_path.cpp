@@ -7,9 +7,11 @@
 #include <optional>
 #include <sstream>
 
+#include "contact_path/scene/expand.h"
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/scaling.h"
 #include "contact_path/verify/verify_events.h"
+#include "verify/scaled_motion.h"
 #include "verify/verified_contacts.h"
 
 namespace contact_path {
@@ -66,9 +68,11 @@ class Verifier {
     rounding_ = kRecorded + kRoundings * std::numeric_limits<double>::epsilon() *
                                 (farthest / scaling_.length + load / scaling_.load_factor);
     rates_.resize(2 * scene_.nodes.size());
+    turn_rates_.resize(scene_.nodes.size());
     for (const SupportMotion& motion : scene_.support_motions) {
       rates_[2 * index_.Node(motion.node)] = motion.dx;
       rates_[2 * index_.Node(motion.node) + 1] = motion.dy;
+      turn_rates_[index_.Node(motion.node)] = motion.rotation;
     }
     contacts_ = VerifiedContacts(scene_, index_, check_, scaling_, rates_, load);
   }
@@ -88,8 +92,9 @@ class Verifier {
       if (increment_ > first_) CheckProgress(increments_[increment_ - 1], increment);
       if (!increment.positions.empty()) {
         if (increment.positions.size() != 2 * scene_.nodes.size() ||
+            increment.rotations.size() != (scene_.beams.empty() ? 0 : scene_.nodes.size()) ||
             increment.contacts.size() != scene_.contacts.size()) {
-          Report("the numbers of positions and contacts are not those of the scene");
+          Report("the numbers of positions, rotations and contacts are not those of the scene");
           continue;
         }
         CheckState(increment);
@@ -124,7 +129,8 @@ class Verifier {
     bool finite = std::isfinite(increment.load_factor) && std::isfinite(increment.arc_length) &&
                   std::isfinite(increment.dissipation) && std::isfinite(increment.strain_energy) &&
                   std::isfinite(increment.external_work);
-    for (const double x : increment.positions) finite = finite && std::isfinite(x);
+    for (const std::vector<double>* const values : {&increment.positions, &increment.rotations})
+      for (const double value : *values) finite = finite && std::isfinite(value);
     for (const ContactRecord& contact : increment.contacts)
       finite = finite && std::isfinite(contact.gap) && std::isfinite(contact.rn) && std::isfinite(contact.rt);
     return finite;
@@ -148,11 +154,10 @@ class Verifier {
     if (increment.arc_length != last.arc_length || increment.dissipation != last.dissipation ||
         increment.external_work != last.external_work)
       Report("arc length, dissipation and work do not go on from the last increment of the stage before");
-    if (last.positions.size() != increment.positions.size() || last.contacts.size() != increment.contacts.size())
-      return;
+    if (!SameSizes(last, increment)) return;
     double motion = 0.0, force = 0.0;
-    for (std::size_t i = 0; i < increment.positions.size(); ++i)
-      motion = std::max(motion, std::abs(increment.positions[i] - last.positions[i]) / scaling_.length);
+    for (const double component : ScaledMotion(last, increment, scaling_.length))
+      motion = std::max(motion, std::abs(component));
     bool same = true;
     for (std::size_t i = 0; i < increment.contacts.size(); ++i) {
       const ContactRecord &a = last.contacts[i], &b = increment.contacts[i];
@@ -225,6 +230,10 @@ class Verifier {
       };
       if ((node.fixed_x && off(2 * i)) || (node.fixed_y && off(2 * i + 1)))
         Report("support ", node.name, " is not where it has to be");
+      if (node.fixed_rotation &&
+          !(std::abs(increment.rotations[i] - configuration_.start_rotations[i] -
+                     turn_rates_[i] * increment.load_factor) <= rounding_))
+        Report("support ", node.name, " is not turned as it has to be");
     }
     for (std::size_t i = 0; i < contacts_.size(); ++i) CheckContact(increment.contacts[i], from, to, i, tolerance);
     if (increment.solve.exact) CheckSoftContacts(increment, tolerance);
@@ -293,7 +302,7 @@ class Verifier {
     if (increment_ == first_ || before_ == increment_ - 1)
       same("friction law residual", increment.residuals.friction_law, residuals.friction_law);
     const double unit = scaling_.force * scaling_.length;
-    same("scaled strain energy", increment.strain_energy / unit, check_.StrainEnergy(increment.positions) / unit);
+    same("scaled strain energy", increment.strain_energy / unit, check_.StrainEnergy(increment.positions, increment.rotations) / unit);
   }
 
   void CheckContact(const ContactRecord& contact, const CheckedState& from, const CheckedState& to, std::size_t i,
@@ -329,8 +338,7 @@ class Verifier {
   // The arc of the path between two full increments.
   void CheckPiece(const Increment& before, const Increment& increment) {
     double square = std::pow((increment.load_factor - before.load_factor) / scaling_.load_factor, 2);
-    for (std::size_t i = 0; i < increment.positions.size(); ++i)
-      square += std::pow((increment.positions[i] - before.positions[i]) / scaling_.length, 2);
+    for (const double component : ScaledMotion(before, increment, scaling_.length)) square += component * component;
     const double chord = std::sqrt(square), arc = increment.arc_length - before.arc_length;
     if (arc < chord * (1.0 - kChord) - rounding_) Report("arc length grows by ", arc, ", less than the chord ", chord);
     if (before_ == increment_ - 1 && arc > kLongestArc * chord + kRecorded)
@@ -375,10 +383,11 @@ class Verifier {
     double along = 0.0, work = 0.0, scaled_loads = 0.0;
     for (const Load& load : scene_.loads) {
       const std::size_t x = 2 * index_.Node(load.node), y = x + 1;
-      const double product = load.fx * (increment.positions[x] - before.positions[x]) +
-                             load.fy * (increment.positions[y] - before.positions[y]);
+      double product = load.fx * (increment.positions[x] - before.positions[x]) +
+                       load.fy * (increment.positions[y] - before.positions[y]);
+      if (load.moment != 0.0) product += load.moment * (increment.rotations[x / 2] - before.rotations[x / 2]);
       (load.constant ? work : along) += product;
-      if (!load.constant) scaled_loads += std::hypot(load.fx, load.fy);
+      if (!load.constant) scaled_loads += std::hypot(load.fx, load.fy, load.moment / scaling_.length);
     }
     work += 0.5 * (before.load_factor + increment.load_factor) * along;
     // Where a force has its largest value on the increment, both ends may be alike. It bends over the length L.
@@ -468,6 +477,7 @@ class Verifier {
   const Scaling scaling_;
   const ResidualCheck check_;
   std::vector<VerifiedContact> contacts_;  // in the order of the scene
+  std::vector<double> turn_rates_;         // of rotations, by node
   std::vector<double> rates_;              // of the fixed components, per unit of the load factor
   std::size_t increment_ = 0;              // being checked
   std::optional<std::size_t> before_;      // the last full increment
@@ -478,8 +488,10 @@ class Verifier {
 
 }  // namespace
 
-Verification VerifyPath(const TraceRequest& request, const std::vector<Increment>& increments,
+Verification VerifyPath(const TraceRequest& request_given, const std::vector<Increment>& increments,
                         const std::function<void()>& before_each) {
+  const ExpandedRequest expanded(request_given);
+  const TraceRequest& request = expanded.Get();
   Verification result;
   if (increments.empty()) result.findings.push_back({0, "the record has no increments"});
   const SceneIndex index(request.scene);

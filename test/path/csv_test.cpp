@@ -24,6 +24,12 @@ TraceRequest TwoNodes() {
   return request;
 }
 
+TraceRequest Program() {
+  TraceRequest request = TwoNodes();
+  request.program.resize(2);
+  return request;
+}
+
 Increment FullIncrement() {
   Increment increment;
   increment.index = 1234567;
@@ -47,7 +53,7 @@ constexpr char kFullIncrement[] =
 
 std::string Row(const Increment& increment) {
   std::ostringstream out;
-  WriteCsvRow(increment, out);
+  CsvWriter(increment.stage > 0 ? Program() : TwoNodes()).WriteRow(increment, out);
   return out.str();
 }
 
@@ -60,7 +66,7 @@ std::vector<std::string> Cells(const std::string& line) {
 
 TEST(CsvHeader, NamesNodesAndContactsInSceneOrder) {
   std::ostringstream out;
-  WriteCsvHeader(TwoNodes(), out);
+  CsvWriter(TwoNodes()).WriteHeader(out);
   EXPECT_EQ(out.str(),
             "index,load_factor,arc_length,kind,x_b,y_b,x_a,y_a,gap_b@wall,rn_b@wall,rt_b@wall,state_b@wall,"
             "gap_b@floor,rn_b@floor,rt_b@floor,state_b@floor,dissipation,strain_energy,equilibrium_residual,"
@@ -70,15 +76,13 @@ TEST(CsvHeader, NamesNodesAndContactsInSceneOrder) {
 TEST(CsvRow, HasAllColumnsInTheOrderOfTheHeader) {
   EXPECT_EQ(Row(FullIncrement()), kFullIncrement);
   std::ostringstream header;
-  WriteCsvHeader(TwoNodes(), header);
+  CsvWriter(TwoNodes()).WriteHeader(header);
   EXPECT_EQ(Cells(header.str()).size(), Cells(kFullIncrement).size());
 }
 
 TEST(CsvRow, EndsWithTheStageOfAProgram) {
-  TraceRequest request = TwoNodes();
-  request.program.resize(2);
   std::ostringstream header;
-  WriteCsvHeader(request, header);
+  CsvWriter(Program()).WriteHeader(header);
   Increment increment = FullIncrement();
   increment.stage = 2;
   EXPECT_EQ(Cells(header.str()).back(), "stage\n");
@@ -151,7 +155,7 @@ TEST(CsvRow, DoesNotDependOnLocaleOrFlagsOfTheStream) {
   const std::locale before = std::locale::global(commas);
   std::ostringstream out;
   out << std::fixed << std::setprecision(1) << std::showpos << std::hex;
-  WriteCsvRow(FullIncrement(), out);
+  CsvWriter(TwoNodes()).WriteRow(FullIncrement(), out);
   std::locale::global(before);
   EXPECT_EQ(out.str(), kFullIncrement);
 }
@@ -159,10 +163,10 @@ TEST(CsvRow, DoesNotDependOnLocaleOrFlagsOfTheStream) {
 TEST(Csv, ErrorsAreLeftInTheStream) {
   std::ostream closed(nullptr);
   closed.clear();
-  WriteCsvHeader(TwoNodes(), closed);
+  CsvWriter(TwoNodes()).WriteHeader(closed);
   EXPECT_FALSE(closed.good());
   closed.clear();
-  WriteCsvRow(FullIncrement(), closed);
+  CsvWriter(TwoNodes()).WriteRow(FullIncrement(), closed);
   EXPECT_FALSE(closed.good());
 }
 

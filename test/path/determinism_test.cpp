@@ -22,10 +22,11 @@ std::string Csv(TraceRequest request, Method method) {
   request.options.method = method;
   request.options.max_increments = method == Method::kBranch ? kIncrements : kMpecIncrements;
   std::ostringstream csv;
+  const CsvWriter writer(request);
   TraceControl control;
-  control.on_increment = [&csv](Increment increment) {
+  control.on_increment = [&](Increment increment) {
     increment.solve.time = 0.0;
-    WriteCsvRow(increment, csv);
+    writer.WriteRow(increment, csv);
   };
   const TraceResult result = Trace(request, control);
   return csv.str() + std::string(ToString(result.reason)) + result.message;

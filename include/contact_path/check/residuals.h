@@ -16,7 +16,10 @@ namespace contact_path {
 
 // All without unit: forces over the characteristic force F, lengths over the characteristic length L (scene/scaling.h).
 struct Residuals {
-  double equilibrium = 0.0;       // max |phi - T r| over the free components / F (eq. 1)
+  // max |phi - T r| over the free components / F, of moments / (F L) (eq. 1). Where it is larger than F: over 1e-4 of the
+  // stiffness of the elements at the node times L, which is 1e11 times the rounding of coordinates. Reactions are
+  // measured in the same.
+  double equilibrium = 0.0;
   double penetration = 0.0;       // max (-gap) / L, 0 if none
   double tensile_reaction = 0.0;  // max (-r_n) / F, 0 if none
   double complementarity = 0.0;   // max |min(gap / L, r_n / F)| (eq. 2)
@@ -24,7 +27,7 @@ struct Residuals {
   // Friction law (eq. 3) with rt = r_t / F, rn = r_n / F, d = du_t / L: max |rt - clamp(rt - d, -mu rn, mu rn)|:
   // no slip inside the cone, slip opposed to r_t on its boundary.
   double friction_law = 0.0;
-  double support = 0.0;  // max distance of a fixed component from where it has to be / L
+  double support = 0.0;  // max distance of a fixed component from where it has to be / L, of rotations [rad]
 
   // Largest residual of contacts: the column complementarity_residual.
   double Contact() const;
@@ -36,6 +39,7 @@ struct Residuals {
 struct CheckedState {
   double load_factor = 0.0;
   std::vector<double> positions;
+  std::vector<double> rotations;  // by node, since the reference shape [rad]; empty in a scene without beams
   std::vector<double> rn;
   std::vector<double> rt;
 };
@@ -55,7 +59,8 @@ class ResidualCheck {
   // Residuals of `now`, reached from `before` in one increment (for the first increment: `before` = `now`).
   // Throws std::invalid_argument where the sizes do not fit the scene.
   Residuals Check(const CheckedState& before, const CheckedState& now) const;
-  // phi - T r by component x0, y0, x1, ... [force]; of a fixed component, the force that holds it.
+  // phi - T r by component x0, y0, x1, ... [force], and after them by rotation where there are beams [force length]; of
+  // a fixed component, the force that holds it.
   std::vector<double> Unbalance(const CheckedState& state) const;
   // The force that moving supports and obstacles exert along their motion per unit of the load factor [force length]:
   // the integral over the load factor is their work.
@@ -69,8 +74,8 @@ class ResidualCheck {
   // By contact candidate: an upper bound of the forces on its node across the contact, at the start, for a motion of
   // `length` of the elements and for the loads at `load_factor` [force].
   std::vector<double> ForcesAcross(double length, double load_factor) const;
-  // Strain energy of the structure at `positions` [force length].
-  double StrainEnergy(const std::vector<double>& positions) const;
+  // Strain energy of the structure [force length]. rotations: as in CheckedState.
+  double StrainEnergy(const std::vector<double>& positions, const std::vector<double>& rotations = {}) const;
 
  private:
   struct Prepared;

@@ -59,6 +59,10 @@ class FixedStateSystem {
 
   // residual: NumEquations(). Not finite where an element is singular.
   void Residual(const Eigen::VectorXd& x, Eigen::VectorXd* residual) const;
+  // The largest of its equations; of equilibrium in Structure::ResidualUnits().
+  double Largest(const Eigen::VectorXd& residual) const;
+  // The largest of these units: rounding of residuals, and of the points that it leads to, grows with it.
+  double ResidualUnit() const { return residual_unit_; }
   // Transposed Jacobian, NumUnknowns() x NumEquations(), compressed; the pattern is the same until the next set or pin.
   const Eigen::SparseMatrix<double>& TransposedJacobian(const Eigen::VectorXd& x);
 
@@ -131,6 +135,7 @@ class FixedStateSystem {
 
   const Structure& structure_;
   const ContactPairs& contacts_;
+  double residual_unit_ = 1.0;  // the largest
   std::vector<ContactState> states_;
   Eigen::VectorXd reference_;
   std::vector<Constraint> active_;

@@ -3,6 +3,8 @@
 #define CONTACT_PATH_PATH_CSV_H_
 
 #include <iosfwd>
+#include <string>
+#include <vector>
 
 #include "contact_path/path/increment.h"
 #include "contact_path/scene/scene.h"
@@ -11,9 +13,21 @@ namespace contact_path {
 
 // Columns: index, load_factor, arc_length, kind, x_<node>, y_<node>, ..., gap_<contact>, rn_<contact>, rt_<contact>,
 // state_<contact>, ..., dissipation, strain_energy, equilibrium_residual, complementarity_residual, solve_time;
-// with a program, last: stage. Nodes and contacts in scene order. Errors are left in the state of the stream.
-void WriteCsvHeader(const TraceRequest& request, std::ostream& out);
-void WriteCsvRow(const Increment& increment, std::ostream& out);
+// with a program, last: stage. rotation_<node> follows y_<node> where a beam turns the node. Nodes and contacts in the
+// order of the expanded scene (scene/expand.h). Errors are left in the state of the stream.
+class CsvWriter {
+ public:
+  // `request` must be sound (scene/validate.h).
+  explicit CsvWriter(const TraceRequest& request);
+
+  void WriteHeader(std::ostream& out) const;
+  void WriteRow(const Increment& increment, std::ostream& out) const;
+
+ private:
+  std::vector<std::string> nodes_, contacts_;  // names
+  std::vector<bool> turn_;                     // by node
+  bool program_;
+};
 
 }  // namespace contact_path
 

@@ -13,7 +13,9 @@ struct Configuration {
   std::vector<double> reference;  // the shape from which elements take rest lengths and rest positions not given
   std::vector<double> start;      // at load factor 0: the places of supports, and of all nodes before any load
 
-  // Both: the positions that the nodes of the scene have.
+  std::vector<double> start_rotations;  // by node, at load factor 0, since the reference shape [rad]
+
+  // Both: the positions that the nodes of the scene have, not turned.
   static Configuration Of(const Scene& scene);
   // All positions over a length.
   Configuration Over(double length) const;

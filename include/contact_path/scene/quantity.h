@@ -18,12 +18,13 @@ struct Quantity {
     kLoadFactor,  // load_factor
     kX,           // <node>.x, or x_<node>: current position
     kY,           // <node>.y, or y_<node>
+    kRotation,    // <node>.rotation, or rotation_<node>: of a node that a beam turns, since the start [rad]
     kGap,         // <contact>.gap, or gap_<contact>; a contact is named <node>@<obstacle>
     kRn,          // <contact>.rn, or rn_<contact>: normal reaction
     kRt,          // <contact>.rt, or rt_<contact>: tangential reaction
   };
 
-  bool IsOfNode() const { return kind == Kind::kX || kind == Kind::kY; }
+  bool IsOfNode() const { return kind == Kind::kX || kind == Kind::kY || kind == Kind::kRotation; }
   bool IsOfContact() const { return kind == Kind::kGap || kind == Kind::kRn || kind == Kind::kRt; }
 
   Kind kind = Kind::kLoadFactor;

@@ -10,8 +10,8 @@ namespace contact_path {
 // quantity of the scene = scaled quantity x scale. All are positive, change with the units as their quantities do, and
 // depend neither on the order of the parts nor on rotation or reflection of the scene.
 struct Scaling {
-  double length = 1.0;       // L: mean initial length of the bars; without bars, F / mean stiffness
-  double force = 1.0;        // F: geometric mean of EA over the bars; without bars, the norm of the reference load, or
+  double length = 1.0;       // L: mean initial length of bars and beams; without them, F / mean stiffness
+  double force = 1.0;        // F: geometric mean of EA of bars and EI / length^2 of beams; without them, the norm of the reference load, or
                              // mean stiffness x norm of the motions; no less than the norm of the constant loads, and
                              // than 1e-4 x mean stiffness x the smallest gap of a contact that does not touch
   double load_factor = 1.0;  // LoadFactorScale
@@ -26,6 +26,7 @@ Scaling CharacteristicScales(const Scene& scene, const SceneIndex& index);
 inline Scaling CharacteristicScales(const Scene& scene) { return CharacteristicScales(scene, SceneIndex(scene)); }
 
 // 1 / |(norm of the reference load on the free components / F, norm of the motions of supports and obstacles / L)|.
+// Moments are forces times L, rotations motions over L.
 double LoadFactorScale(const Scene& scene, const SceneIndex& index, double length, double force);
 
 // `scene` in scaled units: positions over L, forces over F, stiffnesses over F / L, reference loads and motions of norm

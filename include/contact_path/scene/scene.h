@@ -71,6 +71,7 @@ struct Node {
   double y = 0.0;
   bool fixed_x = false;
   bool fixed_y = false;
+  bool fixed_rotation = false;  // only where a beam turns the node
 };
 
 template <>
@@ -79,7 +80,7 @@ struct Fields<Node> {
   static constexpr auto Of() {
     return std::tuple(Member("name", &P::name).Naming(TextKind::kNewName), Member("x", &P::x).In(units::kLength),
                       Member("y", &P::y).In(units::kLength), Member("fixed_x", &P::fixed_x),
-                      Member("fixed_y", &P::fixed_y));
+                      Member("fixed_y", &P::fixed_y), Member("fixed_rotation", &P::fixed_rotation));
   }
 };
 
@@ -121,11 +122,59 @@ struct Fields<Superelement> {
   }
 };
 
+// Beam, stress-free as an arc of a circle, of so many straight segments between nodes on that arc. Large displacements
+// and rotations, small strains (structure/beam.h). The inner nodes are "<name>/1" to "<name>/<segments - 1>", from the
+// first node to the second.
+struct Beam {
+  std::string name;                // empty = "beam<place in the list, from 1>"
+  std::vector<std::string> nodes;  // two names
+  double EA = 0.0;                 // axial stiffness [force], > 0
+  double EI = 0.0;                 // bending stiffness [force length^2], > 0
+  double GA = 0.0;                 // shear stiffness [force]; 0 = no shear deformation
+  int segments = 0;                // 0 = 20
+  double angle = 0.0;              // turn of the arc from the first node to the second [rad], > 0 to the left; 0 = straight
+  std::vector<bool> hinged = {};   // at the first and the second node; empty = at none
+};
+
+template <>
+struct Fields<Beam> {
+  static constexpr std::size_t kNodes = 0;
+  template <typename P>
+  static constexpr auto Of() {
+    return std::tuple(Member("name", &P::name), Member("nodes", &P::nodes).Naming(TextKind::kNode),
+                      Member("EA", &P::EA).In(units::kForce).Within(Range::kPositive),
+                      Member("EI", &P::EI).In(units::kBending).Within(Range::kPositive),
+                      Member("GA", &P::GA).In(units::kForce).Within(Range::kZeroOrPositive),
+                      Member("segments", &P::segments).Within(Range::kNotNegative), Member("angle", &P::angle),
+                      Member("hinged", &P::hinged));
+  }
+};
+
+// Nodes with a name of their own. A beam is a group, too: of all its nodes, from the first to the second.
+struct Group {
+  std::string name;
+  std::vector<std::string> nodes;
+};
+
+template <>
+struct Fields<Group> {
+  template <typename P>
+  static constexpr auto Of() {
+    return std::tuple(Member("name", &P::name).Naming(TextKind::kNewName),
+                      Member("nodes", &P::nodes).Naming(TextKind::kNode));
+  }
+};
+
+// Dead load: on a node, or on each node of a group, or, as a traction, on a beam.
 struct Load {
   std::string node;
   double fx = 0.0;  // [force], per unit of the load factor unless constant
   double fy = 0.0;
-  bool constant = false;  // true: not scaled by the load factor
+  bool constant = false;   // true: not scaled by the load factor
+  double moment = 0.0;     // counterclockwise [force length]; only where a beam turns the node
+  std::string group = {};  // in place of node: fx, fy and moment act on each of its nodes; px and py need a beam
+  double px = 0.0;         // traction per initial length of the axis [force/length]
+  double py = 0.0;
 };
 
 template <>
@@ -133,7 +182,10 @@ struct Fields<Load> {
   template <typename P>
   static constexpr auto Of() {
     return std::tuple(Member("node", &P::node).Naming(TextKind::kNode), Member("fx", &P::fx).In(units::kForceRate),
-                      Member("fy", &P::fy).In(units::kForceRate), Member("constant", &P::constant));
+                      Member("fy", &P::fy).In(units::kForceRate), Member("constant", &P::constant),
+                      Member("moment", &P::moment).In(units::kMomentRate),
+                      Member("group", &P::group),
+                      Member("px", &P::px).In(units::kTractionRate), Member("py", &P::py).In(units::kTractionRate));
   }
 };
 
@@ -159,10 +211,11 @@ struct Fields<Obstacle> {
   }
 };
 
-// A node that may touch an obstacle. Its name is "<node>@<obstacle>".
+// A node that may touch an obstacle, or each node of a group. The name of a candidate is "<node>@<obstacle>".
 struct ContactCandidate {
   std::string node;
   std::string obstacle;
+  std::string group = {};  // in place of node
 
   std::string Name() const { return node + "@" + obstacle; }
 };
@@ -172,16 +225,18 @@ struct Fields<ContactCandidate> {
   template <typename P>
   static constexpr auto Of() {
     return std::tuple(Member("node", &P::node).Naming(TextKind::kNode),
-                      Member("obstacle", &P::obstacle).Naming(TextKind::kObstacle));
+                      Member("obstacle", &P::obstacle).Naming(TextKind::kObstacle),
+                      Member("group", &P::group));
   }
 };
 
 // Prescribed displacement of a support: the fixed components of the node are at their initial position + (dx, dy) x
-// load factor.
+// load factor, its fixed rotation is rotation x load factor.
 struct SupportMotion {
   std::string node;
   double dx = 0.0;  // [length] per unit of the load factor; 0 where the component is free
   double dy = 0.0;
+  double rotation = 0.0;  // [rad] per unit of the load factor; 0 where the rotation is free
 };
 
 template <>
@@ -189,7 +244,8 @@ struct Fields<SupportMotion> {
   template <typename P>
   static constexpr auto Of() {
     return std::tuple(Member("node", &P::node).Naming(TextKind::kNode), Member("dx", &P::dx).In(units::kLengthRate),
-                      Member("dy", &P::dy).In(units::kLengthRate));
+                      Member("dy", &P::dy).In(units::kLengthRate),
+                      Member("rotation", &P::rotation).In(units::kRotationRate));
   }
 };
 
@@ -214,6 +270,8 @@ struct Scene {
   std::vector<Node> nodes;
   std::vector<Bar> bars;
   std::vector<Superelement> superelements;
+  std::vector<Beam> beams;
+  std::vector<Group> groups;
   std::vector<Load> loads;
   std::vector<Obstacle> obstacles;
   std::vector<ContactCandidate> contacts;
@@ -226,8 +284,8 @@ struct Fields<Scene> {
   template <typename P>
   static constexpr auto Of() {
     return std::tuple(Member("name", &P::name), Member("nodes", &P::nodes), Member("bars", &P::bars),
-                      Member("superelements", &P::superelements), Member("loads", &P::loads),
-                      Member("obstacles", &P::obstacles), Member("contacts", &P::contacts),
+                      Member("superelements", &P::superelements), Member("beams", &P::beams),
+                      Member("groups", &P::groups), Member("loads", &P::loads), Member("obstacles", &P::obstacles), Member("contacts", &P::contacts),
                       Member("support_motions", &P::support_motions), Member("obstacle_motions", &P::obstacle_motions));
   }
 };

@@ -51,7 +51,7 @@ class BeamSegment : public Element {
 
   double EA_, length_;
   Eigen::Matrix2d bending_;  // d2W by (a, b)
-  double direction_;         // of the chord at the start [rad]
+  Eigen::Vector2d along_;    // the chord at the start, of length 1
   bool hinged_first_, hinged_second_;
   std::vector<LocalDof> dofs_;
 };

@@ -30,8 +30,7 @@ struct PrescribedDof {
 class Structure {
  public:
   // `scene` must be sound (scene/validate.h). index: of the scene, or of one with the same nodes. configuration: where
-  // not given, Configuration::Of(scene). A node has a rotation where an element asks for it; the rotation is free, and
-  // 0 at the start.
+  // not given, Configuration::Of(scene). A node has a rotation where an element asks for it.
   explicit Structure(const Scene& scene);
   Structure(const Scene& scene, const SceneIndex& index, const Configuration& configuration);
   // elements: in place of the elements of the scene.
@@ -59,6 +58,10 @@ class Structure {
   // An element that is not linear may turn: its largest stiffness counts in all directions.
   Eigen::VectorXd ForceBounds() const;
 
+  // By unknown, in a scaled structure: what residuals of equilibrium are measured in. 1, and more where the structure is
+  // so stiff at the start that the rounding of coordinates alone makes forces (tolerances::kStiffForce).
+  const Eigen::VectorXd& ResidualUnits() const { return residual_units_; }
+
   // Strain energy [force length].
   double Energy(const Eigen::VectorXd& u) const;
   // Gradient of the strain energy, NumDofs().
@@ -80,11 +83,13 @@ class Structure {
     std::vector<int> entries;     // into the values of the pattern, or -1: a square, column-major
   };
 
-  void NumberUnknowns(const Scene& scene, const SceneIndex& index, const std::vector<double>& start,
+  void NumberUnknowns(const Scene& scene, const SceneIndex& index, const Configuration& configuration,
                       const std::vector<PlacedElement>& elements);
   void AddLoads(const Scene& scene, const SceneIndex& index);
   void AddPart(PlacedElement placed);
   void BuildPattern();
+  // By unknown: the sum of the largest stiffnesses of the elements there, at the start.
+  Eigen::VectorXd StiffnessBounds() const;
   void Gather(const Part& part, const Eigen::Ref<const Eigen::VectorXd>& u, Eigen::Ref<Eigen::VectorXd> x) const;
 
   DofMap dofs_;
@@ -95,6 +100,7 @@ class Structure {
   std::vector<PrescribedDof> prescribed_;
   std::vector<Part> parts_;
   Eigen::SparseMatrix<double> pattern_;
+  Eigen::VectorXd residual_units_;
   std::unique_ptr<Orderings> orderings_ = std::make_unique<Orderings>();
 };
 

@@ -1,0 +1,66 @@
+// A request in which every node, load and contact is listed by itself: what is traced.
+#ifndef CONTACT_PATH_SCENE_EXPAND_H_
+#define CONTACT_PATH_SCENE_EXPAND_H_
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "contact_path/scene/scene.h"
+
+namespace contact_path {
+
+// The name of a beam, given or by its place in the list, from 0.
+std::string BeamName(const Beam& beam, std::size_t place);
+
+// The number of its segments, given or by default.
+int BeamSegments(const Beam& beam);
+
+// Whether the beam turns its node `place`, of the nodes that are listed for it.
+bool TurnsNode(const Beam& beam, std::size_t place);
+
+// By node of an expanded scene: whether a beam turns it. Only such a node has a rotation. Names that the scene does not
+// have count for nothing.
+std::vector<bool> NodesThatTurn(const Scene& scene);
+
+// The inner nodes of all beams follow the nodes of the scene, beam by beam; each beam lists all of its nodes. `scene`
+// must have sound beams; of a beam that is expanded nothing changes.
+void ExpandBeams(Scene* scene);
+
+// Where the parts of an expanded list stand in the list of the request, from 0.
+using Places = std::vector<std::size_t>;
+
+// The request with the inner nodes of its beams, and with loads and contacts on nodes in place of those on groups. A
+// traction on a beam acts on the nodes of each segment, half of its resultant on each; that is exact to second order in
+// the length of the segment. `request` must be sound (validate.h).
+struct Expansion {
+  TraceRequest request;
+  Places loads, contacts;           // of the scene
+  std::vector<Places> stage_loads;  // by stage
+};
+Expansion Expand(const TraceRequest& request);
+
+// Whether the request has anything that Expand() changes, or a field of it.
+bool NeedsExpansion(const TraceRequest& request);
+
+// The request as it is traced, without a copy where nothing needs one.
+class ExpandedRequest {
+ public:
+  // `request` must be sound, and outlive this.
+  explicit ExpandedRequest(const TraceRequest& request) : given_(request) {
+    if (NeedsExpansion(request)) expanded_ = Expand(request).request;
+  }
+  ExpandedRequest(const ExpandedRequest&) = delete;
+  ExpandedRequest& operator=(const ExpandedRequest&) = delete;
+
+  const TraceRequest& Get() const { return expanded_ ? *expanded_ : given_; }
+
+ private:
+  const TraceRequest& given_;
+  std::optional<TraceRequest> expanded_;
+};
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_SCENE_EXPAND_H_

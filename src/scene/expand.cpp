@@ -1,0 +1,199 @@
+#include "contact_path/scene/expand.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+
+namespace contact_path {
+namespace {
+
+constexpr int kSegments = 20;
+constexpr double kStraight = 1e-12;  // [rad]: below, a chord is shorter than its arc by less than rounding
+
+bool IsExpanded(const Beam& beam) { return static_cast<int>(beam.nodes.size()) == beam.segments + 1; }
+
+// The point at `share` of the arc from a to b that turns by `angle` to the left.
+Node PointOfArc(const Node& a, const Node& b, double angle, double share) {
+  const double dx = b.x - a.x, dy = b.y - a.y;
+  Node point;
+  if (std::abs(angle) < kStraight) {
+    point.x = a.x + share * dx;
+    point.y = a.y + share * dy;
+    return point;
+  }
+  // The chord of a part of the arc: as long as sines of half of the angles tell, and turned against the whole chord.
+  const double stretch = std::sin(0.5 * share * angle) / std::sin(0.5 * angle);
+  const double turn = -0.5 * (1.0 - share) * angle;
+  point.x = a.x + stretch * (std::cos(turn) * dx - std::sin(turn) * dy);
+  point.y = a.y + stretch * (std::sin(turn) * dx + std::cos(turn) * dy);
+  return point;
+}
+
+// What stands for a group: its nodes, and the beam, if it is one.
+struct GroupNodes {
+  const std::vector<std::string>* nodes = nullptr;
+  const Beam* beam = nullptr;
+};
+
+class Groups {
+ public:
+  // scene: expanded; must outlive the groups.
+  explicit Groups(const Scene& scene) {
+    for (const Group& group : scene.groups) groups_.emplace(group.name, GroupNodes{&group.nodes, nullptr});
+    for (const Beam& beam : scene.beams) groups_.emplace(beam.name, GroupNodes{&beam.nodes, &beam});
+    for (const Node& node : scene.nodes) nodes_.emplace(node.name, &node);
+  }
+
+  const GroupNodes& At(const std::string& name) const { return groups_.at(name); }
+
+  // The length between two nodes at the start.
+  double Length(const std::string& first, const std::string& second) const {
+    const Node &a = *nodes_.at(first), &b = *nodes_.at(second);
+    return std::hypot(b.x - a.x, b.y - a.y);
+  }
+
+ private:
+  std::unordered_map<std::string_view, GroupNodes> groups_;
+  std::unordered_map<std::string_view, const Node*> nodes_;
+};
+
+// Calls add(load on a node).
+template <typename Add>
+void ExpandLoad(const Load& load, const Groups& groups, Add&& add) {
+  if (load.group.empty()) return add(load);
+  const GroupNodes& group = groups.At(load.group);
+  Load on_node;
+  on_node.constant = load.constant;
+  if (load.fx != 0.0 || load.fy != 0.0 || load.moment != 0.0) {
+    on_node.fx = load.fx;
+    on_node.fy = load.fy;
+    on_node.moment = load.moment;
+    for (const std::string& node : *group.nodes) {
+      on_node.node = node;
+      add(on_node);
+    }
+    on_node.moment = 0.0;
+  }
+  if (group.beam == nullptr || (load.px == 0.0 && load.py == 0.0)) return;
+  const std::vector<std::string>& nodes = *group.nodes;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    double length = 0.0;
+    if (i > 0) length += 0.5 * groups.Length(nodes[i - 1], nodes[i]);
+    if (i + 1 < nodes.size()) length += 0.5 * groups.Length(nodes[i], nodes[i + 1]);
+    on_node.node = nodes[i];
+    on_node.fx = length * load.px;
+    on_node.fy = length * load.py;
+    add(on_node);
+  }
+}
+
+Places ExpandLoads(const Groups& groups, std::vector<Load>* loads) {
+  std::vector<Load> expanded;
+  Places places;
+  for (std::size_t i = 0; i < loads->size(); ++i)
+    ExpandLoad((*loads)[i], groups, [&](const Load& load) {
+      expanded.push_back(load);
+      places.push_back(i);
+    });
+  *loads = std::move(expanded);
+  return places;
+}
+
+Places ExpandContacts(const Groups& groups, std::vector<ContactCandidate>* contacts) {
+  std::vector<ContactCandidate> expanded;
+  Places places;
+  const auto add = [&](const ContactCandidate& contact, std::size_t place) {
+    expanded.push_back(contact);
+    places.push_back(place);
+  };
+  for (std::size_t i = 0; i < contacts->size(); ++i) {
+    ContactCandidate contact = (*contacts)[i];
+    if (contact.group.empty()) {
+      add(contact, i);
+      continue;
+    }
+    const std::string group = std::exchange(contact.group, {});
+    for (const std::string& node : *groups.At(group).nodes) {
+      contact.node = node;
+      add(contact, i);
+    }
+  }
+  *contacts = std::move(expanded);
+  return places;
+}
+
+}  // namespace
+
+std::string BeamName(const Beam& beam, std::size_t place) {
+  return beam.name.empty() ? "beam" + std::to_string(place + 1) : beam.name;
+}
+
+int BeamSegments(const Beam& beam) { return beam.segments > 0 ? beam.segments : kSegments; }
+
+bool TurnsNode(const Beam& beam, std::size_t place) {
+  if (beam.hinged.empty()) return true;
+  return !(place == 0 && beam.hinged.front()) && !(place + 1 == beam.nodes.size() && beam.hinged.back());
+}
+
+std::vector<bool> NodesThatTurn(const Scene& scene) {
+  std::vector<bool> turn(scene.nodes.size(), false);
+  if (scene.beams.empty()) return turn;
+  std::unordered_map<std::string_view, std::size_t> places;
+  for (std::size_t i = 0; i < scene.nodes.size(); ++i) places.emplace(scene.nodes[i].name, i);
+  for (const Beam& beam : scene.beams)
+    for (std::size_t i = 0; i < beam.nodes.size(); ++i)
+      if (const auto node = places.find(beam.nodes[i]); node != places.end() && TurnsNode(beam, i))
+        turn[node->second] = true;
+  return turn;
+}
+
+void ExpandBeams(Scene* scene) {
+  if (scene->beams.empty()) return;
+  std::unordered_map<std::string, std::size_t> places;
+  for (std::size_t i = 0; i < scene->nodes.size(); ++i) places.emplace(scene->nodes[i].name, i);
+  for (std::size_t k = 0; k < scene->beams.size(); ++k) {
+    Beam& beam = scene->beams[k];
+    beam.name = BeamName(beam, k);
+    if (IsExpanded(beam)) continue;
+    beam.segments = BeamSegments(beam);
+    const Node first = scene->nodes[places.at(beam.nodes[0])], second = scene->nodes[places.at(beam.nodes[1])];
+    std::vector<std::string> nodes = {first.name};
+    for (int i = 1; i < beam.segments; ++i) {
+      Node inner = PointOfArc(first, second, beam.angle, static_cast<double>(i) / beam.segments);
+      inner.name = beam.name + "/" + std::to_string(i);
+      nodes.push_back(inner.name);
+      scene->nodes.push_back(std::move(inner));
+    }
+    nodes.push_back(second.name);
+    beam.nodes = std::move(nodes);
+  }
+}
+
+Expansion Expand(const TraceRequest& request) {
+  Expansion expansion;
+  expansion.request = request;
+  Scene& scene = expansion.request.scene;
+  ExpandBeams(&scene);
+  const Groups groups(scene);
+  expansion.loads = ExpandLoads(groups, &scene.loads);
+  expansion.contacts = ExpandContacts(groups, &scene.contacts);
+  for (Stage& stage : expansion.request.program) expansion.stage_loads.push_back(ExpandLoads(groups, &stage.loads));
+  return expansion;
+}
+
+bool NeedsExpansion(const TraceRequest& request) {
+  const auto any_load = [](const std::vector<Load>& loads) {
+    return std::any_of(loads.begin(), loads.end(),
+                       [](const Load& load) { return !load.group.empty() || load.px != 0.0 || load.py != 0.0; });
+  };
+  const Scene& scene = request.scene;
+  return !scene.beams.empty() || !scene.groups.empty() || any_load(scene.loads) ||
+         std::any_of(scene.contacts.begin(), scene.contacts.end(),
+                     [](const ContactCandidate& contact) { return !contact.group.empty(); }) ||
+         std::any_of(request.program.begin(), request.program.end(),
+                     [&](const Stage& stage) { return any_load(stage.loads); });
+}
+
+}  // namespace contact_path

@@ -1,0 +1,139 @@
+#include "scene/expansion_rules.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <unordered_map>
+#include <unordered_set>
+
+#include "contact_path/scene/nearest_name.h"
+#include "scene/structure_rules.h"
+
+namespace contact_path {
+namespace {
+
+constexpr int kMostSegments = 1000000;
+constexpr double kFullTurn = 6.283185307179586;  // [rad]
+
+const KeyPath kScene("scene");
+
+class BeamRules {
+ public:
+  explicit BeamRules(Checker* checker) : checker_(*checker), scene_(checker->GetScene()) {}
+
+  void Check() {
+    const KeyPath list = kScene.Key("beams");
+    std::unordered_set<std::string> earlier;
+    for (std::size_t i = 0; i < scene_.beams.size(); ++i) CheckBeam(list[i], i, &earlier);
+    if (checker_.NothingFound()) CheckHinges(list);
+  }
+
+ private:
+  void CheckBeam(const KeyPath& path, std::size_t place, std::unordered_set<std::string>* earlier) {
+    Beam beam = scene_.beams[place];
+    beam.name = BeamName(beam, place);
+    checker_.CheckFields(path, beam);
+    checker_.CheckNewName(path.Key("name"), beam.name, earlier);
+    CheckTwoNodes(&checker_, path.Key("nodes"), beam.nodes);
+    if (beam.segments > kMostSegments)
+      checker_.Add(path.Key("segments"), std::to_string(beam.segments),
+                   "must be at most " + std::to_string(kMostSegments));
+    if (std::isfinite(beam.angle) && !(std::abs(beam.angle) < kFullTurn))
+      checker_.Add(path.Key("angle"), NumberText(beam.angle), "must be between -2 pi and 2 pi");
+    if (!beam.hinged.empty() && beam.hinged.size() != 2)
+      checker_.Add(path.Key("hinged"), std::to_string(beam.hinged.size()) + " entries",
+                   "must be empty or have 2 entries: whether the beam is hinged at its first and its second node");
+  }
+
+  // A beam with a hinge must be held at its other end, too.
+  void CheckHinges(const KeyPath& list) {
+    std::unordered_map<std::string, int> parts;  // at a node
+    ForEachElementList(scene_, [&](std::string_view, const auto& elements) {
+      for (const auto& element : elements)
+        for (const std::string& node : element.nodes) ++parts[node];
+    });
+    std::unordered_set<std::string> in_contact;
+    for (const ContactCandidate& contact : scene_.contacts) in_contact.insert({contact.node, contact.group});
+    for (std::size_t i = 0; i < scene_.beams.size(); ++i) {
+      const Beam& beam = scene_.beams[i];
+      if (beam.hinged.empty() || in_contact.count(BeamName(beam, i)) > 0) continue;
+      for (const std::size_t hinge : {std::size_t{0}, std::size_t{1}}) {
+        const std::size_t other = 1 - hinge;
+        const Node& end = *checker_.KnownNode(beam.nodes[other]);
+        const bool turns = end.fixed_rotation && !beam.hinged[other];
+        if (!beam.hinged[hinge] || parts[end.name] > 1 || end.fixed_x || end.fixed_y || turns ||
+            in_contact.count(end.name) > 0)
+          continue;
+        checker_.Add(list[i].Key("hinged")[hinge], "true",
+                     "the hinge leaves node " + end.name + " loose: no support, contact or other part holds it");
+      }
+    }
+  }
+
+  Checker& checker_;
+  const Scene& scene_;
+};
+
+class GroupRules {
+ public:
+  explicit GroupRules(Checker* checker) : checker_(*checker), scene_(checker->GetScene()) {}
+
+  void Check() {
+    const KeyPath list = kScene.Key("groups");
+    std::unordered_set<std::string> earlier;
+    for (const Beam& beam : scene_.beams) {
+      earlier.insert(beam.name);
+      beams_.insert(beam.name);
+    }
+    for (std::size_t i = 0; i < scene_.groups.size(); ++i) {
+      const Group& group = scene_.groups[i];
+      checker_.CheckFields(list[i], group, &earlier);
+      if (group.nodes.empty()) checker_.Add(list[i].Key("nodes"), "[]", "at least one node is needed");
+      std::unordered_set<std::string> nodes;
+      for (std::size_t k = 0; k < group.nodes.size(); ++k)
+        if (!nodes.insert(group.nodes[k]).second)
+          checker_.Add(list[i].Key("nodes")[k], group.nodes[k], "must not be repeated");
+      groups_.insert(group.name);
+    }
+    CheckLoads(kScene.Key("loads"), scene_.loads);
+    const KeyPath contacts = kScene.Key("contacts"), program("program");
+    for (std::size_t i = 0; i < scene_.contacts.size(); ++i)
+      CheckGroup(contacts[i], scene_.contacts[i].node, scene_.contacts[i].group);
+    for (std::size_t i = 0; i < checker_.Request().program.size(); ++i)
+      CheckLoads(program[i].Key("loads"), checker_.Request().program[i].loads);
+  }
+
+ private:
+  void CheckGroup(const KeyPath& path, const std::string& node, const std::string& group) {
+    if (group.empty()) return;
+    if (!node.empty()) checker_.Add(path.Key("node"), node, "must be left out where there is a group");
+    if (groups_.count(group) > 0 || beams_.count(group) > 0) return;
+    NearestName nearest(group);
+    for (const Group& known : scene_.groups) nearest.Offer(known.name);
+    for (const Beam& known : scene_.beams) nearest.Offer(known.name);
+    checker_.Add(path.Key("group"), group, "must name a group or a beam of the scene" + nearest.Question());
+  }
+
+  void CheckLoads(const KeyPath& list, const std::vector<Load>& loads) {
+    for (std::size_t i = 0; i < loads.size(); ++i) {
+      const Load& load = loads[i];
+      CheckGroup(list[i], load.node, load.group);
+      const bool traction = load.px != 0.0 || load.py != 0.0;
+      if (traction && beams_.count(load.group) == 0)
+        checker_.Add(list[i].Key(load.px != 0.0 ? "px" : "py"), NumberText(load.px != 0.0 ? load.px : load.py),
+                     "must be 0: a traction needs a beam as its group");
+    }
+  }
+
+  Checker& checker_;
+  const Scene& scene_;
+  std::unordered_set<std::string> groups_, beams_;
+};
+
+}  // namespace
+
+void CheckBeams(Checker* checker) { BeamRules(checker).Check(); }
+
+void CheckGroups(Checker* checker) { GroupRules(checker).Check(); }
+
+}  // namespace contact_path
