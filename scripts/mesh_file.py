@@ -1,7 +1,8 @@
 """Files of gmsh, formats 2.2 and 4.1, ASCII and binary: nodes, elements and the names of their physical groups.
 
-meshio reads nodes and elements. The groups are read here: of format 4.1, meshio keeps one group of each entity and
-fails where an entity has none; of two groups with one name, in two dimensions, it keeps one."""
+meshio reads nodes and elements. The numbers of the nodes and the groups are read here. meshio does not tell the numbers, and
+takes memory for the largest one. Of format 4.1, meshio keeps one group of each entity, and fails where an entity has none. Of
+two groups with one name, in two dimensions, meshio keeps one."""
 import collections
 import contextlib
 import io
@@ -13,13 +14,16 @@ import warnings
 import numpy as np
 
 FORMATS = ('2', '2.2', '4.1')
+LARGEST_NUMBER = 10**7  # of a node
+LARGEST_COORDINATE = 1e100  # of any number of a scene, in magnitude
 GROUPS = ('point', 'curve', 'surface')  # by dimension
 PLANE = {'vertex': 0, 'line': 1, 'line3': 1, 'triangle': 2, 'triangle6': 2, 'quad': 2, 'quad8': 2}  # dimension
 
 # kind: a key of PLANE; nodes: indices (m, k), in the order of gmsh, corners first; groups: names of the physical groups of
 # all m elements.
 Block = collections.namedtuple('Block', 'kind nodes groups')
-# points (n, 3) [length]; blocks; empty_groups: names of physical groups without elements.
+# points (n, 3) [length]: row i is the node i + 1 of the file, NaN where it has none; blocks; empty_groups: names of physical
+# groups without elements.
 Mesh = collections.namedtuple('Mesh', 'points blocks empty_groups')
 
 
@@ -46,36 +50,51 @@ class Numbers:
 
     def __init__(self, body, binary, size_bytes):
         self.body = body if binary else body.split()
+        self.types = {'int': np.dtype('i4'), 'size': np.dtype('u%d' % size_bytes), 'double': np.dtype('f8')}
         self.binary = binary
         self.at = 0
-        self.types = {'int': 'i4', 'size': 'u%d' % size_bytes, 'double': 'f8'}
+
+    def skip(self, kind, count):
+        """Where the next numbers begin and end. ValueError: there are fewer."""
+        begin = self.at
+        self.at += count * (self.types[kind].itemsize if self.binary else 1)
+        if self.at > len(self.body):
+            raise ValueError('it has too few numbers')
+        return begin, self.at
 
     def take(self, kind, count=1):
-        """The next numbers as a list. ValueError: there are fewer."""
+        """The next integers as a list. ValueError: there are fewer."""
+        begin, end = self.skip(kind, count)
         if self.binary:
-            found = np.frombuffer(self.body, self.types[kind], count, self.at) if count else np.empty(0)
-            self.at += found.nbytes
-            return found.tolist()
-        words = self.body[self.at:self.at + count]
-        if len(words) < count:
-            raise ValueError('too few numbers')
-        self.at += count
-        return [float(word) if kind == 'double' else int(word) for word in words]
+            return np.frombuffer(self.body[begin:end], self.types[kind]).tolist()
+        return [int(word) for word in self.body[begin:end]]
 
 
-def read_entity_groups(body, binary, size_bytes):
+def read_entity_groups(numbers):
     """Section $Entities of format 4.1: (dimension, tag of the entity) -> tags of its physical groups."""
-    numbers = Numbers(body, binary, size_bytes)
     groups = {}
     for dimension, count in enumerate(numbers.take('size', 4)):
         for _ in range(count):
             entity = numbers.take('int')[0]
-            numbers.take('double', 6 if dimension else 3)  # its box
+            numbers.skip('double', 6 if dimension else 3)  # its box
             # A group that turns the entity round has a negative tag.
             groups[dimension, entity] = [abs(tag) for tag in numbers.take('int', numbers.take('size')[0])]
             if dimension:
-                numbers.take('int', numbers.take('size')[0])  # the entities of its boundary
+                numbers.skip('int', numbers.take('size')[0])  # the entities of its boundary
     return groups
+
+
+def read_node_numbers(numbers):
+    """Section $Nodes of format 4.1: the numbers of the nodes, in the order of the file."""
+    found = []
+    blocks = numbers.take('size', 4)[0]
+    for _ in range(blocks):
+        if numbers.take('int', 3)[2]:
+            raise ValueError('its nodes have parameters: set Mesh.SaveParametric = 0 in gmsh')
+        count = numbers.take('size')[0]
+        found += numbers.take('size', count)
+        numbers.skip('double', 3 * count)
+    return found
 
 
 def read_group_names(body):
@@ -99,7 +118,8 @@ def read_cells(sections):
             try:
                 return meshio.gmsh.read(path)
             except KeyError as error:
-                raise ValueError('has elements of the gmsh type %s, which meshio does not know' % error) from error
+                raise ValueError('has elements of the type %s of gmsh, which no scene has: set Mesh.ElementOrder to 1 or 2 in gmsh'
+                                 % error) from error
             except Exception as error:  # whatever meshio meets in a damaged file
                 reason = ' '.join(str(error).split()) or type(error).__name__
                 raise ValueError('cannot be read by meshio: %s' % reason) from error
@@ -134,6 +154,14 @@ def split_blocks(cells, entity_groups):
             yield Block(cell_block.type, cell_block.data[block_tags == tag], groups)
 
 
+def read_section(function, sections, name, binary, size_bytes=8):
+    """What a function finds in the Numbers of a section."""
+    try:
+        return function(Numbers(sections[name], binary, size_bytes))
+    except ValueError as error:
+        raise ValueError('section $%s: %s' % (name, error)) from error
+
+
 def read(path):
     """The Mesh of a file. OSError: no such file. ValueError: no mesh that a scene can have; one line that goes on from the
     name of the file."""
@@ -148,14 +176,29 @@ def read(path):
     version = words[0].decode('ascii', 'replace') if words else ''
     if version not in FORMATS or len(words) < 3:
         raise ValueError('has format %s, not 2.2 or 4.1: gmsh FILE -save -format msh41 -o NEW writes it anew' % version)
-    cells = read_cells(sections)
+    binary = words[1] == b'1'
     entity_groups = None
     if version == '4.1':
-        try:
-            entity_groups = read_entity_groups(sections.get('Entities', b'0 0 0 0' if words[1] == b'0' else bytes(32)),
-                                               words[1] == b'1', int(words[2]))
-        except ValueError as error:
-            raise ValueError('is damaged: section $Entities: %s' % error) from error
+        size_bytes = int(words[2]) if words[2] in (b'4', b'8') else 8
+        node_numbers = read_section(read_node_numbers, sections, 'Nodes', binary, size_bytes)
+        sections.setdefault('Entities', bytes(4 * size_bytes) if binary else b'0 0 0 0')
+        entity_groups = read_section(read_entity_groups, sections, 'Entities', binary, size_bytes)
+    elif binary:
+        node_numbers = None  # 1, 2, ..., or meshio refuses the file
+    else:
+        node_numbers = read_section(lambda numbers: [int(word) for word in numbers.body[1::4]], sections, 'Nodes', binary)
+    if node_numbers and not 1 <= min(node_numbers) <= max(node_numbers) <= LARGEST_NUMBER:
+        raise ValueError('has nodes numbered beyond 1 to %d: renumber the mesh in gmsh' % LARGEST_NUMBER)
+    cells = read_cells(sections)
+    if not len(cells.points):
+        raise ValueError('has no nodes')
+    rows = np.arange(len(cells.points)) if node_numbers is None else np.array(node_numbers) - 1
+    if len(rows) != len(cells.points) or len(np.unique(rows)) != len(rows):
+        raise ValueError('is damaged: two nodes have the same number')
+    if not (np.abs(cells.points) <= LARGEST_COORDINATE).all():
+        raise ValueError('has a coordinate that is not finite or above %g, which a scene cannot have' % LARGEST_COORDINATE)
+    points = np.full((rows.max() + 1, 3), np.nan)
+    points[rows] = cells.points
     names = read_group_names(sections.get('PhysicalNames', b''))
     blocks = []
     empty = set(names)
@@ -164,7 +207,6 @@ def read(path):
             raise ValueError('is damaged: a %s has a node that is not in the file' % block.kind)
         keys = [(PLANE[block.kind], tag) for tag in block.groups]
         empty.difference_update(keys)
-        blocks.append(block._replace(groups=[names.get(key, '%s_%d' % (GROUPS[key[0]], key[1])) for key in keys]))
-    if not np.isfinite(cells.points).all():
-        raise ValueError('is damaged: a coordinate is not finite')
-    return Mesh(cells.points, blocks, sorted(names[key] for key in empty))
+        groups = [names.get(key, '%s_%d' % (GROUPS[key[0]], key[1])) for key in keys]
+        blocks.append(Block(block.kind, rows[block.nodes], groups))
+    return Mesh(points, blocks, sorted(names[key] for key in empty))

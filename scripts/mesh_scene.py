@@ -135,9 +135,10 @@ class Builder:
             highest = np.flatnonzero(used)[np.argmax(points[used, 2])]
             raise ValueError('z must be constant, a scene is plane: z is %g at the node n%d and %g at others' % (
                 points[highest, 2], highest + 1, points[used, 2].min()))
-        if not used.all():
+        unused = np.isfinite(points[:, 0]) & ~used
+        if unused.any():
             self.remarks.append('%s in no element: left out, first n%d' % (
-                counted(np.count_nonzero(~used), 'node'), np.flatnonzero(~used)[0] + 1))
+                counted(np.count_nonzero(unused), 'node'), np.flatnonzero(unused)[0] + 1))
         return used
 
     def turn_solids(self):
@@ -191,7 +192,7 @@ class Builder:
         """Lists of the scene, as in a file: name of the list -> dicts."""
         names = self.name_nodes()
         scene = {'nodes': [{'name': names[i], 'x': float(self.positions[i, 0]), 'y': float(self.positions[i, 1])}
-                           for i in np.flatnonzero(self.used)]}
+                           for i in sorted(names)]}
         scene['groups'] = []
         group_names = Names('group', self.remarks)  # and beams, which may stand for a group
         for name, nodes in self.points.items():
@@ -219,8 +220,8 @@ class Builder:
         return scene
 
     def name_nodes(self):
-        """A physical point names its node where it has but one; other nodes are n1, n2, ... in the order of the file."""
-        names = ['n%d' % (i + 1) for i in range(len(self.positions))]
+        """A physical point names its node where it has but one; n1, n2, ... have the numbers of gmsh."""
+        names = {i: 'n%d' % (i + 1) for i in np.flatnonzero(self.used).tolist()}
         node_names = Names('node', [])
         for name, nodes in self.points.items():
             if len(nodes) == 1 and names[nodes[0]] == 'n%d' % (nodes[0] + 1) and not re.fullmatch(r'n\d+', name):
