@@ -326,7 +326,8 @@ class Written(MeshTest):
             Rectangle(1) = {0, 0, 0, 1, 1}; Rectangle(2) = {1, 0, 0, 1, 1}; Coherence;
             Physical Surface("left") = {1}; Physical Curve("between") = {2};'''
         self.mesh('SetFactory("OpenCASCADE");' + two, SaveAll=1, MeshSizeMax=0.5)
-        scene = self.convert(self.save('two.msh'), ['in no physical surface: a solid "part"', 'edges of "between" between two elements'])
+        scene = self.convert(self.save('two.msh'), ['in no physical surface: a solid "part"',
+                                                    'edges of "between" between two elements'])
         self.assertEqual(scene.names('solids'), ['left', 'part'])
         self.assertEqual(scene.names('groups'), ['between'])
         self.assertNotIn('surfaces', scene.scene)
