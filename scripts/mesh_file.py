@@ -84,17 +84,32 @@ def read_entity_groups(numbers):
     return groups
 
 
+def check_node_numbers(found, total):
+    """ValueError: so many nodes are not what the section tells, or not what a mesh can have."""
+    if len(found) != total or len(set(found)) != total:
+        raise ValueError('it tells of %d nodes and has %d different ones' % (total, len(set(found))))
+    if found and not 1 <= min(found) <= max(found) <= LARGEST_NUMBER:
+        raise ValueError('its nodes have numbers beyond 1 to %d: renumber the mesh in gmsh' % LARGEST_NUMBER)
+    return found
+
+
+def read_old_node_numbers(numbers):
+    """Section $Nodes of format 2.2, ASCII: the numbers of the nodes, in the order of the file."""
+    total = numbers.take('int')[0]
+    return check_node_numbers([int(word) for word in numbers.body[1::4]], total)
+
+
 def read_node_numbers(numbers):
     """Section $Nodes of format 4.1: the numbers of the nodes, in the order of the file."""
     found = []
-    blocks = numbers.take('size', 4)[0]
+    blocks, total, _, _ = numbers.take('size', 4)
     for _ in range(blocks):
         if numbers.take('int', 3)[2]:
             raise ValueError('its nodes have parameters: set Mesh.SaveParametric = 0 in gmsh')
         count = numbers.take('size')[0]
         found += numbers.take('size', count)
         numbers.skip('double', 3 * count)
-    return found
+    return check_node_numbers(found, total)
 
 
 def read_group_names(body):
@@ -186,15 +201,11 @@ def read(path):
     elif binary:
         node_numbers = None  # 1, 2, ..., or meshio refuses the file
     else:
-        node_numbers = read_section(lambda numbers: [int(word) for word in numbers.body[1::4]], sections, 'Nodes', binary)
-    if node_numbers and not 1 <= min(node_numbers) <= max(node_numbers) <= LARGEST_NUMBER:
-        raise ValueError('has nodes numbered beyond 1 to %d: renumber the mesh in gmsh' % LARGEST_NUMBER)
+        node_numbers = read_section(read_old_node_numbers, sections, 'Nodes', binary)
     cells = read_cells(sections)
     if not len(cells.points):
         raise ValueError('has no nodes')
     rows = np.arange(len(cells.points)) if node_numbers is None else np.array(node_numbers) - 1
-    if len(rows) != len(cells.points) or len(np.unique(rows)) != len(rows):
-        raise ValueError('is damaged: two nodes have the same number')
     if not (np.abs(cells.points) <= LARGEST_COORDINATE).all():
         raise ValueError('has a coordinate that is not finite or above %g, which a scene cannot have' % LARGEST_COORDINATE)
     points = np.full((rows.max() + 1, 3), np.nan)

@@ -310,6 +310,17 @@ class Written(MeshTest):
                 self.assertEqual(len(scene.scene['beams']) + 1, len(scene.named('groups', 'beam')['nodes']))
                 self.assertGreater(len(scene.scene['beams']), 1)
 
+    def test_groups_that_turn_their_entities_round(self):
+        self.mesh(PLATE)
+        wanted = {file: self.convert(self.save('plate.msh', *file)).scene for file in FILES}
+        self.mesh(PLATE.replace('("plate") = {1}', '("plate") = {-1}').replace('("sides") = {2, 4}', '("sides") = {-2, 4}'))
+        for file in FILES:
+            scene = self.convert(self.save('plate.msh', *file), ['clockwise: turned round'] if file[0] == 2.2 else []).scene
+            for part in 'groups', 'surfaces':
+                self.assertEqual([item['name'] for item in scene[part]], [item['name'] for item in wanted[file][part]])
+            self.assertEqual(scene['surfaces'], wanted[file]['surfaces'])
+            self.assertEqual(scene['materials'], wanted[file]['materials'])
+
     def test_all_elements_saved(self):
         """Format 4.1 keeps the groups then, format 2.2 has none."""
         self.mesh(PLATE + 'Point(10) = {5, 5, 0, 1};', SaveAll=1)
@@ -436,6 +447,13 @@ EndFor
         nodes[6:8] = (1.5, 0), (1.5, 0.5)
         self.assert_refused(self.write(nodes, elements), 'edge n2, n3', 'Mesh.ElementOrder')
 
+    def test_pieces_of_a_curve(self):
+        """Each from its first node to its last, whatever their numbers."""
+        nodes = [(2, 1), (0, 0), (4, 0), (0, 1), (4, 1), (2, 0)]  # the lowest number is in the middle of the upper edge
+        lines = [(1, 5, (4, 1)), (1, 5, (5, 1)), (1, 5, (2, 6))]
+        scene = self.convert(self.write(nodes, [(3, 1, (2, 6, 1, 4)), (3, 1, (6, 3, 5, 1)), *lines]))
+        self.assertEqual({tuple(surface['nodes']) for surface in scene.scene['surfaces']}, {('n4', 'n1', 'n5'), ('n6', 'n2')})
+
     def test_parts_that_meet_in_a_node(self):
         """The loops of the boundary go round each part."""
         nodes = [(0, 0), (1, 0), (1, 1), (0, 1), (2, 1), (2, 2), (1, 2)]
@@ -557,7 +575,8 @@ class Refused(MeshTest):
         scene = self.convert(path)
         self.assertEqual(scene.scene['solids'][0]['nodes'], ['n1', 'n70', 'n3', 'n4'])
         self.assertEqual(scene.points['n70'].tolist(), [1.0, 0.0])
-        for old, new, words in (('70', '2000000000', 'renumber'), ('70', '0', 'renumber'), ('70', '3', 'same number')):
+        for old, new, words in (('70', '2000000000', 'renumber'), ('70', '0', 'renumber'), ('70', '3', '3 different'),
+                                ('$Nodes\n4', '$Nodes\n400000000000', '400000000000 nodes')):
             with open(path, 'w') as file:
                 file.write(changed.replace(old, new))
             self.assert_refused(path, words)
