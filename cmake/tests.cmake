@@ -167,6 +167,8 @@ contact_path_add_python_test(determinism_test test/cli/determinism_test.py DEPEN
   VARIABLES CONTACT_PATH_TRACE=$<TARGET_FILE:contact_path_trace>)
 contact_path_add_python_test(plot_test test/cli/plot_test.py DEPENDS contact_path_trace
   VARIABLES CONTACT_PATH_TRACE=$<TARGET_FILE:contact_path_trace> CONTACT_PATH_PLOT=${CMAKE_CURRENT_SOURCE_DIR}/scripts/plot)
+contact_path_add_python_test(mesh_test test/cli/mesh_test.py
+  VARIABLES CONTACT_PATH_MESH=${CMAKE_CURRENT_SOURCE_DIR}/scripts/contact_path_mesh)
 if(CONTACT_PATH_ROS)
   foreach(test resume_test verify_test)
     contact_path_add_python_test(${test} test/ros/${test}.py DEPENDS contact_path_trace contact_path_verify

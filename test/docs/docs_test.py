@@ -34,7 +34,7 @@ PYTHON = [path.name for path in sorted((ROOT / 'scripts').iterdir())
 WITH_HELP = ['contact_path_trace', 'contact_path_lattice', 'verify', *PYTHON]
 # What stands for a program in a command.
 SCRIPTS = {**{'scripts/' + name: name for name in ('contact_path_trace', 'contact_path_lattice', 'contact_path_markers')},
-           'scripts/trace': 'contact_path_trace', **{'scripts/' + name: name for name in PYTHON}}
+           'scripts/mesh': 'contact_path_mesh', 'scripts/trace': 'contact_path_trace', **{'scripts/' + name: name for name in PYTHON}}
 QUICK = ('contact_path_trace', 'contact_path_lattice', 'verify', 'sed')  # of the examples, run here
 
 SAME = 1e-6  # relative, of numbers that an example prints

@@ -87,8 +87,8 @@ class InstallTest(unittest.TestCase):
     def test_rosrun_offers_the_programs_for_users_alone(self):
         """rosrun, and its completion, find every executable file of the package."""
         found = self.run_here('find', '-L', self.programs, self.share, '-type', 'f', '-perm', '/111', '-printf', '%f\n')
-        self.assertEqual(sorted(found.split()), ['contact_path_lattice', 'contact_path_markers', 'contact_path_node',
-                                                 'contact_path_trace', 'play', 'plot', 'verify', 'watch'])
+        self.assertEqual(sorted(found.split()), ['contact_path_lattice', 'contact_path_markers', 'contact_path_mesh',
+                                                 'contact_path_node', 'contact_path_trace', 'play', 'plot', 'verify', 'watch'])
 
     def test_package_and_messages_are_found(self):
         self.assertEqual(self.run_here('rospack', 'find', 'contact_path').strip(), self.share)
@@ -103,6 +103,11 @@ class InstallTest(unittest.TestCase):
         self.assertIn('\nproved: ', self.run_here('rosrun', 'contact_path', 'verify', bag))
         self.run_here('rosrun', 'contact_path', 'plot', bag, '--states', '--energy')
         self.assertIn('scene:', self.run_here('rosrun', 'contact_path', 'contact_path_lattice', 'wall'))
+        triangle = os.path.join(self.directory, 'triangle.msh')
+        with open(triangle, 'w') as file:
+            file.write('$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n$EndNodes\n'
+                       '$Elements\n1\n1 2 2 0 1 1 2 3\n$EndElements\n')
+        self.assertIn('nodes_per_element: 3', self.run_here('rosrun', 'contact_path', 'contact_path_mesh', triangle))
 
     def test_service_records_a_bag_that_is_proved(self):
         bags = os.path.join(self.directory, 'bags')
