@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <string>
 #include <utility>
+
+#include "check/solid.h"
 
 namespace contact_path::check {
 namespace {
@@ -145,17 +148,41 @@ struct ClassOf<Superelement> {
   using Type = LinearPart;
 };
 
+using Elements = std::vector<std::unique_ptr<const Element>>;
+
+// One element of one part.
+template <typename Part>
+void Append(const Part& part, const Scene&, const std::vector<std::size_t>& nodes, const std::vector<double>& reference,
+            Elements* elements) {
+  elements->push_back(std::make_unique<typename ClassOf<Part>::Type>(part, nodes, reference));
+}
+
+// The elements of a mesh.
+void Append(const Solid& solid, const Scene& scene, const std::vector<std::size_t>& nodes,
+            const std::vector<double>& reference, Elements* elements) {
+  const auto material = std::find_if(scene.materials.begin(), scene.materials.end(),
+                                     [&](const Material& known) { return known.name == solid.material; });
+  if (material == scene.materials.end()) throw std::out_of_range("no material has the name " + solid.material);
+  const std::size_t count = solid.nodes_per_element == 0 ? 3 : static_cast<std::size_t>(solid.nodes_per_element);
+  std::vector<std::size_t> own;
+  for (const std::size_t node : nodes) {
+    own.push_back(node);
+    if (own.size() < count) continue;
+    elements->push_back(MakeSolid(solid, *material, own, reference));
+    own.clear();
+  }
+}
+
 }  // namespace
 
 std::vector<std::unique_ptr<const Element>> MakeElements(const Scene& scene, const NodeNumbers& numbers,
                                                          const std::vector<double>& reference) {
   std::vector<std::unique_ptr<const Element>> elements;
   ForEachElementList(scene, [&](std::string_view, const auto& parts) {
-    using Class = typename ClassOf<typename std::decay_t<decltype(parts)>::value_type>::Type;
     for (const auto& part : parts) {
       std::vector<std::size_t> nodes;
       for (const std::string& name : part.nodes) nodes.push_back(numbers.at(name));
-      elements.push_back(std::make_unique<Class>(part, nodes, reference));
+      Append(part, scene, nodes, reference, &elements);
     }
   });
   return elements;

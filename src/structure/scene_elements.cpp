@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "contact_path/structure/bar.h"
+#include "contact_path/structure/material.h"
+#include "contact_path/structure/solid.h"
 #include "contact_path/structure/superelement.h"
 
 namespace contact_path {
@@ -40,6 +42,28 @@ std::unique_ptr<const Element> Make(const Superelement& part, const std::vector<
   return std::make_unique<LinearSuperelement>(0.5 * (stiffness + stiffness.transpose()), std::move(rest));
 }
 
+// One element of one part.
+template <typename Part>
+void Append(const Part& part, const Scene&, const SceneIndex&, std::vector<int> nodes,
+            const std::vector<double>& reference, std::vector<PlacedElement>* elements) {
+  std::unique_ptr<const Element> element = Make(part, nodes, reference);
+  elements->push_back({std::move(element), std::move(nodes)});
+}
+
+// The elements of a mesh.
+void Append(const Solid& solid, const Scene& scene, const SceneIndex& index, const std::vector<int>& nodes,
+            const std::vector<double>& reference, std::vector<PlacedElement>* elements) {
+  const PlaneMaterial material(scene.materials[index.Material(solid.material)], solid.plane);
+  const auto count = static_cast<std::ptrdiff_t>(solid.NodesPerElement());
+  for (auto first = nodes.begin(); first != nodes.end(); first += count) {
+    std::vector<int> own(first, first + count);
+    const Eigen::VectorXd positions = PositionsOf(own, reference);
+    std::unique_ptr<const Element> element =
+        MakeSolidElement(material, solid.Thickness(), {positions.begin(), positions.end()});
+    elements->push_back({std::move(element), std::move(own)});
+  }
+}
+
 }  // namespace
 
 std::vector<PlacedElement> MakeElements(const Scene& scene, const SceneIndex& index,
@@ -49,8 +73,7 @@ std::vector<PlacedElement> MakeElements(const Scene& scene, const SceneIndex& in
     for (const auto& part : parts) {
       std::vector<int> nodes;
       for (const std::string& name : part.nodes) nodes.push_back(static_cast<int>(index.Node(name)));
-      std::unique_ptr<const Element> element = Make(part, nodes, reference);
-      elements.push_back({std::move(element), std::move(nodes)});
+      Append(part, scene, index, std::move(nodes), reference, &elements);
     }
   });
   return elements;
