@@ -54,7 +54,7 @@ install(TARGETS contact_path_node contact_path_markers contact_path_trace contac
 install(DIRECTORY include/${PROJECT_NAME}/ DESTINATION ${CATKIN_PACKAGE_INCLUDE_DESTINATION})
 catkin_install_python(PROGRAMS scripts/play scripts/plot scripts/watch DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(FILES scripts/path_curve.py scripts/path_file.py scripts/path_quantities.py scripts/plot_panels.py
-  scripts/plot_shapes.py scripts/scene_arrays.py
+  scripts/plot_shapes.py scripts/scene_arrays.py scripts/solid_energy.py
   DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(DIRECTORY config launch scenes DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
 install(FILES CHANGELOG.rst CITATION.cff LICENSE README.md DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -50,21 +51,29 @@ void Append(const Part& part, const Scene&, const SceneIndex&, std::vector<int> 
   elements->push_back({std::move(element), std::move(nodes)});
 }
 
-// The elements of a mesh.
-void Append(const Solid& solid, const Scene& scene, const SceneIndex& index, const std::vector<int>& nodes,
+void Append(const Solid& solid, const Scene& scene, const SceneIndex& index, const std::vector<int>&,
             const std::vector<double>& reference, std::vector<PlacedElement>* elements) {
-  const PlaneMaterial material(scene.materials[index.Material(solid.material)], solid.plane);
-  const auto count = static_cast<std::ptrdiff_t>(solid.NodesPerElement());
-  for (auto first = nodes.begin(); first != nodes.end(); first += count) {
-    std::vector<int> own(first, first + count);
-    const Eigen::VectorXd positions = PositionsOf(own, reference);
-    std::unique_ptr<const Element> element =
-        MakeSolidElement(material, solid.Thickness(), {positions.begin(), positions.end()});
-    elements->push_back({std::move(element), std::move(own)});
-  }
+  std::vector<PlacedElement> own = MakeSolidElements(solid, scene, index, reference);
+  std::move(own.begin(), own.end(), std::back_inserter(*elements));
 }
 
 }  // namespace
+
+std::vector<PlacedElement> MakeSolidElements(const Solid& solid, const Scene& scene, const SceneIndex& index,
+                                             const std::vector<double>& reference) {
+  const PlaneMaterial material(scene.materials[index.Material(solid.material)], solid.plane);
+  std::vector<PlacedElement> elements;
+  std::vector<int> nodes;
+  for (const std::string& name : solid.nodes) {
+    nodes.push_back(static_cast<int>(index.Node(name)));
+    if (nodes.size() < solid.NodesPerElement()) continue;
+    const Eigen::VectorXd positions = PositionsOf(nodes, reference);
+    std::unique_ptr<const Element> element =
+        MakeSolidElement(material, solid.Thickness(), {positions.begin(), positions.end()});
+    elements.push_back({std::move(element), std::exchange(nodes, {})});
+  }
+  return elements;
+}
 
 std::vector<PlacedElement> MakeElements(const Scene& scene, const SceneIndex& index,
                                         const std::vector<double>& reference) {
