@@ -1,4 +1,4 @@
-"""Strain energy per volume of the elements of solids, of the mean deformation of each."""
+"""Strain energy per volume of the elements of solids."""
 import numpy as np
 
 BOUNDARIES = {3: (0, 1, 2), 4: (0, 1, 2, 3), 6: (0, 3, 1, 4, 2, 5), 8: (0, 4, 1, 5, 2, 6, 3, 7)}
@@ -16,14 +16,37 @@ class Solid:
 
     def energies(self, initial, places):
         """Of each element [force/length^2]; initial, places: (n, 2) of all nodes."""
-        return energy(self.material, self.plane, mean_gradients(initial[self.nodes], places[self.nodes]))
+        weights, gradients = cell_points(self.nodes.shape[1])
+        before, after = (np.einsum('mna,knb->mkab', at[self.nodes], gradients) for at in (initial, places))
+        areas = weights * np.linalg.det(before)
+        energies = energy(self.material, self.plane, (after @ np.linalg.inv(before)).reshape(-1, 2, 2))
+        return (areas * energies.reshape(areas.shape)).sum(axis=1) / areas.sum(axis=1)
 
 
-def mean_gradients(before, after):
-    """F (m, 2, 2) of the linear motions nearest to those of the nodes (m, k, 2)."""
-    before = before - before.mean(axis=1, keepdims=True)
-    after = after - after.mean(axis=1, keepdims=True)
-    return np.einsum('mka,mkb->mab', after, before) @ np.linalg.inv(np.einsum('mka,mkb->mab', before, before))
+def cell_points(count):
+    """Of the cell with so many nodes: weights (k,) of the integration points, and gradients (k, count, 2) there of the shape
+    functions, by the coordinates of the cell."""
+    if count in (3, 6):
+        places = np.array([[1, 1], [4, 1], [1, 4]]) / 6.0 if count == 6 else np.array([[1, 1]]) / 3.0
+        areas = np.column_stack((1.0 - places.sum(axis=1), places))[:, :, None]  # area coordinates and their gradients
+        flat = np.broadcast_to([[-1.0, -1.0], [1.0, 0.0], [0.0, 1.0]], (len(places), 3, 2))
+        gradients = flat
+        if count == 6:
+            following = [1, 2, 0]
+            sides = 4.0 * (areas[:, following] * flat + areas * flat[:, following])
+            gradients = np.concatenate(((4.0 * areas - 1.0) * flat, sides), axis=1)
+        return np.full(len(places), 0.5 / len(places)), gradients
+    a, b = np.array([[-1.0, 1.0, 1.0, -1.0], [-1.0, -1.0, 1.0, 1.0]])  # of the corners
+    xi, eta = a[:, None] / np.sqrt(3.0), b[:, None] / np.sqrt(3.0)
+    if count == 4:
+        corners = np.stack((a * (1.0 + b * eta), b * (1.0 + a * xi)), axis=2)
+        return np.ones(4), 0.25 * corners
+    corners = np.stack((a * (1.0 + b * eta) * (2.0 * a * xi + b * eta),
+                        b * (1.0 + a * xi) * (a * xi + 2.0 * b * eta)), axis=2)
+    sides = np.stack((np.hstack((-xi * (1.0 - eta), 0.5 * (1.0 - eta ** 2), -xi * (1.0 + eta), -0.5 * (1.0 - eta ** 2))),
+                      np.hstack((-0.5 * (1.0 - xi ** 2), -eta * (1.0 + xi), 0.5 * (1.0 - xi ** 2), -eta * (1.0 - xi)))),
+                     axis=2)
+    return np.ones(4), np.concatenate((0.25 * corners, sides), axis=1)
 
 
 def lame(material):

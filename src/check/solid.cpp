@@ -1,6 +1,7 @@
 #include "check/solid.h"
 
 #include <Eigen/Core>
+#include <Eigen/LU>
 #include <array>
 #include <cmath>
 #include <limits>
