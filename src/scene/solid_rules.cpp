@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <unordered_set>
 #include <vector>
 
@@ -21,31 +22,35 @@ std::string ElementText(std::size_t number, const std::vector<std::string>& node
   return "element " + std::to_string(number) + " " + ListText(nodes);
 }
 
-// Young's modulus and Poisson's ratio, or Lame's parameters.
-void CheckConstants(const KeyPath& path, const Material& material, Checker* checker) {
+// Young's modulus and Poisson's ratio, or Lame's parameters. False after adding a violation.
+bool CheckConstants(const KeyPath& path, const Material& material, Checker* checker) {
+  const auto fault = [&](std::string_view key, double value, const char* rule) {
+    checker->Add(path.Key(key), NumberText(value), rule);
+    return false;
+  };
   if (material.E > 0.0) {
-    if (!(material.nu > -1.0 && material.nu < 0.5))
-      checker->Add(path.Key("nu"), NumberText(material.nu), "must be > -1 and < 0.5");
-    if (material.lambda != 0.0 || material.mu != 0.0)
-      checker->Add(path.Key(material.lambda != 0.0 ? "lambda" : "mu"),
-                   NumberText(material.lambda != 0.0 ? material.lambda : material.mu), "must be 0 where E is given");
-    return;
+    if (!(material.nu > -1.0 && material.nu < 0.5)) return fault("nu", material.nu, "must be > -1 and < 0.5");
+    if (material.lambda != 0.0) return fault("lambda", material.lambda, "must be 0 where E is given");
+    return material.mu == 0.0 || fault("mu", material.mu, "must be 0 where E is given");
   }
-  if (material.mu == 0.0) return checker->Add(path.Key("E"), "0", "must be > 0 where mu is not given");
-  if (material.nu != 0.0)
-    checker->Add(path.Key("nu"), NumberText(material.nu), "must be 0 where lambda and mu are given");
-  if (!(3.0 * material.lambda + 2.0 * material.mu > 0.0))
-    checker->Add(path.Key("lambda"), NumberText(material.lambda), "must be > -2/3 mu");
+  if (material.mu == 0.0) return fault("E", 0.0, "must be > 0 where mu is not given");
+  if (material.nu != 0.0) return fault("nu", material.nu, "must be 0 where lambda and mu are given");
+  return 3.0 * material.lambda + 2.0 * material.mu > 0.0 || fault("lambda", material.lambda, "must be > -2/3 mu");
 }
 
 // Of ciarlet_geymonat: within its bounds the energy is polyconvex.
-void CheckShare(const KeyPath& key, const Material& material, Checker* checker) {
+void CheckShare(const KeyPath& path, const Material& material, Checker* checker) {
+  const KeyPath key = path.Key("a");
   if (material.model != MaterialModel::kCiarletGeymonat) {
     if (material.a != 0.0) checker->Add(key, NumberText(material.a), "must be 0 unless the model is ciarlet_geymonat");
     return;
   }
-  const Lame lame = LameOf(material);
-  const double least = std::max(0.0, 0.5 * lame.mu - 0.25 * lame.lambda), most = 0.5 * lame.mu;
+  const auto [lambda, mu] = LameOf(material);
+  if (lambda < 0.0)
+    return checker->Add(path.Key(material.E > 0.0 ? "nu" : "lambda"),
+                        NumberText(material.E > 0.0 ? material.nu : lambda),
+                        "must be >= 0 where the model is ciarlet_geymonat");
+  const double least = std::max(0.0, 0.5 * mu - 0.25 * lambda), most = 0.5 * mu;
   if (material.a < least || material.a > most)
     checker->Add(key, NumberText(material.a),
                  "must be from max(0, mu/2 - lambda/4) to mu/2: from " + NumberText(least) + " to " + NumberText(most));
@@ -112,9 +117,8 @@ void CheckMaterials(Checker* checker) {
   for (std::size_t i = 0; i < checker->GetScene().materials.size(); ++i) {
     const Material& material = checker->GetScene().materials[i];
     const KeyPath path = list[i];
-    if (!checker->CheckFields(path, material, &earlier)) continue;
-    CheckConstants(path, material, checker);
-    CheckShare(path.Key("a"), material, checker);
+    if (checker->CheckFields(path, material, &earlier) && CheckConstants(path, material, checker))
+      CheckShare(path, material, checker);
   }
 }
 

@@ -118,10 +118,10 @@ PlaneMaterial::Derivatives PlaneMaterial::NeoHookean(const Measures& at) const {
   double g = 0.5 * lambda * log * log, g1 = lambda * log, g2 = lambda, g3 = 0.0;
   if (plane_ == PlaneState::kStress) {
     const double z = NeoHookeanThickness(lame_, log), stretch = mu * std::exp(z), slope = stretch + 0.5 * lambda;
-    const double z1 = -lambda / slope, z2 = -stretch * z1 * z1 / slope, volume = log + 0.5 * z;
-    g = 0.5 * mu * (std::expm1(z) - z) + 0.5 * lambda * volume * volume;
-    g1 = lambda * volume;
-    g2 = lambda * (1.0 + 0.5 * z1);
+    const double z1 = -lambda / slope, z2 = -stretch * z1 * z1 / slope;
+    g1 = -mu * std::expm1(z);  // lambda (ln J + z/2), without the large lambda of a nearly incompressible material
+    g = 0.5 * mu * (std::expm1(z) - z) + 0.5 * g1 * (log + 0.5 * z);
+    g2 = lambda * stretch / slope;
     g3 = 0.5 * lambda * z2;
   }
   g1 -= mu;

@@ -112,7 +112,7 @@ TEST(SolidPaths, BlockOnARoughFloor) {
       }
       request.options.method = method;
       request.options.max_increments = 400;
-      request.options.stop = {{"0_0.x", ">", 0.05}};
+      request.options.stop = {{"8_0.x", ">", 2.3}};
       if (method == Method::kMpec) request.options.step = 0.02;
       const TracedPath path = TraceIncrements(request);
       EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
