@@ -56,6 +56,7 @@ catkin_install_python(PROGRAMS scripts/contact_path_mesh scripts/play scripts/pl
   DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(FILES scripts/mesh_file.py scripts/mesh_parts.py scripts/mesh_scene.py scripts/path_curve.py scripts/path_file.py
   scripts/path_quantities.py scripts/plot_panels.py scripts/plot_shapes.py scripts/scene_arrays.py
+  scripts/scene_expand.py scripts/solid_energy.py
   DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(DIRECTORY config launch scenes DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
 install(FILES CHANGELOG.rst CITATION.cff LICENSE README.md DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})

@@ -86,10 +86,11 @@ set(contact_path_extremes
 # A file for each header, except headers that only declare an interface (structure/element.h, mpec/nonlinear_program.h,
 # path/path_method.h), and files that trace whole paths.
 contact_path_add_stage(support derivative_checker_test)
-contact_path_add_stage(scene can_slide_test change_units_test configuration_test field_test lattice_test nearest_name_test
-  one_line_test origin_test quantity_test read_scene_test scaling_test scene_index_test scene_test surface_test utf8_test
+contact_path_add_stage(scene can_slide_test cell_test change_units_test configuration_test field_test lattice_test nearest_name_test
+  one_line_test origin_test quantity_test read_scene_test scaling_test scene_index_test scene_test solid_rules_test surface_test utf8_test
   validate_test write_scene_test)
-contact_path_add_stage(structure bar_test beam_test dof_map_test elastica_test scene_elements_test structure_test superelement_test)
+contact_path_add_stage(structure bar_test beam_test dof_map_test elastica_test material_test scene_elements_test solid_test structure_test
+  superelement_test)
 contact_path_add_stage(linear blas_test bordered_solver_test generic_vector_test minimum_norm_test out_of_memory_test singular_vectors_test)
 find_library(SUITESPARSECONFIG_LIBRARY suitesparseconfig REQUIRED)
 target_include_directories(linear_tests SYSTEM PRIVATE ${SUITESPARSE_INCLUDE_DIR})
@@ -108,7 +109,7 @@ contact_path_add_long_test(branch branch_events_test)
 contact_path_add_long_test(branch branch_method_test)
 contact_path_add_long_test(branch branches_test)
 contact_path_add_long_test(branch random_paths_test)
-contact_path_add_stage(check residuals_test)
+contact_path_add_stage(check residuals_test solid_residuals_test)
 contact_path_add_stage(path branch_options_test csv_test determinism_test diagnosis_test free_motion_test
   hard_scenes_test increment_test large_requests_test model_size_test model_test path_summary_test preload_test
   program_test progress_estimate_test redistribution_test restored_states_test return_detector_test
@@ -119,6 +120,7 @@ contact_path_add_long_test(path mpec_method_test)
 contact_path_add_long_test(path mpec_random_paths_test)
 contact_path_add_long_test(path resume_test)
 contact_path_add_long_test(path sizes_test)
+contact_path_add_long_test(path solid_paths_test)
 contact_path_add_long_test(path trace_test)
 contact_path_add_stage(verify verify_end_test verify_events_test verify_path_test)
 contact_path_add_stage(cli progress_test)

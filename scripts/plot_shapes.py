@@ -1,8 +1,9 @@
-"""Draws deformed structures: bars, supports, obstacles, contacts in the colours of their states, loads, reactions."""
+"""Draws deformed structures: bars, solids, supports, obstacles, contacts in the colours of their states, loads, reactions."""
 import math
 
 import numpy as np
 from matplotlib.collections import PolyCollection
+from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.path import Path as Outline
@@ -17,6 +18,7 @@ LIMITS = ('smooth_limit', 'corner_limit')
 KINDS_AT = {'events': ('corner_limit', 'contact_event'), 'limits': LIMITS, 'all': tuple(MARKS)}
 
 BARS, INITIAL, REACTION, LOAD, CONSTANT_LOAD, OBSTACLE = '#44546a', '0.8', '#b2182b', '#2166ac', '#7fb3d5', '0.45'
+SOLID_COLOURS = LinearSegmentedColormap.from_list('solids', ['#e8ecf2', '#f4b183', '#9c2f13'])
 LONGEST_ARROW = 0.2  # of the size of the structure
 SHORTEST_ARROW = 0.01  # shorter ones are not drawn
 ARROW_WIDTH = 0.022  # of the shaft, in inches
@@ -45,6 +47,7 @@ class Shape:
         self.touching = self.places[structure.contact_nodes]
         self.stage = structure.stages[structure.stage_index(increment)][0]
         self.loads, self.constant_loads = structure.loads_by_stage(increment)
+        self.energies = [solid.energies(structure.initial, self.places) for solid in structure.solids]
         self.obstacles = {name: point + structure.obstacle_shift(name, increment)
                           for name, (point, _, _) in structure.obstacles.items()}
 
@@ -95,6 +98,7 @@ class View:
         if self.size <= 1e-9 * np.abs(places).max():
             self.size = 1.0  # one node that does not move
         largest = max([np.hypot(*force.T).max() for shape in shapes for _, force in shape.forces() if len(force)])
+        self.energy = max([energies.max() for shape in shapes for energies in shape.energies], default=0.0)
         self.length_per_force = LONGEST_ARROW * self.size / largest if largest > 0.0 else 0.0
         points = [places]
         for shape in shapes:
@@ -147,6 +151,7 @@ def draw(axes, shape, view, size, named):
     for (name, normal), (first, last) in view.obstacles.items():
         if structure.has(name, normal):
             draw_obstacle(axes, shape.obstacles[name], np.array(normal), first, last, HATCH_DEPTH * view.size)
+    draw_solids(axes, shape, view)
     width = min(1.5, 20.0 / math.sqrt(len(structure.bars) + 1.0))
     draw_lines(axes, structure.initial[structure.bars], color=INITIAL, linewidth=0.7 * width, zorder=1)
     draw_lines(axes, shape.places[structure.bars], color=BARS, linewidth=width, zorder=3)
@@ -170,6 +175,17 @@ def draw(axes, shape, view, size, named):
     axes.tick_params(labelsize=8, length=2.5)
     axes.locator_params(nbins=min(6, max(3, int(2.0 * size[0]))), axis='x')
     axes.locator_params(nbins=min(6, max(3, int(2.5 * size[1]))), axis='y')
+
+
+def draw_solids(axes, shape, view):
+    """Elements in the colour of their strain energy per volume; its root, so that the colours follow the strain."""
+    for solid, energies in zip(shape.structure.solids, shape.energies):
+        width = min(0.6, 8.0 / math.sqrt(len(solid.nodes)))
+        axes.add_collection(PolyCollection(shape.structure.initial[solid.boundaries], facecolors='none',
+                                           edgecolors=INITIAL, linewidths=width, zorder=1))
+        shares = np.clip(energies / view.energy, 0.0, 1.0) if view.energy > 0.0 else np.zeros(len(energies))
+        axes.add_collection(PolyCollection(shape.places[solid.boundaries], facecolors=SOLID_COLOURS(np.sqrt(shares)),
+                                           edgecolors=BARS, linewidths=width, zorder=3))
 
 
 def draw_lines(axes, lines, **style):
@@ -324,6 +340,10 @@ def legend_handles(shapes, view):
     handles.append(Line2D([], [], color=INITIAL, linewidth=1.5, marker='o', markersize=3, label='initial shape'))
     if any(structure.superelements for structure in structures):
         handles.append(Line2D([], [], color=BARS, linewidth=1.2, linestyle='dashed', label='superelement'))
+    if view.energy > 0.0:
+        for share in (1.0, 0.25):
+            handles.append(Patch(facecolor=SOLID_COLOURS(math.sqrt(share)), edgecolor=BARS,
+                                 label='strain energy %.2g [force/length^2]' % (share * view.energy)))
     if view.obstacles:
         handles.append(Patch(facecolor='white', edgecolor=OBSTACLE, hatch='/////', linewidth=0.0, label='obstacle'))
     return handles

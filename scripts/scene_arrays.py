@@ -1,6 +1,8 @@
 """The scene of a path as arrays, and what its loads and moving obstacles are in an increment."""
 import numpy as np
 
+from solid_energy import Solid
+
 
 class Structure:
     """The scene as arrays: nodes (n, 2), bars and segments of beams (m, 2) of indices, normals and tangents (k, 2) of the k contacts.
@@ -17,6 +19,7 @@ class Structure:
         segments = [pair for axis in scene['beams'] for pair in zip(axis, axis[1:])]
         self.bars = np.array([[index[name] for name in nodes]
                               for nodes in [bar['nodes'] for bar in scene['bars']] + segments], dtype=int).reshape(-1, 2)
+        self.solids = [Solid(solid, scene['materials'], index) for solid in scene['solids']]
         self.bar_directions = self.find_bar_directions()
         self.supports = self.find_supports()
         self.superelements = [([index[name] for name in part['nodes']], np.array(part['rest_positions'], dtype=float))
@@ -79,13 +82,20 @@ class Structure:
             target * motions.get(name, 0.0) for _, target, _, motions in self.stages[:number])
 
     def find_bar_directions(self):
-        """For each node the directions, of unit length, to those that it is joined to at the start."""
+        """For each node the directions, of unit length, to those that it is joined to at the start, and to the middles of
+        its elements of solids."""
         directions = [[] for _ in self.names]
         vectors = self.initial[self.bars[:, 1]] - self.initial[self.bars[:, 0]]
         vectors /= np.maximum(np.hypot(*vectors.T), 1e-300)[:, None]
         for (a, b), vector in zip(self.bars, vectors):
             directions[a].append(vector)
             directions[b].append(-vector)
+        for solid in self.solids:
+            for nodes in solid.nodes:
+                middle = self.initial[nodes].mean(axis=0)
+                for node in nodes:
+                    vector = middle - self.initial[node]
+                    directions[node].append(vector / np.hypot(*vector))
         return directions
 
     def find_supports(self):

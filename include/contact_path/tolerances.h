@@ -166,7 +166,7 @@ inline constexpr double kSoftestContact = 1e-8;
 inline constexpr double kSoftestMeasuredContact = 1e-11;
 // Reaction that pulls, of the largest reaction so far.
 inline constexpr double kPullOfLargest = 1e-2;
-// Length of a bar over its initial length: collapsed.
+// Length of a bar, or area at an integration point of a solid, over its initial size: collapsed.
 inline constexpr double kCollapsed = 1e-2;
 // Load factor, of the largest so far: unloaded.
 inline constexpr double kUnloaded = 1e-9;

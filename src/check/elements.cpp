@@ -5,9 +5,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <string>
 #include <unsupported/Eigen/AutoDiff>
 #include <utility>
+
+#include "check/solid.h"
 
 namespace contact_path::check {
 namespace {
@@ -231,19 +234,38 @@ class Segment : public Element {
 using Elements = std::vector<std::unique_ptr<const Element>>;
 using NodeList = std::vector<std::size_t>;
 
-void Place(const Bar& bar, const NodeList& nodes, const std::vector<double>& reference, Elements* elements) {
+void Place(const Bar& bar, const Scene&, const NodeList& nodes, const std::vector<double>& reference,
+           Elements* elements) {
   elements->push_back(std::make_unique<BarElement>(bar, nodes, reference));
 }
 
-void Place(const Superelement& part, const NodeList& nodes, const std::vector<double>& reference, Elements* elements) {
+void Place(const Superelement& part, const Scene&, const NodeList& nodes, const std::vector<double>& reference,
+           Elements* elements) {
   elements->push_back(std::make_unique<LinearPart>(part, nodes, reference));
 }
 
-void Place(const Beam& beam, const NodeList& nodes, const std::vector<double>& reference, Elements* elements) {
+void Place(const Beam& beam, const Scene&, const NodeList& nodes, const std::vector<double>& reference,
+           Elements* elements) {
   const auto hinged = [&](std::size_t end) { return !beam.hinged.empty() && beam.hinged[end]; };
   for (std::size_t i = 0; i + 1 < nodes.size(); ++i)
     elements->push_back(std::make_unique<Segment>(beam, nodes[i], nodes[i + 1], i > 0 || !hinged(0),
                                                   i + 2 < nodes.size() || !hinged(1), reference));
+}
+
+// The elements of a mesh.
+void Place(const Solid& solid, const Scene& scene, const NodeList& nodes, const std::vector<double>& reference,
+           Elements* elements) {
+  const auto material = std::find_if(scene.materials.begin(), scene.materials.end(),
+                                     [&](const Material& known) { return known.name == solid.material; });
+  if (material == scene.materials.end()) throw std::out_of_range("no material has the name " + solid.material);
+  const std::size_t count = solid.nodes_per_element == 0 ? 3 : static_cast<std::size_t>(solid.nodes_per_element);
+  std::vector<std::size_t> own;
+  for (const std::size_t node : nodes) {
+    own.push_back(node);
+    if (own.size() < count) continue;
+    elements->push_back(MakeSolid(solid, *material, own, reference));
+    own.clear();
+  }
 }
 
 }  // namespace
@@ -255,7 +277,7 @@ std::vector<std::unique_ptr<const Element>> MakeElements(const Scene& scene, con
     for (const auto& part : parts) {
       std::vector<std::size_t> nodes;
       for (const std::string& name : part.nodes) nodes.push_back(numbers.at(name));
-      Place(part, nodes, reference, &elements);
+      Place(part, scene, nodes, reference, &elements);
     }
   });
   return elements;

@@ -8,9 +8,21 @@
 #include <locale>
 #include <sstream>
 
+#include "contact_path/scene/elasticity.h"
+#include "contact_path/structure/scene_elements.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
+namespace {
+
+constexpr double kNearlyIncompressible = 0.49;  // Poisson's ratio beyond which elements of few nodes lock
+
+std::string SolidText(const Scene& scene, std::size_t i) {
+  const std::string& name = scene.solids[i].name;
+  return "solids[" + std::to_string(i) + "]" + (name.empty() ? name : " (" + name + ")");
+}
+
+}  // namespace
 
 std::string CollapsedBar(const Scene& scene, const SceneIndex& index, const std::vector<double>& positions) {
   double smallest = tolerances::kCollapsed;
@@ -29,6 +41,45 @@ std::string CollapsedBar(const Scene& scene, const SceneIndex& index, const std:
     text = out.str();
   }
   return text;
+}
+
+std::string InvertedElement(const Scene& scene, const SceneIndex& index, const std::vector<double>& positions) {
+  double smallest = tolerances::kCollapsed;
+  std::string text;
+  for (std::size_t i = 0; i < scene.solids.size(); ++i) {
+    const std::vector<PlacedElement> elements =
+        MakeSolidElements(scene.solids[i], scene, index, Configuration::Of(scene).reference);
+    for (std::size_t k = 0; k < elements.size(); ++k) {
+      std::vector<double> x;
+      for (const int node : elements[k].nodes) {
+        const auto at = static_cast<std::size_t>(2 * node);
+        x.insert(x.end(), {positions[at], positions[at + 1]});
+      }
+      const double ratio = elements[k].element->AreaRatio(
+          Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size())));
+      if (!(ratio < smallest)) continue;
+      smallest = ratio;
+      std::ostringstream out;
+      out.imbue(std::locale::classic());
+      out.precision(2);
+      out << "element " << k + 1 << " of " << SolidText(scene, i) << " turns inside out: its area has shrunk to "
+          << smallest << " of the initial one";
+      text = out.str();
+    }
+  }
+  return text;
+}
+
+std::string LockingSolids(const Scene& scene, const SceneIndex& index) {
+  std::string text;
+  for (std::size_t i = 0; i < scene.solids.size(); ++i) {
+    const Solid& solid = scene.solids[i];
+    const double nu = PoissonRatio(LameOf(scene.materials[index.Material(solid.material)]));
+    if (solid.NodesPerElement() > 4 || solid.plane != PlaneState::kStrain || !(nu > kNearlyIncompressible)) continue;
+    text += (text.empty() ? "" : ", ") + SolidText(scene, i);
+  }
+  if (text.empty()) return text;
+  return text + ": elements of 3 or 4 nodes are far too stiff in plane strain where nu is beyond 0.49; take 8 nodes";
 }
 
 std::string PullingContact(const Model& model, const PathPoint& point, double largest_reaction) {

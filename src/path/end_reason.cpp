@@ -13,6 +13,7 @@ std::string_view ToString(EndReason reason) {
     case EndReason::kNoSuchBranch: return "no_such_branch";
     case EndReason::kClosedPath: return "closed_path";
     case EndReason::kMemoryLimit: return "memory_limit";
+    case EndReason::kElementInverted: return "element_inverted";
   }
   return "";
 }

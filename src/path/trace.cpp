@@ -115,7 +115,9 @@ class Tracer {
     } catch (const LinearSolverError& error) {
       End(EndReason::kNumericalFailure, std::string(error.what()) + ", " + Onwards());
     }
+    if (model_ != nullptr) NameInvertedElement(*model_, point_);
     result_.increments = recorder_.increments();
+    if (const std::string locking = LockingSolids(request_.scene, index_); !locking.empty()) remarks_ += "; " + locking;
     result_.message += MissedEnd() + WhatMovesFreely() + recorder_.Remark() + remarks_ + MissedChoices();
     return std::move(result_);
   }
@@ -161,6 +163,15 @@ class Tracer {
     result_.reason = reason;
     result_.message = std::move(message);
     return false;
+  }
+
+  // Where no increment leads on from a point at which an element of a solid has no area left: that is why.
+  void NameInvertedElement(const Model& model, const PathPoint& point) {
+    if (result_.reason != EndReason::kStepTooSmall && result_.reason != EndReason::kNumericalFailure) return;
+    const std::string element = InvertedElement(model.scene, model.index, model.InSceneUnits(point).positions);
+    if (element.empty()) return;
+    result_.reason = EndReason::kElementInverted;
+    result_.message = element + "; " + result_.message;
   }
 
   // Where the trace was.
@@ -224,8 +235,10 @@ class Tracer {
       const bool stuck = preload.reason == EndReason::kPathEnd || preload.reason == EndReason::kStepTooSmall;
       const double force = ActiveSetTolerance::For(0.0, 0.0).force;
       const std::string free = stuck ? FreeMotionQuestion(start, preload.point, force) : "";
-      return End(preload.reason == EndReason::kMaxIncrements ? EndReason::kNumericalFailure : preload.reason,
-                 preload.message + (free.empty() ? "" : "; " + free));
+      End(preload.reason == EndReason::kMaxIncrements ? EndReason::kNumericalFailure : preload.reason,
+          preload.message + (free.empty() ? "" : "; " + free));
+      NameInvertedElement(start, preload.point);
+      return false;
     }
     point_ = moves ? model.Transfer(start, preload.point) : std::move(preload.point);
     return true;

@@ -67,6 +67,7 @@ struct Constants<EndReason> {
       {EndReason::kNoSuchBranch, Response::END_NO_SUCH_BRANCH},
       {EndReason::kClosedPath, Response::END_CLOSED_PATH},
       {EndReason::kMemoryLimit, Response::END_MEMORY_LIMIT},
+      {EndReason::kElementInverted, Response::END_ELEMENT_INVERTED},
   };
 };
 

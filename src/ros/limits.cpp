@@ -63,13 +63,14 @@ Limit LimitOf(const TraceLimits& limits) {
   return {names::kMaxElements, limits.max_elements};
 }
 
-// A list of parts of the scene, and the numbers in the lists of these parts. Part: of the core.
+// A list of parts of the scene, and the numbers and names in the lists of these parts. Part: of the core.
 template <typename Part, typename Messages>
 std::string ExceededByList(const std::string& list, const Messages& parts, const TraceLimits& limits) {
   using Message = typename Messages::value_type;
   std::string exceeded = Exceeded(list, parts.size(), LimitOf<Part>(limits));
   ForEachFieldPair<Part, Message>([&](const auto& core_field, const auto& field) {
-    if constexpr (std::is_same_v<typename std::decay_t<decltype(core_field)>::Value, std::vector<double>>) {
+    using Value = typename std::decay_t<decltype(core_field)>::Value;
+    if constexpr (std::is_same_v<Value, std::vector<double>> || std::is_same_v<Value, std::vector<std::string>>) {
       std::size_t entries = 0;
       for (const Message& part : parts) entries += (part.*field.member).size();
       if (exceeded.empty())

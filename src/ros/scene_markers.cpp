@@ -12,12 +12,16 @@
 #include <utility>
 
 #include "contact_path/path/stop.h"
+#include "contact_path/scene/cell.h"
+#include "contact_path/scene/configuration.h"
+#include "contact_path/scene/elasticity.h"
 #include "contact_path/scene/expand.h"
 #include "contact_path/scene/one_line.h"
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/quantity.h"
 #include "contact_path/scene/scaling.h"
 #include "contact_path/scene/scene_index.h"
+#include "contact_path/structure/scene_elements.h"
 #include "ros/marker_picture.h"
 
 namespace contact_path {
@@ -46,6 +50,9 @@ constexpr double kConeEdge = 6.0;
 
 // Arrows that are shorter, in parts of the full length, are left out.
 constexpr double kShortest = 1e-3;
+
+// Energy per volume of a solid, of Young's modulus, that has the darkest colour.
+constexpr double kFullEnergy = 0.01;
 
 constexpr double kRounding = 1e-6;  // of sums of unit vectors
 
@@ -94,6 +101,18 @@ Vector2d RestOfFirstNode(const Superelement& element, const Vector2d& start) {
   return rest.empty() ? start : Vector2d(rest[0], rest[1]);
 }
 
+Vector2d MiddleOf(const std::vector<std::size_t>& nodes, const std::vector<Vector2d>& places) {
+  Vector2d sum = Vector2d::Zero();
+  for (const std::size_t node : nodes) sum += places[node];
+  return sum / static_cast<double>(nodes.size());
+}
+
+// share: of the energy that has the darkest colour. The root, so that colours follow the strain.
+ColorRGBA SolidColour(double share) {
+  const auto dark = static_cast<float>(std::sqrt(share > 0.0 ? std::min(share, 1.0) : 0.0));
+  return Colour(0.85F - 0.35F * dark, 0.88F - 0.75F * dark, 0.93F - 0.8F * dark);
+}
+
 // `least` times a power of two, at least `largest`.
 double FullForce(double largest, double least) {
   return largest <= least ? least : least * std::exp2(std::ceil(std::log2(largest / least)));
@@ -123,7 +142,9 @@ SceneMarkers::SceneMarkers(const TraceRequest& request_given, const MarkerOption
   ForEachElementList(scene, [&](std::string_view, const auto& elements) {
     using Part = typename std::decay_t<decltype(elements)>::value_type;
     for (const Part& element : elements) {
-      if constexpr (std::is_same_v<Part, Beam>) {
+      if constexpr (std::is_same_v<Part, Solid>) {
+        AddMesh(element, scene, index);
+      } else if constexpr (std::is_same_v<Part, Beam>) {
         for (std::size_t i = 0; i + 1 < element.nodes.size(); ++i)
           bars_.push_back({index.Node(element.nodes[i]), index.Node(element.nodes[i + 1])});
       } else if constexpr (Fields<Part>::kNodes == 2) {
@@ -198,16 +219,43 @@ SceneMarkers::SceneMarkers(const TraceRequest& request_given, const MarkerOption
   const double diagonal = box_.diagonal().norm();
   size_ = diagonal > 0.0 ? diagonal : scales.length;
   detail_ = std::min(0.025 * size_, bars_.empty() ? size_ : 0.12 * scales.length);
+  if (!cells_.empty()) detail_ = std::min(detail_, 0.12 * CellSize());
   least_force_ = 1e-3 * scales.force;
 }
 
 // The ground is where no bars are, as far as the fixed components let it be.
+void SceneMarkers::AddMesh(const Solid& solid, const Scene& scene, const SceneIndex& index) {
+  const double modulus = YoungModulus(LameOf(scene.materials[index.Material(solid.material)]));
+  for (PlacedElement& placed : MakeSolidElements(solid, scene, index, Configuration::Of(scene).reference)) {
+    Cell cell;
+    cell.nodes.assign(placed.nodes.begin(), placed.nodes.end());
+    for (const std::size_t local : CellBoundary(cell.nodes.size())) cell.boundary.push_back(cell.nodes[local]);
+    std::vector<double> positions;
+    for (const std::size_t node : cell.nodes)
+      positions.insert(positions.end(), {initial_[node].x(), initial_[node].y()});
+    for (const PlacedPoint& point : PlacePoints(positions)) cell.area += point.area;
+    cell.element = std::move(placed.element);
+    cell.full_energy = kFullEnergy * modulus * cell.area * solid.Thickness();
+    cells_.push_back(std::move(cell));
+  }
+}
+
+double SceneMarkers::CellSize() const {
+  double area = 0.0;
+  for (const Cell& cell : cells_) area += cell.area;
+  return std::sqrt(area / static_cast<double>(cells_.size()));
+}
+
 void SceneMarkers::FindSupports(const Scene& scene) {
   Places inwards(initial_.size(), Vector2d::Zero());
   for (const auto& [a, b] : bars_) {
     const Vector2d along = (initial_[b] - initial_[a]).stableNormalized();
     inwards[a] += along;
     inwards[b] -= along;
+  }
+  for (const Cell& cell : cells_) {
+    const Vector2d middle = MiddleOf(cell.nodes, initial_);
+    for (const std::size_t node : cell.nodes) inwards[node] += (middle - initial_[node]).stableNormalized();
   }
   for (std::size_t i = 0; i < initial_.size(); ++i) {
     const Node& node = scene.nodes[i];
@@ -289,6 +337,7 @@ visualization_msgs::MarkerArray SceneMarkers::Draw(const msgs::Increment& increm
   DrawObstacles(places, increment, &picture);
   DrawStructure(places, &picture);
   DrawStars(places, &picture);
+  DrawMeshes(places, &picture);
   DrawSupports(places, &picture);
   DrawContacts(places, increment, &picture);
   DrawForces(places, increment, full_force, &picture);
@@ -376,18 +425,37 @@ void SceneMarkers::DrawStructure(const Places& places, MarkerPicture* picture) c
 
 void SceneMarkers::DrawStars(const Places& places, MarkerPicture* picture) const {
   Places middles;
-  for (std::size_t i = 0; i < stars_.size(); ++i) {
-    const std::vector<std::size_t>& nodes = stars_[i];
-    Vector2d sum = Vector2d::Zero();
-    for (const std::size_t node : nodes) sum += places[node];
-    middles.push_back(nodes.size() == 1 ? rest_[i] : Vector2d(sum / static_cast<double>(nodes.size())));
-  }
+  for (std::size_t i = 0; i < stars_.size(); ++i)
+    middles.push_back(stars_[i].size() == 1 ? rest_[i] : MiddleOf(stars_[i], places));
   picture->BeginLines("superelements", 0, kBarWidth * detail_, kSpringColour, kSprings);
   for (std::size_t i = 0; i < stars_.size(); ++i) {
     for (const std::size_t node : stars_[i]) picture->AddLine(places[node], middles[i]);
   }
   picture->BeginDots("superelements", 1, Marker::CUBE_LIST, detail_, kSpringColour, kSprings);
   for (const Vector2d& middle : middles) picture->AddPoint(middle);
+}
+
+void SceneMarkers::DrawMeshes(const Places& places, MarkerPicture* picture) const {
+  const auto draw_boundaries = [&](const Places& at) {
+    for (const Cell& cell : cells_)
+      for (std::size_t i = 0; i < cell.boundary.size(); ++i)
+        picture->AddLine(at[cell.boundary[i]], at[cell.boundary[(i + 1) % cell.boundary.size()]]);
+  };
+  picture->BeginLines("solids", 0, kThinWidth * detail_, kInitialColour, kInitial);
+  draw_boundaries(initial_);
+  picture->BeginTriangles("solids", 1, SolidColour(0.0), kSprings);
+  for (const Cell& cell : cells_) {
+    Eigen::VectorXd x(static_cast<Eigen::Index>(2 * cell.nodes.size()));
+    for (std::size_t i = 0; i < cell.nodes.size(); ++i)
+      x.segment<2>(static_cast<Eigen::Index>(2 * i)) = places[cell.nodes[i]];
+    const ColorRGBA colour = SolidColour(cell.element->Energy(x) / cell.full_energy);
+    const Vector2d middle = MiddleOf(cell.nodes, places);
+    for (std::size_t i = 0; i < cell.boundary.size(); ++i)
+      picture->AddTriangle(middle, places[cell.boundary[i]], places[cell.boundary[(i + 1) % cell.boundary.size()]],
+                           colour);
+  }
+  picture->BeginLines("solids", 2, kThinWidth * detail_, kBarColour, kBars);
+  draw_boundaries(places);
 }
 
 void SceneMarkers::DrawSupports(const Places& places, MarkerPicture* picture) const {

@@ -22,6 +22,7 @@ bool IsAllowedInName(char c) {
 }
 
 std::string_view NameOf(const Node& node) { return node.name; }
+std::string_view NameOf(const Material& material) { return material.name; }
 std::string_view NameOf(const Obstacle& obstacle) { return obstacle.name; }
 std::string NameOf(const ContactCandidate& contact) { return contact.Name(); }
 
@@ -111,6 +112,11 @@ void Checker::CheckText(const KeyPath& key, const std::string& text, TextKind ki
       if (!index_.FindNode(text))
         Add(key, TextOrQuotes(text),
             "must name a node of the scene" + NearestTo(request_.scene.nodes, text).Question());
+      break;
+    case TextKind::kMaterial:
+      if (!index_.FindMaterial(text))
+        Add(key, TextOrQuotes(text),
+            "must name a material of the scene" + NearestTo(request_.scene.materials, text).Question());
       break;
     case TextKind::kObstacle:
       if (!index_.FindObstacle(text))

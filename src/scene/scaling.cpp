@@ -12,7 +12,9 @@
 #include <utility>
 #include <vector>
 
+#include "contact_path/scene/cell.h"
 #include "contact_path/scene/change_units.h"
+#include "contact_path/scene/elasticity.h"
 #include "contact_path/scene/surface.h"
 #include "contact_path/tolerances.h"
 
@@ -83,15 +85,47 @@ double ForceOf(const Part& element, double EA, double length) {
   return EA;
 }
 
-// Mean initial length [length] and exp(mean ln force) of the elements with a stiffness EA that is a force. There must
-// be one.
-Scaling ScalesOfBars(const Scene& scene, const SceneIndex& index) {
+// Length and force of all solids as one body: the root of its area, and the mean of Young's modulus x thickness, by its
+// logarithm over the area, x that length. They do not depend on the mesh. There must be a solid.
+Scaling ScalesOfSolids(const Scene& scene, const SceneIndex& index) {
+  std::vector<double> areas, logarithms;
+  for (const Solid& solid : scene.solids) {
+    const double E = YoungModulus(LameOf(scene.materials[index.Material(solid.material)]));
+    const double logarithm = std::log(E) + std::log(solid.Thickness());
+    const std::size_t count = solid.NodesPerElement();
+    std::vector<double> positions;
+    for (const std::string& name : solid.nodes) {
+      const Node& node = scene.nodes[index.Node(name)];
+      positions.insert(positions.end(), {node.x, node.y});
+      if (positions.size() < 2 * count) continue;
+      for (const PlacedPoint& point : PlacePoints(positions)) {
+        areas.push_back(point.area);
+        logarithms.push_back(point.area * logarithm);
+      }
+      positions.clear();
+    }
+  }
+  const double area = OrderedSum(std::move(areas));
+  Scaling scaling;
+  scaling.length = std::sqrt(area);
+  scaling.force = std::exp(OrderedSum(std::move(logarithms)) / area) * scaling.length;
+  return scaling;
+}
+
+// Mean length [length] and exp(mean ln force) of the elements with a stiffness EA that is a force, by their
+// initial lengths, and of the body of all solids. There must be one.
+Scaling ScalesOfElements(const Scene& scene, const SceneIndex& index) {
   std::vector<double> lengths, logarithms;
   ForEachElementNumber(scene, IsForceStiffness(), [&](const auto& bar, double EA) {
     const double length = LengthOf(bar, scene, index);
     lengths.push_back(length);
     logarithms.push_back(std::log(ForceOf(bar, EA, length)));
   });
+  if (!scene.solids.empty()) {
+    const Scaling body = ScalesOfSolids(scene, index);
+    lengths.push_back(body.length);
+    logarithms.push_back(std::log(body.force));
+  }
   const auto count = static_cast<double>(lengths.size());
   Scaling scaling;
   scaling.length = OrderedSum(std::move(lengths)) / count;
@@ -189,7 +223,7 @@ double NearestGap(const Scene& scene, const SceneIndex& index) {
 }  // namespace
 
 bool HasForceScale(const Scene& scene) {
-  bool found = false;
+  bool found = !scene.solids.empty();
   ForEachElementNumber(scene, IsForceStiffness(), [&](const auto&, double) { found = true; });
   return found;
 }
@@ -197,7 +231,7 @@ bool HasForceScale(const Scene& scene) {
 Scaling CharacteristicScales(const Scene& scene, const SceneIndex& index) {
   Scaling scaling;
   if (HasForceScale(scene)) {
-    scaling = ScalesOfBars(scene, index);
+    scaling = ScalesOfElements(scene, index);
   } else {
     const double reference_load = LoadNorm(scene, index, false, kNoBeam), stiffness = MeanStiffness(scene);
     scaling.force = reference_load > 0.0 ? reference_load : stiffness * MotionNorm(scene, kNoBeam);
@@ -217,6 +251,7 @@ double LoadFactorScale(const Scene& scene, const SceneIndex& index, double lengt
 Scene ScaleScene(const Scene& scene, const Scaling& scaling) {
   Scene scaled = scene;
   scaled.loads = SumByNode(scene.loads);
+  for (Solid& solid : scaled.solids) solid.thickness = solid.Thickness();  // 1 is of the unit of the scene
   ChangeUnits(&scaled, {scaling.length, scaling.force, scaling.load_factor});
   for (Obstacle& obstacle : scaled.obstacles) {
     const double norm = std::hypot(obstacle.nx, obstacle.ny);

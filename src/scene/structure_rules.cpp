@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/solid_rules.h"
+
 namespace contact_path {
 namespace {
 
@@ -78,7 +80,7 @@ class StructureRules {
     const KeyPath nodes = path.Key("nodes");
     if constexpr (Fields<Part>::kNodes == 2) {
       CheckTwoNodes(&checker_, nodes, element.nodes);
-    } else {
+    } else if constexpr (!std::is_same_v<Part, Solid>) {  // of a mesh, each element has nodes of its own
       CheckNodeList(nodes, element.nodes, Fields<Part>::kNodes);
     }
     CheckOwnRules(path, element, sound);
@@ -98,6 +100,8 @@ class StructureRules {
   // What the description of an element does not tell. sound: its fields are.
   template <typename Part>
   void CheckOwnRules(const KeyPath&, const Part&, bool) {}
+
+  void CheckOwnRules(const KeyPath& path, const Solid& solid, bool sound) { CheckSolid(path, solid, sound, &checker_); }
 
   void CheckOwnRules(const KeyPath& path, const Superelement& element, bool sound) {
     if (!element.nodes.empty()) CheckStiffness(path.Key("stiffness"), element, sound);
@@ -142,6 +146,7 @@ class StructureRules {
 void CheckStructure(Checker* checker) {
   StructureRules rules(checker);
   rules.CheckNodes();
+  CheckMaterials(checker);
   rules.CheckElements();
 }
 

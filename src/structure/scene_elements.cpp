@@ -3,13 +3,17 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 #include "contact_path/scene/expand.h"
 #include "contact_path/structure/bar.h"
 #include "contact_path/structure/beam.h"
+#include "contact_path/structure/material.h"
+#include "contact_path/structure/solid.h"
 #include "contact_path/structure/superelement.h"
 
 namespace contact_path {
@@ -59,14 +63,35 @@ void Place(const Beam& beam, const std::vector<int>& nodes, const std::vector<do
 
 }  // namespace
 
+std::vector<PlacedElement> MakeSolidElements(const Solid& solid, const Scene& scene, const SceneIndex& index,
+                                             const std::vector<double>& reference) {
+  const PlaneMaterial material(scene.materials[index.Material(solid.material)], solid.plane);
+  std::vector<PlacedElement> elements;
+  std::vector<int> nodes;
+  for (const std::string& name : solid.nodes) {
+    nodes.push_back(static_cast<int>(index.Node(name)));
+    if (nodes.size() < solid.NodesPerElement()) continue;
+    const Eigen::VectorXd positions = PositionsOf(nodes, reference);
+    std::unique_ptr<const Element> element =
+        MakeSolidElement(material, solid.Thickness(), {positions.begin(), positions.end()});
+    elements.push_back({std::move(element), std::exchange(nodes, {})});
+  }
+  return elements;
+}
+
 std::vector<PlacedElement> MakeElements(const Scene& scene, const SceneIndex& index,
                                         const std::vector<double>& reference) {
   std::vector<PlacedElement> elements;
   ForEachElementList(scene, [&](std::string_view, const auto& parts) {
     for (const auto& part : parts) {
-      std::vector<int> nodes;
-      for (const std::string& name : part.nodes) nodes.push_back(static_cast<int>(index.Node(name)));
-      Place(part, std::move(nodes), reference, &elements);
+      if constexpr (std::is_same_v<std::decay_t<decltype(part)>, Solid>) {
+        std::vector<PlacedElement> own = MakeSolidElements(part, scene, index, reference);
+        std::move(own.begin(), own.end(), std::back_inserter(elements));
+      } else {
+        std::vector<int> nodes;
+        for (const std::string& name : part.nodes) nodes.push_back(static_cast<int>(index.Node(name)));
+        Place(part, std::move(nodes), reference, &elements);
+      }
     }
   });
   return elements;

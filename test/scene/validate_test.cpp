@@ -109,7 +109,7 @@ INSTANTIATE_TEST_SUITE_P(Nodes, ValidateTest, testing::ValuesIn(kNodeRules), Nam
 
 const BrokenRule kElementRules[] = {
     {"NoElements", [](auto& r) { r.scene.bars.clear(), r.scene.superelements.clear(); }, "scene.bars", "[]",
-     "at least one bar or superelement"},
+     "at least one bar, superelement or solid"},
     {"BarOfOneNode", [](auto& r) { r.scene.bars[0].nodes = {"b"}; }, "scene.bars[0].nodes", "[b]", "must name two"},
     {"BarOfThreeNodes",
      [](auto& r) {

@@ -15,6 +15,14 @@ namespace contact_path {
 // index: of the scene. positions: current x0, y0, x1, ..., 2 x nodes [length].
 std::string CollapsedBar(const Scene& scene, const SceneIndex& index, const std::vector<double>& positions);
 
+// Names the element of a solid whose area has shrunk most at one of its integration points, if that is nearly to
+// nothing, where it turns inside out; else empty. The same arguments.
+std::string InvertedElement(const Scene& scene, const SceneIndex& index, const std::vector<double>& positions);
+
+// Names the solids whose elements are too stiff, as they have few nodes and are of a nearly incompressible material in
+// plane strain; empty: none are. index: of the scene.
+std::string LockingSolids(const Scene& scene, const SceneIndex& index);
+
 // Names a contact at whose node all parts are softer than `least`, scaled, but not without stiffness: its reactions
 // drown in the rounding of the stiff parts; else empty. point: where to look, scaled.
 std::string ContactTooSoft(const Model& model, const PathPoint& point, double least);

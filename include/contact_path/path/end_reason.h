@@ -16,10 +16,11 @@ enum class EndReason {
   kNoSuchBranch,      // branch_choices wants a branch that does not exist: the request is invalid
   kClosedPath,        // the last increment is an earlier one again: the path repeats from there on
   kMemoryLimit,       // there was not enough memory to go on
+  kElementInverted,   // an element of a solid would be turned inside out
 };
 
 // "stop_criterion", "max_increments", "path_end", "step_too_small", "cancelled", "no_such_branch", "numerical_failure",
-// "closed_path", "memory_limit".
+// "closed_path", "memory_limit", "element_inverted".
 std::string_view ToString(EndReason reason);
 
 // Whether the trace went as far as it was asked to, or as far as there is anything new.

@@ -13,6 +13,10 @@
 //                   1  these middles
 //   structure       0  bars
 //                   1  nodes
+//   solids          0  elements in the initial shape: their boundaries
+//                   1  elements, from light where there is no energy to dark; the darkest colour is for 1 % of Young's
+//                      modulus as energy per volume, or more
+//                   2  their boundaries
 //   supports        0  triangles away from the structure; with a stroke beyond where the node can slide along it
 //   contacts        0  nodes of contact candidates: open grey, stick orange, slip+ yellow, slip- blue, closed green
 //   cones           0  friction cones at contacts that touch
@@ -38,6 +42,7 @@
 #include "contact_path/scene/scene.h"
 #include "contact_path/scene/scene_index.h"
 #include "contact_path/scene/surface.h"
+#include "contact_path/structure/element.h"
 
 namespace contact_path {
 
@@ -79,6 +84,14 @@ class SceneMarkers {
     Eigen::Vector2d ground = Eigen::Vector2d::Zero();  // direction to it, of unit length
     bool slides = false;                               // along the ground
   };
+  // An element of a solid.
+  struct Cell {
+    std::vector<std::size_t> boundary;  // its nodes, counterclockwise
+    std::shared_ptr<const Element> element;
+    std::vector<std::size_t> nodes;  // in the order of the element
+    double area = 0.0;               // at the start [length^2]
+    double full_energy = 1.0;        // that has the darkest colour [force length]
+  };
   struct NodalLoad {
     std::size_t node = 0;
     Eigen::Vector2d force = Eigen::Vector2d::Zero();
@@ -119,6 +132,9 @@ class SceneMarkers {
   };
   using Places = std::vector<Eigen::Vector2d>;  // by node
 
+  void AddMesh(const Solid& solid, const Scene& scene, const SceneIndex& index);
+  // Root of the mean area of the elements of solids.
+  double CellSize() const;
   void FindSupports(const Scene& scene);
   void ExtendBox(const TraceRequest& request, const SceneIndex& index, double reach);
   // The boundary of an obstacle around the foot of `centre`, along the tangent. half_length [length].
@@ -130,6 +146,7 @@ class SceneMarkers {
                                        const std::string& caption) const;
   void DrawObstacles(const Places& places, const contact_path_msgs::Increment& increment, MarkerPicture* picture) const;
   void DrawStructure(const Places& places, MarkerPicture* picture) const;
+  void DrawMeshes(const Places& places, MarkerPicture* picture) const;
   void DrawStars(const Places& places, MarkerPicture* picture) const;
   void DrawSupports(const Places& places, MarkerPicture* picture) const;
   void DrawContacts(const Places& places, const contact_path_msgs::Increment& increment, MarkerPicture* picture) const;
@@ -144,6 +161,7 @@ class SceneMarkers {
   std::vector<std::array<std::size_t, 2>> bars_;  // elements of two nodes
   std::vector<std::vector<std::size_t>> stars_;   // elements of any other number of nodes
   std::vector<Eigen::Vector2d> rest_;             // by star: of its first node
+  std::vector<Cell> cells_;                       // elements of solids
   std::vector<Support> supports_;
   std::vector<Candidate> contacts_;
   std::vector<StageParts> stages_;

@@ -32,6 +32,7 @@ constexpr Unit kNone = {0, 0, 0};
 constexpr Unit kLength = {1, 0, 0};
 constexpr Unit kForce = {0, 1, 0};
 constexpr Unit kStiffness = {-1, 1, 0};
+constexpr Unit kStress = {-2, 1, 0};
 constexpr Unit kLoadFactor = {0, 0, 1};
 constexpr Unit kLengthRate = {1, 0, -1};
 constexpr Unit kForceRate = {0, 1, -1};
@@ -55,6 +56,7 @@ enum class TextKind {
   kNewName,   // the name of the part: unique in its list, and fit for the columns of a table
   kNode,      // the name of a node of the scene
   kObstacle,  // the name of an obstacle of the scene
+  kMaterial,  // the name of a material of the scene
   kQuantity,  // a quantity of a path (quantity.h)
 };
 

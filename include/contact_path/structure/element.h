@@ -20,7 +20,8 @@ struct LocalDof {
 std::vector<LocalDof> PositionsOfNodes(int num_nodes);
 
 // Values, forces and directions are ordered as Dofs(), m entries; the force of a rotation is a moment [force length].
-// A configuration in which the energy is not smooth (a Biot or logarithmic bar of zero length) gives non-finite values.
+// A configuration in which the energy is not smooth (a Biot or logarithmic bar of zero length, a solid turned
+// inside out) gives non-finite values.
 class Element {
  public:
   virtual ~Element() = default;
@@ -28,6 +29,9 @@ class Element {
   virtual const std::vector<LocalDof>& Dofs() const = 0;
   // Whether the tangent is the same everywhere, in directions that do not turn.
   virtual bool Linear() const { return false; }
+  // The smallest ratio of a current area to its initial one, over the integration points; an element with a ratio <= 0
+  // is turned inside out, and its energy is not finite. 1 for an element without an area.
+  virtual double AreaRatio(const Eigen::Ref<const Eigen::VectorXd>&) const { return 1.0; }
   // W(x) [force length].
   virtual double Energy(const Eigen::Ref<const Eigen::VectorXd>& x) const = 0;
   // force = dW/dx, m [force].

@@ -20,6 +20,10 @@ struct PlacedElement {
 std::vector<PlacedElement> MakeElements(const Scene& scene, const SceneIndex& index,
                                         const std::vector<double>& reference);
 
+// Of one solid of the scene, in the order of its nodes.
+std::vector<PlacedElement> MakeSolidElements(const Solid& solid, const Scene& scene, const SceneIndex& index,
+                                             const std::vector<double>& reference);
+
 }  // namespace contact_path
 
 #endif  // CONTACT_PATH_STRUCTURE_SCENE_ELEMENTS_H_

@@ -1,0 +1,118 @@
+#include "contact_path/scene/cell.h"
+
+#include <cmath>
+
+namespace contact_path {
+namespace {
+
+using Gradients = std::array<std::array<double, 2>, kMostCellNodes>;
+
+// Corners of the square, counterclockwise.
+constexpr double kCorners[4][2] = {{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}};
+
+constexpr Gradients kLinearTriangle = {{{-1.0, -1.0}, {1.0, 0.0}, {0.0, 1.0}}};
+
+// N = L (2 L - 1) at a corner with the area coordinate L, 4 L M between two corners.
+Gradients QuadraticTriangle(double xi, double eta) {
+  const std::array<double, 3> area = {1.0 - xi - eta, xi, eta};
+  Gradients gradients{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t next = (i + 1) % 3;
+    for (std::size_t k = 0; k < 2; ++k) {
+      gradients[i][k] = (4.0 * area[i] - 1.0) * kLinearTriangle[i][k];
+      gradients[3 + i][k] = 4.0 * (area[next] * kLinearTriangle[i][k] + area[i] * kLinearTriangle[next][k]);
+    }
+  }
+  return gradients;
+}
+
+// N = (1 + a xi) (1 + b eta) / 4 at the corner (a, b).
+Gradients BilinearSquare(double xi, double eta) {
+  Gradients gradients{};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double a = kCorners[i][0], b = kCorners[i][1];
+    gradients[i] = {0.25 * a * (1.0 + b * eta), 0.25 * b * (1.0 + a * xi)};
+  }
+  return gradients;
+}
+
+// N = (1 + a xi) (1 + b eta) (a xi + b eta - 1) / 4 at the corner (a, b), (1 - xi^2) (1 + b eta) / 2 and
+// (1 + a xi) (1 - eta^2) / 2 between two corners.
+Gradients SerendipitySquare(double xi, double eta) {
+  Gradients gradients{};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double a = kCorners[i][0], b = kCorners[i][1];
+    gradients[i] = {0.25 * a * (1.0 + b * eta) * (2.0 * a * xi + b * eta),
+                    0.25 * b * (1.0 + a * xi) * (a * xi + 2.0 * b * eta)};
+  }
+  gradients[4] = {-xi * (1.0 - eta), -0.5 * (1.0 - xi * xi)};
+  gradients[5] = {0.5 * (1.0 - eta * eta), -eta * (1.0 + xi)};
+  gradients[6] = {-xi * (1.0 + eta), 0.5 * (1.0 - xi * xi)};
+  gradients[7] = {-0.5 * (1.0 - eta * eta), -eta * (1.0 - xi)};
+  return gradients;
+}
+
+std::vector<CellPoint> TrianglePoints(Gradients (*gradients_at)(double, double)) {
+  constexpr double kPoints[3][2] = {{1.0 / 6.0, 1.0 / 6.0}, {2.0 / 3.0, 1.0 / 6.0}, {1.0 / 6.0, 2.0 / 3.0}};
+  std::vector<CellPoint> points;
+  for (const auto& [xi, eta] : kPoints) points.push_back({1.0 / 6.0, gradients_at(xi, eta)});
+  return points;
+}
+
+std::vector<CellPoint> SquarePoints(Gradients (*gradients_at)(double, double)) {
+  const double at = 1.0 / std::sqrt(3.0);
+  std::vector<CellPoint> points;
+  for (const auto& [a, b] : kCorners) points.push_back({1.0, gradients_at(at * a, at * b)});
+  return points;
+}
+
+}  // namespace
+
+bool IsCellShape(std::size_t nodes) { return nodes == 3 || nodes == 4 || nodes == 6 || nodes == 8; }
+
+const std::vector<CellPoint>& CellPoints(std::size_t nodes) {
+  static const std::vector<CellPoint> linear_triangle = {{0.5, kLinearTriangle}};
+  static const std::vector<CellPoint> quadratic_triangle = TrianglePoints(QuadraticTriangle);
+  static const std::vector<CellPoint> bilinear_square = SquarePoints(BilinearSquare);
+  static const std::vector<CellPoint> serendipity_square = SquarePoints(SerendipitySquare);
+  if (nodes == 3) return linear_triangle;
+  if (nodes == 6) return quadratic_triangle;
+  return nodes == 4 ? bilinear_square : serendipity_square;
+}
+
+const std::vector<std::size_t>& CellBoundary(std::size_t nodes) {
+  static const std::vector<std::size_t> linear_triangle = {0, 1, 2}, quadratic_triangle = {0, 3, 1, 4, 2, 5};
+  static const std::vector<std::size_t> bilinear_square = {0, 1, 2, 3};
+  static const std::vector<std::size_t> serendipity_square = {0, 4, 1, 5, 2, 6, 3, 7};
+  if (nodes == 3) return linear_triangle;
+  if (nodes == 6) return quadratic_triangle;
+  return nodes == 4 ? bilinear_square : serendipity_square;
+}
+
+std::vector<PlacedPoint> PlacePoints(const std::vector<double>& positions) {
+  const std::size_t nodes = positions.size() / 2;
+  std::vector<PlacedPoint> placed;
+  for (const CellPoint& point : CellPoints(nodes)) {
+    // Derivatives of x and y by the coordinates of the cell.
+    double by_xi[2] = {0.0, 0.0}, by_eta[2] = {0.0, 0.0};
+    for (std::size_t i = 0; i < nodes; ++i)
+      for (std::size_t k = 0; k < 2; ++k) {
+        // From the first node, so that the distance from the origin costs no digits.
+        const double from_first = positions[2 * i + k] - positions[k];
+        by_xi[k] += point.gradients[i][0] * from_first;
+        by_eta[k] += point.gradients[i][1] * from_first;
+      }
+    const double jacobian = by_xi[0] * by_eta[1] - by_xi[1] * by_eta[0];
+    PlacedPoint at;
+    at.area = point.weight * jacobian;
+    for (std::size_t i = 0; i < nodes; ++i) {
+      const auto& [of_xi, of_eta] = point.gradients[i];
+      at.gradients[i] = {(by_eta[1] * of_xi - by_xi[1] * of_eta) / jacobian,
+                         (by_xi[0] * of_eta - by_eta[0] * of_xi) / jacobian};
+    }
+    placed.push_back(at);
+  }
+  return placed;
+}
+
+}  // namespace contact_path

@@ -1,0 +1,71 @@
+// Meshes of solids for tests.
+#ifndef CONTACT_PATH_TEST_SUPPORT_SOLID_GRID_H_
+#define CONTACT_PATH_TEST_SUPPORT_SOLID_GRID_H_
+
+#include <Eigen/Core>
+#include <functional>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "contact_path/scene/scene.h"
+
+namespace contact_path {
+
+// A mesh of nx x ny cells over the unit square, mapped by `place`. A node at (i / 2 nx, j / 2 ny) has the name "i_j":
+// corners of cells have even numbers, mid-sides odd ones. Triangles halve the cells. solid: what it is made of, and
+// nodes_per_element.
+inline void AddGrid(Scene* scene, int nx, int ny, const std::function<Eigen::Vector2d(double, double)>& place,
+                    Solid solid) {
+  const auto per_element = solid.NodesPerElement();
+  std::vector<std::vector<std::pair<int, int>>> cells;  // corners in the lattice of half cells
+  for (int j = 0; j < 2 * ny; j += 2)
+    for (int i = 0; i < 2 * nx; i += 2) {
+      const std::pair<int, int> a(i, j), b(i + 2, j), c(i + 2, j + 2), d(i, j + 2);
+      if (per_element == 4 || per_element == 8) {
+        cells.push_back({a, b, c, d});
+      } else {
+        cells.push_back({a, b, c});
+        cells.push_back({a, c, d});
+      }
+    }
+  std::set<std::pair<int, int>> known;
+  const auto add = [&](const std::pair<int, int>& at) {
+    const std::string name = std::to_string(at.first) + "_" + std::to_string(at.second);
+    if (known.insert(at).second) {
+      const Eigen::Vector2d position = place(0.5 * at.first / nx, 0.5 * at.second / ny);
+      scene->nodes.push_back({name, position[0], position[1]});
+    }
+    solid.nodes.push_back(name);
+  };
+  for (const auto& corners : cells) {
+    for (const auto& corner : corners) add(corner);
+    if (per_element < 6) continue;
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const auto &from = corners[k], &to = corners[(k + 1) % corners.size()];
+      add({(from.first + to.first) / 2, (from.second + to.second) / 2});
+    }
+  }
+  scene->solids.push_back(std::move(solid));
+}
+
+// The node of a grid with this name.
+inline Node& GridNode(Scene* scene, int i, int j) {
+  const std::string name = std::to_string(i) + "_" + std::to_string(j);
+  for (Node& node : scene->nodes)
+    if (node.name == name) return node;
+  throw std::out_of_range(name);
+}
+
+inline bool HasGridNode(const Scene& scene, int i, int j) {
+  const std::string name = std::to_string(i) + "_" + std::to_string(j);
+  for (const Node& node : scene.nodes)
+    if (node.name == name) return true;
+  return false;
+}
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_TEST_SUPPORT_SOLID_GRID_H_
