@@ -54,6 +54,17 @@ class QuickPlotTest(PlotTest):
 
 class Panels(QuickPlotTest):
 
+    def test_solids_in_the_colour_of_their_energy(self):
+        table = self.trace('cantilever_block', 'block.csv')
+        scene = scene_file('cantilever_block')
+        self.draw(table, '--shapes', '--scene', scene, '-o', self.path('block.png'))
+        solid, = plot_shapes.Structure(path_file.read_scene(scene)).solids
+        structure = plot_shapes.Structure(path_file.read_scene(scene))
+        self.assertEqual(solid.boundaries.shape, (20, 8))
+        for increment in path_file.read(table).increments[::20]:
+            energies = solid.energies(structure.initial, structure.positions(increment))
+            self.assertAlmostEqual(energies.sum() * 0.25, increment['strain_energy'], delta=1e-9)
+
     def test_one_path_with_all_panels_as_png(self):
         table = self.trace('two_dof_friction', 'a.csv')
         drawn = self.plot(table, '--states', '--energy', '--shapes', '--scene', scene_file('two_dof_friction'))

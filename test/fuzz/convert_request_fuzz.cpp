@@ -26,6 +26,8 @@ msgs::TraceRequest Normalised(msgs::TraceRequest message) {
   WriteOut(&message.options.method, "branch");
   WriteOut(&message.options.accuracy, "balanced");
   for (msgs::Bar& bar : message.scene.bars) WriteOut(&bar.strain, "biot");
+  for (msgs::Material& material : message.scene.materials) WriteOut(&material.model, "neo_hookean");
+  for (msgs::Solid& solid : message.scene.solids) WriteOut(&solid.plane, "strain");
   for (msgs::Obstacle& obstacle : message.scene.obstacles) WriteOut(&obstacle.shape, "half_plane");
   for (msgs::Node& node : message.scene.nodes) {
     node.fixed_x = node.fixed_x != 0;

@@ -11,9 +11,9 @@
 namespace contact_path {
 namespace {
 
-constexpr const char* kExamples[] = {"sliding_bar",      "arch19",           "rough_truss",
-                                     "two_dof_friction", "rigid_stop",       "von_mises",
-                                     "stick_slip_cycle", "press_slide_lift", "gripper"};
+constexpr const char* kExamples[] = {"sliding_bar", "arch19",          "rough_truss",      "two_dof_friction",
+                                     "rigid_stop",  "von_mises",       "stick_slip_cycle", "press_slide_lift",
+                                     "gripper",     "cantilever_block"};
 constexpr int kIncrements = 60;      // of branch
 constexpr int kMpecIncrements = 12;  // these take longer
 

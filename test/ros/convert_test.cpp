@@ -40,6 +40,8 @@ TraceRequest FullRequest() {
   request.scene.bars = {{{"a", "b"}, 5.0, 6.0, StrainMeasure::kGreenLagrange},
                         {{"b", "a"}, 7.0, 8.0, StrainMeasure::kLogarithmic}};
   request.scene.superelements = {{{"b"}, {1.0, 2.0, 2.0, 3.0}, {25.0, 26.0}}};
+  request.scene.materials = {{"rubber", MaterialModel::kCiarletGeymonat, 0.1, 0.2, 0.3, 0.4, 0.5}, {"steel"}};
+  request.scene.solids = {{"block", "rubber", 0.6, PlaneState::kStress, 4, {"a", "b", "b", "a"}}};
   request.scene.loads = {{"a", 9.0, 10.0, true}, {"b", 11.0, 12.0, false}};
   request.scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 13.0, 14.0, 15.0, 16.0, 0.17}};
   request.scene.contacts = {{"b", "floor"}};
@@ -78,6 +80,22 @@ void ExpectFullRequest(const TraceRequest& request) {
   ASSERT_EQ(scene.superelements.size(), 1U);
   EXPECT_EQ(scene.superelements[0].nodes, std::vector<std::string>{"b"});
   EXPECT_EQ(scene.superelements[0].stiffness, (std::vector<double>{1.0, 2.0, 2.0, 3.0}));
+  ASSERT_EQ(scene.materials.size(), 2U);
+  EXPECT_EQ(scene.materials[0].name, "rubber");
+  EXPECT_EQ(scene.materials[0].model, MaterialModel::kCiarletGeymonat);
+  EXPECT_EQ(scene.materials[0].E, 0.1);
+  EXPECT_EQ(scene.materials[0].nu, 0.2);
+  EXPECT_EQ(scene.materials[0].lambda, 0.3);
+  EXPECT_EQ(scene.materials[0].mu, 0.4);
+  EXPECT_EQ(scene.materials[0].a, 0.5);
+  EXPECT_EQ(scene.materials[1].model, MaterialModel::kNeoHookean);
+  ASSERT_EQ(scene.solids.size(), 1U);
+  EXPECT_EQ(scene.solids[0].name, "block");
+  EXPECT_EQ(scene.solids[0].material, "rubber");
+  EXPECT_EQ(scene.solids[0].thickness, 0.6);
+  EXPECT_EQ(scene.solids[0].plane, PlaneState::kStress);
+  EXPECT_EQ(scene.solids[0].nodes_per_element, 4);
+  EXPECT_EQ(scene.solids[0].nodes, (std::vector<std::string>{"a", "b", "b", "a"}));
   ASSERT_EQ(scene.loads.size(), 2U);
   EXPECT_EQ(scene.loads[0].node, "a");
   EXPECT_EQ(scene.loads[0].fx, 9.0);

@@ -346,6 +346,35 @@ TEST(SceneMarkersTest, SuperelementsAreTiedToTheirMiddleOrToTheGround) {
   EXPECT_LT((middle - Vector2d(3.1, 2.2)).norm(), kRounding);
 }
 
+// Filled elements in the colour of their energy, with their boundaries now and as they were.
+TEST(SceneMarkersTest, SolidsAreFilled) {
+  TraceRequest request;
+  Scene& scene = request.scene;
+  scene.nodes = {{"a", 0.0, 0.0, true, true}, {"b", 1.0, 0.0}, {"c", 1.0, 1.0},
+                 {"d", 0.0, 1.0, true, true}, {"e", 2.0, 0.0}, {"f", 2.0, 1.0}};
+  scene.materials = {{"rubber", MaterialModel::kNeoHookean, 1.0, 0.3}};
+  scene.solids = {{"block", "rubber", 0.5, PlaneState::kStrain, 4, {"a", "b", "c", "d", "b", "e", "f", "c"}}};
+  scene.loads = {{"f", 1.0, 0.0}};
+  msgs::Increment increment;
+  increment.x = {0.0, 1.0, 1.0, 0.0, 4.0, 4.0};  // the second element is stretched, the first one is not
+  increment.y = {0.0, 0.0, 1.0, 1.0, 0.0, 1.0};
+  const MarkerArray picture = SceneMarkers(request, World()).Draw(increment, 1.0);
+  ExpectSound(picture);
+  EXPECT_EQ(Find(picture, "solids", 0).points.size(), 16U);
+  EXPECT_EQ(Find(picture, "solids", 2).points.size(), 16U);
+  const Marker& filled = Find(picture, "solids", 1);
+  ASSERT_EQ(filled.points.size(), 24U);  // four triangles each
+  const std::vector<Vector2d> corners = Points(filled);
+  double area = 0.0;
+  for (std::size_t i = 0; i < corners.size(); i += 3) {
+    const Vector2d along = corners[i + 1] - corners[i], up = corners[i + 2] - corners[i];
+    area += 0.5 * (along.x() * up.y() - along.y() * up.x());
+  }
+  EXPECT_NEAR(area, 4.0, 1e-6);
+  EXPECT_GT(filled.colors.front().g, 0.8F);
+  EXPECT_LT(filled.colors.back().g, 0.2F);
+}
+
 TEST(SceneMarkersTest, CaptionNamesSceneRowKindAndLoad) {
   const SceneMarkers markers(Slope(), World());
   const std::string text = Find(markers.Draw(SlopeRow(-0.125), 2.0), "caption").text;

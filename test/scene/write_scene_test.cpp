@@ -18,7 +18,7 @@ void ExpectRoundTrip(const TraceRequest& request) {
 
 TEST(WriteTraceRequest, ExamplesAreReadBackToTheLastBit) {
   for (const char* name : {"sliding_bar", "arch19", "rough_truss", "two_dof_friction", "von_mises", "rigid_stop",
-                           "stick_slip_cycle", "press_slide_lift", "gripper"})
+                           "stick_slip_cycle", "press_slide_lift", "gripper", "cantilever_block"})
     ExpectRoundTrip(ReadExample(name));
 }
 
