@@ -23,7 +23,8 @@ PARTS = {
     'obstacle_motions': {'obstacle': '', 'dx': 0.0, 'dy': 0.0},
 }
 # The same of the request, where groups and beams stand for several nodes.
-GIVEN = dict(PARTS, beams=scene_expand.BEAM, groups=scene_expand.GROUP, loads=dict(PARTS['loads'], **scene_expand.GIVEN_LOAD),
+GIVEN = dict(PARTS, beams=scene_expand.BEAM, groups=scene_expand.GROUP,
+             surfaces=scene_expand.SURFACE, loads=dict(PARTS['loads'], **scene_expand.GIVEN_LOAD),
              contacts=dict(PARTS['contacts'], **scene_expand.GIVEN_CONTACT))
 STAGE_PARTS = ('loads', 'obstacle_motions')
 
@@ -122,7 +123,7 @@ def scene_of(request):
                 for item in getattr(message, part, [])]
 
     scene = {part: items(request.scene, part) for part in PARTS}
-    loads_on_nodes = scene_expand.expand(scene, items(request.scene, 'beams'), items(request.scene, 'groups'))
+    loads_on_nodes = scene_expand.expand(scene, *(items(request.scene, part) for part in ('beams', 'groups', 'surfaces')))
     for kind in request.scene.__slots__:
         if kind not in GIVEN and isinstance(getattr(request.scene, kind), list):
             add_elements(scene, [item.nodes for item in getattr(request.scene, kind) if hasattr(item, 'nodes')])
@@ -172,7 +173,7 @@ def read_scene(name):
         request = yaml.load(file, Loader=getattr(yaml, 'CBaseLoader', yaml.BaseLoader))
     try:
         scene = {part: items(request['scene'], part) for part in PARTS}
-        loads_on_nodes = scene_expand.expand(scene, items(request['scene'], 'beams'), items(request['scene'], 'groups'))
+        loads_on_nodes = scene_expand.expand(scene, *(items(request['scene'], part) for part in ('beams', 'groups', 'surfaces')))
         for kind, given in request['scene'].items():
             if kind not in GIVEN and isinstance(given, list):
                 add_elements(scene, [item['nodes'] for item in given if 'nodes' in item])

@@ -2,22 +2,28 @@
 import math
 
 SEGMENTS = 20  # of a beam that does not tell
-GIVEN_LOAD = {'group': '', 'px': 0.0, 'py': 0.0}  # fields of a load beside those that act on a node
+GIVEN_LOAD = {'group': '', 'px': 0.0, 'py': 0.0, 'surface': ''}  # fields of a load beside those that act on a node
 GIVEN_CONTACT = {'group': ''}
 BEAM = {'name': '', 'nodes': [], 'segments': 0, 'angle': 0.0, 'hinged': []}
 GROUP = {'name': '', 'nodes': []}
+SURFACE = {'name': '', 'nodes': [], 'closed': False}
 
 
-def expand(scene, beams, groups):
+def expand(scene, beams, groups, surfaces):
     """Adds to a scene, as in path_file.Path, the inner nodes of its beams, and expands its loads and contacts.
 
-    beams, groups: dictionaries with the fields of BEAM and GROUP. scene['beams'] becomes a list of the node names of each
+    beams, groups, surfaces: dictionaries with the fields of BEAM, GROUP and SURFACE. scene['beams'] becomes a list of the node names of each
     beam, scene['turning'] the set of the names of the nodes that a beam turns. Returns a function that expands the loads
     of a stage.
     """
     places = {node['name']: (node['x'], node['y']) for node in scene['nodes']}
     members = {group['name']: list(group['nodes']) for group in groups}
     axes = {}  # beam -> its nodes
+    boundaries = {surface['name']: list(surface['nodes']) + surface['nodes'][:1] * surface['closed']
+                  for surface in surfaces}
+    mid_sides = {node for solid in scene['solids'] if int(solid['nodes_per_element'] or 3) > 4
+                 for i, node in enumerate(solid['nodes'])
+                 if i % int(solid['nodes_per_element']) >= int(solid['nodes_per_element']) // 2}
     scene['turning'] = set()
     for number, beam in enumerate(beams, 1):
         name, count = beam['name'] or 'beam%d' % number, beam['segments'] or SEGMENTS
@@ -34,7 +40,9 @@ def expand(scene, beams, groups):
     scene['beams'] = list(axes.values())
 
     def loads_on_nodes(loads):
-        return [part for load in loads for part in of_load(load, members, axes, places)]
+        return [part for load in loads
+                for part in (of_surface(load, boundaries[load['surface']], mid_sides, places) if load['surface']
+                             else of_load(load, members, axes, places))]
 
     scene['loads'] = loads_on_nodes(scene['loads'])
     scene['contacts'] = [{'node': node, 'obstacle': contact['obstacle']} for contact in scene['contacts']
@@ -55,6 +63,38 @@ def of_load(load, members, axes, places):
         half = 0.5 * math.dist(places[one], places[other])
         parts += [on(node, half * load['px'], half * load['py']) for node in (one, other)]
     return parts
+
+
+def of_surface(load, nodes, mid_sides, places):
+    """The loads on nodes that a traction on a boundary stands for."""
+    parts = []
+
+    def give(node, length):
+        parts.append({'node': node, 'fx': length * load['px'], 'fy': length * load['py'], 'constant': load['constant']})
+
+    i = 0
+    while i + 1 < len(nodes):
+        if i + 2 < len(nodes) and nodes[i + 1] in mid_sides:
+            for node, length in zip(nodes[i:i + 3], shape_lengths(*(places[node] for node in nodes[i:i + 3]))):
+                give(node, length)
+            i += 2
+        else:
+            for node in nodes[i:i + 2]:
+                give(node, 0.5 * math.dist(places[nodes[i]], places[nodes[i + 1]]))
+            i += 1
+    return parts
+
+
+def shape_lengths(first, middle, last):
+    """Integrals of the shape functions along an edge with a node in the middle."""
+    lengths = [0.0, 0.0, 0.0]
+    for xi, weight in ((-math.sqrt(0.6), 5.0 / 9.0), (0.0, 8.0 / 9.0), (math.sqrt(0.6), 5.0 / 9.0)):
+        slopes = xi - 0.5, -2.0 * xi, xi + 0.5
+        speed = math.hypot(*(sum(slope * point[axis] for slope, point in zip(slopes, (first, middle, last)))
+                             for axis in (0, 1)))
+        for k, shape in enumerate((0.5 * xi * (xi - 1.0), 1.0 - xi * xi, 0.5 * xi * (xi + 1.0))):
+            lengths[k] += weight * speed * shape
+    return lengths
 
 
 def point_of_arc(first, second, angle, share):

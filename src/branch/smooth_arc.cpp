@@ -154,6 +154,13 @@ bool SmoothArc::Factorize(const Eigen::VectorXd& x, const Eigen::VectorXd& row, 
   ++factorisations_;
   at_hand_ = false;
   if (rests_ && rank_tolerance == 0.0) rank_tolerance = tolerances::kDependentColumnResting;
+  if (rank_tolerance == 0.0 && system_.ResidualUnit() > 1.0) {
+    // The pivot of a free motion is rounding of stiff elements.
+    if (solver_.FactorizeRegular(system_.TransposedJacobian(x), row,
+                                 tolerances::kSingularPivot * system_.ResidualUnit(), system_.InFrame()))
+      return true;
+    rank_tolerance = tolerances::kDependentColumn;
+  }
   return solver_.Factorize(system_.TransposedJacobian(x), row, system_.InFrame(), rank_tolerance);
 }
 

@@ -51,7 +51,7 @@ std::optional<CurvePoint> LocateRate(SmoothArc* arc, const Step& step, double t,
     const double value = jet.first, slope = jet.second;
     if (std::abs(value) <= tolerances::kUnitComponent) return point;
     if (std::abs(value) >= 0.5 * previous)  // rounding, or there is no zero
-      return std::abs(value) <= tolerances::kLevel ? point : std::nullopt;
+      return std::abs(value) <= tolerances::kLevel * arc->system().ResidualUnit() ? point : std::nullopt;
     previous = std::abs(value);
     const double move = -value / slope;
     if (!(std::abs(move) <= step.length)) return std::nullopt;
@@ -130,8 +130,8 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, std::optional<double> tar
   // No node moves further than the arc length, and that is hardly longer than the step.
   for (const Constraint& limit : arc->InequalitiesInReach(step.start.x, kReach * step.length)) {
     const Quintic quintic = FunctionOf(system, step, limit);
-    const double zero =
-        limit.inequality == Inequality::kSlip ? tolerances::kLevel : tolerances::kBrokenOnStep * system.UnitOf(limit);
+    const double zero = limit.inequality == Inequality::kSlip ? tolerances::kLevel * system.ResidualUnit()
+                                                              : tolerances::kBrokenOnStep * system.UnitOf(limit);
     if (const std::optional<double> t = FirstNegative(quintic, step.length, zero)) {
       consider(EventKind::kContactEvent, *t, limit);
       continue;
@@ -149,7 +149,7 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, std::optional<double> tar
   Quintic reversed = load_rate;
   for (double& coefficient : reversed) coefficient = -coefficient;
   for (const Quintic& rate : {load_rate, reversed}) {
-    const std::optional<double> t = FirstNegative(rate, step.length, tolerances::kLevel);
+    const std::optional<double> t = FirstNegative(rate, step.length, tolerances::kLevel * system.ResidualUnit());
     if (t && *t > 0.0) consider(EventKind::kLimitPoint, *t, {});
   }
   if (step.start.determinant_sign * step.end.determinant_sign < 0) {

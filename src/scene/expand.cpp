@@ -1,9 +1,11 @@
 #include "contact_path/scene/expand.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string_view>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 namespace contact_path {
@@ -43,25 +45,89 @@ class Groups {
   explicit Groups(const Scene& scene) {
     for (const Group& group : scene.groups) groups_.emplace(group.name, GroupNodes{&group.nodes, nullptr});
     for (const Beam& beam : scene.beams) groups_.emplace(beam.name, GroupNodes{&beam.nodes, &beam});
+    for (const BoundarySurface& surface : scene.surfaces) surfaces_.emplace(surface.name, &surface);
     for (const Node& node : scene.nodes) nodes_.emplace(node.name, &node);
+    for (const Solid& solid : scene.solids) {
+      const std::size_t count = solid.NodesPerElement();
+      if (count <= 4) continue;
+      for (std::size_t i = 0; i < solid.nodes.size(); ++i)
+        if (i % count >= count / 2) mid_sides_.insert(solid.nodes[i]);
+    }
   }
 
   const GroupNodes& At(const std::string& name) const { return groups_.at(name); }
 
+  const BoundarySurface& Surface(const std::string& name) const { return *surfaces_.at(name); }
+  bool IsMidSide(const std::string& node) const { return mid_sides_.count(node) > 0; }
+
+  std::pair<double, double> Place(const std::string& node) const {
+    const Node& at = *nodes_.at(node);
+    return {at.x, at.y};
+  }
   // The length between two nodes at the start.
   double Length(const std::string& first, const std::string& second) const {
-    const Node &a = *nodes_.at(first), &b = *nodes_.at(second);
-    return std::hypot(b.x - a.x, b.y - a.y);
+    const auto [ax, ay] = Place(first);
+    const auto [bx, by] = Place(second);
+    return std::hypot(bx - ax, by - ay);
   }
 
  private:
   std::unordered_map<std::string_view, GroupNodes> groups_;
+  std::unordered_map<std::string_view, const BoundarySurface*> surfaces_;
   std::unordered_map<std::string_view, const Node*> nodes_;
+  std::unordered_set<std::string_view> mid_sides_;  // nodes of solids
 };
+
+// Lengths that stand for the integrals of the shape functions of an edge with a node in the middle: first, middle, last.
+std::array<double, 3> ShapeLengths(const Groups& groups, const std::string& first, const std::string& middle,
+                                   const std::string& last) {
+  const auto [ax, ay] = groups.Place(first);
+  const auto [mx, my] = groups.Place(middle);
+  const auto [bx, by] = groups.Place(last);
+  std::array<double, 3> lengths = {};
+  for (const auto& [xi, weight] : {std::pair(-std::sqrt(0.6), 5.0 / 9.0), std::pair(0.0, 8.0 / 9.0),
+                                   std::pair(std::sqrt(0.6), 5.0 / 9.0)}) {
+    const double slope_a = xi - 0.5, slope_m = -2.0 * xi, slope_b = xi + 0.5;
+    const double speed = std::hypot(slope_a * ax + slope_m * mx + slope_b * bx, slope_a * ay + slope_m * my + slope_b * by);
+    lengths[0] += weight * speed * 0.5 * xi * (xi - 1.0);
+    lengths[1] += weight * speed * (1.0 - xi * xi);
+    lengths[2] += weight * speed * 0.5 * xi * (xi + 1.0);
+  }
+  return lengths;
+}
+
+// Calls add(load on a node) for a traction on a surface.
+template <typename Add>
+void ExpandTraction(const Load& load, const Groups& groups, Add&& add) {
+  const BoundarySurface& surface = groups.Surface(load.surface);
+  std::vector<std::string> nodes = surface.nodes;
+  if (surface.closed) nodes.push_back(nodes.front());
+  Load on_node;
+  on_node.constant = load.constant;
+  const auto give = [&](const std::string& node, double length) {
+    on_node.node = node;
+    on_node.fx = length * load.px;
+    on_node.fy = length * load.py;
+    add(on_node);
+  };
+  for (std::size_t i = 0; i + 1 < nodes.size();) {
+    if (i + 2 < nodes.size() && groups.IsMidSide(nodes[i + 1])) {
+      const std::array<double, 3> lengths = ShapeLengths(groups, nodes[i], nodes[i + 1], nodes[i + 2]);
+      for (std::size_t k = 0; k < 3; ++k) give(nodes[i + k], lengths[k]);
+      i += 2;
+    } else {
+      const double half = 0.5 * groups.Length(nodes[i], nodes[i + 1]);
+      give(nodes[i], half);
+      give(nodes[i + 1], half);
+      ++i;
+    }
+  }
+}
 
 // Calls add(load on a node).
 template <typename Add>
 void ExpandLoad(const Load& load, const Groups& groups, Add&& add) {
+  if (!load.surface.empty()) return ExpandTraction(load, groups, add);
   if (load.group.empty()) return add(load);
   const GroupNodes& group = groups.At(load.group);
   Load on_node;
@@ -186,10 +252,12 @@ Expansion Expand(const TraceRequest& request) {
 bool NeedsExpansion(const TraceRequest& request) {
   const auto any_load = [](const std::vector<Load>& loads) {
     return std::any_of(loads.begin(), loads.end(),
-                       [](const Load& load) { return !load.group.empty() || load.px != 0.0 || load.py != 0.0; });
+                       [](const Load& load) {
+                         return !load.group.empty() || !load.surface.empty() || load.px != 0.0 || load.py != 0.0;
+                       });
   };
   const Scene& scene = request.scene;
-  return !scene.beams.empty() || !scene.groups.empty() || any_load(scene.loads) ||
+  return !scene.beams.empty() || !scene.groups.empty() || !scene.surfaces.empty() || any_load(scene.loads) ||
          std::any_of(scene.contacts.begin(), scene.contacts.end(),
                      [](const ContactCandidate& contact) { return !contact.group.empty(); }) ||
          std::any_of(request.program.begin(), request.program.end(),

@@ -5,6 +5,7 @@
 #include <string>
 #include <unordered_map>
 #include <unordered_set>
+#include <utility>
 
 #include "contact_path/scene/nearest_name.h"
 #include "scene/structure_rules.h"
@@ -95,6 +96,7 @@ class GroupRules {
           checker_.Add(list[i].Key("nodes")[k], group.nodes[k], "must not be repeated");
       groups_.insert(group.name);
     }
+    CheckSurfaces();
     CheckLoads(kScene.Key("loads"), scene_.loads);
     const KeyPath contacts = kScene.Key("contacts"), program("program");
     for (std::size_t i = 0; i < scene_.contacts.size(); ++i)
@@ -114,20 +116,54 @@ class GroupRules {
     checker_.Add(path.Key("group"), group, "must name a group or a beam of the scene" + nearest.Question());
   }
 
+  void CheckSurfaces() {
+    const KeyPath list = kScene.Key("surfaces");
+    std::unordered_set<std::string> earlier;
+    for (std::size_t i = 0; i < scene_.surfaces.size(); ++i) {
+      const BoundarySurface& surface = scene_.surfaces[i];
+      const KeyPath nodes = list[i].Key("nodes");
+      checker_.CheckFields(list[i], surface, &earlier);
+      const std::size_t least = surface.closed ? 3 : 2;
+      if (surface.nodes.size() < least)
+        checker_.Add(nodes, ListText(surface.nodes), "at least " + std::to_string(least) + " nodes are needed");
+      std::unordered_set<std::string> names;
+      for (std::size_t k = 0; k < surface.nodes.size(); ++k)
+        if (!names.insert(surface.nodes[k]).second) checker_.Add(nodes[k], surface.nodes[k], "must not be repeated");
+      surfaces_.insert(surface.name);
+    }
+  }
+
+  // What a traction on a surface leaves out.
+  void CheckSurfaceLoad(const KeyPath& path, const Load& load) {
+    if (!load.node.empty()) checker_.Add(path.Key("node"), load.node, "must be left out where there is a surface");
+    if (!load.group.empty()) checker_.Add(path.Key("group"), load.group, "must be left out where there is a surface");
+    for (const auto& [name, value] : {std::pair("fx", load.fx), std::pair("fy", load.fy), std::pair("moment", load.moment)})
+      if (value != 0.0)
+        checker_.Add(path.Key(name), NumberText(value), "must be 0 where there is a surface: px and py act on it");
+    if (surfaces_.count(load.surface) > 0) return;
+    NearestName nearest(load.surface);
+    for (const BoundarySurface& known : scene_.surfaces) nearest.Offer(known.name);
+    checker_.Add(path.Key("surface"), load.surface, "must name a surface of the scene" + nearest.Question());
+  }
+
   void CheckLoads(const KeyPath& list, const std::vector<Load>& loads) {
     for (std::size_t i = 0; i < loads.size(); ++i) {
       const Load& load = loads[i];
+      if (!load.surface.empty()) {
+        CheckSurfaceLoad(list[i], load);
+        continue;
+      }
       CheckGroup(list[i], load.node, load.group);
       const bool traction = load.px != 0.0 || load.py != 0.0;
       if (traction && beams_.count(load.group) == 0)
         checker_.Add(list[i].Key(load.px != 0.0 ? "px" : "py"), NumberText(load.px != 0.0 ? load.px : load.py),
-                     "must be 0: a traction needs a beam as its group");
+                     "must be 0: a traction needs a surface, or a beam as its group");
     }
   }
 
   Checker& checker_;
   const Scene& scene_;
-  std::unordered_set<std::string> groups_, beams_;
+  std::unordered_set<std::string> groups_, beams_, surfaces_;
 };
 
 }  // namespace

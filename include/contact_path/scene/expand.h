@@ -32,8 +32,8 @@ void ExpandBeams(Scene* scene);
 using Places = std::vector<std::size_t>;
 
 // The request with the inner nodes of its beams, and with loads and contacts on nodes in place of those on groups. A
-// traction on a beam acts on the nodes of each segment, half of its resultant on each; that is exact to second order in
-// the length of the segment. `request` must be sound (validate.h).
+// traction acts on the nodes of each segment of a beam, half of its resultant on each, which is exact to second order
+// in the length of the segment, and on the nodes of each edge of a solid by their shape functions. `request` must be sound (validate.h).
 struct Expansion {
   TraceRequest request;
   Places loads, contacts;           // of the scene

@@ -247,7 +247,26 @@ struct Fields<Solid> {
   }
 };
 
-// Dead load: on a node, or on each node of a group, or, as a traction, on a beam.
+// Part of the boundary of a solid, or the axis of a beam: nodes in order, the material on the right of who walks along
+// them. Mid-side nodes stand between the corners of their edge.
+struct BoundarySurface {
+  std::string name;
+  std::vector<std::string> nodes;
+  bool closed = false;  // from the last node back to the first
+  double radius = 0.0;  // half of the thickness of a beam whose axis this is [length]
+};
+
+template <>
+struct Fields<BoundarySurface> {
+  template <typename P>
+  static constexpr auto Of() {
+    return std::tuple(Member("name", &P::name).Naming(TextKind::kNewName),
+                      Member("nodes", &P::nodes).Naming(TextKind::kNode), Member("closed", &P::closed),
+                      Member("radius", &P::radius).In(units::kLength).Within(Range::kNotNegative));
+  }
+};
+
+// Dead load: on a node, or on each node of a group, or, as a traction, on a beam or a surface.
 struct Load {
   std::string node;
   double fx = 0.0;  // [force], per unit of the load factor unless constant
@@ -255,8 +274,9 @@ struct Load {
   bool constant = false;   // true: not scaled by the load factor
   double moment = 0.0;     // counterclockwise [force length]; only where a beam turns the node
   std::string group = {};  // in place of node: fx, fy and moment act on each of its nodes; px and py need a beam
-  double px = 0.0;         // traction per initial length of the axis [force/length]
+  double px = 0.0;         // traction per initial length of the axis or the boundary [force/length]
   double py = 0.0;
+  std::string surface = {};  // in place of node: px and py act on it
 };
 
 template <>
@@ -267,7 +287,8 @@ struct Fields<Load> {
                       Member("fy", &P::fy).In(units::kForceRate), Member("constant", &P::constant),
                       Member("moment", &P::moment).In(units::kMomentRate),
                       Member("group", &P::group),
-                      Member("px", &P::px).In(units::kTractionRate), Member("py", &P::py).In(units::kTractionRate));
+                      Member("px", &P::px).In(units::kTractionRate), Member("py", &P::py).In(units::kTractionRate),
+                      Member("surface", &P::surface));
   }
 };
 
@@ -353,9 +374,10 @@ struct Scene {
   std::vector<Bar> bars;
   std::vector<Superelement> superelements;
   std::vector<Beam> beams;
-  std::vector<Group> groups;
   std::vector<Material> materials;
   std::vector<Solid> solids;
+  std::vector<Group> groups;
+  std::vector<BoundarySurface> surfaces;
   std::vector<Load> loads;
   std::vector<Obstacle> obstacles;
   std::vector<ContactCandidate> contacts;
@@ -369,8 +391,9 @@ struct Fields<Scene> {
   static constexpr auto Of() {
     return std::tuple(Member("name", &P::name), Member("nodes", &P::nodes), Member("bars", &P::bars),
                       Member("superelements", &P::superelements), Member("beams", &P::beams),
-                      Member("groups", &P::groups), Member("materials", &P::materials), Member("solids", &P::solids),
-                      Member("loads", &P::loads), Member("obstacles", &P::obstacles), Member("contacts", &P::contacts),
+                      Member("materials", &P::materials), Member("solids", &P::solids), Member("groups", &P::groups),
+                      Member("surfaces", &P::surfaces), Member("loads", &P::loads),
+                      Member("obstacles", &P::obstacles), Member("contacts", &P::contacts),
                       Member("support_motions", &P::support_motions), Member("obstacle_motions", &P::obstacle_motions));
   }
 };

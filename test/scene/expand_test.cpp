@@ -1,0 +1,173 @@
+#include "contact_path/scene/expand.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "contact_path/scene/read_scene.h"
+#include "contact_path/scene/validate.h"
+#include "contact_path/scene/write_scene.h"
+
+namespace contact_path {
+namespace {
+
+constexpr char kFrame[] = R"(
+scene:
+  name: frame
+  nodes:
+  - {name: a, x: 0.0, y: 0.0, fixed_x: true, fixed_y: true, fixed_rotation: true}
+  - {name: b, x: 2.0, y: 0.0}
+  - {name: c, x: 2.0, y: 1.0}
+  beams:
+  - {name: leg, nodes: [a, b], EA: 100.0, EI: 1.0, segments: 4, angle: 3.141592653589793}
+  - {nodes: [b, c], EA: 100.0, EI: 1.0, segments: 2, hinged: [true, false]}
+  groups:
+  - {name: some, nodes: [b, leg/2]}
+  loads:
+  - {group: some, fx: 1.0}
+  - {group: beam2, py: -3.0, constant: true}
+  - {node: c, moment: 2.0}
+  obstacles:
+  - {name: floor, px: 0.0, py: -2.0, nx: 0.0, ny: 1.0}
+  contacts:
+  - {group: leg, obstacle: floor}
+  - {node: c, obstacle: floor}
+)";
+
+TraceRequest Frame() { return ReadTraceRequest(kFrame, "frame.yaml"); }
+
+TEST(Expand, InnerNodesAreOnTheArc) {
+  const Scene scene = Expand(Frame()).request.scene;
+  ASSERT_EQ(scene.nodes.size(), 3u + 3u + 1u);
+  EXPECT_EQ(scene.nodes[3].name, "leg/1");
+  EXPECT_EQ(scene.nodes[6].name, "beam2/1");
+  EXPECT_EQ(scene.beams[0].nodes, (std::vector<std::string>{"a", "leg/1", "leg/2", "leg/3", "b"}));
+  // A half circle round (1, 0) that turns to the left: below its chord.
+  for (int i = 1; i < 4; ++i) {
+    const double at = 3.141592653589793 * (1.0 + i / 4.0);
+    EXPECT_NEAR(scene.nodes[static_cast<std::size_t>(2 + i)].x, 1.0 + std::cos(at), 1e-15);
+    EXPECT_NEAR(scene.nodes[static_cast<std::size_t>(2 + i)].y, std::sin(at), 1e-15);
+  }
+  EXPECT_EQ(scene.nodes[6].x, 2.0);
+  EXPECT_EQ(scene.nodes[6].y, 0.5);
+}
+
+TEST(Expand, NodesThatTurn) {
+  EXPECT_EQ(NodesThatTurn(Expand(Frame()).request.scene), (std::vector<bool>(7, true)));
+  TraceRequest hinged = Frame();
+  hinged.scene.beams[0].hinged = {false, true};
+  std::vector<bool> all_but_b(7, true);
+  all_but_b[1] = false;
+  EXPECT_EQ(NodesThatTurn(Expand(hinged).request.scene), all_but_b);
+}
+
+TEST(Expand, LoadsAndContactsOfGroups) {
+  const Expansion expansion = Expand(Frame());
+  const std::vector<Load>& loads = expansion.request.scene.loads;
+  ASSERT_EQ(loads.size(), 2u + 3u + 1u);
+  EXPECT_EQ(loads[1].node, "leg/2");
+  EXPECT_EQ(loads[1].fx, 1.0);
+  // A traction of -3 on a length of 1, in two segments.
+  EXPECT_EQ(loads[2].node, "b");
+  EXPECT_EQ(loads[2].fy, -0.75);
+  EXPECT_EQ(loads[3].node, "beam2/1");
+  EXPECT_EQ(loads[3].fy, -1.5);
+  EXPECT_TRUE(loads[3].constant);
+  EXPECT_EQ(expansion.loads, (Places{0, 0, 1, 1, 1, 2}));
+  ASSERT_EQ(expansion.request.scene.contacts.size(), 6u);
+  EXPECT_EQ(expansion.request.scene.contacts[3].Name(), "leg/3@floor");
+  EXPECT_EQ(expansion.contacts, (Places{0, 0, 0, 0, 0, 1}));
+}
+
+TEST(Expand, ChangesNothingASecondTime) {
+  const TraceRequest once = Expand(Frame()).request;
+  EXPECT_EQ(WriteTraceRequest(Expand(once).request), WriteTraceRequest(once));
+}
+
+TEST(Expand, WrittenAsGiven) {
+  EXPECT_EQ(WriteTraceRequest(ReadTraceRequest(WriteTraceRequest(Frame()), "again.yaml")), WriteTraceRequest(Frame()));
+}
+
+struct BrokenRule {
+  std::string name;
+  std::function<void(TraceRequest&)> change;
+  std::string line;  // the start of it
+};
+
+class ExpansionRules : public testing::TestWithParam<BrokenRule> {};
+
+TEST_P(ExpansionRules, ReportsTheBrokenRuleAlone) {
+  TraceRequest request = Frame();
+  GetParam().change(request);
+  const std::vector<Violation> violations = Validate(request);
+  ASSERT_FALSE(violations.empty());
+  EXPECT_EQ(violations[0].ToLine().substr(0, GetParam().line.size()), GetParam().line);
+  for (std::size_t i = 1; i < violations.size(); ++i) ADD_FAILURE() << "also: " << violations[i].ToLine();
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, ExpansionRules,
+    testing::Values(
+        BrokenRule{"Stiffness", [](TraceRequest& r) { r.scene.beams[1].EI = 0.0; },
+                   "scene.beams[1].EI = 0: must be > 0 (at least 1e-100)"},
+        BrokenRule{"Length", [](TraceRequest& r) { r.scene.nodes[2].y = 0.0; },
+                   "scene.beams[1].nodes = [b, c]: the two nodes must not be at the same point"},
+        BrokenRule{"ThreeNodes", [](TraceRequest& r) { r.scene.beams[1].nodes = {"a", "b", "c"}; },
+                   "scene.beams[1].nodes = [a, b, c]: must name two nodes"},
+        BrokenRule{"Angle", [](TraceRequest& r) { r.scene.beams[0].angle = -6.3; },
+                   "scene.beams[0].angle = -6.3: must be between -2 pi and 2 pi"},
+        BrokenRule{"Segments", [](TraceRequest& r) { r.scene.beams[0].segments = -1; },
+                   "scene.beams[0].segments = -1: must be >= 0"},
+        BrokenRule{"Hinges", [](TraceRequest& r) { r.scene.beams[1].hinged = {true}; },
+                   "scene.beams[1].hinged = 1 entries: must be empty or have 2 entries: whether the beam is hinged at its "
+                   "first and its second node"},
+        BrokenRule{"LooseNode",
+                   [](TraceRequest& r) {
+                     r.scene.contacts.pop_back();
+                   },
+                   "scene.beams[1].hinged[0] = true: the hinge leaves node c loose: no support, contact or other part holds "
+                   "it"},
+        BrokenRule{"SameName", [](TraceRequest& r) { r.scene.groups[0].name = "leg"; },
+                   "scene.groups[0].name = leg: must be unique, but an earlier one has the same name"},
+        BrokenRule{"NoGroup", [](TraceRequest& r) { r.scene.loads[0].group = "sume"; },
+                   "scene.loads[0].group = sume: must name a group or a beam of the scene; did you mean some?"},
+        BrokenRule{"NodeAndGroup", [](TraceRequest& r) { r.scene.contacts[0].node = "a"; },
+                   "scene.contacts[0].node = a: must be left out where there is a group"},
+        BrokenRule{"TractionOnNodes", [](TraceRequest& r) { r.scene.loads[0].px = 1.0; },
+                   "scene.loads[0].px = 1: must be 0: a traction needs a surface, or a beam as its group"},
+        BrokenRule{"InnerNode", [](TraceRequest& r) { r.scene.groups[0].nodes[1] = "leg/4"; },
+                   "scene.groups[0].nodes[1] = leg/4: must name a node of the scene; did you mean leg/1?"},
+        BrokenRule{"MomentOnAHinge",
+                   [](TraceRequest& r) {
+                     r.scene.beams[0].hinged = {false, true};
+                     r.scene.loads[2].node = "b";
+                   },
+                   "scene.loads[2].moment = 2: must be 0: no beam turns node b"},
+        BrokenRule{"FixedRotation",
+                   [](TraceRequest& r) {
+                     r.scene.beams[0].hinged = {false, true};
+                     r.scene.nodes[1].fixed_rotation = true;
+                   },
+                   "scene.nodes[1].fixed_rotation = true: must be false: no beam turns this node"},
+        BrokenRule{"RotationOfAFreeNode",
+                   [](TraceRequest& r) {
+                     r.scene.support_motions.resize(1);
+                     r.scene.support_motions[0].node = "c";
+                     r.scene.support_motions[0].rotation = 1.0;
+                   },
+                   "scene.support_motions[0].rotation = 1: must be 0: the rotation of node c is not fixed"},
+        BrokenRule{"GroupTooLow", [](TraceRequest& r) { r.scene.obstacles[0].py = -0.9; },
+                   "scene.contacts[0] = leg/2@floor: initial position penetrates the obstacle by 0."},
+        BrokenRule{"RotationOfAHinge",
+                   [](TraceRequest& r) {
+                     r.scene.beams[0].hinged = {false, true};
+                     r.options.stop = {{"b.rotation", ">", 1.0}};
+                   },
+                   "options.stop[0].quantity = b.rotation: must be of a node that a beam turns"}),
+    [](const testing::TestParamInfo<BrokenRule>& test) { return test.param.name; });
+
+}  // namespace
+}  // namespace contact_path
