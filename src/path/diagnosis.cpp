@@ -31,8 +31,8 @@ std::string CollapsedBar(const Scene& scene, const SceneIndex& index, const std:
   return text;
 }
 
-std::string PullingContact(const Model& model, const PathPoint& point, double largest_reaction) {
-  const double most = std::max(tolerances::kReactionRounding, tolerances::kPullOfLargest * largest_reaction);
+std::string PullingContact(const Model& model, const PathPoint& point, double rounding, double largest_reaction) {
+  const double most = std::max(rounding, tolerances::kPullOfLargest * largest_reaction);
   for (std::size_t i = 0; i < model.contacts.size(); ++i) {
     const double pull = -point.rn[static_cast<Eigen::Index>(i)];
     const double unit = model.contacts[i]->ForceUnit();
