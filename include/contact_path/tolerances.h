@@ -74,6 +74,9 @@ inline constexpr double kActiveRoundingOfLoads = 1e-14;
 inline constexpr double kTouchingAtStart = 1e-9;
 // Scaled value of an inequality between the ends of a step: less below zero is rounding of the interpolation.
 inline constexpr double kBrokenOnStep = 1e-11;
+// Scaled reaction, or margin to the friction cone, at a located point where another path crosses: less below zero is
+// rounding, as kAcceptedExact admits it.
+inline constexpr double kForceSingular = 1e-9;
 // Scaled value of an inequality at an exact point of method mpec: less below zero is rounding.
 inline constexpr double kBrokenAtPoint = 1e-11;
 // Slip of an increment of method mpec, of its length: the contact has not moved if there is a solution without slip,
@@ -186,6 +189,10 @@ inline constexpr double kEnergyRounding = 1e-12;
 inline constexpr double kLocatedPlace = 1e-9;
 // Scaled distance of a located point from its guess that is admitted on the shortest steps.
 inline constexpr double kLocatedReach = 1e-9;
+// Rounding of a scaled quantity: its extreme is known to the root of this along the arc, ...
+inline constexpr double kExtreme = 1e-14;
+// ... or to this, scaled, where it is flatter.
+inline constexpr double kExtremeReach = 1e-6;
 // Place of a bifurcation between its brackets.
 inline constexpr double kBifurcationWidth = 1e-10;
 // Distance of a bifurcation from another event: up to the first they are one; up to the second, a shorter step tells.

@@ -1,5 +1,6 @@
 #include "contact_path/branch/smooth_arc.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -40,12 +41,36 @@ void EndDerivatives(const Step& step, Eigen::VectorXd* first, Eigen::VectorXd* s
 }  // namespace
 
 SmoothArc::SmoothArc(const Structure& structure, const ContactPairs& contacts)
-    : contacts_(contacts), system_(structure, contacts), tracker_(contacts) {}
+    : structure_(structure), contacts_(contacts), system_(structure, contacts), tracker_(contacts) {}
 
 void SmoothArc::SetStates(const std::vector<ContactState>& states, const PathPoint& from, bool rests) {
   system_.SetStates(states, SurfaceCoordinates(contacts_, from));
   at_hand_ = false;
   rests_ = rests;
+  NoteClosedGaps(from);
+}
+
+void SmoothArc::NoteClosedGaps(const PathPoint& from) {
+  moved_forces_.clear();
+  Eigen::VectorXd stiffness;
+  for (const std::size_t i : system_.Touching()) {
+    const double gap = contacts_[i]->Gap(from.u, from.s);
+    if (!(gap > tolerances::kBrokenOnStep)) continue;
+    if (stiffness.size() == 0) {
+      Eigen::SparseMatrix<double> tangent = structure_.TangentPattern();
+      structure_.Tangent(from.u, &tangent);
+      stiffness = tangent.diagonal().cwiseAbs();
+    }
+    double largest = 0.0;
+    for (const int dof : contacts_[i]->Dofs()) largest = std::max(largest, stiffness[dof]);
+    moved_forces_[static_cast<int>(i)] = (1.0 + contacts_[i]->Friction()) * largest * gap;
+  }
+}
+
+double SmoothArc::RoundingOf(const Constraint& limit) const {
+  const double rounding = tolerances::kBrokenOnStep * system_.UnitOf(limit);
+  const auto moved = moved_forces_.find(limit.contact);
+  return moved == moved_forces_.end() ? rounding : std::max(rounding, moved->second);
 }
 
 bool SmoothArc::Derivatives(const Eigen::VectorXd& x, const Eigen::VectorXd& towards, CurvePoint* point) {

@@ -1,5 +1,6 @@
 #include "contact_path/branch/tangents.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -10,6 +11,9 @@
 
 namespace contact_path {
 namespace {
+
+constexpr Eigen::Index kMostModes = 20;  // of more, their share is not looked for
+constexpr int kIterations = 10;          // of Newton's method
 
 // Columns of `basis` without what lies in the span of the rows' null space: splits a null space by what moves.
 // Returns the part of basis in which the rows `from`..`from + count` vanish (still = true) or its complement.
@@ -72,6 +76,33 @@ void AddTangent(const NullSpaceParts& parts, const Eigen::VectorXd& arrival, Tan
   tangents->first.push_back(std::move(tangent));
 }
 
+// Of parts that are loose at the point only, as slack bars that happen to be straight: their share of the tangent. The
+// equations hold to second order along the curve: psi . F''(z, z) = 0 for each left null vector psi, where z is the
+// tangent with a share of each rigid mode. Left as it is where these equations do not tell.
+void AddShareOfModes(const Eigen::VectorXd& x, const Eigen::MatrixXd& modes, const Eigen::MatrixXd& left,
+                     FixedStateSystem* system, Eigen::VectorXd* tangent) {
+  if (modes.cols() == 0 || modes.cols() > kMostModes || left.cols() != modes.cols()) return;
+  const Eigen::MatrixXd psi = left.topRows(system->NumEquations()).colwise().normalized();
+  const auto form = [&](const Eigen::VectorXd& z) {
+    return Eigen::VectorXd(psi.transpose() * system->SecondDerivative(x, z));
+  };
+  Eigen::VectorXd z = *tangent, value = form(z);
+  if (value.norm() <= tolerances::kNoForm) return;
+  for (int i = 0; i < kIterations; ++i) {
+    Eigen::MatrixXd slope(modes.cols(), modes.cols());
+    for (Eigen::Index k = 0; k < modes.cols(); ++k)
+      slope.col(k) = 0.5 * (form(z + modes.col(k)) - form(z - modes.col(k)));
+    const SingularVectors singular = RightSingularVectors(slope);
+    if (!(singular.values[modes.cols() - 1] > tolerances::kNoForm)) return;
+    z -= modes * slope.partialPivLu().solve(value);
+    value = form(z);
+    if (!value.allFinite()) return;
+    if (value.norm() > tolerances::kLevel * z.squaredNorm()) continue;
+    *tangent = z / z.head(system->NumDofs() + 1).norm();
+    return;
+  }
+}
+
 Tangents SingularTangents(const Eigen::VectorXd& x, const Eigen::VectorXd& arrival, bool crossed,
                           FixedStateSystem* system, const MinimumNormSolver& solver) {
   Tangents tangents;
@@ -86,6 +117,8 @@ Tangents SingularTangents(const Eigen::VectorXd& x, const Eigen::VectorXd& arriv
     }
   }
   AddTangent(parts, arrival, &tangents);
+  if (!crossed && parts.proper.cols() == 1 && tangents.first.size() == 1)
+    AddShareOfModes(x, parts.rigid, solver.LeftNullSpace(), system, &tangents.first[0]);
   return tangents;
 }
 

@@ -41,6 +41,16 @@ std::optional<CurvePoint> PointAt(SmoothArc* arc, const Step& step, double t) {
   return point;
 }
 
+// Distance from the extreme of a quantity with this second derivative, up to which it differs from it by rounding only.
+double ReachOfExtreme(double second) {
+  return std::min(std::sqrt(2.0 * tolerances::kExtreme / std::abs(second)), tolerances::kExtremeReach);
+}
+
+// At a limit point the rate of the load factor is zero. What rounding leaves of it would be found as another one.
+void RestLoad(Eigen::Index s, CurvePoint* point) {
+  if (std::abs(point->first[s]) > tolerances::kLevel) point->first[s] = 0.0;
+}
+
 // Zero of a rate, by Newton's method along the curve. along(point): the jet whose first derivative it is.
 template <typename Along>
 std::optional<CurvePoint> LocateRate(SmoothArc* arc, const Step& step, double t, Along along) {
@@ -50,16 +60,28 @@ std::optional<CurvePoint> LocateRate(SmoothArc* arc, const Step& step, double t,
     const Jet jet = along(*point);
     const double value = jet.first, slope = jet.second;
     if (std::abs(value) <= tolerances::kUnitComponent) return point;
-    if (std::abs(value) >= 0.5 * previous)  // rounding, or there is no zero
-      return std::abs(value) <= tolerances::kLevel * arc->system().ResidualUnit() ? point : std::nullopt;
-    previous = std::abs(value);
     const double move = -value / slope;
+    if (std::abs(value) >= 0.5 * previous)  // rounding, or there is no zero
+      return std::abs(value) <= tolerances::kLevel * arc->system().ResidualUnit() ||
+                     (std::abs(value) <= tolerances::kLevelSingular && std::abs(move) <= ReachOfExtreme(slope))
+                 ? point
+                 : std::nullopt;
+    previous = std::abs(value);
     if (!(std::abs(move) <= step.length)) return std::nullopt;
     const Eigen::VectorXd guess = point->x + move * point->first + 0.5 * move * move * point->second;
     const Correction correction = arc->CorrectOnPlane(guess, step.normal);
     if (!correction.converged || !arc->Derivatives(correction.x, step.normal, &*point)) return std::nullopt;
   }
   return point;
+}
+
+// Less than this below zero, an inequality other than of slip counts as holding on the step. Where another path crosses
+// at an end of it, reactions are no better known than the point.
+double RoundingOnStep(const SmoothArc& arc, const Step& step, const Constraint& limit) {
+  const auto is_crossing = [](const CurvePoint& point) { return point.determinant_sign == 0 && point.nullity == 0; };
+  const double rounding = arc.RoundingOf(limit);
+  if (limit.inequality == Inequality::kGap || !(is_crossing(step.start) || is_crossing(step.end))) return rounding;
+  return std::max(rounding, tolerances::kForceSingular * arc.system().UnitOf(limit));
 }
 
 struct Bracket {
@@ -131,7 +153,7 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, std::optional<double> tar
   for (const Constraint& limit : arc->InequalitiesInReach(step.start.x, kReach * step.length)) {
     const Quintic quintic = FunctionOf(system, step, limit);
     const double zero = limit.inequality == Inequality::kSlip ? tolerances::kLevel * system.ResidualUnit()
-                                                              : tolerances::kBrokenOnStep * system.UnitOf(limit);
+                                                              : RoundingOnStep(*arc, step, limit);
     if (const std::optional<double> t = FirstNegative(quintic, step.length, zero)) {
       consider(EventKind::kContactEvent, *t, limit);
       continue;
@@ -155,9 +177,13 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, std::optional<double> tar
   if (step.start.determinant_sign * step.end.determinant_sign < 0) {
     const std::optional<Bracket> bifurcation = FindBifurcation(arc, step);
     if (!bifurcation) return {EventKind::kTooLong, 0.0, {}, false};
-    const double apart = std::abs(bifurcation->t - first.t), near = std::max(width, bifurcation->width);
+    const double apart = std::abs(bifurcation->t - first.t);
+    double near = std::max(width, bifurcation->width);
     if (first.kind != EventKind::kNone && apart > near && apart <= tolerances::kUnclear * step.length)
       return {EventKind::kTooLong, 0.0, {}, false};
+    // A step as short as this does not tell them apart either.
+    if (first.kind == EventKind::kLimitPoint)
+      near = std::max(near, ReachOfExtreme(Evaluate(Derivative(load_rate), first.t)));
     if (first.kind != EventKind::kNone && apart <= near)
       first.singular = true;
     else if (bifurcation->t < first.t)
@@ -178,6 +204,7 @@ std::optional<CurvePoint> Locate(SmoothArc* arc, const Step& step, const StepEve
     point.x = arc->CorrectSingular(point.x, step.normal);
     point.determinant_sign = 0;
     if (!arc->IsOnCurve(point.x)) return std::nullopt;
+    if (event.kind == EventKind::kLimitPoint) RestLoad(arc->system().NumDofs(), &point);
     return point;
   }
   std::optional<CurvePoint> point = LocateRegular(arc, step, event, target.value_or(0.0));
@@ -185,6 +212,7 @@ std::optional<CurvePoint> Locate(SmoothArc* arc, const Step& step, const StepEve
   const double t = step.normal.dot((point->x - step.start.x).head(step.normal.size()));
   const double slack = tolerances::kLocatedPlace * step.length;
   if (!(t >= -slack && t <= step.length + slack)) return std::nullopt;
+  if (event.kind == EventKind::kLimitPoint) RestLoad(arc->system().NumDofs(), &*point);
   return point;
 }
 

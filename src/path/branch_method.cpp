@@ -237,6 +237,8 @@ AcceptedPoint BranchMethod::IncrementAt(PathPoint point, const PathPoint& from) 
 AcceptedPoint BranchMethod::IncrementOf(const ArcStep& step, const PathPoint& from) const {
   const CurvePoint& end = step.step.end;
   AcceptedPoint increment = IncrementAt(arc_.system().Unpack(end.x), from);
+  if (step.event.singular && step.event.kind != EventKind::kContactEvent)
+    increment.force_rounding = tolerances::kForceSingular;
   increment.solve.rejected = step.rejected;
   increment.solve.nullity = static_cast<int>(end.nullity);
   increment.solve.determinant_sign = end.determinant_sign;

@@ -82,8 +82,8 @@ std::string LockingSolids(const Scene& scene, const SceneIndex& index) {
   return text + ": elements of 3 or 4 nodes are far too stiff in plane strain where nu is beyond 0.49; take 8 nodes";
 }
 
-std::string PullingContact(const Model& model, const PathPoint& point, double largest_reaction) {
-  const double most = std::max(tolerances::kReactionRounding, tolerances::kPullOfLargest * largest_reaction);
+std::string PullingContact(const Model& model, const PathPoint& point, double rounding, double largest_reaction) {
+  const double most = std::max(rounding, tolerances::kPullOfLargest * largest_reaction);
   for (std::size_t i = 0; i < model.contacts.size(); ++i) {
     const double pull = -point.rn[static_cast<Eigen::Index>(i)];
     const double unit = model.contacts[i]->ForceUnit();

@@ -364,8 +364,8 @@ class Tracer {
       const double time = Seconds(Clock::now() - start) / increments;
       for (AcceptedPoint& increment : advance.increments) {
         NotePoint(increment.point);
-        if (const std::string pulls = PullingContact(model, increment.point, largest_reaction_); !pulls.empty())
-          return End(EndReason::kNumericalFailure, pulls);
+        const std::string pulls = PullingContact(model, increment.point, increment.force_rounding, largest_reaction_);
+        if (!pulls.empty()) return End(EndReason::kNumericalFailure, pulls);
         recorder_.Append(model, increment, time);
         returns_->Add(recorder_.increment().index, point_, increment.point);
         point_ = std::move(increment.point);

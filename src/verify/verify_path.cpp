@@ -271,7 +271,9 @@ class Verifier {
     for (std::size_t i = 0; i < increment.contacts.size(); ++i)
       result_.largest_reaction =
           std::max(result_.largest_reaction, increment.contacts[i].rn / (contacts_[i].unit * scaling_.force));
-    const double most = std::max(kPull, kPullShare * result_.largest_reaction);
+    // Where another path crosses, a point is known to less than rounding.
+    const double rounding = increment.event.null_vector.empty() ? kPull : kExact;
+    const double most = std::max(rounding, kPullShare * result_.largest_reaction);
     for (std::size_t i = 0; i < increment.contacts.size(); ++i) {
       const double pull = -increment.contacts[i].rn / (contacts_[i].unit * scaling_.force);
       if (pull > most)

@@ -274,6 +274,109 @@ TEST(SingularScenes, CrossingPathNextToALimitPoint) {
   }
 }
 
+// Two pairs of slack bars that are straight at the start: their outer nodes move with the lines through c. With the
+// distance d of c from a support, and the outer node at R from there, both bars of a pair pull with N.
+TEST(SingularScenes, SlackBarsThatAreStraightAtTheStart) {
+  struct Pair {
+    std::string outer;
+    double y, length;  // of its support, of the bar to c
+  };
+  const Pair pairs[] = {{"m", 0.0, 1.0}, {"n", -1.0, std::sqrt(2.0)}};
+  for (const Accuracy accuracy : kPresets) {
+    const TracedPath path = TraceData("straight_slack_bars", accuracy);
+    EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+    for (const Increment& increment : path.increments) {
+      const double x = PositionX(path, increment, "c"), y = PositionY(path, increment, "c");
+      double force_x = -increment.load_factor - (x - 1.0), force_y = 0.5 * increment.load_factor - y;
+      for (const Pair& pair : pairs) {
+        const double d = std::hypot(x, y - pair.y);
+        const double R = (4.0 * pair.length + 2.0 * d) / 3.0, N = (R - d) / pair.length - 1.0;
+        EXPECT_NEAR(PositionX(path, increment, pair.outer), R * x / d, 1e-11) << increment.index;
+        EXPECT_NEAR(PositionY(path, increment, pair.outer), pair.y + R * (y - pair.y) / d, 1e-11) << increment.index;
+        force_x += N * x / d;
+        force_y += N * (y - pair.y) / d;
+      }
+      EXPECT_NEAR(force_x, 0.0, 1e-12) << increment.index;
+      EXPECT_NEAR(force_y, 0.0, 1e-12) << increment.index;
+    }
+  }
+}
+
+// Next to a singular point rates are known to rounding of the points over their distance to it. A limit point is
+// located as well as that admits.
+TEST(SingularScenes, LimitPointWhereRatesAreInexact) {
+  for (const Accuracy accuracy : kPresets) {
+    TraceRequest request = ReadData("limit_next_to_sway");
+    request.options.accuracy = accuracy;
+    request.options.max_increments = accuracy == Accuracy::kAccurate ? 500 : 80;
+    const TracedPath path = TraceProved(request);
+    EXPECT_EQ(path.result.reason, EndReason::kMaxIncrements) << path.result.message;
+    const std::vector<double> limits = Loads(path, IncrementKind::kSmoothLimit);
+    ASSERT_FALSE(limits.empty());
+    EXPECT_NEAR(limits[0], 0.03442360512675670842, 1e-12);
+  }
+}
+
+// The path of slack bars turns where they become straight, for one of two pairs a little earlier.
+TEST(SingularScenes, TwoSlackPairsBecomeStraightAtNearlyTheSameLoad) {
+  for (const Accuracy accuracy : {Accuracy::kBalanced, Accuracy::kAccurate}) {
+    TraceRequest request = ReadData("slack_pairs_become_straight");
+    request.options.accuracy = accuracy;
+    request.options.max_increments = accuracy == Accuracy::kAccurate ? 200 : 80;
+    const TracedPath path = TraceProved(request);
+    EXPECT_EQ(path.result.reason, EndReason::kMaxIncrements) << path.result.message;
+    const std::vector<Increment> limits = IncrementsOfKind(path, IncrementKind::kSmoothLimit);
+    ASSERT_EQ(limits.size(), 1U);
+    EXPECT_NEAR(limits[0].load_factor, 0.018342457360188313772, 1e-13);
+    EXPECT_FALSE(limits[0].event.null_vector.empty());
+    // Node n1R goes on through the line of its bars, n1L turns back.
+    const Increment& last = path.increments.back();
+    EXPECT_LT(last.load_factor, limits[0].load_factor - 1e-7);
+    EXPECT_LT(PositionY(path, last, "n1R") - PositionY(path, last, "n0R"), -2e-4);
+    EXPECT_GT(PositionY(path, last, "n1L") - PositionY(path, last, "n0L"), 2e-4);
+  }
+}
+
+// Where another path crosses, the reaction of a contact is known to rounding of the point only.
+TEST(SingularScenes, ContactWithoutAReactionWhereSlackBarsBecomeStraight) {
+  const double n3_n4 = std::hypot(0.5, 1.0), n4_n2 = 0.75;
+  for (const Accuracy accuracy : kPresets) {
+    TraceRequest request = ReadData("slack_bars_at_a_ceiling");
+    request.options.accuracy = accuracy;
+    request.options.max_increments = accuracy == Accuracy::kAccurate ? 250 : 80;
+    const TracedPath path = TraceProved(request);
+    EXPECT_EQ(path.result.reason, EndReason::kMaxIncrements) << path.result.message;
+    const std::vector<Increment> limits = IncrementsOfKind(path, IncrementKind::kSmoothLimit);
+    ASSERT_FALSE(limits.empty());
+    EXPECT_NEAR(limits[0].load_factor, -0.1003102451, 1e-9);
+    const double x = PositionX(path, limits[0], "n2"), y = PositionY(path, limits[0], "n2");
+    EXPECT_NEAR(std::hypot(2.25 - x, 0.75 - y), n3_n4 + n4_n2, 1e-8);
+    for (const Increment& increment : path.increments) {
+      EXPECT_NEAR(Contact(path, increment, "n3@o0").rn, 0.0, 1e-9);
+      EXPECT_NEAR(PositionX(path, increment, "n3"), 2.25, 1e-9);
+    }
+  }
+}
+
+// The second node is 7e-11 above the floor where the first one stands, and so stands as well. The force that closes its
+// gap takes the reaction out of the cone by as much.
+TEST(SingularScenes, GapBelowTheToleranceUnderALoadOnTheEdgeOfTheCone) {
+  for (const Accuracy accuracy : kPresets) {
+    const TracedPath path = TraceData("load_on_the_edge_of_the_cone", accuracy);
+    EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+    for (const Increment& increment : path.increments) {
+      const double pressed = std::max(increment.load_factor - 0.1, 0.0);
+      for (const char* name : {"n0@floor", "n1@floor"}) {
+        const ContactRecord& contact = Contact(path, increment, name);
+        EXPECT_NEAR(contact.rn, pressed, 1e-10);
+        EXPECT_NEAR(contact.rt, -0.3 * pressed, 1e-10);
+        EXPECT_NEAR(contact.gap, std::max(0.1 - increment.load_factor, 0.0), 1e-10);
+      }
+    }
+    EXPECT_EQ(path.increments.back().contacts[1].state, ContactState::kStick);
+  }
+}
+
 // Limit point and crossing path at one point: the path goes on through the limit point, the other one is on record.
 TEST(SingularScenes, PathThatCrossesAtALimitPointIsOnRecord) {
   const auto first_limit = [](const TracedPath& path) {

@@ -3,6 +3,7 @@
 #define CONTACT_PATH_BRANCH_SMOOTH_ARC_H_
 
 #include <Eigen/Core>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -78,6 +79,9 @@ class SmoothArc {
     return system_.InequalitiesOf(tracker_.InReach(x.head(s), x[s], reach));
   }
 
+  // Below zero by less, an inequality other than of slip counts as holding.
+  double RoundingOf(const Constraint& limit) const;
+
   int factorisations() const { return factorisations_; }
 
  private:
@@ -88,15 +92,19 @@ class SmoothArc {
   // Takes from *change, a solution of the singular equations, what would move the part at rest off its limit point:
   // with the null vectors n on the right, psi on the left, psi . F''(n, change) = 0.
   void HoldLimitPoint(const Eigen::VectorXd& x, Eigen::VectorXd* change);
+  // Of contacts that the states close over a gap, as small as what counts as none: the forces that this moves.
+  void NoteClosedGaps(const PathPoint& from);
   // False if the matrix is not finite.
   bool Factorize(const Eigen::VectorXd& x, const Eigen::VectorXd& row, double rank_tolerance = 0.0);
 
+  const Structure& structure_;
   const ContactPairs& contacts_;
   FixedStateSystem system_;
   ReachTracker tracker_;
   BorderedSolver solver_;
   bool at_hand_ = false;  // regular factors of a point of the curve with these states, the last row along the tangent
-  bool rests_ = false;    // part of the structure stands still at a limit point of its own (Branch::rests)
+  std::map<int, double> moved_forces_;  // by contact, of those that the states close over a gap
+  bool rests_ = false;  // part of the structure stands still at a limit point of its own (Branch::rests)
   Eigen::VectorXd residual_, step_length_;
   int factorisations_ = 0;
 };

@@ -29,8 +29,9 @@ std::string ContactTooSoft(const Model& model, const PathPoint& point, double le
 
 // Names a contact that pulls at its node, by a share of what any contact has pushed with so far and by more than
 // rounding: it should have opened, and did not since its reactions are too small beside the characteristic force; else
-// empty. largest_reaction: r_n, scaled, over the force unit of its contact, no less than those of the point.
-std::string PullingContact(const Model& model, const PathPoint& point, double largest_reaction);
+// empty. rounding: of the reactions of the point. largest_reaction: r_n, no less than those of the point. Both scaled,
+// over the force unit of the contact.
+std::string PullingContact(const Model& model, const PathPoint& point, double rounding, double largest_reaction);
 
 }  // namespace contact_path
 

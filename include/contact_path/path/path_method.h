@@ -20,7 +20,9 @@ struct AcceptedPoint {
   PathPoint point;
   IncrementKind kind = IncrementKind::kRegular;
   double arc_length = 0.0;  // of the increment, scaled norm
-  Work work;                // of the increment
+  double force_rounding =
+      tolerances::kReactionRounding;  // reactions are known to this, in the force unit of the contact
+  Work work;                          // of the increment
   Residuals residuals;
   SolveRecord solve;  // without time
   EventRecord event;
