@@ -39,6 +39,8 @@ def expand(scene, beams, groups, surfaces):
         scene['turning'].update(node for node, hinge in zip(beam['nodes'], hinged) if not hinge)
     scene['beams'] = list(axes.values())
 
+    fixed = {node['name'] for node in scene['nodes'] if node['fixed_x'] and node['fixed_y']}
+
     def loads_on_nodes(loads):
         return [part for load in loads
                 for part in (of_surface(load, boundaries[load['surface']], mid_sides, places) if load['surface']
@@ -46,7 +48,8 @@ def expand(scene, beams, groups, surfaces):
 
     scene['loads'] = loads_on_nodes(scene['loads'])
     scene['contacts'] = [{'node': node, 'obstacle': contact['obstacle']} for contact in scene['contacts']
-                         for node in (members[contact['group']] if contact['group'] else [contact['node']])]
+                         for node in ([name for name in members[contact['group']] if name not in fixed]
+                                      if contact['group'] else [contact['node']])]
     return loads_on_nodes
 
 

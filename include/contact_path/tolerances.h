@@ -25,8 +25,8 @@ inline constexpr double kStagnationSingular = 1e-9;
 // Residual of a converged point, scaled; on an arc relative to 1 + the largest of load factor and reactions.
 inline constexpr double kResidual = 1e-11;
 inline constexpr double kResidualSingular = 1e-10;
-// Force, of the stiffness of the elements at an unknown, scaled: residuals are measured in it where it is larger than 1.
-// Coordinates are known to 1e-16 of their size, which is kResidual of this force.
+// Force, of the stiffness of the elements at an unknown, scaled: residuals are measured in it where it is larger
+// than 1. Coordinates are known to 1e-16 of their size, which is kResidual of this force.
 inline constexpr double kStiffForce = 1e-4;
 // Error of the predictor, scaled, and relative to |x|: a predictor this good needs no shorter step.
 inline constexpr double kPredictor = 1e-12;

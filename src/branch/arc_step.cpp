@@ -15,8 +15,8 @@ std::optional<ArcStep> TryStep(SmoothArc* arc, const CurvePoint& start, double l
                                double smallest_cosine) {
   const Eigen::VectorXd normal = start.first.head(arc->NumMotion());
   const double tolerance = prediction * length;
-  const double rounding = arc->system().ResidualUnit() *
-                          std::max(tolerances::kPredictor, tolerances::kPredictorRounding * start.x.norm());
+  const double rounding =
+      arc->system().ResidualUnit() * std::max(tolerances::kPredictor, tolerances::kPredictorRounding * start.x.norm());
   const Eigen::VectorXd straight = start.x + length * start.first;
   const Eigen::VectorXd bend = 0.5 * length * length * start.second;
   const auto good = [&](const Correction& correction) {

@@ -147,8 +147,8 @@ class LinearPart : public Element {
   std::vector<double> rest_;     // x0, y0, x1, ...
 };
 
-// A segment of a beam: the stretching of the chord and the bending by what its ends turn more than the chord does. Forces
-// by automatic differentiation of the energy.
+// A segment of a beam: the stretching of the chord and the bending by what its ends turn more than the chord does.
+// Forces by automatic differentiation of the energy.
 class Segment : public Element {
  public:
   // first_turns, second_turns: whether the end turns with its node, or is hinged.
@@ -208,7 +208,8 @@ class Segment : public Element {
       if (turns_[end]) mean += ValueOf(variables[3 * end + 2]) / ends;
     turn += kTurn * std::round((mean - ValueOf(turn)) / kTurn);
     const Real shear = beam_.GA > 0.0 ? 12.0L * beam_.EI / (beam_.GA * rest * rest) : 0.0L;
-    const Real near = (4.0L + shear) / (1.0L + shear), far = (2.0L - shear) / (1.0L + shear), half = beam_.EI / (2.0L * rest);
+    const Real near = (4.0L + shear) / (1.0L + shear), far = (2.0L - shear) / (1.0L + shear),
+               half = beam_.EI / (2.0L * rest);
     if (ends == 1) {  // the hinged end turns so that no moment acts on it
       const Number bend = variables[turns_[0] ? 2 : 5] - turn;
       return stretching + half * (near - far * far / near) * bend * bend;

@@ -257,7 +257,8 @@ std::array<double, 2> ResidualCheck::Normal(std::size_t contact, const CheckedSt
 
 std::vector<double> ResidualCheck::ForcesAcross(double length, double load_factor) const {
   const Prepared& scene = *prepared_;
-  std::vector<check::StiffnessBound> bounds = check::BoundStiffness(scene.elements, scene.start, scene.num_positions / 2);
+  std::vector<check::StiffnessBound> bounds =
+      check::BoundStiffness(scene.elements, scene.start, scene.num_positions / 2);
   for (check::StiffnessBound& bound : bounds)
     for (double* const part : {&bound.x, &bound.y, &bound.any}) *part *= length;
   for (const Prepared::PreparedLoad& load : scene.loads) {

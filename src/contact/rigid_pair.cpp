@@ -80,7 +80,8 @@ constexpr int kPowersApart = 20;  // 2^20 is about 1e6
 // Structure::ResidualUnits() tells of forces.
 double ForceUnitAbove(double bound) {
   const double rounding = tolerances::kStiffForce * bound;
-  if (rounding > 1.0 && std::isfinite(rounding)) return std::ldexp(1.0, static_cast<int>(std::ceil(std::log2(rounding))));
+  if (rounding > 1.0 && std::isfinite(rounding))
+    return std::ldexp(1.0, static_cast<int>(std::ceil(std::log2(rounding))));
   if (!(bound > 0.0) || !(bound < 1.0)) return 1.0;
   return std::ldexp(1.0, kPowersApart * static_cast<int>(std::ceil(std::log2(bound) / kPowersApart)));
 }

@@ -76,9 +76,9 @@ NearestPoint FindNearestPoint(FixedStateSystem* system, const Eigen::VectorXd& s
     result.residual = system->Largest(residual);
     if (!std::isfinite(result.residual)) return result;
     const double scale = 1.0 + result.x.norm();
-    const bool at_rounding =
-        result.last_step <= tolerances::kNewtonStep * scale ||
-        (result.last_step <= tolerances::kStagnationSingular * system->ResidualUnit() * scale && result.last_step >= 0.5 * previous);
+    const bool at_rounding = result.last_step <= tolerances::kNewtonStep * scale ||
+                             (result.last_step <= tolerances::kStagnationSingular * system->ResidualUnit() * scale &&
+                              result.last_step >= 0.5 * previous);
     if (at_rounding) {
       result.converged = result.residual <= tolerances::kResidualSingular;
       ++result.iterations;

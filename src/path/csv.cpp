@@ -47,9 +47,10 @@ void CsvWriter::WriteRow(const Increment& increment, std::ostream& out) const {
   std::ostringstream line = NewLine();
   line << increment.index << ',' << increment.load_factor << ',' << increment.arc_length << ','
        << ToString(increment.kind);
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    line << ',' << increment.positions[2 * i] << ',' << increment.positions[2 * i + 1];
-    if (turn_[i]) line << ',' << increment.rotations[i];
+  for (std::size_t i = 0; i < increment.positions.size(); ++i) {
+    line << ',' << increment.positions[i];
+    const std::size_t node = i / 2;
+    if (i % 2 == 1 && node < increment.rotations.size() && turn_[node]) line << ',' << increment.rotations[node];
   }
   for (const ContactRecord& contact : increment.contacts) {
     line << ',' << contact.gap << ',' << contact.rn << ',' << contact.rt << ',' << ToString(contact.state);

@@ -80,8 +80,8 @@ std::optional<Resumption> FindResumption(const std::vector<Increment>& increment
     else if (!increment.event.branches.empty())
       nullity = increment.solve.nullity;
     const bool rests =
-        before != nullptr && (increment.solve.nullity > nullity || (increment.positions == before->positions &&
-                                                                      increment.rotations == before->rotations));
+        before != nullptr && (increment.solve.nullity > nullity ||
+                              (increment.positions == before->positions && increment.rotations == before->rotations));
     if (before != nullptr && !rests && CanGoOnFrom(*before, increment))
       last = Resumption{&increments, before, &increment, events};
     if (!increment.positions.empty()) before = &increment;

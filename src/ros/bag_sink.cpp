@@ -14,7 +14,8 @@ namespace contact_path {
 
 struct BagSink::Implementation {
   Implementation(const std::string& file, const TraceRequest& request)
-      : recorder(file, std::string("/") + names::kNode), summary(ProgramScales(ExpandedRequest(request).Get()).load_factor) {}
+      : recorder(file, std::string("/") + names::kNode),
+        summary(ProgramScales(ExpandedRequest(request).Get()).load_factor) {}
 
   BagRecorder recorder;
   PathSummary summary;

@@ -98,8 +98,7 @@ std::string ExceededByExpansion(const contact_path_msgs::Scene& scene, const Tra
     const auto group = groups.find(contact.group);
     contacts += group == groups.end() ? 1 : group->second;
   }
-  std::string exceeded =
-      Exceeded("segments of scene.beams", segments, {names::kMaxElements, limits.max_elements});
+  std::string exceeded = Exceeded("segments of scene.beams", segments, {names::kMaxElements, limits.max_elements});
   if (exceeded.empty())
     exceeded = Exceeded("nodes of the scene and its beams", scene.nodes.size() + segments, LimitOf<Node>(limits));
   if (exceeded.empty())

@@ -21,8 +21,8 @@
 #include "contact_path/ros/read_parameter.h"
 #include "contact_path/ros/resume.h"
 #include "contact_path/ros/stamp.h"
-#include "contact_path/scene/one_line.h"
 #include "contact_path/scene/expand.h"
+#include "contact_path/scene/one_line.h"
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/validate.h"
 

@@ -64,6 +64,10 @@ class Groups {
     const Node& at = *nodes_.at(node);
     return {at.x, at.y};
   }
+  bool CanMove(const std::string& node) const {
+    const Node& at = *nodes_.at(node);
+    return !at.fixed_x || !at.fixed_y;
+  }
   // The length between two nodes at the start.
   double Length(const std::string& first, const std::string& second) const {
     const auto [ax, ay] = Place(first);
@@ -78,17 +82,19 @@ class Groups {
   std::unordered_set<std::string_view> mid_sides_;  // nodes of solids
 };
 
-// Lengths that stand for the integrals of the shape functions of an edge with a node in the middle: first, middle, last.
+// Lengths that stand for the integrals of the shape functions of an edge with a node in the middle: first, middle,
+// last.
 std::array<double, 3> ShapeLengths(const Groups& groups, const std::string& first, const std::string& middle,
                                    const std::string& last) {
   const auto [ax, ay] = groups.Place(first);
   const auto [mx, my] = groups.Place(middle);
   const auto [bx, by] = groups.Place(last);
   std::array<double, 3> lengths = {};
-  for (const auto& [xi, weight] : {std::pair(-std::sqrt(0.6), 5.0 / 9.0), std::pair(0.0, 8.0 / 9.0),
-                                   std::pair(std::sqrt(0.6), 5.0 / 9.0)}) {
+  for (const auto& [xi, weight] :
+       {std::pair(-std::sqrt(0.6), 5.0 / 9.0), std::pair(0.0, 8.0 / 9.0), std::pair(std::sqrt(0.6), 5.0 / 9.0)}) {
     const double slope_a = xi - 0.5, slope_m = -2.0 * xi, slope_b = xi + 0.5;
-    const double speed = std::hypot(slope_a * ax + slope_m * mx + slope_b * bx, slope_a * ay + slope_m * my + slope_b * by);
+    const double speed =
+        std::hypot(slope_a * ax + slope_m * mx + slope_b * bx, slope_a * ay + slope_m * my + slope_b * by);
     lengths[0] += weight * speed * 0.5 * xi * (xi - 1.0);
     lengths[1] += weight * speed * (1.0 - xi * xi);
     lengths[2] += weight * speed * 0.5 * xi * (xi + 1.0);
@@ -182,6 +188,7 @@ Places ExpandContacts(const Groups& groups, std::vector<ContactCandidate>* conta
     }
     const std::string group = std::exchange(contact.group, {});
     for (const std::string& node : *groups.At(group).nodes) {
+      if (!groups.CanMove(node)) continue;
       contact.node = node;
       add(contact, i);
     }
@@ -251,10 +258,9 @@ Expansion Expand(const TraceRequest& request) {
 
 bool NeedsExpansion(const TraceRequest& request) {
   const auto any_load = [](const std::vector<Load>& loads) {
-    return std::any_of(loads.begin(), loads.end(),
-                       [](const Load& load) {
-                         return !load.group.empty() || !load.surface.empty() || load.px != 0.0 || load.py != 0.0;
-                       });
+    return std::any_of(loads.begin(), loads.end(), [](const Load& load) {
+      return !load.group.empty() || !load.surface.empty() || load.px != 0.0 || load.py != 0.0;
+    });
   };
   const Scene& scene = request.scene;
   return !scene.beams.empty() || !scene.groups.empty() || !scene.surfaces.empty() || any_load(scene.loads) ||

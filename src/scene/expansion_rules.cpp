@@ -137,7 +137,8 @@ class GroupRules {
   void CheckSurfaceLoad(const KeyPath& path, const Load& load) {
     if (!load.node.empty()) checker_.Add(path.Key("node"), load.node, "must be left out where there is a surface");
     if (!load.group.empty()) checker_.Add(path.Key("group"), load.group, "must be left out where there is a surface");
-    for (const auto& [name, value] : {std::pair("fx", load.fx), std::pair("fy", load.fy), std::pair("moment", load.moment)})
+    for (const auto& [name, value] :
+         {std::pair("fx", load.fx), std::pair("fy", load.fy), std::pair("moment", load.moment)})
       if (value != 0.0)
         checker_.Add(path.Key(name), NumberText(value), "must be 0 where there is a surface: px and py act on it");
     if (surfaces_.count(load.surface) > 0) return;

@@ -87,8 +87,7 @@ void LoadingRules::CheckProgram() {
     checker_.Add(kScene.Key("obstacle_motions"), "",
                  "must be empty where there is a program: motions belong to its stages");
   const KeyPath list("program");
-  for (std::size_t i = 0; i < checker_.Request().program.size(); ++i)
-    CheckStage(list[i], i);
+  for (std::size_t i = 0; i < checker_.Request().program.size(); ++i) CheckStage(list[i], i);
 }
 
 void LoadingRules::CheckStage(const KeyPath& path, std::size_t number) {

@@ -101,8 +101,7 @@ Stage StageAsTraced(const TraceRequest& request, std::size_t stage) {
   for (std::size_t i = 0; i < stage; ++i) {
     if (shares[i] == 0.0) continue;
     const Stage& before = request.program[i];
-    for (const Load& load : before.loads)
-      traced.loads.push_back(Times(-shares[i], load, /*constant=*/false));
+    for (const Load& load : before.loads) traced.loads.push_back(Times(-shares[i], load, /*constant=*/false));
     for (const SupportMotion& motion : before.support_motions)
       AddMotion(motion.node, motion, -shares[i], &supports, &traced.support_motions);
     for (const ObstacleMotion& motion : before.obstacle_motions)

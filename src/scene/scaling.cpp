@@ -235,8 +235,8 @@ Scaling CharacteristicScales(const Scene& scene, const SceneIndex& index) {
   } else {
     const double reference_load = LoadNorm(scene, index, false, kNoBeam), stiffness = MeanStiffness(scene);
     scaling.force = reference_load > 0.0 ? reference_load : stiffness * MotionNorm(scene, kNoBeam);
-    scaling.force = std::max(
-        {scaling.force, LoadNorm(scene, index, true, kNoBeam), stiffness * NearestGap(scene, index) / kFarthestContact});
+    scaling.force = std::max({scaling.force, LoadNorm(scene, index, true, kNoBeam),
+                              stiffness * NearestGap(scene, index) / kFarthestContact});
     scaling.length = scaling.force / stiffness;
   }
   scaling.load_factor = LoadFactorScale(scene, index, scaling.length, scaling.force);

@@ -55,9 +55,8 @@ void Place(const Beam& beam, const std::vector<int>& nodes, const std::vector<do
   for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
     const Eigen::Vector4d ends = PositionsOf({nodes[i], nodes[i + 1]}, reference);
     const Eigen::Vector2d chord = ends.tail<2>() - ends.head<2>();
-    elements->push_back(
-        {std::make_unique<BeamSegment>(stiffness, chord, !TurnsNode(beam, i), !TurnsNode(beam, i + 1)),
-         {nodes[i], nodes[i + 1]}});
+    elements->push_back({std::make_unique<BeamSegment>(stiffness, chord, !TurnsNode(beam, i), !TurnsNode(beam, i + 1)),
+                         {nodes[i], nodes[i + 1]}});
   }
 }
 

@@ -230,9 +230,8 @@ class Verifier {
       };
       if ((node.fixed_x && off(2 * i)) || (node.fixed_y && off(2 * i + 1)))
         Report("support ", node.name, " is not where it has to be");
-      if (node.fixed_rotation &&
-          !(std::abs(increment.rotations[i] - configuration_.start_rotations[i] -
-                     turn_rates_[i] * increment.load_factor) <= rounding_))
+      if (node.fixed_rotation && !(std::abs(increment.rotations[i] - configuration_.start_rotations[i] -
+                                            turn_rates_[i] * increment.load_factor) <= rounding_))
         Report("support ", node.name, " is not turned as it has to be");
     }
     for (std::size_t i = 0; i < contacts_.size(); ++i) CheckContact(increment.contacts[i], from, to, i, tolerance);
@@ -304,7 +303,8 @@ class Verifier {
     if (increment_ == first_ || before_ == increment_ - 1)
       same("friction law residual", increment.residuals.friction_law, residuals.friction_law);
     const double unit = scaling_.force * scaling_.length;
-    same("scaled strain energy", increment.strain_energy / unit, check_.StrainEnergy(increment.positions, increment.rotations) / unit);
+    same("scaled strain energy", increment.strain_energy / unit,
+         check_.StrainEnergy(increment.positions, increment.rotations) / unit);
   }
 
   void CheckContact(const ContactRecord& contact, const CheckedState& from, const CheckedState& to, std::size_t i,

@@ -119,11 +119,17 @@ double ForceUnitOf(double along, double across, bool beside_a_bar = false, doubl
 
 TEST(ForceUnit, FollowsForcesAcrossTheSurfaceDown) {
   EXPECT_EQ(ForceUnitOf(1.0, 1.0), 1.0);
-  EXPECT_EQ(ForceUnitOf(1.0, 1e9), 1.0);
+  EXPECT_EQ(ForceUnitOf(1.0, 5e3), 1.0);
   EXPECT_EQ(ForceUnitOf(1.0, 2e-6), 1.0);
   EXPECT_EQ(ForceUnitOf(1.0, 1e-10), std::ldexp(1.0, -20));
   EXPECT_EQ(ForceUnitOf(1.0, 1e-13), std::ldexp(1.0, -40));
   EXPECT_EQ(ForceUnitOf(1e-10, 1.0), 1.0);
+}
+
+// Coordinates are known to 1e-16: forces of 1e9 times that are rounding, and tolerances of 1e-11 must lie above them.
+TEST(ForceUnit, GrowsWithTheRoundingOfStiffParts) {
+  EXPECT_EQ(ForceUnitOf(1.0, 2e4), 2.0);
+  EXPECT_EQ(ForceUnitOf(1.0, 1e9), std::ldexp(1.0, 17));
 }
 
 // A bar turns: it may come to act across, too.

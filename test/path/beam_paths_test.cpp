@@ -121,7 +121,8 @@ TEST(BeamPaths, ElasticaOfTheSecondOrder) {
 
 TEST(BeamPaths, ElasticaByMpec) { EXPECT_LT(ErrorOfElastica(10, Method::kMpec), 6e-3); }
 
-// An end moment 4 pi EI / L rolls the beam up to two turns: the nodes are on a circle, of which the segments are chords.
+// An end moment 4 pi EI / L rolls the beam up to two turns: the nodes are on a circle, of which the segments are
+// chords.
 TEST(BeamPaths, RollsUpTwice) {
   TraceRequest request = Cantilever(20);
   request.scene.beams[0].EA = 1e4;

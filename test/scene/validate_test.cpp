@@ -109,7 +109,7 @@ INSTANTIATE_TEST_SUITE_P(Nodes, ValidateTest, testing::ValuesIn(kNodeRules), Nam
 
 const BrokenRule kElementRules[] = {
     {"NoElements", [](auto& r) { r.scene.bars.clear(), r.scene.superelements.clear(); }, "scene.bars", "[]",
-     "at least one bar, superelement or solid"},
+     "at least one bar, superelement, beam or solid"},
     {"BarOfOneNode", [](auto& r) { r.scene.bars[0].nodes = {"b"}; }, "scene.bars[0].nodes", "[b]", "must name two"},
     {"BarOfThreeNodes",
      [](auto& r) {
@@ -252,13 +252,13 @@ const BrokenRule kOptionRules[] = {
     {"FullStateNegative", [](auto& r) { r.options.full_state_every = -2; }, "options.full_state_every", "-2",
      "must be >= 0"},
     {"EmptyQuantity", [](auto& r) { r.options.stop[0].quantity = ""; }, "options.stop[0].quantity", "\"\"",
-     "must be load_factor, <node>.x, <node>.y, <contact>.gap, <contact>.rn or <contact>.rt"},
+     "must be load_factor, <node>.x, <node>.y, <node>.rotation, <contact>.gap, <contact>.rn or <contact>.rt"},
     {"QuantityWithoutComponent", [](auto& r) { r.options.stop[0].quantity = "b"; }, "options.stop[0].quantity", "b",
-     "must be load_factor, <node>.x, <node>.y, <contact>.gap, <contact>.rn or <contact>.rt"},
+     "must be load_factor, <node>.x, <node>.y, <node>.rotation, <contact>.gap, <contact>.rn or <contact>.rt"},
     {"QuantityWithoutNode", [](auto& r) { r.options.stop[0].quantity = ".x"; }, "options.stop[0].quantity", ".x",
-     "must be load_factor, <node>.x, <node>.y, <contact>.gap, <contact>.rn or <contact>.rt"},
+     "must be load_factor, <node>.x, <node>.y, <node>.rotation, <contact>.gap, <contact>.rn or <contact>.rt"},
     {"QuantityWithWrongComponent", [](auto& r) { r.options.stop[0].quantity = "b.z"; }, "options.stop[0].quantity",
-     "b.z", "must be load_factor, <node>.x, <node>.y, <contact>.gap, <contact>.rn or <contact>.rt"},
+     "b.z", "must be load_factor, <node>.x, <node>.y, <node>.rotation, <contact>.gap, <contact>.rn or <contact>.rt"},
     {"QuantityOfUnknownNode", [](auto& r) { r.options.stop[2].quantity = "zz.y"; }, "options.stop[2].quantity", "zz.y",
      "must refer to a node"},
     {"QuantityOfMisspeltNode", [](auto& r) { r.options.stop[0].quantity = "B.x"; }, "options.stop[0].quantity", "B.x",

@@ -16,8 +16,8 @@ namespace contact_path {
 
 // All without unit: forces over the characteristic force F, lengths over the characteristic length L (scene/scaling.h).
 struct Residuals {
-  // max |phi - T r| over the free components / F, of moments / (F L) (eq. 1). Where it is larger than F: over 1e-4 of the
-  // stiffness of the elements at the node times L, which is 1e11 times the rounding of coordinates. Reactions are
+  // max |phi - T r| over the free components / F, of moments / (F L) (eq. 1). Where it is larger than F: over 1e-4 of
+  // the stiffness of the elements at the node times L, which is 1e11 times the rounding of coordinates. Reactions are
   // measured in the same.
   double equilibrium = 0.0;
   double penetration = 0.0;       // max (-gap) / L, 0 if none

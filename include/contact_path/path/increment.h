@@ -102,7 +102,7 @@ struct EventRecord {
   int taken = 0;                       // number of the branch, from 1; 0 = none
   int weakly_active = 0;               // contacts that could change their state
   bool complete = true;                // false: too many combinations of states to try them all
-  std::vector<double> null_vector;  // where another path crosses: x0, y0, x1, ... of its unit direction; else empty
+  std::vector<double> null_vector;     // where another path crosses: x0, y0, x1, ... of its unit direction; else empty
 };
 
 template <>
@@ -121,7 +121,7 @@ struct Increment {
   double load_factor = 0.0;  // of the stage
   double arc_length = 0.0;   // since increment 0, in the scaled norm
   IncrementKind kind = IncrementKind::kRegular;
-  std::vector<double> positions;        // current x0, y0, x1, y1, ...: 2 x nodes, in scene order [length]
+  std::vector<double> positions;  // current x0, y0, x1, y1, ...: 2 x nodes, in scene order [length]
   // Since the start, by node; 0 for a node that no beam turns [rad]. Empty in a scene without beams.
   std::vector<double> rotations;
   std::vector<ContactRecord> contacts;  // in scene order
@@ -133,7 +133,8 @@ struct Increment {
   EventRecord event;
 };
 
-// All fields except positions, rotations, contacts and residuals: a message has them in another form, or leaves them out.
+// All fields except positions, rotations, contacts and residuals: a message has them in another form, or leaves them
+// out.
 template <>
 struct Fields<Increment> {
   template <typename P>

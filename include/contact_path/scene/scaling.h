@@ -10,10 +10,10 @@ namespace contact_path {
 // quantity of the scene = scaled quantity x scale. All are positive, change with the units as their quantities do, and
 // depend neither on the order of the parts nor on rotation or reflection of the scene.
 struct Scaling {
-  double length = 1.0;       // L: mean initial length of bars and beams; without them, F / mean stiffness
-  double force = 1.0;        // F: geometric mean of EA of bars and EI / length^2 of beams; without them, the norm of the reference load, or
-                             // mean stiffness x norm of the motions; no less than the norm of the constant loads, and
-                             // than 1e-4 x mean stiffness x the smallest gap of a contact that does not touch
+  double length = 1.0;  // L: mean initial length of bars and beams; without them, F / mean stiffness
+  double force = 1.0;   // F: geometric mean of EA of bars and EI / length^2 of beams; without them, the norm of the
+                       // reference load, or mean stiffness x norm of the motions; no less than the norm of the constant
+                       // loads, and than 1e-4 x mean stiffness x the smallest gap of a contact that does not touch
   double load_factor = 1.0;  // LoadFactorScale
 };
 

@@ -163,8 +163,8 @@ struct Beam {
   double EI = 0.0;                 // bending stiffness [force length^2], > 0
   double GA = 0.0;                 // shear stiffness [force]; 0 = no shear deformation
   int segments = 0;                // 0 = 20
-  double angle = 0.0;              // turn of the arc from the first node to the second [rad], > 0 to the left; 0 = straight
-  std::vector<bool> hinged = {};   // at the first and the second node; empty = at none
+  double angle = 0.0;  // turn of the arc from the first node to the second [rad], > 0 to the left; 0 = straight
+  std::vector<bool> hinged = {};  // at the first and the second node; empty = at none
 };
 
 template <>
@@ -285,8 +285,7 @@ struct Fields<Load> {
   static constexpr auto Of() {
     return std::tuple(Member("node", &P::node).Naming(TextKind::kNode), Member("fx", &P::fx).In(units::kForceRate),
                       Member("fy", &P::fy).In(units::kForceRate), Member("constant", &P::constant),
-                      Member("moment", &P::moment).In(units::kMomentRate),
-                      Member("group", &P::group),
+                      Member("moment", &P::moment).In(units::kMomentRate), Member("group", &P::group),
                       Member("px", &P::px).In(units::kTractionRate), Member("py", &P::py).In(units::kTractionRate),
                       Member("surface", &P::surface));
   }
@@ -328,8 +327,7 @@ struct Fields<ContactCandidate> {
   template <typename P>
   static constexpr auto Of() {
     return std::tuple(Member("node", &P::node).Naming(TextKind::kNode),
-                      Member("obstacle", &P::obstacle).Naming(TextKind::kObstacle),
-                      Member("group", &P::group));
+                      Member("obstacle", &P::obstacle).Naming(TextKind::kObstacle), Member("group", &P::group));
   }
 };
 
@@ -392,9 +390,9 @@ struct Fields<Scene> {
     return std::tuple(Member("name", &P::name), Member("nodes", &P::nodes), Member("bars", &P::bars),
                       Member("superelements", &P::superelements), Member("beams", &P::beams),
                       Member("materials", &P::materials), Member("solids", &P::solids), Member("groups", &P::groups),
-                      Member("surfaces", &P::surfaces), Member("loads", &P::loads),
-                      Member("obstacles", &P::obstacles), Member("contacts", &P::contacts),
-                      Member("support_motions", &P::support_motions), Member("obstacle_motions", &P::obstacle_motions));
+                      Member("surfaces", &P::surfaces), Member("loads", &P::loads), Member("obstacles", &P::obstacles),
+                      Member("contacts", &P::contacts), Member("support_motions", &P::support_motions),
+                      Member("obstacle_motions", &P::obstacle_motions));
   }
 };
 

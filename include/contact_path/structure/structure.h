@@ -58,8 +58,8 @@ class Structure {
   // An element that is not linear may turn: its largest stiffness counts in all directions.
   Eigen::VectorXd ForceBounds() const;
 
-  // By unknown, in a scaled structure: what residuals of equilibrium are measured in. 1, and more where the structure is
-  // so stiff at the start that the rounding of coordinates alone makes forces (tolerances::kStiffForce).
+  // By unknown, in a scaled structure: what residuals of equilibrium are measured in. 1, and more where the structure
+  // is so stiff at the start that the rounding of coordinates alone makes forces (tolerances::kStiffForce).
   const Eigen::VectorXd& ResidualUnits() const { return residual_units_; }
 
   // Strain energy [force length].
