@@ -208,6 +208,7 @@ std::vector<StiffnessBound> BoundStiffness(const std::vector<std::unique_ptr<con
         moved[k] = value;
         element->AddForce(moved, &forces);
         std::vector<Real> own;
+        own.reserve(components.size());
         for (const std::size_t i : components) own.push_back(forces[i]);
         moved[k] = positions[k];
         return own;

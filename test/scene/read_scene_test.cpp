@@ -370,7 +370,8 @@ TEST(ReadSceneTest, RulesOnListsHaveTheLineOfTheList) {
       {"# empty\noptions:\n", "f:2: scene.nodes = []: at least one node is needed"},
       {"scene:\n  name: n\n\n  nodes: []\n", "f:4: scene.nodes = []: at least one node is needed"},
       {"scene:\n" + nodes + loads, "f:1: scene.bars = []: at least one bar, superelement or solid is needed"},
-      {"scene:\n" + nodes + "  bars: []\n" + loads, "f:5: scene.bars = []: at least one bar, superelement or solid is needed"},
+      {"scene:\n" + nodes + "  bars: []\n" + loads,
+       "f:5: scene.bars = []: at least one bar, superelement or solid is needed"},
       {"scene:\n" + nodes + bars,
        "f:1: scene.loads = []: a load that is not constant must act on a free component, or a support or an obstacle "
        "must move"},
