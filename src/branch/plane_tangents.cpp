@@ -1,5 +1,6 @@
 #include "contact_path/branch/plane_tangents.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "contact_path/tolerances.h"
@@ -48,7 +49,9 @@ PlaneTangents TangentsInPlane(FixedStateSystem* system, const Eigen::VectorXd& x
     if (form.Size() > forms[largest].Size()) largest = forms.size() - 1;
   }
   PlaneTangents result;
-  if (forms.empty() || !(forms[largest].Size() > tolerances::kNoForm)) return result;
+  // Null vectors are known to rounding, which stiff elements make large.
+  const double size = std::max({1.0, first.norm(), second.norm(), sum.norm()});
+  if (forms.empty() || !(forms[largest].Size() > tolerances::kNoForm * size)) return result;
   result.determined = true;
   const Eigen::Index motion = system->NumDofs() + 1;
   for (const Eigen::Vector2d& zero : Zeros(forms[largest])) {

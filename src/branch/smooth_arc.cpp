@@ -106,6 +106,17 @@ void SmoothArc::ChooseInPlane(const Eigen::VectorXd& x, const Eigen::VectorXd& t
     largest = std::abs(along);
     *first = direction / along;
   }
+  if (tangents.determined || !(system_.ResidualUnit() > 1.0)) return;
+  // A free motion changes neither load nor reactions. What rounding leaves of it in the tangent would grow from step to
+  // step.
+  const Eigen::Index dofs = system_.NumDofs();
+  const Eigen::VectorXd forces = plane.col(0).tail(plane.rows() - dofs),
+                        others = plane.col(1).tail(plane.rows() - dofs);
+  Eigen::VectorXd free = forces.norm() * plane.col(1);
+  free -= forces.dot(others) / forces.norm() * plane.col(0);
+  free.normalize();
+  if (!(free.tail(plane.rows() - dofs).norm() <= tolerances::kRigid * system_.ResidualUnit())) return;
+  *first -= free.dot(*first) * free;
 }
 
 void SmoothArc::HoldLimitPoint(const Eigen::VectorXd& x, Eigen::VectorXd* change) {
@@ -180,11 +191,9 @@ bool SmoothArc::Factorize(const Eigen::VectorXd& x, const Eigen::VectorXd& row, 
   at_hand_ = false;
   if (rests_ && rank_tolerance == 0.0) rank_tolerance = tolerances::kDependentColumnResting;
   if (rank_tolerance == 0.0 && system_.ResidualUnit() > 1.0) {
-    // The pivot of a free motion is rounding of stiff elements.
-    if (solver_.FactorizeRegular(system_.TransposedJacobian(x), row,
-                                 tolerances::kSingularPivot * system_.ResidualUnit(), system_.InFrame()))
-      return true;
-    rank_tolerance = tolerances::kDependentColumn;
+    // What a free motion leaves of the equations is rounding of stiff elements.
+    rank_tolerance = tolerances::kDependentColumn * std::sqrt(system_.ResidualUnit());
+    if (solver_.FactorizeRegular(system_.TransposedJacobian(x), row, rank_tolerance, system_.InFrame())) return true;
   }
   return solver_.Factorize(system_.TransposedJacobian(x), row, system_.InFrame(), rank_tolerance);
 }

@@ -316,5 +316,21 @@ TEST(BeamPaths, EndsOfAnArchStickOrSlip) {
   }
 }
 
+// While both ends slip, nothing holds the arch sideways: it must not drift. It sags through its springing line.
+TEST(BeamPaths, ArchThatNothingHoldsSideways) {
+  TraceRequest request = RestingArch(kPi / 2.0, 0.4);
+  request.scene.nodes[1].fixed_x = false;
+  for (Beam& beam : request.scene.beams) beam.EA = 1e5;
+  request.options.max_increments = 2000;
+  request.options.stop = {{"crown.y", "<", -0.5}};
+  const TracedPath path = TraceIncrements(request);
+  ASSERT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+  ExpectProved(path);
+  for (const Increment& increment : path.increments) {
+    EXPECT_NEAR(PositionX(path, increment, "crown"), 0.0, 1e-6);
+    EXPECT_NEAR(PositionX(path, increment, "left"), -PositionX(path, increment, "right"), 1e-6);
+  }
+}
+
 }  // namespace
 }  // namespace contact_path

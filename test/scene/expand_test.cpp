@@ -83,6 +83,34 @@ TEST(Expand, LoadsAndContactsOfGroups) {
   EXPECT_EQ(expansion.contacts, (Places{0, 0, 0, 0, 1}));
 }
 
+// A traction of 6 along the edge of an element of 6 nodes: by its shape functions, a sixth of the resultant on each
+// corner.
+TEST(Expand, TractionsOnSurfaces) {
+  constexpr char kTriangle[] = R"(
+scene:
+  nodes:
+  - {name: a, x: 0.0, y: 0.0, fixed_x: true, fixed_y: true}
+  - {name: b, x: 2.0, y: 0.0, fixed_x: true, fixed_y: true}
+  - {name: c, x: 0.0, y: 2.0}
+  - {name: ab, x: 1.0, y: 0.0}
+  - {name: bc, x: 1.0, y: 1.0}
+  - {name: ca, x: 0.0, y: 1.0}
+  materials: [{name: m, E: 1.0}]
+  solids: [{material: m, nodes_per_element: 6, nodes: [a, b, c, ab, bc, ca]}]
+  surfaces: [{name: side, nodes: [a, ca, c]}, {name: all, nodes: [a, ca, c, bc, b, ab], closed: true}]
+  loads: [{surface: side, px: 6.0}, {surface: all, py: 1.0}]
+)";
+  const std::vector<Load> loads = Expand(ReadTraceRequest(kTriangle, "triangle.yaml")).request.scene.loads;
+  ASSERT_EQ(loads.size(), 3u + 9u);
+  EXPECT_NEAR(loads[0].fx, 2.0, 1e-14);
+  EXPECT_NEAR(loads[1].fx, 8.0, 1e-14);
+  EXPECT_NEAR(loads[2].fx, 2.0, 1e-14);
+  EXPECT_EQ(loads[1].node, "ca");
+  double sum = 0.0;
+  for (std::size_t i = 3; i < loads.size(); ++i) sum += loads[i].fy;
+  EXPECT_NEAR(sum, 4.0 + std::sqrt(8.0), 1e-14);
+}
+
 TEST(Expand, ChangesNothingASecondTime) {
   const TraceRequest once = Expand(Frame()).request;
   EXPECT_EQ(WriteTraceRequest(Expand(once).request), WriteTraceRequest(once));
