@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "contact_path/scene/expand.h"
 #include "contact_path/verify/verify_path.h"
 #include "support/solid_grid.h"
 #include "support/traced_path.h"
@@ -191,6 +192,51 @@ TEST(SolidPaths, MethodsAgree) {
     return s + (path.increments[n - 1].load_factor - s) * (y - a) / (b - a);
   };
   EXPECT_NEAR(load_at(branch, 0.9), load_at(mpec, 0.9), 1e-3 * load_at(branch, 0.9));
+}
+
+// Half a cylinder on a rigid plane: half-width and pressure of Hertz within the mesh's error.
+TEST(SolidPaths, Hertz) {
+  const TracedPath path = TraceIncrements(ReadExample("hertz"));
+  ASSERT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+  ExpectProved(path);
+  const Increment& last = path.increments.back();
+  const double P = last.load_factor, pi = 3.14159265358979323846;
+  const double a = std::sqrt(4.0 * P * (1.0 - 0.09) / pi), p0 = 2.0 * P / (pi * a);
+  struct Touch {
+    double x, rn;
+  };
+  std::vector<Touch> rim;
+  const Scene scene = Expand(path.request).request.scene;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
+    rim.push_back({scene.nodes[NodeNumber(scene, scene.contacts[i].node)].x, last.contacts[i].rn});
+    sum += last.contacts[i].rn;
+  }
+  EXPECT_NEAR(2.0 * sum, P, 1e-12);
+  std::sort(rim.begin(), rim.end(), [](const Touch& one, const Touch& other) { return one.x < other.x; });
+  std::size_t end = 0;  // the first that does not touch
+  while (rim[end].rn > 0.0) ++end;
+  EXPECT_LT(rim[end - 1].x, a);
+  EXPECT_GT(rim[end].x + (rim[end].x - rim[end - 1].x), a);
+  for (std::size_t i = 1; rim[i].x < 0.9 * a; ++i) {
+    const double pressure = rim[i].rn / (0.5 * (rim[i + 1].x - rim[i - 1].x));
+    EXPECT_NEAR(pressure, p0 * std::sqrt(1.0 - std::pow(rim[i].x / a, 2)), 0.04 * p0) << rim[i].x;
+  }
+}
+
+// Pressed and dragged until all that touches slips: then H = mu V.
+TEST(SolidPaths, RubberFoot) {
+  const TracedPath path = TraceIncrements(ReadExample("rubber_foot"));
+  ASSERT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+  ExpectProved(path);
+  double V = 0.0, H = 0.0;
+  for (const ContactRecord& contact : path.increments.back().contacts) {
+    V += contact.rn;
+    H += contact.rt;
+    EXPECT_TRUE(contact.state == ContactState::kSlipPlus || contact.state == ContactState::kOpen);
+  }
+  EXPECT_GT(V, 0.3);
+  EXPECT_NEAR(H, -0.3 * V, 1e-10);
 }
 
 }  // namespace
