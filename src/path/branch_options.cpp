@@ -2,15 +2,13 @@
 
 #include <algorithm>
 
-#include "contact_path/path/automatic_step.h"
-
 namespace contact_path {
 
 std::string PlaceOf(const BranchChoice& choice) {
   return choice.event > 0 ? "event " + std::to_string(choice.event) : "increment " + std::to_string(choice.increment);
 }
 
-BranchOptions BranchOptions::For(const TraceOptions& options, Eigen::Index num_dofs) {
+BranchOptions BranchOptions::For(const TraceOptions& options, double growth) {
   BranchOptions result;
   switch (options.accuracy) {
     case Accuracy::kFast:
@@ -25,7 +23,7 @@ BranchOptions BranchOptions::For(const TraceOptions& options, Eigen::Index num_d
       result.smallest_cosine = 0.998;
       break;
   }
-  result.step = options.step > 0.0 ? options.step : result.step * AutomaticStepGrowth(num_dofs);
+  result.step = options.step > 0.0 ? options.step : result.step * growth;
   result.smallest_step = std::min(result.smallest_step, 1e-3 * result.step);
   result.direction = options.Direction();
   result.choices = options.branch_choices;

@@ -15,6 +15,7 @@
 namespace contact_path {
 namespace {
 
+constexpr double kMostSlender = 5e8;            // EA L^2 / EI that is followed
 constexpr double kNearlyIncompressible = 0.49;  // Poisson's ratio beyond which elements of few nodes lock
 
 std::string SolidText(const Scene& scene, std::size_t i) {
@@ -80,6 +81,27 @@ std::string LockingSolids(const Scene& scene, const SceneIndex& index) {
   }
   if (text.empty()) return text;
   return text + ": elements of 3 or 4 nodes are far too stiff in plane strain where nu is beyond 0.49; take 8 nodes";
+}
+
+std::string SlenderBeam(const Scene& scene, const SceneIndex& index) {
+  double most = kMostSlender;
+  std::string text;
+  for (const Beam& beam : scene.beams) {
+    const Node &first = scene.nodes[index.Node(beam.nodes.front())], &last = scene.nodes[index.Node(beam.nodes.back())];
+    const double length = std::hypot(last.x - first.x, last.y - first.y);
+    const double slender = beam.EA * length * length / beam.EI;
+    if (!(slender > most)) continue;
+    most = slender;
+    std::ostringstream out;
+    out.imbue(std::locale::classic());
+    out.precision(2);
+    out << "EA L^2 / EI of beam " << beam.name << " is " << slender
+        << ": its bending drowns in the rounding of axial forces; with a smaller EA, so that it is 1e8, the path is "
+           "the "
+           "same";
+    text = out.str();
+  }
+  return text;
 }
 
 std::string PullingContact(const Model& model, const PathPoint& point, double rounding, double largest_reaction) {

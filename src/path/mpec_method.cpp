@@ -8,7 +8,6 @@
 
 #include "contact_path/equations/fixed_state_system.h"
 #include "contact_path/equations/nearest_point.h"
-#include "contact_path/path/automatic_step.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
@@ -83,7 +82,7 @@ bool StatesAgree(const ContactPairs& contacts, const PathPoint& from, const Path
 
 }  // namespace
 
-MpecOptions MpecOptions::For(const TraceOptions& options, Eigen::Index num_dofs) {
+MpecOptions MpecOptions::For(const TraceOptions& options, double growth) {
   MpecOptions result;
   result.regularisation.warm_start = true;
   switch (options.accuracy) {
@@ -98,7 +97,7 @@ MpecOptions MpecOptions::For(const TraceOptions& options, Eigen::Index num_dofs)
       result.regularisation.minimum = 1e-10;
       break;
   }
-  result.step = options.step > 0.0 ? options.step : result.step * AutomaticStepGrowth(num_dofs);
+  result.step = options.step > 0.0 ? options.step : result.step * growth;
   // Shorter increments are to show more of the path.
   result.corner_tolerance = std::min(result.corner_tolerance, kCornerShare * result.step);
   result.smallest_step = kSmallestStepRatio * result.step;

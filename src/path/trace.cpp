@@ -13,6 +13,7 @@
 #include "contact_path/branch/active_set_tolerance.h"
 #include "contact_path/linear/blas.h"
 #include "contact_path/linear/linear_solver_error.h"
+#include "contact_path/path/automatic_step.h"
 #include "contact_path/path/branch_method.h"
 #include "contact_path/path/diagnosis.h"
 #include "contact_path/path/free_motion.h"
@@ -117,6 +118,8 @@ class Tracer {
     }
     if (model_ != nullptr) NameInvertedElement(*model_, point_);
     result_.increments = recorder_.increments();
+    if (result_.reason == EndReason::kStepTooSmall)
+      if (const std::string slender = SlenderBeam(request_.scene, index_); !slender.empty()) remarks_ += "; " + slender;
     if (const std::string locking = LockingSolids(request_.scene, index_); !locking.empty()) remarks_ += "; " + locking;
     result_.message += MissedEnd() + WhatMovesFreely() + recorder_.Remark() + remarks_ + MissedChoices();
     return std::move(result_);
@@ -225,7 +228,7 @@ class Tracer {
     const MethodFactory make_method = [&](const Model& of, double target) -> std::unique_ptr<PathMethod> {
       TraceOptions upwards;
       upwards.accuracy = request_.options.accuracy;
-      BranchOptions options = BranchOptions::For(upwards, of.structure.NumDofs());
+      BranchOptions options = BranchOptions::For(upwards, AutomaticStepGrowth(of.scene, of.structure.NumDofs()));
       options.target = target;
       options.keep_loading = true;
       return std::make_unique<BranchMethod>(of, options, control_.cancelled);
@@ -248,15 +251,16 @@ class Tracer {
   std::unique_ptr<PathMethod> MakeMethod(const Model& model, std::optional<double> target, int increment) {
     TraceOptions options = request_.options;
     if (target) options.direction = *target < 0.0 ? -1.0 : 1.0;
+    const double growth = AutomaticStepGrowth(model.scene, model.structure.NumDofs());
     if (options.method == Method::kBranch) {
-      BranchOptions branch = BranchOptions::For(options, model.structure.NumDofs());
+      BranchOptions branch = BranchOptions::For(options, growth);
       branch.target = target;
       branch.increments = increment;
       branch.events = events_;
       branch.returns = &*returns_;
       return std::make_unique<BranchMethod>(model, branch, control_.cancelled);
     }
-    MpecOptions mpec = MpecOptions::For(options, model.structure.NumDofs());
+    MpecOptions mpec = MpecOptions::For(options, growth);
     mpec.target = target;
     mpec.returns = &*returns_;
     return std::make_unique<MpecMethod>(model, mpec, control_.cancelled);

@@ -201,7 +201,7 @@ TEST(RoughTrussCorner, IsCutByNoMoreThanTheAccuracyAllows) {
     const TracedPath path = TraceIncrements(request);
     ExpectSoundIncrements(path, kResidual);
     const double largest = path.increments[LargestLoad(path)].load_factor;
-    EXPECT_NEAR(largest, rough_truss::CornerLoad(), MpecOptions::For(request.options, 1).corner_tolerance);
+    EXPECT_NEAR(largest, rough_truss::CornerLoad(), MpecOptions::For(request.options, 1.0).corner_tolerance);
     EXPECT_LE(largest, rough_truss::CornerLoad() + kClosedForm) << ToString(accuracy);
   }
 }

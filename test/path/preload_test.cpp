@@ -32,7 +32,7 @@ MethodFactory Mpec(double step) {
     TraceOptions options;
     options.method = Method::kMpec;
     options.step = step;
-    MpecOptions mpec = MpecOptions::For(options, 1);
+    MpecOptions mpec = MpecOptions::For(options, 1.0);
     mpec.target = target;
     return std::make_unique<MpecMethod>(model, mpec, nullptr);
   };

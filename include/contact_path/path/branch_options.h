@@ -26,7 +26,8 @@ struct BranchOptions {
   int events = 0;                // passed before this path
   ReturnDetector* returns = nullptr;  // tells whether the path has come back to where it was; null: that is no end
 
-  static BranchOptions For(const TraceOptions& options, Eigen::Index num_dofs);
+  // growth: AutomaticStepGrowth() of the scene.
+  static BranchOptions For(const TraceOptions& options, double growth);
 
   // The branch chosen for the increment, or else for the event (0 = none); null: no choice.
   const BranchChoice* ChoiceAt(int increment, int event) const;

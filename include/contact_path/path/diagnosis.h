@@ -23,6 +23,9 @@ std::string InvertedElement(const Scene& scene, const SceneIndex& index, const s
 // plane strain; empty: none are. index: of the scene.
 std::string LockingSolids(const Scene& scene, const SceneIndex& index);
 
+// Names the most slender beam, where it is so stiff along its axis that its bending drowns in rounding; else empty.
+std::string SlenderBeam(const Scene& scene, const SceneIndex& index);
+
 // Names a contact at whose node all parts are softer than `least`, scaled, but not without stiffness: its reactions
 // drown in the rounding of the stiff parts; else empty. point: where to look, scaled.
 std::string ContactTooSoft(const Model& model, const PathPoint& point, double least);

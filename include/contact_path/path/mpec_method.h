@@ -27,7 +27,8 @@ struct MpecOptions {
   std::optional<double> target;       // load factor at which the path is to end, in an increment of its own
   ReturnDetector* returns = nullptr;  // tells whether the path has come back to where it was; null: that is no end
 
-  static MpecOptions For(const TraceOptions& options, Eigen::Index num_dofs);
+  // growth: AutomaticStepGrowth() of the scene.
+  static MpecOptions For(const TraceOptions& options, double growth);
 };
 
 class MpecMethod : public PathMethod {
