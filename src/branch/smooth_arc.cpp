@@ -46,6 +46,7 @@ SmoothArc::SmoothArc(const Structure& structure, const ContactPairs& contacts)
 void SmoothArc::SetStates(const std::vector<ContactState>& states, const PathPoint& from, bool rests) {
   system_.SetStates(states, SurfaceCoordinates(contacts_, from));
   at_hand_ = false;
+  last_point_.resize(0);
   rests_ = rests;
   NoteClosedGaps(from);
 }
@@ -88,6 +89,10 @@ bool SmoothArc::Derivatives(const Eigen::VectorXd& x, const Eigen::VectorXd& tow
   point->second = solver_.Solve(-system_.SecondDerivative(x, point->first), 0.0);
   HoldLimitPoint(x, &point->second);
   point->second -= point->first.head(n).dot(point->second.head(n)) * point->first;
+  if (structure_.Mixed()) {
+    last_point_ = x.head(n);
+    last_tangent_ = point->first.head(n);
+  }
   point->nullity = solver_.Nullity();
   point->determinant_sign = solver_.DeterminantSign();
   point->pivot_sign = solver_.PivotSign();
@@ -154,18 +159,25 @@ Correction SmoothArc::Newton(const Eigen::VectorXd& guess, const Eigen::VectorXd
   Correction result;
   result.x = guess;
   result.steps.reserve(kMaxIterations);
+  ExtrapolateStrains(guess);
+  const auto factorize = [&] {
+    return structure_.Mixed() ? Factorize(system_.MixedJacobian(result.x, strains_from_, strains_to_), row)
+                              : Factorize(result.x, row);
+  };
   bool factorise = !at_hand;
   double previous = std::numeric_limits<double>::infinity();
   for (; result.iterations < kMaxIterations; ++result.iterations) {
     system_.Residual(result.x, &residual_);
     if (!residual_.allFinite()) return result;
-    if (factorise && !Factorize(result.x, row)) return result;
+    if (factorise && !factorize()) return result;
     residual_ = -residual_;
     solver_.Solve(residual_, value - row.dot(result.x), &step_length_);
     HoldLimitPoint(result.x, &step_length_);
     const double norm = step_length_.norm(), scale = 1.0 + result.x.norm();
     if (!std::isfinite(norm)) return result;
+    if (structure_.Mixed()) strains_from_ = result.x.head(NumMotion());
     result.x += step_length_;
+    if (structure_.Mixed()) strains_to_ = result.x.head(NumMotion());
     result.steps.push_back(norm);
     if (result.iterations == 0) result.first_step = norm;
     if (result.iterations == 1) result.contraction = norm / result.first_step;
@@ -186,16 +198,26 @@ Correction SmoothArc::Newton(const Eigen::VectorXd& guess, const Eigen::VectorXd
   return result;
 }
 
+void SmoothArc::ExtrapolateStrains(const Eigen::VectorXd& guess) {
+  if (!structure_.Mixed()) return;
+  strains_from_ = strains_to_ = guess.head(NumMotion());
+  if (last_point_.size() == 0) return;
+  strains_to_ = last_point_ + last_tangent_.dot(strains_from_ - last_point_) * last_tangent_;
+  strains_from_ = last_point_;
+}
+
 bool SmoothArc::Factorize(const Eigen::VectorXd& x, const Eigen::VectorXd& row, double rank_tolerance) {
+  return Factorize(system_.TransposedJacobian(x), row, rank_tolerance);
+}
+
+bool SmoothArc::Factorize(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& row,
+                          double rank_tolerance) {
   ++factorisations_;
   at_hand_ = false;
   if (rests_ && rank_tolerance == 0.0) rank_tolerance = tolerances::kDependentColumnResting;
-  if (rank_tolerance == 0.0 && system_.ResidualUnit() > 1.0) {
-    // What a free motion leaves of the equations is rounding of stiff elements.
-    rank_tolerance = tolerances::kDependentColumn * std::sqrt(system_.ResidualUnit());
-    if (solver_.FactorizeRegular(system_.TransposedJacobian(x), row, rank_tolerance, system_.InFrame())) return true;
-  }
-  return solver_.Factorize(system_.TransposedJacobian(x), row, system_.InFrame(), rank_tolerance);
+  // Coordinates of stiff elements leave more rounding in the equations, of a free motion, too.
+  const double rounding = std::sqrt(system_.ResidualUnit());
+  return solver_.Factorize(transposed, row, system_.InFrame(), rank_tolerance, rounding);
 }
 
 Correction SmoothArc::CorrectOnPlane(const Eigen::VectorXd& guess, const Eigen::VectorXd& normal) {

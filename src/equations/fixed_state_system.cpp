@@ -357,6 +357,17 @@ double FixedStateSystem::Largest(const Eigen::VectorXd& residual) const {
 
 const Eigen::SparseMatrix<double>& FixedStateSystem::TransposedJacobian(const Eigen::VectorXd& x) {
   structure_.Tangent(x.head(NumDofs()), &tangent_);
+  return WithTangent(x);
+}
+
+const Eigen::SparseMatrix<double>& FixedStateSystem::MixedJacobian(const Eigen::VectorXd& x,
+                                                                   const Eigen::VectorXd& from,
+                                                                   const Eigen::VectorXd& to) {
+  structure_.MixedTangent(x.head(NumDofs()), from.head(NumDofs()), to.head(NumDofs()), &tangent_);
+  return WithTangent(x);
+}
+
+const Eigen::SparseMatrix<double>& FixedStateSystem::WithTangent(const Eigen::VectorXd& x) {
   if (curved_) std::copy_n(constant_.data(), constant_.size(), transposed_.valuePtr());
   // The places of the tangent are among the places of transposed_, in the same order.
   for (Eigen::Index column = 0; column < NumDofs(); ++column) {

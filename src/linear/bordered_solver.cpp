@@ -88,10 +88,10 @@ BorderedSolver::BorderedSolver() : factors_(std::make_unique<Factors>()) {}
 BorderedSolver::~BorderedSolver() = default;
 
 bool BorderedSolver::Factorize(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& row,
-                               const Frame* frame, double rank_tolerance) {
+                               const Frame* frame, double rank_tolerance, double rounding) {
   if (rank_tolerance == 0.0) {
-    if (FactorizeRegular(transposed, row, tolerances::kSingularPivot, frame)) return true;
-    rank_tolerance = tolerances::kDependentColumn;
+    if (FactorizeRegular(transposed, row, rounding * tolerances::kSingularPivot, frame)) return true;
+    rank_tolerance = rounding * tolerances::kDependentColumn;
   } else {
     factors_->Free();
     factors_->regular = false;
@@ -99,7 +99,10 @@ bool BorderedSolver::Factorize(const Eigen::SparseMatrix<double>& transposed, co
   }
   if (!transposed.coeffs().allFinite() || !row.allFinite()) return false;
   factors_->Assemble(transposed, row);
-  return factors_->minimum_norm.Factorize(factors_->matrix, rank_tolerance);
+  if (!factors_->minimum_norm.Factorize(factors_->matrix, rank_tolerance)) return false;
+  const bool full = factors_->unknowns == transposed.cols() + 1 && factors_->minimum_norm.Rank() == factors_->unknowns;
+  factors_->regular = full && factors_->HasFactors() && factors_->pivot_ratio > tolerances::kSingularPivot;
+  return true;
 }
 
 bool BorderedSolver::FactorizeRegular(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& row,

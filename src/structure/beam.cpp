@@ -132,8 +132,23 @@ void BeamSegment::Force(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<E
 void BeamSegment::Tangent(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::MatrixXd> tangent) const {
   const Coordinates at = CoordinatesOf(x);
   const Chord chord(at.head<2>());
+  TangentOf(chord, Forces(chord, at), tangent);
+}
+
+void BeamSegment::MixedTangent(const Eigen::Ref<const Eigen::VectorXd>& x,
+                               const Eigen::Ref<const Eigen::VectorXd>& from,
+                               const Eigen::Ref<const Eigen::VectorXd>& to, Eigen::Ref<Eigen::MatrixXd> tangent) const {
+  const Coordinates at = CoordinatesOf(x), before = CoordinatesOf(from);
+  const Chord chord(at.head<2>()), last(before.head<2>());
+  const Eigen::Vector2d change = (CoordinatesOf(to) - before).head<2>();
+  Eigen::Vector3d forces = Forces(chord, at);
+  forces[0] = EA_ * (last.length - length_ + last.along.dot(change)) / length_;
+  TangentOf(chord, forces, tangent);
+}
+
+void BeamSegment::TangentOf(const Chord& chord, const Eigen::Vector3d& forces,
+                            Eigen::Ref<Eigen::MatrixXd> tangent) const {
   const Eigen::Matrix<double, 4, 3> gradients = Gradients(chord);
-  const Eigen::Vector3d forces = Forces(chord, at);
   const Square product = gradients * Stiffnesses() * gradients.transpose();
   Square square = 0.5 * (product + product.transpose());  // symmetric to the last digit
   square.topLeftCorner<2, 2>() +=

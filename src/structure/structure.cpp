@@ -103,6 +103,7 @@ void Structure::AddPart(PlacedElement placed) {
     part.dofs.push_back(dofs_.Dof(node, local.field, local.component));
   }
   part.element = std::move(placed.element);
+  mixed_ = mixed_ || part.element->Mixed();
   parts_.push_back(std::move(part));
 }
 
@@ -214,6 +215,22 @@ void Structure::Tangent(const Eigen::Ref<const Eigen::VectorXd>& u, Eigen::Spars
     auto local = local_room.Square(part.dofs.size());
     Gather(part, u, x);
     part.element->Tangent(x, local);
+    Scatter(part.entries, local.data(), tangent->valuePtr());
+  }
+}
+
+void Structure::MixedTangent(const Eigen::Ref<const Eigen::VectorXd>& u, const Eigen::Ref<const Eigen::VectorXd>& from,
+                             const Eigen::Ref<const Eigen::VectorXd>& to, Eigen::SparseMatrix<double>* tangent) const {
+  std::fill_n(tangent->valuePtr(), tangent->nonZeros(), 0.0);
+  Scratch x_room, from_room, to_room, local_room;
+  for (const Part& part : parts_) {
+    const std::size_t size = part.dofs.size();
+    auto x = x_room.Vector(size), local_from = from_room.Vector(size), local_to = to_room.Vector(size);
+    auto local = local_room.Square(size);
+    Gather(part, u, x);
+    Gather(part, from, local_from);
+    Gather(part, to, local_to);
+    part.element->MixedTangent(x, local_from, local_to, local);
     Scatter(part.entries, local.data(), tangent->valuePtr());
   }
 }

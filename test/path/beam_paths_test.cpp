@@ -119,6 +119,36 @@ TEST(BeamPaths, ElasticaOfTheSecondOrder) {
   EXPECT_NEAR(std::log2(coarse / fine), 2.0, 0.15);
 }
 
+// Before, EA L^2 / EI = 1e8 took four times as many increments as 1e4.
+TEST(BeamPaths, IncrementsAreAsLongForFineAndForSlenderBeams) {
+  const auto increments = [](int segments, double EA) {
+    TraceRequest request = Cantilever(segments);
+    request.scene.beams[0].EA = EA;
+    request.scene.loads = {Force("b", 0.0, 1.0)};
+    request.options.accuracy = Accuracy::kFast;
+    request.options.stop = {{"load_factor", ">", 10.0}};
+    const TracedPath path = TraceIncrements(request);
+    EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+    ExpectProved(path);
+    return static_cast<double>(path.increments.size());
+  };
+  const double usual = increments(20, 1e6);
+  EXPECT_LT(usual, 100.0);
+  EXPECT_LT(increments(80, 1e6), usual);
+  EXPECT_LT(increments(20, 1e4), 1.2 * usual);
+  EXPECT_LT(increments(20, 1e8), 1.2 * usual);
+}
+
+TEST(BeamPaths, TooSlenderABeamIsNamed) {
+  TraceRequest request = Cantilever(20);
+  request.scene.beams[0].EA = 1e12;
+  request.scene.loads = {Force("b", 0.0, 1.0)};
+  const TracedPath path = TraceIncrements(request);
+  EXPECT_EQ(path.result.reason, EndReason::kStepTooSmall);
+  EXPECT_NE(path.result.message.find("EA L^2 / EI of beam leg is 1e+12"), std::string::npos) << path.result.message;
+  ExpectProved(path);
+}
+
 TEST(BeamPaths, ElasticaByMpec) { EXPECT_LT(ErrorOfElastica(10, Method::kMpec), 6e-3); }
 
 // An end moment 4 pi EI / L rolls the beam up to two turns: the nodes are on a circle, of which the segments are

@@ -92,6 +92,31 @@ TEST_P(Beam, TangentIsTheDerivativeOfTheForce) {
   }
 }
 
+// With the axial force of another point, and the change of length along its chord.
+TEST_P(Beam, MixedTangentHasTheLinearisedAxialForce) {
+  const BeamSegment beam = Make();
+  const Eigen::Index second = beam.Dofs()[2].field == Field::kRotation ? 3 : 2;
+  const auto span = [&](const Eigen::VectorXd& at) { return Eigen::Vector2d(at.segment<2>(second) - at.head<2>()); };
+  const auto of_length = [&](const Eigen::VectorXd& at) {
+    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(Size(beam));
+    gradient.segment<2>(second) = span(at).normalized();
+    gradient.head<2>() = -span(at).normalized();
+    return gradient;
+  };
+  for (int i = 0; i < 20; ++i) {
+    const Eigen::VectorXd x = Deformed(beam), from = Deformed(beam), to = Deformed(beam);
+    Eigen::MatrixXd mixed(Size(beam), Size(beam));
+    beam.MixedTangent(x, x, x, mixed);
+    EXPECT_EQ(mixed, Tangent(beam, x));
+    beam.MixedTangent(x, from, to, mixed);
+    const double longer = span(from).norm() + span(from).normalized().dot(span(to) - span(from)) - span(x).norm();
+    const auto forces = [&](const Eigen::VectorXd& at) {
+      return Eigen::VectorXd(20.0 / kChord.norm() * longer * of_length(at));
+    };
+    EXPECT_TRUE(IsJacobian(forces, x, mixed - Tangent(beam, x)));
+  }
+}
+
 TEST_P(Beam, TangentDerivativeIsTheDerivativeOfTheTangentAlongADirection) {
   const BeamSegment beam = Make();
   for (int i = 0; i < 20; ++i) {

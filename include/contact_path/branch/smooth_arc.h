@@ -94,7 +94,12 @@ class SmoothArc {
   void HoldLimitPoint(const Eigen::VectorXd& x, Eigen::VectorXd* change);
   // Of contacts that the states close over a gap, as small as what counts as none: the forces that this moves.
   void NoteClosedGaps(const PathPoint& from);
+  // Where the elements want it, the first matrix of Newton's method from guess has the strains of the tangent at the
+  // last point of the curve.
+  void ExtrapolateStrains(const Eigen::VectorXd& guess);
   // False if the matrix is not finite.
+  bool Factorize(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& row,
+                 double rank_tolerance = 0.0);
   bool Factorize(const Eigen::VectorXd& x, const Eigen::VectorXd& row, double rank_tolerance = 0.0);
 
   const Structure& structure_;
@@ -106,6 +111,8 @@ class SmoothArc {
   std::map<int, double> moved_forces_;  // by contact, of those that the states close over a gap
   bool rests_ = false;  // part of the structure stands still at a limit point of its own (Branch::rests)
   Eigen::VectorXd residual_, step_length_;
+  Eigen::VectorXd last_point_, last_tangent_;  // of the last Derivatives() of these states, (u, s); empty: none
+  Eigen::VectorXd strains_from_, strains_to_;  // for Structure::MixedTangent(), (u, s)
   int factorisations_ = 0;
 };
 

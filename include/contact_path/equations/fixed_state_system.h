@@ -65,6 +65,9 @@ class FixedStateSystem {
   double ResidualUnit() const { return residual_unit_; }
   // Transposed Jacobian, NumUnknowns() x NumEquations(), compressed; the pattern is the same until the next set or pin.
   const Eigen::SparseMatrix<double>& TransposedJacobian(const Eigen::VectorXd& x);
+  // The same with Structure::MixedTangent(), strains linearised at the motion `from` towards the motion `to`.
+  const Eigen::SparseMatrix<double>& MixedJacobian(const Eigen::VectorXd& x, const Eigen::VectorXd& from,
+                                                   const Eigen::VectorXd& to);
 
   // The system among those of all contact states, for BorderedSolver; until the next set or pin. Null where the system
   // is small, or has active constraints or a fixed load factor, or where there are many candidates.
@@ -130,6 +133,8 @@ class FixedStateSystem {
   void ForEachConstantEntry(Emit emit) const;  // besides those of flat contacts
   void NumberEquations();
   void Rebuild();
+  // Puts tangent_ and the curved contacts at x into transposed_.
+  const Eigen::SparseMatrix<double>& WithTangent(const Eigen::VectorXd& x);
   Frame BuildFrame() const;
   void PlaceInFrame();
 

@@ -31,6 +31,10 @@ class BeamSegment : public Element {
   double Energy(const Eigen::Ref<const Eigen::VectorXd>& x) const override;
   void Force(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::VectorXd> force) const override;
   void Tangent(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::MatrixXd> tangent) const override;
+  // Of the axial force.
+  bool Mixed() const override { return true; }
+  void MixedTangent(const Eigen::Ref<const Eigen::VectorXd>& x, const Eigen::Ref<const Eigen::VectorXd>& from,
+                    const Eigen::Ref<const Eigen::VectorXd>& to, Eigen::Ref<Eigen::MatrixXd> tangent) const override;
   void TangentDerivative(const Eigen::Ref<const Eigen::VectorXd>& x, const Eigen::Ref<const Eigen::VectorXd>& v,
                          Eigen::Ref<Eigen::MatrixXd> derivative) const override;
 
@@ -47,6 +51,8 @@ class BeamSegment : public Element {
   // Derivatives of W by l, a and b.
   Eigen::Vector3d Forces(const Chord& chord, const Coordinates& at) const;
   Eigen::Matrix3d Stiffnesses() const;
+  // The tangent with these forces.
+  void TangentOf(const Chord& chord, const Eigen::Vector3d& forces, Eigen::Ref<Eigen::MatrixXd> tangent) const;
   void Spread(const Square& of_coordinates, Eigen::Ref<Eigen::MatrixXd> out) const;
 
   double EA_, length_;

@@ -71,6 +71,10 @@ class Structure {
   const Eigen::SparseMatrix<double>& TangentPattern() const { return pattern_; }
   // Hessian of the strain energy; `tangent` must have the pattern and keeps it.
   void Tangent(const Eigen::Ref<const Eigen::VectorXd>& u, Eigen::SparseMatrix<double>* tangent) const;
+  // The same with Element::MixedTangent(), for Newton's method; Mixed(): whether it is another matrix.
+  bool Mixed() const { return mixed_; }
+  void MixedTangent(const Eigen::Ref<const Eigen::VectorXd>& u, const Eigen::Ref<const Eigen::VectorXd>& from,
+                    const Eigen::Ref<const Eigen::VectorXd>& to, Eigen::SparseMatrix<double>* tangent) const;
   // d/dh Tangent(u + h v) at h = 0, on the same pattern; symmetric; also the gradient of Tangent(u) v.
   void TangentDerivative(const Eigen::Ref<const Eigen::VectorXd>& u, const Eigen::Ref<const Eigen::VectorXd>& v,
                          Eigen::SparseMatrix<double>* derivative) const;
@@ -101,6 +105,7 @@ class Structure {
   std::vector<Part> parts_;
   Eigen::SparseMatrix<double> pattern_;
   Eigen::VectorXd residual_units_;
+  bool mixed_ = false;
   std::unique_ptr<Orderings> orderings_ = std::make_unique<Orderings>();
 };
 
