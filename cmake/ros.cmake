@@ -3,7 +3,9 @@
 add_library(contact_path_ros
   src/ros/bag_reader.cpp
   src/ros/bag_recorder.cpp
+  src/ros/beam_curve.cpp
   src/ros/convert.cpp
+  src/ros/drawn_scene.cpp
   src/ros/increment_publisher.cpp
   src/ros/limits.cpp
   src/ros/marker_picture.cpp
@@ -69,6 +71,7 @@ if(CATKIN_ENABLE_TESTING)
   set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/tests)  # as those of the core (tests.cmake)
   catkin_add_gtest(contact_path_ros_test
     test/ros/bag_recorder_test.cpp
+    test/ros/beam_markers_test.cpp
     test/ros/bounded_stream_test.cpp
     test/ros/convert_test.cpp
     test/ros/goal_id_test.cpp
