@@ -3,7 +3,9 @@
 add_library(contact_path_ros
   src/ros/bag_reader.cpp
   src/ros/bag_recorder.cpp
+  src/ros/beam_curve.cpp
   src/ros/convert.cpp
+  src/ros/drawn_scene.cpp
   src/ros/increment_publisher.cpp
   src/ros/limits.cpp
   src/ros/marker_picture.cpp
@@ -54,8 +56,8 @@ install(TARGETS contact_path_node contact_path_markers contact_path_trace contac
 install(DIRECTORY include/${PROJECT_NAME}/ DESTINATION ${CATKIN_PACKAGE_INCLUDE_DESTINATION})
 catkin_install_python(PROGRAMS scripts/contact_path_mesh scripts/play scripts/plot scripts/watch
   DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
-install(FILES scripts/mesh_file.py scripts/mesh_parts.py scripts/mesh_scene.py scripts/path_curve.py scripts/path_file.py
-  scripts/path_quantities.py scripts/plot_panels.py scripts/plot_shapes.py scripts/scene_arrays.py
+install(FILES scripts/beam_curves.py scripts/mesh_file.py scripts/mesh_parts.py scripts/mesh_scene.py scripts/path_curve.py
+  scripts/path_file.py scripts/path_quantities.py scripts/plot_panels.py scripts/plot_shapes.py scripts/scene_arrays.py
   scripts/scene_expand.py scripts/solid_energy.py
   DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(DIRECTORY config launch scenes DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
@@ -69,6 +71,7 @@ if(CATKIN_ENABLE_TESTING)
   set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/tests)  # as those of the core (tests.cmake)
   catkin_add_gtest(contact_path_ros_test
     test/ros/bag_recorder_test.cpp
+    test/ros/beam_markers_test.cpp
     test/ros/bounded_stream_test.cpp
     test/ros/convert_test.cpp
     test/ros/goal_id_test.cpp

@@ -17,7 +17,7 @@ PARTS = {
     'superelements': {'nodes': [], 'rest_positions': []},
     'materials': {'name': '', 'model': '', 'E': 0.0, 'nu': 0.0, 'lambda': 0.0, 'mu': 0.0, 'a': 0.0},
     'solids': {'material': '', 'plane': '', 'nodes_per_element': 0, 'nodes': []},
-    'loads': {'node': '', 'fx': 0.0, 'fy': 0.0, 'constant': False},
+    'loads': {'node': '', 'fx': 0.0, 'fy': 0.0, 'moment': 0.0, 'constant': False},
     'obstacles': {'name': '', 'shape': '', 'px': 0.0, 'py': 0.0, 'nx': 0.0, 'ny': 0.0, 'friction': 0.0},
     'contacts': {'node': '', 'obstacle': ''},
     'obstacle_motions': {'obstacle': '', 'dx': 0.0, 'dy': 0.0},

@@ -1,4 +1,4 @@
-"""Draws deformed structures: bars, solids, supports, obstacles, contacts in the colours of their states, loads, reactions."""
+"""Draws deformed structures: bars, beams, solids, supports, obstacles, contacts in the colours of their states, loads, reactions."""
 import math
 
 import numpy as np
@@ -22,6 +22,10 @@ SOLID_COLOURS = LinearSegmentedColormap.from_list('solids', ['#e8ecf2', '#f4b183
 LONGEST_ARROW = 0.2  # of the size of the structure
 SHORTEST_ARROW = 0.01  # shorter ones are not drawn
 ARROW_WIDTH = 0.022  # of the shaft, in inches
+FULL_TURN = 1.5 * math.pi  # of the arrow of a moment that is as large as the largest force at a distance of the size
+MOMENT_RADIUS = 0.07  # of the size
+MOMENT_HEAD, MOMENT_HEAD_WIDTH = 0.6, 0.5  # of the radius
+STEPS = 24  # lines of the arrow of a moment
 HATCH_DEPTH = 0.06  # behind the boundary of an obstacle, of the size
 SUPPORT_DEPTH = 0.1  # kept free for supports, of the size
 NEAR = 0.15  # a gap as small as this, of the size, brings the obstacle into view
@@ -31,7 +35,7 @@ FLATTEST, STEEPEST = 0.22, 1.25  # height over width of a shape
 
 
 class Shape:
-    """The structure in an increment of the path. Loads (n, 2) on the nodes; reactions (k, 2) on the contacts."""
+    """The structure in an increment of the path. Loads (n, 2), moments (n,) on the nodes; reactions (k, 2) on the contacts."""
 
     def __init__(self, structure, increment):
         self.structure = structure
@@ -46,7 +50,10 @@ class Shape:
         self.cone = structure.friction[:, None] * rn * structure.tangents  # half of its base
         self.touching = self.places[structure.contact_nodes]
         self.stage = structure.stages[structure.stage_index(increment)][0]
-        self.loads, self.constant_loads = structure.loads_by_stage(increment)
+        loads, constant = structure.loads_by_stage(increment)
+        self.loads, self.constant_loads = loads[:, :2], constant[:, :2]
+        self.moments, self.constant_moments = loads[:, 2], constant[:, 2]
+        self.beams = structure.beams.curves(self.places, structure.rotations(increment))
         self.energies = [solid.energies(structure.initial, self.places) for solid in structure.solids]
         self.obstacles = {name: point + structure.obstacle_shift(name, increment)
                           for name, (point, _, _) in structure.obstacles.items()}
@@ -54,6 +61,9 @@ class Shape:
     def forces(self):
         """(place, force) of all arrows, each (., 2)."""
         return ((self.touching, self.reactions), (self.places, self.loads), (self.places, self.constant_loads))
+
+    def has_moments(self):
+        return (self.moments != 0.0) | (self.constant_moments != 0.0)
 
 
 def at_kinds(path, at):
@@ -92,16 +102,23 @@ class View:
     """What all shapes of a figure have in common: what is seen, the scale of the arrows, the extent of obstacles."""
 
     def __init__(self, shapes):
-        places = np.vstack([shape.places for shape in shapes] + [shape.structure.initial for shape in shapes])
+        places = np.vstack([part for shape in shapes
+                            for part in (shape.places, shape.structure.initial, shape.beams.reshape(-1, 2))])
         low, high = places.min(axis=0), places.max(axis=0)
         self.size = max(high - low)
         if self.size <= 1e-9 * np.abs(places).max():
             self.size = 1.0  # one node that does not move
         largest = max([np.hypot(*force.T).max() for shape in shapes for _, force in shape.forces() if len(force)])
+        self.has_forces = largest > 0.0
+        largest = max([largest] + [np.abs(moments).max() / self.size for shape in shapes
+                                   for moments in (shape.moments, shape.constant_moments)])
         self.energy = max([energies.max() for shape in shapes for energies in shape.energies], default=0.0)
         self.length_per_force = LONGEST_ARROW * self.size / largest if largest > 0.0 else 0.0
+        self.full_moment = largest * self.size  # that turns its arrow by FULL_TURN
         points = [places]
         for shape in shapes:
+            around = shape.places[shape.has_moments()]
+            points += [around - MOMENT_RADIUS * self.size, around + MOMENT_RADIUS * self.size]
             scale = self.length_per_force
             points.append(shape.touching + scale * (shape.normal_parts + shape.cone))
             points.append(shape.touching + scale * (shape.normal_parts - shape.cone))
@@ -152,9 +169,12 @@ def draw(axes, shape, view, size, named):
         if structure.has(name, normal):
             draw_obstacle(axes, shape.obstacles[name], np.array(normal), first, last, HATCH_DEPTH * view.size)
     draw_solids(axes, shape, view)
-    width = min(1.5, 20.0 / math.sqrt(len(structure.bars) + 1.0))
-    draw_lines(axes, structure.initial[structure.bars], color=INITIAL, linewidth=0.7 * width, zorder=1)
-    draw_lines(axes, shape.places[structure.bars], color=BARS, linewidth=width, zorder=3)
+    width = min(1.5, 20.0 / math.sqrt(len(structure.bars) + len(structure.beams.nodes) + 1.0))
+    initial_beams = structure.beams.curves(structure.initial, np.zeros(len(structure.names)))
+    for lines in structure.initial[structure.bars], initial_beams:
+        draw_lines(axes, lines, color=INITIAL, linewidth=0.7 * width, zorder=1)
+    for lines in shape.places[structure.bars], shape.beams:
+        draw_lines(axes, lines, color=BARS, linewidth=width, zorder=3)
     for nodes, rest in structure.superelements:
         hub = shape.places[nodes].mean(axis=0)
         if len(nodes) == 1:
@@ -162,8 +182,9 @@ def draw(axes, shape, view, size, named):
         draw_lines(axes, [(hub, shape.places[node]) for node in nodes], color=BARS, linewidth=1.2, linestyle='--',
                    zorder=3)
     if not many:
-        axes.scatter(*structure.initial.T, s=8, color=INITIAL, zorder=2, linewidths=0)
-        axes.scatter(*shape.places.T, s=12, color=BARS, zorder=4, linewidths=0)
+        small = np.where(structure.beams.inner, 0.25, 1.0)
+        axes.scatter(*structure.initial.T, s=8.0 * small, color=INITIAL, zorder=2, linewidths=0)
+        axes.scatter(*shape.places.T, s=12.0 * small, color=BARS, zorder=4, linewidths=0)
     draw_supports(axes, shape, 300.0 if not many else 60.0)
     draw_forces(axes, shape, view)
     draw_states(axes, shape, view)
@@ -189,9 +210,10 @@ def draw_solids(axes, shape, view):
 
 
 def draw_lines(axes, lines, **style):
-    """Lines (m, 2, 2) from point to point as one path: thousands of bars are quickly drawn, and small in a file."""
-    gaps = np.full((len(lines), 1, 2), math.nan)
-    axes.plot(*np.concatenate((np.reshape(lines, (-1, 2, 2)), gaps), axis=1).reshape(-1, 2).T, **style)
+    """Lines (m, k, 2) from point to point as one path: thousands of bars are quickly drawn, and small in a file."""
+    if len(lines):
+        gaps = np.full((len(lines), 1, 2), math.nan)
+        axes.plot(*np.concatenate((lines, gaps), axis=1).reshape(-1, 2).T, **style)
 
 
 def draw_obstacle(axes, point, normal, first, last, depth):
@@ -260,6 +282,31 @@ def draw_arrows(axes, view, places, forces, **style):
         arrows(axes, places[long], view.length_per_force * forces[long], **style)
 
 
+def turned_arrow(centre, radius, turn):
+    """The arrow of a moment, its middle above the centre: the points of its shaft (., 2) and the corners of its head (3, 2)."""
+    end = 0.5 * (math.pi + turn)
+    neck = end - math.copysign(min(MOMENT_HEAD, 0.6 * abs(turn)), turn)
+
+    def at(angle, share=1.0):
+        return centre + share * radius * np.stack((np.cos(angle), np.sin(angle)), axis=-1)
+
+    half = 0.5 * MOMENT_HEAD_WIDTH * abs(end - neck) / MOMENT_HEAD
+    return (at(np.linspace(0.5 * (math.pi - turn), neck, STEPS + 1)),
+            np.array([at(neck, 1.0 - half), at(end), at(neck, 1.0 + half)]))
+
+
+def draw_moments(axes, shape, view, moments, **style):
+    if view.full_moment <= 0.0:
+        return
+    turns = FULL_TURN * moments / view.full_moment
+    drawn = [turned_arrow(shape.places[node], MOMENT_RADIUS * view.size, turns[node])
+             for node in np.flatnonzero(np.abs(turns) > SHORTEST_ARROW / LONGEST_ARROW * FULL_TURN)]
+    if drawn:
+        draw_lines(axes, [shaft for shaft, _ in drawn], linewidth=72.0 * ARROW_WIDTH, solid_capstyle='butt', **style)
+        axes.add_collection(PolyCollection([head for _, head in drawn], facecolors=style['color'], linewidths=0.0,
+                                           zorder=style['zorder']))
+
+
 def arrows(axes, begins, vectors, **style):
     axes.quiver(*np.transpose(begins), *np.transpose(vectors), angles='xy', scale_units='xy', scale=1.0, units='inches',
                 headwidth=4.0, headlength=5.0, headaxislength=4.5, minlength=0.1, **style)
@@ -277,7 +324,9 @@ def draw_forces(axes, shape, view):
     pressed = scale * np.hypot(*shape.normal_parts.T) > SHORTEST_ARROW * view.size
     axes.add_collection(PolyCollection(cones[pressed], facecolors=REACTION, alpha=0.15, linewidths=0.0, zorder=2.5))
     draw_arrows(axes, view, shape.places, shape.constant_loads, color=CONSTANT_LOAD, zorder=5)
+    draw_moments(axes, shape, view, shape.constant_moments, color=CONSTANT_LOAD, zorder=5)
     draw_arrows(axes, view, shape.places, shape.loads, color=LOAD, zorder=5.1)
+    draw_moments(axes, shape, view, shape.moments, color=LOAD, zorder=5.1)
     if shows_parts(shape):
         thin = {'width': 0.5 * ARROW_WIDTH, 'color': REACTION, 'alpha': 0.7, 'zorder': 5.2}
         draw_arrows(axes, view, shape.touching, shape.normal_parts, **thin)
@@ -337,6 +386,11 @@ def legend_handles(shapes, view):
         handles.append(arrow(LOAD, 'load'))
     if any(np.any(shape.constant_loads) for shape in shapes):
         handles.append(arrow(CONSTANT_LOAD, 'constant load'))
+    for moments, colour, kind in (([shape.moments for shape in shapes], LOAD, 'moment'),
+                                  ([shape.constant_moments for shape in shapes], CONSTANT_LOAD, 'constant moment')):
+        if any(map(np.any, moments)):
+            handles.append(Line2D([], [], color=colour, linestyle='', marker=r'$\circlearrowleft$', markersize=11,
+                                  label='%s, 3/4 turn: %.3g [force length]' % (kind, view.full_moment)))
     handles.append(Line2D([], [], color=INITIAL, linewidth=1.5, marker='o', markersize=3, label='initial shape'))
     if any(structure.superelements for structure in structures):
         handles.append(Line2D([], [], color=BARS, linewidth=1.2, linestyle='dashed', label='superelement'))

@@ -1,11 +1,12 @@
 """The scene of a path as arrays, and what its loads and moving obstacles are in an increment."""
 import numpy as np
 
+from beam_curves import Beams
 from solid_energy import Solid
 
 
 class Structure:
-    """The scene as arrays: nodes (n, 2), bars and segments of beams (m, 2) of indices, normals and tangents (k, 2) of the k contacts.
+    """The scene as arrays: nodes (n, 2), bars (m, 2) of indices, normals and tangents (k, 2) of the k contacts.
 
     stages: what the load factor of each stage brings on: (name, target, loads, displacements of obstacles). Without a
     program there is one, of the scene's own.
@@ -16,9 +17,8 @@ class Structure:
         index = {name: i for i, name in enumerate(self.names)}
         self.initial = np.array([[node['x'], node['y']] for node in scene['nodes']])
         self.fixed = np.array([[node['fixed_x'], node['fixed_y']] for node in scene['nodes']])
-        segments = [pair for axis in scene['beams'] for pair in zip(axis, axis[1:])]
-        self.bars = np.array([[index[name] for name in nodes]
-                              for nodes in [bar['nodes'] for bar in scene['bars']] + segments], dtype=int).reshape(-1, 2)
+        self.bars = np.array([[index[name] for name in bar['nodes']] for bar in scene['bars']], dtype=int).reshape(-1, 2)
+        self.beams = Beams(scene['beams'], index, self.initial)
         self.solids = [Solid(solid, scene['materials'], index) for solid in scene['solids']]
         self.bar_directions = self.find_bar_directions()
         self.supports = self.find_supports()
@@ -43,11 +43,11 @@ class Structure:
         self.friction = np.array([self.obstacles[name][2] for name in self.contact_obstacles])
 
     def loads_of(self, loads):
-        """Forces (n, 2) on the nodes."""
-        forces = np.zeros_like(self.initial)
+        """Forces and moments (n, 3) on the nodes."""
+        total = np.zeros((len(self.names), 3))
         for load in loads:
-            forces[self.names.index(load['node'])] += (load['fx'], load['fy'])
-        return forces
+            total[self.names.index(load['node'])] += (load['fx'], load['fy'], load['moment'])
+        return total
 
     def has(self, obstacle, normal):
         return obstacle in self.obstacles and tuple(self.obstacles[obstacle][1]) == normal
@@ -59,6 +59,10 @@ class Structure:
     def positions(self, increment):
         return np.array([[increment['x_' + name], increment['y_' + name]] for name in self.names])
 
+    def rotations(self, increment):
+        """(n,) of the nodes since the start; nan where no beam turns them."""
+        return np.array([increment.get('rotation_' + name, np.nan) for name in self.names])
+
     def of_contacts(self, increment, quantity):
         return np.array([increment[quantity + name] for name in self.contacts])
 
@@ -66,13 +70,13 @@ class Structure:
         return int(increment.get('stage', 1)) - 1
 
     def loads_by_stage(self, increment):
-        """Forces (n, 2) on the nodes: of the stage of the increment, and those that do not change in it."""
+        """Forces and moments (n, 3) on the nodes: of the stage of the increment, and those that do not change in it."""
         number = self.stage_index(increment)
         before = self.constant_loads + sum(target * loads for _, target, loads, _ in self.stages[:number])  # they stay
         return increment['load_factor'] * self.stages[number][2], before
 
     def load(self, increment):
-        """All forces (n, 2) on the nodes."""
+        """All forces and moments (n, 3) on the nodes."""
         return sum(self.loads_by_stage(increment))
 
     def obstacle_shift(self, name, increment):
@@ -85,9 +89,10 @@ class Structure:
         """For each node the directions, of unit length, to those that it is joined to at the start, and to the middles of
         its elements of solids."""
         directions = [[] for _ in self.names]
-        vectors = self.initial[self.bars[:, 1]] - self.initial[self.bars[:, 0]]
+        pairs = np.vstack((self.bars, self.beams.nodes))
+        vectors = self.initial[pairs[:, 1]] - self.initial[pairs[:, 0]]
         vectors /= np.maximum(np.hypot(*vectors.T), 1e-300)[:, None]
-        for (a, b), vector in zip(self.bars, vectors):
+        for (a, b), vector in zip(pairs, vectors):
             directions[a].append(vector)
             directions[b].append(-vector)
         for solid in self.solids:

@@ -12,9 +12,9 @@ SURFACE = {'name': '', 'nodes': [], 'closed': False}
 def expand(scene, beams, groups, surfaces):
     """Adds to a scene, as in path_file.Path, the inner nodes of its beams, and expands its loads and contacts.
 
-    beams, groups, surfaces: dictionaries with the fields of BEAM, GROUP and SURFACE. scene['beams'] becomes a list of the node names of each
-    beam, scene['turning'] the set of the names of the nodes that a beam turns. Returns a function that expands the loads
-    of a stage.
+    beams, groups, surfaces: dictionaries with the fields of BEAM, GROUP and SURFACE. scene['beams'] becomes a list of
+    the beams with the names of all their nodes, scene['turning'] the set of the names of the nodes that a beam turns. Returns
+    a function that expands the loads of a stage.
     """
     places = {node['name']: (node['x'], node['y']) for node in scene['nodes']}
     members = {group['name']: list(group['nodes']) for group in groups}
@@ -37,7 +37,8 @@ def expand(scene, beams, groups, surfaces):
         hinged = beam['hinged'] or [False, False]
         scene['turning'].update(inner)
         scene['turning'].update(node for node, hinge in zip(beam['nodes'], hinged) if not hinge)
-    scene['beams'] = list(axes.values())
+    scene['beams'] = [{'nodes': axis, 'angle': beam['angle'], 'hinged': beam['hinged']}
+                      for axis, beam in zip(axes.values(), beams)]
 
     fixed = {node['name'] for node in scene['nodes'] if node['fixed_x'] and node['fixed_y']}
 
@@ -55,12 +56,12 @@ def expand(scene, beams, groups, surfaces):
 
 def of_load(load, members, axes, places):
     """The loads on nodes that a load stands for."""
-    def on(node, fx, fy):
-        return {'node': node, 'fx': fx, 'fy': fy, 'constant': load['constant']}
+    def on(node, fx, fy, moment=0.0):
+        return {'node': node, 'fx': fx, 'fy': fy, 'moment': moment, 'constant': load['constant']}
 
     if not load['group']:
-        return [on(load['node'], load['fx'], load['fy'])]
-    parts = [on(node, load['fx'], load['fy']) for node in members[load['group']]]
+        return [on(load['node'], load['fx'], load['fy'], load['moment'])]
+    parts = [on(node, load['fx'], load['fy'], load['moment']) for node in members[load['group']]]
     axis = axes.get(load['group'], [])
     for one, other in zip(axis, axis[1:]):
         half = 0.5 * math.dist(places[one], places[other])
@@ -73,7 +74,8 @@ def of_surface(load, nodes, mid_sides, places):
     parts = []
 
     def give(node, length):
-        parts.append({'node': node, 'fx': length * load['px'], 'fy': length * load['py'], 'constant': load['constant']})
+        parts.append({'node': node, 'fx': length * load['px'], 'fy': length * load['py'], 'moment': 0.0,
+                      'constant': load['constant']})
 
     i = 0
     while i + 1 < len(nodes):

@@ -1,6 +1,7 @@
 #include "ros/marker_picture.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace contact_path {
@@ -20,6 +21,12 @@ constexpr double kHeadLength = 1.8;
 // Where an arrow is too short for its head, the head is this part of it.
 constexpr double kMostHead = 0.6;
 
+// Of the arrow of a moment.
+constexpr double kTurnedHead = 0.6;       // [rad]
+constexpr double kTurnedHeadWidth = 0.5;  // in parts of the radius
+constexpr int kTurnedSteps = 24;
+constexpr double kUpwards = 1.57079632679489661923;  // [rad]
+
 }  // namespace
 
 MarkerPicture::MarkerPicture(double size, double detail) : layer_(kLayer * size), detail_(detail) {}
@@ -35,6 +42,23 @@ void MarkerPicture::AddArrow(const Vector2d& from, const Vector2d& vector, const
   AddTriangle(from - shaft_side, neck - shaft_side, neck + shaft_side, colour);
   AddTriangle(from - shaft_side, neck + shaft_side, from + shaft_side, colour);
   AddTriangle(neck - head_side, from + vector, neck + head_side, colour);
+}
+
+void MarkerPicture::AddTurnedArrow(const Vector2d& centre, double radius, double turn, const ColorRGBA& colour) {
+  const auto at = [&](double angle, double distance) {
+    return Vector2d(centre.x() + distance * std::cos(angle), centre.y() + distance * std::sin(angle));
+  };
+  const double head = std::min(kTurnedHead, kMostHead * std::abs(turn));
+  const double begin = kUpwards - 0.5 * turn, end = kUpwards + 0.5 * turn;
+  const double neck = end - std::copysign(head, turn);
+  const double half = 0.5 * std::min(kShaftWidth * detail_, 0.2 * radius);
+  for (int i = 0; i < kTurnedSteps; ++i) {
+    const double a = begin + (neck - begin) * i / kTurnedSteps, b = begin + (neck - begin) * (i + 1) / kTurnedSteps;
+    AddTriangle(at(a, radius - half), at(a, radius + half), at(b, radius + half), colour);
+    AddTriangle(at(a, radius - half), at(b, radius + half), at(b, radius - half), colour);
+  }
+  const double side = 0.5 * kTurnedHeadWidth * head / kTurnedHead * radius;
+  AddTriangle(at(neck, radius - side), at(end, radius), at(neck, radius + side), colour);
 }
 
 void MarkerPicture::AddText(const char* name, int id, const Vector2d& centre, double height, const ColorRGBA& colour,

@@ -65,6 +65,8 @@ class MarkerPicture {
     AddTriangle(a, b, c, Last().color);
   }
   void AddArrow(const Eigen::Vector2d& from, const Eigen::Vector2d& vector, const std_msgs::ColorRGBA& colour);
+  // On a circle, its middle above the centre. turn: to the left where it is positive, not 0 [rad].
+  void AddTurnedArrow(const Eigen::Vector2d& centre, double radius, double turn, const std_msgs::ColorRGBA& colour);
   void AddText(const char* name, int id, const Eigen::Vector2d& centre, double height,
                const std_msgs::ColorRGBA& colour, const std::string& text);
 

@@ -7,21 +7,8 @@
 #include <locale>
 #include <sstream>
 #include <stdexcept>
-#include <string_view>
-#include <type_traits>
-#include <utility>
 
-#include "contact_path/path/stop.h"
-#include "contact_path/scene/cell.h"
-#include "contact_path/scene/configuration.h"
-#include "contact_path/scene/elasticity.h"
-#include "contact_path/scene/expand.h"
-#include "contact_path/scene/one_line.h"
-#include "contact_path/scene/program.h"
-#include "contact_path/scene/quantity.h"
-#include "contact_path/scene/scaling.h"
-#include "contact_path/scene/scene_index.h"
-#include "contact_path/structure/scene_elements.h"
+#include "ros/drawn_scene.h"
 #include "ros/marker_picture.h"
 
 namespace contact_path {
@@ -38,8 +25,16 @@ constexpr int kMostStrokes = 200;  // of a moving obstacle
 constexpr int kCurveSteps = 100;   // of each half of a boundary that is no straight line
 constexpr double kStripDepth = 0.05;
 constexpr double kTextHeight = 0.045;
-constexpr double kFarthestStop = 5.0;
-constexpr double kMostCone = 0.12;  // edge of a cone
+constexpr double kMostCone = 0.12;      // edge of a cone
+constexpr double kMomentRadius = 0.07;  // of the arrow of a moment
+
+// Of the arrow of a moment that is the full force at the distance of the scene's size [rad].
+constexpr double kFullTurn = 4.71238898038468985769;
+
+// Lines of a segment of a beam, and of all.
+constexpr std::size_t kMostSteps = 16;
+constexpr std::size_t kFewestSteps = 2;
+constexpr std::size_t kMostLines = 4000;
 
 // Lengths in parts of the detail.
 constexpr double kBarWidth = 0.35;
@@ -50,11 +45,6 @@ constexpr double kConeEdge = 6.0;
 
 // Arrows that are shorter, in parts of the full length, are left out.
 constexpr double kShortest = 1e-3;
-
-// Energy per volume of a solid, of Young's modulus, that has the darkest colour.
-constexpr double kFullEnergy = 0.01;
-
-constexpr double kRounding = 1e-6;  // of sums of unit vectors
 
 // As in the drawings of scripts/plot.
 const ColorRGBA kGround = Colour(0.85F, 0.85F, 0.85F);
@@ -91,22 +81,6 @@ const char* KindInWords(std::uint8_t kind) {
   }
 }
 
-// Where an element holds its first node; at the start, unless its description tells.
-template <typename Part>
-Vector2d RestOfFirstNode(const Part&, const Vector2d& start) {
-  return start;
-}
-Vector2d RestOfFirstNode(const Superelement& element, const Vector2d& start) {
-  const std::vector<double>& rest = element.rest_positions;
-  return rest.empty() ? start : Vector2d(rest[0], rest[1]);
-}
-
-Vector2d MiddleOf(const std::vector<std::size_t>& nodes, const std::vector<Vector2d>& places) {
-  Vector2d sum = Vector2d::Zero();
-  for (const std::size_t node : nodes) sum += places[node];
-  return sum / static_cast<double>(nodes.size());
-}
-
 // share: of the energy that has the darkest colour. The root, so that colours follow the strain.
 ColorRGBA SolidColour(double share) {
   const auto dark = static_cast<float>(std::sqrt(share > 0.0 ? std::min(share, 1.0) : 0.0));
@@ -118,236 +92,16 @@ double FullForce(double largest, double least) {
   return largest <= least ? least : least * std::exp2(std::ceil(std::log2(largest / least)));
 }
 
-}  // namespace
+// A point of a boundary that is drawn.
+struct BoundaryPoint {
+  Vector2d place = Vector2d::Zero();
+  Vector2d normal = Vector2d::Zero();
+  double xi = 0.0;
+};
 
-void MarkerOptions::Validate() const {
-  if (frame_id.empty() || frame_id.front() == '/') {
-    throw std::invalid_argument("frame_id = \"" + frame_id + "\": must not be empty or begin with a slash");
-  }
-  if (!std::isfinite(picture_size) || picture_size < 0.0) {
-    throw std::invalid_argument("picture_size = " + std::to_string(picture_size) + ": must be finite and >= 0");
-  }
-}
-
-SceneMarkers::SceneMarkers(const TraceRequest& request_given, const MarkerOptions& options)
-    : options_(options), name_(OneLine(request_given.scene.name)) {
-  const ExpandedRequest expanded(request_given);
-  const TraceRequest& request = expanded.Get();
-  const Scene& scene = request.scene;
-  const SceneIndex index(scene);
-  for (const Node& node : scene.nodes) {
-    initial_.emplace_back(node.x, node.y);
-    box_.extend(initial_.back());
-  }
-  ForEachElementList(scene, [&](std::string_view, const auto& elements) {
-    using Part = typename std::decay_t<decltype(elements)>::value_type;
-    for (const Part& element : elements) {
-      if constexpr (std::is_same_v<Part, Solid>) {
-        AddMesh(element, scene, index);
-      } else if constexpr (std::is_same_v<Part, Beam>) {
-        for (std::size_t i = 0; i + 1 < element.nodes.size(); ++i)
-          bars_.push_back({index.Node(element.nodes[i]), index.Node(element.nodes[i + 1])});
-      } else if constexpr (Fields<Part>::kNodes == 2) {
-        bars_.push_back({index.Node(element.nodes[0]), index.Node(element.nodes[1])});
-      } else {
-        std::vector<std::size_t>& members = stars_.emplace_back();
-        for (const std::string& node : element.nodes) members.push_back(index.Node(node));
-        rest_.push_back(RestOfFirstNode(element, initial_[members[0]]));
-      }
-    }
-  });
-  FindSupports(scene);
-  for (const ContactCandidate& contact : scene.contacts) {
-    contacts_.push_back({index.Node(contact.node), index.Obstacle(contact.obstacle)});
-  }
-
-  // What a stage begins with: of the scene, and what the stages before have brought on.
-  StageParts now;
-  Places places = initial_;
-  const auto add_loads = [&](const std::vector<Load>& loads, StageParts* parts) {
-    for (const Load& load : loads)
-      parts->loads.push_back({index.Node(load.node), Vector2d(load.fx, load.fy), load.constant});
-  };
-  const auto add_stage = [&](const std::vector<ObstacleMotion>& motions) -> StageParts& {
-    StageParts& parts = stages_.emplace_back(now);
-    for (const ObstacleMotion& motion : motions)
-      parts.obstacles[index.Obstacle(motion.obstacle)].motion += Vector2d(motion.dx, motion.dy);
-    return parts;
-  };
-  add_loads(scene.loads, &now);
-  for (const Obstacle& obstacle : scene.obstacles) {
-    DrawnObstacle& drawn = now.obstacles.emplace_back();
-    drawn.surface = MakeSurface(obstacle);
-    drawn.point = {obstacle.px, obstacle.py};
-    drawn.friction = obstacle.friction;
-  }
-
-  has_program_ = !request.program.empty();
-  if (!has_program_) add_stage(scene.obstacle_motions);
-  for (std::size_t i = 0; i < request.program.size(); ++i) {
-    const Stage stage = StageAsTraced(request, i);
-    StageParts& parts = add_stage(stage.obstacle_motions);
-    parts.title = stage.name.empty() ? "stage " + std::to_string(stages_.size()) : OneLine(stage.name);
-    const double target = stage.Target();
-    if (stage.unload) {
-      for (std::size_t k = scene.loads.size(); k < now.loads.size(); ++k) {
-        parts.loads[k].taken_back = true;
-        now.loads[k].force *= 1.0 - target;
-      }
-    } else {
-      add_loads(stage.loads, &parts);
-      for (const Load& load : stage.loads)
-        now.loads.push_back({index.Node(load.node), target * Vector2d(load.fx, load.fy), /*constant=*/true});
-    }
-    for (const ObstacleMotion& motion : stage.obstacle_motions)
-      now.obstacles[index.Obstacle(motion.obstacle)].shift += target * Vector2d(motion.dx, motion.dy);
-    for (const SupportMotion& motion : stage.support_motions) {
-      Vector2d& place = places[index.Node(motion.node)];
-      place += target * Vector2d(motion.dx, motion.dy);
-      box_.extend(place);
-    }
-  }
-
-  for (std::size_t i = 0; i < scene.obstacles.size(); ++i) {
-    const bool moves = std::any_of(stages_.begin(), stages_.end(),
-                                   [i](const StageParts& stage) { return !stage.obstacles[i].motion.isZero(0.0); });
-    for (StageParts& stage : stages_) stage.obstacles[i].moves = moves;
-  }
-
-  const Scaling scales = StageScales(request, index, 0, ProgramScales(request, index));
-  ExtendBox(request, index, kFarthestStop * std::max(box_.diagonal().norm(), scales.length));
-  const double diagonal = box_.diagonal().norm();
-  size_ = diagonal > 0.0 ? diagonal : scales.length;
-  detail_ = std::min(0.025 * size_, bars_.empty() ? size_ : 0.12 * scales.length);
-  if (!cells_.empty()) detail_ = std::min(detail_, 0.12 * CellSize());
-  least_force_ = 1e-3 * scales.force;
-}
-
-// The ground is where no bars are, as far as the fixed components let it be.
-void SceneMarkers::AddMesh(const Solid& solid, const Scene& scene, const SceneIndex& index) {
-  const double modulus = YoungModulus(LameOf(scene.materials[index.Material(solid.material)]));
-  for (PlacedElement& placed : MakeSolidElements(solid, scene, index, Configuration::Of(scene).reference)) {
-    Cell cell;
-    cell.nodes.assign(placed.nodes.begin(), placed.nodes.end());
-    for (const std::size_t local : CellBoundary(cell.nodes.size())) cell.boundary.push_back(cell.nodes[local]);
-    std::vector<double> positions;
-    for (const std::size_t node : cell.nodes)
-      positions.insert(positions.end(), {initial_[node].x(), initial_[node].y()});
-    for (const PlacedPoint& point : PlacePoints(positions)) cell.area += point.area;
-    cell.element = std::move(placed.element);
-    cell.full_energy = kFullEnergy * modulus * cell.area * solid.Thickness();
-    cells_.push_back(std::move(cell));
-  }
-}
-
-double SceneMarkers::CellSize() const {
-  double area = 0.0;
-  for (const Cell& cell : cells_) area += cell.area;
-  return std::sqrt(area / static_cast<double>(cells_.size()));
-}
-
-void SceneMarkers::FindSupports(const Scene& scene) {
-  Places inwards(initial_.size(), Vector2d::Zero());
-  for (const auto& [a, b] : bars_) {
-    const Vector2d along = (initial_[b] - initial_[a]).stableNormalized();
-    inwards[a] += along;
-    inwards[b] -= along;
-  }
-  for (const Cell& cell : cells_) {
-    const Vector2d middle = MiddleOf(cell.nodes, initial_);
-    for (const std::size_t node : cell.nodes) inwards[node] += (middle - initial_[node]).stableNormalized();
-  }
-  for (std::size_t i = 0; i < initial_.size(); ++i) {
-    const Node& node = scene.nodes[i];
-    if (!node.fixed_x && !node.fixed_y) continue;
-    Places directions;
-    if (node.fixed_y) directions = {{0.0, -1.0}, {0.0, 1.0}};
-    if (node.fixed_x) directions.insert(directions.end(), {{-1.0, 0.0}, {1.0, 0.0}});
-    Vector2d ground = directions.front();
-    for (const Vector2d& direction : directions) {
-      if (direction.dot(inwards[i]) < ground.dot(inwards[i]) - kRounding) ground = direction;
-    }
-    supports_.push_back({i, ground, !(node.fixed_x && node.fixed_y)});
-  }
-}
-
-// By the places that nodes are to reach: where stop criteria lie, unless that is farther than `reach` from the start.
-void SceneMarkers::ExtendBox(const TraceRequest& request, const SceneIndex& index, double reach) {
-  const std::vector<Quantity> quantities = StopQuantities(request, index);
-  for (std::size_t i = 0; i < quantities.size(); ++i) {
-    const Quantity& quantity = quantities[i];
-    if (!quantity.IsOfNode()) continue;
-    const Vector2d& start = initial_[quantity.part];
-    Vector2d place = start;
-    (quantity.kind == Quantity::Kind::kX ? place.x() : place.y()) = request.options.stop[i].value;
-    if ((place - start).norm() <= reach) box_.extend(place);
-  }
-}
-
-const SceneMarkers::StageParts& SceneMarkers::StageOf(const msgs::Increment& increment) const {
-  return stages_[has_program_ ? increment.stage - 1 : 0];
-}
-
-bool SceneMarkers::Fits(const msgs::Increment& increment) const {
-  const bool of_a_stage =
-      has_program_ ? increment.stage >= 1 && increment.stage <= stages_.size() : increment.stage == 0;
-  return of_a_stage && increment.x.size() == initial_.size() && increment.y.size() == initial_.size() &&
-         increment.contacts.size() == contacts_.size();
-}
-
-double SceneMarkers::LargestForce(const msgs::Increment& increment) const {
-  double square = 0.0;
-  for (const NodalLoad& load : StageOf(increment).loads) {
-    square = std::max(square, load.Force(increment.load_factor).squaredNorm());
-  }
-  for (const msgs::ContactState& contact : increment.contacts) {
-    square = std::max(square, contact.rn * contact.rn + contact.rt * contact.rt);
-  }
-  return std::sqrt(square);
-}
-
-visualization_msgs::MarkerArray SceneMarkers::Draw(const msgs::Increment& increment, double largest_force) const {
-  std::ostringstream caption;
-  caption.imbue(std::locale::classic());
-  caption << name_ << "   ";
-  if (has_program_) caption << StageOf(increment).title << "   ";
-  caption << "increment " << increment.index << KindInWords(increment.kind) << "\nload factor "
-          << increment.load_factor;
-  return Draw(increment, largest_force, caption.str());
-}
-
-visualization_msgs::MarkerArray SceneMarkers::DrawInitial() const {
-  msgs::Increment increment;
-  increment.stage = has_program_ ? 1 : 0;
-  for (const Vector2d& place : initial_) {
-    increment.x.push_back(place.x());
-    increment.y.push_back(place.y());
-  }
-  increment.contacts.resize(contacts_.size());
-  return Draw(increment, LargestForce(increment), name_ + "   initial shape");
-}
-
-visualization_msgs::MarkerArray SceneMarkers::Draw(const msgs::Increment& increment, double largest_force,
-                                                   const std::string& caption) const {
-  Places places;
-  places.reserve(increment.x.size());
-  for (std::size_t i = 0; i < increment.x.size(); ++i) places.emplace_back(increment.x[i], increment.y[i]);
-  const double full_force = FullForce(largest_force, least_force_);
-  MarkerPicture picture(size_, detail_);
-  DrawObstacles(places, increment, &picture);
-  DrawStructure(places, &picture);
-  DrawStars(places, &picture);
-  DrawMeshes(places, &picture);
-  DrawSupports(places, &picture);
-  DrawContacts(places, increment, &picture);
-  DrawForces(places, increment, full_force, &picture);
-  DrawCaption(caption, full_force, &picture);
-  if (options_.picture_size == 0.0) return picture.Finish(options_.frame_id, Vector2d::Zero(), 1.0);
-  return picture.Finish(options_.frame_id, box_.center(), options_.picture_size / size_);
-}
-
-std::vector<SceneMarkers::BoundaryPoint> SceneMarkers::BoundaryOf(const DrawnObstacle& obstacle, double load_factor,
-                                                                  const Vector2d& centre, double half_length) {
+// The boundary of an obstacle around the foot of `centre`, along the tangent. half_length [length].
+std::vector<BoundaryPoint> BoundaryOf(const DrawnObstacle& obstacle, double load_factor, const Vector2d& centre,
+                                      double half_length) {
   const auto foot_of = [&](const Vector2d& x) {
     const Projection at = obstacle.ProjectAt(load_factor, x);
     return BoundaryPoint{x - at.gap * at.normal, at.normal, at.xi};
@@ -368,18 +122,19 @@ std::vector<SceneMarkers::BoundaryPoint> SceneMarkers::BoundaryOf(const DrawnObs
   return points;
 }
 
-void SceneMarkers::DrawObstacles(const Places& places, const msgs::Increment& increment, MarkerPicture* picture) const {
+void DrawObstacles(const DrawnScene& scene, const NodePlaces& places, const msgs::Increment& increment,
+                   MarkerPicture* picture) {
   // Long enough for the nodes, and of a length that hardly ever changes.
-  const Vector2d centre = box_.center();
+  const Vector2d centre = scene.box.center();
   double reach = 0.0;
   for (const Vector2d& place : places) reach = std::max(reach, (place - centre).norm());
-  const double half_length = size_ * std::ceil(reach / size_ + 0.25);
-  const std::vector<DrawnObstacle>& obstacles = StageOf(increment).obstacles;
+  const double half_length = scene.size * std::ceil(reach / scene.size + 0.25);
+  const std::vector<DrawnObstacle>& obstacles = scene.StageOf(increment).obstacles;
   std::vector<std::vector<BoundaryPoint>> boundaries;
   boundaries.reserve(obstacles.size());
   for (const DrawnObstacle& obstacle : obstacles)
     boundaries.push_back(BoundaryOf(obstacle, increment.load_factor, centre, half_length));
-  const double depth = kStripDepth * size_;
+  const double depth = kStripDepth * scene.size;
 
   picture->BeginTriangles("obstacles", 0, kGround, kStrips);
   for (const std::vector<BoundaryPoint>& boundary : boundaries) {
@@ -389,10 +144,10 @@ void SceneMarkers::DrawObstacles(const Places& places, const msgs::Increment& in
       picture->AddTriangle(from.place, to.place - depth * to.normal, to.place);
     }
   }
-  picture->BeginLines("obstacles", 1, kBarWidth * detail_, kGroundLine, kBoundaries);
+  picture->BeginLines("obstacles", 1, kBarWidth * scene.detail, kGroundLine, kBoundaries);
   for (const std::vector<BoundaryPoint>& boundary : boundaries)
     for (std::size_t k = 1; k < boundary.size(); ++k) picture->AddLine(boundary[k - 1].place, boundary[k].place);
-  picture->BeginLines("obstacles", 2, kThinWidth * detail_, kGroundLine, kBoundaries);
+  picture->BeginLines("obstacles", 2, kThinWidth * scene.detail, kGroundLine, kBoundaries);
   const double distance = std::max(2.0 * depth, 2.0 * half_length / kMostStrokes);
   for (std::size_t i = 0; i < obstacles.size(); ++i) {
     if (!obstacles[i].moves) continue;
@@ -411,40 +166,55 @@ void SceneMarkers::DrawObstacles(const Places& places, const msgs::Increment& in
   }
 }
 
-void SceneMarkers::DrawStructure(const Places& places, MarkerPicture* picture) const {
-  picture->BeginLines("initial", 0, kThinWidth * detail_, kInitialColour, kInitial);
-  for (const auto& [a, b] : bars_) picture->AddLine(initial_[a], initial_[b]);
-  picture->BeginDots("initial", 1, Marker::SPHERE_LIST, 0.6 * detail_, kInitialColour, kInitial);
-  for (const Vector2d& place : initial_) picture->AddPoint(place);
+void DrawStructure(const DrawnScene& scene, const NodePlaces& places, const std::vector<double>& rotations,
+                   MarkerPicture* picture) {
+  const std::size_t steps =
+      std::clamp(kMostLines / std::max<std::size_t>(scene.segments.size(), 1), kFewestSteps, kMostSteps);
+  const auto draw_lines = [&](const NodePlaces& at, const std::vector<double>& turned) {
+    for (const auto& [a, b] : scene.bars) picture->AddLine(at[a], at[b]);
+    for (const DrawnSegment& segment : scene.segments) {
+      const auto [a, b] = segment.nodes;
+      const NodePlaces curve = CurveOf(segment, {{at[a], at[b]}, {turned[a], turned[b]}}, static_cast<int>(steps));
+      for (std::size_t i = 1; i < curve.size(); ++i) picture->AddLine(curve[i - 1], curve[i]);
+    }
+  };
+  const auto draw_nodes = [&](const NodePlaces& at) {
+    for (std::size_t i = 0; i < at.size(); ++i)
+      if (!scene.inner[i]) picture->AddPoint(at[i]);
+  };
+  picture->BeginLines("initial", 0, kThinWidth * scene.detail, kInitialColour, kInitial);
+  draw_lines(scene.initial, std::vector<double>(scene.initial.size(), 0.0));
+  picture->BeginDots("initial", 1, Marker::SPHERE_LIST, 0.6 * scene.detail, kInitialColour, kInitial);
+  draw_nodes(scene.initial);
 
-  picture->BeginLines("structure", 0, kBarWidth * detail_, kBarColour, kBars);
-  for (const auto& [a, b] : bars_) picture->AddLine(places[a], places[b]);
-  picture->BeginDots("structure", 1, Marker::SPHERE_LIST, detail_, kBarColour, kNodes);
-  for (const Vector2d& place : places) picture->AddPoint(place);
+  picture->BeginLines("structure", 0, kBarWidth * scene.detail, kBarColour, kBars);
+  draw_lines(places, rotations);
+  picture->BeginDots("structure", 1, Marker::SPHERE_LIST, scene.detail, kBarColour, kNodes);
+  draw_nodes(places);
 }
 
-void SceneMarkers::DrawStars(const Places& places, MarkerPicture* picture) const {
-  Places middles;
-  for (std::size_t i = 0; i < stars_.size(); ++i)
-    middles.push_back(stars_[i].size() == 1 ? rest_[i] : MiddleOf(stars_[i], places));
-  picture->BeginLines("superelements", 0, kBarWidth * detail_, kSpringColour, kSprings);
-  for (std::size_t i = 0; i < stars_.size(); ++i) {
-    for (const std::size_t node : stars_[i]) picture->AddLine(places[node], middles[i]);
+void DrawStars(const DrawnScene& scene, const NodePlaces& places, MarkerPicture* picture) {
+  NodePlaces middles;
+  for (std::size_t i = 0; i < scene.stars.size(); ++i)
+    middles.push_back(scene.stars[i].size() == 1 ? scene.rest[i] : MiddleOf(scene.stars[i], places));
+  picture->BeginLines("superelements", 0, kBarWidth * scene.detail, kSpringColour, kSprings);
+  for (std::size_t i = 0; i < scene.stars.size(); ++i) {
+    for (const std::size_t node : scene.stars[i]) picture->AddLine(places[node], middles[i]);
   }
-  picture->BeginDots("superelements", 1, Marker::CUBE_LIST, detail_, kSpringColour, kSprings);
+  picture->BeginDots("superelements", 1, Marker::CUBE_LIST, scene.detail, kSpringColour, kSprings);
   for (const Vector2d& middle : middles) picture->AddPoint(middle);
 }
 
-void SceneMarkers::DrawMeshes(const Places& places, MarkerPicture* picture) const {
-  const auto draw_boundaries = [&](const Places& at) {
-    for (const Cell& cell : cells_)
+void DrawMeshes(const DrawnScene& scene, const NodePlaces& places, MarkerPicture* picture) {
+  const auto draw_boundaries = [&](const NodePlaces& at) {
+    for (const DrawnCell& cell : scene.cells)
       for (std::size_t i = 0; i < cell.boundary.size(); ++i)
         picture->AddLine(at[cell.boundary[i]], at[cell.boundary[(i + 1) % cell.boundary.size()]]);
   };
-  picture->BeginLines("solids", 0, kThinWidth * detail_, kInitialColour, kInitial);
-  draw_boundaries(initial_);
+  picture->BeginLines("solids", 0, kThinWidth * scene.detail, kInitialColour, kInitial);
+  draw_boundaries(scene.initial);
   picture->BeginTriangles("solids", 1, SolidColour(0.0), kSprings);
-  for (const Cell& cell : cells_) {
+  for (const DrawnCell& cell : scene.cells) {
     Eigen::VectorXd x(static_cast<Eigen::Index>(2 * cell.nodes.size()));
     for (std::size_t i = 0; i < cell.nodes.size(); ++i)
       x.segment<2>(static_cast<Eigen::Index>(2 * i)) = places[cell.nodes[i]];
@@ -454,14 +224,14 @@ void SceneMarkers::DrawMeshes(const Places& places, MarkerPicture* picture) cons
       picture->AddTriangle(middle, places[cell.boundary[i]], places[cell.boundary[(i + 1) % cell.boundary.size()]],
                            colour);
   }
-  picture->BeginLines("solids", 2, kThinWidth * detail_, kBarColour, kBars);
+  picture->BeginLines("solids", 2, kThinWidth * scene.detail, kBarColour, kBars);
   draw_boundaries(places);
 }
 
-void SceneMarkers::DrawSupports(const Places& places, MarkerPicture* picture) const {
-  const double height = kSupportHeight * detail_;
+void DrawSupports(const DrawnScene& scene, const NodePlaces& places, MarkerPicture* picture) {
+  const double height = kSupportHeight * scene.detail;
   picture->BeginTriangles("supports", 0, kSupportColour, kSprings);
-  for (const Support& support : supports_) {
+  for (const DrawnSupport& support : scene.supports) {
     const Vector2d& node = places[support.node];
     const Vector2d side = 0.6 * height * Tangent(support.ground);
     const Vector2d foot = node + height * support.ground;
@@ -474,59 +244,121 @@ void SceneMarkers::DrawSupports(const Places& places, MarkerPicture* picture) co
   }
 }
 
-void SceneMarkers::DrawContacts(const Places& places, const msgs::Increment& increment, MarkerPicture* picture) const {
+void DrawContacts(const DrawnScene& scene, const NodePlaces& places, const msgs::Increment& increment,
+                  MarkerPicture* picture) {
   const std::vector<msgs::ContactState>& states = increment.contacts;
-  picture->BeginDots("contacts", 0, Marker::SPHERE_LIST, kContactDiameter * detail_, StateColour(0), kCandidates);
-  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+  picture->BeginDots("contacts", 0, Marker::SPHERE_LIST, kContactDiameter * scene.detail, StateColour(0), kCandidates);
+  for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
     // A node in a corner has several candidates: seen is one that touches.
     const Layer layer = states[i].state == msgs::ContactState::OPEN ? kCandidates : kTouching;
-    picture->AddPoint(places[contacts_[i].node], StateColour(states[i].state), layer);
+    picture->AddPoint(places[scene.contacts[i].node], StateColour(states[i].state), layer);
   }
 
   picture->BeginTriangles("cones", 0, kConeColour, kCones);
-  for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    const DrawnObstacle& obstacle = StageOf(increment).obstacles[contacts_[i].obstacle];
+  for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
+    const DrawnObstacle& obstacle = scene.StageOf(increment).obstacles[scene.contacts[i].obstacle];
     const std::uint8_t state = states[i].state;
     if (obstacle.friction <= 0.0 || state == msgs::ContactState::OPEN || state == msgs::ContactState::CLOSED) continue;
-    const Vector2d& apex = places[contacts_[i].node];
+    const Vector2d& apex = places[scene.contacts[i].node];
     const Vector2d normal = obstacle.ProjectAt(increment.load_factor, apex).normal;
     const Vector2d side = obstacle.friction * Tangent(normal);
-    const double edge = std::min(kConeEdge * detail_, kMostCone * size_);
+    const double edge = std::min(kConeEdge * scene.detail, kMostCone * scene.size);
     picture->AddTriangle(apex, apex + edge * (normal - side).normalized(), apex + edge * (normal + side).normalized());
   }
 }
 
-void SceneMarkers::DrawForces(const Places& places, const msgs::Increment& increment, double full_force,
-                              MarkerPicture* picture) const {
-  const double scale = kFullArrow * size_ / full_force;
+void DrawForces(const DrawnScene& scene, const NodePlaces& places, const msgs::Increment& increment, double full_force,
+                MarkerPicture* picture) {
+  const double scale = kFullArrow * scene.size / full_force;
   const auto draw = [&](std::size_t node, const Vector2d& force, const ColorRGBA& colour) {
     if (force.norm() > kShortest * full_force) picture->AddArrow(places[node], scale * force, colour);
   };
   picture->BeginTriangles("loads", 0, kLoadColour, kArrows);
-  for (const NodalLoad& load : StageOf(increment).loads) {
-    draw(load.node, load.Force(increment.load_factor), load.constant ? kConstantLoadColour : kLoadColour);
+  for (const DrawnLoad& load : scene.StageOf(increment).loads) {
+    const ColorRGBA& colour = load.constant ? kConstantLoadColour : kLoadColour;
+    const double share = load.Share(increment.load_factor);
+    draw(load.node, share * load.force, colour);
+    const double part = share * load.moment / (full_force * scene.size);
+    if (std::abs(part) > kShortest)
+      picture->AddTurnedArrow(places[load.node], kMomentRadius * scene.size, kFullTurn * part, colour);
   }
   picture->BeginTriangles("reactions", 0, kReactionColour, kArrows);
-  for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    const DrawnObstacle& obstacle = StageOf(increment).obstacles[contacts_[i].obstacle];
-    const Vector2d normal = obstacle.ProjectAt(increment.load_factor, places[contacts_[i].node]).normal;
-    draw(contacts_[i].node, increment.contacts[i].rn * normal + increment.contacts[i].rt * Tangent(normal),
+  for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
+    const DrawnObstacle& obstacle = scene.StageOf(increment).obstacles[scene.contacts[i].obstacle];
+    const Vector2d normal = obstacle.ProjectAt(increment.load_factor, places[scene.contacts[i].node]).normal;
+    draw(scene.contacts[i].node, increment.contacts[i].rn * normal + increment.contacts[i].rt * Tangent(normal),
          kReactionColour);
   }
 }
 
 // Above the initial shape.
-void SceneMarkers::DrawCaption(const std::string& caption, double full_force, MarkerPicture* picture) const {
-  const double height = kTextHeight * size_;
-  const Vector2d above(box_.center().x(), box_.max().y() + 0.2 * size_);
-  const double length = kFullArrow * size_;
+void DrawCaption(const DrawnScene& scene, const std::string& caption, const DrawnStage& stage, double full_force,
+                 MarkerPicture* picture) {
+  const double height = kTextHeight * scene.size;
+  const Vector2d above(scene.box.center().x(), scene.box.max().y() + 0.2 * scene.size);
+  const double length = kFullArrow * scene.size;
   std::ostringstream force;
   force.imbue(std::locale::classic());
   force << std::setprecision(3) << full_force;
+  if (std::any_of(stage.loads.begin(), stage.loads.end(), [](const DrawnLoad& load) { return load.moment != 0.0; }))
+    force << ", turned by 3/4: " << full_force * scene.size;
   picture->AddText("caption", 0, above + Vector2d(0.0, 2.0 * height), height, kTextColour, caption);
   picture->BeginTriangles("caption", 1, kTextColour, kText);
   picture->AddArrow(above - Vector2d(length, 0.0), Vector2d(length, 0.0), kTextColour);
   picture->AddText("caption", 2, above + Vector2d(0.5 * length, 0.0), height, kTextColour, force.str());
+}
+
+}  // namespace
+
+void MarkerOptions::Validate() const {
+  if (frame_id.empty() || frame_id.front() == '/') {
+    throw std::invalid_argument("frame_id = \"" + frame_id + "\": must not be empty or begin with a slash");
+  }
+  if (!std::isfinite(picture_size) || picture_size < 0.0) {
+    throw std::invalid_argument("picture_size = " + std::to_string(picture_size) + ": must be finite and >= 0");
+  }
+}
+
+SceneMarkers::SceneMarkers(const TraceRequest& request, const MarkerOptions& options)
+    : options_(options), scene_(std::make_shared<const DrawnScene>(request)) {}
+
+bool SceneMarkers::Fits(const msgs::Increment& increment) const { return scene_->Fits(increment); }
+
+double SceneMarkers::LargestForce(const msgs::Increment& increment) const { return scene_->LargestForce(increment); }
+
+visualization_msgs::MarkerArray SceneMarkers::Draw(const msgs::Increment& increment, double largest_force) const {
+  std::ostringstream caption;
+  caption.imbue(std::locale::classic());
+  caption << scene_->name << "   ";
+  if (scene_->has_program) caption << scene_->StageOf(increment).title << "   ";
+  caption << "increment " << increment.index << KindInWords(increment.kind) << "\nload factor "
+          << increment.load_factor;
+  return Draw(increment, largest_force, caption.str());
+}
+
+visualization_msgs::MarkerArray SceneMarkers::DrawInitial() const {
+  const msgs::Increment increment = scene_->Initial();
+  return Draw(increment, LargestForce(increment), scene_->name + "   initial shape");
+}
+
+visualization_msgs::MarkerArray SceneMarkers::Draw(const msgs::Increment& increment, double largest_force,
+                                                   const std::string& caption) const {
+  const DrawnScene& scene = *scene_;
+  NodePlaces places;
+  places.reserve(increment.x.size());
+  for (std::size_t i = 0; i < increment.x.size(); ++i) places.emplace_back(increment.x[i], increment.y[i]);
+  const double full_force = FullForce(largest_force, scene.least_force);
+  MarkerPicture picture(scene.size, scene.detail);
+  DrawObstacles(scene, places, increment, &picture);
+  DrawStructure(scene, places, increment.rotation, &picture);
+  DrawStars(scene, places, &picture);
+  DrawMeshes(scene, places, &picture);
+  DrawSupports(scene, places, &picture);
+  DrawContacts(scene, places, increment, &picture);
+  DrawForces(scene, places, increment, full_force, &picture);
+  DrawCaption(scene, caption, scene.StageOf(increment), full_force, &picture);
+  if (options_.picture_size == 0.0) return picture.Finish(options_.frame_id, Vector2d::Zero(), 1.0);
+  return picture.Finish(options_.frame_id, scene.box.center(), options_.picture_size / scene.size);
 }
 
 }  // namespace contact_path

@@ -14,13 +14,7 @@ namespace {
 
 Scene GridOf(MaterialModel model, PlaneState plane, int nodes, Random* random) {
   Scene scene;
-  Material material;
-  material.name = "m";
-  material.model = model;
-  material.E = 2.6;
-  material.nu = 0.3;
-  if (model == MaterialModel::kCiarletGeymonat) material.a = 0.3;
-  scene.materials = {material};
+  scene.materials = {ElasticMaterial("m", 2.6, 0.3, model)};
   Solid solid;
   solid.material = "m";
   solid.thickness = 0.7;

@@ -332,5 +332,85 @@ class Shapes(QuickPlotTest):
             self.assertLessEqual(np.hypot(*np.vstack((loads, reactions)).T).max(), 0.2001 * view.size)
 
 
+BENT = """scene:
+  name: bent
+  nodes:
+  - {name: a, fixed_x: true, fixed_y: true, fixed_rotation: true}
+  - {name: b, x: 1.0}
+  beams:
+  - {name: leg, nodes: [a, b], EA: 1.0e4, EI: 1.0, segments: 4}
+  groups:
+  - {name: ends, nodes: [leg/3, b]}
+  loads:
+  - {node: b, moment: 6.283185307179586}
+  - {group: ends, moment: -0.5, constant: true}
+  - {group: ends, moment: 0.5, constant: true}
+options:
+  stop: [{quantity: load_factor, when: ">", value: 1.0}]
+"""
+HINGED = """scene:
+  nodes:
+  - {name: a, fixed_x: true, fixed_y: true}
+  - {name: b, x: 1.0, fixed_x: true, fixed_y: true, fixed_rotation: true}
+  beams:
+  - {name: leg, nodes: [a, b], EA: 1.0e4, EI: 1.0, segments: 1, hinged: [true, false]}
+"""
+
+
+class Beams(QuickPlotTest):
+
+    def scene(self, text):
+        name = self.path('scene.yaml')
+        with open(name, 'w') as file:
+            file.write(text)
+        return name
+
+    def test_four_segments_make_a_smooth_circle(self):
+        name = self.scene(BENT)
+        table = self.trace(name, 'bent.csv')
+        structure = plot_shapes.Structure(path_file.read_scene(name))
+        end = min(path_file.read(table).increments, key=lambda increment: abs(increment['load_factor'] - 1.0))
+        shape = plot_shapes.Shape(structure, end)
+        centre = shape.places[1:].mean(axis=0)  # b comes round to a
+        radii = np.hypot(*(shape.beams - centre).reshape(-1, 2).T)
+        np.testing.assert_allclose(radii, radii.mean(), rtol=0.01)
+        points = np.vstack([shape.beams[0, :1]] + [curve[1:] for curve in shape.beams])
+        self.assertEqual(len(points), 4 * structure.beams.steps + 1)
+        steps = np.diff(points, axis=0)
+        turns = np.abs(np.diff(np.unwrap(np.arctan2(*steps.T))))
+        self.assertLess(turns.max(), 1.2 * 2.0 * np.pi / len(steps))  # nowhere a kink
+        self.assertTrue(any(text.startswith('moment, 3/4 turn: 6.') for text in self.texts(table, '--shapes', '--scene', name)))
+
+    def test_stress_free_arc_is_a_circle_with_and_without_hinges(self):
+        for hinged in '[]', '[true, false]', '[true, true]':
+            text = HINGED.replace('segments: 1', 'segments: 3, angle: 2.5').replace('[true, false]', hinged)
+            structure = plot_shapes.Structure(path_file.read_scene(self.scene(text)))
+            curves = structure.beams.curves(structure.initial, np.zeros(len(structure.names)))
+            centre = np.array([0.5, 0.5 / np.tan(1.25)])
+            np.testing.assert_allclose(np.hypot(*(curves - centre).reshape(-1, 2).T), 0.5 / np.sin(1.25), rtol=1e-3)
+
+    def test_hinged_end_is_not_bent(self):
+        structure = plot_shapes.Structure(path_file.read_scene(self.scene(HINGED)))
+        curve = structure.beams.curves(structure.initial, np.array([np.nan, 0.1]))[0]
+        slopes = np.diff(curve[:, 1]) / np.diff(curve[:, 0])
+        self.assertLess(abs(slopes[1] - slopes[0]), 0.1 * abs(slopes[-1] - slopes[-2]))
+        self.assertAlmostEqual(slopes[0], -0.05, delta=1e-3)
+        # The end turns with its node, however often that turns.
+        again = structure.beams.curves(structure.initial, np.array([np.nan, 0.1 + 4.0 * np.pi]))[0]
+        np.testing.assert_allclose(again, curve, atol=1e-12)
+
+    def test_moments_turn_to_the_left_where_they_are_positive(self):
+        structure = plot_shapes.Structure(path_file.read_scene(self.scene(BENT)))
+        loads, constant = structure.loads_by_stage({'load_factor': 0.5})
+        self.assertAlmostEqual(loads[structure.names.index('b'), 2], np.pi)
+        self.assertEqual(np.abs(constant).max(), 0.0)  # those of the group, there and back
+        for turn in 4.0, 0.5, -0.5, -4.0:
+            shaft, head = plot_shapes.turned_arrow(np.array([3.0, 1.0]), 2.0, turn)
+            x, y = (np.vstack((shaft, head[1])) - (3.0, 1.0)).T
+            np.testing.assert_allclose(np.hypot(x, y), 2.0)
+            self.assertTrue(np.all(np.sign(x[:-1] * y[1:] - y[:-1] * x[1:]) == np.sign(turn)), turn)
+            self.assertAlmostEqual(np.ptp(np.unwrap(np.arctan2(y, x))), abs(turn))
+
+
 if __name__ == '__main__':
     unittest.main()

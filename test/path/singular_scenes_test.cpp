@@ -38,6 +38,16 @@ TracedPath TraceData(const std::string& name, Accuracy accuracy) {
   return TraceProved(request);
 }
 
+// As far as the increments of a preset go.
+TracedPath TraceIncrementsOf(const std::string& name, Accuracy accuracy, int most, int most_accurate) {
+  TraceRequest request = ReadData(name);
+  request.options.accuracy = accuracy;
+  request.options.max_increments = accuracy == Accuracy::kAccurate ? most_accurate : most;
+  TracedPath path = TraceProved(request);
+  EXPECT_EQ(path.result.reason, EndReason::kMaxIncrements) << path.result.message;
+  return path;
+}
+
 std::vector<double> Loads(const TracedPath& path, IncrementKind kind) {
   std::vector<double> loads;
   for (const Increment& increment : IncrementsOfKind(path, kind)) loads.push_back(increment.load_factor);
@@ -306,11 +316,7 @@ TEST(SingularScenes, SlackBarsThatAreStraightAtTheStart) {
 // located as well as that admits.
 TEST(SingularScenes, LimitPointWhereRatesAreInexact) {
   for (const Accuracy accuracy : kPresets) {
-    TraceRequest request = ReadData("limit_next_to_sway");
-    request.options.accuracy = accuracy;
-    request.options.max_increments = accuracy == Accuracy::kAccurate ? 500 : 80;
-    const TracedPath path = TraceProved(request);
-    EXPECT_EQ(path.result.reason, EndReason::kMaxIncrements) << path.result.message;
+    const TracedPath path = TraceIncrementsOf("limit_next_to_sway", accuracy, 80, 500);
     const std::vector<double> limits = Loads(path, IncrementKind::kSmoothLimit);
     ASSERT_FALSE(limits.empty());
     EXPECT_NEAR(limits[0], 0.03442360512675670842, 1e-12);
@@ -320,11 +326,7 @@ TEST(SingularScenes, LimitPointWhereRatesAreInexact) {
 // The path of slack bars turns where they become straight, for one of two pairs a little earlier.
 TEST(SingularScenes, TwoSlackPairsBecomeStraightAtNearlyTheSameLoad) {
   for (const Accuracy accuracy : {Accuracy::kBalanced, Accuracy::kAccurate}) {
-    TraceRequest request = ReadData("slack_pairs_become_straight");
-    request.options.accuracy = accuracy;
-    request.options.max_increments = accuracy == Accuracy::kAccurate ? 200 : 80;
-    const TracedPath path = TraceProved(request);
-    EXPECT_EQ(path.result.reason, EndReason::kMaxIncrements) << path.result.message;
+    const TracedPath path = TraceIncrementsOf("slack_pairs_become_straight", accuracy, 80, 200);
     const std::vector<Increment> limits = IncrementsOfKind(path, IncrementKind::kSmoothLimit);
     ASSERT_EQ(limits.size(), 1U);
     EXPECT_NEAR(limits[0].load_factor, 0.018342457360188313772, 1e-13);
@@ -341,11 +343,7 @@ TEST(SingularScenes, TwoSlackPairsBecomeStraightAtNearlyTheSameLoad) {
 TEST(SingularScenes, ContactWithoutAReactionWhereSlackBarsBecomeStraight) {
   const double n3_n4 = std::hypot(0.5, 1.0), n4_n2 = 0.75;
   for (const Accuracy accuracy : kPresets) {
-    TraceRequest request = ReadData("slack_bars_at_a_ceiling");
-    request.options.accuracy = accuracy;
-    request.options.max_increments = accuracy == Accuracy::kAccurate ? 250 : 80;
-    const TracedPath path = TraceProved(request);
-    EXPECT_EQ(path.result.reason, EndReason::kMaxIncrements) << path.result.message;
+    const TracedPath path = TraceIncrementsOf("slack_bars_at_a_ceiling", accuracy, 80, 250);
     const std::vector<Increment> limits = IncrementsOfKind(path, IncrementKind::kSmoothLimit);
     ASSERT_FALSE(limits.empty());
     EXPECT_NEAR(limits[0].load_factor, -0.1003102451, 1e-9);
@@ -398,11 +396,7 @@ TEST(SingularScenes, PathThatCrossesAtALimitPointIsOnRecord) {
 TEST(SingularScenes, TwoTrussesNearlyEqual) {
   const double limit = 2.0 * std::pow(1.0 - std::pow(0.5, 1.0 / 3.0), 1.5);
   for (const Accuracy accuracy : kPresets) {
-    TraceRequest request = ReadData("two_nearly_equal");
-    request.options.accuracy = accuracy;
-    request.options.max_increments = accuracy == Accuracy::kAccurate ? 600 : 150;
-    const TracedPath path = TraceProved(request);
-    EXPECT_EQ(path.result.reason, EndReason::kMaxIncrements) << path.result.message;
+    const TracedPath path = TraceIncrementsOf("two_nearly_equal", accuracy, 150, 600);
     const std::vector<double> limits = Loads(path, IncrementKind::kSmoothLimit);
     ASSERT_GE(limits.size(), 1U);
     EXPECT_NEAR(limits[0], limit, 1e-12);

@@ -18,12 +18,7 @@ namespace {
 TraceRequest Block(int nx, int ny, double width, double height, int nodes,
                    MaterialModel model = MaterialModel::kNeoHookean, PlaneState plane = PlaneState::kStrain) {
   TraceRequest request;
-  Material material;
-  material.name = "m";
-  material.model = model;
-  material.E = 10.0;
-  material.nu = 0.3;
-  request.scene.materials = {material};
+  request.scene.materials = {ElasticMaterial("m", 10.0, 0.3, model)};
   Solid solid;
   solid.name = "block";
   solid.material = "m";

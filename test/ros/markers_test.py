@@ -192,7 +192,7 @@ class MarkersTest(unittest.TestCase):
         self.assertEqual(manager['Views']['Current']['Class'], 'rviz/TopDownOrtho')
 
     def test_layout_of_plotjuggler_plots_numbers_of_the_rows(self):
-        increment = self.increments_of(self.trace(helpers.request_of('sliding_bar')))[-1]
+        increment = self.increments_of(self.trace(helpers.request_of('portal_frame')))[-1]  # contacts and rotations
         curves = list(tree.parse(self.package_file('config', 'plotjuggler.xml')).getroot().iter('curve'))
         self.assertGreater(len(curves), 5)
         for curve in curves:

@@ -14,6 +14,7 @@
 #include <visualization_msgs/Marker.h>
 
 #include "contact_path/scene/lattice.h"
+#include "read_markers.h"
 
 namespace contact_path {
 namespace {
@@ -22,12 +23,6 @@ namespace msgs = contact_path_msgs;
 using Eigen::Vector2d;
 using visualization_msgs::Marker;
 using visualization_msgs::MarkerArray;
-
-MarkerOptions World() {
-  MarkerOptions options;
-  options.frame_id = "world";
-  return options;
-}
 
 constexpr double kRounding = 1e-9;  // of lengths of order 1
 
@@ -88,28 +83,6 @@ msgs::Increment SpringRow(double load_factor) {
   return increment;
 }
 
-const Marker& Find(const MarkerArray& picture, const std::string& name, int id = 0) {
-  for (const Marker& marker : picture.markers) {
-    if (marker.ns == name && marker.id == id) return marker;
-  }
-  throw std::out_of_range(name);
-}
-
-std::vector<Vector2d> Points(const Marker& marker) {
-  std::vector<Vector2d> points;
-  for (const geometry_msgs::Point& point : marker.points) points.emplace_back(point.x, point.y);
-  return points;
-}
-
-// The point that lies farthest from `from`: of an arrow, its tip.
-Vector2d Farthest(const Marker& marker, const Vector2d& from) {
-  Vector2d farthest = from;
-  for (const Vector2d& point : Points(marker)) {
-    if ((point - from).norm() > (farthest - from).norm()) farthest = point;
-  }
-  return farthest;
-}
-
 double ArrowLength(const MarkerArray& picture, const std::string& name, const Vector2d& from, int id = 0) {
   return (Farthest(Find(picture, name, id), from) - from).norm();
 }
@@ -120,35 +93,6 @@ std::vector<Name> Names(const MarkerArray& picture) {
   std::vector<Name> names;
   for (const Marker& marker : picture.markers) names.emplace_back(marker.ns, marker.id, marker.type);
   return names;
-}
-
-// What rviz asks of markers.
-void ExpectSound(const MarkerArray& picture) {
-  for (const Marker& marker : picture.markers) {
-    SCOPED_TRACE(marker.ns + std::to_string(marker.id));
-    EXPECT_EQ(marker.header.frame_id, "world");
-    EXPECT_TRUE(marker.header.stamp.isZero());
-    if (marker.action == Marker::DELETE) continue;
-    EXPECT_EQ(marker.action, Marker::ADD);
-    EXPECT_EQ(marker.pose.orientation.w, 1.0);
-    const bool text = marker.type == Marker::TEXT_VIEW_FACING;
-    const bool lines = marker.type == Marker::LINE_LIST;
-    EXPECT_EQ(marker.scale.x > 0.0, !text);
-    EXPECT_EQ(marker.scale.y > 0.0, !text && !lines);
-    EXPECT_EQ(marker.scale.z > 0.0, !lines);
-    EXPECT_GT(marker.color.a, 0.0F);
-    if (text) {
-      EXPECT_FALSE(marker.text.empty());
-      continue;
-    }
-    const std::size_t group = marker.type == Marker::TRIANGLE_LIST ? 3 : lines ? 2 : 1;
-    EXPECT_FALSE(marker.points.empty());
-    EXPECT_EQ(marker.points.size() % group, 0U);
-    EXPECT_TRUE(marker.colors.empty() || marker.colors.size() == marker.points.size());
-    for (const geometry_msgs::Point& point : marker.points) {
-      EXPECT_TRUE(std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z));
-    }
-  }
 }
 
 TEST(SceneMarkersTest, AnyPictureReplacesAnyOther) {

@@ -25,6 +25,14 @@ KINDS = {'start': Increment.START, 'regular': Increment.REGULAR, 'smooth_limit':
 STATES = {'open': ContactState.OPEN, 'stick': ContactState.STICK, 'slip+': ContactState.SLIP_PLUS,
           'slip-': ContactState.SLIP_MINUS, 'closed': ContactState.CLOSED}
 
+# A group of contacts; the fixed node has none.
+LEG = """
+scene:
+  nodes: [{name: hip, y: 1.0, fixed_x: true, fixed_y: true}, {name: foot}]
+  beams: [{name: leg, nodes: [hip, foot], EA: 1.0, EI: 1.0, segments: 2}]
+  obstacles: [{name: floor, ny: 1.0, friction: 0.5}]
+  contacts: [{group: leg, obstacle: floor}]
+"""
 UNLOADED_BLOCK = """
 scene:
   name: block
@@ -213,13 +221,14 @@ class TraceServiceTest(unittest.TestCase):
             for topic in 'request', 'increments':
                 helpers.wait_until(lambda: helpers.is_subscribed('/late_watcher', '/late/' + topic), 'watch listens')
             helpers.wait_until(lambda: increments.get_num_connections() and requests.get_num_connections(), 'connections')
-            for index, state in enumerate((ContactState.STICK, ContactState.SLIP_PLUS)):
-                increments.publish(Increment(index=index, kind=Increment.REGULAR, contacts=[ContactState(state=state)]))
+            for states in ('STICK', 'OPEN'), ('SLIP_PLUS', 'STICK'):
+                increments.publish(Increment(index=states[0] == 'SLIP_PLUS', kind=Increment.REGULAR, contacts=[
+                    ContactState(state=getattr(ContactState, state)) for state in states]))
             time.sleep(0.3)
-            request = helpers.request_of('sliding_bar')
+            request = helpers.request_from(LEG)
             requests.publish(TraceRequest(scene=request.scene, options=request.options))
             self.assertEqual(watcher.stdout.readline(), 'trace 0\n')
-            self.assertEqual(watcher.stdout.readline().strip(), 'b@floor stick -> slip+')
+            self.assertEqual(watcher.stdout.readline().strip(), 'leg/1@floor stick -> slip+, foot@floor open -> stick')
         finally:
             watcher.kill()
             watcher.communicate()

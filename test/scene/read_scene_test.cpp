@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "contact_path/scene/validate.h"
+#include "support/broken_rule.h"
 
 namespace contact_path {
 namespace {
@@ -195,8 +196,6 @@ TEST_P(BadLineTest, IsReportedAloneWithItsLine) {
   for (std::size_t i = 1; i < violations.size(); ++i) ADD_FAILURE() << "also: " << violations[i].ToLine();
 }
 
-std::string NameOf(const testing::TestParamInfo<BadLine>& test) { return test.param.name; }
-
 const BadLine kUnknownAndRepeatedKeys[] = {
     {"UnknownAtTop", 41, "surprise: 1\noptions:", "surprise", 41, "1",
      "unknown key, must be one of: scene, options, program"},
@@ -222,7 +221,7 @@ const BadLine kUnknownAndRepeatedKeys[] = {
     {"RepeatedInNode", 8, "    x: 1.0", "scene.nodes[1].x", 8, "1.0", "repeated key, first in line 6"},
     {"RepeatedInOptions", 45, "  method: mpec", "options.method", 45, "mpec", "repeated key, first in line 42"},
 };
-INSTANTIATE_TEST_SUITE_P(Keys, BadLineTest, testing::ValuesIn(kUnknownAndRepeatedKeys), NameOf);
+INSTANTIATE_TEST_SUITE_P(Keys, BadLineTest, testing::ValuesIn(kUnknownAndRepeatedKeys), NameOf<BadLine>);
 
 const BadLine kWrongTypes[] = {
     {"TextForNumber", 6, "    x: five", "scene.nodes[1].x", 6, "five", "must be a number"},
@@ -278,7 +277,7 @@ const BadLine kWrongTypes[] = {
     {"TextForMap", 40, "  - c@floor", "scene.contacts[1]", 40, "c@floor", "must be a map with keys of: node, obstacle"},
     {"ListForMap", 40, "  - [c, floor]", "scene.contacts[1]", 40, "a list", "must be a map with keys of"},
 };
-INSTANTIATE_TEST_SUITE_P(Types, BadLineTest, testing::ValuesIn(kWrongTypes), NameOf);
+INSTANTIATE_TEST_SUITE_P(Types, BadLineTest, testing::ValuesIn(kWrongTypes), NameOf<BadLine>);
 
 // The rules of validate.h, each broken in the file.
 const BadLine kRules[] = {
@@ -352,7 +351,7 @@ const BadLine kRules[] = {
     {"WhenMissing", 49, "", "options.stop[0].when", 48, "\"\"", "must be \">\" or \"<\""},
     {"ValueNotFinite", 50, "    value: .inf", "options.stop[0].value", 50, ".inf", "must be finite"},
 };
-INSTANTIATE_TEST_SUITE_P(Rules, BadLineTest, testing::ValuesIn(kRules), NameOf);
+INSTANTIATE_TEST_SUITE_P(Rules, BadLineTest, testing::ValuesIn(kRules), NameOf<BadLine>);
 
 // Rules on whole lists, and the line of the key of the list or of what encloses it.
 TEST(ReadSceneTest, RulesOnListsHaveTheLineOfTheList) {

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,6 +10,7 @@
 #include "contact_path/scene/scaling.h"
 #include "contact_path/scene/validate.h"
 #include "contact_path/scene/write_scene.h"
+#include "support/broken_rule.h"
 #include "support/same_request.h"
 #include "support/solid_grid.h"
 
@@ -20,11 +20,7 @@ namespace {
 // Two cells side by side, held on the left, pulled on the right.
 TraceRequest SoundRequest(int nodes_per_element = 4) {
   TraceRequest request;
-  Material material;
-  material.name = "rubber";
-  material.E = 2.0;
-  material.nu = 0.3;
-  request.scene.materials = {material};
+  request.scene.materials = {ElasticMaterial("rubber", 2.0, 0.3)};
   Solid solid;
   solid.name = "block";
   solid.material = "rubber";
@@ -36,28 +32,9 @@ TraceRequest SoundRequest(int nodes_per_element = 4) {
   return request;
 }
 
-struct BrokenRule {
-  std::string name;
-  std::function<void(TraceRequest&)> change;
-  std::string key;
-  std::string value;
-  std::string rule;  // the start of it
-};
-
 class SolidRules : public testing::TestWithParam<BrokenRule> {};
 
-std::string NameOf(const testing::TestParamInfo<BrokenRule>& test) { return test.param.name; }
-
-TEST_P(SolidRules, ReportsTheBrokenRuleAlone) {
-  TraceRequest request = SoundRequest();
-  GetParam().change(request);
-  const std::vector<Violation> violations = Validate(request);
-  ASSERT_FALSE(violations.empty());
-  EXPECT_EQ(violations[0].key, GetParam().key);
-  EXPECT_EQ(violations[0].value, GetParam().value);
-  EXPECT_EQ(violations[0].rule.substr(0, GetParam().rule.size()), GetParam().rule);
-  for (std::size_t i = 1; i < violations.size(); ++i) ADD_FAILURE() << "also: " << violations[i].ToLine();
-}
+TEST_P(SolidRules, ReportsTheBrokenRuleAlone) { ExpectBrokenAlone(GetParam(), SoundRequest()); }
 
 Material& FirstMaterial(TraceRequest& request) { return request.scene.materials[0]; }
 std::vector<std::string>& FirstNodes(TraceRequest& request) { return request.scene.solids[0].nodes; }
@@ -127,7 +104,7 @@ INSTANTIATE_TEST_SUITE_P(
                    "scene.solids[0].nodes", "element 2 [2_0, 4_0, 4_2, 2_2]", "must be less distorted"},
         BrokenRule{"ThicknessNegative", [](auto& r) { r.scene.solids[0].thickness = -1.0; },
                    "scene.solids[0].thickness", "-1", "must be 0 or positive"}),
-    NameOf);
+    NameOf<BrokenRule>);
 
 TEST(SolidRules, OneLineForAllElementsAtFault) {
   TraceRequest request = SoundRequest();

@@ -3,10 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
-#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
+
+#include "support/broken_rule.h"
 
 namespace contact_path {
 namespace {
@@ -30,34 +31,9 @@ TraceRequest SoundRequest() {
   return request;
 }
 
-// What breaks a rule, and the violation that must come out of it, alone.
-struct BrokenRule {
-  std::string name;
-  std::function<void(TraceRequest&)> change;
-  std::string key;
-  std::string value;
-  std::string rule;  // the start of it
-};
-
-template <typename Case>
-std::string NameOf(const testing::TestParamInfo<Case>& test) {
-  return test.param.name;
-}
-
 class ValidateTest : public testing::TestWithParam<BrokenRule> {};
 
-TEST_P(ValidateTest, ReportsTheBrokenRuleAlone) {
-  TraceRequest request = SoundRequest();
-  GetParam().change(request);
-  const std::vector<Violation> violations = Validate(request);
-  ASSERT_FALSE(violations.empty());
-  EXPECT_EQ(violations[0].key, GetParam().key);
-  EXPECT_EQ(violations[0].value, GetParam().value);
-  EXPECT_EQ(violations[0].rule.substr(0, GetParam().rule.size()), GetParam().rule);
-  EXPECT_EQ(violations[0].file, "");
-  EXPECT_EQ(violations[0].line, 0);
-  for (std::size_t i = 1; i < violations.size(); ++i) ADD_FAILURE() << "also: " << violations[i].ToLine();
-}
+TEST_P(ValidateTest, ReportsTheBrokenRuleAlone) { ExpectBrokenAlone(GetParam(), SoundRequest()); }
 
 const BrokenRule kNodeRules[] = {
     {"NoNodes", [](auto& r) { r = TraceRequest(); }, "scene.nodes", "[]", "at least one node is needed"},

@@ -9,20 +9,10 @@
 
 #include "support/derivative_checker.h"
 #include "support/random.h"
+#include "support/solid_grid.h"
 
 namespace contact_path {
 namespace {
-
-// lambda = 1.5, mu = 1 in all of them; a is within its bounds, 0.125 to 0.5.
-Material Make(MaterialModel model) {
-  Material material;
-  material.name = "m";
-  material.model = model;
-  material.lambda = 1.5;
-  material.mu = 1.0;
-  if (model == MaterialModel::kCiarletGeymonat) material.a = 0.3;
-  return material;
-}
 
 // W of F in the plane and C33, from its definition in three dimensions. Linear: e33 = C33 - 1.
 double EnergyInSpace(const Material& of, const Eigen::Vector4d& F, double C33) {
@@ -52,7 +42,7 @@ double EnergyInSpace(const Material& of, const Eigen::Vector4d& F, double C33) {
 
 class Materials : public testing::TestWithParam<std::tuple<MaterialModel, PlaneState>> {
  protected:
-  const Material material_ = Make(std::get<0>(GetParam()));
+  const Material material_ = LameMaterial(std::get<0>(GetParam()));
   const PlaneState plane_ = std::get<1>(GetParam());
   const PlaneMaterial law_{material_, plane_};
   Random random_{1};
@@ -154,7 +144,7 @@ TEST_P(Materials, NoValueInsideOut) {
 // Uniaxial stress in plane stress is that of a bar: of the neo-Hookean bar with the stretch l and the lateral stretch
 // k, mu (k^2 - 1) + lambda ln(l k^2) = 0 and P = (mu (l^2 - 1) + lambda ln(l k^2)) / l.
 TEST(MaterialClosedForms, UniaxialNeoHookean) {
-  const PlaneMaterial law(Make(MaterialModel::kNeoHookean), PlaneState::kStress);
+  const PlaneMaterial law(LameMaterial(MaterialModel::kNeoHookean), PlaneState::kStress);
   for (const double l : {0.3, 0.7, 1.0, 1.5, 4.0}) {
     double k = 1.0;
     for (int i = 0; i < 100; ++i) k -= (k * k - 1.0 + 1.5 * std::log(l * k * k)) / (2.0 * k + 3.0 / k);
@@ -169,11 +159,11 @@ TEST(MaterialClosedForms, UniaxialNeoHookean) {
 TEST(MaterialClosedForms, SimpleShear) {
   const double g = 0.7;
   for (const MaterialModel model : {MaterialModel::kNeoHookean, MaterialModel::kCiarletGeymonat}) {
-    const PlaneMaterial law(Make(model), PlaneState::kStrain);
+    const PlaneMaterial law(LameMaterial(model), PlaneState::kStrain);
     EXPECT_NEAR(law.Energy({1.0, g, 0.0, 1.0}), 0.5 * g * g, 1e-15);
     EXPECT_NEAR(law.Stress({1.0, g, 0.0, 1.0})[1], g, 1e-15);
   }
-  const PlaneMaterial law(Make(MaterialModel::kStVenantKirchhoff), PlaneState::kStrain);
+  const PlaneMaterial law(LameMaterial(MaterialModel::kStVenantKirchhoff), PlaneState::kStrain);
   EXPECT_NEAR(law.Energy({1.0, g, 0.0, 1.0}), 0.5 * g * g + (1.5 / 8.0 + 0.25) * g * g * g * g, 1e-15);
 }
 

@@ -21,16 +21,6 @@ namespace {
 
 constexpr double kThickness = 0.7;
 
-Material MakeMaterial(MaterialModel model) {
-  Material material;
-  material.name = "m";
-  material.model = model;
-  material.lambda = 1.5;
-  material.mu = 1.0;
-  if (model == MaterialModel::kCiarletGeymonat) material.a = 0.3;
-  return material;
-}
-
 // Distorted elements, those of six and eight nodes with bent sides.
 Eigen::VectorXd Shape(int nodes) {
   Eigen::VectorXd x(2 * nodes);
@@ -68,7 +58,7 @@ using Kind = std::tuple<int, MaterialModel, PlaneState>;
 class Solids : public testing::TestWithParam<Kind> {
  protected:
   const int nodes_ = std::get<0>(GetParam());
-  const Material material_ = MakeMaterial(std::get<1>(GetParam()));
+  const Material material_ = LameMaterial(std::get<1>(GetParam()));
   const PlaneState plane_ = std::get<2>(GetParam());
   const PlaneMaterial law_{material_, plane_};
   const Eigen::VectorXd rest_ = Shape(nodes_);

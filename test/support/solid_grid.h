@@ -14,6 +14,28 @@
 
 namespace contact_path {
 
+// E: Young's modulus. a of a Ciarlet-Geymonat material is 0.3 times the shear modulus, within its bounds from nu =
+// 0.23.
+inline Material ElasticMaterial(const std::string& name, double E, double nu,
+                                MaterialModel model = MaterialModel::kNeoHookean) {
+  Material material;
+  material.name = name;
+  material.model = model;
+  material.E = E;
+  material.nu = nu;
+  if (model == MaterialModel::kCiarletGeymonat) material.a = 0.3 * E / (2.0 * (1.0 + nu));
+  return material;
+}
+
+// With lambda = 1.5 and mu = 1.
+inline Material LameMaterial(MaterialModel model) {
+  Material material = ElasticMaterial("m", 2.6, 0.3, model);
+  material.E = material.nu = 0.0;
+  material.lambda = 1.5;
+  material.mu = 1.0;
+  return material;
+}
+
 // A mesh of nx x ny cells over the unit square, mapped by `place`. A node at (i / 2 nx, j / 2 ny) has the name "i_j":
 // corners of cells have even numbers, mid-sides odd ones. Triangles halve the cells. solid: what it is made of, and
 // nodes_per_element.

@@ -1,0 +1,262 @@
+#include "ros/drawn_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+
+#include "contact_path/path/stop.h"
+#include "contact_path/scene/cell.h"
+#include "contact_path/scene/configuration.h"
+#include "contact_path/scene/elasticity.h"
+#include "contact_path/scene/expand.h"
+#include "contact_path/scene/one_line.h"
+#include "contact_path/scene/program.h"
+#include "contact_path/scene/quantity.h"
+#include "contact_path/scene/scaling.h"
+#include "contact_path/structure/scene_elements.h"
+
+namespace contact_path {
+namespace {
+
+namespace msgs = contact_path_msgs;
+using Eigen::Vector2d;
+
+constexpr double kFarthestStop = 5.0;  // in parts of the scene's size
+
+// Energy per volume of a solid, of Young's modulus, that has the darkest colour.
+constexpr double kFullEnergy = 0.01;
+
+constexpr double kRounding = 1e-6;  // of sums of unit vectors
+
+// Where an element holds its first node; at the start, unless its description tells.
+template <typename Part>
+Vector2d RestOfFirstNode(const Part&, const Vector2d& start) {
+  return start;
+}
+Vector2d RestOfFirstNode(const Superelement& element, const Vector2d& start) {
+  const std::vector<double>& rest = element.rest_positions;
+  return rest.empty() ? start : Vector2d(rest[0], rest[1]);
+}
+
+}  // namespace
+
+Vector2d MiddleOf(const std::vector<std::size_t>& nodes, const NodePlaces& places) {
+  Vector2d sum = Vector2d::Zero();
+  for (const std::size_t node : nodes) sum += places[node];
+  return sum / static_cast<double>(nodes.size());
+}
+
+DrawnScene::DrawnScene(const TraceRequest& request_given) : name(OneLine(request_given.scene.name)) {
+  const ExpandedRequest expanded(request_given);
+  const TraceRequest& request = expanded.Get();
+  const Scene& scene = request.scene;
+  const SceneIndex index(scene);
+  for (const Node& node : scene.nodes) {
+    initial.emplace_back(node.x, node.y);
+    box.extend(initial.back());
+  }
+  inner.assign(initial.size(), false);
+  AddElements(scene, index);
+  FindSupports(scene);
+  for (const ContactCandidate& contact : scene.contacts) {
+    contacts.push_back({index.Node(contact.node), index.Obstacle(contact.obstacle)});
+  }
+  AddStages(request, index);
+
+  const Scaling scales = StageScales(request, index, 0, ProgramScales(request, index));
+  ExtendBox(request, index, kFarthestStop * std::max(box.diagonal().norm(), scales.length));
+  const double diagonal = box.diagonal().norm();
+  size = diagonal > 0.0 ? diagonal : scales.length;
+  detail = std::min(0.025 * size, bars.empty() && segments.empty() ? size : 0.12 * scales.length);
+  if (!cells.empty()) detail = std::min(detail, 0.12 * CellSize());
+  least_force = 1e-3 * scales.force;
+}
+
+void DrawnScene::AddElements(const Scene& scene, const SceneIndex& index) {
+  ForEachElementList(scene, [&](std::string_view, const auto& elements) {
+    using Part = typename std::decay_t<decltype(elements)>::value_type;
+    for (const Part& element : elements) {
+      if constexpr (std::is_same_v<Part, Solid>) {
+        AddMesh(element, scene, index);
+      } else if constexpr (std::is_same_v<Part, Beam>) {
+        AddBeam(element, index);
+      } else if constexpr (Fields<Part>::kNodes == 2) {
+        bars.push_back({index.Node(element.nodes[0]), index.Node(element.nodes[1])});
+      } else {
+        std::vector<std::size_t>& members = stars.emplace_back();
+        for (const std::string& node : element.nodes) members.push_back(index.Node(node));
+        rest.push_back(RestOfFirstNode(element, initial[members[0]]));
+      }
+    }
+  });
+}
+
+void DrawnScene::AddBeam(const Beam& beam, const SceneIndex& index) {
+  const std::size_t count = beam.nodes.size() - 1;
+  for (std::size_t i = 0; i < count; ++i) {
+    DrawnSegment& segment = segments.emplace_back();
+    segment.nodes = {index.Node(beam.nodes[i]), index.Node(beam.nodes[i + 1])};
+    segment.chord = initial[segment.nodes[1]] - initial[segment.nodes[0]];
+    segment.turn = beam.angle / static_cast<double>(count);
+    segment.hinged = {!TurnsNode(beam, i), !TurnsNode(beam, i + 1)};
+    if (i > 0) inner[segment.nodes[0]] = true;
+  }
+}
+
+void DrawnScene::AddMesh(const Solid& solid, const Scene& scene, const SceneIndex& index) {
+  const double modulus = YoungModulus(LameOf(scene.materials[index.Material(solid.material)]));
+  for (PlacedElement& placed : MakeSolidElements(solid, scene, index, Configuration::Of(scene).reference)) {
+    DrawnCell cell;
+    cell.nodes.assign(placed.nodes.begin(), placed.nodes.end());
+    for (const std::size_t local : CellBoundary(cell.nodes.size())) cell.boundary.push_back(cell.nodes[local]);
+    std::vector<double> positions;
+    for (const std::size_t node : cell.nodes) positions.insert(positions.end(), {initial[node].x(), initial[node].y()});
+    for (const PlacedPoint& point : PlacePoints(positions)) cell.area += point.area;
+    cell.element = std::move(placed.element);
+    cell.full_energy = kFullEnergy * modulus * cell.area * solid.Thickness();
+    cells.push_back(std::move(cell));
+  }
+}
+
+double DrawnScene::CellSize() const {
+  double area = 0.0;
+  for (const DrawnCell& cell : cells) area += cell.area;
+  return std::sqrt(area / static_cast<double>(cells.size()));
+}
+
+void DrawnScene::AddStages(const TraceRequest& request, const SceneIndex& index) {
+  const Scene& scene = request.scene;
+  // What a stage begins with: of the scene, and what the stages before have brought on.
+  DrawnStage now;
+  NodePlaces places = initial;
+  const auto add_loads = [&](const std::vector<Load>& loads, DrawnStage* parts) {
+    for (const Load& load : loads)
+      parts->loads.push_back({index.Node(load.node), Vector2d(load.fx, load.fy), load.moment, load.constant});
+  };
+  const auto add_stage = [&](const std::vector<ObstacleMotion>& motions) -> DrawnStage& {
+    DrawnStage& parts = stages.emplace_back(now);
+    for (const ObstacleMotion& motion : motions)
+      parts.obstacles[index.Obstacle(motion.obstacle)].motion += Vector2d(motion.dx, motion.dy);
+    return parts;
+  };
+  add_loads(scene.loads, &now);
+  for (const Obstacle& obstacle : scene.obstacles) {
+    DrawnObstacle& drawn = now.obstacles.emplace_back();
+    drawn.surface = MakeSurface(obstacle);
+    drawn.point = {obstacle.px, obstacle.py};
+    drawn.friction = obstacle.friction;
+  }
+
+  has_program = !request.program.empty();
+  if (!has_program) add_stage(scene.obstacle_motions);
+  for (std::size_t i = 0; i < request.program.size(); ++i) {
+    const Stage stage = StageAsTraced(request, i);
+    DrawnStage& parts = add_stage(stage.obstacle_motions);
+    parts.title = stage.name.empty() ? "stage " + std::to_string(stages.size()) : OneLine(stage.name);
+    const double target = stage.Target();
+    if (stage.unload) {
+      for (std::size_t k = scene.loads.size(); k < now.loads.size(); ++k) {
+        parts.loads[k].taken_back = true;
+        now.loads[k].force *= 1.0 - target;
+        now.loads[k].moment *= 1.0 - target;
+      }
+    } else {
+      add_loads(stage.loads, &parts);
+      for (const Load& load : stage.loads)
+        now.loads.push_back(
+            {index.Node(load.node), target * Vector2d(load.fx, load.fy), target * load.moment, /*constant=*/true});
+    }
+    for (const ObstacleMotion& motion : stage.obstacle_motions)
+      now.obstacles[index.Obstacle(motion.obstacle)].shift += target * Vector2d(motion.dx, motion.dy);
+    for (const SupportMotion& motion : stage.support_motions) {
+      Vector2d& place = places[index.Node(motion.node)];
+      place += target * Vector2d(motion.dx, motion.dy);
+      box.extend(place);
+    }
+  }
+
+  for (std::size_t i = 0; i < scene.obstacles.size(); ++i) {
+    const bool moves = std::any_of(stages.begin(), stages.end(),
+                                   [i](const DrawnStage& stage) { return !stage.obstacles[i].motion.isZero(0.0); });
+    for (DrawnStage& stage : stages) stage.obstacles[i].moves = moves;
+  }
+}
+
+// The ground is where no bars are, as far as the fixed components let it be.
+void DrawnScene::FindSupports(const Scene& scene) {
+  NodePlaces inwards(initial.size(), Vector2d::Zero());
+  const auto join = [&](std::size_t a, std::size_t b) {
+    const Vector2d along = (initial[b] - initial[a]).stableNormalized();
+    inwards[a] += along;
+    inwards[b] -= along;
+  };
+  for (const auto& [a, b] : bars) join(a, b);
+  for (const DrawnSegment& segment : segments) join(segment.nodes[0], segment.nodes[1]);
+  for (const DrawnCell& cell : cells) {
+    const Vector2d middle = MiddleOf(cell.nodes, initial);
+    for (const std::size_t node : cell.nodes) inwards[node] += (middle - initial[node]).stableNormalized();
+  }
+  for (std::size_t i = 0; i < initial.size(); ++i) {
+    const Node& node = scene.nodes[i];
+    if (!node.fixed_x && !node.fixed_y) continue;
+    NodePlaces directions;
+    if (node.fixed_y) directions = {{0.0, -1.0}, {0.0, 1.0}};
+    if (node.fixed_x) directions.insert(directions.end(), {{-1.0, 0.0}, {1.0, 0.0}});
+    Vector2d ground = directions.front();
+    for (const Vector2d& direction : directions) {
+      if (direction.dot(inwards[i]) < ground.dot(inwards[i]) - kRounding) ground = direction;
+    }
+    supports.push_back({i, ground, !(node.fixed_x && node.fixed_y)});
+  }
+}
+
+// By the places that nodes are to reach: where stop criteria lie, unless that is farther than `reach` from the start.
+void DrawnScene::ExtendBox(const TraceRequest& request, const SceneIndex& index, double reach) {
+  const std::vector<Quantity> quantities = StopQuantities(request, index);
+  for (std::size_t i = 0; i < quantities.size(); ++i) {
+    const Quantity& quantity = quantities[i];
+    if (!quantity.IsOfNode()) continue;
+    const Vector2d& start = initial[quantity.part];
+    Vector2d place = start;
+    (quantity.kind == Quantity::Kind::kX ? place.x() : place.y()) = request.options.stop[i].value;
+    if ((place - start).norm() <= reach) box.extend(place);
+  }
+}
+
+const DrawnStage& DrawnScene::StageOf(const msgs::Increment& increment) const {
+  return stages[has_program ? increment.stage - 1 : 0];
+}
+
+bool DrawnScene::Fits(const msgs::Increment& increment) const {
+  const bool of_a_stage = has_program ? increment.stage >= 1 && increment.stage <= stages.size() : increment.stage == 0;
+  return of_a_stage && increment.x.size() == initial.size() && increment.y.size() == initial.size() &&
+         (segments.empty() || increment.rotation.size() == initial.size()) &&
+         increment.contacts.size() == contacts.size();
+}
+
+double DrawnScene::LargestForce(const msgs::Increment& increment) const {
+  double largest = 0.0;
+  for (const DrawnLoad& load : StageOf(increment).loads) {
+    const double share = std::abs(load.Share(increment.load_factor));
+    largest = std::max({largest, share * load.force.norm(), share * std::abs(load.moment) / size});
+  }
+  for (const msgs::ContactState& contact : increment.contacts)
+    largest = std::max(largest, std::hypot(contact.rn, contact.rt));
+  return largest;
+}
+
+msgs::Increment DrawnScene::Initial() const {
+  msgs::Increment increment;
+  increment.stage = has_program ? 1 : 0;
+  for (const Vector2d& place : initial) {
+    increment.x.push_back(place.x());
+    increment.y.push_back(place.y());
+  }
+  increment.rotation.resize(segments.empty() ? 0 : initial.size());
+  increment.contacts.resize(contacts.size());
+  return increment;
+}
+
+}  // namespace contact_path

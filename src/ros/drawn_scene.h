@@ -1,0 +1,119 @@
+// What the markers draw of a request: its parts by index, stage by stage, and the size of the picture.
+#ifndef CONTACT_PATH_SRC_ROS_DRAWN_SCENE_H_
+#define CONTACT_PATH_SRC_ROS_DRAWN_SCENE_H_
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "contact_path/ros/messages.h"
+#include "contact_path/scene/scene.h"
+#include "contact_path/scene/scene_index.h"
+#include "contact_path/scene/surface.h"
+#include "contact_path/structure/element.h"
+#include "ros/beam_curve.h"
+
+namespace contact_path {
+
+using NodePlaces = std::vector<Eigen::Vector2d>;  // by node
+
+struct DrawnSupport {
+  std::size_t node = 0;
+  Eigen::Vector2d ground = Eigen::Vector2d::Zero();  // direction to it, of unit length
+  bool slides = false;                               // along the ground
+};
+
+// An element of a solid.
+struct DrawnCell {
+  std::vector<std::size_t> boundary;  // its nodes, counterclockwise
+  std::shared_ptr<const Element> element;
+  std::vector<std::size_t> nodes;  // in the order of the element
+  double area = 0.0;               // at the start [length^2]
+  double full_energy = 1.0;        // that has the darkest colour [force length]
+};
+
+struct DrawnLoad {
+  std::size_t node = 0;
+  Eigen::Vector2d force = Eigen::Vector2d::Zero();
+  double moment = 0.0;  // counterclockwise
+  bool constant = false;
+  bool taken_back = false;  // by this stage, in proportion to the load factor
+
+  double Share(double load_factor) const { return constant ? (taken_back ? 1.0 - load_factor : 1.0) : load_factor; }
+};
+
+struct DrawnObstacle {
+  std::shared_ptr<const Surface> surface;
+  Eigen::Vector2d point = Eigen::Vector2d::Zero();   // that the strokes keep to, before it has moved
+  Eigen::Vector2d shift = Eigen::Vector2d::Zero();   // at load factor 0
+  Eigen::Vector2d motion = Eigen::Vector2d::Zero();  // per unit of the load factor
+  double friction = 0.0;
+  bool moves = false;  // in any stage
+
+  Projection ProjectAt(double load_factor, const Eigen::Vector2d& x) const {
+    return surface->Project(x - shift - load_factor * motion);
+  }
+};
+
+struct DrawnCandidate {
+  std::size_t node = 0;
+  std::size_t obstacle = 0;
+};
+
+// Of a stage; without a program there is one.
+struct DrawnStage {
+  std::string title;
+  std::vector<DrawnLoad> loads;
+  std::vector<DrawnObstacle> obstacles;
+};
+
+Eigen::Vector2d MiddleOf(const std::vector<std::size_t>& nodes, const NodePlaces& places);
+
+struct DrawnScene {
+  // `request` must be sound (validate.h).
+  explicit DrawnScene(const TraceRequest& request);
+
+  // Whether the increment is of a stage of the request and has as many positions and contacts as the scene.
+  bool Fits(const contact_path_msgs::Increment& increment) const;
+  const DrawnStage& StageOf(const contact_path_msgs::Increment& increment) const;
+  // The largest of all loads and reactions; a moment counts as a force at the distance of the size [force].
+  double LargestForce(const contact_path_msgs::Increment& increment) const;
+  // The increment before the first: the initial shape, without reactions and with all contacts open.
+  contact_path_msgs::Increment Initial() const;
+
+  std::string name;
+  bool has_program = false;
+  NodePlaces initial;
+  std::vector<bool> inner;                       // by node: between the ends of a beam
+  std::vector<std::array<std::size_t, 2>> bars;  // elements of two nodes
+  std::vector<DrawnSegment> segments;            // of beams
+  std::vector<std::vector<std::size_t>> stars;   // elements of any other number of nodes
+  std::vector<Eigen::Vector2d> rest;             // by star: of its first node
+  std::vector<DrawnCell> cells;                  // elements of solids
+  std::vector<DrawnSupport> supports;
+  std::vector<DrawnCandidate> contacts;
+  std::vector<DrawnStage> stages;
+
+  Eigen::AlignedBox2d box;   // of the initial shape, and of where stop criteria and moving supports lead
+  double size = 1.0;         // of the scene: the diagonal of the box [length]
+  double detail = 1.0;       // diameter of a node; the smaller the bars, the smaller [length]
+  double least_force = 1.0;  // arrow of full length at first [force]
+
+ private:
+  void AddElements(const Scene& scene, const SceneIndex& index);
+  void AddBeam(const Beam& beam, const SceneIndex& index);
+  void AddMesh(const Solid& solid, const Scene& scene, const SceneIndex& index);
+  void AddStages(const TraceRequest& request, const SceneIndex& index);
+  void FindSupports(const Scene& scene);
+  void ExtendBox(const TraceRequest& request, const SceneIndex& index, double reach);
+  // Root of the mean area of the elements of solids.
+  double CellSize() const;
+};
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_SRC_ROS_DRAWN_SCENE_H_
