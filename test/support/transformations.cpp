@@ -83,6 +83,7 @@ void FlipTangent(ContactRecord* contact) {
 
 TraceRequest ChangeUnits(TraceRequest request, double length, double force) {
   const UnitSizes sizes = {1.0 / length, 1.0 / force, 1.0};
+  for (Solid& solid : request.scene.solids) solid.thickness = solid.Thickness();  // 0 is 1 in any unit
   ChangeUnits(&request, sizes);
   for (StopCriterion& criterion : request.options.stop)
     criterion.value /= SizeOf(UnitOf(ReadQuantity(criterion.quantity)->kind), sizes);
