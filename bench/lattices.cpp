@@ -1,7 +1,13 @@
 #include "lattices.h"
 
+#include <cholmod.h>
+
+#include <Eigen/CholmodSupport>
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <string>
+#include <utility>
 
 #include "contact_path/equations/fixed_state_system.h"
 
@@ -9,6 +15,18 @@ namespace contact_path {
 namespace {
 
 constexpr Eigen::Index kFewEntries = 64;
+constexpr int kSegments = 4;
+
+std::string NameAt(int column, int row) { return "n" + std::to_string(column) + "_" + std::to_string(row); }
+
+Beam BeamBetween(std::string first, std::string second) {
+  Beam beam;
+  beam.nodes = {std::move(first), std::move(second)};
+  beam.EA = 1e4;
+  beam.EI = 1.0;
+  beam.segments = kSegments;
+  return beam;
+}
 
 }  // namespace
 
@@ -32,6 +50,74 @@ TraceRequest BlockOf(int dofs, int contacts, double gap) {
   TraceRequest request = LatticeRequest(options);
   request.scene.obstacles.front().py = -gap;
   return request;
+}
+
+TraceRequest FrameOf(int dofs) {
+  // Of each cell a joint, a column and a beam.
+  const int per_cell = 3 * (1 + 2 * (kSegments - 1));
+  const int cells = std::max(1, static_cast<int>(std::lround(std::sqrt(static_cast<double>(dofs) / per_cell))));
+  TraceRequest request;
+  Scene& scene = request.scene;
+  for (int row = 0; row <= cells; ++row)
+    for (int column = 0; column <= cells; ++column) {
+      const bool ground = row == 0;
+      scene.nodes.push_back({NameAt(column, row), 1.0 * column, 1.0 * row, ground, ground, ground});
+      if (ground) continue;
+      scene.beams.push_back(BeamBetween(NameAt(column, row - 1), NameAt(column, row)));
+      if (column > 0) scene.beams.push_back(BeamBetween(NameAt(column - 1, row), NameAt(column, row)));
+      if (column == 0) scene.loads.push_back({NameAt(column, row), 1.0, 0.0});
+    }
+  return request;
+}
+
+TraceRequest SolidOf(int cells, MaterialModel model, PlaneState plane) {
+  TraceRequest request;
+  Scene& scene = request.scene;
+  Material material;
+  material.name = "m";
+  material.model = model;
+  material.E = 1.0;
+  material.nu = 0.3;
+  scene.materials = {material};
+  Solid solid;
+  solid.material = "m";
+  solid.plane = plane;
+  solid.nodes_per_element = 4;
+  const double side = 1.0 / cells;
+  for (int row = 0; row <= cells; ++row)
+    for (int column = 0; column <= cells; ++column) {
+      const bool held = column == 0;
+      scene.nodes.push_back({NameAt(column, row), side * column, side * row, held, held});
+      if (column == cells) scene.loads.push_back({NameAt(column, row), 0.0, -side});
+      if (row == 0 || column == 0) continue;
+      for (const std::string& name :
+           {NameAt(column - 1, row - 1), NameAt(column, row - 1), NameAt(column, row), NameAt(column - 1, row)})
+        solid.nodes.push_back(name);
+    }
+  scene.solids = {solid};
+  return request;
+}
+
+double CholmodTime(const Structure& structure, const Eigen::VectorXd& u) {
+  using Clock = std::chrono::steady_clock;
+  Eigen::SparseMatrix<double> tangent = structure.TangentPattern();
+  structure.Tangent(u, &tangent);
+  cholmod_common common;
+  cholmod_start(&common);
+  common.nmethods = 1;
+  common.method[0].ordering = CHOLMOD_METIS;
+  common.supernodal = CHOLMOD_SUPERNODAL;
+  cholmod_sparse matrix = Eigen::viewAsCholmod(std::as_const(tangent).selfadjointView<Eigen::Lower>());
+  cholmod_factor* factor = cholmod_analyze(&matrix, &common);
+  double least = 1e9;
+  for (int i = 0; i < 3; ++i) {
+    const Clock::time_point start = Clock::now();
+    cholmod_factorize(&matrix, factor, &common);
+    least = std::min(least, std::chrono::duration<double>(Clock::now() - start).count());
+  }
+  cholmod_free_factor(&factor, &common);
+  cholmod_finish(&common);
+  return least;
 }
 
 Eigen::SparseMatrix<double> BorderedMatrix(const Model& model, ContactState state) {

@@ -1,4 +1,4 @@
-// Lattice scenes of a wanted size for the benchmarks, and the linear system of their increments.
+// Lattices, frames and solids of a wanted size for the benchmarks, and the linear systems of their increments.
 #ifndef CONTACT_PATH_BENCH_LATTICES_H_
 #define CONTACT_PATH_BENCH_LATTICES_H_
 
@@ -15,6 +15,18 @@ TraceRequest WallOf(int dofs, int far_candidates = 0);
 // A square block of about `dofs` degrees of freedom above a rough floor, at a distance of `gap` cells. contacts: 0 = a
 // candidate for each node of the edge.
 TraceRequest BlockOf(int dofs, int contacts, double gap);
+
+// A frame of as many bays as storeys, of squares of side 1, with about `dofs` degrees of freedom, clamped at the
+// ground and pushed sideways at each storey. Each beam has four segments and EA L^2 / EI = 10^4.
+TraceRequest FrameOf(int dofs);
+
+// A square block of elements of four nodes, held at its left edge and pushed down at its right one. cells: along a
+// side.
+TraceRequest SolidOf(int cells, MaterialModel model, PlaneState plane);
+
+// Least of three factorisations of the tangent at u by CHOLMOD, supernodal and ordered by METIS, ordered and analysed
+// before [s].
+double CholmodTime(const Structure& structure, const Eigen::VectorXd& u);
 
 // M' of linear/bordered_solver.h at the initial configuration, all candidates touching in this state; square. The
 // last row has few entries, as large systems have it.

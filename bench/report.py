@@ -142,6 +142,24 @@ def scaling(results, figures):
                  cells) + text
 
 
+def parts(results):
+    cells = []
+    for what, name in (('FrameIncrement', 'frame'), ('SolidIncrement', 'solid')):
+        for entry in scale_entries(results, 'openblas-serial', what):
+            cells.append([name, '%d' % entry['dofs'], number(entry['real_time']), number(entry['factorisations']),
+                          number(entry['per_cholmod']), number(entry['peak_MiB'])])
+    return table(['structure', 'dofs', 'increment [ms]', 'factorisations', 'increment / CHOLMOD', 'peak memory [MiB]'], cells)
+
+
+def assembly(results):
+    materials, planes = {'0': 'neo_hookean', '3': 'linear'}, ('strain', 'stress')
+    rows = []
+    for entry in read_benchmarks(results / 'assembly.json'):
+        _, material, plane = entry['name'].split('/')[:3]
+        rows.append([materials[material], planes[int(plane)], number(entry['real_time']), number(entry['per_cholmod'])])
+    return table(['material', 'plane', 'assembly [ms]', 'assembly / CHOLMOD'], rows)
+
+
 def sliding(results):
     cells = []
     for blas, name in BLAS:
@@ -214,11 +232,12 @@ def main():
     results, bench = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
     figures = bench / 'figures'
     figures.mkdir(exist_ok=True)
-    parts = {'trade': trade(results, figures), 'scaling': scaling(results, figures), 'sliding': sliding(results), 'mpec': mpec(results), 'contact': contact(results),
-             'far': far(results), 'solvers': solvers(results), 'models': models(results), 'streaming': streaming(results)}
+    tables = {'trade': trade(results, figures), 'scaling': scaling(results, figures), 'sliding': sliding(results), 'parts': parts(results),
+              'assembly': assembly(results), 'mpec': mpec(results), 'contact': contact(results),
+              'far': far(results), 'solvers': solvers(results), 'models': models(results), 'streaming': streaming(results)}
     readme = bench / 'README.md'
     text = readme.read_text()
-    for name, part in parts.items():
+    for name, part in tables.items():
         begin, end = '<!-- %s -->\n' % name, '<!-- end of %s -->' % name
         before, rest = text.split(begin)
         text = before + begin + part + end + rest.split(end)[1]

@@ -1,23 +1,21 @@
 // What increments and events of large structures cost, in factorisations of their tangent by CHOLMOD as it is set up
 // best: supernodal, ordered by METIS. A square lattice beside a rough floor, with a candidate for each node of its
-// edge.
+// edge; a frame and a solid without contact.
 #include <benchmark/benchmark.h>
-#include <cholmod.h>
 #include <sys/resource.h>
 
-#include <Eigen/CholmodSupport>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "contact_path/branch/smooth_arc.h"
 #include "contact_path/linear/blas.h"
 #include "contact_path/path/branch_method.h"
 #include "contact_path/path/mpec_method.h"
+#include "contact_path/scene/expand.h"
 #include "lattices.h"
 
 namespace contact_path {
@@ -36,28 +34,6 @@ double PeakMebibytes() {
   return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
-// Least of three factorisations of the tangent at u, ordered and analysed before [s].
-double CholmodTime(const Structure& structure, const Eigen::VectorXd& u) {
-  Eigen::SparseMatrix<double> tangent = structure.TangentPattern();
-  structure.Tangent(u, &tangent);
-  cholmod_common common;
-  cholmod_start(&common);
-  common.nmethods = 1;
-  common.method[0].ordering = CHOLMOD_METIS;
-  common.supernodal = CHOLMOD_SUPERNODAL;
-  cholmod_sparse matrix = Eigen::viewAsCholmod(std::as_const(tangent).selfadjointView<Eigen::Lower>());
-  cholmod_factor* factor = cholmod_analyze(&matrix, &common);
-  double least = 1e9;
-  for (int i = 0; i < 3; ++i) {
-    const Clock::time_point start = Clock::now();
-    cholmod_factorize(&matrix, factor, &common);
-    least = std::min(least, Seconds(start));
-  }
-  cholmod_free_factor(&factor, &common);
-  cholmod_finish(&common);
-  return least;
-}
-
 void Report(const Model& model, const PathPoint& point, double time, double peak, benchmark::State* state) {
   state->SetIterationTime(time);
   const double cholmod = CholmodTime(model.structure, point.u);
@@ -70,9 +46,9 @@ void Report(const Model& model, const PathPoint& point, double time, double peak
 }
 
 // Mean of the regular increments before the first contact touches, or mean of the first events.
-void AlongThePath(benchmark::State& state, double gap, bool events) {
+void AlongThePath(const TraceRequest& given, bool events, benchmark::State& state) {
   const OneBlasThread one_thread;
-  const TraceRequest request = BlockOf(static_cast<int>(state.range(0)), 0, gap);
+  const TraceRequest request = Expand(given).request;
   const Model model(request.scene, CharacteristicScales(request.scene));
   for (auto iteration : state) {
     BranchMethod method(model, BranchOptions::For(request.options, model.structure.NumDofs()), nullptr);
@@ -99,8 +75,36 @@ void AlongThePath(benchmark::State& state, double gap, bool events) {
   }
 }
 
-void SmoothIncrement(benchmark::State& state) { AlongThePath(state, 5.0, false); }
-void Event(benchmark::State& state) { AlongThePath(state, kNear, true); }
+int Size(const benchmark::State& state) { return static_cast<int>(state.range(0)); }
+
+void SmoothIncrement(benchmark::State& state) { AlongThePath(BlockOf(Size(state), 0, 5.0), false, state); }
+void Event(benchmark::State& state) { AlongThePath(BlockOf(Size(state), 0, kNear), true, state); }
+void FrameIncrement(benchmark::State& state) { AlongThePath(FrameOf(Size(state)), false, state); }
+void SolidIncrement(benchmark::State& state) {
+  const int cells = static_cast<int>(std::lround(std::sqrt(0.5 * Size(state))));
+  AlongThePath(SolidOf(cells, MaterialModel::kNeoHookean, PlaneState::kStrain), false, state);
+}
+
+// Assembly of the tangent of 10^4 elements of four nodes, away from their start.
+void Assembly(benchmark::State& state) {
+  constexpr int kCells = 100;
+  const OneBlasThread one_thread;
+  const auto model_of_material = static_cast<MaterialModel>(state.range(0));
+  const TraceRequest request = SolidOf(kCells, model_of_material, static_cast<PlaneState>(state.range(1)));
+  const Model model(request.scene, CharacteristicScales(request.scene));
+  PathPoint point = model.InitialPoint();
+  for (Eigen::Index i = 0; i < point.u.size(); ++i) point.u[i] += 1e-4 * std::sin(1.7 * static_cast<double>(i));
+  Eigen::SparseMatrix<double> tangent = model.structure.TangentPattern();
+  for (auto iteration : state) {
+    double least = 1e9;
+    for (int i = 0; i < 3; ++i) {  // as often as CHOLMOD
+      const Clock::time_point start = Clock::now();
+      model.structure.Tangent(point.u, &tangent);
+      least = std::min(least, Seconds(start));
+    }
+    Report(model, point, least, PeakMebibytes(), &state);
+  }
+}
 
 // A start with so many contacts that touch without a reaction: any of them can open, stick or slide.
 void EventOfContacts(benchmark::State& state) {
@@ -176,6 +180,26 @@ BENCHMARK(SmoothIncrement)
     ->Arg(10000)
     ->Arg(100000)
     ->Arg(1000000)
+    ->UseManualTime()
+    ->Iterations(1)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(FrameIncrement)
+    ->Arg(1000)
+    ->Arg(10000)
+    ->Arg(100000)
+    ->UseManualTime()
+    ->Iterations(1)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(SolidIncrement)
+    ->Arg(1000)
+    ->Arg(10000)
+    ->Arg(100000)
+    ->UseManualTime()
+    ->Iterations(1)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(Assembly)
+    ->ArgsProduct({{static_cast<int>(MaterialModel::kLinear), static_cast<int>(MaterialModel::kNeoHookean)},
+                   {static_cast<int>(PlaneState::kStrain), static_cast<int>(PlaneState::kStress)}})
     ->UseManualTime()
     ->Iterations(1)
     ->Unit(benchmark::kMillisecond);

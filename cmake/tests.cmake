@@ -77,11 +77,13 @@ endfunction()
 set(contact_path_extremes
   test/extremes/contact_cases.cpp
   test/extremes/extreme_case.cpp
+  test/extremes/frame_cases.cpp
   test/extremes/friction_cases.cpp
   test/extremes/geometry_cases.cpp
   test/extremes/length_cases.cpp
   test/extremes/number_cases.cpp
-  test/extremes/run_case.cpp)
+  test/extremes/run_case.cpp
+  test/extremes/solid_cases.cpp)
 
 # A file for each header, except headers that only declare an interface (structure/element.h, mpec/nonlinear_program.h,
 # path/path_method.h), and files that trace whole paths.

@@ -47,7 +47,9 @@ Structure::Structure(const Scene& scene, const SceneIndex& index, const Configur
   AddLoads(scene, index);
   for (PlacedElement& placed : elements) AddPart(std::move(placed));
   BuildPattern();
-  residual_units_ = (tolerances::kStiffForce * StiffnessBounds()).cwiseMax(1.0);
+  // Coordinates are rounded relative to their size.
+  const double size = std::max(1.0, start_.size() > 0 ? start_.lpNorm<Eigen::Infinity>() : 0.0);
+  residual_units_ = (tolerances::kStiffForce * size * StiffnessBounds()).cwiseMax(1.0);
 }
 
 void Structure::NumberUnknowns(const Scene& scene, const SceneIndex& index, const Configuration& configuration,

@@ -14,6 +14,8 @@ std::vector<ExtremeCase> ExtremeCases() {
   AddGeometryCases(&cases);
   AddContactCases(&cases);
   AddLengthCases(&cases);
+  AddFrameCases(&cases);
+  AddSolidCases(&cases);
   return cases;
 }
 

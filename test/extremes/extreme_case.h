@@ -43,6 +43,8 @@ void AddNumberCases(std::vector<ExtremeCase>* cases);
 void AddGeometryCases(std::vector<ExtremeCase>* cases);
 void AddContactCases(std::vector<ExtremeCase>* cases);
 void AddLengthCases(std::vector<ExtremeCase>* cases);
+void AddFrameCases(std::vector<ExtremeCase>* cases);
+void AddSolidCases(std::vector<ExtremeCase>* cases);
 
 // ----- for the groups -----
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "contact_path/scene/expand.h"
 #include "contact_path/scene/scaling.h"
 #include "extremes/extreme_case.h"
 #include "support/reference_cases.h"
@@ -130,10 +131,12 @@ ExtremeCase Units(const std::string& name, double length, double force) {
     const auto index = static_cast<std::size_t>(increment.index);
     if (index >= increments.size()) return HUGE_VAL;
     const Increment& other = increments[index];
-    const Scaling scales = CharacteristicScales(request.scene);
+    const Scaling scales = CharacteristicScales(Expand(request).request.scene);
     double error = std::abs(increment.load_factor - other.load_factor) / scales.load_factor;
     for (std::size_t i = 0; i < increment.positions.size(); ++i)
       error = Largest({error, (increment.positions[i] / length - other.positions[i]) / scales.length});
+    for (std::size_t i = 0; i < increment.rotations.size(); ++i)
+      error = Largest({error, increment.rotations[i] - other.rotations[i]});
     for (std::size_t i = 0; i < increment.contacts.size(); ++i) {
       error = Largest({error, (increment.contacts[i].rn / force - other.contacts[i].rn) / scales.force});
       if (increment.contacts[i].state != other.contacts[i].state) error = HUGE_VAL;
@@ -174,6 +177,9 @@ void AddNumberCases(std::vector<ExtremeCase>* cases) {
   for (const double stiffness : {1e-12, 1e-6, 1e6, 1e12}) cases->push_back(TrussBesideABar(stiffness));
   for (const char* const name : {"sliding_bar", "rough_truss", "arch19"})
     for (const auto& [length, force] : {std::pair<double, double>{1e-9, 1e9}, {1e9, 1e-9}, {1e9, 1e9}, {1e-9, 1e-9}})
+      cases->push_back(Units(name, length, force));
+  for (const char* const name : {"lee_frame", "portal_frame", "cantilever_block"})
+    for (const auto& [length, force] : {std::pair<double, double>{1e3, 1.0}, {1e-9, 1e9}, {1e9, 1e-9}})
       cases->push_back(Units(name, length, force));
   for (const double difference : {1e-3, 1e-9, 1e-12}) cases->push_back(Cancelling(difference));
 }

@@ -10,6 +10,7 @@
 #include "contact_path/contact/contact_pair.h"
 #include "contact_path/equations/fixed_state_system.h"
 #include "contact_path/path/model.h"
+#include "contact_path/scene/expand.h"
 #include "contact_path/scene/program.h"
 #include "contact_path/verify/verify_path.h"
 #include "support/dense.h"
@@ -101,7 +102,8 @@ double AttainableError(const ExtremeCase& extreme) {
   constexpr int kMostRows = 2000, kSamples = 20;
   TraceRequest request = extreme.request;
   request.options.max_increments = std::min(request.options.MaxIncrements(), kMostRows);
-  const Model model(StageScene(request, 0), StageScales(request, 0));
+  const TraceRequest expanded = Expand(request).request;
+  const Model model(StageScene(expanded, 0), StageScales(expanded, 0));
   if (model.structure.NumDofs() > kMostUnknowns) return -1.0;
   const TracedPath path = TraceIncrements(request);
   double largest = -1.0;

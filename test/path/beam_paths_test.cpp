@@ -305,6 +305,29 @@ TEST(BeamPaths, UnitsDoNotMatter) {
   }
 }
 
+// A frame far larger than its bays: rounding of its coordinates must not end the path.
+TEST(BeamPaths, FrameOfManyBays) {
+  constexpr int kBays = 15;
+  TraceRequest request;
+  const auto name = [](int column, int row) { return "n" + std::to_string(column) + "_" + std::to_string(row); };
+  for (int row = 0; row <= kBays; ++row)
+    for (int column = 0; column <= kBays; ++column) {
+      Node node = At(name(column, row), column, row);
+      request.scene.nodes.push_back(row == 0 ? Clamped(node) : node);
+      if (row == 0) continue;
+      request.scene.beams.push_back(Between("", name(column, row - 1), name(column, row), 1e3, 1.0, 4));
+      if (column == 0)
+        request.scene.loads.push_back(Force(name(0, row), 1.0, 0.0));
+      else
+        request.scene.beams.push_back(Between("", name(column - 1, row), name(column, row), 1e3, 1.0, 4));
+    }
+  request.options.max_increments = 6;
+  const TracedPath path = TraceIncrements(request);
+  EXPECT_EQ(path.result.reason, EndReason::kMaxIncrements) << path.result.message;
+  EXPECT_GT(path.increments.back().arc_length, 0.5);
+  ExpectProved(path);
+}
+
 // A circular arch of half angle a rests with both ends on a rough floor, loaded at its crown. For small loads the ends
 // stick if mu > |H / V| of linear theory, and slip otherwise.
 double RatioOfArch(double a) {

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "contact_path/check/residuals.h"
+#include "contact_path/scene/expand.h"
 #include "contact_path/scene/read_scene.h"
 #include "contact_path/scene/scaling.h"
 
@@ -132,7 +133,8 @@ double EnergyImbalance(const TracedPath& path) {
 }
 
 void ExpectSoundIncrements(const TracedPath& path, double tolerance) {
-  const Scene& scene = path.request.scene;
+  const ExpandedRequest expanded(path.request);
+  const Scene& scene = expanded.Get().scene;
   const Scaling scaling = CharacteristicScales(scene);
   ASSERT_FALSE(path.increments.empty());
   EXPECT_EQ(path.result.increments, static_cast<int>(path.increments.size()));
@@ -157,7 +159,7 @@ void ExpectSoundIncrements(const TracedPath& path, double tolerance) {
     EXPECT_LE(residuals.Contact(), tolerance);
     EXPECT_NEAR(residuals.equilibrium, increment.residuals.equilibrium, 1e-15 + tolerance);
     EXPECT_NEAR(residuals.Contact(), increment.residuals.Contact(), 1e-15 + tolerance);
-    EXPECT_NEAR(ResidualCheck(scene).StrainEnergy(increment.positions), increment.strain_energy,
+    EXPECT_NEAR(ResidualCheck(scene).StrainEnergy(increment.positions, increment.rotations), increment.strain_energy,
                 1e-13 * scaling.force * scaling.length);
 
     if (i > 0) {

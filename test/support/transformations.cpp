@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "contact_path/scene/change_units.h"
+#include "contact_path/scene/expand.h"
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/quantity.h"
 #include "contact_path/scene/scaling.h"
@@ -51,7 +52,10 @@ template <typename Map>
 void TransformRequest(TraceRequest* request, Map map) {
   Scene* const scene = &request->scene;
   ForEachLoading(request, [&](auto* loads, auto* supports, auto* obstacles) {
-    for (Load& load : *loads) map(&load.fx, &load.fy);
+    for (Load& load : *loads) {
+      map(&load.fx, &load.fy);
+      map(&load.px, &load.py);
+    }
     for (SupportMotion& motion : *supports) map(&motion.dx, &motion.dy);
     for (ObstacleMotion& motion : *obstacles) map(&motion.dx, &motion.dy);
   });
@@ -71,6 +75,41 @@ bool IsPosition(const StopCriterion& criterion) {
   return kind == Quantity::Kind::kX || kind == Quantity::Kind::kY;
 }
 
+// Corners and mid-sides of each element the other way round, from the same first corner.
+void TurnElementsRound(Solid* solid) {
+  const auto size = static_cast<std::ptrdiff_t>(solid->NodesPerElement()), corners = size > 4 ? size / 2 : size;
+  for (auto first = solid->nodes.begin(); first != solid->nodes.end(); first += size) {
+    std::reverse(first + 1, first + corners);
+    std::reverse(first + corners, first + size);
+  }
+}
+
+// Each element from its next corner on.
+void ShiftElements(Solid* solid) {
+  const auto size = static_cast<std::ptrdiff_t>(solid->NodesPerElement()), corners = size > 4 ? size / 2 : size;
+  for (auto first = solid->nodes.begin(); first != solid->nodes.end(); first += size) {
+    std::rotate(first, first + 1, first + corners);
+    if (size > corners) std::rotate(first + corners, first + corners + 1, first + size);
+  }
+}
+
+// The order of the elements backwards.
+void ReverseElements(Solid* solid) {
+  const std::size_t size = solid->NodesPerElement();
+  std::vector<std::string> nodes;
+  for (std::size_t end = solid->nodes.size(); end > 0; end -= size)
+    for (std::size_t i = end - size; i < end; ++i) nodes.push_back(solid->nodes[i]);
+  solid->nodes = std::move(nodes);
+}
+
+// Reverses the values of the nodes of the scene, `each` for a node, and those of the inner nodes of beams behind them.
+void ReverseNodes(std::size_t nodes, std::size_t each, std::vector<double>* values) {
+  const auto middle = values->begin() + static_cast<std::ptrdiff_t>(nodes * each);
+  std::reverse(values->begin(), middle);
+  std::reverse(middle, values->end());
+  if (each == 2) ForEachPoint(values, [](double* y, double* x) { std::swap(*x, *y); });
+}
+
 void FlipTangent(ContactRecord* contact) {
   contact->rt = -contact->rt;
   if (contact->state == ContactState::kSlipPlus)
@@ -83,6 +122,7 @@ void FlipTangent(ContactRecord* contact) {
 
 TraceRequest ChangeUnits(TraceRequest request, double length, double force) {
   const UnitSizes sizes = {1.0 / length, 1.0 / force, 1.0};
+  for (Solid& solid : request.scene.solids) solid.thickness = solid.Thickness();  // 0 is 1 in any unit
   ChangeUnits(&request, sizes);
   for (StopCriterion& criterion : request.options.stop)
     criterion.value /= SizeOf(UnitOf(ReadQuantity(criterion.quantity)->kind), sizes);
@@ -122,9 +162,16 @@ TracedPath UndoRotation(TracedPath path, double angle) {
 
 TraceRequest Mirror(TraceRequest request) {
   TransformRequest(&request, [](double* x, double*) { *x = -*x; });
+  ForEachLoading(&request, [](auto* loads, auto* supports, auto*) {
+    for (Load& load : *loads) load.moment = -load.moment;
+    for (SupportMotion& motion : *supports) motion.rotation = -motion.rotation;
+  });
+  for (Beam& beam : request.scene.beams) beam.angle = -beam.angle;
+  for (Solid& solid : request.scene.solids) TurnElementsRound(&solid);
+  for (BoundarySurface& surface : request.scene.surfaces) std::reverse(surface.nodes.begin(), surface.nodes.end());
   for (StopCriterion& criterion : request.options.stop) {
     const Quantity::Kind kind = ReadQuantity(criterion.quantity)->kind;
-    if (kind != Quantity::Kind::kX && kind != Quantity::Kind::kRt) continue;
+    if (kind != Quantity::Kind::kX && kind != Quantity::Kind::kRotation && kind != Quantity::Kind::kRt) continue;
     criterion.value = -criterion.value;
     criterion.when = criterion.when == ">" ? "<" : ">";
   }
@@ -134,6 +181,7 @@ TraceRequest Mirror(TraceRequest request) {
 TracedPath UndoMirror(TracedPath path) {
   for (Increment& increment : path.increments) {
     ForEachPoint(&increment.positions, [](double* x, double*) { *x = -*x; });
+    for (double& rotation : increment.rotations) rotation = -rotation;
     for (ContactRecord& contact : increment.contacts) FlipTangent(&contact);
   }
   return path;
@@ -144,6 +192,9 @@ TraceRequest Reverse(TraceRequest request) {
   std::reverse(scene.nodes.begin(), scene.nodes.end());
   std::reverse(scene.bars.begin(), scene.bars.end());
   std::reverse(scene.superelements.begin(), scene.superelements.end());
+  std::reverse(scene.beams.begin(), scene.beams.end());
+  std::reverse(scene.materials.begin(), scene.materials.end());
+  std::reverse(scene.solids.begin(), scene.solids.end());
   ForEachLoading(&request, [](auto* loads, auto* supports, auto* obstacles) {
     std::reverse(loads->begin(), loads->end());
     std::reverse(supports->begin(), supports->end());
@@ -152,6 +203,15 @@ TraceRequest Reverse(TraceRequest request) {
   std::reverse(scene.obstacles.begin(), scene.obstacles.end());
   std::reverse(scene.contacts.begin(), scene.contacts.end());
   for (Bar& bar : scene.bars) std::reverse(bar.nodes.begin(), bar.nodes.end());
+  for (Beam& beam : scene.beams) {
+    std::reverse(beam.nodes.begin(), beam.nodes.end());
+    std::reverse(beam.hinged.begin(), beam.hinged.end());
+    beam.angle = -beam.angle;
+  }
+  for (Solid& solid : scene.solids) {
+    ReverseElements(&solid);
+    ShiftElements(&solid);
+  }
   for (Superelement& part : scene.superelements) {
     const std::size_t nodes = part.nodes.size();
     std::reverse(part.nodes.begin(), part.nodes.end());
@@ -167,16 +227,18 @@ TraceRequest Reverse(TraceRequest request) {
 }
 
 TracedPath UndoReversal(TracedPath path) {
+  const std::size_t nodes = path.request.scene.nodes.size();
   for (Increment& increment : path.increments) {
-    std::reverse(increment.positions.begin(), increment.positions.end());
-    ForEachPoint(&increment.positions, [](double* y, double* x) { std::swap(*x, *y); });
+    ReverseNodes(nodes, 2, &increment.positions);
+    if (!increment.rotations.empty()) ReverseNodes(nodes, 1, &increment.rotations);
     std::reverse(increment.contacts.begin(), increment.contacts.end());
   }
   return path;
 }
 
 void ExpectSamePath(const TracedPath& actual, const TracedPath& expected, double tolerance) {
-  const Scaling scaling = StageScales(expected.request, 0);
+  const ExpandedRequest expanded(expected.request);
+  const Scaling scaling = StageScales(expanded.Get(), 0);
   const double length = tolerance * scaling.length, force = tolerance * scaling.force;
   const double energy = tolerance * scaling.length * scaling.force;
   EXPECT_EQ(ToString(actual.result.reason), ToString(expected.result.reason));
@@ -185,11 +247,13 @@ void ExpectSamePath(const TracedPath& actual, const TracedPath& expected, double
     const Increment &a = actual.increments[i], &e = expected.increments[i];
     SCOPED_TRACE("increment " + std::to_string(i));
     const std::size_t stage = e.stage > 0 ? static_cast<std::size_t>(e.stage) - 1 : 0;
-    EXPECT_NEAR(a.load_factor, e.load_factor, tolerance * StageScales(expected.request, stage).load_factor);
+    EXPECT_NEAR(a.load_factor, e.load_factor, tolerance * StageScales(expanded.Get(), stage).load_factor);
     EXPECT_NEAR(a.arc_length, e.arc_length, tolerance);
     EXPECT_EQ(ToString(a.kind), ToString(e.kind));
     ASSERT_EQ(a.positions.size(), e.positions.size());
     for (std::size_t k = 0; k < e.positions.size(); ++k) EXPECT_NEAR(a.positions[k], e.positions[k], length) << k;
+    ASSERT_EQ(a.rotations.size(), e.rotations.size());
+    for (std::size_t k = 0; k < e.rotations.size(); ++k) EXPECT_NEAR(a.rotations[k], e.rotations[k], tolerance) << k;
     ASSERT_EQ(a.contacts.size(), e.contacts.size());
     for (std::size_t k = 0; k < e.contacts.size(); ++k) {
       EXPECT_EQ(ToString(a.contacts[k].state), ToString(e.contacts[k].state)) << k;
