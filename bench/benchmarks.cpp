@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "contact_path/linear/bordered_solver.h"
+#include "contact_path/path/automatic_step.h"
 #include "contact_path/path/branch_method.h"
 #include "lattices.h"
 
@@ -44,7 +45,7 @@ void RegularIncrements(benchmark::State& state, int far_candidates, double floor
   const Model model(request.scene, CharacteristicScales(request.scene));
   double factorisation = 0.0, increment = 0.0, factorisations = 0.0;
   for (auto iteration : state) {
-    BranchMethod method(model, BranchOptions::For(request.options, model.structure.NumDofs()), nullptr);
+    BranchMethod method(model, BranchOptions::For(request.options, AutomaticStepGrowth(model)), nullptr);
     PathPoint point = model.InitialPoint();
     EventRecord branches;
     std::string message;

@@ -13,6 +13,7 @@
 
 #include "contact_path/branch/smooth_arc.h"
 #include "contact_path/linear/blas.h"
+#include "contact_path/path/automatic_step.h"
 #include "contact_path/path/branch_method.h"
 #include "contact_path/path/mpec_method.h"
 #include "contact_path/scene/expand.h"
@@ -51,7 +52,7 @@ void AlongThePath(const TraceRequest& given, bool events, benchmark::State& stat
   const TraceRequest request = Expand(given).request;
   const Model model(request.scene, CharacteristicScales(request.scene));
   for (auto iteration : state) {
-    BranchMethod method(model, BranchOptions::For(request.options, model.structure.NumDofs()), nullptr);
+    BranchMethod method(model, BranchOptions::For(request.options, AutomaticStepGrowth(model)), nullptr);
     PathPoint point = model.InitialPoint();
     EventRecord branches;
     std::string message;
@@ -112,7 +113,7 @@ void EventOfContacts(benchmark::State& state) {
   const TraceRequest request = BlockOf(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)), 0.0);
   const Model model(request.scene, CharacteristicScales(request.scene));
   for (auto iteration : state) {
-    BranchMethod method(model, BranchOptions::For(request.options, model.structure.NumDofs()), nullptr);
+    BranchMethod method(model, BranchOptions::For(request.options, AutomaticStepGrowth(model)), nullptr);
     const PathPoint point = model.InitialPoint();
     EventRecord branches;
     std::string message;
@@ -159,7 +160,7 @@ void MpecIncrement(benchmark::State& state) {
   const TraceRequest request = BlockOf(static_cast<int>(state.range(0)), 0, state.range(1) == 0 ? 5.0 : kNear);
   const Model model(request.scene, CharacteristicScales(request.scene));
   for (auto iteration : state) {
-    MpecMethod method(model, MpecOptions::For(request.options, model.structure.NumDofs()), nullptr);
+    MpecMethod method(model, MpecOptions::For(request.options, AutomaticStepGrowth(model)), nullptr);
     PathPoint point = model.InitialPoint();
     double iterations = 0.0;
     const Clock::time_point start = Clock::now();

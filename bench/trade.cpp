@@ -57,8 +57,8 @@ struct Setting {
 std::unique_ptr<PathMethod> MakeMethod(const Model& model, const TraceOptions& options, const Setting& setting,
                                        const std::function<bool()>& cancelled = nullptr) {
   if (options.method == Method::kBranch)
-    return std::make_unique<BranchMethod>(model, BranchOptions::For(options, model.structure.NumDofs()), cancelled);
-  MpecOptions mpec = MpecOptions::For(options, model.structure.NumDofs());
+    return std::make_unique<BranchMethod>(model, BranchOptions::For(options, AutomaticStepGrowth(model)), cancelled);
+  MpecOptions mpec = MpecOptions::For(options, AutomaticStepGrowth(model));
   if (setting.minimum > 0.0) mpec.regularisation.minimum = setting.minimum;
   if (setting.cold) mpec.regularisation.warm_start = false;
   return std::make_unique<MpecMethod>(model, mpec, cancelled);
@@ -263,7 +263,7 @@ std::vector<Setting> AllSettings(double unit) {
 void Measure(const std::string& name, const TraceRequest& request) {
   const Model model(request.scene, CharacteristicScales(request.scene));
   const Preload preload = TracePreload(model, 100000, [](const Model& of, double target) {
-    BranchOptions options = BranchOptions::For(TraceOptions(), of.structure.NumDofs());
+    BranchOptions options = BranchOptions::For(TraceOptions(), AutomaticStepGrowth(of));
     options.target = target;
     return std::make_unique<BranchMethod>(of, options, nullptr);
   });
@@ -271,7 +271,7 @@ void Measure(const std::string& name, const TraceRequest& request) {
     std::fprintf(stderr, "%s: %s\n", name.c_str(), preload.message.c_str());
     return;
   }
-  const double growth = AutomaticStepGrowth(model.structure.NumDofs()), preset = 0.02 * growth;
+  const double growth = AutomaticStepGrowth(model), preset = 0.02 * growth;
   const double reference_share = growth > 1.0 ? 0.1 : 0.01;  // of the step of the preset: big scenes take long
   const Path exact = Follow(request, model, preload.point, {"branch", "balanced", reference_share * preset, 0.0},
                             std::numeric_limits<double>::infinity());

@@ -228,7 +228,7 @@ class Tracer {
     const MethodFactory make_method = [&](const Model& of, double target) -> std::unique_ptr<PathMethod> {
       TraceOptions upwards;
       upwards.accuracy = request_.options.accuracy;
-      BranchOptions options = BranchOptions::For(upwards, AutomaticStepGrowth(of.scene, of.structure.NumDofs()));
+      BranchOptions options = BranchOptions::For(upwards, AutomaticStepGrowth(of));
       options.target = target;
       options.keep_loading = true;
       return std::make_unique<BranchMethod>(of, options, control_.cancelled);
@@ -251,7 +251,7 @@ class Tracer {
   std::unique_ptr<PathMethod> MakeMethod(const Model& model, std::optional<double> target, int increment) {
     TraceOptions options = request_.options;
     if (target) options.direction = *target < 0.0 ? -1.0 : 1.0;
-    const double growth = AutomaticStepGrowth(model.scene, model.structure.NumDofs());
+    const double growth = AutomaticStepGrowth(model);
     if (options.method == Method::kBranch) {
       BranchOptions branch = BranchOptions::For(options, growth);
       branch.target = target;
