@@ -300,12 +300,14 @@ void DrawCaption(const DrawnScene& scene, const std::string& caption, const Draw
   std::ostringstream force;
   force.imbue(std::locale::classic());
   force << std::setprecision(3) << full_force;
-  if (std::any_of(stage.loads.begin(), stage.loads.end(), [](const DrawnLoad& load) { return load.moment != 0.0; }))
-    force << ", turned by 3/4: " << full_force * scene.size;
+  const bool moments =
+      std::any_of(stage.loads.begin(), stage.loads.end(), [](const DrawnLoad& load) { return load.moment != 0.0; });
+  if (moments) force << ", turned by 3/4: " << full_force * scene.size;
   picture->AddText("caption", 0, above + Vector2d(0.0, 2.0 * height), height, kTextColour, caption);
   picture->BeginTriangles("caption", 1, kTextColour, kText);
   picture->AddArrow(above - Vector2d(length, 0.0), Vector2d(length, 0.0), kTextColour);
-  picture->AddText("caption", 2, above + Vector2d(0.5 * length, 0.0), height, kTextColour, force.str());
+  const double middle = moments ? 1.75 * length : 0.5 * length;  // of a text that is long or short
+  picture->AddText("caption", 2, above + Vector2d(middle, 0.0), height, kTextColour, force.str());
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "contact_path/scene/scaling.h"
 #include "contact_path/verify/verify_events.h"
 #include "verify/scaled_motion.h"
+#include "verify/trapezoid_work.h"
 #include "verify/verified_contacts.h"
 
 namespace contact_path {
@@ -25,7 +26,6 @@ constexpr double kSlack = 1e-3;        // of what the energy balance may be off 
 constexpr double kChord = 1e-9;        // relative: arc length against chord
 constexpr double kEnergy = 1e-2;       // of the work done: energies are quadratures
 constexpr double kEnergyMpec = 3e-2;   // the same where increments may cut corners
-constexpr double kBend = 0.25;         // of a force along an arc of length 1: what a trapezoid cannot know
 constexpr double kAtTarget = 1e-9;     // relative, of the load factor
 constexpr double kTurn = 1e-9;         // of the load factor: a smaller change is none
 constexpr double kPull = 2e-13;        // of a force: a contact that pulls with more is not at rounding
@@ -376,57 +376,16 @@ class Verifier {
     Bound("reactions change while nothing moves, and not at an event", force, rounding_);
   }
 
-  // Work and dissipation between two full increments: between the products with the smallest and with the largest
-  // force, which a trapezoid is in the middle of; as much again for paths that turn in between.
   void CheckWork(const Increment& before, const Increment& increment) {
-    const bool mpec = increment.solve.method == Method::kMpec;
-    const double unit = scaling_.force * scaling_.length;
-    const CheckedState from_state = StateOf(before), to_state = StateOf(increment);
-    double along = 0.0, work = 0.0, scaled_loads = 0.0;
-    for (const Load& load : scene_.loads) {
-      const std::size_t x = 2 * index_.Node(load.node), y = x + 1;
-      double product = load.fx * (increment.positions[x] - before.positions[x]) +
-                       load.fy * (increment.positions[y] - before.positions[y]);
-      if (load.moment != 0.0) product += load.moment * (increment.rotations[x / 2] - before.rotations[x / 2]);
-      (load.constant ? work : along) += product;
-      if (!load.constant) scaled_loads += std::hypot(load.fx, load.fy, load.moment / scaling_.length);
-    }
-    work += 0.5 * (before.load_factor + increment.load_factor) * along;
-    // Where a force has its largest value on the increment, both ends may be alike. It bends over the length L.
-    const double bend = kBend * std::pow(increment.arc_length - before.arc_length, 2);
-    // So may the branch of the loads, which goes forth and back then.
-    const double load_change = std::abs(increment.load_factor - before.load_factor);
-    double open_work =
-        (0.5 * load_change * std::abs(along) + bend * (std::abs(work) + load_change * scaled_loads * scaling_.length)) /
-        unit;
-    if (!scene_.support_motions.empty() || !scene_.obstacle_motions.empty()) {
-      const double from = check_.DrivingForce(from_state), to = check_.DrivingForce(to_state);
-      const double moved = increment.load_factor - before.load_factor;
-      work += 0.5 * (from + to) * moved;
-      open_work += (0.5 * std::abs(to - from) + bend * std::abs(from + to)) * std::abs(moved) / unit;
-    }
-    double dissipation = 0.0, open_dissipation = 0.0;
-    for (std::size_t i = 0; i < contacts_.size(); ++i) {
-      const ContactState state = increment.contacts[i].state, was = before.contacts[i].state;
-      const VerifiedContact& at = contacts_[i];
-      const double slip = std::abs(check_.Slip(i, from_state, to_state));
-      // Where within an increment of mpec it stopped to slip, or turned, is not known.
-      if (mpec && Slips(was) && state != was)
-        open_dissipation += at.friction * std::max(before.contacts[i].rn, increment.contacts[i].rn) * slip / unit;
-      if (!Slips(state)) continue;
-      dissipation += 0.5 * at.friction * (before.contacts[i].rn + increment.contacts[i].rn) * slip;
-      const double rn = before.contacts[i].rn, change = std::abs(increment.contacts[i].rn - rn);
-      // A contact that closes and opens on the increment has no reaction at both ends.
-      const double largest = rn + change + scaling_.force;
-      open_dissipation += at.friction * (0.5 * change + bend * largest) * slip / unit;
-    }
-    if (mpec) open_ += open_work + open_dissipation;
+    const TrapezoidWork work = WorkBetween({scene_, index_, check_, scaling_, contacts_}, before, increment);
+    if (increment.solve.method == Method::kMpec) open_ += work.open_work + work.open_dissipation;
     if (!OnePiece(increment)) return;  // trapezoids over several increments tell too little
+    const double unit = scaling_.force * scaling_.length;
     const double slack = kEnergy * result_.work * kSlack + rounding_;
-    const double work_off = std::abs(increment.external_work - before.external_work - work) / unit;
-    if (!(work_off <= 2.0 * open_work + slack)) Report("work of the loads is off by ", work_off, " of F L");
-    const double dissipation_off = std::abs(increment.dissipation - before.dissipation - dissipation) / unit;
-    if (!(dissipation_off <= 2.0 * open_dissipation + slack))
+    const double work_off = std::abs((increment.external_work - before.external_work) / unit - work.work);
+    if (!(work_off <= 2.0 * work.open_work + slack)) Report("work of the loads is off by ", work_off, " of F L");
+    const double dissipation_off = std::abs((increment.dissipation - before.dissipation) / unit - work.dissipation);
+    if (!(dissipation_off <= 2.0 * work.open_dissipation + slack))
       Report("dissipation is off by ", dissipation_off, " of F L");
   }
 

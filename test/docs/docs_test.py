@@ -119,7 +119,8 @@ class Complete(unittest.TestCase):
             self.assertRegex(text, r'`(/contact_path/)?%s`|`/%s`' % (name, name))
 
     def test_fields_of_scene_files(self):
-        pages = {'Scene': 'scene', 'Node': 'nodes', 'Bar': 'bars', 'Superelement': 'superelements', 'Load': 'loads',
+        pages = {'Scene': 'scene', 'Node': 'nodes', 'Bar': 'bars', 'Superelement': 'superelements', 'Beam': 'beams',
+                 'Group': 'groups', 'BoundarySurface': 'surfaces', 'Material': 'materials', 'Solid': 'solids', 'Load': 'loads',
                  'Obstacle': 'obstacles', 'Contact': 'contacts', 'SupportMotion': 'support_motions',
                  'ObstacleMotion': 'obstacle_motions', 'Stage': 'Load programs', 'TraceOptions': 'Options of a trace',
                  'StopCriterion': 'stop', 'BranchChoice': 'branch_choices'}

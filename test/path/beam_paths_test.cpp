@@ -16,13 +16,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-Node At(const std::string& name, double x, double y) {
-  Node node;
-  node.name = name;
-  node.x = x;
-  node.y = y;
-  return node;
-}
+Node At(const std::string& name, double x, double y) { return {name, x, y}; }
 
 Node Clamped(Node node) {
   node.fixed_x = node.fixed_y = node.fixed_rotation = true;
@@ -53,13 +47,7 @@ TraceRequest Cantilever(int segments) {
   return request;
 }
 
-Load Force(const std::string& node, double fx, double fy) {
-  Load load;
-  load.node = node;
-  load.fx = fx;
-  load.fy = fy;
-  return load;
-}
+Load Force(const std::string& node, double fx, double fy) { return {node, fx, fy}; }
 
 Load Moment(const std::string& node, double moment) {
   Load load;

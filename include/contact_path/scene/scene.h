@@ -5,6 +5,7 @@
 //
 // Each struct is followed by the description of its fields (field.h). A new field is a member and its description here;
 // a new kind of part is a struct with its description and a list in Scene. scripts/messages adds both to the messages.
+// Solids and surfaces are in solid_parts.h.
 #ifndef CONTACT_PATH_SCENE_SCENE_H_
 #define CONTACT_PATH_SCENE_SCENE_H_
 
@@ -17,6 +18,7 @@
 #include <vector>
 
 #include "contact_path/scene/field.h"
+#include "contact_path/scene/solid_parts.h"
 #include "contact_path/scene/words.h"
 
 namespace contact_path {
@@ -35,37 +37,6 @@ struct Words<StrainMeasure> {
       {"biot", StrainMeasure::kBiot},
       {"green_lagrange", StrainMeasure::kGreenLagrange},
       {"logarithmic", StrainMeasure::kLogarithmic}};
-};
-
-// Strain energy of a solid per initial volume: structure/material.h.
-enum class MaterialModel {
-  kNeoHookean,
-  kStVenantKirchhoff,
-  kCiarletGeymonat,
-  kLinear,  // small displacements
-};
-
-template <>
-struct Words<MaterialModel> {
-  static constexpr MaterialModel kDefault = MaterialModel::kNeoHookean;
-  static constexpr std::pair<std::string_view, MaterialModel> kAll[] = {
-      {"neo_hookean", MaterialModel::kNeoHookean},
-      {"st_venant_kirchhoff", MaterialModel::kStVenantKirchhoff},
-      {"ciarlet_geymonat", MaterialModel::kCiarletGeymonat},
-      {"linear", MaterialModel::kLinear}};
-};
-
-// What a plane solid does across the plane.
-enum class PlaneState {
-  kStrain,  // it keeps its thickness
-  kStress,  // no stress acts there
-};
-
-template <>
-struct Words<PlaneState> {
-  static constexpr PlaneState kDefault = PlaneState::kStrain;
-  static constexpr std::pair<std::string_view, PlaneState> kAll[] = {{"strain", PlaneState::kStrain},
-                                                                     {"stress", PlaneState::kStress}};
 };
 
 enum class ObstacleShape { kHalfPlane };
@@ -193,76 +164,6 @@ struct Fields<Group> {
   static constexpr auto Of() {
     return std::tuple(Member("name", &P::name).Naming(TextKind::kNewName),
                       Member("nodes", &P::nodes).Naming(TextKind::kNode));
-  }
-};
-
-// Elastic material of solids, by E and nu or by lambda and mu (scene/elasticity.h).
-struct Material {
-  std::string name;
-  MaterialModel model = MaterialModel::kNeoHookean;
-  double E = 0.0;       // Young's modulus [force/length^2], > 0; 0 = lambda and mu are given
-  double nu = 0.0;      // Poisson's ratio, > -1 and < 0.5
-  double lambda = 0.0;  // Lame's first parameter [force/length^2]; used where E = 0
-  double mu = 0.0;      // shear modulus [force/length^2], > 0; used where E = 0
-  double a = 0.0;       // of ciarlet_geymonat alone [force/length^2], max(0, mu/2 - lambda/4) <= a <= mu/2
-};
-
-template <>
-struct Fields<Material> {
-  template <typename P>
-  static constexpr auto Of() {
-    return std::tuple(Member("name", &P::name).Naming(TextKind::kNewName), Member("model", &P::model),
-                      Member("E", &P::E).In(units::kStress).Within(Range::kZeroOrPositive), Member("nu", &P::nu),
-                      Member("lambda", &P::lambda).In(units::kStress),
-                      Member("mu", &P::mu).In(units::kStress).Within(Range::kZeroOrPositive),
-                      Member("a", &P::a).In(units::kStress).Within(Range::kNotNegative));
-  }
-};
-
-// Mesh of plane elements of one material. The nodes of each element in turn: corners counterclockwise, then mid-sides,
-// the first of them after the first corner.
-struct Solid {
-  std::string name;  // for people
-  std::string material;
-  double thickness = 0.0;  // [length]; 0 = 1, in the unit of the scene
-  PlaneState plane = PlaneState::kStrain;
-  int nodes_per_element = 0;  // 3, 4, 6 or 8; 0 = 3
-  std::vector<std::string> nodes;
-
-  std::size_t NodesPerElement() const {
-    return nodes_per_element == 0 ? 3 : static_cast<std::size_t>(nodes_per_element);
-  }
-  double Thickness() const { return thickness == 0.0 ? 1.0 : thickness; }
-};
-
-template <>
-struct Fields<Solid> {
-  static constexpr std::size_t kNodes = 0;
-  template <typename P>
-  static constexpr auto Of() {
-    return std::tuple(Member("name", &P::name), Member("material", &P::material).Naming(TextKind::kMaterial),
-                      Member("thickness", &P::thickness).In(units::kLength).Within(Range::kZeroOrPositive),
-                      Member("plane", &P::plane), Member("nodes_per_element", &P::nodes_per_element),
-                      Member("nodes", &P::nodes).Naming(TextKind::kNode));
-  }
-};
-
-// Part of the boundary of a solid, or the axis of a beam: nodes in order, the material on the right of who walks along
-// them. Mid-side nodes stand between the corners of their edge.
-struct BoundarySurface {
-  std::string name;
-  std::vector<std::string> nodes;
-  bool closed = false;  // from the last node back to the first
-  double radius = 0.0;  // half of the thickness of a beam whose axis this is [length]
-};
-
-template <>
-struct Fields<BoundarySurface> {
-  template <typename P>
-  static constexpr auto Of() {
-    return std::tuple(Member("name", &P::name).Naming(TextKind::kNewName),
-                      Member("nodes", &P::nodes).Naming(TextKind::kNode), Member("closed", &P::closed),
-                      Member("radius", &P::radius).In(units::kLength).Within(Range::kNotNegative));
   }
 };
 

@@ -1,0 +1,59 @@
+#include "verify/trapezoid_work.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace contact_path {
+namespace {
+
+constexpr double kBend = 0.25;  // of a force along an arc of length 1: what a trapezoid cannot know
+
+}  // namespace
+
+TrapezoidWork WorkBetween(const VerifiedStage& stage, const Increment& before, const Increment& increment) {
+  const bool mpec = increment.solve.method == Method::kMpec;
+  const double unit = stage.scaling.force * stage.scaling.length;
+  const CheckedState from_state = StateOf(before), to_state = StateOf(increment);
+  double along = 0.0, work = 0.0, scaled_loads = 0.0;
+  for (const Load& load : stage.scene.loads) {
+    const std::size_t x = 2 * stage.index.Node(load.node), y = x + 1;
+    double product = load.fx * (increment.positions[x] - before.positions[x]) +
+                     load.fy * (increment.positions[y] - before.positions[y]);
+    if (load.moment != 0.0) product += load.moment * (increment.rotations[x / 2] - before.rotations[x / 2]);
+    (load.constant ? work : along) += product;
+    if (!load.constant) scaled_loads += std::hypot(load.fx, load.fy, load.moment / stage.scaling.length);
+  }
+  work += 0.5 * (before.load_factor + increment.load_factor) * along;
+  // Where a force has its largest value on the increment, both ends may be alike. It bends over the length L.
+  const double bend = kBend * std::pow(increment.arc_length - before.arc_length, 2);
+  // So may the branch of the loads, which goes forth and back then.
+  const double load_change = std::abs(increment.load_factor - before.load_factor);
+  double open_work = (0.5 * load_change * std::abs(along) +
+                      bend * (std::abs(work) + load_change * scaled_loads * stage.scaling.length)) /
+                     unit;
+  if (!stage.scene.support_motions.empty() || !stage.scene.obstacle_motions.empty()) {
+    const double from = stage.check.DrivingForce(from_state), to = stage.check.DrivingForce(to_state);
+    const double moved = increment.load_factor - before.load_factor;
+    work += 0.5 * (from + to) * moved;
+    open_work += (0.5 * std::abs(to - from) + bend * std::abs(from + to)) * std::abs(moved) / unit;
+  }
+  double dissipation = 0.0, open_dissipation = 0.0;
+  for (std::size_t i = 0; i < stage.contacts.size(); ++i) {
+    const ContactState state = increment.contacts[i].state, was = before.contacts[i].state;
+    const VerifiedContact& at = stage.contacts[i];
+    const double slip = std::abs(stage.check.Slip(i, from_state, to_state));
+    // Where within an increment of mpec it stopped to slip, or turned, is not known.
+    if (mpec && Slips(was) && state != was)
+      open_dissipation += at.friction * std::max(before.contacts[i].rn, increment.contacts[i].rn) * slip / unit;
+    if (!Slips(state)) continue;
+    dissipation += 0.5 * at.friction * (before.contacts[i].rn + increment.contacts[i].rn) * slip;
+    const double rn = before.contacts[i].rn, change = std::abs(increment.contacts[i].rn - rn);
+    // A contact that closes and opens on the increment has no reaction at both ends.
+    const double largest = rn + change + stage.scaling.force;
+    open_dissipation += at.friction * (0.5 * change + bend * largest) * slip / unit;
+  }
+  return {work / unit, dissipation / unit, open_work, open_dissipation};
+}
+
+}  // namespace contact_path
