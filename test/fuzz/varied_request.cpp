@@ -38,6 +38,11 @@ class Variation {
     const bool mpec = options.method == Method::kMpec;
     options.max_increments = static_cast<int>(1 + random_.Index(quick_ ? (mpec ? 3 : 15) : (mpec ? 12 : 60)));
     if (quick_ && options.step > 0.0) options.step = std::max(options.step, 1e-3);
+    // New choices stand last: those above stay what they were.
+    Try(0.3, &Variation::AddBeam);
+    Try(0.2, &Variation::AddSolid);
+    Try(0.3, &Variation::LoadParts);
+    Try(0.2, &Variation::TouchWithParts);
     return std::move(request_);
   }
 
@@ -203,6 +208,105 @@ class Variation {
       options.branch_choices.push_back(
           {event ? number + 1 : 0, event ? 0 : number, static_cast<int>(random_.Index(4))});
     }
+  }
+
+  // Beside a bar, or between any two nodes, of about the stiffness of that bar.
+  void AddBeam() {
+    const Bar bar = random_.OneOf(scene().bars);
+    Beam beam;
+    beam.name = "beam";
+    beam.nodes = random_.Chance(0.5)
+                     ? bar.nodes
+                     : std::vector<std::string>{random_.OneOf(scene().nodes).name, random_.OneOf(scene().nodes).name};
+    const Node &first = NodeOf(beam.nodes[0]), &second = NodeOf(beam.nodes[1]);
+    const double length = std::hypot(second.x - first.x, second.y - first.y);
+    beam.EA = bar.EA;
+    beam.EI = bar.EA * length * length * random_.OneOf(std::array<double, 4>{1e-1, 1e-2, 1e-4, 1e-6});
+    if (random_.Chance(0.3)) beam.GA = 0.3 * beam.EA;
+    beam.segments = static_cast<int>(1 + random_.Index(4));
+    if (random_.Chance(0.5)) beam.angle = random_.Number(-3.0, 3.0);
+    if (random_.Chance(0.3)) beam.hinged = {random_.Chance(0.5), random_.Chance(0.5)};
+    scene().beams.push_back(std::move(beam));
+  }
+
+  // One or two triangles, or a quadrilateral, on one side of a bar.
+  void AddSolid() {
+    const Bar bar = random_.OneOf(scene().bars);
+    const Node first = NodeOf(bar.nodes[0]), second = NodeOf(bar.nodes[1]);
+    const double dx = second.x - first.x, dy = second.y - first.y, height = random_.Number(0.2, 0.8);
+    Material material;
+    material.name = "stuff";
+    material.model = random_.OneOf(std::array<MaterialModel, 3>{
+        MaterialModel::kNeoHookean, MaterialModel::kStVenantKirchhoff, MaterialModel::kLinear});
+    Solid solid;
+    solid.name = "solid";
+    solid.material = material.name;
+    solid.plane = random_.Chance(0.5) ? PlaneState::kStrain : PlaneState::kStress;
+    solid.thickness = std::hypot(dx, dy);
+    material.E = bar.EA / (solid.thickness * solid.thickness) * random_.OneOf(std::array<double, 3>{1e-2, 1.0, 1e2});
+    material.nu = random_.OneOf(std::array<double, 4>{0.0, 0.3, 0.45, -0.3});
+    const auto add = [&](const char* name, double along) {
+      scene().nodes.push_back({name, first.x + along * dx - height * dy, first.y + along * dy + height * dx});
+    };
+    if (random_.Chance(0.5)) {
+      solid.nodes_per_element = 4;
+      add("s1", random_.Number(0.7, 1.1));
+      add("s2", random_.Number(-0.1, 0.3));
+      solid.nodes = {first.name, second.name, "s1", "s2"};
+    } else {
+      add("s1", random_.Number(0.2, 0.8));
+      solid.nodes = {first.name, second.name, "s1"};
+    }
+    scene().surfaces.push_back({"edge", {"s1", second.name}});
+    scene().materials.push_back(std::move(material));
+    scene().solids.push_back(std::move(solid));
+  }
+
+  // A moment and a traction on the beam, a traction on the solid; of the size of a load that is there.
+  void LoadParts() {
+    const Load like = random_.OneOf(request_.program.empty() ? scene().loads : request_.program.front().loads);
+    const double size = std::hypot(like.fx, like.fy);
+    Load load;
+    load.constant = !request_.program.empty();
+    const auto length_of = [&](const std::vector<std::string>& nodes) {
+      const Node &first = NodeOf(nodes[0]), &second = NodeOf(nodes[1]);
+      return std::hypot(second.x - first.x, second.y - first.y);
+    };
+    if (!scene().beams.empty()) {
+      const Beam& beam = scene().beams.back();
+      load.node = beam.nodes[1];
+      load.moment = random_.Number(-0.2, 0.2) * size * length_of(beam.nodes);
+      scene().loads.push_back(load);
+      load.node.clear();
+      load.moment = 0.0;
+      load.group = beam.name;
+      load.py = random_.Number(-0.3, 0.3) * size / length_of(beam.nodes);
+      scene().loads.push_back(load);
+      load.group.clear();
+    }
+    if (scene().surfaces.empty()) return;
+    load.surface = scene().surfaces.back().name;
+    load.px = random_.Number(-0.3, 0.3) * size / length_of(scene().surfaces.back().nodes);
+    scene().loads.push_back(load);
+  }
+
+  // All nodes of the beam, or those that the solid added, against an obstacle.
+  void TouchWithParts() {
+    std::string group;
+    if (!scene().beams.empty()) {
+      group = scene().beams.back().name;
+    } else if (!scene().solids.empty()) {
+      group = "added";
+      scene().groups.push_back({group, {scene().solids.back().nodes.back()}});
+    } else {
+      return;
+    }
+    scene().contacts.push_back({"", random_.OneOf(scene().obstacles).name, group});
+  }
+
+  const Node& NodeOf(const std::string& name) {
+    return *std::find_if(scene().nodes.begin(), scene().nodes.end(),
+                         [&](const Node& node) { return node.name == name; });
   }
 
   const bool quick_;
