@@ -89,7 +89,7 @@ bool SmoothArc::Derivatives(const Eigen::VectorXd& x, const Eigen::VectorXd& tow
   HoldLimitPoint(x, &point->second);
   point->second -= point->first.head(n).dot(point->second.head(n)) * point->first;
   point->nullity = solver_.Nullity();
-  point->determinant_sign = solver_.DeterminantSign();
+  point->determinant_sign = point->side = solver_.DeterminantSign();
   point->pivot_sign = solver_.PivotSign();
   return point->second.allFinite();
 }
