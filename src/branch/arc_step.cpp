@@ -1,6 +1,7 @@
 #include "contact_path/branch/arc_step.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "contact_path/tolerances.h"
 
@@ -8,6 +9,7 @@ namespace contact_path {
 namespace {
 
 constexpr double kCoarsePrediction = 0.05;  // largest error of the predictor where no smaller one is met
+constexpr double kNoise = 10.0;             // of the last Newton step: what rounding leaves of the predictor
 constexpr int kLocatingAttempts = 6;
 
 // A whole step with this length along the tangent; nothing where it has to be shorter.
@@ -20,7 +22,9 @@ std::optional<ArcStep> TryStep(SmoothArc* arc, const CurvePoint& start, double l
   const Eigen::VectorXd straight = start.x + length * start.first;
   const Eigen::VectorXd bend = 0.5 * length * length * start.second;
   const auto good = [&](const Correction& correction) {
-    return correction.converged && correction.first_step <= tolerance + rounding;
+    if (!correction.converged) return false;
+    const double noise = kNoise * std::min(correction.steps.back(), tolerances::kStagnation);
+    return correction.first_step <= tolerance + std::max(rounding, std::min(noise, kCoarsePrediction * length));
   };
   Correction correction = arc->CorrectOnPlane(straight + bend, normal);
   // Next to a singular point the second derivatives are little but rounding.
@@ -29,6 +33,7 @@ std::optional<ArcStep> TryStep(SmoothArc* arc, const CurvePoint& start, double l
   CurvePoint end;
   if (!arc->Derivatives(correction.x, normal, &end)) return std::nullopt;
   if (end.first.head(normal.size()).dot(normal) < smallest_cosine) return std::nullopt;
+  if (end.side == 0 && end.nullity == 0) end.side = start.side;
   ArcStep result;
   result.step = MakeStep(start, end, arc->NumMotion());
   result.tried = length;
@@ -54,6 +59,8 @@ bool EndAtFirstEvent(SmoothArc* arc, std::optional<double> target, ArcStep* at) 
       at->event = {EventKind::kTarget, at->event.t, {}, false};
       continue;
     }
+    const EventKind kind = at->event.kind;
+    const double before = at->step.length;
     at->step = MakeStep(at->step.start, *point, arc->NumMotion());
     if (!(at->step.length > tolerances::kNoMove)) {
       at->step.length = 0.0;
@@ -61,6 +68,8 @@ bool EndAtFirstEvent(SmoothArc* arc, std::optional<double> target, ArcStep* at) 
     }
     const StepEvent earlier = FirstEvent(arc, at->step, target);
     if (earlier.kind == EventKind::kNone || earlier.t >= at->step.length - tolerances::kNoMove) return true;
+    // The earlier event is rounding of a short step where it leads to this point again.
+    if (attempt > 0 && earlier.kind == kind && std::abs(at->step.length - before) <= tolerances::kNoMove) return true;
     at->event = earlier;
   }
   return false;

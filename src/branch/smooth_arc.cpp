@@ -94,7 +94,7 @@ bool SmoothArc::Derivatives(const Eigen::VectorXd& x, const Eigen::VectorXd& tow
     last_tangent_ = point->first.head(n);
   }
   point->nullity = solver_.Nullity();
-  point->determinant_sign = solver_.DeterminantSign();
+  point->determinant_sign = point->side = solver_.DeterminantSign();
   point->pivot_sign = solver_.PivotSign();
   return point->second.allFinite();
 }

@@ -13,7 +13,7 @@ constexpr double kNearShare = 0.05;  // of the difference of quintic and cubic i
 constexpr double kReach = 2.0;       // of the length of a step: wider gaps stay open on it
 constexpr int kNewtonIterations = 25;
 constexpr int kBisections = 60;
-constexpr double kLeap = 10.0;  // of that width: points of one curve are nearer to each other
+constexpr double kLeap = 1.1;  // of a straight line across the bracket: points of one curve are nearer to each other
 
 Jet ValueAlong(const FixedStateSystem& system, const Constraint& constraint, const CurvePoint& point) {
   return system.ValueAlong(constraint, point.x, point.first, point.second);
@@ -95,19 +95,20 @@ struct Bracket {
 std::optional<Bracket> FindBifurcation(SmoothArc* arc, const Step& step) {
   const Eigen::Index n = step.normal.size();
   const double narrow = tolerances::kLeapWidth * step.length;
+  const double slope = step.normal.dot(step.end.first.head(n));
   double before = 0.0, beyond = step.length;
   CurvePoint near_before = step.start, near_beyond = step.end;
   for (int i = 0; i < kBisections && beyond - before > tolerances::kBifurcationWidth * step.length; ++i) {
     double width = beyond - before;
     const auto on_two_curves = [&] {
       const double apart = (near_beyond.x - near_before.x).head(n).norm();
-      return width >= tolerances::kLeapNarrowest && apart > kLeap * width + tolerances::kLeapRounding / width;
+      return width >= tolerances::kLeapNarrowest && apart > kLeap / slope * width + tolerances::kLeapRounding / width;
     };
     double t = 0.5 * (before + beyond);
     std::optional<CurvePoint> point = PointAt(arc, step, t);
     // Next to the bifurcation no point is reached; farther from it one is, unless the ends are on two curves.
     for (const double share : {0.25, 0.75}) {
-      if (point || width <= tolerances::kUnreachedWidth) break;
+      if (point) break;
       t = before + share * width;
       point = PointAt(arc, step, t);
     }
@@ -116,7 +117,7 @@ std::optional<Bracket> FindBifurcation(SmoothArc* arc, const Step& step) {
       return Bracket{0.5 * (before + beyond), width, sure};
     }
     if (point->pivot_sign == 0) return Bracket{t, width};  // singular to rounding
-    const bool is_before = point->pivot_sign == step.start.determinant_sign;
+    const bool is_before = point->pivot_sign == step.start.side;
     (is_before ? before : beyond) = t;
     (is_before ? near_before : near_beyond) = *point;
     width = beyond - before;
@@ -170,25 +171,32 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, std::optional<double> tar
   const Quintic load_rate = Derivative(load_factor);
   Quintic reversed = load_rate;
   for (double& coefficient : reversed) coefficient = -coefficient;
+  // Nearer to a limit point at the start than this, another one is rounding.
+  const double at_start = step.start.first[s] == 0.0 ? ReachOfExtreme(step.start.second[s]) : 0.0;
   for (const Quintic& rate : {load_rate, reversed}) {
     const std::optional<double> t = FirstNegative(rate, step.length, tolerances::kLevel * system.ResidualUnit());
-    if (t && *t > 0.0) consider(EventKind::kLimitPoint, *t, {});
+    if (t && *t > at_start) consider(EventKind::kLimitPoint, *t, {});
   }
-  if (step.start.determinant_sign * step.end.determinant_sign < 0) {
+  if (step.start.side * step.end.side < 0) {
     const std::optional<Bracket> bifurcation = FindBifurcation(arc, step);
     if (!bifurcation) return {EventKind::kTooLong, 0.0, {}, false};
     const double apart = std::abs(bifurcation->t - first.t);
     double near = std::max(width, bifurcation->width);
+    // A point beyond such a bracket may be one of another curve, whatever event coincides with it.
+    if (!bifurcation->sure && first.t >= bifurcation->t - near) return {EventKind::kTooLong, 0.0, {}, false};
     if (first.kind != EventKind::kNone && apart > near && apart <= tolerances::kUnclear * step.length)
       return {EventKind::kTooLong, 0.0, {}, false};
     // A step as short as this does not tell them apart either.
     if (first.kind == EventKind::kLimitPoint)
       near = std::max(near, ReachOfExtreme(Evaluate(Derivative(load_rate), first.t)));
-    if (first.kind != EventKind::kNone && apart <= near)
+    // The step was cut short at a limit point, and rounding has put that point beyond the bifurcation.
+    const bool ends_at_limit = first.kind == EventKind::kNone && step.end.first[s] == 0.0;
+    if (ends_at_limit && apart <= ReachOfExtreme(step.end.second[s]))
+      first = {EventKind::kLimitPoint, bifurcation->t, {}, true};
+    else if (first.kind != EventKind::kNone && apart <= near)
       first.singular = true;
     else if (bifurcation->t < first.t)
-      first = {
-          bifurcation->sure ? EventKind::kBifurcation : EventKind::kTooLong, bifurcation->t, {}, bifurcation->sure};
+      first = {EventKind::kBifurcation, bifurcation->t, {}, true};
   }
   // Whatever lies behind the target, however near, is not of this path.
   if (target)
@@ -202,7 +210,7 @@ std::optional<CurvePoint> Locate(SmoothArc* arc, const Step& step, const StepEve
   if (event.singular) {
     CurvePoint point = step.At(event.t);
     point.x = arc->CorrectSingular(point.x, step.normal);
-    point.determinant_sign = 0;
+    point.determinant_sign = point.side = 0;
     if (!arc->IsOnCurve(point.x)) return std::nullopt;
     if (event.kind == EventKind::kLimitPoint) RestLoad(arc->system().NumDofs(), &point);
     return point;

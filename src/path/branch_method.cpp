@@ -98,7 +98,7 @@ bool BranchMethod::Leave(const PathPoint& point, const Branch& branch) {
   current_.x = arc_.system().Pack(point);
   current_.first = branch.first;
   current_.second = branch.second;
-  current_.determinant_sign = 0;
+  current_.determinant_sign = current_.side = 0;
   return current_.second.allFinite();
 }
 

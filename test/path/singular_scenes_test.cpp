@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "contact_path/scene/read_scene.h"
@@ -39,8 +40,7 @@ TracedPath TraceData(const std::string& name, Accuracy accuracy) {
 }
 
 // As far as the increments of a preset go.
-TracedPath TraceIncrementsOf(const std::string& name, Accuracy accuracy, int most, int most_accurate) {
-  TraceRequest request = ReadData(name);
+TracedPath TraceIncrementsOf(TraceRequest request, Accuracy accuracy, int most, int most_accurate) {
   request.options.accuracy = accuracy;
   request.options.max_increments = accuracy == Accuracy::kAccurate ? most_accurate : most;
   TracedPath path = TraceProved(request);
@@ -316,17 +316,35 @@ TEST(SingularScenes, SlackBarsThatAreStraightAtTheStart) {
 // located as well as that admits.
 TEST(SingularScenes, LimitPointWhereRatesAreInexact) {
   for (const Accuracy accuracy : kPresets) {
-    const TracedPath path = TraceIncrementsOf("limit_next_to_sway", accuracy, 80, 500);
+    const TracedPath path = TraceIncrementsOf(ReadData("limit_next_to_sway"), accuracy, 80, 500);
     const std::vector<double> limits = Loads(path, IncrementKind::kSmoothLimit);
     ASSERT_FALSE(limits.empty());
     EXPECT_NEAR(limits[0], 0.03442360512675670842, 1e-12);
   }
 }
 
+// Limit loads along the curves from the start, by continuation in 33 digits. Other curves pass by at the limit points.
+TEST(SingularScenes, ThePathStaysOnItsCurve) {
+  const std::map<std::string, std::vector<double>> loads = {
+      {"limit_next_to_sway", {0.0344236051268, -0.0566893640795, 0.560384068089703}},
+      {"slack_pairs_become_straight", {0.018342457360188, -0.107666910769746, -0.087483359271685}}};
+  for (const auto& [name, expected] : loads)
+    for (const Accuracy accuracy : {Accuracy::kFast, Accuracy::kBalanced}) {
+      TraceRequest request = ReadData(name);
+      request.options.accuracy = accuracy;
+      request.options.max_increments = 500;
+      const TracedPath path = TraceProved(request);
+      std::vector<double> limits = Loads(path, IncrementKind::kSmoothLimit);
+      ASSERT_GE(limits.size(), expected.size()) << name;
+      limits.resize(expected.size());
+      ExpectNear(limits, expected, 1e-11);
+    }
+}
+
 // The path of slack bars turns where they become straight, for one of two pairs a little earlier.
 TEST(SingularScenes, TwoSlackPairsBecomeStraightAtNearlyTheSameLoad) {
   for (const Accuracy accuracy : {Accuracy::kBalanced, Accuracy::kAccurate}) {
-    const TracedPath path = TraceIncrementsOf("slack_pairs_become_straight", accuracy, 80, 200);
+    const TracedPath path = TraceIncrementsOf(ReadData("slack_pairs_become_straight"), accuracy, 80, 200);
     const std::vector<Increment> limits = IncrementsOfKind(path, IncrementKind::kSmoothLimit);
     ASSERT_EQ(limits.size(), 1U);
     EXPECT_NEAR(limits[0].load_factor, 0.018342457360188313772, 1e-13);
@@ -343,7 +361,7 @@ TEST(SingularScenes, TwoSlackPairsBecomeStraightAtNearlyTheSameLoad) {
 TEST(SingularScenes, ContactWithoutAReactionWhereSlackBarsBecomeStraight) {
   const double n3_n4 = std::hypot(0.5, 1.0), n4_n2 = 0.75;
   for (const Accuracy accuracy : kPresets) {
-    const TracedPath path = TraceIncrementsOf("slack_bars_at_a_ceiling", accuracy, 80, 250);
+    const TracedPath path = TraceIncrementsOf(ReadData("slack_bars_at_a_ceiling"), accuracy, 80, 250);
     const std::vector<Increment> limits = IncrementsOfKind(path, IncrementKind::kSmoothLimit);
     ASSERT_FALSE(limits.empty());
     EXPECT_NEAR(limits[0].load_factor, -0.1003102451, 1e-9);
@@ -392,19 +410,24 @@ TEST(SingularScenes, PathThatCrossesAtALimitPointIsOnRecord) {
   }
 }
 
-// Two trusses side by side, one stiffer by 1e-8: the softer one snaps, the other one goes back.
+// Two trusses side by side, one stiffer by a little: the softer one snaps, the other one goes back. The curve on which
+// both snap passes at the distance of the root of the difference.
 TEST(SingularScenes, TwoTrussesNearlyEqual) {
   const double limit = 2.0 * std::pow(1.0 - std::pow(0.5, 1.0 / 3.0), 1.5);
-  for (const Accuracy accuracy : kPresets) {
-    const TracedPath path = TraceIncrementsOf("two_nearly_equal", accuracy, 150, 600);
-    const std::vector<double> limits = Loads(path, IncrementKind::kSmoothLimit);
-    ASSERT_GE(limits.size(), 1U);
-    EXPECT_NEAR(limits[0], limit, 1e-12);
-    double deepest = 0.0;
-    for (const Increment& increment : path.increments)
-      deepest = std::min(deepest, PositionY(path, increment, "n1") - PositionY(path, increment, "n0"));
-    EXPECT_LT(deepest, -0.1);
-  }
+  for (const double difference : {1e-8, 1e-10, 1e-12})
+    for (const Accuracy accuracy : kPresets) {
+      SCOPED_TRACE(difference);
+      TraceRequest request = ReadData("two_nearly_equal");
+      request.scene.bars[0].EA = request.scene.bars[1].EA = 1.0 + difference;
+      const TracedPath path = TraceIncrementsOf(std::move(request), accuracy, 150, 600);
+      const std::vector<double> limits = Loads(path, IncrementKind::kSmoothLimit);
+      ASSERT_GE(limits.size(), 1U);
+      EXPECT_NEAR(limits[0], limit, 1e-12);
+      double deepest = 0.0;
+      for (const Increment& increment : path.increments)
+        deepest = std::min(deepest, PositionY(path, increment, "n1") - PositionY(path, increment, "n0"));
+      EXPECT_LT(deepest, -0.1);
+    }
 }
 
 // Two halves that do not touch each other reach their limit loads together, symmetric for any step.
@@ -461,7 +484,7 @@ TEST(SingularScenes, HighTrussWithTinyImperfections) {
       TraceRequest request = ReadData("imperfect_truss");
       request.scene.loads[0].fx = imperfection;
       request.options.accuracy = accuracy;
-      request.options.max_increments = 400;
+      request.options.max_increments = 500;
       request.options.stop = {{"n.x", ">", 0.5}, {"n.y", "<", 1.0}};
       const TracedPath path = TraceProved(request);
       EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << imperfection << ": " << path.result.message;

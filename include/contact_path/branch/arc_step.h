@@ -27,8 +27,9 @@ struct ArcStep {
 // The step from `start`, a point of the arc, along its tangent: of this length, or of the first half, quarter, ... of
 // it that Newton's method, the limits and the location of the first event accept.
 // Where no step meets the limits, the predictor may be further off: at a point where another path crosses, or nearly,
-// rounding of the forces across both paths hides how good it is. target: load factor to end at. Nothing: no step is
-// accepted, however short.
+// rounding of the forces across both paths hides how good it is. How far rounding moves points there is seen by the
+// last step of Newton's method; an error of the predictor of this size asks for no shorter step. target: load factor to
+// end at. Nothing: no step is accepted, however short.
 std::optional<ArcStep> NextStep(SmoothArc* arc, const CurvePoint& start, double length, const StepLimits& limits,
                                 std::optional<double> target);
 

@@ -22,6 +22,7 @@ struct CurvePoint {
   Eigen::VectorXd second;    // orthogonal to first in (u, s)
   Eigen::Index nullity = 0;  // null directions of the equations besides the tangent
   int determinant_sign = 0;  // of the equations with the tangent as last row; 0 = singular
+  int side = 0;              // determinant_sign; at a point within an arc where that is 0, of the point before
   int pivot_sign = 0;        // the same, and other than 0 also where singular: see BorderedSolver::PivotSign()
 };
 

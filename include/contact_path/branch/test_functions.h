@@ -33,10 +33,10 @@ struct StepEvent {
 // more than a twentieth of the difference between the quintic and the cubic interpolation at the middle of the step:
 // minima that come nearer to zero than that are reported as kNearTouch. A bifurcation shows by the sign of the
 // determinant at the ends, and is then found by bisection; two of them within one step are not seen.
-// Where the bisection comes upon two points that are farther apart than one curve could take them, the step has leapt
-// to another curve. A bifurcation that is next to another event, but not at its place to rounding, is looked at with a
-// shorter step.
-// target: load factor to end at, other than that of the start; nothing = none.
+// Where the bisection comes upon two points that are farther apart than one curve could take them, or upon a stretch in
+// which it reaches no point, the step has leapt to another curve, whatever other event lies there. A bifurcation that
+// is next to another event, but not at its place to rounding, is looked at with a shorter step. target: load factor to
+// end at, other than that of the start; nothing = none.
 StepEvent FirstEvent(SmoothArc* arc, const Step& step, std::optional<double> target = std::nullopt);
 
 // The exact point of a kind near t, by Newton's method, with its parameter within the step. Nothing if it is
