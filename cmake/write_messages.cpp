@@ -1,4 +1,4 @@
-// Gives the messages of the parts of a scene what scene/scene.h describes and they lack: a field, or a whole message
+// Gives the messages of the parts of a scene what scene/scene.h and solid_parts.h describe and they lack: a field, or a whole message
 // for a new kind of part. What a message has stays as it is. Usage: write_messages DIRECTORY
 //
 // The messages must be there before CMake runs, so scripts/messages compiles this from the headers alone.

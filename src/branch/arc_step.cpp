@@ -12,6 +12,11 @@ constexpr double kCoarsePrediction = 0.05;  // largest error of the predictor wh
 constexpr double kNoise = 10.0;             // of the last Newton step: what rounding leaves of the predictor
 constexpr int kLocatingAttempts = 6;
 
+// A matrix that is singular to rounding at a regular point has no sign of its own.
+void KeepSide(const CurvePoint& start, CurvePoint* end) {
+  if (end->side == 0 && end->nullity == 0) end->side = start.side;
+}
+
 // A whole step with this length along the tangent; nothing where it has to be shorter.
 std::optional<ArcStep> TryStep(SmoothArc* arc, const CurvePoint& start, double length, double prediction,
                                double smallest_cosine) {
@@ -33,7 +38,7 @@ std::optional<ArcStep> TryStep(SmoothArc* arc, const CurvePoint& start, double l
   CurvePoint end;
   if (!arc->Derivatives(correction.x, normal, &end)) return std::nullopt;
   if (end.first.head(normal.size()).dot(normal) < smallest_cosine) return std::nullopt;
-  if (end.side == 0 && end.nullity == 0) end.side = start.side;
+  KeepSide(start, &end);
   ArcStep result;
   result.step = MakeStep(start, end, arc->NumMotion());
   result.tried = length;
@@ -48,18 +53,24 @@ bool Passes(const SmoothArc& arc, const CurvePoint& start, const CurvePoint& end
   return (start.x[s] - target) * (end.x[s] - target) < 0.0;
 }
 
+bool IsSame(const StepEvent& one, const StepEvent& other) {
+  return one.kind == other.kind && one.limit.contact == other.limit.contact &&
+         one.limit.inequality == other.limit.inequality;
+}
+
 // Ends the step at the first event on it. The exact point of an event may show an earlier one. False: it is not found.
 bool EndAtFirstEvent(SmoothArc* arc, std::optional<double> target, ArcStep* at) {
   at->event = FirstEvent(arc, at->step, target);
   if (at->event.kind == EventKind::kNone) return true;
   for (int attempt = 0; attempt < kLocatingAttempts; ++attempt) {
-    const std::optional<CurvePoint> point = Locate(arc, at->step, at->event, target);
+    std::optional<CurvePoint> point = Locate(arc, at->step, at->event, target);
     if (!point) return false;
+    if (!at->event.singular) KeepSide(at->step.start, &*point);
     if (at->event.kind != EventKind::kTarget && target && Passes(*arc, at->step.start, *point, *target)) {
       at->event = {EventKind::kTarget, at->event.t, {}, false};
       continue;
     }
-    const EventKind kind = at->event.kind;
+    const StepEvent found = at->event;
     const double before = at->step.length;
     at->step = MakeStep(at->step.start, *point, arc->NumMotion());
     if (!(at->step.length > tolerances::kNoMove)) {
@@ -69,7 +80,7 @@ bool EndAtFirstEvent(SmoothArc* arc, std::optional<double> target, ArcStep* at) 
     const StepEvent earlier = FirstEvent(arc, at->step, target);
     if (earlier.kind == EventKind::kNone || earlier.t >= at->step.length - tolerances::kNoMove) return true;
     // The earlier event is rounding of a short step where it leads to this point again.
-    if (attempt > 0 && earlier.kind == kind && std::abs(at->step.length - before) <= tolerances::kNoMove) return true;
+    if (attempt > 0 && IsSame(earlier, found) && std::abs(at->step.length - before) <= tolerances::kNoMove) return true;
     at->event = earlier;
   }
   return false;
@@ -79,6 +90,7 @@ bool EndAtFirstEvent(SmoothArc* arc, std::optional<double> target, ArcStep* at) 
 
 std::optional<ArcStep> NextStep(SmoothArc* arc, const CurvePoint& start, double length, const StepLimits& limits,
                                 std::optional<double> target) {
+  arc->SetOut(start);
   double tried = length, prediction = limits.prediction;
   for (int rejected = 0;; ++rejected) {
     // Where another path crosses, or an imperfection has broken the crossing, points are less exact than the predictor

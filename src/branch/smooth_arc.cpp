@@ -46,7 +46,7 @@ SmoothArc::SmoothArc(const Structure& structure, const ContactPairs& contacts)
 void SmoothArc::SetStates(const std::vector<ContactState>& states, const PathPoint& from, bool rests) {
   system_.SetStates(states, SurfaceCoordinates(contacts_, from));
   at_hand_ = false;
-  last_point_.resize(0);
+  origin_.resize(0);
   rests_ = rests;
   NoteClosedGaps(from);
 }
@@ -89,10 +89,6 @@ bool SmoothArc::Derivatives(const Eigen::VectorXd& x, const Eigen::VectorXd& tow
   point->second = solver_.Solve(-system_.SecondDerivative(x, point->first), 0.0);
   HoldLimitPoint(x, &point->second);
   point->second -= point->first.head(n).dot(point->second.head(n)) * point->first;
-  if (structure_.Mixed()) {
-    last_point_ = x.head(n);
-    last_tangent_ = point->first.head(n);
-  }
   point->nullity = solver_.Nullity();
   point->determinant_sign = point->side = solver_.DeterminantSign();
   point->pivot_sign = solver_.PivotSign();
@@ -198,12 +194,18 @@ Correction SmoothArc::Newton(const Eigen::VectorXd& guess, const Eigen::VectorXd
   return result;
 }
 
+void SmoothArc::SetOut(const CurvePoint& at) {
+  if (!structure_.Mixed()) return;
+  origin_ = at.x.head(NumMotion());
+  tangent_at_origin_ = at.first.head(NumMotion());
+}
+
 void SmoothArc::ExtrapolateStrains(const Eigen::VectorXd& guess) {
   if (!structure_.Mixed()) return;
   strains_from_ = strains_to_ = guess.head(NumMotion());
-  if (last_point_.size() == 0) return;
-  strains_to_ = last_point_ + last_tangent_.dot(strains_from_ - last_point_) * last_tangent_;
-  strains_from_ = last_point_;
+  if (origin_.size() == 0) return;
+  strains_to_ = origin_ + tangent_at_origin_.dot(strains_from_ - origin_) * tangent_at_origin_;
+  strains_from_ = origin_;
 }
 
 bool SmoothArc::Factorize(const Eigen::VectorXd& x, const Eigen::VectorXd& row, double rank_tolerance) {

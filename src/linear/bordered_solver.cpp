@@ -91,7 +91,7 @@ bool BorderedSolver::Factorize(const Eigen::SparseMatrix<double>& transposed, co
                                const Frame* frame, double rank_tolerance, double rounding) {
   if (rank_tolerance == 0.0) {
     if (FactorizeRegular(transposed, row, rounding * tolerances::kSingularPivot, frame)) return true;
-    rank_tolerance = rounding * tolerances::kDependentColumn;
+    rank_tolerance = std::min(rounding * tolerances::kDependentColumn, tolerances::kDependentColumnSingular);
   } else {
     factors_->Free();
     factors_->regular = false;

@@ -2,15 +2,31 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 namespace contact_path {
+namespace {
+
+// Of one node that is free.
+constexpr double kDofsOfNode = 3.0;
+
+double NumFree(const Model& model, int node) {
+  double free = 0.0;
+  for (const int axis : {0, 1}) free += model.structure.Dof(node, axis) >= 0 ? 1.0 : 0.0;
+  return free + (model.structure.Dofs().Dof(node, Field::kRotation, 0) >= 0 ? 1.0 : 0.0);
+}
+
+}  // namespace
 
 double AutomaticStepGrowth(const Model& model) {
-  constexpr double kDofsOfNode = 3.0;
   const auto all = static_cast<double>(model.structure.NumDofs());
   double counted = all;
-  for (const Beam& beam : model.scene.beams)
-    if (beam.nodes.size() > 3) counted -= kDofsOfNode * static_cast<double>(beam.nodes.size() - 3);
+  for (const Beam& beam : model.scene.beams) {
+    double inner = 0.0;
+    for (std::size_t i = 1; i + 1 < beam.nodes.size(); ++i)
+      inner += NumFree(model, static_cast<int>(model.index.Node(beam.nodes[i])));
+    counted -= std::max(0.0, inner - kDofsOfNode);
+  }
   if (!(counted > 0.0)) return 1.0;
   return std::sqrt(all / counted * std::max(1.0, counted / 100.0));
 }

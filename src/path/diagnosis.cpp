@@ -15,7 +15,7 @@
 namespace contact_path {
 namespace {
 
-constexpr double kMostSlender = 5e8;            // EA L^2 / EI that is followed
+constexpr double kMostSlender = 1e8;            // EA L^2 / EI that is followed
 constexpr double kNearlyIncompressible = 0.49;  // Poisson's ratio beyond which elements of few nodes lock
 
 std::string SolidText(const Scene& scene, std::size_t i) {
@@ -96,9 +96,8 @@ std::string SlenderBeam(const Scene& scene, const SceneIndex& index) {
     out.imbue(std::locale::classic());
     out.precision(2);
     out << "EA L^2 / EI of beam " << beam.name << " is " << slender
-        << ": its bending drowns in the rounding of axial forces; with a smaller EA, so that it is 1e8, the path is "
-           "the "
-           "same";
+        << ": rounding of its axial force hides its bending; where it hardly stretches, EA with 1e7 gives nearly the "
+           "path";
     text = out.str();
   }
   return text;

@@ -84,6 +84,7 @@ class Restorer {
   std::optional<PathPoint> PointAfter(const CurvePoint& start, const PathPoint& from, double length, Method method) {
     if (!(length > 0.0)) return std::nullopt;
     const Eigen::VectorXd normal = start.first.head(arc_.NumMotion());
+    arc_.SetOut(start);
     double t = length, last_error = std::numeric_limits<double>::infinity();
     std::optional<PathPoint> point;
     for (int i = 0; i < kIterations; ++i) {

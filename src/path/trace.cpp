@@ -118,7 +118,7 @@ class Tracer {
     }
     if (model_ != nullptr) NameInvertedElement(*model_, point_);
     result_.increments = recorder_.increments();
-    if (result_.reason == EndReason::kStepTooSmall)
+    if (result_.reason == EndReason::kStepTooSmall || result_.reason == EndReason::kNumericalFailure)
       if (const std::string slender = SlenderBeam(request_.scene, index_); !slender.empty()) remarks_ += "; " + slender;
     if (const std::string locking = LockingSolids(request_.scene, index_); !locking.empty()) remarks_ += "; " + locking;
     result_.message += MissedEnd() + WhatMovesFreely() + recorder_.Remark() + remarks_ + MissedChoices();

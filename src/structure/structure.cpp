@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "contact_path/tolerances.h"
@@ -48,7 +49,10 @@ Structure::Structure(const Scene& scene, const SceneIndex& index, const Configur
   for (PlacedElement& placed : elements) AddPart(std::move(placed));
   BuildPattern();
   // Coordinates are rounded relative to their size.
-  const double size = std::max(1.0, start_.size() > 0 ? start_.lpNorm<Eigen::Infinity>() : 0.0);
+  double size = 1.0;
+  for (const DofMap::Component& component : dofs_.Components())
+    if (component.field == Field::kPosition && component.dof >= 0)
+      size = std::max(size, std::abs(start_[component.dof]));
   residual_units_ = (tolerances::kStiffForce * size * StiffnessBounds()).cwiseMax(1.0);
 }
 

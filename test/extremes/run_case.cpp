@@ -37,8 +37,8 @@ bool AllFinite(const Increment& increment) {
 }
 
 bool MayEnd(const ExtremeCase& extreme, Method method, EndReason reason) {
-  if (reason == EndReason::kStopCriterion || reason == EndReason::kMaxIncrements)
-    return extreme.error || extreme.ends.empty();
+  if (reason == EndReason::kStopCriterion) return true;
+  if (reason == EndReason::kMaxIncrements) return extreme.error || extreme.ends.empty();
   if (std::count(extreme.ends.begin(), extreme.ends.end(), ToString(reason)) > 0) return true;
   return method == Method::kMpec && reason != EndReason::kCancelled;
 }

@@ -283,6 +283,7 @@ class Variation {
       load.py = random_.Number(-0.3, 0.3) * size / length_of(beam.nodes);
       scene().loads.push_back(load);
       load.group.clear();
+      load.py = 0.0;
     }
     if (scene().surfaces.empty()) return;
     load.surface = scene().surfaces.back().name;

@@ -149,6 +149,30 @@ TEST(BorderedSolver, SingularWhereTheDeterminantChangesItsSign) {
   EXPECT_EQ(solver.Nullity(), 1);
 }
 
+// Entries that carry more rounding: what was regular to 1e-12 may be singular, and what QR finds regular has a sign.
+TEST(BorderedSolver, RoundingOfEntries) {
+  const auto factorize = [](BorderedSolver* solver, double a, double soft, double rounding) {
+    MatrixXd jacobian(2, 3);
+    jacobian << 1.0, 2.0, 0.0,  //
+        0.5 * soft, (1.0 + a) * soft, 0.0;
+    return solver->Factorize(Transposed(jacobian), Eigen::Vector3d(0.0, 0.0, 1.0), nullptr, 0.0, rounding);
+  };
+  BorderedSolver solver;
+  ASSERT_TRUE(factorize(&solver, 1e-10, 1.0, 1.0));
+  EXPECT_EQ(solver.Nullity(), 0);
+  ASSERT_TRUE(factorize(&solver, 1e-10, 1.0, 1e3));
+  EXPECT_EQ(solver.Nullity(), 1);
+  EXPECT_EQ(solver.DeterminantSign(), 0);
+  // A soft equation is none that says nothing.
+  for (const double a : {1.0, -1.0}) {
+    ASSERT_TRUE(factorize(&solver, a, 1e-10, 1e3));
+    EXPECT_EQ(solver.Nullity(), 0);
+    EXPECT_EQ(solver.DeterminantSign(), a > 0.0 ? 1 : -1);
+    const VectorXd x = Eigen::Vector3d(1.0, 2.0, 3.0);
+    EXPECT_TRUE(solver.Solve(Eigen::Vector2d(5.0, 1e-10 * (0.5 + 2.0 * (1.0 + a))), 3.0).isApprox(x, 1e-12));
+  }
+}
+
 TEST(BorderedSolver, RefusesWhatIsNotFinite) {
   MatrixXd jacobian(1, 2);
   BorderedSolver solver;

@@ -222,8 +222,8 @@ class TraceServiceTest(unittest.TestCase):
             for topic in 'request', 'increments':
                 helpers.wait_until(lambda: helpers.is_subscribed('/late_watcher', '/late/' + topic), 'watch listens')
             helpers.wait_until(lambda: increments.get_num_connections() and requests.get_num_connections(), 'connections')
-            for states in ('STICK', 'OPEN'), ('SLIP_PLUS', 'STICK'):
-                increments.publish(Increment(index=states[0] == 'SLIP_PLUS', kind=Increment.REGULAR, contacts=[
+            for index, states in enumerate((('STICK', 'OPEN'), ('SLIP_PLUS', 'STICK'))):
+                increments.publish(Increment(index=index, kind=Increment.REGULAR, contacts=[
                     ContactState(state=getattr(ContactState, state)) for state in states]))
             time.sleep(0.3)
             request = helpers.request_from(LEG)

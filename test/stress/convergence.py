@@ -12,8 +12,8 @@ import sys
 
 HEAD = '''# Convergence with the mesh
 
-Written by `scripts/stress convergence`. Values of `n`: segments or elements, coarse to fine. The order is that of the last two changes
-of the value where no exact value is given, and of the last two errors otherwise. What is wrong would stand in bold.
+Written by `scripts/stress convergence`. Values of `n`: segments or elements, coarse to fine. The order is that of the last two errors
+where the exact value is a closed form, and of the last two changes of the value otherwise. What is wrong would stand in bold.
 
 | case | `n` | values | expected | error of the finest | order |
 | --- | --- | --- | --- | --- | --- |

@@ -28,8 +28,8 @@ struct ArcStep {
 // it that Newton's method, the limits and the location of the first event accept.
 // Where no step meets the limits, the predictor may be further off: at a point where another path crosses, or nearly,
 // rounding of the forces across both paths hides how good it is. How far rounding moves points there is seen by the
-// last step of Newton's method; an error of the predictor of this size asks for no shorter step. target: load factor to
-// end at. Nothing: no step is accepted, however short.
+// last step of Newton's method; an error of the predictor of ten times its length asks for no shorter step. target:
+// load factor to end at. Nothing: no step is accepted, however short.
 std::optional<ArcStep> NextStep(SmoothArc* arc, const CurvePoint& start, double length, const StepLimits& limits,
                                 std::optional<double> target);
 

@@ -22,8 +22,8 @@ struct CurvePoint {
   Eigen::VectorXd second;    // orthogonal to first in (u, s)
   Eigen::Index nullity = 0;  // null directions of the equations besides the tangent
   int determinant_sign = 0;  // of the equations with the tangent as last row; 0 = singular
-  int side = 0;              // determinant_sign; at a point within an arc where that is 0, of the point before
-  int pivot_sign = 0;        // the same, and other than 0 also where singular: see BorderedSolver::PivotSign()
+  int side = 0;        // determinant_sign; of a regular point where that is 0 to rounding, that of the step's start
+  int pivot_sign = 0;  // the same, and other than 0 also where singular: see BorderedSolver::PivotSign()
 };
 
 struct Correction {
@@ -50,6 +50,8 @@ class SmoothArc {
   // False where they do not exist: singular element, or no direction along `towards`.
   bool Derivatives(const Eigen::VectorXd& x, const Eigen::VectorXd& towards, CurvePoint* point);
 
+  // The point of the curve that a step is to begin at: Newton's method looks for points near it from now on.
+  void SetOut(const CurvePoint& at);
   // Newton's method for the point of the curve with row . x = value, from guess. row: unknowns.
   Correction Correct(const Eigen::VectorXd& guess, const Eigen::VectorXd& row, double value);
   // Newton's method for the point of the curve on the plane through guess with this normal in (u, s), near the tangent.
@@ -95,8 +97,8 @@ class SmoothArc {
   void HoldLimitPoint(const Eigen::VectorXd& x, Eigen::VectorXd* change);
   // Of contacts that the states close over a gap, as small as what counts as none: the forces that this moves.
   void NoteClosedGaps(const PathPoint& from);
-  // Where the elements want it, the first matrix of Newton's method from guess has the strains of the tangent at the
-  // last point of the curve.
+  // Where elements want it, the first matrix of Newton's method from guess has the strains along the tangent of the
+  // point set out from.
   void ExtrapolateStrains(const Eigen::VectorXd& guess);
   // False if the matrix is not finite.
   bool Factorize(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& row,
@@ -112,8 +114,8 @@ class SmoothArc {
   std::map<int, double> moved_forces_;  // by contact, of those that the states close over a gap
   bool rests_ = false;  // part of the structure stands still at a limit point of its own (Branch::rests)
   Eigen::VectorXd residual_, step_length_;
-  Eigen::VectorXd last_point_, last_tangent_;  // of the last Derivatives() of these states, (u, s); empty: none
-  Eigen::VectorXd strains_from_, strains_to_;  // for Structure::MixedTangent(), (u, s)
+  Eigen::VectorXd origin_, tangent_at_origin_;  // of SetOut() with these states, (u, s); empty: none
+  Eigen::VectorXd strains_from_, strains_to_;   // for Structure::MixedTangent(), (u, s)
   int factorisations_ = 0;
 };
 
