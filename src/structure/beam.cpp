@@ -132,7 +132,7 @@ void BeamSegment::Force(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<E
 void BeamSegment::Tangent(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::MatrixXd> tangent) const {
   const Coordinates at = CoordinatesOf(x);
   const Chord chord(at.head<2>());
-  TangentOf(chord, Forces(chord, at), tangent);
+  Spread(TangentOf(chord, Forces(chord, at)), tangent);
 }
 
 void BeamSegment::MixedTangent(const Eigen::Ref<const Eigen::VectorXd>& x,
@@ -143,17 +143,16 @@ void BeamSegment::MixedTangent(const Eigen::Ref<const Eigen::VectorXd>& x,
   const Eigen::Vector2d change = (CoordinatesOf(to) - before).head<2>();
   Eigen::Vector3d forces = Forces(chord, at);
   forces[0] = EA_ * (last.length - length_ + last.along.dot(change)) / length_;
-  TangentOf(chord, forces, tangent);
+  Spread(TangentOf(chord, forces), tangent);
 }
 
-void BeamSegment::TangentOf(const Chord& chord, const Eigen::Vector3d& forces,
-                            Eigen::Ref<Eigen::MatrixXd> tangent) const {
+BeamSegment::Square BeamSegment::TangentOf(const Chord& chord, const Eigen::Vector3d& forces) const {
   const Eigen::Matrix<double, 4, 3> gradients = Gradients(chord);
   const Square product = gradients * Stiffnesses() * gradients.transpose();
   Square square = 0.5 * (product + product.transpose());  // symmetric to the last digit
   square.topLeftCorner<2, 2>() +=
       forces[0] * chord.LengthHessian() - (forces[1] + forces[2]) * chord.DirectionHessian();
-  Spread(square, tangent);
+  return square;
 }
 
 void BeamSegment::TangentDerivative(const Eigen::Ref<const Eigen::VectorXd>& x,

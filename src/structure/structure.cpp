@@ -236,7 +236,10 @@ void Structure::MixedTangent(const Eigen::Ref<const Eigen::VectorXd>& u, const E
     Gather(part, u, x);
     Gather(part, from, local_from);
     Gather(part, to, local_to);
-    part.element->MixedTangent(x, local_from, local_to, local);
+    if (part.element->Mixed())
+      part.element->MixedTangent(x, local_from, local_to, local);
+    else
+      part.element->Tangent(x, local);
     Scatter(part.entries, local.data(), tangent->valuePtr());
   }
 }

@@ -51,8 +51,8 @@ class BeamSegment : public Element {
   // Derivatives of W by l, a and b.
   Eigen::Vector3d Forces(const Chord& chord, const Coordinates& at) const;
   Eigen::Matrix3d Stiffnesses() const;
-  // The tangent with these forces.
-  void TangentOf(const Chord& chord, const Eigen::Vector3d& forces, Eigen::Ref<Eigen::MatrixXd> tangent) const;
+  // The tangent by the coordinates, with these forces.
+  Square TangentOf(const Chord& chord, const Eigen::Vector3d& forces) const;
   void Spread(const Square& of_coordinates, Eigen::Ref<Eigen::MatrixXd> out) const;
 
   double EA_, length_;

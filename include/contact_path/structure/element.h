@@ -38,24 +38,21 @@ class Element {
   virtual void Force(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::VectorXd> force) const = 0;
   // tangent = d2W/dx2, m x m, symmetric [force/length].
   virtual void Tangent(const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::Ref<Eigen::MatrixXd> tangent) const = 0;
-  // Whether MixedTangent() is another matrix than Tangent(): of an element much stiffer in one way than in others.
+  // Whether there is a MixedTangent(): of an element much stiffer in one way than in others.
   virtual bool Mixed() const { return false; }
   // The tangent at x with the stiff internal forces that `to` has by strains linearised at `from`, in place of those at
   // x. Newton's method on strains and positions together, the strains eliminated, has this matrix (Magisano, Leonetti &
-  // Garcea 2017): strains that are off by little do not pass for large forces.
-  virtual void MixedTangent(const Eigen::Ref<const Eigen::VectorXd>& x, const Eigen::Ref<const Eigen::VectorXd>& from,
-                            const Eigen::Ref<const Eigen::VectorXd>& to, Eigen::Ref<Eigen::MatrixXd> tangent) const;
+  // Garcea 2017): strains that are off by little do not pass for large forces. Zero where it is not Mixed().
+  virtual void MixedTangent(const Eigen::Ref<const Eigen::VectorXd>& /*x*/,
+                            const Eigen::Ref<const Eigen::VectorXd>& /*from*/,
+                            const Eigen::Ref<const Eigen::VectorXd>& /*to*/,
+                            Eigen::Ref<Eigen::MatrixXd> tangent) const {
+    tangent.setZero();
+  }
   // derivative = d/dh tangent(x + h v) at h = 0, m x m, symmetric. It is also the gradient of tangent(x) v.
   virtual void TangentDerivative(const Eigen::Ref<const Eigen::VectorXd>& x, const Eigen::Ref<const Eigen::VectorXd>& v,
                                  Eigen::Ref<Eigen::MatrixXd> derivative) const = 0;
 };
-
-inline void Element::MixedTangent(const Eigen::Ref<const Eigen::VectorXd>& x,
-                                  const Eigen::Ref<const Eigen::VectorXd>& /*from*/,
-                                  const Eigen::Ref<const Eigen::VectorXd>& /*to*/,
-                                  Eigen::Ref<Eigen::MatrixXd> tangent) const {
-  Tangent(x, tangent);
-}
 
 }  // namespace contact_path
 

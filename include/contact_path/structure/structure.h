@@ -71,7 +71,7 @@ class Structure {
   const Eigen::SparseMatrix<double>& TangentPattern() const { return pattern_; }
   // Hessian of the strain energy; `tangent` must have the pattern and keeps it.
   void Tangent(const Eigen::Ref<const Eigen::VectorXd>& u, Eigen::SparseMatrix<double>* tangent) const;
-  // The same with Element::MixedTangent(), for Newton's method; Mixed(): whether it is another matrix.
+  // The same with Element::MixedTangent() where an element has one; Mixed(): whether one has.
   bool Mixed() const { return mixed_; }
   void MixedTangent(const Eigen::Ref<const Eigen::VectorXd>& u, const Eigen::Ref<const Eigen::VectorXd>& from,
                     const Eigen::Ref<const Eigen::VectorXd>& to, Eigen::SparseMatrix<double>* tangent) const;
