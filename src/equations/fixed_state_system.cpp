@@ -2,14 +2,15 @@
 
 #include <algorithm>
 #include <iterator>
-#include <utility>
+#include <numeric>
 
+#include "contact_path/equations/frame_around.h"
 #include "contact_path/linear/bordered_solver.h"
 
 namespace contact_path {
 namespace {
 
-// Times the candidates, against the dofs: of more of them, mostly out of reach, a frame would make factors large.
+// Times the contacts in a frame, against the dofs: more of them would make factors large.
 constexpr double kMostInFrame = 4.0;
 
 }  // namespace
@@ -207,72 +208,40 @@ void FixedStateSystem::Rebuild() {
 }
 
 const Frame* FixedStateSystem::InFrame() {
-  if (kMostInFrame * static_cast<double>(contacts_.size()) > static_cast<double>(NumDofs())) return nullptr;
   if (num_unknowns_ < BorderedSolver::kLargeSystem || num_equations_ + 1 != num_unknowns_ || load_factor_fixed_ ||
       !active_.empty())
     return nullptr;
-  if (frame_.size == 0) frame_ = BuildFrame();
-  if (!placed_) PlaceInFrame();
+  if (placed_) return &frame_;
+  if (frame_.size == 0 || !std::includes(framed_.begin(), framed_.end(), touching_.begin(), touching_.end())) {
+    framed_ = ContactsToFrame();
+    frame_ = FitFrame(framed_.size()) ? FrameAround(structure_, contacts_, framed_, tangent_) : Frame();
+  }
+  if (frame_.size == 0) return nullptr;
+  PlaceInFrame();
   return &frame_;
 }
 
-// Unknowns: u, r_n and r_t of each contact, reactions of supports, s. Equations: equilibrium, u_n and xi of each
-// contact, supports.
-Frame FixedStateSystem::BuildFrame() const {
-  const auto nd = static_cast<int>(NumDofs()), contacts = static_cast<int>(contacts_.size());
-  const int first_support = nd + 2 * contacts;
-  const int s = first_support + static_cast<int>(structure_.PrescribedDofs().size());
-  std::vector<std::pair<int, int>> forces;  // dof, unknown
-  for (int i = 0; i < contacts; ++i) {
-    const ContactPair& pair = *contacts_[static_cast<std::size_t>(i)];
-    for (std::size_t k = 0; k < pair.Dofs().size(); ++k) {
-      // Slip makes both components of r_n.
-      if (pair.MovesGap(k) || pair.MovesXi(k)) forces.emplace_back(pair.Dofs()[k], nd + 2 * i);
-      if (pair.MovesXi(k)) forces.emplace_back(pair.Dofs()[k], nd + 2 * i + 1);
-    }
-  }
-  int support = first_support;
-  for (const PrescribedDof& prescribed : structure_.PrescribedDofs()) forces.emplace_back(prescribed.dof, support++);
-  std::sort(forces.begin(), forces.end());
+bool FixedStateSystem::FitFrame(std::size_t contacts) const {
+  return kMostInFrame * static_cast<double>(contacts) <= static_cast<double>(NumDofs());
+}
 
-  Frame frame;
-  std::vector<int>&starts = frame.starts, &entries = frame.entries;
-  frame.size = s + 1;
-  frame.orderings = structure_.SharedOrderings();
-  starts.reserve(static_cast<std::size_t>(frame.size));
-  starts.push_back(0);
-  entries.reserve(static_cast<std::size_t>(tangent_.nonZeros() + nd) + 8 * contacts_.size() + forces.size());
-  const auto end_equation = [&] { starts.push_back(static_cast<int>(entries.size())); };
-  auto force = forces.begin();
-  for (int column = 0; column < nd; ++column) {
-    entries.insert(entries.end(), tangent_.innerIndexPtr() + tangent_.outerIndexPtr()[column],
-                   tangent_.innerIndexPtr() + tangent_.outerIndexPtr()[column + 1]);
-    for (; force != forces.end() && force->first == column; ++force) entries.push_back(force->second);
-    entries.push_back(s);
-    end_equation();
+// All candidates where they are few; otherwise those that touch, and those that did before while they are few.
+std::vector<std::size_t> FixedStateSystem::ContactsToFrame() const {
+  std::vector<std::size_t> all;
+  if (FitFrame(contacts_.size())) {
+    all.resize(contacts_.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    return all;
   }
-  for (int i = 0; i < contacts; ++i) {
-    const ContactPair& pair = *contacts_[static_cast<std::size_t>(i)];
-    const std::size_t m = pair.Dofs().size();
-    for (const bool gap : {true, false}) {
-      for (std::size_t k = 0; k < m; ++k)
-        if (gap ? pair.MovesGap(k) : pair.MovesXi(k)) entries.push_back(pair.Dofs()[k]);
-      entries.push_back(nd + 2 * i + (gap ? 0 : 1));
-      if (gap ? pair.MovesGap(m) : pair.MovesXi(m)) entries.push_back(s);
-      end_equation();
-    }
-  }
-  support = first_support;
-  for (const PrescribedDof& prescribed : structure_.PrescribedDofs()) {
-    entries.insert(entries.end(), {prescribed.dof, support++, s});
-    end_equation();
-  }
-  return frame;
+  std::set_union(framed_.begin(), framed_.end(), touching_.begin(), touching_.end(), std::back_inserter(all));
+  return FitFrame(all.size()) ? all : touching_;
 }
 
 void FixedStateSystem::PlaceInFrame() {
   const auto nd = static_cast<int>(NumDofs());
-  const auto contact_place = [nd](std::size_t contact) { return nd + 2 * static_cast<int>(contact); };
+  const auto contact_place = [this, nd](std::size_t contact) {
+    return nd + 2 * static_cast<int>(std::lower_bound(framed_.begin(), framed_.end(), contact) - framed_.begin());
+  };
   frame_.unknowns.assign(static_cast<std::size_t>(num_unknowns_), 0);
   frame_.equations.assign(static_cast<std::size_t>(num_equations_), 0);
   for (int k = 0; k < nd; ++k)
@@ -285,7 +254,7 @@ void FixedStateSystem::PlaceInFrame() {
   for (const MotionEquation& of : motions_)
     frame_.equations[static_cast<std::size_t>(of.equation)] =
         contact_place(of.motion.contact) + (of.motion.is_gap ? 0 : 1);
-  int place = nd + 2 * static_cast<int>(contacts_.size());
+  int place = nd + 2 * static_cast<int>(framed_.size());
   for (std::size_t k = 0; k < structure_.PrescribedDofs().size(); ++k, ++place) {
     frame_.unknowns[static_cast<std::size_t>(first_support_) + k] = place;
     frame_.equations[static_cast<std::size_t>(first_support_equation_) + k] = place;

@@ -388,9 +388,8 @@ Scene WithLattice(Scene scene, int side) {
   return scene;
 }
 
-// One pattern for all contact states: solutions and signs are those of the system alone.
-TEST(FixedStateSystem, LargeSystemsInTheirFrame) {
-  const Scene scene = WithLattice(MovingScene(), 40);
+// Solutions and signs of 24 contact states of the first six contacts, in their frame, are those of the system alone.
+void ExpectSolvedInFrame(const Scene& scene) {
   const Structure structure(scene);
   const ContactPairs contacts = BuildContacts(scene, structure);
   FixedStateSystem system(structure, contacts);
@@ -399,8 +398,8 @@ TEST(FixedStateSystem, LargeSystemsInTheirFrame) {
   int other_signs = 0, before = 0;
   for (int i = 0; i < 24; ++i) {
     std::vector<State> states;
-    for (const auto& contact : contacts) {
-      const std::vector<State> options = StatesOf(*contact);
+    for (std::size_t k = 0; k < 6; ++k) {
+      const std::vector<State> options = StatesOf(*contacts[k]);
       states.push_back(
           options[static_cast<std::size_t>(random.Number(0.0, 0.999) * static_cast<double>(options.size()))]);
     }
@@ -411,12 +410,14 @@ TEST(FixedStateSystem, LargeSystemsInTheirFrame) {
     if (states[0] == State::kStick) states[1] = State::kOpen;
     if (states[0] != State::kOpen && states[1] != State::kOpen) states[1] = State::kOpen;
     if (states[3] == State::kStick) states[3] = State::kSlipPlus;
-    system.SetStates(states, Eigen::VectorXd::Zero(6));
+    states.resize(contacts.size(), State::kOpen);
+    const auto all = static_cast<Eigen::Index>(contacts.size());
+    system.SetStates(states, Eigen::VectorXd::Zero(all));
     PathPoint point;
     point.u = structure.Start() + random.Vector(structure.NumDofs(), -0.01, 0.01);
     point.s = 0.3;
-    point.rn = random.Vector(6, 0.1, 1.0);
-    point.rt = random.Vector(6, -1.0, 1.0);
+    point.rn = random.Vector(all, 0.1, 1.0);
+    point.rt = random.Vector(all, -1.0, 1.0);
     const Eigen::VectorXd x = system.Pack(point);
     const Eigen::SparseMatrix<double> transposed = system.TransposedJacobian(x);
     // A tangent, and a row with one entry where the border has none.
@@ -441,6 +442,17 @@ TEST(FixedStateSystem, LargeSystemsInTheirFrame) {
     EXPECT_LE((matrix.transpose() * solution - right).norm(), 1e-12 * solution.norm()) << i;
   }
   EXPECT_GE(other_signs, 4);
+}
+
+TEST(FixedStateSystem, LargeSystemsInTheirFrame) { ExpectSolvedInFrame(WithLattice(MovingScene(), 40)); }
+
+// More candidates than fit a frame: it has places for those that touch.
+TEST(FixedStateSystem, LargeSystemsInTheirFrameWithManyCandidates) {
+  Scene scene = WithLattice(MovingScene(), 40);
+  scene.obstacles.push_back({"far", ObstacleShape::kHalfPlane, 0.0, -100.0, 0.0, 1.0, 0.3});
+  for (const Node& node : scene.nodes)
+    if (node.name[0] == 'g') scene.contacts.push_back({node.name, "far"});
+  ExpectSolvedInFrame(scene);
 }
 
 }  // namespace

@@ -69,8 +69,8 @@ class FixedStateSystem {
   const Eigen::SparseMatrix<double>& MixedJacobian(const Eigen::VectorXd& x, const Eigen::VectorXd& from,
                                                    const Eigen::VectorXd& to);
 
-  // The system among those of all contact states, for BorderedSolver; until the next set or pin. Null where the system
-  // is small, or has active constraints or a fixed load factor, or where there are many candidates.
+  // The system among those of other contact states, for BorderedSolver; until the next set or pin. Null where the
+  // system is small, or has active constraints or a fixed load factor, or where very many contacts touch.
   const Frame* InFrame();
 
   // All inequalities of the fixed states, in contact order, and their values at x (>= 0: holds).
@@ -135,7 +135,8 @@ class FixedStateSystem {
   void Rebuild();
   // Puts tangent_ and the curved contacts at x into transposed_.
   const Eigen::SparseMatrix<double>& WithTangent(const Eigen::VectorXd& x);
-  Frame BuildFrame() const;
+  bool FitFrame(std::size_t contacts) const;
+  std::vector<std::size_t> ContactsToFrame() const;
   void PlaceInFrame();
 
   const Structure& structure_;
@@ -161,7 +162,8 @@ class FixedStateSystem {
   Eigen::SparseMatrix<double> tangent_;
   Eigen::SparseMatrix<double> transposed_;
   Frame frame_;
-  bool placed_ = false;       // in the frame, as the states are
+  std::vector<std::size_t> framed_;  // contacts that have places in it, ascending
+  bool placed_ = false;              // in the frame, as the states are
   Eigen::VectorXd constant_;  // values of transposed_ that do not change; kept where some contacts are curved
 };
 
