@@ -416,8 +416,10 @@ void ExpectSolvedInFrame(const Scene& scene) {
     PathPoint point;
     point.u = structure.Start() + random.Vector(structure.NumDofs(), -0.01, 0.01);
     point.s = 0.3;
-    point.rn = random.Vector(all, 0.1, 1.0);
-    point.rt = random.Vector(all, -1.0, 1.0);
+    point.rn = Eigen::VectorXd::Zero(all);
+    point.rn.head(6) = random.Vector(6, 0.1, 1.0);
+    point.rt = Eigen::VectorXd::Zero(all);
+    point.rt.head(6) = random.Vector(6, -1.0, 1.0);
     const Eigen::VectorXd x = system.Pack(point);
     const Eigen::SparseMatrix<double> transposed = system.TransposedJacobian(x);
     // A tangent, and a row with one entry where the border has none.
