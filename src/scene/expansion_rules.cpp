@@ -121,8 +121,8 @@ class GroupRules {
     std::unordered_set<std::string> earlier;
     for (std::size_t i = 0; i < scene_.surfaces.size(); ++i) {
       const BoundarySurface& surface = scene_.surfaces[i];
-      const KeyPath nodes = list[i].Key("nodes");
-      checker_.CheckFields(list[i], surface, &earlier);
+      const KeyPath path = list[i], nodes = path.Key("nodes");
+      checker_.CheckFields(path, surface, &earlier);
       const std::size_t least = surface.closed ? 3 : 2;
       if (surface.nodes.size() < least)
         checker_.Add(nodes, ListText(surface.nodes), "at least " + std::to_string(least) + " nodes are needed");

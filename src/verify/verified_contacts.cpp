@@ -7,7 +7,8 @@
 namespace contact_path {
 namespace {
 
-constexpr double kSoft = 1e-6;  // of F: where forces across a contact are smaller, F is no measure of them
+constexpr double kSoft = 1e-6;   // of F: where forces across a contact are smaller, F is no measure of them
+constexpr double kStiff = 1e-4;  // of the forces across a contact: its reactions are known to rounding of no less
 
 }  // namespace
 
@@ -27,6 +28,7 @@ std::vector<VerifiedContact> VerifiedContacts(const Scene& scene, const SceneInd
     contact.name = scene.contacts[i].Name();
     const double unit = across[i] / scaling.force;
     if (unit > 0.0 && unit < kSoft) contact.unit = unit;
+    if (kStiff * unit > 1.0) contact.unit = kStiff * unit;
     contacts.push_back(std::move(contact));
   }
   return contacts;
