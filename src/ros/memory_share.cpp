@@ -15,6 +15,7 @@ namespace contact_path {
 namespace {
 
 constexpr double kMegabyte = 1024.0 * 1024.0;
+constexpr double kLeast = 128.0;  // MB: what the stacks of the threads reserve, and a small trace
 
 // The shadow memory of these counts as data: terabytes.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -37,9 +38,11 @@ double DataMegabytes() {
 void LimitData(int megabytes) {
   if (megabytes == 0 || !kCountable) return;
   const double used = DataMegabytes();
-  if (used > kShareOfTraces * megabytes) {
+  if (used + kLeast > kShareOfTraces * megabytes) {
     throw std::invalid_argument("~" + std::string(names::kMaxMemory) + " = " + std::to_string(megabytes) +
-                                ": the node itself takes " + std::to_string(static_cast<int>(used)));
+                                ": the node itself takes " + std::to_string(static_cast<int>(used)) +
+                                ", most of it reserved by the BLAS, and needs " +
+                                std::to_string(static_cast<int>(kLeast)) + " besides");
   }
   struct rlimit limit {};
   bool done = ::getrlimit(RLIMIT_DATA, &limit) == 0;

@@ -24,6 +24,7 @@ msgs::TraceRequest LargestRequest() {
   msgs::TraceRequest request;
   request.scene.nodes.resize(2);
   request.scene.bars.resize(3);
+  for (auto& bar : request.scene.bars) bar.nodes.resize(2);
   request.scene.superelements.resize(2);
   request.scene.superelements[0].stiffness.resize(2);
   request.scene.superelements[1].stiffness.resize(1);
@@ -59,6 +60,8 @@ TEST(LimitsTest, NamesWhatIsTooLargeAndTheLimit) {
        "stiffness entries of scene.superelements: 4, but the node admits 3 (~max_elements)"},
       {[](auto& request) { request.scene.superelements[0].rest_positions.resize(4); },
        "rest_positions entries of scene.superelements: 4, but the node admits 3 (~max_elements)"},
+      {[](auto& request) { request.scene.superelements[0].nodes.resize(6); },
+       "nodes entries of scene.superelements: 4, but the node admits 3 (~max_elements)"},
       {[](auto& request) { request.scene.support_motions.resize(4); },
        "scene.support_motions: 4, but the node admits 3 (~max_elements)"},
       {[](auto& request) { request.scene.obstacle_motions.resize(5); },

@@ -9,7 +9,7 @@ namespace contact_path {
 double DataMegabytes();
 
 // From now on the system refuses this process data beyond `megabytes`: std::bad_alloc where more is asked for.
-// 0: as much as there is. Throws std::invalid_argument where more is already in use.
+// 0: as much as there is. Throws std::invalid_argument where what is in use leaves too little for a small trace.
 void LimitData(int megabytes);
 
 // Of such a limit, as much as a trace may use before it is ended: what else the node does needs the rest.
