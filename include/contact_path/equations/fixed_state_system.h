@@ -164,7 +164,7 @@ class FixedStateSystem {
   Frame frame_;
   std::vector<std::size_t> framed_;  // contacts that have places in it, ascending
   bool placed_ = false;              // in the frame, as the states are
-  Eigen::VectorXd constant_;  // values of transposed_ that do not change; kept where some contacts are curved
+  Eigen::VectorXd constant_;         // values of transposed_ that do not change; kept where some contacts are curved
 };
 
 }  // namespace contact_path
