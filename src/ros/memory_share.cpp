@@ -1,10 +1,12 @@
 #include "contact_path/ros/memory_share.h"
 
+#include <malloc.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <fstream>
+#include <new>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -24,6 +26,34 @@ constexpr bool kCountable = false;
 constexpr bool kCountable = true;
 #endif
 
+constexpr double kRaise = 64.0;  // MB at a time
+
+thread_local int scopes_within_limit = 0;
+
+bool SetLimit(double megabytes) {
+  struct rlimit limit {};
+  if (::getrlimit(RLIMIT_DATA, &limit) != 0) return false;
+  limit.rlim_cur = static_cast<rlim_t>(megabytes * kMegabyte);
+  return ::setrlimit(RLIMIT_DATA, &limit) == 0;
+}
+
+// Called where operator new has found no memory.
+void RefuseOrRaise() {
+  struct rlimit limit {};
+  const bool raises = scopes_within_limit == 0 && ::getrlimit(RLIMIT_DATA, &limit) == 0 &&
+                      SetLimit(static_cast<double>(limit.rlim_cur) / kMegabyte + kRaise);
+  if (!raises) throw std::bad_alloc();
+}
+
+// What the allocator keeps for later.
+double FreeMegabytes() {
+#if __GLIBC_PREREQ(2, 33)
+  return static_cast<double>(::mallinfo2().fordblks) / kMegabyte;
+#else
+  return static_cast<double>(static_cast<unsigned>(::mallinfo().fordblks)) / kMegabyte;
+#endif
+}
+
 }  // namespace
 
 double DataMegabytes() {
@@ -35,6 +65,13 @@ double DataMegabytes() {
   return value * static_cast<double>(::sysconf(_SC_PAGESIZE)) / kMegabyte;
 }
 
+bool TakesMoreThan(double megabytes) {
+  const double data = DataMegabytes();
+  return data > megabytes && data - FreeMegabytes() > megabytes;
+}
+
+void ReturnFreeMemory() { ::malloc_trim(0); }
+
 void LimitData(int megabytes) {
   if (megabytes == 0 || !kCountable) return;
   const double used = DataMegabytes();
@@ -44,12 +81,16 @@ void LimitData(int megabytes) {
                                 ", most of it reserved by the BLAS, and needs " +
                                 std::to_string(static_cast<int>(kLeast)) + " besides");
   }
-  struct rlimit limit {};
-  bool done = ::getrlimit(RLIMIT_DATA, &limit) == 0;
-  limit.rlim_cur = static_cast<rlim_t>(megabytes * kMegabyte);
-  done = done && ::setrlimit(RLIMIT_DATA, &limit) == 0;
-  if (!done)
+  if (!SetLimit(megabytes))
     throw std::invalid_argument("~" + std::string(names::kMaxMemory) + ": " + std::generic_category().message(errno));
+  std::set_new_handler(RefuseOrRaise);
 }
+
+WithinLimit::WithinLimit(int megabytes) {
+  if (megabytes > 0 && kCountable) SetLimit(megabytes);
+  ++scopes_within_limit;
+}
+
+WithinLimit::~WithinLimit() { --scopes_within_limit; }
 
 }  // namespace contact_path

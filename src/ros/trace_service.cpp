@@ -175,6 +175,7 @@ bool TraceService::Admit(const std::string& scene_name, Response* response) {
 
 void TraceService::Run(const std::function<contact_path_msgs::TraceRequest()>& request, const TraceObserver& observer,
                        Response* response) {
+  const WithinLimit within_limit(parameters_.limits.max_memory);
   // Where memory ends once more, in what follows, there is no message any more, but the node must become free.
   try {
     try {
@@ -198,6 +199,7 @@ void TraceService::Run(const std::function<contact_path_msgs::TraceRequest()>& r
   } catch (const std::exception&) {
     // The answer tells the end, too.
   }
+  ReturnFreeMemory();
   running_ = false;
 }
 
@@ -439,7 +441,7 @@ bool TraceService::StopWanted(const TraceObserver& observer) {
   if (limits.max_seconds > 0.0 && SecondsSince(running_since_) > limits.max_seconds) RequestStop(StopCause::kTimeLimit);
   if (limits.max_memory > 0 && now - memory_time_ > kMemoryPeriod) {
     memory_time_ = now;
-    if (DataMegabytes() > kShareOfTraces * limits.max_memory) RequestStop(StopCause::kMemoryLimit);
+    if (TakesMoreThan(kShareOfTraces * limits.max_memory)) RequestStop(StopCause::kMemoryLimit);
   }
   return stop_cause_ != StopCause::kNone;
 }

@@ -143,10 +143,12 @@ class EventVerifier {
     return chord;
   }
 
-  // The first increment after this one that moves.
+  // The first increment after this one that moves; none where another branch is taken before.
   const Increment* Next() const {
-    for (std::size_t i = at_ + 1; i < increments_.size() && increments_[i].stage == increments_[at_].stage; ++i)
+    for (std::size_t i = at_ + 1; i < increments_.size() && increments_[i].stage == increments_[at_].stage; ++i) {
       if (increments_[i].arc_length > increments_[at_].arc_length) return &increments_[i];
+      if (increments_[i].event.taken > 0) return nullptr;
+    }
     return nullptr;
   }
 

@@ -32,7 +32,11 @@ msgs::TraceRequest Normalised(msgs::TraceRequest message) {
   for (msgs::Node& node : message.scene.nodes) {
     node.fixed_x = node.fixed_x != 0;
     node.fixed_y = node.fixed_y != 0;
+    node.fixed_rotation = node.fixed_rotation != 0;
   }
+  for (msgs::Beam& beam : message.scene.beams)
+    for (auto& hinged : beam.hinged) hinged = hinged != 0;
+  for (msgs::BoundarySurface& surface : message.scene.surfaces) surface.closed = surface.closed != 0;
   for (msgs::Load& load : message.scene.loads) load.constant = load.constant != 0;
   for (msgs::Stage& stage : message.program) {
     for (msgs::Load& load : stage.loads) load.constant = load.constant != 0;

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
+#include <ctime>
 #include <limits>
 #include <string>
 #include <vector>
@@ -497,9 +497,9 @@ TEST(ValidateSizeTest, UnloadingTakesTimeInProportionToTheRequest) {
   }
   request.program[1].target = 1e-5;
   request.program.resize(kMany, request.program[1]);
-  const auto start = std::chrono::steady_clock::now();
+  const std::clock_t start = std::clock();
   EXPECT_TRUE(Validate(request).empty());
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
+  EXPECT_LT(std::clock() - start, 5 * CLOCKS_PER_SEC);
 }
 
 // Each motion is asked for all contacts, by an index: 10^10 comparisons would be seen here.
@@ -518,9 +518,9 @@ TEST(ValidateSizeTest, TakesTimeInProportionToTheRequest) {
     request.scene.obstacles.push_back({"o" + std::to_string(i), ObstacleShape::kHalfPlane, 0.0, -9.0, 0.0, 1.0, 0.3});
     request.scene.contacts.push_back({"b", "o" + std::to_string(i)});
   }
-  const auto start = std::chrono::steady_clock::now();
+  const std::clock_t start = std::clock();
   EXPECT_TRUE(Validate(request).empty());
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
+  EXPECT_LT(std::clock() - start, 5 * CLOCKS_PER_SEC);
 }
 
 TEST(ViolationTest, LineIsOneLineWhateverTheText) {

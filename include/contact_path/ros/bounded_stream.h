@@ -14,6 +14,8 @@
 
 #include <ros/serialization.h>
 
+#include "contact_path/ros/memory_share.h"
+
 namespace contact_path {
 
 // As ros::serialization::IStream otherwise.
@@ -42,6 +44,7 @@ class BoundedIStream : public ros::serialization::Stream {
 // As roscpp deserializes. Throws std::runtime_error, which tells a caller more than std::bad_alloc, where memory ends.
 template <typename Message>
 void ReadBounded(ros::serialization::IStream& stream, Message& message) {
+  const WithinLimit within_limit(0);
   try {
     BoundedIStream(stream.getData(), stream.getLength()).next(message);
   } catch (const std::bad_alloc&) {
