@@ -18,7 +18,7 @@ target_link_libraries(fuzz_trace_scene PRIVATE GTest::gtest)
 target_compile_definitions(fuzz_trace_scene PRIVATE CONTACT_PATH_QUICK_SCENES)
 if(CONTACT_PATH_ROS)
   # Of the ROS side only what it runs: the rest takes minutes to compile.
-  contact_path_add_fuzz_target(convert_request contact_path_core src/ros/convert.cpp src/ros/limits.cpp
+  contact_path_add_fuzz_target(convert_request contact_path_core src/ros/convert.cpp src/ros/limits.cpp src/ros/memory_share.cpp
     test/support/same_request.cpp)
   add_dependencies(fuzz_convert_request ${PROJECT_NAME}_generate_messages_cpp)
   #catkin_lint: ignore_once external_directory external_interface_path
