@@ -28,6 +28,7 @@ TEST(MemoryShareDeathTest, RefusesWhatIsBeyondTheLimit) {
       {
         const int limit = static_cast<int>(DataMegabytes()) + 300;
         LimitData(limit);
+        const WithinLimit within(limit);
         const std::vector<char> admitted(200 * kMegabyte, 'x');
         try {
           const std::vector<char> refused(200 * kMegabyte, 'x');
@@ -35,6 +36,17 @@ TEST(MemoryShareDeathTest, RefusesWhatIsBeyondTheLimit) {
           std::_Exit(admitted.back() == 'x' ? 0 : 2);
         }
         std::_Exit(1);
+      },
+      testing::ExitedWithCode(0), "");
+}
+
+TEST(MemoryShareDeathTest, AdmitsItToThreadsThatAreNotHeldToTheLimit) {
+  if (DataMegabytes() == 0.0) GTEST_SKIP() << "not counted in this build";
+  EXPECT_EXIT(
+      {
+        LimitData(static_cast<int>(DataMegabytes()) + 300);
+        const std::vector<char> admitted(400 * kMegabyte, 'x');
+        std::_Exit(admitted.back() == 'x' ? 0 : 1);
       },
       testing::ExitedWithCode(0), "");
 }
