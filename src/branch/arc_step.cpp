@@ -79,11 +79,28 @@ bool EndAtFirstEvent(SmoothArc* arc, std::optional<double> target, ArcStep* at) 
     }
     const StepEvent earlier = FirstEvent(arc, at->step, target);
     if (earlier.kind == EventKind::kNone || earlier.t >= at->step.length - tolerances::kNoMove) return true;
-    // The earlier event is rounding of a short step where it leads to this point again.
-    if (attempt > 0 && IsSame(earlier, found) && std::abs(at->step.length - before) <= tolerances::kNoMove) return true;
+    // The earlier event is rounding of a short step where it leads to this point again, or where the load is no other
+    // at a singular point, which is not located any better.
+    const bool same = IsSame(earlier, found);
+    if (attempt > 0 && same && std::abs(at->step.length - before) <= tolerances::kNoMove) return true;
+    const bool is_singular_limit = found.kind == EventKind::kLimitPoint && point->determinant_sign == 0;
+    const double reach = ReachOfExtreme(point->second[arc->system().NumDofs()]);
+    if (same && is_singular_limit && at->step.length - earlier.t <= reach) return true;
     at->event = earlier;
   }
   return false;
+}
+
+// Where the matrix is singular to rounding there are no second derivatives, and no event is found on a step that ends
+// there. A longer one ends beyond. Nothing: none does.
+std::optional<ArcStep> StepBeyond(SmoothArc* arc, const CurvePoint& start, double length, const StepLimits& limits,
+                                  std::optional<double> target) {
+  for (const double factor : {2.0, 4.0, 8.0}) {
+    if (factor * length > limits.largest) break;
+    std::optional<ArcStep> step = TryStep(arc, start, factor * length, kCoarsePrediction, limits.cosine);
+    if (step && step->step.end.nullity == 0 && EndAtFirstEvent(arc, target, &*step)) return step;
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -101,7 +118,14 @@ std::optional<ArcStep> NextStep(SmoothArc* arc, const CurvePoint& start, double 
     }
     if (tried < limits.smallest) return std::nullopt;
     std::optional<ArcStep> step = TryStep(arc, start, tried, prediction, limits.cosine);
-    if (step && EndAtFirstEvent(arc, target, &*step)) {
+    const bool ends_singular = step && start.nullity == 0 && step->step.end.nullity > 0;
+    bool good = step && EndAtFirstEvent(arc, target, &*step);
+    if (ends_singular && !(good && step->event.kind != EventKind::kNone)) {
+      std::optional<ArcStep> beyond = StepBeyond(arc, start, tried, limits, target);
+      good = good || beyond;
+      if (beyond) step = std::move(beyond);
+    }
+    if (good) {
       step->rejected = rejected;
       return step;
     }

@@ -41,11 +41,6 @@ std::optional<CurvePoint> PointAt(SmoothArc* arc, const Step& step, double t) {
   return point;
 }
 
-// Distance from the extreme of a quantity with this second derivative, up to which it differs from it by rounding only.
-double ReachOfExtreme(double second) {
-  return std::min(std::sqrt(2.0 * tolerances::kExtreme / std::abs(second)), tolerances::kExtremeReach);
-}
-
 // At a limit point the rate of the load factor is zero. What rounding leaves of it would be found as another one.
 void RestLoad(Eigen::Index s, CurvePoint* point) {
   if (std::abs(point->first[s]) > tolerances::kLevel) point->first[s] = 0.0;
@@ -139,6 +134,10 @@ std::optional<CurvePoint> LocateRegular(SmoothArc* arc, const Step& step, const 
 
 }  // namespace
 
+double ReachOfExtreme(double second) {
+  return std::min(std::sqrt(2.0 * tolerances::kExtreme / std::abs(second)), tolerances::kExtremeReach);
+}
+
 StepEvent FirstEvent(SmoothArc* arc, const Step& step, std::optional<double> target) {
   const FixedStateSystem& system = arc->system();
   StepEvent first;
@@ -182,13 +181,13 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, std::optional<double> tar
     if (!bifurcation) return {EventKind::kTooLong, 0.0, {}, false};
     const double apart = std::abs(bifurcation->t - first.t);
     double near = std::max(width, bifurcation->width);
-    // A point beyond such a bracket may be one of another curve, whatever event coincides with it.
-    if (!bifurcation->sure && first.t >= bifurcation->t - near) return {EventKind::kTooLong, 0.0, {}, false};
     if (first.kind != EventKind::kNone && apart > near && apart <= tolerances::kUnclear * step.length)
       return {EventKind::kTooLong, 0.0, {}, false};
     // A step as short as this does not tell them apart either.
     if (first.kind == EventKind::kLimitPoint)
       near = std::max(near, ReachOfExtreme(Evaluate(Derivative(load_rate), first.t)));
+    // A point beyond such a bracket may be one of another curve, whatever event coincides with it.
+    if (!bifurcation->sure && first.t >= bifurcation->t - near) return {EventKind::kTooLong, 0.0, {}, false};
     // The step was cut short at a limit point, and rounding has put that point beyond the bifurcation.
     const bool ends_at_limit = first.kind == EventKind::kNone && step.end.first[s] == 0.0;
     if (ends_at_limit && apart <= ReachOfExtreme(step.end.second[s]))
@@ -220,7 +219,15 @@ std::optional<CurvePoint> Locate(SmoothArc* arc, const Step& step, const StepEve
   const double t = step.normal.dot((point->x - step.start.x).head(step.normal.size()));
   const double slack = tolerances::kLocatedPlace * step.length;
   if (!(t >= -slack && t <= step.length + slack)) return std::nullopt;
-  if (event.kind == EventKind::kLimitPoint) RestLoad(arc->system().NumDofs(), &*point);
+  if (event.kind != EventKind::kLimitPoint) return point;
+  if (point->nullity > 0 && step.start.nullity == 0 && step.end.nullity == 0) {
+    // There the equations give no derivatives; the interpolation of the step that goes beyond does.
+    CurvePoint interpolated = step.At(t);
+    interpolated.x = point->x;
+    interpolated.determinant_sign = interpolated.side = 0;
+    *point = std::move(interpolated);
+  }
+  RestLoad(arc->system().NumDofs(), &*point);
   return point;
 }
 

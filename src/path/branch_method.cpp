@@ -333,7 +333,7 @@ void BranchMethod::SetNextLength(const ArcStep& at) {
 }
 
 std::optional<BranchMethod::BalancedStep> BranchMethod::NextBalancedStep() {
-  const StepLimits limits = {options_.smallest_step, options_.prediction, options_.smallest_cosine};
+  const StepLimits limits = {options_.smallest_step, options_.step, options_.prediction, options_.smallest_cosine};
   double length = step_length_;
   std::optional<BalancedStep> best;
   for (int shorter = 0; shorter <= kMostShorter; ++shorter) {
@@ -409,10 +409,13 @@ Advance BranchMethod::Next(const PathPoint& from) {
   return advance;
 }
 
-std::string BranchMethod::NoStep(const PathPoint& from) const {
+std::string BranchMethod::NoStep(const PathPoint& from) {
+  std::string text = "no increment could be accepted, however short: Newton's method does not stay on the branch";
   const std::string bar = CollapsedBar(model_.scene, model_.index, model_.InSceneUnits(from).positions);
-  return "no increment could be accepted, however short: Newton's method does not stay on the branch" +
-         (bar.empty() ? bar : "; " + bar);
+  if (!bar.empty()) text += "; " + bar;
+  const double moved = arc_.CorrectOnPlane(current_.x, current_.first.head(arc_.NumMotion())).first_step;
+  if (moved > options_.smallest_step) text += "; " + MovedByRounding(moved * model_.scaling.length);
+  return text;
 }
 
 }  // namespace contact_path

@@ -44,6 +44,15 @@ std::string CollapsedBar(const Scene& scene, const SceneIndex& index, const std:
   return text;
 }
 
+std::string MovedByRounding(double distance) {
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out.precision(2);
+  out << "the equations are so nearly singular that rounding moves the points of the path by " << distance
+      << ", more than the shortest step";
+  return out.str();
+}
+
 std::string InvertedElement(const Scene& scene, const SceneIndex& index, const std::vector<double>& positions) {
   double smallest = tolerances::kCollapsed;
   std::string text;

@@ -11,7 +11,7 @@
 namespace contact_path {
 namespace {
 
-constexpr StepLimits kLimits = {1e-9, 1e-3, 0.98};
+constexpr StepLimits kLimits = {1e-9, 1.0, 1e-3, 0.98};
 
 TracedArc LinearArc() { return {TraceScene(ReadExample("rigid_stop").scene, 3), 1}; }
 TracedArc BentArc() { return {TraceScene(ReadExample("sliding_bar").scene, 21), 20}; }
@@ -57,7 +57,7 @@ TEST(ArcStep, OfNoLengthWhereTheEventIsAtTheStart) {
 // The half that is accepted turns by less than the limit, and twice its length turns by more.
 TEST(ArcStep, IsHalvedWhileTheTangentTurnsTooFar) {
   TracedArc arc = BentArc();
-  const StepLimits limits = {1e-9, 1.0, 0.9999};
+  const StepLimits limits = {1e-9, 1.0, 1.0, 0.9999};
   const std::optional<ArcStep> at = NextStep(&arc.arc(), arc.start(), 0.4, limits, std::nullopt);
   ASSERT_TRUE(at);
   ASSERT_GT(at->rejected, 0);
@@ -69,13 +69,13 @@ TEST(ArcStep, IsHalvedWhileTheTangentTurnsTooFar) {
 
 TEST(ArcStep, NothingBelowTheSmallest) {
   TracedArc arc = BentArc();
-  EXPECT_FALSE(NextStep(&arc.arc(), arc.start(), 0.4, {0.3, 1.0, 0.9999}, std::nullopt));
+  EXPECT_FALSE(NextStep(&arc.arc(), arc.start(), 0.4, {0.3, 1.0, 1.0, 0.9999}, std::nullopt));
 }
 
 // Where no step meets the limit, a predictor that is further off is taken in the end.
 TEST(ArcStep, InTheEndThePredictorMayBeFurtherOff) {
   TracedArc arc = BentArc();
-  const std::optional<ArcStep> at = NextStep(&arc.arc(), arc.start(), 0.04, {0.01, 1e-12, 0.98}, std::nullopt);
+  const std::optional<ArcStep> at = NextStep(&arc.arc(), arc.start(), 0.04, {0.01, 1.0, 1e-12, 0.98}, std::nullopt);
   ASSERT_TRUE(at);
   EXPECT_EQ(at->tried, 0.04);
   EXPECT_GT(at->rejected, 0);

@@ -357,6 +357,59 @@ TEST(SingularScenes, TwoSlackPairsBecomeStraightAtNearlyTheSameLoad) {
   }
 }
 
+// Both pairs become straight within 1e-8 of each other, and the path turns there within 4e-5. The pairs carry nothing,
+// so that the rest moves back as it came, while one of them has swung through.
+TEST(SingularScenes, SlackPairSwingsThroughNextToAnother) {
+  const TraceRequest request = ReadData("slack_pairs_nearly_together");
+  for (const Accuracy accuracy : kPresets) {
+    const TracedPath path = TraceIncrementsOf(request, accuracy, accuracy == Accuracy::kFast ? 120 : 300, 900);
+    const std::vector<Increment> limits = IncrementsOfKind(path, IncrementKind::kSmoothLimit);
+    ASSERT_GE(limits.size(), 2U);
+    EXPECT_NEAR(limits[0].load_factor, 0.01609026214914, 1e-13);
+    EXPECT_NEAR(limits[1].load_factor, 0.00989248933307, 1e-13);
+    // On which side of the line from n0L to n0R; 0: on it.
+    const auto side = [&](const Increment& increment, const std::string& node) {
+      const double x = PositionX(path, increment, "n0L"), y = PositionY(path, increment, "n0L");
+      return (PositionX(path, increment, "n0R") - x) * (PositionY(path, increment, node) - y) -
+             (PositionY(path, increment, "n0R") - y) * (PositionX(path, increment, node) - x);
+    };
+    std::size_t swung = 0;
+    for (const Increment& increment : path.increments) {
+      for (std::size_t bar = 8; bar < 12; ++bar) {
+        const std::vector<std::string>& ends = request.scene.bars[bar].nodes;
+        const double length = std::hypot(PositionX(path, increment, ends[1]) - PositionX(path, increment, ends[0]),
+                                         PositionY(path, increment, ends[1]) - PositionY(path, increment, ends[0]));
+        EXPECT_NEAR(length, std::hypot(bar < 10 ? 0.5 : 1.0, 0.45), 1e-8);
+      }
+      if (increment.index > limits[1].index && side(increment, "n2L") > 1e-3 && side(increment, "n2R") < -1e-3) ++swung;
+    }
+    EXPECT_GT(swung, 5U);
+  }
+}
+
+// The path comes back to the symmetric one where an imperfection of 1e-10 has broken the bifurcation: it turns by a
+// right angle within 1e-6. Limit loads by continuation in 34 digits.
+TEST(SingularScenes, SharpTurnAtABrokenBifurcation) {
+  for (const Accuracy accuracy : {Accuracy::kBalanced, Accuracy::kAccurate}) {
+    TraceRequest request = ReadData("bend_at_broken_bifurcation");
+    request.options.accuracy = accuracy;
+    request.options.max_increments = 600;
+    const TracedPath path = TraceProved(request);
+    std::vector<double> limits = Loads(path, IncrementKind::kSmoothLimit);
+    ASSERT_GE(limits.size(), 5U);
+    limits.resize(5);
+    ExpectNear(
+        limits,
+        {6.7067501474132e-5, -0.00146241204840578, 0.000369980616801768, -2.29863136999241e-5, 2.201606499688991e-5},
+        1e-13);
+    std::size_t symmetric = 0;
+    for (const Increment& increment : path.increments)
+      symmetric += increment.index > 100 && std::abs(increment.load_factor) < 1e-5 &&
+                   std::abs(PositionY(path, increment, "n1L") - PositionY(path, increment, "n1R")) < 1e-8;
+    EXPECT_GT(symmetric, 0U);
+  }
+}
+
 // Where another path crosses, the reaction of a contact is known to rounding of the point only.
 TEST(SingularScenes, ContactWithoutAReactionWhereSlackBarsBecomeStraight) {
   const double n3_n4 = std::hypot(0.5, 1.0), n4_n2 = 0.75;

@@ -172,6 +172,17 @@ class Problem:
         x = np.array([[float(increment['x_' + name]), float(increment['y_' + name])] for name in self.names])
         return np.append(x.ravel()[self.free], float(increment['load_factor']))
 
+    def rounding(self, z):
+        """How far rounding of the coordinates may move a solution of the equations near z; 0 where a contact touches.
+
+        Rounding changes the forces by eps times the largest stiffness; the least singular value is the stiffness against it.
+        """
+        x = self.positions(z)
+        if any(contact.gap(x, z[-1]) < NEAR for contact in self.contacts):
+            return 0.0
+        values = np.linalg.svd(self.forces(z)[1][self.free], compute_uv=False)
+        return np.finfo(float).eps * values[0] / values[-1]
+
     def shortest_bar(self, z):
         """Smallest length of a bar relative to its initial one."""
         x = self.positions(z)

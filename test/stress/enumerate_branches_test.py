@@ -40,6 +40,18 @@ class EnumerateBranchesTest(unittest.TestCase):
         for branch in branches:
             np.testing.assert_allclose(branch.motion, [0.0, 0.0, 1.0], atol=1e-6)
 
+    def test_rounding_moves_a_point_by_the_inverse_of_its_softest_stiffness(self):
+        # Of a taut string with the tension 1e-10 the middle is held across by 2e-10, along by 2.
+        nodes = [{'name': name, 'x': x, 'y': 0.0, 'fixed_x': fixed, 'fixed_y': fixed}
+                 for name, x, fixed in (('a', -1.0, True), ('m', 0.0, False), ('b', 1.0, True))]
+        bars = [{'nodes': ends, 'EA': 1.0, 'rest_length': 1.0 - 1e-10} for ends in (['a', 'm'], ['m', 'b'])]
+        request = {'scene': {'nodes': nodes, 'bars': bars, 'loads': [{'node': 'm', 'fx': 1.0}]}}
+        problem = Problem(request)
+        z = problem.z_of(row(0.0, a=(-1.0, 0.0), m=(0.0, 0.0), b=(1.0, 0.0)))
+        self.assertAlmostEqual(problem.rounding(z) / (2.2e-16 * np.sqrt(5.0) / 2e-10), 1.0, delta=0.05)
+        request['scene'].update(obstacles=[{'name': 'floor', 'ny': 1.0}], contacts=[{'node': 'm', 'obstacle': 'floor'}])
+        self.assertEqual(Problem(request).rounding(z), 0.0)
+
     def test_slides_at_the_edge_of_the_cone(self):
         branches = branches_from(Problem(block(0.5)), [row(0.0, **ENDS), row(0.5, **ENDS)])
         self.assertEqual({tuple(branch.states.items()) for branch in branches}, {(('b@floor', 'slip+'),)})

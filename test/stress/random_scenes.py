@@ -14,7 +14,8 @@ one line each tells the verdict:
     preload     the constant loads cannot be brought on: the same loads, scaled by the load factor, have a limit point there, and
                 the enumeration finds no branch from it on which they grow
     missed      the enumeration finds a branch: a defect
-    known       the same, of a seed in KNOWN below
+    rounding    inside an arc, the equations are so nearly singular that rounding of the coordinates moves the points of the path
+                further than its last increment went
     undecided   there are too many combinations of contact states, or there is no increment to look at, or no branch is found
                 where a path ended inside an arc: every arc goes on until an event, but may turn more sharply than is looked at
 
@@ -40,14 +41,7 @@ MAX_INCREMENTS = 300
 LONGEST = 120         # seconds for one path
 COLLAPSED = 1e-4      # length of a bar over its initial length
 NO_EARLY_END = ('stop_criterion', 'max_increments', 'closed_path')
-CHECKED = ('confirmed', 'collapsed', 'preload', 'known')
-
-# Seeds whose path ends although the enumeration finds a branch, by end reason, with the causes that were found. A seed whose
-# path goes on is to be taken out.
-KNOWN = {
-    # A limit point nearer to a bifurcation that an imperfection has broken than the shortest step.
-    'step_too_small': (1691, 1767, 2255),
-}
+CHECKED = ('confirmed', 'collapsed', 'preload', 'rounding')
 
 STRAINS = ('biot', 'biot', 'green_lagrange', 'logarithmic')
 ANGLES = (0, .5, 1, 1.5, .25, .75, 1.25, 1.75)  # times pi
@@ -281,6 +275,16 @@ def verdict_of(request, rows):
     return ('missed', str(branches[0])) if branches else ('confirmed', '')
 
 
+def inside_arc_verdict(request, rows, why):
+    """Of an end inside an arc, where the enumeration may find how the arc goes on (`why`) or not."""
+    problem = Problem(request, int(rows[-1].get('stage', '1')))
+    before, last = problem.z_of(rows[-2]), problem.z_of(rows[-1])
+    went, moved = np.linalg.norm(last - before), problem.rounding(last)
+    if moved > went:
+        return 'rounding', 'moves the point by %.1g, the last increment by %.1g' % (moved, went)
+    return ('missed', why) if why else ('undecided', 'inside an arc')
+
+
 def preload_verdict(program, request, message, path):
     """Of an end `while the constant loads were brought on`: the scene with these loads scaled by the load factor, alone."""
     scene = dict(request['scene'], loads=[{k: v for k, v in entry.items() if k != 'constant'}
@@ -316,10 +320,8 @@ def examine(program, seed, directory):
         verdict, why = preload_verdict(program, request, message, path)
     else:
         verdict, why = verdict_of(request, rows)
-    if reason == 'step_too_small' and verdict == 'confirmed':
-        verdict, why = 'undecided', 'inside an arc'
-    if verdict in ('missed', 'undecided') and seed in KNOWN.get(reason, ()):
-        verdict = 'known'
+    if reason == 'step_too_small' and verdict in ('confirmed', 'missed'):
+        verdict, why = inside_arc_verdict(request, rows, why)
     return kind, reason, verdict, why
 
 

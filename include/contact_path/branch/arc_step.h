@@ -11,6 +11,7 @@ namespace contact_path {
 
 struct StepLimits {
   double smallest = 0.0;    // scaled length below which a step is given up
+  double largest = 0.0;     // scaled length that none exceeds
   double prediction = 0.0;  // largest error of the predictor, relative to the step
   double cosine = 0.0;      // smallest, between the tangents at both ends
 };
@@ -28,8 +29,9 @@ struct ArcStep {
 // it that Newton's method, the limits and the location of the first event accept.
 // Where no step meets the limits, the predictor may be further off: at a point where another path crosses, or nearly,
 // rounding of the forces across both paths hides how good it is. How far rounding moves points there is seen by the
-// last step of Newton's method; an error of the predictor of ten times its length asks for no shorter step. target:
-// load factor to end at. Nothing: no step is accepted, however short.
+// last step of Newton's method; an error of the predictor of ten times its length asks for no shorter step.
+// A step may be longer than wanted, up to the largest: where it would end at a point that is singular to rounding, and
+// events on it are not found for that. target: load factor to end at. Nothing: no step is accepted, however short.
 std::optional<ArcStep> NextStep(SmoothArc* arc, const CurvePoint& start, double length, const StepLimits& limits,
                                 std::optional<double> target);
 

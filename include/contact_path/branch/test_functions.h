@@ -44,6 +44,10 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, std::optional<double> tar
 std::optional<CurvePoint> Locate(SmoothArc* arc, const Step& step, const StepEvent& event,
                                  std::optional<double> target = std::nullopt);
 
+// Distance from an extreme of a quantity with this second derivative by arc length, up to which it differs from its
+// extreme by rounding only. Scaled.
+double ReachOfExtreme(double second);
+
 }  // namespace contact_path
 
 #endif  // CONTACT_PATH_BRANCH_TEST_FUNCTIONS_H_

@@ -73,7 +73,7 @@ class BranchMethod : public PathMethod {
   // share that a step may be off by.
   bool Balance(BalancedStep* step) const;
   // Why no step is accepted.
-  std::string NoStep(const PathPoint& from) const;
+  std::string NoStep(const PathPoint& from);
 
   const Model& model_;
   BranchOptions options_;

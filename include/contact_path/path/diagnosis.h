@@ -15,6 +15,9 @@ namespace contact_path {
 // index: of the scene. positions: current x0, y0, x1, ..., 2 x nodes [length].
 std::string CollapsedBar(const Scene& scene, const SceneIndex& index, const std::vector<double>& positions);
 
+// Tells that points of the path are known no better than this [length].
+std::string MovedByRounding(double distance);
+
 // Names the element of a solid whose area has shrunk most at one of its integration points, if that is nearly to
 // nothing, where it turns inside out; else empty. The same arguments.
 std::string InvertedElement(const Scene& scene, const SceneIndex& index, const std::vector<double>& positions);
