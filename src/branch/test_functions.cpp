@@ -222,10 +222,9 @@ std::optional<CurvePoint> Locate(SmoothArc* arc, const Step& step, const StepEve
   if (event.kind != EventKind::kLimitPoint) return point;
   if (point->nullity > 0 && step.start.nullity == 0 && step.end.nullity == 0) {
     // There the equations give no derivatives; the interpolation of the step that goes beyond does.
-    CurvePoint interpolated = step.At(t);
-    interpolated.x = point->x;
-    interpolated.determinant_sign = interpolated.side = 0;
-    *point = std::move(interpolated);
+    const CurvePoint interpolated = step.At(t);
+    point->first = interpolated.first;
+    point->second = interpolated.second;
   }
   RestLoad(arc->system().NumDofs(), &*point);
   return point;
