@@ -1,5 +1,8 @@
-# The messages, and what other packages get from this one. catkin_package() also decides where libraries and programs go, so it
+# The Python package, the messages, and what other packages get from this one. catkin_package() also decides where libraries and programs go, so it
 # comes before any target.
+
+# The Python package, whose directory the messages share.
+catkin_python_setup()
 
 file(GLOB contact_path_messages RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}/msg CONFIGURE_DEPENDS msg/*.msg)
 add_message_files(FILES ${contact_path_messages})

@@ -56,10 +56,6 @@ install(TARGETS contact_path_node contact_path_markers contact_path_trace contac
 install(DIRECTORY include/${PROJECT_NAME}/ DESTINATION ${CATKIN_PACKAGE_INCLUDE_DESTINATION})
 catkin_install_python(PROGRAMS scripts/contact_path_mesh scripts/play scripts/plot scripts/watch
   DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
-install(FILES scripts/beam_curves.py scripts/mesh_file.py scripts/mesh_parts.py scripts/mesh_scene.py scripts/path_curve.py
-  scripts/path_file.py scripts/path_quantities.py scripts/plot_panels.py scripts/plot_shapes.py scripts/scene_arrays.py
-  scripts/scene_expand.py scripts/solid_energy.py
-  DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(DIRECTORY config launch scenes DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
 install(FILES CHANGELOG.rst CITATION.cff LICENSE README.md DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
 install(DIRECTORY docs DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION} FILES_MATCHING PATTERN *.md PATTERN *.png)

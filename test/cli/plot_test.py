@@ -14,7 +14,7 @@ import unittest
 from plot_run import PLOT, PlotTest
 from program_test import scene_file
 
-sys.path.insert(0, os.path.dirname(PLOT))
+sys.path.insert(0, os.path.join(os.path.dirname(PLOT), '..', 'python'))
 import matplotlib  # noqa: E402
 
 matplotlib.use('Agg')
@@ -22,11 +22,8 @@ import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 from matplotlib.quiver import Quiver  # noqa: E402
 
-import path_curve  # noqa: E402
-import path_file  # noqa: E402
-import path_quantities  # noqa: E402
-import plot_panels  # noqa: E402
-import plot_shapes  # noqa: E402
+from contact_path import Path, Scene, plot_panels, plot_shapes, read  # noqa: E402
+from contact_path.scene_arrays import Structure  # noqa: E402
 
 
 loader = importlib.machinery.SourceFileLoader('plot', PLOT)
@@ -58,10 +55,11 @@ class Panels(QuickPlotTest):
         table = self.trace('cantilever_block', 'block.csv')
         scene = scene_file('cantilever_block')
         self.draw(table, '--shapes', '--scene', scene, '-o', self.path('block.png'))
-        solid, = plot_shapes.Structure(path_file.read_scene(scene)).solids
-        structure = plot_shapes.Structure(path_file.read_scene(scene))
+        solid, = Structure(Scene.read(scene)).solids
+        structure = Structure(Scene.read(scene))
         self.assertEqual(solid.boundaries.shape, (20, 8))
-        for increment in path_file.read(table).increments[::20]:
+        path = read(table)
+        for increment in map(path.row, range(0, len(path), 20)):
             energies = solid.energies(structure.initial, structure.positions(increment))
             self.assertAlmostEqual(energies.sum() * 0.25, increment['strain_energy'], delta=1e-9)
 
@@ -104,16 +102,13 @@ class Panels(QuickPlotTest):
         self.assert_main_refuses([table, '--states'], 'a.csv', 'no contacts')
 
     def test_arcs_of_a_contact(self):
-        path = path_file.Path('path')
         # The state of an increment holds on the arc that ends there; increments where states change carry it, others may not.
         states = ['stick', '', 'stick', '', 'slip+', '']
-        path.increments = [{'arc_length': float(i), 'state_a@b': state} for i, state in enumerate(states)]
-        for increment in path.increments:
-            increment['kind'] = 'regular'
-        self.assertEqual(plot_panels.arcs(path, 'a@b'), {'stick': [(0.0, 2.0)], 'slip+': [(2.0, 3.0)]})
+        table = {'arc_length': np.arange(6.0), 'kind': np.array(['regular'] * 6), 'state_a@b': np.array(states)}
+        self.assertEqual(plot_panels.arcs(Path(table), 'a@b'), {'stick': [(0.0, 2.0)], 'slip+': [(2.0, 3.0)]})
         # The start of a stage, at the place of the increment before, is on no arc.
-        path.increments.insert(3, {'arc_length': 2.0, 'state_a@b': 'open', 'kind': 'start'})
-        self.assertEqual(plot_panels.arcs(path, 'a@b'), {'stick': [(0.0, 2.0)], 'slip+': [(2.0, 3.0)]})
+        table = {name: np.insert(column, 3, value) for (name, column), value in zip(table.items(), (2.0, 'start', 'open'))}
+        self.assertEqual(plot_panels.arcs(Path(table), 'a@b'), {'stick': [(0.0, 2.0)], 'slip+': [(2.0, 3.0)]})
 
     def test_what_cannot_be_plotted_is_one_line(self):
         self.assert_refused(self.plot(self.path('none.csv')), 'none.csv')
@@ -136,13 +131,11 @@ class Curves(QuickPlotTest):
     """The line that is drawn through the increments."""
 
     def read(self, scene, *options):
-        path = path_file.read(self.trace(scene, 'a.csv', *options))
-        path.scene = path_file.read_scene(scene_file(scene))
-        return path
+        return read(self.trace(scene, 'a.csv', *options)).with_scene(Scene.read(scene_file(scene)))
 
     def line(self, path, x, y):
-        increments, places = plot_panels.points(path, x, y)
-        return increments, places, path_curve.line_through(increments, places)
+        rows, places = plot_panels.points(path, x, y)
+        return rows, places, plot_panels.line(path, rows, places)
 
     def test_closed_form(self):
         """The load of the sliding bar, as docs/scenes.md has it."""
@@ -154,14 +147,14 @@ class Curves(QuickPlotTest):
 
     def test_no_kink_at_a_smooth_limit_point(self):
         path = self.read('von_mises', '--accuracy', 'fast')
-        increments, places, line = self.line(path, 'apex.y', 'load_factor')
+        rows, places, line = self.line(path, 'apex.y', 'load_factor')
 
         def turns(points):
             steps = np.diff(points / np.ptp(places, axis=0), axis=0)
             steps = steps[np.hypot(*steps.T) > 0.0]
             return np.abs(np.diff(np.unwrap(np.arctan2(*steps.T))))
 
-        self.assertEqual(sum(increment['kind'] == 'smooth_limit' for increment in increments), 2)
+        self.assertEqual(np.sum(path['kind'][rows] == 'smooth_limit'), 2)
         self.assertLess(turns(line).max(), 0.25 * turns(places).max())
 
     def test_line_stays_between_its_increments(self):
@@ -177,24 +170,21 @@ class Curves(QuickPlotTest):
     def test_corner_at_an_event(self):
         """The rigid stop is two straight lines with a kink where the gap closes."""
         path = self.read('rigid_stop')
-        increments, _, line = self.line(path, 'b.x', 'load_factor')
+        _, _, line = self.line(path, 'b.x', 'load_factor')
         x, load = line.T
         np.testing.assert_allclose(x, np.minimum(1.0 + load, 1.1), atol=1e-12)
 
     def test_slip(self):
         """The belt goes 0.5 forth, 1 back, 1 forth; the spring takes 0.3, then 0.6 each time."""
         path = self.read('stick_slip_cycle')
-        path_quantities.provide(path, 'b@belt.slip')
-        ends = [i for i in range(len(path.increments)) if plot_panels.kind_of(path.increments, i) == 'stage_end']
-        np.testing.assert_allclose([path.increments[i]['slip_b@belt'] for i in ends], (-0.2, 0.2, -0.2), atol=1e-12)
+        ends = plot_panels.kinds_marked(path) == 'stage_end'
+        np.testing.assert_allclose(path.quantity('b@belt.slip')[ends], (-0.2, 0.2, -0.2), atol=1e-12)
 
     def test_loads(self):
         path = self.read('two_dof_friction')
-        for quantity in 'p.fx', 'fy_p', 'load_x':
-            path_quantities.provide(path, quantity)
-        for increment in path.increments:
-            self.assertEqual((increment['fx_p'], increment['fy_p']), (increment['load_factor'], -1.0))
-            self.assertEqual(increment['load_x'], increment['load_factor'])
+        np.testing.assert_array_equal(path.quantity('p.fx'), path['load_factor'])
+        np.testing.assert_array_equal(path.quantity('fy_p'), -1.0)
+        np.testing.assert_array_equal(path.quantity('load_x'), path['load_factor'])
 
     def test_quantities_are_spelled_as_columns_or_as_stop_criteria(self):
         table = self.trace('sliding_bar', 'a.csv')
@@ -234,8 +224,7 @@ class Shapes(QuickPlotTest):
         self.scene = ['--scene', scene_file('sliding_bar')]
 
     def test_start_limit_points_and_end(self):
-        path = path_file.read(self.table)
-        increments = [int(increment['index']) for increment in path.increments if increment['kind'] == 'smooth_limit']
+        increments = [point['index'] for point in read(self.table).limit_points]
         texts = self.texts(self.table, '--shapes', *self.scene)
         for text in ('increment 0: start', 'increment %d: smooth limit' % increments[0], 'increment %d: smooth limit' % increments[1],
                      'load factor 2.1915', 'friction cone, mu = 0.3', 'x [length]', 'slip+', 'stick'):
@@ -243,7 +232,7 @@ class Shapes(QuickPlotTest):
         self.assertTrue(any('[force]; arrows' in text for text in texts), texts)
 
     def test_rows(self):
-        last = int(path_file.read(self.table).increments[-1]['index'])
+        last = read(self.table)['index'][-1]
         texts = self.texts(self.table, '--increments', '0,30,end', *self.scene)
         titles = [text.partition(':')[0] for text in texts if text.startswith('increment ')]
         self.assertEqual(titles, ['increment 0', 'increment 30', 'increment %d' % last])
@@ -266,26 +255,20 @@ class Shapes(QuickPlotTest):
         self.assert_main_refuses([self.table, '--shapes', '--scene', self.path('disc.yaml')], 'obstacle floor', 'disc')
 
     def test_what_is_chosen_where_there_is_much(self):
-        path = path_file.Path('path')
         kinds = ['start', *['contact_event', 'regular'] * 20, 'smooth_limit', 'bifurcation', 'corner_limit', 'regular']
-        path.increments = [{'index': i, 'kind': kind, 'x_a': 0.0} for i, kind in enumerate(kinds)]
-        increments, left_out = plot_shapes.at_kinds(path, None)
-        self.assertEqual([increment['index'] for increment in increments], [0, 1, 3, 5, 7, 9, 41, 43, 44])
-        self.assertEqual(left_out, 16)
-        increments, left_out = plot_shapes.at_kinds(path, 'limits')
-        self.assertEqual([increment['index'] for increment in increments], [0, 41, 43, 44])
-        self.assertEqual(left_out, 0)
+        path = Path({'index': np.arange(len(kinds)), 'kind': np.array(kinds), 'x_a': np.zeros(len(kinds))})
+        self.assertEqual(plot_shapes.at_kinds(path, None), ([0, 1, 3, 5, 7, 9, 41, 43, 44], 16))
+        self.assertEqual(plot_shapes.at_kinds(path, 'limits'), ([0, 41, 43, 44], 0))
         self.assertEqual(len(plot_shapes.at_kinds(path, 'events')[0]), 23)
         self.assertEqual(plot_shapes.at_kinds(path, 'all')[1], 1)
 
     def test_rows_without_positions_are_not_drawn(self):
-        path = path_file.Path('path')
-        nan = float('nan')
-        path.increments = [{'index': i, 'kind': 'regular', 'x_a': 0.0 if i % 4 == 0 else nan} for i in range(7)]
-        self.assertEqual([increment['index'] for increment in plot_shapes.by_index(path, [0, 'end'])], [0, 4])
+        path = Path({'index': np.arange(7), 'kind': np.array(['regular'] * 7),
+                     'x_a': np.where(np.arange(7) % 4 == 0, 0.0, np.nan)})
+        self.assertEqual(plot_shapes.by_index(path, [0, 'end']), [0, 4])
         with self.assertRaisesRegex(ValueError, 'increment 5 .*full_state_every.* 4'):
             plot_shapes.by_index(path, [5])
-        self.assertEqual([increment['index'] for increment in plot_shapes.at_kinds(path, None)[0]], [0, 4])
+        self.assertEqual(plot_shapes.at_kinds(path, None)[0], [0, 4])
 
     def test_stages_of_a_program(self):
         """What a stage has brought on stays: loads, and obstacles where they were moved."""
@@ -297,10 +280,10 @@ class Shapes(QuickPlotTest):
                        '- {obstacle_motions: [{obstacle: wall, dx: -1.0}], target: 0.05}\n'
                        '- {name: ease, loads: [{node: b, fx: -1.0}], obstacle_motions: [{obstacle: wall, dx: 0.5}]}\n')
         table = self.trace(name, 'program.csv')
-        structure = plot_shapes.Structure(path_file.read_scene(name))
-        increments = path_file.read(table).increments
-        self.assertEqual({increment['stage'] for increment in increments}, {1.0, 2.0, 3.0})
-        for increment in increments:
+        structure = Structure(Scene.read(name))
+        path = read(table)
+        self.assertEqual(set(path['stage']), {1, 2, 3})
+        for increment in map(path.row, range(len(path))):
             shape = plot_shapes.Shape(structure, increment)
             b = structure.names.index('b')
             tension = increment['x_b'] - 1.0  # of the bar, EA = l0 = 1
@@ -315,10 +298,10 @@ class Shapes(QuickPlotTest):
 
     def test_drawn_forces_are_in_equilibrium(self):
         """The arch has no supports: loads and reactions are all forces on it, so their arrows add up to nothing."""
-        path = path_file.read(self.trace('arch19', 'arch.csv'))
-        structure = plot_shapes.Structure(path_file.read_scene(scene_file('arch19')))
-        increments, _ = plot_shapes.at_kinds(path, None)
-        shapes = [plot_shapes.Shape(structure, increment) for increment in increments]
+        path = read(self.trace('arch19', 'arch.csv'))
+        structure = Structure(Scene.read(scene_file('arch19')))
+        rows, _ = plot_shapes.at_kinds(path, None)
+        shapes = [plot_shapes.Shape(structure, path.row(row)) for row in rows]
         view = plot_shapes.View(shapes)
         for shape in shapes[1:]:
             axes = plt.figure().add_subplot(1, 1, 1)
@@ -368,9 +351,9 @@ class Beams(QuickPlotTest):
     def test_four_segments_make_a_smooth_circle(self):
         name = self.scene(BENT)
         table = self.trace(name, 'bent.csv')
-        structure = plot_shapes.Structure(path_file.read_scene(name))
-        end = min(path_file.read(table).increments, key=lambda increment: abs(increment['load_factor'] - 1.0))
-        shape = plot_shapes.Shape(structure, end)
+        structure = Structure(Scene.read(name))
+        path = read(table)
+        shape = plot_shapes.Shape(structure, path.row(np.argmin(np.abs(path['load_factor'] - 1.0))))
         centre = shape.places[1:].mean(axis=0)  # b comes round to a
         radii = np.hypot(*(shape.beams - centre).reshape(-1, 2).T)
         np.testing.assert_allclose(radii, radii.mean(), rtol=0.01)
@@ -384,13 +367,13 @@ class Beams(QuickPlotTest):
     def test_stress_free_arc_is_a_circle_with_and_without_hinges(self):
         for hinged in '[]', '[true, false]', '[true, true]':
             text = HINGED.replace('segments: 1', 'segments: 3, angle: 2.5').replace('[true, false]', hinged)
-            structure = plot_shapes.Structure(path_file.read_scene(self.scene(text)))
+            structure = Structure(Scene.read(self.scene(text)))
             curves = structure.beams.curves(structure.initial, np.zeros(len(structure.names)))
             centre = np.array([0.5, 0.5 / np.tan(1.25)])
             np.testing.assert_allclose(np.hypot(*(curves - centre).reshape(-1, 2).T), 0.5 / np.sin(1.25), rtol=1e-3)
 
     def test_hinged_end_is_not_bent(self):
-        structure = plot_shapes.Structure(path_file.read_scene(self.scene(HINGED)))
+        structure = Structure(Scene.read(self.scene(HINGED)))
         curve = structure.beams.curves(structure.initial, np.array([np.nan, 0.1]))[0]
         slopes = np.diff(curve[:, 1]) / np.diff(curve[:, 0])
         self.assertLess(abs(slopes[1] - slopes[0]), 0.1 * abs(slopes[-1] - slopes[-2]))
@@ -400,7 +383,7 @@ class Beams(QuickPlotTest):
         np.testing.assert_allclose(again, curve, atol=1e-12)
 
     def test_moments_turn_to_the_left_where_they_are_positive(self):
-        structure = plot_shapes.Structure(path_file.read_scene(self.scene(BENT)))
+        structure = Structure(Scene.read(self.scene(BENT)))
         loads, constant = structure.loads_by_stage({'load_factor': 0.5})
         self.assertAlmostEqual(loads[structure.names.index('b'), 2], np.pi)
         self.assertEqual(np.abs(constant).max(), 0.0)  # those of the group, there and back

@@ -1,11 +1,16 @@
 """Panels of numbers along paths: one quantity against another, the states of the contacts, the energies."""
+from __future__ import annotations
+
 import math
+from typing import Any, Callable, Dict, List, Sequence, Tuple
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.patches import Rectangle
 
-from path_curve import line_through
-from path_quantities import column, label
+from contact_path.path import Path
+from contact_path.path_curve import line_through
+from contact_path.path_quantities import label
 
 # Kinds that are marked: label, marker, colour.
 MARKS = {
@@ -36,45 +41,39 @@ TALLEST_BAR = 0.3
 NEAR = 30.0  # points: increments as near as this on the figure share a label
 
 
-def default_quantity(path):
+def default_quantity(path: Path) -> str:
     """The coordinate that moves most; one that is free where that is known."""
-    increments = path.full_increments()
-    nodes = [(node, axis) for node in path.nodes() for axis in 'xy']
+    nodes = [(node, axis) for node in path.nodes for axis in 'xy']
     if path.scene is not None:
-        held = {(node['name'], axis) for node in path.scene['nodes'] for axis in 'xy' if node['fixed_' + axis]}
+        held = {(node['name'], axis) for node in path.scene.request['scene'].get('nodes', ()) for axis in 'xy'
+                if node.get('fixed_' + axis)}
         nodes = [coordinate for coordinate in nodes if coordinate not in held] or nodes
-
-    def travel(coordinate):
-        values = [increment['%s_%s' % coordinate[::-1]] for increment in increments]
-        return max(values) - min(values)
-
-    return '%s.%s' % max(nodes, key=travel)
+    return '%s.%s' % max(nodes, key=lambda coordinate: np.ptp(path['%s_%s' % coordinate[::-1]][path.full]))
 
 
-def draw_path(axes, paths, x, y, numbered=()):
+def draw_path(axes: Axes, paths: Sequence[Path], x: str, y: str, numbered: Sequence[Sequence[int]] = ()) -> None:
     """A quantity y against another, x, a line for each path; critical points in the colours of their kinds, or, where
     there are several paths, in the colours of the lines. A single path of a program has a colour for each stage.
 
-    numbered: for each path, the increments that get their index beside them.
+    numbered: for each path, the numbers of the rows that get their index beside them.
     """
     several = len(paths) > 1
-    counts = [sum(increment['kind'] != 'regular' for increment in path.increments) for path in paths]
-    size = 65 if max(counts) <= 30 else 30
+    size = 65 if max(np.sum(path['kind'] != 'regular') for path in paths) <= 30 else 30
+    marked = [kinds_marked(path) for path in paths]
     for number, path in enumerate(paths):
-        increments, places = points(path, x, y)
+        rows, places = points(path, x, y)
         style = line_style(number, len(paths))
-        if several or len(path.stages()) < 2:
+        if several or len(path.stages) < 2:
             text = ('%d: %s' % (number + 1, path.title) if len(paths) > FEW_PATHS else path.title) if several else None
-            axes.plot(*line_through(increments, places).T, label=text, **style)
+            axes.plot(*line(path, rows, places).T, label=text, **style)
         else:
-            draw_stages(axes, path, increments, places)
+            draw_stages(axes, path, line(path, rows, places))
         for kind, (_, marker, colour) in MARKS.items():
-            marked = [kind_of(increments, i) == kind for i in range(len(increments))]
-            axes.scatter(*places[marked].T, marker=marker, zorder=20 + number,
+            axes.scatter(*places[marked[number][rows] == kind].T, marker=marker, zorder=20 + number,
                          color=style['color'] if several else colour, edgecolors='white', linewidths=0.6,
                          s=(1.8 - 0.8 * (number + 1) / len(paths)) * size * (2 if marker == '*' else 1))
     for kind, (text, marker, colour) in MARKS.items():
-        count = sum(kind_of(path.increments, i) == kind for path in paths for i in range(len(path.increments)))
+        count = sum(int(np.sum(kinds == kind)) for kinds in marked)
         if count:
             axes.scatter([], [], marker=marker, color='0.4' if several else colour, s=130 if marker == '*' else 65,
                          label=text if several else '%s (%d)' % (text, count))
@@ -90,11 +89,11 @@ def draw_path(axes, paths, x, y, numbered=()):
         texts = [draw_legend(axes)]
     if len(paths) > FEW_PATHS:
         write_numbers(axes, [points(path, x, y)[1] for path in paths])
-    for number, (path, increments) in enumerate(zip(paths, numbered)):
-        write_indices(axes, path, increments, x, y, line_style(number, len(paths))['color'] if several else 'black', texts)
+    for number, (path, rows) in enumerate(zip(paths, numbered)):
+        write_indices(axes, path, rows, x, y, line_style(number, len(paths))['color'] if several else 'black', texts)
 
 
-def write_numbers(axes, lines):
+def write_numbers(axes: Axes, lines: Sequence[np.ndarray]) -> None:
     """The number of each line (n, 2), from 1, upon it: where it is farthest from all other lines and numbers."""
     places = [axes.transData.transform(line[np.linspace(0, len(line) - 1, min(len(line), SAMPLES), dtype=int)]) for line in lines]
     for number, place in enumerate(places):
@@ -106,42 +105,47 @@ def write_numbers(axes, lines):
                       bbox={'facecolor': 'white', 'alpha': 0.85, 'pad': 0.8, 'edgecolor': 'none'})
 
 
-def has_legend_beside(paths):
+def has_legend_beside(paths: Sequence[Path]) -> bool:
     """Many lines leave no room for their legend among them."""
-    return len(paths) > FEW_PATHS or len(paths) == 1 and len(paths[0].stages()) > FEW_PATHS
+    return len(paths) > FEW_PATHS or len(paths) == 1 and len(paths[0].stages) > FEW_PATHS
 
 
-def legend_width(paths):
+def legend_width(paths: Sequence[Path]) -> float:
     """Of a legend beside the panel, in inches."""
-    texts = [path.title for path in paths] if len(paths) > 1 else paths[0].stages()
+    texts = [path.title for path in paths] if len(paths) > 1 else paths[0].stages
     return 0.9 + 0.068 * max(20, max(map(len, texts))) if has_legend_beside(paths) else 0.0
 
 
-def draw_stages(axes, path, increments, places):
+def draw_stages(axes: Axes, path: Path, points_of_line: np.ndarray) -> None:
     """A line in a colour of its own for each stage."""
-    line = line_through(increments, places)
-    cuts = [0, *np.flatnonzero(np.isnan(line[:, 0])), len(line)]
-    stages = path.stages()
+    cuts = [0, *np.flatnonzero(np.isnan(points_of_line[:, 0])), len(points_of_line)]
+    stages = path.stages
     for number, (begin, end) in enumerate(zip(cuts, cuts[1:])):
         text = stages[number] if number < MOST_LISTED else '... %d stages' % len(stages) if number == MOST_LISTED else None
-        axes.plot(*line[begin:end].T, label=text, **{**line_style(number, len(stages)), 'alpha': 1.0})
+        axes.plot(*points_of_line[begin:end].T, label=text, **{**line_style(number, len(stages)), 'alpha': 1.0})
 
 
-def kind_of(increments, i):
-    """As MARKS has it: the last increment of a stage of a program is marked unless it is critical itself."""
-    kind = increments[i]['kind']
-    ends = 'stage' in increments[i] and (i + 1 == len(increments) or increments[i + 1]['kind'] == 'start')
-    return 'stage_end' if ends and kind == 'regular' else kind
+def kinds_marked(path: Path) -> np.ndarray:
+    """(n,) as MARKS has them: the last increment of a stage of a program is marked unless it is critical itself."""
+    if 'stage' not in path:
+        return path['kind']
+    ends = np.append(path['kind'][1:] == 'start', True)
+    return np.where(ends & (path['kind'] == 'regular'), 'stage_end', path['kind'])
 
 
-def points(path, x, y):
-    """The increments that carry both quantities, and their values (., 2)."""
-    x, y = column(x), column(y)
-    increments = [increment for increment in path.increments if not math.isnan(increment[x] + increment[y])]
-    return increments, np.array([(increment[x], increment[y]) for increment in increments]).reshape(-1, 2)
+def points(path: Path, x: str, y: str) -> Tuple[np.ndarray, np.ndarray]:
+    """Numbers (m,) of the rows that carry both quantities, and their values (m, 2)."""
+    both = np.column_stack((path.quantity(x), path.quantity(y)))
+    rows = np.flatnonzero(~np.isnan(both).any(axis=1))
+    return rows, both[rows]
 
 
-def draw_legend(axes):
+def line(path: Path, rows: np.ndarray, places: np.ndarray) -> np.ndarray:
+    """Points (k, 2) of the line through the places of these rows."""
+    return line_through(path['arc_length'][rows], path['kind'][rows], places)
+
+
+def draw_legend(axes: Axes) -> np.ndarray:
     """Where it covers least; fixed there, for the resolution of the figure decides, too. Returns its box, in points."""
     box = axes.legend(fontsize=10).get_window_extent(axes.figure.canvas.get_renderer())
     axes.legend(fontsize=10, loc='lower left', bbox_to_anchor=axes.transAxes.inverted().transform(box.get_points()[0]),
@@ -149,7 +153,7 @@ def draw_legend(axes):
     return box.get_points() * 72.0 / axes.figure.dpi
 
 
-def line_style(number, count):
+def line_style(number: int, count: int) -> Dict[str, Any]:
     """Of a line among several. A few are drawn over each other, the first ones broad: they show below the later ones."""
     if count > FEW_PATHS:
         return {'color': COLOURS[number % len(COLOURS)], 'linestyle': DASHES[number % len(DASHES)], 'linewidth': 1.7,
@@ -158,44 +162,45 @@ def line_style(number, count):
     return {'color': COLOURS[number], 'linewidth': 1.5 + 2.5 * below, 'alpha': 0.6 if below else 1.0, 'zorder': 1 + number}
 
 
-def write_indices(axes, path, increments, x, y, colour, texts):
-    """Beside their points; increments that lie close together share a label. texts: boxes of those that stand already."""
-    all_increments, data = points(path, x, y)
-    line = axes.transData.transform(data) * 72.0 / axes.figure.dpi  # places on the figure, in points
-    groups = []  # place in the path, indices of increments
-    for increment in increments:
-        i = all_increments.index(increment)
-        if increment['kind'] == 'regular':
+def write_indices(axes: Axes, path: Path, wanted: Sequence[int], x: str, y: str, colour: Any, texts: List[np.ndarray]) -> None:
+    """Of these rows, beside their points; increments that lie close together share a label. texts: boxes of those that stand already."""
+    rows, data = points(path, x, y)
+    kinds, indices = path['kind'][rows], path['index'][rows]
+    on_figure = axes.transData.transform(data) * 72.0 / axes.figure.dpi  # places on the figure, in points
+    groups: List[Tuple[int, List[int]]] = []  # place in rows, indices of increments
+    for i in np.searchsorted(rows, wanted):
+        if kinds[i] == 'regular':
             axes.plot(*data[i], 'o', color='white', markeredgecolor=colour, markersize=5, zorder=15)
-        for other, indices in groups:
-            if np.hypot(*(line[i] - line[other])) < NEAR:
-                indices.append(int(increment['index']))
+        for other, shared in groups:
+            if np.hypot(*(on_figure[i] - on_figure[other])) < NEAR:
+                shared.append(indices[i])
                 break
         else:
-            groups.append((i, [int(increment['index'])]))
+            groups.append((i, [indices[i]]))
     low, high = (corner * 72.0 / axes.figure.dpi for corner in axes.get_window_extent().get_points())
-    for i, indices in groups:
-        text = ', '.join(map(str, indices)) if len(indices) <= 3 else '%d ... %d' % (indices[0], indices[-1])
-        around = line - line[i]
+    for i, shared in groups:
+        text = ', '.join(map(str, shared)) if len(shared) <= 3 else '%d ... %d' % (shared[0], shared[-1])
+        around = on_figure - on_figure[i]
         distance = np.hypot(*around.T)
         near = (distance > 4.0) & (distance < NEAR)
-        near[[j for j in (i - 1, i + 1) if 0 <= j < len(line) and all_increments[max(i, j)]['kind'] != 'start']] = True
+        near[[j for j in (i - 1, i + 1) if 0 <= j < len(rows) and kinds[max(i, j)] != 'start']] = True
         near &= distance > 0.0
         size = np.array([6.0 * len(text), 11.0])
 
-        def has_room(direction):
-            begin, end = text_box(line[i], direction, 9.0, size)
+        def has_room(direction: np.ndarray) -> bool:
+            begin, end = text_box(on_figure[i], direction, 9.0, size)
             return np.all(begin > low) and np.all(end < high) and all(
                 np.any(end < other_begin) or np.any(begin > other_end) for other_begin, other_end in texts)
 
         direction = free_direction(around[near] / distance[near, None], has_room)
-        texts.append(text_box(line[i], direction, 9.0, size))
-        axes.annotate(text, data[i], xytext=np.mean(texts[-1], axis=0) - line[i],
+        texts.append(text_box(on_figure[i], direction, 9.0, size))
+        axes.annotate(text, data[i], xytext=np.mean(texts[-1], axis=0) - on_figure[i],
                       textcoords='offset points', fontsize=9, color=colour, ha='center', va='center', zorder=40,
                       bbox={'facecolor': 'white', 'alpha': 0.7, 'pad': 0.6, 'edgecolor': 'none'})
 
 
-def free_direction(taken, admitted=lambda direction: True):
+def free_direction(taken: Sequence[np.ndarray],
+                   admitted: Callable[[np.ndarray], bool] = lambda direction: True) -> np.ndarray:
     """One of eight directions, that which is farthest from those taken (of unit length)."""
     angles = np.radians((45, 135, 90, 0, 180, -45, -135, -90))
     directions = [np.array([math.cos(angle), math.sin(angle)]) for angle in angles]
@@ -203,42 +208,42 @@ def free_direction(taken, admitted=lambda direction: True):
                key=lambda direction: round(max([direction.dot(other) for other in taken], default=0.0), 3))
 
 
-def text_box(place, direction, gap, size):
+def text_box(place: np.ndarray, direction: np.ndarray, gap: float, size: np.ndarray) -> Tuple[np.ndarray, np.ndarray]:
     """Two corners of a text that lies in this direction from a place."""
     middle = place + direction * (gap + 0.5 * size)
     return middle - 0.5 * size, middle + 0.5 * size
 
 
-def contacts_shown(path):
+def contacts_shown(path: Path) -> List[str]:
     """Those that get a bar: all, unless there are many."""
-    contacts = path.contacts()
+    contacts = path.contacts
     if len(contacts) <= MOST_CONTACTS:
         return contacts
-    return [contact for contact in contacts if any(increment['state_' + contact] not in ('', 'open') for increment in path.increments)]
+    return [contact for contact in contacts if not np.all(np.isin(path['state_' + contact], ('', 'open')))]
 
 
-def states_title(path, several):
-    left_out = len(path.contacts()) - len(contacts_shown(path))
+def states_title(path: Path, several: bool) -> str:
+    left_out = len(path.contacts) - len(contacts_shown(path))
     return (path.title if several else 'Contacts') + (', %d more stay open' % left_out if left_out else '')
 
 
-def states_height(path):
+def states_height(path: Path) -> float:
     """Of the bars, in inches."""
     count = max(len(contacts_shown(path)), 1)
     return count * min(TALLEST_BAR, TALLEST_STATES / count)
 
 
-def arcs(path, contact):
+def arcs(path: Path, contact: str) -> Dict[str, List[Tuple[float, float]]]:
     """State -> [(arc length of the beginning, length)]. An increment that carries no state is on the arc of the next one
     that does: increments where states change carry them."""
-    found = {}
+    found: Dict[str, List[Tuple[float, float]]] = {}
     # At the start of a stage an arc of no length ends.
-    states = ['' if i > 0 and increment['kind'] == 'start' else increment['state_' + contact] for i, increment in enumerate(path.increments)]
+    states = ['' if i > 0 and kind == 'start' else state for i, (kind, state) in enumerate(zip(path['kind'], path['state_' + contact].tolist()))]
     for i in range(len(states) - 2, -1, -1):
         states[i] = states[i] or states[i + 1]
     for i in range(1, len(states)):
         states[i] = states[i] or states[i - 1]
-    arc = path.column('arc_length')
+    arc = path['arc_length'].tolist()
     begin = 0
     for i in range(1, len(states)):  # the state of an increment holds on the arc that ends in it
         if i + 1 == len(states) or states[i + 1] != states[i]:
@@ -247,10 +252,10 @@ def arcs(path, contact):
     return found
 
 
-def draw_states(axes, path, arc_length):
+def draw_states(axes: Axes, path: Path, arc_length: float) -> None:
     """A bar for each contact, over arc length, in the colours of its states. arc_length: as far as the panel goes."""
     contacts = contacts_shown(path)
-    used = set()
+    used: set[str] = set()
     for line, contact in enumerate(contacts):
         for state, spans in arcs(path, contact).items():
             axes.broken_barh(spans, (line - 0.4, 0.8), facecolor=STATES[state], edgecolor=EDGE, linewidth=0.4)
@@ -268,7 +273,7 @@ def draw_states(axes, path, arc_length):
                 borderpad=0.2, handlelength=1.2, columnspacing=1.2)
 
 
-def short(name):
+def short(name: str) -> str:
     return name if len(name) <= 24 else name[:11] + '...' + name[-10:]
 
 
@@ -277,22 +282,21 @@ ENERGIES = (('strain_energy', 'strain energy since the start', '-', 'tab:blue'),
             ('dissipation', 'dissipation', '--', 'tab:orange'), ('external_work', 'external work', ':', 'black'))
 
 
-def draw_energies(axes, paths, arc_length):
+def draw_energies(axes: Axes, paths: Sequence[Path], arc_length: float) -> None:
     """A colour for each energy; where there are several paths, for each path."""
     several = len(paths) > 1
     for number, path in enumerate(paths):
-        arc = path.column('arc_length')
+        arc = path['arc_length']
         for name, text, dashes, colour in ENERGIES:
-            if name not in path.increments[0]:
+            if name not in path:
                 continue
-            start = path.increments[0][name]
             style = {**line_style(number, len(paths)), 'linestyle': dashes} if several else {'color': colour, 'linestyle': dashes}
-            axes.plot(arc, [value - start for value in path.column(name)], label=None if several else text, **style)
+            axes.plot(arc, path[name] - path[name][0], label=None if several else text, **style)
     if several:
         for number, path in enumerate(paths):
             axes.plot([], [], label=path.title, **{**line_style(number, len(paths)), 'linestyle': '-'})
         for name, text, dashes, _ in ENERGIES:
-            if any(name in path.increments[0] for path in paths):
+            if any(name in path for path in paths):
                 axes.plot([], [], color='0.4', linestyle=dashes, label=text)
     axes.set_xlim(0.0, arc_length)
     axes.set_xlabel(label('arc_length'), fontsize=12)

@@ -6,10 +6,15 @@ no columns of the file, and need the scene:
   fx_NODE, fy_NODE       load on the node, of all stages and with the constant loads [force]
   load_x, load_y         sum of the loads on all nodes [force]
 """
-import difflib
-import math
+from __future__ import annotations
 
-from scene_arrays import Structure
+import difflib
+from typing import List, Tuple
+
+import numpy as np
+
+from contact_path.path import Path
+from contact_path.scene_arrays import Structure
 
 LABELS = {'x': ('position x of node', '[length]'), 'y': ('position y of node', '[length]'),
           'rotation': ('rotation of node', '[rad]'),
@@ -22,25 +27,25 @@ UNITS = {'load_factor': '[-]', 'arc_length': '[-]', 'dissipation': '[force lengt
 LISTED = 12  # names in a message
 
 
-def column(quantity):
+def column(quantity: str) -> str:
     """The column that a quantity is in: its name with the field in front."""
     part, dot, field = quantity.rpartition('.')
     return '%s_%s' % (field, part) if dot and field in LABELS else quantity
 
 
-def split(name):
+def split(name: str) -> Tuple[str, str]:
     """Field and part of the scene of a column; ('', name) where it is of no part."""
     field, line, part = name.partition('_')
     return (field, part) if line and field in LABELS else ('', name)
 
 
-def spelled(name):
+def spelled(name: str) -> str:
     """A column as stop criteria spell it."""
     field, part = split(name)
     return '%s.%s' % (part, field) if field else name
 
 
-def label(quantity):
+def label(quantity: str) -> str:
     name = column(quantity)
     field, part = split(name)
     if field:
@@ -48,18 +53,18 @@ def label(quantity):
     return ' '.join((name.replace('_', ' '), UNITS.get(name, ''))).strip()
 
 
-def derived(path):
+def derived(path: Path) -> List[str]:
     """The columns that the scene adds to the columns of the file."""
-    return (['slip_' + contact for contact in path.contacts()] +
-            [axis + node for node in path.nodes() for axis in ('fx_', 'fy_')] + ['load_x', 'load_y'])
+    return (['slip_' + contact for contact in path.contacts] +
+            [axis + node for node in path.nodes for axis in ('fx_', 'fy_')] + ['load_x', 'load_y'])
 
 
-def provide(path, quantity):
-    """Sees to it that the increments have the column of the quantity. Raises ValueError where the path does not have it."""
+def values(path: Path, quantity: str) -> np.ndarray:
+    """The quantity (n,) in the increments of the path. ValueError: the path does not have it."""
     name = column(quantity)
-    there = [known for known in path.increments[0] if known != 'kind' and not known.startswith('state_')]
+    there = [known for known in path.columns if known != 'kind' and not known.startswith('state_')]
     if name in there:
-        return
+        return path[name]
     if name not in derived(path):
         known = there + derived(path)
         near = difflib.get_close_matches(name, known, 1)
@@ -69,33 +74,26 @@ def provide(path, quantity):
         raise ValueError('%s needs the scene: name its file by --scene' % quantity)
     structure = Structure(path.scene)
     field, part = split(name)
-    values = slips(path, structure, part) if field == 'slip' else loads(path, structure, field, part)
-    for increment, value in zip(path.increments, values):
-        increment[name] = value
+    return slip(path, structure, part) if field == 'slip' else load(path, structure, field, part)
 
 
-def slips(path, structure, contact):
-    """nan where the increment carries no state."""
+def slip(path: Path, structure: Structure, contact: str) -> np.ndarray:
+    """(n,); nan where the increment carries no state."""
     index = structure.contacts.index(contact)
     node, obstacle = structure.names[structure.contact_nodes[index]], structure.contact_obstacles[index]
-    tangent = structure.tangents[index]
-    slip, before = 0.0, math.nan
-    for increment in path.increments:
-        place = (increment['x_' + node], increment['y_' + node]) - structure.obstacle_shift(obstacle, increment)
-        state = increment['state_' + contact]
-        if not state:
-            yield math.nan
-            continue
-        here = tangent.dot(place)
-        if state in ('slip+', 'slip-', 'closed') and not math.isnan(before):
-            slip += here - before
-        before = here
-        yield slip
+    shifts = structure.along(path, lambda stage: stage.motions.get(obstacle, np.zeros(2)))
+    states = path['state_' + contact]
+    known = states != ''
+    places = (np.column_stack((path['x_' + node], path['y_' + node])) - shifts).dot(structure.tangents[index])[known]
+    steps = np.diff(places, prepend=places[:1])
+    slips = np.full(len(path), np.nan)
+    slips[known] = np.cumsum(np.where(np.isin(states[known], ('slip+', 'slip-', 'closed')), steps, 0.0))
+    return slips
 
 
-def loads(path, structure, field, part):
-    """field, part: 'fx', a node; or '', 'load_x'."""
+def load(path: Path, structure: Structure, field: str, part: str) -> np.ndarray:
+    """(n,). field, part: 'fx', a node; or '', 'load_x'."""
     axis = 'xy'.index(field[-1:] or part[-1])
     nodes = [structure.names.index(part)] if field else slice(None)
-    for increment in path.increments:
-        yield structure.load(increment)[nodes, axis].sum()
+    return (structure.constant_loads[nodes, axis].sum() +
+            structure.along(path, lambda stage: stage.loads[nodes, axis].sum()))

@@ -5,6 +5,8 @@ So each quantity is interpolated over the arc length by cubics that are monotone
 1980): the line passes a limit point without a kink, and never leaves the range of its two neighbours. At events, where the
 direction of a path may jump, at bifurcations and where nothing moves the line has a corner, as the path has.
 """
+from __future__ import annotations
+
 import numpy as np
 
 SMOOTH = ('regular', 'smooth_limit')  # kinds of increments that a path passes without a corner
@@ -12,7 +14,7 @@ BETWEEN = 12  # points of the line from one increment to the next
 MOST_POINTS = 40000  # of a line
 
 
-def slopes(arc, values):
+def slopes(arc: np.ndarray, values: np.ndarray) -> np.ndarray:
     """Slopes (n,) at arc (n,), increasing, n >= 2: 0 where the values turn, else the weighted harmonic mean of the two secants."""
     lengths = np.diff(arc)
     secants = np.diff(values) / lengths
@@ -29,7 +31,7 @@ def slopes(arc, values):
     return found
 
 
-def end_slope(length, next_length, secant, next_secant):
+def end_slope(length: float, next_length: float, secant: float, next_secant: float) -> float:
     """Of the parabola through the last three values, as far as the line stays monotone with it."""
     slope = ((2.0 * length + next_length) * secant - length * next_secant) / (length + next_length)
     if slope * secant <= 0.0:
@@ -39,7 +41,7 @@ def end_slope(length, next_length, secant, next_secant):
     return slope
 
 
-def smooth(arc, values, between):
+def smooth(arc: np.ndarray, values: np.ndarray, between: int) -> np.ndarray:
     """Points (m, k) of the curve through values (n, k) at arc (n,), increasing."""
     fraction = np.arange(between) / between
     blend = np.stack((2.0 * fraction**3 - 3.0 * fraction**2 + 1.0, fraction**3 - 2.0 * fraction**2 + fraction,
@@ -53,21 +55,22 @@ def smooth(arc, values, between):
     return np.column_stack(columns)
 
 
-def line_through(increments, values):
-    """Points (m, k) of the line through values (n, k) of the increments; nan where a stage begins: no line goes there."""
-    arc = np.array([increment['arc_length'] for increment in increments])
-    kinds = [increment['kind'] for increment in increments]
-    between = max(1, min(BETWEEN, MOST_POINTS // len(increments)))
+def line_through(arc: np.ndarray, kinds: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Points (m, k) of the line through values (n, k) of increments; nan where a stage begins: no line goes there.
+
+    arc (n,): their arc length; kinds (n,) of str, as in Path.
+    """
+    between = max(1, min(BETWEEN, MOST_POINTS // len(arc)))
     parts = []
     begin = 0
-    for i in range(1, len(increments)):
+    for i in range(1, len(arc)):
         if kinds[i] == 'start':
             parts += [values[begin:i], np.full((1, values.shape[1]), np.nan)]
             begin = i
         elif arc[i] <= arc[i - 1]:  # nothing moves
             parts.append(values[i - 1:i])
             begin = i
-        elif i + 1 == len(increments) or kinds[i] not in SMOOTH or arc[i + 1] <= arc[i] or kinds[i + 1] == 'start':
+        elif i + 1 == len(arc) or kinds[i] not in SMOOTH or arc[i + 1] <= arc[i] or kinds[i + 1] == 'start':
             parts.append(smooth(arc[begin:i + 1], values[begin:i + 1], between))
             begin = i
     parts.append(values[begin:])

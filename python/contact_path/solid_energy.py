@@ -1,4 +1,8 @@
 """Strain energy per volume of the elements of solids."""
+from __future__ import annotations
+
+from typing import Any, Mapping, Sequence, Tuple
+
 import numpy as np
 
 BOUNDARIES = {3: (0, 1, 2), 4: (0, 1, 2, 3), 6: (0, 3, 1, 4, 2, 5), 8: (0, 4, 1, 5, 2, 6, 3, 7)}
@@ -7,14 +11,14 @@ BOUNDARIES = {3: (0, 1, 2), 4: (0, 1, 2, 3), 6: (0, 3, 1, 4, 2, 5), 8: (0, 4, 1,
 class Solid:
     """A mesh: nodes (m, k) of indices, of each element in turn; boundaries (m, k), the same counterclockwise."""
 
-    def __init__(self, solid, materials, index):
+    def __init__(self, solid: Mapping[str, Any], materials: Sequence[Mapping[str, Any]], index: Mapping[str, int]) -> None:
         count = solid['nodes_per_element'] or 3
         self.nodes = np.array([index[name] for name in solid['nodes']], dtype=int).reshape(-1, count)
         self.boundaries = self.nodes[:, BOUNDARIES[count]]
         self.material = next(material for material in materials if material['name'] == solid['material'])
         self.plane = solid['plane'] or 'strain'
 
-    def energies(self, initial, places):
+    def energies(self, initial: np.ndarray, places: np.ndarray) -> np.ndarray:
         """Of each element [force/length^2]; initial, places: (n, 2) of all nodes."""
         weights, gradients = cell_points(self.nodes.shape[1])
         before, after = (np.einsum('mna,knb->mkab', at[self.nodes], gradients) for at in (initial, places))
@@ -23,7 +27,7 @@ class Solid:
         return (areas * energies.reshape(areas.shape)).sum(axis=1) / areas.sum(axis=1)
 
 
-def cell_points(count):
+def cell_points(count: int) -> Tuple[np.ndarray, np.ndarray]:
     """Of the cell with so many nodes: weights (k,) of the integration points, and gradients (k, count, 2) there of the shape
     functions, by the coordinates of the cell."""
     if count in (3, 6):
@@ -49,14 +53,14 @@ def cell_points(count):
     return np.ones(4), np.concatenate((0.25 * corners, sides), axis=1)
 
 
-def lame(material):
+def lame(material: Mapping[str, Any]) -> Tuple[float, float]:
     if not material['E']:
         return material['lambda'], material['mu']
     mu = material['E'] / (2.0 * (1.0 + material['nu']))
     return 2.0 * mu * material['nu'] / (1.0 - 2.0 * material['nu']), mu
 
 
-def energy(material, plane, gradients):
+def energy(material: Mapping[str, Any], plane: str, gradients: np.ndarray) -> np.ndarray:
     """W by F (m, 2, 2). Invariants of C in the plane: trace i, J^2; C33 is that of the plane state."""
     lam, mu = lame(material)
     model = material['model'] or 'neo_hookean'

@@ -1,31 +1,31 @@
 """The inner nodes of beams, and loads and contacts of groups on each of their nodes, as the core traces them."""
+from __future__ import annotations
+
 import math
+from typing import Any, Callable, Dict, List, Mapping, Sequence, Tuple
+
+Entry = Dict[str, Any]
+Point = Tuple[float, float]
 
 SEGMENTS = 20  # of a beam that does not tell
-GIVEN_LOAD = {'group': '', 'px': 0.0, 'py': 0.0, 'surface': ''}  # fields of a load beside those that act on a node
-GIVEN_CONTACT = {'group': ''}
-BEAM = {'name': '', 'nodes': [], 'segments': 0, 'angle': 0.0, 'hinged': []}
-GROUP = {'name': '', 'nodes': []}
-SURFACE = {'name': '', 'nodes': [], 'closed': False}
 
 
-def expand(scene, beams, groups, surfaces):
-    """Adds to a scene, as in path_file.Path, the inner nodes of its beams, and expands its loads and contacts.
+def expand(scene: Dict[str, Any]) -> Callable[[List[Entry]], List[Entry]]:
+    """Adds to a scene, as drawn_scene.drawn has it, the inner nodes of its beams, and expands its loads and contacts.
 
-    beams, groups, surfaces: dictionaries with the fields of BEAM, GROUP and SURFACE. scene['beams'] becomes a list of
-    the beams with the names of all their nodes, scene['turning'] the set of the names of the nodes that a beam turns. Returns
-    a function that expands the loads of a stage.
+    scene['beams'] becomes a list of the beams with the names of all their nodes, scene['turning'] the set of the names of the
+    nodes that a beam turns. Returns a function that expands the loads of a stage.
     """
     places = {node['name']: (node['x'], node['y']) for node in scene['nodes']}
-    members = {group['name']: list(group['nodes']) for group in groups}
+    members = {group['name']: list(group['nodes']) for group in scene['groups']}
     axes = {}  # beam -> its nodes
     boundaries = {surface['name']: list(surface['nodes']) + surface['nodes'][:1] * surface['closed']
-                  for surface in surfaces}
+                  for surface in scene['surfaces']}
     mid_sides = {node for solid in scene['solids'] if int(solid['nodes_per_element'] or 3) > 4
                  for i, node in enumerate(solid['nodes'])
                  if i % int(solid['nodes_per_element']) >= int(solid['nodes_per_element']) // 2}
     scene['turning'] = set()
-    for number, beam in enumerate(beams, 1):
+    for number, beam in enumerate(scene['beams'], 1):
         name, count = beam['name'] or 'beam%d' % number, beam['segments'] or SEGMENTS
         first, second = beam['nodes']
         inner = ['%s/%d' % (name, i) for i in range(1, count)]
@@ -38,11 +38,11 @@ def expand(scene, beams, groups, surfaces):
         scene['turning'].update(inner)
         scene['turning'].update(node for node, hinge in zip(beam['nodes'], hinged) if not hinge)
     scene['beams'] = [{'nodes': axis, 'angle': beam['angle'], 'hinged': beam['hinged']}
-                      for axis, beam in zip(axes.values(), beams)]
+                      for axis, beam in zip(axes.values(), scene['beams'])]
 
     fixed = {node['name'] for node in scene['nodes'] if node['fixed_x'] and node['fixed_y']}
 
-    def loads_on_nodes(loads):
+    def loads_on_nodes(loads: List[Entry]) -> List[Entry]:
         return [part for load in loads
                 for part in (of_surface(load, boundaries[load['surface']], mid_sides, places) if load['surface']
                              else of_load(load, members, axes, places))]
@@ -54,9 +54,10 @@ def expand(scene, beams, groups, surfaces):
     return loads_on_nodes
 
 
-def of_load(load, members, axes, places):
+def of_load(load: Entry, members: Mapping[str, Sequence[str]], axes: Mapping[str, Sequence[str]],
+            places: Mapping[str, Point]) -> List[Entry]:
     """The loads on nodes that a load stands for."""
-    def on(node, fx, fy, moment=0.0):
+    def on(node: str, fx: float, fy: float, moment: float = 0.0) -> Entry:
         return {'node': node, 'fx': fx, 'fy': fy, 'moment': moment, 'constant': load['constant']}
 
     if not load['group']:
@@ -69,11 +70,11 @@ def of_load(load, members, axes, places):
     return parts
 
 
-def of_surface(load, nodes, mid_sides, places):
+def of_surface(load: Entry, nodes: Sequence[str], mid_sides: set[str], places: Mapping[str, Point]) -> List[Entry]:
     """The loads on nodes that a traction on a boundary stands for."""
     parts = []
 
-    def give(node, length):
+    def give(node: str, length: float) -> None:
         parts.append({'node': node, 'fx': length * load['px'], 'fy': length * load['py'], 'moment': 0.0,
                       'constant': load['constant']})
 
@@ -90,7 +91,7 @@ def of_surface(load, nodes, mid_sides, places):
     return parts
 
 
-def shape_lengths(first, middle, last):
+def shape_lengths(first: Point, middle: Point, last: Point) -> List[float]:
     """Integrals of the shape functions along an edge with a node in the middle."""
     lengths = [0.0, 0.0, 0.0]
     for xi, weight in ((-math.sqrt(0.6), 5.0 / 9.0), (0.0, 8.0 / 9.0), (math.sqrt(0.6), 5.0 / 9.0)):
@@ -102,7 +103,7 @@ def shape_lengths(first, middle, last):
     return lengths
 
 
-def point_of_arc(first, second, angle, share):
+def point_of_arc(first: Point, second: Point, angle: float, share: float) -> Point:
     """The point at `share` of the arc from the first point to the second that turns by `angle` to the left."""
     dx, dy = second[0] - first[0], second[1] - first[1]
     stretch = math.sin(0.5 * share * angle) / math.sin(0.5 * angle) if abs(angle) > 1e-12 else share

@@ -1,18 +1,36 @@
 """The scene of a path as arrays, and what its loads and moving obstacles are in an increment."""
+from __future__ import annotations
+
+from typing import Any, Callable, Dict, Iterable, List, Mapping, NamedTuple, Tuple
+
 import numpy as np
 
-from beam_curves import Beams
-from solid_energy import Solid
+from contact_path.beam_curves import Beams
+from contact_path.drawn_scene import drawn
+from contact_path.path import Path
+from contact_path.scene import Scene
+from contact_path.solid_energy import Solid
+
+Row = Mapping[str, Any]  # an increment, as Path.row gives it
+
+
+class Stage(NamedTuple):
+    """What a load factor of 1 brings on in a stage."""
+
+    name: str
+    target: float
+    loads: np.ndarray  # (n, 3) forces and moments on the nodes
+    motions: Dict[str, np.ndarray]  # obstacle -> displacement (2,)
 
 
 class Structure:
     """The scene as arrays: nodes (n, 2), bars (m, 2) of indices, normals and tangents (k, 2) of the k contacts.
 
-    stages: what the load factor of each stage brings on: (name, target, loads, displacements of obstacles). Without a
-    program there is one, of the scene's own.
+    stages: without a program there is one, of the scene's own. ValueError: it is no scene.
     """
 
-    def __init__(self, scene):
+    def __init__(self, given: Scene) -> None:
+        scene = drawn(given)
         self.names = [node['name'] for node in scene['nodes']]
         index = {name: i for i, name in enumerate(self.names)}
         self.initial = np.array([[node['x'], node['y']] for node in scene['nodes']])
@@ -27,10 +45,10 @@ class Structure:
         self.constant_loads = self.loads_of(load for load in scene['loads'] if load['constant'])
         own = {'name': '', 'target': 1.0, 'loads': [load for load in scene['loads'] if not load['constant']],
                'obstacle_motions': scene['obstacle_motions']}
-        self.stages = [(stage['name'], stage['target'], self.loads_of(stage['loads']),
-                        {motion['obstacle']: np.array([motion['dx'], motion['dy']])
-                         for motion in stage['obstacle_motions']}) for stage in scene['program'] or [own]]
-        self.obstacles = {}  # name -> point, normal, friction
+        self.stages = [Stage(stage['name'], stage['target'], self.loads_of(stage['loads']),
+                             {motion['obstacle']: np.array([motion['dx'], motion['dy']])
+                              for motion in stage['obstacle_motions']}) for stage in scene['program'] or [own]]
+        self.obstacles: Dict[str, Tuple[np.ndarray, np.ndarray, float]] = {}  # name -> point, normal, friction
         for obstacle in scene['obstacles']:
             normal = np.array([obstacle['nx'], obstacle['ny']])
             self.obstacles[obstacle['name']] = (np.array([obstacle['px'], obstacle['py']]), normal / np.hypot(*normal),
@@ -42,53 +60,60 @@ class Structure:
         self.tangents = np.column_stack((self.normals[:, 1], -self.normals[:, 0]))
         self.friction = np.array([self.obstacles[name][2] for name in self.contact_obstacles])
 
-    def loads_of(self, loads):
+    def loads_of(self, loads: Iterable[Mapping[str, Any]]) -> np.ndarray:
         """Forces and moments (n, 3) on the nodes."""
         total = np.zeros((len(self.names), 3))
         for load in loads:
             total[self.names.index(load['node'])] += (load['fx'], load['fy'], load['moment'])
         return total
 
-    def has(self, obstacle, normal):
+    def has(self, obstacle: str, normal: Tuple[float, float]) -> bool:
         return obstacle in self.obstacles and tuple(self.obstacles[obstacle][1]) == normal
 
-    def is_at(self, obstacle, normal):
+    def is_at(self, obstacle: str, normal: Tuple[float, float]) -> np.ndarray:
         """For each contact, whether its obstacle is this one."""
         return np.array([name == obstacle and self.has(name, normal) for name in self.contact_obstacles], dtype=bool)
 
-    def positions(self, increment):
+    def positions(self, increment: Row) -> np.ndarray:
+        """(n, 2)."""
         return np.array([[increment['x_' + name], increment['y_' + name]] for name in self.names])
 
-    def rotations(self, increment):
+    def rotations(self, increment: Row) -> np.ndarray:
         """(n,) of the nodes since the start; nan where no beam turns them."""
         return np.array([increment.get('rotation_' + name, np.nan) for name in self.names])
 
-    def of_contacts(self, increment, quantity):
+    def of_contacts(self, increment: Row, quantity: str) -> np.ndarray:
+        """(k,)."""
         return np.array([increment[quantity + name] for name in self.contacts])
 
-    def stage_index(self, increment):
-        return int(increment.get('stage', 1)) - 1
+    def stage_index(self, increment: Row) -> int:
+        return increment.get('stage', 1) - 1
 
-    def loads_by_stage(self, increment):
+    def loads_by_stage(self, increment: Row) -> Tuple[np.ndarray, np.ndarray]:
         """Forces and moments (n, 3) on the nodes: of the stage of the increment, and those that do not change in it."""
         number = self.stage_index(increment)
-        before = self.constant_loads + sum(target * loads for _, target, loads, _ in self.stages[:number])  # they stay
-        return increment['load_factor'] * self.stages[number][2], before
+        before = self.constant_loads + sum(stage.target * stage.loads for stage in self.stages[:number])  # they stay
+        return increment['load_factor'] * self.stages[number].loads, before
 
-    def load(self, increment):
-        """All forces and moments (n, 3) on the nodes."""
-        return sum(self.loads_by_stage(increment))
-
-    def obstacle_shift(self, name, increment):
+    def obstacle_shift(self, name: str, increment: Row) -> np.ndarray:
         """Displacement (2,) of an obstacle since the start."""
         number = self.stage_index(increment)
-        return increment['load_factor'] * self.stages[number][3].get(name, np.zeros(2)) + sum(
-            target * motions.get(name, 0.0) for _, target, _, motions in self.stages[:number])
+        return increment['load_factor'] * self.stages[number].motions.get(name, np.zeros(2)) + sum(
+            stage.target * stage.motions.get(name, np.zeros(2)) for stage in self.stages[:number])
 
-    def find_bar_directions(self):
+    def along(self, path: Path, brought_on: Callable[[Stage], Any]) -> np.ndarray:
+        """What the stages have brought on in each increment (n, ...); brought_on: by a stage at load factor 1, (...)."""
+        at_one = np.array([brought_on(stage) for stage in self.stages], dtype=float)
+        targets = np.reshape([stage.target for stage in self.stages], (-1,) + (1,) * (at_one.ndim - 1))
+        before = np.cumsum(targets * at_one, axis=0) - targets * at_one
+        numbers = path['stage'] - 1 if 'stage' in path else np.zeros(len(path), dtype=int)
+        factors = path['load_factor'].reshape((-1,) + (1,) * (at_one.ndim - 1))
+        return factors * at_one[numbers] + before[numbers]
+
+    def find_bar_directions(self) -> List[List[np.ndarray]]:
         """For each node the directions, of unit length, to those that it is joined to at the start, and to the middles of
         its elements of solids."""
-        directions = [[] for _ in self.names]
+        directions: List[List[np.ndarray]] = [[] for _ in self.names]
         pairs = np.vstack((self.bars, self.beams.nodes))
         vectors = self.initial[pairs[:, 1]] - self.initial[pairs[:, 0]]
         vectors /= np.maximum(np.hypot(*vectors.T), 1e-300)[:, None]
@@ -103,7 +128,7 @@ class Structure:
                     directions[node].append(vector / np.hypot(*vector))
         return directions
 
-    def find_supports(self):
+    def find_supports(self) -> Dict[int, np.ndarray]:
         """Node -> direction to the ground of its support: away from the structure, as far as the support allows."""
         found = {}
         for node in np.flatnonzero(self.fixed.any(axis=1)):

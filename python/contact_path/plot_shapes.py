@@ -1,7 +1,11 @@
 """Draws deformed structures: bars, beams, solids, supports, obstacles, contacts in the colours of their states, loads, reactions."""
+from __future__ import annotations
+
 import math
+from typing import Any, Dict, List, Sequence, Tuple
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.lines import Line2D
@@ -9,12 +13,12 @@ from matplotlib.patches import Patch
 from matplotlib.path import Path as Outline
 from matplotlib.patheffects import withStroke
 
-from plot_panels import MARKS, STATES, free_direction, text_box
-from scene_arrays import Structure  # noqa: F401  the first argument of Shape
+from contact_path.path import LIMITS, Path
+from contact_path.plot_panels import MARKS, STATES, free_direction, text_box
+from contact_path.scene_arrays import Row, Structure
 
 MOST = 9  # shapes that are chosen where nothing is said
 MOST_WANTED = 24  # shapes in a figure
-LIMITS = ('smooth_limit', 'corner_limit')
 KINDS_AT = {'events': ('corner_limit', 'contact_event'), 'limits': LIMITS, 'all': tuple(MARKS)}
 
 BARS, INITIAL, REACTION, LOAD, CONSTANT_LOAD, OBSTACLE = '#44546a', '0.8', '#b2182b', '#2166ac', '#7fb3d5', '0.45'
@@ -37,7 +41,7 @@ FLATTEST, STEEPEST = 0.22, 1.25  # height over width of a shape
 class Shape:
     """The structure in an increment of the path. Loads (n, 2), moments (n,) on the nodes; reactions (k, 2) on the contacts."""
 
-    def __init__(self, structure, increment):
+    def __init__(self, structure: Structure, increment: Row) -> None:
         self.structure = structure
         self.increment = increment
         self.places = structure.positions(increment)
@@ -49,7 +53,7 @@ class Shape:
         self.reactions = self.normal_parts + self.tangential_parts
         self.cone = structure.friction[:, None] * rn * structure.tangents  # half of its base
         self.touching = self.places[structure.contact_nodes]
-        self.stage = structure.stages[structure.stage_index(increment)][0]
+        self.stage = structure.stages[structure.stage_index(increment)].name
         loads, constant = structure.loads_by_stage(increment)
         self.loads, self.constant_loads = loads[:, :2], constant[:, :2]
         self.moments, self.constant_moments = loads[:, 2], constant[:, 2]
@@ -58,50 +62,49 @@ class Shape:
         self.obstacles = {name: point + structure.obstacle_shift(name, increment)
                           for name, (point, _, _) in structure.obstacles.items()}
 
-    def forces(self):
+    def forces(self) -> Tuple[Tuple[np.ndarray, np.ndarray], ...]:
         """(place, force) of all arrows, each (., 2)."""
         return ((self.touching, self.reactions), (self.places, self.loads), (self.places, self.constant_loads))
 
-    def has_moments(self):
+    def has_moments(self) -> np.ndarray:
         return (self.moments != 0.0) | (self.constant_moments != 0.0)
 
 
-def at_kinds(path, at):
-    """The increments to draw, and how many were left out because a figure holds no more.
+def at_kinds(path: Path, at: str | None) -> Tuple[List[int], int]:
+    """The rows to draw, and how many were left out because a figure holds no more.
 
-    at: 'events', 'limits' or 'all' of them; None: some of all. The first and the last increment that carry positions are
+    at: 'events', 'limits' or 'all' of them; None: some of all. The first and the last row that carry positions are
     always drawn. Limit points and starts of stages come first, then what happens earlier.
     """
-    increments = path.full_increments()
-    kinds = KINDS_AT[at or 'all']
-    wanted = [increment for increment in increments[1:-1] if increment['kind'] in kinds]
-    wanted.sort(key=lambda increment: (increment['kind'] not in (*LIMITS, 'start'), increment['index']))
+    rows = path.full.tolist()
+    kinds = path['kind']
+    wanted = [row for row in rows[1:-1] if kinds[row] in KINDS_AT[at or 'all']]
+    wanted.sort(key=lambda row: (kinds[row] not in (*LIMITS, 'start'), row))
     room = (MOST_WANTED if at else MOST) - 2
-    shown = sorted(wanted[:room], key=lambda increment: increment['index'])
-    return increments[:1] + shown + increments[1:][-1:], len(wanted[room:])
+    return rows[:1] + sorted(wanted[:room]) + rows[1:][-1:], len(wanted[room:])
 
 
-def by_index(path, indices):
-    """The increments of these indices; 'end': the last one that carries positions."""
-    increments = {int(increment['index']): increment for increment in path.increments}
-    full = sorted(int(increment['index']) for increment in path.full_increments())
+def by_index(path: Path, indices: Sequence[int | str]) -> List[int]:
+    """The rows of the increments of these indices; 'end': the last one that carries positions. ValueError: there is none."""
+    rows = {int(index): row for row, index in enumerate(path['index'])}
+    full = [int(index) for index in path['index'][path.full]]
     shown = []
-    for index in indices:
-        index = full[-1] if index == 'end' else index
-        if index not in increments:
-            raise ValueError('--increments: no increment %d: the last one is %d' % (index, max(increments)))
+    for wanted in indices:
+        index = full[-1] if wanted == 'end' else int(wanted)
+        if index not in rows:
+            raise ValueError('--increments: no increment %d: the last one is %d' % (index, max(rows)))
         if index not in full:
             near = sorted(full, key=lambda other: (abs(other - index), other))[0]
             raise ValueError('--increments: increment %d carries no positions (full_state_every), the nearest that does is %d' %
                              (index, near))
-        shown.append(increments[index])
+        shown.append(rows[index])
     return shown
 
 
 class View:
     """What all shapes of a figure have in common: what is seen, the scale of the arrows, the extent of obstacles."""
 
-    def __init__(self, shapes):
+    def __init__(self, shapes: Sequence[Shape]) -> None:
         places = np.vstack([part for shape in shapes
                             for part in (shape.places, shape.structure.initial, shape.beams.reshape(-1, 2))])
         low, high = places.min(axis=0), places.max(axis=0)
@@ -136,10 +139,10 @@ class View:
         self.aspect = (self.high - self.low)[1] / (self.high - self.low)[0]
         self.obstacles = self.extents(shapes)
 
-    def extents(self, shapes):
+    def extents(self, shapes: Sequence[Shape]) -> Dict[Tuple[str, Tuple[float, float]], Tuple[float, float]]:
         """(name, normal) of the obstacles in view -> (first, last), as far as they are drawn, along t. Nodes that are
         no candidates may lie behind one; then it is drawn where its candidates are, otherwise across the view."""
-        extents = {}
+        extents: Dict[Tuple[str, Tuple[float, float]], Tuple[float, float]] = {}
         corners = np.array([(x, y) for x in (self.low[0], self.high[0]) for y in (self.low[1], self.high[1])])
         for name, normal in sorted({(name, tuple(normal)) for shape in shapes
                                     for name, (_, normal, _) in shape.structure.obstacles.items()}):
@@ -161,7 +164,7 @@ class View:
         return extents
 
 
-def draw(axes, shape, view, size, named):
+def draw(axes: Axes, shape: Shape, view: View, size: Tuple[float, float], named: bool) -> None:
     """size: of the panel, in inches; named: with the names of the nodes, if they are few."""
     structure = shape.structure
     many = len(structure.names) > MANY_NODES
@@ -198,7 +201,7 @@ def draw(axes, shape, view, size, named):
     axes.locator_params(nbins=min(6, max(3, int(2.5 * size[1]))), axis='y')
 
 
-def draw_solids(axes, shape, view):
+def draw_solids(axes: Axes, shape: Shape, view: View) -> None:
     """Elements in the colour of their strain energy per volume; its root, so that the colours follow the strain."""
     for solid, energies in zip(shape.structure.solids, shape.energies):
         width = min(0.6, 8.0 / math.sqrt(len(solid.nodes)))
@@ -209,14 +212,14 @@ def draw_solids(axes, shape, view):
                                            edgecolors=BARS, linewidths=width, zorder=3))
 
 
-def draw_lines(axes, lines, **style):
+def draw_lines(axes: Axes, lines: Any, **style: Any) -> None:
     """Lines (m, k, 2) from point to point as one path: thousands of bars are quickly drawn, and small in a file."""
     if len(lines):
         gaps = np.full((len(lines), 1, 2), math.nan)
         axes.plot(*np.concatenate((lines, gaps), axis=1).reshape(-1, 2).T, **style)
 
 
-def draw_obstacle(axes, point, normal, first, last, depth):
+def draw_obstacle(axes: Axes, point: np.ndarray, normal: np.ndarray, first: float, last: float, depth: float) -> None:
     """The boundary from first to last along t, and strokes on the side that is not admissible."""
     tangent = np.array([normal[1], -normal[0]])
     origin = point.dot(normal) * normal
@@ -233,7 +236,7 @@ ROLLER = np.vstack((PINNED, [(-0.8, -1.25), (0.8, -1.25)]))
 MOVES = [Outline.MOVETO, Outline.LINETO, Outline.LINETO, Outline.CLOSEPOLY]
 
 
-def support_marker(roller, direction):
+def support_marker(roller: bool, direction: Tuple[float, float]) -> Outline:
     """direction: from the node to the ground, (0, -1) as it stands."""
     points = ROLLER if roller else PINNED
     x, y = direction
@@ -241,8 +244,8 @@ def support_marker(roller, direction):
     return Outline(turned, MOVES + [Outline.MOVETO, Outline.LINETO] if roller else MOVES)
 
 
-def draw_supports(axes, shape, area):
-    groups = {}
+def draw_supports(axes: Axes, shape: Shape, area: float) -> None:
+    groups: Dict[Any, List[int]] = {}
     for node, direction in shape.structure.supports.items():
         groups.setdefault((not shape.structure.fixed[node].all(), tuple(direction)), []).append(node)
     for (roller, direction), nodes in groups.items():
@@ -250,7 +253,7 @@ def draw_supports(axes, shape, area):
                      facecolor='white' if roller else '0.6', edgecolor='0.25', linewidths=0.8, zorder=3.5)
 
 
-def draw_names(axes, shape, view, inch):
+def draw_names(axes: Axes, shape: Shape, view: View, inch: float) -> None:
     """Beside the nodes, where bars, supports, obstacles and loads leave most room. inch: the length that is an inch."""
     structure = shape.structure
     taken = [list(directions) for directions in structure.bar_directions]
@@ -264,7 +267,7 @@ def draw_names(axes, shape, view, inch):
     for name, place, directions in zip(structure.names, shape.places, taken):
         size = np.array([0.06 * len(name) + 0.03, 0.12]) * inch
 
-        def is_in_view(direction):
+        def is_in_view(direction: np.ndarray) -> bool:
             begin, end = text_box(place, direction, 0.09 * inch, size)
             return np.all(begin > view.low) and np.all(end < view.high)
 
@@ -273,7 +276,7 @@ def draw_names(axes, shape, view, inch):
                   path_effects=[withStroke(linewidth=2.0, foreground='white')])
 
 
-def draw_arrows(axes, view, places, forces, **style):
+def draw_arrows(axes: Axes, view: View, places: np.ndarray, forces: np.ndarray, **style: Any) -> None:
     """From the places on."""
     lengths = view.length_per_force * np.hypot(*forces.T)
     long = lengths > SHORTEST_ARROW * view.size
@@ -282,12 +285,12 @@ def draw_arrows(axes, view, places, forces, **style):
         arrows(axes, places[long], view.length_per_force * forces[long], **style)
 
 
-def turned_arrow(centre, radius, turn):
+def turned_arrow(centre: np.ndarray, radius: float, turn: float) -> Tuple[np.ndarray, np.ndarray]:
     """The arrow of a moment, its middle above the centre: the points of its shaft (., 2) and the corners of its head (3, 2)."""
     end = 0.5 * (math.pi + turn)
     neck = end - math.copysign(min(MOMENT_HEAD, 0.6 * abs(turn)), turn)
 
-    def at(angle, share=1.0):
+    def at(angle: Any, share: float = 1.0) -> np.ndarray:
         return centre + share * radius * np.stack((np.cos(angle), np.sin(angle)), axis=-1)
 
     half = 0.5 * MOMENT_HEAD_WIDTH * abs(end - neck) / MOMENT_HEAD
@@ -295,7 +298,7 @@ def turned_arrow(centre, radius, turn):
             np.array([at(neck, 1.0 - half), at(end), at(neck, 1.0 + half)]))
 
 
-def draw_moments(axes, shape, view, moments, **style):
+def draw_moments(axes: Axes, shape: Shape, view: View, moments: np.ndarray, **style: Any) -> None:
     if view.full_moment <= 0.0:
         return
     turns = FULL_TURN * moments / view.full_moment
@@ -307,17 +310,17 @@ def draw_moments(axes, shape, view, moments, **style):
                                            zorder=style['zorder']))
 
 
-def arrows(axes, begins, vectors, **style):
+def arrows(axes: Axes, begins: Any, vectors: Any, **style: Any) -> None:
     axes.quiver(*np.transpose(begins), *np.transpose(vectors), angles='xy', scale_units='xy', scale=1.0, units='inches',
                 headwidth=4.0, headlength=5.0, headaxislength=4.5, minlength=0.1, **style)
 
 
-def shows_parts(shape):
+def shows_parts(shape: Shape) -> bool:
     """Whether the normal and tangential parts of the reactions are drawn beside their sums."""
     return len(shape.states) <= FEW_CONTACTS and np.any(shape.structure.friction > 0.0)
 
 
-def draw_forces(axes, shape, view):
+def draw_forces(axes: Axes, shape: Shape, view: View) -> None:
     scale = view.length_per_force
     base = shape.touching + scale * shape.normal_parts
     cones = np.stack((shape.touching, base - scale * shape.cone, base + scale * shape.cone), axis=1)
@@ -334,14 +337,14 @@ def draw_forces(axes, shape, view):
     draw_arrows(axes, view, shape.touching, shape.reactions, color=REACTION, zorder=5.3)
 
 
-def draw_states(axes, shape, view):
+def draw_states(axes: Axes, shape: Shape, view: View) -> None:
     """A mark on each candidate for an obstacle in view. A node that touches two has two, one within the other."""
     in_view = np.zeros(len(shape.states), dtype=bool)
     for name, normal in view.obstacles:
         in_view |= shape.structure.is_at(name, normal)
     area = 40.0 if in_view.sum() <= MANY_MARKS and len(shape.places) <= MANY_NODES else 20.0
-    drawn = {}  # node -> marks
-    layers = {}
+    drawn: Dict[int, int] = {}  # node -> marks
+    layers: Dict[Tuple[int, str], List[int]] = {}
     closed_first = sorted(range(len(shape.states)), key=lambda i: shape.states[i] == 'open')
     for i in closed_first:
         node = shape.structure.contact_nodes[i]
@@ -355,7 +358,7 @@ def draw_states(axes, shape, view):
                      linewidths=0.7 if area > 20.0 else 0.4, zorder=7 + layer)
 
 
-def title(shape, ends):
+def title(shape: Shape, ends: bool) -> str:
     """ends: the increment is the last one of the path."""
     load = shape.increment['load_factor']
     kind = shape.increment['kind'].replace('_', ' ')
@@ -366,11 +369,11 @@ def title(shape, ends):
                                                load if abs(load) > 1e-12 else 0.0)
 
 
-def legend_handles(shapes, view):
+def legend_handles(shapes: Sequence[Shape], view: View) -> List[Any]:
     """Of all that is drawn in the shapes."""
     structures = [shape.structure for shape in shapes]
 
-    def arrow(colour, text):
+    def arrow(colour: str, text: str) -> Line2D:
         return Line2D([], [], color=colour, linewidth=2.0, marker='>', markevery=[1], markersize=6, label=text)
 
     states = {state for shape in shapes for state in shape.states}
@@ -403,7 +406,7 @@ def legend_handles(shapes, view):
     return handles
 
 
-def draw_scale(axes, view, inches_per_length, middle, height):
+def draw_scale(axes: Axes, view: View, inches_per_length: float, middle: float, height: float) -> None:
     """An arrow and the force that it stands for, a round number. The units of the axes are inches."""
     inches = view.length_per_force * inches_per_length  # per force
     powers = [10.0 ** (math.floor(math.log10(1.0 / inches)) + i) for i in (-1, 0)]

@@ -3,6 +3,10 @@
 Against the chord of its segment, a curve is turned at its ends by the rotations of the nodes less that of the chord, and by
 half of the turn of the stress-free arc. A hinged end turns as no moment acts on it: by half of the other end, the other way.
 """
+from __future__ import annotations
+
+from typing import Any, Mapping, Sequence
+
 import numpy as np
 
 MOST_STEPS, FEWEST_STEPS = 16, 2  # lines of a segment
@@ -12,7 +16,7 @@ MOST_LINES = 4000
 class Beams:
     """nodes (m, 2): of the m segments; turns (m,): of their arcs, to the left; free (m, 2): ends with no rotation of a node."""
 
-    def __init__(self, beams, index, initial):
+    def __init__(self, beams: Sequence[Mapping[str, Any]], index: Mapping[str, int], initial: np.ndarray) -> None:
         """beams: nodes, angle and hinged of each, as scene_expand leaves them; index: name -> node; initial: places (n, 2)."""
         nodes, turns, free = [], [], []
         self.inner = np.zeros(len(initial), dtype=bool)  # nodes between the ends of a beam
@@ -31,7 +35,7 @@ class Beams:
         self.initial = initial
         self.steps = max(FEWEST_STEPS, min(MOST_STEPS, MOST_LINES // max(1, len(nodes))))
 
-    def curves(self, places, rotations):
+    def curves(self, places: np.ndarray, rotations: np.ndarray) -> np.ndarray:
         """Points (m, steps + 1, 2). rotations (n,): since the start; nan where it is not known, as at a hinge."""
         chords = places[self.nodes[:, 1]] - places[self.nodes[:, 0]]
         before = self.initial[self.nodes[:, 1]] - self.initial[self.nodes[:, 0]]
@@ -52,6 +56,6 @@ class Beams:
                 t ** 2 * (3.0 - 2.0 * t) * last - t ** 2 * (1.0 - t) * tangents[1][:, None])
 
 
-def wrapped(angles):
+def wrapped(angles: np.ndarray) -> np.ndarray:
     """The same angles between -pi and pi."""
     return angles - 2.0 * np.pi * np.round(angles / (2.0 * np.pi))

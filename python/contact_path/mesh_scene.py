@@ -4,11 +4,8 @@ import re
 
 import numpy as np
 
-import mesh_file
-import mesh_parts
-
-# Words that YAML 1.1 reads as something else than text.
-NO_TEXT = ('y', 'n', 'yes', 'no', 'true', 'false', 'on', 'off', 'null')
+from contact_path import mesh_file, mesh_parts
+from contact_path.scene_text import flow, scalar
 
 
 class Names:
@@ -241,35 +238,6 @@ class Builder:
                 yield (name if len(pieces) == 1 else '%s_%d' % (name, i)), piece
 
 
-def scalar(value):
-    """A value in YAML 1.1."""
-    if isinstance(value, bool):
-        return 'true' if value else 'false'
-    if isinstance(value, float):
-        text = repr(value + 0.0)  # no -0.0
-        return text if '.' in text else text.replace('e', '.0e')
-    if isinstance(value, int):
-        return str(value)
-    if re.fullmatch(r'[A-Za-z_][\w-]*', value, re.ASCII) and value.lower() not in NO_TEXT:
-        return value
-    return quoted(value)
-
-
-def entry(item):
-    """A dict in one line; lists of lists, the elements of a solid, have a line each."""
-    fields = []
-    for key, value in item.items():
-        if isinstance(value, list) and value and isinstance(value[0], list):
-            rows = ',\n'.join('      ' + ', '.join(map(scalar, row)) for row in value)
-            text = '[\n%s]' % rows
-        elif isinstance(value, list):
-            text = '[%s]' % ', '.join(map(scalar, value))
-        else:
-            text = scalar(value)
-        fields.append('%s: %s' % (key, text))
-    return '  - {%s}\n' % ', '.join(fields)
-
-
 def scene_text(scene, name, file):
     """The scene, lists as of Builder.scene, as the text of a scene file."""
     hints = {'beams': 'EA and EI to be completed', 'materials': 'model, E and nu to be completed'}
@@ -279,5 +247,5 @@ def scene_text(scene, name, file):
     for key in 'nodes', 'beams', 'materials', 'solids', 'groups', 'surfaces':
         if scene[key]:
             text += '  %s:%s\n' % (key, '  # ' + hints[key] if key in hints else '')
-            text += ''.join(map(entry, scene[key]))
+            text += ''.join('  - %s\n' % flow(item) for item in scene[key])
     return text

@@ -1,0 +1,123 @@
+"""Traces scenes by the action of the node, with rospy."""
+from __future__ import annotations
+
+import time
+from typing import Any, Callable, List
+
+import actionlib
+import genpy
+import rospy
+from contact_path.msg import Increment, TracePathAction, TracePathGoal, TracePathResult
+from contact_path.srv import TracePathResponse
+
+from contact_path.errors import InvalidScene, TraceFailed
+from contact_path.path import KINDS, Path
+from contact_path.path_file import path_of
+from contact_path.scene import Scene
+from contact_path.tracing import Progress
+
+PATIENCE = 10.0  # [s] for the node to be there, and for increments that are still on their way when it has answered
+POLL = 0.02  # [s]
+
+
+def trace(scene: Scene, progress: Callable[[Progress], None] | None, node: str) -> Path:
+    """As contact_path.trace. Where the process is no ROS node yet, it becomes one, named contact_path_client_...."""
+    if not rospy.core.is_initialized():
+        rospy.init_node('contact_path_client', anonymous=True, disable_signals=True)  # Ctrl-C stays a KeyboardInterrupt
+    increments: List[Increment] = []
+    subscriber = rospy.Subscriber(node + '/increments', Increment, increments.append, buff_size=1 << 24)
+    client = actionlib.ActionClient(node + '/trace_action', TracePathAction)
+    try:
+        require(lambda: subscriber.get_num_connections() > 0, 'no node %s: roslaunch contact_path trace.launch' % node)
+        require(lambda: client.wait_for_server(rospy.Duration(POLL)), 'the node %s has no action trace_action' % node)
+        return follow(Goal(client, goal_of(scene)), subscriber, increments, progress)
+    finally:
+        subscriber.unregister()
+        client.stop()
+
+
+def goal_of(scene: Scene) -> TracePathGoal:
+    """InvalidScene: a field or a value is not of the type of the message."""
+    goal = TracePathGoal()
+    try:
+        genpy.message.fill_message_args(goal, scene.request)
+        goal._check_types()
+    except (genpy.MessageException, ValueError) as error:
+        raise InvalidScene(' '.join(str(error).split())) from error
+    return goal
+
+
+class Goal:
+    """A goal that was sent; its feedback."""
+
+    def __init__(self, client: actionlib.ActionClient, goal: TracePathGoal) -> None:
+        self.request = goal
+        self.feedback: List[Any] = []
+        self._handle = client.send_goal(goal, feedback_cb=lambda _, feedback: self.feedback.append(feedback))
+
+    def done(self) -> bool:
+        return self._handle.get_comm_state() == actionlib.CommState.DONE
+
+    def cancel(self) -> None:
+        self._handle.cancel()
+
+    def result(self) -> TracePathResult | None:
+        return self._handle.get_result()
+
+
+def follow(goal: Goal, subscriber: rospy.Subscriber, increments: List[Increment],
+           progress: Callable[[Progress], None] | None) -> Path:
+    """Waits for the end of the goal, and for its increments. The first Ctrl-C cancels it."""
+    told = 0
+    cancelled = False
+
+    def tell() -> None:
+        nonlocal told
+        while progress is not None and told < len(goal.feedback):
+            told += 1
+            feedback = goal.feedback[told - 1]
+            progress(Progress(feedback.index, feedback.load_factor, feedback.arc_length, KINDS[feedback.kind]))
+
+    try:
+        while not goal.done():
+            try:
+                tell()
+                if subscriber.get_num_connections() == 0 or rospy.is_shutdown():
+                    raise TraceFailed('the node has gone')
+                time.sleep(POLL)
+            except KeyboardInterrupt:
+                if cancelled:
+                    raise
+                cancelled = True
+                goal.cancel()
+    except BaseException:
+        goal.cancel()
+        raise
+    result = require_path(goal.result())
+    trace_id = int(result.bag.partition('_')[0])
+    require(lambda: sum(increment.trace_id == trace_id for increment in list(increments)) >= result.increments,
+            'increments were left out on the way; all of them are in the bag %s of the node' % result.bag)
+    if progress is not None:
+        require(lambda: len(goal.feedback) >= result.increments, 'feedback was left out on the way')
+        tell()
+    return path_of(goal.request, [increment for increment in increments if increment.trace_id == trace_id], result)
+
+
+def require_path(result: TracePathResult | None) -> TracePathResult:
+    """The result, where it is that of a path."""
+    if result is None:
+        raise TraceFailed('the node has lost the goal')
+    if result.end_reason == TracePathResponse.END_NONE:
+        if result.status == TracePathResponse.INVALID_REQUEST:
+            raise InvalidScene(result.message)
+        raise TraceFailed(result.message or 'the node has not seen the goal')
+    return result
+
+
+def require(condition: Callable[[], bool], otherwise: str) -> None:
+    """Waits until the condition holds. TraceFailed: it does not."""
+    deadline = time.monotonic() + PATIENCE
+    while not condition():
+        if time.monotonic() > deadline:
+            raise TraceFailed(otherwise)
+        time.sleep(POLL)

@@ -1,0 +1,5 @@
+"""The Python package of python/contact_path, for catkin alone; scripts/python needs nothing of it."""
+from catkin_pkg.python_setup import generate_distutils_setup
+from setuptools import setup
+
+setup(**generate_distutils_setup(packages=['contact_path'], package_dir={'': 'python'}))
