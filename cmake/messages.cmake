@@ -1,5 +1,5 @@
-# The Python package, the messages, and what other packages get from this one. catkin_package() also decides where libraries and programs go, so it
-# comes before any target.
+# The Python package, the messages, and what other packages get from this one. catkin_package() also decides where libraries
+# and programs go, so it comes before any target.
 
 # The Python package, whose directory the messages share.
 catkin_python_setup()

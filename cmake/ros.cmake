@@ -84,7 +84,7 @@ if(CATKIN_ENABLE_TESTING)
   # catkin runs tests in a snapshot of the environment from before the messages were generated; this one is read when
   # the tests run.
   set(CATKIN_ENV ${CATKIN_DEVEL_PREFIX}/env.sh)
-  foreach(test markers shutdown streaming trace_action trace_service)
+  foreach(test markers python_client shutdown streaming trace_action trace_service)
     add_rostest(test/ros/${test}.test DEPENDENCIES contact_path_node contact_path_markers contact_path_trace)
     # They wait for nodes: nothing beside them.
     set_property(TEST _ctest_${PROJECT_NAME}_rostest_test_ros_${test}.test PROPERTY RUN_SERIAL ON)

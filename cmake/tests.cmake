@@ -178,6 +178,10 @@ contact_path_add_python_test(plot_test test/cli/plot_test.py DEPENDS contact_pat
   VARIABLES CONTACT_PATH_TRACE=$<TARGET_FILE:contact_path_trace> CONTACT_PATH_PLOT=${CMAKE_CURRENT_SOURCE_DIR}/scripts/plot)
 contact_path_add_python_test(mesh_test test/cli/mesh_test.py
   VARIABLES CONTACT_PATH_MESH=${CMAKE_CURRENT_SOURCE_DIR}/scripts/contact_path_mesh)
+foreach(test scene_test path_test trace_test doctest_test)
+  contact_path_add_python_test(python_${test} test/python/${test}.py DEPENDS contact_path_trace
+    VARIABLES CONTACT_PATH_ROOT=${CMAKE_CURRENT_SOURCE_DIR} CONTACT_PATH_PROGRAMS=$<TARGET_FILE_DIR:contact_path_trace>)
+endforeach()
 if(CONTACT_PATH_ROS)
   foreach(test resume_test verify_test)
     contact_path_add_python_test(${test} test/ros/${test}.py DEPENDS contact_path_trace contact_path_verify
@@ -187,6 +191,9 @@ if(CONTACT_PATH_ROS)
     VARIABLES CONTACT_PATH_ROOT=${CMAKE_CURRENT_SOURCE_DIR})
   contact_path_add_python_test(plot_bag_test test/ros/plot_bag_test.py DEPENDS contact_path_trace
     VARIABLES CONTACT_PATH_TRACE=$<TARGET_FILE:contact_path_trace> CONTACT_PATH_PLOT=${contact_path_devel_programs}/plot)
+  contact_path_add_python_test(path_bag_test test/ros/path_bag_test.py DEPENDS contact_path_trace
+    VARIABLES CONTACT_PATH_TRACE=$<TARGET_FILE:contact_path_trace> CONTACT_PATH_ROOT=${CMAKE_CURRENT_SOURCE_DIR}
+      CONTACT_PATH_PROGRAMS=$<TARGET_FILE_DIR:contact_path_trace>)
   set(contact_path_all_programs contact_path_trace contact_path_lattice contact_path_node
     contact_path_markers contact_path_verify ${PROJECT_NAME}_generate_messages)
   contact_path_add_python_test(docs_test test/docs/docs_test.py DEPENDS ${contact_path_all_programs}

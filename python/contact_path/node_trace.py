@@ -48,7 +48,7 @@ def goal_of(scene: Scene) -> TracePathGoal:
 
 
 class Goal:
-    """A goal that was sent; its feedback."""
+    """A goal that was sent; its feedback, of which clients drop what the result overtakes."""
 
     def __init__(self, client: actionlib.ActionClient, goal: TracePathGoal) -> None:
         self.request = goal
@@ -68,20 +68,22 @@ class Goal:
 def follow(goal: Goal, subscriber: rospy.Subscriber, increments: List[Increment],
            progress: Callable[[Progress], None] | None) -> Path:
     """Waits for the end of the goal, and for its increments. The first Ctrl-C cancels it."""
-    told = 0
+    told = 0  # of the increments that have come
     cancelled = False
 
-    def tell() -> None:
+    def tell(trace_id: int) -> None:
         nonlocal told
-        while progress is not None and told < len(goal.feedback):
+        while progress is not None and told < len(increments):
             told += 1
-            feedback = goal.feedback[told - 1]
-            progress(Progress(feedback.index, feedback.load_factor, feedback.arc_length, KINDS[feedback.kind]))
+            increment = increments[told - 1]
+            if increment.trace_id == trace_id:
+                progress(Progress(increment.index, increment.load_factor, increment.arc_length, KINDS[increment.kind]))
 
     try:
         while not goal.done():
             try:
-                tell()
+                if goal.feedback and not cancelled:
+                    tell(goal.feedback[0].trace_id)
                 if subscriber.get_num_connections() == 0 or rospy.is_shutdown():
                     raise TraceFailed('the node has gone')
                 time.sleep(POLL)
@@ -97,9 +99,8 @@ def follow(goal: Goal, subscriber: rospy.Subscriber, increments: List[Increment]
     trace_id = int(result.bag.partition('_')[0])
     require(lambda: sum(increment.trace_id == trace_id for increment in list(increments)) >= result.increments,
             'increments were left out on the way; all of them are in the bag %s of the node' % result.bag)
-    if progress is not None:
-        require(lambda: len(goal.feedback) >= result.increments, 'feedback was left out on the way')
-        tell()
+    if not cancelled:
+        tell(trace_id)
     return path_of(goal.request, [increment for increment in increments if increment.trace_id == trace_id], result)
 
 

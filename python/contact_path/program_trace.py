@@ -30,8 +30,9 @@ def find_program(name: str = PROGRAM) -> str:
     prefixes += [os.path.join(here, '..', '..', 'build', 'devel'), os.path.join(here, '..', '..', '..', '..')]
     directories = [os.environ.get('CONTACT_PATH_PROGRAMS', ''), *(os.path.join(prefix, 'lib', 'contact_path') for prefix in prefixes)]
     for directory in filter(None, directories):
-        if os.access(os.path.join(directory, name), os.X_OK):
-            return os.path.normpath(os.path.join(directory, name))
+        program = os.path.normpath(os.path.join(directory, name))
+        if os.access(program, os.X_OK):
+            return program
     found = shutil.which(name)
     if not found:
         raise TraceFailed('%s is not there: build it with scripts/build, or source the setup.bash of the space that has it' % name)

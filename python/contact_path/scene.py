@@ -141,7 +141,7 @@ class Scene(Loading):
         """A half plane: boundary through px, py [length], normal nx, ny towards the admissible side, friction coefficient [-]."""
         self._add('obstacles', locals())
 
-    def contact(self, *, obstacle: str, node: str = '', group: str = '') -> None:
+    def contact(self, *, node: str = '', group: str = '', obstacle: str) -> None:
         """A node that may touch an obstacle, called NODE@OBSTACLE, or each node of a group."""
         self._add('contacts', locals())
 
@@ -267,7 +267,7 @@ def with_defaults(part: str, entries: Sequence[Mapping[str, Any]]) -> List[Entry
     """The entries of a list of a scene with all fields.
 
     >>> with_defaults('contacts', [{'node': 'a', 'obstacle': 'floor'}])
-    [{'obstacle': 'floor', 'node': 'a', 'group': ''}]
+    [{'node': 'a', 'group': '', 'obstacle': 'floor'}]
     """
     defaults = {field: _DEFAULTS.get(kind, []) for field, kind in PARTS[part].items()}
     return [{**defaults, **entry} for entry in entries]

@@ -26,7 +26,7 @@ from program_test import ProgramTest
 ROOT = pathlib.Path(os.environ['CONTACT_PATH_ROOT'])
 PROGRAMS = pathlib.Path(os.environ['CONTACT_PATH_PROGRAMS'])
 PAGES = [ROOT / 'README.md', ROOT / 'bench' / 'README.md', *sorted((ROOT / 'docs').rglob('*.md'))]
-ENVIRONMENT = {**os.environ, 'OMP_NUM_THREADS': '1', 'PYTHONPATH': os.pathsep.join(
+ENVIRONMENT = {**os.environ, 'OMP_NUM_THREADS': '1', 'MPLBACKEND': 'agg', 'PYTHONPATH': os.pathsep.join(
     filter(None, [os.environ['CONTACT_PATH_MODULES'], os.environ.get('PYTHONPATH')]))}
 
 PYTHON = [path.name for path in sorted((ROOT / 'scripts').iterdir())
@@ -34,8 +34,9 @@ PYTHON = [path.name for path in sorted((ROOT / 'scripts').iterdir())
 WITH_HELP = ['contact_path_trace', 'contact_path_lattice', 'verify', *PYTHON]
 # What stands for a program in a command.
 SCRIPTS = {**{'scripts/' + name: name for name in ('contact_path_trace', 'contact_path_lattice', 'contact_path_markers')},
-           'scripts/mesh': 'contact_path_mesh', 'scripts/trace': 'contact_path_trace', **{'scripts/' + name: name for name in PYTHON}}
-QUICK = ('contact_path_trace', 'contact_path_lattice', 'verify', 'sed')  # of the examples, run here
+           'scripts/mesh': 'contact_path_mesh', 'scripts/python': 'python3', 'scripts/trace': 'contact_path_trace', **{'scripts/' + name: name for name in PYTHON}}
+OF_THE_SYSTEM = ('python3', 'sed')
+QUICK = ('contact_path_trace', 'contact_path_lattice', 'verify', *OF_THE_SYSTEM)  # of the examples, run here
 
 SAME = 1e-6  # relative, of numbers that an example prints
 NOTHING = 1e-9  # a number that is but rounding
@@ -231,7 +232,7 @@ class Existing(unittest.TestCase):
                     self.assertIn(part, [anchor(title) for title in titles], '%s: %s' % (page.name, target))
 
     def test_files(self):
-        pattern = r'\b(?:bench|docs|include|launch|msg|scenes|scripts|src|srv|test)/[\w./-]*\w'
+        pattern = r'\b(?:bench|docs|include|launch|msg|python|scenes|scripts|src|srv|test)/[\w./-]*\w'
         for page in PAGES:
             for name in re.findall(r'(?<![\w/.])' + pattern, page.read_text(encoding='utf-8')):
                 self.assertTrue((ROOT / name).exists() or name.startswith('test_results'), '%s: %s' % (page.name, name))
@@ -273,7 +274,7 @@ class Examples(ProgramTest):
         program, arguments = program_of(shlex.split(line))
         if program not in QUICK:
             return None
-        command = program if program == 'sed' else str(PROGRAMS / program)
+        command = program if program in OF_THE_SYSTEM else str(PROGRAMS / program)
         told = subprocess.run([command, *arguments], cwd=self.directory, env=ENVIRONMENT, check=False, timeout=60,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
         if target:

@@ -1,0 +1,162 @@
+#!/usr/bin/env python3
+"""The builder of scenes: its methods against the messages, what it writes and reads.
+
+CONTACT_PATH_ROOT: the sources; CONTACT_PATH_SCENES: the directory of the example scenes.
+"""
+import glob
+import os
+import re
+import sys
+import unittest
+
+import numpy as np
+import yaml
+
+from program_test import SCENES, ProgramTest
+
+ROOT = os.environ['CONTACT_PATH_ROOT']
+sys.path.insert(0, os.path.join(ROOT, 'python'))
+from contact_path import Scene, scene  # noqa: E402
+
+MESSAGES = {'nodes': 'Node', 'bars': 'Bar', 'superelements': 'Superelement', 'beams': 'Beam', 'materials': 'Material',
+            'solids': 'Solid', 'groups': 'Group', 'surfaces': 'BoundarySurface', 'loads': 'Load', 'obstacles': 'Obstacle',
+            'contacts': 'Contact', 'support_motions': 'SupportMotion', 'obstacle_motions': 'ObstacleMotion'}
+TYPES = {'string': 'str', 'float64': 'float', 'int32': 'int', 'bool': 'bool'}
+
+
+def fields_of_message(name):
+    """Field -> type, as Python has it; fields that are messages themselves are left out."""
+    with open(os.path.join(ROOT, 'msg', name + '.msg')) as file:
+        fields = re.findall(r'^(\w+)(\[\])? (\w+)', file.read(), re.M)
+    return {field: 'Sequence[%s]' % TYPES[kind] if many else TYPES[kind] for kind, many, field in fields if kind in TYPES}
+
+
+class Fields(unittest.TestCase):
+
+    def test_a_method_for_each_list_with_the_fields_of_its_message(self):
+        with open(os.path.join(ROOT, 'msg', 'Scene.msg')) as file:
+            lists = re.findall(r'^(\w+)\[\] (\w+)', file.read(), re.M)
+        self.assertEqual({part: message for message, part in lists}, MESSAGES)
+        self.assertEqual(scene.PARTS.keys(), MESSAGES.keys())
+        for part, message in MESSAGES.items():
+            self.assertTrue(callable(getattr(Scene, part[:-1])), part)
+            self.assertEqual(scene.PARTS[part], fields_of_message(message), part)
+
+    def test_options_and_stages(self):
+        options = {field: kind for field, kind in scene.OPTIONS.items() if field not in ('stop', 'branch_choices')}
+        self.assertEqual(options, fields_of_message('TraceOptions'))
+        self.assertEqual(scene.STAGE, fields_of_message('Stage'))
+        for method, message in (Scene.stop, 'StopCriterion'), (Scene.branch_choice, 'BranchChoice'):
+            self.assertEqual(scene._fields(method), fields_of_message(message))
+
+    def test_what_is_no_field_is_a_type_error(self):
+        made = Scene()
+        for call in (lambda: made.node('a', fixedx=True), lambda: made.bar(['a', 'b']), lambda: made.options(methd='mpec'),
+                     lambda: made.stage('push').load(node='a', fz=1.0)):
+            with self.assertRaises(TypeError):
+                call()
+
+
+class Text(ProgramTest):
+
+    def read_back(self, made):
+        file = self.path('made.yaml')
+        made.write(file)
+        return Scene.read(file)
+
+    def test_example_scenes_are_read_and_written(self):
+        files = glob.glob(os.path.join(SCENES, '*.yaml'))
+        self.assertGreater(len(files), 10)
+        for file in files:
+            read = Scene.read(file)
+            self.assertEqual(self.read_back(read), read, file)
+            with open(file) as text:
+                self.same(read.request, yaml.safe_load(text), os.path.basename(file))
+            self.same(read.request, yaml.safe_load(read.text()), os.path.basename(file))
+
+    def same(self, ours, other, place):
+        """But for what is left out since it is a default."""
+        if isinstance(other, dict):
+            for key, value in other.items():
+                if value or key in ours:
+                    self.same(ours.get(key), value, '%s.%s' % (place, key))
+        elif isinstance(other, list):
+            self.assertEqual(len(ours), len(other), place)
+            for a, b in zip(ours, other):
+                self.same(a, b, place)
+        elif ours or other:
+            self.assertEqual(ours, other, place)
+
+    def test_names_and_numbers_that_yaml_could_take_for_others(self):
+        made = Scene('a "scene": #1, no')
+        for name in 'n', 'yes', '1e3', '0x1', 'null', '12:30:00', 'é':
+            made.node(name, x=1e-7, y=1e22)
+            made.group('g', nodes=[name])
+        self.assertEqual(self.read_back(made), made)
+        self.assertEqual(yaml.safe_load(made.text()), made.request)
+        for node in yaml.safe_load(made.text())['scene']['nodes']:
+            self.assertEqual((type(node['name']), type(node['x']), type(node['y'])), (str, float, float))
+
+    def test_values_of_numpy(self):
+        made = Scene()
+        made.node('a', x=np.float64(0.5), fixed_x=np.bool_(True))
+        made.superelement(np.array(['a']), stiffness=np.eye(2))
+        made.solid('block', material='m', nodes=np.array([['a', 'b', 'c'], ['b', 'c', 'd']]), nodes_per_element=np.int64(3))
+        made.options(stop=[{'quantity': 'a.x', 'when': '>', 'value': np.float64(1.0)}])
+        self.assertEqual(made.request, {
+            'scene': {'nodes': [{'name': 'a', 'x': 0.5, 'fixed_x': True}],
+                      'superelements': [{'nodes': ['a'], 'stiffness': [1.0, 0.0, 0.0, 1.0]}],
+                      'solids': [{'name': 'block', 'material': 'm', 'nodes': ['a', 'b', 'c', 'b', 'c', 'd'], 'nodes_per_element': 3}]},
+            'options': {'stop': [{'quantity': 'a.x', 'when': '>', 'value': 1.0}]}})
+        self.assertEqual(self.read_back(made), made)
+
+    def test_parts_options_and_program(self):
+        made = Scene('all')
+        made.material('rubber', lambda_=1.0, mu=0.5)
+        made.beam('leg', nodes=('a', 'b'), EA=1.0, EI=1.0, hinged=[True, False])
+        made.stop('a.x', '>', 0.0)
+        made.branch_choice(event=1, branch=2)
+        push = made.stage('push', target=2.0)
+        push.load(node='a', fx=1.0)
+        push.support_motion('b', rotation=1.0)
+        push.obstacle_motion('floor', dy=-1.0)
+        made.stage(unload=True)
+        self.assertEqual(made.text(), '''scene:
+  name: all
+  materials:
+  - {name: rubber, lambda: 1.0, mu: 0.5}
+  beams:
+  - {name: leg, nodes: [a, b], EA: 1.0, EI: 1.0, hinged: [true, false]}
+options:
+  stop:
+  - {quantity: "a.x", when: ">"}
+  branch_choices:
+  - {event: 1, branch: 2}
+program:
+- {name: push, target: 2.0, loads: [{node: a, fx: 1.0}], support_motions: [{node: b, rotation: 1.0}], '''
+                         '''obstacle_motions: [{obstacle: floor, dy: -1.0}]}
+- {unload: true}
+''')
+        self.assertEqual(self.read_back(made), made)
+
+    def test_a_copy_is_one_of_its_own(self):
+        made = Scene('one')
+        made.node('a')
+        other = made.copy()
+        other.node('b')
+        other.options(step=0.1)
+        self.assertEqual((len(made.request['scene']['nodes']), 'options' in made.request), (1, False))
+        self.assertNotEqual(made, other)
+
+    def test_what_is_no_scene(self):
+        for text in '', 'index,load_factor', '- a', 'scene: none', 'scene: {', 'a: \x00':
+            with open(self.path('none.yaml'), 'w') as file:
+                file.write(text)
+            with self.assertRaisesRegex(ValueError, 'not a scene file'):
+                Scene.read(self.path('none.yaml'))
+        with self.assertRaises(FileNotFoundError):
+            Scene.read(self.path('nothing.yaml'))
+
+
+if __name__ == '__main__':
+    unittest.main()
