@@ -28,9 +28,9 @@ EVENTS = ('corner_limit', 'contact_event', 'bifurcation')
 class Path:
     """The increments of a trace, n of them, in order.
 
-    path['load_factor'] is a column as an array (n,): of int for `index` and `stage` (with a load program only), of str for `kind` and
-    for state_CONTACT, of float for all others, which are named as in the CSV. Arrays are not to be written to. Where an increment
-    of a bag carries no positions and contacts (full_state_every), numbers are nan and states ''.
+    path['load_factor'] is a column as an array (n,): of int for `index` and for `stage`, which only load programs have, of str for
+    `kind` and state_CONTACT, of float for all others. They are named as in the CSV. Arrays are not to be written to. Where an
+    increment of a bag carries no positions and contacts (full_state_every), numbers are nan and states ''.
 
     >>> import numpy as np
     >>> path = Path({'index': np.arange(3), 'load_factor': np.array([0.0, 2.0, 1.5]), 'x_b': np.array([1.0, 2.0, 3.0]),
@@ -95,10 +95,10 @@ class Path:
     def events(self) -> List[Dict[str, Any]]:
         """Where contacts change their states, or paths cross: `index`, `kind`, `load_factor`, `stage` with a load program.
 
-        Where it is known (not of a CSV file), and the method was `branch`, also `number` as branch_choices count, `taken`: the number of the branch
-        that was taken, from 1, 0: none, `complete`: whether all combinations of states were tried, `branches`: best first, with
-        `states` (contact -> state), `load_rate`, `dissipation_rate` [-] and `turn` [rad]. trace() by the program has these three
-        rounded to four digits.
+        Of the method `branch`, except where the path was read from a CSV file, also: `number`, as branch_choices count; `taken`, the
+        number of the branch that was taken, from 1, 0: none; `complete`, whether all combinations of states were tried; `branches`,
+        best first, with `states` (contact -> state), `load_rate`, `dissipation_rate` [-] and `turn` [rad]. trace() by the program
+        has these three in four digits.
         """
         wanted = np.isin(self['kind'], EVENTS)
         rows = {int(self['index'][number]): int(number) for number in np.flatnonzero(wanted)}
@@ -159,9 +159,11 @@ class Path:
              file: str | os.PathLike[str] | None = None) -> Figure:
         """A figure of the path as scripts/plot draws it; its options are these parameters.
 
-        x, y: quantities; x None: the coordinate that moves most. at: shapes at 'events', 'limits' or 'all'. increments: shapes at these
-        indices, 'end' the last one. Shapes need a scene. file: .png or .svg, written as well. ValueError: what cannot be drawn.
+        x, y: quantities; x None: the coordinate that moves most. at: shapes at 'events', 'limits' or 'all'. increments: shapes at
+        these indices, 'end' the last one. Shapes need a scene. file: .png or .svg, written as well. ValueError: what cannot be
+        drawn.
         """
         from contact_path import plot_figure  # takes a second, and needs a display unless matplotlib is told otherwise
 
-        return plot_figure.draw([self], x, y, states=states, energy=energy, shapes=shapes, at=at, increments=increments, file=file)
+        return plot_figure.draw([self], x, y, states=states, energy=energy, shapes=shapes, at=at, increments=increments,
+                                file=file)

@@ -108,7 +108,8 @@ def columns_of(scene: Dict[str, Any], contacts: Sequence[str], increments: Seque
         table['stage'] = column('stage', int)
     table['kind'] = np.array(KINDS)[column('kind', int)]
     nodes = [node['name'] for node in scene['nodes']]
-    places = {field: matrix([getattr(message, field, ()) for message in increments], len(nodes)) for field in ('x', 'y', 'rotation')}
+    places = {field: matrix([getattr(message, field, ()) for message in increments], len(nodes))
+              for field in ('x', 'y', 'rotation')}
     for i, node in enumerate(nodes):
         table['x_' + node], table['y_' + node] = places['x'][:, i], places['y'][:, i]
         if node in scene['turning']:
@@ -120,7 +121,8 @@ def columns_of(scene: Dict[str, Any], contacts: Sequence[str], increments: Seque
         for field in 'gap', 'rn', 'rt':
             table['%s_%s' % (field, contact)] = parts[field][:, i]
         table['state_' + contact] = states[:, i]
-    for field in ('dissipation', 'strain_energy', 'external_work', 'equilibrium_residual', 'complementarity_residual', 'solve_time'):
+    for field in ('dissipation', 'strain_energy', 'external_work', 'equilibrium_residual', 'complementarity_residual',
+                  'solve_time'):
         table[field] = column(field)
     return table
 

@@ -20,6 +20,7 @@ TITLE, AXIS = 0.42, 0.68  # above and below a panel
 SHAPE_TITLE, SHAPE_GAP, SHAPE_AXIS = 0.45, 0.15, 0.5
 TALLEST_SHAPE = 4.0
 
+Panel = Callable[[Figure, float, float], None]  # figure, top, bottom [inches]
 Chosen = Sequence[Tuple[List[int], int]]  # for each path the rows whose shapes are drawn, and how many were left out
 
 
@@ -30,10 +31,10 @@ class Page:
         self.width = width
         self.left = left
         self.right = right
-        self.panels: List[Tuple[float, float, Callable[[Figure, float, float], None]]] = []
+        self.panels: List[Tuple[float, float, Panel]] = []
         self.height = 0.05
 
-    def add(self, height: float, draw_panel: Callable[[Figure, float, float], None], above: float = TITLE, below: float = AXIS) -> None:
+    def add(self, height: float, draw_panel: Panel, above: float = TITLE, below: float = AXIS) -> None:
         """draw_panel(figure, top, bottom) in inches from the lower edge."""
         self.panels.append((self.height + above, self.height + above + height, draw_panel))
         self.height += above + height + below
@@ -95,7 +96,8 @@ def add_shapes(page: Page, paths: Sequence[Path], chosen: Chosen) -> None:
         page.add(0.0, lambda figure, top, bottom, heading=heading: figure.text(
             page.left / page.width, bottom / page.height, heading, fontsize=12), above=0.25, below=0.05)
         for first in range(0, len(group), columns):
-            def draw_line(figure: Figure, top: float, bottom: float, group: Any = group, first: int = first, last: int = last) -> None:
+            def draw_line(figure: Figure, top: float, bottom: float, group: Any = group, first: int = first,
+                          last: int = last) -> None:
                 for column, shape in enumerate(group[first:first + columns]):
                     axes = place(figure, page.left + column * (width + SHAPE_GAP), bottom, width, height)
                     plot_shapes.draw(axes, shape, view, (width, height), named=shape is group[0])

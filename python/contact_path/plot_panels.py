@@ -163,7 +163,8 @@ def line_style(number: int, count: int) -> Dict[str, Any]:
 
 
 def write_indices(axes: Axes, path: Path, wanted: Sequence[int], x: str, y: str, colour: Any, texts: List[np.ndarray]) -> None:
-    """Of these rows, beside their points; increments that lie close together share a label. texts: boxes of those that stand already."""
+    """Of these rows, beside their points; increments that lie close together share a label. texts: boxes of those that stand
+    already."""
     rows, data = points(path, x, y)
     kinds, indices = path['kind'][rows], path['index'][rows]
     on_figure = axes.transData.transform(data) * 72.0 / axes.figure.dpi  # places on the figure, in points
@@ -238,7 +239,8 @@ def arcs(path: Path, contact: str) -> Dict[str, List[Tuple[float, float]]]:
     that does: increments where states change carry them."""
     found: Dict[str, List[Tuple[float, float]]] = {}
     # At the start of a stage an arc of no length ends.
-    states = ['' if i > 0 and kind == 'start' else state for i, (kind, state) in enumerate(zip(path['kind'], path['state_' + contact].tolist()))]
+    states = path['state_' + contact].tolist()
+    states[1:] = ['' if kind == 'start' else state for kind, state in zip(path['kind'][1:], states[1:])]
     for i in range(len(states) - 2, -1, -1):
         states[i] = states[i] or states[i + 1]
     for i in range(1, len(states)):

@@ -28,7 +28,8 @@ def find_program(name: str = PROGRAM) -> str:
     here = os.path.dirname(os.path.realpath(__file__))
     prefixes = [prefix for prefix in os.environ.get('CMAKE_PREFIX_PATH', '').split(os.pathsep) if prefix]
     prefixes += [os.path.join(here, '..', '..', 'build', 'devel'), os.path.join(here, '..', '..', '..', '..')]
-    directories = [os.environ.get('CONTACT_PATH_PROGRAMS', ''), *(os.path.join(prefix, 'lib', 'contact_path') for prefix in prefixes)]
+    directories = [os.environ.get('CONTACT_PATH_PROGRAMS', '')]
+    directories += [os.path.join(prefix, 'lib', 'contact_path') for prefix in prefixes]
     for directory in filter(None, directories):
         program = os.path.normpath(os.path.join(directory, name))
         if os.access(program, os.X_OK):

@@ -96,6 +96,13 @@ class InstallTest(unittest.TestCase):
         self.assertTrue(module.startswith(self.prefix), module)
         self.assertIn('float64 load_factor', self.run_here('rosmsg', 'show', 'contact_path/Increment'))
 
+    def test_python_package(self):
+        code = ('import sys, contact_path; path = contact_path.trace(sys.argv[1]); '
+                'print(contact_path.path.__file__, path.end_reason, path.limit_points[0]["kind"])')
+        told = self.run_here('python3', '-c', code, self.scene('sliding_bar'))
+        self.assertTrue(told.startswith(self.prefix), told)
+        self.assertTrue(told.endswith('path.py stop_criterion smooth_limit\n'), told)
+
     def test_command_line(self):
         bag = os.path.join(self.directory, 'truss.bag')
         self.run_here('rosrun', 'contact_path', 'contact_path_trace', self.scene('rough_truss'), '--csv', os.devnull,

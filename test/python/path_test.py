@@ -124,7 +124,8 @@ class PathTest(ProgramTest):
     def test_end_reasons_kinds_and_states_are_those_of_the_messages(self):
         def constants(file, prefix=''):
             with open(os.path.join(ROOT, file)) as text:
-                return [(int(value), name.lower()) for name, value in re.findall(r'^uint8 %s(\w+)=(\d+)' % prefix, text.read(), re.M)]
+                found = re.findall(r'^uint8 %s(\w+)=(\d+)' % prefix, text.read(), re.M)
+            return [(int(value), name.lower()) for name, value in found]
 
         reasons = dict(constants('srv/TracePath.srv', 'END_'))
         self.assertEqual(sorted(reasons.values()), sorted(('none', *cp.END_REASONS)))

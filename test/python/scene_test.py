@@ -106,7 +106,8 @@ class Text(ProgramTest):
         self.assertEqual(made.request, {
             'scene': {'nodes': [{'name': 'a', 'x': 0.5, 'fixed_x': True}],
                       'superelements': [{'nodes': ['a'], 'stiffness': [1.0, 0.0, 0.0, 1.0]}],
-                      'solids': [{'name': 'block', 'material': 'm', 'nodes': ['a', 'b', 'c', 'b', 'c', 'd'], 'nodes_per_element': 3}]},
+                      'solids': [{'name': 'block', 'material': 'm', 'nodes': ['a', 'b', 'c', 'b', 'c', 'd'],
+                                  'nodes_per_element': 3}]},
             'options': {'stop': [{'quantity': 'a.x', 'when': '>', 'value': 1.0}]}})
         self.assertEqual(self.read_back(made), made)
 

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Traces by the node from Python, contact_path.trace(..., via='ros'), against traces by the program. Nodes: see python_client.test."""
+"""contact_path.trace(..., via='ros'), by the node, against traces by the program. Nodes: see python_client.test."""
 import os
 import shutil
 import signal
