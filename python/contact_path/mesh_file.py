@@ -3,13 +3,15 @@
 meshio reads nodes and elements. The numbers of the nodes and the groups are read here. meshio does not tell the numbers, and
 takes memory for the largest one. Of format 4.1, meshio keeps one group of each entity, and fails where an entity has none. Of
 two groups with one name, in two dimensions, meshio keeps one."""
-import collections
+from __future__ import annotations
+
 import contextlib
 import io
 import os
 import re
 import tempfile
 import warnings
+from typing import Any, Callable, Dict, Iterator, List, NamedTuple, Tuple
 
 import numpy as np
 
@@ -19,17 +21,26 @@ LARGEST_COORDINATE = 1e100  # of any number of a scene, in magnitude
 GROUPS = ('point', 'curve', 'surface')  # by dimension
 PLANE = {'vertex': 0, 'line': 1, 'line3': 1, 'triangle': 2, 'triangle6': 2, 'quad': 2, 'quad8': 2}  # dimension
 
-# kind: a key of PLANE; nodes: indices (m, k), in the order of gmsh, corners first; groups: names of the physical groups of
-# all m elements.
-Block = collections.namedtuple('Block', 'kind nodes groups')
-# points (n, 3) [length]: row i is the node i + 1 of the file, NaN where it has none; blocks; empty_groups: names of physical
-# groups without elements.
-Mesh = collections.namedtuple('Mesh', 'points blocks empty_groups')
+
+class Block(NamedTuple):
+    """Elements of one kind in the same physical groups."""
+
+    kind: str  # a key of PLANE
+    nodes: np.ndarray  # indices (m, k), in the order of gmsh, corners first
+    groups: List[Any]  # names of the physical groups of all m elements; their tags while the file is read
 
 
-def split_sections(data):
+class Mesh(NamedTuple):
+    """What a file holds."""
+
+    points: np.ndarray  # (n, 3) [length]: row i is the node i + 1 of the file, NaN where it has none
+    blocks: List[Block]
+    empty_groups: List[str]  # names of physical groups without elements
+
+
+def split_sections(data: bytes) -> Dict[str, bytes]:
     """The sections of a file, name -> bytes between `$Name` and `$EndName`. ValueError: other bytes, or no end."""
-    sections = {}
+    sections: Dict[str, bytes] = {}
     at = 0
     while data[at:].strip():
         line = re.compile(rb'\s*\$(\w+)[ \t\r]*\n').match(data, at)
@@ -48,13 +59,13 @@ def split_sections(data):
 class Numbers:
     """The numbers of a section of format 4.1, one after the other."""
 
-    def __init__(self, body, binary, size_bytes):
-        self.body = body if binary else body.split()
+    def __init__(self, body: bytes, binary: bool, size_bytes: int) -> None:
+        self.body: Any = body if binary else body.split()
         self.types = {'int': np.dtype('i4'), 'size': np.dtype('u%d' % size_bytes), 'double': np.dtype('f8')}
         self.binary = binary
         self.at = 0
 
-    def skip(self, kind, count):
+    def skip(self, kind: str, count: int) -> Tuple[int, int]:
         """Where the next numbers begin and end. ValueError: there are fewer."""
         begin = self.at
         self.at += count * (self.types[kind].itemsize if self.binary else 1)
@@ -62,7 +73,7 @@ class Numbers:
             raise ValueError('it has too few numbers')
         return begin, self.at
 
-    def take(self, kind, count=1):
+    def take(self, kind: str, count: int = 1) -> List[int]:
         """The next integers as a list. ValueError: there are fewer."""
         begin, end = self.skip(kind, count)
         if self.binary:
@@ -70,7 +81,7 @@ class Numbers:
         return [int(word) for word in self.body[begin:end]]
 
 
-def read_entity_groups(numbers):
+def read_entity_groups(numbers: Numbers) -> Dict[Tuple[int, int], List[int]]:
     """Section $Entities of format 4.1: (dimension, tag of the entity) -> tags of its physical groups."""
     groups = {}
     for dimension, count in enumerate(numbers.take('size', 4)):
@@ -84,7 +95,7 @@ def read_entity_groups(numbers):
     return groups
 
 
-def check_node_numbers(found, total):
+def check_node_numbers(found: List[int], total: int) -> List[int]:
     """ValueError: so many nodes are not what the section tells, or not what a mesh can have."""
     if len(found) != total or len(set(found)) != total:
         raise ValueError('it tells of %d nodes and has %d different ones' % (total, len(set(found))))
@@ -93,15 +104,15 @@ def check_node_numbers(found, total):
     return found
 
 
-def read_old_node_numbers(numbers):
+def read_old_node_numbers(numbers: Numbers) -> List[int]:
     """Section $Nodes of format 2.2, ASCII: the numbers of the nodes, in the order of the file."""
     total = numbers.take('int')[0]
     return check_node_numbers([int(word) for word in numbers.body[1::4]], total)
 
 
-def read_node_numbers(numbers):
+def read_node_numbers(numbers: Numbers) -> List[int]:
     """Section $Nodes of format 4.1: the numbers of the nodes, in the order of the file."""
-    found = []
+    found: List[int] = []
     blocks, total, _, _ = numbers.take('size', 4)
     for _ in range(blocks):
         if numbers.take('int', 3)[2]:
@@ -112,13 +123,13 @@ def read_node_numbers(numbers):
     return check_node_numbers(found, total)
 
 
-def read_group_names(body):
+def read_group_names(body: bytes) -> Dict[Tuple[int, int], str]:
     """Section $PhysicalNames: (dimension, tag of the group) -> name."""
     lines = re.findall(rb'^\s*(\d)\s+(\d+)\s+"(.*)"\s*$', body, re.M)
     return {(int(dimension), int(tag)): name.decode('utf-8', 'replace') for dimension, tag, name in lines}
 
 
-def read_cells(sections):
+def read_cells(sections: Dict[str, bytes]) -> Any:
     """Nodes and elements of the sections as a mesh of meshio. ValueError: meshio does not read them."""
     import meshio  # here: it takes half a second
     kept = b''.join(b'$%s\n%s$End%s\n' % (name.encode(), sections[name], name.encode())
@@ -140,7 +151,7 @@ def read_cells(sections):
                 raise ValueError('cannot be read by meshio: %s' % reason) from error
 
 
-def check_kind(kind):
+def check_kind(kind: str) -> None:
     """ValueError: elements of this kind have no place in a scene."""
     if kind in PLANE:
         return
@@ -152,7 +163,7 @@ def check_kind(kind):
     raise ValueError('has elements in space (%s), a scene is plane: mesh in two dimensions, gmsh -2' % kind)
 
 
-def split_blocks(cells, entity_groups):
+def split_blocks(cells: Any, entity_groups: Dict[Tuple[int, int], List[int]] | None) -> Iterator[Block]:
     """The blocks of elements, with the tags of their physical groups in place of names.
 
     entity_groups: of format 4.1, as of read_entity_groups; None: of format 2.2, where an element carries its group, and
@@ -169,7 +180,8 @@ def split_blocks(cells, entity_groups):
             yield Block(cell_block.type, cell_block.data[block_tags == tag], groups)
 
 
-def read_section(function, sections, name, binary, size_bytes=8):
+def read_section(function: Callable[[Numbers], Any], sections: Dict[str, bytes], name: str, binary: bool,
+                 size_bytes: int = 8) -> Any:
     """What a function finds in the Numbers of a section."""
     try:
         return function(Numbers(sections[name], binary, size_bytes))
@@ -177,7 +189,7 @@ def read_section(function, sections, name, binary, size_bytes=8):
         raise ValueError('section $%s: %s' % (name, error)) from error
 
 
-def read(path):
+def read(path: str | os.PathLike[str]) -> Mesh:
     """The Mesh of a file. OSError: no such file. ValueError: no mesh that a scene can have; one line that goes on from the
     name of the file."""
     with open(path, 'rb') as file:

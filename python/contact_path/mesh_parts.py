@@ -2,28 +2,40 @@
 
 Elements of one kind are indices of nodes (m, k): k = 3 or 4 corners, or as many mid-sides besides (k = 6 or 8), the first
 between corners 1 and 2."""
+from __future__ import annotations
+
 import collections
+from typing import Dict, Iterable, List, NamedTuple, Sequence, Set, Tuple
 
 import numpy as np
 
 FLAT = 1e-8  # sine of the angle at a corner below which an element is degenerate
 NEAR = 1e-8  # distance, in parts of the size of the mesh, below which two places are one: the tolerance of gmsh
 
-# Rows: start, end, mid-side or -1. boundary (b, 3): walked from start to end, the material is on the right; inner (i, 3).
-Edges = collections.namedtuple('Edges', 'boundary inner')
-# nodes: list of indices in order; closed: the last one is joined to the first.
-Piece = collections.namedtuple('Piece', 'nodes closed')
+
+class Edges(NamedTuple):
+    """Rows: start, end, mid-side or -1."""
+
+    boundary: np.ndarray  # (b, 3): walked from start to end, the material is on the right
+    inner: np.ndarray  # (i, 3)
 
 
-def corner_count(nodes):
+class Piece(NamedTuple):
+    """A part of the boundary."""
+
+    nodes: List[int]  # indices in order
+    closed: bool  # the last one is joined to the first
+
+
+def corner_count(nodes: np.ndarray) -> int:
     return nodes.shape[1] if nodes.shape[1] < 6 else nodes.shape[1] // 2
 
 
-def node_text(nodes):
+def node_text(nodes: Iterable[int]) -> str:
     return ', '.join('n%d' % (node + 1) for node in nodes)
 
 
-def corner_sines(points, nodes):
+def corner_sines(points: np.ndarray, nodes: np.ndarray) -> np.ndarray:
     """Sine of the angle at each corner (m, corners), > 0 where the element is counterclockwise; 0 where an edge has no
     length. points (n, 2). Edges with a mid-side node are parabolas."""
     count = corner_count(nodes)
@@ -40,7 +52,7 @@ def corner_sines(points, nodes):
     return np.divide(cross, lengths, out=np.zeros_like(cross), where=lengths > 0.0)
 
 
-def make_counterclockwise(points, nodes):
+def make_counterclockwise(points: np.ndarray, nodes: np.ndarray) -> Tuple[np.ndarray, np.ndarray]:
     """The elements, all counterclockwise, and the indices of those that were turned round for it. ValueError: a degenerate
     element."""
     sines = corner_sines(points, nodes)
@@ -57,16 +69,16 @@ def make_counterclockwise(points, nodes):
     return nodes, np.flatnonzero(clockwise)
 
 
-def find_edges(elements):
+def find_edges(elements: Sequence[np.ndarray]) -> Edges:
     """The Edges of counterclockwise elements, a list of arrays (m, k). ValueError: elements that overlap, or an edge that
     has a mid-side node in one of its elements only."""
-    rows = []
+    parts = []
     for nodes in elements:
         count = corner_count(nodes)
         for i in range(count):
             middle = nodes[:, count + i] if nodes.shape[1] > count else np.full(len(nodes), -1)
-            rows.append(np.column_stack((nodes[:, (i + 1) % count], nodes[:, i], middle)))
-    rows = np.concatenate(rows) if rows else np.empty((0, 3), dtype=int)
+            parts.append(np.column_stack((nodes[:, (i + 1) % count], nodes[:, i], middle)))
+    rows = np.concatenate(parts) if parts else np.empty((0, 3), dtype=int)
     # Those of one edge beside each other.
     order = np.lexsort((rows[:, :2].max(axis=1), rows[:, :2].min(axis=1)))
     rows = rows[order]
@@ -88,9 +100,9 @@ def find_edges(elements):
     return Edges(rows[~is_inner], rows[both])
 
 
-def find_successors(points, boundary):
+def find_successors(points: np.ndarray, boundary: np.ndarray) -> List[int]:
     """For each edge of the whole boundary the one that follows it round the same material, an index."""
-    outgoing = collections.defaultdict(list)
+    outgoing: Dict[int, List[int]] = collections.defaultdict(list)
     for i, start in enumerate(boundary[:, 0].tolist()):
         outgoing[start].append(i)
     successors = []
@@ -104,7 +116,7 @@ def find_successors(points, boundary):
     return successors
 
 
-def find_pieces(boundary, successors, chosen):
+def find_pieces(boundary: np.ndarray, successors: Sequence[int], chosen: Iterable[int]) -> List[Piece]:
     """The Pieces that the chosen edges, indices into the boundary, form; in the order of their first nodes. A closed piece
     begins at its lowest node."""
     chosen = set(chosen)
@@ -114,7 +126,7 @@ def find_pieces(boundary, successors, chosen):
     for start in starts:
         if start not in chosen:
             continue
-        nodes = []
+        nodes: List[int] = []
         edge = start
         while edge in chosen:
             chosen.remove(edge)
@@ -126,7 +138,7 @@ def find_pieces(boundary, successors, chosen):
     return sorted(pieces, key=lambda piece: piece.nodes[0])
 
 
-def find_bodies(count, connected):
+def find_bodies(count: int, connected: Sequence[np.ndarray]) -> np.ndarray:
     """For each of so many nodes a number (count,) that joined nodes share. connected: list of arrays (m, k) of nodes that
     are joined row by row."""
     bodies = np.arange(count)
@@ -140,7 +152,7 @@ def find_bodies(count, connected):
             return bodies
 
 
-def find_touching(points, edges):
+def find_touching(points: np.ndarray, edges: np.ndarray) -> Tuple[List[Tuple[int, int]], List[Tuple[int, int]]]:
     """Nodes of the edges (e, 3) that lie on an edge that is not theirs: pairs of nodes at one position, and (node, edge) of
     nodes between the ends of an edge. An edge is straight between its nodes."""
     halves = [(edge, a, b) for edge, (start, end, middle) in enumerate(edges.tolist())
@@ -149,7 +161,8 @@ def find_touching(points, edges):
     nodes = nodes[np.argsort(points[nodes, 0], kind='stable')]
     places = points[nodes]
     tolerance = NEAR * np.hypot(*np.ptp(places, axis=0)) if len(nodes) else 0.0
-    pairs, hanging = set(), []
+    pairs: Set[Tuple[int, int]] = set()
+    hanging: List[Tuple[int, int]] = []
     for edge, a, b in halves:
         low, high = sorted((points[a, 0], points[b, 0]))
         begin, end = np.searchsorted(places[:, 0], (low - tolerance, high + tolerance))

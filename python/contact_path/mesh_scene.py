@@ -1,6 +1,9 @@
 """Meshes as scenes to be completed: solids, beams, groups and surfaces, as YAML."""
+from __future__ import annotations
+
 import json
 import re
+from typing import Any, Dict, Iterable, Iterator, List, Mapping, Sequence, Set, Tuple
 
 import numpy as np
 
@@ -11,12 +14,12 @@ from contact_path.scene_text import flow, scalar
 class Names:
     """The names of one list of a scene: allowed and unique. remarks: a list that takes a line for each name that changes."""
 
-    def __init__(self, kind, remarks):
+    def __init__(self, kind: str, remarks: List[str]) -> None:
         self.kind = kind
         self.remarks = remarks
-        self.taken = set()
+        self.taken: Set[str] = set()
 
-    def take(self, wanted):
+    def take(self, wanted: str) -> str:
         """The name itself; else one in which `_` stands for what a scene does not allow, or with a number at its end."""
         allowed = ''.join(c if c.isprintable() and c not in ' @,"./\ufffd' else '_' for c in wanted) or '_'
         name, number = allowed, 1
@@ -32,20 +35,20 @@ class Names:
         return name
 
 
-def unique(nodes):
+def unique(nodes: Iterable[Any]) -> List[Any]:
     """The nodes in the order of their first appearance."""
     return list(dict.fromkeys(nodes))
 
 
-def quoted(name):
+def quoted(name: str) -> str:
     return json.dumps(name, ensure_ascii=False)
 
 
-def counted(number, noun):
+def counted(number: int, noun: str) -> str:
     return '%d %s%s' % (number, noun, '' if number == 1 else 's')
 
 
-def sorted_by_name(groups):
+def sorted_by_name(groups: Mapping[str | None, Any]) -> List[Tuple[str | None, Any]]:
     """Pairs (name, value) by name; None, for what is in no group, at the end."""
     return sorted(groups.items(), key=lambda item: (item[0] is None, item[0] or ''))
 
@@ -57,8 +60,8 @@ class Builder:
     -> indices (m, k); curves: name of a physical curve, None -> rows (m, 3) of start, end and mid-side or -1; points: name of
     a physical point -> indices; edges: as of find_edges; beams: name of a curve -> pairs of indices; remarks: lines."""
 
-    def __init__(self, mesh):
-        self.remarks = []
+    def __init__(self, mesh: mesh_file.Mesh) -> None:
+        self.remarks: List[str] = []
         if mesh.empty_groups:
             self.remarks.append('no elements in the file for the physical groups %s; with Mesh.SaveAll, format 2.2 has no groups'
                                 % ', '.join(map(quoted, mesh.empty_groups)))
@@ -78,15 +81,16 @@ class Builder:
         self.check_touching()
 
     @staticmethod
-    def index_edges(rows):
+    def index_edges(rows: np.ndarray) -> Dict[Tuple[int, int], int]:
         """(lower end, higher end) -> row."""
         return {(min(a, b), max(a, b)): i for i, (a, b, _) in enumerate(rows.tolist())}
 
-    def blocks_of(self, dimension):
+    def blocks_of(self, dimension: int) -> List[mesh_file.Block]:
         return [block for block in self.blocks if mesh_file.PLANE[block.kind] == dimension]
 
-    def collect_solids(self):
-        solids, owners = {}, {}
+    def collect_solids(self) -> Dict[str | None, Dict[int, np.ndarray]]:
+        solids: Dict[str | None, Dict[int, List[np.ndarray]]] = {}
+        owners: Dict[Tuple[int, ...], str | None] = {}
         for block in self.blocks_of(2):
             for name in block.groups or [None]:
                 for nodes in block.nodes.tolist():
@@ -102,22 +106,22 @@ class Builder:
         return {name: {count: np.concatenate(kinds[count]) for count in sorted(kinds)}
                 for name, kinds in sorted_by_name(solids)}
 
-    def collect_curves(self):
-        curves = {}
+    def collect_curves(self) -> Dict[str | None, np.ndarray]:
+        curves: Dict[str | None, List[Tuple[int, ...]]] = {}
         for block in self.blocks_of(1):
             for name in block.groups or [None]:
                 rows = curves.setdefault(name, [])
                 rows += [tuple(nodes) if len(nodes) == 3 else (*nodes, -1) for nodes in block.nodes.tolist()]
         return {name: np.array(unique(rows)) for name, rows in sorted_by_name(curves)}
 
-    def collect_points(self):
-        points = {}
+    def collect_points(self) -> Dict[str, List[int]]:
+        points: Dict[str | None, List[int]] = {}
         for block in self.blocks_of(0):
             for name in block.groups:
                 points.setdefault(name, []).extend(block.nodes[:, 0].tolist())
         return {name: unique(nodes) for name, nodes in sorted_by_name(points)}
 
-    def find_used(self, points):
+    def find_used(self, points: np.ndarray) -> np.ndarray:
         """Nodes (n,) of elements and of physical points, as truth values. points (n, 3)."""
         joined = np.zeros(len(points), dtype=bool)
         for block in self.blocks_of(1) + self.blocks_of(2):
@@ -138,7 +142,7 @@ class Builder:
                 counted(np.count_nonzero(unused), 'node'), np.flatnonzero(unused)[0] + 1))
         return used
 
-    def turn_solids(self):
+    def turn_solids(self) -> None:
         for name, kinds in self.solids.items():
             for count, nodes in kinds.items():
                 kinds[count], turned = mesh_parts.make_counterclockwise(self.positions, nodes)
@@ -146,7 +150,7 @@ class Builder:
                     self.remarks.append('%s of "%s", first %s, clockwise: turned round' % (
                         counted(len(turned), 'element'), name or 'part', mesh_parts.node_text(nodes[turned[0]])))
 
-    def collect_beams(self):
+    def collect_beams(self) -> Dict[str | None, List[Tuple[int, int]]]:
         """A line element is a beam where no element in the plane has its edge; with a mid-side node it is two."""
         beams, seen = {}, set()
         for name, rows in self.curves.items():
@@ -167,7 +171,7 @@ class Builder:
             self.remarks.append('%s in no physical curve and on no solid: beams "beam"' % counted(len(beams[None]), 'line'))
         return beams
 
-    def check_touching(self):
+    def check_touching(self) -> None:
         lines = [(a, b, -1) for pairs in self.beams.values() for a, b in pairs]
         edges = np.concatenate((self.edges.boundary, np.array(lines, dtype=int).reshape(-1, 3)))
         pairs, hanging = mesh_parts.find_touching(self.positions, edges)
@@ -185,7 +189,7 @@ class Builder:
             self.remarks.append('%s of nodes at the same position, first %s: not joined; parts that shall be one body need '
                                 '`Coherence Mesh;` in gmsh' % (counted(len(pairs), 'pair'), mesh_parts.node_text(pairs[0])))
 
-    def scene(self):
+    def scene(self) -> Dict[str, List[Dict[str, Any]]]:
         """Lists of the scene, as in a file: name of the list -> dicts."""
         names = self.name_nodes()
         scene = {'nodes': [{'name': names[i], 'x': float(self.positions[i, 0]), 'y': float(self.positions[i, 1])}
@@ -216,7 +220,7 @@ class Builder:
                               'closed': piece.closed} for name, piece in self.find_surfaces()]
         return scene
 
-    def name_nodes(self):
+    def name_nodes(self) -> Dict[int, str]:
         """A physical point names its node where it has but one; n1, n2, ... have the numbers of gmsh."""
         names = {i: 'n%d' % (i + 1) for i in np.flatnonzero(self.used).tolist()}
         node_names = Names('node', [])
@@ -225,7 +229,7 @@ class Builder:
                 names[nodes[0]] = node_names.take(name)
         return names
 
-    def find_surfaces(self):
+    def find_surfaces(self) -> Iterator[Tuple[str, mesh_parts.Piece]]:
         """Pairs of a name and a Piece of the boundary. Without physical curves: the loops of the whole boundary."""
         successors = mesh_parts.find_successors(self.positions, self.edges.boundary)
         chosen = {name: {self.on_boundary[key] for key in self.index_edges(rows) if key in self.on_boundary}
@@ -238,7 +242,7 @@ class Builder:
                 yield (name if len(pieces) == 1 else '%s_%d' % (name, i)), piece
 
 
-def scene_text(scene, name, file):
+def scene_text(scene: Mapping[str, Sequence[Mapping[str, Any]]], name: str, file: str) -> str:
     """The scene, lists as of Builder.scene, as the text of a scene file."""
     hints = {'beams': 'EA and EI to be completed', 'materials': 'model, E and nu to be completed'}
     text = '# By contact_path_mesh from %s. Supports, loads, obstacles and contacts are to be added.\n' % (

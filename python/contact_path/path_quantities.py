@@ -71,7 +71,7 @@ def values(path: Path, quantity: str) -> np.ndarray:
         listed = ', '.join(map(spelled, known[:LISTED])) + (', ...' if len(known) > LISTED else '')
         raise ValueError('no quantity %s: %s' % (quantity, 'did you mean %s?' % spelled(near[0]) if near else listed))
     if path.scene is None:
-        raise ValueError('%s needs the scene: name its file by --scene' % quantity)
+        raise ValueError('%s needs the scene: give it by --scene, or by Path.with_scene' % quantity)
     structure = Structure(path.scene)
     field, part = split(name)
     return slip(path, structure, part) if field == 'slip' else load(path, structure, field, part)

@@ -157,7 +157,7 @@ def draw(paths: Sequence[Path], x: str | None = None, y: str = 'load_factor', *,
 def choose_rows(path: Path, at: str | None, increments: Sequence[int | str]) -> Tuple[List[int], int]:
     """The rows whose shapes are drawn, and how many of the wanted ones were left out. ValueError: there can be no shapes."""
     if path.scene is None:
-        raise ValueError('a CSV file does not hold the scene: name its file by --scene')
+        raise ValueError('a CSV file does not hold the scene: give it by --scene, or by Path.with_scene')
     if not len(path.full):
         raise ValueError('no increment carries positions')
     for obstacle in path.scene.request['scene'].get('obstacles', ()):

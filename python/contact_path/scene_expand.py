@@ -32,7 +32,7 @@ def expand(scene: Dict[str, Any]) -> Callable[[List[Entry]], List[Entry]]:
         for i, node in enumerate(inner, 1):
             x, y = point_of_arc(places[first], places[second], beam['angle'], i / count)
             places[node] = x, y
-            scene['nodes'].append(dict.fromkeys(scene['nodes'][0], False) | {'name': node, 'x': x, 'y': y})
+            scene['nodes'].append({**dict.fromkeys(scene['nodes'][0], False), 'name': node, 'x': x, 'y': y})
         axes[name] = members[name] = [first, *inner, second]
         hinged = beam['hinged'] or [False, False]
         scene['turning'].update(inner)
