@@ -16,7 +16,7 @@ from contact_path.path_file import path_of
 from contact_path.scene import Scene
 from contact_path.tracing import Progress
 
-PATIENCE = 10.0  # [s] for the node to be there, and for increments that are still on their way when it has answered
+PATIENCE = 30.0  # [s] for the node to be there, and for increments that are still on their way when it has answered
 POLL = 0.02  # [s]
 
 
