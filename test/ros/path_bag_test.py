@@ -26,7 +26,7 @@ class PathBagTest(ProgramTest):
         return cp.read(table), cp.read(bag)
 
     def test_columns_are_those_of_the_csv(self):
-        for name in 'rough_truss', 'stick_slip_cycle', 'portal_frame', 'cantilever_block':
+        for name in 'rough_truss', 'stick_slip_cycle', 'portal_frame', 'von_mises':
             table, bag = self.trace(scene_file(name))
             self.assertEqual([column for column in bag.columns if column not in ('external_work', 'stage')],
                              [column for column in table.columns if column != 'stage'])
