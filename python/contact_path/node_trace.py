@@ -6,6 +6,7 @@ from typing import Any, Callable, List
 
 import actionlib
 import genpy
+import rosgraph
 import rospy
 from contact_path.msg import Increment, TracePathAction, TracePathGoal, TracePathResult
 from contact_path.srv import TracePathResponse
@@ -22,6 +23,8 @@ POLL = 0.02  # [s]
 
 def trace(scene: Scene, progress: Callable[[Progress], None] | None, node: str) -> Path:
     """As contact_path.trace. Where the process is no ROS node yet, it becomes one, named contact_path_client_...."""
+    if not rosgraph.is_master_online():
+        raise TraceFailed('no roscore at %s: roslaunch contact_path trace.launch' % rosgraph.get_master_uri())
     if not rospy.core.is_initialized():
         rospy.init_node('contact_path_client', anonymous=True, disable_signals=True)  # Ctrl-C stays a KeyboardInterrupt
     increments: List[Increment] = []

@@ -13,7 +13,7 @@ from unittest import mock
 
 import numpy as np
 
-from program_test import ProgramTest, scene_file
+from program_test import ProgramTest, run, scene_file
 
 sys.path.insert(0, os.path.join(os.environ['CONTACT_PATH_ROOT'], 'python'))
 import contact_path as cp  # noqa: E402
@@ -99,7 +99,7 @@ class TraceTest(ProgramTest):
         self.assertIn('%d increments' % len(path), path.message)
 
     def has_bags(self):
-        return 'BAG' in os.popen(program_trace.find_program() + ' --help').read()
+        return '--bag' in run(program_trace.find_program(), '--help').stdout
 
     def test_ctrl_c_without_progress(self):
         timer = threading.Timer(1.0, lambda: os.kill(os.getpid(), signal.SIGINT))

@@ -4,6 +4,7 @@ import os
 import shutil
 import signal
 import unittest
+from unittest import mock
 
 import contact_path as cp
 import numpy as np
@@ -92,10 +93,11 @@ class PythonClientTest(unittest.TestCase):
                 raise KeyboardInterrupt
 
         self.assertEqual(cp.trace(helpers.scene_path('sliding_bar'), via='ros', progress=other, **LONG).end_reason, 'cancelled')
-        patience, node_trace.PATIENCE = node_trace.PATIENCE, 1.0
-        self.addCleanup(setattr, node_trace, 'PATIENCE', patience)
-        with self.assertRaisesRegex(cp.TraceFailed, 'no node /nobody'):
+        with mock.patch.object(node_trace, 'PATIENCE', 1.0), self.assertRaisesRegex(cp.TraceFailed, 'no node /nobody'):
             cp.trace(helpers.scene_path('sliding_bar'), via='ros', node='/nobody')
+        with mock.patch.dict(os.environ, {'ROS_MASTER_URI': 'http://localhost:1'}), \
+                self.assertRaisesRegex(cp.TraceFailed, 'no roscore at http://localhost:1'):
+            cp.trace(helpers.scene_path('sliding_bar'), via='ros')
 
 
 if __name__ == '__main__':
