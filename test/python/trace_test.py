@@ -37,6 +37,10 @@ def small_truss():
 
 class TraceTest(ProgramTest):
 
+    def setUp(self):
+        super().setUp()
+        signal.signal(signal.SIGINT, signal.default_int_handler)  # ignored where the tests run in the background
+
     def same(self, path, other):
         self.assertEqual(path.columns, other.columns)
         for name in set(path.columns) - {'solve_time'}:

@@ -25,6 +25,7 @@ class PythonClientTest(unittest.TestCase):
         cls.bags = rospy.get_param(NODE + '/bag_directory')
         helpers.service(NODE + '/trace')
         helpers.service('/limited' + NODE + '/trace')
+        signal.signal(signal.SIGINT, signal.default_int_handler)  # ignored where the tests run in the background
 
     @classmethod
     def tearDownClass(cls):
