@@ -26,8 +26,8 @@ from program_test import ProgramTest
 ROOT = pathlib.Path(os.environ['CONTACT_PATH_ROOT'])
 PROGRAMS = pathlib.Path(os.environ['CONTACT_PATH_PROGRAMS'])
 PAGES = [ROOT / 'README.md', ROOT / 'bench' / 'README.md', *sorted((ROOT / 'docs').rglob('*.md'))]
-ENVIRONMENT = {**os.environ, 'OMP_NUM_THREADS': '1', 'MPLBACKEND': 'agg', 'PYTHONPATH': os.pathsep.join(
-    filter(None, [os.environ['CONTACT_PATH_MODULES'], os.environ.get('PYTHONPATH')]))}
+ENVIRONMENT = {**os.environ, 'OMP_NUM_THREADS': '1', 'MPLBACKEND': 'agg', 'PATH': '/usr/bin:' + os.environ['PATH'],
+               'PYTHONPATH': os.pathsep.join(filter(None, [os.environ['CONTACT_PATH_MODULES'], os.environ.get('PYTHONPATH')]))}
 
 PYTHON = [path.name for path in sorted((ROOT / 'scripts').iterdir())
           if path.suffix == '' and path.is_file() and path.read_text(encoding='utf-8').startswith('#!/usr/bin/python3')]
