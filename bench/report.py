@@ -90,7 +90,7 @@ def trade(results, figures):
         base = next(float(row['seconds']) for row in of_scene
                     if row['method'] == 'branch' and setting(row) == 'balanced')
         for row in of_scene:
-            cells.append([scene, row['method'], setting(row), row['rows'] + (' (cut)' if row['end'] == 'cut' else ''),
+            cells.append([scene, row['method'], setting(row), row['increments'] + (' (cut)' if row['end'] == 'cut' else ''),
                           number(float(row['seconds']) / base),
                           number(row['row_error']), number(row['line_error']), number(row['limit_error']),
                           number(row['dissipation_error']),
