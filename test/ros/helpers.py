@@ -20,6 +20,8 @@ from contact_path.srv import TracePath, TracePathRequest
 
 PACKAGE = 'contact_path'
 PATIENCE = 60.0  # [s] for anything that must happen; nothing waits as long unless it fails
+# [s] in which a trace is over that was cancelled: 0.2, and longer where the node is built to be watched, which slows it.
+CANCELLED_WITHIN = 0.2 * float(os.environ.get('CONTACT_PATH_SLOWED', '1'))
 
 
 def scene_path(name):
