@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kCoarsePrediction = 0.05;  // largest error of the predictor where no smaller one is met
 constexpr double kNoise = 10.0;             // of the last Newton step: what rounding leaves of the predictor
+constexpr double kShortStep = 1e-3;         // of the longest one
 constexpr int kLocatingAttempts = 6;
 
 // A matrix that is singular to rounding at a regular point has no sign of its own.
@@ -118,6 +119,9 @@ std::optional<ArcStep> NextStep(SmoothArc* arc, const CurvePoint& start, double 
     }
     if (tried < limits.smallest) return std::nullopt;
     std::optional<ArcStep> step = TryStep(arc, start, tried, prediction, limits.cosine);
+    // Where there are no second derivatives the predictor is no better than the tangent. A long step might leap then.
+    if (!step && start.nullity > 0 && tried <= kShortStep * limits.largest)
+      step = TryStep(arc, start, tried, kCoarsePrediction, limits.cosine);
     const bool ends_singular = step && start.nullity == 0 && step->step.end.nullity > 0;
     bool good = step && EndAtFirstEvent(arc, target, &*step);
     if (ends_singular && !(good && step->event.kind != EventKind::kNone)) {
