@@ -9,70 +9,6 @@
 namespace contact_path {
 namespace {
 
-Eigen::Vector2d TangentOf(const Eigen::Vector2d& normal) { return {normal.y(), -normal.x()}; }
-
-// Derivatives of gap and xi by x at a projection, with m = 1 - curvature gap:
-//   grad gap = n, grad xi = t / m, hess gap = -k t t' / m,
-//   hess xi = (k / m^2) (n t' + t n') + (k' gap / m^3) t t'.
-struct PlaneDerivatives {
-  explicit PlaneDerivatives(const Projection& at)
-      : n(at.normal), t(TangentOf(at.normal)), m(1.0 - at.curvature * at.gap) {}
-
-  Eigen::Vector2d n, t;
-  double m;
-};
-
-Eigen::Matrix2d Symmetric(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a * b.transpose() + b * a.transpose();
-}
-
-Eigen::Matrix2d GapHessian(const Projection& at) {
-  const PlaneDerivatives d(at);
-  return -at.curvature / d.m * d.t * d.t.transpose();
-}
-
-Eigen::Matrix2d XiHessian(const Projection& at) {
-  const PlaneDerivatives d(at);
-  return at.curvature / (d.m * d.m) * Symmetric(d.n, d.t) +
-         at.curvature_first * at.gap / (d.m * d.m * d.m) * d.t * d.t.transpose();
-}
-
-// The same along x + h v: the projection moves by dxi = t . v / m and dgap = n . v, the frame turns by k dxi.
-struct Change {
-  Change(const Projection& at, const Eigen::Vector2d& v) {
-    const PlaneDerivatives d(at);
-    const double dxi = d.t.dot(v) / d.m;
-    gap = d.n.dot(v);
-    curvature = at.curvature_first * dxi;
-    curvature_first = at.curvature_second * dxi;
-    m = -curvature * at.gap - at.curvature * gap;
-    t = at.curvature * dxi * d.n;
-    n = -at.curvature * dxi * d.t;
-  }
-
-  double gap, curvature, curvature_first, m;
-  Eigen::Vector2d t, n;
-};
-
-Eigen::Matrix2d GapHessianChange(const Projection& at, const Eigen::Vector2d& v) {
-  const PlaneDerivatives d(at);
-  const Change change(at, v);
-  const double factor = -(change.curvature - at.curvature * change.m / d.m) / d.m;
-  return factor * d.t * d.t.transpose() - at.curvature / d.m * Symmetric(change.t, d.t);
-}
-
-Eigen::Matrix2d XiHessianChange(const Projection& at, const Eigen::Vector2d& v) {
-  const PlaneDerivatives d(at);
-  const Change change(at, v);
-  const double m2 = d.m * d.m, m3 = m2 * d.m;
-  const double mixed = at.curvature / m2, mixed_change = change.curvature / m2 - 2.0 * mixed * change.m / d.m;
-  const double bend = at.curvature_first * at.gap / m3;
-  const double bend_change =
-      (change.curvature_first * at.gap + at.curvature_first * change.gap) / m3 - 3.0 * bend * change.m / d.m;
-  return mixed_change * Symmetric(d.n, d.t) + mixed * (Symmetric(change.n, d.t) + Symmetric(d.n, change.t)) +
-         bend_change * d.t * d.t.transpose() + bend * Symmetric(change.t, d.t);
-}
-
 // Scaling by a power of 2 is exact. The powers are far apart, so that nearly all scenes have the unit 1.
 constexpr int kPowersApart = 20;  // 2^20 is about 1e6
 
@@ -112,7 +48,7 @@ RigidPair::RigidPair(std::shared_ptr<const Surface> surface, const NodeMotion& m
       traits.moves_gap[i] = traits.moves_xi[i] = !motion_.col(static_cast<Eigen::Index>(i)).isZero(0.0);
     traits.largest_gap_rate = 1.0 + motion.velocity.norm();
   } else {
-    const Projection at_origin = surface_->Project(Eigen::Vector2d::Zero());
+    const Projection at_origin = surface_->Project(Eigen::Vector2d::Zero(), 0);
     const Eigen::Vector2d& n = at_origin.normal;
     const Eigen::Vector2d t = TangentOf(n);
     gap_offset_ = n.x() * held_.x() + n.y() * held_.y() + at_origin.gap;
@@ -145,23 +81,22 @@ void RigidPair::Evaluate(const Eigen::VectorXd& u, double s, double reference, K
     kinematics->xi_gradient = xi_gradient_;
     return;
   }
-  const Projection at = surface_->Project(Position(u, s));
-  const PlaneDerivatives d(at);
+  const Projection at = surface_->Project(Position(u, s), 0);
   kinematics->gap = at.gap;
   kinematics->xi = at.xi - reference;
-  kinematics->gap_gradient = motion_.transpose() * d.n;
-  kinematics->xi_gradient = motion_.transpose() * (d.t / d.m);
+  kinematics->gap_gradient = motion_.transpose() * at.normal;
+  kinematics->xi_gradient = motion_.transpose() * XiGradient(at);
   kinematics->gap_hessian = motion_.transpose() * GapHessian(at) * motion_;
   kinematics->xi_hessian = motion_.transpose() * XiHessian(at) * motion_;
 }
 
 double RigidPair::Gap(const Eigen::VectorXd& u, double s) const {
-  return Curved() ? surface_->Project(Position(u, s)).gap : gap_offset_ + Rate(gap_gradient_, u, s);
+  return Curved() ? surface_->Project(Position(u, s), 0).gap : gap_offset_ + Rate(gap_gradient_, u, s);
 }
 
 void RigidPair::HessianDerivative(const Eigen::VectorXd& u, double s, double rn, double rt, const PairVector& direction,
                                   PairMatrix* derivative) const {
-  const Projection at = surface_->Project(Position(u, s));
+  const Projection at = surface_->Project(Position(u, s), 0);
   const Eigen::Vector2d v = motion_ * direction;
   *derivative = motion_.transpose() * (rn * GapHessianChange(at, v) + rt * XiHessianChange(at, v)) * motion_;
 }

@@ -55,7 +55,7 @@ struct DrawnObstacle {
   bool moves = false;  // in any stage
 
   Projection ProjectAt(double load_factor, const Eigen::Vector2d& x) const {
-    return surface->Project(x - shift - load_factor * motion);
+    return surface->ProjectOnNearest(x - shift - load_factor * motion);
   }
 };
 

@@ -152,7 +152,7 @@ void DrawObstacles(const DrawnScene& scene, const NodePlaces& places, const msgs
   for (std::size_t i = 0; i < obstacles.size(); ++i) {
     if (!obstacles[i].moves) continue;
     // At multiples of the distance from the point that moves.
-    const double xi_of_point = obstacles[i].surface->Project(obstacles[i].point).xi;
+    const double xi_of_point = obstacles[i].surface->ProjectOnNearest(obstacles[i].point).xi;
     for (std::size_t k = 1; k < boundaries[i].size(); ++k) {
       const BoundaryPoint &from = boundaries[i][k - 1], &to = boundaries[i][k];
       const double length = to.xi - from.xi;

@@ -39,7 +39,7 @@ bool HasSoundNumbers(const Obstacle& obstacle) {
 Projection ProjectNode(const Node& node, Obstacle obstacle) {
   obstacle.px -= node.x;
   obstacle.py -= node.y;
-  return MakeSurface(obstacle)->Project(Eigen::Vector2d::Zero());
+  return MakeSurface(obstacle)->ProjectOnNearest(Eigen::Vector2d::Zero());
 }
 
 }  // namespace

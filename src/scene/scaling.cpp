@@ -208,7 +208,7 @@ double NearestGap(const Scene& scene, const SceneIndex& index) {
     if (!at || !by) continue;
     const Obstacle& obstacle = scene.obstacles[*by];
     if (!FindShapeFault(obstacle).field.empty()) continue;
-    gaps.push_back(MakeSurface(obstacle)->Project({scene.nodes[*at].x, scene.nodes[*at].y}).gap);
+    gaps.push_back(MakeSurface(obstacle)->ProjectOnNearest({scene.nodes[*at].x, scene.nodes[*at].y}).gap);
   }
   double size = 0.0;
   for (const double gap : gaps) size = std::max(size, gap);

@@ -9,18 +9,6 @@ constexpr double kSmallest = 1e-100;  // length of a normal: what is formed of i
 
 }  // namespace
 
-HalfPlane::HalfPlane(const Eigen::Vector2d& point, const Eigen::Vector2d& normal)
-    : normal_(normal / std::hypot(normal.x(), normal.y())),
-      offset_(normal_.x() * point.x() + normal_.y() * point.y()) {}
-
-Projection HalfPlane::Project(const Eigen::Vector2d& x) const {
-  Projection projection;
-  projection.normal = normal_;
-  projection.gap = normal_.x() * x.x() + normal_.y() * x.y() - offset_;
-  projection.xi = normal_.y() * x.x() - normal_.x() * x.y();
-  return projection;
-}
-
 ShapeFault FindShapeFault(const Obstacle& obstacle) {
   switch (obstacle.shape) {
     case ObstacleShape::kHalfPlane:

@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "contact_path/contact/contact_pair.h"
-#include "contact_path/scene/surface.h"
+#include "contact_path/geometry/surface.h"
 
 namespace contact_path {
 
@@ -19,7 +19,7 @@ struct NodeMotion {
 };
 
 // gap(q) and xi(q) are the values of the surface at x(q), which is affine: derivatives by x come from the projection
-// (surface.h), derivatives by q follow by the chain rule. Of a flat surface everything but the values is constant.
+// (geometry/projection.h), derivatives by q follow by the chain rule. Of a flat surface everything but the values is constant.
 class RigidPair : public ContactPair {
  public:
   // friction: mu; 0 where the node cannot slide (scene/can_slide.h).

@@ -1,11 +1,12 @@
-#include "contact_path/scene/surface.h"
+#include "contact_path/geometry/surface.h"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
 #include <vector>
 
-#include "support/curved_contacts.h"
+#include "support/curved_surfaces.h"
 #include "support/random.h"
 
 namespace contact_path {
@@ -24,9 +25,9 @@ TEST(Surface, TheFootIsTheNearestPoint) {
   for (const auto& surface : Surfaces()) {
     for (int i = 0; i < 20; ++i) {
       const Eigen::Vector2d x = random.Vector(2, -0.3, 0.3);
-      const Projection at = surface->Project(x);
+      const Projection at = surface->Project(x, 0);
       EXPECT_NEAR(at.normal.norm(), 1.0, kRounding);
-      const Projection foot = surface->Project(x - at.gap * at.normal);
+      const Projection foot = surface->Project(x - at.gap * at.normal, 0);
       EXPECT_NEAR(foot.gap, 0.0, kRounding);
       EXPECT_NEAR(foot.xi, at.xi, kRounding);
       EXPECT_NEAR((foot.normal - at.normal).norm(), 0.0, kRounding);
@@ -38,10 +39,10 @@ TEST(Surface, TheFootIsTheNearestPoint) {
 TEST(Surface, XiIsArcLengthAndTheCurvatureTurnsTheTangentTowardsTheNormal) {
   constexpr double kStep = 1e-4, kDifference = 1e-7;
   for (const auto& surface : Surfaces()) {
-    const Projection at = surface->Project({0.2, -0.1});
+    const Projection at = surface->Project({0.2, -0.1}, 0);
     const Eigen::Vector2d foot = Eigen::Vector2d(0.2, -0.1) - at.gap * at.normal;
     const Eigen::Vector2d t(at.normal.y(), -at.normal.x());
-    const Projection ahead = surface->Project(foot + kStep * t), behind = surface->Project(foot - kStep * t);
+    const Projection ahead = surface->Project(foot + kStep * t, 0), behind = surface->Project(foot - kStep * t, 0);
     EXPECT_NEAR((ahead.xi - behind.xi) / (2.0 * kStep), 1.0, kDifference);
     const Eigen::Vector2d turn = (ahead.normal - behind.normal) / (2.0 * kStep);  // n' = -curvature t
     EXPECT_NEAR((turn + at.curvature * t).norm(), 0.0, kDifference);
@@ -51,13 +52,26 @@ TEST(Surface, XiIsArcLengthAndTheCurvatureTurnsTheTangentTowardsTheNormal) {
   }
 }
 
+TEST(HalfPlane, IsOnePatchWithoutEnds) {
+  const HalfPlane floor({5.0, 2.0}, {0.0, 3.0});
+  EXPECT_FALSE(floor.Closed());
+  EXPECT_TRUE(floor.HasPatch(0));
+  EXPECT_FALSE(floor.HasPatch(1));
+  EXPECT_FALSE(floor.HasPatch(-1));
+  EXPECT_TRUE(std::isinf(floor.RangeOf(0).begin) && std::isinf(floor.RangeOf(0).end));
+  const NearestFoot below = floor.Nearest({7.0, 1.5});
+  EXPECT_EQ(below.patch, 0);
+  EXPECT_EQ(below.distance, 0.5);
+  EXPECT_FALSE(below.is_end);
+}
+
 TEST(HalfPlane, AdmissibleSideIsWhereTheNormalPoints) {
   const HalfPlane floor({5.0, 2.0}, {0.0, 3.0});
-  EXPECT_EQ(floor.Project({7.0, 2.5}).gap, 0.5);
-  EXPECT_EQ(floor.Project({7.0, 2.5}).xi, 7.0);
+  EXPECT_EQ(floor.Project({7.0, 2.5}, 0).gap, 0.5);
+  EXPECT_EQ(floor.Project({7.0, 2.5}, 0).xi, 7.0);
   const HalfPlane ceiling({5.0, 2.0}, {0.0, -1.0});
-  EXPECT_EQ(ceiling.Project({7.0, 2.5}).gap, -0.5);
-  EXPECT_EQ(ceiling.Project({7.0, 2.5}).xi, -7.0);
+  EXPECT_EQ(ceiling.Project({7.0, 2.5}, 0).gap, -0.5);
+  EXPECT_EQ(ceiling.Project({7.0, 2.5}, 0).xi, -7.0);
 }
 
 }  // namespace

@@ -1,0 +1,64 @@
+// Curves that bound the admissible points of the plane: where a point stands relative to one.
+#ifndef CONTACT_PATH_GEOMETRY_SURFACE_H_
+#define CONTACT_PATH_GEOMETRY_SURFACE_H_
+
+#include <Eigen/Core>
+#include <limits>
+
+#include "contact_path/geometry/projection.h"
+
+namespace contact_path {
+
+// Values of the arc coordinate [length].
+struct XiRange {
+  double begin = -std::numeric_limits<double>::infinity();
+  double end = std::numeric_limits<double>::infinity();
+};
+
+// The point of a curve that is nearest to a point of the plane.
+struct NearestFoot {
+  int patch = 0;
+  double distance = 0.0;  // >= 0 [length]
+  bool is_end = false;    // it is an end of an open curve, and not the foot of a perpendicular
+};
+
+// A curve with a tangent that is continuous, walked with the admissible side on the left. It consists of patches, on
+// which it is as smooth as a path needs it: from one patch to the next, curvature may jump. The arc coordinate is
+// continuous over all patches. Patches are numbered from 0 along the curve. On a closed curve any number is a patch:
+// patch + NumPatches() is the same place after one more round, and xi is larger by the length of the curve.
+class Surface {
+ public:
+  virtual ~Surface() = default;
+
+  // Whether the curvature is zero everywhere: then gap and xi are affine in x.
+  virtual bool Flat() const = 0;
+  virtual bool Closed() const { return false; }
+  virtual int NumPatches() const { return 1; }  // of one round
+  virtual XiRange RangeOf(int /*patch*/) const { return {}; }
+  // Of a closed curve a patch of the first round, 0 to NumPatches() - 1.
+  virtual NearestFoot Nearest(const Eigen::Vector2d& x) const = 0;
+  // The foot on one patch, which is prolonged smoothly beyond both of its ends: xi tells where the foot is.
+  virtual Projection Project(const Eigen::Vector2d& x, int patch) const = 0;
+
+  bool HasPatch(int patch) const { return Closed() || (patch >= 0 && patch < NumPatches()); }
+  Projection ProjectOnNearest(const Eigen::Vector2d& x) const { return Project(x, Nearest(x).patch); }
+};
+
+// Admissible side: n . (x - p) >= 0; xi = t . x.
+class HalfPlane : public Surface {
+ public:
+  // normal: of any length > 0.
+  HalfPlane(const Eigen::Vector2d& point, const Eigen::Vector2d& normal);
+
+  bool Flat() const override { return true; }
+  NearestFoot Nearest(const Eigen::Vector2d& x) const override;
+  Projection Project(const Eigen::Vector2d& x, int patch) const override;
+
+ private:
+  Eigen::Vector2d normal_;
+  double offset_;  // n . p
+};
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_GEOMETRY_SURFACE_H_
