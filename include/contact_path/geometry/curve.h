@@ -1,0 +1,136 @@
+// Curves that are put together from lines, arcs of circles and cubics.
+#ifndef CONTACT_PATH_GEOMETRY_CURVE_H_
+#define CONTACT_PATH_GEOMETRY_CURVE_H_
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "contact_path/geometry/surface.h"
+
+namespace contact_path {
+
+// A smooth curve of finite length, prolonged beyond both ends.
+class CurvePiece {
+ public:
+  virtual ~CurvePiece() = default;
+
+  // xi at both ends. Where xi is 0, it is the most exact.
+  virtual XiRange Range() const = 0;
+  virtual Projection Project(const Eigen::Vector2d& x) const = 0;
+  virtual Eigen::Vector2d PointAt(double xi) const = 0;
+
+  double Length() const { return Range().end - Range().begin; }
+};
+
+// Straight. direction: of length 1.
+class LinePiece : public CurvePiece {
+ public:
+  LinePiece(const Eigen::Vector2d& begin, const Eigen::Vector2d& direction, double length)
+      : begin_(begin), direction_(direction), length_(length) {}
+
+  XiRange Range() const override { return {0.0, length_}; }
+  Projection Project(const Eigen::Vector2d& x) const override;
+  Eigen::Vector2d PointAt(double xi) const override { return begin_ + xi * direction_; }
+
+ private:
+  Eigen::Vector2d begin_, direction_;
+  double length_;
+};
+
+// Arc of a circle of up to half a turn. The gap is exact to rounding of itself, however large the circle, and so is xi,
+// which is 0 in the middle.
+class ArcPiece : public CurvePiece {
+ public:
+  enum class Side {
+    kOutside,  // admissible outside of the circle: the arc turns to the right
+    kInside,   // admissible inside: the arc turns to the left
+  };
+  // middle: direction from the centre to the middle of the arc, of length 1. turn: of the arc [rad], > 0 and <= pi.
+  ArcPiece(const Eigen::Vector2d& centre, double radius, const Eigen::Vector2d& middle, double turn, Side side)
+      : centre_(centre), radius_(radius), middle_(middle), turn_(turn), sign_(side == Side::kInside ? 1.0 : -1.0) {}
+
+  XiRange Range() const override { return {-0.5 * radius_ * turn_, 0.5 * radius_ * turn_}; }
+  Projection Project(const Eigen::Vector2d& x) const override;
+  Eigen::Vector2d PointAt(double xi) const override;
+
+ private:
+  Eigen::Vector2d centre_;
+  double radius_;
+  Eigen::Vector2d middle_;
+  double turn_;
+  double sign_;  // of the curvature
+};
+
+// A cubic p(tau), tau from 0 to 1, that nowhere stands still. Prolonged, it is the same cubic: near to its ends alone
+// it is of use. Arc length is the integral of |dp/dtau| by Gauss quadrature, on so many parts that it is exact to
+// rounding.
+class CubicPiece : public CurvePiece {
+ public:
+  // p(tau) = begin + tau (first + tau (second + tau third)).
+  CubicPiece(const Eigen::Vector2d& begin, const Eigen::Vector2d& first, const Eigen::Vector2d& second,
+             const Eigen::Vector2d& third);
+
+  XiRange Range() const override { return {0.0, lengths_.back()}; }
+  Projection Project(const Eigen::Vector2d& x) const override;
+  Eigen::Vector2d PointAt(double xi) const override;
+
+ private:
+  struct Derivatives {
+    Eigen::Vector2d first, second;
+  };
+
+  Eigen::Vector2d Offset(double tau) const { return tau * (first_ + tau * (second_ + tau * third_)); }
+  Derivatives At(double tau) const;
+  double Integral(double from, double to) const;  // of the speed
+  void Divide(double from, double to, double integral, int depth);
+  double ArcLength(double tau) const;
+  double FootOf(const Eigen::Vector2d& from_begin) const;  // tau
+
+  Eigen::Vector2d begin_, first_, second_, third_;
+  double scale_ = 0.0;                            // [length]
+  std::vector<double> taus_{0.0}, lengths_{0.0};  // where parts meet, and the arc length there
+};
+
+// The patches are the pieces, each of which begins where the one before it ends, in the same direction. Where a curve
+// is closed, the first piece begins where the last one ends.
+class Curve : public Surface {
+ public:
+  // At least one piece. xi: of the begin of the first piece.
+  Curve(std::vector<std::unique_ptr<const CurvePiece>> pieces, bool closed, double xi = 0.0);
+
+  bool Flat() const override { return false; }
+  bool Closed() const override { return closed_; }
+  int NumPatches() const override { return static_cast<int>(pieces_.size()); }
+  XiRange RangeOf(int patch) const override;
+  NearestFoot Nearest(const Eigen::Vector2d& x) const override;
+  Projection Project(const Eigen::Vector2d& x, int patch) const override;
+
+  double Length() const { return begins_.back() - begins_.front(); }
+  // xi: of a point between the begin of the first patch and the end of the last one.
+  Eigen::Vector2d PointAt(double xi) const;
+
+ private:
+  struct Place {
+    std::size_t piece;
+    double offset;  // xi of the curve where xi of the piece is 0
+  };
+  Place PlaceOf(int patch) const;
+
+  std::vector<std::unique_ptr<const CurvePiece>> pieces_;
+  std::vector<Eigen::Vector2d> middles_;  // of the pieces
+  std::vector<double> begins_;            // xi of the pieces, and of the end of the last one
+  bool closed_;
+};
+
+// A whole circle. Its admissible side is outside, or inside. Two patches, half a turn each; xi = 0 where the normal is
+// (0, 1), in the middle of patch 0.
+std::unique_ptr<const Curve> MakeCircle(const Eigen::Vector2d& centre, double radius, bool inside);
+
+// An open arc that begins at the angle `begin` from the x axis and turns by `turn` [rad], counterclockwise > 0, up to a
+// full turn: the admissible side is on the left, inside of the circle where turn > 0 and outside where turn < 0.
+std::unique_ptr<const Curve> MakeArc(const Eigen::Vector2d& centre, double radius, double begin, double turn);
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_GEOMETRY_CURVE_H_

@@ -1,0 +1,256 @@
+#include "contact_path/geometry/curve.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+
+namespace contact_path {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kHalfTurn = 3.141592653589793;
+
+constexpr double kQuadrature = 4e-16;  // of the length of a cubic: rounding of its arc length
+constexpr int kDeepest = 12;           // halvings of a cubic
+constexpr int kSamples = 8;            // of a cubic, where the search for a foot sets out
+constexpr int kFootIterations = 60;
+constexpr double kFoot = 1e-16;    // of tau
+constexpr double kFarthest = 2.0;  // tau of a foot, counted from the middle of the piece
+
+double Cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+Vector2d LeftOf(const Vector2d& tangent) { return {-tangent.y(), tangent.x()}; }
+
+// A number in two parts, high + low, of which the second is below the rounding of the first.
+struct TwoParts {
+  double high, low;
+};
+
+// The exact sum, and the exact product (Knuth; Dekker).
+TwoParts Sum(double a, double b) {
+  const double sum = a + b, share = sum - a;
+  return {sum, (a - (sum - share)) + (b - share)};
+}
+
+TwoParts Product(double a, double b) {
+  const double product = a * b;
+  return {product, std::fma(a, b, -product)};
+}
+
+// |x - centre|^2 - radius^2, exact to rounding of itself, of numbers that are exact.
+double SquaredExcess(const Vector2d& x, const Vector2d& centre, double radius) {
+  const TwoParts dx = Sum(x.x(), -centre.x()), dy = Sum(x.y(), -centre.y());
+  const TwoParts xx = Product(dx.high, dx.high), yy = Product(dy.high, dy.high), rr = Product(radius, radius);
+  const TwoParts squares = Sum(xx.high, yy.high), excess = Sum(squares.high, -rr.high);
+  return excess.high +
+         (excess.low + squares.low + xx.low + yy.low - rr.low + 2.0 * dx.high * dx.low + 2.0 * dy.high * dy.low);
+}
+
+}  // namespace
+
+Projection LinePiece::Project(const Vector2d& x) const {
+  Projection at;
+  at.normal = LeftOf(direction_);
+  at.gap = (x - begin_).dot(at.normal);
+  at.xi = (x - begin_).dot(direction_);
+  return at;
+}
+
+Projection ArcPiece::Project(const Vector2d& x) const {
+  const Vector2d from_centre = x - centre_;
+  const double distance = std::hypot(from_centre.x(), from_centre.y());
+  Projection at;
+  at.normal = -sign_ / distance * from_centre;
+  at.gap = -sign_ * SquaredExcess(x, centre_, radius_) / (distance + radius_);
+  at.xi = sign_ * radius_ * std::atan2(Cross(middle_, from_centre), middle_.dot(from_centre));
+  at.curvature = sign_ / radius_;
+  return at;
+}
+
+Vector2d ArcPiece::PointAt(double xi) const {
+  const double angle = sign_ * xi / radius_;
+  return centre_ + radius_ * (std::cos(angle) * middle_ + std::sin(angle) * LeftOf(middle_));
+}
+
+CubicPiece::CubicPiece(const Vector2d& begin, const Vector2d& first, const Vector2d& second, const Vector2d& third)
+    : begin_(begin), first_(first), second_(second), third_(third), scale_(Integral(0.0, 1.0)) {
+  Divide(0.0, 1.0, scale_, 0);
+}
+
+CubicPiece::Derivatives CubicPiece::At(double tau) const {
+  return {first_ + tau * (2.0 * second_ + 3.0 * tau * third_), 2.0 * second_ + 6.0 * tau * third_};
+}
+
+double CubicPiece::Integral(double from, double to) const {
+  // Gauss-Legendre, five points on [0, 1].
+  constexpr std::array<double, 5> kPoints = {0.046910077030668, 0.23076534494715845, 0.5, 0.76923465505284155,
+                                             0.953089922969332};
+  constexpr std::array<double, 5> kWeights = {0.11846344252809454, 0.23931433524968324, 0.28444444444444444,
+                                              0.23931433524968324, 0.11846344252809454};
+  double sum = 0.0;
+  for (std::size_t i = 0; i < kPoints.size(); ++i)
+    sum += kWeights[i] * At(from + kPoints[i] * (to - from)).first.norm();
+  return (to - from) * sum;
+}
+
+void CubicPiece::Divide(double from, double to, double integral, int depth) {
+  const double middle = 0.5 * (from + to), before = Integral(from, middle), after = Integral(middle, to);
+  if (depth < kDeepest && std::abs(before + after - integral) > kQuadrature * scale_) {
+    Divide(from, middle, before, depth + 1);
+    Divide(middle, to, after, depth + 1);
+    return;
+  }
+  for (const auto& [end, length] : {std::pair(middle, before), std::pair(to, after)}) {
+    taus_.push_back(end);
+    lengths_.push_back(lengths_.back() + length);
+  }
+}
+
+double CubicPiece::ArcLength(double tau) const {
+  // From the part that tau is in; before the first one and after the last one from there.
+  const auto next = std::upper_bound(taus_.begin() + 1, taus_.end() - 1, tau);
+  const auto part = static_cast<std::size_t>(next - taus_.begin()) - 1;
+  return lengths_[part] + Integral(taus_[part], tau);
+}
+
+double CubicPiece::FootOf(const Vector2d& from_begin) const {
+  double tau = 0.0, nearest = std::numeric_limits<double>::infinity();
+  for (int i = 0; i <= kSamples; ++i) {
+    const double sample = static_cast<double>(i) / kSamples, distance = (Offset(sample) - from_begin).squaredNorm();
+    if (distance >= nearest) continue;
+    nearest = distance;
+    tau = sample;
+  }
+  double previous = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kFootIterations; ++i) {
+    const Vector2d away = Offset(tau) - from_begin;
+    const auto [first, second] = At(tau);
+    const double square = first.squaredNorm(), slope = square + away.dot(second);
+    // Behind the centre of curvature Newton's method leads away from the nearest foot.
+    double move = -away.dot(first) / (slope > 0.0 ? slope : square);
+    if (std::abs(move) > 0.5) move = std::copysign(0.5, move);
+    tau += move;
+    if (std::abs(move) <= kFoot || (std::abs(move) < 1e-12 && std::abs(move) >= previous)) return tau;
+    if (!(std::abs(tau - 0.5) <= kFarthest)) break;
+    previous = std::abs(move);
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+Projection CubicPiece::Project(const Vector2d& x) const {
+  const Vector2d from_begin = x - begin_;
+  const double tau = FootOf(from_begin);
+  const auto [first, second] = At(tau);
+  const Vector2d third = 6.0 * third_;
+  // With w = |p'|^2: curvature k = (p' x p'') w^-3/2, and dtau = dxi / sqrt(w).
+  const double w = first.squaredNorm(), w_first = 2.0 * first.dot(second);
+  const double w_second = 2.0 * (second.squaredNorm() + first.dot(third));
+  const double c = Cross(first, second), c_first = Cross(first, third), c_second = Cross(second, third);
+  const double speed = std::sqrt(w), cube = w * speed;
+  const double a = c / cube, b = w_first / w;
+  const double k_first = c_first / cube - 1.5 * a * b;
+  const double k_second = c_second / cube - 3.0 * c_first / cube * b - 1.5 * a * w_second / w + 3.75 * a * b * b;
+  Projection at;
+  at.normal = LeftOf(first / speed);
+  at.gap = (from_begin - Offset(tau)).dot(at.normal);
+  at.xi = ArcLength(tau);
+  at.curvature = a;
+  at.curvature_first = k_first / speed;
+  at.curvature_second = (k_second - 0.5 * k_first * b) / w;
+  return at;
+}
+
+Vector2d CubicPiece::PointAt(double xi) const {
+  double tau = xi / Length();
+  for (int i = 0; i < kFootIterations; ++i) {
+    const double move = (xi - ArcLength(tau)) / At(tau).first.norm();
+    tau += move;
+    if (!(std::abs(move) > kFoot)) break;
+  }
+  return begin_ + Offset(tau);
+}
+
+Curve::Curve(std::vector<std::unique_ptr<const CurvePiece>> pieces, bool closed, double xi)
+    : pieces_(std::move(pieces)), begins_{xi}, closed_(closed) {
+  for (const auto& piece : pieces_) {
+    const XiRange range = piece->Range();
+    middles_.push_back(piece->PointAt(0.5 * (range.begin + range.end)));
+    begins_.push_back(begins_.back() + piece->Length());
+  }
+}
+
+Curve::Place Curve::PlaceOf(int patch) const {
+  const int n = NumPatches();
+  const int round = closed_ ? (patch >= 0 ? patch / n : -((n - 1 - patch) / n)) : 0;
+  const auto piece = static_cast<std::size_t>(patch - round * n);
+  return {piece, begins_[piece] - pieces_[piece]->Range().begin + round * Length()};
+}
+
+XiRange Curve::RangeOf(int patch) const {
+  const auto [piece, offset] = PlaceOf(patch);
+  const XiRange range = pieces_[piece]->Range();
+  return {offset + range.begin, offset + range.end};
+}
+
+Projection Curve::Project(const Vector2d& x, int patch) const {
+  const auto [piece, offset] = PlaceOf(patch);
+  Projection at = pieces_[piece]->Project(x);
+  at.xi += offset;
+  return at;
+}
+
+NearestFoot Curve::Nearest(const Vector2d& x) const {
+  NearestFoot nearest;
+  nearest.distance = std::numeric_limits<double>::infinity();
+  const auto consider = [&](std::size_t patch, double distance, bool is_end) {
+    if (distance < nearest.distance) nearest = {static_cast<int>(patch), distance, is_end};
+  };
+  for (std::size_t i = 0; i < pieces_.size(); ++i) {
+    const CurvePiece& piece = *pieces_[i];
+    // No point of a curve is farther from its middle than half of its length.
+    if ((x - middles_[i]).norm() - 0.5 * piece.Length() >= nearest.distance) continue;
+    const Projection at = piece.Project(x);
+    const XiRange range = piece.Range();
+    if (at.xi >= range.begin && at.xi <= range.end) {
+      consider(i, std::abs(at.gap), false);
+      continue;
+    }
+    // Also of a point that has no foot.
+    consider(i, (x - piece.PointAt(range.begin)).norm(), !closed_ && i == 0);
+    consider(i, (x - piece.PointAt(range.end)).norm(), !closed_ && i + 1 == pieces_.size());
+  }
+  return nearest;
+}
+
+Vector2d Curve::PointAt(double xi) const {
+  const auto next = std::upper_bound(begins_.begin() + 1, begins_.end() - 1, xi);
+  const auto piece = static_cast<std::size_t>(next - begins_.begin()) - 1;
+  return pieces_[piece]->PointAt(xi - begins_[piece] + pieces_[piece]->Range().begin);
+}
+
+std::unique_ptr<const Curve> MakeCircle(const Vector2d& centre, double radius, bool inside) {
+  const auto side = inside ? ArcPiece::Side::kInside : ArcPiece::Side::kOutside;
+  const Vector2d first(0.0, inside ? -1.0 : 1.0);
+  std::vector<std::unique_ptr<const CurvePiece>> pieces;
+  for (const double sign : {1.0, -1.0})
+    pieces.push_back(std::make_unique<ArcPiece>(centre, radius, sign * first, kHalfTurn, side));
+  return std::make_unique<Curve>(std::move(pieces), true, -0.5 * kHalfTurn * radius);
+}
+
+std::unique_ptr<const Curve> MakeArc(const Vector2d& centre, double radius, double begin, double turn) {
+  const auto side = turn > 0.0 ? ArcPiece::Side::kInside : ArcPiece::Side::kOutside;
+  const int patches = std::abs(turn) > kHalfTurn ? 2 : 1;
+  std::vector<std::unique_ptr<const CurvePiece>> pieces;
+  for (int i = 0; i < patches; ++i) {
+    const double middle = begin + turn * (i + 0.5) / patches;
+    pieces.push_back(std::make_unique<ArcPiece>(centre, radius, Vector2d(std::cos(middle), std::sin(middle)),
+                                                std::abs(turn) / patches, side));
+  }
+  return std::make_unique<Curve>(std::move(pieces), false);
+}
+
+}  // namespace contact_path
