@@ -1,0 +1,38 @@
+// Polylines with rounded corners.
+#ifndef CONTACT_PATH_GEOMETRY_POLYLINE_H_
+#define CONTACT_PATH_GEOMETRY_POLYLINE_H_
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "contact_path/geometry/curve.h"
+
+namespace contact_path {
+
+using PlanePoints = std::vector<Eigen::Vector2d>;
+
+// The first point that is the same as the next one; of closed polylines the first point follows the last one.
+std::optional<std::size_t> FindEqualPoints(const PlanePoints& points, bool closed);
+
+// Two edges of a closed polyline, by their first points, that meet other than at a corner which they share.
+std::optional<std::pair<std::size_t, std::size_t>> FindCrossing(const PlanePoints& points);
+
+// Twice the area within a closed polyline, > 0 where it is walked counterclockwise: then its admissible side is inside.
+double TwiceTheArea(const PlanePoints& points);
+
+// The largest radius of fillets, the same at each corner, that leaves no edge less than nothing; infinite where all
+// edges are in line, 0 where an edge leads straight back. No two neighbouring points may be equal.
+double LargestFillet(const PlanePoints& points, bool closed);
+
+// Edges and fillets in turn, each a patch, from the first point to the last; closed, from the fillet of the first
+// point, its end, round to the same place. At least two points, closed three, no neighbours equal; 0 < fillet <=
+// LargestFillet().
+std::unique_ptr<const Curve> MakePolyline(const PlanePoints& points, bool closed, double fillet);
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_GEOMETRY_POLYLINE_H_

@@ -1,0 +1,140 @@
+#include "contact_path/geometry/polyline.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace contact_path {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kInLine = 1e-14;    // turn of a corner [rad] that needs no fillet
+constexpr double kNoLength = 1e-14;  // of an edge that its fillets use up, over its length
+
+double Cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+Vector2d LeftOf(const Vector2d& tangent) { return {-tangent.y(), tangent.x()}; }
+
+double LengthOf(const Vector2d& v) { return std::hypot(v.x(), v.y()); }
+
+// The edges of a polyline with their corners.
+struct Edges {
+  Edges(const PlanePoints& points, bool closed) {
+    const std::size_t n = points.size(), count = closed ? n : n - 1;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Vector2d edge = points[(i + 1) % n] - points[i];
+      lengths.push_back(LengthOf(edge));
+      directions.push_back(edge / lengths.back());
+    }
+    turns.assign(count, 0.0);
+    for (std::size_t i = closed ? 0 : 1; i < count; ++i) {
+      const Vector2d &from = directions[(i + count - 1) % count], &to = directions[i];
+      turns[i] = std::atan2(Cross(from, to), from.dot(to));
+    }
+  }
+
+  // Of a fillet with the radius 1 at the corner where edge i begins: what it takes from both edges.
+  double Share(std::size_t i) const {
+    return i >= turns.size() || std::abs(turns[i]) <= kInLine ? 0.0 : std::tan(0.5 * std::abs(turns[i]));
+  }
+  // The corner where edge i ends; past the last one there is none.
+  std::size_t EndCorner(std::size_t i, bool closed) const { return closed ? (i + 1) % turns.size() : i + 1; }
+
+  std::vector<double> lengths;
+  std::vector<Vector2d> directions;
+  std::vector<double> turns;  // at the begin of the edge, to the left > 0 [rad]
+};
+
+struct Box {
+  Vector2d lower, upper;
+};
+
+// Whether two segments have a point in common.
+bool Meet(const Vector2d& a, const Vector2d& b, const Vector2d& c, const Vector2d& d) {
+  const double c_side = Cross(b - a, c - a), d_side = Cross(b - a, d - a);
+  const double a_side = Cross(d - c, a - c), b_side = Cross(d - c, b - c);
+  if (c_side == 0.0 && d_side == 0.0) return true;  // in line, and their boxes meet
+  return c_side * d_side <= 0.0 && a_side * b_side <= 0.0;
+}
+
+}  // namespace
+
+std::optional<std::size_t> FindEqualPoints(const PlanePoints& points, bool closed) {
+  const std::size_t n = points.size();
+  for (std::size_t i = 0; i + 1 < n + (closed ? 1 : 0); ++i)
+    if (points[i] == points[(i + 1) % n]) return i;
+  return std::nullopt;
+}
+
+std::optional<std::pair<std::size_t, std::size_t>> FindCrossing(const PlanePoints& points) {
+  const std::size_t n = points.size();
+  const auto end = [&](std::size_t i) -> const Vector2d& { return points[(i + 1) % n]; };
+  std::vector<Box> boxes;
+  for (std::size_t i = 0; i < n; ++i) boxes.push_back({points[i].cwiseMin(end(i)), points[i].cwiseMax(end(i))});
+  std::vector<std::size_t> order(n);
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return boxes[a].lower.x() < boxes[b].lower.x(); });
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::size_t i = order[k];
+    for (std::size_t l = k + 1; l < n && boxes[order[l]].lower.x() <= boxes[i].upper.x(); ++l) {
+      const std::size_t j = order[l];
+      if (boxes[j].lower.y() > boxes[i].upper.y() || boxes[j].upper.y() < boxes[i].lower.y()) continue;
+      const bool before = (i + 1) % n == j, after = (j + 1) % n == i;
+      // Neighbours meet at their corner. They meet elsewhere only where the second leads straight back.
+      const bool meet = before || after ? Cross(end(i) - points[i], end(j) - points[j]) == 0.0 &&
+                                              (end(i) - points[i]).dot(end(j) - points[j]) < 0.0
+                                        : Meet(points[i], end(i), points[j], end(j));
+      if (meet) return std::minmax(i, j);
+    }
+  }
+  return std::nullopt;
+}
+
+double TwiceTheArea(const PlanePoints& points) {
+  double area = 0.0;
+  for (std::size_t i = 2; i < points.size(); ++i) area += Cross(points[i - 1] - points[0], points[i] - points[0]);
+  return area;
+}
+
+double LargestFillet(const PlanePoints& points, bool closed) {
+  const Edges edges(points, closed);
+  double largest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < edges.lengths.size(); ++i) {
+    const double share = edges.Share(i) + edges.Share(edges.EndCorner(i, closed));
+    if (share > 0.0) largest = std::min(largest, edges.lengths[i] / share);
+  }
+  // The tangent of a quarter of a turn is large, and not infinite.
+  for (std::size_t i = 0; i < edges.turns.size(); ++i)
+    if (edges.Share(i) > 1.0 / kInLine) return 0.0;
+  return largest;
+}
+
+std::unique_ptr<const Curve> MakePolyline(const PlanePoints& points, bool closed, double fillet) {
+  const Edges edges(points, closed);
+  std::vector<std::unique_ptr<const CurvePiece>> pieces;
+  const std::size_t count = edges.lengths.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vector2d& direction = edges.directions[i];
+    const std::size_t corner = edges.EndCorner(i, closed);
+    const double from = fillet * edges.Share(i), cut = fillet * edges.Share(corner);
+    const double length = edges.lengths[i] - from - cut;
+    if (length > kNoLength * edges.lengths[i])
+      pieces.push_back(std::make_unique<LinePiece>(points[i] + from * direction, direction, length));
+    if (cut == 0.0) continue;
+    const double turn = edges.turns[corner], sign = turn > 0.0 ? 1.0 : -1.0;
+    const Vector2d& next = edges.directions[corner];
+    const Vector2d left = LeftOf(direction);
+    // From the centre to the corner: the more exact of two ways to say it.
+    const Vector2d bisector = direction.dot(next) > 0.0 ? Vector2d(-sign * (left + LeftOf(next))) : direction - next;
+    const Vector2d middle = bisector / LengthOf(bisector);
+    const Vector2d centre = points[corner % points.size()] - cut * direction + sign * fillet * left;
+    const auto side = turn > 0.0 ? ArcPiece::Side::kInside : ArcPiece::Side::kOutside;
+    pieces.push_back(std::make_unique<ArcPiece>(centre, fillet, middle, std::abs(turn), side));
+  }
+  return std::make_unique<Curve>(std::move(pieces), closed);
+}
+
+}  // namespace contact_path
