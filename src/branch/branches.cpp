@@ -90,7 +90,7 @@ class Finder {
 
   // The system takes on these states; *x: the point.
   Tangents TangentsOf(const States& states, Eigen::VectorXd* x) {
-    system_.SetStates(states, reference_);
+    system_.SetStates(states, reference_, point_.patches);
     *x = system_.Pack(point_);
     Tangents tangents = FindTangents(*x, arrival_.direction, arrival_.singular, &system_, &solvers_);
     rigid_modes_ = std::max(rigid_modes_, tangents.rigid_modes);
@@ -193,7 +193,8 @@ class Finder {
     int idle = 0;
     for (std::size_t i = 0; i < contacts_.size(); ++i)
       if (Slips(branch.states[i]) &&
-          std::abs(contacts_[i]->SlipRate(point_.u, point_.s, branch.direction, branch.load_rate)) <= tolerances::kRate)
+          std::abs(contacts_[i]->SlipRate(point_.u, point_.s, point_.Patch(i), branch.direction, branch.load_rate)) <=
+              tolerances::kRate)
         ++idle;
     return idle;
   }
@@ -379,7 +380,7 @@ double DissipationRate(const ContactPairs& contacts, const std::vector<ContactSt
   for (std::size_t i = 0; i < contacts.size(); ++i)
     if (Slips(states[i]))
       rate -= point.rt[static_cast<Eigen::Index>(i)] *
-              contacts[i]->SlipRate(point.u, point.s, direction, direction[direction.size() - 1]);
+              contacts[i]->SlipRate(point.u, point.s, point.Patch(i), direction, direction[direction.size() - 1]);
   return std::max(rate, 0.0);  // rounding may leave less
 }
 

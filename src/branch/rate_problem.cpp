@@ -51,7 +51,7 @@ RateProblem::RateProblem(const Structure& structure, const ContactPairs& contact
   std::vector<ContactState> base = states;
   for (const int i : weakly_active_) base[static_cast<std::size_t>(i)] = ContactState::kOpen;
   FixedStateSystem system(structure, contacts);
-  system.SetStates(base, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(contacts.size())));
+  system.SetStates(base, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(contacts.size())), point.patches);
   const Eigen::VectorXd x = system.Pack(point);
   const Eigen::Index nd = system.NumDofs();
   std::vector<Kinematics> kinematics(weakly_active_.size());
@@ -59,7 +59,7 @@ RateProblem::RateProblem(const Structure& structure, const ContactPairs& contact
   for (std::size_t k = 0; k < weakly_active_.size(); ++k) {
     const int i = weakly_active_[k];
     const ContactPair& pair = *contacts[static_cast<std::size_t>(i)];
-    pair.Evaluate(point.u, point.s, 0.0, &kinematics[k]);
+    pair.Evaluate(point.u, point.s, point.Patch(static_cast<std::size_t>(i)), 0.0, &kinematics[k]);
     AddSpring(pair, kinematics[k].gap_gradient, nd, &transposed);
     AddSpring(pair, kinematics[k].xi_gradient, nd, &transposed);
     if (pair.Curved()) AddCurvature(pair, kinematics[k], point.rn[i], point.rt[i], nd, &transposed);

@@ -38,9 +38,9 @@ struct UnitForces {
   Eigen::Vector2d tangential = Eigen::Vector2d::Zero();
 };
 
-UnitForces UnitForcesOf(const ContactPair& pair, const PathPoint& point) {
+UnitForces UnitForcesOf(const ContactPair& pair, const PathPoint& point, int patch) {
   Kinematics at;
-  pair.Evaluate(point.u, point.s, 0.0, &at);
+  pair.Evaluate(point.u, point.s, patch, 0.0, &at);
   const auto m = static_cast<Eigen::Index>(pair.Dofs().size());
   UnitForces forces;
   forces.normal.head(m) = at.gap_gradient.head(m);
@@ -53,11 +53,11 @@ std::vector<Touching> TouchingByNode(const ContactPairs& contacts, const PathPoi
   std::map<std::vector<int>, Touching> nodes;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const ContactPair& contact = *contacts[i];
-    if (contact.Gap(point.u, point.s) > tolerance) continue;
+    if (contact.Gap(point.u, point.s, point.Patch(i)) > tolerance) continue;
     if (contact.Dofs().empty() || contact.Dofs().size() > kMostComponents) continue;
     Touching& node = nodes[contact.Dofs()];
     node.contacts.push_back(i);
-    const UnitForces unit = UnitForcesOf(contact, point);
+    const UnitForces unit = UnitForcesOf(contact, point, point.Patch(i));
     if (!contact.Frictional()) {
       node.edges.push_back({i, 0.0, unit.normal});
     } else {
@@ -75,7 +75,7 @@ Eigen::Vector2d TotalForce(const Touching& node, const ContactPairs& contacts, c
   Eigen::Vector2d force = Eigen::Vector2d::Zero();
   for (const std::size_t i : node.contacts) {
     const auto k = static_cast<Eigen::Index>(i);
-    const UnitForces unit = UnitForcesOf(*contacts[i], point);
+    const UnitForces unit = UnitForcesOf(*contacts[i], point, point.Patch(i));
     force += point.rn[k] * unit.normal + point.rt[k] * unit.tangential;
   }
   return force;

@@ -25,10 +25,10 @@ RedundantContacts::RedundantContacts(const ContactPairs& contacts, const PathPoi
     : contacts_(contacts) {
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const ContactPair& contact = *contacts[i];
-    if (contact.Dofs().empty() || contact.Gap(point.u, point.s) > gap) continue;
+    if (contact.Dofs().empty() || contact.Gap(point.u, point.s, point.Patch(i)) > gap) continue;
     std::vector<Touching>& node = nodes_[contact.Dofs()];
     Kinematics at;
-    contact.Evaluate(point.u, point.s, 0.0, &at);
+    contact.Evaluate(point.u, point.s, point.Patch(i), 0.0, &at);
     node.push_back({i, at.gap_gradient, at.xi_gradient});
   }
   // One contact holds a node that moves in two directions in one way.

@@ -44,7 +44,7 @@ SmoothArc::SmoothArc(const Structure& structure, const ContactPairs& contacts)
     : structure_(structure), contacts_(contacts), system_(structure, contacts), tracker_(contacts) {}
 
 void SmoothArc::SetStates(const std::vector<ContactState>& states, const PathPoint& from, bool rests) {
-  system_.SetStates(states, SurfaceCoordinates(contacts_, from));
+  system_.SetStates(states, SurfaceCoordinates(contacts_, from), from.patches);
   at_hand_ = false;
   origin_.resize(0);
   rests_ = rests;
@@ -55,7 +55,7 @@ void SmoothArc::NoteClosedGaps(const PathPoint& from) {
   moved_forces_.clear();
   Eigen::VectorXd stiffness;
   for (const std::size_t i : system_.Touching()) {
-    const double gap = contacts_[i]->Gap(from.u, from.s);
+    const double gap = contacts_[i]->Gap(from.u, from.s, from.Patch(i));
     if (!(gap > tolerances::kBrokenOnStep)) continue;
     if (stiffness.size() == 0) {
       Eigen::SparseMatrix<double> tangent = structure_.TangentPattern();

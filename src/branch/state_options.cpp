@@ -7,7 +7,7 @@ namespace contact_path {
 std::vector<ContactState> StateOptions(const ContactPair& contact, const PathPoint& point, std::size_t candidate,
                                        const ActiveSetTolerance& tolerance) {
   const auto k = static_cast<Eigen::Index>(candidate);
-  const double gap = contact.Gap(point.u, point.s), rn = point.rn[k], rt = point.rt[k];
+  const double gap = contact.Gap(point.u, point.s, point.Patch(candidate)), rn = point.rn[k], rt = point.rt[k];
   if (gap > tolerance.gap) return {ContactState::kOpen};
   const double force = tolerance.force * contact.ForceUnit();
   const bool loaded = rn > force;

@@ -5,29 +5,31 @@
 
 namespace contact_path {
 
-PairVector ContactPair::SecondDirectional(const Eigen::VectorXd& u, double s, double rn, double rt,
+PairVector ContactPair::SecondDirectional(const Eigen::VectorXd& u, double s, int patch, double rn, double rt,
                                           const PairVector& direction) const {
   PairMatrix derivative;
-  HessianDerivative(u, s, rn, rt, direction, &derivative);
+  HessianDerivative(u, s, patch, rn, rt, direction, &derivative);
   return derivative * direction;
 }
 
-double ContactPair::Xi(const Eigen::VectorXd& u, double s) const {
+double ContactPair::Xi(const Eigen::VectorXd& u, double s, int patch) const {
   Kinematics kinematics;
-  Evaluate(u, s, 0.0, &kinematics);
+  Evaluate(u, s, patch, 0.0, &kinematics);
   return kinematics.xi;
 }
 
-double ContactPair::SlipRate(const Eigen::VectorXd& u, double s, const Eigen::VectorXd& du, double ds) const {
+double ContactPair::SlipRate(const Eigen::VectorXd& u, double s, int patch, const Eigen::VectorXd& du,
+                             double ds) const {
   Kinematics kinematics;
-  Evaluate(u, s, 0.0, &kinematics);
+  Evaluate(u, s, patch, 0.0, &kinematics);
   return Rate(kinematics.xi_gradient, du, ds);
 }
 
-double ContactPair::Slip(const Eigen::VectorXd& u, double s, const Eigen::VectorXd& du, double ds) const {
-  if (!Curved()) return SlipRate(u, s, du, ds);
+double ContactPair::Slip(const Eigen::VectorXd& u, double s, int patch, const Eigen::VectorXd& du, double ds,
+                         int patch_after) const {
+  if (!Curved()) return SlipRate(u, s, patch, du, ds);
   Kinematics to;
-  Evaluate(u + du, s + ds, Xi(u, s), &to);
+  Evaluate(u + du, s + ds, patch_after, Xi(u, s, patch), &to);
   return to.xi;
 }
 
@@ -63,7 +65,7 @@ double LargestReaction(const ContactPairs& contacts, const PathPoint& point) {
 Eigen::VectorXd SurfaceCoordinates(const ContactPairs& contacts, const PathPoint& point) {
   Eigen::VectorXd coordinates(static_cast<Eigen::Index>(contacts.size()));
   for (std::size_t i = 0; i < contacts.size(); ++i)
-    coordinates[static_cast<Eigen::Index>(i)] = contacts[i]->Xi(point.u, point.s);
+    coordinates[static_cast<Eigen::Index>(i)] = contacts[i]->Xi(point.u, point.s, point.Patch(i));
   return coordinates;
 }
 

@@ -28,7 +28,7 @@ std::vector<std::size_t> ReachTracker::InReach(const Eigen::Ref<const Eigen::Vec
     std::pop_heap(looks_.begin(), end, later);
     Look& look = *--end;
     const ContactPair& pair = *contacts_[look.second];
-    const double gap = pair.Gap(u_, s_), rate = pair.LargestGapRate();
+    const double gap = pair.Nearest(u_, s_).distance, rate = pair.LargestGapRate();
     if (gap <= reach * rate) in_reach.push_back(look.second);
     const double distance = (1.0 - kRounding) * gap / rate;
     look.first = std::isfinite(distance) ? moved_ + distance : moved_;

@@ -1,7 +1,9 @@
 #include "contact_path/contact/rigid_pair.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <utility>
 
 #include "contact_path/tolerances.h"
@@ -26,10 +28,11 @@ double ForceUnitAbove(double bound) {
 
 RigidPair::RigidPair(std::shared_ptr<const Surface> surface, const NodeMotion& motion, double friction,
                      const Eigen::VectorXd& force_bounds)
-    : surface_(std::move(surface)), held_(Eigen::Vector2d::Zero()) {
+    : surface_(std::move(surface)), held_(Eigen::Vector2d::Zero()), turn_(motion.turn), about_(motion.about) {
   Traits traits;
   traits.friction = friction;
-  traits.curved = !surface_->Flat();
+  traits.curved = !surface_->Flat() || turn_ != 0.0;
+  traits.has_patches = surface_->NumPatches() > 1 || std::isfinite(surface_->RangeOf(0).begin);
   for (const int dof : motion.dofs)
     if (dof >= 0) traits.dofs.push_back(dof);
   const auto last = static_cast<Eigen::Index>(traits.dofs.size());
@@ -47,6 +50,10 @@ RigidPair::RigidPair(std::shared_ptr<const Surface> surface, const NodeMotion& m
     for (std::size_t i = 0; i < traits.dofs.size() + 1; ++i)
       traits.moves_gap[i] = traits.moves_xi[i] = !motion_.col(static_cast<Eigen::Index>(i)).isZero(0.0);
     traits.largest_gap_rate = 1.0 + motion.velocity.norm();
+    if (turn_ != 0.0) {  // the farther from the centre of the turn, the faster
+      traits.moves_gap[traits.dofs.size()] = traits.moves_xi[traits.dofs.size()] = true;
+      traits.largest_gap_rate = std::numeric_limits<double>::infinity();
+    }
   } else {
     const Projection at_origin = surface_->Project(Eigen::Vector2d::Zero(), 0);
     const Eigen::Vector2d& n = at_origin.normal;
@@ -71,9 +78,64 @@ RigidPair::RigidPair(std::shared_ptr<const Surface> surface, const NodeMotion& m
   SetTraits(std::move(traits));
 }
 
-Eigen::Vector2d RigidPair::Position(const Eigen::VectorXd& u, double s) const { return held_ + motion_ * Local(u, s); }
+// x(q) = a + R z with z = p - a - velocity s, and its derivatives. The rotation R by the angle -turn s has the
+// derivatives R' = -turn J R by s, with J the rotation by a quarter of a turn.
+struct RigidPair::Frame {
+  Frame(const RigidPair& pair, const Eigen::VectorXd& u, double s)
+      : motion(pair.motion_), z(pair.held_ + pair.motion_ * pair.Local(u, s) - pair.about_) {
+    const double angle = -pair.turn_ * s;
+    rotation[0] << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
+    for (std::size_t k = 1; k < rotation.size(); ++k)
+      rotation[k] << pair.turn_ * rotation[k - 1].row(1), -pair.turn_ * rotation[k - 1].row(0);
+    x = pair.about_ + rotation[0] * z;
+    last = motion.cols() - 1;
+    first = rotation[0] * motion;
+    first.col(last) += rotation[1] * z;
+  }
 
-void RigidPair::Evaluate(const Eigen::VectorXd& u, double s, double reference, Kinematics* kinematics) const {
+  // Second derivatives by q of weights . x.
+  PairMatrix Second(const Eigen::Vector2d& weights) const {
+    return Bordered(motion.transpose() * (rotation[1].transpose() * weights), weights.dot(rotation[2] * z));
+  }
+  // d/dh along q + h direction of the first derivatives, and of the second ones.
+  Motion FirstChange(const PairVector& direction) const {
+    const double ds = direction[last];
+    Motion change = ds * rotation[1] * motion;
+    change.col(last) += rotation[1] * (motion * direction) + ds * (rotation[2] * z);
+    return change;
+  }
+  PairMatrix SecondChange(const Eigen::Vector2d& weights, const PairVector& direction) const {
+    const double ds = direction[last];
+    return Bordered(ds * (motion.transpose() * (rotation[2].transpose() * weights)),
+                    weights.dot(ds * (rotation[3] * z) + rotation[2] * (motion * direction)));
+  }
+
+  // border in the last row and in the last column, both in the last place, and corner besides.
+  PairMatrix Bordered(const PairVector& border, double corner) const {
+    PairMatrix matrix = PairMatrix::Zero(last + 1, last + 1);
+    matrix.row(last) += border.transpose();
+    matrix.col(last) += border;
+    matrix(last, last) += corner;
+    return matrix;
+  }
+
+  const Motion& motion;
+  Eigen::Vector2d z, x;
+  std::array<Eigen::Matrix2d, 4> rotation;  // and its derivatives by s
+  Motion first;                             // dx/dq
+  Eigen::Index last = 0;                    // s in q
+};
+
+Eigen::Vector2d RigidPair::Position(const Eigen::VectorXd& u, double s) const {
+  return turn_ != 0.0 ? Frame(*this, u, s).x : Eigen::Vector2d(held_ + motion_ * Local(u, s));
+}
+
+int RigidPair::NearestKnown(int patch) const {
+  return surface_->Closed() ? patch : std::clamp(patch, 0, surface_->NumPatches() - 1);
+}
+
+void RigidPair::Evaluate(const Eigen::VectorXd& u, double s, int patch, double reference,
+                         Kinematics* kinematics) const {
   if (!Curved()) {
     kinematics->gap = gap_offset_ + Rate(gap_gradient_, u, s);
     kinematics->xi = xi_offset_ - reference + Rate(xi_gradient_, u, s);
@@ -81,24 +143,71 @@ void RigidPair::Evaluate(const Eigen::VectorXd& u, double s, double reference, K
     kinematics->xi_gradient = xi_gradient_;
     return;
   }
-  const Projection at = surface_->Project(Position(u, s), 0);
-  kinematics->gap = at.gap;
-  kinematics->xi = at.xi - reference;
-  kinematics->gap_gradient = motion_.transpose() * at.normal;
-  kinematics->xi_gradient = motion_.transpose() * XiGradient(at);
-  kinematics->gap_hessian = motion_.transpose() * GapHessian(at) * motion_;
-  kinematics->xi_hessian = motion_.transpose() * XiHessian(at) * motion_;
+  const auto fill = [&](const Projection& at, const Motion& first) {
+    kinematics->gap = at.gap;
+    kinematics->xi = at.xi - reference;
+    kinematics->gap_gradient = first.transpose() * at.normal;
+    kinematics->xi_gradient = first.transpose() * XiGradient(at);
+    kinematics->gap_hessian = first.transpose() * GapHessian(at) * first;
+    kinematics->xi_hessian = first.transpose() * XiHessian(at) * first;
+  };
+  if (turn_ == 0.0) {
+    fill(surface_->Project(Position(u, s), NearestKnown(patch)), motion_);
+    return;
+  }
+  const Frame frame(*this, u, s);
+  const Projection at = surface_->Project(frame.x, NearestKnown(patch));
+  fill(at, frame.first);
+  kinematics->gap_hessian += frame.Second(at.normal);
+  kinematics->xi_hessian += frame.Second(XiGradient(at));
 }
 
-double RigidPair::Gap(const Eigen::VectorXd& u, double s) const {
-  return Curved() ? surface_->Project(Position(u, s), 0).gap : gap_offset_ + Rate(gap_gradient_, u, s);
+double RigidPair::Gap(const Eigen::VectorXd& u, double s, int patch) const {
+  if (!Curved()) return gap_offset_ + Rate(gap_gradient_, u, s);
+  const Eigen::Vector2d x = Position(u, s);
+  return HasPatch(patch) ? surface_->Project(x, patch).gap : surface_->Nearest(x).distance;
 }
 
-void RigidPair::HessianDerivative(const Eigen::VectorXd& u, double s, double rn, double rt, const PairVector& direction,
-                                  PairMatrix* derivative) const {
-  const Projection at = surface_->Project(Position(u, s), 0);
-  const Eigen::Vector2d v = motion_ * direction;
-  *derivative = motion_.transpose() * (rn * GapHessianChange(at, v) + rt * XiHessianChange(at, v)) * motion_;
+NearestFoot RigidPair::Nearest(const Eigen::VectorXd& u, double s) const {
+  return HasPatches() ? surface_->Nearest(Position(u, s)) : NearestFoot{0, Gap(u, s, 0), false};
+}
+
+int RigidPair::PatchAt(const Eigen::VectorXd& u, double s) const {
+  if (!HasPatches()) return 0;
+  const Eigen::Vector2d x = Position(u, s);
+  const NearestFoot nearest = surface_->Nearest(x);
+  if (!nearest.is_end) return nearest.patch;
+  const XiRange range = surface_->RangeOf(nearest.patch);
+  return surface_->Project(x, nearest.patch).xi < 0.5 * (range.begin + range.end) ? -1 : surface_->NumPatches();
+}
+
+XiRange RigidPair::RangeOf(int patch) const {
+  if (HasPatch(patch)) return surface_->RangeOf(patch);
+  XiRange range;
+  if (patch < 0)
+    range.end = surface_->RangeOf(0).begin;
+  else
+    range.begin = surface_->RangeOf(surface_->NumPatches() - 1).end;
+  return range;
+}
+
+void RigidPair::HessianDerivative(const Eigen::VectorXd& u, double s, int patch, double rn, double rt,
+                                  const PairVector& direction, PairMatrix* derivative) const {
+  const auto change = [&](const Projection& at, const Motion& first) {
+    const Eigen::Vector2d v = first * direction;
+    return PairMatrix(first.transpose() * (rn * GapHessianChange(at, v) + rt * XiHessianChange(at, v)) * first);
+  };
+  if (turn_ == 0.0) {
+    *derivative = change(surface_->Project(Position(u, s), NearestKnown(patch)), motion_);
+    return;
+  }
+  const Frame frame(*this, u, s);
+  const Projection at = surface_->Project(frame.x, NearestKnown(patch));
+  const Eigen::Matrix2d hessian = rn * GapHessian(at) + rt * XiHessian(at);
+  const Eigen::Vector2d weights = rn * at.normal + rt * XiGradient(at);
+  const PairMatrix mixed = frame.FirstChange(direction).transpose() * hessian * frame.first;
+  *derivative = change(at, frame.first) + mixed + mixed.transpose() +
+                frame.Second(hessian * (frame.first * direction)) + frame.SecondChange(weights, direction);
 }
 
 }  // namespace contact_path

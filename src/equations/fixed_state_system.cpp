@@ -17,13 +17,17 @@ constexpr double kMostInFrame = 4.0;
 
 FixedStateSystem::FixedStateSystem(const Structure& structure, const ContactPairs& contacts)
     : structure_(structure), contacts_(contacts), tangent_(structure.TangentPattern()) {
+  for (std::size_t i = 0; i < contacts.size(); ++i)
+    if (contacts[i]->HasPatches()) with_patches_.push_back(i);
   if (structure.NumDofs() > 0) residual_unit_ = structure.ResidualUnits().maxCoeff();
   SetStates(std::vector<ContactState>(contacts.size(), ContactState::kOpen),
             Eigen::VectorXd::Zero(static_cast<Eigen::Index>(contacts.size())));
 }
 
-void FixedStateSystem::SetStates(const std::vector<ContactState>& states, const Eigen::VectorXd& reference) {
+void FixedStateSystem::SetStates(const std::vector<ContactState>& states, const Eigen::VectorXd& reference,
+                                 const std::vector<int>& patches) {
   states_ = states;
+  patches_ = patches.empty() ? std::vector<int>(states.size(), 0) : patches;
   reference_ = reference;
   active_.clear();
   load_factor_fixed_ = false;
@@ -79,7 +83,7 @@ FixedStateSystem::ReactionTerms FixedStateSystem::ReactionTermsOf(const Constrai
 
 Kinematics FixedStateSystem::Evaluate(std::size_t contact, const Eigen::VectorXd& x) const {
   Kinematics at;
-  contacts_[contact]->Evaluate(x, x[NumDofs()], reference_[static_cast<Eigen::Index>(contact)], &at);
+  contacts_[contact]->Evaluate(x, x[NumDofs()], patches_[contact], reference_[static_cast<Eigen::Index>(contact)], &at);
   return at;
 }
 
@@ -282,6 +286,10 @@ PathPoint FixedStateSystem::Unpack(const Eigen::VectorXd& x) const {
   point.rn = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(contacts_.size()));
   point.rt = point.rn;
   point.states = states_;
+  for (const std::size_t i : with_patches_) {
+    if (point.patches.empty()) point.patches = patches_;
+    if (states_[i] == ContactState::kOpen) point.patches[i] = contacts_[i]->PatchAt(point.u, point.s);
+  }
   for (const std::size_t i : touching_) {
     const auto k = static_cast<Eigen::Index>(i);
     point.rn[k] = x[rn_unknown_[i]];
@@ -391,8 +399,8 @@ std::vector<Constraint> FixedStateSystem::InequalitiesOf(const std::vector<std::
 }
 
 double FixedStateSystem::MotionValue(const Motion& motion, const Eigen::VectorXd& x) const {
-  return motion.sign *
-         (motion.is_gap ? contacts_[motion.contact]->Gap(x, x[NumDofs()]) : Evaluate(motion.contact, x).xi);
+  return motion.sign * (motion.is_gap ? contacts_[motion.contact]->Gap(x, x[NumDofs()], patches_[motion.contact])
+                                      : Evaluate(motion.contact, x).xi);
 }
 
 double FixedStateSystem::Value(const Constraint& constraint, const Eigen::VectorXd& x) const {
@@ -472,7 +480,7 @@ Jet FixedStateSystem::DrivingForceAlong(const Eigen::VectorXd& x, const Eigen::V
     const PairMatrix hessian_rate = rate.rn * at.gap_hessian + rate.rt * at.xi_hessian;
     force.first -= hessian.row(last).dot(along);
     force.second -= 2.0 * hessian_rate.row(last).dot(along) + hessian.row(last).dot(bend) +
-                    pair.SecondDirectional(x, x[NumDofs()], reaction.rn, reaction.rt, along)[last];
+                    pair.SecondDirectional(x, x[NumDofs()], patches_[i], reaction.rn, reaction.rt, along)[last];
   }
   return force;
 }
@@ -489,7 +497,7 @@ Eigen::VectorXd FixedStateSystem::SecondDerivative(const Eigen::VectorXd& x, con
     const Kinematics at = Evaluate(i, x);
     const Reaction reaction = ReactionOf(i, x), rate = ReactionOf(i, dx);
     const PairVector along = pair.Local(dx, dx[NumDofs()]);
-    pair.AddForce(pair.SecondDirectional(x, x[NumDofs()], reaction.rn, reaction.rt, along) +
+    pair.AddForce(pair.SecondDirectional(x, x[NumDofs()], patches_[i], reaction.rn, reaction.rt, along) +
                       2.0 * (rate.rn * at.gap_hessian + rate.rt * at.xi_hessian) * along,
                   -1.0, &second);
   }

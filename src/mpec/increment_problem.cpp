@@ -28,9 +28,10 @@ IncrementProblem::IncrementProblem(const Structure& structure, const ContactPair
   Eigen::VectorXd drive = Eigen::VectorXd::Zero(nd);  // T_t r_t^k
   for (std::size_t i = 0; i < working_set_.size(); ++i) {
     const ContactPair& pair = *contacts_[static_cast<std::size_t>(working_set_[i])];
+    const int patch = from_.Patch(static_cast<std::size_t>(working_set_[i]));
     Kinematics at_start;
-    pair.Evaluate(from_.u, from_.s, 0.0, &at_start);
-    Slot slot{&pair, at_start, nd + 1 + static_cast<Eigen::Index>(i), -1, -1, num_constraints_, -1};
+    pair.Evaluate(from_.u, from_.s, patch, 0.0, &at_start);
+    Slot slot{&pair, patch, at_start, nd + 1 + static_cast<Eigen::Index>(i), -1, -1, num_constraints_, -1};
     num_constraints_ += 2;
     if (pair.Frictional()) {
       slot.rt = num_variables_++;
@@ -67,7 +68,8 @@ Kinematics IncrementProblem::ScaledKinematics(const Slot& slot, const Eigen::Vec
     at.xi = slot.pair->Rate(at.xi_gradient, x.head(nd), x[nd]);
     return at;
   }
-  slot.pair->Evaluate(from_.u + goal_.length * x.head(nd), from_.s + goal_.length * x[nd], slot.at_start.xi, &at);
+  slot.pair->Evaluate(from_.u + goal_.length * x.head(nd), from_.s + goal_.length * x[nd], slot.patch, slot.at_start.xi,
+                      &at);
   at.gap /= goal_.length;
   at.xi /= goal_.length;
   at.gap_hessian *= goal_.length;
@@ -326,7 +328,8 @@ void IncrementProblem::ForEachCurvatureEntry(const Slot& slot, const Kinematics&
         multipliers[slot.friction_row + 1] - multipliers[slot.friction_row] + multipliers[slot.friction_row + 4] * rt;
   }
   PairMatrix second;
-  pair.HessianDerivative(from_.u + goal_.length * x.head(nd), from_.s + goal_.length * x[nd], rn, rt, weights, &second);
+  pair.HessianDerivative(from_.u + goal_.length * x.head(nd), from_.s + goal_.length * x[nd], slot.patch, rn, rt,
+                         weights, &second);
   second = along_gap * at.gap_hessian + along_xi * at.xi_hessian - goal_.length * goal_.length * second;
   ForEachVariable(pair, [&](Eigen::Index row, Eigen::Index a) {
     ForEachVariable(pair, [&](Eigen::Index column, Eigen::Index b) {

@@ -41,7 +41,8 @@ IncrementTrial IncrementSolver::Solve(const PathPoint& from, const IncrementGoal
     const std::size_t before = included.size();
     for (const std::size_t i : tracker_.InReach(trial.point.u, trial.point.s, 0.0)) {
       const auto place = std::lower_bound(included.begin(), included.end(), i);
-      if ((place == included.end() || *place != i) && contacts_[i]->Gap(trial.point.u, trial.point.s) < 0.0)
+      if ((place == included.end() || *place != i) &&
+          contacts_[i]->Gap(trial.point.u, trial.point.s, trial.point.Patch(i)) < 0.0)
         included.insert(place, i);
     }
     if (included.size() == before) return trial;
@@ -121,7 +122,7 @@ void IncrementSolver::PolishActiveSet(const PathPoint& from, const IncrementProb
 
 bool IncrementSolver::PolishActiveSet(const PathPoint& from, const Eigen::VectorXd& wanted, double length,
                                       IncrementTrial* trial) {
-  system_.SetStates(trial->point.states, SurfaceCoordinates(contacts_, from));
+  system_.SetStates(trial->point.states, SurfaceCoordinates(contacts_, from), from.patches);
   std::vector<Constraint> active;
   Eigen::VectorXd start = system_.Pack(trial->point);
   for (int change = 0; change <= kMaxActiveSetChanges; ++change) {

@@ -25,8 +25,8 @@ double Trend(double rate, double change, double level) {
 double CoverGaps(const ContactPairs& contacts, const PathPoint& point, double tolerance) {
   std::vector<double> beyond;
   bool among = false;
-  for (const auto& contact : contacts) {
-    const double gap = contact->Gap(point.u, point.s);
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const double gap = contacts[i]->Gap(point.u, point.s, point.Patch(i));
     among = among || (gap > 0.5 * tolerance && gap <= tolerance);
     if (gap > tolerance && gap <= tolerances::kWidestActiveGap) beyond.push_back(gap);
   }

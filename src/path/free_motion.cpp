@@ -39,7 +39,7 @@ Eigen::SparseMatrix<double> Resistance(const Model& model, const PathPoint& poin
     const ContactPair& pair = *model.contacts[i];
     if (!(point.rn[static_cast<Eigen::Index>(i)] > force * pair.ForceUnit())) continue;
     Kinematics kinematics;
-    pair.Evaluate(point.u, point.s, 0.0, &kinematics);
+    pair.Evaluate(point.u, point.s, point.Patch(i), 0.0, &kinematics);
     AddEquation(pair, kinematics.gap_gradient, equation++, &entries);
     if (pair.Frictional()) AddEquation(pair, kinematics.xi_gradient, equation++, &entries);
   }
@@ -74,7 +74,7 @@ Names FreeNames(const Model& model, const PathPoint& point, double force) {
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
     const ContactCandidate& contact = scene.contacts[i];
     const bool free = std::find(names.nodes.begin(), names.nodes.end(), contact.node) != names.nodes.end();
-    if (!free || model.contacts[i]->Gap(point.u, point.s) > tolerances::kActiveGap) continue;
+    if (!free || model.contacts[i]->Gap(point.u, point.s, point.Patch(i)) > tolerances::kActiveGap) continue;
     names.contacts.push_back(contact.Name());
     if (std::find(names.obstacles.begin(), names.obstacles.end(), contact.obstacle) == names.obstacles.end())
       names.obstacles.push_back(contact.obstacle);

@@ -32,12 +32,23 @@ PathPoint Model::InitialPoint() const {
   point.u = structure.Start();
   point.rn = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(contacts.size()));
   point.rt = point.rn;
-  for (const auto& contact : contacts) {
-    const bool touches = contact->Gap(point.u, point.s) <= tolerances::kTouchingAtStart;
+  NotePatches(&point);
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const auto& contact = contacts[i];
+    const bool touches = contact->Gap(point.u, point.s, point.Patch(i)) <= tolerances::kTouchingAtStart;
     const ContactState rest = contact->Frictional() ? ContactState::kStick : ContactState::kClosed;
     point.states.push_back(touches ? rest : ContactState::kOpen);
   }
   return point;
+}
+
+void Model::NotePatches(PathPoint* point) const {
+  point->patches.clear();
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    if (!contacts[i]->HasPatches()) continue;
+    point->patches.resize(contacts.size(), 0);
+    point->patches[i] = contacts[i]->PatchAt(point->u, point->s);
+  }
 }
 
 PathPoint Model::Transfer(const Model& other, const PathPoint& point) const {
@@ -93,6 +104,7 @@ PathPoint Model::FromIncrement(const Increment& increment) const {
     point.rt[i] = contact.rt / scaling.force;
     point.states.push_back(contact.state);
   }
+  NotePatches(&point);
   return point;
 }
 

@@ -37,7 +37,8 @@ bool IsNearlyActive(const ContactPair& contact, const PathPoint& point, std::siz
   const auto k = static_cast<Eigen::Index>(i);
   const bool open = point.states[i] == ContactState::kOpen;
   const double unit = contact.ForceUnit();
-  if ((open ? contact.Gap(point.u, point.s) : point.rn[k] / unit) <= tolerances::kNearlyActive) return true;
+  if ((open ? contact.Gap(point.u, point.s, point.Patch(i)) : point.rn[k] / unit) <= tolerances::kNearlyActive)
+    return true;
   return point.states[i] == ContactState::kStick &&
          contact.Friction() * point.rn[k] - std::abs(point.rt[k]) <= tolerances::kNearlyActive * unit;
 }
@@ -66,14 +67,14 @@ bool StatesAgree(const ContactPairs& contacts, const PathPoint& from, const Path
   const double length = tolerances::kRegularisedState * Distance(from, to);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
-    const double slip = contacts[i]->Slip(from.u, from.s, to.u - from.u, to.s - from.s);
+    const double slip = contacts[i]->Slip(from.u, from.s, from.Patch(i), to.u - from.u, to.s - from.s, to.Patch(i));
     const double margin = contacts[i]->Friction() * to.rn[k] - std::abs(to.rt[k]);
     const ContactState state = to.states[i];
     if (state == ContactState::kOpen) {
       if (std::max(to.rn[k], std::abs(to.rt[k])) > force) return false;
       continue;
     }
-    if (contacts[i]->Gap(to.u, to.s) > length) return false;
+    if (contacts[i]->Gap(to.u, to.s, to.Patch(i)) > length) return false;
     if (state == ContactState::kStick && std::abs(slip) > length) return false;
     if (Slips(state) && margin > force) return false;
   }
@@ -249,7 +250,7 @@ bool MpecMethod::EndAtTarget(const PathPoint& from, Trial* trial) const {
 bool MpecMethod::EndAtTarget(const PathPoint& from, const std::vector<ContactState>& states, Trial* trial) const {
   const PathPoint& to = trial->increment.point;
   FixedStateSystem system(model_.structure, model_.contacts);
-  system.SetStates(states, SurfaceCoordinates(model_.contacts, from));
+  system.SetStates(states, SurfaceCoordinates(model_.contacts, from), from.patches);
   system.FixLoadFactor(*options_.target);
   const double share = (*options_.target - from.s) / (to.s - from.s);
   const Eigen::VectorXd start = (1.0 - share) * system.Pack(from) + share * system.Pack(to);

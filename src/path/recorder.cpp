@@ -27,8 +27,8 @@ void FillState(const Model& model, const PathPoint& point, Increment* increment)
   increment->rotations = std::move(state.rotations);
   increment->contacts.resize(model.contacts.size());
   for (std::size_t i = 0; i < model.contacts.size(); ++i)
-    increment->contacts[i] = {model.contacts[i]->Gap(point.u, point.s) * model.scaling.length, state.rn[i], state.rt[i],
-                              point.states[i]};
+    increment->contacts[i] = {model.contacts[i]->Gap(point.u, point.s, point.Patch(i)) * model.scaling.length,
+                              state.rn[i], state.rt[i], point.states[i]};
 }
 
 void Recorder::Start(const Model& model, int stage, const PathPoint& point, const Residuals& residuals,

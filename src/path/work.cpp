@@ -15,7 +15,7 @@ double DrivingForce(const Model& model, const PathPoint& point) {
   // zero where it is open.
   FixedStateSystem system(model.structure, model.contacts);
   system.SetStates(std::vector<ContactState>(model.contacts.size(), ContactState::kStick),
-                   Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model.contacts.size())));
+                   Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model.contacts.size())), point.patches);
   const Eigen::VectorXd x = system.Pack(point), still = Eigen::VectorXd::Zero(x.size());
   return system.DrivingForceAlong(x, still, still).value;
 }
@@ -29,8 +29,8 @@ Work WorkOfIncrement(const Model& model, const PathPoint& from, const PathPoint&
     if (to.states[i] != ContactState::kSlipPlus && to.states[i] != ContactState::kSlipMinus) continue;
     const auto k = static_cast<Eigen::Index>(i);
     const double mean = 0.5 * (from.rn[k] + to.rn[k]);
-    work.friction +=
-        model.contacts[i]->Friction() * mean * std::abs(model.contacts[i]->Slip(from.u, from.s, du, to.s - from.s));
+    work.friction += model.contacts[i]->Friction() * mean *
+                     std::abs(model.contacts[i]->Slip(from.u, from.s, from.Patch(i), du, to.s - from.s, to.Patch(i)));
   }
   const Structure& structure = model.structure;
   work.loads = 0.5 * (from.s + to.s) * structure.ReferenceLoad().dot(du) + structure.ConstantLoad().dot(du) +

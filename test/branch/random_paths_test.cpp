@@ -414,7 +414,7 @@ class Neighbourhood {
   std::vector<ContactState> Options(std::size_t i) const {
     const ContactPair& contact = *model_.contacts[i];
     const auto k = static_cast<Eigen::Index>(i);
-    if (contact.Gap(point_.u, point_.s) > kTouching) return {ContactState::kOpen};
+    if (contact.Gap(point_.u, point_.s, 0) > kTouching) return {ContactState::kOpen};
     std::vector<ContactState> options;
     if (point_.rn[k] < kTouching) options = {ContactState::kOpen};
     if (!contact.Frictional()) {

@@ -53,7 +53,7 @@ class RestingColumn : public testing::Test {
         const ContactPair& contact = *model_.contacts[static_cast<std::size_t>(weakly_active[k])];
         rates.col(j).segment<4>(1 + 4 * static_cast<Eigen::Index>(k))
             << GapRate(contact, point_.u, point_.s, change.u, change.s),
-            contact.SlipRate(point_.u, point_.s, change.u, change.s), change.rn[weakly_active[k]],
+            contact.SlipRate(point_.u, point_.s, 0, change.u, change.s), change.rn[weakly_active[k]],
             change.rt[weakly_active[k]];
       }
     }
@@ -100,7 +100,7 @@ class RestingColumn : public testing::Test {
     for (std::size_t k = 0; k < weakly_active.size(); ++k) {
       const ContactPair& contact = *model_.contacts[static_cast<std::size_t>(weakly_active[k])];
       same += rates->gap[static_cast<Eigen::Index>(k)] * GapRate(contact, point_.u, point_.s, tangent, 0.0) +
-              rates->slip[static_cast<Eigen::Index>(k)] * contact.SlipRate(point_.u, point_.s, tangent, 0.0);
+              rates->slip[static_cast<Eigen::Index>(k)] * contact.SlipRate(point_.u, point_.s, 0, tangent, 0.0);
     }
     if (same < 0.0) tangent = -tangent;
     const PathPoint change = system.Unpack(tangent);
@@ -110,7 +110,7 @@ class RestingColumn : public testing::Test {
       const auto i = static_cast<std::size_t>(weakly_active[k]);
       const auto e = static_cast<Eigen::Index>(k), c = static_cast<Eigen::Index>(i);
       EXPECT_NEAR(rates->gap[e], GapRate(*model_.contacts[i], point_.u, point_.s, change.u, change.s), kExact);
-      EXPECT_NEAR(rates->slip[e], model_.contacts[i]->SlipRate(point_.u, point_.s, change.u, change.s), kExact);
+      EXPECT_NEAR(rates->slip[e], model_.contacts[i]->SlipRate(point_.u, point_.s, 0, change.u, change.s), kExact);
       EXPECT_NEAR(rates->rn[e], change.rn[c], kExact);
       EXPECT_NEAR(rates->rt[e], change.rt[c], kExact);
     }

@@ -31,7 +31,7 @@ TEST_F(Pairs, SecondDirectionalMeetsDifferencesOfTheForce) {
       const Kinematics at = KinematicsAt(*pair, u_ + h[0] * du, 0.2 + h[0] * 0.4);
       return Eigen::VectorXd((kRn * at.gap_hessian + kRt * at.xi_hessian) * direction);
     };
-    const Eigen::VectorXd second = pair->SecondDirectional(u_, 0.2, kRn, kRt, direction);
+    const Eigen::VectorXd second = pair->SecondDirectional(u_, 0.2, 0, kRn, kRt, direction);
     EXPECT_TRUE(IsJacobian(force_rate, Eigen::VectorXd::Zero(1), second, kDerivativeTolerance, 1e-3));
   }
 }
@@ -39,10 +39,10 @@ TEST_F(Pairs, SecondDirectionalMeetsDifferencesOfTheForce) {
 TEST_F(Pairs, SlipIsTheChangeOfXiAndItsRateTheLimitOfSlip) {
   const Eigen::VectorXd du = random_.Vector(u_.size(), -0.1, 0.1);
   for (const auto& pair : contacts_) {
-    EXPECT_NEAR(pair->Slip(u_, 0.2, du, 0.05), pair->Xi(u_ + du, 0.25) - pair->Xi(u_, 0.2), kRounding);
+    EXPECT_NEAR(pair->Slip(u_, 0.2, 0, du, 0.05, 0), pair->Xi(u_ + du, 0.25, 0) - pair->Xi(u_, 0.2, 0), kRounding);
     const double h = 1e-5;
-    EXPECT_NEAR(pair->SlipRate(u_, 0.2, du, 0.05),
-                pair->Slip(u_ - h * du, 0.2 - h * 0.05, 2.0 * h * du, 2.0 * h * 0.05) / (2.0 * h), 1e-8);
+    EXPECT_NEAR(pair->SlipRate(u_, 0.2, 0, du, 0.05),
+                pair->Slip(u_ - h * du, 0.2 - h * 0.05, 0, 2.0 * h * du, 2.0 * h * 0.05, 0) / (2.0 * h), 1e-8);
   }
 }
 
@@ -54,7 +54,7 @@ TEST_F(Pairs, TheForceOfAReactionHasThePowerOfItsMotion) {
     Eigen::VectorXd force = Eigen::VectorXd::Zero(u_.size());
     pair->AddForce(at.gap_gradient, 2.0, &force);
     pair->AddForce(at.xi_gradient, -3.0, &force);
-    EXPECT_NEAR(force.dot(du), 2.0 * GapRate(*pair, u_, 0.2, du, 0.0) - 3.0 * pair->SlipRate(u_, 0.2, du, 0.0),
+    EXPECT_NEAR(force.dot(du), 2.0 * GapRate(*pair, u_, 0.2, du, 0.0) - 3.0 * pair->SlipRate(u_, 0.2, 0, du, 0.0),
                 kRounding);
   }
 }
@@ -66,7 +66,7 @@ TEST_F(Pairs, SurfaceCoordinatesAreThoseOfAllCandidates) {
   const Eigen::VectorXd coordinates = SurfaceCoordinates(contacts_, point);
   ASSERT_EQ(coordinates.size(), 5);
   for (std::size_t i = 0; i < contacts_.size(); ++i)
-    EXPECT_EQ(coordinates[static_cast<Eigen::Index>(i)], contacts_[i]->Xi(u_, 0.2));
+    EXPECT_EQ(coordinates[static_cast<Eigen::Index>(i)], contacts_[i]->Xi(u_, 0.2, 0));
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace {
 std::vector<std::size_t> LookedAtAll(const ContactPairs& contacts, const Eigen::VectorXd& u, double s, double reach) {
   std::vector<std::size_t> in_reach;
   for (std::size_t i = 0; i < contacts.size(); ++i)
-    if (contacts[i]->Gap(u, s) <= reach * contacts[i]->LargestGapRate()) in_reach.push_back(i);
+    if (contacts[i]->Gap(u, s, 0) <= reach * contacts[i]->LargestGapRate()) in_reach.push_back(i);
   return in_reach;
 }
 
@@ -51,12 +51,16 @@ class Counted : public ContactPair {
     traits.dofs = {0};
     SetTraits(traits);
   }
-  void Evaluate(const Eigen::VectorXd&, double, double, Kinematics*) const override {}
-  double Gap(const Eigen::VectorXd& u, double) const override {
+  void Evaluate(const Eigen::VectorXd&, double, int, double, Kinematics*) const override {}
+  double Gap(const Eigen::VectorXd& u, double, int) const override { return gap_ + u[0]; }
+  NearestFoot Nearest(const Eigen::VectorXd& u, double s) const override {
     ++*looks_;
-    return gap_ + u[0];
+    return {0, Gap(u, s, 0), false};
   }
-  void HessianDerivative(const Eigen::VectorXd&, double, double, double, const PairVector&,
+  int PatchAt(const Eigen::VectorXd&, double) const override { return 0; }
+  bool HasPatch(int patch) const override { return patch == 0; }
+  XiRange RangeOf(int) const override { return {}; }
+  void HessianDerivative(const Eigen::VectorXd&, double, int, double, double, const PairVector&,
                          PairMatrix*) const override {}
 
  private:

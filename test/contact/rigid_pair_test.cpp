@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <vector>
 
+#include "contact_path/geometry/polyline.h"
+#include "contact_path/geometry/spline.h"
 #include "support/curved_contacts.h"
 #include "support/derivative_checker.h"
 #include "support/kinematics.h"
@@ -15,8 +18,40 @@ namespace {
 
 constexpr double kRounding = 1e-13;
 
+// The pairs of CurvedContacts(), and more with obstacles that turn, or have patches.
 class RigidPairs : public testing::Test {
  protected:
+  struct Case {
+    const ContactPair* pair;
+    int patch;
+    Eigen::VectorXd q;  // a place beside the patch
+  };
+
+  RigidPairs() {
+    for (const auto& pair : contacts_) cases_.push_back({pair.get(), 0, pair->Local(structure_.Start(), 0.3)});
+    const Eigen::Vector2d velocity(0.3, -0.2), about(0.4, 0.9);
+    const Eigen::Vector3d q(0.7, 0.6, 0.3);
+    Add(std::make_shared<HalfPlane>(Eigen::Vector2d(0.0, 0.1), Eigen::Vector2d(-0.2, 1.0)), velocity, 1.3, about, q, 0);
+    Add(std::make_shared<Spiral>(0.3, -0.4, 0.5), velocity, -0.9, about, q, 0);
+    for (const bool inside : {false, true})
+      for (const int patch : {0, 1, -3}) {
+        const std::shared_ptr<const Surface> round = MakeCircle({0.2, -0.3}, 0.8, inside);
+        Add(round, velocity, 0.7, about, q, patch);
+      }
+    const std::shared_ptr<const Surface> spline = MakeSpline({{-1.0, 0.2}, {0.1, 0.4}, {0.8, 0.1}, {2.0, 0.5}}, false);
+    for (const double turn : {0.0, 0.4})
+      for (const int patch : {-1, 0, 1, 2, 3}) Add(spline, velocity, turn, about, q, patch);
+    // A node that is held in x.
+    const NodeMotion held = {{-1, 1}, {0.7, 0.0}, velocity, 0.8, about};
+    more_.push_back(std::make_unique<RigidPair>(spline, held, 0.3));
+    cases_.push_back({more_.back().get(), 1, Eigen::Vector2d(0.6, 0.3)});
+  }
+  void Add(const std::shared_ptr<const Surface>& surface, const Eigen::Vector2d& velocity, double turn,
+           const Eigen::Vector2d& about, const Eigen::VectorXd& q, int patch) {
+    const NodeMotion motion = {{0, 1}, Eigen::Vector2d::Zero(), velocity, turn, about};
+    more_.push_back(std::make_unique<RigidPair>(surface, motion, 0.3));
+    cases_.push_back({more_.back().get(), patch, q});
+  }
   // u and s with the entries q of a pair.
   Eigen::VectorXd At(const ContactPair& pair, const Eigen::VectorXd& q) const {
     Eigen::VectorXd x(structure_.NumDofs() + 1);
@@ -25,65 +60,113 @@ class RigidPairs : public testing::Test {
     x[structure_.NumDofs()] = q[q.size() - 1];
     return x;
   }
-  Kinematics Evaluate(const ContactPair& pair, const Eigen::VectorXd& q) const {
-    const Eigen::VectorXd x = At(pair, q);
-    return KinematicsAt(pair, x, x[structure_.NumDofs()]);
+  Kinematics Evaluate(const Case& of, const Eigen::VectorXd& q) const {
+    const Eigen::VectorXd x = At(*of.pair, q);
+    return KinematicsAt(*of.pair, x, x[structure_.NumDofs()], of.patch);
   }
-  Eigen::VectorXd Start(const ContactPair& pair) const { return pair.Local(structure_.Start(), 0.3); }
 
   const Scene scene_ = MovingScene();
   const Structure structure_{scene_};
   const ContactPairs contacts_ = CurvedContacts(structure_);
+  ContactPairs more_;
+  std::vector<Case> cases_;
   Random random_{2};
 };
 
 TEST_F(RigidPairs, GradientsMeetDifferencesAndTheirSparsityIsDeclared) {
-  for (const auto& pair : contacts_) {
-    const Eigen::VectorXd q = Start(*pair);
-    const Kinematics at = Evaluate(*pair, q);
+  for (const Case& of : cases_) {
+    const ContactPair& pair = *of.pair;
+    const Kinematics at = Evaluate(of, of.q);
     const auto values = [&](const Eigen::VectorXd& to) {
-      const Kinematics kinematics = Evaluate(*pair, to);
+      const Kinematics kinematics = Evaluate(of, to);
       return Eigen::Vector2d(kinematics.gap, kinematics.xi);
     };
-    Eigen::MatrixXd gradients(2, q.size());
+    Eigen::MatrixXd gradients(2, of.q.size());
     gradients << at.gap_gradient.transpose(), at.xi_gradient.transpose();
-    EXPECT_TRUE(IsJacobian(values, q, gradients, kDerivativeTolerance, 1e-3));
-    for (std::size_t k = 0; k <= pair->Dofs().size(); ++k) {
-      EXPECT_EQ(pair->MovesGap(k), at.gap_gradient[static_cast<Eigen::Index>(k)] != 0.0);
-      EXPECT_EQ(pair->MovesXi(k), at.xi_gradient[static_cast<Eigen::Index>(k)] != 0.0);
+    EXPECT_TRUE(IsJacobian(values, of.q, gradients, kDerivativeTolerance, 1e-3));
+    for (std::size_t k = 0; k <= pair.Dofs().size(); ++k) {
+      EXPECT_EQ(pair.MovesGap(k), at.gap_gradient[static_cast<Eigen::Index>(k)] != 0.0);
+      EXPECT_EQ(pair.MovesXi(k), at.xi_gradient[static_cast<Eigen::Index>(k)] != 0.0);
     }
-    const Eigen::VectorXd x = At(*pair, q);
-    EXPECT_NEAR(pair->Gap(x, 0.3), at.gap, kRounding);
-    EXPECT_LE(at.gap_gradient.norm(), pair->LargestGapRate());
+    const Eigen::VectorXd x = At(pair, of.q);
+    if (pair.HasPatch(of.patch)) {
+      EXPECT_NEAR(pair.Gap(x, 0.3, of.patch), at.gap, kRounding);
+    }
+    EXPECT_LE(at.gap_gradient.norm(), pair.LargestGapRate());
   }
 }
 
 TEST_F(RigidPairs, HessiansMeetDifferences) {
-  for (const auto& pair : contacts_) {
-    if (!pair->Curved()) continue;
-    const Eigen::VectorXd q = Start(*pair);
-    const Kinematics at = Evaluate(*pair, q);
-    const auto of_gap = [&](const Eigen::VectorXd& to) { return Eigen::VectorXd(Evaluate(*pair, to).gap_gradient); };
-    const auto of_xi = [&](const Eigen::VectorXd& to) { return Eigen::VectorXd(Evaluate(*pair, to).xi_gradient); };
-    EXPECT_TRUE(IsJacobian(of_gap, q, at.gap_hessian, kDerivativeTolerance, 1e-3));
-    EXPECT_TRUE(IsJacobian(of_xi, q, at.xi_hessian, kDerivativeTolerance, 1e-3));
+  for (const Case& of : cases_) {
+    if (!of.pair->Curved()) continue;
+    const Kinematics at = Evaluate(of, of.q);
+    const auto of_gap = [&](const Eigen::VectorXd& to) { return Eigen::VectorXd(Evaluate(of, to).gap_gradient); };
+    const auto of_xi = [&](const Eigen::VectorXd& to) { return Eigen::VectorXd(Evaluate(of, to).xi_gradient); };
+    EXPECT_TRUE(IsJacobian(of_gap, of.q, at.gap_hessian, kDerivativeTolerance, 1e-3));
+    EXPECT_TRUE(IsJacobian(of_xi, of.q, at.xi_hessian, kDerivativeTolerance, 1e-3));
   }
 }
 
 TEST_F(RigidPairs, DerivativesOfHessiansMeetDifferences) {
   constexpr double kRn = 0.7, kRt = -0.4;
-  for (const auto& pair : contacts_) {
-    if (!pair->Curved()) continue;
-    const Eigen::VectorXd q = Start(*pair), x = At(*pair, q);
-    const PairVector direction = random_.Vector(q.size(), -1.0, 1.0);
+  for (const Case& of : cases_) {
+    if (!of.pair->Curved()) continue;
+    const Eigen::VectorXd x = At(*of.pair, of.q);
+    const PairVector direction = random_.Vector(of.q.size(), -1.0, 1.0);
     const auto hessian = [&](const Eigen::VectorXd& h) {
-      const Kinematics at = Evaluate(*pair, q + h[0] * direction);
+      const Kinematics at = Evaluate(of, of.q + h[0] * direction);
       return Entries(kRn * at.gap_hessian + kRt * at.xi_hessian);
     };
     PairMatrix derivative;
-    pair->HessianDerivative(x, 0.3, kRn, kRt, direction, &derivative);
+    of.pair->HessianDerivative(x, 0.3, of.patch, kRn, kRt, direction, &derivative);
     EXPECT_TRUE(IsJacobian(hessian, Eigen::VectorXd::Zero(1), Entries(derivative), kDerivativeTolerance, 1e-3));
   }
+}
+
+// A node that turns with its obstacle stays where it is on the surface.
+TEST_F(RigidPairs, WhatTurnsAndMovesWithTheObstacleStaysOnItsSurface) {
+  const Eigen::Vector2d velocity(0.3, -0.2), about(0.4, 0.9), place(0.7, 0.6);
+  const std::shared_ptr<const Surface> spline = MakeSpline({{-1.0, 0.2}, {0.1, 0.4}, {0.8, 0.1}, {2.0, 0.5}}, false);
+  const RigidPair pair(spline, {{0, 1}, Eigen::Vector2d::Zero(), velocity, 0.5, about}, 0.3);
+  const int patch = pair.PatchAt(place, 0.0);
+  for (const double s : {-3.0, 1.0, 20.0}) {
+    const Eigen::Vector2d arm = place - about;
+    const double c = std::cos(0.5 * s), r = std::sin(0.5 * s);
+    const Eigen::VectorXd u =
+        about + Eigen::Vector2d(c * arm.x() - r * arm.y(), r * arm.x() + c * arm.y()) + s * velocity;
+    EXPECT_EQ(pair.PatchAt(u, s), patch);
+    EXPECT_NEAR(pair.Gap(u, s, patch), pair.Gap(place, 0.0, patch), kRounding);
+    EXPECT_NEAR(pair.Xi(u, s, patch), pair.Xi(place, 0.0, patch), kRounding);
+  }
+}
+
+// Before the first patch and after the last one there is nothing to touch, and the end is what is near.
+TEST_F(RigidPairs, PastTheEndsOfAnOpenSurfaceTheGapIsTheDistanceFromTheEnd) {
+  const std::shared_ptr<const Surface> line = MakePolyline({{0.0, 0.0}, {1.0, 0.0}, {3.0, 1.0}}, false, 0.2);
+  const RigidPair pair(line, {{0, 1}, Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()}, 0.3);
+  EXPECT_TRUE(pair.HasPatches());
+  const Eigen::VectorXd before = Eigen::Vector2d(-0.3, 0.4), on = Eigen::Vector2d(0.3, 0.4),
+                        past = Eigen::Vector2d(3.3, 1.4);
+  EXPECT_EQ(pair.PatchAt(before, 0.0), -1);
+  EXPECT_EQ(pair.PatchAt(on, 0.0), 0);
+  EXPECT_EQ(pair.PatchAt(past, 0.0), 3);
+  EXPECT_FALSE(pair.HasPatch(-1) || pair.HasPatch(3));
+  EXPECT_NEAR(pair.Gap(before, 0.0, -1), 0.5, kRounding);
+  EXPECT_NEAR(pair.Gap(on, 0.0, 0), 0.4, kRounding);
+  EXPECT_NEAR(pair.Gap(past, 0.0, 3), 0.5, kRounding);
+  EXPECT_NEAR(pair.Xi(before, 0.0, -1), -0.3, kRounding);
+  EXPECT_EQ(pair.RangeOf(-1).end, pair.RangeOf(0).begin);
+  EXPECT_EQ(pair.RangeOf(3).begin, pair.RangeOf(2).end);
+  EXPECT_TRUE(std::isinf(pair.RangeOf(-1).begin) && std::isinf(pair.RangeOf(3).end));
+}
+
+TEST_F(RigidPairs, SlipRunsOnOverPatches) {
+  const std::shared_ptr<const Surface> line = MakePolyline({{0.0, 0.0}, {1.0, 0.0}, {3.0, 1.0}}, false, 0.2);
+  const RigidPair pair(line, {{0, 1}, Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()}, 0.3);
+  const Eigen::VectorXd from = Eigen::Vector2d(0.2, 0.0), to = Eigen::Vector2d(2.0, 0.5);
+  const double turn = std::atan(0.5), cut = 0.2 * std::tan(0.5 * turn);
+  EXPECT_NEAR(pair.Slip(from, 0.0, 0, to - from, 0.0, 2), 0.8 + std::hypot(1.0, 0.5) - 2.0 * cut + 0.2 * turn,
+              kRounding);
 }
 
 // A node that slides on a disc from its top by a quarter of a circle at the distance g.
@@ -91,18 +174,18 @@ TEST(RigidPair, OfADiscHasTheClosedForm) {
   const auto disc = std::make_shared<Disc>(Eigen::Vector2d(1.0, 2.0), 0.5);
   const RigidPair pair(disc, {{0, 1}, Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()}, 0.3);
   const Eigen::VectorXd top = Eigen::Vector2d(1.0, 2.75), right = Eigen::Vector2d(1.75, 2.0);
-  EXPECT_NEAR(pair.Gap(top, 0.0), 0.25, kRounding);
-  EXPECT_NEAR(pair.Gap(right, 0.0), 0.25, kRounding);
-  EXPECT_NEAR(pair.Slip(top, 0.0, right - top, 0.0), 0.5 * std::acos(-1.0) / 2.0, kRounding);
+  EXPECT_NEAR(pair.Gap(top, 0.0, 0), 0.25, kRounding);
+  EXPECT_NEAR(pair.Gap(right, 0.0, 0), 0.25, kRounding);
+  EXPECT_NEAR(pair.Slip(top, 0.0, 0, right - top, 0.0, 0), 0.5 * std::acos(-1.0) / 2.0, kRounding);
   // The foot moves slower than the node, by the ratio of the radii.
-  EXPECT_NEAR(pair.SlipRate(top, 0.0, Eigen::Vector2d(1.0, 0.0), 0.0), 0.5 / 0.75, kRounding);
+  EXPECT_NEAR(pair.SlipRate(top, 0.0, 0, Eigen::Vector2d(1.0, 0.0), 0.0), 0.5 / 0.75, kRounding);
 }
 
 TEST(RigidPair, XiIsMeasuredFromTheReference) {
   const RigidPair pair(std::make_shared<HalfPlane>(Eigen::Vector2d(0.0, 1.0), Eigen::Vector2d(0.0, 2.0)),
                        {{0, -1}, {7.0, 1.25}, Eigen::Vector2d::Zero()}, 0.3);
   Kinematics at;
-  pair.Evaluate(Eigen::VectorXd::Constant(1, 3.0), 0.0, 2.5, &at);
+  pair.Evaluate(Eigen::VectorXd::Constant(1, 3.0), 0.0, 0, 2.5, &at);
   EXPECT_EQ(at.xi, 0.5);
   EXPECT_EQ(at.gap, 0.25);
   EXPECT_EQ(pair.Dofs(), std::vector<int>{0});

@@ -252,7 +252,7 @@ TEST_F(MixedSystem, InequalitiesOfEachStateAndTheirValues) {
   const PathPoint point = RandomPoint();
   const Eigen::VectorXd x = system_.Pack(point);
   const auto slip = [&](std::size_t i) {
-    return contacts_[i]->Xi(point.u, point.s) - reference_[static_cast<Eigen::Index>(i)];
+    return contacts_[i]->Xi(point.u, point.s, 0) - reference_[static_cast<Eigen::Index>(i)];
   };
   struct Expected {
     int contact;
@@ -267,8 +267,8 @@ TEST_F(MixedSystem, InequalitiesOfEachStateAndTheirValues) {
                                           {2, Inequality::kSlip, slip(2)},
                                           {3, Inequality::kNormalReaction, point.rn[3]},
                                           {3, Inequality::kSlip, -slip(3)},
-                                          {4, Inequality::kGap, contacts_[4]->Gap(point.u, point.s)},
-                                          {5, Inequality::kGap, contacts_[5]->Gap(point.u, point.s)}};
+                                          {4, Inequality::kGap, contacts_[4]->Gap(point.u, point.s, 0)},
+                                          {5, Inequality::kGap, contacts_[5]->Gap(point.u, point.s, 0)}};
   const std::vector<Constraint> limits = system_.Inequalities();
   ASSERT_EQ(limits.size(), expected.size());
   for (std::size_t k = 0; k < limits.size(); ++k) {

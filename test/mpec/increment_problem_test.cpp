@@ -221,7 +221,7 @@ TEST(CurvedProblem, DerivativesMeetDifferences) {
   // Slip and gaps are those of the point that the variables stand for.
   const Eigen::VectorXd x = random.Vector(problem.NumVariables(), 0.1, 1.0), values = ConstraintsOf(problem, x);
   const PathPoint point = problem.Point(x);
-  EXPECT_NEAR(values[8], contacts[0]->Gap(point.u, point.s) / 0.05, 1e-12);
+  EXPECT_NEAR(values[8], contacts[0]->Gap(point.u, point.s, 0) / 0.05, 1e-12);
 }
 
 TEST_P(MixedProblem, StructuresNameEachPlaceOnce) {
@@ -284,7 +284,7 @@ TEST_P(MixedProblem, StandingStillKeepsTheFrictionLaw) {
   Eigen::Index row = 6;
   for (const int contact : GetParam()) {
     const ContactPair& pair = *contacts_[static_cast<std::size_t>(contact)];
-    const double gap = pair.Gap(from_.u, from_.s) / goal_.length, rn = from_.rn[contact] / goal_.length;
+    const double gap = pair.Gap(from_.u, from_.s, 0) / goal_.length, rn = from_.rn[contact] / goal_.length;
     EXPECT_NEAR(values[row], gap, 10.0 * kRounding);
     EXPECT_NEAR(values[row + 1], gap * rn, 100.0 * kRounding);
     row += 2;
@@ -331,7 +331,7 @@ TEST_P(MixedProblem, GrowthShortensTheAimAndDissipationTurnsItAgainstTheReaction
   for (const int contact : GetParam()) {
     const ContactPair& pair = *contacts_[static_cast<std::size_t>(contact)];
     if (!pair.Frictional()) continue;
-    power += from_.rt[contact] * pair.Slip(from_.u, from_.s, against.head(6) - from_.u, 0.0);
+    power += from_.rt[contact] * pair.Slip(from_.u, from_.s, 0, against.head(6) - from_.u, 0.0, 0);
     friction += std::abs(from_.rt[contact]);
   }
   if (friction > 0.0) {

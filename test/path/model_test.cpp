@@ -90,7 +90,7 @@ TEST(Model, StructureAndContactsAreOfTheScaledScene) {
   EXPECT_NEAR(point.u[0], -std::sqrt(0.5), kRounding);  // -5 over the length of the bar
   Eigen::VectorXd lifted = point.u;
   lifted[1] += 1.0;
-  EXPECT_NEAR(model.contacts[0]->Gap(lifted, 0.0), 1.0, kRounding);
+  EXPECT_NEAR(model.contacts[0]->Gap(lifted, 0.0, 0), 1.0, kRounding);
 }
 
 }  // namespace

@@ -9,9 +9,9 @@
 namespace contact_path {
 
 // With xi measured from 0.
-inline Kinematics KinematicsAt(const ContactPair& pair, const Eigen::VectorXd& u, double s) {
+inline Kinematics KinematicsAt(const ContactPair& pair, const Eigen::VectorXd& u, double s, int patch = 0) {
   Kinematics kinematics;
-  pair.Evaluate(u, s, 0.0, &kinematics);
+  pair.Evaluate(u, s, patch, 0.0, &kinematics);
   return kinematics;
 }
 

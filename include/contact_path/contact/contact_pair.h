@@ -11,6 +11,7 @@
 
 #include "contact_path/contact/kinematics.h"
 #include "contact_path/contact/path_point.h"
+#include "contact_path/geometry/surface.h"
 
 namespace contact_path {
 
@@ -28,32 +29,46 @@ class ContactPair {
   // A power of 2 up to 1, of the order of the forces across the surface where the parts at the node are far softer than
   // the structure as a whole: reactions are compared with tolerances times this force.
   double ForceUnit() const { return traits_.force_unit; }
+  // Whether the surface has patches with ends, and not one patch without ends.
+  bool HasPatches() const { return traits_.has_patches; }
   // Whether Hessians can be other than zero.
   bool Curved() const { return traits_.curved; }
   // Whether the gradient of the gap, of xi, can be other than zero in the entry k of q: their sparsity.
   bool MovesGap(std::size_t k) const { return traits_.moves_gap[k]; }
   bool MovesXi(std::size_t k) const { return traits_.moves_xi[k]; }
-  // An upper bound of |d u_n| over |(du, ds)|.
+  // An upper bound of |d u_n| over |(du, ds)|; infinite where there is none.
   double LargestGapRate() const { return traits_.largest_gap_rate; }
 
-  // u: may have more entries than dofs. reference: the value of xi from which xi is measured.
-  virtual void Evaluate(const Eigen::VectorXd& u, double s, double reference, Kinematics* kinematics) const = 0;
-  // The gap alone.
-  virtual double Gap(const Eigen::VectorXd& u, double s) const = 0;
+  // u: may have more entries than dofs. patch: of the surface, prolonged beyond its ends (geometry/surface.h).
+  // reference: the value of xi from which xi is measured.
+  virtual void Evaluate(const Eigen::VectorXd& u, double s, int patch, double reference,
+                        Kinematics* kinematics) const = 0;
+  // The gap alone. Where the surface does not have such a patch, since the node is past an end of it: the distance from
+  // that end.
+  virtual double Gap(const Eigen::VectorXd& u, double s, int patch) const = 0;
+  // Where the surface is nearest. Of a surface without patches the distance is the gap with its sign.
+  virtual NearestFoot Nearest(const Eigen::VectorXd& u, double s) const = 0;
+  // The patch where the surface is nearest; past an end of an open surface the number before the first patch, or after
+  // the last one.
+  virtual int PatchAt(const Eigen::VectorXd& u, double s) const = 0;
+  virtual bool HasPatch(int patch) const = 0;
+  // Of xi, measured from 0; past the ends of an open surface infinite on one side.
+  virtual XiRange RangeOf(int patch) const = 0;
   // *derivative = d/dh of the matrix r_n hess u_n + r_t hess xi along q + h direction at h = 0: m + 1 square,
   // symmetric. Asked of curved pairs only.
-  virtual void HessianDerivative(const Eigen::VectorXd& u, double s, double rn, double rt, const PairVector& direction,
-                                 PairMatrix* derivative) const = 0;
+  virtual void HessianDerivative(const Eigen::VectorXd& u, double s, int patch, double rn, double rt,
+                                 const PairVector& direction, PairMatrix* derivative) const = 0;
 
   // d2/dh2 of the force r_n grad u_n + r_t grad xi along q + h direction at h = 0, by q; r_n and r_t do not change.
-  PairVector SecondDirectional(const Eigen::VectorXd& u, double s, double rn, double rt,
+  PairVector SecondDirectional(const Eigen::VectorXd& u, double s, int patch, double rn, double rt,
                                const PairVector& direction) const;
   // xi, measured from 0.
-  double Xi(const Eigen::VectorXd& u, double s) const;
+  double Xi(const Eigen::VectorXd& u, double s, int patch) const;
   // grad xi . (du, ds) at (u, s).
-  double SlipRate(const Eigen::VectorXd& u, double s, const Eigen::VectorXd& du, double ds) const;
-  // Change of xi from (u, s) to (u + du, s + ds).
-  double Slip(const Eigen::VectorXd& u, double s, const Eigen::VectorXd& du, double ds) const;
+  double SlipRate(const Eigen::VectorXd& u, double s, int patch, const Eigen::VectorXd& du, double ds) const;
+  // Change of xi from (u, s) on a patch to (u + du, s + ds) on another one, or the same.
+  double Slip(const Eigen::VectorXd& u, double s, int patch, const Eigen::VectorXd& du, double ds,
+              int patch_after) const;
 
   // The entries of (u, s) that belong to the pair.
   PairVector Local(const Eigen::VectorXd& u, double s) const;
@@ -68,6 +83,7 @@ class ContactPair {
     std::vector<int> dofs;
     double friction = 0.0;
     double force_unit = 1.0;
+    bool has_patches = false;
     bool curved = false;
     Terms moves_gap, moves_xi;
     double largest_gap_rate = 1.0;
@@ -85,7 +101,7 @@ using ContactPairs = std::vector<std::unique_ptr<const ContactPair>>;
 // Largest of all |r_n| and |r_t|, in the force unit of the contact.
 double LargestReaction(const ContactPairs& contacts, const PathPoint& point);
 
-// xi of all candidates, measured from 0.
+// xi of all candidates on the patches of the point, measured from 0.
 Eigen::VectorXd SurfaceCoordinates(const ContactPairs& contacts, const PathPoint& point);
 
 }  // namespace contact_path

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 #include "contact_path/contact/contact_state.h"
@@ -17,6 +18,9 @@ struct PathPoint {
   Eigen::VectorXd rn;                // normal reactions, by candidate
   Eigen::VectorXd rt;                // tangential reactions, by candidate
   std::vector<ContactState> states;  // on the arc of path that ends here, by candidate
+  std::vector<int> patches = {};     // of the surface, where the node is, by candidate; empty = all 0
+
+  int Patch(std::size_t candidate) const { return patches.empty() ? 0 : patches[candidate]; }
 };
 
 // Length of the increment between two points in (u, s): the norm of arc length.

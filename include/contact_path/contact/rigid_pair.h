@@ -11,15 +11,20 @@
 
 namespace contact_path {
 
-// The position of the node, as the obstacle sees it: x = (dofs, or where a component is held its place) - velocity s.
+// The position of the node, p = (dofs, or where a component is held its place), as the obstacle sees it, which has been
+// turned about a point a by the angle turn s and then moved by velocity s:
+//   x = a + R(-turn s) (p - a - velocity s), R(angle) a rotation counterclockwise; without a turn x = p - velocity s.
 struct NodeMotion {
   std::array<int, 2> dofs = {-1, -1};                  // of x and y, ascending; -1 = held
   Eigen::Vector2d held = Eigen::Vector2d::Zero();      // positions of what is held [length]
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  // of the obstacle [length] per unit of the load factor
+  double turn = 0.0;                                   // of the obstacle [rad] per unit of the load factor
+  Eigen::Vector2d about = Eigen::Vector2d::Zero();     // a, before the obstacle has moved [length]
 };
 
-// gap(q) and xi(q) are the values of the surface at x(q), which is affine: derivatives by x come from the projection
-// (geometry/projection.h), derivatives by q follow by the chain rule. Of a flat surface everything but the values is constant.
+// gap(q) and xi(q) are the values of the surface at x(q): derivatives by x come from the projection
+// (geometry/projection.h), derivatives by q follow by the chain rule. Without a turn x(q) is affine, and of a flat
+// surface everything but the values is constant.
 class RigidPair : public ContactPair {
  public:
   // friction: mu; 0 where the node cannot slide (scene/can_slide.h).
@@ -27,19 +32,30 @@ class RigidPair : public ContactPair {
   RigidPair(std::shared_ptr<const Surface> surface, const NodeMotion& motion, double friction,
             const Eigen::VectorXd& force_bounds = Eigen::VectorXd());
 
-  void Evaluate(const Eigen::VectorXd& u, double s, double reference, Kinematics* kinematics) const override;
-  double Gap(const Eigen::VectorXd& u, double s) const override;
-  void HessianDerivative(const Eigen::VectorXd& u, double s, double rn, double rt, const PairVector& direction,
-                         PairMatrix* derivative) const override;
+  void Evaluate(const Eigen::VectorXd& u, double s, int patch, double reference, Kinematics* kinematics) const override;
+  double Gap(const Eigen::VectorXd& u, double s, int patch) const override;
+  NearestFoot Nearest(const Eigen::VectorXd& u, double s) const override;
+  int PatchAt(const Eigen::VectorXd& u, double s) const override;
+  bool HasPatch(int patch) const override { return surface_->HasPatch(patch); }
+  XiRange RangeOf(int patch) const override;
+  void HessianDerivative(const Eigen::VectorXd& u, double s, int patch, double rn, double rt,
+                         const PairVector& direction, PairMatrix* derivative) const override;
 
  private:
   using Motion = Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, 3>;
 
+  // x(q), or its derivatives by s: so often differentiates the rotation.
+  struct Frame;
+
   Eigen::Vector2d Position(const Eigen::VectorXd& u, double s) const;
+  // A patch that the surface has: past its ends the first or the last one.
+  int NearestKnown(int patch) const;
 
   std::shared_ptr<const Surface> surface_;
   Eigen::Vector2d held_;
-  Motion motion_;  // dx/dq
+  Motion motion_;  // dx/dq, without the turn
+  double turn_;
+  Eigen::Vector2d about_;
   // Of a flat surface: offset + gradient . q.
   double gap_offset_ = 0.0, xi_offset_ = 0.0;
   PairVector gap_gradient_, xi_gradient_;

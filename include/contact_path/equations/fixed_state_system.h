@@ -42,8 +42,9 @@ class FixedStateSystem {
   // Both must outlive the system.
   FixedStateSystem(const Structure& structure, const ContactPairs& contacts);
 
-  // states, reference (xi_ref): by candidate.
-  void SetStates(const std::vector<ContactState>& states, const Eigen::VectorXd& reference);
+  // states, reference (xi_ref), patches of the surfaces: by candidate; no patches: all are 0.
+  void SetStates(const std::vector<ContactState>& states, const Eigen::VectorXd& reference,
+                 const std::vector<int>& patches = {});
   void SetActive(const std::vector<Constraint>& constraints);
   void FixLoadFactor(double value);
   void FreeLoadFactor();
@@ -55,6 +56,7 @@ class FixedStateSystem {
   const std::vector<std::size_t>& Touching() const { return touching_; }  // candidates that are not open, ascending
 
   Eigen::VectorXd Pack(const PathPoint& point) const;
+  // Open contacts are on the patches that are nearest.
   PathPoint Unpack(const Eigen::VectorXd& x) const;
 
   // residual: NumEquations(). Not finite where an element is singular.
@@ -143,11 +145,13 @@ class FixedStateSystem {
   const ContactPairs& contacts_;
   double residual_unit_ = 1.0;  // the largest
   std::vector<ContactState> states_;
+  std::vector<int> patches_;
   Eigen::VectorXd reference_;
   std::vector<Constraint> active_;
   bool load_factor_fixed_ = false;
   double load_factor_ = 0.0;
 
+  std::vector<std::size_t> with_patches_;  // candidates
   std::vector<std::size_t> touching_;
   std::vector<Eigen::Index> rn_unknown_;  // by candidate, -1 = none
   std::vector<Eigen::Index> rt_unknown_;

@@ -39,6 +39,9 @@ struct Model {
   // By check/, of `now` reached from `before`.
   Residuals Check(const PathPoint& before, const PathPoint& now) const;
 
+  // Puts each candidate on the patch of its surface that is nearest.
+  void NotePatches(PathPoint* point) const;
+
   const Scene scene;       // as the user wrote it
   const SceneIndex index;  // of the scene: the scaled one has the same names
   const Configuration configuration;
