@@ -106,7 +106,7 @@ contact_path_add_stage(contact contact_pair_test contact_state_test path_point_t
 contact_path_add_stage(equations fixed_state_system_test nearest_point_test)
 contact_path_add_stage(mpec increment_problem_test increment_solver_test ipopt_solver_test short_increment_test)
 contact_path_add_stage(branch arc_step_test branch_choices_test branch_order_test crossing_test curved_surface_test
-  gauss_rule_test pivoting_test plane_tangents_test polynomial_test rate_problem_test reaction_redistribution_test
+  gauss_rule_test patches_test pivoting_test plane_tangents_test polynomial_test rate_problem_test reaction_redistribution_test
   redundant_contacts_test smooth_arc_test state_options_test tangents_test test_functions_test)
 if(NOT CONTACT_PATH_SANITIZE)
   # It counts allocations, in place of the allocator that a sanitizer brings.

@@ -72,6 +72,9 @@ inline constexpr double kActiveShareOfReactions = 1e-7;
 inline constexpr double kActiveRoundingOfLoads = 1e-14;
 // Scaled gap: the candidate touches at the start. Wider than kActiveGap, since coordinates of scenes are rounded.
 inline constexpr double kTouchingAtStart = 1e-9;
+// Scaled length by which an open contact is beyond the end of a patch where the next patch takes over: the gap is then
+// wrong by the square of it.
+inline constexpr double kBeyondPatch = 1e-9;
 // Scaled value of an inequality between the ends of a step: less below zero is rounding of the interpolation.
 inline constexpr double kBrokenOnStep = 1e-11;
 // Scaled reaction, or margin to the friction cone, at a located point where another path crosses: less below zero is

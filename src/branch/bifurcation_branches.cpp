@@ -27,6 +27,7 @@ std::vector<Branch> BifurcationBranches(SmoothArc* arc, const ContactPairs& cont
   const auto branch_along = [&](const Eigen::VectorXd& first, const Eigen::VectorXd& second) {
     Branch branch;
     branch.states = system.states();
+    branch.patches = point.patches;
     branch.direction = first.head(motion);
     branch.first = first;
     branch.second = second;

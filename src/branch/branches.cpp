@@ -12,6 +12,7 @@
 #include "contact_path/branch/redundant_contacts.h"
 #include "contact_path/branch/state_options.h"
 #include "contact_path/branch/tangents.h"
+#include "contact_path/contact/contact_mode.h"
 #include "contact_path/equations/fixed_state_system.h"
 #include "contact_path/linear/bordered_solver.h"
 #include "contact_path/tolerances.h"
@@ -28,6 +29,18 @@ constexpr double kMostCombinations = 4096.0;         // 4^6
 constexpr double kMostIfNone = 65536.0;              // 4^8: tried before the path is said to end
 
 using States = std::vector<ContactState>;
+using Options = std::vector<ContactModes>;  // of each candidate
+
+// The modes with these states: the first options of each candidate that have them.
+ContactModes ModesWith(const States& states, const Options& options, const PathPoint& point) {
+  ContactModes modes;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const auto found = std::find_if(options[i].begin(), options[i].end(),
+                                    [&](const ContactMode& option) { return option.state == states[i]; });
+    modes.push_back(found != options[i].end() ? *found : ContactMode{states[i], point.Patch(i)});
+  }
+  return modes;
+}
 
 // Of two unit vectors [rad].
 double AngleTo(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
@@ -36,10 +49,11 @@ double AngleTo(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
 
 class Finder {
  public:
-  Finder(const Structure& structure, const ContactPairs& contacts, const PathPoint& point, const Arrival& arrival,
-         const ActiveSetTolerance& limit, const std::function<bool()>& cancelled)
+  Finder(const Structure& structure, const ContactPairs& contacts, const PathPoint& point, const Options& options,
+         const Arrival& arrival, const ActiveSetTolerance& limit, const std::function<bool()>& cancelled)
       : contacts_(contacts),
         point_(point),
+        options_(options),
         arrival_(arrival),
         tolerance_(limit),
         cancelled_(cancelled),
@@ -47,11 +61,11 @@ class Finder {
         system_(structure, contacts),
         reference_(SurfaceCoordinates(contacts, point)) {}
 
-  // Adds the branches with these states.
-  void Try(const States& states, std::vector<Branch>* branches) {
-    if (redundant_.Among(states)) return;
+  // Adds the branches with these modes.
+  void Try(const ContactModes& modes, std::vector<Branch>* branches) {
+    if (redundant_.Among(StatesOf(modes))) return;
     Eigen::VectorXd x;
-    const Tangents tangents = TangentsOf(states, &x);
+    const Tangents tangents = TangentsOf(modes, &x);
     for (std::size_t k = 0; k < tangents.first.size(); ++k)
       for (const double sign : {1.0, -1.0}) {
         const Eigen::VectorXd first = sign * tangents.first[k];
@@ -88,9 +102,9 @@ class Finder {
  private:
   Eigen::Index NumMotion() const { return system_.NumDofs() + 1; }
 
-  // The system takes on these states; *x: the point.
-  Tangents TangentsOf(const States& states, Eigen::VectorXd* x) {
-    system_.SetStates(states, reference_, point_.patches);
+  // The system takes on these modes; *x: the point.
+  Tangents TangentsOf(const ContactModes& modes, Eigen::VectorXd* x) {
+    system_.SetStates(StatesOf(modes), reference_, PatchesOf(modes));
     *x = system_.Pack(point_);
     Tangents tangents = FindTangents(*x, arrival_.direction, arrival_.singular, &system_, &solvers_);
     rigid_modes_ = std::max(rigid_modes_, tangents.rigid_modes);
@@ -101,7 +115,7 @@ class Finder {
   std::optional<std::vector<Constraint>> Broken(const States& states, double sign) {
     if (Cancelled()) return std::nullopt;
     Eigen::VectorXd x;
-    const Tangents tangents = TangentsOf(states, &x);
+    const Tangents tangents = TangentsOf(ModesWith(states, options_, point_), &x);
     if (tangents.first.empty()) return std::nullopt;
     const double along = tangents.first[0].head(NumMotion()).dot(arrival_.direction);
     const Eigen::VectorXd first = (along < 0.0 ? -sign : sign) * tangents.first[0];
@@ -220,6 +234,7 @@ class Finder {
            const Eigen::VectorXd& second, std::vector<Branch>* branches) const {
     Branch branch;
     branch.states = system_.states();
+    if (!point_.patches.empty()) branch.patches = system_.patches();
     branch.mechanism = tangents.mechanism;
     branch.singular = tangents.rests;
     branch.rests = tangents.rests || first.head(NumMotion() - 1).norm() <= tolerances::kRate;
@@ -242,6 +257,7 @@ class Finder {
 
   const ContactPairs& contacts_;
   const PathPoint& point_;
+  const Options& options_;
   const Arrival& arrival_;
   ActiveSetTolerance tolerance_;
   const std::function<bool()>& cancelled_;
@@ -254,18 +270,18 @@ class Finder {
 };
 
 // Every combination of the options: an odometer, the last contact turning fastest.
-void TryAll(const std::vector<States>& options, const RateProblem* condensed, Finder* finder, BranchSet* result) {
-  States states;
-  for (const States& option : options) states.push_back(option.front());
+void TryAll(const Options& options, const RateProblem* condensed, Finder* finder, BranchSet* result) {
+  ContactModes modes;
+  for (const ContactModes& option : options) modes.push_back(option.front());
   std::vector<std::size_t> digits(options.size(), 0);
   bool turned = true;
   while (turned && !finder->Cancelled()) {
-    if (condensed == nullptr || !finder->Excluded(states, *condensed)) finder->Try(states, &result->branches);
+    if (condensed == nullptr || !finder->Excluded(StatesOf(modes), *condensed)) finder->Try(modes, &result->branches);
     ++result->combinations;
     turned = false;
     for (std::size_t i = options.size(); i-- > 0 && !turned;) {
       digits[i] = (digits[i] + 1) % options[i].size();
-      states[i] = options[i][digits[i]];
+      modes[i] = options[i][digits[i]];
       turned = digits[i] != 0;
     }
   }
@@ -273,23 +289,27 @@ void TryAll(const std::vector<States>& options, const RateProblem* condensed, Fi
 
 // Where there are too many combinations: principal pivoting from several first guesses, and the further candidates.
 // Each result is tried like any other combination.
-void TryLikely(const std::vector<States>& options, const PathPoint& point, const Arrival& arrival,
-               const RateProblem* condensed, const FurtherStates& further, Finder* finder, BranchSet* result) {
+void TryLikely(const Options& options, const PathPoint& point, const Arrival& arrival, const RateProblem* condensed,
+               const FurtherStates& further, Finder* finder, BranchSet* result) {
   std::vector<States> guesses;
   for (const ContactState preferred : {ContactState::kOpen, ContactState::kStick, ContactState::kSlipPlus,
                                        ContactState::kSlipMinus, ContactState::kClosed}) {
     States guess;
-    for (const States& option : options)
-      guess.push_back(std::find(option.begin(), option.end(), preferred) != option.end() ? preferred : option.front());
+    for (const ContactModes& option : options) {
+      const bool has =
+          std::any_of(option.begin(), option.end(), [&](const ContactMode& mode) { return mode.state == preferred; });
+      guess.push_back(has ? preferred : option.front().state);
+    }
     guesses.push_back(std::move(guess));
   }
   States natural;
-  for (const States& option : options) natural.push_back(option.front());
+  for (const ContactModes& option : options) natural.push_back(option.front().state);
   guesses.insert(guesses.begin(), natural);
   std::set<States> tried;
   const auto attempt = [&](const States& states) {
     if (finder->Cancelled() || !tried.insert(states).second) return;
-    if (condensed == nullptr || !finder->Excluded(states, *condensed)) finder->Try(states, &result->branches);
+    if (condensed == nullptr || !finder->Excluded(states, *condensed))
+      finder->Try(ModesWith(states, options, point), &result->branches);
     ++result->combinations;
   };
   const auto pivot_from = [&](const States& guess) {
@@ -302,10 +322,10 @@ void TryLikely(const std::vector<States>& options, const PathPoint& point, const
   if (condensed != nullptr && result->weakly_active <= kMostRestarts) {
     for (const States& found : std::set<States>(tried))
       for (std::size_t i = 0; i < options.size(); ++i)
-        for (const ContactState other : options[i]) {
-          if (other == found[i]) continue;
+        for (const ContactMode& other : options[i]) {
+          if (other.state == found[i]) continue;
           States guess = found;
-          guess[i] = other;
+          guess[i] = other.state;
           pivot_from(guess);
         }
   }
@@ -318,23 +338,27 @@ BranchSet BranchesWithReactions(const Structure& structure, const ContactPairs& 
                                 const Arrival& arrival, const ActiveSetTolerance& limit, const FurtherStates& further,
                                 const std::function<bool()>& cancelled) {
   BranchSet result;
-  std::vector<States> options;
+  Options options;
   States natural;
   std::vector<int> weakly_active;
   double combinations = 1.0;
+  bool between_patches = false;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     options.push_back(StateOptions(*contacts[i], point, i, limit));
-    natural.push_back(options[i].front());
+    natural.push_back(options[i].front().state);
+    for (const ContactMode& option : options[i])
+      between_patches = between_patches || (contacts[i]->HasPatches() && option.patch != point.Patch(i));
     combinations *= static_cast<double>(options[i].size());
     if (options[i].size() > 1) weakly_active.push_back(static_cast<int>(i));
   }
   result.weakly_active = static_cast<int>(weakly_active.size());
-  Finder finder(structure, contacts, point, arrival, limit, cancelled);
-  // Where another path crosses, rates are not unique, and every combination is looked at as a whole.
+  Finder finder(structure, contacts, point, options, arrival, limit, cancelled);
+  // Where another path crosses, rates are not unique, and every combination is looked at as a whole; so it is where
+  // patches meet, whose curvatures differ.
   std::optional<RateProblem> problem;
   const double entries = static_cast<double>(point.u.size()) * static_cast<double>(2 * weakly_active.size() + 1);
   const double few = point.u.size() < BorderedSolver::kLargeSystem ? kFewCombinations : 1.0;
-  if (combinations > few && weakly_active.size() <= kMostCondensedContacts && !arrival.singular &&
+  if (combinations > few && weakly_active.size() <= kMostCondensedContacts && !arrival.singular && !between_patches &&
       entries <= kMostCondensed)
     problem.emplace(structure, contacts, point, natural, weakly_active, arrival.direction);
   const RateProblem* condensed = problem && problem->regular() ? &*problem : nullptr;
@@ -347,7 +371,8 @@ BranchSet BranchesWithReactions(const Structure& structure, const ContactPairs& 
     TryAll(options, condensed, &finder, &result);
     result.complete = true;
   }
-  if (result.branches.empty() && condensed != nullptr) finder.Try(natural, &result.branches);  // for its rigid modes
+  if (result.branches.empty() && condensed != nullptr)
+    finder.Try(ModesWith(natural, options, point), &result.branches);  // for its rigid modes
   result.rigid_modes = finder.rigid_modes();
   result.cancelled = finder.Cancelled();
   return result;

@@ -6,14 +6,17 @@ namespace {
 constexpr int kBlockPivots = 20;
 constexpr int kSinglePivots = 200;
 
-// The state that a contact takes on where the rate of the constraint is negative.
-ContactState Next(const Constraint& constraint, const ContactPair& contact) {
+// The state that a contact takes on where the rate of the constraint is negative. At the end of a patch it is another
+// patch, and no other state, that is wanted.
+ContactState Next(const Constraint& constraint, const ContactPair& contact, ContactState now) {
   switch (constraint.inequality) {
     case Inequality::kGap: return contact.Frictional() ? ContactState::kStick : ContactState::kClosed;
     case Inequality::kNormalReaction: return ContactState::kOpen;
     case Inequality::kConePlus: return ContactState::kSlipPlus;
     case Inequality::kConeMinus: return ContactState::kSlipMinus;
     case Inequality::kSlip: return ContactState::kStick;
+    case Inequality::kPatchBegin:
+    case Inequality::kPatchEnd: return now;
   }
   return ContactState::kOpen;
 }
@@ -29,7 +32,7 @@ std::optional<std::vector<ContactState>> Pivot(const ContactPairs& contacts, std
     if (round >= kBlockPivots) broken->resize(1);
     for (const Constraint& constraint : *broken) {
       const auto i = static_cast<std::size_t>(constraint.contact);
-      states[i] = Next(constraint, *contacts[i]);
+      states[i] = Next(constraint, *contacts[i], states[i]);
     }
   }
   return std::nullopt;

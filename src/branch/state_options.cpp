@@ -3,9 +3,10 @@
 #include <algorithm>
 
 namespace contact_path {
+namespace {
 
-std::vector<ContactState> StateOptions(const ContactPair& contact, const PathPoint& point, std::size_t candidate,
-                                       const ActiveSetTolerance& tolerance) {
+std::vector<ContactState> States(const ContactPair& contact, const PathPoint& point, std::size_t candidate,
+                                 const ActiveSetTolerance& tolerance) {
   const auto k = static_cast<Eigen::Index>(candidate);
   const double gap = contact.Gap(point.u, point.s, point.Patch(candidate)), rn = point.rn[k], rt = point.rt[k];
   if (gap > tolerance.gap) return {ContactState::kOpen};
@@ -25,6 +26,33 @@ std::vector<ContactState> StateOptions(const ContactPair& contact, const PathPoi
   const auto natural = std::find(options.begin(), options.end(), point.states[candidate]);
   if (natural != options.end()) std::rotate(options.begin(), natural, natural + 1);
   return options;
+}
+
+}  // namespace
+
+ContactModes StateOptions(const ContactPair& contact, const PathPoint& point, std::size_t candidate,
+                          const ActiveSetTolerance& tolerance) {
+  const int patch = point.Patch(candidate);
+  int before = patch, after = patch;  // where slip leads
+  if (contact.HasPatches()) {
+    const double xi = contact.Xi(point.u, point.s, patch);
+    const XiRange range = contact.RangeOf(patch);
+    if (xi <= range.begin + tolerance.gap) --before;
+    if (xi >= range.end - tolerance.gap) ++after;
+  }
+  ContactModes modes;
+  for (const ContactState state : States(contact, point, candidate, tolerance)) {
+    std::vector<int> patches = {patch};
+    if (state == ContactState::kSlipPlus) patches = {after};
+    if (state == ContactState::kSlipMinus) patches = {before};
+    if (state == ContactState::kClosed) {
+      if (before != patch) patches.push_back(before);
+      if (after != patch) patches.push_back(after);
+    }
+    for (const int on : patches)
+      if (state == ContactState::kOpen || !contact.HasPatches() || contact.HasPatch(on)) modes.push_back({state, on});
+  }
+  return modes;
 }
 
 }  // namespace contact_path

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "contact_path/branch/polynomial.h"
 #include "contact_path/tolerances.h"
@@ -75,7 +76,9 @@ std::optional<CurvePoint> LocateRate(SmoothArc* arc, const Step& step, double t,
 double RoundingOnStep(const SmoothArc& arc, const Step& step, const Constraint& limit) {
   const auto is_crossing = [](const CurvePoint& point) { return point.determinant_sign == 0 && point.nullity == 0; };
   const double rounding = arc.RoundingOf(limit);
-  if (limit.inequality == Inequality::kGap || !(is_crossing(step.start) || is_crossing(step.end))) return rounding;
+  if (limit.inequality == Inequality::kGap || KeepsPatch(limit.inequality) ||
+      !(is_crossing(step.start) || is_crossing(step.end)))
+    return rounding;
   return std::max(rounding, tolerances::kForceSingular * arc.system().UnitOf(limit));
 }
 
@@ -150,7 +153,15 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, std::optional<double> tar
     first = {kind, t, limit, false};
   };
   // No node moves further than the arc length, and that is hardly longer than the step.
-  for (const Constraint& limit : arc->InequalitiesInReach(step.start.x, kReach * step.length)) {
+  std::vector<Constraint> open_ends;
+  const std::vector<Constraint> limits = arc->InequalitiesInReach(step.start.x, kReach * step.length, &open_ends);
+  for (const Constraint& end : open_ends) {
+    Quintic beyond = FunctionOf(system, step, end);
+    beyond[0] += tolerances::kBeyondPatch;
+    if (const std::optional<double> t = FirstNegative(beyond, step.length, 0.0))
+      consider(EventKind::kNearTouch, *t, end);
+  }
+  for (const Constraint& limit : limits) {
     const Quintic quintic = FunctionOf(system, step, limit);
     const double zero = limit.inequality == Inequality::kSlip ? tolerances::kLevel * system.ResidualUnit()
                                                               : RoundingOnStep(*arc, step, limit);
@@ -197,6 +208,8 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, std::optional<double> tar
     else if (bifurcation->t < first.t)
       first = {EventKind::kBifurcation, bifurcation->t, {}, true};
   }
+  // From wall to wall of one obstacle in one step: a shorter step sees the wall that is ahead.
+  if (first.kind == EventKind::kNone && arc->BehindOtherPatch(step.end.x)) return {EventKind::kTooLong, 0.0, {}, false};
   // Whatever lies behind the target, however near, is not of this path.
   if (target)
     if (const std::optional<double> t = FirstAt(load_factor, *target, step.length); t && *t <= first.t)

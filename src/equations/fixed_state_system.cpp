@@ -1,11 +1,13 @@
 #include "contact_path/equations/fixed_state_system.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <numeric>
 
 #include "contact_path/equations/frame_around.h"
 #include "contact_path/linear/bordered_solver.h"
+#include "contact_path/tolerances.h"
 
 namespace contact_path {
 namespace {
@@ -63,11 +65,18 @@ void FixedStateSystem::FreeLoadFactor() {
 }
 
 bool FixedStateSystem::IsMotion(const Constraint& constraint) {
-  return constraint.inequality == Inequality::kGap || constraint.inequality == Inequality::kSlip;
+  return constraint.inequality == Inequality::kGap || constraint.inequality == Inequality::kSlip ||
+         KeepsPatch(constraint.inequality);
 }
 
 FixedStateSystem::Motion FixedStateSystem::MotionOf(const Constraint& constraint) const {
   const auto i = static_cast<std::size_t>(constraint.contact);
+  if (KeepsPatch(constraint.inequality)) {
+    const XiRange range = contacts_[i]->RangeOf(patches_[i]);
+    const double reference = reference_[constraint.contact];
+    return constraint.inequality == Inequality::kPatchBegin ? Motion{i, false, 1.0, reference - range.begin}
+                                                            : Motion{i, false, -1.0, range.end - reference};
+  }
   const bool is_gap = constraint.inequality == Inequality::kGap;
   return {i, is_gap, is_gap || states_[i] == ContactState::kSlipPlus ? 1.0 : -1.0};
 }
@@ -372,7 +381,8 @@ const Eigen::SparseMatrix<double>& FixedStateSystem::WithTangent(const Eigen::Ve
 void FixedStateSystem::AddInequalities(std::size_t contact, std::vector<Constraint>* inequalities) const {
   const auto i = static_cast<int>(contact);
   if (states_[contact] == ContactState::kOpen) {
-    inequalities->push_back({i, Inequality::kGap});
+    // Past the ends of an open surface there is nothing to touch.
+    if (contacts_[contact]->HasPatch(patches_[contact])) inequalities->push_back({i, Inequality::kGap});
     return;
   }
   inequalities->push_back({i, Inequality::kNormalReaction});
@@ -382,6 +392,36 @@ void FixedStateSystem::AddInequalities(std::size_t contact, std::vector<Constrai
   } else if (Slips(states_[contact])) {
     inequalities->push_back({i, Inequality::kSlip});
   }
+  if (states_[contact] != ContactState::kStick) AddPatchEnds(contact, inequalities);
+}
+
+void FixedStateSystem::AddPatchEnds(std::size_t contact, std::vector<Constraint>* inequalities) const {
+  if (!contacts_[contact]->HasPatches()) return;
+  const XiRange range = contacts_[contact]->RangeOf(patches_[contact]);
+  const auto i = static_cast<int>(contact);
+  if (std::isfinite(range.begin)) inequalities->push_back({i, Inequality::kPatchBegin});
+  if (std::isfinite(range.end)) inequalities->push_back({i, Inequality::kPatchEnd});
+}
+
+std::vector<Constraint> FixedStateSystem::PatchEndsOfOpen(const std::vector<std::size_t>& candidates) const {
+  std::vector<Constraint> ends;
+  for (const std::size_t i : candidates)
+    if (states_[i] == ContactState::kOpen) AddPatchEnds(i, &ends);
+  return ends;
+}
+
+void FixedStateSystem::PlaceOpen(const std::vector<std::size_t>& candidates, const Eigen::VectorXd& x) {
+  for (const std::size_t i : candidates)
+    if (states_[i] == ContactState::kOpen && contacts_[i]->HasPatches())
+      patches_[i] = contacts_[i]->PatchAt(x, x[NumDofs()]);
+}
+
+bool FixedStateSystem::BehindOtherPatch(const std::vector<std::size_t>& candidates, const Eigen::VectorXd& x) const {
+  return std::any_of(candidates.begin(), candidates.end(), [&](std::size_t i) {
+    if (states_[i] != ContactState::kOpen || !contacts_[i]->HasPatches()) return false;
+    const int patch = contacts_[i]->PatchAt(x, x[NumDofs()]);
+    return patch != patches_[i] && contacts_[i]->Gap(x, x[NumDofs()], patch) < -tolerances::kBrokenOnStep;
+  });
 }
 
 std::vector<Constraint> FixedStateSystem::Inequalities() const {
@@ -399,8 +439,9 @@ std::vector<Constraint> FixedStateSystem::InequalitiesOf(const std::vector<std::
 }
 
 double FixedStateSystem::MotionValue(const Motion& motion, const Eigen::VectorXd& x) const {
-  return motion.sign * (motion.is_gap ? contacts_[motion.contact]->Gap(x, x[NumDofs()], patches_[motion.contact])
-                                      : Evaluate(motion.contact, x).xi);
+  const double value = motion.is_gap ? contacts_[motion.contact]->Gap(x, x[NumDofs()], patches_[motion.contact])
+                                     : Evaluate(motion.contact, x).xi;
+  return motion.offset + motion.sign * value;
 }
 
 double FixedStateSystem::Value(const Constraint& constraint, const Eigen::VectorXd& x) const {
@@ -447,7 +488,7 @@ Jet FixedStateSystem::ValueAlong(const Constraint& constraint, const Eigen::Vect
   Jet jet = {motion.is_gap ? at.gap : at.xi, pair.Rate(gradient, first, first[s]),
              pair.Rate(gradient, second, second[s])};
   if (pair.Curved()) jet.second += Bend(motion, at, first);
-  return {motion.sign * jet.value, motion.sign * jet.first, motion.sign * jet.second};
+  return {motion.offset + motion.sign * jet.value, motion.sign * jet.first, motion.sign * jet.second};
 }
 
 double FixedStateSystem::Bend(const Motion& motion, const Kinematics& at, const Eigen::VectorXd& dx) const {

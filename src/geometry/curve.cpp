@@ -17,6 +17,7 @@ constexpr double kHalfTurn = 3.141592653589793;
 constexpr double kQuadrature = 4e-16;  // of the length of a cubic: rounding of its arc length
 constexpr int kDeepest = 12;           // halvings of a cubic
 constexpr int kSamples = 8;            // of a cubic, where the search for a foot sets out
+constexpr double kAsFar = 1e-10;       // of a distance
 constexpr int kFootIterations = 60;
 constexpr double kFoot = 1e-16;    // of tau
 constexpr double kFarthest = 2.0;  // tau of a foot, counted from the middle of the piece
@@ -206,22 +207,28 @@ Projection Curve::Project(const Vector2d& x, int patch) const {
 NearestFoot Curve::Nearest(const Vector2d& x) const {
   NearestFoot nearest;
   nearest.distance = std::numeric_limits<double>::infinity();
-  const auto consider = [&](std::size_t patch, double distance, bool is_end) {
-    if (distance < nearest.distance) nearest = {static_cast<int>(patch), distance, is_end};
+  // Next to the end of a patch, the end and the foot on the next patch are equally far, to rounding.
+  double most = nearest.distance;
+  const auto consider = [&](std::size_t patch, double distance, bool is_joint, bool is_end) {
+    const double counted = is_joint ? (1.0 + kAsFar) * distance : distance;
+    if (!(counted < most)) return;
+    most = counted;
+    nearest = {static_cast<int>(patch), distance, is_end};
   };
   for (std::size_t i = 0; i < pieces_.size(); ++i) {
     const CurvePiece& piece = *pieces_[i];
     // No point of a curve is farther from its middle than half of its length.
-    if ((x - middles_[i]).norm() - 0.5 * piece.Length() >= nearest.distance) continue;
+    if ((x - middles_[i]).norm() - 0.5 * piece.Length() >= most) continue;
     const Projection at = piece.Project(x);
     const XiRange range = piece.Range();
     if (at.xi >= range.begin && at.xi <= range.end) {
-      consider(i, std::abs(at.gap), false);
+      consider(i, std::abs(at.gap), false, false);
       continue;
     }
     // Also of a point that has no foot.
-    consider(i, (x - piece.PointAt(range.begin)).norm(), !closed_ && i == 0);
-    consider(i, (x - piece.PointAt(range.end)).norm(), !closed_ && i + 1 == pieces_.size());
+    const bool first = !closed_ && i == 0, last = !closed_ && i + 1 == pieces_.size();
+    consider(i, (x - piece.PointAt(range.begin)).norm(), !first, first);
+    consider(i, (x - piece.PointAt(range.end)).norm(), !last, last);
   }
   return nearest;
 }

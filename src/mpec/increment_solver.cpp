@@ -133,7 +133,8 @@ bool IncrementSolver::PolishActiveSet(const PathPoint& from, const Eigen::Vector
     // An inequality that fails is active at the minimum: it becomes an equation.
     const std::size_t before = active.size();
     for (const Constraint& limit : system_.Inequalities())
-      if (system_.Value(limit, nearest.x) < -tolerances::kBrokenAtPoint * system_.UnitOf(limit))
+      if (!KeepsPatch(limit.inequality) &&
+          system_.Value(limit, nearest.x) < -tolerances::kBrokenAtPoint * system_.UnitOf(limit))
         active.push_back(limit);
     if (active.size() == before) {
       // Slip held at zero motion: the contact stuck, and is about to slip.

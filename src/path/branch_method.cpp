@@ -90,7 +90,9 @@ BranchMethod::BranchMethod(const Model& model, const BranchOptions& options, std
       events_(options.events) {}
 
 bool BranchMethod::Leave(const PathPoint& point, const Branch& branch) {
-  arc_.SetStates(branch.states, point, branch.singular);
+  PathPoint begin = point;
+  begin.patches = branch.patches;
+  arc_.SetStates(branch.states, begin, branch.singular);
   const bool regular = arc_.Derivatives(arc_.system().Pack(point), branch.direction, &current_) &&
                        (current_.first - branch.first).norm() <= tolerances::kSameTangent;
   if (regular) return true;
@@ -311,6 +313,13 @@ std::optional<EndReason> BranchMethod::PassContactEvent(const ArcStep& at, Accep
                                                         std::string* message) {
   increment->kind = IncrementKind::kContactEvent;
   if (at.event.kind == EventKind::kContactEvent) increment->event.number = ++events_;
+  if (SlidesOff(at, increment->point)) {
+    const ContactCandidate& lost = model_.scene.contacts[static_cast<std::size_t>(at.event.limit.contact)];
+    *message = "contact " + lost.Name() +
+               " is lost: the node slides over the end of the obstacle while it is pressed onto it, and only a dynamic "
+               "jump leads further";
+    return EndReason::kPathEnd;
+  }
   const CurvePoint& end = at.step.end;
   Arrival arrival;
   arrival.direction = end.first.head(arc_.NumMotion());
@@ -324,6 +333,15 @@ std::optional<EndReason> BranchMethod::PassContactEvent(const ArcStep& at, Accep
   const double level = at.event.singular ? tolerances::kLevelSingular : tolerances::kLevel;
   if (TurnsLoad(end, current_, LoadFactor(), level)) increment->kind = IncrementKind::kCornerLimit;
   return std::nullopt;
+}
+
+bool BranchMethod::SlidesOff(const ArcStep& at, const PathPoint& point) const {
+  const Constraint& limit = at.event.limit;
+  if (at.event.kind != EventKind::kContactEvent || !KeepsPatch(limit.inequality)) return false;
+  const auto i = static_cast<std::size_t>(limit.contact);
+  const int next = point.Patch(i) + (limit.inequality == Inequality::kPatchEnd ? 1 : -1);
+  const double force = ActiveSetTolerance::For(largest_reaction_, point.s).force * model_.contacts[i]->ForceUnit();
+  return !model_.contacts[i]->HasPatch(next) && point.rn[limit.contact] > force;
 }
 
 void BranchMethod::SetNextLength(const ArcStep& at) {

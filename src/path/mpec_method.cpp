@@ -257,7 +257,9 @@ bool MpecMethod::EndAtTarget(const PathPoint& from, const std::vector<ContactSta
   const NearestPoint nearest = FindNearestPoint(&system, start, start.head(from.u.size() + 1));
   if (!nearest.converged) return false;
   for (const Constraint& limit : system.Inequalities())
-    if (system.Value(limit, nearest.x) < -tolerances::kBrokenAtPoint * system.UnitOf(limit)) return false;
+    if (!KeepsPatch(limit.inequality) &&
+        system.Value(limit, nearest.x) < -tolerances::kBrokenAtPoint * system.UnitOf(limit))
+      return false;
   PathPoint point = system.Unpack(nearest.x);
   if (Distance(from, point) > kFarthestTarget * Distance(from, to)) return false;
   trial->residuals = model_.Check(from, point);

@@ -25,7 +25,7 @@ States OptionsOf(double friction, double gap, double rn, double rt, ContactState
   point.rn[0] = rn;
   point.rt[0] = rt;
   point.states = {state};
-  return StateOptions(*model.contacts[0], point, 0, ActiveSetTolerance());
+  return StatesOf(StateOptions(*model.contacts[0], point, 0, ActiveSetTolerance()));
 }
 
 TEST(StateOptions, OneWhereNothingIsActive) {

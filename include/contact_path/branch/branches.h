@@ -17,6 +17,7 @@ namespace contact_path {
 // Scaled quantities and rates by arc length |(du, ds)|.
 struct Branch {
   std::vector<ContactState> states;  // by candidate, on the arc that starts here
+  std::vector<int> patches;          // of the surfaces, by candidate; empty where the point has none
   Eigen::VectorXd direction;         // (du, ds), unit vector, NumDofs() + 1
   Eigen::VectorXd first;             // all unknowns of the fixed-state system: derivatives by arc length
   Eigen::VectorXd second;

@@ -77,10 +77,17 @@ class SmoothArc {
   }
 
   // Of the touching contacts, and the gaps at x that an increment of length `reach` may close.
-  std::vector<Constraint> InequalitiesInReach(const Eigen::VectorXd& x, double reach) {
+  // open_ends: the ends of the patches that open candidates in reach are beside.
+  std::vector<Constraint> InequalitiesInReach(const Eigen::VectorXd& x, double reach,
+                                              std::vector<Constraint>* open_ends) {
     const Eigen::Index s = system_.NumDofs();
-    return system_.InequalitiesOf(tracker_.InReach(x.head(s), x[s], reach));
+    in_reach_ = tracker_.InReach(x.head(s), x[s], reach);
+    system_.PlaceOpen(in_reach_, x);
+    *open_ends = system_.PatchEndsOfOpen(in_reach_);
+    return system_.InequalitiesOf(in_reach_);
   }
+  // Whether one of those that were open and in reach is behind its surface at x, on a patch that was not looked at.
+  bool BehindOtherPatch(const Eigen::VectorXd& x) const { return system_.BehindOtherPatch(in_reach_, x); }
 
   // Below zero by less, an inequality other than of slip counts as holding.
   double RoundingOf(const Constraint& limit) const;
@@ -110,6 +117,7 @@ class SmoothArc {
   FixedStateSystem system_;
   ReachTracker tracker_;
   BorderedSolver solver_;
+  std::vector<std::size_t> in_reach_;  // in the last call of InequalitiesInReach()
   bool at_hand_ = false;  // regular factors of a point of the curve with these states, the last row along the tangent
   std::map<int, double> moved_forces_;  // by contact, of those that the states close over a gap
   bool rests_ = false;  // part of the structure stands still at a limit point of its own (Branch::rests)

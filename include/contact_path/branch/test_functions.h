@@ -10,8 +10,9 @@
 namespace contact_path {
 
 enum class EventKind {
-  kNone,          // the whole step is good
-  kNearTouch,     // an inequality comes so near to zero inside that only an increment there can tell
+  kNone,       // the whole step is good
+  kNearTouch,  // an inequality comes so near to zero inside that only an increment there can tell; or an open contact
+               // comes to the next patch of its surface
   kContactEvent,  // an inequality reaches zero and would be broken
   kTarget,        // the load factor comes to where the path is to end
   kLimitPoint,    // ds = 0

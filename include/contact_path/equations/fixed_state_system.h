@@ -21,7 +21,14 @@ enum class Inequality {
   kConePlus,        // stick: mu r_n + r_t (at zero, slip+ is next)
   kConeMinus,       // stick: mu r_n - r_t (at zero, slip- is next)
   kSlip,            // slip+-: +-(xi - xi_ref), the motion since the reference
+  kPatchBegin,      // touching, not sticking, on a surface with patches: xi - begin (at zero, the patch before is next)
+  kPatchEnd,        // the same: end - xi (at zero, the patch after is next)
 };
+
+// Whether the inequality keeps a contact on its patch.
+inline bool KeepsPatch(Inequality inequality) {
+  return inequality == Inequality::kPatchBegin || inequality == Inequality::kPatchEnd;
+}
 
 struct Constraint {
   int contact = 0;
@@ -45,6 +52,10 @@ class FixedStateSystem {
   // states, reference (xi_ref), patches of the surfaces: by candidate; no patches: all are 0.
   void SetStates(const std::vector<ContactState>& states, const Eigen::VectorXd& reference,
                  const std::vector<int>& patches = {});
+  // Puts those of these candidates that are open on the patches that are nearest at x: no equation changes.
+  void PlaceOpen(const std::vector<std::size_t>& candidates, const Eigen::VectorXd& x);
+  // Whether one of these candidates, if it is open, is behind its surface at x, on another patch than the one it is on.
+  bool BehindOtherPatch(const std::vector<std::size_t>& candidates, const Eigen::VectorXd& x) const;
   void SetActive(const std::vector<Constraint>& constraints);
   void FixLoadFactor(double value);
   void FreeLoadFactor();
@@ -53,6 +64,7 @@ class FixedStateSystem {
   Eigen::Index NumEquations() const { return num_equations_; }
   Eigen::Index NumDofs() const { return structure_.NumDofs(); }
   const std::vector<ContactState>& states() const { return states_; }
+  const std::vector<int>& patches() const { return patches_; }
   const std::vector<std::size_t>& Touching() const { return touching_; }  // candidates that are not open, ascending
 
   Eigen::VectorXd Pack(const PathPoint& point) const;
@@ -79,6 +91,9 @@ class FixedStateSystem {
   std::vector<Constraint> Inequalities() const;
   // The same of the touching contacts and of these candidates, ascending, alone.
   std::vector<Constraint> InequalitiesOf(const std::vector<std::size_t>& candidates) const;
+  // The ends of the patches that these candidates, if they are open, are beside: not inequalities of the states, and
+  // values all the same.
+  std::vector<Constraint> PatchEndsOfOpen(const std::vector<std::size_t>& candidates) const;
   double Value(const Constraint& constraint, const Eigen::VectorXd& x) const;
   // What tolerances of the values and rates are multiplied with: 1, or for reactions the force unit of the contact.
   double UnitOf(const Constraint& constraint) const;
@@ -95,11 +110,12 @@ class FixedStateSystem {
   Eigen::VectorXd SecondDerivative(const Eigen::VectorXd& x, const Eigen::VectorXd& dx);
 
  private:
-  // sign u_n, or sign (xi - xi_ref), of a contact.
+  // sign u_n, or offset + sign (xi - xi_ref), of a contact.
   struct Motion {
     std::size_t contact;
     bool is_gap;
     double sign;
+    double offset = 0.0;
   };
   struct MotionEquation {  // motion = 0
     Motion motion;
@@ -113,7 +129,7 @@ class FixedStateSystem {
     double rn, rt;
   };
 
-  static bool IsMotion(const Constraint& constraint);  // kGap, kSlip
+  static bool IsMotion(const Constraint& constraint);  // kGap, kSlip, kPatchBegin, kPatchEnd
   Motion MotionOf(const Constraint& constraint) const;
   ReactionTerms ReactionTermsOf(const Constraint& constraint) const;  // of the other inequalities
   double MotionValue(const Motion& motion, const Eigen::VectorXd& x) const;
@@ -122,6 +138,7 @@ class FixedStateSystem {
   Reaction ReactionOf(std::size_t contact, const Eigen::VectorXd& x) const;
   Kinematics Evaluate(std::size_t contact, const Eigen::VectorXd& x) const;
   void AddInequalities(std::size_t contact, std::vector<Constraint>* inequalities) const;
+  void AddPatchEnds(std::size_t contact, std::vector<Constraint>* inequalities) const;
 
   // Each calls emit(unknown, equation, value) for the structural entries of the Jacobian: those of a motion, of the
   // reactions of a contact in the equilibrium equations, and of their change by the curvature of the surface there.

@@ -56,6 +56,8 @@ class BranchMethod : public PathMethod {
   bool TakeCrossingThatLoads(const ArcStep& at);
   std::optional<EndReason> PassBifurcation(const ArcStep& at, AcceptedPoint* increment, std::string* message);
   std::optional<EndReason> PassContactEvent(const ArcStep& at, AcceptedPoint* increment, std::string* message);
+  // Whether the step ends where a node that is pressed onto an open surface slides over an end of it.
+  bool SlidesOff(const ArcStep& at, const PathPoint& point) const;
   void SetNextLength(const ArcStep& at);
   void NoteReactions(const PathPoint& point);
   // Direction of the path that crosses at the end of the step: x0, y0, x1, ..., unit norm.
