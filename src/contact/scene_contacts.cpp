@@ -17,13 +17,16 @@ ContactPairs BuildContacts(const Scene& scene, const Structure& structure) {
 ContactPairs BuildContacts(const Scene& scene, const SceneIndex& index, const Structure& structure) {
   struct Placed {
     std::shared_ptr<const Surface> surface;
-    Eigen::Vector2d velocity = Eigen::Vector2d::Zero();
+    NodeMotion motion;
   };
   std::vector<Placed> obstacles;
-  for (const Obstacle& obstacle : scene.obstacles)
-    obstacles.push_back({MakeSurface(obstacle), Eigen::Vector2d::Zero()});
-  for (const ObstacleMotion& motion : scene.obstacle_motions)
-    obstacles[index.Obstacle(motion.obstacle)].velocity = {motion.dx, motion.dy};
+  for (const Obstacle& obstacle : scene.obstacles) obstacles.push_back({MakeSurface(obstacle), NodeMotion()});
+  for (const ObstacleMotion& motion : scene.obstacle_motions) {
+    NodeMotion& of = obstacles[index.Obstacle(motion.obstacle)].motion;
+    of.velocity = {motion.dx, motion.dy};
+    of.turn = motion.turn;
+    of.about = {motion.about_x, motion.about_y};
+  }
 
   const Eigen::VectorXd force_bounds = structure.ForceBounds();
   ContactPairs contacts;
@@ -31,9 +34,10 @@ ContactPairs BuildContacts(const Scene& scene, const SceneIndex& index, const St
     const std::size_t at = index.Obstacle(candidate.obstacle);
     const Obstacle& obstacle = scene.obstacles[at];
     const auto node = static_cast<int>(index.Node(candidate.node));
-    const NodeMotion motion = {
-        {structure.Dof(node, 0), structure.Dof(node, 1)}, structure.StartPosition(node), obstacles[at].velocity};
-    const bool can_slide = CanSlide(motion.dofs[0] >= 0, motion.dofs[1] >= 0, obstacle);
+    NodeMotion motion = obstacles[at].motion;
+    motion.dofs = {structure.Dof(node, 0), structure.Dof(node, 1)};
+    motion.held = structure.StartPosition(node);
+    const bool can_slide = CanSlide(motion.dofs[0] >= 0, motion.dofs[1] >= 0, obstacle, motion.turn != 0.0);
     contacts.push_back(
         std::make_unique<RigidPair>(obstacles[at].surface, motion, can_slide ? obstacle.friction : 0.0, force_bounds));
   }

@@ -35,7 +35,7 @@ bool HasSoundNumbers(const Obstacle& obstacle) {
   return sound;
 }
 
-// Where a node stands, to the precision of its distance from the point of the obstacle.
+// Where a node stands, of a half plane to the precision of its distance from the point of the obstacle.
 Projection ProjectNode(const Node& node, Obstacle obstacle) {
   obstacle.px -= node.x;
   obstacle.py -= node.y;
@@ -49,12 +49,16 @@ void ContactRules::CheckObstacles() {
   std::unordered_set<std::string> earlier;
   for (std::size_t i = 0; i < scene_.obstacles.size(); ++i) {
     const Obstacle& obstacle = scene_.obstacles[i];
-    checker_.CheckFields(list[i], obstacle, &earlier);
+    const bool sound = checker_.CheckFields(list[i], obstacle, &earlier);
     const ShapeFault fault = FindShapeFault(obstacle);
-    if (!fault.field.empty())
-      checker_.Add(list[i].Key(fault.field), NumberText(NumberOf(obstacle, fault.field)), std::string(fault.rule));
-    else if (HasSoundNumbers(obstacle))
+    if (fault.field.empty()) {
+      if (!HasSoundNumbers(obstacle)) continue;
       usable_obstacles_.insert(&obstacle);
+      if (obstacle.shape != ObstacleShape::kHalfPlane) surfaces_.emplace(&obstacle, MakeSurface(obstacle));
+    } else if (sound || obstacle.shape == ObstacleShape::kHalfPlane) {
+      checker_.Add(list[i].Key(fault.field),
+                   fault.value.empty() ? NumberText(NumberOf(obstacle, fault.field)) : fault.value, fault.rule);
+    }
   }
 }
 
@@ -76,12 +80,25 @@ void ContactRules::CheckContacts(double length) {
 
 void ContactRules::CheckGeometry(const KeyPath& path, const ContactCandidate& contact, const Node& node,
                                  const Obstacle& obstacle, double length) {
+  if (obstacle.shape != ObstacleShape::kHalfPlane) return CheckOnCurve(path, contact, node, obstacle, length);
   const Projection at = ProjectNode(node, obstacle);
   const double free_part = std::hypot(node.fixed_x ? 0.0 : at.normal.x(), node.fixed_y ? 0.0 : at.normal.y());
   if (free_part <= kNormalOnFree)
     checker_.Add(path.Key("node"), contact.node, "must be free to move along the normal of the obstacle");
   if (length > 0.0 && at.gap < -kPenetration * length)
     checker_.Add(path, contact.Name(), "initial position penetrates the obstacle by " + NumberText(-at.gap));
+}
+
+void ContactRules::CheckOnCurve(const KeyPath& path, const ContactCandidate& contact, const Node& node,
+                                const Obstacle& obstacle, double length) {
+  if (node.fixed_x && node.fixed_y)
+    checker_.Add(path.Key("node"), contact.node, "must be free to move along the normal of the obstacle");
+  const Eigen::Vector2d x(node.x, node.y);
+  const Surface& surface = *surfaces_.at(&obstacle);
+  const NearestFoot nearest = surface.Nearest(x);
+  const double gap = surface.Project(x, nearest.patch).gap;
+  if (length > 0.0 && !nearest.is_end && gap < -kPenetration * length)
+    checker_.Add(path, contact.Name(), "initial position penetrates the obstacle by " + NumberText(-gap));
 }
 
 }  // namespace contact_path

@@ -2,8 +2,11 @@
 #ifndef CONTACT_PATH_SRC_SCENE_CONTACT_RULES_H_
 #define CONTACT_PATH_SRC_SCENE_CONTACT_RULES_H_
 
+#include <memory>
+#include <unordered_map>
 #include <unordered_set>
 
+#include "contact_path/geometry/surface.h"
 #include "scene/checker.h"
 
 namespace contact_path {
@@ -20,9 +23,14 @@ class ContactRules {
   void CheckGeometry(const KeyPath& path, const ContactCandidate& contact, const Node& node, const Obstacle& obstacle,
                      double length);
 
+  // Of another shape than a half plane. Past the ends of an open curve there is nothing to penetrate.
+  void CheckOnCurve(const KeyPath& path, const ContactCandidate& contact, const Node& node, const Obstacle& obstacle,
+                    double length);
+
   Checker& checker_;
   const Scene& scene_;
   std::unordered_set<const Obstacle*> usable_obstacles_;  // with a shape that can be computed with
+  std::unordered_map<const Obstacle*, std::unique_ptr<const Surface>> surfaces_;  // of those that are no half planes
 };
 
 }  // namespace contact_path

@@ -113,6 +113,14 @@ void LoadingRules::CheckUnloading(const KeyPath& path, const Stage& stage, bool 
   if (!stage.loads.empty()) checker_.Add(path.Key("loads"), "", rule);
   if (!stage.support_motions.empty()) checker_.Add(path.Key("support_motions"), "", rule);
   if (!stage.obstacle_motions.empty()) checker_.Add(path.Key("obstacle_motions"), "", rule);
+  for (const Stage& before : checker_.Request().program) {
+    if (&before == &stage) break;
+    for (const ObstacleMotion& motion : before.obstacle_motions)
+      if (motion.turn != 0.0)
+        checker_.Add(path.Key("unload"), "true",
+                     "must be false after a stage that turns an obstacle, here " + motion.obstacle +
+                         ": turn it back by a stage of its own");
+  }
   if (sound && !(stage.target >= 0.0 && stage.target <= 1.0))
     checker_.Add(path.Key("target"), NumberText(stage.target),
                  "must be from 0 to 1 where the stage unloads: the part that is taken back, 0 = all");
@@ -141,19 +149,23 @@ void LoadingRules::NoteBroughtOn(const Stage& stage) {
     const std::size_t obstacle = checker_.Index().Obstacle(motion.obstacle);
     brought_on_.Add(BroughtOn::Kind::kObstacle, obstacle, 0, target * motion.dx);
     brought_on_.Add(BroughtOn::Kind::kObstacle, obstacle, 1, target * motion.dy);
+    brought_on_.Add(BroughtOn::Kind::kObstacle, obstacle, 2, target * motion.turn);
   }
 }
 
 template <typename Motion>
 bool LoadingRules::CheckMotion(const KeyPath& path, const Motion& motion) {
-  constexpr bool turns = std::is_same_v<Motion, SupportMotion>;
   double turn = 0.0;
-  if constexpr (turns) turn = std::abs(motion.rotation);
+  if constexpr (std::is_same_v<Motion, SupportMotion>)
+    turn = std::abs(motion.rotation);
+  else
+    turn = std::abs(motion.turn);
   if (!(std::abs(motion.dx) <= kLargestInput && std::abs(motion.dy) <= kLargestInput && turn <= kLargestInput))
     return false;
   if (std::hypot(motion.dx, motion.dy) >= kSmallestInput || turn >= kSmallestInput) return true;
   checker_.Add(path, "no motion",
-               (turns ? "dx, dy or rotation" : "dx or dy") + std::string(" must not be zero (length at least 1e-100)"));
+               std::string(std::is_same_v<Motion, SupportMotion> ? "dx, dy or rotation" : "dx, dy or turn") +
+                   " must not be zero (length at least 1e-100)");
   return false;
 }
 
@@ -192,6 +204,7 @@ void LoadingRules::CheckMotions(const KeyPath& where, const std::vector<SupportM
 }
 
 void LoadingRules::CheckNodesCanFollow(const KeyPath& path, const ObstacleMotion& motion, const Obstacle& obstacle) {
+  if (obstacle.shape != ObstacleShape::kHalfPlane) return;
   const double norm = std::hypot(obstacle.nx, obstacle.ny);
   const double along = std::abs(obstacle.ny * motion.dx - obstacle.nx * motion.dy) / norm;
   // Not along a normal, nor along one that turns: its candidates can follow.

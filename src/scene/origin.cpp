@@ -41,6 +41,10 @@ Scene CountedFrom(const Origin& origin, Scene scene) {
     obstacle.px -= origin[0];
     obstacle.py -= origin[1];
   }
+  for (ObstacleMotion& motion : scene.obstacle_motions) {
+    motion.about_x -= origin[0];
+    motion.about_y -= origin[1];
+  }
   return scene;
 }
 

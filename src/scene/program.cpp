@@ -1,6 +1,8 @@
 #include "contact_path/scene/program.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <string_view>
 #include <unordered_map>
 #include <vector>
@@ -29,6 +31,23 @@ Load Times(double share, Load load, bool constant) {
   return load;
 }
 
+void Rotate(double angle, double* x, double* y) {
+  const double c = std::cos(angle), s = std::sin(angle), from = *x;
+  *x = c * from - s * *y;
+  *y = s * from + c * *y;
+}
+
+// Turns an obstacle about the point of a motion.
+void Turn(double angle, const ObstacleMotion& about, Obstacle* obstacle) {
+  double x = obstacle->px - about.about_x, y = obstacle->py - about.about_y;
+  Rotate(angle, &x, &y);
+  obstacle->px = about.about_x + x;
+  obstacle->py = about.about_y + y;
+  Rotate(angle, &obstacle->nx, &obstacle->ny);
+  for (std::size_t i = 0; i + 1 < obstacle->points.size(); i += 2)
+    Rotate(angle, &obstacle->points[i], &obstacle->points[i + 1]);
+}
+
 // Loads and obstacle motions of all stages before `stage`.
 void BringOn(const std::vector<Stage>& program, std::size_t stage, const SceneIndex& index, Scene* scene) {
   const std::vector<double> shares = SharesBefore(program, stage);
@@ -38,6 +57,7 @@ void BringOn(const std::vector<Stage>& program, std::size_t stage, const SceneIn
     for (const Load& load : program[i].loads) scene->loads.push_back(Times(share, load, /*constant=*/true));
     for (const ObstacleMotion& motion : program[i].obstacle_motions) {
       Obstacle& obstacle = scene->obstacles[index.Obstacle(motion.obstacle)];
+      if (motion.turn != 0.0) Turn(share * motion.turn, motion, &obstacle);
       obstacle.px += share * motion.dx;
       obstacle.py += share * motion.dy;
     }
@@ -85,6 +105,7 @@ Scene LoadedAtTarget(const Stage& stage, Scene scene) {
   for (ObstacleMotion& motion : scene.obstacle_motions) {
     motion.dx *= target;
     motion.dy *= target;
+    motion.turn *= target;
   }
   return scene;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -181,7 +182,7 @@ double MotionNorm(const Scene& scene, double length) {
   for (const SupportMotion& motion : scene.support_motions)
     for (const double part : {motion.dx, motion.dy, motion.rotation * length}) squares.push_back(part * part);
   for (const ObstacleMotion& motion : scene.obstacle_motions)
-    for (const double part : {motion.dx, motion.dy}) squares.push_back(part * part);
+    for (const double part : {motion.dx, motion.dy, motion.turn * length}) squares.push_back(part * part);
   return std::sqrt(OrderedSum(std::move(squares)));
 }
 
@@ -202,13 +203,18 @@ double MeanStiffness(const Scene& scene) {
 // Smallest gap of a contact candidate at the start that is not rounding of a touching one, 0 if there is none [length].
 double NearestGap(const Scene& scene, const SceneIndex& index) {
   std::vector<double> gaps;
+  std::unordered_map<std::size_t, std::unique_ptr<const Surface>> surfaces;  // null: there is no surface
   for (const ContactCandidate& contact : scene.contacts) {
     // The length is asked for while contacts are still being judged.
     const std::optional<std::size_t> at = index.FindNode(contact.node), by = index.FindObstacle(contact.obstacle);
     if (!at || !by) continue;
+    const auto [made, is_new] = surfaces.try_emplace(*by);
     const Obstacle& obstacle = scene.obstacles[*by];
-    if (!FindShapeFault(obstacle).field.empty()) continue;
-    gaps.push_back(MakeSurface(obstacle)->ProjectOnNearest({scene.nodes[*at].x, scene.nodes[*at].y}).gap);
+    if (is_new && FindShapeFault(obstacle).field.empty()) made->second = MakeSurface(obstacle);
+    if (made->second == nullptr) continue;
+    const Eigen::Vector2d x(scene.nodes[*at].x, scene.nodes[*at].y);
+    const NearestFoot nearest = made->second->Nearest(x);
+    gaps.push_back(nearest.is_end ? nearest.distance : made->second->Project(x, nearest.patch).gap);
   }
   double size = 0.0;
   for (const double gap : gaps) size = std::max(size, gap);

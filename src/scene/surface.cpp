@@ -1,11 +1,88 @@
 #include "contact_path/scene/surface.h"
 
+#include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <sstream>
+#include <utility>
+
+#include "contact_path/geometry/curve.h"
+#include "contact_path/geometry/polyline.h"
+#include "contact_path/geometry/spline.h"
 
 namespace contact_path {
 namespace {
 
 constexpr double kSmallest = 1e-100;  // length of a normal: what is formed of it stays in the range of double
+constexpr double kLargest = 1e100;    // coordinate of a point, for the same reason
+constexpr double kFilletShare = 0.1;  // of the largest fillet, where none is given
+constexpr double kRounding = 1e-12;   // of a fillet
+
+std::string Text(double value) {
+  std::ostringstream text;
+  text.precision(12);
+  text << value;
+  return text.str();
+}
+
+std::string Text(const Eigen::Vector2d& point) { return "[" + Text(point.x()) + ", " + Text(point.y()) + "]"; }
+
+// Points are told from 1, as people count them.
+std::string Number(std::size_t point) { return std::to_string(point + 1); }
+
+// Counted from (px, py).
+PlanePoints PointsOf(const Obstacle& obstacle) {
+  PlanePoints points;
+  for (std::size_t i = 0; i + 1 < obstacle.points.size(); i += 2)
+    points.push_back({obstacle.points[i], obstacle.points[i + 1]});
+  return points;
+}
+
+PlanePoints PlacedPoints(const Obstacle& obstacle) {
+  PlanePoints points = PointsOf(obstacle);
+  for (Eigen::Vector2d& point : points) point += Eigen::Vector2d(obstacle.px, obstacle.py);
+  return points;
+}
+
+double FilletOf(const Obstacle& obstacle, const PlanePoints& points) {
+  if (obstacle.fillet > 0.0) return obstacle.fillet;
+  const double largest = LargestFillet(points, obstacle.closed);
+  return std::isfinite(largest) ? kFilletShare * largest : 1.0;  // without corners any radius does
+}
+
+ShapeFault FindPointFault(const Obstacle& obstacle, const PlanePoints& points) {
+  const std::size_t fewest = obstacle.closed ? 3 : 2;
+  if (obstacle.points.size() % 2 != 0)
+    return {"points", "must have x and y in turn: an even number of numbers",
+            std::to_string(obstacle.points.size()) + " numbers"};
+  if (points.size() < fewest)
+    return {"points", obstacle.closed ? "must be at least three where the curve is closed" : "must be at least two",
+            std::to_string(points.size()) + (points.size() == 1 ? " point" : " points")};
+  if (!std::all_of(obstacle.points.begin(), obstacle.points.end(),
+                   [](double number) { return std::abs(number) <= kLargest; }))
+    return {"points", "must be finite and at most 1e100 in magnitude", "a number"};
+  if (const auto equal = FindEqualPoints(points, obstacle.closed))
+    return {"points",
+            "neighbours must differ: point " + Number(*equal) + " is point " + Number((*equal + 1) % points.size()),
+            Text(points[*equal])};
+  return {};
+}
+
+ShapeFault FindPolylineFault(const Obstacle& obstacle, const PlanePoints& points) {
+  if (obstacle.closed) {
+    if (const auto crossing = FindCrossing(points))
+      return {"points",
+              "a closed polyline must not cross itself: the edge from point " + Number(crossing->first) +
+                  " meets the edge from point " + Number(crossing->second),
+              Text(points[crossing->second])};
+  }
+  const double largest = LargestFillet(points, obstacle.closed);
+  if (largest == 0.0) return {"points", "an edge must not lead straight back", "a corner"};
+  if (obstacle.fillet > (1.0 + kRounding) * largest)
+    return {"fillet", "must be at most " + Text(largest) + ": the edges have no room for larger fillets"};
+  return {};
+}
 
 }  // namespace
 
@@ -14,16 +91,31 @@ ShapeFault FindShapeFault(const Obstacle& obstacle) {
     case ObstacleShape::kHalfPlane:
       if (std::hypot(obstacle.nx, obstacle.ny) < kSmallest)  // false for a normal that is not finite
         return {"nx", "the normal (nx, ny) must not be zero (length at least 1e-100)"};
+      return {};
+    case ObstacleShape::kCircle:
+      if (!(obstacle.radius >= kSmallest)) return {"radius", "must be > 0 where the shape is circle"};
+      return {};
+    case ObstacleShape::kPolyline:
+    case ObstacleShape::kSpline: break;
   }
-  return {};
+  const PlanePoints points = PointsOf(obstacle);
+  ShapeFault fault = FindPointFault(obstacle, points);
+  if (!fault.field.empty() || obstacle.shape == ObstacleShape::kSpline) return fault;
+  return FindPolylineFault(obstacle, points);
 }
 
 std::unique_ptr<const Surface> MakeSurface(const Obstacle& obstacle) {
+  const Eigen::Vector2d point(obstacle.px, obstacle.py);
   switch (obstacle.shape) {
     case ObstacleShape::kHalfPlane: break;
+    case ObstacleShape::kCircle: return MakeCircle(point, obstacle.radius, obstacle.inside);
+    case ObstacleShape::kPolyline: {
+      const PlanePoints points = PlacedPoints(obstacle);
+      return MakePolyline(points, obstacle.closed, FilletOf(obstacle, points));
+    }
+    case ObstacleShape::kSpline: return MakeSpline(PlacedPoints(obstacle), obstacle.closed);
   }
-  return std::make_unique<HalfPlane>(Eigen::Vector2d(obstacle.px, obstacle.py),
-                                     Eigen::Vector2d(obstacle.nx, obstacle.ny));
+  return std::make_unique<HalfPlane>(point, Eigen::Vector2d(obstacle.nx, obstacle.ny));
 }
 
 }  // namespace contact_path

@@ -8,7 +8,8 @@ namespace contact_path {
 
 // Whether a node can move along an obstacle: one of its components that move, being free or moved as a support, has a
 // share in the tangent by more than rounding. A contact that cannot slide is frictionless, whatever its coefficient.
-bool CanSlide(bool x_moves, bool y_moves, const Obstacle& obstacle);
+// turns: the obstacle does, and its tangent with it.
+bool CanSlide(bool x_moves, bool y_moves, const Obstacle& obstacle, bool turns = false);
 
 }  // namespace contact_path
 

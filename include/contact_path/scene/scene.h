@@ -39,12 +39,21 @@ struct Words<StrainMeasure> {
       {"logarithmic", StrainMeasure::kLogarithmic}};
 };
 
-enum class ObstacleShape { kHalfPlane };
+// The admissible side is on the left of a curve that is walked from its first point to its last one.
+enum class ObstacleShape {
+  kHalfPlane,
+  kCircle,
+  kPolyline,  // with rounded corners
+  kSpline,    // the cubic through its points with continuous curvature (geometry/spline.h)
+};
 
 template <>
 struct Words<ObstacleShape> {
   static constexpr ObstacleShape kDefault = ObstacleShape::kHalfPlane;
-  static constexpr std::pair<std::string_view, ObstacleShape> kAll[] = {{"half_plane", ObstacleShape::kHalfPlane}};
+  static constexpr std::pair<std::string_view, ObstacleShape> kAll[] = {{"half_plane", ObstacleShape::kHalfPlane},
+                                                                        {"circle", ObstacleShape::kCircle},
+                                                                        {"polyline", ObstacleShape::kPolyline},
+                                                                        {"spline", ObstacleShape::kSpline}};
 };
 
 enum class Method {
@@ -192,25 +201,33 @@ struct Fields<Load> {
   }
 };
 
-// Half plane of admissible points: n . (x - p) >= 0. The tangent is t = (n_y, -n_x).
+// Rigid obstacle. A half plane admits the points x with n . (x - p) >= 0. The tangent of any shape is t = (n_y, -n_x).
 struct Obstacle {
   std::string name;
   ObstacleShape shape = ObstacleShape::kHalfPlane;
-  double px = 0.0;  // a point of the boundary [length]
-  double py = 0.0;
+  double px = 0.0;  // p: a point of the half plane's boundary, the centre of a circle, where `points` are counted from
+  double py = 0.0;  // [length]
   double nx = 0.0;  // normal towards the admissible side, of any length > 0
   double ny = 0.0;
-  double friction = 0.0;  // Coulomb's coefficient, >= 0; 0 = frictionless
+  double friction = 0.0;            // Coulomb's coefficient, >= 0; 0 = frictionless
+  double radius = 0.0;              // of a circle [length], > 0
+  bool inside = false;              // admissible side of a circle
+  std::vector<double> points = {};  // of a polyline or a spline: x, y, x, y, ... [length]
+  bool closed = false;              // from the last point back to the first
+  double fillet = 0.0;  // radius at the corners of a polyline [length]; 0 = a tenth of the largest that its edges admit
 };
 
 template <>
 struct Fields<Obstacle> {
   template <typename P>
   static constexpr auto Of() {
-    return std::tuple(Member("name", &P::name).Naming(TextKind::kNewName), Member("shape", &P::shape),
-                      Member("px", &P::px).In(units::kLength), Member("py", &P::py).In(units::kLength),
-                      Member("nx", &P::nx), Member("ny", &P::ny),
-                      Member("friction", &P::friction).Within(Range::kNotNegative));
+    return std::tuple(
+        Member("name", &P::name).Naming(TextKind::kNewName), Member("shape", &P::shape),
+        Member("px", &P::px).In(units::kLength), Member("py", &P::py).In(units::kLength), Member("nx", &P::nx),
+        Member("ny", &P::ny), Member("friction", &P::friction).Within(Range::kNotNegative),
+        Member("radius", &P::radius).In(units::kLength).Within(Range::kZeroOrPositive), Member("inside", &P::inside),
+        Member("points", &P::points).In(units::kLength), Member("closed", &P::closed),
+        Member("fillet", &P::fillet).In(units::kLength).Within(Range::kZeroOrPositive));
   }
 };
 
@@ -251,19 +268,25 @@ struct Fields<SupportMotion> {
   }
 };
 
-// Translation of an obstacle: its point is at (px, py) + (dx, dy) x load factor. Slip is motion relative to it.
+// Motion of an obstacle: it is turned about a point by the angle turn x load factor, counterclockwise, and then moved
+// by (dx, dy) x load factor. Slip is motion relative to it.
 struct ObstacleMotion {
   std::string obstacle;
   double dx = 0.0;  // [length] per unit of the load factor
   double dy = 0.0;
+  double turn = 0.0;     // [rad] per unit of the load factor
+  double about_x = 0.0;  // the point about which it turns, before it has moved [length]
+  double about_y = 0.0;
 };
 
 template <>
 struct Fields<ObstacleMotion> {
   template <typename P>
   static constexpr auto Of() {
-    return std::tuple(Member("obstacle", &P::obstacle).Naming(TextKind::kObstacle),
-                      Member("dx", &P::dx).In(units::kLengthRate), Member("dy", &P::dy).In(units::kLengthRate));
+    return std::tuple(
+        Member("obstacle", &P::obstacle).Naming(TextKind::kObstacle), Member("dx", &P::dx).In(units::kLengthRate),
+        Member("dy", &P::dy).In(units::kLengthRate), Member("turn", &P::turn).In(units::kRotationRate),
+        Member("about_x", &P::about_x).In(units::kLength), Member("about_y", &P::about_y).In(units::kLength));
   }
 };
 

@@ -3,6 +3,7 @@
 #define CONTACT_PATH_SCENE_SURFACE_H_
 
 #include <memory>
+#include <string>
 #include <string_view>
 
 #include "contact_path/geometry/surface.h"
@@ -10,16 +11,17 @@
 
 namespace contact_path {
 
-// A number that does not fit the shape of its obstacle.
+// What does not fit the shape of its obstacle.
 struct ShapeFault {
   std::string_view field;  // of the obstacle; empty: there is no fault
-  std::string_view rule;   // what must hold
+  std::string rule;        // what must hold
+  std::string value = {};  // that breaks it; empty: the number in the field
 };
 
 // Of numbers that keep the rules of their fields.
 ShapeFault FindShapeFault(const Obstacle& obstacle);
 
-// The surface of an obstacle without a fault. An obstacle moves, and is placed, by its point (px, py).
+// The surface of an obstacle without a fault. An obstacle is placed by its point (px, py).
 std::unique_ptr<const Surface> MakeSurface(const Obstacle& obstacle);
 
 }  // namespace contact_path
