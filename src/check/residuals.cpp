@@ -63,12 +63,34 @@ struct ResidualCheck::Prepared {
   struct PreparedContact {
     // The node as the obstacle sees it.
     Vector Position(const CheckedState& state) const {
-      return NodePosition(state.positions, node) - Vector{state.load_factor * motion.x, state.load_factor * motion.y};
+      const Vector moved =
+          NodePosition(state.positions, node) - Vector{state.load_factor * motion.x, state.load_factor * motion.y};
+      if (turn == 0.0L) return moved;
+      const Vector back = Turned(moved - about, -turn * state.load_factor);
+      return {about.x + back.x, about.y + back.y};
+    }
+    // Towards the admissible side, where the obstacle is now.
+    Vector Normal(const CheckedState& state) const {
+      const Vector normal = surface->Normal(Position(state));
+      return turn == 0.0L ? normal : Turned(normal, turn * state.load_factor);
+    }
+    // Of what is fixed to the obstacle and is where the node is, per unit of the load factor.
+    Vector Velocity(const CheckedState& state) const {
+      if (turn == 0.0L) return motion;
+      const Vector arm = NodePosition(state.positions, node) - about -
+                         Vector{state.load_factor * motion.x, state.load_factor * motion.y};
+      return {motion.x - turn * arm.y, motion.y + turn * arm.x};
+    }
+    static Vector Turned(const Vector& v, Real angle) {
+      const Real c = std::cos(angle), s = std::sin(angle);
+      return {c * v.x - s * v.y, s * v.x + c * v.y};
     }
 
     std::size_t node = 0;
     std::shared_ptr<const check::Surface> surface;
-    Vector motion;  // of the obstacle, per unit of the load factor
+    Vector motion;     // of the obstacle, per unit of the load factor
+    Real turn = 0.0L;  // before that, about a point
+    Vector about;
     Real friction = 0.0L;
   };
 
@@ -108,9 +130,14 @@ struct ResidualCheck::Prepared {
     }
     std::unordered_map<std::string_view, PreparedContact> obstacles;
     for (const Obstacle& obstacle : scene.obstacles)
-      obstacles.emplace(obstacle.name, PreparedContact{0, check::MakeSurface(obstacle), {}, obstacle.friction});
-    for (const ObstacleMotion& motion : scene.obstacle_motions)
-      obstacles.at(motion.obstacle).motion = {motion.dx, motion.dy};
+      obstacles.emplace(obstacle.name,
+                        PreparedContact{0, check::MakeSurface(obstacle), {}, 0.0L, {}, obstacle.friction});
+    for (const ObstacleMotion& motion : scene.obstacle_motions) {
+      PreparedContact& moved = obstacles.at(motion.obstacle);
+      moved.motion = {motion.dx, motion.dy};
+      moved.turn = motion.turn;
+      moved.about = {motion.about_x, motion.about_y};
+    }
     for (const ContactCandidate& contact : scene.contacts) {
       const auto obstacle = obstacles.find(contact.obstacle);
       if (obstacle == obstacles.end()) throw std::invalid_argument("no obstacle has the name " + contact.obstacle);
@@ -133,7 +160,7 @@ struct ResidualCheck::Prepared {
     for (std::size_t i = 0; i < contacts.size(); ++i) {
       if (state.rn[i] == 0.0 && state.rt[i] == 0.0) continue;
       const PreparedContact& contact = contacts[i];
-      const Vector normal = contact.surface->Normal(contact.Position(state)), tangent{normal.y, -normal.x};
+      const Vector normal = contact.Normal(state), tangent{normal.y, -normal.x};
       forces[2 * contact.node] -= state.rn[i] * normal.x + state.rt[i] * tangent.x;
       forces[2 * contact.node + 1] -= state.rn[i] * normal.y + state.rt[i] * tangent.y;
     }
@@ -233,8 +260,8 @@ double ResidualCheck::DrivingForce(const CheckedState& state) const {
   for (std::size_t i = 0; i < unbalance.size(); ++i) force += scene.rates[i] * unbalance[i];
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
     const Prepared::PreparedContact& contact = scene.contacts[i];
-    const Vector normal = contact.surface->Normal(contact.Position(state)), tangent{normal.y, -normal.x};
-    force += state.rn[i] * Dot(normal, contact.motion) + state.rt[i] * Dot(tangent, contact.motion);
+    const Vector normal = contact.Normal(state), tangent{normal.y, -normal.x}, velocity = contact.Velocity(state);
+    force += state.rn[i] * Dot(normal, velocity) + state.rt[i] * Dot(tangent, velocity);
   }
   return static_cast<double>(force);
 }
@@ -251,7 +278,7 @@ double ResidualCheck::Slip(std::size_t contact, const CheckedState& from, const 
 
 std::array<double, 2> ResidualCheck::Normal(std::size_t contact, const CheckedState& state) const {
   const Prepared::PreparedContact& prepared = prepared_->contacts[contact];
-  const Vector normal = prepared.surface->Normal(prepared.Position(state));
+  const Vector normal = prepared.Normal(state);
   return {static_cast<double>(normal.x), static_cast<double>(normal.y)};
 }
 

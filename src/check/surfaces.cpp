@@ -1,7 +1,22 @@
 #include "check/surfaces.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
 namespace contact_path::check {
 namespace {
+
+constexpr Real kPi = 3.14159265358979323846264338327950288L;
+
+Vector operator+(const Vector& a, const Vector& b) { return {a.x + b.x, a.y + b.y}; }
+Vector operator*(Real factor, const Vector& v) { return {factor * v.x, factor * v.y}; }
+Real Cross(const Vector& a, const Vector& b) { return a.x * b.y - a.y * b.x; }
+// The left of a direction.
+Vector Left(const Vector& v) { return {-v.y, v.x}; }
 
 // n . (x - p) >= 0.
 class HalfPlane : public Surface {
@@ -21,11 +36,263 @@ class HalfPlane : public Surface {
   Vector point_, normal_, tangent_;
 };
 
+// |x - p| >= radius, or <= radius.
+class Circle : public Surface {
+ public:
+  explicit Circle(const Obstacle& obstacle)
+      : centre_{obstacle.px, obstacle.py}, radius_(obstacle.radius), side_(obstacle.inside ? -1.0L : 1.0L) {}
+
+  Real Gap(const Vector& x) const override { return side_ * (Length(x - centre_) - radius_); }
+  Vector Normal(const Vector& x) const override { return side_ / Length(x - centre_) * (x - centre_); }
+  // The shorter way round; t is clockwise on the outside.
+  Real Slip(const Vector& from, const Vector& to) const override {
+    const Vector a = from - centre_, b = to - centre_;
+    return -side_ * radius_ * std::atan2(Cross(a, b), Dot(a, b));
+  }
+
+ private:
+  Vector centre_;
+  Real radius_, side_;
+};
+
+// A curve of pieces, each of which is walked from its begin to its end.
+class Walk : public Surface {
+ public:
+  Real Gap(const Vector& x) const override {
+    const Foot foot = Nearest(x);
+    return foot.is_end ? foot.distance : Dot(foot.normal, x - foot.place);
+  }
+  Vector Normal(const Vector& x) const override { return Nearest(x).normal; }
+  Real Slip(const Vector& from, const Vector& to) const override {
+    const Real slip = Nearest(to).walked - Nearest(from).walked;
+    return closed_ ? std::remainder(slip, length_) : slip;
+  }
+
+ protected:
+  struct Foot {
+    Vector place, normal;
+    Real walked = 0.0L;  // length of the curve up to it
+    Real distance = std::numeric_limits<Real>::infinity();
+    bool is_end = false;  // of an open curve
+  };
+
+  explicit Walk(bool closed) : closed_(closed) {}
+
+  virtual Foot Nearest(const Vector& x) const = 0;
+
+  bool closed_;
+  Real length_ = 0.0L;
+};
+
+// The corners of a polyline are cut by circles that touch both edges.
+class Polyline : public Walk {
+ public:
+  explicit Polyline(const Obstacle& obstacle) : Walk(obstacle.closed) {
+    std::vector<Vector> corners;
+    for (std::size_t i = 0; i + 1 < obstacle.points.size(); i += 2)
+      corners.push_back({static_cast<Real>(obstacle.px) + obstacle.points[i],
+                         static_cast<Real>(obstacle.py) + obstacle.points[i + 1]});
+    const std::size_t n = corners.size(), edges = closed_ ? n : n - 1;
+    std::vector<Vector> directions;
+    std::vector<Real> lengths;
+    for (std::size_t i = 0; i < edges; ++i) {
+      const Vector edge = corners[(i + 1) % n] - corners[i];
+      lengths.push_back(Length(edge));
+      directions.push_back(1.0L / lengths.back() * edge);
+    }
+    // Of a corner: the angle, and what a circle of radius 1 cuts off of both edges.
+    std::vector<Real> turns(n, 0.0L), cuts(n, 0.0L);
+    for (std::size_t i = closed_ ? 0 : 1; i < (closed_ ? n : n - 1); ++i) {
+      const Vector &before = directions[(i + edges - 1) % edges], &after = directions[i];
+      turns[i] = std::atan2(Cross(before, after), Dot(before, after));
+      cuts[i] = std::abs(turns[i]) > kInLine ? std::tan(0.5L * std::abs(turns[i])) : 0.0L;
+    }
+    Real radius = obstacle.fillet;
+    if (!(radius > 0.0L)) {
+      radius = std::numeric_limits<Real>::infinity();
+      for (std::size_t i = 0; i < edges; ++i)
+        if (const Real both = cuts[i] + cuts[(i + 1) % n]; both > 0.0L) radius = std::min(radius, lengths[i] / both);
+      radius = std::isfinite(radius) ? kDefaultShare * radius : 1.0L;
+    }
+    for (std::size_t i = 0; i < edges; ++i) {
+      const std::size_t corner = (i + 1) % n;
+      const Real from = radius * cuts[i], to = lengths[i] - radius * cuts[corner];
+      pieces_.push_back({corners[i] + from * directions[i], directions[i], 0.0L, std::max(to - from, 0.0L)});
+      if (cuts[corner] == 0.0L) continue;
+      pieces_.push_back({corners[i] + to * directions[i], directions[i], std::copysign(1.0L / radius, turns[corner]),
+                         radius * std::abs(turns[corner])});
+    }
+    for (Piece& piece : pieces_) {
+      piece.begin = length_;
+      length_ += piece.length;
+    }
+  }
+
+ private:
+  static constexpr Real kInLine = 1e-14L;
+  static constexpr Real kDefaultShare = 0.1L;
+
+  struct Piece {
+    Vector from, direction;  // at the begin
+    Real curvature, length, begin = 0.0L;
+  };
+
+  // At a length from the begin of a piece.
+  static Vector DirectionAt(const Piece& piece, Real walked) {
+    const Real angle = piece.curvature * walked;
+    return std::cos(angle) * piece.direction + std::sin(angle) * Left(piece.direction);
+  }
+  static Vector PlaceAt(const Piece& piece, Real walked) {
+    if (piece.curvature == 0.0L) return piece.from + walked * piece.direction;
+    // Along the chord, which halves the angle.
+    const Real half = 0.5L * piece.curvature * walked;
+    return piece.from + 2.0L * std::sin(half) / piece.curvature *
+                            (std::cos(half) * piece.direction + std::sin(half) * Left(piece.direction));
+  }
+  static Real FootOn(const Piece& piece, const Vector& x) {
+    if (piece.curvature == 0.0L) return Dot(piece.direction, x - piece.from);
+    // The angle from the begin, seen from the centre, in the sense of the walk.
+    const Real sense = piece.curvature > 0.0L ? 1.0L : -1.0L, radius = sense / piece.curvature;
+    const Vector centre = piece.from + 1.0L / piece.curvature * Left(piece.direction);
+    const Vector begin = piece.from - centre, here = x - centre;
+    Real angle = sense * std::atan2(Cross(begin, here), Dot(begin, here));
+    if (angle < 0.5L * piece.length / radius - kPi) angle += 2.0L * kPi;
+    return radius * angle;
+  }
+
+  Foot Nearest(const Vector& x) const override {
+    Foot nearest;
+    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+      const Piece& piece = pieces_[i];
+      const Real on = FootOn(piece, x), walked = std::clamp(on, 0.0L, piece.length);
+      const Vector place = PlaceAt(piece, walked);
+      const Real distance = Length(x - place);
+      if (!(distance < nearest.distance)) continue;
+      const bool is_end = !closed_ && ((i == 0 && on < 0.0L) || (i + 1 == pieces_.size() && on > piece.length));
+      nearest = {place, Left(DirectionAt(piece, walked)), piece.begin + walked, distance, is_end};
+    }
+    return nearest;
+  }
+
+  std::vector<Piece> pieces_;
+};
+
+// Cubics between the points, in a parameter that grows by the distance of the points, with continuous second
+// derivatives; these are zero at open ends.
+class Spline : public Walk {
+ public:
+  explicit Spline(const Obstacle& obstacle) : Walk(obstacle.closed) {
+    std::vector<Vector> points;
+    for (std::size_t i = 0; i + 1 < obstacle.points.size(); i += 2)
+      points.push_back({static_cast<Real>(obstacle.px) + obstacle.points[i],
+                        static_cast<Real>(obstacle.py) + obstacle.points[i + 1]});
+    const std::size_t n = points.size(), count = closed_ ? n : n - 1;
+    std::vector<Real> steps;
+    for (std::size_t i = 0; i < count; ++i) steps.push_back(Length(points[(i + 1) % n] - points[i]));
+    std::vector<Vector> bends(n);
+    // Gauss-Seidel: each sweep halves the error at least.
+    for (int sweep = 0; sweep < kSweeps; ++sweep)
+      for (std::size_t i = closed_ ? 0 : 1; i < (closed_ ? n : n - 1); ++i) {
+        const std::size_t before = (i + n - 1) % n, after = (i + 1) % n;
+        const Real h = steps[before % count], k = steps[i];
+        const Vector right = 6.0L * (1.0L / k * (points[after] - points[i]) - 1.0L / h * (points[i] - points[before]));
+        bends[i] = 0.5L / (h + k) * (right - h * bends[before] - k * bends[after]);
+      }
+    for (std::size_t i = 0; i < count; ++i) {
+      Piece piece{points[i], points[(i + 1) % n], bends[i], bends[(i + 1) % n], steps[i], {}};
+      piece.walked.push_back(length_);
+      for (int part = 0; part < kParts; ++part)
+        piece.walked.push_back(piece.walked.back() +
+                               Walked(piece, static_cast<Real>(part) / kParts, static_cast<Real>(part + 1) / kParts));
+      length_ = piece.walked.back();
+      pieces_.push_back(std::move(piece));
+    }
+  }
+
+ private:
+  static constexpr int kSweeps = 80;
+  static constexpr int kParts = 32;
+  static constexpr int kSamples = 12;
+  static constexpr int kIterations = 60;
+
+  struct Piece {
+    Vector from, to, bend_from, bend_to;
+    Real step;
+    std::vector<Real> walked;  // up to the parts of equal parameter
+  };
+
+  // At the share w of the parameter of the piece, its derivatives by w.
+  static Vector At(const Piece& piece, Real w) {
+    const Real v = 1.0L - w, h = piece.step * piece.step / 6.0L;
+    return v * piece.from + w * piece.to + h * (v * v * v - v) * piece.bend_from + h * (w * w * w - w) * piece.bend_to;
+  }
+  static Vector First(const Piece& piece, Real w) {
+    const Real v = 1.0L - w, h = piece.step * piece.step / 6.0L;
+    return piece.to - piece.from - h * (3.0L * v * v - 1.0L) * piece.bend_from +
+           h * (3.0L * w * w - 1.0L) * piece.bend_to;
+  }
+  static Vector Second(const Piece& piece, Real w) {
+    const Real h = piece.step * piece.step;
+    return h * (1.0L - w) * piece.bend_from + h * w * piece.bend_to;
+  }
+  // Gauss's rule of three points.
+  static Real Walked(const Piece& piece, Real from, Real to) {
+    const Real middle = 0.5L * (from + to), half = 0.5L * (to - from), offset = half * std::sqrt(0.6L);
+    return half *
+           (5.0L * Length(First(piece, middle - offset)) + 8.0L * Length(First(piece, middle)) +
+            5.0L * Length(First(piece, middle + offset))) /
+           9.0L;
+  }
+
+  static Real FootOn(const Piece& piece, const Vector& x) {
+    Real w = 0.0L, nearest = std::numeric_limits<Real>::infinity();
+    for (int i = 0; i <= kSamples; ++i) {
+      const Real sample = static_cast<Real>(i) / kSamples, distance = Length(At(piece, sample) - x);
+      if (distance < nearest) {
+        nearest = distance;
+        w = sample;
+      }
+    }
+    for (int i = 0; i < kIterations; ++i) {
+      const Vector first = First(piece, w), away = At(piece, w) - x;
+      const Real square = Dot(first, first), slope = square + Dot(away, Second(piece, w));
+      const Real move = -Dot(away, first) / (slope > 0.0L ? slope : square);
+      w = std::clamp(w + move, -0.25L, 1.25L);
+      if (std::abs(move) < 1e-19L) break;
+    }
+    return w;
+  }
+
+  Foot Nearest(const Vector& x) const override {
+    Foot nearest;
+    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+      const Piece& piece = pieces_[i];
+      // No point of the piece is farther from the first one than the piece is long.
+      if (Length(x - piece.from) - (piece.walked.back() - piece.walked.front()) >= nearest.distance) continue;
+      const Real on = FootOn(piece, x), w = std::clamp(on, 0.0L, 1.0L);
+      const Vector place = At(piece, w);
+      const Real distance = Length(x - place);
+      if (!(distance < nearest.distance)) continue;
+      const Vector first = First(piece, w);
+      const auto part = static_cast<std::size_t>(std::min<Real>(w * kParts, kParts - 1));
+      const bool is_end = !closed_ && ((i == 0 && on < 0.0L) || (i + 1 == pieces_.size() && on > 1.0L));
+      nearest = {place, 1.0L / Length(first) * Left(first),
+                 piece.walked[part] + Walked(piece, static_cast<Real>(part) / kParts, w), distance, is_end};
+    }
+    return nearest;
+  }
+
+  std::vector<Piece> pieces_;
+};
+
 }  // namespace
 
 std::unique_ptr<const Surface> MakeSurface(const Obstacle& obstacle) {
   switch (obstacle.shape) {
     case ObstacleShape::kHalfPlane: break;
+    case ObstacleShape::kCircle: return std::make_unique<Circle>(obstacle);
+    case ObstacleShape::kPolyline: return std::make_unique<Polyline>(obstacle);
+    case ObstacleShape::kSpline: return std::make_unique<Spline>(obstacle);
   }
   return std::make_unique<HalfPlane>(obstacle);
 }

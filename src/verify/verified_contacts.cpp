@@ -1,5 +1,7 @@
 #include "verify/verified_contacts.h"
 
+#include <set>
+#include <string>
 #include <utility>
 
 #include "contact_path/scene/can_slide.h"
@@ -17,13 +19,17 @@ std::vector<VerifiedContact> VerifiedContacts(const Scene& scene, const SceneInd
   const std::vector<double> across = check.ForcesAcross(scaling.length, load);
   std::vector<VerifiedContact> contacts;
   contacts.reserve(scene.contacts.size());
+  std::set<std::string> turning;
+  for (const ObstacleMotion& motion : scene.obstacle_motions)
+    if (motion.turn != 0.0) turning.insert(motion.obstacle);
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
     const Obstacle& obstacle = scene.obstacles[index.Obstacle(scene.contacts[i].obstacle)];
     VerifiedContact contact;
     contact.node = index.Node(scene.contacts[i].node);
     const Node& node = scene.nodes[contact.node];
-    const bool can_slide = CanSlide(!node.fixed_x || rates[2 * contact.node] != 0.0,
-                                    !node.fixed_y || rates[2 * contact.node + 1] != 0.0, obstacle);
+    const bool can_slide =
+        CanSlide(!node.fixed_x || rates[2 * contact.node] != 0.0, !node.fixed_y || rates[2 * contact.node + 1] != 0.0,
+                 obstacle, turning.count(scene.contacts[i].obstacle) > 0);
     contact.friction = can_slide ? obstacle.friction : 0.0;
     contact.name = scene.contacts[i].Name();
     const double unit = across[i] / scaling.force;

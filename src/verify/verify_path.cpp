@@ -63,8 +63,10 @@ class Verifier {
       if (std::isfinite(increments_[i].load_factor)) load = std::max(load, std::abs(increments_[i].load_factor));
     for (const SupportMotion& motion : scene_.support_motions) farthest += load * std::hypot(motion.dx, motion.dy);
     for (const ObstacleMotion& motion : scene_.obstacle_motions) farthest += load * std::hypot(motion.dx, motion.dy);
-    for (const Obstacle& obstacle : scene_.obstacles)
-      farthest = std::max({farthest, std::abs(obstacle.px), std::abs(obstacle.py)});
+    for (const Obstacle& obstacle : scene_.obstacles) {
+      farthest = std::max({farthest, std::abs(obstacle.px), std::abs(obstacle.py), obstacle.radius});
+      for (const double number : obstacle.points) farthest = std::max(farthest, std::abs(number));
+    }
     rounding_ = kRecorded + kRoundings * std::numeric_limits<double>::epsilon() *
                                 (farthest / scaling_.length + load / scaling_.load_factor);
     rates_.resize(2 * scene_.nodes.size());
