@@ -121,6 +121,7 @@ contact_path_add_stage(path branch_options_test csv_test determinism_test diagno
   hard_scenes_test increment_test large_requests_test model_size_test model_test path_summary_test preload_test
   program_test progress_estimate_test redistribution_test restored_states_test return_detector_test
   singular_scenes_test stop_test work_test)
+contact_path_add_long_test(path curved_paths_test)
 contact_path_add_long_test(path invariance_test)
 contact_path_add_long_test(path mpec_cases_test)
 contact_path_add_long_test(path mpec_method_test)
