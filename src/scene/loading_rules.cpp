@@ -106,6 +106,8 @@ void LoadingRules::CheckStage(const KeyPath& path, std::size_t number) {
            stage.support_motions.empty() && stage.obstacle_motions.empty())
     checker_.Add(path, stage.name, "a load must act on a free component, or a support or an obstacle must move");
   NoteBroughtOn(stage);
+  for (const ObstacleMotion& motion : stage.obstacle_motions)
+    if (motion.turn != 0.0) turned_ = motion.obstacle;
 }
 
 void LoadingRules::CheckUnloading(const KeyPath& path, const Stage& stage, bool sound) {
@@ -113,14 +115,10 @@ void LoadingRules::CheckUnloading(const KeyPath& path, const Stage& stage, bool 
   if (!stage.loads.empty()) checker_.Add(path.Key("loads"), "", rule);
   if (!stage.support_motions.empty()) checker_.Add(path.Key("support_motions"), "", rule);
   if (!stage.obstacle_motions.empty()) checker_.Add(path.Key("obstacle_motions"), "", rule);
-  for (const Stage& before : checker_.Request().program) {
-    if (&before == &stage) break;
-    for (const ObstacleMotion& motion : before.obstacle_motions)
-      if (motion.turn != 0.0)
-        checker_.Add(path.Key("unload"), "true",
-                     "must be false after a stage that turns an obstacle, here " + motion.obstacle +
-                         ": turn it back by a stage of its own");
-  }
+  if (!turned_.empty())
+    checker_.Add(path.Key("unload"), "true",
+                 "must be false after a stage that turns an obstacle, here " + turned_ +
+                     ": turn it back by a stage of its own");
   if (sound && !(stage.target >= 0.0 && stage.target <= 1.0))
     checker_.Add(path.Key("target"), NumberText(stage.target),
                  "must be from 0 to 1 where the stage unloads: the part that is taken back, 0 = all");

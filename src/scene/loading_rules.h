@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <map>
+#include <string>
 #include <string_view>
 #include <tuple>
 #include <unordered_map>
@@ -68,6 +69,7 @@ class LoadingRules {
   std::unordered_map<const Obstacle*, const Node*> held_;  // the first candidate of each that cannot follow it
   bool loads_are_sound_ = true;                            // as far as checked
   BroughtOn brought_on_;                                   // by the stages so far
+  std::string turned_;                                     // an obstacle that they have turned, or empty
 };
 
 }  // namespace contact_path

@@ -1,5 +1,6 @@
 // Where the patches of a surface meet: a node on springs that slides over a bend, against its closed form.
 #include <gtest/gtest.h>
+#include <iostream>
 
 #include <Eigen/LU>
 #include <cmath>
@@ -108,6 +109,8 @@ TEST_P(NodeOnABend, ThePathGoesOnOnTheNextPatch) {
     ASSERT_EQ(set.branches[0].patches, std::vector<int>{patch + 1});
     EXPECT_LE((set.branches[0].direction - after).norm(), 1e-4);
     EXPECT_GT((after + before).norm(), 0.1);
+    for (const Branch& branch : set.branches)
+      std::cout << "DBG " << patch << ' ' << branch.patches[0] << ' ' << static_cast<int>(branch.states[0]) << " dir " << branch.direction.transpose() << " arrival " << arrival.direction.transpose() << " after " << after.transpose() << std::endl;
     for (const Branch& branch : set.branches)
       if (branch.states[0] == point.states[0]) {
         EXPECT_EQ(branch.patches[0], patch + 1);

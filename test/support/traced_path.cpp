@@ -2,14 +2,17 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <stdexcept>
 
 #include "contact_path/check/residuals.h"
 #include "contact_path/scene/expand.h"
 #include "contact_path/scene/read_scene.h"
 #include "contact_path/scene/scaling.h"
+#include "contact_path/scene/surface.h"
 
 namespace contact_path {
 namespace {
@@ -48,6 +51,25 @@ void ExpectSoundContact(const ContactRecord& before, const ContactRecord& now, d
       break;
     }
   }
+}
+
+// Where a node is as seen by an obstacle that has moved.
+Eigen::Vector2d SeenBy(const Scene& scene, const Obstacle& obstacle, std::size_t node, const Increment& increment) {
+  const double s = increment.load_factor;
+  Eigen::Vector2d x(increment.positions[2 * node], increment.positions[2 * node + 1]);
+  for (const ObstacleMotion& motion : scene.obstacle_motions) {
+    if (motion.obstacle != obstacle.name) continue;
+    const Eigen::Vector2d about(motion.about_x, motion.about_y);
+    x = about + Eigen::Rotation2Dd(-motion.turn * s) * (x - about - s * Eigen::Vector2d(motion.dx, motion.dy));
+  }
+  return x;
+}
+
+// Along the tangent; of a closed surface less than half of it.
+double MotionAlong(const Surface& surface, const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+  const double motion = surface.ProjectOnNearest(to).xi - surface.ProjectOnNearest(from).xi;
+  if (!surface.Closed()) return motion;
+  return std::remainder(motion, surface.RangeOf(surface.NumPatches()).begin - surface.RangeOf(0).begin);
 }
 
 }  // namespace
@@ -144,6 +166,8 @@ void ExpectSoundIncrements(const TracedPath& path, double tolerance) {
   EXPECT_EQ(path.increments[0].arc_length, 0.0);
   EXPECT_EQ(path.increments[0].dissipation, 0.0);
   EXPECT_EQ(path.increments[0].external_work, 0.0);
+  std::vector<std::unique_ptr<const Surface>> surfaces;
+  for (const Obstacle& obstacle : scene.obstacles) surfaces.push_back(MakeSurface(obstacle));
   for (std::size_t i = 0; i < path.increments.size(); ++i) {
     const Increment& increment = path.increments[i];
     const Increment& before = path.increments[i == 0 ? 0 : i - 1];
@@ -168,6 +192,9 @@ void ExpectSoundIncrements(const TracedPath& path, double tolerance) {
       EXPECT_TRUE(increment.solve.exact);
     }
     for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
+      if (std::any_of(scene.support_motions.begin(), scene.support_motions.end(),
+                      [&](const SupportMotion& motion) { return motion.node == scene.nodes[n].name; }))
+        continue;
       EXPECT_TRUE(!scene.nodes[n].fixed_x || increment.positions[2 * n] == scene.nodes[n].x);
       EXPECT_TRUE(!scene.nodes[n].fixed_y || increment.positions[2 * n + 1] == scene.nodes[n].y);
     }
@@ -176,11 +203,11 @@ void ExpectSoundIncrements(const TracedPath& path, double tolerance) {
           std::find_if(scene.obstacles.begin(), scene.obstacles.end(),
                        [&](const Obstacle& candidate) { return candidate.name == scene.contacts[c].obstacle; });
       const std::size_t n = NodeNumber(scene, scene.contacts[c].node);
-      const double norm = std::hypot(obstacle->nx, obstacle->ny);
-      const double dx = increment.positions[2 * n] - before.positions[2 * n];
-      const double dy = increment.positions[2 * n + 1] - before.positions[2 * n + 1];
-      ExpectSoundContact(before.contacts[c], increment.contacts[c], (obstacle->ny * dx - obstacle->nx * dy) / norm,
-                         obstacle->friction, tolerance * scaling.force, tolerance * scaling.length,
+      const auto k = static_cast<std::size_t>(obstacle - scene.obstacles.begin());
+      const double motion =
+          MotionAlong(*surfaces[k], SeenBy(scene, *obstacle, n, before), SeenBy(scene, *obstacle, n, increment));
+      ExpectSoundContact(before.contacts[c], increment.contacts[c], motion, obstacle->friction,
+                         tolerance * scaling.force, tolerance * scaling.length,
                          where + ", " + scene.contacts[c].Name());
     }
   }
