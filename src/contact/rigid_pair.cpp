@@ -181,6 +181,13 @@ int RigidPair::PatchAt(const Eigen::VectorXd& u, double s) const {
   return surface_->Project(x, nearest.patch).xi < 0.5 * (range.begin + range.end) ? -1 : surface_->NumPatches();
 }
 
+int RigidPair::PatchAfter(const Eigen::VectorXd& u, double s, int from) const {
+  const int patch = PatchAt(u, s);
+  if (!surface_->Closed()) return patch;
+  const int round = surface_->NumPatches();
+  return patch + round * static_cast<int>(std::lround(static_cast<double>(from - patch) / round));
+}
+
 XiRange RigidPair::RangeOf(int patch) const {
   if (HasPatch(patch)) return surface_->RangeOf(patch);
   XiRange range;

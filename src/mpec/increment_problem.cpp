@@ -68,8 +68,9 @@ Kinematics IncrementProblem::ScaledKinematics(const Slot& slot, const Eigen::Vec
     at.xi = slot.pair->Rate(at.xi_gradient, x.head(nd), x[nd]);
     return at;
   }
-  slot.pair->Evaluate(from_.u + goal_.length * x.head(nd), from_.s + goal_.length * x[nd], slot.patch, slot.at_start.xi,
-                      &at);
+  const Eigen::VectorXd u = from_.u + goal_.length * x.head(nd);
+  const double s = from_.s + goal_.length * x[nd];
+  slot.pair->Evaluate(u, s, slot.pair->PatchAfter(u, s, slot.start_patch), slot.at_start.xi, &at);
   at.gap /= goal_.length;
   at.xi /= goal_.length;
   at.gap_hessian *= goal_.length;
@@ -101,8 +102,12 @@ PathPoint IncrementProblem::Point(const Eigen::VectorXd& x) const {
   point.rn = Eigen::VectorXd::Zero(from_.rn.size());
   point.rt = Eigen::VectorXd::Zero(from_.rt.size());
   point.states.assign(contacts_.size(), ContactState::kOpen);
+  point.patches = from_.patches;
   for (std::size_t i = 0; i < slots_.size(); ++i) {
     const Slot& slot = slots_[i];
+    if (!point.patches.empty())
+      point.patches[static_cast<std::size_t>(working_set_[i])] =
+          slot.pair->PatchAfter(point.u, point.s, slot.start_patch);
     point.rn[working_set_[i]] = goal_.length * x[slot.rn];
     if (slot.rt >= 0) point.rt[working_set_[i]] = goal_.length * x[slot.rt];
     ContactState& state = point.states[static_cast<std::size_t>(working_set_[i])];
@@ -328,8 +333,9 @@ void IncrementProblem::ForEachCurvatureEntry(const Slot& slot, const Kinematics&
         multipliers[slot.friction_row + 1] - multipliers[slot.friction_row] + multipliers[slot.friction_row + 4] * rt;
   }
   PairMatrix second;
-  pair.HessianDerivative(from_.u + goal_.length * x.head(nd), from_.s + goal_.length * x[nd], slot.patch, rn, rt,
-                         weights, &second);
+  const Eigen::VectorXd u = from_.u + goal_.length * x.head(nd);
+  const double s = from_.s + goal_.length * x[nd];
+  pair.HessianDerivative(u, s, pair.PatchAfter(u, s, slot.start_patch), rn, rt, weights, &second);
   second = along_gap * at.gap_hessian + along_xi * at.xi_hessian - goal_.length * goal_.length * second;
   ForEachVariable(pair, [&](Eigen::Index row, Eigen::Index a) {
     ForEachVariable(pair, [&](Eigen::Index column, Eigen::Index b) {

@@ -32,6 +32,10 @@ IncrementSolver::IncrementSolver(const Structure& structure, const ContactPairs&
 IncrementTrial IncrementSolver::Solve(const PathPoint& from, const IncrementGoal& goal,
                                       const RegularisationSchedule& schedule) {
   std::vector<std::size_t> included = tracker_.InReach(from.u, from.s, kLongestIncrement * goal.length);
+  // Past the end of its surface a node would meet what is prolonged of it.
+  included.erase(std::remove_if(included.begin(), included.end(),
+                                [&](std::size_t i) { return !contacts_[i]->HasPatch(from.Patch(i)); }),
+                 included.end());
   int iterations = 0;
   for (;;) {
     const std::vector<int> working_set(included.begin(), included.end());
@@ -41,8 +45,9 @@ IncrementTrial IncrementSolver::Solve(const PathPoint& from, const IncrementGoal
     const std::size_t before = included.size();
     for (const std::size_t i : tracker_.InReach(trial.point.u, trial.point.s, 0.0)) {
       const auto place = std::lower_bound(included.begin(), included.end(), i);
+      const int patch = contacts_[i]->PatchAt(trial.point.u, trial.point.s);
       if ((place == included.end() || *place != i) &&
-          contacts_[i]->Gap(trial.point.u, trial.point.s, trial.point.Patch(i)) < 0.0)
+          contacts_[i]->Gap(trial.point.u, trial.point.s, patch) < 0.0)
         included.insert(place, i);
     }
     if (included.size() == before) return trial;
@@ -122,7 +127,9 @@ void IncrementSolver::PolishActiveSet(const PathPoint& from, const IncrementProb
 
 bool IncrementSolver::PolishActiveSet(const PathPoint& from, const Eigen::VectorXd& wanted, double length,
                                       IncrementTrial* trial) {
-  system_.SetStates(trial->point.states, SurfaceCoordinates(contacts_, from), from.patches);
+  const Eigen::VectorXd reference = SurfaceCoordinates(contacts_, from);
+  std::vector<int> patches = trial->point.patches;
+  system_.SetStates(trial->point.states, reference, patches);
   std::vector<Constraint> active;
   Eigen::VectorXd start = system_.Pack(trial->point);
   for (int change = 0; change <= kMaxActiveSetChanges; ++change) {
@@ -130,13 +137,24 @@ bool IncrementSolver::PolishActiveSet(const PathPoint& from, const Eigen::Vector
     if (!nearest.converged) return false;
     PathPoint exact = system_.Unpack(nearest.x);
     if (Distance(exact, trial->point) > kSamePoint * length) return false;
-    // An inequality that fails is active at the minimum: it becomes an equation.
+    // An inequality that fails is active at the minimum: it becomes an equation. The end of a patch is no inequality:
+    // the contact goes on on the next one.
     const std::size_t before = active.size();
-    for (const Constraint& limit : system_.Inequalities())
-      if (!KeepsPatch(limit.inequality) &&
-          system_.Value(limit, nearest.x) < -tolerances::kBrokenAtPoint * system_.UnitOf(limit))
+    bool passed = false;
+    for (const Constraint& limit : system_.Inequalities()) {
+      if (system_.Value(limit, nearest.x) >= -tolerances::kBrokenAtPoint * system_.UnitOf(limit)) continue;
+      if (!KeepsPatch(limit.inequality)) {
         active.push_back(limit);
-    if (active.size() == before) {
+        continue;
+      }
+      const auto i = static_cast<std::size_t>(limit.contact);
+      patches[i] += limit.inequality == Inequality::kPatchEnd ? 1 : -1;
+      if (!contacts_[i]->HasPatch(patches[i])) return false;
+      passed = true;
+    }
+    if (passed) {
+      system_.SetStates(trial->point.states, reference, patches);
+    } else if (active.size() == before) {
       // Slip held at zero motion: the contact stuck, and is about to slip.
       for (const Constraint& limit : active)
         if (limit.inequality == Inequality::kSlip)

@@ -244,22 +244,21 @@ bool MpecMethod::MayMissTarget(const PathPoint& from, const PathPoint& to) const
 
 bool MpecMethod::EndAtTarget(const PathPoint& from, Trial* trial) const {
   // The contacts may change their states on either side of the target.
-  return EndAtTarget(from, trial->increment.point.states, trial) || EndAtTarget(from, from.states, trial);
+  const PathPoint to = trial->increment.point;
+  return EndAtTarget(from, to, trial) || EndAtTarget(from, from, trial);
 }
 
-bool MpecMethod::EndAtTarget(const PathPoint& from, const std::vector<ContactState>& states, Trial* trial) const {
+bool MpecMethod::EndAtTarget(const PathPoint& from, const PathPoint& modes, Trial* trial) const {
   const PathPoint& to = trial->increment.point;
   FixedStateSystem system(model_.structure, model_.contacts);
-  system.SetStates(states, SurfaceCoordinates(model_.contacts, from), from.patches);
+  system.SetStates(modes.states, SurfaceCoordinates(model_.contacts, from), modes.patches);
   system.FixLoadFactor(*options_.target);
   const double share = (*options_.target - from.s) / (to.s - from.s);
   const Eigen::VectorXd start = (1.0 - share) * system.Pack(from) + share * system.Pack(to);
   const NearestPoint nearest = FindNearestPoint(&system, start, start.head(from.u.size() + 1));
   if (!nearest.converged) return false;
   for (const Constraint& limit : system.Inequalities())
-    if (!KeepsPatch(limit.inequality) &&
-        system.Value(limit, nearest.x) < -tolerances::kBrokenAtPoint * system.UnitOf(limit))
-      return false;
+    if (system.Value(limit, nearest.x) < -tolerances::kBrokenAtPoint * system.UnitOf(limit)) return false;
   PathPoint point = system.Unpack(nearest.x);
   if (Distance(from, point) > kFarthestTarget * Distance(from, to)) return false;
   trial->residuals = model_.Check(from, point);

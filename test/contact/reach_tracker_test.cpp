@@ -58,6 +58,7 @@ class Counted : public ContactPair {
     return {0, Gap(u, s, 0), false};
   }
   int PatchAt(const Eigen::VectorXd&, double) const override { return 0; }
+  int PatchAfter(const Eigen::VectorXd&, double, int) const override { return 0; }
   bool HasPatch(int patch) const override { return patch == 0; }
   XiRange RangeOf(int) const override { return {}; }
   void HessianDerivative(const Eigen::VectorXd&, double, int, double, double, const PairVector&,

@@ -138,7 +138,7 @@ TraceRequest Rope(int nodes, double wrap) {
   scene.support_motions = {{"pulled", std::cos(slope), -std::sin(slope)}};
   scene.obstacles = {Disc("drum", 0.0, 0.0, 1.0, kFriction)};
   for (int i = 0; i < nodes; ++i) scene.contacts.push_back({name(i), "drum"});
-  request.options.stop = {{"load_factor", ">", 0.001}};
+  request.options.stop = {{"load_factor", ">", 2e-4}};
   return request;
 }
 

@@ -51,6 +51,8 @@ class ContactPair {
   // The patch where the surface is nearest; past an end of an open surface the number before the first patch, or after
   // the last one.
   virtual int PatchAt(const Eigen::VectorXd& u, double s) const = 0;
+  // The same; of a closed surface in the round in which it is nearest to the patch `from`.
+  virtual int PatchAfter(const Eigen::VectorXd& u, double s, int from) const = 0;
   virtual bool HasPatch(int patch) const = 0;
   // Of xi, measured from 0; past the ends of an open surface infinite on one side.
   virtual XiRange RangeOf(int patch) const = 0;

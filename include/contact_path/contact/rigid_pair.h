@@ -36,6 +36,7 @@ class RigidPair : public ContactPair {
   double Gap(const Eigen::VectorXd& u, double s, int patch) const override;
   NearestFoot Nearest(const Eigen::VectorXd& u, double s) const override;
   int PatchAt(const Eigen::VectorXd& u, double s) const override;
+  int PatchAfter(const Eigen::VectorXd& u, double s, int from) const override;
   bool HasPatch(int patch) const override { return surface_->HasPatch(patch); }
   XiRange RangeOf(int patch) const override;
   void HessianDerivative(const Eigen::VectorXd& u, double s, int patch, double rn, double rt,

@@ -68,7 +68,7 @@ class IncrementProblem : public NonlinearProgram {
   // Where a contact of the working set keeps its variables and constraints.
   struct Slot {
     const ContactPair* pair;
-    int patch;                    // where the increment starts
+    int start_patch;              // where the increment starts
     Kinematics at_start;          // of the increment
     Eigen::Index rn, rt, lambda;  // variables; rt, lambda -1 if frictionless
     Eigen::Index gap_row;         // constraints: gap, gap r_n

@@ -76,10 +76,10 @@ class MpecMethod : public PathMethod {
   Trial TryFirst(const PathPoint& from, double length);
   // Whether the load factor turns back on the increment, and may have been past the target and back.
   bool MayMissTarget(const PathPoint& from, const PathPoint& to) const;
-  // Replaces the point of a trial beyond the target by the exact one at it, with its states
+  // Replaces the point of a trial beyond the target by the exact one at it, with its contact modes
   // or those of `from`. False: there is none.
   bool EndAtTarget(const PathPoint& from, Trial* trial) const;
-  bool EndAtTarget(const PathPoint& from, const std::vector<ContactState>& states, Trial* trial) const;
+  bool EndAtTarget(const PathPoint& from, const PathPoint& modes, Trial* trial) const;
   // Where the path comes back to an earlier increment on the increment: its number, and the trial ends there.
   std::optional<int> EndAtReturn(const PathPoint& from, Trial* trial) const;
   bool ConfirmedByHalves(const PathPoint& from, const Eigen::VectorXd& direction, double length, const Trial& whole);
