@@ -33,8 +33,9 @@ class Loading:
         """How far a support moves by load factor 1: dx, dy [length], rotation [rad]."""
         self._add('support_motions', locals())
 
-    def obstacle_motion(self, obstacle: str, *, dx: float = 0.0, dy: float = 0.0) -> None:
-        """How far an obstacle moves by load factor 1: dx, dy [length]."""
+    def obstacle_motion(self, obstacle: str, *, dx: float = 0.0, dy: float = 0.0, turn: float = 0.0, about_x: float = 0.0,
+                        about_y: float = 0.0) -> None:
+        """How far an obstacle moves by load factor 1: dx, dy [length], after a turn [rad] about about_x, about_y [length]."""
         self._add('obstacle_motions', locals())
 
     def _add(self, part: str, given: Mapping[str, Any]) -> None:
@@ -137,8 +138,12 @@ class Scene(Loading):
         self._add('surfaces', locals())
 
     def obstacle(self, name: str, *, shape: str = '', px: float = 0.0, py: float = 0.0, nx: float = 0.0, ny: float = 0.0,
-                 friction: float = 0.0) -> None:
-        """A half plane: boundary through px, py [length], normal nx, ny towards the admissible side, friction coefficient [-]."""
+                 friction: float = 0.0, radius: float = 0.0, inside: bool = False, points: Sequence[float] = (),
+                 closed: bool = False, fillet: float = 0.0) -> None:
+        """A rigid obstacle with a friction coefficient [-], the admissible side on the left of its boundary. shape half_plane:
+        boundary through px, py [length], normal nx, ny towards the admissible side; circle: centre px, py, radius [length], inside:
+        it encloses the structure; polyline with fillets of this radius [length] and spline: points (n, 2), counted from px, py,
+        or x, y in turn [length]; closed: the last one is joined to the first."""
         self._add('obstacles', locals())
 
     def contact(self, *, node: str = '', group: str = '', obstacle: str) -> None:
