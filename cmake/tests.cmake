@@ -20,6 +20,7 @@ set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/tests)
 add_library(contact_path_test_support STATIC EXCLUDE_FROM_ALL
   test/support/dense.cpp
   test/support/derivative_checker.cpp
+  test/support/curved_obstacles.cpp
   test/support/random_scene.cpp
   test/support/reference_cases.cpp
   test/support/same_request.cpp
@@ -122,6 +123,7 @@ contact_path_add_stage(path branch_options_test csv_test determinism_test diagno
   program_test progress_estimate_test redistribution_test restored_states_test return_detector_test
   singular_scenes_test stop_test work_test)
 contact_path_add_long_test(path curved_paths_test)
+contact_path_add_long_test(path curved_random_paths_test)
 contact_path_add_long_test(path invariance_test)
 contact_path_add_long_test(path mpec_cases_test)
 contact_path_add_long_test(path mpec_method_test)

@@ -1,0 +1,63 @@
+// Random trusses on curves: every increment is proved, other steps give the same events, and method mpec the same path.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "contact_path/verify/verify_path.h"
+#include "support/curved_obstacles.h"
+#include "support/random_scene.h"
+#include "support/traced_path.h"
+
+namespace contact_path {
+namespace {
+
+constexpr unsigned kSeeds = 120;
+constexpr double kArcLength = 1.2;
+
+bool Reached(const TracedPath& path) {
+  return !path.increments.empty() && path.increments.back().arc_length > kArcLength;
+}
+
+// A proper end: none of the method's own.
+bool EndsByName(const TracedPath& path) {
+  return Reached(path) || path.result.reason == EndReason::kPathEnd || path.result.reason == EndReason::kClosedPath;
+}
+
+std::vector<const Increment*> Events(const TracedPath& path) {
+  std::vector<const Increment*> events;
+  for (const Increment& increment : path.increments)
+    if (increment.kind != IncrementKind::kRegular && increment.arc_length < kArcLength - 1e-3)
+      events.push_back(&increment);
+  return events;
+}
+
+TEST(RandomPathsOnCurves, AreProvedAndTheSameForOtherSteps) {
+  std::map<std::string, int> ends;
+  for (unsigned seed = 1; seed <= kSeeds; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    TraceRequest request = OnCurves(RandomRequest(seed), seed);
+    const TracedPath path = TraceArc(request, kArcLength);
+    ++ends[Reached(path) ? "reached" : path.result.message.substr(0, 60)];
+    EXPECT_TRUE(EndsByName(path)) << path.result.message;
+    for (const Finding& finding : VerifyPath(path.request, path.increments).findings)
+      ADD_FAILURE() << "increment " << finding.increment << ": " << finding.what;
+    request.options.accuracy = Accuracy::kAccurate;
+    const TracedPath other = TraceArc(request, kArcLength);
+    EXPECT_EQ(Reached(other), Reached(path)) << other.result.message;
+    const auto events = Events(path), others = Events(other);
+    EXPECT_EQ(others.size(), events.size());
+    for (std::size_t i = 0; i < std::min(events.size(), others.size()); ++i) {
+      EXPECT_EQ(others[i]->kind, events[i]->kind) << i;
+      EXPECT_NEAR(others[i]->load_factor, events[i]->load_factor, 1e-7 * (1.0 + std::abs(events[i]->load_factor))) << i;
+    }
+  }
+  for (const auto& [end, count] : ends) std::cout << count << ": " << end << "\n";
+}
+
+}  // namespace
+}  // namespace contact_path

@@ -1,0 +1,16 @@
+// Scenes on half planes made scenes on curves.
+#ifndef CONTACT_PATH_TEST_SUPPORT_CURVED_OBSTACLES_H_
+#define CONTACT_PATH_TEST_SUPPORT_CURVED_OBSTACLES_H_
+
+#include "contact_path/scene/scene.h"
+
+namespace contact_path {
+
+// Each obstacle, a half plane with a single candidate, becomes a disc, the inside of a circle, a polyline with fillets or
+// a wavy spline, which has the same tangent at the foot of that candidate's node, and the same gap. The same request for
+// the same seed on every system.
+TraceRequest OnCurves(TraceRequest request, unsigned seed);
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_TEST_SUPPORT_CURVED_OBSTACLES_H_
