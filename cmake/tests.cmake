@@ -124,6 +124,7 @@ contact_path_add_stage(path branch_options_test csv_test determinism_test diagno
   singular_scenes_test stop_test work_test)
 contact_path_add_long_test(path curved_paths_test)
 contact_path_add_long_test(path curved_random_paths_test)
+contact_path_add_long_test(path curved_scenes_test)
 contact_path_add_long_test(path invariance_test)
 contact_path_add_long_test(path mpec_cases_test)
 contact_path_add_long_test(path mpec_method_test)
