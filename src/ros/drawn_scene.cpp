@@ -135,25 +135,30 @@ void DrawnScene::AddStages(const TraceRequest& request, const SceneIndex& index)
     for (const Load& load : loads)
       parts->loads.push_back({index.Node(load.node), Vector2d(load.fx, load.fy), load.moment, load.constant});
   };
-  const auto add_stage = [&](const std::vector<ObstacleMotion>& motions) -> DrawnStage& {
+  const auto add_stage = [&](std::size_t stage) -> DrawnStage& {
     DrawnStage& parts = stages.emplace_back(now);
-    for (const ObstacleMotion& motion : motions)
-      parts.obstacles[index.Obstacle(motion.obstacle)].motion += Vector2d(motion.dx, motion.dy);
+    const Scene begin = StageScene(request, index, stage);
+    for (const Obstacle& obstacle : begin.obstacles) {
+      DrawnObstacle& drawn = parts.obstacles.emplace_back();
+      drawn.surface = MakeSurface(obstacle);
+      drawn.point = {obstacle.px, obstacle.py};
+      drawn.friction = obstacle.friction;
+    }
+    for (const ObstacleMotion& motion : begin.obstacle_motions) {
+      DrawnObstacle& drawn = parts.obstacles[index.Obstacle(motion.obstacle)];
+      drawn.motion = {motion.dx, motion.dy};
+      drawn.turn = motion.turn;
+      drawn.about = {motion.about_x, motion.about_y};
+    }
     return parts;
   };
   add_loads(scene.loads, &now);
-  for (const Obstacle& obstacle : scene.obstacles) {
-    DrawnObstacle& drawn = now.obstacles.emplace_back();
-    drawn.surface = MakeSurface(obstacle);
-    drawn.point = {obstacle.px, obstacle.py};
-    drawn.friction = obstacle.friction;
-  }
 
   has_program = !request.program.empty();
-  if (!has_program) add_stage(scene.obstacle_motions);
+  if (!has_program) add_stage(0);
   for (std::size_t i = 0; i < request.program.size(); ++i) {
     const Stage stage = StageAsTraced(request, i);
-    DrawnStage& parts = add_stage(stage.obstacle_motions);
+    DrawnStage& parts = add_stage(i);
     parts.title = stage.name.empty() ? "stage " + std::to_string(stages.size()) : OneLine(stage.name);
     const double target = stage.Target();
     if (stage.unload) {
@@ -168,8 +173,6 @@ void DrawnScene::AddStages(const TraceRequest& request, const SceneIndex& index)
         now.loads.push_back(
             {index.Node(load.node), target * Vector2d(load.fx, load.fy), target * load.moment, /*constant=*/true});
     }
-    for (const ObstacleMotion& motion : stage.obstacle_motions)
-      now.obstacles[index.Obstacle(motion.obstacle)].shift += target * Vector2d(motion.dx, motion.dy);
     for (const SupportMotion& motion : stage.support_motions) {
       Vector2d& place = places[index.Node(motion.node)];
       place += target * Vector2d(motion.dx, motion.dy);
@@ -178,8 +181,9 @@ void DrawnScene::AddStages(const TraceRequest& request, const SceneIndex& index)
   }
 
   for (std::size_t i = 0; i < scene.obstacles.size(); ++i) {
-    const bool moves = std::any_of(stages.begin(), stages.end(),
-                                   [i](const DrawnStage& stage) { return !stage.obstacles[i].motion.isZero(0.0); });
+    const bool moves = std::any_of(stages.begin(), stages.end(), [i](const DrawnStage& stage) {
+      return !stage.obstacles[i].motion.isZero(0.0) || stage.obstacles[i].turn != 0.0;
+    });
     for (DrawnStage& stage : stages) stage.obstacles[i].moves = moves;
   }
 }

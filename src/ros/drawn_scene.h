@@ -46,16 +46,28 @@ struct DrawnLoad {
   double Share(double load_factor) const { return constant ? (taken_back ? 1.0 - load_factor : 1.0) : load_factor; }
 };
 
+// In a stage: turned about a point by `turn` times the load factor, then moved by `motion` times the load factor.
 struct DrawnObstacle {
-  std::shared_ptr<const Surface> surface;
-  Eigen::Vector2d point = Eigen::Vector2d::Zero();   // that the strokes keep to, before it has moved
-  Eigen::Vector2d shift = Eigen::Vector2d::Zero();   // at load factor 0
+  std::shared_ptr<const Surface> surface;            // at load factor 0
+  Eigen::Vector2d point = Eigen::Vector2d::Zero();   // of a half plane: that the strokes keep to, at load factor 0
   Eigen::Vector2d motion = Eigen::Vector2d::Zero();  // per unit of the load factor
+  double turn = 0.0;                                 // [rad] per unit of the load factor
+  Eigen::Vector2d about = Eigen::Vector2d::Zero();
   double friction = 0.0;
   bool moves = false;  // in any stage
 
+  Eigen::Rotation2Dd Rotation(double load_factor) const { return Eigen::Rotation2Dd(load_factor * turn); }
+  // A point of the plane as the obstacle sees it, and back.
+  Eigen::Vector2d Seen(double load_factor, const Eigen::Vector2d& x) const {
+    return about + Rotation(load_factor).inverse() * (x - about - load_factor * motion);
+  }
+  Eigen::Vector2d Placed(double load_factor, const Eigen::Vector2d& x) const {
+    return about + Rotation(load_factor) * (x - about) + load_factor * motion;
+  }
   Projection ProjectAt(double load_factor, const Eigen::Vector2d& x) const {
-    return surface->ProjectOnNearest(x - shift - load_factor * motion);
+    Projection at = surface->ProjectOnNearest(Seen(load_factor, x));
+    at.normal = Rotation(load_factor) * at.normal;
+    return at;
   }
 };
 

@@ -8,6 +8,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "contact_path/geometry/curve.h"
 #include "ros/drawn_scene.h"
 #include "ros/marker_picture.h"
 
@@ -22,7 +23,7 @@ using visualization_msgs::Marker;
 // Lengths in parts of the scene's size.
 constexpr double kFullArrow = 0.2;
 constexpr int kMostStrokes = 200;  // of a moving obstacle
-constexpr int kCurveSteps = 100;   // of each half of a boundary that is no straight line
+constexpr int kPatchSteps = 48;    // of a patch of a curve that is bent
 constexpr double kStripDepth = 0.05;
 constexpr double kTextHeight = 0.045;
 constexpr double kMostCone = 0.12;      // edge of a cone
@@ -99,6 +100,32 @@ struct BoundaryPoint {
   double xi = 0.0;
 };
 
+// The part of a curve around the foot of `centre`, up to its ends, or once round.
+std::vector<BoundaryPoint> PointsOf(const Curve& curve, const Vector2d& centre, double half_length) {
+  const XiRange first = curve.RangeOf(0);
+  int patch = curve.Nearest(centre).patch;
+  double middle = curve.Project(centre, patch).xi;
+  if (!std::isfinite(middle)) middle = curve.RangeOf(patch).begin;  // the centre of a circle
+  if (curve.Closed()) half_length = std::min(half_length, 0.5 * curve.Length());
+  const double from = middle - half_length, to = middle + half_length;
+  while (curve.HasPatch(patch - 1) && curve.RangeOf(patch).begin > from) --patch;
+  const auto point_at = [&](double xi) {
+    const double rounds = curve.Closed() ? std::floor((xi - first.begin) / curve.Length()) : 0.0;
+    const Vector2d place = curve.PointAt(xi - rounds * curve.Length());
+    return BoundaryPoint{place, curve.Project(place, patch).normal, xi};
+  };
+  std::vector<BoundaryPoint> points;
+  for (; curve.HasPatch(patch) && curve.RangeOf(patch).begin < to; ++patch) {
+    const double begin = std::max(curve.RangeOf(patch).begin, from), end = std::min(curve.RangeOf(patch).end, to);
+    if (!(begin < end)) continue;
+    const Vector2d normal = point_at(begin).normal;
+    const bool bent = point_at(0.5 * (begin + end)).normal != normal || point_at(end).normal != normal;
+    const int steps = bent ? kPatchSteps : 1;
+    for (int k = points.empty() ? 0 : 1; k <= steps; ++k) points.push_back(point_at(begin + (end - begin) * k / steps));
+  }
+  return points;
+}
+
 // The boundary of an obstacle around the foot of `centre`, along the tangent. half_length [length].
 std::vector<BoundaryPoint> BoundaryOf(const DrawnObstacle& obstacle, double load_factor, const Vector2d& centre,
                                       double half_length) {
@@ -106,20 +133,17 @@ std::vector<BoundaryPoint> BoundaryOf(const DrawnObstacle& obstacle, double load
     const Projection at = obstacle.ProjectAt(load_factor, x);
     return BoundaryPoint{x - at.gap * at.normal, at.normal, at.xi};
   };
-  const BoundaryPoint middle = foot_of(centre);
-  if (obstacle.surface->Flat()) {
-    const Vector2d half = half_length * Tangent(middle.normal);
-    return {foot_of(middle.place - half), foot_of(middle.place + half)};
+  if (const auto* curve = dynamic_cast<const Curve*>(obstacle.surface.get())) {
+    std::vector<BoundaryPoint> points = PointsOf(*curve, obstacle.Seen(load_factor, centre), half_length);
+    for (BoundaryPoint& point : points) {
+      point.place = obstacle.Placed(load_factor, point.place);
+      point.normal = obstacle.Rotation(load_factor) * point.normal;
+    }
+    return points;
   }
-  const double length = half_length / kCurveSteps;
-  std::vector<BoundaryPoint> points = {middle};
-  // First backwards to the begin, then forwards to the end.
-  for (int k = 0; k < kCurveSteps; ++k)
-    points.push_back(foot_of(points.back().place - length * Tangent(points.back().normal)));
-  std::reverse(points.begin(), points.end());
-  for (int k = 0; k < kCurveSteps; ++k)
-    points.push_back(foot_of(points.back().place + length * Tangent(points.back().normal)));
-  return points;
+  const BoundaryPoint middle = foot_of(centre);
+  const Vector2d half = half_length * Tangent(middle.normal);
+  return {foot_of(middle.place - half), foot_of(middle.place + half)};
 }
 
 void DrawObstacles(const DrawnScene& scene, const NodePlaces& places, const msgs::Increment& increment,
@@ -152,7 +176,8 @@ void DrawObstacles(const DrawnScene& scene, const NodePlaces& places, const msgs
   for (std::size_t i = 0; i < obstacles.size(); ++i) {
     if (!obstacles[i].moves) continue;
     // At multiples of the distance from the point that moves.
-    const double xi_of_point = obstacles[i].surface->ProjectOnNearest(obstacles[i].point).xi;
+    const bool flat = obstacles[i].surface->Flat();
+    const double xi_of_point = flat ? obstacles[i].surface->ProjectOnNearest(obstacles[i].point).xi : 0.0;
     for (std::size_t k = 1; k < boundaries[i].size(); ++k) {
       const BoundaryPoint &from = boundaries[i][k - 1], &to = boundaries[i][k];
       const double length = to.xi - from.xi;

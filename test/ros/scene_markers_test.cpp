@@ -171,6 +171,58 @@ TEST(SceneMarkersTest, ObstaclesAreOnTheForbiddenSideAlongAllNodes) {
   }
 }
 
+// A disc, and a table that goes down behind its edge, in place of the slope and the wall; all of both is in reach.
+TraceRequest Curves() {
+  TraceRequest request = Slope();
+  Obstacle disc, table;
+  disc.name = "slope";
+  disc.shape = ObstacleShape::kCircle;
+  disc.px = 2.0;
+  disc.py = -2.0;
+  disc.radius = 1.0;
+  table.name = "wall";
+  table.shape = ObstacleShape::kPolyline;
+  table.points = {0.0, -1.0, 2.0, -1.0, 4.0, -3.0};
+  table.fillet = 0.5;
+  request.scene.obstacles = {disc, table};
+  return request;
+}
+
+TEST(SceneMarkersTest, CurvesAreDrawnFromEndToEnd) {
+  const std::vector<Vector2d> boundaries =
+      Points(Find(SceneMarkers(Curves(), World()).Draw(SlopeRow(), 2.0), "obstacles", 1));
+  double around = 0.0, along = 0.0;
+  std::size_t i = 0;
+  for (; i < boundaries.size() && std::abs((boundaries[i] - Vector2d(2.0, -2.0)).norm() - 1.0) < kRounding; i += 2)
+    around += (boundaries[i + 1] - boundaries[i]).norm();
+  EXPECT_NEAR(around, 2.0 * std::acos(-1.0), 0.01);
+  ASSERT_LT(i, boundaries.size());
+  EXPECT_LT((boundaries[i] - Vector2d(0.0, -1.0)).norm(), kRounding);
+  EXPECT_LT((boundaries.back() - Vector2d(4.0, -3.0)).norm(), kRounding);
+  for (; i < boundaries.size(); i += 2) along += (boundaries[i + 1] - boundaries[i]).norm();
+  const double turn = 0.25 * std::acos(-1.0);  // the fillet cuts off both edges, and is as long as its turn
+  EXPECT_NEAR(along, 2.0 + 2.0 * std::sqrt(2.0) - 2.0 * 0.5 * std::tan(0.5 * turn) + 0.5 * turn, 1e-3);
+}
+
+TEST(SceneMarkersTest, ObstaclesTurnAndThenMove) {
+  TraceRequest request = Curves();
+  request.scene.obstacle_motions = {{"wall", 1.0, 0.5, 0.5 * std::acos(-1.0), 3.0, -1.0}};
+  const SceneMarkers markers(request, World());
+  const std::vector<Vector2d> before = Points(Find(markers.Draw(SlopeRow(0.0), 2.0), "obstacles", 1));
+  const std::vector<Vector2d> after = Points(Find(markers.Draw(SlopeRow(1.0), 2.0), "obstacles", 1));
+  for (const Vector2d& end : {Vector2d(0.0, -1.0), Vector2d(4.0, -3.0)}) {
+    const Vector2d arm = end - Vector2d(3.0, -1.0);
+    const Vector2d turned = Vector2d(3.0, -1.0) + Vector2d(-arm.y(), arm.x()) + Vector2d(1.0, 0.5);
+    const auto has = [](const std::vector<Vector2d>& points, const Vector2d& place) {
+      return std::any_of(points.begin(), points.end(),
+                         [&](const Vector2d& x) { return (x - place).norm() < kRounding; });
+    };
+    EXPECT_TRUE(has(before, end));
+    EXPECT_TRUE(has(after, turned));
+  }
+  EXPECT_GT(Find(markers.Draw(SlopeRow(1.0), 2.0), "obstacles", 2).points.size(), 2U);
+}
+
 TEST(SceneMarkersTest, SlidingReactionLiesOnTheEdgeOfItsCone) {
   const Vector2d foot(3.8, 1.6);
   for (const double sign : {1.0, -1.0}) {
