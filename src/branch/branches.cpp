@@ -346,8 +346,8 @@ BranchSet BranchesWithReactions(const Structure& structure, const ContactPairs& 
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     options.push_back(StateOptions(*contacts[i], point, i, limit));
     natural.push_back(options[i].front().state);
-    for (const ContactMode& option : options[i])
-      between_patches = between_patches || (contacts[i]->HasPatches() && option.patch != point.Patch(i));
+    const int patch = contacts[i]->KnownPatch(point.u, point.s, point.Patch(i));
+    for (const ContactMode& option : options[i]) between_patches = between_patches || option.patch != patch;
     combinations *= static_cast<double>(options[i].size());
     if (options[i].size() > 1) weakly_active.push_back(static_cast<int>(i));
   }

@@ -6,9 +6,9 @@ namespace contact_path {
 namespace {
 
 std::vector<ContactState> States(const ContactPair& contact, const PathPoint& point, std::size_t candidate,
-                                 const ActiveSetTolerance& tolerance) {
+                                 int patch, const ActiveSetTolerance& tolerance) {
   const auto k = static_cast<Eigen::Index>(candidate);
-  const double gap = contact.Gap(point.u, point.s, point.Patch(candidate)), rn = point.rn[k], rt = point.rt[k];
+  const double gap = contact.Gap(point.u, point.s, patch), rn = point.rn[k], rt = point.rt[k];
   if (gap > tolerance.gap) return {ContactState::kOpen};
   const double force = tolerance.force * contact.ForceUnit();
   const bool loaded = rn > force;
@@ -32,7 +32,7 @@ std::vector<ContactState> States(const ContactPair& contact, const PathPoint& po
 
 ContactModes StateOptions(const ContactPair& contact, const PathPoint& point, std::size_t candidate,
                           const ActiveSetTolerance& tolerance) {
-  const int patch = point.Patch(candidate);
+  const int patch = contact.KnownPatch(point.u, point.s, point.Patch(candidate));
   int before = patch, after = patch;  // where slip leads
   if (contact.HasPatches()) {
     const double xi = contact.Xi(point.u, point.s, patch);
@@ -41,7 +41,7 @@ ContactModes StateOptions(const ContactPair& contact, const PathPoint& point, st
     if (xi >= range.end - tolerance.gap) ++after;
   }
   ContactModes modes;
-  for (const ContactState state : States(contact, point, candidate, tolerance)) {
+  for (const ContactState state : States(contact, point, candidate, patch, tolerance)) {
     std::vector<int> patches = {patch};
     if (state == ContactState::kSlipPlus) patches = {after};
     if (state == ContactState::kSlipMinus) patches = {before};

@@ -143,6 +143,7 @@ void RigidPair::Evaluate(const Eigen::VectorXd& u, double s, int patch, double r
     kinematics->xi_gradient = xi_gradient_;
     return;
   }
+  const int known = NearestKnown(KnownPatch(u, s, patch));
   const auto fill = [&](const Projection& at, const Motion& first) {
     kinematics->gap = at.gap;
     kinematics->xi = at.xi - reference;
@@ -152,11 +153,11 @@ void RigidPair::Evaluate(const Eigen::VectorXd& u, double s, int patch, double r
     kinematics->xi_hessian = first.transpose() * XiHessian(at) * first;
   };
   if (turn_ == 0.0) {
-    fill(surface_->Project(Position(u, s), NearestKnown(patch)), motion_);
+    fill(surface_->Project(Position(u, s), known), motion_);
     return;
   }
   const Frame frame(*this, u, s);
-  const Projection at = surface_->Project(frame.x, NearestKnown(patch));
+  const Projection at = surface_->Project(frame.x, known);
   fill(at, frame.first);
   kinematics->gap_hessian += frame.Second(at.normal);
   kinematics->xi_hessian += frame.Second(XiGradient(at));
@@ -165,7 +166,8 @@ void RigidPair::Evaluate(const Eigen::VectorXd& u, double s, int patch, double r
 double RigidPair::Gap(const Eigen::VectorXd& u, double s, int patch) const {
   if (!Curved()) return gap_offset_ + Rate(gap_gradient_, u, s);
   const Eigen::Vector2d x = Position(u, s);
-  return HasPatch(patch) ? surface_->Project(x, patch).gap : surface_->Nearest(x).distance;
+  const int known = KnownPatch(u, s, patch);
+  return HasPatch(known) ? surface_->Project(x, known).gap : surface_->Nearest(x).distance;
 }
 
 NearestFoot RigidPair::Nearest(const Eigen::VectorXd& u, double s) const {
@@ -204,12 +206,13 @@ void RigidPair::HessianDerivative(const Eigen::VectorXd& u, double s, int patch,
     const Eigen::Vector2d v = first * direction;
     return PairMatrix(first.transpose() * (rn * GapHessianChange(at, v) + rt * XiHessianChange(at, v)) * first);
   };
+  const int known = NearestKnown(KnownPatch(u, s, patch));
   if (turn_ == 0.0) {
-    *derivative = change(surface_->Project(Position(u, s), NearestKnown(patch)), motion_);
+    *derivative = change(surface_->Project(Position(u, s), known), motion_);
     return;
   }
   const Frame frame(*this, u, s);
-  const Projection at = surface_->Project(frame.x, NearestKnown(patch));
+  const Projection at = surface_->Project(frame.x, known);
   const Eigen::Matrix2d hessian = rn * GapHessian(at) + rt * XiHessian(at);
   const Eigen::Vector2d weights = rn * at.normal + rt * XiGradient(at);
   const PairMatrix mixed = frame.FirstChange(direction).transpose() * hessian * frame.first;

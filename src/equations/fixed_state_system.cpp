@@ -297,7 +297,7 @@ PathPoint FixedStateSystem::Unpack(const Eigen::VectorXd& x) const {
   point.states = states_;
   for (const std::size_t i : with_patches_) {
     if (point.patches.empty()) point.patches = patches_;
-    if (states_[i] == ContactState::kOpen) point.patches[i] = contacts_[i]->PatchAt(point.u, point.s);
+    if (states_[i] == ContactState::kOpen) point.patches[i] = kNearestPatch;
   }
   for (const std::size_t i : touching_) {
     const auto k = static_cast<Eigen::Index>(i);
@@ -382,7 +382,8 @@ void FixedStateSystem::AddInequalities(std::size_t contact, std::vector<Constrai
   const auto i = static_cast<int>(contact);
   if (states_[contact] == ContactState::kOpen) {
     // Past the ends of an open surface there is nothing to touch.
-    if (contacts_[contact]->HasPatch(patches_[contact])) inequalities->push_back({i, Inequality::kGap});
+    const int patch = patches_[contact];
+    if (patch == kNearestPatch || contacts_[contact]->HasPatch(patch)) inequalities->push_back({i, Inequality::kGap});
     return;
   }
   inequalities->push_back({i, Inequality::kNormalReaction});
@@ -396,7 +397,7 @@ void FixedStateSystem::AddInequalities(std::size_t contact, std::vector<Constrai
 }
 
 void FixedStateSystem::AddPatchEnds(std::size_t contact, std::vector<Constraint>* inequalities) const {
-  if (!contacts_[contact]->HasPatches()) return;
+  if (!contacts_[contact]->HasPatches() || patches_[contact] == kNearestPatch) return;
   const XiRange range = contacts_[contact]->RangeOf(patches_[contact]);
   const auto i = static_cast<int>(contact);
   if (std::isfinite(range.begin)) inequalities->push_back({i, Inequality::kPatchBegin});

@@ -28,7 +28,7 @@ IncrementProblem::IncrementProblem(const Structure& structure, const ContactPair
   Eigen::VectorXd drive = Eigen::VectorXd::Zero(nd);  // T_t r_t^k
   for (std::size_t i = 0; i < working_set_.size(); ++i) {
     const ContactPair& pair = *contacts_[static_cast<std::size_t>(working_set_[i])];
-    const int patch = from_.Patch(static_cast<std::size_t>(working_set_[i]));
+    const int patch = pair.KnownPatch(from_.u, from_.s, from_.Patch(static_cast<std::size_t>(working_set_[i])));
     Kinematics at_start;
     pair.Evaluate(from_.u, from_.s, patch, 0.0, &at_start);
     Slot slot{&pair, patch, at_start, nd + 1 + static_cast<Eigen::Index>(i), -1, -1, num_constraints_, -1};
@@ -102,7 +102,7 @@ PathPoint IncrementProblem::Point(const Eigen::VectorXd& x) const {
   point.rn = Eigen::VectorXd::Zero(from_.rn.size());
   point.rt = Eigen::VectorXd::Zero(from_.rt.size());
   point.states.assign(contacts_.size(), ContactState::kOpen);
-  point.patches = from_.patches;
+  if (!from_.patches.empty()) point.patches.assign(contacts_.size(), kNearestPatch);
   for (std::size_t i = 0; i < slots_.size(); ++i) {
     const Slot& slot = slots_[i];
     if (!point.patches.empty())

@@ -34,7 +34,10 @@ IncrementTrial IncrementSolver::Solve(const PathPoint& from, const IncrementGoal
   std::vector<std::size_t> included = tracker_.InReach(from.u, from.s, kLongestIncrement * goal.length);
   // Past the end of its surface a node would meet what is prolonged of it.
   included.erase(std::remove_if(included.begin(), included.end(),
-                                [&](std::size_t i) { return !contacts_[i]->HasPatch(from.Patch(i)); }),
+                                [&](std::size_t i) {
+                                  return !contacts_[i]->HasPatch(
+                                      contacts_[i]->KnownPatch(from.u, from.s, from.Patch(i)));
+                                }),
                  included.end());
   int iterations = 0;
   for (;;) {

@@ -179,7 +179,8 @@ TEST_P(NodeOnABend, OpenContactsChangeTheirPatchWithoutAnEvent) {
   ASSERT_TRUE(located);
   EXPECT_GT(Xi(located->x, 0), End(0));
   EXPECT_LT(Xi(located->x, 0), End(0) + 1e-8);
-  EXPECT_EQ(free.system().Unpack(located->x).patches, std::vector<int>{1});
+  const PathPoint there = free.system().Unpack(located->x);
+  EXPECT_EQ(contacts_[0]->KnownPatch(there.u, there.s, there.patches[0]), 1);
   EXPECT_EQ(FirstEvent(&free, MakeStep(*located, step.end, 3)).kind, EventKind::kNone);
 }
 

@@ -53,6 +53,11 @@ class ContactPair {
   virtual int PatchAt(const Eigen::VectorXd& u, double s) const = 0;
   // The same; of a closed surface in the round in which it is nearest to the patch `from`.
   virtual int PatchAfter(const Eigen::VectorXd& u, double s, int from) const = 0;
+  // The patch itself, or the one that is nearest where it is kNearestPatch. All other functions but HasPatch() and
+  // RangeOf() take that, too.
+  int KnownPatch(const Eigen::VectorXd& u, double s, int patch) const {
+    return patch == kNearestPatch ? PatchAt(u, s) : patch;
+  }
   virtual bool HasPatch(int patch) const = 0;
   // Of xi, measured from 0; past the ends of an open surface infinite on one side.
   virtual XiRange RangeOf(int patch) const = 0;

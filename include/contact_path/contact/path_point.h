@@ -6,11 +6,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "contact_path/contact/contact_state.h"
 
 namespace contact_path {
+
+// In place of the patch of an open contact: the one that is nearest, which is looked for where it is needed.
+inline constexpr int kNearestPatch = std::numeric_limits<int>::min();
 
 struct PathPoint {
   Eigen::VectorXd u;                 // current positions of the free components

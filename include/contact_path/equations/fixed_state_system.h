@@ -68,7 +68,7 @@ class FixedStateSystem {
   const std::vector<std::size_t>& Touching() const { return touching_; }  // candidates that are not open, ascending
 
   Eigen::VectorXd Pack(const PathPoint& point) const;
-  // Open contacts are on the patches that are nearest.
+  // Open contacts are on kNearestPatch.
   PathPoint Unpack(const Eigen::VectorXd& x) const;
 
   // residual: NumEquations(). Not finite where an element is singular.
