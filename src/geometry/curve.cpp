@@ -14,10 +14,11 @@ using Eigen::Vector2d;
 
 constexpr double kHalfTurn = 3.141592653589793;
 
-constexpr double kQuadrature = 4e-16;  // of the length of a cubic: rounding of its arc length
-constexpr int kDeepest = 12;           // halvings of a cubic
-constexpr int kSamples = 8;            // of a cubic, where the search for a foot sets out
-constexpr double kAsFar = 1e-10;       // of a distance
+constexpr double kQuadrature = 4e-16;      // of the length of a cubic: rounding of its arc length
+constexpr int kDeepest = 12;               // halvings of a cubic
+constexpr int kSamples = 8;                // of a cubic, where the search for a foot sets out
+constexpr double kAsFar = 1e-10;           // of a distance
+constexpr double kRoundingOfDisc = 1e-12;  // of the length of a piece
 constexpr int kFootIterations = 60;
 constexpr double kFoot = 1e-16;    // of tau
 constexpr double kFarthest = 2.0;  // tau of a foot, counted from the middle of the piece
@@ -177,11 +178,14 @@ Vector2d CubicPiece::PointAt(double xi) const {
 
 Curve::Curve(std::vector<std::unique_ptr<const CurvePiece>> pieces, bool closed, double xi)
     : pieces_(std::move(pieces)), begins_{xi}, closed_(closed) {
+  std::vector<Disc> discs;
   for (const auto& piece : pieces_) {
     const XiRange range = piece->Range();
-    middles_.push_back(piece->PointAt(0.5 * (range.begin + range.end)));
+    // No point of a curve is farther from its middle than half of its length.
+    discs.push_back({piece->PointAt(0.5 * (range.begin + range.end)), (0.5 + kRoundingOfDisc) * piece->Length()});
     begins_.push_back(begins_.back() + piece->Length());
   }
+  tree_ = DiscTree(discs);
 }
 
 Curve::Place Curve::PlaceOf(int patch) const {
@@ -211,25 +215,24 @@ NearestFoot Curve::Nearest(const Vector2d& x) const {
   double most = nearest.distance;
   const auto consider = [&](std::size_t patch, double distance, bool is_joint, bool is_end) {
     const double counted = is_joint ? (1.0 + kAsFar) * distance : distance;
-    if (!(counted < most)) return;
+    const int number = static_cast<int>(patch);
+    if (!(counted < most || (counted == most && number < nearest.patch))) return;  // in whatever order they are visited
     most = counted;
-    nearest = {static_cast<int>(patch), distance, is_end};
+    nearest = {number, distance, is_end};
   };
-  for (std::size_t i = 0; i < pieces_.size(); ++i) {
+  tree_.Search(x, &most, [&](std::size_t i) {
     const CurvePiece& piece = *pieces_[i];
-    // No point of a curve is farther from its middle than half of its length.
-    if ((x - middles_[i]).norm() - 0.5 * piece.Length() >= most) continue;
     const Projection at = piece.Project(x);
     const XiRange range = piece.Range();
     if (at.xi >= range.begin && at.xi <= range.end) {
       consider(i, std::abs(at.gap), false, false);
-      continue;
+      return;
     }
     // Also of a point that has no foot.
     const bool first = !closed_ && i == 0, last = !closed_ && i + 1 == pieces_.size();
     consider(i, (x - piece.PointAt(range.begin)).norm(), !first, first);
     consider(i, (x - piece.PointAt(range.end)).norm(), !last, last);
-  }
+  });
   return nearest;
 }
 

@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "contact_path/geometry/disc_tree.h"
 #include "contact_path/geometry/surface.h"
 
 namespace contact_path {
@@ -118,8 +119,8 @@ class Curve : public Surface {
   Place PlaceOf(int patch) const;
 
   std::vector<std::unique_ptr<const CurvePiece>> pieces_;
-  std::vector<Eigen::Vector2d> middles_;  // of the pieces
-  std::vector<double> begins_;            // xi of the pieces, and of the end of the last one
+  DiscTree tree_;               // of the pieces
+  std::vector<double> begins_;  // xi of the pieces, and of the end of the last one
   bool closed_;
 };
 
