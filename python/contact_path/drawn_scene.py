@@ -8,7 +8,7 @@ from contact_path.scene_expand import expand
 
 Entry = Dict[str, Any]
 
-# What a stage leaves on: list -> name of what it acts on, and components.
+# What a stage leaves on that a later one can take back: list -> name of what it acts on, and components.
 STAGE_PARTS = {'loads': ('node', 'fx', 'fy', 'moment'), 'obstacle_motions': ('obstacle', 'dx', 'dy')}
 
 
@@ -51,8 +51,8 @@ def stages_as_traced(program: Iterable[Entry]) -> List[Entry]:
     for stage in program:
         for part, (key, *components) in STAGE_PARTS.items():
             if stage['unload']:
-                stage[part] = [{key: name, **{c: -v for c, v in zip(components, values)}}
-                               for name, values in left[part].items() if any(values)]
+                stage[part] = with_defaults(part, [{key: name, **{c: -v for c, v in zip(components, values)}}
+                                                   for name, values in left[part].items() if any(values)])
             for item in stage[part]:
                 values = left[part].setdefault(item[key], [0.0] * len(components))
                 left[part][item[key]] = [v + stage['target'] * item[c] for v, c in zip(values, components)]

@@ -81,11 +81,12 @@ def slip(path: Path, structure: Structure, contact: str) -> np.ndarray:
     """(n,); nan where the increment carries no state."""
     index = structure.contacts.index(contact)
     node, obstacle = structure.names[structure.contact_nodes[index]], structure.contact_obstacles[index]
-    shifts = structure.along(path, lambda stage: stage.motions.get(obstacle, np.zeros(2)))
     states = path['state_' + contact]
     known = states != ''
-    places = (np.column_stack((path['x_' + node], path['y_' + node])) - shifts).dot(structure.tangents[index])[known]
-    steps = np.diff(places, prepend=places[:1])
+    places = np.column_stack((path['x_' + node], path['y_' + node]))
+    boundary = structure.obstacles[obstacle]
+    _, xi = boundary.foot(structure.placement(obstacle, path).back(places)[known])
+    steps = boundary.slips(np.diff(xi, prepend=xi[:1]))
     slips = np.full(len(path), np.nan)
     slips[known] = np.cumsum(np.where(np.isin(states[known], ('slip+', 'slip-', 'closed')), steps, 0.0))
     return slips
@@ -95,5 +96,5 @@ def load(path: Path, structure: Structure, field: str, part: str) -> np.ndarray:
     """(n,). field, part: 'fx', a node; or '', 'load_x'."""
     axis = 'xy'.index(field[-1:] or part[-1])
     nodes = [structure.names.index(part)] if field else slice(None)
-    return (structure.constant_loads[nodes, axis].sum() +
-            structure.along(path, lambda stage: stage.loads[nodes, axis].sum()))
+    loads = [stage.loads[nodes, axis].sum() for stage in structure.stages]
+    return structure.constant_loads[nodes, axis].sum() + structure.shares(path).dot(loads)

@@ -13,6 +13,7 @@ from matplotlib.patches import Patch
 from matplotlib.path import Path as Outline
 from matplotlib.patheffects import withStroke
 
+from contact_path.obstacle_curves import Boundary, Placement
 from contact_path.path import LIMITS, Path
 from contact_path.plot_panels import MARKS, STATES, free_direction, text_box
 from contact_path.scene_arrays import Row, Structure
@@ -33,9 +34,23 @@ STEPS = 24  # lines of the arrow of a moment
 HATCH_DEPTH = 0.06  # behind the boundary of an obstacle, of the size
 SUPPORT_DEPTH = 0.1  # kept free for supports, of the size
 NEAR = 0.15  # a gap as small as this, of the size, brings the obstacle into view
+REACH = 0.3  # of the size: as far from the structure a curve is in view
 FEW_CONTACTS, FEW_NODES = 6, 12  # as few show the parts of their reactions and their names
 MANY_NODES, MANY_MARKS = 100, 30  # from here on they are small
 FLATTEST, STEEPEST = 0.22, 1.25  # height over width of a shape
+
+
+class Curve:
+    """The boundary of an obstacle that is no half plane, or that turns, in its place: points and normals (m, 2). Of a half
+    plane two points at the distance 1."""
+
+    def __init__(self, boundary: Boundary, placement: Placement) -> None:
+        if boundary.flat:
+            tangent = np.array([boundary.normal[1], -boundary.normal[0]])
+            points, normals = [boundary.point, boundary.point + tangent], [boundary.normal, boundary.normal]
+        else:
+            points, normals = boundary.points, boundary.normals
+        self.points, self.normals = placement.points(points), placement.vectors(normals)
 
 
 class Shape:
@@ -48,10 +63,13 @@ class Shape:
         self.states = [increment['state_' + name] for name in structure.contacts]
         self.gaps = structure.of_contacts(increment, 'gap_')
         rn = structure.of_contacts(increment, 'rn_')[:, None]
-        self.normal_parts = rn * structure.normals
-        self.tangential_parts = structure.of_contacts(increment, 'rt_')[:, None] * structure.tangents
+        placements = {name: structure.placement(name, increment) for name in structure.obstacles}
+        self.normals = structure.contact_normals(self.places, placements)
+        self.tangents = np.column_stack((self.normals[:, 1], -self.normals[:, 0]))
+        self.normal_parts = rn * self.normals
+        self.tangential_parts = structure.of_contacts(increment, 'rt_')[:, None] * self.tangents
         self.reactions = self.normal_parts + self.tangential_parts
-        self.cone = structure.friction[:, None] * rn * structure.tangents  # half of its base
+        self.cone = structure.friction[:, None] * rn * self.tangents  # half of its base
         self.touching = self.places[structure.contact_nodes]
         self.stage = structure.stages[structure.stage_index(increment)].name
         loads, constant = structure.loads_by_stage(increment)
@@ -59,8 +77,9 @@ class Shape:
         self.moments, self.constant_moments = loads[:, 2], constant[:, 2]
         self.beams = structure.beams.curves(self.places, structure.rotations(increment))
         self.energies = [solid.energies(structure.initial, self.places) for solid in structure.solids]
-        self.obstacles = {name: point + structure.obstacle_shift(name, increment)
-                          for name, (point, _, _) in structure.obstacles.items()}
+        self.obstacles = {name: placements[name].points(boundary.point) for name, boundary in structure.obstacles.items()}
+        self.curves = {name: Curve(boundary, placements[name]) for name, boundary in structure.obstacles.items()
+                       if name not in structure.normals}
 
     def forces(self) -> Tuple[Tuple[np.ndarray, np.ndarray], ...]:
         """(place, force) of all arrows, each (., 2)."""
@@ -129,7 +148,11 @@ class View:
             depth = (np.maximum(shape.gaps, 0.0) + HATCH_DEPTH * self.size)[:, None]
             points += [shape.places[[node]] + SUPPORT_DEPTH * self.size * direction
                        for node, direction in shape.structure.supports.items()]
-            points.append((shape.touching - depth * shape.structure.normals)[shape.gaps < NEAR * self.size])
+            points.append((shape.touching - depth * shape.normals)[shape.gaps < NEAR * self.size])
+        near = REACH * self.size
+        for shape in shapes:
+            for curve in shape.curves.values():
+                points.append(curve.points[np.all((curve.points > low - near) & (curve.points < high + near), axis=1)])
         points = np.vstack(points)
         low, high = points.min(axis=0), points.max(axis=0)
         margin = self.size * np.array([0.09, 0.07])
@@ -139,19 +162,22 @@ class View:
         self.aspect = (self.high - self.low)[1] / (self.high - self.low)[0]
         self.obstacles = self.extents(shapes)
 
+    def sees(self, curve: Curve) -> bool:
+        return len(curve.points) == 2 or np.any(np.all((curve.points > self.low) & (curve.points < self.high), axis=1))
+
     def extents(self, shapes: Sequence[Shape]) -> Dict[Tuple[str, Tuple[float, float]], Tuple[float, float]]:
-        """(name, normal) of the obstacles in view -> (first, last), as far as they are drawn, along t. Nodes that are
+        """(name, normal) of the half planes in view -> (first, last), as far as they are drawn, along t. Nodes that are
         no candidates may lie behind one; then it is drawn where its candidates are, otherwise across the view."""
         extents: Dict[Tuple[str, Tuple[float, float]], Tuple[float, float]] = {}
         corners = np.array([(x, y) for x in (self.low[0], self.high[0]) for y in (self.low[1], self.high[1])])
         for name, normal in sorted({(name, tuple(normal)) for shape in shapes
-                                    for name, (_, normal, _) in shape.structure.obstacles.items()}):
+                                    for name, normal in shape.structure.normals.items()}):
             bounded = [shape for shape in shapes if shape.structure.has(name, normal)]
             above = np.array([(corners - shape.obstacles[name]).dot(normal) for shape in bounded])
             if above.min() > 0.0 or above.max() < 0.0:  # out of view
                 continue
             crossed = any(min((shape.places - shape.obstacles[name]).dot(normal).min(),
-                              (shape.structure.initial - shape.structure.obstacles[name][0]).dot(normal).min())
+                              (shape.structure.initial - shape.structure.obstacles[name].point).dot(normal).min())
                           < -1e-6 * self.size for shape in bounded)
             seen = corners
             if crossed:
@@ -171,6 +197,8 @@ def draw(axes: Axes, shape: Shape, view: View, size: Tuple[float, float], named:
     for (name, normal), (first, last) in view.obstacles.items():
         if structure.has(name, normal):
             draw_obstacle(axes, shape.obstacles[name], np.array(normal), first, last, HATCH_DEPTH * view.size)
+    for curve in shape.curves.values():
+        draw_curve(axes, curve, view, HATCH_DEPTH * view.size)
     draw_solids(axes, shape, view)
     width = min(1.5, 20.0 / math.sqrt(len(structure.bars) + len(structure.beams.nodes) + 1.0))
     initial_beams = structure.beams.curves(structure.initial, np.zeros(len(structure.names)))
@@ -230,6 +258,24 @@ def draw_obstacle(axes: Axes, point: np.ndarray, normal: np.ndarray, first: floa
     draw_lines(axes, [(origin + first * tangent, origin + last * tangent)], color=OBSTACLE, linewidth=1.2, zorder=0)
 
 
+def draw_curve(axes: Axes, curve: Curve, view: View, depth: float) -> None:
+    """A boundary that is no straight line, or turns: as draw_obstacle does it, as far as it is in view."""
+    points, normals = curve.points, curve.normals
+    if len(points) == 2:  # a half plane, as far as the view reaches
+        tangent = points[1] - points[0]
+        middle = points[0] + (0.5 * (view.low + view.high) - points[0]).dot(tangent) * tangent
+        reach = np.hypot(*(view.high - view.low))
+        points = middle + reach * np.array([-tangent, tangent])
+    xi = np.concatenate(([0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))))
+    strokes = max(1, round(xi[-1] / (0.4 * depth)))
+    at = np.linspace(0.0, xi[-1], strokes + 1)[1:]
+    feet, inwards = (np.stack([np.interp(at, xi, column) for column in values.T], axis=1) for values in (points, normals))
+    ends = feet - depth * (inwards + np.column_stack((inwards[:, 1], -inwards[:, 0])))
+    seen = np.all((feet > view.low - depth) & (feet < view.high + depth), axis=1)
+    draw_lines(axes, np.stack((feet, ends), axis=1)[seen], color=OBSTACLE, linewidth=0.6, zorder=0)
+    draw_lines(axes, [points], color=OBSTACLE, linewidth=1.2, zorder=0)
+
+
 # Tips at the node, which lies above.
 PINNED = np.array([(0.0, 0.0), (-0.6, -1.0), (0.6, -1.0), (0.0, 0.0)])
 ROLLER = np.vstack((PINNED, [(-0.8, -1.25), (0.8, -1.25)]))
@@ -254,17 +300,20 @@ def draw_supports(axes: Axes, shape: Shape, area: float) -> None:
 
 
 def draw_names(axes: Axes, shape: Shape, view: View, inch: float) -> None:
-    """Beside the nodes, where bars, supports, obstacles and loads leave most room. inch: the length that is an inch."""
+    """Beside the nodes that are not within a beam, where bars, supports, obstacles and loads leave most room. inch: the
+    length that is an inch."""
     structure = shape.structure
     taken = [list(directions) for directions in structure.bar_directions]
     for node, direction in structure.supports.items():
         taken[node].append(direction)
-    for node, normal, tangent in zip(structure.contact_nodes, structure.normals, structure.tangents):
+    for node, normal, tangent in zip(structure.contact_nodes, shape.normals, shape.tangents):
         taken[node] += [normal, -normal, tangent, -tangent]
     for _, force in shape.forces()[1:]:
         for node in np.flatnonzero(force.any(axis=1)):
             taken[node].append(force[node] / np.hypot(*force[node]))
-    for name, place, directions in zip(structure.names, shape.places, taken):
+    for name, place, directions, inner in zip(structure.names, shape.places, taken, structure.beams.inner):
+        if inner:
+            continue
         size = np.array([0.06 * len(name) + 0.03, 0.12]) * inch
 
         def is_in_view(direction: np.ndarray) -> bool:
@@ -342,6 +391,8 @@ def draw_states(axes: Axes, shape: Shape, view: View) -> None:
     in_view = np.zeros(len(shape.states), dtype=bool)
     for name, normal in view.obstacles:
         in_view |= shape.structure.is_at(name, normal)
+    for i, name in enumerate(shape.structure.contact_obstacles):
+        in_view[i] |= name in shape.curves and view.sees(shape.curves[name])
     area = 40.0 if in_view.sum() <= MANY_MARKS and len(shape.places) <= MANY_NODES else 20.0
     drawn: Dict[int, int] = {}  # node -> marks
     layers: Dict[Tuple[int, str], List[int]] = {}

@@ -1,12 +1,13 @@
 """The scene of a path as arrays, and what its loads and moving obstacles are in an increment."""
 from __future__ import annotations
 
-from typing import Any, Callable, Dict, Iterable, List, Mapping, NamedTuple, Tuple
+from typing import Any, Dict, Iterable, List, Mapping, NamedTuple, Tuple
 
 import numpy as np
 
 from contact_path.beam_curves import Beams
 from contact_path.drawn_scene import drawn
+from contact_path.obstacle_curves import Boundary, Placement
 from contact_path.path import Path
 from contact_path.scene import Scene
 from contact_path.solid_energy import Solid
@@ -20,11 +21,11 @@ class Stage(NamedTuple):
     name: str
     target: float
     loads: np.ndarray  # (n, 3) forces and moments on the nodes
-    motions: Dict[str, np.ndarray]  # obstacle -> displacement (2,)
+    motions: Dict[str, Mapping[str, Any]]  # obstacle -> its motion with all fields
 
 
 class Structure:
-    """The scene as arrays: nodes (n, 2), bars (m, 2) of indices, normals and tangents (k, 2) of the k contacts.
+    """The scene as arrays: nodes (n, 2), bars (m, 2) of indices, friction (k,) of the k contacts.
 
     stages: without a program there is one, of the scene's own. ValueError: it is no scene.
     """
@@ -46,19 +47,17 @@ class Structure:
         own = {'name': '', 'target': 1.0, 'loads': [load for load in scene['loads'] if not load['constant']],
                'obstacle_motions': scene['obstacle_motions']}
         self.stages = [Stage(stage['name'], stage['target'], self.loads_of(stage['loads']),
-                             {motion['obstacle']: np.array([motion['dx'], motion['dy']])
-                              for motion in stage['obstacle_motions']}) for stage in scene['program'] or [own]]
-        self.obstacles: Dict[str, Tuple[np.ndarray, np.ndarray, float]] = {}  # name -> point, normal, friction
-        for obstacle in scene['obstacles']:
-            normal = np.array([obstacle['nx'], obstacle['ny']])
-            self.obstacles[obstacle['name']] = (np.array([obstacle['px'], obstacle['py']]), normal / np.hypot(*normal),
-                                                obstacle['friction'])
+                             {motion['obstacle']: motion for motion in stage['obstacle_motions']})
+                       for stage in scene['program'] or [own]]
+        self.obstacles = {obstacle['name']: Boundary(obstacle) for obstacle in scene['obstacles']}
+        turning = {name for stage in self.stages for name, motion in stage.motions.items() if motion['turn'] != 0.0}
+        # Half planes that do not turn: their normals.
+        self.normals = {name: boundary.normal for name, boundary in self.obstacles.items()
+                        if boundary.flat and name not in turning}
         self.contact_nodes = np.array([index[contact['node']] for contact in scene['contacts']], dtype=int)
         self.contact_obstacles = [contact['obstacle'] for contact in scene['contacts']]
         self.contacts = ['%s@%s' % (contact['node'], contact['obstacle']) for contact in scene['contacts']]
-        self.normals = np.array([self.obstacles[name][1] for name in self.contact_obstacles]).reshape(-1, 2)
-        self.tangents = np.column_stack((self.normals[:, 1], -self.normals[:, 0]))
-        self.friction = np.array([self.obstacles[name][2] for name in self.contact_obstacles])
+        self.friction = np.array([self.obstacles[name].friction for name in self.contact_obstacles])
 
     def loads_of(self, loads: Iterable[Mapping[str, Any]]) -> np.ndarray:
         """Forces and moments (n, 3) on the nodes."""
@@ -68,7 +67,7 @@ class Structure:
         return total
 
     def has(self, obstacle: str, normal: Tuple[float, float]) -> bool:
-        return obstacle in self.obstacles and tuple(self.obstacles[obstacle][1]) == normal
+        return obstacle in self.normals and tuple(self.normals[obstacle]) == normal
 
     def is_at(self, obstacle: str, normal: Tuple[float, float]) -> np.ndarray:
         """For each contact, whether its obstacle is this one."""
@@ -95,20 +94,31 @@ class Structure:
         before = self.constant_loads + sum(stage.target * stage.loads for stage in self.stages[:number])  # they stay
         return increment['load_factor'] * self.stages[number].loads, before
 
-    def obstacle_shift(self, name: str, increment: Row) -> np.ndarray:
-        """Displacement (2,) of an obstacle since the start."""
-        number = self.stage_index(increment)
-        return increment['load_factor'] * self.stages[number].motions.get(name, np.zeros(2)) + sum(
-            stage.target * stage.motions.get(name, np.zeros(2)) for stage in self.stages[:number])
+    def shares(self, increments: Row | Path) -> np.ndarray:
+        """The load factors that the stages have been brought to: (stages,) in an increment, (n, stages) along a path."""
+        targets = np.array([stage.target for stage in self.stages])
+        factors = np.asarray(increments['load_factor'], dtype=float)[..., None]
+        current = np.asarray(increments['stage'] if 'stage' in increments else 1)[..., None] - 1
+        numbers = np.arange(len(targets))
+        return np.where(numbers < current, targets, np.where(numbers == current, factors, 0.0))
 
-    def along(self, path: Path, brought_on: Callable[[Stage], Any]) -> np.ndarray:
-        """What the stages have brought on in each increment (n, ...); brought_on: by a stage at load factor 1, (...)."""
-        at_one = np.array([brought_on(stage) for stage in self.stages], dtype=float)
-        targets = np.reshape([stage.target for stage in self.stages], (-1,) + (1,) * (at_one.ndim - 1))
-        before = np.cumsum(targets * at_one, axis=0) - targets * at_one
-        numbers = path['stage'] - 1 if 'stage' in path else np.zeros(len(path), dtype=int)
-        factors = path['load_factor'].reshape((-1,) + (1,) * (at_one.ndim - 1))
-        return factors * at_one[numbers] + before[numbers]
+    def placement(self, obstacle: str, increments: Row | Path) -> Placement:
+        """Where an obstacle is in an increment, or in each increment of a path."""
+        placement = Placement()
+        for stage, share in zip(self.stages, np.moveaxis(self.shares(increments), -1, 0)):
+            if obstacle in stage.motions:
+                placement = placement.then(stage.motions[obstacle], share)
+        return placement
+
+    def contact_normals(self, places: np.ndarray, placements: Mapping[str, Placement]) -> np.ndarray:
+        """(k, 2) where the contacts are nearest to their obstacles. places (n, 2): of the nodes; placements: obstacle -> where
+        it is."""
+        normals = np.empty((len(self.contacts), 2))
+        for name in set(self.contact_obstacles):
+            own = np.flatnonzero(np.array(self.contact_obstacles) == name)
+            found, _ = self.obstacles[name].foot(placements[name].back(places[self.contact_nodes[own]]))
+            normals[own] = placements[name].vectors(found)
+        return normals
 
     def find_bar_directions(self) -> List[List[np.ndarray]]:
         """For each node the directions, of unit length, to those that it is joined to at the start, and to the middles of

@@ -22,7 +22,8 @@ import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 from matplotlib.quiver import Quiver  # noqa: E402
 
-from contact_path import Path, Scene, plot_panels, plot_shapes, read  # noqa: E402
+from contact_path import Path, Scene, obstacle_curves, plot_panels, plot_shapes, read  # noqa: E402
+from contact_path.scene import with_defaults  # noqa: E402
 from contact_path.scene_arrays import Structure  # noqa: E402
 
 
@@ -216,6 +217,147 @@ class Curves(QuickPlotTest):
             self.assertIn(text, texts)
 
 
+DRUM = """scene:
+  name: drum
+  nodes:
+  - {name: p, y: 1.0}
+  superelements:
+  - {nodes: [p], stiffness: [1.0, 0.0, 0.0, 1.0], rest_positions: [0.0, 0.5]}
+  obstacles:
+  - {name: drum, shape: circle, radius: 1.0, friction: 0.4}
+  contacts:
+  - {node: p, obstacle: drum}
+program:
+- {name: turn, obstacle_motions: [{obstacle: drum, turn: 9.0}]}
+- {name: move, obstacle_motions: [{obstacle: drum, dx: 0.2, dy: -0.1, turn: 2.0}]}
+"""
+TURNING = """scene:
+  name: turning
+  nodes:
+  - {name: p, y: 1.0}
+  superelements:
+  - {nodes: [p], stiffness: [1.0, 0.0, 0.0, 1.0], rest_positions: [0.0, 1.0]}
+  loads:
+  - {node: p, fx: 0.1}
+  obstacles:
+  - {name: thing, px: 0.2, py: 0.1, %s}
+  contacts:
+  - {node: p, obstacle: thing}
+  obstacle_motions:
+  - {obstacle: thing, turn: 0.7, about_x: -0.5, about_y: 0.1, dx: -0.3, dy: 0.1}
+options:
+  stop:
+  - {quantity: load_factor, when: ">", value: 1.0}
+"""
+
+
+class Obstacles(QuickPlotTest):
+    """Boundaries of obstacles that are no half planes."""
+
+    @staticmethod
+    def boundary(**fields):
+        obstacle, = with_defaults('obstacles', [fields])
+        return obstacle_curves.Boundary(obstacle)
+
+    def test_normals_are_on_the_left_of_who_walks_along(self):
+        square = [0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0]
+        for boundary, inside in ((self.boundary(shape='circle', radius=2.0, px=1.0), False),
+                                 (self.boundary(shape='circle', radius=2.0, px=1.0, inside=True), True),
+                                 (self.boundary(shape='polyline', points=square, closed=True), True),
+                                 (self.boundary(shape='polyline', points=square[6:] + square[4:6] + square[2:4] + square[:2],
+                                                closed=True, fillet=0.3), False),
+                                 (self.boundary(shape='polyline', points=[-1, 0, 1, 0, 2, -1], fillet=0.4), None),
+                                 (self.boundary(shape='spline', points=[-1, 0, 0, 1, 1, 0]), None),
+                                 (self.boundary(shape='spline', points=[1, 0, 0, 1, -1, 0, 0, -1], closed=True), True)):
+            steps = np.diff(boundary.points, axis=0)
+            lengths = np.hypot(*steps.T)
+            self.assertGreater(lengths.min(), 0.0)
+            np.testing.assert_allclose(np.hypot(*boundary.normals.T), 1.0, atol=1e-12)
+            left = obstacle_curves.left_of(steps / lengths[:, None])
+            self.assertGreater(np.sum(left * boundary.normals[1:], axis=1).min(), 0.995)
+            if inside is not None:
+                np.testing.assert_allclose(boundary.points[0], boundary.points[-1], atol=1e-12)
+                outwards = boundary.points - boundary.points[:-1].mean(axis=0)
+                self.assertEqual(np.sum(outwards * boundary.normals, axis=1).max() < 0.0, inside)
+
+    def test_lengths_of_curves(self):
+        self.assertAlmostEqual(self.boundary(shape='circle', radius=2.0).xi[-1], 4.0 * np.pi, delta=1e-3)
+        # Each corner of a square loses twice its cut and has a quarter of a circle in its place.
+        square = self.boundary(shape='polyline', points=[0, 0, 1, 0, 1, 1, 0, 1], closed=True)
+        self.assertAlmostEqual(square.xi[-1], 4.0 - 8.0 * 0.05 + 2.0 * np.pi * 0.05, delta=1e-4)
+        # A spline through points of a line is the line.
+        line = self.boundary(shape='spline', points=[0, 0, 3, 4, 6, 8], px=1.0)
+        self.assertAlmostEqual(line.xi[-1], 10.0)
+        normals, xi = line.foot(np.array([(1.0 + 3.0 - 0.8, 4.0 + 0.6), (1.0 + 6.0 + 0.3, 8.0 + 0.9)]))
+        np.testing.assert_allclose(normals, [(-0.8, 0.6)] * 2, atol=1e-12)
+        np.testing.assert_allclose(xi, (5.0, 10.0))
+
+    def test_turned_about_a_point_and_then_moved(self):
+        motion = {'dx': 3.0, 'dy': 0.0, 'turn': np.pi, 'about_x': 1.0, 'about_y': 0.0}
+        placement = obstacle_curves.Placement().then(motion, 0.5)
+        np.testing.assert_allclose(placement.points((2.0, 0.0)), (1.0 + 1.5, 1.0), atol=1e-12)
+        np.testing.assert_allclose(placement.back((2.5, 1.0)), (2.0, 0.0), atol=1e-12)
+        np.testing.assert_allclose(placement.vectors((1.0, 0.0)), (0.0, 1.0), atol=1e-12)
+
+    def test_motion_that_a_stage_takes_back(self):
+        scene = Scene()
+        scene.node('p')
+        scene.obstacle('wall', nx=1.0)
+        scene.stage().obstacle_motion('wall', dx=3.0, dy=-1.0)
+        scene.stage(unload=True)
+        placement = Structure(scene).placement('wall', {'stage': 2, 'load_factor': 0.5})
+        np.testing.assert_allclose(placement.points((0.0, 1.0)), (1.5, 0.5))
+
+    def test_reactions_of_a_peg_balance_its_spring(self):
+        table = self.trace('peg', 'peg.csv')
+        scene = scene_file('peg')
+        path = read(table).with_scene(Scene.read(scene))
+        structure = Structure(path.scene)
+        for row in range(0, len(path), 10):
+            shape = plot_shapes.Shape(structure, path.row(row))
+            spring = np.array((1.3, 0.8)) * (shape.places[0] - (0.2, -0.3))
+            np.testing.assert_allclose(shape.reactions[0] + shape.loads[0], spring, atol=1e-5)
+        np.testing.assert_allclose(path.quantity('p@peg.slip'), np.arctan2(path['x_p'], path['y_p']) + 0.2, atol=1e-4)
+        texts = self.texts(table, '--scene', scene, '--x', 'p@peg.slip', '--shapes')
+        self.assertIn('slip of p@peg [length]', texts)
+
+    def test_drum_that_turns_under_a_node(self):
+        """In the eyes of the drum, which turns more than once and then moves on, the node is where its slip has brought it."""
+        name = self.path('drum.yaml')
+        with open(name, 'w') as file:
+            file.write(DRUM)
+        path = read(self.trace(name, 'drum.csv')).with_scene(Scene.read(name))
+        self.assertEqual(path.stages, ['stage 1: turn', 'stage 2: move'])
+        self.assertIn('stick', path['state_p@drum'])
+        first = path['stage'] == 1
+        turn = np.where(first, 9.0 * path['load_factor'], 9.0 + 2.0 * path['load_factor'])
+        centre = np.where(first[:, None], 0.0, np.outer(path['load_factor'], (0.2, -0.1)))
+        x, y = np.column_stack((path['x_p'], path['y_p'])).T - centre.T
+        np.testing.assert_allclose(path.quantity('p@drum.slip'), np.arctan2(x, y) + turn, atol=1e-4)
+
+    def test_gaps_of_obstacles_that_turn_and_move(self):
+        """From the boundary in its place to the node."""
+        for obstacle in ('nx: 0.3, ny: 1.0', 'shape: circle, radius: 0.4', 'shape: polyline, points: [-2, 0.1, 0, -0.2, 2, 0.3]',
+                         'shape: spline, points: [1, 0, 0, -0.6, -1, 0, 0, 0.4], closed: true'):
+            name = self.path('turning.yaml')
+            with open(name, 'w') as file:
+                file.write(TURNING % obstacle)
+            path = read(self.trace(name, 'turning.csv'))
+            structure = Structure(Scene.read(name))
+            self.assertEqual(structure.normals, {})
+            boundary = structure.obstacles['thing']
+            for increment in map(path.row, range(len(path))):
+                shape = plot_shapes.Shape(structure, increment)
+                foot = shape.curves['thing'].points[0]
+                if not boundary.flat:
+                    placement = structure.placement('thing', increment)
+                    _, xi = boundary.foot(placement.back(shape.touching))
+                    foot = placement.points([np.interp(xi[0], boundary.xi, column) for column in boundary.points.T])
+                gap = (shape.touching[0] - foot).dot(shape.normals[0])
+                self.assertAlmostEqual(gap, increment['gap_p@thing'], delta=5e-4)
+            self.assertIn('increment 0: start', self.texts(self.path('turning.csv'), '--scene', name, '--shapes'))
+
+
 class Shapes(QuickPlotTest):
 
     def setUp(self):
@@ -246,7 +388,7 @@ class Shapes(QuickPlotTest):
         self.assert_main_refuses([self.table, '--shapes', '--scene', self.table], 'a.csv', 'not a scene file')
         self.assert_main_refuses([self.table, '--shapes', *self.scene, *self.scene], '--scene', '2 scene files')
 
-    def test_other_obstacles_than_half_planes_are_not_drawn(self):
+    def test_an_unknown_shape_of_an_obstacle_is_refused(self):
         with open(self.scene[1]) as file:
             text = file.read().replace('shape: half_plane', 'shape: disc')
         self.assertIn('disc', text)
