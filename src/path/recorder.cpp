@@ -81,7 +81,8 @@ void Recorder::Fill(const Model& model, const PathPoint& point, const AcceptedPo
 
 void Recorder::Give(double load_before) {
   const double change = increment_.load_factor - load_before;
-  if (change != 0.0 && TurnsBackByChoice(increment_.event, change)) {
+  // A load that falls, as in a snap, and rises again is what the user waits for.
+  if (change * increment_.load_factor > 0.0 && TurnsBackByChoice(increment_.event, change)) {
     if (turned_back_ == 0) first_turned_back_ = increment_.index;
     ++turned_back_;
   }
