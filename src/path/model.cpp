@@ -58,6 +58,7 @@ PathPoint Model::Transfer(const Model& other, const PathPoint& point) const {
   const Eigen::VectorXd values = other.structure.AllValues(point.u);
   for (const DofMap::Component& to : structure.Dofs().Components())
     if (to.dof >= 0) taken.u[to.dof] = values[other.structure.Dofs().Index(to.node, to.field, to.component)];
+  NotePatches(&taken);  // an obstacle that has turned need not have them where they were
   return taken;
 }
 

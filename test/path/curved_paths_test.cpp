@@ -228,6 +228,35 @@ TEST(CurvedPaths, ATurningDrumTakesTheNodeAlongUntilItSlips) {
   EXPECT_TRUE(slipped);
 }
 
+// After nine radians the next stage begins on the drum as it stands: the node is on other patches of it than before.
+TEST(CurvedPaths, AStageBeginsOnADrumThatHasTurned) {
+  TraceRequest request;
+  Scene& scene = request.scene;
+  scene.nodes = {{"p", 0.0, 1.0, false, false}};
+  scene.superelements = {{{"p"}, {1.0, 0.0, 0.0, 1.0}, {0.0, 0.5}}};
+  scene.obstacles = {Disc("drum", 0.0, 0.0, 1.0, 0.4)};
+  scene.contacts = {{"p", "drum"}};
+  request.program.resize(2);
+  request.program[0].obstacle_motions = {{"drum", 0.0, 0.0, 9.0, 0.0, 0.0}};
+  request.program[1].obstacle_motions = {{"drum", 0.2, -0.1, -0.5, 0.0, 0.0}};
+  const TracedPath path = TraceIncrements(request);
+  ASSERT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+  ExpectProved(path);
+  std::vector<std::vector<ContactState>> states(2);
+  for (const Increment& increment : path.increments) {
+    const ContactRecord& contact = increment.contacts[0];
+    const Eigen::Vector2d centre =
+        increment.stage == 1 ? Eigen::Vector2d::Zero() : Eigen::Vector2d(increment.load_factor * Eigen::Vector2d(0.2, -0.1));
+    const Eigen::Vector2d x(increment.positions[0], increment.positions[1]), elastic(x.x(), x.y() - 0.5);
+    EXPECT_NEAR(contact.rn, elastic.dot((x - centre).normalized()), kExact);
+    std::vector<ContactState>& so_far = states[static_cast<std::size_t>(increment.stage - 1)];
+    if (so_far.empty() || so_far.back() != contact.state) so_far.push_back(contact.state);
+  }
+  using S = ContactState;
+  EXPECT_EQ(states[0], (std::vector<S>{S::kStick, S::kSlipPlus}));
+  EXPECT_EQ(states[1], (std::vector<S>{S::kSlipPlus, S::kStick, S::kSlipMinus}));
+}
+
 // ----- the end of an open curve -----
 
 TEST(CurvedPaths, APressedNodeIsLostAtTheEndOfATable) {
