@@ -80,6 +80,15 @@ class Walk : public Surface {
 
   virtual Foot Nearest(const Vector& x) const = 0;
 
+  // To the nearest begin of a piece: the foot is no farther. No point of a piece is farther from its begin than the piece
+  // is long.
+  template <typename Piece>
+  static Real Reach(const std::vector<Piece>& pieces, const Vector& x) {
+    Real reach = std::numeric_limits<Real>::infinity();
+    for (const Piece& piece : pieces) reach = std::min(reach, Length(x - piece.from));
+    return reach;
+  }
+
   bool closed_;
   Real length_ = 0.0L;
 };
@@ -161,9 +170,11 @@ class Polyline : public Walk {
   }
 
   Foot Nearest(const Vector& x) const override {
+    const Real reach = Reach(pieces_, x);
     Foot nearest;
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
       const Piece& piece = pieces_[i];
+      if (Length(x - piece.from) > reach + piece.length) continue;
       const Real on = FootOn(piece, x), walked = std::clamp(on, 0.0L, piece.length);
       const Vector place = PlaceAt(piece, walked);
       const Real distance = Length(x - place);
@@ -214,6 +225,7 @@ class Spline : public Walk {
   static constexpr int kParts = 32;
   static constexpr int kSamples = 12;
   static constexpr int kIterations = 60;
+  static constexpr Real kRounding = 1e-18L;  // of w
 
   struct Piece {
     Vector from, to, bend_from, bend_to;
@@ -258,17 +270,19 @@ class Spline : public Walk {
       const Real square = Dot(first, first), slope = square + Dot(away, Second(piece, w));
       const Real move = -Dot(away, first) / (slope > 0.0L ? slope : square);
       w = std::clamp(w + move, -0.25L, 1.25L);
-      if (std::abs(move) < 1e-19L) break;
+      if (std::abs(move) <= kRounding) break;
     }
     return w;
   }
 
+  static Real LengthOf(const Piece& piece) { return piece.walked.back() - piece.walked.front(); }
+
   Foot Nearest(const Vector& x) const override {
+    const Real reach = Reach(pieces_, x);
     Foot nearest;
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
       const Piece& piece = pieces_[i];
-      // No point of the piece is farther from the first one than the piece is long.
-      if (Length(x - piece.from) - (piece.walked.back() - piece.walked.front()) >= nearest.distance) continue;
+      if (Length(x - piece.from) > reach + LengthOf(piece)) continue;
       const Real on = FootOn(piece, x), w = std::clamp(on, 0.0L, 1.0L);
       const Vector place = At(piece, w);
       const Real distance = Length(x - place);

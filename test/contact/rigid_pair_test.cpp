@@ -171,7 +171,7 @@ TEST_F(RigidPairs, SlipRunsOnOverPatches) {
 
 // A node that slides on a disc from its top by a quarter of a circle at the distance g.
 TEST(RigidPair, OfADiscHasTheClosedForm) {
-  const auto disc = std::make_shared<Disc>(Eigen::Vector2d(1.0, 2.0), 0.5);
+  const auto disc = std::make_shared<DiscOutside>(Eigen::Vector2d(1.0, 2.0), 0.5);
   const RigidPair pair(disc, {{0, 1}, Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()}, 0.3);
   const Eigen::VectorXd top = Eigen::Vector2d(1.0, 2.75), right = Eigen::Vector2d(1.75, 2.0);
   EXPECT_NEAR(pair.Gap(top, 0.0, 0), 0.25, kRounding);

@@ -29,7 +29,7 @@ TEST(Circle, HasFeetAllRoundAndIsContinuous) {
 TEST(Circle, FromOutsideIsADisc) {
   const Vector2d centre(0.3, -0.8);
   const auto circle = MakeCircle(centre, 1.4, false);
-  const Disc disc(centre, 1.4);
+  const DiscOutside disc(centre, 1.4);
   Random random(5);
   for (int i = 0; i < 100; ++i) {
     const Vector2d x = random.Vector(2, -3.0, 3.0);

@@ -16,7 +16,7 @@ constexpr double kRounding = 1e-14;
 
 std::vector<std::shared_ptr<const Surface>> Surfaces() {
   return {std::make_shared<HalfPlane>(Eigen::Vector2d(1.0, 2.0), Eigen::Vector2d(30.0, 40.0)),
-          std::make_shared<Disc>(Eigen::Vector2d(0.1, -2.0), 1.7), std::make_shared<Spiral>(0.3, -0.4, 0.5)};
+          std::make_shared<DiscOutside>(Eigen::Vector2d(0.1, -2.0), 1.7), std::make_shared<Spiral>(0.3, -0.4, 0.5)};
 }
 
 // Along the normal only the gap changes; the foot is where the gap is zero.

@@ -36,12 +36,23 @@ std::vector<const Increment*> Events(const TracedPath& path) {
   return events;
 }
 
+// Whether nothing resists some motion: where a part is then depends on the steps, which is no error.
+bool MovesFreely(const TracedPath& path) {
+  return std::any_of(path.increments.begin(), path.increments.end(),
+                     [](const Increment& increment) { return increment.solve.nullity > 0; });
+}
+
 TEST(RandomPathsOnCurves, AreProvedAndTheSameForOtherSteps) {
   std::map<std::string, int> ends;
   for (unsigned seed = 1; seed <= kSeeds; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     TraceRequest request = OnCurves(RandomRequest(seed), seed);
     const TracedPath path = TraceArc(request, kArcLength);
+    if (path.increments.empty()) {  // no start
+      EXPECT_EQ(path.result.message.rfind("while the constant loads were brought on: ", 0), 0u) << path.result.message;
+      ++ends["no start"];
+      continue;
+    }
     ++ends[Reached(path) ? "reached" : path.result.message.substr(0, 60)];
     EXPECT_TRUE(EndsByName(path)) << path.result.message;
     for (const Finding& finding : VerifyPath(path.request, path.increments).findings)
@@ -53,7 +64,8 @@ TEST(RandomPathsOnCurves, AreProvedAndTheSameForOtherSteps) {
     EXPECT_EQ(others.size(), events.size());
     for (std::size_t i = 0; i < std::min(events.size(), others.size()); ++i) {
       EXPECT_EQ(others[i]->kind, events[i]->kind) << i;
-      EXPECT_NEAR(others[i]->load_factor, events[i]->load_factor, 1e-7 * (1.0 + std::abs(events[i]->load_factor))) << i;
+      const double same = (MovesFreely(path) ? 1e-5 : 1e-7) * (1.0 + std::abs(events[i]->load_factor));
+      EXPECT_NEAR(others[i]->load_factor, events[i]->load_factor, same) << i;
     }
   }
   for (const auto& [end, count] : ends) std::cout << count << ": " << end << "\n";

@@ -1,6 +1,7 @@
 // The example scenes with circles, polylines and splines, against closed forms and computations by hand.
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -18,13 +19,13 @@ namespace {
 
 const double kPi = std::acos(-1.0);
 
-// With the nodes and contacts of its beams and groups by name.
-TracedPath TraceProved(TraceRequest request) {
-  request = Expand(request).request;
+// The request of the path has the nodes and contacts of beams and groups by name.
+TracedPath TraceProved(const TraceRequest& request) {
   TracedPath path = TraceIncrements(request);
   EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
   for (const Finding& finding : VerifyPath(path.request, path.increments).findings)
     ADD_FAILURE() << "increment " << finding.increment << ": " << finding.what;
+  path.request = Expand(request).request;
   return path;
 }
 

@@ -192,7 +192,7 @@ TEST(ConvertTest, FieldsLeftOutHaveTheDefaultsOfTheCore) {
 TEST(ConvertTest, RefusesEveryWordThatIsNotKnown) {
   msgs::TraceRequest message = ToMessage(FullRequest());
   message.scene.bars[1].strain = "hencky";
-  message.scene.obstacles[0].shape = "circle";
+  message.scene.obstacles[0].shape = "ellipse";
   message.options.method = "magic";
   message.options.accuracy = "perfect";
   try {

@@ -32,11 +32,11 @@ inline ContactPairs CurvedContacts(const Structure& structure) {
     contacts.push_back(std::make_unique<RigidPair>(std::move(surface), motion, friction));
   };
   const Eigen::Vector2d at_rest = Eigen::Vector2d::Zero();
-  add("b", std::make_shared<Disc>(Eigen::Vector2d(1.4, -0.9), 1.0), {0.3, -0.2}, 0.3);
+  add("b", std::make_shared<DiscOutside>(Eigen::Vector2d(1.4, -0.9), 1.0), {0.3, -0.2}, 0.3);
   add("d", std::make_shared<Spiral>(0.3, -0.4, 0.5), at_rest, 0.5);
-  add("c", std::make_shared<Disc>(Eigen::Vector2d(2.3, 0.7), 0.7), at_rest, 0.4);
+  add("c", std::make_shared<DiscOutside>(Eigen::Vector2d(2.3, 0.7), 0.7), at_rest, 0.4);
   add("e", std::make_shared<HalfPlane>(Eigen::Vector2d(0.0, 0.7), Eigen::Vector2d(0.1, 1.0)), {0.2, 0.1}, 0.2);
-  add("b", std::make_shared<Disc>(Eigen::Vector2d(0.8, 1.3), 0.6), at_rest, 0.0);
+  add("b", std::make_shared<DiscOutside>(Eigen::Vector2d(0.8, 1.3), 0.6), at_rest, 0.0);
   return contacts;
 }
 

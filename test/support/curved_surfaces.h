@@ -10,9 +10,9 @@
 namespace contact_path {
 
 // The outside of a disc: xi from its top, clockwise.
-class Disc : public Surface {
+class DiscOutside : public Surface {
  public:
-  Disc(const Eigen::Vector2d& centre, double radius) : centre_(centre), radius_(radius) {}
+  DiscOutside(const Eigen::Vector2d& centre, double radius) : centre_(centre), radius_(radius) {}
 
   bool Flat() const override { return false; }
   NearestFoot Nearest(const Eigen::Vector2d& x) const override { return {0, std::abs(Project(x, 0).gap), false}; }

@@ -53,6 +53,7 @@ class MpecMethod : public PathMethod {
     kTooLong,
     kNoProgress,
     kTurnedBack,
+    kBackAtRest,
     kNotConfirmed,
     kBeyondTarget,
     kCancelled
@@ -63,6 +64,8 @@ class MpecMethod : public PathMethod {
     Residuals residuals;
   };
   static const char* Describe(Verdict verdict);
+  // Whether the load goes back on the increment, and no contact slides there, though one did before.
+  bool GoesBackAtRest(const PathPoint& from, const PathPoint& to) const;
   // Sets residuals and verdict of a trial that was solved for.
   void Judge(const PathPoint& from, const Eigen::VectorXd& direction, double length, Trial* result) const;
 
