@@ -185,9 +185,15 @@ int RigidPair::PatchAt(const Eigen::VectorXd& u, double s) const {
 
 int RigidPair::PatchAfter(const Eigen::VectorXd& u, double s, int from) const {
   const int patch = PatchAt(u, s);
-  if (!surface_->Closed()) return patch;
+  if (!surface_->Closed() || patch == from) return patch;
+  const Eigen::Vector2d x = Position(u, s);
   const int round = surface_->NumPatches();
-  return patch + round * static_cast<int>(std::lround(static_cast<double>(from - patch) / round));
+  const double length = surface_->RangeOf(round).begin - surface_->RangeOf(0).begin;
+  // By xi, and not by the numbers: of a circle, the patches before and after one are the same place.
+  double xi = surface_->Project(x, from).xi;
+  const XiRange range = surface_->RangeOf(from);
+  if (!std::isfinite(xi)) xi = 0.5 * (range.begin + range.end);
+  return patch + round * static_cast<int>(std::lround((xi - surface_->Project(x, patch).xi) / length));
 }
 
 XiRange RigidPair::RangeOf(int patch) const {

@@ -181,6 +181,22 @@ TEST(RigidPair, OfADiscHasTheClosedForm) {
   EXPECT_NEAR(pair.SlipRate(top, 0.0, 0, Eigen::Vector2d(1.0, 0.0), 0.0), 0.5 / 0.75, kRounding);
 }
 
+// Twice round a circle, one way and the other: xi grows by the way along it.
+TEST(RigidPair, PatchesGoRoundAClosedSurface) {
+  constexpr double kRadius = 0.5;
+  const std::shared_ptr<const Surface> circle = MakeCircle({1.0, 2.0}, kRadius, false);
+  const RigidPair pair(circle, {{0, 1}, Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()}, 0.3);
+  for (const double turn : {0.3, -0.3}) {
+    int patch = 0;
+    for (int i = 0; i < 42; ++i) {
+      const double angle = turn * i;
+      const Eigen::VectorXd x = Eigen::Vector2d(1.0 + 0.6 * std::sin(angle), 2.0 + 0.6 * std::cos(angle));
+      patch = pair.PatchAfter(x, 0.0, patch);
+      EXPECT_NEAR(pair.Xi(x, 0.0, patch), kRadius * angle, 20.0 * kRounding) << angle;
+    }
+  }
+}
+
 TEST(RigidPair, XiIsMeasuredFromTheReference) {
   const RigidPair pair(std::make_shared<HalfPlane>(Eigen::Vector2d(0.0, 1.0), Eigen::Vector2d(0.0, 2.0)),
                        {{0, -1}, {7.0, 1.25}, Eigen::Vector2d::Zero()}, 0.3);
