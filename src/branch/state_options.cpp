@@ -5,8 +5,8 @@
 namespace contact_path {
 namespace {
 
-std::vector<ContactState> States(const ContactPair& contact, const PathPoint& point, std::size_t candidate,
-                                 int patch, const ActiveSetTolerance& tolerance) {
+std::vector<ContactState> States(const ContactPair& contact, const PathPoint& point, std::size_t candidate, int patch,
+                                 const ActiveSetTolerance& tolerance) {
   const auto k = static_cast<Eigen::Index>(candidate);
   const double gap = contact.Gap(point.u, point.s, patch), rn = point.rn[k], rt = point.rt[k];
   if (gap > tolerance.gap) return {ContactState::kOpen};

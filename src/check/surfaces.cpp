@@ -80,8 +80,8 @@ class Walk : public Surface {
 
   virtual Foot Nearest(const Vector& x) const = 0;
 
-  // To the nearest begin of a piece: the foot is no farther. No point of a piece is farther from its begin than the piece
-  // is long.
+  // To the nearest begin of a piece: the foot is no farther. No point of a piece is farther from its begin than the
+  // piece is long.
   template <typename Piece>
   static Real Reach(const std::vector<Piece>& pieces, const Vector& x) {
     Real reach = std::numeric_limits<Real>::infinity();

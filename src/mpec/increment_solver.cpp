@@ -33,12 +33,12 @@ IncrementTrial IncrementSolver::Solve(const PathPoint& from, const IncrementGoal
                                       const RegularisationSchedule& schedule) {
   std::vector<std::size_t> included = tracker_.InReach(from.u, from.s, kLongestIncrement * goal.length);
   // Past the end of its surface a node would meet what is prolonged of it.
-  included.erase(std::remove_if(included.begin(), included.end(),
-                                [&](std::size_t i) {
-                                  return !contacts_[i]->HasPatch(
-                                      contacts_[i]->KnownPatch(from.u, from.s, from.Patch(i)));
-                                }),
-                 included.end());
+  included.erase(
+      std::remove_if(included.begin(), included.end(),
+                     [&](std::size_t i) {
+                       return !contacts_[i]->HasPatch(contacts_[i]->KnownPatch(from.u, from.s, from.Patch(i)));
+                     }),
+      included.end());
   int iterations = 0;
   for (;;) {
     const std::vector<int> working_set(included.begin(), included.end());
@@ -49,8 +49,7 @@ IncrementTrial IncrementSolver::Solve(const PathPoint& from, const IncrementGoal
     for (const std::size_t i : tracker_.InReach(trial.point.u, trial.point.s, 0.0)) {
       const auto place = std::lower_bound(included.begin(), included.end(), i);
       const int patch = contacts_[i]->PatchAt(trial.point.u, trial.point.s);
-      if ((place == included.end() || *place != i) &&
-          contacts_[i]->Gap(trial.point.u, trial.point.s, patch) < 0.0)
+      if ((place == included.end() || *place != i) && contacts_[i]->Gap(trial.point.u, trial.point.s, patch) < 0.0)
         included.insert(place, i);
     }
     if (included.size() == before) return trial;

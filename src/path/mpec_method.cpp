@@ -130,7 +130,8 @@ const char* MpecMethod::Describe(Verdict verdict) {
     case Verdict::kNoProgress: return "the increment problem has no solution but the point itself";
     case Verdict::kWrongDirection: return "the load factor changes against the wanted direction";
     case Verdict::kTurnedBack: return "the path turns sharply without a change of contact state";
-    case Verdict::kBackAtRest: return "the load goes back with all contacts at rest, and no way on was found that slides";
+    case Verdict::kBackAtRest:
+      return "the load goes back with all contacts at rest, and no way on was found that slides";
     case Verdict::kNotConfirmed: return "two half increments do not confirm the change of contact state";
     case Verdict::kBeyondTarget: return "the load factor goes past its target, and no point at the target is found";
     case Verdict::kCancelled: return "cancelled";
@@ -157,8 +158,8 @@ MpecMethod::Trial MpecMethod::SolveOnce(const PathPoint& from, const Eigen::Vect
   return SolveOnce(from, direction, length, dissipation, anew);
 }
 
-// A path that slides on and one that goes back with all contacts at rest are two solutions of the increment problem, and
-// the solver may find either. The second one dissipates nothing.
+// A path that slides on and one that goes back with all contacts at rest are two solutions of the increment problem,
+// and the solver may find either. The second one dissipates nothing.
 bool MpecMethod::GoesBackAtRest(const PathPoint& from, const PathPoint& to) const {
   const auto slides = [](const PathPoint& point) {
     return std::any_of(point.states.begin(), point.states.end(), Slips);

@@ -116,9 +116,9 @@ void LoadingRules::CheckUnloading(const KeyPath& path, const Stage& stage, bool 
   if (!stage.support_motions.empty()) checker_.Add(path.Key("support_motions"), "", rule);
   if (!stage.obstacle_motions.empty()) checker_.Add(path.Key("obstacle_motions"), "", rule);
   if (!turned_.empty())
-    checker_.Add(path.Key("unload"), "true",
-                 "must be false after a stage that turns an obstacle, here " + turned_ +
-                     ": turn it back by a stage of its own");
+    checker_.Add(
+        path.Key("unload"), "true",
+        "must be false after a stage that turns an obstacle, here " + turned_ + ": turn it back by a stage of its own");
   if (sound && !(stage.target >= 0.0 && stage.target <= 1.0))
     checker_.Add(path.Key("target"), NumberText(stage.target),
                  "must be from 0 to 1 where the stage unloads: the part that is taken back, 0 = all");

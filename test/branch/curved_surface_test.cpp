@@ -27,8 +27,10 @@ class NodeOnADisc : public testing::Test {
  protected:
   NodeOnADisc() : structure_(MakeScene()) {
     const NodeMotion motion = {{0, 1}, Vector2d::Zero(), Vector2d::Zero()};
-    contacts_.push_back(std::make_unique<RigidPair>(std::make_shared<DiscOutside>(Vector2d::Zero(), 1.0), motion, kFriction));
-    contacts_.push_back(std::make_unique<RigidPair>(std::make_shared<DiscOutside>(Vector2d(1.6, 0.9), 1.0), motion, 0.0));
+    contacts_.push_back(
+        std::make_unique<RigidPair>(std::make_shared<DiscOutside>(Vector2d::Zero(), 1.0), motion, kFriction));
+    contacts_.push_back(
+        std::make_unique<RigidPair>(std::make_shared<DiscOutside>(Vector2d(1.6, 0.9), 1.0), motion, 0.0));
   }
   static Scene MakeScene() {
     Scene scene;

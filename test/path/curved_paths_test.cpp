@@ -261,8 +261,9 @@ TEST(CurvedPaths, AStageBeginsOnADrumThatHasTurned) {
   std::vector<std::vector<ContactState>> states(2);
   for (const Increment& increment : path.increments) {
     const ContactRecord& contact = increment.contacts[0];
-    const Eigen::Vector2d centre =
-        increment.stage == 1 ? Eigen::Vector2d::Zero() : Eigen::Vector2d(increment.load_factor * Eigen::Vector2d(0.2, -0.1));
+    const Eigen::Vector2d centre = increment.stage == 1
+                                       ? Eigen::Vector2d::Zero()
+                                       : Eigen::Vector2d(increment.load_factor * Eigen::Vector2d(0.2, -0.1));
     const Eigen::Vector2d x(increment.positions[0], increment.positions[1]), elastic(x.x(), x.y() - 0.5);
     EXPECT_NEAR(contact.rn, elastic.dot((x - centre).normalized()), kExact);
     std::vector<ContactState>& so_far = states[static_cast<std::size_t>(increment.stage - 1)];

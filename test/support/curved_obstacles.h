@@ -6,9 +6,9 @@
 
 namespace contact_path {
 
-// Each obstacle, a half plane with a single candidate, becomes a disc, the inside of a circle, a polyline with fillets or
-// a wavy spline, which has the same tangent at the foot of that candidate's node, and the same gap. The same request for
-// the same seed on every system.
+// Each obstacle, a half plane with a single candidate, becomes a disc, the inside of a circle, a polyline with fillets
+// or a wavy spline, which has the same tangent at the foot of that candidate's node, and the same gap. The same request
+// for the same seed on every system.
 TraceRequest OnCurves(TraceRequest request, unsigned seed);
 
 }  // namespace contact_path
