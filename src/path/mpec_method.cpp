@@ -58,15 +58,12 @@ bool MayHaveCutCorner(const ContactPairs& contacts, const PathPoint& from, const
   return false;
 }
 
-// Where the load factor moves supports or obstacles alone, it is no force.
-double LargestForce(const Structure& structure, const PathPoint& point) {
-  return std::max(structure.ReferenceLoad().isZero(0.0) ? 0.0 : std::abs(point.s), LargestReaction(point));
-}
+double LargestForce(const PathPoint& point) { return std::max(std::abs(point.s), LargestReaction(point)); }
 
 // Whether what a regularised point says of each contact is what its numbers say. They may all be small against the
 // characteristic force, and then small residuals prove nothing.
-bool StatesAgree(const Structure& structure, const ContactPairs& contacts, const PathPoint& from, const PathPoint& to) {
-  const double force = tolerances::kRegularisedState * LargestForce(structure, to);
+bool StatesAgree(const ContactPairs& contacts, const PathPoint& from, const PathPoint& to) {
+  const double force = tolerances::kRegularisedState * LargestForce(to);
   const double length = tolerances::kRegularisedState * Distance(from, to);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
@@ -179,7 +176,7 @@ void MpecMethod::Judge(const PathPoint& from, const Eigen::VectorXd& direction, 
   const double moved = Distance(from, to);
   if (!(trial.residuals.Largest() <= tolerance))
     trial.verdict = Verdict::kResidual;
-  else if (!trial.increment.exact && !StatesAgree(model_.structure, model_.contacts, from, to))
+  else if (!trial.increment.exact && !StatesAgree(model_.contacts, from, to))
     trial.verdict = Verdict::kContradiction;
   else if (moved > IncrementSolver::kLongestIncrement * length)
     trial.verdict = Verdict::kTooLong;
