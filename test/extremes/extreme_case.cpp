@@ -13,6 +13,7 @@ std::vector<ExtremeCase> ExtremeCases() {
   AddNumberCases(&cases);
   AddGeometryCases(&cases);
   AddContactCases(&cases);
+  AddCurveCases(&cases);
   AddLengthCases(&cases);
   AddFrameCases(&cases);
   AddSolidCases(&cases);

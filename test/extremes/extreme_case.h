@@ -42,6 +42,7 @@ void AddFrictionCases(std::vector<ExtremeCase>* cases);
 void AddNumberCases(std::vector<ExtremeCase>* cases);
 void AddGeometryCases(std::vector<ExtremeCase>* cases);
 void AddContactCases(std::vector<ExtremeCase>* cases);
+void AddCurveCases(std::vector<ExtremeCase>* cases);
 void AddLengthCases(std::vector<ExtremeCase>* cases);
 void AddFrameCases(std::vector<ExtremeCase>* cases);
 void AddSolidCases(std::vector<ExtremeCase>* cases);

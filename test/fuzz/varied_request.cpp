@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "contact_path/scene/validate.h"
+#include "support/curved_obstacles.h"
 #include "support/decisions.h"
+#include "support/random.h"
 #include "support/random_scene.h"
 #include "support/transformations.h"
 
@@ -43,6 +45,8 @@ class Variation {
     Try(0.2, &Variation::AddSolid);
     Try(0.3, &Variation::LoadParts);
     Try(0.2, &Variation::TouchWithParts);
+    Try(0.4, &Variation::BendObstacles);
+    Try(0.2, &Variation::TurnObstacles);
     return std::move(request_);
   }
 
@@ -303,6 +307,30 @@ class Variation {
       return;
     }
     scene().contacts.push_back({"", random_.OneOf(scene().obstacles).name, group});
+  }
+
+  // Half planes that a single node may touch become curves.
+  void BendObstacles() {
+    Random random(static_cast<unsigned>(random_.Index(1U << 20U)));
+    double size = 0.0;
+    for (const Node& node : scene().nodes)
+      size = std::max(size, std::hypot(node.x - scene().nodes[0].x, node.y - scene().nodes[0].y));
+    for (Obstacle& obstacle : scene().obstacles) {
+      const auto touches = [&](const ContactCandidate& contact) { return contact.obstacle == obstacle.name; };
+      const auto& contacts = scene().contacts;
+      const auto contact = std::find_if(contacts.begin(), contacts.end(), touches);
+      if (contact == contacts.end() || contact->node.empty() || !random_.Chance(0.7)) continue;
+      MakeCurve(NodeOf(contact->node), 0.5 * size, &random, &obstacle);
+    }
+  }
+
+  void TurnObstacles() {
+    const double turn = random_.OneOf(std::array<double, 4>{0.1, -0.3, 1.0, 7.0});
+    const auto turn_all = [&](std::vector<ObstacleMotion>* motions) {
+      for (ObstacleMotion& motion : *motions) motion.turn = turn;
+    };
+    turn_all(&scene().obstacle_motions);
+    for (Stage& stage : request_.program) turn_all(&stage.obstacle_motions);
   }
 
   const Node& NodeOf(const std::string& name) {

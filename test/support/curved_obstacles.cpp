@@ -12,11 +12,12 @@ namespace {
 
 using Eigen::Vector2d;
 
-// In the frame of the foot: along the tangent, along the normal.
+// In the frame of the foot: along the tangent, along the normal, in units of the size of the part.
 struct FootFrame {
-  Vector2d At(double along, double above) const { return foot + along * tangent + above * normal; }
+  Vector2d At(double along, double above) const { return foot + size * (along * tangent + above * normal); }
 
   Vector2d foot, tangent, normal;
+  double size = 1.0;
 };
 
 void PutPoints(const std::vector<Vector2d>& points, Obstacle* obstacle) {
@@ -29,7 +30,7 @@ void MakeCircle(const FootFrame& frame, double radius, bool inside, Obstacle* ob
   obstacle->shape = ObstacleShape::kCircle;
   obstacle->px = centre.x();
   obstacle->py = centre.y();
-  obstacle->radius = radius;
+  obstacle->radius = frame.size * radius;
   obstacle->inside = inside;
 }
 
@@ -44,7 +45,7 @@ void MakeBentLine(const FootFrame& frame, Random* random, Obstacle* obstacle) {
   // Half of the second edge is left straight; the foot may be on it or on a fillet.
   const double largest =
       0.5 * (left + right) / std::max(std::tan(0.5 * std::abs(before)) + std::tan(0.5 * std::abs(after)), 0.1);
-  obstacle->fillet = std::min(random->Number(0.02, 0.3), 0.5 * largest);
+  obstacle->fillet = frame.size * std::min(random->Number(0.02, 0.3), 0.5 * largest);
 }
 
 // Through the foot, where a wave has its crest or its trough.
@@ -61,6 +62,26 @@ void MakeWave(const FootFrame& frame, Random* random, Obstacle* obstacle) {
 
 }  // namespace
 
+void MakeCurve(const Node& node, double size, Random* random, Obstacle* obstacle) {
+  FootFrame frame;
+  frame.size = size;
+  frame.normal = Vector2d(obstacle->nx, obstacle->ny).normalized();
+  frame.tangent = {frame.normal.y(), -frame.normal.x()};
+  const Vector2d x(node.x, node.y);
+  const double gap = frame.normal.dot(x - Vector2d(obstacle->px, obstacle->py));
+  frame.foot = x - gap * frame.normal;
+  obstacle->nx = obstacle->ny = 0.0;
+  const double kind = random->Number(0.0, 1.0);
+  if (kind < 0.3)
+    MakeCircle(frame, random->Number(0.1, 2.0), false, obstacle);
+  else if (kind < 0.5)
+    MakeCircle(frame, random->Number(0.5, 3.0), true, obstacle);
+  else if (kind < 0.8)
+    MakeBentLine(frame, random, obstacle);
+  else
+    MakeWave(frame, random, obstacle);
+}
+
 TraceRequest OnCurves(TraceRequest request, unsigned seed) {
   Random random(seed);
   for (const ContactCandidate& contact : request.scene.contacts) {
@@ -68,22 +89,7 @@ TraceRequest OnCurves(TraceRequest request, unsigned seed) {
                                        [&](const Obstacle& other) { return other.name == contact.obstacle; });
     const auto node = std::find_if(request.scene.nodes.begin(), request.scene.nodes.end(),
                                    [&](const Node& other) { return other.name == contact.node; });
-    FootFrame frame;
-    frame.normal = Vector2d(obstacle->nx, obstacle->ny).normalized();
-    frame.tangent = {frame.normal.y(), -frame.normal.x()};
-    const Vector2d x(node->x, node->y);
-    const double gap = frame.normal.dot(x - Vector2d(obstacle->px, obstacle->py));
-    frame.foot = x - gap * frame.normal;
-    obstacle->nx = obstacle->ny = 0.0;
-    const double kind = random.Number(0.0, 1.0);
-    if (kind < 0.3)
-      MakeCircle(frame, random.Number(0.1, 2.0), false, &*obstacle);
-    else if (kind < 0.5)
-      MakeCircle(frame, random.Number(0.5, 3.0), true, &*obstacle);
-    else if (kind < 0.8)
-      MakeBentLine(frame, &random, &*obstacle);
-    else
-      MakeWave(frame, &random, &*obstacle);
+    MakeCurve(*node, 1.0, &random, &*obstacle);
   }
   return request;
 }

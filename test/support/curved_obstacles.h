@@ -3,12 +3,16 @@
 #define CONTACT_PATH_TEST_SUPPORT_CURVED_OBSTACLES_H_
 
 #include "contact_path/scene/scene.h"
+#include "support/random.h"
 
 namespace contact_path {
 
-// Each obstacle, a half plane with a single candidate, becomes a disc, the inside of a circle, a polyline with fillets
-// or a wavy spline, which has the same tangent at the foot of that candidate's node, and the same gap. The same request
-// for the same seed on every system.
+// A half plane becomes a disc, the inside of a circle, a polyline with fillets or a wavy spline, which has the same
+// tangent at the foot of the node. size: of the part [length].
+void MakeCurve(const Node& node, double size, Random* random, Obstacle* obstacle);
+
+// Each obstacle, a half plane with a single candidate, becomes a curve: the gap of the candidate stays what it was. The
+// same request for the same seed on every system.
 TraceRequest OnCurves(TraceRequest request, unsigned seed);
 
 }  // namespace contact_path

@@ -57,12 +57,16 @@ void TransformRequest(TraceRequest* request, Map map) {
       map(&load.px, &load.py);
     }
     for (SupportMotion& motion : *supports) map(&motion.dx, &motion.dy);
-    for (ObstacleMotion& motion : *obstacles) map(&motion.dx, &motion.dy);
+    for (ObstacleMotion& motion : *obstacles) {
+      map(&motion.dx, &motion.dy);
+      map(&motion.about_x, &motion.about_y);
+    }
   });
   for (Node& node : scene->nodes) map(&node.x, &node.y);
   for (Obstacle& obstacle : scene->obstacles) {
     map(&obstacle.px, &obstacle.py);
     map(&obstacle.nx, &obstacle.ny);
+    ForEachPoint(&obstacle.points, map);
   }
   for (Superelement& part : scene->superelements) {
     TransformStiffness(&part.stiffness, 2 * part.nodes.size(), map);
@@ -162,10 +166,15 @@ TracedPath UndoRotation(TracedPath path, double angle) {
 
 TraceRequest Mirror(TraceRequest request) {
   TransformRequest(&request, [](double* x, double*) { *x = -*x; });
-  ForEachLoading(&request, [](auto* loads, auto* supports, auto*) {
+  ForEachLoading(&request, [](auto* loads, auto* supports, auto* obstacles) {
     for (Load& load : *loads) load.moment = -load.moment;
     for (SupportMotion& motion : *supports) motion.rotation = -motion.rotation;
+    for (ObstacleMotion& motion : *obstacles) motion.turn = -motion.turn;
   });
+  for (Obstacle& obstacle : request.scene.obstacles) {  // the admissible side stays on the left
+    std::reverse(obstacle.points.begin(), obstacle.points.end());
+    ForEachPoint(&obstacle.points, [](double* y, double* x) { std::swap(*x, *y); });
+  }
   for (Beam& beam : request.scene.beams) beam.angle = -beam.angle;
   for (Solid& solid : request.scene.solids) TurnElementsRound(&solid);
   for (BoundarySurface& surface : request.scene.surfaces) std::reverse(surface.nodes.begin(), surface.nodes.end());

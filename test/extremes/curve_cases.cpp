@@ -1,0 +1,86 @@
+// Curved obstacles far smaller and far larger than the part, and corners that are rounded by next to nothing.
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+
+#include "extremes/extreme_case.h"
+
+namespace contact_path {
+namespace {
+
+constexpr double kFriction = 0.3;
+
+// A node on springs that 1 presses down onto the obstacle at the origin, and the load factor pushes to the right.
+Scene PressedNode(const Obstacle& obstacle) {
+  Scene scene;
+  scene.nodes = {{"p", 0.0, 0.0, false, false}};
+  scene.superelements = {{{"p"}, {1.0, 0.0, 0.0, 1.0}}};
+  scene.loads = {{"p", 1.0, 0.0, false}, {"p", 0.0, -1.0, true}};
+  scene.obstacles = {obstacle};
+  scene.contacts = {{"p", obstacle.name}};
+  return scene;
+}
+
+// Of an increment whose node stands where the surface falls by `slope` [rad]: from the load factor with which it slides
+// there, or from rest at the origin, where it sticks.
+double LoadError(const Increment& increment, double slope) {
+  const double x = increment.positions[0], y = increment.positions[1];
+  if (increment.contacts[0].state == ContactState::kStick) return Largest({x, y});
+  const double sliding = x + (1.0 + y) * std::tan(std::atan(kFriction) - slope);
+  return std::abs(increment.load_factor - sliding) / std::max(1.0, std::abs(sliding));
+}
+
+// On top of a disc, until it has gone half of the way to its side, or 0.5.
+ExtremeCase DiscOfRadius(double radius) {
+  ExtremeCase extreme;
+  extreme.group = "radius of a disc";
+  extreme.value = Text(radius) + " of the part's length";
+  Obstacle disc;
+  disc.name = "disc";
+  disc.shape = ObstacleShape::kCircle;
+  disc.py = -radius;
+  disc.radius = radius;
+  disc.friction = kFriction;
+  extreme.request = Until(PressedNode(disc), "p.x", ">", 0.5 * std::min(radius, 1.0));
+  extreme.exact = "closed form";
+  extreme.error = [radius](const TraceRequest&, const Increment& increment) {
+    const double x = increment.positions[0], y = increment.positions[1];
+    const double drop = -x * x / (radius + std::sqrt(radius * radius - x * x));
+    return Largest({LoadError(increment, std::asin(x / radius)), y - drop});
+  };
+  return extreme;
+}
+
+// Over the rounded edge of a table, down a slope of 30 degrees.
+ExtremeCase EdgeRoundedBy(double fillet) {
+  const double slope = std::acos(-1.0) / 6.0, edge = 0.2;
+  ExtremeCase extreme;
+  extreme.group = "fillet of an edge";
+  extreme.value = Text(fillet) + " of the part's length";
+  Obstacle table;
+  table.name = "table";
+  table.shape = ObstacleShape::kPolyline;
+  table.points = {-1.0, 0.0, edge, 0.0, edge + std::cos(slope), -std::sin(slope)};
+  table.fillet = fillet;
+  table.friction = kFriction;
+  extreme.request = Until(PressedNode(table), "p.x", ">", 0.5);
+  extreme.exact = "closed form";
+  extreme.error = [slope, edge, fillet](const TraceRequest&, const Increment& increment) {
+    const double cut = fillet * std::tan(0.5 * slope), along = (increment.positions[0] - edge) / std::cos(slope);
+    if (increment.positions[0] <= edge - cut) return Largest({LoadError(increment, 0.0), increment.positions[1]});
+    if (along >= cut)
+      return Largest({LoadError(increment, slope), increment.positions[1] + along * std::sin(slope)});
+    const double angle = std::asin((increment.positions[0] - (edge - cut)) / fillet);
+    return Largest({LoadError(increment, angle), increment.positions[1] + 2.0 * fillet * std::pow(std::sin(0.5 * angle), 2)});
+  };
+  return extreme;
+}
+
+}  // namespace
+
+void AddCurveCases(std::vector<ExtremeCase>* cases) {
+  for (const double radius : {1e-6, 1e-3, 1.0, 1e3, 1e6}) cases->push_back(DiscOfRadius(radius));
+  for (const double fillet : {1e-9, 1e-6, 1e-3, 0.1}) cases->push_back(EdgeRoundedBy(fillet));
+}
+
+}  // namespace contact_path
