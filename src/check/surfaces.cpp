@@ -80,6 +80,14 @@ class Walk : public Surface {
 
   virtual Foot Nearest(const Vector& x) const = 0;
 
+  static std::vector<Vector> PlacesOf(const Obstacle& obstacle) {
+    std::vector<Vector> places;
+    for (std::size_t i = 0; i + 1 < obstacle.points.size(); i += 2)
+      places.push_back({static_cast<Real>(obstacle.px) + obstacle.points[i],
+                        static_cast<Real>(obstacle.py) + obstacle.points[i + 1]});
+    return places;
+  }
+
   // To the nearest begin of a piece: the foot is no farther. No point of a piece is farther from its begin than the
   // piece is long.
   template <typename Piece>
@@ -97,10 +105,7 @@ class Walk : public Surface {
 class Polyline : public Walk {
  public:
   explicit Polyline(const Obstacle& obstacle) : Walk(obstacle.closed) {
-    std::vector<Vector> corners;
-    for (std::size_t i = 0; i + 1 < obstacle.points.size(); i += 2)
-      corners.push_back({static_cast<Real>(obstacle.px) + obstacle.points[i],
-                         static_cast<Real>(obstacle.py) + obstacle.points[i + 1]});
+    const std::vector<Vector> corners = PlacesOf(obstacle);
     const std::size_t n = corners.size(), edges = closed_ ? n : n - 1;
     std::vector<Vector> directions;
     std::vector<Real> lengths;
@@ -193,10 +198,7 @@ class Polyline : public Walk {
 class Spline : public Walk {
  public:
   explicit Spline(const Obstacle& obstacle) : Walk(obstacle.closed) {
-    std::vector<Vector> points;
-    for (std::size_t i = 0; i + 1 < obstacle.points.size(); i += 2)
-      points.push_back({static_cast<Real>(obstacle.px) + obstacle.points[i],
-                        static_cast<Real>(obstacle.py) + obstacle.points[i + 1]});
+    const std::vector<Vector> points = PlacesOf(obstacle);
     const std::size_t n = points.size(), count = closed_ ? n : n - 1;
     std::vector<Real> steps;
     for (std::size_t i = 0; i < count; ++i) steps.push_back(Length(points[(i + 1) % n] - points[i]));

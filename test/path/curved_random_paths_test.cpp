@@ -64,7 +64,7 @@ TEST(RandomPathsOnCurves, AreProvedAndTheSameForOtherSteps) {
     EXPECT_EQ(others.size(), events.size());
     for (std::size_t i = 0; i < std::min(events.size(), others.size()); ++i) {
       EXPECT_EQ(others[i]->kind, events[i]->kind) << i;
-      const double same = (MovesFreely(path) ? 1e-5 : 1e-7) * (1.0 + std::abs(events[i]->load_factor));
+      const double same = (MovesFreely(path) ? 1e-6 : 1e-7) * (1.0 + std::abs(events[i]->load_factor));
       EXPECT_NEAR(others[i]->load_factor, events[i]->load_factor, same) << i;
     }
   }

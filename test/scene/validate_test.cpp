@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "support/broken_rule.h"
+#include "support/curved_obstacles.h"
 
 namespace contact_path {
 namespace {
@@ -194,15 +195,6 @@ const BrokenRule kObstacleRules[] = {
 };
 INSTANTIATE_TEST_SUITE_P(Obstacles, ValidateTest, testing::ValuesIn(kObstacleRules), NameOf<BrokenRule>);
 
-Obstacle Curve(ObstacleShape shape, const std::vector<double>& points, bool closed = false) {
-  Obstacle obstacle;
-  obstacle.name = "curve";
-  obstacle.shape = shape;
-  obstacle.points = points;
-  obstacle.closed = closed;
-  return obstacle;
-}
-
 // Adds it to the scene with a contact of b, which is at (-5, 0).
 void AddCurve(TraceRequest* request, const Obstacle& obstacle) {
   request->scene.obstacles.push_back(obstacle);
@@ -210,7 +202,7 @@ void AddCurve(TraceRequest* request, const Obstacle& obstacle) {
 }
 
 Obstacle Disc(double x, double y, double radius, bool inside) {
-  Obstacle obstacle = Curve(ObstacleShape::kCircle, {});
+  Obstacle obstacle = CurveThrough(ObstacleShape::kCircle, {});
   obstacle.px = x;
   obstacle.py = y;
   obstacle.radius = radius;
@@ -225,57 +217,57 @@ const BrokenRule kCurveRules[] = {
      "must be > 0 where the shape is circle"},
     {"OddNumberOfNumbers",
      [](auto& r) {
-       AddCurve(&r, Curve(kPolyline, {-9.0, -1.0, 9.0}));
+       AddCurve(&r, CurveThrough(kPolyline, {-9.0, -1.0, 9.0}));
      },
      "scene.obstacles[1].points", "3 numbers", "must have x and y in turn"},
     {"OnePoint",
      [](auto& r) {
-       AddCurve(&r, Curve(kSpline, {-9.0, -1.0}));
+       AddCurve(&r, CurveThrough(kSpline, {-9.0, -1.0}));
      },
      "scene.obstacles[1].points", "1 point", "must be at least two"},
     {"TwoPointsClosed",
      [](auto& r) {
-       AddCurve(&r, Curve(kSpline, {-9.0, -1.0, 1.0, 1.0}, true));
+       AddCurve(&r, CurveThrough(kSpline, {-9.0, -1.0, 1.0, 1.0}, true));
      },
      "scene.obstacles[1].points", "2 points", "must be at least three where the curve is closed"},
     {"EqualPointsOfASpline",
      [](auto& r) {
-       AddCurve(&r, Curve(kSpline, {-9.0, -1.0, 0.0, -1.0, 0.0, -1.0, 5.0, 2.0}));
+       AddCurve(&r, CurveThrough(kSpline, {-9.0, -1.0, 0.0, -1.0, 0.0, -1.0, 5.0, 2.0}));
      },
      "scene.obstacles[1].points", "[0, -1]", "neighbours must differ: point 2 is point 3"},
     {"LastPointOfAClosedPolylineIsTheFirst",
      [](auto& r) {
-       AddCurve(&r, Curve(kPolyline, {3.0, 1.0, 9.0, 1.0, 9.0, 5.0, 3.0, 1.0}, true));
+       AddCurve(&r, CurveThrough(kPolyline, {3.0, 1.0, 9.0, 1.0, 9.0, 5.0, 3.0, 1.0}, true));
      },
      "scene.obstacles[1].points", "[3, 1]", "neighbours must differ: point 4 is point 1"},
     {"SelfCrossingPolyline",
      [](auto& r) {
-       AddCurve(&r, Curve(kPolyline, {3.0, 1.0, 9.0, 5.0, 9.0, 1.0, 3.0, 5.0}, true));
+       AddCurve(&r, CurveThrough(kPolyline, {3.0, 1.0, 9.0, 5.0, 9.0, 1.0, 3.0, 5.0}, true));
      },
      "scene.obstacles[1].points", "[9, 1]",
      "a closed polyline must not cross itself: the edge from point 1 meets the edge from point 3"},
     {"EdgeStraightBack",
      [](auto& r) {
-       AddCurve(&r, Curve(kPolyline, {-9.0, -1.0, 9.0, -1.0, 3.0, -1.0}));
+       AddCurve(&r, CurveThrough(kPolyline, {-9.0, -1.0, 9.0, -1.0, 3.0, -1.0}));
      },
      "scene.obstacles[1].points", "a corner", "an edge must not lead straight back"},
     {"FilletTooLarge",
      [](auto& r) {
-       Obstacle corner = Curve(kPolyline, {-9.0, -1.0, 0.0, -1.0, 0.0, -3.0});
+       Obstacle corner = CurveThrough(kPolyline, {-9.0, -1.0, 0.0, -1.0, 0.0, -3.0});
        corner.fillet = 2.5;
        AddCurve(&r, corner);
      },
      "scene.obstacles[1].fillet", "2.5", "must be at most 2: the edges have no room for larger fillets"},
     {"FilletNegative",
      [](auto& r) {
-       Obstacle corner = Curve(kPolyline, {-9.0, -1.0, 0.0, -1.0, 0.0, -3.0});
+       Obstacle corner = CurveThrough(kPolyline, {-9.0, -1.0, 0.0, -1.0, 0.0, -3.0});
        corner.fillet = -0.1;
        AddCurve(&r, corner);
      },
      "scene.obstacles[1].fillet", "-0.1", "must be"},
     {"PointNotFinite",
      [](auto& r) {
-       AddCurve(&r, Curve(kSpline, {-9.0, kNaN, 9.0, 1.0}));
+       AddCurve(&r, CurveThrough(kSpline, {-9.0, kNaN, 9.0, 1.0}));
      },
      "scene.obstacles[1].points[1]", ".nan", "must be finite"},
     {"WithinADisc", [](auto& r) { AddCurve(&r, Disc(-5.0, -1.0, 1.25, false)); }, "scene.contacts[2]", "b@curve",
@@ -284,12 +276,12 @@ const BrokenRule kCurveRules[] = {
      "initial position penetrates the obstacle by 0.5"},
     {"BelowASpline",
      [](auto& r) {
-       AddCurve(&r, Curve(kSpline, {-9.0, 0.5, 9.0, 0.5}));
+       AddCurve(&r, CurveThrough(kSpline, {-9.0, 0.5, 9.0, 0.5}));
      },
      "scene.contacts[2]", "b@curve", "initial position penetrates the obstacle by 0.5"},
     {"BelowAPolyline",
      [](auto& r) {
-       AddCurve(&r, Curve(kPolyline, {-9.0, 0.5, 0.0, 0.5, 0.0, -3.0}));
+       AddCurve(&r, CurveThrough(kPolyline, {-9.0, 0.5, 0.0, 0.5, 0.0, -3.0}));
      },
      "scene.contacts[2]", "b@curve", "initial position penetrates the obstacle by 0.5"},
     {"TurnNotFinite",
@@ -305,15 +297,15 @@ TEST(Validate, CurvesThatKeepTheirRulesAreSound) {
   TraceRequest request = SoundRequest();
   Obstacle curve = Disc(-5.0, -2.0, 2.0, false);
   AddCurve(&request, curve);
-  curve = Curve(kPolyline, {-9.0, -1.0, 0.0, -1.0, 0.0, -3.0});
+  curve = CurveThrough(kPolyline, {-9.0, -1.0, 0.0, -1.0, 0.0, -3.0});
   curve.name = "polyline";
   curve.fillet = 2.0;
   AddCurve(&request, curve);
-  curve = Curve(kSpline, {9.0, 3.0, 0.0, 2.0, -9.0, 3.0});  // walked to the left: the admissible side is below
+  curve = CurveThrough(kSpline, {9.0, 3.0, 0.0, 2.0, -9.0, 3.0});  // walked to the left: the admissible side is below
   curve.name = "spline";
   AddCurve(&request, curve);
   // Past the end of an open curve a node is not behind it.
-  curve = Curve(kPolyline, {-4.0, 1.0, 0.0, 1.0});
+  curve = CurveThrough(kPolyline, {-4.0, 1.0, 0.0, 1.0});
   curve.name = "short";
   AddCurve(&request, curve);
   request.scene.obstacle_motions = {{"curve", 0.0, 0.0, 0.5, 1.0, 1.0}};

@@ -62,6 +62,15 @@ void MakeWave(const FootFrame& frame, Random* random, Obstacle* obstacle) {
 
 }  // namespace
 
+Obstacle CurveThrough(ObstacleShape shape, const std::vector<double>& points, bool closed) {
+  Obstacle obstacle;
+  obstacle.name = "curve";
+  obstacle.shape = shape;
+  obstacle.points = points;
+  obstacle.closed = closed;
+  return obstacle;
+}
+
 void MakeCurve(const Node& node, double size, Random* random, Obstacle* obstacle) {
   FootFrame frame;
   frame.size = size;

@@ -2,10 +2,15 @@
 #ifndef CONTACT_PATH_TEST_SUPPORT_CURVED_OBSTACLES_H_
 #define CONTACT_PATH_TEST_SUPPORT_CURVED_OBSTACLES_H_
 
+#include <vector>
+
 #include "contact_path/scene/scene.h"
 #include "support/random.h"
 
 namespace contact_path {
+
+// The obstacle "curve" through these points: x, y, x, y, ...
+Obstacle CurveThrough(ObstacleShape shape, const std::vector<double>& points, bool closed = false);
 
 // A half plane becomes a disc, the inside of a circle, a polyline with fillets or a wavy spline, which has the same
 // tangent at the foot of the node. size: of the part [length].
