@@ -94,7 +94,7 @@ set(contact_path_extremes
 # A file for each header, except headers that only declare an interface (structure/element.h, mpec/nonlinear_program.h,
 # path/path_method.h), and files that trace whole paths.
 contact_path_add_stage(support derivative_checker_test)
-contact_path_add_stage(geometry curve_test disc_tree_test polyline_test projection_test spline_test surface_test)
+contact_path_add_stage(geometry curve_test disc_tree_test outline_test polyline_test projection_test spline_test surface_test)
 contact_path_add_stage(scene can_slide_test cell_test change_units_test configuration_test expand_test field_test lattice_test nearest_name_test
   one_line_test origin_test quantity_test read_scene_test scaling_test scene_index_test scene_test solid_rules_test utf8_test
   validate_test write_scene_test)
@@ -200,7 +200,7 @@ if(CONTACT_PATH_ROS)
   contact_path_add_python_test(path_bag_test test/ros/path_bag_test.py DEPENDS contact_path_trace
     VARIABLES CONTACT_PATH_TRACE=$<TARGET_FILE:contact_path_trace> CONTACT_PATH_ROOT=${CMAKE_CURRENT_SOURCE_DIR}
       CONTACT_PATH_PROGRAMS=$<TARGET_FILE_DIR:contact_path_trace>)
-  set(contact_path_all_programs contact_path_trace contact_path_lattice contact_path_node
+  set(contact_path_all_programs contact_path_trace contact_path_lattice contact_path_outlines contact_path_node
     contact_path_markers contact_path_verify ${PROJECT_NAME}_generate_messages)
   contact_path_add_python_test(docs_test test/docs/docs_test.py DEPENDS ${contact_path_all_programs}
     VARIABLES CONTACT_PATH_ROOT=${CMAKE_CURRENT_SOURCE_DIR} CONTACT_PATH_PROGRAMS=${contact_path_devel_programs}

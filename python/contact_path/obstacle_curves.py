@@ -4,19 +4,13 @@ A boundary is walked with the admissible side on its left: from its tangent t, t
 """
 from __future__ import annotations
 
-import math
-from typing import Any, Mapping, Tuple
+from typing import Any, Callable, Mapping, Tuple
 
 import numpy as np
 
-SHAPES = ('', 'half_plane', 'circle', 'polyline', 'spline')
-ARC_STEP = math.pi / 360.0  # turn between two points of an arc [rad]
-CUBIC_STEPS = 32  # parts of a spline between two of its points
-FILLET_SHARE = 0.1  # of the largest fillet, where none is given
-IN_LINE = 1e-14  # turn of a corner that needs no fillet [rad]
-AT_ONCE = 1 << 18  # pairs of a place and a part of a curve whose distances are found together
+from contact_path.obstacle_outlines import Outline
 
-Points = Tuple[np.ndarray, np.ndarray]  # of a curve, and its normals there, each (m, 2)
+AT_ONCE = 1 << 18  # pairs of a place and a part of a curve whose distances are found together
 
 
 def turned(vectors: Any, angle: Any) -> np.ndarray:
@@ -24,11 +18,6 @@ def turned(vectors: Any, angle: Any) -> np.ndarray:
     vectors = np.asarray(vectors)
     c, s = np.cos(angle), np.sin(angle)
     return np.stack((c * vectors[..., 0] - s * vectors[..., 1], s * vectors[..., 0] + c * vectors[..., 1]), axis=-1)
-
-
-def left_of(vectors: np.ndarray) -> np.ndarray:
-    """Vectors (..., 2) turned by a right angle."""
-    return np.stack((-vectors[..., 1], vectors[..., 0]), axis=-1)
 
 
 class Placement:
@@ -61,138 +50,44 @@ class Placement:
 
 
 class Boundary:
-    """Of an obstacle before it has moved.
+    """Of an obstacle before it has moved. point, normal: of a half plane; outline: of any other shape."""
 
-    point, normal: of a half plane. points, normals (m, 2), xi (m,): of any other shape, points of the curve, its normals and
-    its arc coordinates there; a closed curve ends at the point where it begins.
-    """
-
-    def __init__(self, obstacle: Mapping[str, Any]) -> None:
-        """obstacle: with all fields."""
+    def __init__(self, obstacle: Mapping[str, Any], outlines: Callable[[], Mapping[str, Outline]]) -> None:
+        """obstacle: with all fields. outlines: by the names of obstacles; asked for when one is needed."""
         self.friction = obstacle['friction']
         self.point = np.array([obstacle['px'], obstacle['py']])
         self.flat = obstacle['shape'] in ('', 'half_plane')
         if self.flat:
             normal = np.array([obstacle['nx'], obstacle['ny']])
             self.normal = normal / np.hypot(*normal)
-            return
-        self.closed = obstacle['shape'] == 'circle' or obstacle['closed']
-        if obstacle['shape'] == 'circle':
-            points, self.normals = circle(obstacle['radius'], obstacle['inside'])
-        else:
-            given = np.array(obstacle['points'], dtype=float).reshape(-1, 2)
-            points, self.normals = (polyline(given, self.closed, obstacle['fillet'])
-                                    if obstacle['shape'] == 'polyline' else spline(given, self.closed))
-        self.points = points + self.point
-        self.xi = np.concatenate(([0.0], np.cumsum(np.hypot(*np.diff(self.points, axis=0).T))))
+        self._name = obstacle['name']
+        self._outlines = outlines
+
+    @property
+    def outline(self) -> Outline:
+        return self._outlines()[self._name]
 
     def foot(self, places: np.ndarray) -> Tuple[np.ndarray, np.ndarray]:
         """Normals (n, 2) at the points of the boundary that are nearest to places (n, 2), and arc coordinates (n,) of these
         points."""
         if self.flat:
             return np.tile(self.normal, (len(places), 1)), places.dot((self.normal[1], -self.normal[0]))
-        edges = np.diff(self.points, axis=0)
+        points, outline_normals, outline_xi, _ = self.outline
+        edges = np.diff(points, axis=0)
         normals, xi = np.empty((len(places), 2)), np.empty(len(places))
         count = max(1, AT_ONCE // len(edges))
         for some in (slice(first, first + count) for first in range(0, len(places), count)):
-            away = places[some, None] - self.points[:-1]
+            away = places[some, None] - points[:-1]
             shares = np.clip(np.einsum('nmi,mi->nm', away, edges) / np.sum(edges ** 2, axis=1), 0.0, 1.0)
             k = np.argmin(np.sum((away - shares[..., None] * edges) ** 2, axis=2), axis=1)
             share = shares[np.arange(len(k)), k]
-            xi[some] = self.xi[k] + share * np.diff(self.xi)[k]
-            normals[some] = (1.0 - share[:, None]) * self.normals[k] + share[:, None] * self.normals[k + 1]
+            xi[some] = outline_xi[k] + share * np.diff(outline_xi)[k]
+            normals[some] = (1.0 - share[:, None]) * outline_normals[k] + share[:, None] * outline_normals[k + 1]
         return normals / np.hypot(*normals.T)[:, None], xi
 
     def slips(self, steps: np.ndarray) -> np.ndarray:
         """Of steps between arc coordinates of places nearby: a closed curve goes on beyond its end."""
-        return steps if self.flat or not self.closed else steps - self.xi[-1] * np.round(steps / self.xi[-1])
-
-
-def arc(centre: np.ndarray, radius: float, begin: float, turn: float) -> Points:
-    """From the angle `begin` on; turn > 0: counterclockwise, the admissible side is inside."""
-    angles = begin + np.linspace(0.0, turn, max(2, math.ceil(abs(turn) / ARC_STEP)) + 1)
-    outwards = np.stack((np.cos(angles), np.sin(angles)), axis=-1)
-    return centre + radius * outwards, -math.copysign(1.0, turn) * outwards
-
-
-def circle(radius: float, inside: bool) -> Points:
-    """About the origin, from its lowest point on."""
-    turn = 2.0 * math.pi if inside else -2.0 * math.pi
-    return arc(np.zeros(2), radius, -0.5 * math.pi, turn)
-
-
-def polyline(given: np.ndarray, closed: bool, fillet: float) -> Points:
-    """With all corners rounded by the same radius; 0: a tenth of the largest that there is room for."""
-    ends = np.roll(given, -1, axis=0) if closed else given[1:]
-    edges = ends - given[:len(ends)]
-    lengths = np.hypot(*edges.T)
-    directions = edges / lengths[:, None]
-    before = np.roll(directions, 1, axis=0)
-    turns = np.arctan2(before[:, 0] * directions[:, 1] - before[:, 1] * directions[:, 0],
-                       np.sum(before * directions, axis=1))  # where the edge begins
-    if not closed:
-        turns[0] = 0.0
-    turns[np.abs(turns) <= IN_LINE] = 0.0
-    cuts = np.tan(0.5 * np.abs(turns))  # of both edges, by a fillet of radius 1
-    cuts_at_end = np.append(cuts[1:], cuts[0])
-    if fillet <= 0.0 and cuts.any():
-        used = cuts + cuts_at_end
-        fillet = FILLET_SHARE * np.min(lengths[used > 0.0] / used[used > 0.0])
-    points, normals = [], []
-    for i, direction in enumerate(directions):
-        normal = left_of(direction)
-        points.append(np.array([given[i] + fillet * cuts[i] * direction, ends[i] - fillet * cuts_at_end[i] * direction]))
-        normals.append(np.array([normal, normal]))
-        turn = turns[(i + 1) % len(turns)]
-        if turn != 0.0:
-            side = math.copysign(1.0, turn)
-            centre = points[-1][-1] + side * fillet * normal
-            places, outwards = arc(centre, fillet, math.atan2(*(-side * normal)[::-1]), turn)
-            points.append(places)
-            normals.append(outwards)
-    if closed:
-        points.append(points[0][:1])
-        normals.append(normals[0][:1])
-    return apart(np.concatenate(points), np.concatenate(normals))
-
-
-def apart(points: np.ndarray, normals: np.ndarray) -> Points:
-    """Without points that are where the next one is."""
-    steps = np.hypot(*np.diff(points, axis=0).T)
-    kept = np.append(steps > 1e-12 * steps.max(), True)
-    return points[kept], normals[kept]
-
-
-def spline(given: np.ndarray, closed: bool) -> Points:
-    """The cubic spline whose parameter grows by the distances between the points."""
-    n = len(given)
-    count = n if closed else n - 1
-    edges = np.roll(given, -1, axis=0)[:count] - given[:count]
-    lengths = np.hypot(*edges.T)
-    slopes = edges / lengths[:, None]
-    bends = second_derivatives(lengths, slopes, closed)
-    points, tangents = [], []
-    tau = np.arange(CUBIC_STEPS + 1)[:, None] / CUBIC_STEPS
-    for i in range(count):
-        h, bend, bend_after = lengths[i], bends[i], bends[(i + 1) % n]
-        first, second, third = slopes[i] - h * (2.0 * bend + bend_after) / 6.0, 0.5 * bend, (bend_after - bend) / (6.0 * h)
-        t = tau * h
-        part = slice(None) if i + 1 == count else slice(-1)
-        points.append((given[i] + t * (first + t * (second + t * third)))[part])
-        tangents.append((first + t * (2.0 * second + 3.0 * t * third))[part])
-    along = np.concatenate(tangents)
-    return np.concatenate(points), left_of(along / np.hypot(*along.T)[:, None])
-
-
-def second_derivatives(lengths: np.ndarray, slopes: np.ndarray, closed: bool) -> np.ndarray:
-    """Of a cubic spline at its points, (n, 2). lengths, slopes: of the chords between them."""
-    n = len(lengths) if closed else len(lengths) + 1
-    matrix, right = np.eye(n), np.zeros((n, 2))
-    for i in range(n) if closed else range(1, n - 1):
-        h, h_before = lengths[i], lengths[i - 1]
-        matrix[i] = 0.0
-        matrix[i, i] = 2.0 * (h_before + h)
-        matrix[i, i - 1] += h_before
-        matrix[i, (i + 1) % n] += h
-        right[i] = 6.0 * (slopes[i] - slopes[i - 1])
-    return np.linalg.solve(matrix, right)
+        if self.flat or not self.outline.closed:
+            return steps
+        length = self.outline.xi[-1] - self.outline.xi[0]
+        return steps - length * np.round(steps / length)

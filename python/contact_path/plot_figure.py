@@ -10,7 +10,6 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from contact_path import plot_panels, plot_shapes
-from contact_path.obstacle_curves import SHAPES
 from contact_path.path import Path
 from contact_path.scene_arrays import Structure
 
@@ -161,9 +160,6 @@ def choose_rows(path: Path, at: str | None, increments: Sequence[int | str]) -> 
         raise ValueError('a CSV file does not hold the scene: give it by --scene, or by Path.with_scene')
     if not len(path.full):
         raise ValueError('no increment carries positions')
-    for obstacle in path.scene.request['scene'].get('obstacles', ()):
-        if obstacle.get('shape', '') not in SHAPES:
-            raise ValueError('obstacle %s: the shape %s is not drawn' % (obstacle['name'], obstacle['shape']))
     return (plot_shapes.by_index(path, increments), 0) if increments else plot_shapes.at_kinds(path, at)
 
 

@@ -49,7 +49,7 @@ class Curve:
             tangent = np.array([boundary.normal[1], -boundary.normal[0]])
             points, normals = [boundary.point, boundary.point + tangent], [boundary.normal, boundary.normal]
         else:
-            points, normals = boundary.points, boundary.normals
+            points, normals = boundary.outline.points, boundary.outline.normals
         self.points, self.normals = placement.points(points), placement.vectors(normals)
 
 

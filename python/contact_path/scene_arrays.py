@@ -8,6 +8,7 @@ import numpy as np
 from contact_path.beam_curves import Beams
 from contact_path.drawn_scene import drawn
 from contact_path.obstacle_curves import Boundary, Placement
+from contact_path.obstacle_outlines import outlines
 from contact_path.path import Path
 from contact_path.scene import Scene
 from contact_path.solid_energy import Solid
@@ -49,7 +50,7 @@ class Structure:
         self.stages = [Stage(stage['name'], stage['target'], self.loads_of(stage['loads']),
                              {motion['obstacle']: motion for motion in stage['obstacle_motions']})
                        for stage in scene['program'] or [own]]
-        self.obstacles = {obstacle['name']: Boundary(obstacle) for obstacle in scene['obstacles']}
+        self.obstacles = {obstacle['name']: Boundary(obstacle, lambda: outlines(given)) for obstacle in scene['obstacles']}
         turning = {name for stage in self.stages for name, motion in stage.motions.items() if motion['turn'] != 0.0}
         # Half planes that do not turn: their normals.
         self.normals = {name: boundary.normal for name, boundary in self.obstacles.items()

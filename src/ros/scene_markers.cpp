@@ -8,7 +8,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "contact_path/geometry/curve.h"
+#include "contact_path/geometry/outline.h"
 #include "ros/drawn_scene.h"
 #include "ros/marker_picture.h"
 
@@ -93,57 +93,23 @@ double FullForce(double largest, double least) {
   return largest <= least ? least : least * std::exp2(std::ceil(std::log2(largest / least)));
 }
 
-// A point of a boundary that is drawn.
-struct BoundaryPoint {
-  Vector2d place = Vector2d::Zero();
-  Vector2d normal = Vector2d::Zero();
-  double xi = 0.0;
-};
-
-// The part of a curve around the foot of `centre`, up to its ends, or once round.
-std::vector<BoundaryPoint> PointsOf(const Curve& curve, const Vector2d& centre, double half_length) {
-  const XiRange first = curve.RangeOf(0);
-  int patch = curve.Nearest(centre).patch;
-  double middle = curve.Project(centre, patch).xi;
-  if (!std::isfinite(middle)) middle = curve.RangeOf(patch).begin;  // the centre of a circle
-  if (curve.Closed()) half_length = std::min(half_length, 0.5 * curve.Length());
-  const double from = middle - half_length, to = middle + half_length;
-  while (curve.HasPatch(patch - 1) && curve.RangeOf(patch).begin > from) --patch;
-  const auto point_at = [&](double xi) {
-    const double rounds = curve.Closed() ? std::floor((xi - first.begin) / curve.Length()) : 0.0;
-    const Vector2d place = curve.PointAt(xi - rounds * curve.Length());
-    return BoundaryPoint{place, curve.Project(place, patch).normal, xi};
-  };
-  std::vector<BoundaryPoint> points;
-  for (; curve.HasPatch(patch) && curve.RangeOf(patch).begin < to; ++patch) {
-    const double begin = std::max(curve.RangeOf(patch).begin, from), end = std::min(curve.RangeOf(patch).end, to);
-    if (!(begin < end)) continue;
-    const Vector2d normal = point_at(begin).normal;
-    const bool bent = point_at(0.5 * (begin + end)).normal != normal || point_at(end).normal != normal;
-    const int steps = bent ? kPatchSteps : 1;
-    for (int k = points.empty() ? 0 : 1; k <= steps; ++k) points.push_back(point_at(begin + (end - begin) * k / steps));
+// The boundary of an obstacle around the foot of `centre`, along the tangent: up to its ends, or once round.
+// half_length [length].
+std::vector<OutlinePoint> BoundaryOf(const DrawnObstacle& obstacle, double load_factor, const Vector2d& centre,
+                                     double half_length) {
+  const Surface& surface = *obstacle.surface;
+  const Vector2d seen = obstacle.Seen(load_factor, centre);
+  const int patch = surface.Nearest(seen).patch;
+  double middle = surface.Project(seen, patch).xi;
+  if (!std::isfinite(middle)) middle = surface.RangeOf(patch).begin;  // the centre of a circle
+  const XiRange whole = surface.Range();
+  if (surface.Closed()) half_length = std::min(half_length, 0.5 * (whole.end - whole.begin));
+  std::vector<OutlinePoint> points = Outline(surface, {middle - half_length, middle + half_length}, {kPatchSteps});
+  for (OutlinePoint& point : points) {
+    point.place = obstacle.Placed(load_factor, point.place);
+    point.normal = obstacle.Rotation(load_factor) * point.normal;
   }
   return points;
-}
-
-// The boundary of an obstacle around the foot of `centre`, along the tangent. half_length [length].
-std::vector<BoundaryPoint> BoundaryOf(const DrawnObstacle& obstacle, double load_factor, const Vector2d& centre,
-                                      double half_length) {
-  const auto foot_of = [&](const Vector2d& x) {
-    const Projection at = obstacle.ProjectAt(load_factor, x);
-    return BoundaryPoint{x - at.gap * at.normal, at.normal, at.xi};
-  };
-  if (const auto* curve = dynamic_cast<const Curve*>(obstacle.surface.get())) {
-    std::vector<BoundaryPoint> points = PointsOf(*curve, obstacle.Seen(load_factor, centre), half_length);
-    for (BoundaryPoint& point : points) {
-      point.place = obstacle.Placed(load_factor, point.place);
-      point.normal = obstacle.Rotation(load_factor) * point.normal;
-    }
-    return points;
-  }
-  const BoundaryPoint middle = foot_of(centre);
-  const Vector2d half = half_length * Tangent(middle.normal);
-  return {foot_of(middle.place - half), foot_of(middle.place + half)};
 }
 
 void DrawObstacles(const DrawnScene& scene, const NodePlaces& places, const msgs::Increment& increment,
@@ -154,22 +120,22 @@ void DrawObstacles(const DrawnScene& scene, const NodePlaces& places, const msgs
   for (const Vector2d& place : places) reach = std::max(reach, (place - centre).norm());
   const double half_length = scene.size * std::ceil(reach / scene.size + 0.25);
   const std::vector<DrawnObstacle>& obstacles = scene.StageOf(increment).obstacles;
-  std::vector<std::vector<BoundaryPoint>> boundaries;
+  std::vector<std::vector<OutlinePoint>> boundaries;
   boundaries.reserve(obstacles.size());
   for (const DrawnObstacle& obstacle : obstacles)
     boundaries.push_back(BoundaryOf(obstacle, increment.load_factor, centre, half_length));
   const double depth = kStripDepth * scene.size;
 
   picture->BeginTriangles("obstacles", 0, kGround, kStrips);
-  for (const std::vector<BoundaryPoint>& boundary : boundaries) {
+  for (const std::vector<OutlinePoint>& boundary : boundaries) {
     for (std::size_t k = 1; k < boundary.size(); ++k) {
-      const BoundaryPoint &from = boundary[k - 1], &to = boundary[k];
+      const OutlinePoint &from = boundary[k - 1], &to = boundary[k];
       picture->AddTriangle(from.place, from.place - depth * from.normal, to.place - depth * to.normal);
       picture->AddTriangle(from.place, to.place - depth * to.normal, to.place);
     }
   }
   picture->BeginLines("obstacles", 1, kBarWidth * scene.detail, kGroundLine, kBoundaries);
-  for (const std::vector<BoundaryPoint>& boundary : boundaries)
+  for (const std::vector<OutlinePoint>& boundary : boundaries)
     for (std::size_t k = 1; k < boundary.size(); ++k) picture->AddLine(boundary[k - 1].place, boundary[k].place);
   picture->BeginLines("obstacles", 2, kThinWidth * scene.detail, kGroundLine, kBoundaries);
   const double distance = std::max(2.0 * depth, 2.0 * half_length / kMostStrokes);
@@ -179,7 +145,7 @@ void DrawObstacles(const DrawnScene& scene, const NodePlaces& places, const msgs
     const bool flat = obstacles[i].surface->Flat();
     const double xi_of_point = flat ? obstacles[i].surface->ProjectOnNearest(obstacles[i].point).xi : 0.0;
     for (std::size_t k = 1; k < boundaries[i].size(); ++k) {
-      const BoundaryPoint &from = boundaries[i][k - 1], &to = boundaries[i][k];
+      const OutlinePoint &from = boundaries[i][k - 1], &to = boundaries[i][k];
       const double length = to.xi - from.xi;
       double along = std::fmod(xi_of_point - from.xi, distance);
       if (along < 0.0) along += distance;

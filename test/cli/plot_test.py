@@ -10,6 +10,7 @@ import io
 import os
 import sys
 import unittest
+from unittest import mock
 
 from plot_run import PLOT, PlotTest
 from program_test import scene_file
@@ -22,8 +23,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 from matplotlib.quiver import Quiver  # noqa: E402
 
-from contact_path import Path, Scene, obstacle_curves, plot_panels, plot_shapes, read  # noqa: E402
-from contact_path.scene import with_defaults  # noqa: E402
+from contact_path import Path, Scene, obstacle_curves, plot_panels, plot_shapes, program_trace, read  # noqa: E402
 from contact_path.scene_arrays import Structure  # noqa: E402
 
 
@@ -256,8 +256,12 @@ class Obstacles(QuickPlotTest):
 
     @staticmethod
     def boundary(**fields):
-        obstacle, = with_defaults('obstacles', [fields])
-        return obstacle_curves.Boundary(obstacle)
+        scene = Scene()
+        scene.node('p')
+        scene.superelement(nodes=['p'], stiffness=np.eye(2).ravel())
+        scene.load(node='p', fx=1.0)
+        scene.obstacle('thing', **fields)
+        return Structure(scene).obstacles['thing']
 
     def test_normals_are_on_the_left_of_who_walks_along(self):
         square = [0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0]
@@ -269,28 +273,59 @@ class Obstacles(QuickPlotTest):
                                  (self.boundary(shape='polyline', points=[-1, 0, 1, 0, 2, -1], fillet=0.4), None),
                                  (self.boundary(shape='spline', points=[-1, 0, 0, 1, 1, 0]), None),
                                  (self.boundary(shape='spline', points=[1, 0, 0, 1, -1, 0, 0, -1], closed=True), True)):
-            steps = np.diff(boundary.points, axis=0)
+            points, normals, xi, closed = boundary.outline
+            steps = np.diff(points, axis=0)
             lengths = np.hypot(*steps.T)
             self.assertGreater(lengths.min(), 0.0)
-            np.testing.assert_allclose(np.hypot(*boundary.normals.T), 1.0, atol=1e-12)
-            left = obstacle_curves.left_of(steps / lengths[:, None])
-            self.assertGreater(np.sum(left * boundary.normals[1:], axis=1).min(), 0.995)
-            if inside is not None:
-                np.testing.assert_allclose(boundary.points[0], boundary.points[-1], atol=1e-12)
-                outwards = boundary.points - boundary.points[:-1].mean(axis=0)
-                self.assertEqual(np.sum(outwards * boundary.normals, axis=1).max() < 0.0, inside)
+            np.testing.assert_allclose(np.diff(xi), lengths, rtol=1e-4)
+            np.testing.assert_allclose(np.hypot(*normals.T), 1.0, atol=1e-12)
+            left = np.column_stack((-steps[:, 1], steps[:, 0])) / lengths[:, None]
+            self.assertGreater(np.sum(left * normals[1:], axis=1).min(), 0.9999)
+            self.assertEqual(closed, inside is not None)
+            if closed:
+                np.testing.assert_allclose(points[0], points[-1], atol=1e-12)
+                outwards = points - points[:-1].mean(axis=0)
+                self.assertEqual(np.sum(outwards * normals, axis=1).max() < 0.0, inside)
 
     def test_lengths_of_curves(self):
-        self.assertAlmostEqual(self.boundary(shape='circle', radius=2.0).xi[-1], 4.0 * np.pi, delta=1e-3)
+        def length(**fields):
+            xi = self.boundary(**fields).outline.xi
+            return xi[-1] - xi[0]
+
+        self.assertAlmostEqual(length(shape='circle', radius=2.0), 4.0 * np.pi)
         # Each corner of a square loses twice its cut and has a quarter of a circle in its place.
-        square = self.boundary(shape='polyline', points=[0, 0, 1, 0, 1, 1, 0, 1], closed=True)
-        self.assertAlmostEqual(square.xi[-1], 4.0 - 8.0 * 0.05 + 2.0 * np.pi * 0.05, delta=1e-4)
+        self.assertAlmostEqual(length(shape='polyline', points=[0, 0, 1, 0, 1, 1, 0, 1], closed=True),
+                               4.0 - 8.0 * 0.05 + 2.0 * np.pi * 0.05)
         # A spline through points of a line is the line.
         line = self.boundary(shape='spline', points=[0, 0, 3, 4, 6, 8], px=1.0)
-        self.assertAlmostEqual(line.xi[-1], 10.0)
+        self.assertAlmostEqual(length(shape='spline', points=[0, 0, 3, 4, 6, 8], px=1.0), 10.0)
         normals, xi = line.foot(np.array([(1.0 + 3.0 - 0.8, 4.0 + 0.6), (1.0 + 6.0 + 0.3, 8.0 + 0.9)]))
         np.testing.assert_allclose(normals, [(-0.8, 0.6)] * 2, atol=1e-12)
         np.testing.assert_allclose(xi, (5.0, 10.0))
+
+    def test_points_of_curves(self):
+        """On a circle; on a square with fillets; on a spline, at the points given."""
+        points, normals, _, _ = self.boundary(shape='circle', radius=2.0, px=1.0).outline
+        np.testing.assert_allclose(points - (1.0, 0.0), 2.0 * normals, atol=1e-12)
+        turns = np.abs(np.diff(np.unwrap(np.arctan2(*normals.T))))
+        self.assertLess(turns.max(), np.radians(0.5) + 1e-12)
+        points, _, _, _ = self.boundary(shape='polyline', points=[0, 0, 1, 0, 1, 1, 0, 1], closed=True).outline
+        away = np.maximum(np.abs(points - 0.5) - 0.45, 0.0)  # from a square within, whose offset by 0.05 it is
+        np.testing.assert_allclose(np.hypot(*away.T), 0.05, atol=1e-12)
+        given = np.array([(-1.0, 0.0), (0.0, 1.0), (1.0, 0.0), (2.0, 0.5)])
+        points, _, _, _ = self.boundary(shape='spline', points=given, px=1.0).outline
+        self.assertLess(np.abs(points[:, None] - given - (1.0, 0.0)).max(axis=2).min(axis=0).max(), 1e-12)
+
+    def test_program_for_curves_alone(self):
+        """Where it is not, half planes are drawn, and anything else is refused by one line."""
+        with mock.patch.dict(os.environ, {'CMAKE_PREFIX_PATH': '', 'PATH': '', 'CONTACT_PATH_PROGRAMS': ''}), \
+                mock.patch.object(program_trace, '__file__', self.path('program_trace.py')):
+            self.assertTrue(self.boundary(nx=1.0).flat)
+            thing = self.boundary(shape='circle', radius=2.5)
+            with self.assertRaisesRegex(ValueError, '^contact_path_outlines is not there: .*$'):
+                self.assertFalse(thing.outline)
+        with self.assertRaisesRegex(ValueError, r'^contact_path_outlines: scene.obstacles\[0\].radius = 0: .*$'):
+            self.assertFalse(self.boundary(shape='circle').outline)
 
     def test_turned_about_a_point_and_then_moved(self):
         motion = {'dx': 3.0, 'dy': 0.0, 'turn': np.pi, 'about_x': 1.0, 'about_y': 0.0}
@@ -352,7 +387,7 @@ class Obstacles(QuickPlotTest):
                 if not boundary.flat:
                     placement = structure.placement('thing', increment)
                     _, xi = boundary.foot(placement.back(shape.touching))
-                    foot = placement.points([np.interp(xi[0], boundary.xi, column) for column in boundary.points.T])
+                    foot = placement.points([np.interp(xi[0], boundary.outline.xi, column) for column in boundary.outline.points.T])
                 gap = (shape.touching[0] - foot).dot(shape.normals[0])
                 self.assertAlmostEqual(gap, increment['gap_p@thing'], delta=5e-4)
             self.assertIn('increment 0: start', self.texts(self.path('turning.csv'), '--scene', name, '--shapes'))
@@ -394,7 +429,7 @@ class Shapes(QuickPlotTest):
         self.assertIn('disc', text)
         with open(self.path('disc.yaml'), 'w') as file:
             file.write(text)
-        self.assert_main_refuses([self.table, '--shapes', '--scene', self.path('disc.yaml')], 'obstacle floor', 'disc')
+        self.assert_main_refuses([self.table, '--shapes', '--scene', self.path('disc.yaml')], 'scene.obstacles[0].shape', 'disc')
 
     def test_what_is_chosen_where_there_is_much(self):
         kinds = ['start', *['contact_event', 'regular'] * 20, 'smooth_limit', 'bifurcation', 'corner_limit', 'regular']

@@ -25,6 +25,9 @@ class DiscOutside : public Surface {
     projection.curvature = -1.0 / radius_;
     return projection;
   }
+  Eigen::Vector2d PointAt(double xi) const override {
+    return centre_ + radius_ * Eigen::Vector2d(std::sin(xi / radius_), std::cos(xi / radius_));
+  }
 
  private:
   Eigen::Vector2d centre_;
@@ -37,7 +40,7 @@ class Spiral : public Surface {
   Spiral(double a, double b, double c) : a_(a), b_(b), c_(c) {}
 
   bool Flat() const override { return false; }
-  Eigen::Vector2d PointAt(double xi) const {
+  Eigen::Vector2d PointAt(double xi) const override {
     Eigen::Vector2d point = Eigen::Vector2d::Zero();
     constexpr int kPieces = 40;
     const double h = xi / kPieces;

@@ -106,10 +106,9 @@ class Curve : public Surface {
   XiRange RangeOf(int patch) const override;
   NearestFoot Nearest(const Eigen::Vector2d& x) const override;
   Projection Project(const Eigen::Vector2d& x, int patch) const override;
+  Eigen::Vector2d PointAt(double xi) const override;
 
   double Length() const { return begins_.back() - begins_.front(); }
-  // xi: of a point between the begin of the first patch and the end of the last one.
-  Eigen::Vector2d PointAt(double xi) const;
 
  private:
   struct Place {

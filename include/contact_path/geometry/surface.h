@@ -39,7 +39,11 @@ class Surface {
   virtual NearestFoot Nearest(const Eigen::Vector2d& x) const = 0;
   // The foot on one patch, which is prolonged smoothly beyond both of its ends: xi tells where the foot is.
   virtual Projection Project(const Eigen::Vector2d& x, int patch) const = 0;
+  // xi: of a point between the begin of the first patch and the end of the last one.
+  virtual Eigen::Vector2d PointAt(double xi) const = 0;
 
+  // From the begin of the first patch to the end of the last one.
+  XiRange Range() const { return {RangeOf(0).begin, RangeOf(NumPatches() - 1).end}; }
   bool HasPatch(int patch) const { return Closed() || (patch >= 0 && patch < NumPatches()); }
   Projection ProjectOnNearest(const Eigen::Vector2d& x) const { return Project(x, Nearest(x).patch); }
 };
@@ -53,6 +57,7 @@ class HalfPlane : public Surface {
   bool Flat() const override { return true; }
   NearestFoot Nearest(const Eigen::Vector2d& x) const override;
   Projection Project(const Eigen::Vector2d& x, int patch) const override;
+  Eigen::Vector2d PointAt(double xi) const override { return offset_ * normal_ + xi * TangentOf(normal_); }
 
  private:
   Eigen::Vector2d normal_;
