@@ -23,8 +23,8 @@ std::vector<OutlinePoint> Outline(const Surface& surface, const XiRange& range, 
   while (surface.HasPatch(patch - 1) && surface.RangeOf(patch).begin > range.begin) --patch;
   while (surface.HasPatch(patch + 1) && surface.RangeOf(patch).end <= range.begin) ++patch;
   const auto point_at = [&](double xi) {
-    const double rounds = surface.Closed() ? std::floor((xi - whole.begin) / length) : 0.0;
-    const Vector2d place = surface.PointAt(xi - rounds * length);
+    const double before = surface.Closed() ? std::floor((xi - whole.begin) / length) * length : 0.0;  // whole rounds
+    const Vector2d place = surface.PointAt(xi - before);
     return OutlinePoint{place, surface.Project(place, patch).normal, xi};
   };
   std::vector<OutlinePoint> points;
