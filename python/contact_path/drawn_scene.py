@@ -8,6 +8,8 @@ from contact_path.scene_expand import expand
 
 Entry = Dict[str, Any]
 
+# Lists whose entries have nodes and are no elements, or elements with a look of their own.
+DRAWN_APART = ('bars', 'superelements', 'beams', 'solids', 'groups', 'surfaces')
 # What a stage leaves on that a later one can take back: list -> name of what it acts on, and components.
 STAGE_PARTS = {'loads': ('node', 'fx', 'fy', 'moment'), 'obstacle_motions': ('obstacle', 'dx', 'dy')}
 
@@ -26,7 +28,7 @@ def _drawn(request: Entry) -> Dict[str, Any]:
     scene: Dict[str, Any] = {part: with_defaults(part, given.get(part) or []) for part in PARTS}
     loads_on_nodes = expand(scene)
     for part, entries in given.items():
-        if part not in PARTS and isinstance(entries, list):
+        if part not in DRAWN_APART and isinstance(entries, list):
             add_elements(scene, [entry['nodes'] for entry in entries if 'nodes' in entry])
     scene['name'] = given.get('name') or ''
     scene['program'] = stages_as_traced(

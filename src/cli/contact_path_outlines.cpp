@@ -35,8 +35,9 @@ void WriteOutlines(const Scene& scene, std::ostream& out) {
 }  // namespace contact_path
 
 int main(int argc, char** argv) {
-  CLI::App app("Writes points along the curved obstacles of a scene, where they are at the start, as CSV to standard output.",
-               "contact_path_outlines");
+  CLI::App app(
+      "Writes points along the curved obstacles of a scene, where they are at the start, as CSV to standard output.",
+      "contact_path_outlines");
   std::string scene_file = "/dev/stdin";
   app.add_option("SCENE", scene_file, "Scene file")->capture_default_str();
   try {

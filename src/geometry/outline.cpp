@@ -34,8 +34,7 @@ std::vector<OutlinePoint> Outline(const Surface& surface, const XiRange& range, 
     if (!(end - begin > (std::isfinite(length) ? kShortest * length : 0.0))) continue;
     OutlinePoint before = point_at(begin);
     if (points.empty()) points.push_back(before);
-    const bool bent =
-        point_at(0.5 * (begin + end)).normal != before.normal || point_at(end).normal != before.normal;
+    const bool bent = point_at(0.5 * (begin + end)).normal != before.normal || point_at(end).normal != before.normal;
     const int parts = bent ? steps.parts : 1;
     for (int k = 1; k <= parts; ++k) {
       const OutlinePoint after = point_at(begin + (end - begin) * k / parts);

@@ -35,7 +35,7 @@ TEST(Outline, IsOnACircleWithSmallTurns) {
     // Clockwise, from the top on.
     EXPECT_NEAR((point.normal - Vector2d(std::sin(point.xi / 3.0), std::cos(point.xi / 3.0))).norm(), 0.0, kRounding);
   }
-  EXPECT_EQ(points.size(), 2U * 90U + 1U + 4U * 2U);  // 22.5 turns of 2 degrees are 23 a part
+  EXPECT_EQ(points.size(), 1U + 8U * 23U);  // a part turns by 45 degrees
   EXPECT_LE(LargestTurn(points), kPi / 90.0);
 }
 
