@@ -2,7 +2,7 @@
 #include <benchmark/benchmark.h>
 #include <sys/resource.h>
 
-#include <chrono>
+#include <ctime>
 #include <memory>
 #include <stdexcept>
 #include <utility>
@@ -16,12 +16,11 @@
 namespace contact_path {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr int kIncrements = 12;
 constexpr double kOutOfReach = 5.0;  // lengths of a bar: for these increments
 
-double Seconds(Clock::time_point since) { return std::chrono::duration<double>(Clock::now() - since).count(); }
+// Of the processor: other work on the machine spoils it less than the time of day.
+double Seconds(std::clock_t since) { return static_cast<double>(std::clock() - since) / CLOCKS_PER_SEC; }
 
 // One factorisation of the matrix of the increments at `point`, pattern and pivots known.
 double FactorisationTime(const Model& model, const PathPoint& point) {
@@ -33,7 +32,7 @@ double FactorisationTime(const Model& model, const PathPoint& point) {
   solver.Factorize(transposed, increment);
   double least = 1e9;
   for (int i = 0; i < 3; ++i) {
-    const Clock::time_point start = Clock::now();
+    const std::clock_t start = std::clock();
     solver.Factorize(transposed, increment);
     least = std::min(least, Seconds(start));
   }
@@ -57,9 +56,9 @@ void RegularIncrements(benchmark::State& state, TraceRequest request, double flo
     double seconds = 0.0;
     int regular = 0, factorised = 0;
     while (regular < kIncrements) {
-      const Clock::time_point start = Clock::now();
+      const std::clock_t start = std::clock();
       const Advance advance = method.Next(point);
-      for (const AcceptedPoint& increment : advance.increments) recorder.Append(model, increment, 0.0);
+      for (const AcceptedPoint& accepted : advance.increments) recorder.Append(model, accepted, 0.0);
       const double time = Seconds(start);
       if (advance.increments.empty()) throw std::runtime_error(advance.message);
       point = advance.increments.back().point;

@@ -63,7 +63,8 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Invariance,
                                          Case{"snap_hook", 0.0, 100, true, Method::kBranch},
                                          Case{"fin_ray", 0.0, 250, true, Method::kBranch},
                                          Case{"peg_in_hole", 0.0, 190, true, Method::kBranch},
-                                         Case{"lee_frame", 0.0, 20, true}, Case{"portal_frame", 0.0, 10, true},
+                                         Case{"peg", 0.1, 25, true}, Case{"cam", 0.1, 40, true},
+                                         Case{"rope", 0.1, 12, true}, Case{"lee_frame", 0.0, 20, true}, Case{"portal_frame", 0.0, 10, true},
                                          Case{"cantilever_block", 0.5, 10, true}),
                          CaseName);
 
