@@ -28,11 +28,11 @@ class CapsuleTree {
   // Near ones come first.
   template <typename Visit>
   void Search(const Eigen::Vector2d& x, const double* most, Visit visit) const {
-    Search({0, 0, num_leaves_}, DistanceTo(x, 0), x, most, visit);
+    Search({0, 0, num_leaves_}, parts_[0].SquaredDistance(x), x, most, visit);
   }
 
  private:
-  static constexpr double kRounding = 1e-12;  // of a distance
+  static constexpr double kRounding = 1e-12;  // of the square of a distance
 
   // The leaves from `begin` to before `end`; the capsules of the first half follow its own, then those of the second
   // half.
@@ -48,28 +48,27 @@ class CapsuleTree {
     double radius;
     double factor;  // 1 / |along|^2; 0 where that is no number
 
-    double Distance(const Eigen::Vector2d& x) const {
+    // From the line.
+    double SquaredDistance(const Eigen::Vector2d& x) const {
       const Eigen::Vector2d away = x - begin;
       const double share = std::min(std::max(factor * along.dot(away), 0.0), 1.0);
-      return (away - share * along).norm();
+      return (away - share * along).squaredNorm();
     }
   };
 
   Capsule Fill(const Node& node, const std::vector<Capsule>& leaves);
-  // Not more than the distance, in spite of rounding.
-  double DistanceTo(const Eigen::Vector2d& x, std::size_t capsule) const {
-    return (1.0 - kRounding) * parts_[capsule].Distance(x) - parts_[capsule].radius;
-  }
-
+  // square: of the distance from the line of the node. Squares spare roots, in which most of the time would go.
   template <typename Visit>
-  void Search(const Node& node, double distance, const Eigen::Vector2d& x, const double* most, Visit& visit) const {
-    if (distance > *most) return;
+  void Search(const Node& node, double square, const Eigen::Vector2d& x, const double* most, Visit& visit) const {
+    const double reach = *most + parts_[node.capsule].radius;
+    if ((1.0 - kRounding) * square > reach * reach) return;
     if (node.end - node.begin == 1) {
       visit(node.begin);
       return;
     }
     const Node first = node.First(), second = node.Second();
-    const double to_first = DistanceTo(x, first.capsule), to_second = DistanceTo(x, second.capsule);
+    const double to_first = parts_[first.capsule].SquaredDistance(x);
+    const double to_second = parts_[second.capsule].SquaredDistance(x);
     const bool in_order = to_first <= to_second;
     Search(in_order ? first : second, in_order ? to_first : to_second, x, most, visit);
     Search(in_order ? second : first, in_order ? to_second : to_first, x, most, visit);
