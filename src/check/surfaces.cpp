@@ -194,7 +194,8 @@ class Polyline : public Walk {
       for (std::size_t i = 2; i < corners.size(); ++i)
         area += Cross(corners[i - 1] - corners[0], corners[i] - corners[0]);
       if (area < 0.0L)
-        for (const Vector& direction : {Vector{1.0L, 0.0L}, Vector{-1.0L, 0.0L}, Vector{0.0L, 1.0L}, Vector{0.0L, -1.0L}})
+        for (const Vector& direction :
+             {Vector{1.0L, 0.0L}, Vector{-1.0L, 0.0L}, Vector{0.0L, 1.0L}, Vector{0.0L, -1.0L}})
           AddBeyond(direction, corners);
       return;
     }

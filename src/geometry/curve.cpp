@@ -14,10 +14,10 @@ using Eigen::Vector2d;
 
 constexpr double kHalfTurn = 3.141592653589793;
 
-constexpr double kQuadrature = 4e-16;      // of the length of a cubic: rounding of its arc length
-constexpr int kDeepest = 12;               // halvings of a cubic
-constexpr int kSamples = 8;                // of a cubic, where the search for a foot sets out
-constexpr double kAsFar = 1e-10;           // of a distance
+constexpr double kQuadrature = 4e-16;       // of the length of a cubic: rounding of its arc length
+constexpr int kDeepest = 12;                // halvings of a cubic
+constexpr int kSamples = 8;                 // of a cubic, where the search for a foot sets out
+constexpr double kAsFar = 1e-10;            // of a distance
 constexpr double kRoundingOfPoint = 1e-15;  // of coordinates
 constexpr int kFootIterations = 60;
 constexpr double kFoot = 1e-16;    // of tau

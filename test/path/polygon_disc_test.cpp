@@ -24,8 +24,8 @@ constexpr int kEdges = 1000;
 const double kHalfTurn = kPi / kEdges;  // of an edge, seen from the centre
 constexpr double kRadius = 1.0;
 constexpr double kFriction = 0.3;
-constexpr double kSound = 1e-9;     // residuals, of the characteristic force
-constexpr double kRounding = 1e-9;  // of what is compared
+constexpr double kSound = 1e-9;       // residuals, of the characteristic force
+constexpr double kRounding = 1e-9;    // of what is compared
 constexpr double kQuadrature = 1e-6;  // of the dissipation
 
 Vector2d At(double angle, double distance) { return {distance * std::sin(angle), distance * std::cos(angle)}; }
@@ -138,8 +138,8 @@ struct Bounds {
   Bounds(const Polygon& polygon, double angle) {
     const Sliding on_circle(angle);
     const double length = on_circle.reaction.norm(), turn = polygon.Turn();
-    const double right = kPegSprings.stiffness.maxCoeff() * polygon.Aside() +
-                         on_circle.rn * length * 2.0 * std::sin(0.5 * turn);
+    const double right =
+        kPegSprings.stiffness.maxCoeff() * polygon.Aside() + on_circle.rn * length * 2.0 * std::sin(0.5 * turn);
     const double determinant =
         std::abs(Cross(kPull, on_circle.reaction)) - kPull.norm() * length * 2.0 * std::sin(0.5 * turn);
     s = right * length / determinant;
@@ -161,7 +161,9 @@ double DissipationUpTo(double angle) {
   constexpr int kParts = 2000;
   double sum = 0.0;
   for (int i = 0; i <= kParts; ++i)
-    sum += (i == 0 || i == kParts ? 1.0 : i % 2 == 0 ? 2.0 : 4.0) *
+    sum += (i == 0 || i == kParts ? 1.0
+            : i % 2 == 0          ? 2.0
+                                  : 4.0) *
            Sliding(kStartAngle + (angle - kStartAngle) * i / kParts).rn;
   return kFriction * kRadius * sum * (angle - kStartAngle) / kParts / 3.0;
 }
@@ -263,8 +265,7 @@ TEST(PolygonDisc, OneThatTurnsHoldsANodeAsTheCircleDoes) {
             << increment.index;
         const double moved = (Place(increment) - Place(held)).norm();
         const double turned = std::abs(AngleOf(increment) - AngleOf(held)) + polygon.Turn();
-        EXPECT_NEAR(contact.rn, held.contacts[0].rn, moved + force * turned + kRounding)
-            << increment.index;
+        EXPECT_NEAR(contact.rn, held.contacts[0].rn, moved + force * turned + kRounding) << increment.index;
         EXPECT_NEAR(contact.rt, kFriction * contact.rn, kRounding);
       }
       EXPECT_GE(NumEvents(path), 2 * kEdges);
