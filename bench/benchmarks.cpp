@@ -2,24 +2,25 @@
 #include <benchmark/benchmark.h>
 #include <sys/resource.h>
 
-#include <chrono>
+#include <ctime>
 #include <memory>
 #include <stdexcept>
+#include <utility>
 
 #include "contact_path/linear/bordered_solver.h"
 #include "contact_path/path/automatic_step.h"
 #include "contact_path/path/branch_method.h"
+#include "contact_path/path/recorder.h"
 #include "lattices.h"
 
 namespace contact_path {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr int kIncrements = 12;
 constexpr double kOutOfReach = 5.0;  // lengths of a bar: for these increments
 
-double Seconds(Clock::time_point since) { return std::chrono::duration<double>(Clock::now() - since).count(); }
+// Of the processor: other work on the machine spoils it less than the time of day.
+double Seconds(std::clock_t since) { return static_cast<double>(std::clock() - since) / CLOCKS_PER_SEC; }
 
 // One factorisation of the matrix of the increments at `point`, pattern and pivots known.
 double FactorisationTime(const Model& model, const PathPoint& point) {
@@ -31,16 +32,16 @@ double FactorisationTime(const Model& model, const PathPoint& point) {
   solver.Factorize(transposed, increment);
   double least = 1e9;
   for (int i = 0; i < 3; ++i) {
-    const Clock::time_point start = Clock::now();
+    const std::clock_t start = std::clock();
     solver.Factorize(transposed, increment);
     least = std::min(least, Seconds(start));
   }
   return least;
 }
 
-// Mean of the regular increments of a wall that bends towards the floor, or along it where that is as near as it is.
-void RegularIncrements(benchmark::State& state, int far_candidates, double floor_lowered_by) {
-  TraceRequest request = WallOf(static_cast<int>(state.range(0)), far_candidates);
+// Mean of the regular increments of a wall that bends towards the floor, or along it where that is as near as it is;
+// with what it takes to record them.
+void RegularIncrements(benchmark::State& state, TraceRequest request, double floor_lowered_by) {
   request.scene.obstacles.front().py -= floor_lowered_by;
   const Model model(request.scene, CharacteristicScales(request.scene));
   double factorisation = 0.0, increment = 0.0, factorisations = 0.0;
@@ -50,11 +51,14 @@ void RegularIncrements(benchmark::State& state, int far_candidates, double floor
     EventRecord branches;
     std::string message;
     if (method.Start(point, &branches, &message)) throw std::runtime_error(message);
+    Recorder recorder(Method::kBranch, nullptr);
+    recorder.Start(model, 0, point, Residuals(), branches, 0.0);
     double seconds = 0.0;
     int regular = 0, factorised = 0;
     while (regular < kIncrements) {
-      const Clock::time_point start = Clock::now();
+      const std::clock_t start = std::clock();
       const Advance advance = method.Next(point);
+      for (const AcceptedPoint& accepted : advance.increments) recorder.Append(model, accepted, 0.0);
       const double time = Seconds(start);
       if (advance.increments.empty()) throw std::runtime_error(advance.message);
       point = advance.increments.back().point;
@@ -77,13 +81,27 @@ void RegularIncrements(benchmark::State& state, int far_candidates, double floor
   state.counters["peak_MiB"] = static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
-void IncrementInContact(benchmark::State& state) { RegularIncrements(state, 0, 0.0); }
+int Dofs(const benchmark::State& state) { return static_cast<int>(state.range(0)); }
+int FarCandidates(const benchmark::State& state) { return static_cast<int>(state.range(1)); }
+
+void IncrementInContact(benchmark::State& state) { RegularIncrements(state, WallOf(Dofs(state)), 0.0); }
 void IncrementWithFarCandidates(benchmark::State& state) {
-  RegularIncrements(state, static_cast<int>(state.range(1)), kOutOfReach);
+  RegularIncrements(state, WallOf(Dofs(state), FarCandidates(state)), kOutOfReach);
+}
+void IncrementWithFarCurves(benchmark::State& state) {
+  TraceRequest request = WallOf(Dofs(state));
+  AddFarCurves(FarCandidates(state), &request.scene);
+  RegularIncrements(state, std::move(request), kOutOfReach);
 }
 
 BENCHMARK(IncrementInContact)->Arg(1000)->Arg(3000)->UseManualTime()->Iterations(3)->Unit(benchmark::kMillisecond);
 BENCHMARK(IncrementWithFarCandidates)
+    ->Args({10000, 0})
+    ->Args({10000, 10000})
+    ->UseManualTime()
+    ->Iterations(1)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(IncrementWithFarCurves)
     ->Args({10000, 0})
     ->Args({10000, 10000})
     ->UseManualTime()

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstddef>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "contact_path/equations/fixed_state_system.h"
 
@@ -16,6 +18,9 @@ namespace {
 
 constexpr Eigen::Index kFewEntries = 64;
 constexpr int kSegments = 4;
+constexpr int kEdges = 1000;     // of a polyline far away
+constexpr double kAside = 10.0;  // between it and the wall
+constexpr double kWave = 1.0;    // its height
 
 std::string NameAt(int column, int row) { return "n" + std::to_string(column) + "_" + std::to_string(row); }
 
@@ -39,6 +44,31 @@ TraceRequest WallOf(int dofs, int far_candidates) {
   options.contacts = std::min(options.columns, std::max(1, dofs / 200));
   options.far_candidates = far_candidates;
   return LatticeRequest(options);
+}
+
+void AddFarCurves(int candidates, Scene* wall) {
+  std::vector<std::string> free_nodes;
+  double right = 0.0, upper = 0.0;
+  for (const Node& node : wall->nodes) {
+    right = std::max(right, node.x);
+    upper = std::max(upper, node.y);
+    if (!node.fixed_x && !node.fixed_y) free_nodes.push_back(node.name);
+  }
+  for (const bool above : {false, true}) {
+    Obstacle line;
+    line.name = above ? "far_ceiling" : "far_floor";
+    line.shape = ObstacleShape::kPolyline;
+    line.py = above ? upper + kAside + kWave : -kAside - kWave;
+    line.friction = 0.3;
+    for (int i = 0; i <= kEdges; ++i) {
+      const double along = static_cast<double>(above ? kEdges - i : i) / kEdges;
+      line.points.insert(line.points.end(), {right * (1.4 * along - 0.2), kWave * std::sin(40.0 * along)});
+    }
+    wall->obstacles.push_back(line);
+    const auto count = std::min(static_cast<std::size_t>(candidates), free_nodes.size());
+    for (std::size_t i = 0; i < count; ++i) wall->contacts.push_back({free_nodes[i], line.name});
+    candidates -= static_cast<int>(count);
+  }
 }
 
 TraceRequest BlockOf(int dofs, int contacts, double gap) {

@@ -187,13 +187,15 @@ def contact(results):
 
 
 def far(results):
-    runs = [run for run in read_benchmarks(results / 'far.json') if run['run_type'] == 'iteration']
-    near, with_far = (min((run for run in runs if run['candidates'] == count), key=lambda run: run['real_time'])
-                      for count in sorted({run['candidates'] for run in runs}))
-    change = 100.0 * (with_far['real_time'] / near['real_time'] - 1.0)
-    return ('Time per increment of a wall of %d dofs with %d candidates out of reach beside its own %d: %+.1f %% (the shortest of four runs\n'
-            'each, in turn).\n' %
-            (near['dofs'], with_far['candidates'] - near['candidates'], near['candidates'], change))
+    all_runs = [run for run in read_benchmarks(results / 'far.json') if run['run_type'] == 'iteration']
+    cells = []
+    for name, against in (('IncrementWithFarCandidates', 'half planes'), ('IncrementWithFarCurves', 'polylines of 1,000 edges')):
+        runs = [run for run in all_runs if run['name'].startswith(name + '/')]
+        near, with_far = (min((run for run in runs if run['candidates'] == count), key=lambda run: run['real_time'])
+                          for count in sorted({run['candidates'] for run in runs}))
+        cells.append(['%d' % near['dofs'], '%d' % near['candidates'], '%d' % (with_far['candidates'] - near['candidates']), against,
+                      '%+.1f %%' % (100.0 * (with_far['real_time'] / near['real_time'] - 1.0))])
+    return table(['dofs', 'candidates', 'candidates out of reach', 'against', 'time per increment'], cells)
 
 
 def solvers(results):

@@ -227,13 +227,16 @@ Residuals ResidualCheck::Check(const CheckedState& before, const CheckedState& n
   }
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
     const Prepared::PreparedContact& contact = scene.contacts[i];
-    const Real gap = contact.surface->Gap(contact.Position(now)) / scaling.length;
-    if (now.rn[i] == 0.0 && now.rt[i] == 0.0) {  // then only a gap that is closed too far breaks a rule
+    const bool without_reaction = now.rn[i] == 0.0 && now.rt[i] == 0.0;
+    const Vector place = contact.Position(now);
+    if (without_reaction && contact.surface->SurelyOpen(place)) continue;
+    const Real gap = contact.surface->Gap(place) / scaling.length;
+    if (without_reaction) {  // then only a gap that is closed too far breaks a rule
       residuals.penetration = Worst(residuals.penetration, -gap);
       residuals.complementarity = Worst(residuals.complementarity, std::abs(std::min(gap, 0.0L)));
       continue;
     }
-    const Real slip = contact.surface->Slip(contact.Position(before), contact.Position(now)) / scaling.length;
+    const Real slip = contact.surface->Slip(contact.Position(before), place) / scaling.length;
     const Real unit = scene.units[contact.node];
     const Real rn = now.rn[i] / unit, rt = now.rt[i] / unit;
     const Real bound = contact.friction * std::max(rn, 0.0L);

@@ -5,7 +5,10 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 #include <vector>
+
+#include "check/nearest_piece.h"
 
 namespace contact_path::check {
 namespace {
@@ -31,6 +34,7 @@ class HalfPlane : public Surface {
   Real Gap(const Vector& x) const override { return Dot(normal_, x - point_); }
   Vector Normal(const Vector&) const override { return normal_; }
   Real Slip(const Vector& from, const Vector& to) const override { return Dot(tangent_, to - from); }
+  bool SurelyOpen(const Vector&) const override { return false; }
 
  private:
   Vector point_, normal_, tangent_;
@@ -49,6 +53,7 @@ class Circle : public Surface {
     const Vector a = from - centre_, b = to - centre_;
     return -side_ * radius_ * std::atan2(Cross(a, b), Dot(a, b));
   }
+  bool SurelyOpen(const Vector&) const override { return false; }
 
  private:
   Vector centre_;
@@ -66,6 +71,10 @@ class Walk : public Surface {
   Real Slip(const Vector& from, const Vector& to) const override {
     const Real slip = Nearest(to).walked - Nearest(from).walked;
     return closed_ ? std::remainder(slip, length_) : slip;
+  }
+  bool SurelyOpen(const Vector& x) const override {
+    return std::any_of(beyond_.begin(), beyond_.end(),
+                       [&](const HalfPlaneBeyond& part) { return Dot(part.direction, x) > part.height; });
   }
 
  protected:
@@ -88,17 +97,40 @@ class Walk : public Surface {
     return places;
   }
 
-  // To the nearest begin of a piece: the foot is no farther. No point of a piece is farther from its begin than the
-  // piece is long.
-  template <typename Piece>
-  static Real Reach(const std::vector<Piece>& pieces, const Vector& x) {
-    Real reach = std::numeric_limits<Real>::infinity();
-    for (const Piece& piece : pieces) reach = std::min(reach, Length(x - piece.from));
-    return reach;
+  // The nearest of the feet on all pieces; of equal ones the first. foot_on(i): on the piece i.
+  template <typename FootOn>
+  Foot NearestOf(const Vector& x, FootOn foot_on) const {
+    Foot nearest;
+    std::size_t piece = 0;
+    search_.Search(x, [&](std::size_t i) {
+      Foot foot = foot_on(i);
+      const Real distance = foot.distance;
+      if (distance < nearest.distance || (distance == nearest.distance && i < piece)) {
+        nearest = std::move(foot);
+        piece = i;
+      }
+      return distance;
+    });
+    return nearest;
+  }
+
+  // Where the whole curve, which lies within these points' convex hull, is behind a line with this normal.
+  void AddBeyond(const Vector& direction, const std::vector<Vector>& hull) {
+    Real height = -std::numeric_limits<Real>::infinity();
+    for (const Vector& point : hull) height = std::max(height, Dot(direction, point));
+    beyond_.push_back({direction, height});
   }
 
   bool closed_;
   Real length_ = 0.0L;
+  NearestPiece search_;
+
+ private:
+  struct HalfPlaneBeyond {
+    Vector direction;
+    Real height;
+  };
+  std::vector<HalfPlaneBeyond> beyond_;
 };
 
 // The corners of a polyline are cut by circles that touch both edges.
@@ -136,10 +168,14 @@ class Polyline : public Walk {
       pieces_.push_back({corners[i] + to * directions[i], directions[i], std::copysign(1.0L / radius, turns[corner]),
                          radius * std::abs(turns[corner])});
     }
+    std::vector<Around> around;
     for (Piece& piece : pieces_) {
       piece.begin = length_;
       length_ += piece.length;
+      around.push_back({piece.from, piece.length});
     }
+    search_ = NearestPiece(std::move(around));
+    FindBeyond(corners, directions);
   }
 
  private:
@@ -150,6 +186,24 @@ class Polyline : public Walk {
     Vector from, direction;  // at the begin
     Real curvature, length, begin = 0.0L;
   };
+
+  void FindBeyond(const std::vector<Vector>& corners, const std::vector<Vector>& directions) {
+    if (closed_) {
+      // Its outside is admissible where it is walked clockwise.
+      Real area = 0.0L;
+      for (std::size_t i = 2; i < corners.size(); ++i)
+        area += Cross(corners[i - 1] - corners[0], corners[i] - corners[0]);
+      if (area < 0.0L)
+        for (const Vector& direction :
+             {Vector{1.0L, 0.0L}, Vector{-1.0L, 0.0L}, Vector{0.0L, 1.0L}, Vector{0.0L, -1.0L}})
+          AddBeyond(direction, corners);
+      return;
+    }
+    // The foot of a point beyond is an end, or the gap has the sign of (x - foot) . direction, since n . direction > 0.
+    const Vector along = corners.back() - corners.front();
+    if (std::all_of(directions.begin(), directions.end(), [&](const Vector& edge) { return Dot(edge, along) > 0.0L; }))
+      AddBeyond(Left(along), corners);
+  }
 
   // At a length from the begin of a piece.
   static Vector DirectionAt(const Piece& piece, Real walked) {
@@ -175,19 +229,13 @@ class Polyline : public Walk {
   }
 
   Foot Nearest(const Vector& x) const override {
-    const Real reach = Reach(pieces_, x);
-    Foot nearest;
-    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+    return NearestOf(x, [&](std::size_t i) {
       const Piece& piece = pieces_[i];
-      if (Length(x - piece.from) > reach + piece.length) continue;
       const Real on = FootOn(piece, x), walked = std::clamp(on, 0.0L, piece.length);
       const Vector place = PlaceAt(piece, walked);
-      const Real distance = Length(x - place);
-      if (!(distance < nearest.distance)) continue;
       const bool is_end = !closed_ && ((i == 0 && on < 0.0L) || (i + 1 == pieces_.size() && on > piece.length));
-      nearest = {place, Left(DirectionAt(piece, walked)), piece.begin + walked, distance, is_end};
-    }
-    return nearest;
+      return Foot{place, Left(DirectionAt(piece, walked)), piece.begin + walked, Length(x - place), is_end};
+    });
   }
 
   std::vector<Piece> pieces_;
@@ -220,6 +268,10 @@ class Spline : public Walk {
       length_ = piece.walked.back();
       pieces_.push_back(std::move(piece));
     }
+    std::vector<Around> around;
+    for (const Piece& piece : pieces_) around.push_back({piece.from, LengthOf(piece)});
+    search_ = NearestPiece(std::move(around));
+    if (!closed_) FindBeyond();
   }
 
  private:
@@ -277,25 +329,33 @@ class Spline : public Walk {
     return w;
   }
 
+  // As of an open polyline. The derivative, a parabola, and the cubic lie within the hulls of their Bezier points.
+  void FindBeyond() {
+    const Vector along = pieces_.back().to - pieces_.front().from;
+    std::vector<Vector> hull;
+    for (const Piece& piece : pieces_) {
+      const Vector begin = First(piece, 0.0L), end = First(piece, 1.0L);
+      const Vector middle = 2.0L * First(piece, 0.5L) - 0.5L * (begin + end);
+      for (const Vector& first : {begin, middle, end})
+        if (!(Dot(first, along) > 0.0L)) return;
+      for (const Vector& point : {piece.from, piece.from + 1.0L / 3.0L * begin, piece.to - 1.0L / 3.0L * end, piece.to})
+        hull.push_back(point);
+    }
+    AddBeyond(Left(along), hull);
+  }
+
   static Real LengthOf(const Piece& piece) { return piece.walked.back() - piece.walked.front(); }
 
   Foot Nearest(const Vector& x) const override {
-    const Real reach = Reach(pieces_, x);
-    Foot nearest;
-    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+    return NearestOf(x, [&](std::size_t i) {
       const Piece& piece = pieces_[i];
-      if (Length(x - piece.from) > reach + LengthOf(piece)) continue;
       const Real on = FootOn(piece, x), w = std::clamp(on, 0.0L, 1.0L);
-      const Vector place = At(piece, w);
-      const Real distance = Length(x - place);
-      if (!(distance < nearest.distance)) continue;
-      const Vector first = First(piece, w);
+      const Vector place = At(piece, w), first = First(piece, w);
       const auto part = static_cast<std::size_t>(std::min<Real>(w * kParts, kParts - 1));
       const bool is_end = !closed_ && ((i == 0 && on < 0.0L) || (i + 1 == pieces_.size() && on > 1.0L));
-      nearest = {place, 1.0L / Length(first) * Left(first),
-                 piece.walked[part] + Walked(piece, static_cast<Real>(part) / kParts, w), distance, is_end};
-    }
-    return nearest;
+      return Foot{place, 1.0L / Length(first) * Left(first),
+                  piece.walked[part] + Walked(piece, static_cast<Real>(part) / kParts, w), Length(x - place), is_end};
+    });
   }
 
   std::vector<Piece> pieces_;

@@ -21,6 +21,8 @@ class Surface {
   virtual Vector Normal(const Vector& x) const = 0;
   // Length of the boundary between the feet of two points, along t [length].
   virtual Real Slip(const Vector& from, const Vector& to) const = 0;
+  // True: Gap(x) > 0, told at once of most points that are far away. False tells nothing.
+  virtual bool SurelyOpen(const Vector& x) const = 0;
 };
 
 std::unique_ptr<const Surface> MakeSurface(const Obstacle& obstacle);

@@ -14,11 +14,11 @@ using Eigen::Vector2d;
 
 constexpr double kHalfTurn = 3.141592653589793;
 
-constexpr double kQuadrature = 4e-16;      // of the length of a cubic: rounding of its arc length
-constexpr int kDeepest = 12;               // halvings of a cubic
-constexpr int kSamples = 8;                // of a cubic, where the search for a foot sets out
-constexpr double kAsFar = 1e-10;           // of a distance
-constexpr double kRoundingOfDisc = 1e-12;  // of the length of a piece
+constexpr double kQuadrature = 4e-16;       // of the length of a cubic: rounding of its arc length
+constexpr int kDeepest = 12;                // halvings of a cubic
+constexpr int kSamples = 8;                 // of a cubic, where the search for a foot sets out
+constexpr double kAsFar = 1e-10;            // of a distance
+constexpr double kRoundingOfPoint = 1e-15;  // of coordinates
 constexpr int kFootIterations = 60;
 constexpr double kFoot = 1e-16;    // of tau
 constexpr double kFarthest = 2.0;  // tau of a foot, counted from the middle of the piece
@@ -50,6 +50,22 @@ double SquaredExcess(const Vector2d& x, const Vector2d& centre, double radius) {
   const TwoParts squares = Sum(xx.high, yy.high), excess = Sum(squares.high, -rr.high);
   return excess.high +
          (excess.low + squares.low + xx.low + yy.low - rr.low + 2.0 * dx.high * dx.low + 2.0 * dy.high * dy.low);
+}
+
+// How far the point that is computed for an end of a piece may be from the end.
+double RoundingAt(const CurvePiece& piece, double xi, const Vector2d& point) {
+  const Projection at = piece.Project(point);
+  return std::abs(at.gap) + std::abs(at.xi - xi) + kRoundingOfPoint * (point.lpNorm<1>() + piece.Length());
+}
+
+// A curve between two points lies within the ellipse around them from whose points the ways to both are together as
+// long as the curve: no point of it is farther from the line between them than its shorter half axis.
+Capsule AroundPiece(const CurvePiece& piece) {
+  const XiRange range = piece.Range();
+  const Vector2d begin = piece.PointAt(range.begin), end = piece.PointAt(range.end);
+  const double rounding = RoundingAt(piece, range.begin, begin) + RoundingAt(piece, range.end, end);
+  const double length = piece.Length() + rounding, straight = std::max((end - begin).norm() - rounding, 0.0);
+  return {begin, end, 0.5 * std::sqrt(std::max(length * length - straight * straight, 0.0)) + rounding};
 }
 
 }  // namespace
@@ -178,14 +194,12 @@ Vector2d CubicPiece::PointAt(double xi) const {
 
 Curve::Curve(std::vector<std::unique_ptr<const CurvePiece>> pieces, bool closed, double xi)
     : pieces_(std::move(pieces)), begins_{xi}, closed_(closed) {
-  std::vector<Disc> discs;
+  std::vector<Capsule> capsules;
   for (const auto& piece : pieces_) {
-    const XiRange range = piece->Range();
-    // No point of a curve is farther from its middle than half of its length.
-    discs.push_back({piece->PointAt(0.5 * (range.begin + range.end)), (0.5 + kRoundingOfDisc) * piece->Length()});
+    capsules.push_back(AroundPiece(*piece));
     begins_.push_back(begins_.back() + piece->Length());
   }
-  tree_ = DiscTree(discs);
+  tree_ = CapsuleTree(capsules);
 }
 
 Curve::Place Curve::PlaceOf(int patch) const {

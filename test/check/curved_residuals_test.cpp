@@ -1,8 +1,10 @@
 // The residuals of contacts with curves: the check's own geometry against the geometry of the solvers.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -107,6 +109,42 @@ TEST(CurvedResiduals, PastAnEndTheGapIsTheDistance) {
     ASSERT_TRUE(surface->Nearest(x).is_end);
     EXPECT_NEAR(check.Gap(0, StateAt(x.x(), x.y(), 0.0)), surface->Nearest(x).distance, kRounding);
   }
+}
+
+// Far from a curve, too, where its pieces need not be looked at.
+TEST(CurvedResiduals, OfAnOpenContactAreItsPenetration) {
+  std::vector<Obstacle> shapes = Shapes();
+  for (const ObstacleShape shape : {ObstacleShape::kPolyline, ObstacleShape::kSpline}) {
+    shapes.push_back(Shape(shape));
+    shapes.back().points = {-0.6, 0.1, 0.1, 0.7, 0.8, 0.2, 1.5, 0.3};
+  }
+  for (std::size_t i = 0, count = shapes.size(); i < count; ++i) {  // walked the other way round
+    if (shapes[i].points.empty()) continue;
+    Obstacle other = shapes[i];
+    for (std::size_t k = 0; k < other.points.size(); k += 2) {
+      other.points[k] = shapes[i].points[other.points.size() - 2 - k];
+      other.points[k + 1] = shapes[i].points[other.points.size() - 1 - k];
+    }
+    shapes.push_back(other);
+  }
+  Random random(5);
+  int open = 0, closed = 0;
+  for (const Obstacle& obstacle : shapes) {
+    const Scene scene = Beside(obstacle);
+    const ResidualCheck check(scene, Configuration::Of(scene), {});
+    for (const double size : {1.2, 20.0})
+      for (int i = 0; i < 100; ++i) {
+        const Eigen::Vector2d x = random.Vector(2, -size, size);
+        const CheckedState state = StateAt(x.x(), x.y(), 0.0);
+        const double gap = check.Gap(0, state);
+        ++(gap > 0.0 ? open : closed);
+        const Residuals residuals = check.Check(state, state);
+        EXPECT_EQ(residuals.penetration, std::max(-gap, 0.0));
+        EXPECT_EQ(residuals.complementarity, std::max(-gap, 0.0));
+      }
+  }
+  EXPECT_GT(open, 500);
+  EXPECT_GT(closed, 500);
 }
 
 // What turns and moves: as the pairs of the solvers see it.

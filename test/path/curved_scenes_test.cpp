@@ -18,6 +18,7 @@ namespace contact_path {
 namespace {
 
 const double kPi = std::acos(-1.0);
+constexpr double kSame = 1e-8;  // of events, in the units of the scenes, which are near 1
 
 // The request of the path has the nodes and contacts of beams and groups by name.
 TracedPath TraceProved(const TraceRequest& request) {
@@ -244,6 +245,42 @@ TEST(CurvedScenes, PegInHoleWedgesWithMoreFriction) {
     const TracedPath path = TraceProved(request);
     const ContactState state = Contact(path, path.increments.back(), "right@right_wall").state;
     EXPECT_EQ(state, mu < limit ? ContactState::kSlipMinus : ContactState::kStick) << mu;
+  }
+}
+
+// Starts of stages, events and limit points.
+std::vector<const Increment*> Events(const TracedPath& path) {
+  std::vector<const Increment*> events;
+  for (const Increment& increment : path.increments)
+    if (increment.kind != IncrementKind::kRegular) events.push_back(&increment);
+  return events;
+}
+
+TEST(CurvedScenes, OtherStepsLeadToTheSameEvents) {
+  for (const char* name : {"peg", "rope", "cam", "snap_hook", "fin_ray", "peg_in_hole"}) {
+    SCOPED_TRACE(name);
+    TraceRequest request = ReadExample(name);
+    request.options.max_increments = 10000;
+    const TracedPath path = TraceProved(request);
+    const std::vector<const Increment*> events = Events(path);
+    for (const Accuracy accuracy : {Accuracy::kFast, Accuracy::kAccurate}) {
+      request.options.accuracy = accuracy;
+      const TracedPath other = TraceProved(request);
+      const std::vector<const Increment*> others = Events(other);
+      ASSERT_EQ(others.size(), events.size());
+      for (std::size_t i = 0; i < events.size(); ++i) {
+        const Increment &a = *events[i], &b = *others[i];
+        EXPECT_EQ(a.kind, b.kind) << i;
+        EXPECT_EQ(a.stage, b.stage) << i;
+        EXPECT_NEAR(a.load_factor, b.load_factor, kSame) << i;
+        for (std::size_t k = 0; k < a.positions.size(); ++k) EXPECT_NEAR(a.positions[k], b.positions[k], kSame) << i;
+        for (std::size_t k = 0; k < a.contacts.size(); ++k) {
+          EXPECT_EQ(a.contacts[k].state, b.contacts[k].state) << i;
+          EXPECT_NEAR(a.contacts[k].rn, b.contacts[k].rn, kSame) << i;
+          EXPECT_NEAR(a.contacts[k].rt, b.contacts[k].rt, kSame) << i;
+        }
+      }
+    }
   }
 }
 

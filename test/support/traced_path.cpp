@@ -168,6 +168,7 @@ void ExpectSoundIncrements(const TracedPath& path, double tolerance) {
   EXPECT_EQ(path.increments[0].external_work, 0.0);
   std::vector<std::unique_ptr<const Surface>> surfaces;
   for (const Obstacle& obstacle : scene.obstacles) surfaces.push_back(MakeSurface(obstacle));
+  const ResidualCheck check(scene);
   for (std::size_t i = 0; i < path.increments.size(); ++i) {
     const Increment& increment = path.increments[i];
     const Increment& before = path.increments[i == 0 ? 0 : i - 1];
@@ -178,12 +179,12 @@ void ExpectSoundIncrements(const TracedPath& path, double tolerance) {
     EXPECT_EQ(increment.index, static_cast<int>(i));
     EXPECT_EQ(increment.kind == IncrementKind::kStart, i == 0);
 
-    const Residuals residuals = ResidualCheck(scene).Check(StateOf(before), StateOf(increment));
+    const Residuals residuals = check.Check(StateOf(before), StateOf(increment));
     EXPECT_LE(residuals.equilibrium, tolerance);
     EXPECT_LE(residuals.Contact(), tolerance);
     EXPECT_NEAR(residuals.equilibrium, increment.residuals.equilibrium, 1e-15 + tolerance);
     EXPECT_NEAR(residuals.Contact(), increment.residuals.Contact(), 1e-15 + tolerance);
-    EXPECT_NEAR(ResidualCheck(scene).StrainEnergy(increment.positions, increment.rotations), increment.strain_energy,
+    EXPECT_NEAR(check.StrainEnergy(increment.positions, increment.rotations), increment.strain_energy,
                 1e-13 * scaling.force * scaling.length);
 
     if (i > 0) {

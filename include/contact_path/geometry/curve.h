@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "contact_path/geometry/disc_tree.h"
+#include "contact_path/geometry/capsule_tree.h"
 #include "contact_path/geometry/surface.h"
 
 namespace contact_path {
@@ -118,7 +118,7 @@ class Curve : public Surface {
   Place PlaceOf(int patch) const;
 
   std::vector<std::unique_ptr<const CurvePiece>> pieces_;
-  DiscTree tree_;               // of the pieces
+  CapsuleTree tree_;            // of the pieces
   std::vector<double> begins_;  // xi of the pieces, and of the end of the last one
   bool closed_;
 };
