@@ -199,7 +199,19 @@ class Finder {
 
   bool IsReversed(const Eigen::VectorXd& first) const {
     return (first.head(NumMotion()) + arrival_.direction).norm() <
-           (arrival_.singular ? tolerances::kReversedSingular : tolerances::kReversed);
+               (arrival_.singular ? tolerances::kReversedSingular : tolerances::kReversed) &&
+           !SetsSliding(first);
+  }
+
+  // Whether a contact that stuck on the way here slides, however little: over a sharp curve the load changes far more
+  // than the node moves. That is not the way back, on which it stuck.
+  bool SetsSliding(const Eigen::VectorXd& first) const {
+    const double level = arrival_.singular ? tolerances::kLevelSingular : tolerances::kLevel;
+    for (const std::size_t i : system_.Touching())
+      if (Slips(system_.states()[i]) && point_.states[i] == ContactState::kStick &&
+          std::abs(contacts_[i]->SlipRate(point_.u, point_.s, point_.Patch(i), first, first[NumMotion() - 1])) > level)
+        return true;
+    return false;
   }
 
   // Contacts that slip by name but do not move.
