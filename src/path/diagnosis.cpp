@@ -16,8 +16,8 @@
 namespace contact_path {
 namespace {
 
-constexpr double kMostSlender = 1e8;            // EA L^2 / EI that is followed
-constexpr double kOfHiddenSlip = 0.2;           // of the tolerance, and of the next: far enough from either
+constexpr double kMostSlender = 1e8;   // EA L^2 / EI that is followed
+constexpr double kOfHiddenSlip = 0.2;  // of the tolerance, and of the next: far enough from either
 constexpr double kOfSingular = 0.01;
 constexpr double kNearlyIncompressible = 0.49;  // Poisson's ratio beyond which elements of few nodes lock
 

@@ -73,10 +73,10 @@ ExtremeCase EdgeRoundedBy(double fillet) {
   extreme.error = [slope, edge, fillet](const TraceRequest&, const Increment& increment) {
     const double cut = fillet * std::tan(0.5 * slope), along = (increment.positions[0] - edge) / std::cos(slope);
     if (increment.positions[0] <= edge - cut) return Largest({LoadError(increment, 0.0), increment.positions[1]});
-    if (along >= cut)
-      return Largest({LoadError(increment, slope), increment.positions[1] + along * std::sin(slope)});
+    if (along >= cut) return Largest({LoadError(increment, slope), increment.positions[1] + along * std::sin(slope)});
     const double angle = std::asin((increment.positions[0] - (edge - cut)) / fillet);
-    return Largest({LoadError(increment, angle), increment.positions[1] + 2.0 * fillet * std::pow(std::sin(0.5 * angle), 2)});
+    return Largest(
+        {LoadError(increment, angle), increment.positions[1] + 2.0 * fillet * std::pow(std::sin(0.5 * angle), 2)});
   };
   if (fillet < kSmallestFillet) extreme.ends = {"step_too_small", "numerical_failure"};
   return extreme;

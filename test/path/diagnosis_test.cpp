@@ -100,9 +100,10 @@ TEST(CurveTooSharp, NamesTheContactWhereTheCurveBegins) {
     const Pressed at(Table(fillet), x);
     return CurveTooSharp(at.model, at.point);
   };
-  EXPECT_EQ(text(1e-9, 0.2 - 1e-9),
-            "contact p@table is pressed onto a curve of the radius 1e-09: rounding of the coordinates turns its reaction "
-            "by 2.7e-07 rad");
+  EXPECT_EQ(
+      text(1e-9, 0.2 - 1e-9),
+      "contact p@table is pressed onto a curve of the radius 1e-09: rounding of the coordinates turns its reaction "
+      "by 2.7e-07 rad");
   EXPECT_EQ(text(1e-9, 0.1), "");
   EXPECT_EQ(text(1e-3, 0.2 - 1e-3), "");
 }
