@@ -199,7 +199,20 @@ class Finder {
 
   bool IsReversed(const Eigen::VectorXd& first) const {
     return (first.head(NumMotion()) + arrival_.direction).norm() <
-           (arrival_.singular ? tolerances::kReversedSingular : tolerances::kReversed);
+               (arrival_.singular ? tolerances::kReversedSingular : tolerances::kReversed) &&
+           !SetsSliding(first);
+  }
+
+  // Whether a contact that stuck slides, however little, other than back: over a sharp curve the load changes far more
+  // than the node moves.
+  bool SetsSliding(const Eigen::VectorXd& first) const {
+    const double level = arrival_.singular ? tolerances::kLevelSingular : tolerances::kLevel;
+    const Eigen::VectorXd apart = first.head(NumMotion()) + arrival_.direction;
+    for (const std::size_t i : system_.Touching())
+      if (Slips(system_.states()[i]) && point_.states[i] == ContactState::kStick &&
+          std::abs(contacts_[i]->SlipRate(point_.u, point_.s, point_.Patch(i), apart, apart[NumMotion() - 1])) > level)
+        return true;
+    return false;
   }
 
   // Contacts that slip by name but do not move.

@@ -69,6 +69,9 @@ std::optional<std::size_t> ChosenOf(const std::vector<Branch>& branches, const B
   return std::nullopt;
 }
 
+// The text, and what explains it, if anything does.
+std::string After(const std::string& text, const std::string& why) { return why.empty() ? text : text + "; " + why; }
+
 Advance Ended(EndReason reason, std::string message) {
   Advance advance;
   advance.reason = reason;
@@ -187,6 +190,8 @@ std::vector<double> BranchMethod::CrossingPath(const Step& step) {
 
 std::optional<EndReason> BranchMethod::Start(const PathPoint& from, EventRecord* branches, std::string* message) {
   NoteReactions(from);
+  *message = HiddenSlip(model_, from);
+  if (!message->empty()) return EndReason::kNumericalFailure;
   return LeaveEvent(from, StartArrival(), options_.ChoiceAt(increments_, 0), branches, message);
 }
 
@@ -395,7 +400,8 @@ Advance BranchMethod::Next(const PathPoint& from) {
 
   AcceptedPoint increment = IncrementOf(*at, from);
   if (!(increment.residuals.Largest() <= tolerances::kAcceptedExact))
-    return Ended(EndReason::kNumericalFailure, "the residuals of the next point are too large");
+    return Ended(EndReason::kNumericalFailure,
+                 After("the residuals of the next point are too large", CurveTooSharp(model_, increment.point)));
   NoteReactions(increment.point);
   const bool moved = at->step.length > 0.0;
   events_in_place_ = moved ? 0 : events_in_place_ + 1;
@@ -415,6 +421,8 @@ Advance BranchMethod::Next(const PathPoint& from) {
   if (returned) {
     reason = EndReason::kClosedPath;
     advance.message = ClosedPathText(*returned);
+  } else if (advance.message = HiddenSlip(model_, increment.point); !advance.message.empty()) {
+    reason = EndReason::kNumericalFailure;
   } else {
     reason = PassEnd(*at, &increment, &advance.message);
   }
@@ -429,11 +437,10 @@ Advance BranchMethod::Next(const PathPoint& from) {
 
 std::string BranchMethod::NoStep(const PathPoint& from) {
   std::string text = "no increment could be accepted, however short: Newton's method does not stay on the branch";
-  const std::string bar = CollapsedBar(model_.scene, model_.index, model_.InSceneUnits(from).positions);
-  if (!bar.empty()) text += "; " + bar;
+  text = After(text, CollapsedBar(model_.scene, model_.index, model_.InSceneUnits(from).positions));
   const double moved = arc_.CorrectOnPlane(current_.x, current_.first.head(arc_.NumMotion())).first_step;
   if (moved > options_.smallest_step) text += "; " + MovedByRounding(moved * model_.scaling.length);
-  return text;
+  return After(text, CurveTooSharp(model_, from));
 }
 
 }  // namespace contact_path

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <locale>
 #include <sstream>
 
@@ -15,12 +16,49 @@
 namespace contact_path {
 namespace {
 
-constexpr double kMostSlender = 1e8;            // EA L^2 / EI that is followed
+constexpr double kMostSlender = 1e8;   // EA L^2 / EI that is followed
+constexpr double kOfHiddenSlip = 0.2;  // of the tolerance, and of the next: far enough from either
+constexpr double kOfSingular = 0.01;
 constexpr double kNearlyIncompressible = 0.49;  // Poisson's ratio beyond which elements of few nodes lock
 
 std::string SolidText(const Scene& scene, std::size_t i) {
   const std::string& name = scene.solids[i].name;
   return "solids[" + std::to_string(i) + "]" + (name.empty() ? name : " (" + name + ")");
+}
+
+// The sharpest curve of its obstacle on which a contact stands, or which begins where it stands. Scaled.
+struct SharpestCurve {
+  double curvature = 0.0;  // > 0 on both sides
+  double size = 0.0;       // of the coordinates, of the node and along the obstacle
+};
+
+SharpestCurve SharpestAt(const ContactPair& pair, const PathPoint& point, int patch) {
+  const auto dofs = static_cast<Eigen::Index>(pair.Dofs().size());
+  SharpestCurve sharpest;
+  if (!pair.Curved() || dofs == 0) return sharpest;
+  const int known = pair.KnownPatch(point.u, point.s, patch);
+  const double xi = pair.Xi(point.u, point.s, known);
+  const XiRange range = pair.RangeOf(known);
+  sharpest.size = std::max(std::abs(xi), pair.Local(point.u, point.s).head(dofs).lpNorm<Eigen::Infinity>());
+  const auto look = [&](int at) {
+    Kinematics kinematics;
+    pair.Evaluate(point.u, point.s, at, 0.0, &kinematics);
+    sharpest.curvature = std::max(sharpest.curvature, kinematics.gap_hessian.topLeftCorner(dofs, dofs).norm());
+  };
+  look(known);
+  if (xi - range.begin <= tolerances::kBeyondPatch && pair.HasPatch(known - 1)) look(known - 1);
+  if (range.end - xi <= tolerances::kBeyondPatch && pair.HasPatch(known + 1)) look(known + 1);
+  return sharpest;
+}
+
+// "contact p@table is pressed onto a curve of the radius 1e-09": the beginning of a sentence.
+std::string OnCurve(const Model& model, std::size_t contact, double curvature) {
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out.precision(2);
+  out << "contact " << model.scene.contacts[contact].Name() << " is pressed onto a curve of the radius "
+      << model.scaling.length / curvature;
+  return out.str();
 }
 
 }  // namespace
@@ -110,6 +148,47 @@ std::string SlenderBeam(const Scene& scene, const SceneIndex& index) {
     text = out.str();
   }
   return text;
+}
+
+std::string CurveTooSharp(const Model& model, const PathPoint& point) {
+  for (std::size_t i = 0; i < model.contacts.size(); ++i) {
+    const double rn = point.rn[static_cast<Eigen::Index>(i)];
+    if (!(rn > 0.0) || model.scene.contacts[i].obstacle.empty()) continue;
+    const SharpestCurve at = SharpestAt(*model.contacts[i], point, point.Patch(i));
+    const double turn = std::numeric_limits<double>::epsilon() * at.size * at.curvature;
+    const double stiffness = rn * at.curvature;
+    std::ostringstream out;
+    out.imbue(std::locale::classic());
+    out.precision(2);
+    out << OnCurve(model, i, at.curvature);
+    if (turn * rn > tolerances::kResidual * (1.0 + rn)) {
+      out << ": rounding of the coordinates turns its reaction by " << turn << " rad";
+      return out.str();
+    }
+    if (stiffness > kOfSingular / tolerances::kSingularPivot) {
+      out << ": reaction over radius is " << stiffness
+          << " of the characteristic stiffness, which is lost in rounding beside it";
+      return out.str();
+    }
+  }
+  return {};
+}
+
+std::string HiddenSlip(const Model& model, const PathPoint& point) {
+  for (std::size_t i = 0; i < model.contacts.size(); ++i) {
+    const ContactPair& pair = *model.contacts[i];
+    const auto k = static_cast<Eigen::Index>(i);
+    if (!pair.Curved() || !pair.Frictional() || model.scene.contacts[i].obstacle.empty()) continue;
+    const double rn = point.rn[k], margin = pair.Friction() * rn - std::abs(point.rt[k]);
+    if (!(rn > 0.0) || margin > tolerances::kForceSingular * (1.0 + rn)) continue;
+    const double curvature = SharpestAt(pair, point, point.Patch(i)).curvature;
+    // As it slides by dxi, the reaction turns by curvature * dxi, and the load has to follow.
+    const double load_rate = (1.0 + pair.Friction() * pair.Friction()) * rn * curvature;
+    if (!(load_rate > kOfHiddenSlip / tolerances::kLevel)) continue;
+    return OnCurve(model, i, curvature) +
+           ": it slides by so little while the load changes that this cannot be told from rest";
+  }
+  return {};
 }
 
 std::string PullingContact(const Model& model, const PathPoint& point, double rounding, double largest_reaction) {

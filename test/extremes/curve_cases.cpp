@@ -9,6 +9,10 @@ namespace contact_path {
 namespace {
 
 constexpr double kFriction = 0.3;
+// The exact paths go on over any curve. Below, slip on a disc that coordinates resolve counts as rest; on a fillet, in
+// the midst of coordinates of the order of 1, their rounding turns the reaction by more than equilibrium admits. The
+// tests of diagnosis have the texts.
+constexpr double kSmallestDisc = 5e-9, kSmallestFillet = 5e-7;
 
 // A node on springs that 1 presses down onto the obstacle at the origin, and the load factor pushes to the right.
 Scene PressedNode(const Obstacle& obstacle) {
@@ -48,6 +52,7 @@ ExtremeCase DiscOfRadius(double radius) {
     const double drop = -x * x / (radius + std::sqrt(radius * radius - x * x));
     return Largest({LoadError(increment, std::asin(x / radius)), y - drop});
   };
+  if (radius < kSmallestDisc) extreme.ends = {"numerical_failure"};
   return extreme;
 }
 
@@ -68,19 +73,20 @@ ExtremeCase EdgeRoundedBy(double fillet) {
   extreme.error = [slope, edge, fillet](const TraceRequest&, const Increment& increment) {
     const double cut = fillet * std::tan(0.5 * slope), along = (increment.positions[0] - edge) / std::cos(slope);
     if (increment.positions[0] <= edge - cut) return Largest({LoadError(increment, 0.0), increment.positions[1]});
-    if (along >= cut)
-      return Largest({LoadError(increment, slope), increment.positions[1] + along * std::sin(slope)});
+    if (along >= cut) return Largest({LoadError(increment, slope), increment.positions[1] + along * std::sin(slope)});
     const double angle = std::asin((increment.positions[0] - (edge - cut)) / fillet);
-    return Largest({LoadError(increment, angle), increment.positions[1] + 2.0 * fillet * std::pow(std::sin(0.5 * angle), 2)});
+    return Largest(
+        {LoadError(increment, angle), increment.positions[1] + 2.0 * fillet * std::pow(std::sin(0.5 * angle), 2)});
   };
+  if (fillet < kSmallestFillet) extreme.ends = {"step_too_small", "numerical_failure"};
   return extreme;
 }
 
 }  // namespace
 
 void AddCurveCases(std::vector<ExtremeCase>* cases) {
-  for (const double radius : {1e-6, 1e-3, 1.0, 1e3, 1e6}) cases->push_back(DiscOfRadius(radius));
-  for (const double fillet : {1e-9, 1e-6, 1e-3, 0.1}) cases->push_back(EdgeRoundedBy(fillet));
+  for (const double radius : {1e-10, 1e-8, 1e-6, 1e-3, 1.0, 1e3, 1e6}) cases->push_back(DiscOfRadius(radius));
+  for (const double fillet : {1e-9, 1e-7, 1e-6, 1e-3, 0.1}) cases->push_back(EdgeRoundedBy(fillet));
 }
 
 }  // namespace contact_path

@@ -49,5 +49,87 @@ TEST(ContactTooSoft, NamesTheContact) {
   EXPECT_EQ(ContactTooSoft(model, point, 1e-9), "");
 }
 
+constexpr double kFriction = 0.3;
+
+// A node at (x, 0) that is pressed with the characteristic force onto an obstacle, on springs of 1, and is about to
+// slide towards +t.
+struct Pressed {
+  Pressed(const Obstacle& obstacle, double x)
+      : scene(SceneWith(obstacle, x)), model(scene, CharacteristicScales(scene)), point(model.InitialPoint()) {
+    point.rn[0] = 1.0;
+    point.rt[0] = -kFriction;
+  }
+
+  static Scene SceneWith(Obstacle obstacle, double x) {
+    obstacle.friction = kFriction;
+    Scene scene;
+    scene.nodes = {{"p", x, 0.0, false, false}};
+    scene.superelements = {{{"p"}, {1.0, 0.0, 0.0, 1.0}}};
+    scene.loads = {{"p", 1.0, 0.0}};
+    scene.obstacles = {obstacle};
+    scene.contacts = {{"p", obstacle.name}};
+    return scene;
+  }
+
+  Scene scene;
+  Model model;
+  PathPoint point;
+};
+
+Obstacle Table(double fillet) {
+  Obstacle table;
+  table.name = "table";
+  table.shape = ObstacleShape::kPolyline;
+  table.points = {-1.0, 0.0, 0.2, 0.0, 0.2, -1.0};
+  table.fillet = fillet;
+  return table;
+}
+
+Obstacle Disc(double radius) {
+  Obstacle disc;
+  disc.name = "disc";
+  disc.shape = ObstacleShape::kCircle;
+  disc.py = -radius;
+  disc.radius = radius;
+  return disc;
+}
+
+// The fillet takes its radius off of the edge, and begins there.
+TEST(CurveTooSharp, NamesTheContactWhereTheCurveBegins) {
+  const auto text = [](double fillet, double x) {
+    const Pressed at(Table(fillet), x);
+    return CurveTooSharp(at.model, at.point);
+  };
+  EXPECT_EQ(
+      text(1e-9, 0.2 - 1e-9),
+      "contact p@table is pressed onto a curve of the radius 1e-09: rounding of the coordinates turns its reaction "
+      "by 2.7e-07 rad");
+  EXPECT_EQ(text(1e-9, 0.1), "");
+  EXPECT_EQ(text(1e-3, 0.2 - 1e-3), "");
+}
+
+TEST(CurveTooSharp, NamesADiscNextToTheOriginOnlyWhereItHidesTheParts) {
+  const Pressed small(Disc(1e-9), 0.0);
+  EXPECT_EQ(CurveTooSharp(small.model, small.point), "");
+  const Pressed smaller(Disc(1e-12), 0.0);
+  EXPECT_EQ(CurveTooSharp(smaller.model, smaller.point),
+            "contact p@disc is pressed onto a curve of the radius 1e-12: reaction over radius is 1e+12 of the "
+            "characteristic stiffness, which is lost in rounding beside it");
+}
+
+TEST(HiddenSlip, NamesAContactThatIsAboutToSlide) {
+  Pressed at(Disc(1e-10), 0.0);
+  EXPECT_EQ(HiddenSlip(at.model, at.point),
+            "contact p@disc is pressed onto a curve of the radius 1e-10: it slides by so little while the load changes "
+            "that this cannot be told from rest");
+  at.point.rt[0] = -0.29;
+  EXPECT_EQ(HiddenSlip(at.model, at.point), "");
+}
+
+TEST(HiddenSlip, SaysNothingOfALargerDisc) {
+  const Pressed at(Disc(1e-8), 0.0);
+  EXPECT_EQ(HiddenSlip(at.model, at.point), "");
+}
+
 }  // namespace
 }  // namespace contact_path

@@ -33,6 +33,16 @@ std::string SlenderBeam(const Scene& scene, const SceneIndex& index);
 // drown in the rounding of the stiff parts; else empty. point: where to look, scaled.
 std::string ContactTooSoft(const Model& model, const PathPoint& point, double least);
 
+// Names a contact that is pressed onto so sharp a curve of its obstacle that rounding of the coordinates turns its
+// reaction by more than equilibrium admits, or that its resistance there hides the stiffness of the parts; else empty.
+// point: where to look, scaled.
+std::string CurveTooSharp(const Model& model, const PathPoint& point);
+
+// Names a contact at the edge of its friction cone that is pressed onto so sharp a curve of its obstacle that the rate
+// of its slip is below what counts as rest, in either direction: no branch can be trusted there. Else empty. The same
+// arguments.
+std::string HiddenSlip(const Model& model, const PathPoint& point);
+
 // Names a contact that pulls at its node, by a share of what any contact has pushed with so far and by more than
 // rounding: it should have opened, and did not since its reactions are too small beside the characteristic force; else
 // empty. rounding: of the reactions of the point. largest_reaction: r_n, no less than those of the point. Both scaled,
