@@ -19,7 +19,9 @@ double NumFree(const Model& model, int node) {
 }  // namespace
 
 double AutomaticStepGrowth(const Model& model) {
-  const auto all = static_cast<double>(model.structure.NumDofs());
+  // Prescribed components do not count: how many there are depends on the axes.
+  const double all =
+      static_cast<double>(model.structure.NumDofs()) - static_cast<double>(model.structure.PrescribedDofs().size());
   double counted = all;
   for (const Beam& beam : model.scene.beams) {
     double inner = 0.0;

@@ -51,7 +51,7 @@ SharpestCurve SharpestAt(const ContactPair& pair, const PathPoint& point, int pa
   return sharpest;
 }
 
-// "contact p@table is pressed onto a curve of the radius 1e-09": the beginning of a sentence.
+// The contact and the radius of the curve that it is pressed onto: the beginning of a sentence.
 std::string OnCurve(const Model& model, std::size_t contact, double curvature) {
   std::ostringstream out;
   out.imbue(std::locale::classic());

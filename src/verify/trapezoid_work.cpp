@@ -11,7 +11,8 @@ constexpr double kBend = 0.25;  // of a force along an arc of length 1: what a t
 
 }  // namespace
 
-TrapezoidWork WorkBetween(const VerifiedStage& stage, const Increment& before, const Increment& increment) {
+TrapezoidWork WorkBetween(const VerifiedStage& stage, const Increment* earlier, const Increment& before,
+                          const Increment& increment) {
   const bool mpec = increment.solve.method == Method::kMpec;
   const double unit = stage.scaling.force * stage.scaling.length;
   const CheckedState from_state = StateOf(before), to_state = StateOf(increment);
@@ -37,6 +38,12 @@ TrapezoidWork WorkBetween(const VerifiedStage& stage, const Increment& before, c
     const double moved = increment.load_factor - before.load_factor;
     work += 0.5 * (from + to) * moved;
     open_work += (0.5 * std::abs(to - from) + bend * std::abs(from + to)) * std::abs(moved) / unit;
+    const double moved_before = earlier != nullptr ? before.load_factor - earlier->load_factor : 0.0;
+    if (moved_before != 0.0) {
+      // A parabola over its chord is a quarter of what its slope at one end makes of it at the other end.
+      const double going_on = (from - stage.check.DrivingForce(StateOf(*earlier))) / moved_before * moved;
+      open_work += 0.25 * std::abs(going_on - (to - from)) * std::abs(moved) / unit;
+    }
   }
   double dissipation = 0.0, open_dissipation = 0.0;
   for (std::size_t i = 0; i < stage.contacts.size(); ++i) {

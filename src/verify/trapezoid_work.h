@@ -31,8 +31,11 @@ struct TrapezoidWork {
 };
 
 // By trapezoids, which are in the middle between the products with the smallest and with the largest force. Where a
-// path turns in between, as much again may be open. Both increments must have their state.
-TrapezoidWork WorkBetween(const VerifiedStage& stage, const Increment& before, const Increment& increment);
+// path turns in between, as much again may be open; so may what a force of moving supports and obstacles does that
+// goes on at first as it changed on the increment before, from `earlier` on, which may be null. All must have their
+// state.
+TrapezoidWork WorkBetween(const VerifiedStage& stage, const Increment* earlier, const Increment& before,
+                          const Increment& increment);
 
 }  // namespace contact_path
 

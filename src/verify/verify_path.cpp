@@ -89,6 +89,7 @@ class Verifier {
       if (!AllFinite(increment)) {
         Report("a number is not finite");
         before_.reset();
+        earlier_.reset();
         continue;
       }
       if (increment_ > first_) CheckProgress(increments_[increment_ - 1], increment);
@@ -100,6 +101,7 @@ class Verifier {
           continue;
         }
         CheckState(increment);
+        earlier_ = before_;
         before_ = increment_;
       } else if (increment.kind != IncrementKind::kRegular || increment.index % full_state_every_ == 0) {
         Report("has no state, though full_state_every = ", full_state_every_, " wants it");
@@ -379,7 +381,8 @@ class Verifier {
   }
 
   void CheckWork(const Increment& before, const Increment& increment) {
-    const TrapezoidWork work = WorkBetween({scene_, index_, check_, scaling_, contacts_}, before, increment);
+    const TrapezoidWork work = WorkBetween({scene_, index_, check_, scaling_, contacts_},
+                                           earlier_ ? &increments_[*earlier_] : nullptr, before, increment);
     if (increment.solve.method == Method::kMpec) open_ += work.open_work + work.open_dissipation;
     if (!OnePiece(increment)) return;  // trapezoids over several increments tell too little
     const double unit = scaling_.force * scaling_.length;
@@ -444,6 +447,7 @@ class Verifier {
   std::vector<double> rates_;              // of the fixed components, per unit of the load factor
   std::size_t increment_ = 0;              // being checked
   std::optional<std::size_t> before_;      // the last full increment
+  std::optional<std::size_t> earlier_;     // the full increment before that
   double rounding_ = 0.0;                  // of what was recorded, scaled
   double open_ = 0.0;                      // what trapezoids leave open of works and dissipations
   Verification& result_;

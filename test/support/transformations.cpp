@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "contact_path/scene/change_units.h"
 #include "contact_path/scene/expand.h"
@@ -114,6 +115,15 @@ void ReverseNodes(std::size_t nodes, std::size_t each, std::vector<double>* valu
   if (each == 2) ForEachPoint(values, [](double* y, double* x) { std::swap(*x, *y); });
 }
 
+// The name of an inner node of a beam that is walked the other way.
+std::string FromOtherEnd(const std::string& node, const std::vector<Beam>& beams) {
+  const std::size_t slash = node.find('/');
+  if (slash == std::string::npos) return node;
+  const std::string name = node.substr(0, slash);
+  const auto beam = std::find_if(beams.begin(), beams.end(), [&](const Beam& any) { return any.name == name; });
+  return name + "/" + std::to_string(BeamSegments(*beam) - std::stoi(node.substr(slash + 1)));
+}
+
 void FlipTangent(ContactRecord* contact) {
   contact->rt = -contact->rt;
   if (contact->state == ContactState::kSlipPlus)
@@ -211,6 +221,10 @@ TraceRequest Reverse(TraceRequest request) {
   });
   std::reverse(scene.obstacles.begin(), scene.obstacles.end());
   std::reverse(scene.contacts.begin(), scene.contacts.end());
+  for (Group& group : scene.groups) {
+    std::reverse(group.nodes.begin(), group.nodes.end());
+    for (std::string& node : group.nodes) node = FromOtherEnd(node, scene.beams);
+  }
   for (Bar& bar : scene.bars) std::reverse(bar.nodes.begin(), bar.nodes.end());
   for (Beam& beam : scene.beams) {
     std::reverse(beam.nodes.begin(), beam.nodes.end());
