@@ -106,7 +106,7 @@ class Walk : public Surface {
       Foot foot = foot_on(i);
       const Real distance = foot.distance;
       if (distance < nearest.distance || (distance == nearest.distance && i < piece)) {
-        nearest = std::move(foot);
+        nearest = foot;
         piece = i;
       }
       return distance;
