@@ -28,7 +28,11 @@ msgs::TraceRequest Normalised(msgs::TraceRequest message) {
   for (msgs::Bar& bar : message.scene.bars) WriteOut(&bar.strain, "biot");
   for (msgs::Material& material : message.scene.materials) WriteOut(&material.model, "neo_hookean");
   for (msgs::Solid& solid : message.scene.solids) WriteOut(&solid.plane, "strain");
-  for (msgs::Obstacle& obstacle : message.scene.obstacles) WriteOut(&obstacle.shape, "half_plane");
+  for (msgs::Obstacle& obstacle : message.scene.obstacles) {
+    WriteOut(&obstacle.shape, "half_plane");
+    obstacle.inside = obstacle.inside != 0;
+    obstacle.closed = obstacle.closed != 0;
+  }
   for (msgs::Node& node : message.scene.nodes) {
     node.fixed_x = node.fixed_x != 0;
     node.fixed_y = node.fixed_y != 0;
