@@ -34,7 +34,6 @@ class HalfPlane : public Surface {
   Real Gap(const Vector& x) const override { return Dot(normal_, x - point_); }
   Vector Normal(const Vector&) const override { return normal_; }
   Real Slip(const Vector& from, const Vector& to) const override { return Dot(tangent_, to - from); }
-  bool SurelyOpen(const Vector&) const override { return false; }
 
  private:
   Vector point_, normal_, tangent_;
@@ -53,7 +52,6 @@ class Circle : public Surface {
     const Vector a = from - centre_, b = to - centre_;
     return -side_ * radius_ * std::atan2(Cross(a, b), Dot(a, b));
   }
-  bool SurelyOpen(const Vector&) const override { return false; }
 
  private:
   Vector centre_;

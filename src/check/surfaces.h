@@ -22,7 +22,7 @@ class Surface {
   // Length of the boundary between the feet of two points, along t [length].
   virtual Real Slip(const Vector& from, const Vector& to) const = 0;
   // True: Gap(x) > 0, told at once of most points that are far away. False tells nothing.
-  virtual bool SurelyOpen(const Vector& x) const = 0;
+  virtual bool SurelyOpen(const Vector&) const { return false; }
 };
 
 std::unique_ptr<const Surface> MakeSurface(const Obstacle& obstacle);

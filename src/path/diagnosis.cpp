@@ -153,7 +153,7 @@ std::string SlenderBeam(const Scene& scene, const SceneIndex& index) {
 std::string CurveTooSharp(const Model& model, const PathPoint& point) {
   for (std::size_t i = 0; i < model.contacts.size(); ++i) {
     const double rn = point.rn[static_cast<Eigen::Index>(i)];
-    if (!(rn > 0.0) || model.scene.contacts[i].obstacle.empty()) continue;
+    if (!(rn > 0.0)) continue;
     const SharpestCurve at = SharpestAt(*model.contacts[i], point, point.Patch(i));
     const double turn = std::numeric_limits<double>::epsilon() * at.size * at.curvature;
     const double stiffness = rn * at.curvature;
@@ -178,7 +178,7 @@ std::string HiddenSlip(const Model& model, const PathPoint& point) {
   for (std::size_t i = 0; i < model.contacts.size(); ++i) {
     const ContactPair& pair = *model.contacts[i];
     const auto k = static_cast<Eigen::Index>(i);
-    if (!pair.Curved() || !pair.Frictional() || model.scene.contacts[i].obstacle.empty()) continue;
+    if (!pair.Curved() || !pair.Frictional()) continue;
     const double rn = point.rn[k], margin = pair.Friction() * rn - std::abs(point.rt[k]);
     if (!(rn > 0.0) || margin > tolerances::kForceSingular * (1.0 + rn)) continue;
     const double curvature = SharpestAt(pair, point, point.Patch(i)).curvature;

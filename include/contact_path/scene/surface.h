@@ -21,8 +21,8 @@ struct ShapeFault {
 // Of numbers that keep the rules of their fields.
 ShapeFault FindShapeFault(const Obstacle& obstacle);
 
-// The surface of an obstacle without a fault. An obstacle is placed by its point (px, py). What is not
-// flat has a finite length, so that it can be drawn.
+// The surface of an obstacle without a fault. An obstacle is placed by its point (px, py). A surface that is not flat
+// has a finite length, so that it can be drawn.
 std::unique_ptr<const Surface> MakeSurface(const Obstacle& obstacle);
 
 }  // namespace contact_path
