@@ -25,7 +25,7 @@ double Seconds(std::clock_t since) { return static_cast<double>(std::clock() - s
 // One factorisation of the matrix of the increments at `point`, pattern and pivots known.
 double FactorisationTime(const Model& model, const PathPoint& point) {
   FixedStateSystem system(model.structure, model.contacts);
-  system.SetStates(point.states, SurfaceCoordinates(model.contacts, point));
+  system.SetStates(point.states, SlipReferences(model.contacts, point));
   const Eigen::SparseMatrix<double> transposed = system.TransposedJacobian(system.Pack(point));
   const Eigen::VectorXd increment = Eigen::VectorXd::LinSpaced(system.NumUnknowns(), 0.5, 1.0);
   BorderedSolver solver;

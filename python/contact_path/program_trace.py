@@ -19,7 +19,8 @@ from contact_path.tracing import Progress, with_options
 
 PROGRAM = 'contact_path_trace'
 # Options of the program; all others need a scene file of their own.
-FLAGS = {'method': '--method', 'accuracy': '--accuracy', 'step': '--step', 'max_increments': '--max-increments'}
+FLAGS = {'method': '--method', 'accuracy': '--accuracy', 'step': '--step', 'max_increments': '--max-increments',
+         'friction_law': '--friction-law'}
 
 
 def find_program(name: str = PROGRAM) -> str:

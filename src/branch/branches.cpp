@@ -42,6 +42,17 @@ ContactModes ModesWith(const States& states, const Options& options, const PathP
   return modes;
 }
 
+// The state that a contact takes on where its gap closes: by the total law of friction it may have slipped already.
+ContactState TouchingState(const ContactPair& contact, const ContactModes& options) {
+  if (!contact.Frictional()) return ContactState::kClosed;
+  if (!contact.HasTotalLaw()) return ContactState::kStick;
+  const auto has = [&](ContactState state) {
+    return std::any_of(options.begin(), options.end(), [&](const ContactMode& mode) { return mode.state == state; });
+  };
+  if (has(ContactState::kStick)) return ContactState::kStick;
+  return has(ContactState::kSlipMinus) ? ContactState::kSlipMinus : ContactState::kSlipPlus;
+}
+
 // Of two unit vectors [rad].
 double AngleTo(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
   return std::acos(std::clamp(a.dot(b), -1.0, 1.0));
@@ -59,7 +70,9 @@ class Finder {
         cancelled_(cancelled),
         redundant_(contacts, point, limit.gap),
         system_(structure, contacts),
-        reference_(SurfaceCoordinates(contacts, point)) {}
+        reference_(SlipReferences(contacts, point)) {
+    for (std::size_t i = 0; i < contacts.size(); ++i) touching_.push_back(TouchingState(*contacts[i], options[i]));
+  }
 
   // Adds the branches with these modes.
   void Try(const ContactModes& modes, std::vector<Branch>* branches) {
@@ -76,7 +89,7 @@ class Finder {
   // From these states to admissible ones. sign: of the tangent, relative to the direction of arrival. condensed: null,
   // or the rate problem condensed.
   std::optional<States> PivotFrom(States states, double sign, const RateProblem* condensed) {
-    return Pivot(contacts_, std::move(states), [&](const States& now) {
+    return Pivot(touching_, std::move(states), [&](const States& now) {
       return condensed != nullptr ? BrokenCondensed(now, sign, *condensed) : Broken(now, sign);
     });
   }
@@ -87,8 +100,8 @@ class Finder {
     const std::optional<CondensedRates> rates = condensed.Rates(states);
     if (!rates) return false;
     if (arrival_.is_start && std::abs(rates->load) <= tolerances::kUnitComponent) return true;
-    return condensed.Broken(states, *rates, 1.0, tolerance_.force, tolerances::kExcludedRate, nullptr) &&
-           condensed.Broken(states, *rates, -1.0, tolerance_.force, tolerances::kExcludedRate, nullptr);
+    return condensed.Broken(states, *rates, 1.0, tolerance_, tolerances::kExcludedRate, nullptr) &&
+           condensed.Broken(states, *rates, -1.0, tolerance_, tolerances::kExcludedRate, nullptr);
   }
 
   int rigid_modes() const { return rigid_modes_; }
@@ -132,7 +145,7 @@ class Finder {
     const std::optional<CondensedRates> rates = condensed.UniqueRates(states);
     if (!rates) return std::nullopt;
     std::vector<Constraint> broken;
-    condensed.Broken(states, *rates, rates->along < 0.0 ? -sign : sign, tolerance_.force, tolerances::kRate, &broken);
+    condensed.Broken(states, *rates, rates->along < 0.0 ? -sign : sign, tolerance_, tolerances::kRate, &broken);
     return broken;
   }
 
@@ -278,6 +291,7 @@ class Finder {
   RedundantContacts redundant_;
   FixedStateSystem system_;
   Eigen::VectorXd reference_;
+  States touching_;  // that each contact takes on where its gap closes
   TangentSolvers solvers_;
   int rigid_modes_ = 0;  // most of all tangents that are rigid modes
 };
@@ -416,7 +430,7 @@ double DissipationRate(const ContactPairs& contacts, const std::vector<ContactSt
                        const Eigen::VectorXd& direction) {
   double rate = 0.0;
   for (std::size_t i = 0; i < contacts.size(); ++i)
-    if (Slips(states[i]))
+    if (Slips(states[i]) && !contacts[i]->HasTotalLaw())
       rate -= point.rt[static_cast<Eigen::Index>(i)] *
               contacts[i]->SlipRate(point.u, point.s, point.Patch(i), direction, direction[direction.size() - 1]);
   return std::max(rate, 0.0);  // rounding may leave less

@@ -8,13 +8,14 @@ constexpr int kSinglePivots = 200;
 
 // The state that a contact takes on where the rate of the constraint is negative. At the end of a patch it is another
 // patch, and no other state, that is wanted.
-ContactState Next(const Constraint& constraint, const ContactPair& contact, ContactState now) {
+ContactState Next(const Constraint& constraint, ContactState touching, ContactState now) {
   switch (constraint.inequality) {
-    case Inequality::kGap: return contact.Frictional() ? ContactState::kStick : ContactState::kClosed;
+    case Inequality::kGap: return touching;
     case Inequality::kNormalReaction: return ContactState::kOpen;
     case Inequality::kConePlus: return ContactState::kSlipPlus;
     case Inequality::kConeMinus: return ContactState::kSlipMinus;
-    case Inequality::kSlip: return ContactState::kStick;
+    case Inequality::kSlip:
+    case Inequality::kTotalSlip: return ContactState::kStick;
     case Inequality::kPatchBegin:
     case Inequality::kPatchEnd: return now;
   }
@@ -23,8 +24,8 @@ ContactState Next(const Constraint& constraint, const ContactPair& contact, Cont
 
 }  // namespace
 
-std::optional<std::vector<ContactState>> Pivot(const ContactPairs& contacts, std::vector<ContactState> states,
-                                               const BrokenBy& broken_by) {
+std::optional<std::vector<ContactState>> Pivot(const std::vector<ContactState>& touching,
+                                               std::vector<ContactState> states, const BrokenBy& broken_by) {
   for (int round = 0; round < kBlockPivots + kSinglePivots; ++round) {
     std::optional<std::vector<Constraint>> broken = broken_by(states);
     if (!broken) return std::nullopt;
@@ -32,7 +33,7 @@ std::optional<std::vector<ContactState>> Pivot(const ContactPairs& contacts, std
     if (round >= kBlockPivots) broken->resize(1);
     for (const Constraint& constraint : *broken) {
       const auto i = static_cast<std::size_t>(constraint.contact);
-      states[i] = Next(constraint, *contacts[i], states[i]);
+      states[i] = Next(constraint, touching[i], states[i]);
     }
   }
   return std::nullopt;

@@ -91,9 +91,12 @@ RateProblem::RateProblem(const Structure& structure, const ContactPairs& contact
   if (!motions.allFinite()) return;
   gap_.resize(count, motions.cols());
   slip_.resize(count, motions.cols());
+  slipped_.resize(count);
   for (Eigen::Index k = 0; k < count; ++k) {
-    const ContactPair& pair = *contacts[static_cast<std::size_t>(weakly_active_[static_cast<std::size_t>(k)])];
+    const auto i = static_cast<std::size_t>(weakly_active_[static_cast<std::size_t>(k)]);
+    const ContactPair& pair = *contacts[i];
     const Kinematics& at = kinematics[static_cast<std::size_t>(k)];
+    slipped_[k] = at.xi - pair.SlipReference(point.u, point.s, point.Patch(i));
     for (Eigen::Index j = 0; j < motions.cols(); ++j) {
       const double ds = j == 0 ? 1.0 : 0.0;
       gap_(k, j) = pair.Rate(at.gap_gradient, motions.col(j), ds);
@@ -215,7 +218,7 @@ std::optional<CondensedRates> RateProblem::RatesOf(Eigen::VectorXd z) const {
 }
 
 std::optional<Constraint> RateProblem::Broken(const std::vector<ContactState>& states, const CondensedRates& rates,
-                                              double sign, double active, double tolerance,
+                                              double sign, const ActiveSetTolerance& active, double tolerance,
                                               std::vector<Constraint>* all) const {
   double force = 1.0;  // largest rate of a reaction, in the unit of its contact
   for (Eigen::Index k = 0; k < rates.rn.size(); ++k)
@@ -236,16 +239,17 @@ std::optional<Constraint> RateProblem::Broken(const std::vector<ContactState>& s
       continue;
     }
     const double unit = Unit(e);
-    if (rn <= active * unit) require(contact, Inequality::kNormalReaction, rates.rn[e], force * unit);
+    if (rn <= active.force * unit) require(contact, Inequality::kNormalReaction, rates.rn[e], force * unit);
     if (states[i] == ContactState::kStick) {
-      if (friction * rn + rt <= active * unit)
+      if (friction * rn + rt <= active.force * unit)
         require(contact, Inequality::kConePlus, friction * rates.rn[e] + rates.rt[e], force * unit);
-      if (friction * rn - rt <= active * unit)
+      if (friction * rn - rt <= active.force * unit)
         require(contact, Inequality::kConeMinus, friction * rates.rn[e] - rates.rt[e], force * unit);
-    } else if (states[i] == ContactState::kSlipPlus) {
-      require(contact, Inequality::kSlip, rates.slip[e], 1.0);
-    } else if (states[i] == ContactState::kSlipMinus) {
-      require(contact, Inequality::kSlip, -rates.slip[e], 1.0);
+    } else if (Slips(states[i])) {
+      const double sense = states[i] == ContactState::kSlipPlus ? 1.0 : -1.0;
+      if (sense * slipped_[e] <= active.gap)
+        require(contact, contacts_[i]->HasTotalLaw() ? Inequality::kTotalSlip : Inequality::kSlip,
+                sense * rates.slip[e], 1.0);
     }
     if (first && all == nullptr) return first;
   }

@@ -44,7 +44,7 @@ SmoothArc::SmoothArc(const Structure& structure, const ContactPairs& contacts)
     : structure_(structure), contacts_(contacts), system_(structure, contacts), tracker_(contacts) {}
 
 void SmoothArc::SetStates(const std::vector<ContactState>& states, const PathPoint& from, bool rests) {
-  system_.SetStates(states, SurfaceCoordinates(contacts_, from), from.patches);
+  system_.SetStates(states, SlipReferences(contacts_, from), from.patches);
   at_hand_ = false;
   origin_.resize(0);
   rests_ = rests;

@@ -1,6 +1,7 @@
 #include "contact_path/branch/state_options.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace contact_path {
 namespace {
@@ -12,9 +13,13 @@ std::vector<ContactState> States(const ContactPair& contact, const PathPoint& po
   if (gap > tolerance.gap) return {ContactState::kOpen};
   const double force = tolerance.force * contact.ForceUnit();
   const bool loaded = rn > force;
+  // 0 but by the total law.
+  const double slipped = contact.Xi(point.u, point.s, patch) - contact.SlipReference(point.u, point.s, patch);
   std::vector<ContactState> options;
   if (!contact.Frictional()) {
     options = {ContactState::kClosed};
+  } else if (std::abs(slipped) > tolerance.gap) {
+    options = {slipped > 0.0 ? ContactState::kSlipPlus : ContactState::kSlipMinus};
   } else if (!loaded) {
     options = {ContactState::kStick, ContactState::kSlipPlus, ContactState::kSlipMinus};
   } else {
@@ -45,7 +50,8 @@ ContactModes StateOptions(const ContactPair& contact, const PathPoint& point, st
     std::vector<int> patches = {patch};
     if (state == ContactState::kSlipPlus) patches = {after};
     if (state == ContactState::kSlipMinus) patches = {before};
-    if (state == ContactState::kClosed) {
+    if (contact.HasTotalLaw() && Slips(state)) patches = {patch};
+    if (state == ContactState::kClosed || (contact.HasTotalLaw() && Slips(state))) {
       if (before != patch) patches.push_back(before);
       if (after != patch) patches.push_back(after);
     }

@@ -76,9 +76,7 @@ std::optional<CurvePoint> LocateRate(SmoothArc* arc, const Step& step, double t,
 double RoundingOnStep(const SmoothArc& arc, const Step& step, const Constraint& limit) {
   const auto is_crossing = [](const CurvePoint& point) { return point.determinant_sign == 0 && point.nullity == 0; };
   const double rounding = arc.RoundingOf(limit);
-  if (limit.inequality == Inequality::kGap || KeepsPatch(limit.inequality) ||
-      !(is_crossing(step.start) || is_crossing(step.end)))
-    return rounding;
+  if (IsMotion(limit.inequality) || !(is_crossing(step.start) || is_crossing(step.end))) return rounding;
   return std::max(rounding, tolerances::kForceSingular * arc.system().UnitOf(limit));
 }
 

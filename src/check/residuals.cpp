@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -92,6 +93,7 @@ struct ResidualCheck::Prepared {
     Real turn = 0.0L;  // before that, about a point
     Vector about;
     Real friction = 0.0L;
+    std::optional<Vector> slip_origin = {};  // of the total law of friction, as the obstacle sees it
   };
 
   Prepared(const Scene& scene, const Configuration& configuration, const Scaling& scaling_in)
@@ -141,7 +143,10 @@ struct ResidualCheck::Prepared {
     for (const ContactCandidate& contact : scene.contacts) {
       const auto obstacle = obstacles.find(contact.obstacle);
       if (obstacle == obstacles.end()) throw std::invalid_argument("no obstacle has the name " + contact.obstacle);
+      const std::size_t k = 2 * contacts.size();
       contacts.push_back(obstacle->second);
+      if (!configuration.slip_origins.empty())
+        contacts.back().slip_origin = Vector{configuration.slip_origins.at(k), configuration.slip_origins.at(k + 1)};
       contacts.back().node = index.at(contact.node);
     }
   }
@@ -236,7 +241,8 @@ Residuals ResidualCheck::Check(const CheckedState& before, const CheckedState& n
       residuals.complementarity = Worst(residuals.complementarity, std::abs(std::min(gap, 0.0L)));
       continue;
     }
-    const Real slip = contact.surface->Slip(contact.Position(before), place) / scaling.length;
+    const Vector origin = contact.slip_origin ? *contact.slip_origin : contact.Position(before);
+    const Real slip = contact.surface->Slip(origin, place) / scaling.length;
     const Real unit = scene.units[contact.node];
     const Real rn = now.rn[i] / unit, rt = now.rt[i] / unit;
     const Real bound = contact.friction * std::max(rn, 0.0L);
@@ -277,6 +283,12 @@ double ResidualCheck::Gap(std::size_t contact, const CheckedState& state) const 
 double ResidualCheck::Slip(std::size_t contact, const CheckedState& from, const CheckedState& to) const {
   const Prepared::PreparedContact& prepared = prepared_->contacts[contact];
   return static_cast<double>(prepared.surface->Slip(prepared.Position(from), prepared.Position(to)));
+}
+
+double ResidualCheck::TotalSlip(std::size_t contact, const CheckedState& state) const {
+  const Prepared::PreparedContact& prepared = prepared_->contacts[contact];
+  if (!prepared.slip_origin) throw std::invalid_argument("the law of friction is not total");
+  return static_cast<double>(prepared.surface->Slip(*prepared.slip_origin, prepared.Position(state)));
 }
 
 std::array<double, 2> ResidualCheck::Normal(std::size_t contact, const CheckedState& state) const {

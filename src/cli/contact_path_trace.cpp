@@ -46,6 +46,7 @@ struct Arguments {
   std::optional<std::string> bag_file;  // nothing: no bag
   std::optional<std::string> method;
   std::optional<std::string> accuracy;
+  std::optional<std::string> friction_law;
   std::optional<double> step;
   std::optional<int> max_increments;
   bool events = false;
@@ -97,6 +98,9 @@ void DeclareOptions(CLI::App& app, Arguments& arguments) {
   app.add_option("--accuracy", arguments.accuracy, "fast, balanced or accurate, instead of the scene's")
       ->type_name("NAME")
       ->needs(scene);
+  app.add_option("--friction-law", arguments.friction_law, "incremental or total, instead of the scene's")
+      ->type_name("NAME")
+      ->needs(scene);
   app.add_option("--step", arguments.step, "Increment length, instead of the scene's; 0 = automatic")
       ->type_name("NUMBER")
       ->needs(scene);
@@ -128,6 +132,7 @@ TraceRequest ReadRequest(const Arguments& arguments) {
   TraceOptions& options = request.options;
   if (arguments.method) options.method = KnownWord<Method>("--method", *arguments.method);
   if (arguments.accuracy) options.accuracy = KnownWord<Accuracy>("--accuracy", *arguments.accuracy);
+  if (arguments.friction_law) options.friction_law = KnownWord<FrictionLaw>("--friction-law", *arguments.friction_law);
   if (arguments.step) options.step = *arguments.step;
   return request;
 }

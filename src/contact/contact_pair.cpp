@@ -18,6 +18,13 @@ double ContactPair::Xi(const Eigen::VectorXd& u, double s, int patch) const {
   return kinematics.xi;
 }
 
+double ContactPair::SlipReference(const Eigen::VectorXd& u, double s, int patch) const {
+  if (!HasTotalLaw()) return Xi(u, s, patch);
+  const double origin = *traits_.slip_origin;
+  if (!(traits_.round > 0.0)) return origin;
+  return origin + traits_.round * std::round((Xi(u, s, patch) - origin) / traits_.round);
+}
+
 double ContactPair::SlipRate(const Eigen::VectorXd& u, double s, int patch, const Eigen::VectorXd& du,
                              double ds) const {
   Kinematics kinematics;
@@ -62,11 +69,11 @@ double LargestReaction(const ContactPairs& contacts, const PathPoint& point) {
   return largest;
 }
 
-Eigen::VectorXd SurfaceCoordinates(const ContactPairs& contacts, const PathPoint& point) {
-  Eigen::VectorXd coordinates(static_cast<Eigen::Index>(contacts.size()));
+Eigen::VectorXd SlipReferences(const ContactPairs& contacts, const PathPoint& point) {
+  Eigen::VectorXd references(static_cast<Eigen::Index>(contacts.size()));
   for (std::size_t i = 0; i < contacts.size(); ++i)
-    coordinates[static_cast<Eigen::Index>(i)] = contacts[i]->Xi(point.u, point.s, point.Patch(i));
-  return coordinates;
+    references[static_cast<Eigen::Index>(i)] = contacts[i]->SlipReference(point.u, point.s, point.Patch(i));
+  return references;
 }
 
 }  // namespace contact_path

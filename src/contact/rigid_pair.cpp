@@ -27,12 +27,17 @@ double ForceUnitAbove(double bound) {
 }  // namespace
 
 RigidPair::RigidPair(std::shared_ptr<const Surface> surface, const NodeMotion& motion, double friction,
-                     const Eigen::VectorXd& force_bounds)
+                     const Eigen::VectorXd& force_bounds, const std::optional<Eigen::Vector2d>& slip_origin)
     : surface_(std::move(surface)), held_(Eigen::Vector2d::Zero()), turn_(motion.turn), about_(motion.about) {
   Traits traits;
   traits.friction = friction;
   traits.curved = !surface_->Flat() || turn_ != 0.0;
   traits.has_patches = surface_->NumPatches() > 1 || std::isfinite(surface_->RangeOf(0).begin);
+  if (slip_origin) {
+    const XiRange range = surface_->Range();
+    traits.slip_origin = std::clamp(surface_->ProjectOnNearest(*slip_origin).xi, range.begin, range.end);
+    if (surface_->Closed()) traits.round = range.end - range.begin;
+  }
   for (const int dof : motion.dofs)
     if (dof >= 0) traits.dofs.push_back(dof);
   const auto last = static_cast<Eigen::Index>(traits.dofs.size());

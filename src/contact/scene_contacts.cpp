@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "contact_path/contact/rigid_pair.h"
@@ -14,7 +15,8 @@ ContactPairs BuildContacts(const Scene& scene, const Structure& structure) {
   return BuildContacts(scene, SceneIndex(scene), structure);
 }
 
-ContactPairs BuildContacts(const Scene& scene, const SceneIndex& index, const Structure& structure) {
+ContactPairs BuildContacts(const Scene& scene, const SceneIndex& index, const Structure& structure,
+                           const std::vector<double>& slip_origins) {
   struct Placed {
     std::shared_ptr<const Surface> surface;
     NodeMotion motion;
@@ -38,8 +40,11 @@ ContactPairs BuildContacts(const Scene& scene, const SceneIndex& index, const St
     motion.dofs = {structure.Dof(node, 0), structure.Dof(node, 1)};
     motion.held = structure.StartPosition(node);
     const bool can_slide = CanSlide(motion.dofs[0] >= 0, motion.dofs[1] >= 0, obstacle, motion.turn != 0.0);
-    contacts.push_back(
-        std::make_unique<RigidPair>(obstacles[at].surface, motion, can_slide ? obstacle.friction : 0.0, force_bounds));
+    std::optional<Eigen::Vector2d> slip_origin;
+    if (const std::size_t k = 2 * contacts.size(); can_slide && !slip_origins.empty())
+      slip_origin = Eigen::Vector2d(slip_origins[k], slip_origins[k + 1]);
+    contacts.push_back(std::make_unique<RigidPair>(obstacles[at].surface, motion, can_slide ? obstacle.friction : 0.0,
+                                                   force_bounds, slip_origin));
   }
   return contacts;
 }

@@ -21,7 +21,7 @@ void FixedStateSystem::AddInequalities(std::size_t contact, std::vector<Constrai
     inequalities->push_back({i, Inequality::kConePlus});
     inequalities->push_back({i, Inequality::kConeMinus});
   } else if (Slips(states_[contact])) {
-    inequalities->push_back({i, Inequality::kSlip});
+    inequalities->push_back({i, contacts_[contact]->HasTotalLaw() ? Inequality::kTotalSlip : Inequality::kSlip});
   }
   if (states_[contact] != ContactState::kStick) AddPatchEnds(contact, inequalities);
 }

@@ -63,11 +63,6 @@ void FixedStateSystem::FreeLoadFactor() {
   Rebuild();
 }
 
-bool FixedStateSystem::IsMotion(const Constraint& constraint) {
-  return constraint.inequality == Inequality::kGap || constraint.inequality == Inequality::kSlip ||
-         KeepsPatch(constraint.inequality);
-}
-
 FixedStateSystem::Motion FixedStateSystem::MotionOf(const Constraint& constraint) const {
   const auto i = static_cast<std::size_t>(constraint.contact);
   if (KeepsPatch(constraint.inequality)) {
@@ -113,7 +108,7 @@ void FixedStateSystem::NumberEquations() {
   next += static_cast<Eigen::Index>(structure_.PrescribedDofs().size());
   first_active_equation_ = next;
   for (const Constraint& constraint : active_) {
-    if (IsMotion(constraint)) motions_.push_back({MotionOf(constraint), next});
+    if (IsMotion(constraint.inequality)) motions_.push_back({MotionOf(constraint), next});
     ++next;
   }
   num_equations_ = next + (load_factor_fixed_ ? 1 : 0);
@@ -169,7 +164,7 @@ void FixedStateSystem::ForEachConstantEntry(Emit emit) const {
     ++k;
   }
   for (std::size_t c = 0; c < active_.size(); ++c) {
-    if (IsMotion(active_[c])) continue;
+    if (IsMotion(active_[c].inequality)) continue;
     const auto i = static_cast<std::size_t>(active_[c].contact);
     const Eigen::Index equation = first_active_equation_ + static_cast<Eigen::Index>(c);
     const ReactionTerms terms = ReactionTermsOf(active_[c]);
@@ -328,7 +323,7 @@ void FixedStateSystem::Residual(const Eigen::VectorXd& x, Eigen::VectorXd* resid
     ++k;
   }
   for (std::size_t c = 0; c < active_.size(); ++c)
-    if (!IsMotion(active_[c]))
+    if (!IsMotion(active_[c].inequality))
       (*residual)[first_active_equation_ + static_cast<Eigen::Index>(c)] = Value(active_[c], x);
   if (load_factor_fixed_) (*residual)[num_equations_ - 1] = s - load_factor_;
 }
@@ -384,18 +379,18 @@ double FixedStateSystem::MotionValue(const Motion& motion, const Eigen::VectorXd
 }
 
 double FixedStateSystem::Value(const Constraint& constraint, const Eigen::VectorXd& x) const {
-  if (IsMotion(constraint)) return MotionValue(MotionOf(constraint), x);
+  if (IsMotion(constraint.inequality)) return MotionValue(MotionOf(constraint), x);
   const ReactionTerms terms = ReactionTermsOf(constraint);
   const Reaction reaction = ReactionOf(static_cast<std::size_t>(constraint.contact), x);
   return terms.rn * reaction.rn + terms.rt * reaction.rt;
 }
 
 double FixedStateSystem::UnitOf(const Constraint& constraint) const {
-  return IsMotion(constraint) ? 1.0 : contacts_[static_cast<std::size_t>(constraint.contact)]->ForceUnit();
+  return IsMotion(constraint.inequality) ? 1.0 : contacts_[static_cast<std::size_t>(constraint.contact)]->ForceUnit();
 }
 
 double FixedStateSystem::Rate(const Constraint& constraint, const Eigen::VectorXd& x, const Eigen::VectorXd& dx) const {
-  if (!IsMotion(constraint)) return Value(constraint, dx);
+  if (!IsMotion(constraint.inequality)) return Value(constraint, dx);
   const Motion motion = MotionOf(constraint);
   const Kinematics at = Evaluate(motion.contact, x);
   return motion.sign *
@@ -405,7 +400,7 @@ double FixedStateSystem::Rate(const Constraint& constraint, const Eigen::VectorX
 Eigen::VectorXd FixedStateSystem::Gradient(const Constraint& constraint, const Eigen::VectorXd& x) const {
   Eigen::VectorXd gradient = Eigen::VectorXd::Zero(num_unknowns_);
   const auto i = static_cast<std::size_t>(constraint.contact);
-  if (IsMotion(constraint)) {
+  if (IsMotion(constraint.inequality)) {
     ForEachMotionEntry({MotionOf(constraint), 0}, Evaluate(i, x),
                        [&gradient](Eigen::Index unknown, Eigen::Index, double value) { gradient[unknown] += value; });
   } else {
@@ -418,7 +413,8 @@ Eigen::VectorXd FixedStateSystem::Gradient(const Constraint& constraint, const E
 
 Jet FixedStateSystem::ValueAlong(const Constraint& constraint, const Eigen::VectorXd& x, const Eigen::VectorXd& first,
                                  const Eigen::VectorXd& second) const {
-  if (!IsMotion(constraint)) return {Value(constraint, x), Value(constraint, first), Value(constraint, second)};
+  if (!IsMotion(constraint.inequality))
+    return {Value(constraint, x), Value(constraint, first), Value(constraint, second)};
   const Motion motion = MotionOf(constraint);
   const ContactPair& pair = *contacts_[motion.contact];
   const Kinematics at = Evaluate(motion.contact, x);

@@ -31,14 +31,15 @@ IncrementProblem::IncrementProblem(const Structure& structure, const ContactPair
     const int patch = pair.KnownPatch(from_.u, from_.s, from_.Patch(static_cast<std::size_t>(working_set_[i])));
     Kinematics at_start;
     pair.Evaluate(from_.u, from_.s, patch, 0.0, &at_start);
-    Slot slot{&pair, patch, at_start, nd + 1 + static_cast<Eigen::Index>(i), -1, -1, num_constraints_, -1};
+    const double reference = pair.SlipReference(from_.u, from_.s, patch);
+    Slot slot{&pair, patch, at_start, reference, nd + 1 + static_cast<Eigen::Index>(i), -1, -1, num_constraints_, -1};
     num_constraints_ += 2;
     if (pair.Frictional()) {
       slot.rt = num_variables_++;
       slot.lambda = num_variables_++;
       slot.friction_row = num_constraints_;
       num_constraints_ += 5;
-      pair.AddForce(at_start.xi_gradient, from_.rt[working_set_[i]], &drive);
+      if (!pair.HasTotalLaw()) pair.AddForce(at_start.xi_gradient, from_.rt[working_set_[i]], &drive);
     }
     slots_.push_back(slot);
   }
@@ -65,12 +66,12 @@ Kinematics IncrementProblem::ScaledKinematics(const Slot& slot, const Eigen::Vec
     at.gap_gradient = slot.at_start.gap_gradient;
     at.xi_gradient = slot.at_start.xi_gradient;
     at.gap = slot.at_start.gap / goal_.length + slot.pair->Rate(at.gap_gradient, x.head(nd), x[nd]);
-    at.xi = slot.pair->Rate(at.xi_gradient, x.head(nd), x[nd]);
+    at.xi = (slot.at_start.xi - slot.reference) / goal_.length + slot.pair->Rate(at.xi_gradient, x.head(nd), x[nd]);
     return at;
   }
   const Eigen::VectorXd u = from_.u + goal_.length * x.head(nd);
   const double s = from_.s + goal_.length * x[nd];
-  slot.pair->Evaluate(u, s, slot.pair->PatchAfter(u, s, slot.start_patch), slot.at_start.xi, &at);
+  slot.pair->Evaluate(u, s, slot.pair->PatchAfter(u, s, slot.start_patch), slot.reference, &at);
   at.gap /= goal_.length;
   at.xi /= goal_.length;
   at.gap_hessian *= goal_.length;

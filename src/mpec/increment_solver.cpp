@@ -129,7 +129,7 @@ void IncrementSolver::PolishActiveSet(const PathPoint& from, const IncrementProb
 
 bool IncrementSolver::PolishActiveSet(const PathPoint& from, const Eigen::VectorXd& wanted, double length,
                                       IncrementTrial* trial) {
-  const Eigen::VectorXd reference = SurfaceCoordinates(contacts_, from);
+  const Eigen::VectorXd reference = SlipReferences(contacts_, from);
   std::vector<int> patches = trial->point.patches;
   system_.SetStates(trial->point.states, reference, patches);
   std::vector<Constraint> active;
@@ -159,8 +159,7 @@ bool IncrementSolver::PolishActiveSet(const PathPoint& from, const Eigen::Vector
     } else if (active.size() == before) {
       // Slip held at zero motion: the contact stuck, and is about to slip.
       for (const Constraint& limit : active)
-        if (limit.inequality == Inequality::kSlip)
-          exact.states[static_cast<std::size_t>(limit.contact)] = ContactState::kStick;
+        if (IsOfSlip(limit.inequality)) exact.states[static_cast<std::size_t>(limit.contact)] = ContactState::kStick;
       trial->point = std::move(exact);
       trial->exact = true;
       IncrementTrial stuck = *trial;
@@ -182,7 +181,7 @@ bool IncrementSolver::StickWhereAtRest(const Eigen::VectorXd& x, double slip, Pa
   bool some = false;
   for (const Constraint& limit : system_.Inequalities()) {
     ContactState& state = point->states[static_cast<std::size_t>(limit.contact)];
-    if (limit.inequality != Inequality::kSlip || !Slips(state)) continue;
+    if (!IsOfSlip(limit.inequality) || !Slips(state)) continue;
     if (system_.Value(limit, x) > slip) continue;
     state = ContactState::kStick;
     some = true;

@@ -384,7 +384,7 @@ bool BranchMethod::Balance(BalancedStep* step) const {
   step->work = WorkOfStep(model_, arc_.system(), of);
   step->stored = stored_at(of.end.x);
   const double change = step->stored - before;
-  const double exchanged = std::abs(step->work.loads) + step->work.friction + std::abs(change);
+  const double exchanged = std::abs(step->work.loads) + std::abs(step->work.friction) + std::abs(change);
   return std::abs(step->work.loads - step->work.friction - change) <=
          tolerances::kEnergyOfStep * exchanged + tolerances::kEnergyRounding * (before + unit);
 }

@@ -24,7 +24,8 @@ Model::Model(const Scene& scene_in, const Configuration& configuration_in, const
       origin(OriginOf(scene_in, scaling_in.length)),
       scaled(ScaleScene(CountedFrom(origin, scene_in), scaling_in)),
       structure(scaled, index, CountedFrom(origin, configuration_in).Over(scaling.length)),
-      contacts(BuildContacts(scaled, index, structure)),
+      contacts(BuildContacts(scaled, index, structure,
+                             CountedFrom(origin, configuration_in).Over(scaling.length).slip_origins)),
       check(scene_in, configuration_in, scaling_in) {}
 
 PathPoint Model::InitialPoint() const {

@@ -32,6 +32,11 @@ constexpr double kShortPath = 20.0;          // of the corner tolerance
 constexpr double kCornerShare = 0.04;        // of the wanted step: largest corner tolerance
 constexpr double kSmallestStepRatio = 1e-7;  // of the wanted step
 
+// By the total law of friction: xi - xi_0.
+double Slipped(const ContactPair& contact, const PathPoint& point, std::size_t i) {
+  return contact.Xi(point.u, point.s, point.Patch(i)) - contact.SlipReference(point.u, point.s, point.Patch(i));
+}
+
 // Whether this contact is about to change its state, so that the path may bend here by any angle.
 bool IsNearlyActive(const ContactPair& contact, const PathPoint& point, std::size_t i) {
   const auto k = static_cast<Eigen::Index>(i);
@@ -39,6 +44,8 @@ bool IsNearlyActive(const ContactPair& contact, const PathPoint& point, std::siz
   const double unit = contact.ForceUnit();
   if ((open ? contact.Gap(point.u, point.s, point.Patch(i)) : point.rn[k] / unit) <= tolerances::kNearlyActive)
     return true;
+  if (contact.HasTotalLaw() && Slips(point.states[i]))
+    return std::abs(Slipped(contact, point, i)) <= tolerances::kNearlyActive;
   return point.states[i] == ContactState::kStick &&
          contact.Friction() * point.rn[k] - std::abs(point.rt[k]) <= tolerances::kNearlyActive * unit;
 }
@@ -67,7 +74,9 @@ bool StatesAgree(const ContactPairs& contacts, const PathPoint& from, const Path
   const double length = tolerances::kRegularisedState * Distance(from, to);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
-    const double slip = contacts[i]->Slip(from.u, from.s, from.Patch(i), to.u - from.u, to.s - from.s, to.Patch(i));
+    const double slip = contacts[i]->HasTotalLaw() ? Slipped(*contacts[i], to, i)
+                                                   : contacts[i]->Slip(from.u, from.s, from.Patch(i), to.u - from.u,
+                                                                       to.s - from.s, to.Patch(i));
     const double margin = contacts[i]->Friction() * to.rn[k] - std::abs(to.rt[k]);
     const ContactState state = to.states[i];
     if (state == ContactState::kOpen) {
@@ -112,6 +121,8 @@ MpecMethod::MpecMethod(const Model& model, const MpecOptions& options, std::func
       cancelled_(std::move(cancelled)),
       ipopt_(cancelled_),
       solver_(model.structure, model.contacts, &ipopt_),
+      has_total_law_(std::any_of(model.contacts.begin(), model.contacts.end(),
+                                 [](const auto& contact) { return contact->HasTotalLaw(); })),
       step_length_(options.step) {
   direction_ = Eigen::VectorXd::Zero(model.structure.NumDofs() + 1);
   direction_[model.structure.NumDofs()] = options.direction;
@@ -156,12 +167,13 @@ MpecMethod::Trial MpecMethod::SolveOnce(const PathPoint& from, const Eigen::Vect
 }
 
 // A path that slides on and one that goes back with all contacts at rest are two solutions of the increment problem,
-// and the solver may find either. The second one dissipates nothing.
+// and the solver may find either. The second one dissipates nothing. By the total law of friction only one is.
 bool MpecMethod::GoesBackAtRest(const PathPoint& from, const PathPoint& to) const {
   const auto slides = [](const PathPoint& point) {
     return std::any_of(point.states.begin(), point.states.end(), Slips);
   };
-  return started_ && (to.s - from.s) * direction_[direction_.size() - 1] < 0.0 && slides(from) && !slides(to);
+  return started_ && !has_total_law_ && (to.s - from.s) * direction_[direction_.size() - 1] < 0.0 && slides(from) &&
+         !slides(to);
 }
 
 void MpecMethod::Judge(const PathPoint& from, const Eigen::VectorXd& direction, double length, Trial* result) const {
@@ -194,7 +206,7 @@ void MpecMethod::Judge(const PathPoint& from, const Eigen::VectorXd& direction, 
 }
 
 MpecMethod::Trial MpecMethod::Try(const PathPoint& from, const Eigen::VectorXd& direction, double length) {
-  const bool rough = from.rt.size() > 0 && from.rt.lpNorm<Eigen::Infinity>() > 0.0;
+  const bool rough = !has_total_law_ && from.rt.size() > 0 && from.rt.lpNorm<Eigen::Infinity>() > 0.0;
   Trial trial;
   for (const double share : kDissipationShares) {
     trial = SolveOnce(from, direction, length, share, options_.regularisation);
@@ -264,7 +276,7 @@ bool MpecMethod::EndAtTarget(const PathPoint& from, Trial* trial) const {
 bool MpecMethod::EndAtTarget(const PathPoint& from, const PathPoint& modes, Trial* trial) const {
   const PathPoint& to = trial->increment.point;
   FixedStateSystem system(model_.structure, model_.contacts);
-  system.SetStates(modes.states, SurfaceCoordinates(model_.contacts, from), modes.patches);
+  system.SetStates(modes.states, SlipReferences(model_.contacts, from), modes.patches);
   system.FixLoadFactor(*options_.target);
   const double share = (*options_.target - from.s) / (to.s - from.s);
   const Eigen::VectorXd start = (1.0 - share) * system.Pack(from) + share * system.Pack(to);

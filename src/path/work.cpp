@@ -26,11 +26,14 @@ Work WorkOfIncrement(const Model& model, const PathPoint& from, const PathPoint&
   const Eigen::VectorXd du = to.u - from.u;
   Work work;
   for (std::size_t i = 0; i < model.contacts.size(); ++i) {
-    if (to.states[i] != ContactState::kSlipPlus && to.states[i] != ContactState::kSlipMinus) continue;
+    const ContactPair& pair = *model.contacts[i];
+    if (!Slips(to.states[i]) && !pair.HasTotalLaw()) continue;
     const auto k = static_cast<Eigen::Index>(i);
-    const double mean = 0.5 * (from.rn[k] + to.rn[k]);
-    work.friction += model.contacts[i]->Friction() * mean *
-                     std::abs(model.contacts[i]->Slip(from.u, from.s, from.Patch(i), du, to.s - from.s, to.Patch(i)));
+    const double slip = pair.Slip(from.u, from.s, from.Patch(i), du, to.s - from.s, to.Patch(i));
+    if (pair.HasTotalLaw())
+      work.friction -= 0.5 * (from.rt[k] + to.rt[k]) * slip;
+    else
+      work.friction += pair.Friction() * (0.5 * (from.rn[k] + to.rn[k])) * std::abs(slip);
   }
   const Structure& structure = model.structure;
   work.loads = 0.5 * (from.s + to.s) * structure.ReferenceLoad().dot(du) + structure.ConstantLoad().dot(du) +
@@ -61,7 +64,9 @@ Work WorkOfStep(const Model& model, const FixedStateSystem& system, const Step& 
     const auto interpolate = [&](const Constraint& of) {
       return step.Interpolate([&](const CurvePoint& at) { return system.ValueAlong(of, at.x, at.first, at.second); });
     };
-    work.friction += std::max(0.0, model.contacts[i]->Friction() * integrate(interpolate(normal), interpolate(slip)));
+    const ContactPair& pair = *model.contacts[i];
+    const double friction = pair.Friction() * integrate(interpolate(normal), interpolate(slip));
+    work.friction += pair.HasTotalLaw() ? friction : std::max(0.0, friction);
   }
   const auto load = [&](const Eigen::VectorXd& x) { return x[nd]; };
   const auto along = [&](const Eigen::VectorXd& x) { return model.structure.ReferenceLoad().dot(x.head(nd)); };

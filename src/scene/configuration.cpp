@@ -12,8 +12,8 @@ Configuration Configuration::Of(const Scene& scene) {
 
 Configuration Configuration::Over(double length) const {
   Configuration scaled = *this;
-  for (double& position : scaled.reference) position /= length;
-  for (double& position : scaled.start) position /= length;
+  for (std::vector<double>* const positions : {&scaled.reference, &scaled.start, &scaled.slip_origins})
+    for (double& position : *positions) position /= length;
   return scaled;
 }
 

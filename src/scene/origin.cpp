@@ -51,6 +51,7 @@ Scene CountedFrom(const Origin& origin, Scene scene) {
 Configuration CountedFrom(const Origin& origin, Configuration configuration) {
   Subtract(origin, &configuration.reference);
   Subtract(origin, &configuration.start);
+  Subtract(origin, &configuration.slip_origins);
   return configuration;
 }
 

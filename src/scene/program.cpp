@@ -48,6 +48,34 @@ void Turn(double angle, const ObstacleMotion& about, Obstacle* obstacle) {
     Rotate(angle, &obstacle->points[i], &obstacle->points[i + 1]);
 }
 
+// Where a motion takes a point of its obstacle.
+void Move(double share, const ObstacleMotion& motion, double* x, double* y) {
+  double from_x = *x - motion.about_x, from_y = *y - motion.about_y;
+  Rotate(share * motion.turn, &from_x, &from_y);
+  *x = motion.about_x + from_x + share * motion.dx;
+  *y = motion.about_y + from_y + share * motion.dy;
+}
+
+// Configuration::slip_origins of the stage.
+std::vector<double> SlipOrigins(const TraceRequest& request, const SceneIndex& index, std::size_t stage) {
+  std::vector<double> origins;
+  std::unordered_multimap<std::size_t, double*> of_obstacle;
+  origins.reserve(2 * request.scene.contacts.size());
+  for (const ContactCandidate& contact : request.scene.contacts) {
+    const Node& node = request.scene.nodes[index.Node(contact.node)];
+    of_obstacle.emplace(index.Obstacle(contact.obstacle), origins.data() + origins.size());
+    origins.insert(origins.end(), {node.x, node.y});
+  }
+  if (request.program.empty()) return origins;
+  const std::vector<double> shares = SharesBefore(request.program, stage);
+  for (std::size_t i = 0; i < stage; ++i)
+    for (const ObstacleMotion& motion : request.program[i].obstacle_motions) {
+      const auto [begin, end] = of_obstacle.equal_range(index.Obstacle(motion.obstacle));
+      for (auto origin = begin; origin != end; ++origin) Move(shares[i], motion, origin->second, origin->second + 1);
+    }
+  return origins;
+}
+
 // Loads and obstacle motions of all stages before `stage`.
 void BringOn(const std::vector<Stage>& program, std::size_t stage, const SceneIndex& index, Scene* scene) {
   const std::vector<double> shares = SharesBefore(program, stage);
@@ -144,6 +172,8 @@ Scene StageScene(const TraceRequest& request, const SceneIndex& index, std::size
 
 Configuration StageConfiguration(const TraceRequest& request, const SceneIndex& index, std::size_t stage) {
   Configuration configuration = Configuration::Of(request.scene);
+  if (request.options.friction_law == FrictionLaw::kTotal)
+    configuration.slip_origins = SlipOrigins(request, index, stage);
   if (request.program.empty()) return configuration;
   const std::vector<double> shares = SharesBefore(request.program, stage);
   for (std::size_t i = 0; i < stage; ++i) {

@@ -49,7 +49,15 @@ TrapezoidWork WorkBetween(const VerifiedStage& stage, const Increment* earlier, 
   for (std::size_t i = 0; i < stage.contacts.size(); ++i) {
     const ContactState state = increment.contacts[i].state, was = before.contacts[i].state;
     const VerifiedContact& at = stage.contacts[i];
-    const double slip = std::abs(stage.check.Slip(i, from_state, to_state));
+    const double forwards = stage.check.Slip(i, from_state, to_state), slip = std::abs(forwards);
+    if (stage.total_law) {
+      const double rt_before = before.contacts[i].rt, rt = increment.contacts[i].rt;
+      dissipation -= 0.5 * (rt_before + rt) * forwards;
+      open_dissipation += (0.5 * std::abs(rt - rt_before) +
+                           bend * (std::abs(rt_before) + std::abs(rt) + at.friction * stage.scaling.force)) *
+                          slip / unit;
+      continue;
+    }
     // Where within an increment of mpec it stopped to slip, or turned, is not known.
     if (mpec && Slips(was) && state != was)
       open_dissipation += at.friction * std::max(before.contacts[i].rn, increment.contacts[i].rn) * slip / unit;

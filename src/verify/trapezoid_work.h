@@ -20,13 +20,14 @@ struct VerifiedStage {
   const ResidualCheck& check;
   const Scaling& scaling;
   const std::vector<VerifiedContact>& contacts;
+  bool total_law;  // of friction
 };
 
 // All over F L.
 struct TrapezoidWork {
-  double work = 0.0;  // of loads, moving supports and obstacles
-  double dissipation = 0.0;
-  double open_work = 0.0;  // what the trapezoid leaves open of the work, to either side
+  double work = 0.0;         // of loads, moving supports and obstacles
+  double dissipation = 0.0;  // by the total law of friction work against it, of either sign
+  double open_work = 0.0;    // what the trapezoid leaves open of the work, to either side
   double open_dissipation = 0.0;
 };
 

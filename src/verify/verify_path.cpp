@@ -180,7 +180,8 @@ class Verifier {
     if (increment.arc_length < before.arc_length)
       Report("arc length falls from ", before.arc_length, " to ", increment.arc_length);
     const double energy = scaling_.force * scaling_.length;
-    Bound("dissipation falls", (before.dissipation - increment.dissipation) / energy, kRecorded);
+    if (configuration_.slip_origins.empty())
+      Bound("dissipation falls", (before.dissipation - increment.dissipation) / energy, kRecorded);
     result_.work += std::abs(increment.external_work - before.external_work) / energy;
     const EventRecord& event = before.event;
     if (event.taken < 0 || event.taken > static_cast<int>(event.branches.size()))
@@ -311,13 +312,19 @@ class Verifier {
          check_.StrainEnergy(increment.positions, increment.rotations) / unit);
   }
 
+  // What the law of friction is about. 0 where that is not known.
+  double SlipOf(std::size_t contact, const CheckedState& from, const CheckedState& to) const {
+    if (!configuration_.slip_origins.empty()) return check_.TotalSlip(contact, to);
+    return OnePiece(Current()) ? check_.Slip(contact, from, to) : 0.0;
+  }
+
   void CheckContact(const ContactRecord& contact, const CheckedState& from, const CheckedState& to, std::size_t i,
                     double tolerance) {
     const VerifiedContact& at = contacts_[i];
     const double gap = check_.Gap(i, to) / scaling_.length;
     Bound("recorded gap of " + at.name + " less the true one", std::abs(contact.gap / scaling_.length - gap),
           rounding_);
-    const double slip = OnePiece(Current()) ? check_.Slip(i, from, to) / scaling_.length : 0.0;
+    const double slip = SlipOf(i, from, to) / scaling_.length;
     const double rn = contact.rn / scaling_.force, rt = contact.rt / scaling_.force;
     const auto wrong = [&](const char* state) { Report(at.name, " is recorded as ", state, ", but is not"); };
     switch (contact.state) {
@@ -381,7 +388,8 @@ class Verifier {
   }
 
   void CheckWork(const Increment& before, const Increment& increment) {
-    const TrapezoidWork work = WorkBetween({scene_, index_, check_, scaling_, contacts_},
+    const bool total = !configuration_.slip_origins.empty();
+    const TrapezoidWork work = WorkBetween({scene_, index_, check_, scaling_, contacts_, total},
                                            earlier_ ? &increments_[*earlier_] : nullptr, before, increment);
     if (increment.solve.method == Method::kMpec) open_ += work.open_work + work.open_dissipation;
     if (!OnePiece(increment)) return;  // trapezoids over several increments tell too little

@@ -186,7 +186,7 @@ TEST_F(RestingColumn, NamesWhatIsBroken) {
   rates.rn = Eigen::Vector2d(1.0, -0.5);
   rates.rt = Eigen::Vector2d(0.5, 0.0);  // mu = 0.3
   std::vector<Constraint> all;
-  const std::optional<Constraint> first = problem.Broken(states, rates, 1.0, 1e-10, 1e-9, &all);
+  const std::optional<Constraint> first = problem.Broken(states, rates, 1.0, {}, 1e-9, &all);
   ASSERT_TRUE(first);
   EXPECT_EQ(first->contact, 0);
   EXPECT_EQ(first->inequality, Inequality::kConeMinus);
@@ -195,8 +195,8 @@ TEST_F(RestingColumn, NamesWhatIsBroken) {
   EXPECT_EQ(all[1].inequality, Inequality::kNormalReaction);
   rates.rn[1] = 0.5;
   rates.rt[0] = 0.3;  // on the cone
-  EXPECT_FALSE(problem.Broken(states, rates, 1.0, 1e-10, 1e-9, nullptr));
-  EXPECT_TRUE(problem.Broken(states, rates, -1.0, 1e-10, 1e-9, nullptr));
+  EXPECT_FALSE(problem.Broken(states, rates, 1.0, {}, 1e-9, nullptr));
+  EXPECT_TRUE(problem.Broken(states, rates, -1.0, {}, 1e-9, nullptr));
 }
 
 TEST_F(RestingColumn, SingularWhereNothingHoldsTheStructure) {

@@ -16,7 +16,7 @@ Tangents TangentsAtStart(const Scene& scene, const std::vector<ContactState>& st
   const Model model(scene, Scaling());
   const PathPoint point = model.InitialPoint();
   FixedStateSystem system(model.structure, model.contacts);
-  system.SetStates(states, SurfaceCoordinates(model.contacts, point));
+  system.SetStates(states, SlipReferences(model.contacts, point));
   TangentSolvers solvers;
   return FindTangents(system.Pack(point), arrival, false, &system, &solvers);
 }

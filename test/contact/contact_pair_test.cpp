@@ -59,11 +59,11 @@ TEST_F(Pairs, TheForceOfAReactionHasThePowerOfItsMotion) {
   }
 }
 
-TEST_F(Pairs, SurfaceCoordinatesAreThoseOfAllCandidates) {
+TEST_F(Pairs, SlipReferencesAreThoseOfAllCandidates) {
   PathPoint point;
   point.u = u_;
   point.s = 0.2;
-  const Eigen::VectorXd coordinates = SurfaceCoordinates(contacts_, point);
+  const Eigen::VectorXd coordinates = SlipReferences(contacts_, point);
   ASSERT_EQ(coordinates.size(), 5);
   for (std::size_t i = 0; i < contacts_.size(); ++i)
     EXPECT_EQ(coordinates[static_cast<Eigen::Index>(i)], contacts_[i]->Xi(u_, 0.2, 0));

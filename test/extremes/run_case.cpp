@@ -112,7 +112,7 @@ double AttainableError(const ExtremeCase& extreme) {
     if (index >= path.increments.size()) continue;
     const PathPoint point = model.FromIncrement(path.increments[index]);
     FixedStateSystem system(model.structure, model.contacts);
-    system.SetStates(point.states, SurfaceCoordinates(model.contacts, point));
+    system.SetStates(point.states, SlipReferences(model.contacts, point));
     const Eigen::VectorXd x = system.Pack(point);
     const SingularValueDecomposition svd = Decompose(Eigen::MatrixXd(system.TransposedJacobian(x)));
     if (svd.values.size() == 0) continue;

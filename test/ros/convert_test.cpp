@@ -57,6 +57,7 @@ TraceRequest FullRequest() {
   request.options.full_state_every = 24;
   request.options.stop = {{"b.x", ">", 19.0}, {"load_factor", "<", 20.0}};
   request.options.branch_choices = {{21, 22, 23}};
+  request.options.friction_law = FrictionLaw::kTotal;
   return request;
 }
 
@@ -139,6 +140,7 @@ void ExpectFullRequest(const TraceRequest& request) {
   EXPECT_EQ(options.step, 0.25);
   EXPECT_EQ(options.max_increments, 18);
   EXPECT_EQ(options.full_state_every, 24);
+  EXPECT_EQ(options.friction_law, FrictionLaw::kTotal);
   ASSERT_EQ(options.stop.size(), 2U);
   EXPECT_EQ(options.stop[0].quantity, "b.x");
   EXPECT_EQ(options.stop[0].when, ">");

@@ -31,8 +31,7 @@ struct ActiveSetTolerance {
 inline bool IsWeaklyActive(const FixedStateSystem& system, const Constraint& constraint, const Eigen::VectorXd& x,
                            const ActiveSetTolerance& tolerance) {
   if (constraint.inequality == Inequality::kSlip) return true;
-  const bool is_length = constraint.inequality == Inequality::kGap || KeepsPatch(constraint.inequality);
-  const double largest = is_length ? tolerance.gap : tolerance.force;
+  const double largest = IsMotion(constraint.inequality) ? tolerance.gap : tolerance.force;
   return system.Value(constraint, x) <= largest * system.UnitOf(constraint);
 }
 

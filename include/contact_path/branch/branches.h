@@ -55,7 +55,8 @@ struct BranchSet {
   int rigid_modes = 0;           // most motions found that change neither load nor reactions where nothing else moves
 };
 
-// -r_t . du_t >= 0 of the contacts that slide, with the reactions of the point. direction: (du, ds).
+// -r_t . du_t >= 0 of the contacts that slide, with the reactions of the point. By the total law of friction, which
+// opposes no motion but a distance, nothing dissipates: 0. direction: (du, ds).
 double DissipationRate(const ContactPairs& contacts, const std::vector<ContactState>& states, const PathPoint& point,
                        const Eigen::VectorXd& direction);
 

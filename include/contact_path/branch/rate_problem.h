@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "contact_path/branch/active_set_tolerance.h"
 #include "contact_path/contact/contact_pair.h"
 #include "contact_path/contact/path_point.h"
 #include "contact_path/equations/fixed_state_system.h"
@@ -45,10 +46,11 @@ class RateProblem {
   std::optional<CondensedRates> UniqueRates(const std::vector<ContactState>& states) const;
 
   // The first inequality at its limit that these rates, times sign, break by more than `tolerance` of the largest rate
-  // of its kind; all of them in `all` if that is not null. active: value below which an inequality is at its limit, for
-  // reactions in the force unit of the contact, as `tolerance`.
+  // of its kind; all of them in `all` if that is not null. active: which inequalities are at their limit. Both are of
+  // reactions in the force unit of the contact.
   std::optional<Constraint> Broken(const std::vector<ContactState>& states, const CondensedRates& rates, double sign,
-                                   double active, double tolerance, std::vector<Constraint>* all) const;
+                                   const ActiveSetTolerance& active, double tolerance,
+                                   std::vector<Constraint>* all) const;
 
  private:
   double Unit(Eigen::Index k) const;  // force unit of a weakly active contact
@@ -67,8 +69,9 @@ class RateProblem {
   // springs included.
   Eigen::MatrixXd gap_;
   Eigen::MatrixXd slip_;
-  Eigen::MatrixXd gram_;   // z . gram z = |(du, ds)|^2
-  Eigen::VectorXd along_;  // along_ . z = (du, ds) . arrival
+  Eigen::VectorXd slipped_;  // xi - xi_0 by the total law of friction, 0 by the incremental law
+  Eigen::MatrixXd gram_;     // z . gram z = |(du, ds)|^2
+  Eigen::VectorXd along_;    // along_ . z = (du, ds) . arrival
 };
 
 }  // namespace contact_path

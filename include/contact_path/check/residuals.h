@@ -25,7 +25,8 @@ struct Residuals {
   double complementarity = 0.0;   // max |min(gap / L, r_n / F)| (eq. 2)
   double cone = 0.0;              // max (|r_t| - mu r_n) / F, 0 if inside
   // Friction law (eq. 3) with rt = r_t / F, rn = r_n / F, d = du_t / L: max |rt - clamp(rt - d, -mu rn, mu rn)|:
-  // no slip inside the cone, slip opposed to r_t on its boundary.
+  // no slip inside the cone, slip opposed to r_t on its boundary. By the total law, d is the slip since the start of
+  // the program.
   double friction_law = 0.0;
   double support = 0.0;  // max distance of a fixed component from where it has to be / L, of rotations [rad]
 
@@ -69,6 +70,9 @@ class ResidualCheck {
   // the obstacle sees it [length].
   double Gap(std::size_t contact, const CheckedState& state) const;
   double Slip(std::size_t contact, const CheckedState& from, const CheckedState& to) const;
+  // By the total law of friction, slip since the start of the program; round a closed obstacle the shorter way. Throws
+  // std::invalid_argument where the configuration has no slip_origins.
+  double TotalSlip(std::size_t contact, const CheckedState& state) const;
   // The normal of the obstacle at the foot of a contact candidate, of length 1, towards the admissible side.
   std::array<double, 2> Normal(std::size_t contact, const CheckedState& state) const;
   // By contact candidate: an upper bound of the forces on its node across the contact, at the start, for a motion of

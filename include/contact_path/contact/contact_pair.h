@@ -6,6 +6,7 @@
 #include <bitset>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -33,6 +34,8 @@ class ContactPair {
   bool HasPatches() const { return traits_.has_patches; }
   // Whether Hessians can be other than zero.
   bool Curved() const { return traits_.curved; }
+  // Whether the friction force follows the motion since the start of the program, and not since the last increment.
+  bool HasTotalLaw() const { return traits_.slip_origin.has_value(); }
   // Whether the gradient of the gap, of xi, can be other than zero in the entry k of q: their sparsity.
   bool MovesGap(std::size_t k) const { return traits_.moves_gap[k]; }
   bool MovesXi(std::size_t k) const { return traits_.moves_xi[k]; }
@@ -69,6 +72,9 @@ class ContactPair {
   // d2/dh2 of the force r_n grad u_n + r_t grad xi along q + h direction at h = 0, by q; r_n and r_t do not change.
   PairVector SecondDirectional(const Eigen::VectorXd& u, double s, int patch, double rn, double rt,
                                const PairVector& direction) const;
+  // The value of xi from which stick and slip are measured at (u, s): xi itself, or xi_0 of the total law; of a closed
+  // surface that of the round in which it is nearest.
+  double SlipReference(const Eigen::VectorXd& u, double s, int patch) const;
   // xi, measured from 0.
   double Xi(const Eigen::VectorXd& u, double s, int patch) const;
   // grad xi . (du, ds) at (u, s).
@@ -94,6 +100,8 @@ class ContactPair {
     bool curved = false;
     Terms moves_gap, moves_xi;
     double largest_gap_rate = 1.0;
+    std::optional<double> slip_origin;  // xi_0 of the total law
+    double round = 0.0;                 // length of a closed surface; 0 = open
   };
   // What does not change; set once, by the constructor of the pair.
   void SetTraits(Traits traits) { traits_ = std::move(traits); }
@@ -108,8 +116,8 @@ using ContactPairs = std::vector<std::unique_ptr<const ContactPair>>;
 // Largest of all |r_n| and |r_t|, in the force unit of the contact.
 double LargestReaction(const ContactPairs& contacts, const PathPoint& point);
 
-// xi of all candidates on the patches of the point, measured from 0.
-Eigen::VectorXd SurfaceCoordinates(const ContactPairs& contacts, const PathPoint& point);
+// SlipReference() of all candidates on the patches of the point.
+Eigen::VectorXd SlipReferences(const ContactPairs& contacts, const PathPoint& point);
 
 }  // namespace contact_path
 

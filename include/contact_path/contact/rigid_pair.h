@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <memory>
+#include <optional>
 
 #include "contact_path/contact/contact_pair.h"
 #include "contact_path/geometry/surface.h"
@@ -29,8 +30,11 @@ class RigidPair : public ContactPair {
  public:
   // friction: mu; 0 where the node cannot slide (scene/can_slide.h).
   // force_bounds: of Structure::ForceBounds(); without them, the force unit is 1.
+  // slip_origin: of the total law of friction, the point from whose foot slip is measured, as the obstacle sees it
+  // [length]; nothing: incremental law.
   RigidPair(std::shared_ptr<const Surface> surface, const NodeMotion& motion, double friction,
-            const Eigen::VectorXd& force_bounds = Eigen::VectorXd());
+            const Eigen::VectorXd& force_bounds = Eigen::VectorXd(),
+            const std::optional<Eigen::Vector2d>& slip_origin = std::nullopt);
 
   void Evaluate(const Eigen::VectorXd& u, double s, int patch, double reference, Kinematics* kinematics) const override;
   double Gap(const Eigen::VectorXd& u, double s, int patch) const override;

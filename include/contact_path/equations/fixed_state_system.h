@@ -20,7 +20,8 @@ enum class Inequality {
   kNormalReaction,  // touching: r_n
   kConePlus,        // stick: mu r_n + r_t (at zero, slip+ is next)
   kConeMinus,       // stick: mu r_n - r_t (at zero, slip- is next)
-  kSlip,            // slip+-: +-(xi - xi_ref), the motion since the reference
+  kSlip,            // slip+-: +-(xi - xi_ref), the motion since the reference; what must be >= 0 is its rate
+  kTotalSlip,       // slip+- by the total law: +-(xi - xi_ref) itself
   kPatchBegin,      // touching, not sticking, on a surface with patches: xi - begin (at zero, the patch before is next)
   kPatchEnd,        // the same: end - xi (at zero, the patch after is next)
 };
@@ -28,6 +29,16 @@ enum class Inequality {
 // Whether the inequality keeps a contact on its patch.
 inline bool KeepsPatch(Inequality inequality) {
   return inequality == Inequality::kPatchBegin || inequality == Inequality::kPatchEnd;
+}
+
+// Whether the inequality is of a slip, whose contact sticks next at zero.
+inline bool IsOfSlip(Inequality inequality) {
+  return inequality == Inequality::kSlip || inequality == Inequality::kTotalSlip;
+}
+
+// Whether its value is a length, and not a force.
+inline bool IsMotion(Inequality inequality) {
+  return inequality == Inequality::kGap || IsOfSlip(inequality) || KeepsPatch(inequality);
 }
 
 struct Constraint {
@@ -129,7 +140,6 @@ class FixedStateSystem {
     double rn, rt;
   };
 
-  static bool IsMotion(const Constraint& constraint);  // kGap, kSlip, kPatchBegin, kPatchEnd
   Motion MotionOf(const Constraint& constraint) const;
   ReactionTerms ReactionTermsOf(const Constraint& constraint) const;  // of the other inequalities
   double MotionValue(const Motion& motion, const Eigen::VectorXd& x) const;

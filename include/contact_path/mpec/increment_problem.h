@@ -70,6 +70,7 @@ class IncrementProblem : public NonlinearProgram {
     const ContactPair* pair;
     int start_patch;              // where the increment starts
     Kinematics at_start;          // of the increment
+    double reference;             // value of xi from which slip is measured: ContactPair::SlipReference()
     Eigen::Index rn, rt, lambda;  // variables; rt, lambda -1 if frictionless
     Eigen::Index gap_row;         // constraints: gap, gap r_n
     Eigen::Index friction_row;    // lambda - y_t, lambda + y_t, mu r_n - r_t, mu r_n + r_t, product; -1 if frictionless

@@ -82,7 +82,7 @@ struct Fields<SolveRecord> {
 struct BranchRecord {
   std::vector<ContactState> states;  // by candidate, in scene order
   double load_rate = 0.0;            // of the scaled load factor, -1..1
-  double dissipation_rate = 0.0;     // scaled, >= 0
+  double dissipation_rate = 0.0;     // scaled, >= 0; by the total law of friction 0
   double turn = 0.0;                 // angle to the direction of arrival [rad]
 };
 
@@ -125,7 +125,7 @@ struct Increment {
   // Since the start, by node; 0 for a node that no beam turns [rad]. Empty in a scene without beams.
   std::vector<double> rotations;
   std::vector<ContactRecord> contacts;  // in scene order
-  double dissipation = 0.0;             // frictional work since increment 0 [force length]
+  double dissipation = 0.0;             // since increment 0, by friction; total law: work against it [force length]
   double strain_energy = 0.0;           // now [force length]
   double external_work = 0.0;           // of all loads since increment 0 [force length]
   Residuals residuals;                  // by check/, from the scene alone

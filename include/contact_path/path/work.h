@@ -10,12 +10,13 @@ namespace contact_path {
 
 // In scene units [force length].
 struct Work {
-  double friction = 0.0;  // dissipated, >= 0
+  double friction = 0.0;  // against friction: dissipated, >= 0; by the total law given back, < 0, on the way back
   double loads = 0.0;     // of all loads, constant and scaled, and of moving supports and obstacles
 };
 
 // From `from` to `to` by the trapezoidal rule: second order in the increment. A contact that slips in the state of `to`
-// dissipates mu r_n |du_t| with the mean of r_n; all others nothing.
+// dissipates mu r_n |du_t| with the mean of r_n; all others nothing. By the total law of friction, each does -r_t .
+// du_t with the mean of r_t.
 Work WorkOfIncrement(const Model& model, const PathPoint& from, const PathPoint& to);
 
 // Of a step on an arc of the system: exact for the interpolation of the step.

@@ -15,6 +15,10 @@ struct Configuration {
 
   std::vector<double> start_rotations;  // by node, at load factor 0, since the reference shape [rad]
 
+  // Total law of friction: x, y by contact candidate [length], the place at load factor 0 of the point that is fixed to
+  // the obstacle and was where the node is at the start of the program. Empty: incremental law.
+  std::vector<double> slip_origins = {};
+
   // Both: the positions that the nodes of the scene have, not turned.
   static Configuration Of(const Scene& scene);
   // All positions over a length.

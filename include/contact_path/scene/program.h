@@ -27,7 +27,8 @@ Scene StageScene(const TraceRequest& request, const SceneIndex& index, std::size
 inline Scene StageScene(const TraceRequest& request, std::size_t stage) {
   return StageScene(request, SceneIndex(request.scene), stage);
 }
-// The shape of the scene, and its start in a stage: supports are where the stages before have moved them.
+// The shape of the scene, and its start in a stage: supports are where the stages before have moved them, and so are
+// the points of obstacles from which the total law of friction measures slip.
 Configuration StageConfiguration(const TraceRequest& request, const SceneIndex& index, std::size_t stage);
 inline Configuration StageConfiguration(const TraceRequest& request, std::size_t stage) {
   return StageConfiguration(request, SceneIndex(request.scene), stage);

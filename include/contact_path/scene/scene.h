@@ -76,6 +76,19 @@ struct Words<Accuracy> {
       {"fast", Accuracy::kFast}, {"balanced", Accuracy::kBalanced}, {"accurate", Accuracy::kAccurate}};
 };
 
+// From where on a contact that slides is said to have moved.
+enum class FrictionLaw {
+  kIncremental,  // Coulomb's law: the motion since the last increment
+  kTotal,        // the motion since the start of the program
+};
+
+template <>
+struct Words<FrictionLaw> {
+  static constexpr FrictionLaw kDefault = FrictionLaw::kIncremental;
+  static constexpr std::pair<std::string_view, FrictionLaw> kAll[] = {{"incremental", FrictionLaw::kIncremental},
+                                                                      {"total", FrictionLaw::kTotal}};
+};
+
 struct Node {
   std::string name;
   double x = 0.0;  // initial position [length]
@@ -373,6 +386,7 @@ struct TraceOptions {
   int full_state_every = 0;
   std::vector<StopCriterion> stop;
   std::vector<BranchChoice> branch_choices;
+  FrictionLaw friction_law = FrictionLaw::kIncremental;
 
   int MaxIncrements() const { return max_increments == 0 ? 1000 : max_increments; }
   double Direction() const { return direction < 0.0 ? -1.0 : 1.0; }
@@ -386,7 +400,8 @@ struct Fields<TraceOptions> {
                       Member("direction", &P::direction), Member("step", &P::step).Within(Range::kNotNegative),
                       Member("max_increments", &P::max_increments).Within(Range::kNotNegative),
                       Member("full_state_every", &P::full_state_every).Within(Range::kNotNegative),
-                      Member("stop", &P::stop), Member("branch_choices", &P::branch_choices));
+                      Member("stop", &P::stop), Member("branch_choices", &P::branch_choices),
+                      Member("friction_law", &P::friction_law));
   }
 };
 

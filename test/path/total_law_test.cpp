@@ -1,0 +1,159 @@
+// The total law of friction against closed forms: the path of unloading is the path of loading.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "contact_path/verify/verify_path.h"
+#include "support/traced_path.h"
+
+namespace contact_path {
+namespace {
+
+constexpr double kRounding = 1e-11;
+constexpr double kCut = 1e-3;  // what an increment of method mpec may cut off at a corner, in work
+
+class TotalLaw : public testing::TestWithParam<Method> {
+ protected:
+  static bool Exact() { return GetParam() == Method::kBranch; }
+
+  // Complete, and proved by verify.
+  static TracedPath TraceTotal(TraceRequest request) {
+    request.options.method = GetParam();
+    request.options.friction_law = FrictionLaw::kTotal;
+    TracedPath path = TraceIncrements(request);
+    EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+    EXPECT_LE(EnergyImbalance(path), Exact() ? 1e-6 : kCut);
+    for (const Finding& finding : VerifyPath(path.request, path.increments).findings)
+      ADD_FAILURE() << "increment " << finding.increment << ": " << finding.what;
+    for (const Increment& increment : path.increments)
+      for (const BranchRecord& branch : increment.event.branches) EXPECT_EQ(branch.dissipation_rate, 0.0);
+    return path;
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Paths, TotalLaw, testing::Values(Method::kBranch, Method::kMpec),
+                         [](const auto& method) { return std::string(ToString(method.param)); });
+
+// A block on a spring, k = 1, mu N = 0.3, and a belt that has moved by b: the block moves with the belt up to mu N / k
+// to either side, whatever was before. No hysteresis.
+TEST_P(TotalLaw, AStickSlipCycleHasNoLoop) {
+  const TracedPath path = TraceTotal(ReadExample("stick_slip_cycle"));
+  int slipping = 0;
+  for (const Increment& increment : path.increments) {
+    const double begin = increment.stage == 1 ? 0.0 : increment.stage == 2 ? 0.5 : -0.5;
+    const double belt = begin + (increment.stage == 2 ? -1.0 : 1.0) * increment.load_factor;
+    const double block = std::clamp(belt, -0.3, 0.3), slipped = block - belt;
+    EXPECT_NEAR(PositionX(path, increment, "b"), 1.0 + block, kRounding) << "increment " << increment.index;
+    EXPECT_NEAR(Contact(path, increment, "b@belt").rt, block, kRounding);
+    EXPECT_NEAR(increment.dissipation, 0.3 * std::abs(slipped), Exact() ? kRounding : kCut);
+    if (std::abs(slipped) < 1e-9) continue;
+    ++slipping;
+    EXPECT_EQ(Contact(path, increment, "b@belt").state,
+              slipped > 0.0 ? ContactState::kSlipPlus : ContactState::kSlipMinus);
+  }
+  EXPECT_GT(slipping, 10);
+}
+
+// The foot slides to one side only: both laws have the same path.
+TEST_P(TotalLaw, RoughTrussIsThatOfTheIncrementalLaw) {
+  const TracedPath path = TraceTotal(ReadExample("rough_truss"));
+  const double l0 = std::hypot(1.0, 1.2), lc = std::sqrt(2.0), corner = std::sqrt(2.0) * (1.0 - lc / l0);
+  EXPECT_NEAR(path.increments[LargestLoad(path)].load_factor, corner, Exact() ? kRounding : kCut);
+  for (const Increment& increment : path.increments) {
+    if (Contact(path, increment, "foot@floor").state != ContactState::kSlipPlus) continue;
+    // The slope of the bars stays 1 / mu = 1.
+    const double l = std::sqrt(2.0) * PositionY(path, increment, "apex");
+    EXPECT_NEAR(increment.load_factor, std::sqrt(2.0) * (1.0 - l / l0), 1e-9);
+  }
+  EXPECT_NEAR(path.increments.back().dissipation, 0.5 * std::pow(l0 - lc, 2) / l0, Exact() ? 1e-8 : kCut);
+}
+
+// A node between springs is lifted off, carried along and pressed down again: where it touches, it has slipped.
+TEST_P(TotalLaw, SlipIsToldByWhereANodeTouchesAgain) {
+  TraceRequest request;
+  Scene& scene = request.scene;
+  scene.nodes = {{"p", 0.0, 0.0, false, false}};
+  scene.superelements = {{{"p"}, {1.0, 0.0, 0.0, 1.0}, {0.0, 0.0}}};
+  scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.5}};
+  scene.contacts = {{"p", "floor"}};
+  Stage lift, carry, press;
+  lift.loads = {{"p", 0.0, 0.2}};
+  carry.loads = {{"p", 1.0, 0.0}};
+  press.loads = {{"p", 0.0, -1.0}};
+  press.target = 3.2;
+  request.program = {lift, carry, press};
+  request.options.step = 0.1;
+  const TracedPath path = TraceTotal(request);
+  for (const Increment& increment : path.increments) {
+    if (increment.stage != 3) continue;
+    const double pressed = std::max(increment.load_factor - 0.2, 0.0), x = std::max(1.0 - 0.5 * pressed, 0.0);
+    EXPECT_NEAR(PositionX(path, increment, "p"), x, kRounding) << "increment " << increment.index;
+    EXPECT_NEAR(increment.contacts[0].rn, pressed, kRounding);
+    EXPECT_NEAR(increment.contacts[0].rt, x - 1.0, kRounding);
+    if (increment.load_factor > 2.3) EXPECT_EQ(increment.contacts[0].state, ContactState::kStick);
+  }
+  EXPECT_EQ(path.increments.back().contacts[0].state, ContactState::kStick);
+}
+
+// A node on two springs, dragged round a disc and back: for each angle a from the top, equilibrium with r_t = -mu r_n
+// gives load factor and normal reaction.
+TEST_P(TotalLaw, TheWayBackRoundADiscIsTheWayThere) {
+  constexpr double kFriction = 0.3, kStart = -0.2, kTarget = 0.15;
+  TraceRequest request;
+  Scene& scene = request.scene;
+  scene.nodes = {{"p", std::sin(kStart), std::cos(kStart), false, false}};
+  scene.superelements = {{{"p"}, {1.3, 0.0, 0.0, 0.8}, {0.2, -0.3}}};
+  Obstacle peg;
+  peg.name = "peg";
+  peg.shape = ObstacleShape::kCircle;
+  peg.radius = 1.0;
+  peg.friction = kFriction;
+  scene.obstacles = {peg};
+  scene.contacts = {{"p", "peg"}};
+  Stage there, back;
+  there.loads = {{"p", 1.0, -0.2}};
+  there.target = kTarget;
+  back.unload = true;
+  request.program = {there, back};
+  const TracedPath path = TraceTotal(request);
+  int sliding = 0;
+  for (const Increment& increment : path.increments) {
+    const double angle = std::atan2(increment.positions[0], increment.positions[1]);
+    EXPECT_GE(angle, kStart - kRounding);
+    if (increment.contacts[0].state != ContactState::kSlipPlus) {
+      EXPECT_NEAR(angle, kStart, kRounding);
+      continue;
+    }
+    ++sliding;
+    const double s = increment.stage == 1 ? increment.load_factor : kTarget * (1.0 - increment.load_factor);
+    const double nx = std::sin(angle), ny = std::cos(angle), cx = nx - kFriction * ny, cy = ny + kFriction * nx;
+    const double rn = increment.contacts[0].rn;
+    EXPECT_NEAR(1.3 * (nx - 0.2), s + rn * cx, 1e-9);
+    EXPECT_NEAR(0.8 * (ny + 0.3), -0.2 * s + rn * cy, 1e-9);
+  }
+  EXPECT_GT(sliding, 10);
+  EXPECT_EQ(path.increments.back().contacts[0].state, path.increments.front().contacts[0].state);
+}
+
+TEST_P(TotalLaw, AResumedPathIsTheWholeOne) {
+  TraceRequest request = ReadExample("stick_slip_cycle");
+  const TracedPath whole = TraceTotal(request);
+  for (const std::size_t cut : {whole.increments.size() / 4, whole.increments.size() / 2, whole.increments.size() - 2}) {
+    std::vector<Increment> increments;
+    TraceControl control;
+    control.on_increment = [&](const Increment& increment) { increments.push_back(increment); };
+    ResumeTrace(whole.request, {whole.increments.begin(), whole.increments.begin() + static_cast<std::ptrdiff_t>(cut)},
+                control);
+    ASSERT_EQ(increments.size(), whole.increments.size());
+    for (std::size_t i = 0; i < increments.size(); ++i) {
+      EXPECT_EQ(increments[i].contacts[0].state, whole.increments[i].contacts[0].state);
+      EXPECT_NEAR(increments[i].positions[2], whole.increments[i].positions[2], kRounding);
+      EXPECT_NEAR(increments[i].dissipation, whole.increments[i].dissipation, kRounding);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace contact_path
