@@ -13,8 +13,9 @@ std::vector<ContactState> States(const ContactPair& contact, const PathPoint& po
   if (gap > tolerance.gap) return {ContactState::kOpen};
   const double force = tolerance.force * contact.ForceUnit();
   const bool loaded = rn > force;
-  // 0 but by the total law.
-  const double slipped = contact.Xi(point.u, point.s, patch) - contact.SlipReference(point.u, point.s, patch);
+  const double slipped = contact.HasTotalLaw()
+                             ? contact.Xi(point.u, point.s, patch) - contact.SlipReference(point.u, point.s, patch)
+                             : 0.0;
   std::vector<ContactState> options;
   if (!contact.Frictional()) {
     options = {ContactState::kClosed};

@@ -33,11 +33,9 @@ RigidPair::RigidPair(std::shared_ptr<const Surface> surface, const NodeMotion& m
   traits.friction = friction;
   traits.curved = !surface_->Flat() || turn_ != 0.0;
   traits.has_patches = surface_->NumPatches() > 1 || std::isfinite(surface_->RangeOf(0).begin);
-  if (slip_origin) {
-    const XiRange range = surface_->Range();
-    traits.slip_origin = std::clamp(surface_->ProjectOnNearest(*slip_origin).xi, range.begin, range.end);
-    if (surface_->Closed()) traits.round = range.end - range.begin;
-  }
+  const XiRange range = surface_->Range();
+  if (surface_->Closed()) traits.round = range.end - range.begin;
+  if (slip_origin) traits.slip_origin = std::clamp(surface_->ProjectOnNearest(*slip_origin).xi, range.begin, range.end);
   for (const int dof : motion.dofs)
     if (dof >= 0) traits.dofs.push_back(dof);
   const auto last = static_cast<Eigen::Index>(traits.dofs.size());

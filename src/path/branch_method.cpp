@@ -401,7 +401,8 @@ Advance BranchMethod::Next(const PathPoint& from) {
   AcceptedPoint increment = IncrementOf(*at, from);
   if (!(increment.residuals.Largest() <= tolerances::kAcceptedExact))
     return Ended(EndReason::kNumericalFailure,
-                 After("the residuals of the next point are too large", CurveTooSharp(model_, increment.point)));
+                 After(After("the residuals of the next point are too large", CurveTooSharp(model_, increment.point)),
+                       BeyondHalfRound(model_, increment.residuals)));
   NoteReactions(increment.point);
   const bool moved = at->step.length > 0.0;
   events_in_place_ = moved ? 0 : events_in_place_ + 1;

@@ -191,6 +191,14 @@ std::string HiddenSlip(const Model& model, const PathPoint& point) {
   return {};
 }
 
+std::string BeyondHalfRound(const Model& model, const Residuals& residuals) {
+  if (!(residuals.friction_law > tolerances::kAcceptedExact)) return {};
+  const bool possible = std::any_of(model.contacts.begin(), model.contacts.end(), [](const auto& contact) {
+    return contact->HasTotalLaw() && contact->Round() > 0.0;
+  });
+  return possible ? "by the total law of friction a node cannot slide beyond half a round of a closed obstacle" : "";
+}
+
 std::string PullingContact(const Model& model, const PathPoint& point, double rounding, double largest_reaction) {
   const double most = std::max(rounding, tolerances::kPullOfLargest * largest_reaction);
   for (std::size_t i = 0; i < model.contacts.size(); ++i) {

@@ -36,6 +36,8 @@ class ContactPair {
   bool Curved() const { return traits_.curved; }
   // Whether the friction force follows the motion since the start of the program, and not since the last increment.
   bool HasTotalLaw() const { return traits_.slip_origin.has_value(); }
+  // Length of a closed surface; 0 of an open one.
+  double Round() const { return traits_.round; }
   // Whether the gradient of the gap, of xi, can be other than zero in the entry k of q: their sparsity.
   bool MovesGap(std::size_t k) const { return traits_.moves_gap[k]; }
   bool MovesXi(std::size_t k) const { return traits_.moves_xi[k]; }
@@ -101,7 +103,7 @@ class ContactPair {
     Terms moves_gap, moves_xi;
     double largest_gap_rate = 1.0;
     std::optional<double> slip_origin;  // xi_0 of the total law
-    double round = 0.0;                 // length of a closed surface; 0 = open
+    double round = 0.0;
   };
   // What does not change; set once, by the constructor of the pair.
   void SetTraits(Traits traits) { traits_ = std::move(traits); }

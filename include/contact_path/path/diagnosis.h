@@ -43,6 +43,10 @@ std::string CurveTooSharp(const Model& model, const PathPoint& point);
 // arguments.
 std::string HiddenSlip(const Model& model, const PathPoint& point);
 
+// Why a point breaks the friction law where the law is total and an obstacle closed: beyond half a round, the shorter
+// way to where the node started is the other one.
+std::string BeyondHalfRound(const Model& model, const Residuals& residuals);
+
 // Names a contact that pulls at its node, by a share of what any contact has pushed with so far and by more than
 // rounding: it should have opened, and did not since its reactions are too small beside the characteristic force; else
 // empty. rounding: of the reactions of the point. largest_reaction: r_n, no less than those of the point. Both scaled,
