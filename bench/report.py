@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Draws the figures of the benchmarks and rewrites the tables of README.md between its markers.
 
-report.py RESULTS BENCH: RESULTS holds what scripts/bench measured, BENCH the README and the folder for the figures.
+report.py RESULTS BENCH PART...: RESULTS holds what scripts/bench measured, BENCH the README and the folder for the figures;
+the parts of the README to write, by the names of their markers.
 """
 import csv
 import json
@@ -230,13 +231,33 @@ def streaming(results):
     return table(['full_state_every', 'service with bag and subscriber / trace alone', 'quartiles', 'bag [MiB]'], rows)
 
 
+def peers(results, figures):
+    with open(results / 'peers.json') as file:
+        found = json.load(file)
+    figure, axes = plt.subplots(1, 2, figsize=(11, 4.2), sharex=True)
+    for axis, part, label in ((axes[0], 'rn', 'normal force [N]'), (axes[1], 'rt', 'friction force [N]')):
+        for run, style in (('total', '-'), ('incremental', '--')):
+            axis.plot(found[run]['gamma'], found[run][part], 'k' + style, linewidth=1, label='contact_path, %s law' % run)
+        axis.plot(found['getfem']['gamma'], found['getfem'][part], 'o', color='tab:orange', markersize=3, label='GetFEM')
+        axis.set_xlabel('gamma')
+        axis.set_ylabel('%s at the lower left corner' % label)
+        axis.grid(True, which='major', alpha=0.3)
+    axes[0].legend(fontsize=8)
+    figure.tight_layout()
+    figure.savefig(figures / 'peers.png', dpi=110)
+    plt.close(figure)
+    rows = [[row['what']] + [row[key] if isinstance(row[key], str) else number(row[key]) for key in ('getfem', 'own', 'ratio')]
+            for row in found['table']]
+    return table(['', 'GetFEM', 'contact_path', 'ratio'], rows) + '\n' + found['text'] + '\n'
+
+
 def main():
     results, bench = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
     figures = bench / 'figures'
     figures.mkdir(exist_ok=True)
-    tables = {'trade': trade(results, figures), 'scaling': scaling(results, figures), 'sliding': sliding(results), 'parts': parts(results),
-              'assembly': assembly(results), 'mpec': mpec(results), 'contact': contact(results),
-              'far': far(results), 'solvers': solvers(results), 'models': models(results), 'streaming': streaming(results)}
+    with_figures = {'trade': trade, 'scaling': scaling, 'peers': peers}
+    tables = {name: with_figures[name](results, figures) if name in with_figures else globals()[name](results)
+              for name in sys.argv[3:]}
     readme = bench / 'README.md'
     text = readme.read_text()
     for name, part in tables.items():

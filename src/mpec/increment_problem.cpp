@@ -39,7 +39,7 @@ IncrementProblem::IncrementProblem(const Structure& structure, const ContactPair
       slot.lambda = num_variables_++;
       slot.friction_row = num_constraints_;
       num_constraints_ += 5;
-      if (!pair.HasTotalLaw()) pair.AddForce(at_start.xi_gradient, from_.rt[working_set_[i]], &drive);
+      pair.AddForce(at_start.xi_gradient, from_.rt[working_set_[i]], &drive);
     }
     slots_.push_back(slot);
   }

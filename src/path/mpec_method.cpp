@@ -206,17 +206,20 @@ void MpecMethod::Judge(const PathPoint& from, const Eigen::VectorXd& direction, 
 }
 
 MpecMethod::Trial MpecMethod::Try(const PathPoint& from, const Eigen::VectorXd& direction, double length) {
-  const bool rough = !has_total_law_ && from.rt.size() > 0 && from.rt.lpNorm<Eigen::Infinity>() > 0.0;
+  const bool rough = from.rt.size() > 0 && from.rt.lpNorm<Eigen::Infinity>() > 0.0;
   Trial trial;
   for (const double share : kDissipationShares) {
-    trial = SolveOnce(from, direction, length, share, options_.regularisation);
+    // By the total law nothing dissipates. Where the program would otherwise stay where it is, a contact at the edge of
+    // its cone still cannot slip but against its friction force.
+    const double weight = has_total_law_ && share == kDissipationShares[0] ? 0.0 : share;
+    trial = SolveOnce(from, direction, length, weight, options_.regularisation);
     if (trial.verdict == Verdict::kNotSolved) {
       RegularisationSchedule raised = options_.regularisation;
       raised.warm_start = false;
       raised.initial = 1.0;
       raised.factor = 0.1;
       raised.minimum *= 100.0;
-      trial = SolveOnce(from, direction, length, share, raised);
+      trial = SolveOnce(from, direction, length, weight, raised);
     }
     if (trial.verdict != Verdict::kNoProgress || !rough) break;
   }

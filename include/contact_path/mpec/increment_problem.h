@@ -31,7 +31,7 @@ struct IncrementGoal {
 // Constraints, all over S (products over S^2): equilibrium = 0; gaps >= 0; gap r_n <= eps; lambda -+ du_t >= 0;
 // mu r_n -+ r_t >= 0; lambda mu r_n + du_t r_t <= eps; prescribed components where they have to be. Frictionless
 // contacts have neither r_t nor lambda. By the total law of friction, xi - xi_0 at the end of the increment takes the
-// place of du_t in the constraints, and rhat has no share of the contact.
+// place of du_t in the constraints.
 class IncrementProblem : public NonlinearProgram {
  public:
   // working_set: the candidates that take part, ascending. All arguments but the last two must outlive the problem.

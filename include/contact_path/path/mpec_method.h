@@ -73,7 +73,7 @@ class MpecMethod : public PathMethod {
   // One solve, judged by itself.
   Trial SolveOnce(const PathPoint& from, const Eigen::VectorXd& direction, double length, double dissipation,
                   const RegularisationSchedule& schedule);
-  // The ladder: shares of the dissipation term, if there is one, then a higher eps.
+  // The ladder: shares of the dissipation term, then a higher eps.
   Trial Try(const PathPoint& from, const Eigen::VectorXd& direction, double length);
   // The first increment has no last one: directions are improved until the increment is as long as wanted.
   Trial TryFirst(const PathPoint& from, double length);
