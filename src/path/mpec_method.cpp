@@ -22,14 +22,18 @@ constexpr double kSmallestCosine = 0.5;
 // Shares of the dissipation term in the minimiser. Small: the path is followed; larger where nothing but dissipation
 // leads on.
 constexpr double kDissipationShares[] = {0.2, 0.6, 1.0};
+// The same by the total law of friction, where nothing dissipates: they only tell in which sense a contact at the edge
+// of its cone can slip.
+constexpr double kSlipShares[] = {0.6, 1.0};
 
 constexpr double kFarthestTarget = 2.0;  // of the increment that goes past the target: farther is another branch
 constexpr double kLevelling =
     0.25;  // a rate at the end of an increment that may be none, relative to the one at its begin
 
 constexpr int kFirstDirections = 8;
-constexpr double kShortPath = 20.0;          // of the corner tolerance
-constexpr double kCornerShare = 0.04;        // of the wanted step: largest corner tolerance
+constexpr double kNoDirection = 1e-3;  // of what was wanted: a shorter increment does not tell where the path goes on
+constexpr double kShortPath = 20.0;    // of the corner tolerance
+constexpr double kCornerShare = 0.04;  // of the wanted step: largest corner tolerance
 constexpr double kSmallestStepRatio = 1e-7;  // of the wanted step
 
 // By the total law of friction: xi - xi_0.
@@ -199,29 +203,46 @@ void MpecMethod::Judge(const PathPoint& from, const Eigen::VectorXd& direction, 
   else if (started_ && !bent_ && to.states == from.states && Direction(from, to).dot(direction) < kSmallestCosine &&
            !SomeNearlyActive(model_.contacts, from))
     trial.verdict = Verdict::kTurnedBack;
+  else if (has_total_law_ && started_ && !bent_ && to.states == from.states && Direction(from, to).dot(direction) < 0.0)
+    trial.verdict = Verdict::kTurnedBack;
   else if (GoesBackAtRest(from, to))
     trial.verdict = Verdict::kBackAtRest;
   else
     trial.verdict = Verdict::kAccepted;
 }
 
+MpecMethod::Trial MpecMethod::SolveOrRaise(const PathPoint& from, const Eigen::VectorXd& direction, double length,
+                                           double dissipation) {
+  Trial trial = SolveOnce(from, direction, length, dissipation, options_.regularisation);
+  if (trial.verdict != Verdict::kNotSolved) return trial;
+  RegularisationSchedule raised = options_.regularisation;
+  raised.warm_start = false;
+  raised.initial = 1.0;
+  raised.factor = 0.1;
+  raised.minimum *= 100.0;
+  return SolveOnce(from, direction, length, dissipation, raised);
+}
+
 MpecMethod::Trial MpecMethod::Try(const PathPoint& from, const Eigen::VectorXd& direction, double length) {
+  if (has_total_law_) return TryTotal(from, direction, length);
   const bool rough = from.rt.size() > 0 && from.rt.lpNorm<Eigen::Infinity>() > 0.0;
   Trial trial;
   for (const double share : kDissipationShares) {
-    // By the total law nothing dissipates. Where the program would otherwise stay where it is, a contact at the edge of
-    // its cone still cannot slip but against its friction force.
-    const double weight = has_total_law_ && share == kDissipationShares[0] ? 0.0 : share;
-    trial = SolveOnce(from, direction, length, weight, options_.regularisation);
-    if (trial.verdict == Verdict::kNotSolved) {
-      RegularisationSchedule raised = options_.regularisation;
-      raised.warm_start = false;
-      raised.initial = 1.0;
-      raised.factor = 0.1;
-      raised.minimum *= 100.0;
-      trial = SolveOnce(from, direction, length, weight, raised);
-    }
+    trial = SolveOrRaise(from, direction, length, share);
     if (trial.verdict != Verdict::kNoProgress || !rough) break;
+  }
+  return trial;
+}
+
+MpecMethod::Trial MpecMethod::TryTotal(const PathPoint& from, const Eigen::VectorXd& direction, double length) {
+  Trial trial = TryAimless(from, direction, length);
+  // Where the only solution is the point itself, the nonlinear solver need not find it.
+  if (trial.verdict != Verdict::kNoProgress && trial.verdict != Verdict::kNotSolved) return trial;
+  for (const double share : kSlipShares) {
+    const Trial slipping = SolveOnce(from, direction, length, share, options_.regularisation);
+    if (slipping.verdict != Verdict::kAccepted) continue;
+    Trial along = TryAimless(from, Direction(from, slipping.increment.point), length);
+    if (along.verdict == Verdict::kAccepted) return along;
   }
   return trial;
 }
@@ -234,6 +255,18 @@ MpecMethod::Trial MpecMethod::TryFirst(const PathPoint& from, double length) {
     const bool moved = trial.increment.status == SolveStatus::kSolved && Distance(from, trial.increment.point) > 0.0;
     if (!moved || Distance(from, trial.increment.point) >= 0.5 * length) break;
     direction = Direction(from, trial.increment.point);
+  }
+  return trial;
+}
+
+MpecMethod::Trial MpecMethod::TryAimless(const PathPoint& from, const Eigen::VectorXd& direction, double length) {
+  Trial trial = SolveOrRaise(from, direction, length, 0.0);
+  for (int i = 0; i < kFirstDirections && trial.verdict == Verdict::kNoProgress; ++i) {
+    const PathPoint& to = trial.increment.point;
+    if (!(Distance(from, to) > kNoDirection * length)) break;
+    Trial next = SolveOnce(from, Direction(from, to), length, 0.0, options_.regularisation);
+    if (next.verdict != Verdict::kAccepted && next.verdict != Verdict::kNoProgress) break;
+    trial = std::move(next);
   }
   return trial;
 }

@@ -73,8 +73,16 @@ class MpecMethod : public PathMethod {
   // One solve, judged by itself.
   Trial SolveOnce(const PathPoint& from, const Eigen::VectorXd& direction, double length, double dissipation,
                   const RegularisationSchedule& schedule);
-  // The ladder: shares of the dissipation term, then a higher eps.
+  // With a higher eps where it is not solved for.
+  Trial SolveOrRaise(const PathPoint& from, const Eigen::VectorXd& direction, double length, double dissipation);
+  // Shares of the dissipation term, from the smallest on.
   Trial Try(const PathPoint& from, const Eigen::VectorXd& direction, double length);
+  // By the total law of friction. Where no increment along the direction leads on, the friction forces tell another
+  // one.
+  Trial TryTotal(const PathPoint& from, const Eigen::VectorXd& direction, double length);
+  // Without the dissipation term. Where the path turns by nearly 90 degrees, the increment is short; it tells the
+  // direction.
+  Trial TryAimless(const PathPoint& from, const Eigen::VectorXd& direction, double length);
   // The first increment has no last one: directions are improved until the increment is as long as wanted.
   Trial TryFirst(const PathPoint& from, double length);
   // Whether the load factor turns back on the increment, and may have been past the target and back.
