@@ -93,6 +93,16 @@ def curve(gammas, corner):
     return {'gamma': list(gammas), 'rn': [float(value) for value in corner[:, 0]], 'rt': [float(value) for value in corner[:, 1]]}
 
 
+def parting(incremental):
+    """Where the path of the incremental law is another one."""
+    if not incremental.events:
+        return 'the path is the same.'
+    text = 'contacts change their states at gamma = %.4g' % incremental.events[0]['load_factor']
+    if incremental.limit_points:
+        text += ', and the load turns at gamma = %.4g' % incremental.limit_points[0]['load_factor']
+    return text + '.'
+
+
 def main():
     results = pathlib.Path(sys.argv[1])
     other = by_getfem(results)
@@ -112,23 +122,15 @@ def main():
     branches = {'what': 'branches from gamma = 0.5, there and back', 'own': 2 * onwards,
                 'getfem': next((entry['branches'] for entry in singular if 'branches' in entry), 0)}
     rows = [dict(row, ratio=row['getfem'] / row['own']) for row in (whole, half, steps)] + [dict(branches, ratio='')]
-    law = np.flatnonzero(np.array([event['load_factor'] for event in incremental.events]))
-    turn = incremental.limit_points[0] if incremental.limit_points else None
-    text = ('Contact forces at %d equal values of gamma differ by at most %.1e of the largest.\n\n'
-            'By the incremental law, which GetFEM lacks, %s The trace ends with `%s`.' % (
-                len(chosen), off,
-                'the path leaves this one at gamma = %.4g, %s.' % (
-                    incremental.events[law[0]]['load_factor'], turned(turn)) if len(law) else 'the path is the same.',
-                incremental.end_reason))
+    longest = max(after['time'] - before['time'] for before, after in zip(points, points[1:]))
+    text = ('Contact forces at %d equal values of gamma differ by at most %.1e of the largest. GetFEM spends %.0f %% of its time on the '
+            'step in which it searches for branches.\n\nBy the incremental law, which GetFEM lacks, %s The trace ends with `%s`.' % (
+                len(chosen), off, 100.0 * longest / points[-1]['time'], parting(incremental), incremental.end_reason))
     with open(results / 'peers.json', 'w') as file:
         json.dump({'table': rows, 'text': text, 'off': off,
                    'getfem': curve(gammas, others[:, 0]),
                    'total': curve(total['load_factor'], forces(total, slice(None))[:, 0]),
                    'incremental': curve(incremental['load_factor'], forces(incremental, slice(None))[:, 0])}, file)
-
-
-def turned(turn):
-    return 'where a node starts to slip, and the load turns at gamma = %.4g' % turn['load_factor'] if turn else 'and goes on'
 
 
 if __name__ == '__main__':

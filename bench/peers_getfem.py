@@ -49,6 +49,15 @@ def add_contact(model, displacements):
     return np.argsort(places[0, 1::2])
 
 
+def tractions(displacements):
+    """Those at gamma = 0 by unknown, x and y in turn: linear between both sides, and only the sides carry them."""
+    share = displacements.basic_dof_nodes()[0, ::2] / block.WIDTH
+    values = np.empty(displacements.nbdof())
+    for axis in (0, 1):
+        values[axis::2] = (1.0 - share) * block.FIRST['left'][axis] + share * block.FIRST['right'][axis]
+    return values
+
+
 def make_model():
     """The model, the order of its lower nodes, and what GetFEM would forget if Python did."""
     mesh = make_mesh()
@@ -60,12 +69,9 @@ def make_model():
     model.add_initialized_data('material', [block.LAMBDA, block.MU, block.A])
     model.add_nonlinear_elasticity_brick(points, 'u', 'Ciarlet Geymonat', 'material')
     model.add_Dirichlet_condition_with_multipliers(points, 'u', displacements, HELD)
-    # Linear between both sides; only the sides carry them.
-    tractions = [displacements.eval('[%r + (%r) * x, %r + (%r) * x]' % tuple(
-        sign * value for left, right in zip(block.FIRST['left'], block.FIRST['right'])
-        for value in (left, (right - left) / block.WIDTH))) for sign in (1.0, -1.0)]
+    first = tractions(displacements)
     model.add_data('gamma', 1)
-    for data, values in (('first', tractions[0]), ('last', tractions[1]), ('now', tractions[0])):
+    for data, values in (('first', first), ('last', -first), ('now', first)):
         model.add_initialized_fem_data(data, displacements, values)
     model.add_source_term_brick(points, 'u', 'now', SIDES)
     return model, add_contact(model, displacements), (mesh, displacements, points)
