@@ -4,6 +4,7 @@
 peers.py RESULTS: writes RESULTS/peers.json. Both run on one thread, one after the other.
 """
 import json
+import math
 import pathlib
 import resource
 import subprocess
@@ -18,6 +19,8 @@ MOST_COMPARED = 60  # of GetFEM's points, evenly along its path
 ROUNDS = 5  # of runs of contact_path: the fastest counts
 UNLOADED = 0.5  # gamma at which loads and contact forces vanish
 NEAR = 1e-6  # of gamma
+SHOWN = -3  # the contact in the figure, from the left
+MOST_BRANCHES = 3  # from the block without loads, tried
 
 
 def by_getfem(results):
@@ -28,22 +31,21 @@ def by_getfem(results):
         return json.load(text)
 
 
-def trace_to(gamma, law, choices=()):
-    """The path up to a value of gamma."""
-    scene = block.scene()
-    scene.stop('load_factor', '>', gamma)
-    return cp.trace(scene, friction_law=law, branch_choices=list(choices))
+def trace_by(changes, law, choices):
+    """The path on which gamma changes so from 0 on."""
+    return cp.trace(block.scene([float(change) for change in changes]), friction_law=law, branch_choices=list(choices),
+                    max_increments=100000)
 
 
 def processor_time(gamma, law, choices):
-    """Of the program, with its start and its reading of the scene [s]."""
+    """Of the program up to gamma, with its start, its reading of the scene and the path to gamma = 0 [s]."""
     def spent():
         usage = resource.getrusage(resource.RUSAGE_CHILDREN)
         return usage.ru_utime + usage.ru_stime
     times = []
     for _ in range(ROUNDS):
         before = spent()
-        trace_to(gamma, law, choices)
+        trace_by([gamma], law, choices)
         times.append(spent() - before)
     return min(times)
 
@@ -54,17 +56,15 @@ def forces(path, rows):
     return np.array(columns).transpose(2, 1, 0)
 
 
-def forces_at(gammas, choices):
-    """The same where stages of a program end at these values, as far as the path goes."""
-    path = cp.trace(block.scene([float(change) for change in np.diff(gammas, prepend=0.0)]), friction_law='total',
-                    max_increments=100000, branch_choices=list(choices))
+def ends_of_stages(path):
+    """Their rows, of the stages that come to their targets."""
     ends = [int(np.flatnonzero(path['stage'] == stage)[-1]) for stage in sorted(set(path['stage']))]
-    return forces(path, ends if path.end_reason == 'stop_criterion' else ends[:-1])
+    return ends if path.end_reason == 'stop_criterion' else ends[:-1]
 
 
 def compared(gammas):
-    """Which of GetFEM's points are compared: those that go on with gamma, neither the first one nor one without forces."""
-    chosen, last = [], NEAR
+    """Which of GetFEM's points are compared: the first one, and others that go on with gamma and have forces."""
+    chosen, last = [0], NEAR
     for i in np.unique(np.linspace(1, len(gammas) - 1, min(MOST_COMPARED, len(gammas) - 1)).astype(int)):
         if last < gammas[i] <= 1.0 and abs(gammas[i] - UNLOADED) > NEAR:
             chosen.append(int(i))
@@ -72,35 +72,47 @@ def compared(gammas):
     return chosen
 
 
-def find_branch(total, gammas, others):
-    """The branch through the point without forces on which the forces are those of GetFEM: its choice, and how far they are
-    off, of the largest. Forces are compared at the same values of gamma."""
-    event = next(event for event in total.events if abs(event['load_factor'] - UNLOADED) <= NEAR)
+def off(own, other):
+    """The largest difference of forces, of the largest; infinite where one has more points."""
+    return float(abs(own - other).max() / abs(other).max()) if len(own) == len(other) else math.inf
+
+
+def forces_at(gammas, choices):
+    """Contact forces by stages that end at these values of gamma, the first of them 0, as far as the path goes."""
+    path = trace_by(np.diff(gammas), 'total', choices)
+    return forces(path, ends_of_stages(path))
+
+
+def choices_like(gammas, others):
+    """The choices of branches, from the block without loads and through the point without forces, by which the contact forces at
+    these values of gamma are those of GetFEM, and how far they are off."""
+    _, start = min((off(forces_at(gammas[:1], [choice]), others[:1]), number) for number in range(1, MOST_BRANCHES + 1)
+                   for choice in [{'increment': 0, 'branch': number}])
+    choices = [{'increment': 0, 'branch': start}]
+    event = next(event for event in trace_by([1.0], 'total', choices).events
+                 if event['stage'] == 2 and abs(event['load_factor'] - UNLOADED) <= NEAR)
     onwards = [number for number, branch in enumerate(event['branches'], 1) if branch['load_rate'] > 0.0]
-    found = []
-    for number in onwards:
-        choice = {'event': event['number'], 'branch': number}
-        own = forces_at(gammas, [choice])
-        if len(own) == len(others):
-            found.append((float(abs(own - others).max() / abs(others).max()), choice))
-    if not found:
-        raise SystemExit('peers: no branch comes to gamma = %g' % gammas[-1])
-    off, choice = min(found, key=lambda entry: entry[0])
-    return choice, off, len(onwards)
+    through = [choices + [{'event': event['number'], 'branch': number}] for number in onwards]
+    error, best = min((off(forces_at(gammas, choice), others), k) for k, choice in enumerate(through))
+    return through[best], error, len(onwards)
 
 
 def curve(gammas, corner):
+    """Of one contact (points, 2)."""
     return {'gamma': list(gammas), 'rn': [float(value) for value in corner[:, 0]], 'rt': [float(value) for value in corner[:, 1]]}
 
 
+def own_curve(path):
+    rows = np.flatnonzero(path['stage'] == 2)
+    return curve(path['load_factor'][rows], forces(path, rows)[:, SHOWN])
+
+
 def parting(incremental):
-    """Where the path of the incremental law is another one."""
-    if not incremental.events:
-        return 'the path is the same.'
-    text = 'contacts change their states at gamma = %.4g' % incremental.events[0]['load_factor']
-    if incremental.limit_points:
-        text += ', and the load turns at gamma = %.4g' % incremental.limit_points[0]['load_factor']
-    return text + '.'
+    """Where on the path of the incremental law contacts change their states first, and the load turns."""
+    def places(points):
+        return ['%.4g' % point['load_factor'] for point in points if point['stage'] == 2][:1]
+    text = ''.join('contacts first change their states at gamma = %s' % place for place in places(incremental.events))
+    return text + ''.join(', and the load turns at gamma = %s' % place for place in places(incremental.limit_points)) + '.'
 
 
 def main():
@@ -110,27 +122,27 @@ def main():
     gammas = np.array([point['gamma'] for point in points])
     others = np.array([[point['rn'], point['rt']] for point in points]).transpose(0, 2, 1)
     chosen = compared(gammas)
-    choice, off, onwards = find_branch(trace_to(1.0, 'total'), gammas[chosen], others[chosen])
+    choices, error, onwards = choices_like(gammas[chosen], others[chosen])
     end = min(1.0, float(gammas[-1]))
-    total, incremental = trace_to(end, 'total', [choice]), trace_to(end, 'incremental')
+    total, incremental = trace_by([end], 'total', choices), trace_by([end], 'incremental', choices[:1])
+    own_steps = int(np.count_nonzero(total['stage'] == 2)) - 1
 
     whole = {'what': 'processor time, gamma from 0 to %.3g [s]' % end, 'getfem': points[-1]['time'],
-             'own': processor_time(end, 'total', [choice])}
-    half = {'what': 'of it up to gamma = 0.5 [s]', 'own': processor_time(UNLOADED, 'total', ()),
+             'own': processor_time(end, 'total', choices)}
+    half = {'what': 'of it up to gamma = 0.5 [s]', 'own': processor_time(UNLOADED, 'total', choices[:1]),
             'getfem': next((point['time'] for point in points if point['gamma'] >= UNLOADED), points[-1]['time'])}
-    steps = {'what': 'steps', 'getfem': len(points) - 1, 'own': len(total) - 1}
+    steps = {'what': 'steps', 'getfem': len(points) - 1, 'own': own_steps}
     branches = {'what': 'branches from gamma = 0.5, there and back', 'own': 2 * onwards,
                 'getfem': next((entry['branches'] for entry in singular if 'branches' in entry), 0)}
     rows = [dict(row, ratio=row['getfem'] / row['own']) for row in (whole, half, steps)] + [dict(branches, ratio='')]
     longest = max(after['time'] - before['time'] for before, after in zip(points, points[1:]))
     text = ('Contact forces at %d equal values of gamma differ by at most %.1e of the largest. GetFEM spends %.0f %% of its time on the '
             'step in which it searches for branches.\n\nBy the incremental law, which GetFEM lacks, %s The trace ends with `%s`.' % (
-                len(chosen), off, 100.0 * longest / points[-1]['time'], parting(incremental), incremental.end_reason))
+                len(chosen), error, 100.0 * longest / points[-1]['time'], parting(incremental), incremental.end_reason))
     with open(results / 'peers.json', 'w') as file:
-        json.dump({'table': rows, 'text': text, 'off': off,
-                   'getfem': curve(gammas, others[:, 0]),
-                   'total': curve(total['load_factor'], forces(total, slice(None))[:, 0]),
-                   'incremental': curve(incremental['load_factor'], forces(incremental, slice(None))[:, 0])}, file)
+        json.dump({'table': rows, 'text': text, 'off': error,
+                   'getfem': curve(gammas, others[:, SHOWN]),
+                   'total': own_curve(total), 'incremental': own_curve(incremental)}, file)
 
 
 if __name__ == '__main__':

@@ -21,8 +21,8 @@ def contacts():
     return [name(column, 0) + '@floor' for column in range(COLUMNS + 1)]
 
 
-def scene(change_of_gamma=()):
-    """The block with gamma as its load factor, or with a program of as many stages as changes of gamma."""
+def scene(changes_of_gamma):
+    """The block with a program: a stage that brings the tractions of gamma = 0 on, and one for each of these changes of gamma."""
     block = cp.Scene('block')
     for row in range(ROWS + 1):
         for column in range(COLUMNS + 1):
@@ -38,16 +38,8 @@ def scene(change_of_gamma=()):
     block.group('bottom', nodes=[name(column, 0) for column in range(COLUMNS + 1)])
     block.obstacle('floor', ny=1.0, friction=FRICTION)
     block.contact(group='bottom', obstacle='floor')
-    for side, (px, py) in FIRST.items():
-        block.load(surface=side, px=px, py=py, constant=True)
-    for change in change_of_gamma:
-        add_change(block.stage(target=change))
-    if not change_of_gamma:
-        add_change(block)
+    for target, factor in [(1.0, 1.0)] + [(change, -2.0) for change in changes_of_gamma]:
+        stage = block.stage(target=target)
+        for side, (px, py) in FIRST.items():
+            stage.load(surface=side, px=factor * px, py=factor * py)
     return block
-
-
-def add_change(loading):
-    """The change of the tractions per unit of gamma."""
-    for side, (px, py) in FIRST.items():
-        loading.load(surface=side, px=-2.0 * px, py=-2.0 * py)

@@ -240,7 +240,7 @@ def peers(results, figures):
             axis.plot(found[run]['gamma'], found[run][part], 'k' + style, linewidth=1, label='contact_path, %s law' % run)
         axis.plot(found['getfem']['gamma'], found['getfem'][part], 'o', color='tab:orange', markersize=3, label='GetFEM')
         axis.set_xlabel('gamma')
-        axis.set_ylabel('%s at the lower left corner' % label)
+        axis.set_ylabel('%s of the third node from the right' % label)
         axis.grid(True, which='major', alpha=0.3)
     axes[0].legend(fontsize=8)
     figure.tight_layout()
