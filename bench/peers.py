@@ -97,9 +97,9 @@ def choices_like(gammas, others):
     return through[best], error, len(onwards)
 
 
-def curve(gammas, corner):
+def curve(gammas, of_contact):
     """Of one contact (points, 2)."""
-    return {'gamma': list(gammas), 'rn': [float(value) for value in corner[:, 0]], 'rt': [float(value) for value in corner[:, 1]]}
+    return {'gamma': list(gammas), 'rn': [float(value) for value in of_contact[:, 0]], 'rt': [float(value) for value in of_contact[:, 1]]}
 
 
 def own_curve(path):
