@@ -7,7 +7,6 @@ import logging
 import os
 import signal
 import tempfile
-from concurrent.futures import CancelledError
 from typing import Any, Callable, Deque, Dict, Iterator, List, Sequence, Tuple
 
 from contact_path import study_worker
@@ -44,6 +43,17 @@ def connected(scheduler: str, workers: int) -> Iterator[Any]:
                 n_workers=workers, threads_per_worker=1, memory_limit=0, dashboard_address=None, local_directory=directory,
                 silence_logs=logging.CRITICAL))
         yield stack.enter_context(Client(cluster, set_as_default=False))
+
+
+@contextlib.contextmanager
+def answering() -> Iterator[None]:
+    """Around what asks the scheduler. ClusterLost: it does not answer."""
+    from distributed import CancelledError
+
+    try:
+        yield
+    except (CancelledError, OSError) as error:
+        raise ClusterLost('the scheduler has gone') from error
 
 
 @contextlib.contextmanager
@@ -91,21 +101,22 @@ class Traces:
         from distributed.scheduler import KilledWorker
 
         completed = as_completed()
-        completed.update(self.tasks())
+        with answering():
+            completed.update(self.tasks())
         for task in completed:
             numbers = self.running.pop(task)
             try:
-                traced = task.result()
+                with answering():
+                    traced = task.result()
             except KilledWorker:
                 lost = study_worker.failure('its workers ended', self.outputs)
                 self.take([(number, lost, b'') for number in numbers])
-            except (CancelledError, OSError) as error:
-                raise ClusterLost('the scheduler has gone') from error
             else:
                 self.seconds += traced.seconds
                 self.traced += len(numbers)
                 self.take(list(zip(numbers, traced.answers, traced.paths)))
-            completed.update(self.tasks())
+            with answering():
+                completed.update(self.tasks())
 
     def tasks(self) -> List[Any]:
         """New ones, for the threads that there are now."""
