@@ -74,11 +74,21 @@ class Walk {
       EnterField<Value>(key, Next(), value);
     } else if constexpr (kIsList<Value>) {
       if (ended_) Reject("must go on to one of the " + std::to_string(value->size()) + " elements of " + Shown(key));
-      const std::size_t place = FindElement(key, Next(), *value);
-      Enter(key[place], &(*value)[place]);
+      EnterElement(key, FindElement(key, Next(), *value), value);
     } else {
       if (!ended_) Reject("must end at " + Shown(key) + ", which has no fields");
       visit_(key, value);
+    }
+  }
+
+  template <typename T>
+  void EnterElement(const KeyPath& key, std::size_t place, T* list) {
+    if constexpr (std::is_same_v<std::remove_const_t<T>, std::vector<bool>>) {  // its elements have no address
+      bool element = (*list)[place];
+      Enter(key[place], &element);
+      if constexpr (!std::is_const_v<T>) (*list)[place] = element;
+    } else {
+      Enter(key[place], &(*list)[place]);
     }
   }
 

@@ -13,6 +13,8 @@ TraceRequest MakeRequest() {
   TraceRequest request;
   request.scene.nodes = {{"a", 0.0, 5.0, true, true}, {"b", -5.0, 0.0}, {"1", 2.0, 0.0}};
   request.scene.bars.resize(2);
+  request.scene.beams.resize(1);
+  request.scene.beams[0].hinged = {false, false};
   request.scene.obstacles.push_back({"floor"});
   request.scene.obstacles[0].points = {0.0, 1.0, 2.0, 3.0};
   request.options.stop = {{"b.x", ">", 1.0}};
@@ -52,6 +54,7 @@ TEST(SetField, FollowsNamesAndPlaces) {
   EXPECT_EQ(Changed("nodes.0.y", "-1e-3").scene.nodes[0].y, -1e-3);
   EXPECT_EQ(Changed("bars.1.EA", "3").scene.bars[1].EA, 3.0);
   EXPECT_EQ(Changed("obstacles.floor.points.2", "8").scene.obstacles[0].points[2], 8.0);
+  EXPECT_TRUE(Changed("beams.0.hinged.1", "true").scene.beams[0].hinged[1]);
   EXPECT_EQ(Changed("options.step", "0.25").options.step, 0.25);
   EXPECT_EQ(Changed("options.stop.0.value", "2").options.stop[0].value, 2.0);
   EXPECT_EQ(Changed("program.push.loads.0.fx", "9").program[1].loads[0].fx, 9.0);
@@ -95,7 +98,7 @@ TEST(FindField, SaysWhatAPathMustDo) {
   EXPECT_EQ(RuleOf("bars.2.EA"), "must name an element of bars, by its place from 0 to 1");
   EXPECT_EQ(RuleOf("bars.-1.EA"), "must name an element of bars, by its place from 0 to 1");
   EXPECT_EQ(RuleOf("bars..EA"), "must name an element of bars, by its place from 0 to 1");
-  EXPECT_EQ(RuleOf("beams.0.EA"), "must not name an element of beams, which has none");
+  EXPECT_EQ(RuleOf("solids.0.plane"), "must not name an element of solids, which has none");
   EXPECT_EQ(RuleOf("obstacles.floor.frction"), "must name a field of obstacles[0]; did you mean friction?");
   EXPECT_EQ(RuleOf("obstcles.floor.friction"), "must name a field of the scene; did you mean obstacles?");
   EXPECT_EQ(RuleOf("options.stop.0.limit"), "must name a field of options.stop[0]: quantity, when, value");
