@@ -30,7 +30,7 @@ def connected(scheduler: str, workers: int) -> Iterator[Any]:
 
     if scheduler:
         try:
-            client = Client(scheduler, timeout=PATIENCE, set_as_default=False)
+            client = Client(scheduler, timeout=PATIENCE)
         except (OSError, ValueError) as error:
             raise ClusterLost('no scheduler at %s: %s' % (scheduler, error)) from error
         with client:
@@ -42,7 +42,7 @@ def connected(scheduler: str, workers: int) -> Iterator[Any]:
             cluster = stack.enter_context(LocalCluster(
                 n_workers=workers, threads_per_worker=1, memory_limit=0, dashboard_address=None, local_directory=directory,
                 silence_logs=logging.CRITICAL))
-        yield stack.enter_context(Client(cluster, set_as_default=False))
+        yield stack.enter_context(Client(cluster))
 
 
 @contextlib.contextmanager
@@ -100,9 +100,8 @@ class Traces:
         from distributed import as_completed
         from distributed.scheduler import KilledWorker
 
-        completed = as_completed()
         with answering():
-            completed.update(self.tasks())
+            completed = as_completed(self.tasks())
         for task in completed:
             numbers = self.running.pop(task)
             try:

@@ -172,8 +172,9 @@ class Server {
 
 void Serve(const Arguments& arguments) {
   const TraceRequest request = ReadTraceRequestFile(arguments.scene_file);
+  const std::vector<FieldKind> kinds = CheckArguments(arguments, request);
   std::cout << "ready\t" << CONTACT_PATH_VERSION;
-  for (const FieldKind kind : CheckArguments(arguments, request)) std::cout << '\t' << ToString(kind);
+  for (const FieldKind kind : kinds) std::cout << '\t' << ToString(kind);
   std::cout << std::endl;
 
   const Server server(arguments, request);
