@@ -52,14 +52,16 @@ class Study:
 
 
 def read(file: str) -> Study:
-    """The study in a file. OSError; InvalidStudy."""
+    """The study in a file. InvalidStudy."""
     import yaml  # takes a while
 
-    with open(file, encoding='utf-8') as text:
-        try:
+    try:
+        with open(file, encoding='utf-8') as text:
             root = yaml.compose(text, Loader=yaml.SafeLoader)
-        except (yaml.YAMLError, UnicodeDecodeError) as error:
-            raise InvalidStudy('%s: must be YAML: %s' % (file, ' '.join(str(error).split()))) from error
+    except OSError as error:
+        raise InvalidStudy('%s: %s' % (file, error.strerror)) from error
+    except (yaml.YAMLError, UnicodeDecodeError) as error:
+        raise InvalidStudy('%s: must be YAML: %s' % (file, ' '.join(str(error).split()))) from error
     return Reader(file).study(root)
 
 

@@ -25,7 +25,7 @@ def between(parameter: Parameter, fractions: np.ndarray) -> np.ndarray:
     """The numbers at fractions (n,), 0..1, of the way from begin to end. Both ends are met exactly."""
     begin, end = parameter.begin, parameter.end
     if parameter.spacing == 'log':
-        numbers = np.exp((1.0 - fractions) * np.log(begin) + fractions * np.log(end))
+        numbers = 10.0 ** ((1.0 - fractions) * np.log10(begin) + fractions * np.log10(end))
     else:
         numbers = (1.0 - fractions) * begin + fractions * end
     return np.where(fractions == 0.0, begin, np.where(fractions == 1.0, end, numbers))
@@ -40,7 +40,7 @@ def grid_values(parameter: Parameter) -> Tuple[str, ...]:
         return parameter.values
     numbers = between(parameter, np.arange(parameter.count) / (parameter.count - 1))
     # Between the ends, the last digits of a sum or of a power are no part of what was meant.
-    return tuple(written(number if number in (parameter.begin, parameter.end) else float('%.15g' % number))
+    return tuple(written(number if number in (parameter.begin, parameter.end) else float('%.14g' % number))
                  for number in numbers)
 
 

@@ -17,10 +17,14 @@ FAILED = 'failed: '  # of statuses that tell of the machines, not of the scene: 
 
 
 def read_job(study: Study) -> Tuple[Job, List[Point]]:
-    """What is traced, after all that can be checked before. OSError; InvalidStudy; ServerRefused: the scene is invalid; TraceFailed:
+    """What is traced, after all that can be checked before. InvalidStudy; ServerRefused: the scene is invalid; TraceFailed:
     the program is not there."""
-    with open(study.scene, encoding='utf-8', errors='replace', newline='') as text:
-        job = Job(text.read(), tuple(parameter.path for parameter in study.parameters), study.outputs, bool(study.paths), '')
+    try:
+        with open(study.scene, encoding='utf-8', errors='replace', newline='') as text:
+            scene = text.read()
+    except OSError as error:
+        study.refuse('scene', study.scene, 'must be a file that can be read: %s' % error.strerror)
+    job = Job(scene, tuple(parameter.path for parameter in study.parameters), study.outputs, bool(study.paths), '')
     try:
         server = Server(study.scene, job)
     except ServerRefused as error:

@@ -11,6 +11,7 @@ import re
 import signal
 import subprocess
 import sys
+import tempfile
 import time
 import unittest
 
@@ -178,8 +179,8 @@ sampling: latin_hypercube
 count: 20
 seed: 7
 parameters:
-- {path: obstacles.floor.friction, from: 0.5, to: 1.5}
-- {path: nodes.apex.y, from: 0.5, to: 2, spacing: log}
+- {path: obstacles.floor.friction, from: 1, to: 2}
+- {path: nodes.apex.y, from: 1.3, to: 5.2, spacing: log}
 - {path: options.accuracy, values: [fast, accurate]}
 - {path: options.max_increments, from: 10, to: 40}
 outputs: [max.load_factor]
@@ -187,9 +188,9 @@ table: table.csv
 """ % program_test.scene_file('rough_truss'))
         lines = self.table()
         frictions = sorted(float(line['obstacles.floor.friction']) for line in lines)
-        self.assertEqual([int((friction - 0.5) * 20) for friction in frictions], list(range(20)))
+        self.assertEqual([int((friction - 1.0) * 20) for friction in frictions], list(range(20)))
         heights = sorted(float(line['nodes.apex.y']) for line in lines)
-        self.assertEqual([int(math.log(height / 0.5) / math.log(4.0) * 20) for height in heights], list(range(20)))
+        self.assertEqual([int(math.log(height / 1.3) / math.log(4.0) * 20) for height in heights], list(range(20)))
         self.assertEqual(sum(line['options.accuracy'] == 'fast' for line in lines), 10)
         self.assertTrue(all(line['options.max_increments'].isdigit() for line in lines))
         self.assertTrue(all(line['status'] == 'complete' for line in lines))
@@ -197,8 +198,16 @@ table: table.csv
 
 class GoingOn(StudyTest):
 
+    @classmethod
+    def setUpClass(cls):
+        with tempfile.TemporaryDirectory() as directory:
+            study, table = os.path.join(directory, 'study.yaml'), os.path.join(directory, 'table.csv')
+            with open(study, 'w', encoding='utf-8') as file:
+                file.write(SLOW)
+            subprocess.run([STUDY, '--quiet', study], check=True)
+            cls.whole = read(table)  # of the study that nobody disturbs
+
     def test_killed_and_continued(self):
-        self.run_study('--table', self.path('whole.csv'), description=SLOW)
         study = self.start(STUDY, self.write(SLOW), '--workers', '2')
         self.wait_for(lambda: self.journal().count(b'\n') > 4)
         study.kill()
@@ -212,7 +221,7 @@ class GoingOn(StudyTest):
         self.run_study(description=SLOW)
         self.assertTrue(self.journal().startswith(kept))
         self.assertEqual(self.journal().count(b'\n'), 21)
-        self.assertEqual(read(self.path('table.csv')), read(self.path('whole.csv')))
+        self.assertEqual(read(self.path('table.csv')), self.whole)
 
     def test_interrupted(self):
         study = subprocess.Popen([STUDY, self.write(SLOW)], stderr=subprocess.PIPE, universal_newlines=True,
@@ -225,7 +234,6 @@ class GoingOn(StudyTest):
         self.assertEqual(study.returncode, 1)
 
     def test_worker_and_server_that_die_are_no_loss(self):
-        self.run_study('--table', self.path('whole.csv'), description=SLOW)
         study = self.start(STUDY, self.write(SLOW), '--workers', '2')
         self.wait_for(lambda: self.journal().count(b'\n') > 2)
         servers = [number for number, command in processes_below(study.pid) if 'study_server' in command]
@@ -235,7 +243,7 @@ class GoingOn(StudyTest):
             worker = int(stat.read().rsplit(')', 1)[1].split()[1])
         os.kill(worker, signal.SIGKILL)
         self.assertEqual(study.wait(), 0)
-        self.assertEqual(read(self.path('table.csv')), read(self.path('whole.csv')))
+        self.assertEqual(read(self.path('table.csv')), self.whole)
 
     def test_what_is_done_is_not_traced_again(self):
         self.run_study()
@@ -299,17 +307,34 @@ class BadInput(StudyTest):
         self.assertRegex(said, rule)
         self.assertFalse(os.path.exists(self.path('table.csv.journal')))
 
+    def expect_refused(self, rule, old, new):
+        """By the reader of descriptions."""
+        self.assertIn(old, DESCRIPTION)
+        with self.assertRaisesRegex(study_file.InvalidStudy, rule):
+            study_file.read(self.write(DESCRIPTION.replace(old, new)))
+
     def test_description(self):
-        place = r'^.*study\.yaml:%d: '
-        self.expect(place % 4 + r'parameters\[0\]\.pat = .*: unknown key, must be one of: path, values', 'path: obs', 'pat: obs')
-        self.expect(place % 5 + r'parameters\[1\]\.count = 1: must be an integer from 2 to', 'count: 2', 'count: 1')
-        self.expect(place % 5 + r'parameters\[1\]\.from = a: must be a number', 'from: 1.2', 'from: a')
-        self.expect(place % 5 + r'parameters\[1\]\.to = 1\.2: must differ from parameters\[1\]\.from', 'to: 1.6', 'to: 1.2')
-        self.expect(place % 5 + r'parameters\[1\]: must have count', ', count: 2', '')
-        self.expect(place % 4 + r'parameters\[0\]\.values = a list: must be a list of one or more', '[0.9, 1.0, 1.8]', '[]')
-        self.expect(place % 2 + r'the study: must have outputs', 'outputs:', 'table2: x\n#')
-        self.expect(place % 7 + r'sampling = cube: must be grid or latin_hypercube', 'table:', 'sampling: cube\ntable:')
-        self.expect(r'^.*study\.yaml: must be YAML', 'scene:', 'scene: [')
+        self.expect(r'^.*study\.yaml:4: parameters\[0\]\.pat = .*: unknown key, must be one of: path, values', 'path: obs', 'pat: obs')
+        for rule, old, new in (
+                (r'5: parameters\[1\]\.count = 1: must be an integer from 2 to', 'count: 2', 'count: 1'),
+                (r'5: parameters\[1\]\.from = a: must be a number', 'from: 1.2', 'from: a'),
+                (r'5: parameters\[1\]\.from = -1: must be > 0 where the spacing is log', 'from: 1.2', 'spacing: log, from: -1'),
+                (r'5: parameters\[1\]\.to = 1\.2: must differ from parameters\[1\]\.from', 'to: 1.6', 'to: 1.2'),
+                (r'5: parameters\[1\]: must have count', ', count: 2', ''),
+                (r'5: parameters\[1\]: must have values, or from and to', 'from: 1.2, ', ''),
+                (r'5: parameters\[1\]\.count = 2: must be left out where there are values', 'from: 1.2, to: 1.6', 'values: [1]'),
+                (r'4: parameters\[0\]\.values = a list: must be a list of one or more', '[0.9, 1.0, 1.8]', '[]'),
+                (r'4: parameters\[0\]\.values\[1\] = a map: must be text on one line', '1.0', '{a: 1}'),
+                (r'2: the study: must have outputs', 'outputs: [limit_loads, events, end_reason, max.load_factor, final.dissipation]', ''),
+                (r'7: sampling = cube: must be grid or latin_hypercube', 'table:', 'sampling: cube\ntable:'),
+                (r'7: seed = 1: must be left out of a grid', 'table:', 'seed: 1\ntable:'),
+                (r'2: the study: must have count, the number of traces', 'table:', 'sampling: latin_hypercube\ntable:'),
+                (r'8: table = b\.csv: repeated key', 'table:', 'table: a.csv\ntable: b.csv\n#'),
+                (r' must be YAML', 'scene:', 'scene: [')):
+            with self.subTest(rule):
+                self.expect_refused(r'study\.yaml:' + rule, old, new)
+        with self.assertRaisesRegex(study_file.InvalidStudy, 'nothing.yaml: No such file'):
+            study_file.read('nothing.yaml')
 
     def test_paths_of_fields(self):
         place = r'^.*study\.yaml:4: parameters\[0\]\.path = '
@@ -330,7 +355,7 @@ class BadInput(StudyTest):
         self.expect(r'study\.yaml:6: outputs\[1\] = limit_loads: must not be repeated', 'events', 'limit_loads')
 
     def test_scene(self):
-        self.expect(r'nothing\.yaml', 'rough_truss.yaml', 'nothing.yaml')
+        self.expect(r'study\.yaml:2: scene = .*nothing\.yaml: must be a file that can be read: No such file', 'rough_truss.yaml', 'nothing.yaml')
         scene = read(program_test.scene_file('rough_truss')).decode().replace('EA: 1.0', 'EA: -1.0', 1)
         self.write(scene, 'wrong.yaml')
         self.expect(r'wrong\.yaml:\d+: scene\.bars\[0\]\.EA = -1: must be > 0', program_test.scene_file('rough_truss'), 'wrong.yaml')
