@@ -120,9 +120,9 @@ contact_path_add_long_test(branch branches_test)
 contact_path_add_long_test(branch random_paths_test)
 contact_path_add_stage(check curved_residuals_test residuals_test solid_residuals_test)
 contact_path_add_stage(path automatic_step_test branch_options_test csv_test determinism_test diagnosis_test free_motion_test
-  hard_scenes_test increment_test large_requests_test model_size_test model_test path_column_test path_summary_test preload_test
+  hard_scenes_test increment_test large_requests_test model_size_test model_test path_summary_test preload_test
   program_test progress_estimate_test redistribution_test restored_states_test return_detector_test
-  singular_scenes_test stop_test study_outputs_test work_test)
+  singular_scenes_test stop_test work_test)
 contact_path_add_long_test(path curved_paths_test)
 contact_path_add_long_test(path curved_random_paths_test)
 contact_path_add_long_test(path curved_scenes_test)
@@ -136,6 +136,7 @@ contact_path_add_long_test(path sizes_test)
 contact_path_add_long_test(path beam_paths_test)
 contact_path_add_long_test(path solid_paths_test)
 contact_path_add_long_test(path trace_test)
+contact_path_add_stage(study path_column_test study_outputs_test)
 contact_path_add_stage(verify verify_end_test verify_events_test verify_path_test)
 contact_path_add_stage(cli progress_test)
 target_link_libraries(cli_tests contact_path_terminal)
