@@ -187,7 +187,7 @@ contact_path_add_python_test(plot_test test/cli/plot_test.py DEPENDS contact_pat
 contact_path_add_python_test(mesh_test test/cli/mesh_test.py
   VARIABLES CONTACT_PATH_MESH=${CMAKE_CURRENT_SOURCE_DIR}/scripts/contact_path_mesh)
 contact_path_add_python_test(study_test test/cli/study_test.py DEPENDS contact_path_trace contact_path_study_server
-  VARIABLES CONTACT_PATH_STUDY=${CMAKE_CURRENT_SOURCE_DIR}/scripts/study CONTACT_PATH_ROOT=${CMAKE_CURRENT_SOURCE_DIR}
+  VARIABLES CONTACT_PATH_STUDY=${CMAKE_CURRENT_SOURCE_DIR}/scripts/contact_path_study CONTACT_PATH_ROOT=${CMAKE_CURRENT_SOURCE_DIR}
     CONTACT_PATH_PROGRAMS=$<TARGET_FILE_DIR:contact_path_trace>)
 foreach(test scene_test path_test trace_test doctest_test)
   contact_path_add_python_test(python_${test} test/python/${test}.py DEPENDS contact_path_trace
