@@ -1,0 +1,139 @@
+"""The curves of a page as data for plotly.js: a quantity against another with the critical points, and the energies."""
+from __future__ import annotations
+
+from typing import Any, Dict, List, Sequence
+
+import numpy as np
+
+from contact_path.page_arrays import Entry, plain
+from contact_path.path import Path
+from contact_path.path_marks import COLOURS, ENERGIES, MARKS, kinds_marked, line, points
+from contact_path.path_quantities import label
+
+SYMBOLS = {'start': 'circle', 'smooth_limit': 'square', 'corner_limit': 'triangle-up', 'contact_event': 'diamond',
+           'bifurcation': 'star', 'stage_end': 'x'}
+DASHES = {'strain_energy': 'solid', 'dissipation': 'dash', 'external_work': 'dot'}
+PATH_AXES = {'xaxis': 'x', 'yaxis': 'y'}
+ENERGY_AXES = {'xaxis': 'x2', 'yaxis': 'y2'}
+GRID = '#ebebeb'
+MOST_BRANCHES = 6  # of an event, in the text beside it
+
+
+def colour(number: int) -> str:
+    return COLOURS[number % len(COLOURS)]
+
+
+def figure(paths: Sequence[Path], steps: Sequence[np.ndarray], x: str, y: str) -> Entry:
+    """Traces and layout. steps: for each path the rows that the slider goes through."""
+    traces: List[Entry] = []
+    for number, path in enumerate(paths):
+        traces += path_traces(path, number, len(paths) > 1, x, y)
+        traces += energy_traces(path, number, len(paths) > 1)
+    traces += mark_legend(paths)
+    for number, (path, rows) in enumerate(zip(paths, steps)):
+        traces += step_traces(path, rows, number, x, y)
+    return {'data': traces, 'layout': layout(x, y)}
+
+
+def layout(x: str, y: str) -> Entry:
+    axis = {'gridcolor': GRID, 'zerolinecolor': '#999999', 'automargin': True}
+    return {'xaxis': {**axis, 'title': {'text': label(x)}, 'anchor': 'y'},
+            'yaxis': {**axis, 'title': {'text': label(y)}, 'domain': [0.4, 1.0]},
+            'xaxis2': {**axis, 'title': {'text': label('arc_length')}, 'anchor': 'y2'},
+            'yaxis2': {**axis, 'title': {'text': 'energy [force length]'}, 'domain': [0.0, 0.27]},
+            'legend': {'orientation': 'h', 'yanchor': 'top', 'y': -0.13, 'x': 0.0},
+            'margin': {'l': 70, 'r': 15, 't': 32, 'b': 45}, 'hovermode': 'closest', 'plot_bgcolor': '#ffffff'}
+
+
+def drawn_line(values: np.ndarray, axes: Entry, **style: Any) -> Entry:
+    """A line (n, 2) that tells nothing of itself."""
+    return {'type': 'scatter', 'mode': 'lines', 'x': plain(values[:, 0]), 'y': plain(values[:, 1]), 'hoverinfo': 'skip',
+            **axes, **style}
+
+
+def path_traces(path: Path, number: int, several: bool, x: str, y: str) -> List[Entry]:
+    """The line and its critical points; of several paths these are in the colour of the line."""
+    rows, places = points(path, x, y)
+    traces = [drawn_line(line(path, rows, places), PATH_AXES, name=path.title, showlegend=several, legendgroup='path%d' % number,
+                         line={'color': colour(number) if several else '#333333', 'width': 2})]
+    kinds = kinds_marked(path)[rows]
+    for kind, (_, own) in MARKS.items():
+        at = places[kinds == kind]
+        if len(at):
+            traces.append({**drawn_line(at, PATH_AXES), 'mode': 'markers', 'showlegend': False, 'legendgroup': 'path%d' % number,
+                           'marker': marker(kind, colour(number) if several else own)})
+    return traces
+
+
+def marker(kind: str, own: str) -> Entry:
+    return {'symbol': SYMBOLS[kind], 'size': 13 if kind == 'bifurcation' else 9, 'color': own, 'line': {'color': 'white', 'width': 0.6}}
+
+
+def mark_legend(paths: Sequence[Path]) -> List[Entry]:
+    """An entry for each kind of critical point, with their number where there is one path."""
+    kinds = np.concatenate([kinds_marked(path) for path in paths])
+    entries = []
+    for kind, (name, own) in MARKS.items():
+        count = int(np.sum(kinds == kind))
+        if count:
+            entries.append({'type': 'scatter', 'mode': 'markers', 'x': [None], 'y': [None], 'hoverinfo': 'skip',
+                            'name': name if len(paths) > 1 else '%s (%d)' % (name, count),
+                            'marker': marker(kind, '#666666' if len(paths) > 1 else own), **PATH_AXES})
+    return entries
+
+
+def energies(path: Path) -> Dict[str, np.ndarray]:
+    """Column -> (n,) since the start."""
+    return {name: path[name] - path[name][0] for name, _, _ in ENERGIES if name in path}
+
+
+def energy_traces(path: Path, number: int, several: bool) -> List[Entry]:
+    """A colour for each energy, or for each path where there are several."""
+    since_start = energies(path)
+    return [drawn_line(np.column_stack((path['arc_length'], since_start[name])), ENERGY_AXES, name=text,
+                       legendgroup='path%d' % number if several else name, showlegend=not several,
+                       line={'color': colour(number) if several else own, 'dash': DASHES[name], 'width': 1.7})
+            for name, text, own in ENERGIES if name in since_start]
+
+
+def step_traces(path: Path, rows: np.ndarray, number: int, x: str, y: str) -> List[Entry]:
+    """The points that tell their values under the pointer. `meta`: the number of the path, and the steps of the points."""
+    arc = path['arc_length'][rows]
+    curves = [(path.quantity(x)[rows], path.quantity(y)[rows], PATH_AXES)]
+    curves += [(arc, values[rows], ENERGY_AXES) for values in energies(path).values()]
+    return [{'type': 'scatter', 'mode': 'markers', 'x': plain(along), 'y': plain(values), 'showlegend': False,
+             'legendgroup': 'path%d' % number, 'marker': {'size': 4, 'opacity': 0.0, 'color': colour(number)},
+             'hovertemplate': '%{text}<extra></extra>', 'meta': {'path': number}, **axes} for along, values, axes in curves]
+
+
+def columns(path: Path, rows: np.ndarray, x: str, y: str) -> List[Entry]:
+    """What is told of each step: `label`, `values` as doubles."""
+    told = {name: path.quantity(name) for name in dict.fromkeys(('load_factor', x, y, 'arc_length'))}
+    told.update(energies(path))
+    names = {name: text + ' [force length]' for name, text, _ in ENERGIES}
+    return [{'label': names.get(name) or label(name), 'values': plain(values[rows])} for name, values in told.items()]
+
+
+def headings(path: Path, rows: np.ndarray) -> List[str]:
+    """A line for each step: increment, kind, stage, and the branches at an event."""
+    kinds, stages = kinds_marked(path), path.stages
+    events = {event['index']: event for event in path.events if event.get('number')}
+    found = []
+    for row in rows:
+        index = int(path['index'][row])
+        text = 'increment %d: %s' % (index, MARKS[kinds[row]][0] if kinds[row] in MARKS else 'regular')
+        if stages:
+            text += ', ' + stages[path['stage'][row] - 1]
+        found.append('<br>'.join([text] + branch_lines(events[index])) if index in events else text)
+    return found
+
+
+def branch_lines(event: Entry) -> List[str]:
+    """The branches of an event, the one that was taken first with a star."""
+    lines = []
+    for number, branch in enumerate(event['branches'], 1):
+        states = ', '.join('%s %s' % item for item in branch['states'].items() if item[1] != 'open')
+        lines.append('%sbranch %d: %s' % ('* ' if number == event['taken'] else '', number,
+                                          states if len(states) <= 80 else states[:77] + '...'))
+    more = len(lines) - MOST_BRANCHES
+    return ['event %d' % event['number']] + lines[:MOST_BRANCHES] + (['%d more branches' % more] if more > 0 else [])
