@@ -101,8 +101,9 @@ def step_traces(path: Path, rows: np.ndarray, number: int, x: str, y: str) -> Li
     arc = path['arc_length'][rows]
     curves = [(path.quantity(x)[rows], path.quantity(y)[rows], PATH_AXES)]
     curves += [(arc, values[rows], ENERGY_AXES) for values in energies(path).values()]
-    return [{'type': 'scatter', 'mode': 'markers', 'x': plain(along), 'y': plain(values), 'showlegend': False,
-             'legendgroup': 'path%d' % number, 'marker': {'size': 4, 'opacity': 0.0, 'color': colour(number)},
+    unseen = 'rgba(0,0,0,0)'  # a line is one element of the page, markers would be as many as there are steps
+    return [{'type': 'scatter', 'mode': 'lines', 'x': plain(along), 'y': plain(values), 'showlegend': False,
+             'legendgroup': 'path%d' % number, 'line': {'color': unseen}, 'hoverlabel': {'bgcolor': colour(number)},
              'hovertemplate': '%{text}<extra></extra>', 'meta': {'path': number}, **axes} for along, values, axes in curves]
 
 

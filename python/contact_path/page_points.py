@@ -5,11 +5,11 @@ from typing import Any, Dict, List, Sequence, Tuple
 
 import numpy as np
 
+from contact_path.page_trails import GAP, edges_of, trails
 from contact_path.scene_arrays import Structure
 from contact_path.shapes import FULL_TURN, LONGEST_ARROW, MOMENT_RADIUS, SHORTEST_ARROW, STEPS, Shape, View, turned_arrow
 
 MOST_BEAM_LINES = 1500  # of all segments of beams together
-GAP = -1  # in a list of points: the line ends here
 FORCES = ('loads', 'constant_loads')  # of a Shape, on its nodes
 MOMENTS = ('moments', 'constant_moments')
 HEAD = 4  # points of the head of a turned arrow
@@ -64,14 +64,25 @@ class Points:
                 parts.append(turning(shape.places[node], getattr(shape, name)[node], view))
         return np.vstack(parts)
 
+    def initial(self) -> np.ndarray:
+        """(count, 2) at the start, of nodes and beams; nan of all others."""
+        structure = self.structure
+        beams = structure.beams.curves(structure.initial, np.zeros(len(structure.names)))
+        places = np.full((self.count, 2), np.nan)
+        places[self.groups['nodes']] = structure.initial
+        places[self.groups['beams']] = beams[:, self.within]
+        return places
+
     def lines(self, name: str) -> np.ndarray:
-        """A list of points: bars; segments of beams; lines from hubs to nodes; arrows; cones; shafts and heads of moments."""
+        """A list of points: bars and beams; edges of solids; lines from hubs to nodes; arrows; cones; shafts and heads of moments."""
         groups, structure = self.groups, self.structure
-        if name == 'bars':
-            return joined(structure.bars)
-        if name == 'beams':
+        if name == 'members':
             nodes = structure.beams.nodes
-            return joined(np.column_stack((nodes[:, :1], groups['beams'], nodes[:, 1:])))
+            beams = np.column_stack((nodes[:, :1], groups['beams'], nodes[:, 1:]))
+            return trails(np.vstack((edges_of(structure.bars), edges_of(beams))))
+        if name == 'edges':
+            boundaries = [closed(solid.boundaries) for solid in structure.solids]
+            return trails(np.vstack([np.empty((0, 2))] + [edges_of(part) for part in boundaries]))
         if name == 'hubs':
             return joined([(hub, node) for hub, (nodes, _) in zip(groups['hubs'], structure.superelements) for node in nodes])
         if name == 'reactions':
@@ -90,6 +101,11 @@ def joined(lines: Sequence[Any]) -> np.ndarray:
     if not len(lines):
         return np.zeros(0, dtype=int)
     return np.column_stack((lines, np.full(len(lines), GAP))).ravel()
+
+
+def closed(boundaries: np.ndarray) -> np.ndarray:
+    """Boundaries (m, k) that end where they begin."""
+    return np.column_stack((boundaries, boundaries[:, :1]))
 
 
 def tips(places: np.ndarray, forces: np.ndarray, view: View) -> np.ndarray:

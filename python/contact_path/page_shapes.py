@@ -8,7 +8,8 @@ import numpy as np
 
 from contact_path.page_arrays import Entry, packed, plain, trajectories
 from contact_path.page_obstacles import obstacles
-from contact_path.page_points import GAP, Points, joined
+from contact_path.page_points import Points, closed
+from contact_path.page_trails import GAP
 from contact_path.path import STATES as STATE_NAMES
 from contact_path.path import Path
 from contact_path.path_marks import STATES
@@ -40,7 +41,7 @@ def structure_of(path: Path, rows: np.ndarray, structure: Structure, points: Poi
     view = View(shapes)
     places = np.array([points.places(shape, view) for shape in shapes])
     moved = trajectories(places.reshape(len(rows), -1))
-    return {'layout': layout(view), 'still': still(structure), 'obstacles': obstacles(path, rows, structure, view),
+    return {'layout': layout(view), 'still': still(points), 'obstacles': obstacles(path, rows, structure, view),
             'points': moved, 'moving': moving(points, structure), 'solids': solids(shapes, view), 'names': structure.names,
             'contacts': contacts(path, rows, shapes, view), 'decimals': decimals(np.ptp(places[:, :len(structure.names)], axis=0).max())}
 
@@ -66,13 +67,11 @@ def line_width(structure: Structure) -> float:
     return max(0.6, min(2.2, 30.0 / math.sqrt(len(structure.bars) + len(structure.beams.nodes) + 1.0)))
 
 
-def still(structure: Structure) -> List[Entry]:
+def still(points: Points) -> List[Entry]:
     """The shape at the start, and entries of the legend."""
-    initial = structure.initial
-    beams = structure.beams.curves(initial, np.zeros(len(structure.names)))
-    lines = [initial[structure.bars], beams] + [initial[closed(solid.boundaries)] for solid in structure.solids]
-    places = np.vstack([np.empty((0, 2))] + [
-        np.concatenate((part, np.full((len(part), 1, 2), np.nan)), axis=1).reshape(-1, 2) for part in lines if len(part)])
+    structure = points.structure
+    numbers = np.concatenate((points.lines('members'), points.lines('edges')))
+    places = np.where(numbers[:, None] == GAP, np.nan, points.initial()[numbers])
     traces = [{'type': 'scatter', 'mode': 'lines', 'x': plain(places[:, 0]), 'y': plain(places[:, 1]), 'hoverinfo': 'skip',
                'name': 'initial shape', 'line': {'color': INITIAL, 'width': 0.7 * line_width(structure)}}]
     if structure.obstacles:
@@ -82,10 +81,6 @@ def still(structure: Structure) -> List[Entry]:
 
 def legend_entry(name: str) -> Entry:
     return {'type': 'scatter', 'x': [None], 'y': [None], 'name': name, 'hoverinfo': 'skip'}
-
-
-def closed(boundaries: np.ndarray) -> np.ndarray:
-    return np.column_stack((boundaries, boundaries[:, :1]))
 
 
 def moving(points: Points, structure: Structure) -> List[Entry]:
@@ -102,13 +97,11 @@ def moving(points: Points, structure: Structure) -> List[Entry]:
                           'points': plain(numbers, '<i4'), 'named': named})
 
     def areas(numbers: np.ndarray, fill: str, **style: Any) -> None:
-        lines(numbers, fill='toself', fillcolor=fill, line={'width': 0}, **style)
+        lines(numbers, mode='none', fill='toself', fillcolor=fill, **style)
 
-    edges = [joined(closed(solid.boundaries)) for solid in structure.solids]
-    lines(np.concatenate(edges) if edges else joined([]), line={'color': BARS, 'width': 0.5 if many else 0.8}, named=True)
+    lines(points.lines('edges'), line={'color': BARS, 'width': 0.5 if many else 0.8}, named=True)
     areas(points.lines('cones'), rgba(REACTION, 0.15), name='friction cone', showlegend=bool(np.any(structure.friction > 0.0)))
-    for name in 'bars', 'beams':
-        lines(points.lines(name), line={'color': BARS, 'width': width}, named=True)
+    lines(points.lines('members'), line={'color': BARS, 'width': width}, named=True)
     lines(points.lines('hubs'), line={'color': BARS, 'width': 1.5, 'dash': 'dash'}, name='superelement', showlegend=True)
     if not many:
         lines(np.flatnonzero(~structure.beams.inner), marker={'size': 4, 'color': BARS}, named=True,
@@ -147,7 +140,7 @@ def solids(shapes: Sequence[Shape], view: View) -> Entry | None:
     width = max(part.shape[1] for part in boundaries) + 1  # a gap at least
     padded = np.vstack([np.pad(part, ((0, 0), (0, width - part.shape[1])), constant_values=GAP) for part in boundaries])
     return {'classes': packed(classes, '|u1'), 'boundaries': plain(padded.ravel(), '<i4'), 'width': width,
-            'traces': [{'type': 'scatter', 'mode': 'lines', 'fill': 'toself', 'fillcolor': class_colour(number), 'line': {'width': 0},
+            'traces': [{'type': 'scatter', 'mode': 'none', 'fill': 'toself', 'fillcolor': class_colour(number),
                         'hoverinfo': 'skip', 'showlegend': False} for number in range(CLASSES)],
             'legend': [class_entry(number, view.energy) for number in (0, CLASSES // 2, CLASSES - 1)]}
 

@@ -68,15 +68,13 @@ class Data(ProgramTest):
             file.write(lattice.stdout)
         path = cp.trace(self.path('wall.yaml'), max_increments=3)
         self.assertEqual(len(path.nodes), 1000)
-        # Moved as no structure moves: harder to compress.
-        generator = np.random.default_rng(2)
-        numbers = np.linspace(0.0, len(path) - 1.0, 600)
-        walk = np.cumsum(generator.normal(size=600)) * 1e-3
-        table = {name: column[np.rint(numbers).astype(int)] for name, column in path.table.items()}
+        # Every number swings, each in its own way: harder to compress than what a path does.
+        arc = np.linspace(0.0, 1.0, 600)
+        table = {name: np.repeat(column[-1:], 600) for name, column in path.table.items()}
         for number, name in enumerate(table):
             if table[name].dtype.kind == 'f':
-                table[name] = table[name] + np.interp(np.arange(600), np.arange(600), walk) * np.sin(number)
-        table['arc_length'] = np.linspace(0.0, 1.0, 600)
+                table[name] = table[name] + 0.1 * np.sin(2.0 * np.pi * (1.0 + number % 17 / 8.0) * arc + number)
+        table['arc_length'] = arc
         long = cp.Path(table, title='wall', scene=path.scene)
         long.page(self.path('wall.html'))
         self.assertLess(os.path.getsize(self.path('wall.html')), 5e6)

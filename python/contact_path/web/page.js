@@ -71,6 +71,7 @@
         own.contacts[field] = await unpacked(given.contacts[field]);
       }
     }
+    own.template = `%{text}<br>x %{x:.${given.decimals}f}<br>y %{y:.${given.decimals}f}<extra></extra>`;
     return own;
   }
 
@@ -108,29 +109,42 @@
       ...['rn', 'rt', 'gap'].map((field) => field + ' ' + digits(contacts[field][k], CONTACT_DIGITS))];
   }
 
-  // All traces of the structure in a step, from the bottom up.
-  function structureTraces(own, at) {
+  // Traces that no step moves, drawn below all others.
+  const stillTraces = (own) => [...own.obstacles.filter((part) => !part.motion).map((part) => part.trace), ...own.still,
+    ...(own.solids ? own.solids.legend : []), ...(own.contacts ? own.contacts.legend : [])];
+
+  // Traces that a step moves, from the bottom up, the same ones in each step.
+  function movingTraces(own, at) {
     const places = own.steps[at];
-    const traces = [...own.obstacles.map((part) => ({...part.trace, ...(part.motion ? placedObstacle(part, at) : {})})), ...own.still];
+    const traces = own.obstacles.filter((part) => part.motion).map((part) => ({...part.trace, ...placedObstacle(part, at)}));
     if (own.solids) {
-      traces.push(...own.solids.legend);
       elementsByClass(own.solids, places, at).forEach((found, i) => traces.push({...own.solids.traces[i], ...found}));
     }
     for (const part of own.moving) {
-      const found = {...part.trace, ...gather(places, part.points)};
-      if (part.named) {
-        found.text = part.names;
-        found.hovertemplate = `%{text}<br>x %{x:.${own.decimals}f}<br>y %{y:.${own.decimals}f}<extra></extra>`;
-      }
-      traces.push(found);
+      traces.push({...part.trace, ...gather(places, part.points), ...(part.named ? {text: part.names, hovertemplate: own.template} : {})});
     }
     if (own.contacts) {
       const {sizes, colours, texts, ...found} = contactMarks(own.contacts, places, at);
       const trace = own.contacts.trace;
-      traces.push(...own.contacts.legend, {...trace, ...found, text: texts, marker: {...trace.marker, size: sizes, color: colours}});
+      traces.push({...trace, ...found, text: texts, marker: {...trace.marker, size: sizes, color: colours}});
     }
     return traces;
   }
+
+  let drawn = null; // the structure that is drawn
+
+  function drawStructure(own, at) {
+    const still = stillTraces(own), moving = movingTraces(own, at);
+    if (own === drawn) {
+      return moved('structure', moving, still.length);
+    }
+    drawn = own;
+    return Plotly.react('structure', [...still, ...moving], own.layout, CONFIG);
+  }
+
+  // Gives the traces from the first one on new places, and draws these traces alone.
+  const moved = (figure, traces, first) => Plotly.animate(figure, {data: traces, traces: traces.map((_, i) => first + i)},
+    {mode: 'immediate', transition: {duration: 0}, frame: {duration: 0, redraw: false}});
 
   // The curves: the points that tell their values, and a mark where the slider is.
 
@@ -165,9 +179,8 @@
 
   function moveMarks(path) {
     const of = (axis) => path.curves.filter((curve) => curve.xaxis === axis);
-    const [x, y] = ['x', 'y'].map((name) => ['x', 'x2'].map((axis) => of(axis).map((curve) => curve[name][step])));
-    const last = data.curves.data.length - 1;
-    return Plotly.restyle('curves', {x, y}, [last - 1, last]);
+    const marks = ['x', 'x2'].map((axis) => ({x: of(axis).map((curve) => curve.x[step]), y: of(axis).map((curve) => curve.y[step])}));
+    return moved('curves', marks, data.curves.data.length - marks.length);
   }
 
   // Beside the figures.
@@ -230,7 +243,7 @@
     tell(path);
     const shown = [moveMarks(path)];
     if (path.unpacked) {
-      shown.push(Plotly.react('structure', structureTraces(path.unpacked, step), path.layout, CONFIG));
+      shown.push(drawStructure(path.unpacked, step));
     }
     await Promise.all(shown);
   }
@@ -259,7 +272,6 @@
     element('slider').max = own.steps - 1;
     if (own.structure && !own.unpacked) {
       own.unpacked = await unpackStructure(own.structure, own.steps);
-      own.layout = {...own.structure.layout, uirevision: `path ${path}`};
     }
     element('structure').style.visibility = own.structure ? 'visible' : 'hidden';
     remarks(own);
