@@ -132,10 +132,23 @@ class InBrowser(ProgramTest):
                 if name:
                     wanted = [path['x_' + name][step], path['y_' + name][step]]
                     np.testing.assert_allclose(place, wanted, atol=1e-5 * span, rtol=0.0)
-        self.browser.run('''const slider = document.getElementById('slider');
-            slider.value = 3; slider.dispatchEvent(new Event('input'));
-            await page.choose(0, Number(slider.value));''')
-        self.assertTrue(self.browser.run("return document.getElementById('heading').textContent;").startswith('increment 3: '))
+
+    def test_the_slider_moves_what_is_on_the_screen(self):
+        self.open(traced('gripper'))
+        before, after, heading = self.browser.run('''
+            const lines = (figure) => Array.from(document.querySelectorAll('#' + figure + ' .scatterlayer path'),
+                (path) => [path.getAttribute('d'), path.getAttribute('transform')].join()).join();
+            const seen = () => ['curves', 'structure'].map(lines);
+            const before = seen(), slider = document.getElementById('slider'), late = performance.now() + 20000;
+            slider.value = 17;
+            slider.dispatchEvent(new Event('input'));
+            while (seen().some((text, i) => text === before[i]) && performance.now() < late) {
+              await new Promise(requestAnimationFrame);
+            }
+            return [before, seen(), document.getElementById('heading').textContent];''')
+        for figure in 0, 1:
+            self.assertNotEqual(before[figure], after[figure])
+        self.assertTrue(heading.startswith('increment 17: '), heading)
 
     def test_the_marks_are_where_the_slider_is(self):
         path = traced('two_dof_friction')
@@ -168,9 +181,44 @@ class InBrowser(ProgramTest):
         path = traced('von_mises')
         self.open(path)
         limit = path.limit_points[0]
-        text = self.browser.run("return document.getElementById('curves').data.filter((trace) => trace.meta)[0].text[%d];" %
-                                limit['index'])
-        self.assertTrue(text.startswith('increment %d: smooth limit point<br>load factor [-]: %.10g' % (limit['index'], limit['load_factor'])), text)
+        self.point_at('curves', path['y_apex'][limit['index']], limit['load_factor'])
+        text = self.told('curves')
+        self.assertTrue(text.startswith('increment %d: smooth limit point' % limit['index']), text)
+        self.assertIn('load factor [-]: %.10g' % limit['load_factor'], text)
+        self.point_at('structure', path['x_apex'][0], path['y_apex'][0])
+        self.assertTrue(self.told('structure').startswith('apex'))
+
+    def test_a_click_on_the_curve_moves_the_slider(self):
+        path = traced('von_mises')
+        self.open(path)
+        self.point_at('curves', path['y_apex'][30], path['load_factor'][30], click=True)
+        self.assertEqual(self.browser.run('''const slider = document.getElementById('slider'), late = performance.now() + 20000;
+            while (slider.value === '0' && performance.now() < late) {
+              await new Promise(requestAnimationFrame);
+            }
+            return slider.value;'''), '30')
+
+    def point_at(self, figure, x, y, click=False):
+        """Moves the pointer to a place of a figure."""
+        self.browser.point_at(*self.browser.run('''const div = document.getElementById('%s'), box = div.getBoundingClientRect();
+            const {xaxis, yaxis} = div._fullLayout;
+            return [box.left + xaxis._offset + xaxis.d2p(%r), box.top + yaxis._offset + yaxis.d2p(%r)];''' %
+                                              (figure, float(x), float(y))), click)
+
+    def told(self, figure):
+        """What a figure tells under the pointer."""
+        return self.browser.run('''const late = performance.now() + 20000;
+            const text = () => document.querySelector('#%s .hoverlayer').textContent;
+            while (!text() && performance.now() < late) {
+              await new Promise(requestAnimationFrame);
+            }
+            return text();''' % figure)
+
+    def test_nothing_offers_to_send_data_away(self):
+        self.open(traced('rigid_stop'))
+        buttons = self.browser.run("return Array.from(document.querySelectorAll('.modebar-btn'), (button) => button.dataset.title);")
+        self.assertIn('Zoom', buttons)
+        self.assertFalse([title for title in buttons if 'hare' in title or 'loud' in title])
 
     def test_several_paths(self):
         paths = [traced('sliding_bar'), traced('sliding_bar', accuracy='fast')]

@@ -85,6 +85,15 @@ class Browser:
             raise RuntimeError(value['failed'])
         return value
 
+    def point_at(self, x, y, click=False):
+        """Moves the pointer to a place of the page, in pixels, from a place nearby, and clicks there if asked to."""
+        steps = [{'type': 'pointerMove', 'duration': 0, 'x': round(x) + 3, 'y': round(y)},
+                 {'type': 'pointerMove', 'duration': 100, 'x': round(x), 'y': round(y)}]
+        if click:
+            steps += [{'type': 'pointerDown', 'button': 0}, {'type': 'pointerUp', 'button': 0}]
+        pointer = {'type': 'pointer', 'id': 'mouse', 'parameters': {'pointerType': 'mouse'}, 'actions': steps}
+        self.ask('POST', self.session + '/actions', {'actions': [pointer]})
+
     def complaints(self):
         """What the console has been told since the last call: errors, warnings, refused connections."""
         return [entry['message'] for entry in self.ask('POST', self.session + '/se/log', {'type': 'browser'})]

@@ -8,7 +8,8 @@
   const FEW_CONTACTS = 8; // all of which are in the table, else those that touch
   const MOST_CONTACTS = 40; // in the table
   const SECONDS = 12; // of a path that is played
-  const CONFIG = {responsive: true, displaylogo: false, modeBarButtonsToRemove: ['select2d', 'lasso2d', 'toImage']};
+  const CONFIG = {responsive: true, displaylogo: false, showSendToCloud: false, plotlyServerURL: '',
+    modeBarButtonsToRemove: ['select2d', 'lasso2d']};
   const data = JSON.parse(document.getElementById('data').textContent);
   const element = (id) => document.getElementById(id);
   let number = 0; // of the path that the slider moves
