@@ -9,7 +9,7 @@ from typing import List, Sequence
 import numpy as np
 
 from contact_path import page_curves, page_shapes
-from contact_path.page_arrays import Entry
+from contact_path.page_arrays import Entry, plain
 from contact_path.page_points import Points
 from contact_path.path import Path
 from contact_path.path_marks import default_quantity, kinds_marked
@@ -71,7 +71,7 @@ def evenly(count: int, most: int) -> np.ndarray:
 
 def path_data(path: Path, rows: np.ndarray, points: Points | None, x: str, y: str) -> Entry:
     """What the slider moves and tells. `structure`: null without a scene."""
-    return {'title': path.title, 'steps': len(rows), 'increments': len(path), 'columns': page_curves.columns(path, rows, x, y),
+    return {'title': path.title, 'steps': len(rows), 'increments': len(path), 'indices': plain(path['index'][rows], '<i4'), 'columns': page_curves.columns(path, rows, x, y),
             'headings': page_curves.headings(path, rows), 'end': path.message,
             'structure': page_shapes.structure_of(path, rows, points.structure, points) if points is not None else None}
 

@@ -17,32 +17,50 @@ PATH_AXES = {'xaxis': 'x', 'yaxis': 'y'}
 ENERGY_AXES = {'xaxis': 'x2', 'yaxis': 'y2'}
 GRID = '#ebebeb'
 MOST_BRANCHES = 6  # of an event, in the text beside it
+FEW_PATHS = 3  # the first ones are broad: they show below the later ones
+MARGIN = 0.05  # beside the curves, of their range
 
 
 def colour(number: int) -> str:
     return COLOURS[number % len(COLOURS)]
 
 
+def width(number: int, count: int) -> float:
+    """Of the line of a path, in pixels."""
+    return 2.0 + 2.5 * (count - 1 - number) / max(count - 1, 1) if count <= FEW_PATHS else 2.0
+
+
 def figure(paths: Sequence[Path], steps: Sequence[np.ndarray], x: str, y: str) -> Entry:
     """Traces and layout. steps: for each path the rows that the slider goes through."""
     traces: List[Entry] = []
     for number, path in enumerate(paths):
-        traces += path_traces(path, number, len(paths) > 1, x, y)
-        traces += energy_traces(path, number, len(paths) > 1)
+        traces += path_traces(path, number, len(paths), x, y)
+        traces += energy_traces(path, number, len(paths))
     traces += mark_legend(paths)
     for number, (path, rows) in enumerate(zip(paths, steps)):
         traces += step_traces(path, rows, number, x, y)
-    return {'data': traces, 'layout': layout(x, y)}
+    return {'data': traces, 'layout': layout(paths, x, y)}
 
 
-def layout(x: str, y: str) -> Entry:
-    axis = {'gridcolor': GRID, 'zerolinecolor': '#999999', 'automargin': True}
-    return {'xaxis': {**axis, 'title': {'text': label(x)}, 'anchor': 'y'},
-            'yaxis': {**axis, 'title': {'text': label(y)}, 'domain': [0.4, 1.0]},
-            'xaxis2': {**axis, 'title': {'text': label('arc_length')}, 'anchor': 'y2'},
-            'yaxis2': {**axis, 'title': {'text': 'energy [force length]'}, 'domain': [0.0, 0.27]},
+def layout(paths: Sequence[Path], x: str, y: str) -> Entry:
+    def axis(text: str, values: Sequence[np.ndarray], **more: Any) -> Entry:
+        return {'gridcolor': GRID, 'zerolinecolor': '#999999', 'automargin': True, 'title': {'text': text},
+                'range': limits(np.concatenate(values)), **more}
+
+    since_start = [values for path in paths for values in energies(path).values()]
+    return {'xaxis': axis(label(x), [path.quantity(x) for path in paths], anchor='y'),
+            'yaxis': axis(label(y), [path.quantity(y) for path in paths], domain=[0.4, 1.0]),
+            'xaxis2': axis(label('arc_length'), [path['arc_length'] for path in paths], anchor='y2'),
+            'yaxis2': axis('energy [force length]', since_start, domain=[0.0, 0.27]),
             'legend': {'orientation': 'h', 'yanchor': 'top', 'y': -0.13, 'x': 0.0},
             'margin': {'l': 70, 'r': 15, 't': 32, 'b': 45}, 'hovermode': 'closest', 'plot_bgcolor': '#ffffff'}
+
+
+def limits(values: np.ndarray) -> List[float]:
+    """Of an axis."""
+    low, high = float(np.nanmin(values)), float(np.nanmax(values))
+    margin = MARGIN * (high - low) or 0.5 * abs(high) or 1.0
+    return [low - margin, high + margin]
 
 
 def drawn_line(values: np.ndarray, axes: Entry, **style: Any) -> Entry:
@@ -51,11 +69,12 @@ def drawn_line(values: np.ndarray, axes: Entry, **style: Any) -> Entry:
             **axes, **style}
 
 
-def path_traces(path: Path, number: int, several: bool, x: str, y: str) -> List[Entry]:
+def path_traces(path: Path, number: int, count: int, x: str, y: str) -> List[Entry]:
     """The line and its critical points; of several paths these are in the colour of the line."""
+    several = count > 1
     rows, places = points(path, x, y)
     traces = [drawn_line(line(path, rows, places), PATH_AXES, name=path.title, showlegend=several, legendgroup='path%d' % number,
-                         line={'color': colour(number) if several else '#333333', 'width': 2})]
+                         line={'color': colour(number) if several else '#333333', 'width': width(number, count)})]
     kinds = kinds_marked(path)[rows]
     for kind, (_, own) in MARKS.items():
         at = places[kinds == kind]
@@ -87,12 +106,13 @@ def energies(path: Path) -> Dict[str, np.ndarray]:
     return {name: path[name] - path[name][0] for name, _, _ in ENERGIES if name in path}
 
 
-def energy_traces(path: Path, number: int, several: bool) -> List[Entry]:
+def energy_traces(path: Path, number: int, count: int) -> List[Entry]:
     """A colour for each energy, or for each path where there are several."""
+    several = count > 1
     since_start = energies(path)
     return [drawn_line(np.column_stack((path['arc_length'], since_start[name])), ENERGY_AXES, name=text,
                        legendgroup='path%d' % number if several else name, showlegend=not several,
-                       line={'color': colour(number) if several else own, 'dash': DASHES[name], 'width': 1.7})
+                       line={'color': colour(number) if several else own, 'dash': DASHES[name], 'width': width(number, count)})
             for name, text, own in ENERGIES if name in since_start]
 
 

@@ -51,7 +51,13 @@
   // A trace whose places are arrays.
   const decoded = (trace) => trace.x.bdata ? {...trace, x: plain(trace.x), y: plain(trace.y)} : trace;
 
-  const digits = (value, count) => Number.isFinite(value) ? String(Number(value.toPrecision(count))) : '';
+  function digits(value, count) {
+    if (!Number.isFinite(value)) {
+      return '';
+    }
+    const [mantissa, exponent] = value.toExponential(count - 1).split('e');
+    return Math.abs(value) >= 1e-3 || value === 0 ? String(Number(value.toPrecision(count))) : `${Number(mantissa)}e${exponent}`;
+  }
 
   // The structure of a path: traces, and for a step what changes in them.
 
@@ -192,6 +198,7 @@
       row.append(...cells.map((content) => {
         const cell = document.createElement(kind);
         cell.append(...[].concat(content));
+        cell.title = cell.textContent;
         return cell;
       }));
       return row;
@@ -307,7 +314,8 @@
     element('slider').addEventListener('input', () => { stop(); step = Number(element('slider').value); update(); });
     element('play').addEventListener('click', () => element('play').textContent === '\u25b6' ? play() : stop());
     await drawCurves();
-    await choose(0, 0);
+    const wanted = Number(location.hash.slice(1)); // page.html#40: at increment 40
+    await choose(0, Math.max(0, plain(data.paths[0].indices).findLastIndex((index) => index <= wanted)));
   }
 
   window.page = {data, choose, ready: begin()};
