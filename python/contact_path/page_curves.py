@@ -1,7 +1,7 @@
 """The curves of a page as data for plotly.js: a quantity against another with the critical points, and the energies."""
 from __future__ import annotations
 
-from typing import Any, Dict, List, Sequence
+from typing import Any, Dict, List, Mapping, Sequence
 
 import numpy as np
 
@@ -16,7 +16,7 @@ DASHES = {'strain_energy': 'solid', 'dissipation': 'dash', 'external_work': 'dot
 PATH_AXES = {'xaxis': 'x', 'yaxis': 'y'}
 ENERGY_AXES = {'xaxis': 'x2', 'yaxis': 'y2'}
 GRID = '#ebebeb'
-MOST_BRANCHES = 6  # of an event, in the text beside it
+MOST_BRANCHES, MOST_CHANGES = 6, 3  # of an event, and of states on a branch, in the text beside it
 FEW_PATHS = 3  # the first ones are broad: they show below the later ones
 MARGIN = 0.05  # beside the curves, of their range
 
@@ -145,16 +145,20 @@ def headings(path: Path, rows: np.ndarray) -> List[str]:
         text = 'increment %d: %s' % (index, MARKS[kinds[row]][0] if kinds[row] in MARKS else 'regular')
         if stages:
             text += ', ' + stages[path['stage'][row] - 1]
-        found.append('<br>'.join([text] + branch_lines(events[index])) if index in events else text)
+        if index in events:
+            before = {contact: path['state_' + contact][row] for contact in path.contacts}
+            text = '<br>'.join([text] + branch_lines(events[index], before))
+        found.append(text)
     return found
 
 
-def branch_lines(event: Entry) -> List[str]:
-    """The branches of an event, the one that was taken first with a star."""
+def branch_lines(event: Entry, before: Mapping[str, str]) -> List[str]:
+    """The branches of an event, a star at the one that was taken, and the states that differ on them from those before."""
     lines = []
     for number, branch in enumerate(event['branches'], 1):
-        states = ', '.join('%s %s' % item for item in branch['states'].items() if item[1] != 'open')
+        changes = ['%s %s' % item for item in branch['states'].items() if item[1] != before[item[0]]]
+        more = ['%d more' % (len(changes) - MOST_CHANGES)] if len(changes) > MOST_CHANGES else []
         lines.append('%sbranch %d: %s' % ('* ' if number == event['taken'] else '', number,
-                                          states if len(states) <= 80 else states[:77] + '...'))
+                                          ', '.join(changes[:MOST_CHANGES] + more) or 'all states stay'))
     more = len(lines) - MOST_BRANCHES
     return ['event %d' % event['number']] + lines[:MOST_BRANCHES] + (['%d more branches' % more] if more > 0 else [])

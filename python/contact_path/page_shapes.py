@@ -53,11 +53,12 @@ def decimals(span: float) -> int:
 
 def layout(view: View) -> Entry:
     axis = {'gridcolor': '#f2f2f2', 'zeroline': False, 'automargin': True}
-    told = 'longest arrow: %.3g [force]' % (LONGEST_ARROW * view.size / view.length_per_force) if view.has_forces else ''
+    told = ['longest arrow: %.3g [force]' % (LONGEST_ARROW * view.size / view.length_per_force)] if view.has_forces else []
+    told += ['strain energy per volume [force/length^2]'] if view.energy > 0.0 else []
     return {'xaxis': {**axis, 'range': [view.low[0], view.high[0]], 'title': {'text': 'x [length]'}, 'constrain': 'domain'},
             'yaxis': {**axis, 'range': [view.low[1], view.high[1]], 'title': {'text': 'y [length]'}, 'scaleanchor': 'x',
                       'constrain': 'domain'},
-            'annotations': [{'text': told, 'xref': 'paper', 'yref': 'paper', 'x': 0.0, 'y': 1.0, 'xanchor': 'left',
+            'annotations': [{'text': ', '.join(told), 'xref': 'paper', 'yref': 'paper', 'x': 0.0, 'y': 1.0, 'xanchor': 'left',
                              'yanchor': 'bottom', 'showarrow': False, 'font': {'size': 12}}],
             'legend': {'orientation': 'h', 'yanchor': 'top', 'y': -0.12, 'x': 0.0},
             'margin': {'l': 60, 'r': 15, 't': 32, 'b': 45}, 'hovermode': 'closest', 'plot_bgcolor': '#ffffff'}
@@ -152,7 +153,7 @@ def class_colour(number: int) -> str:
 def class_entry(number: int, energy: float) -> Entry:
     """Of the legend."""
     low, high = (energy * (share / CLASSES) ** 2 for share in (number, number + 1))
-    return {**legend_entry('strain energy %.2g to %.2g [force/length^2]' % (low, high)), 'mode': 'markers',
+    return {**legend_entry('energy %.2g to %.2g' % (low, high)), 'mode': 'markers',
             'marker': {'symbol': 'square', 'size': MARK, 'color': class_colour(number), 'line': {'color': BARS, 'width': 0.5}}}
 
 

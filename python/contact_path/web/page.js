@@ -225,8 +225,9 @@
   }
 
   function tell(path) {
-    element('heading').replaceChildren(...path.headings[step].split('<br>').flatMap((line, i) =>
-      i ? [document.createElement('br'), line] : [line]));
+    const [heading, ...branches] = path.headings[step].split('<br>');
+    element('heading').textContent = heading;
+    element('branches').replaceChildren(...branches.flatMap((line) => [line, document.createElement('br')]));
     fillTable(element('values'), path.values(step).map((row) => ['td', ...row]));
     const contacts = path.unpacked && path.unpacked.contacts;
     fillTable(element('contacts'), contacts ? contactRows(contacts) : []);
