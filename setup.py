@@ -2,4 +2,5 @@
 from catkin_pkg.python_setup import generate_distutils_setup
 from setuptools import setup
 
-setup(**generate_distutils_setup(packages=['contact_path'], package_dir={'': 'python'}))
+setup(**generate_distutils_setup(packages=['contact_path'], package_dir={'': 'python'},
+                                 package_data={'contact_path': ['web/*']}))

@@ -167,3 +167,13 @@ class Path:
 
         return plot_figure.draw([self], x, y, states=states, energy=energy, shapes=shapes, at=at, increments=increments,
                                 file=file)
+
+    def page(self, file: str | os.PathLike[str], x: str | None = None, y: str = 'load_factor') -> None:
+        """Writes the path as a page for browsers, one file that needs no network: the curve and the energies with values under
+        the pointer, and with a scene the deformed structure, moved by a slider.
+
+        x, y: as of plot(). ValueError: what cannot be drawn. OSError: the file cannot be written.
+        """
+        from contact_path import page  # it needs this module
+
+        page.write([self], file, x, y)

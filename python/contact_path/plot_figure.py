@@ -11,7 +11,9 @@ from matplotlib.figure import Figure
 
 from contact_path import plot_panels, plot_shapes
 from contact_path.path import Path
+from contact_path.path_marks import default_quantity
 from contact_path.scene_arrays import Structure
+from contact_path.shapes import Shape, View
 
 # Of the figure, in inches.
 WIDTH, WIDTH_WITH_SHAPES = 8.5, 11.0
@@ -79,9 +81,9 @@ def add_shapes(page: Page, paths: Sequence[Path], chosen: Chosen) -> None:
     groups = []
     for path, (rows, left_out) in zip(paths, chosen):
         structure = Structure(path.scene)
-        groups.append((path, [plot_shapes.Shape(structure, path.row(row)) for row in rows], left_out))
+        groups.append((path, [Shape(structure, path.row(row)) for row in rows], left_out))
     shapes = [shape for _, group, _ in groups for shape in group]
-    view = plot_shapes.View(shapes)
+    view = View(shapes)
     room = page.width - page.left - RIGHT + SHAPE_GAP
     columns = columns_of(max(len(group) for _, group, _ in groups), room, view.aspect)
     width = min(room / columns - SHAPE_GAP, TALLEST_SHAPE / view.aspect)
@@ -136,7 +138,7 @@ def draw(paths: Sequence[Path], x: str | None = None, y: str = 'load_factor', *,
     """
     if not all(map(len, paths)):
         raise ValueError('no increments')
-    x = x or plot_panels.default_quantity(paths[0])
+    x = x or default_quantity(paths[0])
     chosen = []
     for path, source in zip(paths, sources or [path.title or 'path' for path in paths]):
         try:

@@ -9,26 +9,14 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Rectangle
 
 from contact_path.path import Path
-from contact_path.path_curve import line_through
+from contact_path.path_marks import COLOURS, ENERGIES, MARKS, STATES, kinds_marked, line, points
 from contact_path.path_quantities import label
 
-# Kinds that are marked: label, marker, colour.
-MARKS = {
-    'start': ('start', 'o', 'black'),
-    'smooth_limit': ('smooth limit point', 's', 'tab:red'),
-    'corner_limit': ('corner limit point', '^', 'tab:purple'),
-    'contact_event': ('contact event', 'D', 'tab:green'),
-    'bifurcation': ('bifurcation', '*', 'tab:orange'),
-    'stage_end': ('end of a stage', 'X', '0.3'),
-}
+MARKERS = {'start': 'o', 'smooth_limit': 's', 'corner_limit': '^', 'contact_event': 'D', 'bifurcation': '*', 'stage_end': 'X'}
+ENERGY_DASHES = {'strain_energy': '-', 'dissipation': '--', 'external_work': ':'}
+EDGE = '0.35'  # around fields in the colours of contact states
 
-# Colours of the contact states: they differ for those who see no red or no green, too.
-STATES = {'open': 'white', 'stick': '#d55e00', 'slip+': '#f0c000', 'slip-': '#56b4e9', 'closed': '#009e73'}
-EDGE = '0.35'  # around fields in these colours
-
-# Of lines where there are several paths: told apart by colour and dashes together. Colours differ for those who see no red
-# or no green, too.
-COLOURS = ('#0072b2', '#d55e00', '#009e73', '#cc79a7', '#56b4e9', '#e69f00', '0.2', '#7b4b2a', '#6a3d9a', '0.6')
+# Of lines where there are several paths: told apart by colour and dashes together.
 DASHES = ('-', (0, (6, 2)), (0, (1.5, 1.5)), (0, (6, 2, 1.5, 2)), (0, (3, 1, 3, 1, 1, 1)), (0, (9, 2, 3, 2)))
 FEW_PATHS = 3  # drawn over each other, the first ones broad; more of them are numbered
 SAMPLES = 100  # points of a line, for the place of its number
@@ -39,16 +27,6 @@ MOST_CONTACTS = 40  # from here on, contacts that stay open all along get no bar
 TALLEST_STATES = 7.0  # inches of bars, and of one:
 TALLEST_BAR = 0.3
 NEAR = 30.0  # points: increments as near as this on the figure share a label
-
-
-def default_quantity(path: Path) -> str:
-    """The coordinate that moves most; one that is free where that is known."""
-    nodes = [(node, axis) for node in path.nodes for axis in 'xy']
-    if path.scene is not None:
-        held = {(node['name'], axis) for node in path.scene.request['scene'].get('nodes', ()) for axis in 'xy'
-                if node.get('fixed_' + axis)}
-        nodes = [coordinate for coordinate in nodes if coordinate not in held] or nodes
-    return '%s.%s' % max(nodes, key=lambda coordinate: np.ptp(path['%s_%s' % coordinate[::-1]][path.full]))
 
 
 def draw_path(axes: Axes, paths: Sequence[Path], x: str, y: str, numbered: Sequence[Sequence[int]] = ()) -> None:
@@ -68,11 +46,13 @@ def draw_path(axes: Axes, paths: Sequence[Path], x: str, y: str, numbered: Seque
             axes.plot(*line(path, rows, places).T, label=text, **style)
         else:
             draw_stages(axes, path, line(path, rows, places))
-        for kind, (_, marker, colour) in MARKS.items():
+        for kind, (_, colour) in MARKS.items():
+            marker = MARKERS[kind]
             axes.scatter(*places[marked[number][rows] == kind].T, marker=marker, zorder=20 + number,
                          color=style['color'] if several else colour, edgecolors='white', linewidths=0.6,
                          s=(1.8 - 0.8 * (number + 1) / len(paths)) * size * (2 if marker == '*' else 1))
-    for kind, (text, marker, colour) in MARKS.items():
+    for kind, (text, colour) in MARKS.items():
+        marker = MARKERS[kind]
         count = sum(int(np.sum(kinds == kind)) for kinds in marked)
         if count:
             axes.scatter([], [], marker=marker, color='0.4' if several else colour, s=130 if marker == '*' else 65,
@@ -123,26 +103,6 @@ def draw_stages(axes: Axes, path: Path, points_of_line: np.ndarray) -> None:
     for number, (begin, end) in enumerate(zip(cuts, cuts[1:])):
         text = stages[number] if number < MOST_LISTED else '... %d stages' % len(stages) if number == MOST_LISTED else None
         axes.plot(*points_of_line[begin:end].T, label=text, **{**line_style(number, len(stages)), 'alpha': 1.0})
-
-
-def kinds_marked(path: Path) -> np.ndarray:
-    """(n,) as MARKS has them: the last increment of a stage of a program is marked unless it is critical itself."""
-    if 'stage' not in path:
-        return path['kind']
-    ends = np.append(path['kind'][1:] == 'start', True)
-    return np.where(ends & (path['kind'] == 'regular'), 'stage_end', path['kind'])
-
-
-def points(path: Path, x: str, y: str) -> Tuple[np.ndarray, np.ndarray]:
-    """Numbers (m,) of the rows that carry both quantities, and their values (m, 2)."""
-    both = np.column_stack((path.quantity(x), path.quantity(y)))
-    rows = np.flatnonzero(~np.isnan(both).any(axis=1))
-    return rows, both[rows]
-
-
-def line(path: Path, rows: np.ndarray, places: np.ndarray) -> np.ndarray:
-    """Points (k, 2) of the line through the places of these rows."""
-    return line_through(path['arc_length'][rows], path['kind'][rows], places)
 
 
 def draw_legend(axes: Axes) -> np.ndarray:
@@ -279,27 +239,23 @@ def short(name: str) -> str:
     return name if len(name) <= 24 else name[:11] + '...' + name[-10:]
 
 
-# Energies: column, label, style and colour of the line. A CSV has no external work.
-ENERGIES = (('strain_energy', 'strain energy since the start', '-', 'tab:blue'),
-            ('dissipation', 'dissipation', '--', 'tab:orange'), ('external_work', 'external work', ':', 'black'))
-
-
 def draw_energies(axes: Axes, paths: Sequence[Path], arc_length: float) -> None:
     """A colour for each energy; where there are several paths, for each path."""
     several = len(paths) > 1
     for number, path in enumerate(paths):
         arc = path['arc_length']
-        for name, text, dashes, colour in ENERGIES:
+        for name, text, colour in ENERGIES:
             if name not in path:
                 continue
+            dashes = ENERGY_DASHES[name]
             style = {**line_style(number, len(paths)), 'linestyle': dashes} if several else {'color': colour, 'linestyle': dashes}
             axes.plot(arc, path[name] - path[name][0], label=None if several else text, **style)
     if several:
         for number, path in enumerate(paths):
             axes.plot([], [], label=path.title, **{**line_style(number, len(paths)), 'linestyle': '-'})
-        for name, text, dashes, _ in ENERGIES:
+        for name, text, _ in ENERGIES:
             if any(name in path for path in paths):
-                axes.plot([], [], color='0.4', linestyle=dashes, label=text)
+                axes.plot([], [], color='0.4', linestyle=ENERGY_DASHES[name], label=text)
     axes.set_xlim(0.0, arc_length)
     axes.set_xlabel(label('arc_length'), fontsize=12)
     axes.set_ylabel('energy [force length]', fontsize=12)

@@ -13,80 +13,20 @@ from matplotlib.patches import Patch
 from matplotlib.path import Path as Outline
 from matplotlib.patheffects import withStroke
 
-from contact_path.obstacle_curves import Boundary, Placement
 from contact_path.path import LIMITS, Path
-from contact_path.plot_panels import MARKS, STATES, free_direction, text_box
-from contact_path.scene_arrays import Row, Structure
+from contact_path.path_marks import MARKS, STATES
+from contact_path.plot_panels import free_direction, text_box
+from contact_path.shapes import (BARS, CONSTANT_LOAD, FEW_NODES, FULL_TURN, HATCH_DEPTH, INITIAL, LOAD, LONGEST_ARROW, MANY_MARKS,
+                                 MANY_NODES, MOMENT_RADIUS, OBSTACLE, REACTION, SHORTEST_ARROW, SOLID_COLOURS, Curve, Shape, View,
+                                 hatched_line, hatching, turned_arrow)
 
 MOST = 9  # shapes that are chosen where nothing is said
 MOST_WANTED = 24  # shapes in a figure
 KINDS_AT = {'events': ('corner_limit', 'contact_event'), 'limits': LIMITS, 'all': tuple(MARKS)}
 
-BARS, INITIAL, REACTION, LOAD, CONSTANT_LOAD, OBSTACLE = '#44546a', '0.8', '#b2182b', '#2166ac', '#7fb3d5', '0.45'
-SOLID_COLOURS = LinearSegmentedColormap.from_list('solids', ['#e8ecf2', '#f4b183', '#9c2f13'])
-LONGEST_ARROW = 0.2  # of the size of the structure
-SHORTEST_ARROW = 0.01  # shorter ones are not drawn
 ARROW_WIDTH = 0.022  # of the shaft, in inches
-FULL_TURN = 1.5 * math.pi  # of the arrow of a moment that is as large as the largest force at a distance of the size
-MOMENT_RADIUS = 0.07  # of the size
-MOMENT_HEAD, MOMENT_HEAD_WIDTH = 0.6, 0.5  # of the radius
-STEPS = 24  # lines of the arrow of a moment
-HATCH_DEPTH = 0.06  # behind the boundary of an obstacle, of the size
-SUPPORT_DEPTH = 0.1  # kept free for supports, of the size
-NEAR = 0.15  # a gap as small as this, of the size, brings the obstacle into view
-REACH = 0.3  # of the size: as far from the structure a curve is in view
-FEW_CONTACTS, FEW_NODES = 6, 12  # as few show the parts of their reactions and their names
-MANY_NODES, MANY_MARKS = 100, 30  # from here on they are small
-FLATTEST, STEEPEST = 0.22, 1.25  # height over width of a shape
-
-
-class Curve:
-    """The boundary of an obstacle that is no half plane, or that turns, in its place: points and normals (m, 2). Of a half
-    plane two points at the distance 1."""
-
-    def __init__(self, boundary: Boundary, placement: Placement) -> None:
-        if boundary.flat:
-            tangent = np.array([boundary.normal[1], -boundary.normal[0]])
-            points, normals = [boundary.point, boundary.point + tangent], [boundary.normal, boundary.normal]
-        else:
-            points, normals = boundary.outline.points, boundary.outline.normals
-        self.points, self.normals = placement.points(points), placement.vectors(normals)
-
-
-class Shape:
-    """The structure in an increment of the path. Loads (n, 2), moments (n,) on the nodes; reactions (k, 2) on the contacts."""
-
-    def __init__(self, structure: Structure, increment: Row) -> None:
-        self.structure = structure
-        self.increment = increment
-        self.places = structure.positions(increment)
-        self.states = [increment['state_' + name] for name in structure.contacts]
-        self.gaps = structure.of_contacts(increment, 'gap_')
-        rn = structure.of_contacts(increment, 'rn_')[:, None]
-        placements = {name: structure.placement(name, increment) for name in structure.obstacles}
-        self.normals = structure.contact_normals(self.places, placements)
-        self.tangents = np.column_stack((self.normals[:, 1], -self.normals[:, 0]))
-        self.normal_parts = rn * self.normals
-        self.tangential_parts = structure.of_contacts(increment, 'rt_')[:, None] * self.tangents
-        self.reactions = self.normal_parts + self.tangential_parts
-        self.cone = structure.friction[:, None] * rn * self.tangents  # half of its base
-        self.touching = self.places[structure.contact_nodes]
-        self.stage = structure.stages[structure.stage_index(increment)].name
-        loads, constant = structure.loads_by_stage(increment)
-        self.loads, self.constant_loads = loads[:, :2], constant[:, :2]
-        self.moments, self.constant_moments = loads[:, 2], constant[:, 2]
-        self.beams = structure.beams.curves(self.places, structure.rotations(increment))
-        self.energies = [solid.energies(structure.initial, self.places) for solid in structure.solids]
-        self.obstacles = {name: placements[name].points(boundary.point) for name, boundary in structure.obstacles.items()}
-        self.curves = {name: Curve(boundary, placements[name]) for name, boundary in structure.obstacles.items()
-                       if name not in structure.normals}
-
-    def forces(self) -> Tuple[Tuple[np.ndarray, np.ndarray], ...]:
-        """(place, force) of all arrows, each (., 2)."""
-        return ((self.touching, self.reactions), (self.places, self.loads), (self.places, self.constant_loads))
-
-    def has_moments(self) -> np.ndarray:
-        return (self.moments != 0.0) | (self.constant_moments != 0.0)
+FEW_CONTACTS = 6  # as few show the parts of their reactions
+COLOUR_MAP = LinearSegmentedColormap.from_list('solids', SOLID_COLOURS)
 
 
 def at_kinds(path: Path, at: str | None) -> Tuple[List[int], int]:
@@ -120,83 +60,13 @@ def by_index(path: Path, indices: Sequence[int | str]) -> List[int]:
     return shown
 
 
-class View:
-    """What all shapes of a figure have in common: what is seen, the scale of the arrows, the extent of obstacles."""
-
-    def __init__(self, shapes: Sequence[Shape]) -> None:
-        places = np.vstack([part for shape in shapes
-                            for part in (shape.places, shape.structure.initial, shape.beams.reshape(-1, 2))])
-        low, high = places.min(axis=0), places.max(axis=0)
-        self.size = max(high - low)
-        if self.size <= 1e-9 * np.abs(places).max():
-            self.size = 1.0  # one node that does not move
-        largest = max([np.hypot(*force.T).max() for shape in shapes for _, force in shape.forces() if len(force)])
-        self.has_forces = largest > 0.0
-        largest = max([largest] + [np.abs(moments).max() / self.size for shape in shapes
-                                   for moments in (shape.moments, shape.constant_moments)])
-        self.energy = max([energies.max() for shape in shapes for energies in shape.energies], default=0.0)
-        self.length_per_force = LONGEST_ARROW * self.size / largest if largest > 0.0 else 0.0
-        self.full_moment = largest * self.size  # that turns its arrow by FULL_TURN
-        points = [places]
-        for shape in shapes:
-            around = shape.places[shape.has_moments()]
-            points += [around - MOMENT_RADIUS * self.size, around + MOMENT_RADIUS * self.size]
-            scale = self.length_per_force
-            points.append(shape.touching + scale * (shape.normal_parts + shape.cone))
-            points.append(shape.touching + scale * (shape.normal_parts - shape.cone))
-            points += [place + scale * force for place, force in shape.forces()]
-            depth = (np.maximum(shape.gaps, 0.0) + HATCH_DEPTH * self.size)[:, None]
-            points += [shape.places[[node]] + SUPPORT_DEPTH * self.size * direction
-                       for node, direction in shape.structure.supports.items()]
-            points.append((shape.touching - depth * shape.normals)[shape.gaps < NEAR * self.size])
-        near = REACH * self.size
-        for shape in shapes:
-            for curve in shape.curves.values():
-                points.append(curve.points[np.all((curve.points > low - near) & (curve.points < high + near), axis=1)])
-        points = np.vstack(points)
-        low, high = points.min(axis=0), points.max(axis=0)
-        margin = self.size * np.array([0.09, 0.07])
-        width, height = high - low + 2.0 * margin
-        more = 0.5 * np.array([max(height / STEEPEST - width, 0.0), max(FLATTEST * width - height, 0.0)])
-        self.low, self.high = low - margin - more, high + margin + more
-        self.aspect = (self.high - self.low)[1] / (self.high - self.low)[0]
-        self.obstacles = self.extents(shapes)
-
-    def sees(self, curve: Curve) -> bool:
-        return len(curve.points) == 2 or np.any(np.all((curve.points > self.low) & (curve.points < self.high), axis=1))
-
-    def extents(self, shapes: Sequence[Shape]) -> Dict[Tuple[str, Tuple[float, float]], Tuple[float, float]]:
-        """(name, normal) of the half planes in view -> (first, last), as far as they are drawn, along t. Nodes that are
-        no candidates may lie behind one; then it is drawn where its candidates are, otherwise across the view."""
-        extents: Dict[Tuple[str, Tuple[float, float]], Tuple[float, float]] = {}
-        corners = np.array([(x, y) for x in (self.low[0], self.high[0]) for y in (self.low[1], self.high[1])])
-        for name, normal in sorted({(name, tuple(normal)) for shape in shapes
-                                    for name, normal in shape.structure.normals.items()}):
-            bounded = [shape for shape in shapes if shape.structure.has(name, normal)]
-            above = np.array([(corners - shape.obstacles[name]).dot(normal) for shape in bounded])
-            if above.min() > 0.0 or above.max() < 0.0:  # out of view
-                continue
-            crossed = any(min((shape.places - shape.obstacles[name]).dot(normal).min(),
-                              (shape.structure.initial - shape.structure.obstacles[name].point).dot(normal).min())
-                          < -1e-6 * self.size for shape in bounded)
-            seen = corners
-            if crossed:
-                seen = np.concatenate([shape.touching[shape.structure.is_at(name, normal)] for shape in bounded])
-                if not len(seen):
-                    continue
-            along = seen.dot((normal[1], -normal[0]))
-            margin = 0.06 * self.size
-            extents[name, normal] = (along.min() - margin, along.max() + margin)
-        return extents
-
-
 def draw(axes: Axes, shape: Shape, view: View, size: Tuple[float, float], named: bool) -> None:
     """size: of the panel, in inches; named: with the names of the nodes, if they are few."""
     structure = shape.structure
     many = len(structure.names) > MANY_NODES
     for (name, normal), (first, last) in view.obstacles.items():
         if structure.has(name, normal):
-            draw_obstacle(axes, shape.obstacles[name], np.array(normal), first, last, HATCH_DEPTH * view.size)
+            draw_obstacle(axes, *hatched_line(shape.obstacles[name], np.array(normal), first, last, HATCH_DEPTH * view.size))
     for curve in shape.curves.values():
         draw_curve(axes, curve, view, HATCH_DEPTH * view.size)
     draw_solids(axes, shape, view)
@@ -206,10 +76,7 @@ def draw(axes: Axes, shape: Shape, view: View, size: Tuple[float, float], named:
         draw_lines(axes, lines, color=INITIAL, linewidth=0.7 * width, zorder=1)
     for lines in shape.places[structure.bars], shape.beams:
         draw_lines(axes, lines, color=BARS, linewidth=width, zorder=3)
-    for nodes, rest in structure.superelements:
-        hub = shape.places[nodes].mean(axis=0)
-        if len(nodes) == 1:
-            hub = rest if len(rest) else structure.initial[nodes[0]]
+    for (nodes, _), hub in zip(structure.superelements, shape.hubs):
         draw_lines(axes, [(hub, shape.places[node]) for node in nodes], color=BARS, linewidth=1.2, linestyle='--',
                    zorder=3)
     if not many:
@@ -236,7 +103,7 @@ def draw_solids(axes: Axes, shape: Shape, view: View) -> None:
         axes.add_collection(PolyCollection(shape.structure.initial[solid.boundaries], facecolors='none',
                                            edgecolors=INITIAL, linewidths=width, zorder=1))
         shares = np.clip(energies / view.energy, 0.0, 1.0) if view.energy > 0.0 else np.zeros(len(energies))
-        axes.add_collection(PolyCollection(shape.places[solid.boundaries], facecolors=SOLID_COLOURS(np.sqrt(shares)),
+        axes.add_collection(PolyCollection(shape.places[solid.boundaries], facecolors=COLOUR_MAP(np.sqrt(shares)),
                                            edgecolors=BARS, linewidths=width, zorder=3))
 
 
@@ -247,33 +114,17 @@ def draw_lines(axes: Axes, lines: Any, **style: Any) -> None:
         axes.plot(*np.concatenate((lines, gaps), axis=1).reshape(-1, 2).T, **style)
 
 
-def draw_obstacle(axes: Axes, point: np.ndarray, normal: np.ndarray, first: float, last: float, depth: float) -> None:
-    """The boundary from first to last along t, and strokes on the side that is not admissible."""
-    tangent = np.array([normal[1], -normal[0]])
-    origin = point.dot(normal) * normal
-    strokes = max(1, round((last - first) / (0.4 * depth)))
-    feet = origin + np.linspace(first, last, strokes + 1)[1:, None] * tangent
-    draw_lines(axes, np.stack((feet, feet - depth * (normal + tangent)), axis=1), color=OBSTACLE, linewidth=0.6,
-               zorder=0)
-    draw_lines(axes, [(origin + first * tangent, origin + last * tangent)], color=OBSTACLE, linewidth=1.2, zorder=0)
+def draw_obstacle(axes: Axes, boundary: np.ndarray, strokes: np.ndarray) -> None:
+    draw_lines(axes, strokes, color=OBSTACLE, linewidth=0.6, zorder=0)
+    draw_lines(axes, [boundary], color=OBSTACLE, linewidth=1.2, zorder=0)
 
 
 def draw_curve(axes: Axes, curve: Curve, view: View, depth: float) -> None:
-    """A boundary that is no straight line, or turns: as draw_obstacle does it, as far as it is in view."""
-    points, normals = curve.points, curve.normals
-    if len(points) == 2:  # a half plane, as far as the view reaches
-        tangent = points[1] - points[0]
-        middle = points[0] + (0.5 * (view.low + view.high) - points[0]).dot(tangent) * tangent
-        reach = np.hypot(*(view.high - view.low))
-        points = middle + reach * np.array([-tangent, tangent])
-    xi = np.concatenate(([0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))))
-    strokes = max(1, round(xi[-1] / (0.4 * depth)))
-    at = np.linspace(0.0, xi[-1], strokes + 1)[1:]
-    feet, inwards = (np.stack([np.interp(at, xi, column) for column in values.T], axis=1) for values in (points, normals))
-    ends = feet - depth * (inwards + np.column_stack((inwards[:, 1], -inwards[:, 0])))
-    seen = np.all((feet > view.low - depth) & (feet < view.high + depth), axis=1)
-    draw_lines(axes, np.stack((feet, ends), axis=1)[seen], color=OBSTACLE, linewidth=0.6, zorder=0)
-    draw_lines(axes, [points], color=OBSTACLE, linewidth=1.2, zorder=0)
+    """A boundary that is no straight line, or turns, as far as it is in view."""
+    points, normals = curve.across(view.low, view.high)
+    strokes = hatching(points, normals, depth)
+    feet = strokes[:, 0]
+    draw_obstacle(axes, points, strokes[np.all((feet > view.low - depth) & (feet < view.high + depth), axis=1)])
 
 
 # Tips at the node, which lies above.
@@ -334,19 +185,6 @@ def draw_arrows(axes: Axes, view: View, places: np.ndarray, forces: np.ndarray, 
         arrows(axes, places[long], view.length_per_force * forces[long], **style)
 
 
-def turned_arrow(centre: np.ndarray, radius: float, turn: float) -> Tuple[np.ndarray, np.ndarray]:
-    """The arrow of a moment, its middle above the centre: the points of its shaft (., 2) and the corners of its head (3, 2)."""
-    end = 0.5 * (math.pi + turn)
-    neck = end - math.copysign(min(MOMENT_HEAD, 0.6 * abs(turn)), turn)
-
-    def at(angle: Any, share: float = 1.0) -> np.ndarray:
-        return centre + share * radius * np.stack((np.cos(angle), np.sin(angle)), axis=-1)
-
-    half = 0.5 * MOMENT_HEAD_WIDTH * abs(end - neck) / MOMENT_HEAD
-    return (at(np.linspace(0.5 * (math.pi - turn), neck, STEPS + 1)),
-            np.array([at(neck, 1.0 - half), at(end), at(neck, 1.0 + half)]))
-
-
 def draw_moments(axes: Axes, shape: Shape, view: View, moments: np.ndarray, **style: Any) -> None:
     if view.full_moment <= 0.0:
         return
@@ -388,22 +226,11 @@ def draw_forces(axes: Axes, shape: Shape, view: View) -> None:
 
 def draw_states(axes: Axes, shape: Shape, view: View) -> None:
     """A mark on each candidate for an obstacle in view. A node that touches two has two, one within the other."""
-    in_view = np.zeros(len(shape.states), dtype=bool)
-    for name, normal in view.obstacles:
-        in_view |= shape.structure.is_at(name, normal)
-    for i, name in enumerate(shape.structure.contact_obstacles):
-        in_view[i] |= name in shape.curves and view.sees(shape.curves[name])
-    area = 40.0 if in_view.sum() <= MANY_MARKS and len(shape.places) <= MANY_NODES else 20.0
-    drawn: Dict[int, int] = {}  # node -> marks
+    marks = view.layers(shape)
+    area = 40.0 if np.sum(marks >= 0) <= MANY_MARKS and len(shape.places) <= MANY_NODES else 20.0
     layers: Dict[Tuple[int, str], List[int]] = {}
-    closed_first = sorted(range(len(shape.states)), key=lambda i: shape.states[i] == 'open')
-    for i in closed_first:
-        node = shape.structure.contact_nodes[i]
-        layer = drawn.get(node, 0)
-        if shape.states[i] == 'open' and (layer or not in_view[i]):
-            continue
-        drawn[node] = layer + 1
-        layers.setdefault((layer, shape.states[i]), []).append(i)
+    for i in np.flatnonzero(marks >= 0):
+        layers.setdefault((marks[i], shape.states[i]), []).append(i)
     for (layer, state), contacts in sorted(layers.items()):
         axes.scatter(*shape.touching[contacts].T, s=area / (1.0 + 2.0 * layer), color=STATES[state], edgecolors='black',
                      linewidths=0.7 if area > 20.0 else 0.4, zorder=7 + layer)
@@ -450,7 +277,7 @@ def legend_handles(shapes: Sequence[Shape], view: View) -> List[Any]:
         handles.append(Line2D([], [], color=BARS, linewidth=1.2, linestyle='dashed', label='superelement'))
     if view.energy > 0.0:
         for share in (1.0, 0.25):
-            handles.append(Patch(facecolor=SOLID_COLOURS(math.sqrt(share)), edgecolor=BARS,
+            handles.append(Patch(facecolor=COLOUR_MAP(math.sqrt(share)), edgecolor=BARS,
                                  label='strain energy %.2g [force/length^2]' % (share * view.energy)))
     if view.obstacles:
         handles.append(Patch(facecolor='white', edgecolor=OBSTACLE, hatch='/////', linewidth=0.0, label='obstacle'))

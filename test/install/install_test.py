@@ -111,6 +111,7 @@ class InstallTest(unittest.TestCase):
                       '--bag', bag)
         self.assertIn('\nproved: ', self.run_here('rosrun', 'contact_path', 'verify', bag))
         self.run_here('rosrun', 'contact_path', 'plot', bag, '--states', '--energy')
+        self.run_here('rosrun', 'contact_path', 'plot', bag, '--html', os.path.join(self.directory, 'truss.html'))
         self.assertIn('scene:', self.run_here('rosrun', 'contact_path', 'contact_path_lattice', 'wall'))
         triangle = os.path.join(self.directory, 'triangle.msh')
         with open(triangle, 'w') as file:

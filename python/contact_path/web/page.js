@@ -1,0 +1,323 @@
+// Hands the data of the page to plotly.js, and moves them with the slider. Python has made the data: python/contact_path/page*.py.
+'use strict';
+(() => {
+  const TYPES = {f8: Float64Array, f4: Float32Array, i4: Int32Array, u2: Uint16Array, u1: Uint8Array};
+  const ABSENT = 65535; // code of a coordinate that is not there
+  const DIGITS = 10; // of values
+  const CONTACT_DIGITS = 6; // of values in single precision
+  const FEW_CONTACTS = 8; // all of which are in the table, else those that touch
+  const MOST_CONTACTS = 40; // in the table
+  const SECONDS = 12; // of a path that is played
+  const CONFIG = {responsive: true, displaylogo: false, showSendToCloud: false, plotlyServerURL: '',
+    modeBarButtonsToRemove: ['select2d', 'lasso2d']};
+  const data = JSON.parse(document.getElementById('data').textContent);
+  const element = (id) => document.getElementById(id);
+  let number = 0; // of the path that the slider moves
+  let step = 0;
+
+  // Arrays.
+
+  const bytes = (text) => Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
+  const plain = (array) => new TYPES[array.dtype](bytes(array.bdata).buffer);
+
+  async function unpacked(array) {
+    const stream = new Blob([bytes(array.zlib)]).stream().pipeThrough(new DecompressionStream('deflate'));
+    return new TYPES[array.dtype](await new Response(stream).arrayBuffer());
+  }
+
+  // Coordinates [steps][m] from the differences of their codes [m][steps].
+  async function trajectories(entry, steps) {
+    const low = plain(entry.low), unit = plain(entry.unit), differences = await unpacked(entry.codes);
+    const rows = Array.from({length: steps}, () => new Float64Array(low.length));
+    for (let i = 0; i < low.length; i++) {
+      for (let k = 0, code = 0; k < steps; k++) {
+        code = (code + differences[i * steps + k]) & 65535;
+        rows[k][i] = code === ABSENT ? NaN : low[i] + code * unit[i];
+      }
+    }
+    return rows;
+  }
+
+  // Places of points that a list names; not a number where the list has a gap.
+  function gather(places, list) {
+    const x = new Float64Array(list.length), y = new Float64Array(list.length);
+    for (let i = 0; i < list.length; i++) {
+      x[i] = list[i] < 0 ? NaN : places[2 * list[i]];
+      y[i] = list[i] < 0 ? NaN : places[2 * list[i] + 1];
+    }
+    return {x, y};
+  }
+
+  // A trace whose places are arrays.
+  const decoded = (trace) => trace.x.bdata ? {...trace, x: plain(trace.x), y: plain(trace.y)} : trace;
+
+  function digits(value, count) {
+    if (!Number.isFinite(value)) {
+      return '';
+    }
+    const [mantissa, exponent] = value.toExponential(count - 1).split('e');
+    return Math.abs(value) >= 1e-3 || value === 0 ? String(Number(value.toPrecision(count))) : `${Number(mantissa)}e${exponent}`;
+  }
+
+  // The structure of a path: traces, and for a step what changes in them.
+
+  async function unpackStructure(given, steps) {
+    const own = {...given, steps: await trajectories(given.points, steps), still: given.still.map(decoded)};
+    own.moving = given.moving.map((part) => {
+      const points = plain(part.points);
+      return {...part, points, names: Array.from(points, (point) => given.names[point] || '')};
+    });
+    own.obstacles = given.obstacles.map((part) => ({trace: decoded(part.trace), motion: part.motion &&
+      Object.fromEntries(Object.entries(part.motion).map(([name, values]) => [name, plain(values)]))}));
+    if (given.solids) {
+      own.solids = {...given.solids, boundaries: plain(given.solids.boundaries), classes: await unpacked(given.solids.classes)};
+    }
+    if (given.contacts) {
+      own.contacts = {...given.contacts, nodes: plain(given.contacts.nodes)};
+      for (const field of ['gap', 'rn', 'rt', 'layer', 'state']) {
+        own.contacts[field] = await unpacked(given.contacts[field]);
+      }
+    }
+    own.template = `%{text}<br>x %{x:.${given.decimals}f}<br>y %{y:.${given.decimals}f}<extra></extra>`;
+    return own;
+  }
+
+  function placedObstacle(part, at) {
+    const {angle, x, y} = part.motion, c = Math.cos(angle[at]), s = Math.sin(angle[at]);
+    const before = part.trace;
+    return {x: before.x.map((value, i) => c * value - s * before.y[i] + x[at]),
+      y: before.x.map((value, i) => s * value + c * before.y[i] + y[at])};
+  }
+
+  function elementsByClass(solids, places, at) {
+    const width = solids.width, count = solids.boundaries.length / width;
+    const lists = solids.traces.map(() => []);
+    for (let i = 0; i < count; i++) {
+      lists[solids.classes[at * count + i]].push(...solids.boundaries.subarray(i * width, (i + 1) * width));
+    }
+    return lists.map((list) => gather(places, list));
+  }
+
+  function contactMarks(contacts, places, at) {
+    const count = contacts.nodes.length;
+    const marks = {...gather(places, contacts.nodes), sizes: [], colours: [], texts: []};
+    for (let i = 0; i < count; i++) {
+      const layer = contacts.layer[at * count + i], state = contacts.state[at * count + i];
+      marks.sizes.push(layer ? contacts.size / Math.sqrt(2 * layer - 1) : 0);
+      marks.colours.push(contacts.colours[state]);
+      marks.texts.push(contactValues(contacts, at, i).join('<br>'));
+    }
+    return marks;
+  }
+
+  function contactValues(contacts, at, i) {
+    const k = at * contacts.nodes.length + i;
+    return [contacts.names[i], contacts.states[contacts.state[k]],
+      ...['rn', 'rt', 'gap'].map((field) => field + ' ' + digits(contacts[field][k], CONTACT_DIGITS))];
+  }
+
+  // Traces that no step moves, drawn below all others.
+  const stillTraces = (own) => [...own.obstacles.filter((part) => !part.motion).map((part) => part.trace), ...own.still,
+    ...(own.solids ? own.solids.legend : []), ...(own.contacts ? own.contacts.legend : [])];
+
+  // Traces that a step moves, from the bottom up, the same ones in each step.
+  function movingTraces(own, at) {
+    const places = own.steps[at];
+    const traces = own.obstacles.filter((part) => part.motion).map((part) => ({...part.trace, ...placedObstacle(part, at)}));
+    if (own.solids) {
+      elementsByClass(own.solids, places, at).forEach((found, i) => traces.push({...own.solids.traces[i], ...found}));
+    }
+    for (const part of own.moving) {
+      traces.push({...part.trace, ...gather(places, part.points), ...(part.named ? {text: part.names, hovertemplate: own.template} : {})});
+    }
+    if (own.contacts) {
+      const {sizes, colours, texts, ...found} = contactMarks(own.contacts, places, at);
+      const trace = own.contacts.trace;
+      traces.push({...trace, ...found, text: texts, marker: {...trace.marker, size: sizes, color: colours}});
+    }
+    return traces;
+  }
+
+  let drawn = null; // the structure that is drawn
+
+  function drawStructure(own, at) {
+    const still = stillTraces(own), moving = movingTraces(own, at);
+    if (own === drawn) {
+      return moved('structure', moving, still.length);
+    }
+    drawn = own;
+    return Plotly.react('structure', [...still, ...moving], own.layout, CONFIG);
+  }
+
+  // Gives the traces from the first one on new places, and draws these traces alone.
+  const moved = (figure, traces, first) => Plotly.animate(figure, {data: traces, traces: traces.map((_, i) => first + i)},
+    {mode: 'immediate', transition: {duration: 0}, frame: {duration: 0, redraw: false}});
+
+  // The curves: the points that tell their values, and a mark where the slider is.
+
+  function texts(path) {
+    const columns = path.columns.map(({label, values}) => ({label, values: plain(values)}));
+    path.values = (at) => columns.map(({label, values}) => [label, digits(values[at], DIGITS)]);
+    return path.headings.map((heading, at) =>
+      heading + path.values(at).map(([label, value]) => `<br>${label}: ${value}`).join(''));
+  }
+
+  function drawCurves() {
+    const traces = data.curves.data, told = data.paths.map(texts);
+    const points = traces.filter((trace) => trace.meta);
+    data.paths.forEach((path, i) => {
+      path.curves = points.filter((trace) => trace.meta.path === i)
+        .map((trace) => ({xaxis: trace.xaxis, x: plain(trace.x), y: plain(trace.y)}));
+    });
+    for (const trace of points) {
+      trace.text = told[trace.meta.path];
+    }
+    const mark = {type: 'scatter', mode: 'markers', hoverinfo: 'skip', showlegend: false, x: [], y: [],
+      marker: {size: 13, color: 'rgba(255,255,255,0.4)', line: {color: 'black', width: 2}}};
+    traces.push({...mark, xaxis: 'x', yaxis: 'y'}, {...mark, xaxis: 'x2', yaxis: 'y2'});
+    const drawn = Plotly.newPlot('curves', traces, data.curves.layout, CONFIG);
+    element('curves').on('plotly_click', ({points: [point]}) => {
+      if (point.data.meta) {
+        choose(point.data.meta.path, point.pointNumber);
+      }
+    });
+    return drawn;
+  }
+
+  function moveMarks(path) {
+    const of = (axis) => path.curves.filter((curve) => curve.xaxis === axis);
+    const marks = ['x', 'x2'].map((axis) => ({x: of(axis).map((curve) => curve.x[step]), y: of(axis).map((curve) => curve.y[step])}));
+    return moved('curves', marks, data.curves.data.length - marks.length);
+  }
+
+  // Beside the figures.
+
+  function fillTable(table, rows) {
+    table.replaceChildren(...rows.map(([kind, ...cells]) => {
+      const row = document.createElement('tr');
+      row.append(...cells.map((content) => {
+        const cell = document.createElement(kind);
+        cell.append(...[].concat(content));
+        cell.title = cell.textContent;
+        return cell;
+      }));
+      return row;
+    }));
+  }
+
+  function stateMark(colour) {
+    const mark = document.createElement('i');
+    mark.className = 'state';
+    mark.style.background = colour;
+    return mark;
+  }
+
+  function contactRows(contacts) {
+    const count = contacts.nodes.length;
+    const touching = Array.from(contacts.nodes.keys()).filter((i) => contacts.states[contacts.state[step * count + i]] !== 'open');
+    const shown = count <= FEW_CONTACTS ? Array.from(contacts.nodes.keys()) : touching.slice(0, MOST_CONTACTS);
+    const value = (field, i) => digits(contacts[field][step * count + i], CONTACT_DIGITS);
+    const rows = shown.map((i) => {
+      const state = contacts.state[step * count + i];
+      return ['td', [stateMark(contacts.colours[state]), contacts.names[i]], contacts.states[state], value('rn', i), value('rt', i)];
+    });
+    return [['th', `contacts, ${touching.length} of ${count} touch`, 'state', 'rn', 'rt'], ...rows];
+  }
+
+  function tell(path) {
+    const [heading, ...branches] = path.headings[step].split('<br>');
+    element('heading').textContent = heading;
+    element('branches').replaceChildren(...branches.flatMap((line) => [line, document.createElement('br')]));
+    fillTable(element('values'), path.values(step).map((row) => ['td', ...row]));
+    const contacts = path.unpacked && path.unpacked.contacts;
+    fillTable(element('contacts'), contacts ? contactRows(contacts) : []);
+  }
+
+  function remarks(path) {
+    const said = [path.end];
+    if (path.steps < path.increments) {
+      said.push(`The slider goes through ${path.steps} of ${path.increments} increments.`);
+    }
+    if (!path.structure) {
+      said.push('The structure is drawn where the scene of the path is given (--scene).');
+    }
+    element('remarks').textContent = said.filter(Boolean).join(' ');
+  }
+
+  // The slider.
+
+  async function show() {
+    const path = data.paths[number];
+    element('slider').value = step;
+    tell(path);
+    const shown = [moveMarks(path)];
+    if (path.unpacked) {
+      shown.push(drawStructure(path.unpacked, step));
+    }
+    await Promise.all(shown);
+  }
+
+  let pending = null; // what is being shown; one more waits at most
+  let again = false;
+
+  function update() {
+    again = true;
+    pending = pending || (async () => {
+      while (again) {
+        again = false;
+        await new Promise(requestAnimationFrame);
+        await show();
+      }
+      pending = null;
+    })();
+    return pending;
+  }
+
+  async function choose(path, at) {
+    number = path;
+    step = at;
+    const own = data.paths[path];
+    element('path').value = path;
+    element('slider').max = own.steps - 1;
+    if (own.structure && !own.unpacked) {
+      own.unpacked = await unpackStructure(own.structure, own.steps);
+    }
+    element('structure').style.visibility = own.structure ? 'visible' : 'hidden';
+    remarks(own);
+    return update();
+  }
+
+  let playing = 0; // counts plays: an earlier one ends when a later one begins
+
+  async function play() {
+    const mine = ++playing, steps = data.paths[number].steps;
+    const from = step < steps - 1 ? step : 0, start = performance.now();
+    element('play').textContent = '\u23f8';
+    while (mine === playing) {
+      const at = from + Math.floor((performance.now() - start) / 1000 * Math.max(steps, 60) / SECONDS);
+      step = Math.min(at, steps - 1);
+      await update();
+      if (step === steps - 1) {
+        stop();
+      }
+    }
+  }
+
+  function stop() {
+    playing++;
+    element('play').textContent = '\u25b6';
+  }
+
+  async function begin() {
+    element('path').append(...data.paths.map((path, i) => new Option(path.title || `path ${i + 1}`, i)));
+    element('chosen').hidden = data.paths.length < 2;
+    element('path').addEventListener('change', () => { stop(); choose(Number(element('path').value), 0); });
+    element('slider').addEventListener('input', () => { stop(); step = Number(element('slider').value); update(); });
+    element('play').addEventListener('click', () => element('play').textContent === '\u25b6' ? play() : stop());
+    await drawCurves();
+    const wanted = Number(location.hash.slice(1)); // page.html#40: at increment 40
+    await choose(0, Math.max(0, plain(data.paths[0].indices).findLastIndex((index) => index <= wanted)));
+  }
+
+  window.page = {data, choose, ready: begin()};
+})();
