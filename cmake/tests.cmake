@@ -96,7 +96,7 @@ set(contact_path_extremes
 contact_path_add_stage(support derivative_checker_test)
 contact_path_add_stage(geometry curve_test capsule_tree_test outline_test polyline_test projection_test spline_test surface_test)
 contact_path_add_stage(scene can_slide_test cell_test change_units_test configuration_test expand_test field_test lattice_test nearest_name_test
-  one_line_test origin_test quantity_test read_scene_test scaling_test scene_index_test scene_test solid_rules_test utf8_test
+  one_line_test origin_test quantity_test read_scene_test request_field_test scaling_test scene_index_test scene_test solid_rules_test utf8_test
   validate_test write_scene_test)
 contact_path_add_stage(structure bar_test beam_test dof_map_test elastica_test material_test scene_elements_test solid_test structure_test
   superelement_test)
@@ -120,9 +120,9 @@ contact_path_add_long_test(branch branches_test)
 contact_path_add_long_test(branch random_paths_test)
 contact_path_add_stage(check curved_residuals_test residuals_test solid_residuals_test)
 contact_path_add_stage(path automatic_step_test branch_options_test csv_test determinism_test diagnosis_test free_motion_test
-  hard_scenes_test increment_test large_requests_test model_size_test model_test path_summary_test preload_test
+  hard_scenes_test increment_test large_requests_test model_size_test model_test path_column_test path_summary_test preload_test
   program_test progress_estimate_test redistribution_test restored_states_test return_detector_test
-  singular_scenes_test stop_test work_test)
+  singular_scenes_test stop_test study_outputs_test work_test)
 contact_path_add_long_test(path curved_paths_test)
 contact_path_add_long_test(path curved_random_paths_test)
 contact_path_add_long_test(path curved_scenes_test)
@@ -185,6 +185,9 @@ contact_path_add_python_test(plot_test test/cli/plot_test.py DEPENDS contact_pat
   VARIABLES CONTACT_PATH_TRACE=$<TARGET_FILE:contact_path_trace> CONTACT_PATH_PLOT=${CMAKE_CURRENT_SOURCE_DIR}/scripts/plot)
 contact_path_add_python_test(mesh_test test/cli/mesh_test.py
   VARIABLES CONTACT_PATH_MESH=${CMAKE_CURRENT_SOURCE_DIR}/scripts/contact_path_mesh)
+contact_path_add_python_test(study_test test/cli/study_test.py DEPENDS contact_path_trace contact_path_study_server
+  VARIABLES CONTACT_PATH_STUDY=${CMAKE_CURRENT_SOURCE_DIR}/scripts/study CONTACT_PATH_ROOT=${CMAKE_CURRENT_SOURCE_DIR}
+    CONTACT_PATH_PROGRAMS=$<TARGET_FILE_DIR:contact_path_trace>)
 foreach(test scene_test path_test page_test trace_test doctest_test)
   contact_path_add_python_test(python_${test} test/python/${test}.py DEPENDS contact_path_trace
     VARIABLES CONTACT_PATH_ROOT=${CMAKE_CURRENT_SOURCE_DIR} CONTACT_PATH_PROGRAMS=$<TARGET_FILE_DIR:contact_path_trace>)
@@ -201,7 +204,7 @@ if(CONTACT_PATH_ROS)
   contact_path_add_python_test(path_bag_test test/ros/path_bag_test.py DEPENDS contact_path_trace
     VARIABLES CONTACT_PATH_TRACE=$<TARGET_FILE:contact_path_trace> CONTACT_PATH_ROOT=${CMAKE_CURRENT_SOURCE_DIR}
       CONTACT_PATH_PROGRAMS=$<TARGET_FILE_DIR:contact_path_trace>)
-  set(contact_path_all_programs contact_path_trace contact_path_lattice contact_path_outlines contact_path_node
+  set(contact_path_all_programs contact_path_trace contact_path_lattice contact_path_outlines contact_path_study_server contact_path_node
     contact_path_markers contact_path_verify ${PROJECT_NAME}_generate_messages)
   contact_path_add_python_test(docs_test test/docs/docs_test.py DEPENDS ${contact_path_all_programs}
     VARIABLES CONTACT_PATH_ROOT=${CMAKE_CURRENT_SOURCE_DIR} CONTACT_PATH_PROGRAMS=${contact_path_devel_programs}

@@ -3,14 +3,9 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
-#include <cmath>
 #include <cstddef>
 #include <fstream>
 #include <iterator>
-#include <limits>
-#include <locale>
-#include <optional>
-#include <sstream>
 #include <string_view>
 #include <system_error>
 #include <unordered_map>
@@ -21,116 +16,11 @@
 #include "contact_path/scene/key_path.h"
 #include "contact_path/scene/nearest_name.h"
 #include "contact_path/scene/validate.h"
-#include "contact_path/scene/words.h"
+#include "scene/yaml_scalar.h"
 #include "scene/yaml_tree.h"
 
 namespace contact_path {
 namespace {
-
-bool IsPlain(const YamlValue& value) { return value.kind == YamlValue::Kind::kText && !value.quoted; }
-
-// Whole numbers with a leading zero are refused: octal to some readers of YAML, decimal to others.
-bool HasLeadingZero(const std::string& word) {
-  const std::size_t first = word.find_first_not_of("+-");
-  return first != word.npos && first + 1 < word.size() && word[first] == '0' &&
-         word.find_first_not_of("0123456789", first) == word.npos;
-}
-
-// The truth values of YAML 1.1, as ROS reads them too, and 0 and 1.
-std::optional<bool> ParseFlag(const YamlValue& value) {
-  if (!IsPlain(value)) return std::nullopt;
-  for (const char* yes : {"true", "True", "TRUE", "yes", "Yes", "YES", "on", "On", "ON", "1"}) {
-    if (value.text == yes) return true;
-  }
-  for (const char* no : {"false", "False", "FALSE", "no", "No", "NO", "off", "Off", "OFF", "0"}) {
-    if (value.text == no) return false;
-  }
-  return std::nullopt;
-}
-
-std::optional<int> ParseInteger(const YamlValue& value) {
-  const std::string& word = value.text;
-  if (!IsPlain(value) || HasLeadingZero(word)) return std::nullopt;
-  const bool has_plus = word.size() > 1 && word[0] == '+' && word[1] != '-';
-  int integer = 0;
-  const auto [end, error] = std::from_chars(word.data() + (has_plus ? 1 : 0), word.data() + word.size(), integer);
-  return error == std::errc() && end == word.data() + word.size() ? std::optional(integer) : std::nullopt;
-}
-
-// Decimal numbers with or without point and exponent, .inf and .nan. Those too large for a double are infinite.
-std::optional<double> ParseNumber(const YamlValue& value) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  const std::string& word = value.text;
-  if (!IsPlain(value) || HasLeadingZero(word)) return std::nullopt;
-  for (const char* special : {".inf", ".Inf", ".INF"}) {
-    if (word == special || word == std::string("+") + special) return kInfinity;
-    if (word == std::string("-") + special) return -kInfinity;
-  }
-  for (const char* special : {".nan", ".NaN", ".NAN"}) {
-    if (word == special) return std::numeric_limits<double>::quiet_NaN();
-  }
-  if (word.find_first_not_of("+-.0123456789eE") != word.npos) return std::nullopt;
-  std::istringstream stream(word);
-  stream.imbue(std::locale::classic());
-  double number = 0.0;
-  stream >> number;
-  if (stream.fail()) {  // out of range: the largest number; otherwise 0
-    return number == 0.0 ? std::nullopt : std::optional(std::copysign(kInfinity, number));
-  }
-  return stream.peek() == std::istringstream::traits_type::eof() ? std::optional(number) : std::nullopt;
-}
-
-// Plain words that YAML takes for numbers or truth values are no text; the service of ROS refuses them too.
-std::optional<std::string> ParseText(const YamlValue& value) {
-  if (value.kind != YamlValue::Kind::kText) return std::nullopt;
-  if (ParseFlag(value) || ParseInteger(value) || ParseNumber(value)) return std::nullopt;
-  return value.text;
-}
-
-// What stands in the file, for a message.
-std::string Show(const YamlValue& value) {
-  switch (value.kind) {
-    case YamlValue::Kind::kNull: return "null";
-    case YamlValue::Kind::kText: return value.quoted ? "\"" + value.text + "\"" : value.text;
-    case YamlValue::Kind::kList: return "a list";
-    case YamlValue::Kind::kMap: return "a map";
-  }
-  return "";
-}
-
-// How a value without parts is read, and what to say where it cannot be.
-template <typename T>
-struct Scalar;
-template <>
-struct Scalar<bool> {
-  static std::optional<bool> Parse(const YamlValue& value) { return ParseFlag(value); }
-  static std::string Rule(const YamlValue&) { return "must be true or false"; }
-};
-template <>
-struct Scalar<int> {
-  static std::optional<int> Parse(const YamlValue& value) { return ParseInteger(value); }
-  static std::string Rule(const YamlValue&) { return "must be an integer"; }
-};
-template <>
-struct Scalar<double> {
-  static std::optional<double> Parse(const YamlValue& value) { return ParseNumber(value); }
-  static std::string Rule(const YamlValue&) { return "must be a number"; }
-};
-template <>
-struct Scalar<std::string> {
-  static std::optional<std::string> Parse(const YamlValue& value) { return ParseText(value); }
-  static std::string Rule(const YamlValue&) {
-    return "must be text (in quotes if it could be a number or a truth value)";
-  }
-};
-// A word of an enumeration.
-template <typename Enum>
-struct Scalar {
-  static std::optional<Enum> Parse(const YamlValue& value) {
-    return value.kind == YamlValue::Kind::kText ? ParseWord<Enum>(value.text) : std::nullopt;
-  }
-  static std::string Rule(const YamlValue& value) { return WordRule<Enum>(value.text); }
-};
 
 // Reads a request by the descriptions of its parts, and collects what is wrong. Violations of line 0 stand where their
 // key does.

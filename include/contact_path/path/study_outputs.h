@@ -1,0 +1,59 @@
+// What a study takes from a path: a few values, gathered increment by increment.
+#ifndef CONTACT_PATH_PATH_STUDY_OUTPUTS_H_
+#define CONTACT_PATH_PATH_STUDY_OUTPUTS_H_
+
+#include <cstddef>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "contact_path/path/end_reason.h"
+#include "contact_path/path/increment.h"
+#include "contact_path/path/path_column.h"
+#include "contact_path/path/path_summary.h"
+#include "contact_path/scene/scene.h"
+
+namespace contact_path {
+
+// what() is what the name must be.
+class UnknownOutput : public std::invalid_argument {
+ public:
+  UnknownOutput(std::size_t place, const std::string& rule) : std::invalid_argument(rule), place_(place) {}
+  std::size_t place() const { return place_; }  // of the name, from 0
+
+ private:
+  std::size_t place_;
+};
+
+class StudyOutputs {
+ public:
+  // names: limit_loads (load factors of the limit points), events (their number), end_reason, and final.<column>,
+  // max.<column>, min.<column> of path/path_column.h. `request` must be sound. Throws UnknownOutput.
+  StudyOutputs(const std::vector<std::string>& names, const TraceRequest& request);
+
+  // Takes every increment, in order.
+  void Add(const Increment& increment);
+
+  // By name: numbers with 17 digits, limit loads with a space between them. A value of a path without increments is
+  // empty.
+  std::vector<std::string> Texts(EndReason reason) const;
+
+ private:
+  enum class Kind { kLimitLoads, kEvents, kEndReason, kFinal, kMax, kMin };
+  struct Output {
+    Kind kind;
+    std::optional<PathColumn> column;
+    std::optional<double> number;  // so far
+    std::string word;              // so far, of a column of words
+  };
+
+  std::string Text(const Output& output, EndReason reason) const;
+
+  std::vector<Output> outputs_;
+  PathSummary summary_{/*load_scale=*/1.0};
+};
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_PATH_STUDY_OUTPUTS_H_

@@ -1,0 +1,153 @@
+"""Runs a study: what is not done yet, then the table."""
+from __future__ import annotations
+
+import contextlib
+import os
+import sys
+import time
+from typing import Dict, List, Sequence, Tuple
+
+from contact_path import study_cluster, study_points, study_table
+from contact_path.study_file import Study
+from contact_path.study_journal import Journal
+from contact_path.study_points import Point
+from contact_path.study_server import Job, Server, ServerRefused
+
+FAILED = 'failed: '  # of statuses that tell of the machines, not of the scene: traced again by the next run
+
+
+def read_job(study: Study) -> Tuple[Job, List[Point]]:
+    """What is traced, after all that can be checked before. InvalidStudy; ServerRefused: the scene is invalid; TraceFailed:
+    the program is not there."""
+    try:
+        with open(study.scene, encoding='utf-8', errors='replace', newline='') as text:
+            scene = text.read()
+    except OSError as error:
+        study.refuse('scene', study.scene, 'must be a file that can be read: %s' % error.strerror)
+    job = Job(scene, tuple(parameter.path for parameter in study.parameters), study.outputs, bool(study.paths), '')
+    try:
+        server = Server(study.scene, job)
+    except ServerRefused as error:
+        key, _, rest = str(error).partition(' = ')
+        if key not in study.lines:
+            raise
+        study.refuse(key, *rest.partition(': ')[::2])
+    try:
+        check_values(study, server)
+        return job._replace(version=server.version), study_points.points(study, server.kinds)
+    finally:
+        server.close()
+
+
+def check_values(study: Study, server: Server) -> None:
+    """InvalidStudy: one is not of the type of its parameter."""
+    for i, (parameter, kind) in enumerate(zip(study.parameters, server.kinds)):
+        key = 'parameters[%d]' % i
+        if not parameter.values and kind not in ('number', 'integer'):
+            study.refuse(key + '.from', study_points.written(parameter.begin),
+                         'must be left out: %s is no number, it needs values' % parameter.path)
+        for j, value in enumerate(study_points.grid_values(parameter) if parameter.values or parameter.count else ()):
+            rule = server.rule(i, value)
+            if rule:
+                study.refuse('%s.values[%d]' % (key, j) if parameter.values else key, value, rule)
+
+
+class Progress:
+    """A bar on a terminal."""
+
+    WIDTH = 30
+
+    def __init__(self, name: str, total: int, done: int, shown: bool) -> None:
+        self.name, self.total, self.before, self.done = name, total, done, done
+        self.shown = shown
+        self.start = time.monotonic()
+        self.show()
+
+    def add(self, count: int) -> None:
+        self.done += count
+        self.show()
+
+    def show(self) -> None:
+        if not self.shown:
+            return
+        bar = '#' * (self.WIDTH * self.done // self.total)
+        text = '%s: [%-*s] %d of %d' % (self.name, self.WIDTH, bar, self.done, self.total)
+        rate = (self.done - self.before) / max(time.monotonic() - self.start, 1e-9)
+        if rate > 0.0:
+            text += ', %.3g a second, %s left' % (rate, in_words((self.total - self.done) / rate))
+        print('\r\x1b[K' + text, end='', file=sys.stderr, flush=True)
+
+    def wipe(self) -> None:
+        if self.shown:
+            print('\r\x1b[K', end='', file=sys.stderr, flush=True)
+
+
+def in_words(seconds: float) -> str:
+    """
+    >>> in_words(7.2), in_words(600.0), in_words(7200.0)
+    ('7 s', '10 min', '2 h')
+    """
+    for unit, size in (('h', 3600.0), ('min', 60.0)):
+        if seconds >= 2.0 * size or seconds == size:
+            return '%d %s' % (round(seconds / size), unit)
+    return '%d s' % round(seconds)
+
+
+def path_file(study: Study, number: int) -> str:
+    """The CSV of the path of a trace, by its number from 0. Its name has the number of its line in the table, from 1."""
+    return os.path.join(study.paths, '%06d.csv' % (number + 1))
+
+
+def keep_path(file: str, csv: bytes) -> None:
+    """csv: empty where there is no path."""
+    if csv:
+        with open(file, 'wb') as output:
+            output.write(csv)
+    else:
+        with contextlib.suppress(FileNotFoundError):  # of an earlier study
+            os.remove(file)
+
+
+def run(study: Study, *, scheduler: str = '', workers: int = 0, quiet: bool = False) -> List[List[str]]:
+    """The table of the study, as study_table.lines has it, which is written, too.
+
+    scheduler: address; '': a cluster on this machine, with so many workers, 0: one for each processor. As read_job; JournalBusy;
+    ClusterLost; KeyboardInterrupt. What is done is kept.
+    """
+    job, points = read_job(study)
+    journal = Journal(study.table + '.journal', [job, points, study.paths])
+    if journal.set_aside:
+        print('study: %s was of another scene or study: it is %s.old now' % (journal.file, journal.file), file=sys.stderr)
+    try:
+        answers = dict(journal.done)
+        wanted = [number for number in range(len(points)) if number not in answers]
+        if wanted:
+            answers.update(trace(study, job, points, wanted, journal, scheduler, workers, quiet))
+    finally:
+        journal.close()
+    table = study_table.lines(job.parameters, job.outputs, points, [answers[number] for number in range(len(points))])
+    study_table.write(study.table, table)
+    return table
+
+
+def trace(study: Study, job: Job, points: Sequence[Point], wanted: Sequence[int], journal: Journal, scheduler: str,
+          workers: int, quiet: bool) -> Dict[int, str]:
+    """The answers of the wanted points. All but failures are in the journal as soon as they are there."""
+    if study.paths:
+        os.makedirs(study.paths, exist_ok=True)
+    progress = Progress('study', len(points), len(points) - len(wanted), not quiet and sys.stderr.isatty())
+    answers: Dict[int, str] = {}
+
+    def take(traced: List[Tuple[int, str, bytes]]) -> None:
+        for number, _, csv in traced if study.paths else ():
+            keep_path(path_file(study, number), csv)
+        answers.update((number, answer) for number, answer, _ in traced)
+        journal.add((number, answer) for number, answer, _ in traced if not answer.startswith(FAILED))
+        progress.add(len(traced))
+
+    try:
+        with study_cluster.connected(scheduler, workers or study_cluster.processors()) as client:
+            study_cluster.trace_all(client, job, points, wanted, take)
+    finally:
+        progress.wipe()
+    return answers

@@ -1,0 +1,84 @@
+#include "contact_path/path/path_column.h"
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <stdexcept>
+
+#include "contact_path/path/stop.h"
+#include "contact_path/scene/expand.h"
+#include "contact_path/scene/nearest_name.h"
+#include "contact_path/scene/quantity.h"
+
+namespace contact_path {
+namespace {
+
+constexpr std::string_view kState = "state_";
+
+struct NumberColumn {
+  std::string_view name;
+  double (*value)(const Increment&);
+};
+
+// Of the increment as a whole; the load factor is a quantity.
+constexpr std::array<NumberColumn, 6> kNumbers = {{
+    {"index", [](const Increment& increment) { return static_cast<double>(increment.index); }},
+    {"arc_length", [](const Increment& increment) { return increment.arc_length; }},
+    {"dissipation", [](const Increment& increment) { return increment.dissipation; }},
+    {"strain_energy", [](const Increment& increment) { return increment.strain_energy; }},
+    {"equilibrium_residual", [](const Increment& increment) { return increment.residuals.equilibrium; }},
+    {"complementarity_residual", [](const Increment& increment) { return increment.residuals.Contact(); }},
+}};
+
+double StageOf(const Increment& increment) { return static_cast<double>(increment.stage); }
+
+[[noreturn]] void Reject(const std::string& rule) { throw std::invalid_argument(rule); }
+
+// What to say of a node or contact that the scene does not have.
+std::string UnknownPart(const SpelledQuantity& quantity, const Scene& scene) {
+  const bool of_node = Quantity{quantity.kind, 0}.IsOfNode();
+  NearestName nearest(quantity.name);
+  if (of_node) {
+    for (const Node& node : scene.nodes) nearest.Offer(node.name);
+  } else {
+    for (const ContactCandidate& contact : scene.contacts) nearest.Offer(contact.Name());
+  }
+  return std::string("must be of a ") + (of_node ? "node" : "contact") + " of the scene" + nearest.Question();
+}
+
+std::string UnknownColumn(const std::string& name) {
+  NearestName nearest(name);
+  for (const NumberColumn& column : kNumbers) nearest.Offer(column.name);
+  for (const char* word : {"load_factor", "kind", "stage"}) nearest.Offer(word);
+  return "must be a column of the CSV, as load_factor, x_<node> or rn_<contact>" + nearest.Question();
+}
+
+}  // namespace
+
+PathColumn::PathColumn(const std::string& name, const TraceRequest& request, const SceneIndex& index) {
+  const Scene& scene = request.scene;
+  for (const NumberColumn& column : kNumbers)
+    if (name == column.name) number_ = column.value;
+  if (name == "stage" && !request.program.empty()) number_ = StageOf;
+  if (name == "stage" && request.program.empty()) Reject("must be of a scene with a program");
+  if (name == "solve_time") Reject("must be the same whenever it is computed: solve_time is not");
+  if (name == "kind") word_ = [](const Increment& increment) { return ToString(increment.kind); };
+  if (number_ != nullptr || word_ != nullptr) return;
+
+  if (name.compare(0, kState.size(), kState) == 0) {
+    const std::string contact = name.substr(kState.size());
+    const std::optional<std::size_t> place = index.FindContact(contact);
+    if (!place) Reject(UnknownPart({Quantity::Kind::kGap, contact}, scene));
+    word_ = [place = *place](const Increment& increment) { return ToString(increment.contacts[place].state); };
+    return;
+  }
+  const std::optional<SpelledQuantity> spelled = ReadQuantity(name);
+  if (!spelled) Reject(UnknownColumn(name));
+  const std::optional<Quantity> quantity = FindQuantity(name, index);
+  if (!quantity) Reject(UnknownPart(*spelled, scene));
+  if (quantity->kind == Quantity::Kind::kRotation && !NodesThatTurn(scene)[quantity->part])
+    Reject("must be of a node that a beam turns");
+  number_ = [quantity = *quantity](const Increment& increment) { return ValueOf(quantity, increment); };
+}
+
+}  // namespace contact_path

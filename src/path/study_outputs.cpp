@@ -1,0 +1,102 @@
+#include "contact_path/path/study_outputs.h"
+
+#include <algorithm>
+#include <limits>
+#include <locale>
+#include <sstream>
+#include <string_view>
+#include <utility>
+
+#include "contact_path/scene/expand.h"
+#include "contact_path/scene/nearest_name.h"
+#include "contact_path/scene/scene_index.h"
+
+namespace contact_path {
+namespace {
+
+std::string NumberText(double number) {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text.precision(std::numeric_limits<double>::max_digits10);
+  text << number;
+  return text.str();
+}
+
+}  // namespace
+
+StudyOutputs::StudyOutputs(const std::vector<std::string>& names, const TraceRequest& request) {
+  constexpr std::pair<std::string_view, Kind> kOfPath[] = {
+      {"limit_loads", Kind::kLimitLoads}, {"events", Kind::kEvents}, {"end_reason", Kind::kEndReason}};
+  constexpr std::pair<std::string_view, Kind> kOfColumn[] = {
+      {"final.", Kind::kFinal}, {"max.", Kind::kMax}, {"min.", Kind::kMin}};
+  const ExpandedRequest expanded(request);
+  const SceneIndex index(expanded.Get().scene);
+
+  const auto make = [&](const std::string& name) -> Output {
+    NearestName nearest(name);
+    for (const auto& [word, kind] : kOfPath) {
+      if (name == word) return {kind, {}, {}, {}};
+      nearest.Offer(word);
+    }
+    for (const auto& [prefix, kind] : kOfColumn) {
+      if (name.compare(0, prefix.size(), prefix) != 0) continue;
+      PathColumn column(name.substr(prefix.size()), expanded.Get(), index);
+      if (kind != Kind::kFinal && !column.IsNumber())
+        throw std::invalid_argument("must be of a column of numbers, or begin with final.");
+      return {kind, std::move(column), {}, {}};
+    }
+    throw std::invalid_argument(
+        "must be limit_loads, events, end_reason, final.<column>, max.<column> or min.<column>" + nearest.Question());
+  };
+  outputs_.reserve(names.size());
+  for (const std::string& name : names) {
+    try {
+      outputs_.push_back(make(name));
+    } catch (const std::invalid_argument& error) {
+      throw UnknownOutput(outputs_.size(), error.what());
+    }
+  }
+}
+
+void StudyOutputs::Add(const Increment& increment) {
+  summary_.Add(increment);
+  for (Output& output : outputs_) {
+    if (!output.column) continue;
+    if (!output.column->IsNumber()) {
+      output.word = output.column->Word(increment);
+      continue;
+    }
+    const double number = output.column->Number(increment);
+    if (output.kind == Kind::kFinal || !output.number) {
+      output.number = number;
+    } else {
+      output.number = output.kind == Kind::kMax ? std::max(*output.number, number) : std::min(*output.number, number);
+    }
+  }
+}
+
+std::string StudyOutputs::Text(const Output& output, EndReason reason) const {
+  switch (output.kind) {
+    case Kind::kEndReason: return std::string(ToString(reason));
+    case Kind::kEvents: return summary_.increments() == 0 ? "" : std::to_string(summary_.events());
+    case Kind::kLimitLoads: {
+      std::string text;
+      for (const LimitPoint& point : summary_.limit_points())
+        text += (text.empty() ? "" : " ") + NumberText(point.load_factor);
+      return text;
+    }
+    case Kind::kFinal:
+    case Kind::kMax:
+    case Kind::kMin: return output.number ? NumberText(*output.number) : output.word;
+  }
+  return "";
+}
+
+std::vector<std::string> StudyOutputs::Texts(EndReason reason) const {
+  std::vector<std::string> texts;
+  texts.reserve(outputs_.size());
+  for (const Output& output : outputs_) texts.push_back(Text(output, reason));
+  return texts;
+}
+
+}  // namespace contact_path

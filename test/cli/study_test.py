@@ -1,0 +1,380 @@
+#!/usr/bin/env python3
+"""Runs scripts/study as a user would.
+
+CONTACT_PATH_STUDY: the script; CONTACT_PATH_ROOT: the sources; CONTACT_PATH_PROGRAMS: the directory of the programs;
+CONTACT_PATH_SCENES: the directory of the example scenes.
+"""
+import csv
+import math
+import os
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+import program_test
+
+sys.path.insert(0, os.path.join(os.environ['CONTACT_PATH_ROOT'], 'python'))
+from contact_path import study_file, study_points  # noqa: E402
+
+STUDY = os.environ['CONTACT_PATH_STUDY']
+PYTHON = '/usr/bin/python3'
+FRICTIONS = (0.9, 1.0, 1.8)
+HEIGHTS = (1.2, 1.6)
+DESCRIPTION = """
+scene: %s
+parameters:
+- {path: obstacles.floor.friction, values: [0.9, 1.0, 1.8]}
+- {path: nodes.apex.y, from: 1.2, to: 1.6, count: 2}
+outputs: [limit_loads, events, end_reason, max.load_factor, final.dissipation]
+table: table.csv
+""" % program_test.scene_file('rough_truss')
+# A trace takes a quarter of a second.
+SLOW = """
+scene: %s
+parameters:
+- {path: bars.0.EA, from: 1, to: 3, count: 20}
+- {path: options.step, values: [1.0e-3]}
+outputs: [max.load_factor, end_reason]
+table: table.csv
+""" % program_test.scene_file('rough_truss')
+
+
+def read(file):
+    with open(file, 'rb') as stream:
+        return stream.read()
+
+
+def corner_load(friction, height):
+    """Of the rough truss, half span 1, EA = 1: where the slope of the bars is 1 / friction."""
+    angle = math.atan(1.0 / friction)
+    return 2.0 * math.sin(angle) * (1.0 - (1.0 / math.cos(angle)) / math.hypot(1.0, height))
+
+
+def smooth_load(height):
+    """Of the same with its feet held."""
+    return 2.0 * (1.0 - math.hypot(1.0, height) ** (-2.0 / 3.0)) ** 1.5
+
+
+def processes_below(parent):
+    """(number, command) of all processes that this one has started, and they."""
+    parents, commands = {}, {}
+    for name in filter(str.isdigit, os.listdir('/proc')):
+        try:
+            with open('/proc/%s/stat' % name) as stat, open('/proc/%s/cmdline' % name) as command:
+                parents[int(name)] = int(stat.read().rsplit(')', 1)[1].split()[1])
+                commands[int(name)] = command.read()
+        except OSError:  # it has ended
+            pass
+    found, newest = [], {parent}
+    while newest:
+        newest = {number for number, above in parents.items() if above in newest}
+        found += sorted(newest)
+    return [(number, commands[number]) for number in found]
+
+
+class StudyTest(program_test.ProgramTest):
+
+    def write(self, text, name='study.yaml'):
+        with open(self.path(name), 'w', encoding='utf-8') as file:
+            file.write(text)
+        return self.path(name)
+
+    def run_study(self, *arguments, status=0, description=DESCRIPTION):
+        """What it says on standard error."""
+        told = program_test.run(STUDY, self.write(description), *arguments)
+        self.assertEqual(told.returncode, status, told.stderr)
+        return told.stderr
+
+    def start(self, *command):
+        process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        return process
+
+    def wait_for(self, what):
+        late = time.monotonic() + 60.0
+        while not what():
+            self.assertLess(time.monotonic(), late)
+            time.sleep(0.01)
+
+    def table(self):
+        with open(self.path('table.csv'), encoding='utf-8', newline='') as file:
+            return list(csv.DictReader(file))
+
+    def journal(self):
+        return read(self.path('table.csv.journal')) if os.path.exists(self.path('table.csv.journal')) else b''
+
+
+class Tables(StudyTest):
+
+    def test_grid_of_closed_forms(self):
+        said = self.run_study('--workers', '1')
+        self.assertRegex(said, r'^study: .*table\.csv: 6 traces: 6 complete\n$')
+        lines = self.table()
+        self.assertEqual(list(lines[0]), ['obstacles.floor.friction', 'nodes.apex.y', 'status', 'limit_1', 'events', 'end_reason',
+                                          'max.load_factor', 'final.dissipation'])
+        points = [(friction, height) for friction in FRICTIONS for height in HEIGHTS]
+        self.assertEqual([(float(line['obstacles.floor.friction']), float(line['nodes.apex.y'])) for line in lines], points)
+        for line, (friction, height) in zip(lines, points):
+            # The foot slips before the truss would snap with its feet held, or does not.
+            slips_first = 1.0 / friction > math.sqrt(math.hypot(1.0, height) ** (2.0 / 3.0) - 1.0)
+            limit = corner_load(friction, height) if slips_first else smooth_load(height)
+            self.assertAlmostEqual(float(line['limit_1']), limit, 8, line)
+            self.assertEqual((line['status'], line['end_reason']), ('complete', 'stop_criterion'))
+
+    def test_table_does_not_depend_on_workers(self):
+        self.run_study('--workers', '1', '--quiet')
+        once = read(self.path('table.csv'))
+        self.run_study('--workers', '2', '--table', self.path('other.csv'))
+        self.assertEqual(read(self.path('other.csv')), once)
+
+        port = self.path('scheduler.json')
+        self.start(PYTHON, '-m', 'distributed.cli.dask_scheduler', '--port', '0', '--no-dashboard', '--scheduler-file', port)
+        self.wait_for(lambda: os.path.exists(port))
+        address = re.search(r'"address": "(.*?)"', read(port).decode()).group(1)
+        environment = os.path.join(os.environ['CONTACT_PATH_ROOT'], 'scripts', 'python')
+        workers = [self.start(environment, '-m', 'distributed.cli.dask_worker', address, '--nthreads', '1', '--no-dashboard',
+                              '--local-directory', self.directory) for _ in range(3)]
+        self.run_study('--scheduler', address, '--table', self.path('third.csv'))
+        self.assertEqual(read(self.path('third.csv')), once)
+        # No server stays behind with the workers.
+        for worker in workers:
+            self.assertFalse([command for _, command in processes_below(worker.pid) if 'study_server' in command])
+
+    def test_failures_are_lines(self):
+        self.run_study(description="""
+scene: %s
+parameters: [{path: obstacles.floor.friction, values: [0.5, -1, 1]}, {path: options.direction, values: [1, -1]}]
+outputs: [limit_loads, end_reason, final.x_b, final.state_b@floor]
+table: table.csv
+""" % program_test.scene_file('sliding_bar'))
+        lines = self.table()
+        self.assertEqual([line['status'].partition(':')[0] for line in lines[:4]], ['complete', 'ended_early', 'invalid', 'invalid'])
+        self.assertIn('ended_early: path_end: no admissible branch', lines[1]['status'])
+        self.assertEqual(lines[2]['status'], 'invalid: scene.obstacles[0].friction = -1: must be >= 0')
+        self.assertEqual([lines[2][name] for name in ('limit_1', 'end_reason', 'final.x_b', 'final.state_b@floor')], [''] * 4)
+        self.assertEqual((lines[1]['end_reason'], float(lines[1]['final.x_b'])), ('path_end', -5.0))
+        self.assertEqual(lines[0]['final.state_b@floor'], 'slip+')
+
+    def test_output_that_a_variant_lacks(self):
+        self.run_study(description="""
+scene: %s
+parameters: [{path: beams.column.segments, values: [4, 10]}, {path: options.max_increments, values: [5]}]
+outputs: [final.x_column/7]
+table: table.csv
+""" % program_test.scene_file('lee_frame'))
+        lines = self.table()
+        self.assertRegex(lines[0]['status'], r'^invalid: outputs\[0\] = final\.x_column/7: must be of a node of the scene')
+        self.assertEqual((lines[0]['final.x_column/7'], lines[1]['status']), ('', 'complete'))
+        self.assertAlmostEqual(float(lines[1]['final.x_column/7']), 0.0, delta=5.0)
+
+    def test_latin_hypercube(self):
+        self.run_study(description="""
+scene: %s
+sampling: latin_hypercube
+count: 20
+seed: 7
+parameters:
+- {path: obstacles.floor.friction, from: 1, to: 2}
+- {path: nodes.apex.y, from: 1.3, to: 5.2, spacing: log}
+- {path: options.accuracy, values: [fast, accurate]}
+- {path: options.max_increments, from: 10, to: 40}
+outputs: [max.load_factor]
+table: table.csv
+""" % program_test.scene_file('rough_truss'))
+        lines = self.table()
+        frictions = sorted(float(line['obstacles.floor.friction']) for line in lines)
+        self.assertEqual([int((friction - 1.0) * 20) for friction in frictions], list(range(20)))
+        heights = sorted(float(line['nodes.apex.y']) for line in lines)
+        self.assertEqual([int(math.log(height / 1.3) / math.log(4.0) * 20) for height in heights], list(range(20)))
+        self.assertEqual(sum(line['options.accuracy'] == 'fast' for line in lines), 10)
+        self.assertTrue(all(line['options.max_increments'].isdigit() for line in lines))
+        self.assertTrue(all(line['status'] == 'complete' for line in lines))
+
+
+class GoingOn(StudyTest):
+
+    @classmethod
+    def setUpClass(cls):
+        with tempfile.TemporaryDirectory() as directory:
+            study, table = os.path.join(directory, 'study.yaml'), os.path.join(directory, 'table.csv')
+            with open(study, 'w', encoding='utf-8') as file:
+                file.write(SLOW)
+            subprocess.run([STUDY, '--quiet', study], check=True)
+            cls.whole = read(table)  # of the study that nobody disturbs
+
+    def test_killed_and_continued(self):
+        study = self.start(STUDY, self.write(SLOW), '--workers', '2')
+        self.wait_for(lambda: self.journal().count(b'\n') > 4)
+        study.kill()
+        study.wait()
+        kept = self.journal()
+        kept = kept[:kept.rfind(b'\n') + 1]
+        self.assertLess(kept.count(b'\n'), 20)
+        self.assertFalse(os.path.exists(self.path('table.csv')))
+        with open(self.path('table.csv.journal'), 'ab') as file:
+            file.write(b'19\tcomp')  # what a line that was being written would leave
+        self.run_study(description=SLOW)
+        self.assertTrue(self.journal().startswith(kept))
+        self.assertEqual(self.journal().count(b'\n'), 21)
+        self.assertEqual(read(self.path('table.csv')), self.whole)
+
+    def test_interrupted(self):
+        study = subprocess.Popen([STUDY, self.write(SLOW)], stderr=subprocess.PIPE, universal_newlines=True,
+                                 preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler))
+        self.addCleanup(study.wait)
+        self.addCleanup(study.kill)
+        self.wait_for(lambda: self.journal().count(b'\n') > 2)
+        study.send_signal(signal.SIGINT)
+        self.assertEqual(study.communicate(timeout=30)[1], 'study: stopped; what is done is kept, the same command goes on\n')
+        self.assertEqual(study.returncode, 1)
+
+    def test_worker_and_server_that_die_are_no_loss(self):
+        study = self.start(STUDY, self.write(SLOW), '--workers', '2')
+        self.wait_for(lambda: self.journal().count(b'\n') > 2)
+        servers = [number for number, command in processes_below(study.pid) if 'study_server' in command]
+        self.assertEqual(len(servers), 2)
+        os.kill(servers[0], signal.SIGKILL)
+        with open('/proc/%d/stat' % servers[1]) as stat:
+            worker = int(stat.read().rsplit(')', 1)[1].split()[1])
+        os.kill(worker, signal.SIGKILL)
+        self.assertEqual(study.wait(), 0)
+        self.assertEqual(read(self.path('table.csv')), self.whole)
+
+    def test_what_is_done_is_not_traced_again(self):
+        self.run_study()
+        done = self.journal(), read(self.path('table.csv'))
+        os.remove(self.path('table.csv'))
+        self.run_study()
+        self.assertEqual((self.journal(), read(self.path('table.csv'))), done)
+
+    def test_another_study_begins_anew(self):
+        self.run_study()
+        before = self.journal()
+        said = self.run_study(description=DESCRIPTION.replace('1.0', '1.1'))
+        self.assertRegex(said, r'table\.csv\.journal was of another scene or study: it is .*table\.csv\.journal\.old now')
+        self.assertEqual(read(self.path('table.csv.journal.old')), before)
+        self.assertEqual([line['obstacles.floor.friction'] for line in self.table()], ['0.9', '0.9', '1.1', '1.1', '1.8', '1.8'])
+
+    def test_two_runs_at_a_time(self):
+        study = self.start(STUDY, self.write(SLOW))
+        self.wait_for(lambda: self.journal())
+        self.assertIn('another run of the study is under way', self.run_study(description=SLOW, status=1))
+        study.kill()
+
+
+class Figures(StudyTest):
+
+    def expect_figure(self, name):
+        self.assertTrue(read(self.path(name)).startswith(b'\x89PNG'), name)
+
+    def test_map_and_paths(self):
+        text = DESCRIPTION + 'paths: kept\n'
+        self.run_study('--plot', self.path('map.png'), '--output', 'max.load_factor', '--paths', self.path('paths.png'),
+                       '--x', 'apex.y', description=text)
+        self.expect_figure('map.png')
+        self.expect_figure('paths.png')
+        self.assertEqual(sorted(os.listdir(self.path('kept'))), ['%06d.csv' % number for number in range(1, 7)])
+        first = read(self.path('kept/000001.csv')).decode().splitlines()
+        self.assertTrue(first[0].startswith('index,load_factor,arc_length,kind,x_left'))
+        self.assertGreater(len(first), 10)
+
+    def test_line_and_words(self):
+        one = re.sub(r'- \{path: nodes.*\n', '', DESCRIPTION)
+        self.run_study('--plot', self.path('line.png'), description=one)
+        self.expect_figure('line.png')
+        words = DESCRIPTION.replace('nodes.apex.y, from: 1.2, to: 1.6, count: 2', 'options.accuracy, values: [fast, accurate]')
+        self.run_study('--plot', self.path('lines.png'), description=words)
+        self.expect_figure('lines.png')
+
+    def test_what_cannot_be_drawn(self):
+        self.assertIn('must be a column of numbers of the table: limit_1, events, max.load_factor, final.dissipation',
+                      self.run_study('--plot', self.path('a.png'), '--output', 'end_reason', status=2))
+        self.assertIn('`paths: DIRECTORY`', self.run_study('--paths', self.path('a.png'), status=2))
+
+
+class BadInput(StudyTest):
+    """One line, before any trace."""
+
+    def expect(self, rule, old, new, description=DESCRIPTION):
+        self.assertIn(old, description)
+        said = self.run_study(description=description.replace(old, new), status=2)
+        self.assertEqual(said.count('\n'), 1, said)
+        self.assertRegex(said, rule)
+        self.assertFalse(os.path.exists(self.path('table.csv.journal')))
+
+    def expect_refused(self, rule, old, new):
+        """By the reader of descriptions."""
+        self.assertIn(old, DESCRIPTION)
+        with self.assertRaisesRegex(study_file.InvalidStudy, rule):
+            study_file.read(self.write(DESCRIPTION.replace(old, new)))
+
+    def test_description(self):
+        self.expect(r'^.*study\.yaml:4: parameters\[0\]\.pat = .*: unknown key, must be one of: path, values', 'path: obs', 'pat: obs')
+        for rule, old, new in (
+                (r'5: parameters\[1\]\.count = 1: must be an integer from 2 to', 'count: 2', 'count: 1'),
+                (r'5: parameters\[1\]\.from = a: must be a number', 'from: 1.2', 'from: a'),
+                (r'5: parameters\[1\]\.from = -1: must be > 0 where the spacing is log', 'from: 1.2', 'spacing: log, from: -1'),
+                (r'5: parameters\[1\]\.to = 1\.2: must differ from parameters\[1\]\.from', 'to: 1.6', 'to: 1.2'),
+                (r'5: parameters\[1\]: must have count', ', count: 2', ''),
+                (r'5: parameters\[1\]: must have values, or from and to', 'from: 1.2, ', ''),
+                (r'5: parameters\[1\]\.count = 2: must be left out where there are values', 'from: 1.2, to: 1.6', 'values: [1]'),
+                (r'4: parameters\[0\]\.values = a list: must be a list of one or more', '[0.9, 1.0, 1.8]', '[]'),
+                (r'4: parameters\[0\]\.values\[1\] = a map: must be text on one line', '1.0', '{a: 1}'),
+                (r'2: the study: must have outputs', 'outputs: [limit_loads, events, end_reason, max.load_factor, final.dissipation]', ''),
+                (r'7: sampling = cube: must be grid or latin_hypercube', 'table:', 'sampling: cube\ntable:'),
+                (r'7: seed = 1: must be left out of a grid', 'table:', 'seed: 1\ntable:'),
+                (r'2: the study: must have count, the number of traces', 'table:', 'sampling: latin_hypercube\ntable:'),
+                (r'8: table = b\.csv: repeated key', 'table:', 'table: a.csv\ntable: b.csv\n#'),
+                (r' must be YAML', 'scene:', 'scene: [')):
+            with self.subTest(rule):
+                self.expect_refused(r'study\.yaml:' + rule, old, new)
+        with self.assertRaisesRegex(study_file.InvalidStudy, 'nothing.yaml: No such file'):
+            study_file.read('nothing.yaml')
+
+    def test_paths_of_fields(self):
+        place = r'^.*study\.yaml:4: parameters\[0\]\.path = '
+        self.expect(place + r'obstacles\.flor\.friction: must name an element of obstacles, .* did you mean floor\?', 'floor', 'flor')
+        self.expect(place + r'bars\.2\.EA: must name an element of bars, by its place from 0 to 1', 'obstacles.floor.friction', 'bars.2.EA')
+        self.expect(r'study\.yaml:5: parameters\[1\]\.path = obstacles\.0\.friction: must be another field than that of parameters\[0\]',
+                    'nodes.apex.y', 'obstacles.0.friction')
+
+    def test_values(self):
+        self.expect(r'study\.yaml:4: parameters\[0\]\.values\[1\] = much: must be a number', '1.0', 'much')
+        self.expect(r'study\.yaml:5: parameters\[1\] = 1\.5: must be an integer', 'nodes.apex.y, from: 1.2, to: 1.6',
+                    'options.max_increments, from: 1, to: 1.5')
+        self.expect(r'study\.yaml:5: parameters\[1\]\.from = 1\.2: must be left out: options\.method is no number',
+                    'nodes.apex.y', 'options.method')
+
+    def test_outputs(self):
+        self.expect(r'study\.yaml:6: outputs\[3\] = max\.lod_factor: must be a column of the CSV', 'max.load_factor', 'max.lod_factor')
+        self.expect(r'study\.yaml:6: outputs\[1\] = limit_loads: must not be repeated', 'events', 'limit_loads')
+
+    def test_scene(self):
+        self.expect(r'study\.yaml:2: scene = .*nothing\.yaml: must be a file that can be read: No such file', 'rough_truss.yaml', 'nothing.yaml')
+        scene = read(program_test.scene_file('rough_truss')).decode().replace('EA: 1.0', 'EA: -1.0', 1)
+        self.write(scene, 'wrong.yaml')
+        self.expect(r'wrong\.yaml:\d+: scene\.bars\[0\]\.EA = -1: must be > 0', program_test.scene_file('rough_truss'), 'wrong.yaml')
+
+    def test_scheduler_that_is_not_there(self):
+        self.assertIn('no scheduler at tcp://127.0.0.1:9', self.run_study('--scheduler', 'tcp://127.0.0.1:9', status=1))
+
+
+class Points(unittest.TestCase):
+
+    def test_grids_meet_their_ends(self):
+        parameter = study_file.Parameter('x', begin=0.1234567890123456789, end=1.0 / 3.0, count=4)
+        values = study_points.grid_values(parameter)
+        self.assertEqual((float(values[0]), float(values[-1])), (parameter.begin, parameter.end))
+
+    def test_decades(self):
+        parameter = study_file.Parameter('x', begin=1e-3, end=1e3, count=7, spacing='log')
+        self.assertEqual(study_points.grid_values(parameter), ('0.001', '0.01', '0.1', '1', '10', '100', '1000'))
+
+
+if __name__ == '__main__':
+    unittest.main()

@@ -1,0 +1,74 @@
+#include "contact_path/path/study_outputs.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "support/reference_cases.h"
+#include "support/traced_path.h"
+
+namespace contact_path {
+namespace {
+
+TEST(StudyOutputs, OfTheRoughTrussAreItsClosedForms) {
+  const TracedPath path = TraceIncrements(ReadExample("rough_truss"));
+  StudyOutputs outputs({"limit_loads", "events", "end_reason", "max.load_factor", "final.dissipation",
+                        "min.rn_foot@floor", "final.kind"},
+                       path.request);
+  for (const Increment& increment : path.increments) outputs.Add(increment);
+  const std::vector<std::string> texts = outputs.Texts(path.result.reason);
+  ASSERT_EQ(texts.size(), 7U);
+  EXPECT_NEAR(std::stod(texts[0]), rough_truss::CornerLoad(), 1e-9);
+  EXPECT_EQ(texts[1], "2");  // the last one where the reaction vanishes
+  EXPECT_EQ(texts[2], "stop_criterion");
+  EXPECT_EQ(texts[3], texts[0]);
+  EXPECT_NEAR(std::stod(texts[4]), rough_truss::TotalDissipation(), 1e-6);
+  EXPECT_NEAR(std::stod(texts[5]), 0.0, 1e-6);
+  EXPECT_EQ(texts[6], "regular");
+}
+
+// Increments of which only kind and load factor matter.
+std::vector<std::string> TextsOf(const std::vector<std::string>& names, const std::vector<double>& limits) {
+  StudyOutputs outputs(names, ReadExample("rough_truss"));
+  for (const double load_factor : limits) {
+    Increment increment;
+    increment.kind = IncrementKind::kSmoothLimit;
+    increment.load_factor = load_factor;
+    outputs.Add(increment);
+  }
+  return outputs.Texts(EndReason::kPathEnd);
+}
+
+TEST(StudyOutputs, ListLimitLoadsInTheirOrder) {
+  EXPECT_EQ(TextsOf({"limit_loads", "final.load_factor", "max.load_factor", "min.load_factor"}, {0.5, -2.0, 0.25}),
+            (std::vector<std::string>{"0.5 -2 0.25", "0.25", "0.5", "-2"}));
+}
+
+TEST(StudyOutputs, HaveSeventeenDigits) { EXPECT_EQ(TextsOf({"final.load_factor"}, {0.1})[0], "0.10000000000000001"); }
+
+TEST(StudyOutputs, OfNoIncrementsAreEmpty) {
+  EXPECT_EQ(TextsOf({"limit_loads", "events", "end_reason", "final.load_factor", "final.kind"}, {}),
+            (std::vector<std::string>{"", "", "path_end", "", ""}));
+}
+
+TEST(StudyOutputs, NameTheOneThatIsNotThere) {
+  const auto rule_of = [](const std::string& name) -> std::string {
+    try {
+      const StudyOutputs outputs({"events", name}, ReadExample("rough_truss"));
+    } catch (const UnknownOutput& error) {
+      EXPECT_EQ(error.place(), 1U);
+      return error.what();
+    }
+    return "is an output";
+  };
+  EXPECT_EQ(rule_of("limit_load"),
+            "must be limit_loads, events, end_reason, final.<column>, max.<column> or min.<column>; did you mean "
+            "limit_loads?");
+  EXPECT_EQ(rule_of("final.x_apx"), "must be of a node of the scene; did you mean apex?");
+  EXPECT_EQ(rule_of("max.kind"), "must be of a column of numbers, or begin with final.");
+  EXPECT_EQ(rule_of("final.kind"), "is an output");
+}
+
+}  // namespace
+}  // namespace contact_path
