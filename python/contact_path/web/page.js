@@ -216,8 +216,6 @@
 
   async function beginStudy() {
     const study = data.study;
-    document.querySelector('main').classList.add('study');
-    element('study').hidden = false;
     for (const [id, start] of Object.entries(study.start)) {
       const usable = study.columns.map((_, i) => i).filter((i) => id !== 'colour' || study.columns[i].kind !== 'category');
       element(id).append(...usable.map((i) => new Option(study.columns[i].label, i, i === start, i === start)));
@@ -371,6 +369,8 @@
     element('path').addEventListener('change', () => { stop(); choose(Number(element('path').value), 0); });
     element('slider').addEventListener('input', () => { stop(); step = Number(element('slider').value); update(); });
     element('play').addEventListener('click', () => element('play').textContent === '\u25b6' ? play() : stop());
+    document.querySelector('main').classList.toggle('study', data.study !== null); // before the figures take their sizes
+    element('study').hidden = data.study === null;
     if (data.curves) {
       await drawCurves(data.curves, await Promise.all(data.paths.map((_, i) => load(i))));
     } else {
