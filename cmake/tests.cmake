@@ -190,7 +190,7 @@ contact_path_add_python_test(mesh_test test/cli/mesh_test.py
 contact_path_add_python_test(study_test test/cli/study_test.py DEPENDS contact_path_trace contact_path_study_server
   VARIABLES CONTACT_PATH_STUDY=${CMAKE_CURRENT_SOURCE_DIR}/scripts/contact_path_study CONTACT_PATH_ROOT=${CMAKE_CURRENT_SOURCE_DIR}
     CONTACT_PATH_PROGRAMS=$<TARGET_FILE_DIR:contact_path_trace>)
-foreach(test scene_test path_test page_test trace_test doctest_test)
+foreach(test scene_test path_test page_test page_study_test trace_test doctest_test)
   contact_path_add_python_test(python_${test} test/python/${test}.py DEPENDS contact_path_trace
     VARIABLES CONTACT_PATH_ROOT=${CMAKE_CURRENT_SOURCE_DIR} CONTACT_PATH_PROGRAMS=$<TARGET_FILE_DIR:contact_path_trace>)
 endforeach()

@@ -2,21 +2,20 @@
 from __future__ import annotations
 
 import html
-import json
 import os
-from typing import List, Sequence
+from typing import List, Sequence, Tuple
 
 import numpy as np
 
 from contact_path import page_curves, page_shapes
-from contact_path.page_arrays import Entry, plain
+from contact_path.page_arrays import Entry, as_json, packed_entry, plain
 from contact_path.page_points import Points
 from contact_path.path import Path
 from contact_path.path_marks import default_quantity, kinds_marked
 from contact_path.scene_arrays import Structure
 
 WEB = os.path.join(os.path.dirname(os.path.abspath(__file__)), 'web')
-MOST_STEPS = 1000  # of a path
+MOST_STEPS, MOST_STEPS_TOGETHER = 1000, 20000  # of a path, of all paths
 MOST_COORDINATES = 2500000  # of all points of structures in all steps together, two bytes each before they are compressed
 
 
@@ -33,9 +32,7 @@ def write(paths: Sequence[Path], file: str | os.PathLike[str], x: str | None = N
 
 def page(paths: Sequence[Path], x: str | None = None, y: str = 'load_factor', sources: Sequence[str] = ()) -> str:
     """The text of the file."""
-    if not all(map(len, paths)):
-        raise ValueError('no increments')
-    x = x or default_quantity(paths[0])
+    x = x or default_quantity(checked(paths)[0])
     for path, source in zip(paths, sources or [path.title or 'path' for path in paths]):
         try:
             path.quantity(x), path.quantity(y)
@@ -43,13 +40,30 @@ def page(paths: Sequence[Path], x: str | None = None, y: str = 'load_factor', so
                 raise ValueError('no increment carries positions')
         except ValueError as error:
             raise ValueError('%s: %s' % (source, error)) from error
+    steps, entries = path_entries(paths, x, y)
+    data = {'curves': page_curves.figure(paths, steps, x, y), 'paths': entries, 'study': None}
+    return document(', '.join(path.title for path in paths) or 'path', data)
+
+
+def checked(paths: Sequence[Path]) -> Sequence[Path]:
+    if not all(map(len, paths)):
+        raise ValueError('no increments')
+    return paths
+
+
+def path_entries(paths: Sequence[Path], x: str, y: str, alone: bool = False) -> Tuple[List[np.ndarray], List[Entry]]:
+    """For each path its steps, and what the page knows of it. alone: each has its own curves."""
     points = [Points(Structure(path.scene)) if path.scene is not None else None for path in paths]
     total = sum(2 * own.count for own in points if own is not None)
-    most = max(2, min(MOST_STEPS, MOST_COORDINATES // max(total, 1)))
+    most = max(2, min(MOST_STEPS, MOST_STEPS_TOGETHER // len(paths), MOST_COORDINATES // max(total, 1)))
     steps = [steps_of(path, most) for path in paths]
-    data = {'curves': page_curves.figure(paths, steps, x, y),
-            'paths': [path_data(*each, x, y) for each in zip(paths, steps, points)]}
-    title = ', '.join(path.title for path in paths) or 'path'
+    return steps, [{'title': path.title, 'zlib': packed_entry({
+        **path_data(path, rows, own, x, y), 'curves': page_curves.figure([path], [rows], x, y) if alone else None})}
+        for path, rows, own in zip(paths, steps, points)]
+
+
+def document(title: str, data: Entry) -> str:
+    """The text of the file."""
     return fill(read('page.html'), {'title': html.escape(title), 'style': read('page.css'), 'plotly': read('plotly-basic.min.js'),
                                     'script': read('page.js'), 'data': as_json(data)})
 
@@ -71,14 +85,9 @@ def evenly(count: int, most: int) -> np.ndarray:
 
 def path_data(path: Path, rows: np.ndarray, points: Points | None, x: str, y: str) -> Entry:
     """What the slider moves and tells. `structure`: null without a scene."""
-    return {'title': path.title, 'steps': len(rows), 'increments': len(path), 'indices': plain(path['index'][rows], '<i4'), 'columns': page_curves.columns(path, rows, x, y),
+    return {'steps': len(rows), 'increments': len(path), 'indices': plain(path['index'][rows], '<i4'), 'columns': page_curves.columns(path, rows, x, y),
             'headings': page_curves.headings(path, rows), 'end': path.message,
             'structure': page_shapes.structure_of(path, rows, points.structure, points) if points is not None else None}
-
-
-def as_json(data: Entry) -> str:
-    """As it may stand in a page: nothing in it ends the element or begins a comment."""
-    return json.dumps(data, separators=(',', ':'), allow_nan=False).replace('<', '\\u003c')
 
 
 def read(name: str) -> str:

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import base64
+import json
 import zlib
 from typing import Any, Dict
 
@@ -21,6 +22,16 @@ def plain(values: Any, kind: str = '<f8') -> Entry:
 def packed(values: Any, kind: str) -> Entry:
     """The same, compressed."""
     return {'dtype': TYPES[kind], 'zlib': text(zlib.compress(np.ascontiguousarray(values, dtype=kind).tobytes(), 9))}
+
+
+def packed_entry(entry: Entry) -> str:
+    """Anything of JSON, compressed, that the page unpacks when it needs it."""
+    return text(zlib.compress(as_json(entry).encode('ascii'), 9))
+
+
+def as_json(entry: Entry) -> str:
+    """As it may stand in a page: nothing in it ends the element or begins a comment."""
+    return json.dumps(entry, separators=(',', ':'), allow_nan=False).replace('<', '\\u003c')
 
 
 def trajectories(values: np.ndarray) -> Entry:

@@ -11,7 +11,7 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import LogNorm, Normalize
 from matplotlib.figure import Figure
 
-from contact_path import path_curve, path_quantities, plot_panels
+from contact_path import path_curve, path_marks, path_quantities
 from contact_path.path import Path
 from contact_path.path_file import read_csv
 from contact_path.study_file import Parameter
@@ -158,7 +158,7 @@ def draw_paths(parameter: Parameter, values: Sequence[str], paths: Sequence[Path
     """
     if not paths:
         raise ValueError('no trace left a path')
-    x = x or plot_panels.default_quantity(paths[0])
+    x = x or path_marks.default_quantity(paths[0])
     figure, axes = plt.subplots(figsize=SIZE, constrained_layout=True)
     by = axis(parameter, values)
     colour = colours(by)

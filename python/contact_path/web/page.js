@@ -20,10 +20,12 @@
   const bytes = (text) => Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
   const plain = (array) => new TYPES[array.dtype](bytes(array.bdata).buffer);
 
-  async function unpacked(array) {
-    const stream = new Blob([bytes(array.zlib)]).stream().pipeThrough(new DecompressionStream('deflate'));
-    return new TYPES[array.dtype](await new Response(stream).arrayBuffer());
+  function inflated(text) {
+    const stream = new Blob([bytes(text)]).stream().pipeThrough(new DecompressionStream('deflate'));
+    return new Response(stream).arrayBuffer();
   }
+
+  const unpacked = async (array) => new TYPES[array.dtype](await inflated(array.zlib));
 
   // Coordinates [steps][m] from the differences of their codes [m][steps].
   async function trajectories(entry, steps) {
@@ -162,11 +164,14 @@
       heading + path.values(at).map(([label, value]) => `<br>${label}: ${value}`).join(''));
   }
 
-  function drawCurves() {
-    const traces = data.curves.data, told = data.paths.map(texts);
+  let marks = 0; // the first trace of the curves that the slider moves
+
+  // The curves of paths, which `meta` of the traces counts.
+  function drawCurves(figure, paths) {
+    const traces = [...figure.data], told = paths.map(texts);
     const points = traces.filter((trace) => trace.meta);
-    data.paths.forEach((path, i) => {
-      path.curves = points.filter((trace) => trace.meta.path === i)
+    paths.forEach((path, i) => {
+      path.points = points.filter((trace) => trace.meta.path === i)
         .map((trace) => ({xaxis: trace.xaxis, x: plain(trace.x), y: plain(trace.y)}));
     });
     for (const trace of points) {
@@ -174,20 +179,56 @@
     }
     const mark = {type: 'scatter', mode: 'markers', hoverinfo: 'skip', showlegend: false, x: [], y: [],
       marker: {size: 13, color: 'rgba(255,255,255,0.4)', line: {color: 'black', width: 2}}};
+    marks = traces.length;
     traces.push({...mark, xaxis: 'x', yaxis: 'y'}, {...mark, xaxis: 'x2', yaxis: 'y2'});
-    const drawn = Plotly.newPlot('curves', traces, data.curves.layout, CONFIG);
-    element('curves').on('plotly_click', ({points: [point]}) => {
-      if (point.data.meta) {
-        choose(point.data.meta.path, point.pointNumber);
-      }
-    });
-    return drawn;
+    return Plotly.react('curves', traces, figure.layout, CONFIG);
+  }
+
+  function clickedCurve({points: [point]}) {
+    if (point.data.meta) {
+      choose(data.curves ? point.data.meta.path : number, point.pointNumber);
+    }
   }
 
   function moveMarks(path) {
-    const of = (axis) => path.curves.filter((curve) => curve.xaxis === axis);
-    const marks = ['x', 'x2'].map((axis) => ({x: of(axis).map((curve) => curve.x[step]), y: of(axis).map((curve) => curve.y[step])}));
-    return moved('curves', marks, data.curves.data.length - marks.length);
+    const of = (axis) => path.points.filter((curve) => curve.xaxis === axis);
+    return moved('curves', ['x', 'x2'].map((axis) =>
+      ({x: of(axis).map((curve) => curve.x[step]), y: of(axis).map((curve) => curve.y[step])})), marks);
+  }
+
+  // The map of a study: a point for each line of its table.
+
+  function drawMap() {
+    const study = data.study, columns = study.columns;
+    const [across, up, colour] = ['across', 'up', 'colour'].map((id) => columns[element(id).value]);
+    const chosen = study.paths.indexOf(number);
+    const axis = (column) => ({title: {text: column.label}, type: column.kind, automargin: true, gridcolor: '#ebebeb'});
+    const lines = study.paths.map((_, i) => [`line ${i + 1}`, ...columns.map(({label, values}) => `${label}: ${values[i] ?? ''}`)].join('<br>'));
+    const point = {type: 'scatter', mode: 'markers', showlegend: false};
+    return Plotly.react('map', [
+      {...point, x: across.values, y: up.values, text: lines, hovertemplate: '%{text}<extra></extra>',
+        marker: {size: 12, symbol: study.paths.map((path) => path === null ? 'x-thin-open' : 'circle'), color: colour.values.map((value) => value ?? NaN),
+          colorscale: 'Viridis', colorbar: {title: {text: colour.label, side: 'right'}, thickness: 12}}},
+      {...point, x: [across.values[chosen]], y: [up.values[chosen]], hoverinfo: 'skip',
+        marker: {size: 18, color: 'rgba(0,0,0,0)', line: {color: 'red', width: 2.5}}},
+    ], {xaxis: axis(across), yaxis: axis(up), margin: {l: 60, r: 10, t: 32, b: 50}, hovermode: 'closest', plot_bgcolor: '#ffffff'}, CONFIG);
+  }
+
+  async function beginStudy() {
+    const study = data.study;
+    for (const [id, start] of Object.entries(study.start)) {
+      const usable = study.columns.map((_, i) => i).filter((i) => id !== 'colour' || study.columns[i].kind !== 'category');
+      element(id).append(...usable.map((i) => new Option(study.columns[i].label, i, i === start, i === start)));
+      element(id).addEventListener('change', drawMap);
+    }
+    await drawMap();
+    element('map').on('plotly_click', ({points: [point]}) => {
+      const path = study.paths[point.pointNumber];
+      if (point.curveNumber === 0 && path !== null) {
+        stop();
+        choose(path, 0);
+      }
+    });
   }
 
   // Beside the figures.
@@ -273,14 +314,28 @@
     return pending;
   }
 
-  async function choose(path, at) {
-    number = path;
-    step = at;
+  async function load(path) {
     const own = data.paths[path];
-    element('path').value = path;
-    element('slider').max = own.steps - 1;
+    if (own.zlib) {
+      Object.assign(own, JSON.parse(new TextDecoder().decode(await inflated(own.zlib))), {zlib: null});
+    }
+    return own;
+  }
+
+  async function choose(path, at) {
+    const own = await load(path);
     if (own.structure && !own.unpacked) {
       own.unpacked = await unpackStructure(own.structure, own.steps);
+    }
+    if (own.curves && (path !== number || !own.points)) {
+      await drawCurves(own.curves, [own]);
+    }
+    number = path;
+    step = at;
+    element('path').value = path;
+    element('slider').max = own.steps - 1;
+    if (data.study) {
+      await drawMap();
     }
     element('structure').style.visibility = own.structure ? 'visible' : 'hidden';
     remarks(own);
@@ -314,7 +369,15 @@
     element('path').addEventListener('change', () => { stop(); choose(Number(element('path').value), 0); });
     element('slider').addEventListener('input', () => { stop(); step = Number(element('slider').value); update(); });
     element('play').addEventListener('click', () => element('play').textContent === '\u25b6' ? play() : stop());
-    await drawCurves();
+    document.querySelector('main').classList.toggle('study', data.study !== null); // before the figures take their sizes
+    element('study').hidden = data.study === null;
+    if (data.curves) {
+      await drawCurves(data.curves, await Promise.all(data.paths.map((_, i) => load(i))));
+    } else {
+      await drawCurves((await load(0)).curves, [data.paths[0]]);
+      await beginStudy();
+    }
+    element('curves').on('plotly_click', clickedCurve);
     const wanted = Number(location.hash.slice(1)); // page.html#40: at increment 40
     await choose(0, Math.max(0, plain(data.paths[0].indices).findLastIndex((index) => index <= wanted)));
   }

@@ -1,0 +1,114 @@
+#!/usr/bin/env python3
+"""The page of a study: its table as a map in a headless browser, whose points open their paths.
+
+CONTACT_PATH_ROOT: the sources; CONTACT_PATH_PROGRAMS: the directory of the programs; CONTACT_PATH_SCENES: the example scenes.
+"""
+import csv
+import os
+import sys
+import unittest
+
+import browser
+from program_test import ProgramTest, run, scene_file
+
+ROOT = os.environ['CONTACT_PATH_ROOT']
+PLOT = os.path.join(ROOT, 'scripts', 'plot')
+sys.path.insert(0, os.path.join(ROOT, 'python'))
+import contact_path as cp  # noqa: E402
+from contact_path import page_study  # noqa: E402
+
+FRICTIONS, HEIGHTS = ('1.0', '1.2', '1.4'), ('1.2', '1.3')
+STUDY = '''scene: %s
+parameters:
+- {path: obstacles.floor.friction, values: [%s]}
+- {path: nodes.apex.y, values: [%s]}
+outputs: [limit_loads, end_reason]
+table: study.csv
+paths: kept
+''' % (scene_file('rough_truss'), ', '.join(FRICTIONS), ', '.join(HEIGHTS))
+MISSING = 4  # the line of the table, from 0, that has no path
+
+
+class PageOfStudy(ProgramTest):
+    """Table and paths as a study leaves them."""
+
+    def setUp(self):
+        super().setUp()
+        os.mkdir(self.path('kept'))
+        with open(self.path('study.yaml'), 'w') as file:
+            file.write(STUDY)
+        base = cp.Scene.read(scene_file('rough_truss'))
+        table = [['obstacles.floor.friction', 'nodes.apex.y', 'status', 'limit_1', 'end_reason']]
+        self.traced = []
+        for friction in FRICTIONS:
+            for height in HEIGHTS:
+                path = cp.trace(page_study.with_values(base, {'obstacles.floor.friction': friction, 'nodes.apex.y': height}))
+                self.traced.append(path)
+                table.append([friction, height, 'complete', repr(path.limit_points[0]['load_factor']), path.end_reason])
+                if len(self.traced) - 1 != MISSING:
+                    self.keep(path, self.path('kept/%06d.csv' % len(self.traced)))
+        table[1 + MISSING][2:] = ['failed: lost', '', '']
+        with open(self.path('study.csv'), 'w', newline='') as file:
+            csv.writer(file, lineterminator='\n').writerows(table)
+
+    def keep(self, path, file):
+        with open(file, 'w', newline='') as target:
+            writer = csv.writer(target, lineterminator='\n')
+            writer.writerow(path.columns)
+            writer.writerows(zip(*(path[name].tolist() for name in path.columns)))
+
+    def test_fields_are_changed_by_their_paths(self):
+        scene = cp.Scene.read(scene_file('rough_truss'))
+        changed = page_study.with_values(scene, {'nodes.apex.y': '1.5', 'bars.1.EA': '2', 'options.step': '0.25'})
+        self.assertEqual([node['y'] for node in changed.request['scene']['nodes'] if node['name'] == 'apex'], [1.5])
+        self.assertEqual(changed.request['scene']['bars'][1]['EA'], 2)
+        self.assertEqual(changed.request['options']['step'], 0.25)
+        self.assertNotEqual(scene.request['scene']['bars'][1]['EA'], 2)
+
+    def test_what_cannot_be_drawn_is_one_line(self):
+        with open(self.path('bare.yaml'), 'w') as file:
+            file.write(STUDY.replace('paths: kept\n', ''))
+        for arguments, words in (((self.path('bare.yaml'),), 'keeps no paths'), ((self.path('study.yaml'), 'a.csv'), 'a page of its own')):
+            drawn = run(PLOT, *arguments, '--html', self.path('a.html'))
+            self.assertNotEqual(drawn.returncode, 0)
+            self.assertEqual(drawn.stderr.count('\n'), 1, drawn.stderr)
+            self.assertIn(words, drawn.stderr)
+
+    @unittest.skipIf(browser.programs() is None, 'no chromium and chromedriver')
+    def test_points_open_their_paths(self):
+        drawn = run(PLOT, self.path('study.yaml'), '--html', self.path('a.html'), '--x', 'apex.y')
+        self.assertEqual((drawn.returncode, drawn.stdout), (0, self.path('a.html') + '\n'), drawn.stderr)
+        chromium = browser.Browser()
+        self.addCleanup(chromium.close)
+        chromium.open(self.path('a.html'))
+        chromium.run('await page.ready;')
+        for line in len(self.traced) - 1, MISSING, 1:
+            before = self.shown(chromium)
+            chromium.point_at(*chromium.run('''const div = document.getElementById('map'), box = div.getBoundingClientRect();
+                const {xaxis, yaxis} = div._fullLayout, trace = div.data[0];
+                return [box.left + xaxis._offset + xaxis.d2p(trace.x[%d]), box.top + yaxis._offset + yaxis.d2p(trace.y[%d])];''' %
+                                            (line, line)), click=True)
+            if line == MISSING:
+                self.assertEqual(self.shown(chromium), before)
+                continue
+            wanted = '%d: %s, %s' % (line + 1, FRICTIONS[line // len(HEIGHTS)], HEIGHTS[line % len(HEIGHTS)])
+            chromium.run('''const late = performance.now() + 20000;
+                while (document.getElementById('path').selectedOptions[0].text !== '%s' && performance.now() < late) {
+                  await new Promise(requestAnimationFrame);
+                }
+                await page.choose(Number(document.getElementById('path').value), %d);''' % (wanted, len(self.traced[line]) - 1))
+            title, mark, apex = self.shown(chromium)
+            self.assertEqual(title, wanted)
+            self.assertEqual(mark, [self.traced[line]['y_apex'][-1], self.traced[line]['load_factor'][-1]])
+            self.assertAlmostEqual(apex, self.traced[line]['y_apex'][-1], delta=1e-3)
+        self.assertEqual(chromium.complaints(), [])
+
+    def shown(self, chromium):
+        """The path, the place of the mark on its curve, and the height of the apex in the structure."""
+        return chromium.run('''const mark = document.getElementById('curves').data.slice(-2)[0];
+            const bars = document.getElementById('structure').data.filter((trace) => trace.text && trace.mode === 'lines')[0];
+            return [document.getElementById('path').selectedOptions[0].text, [mark.x[0], mark.y[0]], bars.y[bars.text.indexOf('apex')]];''')
+
+
+if __name__ == '__main__':
+    unittest.main()
