@@ -56,7 +56,7 @@ install(TARGETS contact_path_node contact_path_markers contact_path_trace contac
   contact_path_study_server contact_path_verify
   RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(DIRECTORY include/${PROJECT_NAME}/ DESTINATION ${CATKIN_PACKAGE_INCLUDE_DESTINATION})
-catkin_install_python(PROGRAMS scripts/contact_path_mesh scripts/play scripts/plot scripts/study scripts/watch
+catkin_install_python(PROGRAMS scripts/contact_path_mesh scripts/contact_path_study scripts/play scripts/plot scripts/watch
   DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(DIRECTORY config launch scenes DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
 install(FILES CHANGELOG.rst CITATION.cff LICENSE README.md DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})

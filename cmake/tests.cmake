@@ -120,9 +120,9 @@ contact_path_add_long_test(branch branches_test)
 contact_path_add_long_test(branch random_paths_test)
 contact_path_add_stage(check curved_residuals_test residuals_test solid_residuals_test)
 contact_path_add_stage(path automatic_step_test branch_options_test csv_test determinism_test diagnosis_test free_motion_test
-  hard_scenes_test increment_test large_requests_test model_size_test model_test path_column_test path_summary_test preload_test
+  hard_scenes_test increment_test large_requests_test model_size_test model_test path_summary_test preload_test
   program_test progress_estimate_test redistribution_test restored_states_test return_detector_test
-  singular_scenes_test stop_test study_outputs_test work_test)
+  singular_scenes_test stop_test work_test)
 contact_path_add_long_test(path curved_paths_test)
 contact_path_add_long_test(path curved_random_paths_test)
 contact_path_add_long_test(path curved_scenes_test)
@@ -136,6 +136,7 @@ contact_path_add_long_test(path sizes_test)
 contact_path_add_long_test(path beam_paths_test)
 contact_path_add_long_test(path solid_paths_test)
 contact_path_add_long_test(path trace_test)
+contact_path_add_stage(study path_column_test study_outputs_test)
 contact_path_add_stage(verify verify_end_test verify_events_test verify_path_test)
 contact_path_add_stage(cli progress_test)
 target_link_libraries(cli_tests contact_path_terminal)
@@ -186,7 +187,7 @@ contact_path_add_python_test(plot_test test/cli/plot_test.py DEPENDS contact_pat
 contact_path_add_python_test(mesh_test test/cli/mesh_test.py
   VARIABLES CONTACT_PATH_MESH=${CMAKE_CURRENT_SOURCE_DIR}/scripts/contact_path_mesh)
 contact_path_add_python_test(study_test test/cli/study_test.py DEPENDS contact_path_trace contact_path_study_server
-  VARIABLES CONTACT_PATH_STUDY=${CMAKE_CURRENT_SOURCE_DIR}/scripts/study CONTACT_PATH_ROOT=${CMAKE_CURRENT_SOURCE_DIR}
+  VARIABLES CONTACT_PATH_STUDY=${CMAKE_CURRENT_SOURCE_DIR}/scripts/contact_path_study CONTACT_PATH_ROOT=${CMAKE_CURRENT_SOURCE_DIR}
     CONTACT_PATH_PROGRAMS=$<TARGET_FILE_DIR:contact_path_trace>)
 foreach(test scene_test path_test page_test page_study_test trace_test doctest_test)
   contact_path_add_python_test(python_${test} test/python/${test}.py DEPENDS contact_path_trace

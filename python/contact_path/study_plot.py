@@ -1,6 +1,7 @@
 """The figures of a study: an output over one or two parameters, and its paths over each other."""
 from __future__ import annotations
 
+import os
 from typing import Any, Dict, List, NamedTuple, Sequence, Tuple
 
 import matplotlib.pyplot as plt
@@ -12,6 +13,7 @@ from matplotlib.figure import Figure
 
 from contact_path import path_curve, path_marks, path_quantities
 from contact_path.path import Path
+from contact_path.path_file import read_csv
 from contact_path.study_file import Parameter
 
 SIZE = 8.5, 5.6  # of the figure [inches]
@@ -191,9 +193,5 @@ def save(figure: Figure, file: str) -> None:
 
 def kept(files: List[str]) -> List[Tuple[int, Path]]:
     """The paths in the files that are there and have increments, with their places among the files."""
-    import os
-
-    from contact_path.path_file import read_csv
-
     paths = [(place, read_csv(file)) for place, file in enumerate(files) if os.path.exists(file)]
     return [(place, path) for place, path in paths if len(path)]

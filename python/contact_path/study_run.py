@@ -5,7 +5,7 @@ import contextlib
 import os
 import sys
 import time
-from typing import Dict, List, Sequence, Tuple
+from typing import Callable, Dict, List, Sequence, Tuple
 
 from contact_path import study_cluster, study_points, study_table
 from contact_path.study_file import Study
@@ -108,16 +108,18 @@ def keep_path(file: str, csv: bytes) -> None:
             os.remove(file)
 
 
-def run(study: Study, *, scheduler: str = '', workers: int = 0, quiet: bool = False) -> List[List[str]]:
+def run(study: Study, *, scheduler: str = '', workers: int = 0, quiet: bool = False,
+        say: Callable[[str], None] = print) -> List[List[str]]:
     """The table of the study, as study_table.lines has it, which is written, too.
 
-    scheduler: address; '': a cluster on this machine, with so many workers, 0: one for each processor. As read_job; JournalBusy;
+    scheduler: address; '': a cluster on this machine, with so many workers, 0: one for each processor. quiet: without progress. say:
+    takes remarks. As read_job; OSError; JournalBusy;
     ClusterLost; KeyboardInterrupt. What is done is kept.
     """
     job, points = read_job(study)
     journal = Journal(study.table + '.journal', [job, points, study.paths])
     if journal.set_aside:
-        print('study: %s was of another scene or study: it is %s.old now' % (journal.file, journal.file), file=sys.stderr)
+        say('%s was of another scene or study: it is %s.old now' % (journal.file, journal.file))
     try:
         answers = dict(journal.done)
         wanted = [number for number in range(len(points)) if number not in answers]
@@ -135,7 +137,7 @@ def trace(study: Study, job: Job, points: Sequence[Point], wanted: Sequence[int]
     """The answers of the wanted points. All but failures are in the journal as soon as they are there."""
     if study.paths:
         os.makedirs(study.paths, exist_ok=True)
-    progress = Progress('study', len(points), len(points) - len(wanted), not quiet and sys.stderr.isatty())
+    progress = Progress('traces', len(points), len(points) - len(wanted), not quiet and sys.stderr.isatty())
     answers: Dict[int, str] = {}
 
     def take(traced: List[Tuple[int, str, bytes]]) -> None:

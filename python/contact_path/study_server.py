@@ -7,6 +7,7 @@ import subprocess
 import tempfile
 from typing import List, NamedTuple, Sequence, Tuple
 
+from contact_path.errors import TraceFailed
 from contact_path.program_trace import find_program
 
 PROGRAM = 'contact_path_study_server'
@@ -35,7 +36,7 @@ class Server:
     """One process. To be used by one thread, and closed."""
 
     def __init__(self, scene_file: str, job: Job) -> None:
-        """scene_file: which has job.scene. ServerRefused; TraceFailed: the program is not there."""
+        """scene_file: which has job.scene. ServerRefused; TraceFailed: the program is not there, or cannot run."""
         #: 'number', 'integer', 'truth' or 'text' of each parameter.
         self.kinds: List[str]
         command = [find_program(PROGRAM), *('--parameter=' + path for path in job.parameters),
@@ -46,10 +47,14 @@ class Server:
                                             start_new_session=True)
             try:
                 _, self.version, *self.kinds = self._line().split('\t')
-            except ServerDied:
+            except ServerDied as error:
+                self.process.wait()
                 self.close()
                 errors.seek(0)
-                raise ServerRefused(errors.read().decode('utf-8', 'replace').split('\n')[0]) from None
+                said = errors.read().decode('utf-8', 'replace').split('\n')[0]
+                if self.process.returncode == 2:
+                    raise ServerRefused(said) from error
+                raise TraceFailed('%s ended: %s' % (command[0], said or 'exit status %d' % self.process.returncode)) from error
             except BaseException:
                 self.close()
                 raise

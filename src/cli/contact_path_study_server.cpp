@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "contact_path/path/csv.h"
-#include "contact_path/path/study_outputs.h"
+#include "contact_path/study/study_outputs.h"
 #include "contact_path/path/trace.h"
 #include "contact_path/scene/one_line.h"
 #include "contact_path/scene/read_scene.h"

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Runs scripts/study as a user would.
+"""Runs contact_path_study as a user would.
 
-CONTACT_PATH_STUDY: the script; CONTACT_PATH_ROOT: the sources; CONTACT_PATH_PROGRAMS: the directory of the programs;
+CONTACT_PATH_STUDY: the program; CONTACT_PATH_ROOT: the sources; CONTACT_PATH_PROGRAMS: the directory of the programs;
 CONTACT_PATH_SCENES: the directory of the example scenes.
 """
 import csv
@@ -113,7 +113,7 @@ class Tables(StudyTest):
 
     def test_grid_of_closed_forms(self):
         said = self.run_study('--workers', '1')
-        self.assertRegex(said, r'^study: .*table\.csv: 6 traces: 6 complete\n$')
+        self.assertRegex(said, r'^contact_path_study: .*table\.csv: 6 traces: 6 complete\n$')
         lines = self.table()
         self.assertEqual(list(lines[0]), ['obstacles.floor.friction', 'nodes.apex.y', 'status', 'limit_1', 'events', 'end_reason',
                                           'max.load_factor', 'final.dissipation'])
@@ -230,7 +230,7 @@ class GoingOn(StudyTest):
         self.addCleanup(study.kill)
         self.wait_for(lambda: self.journal().count(b'\n') > 2)
         study.send_signal(signal.SIGINT)
-        self.assertEqual(study.communicate(timeout=30)[1], 'study: stopped; what is done is kept, the same command goes on\n')
+        self.assertEqual(study.communicate(timeout=30)[1], 'contact_path_study: stopped; what is done is kept, the same command goes on\n')
         self.assertEqual(study.returncode, 1)
 
     def test_worker_and_server_that_die_are_no_loss(self):

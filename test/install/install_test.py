@@ -88,8 +88,9 @@ class InstallTest(unittest.TestCase):
         """rosrun, and its completion, find every executable file of the package."""
         found = self.run_here('find', '-L', self.programs, self.share, '-type', 'f', '-perm', '/111', '-printf', '%f\n')
         self.assertEqual(sorted(found.split()), ['contact_path_lattice', 'contact_path_markers', 'contact_path_mesh',
-                                                 'contact_path_node', 'contact_path_outlines', 'contact_path_study_server',
-                                                 'contact_path_trace', 'play', 'plot', 'study', 'verify', 'watch'])
+                                                 'contact_path_node', 'contact_path_outlines', 'contact_path_study',
+                                                 'contact_path_study_server', 'contact_path_trace', 'play', 'plot', 'verify',
+                                                 'watch'])
 
     def test_package_and_messages_are_found(self):
         self.assertEqual(self.run_here('rospack', 'find', 'contact_path').strip(), self.share)

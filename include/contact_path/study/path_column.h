@@ -1,6 +1,6 @@
 // A column of the CSV of a path (path/csv.h), by its name.
-#ifndef CONTACT_PATH_PATH_PATH_COLUMN_H_
-#define CONTACT_PATH_PATH_PATH_COLUMN_H_
+#ifndef CONTACT_PATH_STUDY_PATH_COLUMN_H_
+#define CONTACT_PATH_STUDY_PATH_COLUMN_H_
 
 #include <functional>
 #include <string>
@@ -32,4 +32,4 @@ class PathColumn {
 
 }  // namespace contact_path
 
-#endif  // CONTACT_PATH_PATH_PATH_COLUMN_H_
+#endif  // CONTACT_PATH_STUDY_PATH_COLUMN_H_

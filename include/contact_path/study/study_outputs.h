@@ -1,6 +1,6 @@
 // What a study takes from a path: a few values, gathered increment by increment.
-#ifndef CONTACT_PATH_PATH_STUDY_OUTPUTS_H_
-#define CONTACT_PATH_PATH_STUDY_OUTPUTS_H_
+#ifndef CONTACT_PATH_STUDY_STUDY_OUTPUTS_H_
+#define CONTACT_PATH_STUDY_STUDY_OUTPUTS_H_
 
 #include <cstddef>
 #include <optional>
@@ -10,9 +10,9 @@
 
 #include "contact_path/path/end_reason.h"
 #include "contact_path/path/increment.h"
-#include "contact_path/path/path_column.h"
 #include "contact_path/path/path_summary.h"
 #include "contact_path/scene/scene.h"
+#include "contact_path/study/path_column.h"
 
 namespace contact_path {
 
@@ -29,7 +29,7 @@ class UnknownOutput : public std::invalid_argument {
 class StudyOutputs {
  public:
   // names: limit_loads (load factors of the limit points), events (their number), end_reason, and final.<column>,
-  // max.<column>, min.<column> of path/path_column.h. `request` must be sound. Throws UnknownOutput.
+  // max.<column>, min.<column> of study/path_column.h. `request` must be sound. Throws UnknownOutput.
   StudyOutputs(const std::vector<std::string>& names, const TraceRequest& request);
 
   // Takes every increment, in order.
@@ -56,4 +56,4 @@ class StudyOutputs {
 
 }  // namespace contact_path
 
-#endif  // CONTACT_PATH_PATH_STUDY_OUTPUTS_H_
+#endif  // CONTACT_PATH_STUDY_STUDY_OUTPUTS_H_

@@ -1,4 +1,4 @@
-#include "contact_path/path/path_column.h"
+#include "contact_path/study/path_column.h"
 
 #include <gtest/gtest.h>
 
