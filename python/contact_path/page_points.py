@@ -1,7 +1,7 @@
 """The points that a page moves from step to step, and the lists of them that make lines, arrows and areas."""
 from __future__ import annotations
 
-from typing import Any, Dict, List, Sequence, Tuple
+from typing import Any, Dict, Sequence
 
 import numpy as np
 
@@ -74,7 +74,8 @@ class Points:
         return places
 
     def lines(self, name: str) -> np.ndarray:
-        """A list of points: bars and beams; edges of solids; lines from hubs to nodes; arrows; cones; shafts and heads of moments."""
+        """A list of points: bars and beams; edges of solids; lines from hubs to nodes; arrows; cones; shafts and heads of turned
+        arrows."""
         groups, structure = self.groups, self.structure
         if name == 'members':
             nodes = structure.beams.nodes
