@@ -53,7 +53,8 @@ void BoundaryRules::CheckContact(const KeyPath& path, const ContactCandidate& co
   if (!CanMove(node) && !judged.can_move)
     return checker_.Add(path.Key("node"), node.name,
                         "must be free to move, or a node of surface " + surface.name + " must be");
-  checker_.Add(path.Key("surface"), contact.surface, "contact with surfaces that deform is not traced yet");
+  if (checker_.NothingFound())
+    checker_.Add(path.Key("surface"), contact.surface, "contact with surfaces that deform is not traced yet");
 }
 
 const BoundaryRules::Judged& BoundaryRules::Judge(const BoundarySurface& surface) {
