@@ -95,7 +95,7 @@ set(contact_path_extremes
 # path/path_method.h), and files that trace whole paths.
 contact_path_add_stage(support derivative_checker_test)
 contact_path_add_stage(geometry curve_test capsule_tree_test outline_test polyline_test projection_test spline_test surface_test)
-contact_path_add_stage(scene can_slide_test cell_test change_units_test configuration_test expand_test field_test lattice_test nearest_name_test
+contact_path_add_stage(scene boundary_rules_test can_slide_test cell_test change_units_test configuration_test expand_test field_test lattice_test nearest_name_test
   one_line_test origin_test quantity_test read_scene_test scaling_test scene_index_test scene_test solid_rules_test utf8_test
   validate_test write_scene_test)
 contact_path_add_stage(structure bar_test beam_test dof_map_test elastica_test material_test scene_elements_test solid_test structure_test
@@ -118,7 +118,7 @@ contact_path_add_long_test(branch branch_events_test)
 contact_path_add_long_test(branch branch_method_test)
 contact_path_add_long_test(branch branches_test)
 contact_path_add_long_test(branch random_paths_test)
-contact_path_add_stage(check curved_residuals_test residuals_test solid_residuals_test)
+contact_path_add_stage(check boundary_residuals_test curved_residuals_test residuals_test solid_residuals_test)
 contact_path_add_stage(path automatic_step_test branch_options_test csv_test determinism_test diagnosis_test free_motion_test
   hard_scenes_test increment_test large_requests_test model_size_test model_test path_summary_test preload_test
   program_test progress_estimate_test redistribution_test restored_states_test return_detector_test

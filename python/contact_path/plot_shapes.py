@@ -23,6 +23,7 @@ MOST_WANTED = 24  # shapes in a figure
 KINDS_AT = {'events': ('corner_limit', 'contact_event'), 'limits': LIMITS, 'all': tuple(MARKS)}
 
 BARS, INITIAL, REACTION, LOAD, CONSTANT_LOAD, OBSTACLE = '#44546a', '0.8', '#b2182b', '#2166ac', '#7fb3d5', '0.45'
+SURFACE = '#1b7837'
 SOLID_COLOURS = LinearSegmentedColormap.from_list('solids', ['#e8ecf2', '#f4b183', '#9c2f13'])
 LONGEST_ARROW = 0.2  # of the size of the structure
 SHORTEST_ARROW = 0.01  # shorter ones are not drawn
@@ -80,6 +81,7 @@ class Shape:
         self.obstacles = {name: placements[name].points(boundary.point) for name, boundary in structure.obstacles.items()}
         self.curves = {name: Curve(boundary, placements[name]) for name, boundary in structure.obstacles.items()
                        if name not in structure.normals}
+        self.surfaces = [surface.shape(self.places).points for surface in structure.surfaces.values()]
 
     def forces(self) -> Tuple[Tuple[np.ndarray, np.ndarray], ...]:
         """(place, force) of all arrows, each (., 2)."""
@@ -125,7 +127,8 @@ class View:
 
     def __init__(self, shapes: Sequence[Shape]) -> None:
         places = np.vstack([part for shape in shapes
-                            for part in (shape.places, shape.structure.initial, shape.beams.reshape(-1, 2))])
+                            for part in (shape.places, shape.structure.initial, shape.beams.reshape(-1, 2),
+                                         *shape.surfaces)])
         low, high = places.min(axis=0), places.max(axis=0)
         self.size = max(high - low)
         if self.size <= 1e-9 * np.abs(places).max():
@@ -200,6 +203,7 @@ def draw(axes: Axes, shape: Shape, view: View, size: Tuple[float, float], named:
     for curve in shape.curves.values():
         draw_curve(axes, curve, view, HATCH_DEPTH * view.size)
     draw_solids(axes, shape, view)
+    draw_surfaces(axes, shape)
     width = min(1.5, 20.0 / math.sqrt(len(structure.bars) + len(structure.beams.nodes) + 1.0))
     initial_beams = structure.beams.curves(structure.initial, np.zeros(len(structure.names)))
     for lines in structure.initial[structure.bars], initial_beams:
@@ -238,6 +242,12 @@ def draw_solids(axes: Axes, shape: Shape, view: View) -> None:
         shares = np.clip(energies / view.energy, 0.0, 1.0) if view.energy > 0.0 else np.zeros(len(energies))
         axes.add_collection(PolyCollection(shape.places[solid.boundaries], facecolors=SOLID_COLOURS(np.sqrt(shares)),
                                            edgecolors=BARS, linewidths=width, zorder=3))
+
+
+def draw_surfaces(axes: Axes, shape: Shape) -> None:
+    """The curves that contacts touch."""
+    for points in shape.surfaces:
+        draw_lines(axes, [points], color=SURFACE, linewidth=0.9, zorder=3.2)
 
 
 def draw_lines(axes: Axes, lines: Any, **style: Any) -> None:
@@ -387,12 +397,12 @@ def draw_forces(axes: Axes, shape: Shape, view: View) -> None:
 
 
 def draw_states(axes: Axes, shape: Shape, view: View) -> None:
-    """A mark on each candidate for an obstacle in view. A node that touches two has two, one within the other."""
+    """A mark on each candidate for a surface, or for an obstacle in view. A node that touches two has two, one within the other."""
     in_view = np.zeros(len(shape.states), dtype=bool)
     for name, normal in view.obstacles:
         in_view |= shape.structure.is_at(name, normal)
     for i, name in enumerate(shape.structure.contact_obstacles):
-        in_view[i] |= name in shape.curves and view.sees(shape.curves[name])
+        in_view[i] |= not name or (name in shape.curves and view.sees(shape.curves[name]))
     area = 40.0 if in_view.sum() <= MANY_MARKS and len(shape.places) <= MANY_NODES else 20.0
     drawn: Dict[int, int] = {}  # node -> marks
     layers: Dict[Tuple[int, str], List[int]] = {}
@@ -452,6 +462,8 @@ def legend_handles(shapes: Sequence[Shape], view: View) -> List[Any]:
         for share in (1.0, 0.25):
             handles.append(Patch(facecolor=SOLID_COLOURS(math.sqrt(share)), edgecolor=BARS,
                                  label='strain energy %.2g [force/length^2]' % (share * view.energy)))
+    if any(shape.surfaces for shape in shapes):
+        handles.append(Line2D([], [], color=SURFACE, linewidth=1.2, label='surface in contact'))
     if view.obstacles:
         handles.append(Patch(facecolor='white', edgecolor=OBSTACLE, hatch='/////', linewidth=0.0, label='obstacle'))
     return handles
