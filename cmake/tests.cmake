@@ -94,7 +94,7 @@ set(contact_path_extremes
 # A file for each header, except headers that only declare an interface (structure/element.h, mpec/nonlinear_program.h,
 # path/path_method.h), and files that trace whole paths.
 contact_path_add_stage(support derivative_checker_test)
-contact_path_add_stage(geometry curve_test capsule_tree_test outline_test polyline_test projection_test spline_test surface_test)
+contact_path_add_stage(geometry curve_test capsule_tree_test nodal_spline_test outline_test polyline_test projection_test spline_test surface_test)
 contact_path_add_stage(scene boundary_rules_test can_slide_test cell_test change_units_test configuration_test expand_test field_test lattice_test nearest_name_test
   one_line_test origin_test quantity_test read_scene_test scaling_test scene_index_test scene_test solid_rules_test utf8_test
   validate_test write_scene_test)
@@ -104,8 +104,8 @@ contact_path_add_stage(linear blas_test bordered_solver_test generic_vector_test
 find_library(SUITESPARSECONFIG_LIBRARY suitesparseconfig REQUIRED)
 target_include_directories(linear_tests SYSTEM PRIVATE ${SUITESPARSE_INCLUDE_DIR})
 target_link_libraries(linear_tests ${SUITESPARSECONFIG_LIBRARY})
-contact_path_add_stage(contact contact_pair_test contact_state_test path_point_test reach_tracker_test rigid_pair_test scene_contacts_test)
-contact_path_add_stage(equations fixed_state_system_test nearest_point_test)
+contact_path_add_stage(contact contact_pair_test contact_state_test deformable_boundary_test deformable_pair_test path_point_test reach_tracker_test rigid_pair_test scene_contacts_test)
+contact_path_add_stage(equations deformable_system_test fixed_state_system_test nearest_point_test)
 contact_path_add_stage(mpec increment_problem_test increment_solver_test ipopt_solver_test short_increment_test)
 contact_path_add_stage(branch arc_step_test branch_choices_test branch_order_test crossing_test curved_surface_test
   gauss_rule_test patches_test pivoting_test plane_tangents_test polynomial_test rate_problem_test reaction_redistribution_test

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "contact/force_unit.h"
+#include "contact_path/tolerances.h"
 
 namespace contact_path {
 namespace {
@@ -270,6 +271,27 @@ bool DeformablePair::HasPatch(int patch) const {
 XiRange DeformablePair::RangeOf(int patch) const {
   const Eigen::VectorXd nowhere;  // xi stays with the material
   return RangeBeside(BoundaryAt(*boundary_, nowhere), patch);
+}
+
+bool DeformablePair::Overrun(const Eigen::VectorXd& u, const Eigen::VectorXd& after, int patch) const {
+  const BoundaryAt from(*boundary_, u), to(*boundary_, after);
+  const Eigen::Vector2d x = node_.At(u), moved = node_.At(after);
+  const double radius = boundary_->Radius();
+  if (to.Nearest(moved).distance < std::abs(to.Project(moved, patch).gap + radius) - tolerances::kOverrun) return true;
+  const NodalSpline& spline = boundary_->Spline();
+  const int own = spline.Within(patch), count = spline.NumPatches();
+  for (int i = 0; i < count; ++i) {
+    const int apart = std::abs(i - own);
+    if (std::min(apart, spline.Closed() ? count - apart : apart) <= 1) continue;
+    const Projection foot = to.Project(moved, i), before = from.Project(x, i);
+    const XiRange range = to.RangeOf(i);
+    // The foot may have come from a patch beside.
+    const double beside = range.end - range.begin;
+    if (foot.xi >= range.begin && foot.xi <= range.end && std::abs(foot.xi - before.xi) <= beside &&
+        foot.gap + radius < 0.0 && before.gap + radius >= 0.0)
+      return true;
+  }
+  return false;
 }
 
 void DeformablePair::ForceHessian(const Eigen::VectorXd& u, double s, int patch, double rn, double rt,

@@ -194,6 +194,18 @@ std::string HiddenSlip(const Model& model, const PathPoint& point) {
   return {};
 }
 
+std::string OverrunContact(const Model& model, const PathPoint& from, const PathPoint& to) {
+  for (std::size_t i = 0; i < model.contacts.size(); ++i) {
+    const ContactPair& pair = *model.contacts[i];
+    if (!pair.Deformable() || to.states[i] == ContactState::kOpen) continue;
+    if (pair.Overrun(from.u, to.u, pair.KnownPatch(to.u, to.s, to.Patch(i))))
+      return "contact " + model.scene.contacts[i].Name() +
+             ": another part of the surface comes over the node while it touches, and contact with two parts of a "
+             "surface at a time is not covered";
+  }
+  return {};
+}
+
 std::string PullingContact(const Model& model, const PathPoint& point, double rounding, double largest_reaction) {
   const double most = std::max(rounding, tolerances::kPullOfLargest * largest_reaction);
   for (std::size_t i = 0; i < model.contacts.size(); ++i) {

@@ -65,7 +65,7 @@ struct Names {
   std::vector<std::string> nodes, contacts, obstacles;
 };
 
-// Nodes that move freely, their contacts that touch, and the obstacles of these.
+// Nodes that move freely, their contacts that touch, and the obstacles that these touch.
 Names FreeNames(const Model& model, const PathPoint& point, double force) {
   Names names;
   const Scene& scene = model.scene;
@@ -76,6 +76,7 @@ Names FreeNames(const Model& model, const PathPoint& point, double force) {
     const bool free = std::find(names.nodes.begin(), names.nodes.end(), contact.node) != names.nodes.end();
     if (!free || model.contacts[i]->Gap(point.u, point.s, point.Patch(i)) > tolerances::kActiveGap) continue;
     names.contacts.push_back(contact.Name());
+    if (contact.OnSurface()) continue;
     if (std::find(names.obstacles.begin(), names.obstacles.end(), contact.obstacle) == names.obstacles.end())
       names.obstacles.push_back(contact.obstacle);
   }

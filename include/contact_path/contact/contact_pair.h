@@ -77,6 +77,12 @@ class ContactPair {
   virtual Eigen::Vector3d SlipFactorAlong(const Eigen::VectorXd& u, double s, int patch, const PairVector& first,
                                           const PairVector& second) const;
 
+  // Whether another part of the surface than the patch that the node touches has come over the node between u and
+  // `after`: that part is now nearer to it, or the node has gone through it. Asked of deformable pairs.
+  virtual bool Overrun(const Eigen::VectorXd& /*u*/, const Eigen::VectorXd& /*after*/, int /*patch*/) const {
+    return false;
+  }
+
   // xi, measured from 0.
   double Xi(const Eigen::VectorXd& u, double s, int patch) const;
   // Slip along (du, ds) at (u, s): c grad xi . (du, ds).

@@ -35,6 +35,7 @@ class DeformablePair : public ContactPair {
                                const PairVector& direction) const override;
   Eigen::Vector3d SlipFactorAlong(const Eigen::VectorXd& u, double s, int patch, const PairVector& first,
                                   const PairVector& second) const override;
+  bool Overrun(const Eigen::VectorXd& u, const Eigen::VectorXd& after, int patch) const override;
 
  private:
   struct Stencil;

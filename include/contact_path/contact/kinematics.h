@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
+#include <initializer_list>
 
 namespace contact_path {
 
@@ -14,6 +15,11 @@ inline constexpr int kMostPairDofs = 12;
 // Unknowns that move a candidate, as numbers into u, ascending. No allocation.
 class PairDofs {
  public:
+  PairDofs() = default;
+  PairDofs(std::initializer_list<int> dofs) {
+    for (const int dof : dofs) push_back(dof);
+  }
+
   void push_back(int dof) { of_[size_++] = dof; }
   std::size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
