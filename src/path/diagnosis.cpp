@@ -33,16 +33,19 @@ struct SharpestCurve {
 };
 
 SharpestCurve SharpestAt(const ContactPair& pair, const PathPoint& point, int patch) {
-  const auto dofs = static_cast<Eigen::Index>(pair.Dofs().size());
   SharpestCurve sharpest;
-  if (!pair.Curved() || dofs == 0) return sharpest;
+  if (!pair.Curved()) return sharpest;
   const int known = pair.KnownPatch(point.u, point.s, patch);
-  const double xi = pair.Xi(point.u, point.s, known);
+  Kinematics kinematics;
+  pair.Evaluate(point.u, point.s, known, 0.0, &kinematics);
+  if (kinematics.dofs.empty()) return sharpest;
+  const double xi = kinematics.xi;
   const XiRange range = pair.RangeOf(known);
-  sharpest.size = std::max(std::abs(xi), pair.Local(point.u, point.s).head(dofs).lpNorm<Eigen::Infinity>());
+  const PairVector place = kinematics.Local(point.u, point.s);
+  sharpest.size = std::max(std::abs(xi), place.head(place.size() - 1).lpNorm<Eigen::Infinity>());
   const auto look = [&](int at) {
-    Kinematics kinematics;
     pair.Evaluate(point.u, point.s, at, 0.0, &kinematics);
+    const auto dofs = static_cast<Eigen::Index>(kinematics.dofs.size());
     sharpest.curvature = std::max(sharpest.curvature, kinematics.gap_hessian.topLeftCorner(dofs, dofs).norm());
   };
   look(known);
@@ -214,7 +217,8 @@ std::string ContactTooSoft(const Model& model, const PathPoint& point, double le
   const Eigen::VectorXd stiffness = tangent.diagonal().cwiseAbs();
   for (std::size_t i = 0; i < model.contacts.size(); ++i) {
     double largest = 0.0;
-    for (const int dof : model.contacts[i]->Dofs()) largest = std::max(largest, stiffness[dof]);
+    const int patch = model.contacts[i]->KnownPatch(point.u, point.s, point.Patch(i));
+    for (const int dof : model.contacts[i]->Dofs(patch)) largest = std::max(largest, stiffness[dof]);
     if (largest == 0.0 || !(largest < least)) continue;
     std::ostringstream out;
     out.imbue(std::locale::classic());
