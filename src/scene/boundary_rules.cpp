@@ -55,9 +55,7 @@ void BoundaryRules::CheckContact(const KeyPath& path, const ContactCandidate& co
                         "must be free to move, or a node of surface " + surface.name + " must be");
   const BoundaryCurve::Foot foot = judged.curve->Nearest({node.x, node.y});
   if (length > 0.0 && !foot.is_end && foot.gap < -kPenetration * length)
-    return checker_.Add(path, contact.Name(), "initial position penetrates the surface by " + NumberText(-foot.gap));
-  if (checker_.NothingFound())
-    checker_.Add(path.Key("surface"), contact.surface, "contact with surfaces that deform is not traced yet");
+    checker_.Add(path, contact.Name(), "initial position penetrates the surface by " + NumberText(-foot.gap));
 }
 
 const BoundaryRules::Judged& BoundaryRules::Judge(const BoundarySurface& surface) {
