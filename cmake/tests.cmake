@@ -185,7 +185,7 @@ contact_path_add_python_test(plot_test test/cli/plot_test.py DEPENDS contact_pat
   VARIABLES CONTACT_PATH_TRACE=$<TARGET_FILE:contact_path_trace> CONTACT_PATH_PLOT=${CMAKE_CURRENT_SOURCE_DIR}/scripts/plot)
 contact_path_add_python_test(mesh_test test/cli/mesh_test.py
   VARIABLES CONTACT_PATH_MESH=${CMAKE_CURRENT_SOURCE_DIR}/scripts/contact_path_mesh)
-foreach(test scene_test path_test trace_test doctest_test)
+foreach(test scene_test path_test surface_curves_test trace_test doctest_test)
   contact_path_add_python_test(python_${test} test/python/${test}.py DEPENDS contact_path_trace
     VARIABLES CONTACT_PATH_ROOT=${CMAKE_CURRENT_SOURCE_DIR} CONTACT_PATH_PROGRAMS=$<TARGET_FILE_DIR:contact_path_trace>)
 endforeach()

@@ -118,7 +118,7 @@ class Path:
 
     @property
     def contacts(self) -> List[str]:
-        """Names NODE@OBSTACLE of the candidates, in the order of the scene."""
+        """Names NODE@OBSTACLE or NODE@SURFACE of the candidates, in the order of the scene."""
         return [name[len('state_'):] for name in self.table if name.startswith('state_')]
 
     @property

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "contact_path/ros/messages.h"
+#include "contact_path/scene/boundary_curve.h"
 #include "contact_path/scene/scene.h"
 #include "contact_path/scene/scene_index.h"
 #include "contact_path/scene/surface.h"
@@ -53,7 +54,6 @@ struct DrawnObstacle {
   Eigen::Vector2d motion = Eigen::Vector2d::Zero();  // per unit of the load factor
   double turn = 0.0;                                 // [rad] per unit of the load factor
   Eigen::Vector2d about = Eigen::Vector2d::Zero();
-  double friction = 0.0;
   bool moves = false;  // in any stage
 
   Eigen::Rotation2Dd Rotation(double load_factor) const { return Eigen::Rotation2Dd(load_factor * turn); }
@@ -71,9 +71,20 @@ struct DrawnObstacle {
   }
 };
 
+// A surface that contacts touch.
+struct DrawnSurface {
+  std::vector<std::size_t> nodes;
+  bool closed = false;
+  double radius = 0.0;
+
+  BoundaryCurve At(const NodePlaces& places) const;
+};
+
 struct DrawnCandidate {
   std::size_t node = 0;
-  std::size_t obstacle = 0;
+  bool on_surface = false;
+  std::size_t partner = 0;  // the place of its surface among the drawn ones, or of its obstacle
+  double friction = 0.0;
 };
 
 // Of a stage; without a program there is one.
@@ -107,6 +118,7 @@ struct DrawnScene {
   std::vector<Eigen::Vector2d> rest;             // by star: of its first node
   std::vector<DrawnCell> cells;                  // elements of solids
   std::vector<DrawnSupport> supports;
+  std::vector<DrawnSurface> surfaces;
   std::vector<DrawnCandidate> contacts;
   std::vector<DrawnStage> stages;
 
@@ -118,6 +130,7 @@ struct DrawnScene {
  private:
   void AddElements(const Scene& scene, const SceneIndex& index);
   void AddBeam(const Beam& beam, const SceneIndex& index);
+  void AddContacts(const Scene& scene, const SceneIndex& index);
   void AddMesh(const Solid& solid, const Scene& scene, const SceneIndex& index);
   void AddStages(const TraceRequest& request, const SceneIndex& index);
   void FindSupports(const Scene& scene);

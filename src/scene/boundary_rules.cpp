@@ -44,8 +44,7 @@ double RadiusToTheLeft(const Vector& before, const Vector& after) {
 }  // namespace
 
 void BoundaryRules::CheckContact(const KeyPath& path, const ContactCandidate& contact, const Node& node,
-                                 const BoundarySurface& surface, double) {
-  static_cast<void>(contact);
+                                 const BoundarySurface& surface, double length) {
   const Judged& judged = Judge(surface);
   if (!judged.sound) return;
   if (judged.nodes.count(node.name) > 0)
@@ -54,6 +53,9 @@ void BoundaryRules::CheckContact(const KeyPath& path, const ContactCandidate& co
   if (!CanMove(node) && !judged.can_move)
     return checker_.Add(path.Key("node"), node.name,
                         "must be free to move, or a node of surface " + surface.name + " must be");
+  const BoundaryCurve::Foot foot = judged.curve->Nearest({node.x, node.y});
+  if (length > 0.0 && !foot.is_end && foot.gap < -kPenetration * length)
+    checker_.Add(path, contact.Name(), "initial position penetrates the surface by " + NumberText(-foot.gap));
 }
 
 const BoundaryRules::Judged& BoundaryRules::Judge(const BoundarySurface& surface) {
@@ -65,6 +67,12 @@ const BoundaryRules::Judged& BoundaryRules::Judge(const BoundarySurface& surface
                                 [&](const std::string& name) { return CanMove(*checker_.KnownNode(name)); });
   const KeyPath path = kSurfaces[static_cast<std::size_t>(&surface - scene_.surfaces.data())];
   judged.sound = CheckEdges(path, surface) && CheckBends(path, surface);
+  std::vector<Eigen::Vector2d> places;
+  for (const std::string& name : surface.nodes) {
+    const Node& node = *checker_.KnownNode(name);
+    places.emplace_back(node.x, node.y);
+  }
+  judged.curve.emplace(places, surface.closed, surface.radius);
   return judged;
 }
 

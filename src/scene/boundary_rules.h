@@ -2,6 +2,7 @@
 #ifndef CONTACT_PATH_SRC_SCENE_BOUNDARY_RULES_H_
 #define CONTACT_PATH_SRC_SCENE_BOUNDARY_RULES_H_
 
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -9,9 +10,13 @@
 #include <unordered_set>
 #include <utility>
 
+#include "contact_path/scene/boundary_curve.h"
 #include "scene/checker.h"
 
 namespace contact_path {
+
+// Of the initial gap of a contact, by the characteristic length: far above rounding and far below anything meant.
+constexpr double kPenetration = 1e-9;
 
 class BoundaryRules {
  public:
@@ -28,6 +33,7 @@ class BoundaryRules {
   struct Judged {
     bool sound = false;
     bool can_move = false;  // one of its nodes can
+    std::optional<BoundaryCurve> curve;
     std::unordered_set<std::string> nodes;
   };
   const Judged& Judge(const BoundarySurface& surface);

@@ -9,9 +9,7 @@
 namespace contact_path {
 namespace {
 
-// Relative bounds, far above rounding and far below anything meant.
-constexpr double kPenetration = 1e-9;    // of the initial gap, by the characteristic length
-constexpr double kNormalOnFree = 1e-12;  // of the normal's part along free components
+constexpr double kNormalOnFree = 1e-12;  // of the normal's part along free components, far above rounding
 
 const KeyPath kScene("scene");
 

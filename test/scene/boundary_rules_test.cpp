@@ -24,7 +24,7 @@ TraceRequest SoundRequest() {
   AddGrid(
       &scene, 2, 1, [](double x, double y) { return Eigen::Vector2d(2.0 * x, y); }, solid);
   for (Node& node : scene.nodes) node.fixed_x = node.fixed_y = node.y == 0.0;
-  scene.nodes.insert(scene.nodes.end(), {{"p", 0.7, 1.1}, {"l", 0.0, 2.0, true, true}, {"r", 2.0, 2.0, true, true}});
+  scene.nodes.insert(scene.nodes.end(), {{"p", 0.7, 1.125}, {"l", 0.0, 2.0, true, true}, {"r", 2.0, 2.0, true, true}});
   scene.bars = {{{"l", "p"}, 1.0}, {{"r", "p"}, 1.0}};
   Beam beam;
   beam.name = "axis";
@@ -123,6 +123,10 @@ INSTANTIATE_TEST_SUITE_P(
                    },
                    "scene.surfaces[0].radius", "0.5",
                    "must be less than the radius of the curve where it bends to its admissible side, 0.17"},
+        BrokenRule{"Penetrates", [](auto& r) { r.scene.nodes[6].y = 0.75; }, "scene.contacts[0]", "p@top",
+                   "initial position penetrates the surface by 0.25"},
+        BrokenRule{"PenetratesItsThickness", [](auto& r) { FirstSurface(r).radius = 0.375; }, "scene.contacts[0]",
+                   "p@top", "initial position penetrates the surface by 0.25"},
         BrokenRule{"MovesASurface",
                    [](auto& r) {
                      FirstSurface(r).nodes = {"l", "axis/1", "axis/2"};
@@ -136,7 +140,7 @@ TEST(SurfacesInContact, BothSidesOfABeamAreBoundaries) {
        std::vector<std::vector<std::string>>{{"l", "axis/1", "axis/2"}, {"axis/2", "axis/1", "l"}, {"p", "r"}}) {
     TraceRequest request = SoundRequest();
     FirstSurface(request).nodes = nodes;
-    for (const Violation& violation : Validate(request)) EXPECT_EQ(violation.key, "scene.contacts[0].surface");
+    for (const Violation& violation : Validate(request)) ADD_FAILURE() << violation.ToLine();
   }
 }
 
