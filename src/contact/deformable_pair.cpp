@@ -117,16 +117,13 @@ struct DeformablePair::Stencil {
   // Values with derivatives by the places.
   Values<ByPlaces> ByAllPlaces() const {
     Places<ByPlaces> variables;
-    for (std::size_t k = 0; k < kPlaces; ++k)
-      variables[k] = ByPlaces(z[static_cast<Eigen::Index>(k)], kPlaces, static_cast<Eigen::Index>(k));
+    for (int k = 0; k < kPlaces; ++k) variables[static_cast<std::size_t>(k)] = ByPlaces(z[k], kPlaces, k);
     return {patch, variables, foot, boundary.Radius(), 1};
   }
   Values<TwiceByPlaces> TwiceByAllPlaces() const {
     Places<TwiceByPlaces> variables;
-    for (std::size_t k = 0; k < kPlaces; ++k) {
-      const auto i = static_cast<Eigen::Index>(k);
-      variables[k] = TwiceByPlaces(ByPlaces(z[i], kPlaces, i), kPlaces, i);
-    }
+    for (int k = 0; k < kPlaces; ++k)
+      variables[static_cast<std::size_t>(k)] = TwiceByPlaces(ByPlaces(z[k], kPlaces, k), kPlaces, k);
     return {patch, variables, foot, boundary.Radius(), 2};
   }
   // Along z + h first + h^2 / 2 second.
@@ -320,9 +317,8 @@ PairVector DeformablePair::SecondDirectional(const Eigen::VectorXd& u, double s,
   const Values<TwiceAlong> at = stencil.TwiceAlongCurve(columns.Scatter(direction), Place::Zero());
   Place second;
   for (std::size_t k = 0; k < kPlaces; ++k) {
-    const TwiceAlong force =
-        TwiceAlong(Constant<TwiceAlong>(rn) * at.gap_gradient[k]) +
-        TwiceAlong(Constant<TwiceAlong>(rt) * TwiceAlong(at.slip * at.knot_gradient[k]));
+    const TwiceAlong force = TwiceAlong(Constant<TwiceAlong>(rn) * at.gap_gradient[k]) +
+                             TwiceAlong(Constant<TwiceAlong>(rt) * TwiceAlong(at.slip * at.knot_gradient[k]));
     second[static_cast<Eigen::Index>(k)] = force.derivatives()[0].derivatives()[0];
   }
   return columns.Gather(second);

@@ -57,8 +57,8 @@ ContactPairs BuildContacts(const Scene& scene, const SceneIndex& index, const St
       const std::size_t surface = index.Surface(candidate.surface);
       std::shared_ptr<const DeformableBoundary>& boundary = boundaries[surface];
       if (boundary == nullptr) boundary = MakeBoundary(scene.surfaces[surface], index, structure);
-      contacts.push_back(std::make_unique<DeformablePair>(boundary, PlaceOf(structure, node), candidate.friction,
-                                                          force_bounds));
+      contacts.push_back(
+          std::make_unique<DeformablePair>(boundary, PlaceOf(structure, node), candidate.friction, force_bounds));
       continue;
     }
     const std::size_t at = index.Obstacle(candidate.obstacle);

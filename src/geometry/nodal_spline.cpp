@@ -9,7 +9,7 @@ namespace contact_path {
 namespace {
 
 constexpr int kIterations = 60;
-constexpr double kFoot = 1e-16;           // of tau
+constexpr double kFoot = 1e-16;            // of tau
 constexpr double kRoundingOfFoot = 1e-12;  // of tau: a move that is no smaller than the one before is rounding
 
 }  // namespace

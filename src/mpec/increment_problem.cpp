@@ -44,9 +44,8 @@ IncrementProblem::IncrementProblem(const Structure& structure, const ContactPair
     const int patch = pair.KnownPatch(from_.u, from_.s, from_.Patch(static_cast<std::size_t>(working_set_[i])));
     Kinematics at_start;
     pair.Evaluate(from_.u, from_.s, patch, 0.0, &at_start);
-    Slot slot{
-        &pair, patch, DofsBeside(pair, patch), at_start, nd + 1 + static_cast<Eigen::Index>(i), -1, -1, num_constraints_,
-        -1};
+    Slot slot{&pair, patch, DofsBeside(pair, patch), at_start, nd + 1 + static_cast<Eigen::Index>(i),
+              -1,    -1,    num_constraints_,        -1};
     num_constraints_ += 2;
     if (pair.Frictional()) {
       slot.rt = num_variables_++;

@@ -56,8 +56,8 @@ Work WorkOfStep(const Model& model, const FixedStateSystem& system, const Step& 
   Work work;
   for (const std::size_t i : system.Touching()) {
     if (!Slips(system.states()[i])) continue;
-    const Quintic force = step.Interpolate(
-        [&](const CurvePoint& at) { return system.SlidingForceAlong(i, at.x, at.first, at.second); });
+    const Quintic force =
+        step.Interpolate([&](const CurvePoint& at) { return system.SlidingForceAlong(i, at.x, at.first, at.second); });
     const Quintic slip = step.Interpolate([&](const CurvePoint& at) {
       return system.ValueAlong({static_cast<int>(i), Inequality::kSlip}, at.x, at.first, at.second);
     });

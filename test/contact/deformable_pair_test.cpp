@@ -40,7 +40,9 @@ class DeformablePairs : public testing::Test {
           }
         }
   }
-  static Kinematics At(const Case& of, const Eigen::VectorXd& u) { return KinematicsAt(*of.contact.pair, u, 0.0, of.patch); }
+  static Kinematics At(const Case& of, const Eigen::VectorXd& u) {
+    return KinematicsAt(*of.contact.pair, u, 0.0, of.patch);
+  }
   // u with the entries q of the pair.
   static Eigen::VectorXd Moved(const Case& of, const Eigen::VectorXd& q) {
     Eigen::VectorXd u = of.contact.u;
@@ -192,7 +194,8 @@ TEST_F(DeformablePairs, ARigidMotionChangesNothing) {
     if (of.contact.u.size() != 12) continue;  // some are held
     const Eigen::Rotation2Dd turn(0.7);
     Eigen::VectorXd u = of.contact.u;
-    for (Eigen::Index k = 0; k < u.size(); k += 2) u.segment<2>(k) = turn * u.segment<2>(k) + Eigen::Vector2d(0.3, -2.0);
+    for (Eigen::Index k = 0; k < u.size(); k += 2)
+      u.segment<2>(k) = turn * u.segment<2>(k) + Eigen::Vector2d(0.3, -2.0);
     EXPECT_NEAR(of.contact.pair->Gap(u, 0.0, of.patch), of.contact.pair->Gap(of.contact.u, 0.0, of.patch), kRounding);
     EXPECT_NEAR(of.contact.pair->Xi(u, 0.0, of.patch), of.contact.pair->Xi(of.contact.u, 0.0, of.patch), kRounding);
     EXPECT_EQ(of.contact.pair->PatchAfter(u, 0.0, of.patch), of.patch) << of.name;
@@ -201,9 +204,9 @@ TEST_F(DeformablePairs, ARigidMotionChangesNothing) {
 
 // A node stands above a line of two nodes that is stretched to twice its length, and moves along by one quarter of it.
 TEST(DeformablePair, OnAStraightLineSlipsByTheLengthOfWhatItPasses) {
-  const auto line = std::make_shared<DeformableBoundary>(
-      std::vector<NodePlace>{{{-1, -1}, {0.0, 0.0}}, {{0, -1}, {0.0, 0.0}}},
-      std::vector<Eigen::Vector2d>{{0.0, 0.0}, {1.0, 0.0}}, false, 0.1);
+  const auto line =
+      std::make_shared<DeformableBoundary>(std::vector<NodePlace>{{{-1, -1}, {0.0, 0.0}}, {{0, -1}, {0.0, 0.0}}},
+                                           std::vector<Eigen::Vector2d>{{0.0, 0.0}, {1.0, 0.0}}, false, 0.1);
   const DeformablePair pair(line, {{1, 2}, Eigen::Vector2d::Zero()}, 0.3);
   const Eigen::Vector3d from(2.0, 1.2, 0.1), to(2.0, 1.7, 0.1);
   EXPECT_EQ(pair.PatchAt(from, 0.0), 1);

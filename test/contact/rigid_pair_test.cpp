@@ -28,7 +28,8 @@ class RigidPairs : public testing::Test {
   };
 
   RigidPairs() {
-    for (const auto& pair : contacts_) cases_.push_back({pair.get(), 0, LocalOf(pair->Dofs(0), structure_.Start(), 0.3)});
+    for (const auto& pair : contacts_)
+      cases_.push_back({pair.get(), 0, LocalOf(pair->Dofs(0), structure_.Start(), 0.3)});
     const Eigen::Vector2d velocity(0.3, -0.2), about(0.4, 0.9);
     const Eigen::Vector3d q(0.7, 0.6, 0.3);
     Add(std::make_shared<HalfPlane>(Eigen::Vector2d(0.0, 0.1), Eigen::Vector2d(-0.2, 1.0)), velocity, 1.3, about, q, 0);

@@ -27,7 +27,7 @@ class ContactPair {
   virtual PairDofs Dofs(int /*patch*/) const { return traits_.dofs; }
   // Whether the surface is a part of the structure: then other patches have other dofs, and c need not be 1.
   bool Deformable() const { return traits_.deformable; }
-  double Friction() const { return traits_.friction; }           // mu; 0 where the pair cannot slide
+  double Friction() const { return traits_.friction; }  // mu; 0 where the pair cannot slide
   bool Frictional() const { return traits_.friction > 0.0; }
   // A power of 2 up to 1, of the order of the forces across the surface where the parts at the node are far softer than
   // the structure as a whole: reactions are compared with tolerances times this force.

@@ -84,8 +84,8 @@ class FixedStateSystem {
                                                    const Eigen::VectorXd& to);
 
   // The system among those of other contact states, for BorderedSolver; until the next set or pin. Null where the
-  // system is small, or has active constraints or a fixed load factor, or where very many contacts touch, or one touches
-  // a deformable surface.
+  // system is small, or has active constraints or a fixed load factor, or where very many contacts touch, or one
+  // touches a deformable surface.
   const Frame* InFrame();
 
   // All inequalities of the fixed states, in contact order, and their values at x (>= 0: holds).

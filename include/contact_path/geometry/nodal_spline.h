@@ -9,7 +9,7 @@ namespace contact_path {
 
 // y(tau) = sum of N_k(tau) x_k over up to three control nodes, tau from 0 to `end`, and beyond for what is prolonged.
 struct SplinePatch {
-  std::array<int, 3> nodes = {-1, -1, -1};              // ascending along the curve; -1: none, and its N_k is 0
+  std::array<int, 3> nodes = {-1, -1, -1};            // ascending along the curve; -1: none, and its N_k is 0
   Eigen::Matrix3d weights = Eigen::Matrix3d::Zero();  // N_k(tau) = row k . (1, tau, tau^2)
   double knot = 0.0;                                  // where tau is 0
   double end = 0.0;                                   // 1, or 1/2 for half of an edge
