@@ -92,7 +92,7 @@ void DrawnScene::AddContacts(const Scene& scene, const SceneIndex& index) {
     const auto [at, is_new] = drawn.try_emplace(index.Surface(contact.surface), surfaces.size());
     if (is_new) {
       surfaces.push_back({{}, surface.closed, surface.radius});
-      for (const std::string& name : surface.nodes) surfaces.back().nodes.push_back(index.Node(name));
+      for (const std::string& node_name : surface.nodes) surfaces.back().nodes.push_back(index.Node(node_name));
     }
     contacts.push_back({node, true, at->second, contact.friction});
   }
