@@ -94,13 +94,13 @@ TEST(SurfaceScenes, TwoBlocksByAllSettings) {
   EXPECT_NEAR(SumOfNormals(a), SumOfNormals(b), 1e-3 * SumOfNormals(b));
 }
 
-// In both passes each node of the upper block has a node of the lower one on both sides: nothing of the resultants
-// changes but what the finer curve adds.
+// In both passes the nodes of the lower block are held back by the upper one, too, whose surface goes round its
+// corners. Resultants are those of one pass but for what the curves differ by.
 TEST(SurfaceScenes, TwoBlocksInBothPasses) {
   TraceRequest request = ReadExample("two_blocks");
   const TracedPath one = TraceProved(request);
   request.scene.groups.push_back({"of_table", {"b2_2", "b3_2", "b4_2", "b5_2"}});
-  request.scene.surfaces.push_back({"of_sole", {"u4_0", "u3_0", "u2_0", "u1_0", "u0_0"}});
+  request.scene.surfaces.push_back({"of_sole", {"u4_1", "u4_0", "u3_0", "u2_0", "u1_0", "u0_0", "u0_1"}});
   request.scene.contacts.push_back({"", "", "of_table", "of_sole", 0.4});
   const TracedPath both = TraceProved(request);
   EXPECT_NEAR(SupportForces(both, both.increments.back(), 'u')[1], SupportForces(one, one.increments.back(), 'u')[1],
