@@ -126,6 +126,7 @@ contact_path_add_stage(path automatic_step_test branch_options_test csv_test det
 contact_path_add_long_test(path curved_paths_test)
 contact_path_add_long_test(path curved_random_paths_test)
 contact_path_add_long_test(path curved_scenes_test)
+contact_path_add_long_test(path deformable_scenes_test)
 contact_path_add_long_test(path invariance_test)
 contact_path_add_long_test(path mpec_cases_test)
 contact_path_add_long_test(path mpec_method_test)

@@ -61,10 +61,4 @@ PairMatrix Kinematics::ForceChange(double rn, double rt) const {
   return change;
 }
 
-PairVector Kinematics::ForceChangeAlong(double rn, double rt, const PairVector& direction) const {
-  PairVector change = (rn * gap_hessian + (rt * slip_factor) * xi_hessian) * direction;
-  if (slip_factor_gradient.size() > 0) change += rt * slip_factor_gradient.dot(direction) * xi_gradient;
-  return change;
-}
-
 }  // namespace contact_path

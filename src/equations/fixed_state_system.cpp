@@ -430,8 +430,9 @@ Eigen::VectorXd FixedStateSystem::SecondDerivative(const Eigen::VectorXd& x, con
     const Reaction reaction = ReactionOf(i, x), rate = ReactionOf(i, dx);
     const PairVector along = at.Local(dx, dx[NumDofs()]);
     at.AddForce(pair.SecondDirectional(x, x[NumDofs()], patches_[i], reaction.rn, reaction.rt, along) +
-                    2.0 * at.ForceChangeAlong(rate.rn, rate.rt, along),
+                    2.0 * (rate.rn * at.gap_hessian + (rate.rt * at.slip_factor) * at.xi_hessian) * along,
                 -1.0, &second);
+    if (pair.Deformable()) at.AddForce(at.xi_gradient, -2.0 * rate.rt * at.slip_factor_gradient.dot(along), &second);
   }
   for (const MotionEquation& of : motions_)
     if (contacts_[of.motion.contact]->Curved())

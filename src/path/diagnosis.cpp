@@ -206,6 +206,22 @@ std::string OverrunContact(const Model& model, const PathPoint& from, const Path
   return {};
 }
 
+std::string BehindSurface(const Model& model, const PathPoint& point) {
+  for (std::size_t i = 0; i < model.contacts.size(); ++i) {
+    const ContactPair& pair = *model.contacts[i];
+    if (!pair.Deformable() || point.states[i] != ContactState::kOpen) continue;
+    const double gap = pair.Gap(point.u, point.s, kNearestPatch);
+    if (!(gap < -tolerances::kBeyondPatch)) continue;
+    std::ostringstream out;
+    out.imbue(std::locale::classic());
+    out.precision(2);
+    out << "contact " << model.scene.contacts[i].Name() << ": the node has come past an end of the surface to "
+        << -gap * model.scaling.length << " behind it";
+    return out.str();
+  }
+  return {};
+}
+
 std::string PullingContact(const Model& model, const PathPoint& point, double rounding, double largest_reaction) {
   const double most = std::max(rounding, tolerances::kPullOfLargest * largest_reaction);
   for (std::size_t i = 0; i < model.contacts.size(); ++i) {

@@ -62,8 +62,6 @@ struct Kinematics {
   // Change of the force with (dofs, s) while r_n and r_t stay. Row: of which component of (dofs, s); column: of the
   // force. Hessians are there.
   PairMatrix ForceChange(double rn, double rt) const;
-  // The same along a direction by (dofs, s).
-  PairVector ForceChangeAlong(double rn, double rt, const PairVector& direction) const;
 };
 
 }  // namespace contact_path
