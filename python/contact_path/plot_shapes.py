@@ -463,7 +463,7 @@ def legend_handles(shapes: Sequence[Shape], view: View) -> List[Any]:
             handles.append(Patch(facecolor=SOLID_COLOURS(math.sqrt(share)), edgecolor=BARS,
                                  label='strain energy %.2g [force/length^2]' % (share * view.energy)))
     if any(shape.surfaces for shape in shapes):
-        handles.append(Line2D([], [], color=SURFACE, linewidth=1.2, label='surface in contact'))
+        handles.append(Line2D([], [], color=SURFACE, linewidth=1.2, label='surface'))
     if view.obstacles:
         handles.append(Patch(facecolor='white', edgecolor=OBSTACLE, hatch='/////', linewidth=0.0, label='obstacle'))
     return handles
