@@ -15,7 +15,7 @@ from contact_path.path import Path
 from contact_path.path_marks import STATES
 from contact_path.scene_arrays import Structure
 from contact_path.shapes import (BARS, CONSTANT_LOAD, FEW_NODES, INITIAL, LOAD, LONGEST_ARROW, MANY_MARKS, MANY_NODES, OBSTACLE,
-                                 REACTION, SOLID_COLOURS, Shape, View)
+                                 REACTION, SOLID_COLOURS, SURFACE, Shape, View)
 
 CLASSES = 12  # of colours of solids
 ARROW_HEAD, SMALL_ARROW_HEAD = 11, 7  # in pixels
@@ -104,6 +104,7 @@ def moving(points: Points, structure: Structure) -> List[Entry]:
     lines(points.lines('edges'), line={'color': BARS, 'width': 0.5 if many else 0.8}, named=True)
     areas(points.lines('cones'), rgba(REACTION, 0.15), name='friction cone', showlegend=bool(np.any(structure.friction > 0.0)))
     lines(points.lines('members'), line={'color': BARS, 'width': width}, named=True)
+    lines(points.lines('surfaces'), line={'color': SURFACE, 'width': 1.5}, name='surface in contact', showlegend=True)
     lines(points.lines('hubs'), line={'color': BARS, 'width': 1.5, 'dash': 'dash'}, name='superelement', showlegend=True)
     if not many:
         mode = 'markers+text' if len(structure.names) <= FEW_NODES else 'markers'

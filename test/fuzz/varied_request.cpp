@@ -47,6 +47,7 @@ class Variation {
     Try(0.2, &Variation::TouchWithParts);
     Try(0.4, &Variation::BendObstacles);
     Try(0.2, &Variation::TurnObstacles);
+    Try(0.4, &Variation::TouchSurface);
     return std::move(request_);
   }
 
@@ -331,6 +332,27 @@ class Variation {
     };
     turn_all(&scene().obstacle_motions);
     for (Stage& stage : request_.program) turn_all(&stage.obstacle_motions);
+  }
+
+  // Any node against an edge of the solid, or one side of the beam, at times thick.
+  void TouchSurface() {
+    if (scene().surfaces.empty() && scene().beams.empty()) return;
+    if (scene().surfaces.empty() || (!scene().beams.empty() && random_.Chance(0.5))) {
+      const Beam& beam = scene().beams.back();
+      BoundarySurface side;
+      side.name = "side";
+      side.nodes.push_back(beam.nodes[0]);
+      for (int i = 1; i < beam.segments; ++i) side.nodes.push_back(beam.name + "/" + std::to_string(i));
+      side.nodes.push_back(beam.nodes[1]);
+      if (random_.Chance(0.5)) std::reverse(side.nodes.begin(), side.nodes.end());
+      if (random_.Chance(0.3)) side.radius = 0.02;
+      scene().surfaces.push_back(std::move(side));
+    }
+    ContactCandidate contact;
+    contact.node = random_.OneOf(scene().nodes).name;
+    contact.surface = scene().surfaces.back().name;
+    contact.friction = random_.OneOf(std::array<double, 4>{0.0, 0.3, 1.0, 10.0});
+    scene().contacts.push_back(std::move(contact));
   }
 
   const Node& NodeOf(const std::string& name) {
