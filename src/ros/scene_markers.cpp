@@ -112,14 +112,14 @@ std::vector<OutlinePoint> BoundaryOf(const DrawnObstacle& obstacle, double load_
   return points;
 }
 
-void DrawObstacles(const DrawnScene& scene, const NodePlaces& places, const msgs::Increment& increment,
-                   MarkerPicture* picture) {
+void DrawObstacles(const DrawnScene& scene, const DrawnStage& stage, const NodePlaces& places,
+                   const msgs::Increment& increment, MarkerPicture* picture) {
   // Long enough for the nodes, and of a length that hardly ever changes.
   const Vector2d centre = scene.box.center();
   double reach = 0.0;
   for (const Vector2d& place : places) reach = std::max(reach, (place - centre).norm());
   const double half_length = scene.size * std::ceil(reach / scene.size + 0.25);
-  const std::vector<DrawnObstacle>& obstacles = scene.StageOf(increment).obstacles;
+  const std::vector<DrawnObstacle>& obstacles = stage.obstacles;
   std::vector<std::vector<OutlinePoint>> boundaries;
   boundaries.reserve(obstacles.size());
   for (const DrawnObstacle& obstacle : obstacles)
@@ -235,8 +235,8 @@ void DrawSupports(const DrawnScene& scene, const NodePlaces& places, MarkerPictu
   }
 }
 
-void DrawContacts(const DrawnScene& scene, const NodePlaces& places, const msgs::Increment& increment,
-                  MarkerPicture* picture) {
+void DrawContacts(const DrawnScene& scene, const DrawnStage& stage, const NodePlaces& places,
+                  const msgs::Increment& increment, MarkerPicture* picture) {
   const std::vector<msgs::ContactState>& states = increment.contacts;
   picture->BeginDots("contacts", 0, Marker::SPHERE_LIST, kContactDiameter * scene.detail, StateColour(0), kCandidates);
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
@@ -247,7 +247,7 @@ void DrawContacts(const DrawnScene& scene, const NodePlaces& places, const msgs:
 
   picture->BeginTriangles("cones", 0, kConeColour, kCones);
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
-    const DrawnObstacle& obstacle = scene.StageOf(increment).obstacles[scene.contacts[i].obstacle];
+    const DrawnObstacle& obstacle = stage.obstacles[scene.contacts[i].obstacle];
     const std::uint8_t state = states[i].state;
     if (obstacle.friction <= 0.0 || state == msgs::ContactState::OPEN || state == msgs::ContactState::CLOSED) continue;
     const Vector2d& apex = places[scene.contacts[i].node];
@@ -258,14 +258,14 @@ void DrawContacts(const DrawnScene& scene, const NodePlaces& places, const msgs:
   }
 }
 
-void DrawForces(const DrawnScene& scene, const NodePlaces& places, const msgs::Increment& increment, double full_force,
-                MarkerPicture* picture) {
+void DrawForces(const DrawnScene& scene, const DrawnStage& stage, const NodePlaces& places,
+                const msgs::Increment& increment, double full_force, MarkerPicture* picture) {
   const double scale = kFullArrow * scene.size / full_force;
   const auto draw = [&](std::size_t node, const Vector2d& force, const ColorRGBA& colour) {
     if (force.norm() > kShortest * full_force) picture->AddArrow(places[node], scale * force, colour);
   };
   picture->BeginTriangles("loads", 0, kLoadColour, kArrows);
-  for (const DrawnLoad& load : scene.StageOf(increment).loads) {
+  for (const DrawnLoad& load : stage.loads) {
     const ColorRGBA& colour = load.constant ? kConstantLoadColour : kLoadColour;
     const double share = load.Share(increment.load_factor);
     draw(load.node, share * load.force, colour);
@@ -275,7 +275,7 @@ void DrawForces(const DrawnScene& scene, const NodePlaces& places, const msgs::I
   }
   picture->BeginTriangles("reactions", 0, kReactionColour, kArrows);
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
-    const DrawnObstacle& obstacle = scene.StageOf(increment).obstacles[scene.contacts[i].obstacle];
+    const DrawnObstacle& obstacle = stage.obstacles[scene.contacts[i].obstacle];
     const Vector2d normal = obstacle.ProjectAt(increment.load_factor, places[scene.contacts[i].node]).normal;
     draw(scene.contacts[i].node, increment.contacts[i].rn * normal + increment.contacts[i].rt * Tangent(normal),
          kReactionColour);
@@ -323,7 +323,7 @@ visualization_msgs::MarkerArray SceneMarkers::Draw(const msgs::Increment& increm
   std::ostringstream caption;
   caption.imbue(std::locale::classic());
   caption << scene_->name << "   ";
-  if (scene_->has_program) caption << scene_->StageOf(increment).title << "   ";
+  if (scene_->has_program) caption << scene_->StageOf(increment)->title << "   ";
   caption << "increment " << increment.index << KindInWords(increment.kind) << "\nload factor "
           << increment.load_factor;
   return Draw(increment, largest_force, caption.str());
@@ -341,15 +341,16 @@ visualization_msgs::MarkerArray SceneMarkers::Draw(const msgs::Increment& increm
   places.reserve(increment.x.size());
   for (std::size_t i = 0; i < increment.x.size(); ++i) places.emplace_back(increment.x[i], increment.y[i]);
   const double full_force = FullForce(largest_force, scene.least_force);
+  const std::shared_ptr<const DrawnStage> stage = scene.StageOf(increment);
   MarkerPicture picture(scene.size, scene.detail);
-  DrawObstacles(scene, places, increment, &picture);
+  DrawObstacles(scene, *stage, places, increment, &picture);
   DrawStructure(scene, places, increment.rotation, &picture);
   DrawStars(scene, places, &picture);
   DrawMeshes(scene, places, &picture);
   DrawSupports(scene, places, &picture);
-  DrawContacts(scene, places, increment, &picture);
-  DrawForces(scene, places, increment, full_force, &picture);
-  DrawCaption(scene, caption, scene.StageOf(increment), full_force, &picture);
+  DrawContacts(scene, *stage, places, increment, &picture);
+  DrawForces(scene, *stage, places, increment, full_force, &picture);
+  DrawCaption(scene, caption, *stage, full_force, &picture);
   if (options_.picture_size == 0.0) return picture.Finish(options_.frame_id, Vector2d::Zero(), 1.0);
   return picture.Finish(options_.frame_id, scene.box.center(), options_.picture_size / scene.size);
 }
