@@ -236,6 +236,22 @@ TEST(DeformablePair, PastTheEndsOfAnOpenBoundaryTheGapIsTheDistanceFromTheEnd) {
   EXPECT_TRUE(std::isinf(pair.RangeOf(-1).begin) && std::isinf(pair.RangeOf(3).end));
 }
 
+// A boundary that goes to the right, up, and back to the left above a node: its upper part sinks onto the node.
+TEST(DeformablePair, IsOverrunByAnotherPartOfItsBoundary) {
+  for (const double radius : {0.0, 0.3}) {
+    DeformableContact contact(8, false, radius);
+    const auto fold = [&](double upper) {
+      Eigen::VectorXd u(18);
+      u << 0.0, 0.0, 1.0, 0.0, 2.0, 0.0, 3.0, 0.0, 3.0, upper, 2.0, upper, 1.0, upper, 0.0, upper, 1.1, radius;
+      return u;
+    };
+    EXPECT_NEAR(contact.pair->Gap(fold(1.0), 0.0, 1), 0.0, kRounding);
+    EXPECT_FALSE(contact.pair->Overrun(fold(1.0), fold(0.7), 1));
+    EXPECT_TRUE(contact.pair->Overrun(fold(0.7), fold(radius > 0.0 ? 0.5 : -0.1), 1));
+    EXPECT_FALSE(contact.pair->Overrun(fold(radius > 0.0 ? 0.7 : -0.2), fold(radius > 0.0 ? 0.65 : -0.1), 1));
+  }
+}
+
 // Twice round a closed boundary, one way and the other.
 TEST(DeformablePair, PatchesGoRoundAClosedBoundary) {
   DeformableContact contact(8, true, 0.1);

@@ -1,10 +1,10 @@
-// Contact with surfaces that deform: the example scenes, and scenes with closed forms.
+// Contact with surfaces that deform: scenes with closed forms, ends of paths, many events.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "contact_path/scene/expand.h"
@@ -34,12 +34,9 @@ std::vector<std::pair<int, double>> EventsOf(const TracedPath& path) {
   return events;
 }
 
-class DeformableScenes : public testing::TestWithParam<const char*> {};
-
-INSTANTIATE_TEST_SUITE_P(Examples, DeformableScenes, testing::Values("two_blocks", "ring_on_ring"));
-
-TEST_P(DeformableScenes, HaveTheSameEventsWithOtherSteps) {
-  TraceRequest request = ReadExample(GetParam());
+// A path of many snaps.
+TEST(RingOnRing, HasTheSameEventsWithOtherSteps) {
+  TraceRequest request = ReadExample("ring_on_ring");
   request.options.accuracy = Accuracy::kFast;
   const std::vector<std::pair<int, double>> expected = EventsOf(TraceProved(request));
   EXPECT_GT(expected.size(), 5u);
@@ -52,28 +49,6 @@ TEST_P(DeformableScenes, HaveTheSameEventsWithOtherSteps) {
       EXPECT_NEAR(events[i].second, expected[i].second, 1e-8);
     }
   }
-}
-
-// At the end all nodes of the sole slide.
-TEST(DeformableScenes, TwoBlocksByBothMethods) {
-  TraceRequest request = ReadExample("two_blocks");
-  const TracedPath path = TraceProved(request);
-  double normal = 0.0, tangential = 0.0;
-  for (const ContactRecord& contact : path.increments.back().contacts) {
-    EXPECT_EQ(contact.state, ContactState::kSlipPlus);
-    normal += contact.rn;
-    tangential += contact.rt;
-  }
-  EXPECT_NEAR(tangential, -0.4 * normal, 1e-12);
-  EXPECT_LE(EnergyImbalance(path), 1e-8);
-  request.options.method = Method::kMpec;
-  const TracedPath other = TraceIncrements(request);
-  EXPECT_EQ(other.result.reason, EndReason::kStopCriterion) << other.result.message;
-  for (std::size_t i = 0; i < path.increments.back().contacts.size(); ++i) {
-    EXPECT_NEAR(other.increments.back().contacts[i].rn, path.increments.back().contacts[i].rn, 1e-9);
-    EXPECT_NEAR(other.increments.back().contacts[i].rt, path.increments.back().contacts[i].rt, 1e-9);
-  }
-  EXPECT_NEAR(other.increments.back().dissipation / path.increments.back().dissipation, 1.0, 1e-4);
 }
 
 // A foot on two springs is pressed down and dragged. The ground: a half plane, or fixed nodes in line.
@@ -195,6 +170,21 @@ TEST(FixedSurface, EndsWhereTheNodeIsLost) {
   EXPECT_EQ(path.result.reason, EndReason::kPathEnd);
   EXPECT_NE(path.result.message.find("foot@ground is lost"), std::string::npos) << path.result.message;
   EXPECT_NEAR(PositionX(path, path.increments.back(), "foot"), -1.0 + 1.35 * 1.09, 1e-9);
+}
+
+// From below the level of the ground, past its first node, to behind it.
+TEST(FixedSurface, NamesANodeThatComesBehindItPastAnEnd) {
+  TraceRequest request = FootOn(true);
+  Scene& scene = request.scene;
+  scene.nodes[2].x = -1.2;
+  scene.nodes[2].y = -0.1;
+  request.program = {};
+  scene.loads = {{"foot", 4.0, 0.0}};
+  const TracedPath path = TraceIncrements(request);
+  EXPECT_EQ(path.result.reason, EndReason::kNumericalFailure);
+  EXPECT_NE(path.result.message.find("foot@ground: the node has come past an end of the surface"), std::string::npos)
+      << path.result.message;
+  EXPECT_NEAR(PositionX(path, path.increments.back(), "foot"), -1.0, 0.1);
 }
 
 }  // namespace
