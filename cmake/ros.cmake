@@ -6,6 +6,7 @@ add_library(contact_path_ros
   src/ros/beam_curve.cpp
   src/ros/convert.cpp
   src/ros/drawn_scene.cpp
+  src/ros/drawn_stage.cpp
   src/ros/increment_publisher.cpp
   src/ros/limits.cpp
   src/ros/marker_picture.cpp

@@ -68,10 +68,13 @@ DrawnScene::DrawnScene(const TraceRequest& request_given) : name(OneLine(request
   AddElements(scene, index);
   FindSupports(scene);
   AddContacts(scene, index);
-  AddStages(request, index);
+  has_program = !request.program.empty();
+  num_stages = NumStages(request);
+  stages_ = std::make_unique<const DrawnStages>(request);
+  ExtendBoxBySupports(request, index);
 
   const Scaling scales = StageScales(request, index, 0, ProgramScales(request, index));
-  ExtendBox(request, index, kFarthestStop * std::max(box.diagonal().norm(), scales.length));
+  ExtendBoxByStops(request, index, kFarthestStop * std::max(box.diagonal().norm(), scales.length));
   const double diagonal = box.diagonal().norm();
   size = diagonal > 0.0 ? diagonal : scales.length;
   detail = std::min(0.025 * size, bars.empty() && segments.empty() ? size : 0.12 * scales.length);
@@ -150,64 +153,18 @@ double DrawnScene::CellSize() const {
   return std::sqrt(area / static_cast<double>(cells.size()));
 }
 
-void DrawnScene::AddStages(const TraceRequest& request, const SceneIndex& index) {
-  const Scene& scene = request.scene;
-  // What a stage begins with: of the scene, and what the stages before have brought on.
-  DrawnStage now;
-  NodePlaces places = initial;
-  const auto add_loads = [&](const std::vector<Load>& loads, DrawnStage* parts) {
-    for (const Load& load : loads)
-      parts->loads.push_back({index.Node(load.node), Vector2d(load.fx, load.fy), load.moment, load.constant});
-  };
-  const auto add_stage = [&](std::size_t stage) -> DrawnStage& {
-    DrawnStage& parts = stages.emplace_back(now);
-    const Scene begin = StageScene(request, index, stage);
-    for (const Obstacle& obstacle : begin.obstacles) {
-      DrawnObstacle& drawn = parts.obstacles.emplace_back();
-      drawn.surface = MakeSurface(obstacle);
-      drawn.point = {obstacle.px, obstacle.py};
-    }
-    for (const ObstacleMotion& motion : begin.obstacle_motions) {
-      DrawnObstacle& drawn = parts.obstacles[index.Obstacle(motion.obstacle)];
-      drawn.motion = {motion.dx, motion.dy};
-      drawn.turn = motion.turn;
-      drawn.about = {motion.about_x, motion.about_y};
-    }
-    return parts;
-  };
-  add_loads(scene.loads, &now);
-
-  has_program = !request.program.empty();
-  if (!has_program) add_stage(0);
-  for (std::size_t i = 0; i < request.program.size(); ++i) {
-    const Stage stage = StageAsTraced(request, i);
-    DrawnStage& parts = add_stage(i);
-    parts.title = stage.name.empty() ? "stage " + std::to_string(stages.size()) : OneLine(stage.name);
-    const double target = stage.Target();
-    if (stage.unload) {
-      for (std::size_t k = scene.loads.size(); k < now.loads.size(); ++k) {
-        parts.loads[k].taken_back = true;
-        now.loads[k].force *= 1.0 - target;
-        now.loads[k].moment *= 1.0 - target;
-      }
-    } else {
-      add_loads(stage.loads, &parts);
-      for (const Load& load : stage.loads)
-        now.loads.push_back(
-            {index.Node(load.node), target * Vector2d(load.fx, load.fy), target * load.moment, /*constant=*/true});
-    }
+void DrawnScene::ExtendBoxBySupports(const TraceRequest& request, const SceneIndex& index) {
+  std::map<std::size_t, Vector2d> moved;  // by node: how far
+  for (const Stage& stage : request.program) {
+    // Back towards where the supports were at first: the box knows these places.
+    if (stage.unload)
+      for (auto& [node, by] : moved) by *= 1.0 - stage.Target();
     for (const SupportMotion& motion : stage.support_motions) {
-      Vector2d& place = places[index.Node(motion.node)];
-      place += target * Vector2d(motion.dx, motion.dy);
-      box.extend(place);
+      const std::size_t node = index.Node(motion.node);
+      Vector2d& by = moved.try_emplace(node, Vector2d::Zero()).first->second;
+      by += stage.Target() * Vector2d(motion.dx, motion.dy);
+      box.extend(initial[node] + by);
     }
-  }
-
-  for (std::size_t i = 0; i < scene.obstacles.size(); ++i) {
-    const bool moves = std::any_of(stages.begin(), stages.end(), [i](const DrawnStage& stage) {
-      return !stage.obstacles[i].motion.isZero(0.0) || stage.obstacles[i].turn != 0.0;
-    });
-    for (DrawnStage& stage : stages) stage.obstacles[i].moves = moves;
   }
 }
 
@@ -240,7 +197,7 @@ void DrawnScene::FindSupports(const Scene& scene) {
 }
 
 // By the places that nodes are to reach: where stop criteria lie, unless that is farther than `reach` from the start.
-void DrawnScene::ExtendBox(const TraceRequest& request, const SceneIndex& index, double reach) {
+void DrawnScene::ExtendBoxByStops(const TraceRequest& request, const SceneIndex& index, double reach) {
   const std::vector<Quantity> quantities = StopQuantities(request, index);
   for (std::size_t i = 0; i < quantities.size(); ++i) {
     const Quantity& quantity = quantities[i];
@@ -252,12 +209,12 @@ void DrawnScene::ExtendBox(const TraceRequest& request, const SceneIndex& index,
   }
 }
 
-const DrawnStage& DrawnScene::StageOf(const msgs::Increment& increment) const {
-  return stages[has_program ? increment.stage - 1 : 0];
+std::shared_ptr<const DrawnStage> DrawnScene::StageOf(const msgs::Increment& increment) const {
+  return stages_->At(has_program ? increment.stage - 1 : 0);
 }
 
 bool DrawnScene::Fits(const msgs::Increment& increment) const {
-  const bool of_a_stage = has_program ? increment.stage >= 1 && increment.stage <= stages.size() : increment.stage == 0;
+  const bool of_a_stage = has_program ? increment.stage >= 1 && increment.stage <= num_stages : increment.stage == 0;
   return of_a_stage && increment.x.size() == initial.size() && increment.y.size() == initial.size() &&
          (segments.empty() || increment.rotation.size() == initial.size()) &&
          increment.contacts.size() == contacts.size();
@@ -265,7 +222,8 @@ bool DrawnScene::Fits(const msgs::Increment& increment) const {
 
 double DrawnScene::LargestForce(const msgs::Increment& increment) const {
   double largest = 0.0;
-  for (const DrawnLoad& load : StageOf(increment).loads) {
+  const std::shared_ptr<const DrawnStage> stage = StageOf(increment);
+  for (const DrawnLoad& load : stage->loads) {
     const double share = std::abs(load.Share(increment.load_factor));
     largest = std::max({largest, share * load.force.norm(), share * std::abs(load.moment) / size});
   }

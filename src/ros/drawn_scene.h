@@ -1,4 +1,4 @@
-// What the markers draw of a request: its parts by index, stage by stage, and the size of the picture.
+// What the markers draw of a request: its parts by index, and the size of the picture.
 #ifndef CONTACT_PATH_SRC_ROS_DRAWN_SCENE_H_
 #define CONTACT_PATH_SRC_ROS_DRAWN_SCENE_H_
 
@@ -14,9 +14,9 @@
 #include "contact_path/scene/boundary_curve.h"
 #include "contact_path/scene/scene.h"
 #include "contact_path/scene/scene_index.h"
-#include "contact_path/scene/surface.h"
 #include "contact_path/structure/element.h"
 #include "ros/beam_curve.h"
+#include "ros/drawn_stage.h"
 
 namespace contact_path {
 
@@ -37,40 +37,6 @@ struct DrawnCell {
   double full_energy = 1.0;        // that has the darkest colour [force length]
 };
 
-struct DrawnLoad {
-  std::size_t node = 0;
-  Eigen::Vector2d force = Eigen::Vector2d::Zero();
-  double moment = 0.0;  // counterclockwise
-  bool constant = false;
-  bool taken_back = false;  // by this stage, in proportion to the load factor
-
-  double Share(double load_factor) const { return constant ? (taken_back ? 1.0 - load_factor : 1.0) : load_factor; }
-};
-
-// In a stage: turned about a point by `turn` times the load factor, then moved by `motion` times the load factor.
-struct DrawnObstacle {
-  std::shared_ptr<const Surface> surface;            // at load factor 0
-  Eigen::Vector2d point = Eigen::Vector2d::Zero();   // of a half plane: that the strokes keep to, at load factor 0
-  Eigen::Vector2d motion = Eigen::Vector2d::Zero();  // per unit of the load factor
-  double turn = 0.0;                                 // [rad] per unit of the load factor
-  Eigen::Vector2d about = Eigen::Vector2d::Zero();
-  bool moves = false;  // in any stage
-
-  Eigen::Rotation2Dd Rotation(double load_factor) const { return Eigen::Rotation2Dd(load_factor * turn); }
-  // A point of the plane as the obstacle sees it, and back.
-  Eigen::Vector2d Seen(double load_factor, const Eigen::Vector2d& x) const {
-    return about + Rotation(load_factor).inverse() * (x - about - load_factor * motion);
-  }
-  Eigen::Vector2d Placed(double load_factor, const Eigen::Vector2d& x) const {
-    return about + Rotation(load_factor) * (x - about) + load_factor * motion;
-  }
-  Projection ProjectAt(double load_factor, const Eigen::Vector2d& x) const {
-    Projection at = surface->ProjectOnNearest(Seen(load_factor, x));
-    at.normal = Rotation(load_factor) * at.normal;
-    return at;
-  }
-};
-
 // A surface that contacts touch.
 struct DrawnSurface {
   std::vector<std::size_t> nodes;
@@ -87,13 +53,6 @@ struct DrawnCandidate {
   double friction = 0.0;
 };
 
-// Of a stage; without a program there is one.
-struct DrawnStage {
-  std::string title;
-  std::vector<DrawnLoad> loads;
-  std::vector<DrawnObstacle> obstacles;
-};
-
 Eigen::Vector2d MiddleOf(const std::vector<std::size_t>& nodes, const NodePlaces& places);
 
 struct DrawnScene {
@@ -102,7 +61,7 @@ struct DrawnScene {
 
   // Whether the increment is of a stage of the request and has as many positions and contacts as the scene.
   bool Fits(const contact_path_msgs::Increment& increment) const;
-  const DrawnStage& StageOf(const contact_path_msgs::Increment& increment) const;
+  std::shared_ptr<const DrawnStage> StageOf(const contact_path_msgs::Increment& increment) const;
   // The largest of all loads and reactions; a moment counts as a force at the distance of the size [force].
   double LargestForce(const contact_path_msgs::Increment& increment) const;
   // The increment before the first: the initial shape, without reactions and with all contacts open.
@@ -110,6 +69,7 @@ struct DrawnScene {
 
   std::string name;
   bool has_program = false;
+  std::size_t num_stages = 1;
   NodePlaces initial;
   std::vector<bool> inner;                       // by node: between the ends of a beam
   std::vector<std::array<std::size_t, 2>> bars;  // elements of two nodes
@@ -120,7 +80,6 @@ struct DrawnScene {
   std::vector<DrawnSupport> supports;
   std::vector<DrawnSurface> surfaces;
   std::vector<DrawnCandidate> contacts;
-  std::vector<DrawnStage> stages;
 
   Eigen::AlignedBox2d box;   // of the initial shape, and of where stop criteria and moving supports lead
   double size = 1.0;         // of the scene: the diagonal of the box [length]
@@ -132,11 +91,14 @@ struct DrawnScene {
   void AddBeam(const Beam& beam, const SceneIndex& index);
   void AddContacts(const Scene& scene, const SceneIndex& index);
   void AddMesh(const Solid& solid, const Scene& scene, const SceneIndex& index);
-  void AddStages(const TraceRequest& request, const SceneIndex& index);
+  // By the places where the supports come to at the ends of the stages.
+  void ExtendBoxBySupports(const TraceRequest& request, const SceneIndex& index);
   void FindSupports(const Scene& scene);
-  void ExtendBox(const TraceRequest& request, const SceneIndex& index, double reach);
+  void ExtendBoxByStops(const TraceRequest& request, const SceneIndex& index, double reach);
   // Root of the mean area of the elements of solids.
   double CellSize() const;
+
+  std::unique_ptr<const DrawnStages> stages_;
 };
 
 }  // namespace contact_path

@@ -114,14 +114,14 @@ std::vector<OutlinePoint> BoundaryOf(const DrawnObstacle& obstacle, double load_
   return points;
 }
 
-void DrawObstacles(const DrawnScene& scene, const NodePlaces& places, const msgs::Increment& increment,
-                   MarkerPicture* picture) {
+void DrawObstacles(const DrawnScene& scene, const DrawnStage& stage, const NodePlaces& places,
+                   const msgs::Increment& increment, MarkerPicture* picture) {
   // Long enough for the nodes, and of a length that hardly ever changes.
   const Vector2d centre = scene.box.center();
   double reach = 0.0;
   for (const Vector2d& place : places) reach = std::max(reach, (place - centre).norm());
   const double half_length = scene.size * std::ceil(reach / scene.size + 0.25);
-  const std::vector<DrawnObstacle>& obstacles = scene.StageOf(increment).obstacles;
+  const std::vector<DrawnObstacle>& obstacles = stage.obstacles;
   std::vector<std::vector<OutlinePoint>> boundaries;
   boundaries.reserve(obstacles.size());
   for (const DrawnObstacle& obstacle : obstacles)
@@ -246,16 +246,15 @@ void DrawSurfaces(const DrawnScene& scene, const NodePlaces& places, MarkerPictu
 }
 
 // Of each contact where it is nearest to its obstacle or surface.
-std::vector<Vector2d> NormalsOf(const DrawnScene& scene, const NodePlaces& places, const msgs::Increment& increment) {
+std::vector<Vector2d> NormalsOf(const DrawnScene& scene, const DrawnStage& stage, const NodePlaces& places,
+                                double load_factor) {
   std::vector<BoundaryCurve> curves;
   for (const DrawnSurface& surface : scene.surfaces) curves.push_back(surface.At(places));
   std::vector<Vector2d> normals;
   for (const DrawnCandidate& contact : scene.contacts) {
     const Vector2d& place = places[contact.node];
-    normals.push_back(
-        contact.on_surface
-            ? curves[contact.partner].Nearest(place).normal
-            : scene.StageOf(increment).obstacles[contact.partner].ProjectAt(increment.load_factor, place).normal);
+    normals.push_back(contact.on_surface ? curves[contact.partner].Nearest(place).normal
+                                         : stage.obstacles[contact.partner].ProjectAt(load_factor, place).normal);
   }
   return normals;
 }
@@ -282,14 +281,15 @@ void DrawContacts(const DrawnScene& scene, const NodePlaces& places, const std::
   }
 }
 
-void DrawForces(const DrawnScene& scene, const NodePlaces& places, const std::vector<Vector2d>& normals,
-                const msgs::Increment& increment, double full_force, MarkerPicture* picture) {
+void DrawForces(const DrawnScene& scene, const DrawnStage& stage, const NodePlaces& places,
+                const std::vector<Vector2d>& normals, const msgs::Increment& increment, double full_force,
+                MarkerPicture* picture) {
   const double scale = kFullArrow * scene.size / full_force;
   const auto draw = [&](std::size_t node, const Vector2d& force, const ColorRGBA& colour) {
     if (force.norm() > kShortest * full_force) picture->AddArrow(places[node], scale * force, colour);
   };
   picture->BeginTriangles("loads", 0, kLoadColour, kArrows);
-  for (const DrawnLoad& load : scene.StageOf(increment).loads) {
+  for (const DrawnLoad& load : stage.loads) {
     const ColorRGBA& colour = load.constant ? kConstantLoadColour : kLoadColour;
     const double share = load.Share(increment.load_factor);
     draw(load.node, share * load.force, colour);
@@ -344,7 +344,7 @@ visualization_msgs::MarkerArray SceneMarkers::Draw(const msgs::Increment& increm
   std::ostringstream caption;
   caption.imbue(std::locale::classic());
   caption << scene_->name << "   ";
-  if (scene_->has_program) caption << scene_->StageOf(increment).title << "   ";
+  if (scene_->has_program) caption << scene_->StageOf(increment)->title << "   ";
   caption << "increment " << increment.index << KindInWords(increment.kind) << "\nload factor "
           << increment.load_factor;
   return Draw(increment, largest_force, caption.str());
@@ -362,17 +362,18 @@ visualization_msgs::MarkerArray SceneMarkers::Draw(const msgs::Increment& increm
   places.reserve(increment.x.size());
   for (std::size_t i = 0; i < increment.x.size(); ++i) places.emplace_back(increment.x[i], increment.y[i]);
   const double full_force = FullForce(largest_force, scene.least_force);
+  const std::shared_ptr<const DrawnStage> stage = scene.StageOf(increment);
   MarkerPicture picture(scene.size, scene.detail);
-  DrawObstacles(scene, places, increment, &picture);
+  DrawObstacles(scene, *stage, places, increment, &picture);
   DrawStructure(scene, places, increment.rotation, &picture);
   DrawStars(scene, places, &picture);
   DrawMeshes(scene, places, &picture);
   DrawSupports(scene, places, &picture);
   DrawSurfaces(scene, places, &picture);
-  const std::vector<Vector2d> normals = NormalsOf(scene, places, increment);
+  const std::vector<Vector2d> normals = NormalsOf(scene, *stage, places, increment.load_factor);
   DrawContacts(scene, places, normals, increment, &picture);
-  DrawForces(scene, places, normals, increment, full_force, &picture);
-  DrawCaption(scene, caption, scene.StageOf(increment), full_force, &picture);
+  DrawForces(scene, *stage, places, normals, increment, full_force, &picture);
+  DrawCaption(scene, caption, *stage, full_force, &picture);
   if (options_.picture_size == 0.0) return picture.Finish(options_.frame_id, Vector2d::Zero(), 1.0);
   return picture.Finish(options_.frame_id, scene.box.center(), options_.picture_size / scene.size);
 }

@@ -32,6 +32,9 @@ constexpr double kPull = 2e-13;        // of a force: a contact that pulls with 
 constexpr double kPullShare = 0.02;    // of the largest reaction before: nor is one that pulls with more
 constexpr double kLongestArc = 1.05;   // of its chord: increments turn by less than 60 degrees
 
+// The same at a bifurcation: where paths cross, equilibrium holds to rounding at a distance of its root from both.
+constexpr double kTurnCrossing = 1e-7;
+
 bool AtTarget(double target, double load_factor) {
   return std::abs(load_factor - target) <= kAtTarget * std::abs(target);
 }
@@ -399,7 +402,7 @@ class Verifier {
     if (increment_ < first_ + 2) return;
     const Increment &a = increments_[increment_ - 2], &b = increments_[increment_ - 1], &c = increments_[increment_];
     const double before = b.load_factor - a.load_factor, after = c.load_factor - b.load_factor;
-    const double level = kTurn * scaling_.load_factor;
+    const double level = (b.kind == IncrementKind::kBifurcation ? kTurnCrossing : kTurn) * scaling_.load_factor;
     // mpec tells in the increment after.
     const Increment& located = c.solve.method == Method::kBranch ? b : c;
     const bool limit = located.kind == IncrementKind::kSmoothLimit || located.kind == IncrementKind::kCornerLimit;

@@ -188,7 +188,7 @@ TEST(Step, InterpolatesWithOrderSix) {
     const Eigen::Vector3d coarse = errors(length), fine = errors(0.5 * length);
     for (const int order : {6, 5, 4}) {
       const Eigen::Index k = 6 - order;
-      if (fine[k] < 1e-13) continue;  // rounding
+      if (fine[k] < (k == 0 ? 1e-13 : 1e-12)) continue;  // rounding; derivatives solve linear systems
       EXPECT_NEAR(std::log2(coarse[k] / fine[k]), order, 0.6) << coarse[k] << " " << fine[k];
     }
     EXPECT_LE(errors(0.02)[0], 1e-10);

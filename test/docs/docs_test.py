@@ -5,6 +5,7 @@ print what the pages say.
 CONTACT_PATH_ROOT: the sources; CONTACT_PATH_PROGRAMS: the directory of the programs; CONTACT_PATH_MODULES: that of the
 Python modules of the messages.
 """
+import csv
 import functools
 import importlib.util
 import itertools
@@ -269,9 +270,17 @@ def numbers_masked(line):
 class Examples(ProgramTest):
     """The blocks marked `console`: commands after `$`, then what they print. A block after "file `NAME`:" is that file."""
 
+    def expect_increments(self, command, file, indices):
+        """The plot of a path shows increments that the path has."""
+        with open(self.path(file), encoding='utf-8', newline='') as rows:
+            there = {row['index'] for row in csv.DictReader(rows)}
+        self.assertEqual(set(indices.split(',')) - there - {'end'}, set(), command)
+
     def run_command(self, line):
         line, _, target = line.partition(' > ')
         program, arguments = program_of(shlex.split(line))
+        if program == 'plot' and '--increments' in arguments:
+            self.expect_increments(line, arguments[0], arguments[arguments.index('--increments') + 1])
         if program not in QUICK:
             return None
         command = program if program in OF_THE_SYSTEM else str(PROGRAMS / program)

@@ -2,6 +2,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "extremes/extreme_case.h"
 
@@ -34,19 +35,25 @@ double LoadError(const Increment& increment, double slope) {
   return std::abs(increment.load_factor - sliding) / std::max(1.0, std::abs(sliding));
 }
 
+// A case of the pressed node, until its x is `until`. length: what the case is about, in lengths of the part.
+ExtremeCase CaseOf(const std::string& group, double length, Obstacle obstacle, double until) {
+  obstacle.friction = kFriction;
+  ExtremeCase extreme;
+  extreme.group = group;
+  extreme.value = Text(length) + " of the part's length";
+  extreme.request = Until(PressedNode(obstacle), "p.x", ">", until);
+  extreme.exact = "closed form";
+  return extreme;
+}
+
 // On top of a disc, until it has gone half of the way to its side, or 0.5.
 ExtremeCase DiscOfRadius(double radius) {
-  ExtremeCase extreme;
-  extreme.group = "radius of a disc";
-  extreme.value = Text(radius) + " of the part's length";
   Obstacle disc;
   disc.name = "disc";
   disc.shape = ObstacleShape::kCircle;
   disc.py = -radius;
   disc.radius = radius;
-  disc.friction = kFriction;
-  extreme.request = Until(PressedNode(disc), "p.x", ">", 0.5 * std::min(radius, 1.0));
-  extreme.exact = "closed form";
+  ExtremeCase extreme = CaseOf("radius of a disc", radius, disc, 0.5 * std::min(radius, 1.0));
   extreme.error = [radius](const TraceRequest&, const Increment& increment) {
     const double x = increment.positions[0], y = increment.positions[1];
     const double drop = -x * x / (radius + std::sqrt(radius * radius - x * x));
@@ -59,17 +66,12 @@ ExtremeCase DiscOfRadius(double radius) {
 // Over the rounded edge of a table, down a slope of 30 degrees.
 ExtremeCase EdgeRoundedBy(double fillet) {
   const double slope = std::acos(-1.0) / 6.0, edge = 0.2;
-  ExtremeCase extreme;
-  extreme.group = "fillet of an edge";
-  extreme.value = Text(fillet) + " of the part's length";
   Obstacle table;
   table.name = "table";
   table.shape = ObstacleShape::kPolyline;
   table.points = {-1.0, 0.0, edge, 0.0, edge + std::cos(slope), -std::sin(slope)};
   table.fillet = fillet;
-  table.friction = kFriction;
-  extreme.request = Until(PressedNode(table), "p.x", ">", 0.5);
-  extreme.exact = "closed form";
+  ExtremeCase extreme = CaseOf("fillet of an edge", fillet, table, 0.5);
   extreme.error = [slope, edge, fillet](const TraceRequest&, const Increment& increment) {
     const double cut = fillet * std::tan(0.5 * slope), along = (increment.positions[0] - edge) / std::cos(slope);
     if (increment.positions[0] <= edge - cut) return Largest({LoadError(increment, 0.0), increment.positions[1]});

@@ -62,6 +62,7 @@ def huge_requests(short):
     slide = Stage(obstacle_motions=[ObstacleMotion(obstacle='floor', dx=1.0)])
     yield 'nodes', of_scene('nodes', Node(name='b', x=1.0)), limit
     yield 'stages with a load each', program(push, MILLION // 2), limit
+    yield 'stages with a motion each', program(slide, MILLION // 2), traced
     # A few bytes that speak of gigabytes
     yield 'nodes that are not there', of_scene('nodes', Node(), 0, 2 ** 28), None
     yield 'stages that are not there', program(Stage(), 0, 2 ** 28), None
@@ -80,7 +81,6 @@ def huge_requests(short):
     yield 'superelements', superelements(nodes=['b']), invalid
     yield 'superelement entries', superelements(matrix), invalid
     yield 'stages', program(Stage(), MILLION), invalid
-    yield 'stages with a motion each', program(slide, MILLION // 2), traced
     yield 'branch choices', of_options('branch_choices', BranchChoice(event=1, branch=1)), limit
     yield 'stop criteria', of_options('stop', StopCriterion(quantity='b.x', when='>', value=1.0)), limit
 
