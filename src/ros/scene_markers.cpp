@@ -282,8 +282,8 @@ void DrawContacts(const DrawnScene& scene, const NodePlaces& places, const std::
 }
 
 void DrawForces(const DrawnScene& scene, const DrawnStage& stage, const NodePlaces& places,
-                const std::vector<Vector2d>& normals,
-                const msgs::Increment& increment, double full_force, MarkerPicture* picture) {
+                const std::vector<Vector2d>& normals, const msgs::Increment& increment, double full_force,
+                MarkerPicture* picture) {
   const double scale = kFullArrow * scene.size / full_force;
   const auto draw = [&](std::size_t node, const Vector2d& force, const ColorRGBA& colour) {
     if (force.norm() > kShortest * full_force) picture->AddArrow(places[node], scale * force, colour);
