@@ -77,7 +77,8 @@ class Contact {
 // By surface of the scene.
 std::vector<Boundary> MakeBoundaries(const Scene& scene, const NodeNumbers& numbers);
 
-// In the order of the scene. slip_origins: of Configuration. Throws std::out_of_range or std::invalid_argument for a name that the scene does not have.
+// In the order of the scene. slip_origins: of Configuration. Throws std::out_of_range or std::invalid_argument for a
+// name that the scene does not have.
 std::vector<std::unique_ptr<const Contact>> MakeContacts(const Scene& scene, const NodeNumbers& numbers,
                                                          const std::vector<double>& slip_origins);
 

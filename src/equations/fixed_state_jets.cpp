@@ -5,7 +5,8 @@ namespace contact_path {
 
 Jet FixedStateSystem::ValueAlong(const Constraint& constraint, const Eigen::VectorXd& x, const Eigen::VectorXd& first,
                                  const Eigen::VectorXd& second) const {
-  if (!IsMotion(constraint.inequality)) return {Value(constraint, x), Value(constraint, first), Value(constraint, second)};
+  if (!IsMotion(constraint.inequality))
+    return {Value(constraint, x), Value(constraint, first), Value(constraint, second)};
   const Motion motion = MotionOf(constraint);
   const ContactPair& pair = *contacts_[motion.contact];
   const Kinematics at = Evaluate(motion.contact, x);
