@@ -399,10 +399,14 @@ Advance BranchMethod::Next(const PathPoint& from) {
   if (returned) Balance(&*next);  // of the shorter step
 
   AcceptedPoint increment = IncrementOf(*at, from);
-  if (!(increment.residuals.Largest() <= tolerances::kAcceptedExact))
-    return Ended(EndReason::kNumericalFailure,
-                 After(After("the residuals of the next point are too large", CurveTooSharp(model_, increment.point)),
-                       BeyondHalfRound(model_, increment.residuals) + BehindSurface(model_, increment.point)));
+  if (!(increment.residuals.Largest() <= tolerances::kAcceptedExact)) {
+    std::string message = "the residuals of the next point are too large";
+    for (const std::string& cause :
+         {CurveTooSharp(model_, increment.point), BeyondHalfRound(model_, increment.residuals),
+          BehindSurface(model_, increment.point)})
+      message = After(message, cause);
+    return Ended(EndReason::kNumericalFailure, message);
+  }
   NoteReactions(increment.point);
   const bool moved = at->step.length > 0.0;
   events_in_place_ = moved ? 0 : events_in_place_ + 1;
