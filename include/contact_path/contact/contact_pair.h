@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "contact_path/contact/kinematics.h"
@@ -116,7 +115,7 @@ class ContactPair {
   };
   const PairDofs& OwnDofs() const { return traits_.dofs; }
   // What does not change; set once, by the constructor of the pair.
-  void SetTraits(Traits traits) { traits_ = std::move(traits); }
+  void SetTraits(const Traits& traits) { traits_ = traits; }
 
  private:
   Traits traits_;
