@@ -77,6 +77,7 @@ if(CATKIN_ENABLE_TESTING)
     test/ros/memory_share_test.cpp
     test/ros/ros_test_main.cpp
     test/ros/scene_markers_test.cpp
+    test/ros/surface_markers_test.cpp
   )
   set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${contact_path_programs_directory}")
   # For a quick build, as those of the core (tests.cmake).

@@ -94,8 +94,8 @@ set(contact_path_extremes
 # A file for each header, except headers that only declare an interface (structure/element.h, mpec/nonlinear_program.h,
 # path/path_method.h), and files that trace whole paths.
 contact_path_add_stage(support derivative_checker_test)
-contact_path_add_stage(geometry curve_test capsule_tree_test outline_test polyline_test projection_test spline_test surface_test)
-contact_path_add_stage(scene can_slide_test cell_test change_units_test configuration_test expand_test field_test lattice_test nearest_name_test
+contact_path_add_stage(geometry curve_test capsule_tree_test nodal_spline_test outline_test polyline_test projection_test spline_test surface_test)
+contact_path_add_stage(scene boundary_rules_test can_slide_test cell_test change_units_test configuration_test expand_test field_test lattice_test nearest_name_test
   one_line_test origin_test quantity_test read_scene_test request_field_test scaling_test scene_index_test scene_test solid_rules_test utf8_test
   validate_test write_scene_test)
 contact_path_add_stage(structure bar_test beam_test dof_map_test elastica_test material_test scene_elements_test solid_test structure_test
@@ -104,8 +104,8 @@ contact_path_add_stage(linear blas_test bordered_solver_test generic_vector_test
 find_library(SUITESPARSECONFIG_LIBRARY suitesparseconfig REQUIRED)
 target_include_directories(linear_tests SYSTEM PRIVATE ${SUITESPARSE_INCLUDE_DIR})
 target_link_libraries(linear_tests ${SUITESPARSECONFIG_LIBRARY})
-contact_path_add_stage(contact contact_pair_test contact_state_test path_point_test reach_tracker_test rigid_pair_test scene_contacts_test)
-contact_path_add_stage(equations fixed_state_system_test nearest_point_test)
+contact_path_add_stage(contact contact_pair_test contact_state_test deformable_boundary_test deformable_pair_test path_point_test reach_tracker_test rigid_pair_test scene_contacts_test)
+contact_path_add_stage(equations deformable_system_test fixed_state_system_test nearest_point_test)
 contact_path_add_stage(mpec increment_problem_test increment_solver_test ipopt_solver_test short_increment_test)
 contact_path_add_stage(branch arc_step_test branch_choices_test branch_order_test crossing_test curved_surface_test
   gauss_rule_test patches_test pivoting_test plane_tangents_test polynomial_test rate_problem_test reaction_redistribution_test
@@ -118,7 +118,7 @@ contact_path_add_long_test(branch branch_events_test)
 contact_path_add_long_test(branch branch_method_test)
 contact_path_add_long_test(branch branches_test)
 contact_path_add_long_test(branch random_paths_test)
-contact_path_add_stage(check curved_residuals_test residuals_test solid_residuals_test)
+contact_path_add_stage(check boundary_residuals_test curved_residuals_test residuals_test solid_residuals_test)
 contact_path_add_stage(path automatic_step_test branch_options_test csv_test determinism_test diagnosis_test free_motion_test
   hard_scenes_test increment_test large_requests_test model_size_test model_test path_summary_test preload_test
   program_test progress_estimate_test redistribution_test restored_states_test return_detector_test
@@ -126,6 +126,7 @@ contact_path_add_stage(path automatic_step_test branch_options_test csv_test det
 contact_path_add_long_test(path curved_paths_test)
 contact_path_add_long_test(path curved_random_paths_test)
 contact_path_add_long_test(path curved_scenes_test)
+contact_path_add_long_test(path deformable_scenes_test)
 contact_path_add_long_test(path invariance_test)
 contact_path_add_long_test(path total_law_test)
 contact_path_add_long_test(path mpec_cases_test)
@@ -134,6 +135,7 @@ contact_path_add_long_test(path mpec_random_paths_test)
 contact_path_add_long_test(path polygon_disc_test)
 contact_path_add_long_test(path resume_test)
 contact_path_add_long_test(path sizes_test)
+contact_path_add_long_test(path surface_scenes_test)
 contact_path_add_long_test(path beam_paths_test)
 contact_path_add_long_test(path solid_paths_test)
 contact_path_add_long_test(path trace_test)
@@ -190,7 +192,7 @@ contact_path_add_python_test(mesh_test test/cli/mesh_test.py
 contact_path_add_python_test(study_test test/cli/study_test.py DEPENDS contact_path_trace contact_path_study_server
   VARIABLES CONTACT_PATH_STUDY=${CMAKE_CURRENT_SOURCE_DIR}/scripts/contact_path_study CONTACT_PATH_ROOT=${CMAKE_CURRENT_SOURCE_DIR}
     CONTACT_PATH_PROGRAMS=$<TARGET_FILE_DIR:contact_path_trace>)
-foreach(test scene_test path_test page_test page_study_test trace_test doctest_test)
+foreach(test scene_test path_test page_test page_study_test surface_curves_test trace_test doctest_test)
   contact_path_add_python_test(python_${test} test/python/${test}.py DEPENDS contact_path_trace
     VARIABLES CONTACT_PATH_ROOT=${CMAKE_CURRENT_SOURCE_DIR} CONTACT_PATH_PROGRAMS=$<TARGET_FILE_DIR:contact_path_trace>)
 endforeach()

@@ -75,6 +75,8 @@ inline constexpr double kTouchingAtStart = 1e-9;
 // Scaled length by which an open contact is beyond the end of a patch where the next patch takes over: the gap is then
 // wrong by the square of it.
 inline constexpr double kBeyondPatch = 1e-9;
+// Scaled length by which another part of a deformable surface is nearer to a node than the part that it touches.
+inline constexpr double kOverrun = 1e-8;
 // Scaled value of an inequality between the ends of a step: less below zero is rounding of the interpolation.
 inline constexpr double kBrokenOnStep = 1e-11;
 // Scaled reaction, or margin to the friction cone, at a located point where another path crosses: less below zero is

@@ -85,7 +85,8 @@ def evenly(count: int, most: int) -> np.ndarray:
 
 def path_data(path: Path, rows: np.ndarray, points: Points | None, x: str, y: str) -> Entry:
     """What the slider moves and tells. `structure`: null without a scene."""
-    return {'steps': len(rows), 'increments': len(path), 'indices': plain(path['index'][rows], '<i4'), 'columns': page_curves.columns(path, rows, x, y),
+    return {'steps': len(rows), 'increments': len(path), 'indices': plain(path['index'][rows], '<i4'),
+            'columns': page_curves.columns(path, rows, x, y),
             'headings': page_curves.headings(path, rows), 'end': path.message,
             'structure': page_shapes.structure_of(path, rows, points.structure, points) if points is not None else None}
 

@@ -85,7 +85,8 @@ def path_traces(path: Path, number: int, count: int, x: str, y: str) -> List[Ent
 
 
 def marker(kind: str, own: str) -> Entry:
-    return {'symbol': SYMBOLS[kind], 'size': 13 if kind == 'bifurcation' else 9, 'color': own, 'line': {'color': 'white', 'width': 0.6}}
+    return {'symbol': SYMBOLS[kind], 'size': 13 if kind == 'bifurcation' else 9, 'color': own,
+            'line': {'color': 'white', 'width': 0.6}}
 
 
 def mark_legend(paths: Sequence[Path]) -> List[Entry]:

@@ -1,7 +1,7 @@
 """Obstacles of a page: boundaries with strokes, at rest or with their motion from step to step."""
 from __future__ import annotations
 
-from typing import Any, Dict, List, Sequence, Tuple
+from typing import List, Tuple
 
 import numpy as np
 

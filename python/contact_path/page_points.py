@@ -1,7 +1,7 @@
 """The points that a page moves from step to step, and the lists of them that make lines, arrows and areas."""
 from __future__ import annotations
 
-from typing import Any, Dict, List, Sequence, Tuple
+from typing import Any, Dict, Sequence
 
 import numpy as np
 
@@ -10,13 +10,14 @@ from contact_path.scene_arrays import Structure
 from contact_path.shapes import FULL_TURN, LONGEST_ARROW, MOMENT_RADIUS, SHORTEST_ARROW, STEPS, Shape, View, turned_arrow
 
 MOST_BEAM_LINES = 1500  # of all segments of beams together
+SURFACE_STEP = 4  # of the lines of a surface that plots draw, of which a patch has 16
 FORCES = ('loads', 'constant_loads')  # of a Shape, on its nodes
 MOMENTS = ('moments', 'constant_moments')
 HEAD = 4  # points of the head of a turned arrow
 
 
 class Points:
-    """Which points there are, the same in every step: nodes, points within segments of beams, hubs of superelements, tips of
+    """Which points there are, the same in every step: nodes, points within segments of beams, along surfaces, hubs of superelements, tips of
     arrows, bases of friction cones, turned arrows. `groups`: name -> their numbers (m, ...)."""
 
     def __init__(self, structure: Structure) -> None:
@@ -32,6 +33,9 @@ class Points:
         contacts = len(structure.contacts)
         self.add('nodes', len(structure.names))
         self.add('beams', segments, len(self.within))
+        surfaces = [surface.shape(structure.initial).points for surface in structure.surfaces.values()]
+        self.thinned = [np.arange(0, len(points), SURFACE_STEP) for points in surfaces]
+        self.add('surfaces', sum(map(len, self.thinned)))
         self.add('hubs', len(structure.superelements))
         self.add('reactions', contacts)
         self.add('cones', contacts, 2)
@@ -54,7 +58,8 @@ class Points:
 
     def places(self, shape: Shape, view: View) -> np.ndarray:
         """(count, 2) in an increment; nan where an arrow is too short to be seen."""
-        parts = [shape.places, shape.beams[:, self.within].reshape(-1, 2), np.reshape(shape.hubs, (-1, 2)),
+        surfaces = [points[some] for points, some in zip(shape.surfaces, self.thinned)]
+        parts = [shape.places, shape.beams[:, self.within].reshape(-1, 2), *surfaces, np.reshape(shape.hubs, (-1, 2)),
                  tips(shape.touching, shape.reactions, view), cones(shape, view).reshape(-1, 2)]
         for name in FORCES:
             nodes = self.loaded[name]
@@ -74,7 +79,8 @@ class Points:
         return places
 
     def lines(self, name: str) -> np.ndarray:
-        """A list of points: bars and beams; edges of solids; lines from hubs to nodes; arrows; cones; shafts and heads of moments."""
+        """A list of points: bars and beams; edges of solids; surfaces; lines from hubs to nodes; arrows; cones; shafts and heads of turned
+        arrows."""
         groups, structure = self.groups, self.structure
         if name == 'members':
             nodes = structure.beams.nodes
@@ -83,6 +89,9 @@ class Points:
         if name == 'edges':
             boundaries = [closed(solid.boundaries) for solid in structure.solids]
             return trails(np.vstack([np.empty((0, 2))] + [edges_of(part) for part in boundaries]))
+        if name == 'surfaces':
+            ends = np.cumsum([len(some) for some in self.thinned], dtype=int)
+            return np.insert(groups['surfaces'], ends, GAP)
         if name == 'hubs':
             return joined([(hub, node) for hub, (nodes, _) in zip(groups['hubs'], structure.superelements) for node in nodes])
         if name == 'reactions':

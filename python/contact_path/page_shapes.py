@@ -15,7 +15,7 @@ from contact_path.path import Path
 from contact_path.path_marks import STATES
 from contact_path.scene_arrays import Structure
 from contact_path.shapes import (BARS, CONSTANT_LOAD, FEW_NODES, INITIAL, LOAD, LONGEST_ARROW, MANY_MARKS, MANY_NODES, OBSTACLE,
-                                 REACTION, SOLID_COLOURS, Shape, View)
+                                 REACTION, SOLID_COLOURS, SURFACE, Shape, View)
 
 CLASSES = 12  # of colours of solids
 ARROW_HEAD, SMALL_ARROW_HEAD = 11, 7  # in pixels
@@ -43,7 +43,8 @@ def structure_of(path: Path, rows: np.ndarray, structure: Structure, points: Poi
     moved = trajectories(places.reshape(len(rows), -1))
     return {'layout': layout(view), 'still': still(points), 'obstacles': obstacles(path, rows, structure, view),
             'points': moved, 'moving': moving(points, structure), 'solids': solids(shapes, view), 'names': structure.names,
-            'contacts': contacts(path, rows, shapes, view), 'decimals': decimals(np.ptp(places[:, :len(structure.names)], axis=0).max())}
+            'contacts': contacts(path, rows, shapes, view),
+            'decimals': decimals(np.ptp(places[:, :len(structure.names)], axis=0).max())}
 
 
 def decimals(span: float) -> int:
@@ -103,10 +104,12 @@ def moving(points: Points, structure: Structure) -> List[Entry]:
     lines(points.lines('edges'), line={'color': BARS, 'width': 0.5 if many else 0.8}, named=True)
     areas(points.lines('cones'), rgba(REACTION, 0.15), name='friction cone', showlegend=bool(np.any(structure.friction > 0.0)))
     lines(points.lines('members'), line={'color': BARS, 'width': width}, named=True)
+    lines(points.lines('surfaces'), line={'color': SURFACE, 'width': 1.5}, name='surface in contact', showlegend=True)
     lines(points.lines('hubs'), line={'color': BARS, 'width': 1.5, 'dash': 'dash'}, name='superelement', showlegend=True)
     if not many:
-        lines(np.flatnonzero(~structure.beams.inner), marker={'size': 4, 'color': BARS}, named=True,
-              **({'mode': 'markers+text', 'textposition': 'top right'} if len(structure.names) <= FEW_NODES else {'mode': 'markers'}))
+        mode = 'markers+text' if len(structure.names) <= FEW_NODES else 'markers'
+        lines(np.flatnonzero(~structure.beams.inner), marker={'size': 4, 'color': BARS}, named=True, mode=mode,
+              textposition='top right')
     for numbers, symbol in supports(structure):
         lines(numbers, mode='markers', marker={'symbol': symbol, 'size': 10 if many else 16, 'color': '#888888',
                                                'line': {'color': '#404040', 'width': 1}})
@@ -179,13 +182,15 @@ def contacts(path: Path, rows: np.ndarray, shapes: Sequence[Shape], view: View) 
         return None
     states = np.array([path['state_' + name][rows] for name in names]).T
     used = [state for state in STATES if np.any(states == state)]
-    found = {field: packed(np.array([path['%s_%s' % (field, name)][rows] for name in names]).T, '<f4') for field in ('gap', 'rn', 'rt')}
+    found = {field: packed(np.array([path['%s_%s' % (field, name)][rows] for name in names]).T, '<f4')
+             for field in ('gap', 'rn', 'rt')}
+    edge = {'color': 'black', 'width': 0.8}
     many = len(structure.names) > MANY_NODES or len(names) > MANY_MARKS
     return {'names': names, 'nodes': plain(structure.contact_nodes, '<i4'), 'states': list(STATE_NAMES),
             'colours': [STATES[state] for state in STATE_NAMES], 'size': SMALL_MARK if many else MARK, **found,
             'layer': packed(np.array([view.layers(shape) for shape in shapes]) + 1, '|u1'),
             'state': packed(np.array([[STATE_NAMES.index(state) for state in row] for row in states]), '|u1'),
             'trace': {'type': 'scatter', 'mode': 'markers', 'showlegend': False, 'hovertemplate': '%{text}<extra></extra>',
-                      'marker': {'line': {'color': 'black', 'width': 0.8}}},
-            'legend': [{**legend_entry(state), 'mode': 'markers',
-                        'marker': {'color': STATES[state], 'size': MARK, 'line': {'color': 'black', 'width': 0.8}}} for state in used]}
+                      'marker': {'line': edge}},
+            'legend': [{**legend_entry(state), 'mode': 'markers', 'marker': {'color': STATES[state], 'size': MARK, 'line': edge}}
+                       for state in used]}

@@ -118,7 +118,7 @@ class Path:
 
     @property
     def contacts(self) -> List[str]:
-        """Names NODE@OBSTACLE of the candidates, in the order of the scene."""
+        """Names NODE@OBSTACLE or NODE@SURFACE of the candidates, in the order of the scene."""
         return [name[len('state_'):] for name in self.table if name.startswith('state_')]
 
     @property
@@ -137,9 +137,10 @@ class Path:
     def with_scene(self, scene: Scene) -> Path:
         """The same path with its scene, where it was read from a CSV file. ValueError: it is not a path of this scene."""
         from contact_path.drawn_scene import drawn  # only here
+        from contact_path.scene_expand import contact_name
 
         parts = drawn(scene)
-        contacts = ['%s@%s' % (contact['node'], contact['obstacle']) for contact in parts['contacts']]
+        contacts = [contact_name(contact) for contact in parts['contacts']]
         if [node['name'] for node in parts['nodes']] != self.nodes or contacts != self.contacts:
             raise ValueError('not a path of this scene: nodes and contacts differ')
         stages = len(parts['program'])

@@ -11,6 +11,7 @@ import numpy as np
 from contact_path.drawn_scene import drawn
 from contact_path.path import KINDS, STATES, Path
 from contact_path.scene import Scene
+from contact_path.scene_expand import contact_name
 
 
 def read(file: str | os.PathLike[str]) -> Path:
@@ -90,7 +91,7 @@ def path_of(request: Any, increments: Sequence[Any], result: Any = None) -> Path
     """The path of messages: TraceRequest, Increment, and TraceResult or None."""
     scene = Scene.from_message(request)
     expanded = drawn(scene)
-    contacts = ['%s@%s' % (contact['node'], contact['obstacle']) for contact in expanded['contacts']]
+    contacts = [contact_name(contact) for contact in expanded['contacts']]
     return Path(columns_of(expanded, contacts, increments), title=scene.name, scene=scene,
                 end_reason=result.end_reason_name if result is not None else '',
                 message=result.message if result is not None else '',

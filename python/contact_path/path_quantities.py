@@ -83,13 +83,35 @@ def slip(path: Path, structure: Structure, contact: str) -> np.ndarray:
     node, obstacle = structure.names[structure.contact_nodes[index]], structure.contact_obstacles[index]
     states = path['state_' + contact]
     known = states != ''
-    places = np.column_stack((path['x_' + node], path['y_' + node]))
-    boundary = structure.obstacles[obstacle]
-    _, xi = boundary.foot(structure.placement(obstacle, path).back(places)[known])
-    steps = boundary.slips(np.diff(xi, prepend=xi[:1]))
+    if structure.contact_surfaces[index]:
+        steps = steps_on_surface(path, structure, index, known)
+    else:
+        places = np.column_stack((path['x_' + node], path['y_' + node]))
+        boundary = structure.obstacles[obstacle]
+        _, xi = boundary.foot(structure.placement(obstacle, path).back(places)[known])
+        steps = boundary.slips(np.diff(xi, prepend=xi[:1]))
     slips = np.full(len(path), np.nan)
     slips[known] = np.cumsum(np.where(np.isin(states[known], ('slip+', 'slip-', 'closed')), steps, 0.0))
     return slips
+
+
+def steps_on_surface(path: Path, structure: Structure, contact: int, known: np.ndarray) -> np.ndarray:
+    """From each increment that is known to the next: how far the node goes over the material, in the mean of the lengths that
+    the surface has in the two increments; 0 for the first."""
+    surface, node = structure.surfaces[structure.contact_surfaces[contact]], structure.contact_nodes[contact]
+    x, y = (np.column_stack([path[axis + name] for name in structure.names])[known] for axis in ('x_', 'y_'))
+    steps = np.zeros(len(x))
+    before, start = None, 0.0
+    for i, places in enumerate(np.stack((x, y), axis=2)):
+        shape = surface.shape(places)
+        end = shape.foot(places[[node]])[1][0]
+        if before is not None:
+            step = end - start
+            if surface.closed:
+                step -= len(surface.nodes) * round(step / len(surface.nodes))
+            steps[i] = 0.5 * (before.walked(start, step) + shape.walked(start, step))
+        before, start = shape, end
+    return steps
 
 
 def load(path: Path, structure: Structure, field: str, part: str) -> np.ndarray:

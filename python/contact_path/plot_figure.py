@@ -115,7 +115,7 @@ def add_shapes(page: Page, paths: Sequence[Path], chosen: Chosen) -> None:
             page.add(height, draw_line, above=SHAPE_TITLE, below=0.1 if first + columns < len(group) else SHAPE_AXIS)
 
     handles = plot_shapes.legend_handles(shapes, view)
-    in_line = min(len(handles), 6)
+    in_line = min(len(handles), 5 if any(shape.surfaces for shape in shapes) else 6)
     legend_height = 0.2 * -(-len(handles) // in_line) + 0.15
 
     def draw_legend(figure: Figure, top: float, bottom: float) -> None:

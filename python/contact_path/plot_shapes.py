@@ -17,7 +17,7 @@ from contact_path.path import LIMITS, Path
 from contact_path.path_marks import MARKS, STATES
 from contact_path.plot_panels import free_direction, text_box
 from contact_path.shapes import (BARS, CONSTANT_LOAD, FEW_NODES, FULL_TURN, HATCH_DEPTH, INITIAL, LOAD, LONGEST_ARROW, MANY_MARKS,
-                                 MANY_NODES, MOMENT_RADIUS, OBSTACLE, REACTION, SHORTEST_ARROW, SOLID_COLOURS, Curve, Shape, View,
+                                 MANY_NODES, MOMENT_RADIUS, OBSTACLE, REACTION, SHORTEST_ARROW, SOLID_COLOURS, SURFACE, Curve, Shape, View,
                                  hatched_line, hatching, turned_arrow)
 
 MOST = 9  # shapes that are chosen where nothing is said
@@ -70,6 +70,8 @@ def draw(axes: Axes, shape: Shape, view: View, size: Tuple[float, float], named:
     for curve in shape.curves.values():
         draw_curve(axes, curve, view, HATCH_DEPTH * view.size)
     draw_solids(axes, shape, view)
+    for points in shape.surfaces:  # the curves that contacts touch
+        draw_lines(axes, [points], color=SURFACE, linewidth=0.9, zorder=3.2)
     width = min(1.5, 20.0 / math.sqrt(len(structure.bars) + len(structure.beams.nodes) + 1.0))
     initial_beams = structure.beams.curves(structure.initial, np.zeros(len(structure.names)))
     for lines in structure.initial[structure.bars], initial_beams:
@@ -225,7 +227,7 @@ def draw_forces(axes: Axes, shape: Shape, view: View) -> None:
 
 
 def draw_states(axes: Axes, shape: Shape, view: View) -> None:
-    """A mark on each candidate for an obstacle in view. A node that touches two has two, one within the other."""
+    """A mark on each candidate for a surface, or for an obstacle in view. A node that touches two has two, one within the other."""
     marks = view.layers(shape)
     area = 40.0 if np.sum(marks >= 0) <= MANY_MARKS and len(shape.places) <= MANY_NODES else 20.0
     layers: Dict[Tuple[int, str], List[int]] = {}
@@ -279,6 +281,8 @@ def legend_handles(shapes: Sequence[Shape], view: View) -> List[Any]:
         for share in (1.0, 0.25):
             handles.append(Patch(facecolor=COLOUR_MAP(math.sqrt(share)), edgecolor=BARS,
                                  label='strain energy %.2g [force/length^2]' % (share * view.energy)))
+    if any(shape.surfaces for shape in shapes):
+        handles.append(Line2D([], [], color=SURFACE, linewidth=1.2, label='surface in contact'))
     if view.obstacles:
         handles.append(Patch(facecolor='white', edgecolor=OBSTACLE, hatch='/////', linewidth=0.0, label='obstacle'))
     return handles

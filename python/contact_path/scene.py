@@ -146,8 +146,9 @@ class Scene(Loading):
         or x, y in turn [length]; closed: the last one is joined to the first."""
         self._add('obstacles', locals())
 
-    def contact(self, *, node: str = '', group: str = '', obstacle: str) -> None:
-        """A node that may touch an obstacle, called NODE@OBSTACLE, or each node of a group."""
+    def contact(self, *, node: str = '', group: str = '', obstacle: str = '', surface: str = '', friction: float = 0.0) -> None:
+        """A node that may touch an obstacle, called NODE@OBSTACLE, or a surface, called NODE@SURFACE; or each node of a group.
+        friction: coefficient with the surface [-]; an obstacle has its own."""
         self._add('contacts', locals())
 
     def stage(self, name: str = '', *, target: float = 0.0, unload: bool = False) -> Stage:
@@ -272,7 +273,7 @@ def with_defaults(part: str, entries: Sequence[Mapping[str, Any]]) -> List[Entry
     """The entries of a list of a scene with all fields.
 
     >>> with_defaults('contacts', [{'node': 'a', 'obstacle': 'floor'}])
-    [{'node': 'a', 'group': '', 'obstacle': 'floor'}]
+    [{'node': 'a', 'group': '', 'obstacle': 'floor', 'surface': '', 'friction': 0.0}]
     """
     defaults = {field: _DEFAULTS.get(kind, []) for field, kind in PARTS[part].items()}
     return [{**defaults, **entry} for entry in entries]

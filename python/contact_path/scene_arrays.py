@@ -11,7 +11,9 @@ from contact_path.obstacle_curves import Boundary, Placement
 from contact_path.obstacle_outlines import outlines
 from contact_path.path import Path
 from contact_path.scene import Scene
+from contact_path.scene_expand import contact_name
 from contact_path.solid_energy import Solid
+from contact_path.surface_curves import SurfaceCurve
 
 Row = Mapping[str, Any]  # an increment, as Path.row gives it
 
@@ -56,9 +58,14 @@ class Structure:
         self.normals = {name: boundary.normal for name, boundary in self.obstacles.items()
                         if boundary.flat and name not in turning}
         self.contact_nodes = np.array([index[contact['node']] for contact in scene['contacts']], dtype=int)
+        # By contact; '' where it has none.
         self.contact_obstacles = [contact['obstacle'] for contact in scene['contacts']]
-        self.contacts = ['%s@%s' % (contact['node'], contact['obstacle']) for contact in scene['contacts']]
-        self.friction = np.array([self.obstacles[name].friction for name in self.contact_obstacles])
+        self.contact_surfaces = [contact['surface'] for contact in scene['contacts']]
+        self.surfaces = {surface['name']: SurfaceCurve(surface, index) for surface in scene['surfaces']
+                         if surface['name'] in self.contact_surfaces}
+        self.contacts = [contact_name(contact) for contact in scene['contacts']]
+        self.friction = np.array([contact['friction'] if contact['surface'] else self.obstacles[contact['obstacle']].friction
+                                  for contact in scene['contacts']])
 
     def loads_of(self, loads: Iterable[Mapping[str, Any]]) -> np.ndarray:
         """Forces and moments (n, 3) on the nodes."""
@@ -112,13 +119,16 @@ class Structure:
         return placement
 
     def contact_normals(self, places: np.ndarray, placements: Mapping[str, Placement]) -> np.ndarray:
-        """(k, 2) where the contacts are nearest to their obstacles. places (n, 2): of the nodes; placements: obstacle -> where
-        it is."""
+        """(k, 2) where the contacts are nearest to their obstacles or surfaces. places (n, 2): of the nodes; placements:
+        obstacle -> where it is."""
         normals = np.empty((len(self.contacts), 2))
-        for name in set(self.contact_obstacles):
+        for name in set(self.contact_obstacles) - {''}:
             own = np.flatnonzero(np.array(self.contact_obstacles) == name)
             found, _ = self.obstacles[name].foot(placements[name].back(places[self.contact_nodes[own]]))
             normals[own] = placements[name].vectors(found)
+        for name, surface in self.surfaces.items():
+            own = np.flatnonzero(np.array(self.contact_surfaces) == name)
+            normals[own], _ = surface.shape(places).foot(places[self.contact_nodes[own]])
         return normals
 
     def find_bar_directions(self) -> List[List[np.ndarray]]:

@@ -48,10 +48,18 @@ def expand(scene: Dict[str, Any]) -> Callable[[List[Entry]], List[Entry]]:
                              else of_load(load, members, axes, places))]
 
     scene['loads'] = loads_on_nodes(scene['loads'])
-    scene['contacts'] = [{'node': node, 'obstacle': contact['obstacle']} for contact in scene['contacts']
-                         for node in ([name for name in members[contact['group']] if name not in fixed]
+    # A node that is fixed may be touched by a surface that moves.
+    moving = {surface['name'] for surface in scene['surfaces'] if not fixed.issuperset(surface['nodes'])}
+    scene['contacts'] = [{**contact, 'node': node, 'group': ''} for contact in scene['contacts']
+                         for node in ([name for name in members[contact['group']]
+                                       if name not in fixed or contact['surface'] in moving]
                                       if contact['group'] else [contact['node']])]
     return loads_on_nodes
+
+
+def contact_name(contact: Mapping[str, Any]) -> str:
+    """Of a contact of a node, with all fields."""
+    return '%s@%s' % (contact['node'], contact['surface'] or contact['obstacle'])
 
 
 def of_load(load: Entry, members: Mapping[str, Sequence[str]], axes: Mapping[str, Sequence[str]],

@@ -10,6 +10,7 @@ from contact_path.obstacle_curves import Boundary, Placement
 from contact_path.scene_arrays import Row, Structure
 
 BARS, INITIAL, REACTION, LOAD, CONSTANT_LOAD, OBSTACLE = '#44546a', '#cccccc', '#b2182b', '#2166ac', '#7fb3d5', '#737373'
+SURFACE = '#1b7837'
 SOLID_COLOURS = ('#e8ecf2', '#f4b183', '#9c2f13')  # by the root of the strain energy, from 0 to the largest
 LONGEST_ARROW = 0.2  # of the size of the structure
 SHORTEST_ARROW = 0.01  # shorter ones are not drawn
@@ -75,6 +76,7 @@ class Shape:
         self.obstacles = {name: placements[name].points(boundary.point) for name, boundary in structure.obstacles.items()}
         self.curves = {name: Curve(boundary, placements[name]) for name, boundary in structure.obstacles.items()
                        if name not in structure.normals}
+        self.surfaces = [surface.shape(self.places).points for surface in structure.surfaces.values()]
 
     def hub(self, nodes: Sequence[int], rest: np.ndarray) -> np.ndarray:
         """Where the lines to the nodes of a superelement meet: in their midst, of a single node where it is at rest."""
@@ -95,7 +97,8 @@ class View:
 
     def __init__(self, shapes: Sequence[Shape]) -> None:
         places = np.vstack([part for shape in shapes
-                            for part in (shape.places, shape.structure.initial, shape.beams.reshape(-1, 2))])
+                            for part in (shape.places, shape.structure.initial, shape.beams.reshape(-1, 2),
+                                         *shape.surfaces)])
         low, high = places.min(axis=0), places.max(axis=0)
         self.size = max(high - low)
         if self.size <= 1e-9 * np.abs(places).max():
@@ -160,13 +163,13 @@ class View:
         return extents
 
     def layers(self, shape: Shape) -> np.ndarray:
-        """(k,) of the marks on the candidates: 0, or a number more where a node touches several obstacles, one mark within the
-        other; -1: no mark, for the obstacle is out of view, or the node touches another one."""
+        """(k,) of the marks on the candidates: 0, or a number more where a node touches several obstacles or surfaces, one mark
+        within the other; -1: no mark, for the obstacle is out of view, or the node touches another one."""
         in_view = np.zeros(len(shape.states), dtype=bool)
         for name, normal in self.obstacles:
             in_view |= shape.structure.is_at(name, normal)
         for i, name in enumerate(shape.structure.contact_obstacles):
-            in_view[i] |= name in shape.curves and self.sees(shape.curves[name])
+            in_view[i] |= not name or name in shape.curves and self.sees(shape.curves[name])
         layers = np.full(len(shape.states), -1)
         marks: Dict[int, int] = {}  # node -> how many
         for i in sorted(range(len(shape.states)), key=lambda i: shape.states[i] == 'open'):

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <set>
 
+#include "branch/rate_problems.h"
 #include "contact_path/branch/branch_order.h"
 #include "contact_path/branch/pivoting.h"
 #include "contact_path/branch/rate_problem.h"
@@ -297,13 +299,15 @@ class Finder {
 };
 
 // Every combination of the options: an odometer, the last contact turning fastest.
-void TryAll(const Options& options, const RateProblem* condensed, Finder* finder, BranchSet* result) {
+// excluded(modes): whether they need not be tried.
+void TryAll(const Options& options, const std::function<bool(const ContactModes&)>& excluded, Finder* finder,
+            BranchSet* result) {
   ContactModes modes;
   for (const ContactModes& option : options) modes.push_back(option.front());
   std::vector<std::size_t> digits(options.size(), 0);
   bool turned = true;
   while (turned && !finder->Cancelled()) {
-    if (condensed == nullptr || !finder->Excluded(StatesOf(modes), *condensed)) finder->Try(modes, &result->branches);
+    if (!excluded(modes)) finder->Try(modes, &result->branches);
     ++result->combinations;
     turned = false;
     for (std::size_t i = options.size(); i-- > 0 && !turned;) {
@@ -369,33 +373,45 @@ BranchSet BranchesWithReactions(const Structure& structure, const ContactPairs& 
   States natural;
   std::vector<int> weakly_active;
   double combinations = 1.0;
-  bool between_patches = false;
+  bool between_patches = false, between_rigid = false;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     options.push_back(StateOptions(*contacts[i], point, i, limit));
     natural.push_back(options[i].front().state);
     const int patch = contacts[i]->KnownPatch(point.u, point.s, point.Patch(i));
-    for (const ContactMode& option : options[i]) between_patches = between_patches || option.patch != patch;
+    for (const ContactMode& option : options[i]) {
+      if (option.patch == patch) continue;
+      between_patches = true;
+      between_rigid = between_rigid || !contacts[i]->Deformable();
+    }
     combinations *= static_cast<double>(options[i].size());
     if (options[i].size() > 1) weakly_active.push_back(static_cast<int>(i));
   }
   result.weakly_active = static_cast<int>(weakly_active.size());
   Finder finder(structure, contacts, point, options, arrival, limit, cancelled);
   // Where another path crosses, rates are not unique, and every combination is looked at as a whole; so it is where
-  // patches meet, whose curvatures differ.
+  // patches of a rigid surface meet, whose curvatures differ. Nodes pass from patch to patch of a deformable surface
+  // all the time: then there is a problem for each combination of patches.
   std::optional<RateProblem> problem;
+  RateProblems of_patches(structure, contacts, point, natural, weakly_active, arrival.direction);
   const double entries = static_cast<double>(point.u.size()) * static_cast<double>(2 * weakly_active.size() + 1);
   const double few = point.u.size() < BorderedSolver::kLargeSystem ? kFewCombinations : 1.0;
-  if (combinations > few && weakly_active.size() <= kMostCondensedContacts && !arrival.singular && !between_patches &&
-      entries <= kMostCondensed)
+  const bool condenses = combinations > few && weakly_active.size() <= kMostCondensedContacts && !arrival.singular &&
+                         entries <= kMostCondensed;
+  if (condenses && !between_patches)
     problem.emplace(structure, contacts, point, natural, weakly_active, arrival.direction);
   const RateProblem* condensed = problem && problem->regular() ? &*problem : nullptr;
+  const auto excluded = [&](const ContactModes& modes) {
+    const RateProblem* const rates =
+        condenses && between_patches && !between_rigid ? of_patches.On(PatchesOf(modes)) : condensed;
+    return rates != nullptr && finder.Excluded(StatesOf(modes), *rates);
+  };
   result.complete = combinations <= kMostCombinations;
   if (result.complete)
-    TryAll(options, condensed, &finder, &result);
+    TryAll(options, excluded, &finder, &result);
   else
     TryLikely(options, point, arrival, condensed, further, &finder, &result);
   if (result.branches.empty() && !result.complete && combinations <= kMostIfNone) {
-    TryAll(options, condensed, &finder, &result);
+    TryAll(options, excluded, &finder, &result);
     result.complete = true;
   }
   if (result.branches.empty() && condensed != nullptr)

@@ -16,30 +16,29 @@ namespace {
 // are part of the unknowns, and are taken out where reactions are wanted.
 constexpr double kSpring = 1.0;
 
-// A force kSpring . motion along a gap or xi with this gradient. matrix: transposed, nd components before the load
+// A force stiffness . motion along a gap or xi with this gradient. matrix: transposed, nd components before the load
 // factor.
-void AddSpring(const ContactPair& pair, const PairVector& gradient, Eigen::Index nd,
+void AddSpring(const PairDofs& dofs, const PairVector& gradient, double stiffness, Eigen::Index nd,
                Eigen::SparseMatrix<double>* matrix) {
-  const auto m = static_cast<Eigen::Index>(pair.Dofs().size());
+  const auto m = static_cast<Eigen::Index>(dofs.size());
   for (Eigen::Index a = 0; a < m; ++a) {
-    const int column = pair.Dofs()[static_cast<std::size_t>(a)];
+    const int column = dofs[static_cast<std::size_t>(a)];
     if (gradient[a] == 0.0) continue;
-    if (gradient[m] != 0.0) matrix->coeffRef(nd, column) += kSpring * gradient[a] * gradient[m];
+    if (gradient[m] != 0.0) matrix->coeffRef(nd, column) += stiffness * gradient[a] * gradient[m];
     for (Eigen::Index b = 0; b < m; ++b)
       if (gradient[b] != 0.0)
-        matrix->coeffRef(pair.Dofs()[static_cast<std::size_t>(b)], column) += kSpring * gradient[a] * gradient[b];
+        matrix->coeffRef(dofs[static_cast<std::size_t>(b)], column) += stiffness * gradient[a] * gradient[b];
   }
 }
 
-// The change of the force r_n grad u_n + r_t grad xi by the curvature of the surface.
-void AddCurvature(const ContactPair& pair, const Kinematics& at, double rn, double rt, Eigen::Index nd,
-                  Eigen::SparseMatrix<double>* matrix) {
-  const PairMatrix hessian = rn * at.gap_hessian + rt * at.xi_hessian;
-  const auto m = static_cast<Eigen::Index>(pair.Dofs().size());
+// The change of the force r_n grad u_n + r_t c grad xi by the curvature of the surface.
+void AddCurvature(const Kinematics& at, double rn, double rt, Eigen::Index nd, Eigen::SparseMatrix<double>* matrix) {
+  const PairMatrix change = at.ForceChange(rn, rt);
+  const auto m = static_cast<Eigen::Index>(at.dofs.size());
   for (Eigen::Index a = 0; a < m; ++a)
     for (Eigen::Index b = 0; b <= m; ++b)
-      matrix->coeffRef(b < m ? pair.Dofs()[static_cast<std::size_t>(b)] : nd,
-                       pair.Dofs()[static_cast<std::size_t>(a)]) -= hessian(b, a);
+      matrix->coeffRef(b < m ? at.dofs[static_cast<std::size_t>(b)] : nd, at.dofs[static_cast<std::size_t>(a)]) -=
+          change(b, a);
 }
 
 }  // namespace
@@ -56,17 +55,22 @@ RateProblem::RateProblem(const Structure& structure, const ContactPairs& contact
   const Eigen::Index nd = system.NumDofs();
   std::vector<Kinematics> kinematics(weakly_active_.size());
   Eigen::SparseMatrix<double> transposed = system.TransposedJacobian(x);
+  bool deformable = false;
   for (std::size_t k = 0; k < weakly_active_.size(); ++k) {
     const int i = weakly_active_[k];
     const ContactPair& pair = *contacts[static_cast<std::size_t>(i)];
-    pair.Evaluate(point.u, point.s, point.Patch(static_cast<std::size_t>(i)), 0.0, &kinematics[k]);
-    AddSpring(pair, kinematics[k].gap_gradient, nd, &transposed);
-    AddSpring(pair, kinematics[k].xi_gradient, nd, &transposed);
-    if (pair.Curved()) AddCurvature(pair, kinematics[k], point.rn[i], point.rt[i], nd, &transposed);
+    Kinematics& at = kinematics[k];
+    pair.Evaluate(point.u, point.s, point.Patch(static_cast<std::size_t>(i)), 0.0, &at);
+    AddSpring(at.dofs, at.gap_gradient, kSpring, nd, &transposed);
+    AddSpring(at.dofs, at.xi_gradient, kSpring * at.slip_factor, nd, &transposed);
+    if (pair.Curved()) AddCurvature(at, point.rn[i], point.rt[i], nd, &transposed);
+    deformable = deformable || pair.Deformable();
   }
   transposed.makeCompressed();
   BorderedSolver solver;
-  if (!solver.Factorize(transposed, Eigen::VectorXd::Unit(system.NumUnknowns(), nd), system.InFrame()) ||
+  // Springs between a node and a deformable surface have places of their own in the matrix.
+  if (!solver.Factorize(transposed, Eigen::VectorXd::Unit(system.NumUnknowns(), nd),
+                        deformable ? nullptr : system.InFrame()) ||
       solver.DeterminantSign() == 0)
     return;
 
@@ -75,12 +79,11 @@ RateProblem::RateProblem(const Structure& structure, const ContactPairs& contact
   motions.col(0) = solver.Solve(Eigen::VectorXd::Zero(system.NumEquations()), 1.0).head(nd);
   Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(system.NumEquations(), 2), moved;
   for (Eigen::Index k = 0; k < count; ++k) {
-    const ContactPair& pair = *contacts[static_cast<std::size_t>(weakly_active_[static_cast<std::size_t>(k)])];
     const Kinematics& at = kinematics[static_cast<std::size_t>(k)];
     const auto set = [&](double value) {
-      for (std::size_t a = 0; a < pair.Dofs().size(); ++a) {
-        forces(pair.Dofs()[a], 0) = value * at.gap_gradient[static_cast<Eigen::Index>(a)];
-        forces(pair.Dofs()[a], 1) = value * at.xi_gradient[static_cast<Eigen::Index>(a)];
+      for (std::size_t a = 0; a < at.dofs.size(); ++a) {
+        forces(at.dofs[a], 0) = value * at.gap_gradient[static_cast<Eigen::Index>(a)];
+        forces(at.dofs[a], 1) = value * at.slip_factor * at.xi_gradient[static_cast<Eigen::Index>(a)];
       }
     };
     set(1.0);
@@ -99,8 +102,8 @@ RateProblem::RateProblem(const Structure& structure, const ContactPairs& contact
     slipped_[k] = at.xi - pair.SlipReference(point.u, point.s, point.Patch(i));
     for (Eigen::Index j = 0; j < motions.cols(); ++j) {
       const double ds = j == 0 ? 1.0 : 0.0;
-      gap_(k, j) = pair.Rate(at.gap_gradient, motions.col(j), ds);
-      slip_(k, j) = pair.Rate(at.xi_gradient, motions.col(j), ds);
+      gap_(k, j) = at.Rate(at.gap_gradient, motions.col(j), ds);
+      slip_(k, j) = at.Rate(at.xi_gradient, motions.col(j), ds);
     }
   }
   gram_ = motions.transpose() * motions;

@@ -41,21 +41,22 @@ struct UnitForces {
 UnitForces UnitForcesOf(const ContactPair& pair, const PathPoint& point, int patch) {
   Kinematics at;
   pair.Evaluate(point.u, point.s, patch, 0.0, &at);
-  const auto m = static_cast<Eigen::Index>(pair.Dofs().size());
+  const auto m = static_cast<Eigen::Index>(at.dofs.size());
   UnitForces forces;
   forces.normal.head(m) = at.gap_gradient.head(m);
   forces.tangential.head(m) = at.xi_gradient.head(m);
   return forces;
 }
 
-// Contacts that touch, by the free components of their node.
+// Contacts that touch rigid surfaces, by the free components of their node.
 std::vector<Touching> TouchingByNode(const ContactPairs& contacts, const PathPoint& point, double tolerance) {
   std::map<std::vector<int>, Touching> nodes;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const ContactPair& contact = *contacts[i];
-    if (contact.Gap(point.u, point.s, point.Patch(i)) > tolerance) continue;
-    if (contact.Dofs().empty() || contact.Dofs().size() > kMostComponents) continue;
-    Touching& node = nodes[contact.Dofs()];
+    if (contact.Deformable() || contact.Gap(point.u, point.s, point.Patch(i)) > tolerance) continue;
+    const PairDofs dofs = contact.Dofs(0);
+    if (dofs.empty() || dofs.size() > kMostComponents) continue;
+    Touching& node = nodes[std::vector<int>(dofs.begin(), dofs.end())];
     node.contacts.push_back(i);
     const UnitForces unit = UnitForcesOf(contact, point, point.Patch(i));
     if (!contact.Frictional()) {
@@ -176,7 +177,7 @@ ReactionRedistributions FindReactionRedistributions(const ContactPairs& contacts
     if (node.contacts.size() < 2) {
       // The cone of one contact gives each force in one way only, where both components of its node are free.
       const ContactPair& contact = *contacts[node.contacts.front()];
-      if (!contact.Frictional() || contact.Dofs().size() == kMostComponents) continue;
+      if (!contact.Frictional() || contact.Dofs(0).size() == kMostComponents) continue;
     }
     if (node.contacts.size() > kMostAtOneNode) {
       result.complete = false;

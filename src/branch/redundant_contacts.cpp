@@ -25,10 +25,12 @@ RedundantContacts::RedundantContacts(const ContactPairs& contacts, const PathPoi
     : contacts_(contacts) {
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const ContactPair& contact = *contacts[i];
-    if (contact.Dofs().empty() || contact.Gap(point.u, point.s, point.Patch(i)) > gap) continue;
-    std::vector<Touching>& node = nodes_[contact.Dofs()];
+    // What a surface that gives way holds is for the equations to tell.
+    if (contact.Deformable() || contact.Dofs(0).empty() || contact.Gap(point.u, point.s, point.Patch(i)) > gap)
+      continue;
     Kinematics at;
     contact.Evaluate(point.u, point.s, point.Patch(i), 0.0, &at);
+    std::vector<Touching>& node = nodes_[std::vector<int>(at.dofs.begin(), at.dofs.end())];
     node.push_back({i, at.gap_gradient, at.xi_gradient});
   }
   // One contact holds a node that moves in two directions in one way.
@@ -41,7 +43,7 @@ bool RedundantContacts::Among(const std::vector<ContactState>& states) const {
 }
 
 bool RedundantContacts::AtNode(const std::vector<Touching>& node, const std::vector<ContactState>& states) const {
-  const auto q = static_cast<Eigen::Index>(contacts_[node.front().contact]->Dofs().size()) + 1;
+  const Eigen::Index q = node.front().gap_gradient.size();
   Eigen::MatrixXd motions(q, 0), forces(q - 1, 0);
   const auto append = [](Eigen::MatrixXd* columns, const auto& column) {
     columns->conservativeResize(Eigen::NoChange, columns->cols() + 1);

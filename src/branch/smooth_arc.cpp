@@ -63,7 +63,7 @@ void SmoothArc::NoteClosedGaps(const PathPoint& from) {
       stiffness = tangent.diagonal().cwiseAbs();
     }
     double largest = 0.0;
-    for (const int dof : contacts_[i]->Dofs()) largest = std::max(largest, stiffness[dof]);
+    for (const int dof : contacts_[i]->Dofs(from.Patch(i))) largest = std::max(largest, stiffness[dof]);
     moved_forces_[static_cast<int>(i)] = (1.0 + contacts_[i]->Friction()) * largest * gap;
   }
 }

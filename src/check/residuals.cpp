@@ -10,14 +10,13 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <string_view>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
+#include "check/boundary.h"
+#include "check/contacts.h"
 #include "check/elements.h"
 #include "check/plane.h"
-#include "check/surfaces.h"
 #include "contact_path/scene/expand.h"
 
 namespace contact_path {
@@ -61,41 +60,6 @@ struct ResidualCheck::Prepared {
     Real fx = 0.0L, fy = 0.0L, moment = 0.0L;
     bool constant = false;
   };
-  struct PreparedContact {
-    // The node as the obstacle sees it.
-    Vector Position(const CheckedState& state) const {
-      const Vector moved =
-          NodePosition(state.positions, node) - Vector{state.load_factor * motion.x, state.load_factor * motion.y};
-      if (turn == 0.0L) return moved;
-      const Vector back = Turned(moved - about, -turn * state.load_factor);
-      return {about.x + back.x, about.y + back.y};
-    }
-    // Towards the admissible side, where the obstacle is now.
-    Vector Normal(const CheckedState& state) const {
-      const Vector normal = surface->Normal(Position(state));
-      return turn == 0.0L ? normal : Turned(normal, turn * state.load_factor);
-    }
-    // Of what is fixed to the obstacle and is where the node is, per unit of the load factor.
-    Vector Velocity(const CheckedState& state) const {
-      if (turn == 0.0L) return motion;
-      const Vector arm = NodePosition(state.positions, node) - about -
-                         Vector{state.load_factor * motion.x, state.load_factor * motion.y};
-      return {motion.x - turn * arm.y, motion.y + turn * arm.x};
-    }
-    static Vector Turned(const Vector& v, Real angle) {
-      const Real c = std::cos(angle), s = std::sin(angle);
-      return {c * v.x - s * v.y, s * v.x + c * v.y};
-    }
-
-    std::size_t node = 0;
-    std::shared_ptr<const check::Surface> surface;
-    Vector motion;     // of the obstacle, per unit of the load factor
-    Real turn = 0.0L;  // before that, about a point
-    Vector about;
-    Real friction = 0.0L;
-    std::optional<Vector> slip_origin = {};  // of the total law of friction, as the obstacle sees it
-  };
-
   Prepared(const Scene& scene, const Configuration& configuration, const Scaling& scaling_in)
       : scaling(scaling_in), num_positions(configuration.start.size()), start(configuration.start) {
     check::NodeNumbers index;
@@ -130,26 +94,22 @@ struct ResidualCheck::Prepared {
       rates[2 * index.at(motion.node) + 1] = motion.dy;
       if (motion.rotation != 0.0) rates.at(num_positions + index.at(motion.node)) = motion.rotation;
     }
-    std::unordered_map<std::string_view, PreparedContact> obstacles;
-    for (const Obstacle& obstacle : scene.obstacles)
-      obstacles.emplace(obstacle.name,
-                        PreparedContact{0, check::MakeSurface(obstacle), {}, 0.0L, {}, obstacle.friction});
-    for (const ObstacleMotion& motion : scene.obstacle_motions) {
-      PreparedContact& moved = obstacles.at(motion.obstacle);
-      moved.motion = {motion.dx, motion.dy};
-      moved.turn = motion.turn;
-      moved.about = {motion.about_x, motion.about_y};
-    }
-    for (const ContactCandidate& contact : scene.contacts) {
-      const auto obstacle = obstacles.find(contact.obstacle);
-      if (obstacle == obstacles.end()) throw std::invalid_argument("no obstacle has the name " + contact.obstacle);
-      const std::size_t k = 2 * contacts.size();
-      contacts.push_back(obstacle->second);
-      if (!configuration.slip_origins.empty())
-        contacts.back().slip_origin = Vector{configuration.slip_origins.at(k), configuration.slip_origins.at(k + 1)};
-      contacts.back().node = index.at(contact.node);
-    }
+    contacts = check::MakeContacts(scene, index, configuration.slip_origins);
+    if (std::any_of(contacts.begin(), contacts.end(), [](const auto& contact) { return contact->TouchedSurface(); }))
+      boundaries = check::MakeBoundaries(scene, index);
+    for (const auto& contact : contacts) contact_units.push_back(UnitOf(*contact));
   }
+
+  // What reactions are measured in: the largest unit of the nodes that they act on.
+  Real UnitOf(const check::Contact& contact) const {
+    Real unit = units[contact.Node()];
+    if (contact.TouchedSurface())
+      for (const check::BoundaryPatch& patch : boundaries[*contact.TouchedSurface()].Patches())
+        for (const std::size_t node : patch.nodes) unit = std::max(unit, units[node]);
+    return unit;
+  }
+
+  check::PlacedState Placed(const CheckedState& state) const { return {state, boundaries}; }
 
   // phi - T r on each component: internal forces less loads less reactions.
   std::vector<Real> Unbalance(const CheckedState& state) const {
@@ -162,12 +122,10 @@ struct ResidualCheck::Prepared {
       forces[2 * load.node + 1] -= factor * load.fy;
       if (load.moment != 0.0L) forces.at(num_positions + load.node) -= factor * load.moment;
     }
+    const check::PlacedState placed = Placed(state);
     for (std::size_t i = 0; i < contacts.size(); ++i) {
       if (state.rn[i] == 0.0 && state.rt[i] == 0.0) continue;
-      const PreparedContact& contact = contacts[i];
-      const Vector normal = contact.Normal(state), tangent{normal.y, -normal.x};
-      forces[2 * contact.node] -= state.rn[i] * normal.x + state.rt[i] * tangent.x;
-      forces[2 * contact.node + 1] -= state.rn[i] * normal.y + state.rt[i] * tangent.y;
+      contacts[i]->AddForces(placed, state.rn[i], state.rt[i], -1.0L, &forces);
     }
     return forces;
   }
@@ -187,7 +145,9 @@ struct ResidualCheck::Prepared {
   std::vector<double> rates;  // of the fixed ones, per unit of the load factor
   std::vector<std::unique_ptr<const check::Element>> elements;
   std::vector<PreparedLoad> loads;
-  std::vector<PreparedContact> contacts;
+  std::vector<std::unique_ptr<const check::Contact>> contacts;
+  std::vector<Real> contact_units;
+  std::vector<check::Boundary> boundaries;  // by surface of the scene; empty where no contact touches one
 };
 
 ResidualCheck::ResidualCheck(const Scene& scene)
@@ -230,26 +190,27 @@ Residuals ResidualCheck::Check(const CheckedState& before, const CheckedState& n
     const Real place = scene.start[i] + static_cast<Real>(now.load_factor) * scene.rates[i];
     residuals.support = Worst(residuals.support, std::abs(values[i] - place) * length / scaling.length);
   }
+  const check::PlacedState from = scene.Placed(before), to = scene.Placed(now);
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
-    const Prepared::PreparedContact& contact = scene.contacts[i];
+    const check::Contact& contact = *scene.contacts[i];
     const bool without_reaction = now.rn[i] == 0.0 && now.rt[i] == 0.0;
-    const Vector place = contact.Position(now);
-    if (without_reaction && contact.surface->SurelyOpen(place)) continue;
-    const Real gap = contact.surface->Gap(place) / scaling.length;
+    if (without_reaction && contact.SurelyOpen(to)) continue;
+    const Real gap = contact.Gap(to) / scaling.length;
     if (without_reaction) {  // then only a gap that is closed too far breaks a rule
       residuals.penetration = Worst(residuals.penetration, -gap);
       residuals.complementarity = Worst(residuals.complementarity, std::abs(std::min(gap, 0.0L)));
       continue;
     }
-    const Vector origin = contact.slip_origin ? *contact.slip_origin : contact.Position(before);
-    const Real slip = contact.surface->Slip(origin, place) / scaling.length;
-    const Real unit = scene.units[contact.node];
+    const Real slip = contact.LawfulSlip(from, to) / scaling.length;
+    const Real unit = scene.contact_units[i];
     const Real rn = now.rn[i] / unit, rt = now.rt[i] / unit;
-    const Real bound = contact.friction * std::max(rn, 0.0L);
+    const Real bound = contact.Friction() * std::max(rn, 0.0L);
+    residuals.equilibrium =
+        Worst(residuals.equilibrium, contact.Imbalance(to, now.rn[i], now.rt[i], scaling.length) / unit);
     residuals.penetration = Worst(residuals.penetration, -gap);
     residuals.tensile_reaction = Worst(residuals.tensile_reaction, -rn);
     residuals.complementarity = Worst(residuals.complementarity, std::abs(std::min(gap, rn)));
-    residuals.cone = Worst(residuals.cone, std::abs(rt) - contact.friction * rn);
+    residuals.cone = Worst(residuals.cone, std::abs(rt) - contact.Friction() * rn);
     residuals.friction_law = Worst(residuals.friction_law, std::abs(rt - std::clamp(rt - slip, -bound, bound)));
   }
   return residuals;
@@ -267,33 +228,32 @@ double ResidualCheck::DrivingForce(const CheckedState& state) const {
   const std::vector<Real> unbalance = scene.Unbalance(state);
   Real force = 0.0L;
   for (std::size_t i = 0; i < unbalance.size(); ++i) force += scene.rates[i] * unbalance[i];
+  const check::PlacedState placed = scene.Placed(state);
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
-    const Prepared::PreparedContact& contact = scene.contacts[i];
-    const Vector normal = contact.Normal(state), tangent{normal.y, -normal.x}, velocity = contact.Velocity(state);
+    const check::Contact& contact = *scene.contacts[i];
+    if (contact.TouchedSurface()) continue;  // nothing but nodes moves it
+    const Vector normal = contact.Normal(placed), tangent{normal.y, -normal.x}, velocity = contact.Velocity(placed);
     force += state.rn[i] * Dot(normal, velocity) + state.rt[i] * Dot(tangent, velocity);
   }
   return static_cast<double>(force);
 }
 
 double ResidualCheck::Gap(std::size_t contact, const CheckedState& state) const {
-  const Prepared::PreparedContact& prepared = prepared_->contacts[contact];
-  return static_cast<double>(prepared.surface->Gap(prepared.Position(state)));
+  return static_cast<double>(prepared_->contacts[contact]->Gap(prepared_->Placed(state)));
 }
 
 double ResidualCheck::Slip(std::size_t contact, const CheckedState& from, const CheckedState& to) const {
-  const Prepared::PreparedContact& prepared = prepared_->contacts[contact];
-  return static_cast<double>(prepared.surface->Slip(prepared.Position(from), prepared.Position(to)));
+  return static_cast<double>(prepared_->contacts[contact]->Slip(prepared_->Placed(from), prepared_->Placed(to)));
 }
 
 double ResidualCheck::TotalSlip(std::size_t contact, const CheckedState& state) const {
-  const Prepared::PreparedContact& prepared = prepared_->contacts[contact];
-  if (!prepared.slip_origin) throw std::invalid_argument("the law of friction is not total");
-  return static_cast<double>(prepared.surface->Slip(*prepared.slip_origin, prepared.Position(state)));
+  const std::optional<Real> slip = prepared_->contacts[contact]->TotalSlip(prepared_->Placed(state));
+  if (!slip) throw std::invalid_argument("the law of friction is not total");
+  return static_cast<double>(*slip);
 }
 
 std::array<double, 2> ResidualCheck::Normal(std::size_t contact, const CheckedState& state) const {
-  const Prepared::PreparedContact& prepared = prepared_->contacts[contact];
-  const Vector normal = prepared.Normal(state);
+  const Vector normal = prepared_->contacts[contact]->Normal(prepared_->Placed(state));
   return {static_cast<double>(normal.x), static_cast<double>(normal.y)};
 }
 
@@ -308,10 +268,13 @@ std::vector<double> ResidualCheck::ForcesAcross(double length, double load_facto
     bounds[load.node].x += static_cast<double>(std::abs(factor * load.fx));
     bounds[load.node].y += static_cast<double>(std::abs(factor * load.fy));
   }
+  CheckedState start;
+  start.positions = scene.start;
+  const check::PlacedState placed = scene.Placed(start);
   std::vector<double> across;
-  for (const Prepared::PreparedContact& contact : scene.contacts) {
-    const check::StiffnessBound& bound = bounds[contact.node];
-    const Vector normal = contact.surface->Normal(NodePosition(scene.start, contact.node));
+  for (const auto& contact : scene.contacts) {
+    const check::StiffnessBound& bound = bounds[contact->Node()];
+    const Vector normal = contact->Normal(placed);
     across.push_back(bound.any + std::abs(static_cast<double>(normal.x)) * bound.x +
                      std::abs(static_cast<double>(normal.y)) * bound.y);
   }

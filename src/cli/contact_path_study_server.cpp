@@ -1,11 +1,11 @@
 // contact_path_study_server SCENE.yaml: traces variants of a scene, one for each line of standard input. Python's
 // study_server.py is its client.
 //
-// Says "ready", its version and the kinds of the parameters, then answers each line with a line. Words of a line are separated by
-// tabs. Requests: "value PARAMETER VALUE", whether a value is of the type of its parameter: answered by what it must be
-// instead, or by nothing; "trace VALUE...", a value for each parameter: answered by the number of bytes of the CSV of
-// the path, which follows the line, the status, and the outputs. Exit status 2: a scene, a parameter or an output that
-// is not there.
+// Says "ready", its version and the kinds of the parameters, then answers each line with a line. Words of a line are
+// separated by tabs. Requests: "value PARAMETER VALUE", whether a value is of the type of its parameter: answered by
+// what it must be instead, or by nothing; "trace VALUE...", a value for each parameter: answered by the number of bytes
+// of the CSV of the path, which follows the line, the status, and the outputs. Exit status 2: a scene, a parameter or
+// an output that is not there.
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -19,12 +19,12 @@
 #include <vector>
 
 #include "contact_path/path/csv.h"
-#include "contact_path/study/study_outputs.h"
 #include "contact_path/path/trace.h"
 #include "contact_path/scene/one_line.h"
 #include "contact_path/scene/read_scene.h"
 #include "contact_path/scene/request_field.h"
 #include "contact_path/scene/validate.h"
+#include "contact_path/study/study_outputs.h"
 #include "process/one_thread.h"
 
 namespace contact_path {

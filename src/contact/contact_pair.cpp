@@ -8,8 +8,13 @@ namespace contact_path {
 PairVector ContactPair::SecondDirectional(const Eigen::VectorXd& u, double s, int patch, double rn, double rt,
                                           const PairVector& direction) const {
   PairMatrix derivative;
-  HessianDerivative(u, s, patch, rn, rt, direction, &derivative);
+  ForceHessian(u, s, patch, rn, rt, direction, &derivative);
   return derivative * direction;
+}
+
+Eigen::Vector3d ContactPair::SlipFactorAlong(const Eigen::VectorXd& /*u*/, double /*s*/, int /*patch*/,
+                                             const PairVector& /*first*/, const PairVector& /*second*/) const {
+  return Eigen::Vector3d::UnitX();
 }
 
 double ContactPair::Xi(const Eigen::VectorXd& u, double s, int patch) const {
@@ -29,35 +34,16 @@ double ContactPair::SlipRate(const Eigen::VectorXd& u, double s, int patch, cons
                              double ds) const {
   Kinematics kinematics;
   Evaluate(u, s, patch, 0.0, &kinematics);
-  return Rate(kinematics.xi_gradient, du, ds);
+  return kinematics.slip_factor * kinematics.Rate(kinematics.xi_gradient, du, ds);
 }
 
 double ContactPair::Slip(const Eigen::VectorXd& u, double s, int patch, const Eigen::VectorXd& du, double ds,
                          int patch_after) const {
   if (!Curved()) return SlipRate(u, s, patch, du, ds);
-  Kinematics to;
-  Evaluate(u + du, s + ds, patch_after, Xi(u, s, patch), &to);
-  return to.xi;
-}
-
-PairVector ContactPair::Local(const Eigen::VectorXd& u, double s) const {
-  const auto m = static_cast<Eigen::Index>(Dofs().size());
-  PairVector q(m + 1);
-  for (Eigen::Index k = 0; k < m; ++k) q[k] = u[Dofs()[static_cast<std::size_t>(k)]];
-  q[m] = s;
-  return q;
-}
-
-double ContactPair::Rate(const PairVector& gradient, const Eigen::Ref<const Eigen::VectorXd>& du, double ds) const {
-  double sum = 0.0;
-  Eigen::Index k = 0;
-  for (const int dof : Dofs()) sum += gradient[k++] * du[dof];
-  return sum + gradient[k] * ds;
-}
-
-void ContactPair::AddForce(const PairVector& gradient, double factor, Eigen::VectorXd* out) const {
-  Eigen::Index k = 0;
-  for (const int dof : Dofs()) (*out)[dof] += factor * gradient[k++];
+  Kinematics from, to;
+  Evaluate(u, s, patch, 0.0, &from);
+  Evaluate(u + du, s + ds, patch_after, from.xi, &to);
+  return 0.5 * (from.slip_factor + to.slip_factor) * to.xi;
 }
 
 double LargestReaction(const ContactPairs& contacts, const PathPoint& point) {

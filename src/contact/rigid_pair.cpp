@@ -6,25 +6,10 @@
 #include <limits>
 #include <utility>
 
-#include "contact_path/tolerances.h"
+#include "contact/force_unit.h"
+#include "contact_path/geometry/surface.h"
 
 namespace contact_path {
-namespace {
-
-// Scaling by a power of 2 is exact. The powers are far apart, so that nearly all scenes have the unit 1.
-constexpr int kPowersApart = 20;  // 2^20 is about 1e6
-
-// The smallest unit that is no less than `bound`, and at most 1; more only where rounding makes reactions uncertain, as
-// Structure::ResidualUnits() tells of forces.
-double ForceUnitAbove(double bound) {
-  const double rounding = tolerances::kStiffForce * bound;
-  if (rounding > 1.0 && std::isfinite(rounding))
-    return std::ldexp(1.0, static_cast<int>(std::ceil(std::log2(rounding))));
-  if (!(bound > 0.0) || !(bound < 1.0)) return 1.0;
-  return std::ldexp(1.0, kPowersApart * static_cast<int>(std::ceil(std::log2(bound) / kPowersApart)));
-}
-
-}  // namespace
 
 RigidPair::RigidPair(std::shared_ptr<const Surface> surface, const NodeMotion& motion, double friction,
                      const Eigen::VectorXd& force_bounds, const std::optional<Eigen::Vector2d>& slip_origin)
@@ -85,7 +70,7 @@ RigidPair::RigidPair(std::shared_ptr<const Surface> surface, const NodeMotion& m
 // derivatives R' = -turn J R by s, with J the rotation by a quarter of a turn.
 struct RigidPair::Frame {
   Frame(const RigidPair& pair, const Eigen::VectorXd& u, double s)
-      : motion(pair.motion_), z(pair.held_ + pair.motion_ * pair.Local(u, s) - pair.about_) {
+      : motion(pair.motion_), z(pair.Unturned(u, s) - pair.about_) {
     const double angle = -pair.turn_ * s;
     rotation[0] << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
     for (std::size_t k = 1; k < rotation.size(); ++k)
@@ -130,7 +115,18 @@ struct RigidPair::Frame {
 };
 
 Eigen::Vector2d RigidPair::Position(const Eigen::VectorXd& u, double s) const {
-  return turn_ != 0.0 ? Frame(*this, u, s).x : Eigen::Vector2d(held_ + motion_ * Local(u, s));
+  return turn_ != 0.0 ? Frame(*this, u, s).x : Unturned(u, s);
+}
+
+Eigen::Vector2d RigidPair::Unturned(const Eigen::VectorXd& u, double s) const {
+  return held_ + motion_ * LocalOf(OwnDofs(), u, s);
+}
+
+double RigidPair::FlatGap(const Eigen::VectorXd& u, double s) const {
+  double sum = 0.0;
+  Eigen::Index k = 0;
+  for (const int dof : OwnDofs()) sum += gap_gradient_[k++] * u[dof];
+  return gap_offset_ + (sum + gap_gradient_[k] * s);
 }
 
 int RigidPair::NearestKnown(int patch) const {
@@ -139,9 +135,10 @@ int RigidPair::NearestKnown(int patch) const {
 
 void RigidPair::Evaluate(const Eigen::VectorXd& u, double s, int patch, double reference,
                          Kinematics* kinematics) const {
+  kinematics->dofs = OwnDofs();
   if (!Curved()) {
-    kinematics->gap = gap_offset_ + Rate(gap_gradient_, u, s);
-    kinematics->xi = xi_offset_ - reference + Rate(xi_gradient_, u, s);
+    kinematics->gap = gap_offset_ + kinematics->Rate(gap_gradient_, u, s);
+    kinematics->xi = xi_offset_ - reference + kinematics->Rate(xi_gradient_, u, s);
     kinematics->gap_gradient = gap_gradient_;
     kinematics->xi_gradient = xi_gradient_;
     return;
@@ -167,10 +164,8 @@ void RigidPair::Evaluate(const Eigen::VectorXd& u, double s, int patch, double r
 }
 
 double RigidPair::Gap(const Eigen::VectorXd& u, double s, int patch) const {
-  if (!Curved()) return gap_offset_ + Rate(gap_gradient_, u, s);
-  const Eigen::Vector2d x = Position(u, s);
-  const int known = KnownPatch(u, s, patch);
-  return HasPatch(known) ? surface_->Project(x, known).gap : surface_->Nearest(x).distance;
+  if (!Curved()) return FlatGap(u, s);
+  return GapBeside(*surface_, Position(u, s), KnownPatch(u, s, patch));
 }
 
 NearestFoot RigidPair::Nearest(const Eigen::VectorXd& u, double s) const {
@@ -178,39 +173,16 @@ NearestFoot RigidPair::Nearest(const Eigen::VectorXd& u, double s) const {
 }
 
 int RigidPair::PatchAt(const Eigen::VectorXd& u, double s) const {
-  if (!HasPatches()) return 0;
-  const Eigen::Vector2d x = Position(u, s);
-  const NearestFoot nearest = surface_->Nearest(x);
-  if (!nearest.is_end) return nearest.patch;
-  const XiRange range = surface_->RangeOf(nearest.patch);
-  return surface_->Project(x, nearest.patch).xi < 0.5 * (range.begin + range.end) ? -1 : surface_->NumPatches();
+  return HasPatches() ? PatchBeside(*surface_, Position(u, s)) : 0;
 }
 
 int RigidPair::PatchAfter(const Eigen::VectorXd& u, double s, int from) const {
-  const int patch = PatchAt(u, s);
-  if (!surface_->Closed() || patch == from) return patch;
-  const Eigen::Vector2d x = Position(u, s);
-  const int round = surface_->NumPatches();
-  const double length = surface_->RangeOf(round).begin - surface_->RangeOf(0).begin;
-  // By xi, and not by the numbers: of a circle, the patches before and after one are the same place.
-  double xi = surface_->Project(x, from).xi;
-  const XiRange range = surface_->RangeOf(from);
-  if (!std::isfinite(xi)) xi = 0.5 * (range.begin + range.end);
-  return patch + round * static_cast<int>(std::lround((xi - surface_->Project(x, patch).xi) / length));
+  return HasPatches() ? PatchBeside(*surface_, Position(u, s), from) : 0;
 }
 
-XiRange RigidPair::RangeOf(int patch) const {
-  if (HasPatch(patch)) return surface_->RangeOf(patch);
-  XiRange range;
-  if (patch < 0)
-    range.end = surface_->RangeOf(0).begin;
-  else
-    range.begin = surface_->RangeOf(surface_->NumPatches() - 1).end;
-  return range;
-}
-
-void RigidPair::HessianDerivative(const Eigen::VectorXd& u, double s, int patch, double rn, double rt,
-                                  const PairVector& direction, PairMatrix* derivative) const {
+void RigidPair::ForceHessian(const Eigen::VectorXd& u, double s, int patch, double rn, double rt,
+                             const PairVector& direction, PairMatrix* derivative) const {
+  // The force is a gradient: its second derivatives, weighted, are the change of its first ones along the weights.
   const auto change = [&](const Projection& at, const Motion& first) {
     const Eigen::Vector2d v = first * direction;
     return PairMatrix(first.transpose() * (rn * GapHessianChange(at, v) + rt * XiHessianChange(at, v)) * first);

@@ -3,13 +3,33 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
+#include "contact_path/contact/deformable_pair.h"
 #include "contact_path/contact/rigid_pair.h"
 #include "contact_path/scene/can_slide.h"
 #include "contact_path/scene/surface.h"
 
 namespace contact_path {
+namespace {
+
+NodePlace PlaceOf(const Structure& structure, int node) {
+  return {{structure.Dof(node, 0), structure.Dof(node, 1)}, structure.StartPosition(node)};
+}
+
+std::shared_ptr<const DeformableBoundary> MakeBoundary(const BoundarySurface& surface, const SceneIndex& index,
+                                                       const Structure& structure) {
+  std::vector<NodePlace> nodes;
+  std::vector<Eigen::Vector2d> start;
+  for (const std::string& name : surface.nodes) {
+    nodes.push_back(PlaceOf(structure, static_cast<int>(index.Node(name))));
+    start.push_back(nodes.back().held);
+  }
+  return std::make_shared<DeformableBoundary>(std::move(nodes), start, surface.closed, surface.radius);
+}
+
+}  // namespace
 
 ContactPairs BuildContacts(const Scene& scene, const Structure& structure) {
   return BuildContacts(scene, SceneIndex(scene), structure);
@@ -30,12 +50,21 @@ ContactPairs BuildContacts(const Scene& scene, const SceneIndex& index, const St
     of.about = {motion.about_x, motion.about_y};
   }
 
+  std::vector<std::shared_ptr<const DeformableBoundary>> boundaries(scene.surfaces.size());
   const Eigen::VectorXd force_bounds = structure.ForceBounds();
   ContactPairs contacts;
   for (const ContactCandidate& candidate : scene.contacts) {
+    const auto node = static_cast<int>(index.Node(candidate.node));
+    if (candidate.OnSurface()) {
+      const std::size_t surface = index.Surface(candidate.surface);
+      std::shared_ptr<const DeformableBoundary>& boundary = boundaries[surface];
+      if (boundary == nullptr) boundary = MakeBoundary(scene.surfaces[surface], index, structure);
+      contacts.push_back(
+          std::make_unique<DeformablePair>(boundary, PlaceOf(structure, node), candidate.friction, force_bounds));
+      continue;
+    }
     const std::size_t at = index.Obstacle(candidate.obstacle);
     const Obstacle& obstacle = scene.obstacles[at];
-    const auto node = static_cast<int>(index.Node(candidate.node));
     NodeMotion motion = obstacles[at].motion;
     motion.dofs = {structure.Dof(node, 0), structure.Dof(node, 1)};
     motion.held = structure.StartPosition(node);

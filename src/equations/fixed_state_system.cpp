@@ -112,18 +112,22 @@ void FixedStateSystem::NumberEquations() {
     ++next;
   }
   num_equations_ = next + (load_factor_fixed_ ? 1 : 0);
-  curved_ = std::any_of(motions_.begin(), motions_.end(),
-                        [this](const MotionEquation& of) { return contacts_[of.motion.contact]->Curved(); });
+  const auto some = [this](auto has) {
+    return std::any_of(motions_.begin(), motions_.end(),
+                       [&](const MotionEquation& of) { return has(*contacts_[of.motion.contact]); });
+  };
+  curved_ = some([](const ContactPair& pair) { return pair.Curved(); });
+  deformable_ = some([](const ContactPair& pair) { return pair.Deformable(); });
 }
 
 template <typename Emit>
 void FixedStateSystem::ForEachMotionEntry(const MotionEquation& of, const Kinematics& at, Emit emit) const {
   const ContactPair& pair = *contacts_[of.motion.contact];
   const PairVector& gradient = of.motion.is_gap ? at.gap_gradient : at.xi_gradient;
-  const std::size_t m = pair.Dofs().size();
+  const std::size_t m = at.dofs.size();
   for (std::size_t k = 0; k <= m; ++k)
     if (of.motion.is_gap ? pair.MovesGap(k) : pair.MovesXi(k))
-      emit(k < m ? pair.Dofs()[k] : NumDofs(), of.equation, of.motion.sign * gradient[static_cast<Eigen::Index>(k)]);
+      emit(k < m ? at.dofs[k] : NumDofs(), of.equation, of.motion.sign * gradient[static_cast<Eigen::Index>(k)]);
 }
 
 template <typename Emit>
@@ -131,25 +135,23 @@ void FixedStateSystem::ForEachReactionEntry(std::size_t contact, const Kinematic
   const ContactPair& pair = *contacts_[contact];
   const Eigen::Index rn = rn_unknown_[contact], rt = rt_unknown_[contact];
   const double ratio = SlipRatio(states_[contact], pair.Friction());
-  for (std::size_t k = 0; k < pair.Dofs().size(); ++k) {
+  for (std::size_t k = 0; k < at.dofs.size(); ++k) {
     const auto e = static_cast<Eigen::Index>(k);
-    if (pair.MovesGap(k)) emit(rn, pair.Dofs()[k], -at.gap_gradient[e]);
+    if (pair.MovesGap(k)) emit(rn, at.dofs[k], -at.gap_gradient[e]);
     if (!pair.MovesXi(k)) continue;
-    if (rt >= 0) emit(rt, pair.Dofs()[k], -at.xi_gradient[e]);
-    if (ratio != 0.0) emit(rn, pair.Dofs()[k], -ratio * at.xi_gradient[e]);
+    if (rt >= 0) emit(rt, at.dofs[k], -at.slip_factor * at.xi_gradient[e]);
+    if (ratio != 0.0) emit(rn, at.dofs[k], -(ratio * at.slip_factor) * at.xi_gradient[e]);
   }
 }
 
 template <typename Emit>
-void FixedStateSystem::ForEachCurvatureEntry(std::size_t contact, const Kinematics& at, const Reaction& reaction,
-                                             Emit emit) const {
-  const ContactPair& pair = *contacts_[contact];
-  const PairMatrix hessian = reaction.rn * at.gap_hessian + reaction.rt * at.xi_hessian;
-  const std::size_t m = pair.Dofs().size();
+void FixedStateSystem::ForEachCurvatureEntry(const Kinematics& at, const Reaction& reaction, Emit emit) const {
+  const PairMatrix change = at.ForceChange(reaction.rn, reaction.rt);
+  const std::size_t m = at.dofs.size();
   for (std::size_t column = 0; column < m; ++column)
     for (std::size_t row = 0; row <= m; ++row)
-      emit(row < m ? pair.Dofs()[row] : NumDofs(), pair.Dofs()[column],
-           -hessian(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column)));
+      emit(row < m ? at.dofs[row] : NumDofs(), at.dofs[column],
+           -change(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column)));
 }
 
 template <typename Emit>
@@ -196,7 +198,7 @@ void FixedStateSystem::Rebuild() {
     const Kinematics at = Evaluate(i, anywhere);
     if (contacts_[i]->Curved()) {
       ForEachReactionEntry(i, at, add_place);
-      ForEachCurvatureEntry(i, at, {0.0, 0.0}, add_place);
+      ForEachCurvatureEntry(at, {0.0, 0.0}, add_place);
     } else {
       ForEachReactionEntry(i, at, add);
     }
@@ -216,7 +218,7 @@ void FixedStateSystem::Rebuild() {
 
 const Frame* FixedStateSystem::InFrame() {
   if (num_unknowns_ < BorderedSolver::kLargeSystem || num_equations_ + 1 != num_unknowns_ || load_factor_fixed_ ||
-      !active_.empty())
+      !active_.empty() || deformable_)
     return nullptr;
   if (placed_) return &frame_;
   if (frame_.size == 0 || !std::includes(framed_.begin(), framed_.end(), touching_.begin(), touching_.end())) {
@@ -312,8 +314,8 @@ void FixedStateSystem::Residual(const Eigen::VectorXd& x, Eigen::VectorXd* resid
   for (const std::size_t i : touching_) {
     const Kinematics at = Evaluate(i, x);
     const Reaction reaction = ReactionOf(i, x);
-    contacts_[i]->AddForce(at.gap_gradient, -reaction.rn, residual);
-    contacts_[i]->AddForce(at.xi_gradient, -reaction.rt, residual);
+    at.AddForce(at.gap_gradient, -reaction.rn, residual);
+    at.AddForce(at.xi_gradient, -reaction.rt * at.slip_factor, residual);
   }
   for (const MotionEquation& of : motions_) (*residual)[of.equation] = MotionValue(of.motion, x);
   Eigen::Index k = 0;
@@ -365,7 +367,7 @@ const Eigen::SparseMatrix<double>& FixedStateSystem::WithTangent(const Eigen::Ve
     if (!contacts_[i]->Curved()) continue;
     const Kinematics at = Evaluate(i, x);
     ForEachReactionEntry(i, at, add);
-    ForEachCurvatureEntry(i, at, ReactionOf(i, x), add);
+    ForEachCurvatureEntry(at, ReactionOf(i, x), add);
   }
   for (const MotionEquation& of : motions_)
     if (contacts_[of.motion.contact]->Curved()) ForEachMotionEntry(of, Evaluate(of.motion.contact, x), add);
@@ -393,8 +395,7 @@ double FixedStateSystem::Rate(const Constraint& constraint, const Eigen::VectorX
   if (!IsMotion(constraint.inequality)) return Value(constraint, dx);
   const Motion motion = MotionOf(constraint);
   const Kinematics at = Evaluate(motion.contact, x);
-  return motion.sign *
-         contacts_[motion.contact]->Rate(motion.is_gap ? at.gap_gradient : at.xi_gradient, dx, dx[NumDofs()]);
+  return motion.sign * at.Rate(motion.is_gap ? at.gap_gradient : at.xi_gradient, dx, dx[NumDofs()]);
 }
 
 Eigen::VectorXd FixedStateSystem::Gradient(const Constraint& constraint, const Eigen::VectorXd& x) const {
@@ -411,56 +412,6 @@ Eigen::VectorXd FixedStateSystem::Gradient(const Constraint& constraint, const E
   return gradient;
 }
 
-Jet FixedStateSystem::ValueAlong(const Constraint& constraint, const Eigen::VectorXd& x, const Eigen::VectorXd& first,
-                                 const Eigen::VectorXd& second) const {
-  if (!IsMotion(constraint.inequality))
-    return {Value(constraint, x), Value(constraint, first), Value(constraint, second)};
-  const Motion motion = MotionOf(constraint);
-  const ContactPair& pair = *contacts_[motion.contact];
-  const Kinematics at = Evaluate(motion.contact, x);
-  const PairVector& gradient = motion.is_gap ? at.gap_gradient : at.xi_gradient;
-  const Eigen::Index s = NumDofs();
-  Jet jet = {motion.is_gap ? at.gap : at.xi, pair.Rate(gradient, first, first[s]),
-             pair.Rate(gradient, second, second[s])};
-  if (pair.Curved()) jet.second += Bend(motion, at, first);
-  return {motion.offset + motion.sign * jet.value, motion.sign * jet.first, motion.sign * jet.second};
-}
-
-double FixedStateSystem::Bend(const Motion& motion, const Kinematics& at, const Eigen::VectorXd& dx) const {
-  const PairVector along = contacts_[motion.contact]->Local(dx, dx[NumDofs()]);
-  return along.dot((motion.is_gap ? at.gap_hessian : at.xi_hessian) * along);
-}
-
-Jet FixedStateSystem::DrivingForceAlong(const Eigen::VectorXd& x, const Eigen::VectorXd& first,
-                                        const Eigen::VectorXd& second) const {
-  Jet force;
-  Eigen::Index k = first_support_;
-  for (const PrescribedDof& prescribed : structure_.PrescribedDofs()) {
-    force.value += prescribed.rate * x[k];
-    force.first += prescribed.rate * first[k];
-    force.second += prescribed.rate * second[k];
-    ++k;
-  }
-  for (const std::size_t i : touching_) {
-    const ContactPair& pair = *contacts_[i];
-    const Kinematics at = Evaluate(i, x);
-    const auto last = static_cast<Eigen::Index>(pair.Dofs().size());
-    const double gap = at.gap_gradient[last], xi = at.xi_gradient[last];
-    const Reaction reaction = ReactionOf(i, x), rate = ReactionOf(i, first), change = ReactionOf(i, second);
-    force.value -= reaction.rn * gap + reaction.rt * xi;
-    force.first -= rate.rn * gap + rate.rt * xi;
-    force.second -= change.rn * gap + change.rt * xi;
-    if (!pair.Curved()) continue;
-    const PairVector along = pair.Local(first, first[NumDofs()]), bend = pair.Local(second, second[NumDofs()]);
-    const PairMatrix hessian = reaction.rn * at.gap_hessian + reaction.rt * at.xi_hessian;
-    const PairMatrix hessian_rate = rate.rn * at.gap_hessian + rate.rt * at.xi_hessian;
-    force.first -= hessian.row(last).dot(along);
-    force.second -= 2.0 * hessian_rate.row(last).dot(along) + hessian.row(last).dot(bend) +
-                    pair.SecondDirectional(x, x[NumDofs()], patches_[i], reaction.rn, reaction.rt, along)[last];
-  }
-  return force;
-}
-
 Eigen::VectorXd FixedStateSystem::SecondDerivative(const Eigen::VectorXd& x, const Eigen::VectorXd& dx) {
   // tangent_ is scratch between calls.
   structure_.TangentDerivative(x.head(NumDofs()), dx.head(NumDofs()), &tangent_);
@@ -472,10 +423,11 @@ Eigen::VectorXd FixedStateSystem::SecondDerivative(const Eigen::VectorXd& x, con
     if (!pair.Curved()) continue;
     const Kinematics at = Evaluate(i, x);
     const Reaction reaction = ReactionOf(i, x), rate = ReactionOf(i, dx);
-    const PairVector along = pair.Local(dx, dx[NumDofs()]);
-    pair.AddForce(pair.SecondDirectional(x, x[NumDofs()], patches_[i], reaction.rn, reaction.rt, along) +
-                      2.0 * (rate.rn * at.gap_hessian + rate.rt * at.xi_hessian) * along,
-                  -1.0, &second);
+    const PairVector along = at.Local(dx, dx[NumDofs()]);
+    at.AddForce(pair.SecondDirectional(x, x[NumDofs()], patches_[i], reaction.rn, reaction.rt, along) +
+                    2.0 * (rate.rn * at.gap_hessian + (rate.rt * at.slip_factor) * at.xi_hessian) * along,
+                -1.0, &second);
+    if (pair.Deformable()) at.AddForce(at.xi_gradient, -2.0 * rate.rt * at.slip_factor_gradient.dot(along), &second);
   }
   for (const MotionEquation& of : motions_)
     if (contacts_[of.motion.contact]->Curved())

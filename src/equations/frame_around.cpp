@@ -13,10 +13,11 @@ Frame FrameAround(const Structure& structure, const ContactPairs& contacts, cons
   std::vector<std::pair<int, int>> forces;  // dof, unknown
   for (int i = 0; i < count; ++i) {
     const ContactPair& pair = *contacts[framed[static_cast<std::size_t>(i)]];
-    for (std::size_t k = 0; k < pair.Dofs().size(); ++k) {
+    const PairDofs dofs = pair.Dofs(0);
+    for (std::size_t k = 0; k < dofs.size(); ++k) {
       // Slip makes both components of r_n.
-      if (pair.MovesGap(k) || pair.MovesXi(k)) forces.emplace_back(pair.Dofs()[k], nd + 2 * i);
-      if (pair.MovesXi(k)) forces.emplace_back(pair.Dofs()[k], nd + 2 * i + 1);
+      if (pair.MovesGap(k) || pair.MovesXi(k)) forces.emplace_back(dofs[k], nd + 2 * i);
+      if (pair.MovesXi(k)) forces.emplace_back(dofs[k], nd + 2 * i + 1);
     }
   }
   int support = first_support;
@@ -41,10 +42,11 @@ Frame FrameAround(const Structure& structure, const ContactPairs& contacts, cons
   }
   for (int i = 0; i < count; ++i) {
     const ContactPair& pair = *contacts[framed[static_cast<std::size_t>(i)]];
-    const std::size_t m = pair.Dofs().size();
+    const PairDofs dofs = pair.Dofs(0);
+    const std::size_t m = dofs.size();
     for (const bool gap : {true, false}) {
       for (std::size_t k = 0; k < m; ++k)
-        if (gap ? pair.MovesGap(k) : pair.MovesXi(k)) entries.push_back(pair.Dofs()[k]);
+        if (gap ? pair.MovesGap(k) : pair.MovesXi(k)) entries.push_back(dofs[k]);
       entries.push_back(nd + 2 * i + (gap ? 0 : 1));
       if (gap ? pair.MovesGap(m) : pair.MovesXi(m)) entries.push_back(s);
       end_equation();

@@ -4,6 +4,39 @@
 
 namespace contact_path {
 
+int PatchBeside(const Surface& surface, const Eigen::Vector2d& x) {
+  const NearestFoot nearest = surface.Nearest(x);
+  if (!nearest.is_end) return nearest.patch;
+  const XiRange range = surface.RangeOf(nearest.patch);
+  return surface.Project(x, nearest.patch).xi < 0.5 * (range.begin + range.end) ? -1 : surface.NumPatches();
+}
+
+int PatchBeside(const Surface& surface, const Eigen::Vector2d& x, int from) {
+  const int patch = PatchBeside(surface, x);
+  if (!surface.Closed() || patch == from) return patch;
+  const int round = surface.NumPatches();
+  const double length = surface.RangeOf(round).begin - surface.RangeOf(0).begin;
+  // By xi, and not by the numbers: of a circle, the patches before and after one are the same place.
+  double xi = surface.Project(x, from).xi;
+  const XiRange range = surface.RangeOf(from);
+  if (!std::isfinite(xi)) xi = 0.5 * (range.begin + range.end);
+  return patch + round * static_cast<int>(std::lround((xi - surface.Project(x, patch).xi) / length));
+}
+
+XiRange RangeBeside(const Surface& surface, int patch) {
+  if (surface.HasPatch(patch)) return surface.RangeOf(patch);
+  XiRange range;
+  if (patch < 0)
+    range.end = surface.RangeOf(0).begin;
+  else
+    range.begin = surface.RangeOf(surface.NumPatches() - 1).end;
+  return range;
+}
+
+double GapBeside(const Surface& surface, const Eigen::Vector2d& x, int patch) {
+  return surface.HasPatch(patch) ? surface.Project(x, patch).gap : surface.Nearest(x).distance;
+}
+
 HalfPlane::HalfPlane(const Eigen::Vector2d& point, const Eigen::Vector2d& normal)
     : normal_(normal / std::hypot(normal.x(), normal.y())),
       offset_(normal_.x() * point.x() + normal_.y() * point.y()) {}

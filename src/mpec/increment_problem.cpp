@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <utility>
 
 namespace contact_path {
@@ -11,6 +12,18 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 int Int(Eigen::Index index) { return static_cast<int>(index); }
+
+// Of a patch of a deformable surface and the patches beside it.
+PairDofs DofsBeside(const ContactPair& pair, int patch) {
+  if (!pair.Deformable()) return pair.Dofs(patch);
+  std::set<int> all;
+  for (const int beside : {patch - 1, patch, patch + 1})
+    if (pair.HasPatch(beside))
+      for (const int dof : pair.Dofs(beside)) all.insert(dof);
+  PairDofs dofs;
+  for (const int dof : all) dofs.push_back(dof);
+  return dofs;
+}
 
 }  // namespace
 
@@ -32,14 +45,15 @@ IncrementProblem::IncrementProblem(const Structure& structure, const ContactPair
     Kinematics at_start;
     pair.Evaluate(from_.u, from_.s, patch, 0.0, &at_start);
     const double reference = pair.SlipReference(from_.u, from_.s, patch);
-    Slot slot{&pair, patch, at_start, reference, nd + 1 + static_cast<Eigen::Index>(i), -1, -1, num_constraints_, -1};
+    const Eigen::Index rn = nd + 1 + static_cast<Eigen::Index>(i);
+    Slot slot{&pair, patch, DofsBeside(pair, patch), at_start, reference, rn, -1, -1, num_constraints_, -1};
     num_constraints_ += 2;
     if (pair.Frictional()) {
       slot.rt = num_variables_++;
       slot.lambda = num_variables_++;
       slot.friction_row = num_constraints_;
       num_constraints_ += 5;
-      pair.AddForce(at_start.xi_gradient, from_.rt[working_set_[i]], &drive);
+      at_start.AddForce(at_start.xi_gradient, at_start.slip_factor * from_.rt[working_set_[i]], &drive);
     }
     slots_.push_back(slot);
   }
@@ -63,20 +77,33 @@ Kinematics IncrementProblem::ScaledKinematics(const Slot& slot, const Eigen::Vec
   const Eigen::Index nd = structure_.NumDofs();
   Kinematics at;
   if (!slot.pair->Curved()) {
+    at.dofs = slot.dofs;
     at.gap_gradient = slot.at_start.gap_gradient;
     at.xi_gradient = slot.at_start.xi_gradient;
-    at.gap = slot.at_start.gap / goal_.length + slot.pair->Rate(at.gap_gradient, x.head(nd), x[nd]);
-    at.xi = (slot.at_start.xi - slot.reference) / goal_.length + slot.pair->Rate(at.xi_gradient, x.head(nd), x[nd]);
+    at.gap = slot.at_start.gap / goal_.length + at.Rate(at.gap_gradient, x.head(nd), x[nd]);
+    at.xi = (slot.at_start.xi - slot.reference) / goal_.length + at.Rate(at.xi_gradient, x.head(nd), x[nd]);
     return at;
   }
   const Eigen::VectorXd u = from_.u + goal_.length * x.head(nd);
   const double s = from_.s + goal_.length * x[nd];
-  slot.pair->Evaluate(u, s, slot.pair->PatchAfter(u, s, slot.start_patch), slot.reference, &at);
+  slot.pair->Evaluate(u, s, PatchOf(slot, u, s), slot.reference, &at);
   at.gap /= goal_.length;
   at.xi /= goal_.length;
   at.gap_hessian *= goal_.length;
   at.xi_hessian *= goal_.length;
+  if (!slot.pair->Deformable()) return at;
+  at.gap_gradient = Spread(at.gap_gradient, at.dofs, slot.dofs);
+  at.xi_gradient = Spread(at.xi_gradient, at.dofs, slot.dofs);
+  at.gap_hessian = Spread(at.gap_hessian, at.dofs, slot.dofs);
+  at.xi_hessian = Spread(at.xi_hessian, at.dofs, slot.dofs);
+  at.slip_factor_gradient = goal_.length * Spread(at.slip_factor_gradient, at.dofs, slot.dofs);
+  at.dofs = slot.dofs;
   return at;
+}
+
+int IncrementProblem::PatchOf(const Slot& slot, const Eigen::VectorXd& u, double s) const {
+  const int patch = slot.pair->PatchAfter(u, s, slot.start_patch);
+  return slot.pair->Deformable() ? std::clamp(patch, slot.start_patch - 1, slot.start_patch + 1) : patch;
 }
 
 Eigen::VectorXd IncrementProblem::StartingPoint(const Eigen::VectorXd& y) const {
@@ -107,8 +134,7 @@ PathPoint IncrementProblem::Point(const Eigen::VectorXd& x) const {
   for (std::size_t i = 0; i < slots_.size(); ++i) {
     const Slot& slot = slots_[i];
     if (!point.patches.empty())
-      point.patches[static_cast<std::size_t>(working_set_[i])] =
-          slot.pair->PatchAfter(point.u, point.s, slot.start_patch);
+      point.patches[static_cast<std::size_t>(working_set_[i])] = PatchOf(slot, point.u, point.s);
     point.rn[working_set_[i]] = goal_.length * x[slot.rn];
     if (slot.rt >= 0) point.rt[working_set_[i]] = goal_.length * x[slot.rt];
     ContactState& state = point.states[static_cast<std::size_t>(working_set_[i])];
@@ -191,13 +217,13 @@ void IncrementProblem::Constraints(const Eigen::VectorXd& x, Eigen::VectorXd* va
   for (const Slot& slot : slots_) {
     const Kinematics at = ScaledKinematics(slot, x);
     const double gap = at.gap, rn = x[slot.rn];
-    slot.pair->AddForce(at.gap_gradient, -rn, &force);
+    at.AddForce(at.gap_gradient, -rn, &force);
     (*values)[slot.gap_row] = gap;
     (*values)[slot.gap_row + 1] = gap * rn;
     if (slot.rt < 0) continue;
     const double slip = at.xi, rt = x[slot.rt], lambda = x[slot.lambda];
     const double mu = slot.pair->Friction();
-    slot.pair->AddForce(at.xi_gradient, -rt, &force);
+    at.AddForce(at.xi_gradient, -rt * at.slip_factor, &force);
     values->segment<5>(slot.friction_row) << lambda - slip, lambda + slip, mu * rn - rt, mu * rn + rt,
         lambda * mu * rn + slip * rt;
   }
@@ -210,25 +236,24 @@ void IncrementProblem::Constraints(const Eigen::VectorXd& x, Eigen::VectorXd* va
   values->head(nd) = force;
 }
 
-// The variables of (y) that move a pair, with their number in its q.
 template <typename Visit>
-void IncrementProblem::ForEachVariable(const ContactPair& pair, Visit visit) const {
+void IncrementProblem::ForEachVariable(const Slot& slot, Visit visit) const {
   Eigen::Index k = 0;
-  for (const int dof : pair.Dofs()) visit(static_cast<Eigen::Index>(dof), k++);
+  for (const int dof : slot.dofs) visit(static_cast<Eigen::Index>(dof), k++);
   visit(structure_.NumDofs(), k);
 }
 
 template <typename Visit>
-void IncrementProblem::ForEachGapVariable(const ContactPair& pair, Visit visit) const {
-  ForEachVariable(pair, [&](Eigen::Index variable, Eigen::Index k) {
-    if (pair.MovesGap(static_cast<std::size_t>(k))) visit(variable, k);
+void IncrementProblem::ForEachGapVariable(const Slot& slot, Visit visit) const {
+  ForEachVariable(slot, [&](Eigen::Index variable, Eigen::Index k) {
+    if (slot.pair->MovesGap(static_cast<std::size_t>(k))) visit(variable, k);
   });
 }
 
 template <typename Visit>
-void IncrementProblem::ForEachXiVariable(const ContactPair& pair, Visit visit) const {
-  ForEachVariable(pair, [&](Eigen::Index variable, Eigen::Index k) {
-    if (pair.MovesXi(static_cast<std::size_t>(k))) visit(variable, k);
+void IncrementProblem::ForEachXiVariable(const Slot& slot, Visit visit) const {
+  ForEachVariable(slot, [&](Eigen::Index variable, Eigen::Index k) {
+    if (slot.pair->MovesXi(static_cast<std::size_t>(k))) visit(variable, k);
   });
 }
 
@@ -243,7 +268,7 @@ void IncrementProblem::ForEachJacobianEntry(const Eigen::VectorXd& x, Emit emit)
   for (const Slot& slot : slots_) {
     const Kinematics at = ScaledKinematics(slot, x);
     const double rn = x[slot.rn];
-    ForEachGapVariable(*slot.pair, [&](Eigen::Index variable, Eigen::Index k) {
+    ForEachGapVariable(slot, [&](Eigen::Index variable, Eigen::Index k) {
       const double gradient = at.gap_gradient[k];
       if (variable < nd) emit(variable, slot.rn, -gradient);
       emit(slot.gap_row, variable, gradient);
@@ -253,18 +278,20 @@ void IncrementProblem::ForEachJacobianEntry(const Eigen::VectorXd& x, Emit emit)
     if (slot.pair->Curved()) {
       // r_n and r_t over S, and Hessians times S.
       PairMatrix change = rn * at.gap_hessian;
-      if (slot.rt >= 0) change += x[slot.rt] * at.xi_hessian;
-      ForEachVariable(*slot.pair, [&](Eigen::Index row, Eigen::Index a) {
+      if (slot.rt >= 0) change += (x[slot.rt] * at.slip_factor) * at.xi_hessian;
+      if (slot.rt >= 0 && slot.pair->Deformable())
+        change += x[slot.rt] * at.xi_gradient * at.slip_factor_gradient.transpose();
+      ForEachVariable(slot, [&](Eigen::Index row, Eigen::Index a) {
         if (row == nd) return;
-        ForEachVariable(*slot.pair, [&](Eigen::Index column, Eigen::Index b) { emit(row, column, -change(a, b)); });
+        ForEachVariable(slot, [&](Eigen::Index column, Eigen::Index b) { emit(row, column, -change(a, b)); });
       });
     }
     if (slot.rt < 0) continue;
     const double slip = at.xi, rt = x[slot.rt], lambda = x[slot.lambda];
     const double mu = slot.pair->Friction();
-    ForEachXiVariable(*slot.pair, [&](Eigen::Index variable, Eigen::Index k) {
+    ForEachXiVariable(slot, [&](Eigen::Index variable, Eigen::Index k) {
       const double gradient = at.xi_gradient[k];
-      if (variable < nd) emit(variable, slot.rt, -gradient);
+      if (variable < nd) emit(variable, slot.rt, -at.slip_factor * gradient);
       emit(slot.friction_row, variable, -gradient);
       emit(slot.friction_row + 1, variable, gradient);
       emit(slot.friction_row + 4, variable, gradient * rt);
@@ -301,13 +328,13 @@ void IncrementProblem::ForEachHessianEntry(const Eigen::VectorXd& x, double fact
     const ContactPair& pair = *slot.pair;
     const Kinematics at = ScaledKinematics(slot, x);
     const double gap_product = multipliers[slot.gap_row + 1];
-    ForEachGapVariable(pair, [&](Eigen::Index variable, Eigen::Index k) {
+    ForEachGapVariable(slot, [&](Eigen::Index variable, Eigen::Index k) {
       emit(slot.rn, variable, gap_product * at.gap_gradient[k]);
     });
     const double slip_product = slot.rt < 0 ? 0.0 : multipliers[slot.friction_row + 4];
     if (slot.rt >= 0) {
       emit(slot.lambda, slot.rn, slip_product * pair.Friction());
-      ForEachXiVariable(pair, [&](Eigen::Index variable, Eigen::Index k) {
+      ForEachXiVariable(slot, [&](Eigen::Index variable, Eigen::Index k) {
         emit(slot.rt, variable, slip_product * at.xi_gradient[k]);
       });
     }
@@ -323,23 +350,27 @@ void IncrementProblem::ForEachCurvatureEntry(const Slot& slot, const Kinematics&
   const bool frictional = slot.rt >= 0;
   const double rn = x[slot.rn], rt = frictional ? x[slot.rt] : 0.0;
   // The multipliers of the equilibrium equations; the multiplier of the load factor is none.
-  const PairVector weights = pair.Local(multipliers.head(nd), 0.0);
+  const PairVector weights = at.Local(multipliers.head(nd), 0.0);
   const PairVector by_rn = at.gap_hessian * weights;
-  ForEachVariable(pair, [&](Eigen::Index variable, Eigen::Index k) { emit(slot.rn, variable, -by_rn[k]); });
+  ForEachVariable(slot, [&](Eigen::Index variable, Eigen::Index k) { emit(slot.rn, variable, -by_rn[k]); });
   double along_gap = multipliers[slot.gap_row] + multipliers[slot.gap_row + 1] * rn, along_xi = 0.0;
   if (frictional) {
-    const PairVector by_rt = at.xi_hessian * weights;
-    ForEachVariable(pair, [&](Eigen::Index variable, Eigen::Index k) { emit(slot.rt, variable, -by_rt[k]); });
+    PairVector by_rt = at.slip_factor * (at.xi_hessian * weights);
+    if (pair.Deformable()) by_rt += at.xi_gradient.dot(weights) * at.slip_factor_gradient;
+    ForEachVariable(slot, [&](Eigen::Index variable, Eigen::Index k) { emit(slot.rt, variable, -by_rt[k]); });
     along_xi =
         multipliers[slot.friction_row + 1] - multipliers[slot.friction_row] + multipliers[slot.friction_row + 4] * rt;
   }
   PairMatrix second;
   const Eigen::VectorXd u = from_.u + goal_.length * x.head(nd);
   const double s = from_.s + goal_.length * x[nd];
-  pair.HessianDerivative(u, s, pair.PatchAfter(u, s, slot.start_patch), rn, rt, weights, &second);
+  const int patch = PatchOf(slot, u, s);
+  const PairDofs dofs = pair.Dofs(patch);
+  pair.ForceHessian(u, s, patch, rn, rt, LocalOf(dofs, multipliers.head(nd), 0.0), &second);
+  if (pair.Deformable()) second = Spread(second, dofs, slot.dofs);
   second = along_gap * at.gap_hessian + along_xi * at.xi_hessian - goal_.length * goal_.length * second;
-  ForEachVariable(pair, [&](Eigen::Index row, Eigen::Index a) {
-    ForEachVariable(pair, [&](Eigen::Index column, Eigen::Index b) {
+  ForEachVariable(slot, [&](Eigen::Index row, Eigen::Index a) {
+    ForEachVariable(slot, [&](Eigen::Index column, Eigen::Index b) {
       if (row >= column) emit(row, column, second(a, b));
     });
   });

@@ -145,11 +145,16 @@ bool IncrementSolver::PolishActiveSet(const PathPoint& from, const Eigen::Vector
     bool passed = false;
     for (const Constraint& limit : system_.Inequalities()) {
       if (system_.Value(limit, nearest.x) >= -tolerances::kBrokenAtPoint * system_.UnitOf(limit)) continue;
+      const auto i = static_cast<std::size_t>(limit.contact);
       if (!KeepsPatch(limit.inequality)) {
         active.push_back(limit);
+        // The equation is by the unknowns of one patch.
+        if (contacts_[i]->Deformable() && patches[i] == kNearestPatch) {
+          patches[i] = contacts_[i]->PatchAt(exact.u, exact.s);
+          passed = true;
+        }
         continue;
       }
-      const auto i = static_cast<std::size_t>(limit.contact);
       patches[i] += limit.inequality == Inequality::kPatchEnd ? 1 : -1;
       if (!contacts_[i]->HasPatch(patches[i])) return false;
       passed = true;

@@ -320,9 +320,9 @@ std::optional<EndReason> BranchMethod::PassContactEvent(const ArcStep& at, Accep
   if (at.event.kind == EventKind::kContactEvent) increment->event.number = ++events_;
   if (SlidesOff(at, increment->point)) {
     const ContactCandidate& lost = model_.scene.contacts[static_cast<std::size_t>(at.event.limit.contact)];
-    *message = "contact " + lost.Name() +
-               " is lost: the node slides over the end of the obstacle while it is pressed onto it, and only a dynamic "
-               "jump leads further";
+    *message = "contact " + lost.Name() + " is lost: the node slides over the end of the " +
+               (lost.OnSurface() ? "surface" : "obstacle") +
+               " while it is pressed onto it, and only a dynamic jump leads further";
     return EndReason::kPathEnd;
   }
   const CurvePoint& end = at.step.end;
@@ -402,7 +402,7 @@ Advance BranchMethod::Next(const PathPoint& from) {
   if (!(increment.residuals.Largest() <= tolerances::kAcceptedExact))
     return Ended(EndReason::kNumericalFailure,
                  After(After("the residuals of the next point are too large", CurveTooSharp(model_, increment.point)),
-                       BeyondHalfRound(model_, increment.residuals)));
+                       BeyondHalfRound(model_, increment.residuals) + BehindSurface(model_, increment.point)));
   NoteReactions(increment.point);
   const bool moved = at->step.length > 0.0;
   events_in_place_ = moved ? 0 : events_in_place_ + 1;

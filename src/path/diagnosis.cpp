@@ -33,16 +33,19 @@ struct SharpestCurve {
 };
 
 SharpestCurve SharpestAt(const ContactPair& pair, const PathPoint& point, int patch) {
-  const auto dofs = static_cast<Eigen::Index>(pair.Dofs().size());
   SharpestCurve sharpest;
-  if (!pair.Curved() || dofs == 0) return sharpest;
+  if (!pair.Curved()) return sharpest;
   const int known = pair.KnownPatch(point.u, point.s, patch);
-  const double xi = pair.Xi(point.u, point.s, known);
+  Kinematics kinematics;
+  pair.Evaluate(point.u, point.s, known, 0.0, &kinematics);
+  if (kinematics.dofs.empty()) return sharpest;
+  const double xi = kinematics.xi;
   const XiRange range = pair.RangeOf(known);
-  sharpest.size = std::max(std::abs(xi), pair.Local(point.u, point.s).head(dofs).lpNorm<Eigen::Infinity>());
+  const PairVector place = kinematics.Local(point.u, point.s);
+  sharpest.size = std::max(std::abs(xi), place.head(place.size() - 1).lpNorm<Eigen::Infinity>());
   const auto look = [&](int at) {
-    Kinematics kinematics;
     pair.Evaluate(point.u, point.s, at, 0.0, &kinematics);
+    const auto dofs = static_cast<Eigen::Index>(kinematics.dofs.size());
     sharpest.curvature = std::max(sharpest.curvature, kinematics.gap_hessian.topLeftCorner(dofs, dofs).norm());
   };
   look(known);
@@ -199,6 +202,34 @@ std::string BeyondHalfRound(const Model& model, const Residuals& residuals) {
   return possible ? "by the total law of friction a node cannot slide beyond half a round of a closed obstacle" : "";
 }
 
+std::string OverrunContact(const Model& model, const PathPoint& from, const PathPoint& to) {
+  for (std::size_t i = 0; i < model.contacts.size(); ++i) {
+    const ContactPair& pair = *model.contacts[i];
+    if (!pair.Deformable() || to.states[i] == ContactState::kOpen) continue;
+    if (pair.Overrun(from.u, to.u, pair.KnownPatch(to.u, to.s, to.Patch(i))))
+      return "contact " + model.scene.contacts[i].Name() +
+             ": another part of the surface comes over the node while it touches, and contact with two parts of a "
+             "surface at a time is not covered";
+  }
+  return {};
+}
+
+std::string BehindSurface(const Model& model, const PathPoint& point) {
+  for (std::size_t i = 0; i < model.contacts.size(); ++i) {
+    const ContactPair& pair = *model.contacts[i];
+    if (!pair.Deformable() || point.states[i] != ContactState::kOpen) continue;
+    const double gap = pair.Gap(point.u, point.s, kNearestPatch);
+    if (!(gap < -tolerances::kBeyondPatch)) continue;
+    std::ostringstream out;
+    out.imbue(std::locale::classic());
+    out.precision(2);
+    out << "contact " << model.scene.contacts[i].Name() << ": the node has come past an end of the surface to "
+        << -gap * model.scaling.length << " behind it";
+    return out.str();
+  }
+  return {};
+}
+
 std::string PullingContact(const Model& model, const PathPoint& point, double rounding, double largest_reaction) {
   const double most = std::max(rounding, tolerances::kPullOfLargest * largest_reaction);
   for (std::size_t i = 0; i < model.contacts.size(); ++i) {
@@ -222,7 +253,8 @@ std::string ContactTooSoft(const Model& model, const PathPoint& point, double le
   const Eigen::VectorXd stiffness = tangent.diagonal().cwiseAbs();
   for (std::size_t i = 0; i < model.contacts.size(); ++i) {
     double largest = 0.0;
-    for (const int dof : model.contacts[i]->Dofs()) largest = std::max(largest, stiffness[dof]);
+    const int patch = model.contacts[i]->KnownPatch(point.u, point.s, point.Patch(i));
+    for (const int dof : model.contacts[i]->Dofs(patch)) largest = std::max(largest, stiffness[dof]);
     if (largest == 0.0 || !(largest < least)) continue;
     std::ostringstream out;
     out.imbue(std::locale::classic());

@@ -18,9 +18,9 @@ constexpr std::size_t kMostNames = 5;      // listed
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
 // A row of the equations: gradient . du = 0.
-void AddEquation(const ContactPair& pair, const PairVector& gradient, int equation, Triplets* entries) {
-  for (std::size_t k = 0; k < pair.Dofs().size(); ++k)
-    entries->emplace_back(pair.Dofs()[k], equation, gradient[static_cast<Eigen::Index>(k)]);
+void AddEquation(const PairDofs& dofs, const PairVector& gradient, int equation, Triplets* entries) {
+  for (std::size_t k = 0; k < dofs.size(); ++k)
+    entries->emplace_back(dofs[k], equation, gradient[static_cast<Eigen::Index>(k)]);
 }
 
 // What resists a motion du, one column an equation: tangent . du, supports, contacts that carry.
@@ -40,8 +40,8 @@ Eigen::SparseMatrix<double> Resistance(const Model& model, const PathPoint& poin
     if (!(point.rn[static_cast<Eigen::Index>(i)] > force * pair.ForceUnit())) continue;
     Kinematics kinematics;
     pair.Evaluate(point.u, point.s, point.Patch(i), 0.0, &kinematics);
-    AddEquation(pair, kinematics.gap_gradient, equation++, &entries);
-    if (pair.Frictional()) AddEquation(pair, kinematics.xi_gradient, equation++, &entries);
+    AddEquation(kinematics.dofs, kinematics.gap_gradient, equation++, &entries);
+    if (pair.Frictional()) AddEquation(kinematics.dofs, kinematics.xi_gradient, equation++, &entries);
   }
   Eigen::SparseMatrix<double> resistance(tangent.rows(), equation);
   resistance.setFromTriplets(entries.begin(), entries.end());
@@ -65,7 +65,7 @@ struct Names {
   std::vector<std::string> nodes, contacts, obstacles;
 };
 
-// Nodes that move freely, their contacts that touch, and the obstacles of these.
+// Nodes that move freely, their contacts that touch, and the obstacles that these touch.
 Names FreeNames(const Model& model, const PathPoint& point, double force) {
   Names names;
   const Scene& scene = model.scene;
@@ -76,6 +76,7 @@ Names FreeNames(const Model& model, const PathPoint& point, double force) {
     const bool free = std::find(names.nodes.begin(), names.nodes.end(), contact.node) != names.nodes.end();
     if (!free || model.contacts[i]->Gap(point.u, point.s, point.Patch(i)) > tolerances::kActiveGap) continue;
     names.contacts.push_back(contact.Name());
+    if (contact.OnSurface()) continue;
     if (std::find(names.obstacles.begin(), names.obstacles.end(), contact.obstacle) == names.obstacles.end())
       names.obstacles.push_back(contact.obstacle);
   }

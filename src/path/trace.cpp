@@ -370,6 +370,8 @@ class Tracer {
         NotePoint(increment.point);
         const std::string pulls = PullingContact(model, increment.point, increment.force_rounding, largest_reaction_);
         if (!pulls.empty()) return End(EndReason::kNumericalFailure, pulls);
+        const std::string overrun = OverrunContact(model, point_, increment.point);
+        if (!overrun.empty()) return End(EndReason::kNumericalFailure, overrun);
         recorder_.Append(model, increment, time);
         returns_->Add(recorder_.increment().index, point_, increment.point);
         point_ = std::move(increment.point);

@@ -58,14 +58,14 @@ Work WorkOfStep(const Model& model, const FixedStateSystem& system, const Step& 
   const Eigen::Index nd = system.NumDofs();
   Work work;
   for (const std::size_t i : system.Touching()) {
-    const Constraint normal = {static_cast<int>(i), Inequality::kNormalReaction};
-    const Constraint slip = {static_cast<int>(i), Inequality::kSlip};
     if (!Slips(system.states()[i])) continue;
-    const auto interpolate = [&](const Constraint& of) {
-      return step.Interpolate([&](const CurvePoint& at) { return system.ValueAlong(of, at.x, at.first, at.second); });
-    };
+    const Quintic force =
+        step.Interpolate([&](const CurvePoint& at) { return system.SlidingForceAlong(i, at.x, at.first, at.second); });
+    const Quintic slip = step.Interpolate([&](const CurvePoint& at) {
+      return system.ValueAlong({static_cast<int>(i), Inequality::kSlip}, at.x, at.first, at.second);
+    });
     const ContactPair& pair = *model.contacts[i];
-    const double friction = pair.Friction() * integrate(interpolate(normal), interpolate(slip));
+    const double friction = pair.Friction() * integrate(force, slip);
     work.friction += pair.HasTotalLaw() ? friction : std::max(0.0, friction);
   }
   const auto load = [&](const Eigen::VectorXd& x) { return x[nd]; };

@@ -49,6 +49,12 @@ Vector2d MiddleOf(const std::vector<std::size_t>& nodes, const NodePlaces& place
   return sum / static_cast<double>(nodes.size());
 }
 
+BoundaryCurve DrawnSurface::At(const NodePlaces& places) const {
+  NodePlaces own;
+  for (const std::size_t node : nodes) own.push_back(places[node]);
+  return {own, closed, radius};
+}
+
 DrawnScene::DrawnScene(const TraceRequest& request_given) : name(OneLine(request_given.scene.name)) {
   const ExpandedRequest expanded(request_given);
   const TraceRequest& request = expanded.Get();
@@ -61,9 +67,7 @@ DrawnScene::DrawnScene(const TraceRequest& request_given) : name(OneLine(request
   inner.assign(initial.size(), false);
   AddElements(scene, index);
   FindSupports(scene);
-  for (const ContactCandidate& contact : scene.contacts) {
-    contacts.push_back({index.Node(contact.node), index.Obstacle(contact.obstacle)});
-  }
+  AddContacts(scene, index);
   has_program = !request.program.empty();
   num_stages = NumStages(request);
   stages_ = std::make_unique<const DrawnStages>(request);
@@ -76,6 +80,25 @@ DrawnScene::DrawnScene(const TraceRequest& request_given) : name(OneLine(request
   detail = std::min(0.025 * size, bars.empty() && segments.empty() ? size : 0.12 * scales.length);
   if (!cells.empty()) detail = std::min(detail, 0.12 * CellSize());
   least_force = 1e-3 * scales.force;
+}
+
+void DrawnScene::AddContacts(const Scene& scene, const SceneIndex& index) {
+  std::map<std::size_t, std::size_t> drawn;  // surfaces of the scene
+  for (const ContactCandidate& contact : scene.contacts) {
+    const std::size_t node = index.Node(contact.node);
+    if (!contact.OnSurface()) {
+      const std::size_t obstacle = index.Obstacle(contact.obstacle);
+      contacts.push_back({node, false, obstacle, scene.obstacles[obstacle].friction});
+      continue;
+    }
+    const BoundarySurface& surface = scene.surfaces[index.Surface(contact.surface)];
+    const auto [at, is_new] = drawn.try_emplace(index.Surface(contact.surface), surfaces.size());
+    if (is_new) {
+      surfaces.push_back({{}, surface.closed, surface.radius});
+      for (const std::string& node_name : surface.nodes) surfaces.back().nodes.push_back(index.Node(node_name));
+    }
+    contacts.push_back({node, true, at->second, contact.friction});
+  }
 }
 
 void DrawnScene::AddElements(const Scene& scene, const SceneIndex& index) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "contact_path/ros/messages.h"
+#include "contact_path/scene/boundary_curve.h"
 #include "contact_path/scene/scene.h"
 #include "contact_path/scene/scene_index.h"
 #include "contact_path/structure/element.h"
@@ -36,9 +37,20 @@ struct DrawnCell {
   double full_energy = 1.0;        // that has the darkest colour [force length]
 };
 
+// A surface that contacts touch.
+struct DrawnSurface {
+  std::vector<std::size_t> nodes;
+  bool closed = false;
+  double radius = 0.0;
+
+  BoundaryCurve At(const NodePlaces& places) const;
+};
+
 struct DrawnCandidate {
   std::size_t node = 0;
-  std::size_t obstacle = 0;
+  bool on_surface = false;
+  std::size_t partner = 0;  // the place of its surface among the drawn ones, or of its obstacle
+  double friction = 0.0;
 };
 
 Eigen::Vector2d MiddleOf(const std::vector<std::size_t>& nodes, const NodePlaces& places);
@@ -66,6 +78,7 @@ struct DrawnScene {
   std::vector<Eigen::Vector2d> rest;             // by star: of its first node
   std::vector<DrawnCell> cells;                  // elements of solids
   std::vector<DrawnSupport> supports;
+  std::vector<DrawnSurface> surfaces;
   std::vector<DrawnCandidate> contacts;
 
   Eigen::AlignedBox2d box;   // of the initial shape, and of where stop criteria and moving supports lead
@@ -76,6 +89,7 @@ struct DrawnScene {
  private:
   void AddElements(const Scene& scene, const SceneIndex& index);
   void AddBeam(const Beam& beam, const SceneIndex& index);
+  void AddContacts(const Scene& scene, const SceneIndex& index);
   void AddMesh(const Solid& solid, const Scene& scene, const SceneIndex& index);
   // By the places where the supports come to at the ends of the stages.
   void ExtendBoxBySupports(const TraceRequest& request, const SceneIndex& index);

@@ -49,7 +49,6 @@ DrawnStage DrawnStages::Make(std::size_t stage) const {
     DrawnObstacle& drawn = parts.obstacles.emplace_back();
     drawn.surface = MakeSurface(obstacle);
     drawn.point = {obstacle.px, obstacle.py};
-    drawn.friction = obstacle.friction;
     drawn.moves = moves_[i];
   }
   for (const ObstacleMotion& motion : begin.obstacle_motions) {

@@ -33,7 +33,6 @@ struct DrawnObstacle {
   Eigen::Vector2d motion = Eigen::Vector2d::Zero();  // per unit of the load factor
   double turn = 0.0;                                 // [rad] per unit of the load factor
   Eigen::Vector2d about = Eigen::Vector2d::Zero();
-  double friction = 0.0;
   bool moves = false;  // in any stage
 
   Eigen::Rotation2Dd Rotation(double load_factor) const { return Eigen::Rotation2Dd(load_factor * turn); }

@@ -24,6 +24,7 @@ using visualization_msgs::Marker;
 constexpr double kFullArrow = 0.2;
 constexpr int kMostStrokes = 200;  // of a moving obstacle
 constexpr int kPatchSteps = 48;    // of a patch of a curve that is bent
+constexpr int kSurfaceSteps = 8;   // of a patch of a surface that deforms
 constexpr double kStripDepth = 0.05;
 constexpr double kTextHeight = 0.045;
 constexpr double kMostCone = 0.12;      // edge of a cone
@@ -58,6 +59,7 @@ const ColorRGBA kLoadColour = Colour(0.13F, 0.40F, 0.67F);
 const ColorRGBA kConstantLoadColour = Colour(0.50F, 0.70F, 0.84F);
 const ColorRGBA kReactionColour = Colour(0.70F, 0.09F, 0.17F);
 const ColorRGBA kConeColour = Colour(0.70F, 0.09F, 0.17F, 0.45F);
+const ColorRGBA kSurfaceColour = Colour(0.11F, 0.47F, 0.22F);
 const ColorRGBA kTextColour = Colour(0.25F, 0.25F, 0.25F);
 
 ColorRGBA StateColour(std::uint8_t state) {
@@ -235,7 +237,29 @@ void DrawSupports(const DrawnScene& scene, const NodePlaces& places, MarkerPictu
   }
 }
 
-void DrawContacts(const DrawnScene& scene, const DrawnStage& stage, const NodePlaces& places,
+void DrawSurfaces(const DrawnScene& scene, const NodePlaces& places, MarkerPicture* picture) {
+  picture->BeginLines("surfaces", 0, kThinWidth * scene.detail, kSurfaceColour, kBars);
+  for (const DrawnSurface& surface : scene.surfaces) {
+    const std::vector<OutlinePoint> points = surface.At(places).Points(kSurfaceSteps);
+    for (std::size_t k = 1; k < points.size(); ++k) picture->AddLine(points[k - 1].place, points[k].place);
+  }
+}
+
+// Of each contact where it is nearest to its obstacle or surface.
+std::vector<Vector2d> NormalsOf(const DrawnScene& scene, const DrawnStage& stage, const NodePlaces& places,
+                                double load_factor) {
+  std::vector<BoundaryCurve> curves;
+  for (const DrawnSurface& surface : scene.surfaces) curves.push_back(surface.At(places));
+  std::vector<Vector2d> normals;
+  for (const DrawnCandidate& contact : scene.contacts) {
+    const Vector2d& place = places[contact.node];
+    normals.push_back(contact.on_surface ? curves[contact.partner].Nearest(place).normal
+                                         : stage.obstacles[contact.partner].ProjectAt(load_factor, place).normal);
+  }
+  return normals;
+}
+
+void DrawContacts(const DrawnScene& scene, const NodePlaces& places, const std::vector<Vector2d>& normals,
                   const msgs::Increment& increment, MarkerPicture* picture) {
   const std::vector<msgs::ContactState>& states = increment.contacts;
   picture->BeginDots("contacts", 0, Marker::SPHERE_LIST, kContactDiameter * scene.detail, StateColour(0), kCandidates);
@@ -247,19 +271,19 @@ void DrawContacts(const DrawnScene& scene, const DrawnStage& stage, const NodePl
 
   picture->BeginTriangles("cones", 0, kConeColour, kCones);
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
-    const DrawnObstacle& obstacle = stage.obstacles[scene.contacts[i].obstacle];
+    const double friction = scene.contacts[i].friction;
     const std::uint8_t state = states[i].state;
-    if (obstacle.friction <= 0.0 || state == msgs::ContactState::OPEN || state == msgs::ContactState::CLOSED) continue;
+    if (friction <= 0.0 || state == msgs::ContactState::OPEN || state == msgs::ContactState::CLOSED) continue;
     const Vector2d& apex = places[scene.contacts[i].node];
-    const Vector2d normal = obstacle.ProjectAt(increment.load_factor, apex).normal;
-    const Vector2d side = obstacle.friction * Tangent(normal);
+    const Vector2d &normal = normals[i], side = friction * Tangent(normal);
     const double edge = std::min(kConeEdge * scene.detail, kMostCone * scene.size);
     picture->AddTriangle(apex, apex + edge * (normal - side).normalized(), apex + edge * (normal + side).normalized());
   }
 }
 
 void DrawForces(const DrawnScene& scene, const DrawnStage& stage, const NodePlaces& places,
-                const msgs::Increment& increment, double full_force, MarkerPicture* picture) {
+                const std::vector<Vector2d>& normals, const msgs::Increment& increment, double full_force,
+                MarkerPicture* picture) {
   const double scale = kFullArrow * scene.size / full_force;
   const auto draw = [&](std::size_t node, const Vector2d& force, const ColorRGBA& colour) {
     if (force.norm() > kShortest * full_force) picture->AddArrow(places[node], scale * force, colour);
@@ -274,12 +298,9 @@ void DrawForces(const DrawnScene& scene, const DrawnStage& stage, const NodePlac
       picture->AddTurnedArrow(places[load.node], kMomentRadius * scene.size, kFullTurn * part, colour);
   }
   picture->BeginTriangles("reactions", 0, kReactionColour, kArrows);
-  for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
-    const DrawnObstacle& obstacle = stage.obstacles[scene.contacts[i].obstacle];
-    const Vector2d normal = obstacle.ProjectAt(increment.load_factor, places[scene.contacts[i].node]).normal;
-    draw(scene.contacts[i].node, increment.contacts[i].rn * normal + increment.contacts[i].rt * Tangent(normal),
+  for (std::size_t i = 0; i < scene.contacts.size(); ++i)
+    draw(scene.contacts[i].node, increment.contacts[i].rn * normals[i] + increment.contacts[i].rt * Tangent(normals[i]),
          kReactionColour);
-  }
 }
 
 // Above the initial shape.
@@ -348,8 +369,10 @@ visualization_msgs::MarkerArray SceneMarkers::Draw(const msgs::Increment& increm
   DrawStars(scene, places, &picture);
   DrawMeshes(scene, places, &picture);
   DrawSupports(scene, places, &picture);
-  DrawContacts(scene, *stage, places, increment, &picture);
-  DrawForces(scene, *stage, places, increment, full_force, &picture);
+  DrawSurfaces(scene, places, &picture);
+  const std::vector<Vector2d> normals = NormalsOf(scene, *stage, places, increment.load_factor);
+  DrawContacts(scene, places, normals, increment, &picture);
+  DrawForces(scene, *stage, places, normals, increment, full_force, &picture);
   DrawCaption(scene, caption, *stage, full_force, &picture);
   if (options_.picture_size == 0.0) return picture.Finish(options_.frame_id, Vector2d::Zero(), 1.0);
   return picture.Finish(options_.frame_id, scene.box.center(), options_.picture_size / scene.size);

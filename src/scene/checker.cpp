@@ -15,7 +15,7 @@
 namespace contact_path {
 namespace {
 
-// Names become columns of a table and parts of "<node>@<obstacle>" and "<node>.x".
+// Names become columns of a table and parts of "<node>@<obstacle>", "<node>@<surface>" and "<node>.x".
 bool IsAllowedInName(char c) {
   const auto code = static_cast<unsigned char>(c);
   return code > 0x20 && code != 0x7f && std::string_view("@,\"./").find(c) == std::string_view::npos;
@@ -69,6 +69,11 @@ const Node* Checker::KnownNode(const std::string& name) const {
 const Obstacle* Checker::KnownObstacle(const std::string& name) const {
   const std::optional<std::size_t> place = index_.FindObstacle(name);
   return place ? &request_.scene.obstacles[*place] : nullptr;
+}
+
+const BoundarySurface* Checker::KnownSurface(const std::string& name) const {
+  const std::optional<std::size_t> place = index_.FindSurface(name);
+  return place ? &request_.scene.surfaces[*place] : nullptr;
 }
 
 bool Checker::HasFreeComponent() const {

@@ -65,6 +65,7 @@ class Checker {
   // Null for a name that the scene does not have.
   const Node* KnownNode(const std::string& name) const;
   const Obstacle* KnownObstacle(const std::string& name) const;
+  const BoundarySurface* KnownSurface(const std::string& name) const;
   // Whether a beam turns a node that the scene has.
   bool Turns(const std::string& node) const { return turning_[index_.Node(node)]; }
   // Whether a component of a node is free, or its rotation.
@@ -87,7 +88,8 @@ class Checker {
       if constexpr (std::is_same_v<Value, double>) CheckNumber(key, value, field.range);
       if constexpr (std::is_same_v<Value, int>)
         if (value < 0 && field.range == Range::kNotNegative) Add(key, std::to_string(value), "must be >= 0");
-      if constexpr (std::is_same_v<Value, std::string>) CheckText(key, value, field.text, earlier);
+      if constexpr (std::is_same_v<Value, std::string>)
+        if (!field.optional || !value.empty()) CheckText(key, value, field.text, earlier);
       if constexpr (std::is_same_v<Value, std::vector<double>>)
         for (std::size_t i = 0; i < value.size(); ++i) CheckNumber(key[i], value[i], field.range);
       if constexpr (std::is_same_v<Value, std::vector<std::string>>)

@@ -3,16 +3,13 @@
 #include <cmath>
 #include <set>
 #include <string>
-#include <utility>
 
 #include "contact_path/scene/surface.h"
 
 namespace contact_path {
 namespace {
 
-// Relative bounds, far above rounding and far below anything meant.
-constexpr double kPenetration = 1e-9;    // of the initial gap, by the characteristic length
-constexpr double kNormalOnFree = 1e-12;  // of the normal's part along free components
+constexpr double kNormalOnFree = 1e-12;  // of the normal's part along free components, far above rounding
 
 const KeyPath kScene("scene");
 
@@ -64,17 +61,34 @@ void ContactRules::CheckObstacles() {
 
 void ContactRules::CheckContacts(double length) {
   const KeyPath list = kScene.Key("contacts");
-  std::set<std::pair<std::string, std::string>> earlier;
+  std::set<std::string> earlier;
   for (std::size_t i = 0; i < scene_.contacts.size(); ++i) {
     const ContactCandidate& contact = scene_.contacts[i];
     const KeyPath path = list[checker_.ContactPlace(i)];
     checker_.CheckFields(path, contact);
+    CheckPartner(path, contact);
     const Node* const node = checker_.KnownNode(contact.node);
     const Obstacle* const obstacle = checker_.KnownObstacle(contact.obstacle);
-    if (!earlier.emplace(contact.node, contact.obstacle).second)
+    const BoundarySurface* const surface = checker_.KnownSurface(contact.surface);
+    if (!earlier.insert(contact.Name()).second)
       checker_.Add(path, contact.Name(), "must not be repeated");
+    else if (node != nullptr && surface != nullptr)
+      boundaries_.CheckContact(path, contact, *node, *surface, length);
     else if (node != nullptr && obstacle != nullptr && usable_obstacles_.count(obstacle) > 0)
       CheckGeometry(path, contact, *node, *obstacle, length);
+  }
+}
+
+void ContactRules::CheckPartner(const KeyPath& path, const ContactCandidate& contact) {
+  if (!contact.OnSurface()) {
+    if (contact.obstacle.empty())
+      checker_.Add(path.Key("obstacle"), TextOrQuotes(contact.obstacle),
+                   "must name an obstacle of the scene where there is no surface");
+    if (contact.friction != 0.0)
+      checker_.Add(path.Key("friction"), NumberText(contact.friction),
+                   "must be 0 where there is no surface: friction with an obstacle is a field of the obstacle");
+  } else if (!contact.obstacle.empty()) {
+    checker_.Add(path.Key("obstacle"), contact.obstacle, "must be left out where there is a surface");
   }
 }
 

@@ -7,19 +7,23 @@
 #include <unordered_set>
 
 #include "contact_path/geometry/surface.h"
+#include "scene/boundary_rules.h"
 #include "scene/checker.h"
 
 namespace contact_path {
 
 class ContactRules {
  public:
-  explicit ContactRules(Checker* checker) : checker_(*checker), scene_(checker->GetScene()) {}
+  explicit ContactRules(Checker* checker) : checker_(*checker), scene_(checker->GetScene()), boundaries_(checker) {}
 
   void CheckObstacles();
   // After CheckObstacles(). length: the characteristic length, 0 where it is not known.
   void CheckContacts(double length);
 
  private:
+  // Which of its fields a contact has.
+  void CheckPartner(const KeyPath& path, const ContactCandidate& contact);
+
   void CheckGeometry(const KeyPath& path, const ContactCandidate& contact, const Node& node, const Obstacle& obstacle,
                      double length);
 
@@ -29,6 +33,7 @@ class ContactRules {
 
   Checker& checker_;
   const Scene& scene_;
+  BoundaryRules boundaries_;
   std::unordered_set<const Obstacle*> usable_obstacles_;  // with a shape that can be computed with
   std::unordered_map<const Obstacle*, std::unique_ptr<const Surface>> surfaces_;  // of those that are no half planes
 };

@@ -68,6 +68,10 @@ class Groups {
     const Node& at = *nodes_.at(node);
     return !at.fixed_x || !at.fixed_y;
   }
+  bool CanMove(const BoundarySurface& surface) const {
+    return std::any_of(surface.nodes.begin(), surface.nodes.end(),
+                       [this](const std::string& node) { return CanMove(node); });
+  }
   // The length between two nodes at the start.
   double Length(const std::string& first, const std::string& second) const {
     const auto [ax, ay] = Place(first);
@@ -187,8 +191,9 @@ Places ExpandContacts(const Groups& groups, std::vector<ContactCandidate>* conta
       continue;
     }
     const std::string group = std::exchange(contact.group, {});
+    const bool all = contact.OnSurface() && groups.CanMove(groups.Surface(contact.surface));
     for (const std::string& node : *groups.At(group).nodes) {
-      if (!groups.CanMove(node)) continue;
+      if (!all && !groups.CanMove(node)) continue;
       contact.node = node;
       add(contact, i);
     }
@@ -265,7 +270,7 @@ bool NeedsExpansion(const TraceRequest& request) {
   const Scene& scene = request.scene;
   return !scene.beams.empty() || !scene.groups.empty() || !scene.surfaces.empty() || any_load(scene.loads) ||
          std::any_of(scene.contacts.begin(), scene.contacts.end(),
-                     [](const ContactCandidate& contact) { return !contact.group.empty(); }) ||
+                     [](const ContactCandidate& contact) { return contact.OnSurface() || !contact.group.empty(); }) ||
          std::any_of(request.program.begin(), request.program.end(),
                      [&](const Stage& stage) { return any_load(stage.loads); });
 }

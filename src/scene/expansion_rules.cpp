@@ -53,8 +53,12 @@ class BeamRules {
       for (const auto& element : elements)
         for (const std::string& node : element.nodes) ++parts[node];
     });
-    std::unordered_set<std::string> in_contact;
-    for (const ContactCandidate& contact : scene_.contacts) in_contact.insert({contact.node, contact.group});
+    std::unordered_set<std::string> in_contact;  // nodes, groups, and beams with inner nodes on a surface
+    for (const ContactCandidate& contact : scene_.contacts) {
+      in_contact.insert({contact.node, contact.group});
+      if (const BoundarySurface* const surface = checker_.KnownSurface(contact.surface))
+        for (const std::string& node : surface->nodes) in_contact.insert(node.substr(0, node.find('/')));
+    }
     for (std::size_t i = 0; i < scene_.beams.size(); ++i) {
       const Beam& beam = scene_.beams[i];
       if (beam.hinged.empty() || in_contact.count(BeamName(beam, i)) > 0) continue;
@@ -99,8 +103,11 @@ class GroupRules {
     CheckSurfaces();
     CheckLoads(kScene.Key("loads"), scene_.loads);
     const KeyPath contacts = kScene.Key("contacts"), program("program");
-    for (std::size_t i = 0; i < scene_.contacts.size(); ++i)
-      CheckGroup(contacts[i], scene_.contacts[i].node, scene_.contacts[i].group);
+    for (std::size_t i = 0; i < scene_.contacts.size(); ++i) {
+      const ContactCandidate& contact = scene_.contacts[i];
+      CheckGroup(contacts[i], contact.node, contact.group);
+      if (contact.OnSurface()) CheckSurfaceName(contacts[i], contact.surface);
+    }
     for (std::size_t i = 0; i < checker_.Request().program.size(); ++i)
       CheckLoads(program[i].Key("loads"), checker_.Request().program[i].loads);
   }
@@ -141,10 +148,14 @@ class GroupRules {
          {std::pair("fx", load.fx), std::pair("fy", load.fy), std::pair("moment", load.moment)})
       if (value != 0.0)
         checker_.Add(path.Key(name), NumberText(value), "must be 0 where there is a surface: px and py act on it");
-    if (surfaces_.count(load.surface) > 0) return;
-    NearestName nearest(load.surface);
+    CheckSurfaceName(path, load.surface);
+  }
+
+  void CheckSurfaceName(const KeyPath& path, const std::string& surface) {
+    if (surfaces_.count(surface) > 0) return;
+    NearestName nearest(surface);
     for (const BoundarySurface& known : scene_.surfaces) nearest.Offer(known.name);
-    checker_.Add(path.Key("surface"), load.surface, "must name a surface of the scene" + nearest.Question());
+    checker_.Add(path.Key("surface"), surface, "must name a surface of the scene" + nearest.Question());
   }
 
   void CheckLoads(const KeyPath& list, const std::vector<Load>& loads) {

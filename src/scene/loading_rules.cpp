@@ -32,13 +32,18 @@ void BroughtOn::TakeBack(double share) {
 }
 
 LoadingRules::LoadingRules(Checker* checker) : checker_(*checker), scene_(checker->GetScene()) {
+  std::unordered_set<std::string_view> touched;
   for (const ContactCandidate& contact : scene_.contacts) {
     contact_nodes_.insert(contact.node);
     const Node* const node = checker_.KnownNode(contact.node);
     const Obstacle* const obstacle = checker_.KnownObstacle(contact.obstacle);
     if (node != nullptr && obstacle != nullptr && !CanSlide(!node->fixed_x, !node->fixed_y, *obstacle))
       held_.emplace(obstacle, node);
+    if (contact.OnSurface()) touched.insert(contact.surface);
   }
+  for (const BoundarySurface& surface : scene_.surfaces)
+    if (touched.count(surface.name) > 0)
+      for (const std::string& node : surface.nodes) surface_nodes_.emplace(node, surface.name);
 }
 
 void LoadingRules::CheckSceneLoads() {
@@ -185,9 +190,14 @@ void LoadingRules::CheckMotions(const KeyPath& where, const std::vector<SupportM
     if (motion.rotation != 0.0 && !node->fixed_rotation)
       checker_.Add(path.Key("rotation"), NumberText(motion.rotation),
                    "must be 0: the rotation of node " + node->name + " is not fixed");
-    if ((motion.dx != 0.0 || motion.dy != 0.0) && contact_nodes_.count(motion.node) > 0)
+    if (motion.dx == 0.0 && motion.dy == 0.0) continue;
+    if (contact_nodes_.count(motion.node) > 0)
       checker_.Add(path.Key("node"), motion.node,
                    "must not be a contact candidate: its reactions would not be determined");
+    if (const auto on = surface_nodes_.find(motion.node); on != surface_nodes_.end())
+      checker_.Add(path.Key("node"), motion.node,
+                   "must not belong to surface " + std::string(on->second) +
+                       ", which contacts touch: leave it out of the surface");
   }
   moved.clear();
   for (std::size_t i = 0; i < obstacles.size(); ++i) {

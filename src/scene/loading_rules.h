@@ -65,7 +65,8 @@ class LoadingRules {
 
   Checker& checker_;
   const Scene& scene_;
-  std::unordered_set<std::string_view> contact_nodes_;
+  std::unordered_set<std::string_view> contact_nodes_;                    // candidates
+  std::unordered_map<std::string_view, std::string_view> surface_nodes_;  // of surfaces that candidates may touch
   std::unordered_map<const Obstacle*, const Node*> held_;  // the first candidate of each that cannot follow it
   bool loads_are_sound_ = true;                            // as far as checked
   BroughtOn brought_on_;                                   // by the stages so far

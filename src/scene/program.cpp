@@ -63,7 +63,7 @@ std::vector<double> SlipOrigins(const TraceRequest& request, const SceneIndex& i
   origins.reserve(2 * request.scene.contacts.size());
   for (const ContactCandidate& contact : request.scene.contacts) {
     const Node& node = request.scene.nodes[index.Node(contact.node)];
-    of_obstacle.emplace(index.Obstacle(contact.obstacle), origins.data() + origins.size());
+    if (!contact.OnSurface()) of_obstacle.emplace(index.Obstacle(contact.obstacle), origins.data() + origins.size());
     origins.insert(origins.end(), {node.x, node.y});
   }
   if (request.program.empty()) return origins;

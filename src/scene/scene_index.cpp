@@ -6,6 +6,7 @@ SceneIndex::SceneIndex(const Scene& scene) {
   nodes_.reserve(scene.nodes.size());
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) nodes_.emplace(scene.nodes[i].name, i);
   for (std::size_t i = 0; i < scene.materials.size(); ++i) materials_.emplace(scene.materials[i].name, i);
+  for (std::size_t i = 0; i < scene.surfaces.size(); ++i) surfaces_.emplace(scene.surfaces[i].name, i);
   obstacles_.reserve(scene.obstacles.size());
   for (std::size_t i = 0; i < scene.obstacles.size(); ++i) obstacles_.emplace(scene.obstacles[i].name, i);
   contacts_.reserve(scene.contacts.size());

@@ -1,5 +1,6 @@
 #include "contact_path/scene/validate.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <iterator>
 #include <utility>
@@ -28,6 +29,10 @@ void CheckOptions(Checker* checker) {
     if (stop.when != ">" && stop.when != "<")
       checker->Add(stops[i].Key("when"), TextOrQuotes(stop.when), "must be \">\" or \"<\"");
   }
+  const std::vector<ContactCandidate>& contacts = checker->GetScene().contacts;
+  if (options.friction_law == FrictionLaw::kTotal &&
+      std::any_of(contacts.begin(), contacts.end(), [](const auto& contact) { return contact.friction > 0.0; }))
+    checker->Add(path.Key("friction_law"), "total", "must be incremental where a contact with a surface has friction");
   if (options.method == Method::kMpec && !options.branch_choices.empty())
     checker->Add(choices, "", "must be empty with the method mpec, which does not find the branches of an event");
   for (std::size_t i = 0; i < options.branch_choices.size(); ++i) {

@@ -22,15 +22,19 @@ std::vector<VerifiedContact> VerifiedContacts(const Scene& scene, const SceneInd
   std::set<std::string> turning;
   for (const ObstacleMotion& motion : scene.obstacle_motions)
     if (motion.turn != 0.0) turning.insert(motion.obstacle);
+  // Of an obstacle where the node cannot slide: none.
+  const auto friction_of = [&](const ContactCandidate& candidate, std::size_t at) {
+    if (candidate.OnSurface()) return candidate.friction;
+    const Obstacle& obstacle = scene.obstacles[index.Obstacle(candidate.obstacle)];
+    const Node& node = scene.nodes[at];
+    const bool can_slide = CanSlide(!node.fixed_x || rates[2 * at] != 0.0, !node.fixed_y || rates[2 * at + 1] != 0.0,
+                                    obstacle, turning.count(candidate.obstacle) > 0);
+    return can_slide ? obstacle.friction : 0.0;
+  };
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
-    const Obstacle& obstacle = scene.obstacles[index.Obstacle(scene.contacts[i].obstacle)];
     VerifiedContact contact;
     contact.node = index.Node(scene.contacts[i].node);
-    const Node& node = scene.nodes[contact.node];
-    const bool can_slide =
-        CanSlide(!node.fixed_x || rates[2 * contact.node] != 0.0, !node.fixed_y || rates[2 * contact.node + 1] != 0.0,
-                 obstacle, turning.count(scene.contacts[i].obstacle) > 0);
-    contact.friction = can_slide ? obstacle.friction : 0.0;
+    contact.friction = friction_of(scene.contacts[i], contact.node);
     contact.name = scene.contacts[i].Name();
     const double unit = across[i] / scaling.force;
     if (unit > 0.0 && unit < kSoft) contact.unit = unit;

@@ -40,8 +40,8 @@ struct Corner {
     Eigen::VectorXd force = Eigen::VectorXd::Zero(2);
     for (std::size_t i = 0; i < model.contacts.size(); ++i) {
       const Kinematics at = KinematicsAt(*model.contacts[i], with.u, with.s);
-      model.contacts[i]->AddForce(at.gap_gradient, with.rn[static_cast<Eigen::Index>(i)], &force);
-      model.contacts[i]->AddForce(at.xi_gradient, with.rt[static_cast<Eigen::Index>(i)], &force);
+      at.AddForce(at.gap_gradient, with.rn[static_cast<Eigen::Index>(i)], &force);
+      at.AddForce(at.xi_gradient, with.rt[static_cast<Eigen::Index>(i)], &force);
     }
     return force;
   }

@@ -26,7 +26,7 @@ TEST_F(Pairs, SecondDirectionalMeetsDifferencesOfTheForce) {
   for (const auto& pair : contacts_) {
     if (!pair->Curved()) continue;
     const Eigen::VectorXd du = random_.Vector(u_.size(), -1.0, 1.0);
-    const PairVector direction = pair->Local(du, 0.4);
+    const PairVector direction = LocalOf(pair->Dofs(0), du, 0.4);
     const auto force_rate = [&](const Eigen::VectorXd& h) {
       const Kinematics at = KinematicsAt(*pair, u_ + h[0] * du, 0.2 + h[0] * 0.4);
       return Eigen::VectorXd((kRn * at.gap_hessian + kRt * at.xi_hessian) * direction);
@@ -52,8 +52,8 @@ TEST_F(Pairs, TheForceOfAReactionHasThePowerOfItsMotion) {
   for (const auto& pair : contacts_) {
     const Kinematics at = KinematicsAt(*pair, u_, 0.2);
     Eigen::VectorXd force = Eigen::VectorXd::Zero(u_.size());
-    pair->AddForce(at.gap_gradient, 2.0, &force);
-    pair->AddForce(at.xi_gradient, -3.0, &force);
+    at.AddForce(at.gap_gradient, 2.0, &force);
+    at.AddForce(at.xi_gradient, -3.0, &force);
     EXPECT_NEAR(force.dot(du), 2.0 * GapRate(*pair, u_, 0.2, du, 0.0) - 3.0 * pair->SlipRate(u_, 0.2, 0, du, 0.0),
                 kRounding);
   }

@@ -61,8 +61,8 @@ class Counted : public ContactPair {
   int PatchAfter(const Eigen::VectorXd&, double, int) const override { return 0; }
   bool HasPatch(int patch) const override { return patch == 0; }
   XiRange RangeOf(int) const override { return {}; }
-  void HessianDerivative(const Eigen::VectorXd&, double, int, double, double, const PairVector&,
-                         PairMatrix*) const override {}
+  void ForceHessian(const Eigen::VectorXd&, double, int, double, double, const PairVector&,
+                    PairMatrix*) const override {}
 
  private:
   double gap_;

@@ -28,7 +28,8 @@ class RigidPairs : public testing::Test {
   };
 
   RigidPairs() {
-    for (const auto& pair : contacts_) cases_.push_back({pair.get(), 0, pair->Local(structure_.Start(), 0.3)});
+    for (const auto& pair : contacts_)
+      cases_.push_back({pair.get(), 0, LocalOf(pair->Dofs(0), structure_.Start(), 0.3)});
     const Eigen::Vector2d velocity(0.3, -0.2), about(0.4, 0.9);
     const Eigen::Vector3d q(0.7, 0.6, 0.3);
     Add(std::make_shared<HalfPlane>(Eigen::Vector2d(0.0, 0.1), Eigen::Vector2d(-0.2, 1.0)), velocity, 1.3, about, q, 0);
@@ -56,7 +57,8 @@ class RigidPairs : public testing::Test {
   Eigen::VectorXd At(const ContactPair& pair, const Eigen::VectorXd& q) const {
     Eigen::VectorXd x(structure_.NumDofs() + 1);
     x << structure_.Start(), 0.0;
-    for (std::size_t k = 0; k < pair.Dofs().size(); ++k) x[pair.Dofs()[k]] = q[static_cast<Eigen::Index>(k)];
+    const PairDofs dofs = pair.Dofs(0);
+    for (std::size_t k = 0; k < dofs.size(); ++k) x[dofs[k]] = q[static_cast<Eigen::Index>(k)];
     x[structure_.NumDofs()] = q[q.size() - 1];
     return x;
   }
@@ -84,7 +86,7 @@ TEST_F(RigidPairs, GradientsMeetDifferencesAndTheirSparsityIsDeclared) {
     Eigen::MatrixXd gradients(2, of.q.size());
     gradients << at.gap_gradient.transpose(), at.xi_gradient.transpose();
     EXPECT_TRUE(IsJacobian(values, of.q, gradients, kDerivativeTolerance, 1e-3));
-    for (std::size_t k = 0; k <= pair.Dofs().size(); ++k) {
+    for (std::size_t k = 0; k <= at.dofs.size(); ++k) {
       EXPECT_EQ(pair.MovesGap(k), at.gap_gradient[static_cast<Eigen::Index>(k)] != 0.0);
       EXPECT_EQ(pair.MovesXi(k), at.xi_gradient[static_cast<Eigen::Index>(k)] != 0.0);
     }
@@ -118,7 +120,7 @@ TEST_F(RigidPairs, DerivativesOfHessiansMeetDifferences) {
       return Entries(kRn * at.gap_hessian + kRt * at.xi_hessian);
     };
     PairMatrix derivative;
-    of.pair->HessianDerivative(x, 0.3, of.patch, kRn, kRt, direction, &derivative);
+    of.pair->ForceHessian(x, 0.3, of.patch, kRn, kRt, direction, &derivative);
     EXPECT_TRUE(IsJacobian(hessian, Eigen::VectorXd::Zero(1), Entries(derivative), kDerivativeTolerance, 1e-3));
   }
 }
@@ -204,7 +206,7 @@ TEST(RigidPair, XiIsMeasuredFromTheReference) {
   pair.Evaluate(Eigen::VectorXd::Constant(1, 3.0), 0.0, 0, 2.5, &at);
   EXPECT_EQ(at.xi, 0.5);
   EXPECT_EQ(at.gap, 0.25);
-  EXPECT_EQ(pair.Dofs(), std::vector<int>{0});
+  EXPECT_EQ(std::vector<int>(at.dofs.begin(), at.dofs.end()), std::vector<int>{0});
 }
 
 }  // namespace

@@ -135,10 +135,8 @@ TEST(MovingSystem, DerivativesMeetDifferences) {
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
     const Kinematics at = KinematicsAt(*contacts[i], point.u, point.s);
-    moved += point.rn[k] * contacts[i]->Rate(at.gap_gradient, dx, 0.0) +
-             point.rt[k] * contacts[i]->Rate(at.xi_gradient, dx, 0.0);
-    friction += point.rn[k] * contacts[i]->Rate(at.gap_gradient, dx, 1.0) +
-                point.rt[k] * contacts[i]->Rate(at.xi_gradient, dx, 1.0);
+    moved += point.rn[k] * at.Rate(at.gap_gradient, dx, 0.0) + point.rt[k] * at.Rate(at.xi_gradient, dx, 0.0);
+    friction += point.rn[k] * at.Rate(at.gap_gradient, dx, 1.0) + point.rt[k] * at.Rate(at.xi_gradient, dx, 1.0);
   }
   double supports = 0.0;
   for (std::size_t k = 0; k < structure.PrescribedDofs().size(); ++k)

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "contact_path/scene/boundary_curve.h"
+#include "contact_path/scene/expand.h"
 #include "contact_path/scene/validate.h"
 #include "support/curved_obstacles.h"
 #include "support/decisions.h"
@@ -47,6 +49,7 @@ class Variation {
     Try(0.2, &Variation::TouchWithParts);
     Try(0.4, &Variation::BendObstacles);
     Try(0.2, &Variation::TurnObstacles);
+    Try(0.4, &Variation::TouchSurface);
     return std::move(request_);
   }
 
@@ -333,9 +336,40 @@ class Variation {
     for (Stage& stage : request_.program) turn_all(&stage.obstacle_motions);
   }
 
-  const Node& NodeOf(const std::string& name) {
-    return *std::find_if(scene().nodes.begin(), scene().nodes.end(),
-                         [&](const Node& node) { return node.name == name; });
+  // Any node against an edge of the solid, or one side of the beam, so thick that the node is near to it.
+  void TouchSurface() {
+    if (scene().surfaces.empty() && scene().beams.empty()) return;
+    if (scene().surfaces.empty() || (!scene().beams.empty() && random_.Chance(0.5))) {
+      const Beam& beam = scene().beams.back();
+      BoundarySurface side;
+      side.name = "side";
+      side.nodes.push_back(beam.nodes[0]);
+      for (int i = 1; i < beam.segments; ++i) side.nodes.push_back(beam.name + "/" + std::to_string(i));
+      side.nodes.push_back(beam.nodes[1]);
+      if (random_.Chance(0.5)) std::reverse(side.nodes.begin(), side.nodes.end());
+      scene().surfaces.push_back(std::move(side));
+    }
+    ContactCandidate contact;
+    contact.node = random_.OneOf(scene().nodes).name;
+    contact.surface = scene().surfaces.back().name;
+    contact.friction = random_.OneOf(std::array<double, 4>{0.0, 0.3, 1.0, 10.0});
+    Scene expanded = scene();
+    ExpandBeams(&expanded);
+    BoundarySurface& surface = scene().surfaces.back();
+    std::vector<Eigen::Vector2d> places;
+    for (const std::string& name : surface.nodes) {
+      const Node& at = NodeOf(expanded, name);
+      places.emplace_back(at.x, at.y);
+    }
+    const Node& node = NodeOf(contact.node);
+    const double gap = BoundaryCurve(places, false, 0.0).Nearest({node.x, node.y}).gap;
+    surface.radius = std::max(0.0, gap) * random_.OneOf(std::array<double, 4>{0.0, 0.9, 0.999, 1.0 - 1e-12});
+    scene().contacts.push_back(std::move(contact));
+  }
+
+  const Node& NodeOf(const std::string& name) { return NodeOf(scene(), name); }
+  static const Node& NodeOf(const Scene& of, const std::string& name) {
+    return *std::find_if(of.nodes.begin(), of.nodes.end(), [&](const Node& node) { return node.name == name; });
   }
 
   const bool quick_;

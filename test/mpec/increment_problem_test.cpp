@@ -10,6 +10,7 @@
 
 #include "contact_path/contact/scene_contacts.h"
 #include "support/curved_contacts.h"
+#include "support/deformable_scene.h"
 #include "support/derivative_checker.h"
 #include "support/mixed_scene.h"
 #include "support/random.h"
@@ -222,6 +223,37 @@ TEST(CurvedProblem, DerivativesMeetDifferences) {
   const Eigen::VectorXd x = random.Vector(problem.NumVariables(), 0.1, 1.0), values = ConstraintsOf(problem, x);
   const PathPoint point = problem.Point(x);
   EXPECT_NEAR(values[8], contacts[0]->Gap(point.u, point.s, 0) / 0.05, 1e-12);
+}
+
+// A node that stands beside the begin of its patch, so that increments lead to other patches, and one past both.
+TEST(DeformableProblem, DerivativesMeetDifferences) {
+  constexpr double kStep = 1e-3;
+  const Scene scene = DeformableScene();
+  const Structure structure(scene);
+  const ContactPairs contacts = BuildContacts(scene, structure);
+  Random random(12);
+  PathPoint from;
+  from.u = structure.Start() + random.Vector(9, -0.02, 0.02);
+  from.rn = random.Vector(2, 0.1, 1.0);
+  from.rt = random.Vector(2, -1.0, 1.0);
+  from.states = {ContactState::kStick, ContactState::kClosed};
+  for (const auto& contact : contacts) from.patches.push_back(contact->PatchAt(from.u, from.s));
+  std::set<int> patches;
+  for (int i = 0; i < 12; ++i) {
+    const IncrementProblem problem(structure, contacts, from, {0, 1},
+                                   {0.3, random.Vector(10, -1.0, 1.0).normalized(), 0.3, 1.7});
+    Eigen::VectorXd x = random.Vector(problem.NumVariables(), 0.1, 1.0);
+    x.head(9) = random.Vector(9, -0.7, 0.7);
+    EXPECT_TRUE(IsJacobian([&](const Eigen::VectorXd& at) { return ConstraintsOf(problem, at); }, x,
+                           JacobianOf(problem, x), kDerivativeTolerance, kStep));
+    const Eigen::VectorXd multipliers = random.Vector(problem.NumConstraints(), -1.0, 1.0);
+    const auto gradient = [&](const Eigen::VectorXd& at) {
+      return Eigen::VectorXd(0.8 * GradientOf(problem, at) + JacobianOf(problem, at).transpose() * multipliers);
+    };
+    EXPECT_TRUE(IsJacobian(gradient, x, HessianOf(problem, x, 0.8, multipliers), kDerivativeTolerance, kStep));
+    patches.insert(problem.Point(x).patches[0]);
+  }
+  EXPECT_GT(patches.size(), 1u);
 }
 
 TEST_P(MixedProblem, StructuresNameEachPlaceOnce) {

@@ -60,9 +60,9 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"cantilever_block", 0.0, 40, true, Method::kBranch}, Case{"peg", 0.0, 60, true, Method::kBranch},
         Case{"rope", 0.0, 50, false, Method::kBranch}, Case{"cam", 0.0, 150, true, Method::kBranch},
         Case{"snap_hook", 0.0, 100, false, Method::kBranch}, Case{"fin_ray", 0.0, 250, false, Method::kBranch},
-        Case{"peg_in_hole", 0.0, 190, true, Method::kBranch}, Case{"peg", 0.1, 25, true}, Case{"cam", 0.1, 40, true},
-        Case{"rope", 0.1, 12, true}, Case{"lee_frame", 0.0, 20, true}, Case{"portal_frame", 0.0, 10, true},
-        Case{"cantilever_block", 0.5, 10, true}),
+        Case{"peg_in_hole", 0.0, 190, true, Method::kBranch}, Case{"two_blocks", 0.0, 80, true, Method::kBranch},
+        Case{"peg", 0.1, 25, true}, Case{"cam", 0.1, 40, true}, Case{"rope", 0.1, 12, true},
+        Case{"lee_frame", 0.0, 20, true}, Case{"portal_frame", 0.0, 10, true}, Case{"cantilever_block", 0.5, 10, true}),
     CaseName);
 
 TEST_P(Invariance, PathIsLongEnoughToMeanSomething) {

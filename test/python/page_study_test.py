@@ -68,7 +68,8 @@ class PageOfStudy(ProgramTest):
     def test_what_cannot_be_drawn_is_one_line(self):
         with open(self.path('bare.yaml'), 'w') as file:
             file.write(STUDY.replace('paths: kept\n', ''))
-        for arguments, words in (((self.path('bare.yaml'),), 'keeps no paths'), ((self.path('study.yaml'), 'a.csv'), 'a page of its own')):
+        for arguments, words in (((self.path('bare.yaml'),), 'keeps no paths'),
+                                 ((self.path('study.yaml'), 'a.csv'), 'a page of its own')):
             drawn = run(PLOT, *arguments, '--html', self.path('a.html'))
             self.assertNotEqual(drawn.returncode, 0)
             self.assertEqual(drawn.stderr.count('\n'), 1, drawn.stderr)
@@ -107,7 +108,8 @@ class PageOfStudy(ProgramTest):
         """The path, the place of the mark on its curve, and the height of the apex in the structure."""
         return chromium.run('''const mark = document.getElementById('curves').data.slice(-2)[0];
             const bars = document.getElementById('structure').data.filter((trace) => trace.text && trace.mode === 'lines')[0];
-            return [document.getElementById('path').selectedOptions[0].text, [mark.x[0], mark.y[0]], bars.y[bars.text.indexOf('apex')]];''')
+            const title = document.getElementById('path').selectedOptions[0].text;
+            return [title, [mark.x[0], mark.y[0]], bars.y[bars.text.indexOf('apex')]];''')
 
 
 if __name__ == '__main__':

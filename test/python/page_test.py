@@ -16,7 +16,7 @@ ROOT = os.environ['CONTACT_PATH_ROOT']
 PROGRAMS = os.environ['CONTACT_PATH_PROGRAMS']
 sys.path.insert(0, os.path.join(ROOT, 'python'))
 import contact_path as cp  # noqa: E402
-from contact_path import page, page_arrays, page_points  # noqa: E402
+from contact_path import page, page_arrays  # noqa: E402
 from contact_path.scene_arrays import Structure  # noqa: E402
 from contact_path.shapes import Shape, View  # noqa: E402
 
@@ -51,8 +51,9 @@ class Data(ProgramTest):
         values[:, 5] = np.nan
         found = unpacked(page_arrays.trajectories(values), len(values))
         np.testing.assert_array_equal(np.isnan(found), np.isnan(values))
-        errors = np.nanmax(np.abs(found - values)[:, :5], axis=0)
-        self.assertTrue(np.all(errors <= np.nanmax(values[:, :5], axis=0) * 1e-15 + np.ptp(np.nan_to_num(values[:, :5]), axis=0) / 131000.0))
+        given = values[:, :5]
+        errors = np.nanmax(np.abs(found[:, :5] - given), axis=0)
+        self.assertTrue(np.all(errors <= (np.nanmax(given, axis=0) - np.nanmin(given, axis=0)) / 131000.0))
 
     def test_all_critical_points_are_steps(self):
         path = traced('stick_slip_cycle')
@@ -61,6 +62,16 @@ class Data(ProgramTest):
         self.assertEqual((rows[0], rows[-1]), (0, len(path) - 1))
         self.assertLessEqual(set(np.flatnonzero(path['kind'] != 'regular')), set(rows))
         np.testing.assert_array_equal(page.steps_of(path, 10000), np.arange(len(path)))
+
+    def test_increments_without_positions_are_no_steps(self):
+        path = traced('rough_truss')
+        table = {name: column.copy() for name, column in path.table.items()}
+        for name, column in table.items():
+            if name.partition('_')[0] in ('x', 'y', 'gap', 'rn', 'rt', 'state'):
+                column[3:6] = '' if column.dtype.kind == 'U' else np.nan
+        sparse = cp.Path(table, title='sparse', scene=path.scene)
+        self.assertFalse(set(page.steps_of(sparse, 1000)) & {3, 4, 5})
+        sparse.page(self.path('sparse.html'))
 
     def test_a_lattice_of_2000_dofs_and_600_increments(self):
         lattice = run(os.path.join(PROGRAMS, 'contact_path_lattice'), 'wall', '--columns', '49', '--rows', '19')
@@ -171,8 +182,8 @@ class InBrowser(ProgramTest):
         wanted = shapes[step].touching + view.length_per_force * shapes[step].reactions
         np.testing.assert_allclose(arrow[1], wanted[0], atol=1e-4 * view.size)
         cone, _ = self.drawn(step, "trace.name === 'friction cone'")
-        np.testing.assert_allclose(np.mean(cone[1:3], axis=0),
-                                   shapes[step].touching[0] + view.length_per_force * shapes[step].normal_parts[0], atol=1e-4 * view.size)
+        middle = shapes[step].touching[0] + view.length_per_force * shapes[step].normal_parts[0]
+        np.testing.assert_allclose(np.mean(cone[1:3], axis=0), middle, atol=1e-4 * view.size)
         _, texts = self.drawn(step, "(trace.text || [])[0] && trace.text[0].includes('@')")
         self.assertEqual(texts[0].split('<br>')[:3], [path.contacts[0], path['state_' + path.contacts[0]][step],
                                                      'rn %.6g' % path['rn_' + path.contacts[0]][step]])
@@ -216,7 +227,8 @@ class InBrowser(ProgramTest):
 
     def test_nothing_offers_to_send_data_away(self):
         self.open(traced('rigid_stop'))
-        buttons = self.browser.run("return Array.from(document.querySelectorAll('.modebar-btn'), (button) => button.dataset.title);")
+        buttons = self.browser.run(
+            "return Array.from(document.querySelectorAll('.modebar-btn'), (button) => button.dataset.title);")
         self.assertIn('Zoom', buttons)
         self.assertFalse([title for title in buttons if 'hare' in title or 'loud' in title])
 
@@ -239,6 +251,11 @@ class InBrowser(ProgramTest):
             self.open(path)
             self.browser.run('await page.choose(0, %d);' % (len(path) - 1))
             self.assertEqual(self.browser.complaints(), [], scene)
+
+    def test_a_path_of_a_single_increment(self):
+        path = traced('sliding_bar', direction=-1.0)
+        self.assertEqual(len(path), 1)
+        self.open(path)
 
     def test_play(self):
         path = traced('sliding_bar', max_increments=20)

@@ -25,7 +25,7 @@ TEST(StudyOutputs, OfTheRoughTrussAreItsClosedForms) {
   EXPECT_EQ(texts[3], texts[0]);
   EXPECT_NEAR(std::stod(texts[4]), rough_truss::TotalDissipation(), 1e-6);
   EXPECT_NEAR(std::stod(texts[5]), 0.0, 1e-6);
-  EXPECT_EQ(texts[6], "regular");
+  EXPECT_EQ(texts[6], "contact_event");
 }
 
 // Increments of which only kind and load factor matter.

@@ -17,7 +17,8 @@ inline Kinematics KinematicsAt(const ContactPair& pair, const Eigen::VectorXd& u
 
 inline double GapRate(const ContactPair& pair, const Eigen::VectorXd& u, double s, const Eigen::VectorXd& du,
                       double ds) {
-  return pair.Rate(KinematicsAt(pair, u, s).gap_gradient, du, ds);
+  const Kinematics at = KinematicsAt(pair, u, s);
+  return at.Rate(at.gap_gradient, du, ds);
 }
 
 }  // namespace contact_path

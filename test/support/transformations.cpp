@@ -225,6 +225,8 @@ TraceRequest Reverse(TraceRequest request) {
     std::reverse(group.nodes.begin(), group.nodes.end());
     for (std::string& node : group.nodes) node = FromOtherEnd(node, scene.beams);
   }
+  for (BoundarySurface& surface : scene.surfaces)
+    for (std::string& node : surface.nodes) node = FromOtherEnd(node, scene.beams);
   for (Bar& bar : scene.bars) std::reverse(bar.nodes.begin(), bar.nodes.end());
   for (Beam& beam : scene.beams) {
     std::reverse(beam.nodes.begin(), beam.nodes.end());

@@ -17,15 +17,18 @@
 namespace contact_path {
 
 // Gap u_n and surface coordinate xi as functions of the unknowns that move the pair, its dofs, and of the load factor.
-// The columns of the matrix T of eq. (1) are their gradients: the force r_n grad u_n + r_t grad xi acts on the
-// structure. q stands for (dofs, s) throughout: m + 1 entries with m = Dofs().size() <= kMostPairDofs, the load factor
-// last.
+// The columns of the matrix T of eq. (1) are their gradients: the force r_n grad u_n + r_t c grad xi acts on the
+// structure (contact/kinematics.h). Slip is c dxi. q stands for (dofs, s) throughout: m + 1 entries with m =
+// Dofs(patch).size() <= kMostPairDofs, the load factor last.
 class ContactPair {
  public:
   virtual ~ContactPair() = default;
 
-  const std::vector<int>& Dofs() const { return traits_.dofs; }  // into u, ascending
-  double Friction() const { return traits_.friction; }           // mu; 0 where the pair cannot slide
+  // Of a known patch.
+  virtual PairDofs Dofs(int /*patch*/) const { return traits_.dofs; }
+  // Whether the surface is a part of the structure: then other patches have other dofs, and c need not be 1.
+  bool Deformable() const { return traits_.deformable; }
+  double Friction() const { return traits_.friction; }  // mu; 0 where the pair cannot slide
   bool Frictional() const { return traits_.friction > 0.0; }
   // A power of 2 up to 1, of the order of the forces across the surface where the parts at the node are far softer than
   // the structure as a whole: reactions are compared with tolerances times this force.
@@ -66,36 +69,42 @@ class ContactPair {
   virtual bool HasPatch(int patch) const = 0;
   // Of xi, measured from 0; past the ends of an open surface infinite on one side.
   virtual XiRange RangeOf(int patch) const = 0;
-  // *derivative = d/dh of the matrix r_n hess u_n + r_t hess xi along q + h direction at h = 0: m + 1 square,
-  // symmetric. Asked of curved pairs only.
-  virtual void HessianDerivative(const Eigen::VectorXd& u, double s, int patch, double rn, double rt,
-                                 const PairVector& direction, PairMatrix* derivative) const = 0;
+  // *hessian = second derivatives by q of weights . (r_n grad u_n + r_t c grad xi), r_n and r_t do not change: m + 1
+  // square, symmetric. Asked of curved pairs only, as SecondDirectional().
+  virtual void ForceHessian(const Eigen::VectorXd& u, double s, int patch, double rn, double rt,
+                            const PairVector& weights, PairMatrix* hessian) const = 0;
+  // d2/dh2 of the force r_n grad u_n + r_t c grad xi along q + h direction at h = 0, by q; r_n and r_t do not change.
+  // Where c is 1 throughout, the force is a gradient, and this is ForceHessian() with the direction for weights, times
+  // the direction.
+  virtual PairVector SecondDirectional(const Eigen::VectorXd& u, double s, int patch, double rn, double rt,
+                                       const PairVector& direction) const;
+  // c and its first two derivatives by h along q + h first + h^2 / 2 second.
+  virtual Eigen::Vector3d SlipFactorAlong(const Eigen::VectorXd& u, double s, int patch, const PairVector& first,
+                                          const PairVector& second) const;
 
-  // d2/dh2 of the force r_n grad u_n + r_t grad xi along q + h direction at h = 0, by q; r_n and r_t do not change.
-  PairVector SecondDirectional(const Eigen::VectorXd& u, double s, int patch, double rn, double rt,
-                               const PairVector& direction) const;
+  // Whether another part of the surface than the patch that the node touches has come over the node between u and
+  // `after`: that part is now nearer to it, or the node has gone through it. Asked of deformable pairs.
+  virtual bool Overrun(const Eigen::VectorXd& /*u*/, const Eigen::VectorXd& /*after*/, int /*patch*/) const {
+    return false;
+  }
+
   // The value of xi from which stick and slip are measured at (u, s): xi itself, or xi_0 of the total law; of a closed
   // surface that of the round in which it is nearest.
   double SlipReference(const Eigen::VectorXd& u, double s, int patch) const;
   // xi, measured from 0.
   double Xi(const Eigen::VectorXd& u, double s, int patch) const;
-  // grad xi . (du, ds) at (u, s).
+  // Slip along (du, ds) at (u, s): c grad xi . (du, ds).
   double SlipRate(const Eigen::VectorXd& u, double s, int patch, const Eigen::VectorXd& du, double ds) const;
-  // Change of xi from (u, s) on a patch to (u + du, s + ds) on another one, or the same.
+  // Slip from (u, s) on a patch to (u + du, s + ds) on another one, or the same: the change of xi by the mean of c at
+  // both.
   double Slip(const Eigen::VectorXd& u, double s, int patch, const Eigen::VectorXd& du, double ds,
               int patch_after) const;
-
-  // The entries of (u, s) that belong to the pair.
-  PairVector Local(const Eigen::VectorXd& u, double s) const;
-  // gradient . (du, ds), the gradient by q.
-  double Rate(const PairVector& gradient, const Eigen::Ref<const Eigen::VectorXd>& du, double ds) const;
-  // out += factor * gradient by u.
-  void AddForce(const PairVector& gradient, double factor, Eigen::VectorXd* out) const;
 
  protected:
   using Terms = std::bitset<kMostPairDofs + 1>;
   struct Traits {
-    std::vector<int> dofs;
+    PairDofs dofs;  // of all patches, unless deformable
+    bool deformable = false;
     double friction = 0.0;
     double force_unit = 1.0;
     bool has_patches = false;
@@ -105,6 +114,7 @@ class ContactPair {
     std::optional<double> slip_origin;  // xi_0 of the total law
     double round = 0.0;
   };
+  const PairDofs& OwnDofs() const { return traits_.dofs; }
   // What does not change; set once, by the constructor of the pair.
   void SetTraits(Traits traits) { traits_ = std::move(traits); }
 

@@ -42,9 +42,9 @@ class RigidPair : public ContactPair {
   int PatchAt(const Eigen::VectorXd& u, double s) const override;
   int PatchAfter(const Eigen::VectorXd& u, double s, int from) const override;
   bool HasPatch(int patch) const override { return surface_->HasPatch(patch); }
-  XiRange RangeOf(int patch) const override;
-  void HessianDerivative(const Eigen::VectorXd& u, double s, int patch, double rn, double rt,
-                         const PairVector& direction, PairMatrix* derivative) const override;
+  XiRange RangeOf(int patch) const override { return RangeBeside(*surface_, patch); }
+  void ForceHessian(const Eigen::VectorXd& u, double s, int patch, double rn, double rt, const PairVector& direction,
+                    PairMatrix* derivative) const override;
 
  private:
   using Motion = Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, 3>;
@@ -53,6 +53,8 @@ class RigidPair : public ContactPair {
   struct Frame;
 
   Eigen::Vector2d Position(const Eigen::VectorXd& u, double s) const;
+  Eigen::Vector2d Unturned(const Eigen::VectorXd& u, double s) const;  // p - velocity s
+  double FlatGap(const Eigen::VectorXd& u, double s) const;
   // A patch that the surface has: past its ends the first or the last one.
   int NearestKnown(int patch) const;
 

@@ -95,7 +95,8 @@ class FixedStateSystem {
                                                    const Eigen::VectorXd& to);
 
   // The system among those of other contact states, for BorderedSolver; until the next set or pin. Null where the
-  // system is small, or has active constraints or a fixed load factor, or where very many contacts touch.
+  // system is small, or has active constraints or a fixed load factor, or where very many contacts touch, or one
+  // touches a deformable surface.
   const Frame* InFrame();
 
   // All inequalities of the fixed states, in contact order, and their values at x (>= 0: holds).
@@ -114,6 +115,9 @@ class FixedStateSystem {
   // The value along a curve with these derivatives at x.
   Jet ValueAlong(const Constraint& constraint, const Eigen::VectorXd& x, const Eigen::VectorXd& first,
                  const Eigen::VectorXd& second) const;
+  // The same of r_n c of a touching contact (contact/kinematics.h): times mu dxi, the dissipation of its slip.
+  Jet SlidingForceAlong(std::size_t contact, const Eigen::VectorXd& x, const Eigen::VectorXd& first,
+                        const Eigen::VectorXd& second) const;
   // The same of the force that moving supports and obstacles exert along their motion: their work is its integral over
   // s.
   Jet DrivingForceAlong(const Eigen::VectorXd& x, const Eigen::VectorXd& first, const Eigen::VectorXd& second) const;
@@ -157,7 +161,7 @@ class FixedStateSystem {
   template <typename Emit>
   void ForEachReactionEntry(std::size_t contact, const Kinematics& at, Emit emit) const;
   template <typename Emit>
-  void ForEachCurvatureEntry(std::size_t contact, const Kinematics& at, const Reaction& reaction, Emit emit) const;
+  void ForEachCurvatureEntry(const Kinematics& at, const Reaction& reaction, Emit emit) const;
   template <typename Emit>
   void ForEachConstantEntry(Emit emit) const;  // besides those of flat contacts
   void NumberEquations();
@@ -189,7 +193,7 @@ class FixedStateSystem {
   Eigen::Index first_active_equation_ = 0;
   Eigen::Index num_unknowns_ = 0;
   Eigen::Index num_equations_ = 0;
-  bool curved_ = false;  // some of the contacts in the equations are
+  bool curved_ = false, deformable_ = false;  // some of the contacts in the equations are
   Eigen::SparseMatrix<double> tangent_;
   Eigen::SparseMatrix<double> transposed_;
   Frame frame_;

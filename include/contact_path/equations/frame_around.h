@@ -12,9 +12,9 @@
 
 namespace contact_path {
 
-// framed: contacts that may touch, ascending; tangent: its pattern counts. Unknowns: u, r_n and r_t of each contact of
-// `framed`, reactions of the prescribed components, s. Equations: equilibrium, u_n and xi of each contact, prescribed
-// components. Where a system stands in it is left open.
+// framed: contacts that may touch, with rigid surfaces, ascending; tangent: its pattern counts. Unknowns: u, r_n and
+// r_t of each contact of `framed`, reactions of the prescribed components, s. Equations: equilibrium, u_n and xi of
+// each contact, prescribed components. Where a system stands in it is left open.
 Frame FrameAround(const Structure& structure, const ContactPairs& contacts, const std::vector<std::size_t>& framed,
                   const Eigen::SparseMatrix<double>& tangent);
 

@@ -48,6 +48,16 @@ class Surface {
   Projection ProjectOnNearest(const Eigen::Vector2d& x) const { return Project(x, Nearest(x).patch); }
 };
 
+// The patch where a surface is nearest to x; past an end of an open surface the number before the first patch, or after
+// the last one.
+int PatchBeside(const Surface& surface, const Eigen::Vector2d& x);
+// The same; of a closed surface in the round in which it is nearest to the patch `from`.
+int PatchBeside(const Surface& surface, const Eigen::Vector2d& x, int from);
+// Of xi on a patch; past the ends of an open surface infinite on one side.
+XiRange RangeBeside(const Surface& surface, int patch);
+// The gap on a patch. Where the surface does not have such a patch: the distance from the surface.
+double GapBeside(const Surface& surface, const Eigen::Vector2d& x, int patch);
+
 // Admissible side: n . (x - p) >= 0; xi = t . x.
 class HalfPlane : public Surface {
  public:

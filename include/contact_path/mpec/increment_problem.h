@@ -70,6 +70,7 @@ class IncrementProblem : public NonlinearProgram {
   struct Slot {
     const ContactPair* pair;
     int start_patch;              // where the increment starts
+    PairDofs dofs;                // of the patches that it may end on
     Kinematics at_start;          // of the increment
     double reference;             // value of xi from which slip is measured: ContactPair::SlipReference()
     Eigen::Index rn, rt, lambda;  // variables; rt, lambda -1 if frictionless
@@ -83,15 +84,18 @@ class IncrementProblem : public NonlinearProgram {
     Eigen::Index row;       // constraint
   };
 
-  // By y: gap and slip over S; gradients as they are, Hessians times S.
+  // By y and the dofs of the slot: gap and slip over S; gradients as they are, Hessians and the gradient of the slip
+  // factor times S.
   Kinematics ScaledKinematics(const Slot& slot, const Eigen::VectorXd& x) const;
-  // Calls visit(variable, k) for each variable that moves a pair, its gap, its xi; k: its number in the q of the pair.
+  // Where the node is. The structure of the matrices is fixed: of a deformable surface, the next patches are prolonged.
+  int PatchOf(const Slot& slot, const Eigen::VectorXd& u, double s) const;
+  // Calls visit(variable, k) for each variable that moves a pair, its gap, its xi; k: its number in the q of the slot.
   template <typename Visit>
-  void ForEachVariable(const ContactPair& pair, Visit visit) const;
+  void ForEachVariable(const Slot& slot, Visit visit) const;
   template <typename Visit>
-  void ForEachGapVariable(const ContactPair& pair, Visit visit) const;
+  void ForEachGapVariable(const Slot& slot, Visit visit) const;
   template <typename Visit>
-  void ForEachXiVariable(const ContactPair& pair, Visit visit) const;
+  void ForEachXiVariable(const Slot& slot, Visit visit) const;
   // Calls emit(row, column, value) for each structural entry, in a fixed order.
   template <typename Emit>
   void ForEachJacobianEntry(const Eigen::VectorXd& x, Emit emit) const;

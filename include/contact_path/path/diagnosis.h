@@ -47,6 +47,14 @@ std::string HiddenSlip(const Model& model, const PathPoint& point);
 // way to where the node started is the other one.
 std::string BeyondHalfRound(const Model& model, const Residuals& residuals);
 
+// Names a contact with a deformable surface of which another part has come over the node while it touches, from one
+// point of a path to the next; else empty.
+std::string OverrunContact(const Model& model, const PathPoint& from, const PathPoint& to);
+
+// Names an open contact whose node is behind its deformable surface, to where it has come past an end of it; else
+// empty. point: where to look, scaled.
+std::string BehindSurface(const Model& model, const PathPoint& point);
+
 // Names a contact that pulls at its node, by a share of what any contact has pushed with so far and by more than
 // rounding: it should have opened, and did not since its reactions are too small beside the characteristic force; else
 // empty. rounding: of the reactions of the point. largest_reaction: r_n, no less than those of the point. Both scaled,

@@ -32,9 +32,9 @@ void ExpandBeams(Scene* scene);
 using Places = std::vector<std::size_t>;
 
 // The request with the inner nodes of its beams, and with loads and contacts on nodes in place of those on groups; a
-// node that is fixed in x and y is no candidate of its group. A traction acts on the nodes of each segment of a beam,
-// half of its resultant on each, which is exact to second order in the length of the segment, and on the nodes of each
-// edge of a solid by their shape functions. `request` must be sound (validate.h).
+// node that is fixed in x and y is no candidate of its group, but with a surface that can move. A traction acts on the
+// nodes of each segment of a beam, half of its resultant on each, which is exact to second order in the length of the
+// segment, and on the nodes of each edge of a solid by their shape functions. `request` must be sound (validate.h).
 struct Expansion {
   TraceRequest request;
   Places loads, contacts;           // of the scene

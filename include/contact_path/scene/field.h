@@ -83,6 +83,12 @@ struct Member {
     changed.text = kind;
     return changed;
   }
+  // The text may be left out.
+  constexpr Member OrNone() const {
+    Member changed = *this;
+    changed.optional = true;
+    return changed;
+  }
   // The name of the field in earlier versions, for a message that tells the new one.
   constexpr Member Formerly(std::string_view old_name) const {
     Member changed = *this;
@@ -95,6 +101,7 @@ struct Member {
   Unit unit = {};
   Range range = Range::kAny;
   TextKind text = TextKind::kAny;
+  bool optional = false;  // whether the text may be empty, whatever its kind
   std::string_view formerly = {};
 };
 

@@ -19,7 +19,7 @@ struct Quantity {
     kX,           // <node>.x, or x_<node>: current position
     kY,           // <node>.y, or y_<node>
     kRotation,    // <node>.rotation, or rotation_<node>: of a node that a beam turns, since the start [rad]
-    kGap,         // <contact>.gap, or gap_<contact>; a contact is named <node>@<obstacle>
+    kGap,         // <contact>.gap, or gap_<contact>; a contact has the name of its candidate
     kRn,          // <contact>.rn, or rn_<contact>: normal reaction
     kRt,          // <contact>.rt, or rt_<contact>: tangential reaction
   };

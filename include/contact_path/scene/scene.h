@@ -244,13 +244,17 @@ struct Fields<Obstacle> {
   }
 };
 
-// A node that may touch an obstacle, or each node of a group. The name of a candidate is "<node>@<obstacle>".
+// A node that may touch an obstacle or a surface, or each node of a group. The name of a candidate is
+// "<node>@<obstacle>" or "<node>@<surface>".
 struct ContactCandidate {
   std::string node;
   std::string obstacle;
-  std::string group = {};  // in place of node
+  std::string group = {};    // in place of node
+  std::string surface = {};  // in place of obstacle
+  double friction = 0.0;     // Coulomb's coefficient with a surface, >= 0; that of an obstacle is its own
 
-  std::string Name() const { return node + "@" + obstacle; }
+  bool OnSurface() const { return !surface.empty(); }
+  std::string Name() const { return node + "@" + (OnSurface() ? surface : obstacle); }
 };
 
 template <>
@@ -258,7 +262,8 @@ struct Fields<ContactCandidate> {
   template <typename P>
   static constexpr auto Of() {
     return std::tuple(Member("node", &P::node).Naming(TextKind::kNode),
-                      Member("obstacle", &P::obstacle).Naming(TextKind::kObstacle), Member("group", &P::group));
+                      Member("obstacle", &P::obstacle).Naming(TextKind::kObstacle).OrNone(), Member("group", &P::group),
+                      Member("surface", &P::surface), Member("friction", &P::friction).Within(Range::kNotNegative));
   }
 };
 

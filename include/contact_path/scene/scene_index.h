@@ -1,4 +1,5 @@
-// The names of a scene, each resolved once: nodes, materials, obstacles and contacts by their place in the scene.
+// The names of a scene, each resolved once: nodes, materials, surfaces, obstacles and contacts by their place in the
+// scene.
 #ifndef CONTACT_PATH_SCENE_SCENE_INDEX_H_
 #define CONTACT_PATH_SCENE_SCENE_INDEX_H_
 
@@ -21,11 +22,13 @@ class SceneIndex {
   // Throw std::out_of_range for a name that the scene does not have: a sound request (validate.h) has none.
   std::size_t Node(std::string_view name) const { return nodes_.at(name); }
   std::size_t Material(std::string_view name) const { return materials_.at(name); }
+  std::size_t Surface(std::string_view name) const { return surfaces_.at(name); }
   std::size_t Obstacle(std::string_view name) const { return obstacles_.at(name); }
 
   // Nothing for a name that the scene does not have.
   std::optional<std::size_t> FindNode(std::string_view name) const { return Find(nodes_, name); }
   std::optional<std::size_t> FindMaterial(std::string_view name) const { return Find(materials_, name); }
+  std::optional<std::size_t> FindSurface(std::string_view name) const { return Find(surfaces_, name); }
   std::optional<std::size_t> FindObstacle(std::string_view name) const { return Find(obstacles_, name); }
   std::optional<std::size_t> FindContact(const std::string& name) const { return Find(contacts_, name); }
 
@@ -36,8 +39,8 @@ class SceneIndex {
     return found == map.end() ? std::nullopt : std::optional(found->second);
   }
 
-  std::unordered_map<std::string_view, std::size_t> nodes_, materials_, obstacles_;
-  std::unordered_map<std::string, std::size_t> contacts_;  // by "<node>@<obstacle>"
+  std::unordered_map<std::string_view, std::size_t> nodes_, materials_, surfaces_, obstacles_;
+  std::unordered_map<std::string, std::size_t> contacts_;  // by name
 };
 
 }  // namespace contact_path

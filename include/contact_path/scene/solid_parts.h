@@ -97,7 +97,8 @@ struct Fields<Solid> {
 };
 
 // Part of the boundary of a solid, or the axis of a beam: nodes in order, the material on the right of who walks along
-// them. Mid-side nodes stand between the corners of their edge.
+// them. Mid-side nodes stand between the corners of their edge. To contacts, the surface is the quadratic B-spline of
+// the current positions of its nodes, or the curve at the distance `radius` on the left of it.
 struct BoundarySurface {
   std::string name;
   std::vector<std::string> nodes;

@@ -130,7 +130,8 @@
       elementsByClass(own.solids, places, at).forEach((found, i) => traces.push({...own.solids.traces[i], ...found}));
     }
     for (const part of own.moving) {
-      traces.push({...part.trace, ...gather(places, part.points), ...(part.named ? {text: part.names, hovertemplate: own.template} : {})});
+      const told = part.named ? {text: part.names, hovertemplate: own.template} : {};
+      traces.push({...part.trace, ...gather(places, part.points), ...told});
     }
     if (own.contacts) {
       const {sizes, colours, texts, ...found} = contactMarks(own.contacts, places, at);
@@ -203,15 +204,17 @@
     const [across, up, colour] = ['across', 'up', 'colour'].map((id) => columns[element(id).value]);
     const chosen = study.paths.indexOf(number);
     const axis = (column) => ({title: {text: column.label}, type: column.kind, automargin: true, gridcolor: '#ebebeb'});
-    const lines = study.paths.map((_, i) => [`line ${i + 1}`, ...columns.map(({label, values}) => `${label}: ${values[i] ?? ''}`)].join('<br>'));
+    const lines = study.paths.map((_, i) =>
+      [`line ${i + 1}`, ...columns.map(({label, values}) => `${label}: ${values[i] ?? ''}`)].join('<br>'));
+    const symbols = study.paths.map((path) => path === null ? 'x-thin-open' : 'circle'); // a line without path, one with it
     const point = {type: 'scatter', mode: 'markers', showlegend: false};
     return Plotly.react('map', [
       {...point, x: across.values, y: up.values, text: lines, hovertemplate: '%{text}<extra></extra>',
-        marker: {size: 12, symbol: study.paths.map((path) => path === null ? 'x-thin-open' : 'circle'), color: colour.values.map((value) => value ?? NaN),
-          colorscale: 'Viridis', colorbar: {title: {text: colour.label, side: 'right'}, thickness: 12}}},
+        marker: {size: 12, symbol: symbols, color: colour.values.map((value) => value ?? NaN), colorscale: 'Viridis',
+          colorbar: {title: {text: colour.label, side: 'right'}, thickness: 12}}},
       {...point, x: [across.values[chosen]], y: [up.values[chosen]], hoverinfo: 'skip',
         marker: {size: 18, color: 'rgba(0,0,0,0)', line: {color: 'red', width: 2.5}}},
-    ], {xaxis: axis(across), yaxis: axis(up), margin: {l: 60, r: 10, t: 32, b: 50}, hovermode: 'closest', plot_bgcolor: '#ffffff'}, CONFIG);
+    ], {xaxis: axis(across), yaxis: axis(up), margin: {l: 60, r: 10, t: 32, b: 50}, hovermode: 'closest'}, CONFIG);
   }
 
   async function beginStudy() {
@@ -259,8 +262,8 @@
     const shown = count <= FEW_CONTACTS ? Array.from(contacts.nodes.keys()) : touching.slice(0, MOST_CONTACTS);
     const value = (field, i) => digits(contacts[field][step * count + i], CONTACT_DIGITS);
     const rows = shown.map((i) => {
-      const state = contacts.state[step * count + i];
-      return ['td', [stateMark(contacts.colours[state]), contacts.names[i]], contacts.states[state], value('rn', i), value('rt', i)];
+      const state = contacts.state[step * count + i], name = [stateMark(contacts.colours[state]), contacts.names[i]];
+      return ['td', name, contacts.states[state], value('rn', i), value('rt', i)];
     });
     return [['th', `contacts, ${touching.length} of ${count} touch`, 'state', 'rn', 'rt'], ...rows];
   }

@@ -1,0 +1,50 @@
+// A node against the boundary of a deformable part.
+#ifndef CONTACT_PATH_CONTACT_DEFORMABLE_PAIR_H_
+#define CONTACT_PATH_CONTACT_DEFORMABLE_PAIR_H_
+
+#include <Eigen/Core>
+#include <memory>
+
+#include "contact_path/contact/contact_pair.h"
+#include "contact_path/contact/deformable_boundary.h"
+
+namespace contact_path {
+
+// The dofs are those of the node and of the control nodes of the patch. With y(tau) the spline of the boundary, p = x -
+// y and p . y' = 0 at the foot: gap = p . n - radius, n on the left of y'; c = |dy/dxi| (1 - curvature radius), the
+// slip along the surface per change of the material coordinate xi. The reaction acts on the node, and opposite on the
+// control nodes: the two balance as forces and as moments, also where p is not zero.
+class DeformablePair : public ContactPair {
+ public:
+  // node: none of the boundary. force_bounds: of Structure::ForceBounds(); without them, the force unit is 1.
+  DeformablePair(std::shared_ptr<const DeformableBoundary> boundary, const NodePlace& node, double friction,
+                 const Eigen::VectorXd& force_bounds = Eigen::VectorXd());
+
+  PairDofs Dofs(int patch) const override;
+  void Evaluate(const Eigen::VectorXd& u, double s, int patch, double reference, Kinematics* kinematics) const override;
+  double Gap(const Eigen::VectorXd& u, double s, int patch) const override;
+  // The distance is less by the radius than that from the spline: of a node within the radius it is below 0.
+  NearestFoot Nearest(const Eigen::VectorXd& u, double s) const override;
+  int PatchAt(const Eigen::VectorXd& u, double s) const override;
+  int PatchAfter(const Eigen::VectorXd& u, double s, int from) const override;
+  bool HasPatch(int patch) const override;
+  XiRange RangeOf(int patch) const override;
+  void ForceHessian(const Eigen::VectorXd& u, double s, int patch, double rn, double rt, const PairVector& weights,
+                    PairMatrix* hessian) const override;
+  PairVector SecondDirectional(const Eigen::VectorXd& u, double s, int patch, double rn, double rt,
+                               const PairVector& direction) const override;
+  Eigen::Vector3d SlipFactorAlong(const Eigen::VectorXd& u, double s, int patch, const PairVector& first,
+                                  const PairVector& second) const override;
+  bool Overrun(const Eigen::VectorXd& u, const Eigen::VectorXd& after, int patch) const override;
+
+ private:
+  struct Stencil;
+  struct Columns;
+
+  std::shared_ptr<const DeformableBoundary> boundary_;
+  NodePlace node_;
+};
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_CONTACT_DEFORMABLE_PAIR_H_

@@ -1,0 +1,43 @@
+// The curve of a surface of the scene that contacts touch, with its nodes in place.
+#ifndef CONTACT_PATH_SCENE_BOUNDARY_CURVE_H_
+#define CONTACT_PATH_SCENE_BOUNDARY_CURVE_H_
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "contact_path/geometry/nodal_spline.h"
+#include "contact_path/geometry/outline.h"
+
+namespace contact_path {
+
+// The quadratic B-spline of the nodes (geometry/nodal_spline.h), and the curve at the distance `radius` on its left.
+class BoundaryCurve {
+ public:
+  // places: of the nodes of the surface, in their order [length].
+  BoundaryCurve(const std::vector<Eigen::Vector2d>& places, bool closed, double radius);
+
+  struct Foot {
+    double gap = 0.0;  // from the curve at the distance; past an end the distance from that end [length]
+    Eigen::Vector2d normal = Eigen::Vector2d::Zero();  // of length 1, on the left
+    bool is_end = false;                               // past an end of an open curve
+  };
+  // Where the whole curve is nearest to x.
+  Foot Nearest(const Eigen::Vector2d& x) const;
+
+  // Along the curve at the distance, `parts` for each patch; xi counts parts. A closed curve ends where it begins.
+  std::vector<OutlinePoint> Points(int parts) const;
+
+ private:
+  struct Patch {
+    Parabola curve;
+    double end;  // of its parameter
+  };
+
+  std::vector<Patch> patches_;
+  bool closed_;
+  double radius_;
+};
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_SCENE_BOUNDARY_CURVE_H_

@@ -1,0 +1,226 @@
+#include "check/boundary.h"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <unsupported/Eigen/AutoDiff>
+
+namespace contact_path::check {
+namespace {
+
+constexpr int kIterations = 200;  // of a bisection: more than there are bits
+constexpr int kParts = 16;        // of a patch, for its length
+
+constexpr BoundaryPatch::Weights kInner = {{{0.5L, -1.0L, 0.5L}, {0.5L, 1.0L, -1.0L}, {0.0L, 0.0L, 0.5L}}};
+constexpr BoundaryPatch::Weights kFirst = {{{1.0L, -0.5L, 0.0L}, {0.0L, 0.5L, 0.0L}, {}}};
+constexpr BoundaryPatch::Weights kLast = {{{0.5L, -0.5L, 0.0L}, {0.5L, 0.5L, 0.0L}, {}}};
+
+Real Cross(const Vector& a, const Vector& b) { return a.x * b.y - a.y * b.x; }
+Vector Plus(const Vector& a, Real factor, const Vector& b) { return {a.x + factor * b.x, a.y + factor * b.y}; }
+Vector Times(Real factor, const Vector& v) { return {factor * v.x, factor * v.y}; }
+
+// A number with its derivatives by the positions of a node and of the nodes of a patch.
+constexpr int kVariables = 2 * (1 + static_cast<int>(BoundaryPatch::kNodes));
+using Dual = Eigen::AutoDiffScalar<Eigen::Matrix<Real, kVariables, 1>>;
+
+struct DualVector {
+  Dual x, y;
+};
+
+DualVector VariableAt(const Vector& place, int number) {
+  return {Dual(place.x, kVariables, number), Dual(place.y, kVariables, number + 1)};
+}
+
+Dual DualDot(const DualVector& a, const DualVector& b) { return a.x * b.x + a.y * b.y; }
+
+// sum of factors[j] x_j.
+DualVector Combined(const std::array<Dual, BoundaryPatch::kNodes>& factors,
+                    const std::array<DualVector, BoundaryPatch::kNodes>& nodes) {
+  DualVector sum = {factors[0] * nodes[0].x, factors[0] * nodes[0].y};
+  for (std::size_t j = 1; j < factors.size(); ++j) {
+    sum.x += factors[j] * nodes[j].x;
+    sum.y += factors[j] * nodes[j].y;
+  }
+  return sum;
+}
+
+// The shape functions at tau, and their derivatives by it.
+struct Shapes {
+  std::array<Dual, BoundaryPatch::kNodes> values, slopes;
+};
+
+Shapes ShapesAt(const BoundaryPatch::Weights& weights, const Dual& tau) {
+  Shapes shapes;
+  for (std::size_t j = 0; j < weights.size(); ++j) {
+    const auto& [constant, linear, square] = weights[j];
+    shapes.values[j] = (tau * square + linear) * tau + constant;
+    shapes.slopes[j] = tau * (2.0L * square) + linear;
+  }
+  return shapes;
+}
+
+}  // namespace
+
+Boundary::Boundary(const BoundarySurface& surface, const std::vector<std::size_t>& nodes)
+    : closed_(surface.closed), radius_(surface.radius) {
+  const std::size_t n = nodes.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    if (closed_ || (i > 0 && i + 1 < n))
+      patches_.push_back({{nodes[(i + n - 1) % n], nodes[i], nodes[(i + 1) % n]}, kInner});
+    else if (i == 0)
+      patches_.push_back({{nodes[0], nodes[1], nodes[1]}, kFirst});
+    else
+      patches_.push_back({{nodes[n - 2], nodes[n - 1], nodes[n - 1]}, kLast});
+  }
+}
+
+BoundaryShape::BoundaryShape(const Boundary& boundary, const std::vector<double>& positions)
+    : boundary_(boundary), positions_(positions) {
+  std::vector<Around> around;
+  for (const BoundaryPatch& patch : boundary.Patches()) {
+    Parabola curve;
+    for (std::size_t j = 0; j < patch.nodes.size(); ++j) {
+      const Vector place = NodePosition(positions, patch.nodes[j]);
+      curve.at = Plus(curve.at, patch.weights[j][0], place);
+      curve.first = Plus(curve.first, patch.weights[j][1], place);
+      curve.second = Plus(curve.second, 2.0L * patch.weights[j][2], place);
+    }
+    // Within the triangle of its Bezier points.
+    const Vector corner = Plus(curve.at, 0.5L, curve.first), end = Place(curve, 1.0L);
+    around.push_back({corner, std::max(Length(curve.at - corner), Length(end - corner))});
+    curves_.push_back(curve);
+  }
+  search_ = NearestPiece(std::move(around));
+}
+
+Vector BoundaryShape::Place(const Parabola& curve, Real tau) {
+  return Plus(Plus(curve.at, tau, curve.first), 0.5L * tau * tau, curve.second);
+}
+
+Vector BoundaryShape::Direction(const Parabola& curve, Real tau) { return Plus(curve.first, tau, curve.second); }
+
+// The distance has its minima at roots of h = (y - x) . y', a cubic; between the roots of h' there is one of h at most.
+BoundaryFoot BoundaryShape::FootOn(const Parabola& curve, const Vector& x) {
+  const auto h = [&](Real tau) { return Dot(Place(curve, tau) - x, Direction(curve, tau)); };
+  // h' = a tau^2 + 2 b tau + c.
+  const Real a = 1.5L * Dot(curve.second, curve.second), b = 1.5L * Dot(curve.first, curve.second);
+  const Real c = Dot(curve.first, curve.first) + Dot(curve.at - x, curve.second);
+  std::array<Real, 4> bounds = {0.0L, 0.0L, 0.0L, 1.0L};
+  if (const Real square = b * b - a * c; square > 0.0L) {
+    const Real sum = -(b + std::copysign(std::sqrt(square), b));  // of equal signs
+    const Real first = sum / a, second = sum == 0.0L ? 0.0L : c / sum;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const Real root = i == 0 ? std::min(first, second) : std::max(first, second);
+      bounds[i + 1] = std::isfinite(root) ? std::clamp(root, 0.0L, 1.0L) : bounds[i];
+    }
+  }
+  BoundaryFoot nearest;
+  nearest.distance = std::numeric_limits<Real>::infinity();
+  const auto offer = [&](Real tau) {
+    const Real distance = Length(Place(curve, tau) - x);
+    if (!(distance < nearest.distance)) return;
+    nearest.tau = tau;
+    nearest.distance = distance;
+  };
+  for (const Real bound : bounds) offer(bound);
+  for (std::size_t i = 0; i < 3; ++i) {
+    Real low = bounds[i], high = bounds[i + 1];
+    if (!(h(low) < 0.0L && h(high) > 0.0L)) continue;  // no minimum inside
+    for (int k = 0; k < kIterations; ++k) {
+      const Real middle = 0.5L * (low + high);
+      if (middle <= low || middle >= high) break;
+      (h(middle) < 0.0L ? low : high) = middle;
+    }
+    offer(0.5L * (low + high));
+  }
+  return nearest;
+}
+
+BoundaryFoot BoundaryShape::Nearest(const Vector& x) const {
+  BoundaryFoot nearest;
+  nearest.distance = std::numeric_limits<Real>::infinity();
+  search_.Search(x, [&](std::size_t i) {
+    BoundaryFoot foot = FootOn(curves_[i], x);
+    foot.patch = i;
+    if (foot.distance < nearest.distance || (foot.distance == nearest.distance && i < nearest.patch)) nearest = foot;
+    return foot.distance;
+  });
+  if (boundary_.Closed()) return nearest;
+  const Vector back = x - Place(curves_[nearest.patch], nearest.tau);
+  const Real along = Dot(back, Direction(curves_[nearest.patch], nearest.tau));
+  nearest.is_end = (nearest.patch == 0 && nearest.tau == 0.0L && along < 0.0L) ||
+                   (nearest.patch + 1 == curves_.size() && nearest.tau == 1.0L && along > 0.0L);
+  return nearest;
+}
+
+Vector BoundaryShape::Normal(const BoundaryFoot& foot) const {
+  const Vector direction = Direction(curves_[foot.patch], foot.tau);
+  return Times(1.0L / Length(direction), {-direction.y, direction.x});
+}
+
+Real BoundaryShape::Gap(const Vector& x, const BoundaryFoot& foot) const {
+  if (foot.is_end) return foot.distance;
+  return Dot(Normal(foot), x - Place(curves_[foot.patch], foot.tau)) - boundary_.Radius();
+}
+
+// Gauss's rule of three points for the length of the curve itself; the curve at a distance to the left is shorter by
+// the distance times the angle by which the tangent turns to the left.
+Real BoundaryShape::Walked(std::size_t patch, Real from, Real to) const {
+  const Parabola& curve = curves_[patch];
+  const Real half = 0.5L * (to - from) / kParts, offset = half * std::sqrt(0.6L);
+  const auto speed = [&](Real tau) { return Length(Direction(curve, tau)); };
+  Real length = 0.0L;
+  for (int part = 0; part < kParts; ++part) {
+    const Real middle = from + static_cast<Real>(2 * part + 1) * half;
+    length += half * (5.0L * speed(middle - offset) + 8.0L * speed(middle) + 5.0L * speed(middle + offset)) / 9.0L;
+  }
+  const Vector begin = Direction(curve, from), end = Direction(curve, to);
+  return length - boundary_.Radius() * std::atan2(Cross(begin, end), Dot(begin, end));
+}
+
+Real BoundaryShape::Walked(const BoundaryFoot& from, const BoundaryFoot& to) const {
+  if (from.patch == to.patch) return Walked(from.patch, from.tau, to.tau);
+  if (from.patch > to.patch) return -Walked(to, from);
+  Real length = Walked(from.patch, from.tau, 1.0L) + Walked(to.patch, 0.0L, to.tau);
+  for (std::size_t patch = from.patch + 1; patch < to.patch; ++patch) length += Walked(patch, 0.0L, 1.0L);
+  if (!boundary_.Closed()) return length;
+  Real round = 0.0L;
+  for (std::size_t patch = 0; patch < curves_.size(); ++patch) round += Walked(patch, 0.0L, 1.0L);
+  return std::remainder(length, round);
+}
+
+// tau solves F = (x - y) . y' = 0. One step of Newton's method from the foot, with the derivative of F by tau as a
+// number, gives tau with its derivatives.
+BoundaryShape::Forces BoundaryShape::ForcesOf(const Vector& x, const BoundaryFoot& foot, Real rn, Real rt) const {
+  const BoundaryPatch& patch = boundary_.Patches()[foot.patch];
+  const Parabola& curve = curves_[foot.patch];
+  const DualVector node = VariableAt(x, 0);
+  std::array<DualVector, BoundaryPatch::kNodes> nodes;
+  for (std::size_t j = 0; j < nodes.size(); ++j)
+    nodes[j] = VariableAt(NodePosition(positions_, patch.nodes[j]), 2 + 2 * static_cast<int>(j));
+
+  const Shapes at_foot = ShapesAt(patch.weights, Dual(foot.tau));
+  const DualVector place = Combined(at_foot.values, nodes), direction = Combined(at_foot.slopes, nodes);
+  const DualVector away = {node.x - place.x, node.y - place.y};
+  const Vector first = Direction(curve, foot.tau);
+  const Real slope = Dot(x - Place(curve, foot.tau), curve.second) - Dot(first, first);
+  const Dual tau = Dual(foot.tau) - DualDot(away, direction) / slope;
+
+  const Shapes shapes = ShapesAt(patch.weights, tau);
+  const DualVector y = Combined(shapes.values, nodes), along = Combined(shapes.slopes, nodes);
+  const Dual gap =
+      ((node.y - y.y) * along.x - (node.x - y.x) * along.y) / sqrt(DualDot(along, along)) - boundary_.Radius();
+
+  const Real speed = Length(first), curvature = Cross(first, curve.second) / (speed * speed * speed);
+  const Real per_tau = speed * (1.0L - curvature * boundary_.Radius());
+  Forces forces;
+  for (std::size_t i = 0; i < forces.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(2 * i);
+    forces[i] = {rn * gap.derivatives()[k] + rt * per_tau * tau.derivatives()[k],
+                 rn * gap.derivatives()[k + 1] + rt * per_tau * tau.derivatives()[k + 1]};
+  }
+  return forces;
+}
+
+}  // namespace contact_path::check

@@ -1,0 +1,94 @@
+// Boundaries that deform as the check sees them: written from the definition of the curve (scene/solid_parts.h), apart
+// from contact/. Forces of contacts come from gap and foot by automatic differentiation.
+#ifndef CONTACT_PATH_SRC_CHECK_BOUNDARY_H_
+#define CONTACT_PATH_SRC_CHECK_BOUNDARY_H_
+
+#include <array>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "check/nearest_piece.h"
+#include "check/plane.h"
+#include "contact_path/scene/scene.h"
+
+namespace contact_path::check {
+
+// A part of the curve: y = sum of N_j(tau) x_j over its nodes, tau in [0, 1].
+struct BoundaryPatch {
+  static constexpr std::size_t kNodes = 3;
+  // N_j = sum of weights[j][k] tau^k; zero for a node that has no share.
+  using Weights = std::array<std::array<Real, 3>, kNodes>;
+
+  std::array<std::size_t, kNodes> nodes{};  // of the scene
+  Weights weights{};
+};
+
+struct BoundaryFoot {
+  std::size_t patch = 0;
+  Real tau = 0.0L;
+  Real distance = 0.0L;  // of the point from the foot [length]
+  bool is_end = false;   // the point is past an end of an open boundary
+};
+
+// Which nodes the patches of a surface of a scene have.
+class Boundary {
+ public:
+  // nodes: of the surface, by their places in the scene.
+  Boundary(const BoundarySurface& surface, const std::vector<std::size_t>& nodes);
+
+  const std::vector<BoundaryPatch>& Patches() const { return patches_; }
+  bool Closed() const { return closed_; }
+  Real Radius() const { return radius_; }
+
+ private:
+  std::vector<BoundaryPatch> patches_;
+  bool closed_;
+  Real radius_;
+};
+
+// A boundary where its nodes are. Both arguments must outlive it.
+class BoundaryShape {
+ public:
+  // positions: x0, y0, x1, ... of all nodes of the scene [length].
+  BoundaryShape(const Boundary& boundary, const std::vector<double>& positions);
+
+  // The nodes of the patch, by their places in the scene.
+  const std::array<std::size_t, BoundaryPatch::kNodes>& NodesOf(const BoundaryFoot& foot) const {
+    return boundary_.Patches()[foot.patch].nodes;
+  }
+  // The nearest point of the whole curve.
+  BoundaryFoot Nearest(const Vector& x) const;
+  // Of length 1, on the left of the curve.
+  Vector Normal(const BoundaryFoot& foot) const;
+  // (x - y) . n - radius; past an end the distance from it [length].
+  Real Gap(const Vector& x, const BoundaryFoot& foot) const;
+  // Length of the curve at the distance of the radius from one foot to another, along t; the shorter way round a closed
+  // curve [length].
+  Real Walked(const BoundaryFoot& from, const BoundaryFoot& to) const;
+
+  // The forces of r_n and r_t: on a node at x with its foot, and after it on the nodes of the patch [force].
+  using Forces = std::array<Vector, 1 + BoundaryPatch::kNodes>;
+  Forces ForcesOf(const Vector& x, const BoundaryFoot& foot, Real rn, Real rt) const;
+
+ private:
+  // y(tau) = at + tau first + tau^2 / 2 second.
+  struct Parabola {
+    Vector at, first, second;
+  };
+
+  static Vector Place(const Parabola& curve, Real tau);
+  static Vector Direction(const Parabola& curve, Real tau);
+  static BoundaryFoot FootOn(const Parabola& curve, const Vector& x);
+  // Of a part of a patch.
+  Real Walked(std::size_t patch, Real from, Real to) const;
+
+  const Boundary& boundary_;
+  const std::vector<double>& positions_;
+  std::vector<Parabola> curves_;  // by patch
+  NearestPiece search_;
+};
+
+}  // namespace contact_path::check
+
+#endif  // CONTACT_PATH_SRC_CHECK_BOUNDARY_H_

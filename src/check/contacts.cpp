@@ -1,0 +1,171 @@
+#include "check/contacts.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+
+#include "check/surfaces.h"
+
+namespace contact_path::check {
+namespace {
+
+Vector Turned(const Vector& v, Real angle) {
+  const Real c = std::cos(angle), s = std::sin(angle);
+  return {c * v.x - s * v.y, s * v.x + c * v.y};
+}
+
+// An obstacle, which is turned about a point and then moved, both in proportion to the load factor.
+struct MovedObstacle {
+  std::shared_ptr<const Surface> surface;
+  Vector motion;     // per unit of the load factor
+  Real turn = 0.0L;  // before that, about a point
+  Vector about;
+  Real friction = 0.0L;
+};
+
+class ObstacleContact : public Contact {
+ public:
+  // slip_origin: of the total law of friction, as the obstacle sees it.
+  ObstacleContact(std::size_t node, MovedObstacle obstacle, std::optional<Vector> slip_origin)
+      : Contact(node, obstacle.friction), obstacle_(std::move(obstacle)), slip_origin_(slip_origin) {}
+
+  bool SurelyOpen(const PlacedState& state) const override { return obstacle_.surface->SurelyOpen(Position(state)); }
+  Real Gap(const PlacedState& state) const override { return obstacle_.surface->Gap(Position(state)); }
+  // Where the obstacle is now.
+  Vector Normal(const PlacedState& state) const override {
+    const Vector normal = obstacle_.surface->Normal(Position(state));
+    return obstacle_.turn == 0.0L ? normal : Turned(normal, obstacle_.turn * state.LoadFactor());
+  }
+  Real Slip(const PlacedState& from, const PlacedState& to) const override {
+    return obstacle_.surface->Slip(Position(from), Position(to));
+  }
+  std::optional<Real> TotalSlip(const PlacedState& state) const override {
+    if (!slip_origin_) return std::nullopt;
+    return obstacle_.surface->Slip(*slip_origin_, Position(state));
+  }
+  void AddForces(const PlacedState& state, Real rn, Real rt, Real factor, std::vector<Real>* forces) const override {
+    const Vector normal = Normal(state), tangent{normal.y, -normal.x};
+    (*forces)[2 * Node()] += factor * (rn * normal.x + rt * tangent.x);
+    (*forces)[2 * Node() + 1] += factor * (rn * normal.y + rt * tangent.y);
+  }
+  Vector Velocity(const PlacedState& state) const override {
+    if (obstacle_.turn == 0.0L) return obstacle_.motion;
+    const Vector arm = state.Place(Node()) - obstacle_.about -
+                       Vector{state.LoadFactor() * obstacle_.motion.x, state.LoadFactor() * obstacle_.motion.y};
+    return {obstacle_.motion.x - obstacle_.turn * arm.y, obstacle_.motion.y + obstacle_.turn * arm.x};
+  }
+
+ private:
+  // The node as the obstacle sees it.
+  Vector Position(const PlacedState& state) const {
+    const Vector moved =
+        state.Place(Node()) - Vector{state.LoadFactor() * obstacle_.motion.x, state.LoadFactor() * obstacle_.motion.y};
+    if (obstacle_.turn == 0.0L) return moved;
+    const Vector back = Turned(moved - obstacle_.about, -obstacle_.turn * state.LoadFactor());
+    return {obstacle_.about.x + back.x, obstacle_.about.y + back.y};
+  }
+
+  MovedObstacle obstacle_;
+  std::optional<Vector> slip_origin_;
+};
+
+class BoundaryContact : public Contact {
+ public:
+  BoundaryContact(std::size_t node, std::size_t surface, Real friction) : Contact(node, friction), surface_(surface) {}
+
+  std::optional<std::size_t> TouchedSurface() const override { return surface_; }
+  Real Gap(const PlacedState& state) const override {
+    const Vector x = state.Place(Node());
+    const BoundaryShape& shape = state.Shape(surface_);
+    return shape.Gap(x, shape.Nearest(x));
+  }
+  Vector Normal(const PlacedState& state) const override {
+    const BoundaryShape& shape = state.Shape(surface_);
+    return shape.Normal(shape.Nearest(state.Place(Node())));
+  }
+  // The motion of the foot through the material, as long as it is in the mean of both shapes.
+  Real Slip(const PlacedState& from, const PlacedState& to) const override {
+    const BoundaryShape &before = from.Shape(surface_), &after = to.Shape(surface_);
+    const BoundaryFoot begin = before.Nearest(from.Place(Node())), end = after.Nearest(to.Place(Node()));
+    return 0.5L * (before.Walked(begin, end) + after.Walked(begin, end));
+  }
+  void AddForces(const PlacedState& state, Real rn, Real rt, Real factor, std::vector<Real>* forces) const override {
+    for (const auto& [node, force] : ForcesByNode(state, rn, rt)) {
+      (*forces)[2 * node] += factor * force.x;
+      (*forces)[2 * node + 1] += factor * force.y;
+    }
+  }
+  Real Imbalance(const PlacedState& state, Real rn, Real rt, Real length) const override {
+    const Vector x = state.Place(Node());
+    Vector sum;
+    Real moment = 0.0L;
+    for (const auto& [node, force] : ForcesByNode(state, rn, rt)) {
+      const Vector arm = state.Place(node) - x;
+      sum = {sum.x + force.x, sum.y + force.y};
+      moment += arm.x * force.y - arm.y * force.x;
+    }
+    return std::max(Length(sum), std::abs(moment) / length);
+  }
+
+ private:
+  std::array<std::pair<std::size_t, Vector>, 1 + BoundaryPatch::kNodes> ForcesByNode(const PlacedState& state, Real rn,
+                                                                                     Real rt) const {
+    const Vector x = state.Place(Node());
+    const BoundaryShape& shape = state.Shape(surface_);
+    const BoundaryFoot foot = shape.Nearest(x);
+    const BoundaryShape::Forces forces = shape.ForcesOf(x, foot, rn, rt);
+    const std::array<std::size_t, BoundaryPatch::kNodes>& nodes = shape.NodesOf(foot);
+    return {{{Node(), forces[0]}, {nodes[0], forces[1]}, {nodes[1], forces[2]}, {nodes[2], forces[3]}}};
+  }
+
+  std::size_t surface_;
+};
+
+}  // namespace
+
+std::vector<Boundary> MakeBoundaries(const Scene& scene, const NodeNumbers& numbers) {
+  std::vector<Boundary> boundaries;
+  for (const BoundarySurface& surface : scene.surfaces) {
+    std::vector<std::size_t> nodes;
+    for (const std::string& node : surface.nodes) nodes.push_back(numbers.at(node));
+    boundaries.emplace_back(surface, nodes);
+  }
+  return boundaries;
+}
+
+std::vector<std::unique_ptr<const Contact>> MakeContacts(const Scene& scene, const NodeNumbers& numbers,
+                                                         const std::vector<double>& slip_origins) {
+  std::unordered_map<std::string_view, MovedObstacle> obstacles;
+  for (const Obstacle& obstacle : scene.obstacles)
+    obstacles.emplace(obstacle.name, MovedObstacle{MakeSurface(obstacle), {}, 0.0L, {}, obstacle.friction});
+  for (const ObstacleMotion& motion : scene.obstacle_motions) {
+    MovedObstacle& moved = obstacles.at(motion.obstacle);
+    moved.motion = {motion.dx, motion.dy};
+    moved.turn = motion.turn;
+    moved.about = {motion.about_x, motion.about_y};
+  }
+  std::unordered_map<std::string_view, std::size_t> surfaces;
+  for (std::size_t i = 0; i < scene.surfaces.size(); ++i) surfaces.emplace(scene.surfaces[i].name, i);
+  std::vector<std::unique_ptr<const Contact>> contacts;
+  for (const ContactCandidate& contact : scene.contacts) {
+    const std::size_t node = numbers.at(contact.node);
+    if (contact.OnSurface()) {
+      contacts.push_back(std::make_unique<BoundaryContact>(node, surfaces.at(contact.surface), contact.friction));
+      continue;
+    }
+    const auto obstacle = obstacles.find(contact.obstacle);
+    if (obstacle == obstacles.end()) throw std::invalid_argument("no obstacle has the name " + contact.obstacle);
+    std::optional<Vector> origin;
+    if (const std::size_t k = 2 * contacts.size(); !slip_origins.empty())
+      origin = Vector{slip_origins.at(k), slip_origins.at(k + 1)};
+    contacts.push_back(std::make_unique<ObstacleContact>(node, obstacle->second, origin));
+  }
+  return contacts;
+}
+
+}  // namespace contact_path::check

@@ -1,0 +1,87 @@
+// Contact candidates as the check sees them.
+#ifndef CONTACT_PATH_SRC_CHECK_CONTACTS_H_
+#define CONTACT_PATH_SRC_CHECK_CONTACTS_H_
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "check/boundary.h"
+#include "check/elements.h"
+#include "check/plane.h"
+#include "contact_path/check/residuals.h"
+#include "contact_path/scene/scene.h"
+
+namespace contact_path::check {
+
+// A state with its boundaries where their nodes are, each made when it is first asked for.
+class PlacedState {
+ public:
+  // Both arguments must outlive it. boundaries: of the surfaces of the scene.
+  PlacedState(const CheckedState& state, const std::vector<Boundary>& boundaries)
+      : state_(state), boundaries_(boundaries), shapes_(boundaries.size()) {}
+
+  Vector Place(std::size_t node) const { return NodePosition(state_.positions, node); }
+  Real LoadFactor() const { return state_.load_factor; }
+  const BoundaryShape& Shape(std::size_t surface) const {
+    if (!shapes_[surface]) shapes_[surface].emplace(boundaries_[surface], state_.positions);
+    return *shapes_[surface];
+  }
+
+ private:
+  const CheckedState& state_;
+  const std::vector<Boundary>& boundaries_;
+  mutable std::vector<std::optional<BoundaryShape>> shapes_;
+};
+
+class Contact {
+ public:
+  virtual ~Contact() = default;
+
+  std::size_t Node() const { return node_; }
+  Real Friction() const { return friction_; }
+  // By its place in the scene; nothing of an obstacle.
+  virtual std::optional<std::size_t> TouchedSurface() const { return std::nullopt; }
+
+  // True: the gap is > 0, told at once of most nodes that are far away. False tells nothing.
+  virtual bool SurelyOpen(const PlacedState&) const { return false; }
+  virtual Real Gap(const PlacedState& state) const = 0;
+  // Towards the admissible side.
+  virtual Vector Normal(const PlacedState& state) const = 0;
+  // Motion along t, as the partner of the node sees it [length].
+  virtual Real Slip(const PlacedState& from, const PlacedState& to) const = 0;
+  // By the total law of friction: slip since the start of the program; by the incremental law nothing.
+  virtual std::optional<Real> TotalSlip(const PlacedState&) const { return std::nullopt; }
+  // The slip that friction opposes: the total one, or that from one state to another.
+  Real LawfulSlip(const PlacedState& from, const PlacedState& to) const {
+    const std::optional<Real> total = TotalSlip(to);
+    return total ? *total : Slip(from, to);
+  }
+  // Adds the forces of r_n and r_t, times factor, to *forces: x0, y0, x1, ... by node.
+  virtual void AddForces(const PlacedState& state, Real rn, Real rt, Real factor, std::vector<Real>* forces) const = 0;
+  // Velocity of what the node touches and is fixed to a moving obstacle, per unit of the load factor.
+  virtual Vector Velocity(const PlacedState&) const { return {}; }
+  // How far the forces on all nodes are from balance, and their moments about the node over `length`; 0 for an
+  // obstacle, which the ground holds.
+  virtual Real Imbalance(const PlacedState&, Real, Real, Real) const { return 0.0L; }
+
+ protected:
+  Contact(std::size_t node, Real friction) : node_(node), friction_(friction) {}
+
+ private:
+  std::size_t node_;
+  Real friction_;
+};
+
+// By surface of the scene.
+std::vector<Boundary> MakeBoundaries(const Scene& scene, const NodeNumbers& numbers);
+
+// In the order of the scene. slip_origins: of Configuration. Throws std::out_of_range or std::invalid_argument for a
+// name that the scene does not have.
+std::vector<std::unique_ptr<const Contact>> MakeContacts(const Scene& scene, const NodeNumbers& numbers,
+                                                         const std::vector<double>& slip_origins);
+
+}  // namespace contact_path::check
+
+#endif  // CONTACT_PATH_SRC_CHECK_CONTACTS_H_

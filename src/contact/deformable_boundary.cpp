@@ -1,0 +1,96 @@
+#include "contact_path/contact/deformable_boundary.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace contact_path {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kAsFar = 1e-10;  // of a distance
+
+// From the line between two points.
+double Distance(const Vector2d& x, const Vector2d& begin, const Vector2d& end) {
+  const Vector2d along = end - begin, away = x - begin;
+  const double share = std::clamp(along.dot(away) / along.squaredNorm(), 0.0, 1.0);
+  return (away - share * along).norm();
+}
+
+}  // namespace
+
+DeformableBoundary::DeformableBoundary(std::vector<NodePlace> nodes, const std::vector<Vector2d>& start, bool closed,
+                                       double radius)
+    : nodes_(std::move(nodes)), spline_(static_cast<int>(nodes_.size()), closed), radius_(radius) {
+  double length = closed ? (start.front() - start.back()).norm() : 0.0;
+  for (std::size_t i = 1; i < start.size(); ++i) length += (start[i] - start[i - 1]).norm();
+  length_per_knot_ = length / static_cast<double>(closed ? start.size() : start.size() - 1);
+}
+
+std::array<Vector2d, 3> DeformableBoundary::Places(const SplinePatch& patch, const Eigen::VectorXd& u) const {
+  std::array<Vector2d, 3> places;
+  for (std::size_t k = 0; k < places.size(); ++k)
+    places[k] = patch.nodes[k] >= 0 ? nodes_[static_cast<std::size_t>(patch.nodes[k])].At(u) : Vector2d::Zero();
+  return places;
+}
+
+XiRange BoundaryAt::RangeOf(int patch) const {
+  const SplinePatch of = boundary_.Spline().Patch(patch);
+  const double length = boundary_.LengthPerKnot();
+  return {length * of.knot, length * (of.knot + of.end)};
+}
+
+NearestFoot BoundaryAt::Nearest(const Vector2d& x) const {
+  NearestFoot nearest;
+  nearest.distance = std::numeric_limits<double>::infinity();
+  // Next to the end of a patch, the end and the foot on the next patch are equally far, to rounding.
+  double most = nearest.distance;
+  const auto consider = [&](int patch, double distance, bool is_joint, bool is_end) {
+    const double counted = is_joint ? (1.0 + kAsFar) * distance : distance;
+    if (!(counted < most || (counted == most && patch < nearest.patch))) return;
+    most = counted;
+    nearest = {patch, distance, is_end};
+  };
+  const int last = NumPatches() - 1;
+  for (int i = 0; i <= last; ++i) {
+    const SplinePatch patch = boundary_.Spline().Patch(i);
+    const Parabola curve = ParabolaOf(patch);
+    const Vector2d begin = curve.a, end = curve.At(patch.end);
+    // The parabola is no farther from its chord than a quarter of c.
+    if (Distance(x, begin, end) > most + 0.25 * curve.c.lpNorm<1>()) continue;
+    const double tau = curve.FootOf(x, patch.end);
+    if (tau >= 0.0 && tau <= patch.end) {
+      consider(i, (x - curve.At(tau)).norm(), false, false);
+      continue;
+    }
+    const bool is_first = !Closed() && i == 0, is_last = !Closed() && i == last;
+    consider(i, (x - begin).norm(), !is_first, is_first);
+    consider(i, (x - end).norm(), !is_last, is_last);
+  }
+  return nearest;
+}
+
+Projection BoundaryAt::Project(const Vector2d& x, int patch) const {
+  const SplinePatch of = boundary_.Spline().Patch(patch);
+  const Parabola curve = ParabolaOf(of);
+  const double tau = curve.FootOf(x, of.end);
+  const Vector2d first = curve.b + 2.0 * tau * curve.c, second = 2.0 * curve.c;
+  const double speed = first.norm();
+  Projection at;
+  at.normal = Vector2d(-first.y(), first.x()) / speed;
+  at.gap = (x - curve.At(tau)).dot(at.normal) - boundary_.Radius();
+  at.xi = boundary_.LengthPerKnot() * (of.knot + tau);
+  at.curvature = (first.x() * second.y() - first.y() * second.x()) / (speed * speed * speed);
+  return at;
+}
+
+Vector2d BoundaryAt::PointAt(double xi) const {
+  const double knot = xi / boundary_.LengthPerKnot();
+  const SplinePatch of = boundary_.Spline().Patch(static_cast<int>(std::floor(knot + 0.5)));
+  const Parabola curve = ParabolaOf(of);
+  return curve.At(knot - of.knot);
+}
+
+}  // namespace contact_path

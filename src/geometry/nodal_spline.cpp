@@ -1,0 +1,90 @@
+#include "contact_path/geometry/nodal_spline.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace contact_path {
+namespace {
+
+constexpr int kIterations = 60;
+constexpr double kFoot = 1e-16;            // of tau
+constexpr double kRoundingOfFoot = 1e-12;  // of tau: a move that is no smaller than the one before is rounding
+
+}  // namespace
+
+int NodalSpline::Within(int patch) const {
+  if (!closed_) return std::clamp(patch, 0, nodes_ - 1);
+  const int within = patch % nodes_;
+  return within < 0 ? within + nodes_ : within;
+}
+
+SplinePatch NodalSpline::Patch(int patch) const {
+  const int i = Within(patch);
+  SplinePatch result;
+  if (!closed_ && (i == 0 || i == nodes_ - 1)) {
+    // Half of the edge between two nodes, tau from its beginning.
+    const bool first = i == 0;
+    result.nodes = {first ? 0 : i - 1, first ? 1 : i, -1};
+    result.weights.topLeftCorner<2, 2>() << (first ? 1.0 : 0.5), -1.0, (first ? 0.0 : 0.5), 1.0;
+    result.knot = first ? 0.0 : i - 0.5;
+    result.end = 0.5;
+    return result;
+  }
+  result.nodes = {Within(i - 1), i, Within(i + 1)};
+  result.weights << 0.5, -1.0, 0.5, 0.5, 1.0, -1.0, 0.0, 0.0, 0.5;
+  result.knot = (closed_ ? patch : i) - 0.5;
+  result.end = 1.0;
+  return result;
+}
+
+Parabola::Parabola(const SplinePatch& patch, const std::array<Eigen::Vector2d, 3>& places)
+    : a(Eigen::Vector2d::Zero()), b(Eigen::Vector2d::Zero()), c(Eigen::Vector2d::Zero()) {
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    if (patch.nodes[k] < 0) continue;
+    const auto row = static_cast<Eigen::Index>(k);
+    a += patch.weights(row, 0) * places[k];
+    b += patch.weights(row, 1) * places[k];
+    c += patch.weights(row, 2) * places[k];
+  }
+}
+
+// The slope of half the square of the distance is -f, f = (x - y) . y' a cubic whose leading coefficient is not
+// positive. There is one minimum on each part of the line where f falls: on the whole line, or before and after the
+// places where f' is zero.
+double Parabola::FootOf(const Eigen::Vector2d& x, double end) const {
+  const Eigen::Vector2d d = x - a;
+  const double f0 = d.dot(b), f1 = 2.0 * d.dot(c) - b.dot(b), f2 = -3.0 * b.dot(c), f3 = -2.0 * c.dot(c);
+  const auto f = [&](double tau) { return f0 + tau * (f1 + tau * (f2 + tau * f3)); };
+  const auto slope = [&](double tau) { return f1 + tau * (2.0 * f2 + 3.0 * tau * f3); };
+  double foot = 0.0, outside = std::numeric_limits<double>::infinity(), square = outside;
+  const auto consider = [&](double tau) {
+    double previous = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < kIterations; ++i) {
+      const double move = -f(tau) / slope(tau), size = std::abs(move);
+      tau += move;
+      if (!(size > kFoot) || (size < kRoundingOfFoot * (1.0 + std::abs(tau)) && size >= previous)) break;
+      previous = size;
+    }
+    const double beyond = std::max(std::max(-tau, tau - end), 0.0), away = (x - At(tau)).squaredNorm();
+    if (!(beyond < outside || (beyond == outside && away < square))) return;
+    foot = tau;
+    outside = beyond;
+    square = away;
+  };
+  const double middle = 0.5 * end, bends = f2 * f2 - 3.0 * f3 * f1;
+  if (!(f3 < 0.0) || !(bends > 0.0)) {
+    consider(middle);
+    return foot;
+  }
+  // f' = 0 at (-f2 +- sqrt(bends)) / (3 f3), f3 < 0.
+  const double root = std::sqrt(bends), before = (-f2 + root) / (3.0 * f3), after = (-f2 - root) / (3.0 * f3);
+  // Newton's method from a place where f falls stays there. Next to an end of such a part it would begin with a leap.
+  const double margin = 0.25 * (after - before);
+  if (!(f(before) > 0.0)) consider(std::min(middle, before - margin));
+  if (!(f(after) < 0.0)) consider(std::max(middle, after + margin));
+  return foot;
+}
+
+}  // namespace contact_path

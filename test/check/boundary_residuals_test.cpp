@@ -1,0 +1,186 @@
+// The residuals of contacts with surfaces that deform: closed forms, and forces against differences of gap and slip.
+#include <gtest/gtest.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "contact_path/check/residuals.h"
+#include "support/random.h"
+
+namespace contact_path {
+namespace {
+
+constexpr double kRounding = 1e-13;
+constexpr double kPi = 3.14159265358979323846;
+
+// A node p and the nodes of a surface, each on a spring of the same stiffness to where it is at the start.
+Scene BesideSurface(const std::vector<Eigen::Vector2d>& places, bool closed, double radius, double stiffness) {
+  Scene scene;
+  scene.nodes = {{"p", 0.0, 0.0}};
+  BoundarySurface surface{"top", {}, closed, radius};
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    scene.nodes.push_back({std::to_string(i), places[i].x(), places[i].y()});
+    surface.nodes.push_back(scene.nodes.back().name);
+  }
+  for (const Node& node : scene.nodes) scene.superelements.push_back({{node.name}, {stiffness, 0.0, 0.0, stiffness}});
+  scene.surfaces = {surface};
+  scene.contacts.resize(1);
+  scene.contacts[0].node = "p";
+  scene.contacts[0].surface = "top";
+  scene.contacts[0].friction = 0.3;
+  return scene;
+}
+
+CheckedState StateOf(const Eigen::Vector2d& p, const std::vector<Eigen::Vector2d>& places) {
+  CheckedState state;
+  state.positions = {p.x(), p.y()};
+  for (const Eigen::Vector2d& place : places) state.positions.insert(state.positions.end(), {place.x(), place.y()});
+  state.rn = state.rt = {0.0};
+  return state;
+}
+
+// The forces of the reactions of the only contact, x0, y0, x1, ...
+std::vector<double> ForcesOf(const ResidualCheck& check, CheckedState state, double rn, double rt) {
+  std::vector<double> forces = check.Unbalance(state);
+  state.rn = {rn};
+  state.rt = {rt};
+  const std::vector<double> with = check.Unbalance(state);
+  for (std::size_t i = 0; i < forces.size(); ++i) forces[i] -= with[i];
+  return forces;
+}
+
+std::vector<Eigen::Vector2d> Ring(int nodes) {
+  std::vector<Eigen::Vector2d> places;  // clockwise: the outside is admissible
+  for (int i = 0; i < nodes; ++i) {
+    const double angle = 2.0 * kPi * i / nodes;
+    places.push_back({std::sin(angle), std::cos(angle)});
+  }
+  return places;
+}
+
+TEST(BoundaryResiduals, OfAStraightSurfaceThatIsStretched) {
+  const std::vector<Eigen::Vector2d> before = {{0.0, 0.0}, {2.0, 0.0}}, after = {{0.0, 1.0}, {3.0, 1.0}};
+  for (const double radius : {0.0, 0.25}) {
+    const Scene scene = BesideSurface(before, false, radius, 0.0);
+    const ResidualCheck check(scene, Configuration::Of(scene), {});
+    const CheckedState from = StateOf({0.6, 0.1}, before), to = StateOf({1.5, 1.5}, after);
+    EXPECT_NEAR(check.Gap(0, from), 0.1 - radius, kRounding);
+    EXPECT_NEAR(check.Gap(0, to), 0.5 - radius, kRounding);
+    EXPECT_NEAR(check.Normal(0, to)[0], 0.0, kRounding);
+    EXPECT_NEAR(check.Normal(0, to)[1], 1.0, kRounding);
+    // From the share 0.3 of the material to 0.5, of a length between 2 and 3.
+    EXPECT_NEAR(check.Slip(0, from, to), 0.2 * 2.5, kRounding);
+    EXPECT_NEAR(check.Slip(0, from, StateOf({0.9, 1.0}, after)), 0.0, kRounding);
+    EXPECT_NEAR(check.Slip(0, to, from), -0.2 * 2.5, kRounding);
+
+    // Lever arms: of 2 up on p, 2 down on the foot at 0.4 of the surface; friction acts at the height of the radius.
+    const std::vector<double> forces = ForcesOf(check, StateOf({1.2, 1.0 + radius}, after), 2.0, 0.5);
+    const double couple = 0.5 * radius / 3.0;
+    const std::vector<double> expected = {0.5, 2.0, -0.3, -1.2 - couple, -0.2, -0.8 + couple};
+    for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(forces[i], expected[i], kRounding) << i;
+  }
+}
+
+// A parabola between the middles of two edges of a regular polygon passes its node at an eighth of the second
+// difference, and its own circle at the middles at cos(pi / N).
+TEST(BoundaryResiduals, OfARingOfNodesTendToThoseOfACircle) {
+  double last = 0.0;
+  for (const int nodes : {12, 24, 48}) {
+    const std::vector<Eigen::Vector2d> places = Ring(nodes);
+    const Scene scene = BesideSurface(places, true, 0.1, 0.0);
+    const ResidualCheck check(scene, Configuration::Of(scene), {});
+    const double step = 2.0 * kPi / nodes;
+    const auto at = [&](double angle) { return StateOf({1.5 * std::sin(angle), 1.5 * std::cos(angle)}, places); };
+    EXPECT_NEAR(check.Gap(0, at(3.0 * step)), 0.5 + 0.25 * (1.0 - std::cos(step)) - 0.1, kRounding);
+    EXPECT_NEAR(check.Gap(0, at(3.5 * step)), 1.5 - std::cos(0.5 * step) - 0.1, kRounding);
+    // A third of the circle at the distance of the radius, over the place where the surface begins, and back.
+    const double third = check.Slip(0, at(-0.25 * 2.0 * kPi), at((1.0 / 3.0 - 0.25) * 2.0 * kPi));
+    EXPECT_NEAR(third + check.Slip(0, at((1.0 / 3.0 - 0.25) * 2.0 * kPi), at(-0.25 * 2.0 * kPi)), 0.0, kRounding);
+    const double error = std::abs(third - 1.1 * 2.0 * kPi / 3.0);
+    if (last > 0.0) {
+      EXPECT_NEAR(error / last, 0.25, 0.02);
+    }
+    last = error;
+  }
+}
+
+// The force of r_n is the gradient of the gap, that of r_t the gradient of the slip.
+TEST(BoundaryResiduals, ForcesAreGradientsAndBalance) {
+  Random random(3);
+  int compared = 0;
+  for (int example = 0; example < 60; ++example) {
+    const bool closed = example % 2 == 0;
+    const double radius = example % 3 == 0 ? 0.0 : 0.05;
+    std::vector<Eigen::Vector2d> places = Ring(7);
+    for (Eigen::Vector2d& place : places) place += random.Vector(2, -0.12, 0.12);
+    const Scene scene = BesideSurface(places, closed, radius, 0.0);
+    const ResidualCheck check(scene, Configuration::Of(scene), {});
+    const double angle = random.Number(0.3, 5.0);
+    const CheckedState state =
+        StateOf(random.Number(1.0, 1.3) * Eigen::Vector2d(std::sin(angle), std::cos(angle)), places);
+    if (std::abs(check.Gap(0, state)) > 0.5) continue;
+    ++compared;
+    const std::vector<double> normal = ForcesOf(check, state, 1.0, 0.0), tangential = ForcesOf(check, state, 0.0, 1.0);
+    for (const std::vector<double>& forces : {normal, tangential}) {
+      double fx = 0.0, fy = 0.0, moment = 0.0;
+      for (std::size_t i = 0; i < forces.size(); i += 2) {
+        fx += forces[i];
+        fy += forces[i + 1];
+        moment += state.positions[i] * forces[i + 1] - state.positions[i + 1] * forces[i];
+      }
+      EXPECT_NEAR(fx, 0.0, kRounding);
+      EXPECT_NEAR(fy, 0.0, kRounding);
+      EXPECT_NEAR(moment, 0.0, kRounding);
+    }
+    constexpr double kStep = 1e-5;
+    for (std::size_t i = 0; i < state.positions.size(); ++i) {
+      CheckedState more = state, less = state;
+      more.positions[i] += kStep;
+      less.positions[i] -= kStep;
+      EXPECT_NEAR(normal[i], (check.Gap(0, more) - check.Gap(0, less)) / (2.0 * kStep), 1e-8) << i;
+      EXPECT_NEAR(tangential[i], (check.Slip(0, state, more) - check.Slip(0, state, less)) / (2.0 * kStep), 1e-8) << i;
+    }
+  }
+  EXPECT_GT(compared, 40);
+}
+
+TEST(BoundaryResiduals, OfAnExactStateAreRounding) {
+  const std::vector<Eigen::Vector2d> start = {{-1.0, 0.0}, {1.0, 0.0}};
+  Scene scene = BesideSurface(start, false, 0.0, 4.0);
+  scene.superelements[0].stiffness = {0.0, 0.0, 0.0, 0.0};
+  scene.loads = {{"p", 0.6, -2.0, true}};
+  const ResidualCheck check(scene, Configuration::Of(scene), {});
+  // Over the middle, both springs carry a half of the load.
+  CheckedState now = StateOf({0.075, -0.25}, {{-0.925, -0.25}, {1.075, -0.25}}), before = now;
+  now.rn = {2.0};
+  now.rt = {-0.6};
+  before.positions[0] -= 0.01;
+  EXPECT_LE(check.Check(before, now).Largest(), 1e-15);
+  // Pulled the other way, the node does not slip.
+  before.positions[0] += 0.02;
+  EXPECT_NEAR(check.Check(before, now).friction_law, 0.01, kRounding);
+  // Nor is a node in balance that the surface does not touch.
+  now.positions[1] += 0.01;
+  EXPECT_NEAR(check.Check(now, now).complementarity, 0.01, kRounding);
+}
+
+TEST(BoundaryResiduals, BehindTheSurfaceIsPenetrationAndPastAnEndNothing) {
+  const std::vector<Eigen::Vector2d> places = {{0.0, 0.0}, {1.0, 0.2}, {2.0, 0.0}};
+  const Scene scene = BesideSurface(places, false, 0.3, 1.0);
+  const ResidualCheck check(scene, Configuration::Of(scene), {});
+  const auto residuals_at = [&](double x, double y) {
+    CheckedState state = StateOf({x, y}, places);
+    return check.Check(state, state);
+  };
+  EXPECT_EQ(residuals_at(1.0, 0.5).penetration, 0.0);
+  EXPECT_NEAR(residuals_at(1.0, 0.1).penetration, 0.35, kRounding);  // the curve is at 0.15 there
+  EXPECT_EQ(residuals_at(-0.4, -0.3).penetration, 0.0);
+  EXPECT_NEAR(check.Gap(0, StateOf({-0.4, -0.3}, places)), 0.5, kRounding);
+}
+
+}  // namespace
+}  // namespace contact_path

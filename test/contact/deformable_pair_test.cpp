@@ -1,0 +1,277 @@
+#include "contact_path/contact/deformable_pair.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "support/deformable_contacts.h"
+#include "support/derivative_checker.h"
+#include "support/kinematics.h"
+#include "support/random.h"
+
+namespace contact_path {
+namespace {
+
+constexpr double kRounding = 1e-13;
+constexpr double kRn = 0.7, kRt = -0.4;
+
+class DeformablePairs : public testing::Test {
+ protected:
+  struct Case {
+    DeformableContact contact;
+    int patch;
+    std::string name;
+  };
+
+  DeformablePairs() {
+    for (const bool closed : {false, true})
+      for (const double radius : {0.0, 0.15})
+        for (const int patch : {0, 1, 2, 4, -1, 7}) {
+          if (!closed && (patch < 0 || patch > 4)) continue;
+          for (const bool hold_some : {false, true}) {
+            Case of = {DeformableContact(5, closed, radius, 0.3, hold_some), patch,
+                       (closed ? "closed " : "open ") + std::to_string(radius) + " " + std::to_string(patch)};
+            of.contact.u += random_.Vector(of.contact.u.size(), -0.05, 0.05);
+            of.contact.PutBeside(patch, 0.37, 0.12);
+            cases_.push_back(std::move(of));
+          }
+        }
+  }
+  static Kinematics At(const Case& of, const Eigen::VectorXd& u) {
+    return KinematicsAt(*of.contact.pair, u, 0.0, of.patch);
+  }
+  // u with the entries q of the pair.
+  static Eigen::VectorXd Moved(const Case& of, const Eigen::VectorXd& q) {
+    Eigen::VectorXd u = of.contact.u;
+    const PairDofs dofs = of.contact.pair->Dofs(of.patch);
+    for (std::size_t k = 0; k < dofs.size(); ++k) u[dofs[k]] = q[static_cast<Eigen::Index>(k)];
+    return u;
+  }
+  static Eigen::VectorXd Start(const Case& of) { return LocalOf(of.contact.pair->Dofs(of.patch), of.contact.u, 0.0); }
+  // r_n grad u_n + r_t c grad xi.
+  static PairVector Force(const Kinematics& at) {
+    return kRn * at.gap_gradient + kRt * at.slip_factor * at.xi_gradient;
+  }
+
+  Random random_{3};
+  std::vector<Case> cases_;
+};
+
+TEST_F(DeformablePairs, GradientsMeetDifferences) {
+  for (const Case& of : cases_) {
+    const Kinematics at = At(of, of.contact.u);
+    const auto values = [&](const Eigen::VectorXd& q) {
+      const Kinematics moved = At(of, Moved(of, q));
+      return Eigen::Vector3d(moved.gap, moved.xi, moved.slip_factor);
+    };
+    Eigen::MatrixXd gradients(3, at.gap_gradient.size());
+    gradients << at.gap_gradient.transpose(), at.xi_gradient.transpose(), at.slip_factor_gradient.transpose();
+    EXPECT_TRUE(IsJacobian(values, Start(of), gradients, kDerivativeTolerance, 1e-3)) << of.name;
+    EXPECT_NEAR(of.contact.pair->Gap(of.contact.u, 0.0, of.patch), at.gap, kRounding);
+    EXPECT_NEAR(at.gap, 0.12, 1e-2) << of.name;
+    EXPECT_LE(at.gap_gradient.norm(), of.contact.pair->LargestGapRate());
+  }
+}
+
+TEST_F(DeformablePairs, HessiansMeetDifferences) {
+  for (const Case& of : cases_) {
+    const Kinematics at = At(of, of.contact.u);
+    const auto of_gap = [&](const Eigen::VectorXd& q) { return Eigen::VectorXd(At(of, Moved(of, q)).gap_gradient); };
+    const auto of_xi = [&](const Eigen::VectorXd& q) { return Eigen::VectorXd(At(of, Moved(of, q)).xi_gradient); };
+    EXPECT_TRUE(IsJacobian(of_gap, Start(of), at.gap_hessian, kDerivativeTolerance, 1e-3)) << of.name;
+    EXPECT_TRUE(IsJacobian(of_xi, Start(of), at.xi_hessian, kDerivativeTolerance, 1e-3)) << of.name;
+  }
+}
+
+TEST_F(DeformablePairs, ChangesOfTheForceMeetDifferences) {
+  for (const Case& of : cases_) {
+    const Kinematics at = At(of, of.contact.u);
+    const auto force = [&](const Eigen::VectorXd& q) { return Eigen::VectorXd(Force(At(of, Moved(of, q)))); };
+    const Eigen::MatrixXd change = at.ForceChange(kRn, kRt).transpose();
+    EXPECT_TRUE(IsJacobian(force, Start(of), change, kDerivativeTolerance, 1e-3)) << of.name;
+  }
+}
+
+TEST_F(DeformablePairs, SecondDerivativesOfTheForceMeetDifferences) {
+  for (const Case& of : cases_) {
+    const DeformablePair& pair = *of.contact.pair;
+    const PairVector direction = random_.Vector(Start(of).size(), -1.0, 1.0);
+    const auto along = [&](const Eigen::VectorXd& h) {
+      const Kinematics at = At(of, Moved(of, Start(of) + h[0] * direction));
+      return Eigen::VectorXd(at.ForceChange(kRn, kRt).transpose() * direction);
+    };
+    const PairVector second = pair.SecondDirectional(of.contact.u, 0.0, of.patch, kRn, kRt, direction);
+    EXPECT_TRUE(IsJacobian(along, Eigen::VectorXd::Zero(1), second, kDerivativeTolerance, 1e-3)) << of.name;
+    const auto weighted = [&](const Eigen::VectorXd& q) {
+      return Eigen::VectorXd(At(of, Moved(of, q)).ForceChange(kRn, kRt) * direction);
+    };
+    PairMatrix hessian;
+    pair.ForceHessian(of.contact.u, 0.0, of.patch, kRn, kRt, direction, &hessian);
+    EXPECT_TRUE(IsJacobian(weighted, Start(of), hessian, kDerivativeTolerance, 1e-3)) << of.name;
+  }
+}
+
+TEST_F(DeformablePairs, SlipFactorAlongACurveMeetsDifferences) {
+  for (const Case& of : cases_) {
+    const PairVector first = random_.Vector(Start(of).size(), -0.5, 0.5);
+    const PairVector second = random_.Vector(Start(of).size(), -0.5, 0.5);
+    const auto on_curve = [&](double h) { return Moved(of, Start(of) + h * first + 0.5 * h * h * second); };
+    const auto rate = [&](const Eigen::VectorXd& h) {
+      const Kinematics at = At(of, on_curve(h[0]));
+      return Eigen::Vector2d(at.slip_factor, at.slip_factor_gradient.dot(first + h[0] * second));
+    };
+    const Eigen::Vector3d along = of.contact.pair->SlipFactorAlong(of.contact.u, 0.0, of.patch, first, second);
+    EXPECT_NEAR(along[0], At(of, of.contact.u).slip_factor, kRounding);
+    EXPECT_TRUE(IsJacobian(rate, Eigen::VectorXd::Zero(1), along.tail<2>(), kDerivativeTolerance, 1e-3)) << of.name;
+  }
+}
+
+// The sum of the forces, and of their moments about the origin.
+TEST_F(DeformablePairs, ForcesAndMomentsBalance) {
+  for (const Case& of : cases_) {
+    if (of.contact.u.size() != 12) continue;  // some are held
+    const Kinematics at = At(of, of.contact.u);
+    Eigen::VectorXd force = Eigen::VectorXd::Zero(of.contact.u.size());
+    at.AddForce(at.gap_gradient, kRn, &force);
+    at.AddForce(at.xi_gradient, kRt * at.slip_factor, &force);
+    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+    double moment = 0.0;
+    for (Eigen::Index k = 0; k < force.size(); k += 2) {
+      sum += force.segment<2>(k);
+      moment += of.contact.u[k] * force[k + 1] - of.contact.u[k + 1] * force[k];
+    }
+    EXPECT_LE(sum.norm(), kRounding) << of.name;
+    EXPECT_NEAR(moment, 0.0, kRounding) << of.name;
+  }
+}
+
+// On the surface itself the force on the node is r_n n + r_t t.
+TEST_F(DeformablePairs, OnTheSurfaceTheForceOnTheNodeIsTheReaction) {
+  for (Case& of : cases_) {
+    of.contact.PutBeside(of.patch, 0.6, 0.0);
+    const Kinematics at = At(of, of.contact.u);
+    Eigen::VectorXd force = Eigen::VectorXd::Zero(of.contact.u.size());
+    at.AddForce(at.gap_gradient, kRn, &force);
+    at.AddForce(at.xi_gradient, kRt * at.slip_factor, &force);
+    const Eigen::Vector2d n =
+        BoundaryAt(*of.contact.boundary, of.contact.u).Project(of.contact.u.tail<2>(), of.patch).normal;
+    EXPECT_NEAR(at.gap, 0.0, kRounding);
+    EXPECT_LE((force.tail<2>() - kRn * n - kRt * TangentOf(n)).norm(), kRounding) << of.name;
+  }
+}
+
+// Where patches meet: gap, xi, their gradients and the slip factor without a radius go on as they are.
+TEST_F(DeformablePairs, GoesOnFromPatchToPatch) {
+  for (const Case& of : cases_) {
+    if (!of.contact.pair->HasPatch(of.patch + 1)) continue;
+    DeformableContact contact(5, of.contact.boundary->Spline().Closed(), 0.0);
+    contact.PutBeside(of.patch, 1.0, 0.1);
+    Kinematics before = KinematicsAt(*contact.pair, contact.u, 0.0, of.patch);
+    Kinematics after = KinematicsAt(*contact.pair, contact.u, 0.0, of.patch + 1);
+    EXPECT_NEAR(before.xi, contact.pair->RangeOf(of.patch).end, kRounding);
+    EXPECT_NEAR(after.xi, contact.pair->RangeOf(of.patch + 1).begin, kRounding);
+    EXPECT_NEAR(before.gap, after.gap, kRounding);
+    EXPECT_NEAR(before.slip_factor, after.slip_factor, kRounding);
+    Eigen::VectorXd forces = Eigen::VectorXd::Zero(contact.u.size());
+    before.AddForce(before.gap_gradient, kRn, &forces);
+    after.AddForce(after.gap_gradient, -kRn, &forces);
+    EXPECT_LE(forces.norm(), kRounding) << of.name;
+    contact.PutBeside(of.patch, 1.0, 0.0);
+    before = KinematicsAt(*contact.pair, contact.u, 0.0, of.patch);
+    after = KinematicsAt(*contact.pair, contact.u, 0.0, of.patch + 1);
+    before.AddForce(before.xi_gradient, kRt, &forces);
+    after.AddForce(after.xi_gradient, -kRt, &forces);
+    EXPECT_LE(forces.norm(), kRounding) << of.name;
+  }
+}
+
+TEST_F(DeformablePairs, ARigidMotionChangesNothing) {
+  for (const Case& of : cases_) {
+    if (of.contact.u.size() != 12) continue;  // some are held
+    const Eigen::Rotation2Dd turn(0.7);
+    Eigen::VectorXd u = of.contact.u;
+    for (Eigen::Index k = 0; k < u.size(); k += 2)
+      u.segment<2>(k) = turn * u.segment<2>(k) + Eigen::Vector2d(0.3, -2.0);
+    EXPECT_NEAR(of.contact.pair->Gap(u, 0.0, of.patch), of.contact.pair->Gap(of.contact.u, 0.0, of.patch), kRounding);
+    EXPECT_NEAR(of.contact.pair->Xi(u, 0.0, of.patch), of.contact.pair->Xi(of.contact.u, 0.0, of.patch), kRounding);
+    EXPECT_EQ(of.contact.pair->PatchAfter(u, 0.0, of.patch), of.patch) << of.name;
+  }
+}
+
+// A node stands above a line of two nodes that is stretched to twice its length, and moves along by one quarter of it.
+TEST(DeformablePair, OnAStraightLineSlipsByTheLengthOfWhatItPasses) {
+  const auto line =
+      std::make_shared<DeformableBoundary>(std::vector<NodePlace>{{{-1, -1}, {0.0, 0.0}}, {{0, -1}, {0.0, 0.0}}},
+                                           std::vector<Eigen::Vector2d>{{0.0, 0.0}, {1.0, 0.0}}, false, 0.1);
+  const DeformablePair pair(line, {{1, 2}, Eigen::Vector2d::Zero()}, 0.3);
+  const Eigen::Vector3d from(2.0, 1.2, 0.1), to(2.0, 1.7, 0.1);
+  EXPECT_EQ(pair.PatchAt(from, 0.0), 1);
+  EXPECT_NEAR(pair.Gap(from, 0.0, 1), 0.0, kRounding);
+  EXPECT_NEAR(pair.Xi(from, 0.0, 1), 0.6, kRounding);
+  EXPECT_NEAR(pair.Slip(from, 0.0, 1, to - from, 0.0, 1), 0.5, kRounding);
+  EXPECT_NEAR(pair.SlipRate(from, 0.0, 1, Eigen::Vector3d(0.0, 1.0, 0.0), 0.0), 1.0, kRounding);
+  // The line alone is stretched, and the node does not slide along where the material goes as fast.
+  EXPECT_NEAR(pair.SlipRate(from, 0.0, 1, Eigen::Vector3d(1.0, 0.6, 0.0), 0.0), 0.0, kRounding);
+}
+
+TEST(DeformablePair, PastTheEndsOfAnOpenBoundaryTheGapIsTheDistanceFromTheEnd) {
+  DeformableContact contact(3, false, 0.2);
+  contact.u.head<6>() << 0.0, 0.0, 1.0, 0.0, 2.0, 0.0;
+  const auto put = [&](double x, double y) { contact.u.tail<2>() << x, y; };
+  const DeformablePair& pair = *contact.pair;
+  put(-0.3, 0.4);
+  EXPECT_EQ(pair.PatchAt(contact.u, 0.0), -1);
+  EXPECT_NEAR(pair.Gap(contact.u, 0.0, -1), 0.5, kRounding);
+  put(2.3, 0.4);
+  EXPECT_EQ(pair.PatchAt(contact.u, 0.0), 3);
+  EXPECT_NEAR(pair.Gap(contact.u, 0.0, 3), 0.5, kRounding);
+  put(1.0, 0.5);
+  EXPECT_EQ(pair.PatchAt(contact.u, 0.0), 1);
+  EXPECT_NEAR(pair.Gap(contact.u, 0.0, kNearestPatch), 0.3, kRounding);
+  EXPECT_NEAR(pair.Nearest(contact.u, 0.0).distance, 0.3, kRounding);
+  EXPECT_FALSE(pair.HasPatch(-1) || pair.HasPatch(3));
+  EXPECT_TRUE(std::isinf(pair.RangeOf(-1).begin) && std::isinf(pair.RangeOf(3).end));
+}
+
+// A boundary that goes to the right, up, and back to the left above a node: its upper part sinks onto the node.
+TEST(DeformablePair, IsOverrunByAnotherPartOfItsBoundary) {
+  for (const double radius : {0.0, 0.3}) {
+    DeformableContact contact(8, false, radius);
+    const auto fold = [&](double upper) {
+      Eigen::VectorXd u(18);
+      u << 0.0, 0.0, 1.0, 0.0, 2.0, 0.0, 3.0, 0.0, 3.0, upper, 2.0, upper, 1.0, upper, 0.0, upper, 1.1, radius;
+      return u;
+    };
+    EXPECT_NEAR(contact.pair->Gap(fold(1.0), 0.0, 1), 0.0, kRounding);
+    EXPECT_FALSE(contact.pair->Overrun(fold(1.0), fold(0.7), 1));
+    EXPECT_TRUE(contact.pair->Overrun(fold(0.7), fold(radius > 0.0 ? 0.5 : -0.1), 1));
+    EXPECT_FALSE(contact.pair->Overrun(fold(radius > 0.0 ? 0.7 : -0.2), fold(radius > 0.0 ? 0.65 : -0.1), 1));
+  }
+}
+
+// Twice round a closed boundary, one way and the other.
+TEST(DeformablePair, PatchesGoRoundAClosedBoundary) {
+  DeformableContact contact(8, true, 0.1);
+  const double length = contact.boundary->LengthPerKnot();
+  for (const double turn : {0.3, -0.3}) {
+    int patch = 0;
+    double last = 0.0;
+    for (int i = 0; i < 42; ++i) {
+      const double angle = turn * i;
+      contact.u.tail<2>() << 1.3 * std::sin(angle), 1.1 * std::cos(angle);
+      patch = contact.pair->PatchAfter(contact.u, 0.0, patch);
+      const double xi = contact.pair->Xi(contact.u, 0.0, patch);
+      if (i > 0) {
+        EXPECT_GT((xi - last) / turn, 0.3) << angle;
+      }
+      EXPECT_NEAR(xi, 8.0 * length * angle / 6.283185307179586, 0.5 * length) << angle;
+      last = xi;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace contact_path

@@ -1,0 +1,104 @@
+#include "contact_path/geometry/nodal_spline.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "support/random.h"
+
+namespace contact_path {
+namespace {
+
+constexpr double kRounding = 1e-14;
+
+Parabola ParabolaOf(const SplinePatch& patch, const std::vector<Eigen::Vector2d>& nodes) {
+  std::array<Eigen::Vector2d, 3> places;
+  for (std::size_t k = 0; k < 3; ++k)
+    places[k] = patch.nodes[k] >= 0 ? nodes[static_cast<std::size_t>(patch.nodes[k])] : Eigen::Vector2d::Zero();
+  return {patch, places};
+}
+
+std::vector<Eigen::Vector2d> RandomNodes(int count, Random* random) {
+  std::vector<Eigen::Vector2d> nodes;
+  for (int i = 0; i < count; ++i) nodes.emplace_back(0.5 * i + random->Number(-0.2, 0.2), random->Number(-0.3, 0.3));
+  return nodes;
+}
+
+TEST(NodalSpline, TouchesItsEdgesInTheirMiddlesWithOneSlope) {
+  Random random(1);
+  for (const bool closed : {false, true})
+    for (const int count : {2, 3, 5}) {
+      if (closed && count == 2) continue;
+      const std::vector<Eigen::Vector2d> nodes = RandomNodes(count, &random);
+      const NodalSpline spline(count, closed);
+      for (int i = 0; i + 1 < count || (closed && i < count); ++i) {
+        const Eigen::Vector2d &a = nodes[static_cast<std::size_t>(i)],
+                              &b = nodes[static_cast<std::size_t>((i + 1) % count)];
+        const SplinePatch before = spline.Patch(i), after = spline.Patch(i + 1);
+        const Parabola to = ParabolaOf(before, nodes), from = ParabolaOf(after, nodes);
+        EXPECT_NEAR(before.knot + before.end, after.knot, kRounding);
+        EXPECT_LE((to.At(before.end) - 0.5 * (a + b)).norm(), kRounding);
+        EXPECT_LE((from.a - 0.5 * (a + b)).norm(), kRounding);
+        EXPECT_LE((to.b + 2.0 * before.end * to.c - (b - a)).norm(), kRounding);
+        EXPECT_LE((from.b - (b - a)).norm(), kRounding);
+      }
+      if (closed) continue;
+      EXPECT_LE((ParabolaOf(spline.Patch(0), nodes).a - nodes.front()).norm(), kRounding);
+      const SplinePatch last = spline.Patch(count - 1);
+      EXPECT_LE((ParabolaOf(last, nodes).At(last.end) - nodes.back()).norm(), kRounding);
+    }
+}
+
+TEST(NodalSpline, OfAClosedCurveAnyNumberIsAPatch) {
+  const NodalSpline spline(4, true);
+  for (const int patch : {-9, -1, 0, 3, 4, 11}) {
+    EXPECT_EQ(spline.Patch(patch).knot, patch - 0.5);
+    EXPECT_EQ(spline.Patch(patch).nodes, spline.Patch(spline.Within(patch)).nodes);
+  }
+  EXPECT_EQ(spline.Within(-9), 3);
+  EXPECT_EQ(spline.Within(11), 3);
+}
+
+// Against the nearest of many points.
+TEST(Parabola, FootIsWhereTheDistanceIsLeast) {
+  Random random(2);
+  const NodalSpline spline(3, false);
+  int inside = 0;
+  for (int i = 0; i < 300; ++i) {
+    const std::vector<Eigen::Vector2d> nodes = RandomNodes(3, &random);
+    const SplinePatch patch = spline.Patch(1);
+    const Parabola curve = ParabolaOf(patch, nodes);
+    const Eigen::Vector2d x(random.Number(-0.2, 1.2), random.Number(-1.0, 1.0));
+    const double foot = curve.FootOf(x, patch.end);
+    EXPECT_NEAR((x - curve.At(foot)).dot(curve.b + 2.0 * foot * curve.c), 0.0, 1e-13);
+    double least = std::numeric_limits<double>::infinity(), where = 0.0;
+    for (int k = 0; k <= 1000; ++k) {
+      const double tau = 1e-3 * k, distance = (x - curve.At(tau)).norm();
+      if (distance < least) where = tau;
+      least = std::min(least, distance);
+    }
+    if (where == 0.0 || where == 1.0) continue;
+    ++inside;
+    EXPECT_NEAR(foot, where, 1e-3);
+    EXPECT_LE((x - curve.At(foot)).norm(), least + kRounding);
+  }
+  EXPECT_GT(inside, 100);
+}
+
+// Where three nodes are in line, and where the second edge is longer.
+TEST(Parabola, FootOnAStraightLineIsExact) {
+  const NodalSpline spline(3, false);
+  for (const double length : {1.0, 3.0}) {
+    const std::vector<Eigen::Vector2d> nodes = {{0.0, 0.0}, {1.0, 0.0}, {1.0 + length, 0.0}};
+    for (const double x : {0.6, 1.0, 1.4}) {
+      const SplinePatch patch = spline.Patch(1);
+      const Parabola curve = ParabolaOf(patch, nodes);
+      EXPECT_NEAR(curve.At(curve.FootOf({x, 0.7}, patch.end)).x(), x, kRounding);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace contact_path

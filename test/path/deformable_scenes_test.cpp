@@ -1,0 +1,191 @@
+// Contact with surfaces that deform: scenes with closed forms, ends of paths, many events.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "contact_path/scene/expand.h"
+#include "contact_path/verify/verify_path.h"
+#include "support/traced_path.h"
+
+namespace contact_path {
+namespace {
+
+constexpr double kResidual = 1e-10;  // of stiff beams; of the others 1e-14
+
+TracedPath TraceProved(const TraceRequest& request) {
+  TracedPath path = TraceIncrements(request);
+  EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+  for (const Finding& finding : VerifyPath(path.request, path.increments).findings)
+    ADD_FAILURE() << "increment " << finding.increment << ": " << finding.what;
+  for (const Increment& increment : path.increments) EXPECT_LE(increment.residuals.Largest(), kResidual);
+  path.request = Expand(request).request;
+  return path;
+}
+
+// Stage and load factor of each event.
+std::vector<std::pair<int, double>> EventsOf(const TracedPath& path) {
+  std::vector<std::pair<int, double>> events;
+  for (const Increment& increment : path.increments)
+    if (increment.event.number > 0) events.emplace_back(increment.stage, increment.load_factor);
+  return events;
+}
+
+// A path of many snaps.
+TEST(RingOnRing, HasTheSameEventsWithOtherSteps) {
+  TraceRequest request = ReadExample("ring_on_ring");
+  request.options.accuracy = Accuracy::kFast;
+  const std::vector<std::pair<int, double>> expected = EventsOf(TraceProved(request));
+  EXPECT_GT(expected.size(), 5u);
+  for (const Accuracy accuracy : {Accuracy::kBalanced, Accuracy::kAccurate}) {
+    request.options.accuracy = accuracy;
+    const std::vector<std::pair<int, double>> events = EventsOf(TraceProved(request));
+    ASSERT_EQ(events.size(), expected.size());
+    for (std::size_t i = 0; i < events.size(); ++i) {
+      EXPECT_EQ(events[i].first, expected[i].first);
+      EXPECT_NEAR(events[i].second, expected[i].second, 1e-8);
+    }
+  }
+}
+
+// A foot on two springs is pressed down and dragged. The ground: a half plane, or fixed nodes in line.
+TraceRequest FootOn(bool surface) {
+  TraceRequest request;
+  Scene& scene = request.scene;
+  scene.nodes = {{"l", -1.0, 1.0, true, true}, {"r", 1.0, 1.1, true, true}, {"foot", 0.05, 0.0, false, false}};
+  scene.bars = {{{"l", "foot"}, 10.0}, {{"r", "foot"}, 8.0}};
+  if (surface) {
+    for (int i = 0; i < 6; ++i)
+      scene.nodes.push_back({"g" + std::to_string(i), -1.0 + 0.45 * i * (1.0 + 0.03 * i), 0.0, true, true});
+    for (int i = 0; i < 5; ++i) scene.bars.push_back({{"g" + std::to_string(i), "g" + std::to_string(i + 1)}, 1.0});
+    scene.surfaces = {{"ground", {"g0", "g1", "g2", "g3", "g4", "g5"}}};
+    scene.contacts = {{"foot", "", "", "ground", 0.3}};
+  } else {
+    scene.obstacles = {{"ground", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.3}};
+    scene.contacts = {{"foot", "ground"}};
+  }
+  Stage press, push;
+  press.loads = {{"foot", 0.0, -2.0}};
+  push.loads = {{"foot", 7.0, 0.0}};
+  request.program = {press, push};
+  return request;
+}
+
+TEST(FixedSurface, InLineIsAHalfPlane) {
+  for (const Method method : {Method::kBranch, Method::kMpec}) {
+    TraceRequest request = FootOn(true), flat = FootOn(false);
+    request.options.method = flat.options.method = method;
+    const TracedPath path = TraceIncrements(request), expected = TraceIncrements(flat);
+    EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+    const Increment &end = path.increments.back(), &end_expected = expected.increments.back();
+    EXPECT_NEAR(PositionX(path, end, "foot"), PositionX(expected, end_expected, "foot"), 1e-9);
+    EXPECT_GT(PositionX(path, end, "foot"), 0.3);
+    EXPECT_NEAR(Contact(path, end, "foot@ground").rn, Contact(expected, end_expected, "foot@ground").rn, 1e-9);
+    EXPECT_NEAR(end.strain_energy, end_expected.strain_energy, 1e-9);
+    EXPECT_NEAR(end.dissipation / end_expected.dissipation, 1.0, method == Method::kBranch ? 1e-9 : 1e-3);
+    EXPECT_LE(EnergyImbalance(path), method == Method::kBranch ? 1e-8 : 1e-2);
+  }
+}
+
+// A load of 1 stands on a plank of two nodes on vertical springs of stiffness 10, and is pushed along it against a
+// spring of stiffness 1, from 0.2 over the middle. Each spring takes its share of the load.
+TEST(Plank, CarriesANodeByItsShapeFunctions) {
+  TraceRequest request;
+  Scene& scene = request.scene;
+  scene.nodes = {{"a", 0.0, 0.0, true, false}, {"b", 1.0, 0.0, true, false}, {"n", 0.2, 0.0, false, false}};
+  scene.bars = {{{"a", "b"}, 1.0}};
+  scene.superelements = {{{"a"}, {1.0, 0.0, 0.0, 10.0}}, {{"b"}, {1.0, 0.0, 0.0, 10.0}}, {{"n"}, {1.0, 0.0, 0.0, 0.0}}};
+  scene.surfaces = {{"plank", {"a", "b"}}};
+  scene.contacts = {{"n", "", "", "plank", 0.0}};
+  Stage press, push;
+  press.loads = {{"n", 0.0, -1.0}};
+  push.loads = {{"n", 0.6, 0.0}};
+  request.program = {press, push};
+  const TracedPath path = TraceProved(request);
+  const Increment& end = path.increments.back();
+  const double x = PositionX(path, end, "n"), a = PositionY(path, end, "a"), b = PositionY(path, end, "b");
+  // The reaction turns with the plank: along y it is the load, along x slope times that.
+  const double slope = b - a, length = std::sqrt(1.0 + slope * slope);
+  EXPECT_GT(x, 0.5);
+  EXPECT_NEAR(PositionY(path, end, "n"), a + slope * x, 1e-12);
+  EXPECT_NEAR(Contact(path, end, "n@plank").rn, length, 1e-10);
+  EXPECT_NEAR(x - 0.2, 0.6 - slope, 1e-10);
+  const double across = (length - 1.0) * slope / length;  // of the tension of the plank, which stretches
+  EXPECT_NEAR(10.0 * a, across - (1.0 - x), 1e-10);
+  EXPECT_NEAR(10.0 * b, -across - x, 1e-10);
+}
+
+// Blocks of two elements each, whose nodes stand on each other, as candidates of one of them or of both: reactions of
+// both passes are redundant, and their sum is that of one.
+TEST(BothPasses, OfMatchingMeshesShareTheReactions) {
+  const auto blocks = [](bool both) {
+    TraceRequest request;
+    Scene& scene = request.scene;
+    for (int j = 0; j < 4; ++j)
+      for (int i = 0; i < 4; ++i) {
+        const bool held = j == 0 || j == 3;
+        scene.nodes.push_back(
+            {"n" + std::to_string(i) + std::to_string(j), 0.5 * i, j < 2 ? 0.5 * j : 0.5 * (j - 1), held, held});
+      }
+    scene.materials.resize(1);
+    scene.materials[0].name = "rubber";
+    scene.materials[0].E = 1.0;
+    scene.materials[0].nu = 0.3;
+    scene.solids.resize(1);
+    scene.solids[0].material = "rubber";
+    scene.solids[0].nodes_per_element = 4;
+    for (const int j : {0, 2})
+      for (int i = 0; i < 3; ++i)
+        for (const auto& [di, dj] : {std::pair(0, 0), std::pair(1, 0), std::pair(1, 1), std::pair(0, 1)})
+          scene.solids[0].nodes.push_back("n" + std::to_string(i + di) + std::to_string(j + dj));
+    scene.surfaces = {{"lower", {"n01", "n11", "n21", "n31"}}, {"upper", {"n32", "n22", "n12", "n02"}}};
+    for (const char* node : {"n12", "n22"}) scene.contacts.push_back({node, "", "", "lower", 0.5});
+    if (both)
+      for (const char* node : {"n11", "n21"}) scene.contacts.push_back({node, "", "", "upper", 0.5});
+    for (int i = 0; i < 4; ++i) scene.support_motions.push_back({"n" + std::to_string(i) + "3", 0.02, -0.1});
+    request.options.stop = {{"load_factor", ">", 1.0}};
+    return request;
+  };
+  const TracedPath one = TraceIncrements(blocks(false)), two = TraceIncrements(blocks(true));
+  const auto sum = [](const TracedPath& path) {
+    double rn = 0.0;
+    for (const ContactRecord& contact : path.increments.back().contacts) rn += contact.rn;
+    return rn;
+  };
+  EXPECT_EQ(two.result.reason, EndReason::kStopCriterion) << two.result.message;
+  for (const Increment& increment : two.increments) EXPECT_LE(increment.residuals.Largest(), kResidual);
+  EXPECT_GT(sum(one), 0.02);
+  EXPECT_NEAR(sum(two) / sum(one), 1.0, 0.1);
+}
+
+// The foot of FootOn() slides over the end of the ground.
+TEST(FixedSurface, EndsWhereTheNodeIsLost) {
+  TraceRequest request = FootOn(true);
+  request.scene.surfaces[0].nodes.resize(4);  // up to x = 0.47
+  request.program[1].loads[0].fx = 12.0;
+  const TracedPath path = TraceIncrements(request);
+  EXPECT_EQ(path.result.reason, EndReason::kPathEnd);
+  EXPECT_NE(path.result.message.find("foot@ground is lost"), std::string::npos) << path.result.message;
+  EXPECT_NEAR(PositionX(path, path.increments.back(), "foot"), -1.0 + 1.35 * 1.09, 1e-9);
+}
+
+// From below the level of the ground, past its first node, to behind it.
+TEST(FixedSurface, NamesANodeThatComesBehindItPastAnEnd) {
+  TraceRequest request = FootOn(true);
+  Scene& scene = request.scene;
+  scene.nodes[2].x = -1.2;
+  scene.nodes[2].y = -0.1;
+  request.program = {};
+  scene.loads = {{"foot", 4.0, 0.0}};
+  const TracedPath path = TraceIncrements(request);
+  EXPECT_EQ(path.result.reason, EndReason::kNumericalFailure);
+  EXPECT_NE(path.result.message.find("foot@ground: the node has come past an end of the surface"), std::string::npos)
+      << path.result.message;
+  EXPECT_NEAR(PositionX(path, path.increments.back(), "foot"), -1.0, 0.1);
+}
+
+}  // namespace
+}  // namespace contact_path

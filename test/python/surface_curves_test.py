@@ -1,0 +1,62 @@
+#!/usr/bin/env python3
+"""Curves of surfaces for plots: places, normals, ways along them; contacts of groups with surfaces.
+
+CONTACT_PATH_ROOT: the sources.
+"""
+import os
+import sys
+import unittest
+
+import numpy as np
+
+ROOT = os.environ['CONTACT_PATH_ROOT']
+sys.path.insert(0, os.path.join(ROOT, 'python'))
+from contact_path import Scene, drawn_scene  # noqa: E402
+from contact_path.scene_expand import contact_name  # noqa: E402
+from contact_path.surface_curves import SurfaceCurve  # noqa: E402
+
+
+def curve(count, closed, radius=0.0):
+    names = [str(i) for i in range(count)]
+    return SurfaceCurve({'nodes': names, 'closed': closed, 'radius': radius}, {name: i for i, name in enumerate(names)})
+
+
+class SurfaceCurvesTest(unittest.TestCase):
+
+    def test_open_curve_is_tangent_to_its_edges_in_their_middles(self):
+        nodes = np.array([(0.0, 0.0), (1.0, 0.2), (2.0, 0.0), (2.5, -1.0)])
+        shape = curve(4, False).shape(nodes)
+        for material, place in ((0.0, nodes[0]), (1.0, (0.5, 0.1)), (2.0, (1.5, 0.1)), (3.0, (2.25, -0.5)), (4.0, nodes[3])):
+            np.testing.assert_allclose(shape.points[shape.material == material], [place], atol=1e-14)
+        for material, edge in ((1.0, (1.0, 0.2)), (2.0, (1.0, -0.2)), (3.0, (0.5, -1.0))):
+            self.assertAlmostEqual(float(shape.normals[shape.material == material][0].dot(edge)), 0.0, 14)
+        np.testing.assert_allclose(shape.points[shape.material == 1.5], [(1.0, 0.15)], atol=1e-14)  # passes the node
+
+    def test_ring_at_a_distance(self):
+        angles = 0.5 * np.pi - 2.0 * np.pi * np.arange(40) / 40
+        shape = curve(40, True, 0.1).shape(np.column_stack((np.cos(angles), np.sin(angles))))  # walked clockwise
+        np.testing.assert_allclose(np.hypot(*shape.points.T), 1.1, rtol=4e-3)
+        np.testing.assert_allclose(shape.points[0], shape.points[-1], atol=1e-14)
+        normals, material = shape.foot(np.array([(0.0, 2.0), (3.0, 0.0)]))
+        np.testing.assert_allclose(normals, [(0.0, 1.0), (1.0, 0.0)], atol=1e-12)
+        np.testing.assert_allclose(material, (0.5, 10.5), atol=1e-12)
+        quarter = 0.5 * np.pi * 1.1
+        self.assertAlmostEqual(shape.walked(0.5, 10.0), quarter, delta=4e-3 * quarter)
+        self.assertAlmostEqual(shape.walked(0.5, -10.0), -shape.walked(0.5, 10.0), 12)  # over its begin
+
+    def test_contacts_of_a_group(self):
+        scene = Scene()
+        for name, fixed in (('a', False), ('b', False), ('held', True)):
+            scene.node(name, fixed_x=fixed, fixed_y=fixed)
+        scene.group('g', nodes=['a', 'held'])
+        scene.surface('top', nodes=['a', 'b'])
+        scene.obstacle('floor', ny=1.0)
+        scene.contact(group='g', obstacle='floor')
+        scene.contact(group='g', surface='top', friction=0.2)
+        contacts = drawn_scene.drawn(scene)['contacts']
+        self.assertEqual([contact_name(contact) for contact in contacts], ['a@floor', 'a@top', 'held@top'])
+        self.assertEqual([contact['friction'] for contact in contacts], [0.0, 0.2, 0.2])
+
+
+if __name__ == '__main__':
+    unittest.main()
