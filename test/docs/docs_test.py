@@ -37,7 +37,7 @@ WITH_HELP = ['contact_path_trace', 'contact_path_lattice', 'contact_path_outline
 SCRIPTS = {**{'scripts/' + name: name for name in ('contact_path_trace', 'contact_path_lattice', 'contact_path_outlines', 'contact_path_markers')},
            'scripts/mesh': 'contact_path_mesh', 'scripts/study': 'contact_path_study', 'scripts/python': 'python3', 'scripts/trace': 'contact_path_trace', **{'scripts/' + name: name for name in PYTHON}}
 OF_THE_SYSTEM = ('python3', 'sed')
-QUICK = ('contact_path_trace', 'contact_path_lattice', 'verify', *OF_THE_SYSTEM)  # of the examples, run here
+QUICK = ('contact_path_trace', 'contact_path_lattice', 'contact_path_study', 'verify', *OF_THE_SYSTEM)  # of the examples, run here
 
 SAME = 1e-6  # relative, of numbers that an example prints
 NOTHING = 1e-9  # a number that is but rounding
@@ -302,7 +302,7 @@ class Examples(ProgramTest):
                 self.assertTrue(close, '%s: %s, the page says %s' % (command, a, b))
 
     def test_examples(self):
-        for name in 'scenes', 'scripts':
+        for name in 'docs', 'scenes', 'scripts':
             os.symlink(str(ROOT / name), self.path(name))
         seen = 0
         for page in PAGES:
