@@ -40,8 +40,8 @@ def connected(scheduler: str, workers: int) -> Iterator[Any]:
     with tempfile.TemporaryDirectory() as directory, contextlib.ExitStack() as stack:
         with without_interrupts():
             cluster = stack.enter_context(LocalCluster(
-                n_workers=workers, threads_per_worker=1, memory_limit=0, dashboard_address=None, local_directory=directory,
-                silence_logs=logging.CRITICAL))
+                n_workers=workers, threads_per_worker=1, memory_limit=0, dashboard_address='localhost:0',
+                local_directory=directory, silence_logs=logging.CRITICAL))
         yield stack.enter_context(Client(cluster))
 
 

@@ -135,7 +135,7 @@ DeformablePair::DeformablePair(std::shared_ptr<const DeformableBoundary> boundar
     if (own > 0.0 && (own < bound || bound == 0.0)) bound = own;
     traits.force_unit = ForceUnitAbove(bound);
   }
-  SetTraits(std::move(traits));
+  SetTraits(traits);
 }
 
 PairDofs DeformablePair::Dofs(int patch) const { return Columns(*this, boundary_->Spline().Patch(patch)).dofs; }

@@ -63,7 +63,7 @@ RigidPair::RigidPair(std::shared_ptr<const Surface> surface, const NodeMotion& m
           (traits.curved ? 1.0 : std::abs(gap_gradient_[static_cast<Eigen::Index>(i)])) * force_bounds[traits.dofs[i]];
     traits.force_unit = ForceUnitAbove(bound);
   }
-  SetTraits(std::move(traits));
+  SetTraits(traits);
 }
 
 // x(q) = a + R z with z = p - a - velocity s, and its derivatives. The rotation R by the angle -turn s has the

@@ -172,6 +172,13 @@ MpecMethod::Trial MpecMethod::SolveOnce(const PathPoint& from, const Eigen::Vect
 
 // A path that slides on and one that goes back with all contacts at rest are two solutions of the increment problem,
 // and the solver may find either. The second one dissipates nothing. By the total law of friction only one is.
+bool MpecMethod::TurnsBack(const PathPoint& from, const PathPoint& to, const Eigen::VectorXd& direction) const {
+  if (!started_ || bent_ || to.states != from.states) return false;
+  const double cosine = Direction(from, to).dot(direction);
+  if (has_total_law_ && cosine < 0.0) return true;
+  return cosine < kSmallestCosine && !SomeNearlyActive(model_.contacts, from);
+}
+
 bool MpecMethod::GoesBackAtRest(const PathPoint& from, const PathPoint& to) const {
   const auto slides = [](const PathPoint& point) {
     return std::any_of(point.states.begin(), point.states.end(), Slips);
@@ -200,10 +207,7 @@ void MpecMethod::Judge(const PathPoint& from, const Eigen::VectorXd& direction, 
     trial.verdict = Verdict::kNoProgress;
   else if (!started_ && (to.s - from.s) * options_.direction <= tolerances::kUnitComponent * moved)
     trial.verdict = Verdict::kWrongDirection;
-  else if (started_ && !bent_ && to.states == from.states && Direction(from, to).dot(direction) < kSmallestCosine &&
-           !SomeNearlyActive(model_.contacts, from))
-    trial.verdict = Verdict::kTurnedBack;
-  else if (has_total_law_ && started_ && !bent_ && to.states == from.states && Direction(from, to).dot(direction) < 0.0)
+  else if (TurnsBack(from, to, direction))
     trial.verdict = Verdict::kTurnedBack;
   else if (GoesBackAtRest(from, to))
     trial.verdict = Verdict::kBackAtRest;

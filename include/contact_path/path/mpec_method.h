@@ -64,6 +64,8 @@ class MpecMethod : public PathMethod {
     Residuals residuals;
   };
   static const char* Describe(Verdict verdict);
+  // Whether the increment turns away from the direction (a unit vector) though no contact changes its state.
+  bool TurnsBack(const PathPoint& from, const PathPoint& to, const Eigen::VectorXd& direction) const;
   // Whether the load goes back on the increment, and no contact slides there, though one did before.
   bool GoesBackAtRest(const PathPoint& from, const PathPoint& to) const;
   // Sets residuals and verdict of a trial that was solved for.
