@@ -235,9 +235,13 @@ class GoingOn(StudyTest):
 
     def test_worker_and_server_that_die_are_no_loss(self):
         study = self.start(STUDY, self.write(SLOW), '--workers', '2')
-        self.wait_for(lambda: self.journal().count(b'\n') > 2)
-        servers = [number for number, command in processes_below(study.pid) if 'study_server' in command]
-        self.assertEqual(len(servers), 2)
+        servers = []
+
+        def both_trace():
+            servers[:] = [number for number, command in processes_below(study.pid) if 'study_server' in command]
+            return len(servers) == 2 and self.journal().count(b'\n') > 2
+
+        self.wait_for(both_trace)
         os.kill(servers[0], signal.SIGKILL)
         with open('/proc/%d/stat' % servers[1]) as stat:
             worker = int(stat.read().rsplit(')', 1)[1].split()[1])
