@@ -94,7 +94,7 @@ def plot(words, paths, file):
     left.plot(angles, [abs(thrust(angle)) for angle in angles], 'k', label='|H/V|')
     left.axvline(CHANGE, color='k', linestyle=':')
     left.axhline(LARGEST, color='k', linestyle='--')
-    left.set(xlabel='half-angle [degrees]', ylabel='friction', xlim=(-10.0, 180.0), ylim=(0.0, 1.5))
+    left.set(xlabel='half-angle [degrees]', ylabel='friction', xlim=(20.0, 180.0), ylim=(0.0, 2.1))
     for friction, path in paths.items():
         right.plot(path['y_crown'], path['load_factor'], label='friction %.2f' % friction)
     right.set(xlabel='crown.y', ylabel='load', ylim=(-1.0, 16.0))
