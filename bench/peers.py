@@ -14,6 +14,7 @@ import numpy as np
 
 import contact_path as cp
 import peers_block as block
+import peers_branches
 
 MOST_COMPARED = 60  # of GetFEM's points, evenly along its path
 ROUNDS = 5  # of runs of contact_path: the fastest counts
@@ -85,16 +86,17 @@ def forces_at(gammas, choices):
 
 def choices_like(gammas, others):
     """The choices of branches, from the block without loads and through the point without forces, by which the contact forces at
-    these values of gamma are those of GetFEM, and how far they are off."""
+    these values of gamma are those of GetFEM, how far they are off, and the states of the contacts on all branches onwards there."""
     _, start = min((off(forces_at(gammas[:1], [choice]), others[:1]), number) for number in range(1, MOST_BRANCHES + 1)
                    for choice in [{'increment': 0, 'branch': number}])
     choices = [{'increment': 0, 'branch': start}]
     event = next(event for event in trace_by([1.0], 'total', choices).events
                  if event['stage'] == 2 and abs(event['load_factor'] - UNLOADED) <= NEAR)
-    onwards = [number for number, branch in enumerate(event['branches'], 1) if branch['load_rate'] > 0.0]
+    onwards = {number: tuple(branch['states'][contact] for contact in block.contacts())
+               for number, branch in enumerate(event['branches'], 1) if branch['load_rate'] > 0.0}
     through = [choices + [{'event': event['number'], 'branch': number}] for number in onwards]
     error, best = min((off(forces_at(gammas, choice), others), k) for k, choice in enumerate(through))
-    return through[best], error, len(onwards)
+    return through[best], error, list(onwards.values())
 
 
 def curve(gammas, of_contact):
@@ -107,12 +109,29 @@ def own_curve(path):
     return curve(path['load_factor'][rows], forces(path, rows)[:, SHOWN])
 
 
-def parting(incremental):
-    """Where on the path of the incremental law contacts change their states first, and the load turns."""
-    def places(points):
-        return ['%.4g' % point['load_factor'] for point in points if point['stage'] == 2][:1]
-    text = ''.join('contacts first change their states at gamma = %s' % place for place in places(incremental.events))
-    return text + ''.join(', and the load turns at gamma = %s' % place for place in places(incremental.limit_points)) + '.'
+def told_of_branches(onwards):
+    tried = peers_branches.solutions()
+    states = {peers_branches.states(rates) for rates in tried}
+    same = 'the same ones' if states == set(onwards) and len(tried) == len(onwards) else 'others'
+    return ('All %d combinations of contact states at gamma = 0.5, tried without the solvers, give %d branches onwards, %s as the path finds. '
+            'Those back are their mirror images.' % (peers_branches.STATES ** peers_branches.COUNT, len(tried), same))
+
+
+def pressing(path, rows):
+    """The sum of all normal forces [N]."""
+    return forces(path, rows)[:, :, 0].sum(axis=1)
+
+
+def told_of_incremental_law(start, total):
+    """Where contacts change their states first, and the sums of all normal forces by both laws."""
+    end = float(total['load_factor'][-1])
+    path = trace_by([UNLOADED, end - UNLOADED], 'incremental', start)
+    first = next((event['load_factor'] for event in path.events if event['stage'] == 2), math.nan)
+    _, unloaded, last = pressing(path, ends_of_stages(path))
+    return ('By the incremental law, which GetFEM lacks, the same start leaves this path at gamma = %.4g, where contacts change their states. '
+            'Slip is kept then: at gamma = 0.5, without loads, the floor still presses with %.4g N in all. '
+            'At gamma = %.3g it presses with %.4g N, by the total law with %.4g N.' % (
+                first, unloaded, end, last, pressing(total, [-1])[0]))
 
 
 def main():
@@ -132,13 +151,14 @@ def main():
     half = {'what': 'of it up to gamma = 0.5 [s]', 'own': processor_time(UNLOADED, 'total', choices[:1]),
             'getfem': next((point['time'] for point in points if point['gamma'] >= UNLOADED), points[-1]['time'])}
     steps = {'what': 'steps', 'getfem': len(points) - 1, 'own': own_steps}
-    branches = {'what': 'branches from gamma = 0.5, there and back', 'own': 2 * onwards,
+    branches = {'what': 'branches from gamma = 0.5, there and back', 'own': 2 * len(onwards),
                 'getfem': next((entry['branches'] for entry in singular if 'branches' in entry), 0)}
     rows = [dict(row, ratio=row['getfem'] / row['own']) for row in (whole, half, steps)] + [dict(branches, ratio='')]
     longest = max(after['time'] - before['time'] for before, after in zip(points, points[1:]))
     text = ('Contact forces at %d equal values of gamma differ by at most %.1e of the largest. GetFEM spends %.0f %% of its time on the '
-            'step in which it searches for branches.\n\nBy the incremental law, which GetFEM lacks, %s The trace ends with `%s`.' % (
-                len(chosen), error, 100.0 * longest / points[-1]['time'], parting(incremental), incremental.end_reason))
+            'step in which it searches for branches.\n\n%s\n\n%s' % (
+                len(chosen), error, 100.0 * longest / points[-1]['time'], told_of_branches(onwards),
+                told_of_incremental_law(choices[:1], total)))
     with open(results / 'peers.json', 'w') as file:
         json.dump({'table': rows, 'text': text, 'off': error,
                    'getfem': curve(gammas, others[:, SHOWN]),
