@@ -95,9 +95,9 @@ set(contact_path_extremes
 # path/path_method.h), and files that trace whole paths.
 contact_path_add_stage(support derivative_checker_test)
 contact_path_add_stage(geometry curve_test capsule_tree_test nodal_spline_test outline_test polyline_test projection_test spline_test surface_test)
-contact_path_add_stage(scene boundary_rules_test can_slide_test cell_test change_units_test configuration_test expand_test field_test lattice_test nearest_name_test
+contact_path_add_stage(scene boundary_rules_test can_slide_test cell_test change_units_test configuration_test curve_rules_test expand_test field_test lattice_test nearest_name_test
   one_line_test origin_test quantity_test read_scene_test request_field_test scaling_test scene_index_test scene_test solid_rules_test utf8_test
-  validate_test write_scene_test)
+  validate_test violation_test write_scene_test)
 contact_path_add_stage(structure bar_test beam_test dof_map_test elastica_test material_test scene_elements_test solid_test structure_test
   superelement_test)
 contact_path_add_stage(linear blas_test bordered_solver_test generic_vector_test minimum_norm_test out_of_memory_test singular_vectors_test)

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "support/broken_rule.h"
-#include "support/curved_obstacles.h"
 
 namespace contact_path {
 namespace {
@@ -195,123 +194,6 @@ const BrokenRule kObstacleRules[] = {
 };
 INSTANTIATE_TEST_SUITE_P(Obstacles, ValidateTest, testing::ValuesIn(kObstacleRules), NameOf<BrokenRule>);
 
-// Adds it to the scene with a contact of b, which is at (-5, 0).
-void AddCurve(TraceRequest* request, const Obstacle& obstacle) {
-  request->scene.obstacles.push_back(obstacle);
-  request->scene.contacts.push_back({"b", obstacle.name});
-}
-
-Obstacle Disc(double x, double y, double radius, bool inside) {
-  Obstacle obstacle = CurveThrough(ObstacleShape::kCircle, {});
-  obstacle.px = x;
-  obstacle.py = y;
-  obstacle.radius = radius;
-  obstacle.inside = inside;
-  return obstacle;
-}
-
-constexpr ObstacleShape kPolyline = ObstacleShape::kPolyline, kSpline = ObstacleShape::kSpline;
-
-const BrokenRule kCurveRules[] = {
-    {"CircleWithoutRadius", [](auto& r) { AddCurve(&r, Disc(0.0, 9.0, 0.0, false)); }, "scene.obstacles[1].radius", "0",
-     "must be > 0 where the shape is circle"},
-    {"OddNumberOfNumbers",
-     [](auto& r) {
-       AddCurve(&r, CurveThrough(kPolyline, {-9.0, -1.0, 9.0}));
-     },
-     "scene.obstacles[1].points", "3 numbers", "must have x and y in turn"},
-    {"OnePoint",
-     [](auto& r) {
-       AddCurve(&r, CurveThrough(kSpline, {-9.0, -1.0}));
-     },
-     "scene.obstacles[1].points", "1 point", "must be at least two"},
-    {"TwoPointsClosed",
-     [](auto& r) {
-       AddCurve(&r, CurveThrough(kSpline, {-9.0, -1.0, 1.0, 1.0}, true));
-     },
-     "scene.obstacles[1].points", "2 points", "must be at least three where the curve is closed"},
-    {"EqualPointsOfASpline",
-     [](auto& r) {
-       AddCurve(&r, CurveThrough(kSpline, {-9.0, -1.0, 0.0, -1.0, 0.0, -1.0, 5.0, 2.0}));
-     },
-     "scene.obstacles[1].points", "[0, -1]", "neighbours must differ: point 2 is point 3"},
-    {"LastPointOfAClosedPolylineIsTheFirst",
-     [](auto& r) {
-       AddCurve(&r, CurveThrough(kPolyline, {3.0, 1.0, 9.0, 1.0, 9.0, 5.0, 3.0, 1.0}, true));
-     },
-     "scene.obstacles[1].points", "[3, 1]", "neighbours must differ: point 4 is point 1"},
-    {"SelfCrossingPolyline",
-     [](auto& r) {
-       AddCurve(&r, CurveThrough(kPolyline, {3.0, 1.0, 9.0, 5.0, 9.0, 1.0, 3.0, 5.0}, true));
-     },
-     "scene.obstacles[1].points", "[9, 1]",
-     "a closed polyline must not cross itself: the edge from point 1 meets the edge from point 3"},
-    {"EdgeStraightBack",
-     [](auto& r) {
-       AddCurve(&r, CurveThrough(kPolyline, {-9.0, -1.0, 9.0, -1.0, 3.0, -1.0}));
-     },
-     "scene.obstacles[1].points", "a corner", "an edge must not lead straight back"},
-    {"FilletTooLarge",
-     [](auto& r) {
-       Obstacle corner = CurveThrough(kPolyline, {-9.0, -1.0, 0.0, -1.0, 0.0, -3.0});
-       corner.fillet = 2.5;
-       AddCurve(&r, corner);
-     },
-     "scene.obstacles[1].fillet", "2.5", "must be at most 2: the edges have no room for larger fillets"},
-    {"FilletNegative",
-     [](auto& r) {
-       Obstacle corner = CurveThrough(kPolyline, {-9.0, -1.0, 0.0, -1.0, 0.0, -3.0});
-       corner.fillet = -0.1;
-       AddCurve(&r, corner);
-     },
-     "scene.obstacles[1].fillet", "-0.1", "must be"},
-    {"PointNotFinite",
-     [](auto& r) {
-       AddCurve(&r, CurveThrough(kSpline, {-9.0, kNaN, 9.0, 1.0}));
-     },
-     "scene.obstacles[1].points[1]", ".nan", "must be finite"},
-    {"WithinADisc", [](auto& r) { AddCurve(&r, Disc(-5.0, -1.0, 1.25, false)); }, "scene.contacts[2]", "b@curve",
-     "initial position penetrates the obstacle by 0.25"},
-    {"OutsideOfARing", [](auto& r) { AddCurve(&r, Disc(-5.0, 2.0, 1.5, true)); }, "scene.contacts[2]", "b@curve",
-     "initial position penetrates the obstacle by 0.5"},
-    {"BelowASpline",
-     [](auto& r) {
-       AddCurve(&r, CurveThrough(kSpline, {-9.0, 0.5, 9.0, 0.5}));
-     },
-     "scene.contacts[2]", "b@curve", "initial position penetrates the obstacle by 0.5"},
-    {"BelowAPolyline",
-     [](auto& r) {
-       AddCurve(&r, CurveThrough(kPolyline, {-9.0, 0.5, 0.0, 0.5, 0.0, -3.0}));
-     },
-     "scene.contacts[2]", "b@curve", "initial position penetrates the obstacle by 0.5"},
-    {"TurnNotFinite",
-     [](auto& r) {
-       AddCurve(&r, Disc(-5.0, -2.0, 2.0, false));
-       r.scene.obstacle_motions = {{"curve", 0.0, 0.0, kInfinity}};
-     },
-     "scene.obstacle_motions[0].turn", ".inf", "must be finite"}};
-
-INSTANTIATE_TEST_SUITE_P(Curves, ValidateTest, testing::ValuesIn(kCurveRules), NameOf<BrokenRule>);
-
-TEST(Validate, CurvesThatKeepTheirRulesAreSound) {
-  TraceRequest request = SoundRequest();
-  Obstacle curve = Disc(-5.0, -2.0, 2.0, false);
-  AddCurve(&request, curve);
-  curve = CurveThrough(kPolyline, {-9.0, -1.0, 0.0, -1.0, 0.0, -3.0});
-  curve.name = "polyline";
-  curve.fillet = 2.0;
-  AddCurve(&request, curve);
-  curve = CurveThrough(kSpline, {9.0, 3.0, 0.0, 2.0, -9.0, 3.0});  // walked to the left: the admissible side is below
-  curve.name = "spline";
-  AddCurve(&request, curve);
-  // Past the end of an open curve a node is not behind it.
-  curve = CurveThrough(kPolyline, {-4.0, 1.0, 0.0, 1.0});
-  curve.name = "short";
-  AddCurve(&request, curve);
-  request.scene.obstacle_motions = {{"curve", 0.0, 0.0, 0.5, 1.0, 1.0}};
-  for (const Violation& violation : Validate(request)) ADD_FAILURE() << violation.ToLine();
-}
-
 const BrokenRule kContactRules[] = {
     {"ContactOfUnknownNode", [](auto& r) { r.scene.contacts[0].node = "zz"; }, "scene.contacts[0].node", "zz",
      "must name a node"},
@@ -390,7 +272,6 @@ const BrokenRule kOptionRules[] = {
 };
 INSTANTIATE_TEST_SUITE_P(Options, ValidateTest, testing::ValuesIn(kOptionRules), NameOf<BrokenRule>);
 
-// A stage that presses b and moves the floor down, and one that takes that back.
 TEST(ValidateOptionsTest, MpecTakesNoBranchChoices) {
   TraceRequest request = SoundRequest();
   request.options.branch_choices = {{1, 0, 2}};
@@ -402,6 +283,7 @@ TEST(ValidateOptionsTest, MpecTakesNoBranchChoices) {
             "options.branch_choices: must be empty with the method mpec, which does not find the branches of an event");
 }
 
+// A stage that presses b and moves the floor down, and one that takes that back.
 TraceRequest SoundProgram() {
   TraceRequest request = SoundRequest();
   request.scene.loads = {{"b", 0.0, -1.0, true}};
@@ -570,28 +452,6 @@ TEST(ValidateOrderTest, EveryRequestWithMissingListsIsJudged) {
   }
 }
 
-Violation MakeViolation(const std::string& file, int line, const std::string& key, const std::string& value) {
-  Violation violation;
-  violation.key = key;
-  violation.value = value;
-  violation.rule = "must be > 0";
-  violation.file = file;
-  violation.line = line;
-  return violation;
-}
-
-TEST(ViolationTest, LineLeavesOutWhatIsNotKnown) {
-  EXPECT_EQ(MakeViolation("a.yaml", 3, "scene.bars[0].EA", "-1").ToLine(),
-            "a.yaml:3: scene.bars[0].EA = -1: must be > 0");
-  EXPECT_EQ(MakeViolation("a.yaml", 0, "scene.bars[0].EA", "-1").ToLine(),
-            "a.yaml: scene.bars[0].EA = -1: must be > 0");
-  EXPECT_EQ(MakeViolation("", 3, "EA", "-1").ToLine(), "line 3: EA = -1: must be > 0");
-  EXPECT_EQ(MakeViolation("", 0, "EA", "-1").ToLine(), "EA = -1: must be > 0");
-  EXPECT_EQ(MakeViolation("", 0, "EA", "").ToLine(), "EA: must be > 0");
-  EXPECT_EQ(MakeViolation("a.yaml", 3, "", "").ToLine(), "a.yaml:3: must be > 0");
-  EXPECT_EQ(MakeViolation("", 0, "", "").ToLine(), "must be > 0");
-}
-
 TEST(ValidateSizeTest, ReportsNoMoreThanAnybodyReads) {
   TraceRequest request = SoundRequest();
   Bar broken = request.scene.bars[0];
@@ -641,22 +501,7 @@ TEST(ValidateSizeTest, TakesTimeInProportionToTheRequest) {
   EXPECT_LT(std::clock() - start, 5 * CLOCKS_PER_SEC);
 }
 
-TEST(ViolationTest, LineIsOneLineWhateverTheText) {
-  EXPECT_EQ(MakeViolation("a\nb", 1, "k\x7f", "\x01\r\xc3\xa9").ToLine(),
-            "a\\x0ab:1: k\\x7f = \\x01\\x0d\xc3\xa9: must be > 0");
-  const std::string line = MakeViolation("", 0, "EA", std::string(159, '1') + "\xc3\xa9" + "2345").ToLine();
-  EXPECT_EQ(line, "EA = " + std::string(159, '1') + "\xc3\xa9...: must be > 0");
-}
-
-TEST(InvalidRequestTest, WhatIsTheFirstViolation) {
-  const InvalidRequest error({MakeViolation("a.yaml", 3, "EA", "-1"), MakeViolation("a.yaml", 4, "x", "9")});
-  EXPECT_STREQ(error.what(), "a.yaml:3: EA = -1: must be > 0");
-  ASSERT_EQ(error.violations().size(), 2U);
-  EXPECT_EQ(error.violations()[1].line, 4);
-  EXPECT_NO_THROW(InvalidRequest({}));
-}
-
-TEST(InvalidRequestTest, NumbersAreShownAsShortAsExact) {
+TEST(Validate, NumbersAreShownAsShortAsExact) {
   const std::vector<std::pair<double, std::string>> shown = {
       {-0.1, "-0.1"}, {-0.1 - 0.2, "-0.30000000000000004"}, {-1.0 / 3.0, "-0.3333333333333333"}, {-5.0, "-5"}};
   for (const auto& [number, text] : shown) {

@@ -1,0 +1,146 @@
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "contact_path/scene/validate.h"
+#include "support/broken_rule.h"
+#include "support/curved_obstacles.h"
+
+namespace contact_path {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+// A bar from a pinned node a down to b, with a load.
+TraceRequest SoundRequest() {
+  TraceRequest request;
+  request.scene.nodes = {{"a", 0.0, 5.0, true, true}, {"b", -5.0, 0.0, false, false}};
+  request.scene.bars = {{{"a", "b"}, 14.0}};
+  request.scene.loads = {{"b", 1.0, 0.0, false}};
+  return request;
+}
+
+class CurveRulesTest : public testing::TestWithParam<BrokenRule> {};
+
+TEST_P(CurveRulesTest, ReportsTheBrokenRuleAlone) { ExpectBrokenAlone(GetParam(), SoundRequest()); }
+
+// Adds it to the scene with a contact of b, which is at (-5, 0).
+void AddCurve(TraceRequest* request, const Obstacle& obstacle) {
+  request->scene.obstacles.push_back(obstacle);
+  request->scene.contacts.push_back({"b", obstacle.name});
+}
+
+Obstacle Disc(double x, double y, double radius, bool inside) {
+  Obstacle obstacle = CurveThrough(ObstacleShape::kCircle, {});
+  obstacle.px = x;
+  obstacle.py = y;
+  obstacle.radius = radius;
+  obstacle.inside = inside;
+  return obstacle;
+}
+
+constexpr ObstacleShape kPolyline = ObstacleShape::kPolyline, kSpline = ObstacleShape::kSpline;
+
+const BrokenRule kCurveRules[] = {
+    {"CircleWithoutRadius", [](auto& r) { AddCurve(&r, Disc(0.0, 9.0, 0.0, false)); }, "scene.obstacles[0].radius", "0",
+     "must be > 0 where the shape is circle"},
+    {"OddNumberOfNumbers",
+     [](auto& r) {
+       AddCurve(&r, CurveThrough(kPolyline, {-9.0, -1.0, 9.0}));
+     },
+     "scene.obstacles[0].points", "3 numbers", "must have x and y in turn"},
+    {"OnePoint",
+     [](auto& r) {
+       AddCurve(&r, CurveThrough(kSpline, {-9.0, -1.0}));
+     },
+     "scene.obstacles[0].points", "1 point", "must be at least two"},
+    {"TwoPointsClosed",
+     [](auto& r) {
+       AddCurve(&r, CurveThrough(kSpline, {-9.0, -1.0, 1.0, 1.0}, true));
+     },
+     "scene.obstacles[0].points", "2 points", "must be at least three where the curve is closed"},
+    {"EqualPointsOfASpline",
+     [](auto& r) {
+       AddCurve(&r, CurveThrough(kSpline, {-9.0, -1.0, 0.0, -1.0, 0.0, -1.0, 5.0, 2.0}));
+     },
+     "scene.obstacles[0].points", "[0, -1]", "neighbours must differ: point 2 is point 3"},
+    {"LastPointOfAClosedPolylineIsTheFirst",
+     [](auto& r) {
+       AddCurve(&r, CurveThrough(kPolyline, {3.0, 1.0, 9.0, 1.0, 9.0, 5.0, 3.0, 1.0}, true));
+     },
+     "scene.obstacles[0].points", "[3, 1]", "neighbours must differ: point 4 is point 1"},
+    {"SelfCrossingPolyline",
+     [](auto& r) {
+       AddCurve(&r, CurveThrough(kPolyline, {3.0, 1.0, 9.0, 5.0, 9.0, 1.0, 3.0, 5.0}, true));
+     },
+     "scene.obstacles[0].points", "[9, 1]",
+     "a closed polyline must not cross itself: the edge from point 1 meets the edge from point 3"},
+    {"EdgeStraightBack",
+     [](auto& r) {
+       AddCurve(&r, CurveThrough(kPolyline, {-9.0, -1.0, 9.0, -1.0, 3.0, -1.0}));
+     },
+     "scene.obstacles[0].points", "a corner", "an edge must not lead straight back"},
+    {"FilletTooLarge",
+     [](auto& r) {
+       Obstacle corner = CurveThrough(kPolyline, {-9.0, -1.0, 0.0, -1.0, 0.0, -3.0});
+       corner.fillet = 2.5;
+       AddCurve(&r, corner);
+     },
+     "scene.obstacles[0].fillet", "2.5", "must be at most 2: the edges have no room for larger fillets"},
+    {"FilletNegative",
+     [](auto& r) {
+       Obstacle corner = CurveThrough(kPolyline, {-9.0, -1.0, 0.0, -1.0, 0.0, -3.0});
+       corner.fillet = -0.1;
+       AddCurve(&r, corner);
+     },
+     "scene.obstacles[0].fillet", "-0.1", "must be"},
+    {"PointNotFinite",
+     [](auto& r) {
+       AddCurve(&r, CurveThrough(kSpline, {-9.0, kNaN, 9.0, 1.0}));
+     },
+     "scene.obstacles[0].points[1]", ".nan", "must be finite"},
+    {"WithinADisc", [](auto& r) { AddCurve(&r, Disc(-5.0, -1.0, 1.25, false)); }, "scene.contacts[0]", "b@curve",
+     "initial position penetrates the obstacle by 0.25"},
+    {"OutsideOfARing", [](auto& r) { AddCurve(&r, Disc(-5.0, 2.0, 1.5, true)); }, "scene.contacts[0]", "b@curve",
+     "initial position penetrates the obstacle by 0.5"},
+    {"BelowASpline",
+     [](auto& r) {
+       AddCurve(&r, CurveThrough(kSpline, {-9.0, 0.5, 9.0, 0.5}));
+     },
+     "scene.contacts[0]", "b@curve", "initial position penetrates the obstacle by 0.5"},
+    {"BelowAPolyline",
+     [](auto& r) {
+       AddCurve(&r, CurveThrough(kPolyline, {-9.0, 0.5, 0.0, 0.5, 0.0, -3.0}));
+     },
+     "scene.contacts[0]", "b@curve", "initial position penetrates the obstacle by 0.5"},
+    {"TurnNotFinite",
+     [](auto& r) {
+       AddCurve(&r, Disc(-5.0, -2.0, 2.0, false));
+       r.scene.obstacle_motions = {{"curve", 0.0, 0.0, kInfinity}};
+     },
+     "scene.obstacle_motions[0].turn", ".inf", "must be finite"}};
+
+INSTANTIATE_TEST_SUITE_P(Rules, CurveRulesTest, testing::ValuesIn(kCurveRules), NameOf<BrokenRule>);
+
+TEST(CurveRules, ThoseThatKeepTheirRulesAreSound) {
+  TraceRequest request = SoundRequest();
+  Obstacle curve = Disc(-5.0, -2.0, 2.0, false);
+  AddCurve(&request, curve);
+  curve = CurveThrough(kPolyline, {-9.0, -1.0, 0.0, -1.0, 0.0, -3.0});
+  curve.name = "polyline";
+  curve.fillet = 2.0;
+  AddCurve(&request, curve);
+  curve = CurveThrough(kSpline, {9.0, 3.0, 0.0, 2.0, -9.0, 3.0});  // walked to the left: the admissible side is below
+  curve.name = "spline";
+  AddCurve(&request, curve);
+  // Past the end of an open curve a node is not behind it.
+  curve = CurveThrough(kPolyline, {-4.0, 1.0, 0.0, 1.0});
+  curve.name = "short";
+  AddCurve(&request, curve);
+  request.scene.obstacle_motions = {{"curve", 0.0, 0.0, 0.5, 1.0, 1.0}};
+  for (const Violation& violation : Validate(request)) ADD_FAILURE() << violation.ToLine();
+}
+
+}  // namespace
+}  // namespace contact_path
