@@ -257,7 +257,7 @@ std::array<double, 2> ResidualCheck::Normal(std::size_t contact, const CheckedSt
   return {static_cast<double>(normal.x), static_cast<double>(normal.y)};
 }
 
-std::vector<double> ResidualCheck::ForcesAcross(double length, double load_factor) const {
+std::vector<ContactForceBound> ResidualCheck::BoundContactForces(double length, double load_factor) const {
   const Prepared& scene = *prepared_;
   std::vector<check::StiffnessBound> bounds =
       check::BoundStiffness(scene.elements, scene.start, scene.num_positions / 2);
@@ -271,14 +271,24 @@ std::vector<double> ResidualCheck::ForcesAcross(double length, double load_facto
   CheckedState start;
   start.positions = scene.start;
   const check::PlacedState placed = scene.Placed(start);
-  std::vector<double> across;
+  std::vector<ContactForceBound> forces;
+  std::vector<double> at_node(bounds.size(), 0.0);  // the largest of its contacts
   for (const auto& contact : scene.contacts) {
     const check::StiffnessBound& bound = bounds[contact->Node()];
     const Vector normal = contact->Normal(placed);
-    across.push_back(bound.any + std::abs(static_cast<double>(normal.x)) * bound.x +
-                     std::abs(static_cast<double>(normal.y)) * bound.y);
+    ContactForceBound force;
+    force.on_node = bound.any + std::abs(static_cast<double>(normal.x)) * bound.x +
+                    std::abs(static_cast<double>(normal.y)) * bound.y;
+    double& largest = at_node[contact->Node()];
+    largest = std::max(largest, force.on_node);
+    if (contact->TouchedSurface())
+      for (const check::BoundaryPatch& patch : scene.boundaries[*contact->TouchedSurface()].Patches())
+        for (const std::size_t node : patch.nodes)
+          largest = std::max(largest, bounds[node].any + bounds[node].x + bounds[node].y);
+    forces.push_back(force);
   }
-  return across;
+  for (std::size_t i = 0; i < forces.size(); ++i) forces[i].of_all_parts = at_node[scene.contacts[i]->Node()];
+  return forces;
 }
 
 double ResidualCheck::StrainEnergy(const std::vector<double>& positions, const std::vector<double>& rotations) const {

@@ -1,5 +1,6 @@
 #include "verify/verified_contacts.h"
 
+#include <algorithm>
 #include <set>
 #include <string>
 #include <utility>
@@ -9,14 +10,16 @@
 namespace contact_path {
 namespace {
 
-constexpr double kSoft = 1e-6;   // of F: where forces across a contact are smaller, F is no measure of them
-constexpr double kStiff = 1e-4;  // of the forces across a contact: its reactions are known to rounding of no less
+constexpr double kSoft = 1e-6;       // of F: where forces across a contact are smaller, F is no measure of them
+constexpr double kStiff = 1e-4;      // of the forces across a contact: its reactions are known to rounding of no less
+constexpr double kRounding = 2e-13;  // of F: a contact that pulls with more is not at rounding
+constexpr double kRoundingOfParts = 1e-14;  // the same, of the forces of the parts that press on the node
 
 }  // namespace
 
 std::vector<VerifiedContact> VerifiedContacts(const Scene& scene, const SceneIndex& index, const ResidualCheck& check,
                                               const Scaling& scaling, const std::vector<double>& rates, double load) {
-  const std::vector<double> across = check.ForcesAcross(scaling.length, load);
+  const std::vector<ContactForceBound> forces = check.BoundContactForces(scaling.length, load);
   std::vector<VerifiedContact> contacts;
   contacts.reserve(scene.contacts.size());
   std::set<std::string> turning;
@@ -36,9 +39,10 @@ std::vector<VerifiedContact> VerifiedContacts(const Scene& scene, const SceneInd
     contact.node = index.Node(scene.contacts[i].node);
     contact.friction = friction_of(scene.contacts[i], contact.node);
     contact.name = scene.contacts[i].Name();
-    const double unit = across[i] / scaling.force;
+    const double unit = forces[i].on_node / scaling.force;
     if (unit > 0.0 && unit < kSoft) contact.unit = unit;
     if (kStiff * unit > 1.0) contact.unit = kStiff * unit;
+    contact.rounding = std::max(kRounding, kRoundingOfParts * forces[i].of_all_parts / (scaling.force * contact.unit));
     contacts.push_back(std::move(contact));
   }
   return contacts;

@@ -19,6 +19,9 @@ struct VerifiedContact {
   std::string name;
   // Forces across the contact that count as 1, over F: 1, or the forces there where these are far below F.
   double unit = 1.0;
+  // Of a reaction, over F times the unit: coordinates are known to 1e-16 of their size, and the parts there turn that
+  // into forces. Never below that of a contact across which forces are F.
+  double rounding = 0.0;
 };
 
 // In the order of the scene. check: of the scene. rates: x, y by node, of the fixed components [length] per unit of the

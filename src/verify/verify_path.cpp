@@ -28,8 +28,7 @@ constexpr double kEnergy = 1e-2;       // of the work done: energies are quadrat
 constexpr double kEnergyMpec = 3e-2;   // the same where increments may cut corners
 constexpr double kAtTarget = 1e-9;     // relative, of the load factor
 constexpr double kTurn = 1e-9;         // of the load factor: a smaller change is none
-constexpr double kPull = 2e-13;        // of a force: a contact that pulls with more is not at rounding
-constexpr double kPullShare = 0.02;    // of the largest reaction before: nor is one that pulls with more
+constexpr double kPullShare = 0.02;    // of the largest reaction before: a contact that pulls with more is wrong
 constexpr double kLongestArc = 1.05;   // of its chord: increments turn by less than 60 degrees
 
 // The same at a bifurcation: where paths cross, equilibrium holds to rounding at a distance of its root from both.
@@ -278,10 +277,10 @@ class Verifier {
     for (std::size_t i = 0; i < increment.contacts.size(); ++i)
       result_.largest_reaction =
           std::max(result_.largest_reaction, increment.contacts[i].rn / (contacts_[i].unit * scaling_.force));
-    // Where another path crosses, a point is known to less than rounding.
-    const double rounding = increment.event.null_vector.empty() ? kPull : kExact;
-    const double most = std::max(rounding, kPullShare * result_.largest_reaction);
     for (std::size_t i = 0; i < increment.contacts.size(); ++i) {
+      // Where another path crosses, a point is known to less than rounding.
+      const double rounding = increment.event.null_vector.empty() ? contacts_[i].rounding : kExact;
+      const double most = std::max(rounding, kPullShare * result_.largest_reaction);
       const double pull = -increment.contacts[i].rn / (contacts_[i].unit * scaling_.force);
       if (pull > most)
         Report(contacts_[i].name, " pulls with ", pull, " of the forces there, where contacts push with at most ",

@@ -45,6 +45,12 @@ struct CheckedState {
   std::vector<double> rt;
 };
 
+// Upper bounds of the forces at a contact candidate [force].
+struct ContactForceBound {
+  double on_node = 0.0;       // on its node, across the contact
+  double of_all_parts = 0.0;  // across all contacts of its node, and of the surfaces that they touch
+};
+
 // The check of one scene, with its names resolved once.
 class ResidualCheck {
  public:
@@ -75,9 +81,8 @@ class ResidualCheck {
   double TotalSlip(std::size_t contact, const CheckedState& state) const;
   // The normal of the obstacle at the foot of a contact candidate, of length 1, towards the admissible side.
   std::array<double, 2> Normal(std::size_t contact, const CheckedState& state) const;
-  // By contact candidate: an upper bound of the forces on its node across the contact, at the start, for a motion of
-  // `length` of the elements and for the loads at `load_factor` [force].
-  std::vector<double> ForcesAcross(double length, double load_factor) const;
+  // By contact candidate, at the start, for a motion of `length` of the elements and for the loads at `load_factor`.
+  std::vector<ContactForceBound> BoundContactForces(double length, double load_factor) const;
   // Strain energy of the structure [force length]. rotations: as in CheckedState.
   double StrainEnergy(const std::vector<double>& positions, const std::vector<double>& rotations = {}) const;
 
