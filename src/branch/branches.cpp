@@ -184,11 +184,27 @@ class Finder {
   bool SetsOut(const Eigen::VectorXd& x, const Eigen::VectorXd& first, const Eigen::VectorXd& second) {
     const Eigen::Index s = NumMotion() - 1;
     const double sense = arrival_.direction[s];
-    if (first[s] * sense > tolerances::kUnitComponent) return true;
+    if (first[s] * sense > tolerances::kUnitComponent) return !LoadIsRounding(x, first);
     if (std::abs(first[s]) > tolerances::kRate) return false;
     if (std::abs(second[s]) > tolerances::kCurvature) return second[s] * sense > 0.0;
     const std::optional<Ahead> ahead = LookAhead(x, first, second);
     return ahead && ahead->first[s] * sense > tolerances::kRate;
+  }
+
+  // Whether the rate of the load is lost in the rounding of the equations that it is in: nothing resists it.
+  bool LoadIsRounding(const Eigen::VectorXd& x, const Eigen::VectorXd& first) {
+    const Eigen::Index s = NumMotion() - 1;
+    const Eigen::SparseMatrix<double>& jacobian = system_.TransposedJacobian(x);
+    for (Eigen::Index equation = 0; equation < jacobian.outerSize(); ++equation) {
+      double all = 0.0, load = 0.0;
+      for (Eigen::SparseMatrix<double>::InnerIterator it(jacobian, equation); it; ++it) {
+        const double part = std::abs(it.value() * first[it.row()]);
+        all = std::max(all, part);
+        if (it.row() == s) load = part;
+      }
+      if (load > tolerances::kLostRate * all) return false;
+    }
+    return true;
   }
 
   // The tangent of the curve a little farther along; nothing where there is none. The error of the Taylor polynomial is
