@@ -8,6 +8,7 @@
 
 #include "contact_path/linear/minimum_norm.h"
 #include "contact_path/tolerances.h"
+#include "scene/checker.h"
 
 namespace contact_path {
 namespace {
@@ -63,6 +64,7 @@ std::string Counted(const std::vector<std::string>& names, const char* one, cons
 
 struct Names {
   std::vector<std::string> nodes, contacts, obstacles;
+  std::vector<std::string> rough;  // of these obstacles, with their coefficients of friction
 };
 
 // Nodes that move freely, their contacts that touch, and the obstacles that these touch.
@@ -77,8 +79,10 @@ Names FreeNames(const Model& model, const PathPoint& point, double force) {
     if (!free || model.contacts[i]->Gap(point.u, point.s, point.Patch(i)) > tolerances::kActiveGap) continue;
     names.contacts.push_back(contact.Name());
     if (contact.OnSurface()) continue;
-    if (std::find(names.obstacles.begin(), names.obstacles.end(), contact.obstacle) == names.obstacles.end())
-      names.obstacles.push_back(contact.obstacle);
+    if (std::find(names.obstacles.begin(), names.obstacles.end(), contact.obstacle) != names.obstacles.end()) continue;
+    names.obstacles.push_back(contact.obstacle);
+    const ContactPair& pair = *model.contacts[i];
+    if (pair.Frictional()) names.rough.push_back(contact.obstacle + " (" + NumberText(pair.Friction()) + ")");
   }
   return names;
 }
@@ -125,6 +129,7 @@ std::string FreeMotionQuestion(const Model& model, const PathPoint& point, doubl
   if (!names.obstacles.empty())
     question = Counted(names.obstacles, "does the normal of ", "do the normals of ") + Listed(names.obstacles) +
                " point to the side where the " + Counted(names.contacts, "node", "nodes") + " may be? " + question;
+  if (!names.rough.empty()) question += " is the friction of " + Listed(names.rough) + " too small?";
   return TextOf(names) + ": " + question;
 }
 

@@ -12,7 +12,7 @@
 namespace contact_path {
 namespace {
 
-constexpr std::size_t kLimitPointsListed = 10;
+constexpr std::size_t kPointsListed = 10;
 
 std::ostringstream NewText() {
   std::ostringstream text;
@@ -38,23 +38,27 @@ void PathSummary::Add(const Increment& increment) {
   if (increment.event.number > 0 || increment.kind == IncrementKind::kContactEvent ||
       increment.kind == IncrementKind::kCornerLimit)
     ++events_;
-  if (increment.kind != IncrementKind::kSmoothLimit && increment.kind != IncrementKind::kCornerLimit) return;
-  limit_points_.push_back({increment.index, increment.stage, increment.kind, increment.load_factor});
+  const LimitPoint point = {increment.index, increment.stage, increment.kind, increment.load_factor};
+  if (increment.kind == IncrementKind::kSmoothLimit || increment.kind == IncrementKind::kCornerLimit)
+    limit_points_.push_back(point);
+  if (increment.kind == IncrementKind::kBifurcation) bifurcations_.push_back(point);
+}
+
+std::string PathSummary::Listed(const std::vector<LimitPoint>& points) const {
+  std::ostringstream text = NewText();
+  const std::size_t listed = std::min(points.size(), kPointsListed);
+  for (std::size_t i = 0; i < listed; ++i)
+    text << (i == 0 ? "" : ", ") << ToString(points[i].kind) << " at load factor "
+         << LoadFactorText(points[i].load_factor, load_scale_) << " (increment " << points[i].index << ')';
+  if (listed < points.size()) text << " and " << points.size() - listed << " more";
+  return text.str();
 }
 
 std::string PathSummary::ToText() const {
-  std::ostringstream text = NewText();
-  text << Counted(increments_, "increment") << "; limit points: ";
-  if (limit_points_.empty()) text << "none";
-  const std::size_t listed = std::min(limit_points_.size(), kLimitPointsListed);
-  for (std::size_t i = 0; i < listed; ++i) {
-    const LimitPoint& point = limit_points_[i];
-    text << (i == 0 ? "" : ", ") << ToString(point.kind) << " at load factor "
-         << LoadFactorText(point.load_factor, load_scale_) << " (increment " << point.index << ')';
-  }
-  if (listed < limit_points_.size()) text << " and " << limit_points_.size() - listed << " more";
-  text << "; " << Counted(events_, "event");
-  return text.str();
+  std::string text = Counted(increments_, "increment") + "; limit points: ";
+  text += limit_points_.empty() ? "none" : Listed(limit_points_);
+  if (!bifurcations_.empty()) text += "; another path crosses: " + Listed(bifurcations_);
+  return text + "; " + Counted(events_, "event");
 }
 
 std::string PathSummary::ToText(std::string_view reason, const std::string& message) const {

@@ -36,6 +36,9 @@ typename Message::ConstPtr Read(const rosbag::MessageInstance& instance) {
   return message;
 }
 
+// The action has a topic of that name, too.
+const char* const kResultType = ros::message_traits::datatype<contact_path_msgs::TraceResult>();
+
 std::vector<RecordedTrace> ReadOpen(const rosbag::Bag& bag, const std::function<bool()>& cancelled) {
   std::vector<RecordedTrace> traces;
   rosbag::View view(bag);
@@ -52,7 +55,7 @@ std::vector<RecordedTrace> ReadOpen(const rosbag::Bag& bag, const std::function<
     } else if (EndsIn(topic, names::kIncrements)) {
       if (traces.empty()) throw BagError("no request before the increments: not the bag of a trace");
       traces.back().increments.push_back(FromMessage(*Read<contact_path_msgs::Increment>(instance)));
-    } else if (EndsIn(topic, names::kResult) && !traces.empty()) {
+    } else if (EndsIn(topic, names::kResult) && instance.getDataType() == kResultType && !traces.empty()) {
       traces.back().result = *Read<contact_path_msgs::TraceResult>(instance);
     }
   }

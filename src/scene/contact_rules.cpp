@@ -100,7 +100,9 @@ void ContactRules::CheckGeometry(const KeyPath& path, const ContactCandidate& co
   if (free_part <= kNormalOnFree)
     checker_.Add(path.Key("node"), contact.node, "must be free to move along the normal of the obstacle");
   if (length > 0.0 && at.gap < -kPenetration * length)
-    checker_.Add(path, contact.Name(), "initial position penetrates the obstacle by " + NumberText(-at.gap));
+    checker_.Add(path, contact.Name(),
+                 "initial position penetrates the obstacle by " + NumberText(-at.gap) +
+                     "; its normal points to the side where nodes may be");
 }
 
 void ContactRules::CheckOnCurve(const KeyPath& path, const ContactCandidate& contact, const Node& node,
@@ -112,7 +114,11 @@ void ContactRules::CheckOnCurve(const KeyPath& path, const ContactCandidate& con
   const NearestFoot nearest = surface.Nearest(x);
   const double gap = surface.Project(x, nearest.patch).gap;
   if (length > 0.0 && !nearest.is_end && gap < -kPenetration * length)
-    checker_.Add(path, contact.Name(), "initial position penetrates the obstacle by " + NumberText(-gap));
+    checker_.Add(path, contact.Name(),
+                 "initial position penetrates the obstacle by " + NumberText(-gap) +
+                     (obstacle.shape == ObstacleShape::kCircle
+                          ? std::string("; nodes may be ") + (obstacle.inside ? "inside" : "outside")
+                          : "; nodes may be on the left of the curve"));
 }
 
 }  // namespace contact_path

@@ -33,7 +33,7 @@ TEST(FreeMotion, AsksTheLikelyQuestion) {
   TraceRequest request = ReadExample("sliding_bar");
   EXPECT_EQ(Question(request),
             "node b moves freely; b@floor touches: does the normal of floor point to the side where the node may be? "
-            "is a contact or a support missing?");
+            "is a contact or a support missing? is the friction of floor (0.3) too small?");
   request.scene.contacts.clear();
   EXPECT_EQ(Question(request), "node b moves freely: is a contact or a support missing?");
   request.scene.nodes[0].fixed_x = request.scene.nodes[0].fixed_y = false;

@@ -40,7 +40,7 @@ TEST_F(SummaryOfIncrements, NamesLimitPointsInTheirOrder) {
   EXPECT_EQ(
       summary_.ToText(),
       "5 increments; limit points: smooth_limit at load factor 2.191505308 (increment 2), corner_limit at load factor "
-      "-0.3333333333 (increment 4); 1 event");
+      "-0.3333333333 (increment 4); another path crosses: bifurcation at load factor 1.5 (increment 3); 1 event");
 }
 
 TEST_F(SummaryOfIncrements, CountsEventsThatTheMethodNumbersAndThoseThatTheStatesShow) {

@@ -393,10 +393,14 @@ TEST(ReadSceneTest, RulesOnListsHaveTheLineOfTheList) {
 TEST(ReadSceneTest, PenetrationHasTheLineOfTheContact) {
   const std::vector<Violation> violations = ViolationsOf(BaseWith({{33, "    py: 0.125"}}));
   ASSERT_EQ(violations.size(), 2U);
-  EXPECT_EQ(violations[0].ToLine(),
-            "file.yaml:38: scene.contacts[0] = b@floor: initial position penetrates the obstacle by 0.125");
-  EXPECT_EQ(violations[1].ToLine(),
-            "file.yaml:40: scene.contacts[1] = c@floor: initial position penetrates the obstacle by 0.125");
+  EXPECT_EQ(
+      violations[0].ToLine(),
+      "file.yaml:38: scene.contacts[0] = b@floor: initial position penetrates the obstacle by 0.125; its normal points "
+      "to the side where nodes may be");
+  EXPECT_EQ(
+      violations[1].ToLine(),
+      "file.yaml:40: scene.contacts[1] = c@floor: initial position penetrates the obstacle by 0.125; its normal points "
+      "to the side where nodes may be");
 }
 
 TEST(ReadSceneTest, AllViolationsAreReported) {

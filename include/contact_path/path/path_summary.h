@@ -10,11 +10,11 @@
 
 namespace contact_path {
 
-// Where the load factor turns.
+// Where the load factor turns, or another path crosses.
 struct LimitPoint {
   int index = 0;                                     // of its increment
   int stage = 0;                                     // as in Increment
-  IncrementKind kind = IncrementKind::kSmoothLimit;  // kSmoothLimit or kCornerLimit
+  IncrementKind kind = IncrementKind::kSmoothLimit;  // kSmoothLimit, kCornerLimit, kBifurcation
   double load_factor = 0.0;                          // of the stage
 };
 
@@ -33,18 +33,21 @@ class PathSummary {
   const std::vector<LimitPoint>& limit_points() const { return limit_points_; }  // in the order of the path
   int events() const { return events_; }  // increments where contacts change their states, or could
 
-  // "98 increments; limit points: smooth_limit at load factor 2.191505308 (increment 31); 4 events". Ten limit points
-  // at most.
+  // "98 increments; limit points: smooth_limit at load factor 2.191505308 (increment 31); 4 events". Ten points at
+  // most, and likewise before the events "another path crosses: bifurcation at load factor ..." where one does.
   std::string ToText() const;
 
   // The same after why the trace ended: "stop_criterion: b.x > 4.95; 98 increments; ...". reason: "" is left out.
   std::string ToText(std::string_view reason, const std::string& message) const;
 
  private:
+  std::string Listed(const std::vector<LimitPoint>& points) const;
+
   double load_scale_;
   int increments_ = 0;
   int events_ = 0;
   std::vector<LimitPoint> limit_points_;
+  std::vector<LimitPoint> bifurcations_;
 };
 
 }  // namespace contact_path
