@@ -144,6 +144,10 @@ TEST(OwnSurface, ARingIsCrushedAsItsOwnMirrorImage) {
   const double plunger = 1.0 / 100.0, ring = kPi / 4.0 - 2.0 / kPi;  // how far they give way per force
   const double share = (2.0 - PositionY(path, first, "top")) / (2.2 * first.load_factor);
   EXPECT_NEAR(share, ring / (ring + plunger), 0.01);
+  // Of the elastica: docs/scenes.md.
+  const std::vector<Increment> events = IncrementsOfKind(path, IncrementKind::kContactEvent);
+  ASSERT_FALSE(events.empty());
+  EXPECT_NEAR(events[0].load_factor, 0.89821, 0.005);
   const Increment* touching = nullptr;
   for (const Increment& increment : path.increments) {
     if (increment.stage != 1) break;
