@@ -13,6 +13,7 @@ constexpr int kIterations = 200;  // of a bisection: more than there are bits
 constexpr int kParts = 16;        // of a patch, for its length
 constexpr Real kPi = 3.14159265358979323846L;
 constexpr Real kRounding = 1e-9L;  // of the length within which patches are left out
+constexpr Real kAtEnd = 1e-9L;     // [rad] off the normal at an end: a path that ends there does so to rounding
 
 constexpr BoundaryPatch::Weights kInner = {{{0.5L, -1.0L, 0.5L}, {0.5L, 1.0L, -1.0L}, {0.0L, 0.0L, 0.5L}}};
 constexpr BoundaryPatch::Weights kFirst = {{{1.0L, -0.5L, 0.0L}, {0.0L, 0.5L, 0.0L}, {}}};
@@ -176,8 +177,10 @@ BoundaryFoot BoundaryShape::Nearest(const Vector& x, const std::vector<bool>& le
   const bool begins = is_left_out((nearest.patch + n - 1) % n) || (!boundary_.Closed() && nearest.patch == 0);
   const bool ends = is_left_out((nearest.patch + 1) % n) || (!boundary_.Closed() && nearest.patch + 1 == n);
   const Vector back = x - Place(curves_[nearest.patch], nearest.tau);
-  const Real along = Dot(back, Direction(curves_[nearest.patch], nearest.tau));
-  nearest.is_end = (begins && nearest.tau == 0.0L && along < 0.0L) || (ends && nearest.tau == 1.0L && along > 0.0L);
+  const Vector direction = Direction(curves_[nearest.patch], nearest.tau);
+  const Real along = Dot(back, direction), rounding = kAtEnd * Length(back) * Length(direction);
+  nearest.is_end =
+      (begins && nearest.tau == 0.0L && along < -rounding) || (ends && nearest.tau == 1.0L && along > rounding);
   return nearest;
 }
 

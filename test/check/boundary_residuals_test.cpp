@@ -183,6 +183,18 @@ TEST(BoundaryResiduals, BehindTheSurfaceIsPenetrationAndPastAnEndNothing) {
   EXPECT_NEAR(check.Gap(0, StateOf({-0.4, -0.3}, places)), 0.5, kRounding);
 }
 
+// Where a path ends since the node is about to slide over an end, rounding does not take the contact away.
+TEST(BoundaryResiduals, AtAnEndToRoundingTheSurfaceIsTouched) {
+  const std::vector<Eigen::Vector2d> places = {{0.0, 0.0}, {1.0, 0.0}};
+  const Scene scene = BesideSurface(places, false, 0.02, 1.0);
+  const ResidualCheck check(scene, Configuration::Of(scene), {});
+  for (const double past : {-1e-14, 0.0, 1e-14}) {
+    EXPECT_NEAR(check.Gap(0, StateOf({-past, 0.02}, places)), 0.0, kRounding);
+    EXPECT_NEAR(check.Gap(0, StateOf({1.0 + past, 0.02}, places)), 0.0, kRounding);
+  }
+  EXPECT_NEAR(check.Gap(0, StateOf({-1e-6, 0.02}, places)), 0.02, 1e-9);
+}
+
 // A ring of nodes on springs, walked counterclockwise, is pressed flat: its node at the top against the ring itself.
 class OwnSurface : public testing::Test {
  protected:
