@@ -60,7 +60,7 @@ NearestFoot BoundaryAt::Nearest(const Vector2d& x) const {
     const Vector2d begin = curve.a, end = curve.At(patch.end);
     // The parabola is no farther from its chord than a quarter of c.
     if (Distance(x, begin, end) > most + 0.25 * curve.c.lpNorm<1>()) continue;
-    const double tau = curve.FootOf(x, patch.end);
+    const double tau = curve.FootOf(x, patch.begin, patch.end);
     if (tau >= 0.0 && tau <= patch.end) {
       consider(i, (x - curve.At(tau)).norm(), false, false);
       continue;
@@ -75,7 +75,7 @@ NearestFoot BoundaryAt::Nearest(const Vector2d& x) const {
 Projection BoundaryAt::Project(const Vector2d& x, int patch) const {
   const SplinePatch of = patches_.Patch(patch);
   const Parabola curve = ParabolaOf(of);
-  const double tau = curve.FootOf(x, of.end);
+  const double tau = curve.FootOf(x, of.begin, of.end);
   const Vector2d first = curve.b + 2.0 * tau * curve.c, second = 2.0 * curve.c;
   const double speed = first.norm();
   Projection at;

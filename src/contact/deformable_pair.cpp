@@ -32,7 +32,7 @@ struct DeformablePair::Stencil {
     const std::array<Eigen::Vector2d, 3> places = boundary.Places(patch, u);
     const Eigen::Vector2d x = pair.node_.At(u);
     z << x, places[0], places[1], places[2];
-    foot = Parabola(patch, places).FootOf(x, patch.end);
+    foot = Parabola(patch, places).FootOf(x, patch.begin, patch.end);
   }
 
   // Values with derivatives by the places.

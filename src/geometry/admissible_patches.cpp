@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 
 namespace contact_path {
 namespace {
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kRounding = 1e-9;  // of lengths, relative: which patches are left out does not depend on units
 constexpr int kLeastBeside = 2;
@@ -47,11 +49,18 @@ bool AdmissiblePatches::Has(int patch) const {
 }
 
 SplinePatch AdmissiblePatches::Patch(int patch) const {
-  if (left_out_ > 0 && !Has(patch)) {
-    if (Has(patch - 1)) return spline_.Patch(patch - 1);
-    if (Has(patch + 1)) return spline_.Patch(patch + 1);
+  if (left_out_ == 0 || Has(patch)) return spline_.Patch(patch);
+  SplinePatch prolonged = spline_.Patch(patch);
+  if (Has(patch - 1)) {
+    prolonged = spline_.Patch(patch - 1);
+    prolonged.begin = prolonged.end;
+    prolonged.end = kInfinity;
+  } else if (Has(patch + 1)) {
+    prolonged = spline_.Patch(patch + 1);
+    prolonged.end = prolonged.begin;
+    prolonged.begin = -kInfinity;
   }
-  return spline_.Patch(patch);
+  return prolonged;
 }
 
 }  // namespace contact_path

@@ -34,7 +34,7 @@ BoundaryCurve::Foot BoundaryCurve::Nearest(const Eigen::Vector2d& x, const Admis
   double foot = 0.0;
   for (std::size_t i = 0; i < patches_.size(); ++i) {
     if (!patches.Has(static_cast<int>(i))) continue;
-    const double tau = std::clamp(patches_[i].curve.FootOf(x, patches_[i].end), 0.0, patches_[i].end);
+    const double tau = std::clamp(patches_[i].curve.FootOf(x, 0.0, patches_[i].end), 0.0, patches_[i].end);
     const double distance = (x - patches_[i].curve.At(tau)).norm();
     if (!(distance < nearest)) continue;
     nearest = distance;

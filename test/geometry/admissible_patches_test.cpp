@@ -75,6 +75,10 @@ TEST(AdmissiblePatches, AreProlongedWhereTheyEnd) {
   EXPECT_EQ(patches.Patch(10).knot, 8.5);
   EXPECT_EQ(patches.Patch(-2).knot, -3.5);
   EXPECT_EQ(patches.Patch(5).knot, 4.5);
+  // There a foot is past the end.
+  EXPECT_TRUE(std::isinf(patches.Patch(2).begin) && patches.Patch(2).end == 0.0);
+  EXPECT_TRUE(patches.Patch(10).begin == 1.0 && std::isinf(patches.Patch(10).end));
+  EXPECT_TRUE(patches.Patch(5).begin == 0.0 && patches.Patch(5).end == 1.0);
 }
 
 TEST(AdmissiblePatches, AreNoneOfAShortCurve) {

@@ -25,7 +25,7 @@ class AdmissiblePatches {
   // Whether the curve has the patch (geometry/surface.h), and the patch is not left out.
   bool Has(int patch) const;
   bool None() const { return left_out_ >= spline_.NumPatches(); }
-  // Of a patch that is left out, or beyond an end of the curve, the next one: the curve is prolonged there.
+  // Of a patch that is left out beside one that is not: how that one is prolonged, from its end or up to its begin.
   SplinePatch Patch(int patch) const;
 
  private:
