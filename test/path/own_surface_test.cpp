@@ -160,6 +160,30 @@ TEST(OwnSurface, ARingIsCrushedAsItsOwnMirrorImage) {
     EXPECT_NEAR(touching->contacts[k].rn, touching->contacts[count - 1 - k].rn, 1e-8);
 }
 
+// Of few and long segments, whose curves are prolonged far past the places where the surface is left out.
+TEST(OwnSurface, ARingHasTheSameEventsWithOtherSteps) {
+  TraceRequest request = ReadExample("crushed_ring");
+  Scene& scene = request.scene;
+  std::vector<std::string>& nodes = scene.surfaces[0].nodes;
+  nodes = {"base"};
+  for (const int beam : {0, 1}) {
+    scene.beams[static_cast<std::size_t>(beam)].segments = 8;
+    for (int i = 1; i < 8; ++i) nodes.push_back((beam == 0 ? "right/" : "left/") + std::to_string(i));
+    if (beam == 0) nodes.emplace_back("top");
+  }
+  scene.groups[0].nodes = nodes;
+  scene.surfaces[0].radius = 0.05;
+  request.options.accuracy = Accuracy::kFast;
+  const std::vector<Increment> expected = EventsAndEnds(TraceProved(request));
+  EXPECT_GT(expected.size(), 4u);
+  for (const Accuracy accuracy : {Accuracy::kBalanced, Accuracy::kAccurate}) {
+    request.options.accuracy = accuracy;
+    const std::vector<Increment> events = EventsAndEnds(TraceProved(request));
+    ASSERT_EQ(events.size(), expected.size());
+    for (std::size_t i = 0; i < events.size(); ++i) EXPECT_NEAR(events[i].load_factor, expected[i].load_factor, 1e-8);
+  }
+}
+
 // Two legs of a hairpin, open at the left: the end of the upper leg is pressed onto the lower leg, and drawn along
 // it.
 TraceRequest Hairpin() {
