@@ -94,7 +94,7 @@ set(contact_path_extremes
 # A file for each header, except headers that only declare an interface (structure/element.h, mpec/nonlinear_program.h,
 # path/path_method.h), and files that trace whole paths.
 contact_path_add_stage(support derivative_checker_test)
-contact_path_add_stage(geometry curve_test capsule_tree_test nodal_spline_test outline_test polyline_test projection_test spline_test surface_test)
+contact_path_add_stage(geometry admissible_patches_test curve_test capsule_tree_test nodal_spline_test outline_test polyline_test projection_test spline_test surface_test)
 contact_path_add_stage(scene boundary_rules_test can_slide_test cell_test change_units_test configuration_test curve_rules_test expand_test field_test lattice_test nearest_name_test
   one_line_test origin_test quantity_test read_scene_test request_field_test scaling_test scene_index_test scene_test solid_rules_test utf8_test
   validate_test violation_test write_scene_test)
@@ -132,6 +132,7 @@ contact_path_add_long_test(path total_law_test)
 contact_path_add_long_test(path mpec_cases_test)
 contact_path_add_long_test(path mpec_method_test)
 contact_path_add_long_test(path mpec_random_paths_test)
+contact_path_add_long_test(path own_surface_test)
 contact_path_add_long_test(path polygon_disc_test)
 contact_path_add_long_test(path resume_test)
 contact_path_add_long_test(path sizes_test)

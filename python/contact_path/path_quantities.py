@@ -100,11 +100,12 @@ def steps_on_surface(path: Path, structure: Structure, contact: int, known: np.n
     the surface has in the two increments; 0 for the first."""
     surface, node = structure.surfaces[structure.contact_surfaces[contact]], structure.contact_nodes[contact]
     x, y = (np.column_stack([path[axis + name] for name in structure.names])[known] for axis in ('x_', 'y_'))
+    touched = surface.touched(np.array([node]), structure.initial)
     steps = np.zeros(len(x))
     before, start = None, 0.0
     for i, places in enumerate(np.stack((x, y), axis=2)):
         shape = surface.shape(places)
-        end = shape.foot(places[[node]])[1][0]
+        end = shape.foot(places[[node]], touched)[1][0]
         if before is not None:
             step = end - start
             if surface.closed:

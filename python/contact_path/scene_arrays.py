@@ -128,7 +128,8 @@ class Structure:
             normals[own] = placements[name].vectors(found)
         for name, surface in self.surfaces.items():
             own = np.flatnonzero(np.array(self.contact_surfaces) == name)
-            normals[own], _ = surface.shape(places).foot(places[self.contact_nodes[own]])
+            nodes = self.contact_nodes[own]
+            normals[own], _ = surface.shape(places).foot(places[nodes], surface.touched(nodes, self.initial))
         return normals
 
     def find_bar_directions(self) -> List[List[np.ndarray]]:

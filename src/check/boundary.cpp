@@ -11,6 +11,9 @@ namespace {
 
 constexpr int kIterations = 200;  // of a bisection: more than there are bits
 constexpr int kParts = 16;        // of a patch, for its length
+constexpr Real kPi = 3.14159265358979323846L;
+constexpr Real kRounding = 1e-9L;  // of the length within which patches are left out
+constexpr Real kAtEnd = 1e-9L;     // [rad] off the normal at an end: a path that ends there does so to rounding
 
 constexpr BoundaryPatch::Weights kInner = {{{0.5L, -1.0L, 0.5L}, {0.5L, 1.0L, -1.0L}, {0.0L, 0.0L, 0.5L}}};
 constexpr BoundaryPatch::Weights kFirst = {{{1.0L, -0.5L, 0.0L}, {0.0L, 0.5L, 0.0L}, {}}};
@@ -61,6 +64,28 @@ Shapes ShapesAt(const BoundaryPatch::Weights& weights, const Dual& tau) {
 }
 
 }  // namespace
+
+std::vector<bool> PatchesLeftOut(const BoundarySurface& surface, const std::vector<Vector>& places, std::size_t node) {
+  const std::size_t n = places.size();
+  std::vector<Real> walked = {0.0L};  // up to each node, and of a closed surface back to the first
+  for (std::size_t i = 1; i < n + (surface.closed ? 1 : 0); ++i)
+    walked.push_back(walked.back() + Length(places[i % n] - places[i - 1]));
+  const Real round = walked.back(), most = (1.0L + kRounding) * kPi * surface.radius;
+  const auto onwards = [&](Real length) {
+    if (length >= 0.0L) return length;
+    return surface.closed ? length + round : std::numeric_limits<Real>::infinity();
+  };
+  std::vector<bool> left_out;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Real before = i > 0 ? walked[i - 1] : walked[n - 1] - round;
+    const Real after = i + 1 < walked.size() ? walked[i + 1] : walked[i];
+    const Real begin = 0.5L * (before + walked[i]), end = 0.5L * (walked[i] + after);  // of the patch: middles of edges
+    const Real least = std::min(onwards(begin - walked[node]), onwards(walked[node] - end));
+    const std::size_t apart = std::max(i, node) - std::min(i, node);
+    left_out.push_back(apart <= 2 || (surface.closed && n - apart <= 2) || least <= most);
+  }
+  return left_out;
+}
 
 Boundary::Boundary(const BoundarySurface& surface, const std::vector<std::size_t>& nodes)
     : closed_(surface.closed), radius_(surface.radius) {
@@ -137,20 +162,25 @@ BoundaryFoot BoundaryShape::FootOn(const Parabola& curve, const Vector& x) {
   return nearest;
 }
 
-BoundaryFoot BoundaryShape::Nearest(const Vector& x) const {
+BoundaryFoot BoundaryShape::Nearest(const Vector& x, const std::vector<bool>& left_out) const {
   BoundaryFoot nearest;
   nearest.distance = std::numeric_limits<Real>::infinity();
+  const std::size_t n = curves_.size();
+  const auto is_left_out = [&](std::size_t i) { return !left_out.empty() && left_out[i]; };
   search_.Search(x, [&](std::size_t i) {
+    if (is_left_out(i)) return std::numeric_limits<Real>::infinity();
     BoundaryFoot foot = FootOn(curves_[i], x);
     foot.patch = i;
     if (foot.distance < nearest.distance || (foot.distance == nearest.distance && i < nearest.patch)) nearest = foot;
     return foot.distance;
   });
-  if (boundary_.Closed()) return nearest;
+  const bool begins = is_left_out((nearest.patch + n - 1) % n) || (!boundary_.Closed() && nearest.patch == 0);
+  const bool ends = is_left_out((nearest.patch + 1) % n) || (!boundary_.Closed() && nearest.patch + 1 == n);
   const Vector back = x - Place(curves_[nearest.patch], nearest.tau);
-  const Real along = Dot(back, Direction(curves_[nearest.patch], nearest.tau));
-  nearest.is_end = (nearest.patch == 0 && nearest.tau == 0.0L && along < 0.0L) ||
-                   (nearest.patch + 1 == curves_.size() && nearest.tau == 1.0L && along > 0.0L);
+  const Vector direction = Direction(curves_[nearest.patch], nearest.tau);
+  const Real along = Dot(back, direction), rounding = kAtEnd * Length(back) * Length(direction);
+  nearest.is_end =
+      (begins && nearest.tau == 0.0L && along < -rounding) || (ends && nearest.tau == 1.0L && along > rounding);
   return nearest;
 }
 

@@ -28,8 +28,13 @@ struct BoundaryFoot {
   std::size_t patch = 0;
   Real tau = 0.0L;
   Real distance = 0.0L;  // of the point from the foot [length]
-  bool is_end = false;   // the point is past an end of an open boundary
+  bool is_end = false;   // the point is past an end of the boundary
 };
+
+// By patch, whether it is left out for a node of the surface itself: it is the patch of the node or one of the two on
+// either side, or it begins within pi times the radius of the node, along the edges between the places. places: of the
+// nodes of the surface at the start [length].
+std::vector<bool> PatchesLeftOut(const BoundarySurface& surface, const std::vector<Vector>& places, std::size_t node);
 
 // Which nodes the patches of a surface of a scene have.
 class Boundary {
@@ -57,8 +62,8 @@ class BoundaryShape {
   const std::array<std::size_t, BoundaryPatch::kNodes>& NodesOf(const BoundaryFoot& foot) const {
     return boundary_.Patches()[foot.patch].nodes;
   }
-  // The nearest point of the whole curve.
-  BoundaryFoot Nearest(const Vector& x) const;
+  // The nearest point of the curve, which has ends where patches are left out. left_out: by patch; empty: none is.
+  BoundaryFoot Nearest(const Vector& x, const std::vector<bool>& left_out) const;
   // Of length 1, on the left of the curve.
   Vector Normal(const BoundaryFoot& foot) const;
   // (x - y) . n - radius; past an end the distance from it [length].

@@ -76,22 +76,19 @@ class ObstacleContact : public Contact {
 
 class BoundaryContact : public Contact {
  public:
-  BoundaryContact(std::size_t node, std::size_t surface, Real friction) : Contact(node, friction), surface_(surface) {}
+  // left_out: patches of the surface, where the node is one of its own; empty: none.
+  BoundaryContact(std::size_t node, std::size_t surface, Real friction, std::vector<bool> left_out)
+      : Contact(node, friction), surface_(surface), left_out_(std::move(left_out)) {}
 
   std::optional<std::size_t> TouchedSurface() const override { return surface_; }
   Real Gap(const PlacedState& state) const override {
-    const Vector x = state.Place(Node());
-    const BoundaryShape& shape = state.Shape(surface_);
-    return shape.Gap(x, shape.Nearest(x));
+    return state.Shape(surface_).Gap(state.Place(Node()), FootIn(state));
   }
-  Vector Normal(const PlacedState& state) const override {
-    const BoundaryShape& shape = state.Shape(surface_);
-    return shape.Normal(shape.Nearest(state.Place(Node())));
-  }
+  Vector Normal(const PlacedState& state) const override { return state.Shape(surface_).Normal(FootIn(state)); }
   // The motion of the foot through the material, as long as it is in the mean of both shapes.
   Real Slip(const PlacedState& from, const PlacedState& to) const override {
     const BoundaryShape &before = from.Shape(surface_), &after = to.Shape(surface_);
-    const BoundaryFoot begin = before.Nearest(from.Place(Node())), end = after.Nearest(to.Place(Node()));
+    const BoundaryFoot begin = FootIn(from), end = FootIn(to);
     return 0.5L * (before.Walked(begin, end) + after.Walked(begin, end));
   }
   void AddForces(const PlacedState& state, Real rn, Real rt, Real factor, std::vector<Real>* forces) const override {
@@ -113,18 +110,35 @@ class BoundaryContact : public Contact {
   }
 
  private:
+  BoundaryFoot FootIn(const PlacedState& state) const {
+    return state.Shape(surface_).Nearest(state.Place(Node()), left_out_);
+  }
   std::array<std::pair<std::size_t, Vector>, 1 + BoundaryPatch::kNodes> ForcesByNode(const PlacedState& state, Real rn,
                                                                                      Real rt) const {
     const Vector x = state.Place(Node());
     const BoundaryShape& shape = state.Shape(surface_);
-    const BoundaryFoot foot = shape.Nearest(x);
+    const BoundaryFoot foot = FootIn(state);
     const BoundaryShape::Forces forces = shape.ForcesOf(x, foot, rn, rt);
     const std::array<std::size_t, BoundaryPatch::kNodes>& nodes = shape.NodesOf(foot);
     return {{{Node(), forces[0]}, {nodes[0], forces[1]}, {nodes[1], forces[2]}, {nodes[2], forces[3]}}};
   }
 
   std::size_t surface_;
+  std::vector<bool> left_out_;
 };
+
+// Of a surface for a node of the scene; empty where the surface does not have the node.
+std::vector<bool> PatchesLeftOutFor(const std::string& node, const BoundarySurface& surface, const Scene& scene,
+                                    const NodeNumbers& numbers) {
+  const auto own = std::find(surface.nodes.begin(), surface.nodes.end(), node);
+  if (own == surface.nodes.end()) return {};
+  std::vector<Vector> places;
+  for (const std::string& name : surface.nodes) {
+    const Node& of = scene.nodes[numbers.at(name)];
+    places.push_back({of.x, of.y});
+  }
+  return PatchesLeftOut(surface, places, static_cast<std::size_t>(own - surface.nodes.begin()));
+}
 
 }  // namespace
 
@@ -155,7 +169,9 @@ std::vector<std::unique_ptr<const Contact>> MakeContacts(const Scene& scene, con
   for (const ContactCandidate& contact : scene.contacts) {
     const std::size_t node = numbers.at(contact.node);
     if (contact.OnSurface()) {
-      contacts.push_back(std::make_unique<BoundaryContact>(node, surfaces.at(contact.surface), contact.friction));
+      const std::size_t surface = surfaces.at(contact.surface);
+      contacts.push_back(std::make_unique<BoundaryContact>(
+          node, surface, contact.friction, PatchesLeftOutFor(contact.node, scene.surfaces[surface], scene, numbers)));
       continue;
     }
     const auto obstacle = obstacles.find(contact.obstacle);

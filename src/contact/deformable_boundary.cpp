@@ -53,29 +53,29 @@ NearestFoot BoundaryAt::Nearest(const Vector2d& x) const {
     most = counted;
     nearest = {patch, distance, is_end};
   };
-  const int last = NumPatches() - 1;
-  for (int i = 0; i <= last; ++i) {
+  for (int i = 0; i < NumPatches(); ++i) {
+    if (!HasPatch(i)) continue;
     const SplinePatch patch = boundary_.Spline().Patch(i);
     const Parabola curve = ParabolaOf(patch);
     const Vector2d begin = curve.a, end = curve.At(patch.end);
     // The parabola is no farther from its chord than a quarter of c.
     if (Distance(x, begin, end) > most + 0.25 * curve.c.lpNorm<1>()) continue;
-    const double tau = curve.FootOf(x, patch.end);
+    const double tau = curve.FootOf(x, patch.begin, patch.end);
     if (tau >= 0.0 && tau <= patch.end) {
       consider(i, (x - curve.At(tau)).norm(), false, false);
       continue;
     }
-    const bool is_first = !Closed() && i == 0, is_last = !Closed() && i == last;
-    consider(i, (x - begin).norm(), !is_first, is_first);
-    consider(i, (x - end).norm(), !is_last, is_last);
+    const bool begins = !HasPatch(i - 1), ends = !HasPatch(i + 1);
+    consider(i, (x - begin).norm(), !begins, begins);
+    consider(i, (x - end).norm(), !ends, ends);
   }
   return nearest;
 }
 
 Projection BoundaryAt::Project(const Vector2d& x, int patch) const {
-  const SplinePatch of = boundary_.Spline().Patch(patch);
+  const SplinePatch of = patches_.Patch(patch);
   const Parabola curve = ParabolaOf(of);
-  const double tau = curve.FootOf(x, of.end);
+  const double tau = curve.FootOf(x, of.begin, of.end);
   const Vector2d first = curve.b + 2.0 * tau * curve.c, second = 2.0 * curve.c;
   const double speed = first.norm();
   Projection at;

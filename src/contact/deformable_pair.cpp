@@ -28,11 +28,11 @@ using spline_contact::Values;
 // Where the node and the control nodes of a patch are, and the unknowns among their places.
 struct DeformablePair::Stencil {
   Stencil(const DeformablePair& pair, const Eigen::VectorXd& u, int patch_number)
-      : boundary(*pair.boundary_), patch(boundary.Spline().Patch(patch_number)) {
+      : boundary(*pair.boundary_), patch(pair.patches_.Patch(patch_number)) {
     const std::array<Eigen::Vector2d, 3> places = boundary.Places(patch, u);
     const Eigen::Vector2d x = pair.node_.At(u);
     z << x, places[0], places[1], places[2];
-    foot = Parabola(patch, places).FootOf(x, patch.end);
+    foot = Parabola(patch, places).FootOf(x, patch.begin, patch.end);
   }
 
   // Values with derivatives by the places.
@@ -112,9 +112,9 @@ struct DeformablePair::Columns {
   std::array<Eigen::Index, kPlaces> of{};  // by place; -1: held, or there is none
 };
 
-DeformablePair::DeformablePair(std::shared_ptr<const DeformableBoundary> boundary, const NodePlace& node,
-                               double friction, const Eigen::VectorXd& force_bounds)
-    : boundary_(std::move(boundary)), node_(node) {
+DeformablePair::DeformablePair(std::shared_ptr<const DeformableBoundary> boundary, const AdmissiblePatches& patches,
+                               const NodePlace& node, double friction, const Eigen::VectorXd& force_bounds)
+    : boundary_(std::move(boundary)), patches_(patches), node_(node) {
   Traits traits;
   traits.friction = friction;
   traits.deformable = traits.curved = traits.has_patches = true;
@@ -138,7 +138,7 @@ DeformablePair::DeformablePair(std::shared_ptr<const DeformableBoundary> boundar
   SetTraits(traits);
 }
 
-PairDofs DeformablePair::Dofs(int patch) const { return Columns(*this, boundary_->Spline().Patch(patch)).dofs; }
+PairDofs DeformablePair::Dofs(int patch) const { return Columns(*this, patches_.Patch(patch)).dofs; }
 
 void DeformablePair::Evaluate(const Eigen::VectorXd& u, double s, int patch, double reference,
                               Kinematics* kinematics) const {
@@ -164,35 +164,32 @@ void DeformablePair::Evaluate(const Eigen::VectorXd& u, double s, int patch, dou
 }
 
 double DeformablePair::Gap(const Eigen::VectorXd& u, double s, int patch) const {
-  return GapBeside(BoundaryAt(*boundary_, u), node_.At(u), KnownPatch(u, s, patch));
+  return GapBeside(BoundaryAtPlaces(u), node_.At(u), KnownPatch(u, s, patch));
 }
 
 NearestFoot DeformablePair::Nearest(const Eigen::VectorXd& u, double /*s*/) const {
-  NearestFoot nearest = BoundaryAt(*boundary_, u).Nearest(node_.At(u));
+  NearestFoot nearest = BoundaryAtPlaces(u).Nearest(node_.At(u));
   nearest.distance -= boundary_->Radius();
   return nearest;
 }
 
 int DeformablePair::PatchAt(const Eigen::VectorXd& u, double /*s*/) const {
-  return PatchBeside(BoundaryAt(*boundary_, u), node_.At(u));
+  return PatchBeside(BoundaryAtPlaces(u), node_.At(u));
 }
 
 int DeformablePair::PatchAfter(const Eigen::VectorXd& u, double /*s*/, int from) const {
-  return PatchBeside(BoundaryAt(*boundary_, u), node_.At(u), from);
+  return PatchBeside(BoundaryAtPlaces(u), node_.At(u), from);
 }
 
-bool DeformablePair::HasPatch(int patch) const {
-  const NodalSpline& spline = boundary_->Spline();
-  return spline.Closed() || (patch >= 0 && patch < spline.NumPatches());
-}
+bool DeformablePair::HasPatch(int patch) const { return patches_.Has(patch); }
 
 XiRange DeformablePair::RangeOf(int patch) const {
   const Eigen::VectorXd nowhere;  // xi stays with the material
-  return RangeBeside(BoundaryAt(*boundary_, nowhere), patch);
+  return RangeBeside(BoundaryAtPlaces(nowhere), patch);
 }
 
 bool DeformablePair::Overrun(const Eigen::VectorXd& u, const Eigen::VectorXd& after, int patch) const {
-  const BoundaryAt from(*boundary_, u), to(*boundary_, after);
+  const BoundaryAt from = BoundaryAtPlaces(u), to = BoundaryAtPlaces(after);
   const Eigen::Vector2d x = node_.At(u), moved = node_.At(after);
   const double radius = boundary_->Radius();
   if (to.Nearest(moved).distance < std::abs(to.Project(moved, patch).gap + radius) - tolerances::kOverrun) return true;
@@ -200,7 +197,7 @@ bool DeformablePair::Overrun(const Eigen::VectorXd& u, const Eigen::VectorXd& af
   const int own = spline.Within(patch), count = spline.NumPatches();
   for (int i = 0; i < count; ++i) {
     const int apart = std::abs(i - own);
-    if (std::min(apart, spline.Closed() ? count - apart : apart) <= 1) continue;
+    if (!patches_.Has(i) || std::min(apart, spline.Closed() ? count - apart : apart) <= 1) continue;
     const Projection foot = to.Project(moved, i), before = from.Project(x, i);
     const XiRange range = to.RangeOf(i);
     // The foot may have come from a patch beside.

@@ -4,10 +4,12 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "contact_path/contact/deformable_pair.h"
 #include "contact_path/contact/rigid_pair.h"
+#include "contact_path/scene/boundary_curve.h"
 #include "contact_path/scene/can_slide.h"
 #include "contact_path/scene/surface.h"
 
@@ -18,15 +20,24 @@ NodePlace PlaceOf(const Structure& structure, int node) {
   return {{structure.Dof(node, 0), structure.Dof(node, 1)}, structure.StartPosition(node)};
 }
 
-std::shared_ptr<const DeformableBoundary> MakeBoundary(const BoundarySurface& surface, const SceneIndex& index,
-                                                       const Structure& structure) {
+struct PlacedBoundary {
+  std::shared_ptr<const DeformableBoundary> boundary;
+  std::vector<Eigen::Vector2d> initial;  // places of its nodes in the scene, in any stage of a program
+};
+
+PlacedBoundary MakeBoundary(const BoundarySurface& surface, const Scene& scene, const SceneIndex& index,
+                            const Structure& structure) {
+  PlacedBoundary placed;
   std::vector<NodePlace> nodes;
   std::vector<Eigen::Vector2d> start;
   for (const std::string& name : surface.nodes) {
-    nodes.push_back(PlaceOf(structure, static_cast<int>(index.Node(name))));
+    const std::size_t node = index.Node(name);
+    nodes.push_back(PlaceOf(structure, static_cast<int>(node)));
     start.push_back(nodes.back().held);
+    placed.initial.emplace_back(scene.nodes[node].x, scene.nodes[node].y);
   }
-  return std::make_shared<DeformableBoundary>(std::move(nodes), start, surface.closed, surface.radius);
+  placed.boundary = std::make_shared<DeformableBoundary>(std::move(nodes), start, surface.closed, surface.radius);
+  return placed;
 }
 
 }  // namespace
@@ -50,17 +61,17 @@ ContactPairs BuildContacts(const Scene& scene, const SceneIndex& index, const St
     of.about = {motion.about_x, motion.about_y};
   }
 
-  std::vector<std::shared_ptr<const DeformableBoundary>> boundaries(scene.surfaces.size());
+  std::vector<PlacedBoundary> boundaries(scene.surfaces.size());
   const Eigen::VectorXd force_bounds = structure.ForceBounds();
   ContactPairs contacts;
   for (const ContactCandidate& candidate : scene.contacts) {
     const auto node = static_cast<int>(index.Node(candidate.node));
     if (candidate.OnSurface()) {
-      const std::size_t surface = index.Surface(candidate.surface);
-      std::shared_ptr<const DeformableBoundary>& boundary = boundaries[surface];
-      if (boundary == nullptr) boundary = MakeBoundary(scene.surfaces[surface], index, structure);
-      contacts.push_back(
-          std::make_unique<DeformablePair>(boundary, PlaceOf(structure, node), candidate.friction, force_bounds));
+      const BoundarySurface& surface = scene.surfaces[index.Surface(candidate.surface)];
+      PlacedBoundary& on = boundaries[index.Surface(candidate.surface)];
+      if (on.boundary == nullptr) on = MakeBoundary(surface, scene, index, structure);
+      contacts.push_back(std::make_unique<DeformablePair>(on.boundary, PatchesFor(candidate.node, surface, on.initial),
+                                                          PlaceOf(structure, node), candidate.friction, force_bounds));
       continue;
     }
     const std::size_t at = index.Obstacle(candidate.obstacle);

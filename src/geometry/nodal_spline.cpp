@@ -53,7 +53,7 @@ Parabola::Parabola(const SplinePatch& patch, const std::array<Eigen::Vector2d, 3
 // The slope of half the square of the distance is -f, f = (x - y) . y' a cubic whose leading coefficient is not
 // positive. There is one minimum on each part of the line where f falls: on the whole line, or before and after the
 // places where f' is zero.
-double Parabola::FootOf(const Eigen::Vector2d& x, double end) const {
+double Parabola::FootOf(const Eigen::Vector2d& x, double begin, double end) const {
   const Eigen::Vector2d d = x - a;
   const double f0 = d.dot(b), f1 = 2.0 * d.dot(c) - b.dot(b), f2 = -3.0 * b.dot(c), f3 = -2.0 * c.dot(c);
   const auto f = [&](double tau) { return f0 + tau * (f1 + tau * (f2 + tau * f3)); };
@@ -67,13 +67,14 @@ double Parabola::FootOf(const Eigen::Vector2d& x, double end) const {
       if (!(size > kFoot) || (size < kRoundingOfFoot * (1.0 + std::abs(tau)) && size >= previous)) break;
       previous = size;
     }
-    const double beyond = std::max(std::max(-tau, tau - end), 0.0), away = (x - At(tau)).squaredNorm();
+    const double beyond = std::max(std::max(begin - tau, tau - end), 0.0), away = (x - At(tau)).squaredNorm();
     if (!(beyond < outside || (beyond == outside && away < square))) return;
     foot = tau;
     outside = beyond;
     square = away;
   };
-  const double middle = 0.5 * end, bends = f2 * f2 - 3.0 * f3 * f1;
+  const double middle = std::isinf(begin) ? end : std::isinf(end) ? begin : 0.5 * (begin + end);
+  const double bends = f2 * f2 - 3.0 * f3 * f1;
   if (!(f3 < 0.0) || !(bends > 0.0)) {
     consider(middle);
     return foot;

@@ -7,8 +7,11 @@ namespace contact_path {
 int PatchBeside(const Surface& surface, const Eigen::Vector2d& x) {
   const NearestFoot nearest = surface.Nearest(x);
   if (!nearest.is_end) return nearest.patch;
+  const int before = nearest.patch - 1, after = nearest.patch + 1;
+  if (surface.HasPatch(after)) return before;
+  if (surface.HasPatch(before)) return after;
   const XiRange range = surface.RangeOf(nearest.patch);
-  return surface.Project(x, nearest.patch).xi < 0.5 * (range.begin + range.end) ? -1 : surface.NumPatches();
+  return surface.Project(x, nearest.patch).xi < 0.5 * (range.begin + range.end) ? before : after;
 }
 
 int PatchBeside(const Surface& surface, const Eigen::Vector2d& x, int from) {
@@ -26,10 +29,8 @@ int PatchBeside(const Surface& surface, const Eigen::Vector2d& x, int from) {
 XiRange RangeBeside(const Surface& surface, int patch) {
   if (surface.HasPatch(patch)) return surface.RangeOf(patch);
   XiRange range;
-  if (patch < 0)
-    range.end = surface.RangeOf(0).begin;
-  else
-    range.begin = surface.RangeOf(surface.NumPatches() - 1).end;
+  if (surface.HasPatch(patch - 1)) range.begin = surface.RangeOf(patch - 1).end;
+  if (surface.HasPatch(patch + 1)) range.end = surface.RangeOf(patch + 1).begin;
   return range;
 }
 

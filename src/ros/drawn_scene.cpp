@@ -49,11 +49,13 @@ Vector2d MiddleOf(const std::vector<std::size_t>& nodes, const NodePlaces& place
   return sum / static_cast<double>(nodes.size());
 }
 
-BoundaryCurve DrawnSurface::At(const NodePlaces& places) const {
+NodePlaces DrawnSurface::PlacesIn(const NodePlaces& places) const {
   NodePlaces own;
   for (const std::size_t node : nodes) own.push_back(places[node]);
-  return {own, closed, radius};
+  return own;
 }
+
+BoundaryCurve DrawnSurface::At(const NodePlaces& places) const { return {PlacesIn(places), closed, radius}; }
 
 DrawnScene::DrawnScene(const TraceRequest& request_given) : name(OneLine(request_given.scene.name)) {
   const ExpandedRequest expanded(request_given);
@@ -97,7 +99,8 @@ void DrawnScene::AddContacts(const Scene& scene, const SceneIndex& index) {
       surfaces.push_back({{}, surface.closed, surface.radius});
       for (const std::string& node_name : surface.nodes) surfaces.back().nodes.push_back(index.Node(node_name));
     }
-    contacts.push_back({node, true, at->second, contact.friction});
+    const NodePlaces places = surfaces[at->second].PlacesIn(initial);
+    contacts.push_back({node, true, at->second, contact.friction, PatchesFor(contact.node, surface, places)});
   }
 }
 

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,7 @@ struct DrawnSurface {
   bool closed = false;
   double radius = 0.0;
 
+  NodePlaces PlacesIn(const NodePlaces& places) const;
   BoundaryCurve At(const NodePlaces& places) const;
 };
 
@@ -51,6 +53,7 @@ struct DrawnCandidate {
   bool on_surface = false;
   std::size_t partner = 0;  // the place of its surface among the drawn ones, or of its obstacle
   double friction = 0.0;
+  std::optional<AdmissiblePatches> patches = {};  // of its surface
 };
 
 Eigen::Vector2d MiddleOf(const std::vector<std::size_t>& nodes, const NodePlaces& places);

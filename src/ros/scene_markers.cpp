@@ -253,7 +253,7 @@ std::vector<Vector2d> NormalsOf(const DrawnScene& scene, const DrawnStage& stage
   std::vector<Vector2d> normals;
   for (const DrawnCandidate& contact : scene.contacts) {
     const Vector2d& place = places[contact.node];
-    normals.push_back(contact.on_surface ? curves[contact.partner].Nearest(place).normal
+    normals.push_back(contact.on_surface ? curves[contact.partner].Nearest(place, *contact.patches).normal
                                          : stage.obstacles[contact.partner].ProjectAt(load_factor, place).normal);
   }
   return normals;

@@ -18,10 +18,9 @@ Eigen::Vector2d NormalOf(const Parabola& curve, double tau) {
 }  // namespace
 
 BoundaryCurve::BoundaryCurve(const std::vector<Eigen::Vector2d>& places, bool closed, double radius)
-    : closed_(closed), radius_(radius) {
-  const NodalSpline spline(static_cast<int>(places.size()), closed);
-  for (int i = 0; i < spline.NumPatches(); ++i) {
-    const SplinePatch patch = spline.Patch(i);
+    : spline_(static_cast<int>(places.size()), closed), radius_(radius) {
+  for (int i = 0; i < spline_.NumPatches(); ++i) {
+    const SplinePatch patch = spline_.Patch(i);
     std::array<Eigen::Vector2d, 3> nodes;
     for (std::size_t k = 0; k < nodes.size(); ++k)
       nodes[k] = patch.nodes[k] < 0 ? Eigen::Vector2d::Zero() : places[static_cast<std::size_t>(patch.nodes[k])];
@@ -29,12 +28,13 @@ BoundaryCurve::BoundaryCurve(const std::vector<Eigen::Vector2d>& places, bool cl
   }
 }
 
-BoundaryCurve::Foot BoundaryCurve::Nearest(const Eigen::Vector2d& x) const {
+BoundaryCurve::Foot BoundaryCurve::Nearest(const Eigen::Vector2d& x, const AdmissiblePatches& patches) const {
   double nearest = std::numeric_limits<double>::infinity();
   std::size_t at = 0;
   double foot = 0.0;
   for (std::size_t i = 0; i < patches_.size(); ++i) {
-    const double tau = std::clamp(patches_[i].curve.FootOf(x, patches_[i].end), 0.0, patches_[i].end);
+    if (!patches.Has(static_cast<int>(i))) continue;
+    const double tau = std::clamp(patches_[i].curve.FootOf(x, 0.0, patches_[i].end), 0.0, patches_[i].end);
     const double distance = (x - patches_[i].curve.At(tau)).norm();
     if (!(distance < nearest)) continue;
     nearest = distance;
@@ -44,9 +44,10 @@ BoundaryCurve::Foot BoundaryCurve::Nearest(const Eigen::Vector2d& x) const {
   const Patch& patch = patches_[at];
   const Eigen::Vector2d away = x - patch.curve.At(foot), normal = NormalOf(patch.curve, foot);
   const double along = away.dot(SlopeOf(patch.curve, foot));
-  const bool before = at == 0 && foot == 0.0 && along < 0.0;
-  const bool after = at + 1 == patches_.size() && foot == patch.end && along > 0.0;
-  if (!closed_ && (before || after)) return {nearest, normal, true};
+  const int number = static_cast<int>(at);
+  const bool before = !patches.Has(number - 1) && foot == 0.0 && along < 0.0;
+  const bool after = !patches.Has(number + 1) && foot == patch.end && along > 0.0;
+  if (before || after) return {nearest, normal, true};
   return {away.dot(normal) - radius_, normal, false};
 }
 
@@ -59,6 +60,14 @@ std::vector<OutlinePoint> BoundaryCurve::Points(int parts) const {
       points.push_back({patches_[i].curve.At(tau) + radius_ * normal, normal, static_cast<double>(points.size())});
     }
   return points;
+}
+
+AdmissiblePatches PatchesFor(const std::string& node, const BoundarySurface& surface,
+                             const std::vector<Eigen::Vector2d>& places) {
+  const auto own = std::find(surface.nodes.begin(), surface.nodes.end(), node);
+  if (own == surface.nodes.end())
+    return AdmissiblePatches(NodalSpline(static_cast<int>(surface.nodes.size()), surface.closed));
+  return {places, surface.closed, surface.radius, static_cast<int>(own - surface.nodes.begin())};
 }
 
 }  // namespace contact_path

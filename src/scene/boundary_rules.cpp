@@ -47,13 +47,15 @@ void BoundaryRules::CheckContact(const KeyPath& path, const ContactCandidate& co
                                  const BoundarySurface& surface, double length) {
   const Judged& judged = Judge(surface);
   if (!judged.sound) return;
-  if (judged.nodes.count(node.name) > 0)
+  const AdmissiblePatches patches = PatchesFor(node.name, surface, judged.places);
+  if (patches.None())
     return checker_.Add(path.Key("node"), node.name,
-                        "a node of surface " + surface.name + " itself cannot be its candidate yet");
+                        "a node of surface " + surface.name +
+                            " itself must have some of it farther along it than two nodes and pi times its radius");
   if (!CanMove(node) && !judged.can_move)
     return checker_.Add(path.Key("node"), node.name,
                         "must be free to move, or a node of surface " + surface.name + " must be");
-  const BoundaryCurve::Foot foot = judged.curve->Nearest({node.x, node.y});
+  const BoundaryCurve::Foot foot = judged.curve->Nearest({node.x, node.y}, patches);
   if (length > 0.0 && !foot.is_end && foot.gap < -kPenetration * length)
     checker_.Add(path, contact.Name(), "initial position penetrates the surface by " + NumberText(-foot.gap));
 }
@@ -62,17 +64,15 @@ const BoundaryRules::Judged& BoundaryRules::Judge(const BoundarySurface& surface
   const auto [at, is_new] = judged_.try_emplace(&surface);
   Judged& judged = at->second;
   if (!is_new) return judged;
-  judged.nodes.insert(surface.nodes.begin(), surface.nodes.end());
   judged.can_move = std::any_of(surface.nodes.begin(), surface.nodes.end(),
                                 [&](const std::string& name) { return CanMove(*checker_.KnownNode(name)); });
   const KeyPath path = kSurfaces[static_cast<std::size_t>(&surface - scene_.surfaces.data())];
   judged.sound = CheckEdges(path, surface) && CheckBends(path, surface);
-  std::vector<Eigen::Vector2d> places;
   for (const std::string& name : surface.nodes) {
     const Node& node = *checker_.KnownNode(name);
-    places.emplace_back(node.x, node.y);
+    judged.places.emplace_back(node.x, node.y);
   }
-  judged.curve.emplace(places, surface.closed, surface.radius);
+  judged.curve.emplace(judged.places, surface.closed, surface.radius);
   return judged;
 }
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
-#include <unordered_set>
 #include <utility>
+#include <vector>
 
 #include "contact_path/scene/boundary_curve.h"
 #include "scene/checker.h"
@@ -32,9 +32,9 @@ class BoundaryRules {
   // A surface that a contact names is judged once.
   struct Judged {
     bool sound = false;
-    bool can_move = false;  // one of its nodes can
+    bool can_move = false;                // one of its nodes can
+    std::vector<Eigen::Vector2d> places;  // of its nodes
     std::optional<BoundaryCurve> curve;
-    std::unordered_set<std::string> nodes;
   };
   const Judged& Judge(const BoundarySurface& surface);
   // Whether it is a boundary.

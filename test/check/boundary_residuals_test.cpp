@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "contact_path/check/residuals.h"
@@ -180,6 +181,99 @@ TEST(BoundaryResiduals, BehindTheSurfaceIsPenetrationAndPastAnEndNothing) {
   EXPECT_NEAR(residuals_at(1.0, 0.1).penetration, 0.35, kRounding);  // the curve is at 0.15 there
   EXPECT_EQ(residuals_at(-0.4, -0.3).penetration, 0.0);
   EXPECT_NEAR(check.Gap(0, StateOf({-0.4, -0.3}, places)), 0.5, kRounding);
+}
+
+// Where a path ends since the node is about to slide over an end, rounding does not take the contact away.
+TEST(BoundaryResiduals, AtAnEndToRoundingTheSurfaceIsTouched) {
+  const std::vector<Eigen::Vector2d> places = {{0.0, 0.0}, {1.0, 0.0}};
+  const Scene scene = BesideSurface(places, false, 0.02, 1.0);
+  const ResidualCheck check(scene, Configuration::Of(scene), {});
+  for (const double past : {-1e-14, 0.0, 1e-14}) {
+    EXPECT_NEAR(check.Gap(0, StateOf({-past, 0.02}, places)), 0.0, kRounding);
+    EXPECT_NEAR(check.Gap(0, StateOf({1.0 + past, 0.02}, places)), 0.0, kRounding);
+  }
+  EXPECT_NEAR(check.Gap(0, StateOf({-1e-6, 0.02}, places)), 0.02, 1e-9);
+}
+
+// A ring of nodes on springs, walked counterclockwise, is pressed flat: its node at the top against the ring itself.
+class OwnSurface : public testing::Test {
+ protected:
+  static constexpr int kNodes = 24;
+
+  OwnSurface() {
+    for (const Eigen::Vector2d& place : Ring(kNodes)) places_.insert(places_.begin(), place);  // the first is the last
+    scene_ = BesideSurface(places_, true, 0.1, 1.0);
+    scene_.contacts[0].node = std::to_string(kNodes - 1);
+  }
+  // y times a factor.
+  std::vector<Eigen::Vector2d> Flattened(double factor) const {
+    std::vector<Eigen::Vector2d> flat = places_;
+    for (Eigen::Vector2d& place : flat) place.y() *= factor;
+    return flat;
+  }
+  Eigen::Vector2d MiddleAfter(std::size_t node) const {
+    return 0.5 * (places_[node % kNodes] + places_[(node + 1) % kNodes]);
+  }
+
+  std::vector<Eigen::Vector2d> places_;
+  Scene scene_;
+};
+
+TEST_F(OwnSurface, IsTouchedWhereItIsFarAlongIt) {
+  const ResidualCheck check(scene_, Configuration::Of(scene_), {});
+  const double opposite = -0.2 * (0.75 + 0.25 * std::cos(2.0 * kPi / kNodes));
+  const CheckedState flat = StateOf({3.0, 3.0}, Flattened(0.2));
+  EXPECT_NEAR(check.Gap(0, flat), 0.2 - opposite - 0.1, kRounding);
+  EXPECT_NEAR(check.Normal(0, flat)[1], 1.0, kRounding);
+  // Of the circle nothing but an end is near: pi times the radius is 1.2 edges, so that two patches are left out.
+  const double end = (places_[kNodes - 1] - MiddleAfter(kNodes + 1)).norm();
+  EXPECT_NEAR(check.Gap(0, StateOf({3.0, 3.0}, places_)), end, kRounding);
+}
+
+TEST_F(OwnSurface, IsLeftOutWithinPiTimesItsRadius) {
+  const double edge = (places_[1] - places_[0]).norm();
+  for (const double edges : {3.4, 3.6, 4.6}) {
+    scene_.surfaces[0].radius = edges * edge / kPi;
+    const ResidualCheck check(scene_, Configuration::Of(scene_), {});
+    const double end = (places_[kNodes - 1] - MiddleAfter(kNodes + static_cast<std::size_t>(edges - 0.5))).norm();
+    EXPECT_NEAR(check.Gap(0, StateOf({3.0, 3.0}, places_)), end, kRounding);
+  }
+}
+
+// Pressed on by its opposite side with 2 and pushed aside by 0.5, the node is in balance; with another reaction not.
+TEST_F(OwnSurface, WrongReactionsAreRefuted) {
+  const double opposite = -0.75 - 0.25 * std::cos(2.0 * kPi / kNodes), touching = 0.1 / (1.0 - opposite);
+  const std::vector<Eigen::Vector2d> flat = Flattened(touching);
+  CheckedState now = StateOf({0.0, 0.0}, flat);
+  now.rn = {2.0};
+  now.rt = {-0.5};
+  // Constant loads hold the rest: they are what the check itself finds missing, node by node, but of the forces of the
+  // contact what follows from the weights of the spline and the lever of the radius.
+  const ResidualCheck without(scene_, Configuration::Of(scene_), {});
+  CheckedState free = now;
+  free.rn = free.rt = {0.0};
+  const std::vector<double> springs = without.Unbalance(free);
+  const int top = kNodes - 1, bottom = kNodes / 2 - 1;
+  const double side = (flat[bottom + 1] - flat[bottom]).x();
+  const double couple = 0.1 * 0.5 / (2.0 * side);  // friction acts at the distance of the radius
+  std::vector<double> forces(springs.size(), 0.0);
+  const auto add = [&](int node, double fx, double fy) {
+    forces[static_cast<std::size_t>(2 * node + 2)] += fx;
+    forces[static_cast<std::size_t>(2 * node + 3)] += fy;
+  };
+  add(top, -0.5, 2.0);
+  add(bottom, 0.75 * 0.5, -0.75 * 2.0);
+  for (const int sense : {-1, 1}) add(bottom + sense, 0.125 * 0.5, -0.125 * 2.0 - sense * couple);
+  for (std::size_t i = 0; i < springs.size(); i += 2)
+    scene_.loads.push_back({scene_.nodes[i / 2].name, springs[i] - forces[i], springs[i + 1] - forces[i + 1], true});
+  const ResidualCheck check(scene_, Configuration::Of(scene_), {});
+  EXPECT_LE(check.Check(now, now).Largest(), kRounding);
+  for (const auto& [rn, rt] : {std::pair(2.1, -0.5), std::pair(2.0, -0.4), std::pair(2.0, -0.7)}) {
+    CheckedState wrong = now;
+    wrong.rn = {rn};
+    wrong.rt = {rt};
+    EXPECT_GT(check.Check(wrong, wrong).Largest(), 0.01) << rn << " " << rt;
+  }
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <cstddef>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -206,7 +208,7 @@ TEST(DeformablePair, OnAStraightLineSlipsByTheLengthOfWhatItPasses) {
   const auto line =
       std::make_shared<DeformableBoundary>(std::vector<NodePlace>{{{-1, -1}, {0.0, 0.0}}, {{0, -1}, {0.0, 0.0}}},
                                            std::vector<Eigen::Vector2d>{{0.0, 0.0}, {1.0, 0.0}}, false, 0.1);
-  const DeformablePair pair(line, {{1, 2}, Eigen::Vector2d::Zero()}, 0.3);
+  const DeformablePair pair(line, AdmissiblePatches(line->Spline()), {{1, 2}, Eigen::Vector2d::Zero()}, 0.3);
   const Eigen::Vector3d from(2.0, 1.2, 0.1), to(2.0, 1.7, 0.1);
   EXPECT_EQ(pair.PatchAt(from, 0.0), 1);
   EXPECT_NEAR(pair.Gap(from, 0.0, 1), 0.0, kRounding);
@@ -271,6 +273,102 @@ TEST(DeformablePair, PatchesGoRoundAClosedBoundary) {
       last = xi;
     }
   }
+}
+
+// A ring of 24 nodes around the origin, of the radius 1, walked counterclockwise so that its inside is admissible; a
+// node of it against the ring itself, of which two patches on either side of its own are left out.
+struct OwnNode {
+  explicit OwnNode(int own) {
+    std::vector<NodePlace> nodes;
+    std::vector<Eigen::Vector2d> start;
+    for (int i = 0; i < 24; ++i) {
+      const double angle = 2.0 * std::acos(-1.0) * i / 24;
+      start.emplace_back(std::cos(angle), std::sin(angle));
+      nodes.push_back({{2 * i, 2 * i + 1}, start.back()});
+      u.conservativeResize(2 * i + 2);
+      u.tail<2>() = start.back();
+    }
+    const AdmissiblePatches patches(start, true, 0.1, own);
+    boundary = std::make_shared<DeformableBoundary>(nodes, start, true, 0.1);
+    pair = std::make_unique<DeformablePair>(boundary, patches, nodes[static_cast<std::size_t>(own)], 0.3);
+  }
+  // y over this factor of that of the circle; all places moved at random by up to `noise`.
+  Eigen::VectorXd Flattened(double factor, double noise = 0.0) const {
+    Random random(7);
+    Eigen::VectorXd flat = u + random.Vector(u.size(), -noise, noise);
+    for (Eigen::Index k = 1; k < flat.size(); k += 2) flat[k] *= factor;
+    return flat;
+  }
+
+  std::shared_ptr<const DeformableBoundary> boundary;
+  std::unique_ptr<const DeformablePair> pair;
+  Eigen::VectorXd u;
+};
+
+TEST(DeformablePairOfItsOwnBoundary, TouchesWhatIsFarFromItAlongTheBoundary) {
+  const OwnNode top(6);
+  const Eigen::VectorXd flat = top.Flattened(0.2);
+  EXPECT_EQ(top.pair->PatchAt(flat, 0.0), 18);
+  EXPECT_TRUE(top.pair->HasPatch(18) && top.pair->HasPatch(9) && top.pair->HasPatch(3) && top.pair->HasPatch(-15));
+  for (const int patch : {4, 5, 6, 7, 8, 28, -16}) EXPECT_FALSE(top.pair->HasPatch(patch)) << patch;
+  // The spline passes a node at an eighth of the second difference.
+  const double opposite = -0.2 * (0.75 + 0.25 * std::cos(std::acos(-1.0) / 12.0));
+  EXPECT_NEAR(top.pair->Gap(flat, 0.0, 18), 0.2 - opposite - 0.1, kRounding);
+  EXPECT_NEAR(top.pair->Nearest(flat, 0.0).distance, 0.2 - opposite - 0.1, kRounding);
+}
+
+// The places where patches are left out are ends: of a node between them the gap is a distance from one of them.
+TEST(DeformablePairOfItsOwnBoundary, IsPastAnEndBesideItself) {
+  const OwnNode own(6);
+  const auto middle = [&](const Eigen::VectorXd& u, int before) {
+    return Eigen::Vector2d(0.5 * (u.segment<2>(2 * before) + u.segment<2>(2 * before + 2)));
+  };
+  for (const int nearer : {3, 8}) {  // the node before the border
+    Eigen::VectorXd u = own.u;
+    u.segment<2>(12) += 0.05 * (middle(u, nearer) - u.segment<2>(12));
+    const int patch = own.pair->PatchAt(u, 0.0);
+    EXPECT_EQ(patch, nearer == 3 ? 4 : 8);
+    EXPECT_FALSE(own.pair->HasPatch(patch));
+    EXPECT_NEAR(own.pair->Gap(u, 0.0, patch), (u.segment<2>(12) - middle(u, nearer)).norm(), kRounding);
+    EXPECT_EQ(own.pair->PatchAfter(u, 0.0, 33), patch + 24);
+    const XiRange range = own.pair->RangeOf(patch);
+    EXPECT_EQ(std::isinf(range.begin), nearer == 8);
+    EXPECT_EQ(std::isinf(range.end), nearer == 3);
+    // Its foot on the prolonged curve is beyond the border.
+    const double xi = own.pair->Xi(u, 0.0, patch);
+    EXPECT_TRUE(xi > range.begin && xi < range.end);
+    EXPECT_EQ(own.pair->Dofs(patch).size(), 8u);
+  }
+}
+
+TEST(DeformablePairOfItsOwnBoundary, HasForcesThatBalance) {
+  const OwnNode own(6);
+  const Eigen::VectorXd u = own.Flattened(0.1, 0.02);
+  const int patch = own.pair->PatchAt(u, 0.0);
+  ASSERT_TRUE(own.pair->HasPatch(patch));
+  const Kinematics at = KinematicsAt(*own.pair, u, 0.0, patch);
+  EXPECT_EQ(at.dofs.size(), 8u);
+  const auto values = [&](const Eigen::VectorXd& moved) {
+    const Kinematics after = KinematicsAt(*own.pair, moved, 0.0, patch);
+    return Eigen::Vector2d(after.gap, after.xi);
+  };
+  Eigen::MatrixXd gradients = Eigen::MatrixXd::Zero(2, u.size());
+  for (std::size_t k = 0; k < at.dofs.size(); ++k) {
+    gradients(0, at.dofs[k]) = at.gap_gradient[static_cast<Eigen::Index>(k)];
+    gradients(1, at.dofs[k]) = at.xi_gradient[static_cast<Eigen::Index>(k)];
+  }
+  EXPECT_TRUE(IsJacobian(values, u, gradients, kDerivativeTolerance, 1e-3));
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(u.size());
+  at.AddForce(at.gap_gradient, kRn, &force);
+  at.AddForce(at.xi_gradient, kRt * at.slip_factor, &force);
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  double moment = 0.0;
+  for (Eigen::Index k = 0; k < force.size(); k += 2) {
+    sum += force.segment<2>(k);
+    moment += u[k] * force[k + 1] - u[k + 1] * force[k];
+  }
+  EXPECT_LE(sum.norm(), kRounding);
+  EXPECT_NEAR(moment, 0.0, kRounding);
 }
 
 }  // namespace

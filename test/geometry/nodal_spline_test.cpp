@@ -51,6 +51,20 @@ TEST(NodalSpline, TouchesItsEdgesInTheirMiddlesWithOneSlope) {
     }
 }
 
+// y = (tau, tau^2) is nearest to (0, 5) at tau^2 = 4.5, on both sides.
+TEST(Parabola, FindsTheFootThatIsNearerToWhereItIsLookedFor) {
+  const Eigen::Vector2d origin = Eigen::Vector2d::Zero();
+  Parabola curve(NodalSpline(3, true).Patch(1), {origin, origin, origin});
+  curve.b = {1.0, 0.0};
+  curve.c = {0.0, 1.0};
+  const double infinity = std::numeric_limits<double>::infinity(), far = std::sqrt(4.5);
+  const Eigen::Vector2d x(0.0, 5.0);
+  EXPECT_NEAR(curve.FootOf(x, 0.0, 1.0), far, kRounding);
+  EXPECT_NEAR(curve.FootOf(x, 1.0, infinity), far, kRounding);
+  EXPECT_NEAR(curve.FootOf(x, -infinity, 0.0), -far, kRounding);
+  EXPECT_NEAR(curve.FootOf({0.3, 0.4}, -infinity, 0.0), curve.FootOf({0.3, 0.4}, 0.0, 1.0), kRounding);  // the only one
+}
+
 TEST(NodalSpline, OfAClosedCurveAnyNumberIsAPatch) {
   const NodalSpline spline(4, true);
   for (const int patch : {-9, -1, 0, 3, 4, 11}) {
@@ -71,7 +85,7 @@ TEST(Parabola, FootIsWhereTheDistanceIsLeast) {
     const SplinePatch patch = spline.Patch(1);
     const Parabola curve = ParabolaOf(patch, nodes);
     const Eigen::Vector2d x(random.Number(-0.2, 1.2), random.Number(-1.0, 1.0));
-    const double foot = curve.FootOf(x, patch.end);
+    const double foot = curve.FootOf(x, patch.begin, patch.end);
     EXPECT_NEAR((x - curve.At(foot)).dot(curve.b + 2.0 * foot * curve.c), 0.0, 1e-13);
     double least = std::numeric_limits<double>::infinity(), where = 0.0;
     for (int k = 0; k <= 1000; ++k) {
@@ -95,7 +109,7 @@ TEST(Parabola, FootOnAStraightLineIsExact) {
     for (const double x : {0.6, 1.0, 1.4}) {
       const SplinePatch patch = spline.Patch(1);
       const Parabola curve = ParabolaOf(patch, nodes);
-      EXPECT_NEAR(curve.At(curve.FootOf({x, 0.7}, patch.end)).x(), x, kRounding);
+      EXPECT_NEAR(curve.At(curve.FootOf({x, 0.7}, patch.begin, patch.end)).x(), x, kRounding);
     }
   }
 }

@@ -37,12 +37,31 @@ class SurfaceCurvesTest(unittest.TestCase):
         shape = curve(40, True, 0.1).shape(np.column_stack((np.cos(angles), np.sin(angles))))  # walked clockwise
         np.testing.assert_allclose(np.hypot(*shape.points.T), 1.1, rtol=4e-3)
         np.testing.assert_allclose(shape.points[0], shape.points[-1], atol=1e-14)
-        normals, material = shape.foot(np.array([(0.0, 2.0), (3.0, 0.0)]))
+        normals, material = shape.foot(np.array([(0.0, 2.0), (3.0, 0.0)]), np.ones((2, len(shape.points) - 1), dtype=bool))
         np.testing.assert_allclose(normals, [(0.0, 1.0), (1.0, 0.0)], atol=1e-12)
         np.testing.assert_allclose(material, (0.5, 10.5), atol=1e-12)
         quarter = 0.5 * np.pi * 1.1
         self.assertAlmostEqual(shape.walked(0.5, 10.0), quarter, delta=4e-3 * quarter)
         self.assertAlmostEqual(shape.walked(0.5, -10.0), -shape.walked(0.5, 10.0), 12)  # over its begin
+
+    def test_a_node_of_a_surface_touches_nothing_near_to_itself(self):
+        angles = 2.0 * np.pi * np.arange(40) / 40
+        places = np.vstack((np.column_stack((np.cos(angles), np.sin(angles))), [(0.0, 0.0)]))  # walked counterclockwise
+        for radius, beside in ((0.0, 2), (0.21, 4), (0.26, 5)):  # pi times the radius over the edge: 4.20, 5.20
+            ring = curve(40, True, radius)
+            touched = ring.touched(np.array([0, 40, 10]), places)
+            self.assertTrue(touched[1].all())
+            near = np.roll(np.arange(40), beside)[:2 * beside + 1]
+            np.testing.assert_array_equal(np.flatnonzero(~touched[0, ::16]), np.sort(near))
+            np.testing.assert_array_equal(touched[2], np.roll(touched[0], 160))
+            flat = places * (1.0, 0.15)  # the ring pressed flat
+            normals, material = ring.shape(flat).foot(flat[[10]], touched[[2]])
+            np.testing.assert_allclose(normals, [(0.0, 1.0)], atol=1e-3)
+            self.assertAlmostEqual(material[0], 30.5, delta=0.01)
+        line = np.column_stack((np.arange(8.0), np.zeros(8)))
+        rows = curve(8, False, 1.0).touched(np.array([0, 4]), line)[:, ::16]  # patches begin 2.5 and 3.5 edges off
+        np.testing.assert_array_equal(np.flatnonzero(rows[0]), [4, 5, 6, 7])
+        np.testing.assert_array_equal(np.flatnonzero(rows[1]), [0])
 
     def test_contacts_of_a_group(self):
         scene = Scene()

@@ -78,8 +78,25 @@ INSTANTIATE_TEST_SUITE_P(
                      r.scene.contacts.push_back({"p", "top"});
                    },
                    "scene.contacts[1]", "p@top", "must not be repeated"},
-        BrokenRule{"NodeOfTheSurface", [](auto& r) { FirstContact(r).node = "2_2"; }, "scene.contacts[0].node", "2_2",
-                   "a node of surface top itself cannot be its candidate yet"},
+        BrokenRule{"NodeOfAShortSurface", [](auto& r) { FirstContact(r).node = "2_2"; }, "scene.contacts[0].node",
+                   "2_2",
+                   "a node of surface top itself must have some of it farther along it than two nodes and pi times its "
+                   "radius"},
+        BrokenRule{"NodeNextToAllOfTheSurface",
+                   [](auto& r) {
+                     FirstSurface(r).nodes = {"l", "axis/1", "axis/2", "axis/3", "r"};
+                     FirstSurface(r).radius = 0.6;  // the last patch begins at 1.75
+                     FirstContact(r).node = "l";
+                   },
+                   "scene.contacts[0].node", "l", "a node of surface top itself must have some of it farther along it"},
+        BrokenRule{"PenetratesItself",
+                   [](auto& r) {
+                     FirstSurface(r).nodes = {"p", "r", "axis/3", "axis/2", "axis/1", "l"};
+                     FirstSurface(r).closed = true;
+                     r.scene.nodes[6].x = 1.0;
+                     r.scene.nodes[6].y = 2.0625;  // behind the beam
+                   },
+                   "scene.contacts[0]", "p@top", "initial position penetrates the surface by 0.0625"},
         BrokenRule{"NothingMoves",
                    [](auto& r) {
                      FirstSurface(r).nodes = {"4_0", "2_0"};
@@ -146,6 +163,17 @@ TEST(SurfacesInContact, BothSidesOfABeamOrABarAreBoundaries) {
     const std::vector<Violation> violations = Validate(request);
     ASSERT_EQ(violations.size(), 1U);
     EXPECT_EQ(violations[0].rule.rfind("initial position penetrates the surface by ", 0), 0U);
+  }
+}
+
+// From p over r and the beam back to p: the inside is on the left.
+TEST(SurfacesInContact, ANodeOfTheSurfaceMayTouchWhatIsFarFromItAlongTheSurface) {
+  TraceRequest request = SoundRequest();
+  FirstSurface(request).nodes = {"p", "r", "axis/3", "axis/2", "axis/1", "l"};
+  FirstSurface(request).closed = true;
+  for (const double radius : {0.0, 0.02}) {
+    FirstSurface(request).radius = radius;
+    for (const Violation& violation : Validate(request)) ADD_FAILURE() << violation.ToLine();
   }
 }
 

@@ -33,7 +33,7 @@ struct DeformableContact {
     const std::vector<Eigen::Vector2d> of_boundary = start;
     const NodePlace beside = place({0.3, 1.3}, false);
     boundary = std::make_shared<DeformableBoundary>(std::move(nodes), of_boundary, closed, radius);
-    pair = std::make_unique<DeformablePair>(boundary, beside, friction);
+    pair = std::make_unique<DeformablePair>(boundary, AdmissiblePatches(boundary->Spline()), beside, friction);
     u = Eigen::VectorXd::Zero(dofs);
     std::size_t node = 0;
     for (const NodePlace& of : boundary->Nodes()) {

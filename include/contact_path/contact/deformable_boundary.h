@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "contact_path/geometry/admissible_patches.h"
 #include "contact_path/geometry/nodal_spline.h"
 #include "contact_path/geometry/surface.h"
 
@@ -45,15 +46,20 @@ class DeformableBoundary {
   double length_per_knot_;
 };
 
-// A boundary at u, as a surface: its gaps are less by the radius than distances from the spline. Both arguments must
-// outlive it. Of the curvature, the derivatives are left out.
+// A boundary at u, as a surface: its gaps are less by the radius than distances from the spline. The boundary and u
+// must outlive it. Of the curvature, the derivatives are left out.
 class BoundaryAt : public Surface {
  public:
-  BoundaryAt(const DeformableBoundary& boundary, const Eigen::VectorXd& u) : boundary_(boundary), u_(u) {}
+  BoundaryAt(const DeformableBoundary& boundary, const Eigen::VectorXd& u)
+      : BoundaryAt(boundary, u, AdmissiblePatches(boundary.Spline())) {}
+  // patches: of the spline of the boundary.
+  BoundaryAt(const DeformableBoundary& boundary, const Eigen::VectorXd& u, const AdmissiblePatches& patches)
+      : boundary_(boundary), u_(u), patches_(patches) {}
 
   bool Flat() const override { return false; }
   bool Closed() const override { return boundary_.Spline().Closed(); }
   int NumPatches() const override { return boundary_.Spline().NumPatches(); }
+  bool HasPatch(int patch) const override { return patches_.Has(patch); }
   XiRange RangeOf(int patch) const override;
   // The distance from the spline.
   NearestFoot Nearest(const Eigen::Vector2d& x) const override;
@@ -65,6 +71,7 @@ class BoundaryAt : public Surface {
 
   const DeformableBoundary& boundary_;
   const Eigen::VectorXd& u_;
+  AdmissiblePatches patches_;
 };
 
 }  // namespace contact_path

@@ -16,9 +16,10 @@ namespace contact_path {
 // control nodes: the two balance as forces and as moments, also where p is not zero.
 class DeformablePair : public ContactPair {
  public:
-  // node: none of the boundary. force_bounds: of Structure::ForceBounds(); without them, the force unit is 1.
-  DeformablePair(std::shared_ptr<const DeformableBoundary> boundary, const NodePlace& node, double friction,
-                 const Eigen::VectorXd& force_bounds = Eigen::VectorXd());
+  // patches: of the spline of the boundary; of a node of the boundary itself, those that it may touch. force_bounds: of
+  // Structure::ForceBounds(); without them, the force unit is 1.
+  DeformablePair(std::shared_ptr<const DeformableBoundary> boundary, const AdmissiblePatches& patches,
+                 const NodePlace& node, double friction, const Eigen::VectorXd& force_bounds = Eigen::VectorXd());
 
   PairDofs Dofs(int patch) const override;
   void Evaluate(const Eigen::VectorXd& u, double s, int patch, double reference, Kinematics* kinematics) const override;
@@ -40,8 +41,10 @@ class DeformablePair : public ContactPair {
  private:
   struct Stencil;
   struct Columns;
+  BoundaryAt BoundaryAtPlaces(const Eigen::VectorXd& u) const { return {*boundary_, u, patches_}; }
 
   std::shared_ptr<const DeformableBoundary> boundary_;
+  AdmissiblePatches patches_;
   NodePlace node_;
 };
 

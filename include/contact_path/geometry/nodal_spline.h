@@ -7,12 +7,14 @@
 
 namespace contact_path {
 
-// y(tau) = sum of N_k(tau) x_k over up to three control nodes, tau from 0 to `end`, and beyond for what is prolonged.
+// y(tau) = sum of N_k(tau) x_k over up to three control nodes, tau from `begin` to `end`, and beyond for what is
+// prolonged.
 struct SplinePatch {
   std::array<int, 3> nodes = {-1, -1, -1};            // ascending along the curve; -1: none, and its N_k is 0
   Eigen::Matrix3d weights = Eigen::Matrix3d::Zero();  // N_k(tau) = row k . (1, tau, tau^2)
   double knot = 0.0;                                  // where tau is 0
-  double end = 0.0;                                   // 1, or 1/2 for half of an edge
+  double begin = 0.0;
+  double end = 0.0;  // 1, or 1/2 for half of an edge
 
   Eigen::Vector3d At(double tau) const { return weights * Eigen::Vector3d(1.0, tau, tau * tau); }
 };
@@ -46,9 +48,9 @@ struct Parabola {
   Parabola(const SplinePatch& patch, const std::array<Eigen::Vector2d, 3>& places);
 
   Eigen::Vector2d At(double tau) const { return a + tau * (b + tau * c); }
-  // Where the distance from x is least nearby: of two such places, the one that is nearer to 0 <= tau <= end, then the
-  // one that is nearer to x.
-  double FootOf(const Eigen::Vector2d& x, double end) const;
+  // Where the distance from x is least nearby: of two such places, the one that is nearer to begin <= tau <= end, then
+  // the one that is nearer to x. One of begin and end may be infinite.
+  double FootOf(const Eigen::Vector2d& x, double begin, double end) const;
 };
 
 }  // namespace contact_path

@@ -19,13 +19,14 @@ struct XiRange {
 struct NearestFoot {
   int patch = 0;
   double distance = 0.0;  // >= 0 [length]
-  bool is_end = false;    // it is an end of an open curve, and not the foot of a perpendicular
+  bool is_end = false;    // it is an end of the curve, and not the foot of a perpendicular
 };
 
 // A curve with a tangent that is continuous, walked with the admissible side on the left. It consists of patches, on
 // which it is as smooth as a path needs it: from one patch to the next, curvature may jump. The arc coordinate is
 // continuous over all patches. Patches are numbered from 0 along the curve. On a closed curve any number is a patch:
-// patch + NumPatches() is the same place after one more round, and xi is larger by the length of the curve.
+// patch + NumPatches() is the same place after one more round, and xi is larger by the length of the curve. Patches may
+// be left out: the curve has ends there, too.
 class Surface {
  public:
   virtual ~Surface() = default;
@@ -44,16 +45,16 @@ class Surface {
 
   // From the begin of the first patch to the end of the last one.
   XiRange Range() const { return {RangeOf(0).begin, RangeOf(NumPatches() - 1).end}; }
-  bool HasPatch(int patch) const { return Closed() || (patch >= 0 && patch < NumPatches()); }
+  virtual bool HasPatch(int patch) const { return Closed() || (patch >= 0 && patch < NumPatches()); }
   Projection ProjectOnNearest(const Eigen::Vector2d& x) const { return Project(x, Nearest(x).patch); }
 };
 
-// The patch where a surface is nearest to x; past an end of an open surface the number before the first patch, or after
-// the last one.
+// The patch where a surface is nearest to x; past an end of the surface the number before the patch that begins there,
+// or after the one that ends there, which the surface does not have.
 int PatchBeside(const Surface& surface, const Eigen::Vector2d& x);
 // The same; of a closed surface in the round in which it is nearest to the patch `from`.
 int PatchBeside(const Surface& surface, const Eigen::Vector2d& x, int from);
-// Of xi on a patch; past the ends of an open surface infinite on one side.
+// Of xi on a patch; past an end of the surface infinite on one side.
 XiRange RangeBeside(const Surface& surface, int patch);
 // The gap on a patch. Where the surface does not have such a patch: the distance from the surface.
 double GapBeside(const Surface& surface, const Eigen::Vector2d& x, int patch);

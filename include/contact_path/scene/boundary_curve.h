@@ -3,10 +3,13 @@
 #define CONTACT_PATH_SCENE_BOUNDARY_CURVE_H_
 
 #include <Eigen/Core>
+#include <string>
 #include <vector>
 
+#include "contact_path/geometry/admissible_patches.h"
 #include "contact_path/geometry/nodal_spline.h"
 #include "contact_path/geometry/outline.h"
+#include "contact_path/scene/solid_parts.h"
 
 namespace contact_path {
 
@@ -19,10 +22,12 @@ class BoundaryCurve {
   struct Foot {
     double gap = 0.0;  // from the curve at the distance; past an end the distance from that end [length]
     Eigen::Vector2d normal = Eigen::Vector2d::Zero();  // of length 1, on the left
-    bool is_end = false;                               // past an end of an open curve
+    bool is_end = false;                               // past an end of the curve
   };
   // Where the whole curve is nearest to x.
-  Foot Nearest(const Eigen::Vector2d& x) const;
+  Foot Nearest(const Eigen::Vector2d& x) const { return Nearest(x, AdmissiblePatches(spline_)); }
+  // Where the patches that x may touch are nearest to it; there must be some. patches: of as many nodes.
+  Foot Nearest(const Eigen::Vector2d& x, const AdmissiblePatches& patches) const;
 
   // Along the curve at the distance, `parts` for each patch; xi counts parts. A closed curve ends where it begins.
   std::vector<OutlinePoint> Points(int parts) const;
@@ -33,10 +38,15 @@ class BoundaryCurve {
     double end;  // of its parameter
   };
 
+  NodalSpline spline_;
   std::vector<Patch> patches_;
-  bool closed_;
   double radius_;
 };
+
+// What a node may touch of a surface: all of it, or where it is one of its nodes, what is not near to it. places: of
+// the nodes of the surface at the start [length].
+AdmissiblePatches PatchesFor(const std::string& node, const BoundarySurface& surface,
+                             const std::vector<Eigen::Vector2d>& places);
 
 }  // namespace contact_path
 
