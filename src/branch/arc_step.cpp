@@ -34,7 +34,7 @@ std::optional<ArcStep> TryStep(SmoothArc* arc, const CurvePoint& start, double l
   };
   Correction correction = arc->CorrectOnPlane(straight + bend, normal);
   // Next to a singular point the second derivatives are little but rounding.
-  if (!good(correction) && bend.norm() > tolerance) correction = arc->CorrectOnPlane(straight, normal);
+  if (!good(correction) && arc->system().Norm(bend) > tolerance) correction = arc->CorrectOnPlane(straight, normal);
   if (!good(correction)) return std::nullopt;
   CurvePoint end;
   if (!arc->Derivatives(correction.x, normal, &end)) return std::nullopt;
