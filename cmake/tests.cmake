@@ -83,6 +83,7 @@ endfunction()
 set(contact_path_extremes
   test/extremes/contact_cases.cpp
   test/extremes/curve_cases.cpp
+  test/extremes/deformable_cases.cpp
   test/extremes/extreme_case.cpp
   test/extremes/frame_cases.cpp
   test/extremes/friction_cases.cpp
