@@ -21,6 +21,7 @@ add_library(contact_path_test_support STATIC EXCLUDE_FROM_ALL
   test/support/dense.cpp
   test/support/derivative_checker.cpp
   test/support/curved_obstacles.cpp
+  test/support/random_bodies.cpp
   test/support/random_scene.cpp
   test/support/reference_cases.cpp
   test/support/same_request.cpp
@@ -82,6 +83,7 @@ endfunction()
 set(contact_path_extremes
   test/extremes/contact_cases.cpp
   test/extremes/curve_cases.cpp
+  test/extremes/deformable_cases.cpp
   test/extremes/extreme_case.cpp
   test/extremes/frame_cases.cpp
   test/extremes/friction_cases.cpp
@@ -126,6 +128,7 @@ contact_path_add_stage(path automatic_step_test branch_options_test csv_test det
 contact_path_add_long_test(path curved_paths_test)
 contact_path_add_long_test(path curved_random_paths_test)
 contact_path_add_long_test(path curved_scenes_test)
+contact_path_add_long_test(path deformable_random_paths_test)
 contact_path_add_long_test(path deformable_scenes_test)
 contact_path_add_long_test(path invariance_test)
 contact_path_add_long_test(path total_law_test)

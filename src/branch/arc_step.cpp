@@ -34,7 +34,7 @@ std::optional<ArcStep> TryStep(SmoothArc* arc, const CurvePoint& start, double l
   };
   Correction correction = arc->CorrectOnPlane(straight + bend, normal);
   // Next to a singular point the second derivatives are little but rounding.
-  if (!good(correction) && bend.norm() > tolerance) correction = arc->CorrectOnPlane(straight, normal);
+  if (!good(correction) && arc->system().Norm(bend) > tolerance) correction = arc->CorrectOnPlane(straight, normal);
   if (!good(correction)) return std::nullopt;
   CurvePoint end;
   if (!arc->Derivatives(correction.x, normal, &end)) return std::nullopt;
@@ -80,13 +80,12 @@ bool EndAtFirstEvent(SmoothArc* arc, std::optional<double> target, ArcStep* at) 
     }
     const StepEvent earlier = FirstEvent(arc, at->step, target);
     if (earlier.kind == EventKind::kNone || earlier.t >= at->step.length - tolerances::kNoMove) return true;
-    // The earlier event is rounding of a short step where it leads to this point again, or where the load is no other
-    // at a singular point, which is not located any better.
+    // The earlier event is rounding of a short step where it leads to this point again, or where it is a limit point at
+    // which the load is no other: that is not located any better.
     const bool same = IsSame(earlier, found);
     if (attempt > 0 && same && std::abs(at->step.length - before) <= tolerances::kNoMove) return true;
-    const bool is_singular_limit = found.kind == EventKind::kLimitPoint && point->determinant_sign == 0;
     const double reach = ReachOfExtreme(point->second[arc->system().NumDofs()]);
-    if (same && is_singular_limit && at->step.length - earlier.t <= reach) return true;
+    if (same && found.kind == EventKind::kLimitPoint && at->step.length - earlier.t <= reach) return true;
     at->event = earlier;
   }
   return false;

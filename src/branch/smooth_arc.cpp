@@ -169,7 +169,7 @@ Correction SmoothArc::Newton(const Eigen::VectorXd& guess, const Eigen::VectorXd
     residual_ = -residual_;
     solver_.Solve(residual_, value - row.dot(result.x), &step_length_);
     HoldLimitPoint(result.x, &step_length_);
-    const double norm = step_length_.norm(), scale = 1.0 + result.x.norm();
+    const double norm = system_.Norm(step_length_), scale = 1.0 + result.x.norm();
     if (!std::isfinite(norm)) return result;
     if (structure_.Mixed()) strains_from_ = result.x.head(NumMotion());
     result.x += step_length_;

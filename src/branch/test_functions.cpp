@@ -281,7 +281,7 @@ std::optional<CurvePoint> LocateRegular(SmoothArc* arc, const Step& step, const 
   const CurvePoint interpolated = step.At(step.normal.dot((correction.x - step.start.x).head(step.normal.size())));
   CurvePoint point;
   const bool regular = arc->Derivatives(correction.x, interpolated.first.head(step.normal.size()), &point) &&
-                       (point.first - interpolated.first).norm() <= tolerances::kSameDerivative;
+                       system.Norm(point.first - interpolated.first) <= tolerances::kSameDerivative;
   if (!regular) point = interpolated;
   point.x = correction.x;
   return point;

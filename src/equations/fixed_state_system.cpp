@@ -337,6 +337,18 @@ double FixedStateSystem::Largest(const Eigen::VectorXd& residual) const {
   return largest;
 }
 
+double FixedStateSystem::Norm(const Eigen::VectorXd& change) const {
+  if (structure_.ObliqueSupports().empty()) return change.norm();
+  Eigen::VectorXd counted = change;
+  for (const std::size_t k : structure_.ObliqueSupports()) {
+    const Eigen::Vector2d motion(structure_.PrescribedDofs()[k].rate, structure_.PrescribedDofs()[k + 1].rate);
+    const auto force = counted.segment<2>(first_support_ + static_cast<Eigen::Index>(k));
+    const double along = motion.normalized().dot(force);
+    counted.segment<2>(first_support_ + static_cast<Eigen::Index>(k)) << along, 0.0;
+  }
+  return counted.norm();
+}
+
 const Eigen::SparseMatrix<double>& FixedStateSystem::TransposedJacobian(const Eigen::VectorXd& x) {
   structure_.Tangent(x.head(NumDofs()), &tangent_);
   return WithTangent(x);

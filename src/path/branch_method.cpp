@@ -97,7 +97,7 @@ bool BranchMethod::Leave(const PathPoint& point, const Branch& branch) {
   begin.patches = branch.patches;
   arc_.SetStates(branch.states, begin, branch.singular);
   const bool regular = arc_.Derivatives(arc_.system().Pack(point), branch.direction, &current_) &&
-                       (current_.first - branch.first).norm() <= tolerances::kSameTangent;
+                       arc_.system().Norm(current_.first - branch.first) <= tolerances::kSameTangent;
   if (regular) return true;
   // Another path crosses here, or the structure has rigid modes: the branch itself tells where to go.
   current_.x = arc_.system().Pack(point);

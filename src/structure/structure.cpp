@@ -79,8 +79,10 @@ void Structure::NumberUnknowns(const Scene& scene, const SceneIndex& index, cons
     const Node& node = scene.nodes[i];
     const auto number = static_cast<int>(i);
     const SupportMotion* const motion = motions[i];
+    const std::size_t before = prescribed_.size();
     add(number, Field::kPosition, 0, start[2 * i], node.fixed_x, motion != nullptr ? motion->dx : 0.0);
     add(number, Field::kPosition, 1, start[2 * i + 1], node.fixed_y, motion != nullptr ? motion->dy : 0.0);
+    if (prescribed_.size() == before + 2) oblique_supports_.push_back(before);
     if (rotates[i])
       add(number, Field::kRotation, 0, configuration.start_rotations[i], node.fixed_rotation,
           motion != nullptr ? motion->rotation : 0.0);

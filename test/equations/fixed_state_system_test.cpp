@@ -444,6 +444,26 @@ void ExpectSolvedInFrame(const Scene& scene) {
   EXPECT_GE(other_signs, 4);
 }
 
+// A support that moves by (0.3, 0.4): of the force on it the share along that direction counts. In a frame along the
+// motion it is the only unknown.
+TEST(FixedStateSystem, NormDoesNotDependOnTheAxesOfASupport) {
+  Scene scene;
+  scene.nodes = {{"a", 0.0, 0.0, true, true}, {"b", 1.0, 0.5, false, false}};
+  scene.bars = {{{"a", "b"}, 1.0}};
+  const auto norm = [&](const SupportMotion& motion, const Eigen::VectorXd& change) {
+    scene.support_motions = {motion};
+    const Structure structure(scene);
+    const FixedStateSystem system(structure, {});
+    EXPECT_EQ(system.NumUnknowns(), change.size());
+    return system.Norm(change);
+  };
+  Eigen::VectorXd oblique(7), along(5);
+  oblique << 0.6, 0.8, 0.0, 2.0, 3.0, 0.6 * 4.0 - 0.8 * 100.0, 0.8 * 4.0 + 0.6 * 100.0;
+  along << 1.0, 0.0, 2.0, 3.0, 4.0;
+  EXPECT_EQ(norm({"a", 0.5, 0.0}, along), along.norm());
+  EXPECT_NEAR(norm({"a", 0.3, 0.4}, oblique), along.norm(), kRounding * oblique.norm());
+}
+
 TEST(FixedStateSystem, LargeSystemsInTheirFrame) { ExpectSolvedInFrame(WithLattice(MovingScene(), 40)); }
 
 // More candidates than fit a frame: it has places for those that touch.

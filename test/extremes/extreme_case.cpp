@@ -17,6 +17,7 @@ std::vector<ExtremeCase> ExtremeCases() {
   AddLengthCases(&cases);
   AddFrameCases(&cases);
   AddSolidCases(&cases);
+  AddDeformableCases(&cases);
   return cases;
 }
 

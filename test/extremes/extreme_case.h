@@ -46,6 +46,7 @@ void AddCurveCases(std::vector<ExtremeCase>* cases);
 void AddLengthCases(std::vector<ExtremeCase>* cases);
 void AddFrameCases(std::vector<ExtremeCase>* cases);
 void AddSolidCases(std::vector<ExtremeCase>* cases);
+void AddDeformableCases(std::vector<ExtremeCase>* cases);
 
 // ----- for the groups -----
 

@@ -13,6 +13,7 @@
 #include "support/curved_obstacles.h"
 #include "support/decisions.h"
 #include "support/random.h"
+#include "support/random_bodies.h"
 #include "support/random_scene.h"
 #include "support/transformations.h"
 
@@ -50,6 +51,11 @@ class Variation {
     Try(0.4, &Variation::BendObstacles);
     Try(0.2, &Variation::TurnObstacles);
     Try(0.4, &Variation::TouchSurface);
+    switch (random_.Index(9)) {
+      case 1: Try(1.0, &Variation::TakeTotalLaw); break;
+      case 2: Try(1.0, &Variation::TakeBodies); break;
+      default: break;
+    }
     return std::move(request_);
   }
 
@@ -365,6 +371,25 @@ class Variation {
     const double gap = BoundaryCurve(places, false, 0.0).Nearest({node.x, node.y}).gap;
     surface.radius = std::max(0.0, gap) * random_.OneOf(std::array<double, 4>{0.0, 0.9, 0.999, 1.0 - 1e-12});
     scene().contacts.push_back(std::move(contact));
+  }
+
+  void TakeTotalLaw() { request_.options.friction_law = FrictionLaw::kTotal; }
+
+  // Two bodies on each other in place of the scene and its program.
+  void TakeBodies() {
+    TraceRequest bodies = RandomBodies(&random_, "bodies");
+    if (random_.Chance(0.2)) {
+      const auto unit = [&] { return std::pow(10.0, std::round(random_.Number(-9.0, 9.0))); };
+      const double length = unit();
+      bodies = contact_path::ChangeUnits(std::move(bodies), length, unit());
+    }
+    if (random_.Chance(0.2))
+      for (ContactCandidate& contact : bodies.scene.contacts)
+        contact.friction = random_.OneOf(std::array<double, 5>{0.0, 1e-12, 1e-3, 10.0, 1e6});
+    request_.scene = std::move(bodies.scene);
+    request_.program = std::move(bodies.program);
+    request_.options.direction = 0.0;
+    request_.options.stop.clear();
   }
 
   const Node& NodeOf(const std::string& name) { return NodeOf(scene(), name); }

@@ -47,6 +47,8 @@ class Structure {
   const Eigen::VectorXd& ReferenceLoad() const { return reference_load_; }  // f, scaled by the load factor
   const Eigen::VectorXd& ConstantLoad() const { return constant_load_; }    // f_constant
   const std::vector<PrescribedDof>& PrescribedDofs() const { return prescribed_; }
+  // By number, those along x of nodes that move obliquely: the next one is the component along y of the same node.
+  const std::vector<std::size_t>& ObliqueSupports() const { return oblique_supports_; }
   // Of the systems of the structure; the solvers of all of them share it.
   Orderings* SharedOrderings() const { return orderings_.get(); }
   // The forces that hold the prescribed components at (u, s), in their order: phi - s f - f_constant [force].
@@ -102,6 +104,7 @@ class Structure {
   Eigen::VectorXd reference_load_;
   Eigen::VectorXd constant_load_;
   std::vector<PrescribedDof> prescribed_;
+  std::vector<std::size_t> oblique_supports_;
   std::vector<Part> parts_;
   Eigen::SparseMatrix<double> pattern_;
   Eigen::VectorXd residual_units_;
