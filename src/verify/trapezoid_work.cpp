@@ -53,9 +53,11 @@ TrapezoidWork WorkBetween(const VerifiedStage& stage, const Increment* earlier, 
     if (stage.total_law) {
       const double rt_before = before.contacts[i].rt, rt = increment.contacts[i].rt;
       dissipation -= 0.5 * (rt_before + rt) * forwards;
+      // By this law a slip that turns round is no event.
+      const double most_slip = slip + bend * stage.scaling.length;
       open_dissipation += (0.5 * std::abs(rt - rt_before) +
                            bend * (std::abs(rt_before) + std::abs(rt) + at.friction * stage.scaling.force)) *
-                          slip / unit;
+                          most_slip / unit;
       continue;
     }
     // Where within an increment of mpec it stopped to slip, or turned, is not known.
