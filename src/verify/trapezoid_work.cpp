@@ -68,7 +68,14 @@ TrapezoidWork WorkBetween(const VerifiedStage& stage, const Increment* earlier, 
     const double rn = before.contacts[i].rn, change = std::abs(increment.contacts[i].rn - rn);
     // A contact that closes and opens on the increment has no reaction at both ends.
     const double largest = rn + change + stage.scaling.force;
-    open_dissipation += at.friction * (0.5 * change + bend * largest) * slip / unit;
+    double open_force = 0.5 * change + bend * largest;
+    if (const double arc_before = earlier != nullptr ? before.arc_length - earlier->arc_length : 0.0;
+        arc_before > 0.0) {
+      // As for the forces of supports.
+      const double going_on = (rn - earlier->contacts[i].rn) / arc_before * (increment.arc_length - before.arc_length);
+      open_force += 0.25 * std::abs(going_on - (increment.contacts[i].rn - rn));
+    }
+    open_dissipation += at.friction * open_force * slip / unit;
   }
   return {work / unit, dissipation / unit, open_work, open_dissipation};
 }
