@@ -53,9 +53,11 @@ TrapezoidWork WorkBetween(const VerifiedStage& stage, const Increment* earlier, 
     if (stage.total_law) {
       const double rt_before = before.contacts[i].rt, rt = increment.contacts[i].rt;
       dissipation -= 0.5 * (rt_before + rt) * forwards;
+      // By this law a slip that turns round is no event.
+      const double most_slip = slip + bend * stage.scaling.length;
       open_dissipation += (0.5 * std::abs(rt - rt_before) +
                            bend * (std::abs(rt_before) + std::abs(rt) + at.friction * stage.scaling.force)) *
-                          slip / unit;
+                          most_slip / unit;
       continue;
     }
     // Where within an increment of mpec it stopped to slip, or turned, is not known.
@@ -66,7 +68,14 @@ TrapezoidWork WorkBetween(const VerifiedStage& stage, const Increment* earlier, 
     const double rn = before.contacts[i].rn, change = std::abs(increment.contacts[i].rn - rn);
     // A contact that closes and opens on the increment has no reaction at both ends.
     const double largest = rn + change + stage.scaling.force;
-    open_dissipation += at.friction * (0.5 * change + bend * largest) * slip / unit;
+    double open_force = 0.5 * change + bend * largest;
+    if (const double arc_before = earlier != nullptr ? before.arc_length - earlier->arc_length : 0.0;
+        arc_before > 0.0) {
+      // As for the forces of supports.
+      const double going_on = (rn - earlier->contacts[i].rn) / arc_before * (increment.arc_length - before.arc_length);
+      open_force += 0.25 * std::abs(going_on - (increment.contacts[i].rn - rn));
+    }
+    open_dissipation += at.friction * open_force * slip / unit;
   }
   return {work / unit, dissipation / unit, open_work, open_dissipation};
 }

@@ -316,7 +316,7 @@ class Verifier {
 
   // What the law of friction is about. 0 where that is not known.
   double SlipOf(std::size_t contact, const CheckedState& from, const CheckedState& to) const {
-    if (!configuration_.slip_origins.empty()) return check_.TotalSlip(contact, to);
+    if (!configuration_.slip_origins.empty() && contacts_[contact].friction > 0.0) return check_.TotalSlip(contact, to);
     return OnePiece(Current()) ? check_.Slip(contact, from, to) : 0.0;
   }
 

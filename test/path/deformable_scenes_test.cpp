@@ -90,6 +90,16 @@ TEST(FixedSurface, InLineIsAHalfPlane) {
   }
 }
 
+TEST(FixedSurface, WithoutFrictionIsTheSameByTheTotalLaw) {
+  TraceRequest request = FootOn(true);
+  request.scene.contacts[0].friction = 0.0;
+  request.program[1].loads[0].fx = 0.5;
+  const TracedPath expected = TraceProved(request);
+  request.options.friction_law = FrictionLaw::kTotal;
+  const TracedPath path = TraceProved(request);
+  EXPECT_EQ(path.increments.back().positions, expected.increments.back().positions);
+}
+
 // A load of 1 stands on a plank of two nodes on vertical springs of stiffness 10, and is pushed along it against a
 // spring of stiffness 1, from 0.2 over the middle. Each spring takes its share of the load.
 TEST(Plank, CarriesANodeByItsShapeFunctions) {
