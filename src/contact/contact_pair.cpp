@@ -43,7 +43,7 @@ double ContactPair::Slip(const Eigen::VectorXd& u, double s, int patch, const Ei
   Kinematics from, to;
   Evaluate(u, s, patch, 0.0, &from);
   Evaluate(u + du, s + ds, patch_after, from.xi, &to);
-  return 0.5 * (from.slip_factor + to.slip_factor) * to.xi;
+  return to.xi;
 }
 
 double LargestReaction(const ContactPairs& contacts, const PathPoint& point) {

@@ -16,8 +16,9 @@ namespace contact_path {
 namespace {
 
 constexpr double kFriction = 0.3;
-// Beyond these, coordinates do not tell gaps to the tolerance of residuals, or their rounding turns the reaction.
-constexpr double kFarthest = 1e8, kLargestRadius = 1e5, kLeastRoom = 1e-5;
+// Beyond these, coordinates do not tell gaps to the tolerance of residuals, or their rounding turns the reaction; steps
+// over patches of which one is that much longer than the next do not come to their joint.
+constexpr double kFarthest = 1e8, kLargestRadius = 1e5, kLeastRoom = 1e-5, kMostUneven = 1e3;
 
 // A chain of bars of EA, whose nodes are held along x, and where it is fixed, along y, too.
 void AddSurface(const std::vector<Eigen::Vector2d>& places, double EA, bool fixed, double radius, Scene* scene) {
@@ -179,6 +180,16 @@ ExtremeCase Blocks(int lower, int upper) {
   return extreme;
 }
 
+// `count` edges of 0.1 and of 0.1 / ratio in turn.
+std::vector<double> UnevenEdges(int count, double ratio) {
+  std::vector<double> edges;
+  for (int i = 0; i < count; ++i) {
+    edges.push_back(0.1);
+    edges.push_back(0.1 / ratio);
+  }
+  return edges;
+}
+
 }  // namespace
 
 void AddDeformableCases(std::vector<ExtremeCase>* cases) {
@@ -209,7 +220,14 @@ void AddDeformableCases(std::vector<ExtremeCase>* cases) {
     if (radius > kLargestRadius) extreme.ends = {"numerical_failure"};
     cases->push_back(std::move(extreme));
   }
-  for (const double room : {0.1, 1e-9}) cases->push_back(InValley(room));
+  for (const double room : {0.1, 1e-3, 1e-6, 1e-9}) cases->push_back(InValley(room));
+  for (const double ratio : {50.0, 1e4}) {
+    PressedNode pressed;
+    pressed.edges = UnevenEdges(12, ratio);
+    ExtremeCase extreme = pressed.Case("edges in turn", "1 and " + Text(1.0 / ratio));
+    if (ratio > kMostUneven) extreme.ends = {"step_too_small"};
+    cases->push_back(std::move(extreme));
+  }
   for (const double friction : {1e-6, 1e3, 1e6}) {
     PressedNode pressed;
     pressed.friction = friction;

@@ -94,10 +94,10 @@ class ContactPair {
   double Xi(const Eigen::VectorXd& u, double s, int patch) const;
   // Slip along (du, ds) at (u, s): c grad xi . (du, ds).
   double SlipRate(const Eigen::VectorXd& u, double s, int patch, const Eigen::VectorXd& du, double ds) const;
-  // Slip from (u, s) on a patch to (u + du, s + ds) on another one, or the same: the change of xi by the mean of c at
-  // both.
-  double Slip(const Eigen::VectorXd& u, double s, int patch, const Eigen::VectorXd& du, double ds,
-              int patch_after) const;
+  // Slip from (u, s) on a patch to (u + du, s + ds) on another one, or the same: of a rigid surface the change of xi,
+  // of one that deforms the mean of the lengths between both feet on its shapes at both.
+  virtual double Slip(const Eigen::VectorXd& u, double s, int patch, const Eigen::VectorXd& du, double ds,
+                      int patch_after) const;
 
  protected:
   using Terms = std::bitset<kMostPairDofs + 1>;

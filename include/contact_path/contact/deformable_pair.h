@@ -36,6 +36,8 @@ class DeformablePair : public ContactPair {
                                const PairVector& direction) const override;
   Eigen::Vector3d SlipFactorAlong(const Eigen::VectorXd& u, double s, int patch, const PairVector& first,
                                   const PairVector& second) const override;
+  double Slip(const Eigen::VectorXd& u, double s, int patch, const Eigen::VectorXd& du, double ds,
+              int patch_after) const override;
   bool Overrun(const Eigen::VectorXd& u, const Eigen::VectorXd& after, int patch) const override;
 
  private:
