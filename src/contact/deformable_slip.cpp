@@ -44,8 +44,8 @@ double Walked(const DeformableBoundary& boundary, const Eigen::VectorXd& u, cons
 double DeformablePair::Slip(const Eigen::VectorXd& u, double s, int patch, const Eigen::VectorXd& du, double ds,
                             int patch_after) const {
   const auto foot_at = [this](const Eigen::VectorXd& at, int known) {
-    const SplinePatch of = boundary_->Spline().Patch(known);
-    return Foot{known, Parabola(of, boundary_->Places(of, at)).FootOf(node_.At(at), of.end)};
+    const SplinePatch of = patches_.Patch(known);
+    return Foot{known, Parabola(of, boundary_->Places(of, at)).FootOf(node_.At(at), of.begin, of.end)};
   };
   const Eigen::VectorXd after = u + du;
   const Foot from = foot_at(u, KnownPatch(u, s, patch)), to = foot_at(after, KnownPatch(after, s + ds, patch_after));
