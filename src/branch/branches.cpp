@@ -184,6 +184,7 @@ class Finder {
   bool SetsOut(const Eigen::VectorXd& x, const Eigen::VectorXd& first, const Eigen::VectorXd& second) {
     const Eigen::Index s = NumMotion() - 1;
     const double sense = arrival_.direction[s];
+    if (first[s] * sense > tolerances::kRate) return true;
     if (first[s] * sense > tolerances::kUnitComponent) return !LoadIsRounding(x, first);
     if (std::abs(first[s]) > tolerances::kRate) return false;
     if (std::abs(second[s]) > tolerances::kCurvature) return second[s] * sense > 0.0;
