@@ -219,8 +219,8 @@ TEST(VerifyPath, FarFromTheOriginIsRounding) {
 }
 
 TEST(VerifyPath, ReactionsOfStiffPartsHaveTheirRounding) {
-  const TracedPath path = TraceIncrements(
-      ReadTraceRequestFile(std::string(CONTACT_PATH_TEST_DATA) + "/stiff_solid_among_soft_bars.yaml"));
+  const TracedPath path =
+      TraceIncrements(ReadTraceRequestFile(std::string(CONTACT_PATH_TEST_DATA) + "/stiff_solid_among_soft_bars.yaml"));
   ASSERT_EQ(path.result.reason, EndReason::kMaxIncrements) << path.result.message;
   const Verification verification = VerifyPath(path.request, path.increments);
   EXPECT_TRUE(verification.findings.empty()) << Listed(verification);

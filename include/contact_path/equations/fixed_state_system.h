@@ -88,8 +88,8 @@ class FixedStateSystem {
   double Largest(const Eigen::VectorXd& residual) const;
   // The largest of these units: rounding of residuals, and of the points that it leads to, grows with it.
   double ResidualUnit() const { return residual_unit_; }
-  // Norm of a change of the unknowns. Of the force on a moved support the component along its motion counts: whether the
-  // component across it is an unknown depends on the axes.
+  // Norm of a change of the unknowns. Of the force on a moved support the component along its motion counts: whether
+  // the component across it is an unknown depends on the axes.
   double Norm(const Eigen::VectorXd& change) const;
   // Transposed Jacobian, NumUnknowns() x NumEquations(), compressed; the pattern is the same until the next set or pin.
   const Eigen::SparseMatrix<double>& TransposedJacobian(const Eigen::VectorXd& x);
