@@ -279,12 +279,16 @@ std::vector<ContactForceBound> ResidualCheck::BoundContactForces(double length, 
     ContactForceBound force;
     force.on_node = bound.any + std::abs(static_cast<double>(normal.x)) * bound.x +
                     std::abs(static_cast<double>(normal.y)) * bound.y;
-    double& largest = at_node[contact->Node()];
-    largest = std::max(largest, force.on_node);
+    double of_surface = 0.0;
     if (contact->TouchedSurface())
       for (const check::BoundaryPatch& patch : scene.boundaries[*contact->TouchedSurface()].Patches())
         for (const std::size_t node : patch.nodes)
-          largest = std::max(largest, bounds[node].any + bounds[node].x + bounds[node].y);
+          of_surface = std::max(of_surface, bounds[node].any + bounds[node].x + bounds[node].y);
+    // A node that is held bears what the surface presses with, however soft its own parts are.
+    if (!scene.free[2 * contact->Node()] || !scene.free[2 * contact->Node() + 1])
+      force.on_node = std::max(force.on_node, of_surface);
+    double& largest = at_node[contact->Node()];
+    largest = std::max({largest, force.on_node, of_surface});
     forces.push_back(force);
   }
   for (std::size_t i = 0; i < forces.size(); ++i) forces[i].of_all_parts = at_node[scene.contacts[i]->Node()];

@@ -9,6 +9,18 @@ namespace {
 
 constexpr double kBend = 0.25;  // of a force along an arc of length 1: what a trapezoid cannot know
 
+// Power per unit of the load factor of the contacts' forces, if all of them acted along the fastest prescribed motion
+// [force length].
+double PowerOfReactions(const VerifiedStage& stage, const Increment& increment) {
+  double speed = 0.0, reactions = 0.0;
+  for (const SupportMotion& motion : stage.scene.support_motions)
+    speed = std::max(speed, std::hypot(motion.dx, motion.dy, motion.rotation * stage.scaling.length));
+  for (const ObstacleMotion& motion : stage.scene.obstacle_motions)
+    speed = std::max(speed, std::hypot(motion.dx, motion.dy, motion.turn * stage.scaling.length));
+  for (const ContactRecord& contact : increment.contacts) reactions += std::hypot(contact.rn, contact.rt);
+  return speed * reactions;
+}
+
 }  // namespace
 
 TrapezoidWork WorkBetween(const VerifiedStage& stage, const Increment* earlier, const Increment& before,
@@ -37,7 +49,9 @@ TrapezoidWork WorkBetween(const VerifiedStage& stage, const Increment* earlier, 
     const double from = stage.check.DrivingForce(from_state), to = stage.check.DrivingForce(to_state);
     const double moved = increment.load_factor - before.load_factor;
     work += 0.5 * (from + to) * moved;
-    open_work += (0.5 * std::abs(to - from) + bend * std::abs(from + to)) * std::abs(moved) / unit;
+    // A drag without friction exerts no force at both ends, and between them the forces of wavy surfaces.
+    const double between = std::abs(from + to) + PowerOfReactions(stage, before) + PowerOfReactions(stage, increment);
+    open_work += (0.5 * std::abs(to - from) + bend * between) * std::abs(moved) / unit;
     const double moved_before = earlier != nullptr ? before.load_factor - earlier->load_factor : 0.0;
     if (moved_before != 0.0) {
       // A parabola over its chord is a quarter of what its slope at one end makes of it at the other end.
