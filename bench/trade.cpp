@@ -22,6 +22,7 @@
 #include "contact_path/path/stop.h"
 #include "contact_path/scene/lattice.h"
 #include "contact_path/scene/read_scene.h"
+#include "process/keep_memory.h"
 
 namespace contact_path {
 namespace {
@@ -361,6 +362,7 @@ void MeasureModels() {
 
 int main(int argc, char** argv) {
   using namespace contact_path;
+  KeepMemory();
   if (argc == 2 && std::string(argv[1]) == "--model") {
     MeasureModels();
     return 0;

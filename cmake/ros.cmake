@@ -29,9 +29,8 @@ target_link_libraries(contact_path_ros
   PUBLIC contact_path_core ${catkin_LIBRARIES}
   PRIVATE contact_path_warnings)
 
-add_executable(contact_path_node src/ros/contact_path_node.cpp src/process/one_thread.cpp)
-target_include_directories(contact_path_node PRIVATE src)
-target_link_libraries(contact_path_node PRIVATE contact_path_ros contact_path_warnings)
+add_executable(contact_path_node src/ros/contact_path_node.cpp)
+target_link_libraries(contact_path_node PRIVATE contact_path_process contact_path_ros contact_path_warnings)
 
 add_executable(contact_path_markers src/ros/contact_path_markers.cpp)
 target_link_libraries(contact_path_markers PRIVATE contact_path_ros contact_path_warnings)

@@ -25,6 +25,7 @@
 #include "contact_path/scene/request_field.h"
 #include "contact_path/scene/validate.h"
 #include "contact_path/study/study_outputs.h"
+#include "process/keep_memory.h"
 #include "process/one_thread.h"
 
 namespace contact_path {
@@ -196,6 +197,7 @@ void Serve(const Arguments& arguments) {
 
 int main(int argc, char** argv) {
   contact_path::UseOneThread(argv);
+  contact_path::KeepMemory();
   CLI::App app("Traces variants of a scene for scripts/study, one for each line of standard input.",
                "contact_path_study_server");
   contact_path::Arguments arguments;

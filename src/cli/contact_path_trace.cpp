@@ -30,6 +30,7 @@
 #endif
 #include "cli/event_table.h"
 #include "cli/progress.h"
+#include "process/keep_memory.h"
 #include "process/one_thread.h"
 
 namespace contact_path {
@@ -273,6 +274,7 @@ ExitStatus Run(const Arguments& arguments) {
 
 int main(int argc, char** argv) {
   contact_path::UseOneThread(argv);
+  contact_path::KeepMemory();
   // A reader that goes away is a write error like any other.
   std::signal(SIGPIPE, SIG_IGN);
 
