@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstddef>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -46,29 +47,25 @@ TraceRequest WallOf(int dofs, int far_candidates) {
   return LatticeRequest(options);
 }
 
-void AddFarCurves(int candidates, Scene* wall) {
-  std::vector<std::string> free_nodes;
-  double right = 0.0, upper = 0.0;
-  for (const Node& node : wall->nodes) {
-    right = std::max(right, node.x);
-    upper = std::max(upper, node.y);
-    if (!node.fixed_x && !node.fixed_y) free_nodes.push_back(node.name);
+void AddFarCurve(int candidates, Scene* wall) {
+  double right = 0.0;
+  for (const Node& node : wall->nodes) right = std::max(right, node.x);
+  Obstacle line;
+  line.name = "far_floor";
+  line.shape = ObstacleShape::kPolyline;
+  line.py = -kAside - kWave;
+  line.friction = 0.3;
+  for (int i = 0; i <= kEdges; ++i) {
+    const double along = static_cast<double>(i) / kEdges;
+    line.points.insert(line.points.end(), {right * (1.4 * along - 0.2), kWave * std::sin(40.0 * along)});
   }
-  for (const bool above : {false, true}) {
-    Obstacle line;
-    line.name = above ? "far_ceiling" : "far_floor";
-    line.shape = ObstacleShape::kPolyline;
-    line.py = above ? upper + kAside + kWave : -kAside - kWave;
-    line.friction = 0.3;
-    for (int i = 0; i <= kEdges; ++i) {
-      const double along = static_cast<double>(above ? kEdges - i : i) / kEdges;
-      line.points.insert(line.points.end(), {right * (1.4 * along - 0.2), kWave * std::sin(40.0 * along)});
+  wall->obstacles.push_back(line);
+  for (const Node& node : wall->nodes)
+    if (candidates > 0 && !node.fixed_x && !node.fixed_y) {
+      wall->contacts.push_back({node.name, line.name});
+      --candidates;
     }
-    wall->obstacles.push_back(line);
-    const auto count = std::min(static_cast<std::size_t>(candidates), free_nodes.size());
-    for (std::size_t i = 0; i < count; ++i) wall->contacts.push_back({free_nodes[i], line.name});
-    candidates -= static_cast<int>(count);
-  }
+  if (candidates > 0) throw std::invalid_argument("the wall has fewer free nodes than candidates");
 }
 
 TraceRequest BlockOf(int dofs, int contacts, double gap) {

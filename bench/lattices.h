@@ -12,9 +12,9 @@ namespace contact_path {
 // A wall five times as long as high with about `dofs` degrees of freedom, 1 % of its nodes contact candidates.
 TraceRequest WallOf(int dofs, int far_candidates = 0);
 
-// Candidates out of reach beside those that a wall has: its free nodes against a wavy polyline of 1,000 edges with
-// fillets, ten cells below it, and against another one above it where there are more candidates than nodes.
-void AddFarCurves(int candidates, Scene* wall);
+// Candidates out of reach beside those that a wall has: the first of its free nodes against a wavy polyline of 1,000
+// edges with fillets, ten cells below it. Throws std::invalid_argument for more candidates than free nodes.
+void AddFarCurve(int candidates, Scene* wall);
 
 // A square block of about `dofs` degrees of freedom above a rough floor, at a distance of `gap` cells. contacts: 0 = a
 // candidate for each node of the edge.

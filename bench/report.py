@@ -190,7 +190,7 @@ def contact(results):
 def far(results):
     all_runs = [run for run in read_benchmarks(results / 'far.json') if run['run_type'] == 'iteration']
     cells = []
-    for name, against in (('IncrementWithFarCandidates', 'half planes'), ('IncrementWithFarCurves', 'polylines of 1,000 edges')):
+    for name, against in (('IncrementWithFarCandidates', 'half planes'), ('IncrementWithFarCurve', 'a polyline of 1,000 edges')):
         runs = [run for run in all_runs if run['name'].startswith(name + '/')]
         near, with_far = (min((run for run in runs if run['candidates'] == count), key=lambda run: run['real_time'])
                           for count in sorted({run['candidates'] for run in runs}))

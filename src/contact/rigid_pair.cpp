@@ -165,11 +165,20 @@ void RigidPair::Evaluate(const Eigen::VectorXd& u, double s, int patch, double r
 
 double RigidPair::Gap(const Eigen::VectorXd& u, double s, int patch) const {
   if (!Curved()) return FlatGap(u, s);
-  return GapBeside(*surface_, Position(u, s), KnownPatch(u, s, patch));
+  const Eigen::Vector2d x = Position(u, s);
+  if (patch != kNearestPatch || !HasPatches()) return GapBeside(*surface_, x, KnownPatch(u, s, patch));
+  const NearestFoot nearest = NearestTo(x);
+  return nearest.is_end ? nearest.distance : surface_->Project(x, nearest.patch).gap;
+}
+
+NearestFoot RigidPair::NearestTo(const Eigen::Vector2d& x) const {
+  const NearestFoot nearest = surface_->NearestFrom(x, nearest_);
+  nearest_ = nearest.patch;
+  return nearest;
 }
 
 NearestFoot RigidPair::Nearest(const Eigen::VectorXd& u, double s) const {
-  return HasPatches() ? surface_->Nearest(Position(u, s)) : NearestFoot{0, Gap(u, s, 0), false};
+  return HasPatches() ? NearestTo(Position(u, s)) : NearestFoot{0, Gap(u, s, 0), false};
 }
 
 int RigidPair::PatchAt(const Eigen::VectorXd& u, double s) const {

@@ -222,7 +222,9 @@ Projection Curve::Project(const Vector2d& x, int patch) const {
   return at;
 }
 
-NearestFoot Curve::Nearest(const Vector2d& x) const {
+NearestFoot Curve::Nearest(const Vector2d& x) const { return NearestFrom(x, -1); }
+
+NearestFoot Curve::NearestFrom(const Vector2d& x, int near) const {
   NearestFoot nearest;
   nearest.distance = std::numeric_limits<double>::infinity();
   // Next to the end of a patch, the end and the foot on the next patch are equally far, to rounding.
@@ -234,7 +236,7 @@ NearestFoot Curve::Nearest(const Vector2d& x) const {
     most = counted;
     nearest = {number, distance, is_end};
   };
-  tree_.Search(x, &most, [&](std::size_t i) {
+  const auto visit = [&](std::size_t i) {
     const CurvePiece& piece = *pieces_[i];
     const Projection at = piece.Project(x);
     const XiRange range = piece.Range();
@@ -246,7 +248,11 @@ NearestFoot Curve::Nearest(const Vector2d& x) const {
     const bool first = !closed_ && i == 0, last = !closed_ && i + 1 == pieces_.size();
     consider(i, (x - piece.PointAt(range.begin)).norm(), !first, first);
     consider(i, (x - piece.PointAt(range.end)).norm(), !last, last);
-  });
+  };
+  if (near < 0)
+    tree_.Search(x, &most, visit);
+  else
+    tree_.SearchFrom(static_cast<std::size_t>(near), x, &most, visit);
   return nearest;
 }
 

@@ -25,7 +25,7 @@ struct NodeMotion {
 
 // gap(q) and xi(q) are the values of the surface at x(q): derivatives by x come from the projection
 // (geometry/projection.h), derivatives by q follow by the chain rule. Without a turn x(q) is affine, and of a flat
-// surface everything but the values is constant.
+// surface everything but the values is constant. Two threads must not use the same pair at once.
 class RigidPair : public ContactPair {
  public:
   // friction: mu; 0 where the node cannot slide (scene/can_slide.h).
@@ -54,6 +54,7 @@ class RigidPair : public ContactPair {
 
   Eigen::Vector2d Position(const Eigen::VectorXd& u, double s) const;
   Eigen::Vector2d Unturned(const Eigen::VectorXd& u, double s) const;  // p - velocity s
+  NearestFoot NearestTo(const Eigen::Vector2d& x) const;
   double FlatGap(const Eigen::VectorXd& u, double s) const;
   // A patch that the surface has: past its ends the first or the last one.
   int NearestKnown(int patch) const;
@@ -66,6 +67,7 @@ class RigidPair : public ContactPair {
   // Of a flat surface: offset + gradient . q.
   double gap_offset_ = 0.0, xi_offset_ = 0.0;
   PairVector gap_gradient_, xi_gradient_;
+  mutable int nearest_ = -1;  // what was nearest last: where the next search begins, whatever it finds
 };
 
 }  // namespace contact_path

@@ -30,6 +30,18 @@ class CapsuleTree {
   void Search(const Eigen::Vector2d& x, const double* most, Visit visit) const {
     Search({0, 0, num_leaves_}, parts_[0].SquaredDistance(x), x, most, visit);
   }
+  // The same, but the leaf `first` comes first: half the time where it is the nearest one.
+  template <typename Visit>
+  void SearchFrom(std::size_t first, const Eigen::Vector2d& x, const double* most, Visit visit) const {
+    visit(first);
+    Node node = {0, 0, num_leaves_};
+    while (node.end - node.begin > 1) {
+      const bool in_first = first < node.Middle();
+      const Node aside = in_first ? node.Second() : node.First();
+      Search(aside, parts_[aside.capsule].SquaredDistance(x), x, most, visit);
+      node = in_first ? node.First() : node.Second();
+    }
+  }
 
  private:
   static constexpr double kRounding = 1e-12;  // of the square of a distance

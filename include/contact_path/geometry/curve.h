@@ -105,6 +105,7 @@ class Curve : public Surface {
   int NumPatches() const override { return static_cast<int>(pieces_.size()); }
   XiRange RangeOf(int patch) const override;
   NearestFoot Nearest(const Eigen::Vector2d& x) const override;
+  NearestFoot NearestFrom(const Eigen::Vector2d& x, int near) const override;
   Projection Project(const Eigen::Vector2d& x, int patch) const override;
   Eigen::Vector2d PointAt(double xi) const override;
 

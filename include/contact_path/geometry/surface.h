@@ -38,6 +38,9 @@ class Surface {
   virtual XiRange RangeOf(int /*patch*/) const { return {}; }
   // Of a closed curve a patch of the first round, 0 to NumPatches() - 1.
   virtual NearestFoot Nearest(const Eigen::Vector2d& x) const = 0;
+  // The same, found faster where it is on the patch `near` or not far from it. near: a patch of the first round; -1 =
+  // not known.
+  virtual NearestFoot NearestFrom(const Eigen::Vector2d& x, int /*near*/) const { return Nearest(x); }
   // The foot on one patch, which is prolonged smoothly beyond both of its ends: xi tells where the foot is.
   virtual Projection Project(const Eigen::Vector2d& x, int patch) const = 0;
   // xi: of a point between the begin of the first patch and the end of the last one.
