@@ -52,6 +52,21 @@ TEST_P(CapsuleTreeTest, VisitsEachLeafWithinReachOnce) {
   EXPECT_EQ(visited, expected);
 }
 
+TEST_P(CapsuleTreeTest, BeginsWithTheLeafThatIsWanted) {
+  const CapsuleTree tree(points_);
+  const double reach = 1.3;
+  const Vector2d x(2.0, 0.5);
+  for (std::size_t first = 0; first < points_.size(); first += 1 + points_.size() / 10) {
+    std::vector<std::size_t> visited, expected;
+    tree.SearchFrom(first, x, &reach, [&](std::size_t leaf) { visited.push_back(leaf); });
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      if (i == first || (x - points_[i].begin).norm() <= reach) expected.push_back(i);
+    EXPECT_EQ(visited.front(), first);
+    std::sort(visited.begin(), visited.end());
+    EXPECT_EQ(visited, expected);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Sizes, CapsuleTreeTest, testing::Values(1, 2, 3, 7, 64, 1000));
 
 // Of a wave that is far away few pieces are looked at.

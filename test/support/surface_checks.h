@@ -35,6 +35,11 @@ inline void ExpectFeet(const Curve& curve, double gap, double tolerance) {
         EXPECT_EQ(nearest.patch, patch);
         EXPECT_NEAR(nearest.distance, std::abs(side), tolerance);
         EXPECT_FALSE(nearest.is_end);
+        for (int near = 0; near < curve.NumPatches(); ++near) {
+          const NearestFoot found = curve.NearestFrom(x, near);
+          EXPECT_EQ(found.patch, nearest.patch);
+          EXPECT_EQ(found.distance, nearest.distance);
+        }
       }
     }
   }
