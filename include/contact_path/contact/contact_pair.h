@@ -95,7 +95,8 @@ class ContactPair {
   // Slip along (du, ds) at (u, s): c grad xi . (du, ds).
   double SlipRate(const Eigen::VectorXd& u, double s, int patch, const Eigen::VectorXd& du, double ds) const;
   // Slip from (u, s) on a patch to (u + du, s + ds) on another one, or the same: of a rigid surface the change of xi,
-  // of one that deforms the mean of the lengths between both feet on its shapes at both.
+  // of one that deforms the mean of the lengths between both feet on its shapes at both; past an end of it, the foot is
+  // that end.
   virtual double Slip(const Eigen::VectorXd& u, double s, int patch, const Eigen::VectorXd& du, double ds,
                       int patch_after) const;
 

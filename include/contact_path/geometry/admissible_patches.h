@@ -25,6 +25,8 @@ class AdmissiblePatches {
   // Whether the curve has the patch (geometry/surface.h), and the patch is not left out.
   bool Has(int patch) const;
   bool None() const { return left_out_ >= spline_.NumPatches(); }
+  // The patch itself; of one that is left out beside one that is not, or of a number past an end: that one.
+  int Beside(int patch) const;
   // Of a patch that is left out beside one that is not: how that one is prolonged, from its end or up to its begin.
   SplinePatch Patch(int patch) const;
 
