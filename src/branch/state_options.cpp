@@ -13,9 +13,7 @@ std::vector<ContactState> States(const ContactPair& contact, const PathPoint& po
   if (gap > tolerance.gap) return {ContactState::kOpen};
   const double force = tolerance.force * contact.ForceUnit();
   const bool loaded = rn > force;
-  const double slipped = contact.HasTotalLaw()
-                             ? contact.Xi(point.u, point.s, patch) - contact.SlipReference(point.u, point.s, patch)
-                             : 0.0;
+  const double slipped = contact.Slipped(point.u, point.s, patch);
   std::vector<ContactState> options;
   if (!contact.Frictional()) {
     options = {ContactState::kClosed};

@@ -36,11 +36,6 @@ constexpr double kShortPath = 20.0;    // of the corner tolerance
 constexpr double kCornerShare = 0.04;  // of the wanted step: largest corner tolerance
 constexpr double kSmallestStepRatio = 1e-7;  // of the wanted step
 
-// By the total law of friction: xi - xi_0.
-double Slipped(const ContactPair& contact, const PathPoint& point, std::size_t i) {
-  return contact.Xi(point.u, point.s, point.Patch(i)) - contact.SlipReference(point.u, point.s, point.Patch(i));
-}
-
 // Whether this contact is about to change its state, so that the path may bend here by any angle.
 bool IsNearlyActive(const ContactPair& contact, const PathPoint& point, std::size_t i) {
   const auto k = static_cast<Eigen::Index>(i);
@@ -49,7 +44,7 @@ bool IsNearlyActive(const ContactPair& contact, const PathPoint& point, std::siz
   if ((open ? contact.Gap(point.u, point.s, point.Patch(i)) : point.rn[k] / unit) <= tolerances::kNearlyActive)
     return true;
   if (contact.HasTotalLaw() && Slips(point.states[i]))
-    return std::abs(Slipped(contact, point, i)) <= tolerances::kNearlyActive;
+    return std::abs(contact.Slipped(point.u, point.s, point.Patch(i))) <= tolerances::kNearlyActive;
   return point.states[i] == ContactState::kStick &&
          contact.Friction() * point.rn[k] - std::abs(point.rt[k]) <= tolerances::kNearlyActive * unit;
 }
@@ -78,7 +73,7 @@ bool StatesAgree(const ContactPairs& contacts, const PathPoint& from, const Path
   const double length = tolerances::kRegularisedState * Distance(from, to);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
-    const double slip = contacts[i]->HasTotalLaw() ? Slipped(*contacts[i], to, i)
+    const double slip = contacts[i]->HasTotalLaw() ? contacts[i]->Slipped(to.u, to.s, to.Patch(i))
                                                    : contacts[i]->Slip(from.u, from.s, from.Patch(i), to.u - from.u,
                                                                        to.s - from.s, to.Patch(i));
     const double margin = contacts[i]->Friction() * to.rn[k] - std::abs(to.rt[k]);
