@@ -21,14 +21,8 @@ constexpr std::string_view kSolveTime = "solve_time";
 
 // What to say of a node or contact that the scene does not have.
 std::string UnknownPart(const SpelledQuantity& quantity, const Scene& scene) {
-  const bool of_node = Quantity{quantity.kind, 0}.IsOfNode();
-  NearestName nearest(quantity.name);
-  if (of_node) {
-    for (const Node& node : scene.nodes) nearest.Offer(node.name);
-  } else {
-    for (const ContactCandidate& contact : scene.contacts) nearest.Offer(contact.Name());
-  }
-  return std::string("must be of a ") + (of_node ? "node" : "contact") + " of the scene" + nearest.Question();
+  const char* const part = Quantity{quantity.kind, 0}.IsOfNode() ? "node" : "contact";
+  return std::string("must be of a ") + part + " of the scene" + NearestPart(quantity, scene).Question();
 }
 
 std::string UnknownColumn(const std::string& name) {
