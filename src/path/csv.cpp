@@ -4,24 +4,22 @@
 #include <limits>
 #include <locale>
 #include <ostream>
-#include <sstream>
 
 #include "contact_path/scene/expand.h"
 
 namespace contact_path {
 namespace {
 
-// A line in the making: the same bytes whatever the locale and the format flags of the stream it ends up in.
-std::ostringstream NewLine() {
+std::size_t NumNumbers(bool program) { return kCsvNumbers.size() - (program ? 0 : 1); }
+
+}  // namespace
+
+std::ostringstream NewCsvLine() {
   std::ostringstream line;
   line.imbue(std::locale::classic());
   line.precision(std::numeric_limits<double>::max_digits10);
   return line;
 }
-
-std::size_t NumNumbers(bool program) { return kCsvNumbers.size() - (program ? 0 : 1); }
-
-}  // namespace
 
 CsvWriter::CsvWriter(const TraceRequest& request) : program_(!request.program.empty()) {
   const ExpandedRequest expanded(request);
@@ -32,7 +30,7 @@ CsvWriter::CsvWriter(const TraceRequest& request) : program_(!request.program.em
 }
 
 void CsvWriter::WriteHeader(std::ostream& out) const {
-  std::ostringstream line = NewLine();
+  std::ostringstream line = NewCsvLine();
   for (std::size_t i = 0; i < kCsvNumbersFirst; ++i) line << kCsvNumbers[i].name << ',';
   line << "kind";
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
@@ -47,7 +45,7 @@ void CsvWriter::WriteHeader(std::ostream& out) const {
 }
 
 void CsvWriter::WriteRow(const Increment& increment, std::ostream& out) const {
-  std::ostringstream line = NewLine();
+  std::ostringstream line = NewCsvLine();
   for (std::size_t i = 0; i < kCsvNumbersFirst; ++i) line << kCsvNumbers[i].value(increment) << ',';
   line << ToString(increment.kind);
   for (std::size_t i = 0; i < increment.positions.size(); ++i) {

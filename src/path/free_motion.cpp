@@ -7,8 +7,8 @@
 #include <new>
 
 #include "contact_path/linear/minimum_norm.h"
+#include "contact_path/scene/number_text.h"
 #include "contact_path/tolerances.h"
-#include "scene/checker.h"
 
 namespace contact_path {
 namespace {

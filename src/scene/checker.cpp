@@ -2,11 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
-#include <limits>
-#include <locale>
 #include <optional>
-#include <sstream>
 
 #include "contact_path/scene/nearest_name.h"
 #include "contact_path/scene/quantity.h"
@@ -22,23 +18,6 @@ bool IsAllowedInName(char c) {
 }
 
 }  // namespace
-
-std::string NumberText(double value) {
-  if (std::isnan(value)) return ".nan";
-  if (std::isinf(value)) return value > 0.0 ? ".inf" : "-.inf";
-  std::string text;
-  for (int digits = 15; digits <= std::numeric_limits<double>::max_digits10; ++digits) {
-    std::ostringstream out;
-    out.imbue(std::locale::classic());
-    out << std::setprecision(digits) << value;
-    text = out.str();
-    std::istringstream in(text);
-    in.imbue(std::locale::classic());
-    double back = 0.0;
-    if (in >> back && back == value) break;
-  }
-  return text;
-}
 
 std::string TextOrQuotes(const std::string& text) { return text.empty() ? "\"\"" : text; }
 

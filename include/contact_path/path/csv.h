@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <iosfwd>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,6 +34,10 @@ inline constexpr std::array<CsvNumber, 9> kCsvNumbers = {{
     {"stage", [](const Increment& increment) { return static_cast<double>(increment.stage); }},
 }};
 inline constexpr std::size_t kCsvNumbersFirst = 3;  // the others stand after the contacts
+
+// A line in the making: the same bytes whatever the locale and the format flags of the stream it ends up in, doubles
+// with 17 significant digits.
+std::ostringstream NewCsvLine();
 
 // Columns: index, load_factor, arc_length, kind, x_<node>, y_<node>, ..., gap_<contact>, rn_<contact>, rt_<contact>,
 // state_<contact>, ..., dissipation, strain_energy, equilibrium_residual, complementarity_residual, solve_time;
