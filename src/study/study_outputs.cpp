@@ -78,7 +78,7 @@ std::string StudyOutputs::Text(const Output& output, EndReason reason) const {
     case Kind::kEvents: return summary_.increments() == 0 ? "" : std::to_string(summary_.events());
     case Kind::kLimitLoads: {
       std::string text;
-      for (const LimitPoint& point : summary_.limit_points())
+      for (const CriticalPoint& point : summary_.limit_points())
         text += (text.empty() ? "" : " ") + TextOf(point.load_factor);
       return text;
     }
