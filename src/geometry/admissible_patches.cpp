@@ -44,7 +44,7 @@ AdmissiblePatches::AdmissiblePatches(const std::vector<Eigen::Vector2d>& nodes, 
 }
 
 bool AdmissiblePatches::Has(int patch) const {
-  if (spline_.Closed()) return left_out_ == 0 || spline_.Within(patch - first_) >= left_out_;
+  if (spline_.Closed()) return spline_.Within(patch - first_) >= left_out_;
   return patch >= 0 && patch < spline_.NumPatches() && (patch < first_ || patch >= first_ + left_out_);
 }
 
@@ -55,7 +55,6 @@ int AdmissiblePatches::Beside(int patch) const {
 }
 
 SplinePatch AdmissiblePatches::Patch(int patch) const {
-  if (left_out_ == 0) return spline_.Patch(patch);
   const int beside = Beside(patch);
   SplinePatch prolonged = spline_.Patch(beside);
   if (beside < patch) {

@@ -158,8 +158,7 @@ TEST_F(DeformablePairs, OnTheSurfaceTheForceOnTheNodeIsTheReaction) {
     Eigen::VectorXd force = Eigen::VectorXd::Zero(of.contact.u.size());
     at.AddForce(at.gap_gradient, kRn, &force);
     at.AddForce(at.xi_gradient, kRt * at.slip_factor, &force);
-    const Eigen::Vector2d n =
-        BoundaryAt(*of.contact.boundary, of.contact.u).Project(of.contact.u.tail<2>(), of.patch).normal;
+    const Eigen::Vector2d n = of.contact.Shape().Project(of.contact.u.tail<2>(), of.patch).normal;
     EXPECT_NEAR(at.gap, 0.0, kRounding);
     EXPECT_LE((force.tail<2>() - kRn * n - kRt * TangentOf(n)).norm(), kRounding) << of.name;
   }

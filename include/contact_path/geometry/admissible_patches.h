@@ -21,7 +21,6 @@ class AdmissiblePatches {
   // nodes: places of the nodes at the start, neighbours are apart; at least 2, closed 3. radius >= 0 [length].
   AdmissiblePatches(const std::vector<Eigen::Vector2d>& nodes, bool closed, double radius, int node);
 
-  const NodalSpline& Spline() const { return spline_; }
   // Whether the curve has the patch (geometry/surface.h), and the patch is not left out.
   bool Has(int patch) const;
   bool None() const { return left_out_ >= spline_.NumPatches(); }
