@@ -99,7 +99,7 @@ RateProblem::RateProblem(const Structure& structure, const ContactPairs& contact
     const auto i = static_cast<std::size_t>(weakly_active_[static_cast<std::size_t>(k)]);
     const ContactPair& pair = *contacts[i];
     const Kinematics& at = kinematics[static_cast<std::size_t>(k)];
-    slipped_[k] = at.xi - pair.SlipReference(point.u, point.s, point.Patch(i));
+    slipped_[k] = pair.Slipped(point.u, point.s, point.Patch(i));
     for (Eigen::Index j = 0; j < motions.cols(); ++j) {
       const double ds = j == 0 ? 1.0 : 0.0;
       gap_(k, j) = at.Rate(at.gap_gradient, motions.col(j), ds);

@@ -13,9 +13,7 @@ std::vector<ContactState> States(const ContactPair& contact, const PathPoint& po
   if (gap > tolerance.gap) return {ContactState::kOpen};
   const double force = tolerance.force * contact.ForceUnit();
   const bool loaded = rn > force;
-  const double slipped = contact.HasTotalLaw()
-                             ? contact.Xi(point.u, point.s, patch) - contact.SlipReference(point.u, point.s, patch)
-                             : 0.0;
+  const double slipped = contact.Slipped(point.u, point.s, patch);
   std::vector<ContactState> options;
   if (!contact.Frictional()) {
     options = {ContactState::kClosed};
@@ -49,12 +47,14 @@ ContactModes StateOptions(const ContactPair& contact, const PathPoint& point, st
   ContactModes modes;
   for (const ContactState state : States(contact, point, candidate, patch, tolerance)) {
     std::vector<int> patches = {patch};
-    if (state == ContactState::kSlipPlus) patches = {after};
-    if (state == ContactState::kSlipMinus) patches = {before};
-    if (contact.HasTotalLaw() && Slips(state)) patches = {patch};
-    if (state == ContactState::kClosed || (contact.HasTotalLaw() && Slips(state))) {
+    const bool either_way = state == ContactState::kClosed || (contact.HasTotalLaw() && Slips(state));
+    if (either_way) {
       if (before != patch) patches.push_back(before);
       if (after != patch) patches.push_back(after);
+    } else if (state == ContactState::kSlipPlus) {
+      patches = {after};
+    } else if (state == ContactState::kSlipMinus) {
+      patches = {before};
     }
     for (const int on : patches)
       if (state == ContactState::kOpen || !contact.HasPatches() || contact.HasPatch(on)) modes.push_back({state, on});

@@ -97,16 +97,24 @@ struct ResidualCheck::Prepared {
     contacts = check::MakeContacts(scene, index, configuration.slip_origins);
     if (std::any_of(contacts.begin(), contacts.end(), [](const auto& contact) { return contact->TouchedSurface(); }))
       boundaries = check::MakeBoundaries(scene, index);
-    for (const auto& contact : contacts) contact_units.push_back(UnitOf(*contact));
+    const std::vector<Real> of_surfaces = LargestOnSurfaces<Real>([&](std::size_t node) { return units[node]; });
+    for (const auto& contact : contacts) {
+      const std::optional<std::size_t> surface = contact->TouchedSurface();
+      contact_units.push_back(surface ? std::max(units[contact->Node()], of_surfaces[*surface])
+                                      : units[contact->Node()]);
+    }
   }
 
-  // What reactions are measured in: the largest unit of the nodes that they act on.
-  Real UnitOf(const check::Contact& contact) const {
-    Real unit = units[contact.Node()];
-    if (contact.TouchedSurface())
-      for (const check::BoundaryPatch& patch : boundaries[*contact.TouchedSurface()].Patches())
-        for (const std::size_t node : patch.nodes) unit = std::max(unit, units[node]);
-    return unit;
+  // By surface that contacts may touch, the largest of the values >= 0 of its nodes.
+  template <typename Value, typename ValueOf>
+  std::vector<Value> LargestOnSurfaces(ValueOf value_of) const {
+    std::vector<Value> largest;
+    for (const check::Boundary& boundary : boundaries) {
+      largest.push_back(0);
+      for (const check::BoundaryPatch& patch : boundary.Patches())
+        for (const std::size_t node : patch.nodes) largest.back() = std::max(largest.back(), value_of(node));
+    }
+    return largest;
   }
 
   check::PlacedState Placed(const CheckedState& state) const { return {state, boundaries}; }
@@ -271,6 +279,8 @@ std::vector<ContactForceBound> ResidualCheck::BoundContactForces(double length, 
   CheckedState start;
   start.positions = scene.start;
   const check::PlacedState placed = scene.Placed(start);
+  const std::vector<double> of_surfaces = scene.LargestOnSurfaces<double>(
+      [&](std::size_t node) { return bounds[node].any + bounds[node].x + bounds[node].y; });
   std::vector<ContactForceBound> forces;
   std::vector<double> at_node(bounds.size(), 0.0);  // the largest of its contacts
   for (const auto& contact : scene.contacts) {
@@ -279,11 +289,7 @@ std::vector<ContactForceBound> ResidualCheck::BoundContactForces(double length, 
     ContactForceBound force;
     force.on_node = bound.any + std::abs(static_cast<double>(normal.x)) * bound.x +
                     std::abs(static_cast<double>(normal.y)) * bound.y;
-    double of_surface = 0.0;
-    if (contact->TouchedSurface())
-      for (const check::BoundaryPatch& patch : scene.boundaries[*contact->TouchedSurface()].Patches())
-        for (const std::size_t node : patch.nodes)
-          of_surface = std::max(of_surface, bounds[node].any + bounds[node].x + bounds[node].y);
+    const double of_surface = contact->TouchedSurface() ? of_surfaces[*contact->TouchedSurface()] : 0.0;
     // A node that is held bears what the surface presses with, however soft its own parts are.
     if (!scene.free[2 * contact->Node()] || !scene.free[2 * contact->Node() + 1])
       force.on_node = std::max(force.on_node, of_surface);

@@ -3,9 +3,11 @@
 //
 // Says "ready", its version and the kinds of the parameters, then answers each line with a line. Words of a line are
 // separated by tabs. Requests: "value PARAMETER VALUE", whether a value is of the type of its parameter: answered by
-// what it must be instead, or by nothing; "trace VALUE...", a value for each parameter: answered by the number of bytes
-// of the CSV of the path, which follows the line, the status, and the outputs. Exit status 2: a scene, a parameter or
-// an output that is not there.
+// what it must be instead, or by nothing, PARAMETER counted from 0; "trace VALUE...", a value for each parameter:
+// answered by the number of bytes of the CSV of the path, which follows the line, the status, and the outputs. Another
+// line is answered as a trace that failed, or a value that must be another. Exit status 2: a scene, a parameter or an
+// output that is not there.
+#include <sys/types.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -68,19 +70,18 @@ std::vector<FieldKind> CheckArguments(const Arguments& arguments, const TraceReq
   std::vector<std::string> keys;
   for (const std::string& path : arguments.parameters) {
     const std::size_t place = keys.size();
+    FoundField field;
     try {
-      const FoundField field = FindField(path, request);
-      for (std::size_t i = 0; i < place; ++i)
-        if (keys[i] == field.key)
-          Reject("parameters", place, ".path", path,
-                 "must be another field than that of parameters[" + std::to_string(i) + "]");
-      keys.push_back(field.key);
-      kinds.push_back(field.kind);
-    } catch (const InvalidRequest&) {
-      throw;
+      field = FindField(path, request);
     } catch (const std::invalid_argument& error) {
       Reject("parameters", place, ".path", path, error.what());
     }
+    for (std::size_t i = 0; i < place; ++i)
+      if (keys[i] == field.key)
+        Reject("parameters", place, ".path", path,
+               "must be another field than that of parameters[" + std::to_string(i) + "]");
+    keys.push_back(field.key);
+    kinds.push_back(field.kind);
   }
   try {
     const StudyOutputs outputs(arguments.outputs, request);
@@ -109,25 +110,32 @@ std::string StatusOf(const TraceResult& result) {
 
 class Server {
  public:
-  Server(const Arguments& arguments, const TraceRequest& request) : arguments_(arguments), request_(request) {}
+  // client: the process whose requests it answers.
+  Server(const Arguments& arguments, const TraceRequest& request, pid_t client)
+      : arguments_(arguments), request_(request), client_(client) {}
 
-  // What a value must be, or nothing.
-  std::string CheckValue(const std::string& parameter, const std::string& value) const {
+  // What the value of a request must be, or nothing.
+  std::string CheckValue(const std::vector<std::string>& words) const {
+    const std::optional<std::size_t> parameter = words.size() == 3 ? PlaceOf(words[1]) : std::nullopt;
+    if (!parameter) return "must be one value, after the place of a parameter" + CountOfParameters();
     TraceRequest varied = request_;
     try {
-      SetField(arguments_.parameters.at(std::stoul(parameter)), value, &varied);
+      SetField(arguments_.parameters[*parameter], words[2], &varied);
       return "";
     } catch (const std::invalid_argument& error) {
       return error.what();
     }
   }
 
-  Answer TraceVariant(const std::vector<std::string>& values) const {
+  Answer TraceVariant(const std::vector<std::string>& words) const {
     Answer answer;
     try {
+      if (words.front() != "trace") throw std::invalid_argument("a request begins with value or trace");
+      const std::vector<std::string> values(words.begin() + 1, words.end());
+      if (values.size() != arguments_.parameters.size())
+        throw std::invalid_argument("a trace needs a value for each parameter" + CountOfParameters());
       TraceRequest varied = request_;
-      for (std::size_t i = 0; i < arguments_.parameters.size(); ++i)
-        SetField(arguments_.parameters[i], values.at(i), &varied);
+      for (std::size_t i = 0; i < values.size(); ++i) SetField(arguments_.parameters[i], values[i], &varied);
       if (const std::vector<Violation> violations = Validate(varied); !violations.empty())
         throw InvalidRequest(violations);
       FollowPath(varied, &answer);
@@ -146,6 +154,16 @@ class Server {
   }
 
  private:
+  // Of a parameter; nothing: there is none.
+  std::optional<std::size_t> PlaceOf(const std::string& word) const {
+    for (std::size_t i = 0; i < arguments_.parameters.size(); ++i)
+      if (word == std::to_string(i)) return i;
+    return std::nullopt;
+  }
+  std::string CountOfParameters() const {
+    return ", of which there are " + std::to_string(arguments_.parameters.size());
+  }
+
   void FollowPath(const TraceRequest& request, Answer* answer) const {
     StudyOutputs outputs(arguments_.outputs, request);
     std::optional<CsvWriter> csv;
@@ -160,7 +178,7 @@ class Server {
       if (csv) csv->WriteRow(increment, rows);
     };
     // Nobody waits for the answer where the client has gone.
-    control.cancelled = [client = getppid()] { return getppid() != client; };
+    control.cancelled = [client = client_] { return getppid() != client; };
     const TraceResult result = Trace(request, control);
     answer->status = StatusOf(result);
     answer->outputs = outputs.Texts(result.reason);
@@ -169,23 +187,25 @@ class Server {
 
   const Arguments& arguments_;
   const TraceRequest& request_;
+  const pid_t client_;
 };
 
 void Serve(const Arguments& arguments) {
+  const pid_t client = getppid();  // as long as it is there
   const TraceRequest request = ReadTraceRequestFile(arguments.scene_file);
   const std::vector<FieldKind> kinds = CheckArguments(arguments, request);
   std::cout << "ready\t" << CONTACT_PATH_VERSION;
   for (const FieldKind kind : kinds) std::cout << '\t' << ToString(kind);
   std::cout << std::endl;
 
-  const Server server(arguments, request);
+  const Server server(arguments, request, client);
   for (std::string line; std::getline(std::cin, line);) {
     const std::vector<std::string> words = Words(line);
     if (words.front() == "value") {
-      std::cout << OneWord(server.CheckValue(words.at(1), words.at(2))) << std::endl;
+      std::cout << OneWord(server.CheckValue(words)) << std::endl;
       continue;
     }
-    const Answer answer = server.TraceVariant({words.begin() + 1, words.end()});
+    const Answer answer = server.TraceVariant(words);
     std::cout << answer.csv.size() << '\t' << OneWord(answer.status);
     for (const std::string& output : answer.outputs) std::cout << '\t' << output;
     std::cout << '\n' << answer.csv << std::flush;

@@ -30,6 +30,10 @@ double ContactPair::SlipReference(const Eigen::VectorXd& u, double s, int patch)
   return origin + traits_.round * std::round((Xi(u, s, patch) - origin) / traits_.round);
 }
 
+double ContactPair::Slipped(const Eigen::VectorXd& u, double s, int patch) const {
+  return HasTotalLaw() ? Xi(u, s, patch) - SlipReference(u, s, patch) : 0.0;
+}
+
 double ContactPair::SlipRate(const Eigen::VectorXd& u, double s, int patch, const Eigen::VectorXd& du,
                              double ds) const {
   Kinematics kinematics;

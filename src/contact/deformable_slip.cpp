@@ -1,5 +1,6 @@
 // How far the foot of a node walks along a surface that deforms.
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "contact_path/contact/deformable_pair.h"
@@ -44,8 +45,10 @@ double Walked(const DeformableBoundary& boundary, const Eigen::VectorXd& u, cons
 double DeformablePair::Slip(const Eigen::VectorXd& u, double s, int patch, const Eigen::VectorXd& du, double ds,
                             int patch_after) const {
   const auto foot_at = [this](const Eigen::VectorXd& at, int known) {
-    const SplinePatch of = patches_.Patch(known);
-    return Foot{known, Parabola(of, boundary_->Places(of, at)).FootOf(node_.At(at), of.begin, of.end)};
+    const int number = patches_.Beside(known);
+    const SplinePatch of = boundary_->Spline().Patch(number);
+    const double tau = Parabola(of, boundary_->Places(of, at)).FootOf(node_.At(at), of.begin, of.end);
+    return Foot{number, number == known ? tau : std::clamp(tau, of.begin, of.end)};
   };
   const Eigen::VectorXd after = u + du;
   const Foot from = foot_at(u, KnownPatch(u, s, patch)), to = foot_at(after, KnownPatch(after, s + ds, patch_after));

@@ -44,19 +44,23 @@ AdmissiblePatches::AdmissiblePatches(const std::vector<Eigen::Vector2d>& nodes, 
 }
 
 bool AdmissiblePatches::Has(int patch) const {
-  if (spline_.Closed()) return left_out_ == 0 || spline_.Within(patch - first_) >= left_out_;
+  if (spline_.Closed()) return spline_.Within(patch - first_) >= left_out_;
   return patch >= 0 && patch < spline_.NumPatches() && (patch < first_ || patch >= first_ + left_out_);
 }
 
+int AdmissiblePatches::Beside(int patch) const {
+  if (Has(patch)) return patch;
+  if (Has(patch - 1)) return patch - 1;
+  return Has(patch + 1) ? patch + 1 : patch;
+}
+
 SplinePatch AdmissiblePatches::Patch(int patch) const {
-  if (left_out_ == 0 || Has(patch)) return spline_.Patch(patch);
-  SplinePatch prolonged = spline_.Patch(patch);
-  if (Has(patch - 1)) {
-    prolonged = spline_.Patch(patch - 1);
+  const int beside = Beside(patch);
+  SplinePatch prolonged = spline_.Patch(beside);
+  if (beside < patch) {
     prolonged.begin = prolonged.end;
     prolonged.end = kInfinity;
-  } else if (Has(patch + 1)) {
-    prolonged = spline_.Patch(patch + 1);
+  } else if (beside > patch) {
     prolonged.end = prolonged.begin;
     prolonged.begin = -kInfinity;
   }

@@ -4,22 +4,22 @@
 #include <limits>
 #include <locale>
 #include <ostream>
-#include <sstream>
 
 #include "contact_path/scene/expand.h"
 
 namespace contact_path {
 namespace {
 
-// A line in the making: the same bytes whatever the locale and the format flags of the stream it ends up in.
-std::ostringstream NewLine() {
+std::size_t NumNumbers(bool program) { return kCsvNumbers.size() - (program ? 0 : 1); }
+
+}  // namespace
+
+std::ostringstream NewCsvLine() {
   std::ostringstream line;
   line.imbue(std::locale::classic());
   line.precision(std::numeric_limits<double>::max_digits10);
   return line;
 }
-
-}  // namespace
 
 CsvWriter::CsvWriter(const TraceRequest& request) : program_(!request.program.empty()) {
   const ExpandedRequest expanded(request);
@@ -30,23 +30,24 @@ CsvWriter::CsvWriter(const TraceRequest& request) : program_(!request.program.em
 }
 
 void CsvWriter::WriteHeader(std::ostream& out) const {
-  std::ostringstream line = NewLine();
-  line << "index,load_factor,arc_length,kind";
+  std::ostringstream line = NewCsvLine();
+  for (std::size_t i = 0; i < kCsvNumbersFirst; ++i) line << kCsvNumbers[i].name << ',';
+  line << "kind";
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     line << ",x_" << nodes_[i] << ",y_" << nodes_[i];
     if (turn_[i]) line << ",rotation_" << nodes_[i];
   }
   for (const std::string& name : contacts_)
     line << ",gap_" << name << ",rn_" << name << ",rt_" << name << ",state_" << name;
-  line << ",dissipation,strain_energy,equilibrium_residual,complementarity_residual,solve_time"
-       << (program_ ? ",stage\n" : "\n");
+  for (std::size_t i = kCsvNumbersFirst; i < NumNumbers(program_); ++i) line << ',' << kCsvNumbers[i].name;
+  line << '\n';
   out << line.str();
 }
 
 void CsvWriter::WriteRow(const Increment& increment, std::ostream& out) const {
-  std::ostringstream line = NewLine();
-  line << increment.index << ',' << increment.load_factor << ',' << increment.arc_length << ','
-       << ToString(increment.kind);
+  std::ostringstream line = NewCsvLine();
+  for (std::size_t i = 0; i < kCsvNumbersFirst; ++i) line << kCsvNumbers[i].value(increment) << ',';
+  line << ToString(increment.kind);
   for (std::size_t i = 0; i < increment.positions.size(); ++i) {
     line << ',' << increment.positions[i];
     const std::size_t node = i / 2;
@@ -55,9 +56,8 @@ void CsvWriter::WriteRow(const Increment& increment, std::ostream& out) const {
   for (const ContactRecord& contact : increment.contacts) {
     line << ',' << contact.gap << ',' << contact.rn << ',' << contact.rt << ',' << ToString(contact.state);
   }
-  line << ',' << increment.dissipation << ',' << increment.strain_energy << ',' << increment.residuals.equilibrium
-       << ',' << increment.residuals.Contact() << ',' << increment.solve.time;
-  if (increment.stage > 0) line << ',' << increment.stage;
+  for (std::size_t i = kCsvNumbersFirst; i < NumNumbers(increment.stage > 0); ++i)
+    line << ',' << kCsvNumbers[i].value(increment);
   line << '\n';
   out << line.str();
 }

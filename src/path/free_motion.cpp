@@ -7,8 +7,8 @@
 #include <new>
 
 #include "contact_path/linear/minimum_norm.h"
+#include "contact_path/scene/number_text.h"
 #include "contact_path/tolerances.h"
-#include "scene/checker.h"
 
 namespace contact_path {
 namespace {
@@ -49,6 +49,10 @@ Eigen::SparseMatrix<double> Resistance(const Model& model, const PathPoint& poin
   return resistance;
 }
 
+bool Has(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
 // The first names, and how many there are beside.
 std::string Listed(const std::vector<std::string>& names) {
   std::string text;
@@ -75,14 +79,17 @@ Names FreeNames(const Model& model, const PathPoint& point, double force) {
     names.nodes.push_back(scene.nodes[static_cast<std::size_t>(node)].name);
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
     const ContactCandidate& contact = scene.contacts[i];
-    const bool free = std::find(names.nodes.begin(), names.nodes.end(), contact.node) != names.nodes.end();
-    if (!free || model.contacts[i]->Gap(point.u, point.s, point.Patch(i)) > tolerances::kActiveGap) continue;
+    if (!Has(names.nodes, contact.node) ||
+        model.contacts[i]->Gap(point.u, point.s, point.Patch(i)) > tolerances::kActiveGap)
+      continue;
     names.contacts.push_back(contact.Name());
     if (contact.OnSurface()) continue;
-    if (std::find(names.obstacles.begin(), names.obstacles.end(), contact.obstacle) != names.obstacles.end()) continue;
-    names.obstacles.push_back(contact.obstacle);
+    if (!Has(names.obstacles, contact.obstacle)) names.obstacles.push_back(contact.obstacle);
+    // Not every node can slide on a rough obstacle.
     const ContactPair& pair = *model.contacts[i];
-    if (pair.Frictional()) names.rough.push_back(contact.obstacle + " (" + NumberText(pair.Friction()) + ")");
+    if (!pair.Frictional()) continue;
+    const std::string rough = contact.obstacle + " (" + NumberText(pair.Friction()) + ")";
+    if (!Has(names.rough, rough)) names.rough.push_back(rough);
   }
   return names;
 }

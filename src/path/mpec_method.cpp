@@ -30,16 +30,11 @@ constexpr double kFarthestTarget = 2.0;  // of the increment that goes past the 
 constexpr double kLevelling =
     0.25;  // a rate at the end of an increment that may be none, relative to the one at its begin
 
-constexpr int kFirstDirections = 8;
+constexpr int kMostDirections = 8;     // tried, each that of the motion found by the one before
 constexpr double kNoDirection = 1e-3;  // of what was wanted: a shorter increment does not tell where the path goes on
 constexpr double kShortPath = 20.0;    // of the corner tolerance
 constexpr double kCornerShare = 0.04;  // of the wanted step: largest corner tolerance
 constexpr double kSmallestStepRatio = 1e-7;  // of the wanted step
-
-// By the total law of friction: xi - xi_0.
-double Slipped(const ContactPair& contact, const PathPoint& point, std::size_t i) {
-  return contact.Xi(point.u, point.s, point.Patch(i)) - contact.SlipReference(point.u, point.s, point.Patch(i));
-}
 
 // Whether this contact is about to change its state, so that the path may bend here by any angle.
 bool IsNearlyActive(const ContactPair& contact, const PathPoint& point, std::size_t i) {
@@ -49,7 +44,7 @@ bool IsNearlyActive(const ContactPair& contact, const PathPoint& point, std::siz
   if ((open ? contact.Gap(point.u, point.s, point.Patch(i)) : point.rn[k] / unit) <= tolerances::kNearlyActive)
     return true;
   if (contact.HasTotalLaw() && Slips(point.states[i]))
-    return std::abs(Slipped(contact, point, i)) <= tolerances::kNearlyActive;
+    return std::abs(contact.Slipped(point.u, point.s, point.Patch(i))) <= tolerances::kNearlyActive;
   return point.states[i] == ContactState::kStick &&
          contact.Friction() * point.rn[k] - std::abs(point.rt[k]) <= tolerances::kNearlyActive * unit;
 }
@@ -78,7 +73,7 @@ bool StatesAgree(const ContactPairs& contacts, const PathPoint& from, const Path
   const double length = tolerances::kRegularisedState * Distance(from, to);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
-    const double slip = contacts[i]->HasTotalLaw() ? Slipped(*contacts[i], to, i)
+    const double slip = contacts[i]->HasTotalLaw() ? contacts[i]->Slipped(to.u, to.s, to.Patch(i))
                                                    : contacts[i]->Slip(from.u, from.s, from.Patch(i), to.u - from.u,
                                                                        to.s - from.s, to.Patch(i));
     const double margin = contacts[i]->Friction() * to.rn[k] - std::abs(to.rt[k]);
@@ -170,8 +165,9 @@ MpecMethod::Trial MpecMethod::SolveOnce(const PathPoint& from, const Eigen::Vect
   return SolveOnce(from, direction, length, dissipation, anew);
 }
 
-// A path that slides on and one that goes back with all contacts at rest are two solutions of the increment problem,
-// and the solver may find either. The second one dissipates nothing. By the total law of friction only one is.
+// By the total law of friction equilibrium does not depend on the sense of the motion: the way that the path has come
+// solves the increment problem, too, also where a contact is about to change its state. Without a change of state the
+// path does not bend by a right angle.
 bool MpecMethod::TurnsBack(const PathPoint& from, const PathPoint& to, const Eigen::VectorXd& direction) const {
   if (!started_ || bent_ || to.states != from.states) return false;
   const double cosine = Direction(from, to).dot(direction);
@@ -179,6 +175,8 @@ bool MpecMethod::TurnsBack(const PathPoint& from, const PathPoint& to, const Eig
   return cosine < kSmallestCosine && !SomeNearlyActive(model_.contacts, from);
 }
 
+// A path that slides on and one that goes back with all contacts at rest are two solutions of the increment problem,
+// and the solver may find either. The second one dissipates nothing. By the total law of friction only one is.
 bool MpecMethod::GoesBackAtRest(const PathPoint& from, const PathPoint& to) const {
   const auto slides = [](const PathPoint& point) {
     return std::any_of(point.states.begin(), point.states.end(), Slips);
@@ -254,7 +252,7 @@ MpecMethod::Trial MpecMethod::TryTotal(const PathPoint& from, const Eigen::Vecto
 MpecMethod::Trial MpecMethod::TryFirst(const PathPoint& from, double length) {
   Eigen::VectorXd direction = direction_;
   Trial trial;
-  for (int i = 0; i < kFirstDirections; ++i) {
+  for (int i = 0; i < kMostDirections; ++i) {
     trial = SolveOnce(from, direction, length, 0.0, options_.regularisation);
     const bool moved = trial.increment.status == SolveStatus::kSolved && Distance(from, trial.increment.point) > 0.0;
     if (!moved || Distance(from, trial.increment.point) >= 0.5 * length) break;
@@ -265,7 +263,7 @@ MpecMethod::Trial MpecMethod::TryFirst(const PathPoint& from, double length) {
 
 MpecMethod::Trial MpecMethod::TryAimless(const PathPoint& from, const Eigen::VectorXd& direction, double length) {
   Trial trial = SolveOrRaise(from, direction, length, 0.0);
-  for (int i = 0; i < kFirstDirections && trial.verdict == Verdict::kNoProgress; ++i) {
+  for (int i = 0; i < kMostDirections && trial.verdict == Verdict::kNoProgress; ++i) {
     const PathPoint& to = trial.increment.point;
     if (!(Distance(from, to) > kNoDirection * length)) break;
     Trial next = SolveOnce(from, Direction(from, to), length, 0.0, options_.regularisation);

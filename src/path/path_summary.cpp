@@ -38,13 +38,13 @@ void PathSummary::Add(const Increment& increment) {
   if (increment.event.number > 0 || increment.kind == IncrementKind::kContactEvent ||
       increment.kind == IncrementKind::kCornerLimit)
     ++events_;
-  const LimitPoint point = {increment.index, increment.stage, increment.kind, increment.load_factor};
+  const CriticalPoint point = {increment.index, increment.stage, increment.kind, increment.load_factor};
   if (increment.kind == IncrementKind::kSmoothLimit || increment.kind == IncrementKind::kCornerLimit)
     limit_points_.push_back(point);
   if (increment.kind == IncrementKind::kBifurcation) bifurcations_.push_back(point);
 }
 
-std::string PathSummary::Listed(const std::vector<LimitPoint>& points) const {
+std::string PathSummary::Listed(const std::vector<CriticalPoint>& points) const {
   std::ostringstream text = NewText();
   const std::size_t listed = std::min(points.size(), kPointsListed);
   for (std::size_t i = 0; i < listed; ++i)

@@ -268,10 +268,10 @@ Increment FromMessage(const msgs::Increment& message) {
   return increment;
 }
 
-std::vector<msgs::LimitPoint> ToMessages(const std::vector<LimitPoint>& points) {
+std::vector<msgs::LimitPoint> ToMessages(const std::vector<CriticalPoint>& points) {
   std::vector<msgs::LimitPoint> messages;
   messages.reserve(points.size());
-  for (const LimitPoint& point : points) {
+  for (const CriticalPoint& point : points) {
     msgs::LimitPoint& to = messages.emplace_back();
     to.index = ToCount(point.index);
     to.stage = ToCount(point.stage);

@@ -2,11 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
-#include <limits>
-#include <locale>
 #include <optional>
-#include <sstream>
 
 #include "contact_path/scene/nearest_name.h"
 #include "contact_path/scene/quantity.h"
@@ -21,36 +17,7 @@ bool IsAllowedInName(char c) {
   return code > 0x20 && code != 0x7f && std::string_view("@,\"./").find(c) == std::string_view::npos;
 }
 
-std::string_view NameOf(const Node& node) { return node.name; }
-std::string_view NameOf(const Material& material) { return material.name; }
-std::string_view NameOf(const Obstacle& obstacle) { return obstacle.name; }
-std::string NameOf(const ContactCandidate& contact) { return contact.Name(); }
-
-template <typename Part>
-NearestName NearestTo(const std::vector<Part>& parts, std::string_view wanted) {
-  NearestName nearest(wanted);
-  for (const Part& part : parts) nearest.Offer(NameOf(part));
-  return nearest;
-}
-
 }  // namespace
-
-std::string NumberText(double value) {
-  if (std::isnan(value)) return ".nan";
-  if (std::isinf(value)) return value > 0.0 ? ".inf" : "-.inf";
-  std::string text;
-  for (int digits = 15; digits <= std::numeric_limits<double>::max_digits10; ++digits) {
-    std::ostringstream out;
-    out.imbue(std::locale::classic());
-    out << std::setprecision(digits) << value;
-    text = out.str();
-    std::istringstream in(text);
-    in.imbue(std::locale::classic());
-    double back = 0.0;
-    if (in >> back && back == value) break;
-  }
-  return text;
-}
 
 std::string TextOrQuotes(const std::string& text) { return text.empty() ? "\"\"" : text; }
 
@@ -116,17 +83,19 @@ void Checker::CheckText(const KeyPath& key, const std::string& text, TextKind ki
     case TextKind::kNode:
       if (!index_.FindNode(text))
         Add(key, TextOrQuotes(text),
-            "must name a node of the scene" + NearestTo(request_.scene.nodes, text).Question());
+            "must name a node of the scene" + NearestOf(text, request_.scene.nodes, &Node::name).Question());
       break;
     case TextKind::kMaterial:
       if (!index_.FindMaterial(text))
         Add(key, TextOrQuotes(text),
-            "must name a material of the scene" + NearestTo(request_.scene.materials, text).Question());
+            "must name a material of the scene" +
+                NearestOf(text, request_.scene.materials, &Material::name).Question());
       break;
     case TextKind::kObstacle:
       if (!index_.FindObstacle(text))
         Add(key, TextOrQuotes(text),
-            "must name an obstacle of the scene" + NearestTo(request_.scene.obstacles, text).Question());
+            "must name an obstacle of the scene" +
+                NearestOf(text, request_.scene.obstacles, &Obstacle::name).Question());
       break;
     case TextKind::kQuantity: CheckQuantity(key, text); break;
   }
@@ -161,8 +130,7 @@ void Checker::CheckQuantity(const KeyPath& key, const std::string& text) {
       Add(key, text, "must be of a node or contact where there is a program: each stage has a target of its own");
   } else if (!FindQuantity(text, index_)) {
     const bool of_node = Quantity{quantity->kind, 0}.IsOfNode();
-    const NearestName nearest =
-        of_node ? NearestTo(request_.scene.nodes, quantity->name) : NearestTo(request_.scene.contacts, quantity->name);
+    const NearestName nearest = NearestPart(*quantity, request_.scene);
     const std::string question =
         nearest.Get().empty()
             ? ""

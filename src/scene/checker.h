@@ -13,6 +13,7 @@
 #include "contact_path/scene/expand.h"
 #include "contact_path/scene/field.h"
 #include "contact_path/scene/key_path.h"
+#include "contact_path/scene/number_text.h"
 #include "contact_path/scene/scene.h"
 #include "contact_path/scene/scene_index.h"
 #include "contact_path/scene/validate.h"
@@ -26,8 +27,6 @@ constexpr double kSmallestInput = 1e-100;  // of what must be positive
 // Relative bound, far above rounding and far below anything meant: of the sum of loads that cancel.
 constexpr double kLoadLeft = 1e-12;
 
-// The shortest text that reads back as `value`, in YAML's spelling.
-std::string NumberText(double value);
 std::string TextOrQuotes(const std::string& text);
 // "[a, b]"; of a long list its beginning.
 std::string ListText(const std::vector<std::string>& names);

@@ -37,33 +37,35 @@ void Rotate(double angle, double* x, double* y) {
   *y = s * from + c * *y;
 }
 
-// Turns an obstacle about the point of a motion.
-void Turn(double angle, const ObstacleMotion& about, Obstacle* obstacle) {
-  double x = obstacle->px - about.about_x, y = obstacle->py - about.about_y;
-  Rotate(angle, &x, &y);
-  obstacle->px = about.about_x + x;
-  obstacle->py = about.about_y + y;
+// Takes a point of an obstacle along with a share of its motion.
+void Move(double share, const ObstacleMotion& motion, double* x, double* y) {
+  if (motion.turn != 0.0) {
+    double from_x = *x - motion.about_x, from_y = *y - motion.about_y;
+    Rotate(share * motion.turn, &from_x, &from_y);
+    *x = motion.about_x + from_x;
+    *y = motion.about_y + from_y;
+  }
+  *x += share * motion.dx;
+  *y += share * motion.dy;
+}
+
+// An obstacle, whose points are counted from (px, py).
+void Move(double share, const ObstacleMotion& motion, Obstacle* obstacle) {
+  Move(share, motion, &obstacle->px, &obstacle->py);
+  if (motion.turn == 0.0) return;
+  const double angle = share * motion.turn;
   Rotate(angle, &obstacle->nx, &obstacle->ny);
   for (std::size_t i = 0; i + 1 < obstacle->points.size(); i += 2)
     Rotate(angle, &obstacle->points[i], &obstacle->points[i + 1]);
 }
 
-// Where a motion takes a point of its obstacle.
-void Move(double share, const ObstacleMotion& motion, double* x, double* y) {
-  double from_x = *x - motion.about_x, from_y = *y - motion.about_y;
-  Rotate(share * motion.turn, &from_x, &from_y);
-  *x = motion.about_x + from_x + share * motion.dx;
-  *y = motion.about_y + from_y + share * motion.dy;
-}
-
 // Configuration::slip_origins of the stage.
 std::vector<double> SlipOrigins(const TraceRequest& request, const SceneIndex& index, std::size_t stage) {
   std::vector<double> origins;
-  std::unordered_multimap<std::size_t, double*> of_obstacle;
-  origins.reserve(2 * request.scene.contacts.size());
+  std::unordered_multimap<std::size_t, std::size_t> of_obstacle;  // places in `origins`
   for (const ContactCandidate& contact : request.scene.contacts) {
     const Node& node = request.scene.nodes[index.Node(contact.node)];
-    if (!contact.OnSurface()) of_obstacle.emplace(index.Obstacle(contact.obstacle), origins.data() + origins.size());
+    if (!contact.OnSurface()) of_obstacle.emplace(index.Obstacle(contact.obstacle), origins.size());
     origins.insert(origins.end(), {node.x, node.y});
   }
   if (request.program.empty()) return origins;
@@ -71,7 +73,7 @@ std::vector<double> SlipOrigins(const TraceRequest& request, const SceneIndex& i
   for (std::size_t i = 0; i < stage; ++i)
     for (const ObstacleMotion& motion : request.program[i].obstacle_motions) {
       const auto [begin, end] = of_obstacle.equal_range(index.Obstacle(motion.obstacle));
-      for (auto origin = begin; origin != end; ++origin) Move(shares[i], motion, origin->second, origin->second + 1);
+      for (auto at = begin; at != end; ++at) Move(shares[i], motion, &origins[at->second], &origins[at->second + 1]);
     }
   return origins;
 }
@@ -83,12 +85,8 @@ void BringOn(const std::vector<Stage>& program, std::size_t stage, const SceneIn
     const double share = shares[i];
     if (share == 0.0) continue;
     for (const Load& load : program[i].loads) scene->loads.push_back(Times(share, load, /*constant=*/true));
-    for (const ObstacleMotion& motion : program[i].obstacle_motions) {
-      Obstacle& obstacle = scene->obstacles[index.Obstacle(motion.obstacle)];
-      if (motion.turn != 0.0) Turn(share * motion.turn, motion, &obstacle);
-      obstacle.px += share * motion.dx;
-      obstacle.py += share * motion.dy;
-    }
+    for (const ObstacleMotion& motion : program[i].obstacle_motions)
+      Move(share, motion, &scene->obstacles[index.Obstacle(motion.obstacle)]);
   }
 }
 

@@ -66,6 +66,11 @@ std::optional<Quantity> FindQuantity(std::string_view text, const SceneIndex& in
   return quantity;
 }
 
+NearestName NearestPart(const SpelledQuantity& quantity, const Scene& scene) {
+  if (Quantity{quantity.kind, 0}.IsOfNode()) return NearestOf(quantity.name, scene.nodes, &Node::name);
+  return NearestOf(quantity.name, scene.contacts, &ContactCandidate::Name);
+}
+
 std::string QuantityText(Quantity::Kind kind, std::string_view name, bool is_column) {
   const Component* const component = FindComponent(kind);
   if (component == nullptr) return std::string(kLoadFactor);

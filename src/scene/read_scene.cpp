@@ -85,13 +85,6 @@ class Reader {
   }
 
   template <typename Part>
-  static std::string FieldNames() {
-    std::string names;
-    ForEachField<Part>([&](const auto& field) { names.append(names.empty() ? "" : ", ").append(field.name); });
-    return names;
-  }
-
-  template <typename Part>
   static std::string UnknownKey(std::string_view name) {
     std::string new_name;
     NearestName nearest(name);

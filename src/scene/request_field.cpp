@@ -123,13 +123,6 @@ class Walk {
            " its place from 0 to " + std::to_string(list.size() - 1) + nearest.Question());
   }
 
-  template <typename Part>
-  static std::string FieldNames() {
-    std::string names;
-    ForEachField<Part>([&](const auto& field) { names.append(names.empty() ? "" : ", ").append(field.name); });
-    return names;
-  }
-
   std::string_view rest_;
   bool ended_ = false;
   Visit visit_;

@@ -1,10 +1,10 @@
 #include "contact_path/study/path_column.h"
 
-#include <array>
 #include <cstddef>
 #include <optional>
 #include <stdexcept>
 
+#include "contact_path/path/csv.h"
 #include "contact_path/path/stop.h"
 #include "contact_path/scene/expand.h"
 #include "contact_path/scene/nearest_name.h"
@@ -15,41 +15,21 @@ namespace {
 
 constexpr std::string_view kState = "state_";
 
-struct NumberColumn {
-  std::string_view name;
-  double (*value)(const Increment&);
-};
-
-// Of the increment as a whole; the load factor is a quantity.
-constexpr std::array<NumberColumn, 6> kNumbers = {{
-    {"index", [](const Increment& increment) { return static_cast<double>(increment.index); }},
-    {"arc_length", [](const Increment& increment) { return increment.arc_length; }},
-    {"dissipation", [](const Increment& increment) { return increment.dissipation; }},
-    {"strain_energy", [](const Increment& increment) { return increment.strain_energy; }},
-    {"equilibrium_residual", [](const Increment& increment) { return increment.residuals.equilibrium; }},
-    {"complementarity_residual", [](const Increment& increment) { return increment.residuals.Contact(); }},
-}};
-
-double StageOf(const Increment& increment) { return static_cast<double>(increment.stage); }
+constexpr std::string_view kSolveTime = "solve_time";
 
 [[noreturn]] void Reject(const std::string& rule) { throw std::invalid_argument(rule); }
 
 // What to say of a node or contact that the scene does not have.
 std::string UnknownPart(const SpelledQuantity& quantity, const Scene& scene) {
-  const bool of_node = Quantity{quantity.kind, 0}.IsOfNode();
-  NearestName nearest(quantity.name);
-  if (of_node) {
-    for (const Node& node : scene.nodes) nearest.Offer(node.name);
-  } else {
-    for (const ContactCandidate& contact : scene.contacts) nearest.Offer(contact.Name());
-  }
-  return std::string("must be of a ") + (of_node ? "node" : "contact") + " of the scene" + nearest.Question();
+  const char* const part = Quantity{quantity.kind, 0}.IsOfNode() ? "node" : "contact";
+  return std::string("must be of a ") + part + " of the scene" + NearestPart(quantity, scene).Question();
 }
 
 std::string UnknownColumn(const std::string& name) {
   NearestName nearest(name);
-  for (const NumberColumn& column : kNumbers) nearest.Offer(column.name);
-  for (const char* word : {"load_factor", "kind", "stage"}) nearest.Offer(word);
+  for (const CsvNumber& column : kCsvNumbers)
+    if (column.name != kSolveTime) nearest.Offer(column.name);
+  nearest.Offer("kind");
   return "must be a column of the CSV, as load_factor, x_<node> or rn_<contact>" + nearest.Question();
 }
 
@@ -57,11 +37,10 @@ std::string UnknownColumn(const std::string& name) {
 
 PathColumn::PathColumn(const std::string& name, const TraceRequest& request, const SceneIndex& index) {
   const Scene& scene = request.scene;
-  for (const NumberColumn& column : kNumbers)
-    if (name == column.name) number_ = column.value;
-  if (name == "stage" && !request.program.empty()) number_ = StageOf;
   if (name == "stage" && request.program.empty()) Reject("must be of a scene with a program");
-  if (name == "solve_time") Reject("must be the same whenever it is computed: solve_time is not");
+  if (name == kSolveTime) Reject("must be the same whenever it is computed: solve_time is not");
+  for (const CsvNumber& column : kCsvNumbers)
+    if (name == column.name) number_ = column.value;
   if (name == "kind") word_ = [](const Increment& increment) { return ToString(increment.kind); };
   if (number_ != nullptr || word_ != nullptr) return;
 

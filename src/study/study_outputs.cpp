@@ -1,12 +1,11 @@
 #include "contact_path/study/study_outputs.h"
 
 #include <algorithm>
-#include <limits>
-#include <locale>
 #include <sstream>
 #include <string_view>
 #include <utility>
 
+#include "contact_path/path/csv.h"
 #include "contact_path/scene/expand.h"
 #include "contact_path/scene/nearest_name.h"
 #include "contact_path/scene/scene_index.h"
@@ -14,10 +13,8 @@
 namespace contact_path {
 namespace {
 
-std::string NumberText(double number) {
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text.precision(std::numeric_limits<double>::max_digits10);
+std::string TextOf(double number) {
+  std::ostringstream text = NewCsvLine();
   text << number;
   return text.str();
 }
@@ -81,13 +78,13 @@ std::string StudyOutputs::Text(const Output& output, EndReason reason) const {
     case Kind::kEvents: return summary_.increments() == 0 ? "" : std::to_string(summary_.events());
     case Kind::kLimitLoads: {
       std::string text;
-      for (const LimitPoint& point : summary_.limit_points())
-        text += (text.empty() ? "" : " ") + NumberText(point.load_factor);
+      for (const CriticalPoint& point : summary_.limit_points())
+        text += (text.empty() ? "" : " ") + TextOf(point.load_factor);
       return text;
     }
     case Kind::kFinal:
     case Kind::kMax:
-    case Kind::kMin: return output.number ? NumberText(*output.number) : output.word;
+    case Kind::kMin: return output.number ? TextOf(*output.number) : output.word;
   }
   return "";
 }

@@ -182,7 +182,7 @@ class Verifier {
     if (increment.arc_length < before.arc_length)
       Report("arc length falls from ", before.arc_length, " to ", increment.arc_length);
     const double energy = scaling_.force * scaling_.length;
-    if (configuration_.slip_origins.empty())
+    if (!configuration_.HasTotalLaw())
       Bound("dissipation falls", (before.dissipation - increment.dissipation) / energy, kRecorded);
     result_.work += std::abs(increment.external_work - before.external_work) / energy;
     const EventRecord& event = before.event;
@@ -316,7 +316,7 @@ class Verifier {
 
   // What the law of friction is about. 0 where that is not known.
   double SlipOf(std::size_t contact, const CheckedState& from, const CheckedState& to) const {
-    if (!configuration_.slip_origins.empty() && contacts_[contact].friction > 0.0) return check_.TotalSlip(contact, to);
+    if (configuration_.HasTotalLaw() && contacts_[contact].friction > 0.0) return check_.TotalSlip(contact, to);
     return OnePiece(Current()) ? check_.Slip(contact, from, to) : 0.0;
   }
 
@@ -390,8 +390,7 @@ class Verifier {
   }
 
   void CheckWork(const Increment& before, const Increment& increment) {
-    const bool total = !configuration_.slip_origins.empty();
-    const TrapezoidWork work = WorkBetween({scene_, index_, check_, scaling_, contacts_, total},
+    const TrapezoidWork work = WorkBetween({scene_, index_, check_, scaling_, contacts_, configuration_.HasTotalLaw()},
                                            earlier_ ? &increments_[*earlier_] : nullptr, before, increment);
     if (increment.solve.method == Method::kMpec) open_ += work.open_work + work.open_dissipation;
     if (!OnePiece(increment)) return;  // trapezoids over several increments tell too little

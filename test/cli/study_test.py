@@ -21,6 +21,7 @@ sys.path.insert(0, os.path.join(os.environ['CONTACT_PATH_ROOT'], 'python'))
 from contact_path import study_file, study_points  # noqa: E402
 
 STUDY = os.environ['CONTACT_PATH_STUDY']
+SERVER = os.path.join(os.environ['CONTACT_PATH_PROGRAMS'], 'contact_path_study_server')
 PYTHON = '/usr/bin/python3'
 FRICTIONS = (0.9, 1.0, 1.8)
 HEIGHTS = (1.2, 1.6)
@@ -366,6 +367,46 @@ class BadInput(StudyTest):
 
     def test_scheduler_that_is_not_there(self):
         self.assertIn('no scheduler at tcp://127.0.0.1:9', self.run_study('--scheduler', 'tcp://127.0.0.1:9', status=1))
+
+
+class Servers(StudyTest):
+
+    def start_server(self, *before):
+        """Of the rough truss by its friction and its first bar. before: a command that runs the server's."""
+        server = subprocess.Popen([*before, SERVER, '--parameter=obstacles.floor.friction', '--parameter=bars.0.EA',
+                                   '--output=end_reason', '--output=max.load_factor', '--', program_test.scene_file('rough_truss')],
+                                  stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+        self.addCleanup(server.stdout.close)
+        self.addCleanup(server.stdin.close)
+        self.addCleanup(server.wait)
+        self.addCleanup(server.kill)
+        self.assertRegex(server.stdout.readline(), b'^ready\t.*\tnumber\tnumber\n$')
+        return server
+
+    def ask(self, server, request):
+        server.stdin.write(request + b'\n')
+        server.stdin.flush()
+        return server.stdout.readline()
+
+    def test_requests_that_are_none(self):
+        server = self.start_server()
+        rule = b'must be one value, after the place of a parameter, of which there are 2\n'
+        for request in b'value\t2\t1', b'value\t-1\t1', b'value\tmu\t1', b'value\t0', b'value\t0\t1\t1', b'value':
+            self.assertEqual(self.ask(server, request), rule)
+        for request in b'trace', b'trace\t0.2', b'trace\t0.2\t1.0\t1.0':
+            self.assertEqual(self.ask(server, request), b'0\tfailed: a trace needs a value for each parameter, of which there are 2\t\t\n')
+        for request in b'', b'tarce\t0.2\t1.0', b'1.0\t0.2\t1.0':
+            self.assertEqual(self.ask(server, request), b'0\tfailed: a request begins with value or trace\t\t\n')
+        # It goes on.
+        self.assertEqual(self.ask(server, b'value\t1\tmuch'), b'must be a number\n')
+        self.assertEqual(self.ask(server, b'value\t1\t2.0'), b'\n')
+        self.assertRegex(self.ask(server, b'trace\t1.0\t2.0'), b'^0\tcomplete\tstop_criterion\t0\\.')
+
+    def test_trace_for_a_client_that_has_gone(self):
+        client = self.start_server('sh', '-c', 'exec 3<&0; "$@" <&3 & wait', 'sh')
+        client.kill()
+        client.wait()
+        self.assertRegex(self.ask(client, b'trace\t1.0\t2.0'), b'^0\tfailed: cancelled: ')
 
 
 class Points(unittest.TestCase):

@@ -19,7 +19,7 @@ TEST(BoundaryAt, FindsWhatIsNearest) {
       if (closed && count == 2) continue;
       DeformableContact contact(count, closed, 0.05);
       contact.u += random.Vector(contact.u.size(), -0.1, 0.1);
-      const BoundaryAt at(*contact.boundary, contact.u);
+      const BoundaryAt at = contact.Shape();
       const XiRange range = at.Range();
       for (int i = 0; i < 30; ++i) {
         const double size = closed ? 1.5 : 0.6 * count;
@@ -46,7 +46,7 @@ TEST(BoundaryAt, FindsFeetWherePatchesMeet) {
     DeformableContact contact(6, false, 0.0);
     contact.u += random.Vector(contact.u.size(), -0.1, 0.1);
     contact.PutBeside(2, 1.0, random.Number(0.0, 0.3));
-    const BoundaryAt at(*contact.boundary, contact.u);
+    const BoundaryAt at = contact.Shape();
     const Eigen::Vector2d x = contact.u.tail<2>();
     const int patch = PatchBeside(at, x);
     EXPECT_TRUE(patch == 2 || patch == 3);
@@ -56,7 +56,7 @@ TEST(BoundaryAt, FindsFeetWherePatchesMeet) {
 
 TEST(BoundaryAt, XiStaysWithTheMaterial) {
   DeformableContact contact(5, false, 0.0);
-  const BoundaryAt at(*contact.boundary, contact.u);
+  const BoundaryAt at = contact.Shape();
   const double xi = 0.37 * contact.boundary->LengthPerKnot();
   const Eigen::Vector2d before = at.PointAt(xi);
   contact.u *= 2.0;

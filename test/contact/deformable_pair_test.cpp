@@ -158,8 +158,7 @@ TEST_F(DeformablePairs, OnTheSurfaceTheForceOnTheNodeIsTheReaction) {
     Eigen::VectorXd force = Eigen::VectorXd::Zero(of.contact.u.size());
     at.AddForce(at.gap_gradient, kRn, &force);
     at.AddForce(at.xi_gradient, kRt * at.slip_factor, &force);
-    const Eigen::Vector2d n =
-        BoundaryAt(*of.contact.boundary, of.contact.u).Project(of.contact.u.tail<2>(), of.patch).normal;
+    const Eigen::Vector2d n = of.contact.Shape().Project(of.contact.u.tail<2>(), of.patch).normal;
     EXPECT_NEAR(at.gap, 0.0, kRounding);
     EXPECT_LE((force.tail<2>() - kRn * n - kRt * TangentOf(n)).norm(), kRounding) << of.name;
   }
@@ -217,6 +216,65 @@ TEST(DeformablePair, OnAStraightLineSlipsByTheLengthOfWhatItPasses) {
   EXPECT_NEAR(pair.SlipRate(from, 0.0, 1, Eigen::Vector3d(0.0, 1.0, 0.0), 0.0), 1.0, kRounding);
   // The line alone is stretched, and the node does not slide along where the material goes as fast.
   EXPECT_NEAR(pair.SlipRate(from, 0.0, 1, Eigen::Vector3d(1.0, 0.6, 0.0), 0.0), 0.0, kRounding);
+}
+
+// From xi to xi on the surface at u, in chords.
+double LengthInChords(const DeformableBoundary& boundary, const Eigen::VectorXd& u, double from, double to) {
+  constexpr int kChords = 20000;
+  const BoundaryAt shape(boundary, u, AdmissiblePatches(boundary.Spline()));
+  const auto place = [&](int k) {
+    const double xi = from + (to - from) * k / kChords;
+    const Eigen::Vector2d foot = shape.PointAt(xi);
+    const int patch = static_cast<int>(std::floor(xi / boundary.LengthPerKnot() + 0.5));
+    return Eigen::Vector2d(foot + boundary.Radius() * shape.Project(foot, patch).normal);
+  };
+  double length = 0.0;
+  for (int k = 0; k < kChords; ++k) length += (place(k + 1) - place(k)).norm();
+  return to < from ? -length : length;
+}
+
+constexpr double kOfChords = 1e-8;
+
+// Open and closed ones, of which the nodes move as well.
+TEST(DeformablePair, OverSeveralBentPatchesSlipsByTheMeanLengthOnBothShapes) {
+  Random random(11);
+  for (const bool closed : {false, true})
+    for (const double radius : {0.0, 0.15}) {
+      DeformableContact contact(7, closed, radius);
+      const Eigen::VectorXd start = contact.u;
+      contact.u = start + random.Vector(start.size(), -0.05, 0.05);
+      contact.PutBeside(1, 0.3, 0.0);
+      const Eigen::VectorXd from = contact.u;
+      contact.u = start + random.Vector(start.size(), -0.05, 0.05);
+      contact.PutBeside(3, 0.8, 0.0);
+      const Eigen::VectorXd to = contact.u;
+      const DeformablePair& pair = *contact.pair;
+      const double xi_from = pair.Xi(from, 0.0, 1), xi_to = pair.Xi(to, 0.0, 3);
+      const double length = 0.5 * (LengthInChords(*contact.boundary, from, xi_from, xi_to) +
+                                   LengthInChords(*contact.boundary, to, xi_from, xi_to));
+      EXPECT_GT(length, 1.0);
+      EXPECT_NEAR(pair.Slip(from, 0.0, 1, to - from, 0.0, 3), length, kOfChords) << closed << radius;
+      EXPECT_NEAR(pair.Slip(to, 0.0, 3, from - to, 0.0, 1), -length, kOfChords) << closed << radius;
+    }
+}
+
+// Past an end nothing is walked on.
+TEST(DeformablePair, PastAnEndSlipsFromAndToTheEnd) {
+  DeformableContact contact(5, false, 0.1);
+  contact.u.head<10>() << 0.0, 0.0, 1.0, 0.0, 2.0, 0.0, 3.0, 0.0, 4.0, 0.0;
+  const auto at = [&](double x) {
+    contact.u.tail<2>() << x, 0.1;
+    return contact.u;
+  };
+  const auto slip = [&](double from, int patch, double to, int patch_after) {
+    return contact.pair->Slip(at(from), 0.0, patch, at(to) - at(from), 0.0, patch_after);
+  };
+  EXPECT_NEAR(slip(-0.1, -1, 0.2, 0), 0.2, kRounding);
+  EXPECT_NEAR(slip(0.2, 0, -0.1, -1), -0.2, kRounding);
+  EXPECT_NEAR(slip(3.7, 4, 4.3, 5), 0.3, kRounding);
+  EXPECT_NEAR(slip(-0.1, -1, 4.3, 5), 4.0, kRounding);
+  EXPECT_NEAR(slip(-0.1, -1, -0.4, -1), 0.0, kRounding);
+  EXPECT_NEAR(slip(-0.1, kNearestPatch, 1.2, kNearestPatch), 1.2, kRounding);
 }
 
 TEST(DeformablePair, PastTheEndsOfAnOpenBoundaryTheGapIsTheDistanceFromTheEnd) {
@@ -338,6 +396,28 @@ TEST(DeformablePairOfItsOwnBoundary, IsPastAnEndBesideItself) {
     const double xi = own.pair->Xi(u, 0.0, patch);
     EXPECT_TRUE(xi > range.begin && xi < range.end);
     EXPECT_EQ(own.pair->Dofs(patch).size(), 8u);
+  }
+}
+
+// From where its foot is past one of them, on to the third patch beyond.
+TEST(DeformablePairOfItsOwnBoundary, SlipsFromTheEndBesideItself) {
+  const OwnNode own(6);
+  const DeformableBoundary& boundary = *own.boundary;
+  for (const int sense : {-1, 1}) {
+    const int past = sense < 0 ? 4 : 8, patch = past + 3 * sense;
+    const XiRange border = own.pair->RangeOf(past + sense), range = own.pair->RangeOf(patch);
+    const double xi = 0.5 * (range.begin + range.end), end = sense < 0 ? border.end : border.begin;
+    const BoundaryAt shape(boundary, own.u, AdmissiblePatches(boundary.Spline()));
+    Eigen::VectorXd from = own.u, to = own.u;
+    from.segment<2>(12) = shape.PointAt(end) + 0.05 * (own.u.segment<2>(12) - shape.PointAt(end));
+    const Eigen::Vector2d foot = shape.PointAt(xi);
+    to.segment<2>(12) = foot + 0.1 * shape.Project(foot, patch).normal;
+    EXPECT_EQ(own.pair->PatchAt(from, 0.0), past);
+    EXPECT_EQ(own.pair->PatchAt(to, 0.0), patch);
+    // The node is not one of those that carry what is walked on.
+    const double length = LengthInChords(boundary, own.u, end, xi);
+    EXPECT_NEAR(own.pair->Slip(from, 0.0, past, to - from, 0.0, patch), length, kOfChords);
+    EXPECT_NEAR(own.pair->Slip(to, 0.0, patch, from - to, 0.0, past), -length, kOfChords);
   }
 }
 

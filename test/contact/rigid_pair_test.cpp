@@ -209,5 +209,21 @@ TEST(RigidPair, XiIsMeasuredFromTheReference) {
   EXPECT_EQ(std::vector<int>(at.dofs.begin(), at.dofs.end()), std::vector<int>{0});
 }
 
+// On a circle, where less than half a round tells in which sense.
+TEST(RigidPair, HasSlippedFromItsOriginByTheTotalLawOnly) {
+  constexpr double kRadius = 0.5;
+  const std::shared_ptr<const Surface> circle = MakeCircle({1.0, 2.0}, kRadius, false);
+  const auto at = [](double angle) {
+    return Eigen::Vector2d(1.0 + 0.6 * std::sin(angle), 2.0 + 0.6 * std::cos(angle));
+  };
+  const NodeMotion motion = {{0, 1}, Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
+  const RigidPair total(circle, motion, 0.3, Eigen::VectorXd(), at(3.0)), incremental(circle, motion, 0.3);
+  for (const double angle : {0.5, 2.9, 3.0, 3.3, 6.0}) {
+    const Eigen::VectorXd x = at(angle);
+    EXPECT_NEAR(total.Slipped(x, 0.0, kNearestPatch), kRadius * (angle - 3.0), 20.0 * kRounding) << angle;
+    EXPECT_EQ(incremental.Slipped(x, 0.0, kNearestPatch), 0.0);
+  }
+}
+
 }  // namespace
 }  // namespace contact_path

@@ -40,6 +40,25 @@ TEST(FreeMotion, AsksTheLikelyQuestion) {
   EXPECT_EQ(Question(request), "nodes a, b move freely: is a contact or a support missing?");
 }
 
+// A post in a guide across the floor cannot slide on it: the friction of the floor is that of the bar.
+TEST(FreeMotion, AsksForTheFrictionThoughTheFirstContactCannotSlide) {
+  TraceRequest request = ReadExample("sliding_bar");
+  Scene& scene = request.scene;
+  scene.nodes.push_back({"post", 3.0, 0.0, true, false});
+  scene.nodes.push_back({"wall", 4.0, 0.0, true, true});
+  Bar bar;
+  bar.nodes = {"post", "wall"};
+  bar.EA = 1.0;
+  scene.bars.push_back(bar);
+  ContactCandidate contact = scene.contacts.front();
+  contact.node = "post";
+  scene.contacts.insert(scene.contacts.begin(), contact);
+  EXPECT_EQ(
+      Question(request),
+      "nodes b, post move freely; post@floor, b@floor touch: does the normal of floor point to the side where the "
+      "nodes may be? is a contact or a support missing? is the friction of floor (0.3) too small?");
+}
+
 // A chain of seven bars that hangs loose, beside a truss that does not move.
 TEST(FreeMotion, ListsFiveNodesAndCountsTheRest) {
   TraceRequest request = ReadExample("von_mises");

@@ -42,9 +42,11 @@ struct DeformableContact {
     }
     u.tail<2>() = start.back();
   }
+  // With all its patches.
+  BoundaryAt Shape() const { return {*boundary, u, AdmissiblePatches(boundary->Spline())}; }
   // Puts the node beside a patch, at a share of its length and at a distance from the surface.
   void PutBeside(int patch, double share, double gap) {
-    const BoundaryAt at(*boundary, u);
+    const BoundaryAt at = Shape();
     const XiRange range = at.RangeOf(patch);
     const Eigen::Vector2d foot = at.PointAt(range.begin + share * (range.end - range.begin));
     const Eigen::Vector2d normal = at.Project(foot, patch).normal;

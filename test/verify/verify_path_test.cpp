@@ -233,7 +233,7 @@ TEST_P(RightPathIsProved, FromFile) {
 INSTANTIATE_TEST_SUITE_P(VerifyPath, RightPathIsProved,
                          ::testing::Values("stiff_solid_among_soft_bars", "held_on_stiff_solid",
                                            "drag_in_one_increment"),
-                         [](const auto& info) { return std::string(info.param); });
+                         [](const auto& instance) { return std::string(instance.param); });
 
 TEST(VerifyPath, FixedNodesRest) {
   const TracedPath path = Traced("sliding_bar", Method::kBranch);

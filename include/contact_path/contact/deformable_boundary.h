@@ -50,8 +50,6 @@ class DeformableBoundary {
 // must outlive it. Of the curvature, the derivatives are left out.
 class BoundaryAt : public Surface {
  public:
-  BoundaryAt(const DeformableBoundary& boundary, const Eigen::VectorXd& u)
-      : BoundaryAt(boundary, u, AdmissiblePatches(boundary.Spline())) {}
   // patches: of the spline of the boundary.
   BoundaryAt(const DeformableBoundary& boundary, const Eigen::VectorXd& u, const AdmissiblePatches& patches)
       : boundary_(boundary), u_(u), patches_(patches) {}

@@ -21,10 +21,11 @@ class AdmissiblePatches {
   // nodes: places of the nodes at the start, neighbours are apart; at least 2, closed 3. radius >= 0 [length].
   AdmissiblePatches(const std::vector<Eigen::Vector2d>& nodes, bool closed, double radius, int node);
 
-  const NodalSpline& Spline() const { return spline_; }
   // Whether the curve has the patch (geometry/surface.h), and the patch is not left out.
   bool Has(int patch) const;
   bool None() const { return left_out_ >= spline_.NumPatches(); }
+  // The patch itself; of one that is left out beside one that is not, or of a number past an end: that one.
+  int Beside(int patch) const;
   // Of a patch that is left out beside one that is not: how that one is prolonged, from its end or up to its begin.
   SplinePatch Patch(int patch) const;
 

@@ -2,14 +2,42 @@
 #ifndef CONTACT_PATH_PATH_CSV_H_
 #define CONTACT_PATH_PATH_CSV_H_
 
+#include <array>
+#include <cstddef>
 #include <iosfwd>
+#include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "contact_path/path/increment.h"
 #include "contact_path/scene/scene.h"
 
 namespace contact_path {
+
+// A column of numbers of the increment as a whole.
+struct CsvNumber {
+  std::string_view name;
+  double (*value)(const Increment&);
+};
+
+// In the order of the CSV; the stage only with a program.
+inline constexpr std::array<CsvNumber, 9> kCsvNumbers = {{
+    {"index", [](const Increment& increment) { return static_cast<double>(increment.index); }},
+    {"load_factor", [](const Increment& increment) { return increment.load_factor; }},
+    {"arc_length", [](const Increment& increment) { return increment.arc_length; }},
+    {"dissipation", [](const Increment& increment) { return increment.dissipation; }},
+    {"strain_energy", [](const Increment& increment) { return increment.strain_energy; }},
+    {"equilibrium_residual", [](const Increment& increment) { return increment.residuals.equilibrium; }},
+    {"complementarity_residual", [](const Increment& increment) { return increment.residuals.Contact(); }},
+    {"solve_time", [](const Increment& increment) { return increment.solve.time; }},
+    {"stage", [](const Increment& increment) { return static_cast<double>(increment.stage); }},
+}};
+inline constexpr std::size_t kCsvNumbersFirst = 3;  // the others stand after the contacts
+
+// A line in the making: the same bytes whatever the locale and the format flags of the stream it ends up in, doubles
+// with 17 significant digits.
+std::ostringstream NewCsvLine();
 
 // Columns: index, load_factor, arc_length, kind, x_<node>, y_<node>, ..., gap_<contact>, rn_<contact>, rt_<contact>,
 // state_<contact>, ..., dissipation, strain_energy, equilibrium_residual, complementarity_residual, solve_time;

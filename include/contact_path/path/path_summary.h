@@ -11,7 +11,7 @@
 namespace contact_path {
 
 // Where the load factor turns, or another path crosses.
-struct LimitPoint {
+struct CriticalPoint {
   int index = 0;                                     // of its increment
   int stage = 0;                                     // as in Increment
   IncrementKind kind = IncrementKind::kSmoothLimit;  // kSmoothLimit, kCornerLimit, kBifurcation
@@ -29,8 +29,8 @@ class PathSummary {
   // Takes every increment, in order.
   void Add(const Increment& increment);
 
-  int increments() const { return increments_; }                                 // increment 0 included
-  const std::vector<LimitPoint>& limit_points() const { return limit_points_; }  // in the order of the path
+  int increments() const { return increments_; }                                    // increment 0 included
+  const std::vector<CriticalPoint>& limit_points() const { return limit_points_; }  // in the order of the path
   int events() const { return events_; }  // increments where contacts change their states, or could
 
   // "98 increments; limit points: smooth_limit at load factor 2.191505308 (increment 31); 4 events". Ten points at
@@ -41,13 +41,13 @@ class PathSummary {
   std::string ToText(std::string_view reason, const std::string& message) const;
 
  private:
-  std::string Listed(const std::vector<LimitPoint>& points) const;
+  std::string Listed(const std::vector<CriticalPoint>& points) const;
 
   double load_scale_;
   int increments_ = 0;
   int events_ = 0;
-  std::vector<LimitPoint> limit_points_;
-  std::vector<LimitPoint> bifurcations_;
+  std::vector<CriticalPoint> limit_points_;
+  std::vector<CriticalPoint> bifurcations_;
 };
 
 }  // namespace contact_path

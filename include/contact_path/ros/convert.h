@@ -33,7 +33,7 @@ contact_path_msgs::Increment ToMessage(const Increment& increment, int full_stat
 // Throws std::invalid_argument for arrays of different lengths and for constants that are not known.
 Increment FromMessage(const contact_path_msgs::Increment& message);
 
-std::vector<contact_path_msgs::LimitPoint> ToMessages(const std::vector<LimitPoint>& points);
+std::vector<contact_path_msgs::LimitPoint> ToMessages(const std::vector<CriticalPoint>& points);
 
 // END_* of the response of TracePath.
 std::uint8_t ToConstant(EndReason reason);

@@ -19,6 +19,7 @@ struct Configuration {
   // the obstacle and was where the node is at the start of the program. Empty: incremental law.
   std::vector<double> slip_origins = {};
 
+  bool HasTotalLaw() const { return !slip_origins.empty(); }
   // Both: the positions that the nodes of the scene have, not turned.
   static Configuration Of(const Scene& scene);
   // All positions over a length.

@@ -7,6 +7,7 @@
 #define CONTACT_PATH_SCENE_FIELD_H_
 
 #include <cstddef>
+#include <string>
 #include <string_view>
 #include <tuple>
 #include <type_traits>
@@ -118,6 +119,14 @@ struct Fields;
 template <typename Part, typename Visit>
 constexpr void ForEachField(Visit&& visit) {
   std::apply([&](const auto&... field) { (visit(field), ...); }, Fields<Part>::template Of<Part>());
+}
+
+// "name, x, y": for a message.
+template <typename Part>
+std::string FieldNames() {
+  std::string names;
+  ForEachField<Part>([&](const auto& field) { names.append(names.empty() ? "" : ", ").append(field.name); });
+  return names;
 }
 
 namespace field_internal {

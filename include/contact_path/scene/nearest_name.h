@@ -3,8 +3,10 @@
 #define CONTACT_PATH_SCENE_NEAREST_NAME_H_
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace contact_path {
 
@@ -27,6 +29,14 @@ class NearestName {
   std::size_t distance_;  // of names from here on no longer near; in halves
   std::string nearest_;
 };
+
+// Offered the names of all parts of a list. name_of: of a part its name; a function, or a member of the part.
+template <typename Part, typename NameOf>
+NearestName NearestOf(std::string_view wanted, const std::vector<Part>& parts, NameOf name_of) {
+  NearestName nearest(wanted);
+  for (const Part& part : parts) nearest.Offer(std::invoke(name_of, part));
+  return nearest;
+}
 
 }  // namespace contact_path
 

@@ -8,6 +8,8 @@
 #include <string_view>
 
 #include "contact_path/scene/field.h"
+#include "contact_path/scene/nearest_name.h"
+#include "contact_path/scene/scene.h"
 #include "contact_path/scene/scene_index.h"
 
 namespace contact_path {
@@ -45,6 +47,9 @@ std::optional<SpelledQuantity> ReadQuantity(std::string_view text);
 
 // Nothing for another spelling, or a node or contact that the scene does not have.
 std::optional<Quantity> FindQuantity(std::string_view text, const SceneIndex& index);
+
+// The node or contact of the scene that a spelled quantity may mean.
+NearestName NearestPart(const SpelledQuantity& quantity, const Scene& scene);
 
 // The spelling of a quantity of `name`: "<name>.rn", or "rn_<name>" as a column.
 std::string QuantityText(Quantity::Kind kind, std::string_view name, bool is_column);

@@ -35,8 +35,8 @@ class StudyOutputs {
   // Takes every increment, in order.
   void Add(const Increment& increment);
 
-  // By name: numbers with 17 digits, limit loads with a space between them. A value of a path without increments is
-  // empty.
+  // By name: numbers with 17 digits, limit loads with a space between them. Of a path without increments all but
+  // end_reason are empty.
   std::vector<std::string> Texts(EndReason reason) const;
 
  private:
