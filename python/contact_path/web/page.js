@@ -187,6 +187,7 @@
 
   function clickedCurve({points: [point]}) {
     if (point.data.meta) {
+      stop();
       choose(data.curves ? point.data.meta.path : number, point.pointNumber);
     }
   }
@@ -307,12 +308,15 @@
   function update() {
     again = true;
     pending = pending || (async () => {
-      while (again) {
-        again = false;
-        await new Promise(requestAnimationFrame);
-        await show();
+      try {
+        while (again) {
+          again = false;
+          await new Promise(requestAnimationFrame);
+          await show();
+        }
+      } finally {
+        pending = null;
       }
-      pending = null;
     })();
     return pending;
   }
