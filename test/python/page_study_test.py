@@ -77,12 +77,7 @@ class PageOfStudy(ProgramTest):
 
     @unittest.skipIf(browser.programs() is None, 'no chromium and chromedriver')
     def test_points_open_their_paths(self):
-        drawn = run(PLOT, self.path('study.yaml'), '--html', self.path('a.html'), '--x', 'apex.y')
-        self.assertEqual((drawn.returncode, drawn.stdout), (0, self.path('a.html') + '\n'), drawn.stderr)
-        chromium = browser.Browser()
-        self.addCleanup(chromium.close)
-        chromium.open(self.path('a.html'))
-        chromium.run('await page.ready;')
+        chromium = self.opened()
         for line in len(self.traced) - 1, MISSING, 1:
             before = self.shown(chromium)
             chromium.point_at(*chromium.run('''const div = document.getElementById('map'), box = div.getBoundingClientRect();
@@ -103,6 +98,35 @@ class PageOfStudy(ProgramTest):
             self.assertEqual(mark, [self.traced[line]['y_apex'][-1], self.traced[line]['load_factor'][-1]])
             self.assertAlmostEqual(apex, self.traced[line]['y_apex'][-1], delta=1e-3)
         self.assertEqual(chromium.complaints(), [])
+
+    @unittest.skipIf(browser.programs() is None, 'no chromium and chromedriver')
+    def test_the_later_choice_is_shown_though_its_path_is_unpacked_first(self):
+        chromium = self.opened()
+        chromium.run('''const real = Response.prototype.arrayBuffer;
+            let first = true;
+            Response.prototype.arrayBuffer = async function () {
+              if (first) {
+                first = false;
+                await new Promise((resolve) => setTimeout(resolve, 500));
+              }
+              return real.call(this);
+            };
+            await Promise.all([page.choose(1, 0), page.choose(2, 0)]);''')
+        title, mark, _ = self.shown(chromium)
+        self.assertTrue(title.startswith('3: '), title)
+        self.assertEqual(mark, [self.traced[2]['y_apex'][0], self.traced[2]['load_factor'][0]])
+        self.assertEqual(chromium.run("return document.getElementById('curves').data[0].name;"), title)
+        self.assertEqual(chromium.complaints(), [])
+
+    def opened(self):
+        """The page of the study in a browser."""
+        drawn = run(PLOT, self.path('study.yaml'), '--html', self.path('a.html'), '--x', 'apex.y')
+        self.assertEqual((drawn.returncode, drawn.stdout), (0, self.path('a.html') + '\n'), drawn.stderr)
+        chromium = browser.Browser()
+        self.addCleanup(chromium.close)
+        chromium.open(self.path('a.html'))
+        chromium.run('await page.ready;')
+        return chromium
 
     def shown(self, chromium):
         """The path, the place of the mark on its curve, and the height of the apex in the structure."""

@@ -329,23 +329,24 @@
     return own;
   }
 
+  let choices = 0; // counts choices: a path that is unpacked after a later choice is not shown
+
   async function choose(path, at) {
-    const own = await load(path);
+    const mine = ++choices, own = await load(path);
     if (own.structure && !own.unpacked) {
       own.unpacked = await unpackStructure(own.structure, own.steps);
     }
-    if (own.curves && (path !== number || !own.points)) {
-      await drawCurves(own.curves, [own]);
+    if (mine !== choices) {
+      return undefined;
     }
+    const redraws = own.curves && (path !== number || !own.points);
     number = path;
     step = at;
     element('path').value = path;
     element('slider').max = own.steps - 1;
-    if (data.study) {
-      await drawMap();
-    }
     element('structure').style.visibility = own.structure ? 'visible' : 'hidden';
     remarks(own);
+    await Promise.all([redraws && drawCurves(own.curves, [own]), data.study && drawMap()]);
     return update();
   }
 
