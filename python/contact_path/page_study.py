@@ -67,9 +67,14 @@ def columns(names: Sequence[str], lines: Sequence[Sequence[str]]) -> List[Entry]
 
 
 def start(table: Sequence[Entry], parameters: int) -> Dict[str, int]:
-    """The columns that are drawn at first: two parameters and the first output of numbers, or that over a single parameter."""
+    """The columns that are drawn at first: two parameters and the first output of numbers, or that over a single parameter; the
+    status in place of an output where none is of numbers.
+
+    >>> start(columns(['law', 'status', 'end_reason'], [('total', 'complete', 'stop_criterion')]), 1)
+    {'across': 0, 'up': 1, 'colour': 1}
+    """
     outputs = [i for i, column in enumerate(table) if i > parameters and column['kind'] != 'category']
-    output = outputs[0] if outputs else 0
+    output = outputs[0] if outputs else parameters
     return {'across': 0, 'up': 1 if parameters > 1 else output, 'colour': output}
 
 

@@ -118,9 +118,29 @@ class PageOfStudy(ProgramTest):
         self.assertEqual(chromium.run("return document.getElementById('curves').data[0].name;"), title)
         self.assertEqual(chromium.complaints(), [])
 
-    def opened(self):
+    @unittest.skipIf(browser.programs() is None, 'no chromium and chromedriver')
+    def test_a_study_of_words_alone(self):
+        study = '''scene: %s
+parameters: [{path: options.friction_law, values: [incremental, total]}]
+outputs: [end_reason, limit_loads]
+table: study.csv
+paths: kept
+''' % scene_file('stick_slip_cycle')
+        with open(self.path('study.yaml'), 'w') as file:
+            file.write(study)
+        with open(self.path('study.csv'), 'w') as file:
+            file.write('options.friction_law,status,end_reason\nincremental,complete,stop_criterion\ntotal,complete,stop_criterion\n')
+        for number in 1, 2:
+            self.keep(cp.trace(scene_file('stick_slip_cycle')), self.path('kept/%06d.csv' % number))
+        chromium = self.opened('b.x')
+        drawn = chromium.run('''const [{x, y}] = document.getElementById('map').data;
+            return [x, y, document.getElementById('coloured').hidden];''')
+        self.assertEqual(drawn, [['incremental', 'total'], ['complete', 'complete'], True])
+        self.assertEqual(chromium.complaints(), [])
+
+    def opened(self, x='apex.y'):
         """The page of the study in a browser."""
-        drawn = run(PLOT, self.path('study.yaml'), '--html', self.path('a.html'), '--x', 'apex.y')
+        drawn = run(PLOT, self.path('study.yaml'), '--html', self.path('a.html'), '--x', x)
         self.assertEqual((drawn.returncode, drawn.stdout), (0, self.path('a.html') + '\n'), drawn.stderr)
         chromium = browser.Browser()
         self.addCleanup(chromium.close)

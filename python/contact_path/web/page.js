@@ -209,10 +209,11 @@
       [`line ${i + 1}`, ...columns.map(({label, values}) => `${label}: ${values[i] ?? ''}`)].join('<br>'));
     const symbols = study.paths.map((path) => path === null ? 'x-thin-open' : 'circle'); // a line without path, one with it
     const point = {type: 'scatter', mode: 'markers', showlegend: false};
+    const coloured = colour ? {color: colour.values.map((value) => value ?? NaN), colorscale: 'Viridis',
+      colorbar: {title: {text: colour.label, side: 'right'}, thickness: 12}} : {color: '#1f77b4'};
     return Plotly.react('map', [
       {...point, x: across.values, y: up.values, text: lines, hovertemplate: '%{text}<extra></extra>',
-        marker: {size: 12, symbol: symbols, color: colour.values.map((value) => value ?? NaN), colorscale: 'Viridis',
-          colorbar: {title: {text: colour.label, side: 'right'}, thickness: 12}}},
+        marker: {size: 12, symbol: symbols, ...coloured}},
       {...point, x: [across.values[chosen]], y: [up.values[chosen]], hoverinfo: 'skip',
         marker: {size: 18, color: 'rgba(0,0,0,0)', line: {color: 'red', width: 2.5}}},
     ], {xaxis: axis(across), yaxis: axis(up), margin: {l: 60, r: 10, t: 32, b: 50}, hovermode: 'closest'}, CONFIG);
@@ -225,6 +226,7 @@
       element(id).append(...usable.map((i) => new Option(study.columns[i].label, i, i === start, i === start)));
       element(id).addEventListener('change', drawMap);
     }
+    element('coloured').hidden = !element('colour').options.length; // without a column of numbers
     await drawMap();
     element('map').on('plotly_click', ({points: [point]}) => {
       const path = study.paths[point.pointNumber];
