@@ -1,8 +1,7 @@
 """The figures of a study: an output over one or two parameters, and its paths over each other."""
 from __future__ import annotations
 
-import os
-from typing import Any, Dict, List, NamedTuple, Sequence, Tuple
+from typing import Any, Dict, NamedTuple, Sequence, Tuple
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -13,8 +12,8 @@ from matplotlib.figure import Figure
 
 from contact_path import path_curve, path_marks, path_quantities
 from contact_path.path import Path
-from contact_path.path_file import read_csv
 from contact_path.study_file import Parameter
+from contact_path.study_table import numbers
 
 SIZE = 8.5, 5.6  # of the figure [inches]
 LEVELS = 12  # of a map
@@ -42,15 +41,10 @@ class Axis(NamedTuple):
 def axis(parameter: Parameter, column: Sequence[str]) -> Axis:
     """column (n,): the values, as written."""
     try:
-        return Axis(parameter.path, np.array([float(value) for value in column]), (), parameter.spacing == 'log')
+        return Axis(parameter.path, numbers(column), (), parameter.spacing == 'log')
     except ValueError:
         words = tuple(dict.fromkeys(column))
         return Axis(parameter.path, np.array([float(words.index(value)) for value in column]), words, False)
-
-
-def numbers(column: Sequence[str]) -> np.ndarray:
-    """(n,); nan where there is none. ValueError: a value is no number."""
-    return np.array([float(value) if value else np.nan for value in column])
 
 
 def output_column(table: Sequence[Sequence[str]], parameters: int, output: str) -> Tuple[str, np.ndarray]:
@@ -189,9 +183,3 @@ def save(figure: Figure, file: str) -> None:
         figure.savefig(file, dpi=150, **({'metadata': {'Date': None}} if file.lower().endswith('.svg') else {}))
     finally:
         plt.close(figure)
-
-
-def kept(files: List[str]) -> List[Tuple[int, Path]]:
-    """The paths in the files that are there and have increments, with their places among the files."""
-    paths = [(place, read_csv(file)) for place, file in enumerate(files) if os.path.exists(file)]
-    return [(place, path) for place, path in paths if len(path)]

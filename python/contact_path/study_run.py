@@ -8,6 +8,8 @@ import time
 from typing import Callable, Dict, List, Sequence, Tuple
 
 from contact_path import study_cluster, study_points, study_table
+from contact_path.path import Path
+from contact_path.path_file import read_csv
 from contact_path.study_file import Study
 from contact_path.study_journal import Journal
 from contact_path.study_points import Point
@@ -96,6 +98,13 @@ def in_words(seconds: float) -> str:
 def path_file(study: Study, number: int) -> str:
     """The CSV of the path of a trace, by its number from 0. Its name has the number of its line in the table, from 1."""
     return os.path.join(study.paths, '%06d.csv' % (number + 1))
+
+
+def kept(study: Study, count: int) -> List[Tuple[int, Path]]:
+    """The numbers of those of so many traces whose paths are kept and have increments, and these paths."""
+    files = [(number, path_file(study, number)) for number in range(count)]
+    paths = [(number, read_csv(file)) for number, file in files if os.path.exists(file)]
+    return [(number, path) for number, path in paths if len(path)]
 
 
 def keep_path(file: str, csv: bytes) -> None:
