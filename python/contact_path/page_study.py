@@ -6,7 +6,7 @@ import math
 import os
 from typing import Dict, List, Sequence
 
-from contact_path import page, study_file, study_run
+from contact_path import page, study_file, study_journal, study_paths
 from contact_path.page_arrays import Entry
 from contact_path.path import Path
 from contact_path.path_marks import default_quantity
@@ -29,10 +29,13 @@ def write(description: str, file: str | os.PathLike[str], x: str | None = None, 
     parameters = [parameter.path for parameter in study.parameters]
     if names[:len(parameters) + 1] != parameters + ['status']:
         raise ValueError('%s is not the table of this study: trace it again' % study.table)
+    of_table, of_paths = map(study_journal.head_of, (study.table + '.journal', study_paths.journal_file(study.paths)))
+    if of_table != of_paths:
+        raise ValueError('%s: the paths in %s are of another run than the table: trace it again' % (description, study.paths))
     scene = Scene.read(study.scene)
     paths: List[Path] = []
     of_lines: List[int | None] = [None] * len(lines)  # which of the paths
-    for place, path in study_run.kept(study, len(lines)):
+    for place, path in study_paths.kept(study, len(lines)):
         of_lines[place] = len(paths)
         values = dict(zip(parameters, lines[place]))
         paths.append(Path(path.table, title='%d: %s' % (place + 1, ', '.join(values.values())),

@@ -7,6 +7,7 @@ from typing import Dict, List, NamedTuple, Tuple
 
 from contact_path.study_server import Job, Server, ServerDied
 
+FAILED = 'failed: '  # of statuses that tell of the machines, not of the scene: traced again by the next run
 ATTEMPTS = 2  # at a trace whose server dies
 
 # Thread -> its server, and for what.
@@ -48,7 +49,7 @@ def trace_point(job: Job, point: str) -> Tuple[str, bytes]:
 
 def failure(reason: str, outputs: int) -> str:
     """The answer of a trace that could not be made."""
-    return 'failed: ' + reason + '\t' * outputs
+    return FAILED + reason + '\t' * outputs
 
 
 def own_server(job: Job) -> Server:

@@ -8,6 +8,7 @@ import csv
 import math
 import os
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -271,6 +272,29 @@ class GoingOn(StudyTest):
         study.kill()
 
 
+    def test_paths_of_another_study_or_lost_ones_are_traced_again(self):
+        text = re.sub(r'- \{path: nodes.*\n', '', DESCRIPTION) + 'paths: kept\n'
+        kept = [self.path('kept/%06d.csv' % number) for number in (1, 2, 3)]
+        self.run_study(description=text)
+        table, paths = read(self.path('table.csv')), [read(file) for file in kept]
+        self.run_study('--table', self.path('b.csv'), description=text.replace('0.9', '0.95'))
+        self.assertNotEqual(read(kept[0]), paths[0])
+        for lose in (lambda: None, lambda: os.remove(kept[1]), lambda: shutil.rmtree(self.path('kept'))):
+            lose()
+            self.run_study(description=text)
+            self.assertEqual([re.sub(rb',[^,]*\n', b'\n', read(file)) for file in kept],
+                             [re.sub(rb',[^,]*\n', b'\n', path) for path in paths])  # but for the time that it took
+            self.assertEqual(read(self.path('table.csv')), table)
+
+    def test_two_tables_at_a_time_with_the_same_paths(self):
+        text = SLOW + 'paths: kept\n'
+        study = self.start(STUDY, self.write(text))
+        self.wait_for(lambda: os.path.exists(self.path('kept/000001.csv')))
+        self.assertIn('another run of the study is under way',
+                      self.run_study('--table', self.path('b.csv'), description=text, status=1))
+        study.kill()
+
+
 class Figures(StudyTest):
 
     def expect_figure(self, name):
@@ -282,7 +306,7 @@ class Figures(StudyTest):
                        '--x', 'apex.y', description=text)
         self.expect_figure('map.png')
         self.expect_figure('paths.png')
-        self.assertEqual(sorted(os.listdir(self.path('kept'))), ['%06d.csv' % number for number in range(1, 7)])
+        self.assertEqual(sorted(os.listdir(self.path('kept'))), ['%06d.csv' % number for number in range(1, 7)] + ['journal'])
         first = read(self.path('kept/000001.csv')).decode().splitlines()
         self.assertTrue(first[0].startswith('index,load_factor,arc_length,kind,x_left'))
         self.assertGreater(len(first), 10)

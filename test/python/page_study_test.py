@@ -75,6 +75,13 @@ class PageOfStudy(ProgramTest):
         drawn = run(PLOT, self.path('study.yaml'), '--html', self.path('a.html'))
         self.assertEqual(drawn.stderr, 'plot: %s is not the table of this study: trace it again\n' % self.path('study.csv'))
 
+    def test_paths_of_another_run_are_refused(self):
+        for file, line in ('study.csv.journal', 'contact_path study 1'), ('kept/journal', 'contact_path study 2'):
+            with open(self.path(file), 'w') as journal:
+                journal.write(line + '\n')
+        drawn = run(PLOT, self.path('study.yaml'), '--html', self.path('a.html'))
+        self.assertIn('are of another run than the table: trace it again', drawn.stderr)
+
     def test_values_are_those_of_the_traces(self):
         fields = {'gripper': {'nodes.l.x': '-1.04', 'nodes.4.x': '2.9', 'bars.7.EA': '90', 'obstacles.left_face.friction': '.6',
                               'program.close.target': '0.12', 'program.1.obstacle_motions.0.dy': '1.1', 'nodes.l3.fixed_y': 'Yes',
