@@ -1,6 +1,7 @@
 """The figures of a study: an output over one or two parameters, and its paths over each other."""
 from __future__ import annotations
 
+import re
 from typing import Any, Dict, NamedTuple, Sequence, Tuple
 
 import matplotlib.pyplot as plt
@@ -12,7 +13,7 @@ from matplotlib.figure import Figure
 
 from contact_path import path_curve, path_marks, path_quantities
 from contact_path.path import Path
-from contact_path.study_file import Parameter
+from contact_path.study_file import Parameter, Study
 from contact_path.study_table import numbers
 
 SIZE = 8.5, 5.6  # of the figure [inches]
@@ -65,11 +66,20 @@ def output_column(table: Sequence[Sequence[str]], parameters: int, output: str) 
     return name, columns[name]
 
 
+def check(study: Study, output: str) -> None:
+    """ValueError: draw() cannot draw this output, whatever the traces give."""
+    if len(study.parameters) > 2:
+        raise ValueError('--plot: the study has %d parameters, a figure shows one or two' % len(study.parameters))
+    is_limit = 'limit_loads' in study.outputs and re.fullmatch('limit_[1-9][0-9]*', output)
+    known = [name for name in study.outputs if name != 'limit_loads']
+    if output and output not in known and not is_limit:
+        raise ValueError('--output %s: must be a column of the table: %s' % (
+            output, ', '.join((['limit_1, limit_2, ...'] if 'limit_loads' in study.outputs else []) + known)))
+
+
 def draw(parameters: Sequence[Parameter], table: Sequence[Sequence[str]], title: str, output: str = '') -> Figure:
     """An output over one parameter as a line, over two as a map with contours; over a word as lines. table: as study_table.lines has
     it; output: one of its columns, '': the first one of numbers. ValueError: what cannot be drawn."""
-    if len(parameters) > 2:
-        raise ValueError('--plot: the study has %d parameters, a figure shows one or two' % len(parameters))
     name, values = output_column(table, len(parameters), output)
     along = [axis(parameter, [line[place] for line in table[1:]]) for place, parameter in enumerate(parameters)]
     figure, axes = plt.subplots(figsize=SIZE, constrained_layout=True)
