@@ -11,7 +11,7 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import LogNorm, Normalize
 from matplotlib.figure import Figure
 
-from contact_path import path_curve, path_marks, path_quantities
+from contact_path import path_marks, path_quantities
 from contact_path.path import Path
 from contact_path.study_file import Parameter, Study
 from contact_path.study_table import numbers
@@ -167,8 +167,7 @@ def draw_paths(parameter: Parameter, values: Sequence[str], paths: Sequence[Path
     by = axis(parameter, values)
     colour = colours(by)
     for path, place in zip(paths, by.places):
-        points = path_curve.line_through(path['arc_length'], path['kind'], np.column_stack((path.quantity(x), path.quantity(y))))
-        axes.plot(points[:, 0], points[:, 1], color=colour.to_rgba(place), linewidth=0.8)
+        axes.plot(*path_marks.line(path, *path_marks.points(path, x, y)).T, color=colour.to_rgba(place), linewidth=0.8)
     bar = figure.colorbar(colour, ax=axes, label=parameter.path)
     if by.words:
         bar.set_ticks(range(len(by.words)))
@@ -185,11 +184,3 @@ def colours(by: Axis) -> ScalarMappable:
     low, high = by.places.min(), by.places.max()
     norm: Any = (LogNorm if by.is_log else Normalize)(low, high)
     return ScalarMappable(norm, COLOURS)
-
-
-def save(figure: Figure, file: str) -> None:
-    """.png or .svg. OSError, ValueError."""
-    try:
-        figure.savefig(file, dpi=150, **({'metadata': {'Date': None}} if file.lower().endswith('.svg') else {}))
-    finally:
-        plt.close(figure)
