@@ -81,7 +81,7 @@ def path_data(path: Path, rows: np.ndarray, points: Points | None, x: str, y: st
     return {'steps': len(rows), 'increments': len(path), 'indices': plain(path['index'][rows], '<i4'),
             'columns': page_curves.columns(path, rows, x, y),
             'headings': page_curves.headings(path, rows), 'end': path.message,
-            'structure': page_shapes.structure_of(path, rows, points.structure, points) if points is not None else None}
+            'structure': page_shapes.structure_of(path, rows, points) if points is not None else None}
 
 
 def read(name: str) -> str:
