@@ -160,8 +160,7 @@ def main():
                 len(chosen), error, 100.0 * longest / points[-1]['time'], told_of_branches(onwards),
                 told_of_incremental_law(choices[:1], total)))
     with open(results / 'peers.json', 'w') as file:
-        json.dump({'table': rows, 'text': text, 'off': error,
-                   'getfem': curve(gammas, others[:, SHOWN]),
+        json.dump({'table': rows, 'text': text, 'getfem': curve(gammas, others[:, SHOWN]),
                    'total': own_curve(total), 'incremental': own_curve(incremental)}, file)
 
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Draws the figures of the benchmarks and rewrites the tables of README.md between its markers.
 
-report.py RESULTS BENCH PART...: RESULTS holds what scripts/bench measured, BENCH the README and the folder for the figures;
-the parts of the README to write, by the names of their markers.
+report.py RESULTS BENCH [PART...]: RESULTS holds what scripts/bench measured, BENCH the README and the folder for the figures;
+the parts of the README to write, by the names of their markers; none: all but peers, which is measured apart.
 """
 import csv
 import json
@@ -251,13 +251,16 @@ def peers(results, figures):
     return table(['', 'GetFEM', 'contact_path', 'ratio'], rows) + '\n' + found['text'] + '\n'
 
 
+TABLES = {part.__name__: part for part in (sliding, parts, assembly, mpec, contact, far, solvers, models, streaming)}
+WITH_FIGURES = {part.__name__: part for part in (trade, scaling, peers)}
+
+
 def main():
     results, bench = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
     figures = bench / 'figures'
     figures.mkdir(exist_ok=True)
-    with_figures = {'trade': trade, 'scaling': scaling, 'peers': peers}
-    tables = {name: with_figures[name](results, figures) if name in with_figures else globals()[name](results)
-              for name in sys.argv[3:]}
+    names = sys.argv[3:] or [name for name in (*WITH_FIGURES, *TABLES) if name != 'peers']
+    tables = {name: WITH_FIGURES[name](results, figures) if name in WITH_FIGURES else TABLES[name](results) for name in names}
     readme = bench / 'README.md'
     text = readme.read_text()
     for name, part in tables.items():

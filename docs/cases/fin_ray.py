@@ -13,7 +13,7 @@ RIBS = [1.0, 10.0, 100.0, 1000.0]  # EA of the ribs [force]
 FRICTIONS = [0.2, 0.5, 0.8]
 
 
-def finger(ribs, friction, finer=1):
+def finger(ribs, friction, finer):
     """The scene with other ribs and friction, and `finer` times as many segments of the beams."""
     scene = cp.Scene.read(SCENE)
     parts = scene.request['scene']

@@ -12,6 +12,7 @@ OFFSET, HALF_WIDTH = 0.12, 0.48  # of the scene
 WRIST, SIDE = 2.0, 1.5  # lengths of the wrist and of the peg
 HALF_HOLE, FILLET = 0.5, 0.2
 CORNER = 'right@right_wall'
+APART = 1.0e-3  # frictions between which the border is, at most
 
 
 def peg(friction, offset=OFFSET, half_width=HALF_WIDTH):
@@ -42,10 +43,10 @@ def sticks(friction, offset, half_width):
     return path['state_' + CORNER][-1] == 'stick'
 
 
-def bisected(offset, half_width, width=1.0e-3):
-    """Frictions with which the corner slides and sticks, `width` apart or less."""
+def bisected(offset, half_width):
+    """Frictions with which the corner slides and sticks."""
     slides, held = 0.0, 2.0
-    while held - slides > width:
+    while held - slides > APART:
         middle = 0.5 * (slides + held)
         slides, held = (slides, middle) if sticks(middle, offset, half_width) else (middle, held)
     return slides, held

@@ -10,6 +10,9 @@ import contact_path as cp
 FRICTIONS = [0.1, 0.3, 0.5, 0.8]
 KINKS = [4, 8, 32]
 WRAP = pi  # angle of contact [rad]
+SOFT, STIFF = 20.0, 1000.0  # EA of the held bar and of all others [force]
+SLIDING_PULL = 1.0e-6  # small: it changes the kinks by as much as it is [rad]
+EASED_PULL = 1.0e-4
 
 
 def rope(kinks, friction):
@@ -25,7 +28,7 @@ def rope(kinks, friction):
         scene.node(end, x=cos(angle), y=sin(angle) - 1.0, fixed_x=True, fixed_y=True)
     chain = ['held', *names, 'pulled']
     for a, b in zip(chain, chain[1:]):
-        scene.bar(nodes=[a, b], EA=20.0 if a == 'held' else 1000.0)
+        scene.bar(nodes=[a, b], EA=SOFT if a == 'held' else STIFF)
     return scene
 
 
@@ -34,13 +37,13 @@ def tensions(path, kinks):
     def tension(EA, a, b):
         return EA * (((path['x_' + a] - path['x_' + b]) ** 2 + (path['y_' + a] - path['y_' + b]) ** 2) ** 0.5 - 1.0)
 
-    return tension(20.0, 'held', 'n1'), tension(1000.0, 'n%d' % kinks, 'pulled')
+    return tension(SOFT, 'held', 'n1'), tension(STIFF, 'n%d' % kinks, 'pulled')
 
 
-def sliding_ratio(kinks, friction, pull=1.0e-6):
-    """Of the tensions where all nodes slide. The pull is small: it changes the kinks by as much as it is [rad]."""
+def sliding_ratio(kinks, friction):
+    """Of the tensions where all nodes slide."""
     scene = rope(kinks, friction)
-    scene.stage('pull', target=pull).support_motion('pulled', dy=-1.0)
+    scene.stage('pull', target=SLIDING_PULL).support_motion('pulled', dy=-1.0)
     held, pulled = tensions(cp.trace(scene), kinks)
     return pulled[-1] / held[-1]
 
@@ -51,11 +54,11 @@ def kinked_ratio(kinks, friction):
     return ((1.0 + turn) / (1.0 - turn)) ** kinks
 
 
-def eased(kinks, friction, pull=1.0e-4):
+def eased(kinks, friction):
     """The path of a rope that is pulled, then let go by a fifth of that."""
     scene = rope(kinks, friction)
-    scene.stage('pull', target=pull).support_motion('pulled', dy=-1.0)
-    scene.stage('let go', target=0.2 * pull).support_motion('pulled', dy=1.0)
+    scene.stage('pull', target=EASED_PULL).support_motion('pulled', dy=-1.0)
+    scene.stage('let go', target=0.2 * EASED_PULL).support_motion('pulled', dy=1.0)
     return cp.trace(scene)
 
 

@@ -14,10 +14,11 @@ FRICTIONS = [0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.6, 0.9, 1.4]
 INDENTED = [0.6, 1.25, 1.28, 1.3, 1.4, 1.6, 2.0]  # frictions of the indentation at 60 degrees
 CHANGE = 141.549  # half-angle at which H changes its sign [degrees]
 WORDS = {'stick': 'pinned', 'slip+': 'unfolding', 'slip-': 'folding'}  # by the state of the right end
+SEGMENTS = 16  # of each half
 LARGEST = 4.0 / (3.0 * pi)  # of |H/V| above that angle, at 180 degrees
 
 
-def arch(half_angle, friction, segments=16):
+def arch(half_angle, friction):
     """Radius 1, EI 1, inextensible for practical purposes; the crown, held along x, carries the load."""
     a = radians(half_angle)
     scene = cp.Scene('rough_arch')
@@ -26,7 +27,7 @@ def arch(half_angle, friction, segments=16):
     scene.node('crown', y=1.0 - cos(a), fixed_x=True)
     scene.node('right', x=sin(a))
     for name, ends in ('l', ['left', 'crown']), ('r', ['crown', 'right']):
-        scene.beam(name, nodes=ends, EA=1.0e5, EI=1.0, segments=segments, angle=-a)
+        scene.beam(name, nodes=ends, EA=1.0e5, EI=1.0, segments=SEGMENTS, angle=-a)
     for foot in 'left', 'right':
         scene.contact(node=foot, obstacle='floor')
     scene.load(node='crown', fy=-1.0)

@@ -11,7 +11,7 @@ from contact_path import page_curves, page_shapes
 from contact_path.page_arrays import Entry, as_json, packed_entry, plain
 from contact_path.page_points import Points
 from contact_path.path import Path
-from contact_path.path_marks import default_quantity, kinds_marked
+from contact_path.path_marks import checked, kinds_marked
 from contact_path.scene_arrays import Structure
 
 WEB = os.path.join(os.path.dirname(os.path.abspath(__file__)), 'web')
@@ -32,23 +32,16 @@ def write(paths: Sequence[Path], file: str | os.PathLike[str], x: str | None = N
 
 def page(paths: Sequence[Path], x: str | None = None, y: str = 'load_factor', sources: Sequence[str] = ()) -> str:
     """The text of the file."""
-    x = x or default_quantity(checked(paths)[0])
-    for path, source in zip(paths, sources or [path.title or 'path' for path in paths]):
-        try:
-            path.quantity(x), path.quantity(y)
-            if not len(path.full):
-                raise ValueError('no increment carries positions')
-        except ValueError as error:
-            raise ValueError('%s: %s' % (source, error)) from error
+    x = checked(paths, sources, x, y, has_positions)
     steps, entries = path_entries(paths, x, y)
     data = {'curves': page_curves.figure(paths, steps, x, y), 'paths': entries, 'study': None}
     return document(', '.join(path.title for path in paths) or 'path', data)
 
 
-def checked(paths: Sequence[Path]) -> Sequence[Path]:
-    if not all(map(len, paths)):
-        raise ValueError('no increments')
-    return paths
+def has_positions(path: Path) -> None:
+    """ValueError: it has none."""
+    if not len(path.full):
+        raise ValueError('no increment carries positions')
 
 
 def path_entries(paths: Sequence[Path], x: str, y: str, alone: bool = False) -> Tuple[List[np.ndarray], List[Entry]]:
@@ -88,7 +81,7 @@ def path_data(path: Path, rows: np.ndarray, points: Points | None, x: str, y: st
     return {'steps': len(rows), 'increments': len(path), 'indices': plain(path['index'][rows], '<i4'),
             'columns': page_curves.columns(path, rows, x, y),
             'headings': page_curves.headings(path, rows), 'end': path.message,
-            'structure': page_shapes.structure_of(path, rows, points.structure, points) if points is not None else None}
+            'structure': page_shapes.structure_of(path, rows, points) if points is not None else None}
 
 
 def read(name: str) -> str:

@@ -7,7 +7,7 @@ import numpy as np
 
 from contact_path.page_arrays import Entry, plain
 from contact_path.path import Path
-from contact_path.path_marks import COLOURS, ENERGIES, MARKS, kinds_marked, line, points
+from contact_path.path_marks import COLOURS, ENERGIES, FEW_PATHS, MARKS, kinds_marked, line, points
 from contact_path.path_quantities import label
 
 SYMBOLS = {'start': 'circle', 'smooth_limit': 'square', 'corner_limit': 'triangle-up', 'contact_event': 'diamond',
@@ -17,7 +17,6 @@ PATH_AXES = {'xaxis': 'x', 'yaxis': 'y'}
 ENERGY_AXES = {'xaxis': 'x2', 'yaxis': 'y2'}
 GRID = '#ebebeb'
 MOST_BRANCHES, MOST_CHANGES = 6, 3  # of an event, and of states on a branch, in the text beside it
-FEW_PATHS = 3  # the first ones are broad: they show below the later ones
 MARGIN = 0.05  # beside the curves, of their range
 
 

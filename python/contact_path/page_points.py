@@ -12,7 +12,7 @@ from contact_path.shapes import FULL_TURN, LONGEST_ARROW, MOMENT_RADIUS, SHORTES
 MOST_BEAM_LINES = 1500  # of all segments of beams together
 SURFACE_STEP = 4  # of the lines of a surface that plots draw, of which a patch has 16
 FORCES = ('loads', 'constant_loads')  # of a Shape, on its nodes
-MOMENTS = ('moments', 'constant_moments')
+MOMENTS = {'moments': 'loads', 'constant_moments': 'constant_loads'}  # and which of FORCES they come with
 HEAD = 4  # points of the head of a turned arrow
 
 
@@ -29,7 +29,7 @@ class Points:
         lines = min(steps, max(1, MOST_BEAM_LINES // max(segments, 1)))
         self.within = np.rint(np.linspace(0, steps, lines + 1)).astype(int)[1:-1]  # of the points of a segment
         self.loaded = {name: self.nodes_with(name, slice(0, 2)) for name in FORCES}
-        self.turned = {name: self.nodes_with(name.replace('moments', 'loads'), slice(2, 3)) for name in MOMENTS}
+        self.turned = {name: self.nodes_with(loads, slice(2, 3)) for name, loads in MOMENTS.items()}
         contacts = len(structure.contacts)
         self.add('nodes', len(structure.names))
         self.add('beams', segments, len(self.within))
@@ -78,30 +78,43 @@ class Points:
         places[self.groups['beams']] = beams[:, self.within]
         return places
 
-    def lines(self, name: str) -> np.ndarray:
-        """A list of points: bars and beams; edges of solids; surfaces; lines from hubs to nodes; arrows; cones; shafts and heads of turned
-        arrows."""
-        groups, structure = self.groups, self.structure
-        if name == 'members':
-            nodes = structure.beams.nodes
-            beams = np.column_stack((nodes[:, :1], groups['beams'], nodes[:, 1:]))
-            return trails(np.vstack((edges_of(structure.bars), edges_of(beams))))
-        if name == 'edges':
-            boundaries = [closed(solid.boundaries) for solid in structure.solids]
-            return trails(np.vstack([np.empty((0, 2))] + [edges_of(part) for part in boundaries]))
-        if name == 'surfaces':
-            ends = np.cumsum([len(some) for some in self.thinned], dtype=int)
-            return np.insert(groups['surfaces'], ends, GAP)
-        if name == 'hubs':
-            return joined([(hub, node) for hub, (nodes, _) in zip(groups['hubs'], structure.superelements) for node in nodes])
-        if name == 'reactions':
-            return joined(np.column_stack((structure.contact_nodes, groups['reactions'])))
-        if name == 'cones':
-            return joined(np.column_stack((structure.contact_nodes, groups['cones'], structure.contact_nodes)))
-        if name in FORCES:
-            return joined(np.column_stack((self.loaded[name], groups[name])))
-        part, _, name = name.partition(' of ')
-        return joined(groups[name][:, :STEPS + 1] if part == 'shafts' else groups[name][:, STEPS + 1:])
+    # Lists of points.
+
+    def members(self) -> np.ndarray:
+        """Bars and beams."""
+        nodes = self.structure.beams.nodes
+        beams = np.column_stack((nodes[:, :1], self.groups['beams'], nodes[:, 1:]))
+        return trails(np.vstack((edges_of(self.structure.bars), edges_of(beams))))
+
+    def edges(self) -> np.ndarray:
+        """Of solids."""
+        boundaries = [closed(solid.boundaries) for solid in self.structure.solids]
+        return trails(np.vstack([np.empty((0, 2))] + [edges_of(part) for part in boundaries]))
+
+    def surfaces(self) -> np.ndarray:
+        ends = np.cumsum([len(some) for some in self.thinned], dtype=int)
+        return np.insert(self.groups['surfaces'], ends, GAP)
+
+    def hubs(self) -> np.ndarray:
+        """Lines from hubs to nodes."""
+        parts = zip(self.groups['hubs'], self.structure.superelements)
+        return joined([(hub, node) for hub, (nodes, _) in parts for node in nodes])
+
+    def cones(self) -> np.ndarray:
+        nodes = self.structure.contact_nodes
+        return joined(np.column_stack((nodes, self.groups['cones'], nodes)))
+
+    def arrows(self, name: str) -> np.ndarray:
+        """name: 'reactions' or one of FORCES."""
+        nodes = self.structure.contact_nodes if name == 'reactions' else self.loaded[name]
+        return joined(np.column_stack((nodes, self.groups[name])))
+
+    def shafts(self, name: str) -> np.ndarray:
+        """Of turned arrows; name: one of MOMENTS."""
+        return joined(self.groups[name][:, :STEPS + 1])
+
+    def heads(self, name: str) -> np.ndarray:
+        return joined(self.groups[name][:, STEPS + 1:])
 
 
 def joined(lines: Sequence[Any]) -> np.ndarray:

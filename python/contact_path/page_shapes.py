@@ -25,7 +25,7 @@ ARROWS = (('constant_loads', 'constant load', CONSTANT_LOAD), ('loads', 'load', 
 TURNED = (('constant_moments', 'constant moment', CONSTANT_LOAD), ('moments', 'moment', LOAD))
 
 
-def structure_of(path: Path, rows: np.ndarray, structure: Structure, points: Points) -> Entry:
+def structure_of(path: Path, rows: np.ndarray, points: Points) -> Entry:
     """Of the increments in these rows, the steps:
 
     layout      axes, and how long arrows are
@@ -37,12 +37,13 @@ def structure_of(path: Path, rows: np.ndarray, structure: Structure, points: Poi
     contacts    names, nodes, and in each step layer, state, gap, rn, rt (steps, k); their trace
     names       of the nodes; decimals: of their positions, so many are right
     """
+    structure = points.structure
     shapes = [Shape(structure, path.row(row)) for row in rows]
     view = View(shapes)
     places = np.array([points.places(shape, view) for shape in shapes])
     moved = trajectories(places.reshape(len(rows), -1))
     return {'layout': layout(view), 'still': still(points), 'obstacles': obstacles(path, rows, structure, view),
-            'points': moved, 'moving': moving(points, structure), 'solids': solids(shapes, view), 'names': structure.names,
+            'points': moved, 'moving': moving(points), 'solids': solids(shapes, view), 'names': structure.names,
             'contacts': contacts(path, rows, shapes, view),
             'decimals': decimals(np.ptp(places[:, :len(structure.names)], axis=0).max())}
 
@@ -72,7 +73,7 @@ def line_width(structure: Structure) -> float:
 def still(points: Points) -> List[Entry]:
     """The shape at the start, and entries of the legend."""
     structure = points.structure
-    numbers = np.concatenate((points.lines('members'), points.lines('edges')))
+    numbers = np.concatenate((points.members(), points.edges()))
     places = np.where(numbers[:, None] == GAP, np.nan, points.initial()[numbers])
     traces = [{'type': 'scatter', 'mode': 'lines', 'x': plain(places[:, 0]), 'y': plain(places[:, 1]), 'hoverinfo': 'skip',
                'name': 'initial shape', 'line': {'color': INITIAL, 'width': 0.7 * line_width(structure)}}]
@@ -85,8 +86,9 @@ def legend_entry(name: str) -> Entry:
     return {'type': 'scatter', 'x': [None], 'y': [None], 'name': name, 'hoverinfo': 'skip'}
 
 
-def moving(points: Points, structure: Structure) -> List[Entry]:
+def moving(points: Points) -> List[Entry]:
     """From the bottom up. `named`: the pointer is told the names of nodes."""
+    structure = points.structure
     many = len(structure.names) > MANY_NODES or len(structure.contacts) > MANY_MARKS
     head = SMALL_ARROW_HEAD if many else ARROW_HEAD
     width = line_width(structure)
@@ -101,11 +103,11 @@ def moving(points: Points, structure: Structure) -> List[Entry]:
     def areas(numbers: np.ndarray, fill: str, **style: Any) -> None:
         lines(numbers, mode='none', fill='toself', fillcolor=fill, **style)
 
-    lines(points.lines('edges'), line={'color': BARS, 'width': 0.5 if many else 0.8}, named=True)
-    areas(points.lines('cones'), rgba(REACTION, 0.15), name='friction cone', showlegend=bool(np.any(structure.friction > 0.0)))
-    lines(points.lines('members'), line={'color': BARS, 'width': width}, named=True)
-    lines(points.lines('surfaces'), line={'color': SURFACE, 'width': 1.5}, name='surface in contact', showlegend=True)
-    lines(points.lines('hubs'), line={'color': BARS, 'width': 1.5, 'dash': 'dash'}, name='superelement', showlegend=True)
+    lines(points.edges(), line={'color': BARS, 'width': 0.5 if many else 0.8}, named=True)
+    areas(points.cones(), rgba(REACTION, 0.15), name='friction cone', showlegend=bool(np.any(structure.friction > 0.0)))
+    lines(points.members(), line={'color': BARS, 'width': width}, named=True)
+    lines(points.surfaces(), line={'color': SURFACE, 'width': 1.5}, name='surface in contact', showlegend=True)
+    lines(points.hubs(), line={'color': BARS, 'width': 1.5, 'dash': 'dash'}, name='superelement', showlegend=True)
     if not many:
         mode = 'markers+text' if len(structure.names) <= FEW_NODES else 'markers'
         lines(np.flatnonzero(~structure.beams.inner), marker={'size': 4, 'color': BARS}, named=True, mode=mode,
@@ -114,10 +116,10 @@ def moving(points: Points, structure: Structure) -> List[Entry]:
         lines(numbers, mode='markers', marker={'symbol': symbol, 'size': 10 if many else 16, 'color': '#888888',
                                                'line': {'color': '#404040', 'width': 1}})
     for name, text, own in TURNED:
-        lines(points.lines('shafts of ' + name), line={'color': own, 'width': 2}, name=text, showlegend=True)
-        areas(points.lines('heads of ' + name), own)
+        lines(points.shafts(name), line={'color': own, 'width': 2}, name=text, showlegend=True)
+        areas(points.heads(name), own)
     for name, text, own in ARROWS:
-        numbers = points.lines(name)
+        numbers = points.arrows(name)
         sizes = np.tile([0, head, 0], len(numbers) // 3).tolist()
         lines(numbers, mode='lines+markers', line={'color': own, 'width': 1.0 if many else 2.0}, name=text, showlegend=True,
               marker={'symbol': 'arrow', 'angleref': 'previous', 'size': sizes, 'color': own})

@@ -2,16 +2,16 @@
 from __future__ import annotations
 
 import csv
+import math
 import os
-from typing import Any, Dict, List, Mapping, Sequence
+from typing import Dict, List, Sequence
 
-from contact_path import page, study_file
+from contact_path import page, study_file, study_journal, study_paths
 from contact_path.page_arrays import Entry
 from contact_path.path import Path
-from contact_path.path_file import read_csv
 from contact_path.path_marks import default_quantity
 from contact_path.scene import Scene
-from contact_path.study_run import path_file
+from contact_path.study_table import numbers
 
 ENDINGS = ('.yaml', '.yml')  # of the description of a study
 
@@ -27,17 +27,19 @@ def write(description: str, file: str | os.PathLike[str], x: str | None = None, 
     with open(study.table, encoding='utf-8', newline='') as text:
         names, *lines = csv.reader(text)
     parameters = [parameter.path for parameter in study.parameters]
+    if names[:len(parameters) + 1] != parameters + ['status']:
+        raise ValueError('%s is not the table of this study: trace it again' % study.table)
+    of_table, of_paths = map(study_journal.head_of, (study.table + '.journal', study_paths.journal_file(study.paths)))
+    if of_table != of_paths:
+        raise ValueError('%s: the paths in %s are of another run than the table: trace it again' % (description, study.paths))
     scene = Scene.read(study.scene)
     paths: List[Path] = []
-    numbers: List[int | None] = []  # of the path of each line
-    for place, line in enumerate(lines):
-        kept = path_file(study, place)
-        path = read_csv(kept) if os.path.exists(kept) else None
-        numbers.append(len(paths) if path is not None and len(path) else None)
-        if path is not None and len(path):
-            values = dict(zip(parameters, line))
-            paths.append(Path(path.table, title='%d: %s' % (place + 1, ', '.join(values.values())),
-                              scene=with_values(scene, values), message=line[len(parameters)]))
+    of_lines: List[int | None] = [None] * len(lines)  # which of the paths
+    for place, path in study_paths.kept(study, len(lines)):
+        of_lines[place] = len(paths)
+        values = dict(zip(parameters, lines[place]))
+        paths.append(Path(path.table, title='%d: %s' % (place + 1, ', '.join(values.values())),
+                          scene=scene.with_values(values), message=lines[place][len(parameters)]))
     if not paths:
         raise ValueError('%s: no path is kept in %s' % (description, study.paths))
     _, entries = page.path_entries(paths, x or default_quantity(paths[0]), y, alone=True)
@@ -46,7 +48,7 @@ def write(description: str, file: str | os.PathLike[str], x: str | None = None, 
     for column in table:
         if column['label'] in logarithmic:
             column['kind'] = 'log'
-    data = {'curves': None, 'paths': entries, 'study': {'columns': table, 'paths': numbers, 'start': start(table, len(parameters))}}
+    data = {'curves': None, 'paths': entries, 'study': {'columns': table, 'paths': of_lines, 'start': start(table, len(parameters))}}
     title = os.path.splitext(os.path.basename(description))[0]
     with open(file, 'w', encoding='utf-8', newline='\n') as target:
         target.write(page.document(title, data))
@@ -60,52 +62,21 @@ def columns(names: Sequence[str], lines: Sequence[Sequence[str]]) -> List[Entry]
     """
     found = []
     for name, texts in zip(names, zip(*lines)):
-        values = [value_of(text) if text else None for text in texts]
-        numbers = all(isinstance(value, (int, float)) and not isinstance(value, bool) for value in values if value is not None)
-        found.append({'label': name, 'values': values if numbers else list(texts), 'kind': 'linear' if numbers else 'category'})
+        try:
+            values = [value if math.isfinite(value) else None for value in numbers(texts).tolist()]
+            found.append({'label': name, 'values': values, 'kind': 'linear'})
+        except ValueError:
+            found.append({'label': name, 'values': list(texts), 'kind': 'category'})
     return found
 
 
 def start(table: Sequence[Entry], parameters: int) -> Dict[str, int]:
-    """The columns that are drawn at first: two parameters and the first output of numbers, or that over a single parameter."""
+    """The columns that are drawn at first: two parameters and the first output of numbers, or that over a single parameter; the
+    status in place of an output where none is of numbers.
+
+    >>> start(columns(['law', 'status', 'end_reason'], [('total', 'complete', 'stop_criterion')]), 1)
+    {'across': 0, 'up': 1, 'colour': 1}
+    """
     outputs = [i for i, column in enumerate(table) if i > parameters and column['kind'] != 'category']
-    output = outputs[0] if outputs else 0
+    output = outputs[0] if outputs else parameters
     return {'across': 0, 'up': 1 if parameters > 1 else output, 'colour': output}
-
-
-def value_of(text: str) -> Any:
-    """
-    >>> value_of('3'), value_of('1e-07'), value_of('true'), value_of('slip')
-    (3, 1e-07, True, 'slip')
-    """
-    for kind in int, float:
-        try:
-            return kind(text)
-        except ValueError:
-            pass
-    return {'true': True, 'false': False}.get(text, text)
-
-
-def with_values(scene: Scene, values: Mapping[str, str]) -> Scene:
-    """A copy of the scene with fields changed. values: path of the field, as in a study -> its value.
-
-    >>> scene = Scene('s')
-    >>> scene.node('a', x=1.0)
-    >>> with_values(scene, {'nodes.a.x': '2', 'options.step': '0.1'}).request['scene']['nodes'][0]['x']
-    2
-    """
-    changed = scene.copy()
-    for path, text in values.items():
-        first, *keys = path.split('.')
-        at: Any = changed.request if first in ('options', 'program') else changed.request['scene']
-        for key in [first] + keys[:-1]:
-            at = at.setdefault(key, {}) if isinstance(at, dict) else at[place_of(at, key)]
-        last = keys[-1]
-        at[last if isinstance(at, dict) else place_of(at, last)] = value_of(text)
-    return changed
-
-
-def place_of(parts: Sequence[Any], key: str) -> int:
-    """Of a part by its name, else by its place."""
-    names = [part.get('name') if isinstance(part, dict) else None for part in parts]
-    return names.index(key) if key in names else int(key)

@@ -1,7 +1,7 @@
 """What figures and pages mark along a path, and in which colours; the line of a path through its increments."""
 from __future__ import annotations
 
-from typing import Tuple
+from typing import Callable, Sequence, Tuple
 
 import numpy as np
 
@@ -24,6 +24,8 @@ STATES = {'open': '#ffffff', 'stick': '#d55e00', 'slip+': '#f0c000', 'slip-': '#
 # Of lines where there are several paths. They differ for those who see no red or no green, too.
 COLOURS = ('#0072b2', '#d55e00', '#009e73', '#cc79a7', '#56b4e9', '#e69f00', '#333333', '#7b4b2a', '#6a3d9a', '#999999')
 
+FEW_PATHS = 3  # drawn over each other, the first ones broad: they show below the later ones; more of them are numbered
+
 # Energies: column, label and colour of the line. A CSV has no external work.
 ENERGIES = (('strain_energy', 'strain energy since the start', '#1f77b4'), ('dissipation', 'dissipation', '#ff7f0e'),
             ('external_work', 'external work', '#000000'))
@@ -37,6 +39,24 @@ def default_quantity(path: Path) -> str:
                 if node.get('fixed_' + axis)}
         nodes = [coordinate for coordinate in nodes if coordinate not in held] or nodes
     return '%s.%s' % max(nodes, key=lambda coordinate: np.ptp(path['%s_%s' % coordinate[::-1]][path.full]))
+
+
+def checked(paths: Sequence[Path], sources: Sequence[str], x: str | None, y: str,
+            check: Callable[[Path], None] = lambda path: None) -> str:
+    """x, or the default. sources: what messages call the paths, empty: their titles; check: raises ValueError.
+
+    ValueError: a path lacks increments or a quantity, or the check says so.
+    """
+    if not all(map(len, paths)):
+        raise ValueError('no increments')
+    x = x or default_quantity(paths[0])
+    for path, source in zip(paths, sources or [path.title or 'path' for path in paths]):
+        try:
+            path.quantity(x), path.quantity(y)
+            check(path)
+        except ValueError as error:
+            raise ValueError('%s: %s' % (source, error)) from error
+    return x
 
 
 def kinds_marked(path: Path) -> np.ndarray:

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from contact_path import plot_panels, plot_shapes
 from contact_path.path import Path
-from contact_path.path_marks import default_quantity
+from contact_path.path_marks import checked
 from contact_path.scene_arrays import Structure
 from contact_path.shapes import Shape, View
 
@@ -136,24 +136,25 @@ def draw(paths: Sequence[Path], x: str | None = None, y: str = 'load_factor', *,
 
     ValueError: what cannot be drawn. OSError: the file cannot be written.
     """
-    if not all(map(len, paths)):
-        raise ValueError('no increments')
-    x = x or default_quantity(paths[0])
     chosen = []
-    for path, source in zip(paths, sources or [path.title or 'path' for path in paths]):
-        try:
-            path.quantity(x), path.quantity(y)
-            if states and not path.contacts:
-                raise ValueError('--states: no contacts')
-            if shapes or at or increments:
-                chosen.append(choose_rows(path, at, increments))
-        except ValueError as error:
-            raise ValueError('%s: %s' % (source, error)) from error
+
+    def check(path: Path) -> None:
+        if states and not path.contacts:
+            raise ValueError('--states: no contacts')
+        if shapes or at or increments:
+            chosen.append(choose_rows(path, at, increments))
+
+    x = checked(paths, sources, x, y, check)
     figure = make_page(paths, x, y, states, energy, chosen).figure()
     if file is not None:
-        is_svg = os.fspath(file).lower().endswith('.svg')
-        figure.savefig(file, dpi=150, **({'metadata': {'Date': None}} if is_svg else {}))
+        save(figure, file)
     return figure
+
+
+def save(figure: Figure, file: str | os.PathLike[str]) -> None:
+    """.png or .svg, the same bytes each time. OSError, ValueError."""
+    is_svg = os.fspath(file).lower().endswith('.svg')
+    figure.savefig(file, dpi=150, **({'metadata': {'Date': None}} if is_svg else {}))
 
 
 def choose_rows(path: Path, at: str | None, increments: Sequence[int | str]) -> Tuple[List[int], int]:

@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Rectangle
 
 from contact_path.path import Path
-from contact_path.path_marks import COLOURS, ENERGIES, MARKS, STATES, kinds_marked, line, points
+from contact_path.path_marks import COLOURS, ENERGIES, FEW_PATHS, MARKS, STATES, kinds_marked, line, points
 from contact_path.path_quantities import label
 
 MARKERS = {'start': 'o', 'smooth_limit': 's', 'corner_limit': '^', 'contact_event': 'D', 'bifurcation': '*', 'stage_end': 'X'}
@@ -18,7 +18,6 @@ EDGE = '0.35'  # around fields in the colours of contact states
 
 # Of lines where there are several paths: told apart by colour and dashes together.
 DASHES = ('-', (0, (6, 2)), (0, (1.5, 1.5)), (0, (6, 2, 1.5, 2)), (0, (3, 1, 3, 1, 1, 1)), (0, (9, 2, 3, 2)))
-FEW_PATHS = 3  # drawn over each other, the first ones broad; more of them are numbered
 SAMPLES = 100  # points of a line, for the place of its number
 MOST_LISTED = 24  # stages in a legend
 BESIDE = {'fontsize': 9, 'loc': 'upper left', 'bbox_to_anchor': (1.01, 1.0), 'borderaxespad': 0.0, 'handlelength': 3.0}

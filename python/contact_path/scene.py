@@ -228,6 +228,23 @@ class Scene(Loading):
     def copy(self) -> Scene:
         return self._of(copy.deepcopy(self.request))
 
+    def with_values(self, values: Mapping[str, str]) -> Scene:
+        """A copy with other values. values: path of a field of the scene, as a study has it -> its value, as a scene file has it.
+
+        >>> scene = Scene()
+        >>> scene.node('a', x=1.0)
+        >>> scene.with_values({'nodes.a.x': '2', 'options.step': '.1'}).request
+        {'scene': {'nodes': [{'name': 'a', 'x': 2.0}]}, 'options': {'step': 0.1}}
+        """
+        request = self.copy().request
+        for path, text in values.items():
+            *keys, last = path.split('.')
+            at: Any = request if keys[:1] in (['options'], ['program']) else request['scene']
+            for key in keys:
+                at = at.setdefault(key, {}) if isinstance(at, dict) else at[_place(at, key)]
+            at[last if isinstance(at, dict) else _place(at, last)] = text
+        return self._of(_read(request, 'request'))
+
     def __str__(self) -> str:
         return self.text()
 
@@ -266,7 +283,10 @@ _NESTED: Dict[str, Sequence[str]] = {
     'request': ('scene', 'options', 'program'), 'scene': tuple(PARTS), 'options': ('stop', 'branch_choices'),
     'program': ('loads', 'support_motions', 'obstacle_motions')}
 _DEFAULTS: Dict[str, Any] = {'str': '', 'float': 0.0, 'int': 0, 'bool': False}
-_TRUTH = {'true': True, 'yes': True, 'on': True, 'false': False, 'no': False, 'off': False}
+# Words of YAML, as contact_path_trace takes them.
+_TRUTH = {spelt: value for value, words in ((True, ('true', 'yes', 'on', '1')), (False, ('false', 'no', 'off', '0')))
+          for word in words for spelt in (word, word.capitalize(), word.upper())}
+_NUMBERS = {sign + spelt: sign + 'inf' for sign in ('', '+', '-') for spelt in ('.inf', '.Inf', '.INF')}
 
 
 def with_defaults(part: str, entries: Sequence[Mapping[str, Any]]) -> List[Entry]:
@@ -309,7 +329,7 @@ def _without_defaults(value: Any) -> Any:
 
 
 def _read(text: Any, part: str) -> Any:
-    """A map of a file, or a list of them: scalars, all of them text, as values of their fields' types."""
+    """A map of a file, or a list of them: scalars that are text as values of their fields' types."""
     if isinstance(text, list):
         return [_read(item, part) for item in text]
     if not isinstance(text, dict):
@@ -321,12 +341,20 @@ def _read(text: Any, part: str) -> Any:
 def _value(text: Any, kind: str) -> Any:
     if isinstance(text, list):
         return [_value(item, kind[len('Sequence['):-1]) for item in text]
+    if not isinstance(text, str):
+        return text
     try:
         if kind == 'bool':
-            return _TRUTH[text.lower()]
-        return {'float': float, 'int': int}[kind](text)
-    except (AttributeError, KeyError, TypeError, ValueError):
+            return _TRUTH[text]
+        return {'float': float, 'int': int}[kind](_NUMBERS.get(text, text))
+    except (KeyError, ValueError):
         return text
+
+
+def _place(parts: Sequence[Any], key: str) -> int:
+    """Of a part by its name, else by its place."""
+    names = [part.get('name') if isinstance(part, dict) else None for part in parts]
+    return names.index(key) if key in names else int(key)
 
 
 def _of_message(message: Any) -> Any:

@@ -63,6 +63,10 @@ class Structure:
         self.contact_surfaces = [contact['surface'] for contact in scene['contacts']]
         self.surfaces = {surface['name']: SurfaceCurve(surface, index) for surface in scene['surfaces']
                          if surface['name'] in self.contact_surfaces}
+        # Surface -> its contacts, and which of its lines their nodes may touch.
+        self.touched = {name: (own, surface.touched(self.contact_nodes[own], self.initial))
+                        for name, surface in self.surfaces.items()
+                        for own in [np.flatnonzero(np.array(self.contact_surfaces) == name)]}
         self.contacts = [contact_name(contact) for contact in scene['contacts']]
         self.friction = np.array([contact['friction'] if contact['surface'] else self.obstacles[contact['obstacle']].friction
                                   for contact in scene['contacts']])
@@ -127,9 +131,8 @@ class Structure:
             found, _ = self.obstacles[name].foot(placements[name].back(places[self.contact_nodes[own]]))
             normals[own] = placements[name].vectors(found)
         for name, surface in self.surfaces.items():
-            own = np.flatnonzero(np.array(self.contact_surfaces) == name)
-            nodes = self.contact_nodes[own]
-            normals[own], _ = surface.shape(places).foot(places[nodes], surface.touched(nodes, self.initial))
+            own, touched = self.touched[name]
+            normals[own], _ = surface.shape(places).foot(places[self.contact_nodes[own]], touched)
         return normals
 
     def find_bar_directions(self) -> List[List[np.ndarray]]:

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import json
+import math
 import re
 from typing import Any, Mapping
 
@@ -12,12 +13,14 @@ NO_TEXT = ('y', 'n', 'yes', 'no', 'true', 'false', 'on', 'off', 'null')
 def scalar(value: bool | int | float | str) -> str:
     """A value in YAML 1.1.
 
-    >>> [scalar(value) for value in (1e-07, 2.0, 3, True, 'b', 'b.x', 'no')]
-    ['1.0e-07', '2.0', '3', 'true', 'b', '"b.x"', '"no"']
+    >>> [scalar(value) for value in (1e-07, 2.0, -math.inf, 3, True, 'b', 'b.x', 'no')]
+    ['1.0e-07', '2.0', '-.inf', '3', 'true', 'b', '"b.x"', '"no"']
     """
     if isinstance(value, bool):
         return 'true' if value else 'false'
     if isinstance(value, float):
+        if not math.isfinite(value):
+            return '.nan' if math.isnan(value) else '.inf' if value > 0.0 else '-.inf'
         text = repr(value + 0.0)  # no -0.0
         return text if '.' in text else text.replace('e', '.0e')
     if isinstance(value, int):

@@ -26,7 +26,7 @@ class ClusterLost(RuntimeError):
 @contextlib.contextmanager
 def connected(scheduler: str, workers: int) -> Iterator[Any]:
     """A client of the scheduler at an address; '': of a cluster on this machine with so many workers, which ends with it."""
-    from distributed import Client, LocalCluster  # takes a second
+    from distributed import CancelledError, Client, LocalCluster  # takes a second
 
     if scheduler:
         try:
@@ -34,8 +34,11 @@ def connected(scheduler: str, workers: int) -> Iterator[Any]:
         except (OSError, ValueError) as error:
             raise ClusterLost('no scheduler at %s: %s' % (scheduler, error)) from error
         with client:
-            yield client
-            client.run(study_worker.close_all)
+            try:
+                yield client
+            finally:
+                with contextlib.suppress(CancelledError, OSError):  # the scheduler has gone
+                    client.run(study_worker.close_all, client.id)
         return
     with tempfile.TemporaryDirectory() as directory, contextlib.ExitStack() as stack:
         with without_interrupts():
@@ -124,7 +127,7 @@ class Traces:
         while self.waiting and len(self.running) < IN_TURN * threads:
             numbers = [self.waiting.popleft() for _ in range(min(self.size(threads), len(self.waiting)))]
             text = '\n'.join('\t'.join(self.points[number]) for number in numbers)
-            task = self.client.submit(study_worker.trace_points, self.job, text, pure=False)
+            task = self.client.submit(study_worker.trace_points, self.job, self.client.id, text, pure=False)
             self.running[task] = numbers
             tasks.append(task)
         return tasks

@@ -14,6 +14,15 @@ class JournalBusy(RuntimeError):
     """Another run writes it."""
 
 
+def head_of(file: str) -> bytes:
+    """The line of a journal that tells of what it is; empty where there is no journal. OSError."""
+    try:
+        with open(file, 'rb') as stream:
+            return stream.readline()
+    except FileNotFoundError:
+        return b''
+
+
 class Journal:
     """A file with a line for each trace that is done: its number and its answer, in the order in which they were done."""
 

@@ -1,8 +1,8 @@
 """The figures of a study: an output over one or two parameters, and its paths over each other."""
 from __future__ import annotations
 
-import os
-from typing import Any, Dict, List, NamedTuple, Sequence, Tuple
+import re
+from typing import Any, Dict, NamedTuple, Sequence, Tuple
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -11,10 +11,10 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import LogNorm, Normalize
 from matplotlib.figure import Figure
 
-from contact_path import path_curve, path_marks, path_quantities
+from contact_path import path_marks, path_quantities
 from contact_path.path import Path
-from contact_path.path_file import read_csv
-from contact_path.study_file import Parameter
+from contact_path.study_file import Parameter, Study
+from contact_path.study_table import numbers
 
 SIZE = 8.5, 5.6  # of the figure [inches]
 LEVELS = 12  # of a map
@@ -42,15 +42,10 @@ class Axis(NamedTuple):
 def axis(parameter: Parameter, column: Sequence[str]) -> Axis:
     """column (n,): the values, as written."""
     try:
-        return Axis(parameter.path, np.array([float(value) for value in column]), (), parameter.spacing == 'log')
+        return Axis(parameter.path, numbers(column), (), parameter.spacing == 'log')
     except ValueError:
         words = tuple(dict.fromkeys(column))
         return Axis(parameter.path, np.array([float(words.index(value)) for value in column]), words, False)
-
-
-def numbers(column: Sequence[str]) -> np.ndarray:
-    """(n,); nan where there is none. ValueError: a value is no number."""
-    return np.array([float(value) if value else np.nan for value in column])
 
 
 def output_column(table: Sequence[Sequence[str]], parameters: int, output: str) -> Tuple[str, np.ndarray]:
@@ -71,11 +66,20 @@ def output_column(table: Sequence[Sequence[str]], parameters: int, output: str) 
     return name, columns[name]
 
 
+def check(study: Study, output: str) -> None:
+    """ValueError: draw() cannot draw this output, whatever the traces give."""
+    if len(study.parameters) > 2:
+        raise ValueError('--plot: the study has %d parameters, a figure shows one or two' % len(study.parameters))
+    is_limit = 'limit_loads' in study.outputs and re.fullmatch('limit_[1-9][0-9]*', output)
+    known = [name for name in study.outputs if name != 'limit_loads']
+    if output and output not in known and not is_limit:
+        raise ValueError('--output %s: must be a column of the table: %s' % (
+            output, ', '.join((['limit_1, limit_2, ...'] if 'limit_loads' in study.outputs else []) + known)))
+
+
 def draw(parameters: Sequence[Parameter], table: Sequence[Sequence[str]], title: str, output: str = '') -> Figure:
     """An output over one parameter as a line, over two as a map with contours; over a word as lines. table: as study_table.lines has
     it; output: one of its columns, '': the first one of numbers. ValueError: what cannot be drawn."""
-    if len(parameters) > 2:
-        raise ValueError('--plot: the study has %d parameters, a figure shows one or two' % len(parameters))
     name, values = output_column(table, len(parameters), output)
     along = [axis(parameter, [line[place] for line in table[1:]]) for place, parameter in enumerate(parameters)]
     figure, axes = plt.subplots(figsize=SIZE, constrained_layout=True)
@@ -163,8 +167,7 @@ def draw_paths(parameter: Parameter, values: Sequence[str], paths: Sequence[Path
     by = axis(parameter, values)
     colour = colours(by)
     for path, place in zip(paths, by.places):
-        points = path_curve.line_through(path['arc_length'], path['kind'], np.column_stack((path.quantity(x), path.quantity(y))))
-        axes.plot(points[:, 0], points[:, 1], color=colour.to_rgba(place), linewidth=0.8)
+        axes.plot(*path_marks.line(path, *path_marks.points(path, x, y)).T, color=colour.to_rgba(place), linewidth=0.8)
     bar = figure.colorbar(colour, ax=axes, label=parameter.path)
     if by.words:
         bar.set_ticks(range(len(by.words)))
@@ -181,17 +184,3 @@ def colours(by: Axis) -> ScalarMappable:
     low, high = by.places.min(), by.places.max()
     norm: Any = (LogNorm if by.is_log else Normalize)(low, high)
     return ScalarMappable(norm, COLOURS)
-
-
-def save(figure: Figure, file: str) -> None:
-    """.png or .svg. OSError, ValueError."""
-    try:
-        figure.savefig(file, dpi=150, **({'metadata': {'Date': None}} if file.lower().endswith('.svg') else {}))
-    finally:
-        plt.close(figure)
-
-
-def kept(files: List[str]) -> List[Tuple[int, Path]]:
-    """The paths in the files that are there and have increments, with their places among the files."""
-    paths = [(place, read_csv(file)) for place, file in enumerate(files) if os.path.exists(file)]
-    return [(place, path) for place, path in paths if len(path)]

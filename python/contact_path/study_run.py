@@ -2,7 +2,6 @@
 from __future__ import annotations
 
 import contextlib
-import os
 import sys
 import time
 from typing import Callable, Dict, List, Sequence, Tuple
@@ -10,10 +9,10 @@ from typing import Callable, Dict, List, Sequence, Tuple
 from contact_path import study_cluster, study_points, study_table
 from contact_path.study_file import Study
 from contact_path.study_journal import Journal
+from contact_path.study_paths import KeptPaths
 from contact_path.study_points import Point
 from contact_path.study_server import Job, Server, ServerRefused
-
-FAILED = 'failed: '  # of statuses that tell of the machines, not of the scene: traced again by the next run
+from contact_path.study_worker import FAILED
 
 
 def read_job(study: Study) -> Tuple[Job, List[Point]]:
@@ -88,63 +87,47 @@ def in_words(seconds: float) -> str:
     ('7 s', '10 min', '2 h')
     """
     for unit, size in (('h', 3600.0), ('min', 60.0)):
-        if seconds >= 2.0 * size or seconds == size:
+        if seconds >= 2.0 * size:
             return '%d %s' % (round(seconds / size), unit)
     return '%d s' % round(seconds)
-
-
-def path_file(study: Study, number: int) -> str:
-    """The CSV of the path of a trace, by its number from 0. Its name has the number of its line in the table, from 1."""
-    return os.path.join(study.paths, '%06d.csv' % (number + 1))
-
-
-def keep_path(file: str, csv: bytes) -> None:
-    """csv: empty where there is no path."""
-    if csv:
-        with open(file, 'wb') as output:
-            output.write(csv)
-    else:
-        with contextlib.suppress(FileNotFoundError):  # of an earlier study
-            os.remove(file)
 
 
 def run(study: Study, *, scheduler: str = '', workers: int = 0, quiet: bool = False,
         say: Callable[[str], None] = print) -> List[List[str]]:
     """The table of the study, as study_table.lines has it, which is written, too.
 
-    scheduler: address; '': a cluster on this machine, with so many workers, 0: one for each processor. quiet: without progress. say:
-    takes remarks. As read_job; OSError; JournalBusy;
-    ClusterLost; KeyboardInterrupt. What is done is kept.
+    scheduler: address; '': a cluster on this machine, with so many workers, 0: one for each processor. quiet: without progress.
+    say: takes remarks. As read_job; OSError; JournalBusy; ClusterLost; KeyboardInterrupt. What is done is kept.
     """
     job, points = read_job(study)
-    journal = Journal(study.table + '.journal', [job, points, study.paths])
-    if journal.set_aside:
-        say('%s was of another scene or study: it is %s.old now' % (journal.file, journal.file))
-    try:
-        answers = dict(journal.done)
+    what = [job, points, study.paths]
+    with contextlib.ExitStack() as stack:
+        journal = stack.enter_context(contextlib.closing(Journal(study.table + '.journal', what)))
+        paths = stack.enter_context(contextlib.closing(KeptPaths(study.paths, what))) if study.paths else None
+        for one in [journal] + ([paths.journal] if paths else []):
+            if one.set_aside:
+                say('%s was of another scene or study: it is %s.old now' % (one.file, one.file))
+        there = paths.done() if paths else journal.done
+        answers = {number: answer for number, answer in journal.done.items() if number in there}
         wanted = [number for number in range(len(points)) if number not in answers]
         if wanted:
-            answers.update(trace(study, job, points, wanted, journal, scheduler, workers, quiet))
-    finally:
-        journal.close()
+            answers.update(trace(job, points, wanted, journal, paths, scheduler, workers,
+                                 Progress('traces', len(points), len(answers), not quiet and sys.stderr.isatty())))
     table = study_table.lines(job.parameters, job.outputs, points, [answers[number] for number in range(len(points))])
     study_table.write(study.table, table)
     return table
 
 
-def trace(study: Study, job: Job, points: Sequence[Point], wanted: Sequence[int], journal: Journal, scheduler: str,
-          workers: int, quiet: bool) -> Dict[int, str]:
+def trace(job: Job, points: Sequence[Point], wanted: Sequence[int], journal: Journal, paths: KeptPaths | None, scheduler: str,
+          workers: int, progress: Progress) -> Dict[int, str]:
     """The answers of the wanted points. All but failures are in the journal as soon as they are there."""
-    if study.paths:
-        os.makedirs(study.paths, exist_ok=True)
-    progress = Progress('traces', len(points), len(points) - len(wanted), not quiet and sys.stderr.isatty())
     answers: Dict[int, str] = {}
 
     def take(traced: List[Tuple[int, str, bytes]]) -> None:
-        for number, _, csv in traced if study.paths else ():
-            keep_path(path_file(study, number), csv)
-        answers.update((number, answer) for number, answer, _ in traced)
+        if paths:
+            paths.keep([(number, csv) for number, _, csv in traced])
         journal.add((number, answer) for number, answer, _ in traced if not answer.startswith(FAILED))
+        answers.update((number, answer) for number, answer, _ in traced)
         progress.add(len(traced))
 
     try:

@@ -5,7 +5,7 @@ import contextlib
 import os
 import subprocess
 import tempfile
-from typing import List, NamedTuple, Sequence, Tuple
+from typing import List, NamedTuple, Tuple
 
 from contact_path.errors import TraceFailed
 from contact_path.program_trace import find_program

@@ -6,6 +6,8 @@ import io
 import os
 from typing import List, Sequence
 
+import numpy as np
+
 from contact_path.study_points import Point
 
 
@@ -44,6 +46,11 @@ def lines(parameters: Sequence[str], outputs: Sequence[str], points: Sequence[Po
                 line.append(value)
         found.append(line)
     return found
+
+
+def numbers(column: Sequence[str]) -> np.ndarray:
+    """(n,) of a column of a table; nan where there is none. ValueError: a value is no number."""
+    return np.array([float(value) if value else np.nan for value in column])
 
 
 def write(file: str, table: Sequence[Sequence[str]]) -> None:

@@ -3,14 +3,17 @@ from __future__ import annotations
 
 import threading
 import time
-from typing import Dict, List, NamedTuple, Tuple
+from typing import Dict, List, NamedTuple, Set, Tuple
 
 from contact_path.study_server import Job, Server, ServerDied
 
+FAILED = 'failed: '  # of statuses that tell of the machines, not of the scene: traced again by the next run
 ATTEMPTS = 2  # at a trace whose server dies
 
 # Thread -> its server, and for what.
 _servers: Dict[int, Tuple[Job, Server]] = {}
+_ended: Set[str] = set()  # clients: a task of one of these that still runs starts no server
+_lock = threading.Lock()
 
 
 class Traced(NamedTuple):
@@ -26,17 +29,19 @@ def keep(scene: str, parameters: Tuple[str, ...], outputs: Tuple[str, ...], path
     return Job(scene, tuple(parameters), tuple(outputs), paths, version)
 
 
-def trace_points(job: Job, points: str) -> Traced:
-    """points: a line for each, with tabs between the values of the parameters. TraceFailed, ServerRefused: this machine has not the
-    program that it needs."""
+def trace_points(job: Job, client: str, points: str) -> Traced:
+    """client: the name of the one whose task this is. points: a line for each, with tabs between the values of the parameters.
+    TraceFailed, ServerRefused: this machine has not the program that it needs."""
     start = time.monotonic()
-    traced = [trace_point(job, point) for point in points.split('\n')]
+    traced = [trace_point(job, client, point) for point in points.split('\n')]
     return Traced([answer for answer, _ in traced], [csv for _, csv in traced], time.monotonic() - start)
 
 
-def trace_point(job: Job, point: str) -> Tuple[str, bytes]:
+def trace_point(job: Job, client: str, point: str) -> Tuple[str, bytes]:
     for _ in range(ATTEMPTS):
-        server = own_server(job)
+        server = own_server(job, client)
+        if server is None:
+            return failure('its study has ended', len(job.outputs)), b''
         try:
             return server.trace(point)
         except ServerDied:
@@ -48,18 +53,22 @@ def trace_point(job: Job, point: str) -> Tuple[str, bytes]:
 
 def failure(reason: str, outputs: int) -> str:
     """The answer of a trace that could not be made."""
-    return 'failed: ' + reason + '\t' * outputs
+    return FAILED + reason + '\t' * outputs
 
 
-def own_server(job: Job) -> Server:
-    """Of this thread."""
+def own_server(job: Job, client: str) -> Server | None:
+    """Of this thread. None: the client has ended."""
     thread = threading.get_ident()
     there = _servers.get(thread)
     if there and there[0] == job:
         return there[1]
     close()
-    _servers[thread] = job, Server.of_job(job)
-    return _servers[thread][1]
+    with _lock:
+        if client in _ended:
+            return None
+        server = Server.of_job(job)
+        _servers[thread] = job, server
+    return server
 
 
 def close() -> None:
@@ -69,7 +78,10 @@ def close() -> None:
         there[1].close()
 
 
-def close_all() -> None:
-    """Ends the servers of all threads of this process. A study that another client has under way here starts its own anew."""
-    while _servers:
-        _servers.popitem()[1][1].close()
+def close_all(client: str) -> None:
+    """Ends the servers of all threads of this process, when a client ends. A study that another client has under way here starts its
+    own anew."""
+    with _lock:
+        _ended.add(client)
+        while _servers:
+            _servers.popitem()[1][1].close()

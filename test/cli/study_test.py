@@ -8,6 +8,7 @@ import csv
 import math
 import os
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -133,16 +134,33 @@ class Tables(StudyTest):
         self.run_study('--workers', '2', '--table', self.path('other.csv'))
         self.assertEqual(read(self.path('other.csv')), once)
 
-        port = self.path('scheduler.json')
-        self.start(PYTHON, '-m', 'distributed.cli.dask_scheduler', '--port', '0', '--no-dashboard', '--scheduler-file', port)
-        self.wait_for(lambda: os.path.exists(port))
-        address = re.search(r'"address": "(.*?)"', read(port).decode()).group(1)
-        environment = os.path.join(os.environ['CONTACT_PATH_ROOT'], 'scripts', 'python')
-        workers = [self.start(environment, '-m', 'distributed.cli.dask_worker', address, '--nthreads', '1', '--no-dashboard',
-                              '--local-directory', self.directory) for _ in range(3)]
+        address, workers = self.start_cluster(3)
         self.run_study('--scheduler', address, '--table', self.path('third.csv'))
         self.assertEqual(read(self.path('third.csv')), once)
-        # No server stays behind with the workers.
+        self.expect_no_servers(workers)
+
+    def test_an_interrupted_study_leaves_no_server_in_a_cluster(self):
+        address, workers = self.start_cluster(1)
+        study = subprocess.Popen([STUDY, self.write(SLOW), '--scheduler', address, '--quiet'], stderr=subprocess.DEVNULL,
+                                 preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler))
+        self.addCleanup(study.wait)
+        self.addCleanup(study.kill)
+        self.wait_for(lambda: self.journal().count(b'\n') > 2)
+        study.send_signal(signal.SIGINT)
+        self.assertEqual(study.wait(60), 1)
+        self.expect_no_servers(workers)
+
+    def start_cluster(self, count):
+        """Its address, and its workers."""
+        file = self.path('scheduler.json')
+        self.start(PYTHON, '-m', 'distributed.cli.dask_scheduler', '--port', '0', '--no-dashboard', '--scheduler-file', file)
+        self.wait_for(lambda: os.path.exists(file))
+        address = re.search(r'"address": "(.*?)"', read(file).decode()).group(1)
+        environment = os.path.join(os.environ['CONTACT_PATH_ROOT'], 'scripts', 'python')
+        return address, [self.start(environment, '-m', 'distributed.cli.dask_worker', address, '--nthreads', '1', '--no-dashboard',
+                                    '--local-directory', self.directory) for _ in range(count)]
+
+    def expect_no_servers(self, workers):
         for worker in workers:
             self.assertFalse([command for _, command in processes_below(worker.pid) if 'study_server' in command])
 
@@ -272,6 +290,29 @@ class GoingOn(StudyTest):
         study.kill()
 
 
+    def test_paths_of_another_study_or_lost_ones_are_traced_again(self):
+        text = re.sub(r'- \{path: nodes.*\n', '', DESCRIPTION) + 'paths: kept\n'
+        kept = [self.path('kept/%06d.csv' % number) for number in (1, 2, 3)]
+        self.run_study(description=text)
+        table, paths = read(self.path('table.csv')), [read(file) for file in kept]
+        self.run_study('--table', self.path('b.csv'), description=text.replace('0.9', '0.95'))
+        self.assertNotEqual(read(kept[0]), paths[0])
+        for lose in (lambda: None, lambda: os.remove(kept[1]), lambda: shutil.rmtree(self.path('kept'))):
+            lose()
+            self.run_study(description=text)
+            self.assertEqual([re.sub(rb',[^,]*\n', b'\n', read(file)) for file in kept],
+                             [re.sub(rb',[^,]*\n', b'\n', path) for path in paths])  # but for the time that it took
+            self.assertEqual(read(self.path('table.csv')), table)
+
+    def test_two_tables_at_a_time_with_the_same_paths(self):
+        text = SLOW + 'paths: kept\n'
+        study = self.start(STUDY, self.write(text))
+        self.wait_for(lambda: os.path.exists(self.path('kept/000001.csv')))
+        self.assertIn('another run of the study is under way',
+                      self.run_study('--table', self.path('b.csv'), description=text, status=1))
+        study.kill()
+
+
 class Figures(StudyTest):
 
     def expect_figure(self, name):
@@ -283,7 +324,7 @@ class Figures(StudyTest):
                        '--x', 'apex.y', description=text)
         self.expect_figure('map.png')
         self.expect_figure('paths.png')
-        self.assertEqual(sorted(os.listdir(self.path('kept'))), ['%06d.csv' % number for number in range(1, 7)])
+        self.assertEqual(sorted(os.listdir(self.path('kept'))), ['%06d.csv' % number for number in range(1, 7)] + ['journal'])
         first = read(self.path('kept/000001.csv')).decode().splitlines()
         self.assertTrue(first[0].startswith('index,load_factor,arc_length,kind,x_left'))
         self.assertGreater(len(first), 10)
@@ -364,6 +405,19 @@ class BadInput(StudyTest):
         scene = read(program_test.scene_file('rough_truss')).decode().replace('EA: 1.0', 'EA: -1.0', 1)
         self.write(scene, 'wrong.yaml')
         self.expect(r'wrong\.yaml:\d+: scene\.bars\[0\]\.EA = -1: must be > 0', program_test.scene_file('rough_truss'), 'wrong.yaml')
+
+    def test_options(self):
+        three = DESCRIPTION.replace('outputs:', '- {path: options.step, values: [0.1]}\noutputs:')
+        for rule, description, *arguments in (
+                ('--plot: the study has 3 parameters, a figure shows one or two', three, '--plot', 'a.png'),
+                ('--output nothing: must be a column of the table: limit_1, limit_2, ..., events, ', DESCRIPTION, '--plot', 'a.png',
+                 '--output', 'nothing'),
+                ('--output: for --plot', DESCRIPTION, '--output', 'events'), ('--x: for --paths', DESCRIPTION, '--x', 'apex.y'),
+                ('--y: for --paths', DESCRIPTION, '--y', 'apex.y'), ('--workers 0: must be 1 or more', DESCRIPTION, '--workers', '0'),
+                ('--workers: not with --scheduler', DESCRIPTION, '--workers', '2', '--scheduler', 'tcp://127.0.0.1:9')):
+            with self.subTest(rule):
+                self.assertIn(rule, self.run_study(*arguments, description=description, status=2))
+                self.assertEqual(self.journal(), b'')
 
     def test_scheduler_that_is_not_there(self):
         self.assertIn('no scheduler at tcp://127.0.0.1:9', self.run_study('--scheduler', 'tcp://127.0.0.1:9', status=1))

@@ -8,6 +8,8 @@ import os
 import sys
 import unittest
 
+import numpy as np
+
 import browser
 from program_test import ProgramTest, run, scene_file
 
@@ -15,7 +17,7 @@ ROOT = os.environ['CONTACT_PATH_ROOT']
 PLOT = os.path.join(ROOT, 'scripts', 'plot')
 sys.path.insert(0, os.path.join(ROOT, 'python'))
 import contact_path as cp  # noqa: E402
-from contact_path import page_study  # noqa: E402
+from contact_path import path_file, study_server  # noqa: E402
 
 FRICTIONS, HEIGHTS = ('1.0', '1.2', '1.4'), ('1.2', '1.3')
 STUDY = '''scene: %s
@@ -42,7 +44,7 @@ class PageOfStudy(ProgramTest):
         self.traced = []
         for friction in FRICTIONS:
             for height in HEIGHTS:
-                path = cp.trace(page_study.with_values(base, {'obstacles.floor.friction': friction, 'nodes.apex.y': height}))
+                path = cp.trace(base.with_values({'obstacles.floor.friction': friction, 'nodes.apex.y': height}))
                 self.traced.append(path)
                 table.append([friction, height, 'complete', repr(path.limit_points[0]['load_factor']), path.end_reason])
                 if len(self.traced) - 1 != MISSING:
@@ -57,14 +59,6 @@ class PageOfStudy(ProgramTest):
             writer.writerow(path.columns)
             writer.writerows(zip(*(path[name].tolist() for name in path.columns)))
 
-    def test_fields_are_changed_by_their_paths(self):
-        scene = cp.Scene.read(scene_file('rough_truss'))
-        changed = page_study.with_values(scene, {'nodes.apex.y': '1.5', 'bars.1.EA': '2', 'options.step': '0.25'})
-        self.assertEqual([node['y'] for node in changed.request['scene']['nodes'] if node['name'] == 'apex'], [1.5])
-        self.assertEqual(changed.request['scene']['bars'][1]['EA'], 2)
-        self.assertEqual(changed.request['options']['step'], 0.25)
-        self.assertNotEqual(scene.request['scene']['bars'][1]['EA'], 2)
-
     def test_what_cannot_be_drawn_is_one_line(self):
         with open(self.path('bare.yaml'), 'w') as file:
             file.write(STUDY.replace('paths: kept\n', ''))
@@ -75,14 +69,52 @@ class PageOfStudy(ProgramTest):
             self.assertEqual(drawn.stderr.count('\n'), 1, drawn.stderr)
             self.assertIn(words, drawn.stderr)
 
+    def test_the_table_of_another_study_is_refused(self):
+        with open(self.path('study.yaml'), 'w') as file:
+            file.write(STUDY.replace('nodes.apex.y', 'nodes.apex.x'))
+        drawn = run(PLOT, self.path('study.yaml'), '--html', self.path('a.html'))
+        self.assertEqual(drawn.stderr, 'plot: %s is not the table of this study: trace it again\n' % self.path('study.csv'))
+
+    def test_paths_of_another_run_are_refused(self):
+        for file, line in ('study.csv.journal', 'contact_path study 1'), ('kept/journal', 'contact_path study 2'):
+            with open(self.path(file), 'w') as journal:
+                journal.write(line + '\n')
+        drawn = run(PLOT, self.path('study.yaml'), '--html', self.path('a.html'))
+        self.assertIn('are of another run than the table: trace it again', drawn.stderr)
+
+    def test_values_are_those_of_the_traces(self):
+        fields = {'gripper': {'nodes.l.x': '-1.04', 'nodes.4.x': '2.9', 'bars.7.EA': '90', 'obstacles.left_face.friction': '.6',
+                              'program.close.target': '0.12', 'program.1.obstacle_motions.0.dy': '1.1', 'nodes.l3.fixed_y': 'Yes',
+                              'options.accuracy': 'fast', 'options.max_increments': '30'},
+                  'cam': {'obstacles.cam.points.3': '-0.25', 'superelements.0.stiffness.0': '0.2', 'loads.0.constant': 'on',
+                          'options.max_increments': '50'},
+                  'peg': {'options.stop.0.value': '-5', 'options.step': '5e-2', 'options.max_increments': '40', 'name': 'no'}}
+        for name, values in fields.items():
+            own = cp.trace(cp.Scene.read(scene_file(name)).with_values(values))
+            job = study_server.Job('', tuple(values), ('events',), True, '')
+            server = study_server.Server(scene_file(name), job)
+            self.addCleanup(server.close)
+            self.assertEqual([server.rule(i, value) for i, value in enumerate(values.values())], [''] * len(values))
+            answer, text = server.trace('\t'.join(values.values()))
+            traced = path_file.table_of(text.decode())
+            self.assertEqual(list(traced), own.columns, answer)
+            for column in own.columns:
+                if column != 'solve_time':
+                    np.testing.assert_array_equal(own[column], traced[column], column)
+
+    @unittest.skipIf(browser.programs() is None, 'no chromium and chromedriver')
+    def test_words_of_truth(self):
+        with open(self.path('study.yaml'), 'w') as file:
+            file.write(STUDY.replace('nodes.apex.y', 'nodes.left.fixed_x').replace('1.2, 1.3', 'yes, Yes'))
+        with open(self.path('study.csv')) as file:
+            text = file.read()
+        with open(self.path('study.csv'), 'w') as file:
+            file.write(text.replace('nodes.apex.y', 'nodes.left.fixed_x').replace(',1.2,', ',yes,').replace(',1.3,', ',Yes,'))
+        self.assertEqual(self.opened().complaints(), [])
+
     @unittest.skipIf(browser.programs() is None, 'no chromium and chromedriver')
     def test_points_open_their_paths(self):
-        drawn = run(PLOT, self.path('study.yaml'), '--html', self.path('a.html'), '--x', 'apex.y')
-        self.assertEqual((drawn.returncode, drawn.stdout), (0, self.path('a.html') + '\n'), drawn.stderr)
-        chromium = browser.Browser()
-        self.addCleanup(chromium.close)
-        chromium.open(self.path('a.html'))
-        chromium.run('await page.ready;')
+        chromium = self.opened()
         for line in len(self.traced) - 1, MISSING, 1:
             before = self.shown(chromium)
             chromium.point_at(*chromium.run('''const div = document.getElementById('map'), box = div.getBoundingClientRect();
@@ -103,6 +135,55 @@ class PageOfStudy(ProgramTest):
             self.assertEqual(mark, [self.traced[line]['y_apex'][-1], self.traced[line]['load_factor'][-1]])
             self.assertAlmostEqual(apex, self.traced[line]['y_apex'][-1], delta=1e-3)
         self.assertEqual(chromium.complaints(), [])
+
+    @unittest.skipIf(browser.programs() is None, 'no chromium and chromedriver')
+    def test_the_later_choice_is_shown_though_its_path_is_unpacked_first(self):
+        chromium = self.opened()
+        chromium.run('''const real = Response.prototype.arrayBuffer;
+            let first = true;
+            Response.prototype.arrayBuffer = async function () {
+              if (first) {
+                first = false;
+                await new Promise((resolve) => setTimeout(resolve, 500));
+              }
+              return real.call(this);
+            };
+            await Promise.all([page.choose(1, 0), page.choose(2, 0)]);''')
+        title, mark, _ = self.shown(chromium)
+        self.assertTrue(title.startswith('3: '), title)
+        self.assertEqual(mark, [self.traced[2]['y_apex'][0], self.traced[2]['load_factor'][0]])
+        self.assertEqual(chromium.run("return document.getElementById('curves').data[0].name;"), title)
+        self.assertEqual(chromium.complaints(), [])
+
+    @unittest.skipIf(browser.programs() is None, 'no chromium and chromedriver')
+    def test_a_study_of_words_alone(self):
+        study = '''scene: %s
+parameters: [{path: options.friction_law, values: [incremental, total]}]
+outputs: [end_reason, limit_loads]
+table: study.csv
+paths: kept
+''' % scene_file('stick_slip_cycle')
+        with open(self.path('study.yaml'), 'w') as file:
+            file.write(study)
+        with open(self.path('study.csv'), 'w') as file:
+            file.write('options.friction_law,status,end_reason\nincremental,complete,stop_criterion\ntotal,complete,stop_criterion\n')
+        for number in 1, 2:
+            self.keep(cp.trace(scene_file('stick_slip_cycle')), self.path('kept/%06d.csv' % number))
+        chromium = self.opened('b.x')
+        drawn = chromium.run('''const [{x, y}] = document.getElementById('map').data;
+            return [x, y, document.getElementById('coloured').hidden];''')
+        self.assertEqual(drawn, [['incremental', 'total'], ['complete', 'complete'], True])
+        self.assertEqual(chromium.complaints(), [])
+
+    def opened(self, x='apex.y'):
+        """The page of the study in a browser."""
+        drawn = run(PLOT, self.path('study.yaml'), '--html', self.path('a.html'), '--x', x)
+        self.assertEqual((drawn.returncode, drawn.stdout), (0, self.path('a.html') + '\n'), drawn.stderr)
+        chromium = browser.Browser()
+        self.addCleanup(chromium.close)
+        chromium.open(self.path('a.html'))
+        chromium.run('await page.ready;')
+        return chromium
 
     def shown(self, chromium):
         """The path, the place of the mark on its curve, and the height of the apex in the structure."""

@@ -140,6 +140,14 @@ program:
 ''')
         self.assertEqual(self.read_back(made), made)
 
+    def test_words_of_truth_and_infinity(self):
+        for word, value in ('yes', True), ('On', True), ('TRUE', True), ('1', True), ('no', False), ('Off', False), ('tRue', 'tRue'):
+            with open(self.path('made.yaml'), 'w') as file:
+                file.write('scene: {nodes: [{name: a, fixed_x: %s, x: -.inf}]}' % word)
+            self.assertEqual(Scene.read(self.path('made.yaml')).request['scene']['nodes'],
+                             [{'name': 'a', 'fixed_x': value, 'x': -np.inf}])
+        self.assertEqual(self.read_back(Scene.read(self.path('made.yaml'))).request['scene']['nodes'][0]['x'], -np.inf)
+
     def test_a_copy_is_one_of_its_own(self):
         made = Scene('one')
         made.node('a')

@@ -187,6 +187,7 @@
 
   function clickedCurve({points: [point]}) {
     if (point.data.meta) {
+      stop();
       choose(data.curves ? point.data.meta.path : number, point.pointNumber);
     }
   }
@@ -208,10 +209,11 @@
       [`line ${i + 1}`, ...columns.map(({label, values}) => `${label}: ${values[i] ?? ''}`)].join('<br>'));
     const symbols = study.paths.map((path) => path === null ? 'x-thin-open' : 'circle'); // a line without path, one with it
     const point = {type: 'scatter', mode: 'markers', showlegend: false};
+    const coloured = colour ? {color: colour.values.map((value) => value ?? NaN), colorscale: 'Viridis',
+      colorbar: {title: {text: colour.label, side: 'right'}, thickness: 12}} : {color: '#1f77b4'};
     return Plotly.react('map', [
       {...point, x: across.values, y: up.values, text: lines, hovertemplate: '%{text}<extra></extra>',
-        marker: {size: 12, symbol: symbols, color: colour.values.map((value) => value ?? NaN), colorscale: 'Viridis',
-          colorbar: {title: {text: colour.label, side: 'right'}, thickness: 12}}},
+        marker: {size: 12, symbol: symbols, ...coloured}},
       {...point, x: [across.values[chosen]], y: [up.values[chosen]], hoverinfo: 'skip',
         marker: {size: 18, color: 'rgba(0,0,0,0)', line: {color: 'red', width: 2.5}}},
     ], {xaxis: axis(across), yaxis: axis(up), margin: {l: 60, r: 10, t: 32, b: 50}, hovermode: 'closest'}, CONFIG);
@@ -224,6 +226,7 @@
       element(id).append(...usable.map((i) => new Option(study.columns[i].label, i, i === start, i === start)));
       element(id).addEventListener('change', drawMap);
     }
+    element('coloured').hidden = !element('colour').options.length; // without a column of numbers
     await drawMap();
     element('map').on('plotly_click', ({points: [point]}) => {
       const path = study.paths[point.pointNumber];
@@ -307,12 +310,15 @@
   function update() {
     again = true;
     pending = pending || (async () => {
-      while (again) {
-        again = false;
-        await new Promise(requestAnimationFrame);
-        await show();
+      try {
+        while (again) {
+          again = false;
+          await new Promise(requestAnimationFrame);
+          await show();
+        }
+      } finally {
+        pending = null;
       }
-      pending = null;
     })();
     return pending;
   }
@@ -325,23 +331,24 @@
     return own;
   }
 
+  let choices = 0; // counts choices: a path that is unpacked after a later choice is not shown
+
   async function choose(path, at) {
-    const own = await load(path);
+    const mine = ++choices, own = await load(path);
     if (own.structure && !own.unpacked) {
       own.unpacked = await unpackStructure(own.structure, own.steps);
     }
-    if (own.curves && (path !== number || !own.points)) {
-      await drawCurves(own.curves, [own]);
+    if (mine !== choices) {
+      return undefined;
     }
+    const redraws = own.curves && (path !== number || !own.points);
     number = path;
     step = at;
     element('path').value = path;
     element('slider').max = own.steps - 1;
-    if (data.study) {
-      await drawMap();
-    }
     element('structure').style.visibility = own.structure ? 'visible' : 'hidden';
     remarks(own);
+    await Promise.all([redraws && drawCurves(own.curves, [own]), data.study && drawMap()]);
     return update();
   }
 
