@@ -154,8 +154,9 @@ class Tables(StudyTest):
         """Its address, and its workers."""
         file = self.path('scheduler.json')
         self.start(PYTHON, '-m', 'distributed.cli.dask_scheduler', '--port', '0', '--no-dashboard', '--scheduler-file', file)
-        self.wait_for(lambda: os.path.exists(file))
-        address = re.search(r'"address": "(.*?)"', read(file).decode()).group(1)
+        address_in = re.compile('"address": "(.*?)"')  # the file is there before what is in it
+        self.wait_for(lambda: os.path.exists(file) and address_in.search(read(file).decode()))
+        address = address_in.search(read(file).decode()).group(1)
         environment = os.path.join(os.environ['CONTACT_PATH_ROOT'], 'scripts', 'python')
         return address, [self.start(environment, '-m', 'distributed.cli.dask_worker', address, '--nthreads', '1', '--no-dashboard',
                                     '--local-directory', self.directory) for _ in range(count)]
