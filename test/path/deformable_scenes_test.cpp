@@ -7,47 +7,22 @@
 #include <utility>
 #include <vector>
 
-#include "contact_path/scene/expand.h"
-#include "contact_path/verify/verify_path.h"
 #include "support/traced_path.h"
 
 namespace contact_path {
 namespace {
 
-constexpr double kResidual = 1e-10;  // of stiff beams; of the others 1e-14
-
-TracedPath TraceProved(const TraceRequest& request) {
-  TracedPath path = TraceIncrements(request);
-  EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
-  for (const Finding& finding : VerifyPath(path.request, path.increments).findings)
-    ADD_FAILURE() << "increment " << finding.increment << ": " << finding.what;
-  for (const Increment& increment : path.increments) EXPECT_LE(increment.residuals.Largest(), kResidual);
-  path.request = Expand(request).request;
-  return path;
-}
-
-// Stage and load factor of each event.
-std::vector<std::pair<int, double>> EventsOf(const TracedPath& path) {
-  std::vector<std::pair<int, double>> events;
-  for (const Increment& increment : path.increments)
-    if (increment.event.number > 0) events.emplace_back(increment.stage, increment.load_factor);
-  return events;
-}
+constexpr double kResidual = 1e-13, kOfBeams = 1e-10;  // the largest one of an increment; of stiff beams
 
 // A path of many snaps.
 TEST(RingOnRing, HasTheSameEventsWithOtherSteps) {
   TraceRequest request = ReadExample("ring_on_ring");
   request.options.accuracy = Accuracy::kFast;
-  const std::vector<std::pair<int, double>> expected = EventsOf(TraceProved(request));
-  EXPECT_GT(expected.size(), 5u);
+  const TracedPath path = TraceProved(request, kOfBeams);
+  EXPECT_GT(IncrementsOfKind(path, IncrementKind::kCornerLimit).size(), 5u);
   for (const Accuracy accuracy : {Accuracy::kBalanced, Accuracy::kAccurate}) {
     request.options.accuracy = accuracy;
-    const std::vector<std::pair<int, double>> events = EventsOf(TraceProved(request));
-    ASSERT_EQ(events.size(), expected.size());
-    for (std::size_t i = 0; i < events.size(); ++i) {
-      EXPECT_EQ(events[i].first, expected[i].first);
-      EXPECT_NEAR(events[i].second, expected[i].second, 1e-8);
-    }
+    ExpectSameEvents(path, TraceProved(request, kOfBeams), 1e-8);
   }
 }
 
@@ -94,9 +69,9 @@ TEST(FixedSurface, WithoutFrictionIsTheSameByTheTotalLaw) {
   TraceRequest request = FootOn(true);
   request.scene.contacts[0].friction = 0.0;
   request.program[1].loads[0].fx = 0.5;
-  const TracedPath expected = TraceProved(request);
+  const TracedPath expected = TraceProved(request, kResidual);
   request.options.friction_law = FrictionLaw::kTotal;
-  const TracedPath path = TraceProved(request);
+  const TracedPath path = TraceProved(request, kResidual);
   EXPECT_EQ(path.increments.back().positions, expected.increments.back().positions);
 }
 
@@ -114,7 +89,7 @@ TEST(Plank, CarriesANodeByItsShapeFunctions) {
   press.loads = {{"n", 0.0, -1.0}};
   push.loads = {{"n", 0.6, 0.0}};
   request.program = {press, push};
-  const TracedPath path = TraceProved(request);
+  const TracedPath path = TraceProved(request, kResidual);
   const Increment& end = path.increments.back();
   const double x = PositionX(path, end, "n"), a = PositionY(path, end, "a"), b = PositionY(path, end, "b");
   // The reaction turns with the plank: along y it is the load, along x slope times that.

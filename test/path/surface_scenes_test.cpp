@@ -2,6 +2,8 @@
 // settings.
 #include <gtest/gtest.h>
 
+#include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -9,41 +11,14 @@
 #include <vector>
 
 #include "contact_path/check/residuals.h"
-#include "contact_path/scene/expand.h"
 #include "contact_path/scene/program.h"
-#include "contact_path/verify/verify_path.h"
+#include "support/solid_grid.h"
 #include "support/traced_path.h"
 
 namespace contact_path {
 namespace {
 
 const double kPi = std::acos(-1.0);
-
-// The request of the path has the nodes and contacts of beams and groups by name.
-TracedPath TraceProved(const TraceRequest& request) {
-  TracedPath path = TraceIncrements(request);
-  EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
-  for (const Finding& finding : VerifyPath(path.request, path.increments).findings)
-    ADD_FAILURE() << "increment " << finding.increment << ": " << finding.what;
-  path.request = Expand(request).request;
-  return path;
-}
-
-double SumOfNormals(const Increment& increment) {
-  double sum = 0.0;
-  for (const ContactRecord& contact : increment.contacts) sum += contact.rn;
-  return sum;
-}
-
-// The events and limit points with their load factors.
-void ExpectSameEvents(const TracedPath& actual, const TracedPath& expected, double tolerance) {
-  for (const IncrementKind kind :
-       {IncrementKind::kContactEvent, IncrementKind::kCornerLimit, IncrementKind::kSmoothLimit}) {
-    const std::vector<Increment> a = IncrementsOfKind(actual, kind), b = IncrementsOfKind(expected, kind);
-    ASSERT_EQ(a.size(), b.size());
-    for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i].load_factor, b[i].load_factor, tolerance);
-  }
-}
 
 // Forces and moment about the origin of the supports of a block, whose names begin with a letter.
 std::array<double, 3> SupportForces(const TracedPath& path, const Increment& increment, char block) {
