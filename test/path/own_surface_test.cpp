@@ -82,6 +82,8 @@ TEST(OwnSurface, ASlitThatIsClosedIsAsStiffAsNone) {
     const auto closed = std::find_if(path.increments.begin(), path.increments.end(), is_closed);
     ASSERT_NE(closed, path.increments.end());
     ASSERT_LT(closed->load_factor, 0.5);
+    for (const ContactRecord& contact : path.increments.back().contacts)
+      EXPECT_TRUE(contact.state == ContactState::kOpen || contact.state == ContactState::kStick);
     errors.push_back(std::abs(Stiffness(path, *closed, path.increments.back()) / expected - 1.0));
   }
   EXPECT_LT(errors[0], 0.08);
