@@ -85,7 +85,7 @@ def main():
     options = parser.parse_args()
     print('  ribs  friction  segments    grip    hold  way      balance')
     table = {(ribs, friction): line(ribs, friction, finer=2) for ribs in RIBS for friction in FRICTIONS}
-    for finer in 1, 4:
+    for finer in 1, 4, 8:
         line(1000.0, 0.8, finer)
     if options.plot:
         plot(table, options.plot)

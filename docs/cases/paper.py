@@ -1,6 +1,6 @@
 """The two examples of Kanno & Martins (2005), over friction and by both methods.
 
-Prints three tables; --plot FILE draws the paths.
+Prints two tables and whether the arch stays symmetric; --plot FILE draws the paths.
 """
 import argparse
 from math import asinh, hypot, sqrt

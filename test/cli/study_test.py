@@ -190,7 +190,18 @@ table: table.csv
         lines = self.table()
         self.assertRegex(lines[0]['status'], r'^invalid: outputs\[0\] = final\.x_column/7: must be of a node of the scene')
         self.assertEqual((lines[0]['final.x_column/7'], lines[1]['status']), ('', 'complete'))
-        self.assertAlmostEqual(float(lines[1]['final.x_column/7']), 0.0, delta=5.0)
+        self.assertAlmostEqual(float(lines[1]['final.x_column/7']), self.traced_end('x_column/7'), delta=1e-12)
+
+    def traced_end(self, column):
+        """Of the last increment of the same variant, by contact_path_trace."""
+        with open(program_test.scene_file('lee_frame')) as stream:
+            scene = re.sub(r'(name: column.*segments:) \d+', r'\1 10', stream.read())
+        with open(self.path('variant.yaml'), 'w') as stream:
+            stream.write(re.sub(r'max_increments: \d+', 'max_increments: 5', scene))
+        trace = os.path.join(os.environ['CONTACT_PATH_PROGRAMS'], 'contact_path_trace')
+        program_test.run(trace, self.path('variant.yaml'), '--csv', self.path('variant.csv'))
+        with open(self.path('variant.csv')) as stream:
+            return float(list(csv.DictReader(stream))[-1][column])
 
     def test_latin_hypercube(self):
         self.run_study(description="""

@@ -20,6 +20,22 @@ namespace {
 constexpr double kRounding = 1e-13;
 constexpr double kRn = 0.7, kRt = -0.4;
 
+// The reactions of a contact on all dofs, which are x and y of nodes in turn: the sum of the forces, and of their
+// moments about the origin.
+void ExpectBalance(const Kinematics& at, const Eigen::VectorXd& u) {
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(u.size());
+  at.AddForce(at.gap_gradient, kRn, &force);
+  at.AddForce(at.xi_gradient, kRt * at.slip_factor, &force);
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  double moment = 0.0;
+  for (Eigen::Index k = 0; k < force.size(); k += 2) {
+    sum += force.segment<2>(k);
+    moment += u[k] * force[k + 1] - u[k + 1] * force[k];
+  }
+  EXPECT_LE(sum.norm(), kRounding);
+  EXPECT_NEAR(moment, 0.0, kRounding);
+}
+
 class DeformablePairs : public testing::Test {
  protected:
   struct Case {
@@ -131,22 +147,11 @@ TEST_F(DeformablePairs, SlipFactorAlongACurveMeetsDifferences) {
   }
 }
 
-// The sum of the forces, and of their moments about the origin.
 TEST_F(DeformablePairs, ForcesAndMomentsBalance) {
   for (const Case& of : cases_) {
     if (of.contact.u.size() != 12) continue;  // some are held
-    const Kinematics at = At(of, of.contact.u);
-    Eigen::VectorXd force = Eigen::VectorXd::Zero(of.contact.u.size());
-    at.AddForce(at.gap_gradient, kRn, &force);
-    at.AddForce(at.xi_gradient, kRt * at.slip_factor, &force);
-    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-    double moment = 0.0;
-    for (Eigen::Index k = 0; k < force.size(); k += 2) {
-      sum += force.segment<2>(k);
-      moment += of.contact.u[k] * force[k + 1] - of.contact.u[k + 1] * force[k];
-    }
-    EXPECT_LE(sum.norm(), kRounding) << of.name;
-    EXPECT_NEAR(moment, 0.0, kRounding) << of.name;
+    SCOPED_TRACE(of.name);
+    ExpectBalance(At(of, of.contact.u), of.contact.u);
   }
 }
 
@@ -438,17 +443,7 @@ TEST(DeformablePairOfItsOwnBoundary, HasForcesThatBalance) {
     gradients(1, at.dofs[k]) = at.xi_gradient[static_cast<Eigen::Index>(k)];
   }
   EXPECT_TRUE(IsJacobian(values, u, gradients, kDerivativeTolerance, 1e-3));
-  Eigen::VectorXd force = Eigen::VectorXd::Zero(u.size());
-  at.AddForce(at.gap_gradient, kRn, &force);
-  at.AddForce(at.xi_gradient, kRt * at.slip_factor, &force);
-  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-  double moment = 0.0;
-  for (Eigen::Index k = 0; k < force.size(); k += 2) {
-    sum += force.segment<2>(k);
-    moment += u[k] * force[k + 1] - u[k + 1] * force[k];
-  }
-  EXPECT_LE(sum.norm(), kRounding);
-  EXPECT_NEAR(moment, 0.0, kRounding);
+  ExpectBalance(at, u);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "extremes/extreme_case.h"
+#include "support/plank.h"
 #include "support/solid_grid.h"
 
 namespace contact_path {
@@ -20,15 +21,15 @@ constexpr double kFriction = 0.3;
 // over patches of which one is that much longer than the next do not come to their joint.
 constexpr double kFarthest = 1e8, kLargestRadius = 1e5, kLeastRoom = 1e-5, kMostUneven = 1e3;
 
-// A chain of bars of EA, whose nodes are held along x, and where it is fixed, along y, too.
-void AddSurface(const std::vector<Eigen::Vector2d>& places, double EA, bool fixed, double radius, Scene* scene) {
+// Of fixed nodes, which bars join.
+void AddSurface(const std::vector<Eigen::Vector2d>& places, double radius, Scene* scene) {
   BoundarySurface surface;
   surface.name = "surface";
   surface.radius = radius;
   for (const Eigen::Vector2d& place : places) {
     surface.nodes.push_back("g" + std::to_string(surface.nodes.size()));
-    scene->nodes.push_back({surface.nodes.back(), place.x(), place.y(), true, fixed});
-    if (surface.nodes.size() > 1) scene->bars.push_back({{surface.nodes.end()[-2], surface.nodes.back()}, EA});
+    scene->nodes.push_back({surface.nodes.back(), place.x(), place.y(), true, true});
+    if (surface.nodes.size() > 1) scene->bars.push_back({{surface.nodes.end()[-2], surface.nodes.back()}, 1.0});
   }
   scene->surfaces.push_back(std::move(surface));
 }
@@ -55,7 +56,7 @@ struct PressedNode {
     scene.loads = {{"p", 1.0, 0.0, false}, {"p", 0.0, -1.0, true}};
     std::vector<Eigen::Vector2d> places = {{-0.3, 0.0}};
     for (const double edge : edges) places.emplace_back(places.back() + Eigen::Vector2d(edge, 0.0));
-    AddSurface(places, 1.0, true, radius, &scene);
+    AddSurface(places, radius, &scene);
     scene.contacts = {Touching("p", friction)};
     ExtremeCase extreme;
     extreme.group = "surface, " + group;
@@ -79,7 +80,7 @@ ExtremeCase InValley(double room) {
   scene.nodes = {{"p", 0.0, bottom, false, false}};
   scene.superelements = {{{"p"}, {1.0, 0.0, 0.0, 1.0}}};
   scene.loads = {{"p", 1.0, 0.0, false}, {"p", 0.0, -1.0, true}};
-  AddSurface({{-1.0, 0.5}, {0.0, 0.0}, {1.0, 0.5}}, 1.0, true, radius, &scene);
+  AddSurface({{-1.0, 0.5}, {0.0, 0.0}, {1.0, 0.5}}, radius, &scene);
   scene.contacts = {Touching("p", kFriction)};
   ExtremeCase extreme;
   extreme.group = "surface, radius below that of its bend";
@@ -106,37 +107,15 @@ ExtremeCase InValley(double room) {
 
 // ----- a plank on springs -----
 
-// 1 stands on a plank of length 1 between two nodes on vertical springs, 0.2 from its left end, and is pushed along it
-// against a spring. Lengths are counted from the left end.
-struct Plank {
-  double springs = 10.0, EA = 1.0, spring = 1.0, push = 0.6;
-  double from_origin = 0.0;  // of both coordinates
-
-  ExtremeCase Case(const std::string& group, const std::string& value) const {
-    Scene scene;
-    scene.nodes = {{"p", from_origin + 0.2, from_origin, false, false}};
-    AddSurface({{from_origin, from_origin}, {from_origin + 1.0, from_origin}}, EA, false, 0.0, &scene);
-    scene.superelements = {
-        {{"g0"}, {1.0, 0.0, 0.0, springs}}, {{"g1"}, {1.0, 0.0, 0.0, springs}}, {{"p"}, {spring, 0.0, 0.0, 0.0}}};
-    scene.loads = {{"p", push, 0.0, false}, {"p", 0.0, -1.0, true}};
-    scene.contacts = {Touching("p", 0.0)};
-    ExtremeCase extreme;
-    extreme.group = "surface, " + group;
-    extreme.value = value;
-    extreme.request = Until(std::move(scene), "load_factor", ">", 1.0);
-    extreme.exact = "closed form";
-    extreme.error = [*this](const TraceRequest&, const Increment& increment) {
-      const auto at = [&](std::size_t i) { return increment.positions[i] - from_origin; };
-      const double x = at(0), y = at(1), a = at(3), b = at(5), slope = b - a, length = std::hypot(1.0, slope);
-      // Of the tension of the plank, which has been stretched.
-      const double across = EA * (length - 1.0) * slope / length;
-      return Largest({y - (a + slope * x), increment.contacts[0].rn - length,
-                      x - 0.2 - (push * increment.load_factor - slope) / spring, a - (across - (1.0 - x)) / springs,
-                      b - (-across - x) / springs});
-    };
-    return extreme;
-  }
-};
+ExtremeCase OnPlank(const Plank& plank, const std::string& group, const std::string& value) {
+  ExtremeCase extreme;
+  extreme.group = "surface, " + group;
+  extreme.value = value;
+  extreme.request = Until(plank.MakeScene(), "load_factor", ">", 1.0);
+  extreme.exact = "closed form";
+  extreme.error = [plank](const TraceRequest&, const Increment& increment) { return plank.Error(increment); };
+  return extreme;
+}
 
 // ----- two blocks -----
 
@@ -147,19 +126,13 @@ ExtremeCase Blocks(int lower, int upper) {
   Scene scene;
   scene.materials = {ElasticMaterial("rubber", 1.0, 0.3)};
   const auto add = [&](char name, int columns, double x, double y, double width) {
-    Scene block;
     Solid solid;
     solid.name = std::string(1, name);
     solid.material = "rubber";
     solid.nodes_per_element = 4;
-    AddGrid(
-        &block, columns, 1, [&](double i, double j) { return Eigen::Vector2d(x + width * i, y + 0.3 * j); }, solid);
-    for (Node& node : block.nodes) {
-      node.name.insert(0, solid.name);
-      scene.nodes.push_back(node);
-    }
-    for (std::string& node : block.solids[0].nodes) node.insert(0, solid.name);
-    scene.solids.push_back(block.solids[0]);
+    AddNamedGrid(
+        &scene, solid.name, columns, 1, [&](double i, double j) { return Eigen::Vector2d(x + width * i, y + 0.3 * j); },
+        solid);
   };
   add('l', lower, 0.0, 0.0, 1.0);
   add('u', upper, 0.2, 0.31, 0.5);
@@ -196,7 +169,7 @@ void AddDeformableCases(std::vector<ExtremeCase>* cases) {
   for (const double distance : {1e3, 1e6, 1e9}) {
     Plank plank;
     plank.from_origin = distance;
-    ExtremeCase extreme = plank.Case("distance from the origin", Text(distance) + " of its length");
+    ExtremeCase extreme = OnPlank(plank, "distance from the origin", Text(distance) + " of its length");
     extreme.allowed = std::max(1e-9, 1e-14 * distance);  // coordinates are rounded
     if (distance > kFarthest) extreme.ends = {"numerical_failure"};
     cases->push_back(std::move(extreme));
@@ -205,13 +178,13 @@ void AddDeformableCases(std::vector<ExtremeCase>* cases) {
     Plank plank;
     plank.springs = 10.0 * stiffness;
     plank.EA = stiffness;
-    cases->push_back(plank.Case("stiffness of a plank, of the spring of the node on it", Text(stiffness)));
+    cases->push_back(OnPlank(plank, "stiffness of a plank, of the spring of the node on it", Text(stiffness)));
   }
   for (const double stiffness : {1e3, 1e8}) {
     Plank plank;
     plank.spring = stiffness;
     plank.push = 0.6 * stiffness;
-    cases->push_back(plank.Case("stiffness of a plank, of the spring of the node on it", Text(1.0 / stiffness)));
+    cases->push_back(OnPlank(plank, "stiffness of a plank, of the spring of the node on it", Text(1.0 / stiffness)));
   }
   for (const double radius : {1e-9, 1e-3, 1.0, 1e3, 1e6}) {
     PressedNode pressed;

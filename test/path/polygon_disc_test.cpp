@@ -91,7 +91,7 @@ TraceRequest NodeAt(double angle, double distance, const Springs& springs, const
   return request;
 }
 
-TracedPath TraceProved(const TraceRequest& request) {
+TracedPath TraceSound(const TraceRequest& request) {
   TracedPath path = TraceIncrements(request);
   EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
   ExpectSoundIncrements(path, kSound);
@@ -202,7 +202,7 @@ void ExpectThePathOnTheCircle(const TracedPath& path, const Polygon& polygon, do
 
 TEST(PolygonDisc, ANodePulledRoundItTakesThePathOnTheCircle) {
   for (const Accuracy accuracy : {Accuracy::kFast, Accuracy::kAccurate}) {
-    const TracedPath circle = TraceProved(Pulled(kRadius, Circle(), accuracy));
+    const TracedPath circle = TraceSound(Pulled(kRadius, Circle(), accuracy));
     const double largest = circle.increments[LargestLoad(circle)].load_factor;
     for (const Increment& increment : circle.increments) {
       if (increment.contacts[0].state == ContactState::kStick) continue;
@@ -211,7 +211,7 @@ TEST(PolygonDisc, ANodePulledRoundItTakesThePathOnTheCircle) {
     }
     for (const Polygon& polygon : Polygons()) {
       SCOPED_TRACE(polygon.name);
-      const TracedPath path = TraceProved(Pulled(polygon.Apothem(), polygon.Disc(kStartAngle), accuracy));
+      const TracedPath path = TraceSound(Pulled(polygon.Apothem(), polygon.Disc(kStartAngle), accuracy));
       ExpectThePathOnTheCircle(path, polygon, largest);
     }
   }
@@ -239,12 +239,12 @@ double Across(double angle) {
 // exactly along n + mu t of the circle: Across() is then up to |n + mu t| (d + |force| 2 sin(a / 2)).
 TEST(PolygonDisc, OneThatTurnsHoldsANodeAsTheCircleDoes) {
   for (const Accuracy accuracy : {Accuracy::kFast, Accuracy::kAccurate}) {
-    const TracedPath circle = TraceProved(Turned(kRadius, Circle(), accuracy));
+    const TracedPath circle = TraceSound(Turned(kRadius, Circle(), accuracy));
     const Increment& held = circle.increments.back();
     EXPECT_NEAR(Across(AngleOf(held)), 0.0, kRounding);
     for (const Polygon& polygon : Polygons()) {
       SCOPED_TRACE(polygon.name);
-      const TracedPath path = TraceProved(Turned(polygon.Apothem(), polygon.Disc(0.0), accuracy));
+      const TracedPath path = TraceSound(Turned(polygon.Apothem(), polygon.Disc(0.0), accuracy));
       const double turn = 2.0 * std::sin(0.5 * polygon.Turn());
       const double force = kDrumSprings.Force(Place(held)).norm();
       int sliding = 0;

@@ -23,7 +23,7 @@ TraceRequest ReadData(const std::string& name) {
 }
 
 // Sound, and proved by verify.
-TracedPath TraceProved(const TraceRequest& request) {
+TracedPath TraceSound(const TraceRequest& request) {
   TracedPath path = TraceIncrements(request);
   for (const Increment& increment : path.increments)
     EXPECT_LE(increment.residuals.Largest(), 1e-9) << "increment " << increment.index;
@@ -36,14 +36,14 @@ TracedPath TraceData(const std::string& name, Accuracy accuracy) {
   TraceRequest request = ReadData(name);
   request.options.accuracy = accuracy;
   request.options.max_increments = 4 * request.options.MaxIncrements();
-  return TraceProved(request);
+  return TraceSound(request);
 }
 
 // As far as the increments of a preset go.
 TracedPath TraceIncrementsOf(TraceRequest request, Accuracy accuracy, int most, int most_accurate) {
   request.options.accuracy = accuracy;
   request.options.max_increments = accuracy == Accuracy::kAccurate ? most_accurate : most;
-  TracedPath path = TraceProved(request);
+  TracedPath path = TraceSound(request);
   EXPECT_EQ(path.result.reason, EndReason::kMaxIncrements) << path.result.message;
   return path;
 }
@@ -160,7 +160,7 @@ TEST(SingularScenes, SlackTieBecomesTaut) {
     TraceRequest request = ReadData("slack_tie");
     request.options.step = step;
     request.options.max_increments = 3000;
-    const TracedPath path = TraceProved(request);
+    const TracedPath path = TraceSound(request);
     EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
     for (const Increment& increment : path.increments) {
       const double b = PositionX(path, increment, "b");
@@ -231,7 +231,7 @@ TEST(SingularScenes, GuideWithoutClearanceForAnyStep) {
     TraceRequest request = ReadData("slot_step_dependent");
     request.options.step = step;
     request.options.max_increments = 600;
-    const TracedPath path = TraceProved(request);
+    const TracedPath path = TraceSound(request);
     EXPECT_EQ(path.result.reason, EndReason::kMaxIncrements) << path.result.message;
     const std::vector<double> loads = EventLoads(path, 4);
     ASSERT_EQ(loads.size(), 4U);
@@ -333,7 +333,7 @@ TEST(SingularScenes, ThePathStaysOnItsCurve) {
       TraceRequest request = ReadData(name);
       request.options.accuracy = accuracy;
       request.options.max_increments = 500;
-      const TracedPath path = TraceProved(request);
+      const TracedPath path = TraceSound(request);
       std::vector<double> limits = Loads(path, IncrementKind::kSmoothLimit);
       ASSERT_GE(limits.size(), expected.size()) << name;
       limits.resize(expected.size());
@@ -394,7 +394,7 @@ TEST(SingularScenes, SharpTurnAtABrokenBifurcation) {
     TraceRequest request = ReadData("bend_at_broken_bifurcation");
     request.options.accuracy = accuracy;
     request.options.max_increments = 600;
-    const TracedPath path = TraceProved(request);
+    const TracedPath path = TraceSound(request);
     std::vector<double> limits = Loads(path, IncrementKind::kSmoothLimit);
     ASSERT_GE(limits.size(), 5U);
     limits.resize(5);
@@ -489,7 +489,7 @@ TEST(SingularScenes, SymmetricHalvesAtTheirLimitPoints) {
     TraceRequest request = ReadData("sym_51");
     request.options.step = step;
     request.options.max_increments = 3000;
-    const TracedPath path = TraceProved(request);
+    const TracedPath path = TraceSound(request);
     EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
     ExpectNear(Loads(path, IncrementKind::kSmoothLimit), {0.05167840441, 0.05162508545}, 1e-10);
     for (const Increment& increment : path.increments)
@@ -515,7 +515,7 @@ TEST(SingularScenes, StartAtALimitPoint) {
   int begun = 0;
   for (const double direction : {1.0, -1.0}) {
     request.options.direction = direction;
-    const TracedPath path = TraceProved(request);
+    const TracedPath path = TraceSound(request);
     if (path.result.reason == EndReason::kPathEnd) continue;
     EXPECT_EQ(path.result.reason, EndReason::kMaxIncrements) << path.result.message;
     ++begun;
@@ -539,7 +539,7 @@ TEST(SingularScenes, HighTrussWithTinyImperfections) {
       request.options.accuracy = accuracy;
       request.options.max_increments = 500;
       request.options.stop = {{"n.x", ">", 0.5}, {"n.y", "<", 1.0}};
-      const TracedPath path = TraceProved(request);
+      const TracedPath path = TraceSound(request);
       EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << imperfection << ": " << path.result.message;
     }
 }
@@ -552,7 +552,7 @@ TEST(SingularScenes, FlatTruss) {
       TraceRequest request = ReadData("flat_truss");
       request.options.accuracy = accuracy;
       request.options.direction = direction;
-      const TracedPath path = TraceProved(request);
+      const TracedPath path = TraceSound(request);
       EXPECT_EQ(path.result.reason, EndReason::kMaxIncrements) << path.result.message;
       for (const Increment& increment : path.increments) {
         const double depth = -increment.positions[3], length = std::hypot(1.0, depth);
@@ -566,7 +566,7 @@ TEST(SingularScenes, FlatTruss) {
 // and there is no bifurcation in between: the path turns, and sways as the crossing path of the symmetric truss does.
 TEST(SingularScenes, BrokenBifurcationOfATruss) {
   const auto load_when_swayed = [](const TraceRequest& request) {
-    const TracedPath path = TraceProved(request);
+    const TracedPath path = TraceSound(request);
     EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
     EXPECT_EQ(IncrementsOfKind(path, IncrementKind::kBifurcation).size(), request.options.branch_choices.size());
     const Increment &before = path.increments[path.increments.size() - 2], &last = path.increments.back();
@@ -623,7 +623,7 @@ TraceRequest RandomDrag(unsigned seed) {
 TEST(SingularScenes, RandomDragsEndOnlyWithABarWithoutLength) {
   int rests = 0;
   for (unsigned seed = 1; seed <= 120; ++seed) {
-    const TracedPath path = TraceProved(RandomDrag(seed));
+    const TracedPath path = TraceSound(RandomDrag(seed));
     if (path.result.reason == EndReason::kStepTooSmall) {
       EXPECT_NE(path.result.message.find("has shrunk to"), std::string::npos) << seed << ": " << path.result.message;
     } else if (path.result.reason != EndReason::kClosedPath) {

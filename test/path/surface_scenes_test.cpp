@@ -2,6 +2,8 @@
 // settings.
 #include <gtest/gtest.h>
 
+#include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -9,41 +11,14 @@
 #include <vector>
 
 #include "contact_path/check/residuals.h"
-#include "contact_path/scene/expand.h"
 #include "contact_path/scene/program.h"
-#include "contact_path/verify/verify_path.h"
+#include "support/solid_grid.h"
 #include "support/traced_path.h"
 
 namespace contact_path {
 namespace {
 
 const double kPi = std::acos(-1.0);
-
-// The request of the path has the nodes and contacts of beams and groups by name.
-TracedPath TraceProved(const TraceRequest& request) {
-  TracedPath path = TraceIncrements(request);
-  EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
-  for (const Finding& finding : VerifyPath(path.request, path.increments).findings)
-    ADD_FAILURE() << "increment " << finding.increment << ": " << finding.what;
-  path.request = Expand(request).request;
-  return path;
-}
-
-double SumOfNormals(const Increment& increment) {
-  double sum = 0.0;
-  for (const ContactRecord& contact : increment.contacts) sum += contact.rn;
-  return sum;
-}
-
-// The events and limit points with their load factors.
-void ExpectSameEvents(const TracedPath& actual, const TracedPath& expected, double tolerance) {
-  for (const IncrementKind kind :
-       {IncrementKind::kContactEvent, IncrementKind::kCornerLimit, IncrementKind::kSmoothLimit}) {
-    const std::vector<Increment> a = IncrementsOfKind(actual, kind), b = IncrementsOfKind(expected, kind);
-    ASSERT_EQ(a.size(), b.size());
-    for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i].load_factor, b[i].load_factor, tolerance);
-  }
-}
 
 // Forces and moment about the origin of the supports of a block, whose names begin with a letter.
 std::array<double, 3> SupportForces(const TracedPath& path, const Increment& increment, char block) {
@@ -84,7 +59,7 @@ TEST(SurfaceScenes, TwoBlocksByAllSettings) {
   const TracedPath path = TraceProved(request);
   for (const Accuracy accuracy : {Accuracy::kFast, Accuracy::kAccurate}) {
     request.options.accuracy = accuracy;
-    ExpectSameEvents(TraceProved(request), path, 1e-10);
+    ExpectSameEvents(path, TraceProved(request), 1e-10);
   }
   request.options.accuracy = Accuracy::kBalanced;
   request.options.method = Method::kMpec;
@@ -94,17 +69,67 @@ TEST(SurfaceScenes, TwoBlocksByAllSettings) {
   EXPECT_NEAR(SumOfNormals(a), SumOfNormals(b), 1e-3 * SumOfNormals(b));
 }
 
-// In both passes the nodes of the lower block are held back by the upper one, too, whose surface goes round its
-// corners. Resultants are those of one pass but for what the curves differ by.
-TEST(SurfaceScenes, TwoBlocksInBothPasses) {
-  TraceRequest request = ReadExample("two_blocks");
-  const TracedPath one = TraceProved(request);
-  request.scene.groups.push_back({"of_table", {"b2_2", "b3_2", "b4_2", "b5_2"}});
+// The scene with nodes of the table as candidates, too, whose surface goes round the corners of the sole.
+TraceRequest InBothPasses(TraceRequest request, const std::vector<std::string>& of_table) {
+  request.scene.groups.push_back({"of_table", of_table});
   request.scene.surfaces.push_back({"of_sole", {"u4_1", "u4_0", "u3_0", "u2_0", "u1_0", "u0_0", "u0_1"}});
   request.scene.contacts.push_back({"", "", "of_table", "of_sole", 0.4});
-  const TracedPath both = TraceProved(request);
-  EXPECT_NEAR(SupportForces(both, both.increments.back(), 'u')[1], SupportForces(one, one.increments.back(), 'u')[1],
-              0.05 * SumOfNormals(one.increments.back()));
+  return request;
+}
+
+double SumOfTable(const TracedPath& path, const Increment& increment) {
+  double sum = 0.0;
+  for (const std::string& node : path.request.scene.groups.back().nodes)
+    sum += Contact(path, increment, node + "@of_sole").rn;
+  return sum;
+}
+
+// The nodes of the lower block are farther from each other than those of the upper one: none of them is held back.
+TEST(SurfaceScenes, TwoBlocksInBothPasses) {
+  const TraceRequest request = ReadExample("two_blocks");
+  const TracedPath one = TraceProved(request);
+  const TracedPath both = TraceProved(InBothPasses(request, {"b2_2", "b3_2", "b4_2", "b5_2"}));
+  for (const Increment& increment : both.increments) EXPECT_EQ(SumOfTable(both, increment), 0.0);
+  const double expected = SumOfNormals(one.increments.back());
+  EXPECT_NEAR(SumOfNormals(both.increments.back()), expected, 1e-12 * expected);
+}
+
+// The scene with a lower block of 24 columns, pressed: edges of 0.125 below those of 0.3.
+TraceRequest OnFineBlock() {
+  TraceRequest request = ReadExample("two_blocks");
+  request.program.resize(1);
+  Scene& scene = request.scene;
+  const auto is_lower = [](const Node& node) { return node.name[0] == 'b'; };
+  scene.nodes.erase(std::remove_if(scene.nodes.begin(), scene.nodes.end(), is_lower), scene.nodes.end());
+  Solid lower = scene.solids[0];
+  lower.nodes.clear();
+  scene.solids.erase(scene.solids.begin());
+  AddNamedGrid(
+      &scene, "b", 24, 2, [](double x, double y) { return Eigen::Vector2d(3.0 * x, y); }, lower);
+  std::vector<std::string>& table = scene.surfaces[0].nodes;
+  table.clear();
+  for (int i = 0; i <= 48; i += 2) table.push_back("b" + std::to_string(i) + "_4");
+  for (Node& node : scene.nodes)
+    if (is_lower(node)) node.fixed_x = node.fixed_y = node.y == 0.0;
+  return request;
+}
+
+// Nodes of a finer block would penetrate between those of the other one. Held back, they make both blocks stiffer, and
+// take over a part of what those carry.
+TEST(SurfaceScenes, AFinerBlockPressesInBothPasses) {
+  const TraceRequest request = OnFineBlock();
+  const TracedPath one = TraceProved(request);
+  std::vector<std::string> of_table;
+  for (const Node& node : one.request.scene.nodes)
+    if (node.name[0] == 'b' && node.y == 1.0 && node.x > 0.5 && node.x < 2.3) of_table.push_back(node.name);
+  const TracedPath both = TraceProved(InBothPasses(request, of_table));
+  const Increment& end = both.increments.back();
+  const double sum = SumOfNormals(end), expected = SumOfNormals(one.increments.back());
+  EXPECT_GT(SumOfTable(both, end), 0.1 * sum);
+  EXPECT_GT(sum, expected);
+  EXPECT_NEAR(sum, expected, 0.01 * expected);
+  const std::array<double, 3> lower = SupportForces(both, end, 'b'), upper = SupportForces(both, end, 'u');
+  for (std::size_t i = 0; i < lower.size(); ++i) EXPECT_NEAR(lower[i] + upper[i], 0.0, 1e-12);
 }
 
 // Both rings as springs, at first.

@@ -1,16 +1,11 @@
 #include <gtest/gtest.h>
 
-#include <limits>
-
 #include "contact_path/scene/validate.h"
 #include "support/broken_rule.h"
 #include "support/curved_obstacles.h"
 
 namespace contact_path {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 // A bar from a pinned node a down to b, with a load.
 TraceRequest SoundRequest() {

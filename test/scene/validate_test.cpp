@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <ctime>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -11,9 +10,6 @@
 
 namespace contact_path {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 // A pinned node a, a bar to b, a superelement from b to c, both on a floor; with something of every kind.
 TraceRequest SoundRequest() {

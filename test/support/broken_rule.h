@@ -3,6 +3,7 @@
 #define CONTACT_PATH_TEST_SUPPORT_BROKEN_RULE_H_
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,9 @@
 #include "contact_path/scene/validate.h"
 
 namespace contact_path {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 // What breaks a rule, and the violation that must come out of it, alone.
 struct BrokenRule {

@@ -73,6 +73,19 @@ inline void AddGrid(Scene* scene, int nx, int ny, const std::function<Eigen::Vec
   scene->solids.push_back(std::move(solid));
 }
 
+// The same with `prefix` before the names of the nodes.
+inline void AddNamedGrid(Scene* scene, const std::string& prefix, int nx, int ny,
+                         const std::function<Eigen::Vector2d(double, double)>& place, Solid solid) {
+  Scene part;
+  AddGrid(&part, nx, ny, place, std::move(solid));
+  for (Node& node : part.nodes) {
+    node.name.insert(0, prefix);
+    scene->nodes.push_back(node);
+  }
+  for (std::string& node : part.solids[0].nodes) node.insert(0, prefix);
+  scene->solids.push_back(part.solids[0]);
+}
+
 // The node of a grid with this name.
 inline Node& GridNode(Scene* scene, int i, int j) {
   const std::string name = std::to_string(i) + "_" + std::to_string(j);

@@ -13,6 +13,7 @@
 #include "contact_path/scene/read_scene.h"
 #include "contact_path/scene/scaling.h"
 #include "contact_path/scene/surface.h"
+#include "contact_path/verify/verify_path.h"
 
 namespace contact_path {
 namespace {
@@ -87,6 +88,20 @@ TracedPath TraceIncrements(const TraceRequest& request) {
   return path;
 }
 
+void ExpectNoFindings(const TracedPath& path) {
+  for (const Finding& finding : VerifyPath(path.request, path.increments).findings)
+    ADD_FAILURE() << "increment " << finding.increment << ": " << finding.what;
+}
+
+TracedPath TraceProved(const TraceRequest& request, double largest_residual) {
+  TracedPath path = TraceIncrements(request);
+  EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+  ExpectNoFindings(path);
+  for (const Increment& increment : path.increments) EXPECT_LE(increment.residuals.Largest(), largest_residual);
+  path.request = Expand(request).request;
+  return path;
+}
+
 TracedPath TraceScene(const Scene& scene, int increments) {
   TraceRequest request;
   request.scene = scene;
@@ -130,6 +145,12 @@ const ContactRecord& Contact(const TracedPath& path, const Increment& increment,
   throw std::invalid_argument("no contact " + contact);
 }
 
+double SumOfNormals(const Increment& increment) {
+  double sum = 0.0;
+  for (const ContactRecord& contact : increment.contacts) sum += contact.rn;
+  return sum;
+}
+
 std::size_t LargestLoad(const TracedPath& path) {
   const auto largest =
       std::max_element(path.increments.begin(), path.increments.end(),
@@ -142,6 +163,25 @@ std::vector<Increment> IncrementsOfKind(const TracedPath& path, IncrementKind ki
   for (const Increment& increment : path.increments)
     if (increment.kind == kind) increments.push_back(increment);
   return increments;
+}
+
+std::vector<const Increment*> EventsOf(const TracedPath& path) {
+  std::vector<const Increment*> events;
+  for (const Increment& increment : path.increments)
+    if (increment.kind != IncrementKind::kRegular) events.push_back(&increment);
+  return events;
+}
+
+void ExpectSameEvents(const TracedPath& path, const TracedPath& other, double tolerance) {
+  EXPECT_EQ(ToString(other.result.reason), ToString(path.result.reason)) << other.result.message;
+  const std::vector<const Increment*> events = EventsOf(path), others = EventsOf(other);
+  EXPECT_EQ(others.size(), events.size());
+  for (std::size_t i = 0; i < std::min(events.size(), others.size()); ++i) {
+    const double load = events[i]->load_factor;
+    EXPECT_EQ(others[i]->stage, events[i]->stage) << i;
+    EXPECT_EQ(ToString(others[i]->kind), ToString(events[i]->kind)) << i;
+    EXPECT_NEAR(others[i]->load_factor, load, tolerance * std::max(1.0, std::abs(load))) << i;
+  }
 }
 
 double EnergyImbalance(const TracedPath& path) {

@@ -3,6 +3,7 @@
 #define CONTACT_PATH_TEST_SUPPORT_TRACED_PATH_H_
 
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,13 @@ TraceRequest ReadExample(const std::string& name);
 // All increments of a request.
 TracedPath TraceIncrements(const TraceRequest& request);
 
+// What VerifyPath finds wrong with a path fails the test.
+void ExpectNoFindings(const TracedPath& path);
+
+// All increments of a request whose path is complete and proved, with residuals up to this bound. The request of the
+// path has the nodes and contacts of beams and groups by name.
+TracedPath TraceProved(const TraceRequest& request, double largest_residual = std::numeric_limits<double>::infinity());
+
 // At most so many increments of a scene, by default options.
 TracedPath TraceScene(const Scene& scene, int increments);
 
@@ -36,10 +44,20 @@ double PositionX(const TracedPath& path, const Increment& increment, const std::
 double PositionY(const TracedPath& path, const Increment& increment, const std::string& node);
 const ContactRecord& Contact(const TracedPath& path, const Increment& increment, const std::string& contact);
 
+// Of the normal reactions of all contacts [force].
+double SumOfNormals(const Increment& increment);
+
 // Index of the increment with the largest load factor.
 std::size_t LargestLoad(const TracedPath& path);
 
 std::vector<Increment> IncrementsOfKind(const TracedPath& path, IncrementKind kind);
+
+// The increments that are not regular: starts of stages, limit points, events and bifurcations.
+std::vector<const Increment*> EventsOf(const TracedPath& path);
+
+// Both paths end for the same reason, and their events are of the same stages and kinds at the same load factors:
+// `tolerance`, relative where they are above 1.
+void ExpectSameEvents(const TracedPath& path, const TracedPath& other, double tolerance);
 
 // Largest |external work - change of energy - dissipation| over the characteristic energy.
 double EnergyImbalance(const TracedPath& path);
