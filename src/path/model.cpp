@@ -11,6 +11,12 @@ std::size_t PositionIndex(const DofMap::Component& position) {
   return static_cast<std::size_t>(kPositionComponents * position.node + position.component);
 }
 
+// Where a contact touches that is on an end of its surface: by rounding, the foot may be past the end.
+int PatchOfTouching(const ContactPair& contact, int patch) {
+  if (contact.HasPatch(patch)) return patch;
+  return contact.HasPatch(patch + 1) ? patch + 1 : patch - 1;
+}
+
 }  // namespace
 
 Model::Model(const Scene& scene_in, const Scaling& scaling_in)
@@ -39,6 +45,7 @@ PathPoint Model::InitialPoint() const {
     const bool touches = contact->Gap(point.u, point.s, point.Patch(i)) <= tolerances::kTouchingAtStart;
     const ContactState rest = contact->Frictional() ? ContactState::kStick : ContactState::kClosed;
     point.states.push_back(touches ? rest : ContactState::kOpen);
+    if (touches && contact->HasPatches()) point.patches[i] = PatchOfTouching(*contact, point.patches[i]);
   }
   return point;
 }
@@ -49,6 +56,8 @@ void Model::NotePatches(PathPoint* point) const {
     if (!contacts[i]->HasPatches()) continue;
     point->patches.resize(contacts.size(), 0);
     point->patches[i] = contacts[i]->PatchAt(point->u, point->s);
+    if (!point->states.empty() && point->states[i] != ContactState::kOpen)
+      point->patches[i] = PatchOfTouching(*contacts[i], point->patches[i]);
   }
 }
 
