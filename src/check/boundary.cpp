@@ -181,6 +181,8 @@ BoundaryFoot BoundaryShape::Nearest(const Vector& x, const std::vector<bool>& le
   const Real along = Dot(back, direction), rounding = kAtEnd * Length(back) * Length(direction);
   nearest.is_end =
       (begins && nearest.tau == 0.0L && along < -rounding) || (ends && nearest.tau == 1.0L && along > rounding);
+  nearest.over_end = !nearest.is_end && std::abs(along) <= rounding &&
+                     ((begins && nearest.tau == 0.0L) || (ends && nearest.tau == 1.0L));
   return nearest;
 }
 

@@ -27,8 +27,9 @@ struct BoundaryPatch {
 struct BoundaryFoot {
   std::size_t patch = 0;
   Real tau = 0.0L;
-  Real distance = 0.0L;  // of the point from the foot [length]
-  bool is_end = false;   // the point is past an end of the boundary
+  Real distance = 0.0L;   // of the point from the foot [length]
+  bool is_end = false;    // the point is past an end of the boundary
+  bool over_end = false;  // it is over an end to rounding, and need not be past it
 };
 
 // By patch, whether it is left out for a node of the surface itself: it is the patch of the node or one of the two on

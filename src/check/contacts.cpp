@@ -84,6 +84,10 @@ class BoundaryContact : public Contact {
   Real Gap(const PlacedState& state) const override {
     return state.Shape(surface_).Gap(state.Place(Node()), FootIn(state));
   }
+  Real GapPastEnd(const PlacedState& state) const override {
+    const BoundaryFoot foot = FootIn(state);
+    return foot.over_end ? foot.distance : state.Shape(surface_).Gap(state.Place(Node()), foot);
+  }
   Vector Normal(const PlacedState& state) const override { return state.Shape(surface_).Normal(FootIn(state)); }
   // The motion of the foot through the material, as long as it is in the mean of both shapes.
   Real Slip(const PlacedState& from, const PlacedState& to) const override {

@@ -47,6 +47,8 @@ class Contact {
   // True: the gap is > 0, told at once of most nodes that are far away. False tells nothing.
   virtual bool SurelyOpen(const PlacedState&) const { return false; }
   virtual Real Gap(const PlacedState& state) const = 0;
+  // The same, if a node that is over an end of the surface to rounding counts as past it.
+  virtual Real GapPastEnd(const PlacedState& state) const { return Gap(state); }
   // Towards the admissible side.
   virtual Vector Normal(const PlacedState& state) const = 0;
   // Motion along t, as the partner of the node sees it [length].

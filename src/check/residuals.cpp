@@ -250,6 +250,10 @@ double ResidualCheck::Gap(std::size_t contact, const CheckedState& state) const 
   return static_cast<double>(prepared_->contacts[contact]->Gap(prepared_->Placed(state)));
 }
 
+double ResidualCheck::GapPastEnd(std::size_t contact, const CheckedState& state) const {
+  return static_cast<double>(prepared_->contacts[contact]->GapPastEnd(prepared_->Placed(state)));
+}
+
 double ResidualCheck::Slip(std::size_t contact, const CheckedState& from, const CheckedState& to) const {
   return static_cast<double>(prepared_->contacts[contact]->Slip(prepared_->Placed(from), prepared_->Placed(to)));
 }

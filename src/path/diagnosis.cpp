@@ -19,6 +19,7 @@ namespace {
 constexpr double kMostSlender = 1e8;   // EA L^2 / EI that is followed
 constexpr double kOfHiddenSlip = 0.2;  // of the tolerance, and of the next: far enough from either
 constexpr double kOfSingular = 0.01;
+constexpr double kClosing = 10.0;  // the nodes of a surface have shares in a gap: each moves by more than that
 constexpr double kNearlyIncompressible = 0.49;  // Poisson's ratio beyond which elements of few nodes lock
 
 std::string SolidText(const Scene& scene, std::size_t i) {
@@ -52,6 +53,28 @@ SharpestCurve SharpestAt(const ContactPair& pair, const PathPoint& point, int pa
   if (xi - range.begin <= tolerances::kBeyondPatch && pair.HasPatch(known - 1)) look(known - 1);
   if (range.end - xi <= tolerances::kBeyondPatch && pair.HasPatch(known + 1)) look(known + 1);
   return sharpest;
+}
+
+// By dof, the diagonal of the tangent (scaled).
+Eigen::VectorXd DiagonalStiffness(const Model& model, const PathPoint& point) {
+  Eigen::SparseMatrix<double> tangent = model.structure.TangentPattern();
+  model.structure.Tangent(point.u, &tangent);
+  return tangent.diagonal().cwiseAbs();
+}
+
+// The largest one of the dofs that a contact moves; 0: it moves none.
+double LargestOf(const Eigen::VectorXd& stiffness, const ContactPair& pair, const PathPoint& point, int patch) {
+  double largest = 0.0;
+  for (const int dof : pair.Dofs(pair.KnownPatch(point.u, point.s, patch))) largest = std::max(largest, stiffness[dof]);
+  return largest;
+}
+
+// With which the parts at a contact resist that its gap at the start, which counts as closed there, is made 0 (scaled).
+double ForceOfClosingAtStart(const Model& model, const PathPoint& point, std::size_t contact) {
+  const ContactPair& pair = *model.contacts[contact];
+  const double gap = std::abs(pair.Gap(model.structure.Start(), 0.0, kNearestPatch));
+  if (!(gap <= tolerances::kTouchingAtStart)) return 0.0;
+  return kClosing * gap * LargestOf(DiagonalStiffness(model, point), pair, point, point.Patch(contact));
 }
 
 // The contact and the radius of the curve that it is pressed onto: the beginning of a sentence.
@@ -235,7 +258,7 @@ std::string PullingContact(const Model& model, const PathPoint& point, double ro
   for (std::size_t i = 0; i < model.contacts.size(); ++i) {
     const double pull = -point.rn[static_cast<Eigen::Index>(i)];
     const double unit = model.contacts[i]->ForceUnit();
-    if (!(pull > most * unit)) continue;
+    if (!(pull > most * unit) || pull <= ForceOfClosingAtStart(model, point, i)) continue;
     std::ostringstream out;
     out.imbue(std::locale::classic());
     out.precision(2);
@@ -248,13 +271,9 @@ std::string PullingContact(const Model& model, const PathPoint& point, double ro
 }
 
 std::string ContactTooSoft(const Model& model, const PathPoint& point, double least) {
-  Eigen::SparseMatrix<double> tangent = model.structure.TangentPattern();
-  model.structure.Tangent(point.u, &tangent);
-  const Eigen::VectorXd stiffness = tangent.diagonal().cwiseAbs();
+  const Eigen::VectorXd stiffness = DiagonalStiffness(model, point);
   for (std::size_t i = 0; i < model.contacts.size(); ++i) {
-    double largest = 0.0;
-    const int patch = model.contacts[i]->KnownPatch(point.u, point.s, point.Patch(i));
-    for (const int dof : model.contacts[i]->Dofs(patch)) largest = std::max(largest, stiffness[dof]);
+    const double largest = LargestOf(stiffness, *model.contacts[i], point, point.Patch(i));
     if (largest == 0.0 || !(largest < least)) continue;
     std::ostringstream out;
     out.imbue(std::locale::classic());

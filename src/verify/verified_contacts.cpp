@@ -14,12 +14,18 @@ constexpr double kSoft = 1e-6;       // of F: where forces across a contact are 
 constexpr double kStiff = 1e-4;      // of the forces across a contact: its reactions are known to rounding of no less
 constexpr double kRounding = 2e-13;  // of F: a contact that pulls with more is not at rounding
 constexpr double kRoundingOfParts = 1e-14;  // the same, of the forces of the parts that press on the node
+constexpr double kClosedAtStart = 1e-9;     // gap over L
+constexpr double kClosing = 10.0;           // the nodes of a surface have shares in a gap: each moves by more than that
 
 }  // namespace
 
 std::vector<VerifiedContact> VerifiedContacts(const Scene& scene, const SceneIndex& index, const ResidualCheck& check,
-                                              const Scaling& scaling, const std::vector<double>& rates, double load) {
+                                              const Configuration& configuration, const Scaling& scaling,
+                                              const std::vector<double>& rates, double load) {
   const std::vector<ContactForceBound> forces = check.BoundContactForces(scaling.length, load);
+  CheckedState start;
+  start.positions = configuration.start;
+  start.rotations = configuration.start_rotations;
   std::vector<VerifiedContact> contacts;
   contacts.reserve(scene.contacts.size());
   std::set<std::string> turning;
@@ -42,7 +48,10 @@ std::vector<VerifiedContact> VerifiedContacts(const Scene& scene, const SceneInd
     const double unit = forces[i].on_node / scaling.force;
     if (unit > 0.0 && unit < kSoft) contact.unit = unit;
     if (kStiff * unit > 1.0) contact.unit = kStiff * unit;
-    contact.rounding = std::max(kRounding, kRoundingOfParts * forces[i].of_all_parts / (scaling.force * contact.unit));
+    const double parts = forces[i].of_all_parts / (scaling.force * contact.unit);
+    const double gap = std::abs(check.Gap(i, start)) / scaling.length;
+    contact.rounding =
+        std::max({kRounding, kRoundingOfParts * parts, gap <= kClosedAtStart ? kClosing * gap * parts : 0.0});
     contacts.push_back(std::move(contact));
   }
   return contacts;

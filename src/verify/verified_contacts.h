@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "contact_path/check/residuals.h"
+#include "contact_path/scene/configuration.h"
 #include "contact_path/scene/scaling.h"
 #include "contact_path/scene/scene.h"
 #include "contact_path/scene/scene_index.h"
@@ -19,15 +20,17 @@ struct VerifiedContact {
   std::string name;
   // Forces across the contact that count as 1, over F: 1, or the forces there where these are far below F.
   double unit = 1.0;
-  // Of a reaction, over F times the unit: coordinates are known to 1e-16 of their size, and the parts there turn that
-  // into forces. Never below that of a contact across which forces are F.
+  // Of a reaction, over F times the unit: coordinates are known to 1e-16 of their size, a gap that counts as closed at
+  // the start is not 0, and the parts there turn both into forces. Never below that of a contact across which forces
+  // are F.
   double rounding = 0.0;
 };
 
-// In the order of the scene. check: of the scene. rates: x, y by node, of the fixed components [length] per unit of the
-// load factor. load: largest load factor of the path.
+// In the order of the scene. check, configuration: of the scene. rates: x, y by node, of the fixed components [length]
+// per unit of the load factor. load: largest load factor of the path.
 std::vector<VerifiedContact> VerifiedContacts(const Scene& scene, const SceneIndex& index, const ResidualCheck& check,
-                                              const Scaling& scaling, const std::vector<double>& rates, double load);
+                                              const Configuration& configuration, const Scaling& scaling,
+                                              const std::vector<double>& rates, double load);
 
 }  // namespace contact_path
 

@@ -232,6 +232,7 @@ TEST_P(RightPathIsProved, FromFile) {
 
 INSTANTIATE_TEST_SUITE_P(VerifyPath, RightPathIsProved,
                          ::testing::Values("stiff_solid_among_soft_bars", "held_on_stiff_solid",
+                                           "over_the_end_of_a_thick_surface", "touching_but_for_rounding",
                                            "drag_in_one_increment"),
                          [](const auto& instance) { return std::string(instance.param); });
 

@@ -75,6 +75,9 @@ class ResidualCheck {
   // Gap of a contact candidate in a state [length], and its slip between two: tangential motion along the obstacle, as
   // the obstacle sees it [length].
   double Gap(std::size_t contact, const CheckedState& state) const;
+  // The same, if a node that is over an end of the surface to rounding counts as past it: of a surface with a radius,
+  // the gap changes by the radius there.
+  double GapPastEnd(std::size_t contact, const CheckedState& state) const;
   double Slip(std::size_t contact, const CheckedState& from, const CheckedState& to) const;
   // By the total law of friction, slip since the start of the program; round a closed obstacle the shorter way. Throws
   // std::invalid_argument where the configuration has no slip_origins.
