@@ -10,7 +10,6 @@
 #include "contact_path/ros/shutdown_signal.h"
 #include "contact_path/ros/trace_action.h"
 #include "contact_path/ros/trace_service.h"
-#include "process/keep_memory.h"
 #include "process/one_thread.h"
 
 namespace {
@@ -27,7 +26,6 @@ constexpr double kTimeToStream = 0.3;  // [s]
 
 int main(int argc, char** argv) {
   contact_path::UseOneThread(argv);
-  contact_path::KeepMemory();
   const contact_path::ShutdownSignal shutdown;
   std::signal(SIGXFSZ, SIG_IGN);  // a bag beyond a limit on the size of files is an error of writing
   ros::init(argc, argv, contact_path::names::kNode, ros::init_options::NoSigintHandler);
