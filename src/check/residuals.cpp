@@ -305,6 +305,12 @@ std::vector<ContactForceBound> ResidualCheck::BoundContactForces(double length, 
   return forces;
 }
 
+double ResidualCheck::LargestStiffness() const {
+  Real largest = 0.0L;
+  for (const auto& element : prepared_->elements) largest = std::max(largest, element->Stiffness());
+  return static_cast<double>(largest);
+}
+
 double ResidualCheck::StrainEnergy(const std::vector<double>& positions, const std::vector<double>& rotations) const {
   RequireSize(positions, prepared_->num_positions, "positions");
   RequireSize(rotations, prepared_->start.size() - prepared_->num_positions, "rotations");

@@ -39,7 +39,8 @@ TrapezoidWork WorkBetween(const VerifiedStage& stage, const Increment* earlier, 
   }
   work += 0.5 * (before.load_factor + increment.load_factor) * along;
   // Where a force has its largest value on the increment, both ends may be alike. It bends over the length L.
-  const double bend = kBend * std::pow(increment.arc_length - before.arc_length, 2);
+  const double arc = increment.arc_length - before.arc_length;
+  const double bend = kBend * arc * arc;
   // So may the branch of the loads, which goes forth and back then.
   const double load_change = std::abs(increment.load_factor - before.load_factor);
   double open_work = (0.5 * load_change * std::abs(along) +
@@ -52,6 +53,8 @@ TrapezoidWork WorkBetween(const VerifiedStage& stage, const Increment* earlier, 
     // A drag without friction exerts no force at both ends, and between them the forces of wavy surfaces.
     const double between = std::abs(from + to) + PowerOfReactions(stage, before) + PowerOfReactions(stage, increment);
     open_work += (0.5 * std::abs(to - from) + bend * between) * std::abs(moved) / unit;
+    // Parts that strain to second order alone store energy, and may give it back by the end of the increment.
+    open_work += std::pow(bend * stage.scaling.length, 2) * stage.check.LargestStiffness() / unit;
     const double moved_before = earlier != nullptr ? before.load_factor - earlier->load_factor : 0.0;
     if (moved_before != 0.0) {
       // A parabola over its chord is a quarter of what its slope at one end makes of it at the other end.
@@ -59,19 +62,26 @@ TrapezoidWork WorkBetween(const VerifiedStage& stage, const Increment* earlier, 
       open_work += 0.25 * std::abs(going_on - (to - from)) * std::abs(moved) / unit;
     }
   }
+  const double arc_before = earlier != nullptr ? before.arc_length - earlier->arc_length : 0.0;
+  // Of the force `reaction` of a contact. Where the contact closes and opens on the increment, the force is 0 at both
+  // ends, and the parts there decide between them.
+  const auto open_force = [&](std::size_t i, double ContactRecord::*reaction) {
+    const double was = before.contacts[i].*reaction, change = increment.contacts[i].*reaction - was;
+    const double largest = 2.0 * std::abs(was) + std::abs(change) + stage.contacts[i].of_parts * stage.scaling.force;
+    // As for the forces of supports.
+    const double going_on = arc_before > 0.0 ? (was - earlier->contacts[i].*reaction) / arc_before * arc : change;
+    return 0.5 * std::abs(change) + bend * largest + 0.25 * std::abs(going_on - change);
+  };
   double dissipation = 0.0, open_dissipation = 0.0;
   for (std::size_t i = 0; i < stage.contacts.size(); ++i) {
     const ContactState state = increment.contacts[i].state, was = before.contacts[i].state;
     const VerifiedContact& at = stage.contacts[i];
     const double forwards = stage.check.Slip(i, from_state, to_state), slip = std::abs(forwards);
     if (stage.total_law) {
-      const double rt_before = before.contacts[i].rt, rt = increment.contacts[i].rt;
-      dissipation -= 0.5 * (rt_before + rt) * forwards;
+      dissipation -= 0.5 * (before.contacts[i].rt + increment.contacts[i].rt) * forwards;
       // By this law a slip that turns round is no event.
       const double most_slip = slip + bend * stage.scaling.length;
-      open_dissipation += (0.5 * std::abs(rt - rt_before) +
-                           bend * (std::abs(rt_before) + std::abs(rt) + at.friction * stage.scaling.force)) *
-                          most_slip / unit;
+      if (at.friction > 0.0) open_dissipation += open_force(i, &ContactRecord::rt) * most_slip / unit;
       continue;
     }
     // Where within an increment of mpec it stopped to slip, or turned, is not known.
@@ -79,17 +89,7 @@ TrapezoidWork WorkBetween(const VerifiedStage& stage, const Increment* earlier, 
       open_dissipation += at.friction * std::max(before.contacts[i].rn, increment.contacts[i].rn) * slip / unit;
     if (!Slips(state)) continue;
     dissipation += 0.5 * at.friction * (before.contacts[i].rn + increment.contacts[i].rn) * slip;
-    const double rn = before.contacts[i].rn, change = std::abs(increment.contacts[i].rn - rn);
-    // A contact that closes and opens on the increment has no reaction at both ends.
-    const double largest = rn + change + stage.scaling.force;
-    double open_force = 0.5 * change + bend * largest;
-    if (const double arc_before = earlier != nullptr ? before.arc_length - earlier->arc_length : 0.0;
-        arc_before > 0.0) {
-      // As for the forces of supports.
-      const double going_on = (rn - earlier->contacts[i].rn) / arc_before * (increment.arc_length - before.arc_length);
-      open_force += 0.25 * std::abs(going_on - (increment.contacts[i].rn - rn));
-    }
-    open_dissipation += at.friction * open_force * slip / unit;
+    open_dissipation += at.friction * open_force(i, &ContactRecord::rn) * slip / unit;
   }
   return {work / unit, dissipation / unit, open_work, open_dissipation};
 }

@@ -40,6 +40,11 @@ std::vector<VerifiedContact> VerifiedContacts(const Scene& scene, const SceneInd
                                     obstacle, turning.count(candidate.obstacle) > 0);
     return can_slide ? obstacle.friction : 0.0;
   };
+  double closing = 0.0;  // largest force that closes a gap which counts as closed at the start
+  for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
+    const double gap = std::abs(check.Gap(i, start)) / scaling.length;
+    if (gap <= kClosedAtStart) closing = std::max(closing, kClosing * gap * forces[i].of_all_parts);
+  }
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
     VerifiedContact contact;
     contact.node = index.Node(scene.contacts[i].node);
@@ -48,10 +53,10 @@ std::vector<VerifiedContact> VerifiedContacts(const Scene& scene, const SceneInd
     const double unit = forces[i].on_node / scaling.force;
     if (unit > 0.0 && unit < kSoft) contact.unit = unit;
     if (kStiff * unit > 1.0) contact.unit = kStiff * unit;
-    const double parts = forces[i].of_all_parts / (scaling.force * contact.unit);
-    const double gap = std::abs(check.Gap(i, start)) / scaling.length;
-    contact.rounding =
-        std::max({kRounding, kRoundingOfParts * parts, gap <= kClosedAtStart ? kClosing * gap * parts : 0.0});
+    contact.of_parts = std::max(1.0, forces[i].of_all_parts / scaling.force);
+    // Parts pass on to other contacts what closes one.
+    contact.rounding = std::max(
+        kRounding, std::max(kRoundingOfParts * forces[i].of_all_parts, closing) / (scaling.force * contact.unit));
     contacts.push_back(std::move(contact));
   }
   return contacts;

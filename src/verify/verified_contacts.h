@@ -20,10 +20,11 @@ struct VerifiedContact {
   std::string name;
   // Forces across the contact that count as 1, over F: 1, or the forces there where these are far below F.
   double unit = 1.0;
-  // Of a reaction, over F times the unit: coordinates are known to 1e-16 of their size, a gap that counts as closed at
-  // the start is not 0, and the parts there turn both into forces. Never below that of a contact across which forces
+  // Of a reaction, over F times the unit: coordinates are known to 1e-16 of their size, gaps that count as closed at
+  // the start are not 0, and parts turn both into forces. Never below the rounding of a contact across which forces
   // are F.
   double rounding = 0.0;
+  double of_parts = 1.0;  // forces of the parts there for a motion of L, over F, at least 1
 };
 
 // In the order of the scene. check, configuration: of the scene. rates: x, y by node, of the fixed components [length]

@@ -233,7 +233,9 @@ TEST_P(RightPathIsProved, FromFile) {
 INSTANTIATE_TEST_SUITE_P(VerifyPath, RightPathIsProved,
                          ::testing::Values("stiff_solid_among_soft_bars", "held_on_stiff_solid",
                                            "over_the_end_of_a_thick_surface", "touching_but_for_rounding",
-                                           "drag_in_one_increment"),
+                                           "drag_in_one_increment", "slot_on_stiff_bars", "strained_to_second_order",
+                                           "slip_between_two_zeros", "largest_friction_within", "large_stored_energy",
+                                           "soft_motion_in_place"),
                          [](const auto& instance) { return std::string(instance.param); });
 
 TEST(VerifyPath, FixedNodesRest) {
