@@ -145,7 +145,7 @@ contact_path_add_long_test(path solid_paths_test)
 contact_path_add_long_test(path trace_test)
 contact_path_add_stage(study path_column_test study_outputs_test)
 contact_path_add_stage(verify verify_end_test verify_events_test verify_path_test)
-contact_path_add_stage(cli progress_test)
+contact_path_add_stage(cli event_table_test progress_test)
 target_link_libraries(cli_tests contact_path_terminal)
 contact_path_add_long_test(extremes extremes_test ${contact_path_extremes})
 # What scripts/stress writes docs/maintainers/extremes.md with.

@@ -59,6 +59,17 @@ bool IsSame(const StepEvent& one, const StepEvent& other) {
          one.limit.inequality == other.limit.inequality;
 }
 
+// Whether the load factor, of which a limit point was located at `point`, goes on beyond it in its sense: its rate
+// touches zero, as where the load is a cubic of the arc length.
+bool LoadGoesOn(const Step& step, const CurvePoint& point, Eigen::Index s) {
+  if (!(step.start.first[s] * step.end.first[s] > 0.0)) return false;
+  const Quintic load = step.InterpolateLinear([s](const Eigen::VectorXd& x) { return x[s]; });
+  const double t = step.normal.dot((point.x - step.start.x).head(step.normal.size()));
+  const double third = Evaluate(Derivative(Derivative(Derivative(load))), t), second = point.second[s];
+  // The extreme of the rate, by its parabola.
+  return second * second <= 2.0 * tolerances::kLevel * std::abs(third);
+}
+
 // Ends the step at the first event on it. The exact point of an event may show an earlier one. False: it is not found.
 bool EndAtFirstEvent(SmoothArc* arc, std::optional<double> target, ArcStep* at) {
   at->event = FirstEvent(arc, at->step, target);
@@ -67,6 +78,9 @@ bool EndAtFirstEvent(SmoothArc* arc, std::optional<double> target, ArcStep* at) 
     std::optional<CurvePoint> point = Locate(arc, at->step, at->event, target);
     if (!point) return false;
     if (!at->event.singular) KeepSide(at->step.start, &*point);
+    if (at->event.kind == EventKind::kLimitPoint && !at->event.singular &&
+        LoadGoesOn(at->step, *point, arc->system().NumDofs()))
+      at->event.kind = EventKind::kNearTouch;
     if (at->event.kind != EventKind::kTarget && target && Passes(*arc, at->step.start, *point, *target)) {
       at->event = {EventKind::kTarget, at->event.t, {}, false};
       continue;

@@ -242,7 +242,8 @@ std::optional<Constraint> RateProblem::Broken(const std::vector<ContactState>& s
       continue;
     }
     const double unit = Unit(e);
-    if (rn <= active.force * unit) require(contact, Inequality::kNormalReaction, rates.rn[e], force * unit);
+    if (rn <= active.NormalReaction(friction) * unit)
+      require(contact, Inequality::kNormalReaction, rates.rn[e], force * unit);
     if (states[i] == ContactState::kStick) {
       if (friction * rn + rt <= active.force * unit)
         require(contact, Inequality::kConePlus, friction * rates.rn[e] + rates.rt[e], force * unit);

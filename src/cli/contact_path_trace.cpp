@@ -21,6 +21,7 @@
 #include "contact_path/path/restored_states.h"
 #include "contact_path/path/trace.h"
 #include "contact_path/scene/expand.h"
+#include "contact_path/scene/nearest_name.h"
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/read_scene.h"
 #include "contact_path/scene/validate.h"
@@ -78,6 +79,18 @@ void HandleSignals() {
 }
 
 bool IsCancelled() { return cancel_requested != 0; }
+
+// "; did you mean --method?", where an option is misspelt.
+std::string OptionMeant(const CLI::App& app) {
+  for (const std::string& unknown : app.remaining()) {
+    if (unknown.rfind("--", 0) != 0) continue;
+    NearestName nearest(unknown);
+    for (const CLI::Option* const option : app.get_options())
+      for (const std::string& name : option->get_lnames()) nearest.Offer("--" + name);
+    return nearest.Question();
+  }
+  return "";
+}
 
 void DeclareOptions(CLI::App& app, Arguments& arguments) {
   CLI::Option* const scene = app.add_option("SCENE", arguments.scene_file, "Scene file (YAML)");
@@ -288,7 +301,7 @@ int main(int argc, char** argv) {
     std::cout << app.help() << std::flush;
     return std::cout ? contact_path::kComplete : contact_path::kEndedEarly;
   } catch (const CLI::ParseError& error) {
-    contact_path::PrintError(error.what());
+    contact_path::PrintError(error.what() + contact_path::OptionMeant(app));
     return contact_path::kBadInput;
   }
   if (arguments.scene_file.empty() && arguments.resume.empty()) {

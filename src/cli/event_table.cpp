@@ -1,13 +1,21 @@
 #include "cli/event_table.h"
 
+#include <cmath>
 #include <cstddef>
 #include <iomanip>
 #include <locale>
 #include <sstream>
 
 #include "contact_path/path/path_summary.h"
+#include "contact_path/tolerances.h"
 
 namespace contact_path {
+namespace {
+
+// 0 where it is rounding.
+double Shown(double value, double rounding) { return std::abs(value) > rounding ? value : 0.0; }
+
+}  // namespace
 
 void PrintBranches(const TraceRequest& request, const Increment& increment, double load_scale, std::ostream& out) {
   if (increment.event.branches.empty() && increment.event.number == 0) return;
@@ -22,8 +30,10 @@ void PrintBranches(const TraceRequest& request, const Increment& increment, doub
   for (std::size_t i = 0; i < increment.event.branches.size(); ++i) {
     const BranchRecord& branch = increment.event.branches[i];
     const bool taken = static_cast<int>(i) + 1 == increment.event.taken;
-    text << (taken ? "* branch " : "  branch ") << i + 1 << ": dissipation rate " << branch.dissipation_rate
-         << ", load rate " << branch.load_rate << ", turn " << branch.turn;
+    text << (taken ? "* branch " : "  branch ") << i + 1 << ": dissipation rate "
+         << Shown(branch.dissipation_rate, tolerances::kReactionRounding) << ", load rate "
+         << Shown(branch.load_rate, tolerances::kUnitComponent) << ", turn "
+         << Shown(branch.turn, tolerances::kSameTurn);
     for (std::size_t k = 0; k < branch.states.size(); ++k)
       text << (k == 0 ? "; " : ", ") << request.scene.contacts[k].Name() << ' ' << ToString(branch.states[k]);
     text << '\n';

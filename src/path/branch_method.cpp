@@ -47,12 +47,6 @@ std::string NoBranch(const BranchSet& on) {
   return "no admissible branch: the quasi-static path ends here, only a dynamic jump leads further";
 }
 
-// Where the first derivative of the load factor is zero, by the second. level: of a unit rate that counts as zero.
-bool TurnsLoad(const CurvePoint& arrival, const CurvePoint& departure, Eigen::Index s, double level) {
-  return Trend(arrival.first[s], -arrival.second[s], level) * Trend(departure.first[s], departure.second[s], level) <
-         0.0;
-}
-
 void RecordBranches(const std::vector<Branch>& branches, EventRecord* record) {
   for (const Branch& branch : branches)
     record->branches.push_back({branch.states, branch.load_rate, branch.dissipation_rate, branch.turn});
@@ -270,15 +264,14 @@ std::optional<int> BranchMethod::EndAtReturn(const PathPoint& from, ArcStep* at)
 
 std::optional<EndReason> BranchMethod::PassEnd(const ArcStep& at, AcceptedPoint* increment, std::string* message) {
   if (at.event.kind == EventKind::kBifurcation) return PassBifurcation(at, increment, message);
-  if (at.event.kind == EventKind::kContactEvent || options_.ChoiceAt(increments_, 0) != nullptr)
-    return PassContactEvent(at, increment, message);
+  if (at.event.kind == EventKind::kContactEvent) return PassContactEvent(at, increment, message);
   if (at.event.kind == EventKind::kLimitPoint) {
     increment->kind = IncrementKind::kSmoothLimit;
     if (at.event.singular) increment->event.null_vector = CrossingPath(at.step);
     if (at.event.singular && options_.keep_loading && TakeCrossingThatLoads(at))
       increment->kind = IncrementKind::kBifurcation;
   }
-  return std::nullopt;
+  return options_.ChoiceAt(increments_, 0) == nullptr ? std::nullopt : PassChoice(at, increment, message);
 }
 
 bool BranchMethod::TakeCrossingThatLoads(const ArcStep& at) {
@@ -307,7 +300,7 @@ std::optional<EndReason> BranchMethod::PassBifurcation(const ArcStep& at, Accept
   if (*taken == 0) return std::nullopt;
   current_.first = branches[*taken].first;
   current_.second = branches[*taken].second;
-  if (TurnsLoad(end, current_, LoadFactor(), tolerances::kLevelSingular)) {
+  if (TurnsLoad(at)) {
     increment->kind = IncrementKind::kCornerLimit;
     record->null_vector.clear();
   }
@@ -317,7 +310,7 @@ std::optional<EndReason> BranchMethod::PassBifurcation(const ArcStep& at, Accept
 std::optional<EndReason> BranchMethod::PassContactEvent(const ArcStep& at, AcceptedPoint* increment,
                                                         std::string* message) {
   increment->kind = IncrementKind::kContactEvent;
-  if (at.event.kind == EventKind::kContactEvent) increment->event.number = ++events_;
+  increment->event.number = ++events_;
   if (SlidesOff(at, increment->point)) {
     const ContactCandidate& lost = model_.scene.contacts[static_cast<std::size_t>(at.event.limit.contact)];
     *message = "contact " + lost.Name() + " is lost: the node slides over the end of the " +
@@ -325,19 +318,40 @@ std::optional<EndReason> BranchMethod::PassContactEvent(const ArcStep& at, Accep
                " while it is pressed onto it, and only a dynamic jump leads further";
     return EndReason::kPathEnd;
   }
-  const CurvePoint& end = at.step.end;
+  const std::optional<EndReason> reason = LeaveEnd(at, options_.ChoiceAt(increments_, events_), increment, message);
+  if (!reason && TurnsLoad(at)) increment->kind = IncrementKind::kCornerLimit;
+  return reason;
+}
+
+std::optional<EndReason> BranchMethod::PassChoice(const ArcStep& at, AcceptedPoint* increment, std::string* message) {
+  const std::vector<ContactState> states = arc_.system().states();
+  const std::optional<EndReason> reason = LeaveEnd(at, options_.ChoiceAt(increments_, 0), increment, message);
+  if (reason) return reason;
+  const bool goes_on = arc_.system().states() == states &&
+                       arc_.system().Norm(current_.first - at.step.end.first) <= tolerances::kSameTangent;
+  if (goes_on) return std::nullopt;
+  increment->kind = TurnsLoad(at) ? IncrementKind::kCornerLimit : IncrementKind::kContactEvent;
+  increment->event.null_vector.clear();
+  return std::nullopt;
+}
+
+std::optional<EndReason> BranchMethod::LeaveEnd(const ArcStep& at, const BranchChoice* choice, AcceptedPoint* increment,
+                                                std::string* message) {
   Arrival arrival;
-  arrival.direction = end.first.head(arc_.NumMotion());
+  arrival.direction = at.step.end.first.head(arc_.NumMotion());
   arrival.singular = at.event.singular;
   arrival.before = moved_;
   if (at_start_) arrival = StartArrival();
   arrival.load_sense = options_.direction;
-  const std::optional<EndReason> reason =
-      LeaveEvent(increment->point, arrival, options_.ChoiceAt(increments_, events_), &increment->event, message);
-  if (reason) return reason;
+  return LeaveEvent(increment->point, arrival, choice, &increment->event, message);
+}
+
+bool BranchMethod::TurnsLoad(const ArcStep& at) const {
   const double level = at.event.singular ? tolerances::kLevelSingular : tolerances::kLevel;
-  if (TurnsLoad(end, current_, LoadFactor(), level)) increment->kind = IncrementKind::kCornerLimit;
-  return std::nullopt;
+  const Eigen::Index s = LoadFactor();
+  return Trend(at.step.end.first[s], -at.step.end.second[s], level) *
+             Trend(current_.first[s], current_.second[s], level) <
+         0.0;
 }
 
 bool BranchMethod::SlidesOff(const ArcStep& at, const PathPoint& point) const {

@@ -41,7 +41,8 @@ void PathSummary::Add(const Increment& increment) {
   const CriticalPoint point = {increment.index, increment.stage, increment.kind, increment.load_factor};
   if (increment.kind == IncrementKind::kSmoothLimit || increment.kind == IncrementKind::kCornerLimit)
     limit_points_.push_back(point);
-  if (increment.kind == IncrementKind::kBifurcation) bifurcations_.push_back(point);
+  if (increment.kind == IncrementKind::kBifurcation || !increment.event.null_vector.empty())
+    crossings_.push_back(point);
 }
 
 std::string PathSummary::Listed(const std::vector<CriticalPoint>& points) const {
@@ -57,7 +58,7 @@ std::string PathSummary::Listed(const std::vector<CriticalPoint>& points) const 
 std::string PathSummary::ToText() const {
   std::string text = Counted(increments_, "increment") + "; limit points: ";
   text += limit_points_.empty() ? "none" : Listed(limit_points_);
-  if (!bifurcations_.empty()) text += "; another path crosses: " + Listed(bifurcations_);
+  if (!crossings_.empty()) text += "; another path crosses: " + Listed(crossings_);
   return text + "; " + Counted(events_, "event");
 }
 

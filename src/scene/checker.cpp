@@ -124,7 +124,8 @@ void Checker::CheckQuantity(const KeyPath& key, const std::string& text) {
   const std::optional<SpelledQuantity> quantity = ReadQuantity(text);
   if (!quantity) {
     Add(key, TextOrQuotes(text),
-        "must be load_factor, <node>.x, <node>.y, <node>.rotation, <contact>.gap, <contact>.rn or <contact>.rt");
+        "must be load_factor, <node>.x, <node>.y, <node>.rotation, <contact>.gap, <contact>.rn or <contact>.rt" +
+            NearestQuantity(text, request_.scene).Question());
   } else if (quantity->kind == Quantity::Kind::kLoadFactor) {
     if (!request_.program.empty())
       Add(key, text, "must be of a node or contact where there is a program: each stage has a target of its own");

@@ -1,6 +1,7 @@
 #include "contact_path/scene/quantity.h"
 
 #include <array>
+#include <functional>
 
 namespace contact_path {
 namespace {
@@ -69,6 +70,22 @@ std::optional<Quantity> FindQuantity(std::string_view text, const SceneIndex& in
 NearestName NearestPart(const SpelledQuantity& quantity, const Scene& scene) {
   if (Quantity{quantity.kind, 0}.IsOfNode()) return NearestOf(quantity.name, scene.nodes, &Node::name);
   return NearestOf(quantity.name, scene.contacts, &ContactCandidate::Name);
+}
+
+NearestName NearestQuantity(std::string_view text, const Scene& scene) {
+  NearestName nearest(text);
+  nearest.Offer(kLoadFactor);
+  const bool is_column = text.find('.') == text.npos;
+  for (const Component& component : kComponents) {
+    const auto offer = [&](const auto& parts, auto name_of) {
+      for (const auto& part : parts) nearest.Offer(QuantityText(component.kind, std::invoke(name_of, part), is_column));
+    };
+    if (Quantity{component.kind, 0}.IsOfNode())
+      offer(scene.nodes, &Node::name);
+    else
+      offer(scene.contacts, &ContactCandidate::Name);
+  }
+  return nearest;
 }
 
 std::string QuantityText(Quantity::Kind kind, std::string_view name, bool is_column) {

@@ -43,9 +43,16 @@ TrapezoidWork WorkBetween(const VerifiedStage& stage, const Increment* earlier, 
   const double bend = kBend * arc * arc;
   // So may the branch of the loads, which goes forth and back then.
   const double load_change = std::abs(increment.load_factor - before.load_factor);
-  double open_work = (0.5 * load_change * std::abs(along) +
-                      bend * (std::abs(work) + load_change * scaled_loads * stage.scaling.length)) /
-                     unit;
+  double load_open = 0.5 * load_change;
+  const double arc_before = earlier != nullptr ? before.arc_length - earlier->arc_length : 0.0;
+  if (arc_before > 0.0) {
+    // A parabola over its chord is a quarter of what its slope at one end makes of it at the other end.
+    const double going_on = (before.load_factor - earlier->load_factor) / arc_before * arc;
+    load_open += 0.25 * std::abs(going_on - (increment.load_factor - before.load_factor));
+  }
+  double open_work =
+      (load_open * std::abs(along) + bend * (std::abs(work) + load_change * scaled_loads * stage.scaling.length)) /
+      unit;
   if (!stage.scene.support_motions.empty() || !stage.scene.obstacle_motions.empty()) {
     const double from = stage.check.DrivingForce(from_state), to = stage.check.DrivingForce(to_state);
     const double moved = increment.load_factor - before.load_factor;
@@ -57,18 +64,16 @@ TrapezoidWork WorkBetween(const VerifiedStage& stage, const Increment* earlier, 
     open_work += std::pow(bend * stage.scaling.length, 2) * stage.check.LargestStiffness() / unit;
     const double moved_before = earlier != nullptr ? before.load_factor - earlier->load_factor : 0.0;
     if (moved_before != 0.0) {
-      // A parabola over its chord is a quarter of what its slope at one end makes of it at the other end.
       const double going_on = (from - stage.check.DrivingForce(StateOf(*earlier))) / moved_before * moved;
       open_work += 0.25 * std::abs(going_on - (to - from)) * std::abs(moved) / unit;
     }
   }
-  const double arc_before = earlier != nullptr ? before.arc_length - earlier->arc_length : 0.0;
   // Of the force `reaction` of a contact. Where the contact closes and opens on the increment, the force is 0 at both
   // ends, and the parts there decide between them.
   const auto open_force = [&](std::size_t i, double ContactRecord::*reaction) {
     const double was = before.contacts[i].*reaction, change = increment.contacts[i].*reaction - was;
     const double largest = 2.0 * std::abs(was) + std::abs(change) + stage.contacts[i].of_parts * stage.scaling.force;
-    // As for the forces of supports.
+    // As for the load.
     const double going_on = arc_before > 0.0 ? (was - earlier->contacts[i].*reaction) / arc_before * arc : change;
     return 0.5 * std::abs(change) + bend * largest + 0.25 * std::abs(going_on - change);
   };

@@ -10,12 +10,10 @@
 namespace contact_path {
 namespace {
 
-constexpr double kSoft = 1e-6;       // of F: where forces across a contact are smaller, F is no measure of them
-constexpr double kStiff = 1e-4;      // of the forces across a contact: its reactions are known to rounding of no less
-constexpr double kRounding = 2e-13;  // of F: a contact that pulls with more is not at rounding
-constexpr double kRoundingOfParts = 1e-14;  // the same, of the forces of the parts that press on the node
-constexpr double kClosedAtStart = 1e-9;     // gap over L
-constexpr double kClosing = 10.0;           // the nodes of a surface have shares in a gap: each moves by more than that
+constexpr double kSoft = 1e-6;           // of F: where forces across a contact are smaller, F is no measure of them
+constexpr double kRounding = 2e-13;      // of F: a contact that pulls with more is not at rounding
+constexpr double kClosedAtStart = 1e-9;  // gap over L
+constexpr double kClosing = 10.0;        // the nodes of a surface have shares in a gap: each moves by more than that
 
 }  // namespace
 
@@ -40,6 +38,8 @@ std::vector<VerifiedContact> VerifiedContacts(const Scene& scene, const SceneInd
                                     obstacle, turning.count(candidate.obstacle) > 0);
     return can_slide ? obstacle.friction : 0.0;
   };
+  // Parts pass on forces: of the stiffest one the rounding, too.
+  const double stiffest = check.LargestStiffness() * scaling.length;
   double closing = 0.0;  // largest force that closes a gap which counts as closed at the start
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
     const double gap = std::abs(check.Gap(i, start)) / scaling.length;
@@ -54,9 +54,8 @@ std::vector<VerifiedContact> VerifiedContacts(const Scene& scene, const SceneInd
     if (unit > 0.0 && unit < kSoft) contact.unit = unit;
     if (kStiff * unit > 1.0) contact.unit = kStiff * unit;
     contact.of_parts = std::max(1.0, forces[i].of_all_parts / scaling.force);
-    // Parts pass on to other contacts what closes one.
-    contact.rounding = std::max(
-        kRounding, std::max(kRoundingOfParts * forces[i].of_all_parts, closing) / (scaling.force * contact.unit));
+    const double rounding = kRoundingOfParts * std::max(stiffest, forces[i].of_all_parts);
+    contact.rounding = std::max(kRounding, std::max(rounding, closing) / (scaling.force * contact.unit));
     contacts.push_back(std::move(contact));
   }
   return contacts;

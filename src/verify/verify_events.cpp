@@ -9,6 +9,7 @@
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/scaling.h"
 #include "verify/scaled_motion.h"
+#include "verify/verified_contacts.h"
 
 namespace contact_path {
 namespace {
@@ -33,9 +34,11 @@ double LargestTurn(Accuracy accuracy) {
 
 class EventVerifier {
  public:
-  EventVerifier(const TraceRequest& request, const std::vector<Increment>& increments, std::vector<Finding>* findings)
+  EventVerifier(const TraceRequest& request, const std::vector<Increment>& increments,
+                const std::vector<double>& stiffest, std::vector<Finding>* findings)
       : request_(request),
         increments_(increments),
+        stiffest_(stiffest),
         turn_(kMoreTurn * LargestTurn(request.options.accuracy)),
         index_(request.scene),
         of_program_(ProgramScales(request, index_)),
@@ -68,6 +71,7 @@ class EventVerifier {
   void EnterStage(const Increment& start) {
     const std::size_t stage = static_cast<std::size_t>(std::max(start.stage, 1) - 1);
     scaling_ = StageScales(request_, index_, stage, of_program_);
+    level_ = kLevel * ResidualUnit(stiffest_[stage]) * scaling_.load_factor;
     direction_ = request_.options.Direction();
     if (!request_.program.empty()) direction_ = request_.program[stage].Target() < 0.0 ? -1.0 : 1.0;
     relation_ = 0;
@@ -200,7 +204,7 @@ class EventVerifier {
     if (goes_on && sign * before.solve.determinant_sign < 0)
       Report("the determinant changes its sign, but there is no bifurcation");
     const double change = now.load_factor - before.load_factor;
-    if (now.kind != IncrementKind::kRegular || std::abs(change) <= kLevel * scaling_.load_factor) return;
+    if (now.kind != IncrementKind::kRegular || std::abs(change) <= level_) return;
     const int relation = sign * now.solve.stiffness_sign * (change > 0.0 ? 1 : -1);
     if (relation == 0) return;
     if (relation_ != 0 && relation != relation_)
@@ -210,10 +214,12 @@ class EventVerifier {
 
   const TraceRequest& request_;
   const std::vector<Increment>& increments_;
-  const double turn_;  // of an increment, with a margin [rad]
+  const std::vector<double>& stiffest_;  // by stage
+  const double turn_;                    // of an increment, with a margin [rad]
   const SceneIndex index_;
   const Scaling of_program_;
   Scaling scaling_;         // of the stage
+  double level_ = 0.0;      // of the stage: change of the load factor
   double direction_ = 1.0;  // of the load at the start of the stage
   int events_ = 0;          // numbered so far
   int relation_ = 0;        // of the signs on this arc; 0: not known
@@ -224,8 +230,8 @@ class EventVerifier {
 }  // namespace
 
 void VerifyEvents(const TraceRequest& request, const std::vector<Increment>& increments,
-                  std::vector<Finding>* findings) {
-  EventVerifier(request, increments, findings).Run();
+                  const std::vector<double>& stiffest, std::vector<Finding>* findings) {
+  EventVerifier(request, increments, stiffest, findings).Run();
 }
 
 }  // namespace contact_path

@@ -79,6 +79,7 @@ class Verifier {
       rates_[2 * index_.Node(motion.node) + 1] = motion.dy;
       turn_rates_[index_.Node(motion.node)] = motion.rotation;
     }
+    stiffest_ = check_.LargestStiffness() * scaling_.length / scaling_.force;
     contacts_ = VerifiedContacts(scene_, index_, check_, configuration_, scaling_, rates_, load);
   }
 
@@ -114,6 +115,9 @@ class Verifier {
     }
     CheckEnergy();
   }
+
+  // Force of the stiffest element for a motion of L, over F.
+  double Stiffest() const { return stiffest_; }
 
  private:
   const Increment& Current() const { return increments_[increment_]; }
@@ -169,7 +173,7 @@ class Verifier {
     for (std::size_t i = 0; i < increment.contacts.size(); ++i)
       same = same && last.contacts[i].state == increment.contacts[i].state;
     Bound("positions differ from those at the end of the stage before", motion, rounding_);
-    BoundReactionChange("reactions differ from those at the end of the stage before", last, increment);
+    BoundReactionChange("reactions differ from those at the end of the stage before", last, increment, motion);
     if (!same) Report("contact states differ from those at the end of the stage before");
   }
 
@@ -192,8 +196,10 @@ class Verifier {
   void CheckEvent(const Increment& increment) {
     if (increment.solve.method != Method::kBranch || increment_ == first_ || increment_ + 1 == last_) return;
     const bool event = increment.kind == IncrementKind::kContactEvent || increment.kind == IncrementKind::kCornerLimit;
-    if (increment.kind != IncrementKind::kBifurcation && event != !increment.event.branches.empty())
-      Report(event ? "an event without branches" : "branches, but no event");
+    if (event && increment.event.branches.empty()) Report("an event without branches");
+    // Where a choice names an increment, its branches are on record, too.
+    const bool numbered = increment.event.number != 0 && !increment.event.branches.empty();
+    if (numbered && !event && increment.kind != IncrementKind::kBifurcation) Report("branches, but no event");
     if (event && increment.event.taken == 0) Report("an event where no branch is taken");
     // At a smooth limit point another path may cross too.
     const bool crosses = !increment.event.null_vector.empty();
@@ -326,6 +332,9 @@ class Verifier {
     Bound("recorded gap of " + at.name + " less the true one",
           std::min(std::abs(recorded - gap), std::abs(recorded - past_end)), rounding_);
     const double slip = SlipOf(i, from, to) / scaling_.length;
+    // Where a point is repeated, as of a node between two discs, its place is known to no more.
+    const bool repeated = before_ && !(Current().arc_length > increments_[*before_].arc_length);
+    const double slip_tolerance = repeated ? std::max(tolerance, kInPlace) : tolerance;
     const double rn = contact.rn / scaling_.force, rt = contact.rt / scaling_.force;
     const auto wrong = [&](const char* state) { Report(at.name, " is recorded as ", state, ", but is not"); };
     switch (contact.state) {
@@ -336,14 +345,14 @@ class Verifier {
         if (std::abs(gap) > tolerance || std::abs(rt) > tolerance || at.friction != 0.0) wrong("closed");
         break;
       case ContactState::kStick:
-        if (std::abs(gap) > tolerance || std::abs(slip) > tolerance) wrong("sticking");
+        if (std::abs(gap) > tolerance || std::abs(slip) > slip_tolerance) wrong("sticking");
         break;
       case ContactState::kSlipPlus:
-        if (std::abs(gap) > tolerance || slip < -tolerance || std::abs(rt + at.friction * rn) > tolerance)
+        if (std::abs(gap) > tolerance || slip < -slip_tolerance || std::abs(rt + at.friction * rn) > tolerance)
           wrong("slipping forwards");
         break;
       case ContactState::kSlipMinus:
-        if (std::abs(gap) > tolerance || slip > tolerance || std::abs(rt - at.friction * rn) > tolerance)
+        if (std::abs(gap) > tolerance || slip > slip_tolerance || std::abs(rt - at.friction * rn) > tolerance)
           wrong("slipping backwards");
         break;
     }
@@ -361,7 +370,7 @@ class Verifier {
 
     // Reactions may change at rest where a branch begins, and nowhere else.
     if (before_ == increment_ - 1 && !(arc > 0.0) && before.event.branches.empty())
-      BoundReactionChange("reactions change while nothing moves, and not at an event", before, increment);
+      BoundReactionChange("reactions change while nothing moves, and not at an event", before, increment, chord);
 
     // States: method branch has an increment of its own where they change; an increment of method mpec tells that they
     // have.
@@ -380,12 +389,14 @@ class Verifier {
     if (!as_taken) Report("contact states are not those of the branch taken from the increment before");
   }
 
-  // Reactions of two increments in one place. Each has the rounding of the parts that press on its contact.
-  void BoundReactionChange(const std::string& what, const Increment& before, const Increment& increment) {
+  // Reactions of two increments in one place, which moved by rounding alone. Each has the rounding of the parts that
+  // press on its contact.
+  void BoundReactionChange(const std::string& what, const Increment& before, const Increment& increment, double moved) {
     for (std::size_t i = 0; i < increment.contacts.size(); ++i) {
       const ContactRecord &a = before.contacts[i], &b = increment.contacts[i];
       const double change = std::max(std::abs(a.rn - b.rn), std::abs(a.rt - b.rt)) / scaling_.force;
-      Bound(what + " (" + contacts_[i].name + ")", change, rounding_ + 2.0 * contacts_[i].rounding * contacts_[i].unit);
+      Bound(what + " (" + contacts_[i].name + ")", change,
+            rounding_ + 2.0 * contacts_[i].rounding * contacts_[i].unit + contacts_[i].of_parts * moved);
     }
   }
 
@@ -408,7 +419,8 @@ class Verifier {
     if (increment_ < first_ + 2) return;
     const Increment &a = increments_[increment_ - 2], &b = increments_[increment_ - 1], &c = increments_[increment_];
     const double before = b.load_factor - a.load_factor, after = c.load_factor - b.load_factor;
-    const double level = (b.kind == IncrementKind::kBifurcation ? kTurnCrossing : kTurn) * scaling_.load_factor;
+    const double turn = b.kind == IncrementKind::kBifurcation ? kTurnCrossing : kTurn;
+    const double level = turn * ResidualUnit(stiffest_) * scaling_.load_factor;
     // mpec tells in the increment after.
     const Increment& located = c.solve.method == Method::kBranch ? b : c;
     const bool limit = located.kind == IncrementKind::kSmoothLimit || located.kind == IncrementKind::kCornerLimit;
@@ -433,7 +445,9 @@ class Verifier {
           (increment.external_work - start.external_work - (increment.strain_energy - start.strain_energy) -
            (increment.dissipation - start.dissipation)) /
           unit;
-      const double rounding = rounding_ * (1.0 + std::abs(increment.strain_energy) / unit);
+      const double forces = kRoundingOfParts * stiffest_;
+      const double rounding = rounding_ * (1.0 + std::abs(increment.strain_energy) / unit) +
+                              forces * (increment.arc_length - start.arc_length);
       if (!(std::abs(balance) <= share * result_.work + open_ + pressed + rounding)) {
         Report("energy balance: ", balance, " of F L, with ", result_.work, " of work done on the whole path");
         return;
@@ -459,6 +473,7 @@ class Verifier {
   std::optional<std::size_t> before_;      // the last full increment
   std::optional<std::size_t> earlier_;     // the full increment before that
   double rounding_ = 0.0;                  // of what was recorded, scaled
+  double stiffest_ = 0.0;                  // as Stiffest()
   double open_ = 0.0;                      // what trapezoids leave open of works and dissipations
   Verification& result_;
 };
@@ -473,6 +488,7 @@ Verification VerifyPath(const TraceRequest& request_given, const std::vector<Inc
   if (increments.empty()) result.findings.push_back({0, "the record has no increments"});
   const SceneIndex index(request.scene);
   const Scaling of_program = ProgramScales(request, index);
+  std::vector<double> stiffest;
   std::size_t stage = 0;
   for (std::size_t first = 0, last = 0; first < increments.size(); first = last, ++stage) {
     last = first + 1;
@@ -481,11 +497,13 @@ Verification VerifyPath(const TraceRequest& request_given, const std::vector<Inc
       result.findings.push_back({static_cast<int>(first), "is of a stage that the request does not have"});
       break;
     }
-    Verifier(request, index, of_program, stage, increments, first, last, &result).Run(before_each);
+    Verifier verifier(request, index, of_program, stage, increments, first, last, &result);
+    verifier.Run(before_each);
+    stiffest.push_back(verifier.Stiffest());
     if (last < increments.size() && !AtTarget(request, increments[last - 1]))
       result.findings.push_back({static_cast<int>(last - 1), "ends its stage, but not at its target"});
   }
-  if (result.findings.empty()) VerifyEvents(request, increments, &result.findings);
+  if (result.findings.empty()) VerifyEvents(request, increments, stiffest, &result.findings);
   return result;
 }
 

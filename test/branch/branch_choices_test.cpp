@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "branch/example_scenes.h"
+#include "contact_path/verify/verify_path.h"
 #include "support/reference_cases.h"
 #include "support/traced_path.h"
 
@@ -158,6 +159,29 @@ TEST(BranchChoices, ByRowAndByEvent) {
   EXPECT_EQ(unused.increments.size(), plain.increments.size());
   EXPECT_NE(unused.result.message.find("never came to event 9, increment 5000"), std::string::npos)
       << unused.result.message;
+}
+
+// A choice that names an increment and takes the path itself leaves the path as it is, with its branches on record.
+TEST(BranchChoices, ThePathItselfIsNoEvent) {
+  for (const char* scene : {"sliding_bar", "von_mises"}) {
+    SCOPED_TRACE(scene);
+    const TracedPath plain = TraceIncrements(ReadExample(scene));
+    const int limit = IncrementsOfKind(plain, IncrementKind::kSmoothLimit).at(0).index;
+    for (const int increment : {5, limit}) {
+      SCOPED_TRACE("increment " + std::to_string(increment));
+      TraceRequest request = ReadExample(scene);
+      request.options.branch_choices = {{0, increment, 1}};
+      const TracedPath path = TraceIncrements(request);
+      ASSERT_EQ(path.increments.size(), plain.increments.size());
+      for (std::size_t i = 0; i < path.increments.size(); ++i) {
+        EXPECT_EQ(path.increments[i].kind, plain.increments[i].kind) << i;
+        EXPECT_EQ(path.increments[i].event.number, plain.increments[i].event.number) << i;
+        EXPECT_NEAR(path.increments[i].load_factor, plain.increments[i].load_factor, kExact) << i;
+      }
+      EXPECT_EQ(path.increments[static_cast<std::size_t>(increment)].event.taken, 1);
+      EXPECT_TRUE(VerifyPath(request, path.increments).findings.empty());
+    }
+  }
 }
 
 // All branches but the branch of arrival are on record: where sticking ends, sticking on is the branch of arrival.

@@ -319,6 +319,7 @@ class BadInput(CliTest):
             ([], 'SCENE'),
             ([SCENE, 'other.yaml'], 'other.yaml'),
             ([SCENE, '--surprise'], '--surprise'),
+            ([SCENE, '--methd', 'mpec'], 'did you mean --method?'),
             ([SCENE, '--csv'], '--csv'),
             ([SCENE, '--step', 'long'], 'long'),
             ([SCENE, '--max-increments', '1.5'], '1.5'),

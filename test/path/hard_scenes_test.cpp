@@ -16,8 +16,10 @@ namespace {
 
 constexpr Accuracy kPresets[] = {Accuracy::kFast, Accuracy::kBalanced, Accuracy::kAccurate};
 
-TracedPath TraceData(const std::string& name, Method method, Accuracy accuracy) {
+// max_increments: 0: as the file has it.
+TracedPath TraceData(const std::string& name, Method method, Accuracy accuracy, int max_increments = 0) {
   TraceRequest request = ReadTraceRequestFile(std::string(CONTACT_PATH_TEST_DATA) + "/" + name + ".yaml");
+  if (max_increments > 0) request.options.max_increments = max_increments;
   request.options.method = method;
   request.options.accuracy = accuracy;
   return TraceIncrements(request);
@@ -174,6 +176,51 @@ TEST(HardScenes, ForcesFarBelowTheCharacteristicOne) {
   EXPECT_NEAR(loads[0], 1.0, 1e-9);
   EXPECT_NEAR(loads[1], 2.0 / 3.0, 1e-9);
   EXPECT_NEAR(exact.increments.back().dissipation, 1.0 / 3.0, 1e-7);
+}
+
+// The load of an unloaded part that swings through its shape is a cubic of the arc length: its rate touches zero, and
+// the load goes on.
+TEST(HardScenes, ALoadThatIsACubicDoesNotTurn) {
+  for (const Accuracy accuracy : kPresets) {
+    SCOPED_TRACE(ToString(accuracy));
+    const TracedPath path = TraceData("load_is_a_cubic", Method::kBranch, accuracy, 60);
+    ExpectNoFindings(path);
+    const std::vector<Increment> corners = IncrementsOfKind(path, IncrementKind::kCornerLimit);
+    ASSERT_FALSE(corners.empty());
+    double load = corners[0].load_factor;
+    for (std::size_t i = static_cast<std::size_t>(corners[0].index) + 1; load > -1e-7; ++i) {
+      ASSERT_LT(i, path.increments.size());
+      EXPECT_LT(path.increments[i].load_factor, load) << i;
+      EXPECT_NE(path.increments[i].kind, IncrementKind::kSmoothLimit) << i;
+      load = path.increments[i].load_factor;
+    }
+  }
+}
+
+// A contact whose friction coefficient is 1e6 has lost its normal reaction to rounding before its friction force: it
+// slides until the force is zero, and no force vanishes at once.
+TEST(HardScenes, AVeryRoughContactSlidesBeforeItOpens) {
+  std::vector<double> dissipation;
+  for (const Accuracy accuracy : kPresets) {
+    SCOPED_TRACE(ToString(accuracy));
+    const TracedPath path = TraceData("very_rough_contact_opens", Method::kBranch, accuracy, 100);
+    EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+    ExpectNoFindings(path);
+    int opened = 0;
+    for (std::size_t i = 1; i < path.increments.size(); ++i)
+      for (std::size_t k = 0; k < 2; ++k) {
+        const ContactRecord &before = path.increments[i - 1].contacts[k], &now = path.increments[i].contacts[k];
+        if (path.increments[i - 1].kind == IncrementKind::kStart || now.state != ContactState::kOpen ||
+            before.state == ContactState::kOpen)
+          continue;
+        ++opened;
+        EXPECT_EQ(before.state, ContactState::kSlipMinus);
+        EXPECT_LE(std::hypot(before.rn, before.rt), 1e-13);
+      }
+    EXPECT_EQ(opened, 1);
+    dissipation.push_back(path.increments.back().dissipation);
+  }
+  for (const double dissipated : dissipation) EXPECT_NEAR(dissipated, dissipation[0], 1e-4 * dissipation[0]);
 }
 
 // A step of the length that was asked for would be off by 4 % of the energy that it exchanges.

@@ -43,6 +43,17 @@ TEST_F(SummaryOfIncrements, NamesLimitPointsInTheirOrder) {
       "-0.3333333333 (increment 4); another path crosses: bifurcation at load factor 1.5 (increment 3); 1 event");
 }
 
+TEST_F(SummaryOfIncrements, NamesLimitPointsWhereAnotherPathCrosses) {
+  Increment limit;
+  limit.kind = IncrementKind::kSmoothLimit;
+  limit.load_factor = 2.5;
+  limit.event.null_vector = {1.0, 0.0};
+  summary_.Add(limit);
+  EXPECT_EQ(summary_.ToText(),
+            "1 increment; limit points: smooth_limit at load factor 2.5 (increment 0); another path crosses: "
+            "smooth_limit at load factor 2.5 (increment 0); 0 events");
+}
+
 TEST_F(SummaryOfIncrements, CountsEventsThatTheMethodNumbersAndThoseThatTheStatesShow) {
   Add(IncrementKind::kStart);
   Add(IncrementKind::kRegular, 1.0, 1);       // branch: contacts could change and do not

@@ -484,6 +484,25 @@ TEST(SingularScenes, TwoTrussesNearlyEqual) {
 }
 
 // Two halves that do not touch each other reach their limit loads together, symmetric for any step.
+// Both reach their limit points at the same load, so the Jacobian has two null vectors there. The limit loads are those
+// of one truss, 2 EA (1 - c^(2/3))^(3/2) with c = b / l_0.
+TEST(SingularScenes, TwoEqualTrusses) {
+  const double limit = 2.0 * std::pow(1.0 - std::cbrt(0.5), 1.5);
+  for (const Accuracy accuracy : kPresets) {
+    SCOPED_TRACE(ToString(accuracy));
+    const TracedPath path = TraceData("two_von_mises", accuracy);
+    EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+    const std::vector<double> limits = Loads(path, IncrementKind::kSmoothLimit);
+    ASSERT_EQ(limits.size(), 2U);
+    EXPECT_NEAR(limits[0], limit, 1e-12);
+    EXPECT_NEAR(limits[1], -limit, 1e-12);
+    for (const Increment& increment : path.increments) {
+      EXPECT_NEAR(PositionY(path, increment, "n1"), PositionY(path, increment, "n2"), 1e-9) << increment.index;
+      EXPECT_NEAR(PositionX(path, increment, "n1"), 0.0, 1e-9) << increment.index;
+    }
+  }
+}
+
 TEST(SingularScenes, SymmetricHalvesAtTheirLimitPoints) {
   for (const double step : {0.0, 0.01, 0.005, 0.002}) {
     TraceRequest request = ReadData("sym_51");

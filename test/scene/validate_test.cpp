@@ -231,6 +231,13 @@ const BrokenRule kOptionRules[] = {
      "must be load_factor, <node>.x, <node>.y, <node>.rotation, <contact>.gap, <contact>.rn or <contact>.rt"},
     {"QuantityWithWrongComponent", [](auto& r) { r.options.stop[0].quantity = "b.z"; }, "options.stop[0].quantity",
      "b.z", "must be load_factor, <node>.x, <node>.y, <node>.rotation, <contact>.gap, <contact>.rn or <contact>.rt"},
+    {"MisspeltLoadFactor", [](auto& r) { r.options.stop[0].quantity = "load_facto"; }, "options.stop[0].quantity",
+     "load_facto",
+     "must be load_factor, <node>.x, <node>.y, <node>.rotation, <contact>.gap, <contact>.rn or <contact>.rt; did you "
+     "mean load_factor?"},
+    {"MisspeltComponent", [](auto& r) { r.options.stop[0].quantity = "b.xx"; }, "options.stop[0].quantity", "b.xx",
+     "must be load_factor, <node>.x, <node>.y, <node>.rotation, <contact>.gap, <contact>.rn or <contact>.rt; did you "
+     "mean b.x?"},
     {"QuantityOfUnknownNode", [](auto& r) { r.options.stop[2].quantity = "zz.y"; }, "options.stop[2].quantity", "zz.y",
      "must refer to a node"},
     {"QuantityOfMisspeltNode", [](auto& r) { r.options.stop[0].quantity = "B.x"; }, "options.stop[0].quantity", "B.x",

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "contact_path/scene/program.h"
 #include "support/traced_path.h"
 
 namespace contact_path {
@@ -14,7 +15,7 @@ namespace {
 // Of the increments alone: what they show is not looked at.
 std::string Events(const TraceRequest& request, const std::vector<Increment>& increments) {
   std::vector<Finding> findings;
-  VerifyEvents(request, increments, &findings);
+  VerifyEvents(request, increments, std::vector<double>(NumStages(request), 1.0), &findings);
   std::string text;
   for (const Finding& finding : findings) text += std::to_string(finding.increment) + ": " + finding.what + '\n';
   return text;
@@ -145,7 +146,7 @@ TEST(VerifyEvents, FindingsHaveAnEnd) {
   std::vector<Increment> increments = Corners().increments;
   for (Increment& increment : increments) increment.solve.method = Method::kMpec;
   std::vector<Finding> findings;
-  VerifyEvents(Corners().request, increments, &findings);
+  VerifyEvents(Corners().request, increments, std::vector<double>(NumStages(Corners().request), 1.0), &findings);
   EXPECT_EQ(findings.size(), static_cast<std::size_t>(kMostFindings));
 }
 

@@ -235,7 +235,8 @@ INSTANTIATE_TEST_SUITE_P(VerifyPath, RightPathIsProved,
                                            "over_the_end_of_a_thick_surface", "touching_but_for_rounding",
                                            "drag_in_one_increment", "slot_on_stiff_bars", "strained_to_second_order",
                                            "slip_between_two_zeros", "largest_friction_within", "large_stored_energy",
-                                           "soft_motion_in_place"),
+                                           "soft_motion_in_place", "load_turns_on_soft_parts", "load_turns_in_rounding",
+                                           "load_is_a_cubic", "very_rough_contact_opens"),
                          [](const auto& instance) { return std::string(instance.param); });
 
 TEST(VerifyPath, FixedNodesRest) {

@@ -56,6 +56,15 @@ class BranchMethod : public PathMethod {
   bool TakeCrossingThatLoads(const ArcStep& at);
   std::optional<EndReason> PassBifurcation(const ArcStep& at, AcceptedPoint* increment, std::string* message);
   std::optional<EndReason> PassContactEvent(const ArcStep& at, AcceptedPoint* increment, std::string* message);
+  // Where branch_choices names the increment: takes a branch there. The increment keeps its kind if that is the path
+  // itself.
+  std::optional<EndReason> PassChoice(const ArcStep& at, AcceptedPoint* increment, std::string* message);
+  // Sets out on a branch from the end of the step.
+  std::optional<EndReason> LeaveEnd(const ArcStep& at, const BranchChoice* choice, AcceptedPoint* increment,
+                                    std::string* message);
+  // Whether the load factor turns at the end of the step, on the branch that was taken there. Where its first
+  // derivative is zero, the second tells.
+  bool TurnsLoad(const ArcStep& at) const;
   // Whether the step ends where a node that is pressed onto an open surface slides over an end of it.
   bool SlidesOff(const ArcStep& at, const PathPoint& point) const;
   void SetNextLength(const ArcStep& at);

@@ -47,7 +47,7 @@ class PathSummary {
   int increments_ = 0;
   int events_ = 0;
   std::vector<CriticalPoint> limit_points_;
-  std::vector<CriticalPoint> bifurcations_;
+  std::vector<CriticalPoint> crossings_;  // bifurcations, and limit points where another path crosses
 };
 
 }  // namespace contact_path

@@ -48,6 +48,9 @@ std::optional<SpelledQuantity> ReadQuantity(std::string_view text);
 // Nothing for another spelling, or a node or contact that the scene does not have.
 std::optional<Quantity> FindQuantity(std::string_view text, const SceneIndex& index);
 
+// The quantity of the scene that another spelling may mean.
+NearestName NearestQuantity(std::string_view text, const Scene& scene);
+
 // The node or contact of the scene that a spelled quantity may mean.
 NearestName NearestPart(const SpelledQuantity& quantity, const Scene& scene);
 
