@@ -63,7 +63,7 @@ bool LargeFactors::Factorize(const Eigen::SparseMatrix<double>& transposed, cons
     frame = &own;
     SetValues(transposed, own);
   }
-  Take(*frame, row);
+  Transfer(*frame, row);
   const std::shared_ptr<const Ordering> known = frame->orderings->Find(*frame, row_);
   if (known != nullptr) {
     if (AreGoodPlaces(known->places, row_))
@@ -81,7 +81,7 @@ bool LargeFactors::Factorize(const Eigen::SparseMatrix<double>& transposed, cons
   return FactorizeBordered(true);
 }
 
-void LargeFactors::Take(const Frame& frame, const Eigen::VectorXd& row) {
+void LargeFactors::Transfer(const Frame& frame, const Eigen::VectorXd& row) {
   unknowns_ = frame.unknowns;
   equations_ = frame.equations;
   odd_ = frame.odd;

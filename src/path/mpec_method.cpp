@@ -138,7 +138,7 @@ const char* MpecMethod::Describe(Verdict verdict) {
     case Verdict::kWrongDirection: return "the load factor changes against the wanted direction";
     case Verdict::kTurnedBack: return "the path turns sharply without a change of contact state";
     case Verdict::kBackAtRest:
-      return "the load goes back with all contacts at rest, and no way on was found that slides";
+      return "the load goes back with all contacts at rest, and no branch was found that slides";
     case Verdict::kNotConfirmed: return "two half increments do not confirm the change of contact state";
     case Verdict::kBeyondTarget: return "the load factor goes past its target, and no point at the target is found";
     case Verdict::kCancelled: return "cancelled";
@@ -237,13 +237,13 @@ MpecMethod::Trial MpecMethod::Try(const PathPoint& from, const Eigen::VectorXd& 
 }
 
 MpecMethod::Trial MpecMethod::TryTotal(const PathPoint& from, const Eigen::VectorXd& direction, double length) {
-  Trial trial = TryAimless(from, direction, length);
+  Trial trial = TryWithoutDissipation(from, direction, length);
   // Where the only solution is the point itself, the nonlinear solver need not find it.
   if (trial.verdict != Verdict::kNoProgress && trial.verdict != Verdict::kNotSolved) return trial;
   for (const double share : kSlipShares) {
     const Trial slipping = SolveOnce(from, direction, length, share, options_.regularisation);
     if (slipping.verdict != Verdict::kAccepted) continue;
-    Trial along = TryAimless(from, Direction(from, slipping.increment.point), length);
+    Trial along = TryWithoutDissipation(from, Direction(from, slipping.increment.point), length);
     if (along.verdict == Verdict::kAccepted) return along;
   }
   return trial;
@@ -261,7 +261,8 @@ MpecMethod::Trial MpecMethod::TryFirst(const PathPoint& from, double length) {
   return trial;
 }
 
-MpecMethod::Trial MpecMethod::TryAimless(const PathPoint& from, const Eigen::VectorXd& direction, double length) {
+MpecMethod::Trial MpecMethod::TryWithoutDissipation(const PathPoint& from, const Eigen::VectorXd& direction,
+                                                    double length) {
   Trial trial = SolveOrRaise(from, direction, length, 0.0);
   for (int i = 0; i < kMostDirections && trial.verdict == Verdict::kNoProgress; ++i) {
     const PathPoint& to = trial.increment.point;
@@ -320,8 +321,8 @@ bool MpecMethod::EndAtTarget(const PathPoint& from, const PathPoint& modes, Tria
   const Eigen::VectorXd start = (1.0 - share) * system.Pack(from) + share * system.Pack(to);
   const NearestPoint nearest = FindNearestPoint(&system, start, start.head(from.u.size() + 1));
   if (!nearest.converged) return false;
-  for (const Constraint& limit : system.Inequalities())
-    if (system.Value(limit, nearest.x) < -tolerances::kBrokenAtPoint * system.UnitOf(limit)) return false;
+  for (const Constraint& constraint : system.Inequalities())
+    if (system.Value(constraint, nearest.x) < -tolerances::kBrokenAtPoint * system.UnitOf(constraint)) return false;
   PathPoint point = system.Unpack(nearest.x);
   if (Distance(from, point) > kFarthestTarget * Distance(from, to)) return false;
   trial->residuals = model_.Check(from, point);

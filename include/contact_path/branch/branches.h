@@ -73,7 +73,7 @@ using FurtherStates =
 // `further` ones where the structure is small or nothing else was found. Each is certified like any other. cancelled:
 // asked often. further, cancelled: may be empty.
 BranchSet FindBranches(const Structure& structure, const ContactPairs& contacts, const PathPoint& point,
-                       const Arrival& arrival, const ActiveSetTolerance& limit, const FurtherStates& further,
+                       const Arrival& arrival, const ActiveSetTolerance& tolerance, const FurtherStates& further,
                        const std::function<bool()>& cancelled = nullptr);
 
 }  // namespace contact_path

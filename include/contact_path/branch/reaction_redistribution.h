@@ -22,7 +22,7 @@ struct ReactionRedistributions {
 // of `point` are not in: the mean of its vertices; of several such nodes, all combinations. point: scaled, an
 // equilibrium; tolerance: scaled gap of what touches, and scaled force that counts as none.
 ReactionRedistributions FindReactionRedistributions(const ContactPairs& contacts, const PathPoint& point,
-                                                    const ActiveSetTolerance& limit);
+                                                    const ActiveSetTolerance& tolerance);
 
 }  // namespace contact_path
 

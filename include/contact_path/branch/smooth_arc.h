@@ -90,7 +90,7 @@ class SmoothArc {
   bool BehindOtherPatch(const Eigen::VectorXd& x) const { return system_.BehindOtherPatch(in_reach_, x); }
 
   // Below zero by less, an inequality other than of slip counts as holding.
-  double RoundingOf(const Constraint& limit) const;
+  double RoundingOf(const Constraint& constraint) const;
 
   int factorisations() const { return factorisations_; }
 

@@ -82,9 +82,8 @@ class MpecMethod : public PathMethod {
   // By the total law of friction. Where no increment along the direction leads on, the friction forces tell another
   // one.
   Trial TryTotal(const PathPoint& from, const Eigen::VectorXd& direction, double length);
-  // Without the dissipation term. Where the path turns by nearly 90 degrees, the increment is short; it tells the
-  // direction.
-  Trial TryAimless(const PathPoint& from, const Eigen::VectorXd& direction, double length);
+  // Where the path turns by nearly 90 degrees, the increment is short; it tells the direction.
+  Trial TryWithoutDissipation(const PathPoint& from, const Eigen::VectorXd& direction, double length);
   // The first increment has no last one: directions are improved until the increment is as long as wanted.
   Trial TryFirst(const PathPoint& from, double length);
   // Whether the load factor turns back on the increment, and may have been past the target and back.
