@@ -408,7 +408,7 @@ class Shapes(QuickPlotTest):
             self.assertIn(text, texts)
         self.assertTrue(any('[force]; arrows' in text for text in texts), texts)
 
-    def test_rows(self):
+    def test_increments(self):
         last = read(self.table)['index'][-1]
         texts = self.texts(self.table, '--increments', '0,30,end', *self.scene)
         titles = [text.partition(':')[0] for text in texts if text.startswith('increment ')]
@@ -439,7 +439,7 @@ class Shapes(QuickPlotTest):
         self.assertEqual(len(plot_shapes.at_kinds(path, 'events')[0]), 23)
         self.assertEqual(plot_shapes.at_kinds(path, 'all')[1], 1)
 
-    def test_rows_without_positions_are_not_drawn(self):
+    def test_increments_without_positions_are_not_drawn(self):
         path = Path({'index': np.arange(7), 'kind': np.array(['regular'] * 7),
                      'x_a': np.where(np.arange(7) % 4 == 0, 0.0, np.nan)})
         self.assertEqual(plot_shapes.by_index(path, [0, 'end']), [0, 4])
