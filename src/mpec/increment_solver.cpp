@@ -32,7 +32,7 @@ IncrementSolver::IncrementSolver(const Structure& structure, const ContactPairs&
 IncrementTrial IncrementSolver::Solve(const PathPoint& from, const IncrementGoal& goal,
                                       const RegularisationSchedule& schedule) {
   std::vector<std::size_t> included = tracker_.InReach(from.u, from.s, kLongestIncrement * goal.length);
-  // Past the end of its surface a node would meet what is prolonged of it.
+  // Past the end of its surface a node would meet the prolongation of the last patch.
   included.erase(
       std::remove_if(included.begin(), included.end(),
                      [&](std::size_t i) {

@@ -22,8 +22,8 @@ constexpr double kSmallestCosine = 0.5;
 // Shares of the dissipation term in the minimiser. Small: the path is followed; larger where nothing but dissipation
 // leads on.
 constexpr double kDissipationShares[] = {0.2, 0.6, 1.0};
-// The same by the total law of friction, where nothing dissipates: they only tell in which sense a contact at the edge
-// of its cone can slip.
+// Shares by the total law of friction. Nothing dissipates there: the term only tells in which sense a contact at the
+// edge of its cone can slip.
 constexpr double kSlipShares[] = {0.6, 1.0};
 
 constexpr double kFarthestTarget = 2.0;  // of the increment that goes past the target: farther is another branch

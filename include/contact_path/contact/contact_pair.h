@@ -58,15 +58,15 @@ class ContactPair {
   // The patch where the surface is nearest; past an end of an open surface the number before the first patch, or after
   // the last one.
   virtual int PatchAt(const Eigen::VectorXd& u, double s) const = 0;
-  // The same; of a closed surface in the round in which it is nearest to the patch `from`.
+  // PatchAt(), with the number of a closed surface counted in the round that brings it nearest to the patch `from`.
   virtual int PatchAfter(const Eigen::VectorXd& u, double s, int from) const = 0;
-  // The patch itself, or the one that is nearest where it is kNearestPatch. All other functions but HasPatch() and
-  // RangeOf() take that, too.
+  // `patch` itself, or the nearest patch where `patch` is kNearestPatch. Functions with the parameter `patch` take
+  // kNearestPatch, too, except HasPatch() and RangeOf().
   int KnownPatch(const Eigen::VectorXd& u, double s, int patch) const {
     return patch == kNearestPatch ? PatchAt(u, s) : patch;
   }
   virtual bool HasPatch(int patch) const = 0;
-  // Of xi, measured from 0; past the ends of an open surface infinite on one side.
+  // The range of xi, measured from 0, on the patch; past the ends of an open surface infinite on one side.
   virtual XiRange RangeOf(int patch) const = 0;
   // *hessian = second derivatives by q of weights . (r_n grad u_n + r_t c grad xi), r_n and r_t do not change: m + 1
   // square, symmetric. Asked of curved pairs only, as SecondDirectional().

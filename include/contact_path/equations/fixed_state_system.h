@@ -84,16 +84,17 @@ class FixedStateSystem {
 
   // residual: NumEquations(). Not finite where an element is singular.
   void Residual(const Eigen::VectorXd& x, Eigen::VectorXd* residual) const;
-  // The largest of its equations; of equilibrium in Structure::ResidualUnits().
+  // The largest entry of a residual; equations of equilibrium are measured in Structure::ResidualUnits().
   double Largest(const Eigen::VectorXd& residual) const;
-  // The largest of these units: rounding of residuals, and of the points that it leads to, grows with it.
+  // The largest of Structure::ResidualUnits(): rounding of residuals, and the error of points by it, grow with it.
   double ResidualUnit() const { return residual_unit_; }
   // Norm of a change of the unknowns. Of the force on a moved support the component along its motion counts: whether
   // the component across it is an unknown depends on the axes.
   double Norm(const Eigen::VectorXd& change) const;
   // Transposed Jacobian, NumUnknowns() x NumEquations(), compressed; the pattern is the same until the next set or pin.
   const Eigen::SparseMatrix<double>& TransposedJacobian(const Eigen::VectorXd& x);
-  // The same with Structure::MixedTangent(), strains linearised at the motion `from` towards the motion `to`.
+  // Transposed Jacobian with Structure::MixedTangent(): strains linearised at the motion `from` towards the motion
+  // `to`.
   const Eigen::SparseMatrix<double>& MixedJacobian(const Eigen::VectorXd& x, const Eigen::VectorXd& from,
                                                    const Eigen::VectorXd& to);
 
@@ -104,10 +105,10 @@ class FixedStateSystem {
 
   // All inequalities of the fixed states, in contact order, and their values at x (>= 0: holds).
   std::vector<Constraint> Inequalities() const;
-  // The same of the touching contacts and of these candidates, ascending, alone.
+  // Inequalities of the touching contacts and of these candidates, ascending, alone.
   std::vector<Constraint> InequalitiesOf(const std::vector<std::size_t>& candidates) const;
-  // The ends of the patches that these candidates, if they are open, are beside: not inequalities of the states, and
-  // values all the same.
+  // Both ends of the patch of each of these candidates that is open. They are no inequalities of the states, since an
+  // open contact may pass over them, but Value() has their values.
   std::vector<Constraint> PatchEndsOfOpen(const std::vector<std::size_t>& candidates) const;
   double Value(const Constraint& constraint, const Eigen::VectorXd& x) const;
   // What tolerances of the values and rates are multiplied with: 1, or for reactions the force unit of the contact.
@@ -118,11 +119,11 @@ class FixedStateSystem {
   // The value along a curve with these derivatives at x.
   Jet ValueAlong(const Constraint& constraint, const Eigen::VectorXd& x, const Eigen::VectorXd& first,
                  const Eigen::VectorXd& second) const;
-  // The same of r_n c of a touching contact (contact/kinematics.h): times mu dxi, the dissipation of its slip.
+  // r_n c of a touching contact (contact/kinematics.h) along such a curve: times mu dxi, the dissipation of its slip.
   Jet SlidingForceAlong(std::size_t contact, const Eigen::VectorXd& x, const Eigen::VectorXd& first,
                         const Eigen::VectorXd& second) const;
-  // The same of the force that moving supports and obstacles exert along their motion: their work is its integral over
-  // s.
+  // The force that moving supports and obstacles exert along their motion, along such a curve: their work is its
+  // integral over s.
   Jet DrivingForceAlong(const Eigen::VectorXd& x, const Eigen::VectorXd& first, const Eigen::VectorXd& second) const;
   // Second derivative of the residual along dx, d2/dh2 residual(x + h dx) at h = 0: NumEquations().
   Eigen::VectorXd SecondDerivative(const Eigen::VectorXd& x, const Eigen::VectorXd& dx);

@@ -39,12 +39,12 @@ std::string ContactTooSoft(const Model& model, const PathPoint& point, double le
 std::string CurveTooSharp(const Model& model, const PathPoint& point);
 
 // Names a contact at the edge of its friction cone that is pressed onto so sharp a curve of its obstacle that the rate
-// of its slip is below what counts as rest, in either direction: no branch can be trusted there. Else empty. The same
-// arguments.
+// of its slip is below what counts as rest, in either direction: no branch can be trusted there. Else empty. point:
+// where to look, scaled.
 std::string HiddenSlip(const Model& model, const PathPoint& point);
 
-// Why a point breaks the friction law where the law is total and an obstacle closed: beyond half a round, the shorter
-// way to where the node started is the other one.
+// Why a point breaks the total law of friction on a closed obstacle: check/ measures slip along the shorter way round,
+// so that slip changes its sign beyond half a round. Empty where this cannot be the reason.
 std::string BeyondHalfRound(const Model& model, const Residuals& residuals);
 
 // Names a contact with a deformable surface of which another part has come over the node while it touches, from one

@@ -19,8 +19,10 @@ std::vector<int> FreeNodes(const Model& model, const PathPoint& point, double fo
 // are those of the nodes that move, and five names of a kind are listed.
 std::string FreeMotionText(const Model& model, const PathPoint& point, double force);
 
-// The same with the question that goes with a start from which no branch leads: ": does the normal of floor point to
-// the side where the node may be, and is no contact or support missing?". Empty where no node moves freely.
+// For a start from which no branch leads: FreeMotionText() and the questions to ask, ": does the normal of floor point
+// to the side where the node may be? is a contact or a support missing? is the friction of floor (0.5) too small?". The
+// first question is asked where nodes that move touch obstacles, the last one where such an obstacle has friction.
+// Empty where no node moves freely.
 std::string FreeMotionQuestion(const Model& model, const PathPoint& point, double force);
 
 }  // namespace contact_path
