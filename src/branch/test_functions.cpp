@@ -169,7 +169,8 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, std::optional<double> tar
     }
     double where = 0.0;
     const double smallest = Minimum(quintic, step.length, &where);
-    const bool inside = where > 1e-3 * step.length && where < 0.999 * step.length;
+    const bool inside =
+        where > tolerances::kAtEndOfStep * step.length && where < (1.0 - tolerances::kAtEndOfStep) * step.length;
     if (inside && smallest > zero && smallest < kNearShare * CubicDifference(quintic, step.length))
       consider(EventKind::kNearTouch, where, constraint);
   }

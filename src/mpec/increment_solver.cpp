@@ -22,7 +22,7 @@ constexpr int kMaxActiveSetChanges = 4;
 // With a larger eps the relaxed products leave room to leave the branch for another one: arch19 fell off its ceilings.
 constexpr double kLargestAtOnce = 1e-8;
 
-constexpr double kSameEps = 1.0 + 1e-9;  // rounding of powers of the factor
+constexpr double kSameEps = 1.0 + tolerances::kRegularisation;
 
 }  // namespace
 

@@ -30,10 +30,9 @@ constexpr double kFarthestTarget = 2.0;  // of the increment that goes past the 
 constexpr double kLevelling =
     0.25;  // a rate at the end of an increment that may be none, relative to the one at its begin
 
-constexpr int kMostDirections = 8;     // tried, each that of the motion found by the one before
-constexpr double kNoDirection = 1e-3;  // of what was wanted: a shorter increment does not tell where the path goes on
-constexpr double kShortPath = 20.0;    // of the corner tolerance
-constexpr double kCornerShare = 0.04;  // of the wanted step: largest corner tolerance
+constexpr int kMostDirections = 8;           // tried, each that of the motion found by the one before
+constexpr double kShortPath = 20.0;          // of the corner tolerance
+constexpr double kCornerShare = 0.04;        // of the wanted step: largest corner tolerance
 constexpr double kSmallestStepRatio = 1e-7;  // of the wanted step
 
 // Whether this contact is about to change its state, so that the path may bend here by any angle.
@@ -266,7 +265,7 @@ MpecMethod::Trial MpecMethod::TryWithoutDissipation(const PathPoint& from, const
   Trial trial = SolveOrRaise(from, direction, length, 0.0);
   for (int i = 0; i < kMostDirections && trial.verdict == Verdict::kNoProgress; ++i) {
     const PathPoint& to = trial.increment.point;
-    if (!(Distance(from, to) > kNoDirection * length)) break;
+    if (!(Distance(from, to) > tolerances::kNoDirection * length)) break;
     Trial next = SolveOnce(from, Direction(from, to), length, 0.0, options_.regularisation);
     if (next.verdict != Verdict::kAccepted && next.verdict != Verdict::kNoProgress) break;
     trial = std::move(next);
