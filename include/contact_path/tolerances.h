@@ -148,11 +148,12 @@ inline constexpr double kSameRate = 1e-9;
 inline constexpr double kSameTurn = 1e-7;
 // Rate by which a combination of states breaks an inequality: the combination is excluded.
 inline constexpr double kExcludedRate = 1e-6;
-// Norm of the difference of two unit tangents: the same branch; the branch of arrival, and where it is interpolated.
+// Norm of the difference of two unit tangents: they are of one branch; the tangent is the reversed tangent of arrival,
+// at a regular point and where the tangent of arrival is interpolated.
 inline constexpr double kSameDirection = 1e-7;
 inline constexpr double kReversed = 1e-6;
 inline constexpr double kReversedSingular = 1e-3;
-// Norm of the difference of two unit tangents that were computed at different points, or in different ways: the same.
+// Norm of the difference of two unit tangents that were computed at different points, or in different ways: equal.
 inline constexpr double kSameTangent = 1e-6;
 // Norm of the difference of a tangent and its interpolation on the step: more is the mark of singular equations.
 inline constexpr double kSameDerivative = 1e-2;
@@ -171,8 +172,8 @@ inline constexpr double kSameComponent = 1e-6;
 
 // Smallest over largest pivot of an LU factorisation: singular.
 inline constexpr double kSingularPivot = 1e-12;
-// The same ratio, above which equations are surely regular: at an event, and on the way to the nearest point, where the
-// matrix is that of a point off the path.
+// Smallest over largest pivot, above which equations are surely regular: at an event, and on the way to the nearest
+// point, where the matrix belongs to a point off the path.
 inline constexpr double kRegularPivot = 1e-10;
 inline constexpr double kRegularPivotNearest = 1e-8;
 // Reaction over the radius of a sharp curve, in the inverse of kSingularPivot: above, it hides the stiffness of the
@@ -228,8 +229,8 @@ inline constexpr double kMostSlender = 1e8;
 inline constexpr double kCollapsed = 1e-2;
 // Load factor, of the largest so far: unloaded.
 inline constexpr double kUnloaded = 1e-9;
-// Positions and load factor, of the extent of the path, and reactions, of the largest so far: those of an earlier
-// point.
+// Difference from an earlier point: of positions and load factor, over the extent of the path, and of reactions, over
+// the largest reaction so far. Below, the path has come back to this point.
 inline constexpr double kReturnPoint = 1e-9;
 inline constexpr double kReturnReaction = 1e-9;
 

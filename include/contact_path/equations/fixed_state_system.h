@@ -23,7 +23,7 @@ enum class Inequality {
   kSlip,            // slip+-: +-(xi - xi_ref), the motion since the reference; what must be >= 0 is its rate
   kTotalSlip,       // slip+- by the total law: +-(xi - xi_ref) itself
   kPatchBegin,      // touching, not sticking, on a surface with patches: xi - begin (at zero, the patch before is next)
-  kPatchEnd,        // the same: end - xi (at zero, the patch after is next)
+  kPatchEnd,        // touching, not sticking, on a surface with patches: end - xi (at zero, the patch after is next)
 };
 
 // Whether the inequality keeps a contact on its patch.
@@ -52,9 +52,9 @@ struct Constraint {
 //   u = start + rate s                        each prescribed component
 //   u_n = 0                                   each touching contact         (eq. 2)
 //   xi = xi_ref                               each sticking contact         (eq. 3)
-// and one equation "inequality = 0" for each limit that is active, and s = value where the load factor is active. With
-// nothing active there is one unknown more than equations: the solutions are a curve where the rank is full.
-// Slip has r_t = -+mu r_n eliminated.
+// and one equation "inequality = 0" for each constraint of SetActive(), and s = value where the load factor is active.
+// With nothing active there is one unknown more than equations: the solutions are a curve where the rank is full. Slip
+// has r_t = -+mu r_n eliminated.
 class FixedStateSystem {
  public:
   // Both must outlive the system.
@@ -63,7 +63,7 @@ class FixedStateSystem {
   // states, reference (xi_ref), patches of the surfaces: by candidate; no patches: all are 0.
   void SetStates(const std::vector<ContactState>& states, const Eigen::VectorXd& reference,
                  const std::vector<int>& patches = {});
-  // Puts those of these candidates that are open on the patches that are nearest at x: no equation changes.
+  // Puts each of these candidates that is open on the patch that is nearest at x: no equation changes.
   void PlaceOpen(const std::vector<std::size_t>& candidates, const Eigen::VectorXd& x);
   // Whether one of these candidates, if it is open, is behind its surface at x, on another patch than the one it is on.
   bool BehindOtherPatch(const std::vector<std::size_t>& candidates, const Eigen::VectorXd& x) const;
@@ -158,8 +158,9 @@ class FixedStateSystem {
   void AddInequalities(std::size_t contact, std::vector<Constraint>* inequalities) const;
   void AddPatchEnds(std::size_t contact, std::vector<Constraint>* inequalities) const;
 
-  // Each calls emit(unknown, equation, value) for the structural entries of the Jacobian: those of a motion, of the
-  // reactions of a contact in the equilibrium equations, and of their change by the curvature of the surface there.
+  // Each calls emit(unknown, equation, value) for structural entries of the Jacobian: the entries of a motion, the
+  // entries of the reactions of a contact in the equilibrium equations, and the change of these reactions by the
+  // curvature of the surface there.
   template <typename Emit>
   void ForEachMotionEntry(const MotionEquation& of, const Kinematics& at, Emit emit) const;
   template <typename Emit>

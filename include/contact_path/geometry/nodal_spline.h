@@ -7,7 +7,7 @@
 
 namespace contact_path {
 
-// y(tau) = sum of N_k(tau) x_k over up to three control nodes, tau from `begin` to `end`, and beyond for what is
+// y(tau) = sum of N_k(tau) x_k over up to three control nodes, tau from `begin` to `end`; beyond, the patch is
 // prolonged.
 struct SplinePatch {
   std::array<int, 3> nodes = {-1, -1, -1};            // ascending along the curve; -1: none, and its N_k is 0

@@ -51,13 +51,13 @@ std::string BeyondHalfRound(const Model& model, const Residuals& residuals);
 // point of a path to the next; else empty.
 std::string OverrunContact(const Model& model, const PathPoint& from, const PathPoint& to);
 
-// Names an open contact whose node is behind its deformable surface, to where it has come past an end of it; else
+// Names an open contact whose node has come past an end of its deformable surface and is behind the surface; else
 // empty. point: where to look, scaled.
 std::string BehindSurface(const Model& model, const PathPoint& point);
 
-// Names a contact that pulls at its node, by a share of what any contact has pushed with so far and by more than
-// rounding: it should have opened, and did not since its reactions are too small beside the characteristic force; else
-// empty. rounding: of the reactions of the point. largest_reaction: r_n, no less than those of the point. Both scaled,
+// Names a contact that pulls at its node, by more than rounding and by more than a share of the largest reaction so
+// far: it should have opened, and did not since its reactions are too small beside the characteristic force; else
+// empty. rounding: of the reactions of the point. largest_reaction: r_n so far, at the point included. Both scaled,
 // over the force unit of the contact.
 std::string PullingContact(const Model& model, const PathPoint& point, double rounding, double largest_reaction);
 

@@ -1,4 +1,4 @@
-// Which nodes nothing holds: what a mistake in a scene looks like, and what is left of a structure that came free.
+// Which nodes nothing holds: by a mistake in the scene, or since part of the structure came free.
 #ifndef CONTACT_PATH_PATH_FREE_MOTION_H_
 #define CONTACT_PATH_PATH_FREE_MOTION_H_
 
@@ -15,8 +15,8 @@ namespace contact_path {
 // cannot rub. Of a null space of more than 64 dimensions, 64 motions are looked at.
 std::vector<int> FreeNodes(const Model& model, const PathPoint& point, double force);
 
-// "node b moves freely; b@floor touches", or "nodes a, b and 7 more move freely"; empty where no node does. Contacts
-// are those of the nodes that move, and five names of a kind are listed.
+// "node b moves freely; b@floor touches", or "nodes a, b and 7 more move freely"; empty where no node does. Lists
+// contacts of the nodes that move, and at most five names of a kind.
 std::string FreeMotionText(const Model& model, const PathPoint& point, double force);
 
 // For a start from which no branch leads: FreeMotionText() and the questions to ask, ": does the normal of floor point
