@@ -1,5 +1,6 @@
-// Every tolerance of the solvers, by its meaning. verify/, check/ and scene/validate.cpp keep their own: the first two
-// share nothing with the solvers, and the third judges what a person has written.
+// Every tolerance of the solvers, by its meaning: it tells a computed quantity from zero, or from another quantity.
+// Constants that steer steps and iterations stand where they are used. verify/, check/ and the rules of scene/ have
+// tolerances of their own: verify/ and check/ share nothing with the solvers, and rules judge what a person wrote.
 //
 // Scaled: positions over L, forces over F, the load factor times c (scene/scaling.h). A scene then has numbers of the
 // order of 1. Points of a path are exact to about 1e-14 where the equations are regular, and to about 1e-10 next to
@@ -54,11 +55,41 @@ inline constexpr double kRecordedArc = 1e-12;
 
 // Gap, over the extent of the scene, where a gap is to give the scene its length: rounding of a contact that touches.
 inline constexpr double kNoGap = 1e-9;
+// Newton step of ln C33 of a solid in plane stress, relative to 1 + |ln C33|: converged. Residual of its equation, of
+// mu + |lambda|: larger, there is no root.
+inline constexpr double kThicknessStep = 1e-15;
+inline constexpr double kThicknessResidual = 1e-12;
+// Value of eps of method mpec, relative to the smallest one: equal, as eps is found by powers of a factor.
+inline constexpr double kRegularisation = 1e-9;
 // Coordinate that a stop criterion compares with another one, relative: the last digits.
 inline constexpr double kLastDigits = 1e-15;
 // Distance from the origin, over the extent of the scene and L: from here on coordinates are counted from the scene.
 // Nearer, their rounding is below 1e-12 L.
 inline constexpr double kFarFromOrigin = 1e3;
+
+// ----- curves -----
+
+// Newton step of a foot, or of a point at an arc length, in the parameter of the patch: converged.
+inline constexpr double kFootStep = 1e-16;
+// Newton step of a foot that no longer shrinks, in the parameter tau of the patch, of a parabola relative to 1 + |tau|:
+// rounding.
+inline constexpr double kFootStagnation = 1e-12;
+// Difference of two quadratures of the arc length of a cubic, of the length of the cubic: rounding.
+inline constexpr double kArcLength = 4e-16;
+// Rounding of a point at the end of a patch, relative to its coordinates and the length of the patch.
+inline constexpr double kRoundingOfPoint = 1e-15;
+// Difference of the distances of a node from two patches, relative: equally far.
+inline constexpr double kEquallyFar = 1e-10;
+// Turn of a corner of a polyline [rad]: the edges are in line, and there is no fillet; pi less this: straight back.
+inline constexpr double kInLine = 1e-14;
+// Rest of an edge between its fillets, of the edge: none.
+inline constexpr double kUsedUpEdge = 1e-14;
+// Patch, of the length of the curve: too short to be drawn.
+inline constexpr double kDrawnPatch = 1e-12;
+// Length along a surface to the begin of a patch, relative: equal to pi times the radius.
+inline constexpr double kSameLength = 1e-9;
+// Distance of a node from a surface, and distance that it has moved, relative: the margin within which it is in reach.
+inline constexpr double kReachMargin = 1e-9;
 
 // ----- active set: which inequalities are at zero -----
 
@@ -106,17 +137,23 @@ inline constexpr double kCurvature = 1e-9;
 // tangent is interpolated.
 inline constexpr double kLevel = 1e-9;
 inline constexpr double kLevelSingular = 1e-6;
+// Rate of slip over the rate of the load, in kLevel over this number: below, slip on a sharp curve cannot be told from
+// rest. It is apart from kLevel by this factor.
+inline constexpr double kOfHiddenSlip = 0.2;
+// Change of the load factor over arc length, from one increment to the next: its sign tells the direction of the path.
+inline constexpr double kMovingLoad = 1e-2;
 // Difference of two rates: the branches are equally good.
 inline constexpr double kSameRate = 1e-9;
 // Difference of two angles [rad]: the branches turn alike. An angle is known to the root of rounding where it is 0.
 inline constexpr double kSameTurn = 1e-7;
 // Rate by which a combination of states breaks an inequality: the combination is excluded.
 inline constexpr double kExcludedRate = 1e-6;
-// Norm of the difference of two unit tangents: the same branch; the branch of arrival, and where it is interpolated.
+// Norm of the difference of two unit tangents: they are of one branch; the tangent is the reversed tangent of arrival,
+// at a regular point and where the tangent of arrival is interpolated.
 inline constexpr double kSameDirection = 1e-7;
 inline constexpr double kReversed = 1e-6;
 inline constexpr double kReversedSingular = 1e-3;
-// Norm of the difference of two unit tangents that were computed at different points, or in different ways: the same.
+// Norm of the difference of two unit tangents that were computed at different points, or in different ways: equal.
 inline constexpr double kSameTangent = 1e-6;
 // Norm of the difference of a tangent and its interpolation on the step: more is the mark of singular equations.
 inline constexpr double kSameDerivative = 1e-2;
@@ -135,10 +172,20 @@ inline constexpr double kSameComponent = 1e-6;
 
 // Smallest over largest pivot of an LU factorisation: singular.
 inline constexpr double kSingularPivot = 1e-12;
-// The same ratio, above which equations are surely regular: at an event, and on the way to the nearest point, where the
-// matrix is that of a point off the path.
+// Smallest over largest pivot, above which equations are surely regular: at an event, and on the way to the nearest
+// point, where the matrix belongs to a point off the path.
 inline constexpr double kRegularPivot = 1e-10;
 inline constexpr double kRegularPivotNearest = 1e-8;
+// Reaction over the radius of a sharp curve, in the inverse of kSingularPivot: above, it hides the stiffness of the
+// parts.
+inline constexpr double kOfSingular = 0.01;
+// Reciprocal growth of the pivots, with the pivots of an earlier matrix: below, they are chosen anew.
+inline constexpr double kPivotGrowth = 1e-4;
+// Cosine between the border of a large matrix and the null vector of its Jacobian: below, the border is a bad one.
+inline constexpr double kGoodBorder = 1e-5;
+// Norm of an equation, of the largest entries that its unknowns have in any equation: smaller, it is rounding where the
+// equations are singular, and counts as large as this.
+inline constexpr double kFadingEquation = 1e-3;
 // Norm of a column of a QR factorisation, relative to the largest: dependent. While a part rests at its limit point,
 // the matrix is known to rounding of that point; where another path crosses, the point is known to about 1e-10 only.
 inline constexpr double kDependentColumn = 1e-11;
@@ -176,12 +223,14 @@ inline constexpr double kSoftestContact = 1e-8;
 inline constexpr double kSoftestMeasuredContact = 1e-11;
 // Reaction that pulls, of the largest reaction so far.
 inline constexpr double kPullOfLargest = 1e-2;
+// EA L^2 / EI of a beam: above, rounding of the axial force hides the bending.
+inline constexpr double kMostSlender = 1e8;
 // Length of a bar, or area at an integration point of a solid, over its initial size: collapsed.
 inline constexpr double kCollapsed = 1e-2;
 // Load factor, of the largest so far: unloaded.
 inline constexpr double kUnloaded = 1e-9;
-// Positions and load factor, of the extent of the path, and reactions, of the largest so far: those of an earlier
-// point.
+// Difference from an earlier point: of positions and load factor, over the extent of the path, and of reactions, over
+// the largest reaction so far. Below, the path has come back to this point.
 inline constexpr double kReturnPoint = 1e-9;
 inline constexpr double kReturnReaction = 1e-9;
 
@@ -192,6 +241,10 @@ inline constexpr double kNoMove = 1e-12;
 // Energy balance of a step, of the energy that it exchanges; rounding of energies, relative.
 inline constexpr double kEnergyOfStep = 2e-3;
 inline constexpr double kEnergyRounding = 1e-12;
+// Length of an increment of method mpec, of the wanted length: shorter, it does not tell where the path goes on.
+inline constexpr double kNoDirection = 1e-3;
+// Place of the smallest value of an inequality on a step: nearer to an end, it is at the end.
+inline constexpr double kAtEndOfStep = 1e-3;
 // Place of a located point.
 inline constexpr double kLocatedPlace = 1e-9;
 // Scaled distance of a located point from its guess that is admitted on the shortest steps.

@@ -38,7 +38,7 @@ def structure_of(path: Path, rows: np.ndarray, points: Points) -> Entry:
     names       of the nodes; decimals: of their positions, so many are right
     """
     structure = points.structure
-    shapes = [Shape(structure, path.row(row)) for row in rows]
+    shapes = [Shape(structure, path.increment(row)) for row in rows]
     view = View(shapes)
     places = np.array([points.places(shape, view) for shape in shapes])
     moved = trajectories(places.reshape(len(rows), -1))

@@ -43,7 +43,7 @@ class Path:
     2.0
     >>> path.limit_points
     [{'index': 1, 'kind': 'smooth_limit', 'load_factor': 2.0}]
-    >>> path.row(-1)['x_b']
+    >>> path.increment(-1)['x_b']
     3.0
     """
 
@@ -82,7 +82,7 @@ class Path:
         """Names of the columns, in the order of the CSV."""
         return list(self.table)
 
-    def row(self, number: int) -> Dict[str, Any]:
+    def increment(self, number: int) -> Dict[str, Any]:
         """An increment: column -> int, float or str. number: from 0, or from the end if negative. IndexError: there is none."""
         return {name: column[number].item() for name, column in self.table.items()}
 

@@ -81,7 +81,7 @@ def add_shapes(page: Page, paths: Sequence[Path], chosen: Chosen) -> None:
     groups = []
     for path, (rows, left_out) in zip(paths, chosen):
         structure = Structure(path.scene)
-        groups.append((path, [Shape(structure, path.row(row)) for row in rows], left_out))
+        groups.append((path, [Shape(structure, path.increment(row)) for row in rows], left_out))
     shapes = [shape for _, group, _ in groups for shape in group]
     view = View(shapes)
     room = page.width - page.left - RIGHT + SHAPE_GAP

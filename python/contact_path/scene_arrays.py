@@ -15,7 +15,7 @@ from contact_path.scene_expand import contact_name
 from contact_path.solid_energy import Solid
 from contact_path.surface_curves import SurfaceCurve
 
-Row = Mapping[str, Any]  # an increment, as Path.row gives it
+Increment = Mapping[str, Any]  # an increment, as Path.increment gives it
 
 
 class Stage(NamedTuple):
@@ -85,28 +85,28 @@ class Structure:
         """For each contact, whether its obstacle is this one."""
         return np.array([name == obstacle and self.has(name, normal) for name in self.contact_obstacles], dtype=bool)
 
-    def positions(self, increment: Row) -> np.ndarray:
+    def positions(self, increment: Increment) -> np.ndarray:
         """(n, 2)."""
         return np.array([[increment['x_' + name], increment['y_' + name]] for name in self.names])
 
-    def rotations(self, increment: Row) -> np.ndarray:
+    def rotations(self, increment: Increment) -> np.ndarray:
         """(n,) of the nodes since the start; nan where no beam turns them."""
         return np.array([increment.get('rotation_' + name, np.nan) for name in self.names])
 
-    def of_contacts(self, increment: Row, quantity: str) -> np.ndarray:
+    def of_contacts(self, increment: Increment, quantity: str) -> np.ndarray:
         """(k,)."""
         return np.array([increment[quantity + name] for name in self.contacts])
 
-    def stage_index(self, increment: Row) -> int:
+    def stage_index(self, increment: Increment) -> int:
         return increment.get('stage', 1) - 1
 
-    def loads_by_stage(self, increment: Row) -> Tuple[np.ndarray, np.ndarray]:
+    def loads_by_stage(self, increment: Increment) -> Tuple[np.ndarray, np.ndarray]:
         """Forces and moments (n, 3) on the nodes: of the stage of the increment, and those that do not change in it."""
         number = self.stage_index(increment)
         before = self.constant_loads + sum(stage.target * stage.loads for stage in self.stages[:number])  # they stay
         return increment['load_factor'] * self.stages[number].loads, before
 
-    def shares(self, increments: Row | Path) -> np.ndarray:
+    def shares(self, increments: Increment | Path) -> np.ndarray:
         """The load factors that the stages have been brought to: (stages,) in an increment, (n, stages) along a path."""
         targets = np.array([stage.target for stage in self.stages])
         factors = np.asarray(increments['load_factor'], dtype=float)[..., None]
@@ -114,7 +114,7 @@ class Structure:
         numbers = np.arange(len(targets))
         return np.where(numbers < current, targets, np.where(numbers == current, factors, 0.0))
 
-    def placement(self, obstacle: str, increments: Row | Path) -> Placement:
+    def placement(self, obstacle: str, increments: Increment | Path) -> Placement:
         """Where an obstacle is in an increment, or in each increment of a path."""
         placement = Placement()
         for stage, share in zip(self.stages, np.moveaxis(self.shares(increments), -1, 0)):

@@ -7,7 +7,7 @@ from typing import Any, Dict, Sequence, Tuple
 import numpy as np
 
 from contact_path.obstacle_curves import Boundary, Placement
-from contact_path.scene_arrays import Row, Structure
+from contact_path.scene_arrays import Increment, Structure
 
 BARS, INITIAL, REACTION, LOAD, CONSTANT_LOAD, OBSTACLE = '#44546a', '#cccccc', '#b2182b', '#2166ac', '#7fb3d5', '#737373'
 SURFACE = '#1b7837'
@@ -51,7 +51,7 @@ class Curve:
 class Shape:
     """The structure in an increment of the path. Loads (n, 2), moments (n,) on the nodes; reactions (k, 2) on the contacts."""
 
-    def __init__(self, structure: Structure, increment: Row) -> None:
+    def __init__(self, structure: Structure, increment: Increment) -> None:
         self.structure = structure
         self.increment = increment
         self.places = structure.positions(increment)

@@ -63,14 +63,14 @@ double AngleTo(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
 class Finder {
  public:
   Finder(const Structure& structure, const ContactPairs& contacts, const PathPoint& point, const Options& options,
-         const Arrival& arrival, const ActiveSetTolerance& limit, const std::function<bool()>& cancelled)
+         const Arrival& arrival, const ActiveSetTolerance& tolerance, const std::function<bool()>& cancelled)
       : contacts_(contacts),
         point_(point),
         options_(options),
         arrival_(arrival),
-        tolerance_(limit),
+        tolerance_(tolerance),
         cancelled_(cancelled),
-        redundant_(contacts, point, limit.gap),
+        redundant_(contacts, point, tolerance.gap),
         system_(structure, contacts),
         reference_(SlipReferences(contacts, point)) {
     for (std::size_t i = 0; i < contacts.size(); ++i) touching_.push_back(TouchingState(*contacts[i], options[i]));
@@ -155,16 +155,17 @@ class Finder {
     if (arrival_.is_start && !SetsOut(x, first, second)) return false;
     if (!arrival_.is_start && IsReversed(first)) return false;
     std::vector<Constraint> level;
-    for (const Constraint& limit : system_.Inequalities()) {
-      if (!IsWeaklyActive(system_, limit, x, tolerance_)) continue;
-      const Jet along = system_.ValueAlong(limit, x, first, second);
-      const double unit = system_.UnitOf(limit), rate = along.first / unit, curvature = along.second / unit;
+    for (const Constraint& constraint : system_.Inequalities()) {
+      if (!IsWeaklyActive(system_, constraint, x, tolerance_)) continue;
+      const Jet along = system_.ValueAlong(constraint, x, first, second);
+      const double unit = system_.UnitOf(constraint), rate = along.first / unit, curvature = along.second / unit;
       // A graze, located to the root of rounding only: the value is past its minimum before it counts as negative.
-      const bool grazes = limit.inequality != Inequality::kSlip && rate < 0.0 && curvature > tolerances::kCurvature &&
-                          rate * rate <= 2.0 * curvature * tolerances::kGraze;
+      const bool grazes = constraint.inequality != Inequality::kSlip && rate < 0.0 &&
+                          curvature > tolerances::kCurvature && rate * rate <= 2.0 * curvature * tolerances::kGraze;
       if (rate < -tolerances::kRate && !grazes) return false;
       if (rate <= tolerances::kRate && curvature < -tolerances::kCurvature) return false;
-      if (std::abs(rate) <= tolerances::kRate && std::abs(curvature) <= tolerances::kCurvature) level.push_back(limit);
+      if (std::abs(rate) <= tolerances::kRate && std::abs(curvature) <= tolerances::kCurvature)
+        level.push_back(constraint);
     }
     return level.empty() || HoldsAhead(level, x, first, second);
   }
@@ -174,8 +175,8 @@ class Finder {
                   const Eigen::VectorXd& second) {
     const std::optional<Ahead> ahead = LookAhead(x, first, second);
     if (!ahead) return true;
-    return std::none_of(limits.begin(), limits.end(), [&](const Constraint& limit) {
-      return system_.Rate(limit, ahead->x, ahead->first) < -tolerances::kRate * system_.UnitOf(limit);
+    return std::none_of(limits.begin(), limits.end(), [&](const Constraint& constraint) {
+      return system_.Rate(constraint, ahead->x, ahead->first) < -tolerances::kRate * system_.UnitOf(constraint);
     });
   }
 
@@ -383,8 +384,8 @@ void TryLikely(const Options& options, const PathPoint& point, const Arrival& ar
 
 // With the reactions of the point. In no order, and mirror branches are not told.
 BranchSet BranchesWithReactions(const Structure& structure, const ContactPairs& contacts, const PathPoint& point,
-                                const Arrival& arrival, const ActiveSetTolerance& limit, const FurtherStates& further,
-                                const std::function<bool()>& cancelled) {
+                                const Arrival& arrival, const ActiveSetTolerance& tolerance,
+                                const FurtherStates& further, const std::function<bool()>& cancelled) {
   BranchSet result;
   Options options;
   States natural;
@@ -392,7 +393,7 @@ BranchSet BranchesWithReactions(const Structure& structure, const ContactPairs& 
   double combinations = 1.0;
   bool between_patches = false, between_rigid = false;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    options.push_back(StateOptions(*contacts[i], point, i, limit));
+    options.push_back(StateOptions(*contacts[i], point, i, tolerance));
     natural.push_back(options[i].front().state);
     const int patch = contacts[i]->KnownPatch(point.u, point.s, point.Patch(i));
     for (const ContactMode& option : options[i]) {
@@ -404,7 +405,7 @@ BranchSet BranchesWithReactions(const Structure& structure, const ContactPairs& 
     if (options[i].size() > 1) weakly_active.push_back(static_cast<int>(i));
   }
   result.weakly_active = static_cast<int>(weakly_active.size());
-  Finder finder(structure, contacts, point, options, arrival, limit, cancelled);
+  Finder finder(structure, contacts, point, options, arrival, tolerance, cancelled);
   // Where another path crosses, rates are not unique, and every combination is looked at as a whole; so it is where
   // patches of a rigid surface meet, whose curvatures differ. Nodes pass from patch to patch of a deformable surface
   // all the time: then there is a problem for each combination of patches.
@@ -470,15 +471,16 @@ double DissipationRate(const ContactPairs& contacts, const std::vector<ContactSt
 }
 
 BranchSet FindBranches(const Structure& structure, const ContactPairs& contacts, const PathPoint& point,
-                       const Arrival& arrival, const ActiveSetTolerance& limit, const FurtherStates& further,
+                       const Arrival& arrival, const ActiveSetTolerance& tolerance, const FurtherStates& further,
                        const std::function<bool()>& cancelled) {
-  BranchSet result = BranchesWithReactions(structure, contacts, point, arrival, limit, further, cancelled);
+  BranchSet result = BranchesWithReactions(structure, contacts, point, arrival, tolerance, further, cancelled);
   if (!result.cancelled && std::none_of(result.branches.begin(), result.branches.end(), GoesOn)) {
-    const ReactionRedistributions others = FindReactionRedistributions(contacts, point, limit);
+    const ReactionRedistributions others = FindReactionRedistributions(contacts, point, tolerance);
     result.complete = result.complete && others.complete;
     for (const PathPoint& begin : others.points) {
       if (result.cancelled) break;
-      AddOthers(BranchesWithReactions(structure, contacts, begin, arrival, limit, further, cancelled), begin, &result);
+      AddOthers(BranchesWithReactions(structure, contacts, begin, arrival, tolerance, further, cancelled), begin,
+                &result);
     }
   }
   SortBranches(point.states, arrival.load_sense, &result.branches);

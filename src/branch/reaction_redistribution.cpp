@@ -171,9 +171,9 @@ void SetReactions(const Touching& node, const Weights& weights, PathPoint* point
 }  // namespace
 
 ReactionRedistributions FindReactionRedistributions(const ContactPairs& contacts, const PathPoint& point,
-                                                    const ActiveSetTolerance& limit) {
+                                                    const ActiveSetTolerance& tolerance) {
   ReactionRedistributions result;
-  for (const Touching& node : TouchingByNode(contacts, point, limit.gap)) {
+  for (const Touching& node : TouchingByNode(contacts, point, tolerance.gap)) {
     if (node.contacts.size() < 2) {
       // The cone of one contact gives each force in one way only, where both components of its node are free.
       const ContactPair& contact = *contacts[node.contacts.front()];
@@ -185,7 +185,7 @@ ReactionRedistributions FindReactionRedistributions(const ContactPairs& contacts
     }
     double unit = 0.0;
     for (const std::size_t i : node.contacts) unit = std::max(unit, contacts[i]->ForceUnit());
-    const double force = limit.force * unit;
+    const double force = tolerance.force * unit;
     const std::vector<Weights> vertices = Vertices(node.edges, TotalForce(node, contacts, point), force);
     const std::vector<Weights> others = OtherFaces(node, vertices, PresentWeights(node, point, force));
     // Beside what the nodes before can have.

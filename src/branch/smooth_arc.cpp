@@ -68,9 +68,9 @@ void SmoothArc::NoteClosedGaps(const PathPoint& from) {
   }
 }
 
-double SmoothArc::RoundingOf(const Constraint& limit) const {
-  const double rounding = tolerances::kBrokenOnStep * system_.UnitOf(limit);
-  const auto moved = moved_forces_.find(limit.contact);
+double SmoothArc::RoundingOf(const Constraint& constraint) const {
+  const double rounding = tolerances::kBrokenOnStep * system_.UnitOf(constraint);
+  const auto moved = moved_forces_.find(constraint.contact);
   return moved == moved_forces_.end() ? rounding : std::max(rounding, moved->second);
 }
 

@@ -76,9 +76,9 @@ void AddTangent(const NullSpaceParts& parts, const Eigen::VectorXd& arrival, Tan
   tangents->first.push_back(std::move(tangent));
 }
 
-// Of parts that are loose at the point only, as slack bars that happen to be straight: their share of the tangent. The
-// equations hold to second order along the curve: psi . F''(z, z) = 0 for each left null vector psi, where z is the
-// tangent with a share of each rigid mode. Left as it is where these equations do not tell.
+// Some rigid modes exist at the point only, as of slack bars that happen to be straight: adds their share of the
+// tangent. The equations hold to second order along the curve: psi . F''(z, z) = 0 for each left null vector psi, where
+// z is the tangent with a share of each rigid mode. The tangent stays as it is where these equations do not tell.
 void AddShareOfModes(const Eigen::VectorXd& x, const Eigen::MatrixXd& modes, const Eigen::MatrixXd& left,
                      FixedStateSystem* system, Eigen::VectorXd* tangent) {
   if (modes.cols() == 0 || modes.cols() > kMostModes || left.cols() != modes.cols()) return;

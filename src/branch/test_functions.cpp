@@ -21,9 +21,9 @@ Jet ValueAlong(const FixedStateSystem& system, const Constraint& constraint, con
 }
 
 // The function of an inequality that must stay >= 0: its value, or for slip its rate.
-Quintic FunctionOf(const FixedStateSystem& system, const Step& step, const Constraint& limit) {
-  const Quintic value = step.Interpolate([&](const CurvePoint& at) { return ValueAlong(system, limit, at); });
-  return limit.inequality == Inequality::kSlip ? Derivative(value) : value;
+Quintic FunctionOf(const FixedStateSystem& system, const Step& step, const Constraint& constraint) {
+  const Quintic value = step.Interpolate([&](const CurvePoint& at) { return ValueAlong(system, constraint, at); });
+  return constraint.inequality == Inequality::kSlip ? Derivative(value) : value;
 }
 
 // By how much the cubic interpolation of the same ends differs from the quintic at the middle.
@@ -73,11 +73,11 @@ std::optional<CurvePoint> LocateRate(SmoothArc* arc, const Step& step, double t,
 
 // Less than this below zero, an inequality other than of slip counts as holding on the step. Where another path crosses
 // at an end of it, reactions are no better known than the point.
-double RoundingOnStep(const SmoothArc& arc, const Step& step, const Constraint& limit) {
+double RoundingOnStep(const SmoothArc& arc, const Step& step, const Constraint& constraint) {
   const auto is_crossing = [](const CurvePoint& point) { return point.determinant_sign == 0 && point.nullity == 0; };
-  const double rounding = arc.RoundingOf(limit);
-  if (IsMotion(limit.inequality) || !(is_crossing(step.start) || is_crossing(step.end))) return rounding;
-  return std::max(rounding, tolerances::kForceSingular * arc.system().UnitOf(limit));
+  const double rounding = arc.RoundingOf(constraint);
+  if (IsMotion(constraint.inequality) || !(is_crossing(step.start) || is_crossing(step.end))) return rounding;
+  return std::max(rounding, tolerances::kForceSingular * arc.system().UnitOf(constraint));
 }
 
 struct Bracket {
@@ -144,11 +144,11 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, std::optional<double> tar
   StepEvent first;
   first.t = step.length;
   const double width = tolerances::kCoincident * step.length;
-  const auto consider = [&](EventKind kind, double t, const Constraint& limit) {
+  const auto consider = [&](EventKind kind, double t, const Constraint& constraint) {
     // An event that coincides with something else is the one to act on.
     const double head_start = first.kind == EventKind::kContactEvent && kind != EventKind::kContactEvent ? width : 0.0;
     if (t + head_start > first.t || (t == first.t && first.kind != EventKind::kNone)) return;
-    first = {kind, t, limit, false};
+    first = {kind, t, constraint, false};
   };
   // No node moves further than the arc length, and that is hardly longer than the step.
   std::vector<Constraint> open_ends;
@@ -159,19 +159,20 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, std::optional<double> tar
     if (const std::optional<double> t = FirstNegative(beyond, step.length, 0.0))
       consider(EventKind::kNearTouch, *t, end);
   }
-  for (const Constraint& limit : limits) {
-    const Quintic quintic = FunctionOf(system, step, limit);
-    const double zero = limit.inequality == Inequality::kSlip ? tolerances::kLevel * system.ResidualUnit()
-                                                              : RoundingOnStep(*arc, step, limit);
+  for (const Constraint& constraint : limits) {
+    const Quintic quintic = FunctionOf(system, step, constraint);
+    const double zero = constraint.inequality == Inequality::kSlip ? tolerances::kLevel * system.ResidualUnit()
+                                                                   : RoundingOnStep(*arc, step, constraint);
     if (const std::optional<double> t = FirstNegative(quintic, step.length, zero)) {
-      consider(EventKind::kContactEvent, *t, limit);
+      consider(EventKind::kContactEvent, *t, constraint);
       continue;
     }
     double where = 0.0;
     const double smallest = Minimum(quintic, step.length, &where);
-    const bool inside = where > 1e-3 * step.length && where < 0.999 * step.length;
+    const bool inside =
+        where > tolerances::kAtEndOfStep * step.length && where < (1.0 - tolerances::kAtEndOfStep) * step.length;
     if (inside && smallest > zero && smallest < kNearShare * CubicDifference(quintic, step.length))
-      consider(EventKind::kNearTouch, where, limit);
+      consider(EventKind::kNearTouch, where, constraint);
   }
   const Eigen::Index s = system.NumDofs();
   const auto load = [s](const Eigen::VectorXd& x) { return x[s]; };

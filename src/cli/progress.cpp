@@ -18,7 +18,7 @@ constexpr auto kTimeBetweenDrawings = std::chrono::milliseconds(100);
 constexpr int kBarWidth = 14;             // characters; the whole line fits into 80
 constexpr char kWipeLine[] = "\r\x1b[K";  // ANSI: to the first column, erase to the end of the line
 
-// An estimate of the time left is worth its place after this share of the branch, and this time.
+// An estimate of the time left is worth its place after this share of the path, and this time.
 constexpr double kLeastFraction = 0.02;
 constexpr double kLeastSeconds = 3.0;
 

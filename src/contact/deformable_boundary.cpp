@@ -5,12 +5,12 @@
 #include <limits>
 #include <utility>
 
+#include "contact_path/tolerances.h"
+
 namespace contact_path {
 namespace {
 
 using Eigen::Vector2d;
-
-constexpr double kAsFar = 1e-10;  // of a distance
 
 // From the line between two points.
 double Distance(const Vector2d& x, const Vector2d& begin, const Vector2d& end) {
@@ -48,7 +48,7 @@ NearestFoot BoundaryAt::Nearest(const Vector2d& x) const {
   // Next to the end of a patch, the end and the foot on the next patch are equally far, to rounding.
   double most = nearest.distance;
   const auto consider = [&](int patch, double distance, bool is_joint, bool is_end) {
-    const double counted = is_joint ? (1.0 + kAsFar) * distance : distance;
+    const double counted = is_joint ? (1.0 + tolerances::kEquallyFar) * distance : distance;
     if (!(counted < most || (counted == most && patch < nearest.patch))) return;
     most = counted;
     nearest = {patch, distance, is_end};

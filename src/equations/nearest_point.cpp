@@ -64,7 +64,7 @@ NearestPoint FindNearestPoint(FixedStateSystem* system, const Eigen::VectorXd& s
     if (!residual.allFinite() || !solver.Factorize(scaled, system->InFrame())) return result;
     result.rank = solver.Rank();
 
-    // Towards what is wanted, then back onto the linearised equations by the shortest branch.
+    // Towards what is wanted, then back onto the linearised equations by the shortest step.
     Eigen::VectorXd step = Eigen::VectorXd::Zero(system->NumUnknowns());
     step.head(size) = wanted - result.x.head(size);
     step += solver.Solve(-residual - scaled.transpose() * step);

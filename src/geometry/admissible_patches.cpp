@@ -4,12 +4,13 @@
 #include <cstddef>
 #include <limits>
 
+#include "contact_path/tolerances.h"
+
 namespace contact_path {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kRounding = 1e-9;  // of lengths, relative: which patches are left out does not depend on units
 constexpr int kLeastBeside = 2;
 
 // How many patches after that of the first node begin within a length. nodes: up or down the curve.
@@ -30,7 +31,7 @@ int BeginWithin(double length, const std::vector<Eigen::Vector2d>& nodes) {
 AdmissiblePatches::AdmissiblePatches(const std::vector<Eigen::Vector2d>& nodes, bool closed, double radius, int node)
     : spline_(static_cast<int>(nodes.size()), closed) {
   const int count = spline_.NumPatches();
-  const double length = (1.0 + kRounding) * kPi * radius;
+  const double length = (1.0 + tolerances::kSameLength) * kPi * radius;
   // How many are left out in one sense, +1 or -1.
   const auto beside = [&](int sense) {
     const int end = sense > 0 ? count - 1 - node : node, most = closed ? count : end;

@@ -5,12 +5,12 @@
 #include <cstddef>
 #include <limits>
 
+#include "contact_path/tolerances.h"
+
 namespace contact_path {
 namespace {
 
 constexpr int kIterations = 60;
-constexpr double kFoot = 1e-16;            // of tau
-constexpr double kRoundingOfFoot = 1e-12;  // of tau: a move that is no smaller than the one before is rounding
 
 }  // namespace
 
@@ -64,7 +64,9 @@ double Parabola::FootOf(const Eigen::Vector2d& x, double begin, double end) cons
     for (int i = 0; i < kIterations; ++i) {
       const double move = -f(tau) / slope(tau), size = std::abs(move);
       tau += move;
-      if (!(size > kFoot) || (size < kRoundingOfFoot * (1.0 + std::abs(tau)) && size >= previous)) break;
+      if (!(size > tolerances::kFootStep) ||
+          (size < tolerances::kFootStagnation * (1.0 + std::abs(tau)) && size >= previous))
+        break;
       previous = size;
     }
     const double beyond = std::max(std::max(begin - tau, tau - end), 0.0), away = (x - At(tau)).squaredNorm();

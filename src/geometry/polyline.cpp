@@ -5,13 +5,12 @@
 #include <limits>
 #include <numeric>
 
+#include "contact_path/tolerances.h"
+
 namespace contact_path {
 namespace {
 
 using Eigen::Vector2d;
-
-constexpr double kInLine = 1e-14;    // turn of a corner [rad] that needs no fillet
-constexpr double kNoLength = 1e-14;  // of an edge that its fillets use up, over its length
 
 double Cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
@@ -37,7 +36,7 @@ struct Edges {
 
   // Of a fillet with the radius 1 at the corner where edge i begins: what it takes from both edges.
   double Share(std::size_t i) const {
-    return i >= turns.size() || std::abs(turns[i]) <= kInLine ? 0.0 : std::tan(0.5 * std::abs(turns[i]));
+    return i >= turns.size() || std::abs(turns[i]) <= tolerances::kInLine ? 0.0 : std::tan(0.5 * std::abs(turns[i]));
   }
   // The corner where edge i ends; past the last one there is none.
   std::size_t EndCorner(std::size_t i, bool closed) const { return closed ? (i + 1) % turns.size() : i + 1; }
@@ -108,7 +107,7 @@ double LargestFillet(const PlanePoints& points, bool closed) {
   }
   // The tangent of a quarter of a turn is large, and not infinite.
   for (std::size_t i = 0; i < edges.turns.size(); ++i)
-    if (edges.Share(i) > 1.0 / kInLine) return 0.0;
+    if (edges.Share(i) > 1.0 / tolerances::kInLine) return 0.0;
   return largest;
 }
 
@@ -121,7 +120,7 @@ std::unique_ptr<const Curve> MakePolyline(const PlanePoints& points, bool closed
     const std::size_t corner = edges.EndCorner(i, closed);
     const double from = fillet * edges.Share(i), cut = fillet * edges.Share(corner);
     const double length = edges.lengths[i] - from - cut;
-    if (length > kNoLength * edges.lengths[i])
+    if (length > tolerances::kUsedUpEdge * edges.lengths[i])
       pieces.push_back(std::make_unique<LinePiece>(points[i] + from * direction, direction, length));
     if (cut == 0.0) continue;
     const double turn = edges.turns[corner], sign = turn > 0.0 ? 1.0 : -1.0;

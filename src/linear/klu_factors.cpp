@@ -9,8 +9,6 @@
 namespace contact_path {
 namespace {
 
-constexpr double kGrowth = 1e-4;  // reciprocal growth of the pivots below which they are chosen anew
-
 // Sign of a permutation of 0..n-1.
 int Parity(const int* permutation, int n) {
   std::vector<bool> seen(static_cast<std::size_t>(n), false);
@@ -58,8 +56,8 @@ bool KluFactors::Refactorize(Eigen::SparseMatrix<double>* matrix) {
   int *outer = matrix->outerIndexPtr(), *inner = matrix->innerIndexPtr();
   double* const values = matrix->valuePtr();
   return klu_refactor(outer, inner, values, symbolic_, numeric_, &common_) == 1 && common_.status == KLU_OK &&
-         klu_rgrowth(outer, inner, values, symbolic_, numeric_, &common_) == 1 && common_.rgrowth > kGrowth &&
-         Regular();
+         klu_rgrowth(outer, inner, values, symbolic_, numeric_, &common_) == 1 &&
+         common_.rgrowth > tolerances::kPivotGrowth && Regular();
 }
 
 bool KluFactors::Regular() {

@@ -13,8 +13,6 @@
 namespace contact_path {
 namespace {
 
-constexpr double kGoodBorder = 1e-5;  // cosine between the border and the null vector of J
-
 // The first equation that lacks the unknown of its number: equations of equilibrium come first, and have it.
 Eigen::Index FirstWithoutDiagonal(const Eigen::SparseMatrix<double>& transposed) {
   for (Eigen::Index column = 0; column < transposed.cols(); ++column) {
@@ -63,7 +61,7 @@ bool LargeFactors::Factorize(const Eigen::SparseMatrix<double>& transposed, cons
     frame = &own;
     SetValues(transposed, own);
   }
-  Take(*frame, row);
+  Transfer(*frame, row);
   const std::shared_ptr<const Ordering> known = frame->orderings->Find(*frame, row_);
   if (known != nullptr) {
     if (AreGoodPlaces(known->places, row_))
@@ -81,7 +79,7 @@ bool LargeFactors::Factorize(const Eigen::SparseMatrix<double>& transposed, cons
   return FactorizeBordered(true);
 }
 
-void LargeFactors::Take(const Frame& frame, const Eigen::VectorXd& row) {
+void LargeFactors::Transfer(const Frame& frame, const Eigen::VectorXd& row) {
   unknowns_ = frame.unknowns;
   equations_ = frame.equations;
   odd_ = frame.odd;
@@ -132,7 +130,7 @@ bool LargeFactors::FactorizeBordered(bool any_border) {
   along_ = row_.dot(direction_);  // its sign is of use also where N is singular but for rounding
   const double length = direction_.norm();
   if (!(PivotRatio() > tolerances::kSingularPivot)) return false;
-  if (!any_border && !(border_.norm() * length < 1.0 / kGoodBorder)) return false;
+  if (!any_border && !(border_.norm() * length < 1.0 / tolerances::kGoodBorder)) return false;
   return std::abs(along_) > tolerances::kSingularPivot * row_.norm() * length;
 }
 

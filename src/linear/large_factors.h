@@ -32,7 +32,7 @@ class LargeFactors {
   void Solve(double* x, Eigen::Index columns);
 
  private:
-  void Take(const Frame& frame, const Eigen::VectorXd& row);
+  void Transfer(const Frame& frame, const Eigen::VectorXd& row);
   bool SetValues(const Eigen::SparseMatrix<double>& transposed, const Frame& frame);
   bool FactorizeBordered(bool any_border);
 

@@ -47,7 +47,6 @@ class SparseQr : public Spqr {
     if (status == CHOLMOD_OUT_OF_MEMORY || status == CHOLMOD_TOO_LARGE) throw std::bad_alloc();
   }
 };
-constexpr double kFading = 1e-3;  // of the entries around: the norm of an equation counts as no less than that
 
 // For each equation the largest entry, in any equation, of the unknowns that it has.
 Eigen::VectorXd NormsAround(const Eigen::SparseMatrix<double>& transposed) {
@@ -67,7 +66,7 @@ Eigen::VectorXd NormsOf(const Eigen::SparseMatrix<double>& transposed, double ra
                         const Eigen::VectorXd& least_norms) {
   const bool singular = rank_tolerance > tolerances::kDependentColumn;
   const Eigen::VectorXd around = singular ? NormsAround(transposed) : Eigen::VectorXd::Zero(transposed.cols());
-  Eigen::VectorXd norms = kFading * around;
+  Eigen::VectorXd norms = tolerances::kFadingEquation * around;
   if (least_norms.size() > 0) norms = norms.cwiseMax(least_norms);
   for (Eigen::Index column = 0; column < transposed.cols(); ++column) {
     const double norm = std::max(transposed.col(column).norm(), norms[column]);

@@ -22,7 +22,7 @@ constexpr int kMaxActiveSetChanges = 4;
 // With a larger eps the relaxed products leave room to leave the branch for another one: arch19 fell off its ceilings.
 constexpr double kLargestAtOnce = 1e-8;
 
-constexpr double kSameEps = 1.0 + 1e-9;  // rounding of powers of the factor
+constexpr double kSameEps = 1.0 + tolerances::kRegularisation;
 
 }  // namespace
 
@@ -32,7 +32,7 @@ IncrementSolver::IncrementSolver(const Structure& structure, const ContactPairs&
 IncrementTrial IncrementSolver::Solve(const PathPoint& from, const IncrementGoal& goal,
                                       const RegularisationSchedule& schedule) {
   std::vector<std::size_t> included = tracker_.InReach(from.u, from.s, kLongestIncrement * goal.length);
-  // Past the end of its surface a node would meet what is prolonged of it.
+  // Past the end of its surface a node would meet the prolongation of the last patch.
   included.erase(
       std::remove_if(included.begin(), included.end(),
                      [&](std::size_t i) {
@@ -143,11 +143,11 @@ bool IncrementSolver::PolishActiveSet(const PathPoint& from, const Eigen::Vector
     // the contact goes on on the next one.
     const std::size_t before = active.size();
     bool passed = false;
-    for (const Constraint& limit : system_.Inequalities()) {
-      if (system_.Value(limit, nearest.x) >= -tolerances::kBrokenAtPoint * system_.UnitOf(limit)) continue;
-      const auto i = static_cast<std::size_t>(limit.contact);
-      if (!KeepsPatch(limit.inequality)) {
-        active.push_back(limit);
+    for (const Constraint& constraint : system_.Inequalities()) {
+      if (system_.Value(constraint, nearest.x) >= -tolerances::kBrokenAtPoint * system_.UnitOf(constraint)) continue;
+      const auto i = static_cast<std::size_t>(constraint.contact);
+      if (!KeepsPatch(constraint.inequality)) {
+        active.push_back(constraint);
         // The equation is by the unknowns of one patch.
         if (contacts_[i]->Deformable() && patches[i] == kNearestPatch) {
           patches[i] = contacts_[i]->PatchAt(exact.u, exact.s);
@@ -155,7 +155,7 @@ bool IncrementSolver::PolishActiveSet(const PathPoint& from, const Eigen::Vector
         }
         continue;
       }
-      patches[i] += limit.inequality == Inequality::kPatchEnd ? 1 : -1;
+      patches[i] += constraint.inequality == Inequality::kPatchEnd ? 1 : -1;
       if (!contacts_[i]->HasPatch(patches[i])) return false;
       passed = true;
     }
@@ -163,8 +163,9 @@ bool IncrementSolver::PolishActiveSet(const PathPoint& from, const Eigen::Vector
       system_.SetStates(trial->point.states, reference, patches);
     } else if (active.size() == before) {
       // Slip held at zero motion: the contact stuck, and is about to slip.
-      for (const Constraint& limit : active)
-        if (IsOfSlip(limit.inequality)) exact.states[static_cast<std::size_t>(limit.contact)] = ContactState::kStick;
+      for (const Constraint& constraint : active)
+        if (IsOfSlip(constraint.inequality))
+          exact.states[static_cast<std::size_t>(constraint.contact)] = ContactState::kStick;
       trial->point = std::move(exact);
       trial->exact = true;
       IncrementTrial stuck = *trial;
@@ -184,10 +185,10 @@ bool IncrementSolver::PolishActiveSet(const PathPoint& from, const Eigen::Vector
 // Whether some contact slips by name and has moved by no more than `slip`: its state in *point becomes stick.
 bool IncrementSolver::StickWhereAtRest(const Eigen::VectorXd& x, double slip, PathPoint* point) const {
   bool some = false;
-  for (const Constraint& limit : system_.Inequalities()) {
-    ContactState& state = point->states[static_cast<std::size_t>(limit.contact)];
-    if (!IsOfSlip(limit.inequality) || !Slips(state)) continue;
-    if (system_.Value(limit, x) > slip) continue;
+  for (const Constraint& constraint : system_.Inequalities()) {
+    ContactState& state = point->states[static_cast<std::size_t>(constraint.contact)];
+    if (!IsOfSlip(constraint.inequality) || !Slips(state)) continue;
+    if (system_.Value(constraint, x) > slip) continue;
     state = ContactState::kStick;
     some = true;
   }

@@ -16,9 +16,6 @@
 namespace contact_path {
 namespace {
 
-constexpr double kMostSlender = 1e8;   // EA L^2 / EI that is followed
-constexpr double kOfHiddenSlip = 0.2;  // of the tolerance, and of the next: far enough from either
-constexpr double kOfSingular = 0.01;
 constexpr double kClosing = 10.0;  // the nodes of a surface have shares in a gap: each moves by more than that
 constexpr double kNearlyIncompressible = 0.49;  // Poisson's ratio beyond which elements of few nodes lock
 
@@ -157,7 +154,7 @@ std::string LockingSolids(const Scene& scene, const SceneIndex& index) {
 }
 
 std::string SlenderBeam(const Scene& scene, const SceneIndex& index) {
-  double most = kMostSlender;
+  double most = tolerances::kMostSlender;
   std::string text;
   for (const Beam& beam : scene.beams) {
     const Node &first = scene.nodes[index.Node(beam.nodes.front())], &last = scene.nodes[index.Node(beam.nodes.back())];
@@ -191,7 +188,7 @@ std::string CurveTooSharp(const Model& model, const PathPoint& point) {
       out << ": rounding of the coordinates turns its reaction by " << turn << " rad";
       return out.str();
     }
-    if (stiffness > kOfSingular / tolerances::kSingularPivot) {
+    if (stiffness > tolerances::kOfSingular / tolerances::kSingularPivot) {
       out << ": reaction over radius is " << stiffness
           << " of the characteristic stiffness, which is lost in rounding beside it";
       return out.str();
@@ -210,7 +207,7 @@ std::string HiddenSlip(const Model& model, const PathPoint& point) {
     const double curvature = SharpestAt(pair, point, point.Patch(i)).curvature;
     // As it slides by dxi, the reaction turns by curvature * dxi, and the load has to follow.
     const double load_rate = (1.0 + pair.Friction() * pair.Friction()) * rn * curvature;
-    if (!(load_rate > kOfHiddenSlip / tolerances::kLevel)) continue;
+    if (!(load_rate > tolerances::kOfHiddenSlip / tolerances::kLevel)) continue;
     return OnCurve(model, i, curvature) +
            ": it slides by so little while the load changes that this cannot be told from rest";
   }

@@ -22,18 +22,17 @@ constexpr double kSmallestCosine = 0.5;
 // Shares of the dissipation term in the minimiser. Small: the path is followed; larger where nothing but dissipation
 // leads on.
 constexpr double kDissipationShares[] = {0.2, 0.6, 1.0};
-// The same by the total law of friction, where nothing dissipates: they only tell in which sense a contact at the edge
-// of its cone can slip.
+// Shares by the total law of friction. Nothing dissipates there: the term only tells in which sense a contact at the
+// edge of its cone can slip.
 constexpr double kSlipShares[] = {0.6, 1.0};
 
 constexpr double kFarthestTarget = 2.0;  // of the increment that goes past the target: farther is another branch
 constexpr double kLevelling =
     0.25;  // a rate at the end of an increment that may be none, relative to the one at its begin
 
-constexpr int kMostDirections = 8;     // tried, each that of the motion found by the one before
-constexpr double kNoDirection = 1e-3;  // of what was wanted: a shorter increment does not tell where the path goes on
-constexpr double kShortPath = 20.0;    // of the corner tolerance
-constexpr double kCornerShare = 0.04;  // of the wanted step: largest corner tolerance
+constexpr int kMostDirections = 8;           // tried, each that of the motion found by the one before
+constexpr double kShortPath = 20.0;          // of the corner tolerance
+constexpr double kCornerShare = 0.04;        // of the wanted step: largest corner tolerance
 constexpr double kSmallestStepRatio = 1e-7;  // of the wanted step
 
 // Whether this contact is about to change its state, so that the path may bend here by any angle.
@@ -138,7 +137,7 @@ const char* MpecMethod::Describe(Verdict verdict) {
     case Verdict::kWrongDirection: return "the load factor changes against the wanted direction";
     case Verdict::kTurnedBack: return "the path turns sharply without a change of contact state";
     case Verdict::kBackAtRest:
-      return "the load goes back with all contacts at rest, and no way on was found that slides";
+      return "the load goes back with all contacts at rest, and no branch was found that slides";
     case Verdict::kNotConfirmed: return "two half increments do not confirm the change of contact state";
     case Verdict::kBeyondTarget: return "the load factor goes past its target, and no point at the target is found";
     case Verdict::kCancelled: return "cancelled";
@@ -237,13 +236,13 @@ MpecMethod::Trial MpecMethod::Try(const PathPoint& from, const Eigen::VectorXd& 
 }
 
 MpecMethod::Trial MpecMethod::TryTotal(const PathPoint& from, const Eigen::VectorXd& direction, double length) {
-  Trial trial = TryAimless(from, direction, length);
+  Trial trial = TryWithoutDissipation(from, direction, length);
   // Where the only solution is the point itself, the nonlinear solver need not find it.
   if (trial.verdict != Verdict::kNoProgress && trial.verdict != Verdict::kNotSolved) return trial;
   for (const double share : kSlipShares) {
     const Trial slipping = SolveOnce(from, direction, length, share, options_.regularisation);
     if (slipping.verdict != Verdict::kAccepted) continue;
-    Trial along = TryAimless(from, Direction(from, slipping.increment.point), length);
+    Trial along = TryWithoutDissipation(from, Direction(from, slipping.increment.point), length);
     if (along.verdict == Verdict::kAccepted) return along;
   }
   return trial;
@@ -261,11 +260,12 @@ MpecMethod::Trial MpecMethod::TryFirst(const PathPoint& from, double length) {
   return trial;
 }
 
-MpecMethod::Trial MpecMethod::TryAimless(const PathPoint& from, const Eigen::VectorXd& direction, double length) {
+MpecMethod::Trial MpecMethod::TryWithoutDissipation(const PathPoint& from, const Eigen::VectorXd& direction,
+                                                    double length) {
   Trial trial = SolveOrRaise(from, direction, length, 0.0);
   for (int i = 0; i < kMostDirections && trial.verdict == Verdict::kNoProgress; ++i) {
     const PathPoint& to = trial.increment.point;
-    if (!(Distance(from, to) > kNoDirection * length)) break;
+    if (!(Distance(from, to) > tolerances::kNoDirection * length)) break;
     Trial next = SolveOnce(from, Direction(from, to), length, 0.0, options_.regularisation);
     if (next.verdict != Verdict::kAccepted && next.verdict != Verdict::kNoProgress) break;
     trial = std::move(next);
@@ -320,8 +320,8 @@ bool MpecMethod::EndAtTarget(const PathPoint& from, const PathPoint& modes, Tria
   const Eigen::VectorXd start = (1.0 - share) * system.Pack(from) + share * system.Pack(to);
   const NearestPoint nearest = FindNearestPoint(&system, start, start.head(from.u.size() + 1));
   if (!nearest.converged) return false;
-  for (const Constraint& limit : system.Inequalities())
-    if (system.Value(limit, nearest.x) < -tolerances::kBrokenAtPoint * system.UnitOf(limit)) return false;
+  for (const Constraint& constraint : system.Inequalities())
+    if (system.Value(constraint, nearest.x) < -tolerances::kBrokenAtPoint * system.UnitOf(constraint)) return false;
   PathPoint point = system.Unpack(nearest.x);
   if (Distance(from, point) > kFarthestTarget * Distance(from, to)) return false;
   trial->residuals = model_.Check(from, point);

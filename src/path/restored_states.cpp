@@ -15,8 +15,7 @@
 namespace contact_path {
 namespace {
 
-constexpr double kMovingLoad = 1e-2;  // of the arc length: a smaller change does not tell the direction
-constexpr int kIterations = 20;       // for the arc length
+constexpr int kIterations = 20;  // for the arc length
 
 Eigen::VectorXd Chord(const PathPoint& from, const PathPoint& to) {
   Eigen::VectorXd chord(to.u.size() + 1);
@@ -66,7 +65,7 @@ class Restorer {
     if (before.event.branches.empty() && at >= 2 && increments[at - 2].stage == before.stage)
       return Chord(model_.FromIncrement(increments[at - 2]), from);
     const double change = (increments[at].load_factor - before.load_factor) / model_.scaling.load_factor;
-    if (std::abs(change) > kMovingLoad * (increments[at].arc_length - before.arc_length))
+    if (std::abs(change) > tolerances::kMovingLoad * (increments[at].arc_length - before.arc_length))
       return Eigen::VectorXd(change * Eigen::VectorXd::Unit(from.u.size() + 1, from.u.size()));
     const Increment* const next = NextWithState(increments, at);
     if (next == nullptr) return std::nullopt;

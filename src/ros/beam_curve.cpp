@@ -26,7 +26,8 @@ std::vector<Vector2d> CurveOf(const DrawnSegment& segment, const SegmentEnds& en
     if (segment.hinged[k] && !segment.hinged[1 - k]) bends[k] = -0.5 * bends[1 - k];
   bends[0] -= 0.5 * segment.turn;
   bends[1] += 0.5 * segment.turn;
-  // So long a tangent makes an arc of a circle of a segment that is bent evenly, but for 0.1 % at a right angle.
+  // With tangents of this length a segment that is bent evenly is drawn as an arc of a circle, to 0.1 % at a right
+  // angle.
   const double cosine = std::cos(0.25 * (bends[1] - bends[0]));
   const double speed = chord.norm() / std::max(cosine * cosine, 0.25);
   const auto tangent = [&](double bend) {

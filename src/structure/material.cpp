@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "contact_path/tolerances.h"
+
 namespace contact_path {
 namespace {
 
@@ -24,9 +26,9 @@ double NeoHookeanThickness(const Lame& lame, double area) {
     if (!(slope > 0.0)) return kNaN;
     const double step = value(z) / slope;
     z -= step;
-    if (!(std::abs(step) > 1e-15 * (1.0 + std::abs(z)))) return z;
+    if (!(std::abs(step) > tolerances::kThicknessStep * (1.0 + std::abs(z)))) return z;
   }
-  return std::abs(value(z)) <= 1e-12 * (lame.mu + std::abs(lame.lambda)) ? z : kNaN;
+  return std::abs(value(z)) <= tolerances::kThicknessResidual * (lame.mu + std::abs(lame.lambda)) ? z : kNaN;
 }
 
 }  // namespace

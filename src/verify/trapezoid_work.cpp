@@ -21,6 +21,11 @@ double PowerOfReactions(const VerifiedStage& stage, const Increment& increment) 
   return speed * reactions;
 }
 
+// A value that goes on at first as it changed on the increment before, which would be by `going_on` on the whole
+// increment, and changes by `change`: a parabola. It is apart from its chord by at most a quarter of the distance
+// between its tangent at one end and its chord, measured at the other end.
+double OpenOfParabola(double going_on, double change) { return 0.25 * std::abs(going_on - change); }
+
 }  // namespace
 
 TrapezoidWork WorkBetween(const VerifiedStage& stage, const Increment* earlier, const Increment& before,
@@ -38,17 +43,17 @@ TrapezoidWork WorkBetween(const VerifiedStage& stage, const Increment* earlier, 
     if (!load.constant) scaled_loads += std::hypot(load.fx, load.fy, load.moment / stage.scaling.length);
   }
   work += 0.5 * (before.load_factor + increment.load_factor) * along;
-  // Where a force has its largest value on the increment, both ends may be alike. It bends over the length L.
+  // A force may have its largest value inside the increment while both ends show equal values. Forces bend over the
+  // length L: the share `bend` of a force is open.
   const double arc = increment.arc_length - before.arc_length;
   const double bend = kBend * arc * arc;
-  // So may the branch of the loads, which goes forth and back then.
+  // Nodes with loads may go forth and back inside the increment: `bend` times L of their motion is open.
   const double load_change = std::abs(increment.load_factor - before.load_factor);
   double load_open = 0.5 * load_change;
   const double arc_before = earlier != nullptr ? before.arc_length - earlier->arc_length : 0.0;
   if (arc_before > 0.0) {
-    // A parabola over its chord is a quarter of what its slope at one end makes of it at the other end.
     const double going_on = (before.load_factor - earlier->load_factor) / arc_before * arc;
-    load_open += 0.25 * std::abs(going_on - (increment.load_factor - before.load_factor));
+    load_open += OpenOfParabola(going_on, increment.load_factor - before.load_factor);
   }
   double open_work =
       (load_open * std::abs(along) + bend * (std::abs(work) + load_change * scaled_loads * stage.scaling.length)) /
@@ -57,25 +62,26 @@ TrapezoidWork WorkBetween(const VerifiedStage& stage, const Increment* earlier, 
     const double from = stage.check.DrivingForce(from_state), to = stage.check.DrivingForce(to_state);
     const double moved = increment.load_factor - before.load_factor;
     work += 0.5 * (from + to) * moved;
-    // A drag without friction exerts no force at both ends, and between them the forces of wavy surfaces.
+    // An obstacle that is dragged without friction may exert no force at either end of the increment, and inside it the
+    // forces of a wavy surface.
     const double between = std::abs(from + to) + PowerOfReactions(stage, before) + PowerOfReactions(stage, increment);
     open_work += (0.5 * std::abs(to - from) + bend * between) * std::abs(moved) / unit;
-    // Parts that strain to second order alone store energy, and may give it back by the end of the increment.
+    // Parts whose strains are of second order in the motion store energy, and may give it back by the end of the
+    // increment.
     open_work += std::pow(bend * stage.scaling.length, 2) * stage.check.LargestStiffness() / unit;
     const double moved_before = earlier != nullptr ? before.load_factor - earlier->load_factor : 0.0;
     if (moved_before != 0.0) {
       const double going_on = (from - stage.check.DrivingForce(StateOf(*earlier))) / moved_before * moved;
-      open_work += 0.25 * std::abs(going_on - (to - from)) * std::abs(moved) / unit;
+      open_work += OpenOfParabola(going_on, to - from) * std::abs(moved) / unit;
     }
   }
-  // Of the force `reaction` of a contact. Where the contact closes and opens on the increment, the force is 0 at both
-  // ends, and the parts there decide between them.
+  // The part of a reaction of the contact i that is open [force]. Where the contact closes and opens inside the
+  // increment, the reaction is 0 at both ends, and the forces of the parts there bound it in between.
   const auto open_force = [&](std::size_t i, double ContactRecord::*reaction) {
     const double was = before.contacts[i].*reaction, change = increment.contacts[i].*reaction - was;
     const double largest = 2.0 * std::abs(was) + std::abs(change) + stage.contacts[i].of_parts * stage.scaling.force;
-    // As for the load.
     const double going_on = arc_before > 0.0 ? (was - earlier->contacts[i].*reaction) / arc_before * arc : change;
-    return 0.5 * std::abs(change) + bend * largest + 0.25 * std::abs(going_on - change);
+    return 0.5 * std::abs(change) + bend * largest + OpenOfParabola(going_on, change);
   };
   double dissipation = 0.0, open_dissipation = 0.0;
   for (std::size_t i = 0; i < stage.contacts.size(); ++i) {

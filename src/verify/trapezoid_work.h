@@ -31,10 +31,10 @@ struct TrapezoidWork {
   double open_dissipation = 0.0;
 };
 
-// By trapezoids, which are in the middle between the products with the smallest and with the largest force. Where a
-// path turns in between, as much again may be open; so may what a force of moving supports and obstacles does that
-// goes on at first as it changed on the increment before, from `earlier` on, which may be null. All must have their
-// state.
+// Work by the trapezoidal rule: the mean of two products of the motion, with the force at the begin and with the force
+// at the end. open_work and open_dissipation bound the error of the rule: half the difference of both products, what
+// forces may bend inside the increment, and a force that first goes on as it changed from `earlier` to `before`.
+// earlier: may be null. All increments must have positions and contacts.
 TrapezoidWork WorkBetween(const VerifiedStage& stage, const Increment* earlier, const Increment& before,
                           const Increment& increment);
 

@@ -29,9 +29,9 @@ struct VerifiedContact {
   std::string name;
   // Forces across the contact that count as 1, over F: 1, or the forces there where these are far below F.
   double unit = 1.0;
-  // Of a reaction, over F times the unit: coordinates are known to 1e-16 of their size, gaps that count as closed at
-  // the start are not 0, and parts turn both into forces. Never below the rounding of a contact across which forces
-  // are F.
+  // Rounding of a reaction, over F times the unit. Coordinates are known to 1e-16 of their size, and gaps that count as
+  // closed at the start are not 0; the stiffness of the parts turns both errors into forces. At least the rounding at a
+  // contact across which forces are F.
   double rounding = 0.0;
   double of_parts = 1.0;  // forces of the parts there for a motion of L, over F, at least 1
 };

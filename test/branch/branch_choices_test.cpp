@@ -116,7 +116,7 @@ TEST(BranchChoices, HysteresisLoop) {
 }
 
 // The foot of the rough truss slides and sticks again: it unloads, elastically, from where it is.
-TEST(BranchChoices, ByRowAndByEvent) {
+TEST(BranchChoices, ByIncrementAndByEvent) {
   const TracedPath plain = TraceIncrements(ReadExample("rough_truss"));
   const Increment corner = IncrementsOfKind(plain, IncrementKind::kCornerLimit).at(0);
   TraceRequest request = ReadExample("rough_truss");

@@ -220,8 +220,8 @@ struct LinearProblem {
                                  Normal(i).x(), Normal(i).y(), friction[Size(i)]});
       scene.contacts.push_back({name, "o" + std::to_string(i)});
     }
-    for (Index increment = 0; increment < 2 * n(); ++increment)
-      for (Index column = 0; column < 2 * n(); ++column) part.stiffness.push_back(stiffness(increment, column));
+    for (Index row = 0; row < 2 * n(); ++row)
+      for (Index column = 0; column < 2 * n(); ++column) part.stiffness.push_back(stiffness(row, column));
     scene.superelements = {part};
     return scene;
   }
@@ -270,23 +270,23 @@ struct LinearProblem {
     equations.topLeftCorner(2 * n(), 2 * n()) = stiffness;
     equations.block(0, 2 * n(), 2 * n(), 1) = -load;
     for (Index i = 0; i < n(); ++i) {
-      const Index rn_column = 2 * n() + 1 + 2 * i, rt_column = rn_column + 1, increment = 2 * n() + 2 * i;
+      const Index rn_column = 2 * n() + 1 + 2 * i, rt_column = rn_column + 1, row = 2 * n() + 2 * i;
       equations.block(2 * i, rn_column, 2, 1) = -Normal(i);
       equations.block(2 * i, rt_column, 2, 1) = -Tangent(i);
       const double mu = friction[Size(i)];
       switch (combination[Size(i)]) {
         case ContactState::kOpen:
-          equations(increment, rn_column) = 1.0;
-          equations(increment + 1, rt_column) = 1.0;
+          equations(row, rn_column) = 1.0;
+          equations(row + 1, rt_column) = 1.0;
           break;
         case ContactState::kStick:
-          equations.block(increment, 2 * i, 1, 2) = Normal(i).transpose();
-          equations.block(increment + 1, 2 * i, 1, 2) = Tangent(i).transpose();
+          equations.block(row, 2 * i, 1, 2) = Normal(i).transpose();
+          equations.block(row + 1, 2 * i, 1, 2) = Tangent(i).transpose();
           break;
         default:
-          equations.block(increment, 2 * i, 1, 2) = Normal(i).transpose();
-          equations(increment + 1, rt_column) = 1.0;
-          equations(increment + 1, rn_column) = combination[Size(i)] == kSlipPlus ? mu : -mu;
+          equations.block(row, 2 * i, 1, 2) = Normal(i).transpose();
+          equations(row + 1, rt_column) = 1.0;
+          equations(row + 1, rn_column) = combination[Size(i)] == kSlipPlus ? mu : -mu;
       }
     }
     const SingularValueDecomposition dense = Decompose(equations);

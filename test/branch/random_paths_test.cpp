@@ -334,7 +334,7 @@ TEST(RandomPaths, AreOfAllKinds) {
   for (const char* state : {"open", "stick", "slip+", "slip-", "closed"}) EXPECT_GE(count(state), 500) << state;
 }
 
-TEST(RandomPaths, RowsAreSound) {
+TEST(RandomPaths, IncrementsAreSound) {
   const Study& study = TheStudy();
   EXPECT_LE(study.residual, 1e-9);
   for (const auto& [variant, imbalance] : study.imbalance) {

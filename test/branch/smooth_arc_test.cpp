@@ -34,7 +34,7 @@ constexpr int kIncrements = 160;
 
 TEST(SmoothArc, DerivativesAreTheUnitTangentAndTheCurvature) {
   for (const auto& [scene, index] : Arcs()) {
-    SCOPED_TRACE(scene + " row " + std::to_string(index));
+    SCOPED_TRACE(scene + " increment " + std::to_string(index));
     TracedArc traced(Trace(scene, kIncrements), index);
     const CurvePoint& start = traced.start();
     const Eigen::Index n = traced.motion();
@@ -98,7 +98,7 @@ TEST(SmoothArc, KeepsTheClosedFormOfTheSlidingBar) {
 // Errors e of Newton's method: e(k+1) <= C e(k)^2 while the factorisation is renewed, then at least 1e-4 of the last.
 TEST(SmoothArc, NewtonConvergesQuadratically) {
   for (const auto& [scene, index] : Arcs()) {
-    SCOPED_TRACE(scene + " row " + std::to_string(index));
+    SCOPED_TRACE(scene + " increment " + std::to_string(index));
     TracedArc traced(Trace(scene, kIncrements), index);
     std::vector<double> constants;
     for (const double t : {0.12, 0.08, 0.05, 0.03}) {
@@ -172,7 +172,7 @@ TEST(Step, EndsAreItsPoints) {
 // Positions, load and reactions between the ends: error of order length^6; tangents length^5, curvatures length^4.
 TEST(Step, InterpolatesWithOrderSix) {
   for (const auto& [scene, index] : Arcs()) {
-    SCOPED_TRACE(scene + " row " + std::to_string(index));
+    SCOPED_TRACE(scene + " increment " + std::to_string(index));
     TracedArc traced(Trace(scene, kIncrements), index);
     const auto errors = [&](double length) {
       const Step step = traced.Between(0.0, length);
@@ -243,7 +243,7 @@ TEST(SmoothArc, TwoHalvesEndWhereTheWholeStepDoes) {
       row.head(traced.motion()) = traced.normal();
       const Correction rest = traced.arc().Correct(
           half.x + 0.5 * length * half.first + 0.125 * length * length * half.second, row, row.dot(traced.end()));
-      ASSERT_TRUE(rest.converged) << scene << " row " << i;
+      ASSERT_TRUE(rest.converged) << scene << " increment " << i;
       worst = std::max(worst, (rest.x - traced.end()).norm());
       ++arcs;
     }

@@ -81,7 +81,7 @@ TEST_F(SlidingBarResiduals, ClosedFormLeavesNothing) {
   }
 }
 
-TEST_F(SlidingBarResiduals, FirstRowHasNoMotion) {
+TEST_F(SlidingBarResiduals, FirstIncrementHasNoMotion) {
   const Residuals residuals = ResidualCheck(scene_).Check(now_, now_);
   EXPECT_LE(residuals.equilibrium, 1e-16);
   EXPECT_LE(residuals.Contact(), 1e-16);

@@ -82,11 +82,11 @@ class CliTest(program_test.ProgramTest):
 
     def expect_whole_increments(self, text):
         self.assertTrue(text.endswith('\n'), text[-200:])
-        increments = list(csv.reader(io.StringIO(text)))
-        self.assertEqual(increments[0], HEADER)
-        for index, increment in enumerate(increments[1:]):
-            self.assertEqual(len(increment), len(HEADER), increment)
-            self.assertEqual(increment[0], str(index))
+        rows = list(csv.reader(io.StringIO(text)))
+        self.assertEqual(rows[0], HEADER)
+        for index, row in enumerate(rows[1:]):
+            self.assertEqual(len(row), len(HEADER), row)
+            self.assertEqual(row[0], str(index))
 
 
 class Memory(CliTest):
@@ -154,7 +154,7 @@ class CompleteTraces(CliTest):
         line, = self.expect_lines(result.stderr, 1)
         self.assertIn('max_increments', line)
 
-    def test_summary_names_the_limit_points_of_the_rows(self):
+    def test_summary_names_the_limit_points_of_the_increments(self):
         result = run(SCENE)
         kinds = ('smooth_limit', 'corner_limit')
         limits = [increment for increment in increments_of(result.stdout) if increment['kind'] in kinds]
@@ -253,7 +253,7 @@ class Terminal(CliTest):
 
 class TracesThatEndEarly(CliTest):
 
-    def test_signals_cancel_and_keep_the_rows(self):
+    def test_signals_cancel_and_keep_the_increments(self):
         for number in (signal.SIGINT, signal.SIGTERM):
             for quiet in ([], ['--quiet']):
                 with self.subTest(signal=number, quiet=quiet):
@@ -267,7 +267,7 @@ class TracesThatEndEarly(CliTest):
                     self.assertIn('cancelled', line)
                     self.expect_whole_increments(text)
 
-    def test_rows_are_written_as_they_come(self):
+    def test_increments_are_written_as_they_come(self):
         process = self.start(SCENE, '--csv', self.csv, *ENDLESS)
         for _ in range(program_test.TIMEOUT * 100):
             if os.path.exists(self.csv) and read(self.csv).count('\n') >= 3:

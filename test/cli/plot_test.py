@@ -60,7 +60,7 @@ class Panels(QuickPlotTest):
         structure = Structure(Scene.read(scene))
         self.assertEqual(solid.boundaries.shape, (20, 8))
         path = read(table)
-        for increment in map(path.row, range(0, len(path), 20)):
+        for increment in map(path.increment, range(0, len(path), 20)):
             energies = solid.energies(structure.initial, structure.positions(increment))
             self.assertAlmostEqual(energies.sum() * 0.25, increment['strain_energy'], delta=1e-9)
 
@@ -349,7 +349,7 @@ class Obstacles(QuickPlotTest):
         path = read(table).with_scene(Scene.read(scene))
         structure = Structure(path.scene)
         for row in range(0, len(path), 10):
-            shape = plot_shapes.Shape(structure, path.row(row))
+            shape = plot_shapes.Shape(structure, path.increment(row))
             spring = np.array((1.3, 0.8)) * (shape.places[0] - (0.2, -0.3))
             np.testing.assert_allclose(shape.reactions[0] + shape.loads[0], spring, atol=1e-5)
         np.testing.assert_allclose(path.quantity('p@peg.slip'), np.arctan2(path['x_p'], path['y_p']) + 0.2, atol=1e-4)
@@ -381,7 +381,7 @@ class Obstacles(QuickPlotTest):
             structure = Structure(Scene.read(name))
             self.assertEqual(structure.normals, {})
             boundary = structure.obstacles['thing']
-            for increment in map(path.row, range(len(path))):
+            for increment in map(path.increment, range(len(path))):
                 shape = plot_shapes.Shape(structure, increment)
                 foot = shape.curves['thing'].points[0]
                 if not boundary.flat:
@@ -408,7 +408,7 @@ class Shapes(QuickPlotTest):
             self.assertIn(text, texts)
         self.assertTrue(any('[force]; arrows' in text for text in texts), texts)
 
-    def test_rows(self):
+    def test_increments(self):
         last = read(self.table)['index'][-1]
         texts = self.texts(self.table, '--increments', '0,30,end', *self.scene)
         titles = [text.partition(':')[0] for text in texts if text.startswith('increment ')]
@@ -439,7 +439,7 @@ class Shapes(QuickPlotTest):
         self.assertEqual(len(plot_shapes.at_kinds(path, 'events')[0]), 23)
         self.assertEqual(plot_shapes.at_kinds(path, 'all')[1], 1)
 
-    def test_rows_without_positions_are_not_drawn(self):
+    def test_increments_without_positions_are_not_drawn(self):
         path = Path({'index': np.arange(7), 'kind': np.array(['regular'] * 7),
                      'x_a': np.where(np.arange(7) % 4 == 0, 0.0, np.nan)})
         self.assertEqual(plot_shapes.by_index(path, [0, 'end']), [0, 4])
@@ -460,7 +460,7 @@ class Shapes(QuickPlotTest):
         structure = Structure(Scene.read(name))
         path = read(table)
         self.assertEqual(set(path['stage']), {1, 2, 3})
-        for increment in map(path.row, range(len(path))):
+        for increment in map(path.increment, range(len(path))):
             shape = plot_shapes.Shape(structure, increment)
             b = structure.names.index('b')
             tension = increment['x_b'] - 1.0  # of the bar, EA = l0 = 1
@@ -478,7 +478,7 @@ class Shapes(QuickPlotTest):
         path = read(self.trace('arch19', 'arch.csv'))
         structure = Structure(Scene.read(scene_file('arch19')))
         rows, _ = plot_shapes.at_kinds(path, None)
-        shapes = [plot_shapes.Shape(structure, path.row(row)) for row in rows]
+        shapes = [plot_shapes.Shape(structure, path.increment(row)) for row in rows]
         view = plot_shapes.View(shapes)
         for shape in shapes[1:]:
             axes = plt.figure().add_subplot(1, 1, 1)
@@ -530,7 +530,7 @@ class Beams(QuickPlotTest):
         table = self.trace(name, 'bent.csv')
         structure = Structure(Scene.read(name))
         path = read(table)
-        shape = plot_shapes.Shape(structure, path.row(np.argmin(np.abs(path['load_factor'] - 1.0))))
+        shape = plot_shapes.Shape(structure, path.increment(np.argmin(np.abs(path['load_factor'] - 1.0))))
         centre = shape.places[1:].mean(axis=0)  # b comes round to a
         radii = np.hypot(*(shape.beams - centre).reshape(-1, 2).T)
         np.testing.assert_allclose(radii, radii.mean(), rtol=0.01)

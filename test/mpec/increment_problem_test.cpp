@@ -332,7 +332,7 @@ TEST_P(MixedProblem, StandingStillKeepsTheFrictionLaw) {
   EXPECT_EQ(row, values.size());
 }
 
-TEST_P(MixedProblem, AimIsTheUnconstrainedMinimumAndNoFartherThanWanted) {
+TEST_P(MixedProblem, UnconstrainedMinimiserIsNoFartherThanWanted) {
   for (const double share : {0.0, 0.2, 0.6, 1.0}) {
     goal_.dissipation = share;
     goal_.gamma2_factor = 1.0;
@@ -351,7 +351,7 @@ TEST_P(MixedProblem, AimIsTheUnconstrainedMinimumAndNoFartherThanWanted) {
   }
 }
 
-TEST_P(MixedProblem, GrowthShortensTheAimAndDissipationTurnsItAgainstTheReaction) {
+TEST_P(MixedProblem, Gamma2FactorShortensTheMinimiserAndDissipationTurnsItAgainstTheReaction) {
   goal_.dissipation = 0.0;
   goal_.gamma2_factor = 2.0;
   const Eigen::VectorXd along = Problem().UnconstrainedMinimiser();

@@ -45,7 +45,7 @@ TEST_F(SlidingBar, ReachesItsEndWithSoundIncrements) {
   ExpectSoundIncrements(Path(), kResidual);
 }
 
-TEST_F(SlidingBar, EveryRowIsOnTheClosedForm) {
+TEST_F(SlidingBar, EveryIncrementIsOnTheClosedForm) {
   for (const Increment& increment : Path().increments) {
     const double x = X(increment);
     EXPECT_NEAR(PositionY(Path(), increment, "b"), 0.0, kClosedForm);
@@ -124,7 +124,7 @@ TEST_F(RoughTruss, ReachesItsEndWithSoundIncrements) {
   ExpectSoundIncrements(Path(), kResidual);
 }
 
-TEST_F(RoughTruss, EveryRowIsOnOneOfTheTwoPieces) {
+TEST_F(RoughTruss, EveryIncrementIsOnOneOfTheTwoArcs) {
   std::size_t stuck = 0, sliding = 0;
   for (const Increment& increment : Path().increments) {
     const double foot = PositionX(Path(), increment, "foot"), apex = PositionY(Path(), increment, "apex");
@@ -459,7 +459,7 @@ TEST(RigidStop, KinkWhereTheGapCloses) {
 
 // A block of weight 1 on a rough floor, dragged by a bar that is stretched from 0.8 to 1 at the start: increment 0 is
 // where friction 0.1 stops it, at 0.8 (1 + 0.1). Pulled on with s, it sticks until the bar would push: s = 0.2.
-TEST(Prestress, RowZeroIsInEquilibriumWithItsFrictionHistory) {
+TEST(Prestress, IncrementZeroIsInEquilibriumWithItsFrictionHistory) {
   TraceRequest request;
   request.options.method = Method::kMpec;
   request.options.step = 0.05;

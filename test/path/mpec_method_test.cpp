@@ -49,7 +49,7 @@ class SlidingBarMethod : public testing::Test {
   const Model model_{sliding_bar::MakeScene(), CharacteristicScales(sliding_bar::MakeScene())};
 };
 
-TEST_F(SlidingBarMethod, GivesOneExactRowAtATime) {
+TEST_F(SlidingBarMethod, GivesOneExactIncrementAtATime) {
   MpecMethod method(model_, Options(0.05), nullptr);
   PathPoint point = model_.InitialPoint();
   for (int i = 0; i < 5; ++i) {
@@ -87,7 +87,7 @@ TEST_F(SlidingBarMethod, EndsAtTheTarget) {
   EXPECT_GE(increments, 2);
 }
 
-TEST_F(SlidingBarMethod, CancelledGivesNoRow) {
+TEST_F(SlidingBarMethod, CancelledGivesNoIncrement) {
   bool cancel = false;
   MpecMethod method(model_, Options(0.05), [&] { return cancel; });
   const Advance first = method.Next(model_.InitialPoint());
@@ -179,9 +179,9 @@ TEST_F(StickSlipCycle, DissipatesFrictionTimesTheWayInEveryCycle) {
   EXPECT_NEAR(bottom_u, bottom_s + 0.3, kRounding);
   dissipation += Drive(model, +1.0, 1.0, bottom_s + 0.6, -0.3, &point);
   EXPECT_NEAR(point.u[0], point.s - 0.3, kRounding);
-  const double branch = (top_u - bottom_u) + (point.u[0] - bottom_u);
-  EXPECT_GE(branch, 0.8);  // it turns in the increment after the load was reached
-  EXPECT_NEAR(dissipation, 0.3 * branch, kRounding);
+  const double distance = (top_u - bottom_u) + (point.u[0] - bottom_u);
+  EXPECT_GE(distance, 0.8);  // it turns in the increment after the load was reached
+  EXPECT_NEAR(dissipation, 0.3 * distance, kRounding);
 }
 
 }  // namespace

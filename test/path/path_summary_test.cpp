@@ -20,7 +20,7 @@ class SummaryOfIncrements : public testing::Test {
   PathSummary summary_{1.0};
 };
 
-TEST_F(SummaryOfIncrements, OfNoRowsSaysSo) {
+TEST_F(SummaryOfIncrements, OfNoIncrementsSaysSo) {
   EXPECT_EQ(summary_.ToText(), "0 increments; limit points: none; 0 events");
 }
 

@@ -59,7 +59,7 @@ TEST_P(EachMethod, StickSlipCycleIsTheHysteresisLoopOfCoulomb) {
     EXPECT_NEAR(end.strain_energy, 0.045, kRounding);
     EXPECT_NEAR(end.external_work, dissipated[stage - 1] + 0.045, tolerance);
   }
-  // Between: the friction force against the branch of the belt, row by row.
+  // In between, at each increment: the friction force against the displacement of the belt.
   for (const Increment& increment : path.increments) {
     const double sign = increment.stage == 2 ? -1.0 : 1.0;
     const double stuck = increment.stage == 1 ? 0.3 : 0.6, gone = std::abs(increment.load_factor);
@@ -252,7 +252,7 @@ TEST(Program, NumberOfIncrementsIsKeptAlsoWhereAStageEnds) {
   }
 }
 
-TEST(Program, EventsAndRowsAreNumberedThroughAllStages) {
+TEST(Program, EventsAndIncrementsAreNumberedThroughAllStages) {
   const TracedPath path = TraceProgram(ReadExample("stick_slip_cycle"));
   int events = 0, starts = 0;
   for (std::size_t i = 0; i < path.increments.size(); ++i) {

@@ -40,7 +40,7 @@ TEST(ProgressEstimate, IsThatOfTheNearestEnd) {
   EXPECT_EQ(estimate.Add(MakeIncrement(5, -3.0, 1.0)), 1.0);
 }
 
-TEST(ProgressEstimate, RowsWithoutStateTellByTheLoadFactor) {
+TEST(ProgressEstimate, IncrementsWithoutStateTellByTheLoadFactor) {
   TraceRequest request = WithNodes();
   request.options.stop = {{"b.c.x", ">", 5.0}, {"load_factor", "<", -2.0}};
   ProgressEstimate estimate(request);

@@ -68,7 +68,7 @@ TEST_P(BothMethods, ABlockOnABeltMeetsAStop) {
 }
 
 // The change is an increment of its own: same place, same load factor, other reactions.
-TEST(Redistribution, TheChangeIsARow) {
+TEST(Redistribution, TheChangeIsAnIncrement) {
   const TraceRequest request = BeltAgainstStop(0.1);
   TracedPath path = TraceIncrements(request);
   std::size_t changes = 0;

@@ -52,7 +52,7 @@ void ExpectSamePath(const TracedPath& whole, const TracedPath& resumed, double t
   EXPECT_LE(worst, tolerance) << where;
 }
 
-TEST(Resume, FromAnyRowOfAnyExampleByBranch) {
+TEST(Resume, FromAnyIncrementOfAnyExampleByBranch) {
   for (const char* name : {"sliding_bar", "von_mises", "rough_truss", "two_dof_friction", "rigid_stop",
                            "stick_slip_cycle", "press_slide_lift", "gripper"}) {
     const TraceRequest request = ReadExample(name);
@@ -95,7 +95,7 @@ TEST(Resume, ByMpec) {
   }
 }
 
-TEST(Resume, KeepsRowsAsTheyAre) {
+TEST(Resume, KeepsIncrementsAsTheyAre) {
   const TraceRequest request = ReadExample("sliding_bar");
   std::vector<Increment> increments = TraceIncrements(request).increments;
   increments.resize(20);
@@ -121,7 +121,7 @@ TEST(Resume, OfNothingIsATrace) {
   ExpectSamePath(TraceIncrements(request), Resume(request, {}), 0.0, "nothing");
 }
 
-TEST(Resume, RowsWithoutStateAreGoneOnFromTheLastWithIt) {
+TEST(Resume, IncrementsWithoutStateAreGoneOnFromTheLastWithIt) {
   for (const Method method : {Method::kBranch, Method::kMpec}) {
     TraceRequest request = ReadExample("sliding_bar");
     request.options.method = method;
@@ -141,7 +141,7 @@ TEST(Resume, RowsWithoutStateAreGoneOnFromTheLastWithIt) {
   }
 }
 
-TEST(Resume, RowsOfSomethingElseAreRefused) {
+TEST(Resume, IncrementsOfSomethingElseAreRefused) {
   const TraceRequest request = ReadExample("sliding_bar");
   const std::vector<Increment> increments = TraceIncrements(request).increments;
   std::vector<Increment> other = TraceIncrements(ReadExample("rough_truss")).increments;

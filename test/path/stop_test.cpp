@@ -99,7 +99,7 @@ TEST_F(Stop, RoundingOfAProgramWithoutBars) {
   EXPECT_EQ(ValueThatHolds({{"a.x", ">", 0.9}}), 0.9);
 }
 
-TEST_F(Stop, RowZeroIsNotAsked) {
+TEST_F(Stop, IncrementZeroIsNotAsked) {
   increment_.index = 0;
   EXPECT_EQ(ValueThatHolds({{"a.x", ">", 0.9}}), -1.0);
 }

@@ -33,7 +33,7 @@ TEST(EndReason, WordsAreThoseOfTheOutput) {
   EXPECT_EQ(ToString(EndReason::kNumericalFailure), "numerical_failure");
 }
 
-TEST(Trace, InvalidRequestThrowsBeforeAnyRow) {
+TEST(Trace, InvalidRequestThrowsBeforeAnyIncrement) {
   TraceRequest request = SlidingBar(2);
   request.scene.bars[0].EA = -1.0;
   TraceControl control;
@@ -42,7 +42,7 @@ TEST(Trace, InvalidRequestThrowsBeforeAnyRow) {
   EXPECT_THROW(Trace(request, control), std::invalid_argument);
 }
 
-TEST(Trace, MaxIncrementsCountsIncrementsAndNotRowZero) {
+TEST(Trace, MaxIncrementsDoesNotCountIncrementZero) {
   for (const int increments : {1, 2, 5}) {
     const TracedPath path = TraceIncrements(SlidingBar(increments));
     EXPECT_EQ(path.result.reason, EndReason::kMaxIncrements);
@@ -71,7 +71,7 @@ TEST(Trace, EveryIncrementNamesTheMethodOfTheRequest) {
   }
 }
 
-TEST(Trace, StopCriterionHoldsInTheLastRowAndInNoneBefore) {
+TEST(Trace, StopCriterionHoldsInTheLastIncrementAndInNoneBefore) {
   TraceRequest request = SlidingBar(0);
   request.options.stop = {{"load_factor", ">", 1.0}};
   const TracedPath path = TraceIncrements(request);
@@ -90,7 +90,7 @@ TEST(Trace, StopCriterionThatHoldsAtTheStartDoesNotForbidIt) {
   EXPECT_EQ(path.increments.size(), 2u);
 }
 
-TEST(Trace, RowsArriveAsSoonAsTheyAreAccepted) {
+TEST(Trace, IncrementsArriveAsSoonAsTheyAreAccepted) {
   // Cancelled from within the first increments: the trace ends there, with these increments and no others.
   for (const int wanted : {1, 2, 4}) {
     int increments = 0;
@@ -138,9 +138,9 @@ void ExpectCancelledInsideAnIncrement(const TraceRequest& request) {
   EXPECT_LE(asked, last_no + 3);  // once it was yes, nothing goes on
 }
 
-TEST(Trace, CancelledInsideAnIncrementKeepsTheRowsBefore) { ExpectCancelledInsideAnIncrement(SlidingBar(0)); }
+TEST(Trace, CancelledInsideAnIncrementKeepsTheIncrementsBefore) { ExpectCancelledInsideAnIncrement(SlidingBar(0)); }
 
-TEST(Trace, CancelledWhileTheWaysOnAreSoughtKeepsTheRowsBefore) {
+TEST(Trace, CancelledWhileBranchesAreSoughtKeepsTheIncrementsBefore) {
   // Eight feet on a rough floor: the start is sought among thousands of combinations of states.
   LatticeOptions options;
   options.columns = 7;
@@ -151,7 +151,7 @@ TEST(Trace, CancelledWhileTheWaysOnAreSoughtKeepsTheRowsBefore) {
   ExpectCancelledInsideAnIncrement(request);
 }
 
-TEST(Trace, CancelledDuringThePreloadGivesNoRow) {
+TEST(Trace, CancelledDuringThePreloadGivesNoIncrement) {
   TraceRequest request = ReadExample("two_dof_friction");
   request.options.method = Method::kMpec;
   TraceControl control;
@@ -181,7 +181,7 @@ TEST(Trace, NeedsNeitherSinkNorCancellation) {
   EXPECT_EQ(result.increments, 3);
 }
 
-TEST(Trace, SameRequestTwiceGivesTheSameRowsBitForBit) {
+TEST(Trace, SameRequestTwiceGivesTheSameIncrementsBitForBit) {
   const TracedPath first = TraceIncrements(SlidingBar(6)), second = TraceIncrements(SlidingBar(6));
   ASSERT_EQ(first.increments.size(), second.increments.size());
   for (std::size_t i = 0; i < first.increments.size(); ++i) {
@@ -215,13 +215,14 @@ TEST(Trace, StepIsTheLengthOfIncrements) {
     request.options.step = step;
     const TracedPath path = TraceIncrements(request);
     ASSERT_EQ(path.increments.size(), 11u);
-    // The first increment, which has no direction from a last one, may be shorter. The others aim along the last chord.
+    // The first increment, which has no direction from a last one, may be shorter. The following increments go along
+    // the last chord.
     for (std::size_t i = 2; i < path.increments.size(); ++i)
       EXPECT_NEAR(path.increments[i].arc_length - path.increments[i - 1].arc_length, step, 0.1 * step) << i;
   }
 }
 
-TEST(Trace, SolveTimeIsTheWallTimeOfTheRow) {
+TEST(Trace, SolveTimeIsTheWallTimeOfTheIncrement) {
   const TracedPath path = TraceIncrements(SlidingBar(3));
   for (const Increment& increment : path.increments) {
     EXPECT_GE(increment.solve.time, 0.0);
@@ -230,7 +231,7 @@ TEST(Trace, SolveTimeIsTheWallTimeOfTheRow) {
   EXPECT_GT(path.increments[1].solve.time, 1e-5);
 }
 
-TEST(Trace, SceneThatCannotStandIsANumericalFailureWithoutRows) {
+TEST(Trace, SceneThatCannotStandIsANumericalFailureWithoutIncrements) {
   // The constant load pulls the block up along the wall, and nothing holds it: a mechanism without equilibrium.
   TraceRequest request;
   request.options.method = Method::kMpec;

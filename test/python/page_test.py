@@ -175,7 +175,7 @@ class InBrowser(ProgramTest):
         path = traced('rough_truss')
         self.open(path)
         structure = Structure(path.scene)
-        shapes = [Shape(structure, path.row(row)) for row in range(len(path))]
+        shapes = [Shape(structure, path.increment(row)) for row in range(len(path))]
         view = View(shapes)
         step = int(np.argmax(path['rn_' + path.contacts[0]]))
         arrow, _ = self.drawn(step, "trace.name === 'reaction'")

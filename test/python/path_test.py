@@ -40,8 +40,8 @@ class PathTest(ProgramTest):
                 kind = int if name in ('index', 'stage') else str if name == 'kind' or name.startswith('state_') else float
                 self.assertEqual(column.dtype.kind, {int: 'i', str: 'U', float: 'f'}[kind], name)
                 self.assertEqual(column.tolist(), [kind(row[name]) for row in rows], name)
-                self.assertEqual(path.row(3)[name], kind(rows[3][name]))
-                self.assertIs(type(path.row(3)[name]), kind)
+                self.assertEqual(path.increment(3)[name], kind(rows[3][name]))
+                self.assertIs(type(path.increment(3)[name]), kind)
             self.assertTrue(set(path['kind']) <= set(cp.KINDS))
             for contact in path.contacts:
                 self.assertTrue(set(path['state_' + contact]) <= set(cp.STATES))
@@ -52,7 +52,7 @@ class PathTest(ProgramTest):
                          [('corner_limit', 0.133845)])
         self.assertEqual([event['kind'] for event in path.events], ['corner_limit', 'contact_event'])
         for event in path.events:
-            self.assertEqual(event, {name: path.row(event['index'])[name] for name in ('index', 'kind', 'load_factor')})
+            self.assertEqual(event, {name: path.increment(event['index'])[name] for name in ('index', 'kind', 'load_factor')})
         of_program = cp.read(self.table('stick_slip_cycle'))
         self.assertEqual([event['stage'] for event in of_program.events], [1, 2, 3])
 

@@ -221,7 +221,7 @@ TEST_F(BagRecorderTest, RefusesToOpenWithoutItsReserve) {
 
 // What a killed node leaves: the file as it is while the recorder lives. A bag without index cannot be opened, but what
 // is in its chunks is in the file.
-TEST_F(BagRecorderTest, RowsOfASlowTraceReachTheFileAtOnce) {
+TEST_F(BagRecorderTest, IncrementsOfASlowTraceReachTheFileAtOnce) {
   BagRecorder recorder(directory_, "s", kPrefix);
   recorder.WriteRequest(msgs::TraceRequest());
   const fs::path file = directory_ / recorder.file_name();

@@ -31,7 +31,7 @@ def by_name(picture):
     return markers
 
 
-def row_of(picture):
+def increment_of(picture):
     """Index of the increment that the caption names; -1 for the shape before the first increment."""
     match = re.search(r'increment (\d+)', by_name(picture)['caption', 0].text)
     return int(match.group(1)) if match else -1
@@ -40,7 +40,7 @@ def row_of(picture):
 def shows(picture, increment):
     """Whether the nodes are where the increment has them."""
     points = by_name(picture)['structure', 1].points
-    return (row_of(picture), [p.x for p in points], [p.y for p in points]) == (increment.index, list(increment.x), list(increment.y))
+    return (increment_of(picture), [p.x for p in points], [p.y for p in points]) == (increment.index, list(increment.x), list(increment.y))
 
 
 class MarkersTest(unittest.TestCase):
@@ -79,7 +79,7 @@ class MarkersTest(unittest.TestCase):
 
     # The node
 
-    def test_who_has_the_answer_finds_the_last_row(self):
+    def test_who_has_the_answer_finds_the_last_increment(self):
         for scene in 'sliding_bar', 'two_dof_friction', 'rigid_stop':
             response = self.trace(helpers.request_of(scene))
             picture = self.latched()
@@ -97,13 +97,13 @@ class MarkersTest(unittest.TestCase):
         self.assertEqual(after['supports', 0].action, Marker.DELETE)  # nothing is fixed there
         self.assertEqual(after['structure', 0].action, Marker.DELETE)  # and there are no bars
 
-    def test_thinned_out_rows_give_no_pictures(self):
+    def test_thinned_out_increments_give_no_pictures(self):
         response = self.trace(helpers.request_of('von_mises', full_state_every=7, max_increments=12, stop=[]))
         increments = self.increments_of(response)
         self.assertLess(increments[-1].index, 12)
         self.assertTrue(shows(self.latched(), increments[-1]))
 
-    def test_pictures_come_at_a_bounded_rate_and_the_last_row_always(self):
+    def test_pictures_come_at_a_bounded_rate_and_the_last_increment_always(self):
         with helpers.Collector(MARKERS, MarkerArray) as pictures:
             # Thousands of increments a second.
             call = helpers.Call(self.trace, helpers.request_of('von_mises', step=1e-5, max_increments=1000000, stop=[]))
@@ -153,7 +153,7 @@ class MarkersTest(unittest.TestCase):
             self.start('roslaunch', launch, 'bag:=' + played.bag, 'seconds:=1', 'rviz:=false',
                        'frame_id:=table', 'options:=--delay 1', cwd=self.bags, env=dict(os.environ, PWD=self.bags))
             helpers.wait_until(lambda: pictures.messages and shows(pictures.messages[-1], last), 'the bag is shown')
-            increments = [row_of(picture) for picture in pictures.messages]
+            increments = [increment_of(picture) for picture in pictures.messages]
             self.assertGreater(len(set(increments)), 5)  # not in a flash
 
     def test_play_tells_what_is_no_bag(self):
@@ -191,7 +191,7 @@ class MarkersTest(unittest.TestCase):
         self.assertIn([MARKERS, 'visualization_msgs/MarkerArray'], rosgraph.Master('/markers_test').getTopicTypes())
         self.assertEqual(manager['Views']['Current']['Class'], 'rviz/TopDownOrtho')
 
-    def test_layout_of_plotjuggler_plots_numbers_of_the_rows(self):
+    def test_layout_of_plotjuggler_plots_numbers_of_the_increments(self):
         increment = self.increments_of(self.trace(helpers.request_of('portal_frame')))[-1]  # contacts and rotations
         curves = list(tree.parse(self.package_file('config', 'plotjuggler.xml')).getroot().iter('curve'))
         self.assertGreater(len(curves), 5)

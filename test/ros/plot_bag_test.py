@@ -45,7 +45,7 @@ class PlotBagTest(PlotTest):
         self.assertIn('holds 2 traces, the last one is taken', told.stderr)
         self.assertIn('rough_truss', ' '.join(self.texts(both, '--shapes')))
 
-    def test_rows_without_positions(self):
+    def test_increments_without_positions(self):
         scene = self.changed_scene('sliding_bar', 'options:', 'options:\n  full_state_every: 10')
         bag = self.trace(scene, 'a.bag', '--max-increments', '15')
         texts = self.texts(bag, '--shapes', '--states')

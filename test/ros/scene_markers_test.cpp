@@ -53,7 +53,7 @@ msgs::ContactState State(std::uint8_t state, double rn = 0.0, double rt = 0.0) {
 }
 
 // The foot slides on the slope, the roll is free.
-msgs::Increment SlopeRow(double load_factor = 1.0) {
+msgs::Increment SlopeIncrement(double load_factor = 1.0) {
   msgs::Increment increment;
   increment.index = 17;
   increment.kind = msgs::Increment::CORNER_LIMIT;
@@ -75,7 +75,7 @@ TraceRequest Spring() {
   return request;
 }
 
-msgs::Increment SpringRow(double load_factor) {
+msgs::Increment SpringIncrement(double load_factor) {
   msgs::Increment increment;
   increment.load_factor = load_factor;
   increment.x = {1.0 + load_factor};
@@ -98,14 +98,14 @@ std::vector<Name> Names(const MarkerArray& picture) {
 TEST(SceneMarkersTest, AnyPictureReplacesAnyOther) {
   const SceneMarkers slope(Slope(), World());
   const SceneMarkers spring(Spring(), World());
-  const std::vector<Name> names = Names(slope.Draw(SlopeRow(), 2.0));
+  const std::vector<Name> names = Names(slope.Draw(SlopeIncrement(), 2.0));
   EXPECT_EQ(std::set<Name>(names.begin(), names.end()).size(), names.size());
-  for (const MarkerArray& picture :
-       {slope.Draw(SlopeRow(), 2.0), slope.DrawInitial(), spring.Draw(SpringRow(0.0), 0.0), spring.DrawInitial()}) {
+  for (const MarkerArray& picture : {slope.Draw(SlopeIncrement(), 2.0), slope.DrawInitial(),
+                                     spring.Draw(SpringIncrement(0.0), 0.0), spring.DrawInitial()}) {
     EXPECT_EQ(Names(picture), names);
     ExpectSound(picture);
   }
-  const MarkerArray picture = spring.Draw(SpringRow(0.0), 0.0);
+  const MarkerArray picture = spring.Draw(SpringIncrement(0.0), 0.0);
   for (const char* const name : {"obstacles", "supports", "contacts", "cones", "reactions", "loads"}) {
     EXPECT_EQ(Find(picture, name).action, Marker::DELETE) << name;
   }
@@ -114,7 +114,7 @@ TEST(SceneMarkersTest, AnyPictureReplacesAnyOther) {
 }
 
 TEST(SceneMarkersTest, DrawsTheStructureNowAndAsItWas) {
-  const MarkerArray picture = SceneMarkers(Slope(), World()).Draw(SlopeRow(), 2.0);
+  const MarkerArray picture = SceneMarkers(Slope(), World()).Draw(SlopeIncrement(), 2.0);
   const std::vector<Vector2d> was = {{0.0, 2.0}, {3.0, 1.0}, {5.0, 3.0}};
   const std::vector<Vector2d> is = {{0.0, 2.0}, {3.8, 1.6}, {5.5, 3.0}};
   EXPECT_EQ(Points(Find(picture, "initial", 1)), was);
@@ -124,7 +124,8 @@ TEST(SceneMarkersTest, DrawsTheStructureNowAndAsItWas) {
 }
 
 TEST(SceneMarkersTest, SupportsStandOnTheGroundAwayFromTheirBars) {
-  const std::vector<Vector2d> points = Points(Find(SceneMarkers(Slope(), World()).Draw(SlopeRow(), 2.0), "supports"));
+  const std::vector<Vector2d> points =
+      Points(Find(SceneMarkers(Slope(), World()).Draw(SlopeIncrement(), 2.0), "supports"));
   ASSERT_EQ(points.size(), 3U + 9U);  // the pin, and the roll with its stroke
   EXPECT_EQ(points[0], Vector2d(0.0, 2.0));
   EXPECT_EQ(points[3], Vector2d(5.5, 3.0));
@@ -141,7 +142,7 @@ TEST(SceneMarkersTest, SupportsStandOnTheGroundAwayFromTheirBars) {
 TEST(SceneMarkersTest, ObstaclesAreOnTheForbiddenSideAlongAllNodes) {
   const SceneMarkers markers(Slope(), World());
   for (const double far : {5.5, 60.0}) {
-    msgs::Increment increment = SlopeRow();
+    msgs::Increment increment = SlopeIncrement();
     increment.x[2] = far;
     const MarkerArray picture = markers.Draw(increment, 2.0);
     const std::vector<Vector2d> strips = Points(Find(picture, "obstacles", 0));
@@ -190,7 +191,7 @@ TraceRequest Curves() {
 
 TEST(SceneMarkersTest, CurvesAreDrawnFromEndToEnd) {
   const std::vector<Vector2d> boundaries =
-      Points(Find(SceneMarkers(Curves(), World()).Draw(SlopeRow(), 2.0), "obstacles", 1));
+      Points(Find(SceneMarkers(Curves(), World()).Draw(SlopeIncrement(), 2.0), "obstacles", 1));
   double around = 0.0, along = 0.0;
   std::size_t i = 0;
   for (; i < boundaries.size() && std::abs((boundaries[i] - Vector2d(2.0, -2.0)).norm() - 1.0) < kRounding; i += 2)
@@ -208,8 +209,8 @@ TEST(SceneMarkersTest, ObstaclesTurnAndThenMove) {
   TraceRequest request = Curves();
   request.scene.obstacle_motions = {{"wall", 1.0, 0.5, 0.5 * std::acos(-1.0), 3.0, -1.0}};
   const SceneMarkers markers(request, World());
-  const std::vector<Vector2d> before = Points(Find(markers.Draw(SlopeRow(0.0), 2.0), "obstacles", 1));
-  const std::vector<Vector2d> after = Points(Find(markers.Draw(SlopeRow(1.0), 2.0), "obstacles", 1));
+  const std::vector<Vector2d> before = Points(Find(markers.Draw(SlopeIncrement(0.0), 2.0), "obstacles", 1));
+  const std::vector<Vector2d> after = Points(Find(markers.Draw(SlopeIncrement(1.0), 2.0), "obstacles", 1));
   for (const Vector2d& end : {Vector2d(0.0, -1.0), Vector2d(4.0, -3.0)}) {
     const Vector2d arm = end - Vector2d(3.0, -1.0);
     const Vector2d turned = Vector2d(3.0, -1.0) + Vector2d(-arm.y(), arm.x()) + Vector2d(1.0, 0.5);
@@ -220,13 +221,13 @@ TEST(SceneMarkersTest, ObstaclesTurnAndThenMove) {
     EXPECT_TRUE(has(before, end));
     EXPECT_TRUE(has(after, turned));
   }
-  EXPECT_GT(Find(markers.Draw(SlopeRow(1.0), 2.0), "obstacles", 2).points.size(), 2U);
+  EXPECT_GT(Find(markers.Draw(SlopeIncrement(1.0), 2.0), "obstacles", 2).points.size(), 2U);
 }
 
 TEST(SceneMarkersTest, SlidingReactionLiesOnTheEdgeOfItsCone) {
   const Vector2d foot(3.8, 1.6);
   for (const double sign : {1.0, -1.0}) {
-    msgs::Increment increment = SlopeRow();
+    msgs::Increment increment = SlopeIncrement();
     increment.contacts[0] =
         State(sign > 0.0 ? msgs::ContactState::SLIP_PLUS : msgs::ContactState::SLIP_MINUS, 1.2, -sign * 0.6);
     const MarkerArray picture = SceneMarkers(Slope(), World()).Draw(increment, 2.0);
@@ -242,7 +243,7 @@ TEST(SceneMarkersTest, SlidingReactionLiesOnTheEdgeOfItsCone) {
 
 TEST(SceneMarkersTest, ConesAreWhereThereIsFrictionToLimit) {
   const SceneMarkers markers(Slope(), World());
-  msgs::Increment increment = SlopeRow();
+  msgs::Increment increment = SlopeIncrement();
   increment.contacts = {State(msgs::ContactState::STICK, 1.0, 0.2), State(msgs::ContactState::CLOSED, 1.0)};
   EXPECT_EQ(Find(markers.Draw(increment, 2.0), "cones").points.size(), 3U);
   increment.contacts = {State(msgs::ContactState::OPEN), State(msgs::ContactState::CLOSED, 1.0)};
@@ -254,7 +255,7 @@ TEST(SceneMarkersTest, EachContactStateHasItsColour) {
   std::set<std::tuple<float, float, float>> colours;
   for (const std::uint8_t state : {msgs::ContactState::OPEN, msgs::ContactState::STICK, msgs::ContactState::SLIP_PLUS,
                                    msgs::ContactState::SLIP_MINUS, msgs::ContactState::CLOSED}) {
-    msgs::Increment increment = SlopeRow();
+    msgs::Increment increment = SlopeIncrement();
     increment.contacts = {State(state), State(msgs::ContactState::OPEN)};
     const Marker contacts = Find(markers.Draw(increment, 2.0), "contacts");
     EXPECT_EQ(Points(contacts), (std::vector<Vector2d>{{3.8, 1.6}, {5.5, 3.0}}));
@@ -268,7 +269,7 @@ TEST(SceneMarkersTest, EachContactStateHasItsColour) {
 TEST(SceneMarkersTest, LoadsFollowTheLoadFactorUnlessTheyAreConstant) {
   const SceneMarkers markers(Slope(), World());
   const auto tips = [&markers](double load_factor) {
-    const std::vector<Vector2d> points = Points(Find(markers.Draw(SlopeRow(load_factor), 2.0), "loads"));
+    const std::vector<Vector2d> points = Points(Find(markers.Draw(SlopeIncrement(load_factor), 2.0), "loads"));
     std::pair<double, double> reach;  // of the load along x at (5.5, 3), of the constant one along y at (3.8, 1.6)
     for (const Vector2d& point : points) {
       if (std::abs(point.y() - 3.0) < 0.3 && std::abs(point.x() - 5.5) > std::abs(reach.first))
@@ -294,7 +295,7 @@ TEST(SceneMarkersTest, ArrowsReadWellAndKeepTheirScale) {
   double full = 0.0;
   for (int i = 0; i <= 1000; ++i) {
     const double load_factor = 1e-3 * i;
-    const msgs::Increment increment = SpringRow(load_factor);
+    const msgs::Increment increment = SpringIncrement(load_factor);
     EXPECT_NEAR(markers.LargestForce(increment), load_factor, kRounding);
     largest = std::max(largest, markers.LargestForce(increment));
     const MarkerArray picture = markers.Draw(increment, largest);
@@ -314,29 +315,29 @@ TEST(SceneMarkersTest, ArrowsReadWellAndKeepTheirScale) {
   }
   EXPECT_LE(changes, 11);
   // Smaller forces are drawn in the scale of the largest.
-  const double before = ArrowLength(markers.Draw(SpringRow(1.0), largest), "loads", {2.0, 1.0});
-  const double after = ArrowLength(markers.Draw(SpringRow(0.25), largest), "loads", {1.25, 1.0});
+  const double before = ArrowLength(markers.Draw(SpringIncrement(1.0), largest), "loads", {2.0, 1.0});
+  const double after = ArrowLength(markers.Draw(SpringIncrement(0.25), largest), "loads", {1.25, 1.0});
   EXPECT_NEAR(after, 0.25 * before, kRounding);
 }
 
 TEST(SceneMarkersTest, LargestForceIsThatOfReactionsAndLoads) {
   const SceneMarkers markers(Slope(), World());
-  EXPECT_NEAR(markers.LargestForce(SlopeRow(3.0)), 6.0, kRounding);
-  EXPECT_NEAR(markers.LargestForce(SlopeRow(0.0)), std::hypot(1.2, 0.6), kRounding);
+  EXPECT_NEAR(markers.LargestForce(SlopeIncrement(3.0)), 6.0, kRounding);
+  EXPECT_NEAR(markers.LargestForce(SlopeIncrement(0.0)), std::hypot(1.2, 0.6), kRounding);
 }
 
 TEST(SceneMarkersTest, SuperelementsAreTiedToTheirMiddleOrToTheGround) {
-  const MarkerArray spring = SceneMarkers(Spring(), World()).Draw(SpringRow(0.5), 1.0);
+  const MarkerArray spring = SceneMarkers(Spring(), World()).Draw(SpringIncrement(0.5), 1.0);
   EXPECT_EQ(Points(Find(spring, "superelements", 0)), (std::vector<Vector2d>{{1.5, 1.0}, {1.0, 1.0}}));
   EXPECT_EQ(Points(Find(spring, "superelements", 1)), (std::vector<Vector2d>{{1.0, 1.0}}));
   TraceRequest strained = Spring();
   strained.scene.superelements[0].rest_positions = {0.0, 0.5};
-  const MarkerArray at_rest = SceneMarkers(strained, World()).Draw(SpringRow(0.5), 1.0);
+  const MarkerArray at_rest = SceneMarkers(strained, World()).Draw(SpringIncrement(0.5), 1.0);
   EXPECT_EQ(Points(Find(at_rest, "superelements", 1)), (std::vector<Vector2d>{{0.0, 0.5}}));
 
   TraceRequest request = Slope();
   request.scene.superelements = {{{"pin", "foot", "roll"}, std::vector<double>(36, 0.0), {}}};
-  const MarkerArray picture = SceneMarkers(request, World()).Draw(SlopeRow(), 2.0);
+  const MarkerArray picture = SceneMarkers(request, World()).Draw(SlopeIncrement(), 2.0);
   EXPECT_EQ(Find(picture, "superelements", 0).points.size(), 6U);
   const Vector2d middle = Points(Find(picture, "superelements", 1))[0];
   EXPECT_LT((middle - Vector2d(3.1, 2.2)).norm(), kRounding);
@@ -371,9 +372,9 @@ TEST(SceneMarkersTest, SolidsAreFilled) {
   EXPECT_LT(filled.colors.back().g, 0.2F);
 }
 
-TEST(SceneMarkersTest, CaptionNamesSceneRowKindAndLoad) {
+TEST(SceneMarkersTest, CaptionNamesSceneIncrementKindAndLoad) {
   const SceneMarkers markers(Slope(), World());
-  const std::string text = Find(markers.Draw(SlopeRow(-0.125), 2.0), "caption").text;
+  const std::string text = Find(markers.Draw(SlopeIncrement(-0.125), 2.0), "caption").text;
   for (const char* const part : {"slope", "17", "corner limit point", "-0.125"}) {
     EXPECT_NE(text.find(part), std::string::npos) << part;
   }
@@ -387,15 +388,15 @@ TEST(SceneMarkersTest, InitialShapeHasNoReactions) {
   EXPECT_EQ(Find(picture, "cones").action, Marker::DELETE);
 }
 
-TEST(SceneMarkersTest, RowsThatAreNotOfTheSceneDoNotFit) {
+TEST(SceneMarkersTest, IncrementsThatAreNotOfTheSceneDoNotFit) {
   const SceneMarkers markers(Slope(), World());
-  EXPECT_TRUE(markers.Fits(SlopeRow()));
+  EXPECT_TRUE(markers.Fits(SlopeIncrement()));
   EXPECT_FALSE(markers.Fits(msgs::Increment()));  // thinned out
-  EXPECT_FALSE(markers.Fits(SpringRow(1.0)));
-  msgs::Increment increment = SlopeRow();
+  EXPECT_FALSE(markers.Fits(SpringIncrement(1.0)));
+  msgs::Increment increment = SlopeIncrement();
   increment.contacts.pop_back();
   EXPECT_FALSE(markers.Fits(increment));
-  increment = SlopeRow();
+  increment = SlopeIncrement();
   increment.y.pop_back();
   EXPECT_FALSE(markers.Fits(increment));
 }
@@ -413,14 +414,14 @@ TEST(SceneMarkersTest, PictureGrowsWithTheScene) {
     obstacle.px *= length;
     obstacle.py *= length;
   }
-  msgs::Increment increment = SlopeRow();
+  msgs::Increment increment = SlopeIncrement();
   for (double& x : increment.x) x *= length;
   for (double& y : increment.y) y *= length;
   for (msgs::ContactState& contact : increment.contacts) {
     contact.rn *= force;
     contact.rt *= force;
   }
-  const MarkerArray small = SceneMarkers(Slope(), World()).Draw(SlopeRow(), 2.0);
+  const MarkerArray small = SceneMarkers(Slope(), World()).Draw(SlopeIncrement(), 2.0);
   const MarkerArray large = SceneMarkers(request, World()).Draw(increment, 2.0 * force);
   ASSERT_EQ(small.markers.size(), large.markers.size());
   for (std::size_t i = 0; i < small.markers.size(); ++i) {
@@ -450,7 +451,7 @@ TraceRequest Belt() {
 
 TEST(SceneMarkersTest, MovingObstaclesHaveABoundedNumberOfStrokes) {
   const SceneMarkers markers(Belt(), World());
-  msgs::Increment increment = SlopeRow(0.5);
+  msgs::Increment increment = SlopeIncrement(0.5);
   increment.stage = 2;
   for (const double far : {1e3, 1e12, 1e90}) {
     increment.x[0] = far;
@@ -462,7 +463,7 @@ TEST(SceneMarkersTest, MovingObstaclesHaveABoundedNumberOfStrokes) {
 
 TEST(SceneMarkersTest, StagesHaveTheirLoadsAndObstacles) {
   const SceneMarkers markers(Belt(), World());
-  msgs::Increment increment = SlopeRow(0.5);
+  msgs::Increment increment = SlopeIncrement(0.5);
   increment.contacts = {State(msgs::ContactState::OPEN), State(msgs::ContactState::OPEN)};
   EXPECT_FALSE(markers.Fits(increment));
   increment.stage = 3;
@@ -497,7 +498,7 @@ TEST(SceneMarkersTest, StagesHaveTheirLoadsAndObstacles) {
   ExpectSound(drive);
   EXPECT_EQ(Names(markers.DrawInitial()), Names(drive));
 
-  // The size is that of the branch of the supports, too: the pin goes down by 1.5.
+  // The size of the picture covers the motion of the supports, too: the pin goes down by 1.5.
   const std::vector<Vector2d> boundary = Points(Find(press, "obstacles", 1));
   EXPECT_NEAR((boundary[1] - boundary[0]).norm(), 2.0 * std::hypot(5.0, 2.5), kRounding);
 }
@@ -522,8 +523,8 @@ TEST(SceneMarkersTest, PictureSizeMovesAndScalesEverything) {
   fitting.picture_size = 10.0;
   const double scale = 10.0 / std::hypot(5.0, 2.0);
   const Vector2d centre(2.5, 2.0);
-  const MarkerArray as_it_is = SceneMarkers(Slope(), World()).Draw(SlopeRow(), 2.0);
-  const MarkerArray fitted = SceneMarkers(Slope(), fitting).Draw(SlopeRow(), 2.0);
+  const MarkerArray as_it_is = SceneMarkers(Slope(), World()).Draw(SlopeIncrement(), 2.0);
+  const MarkerArray fitted = SceneMarkers(Slope(), fitting).Draw(SlopeIncrement(), 2.0);
   ExpectSound(fitted);
   ASSERT_EQ(Names(fitted), Names(as_it_is));
   for (std::size_t i = 0; i < fitted.markers.size(); ++i) {

@@ -79,7 +79,7 @@ class VerifyTest(ProgramTest):
             return message
         self.assert_not_proved(self.rewrite(self.record(), change), 'increment ')
 
-    def test_row_that_was_left_out_is_found(self):
+    def test_increment_that_was_left_out_is_found(self):
         def change(kind, message):
             return None if kind == 'increments' and message.index == 20 else message
         self.assert_not_proved(self.rewrite(self.record(), change), 'increments are missing')

@@ -21,13 +21,13 @@ Eigen::VectorXd CentralDifference(const VectorFunction& function, const Eigen::V
 }  // namespace
 
 Eigen::MatrixXd DifferenceJacobian(const VectorFunction& function, const Eigen::VectorXd& x, double step) {
-  const Eigen::Index increments = function(x).size();
-  Eigen::MatrixXd jacobian(increments, x.size());
+  const Eigen::Index rows = function(x).size();
+  Eigen::MatrixXd jacobian(rows, x.size());
   for (Eigen::Index j = 0; j < x.size(); ++j) {
     // previous[k]: the last level's extrapolation of order 2 (k + 1).
     std::array<Eigen::VectorXd, kLevels> previous, current;
-    Eigen::VectorXd best(increments);
-    Eigen::VectorXd smallest = Eigen::VectorXd::Constant(increments, std::numeric_limits<double>::infinity());
+    Eigen::VectorXd best(rows);
+    Eigen::VectorXd smallest = Eigen::VectorXd::Constant(rows, std::numeric_limits<double>::infinity());
     for (int level = 0; level < kLevels; ++level) {
       current[0] = CentralDifference(function, x, j, std::ldexp(step, -level));
       if (level == 0) best = current[0];
@@ -35,7 +35,7 @@ Eigen::MatrixXd DifferenceJacobian(const VectorFunction& function, const Eigen::
         const auto order = static_cast<std::size_t>(k);
         const double factor = std::ldexp(1.0, 2 * k) - 1.0;
         current[order] = current[order - 1] + (current[order - 1] - previous[order - 1]) / factor;
-        for (Eigen::Index i = 0; i < increments; ++i) {
+        for (Eigen::Index i = 0; i < rows; ++i) {
           const double change = std::max(std::abs(current[order][i] - current[order - 1][i]),
                                          std::abs(current[order][i] - previous[order - 1][i]));
           if (change > smallest[i]) continue;
@@ -75,8 +75,8 @@ testing::AssertionResult IsJacobian(const VectorFunction& function, const Eigen:
                                     const Eigen::MatrixXd& jacobian, double tolerance, double step) {
   const DerivativeComparison worst = CompareWithDifferences(function, x, jacobian, step);
   if (worst.error <= tolerance) return testing::AssertionSuccess();
-  return testing::AssertionFailure() << "entry (" << worst.increment << ", " << worst.column << ") of the "
-                                     << jacobian.rows() << " x " << jacobian.cols() << " derivative is " << worst.given
+  return testing::AssertionFailure() << "entry (" << worst.row << ", " << worst.column << ") of the " << jacobian.rows()
+                                     << " x " << jacobian.cols() << " derivative is " << worst.given
                                      << ", differences give " << worst.difference << ": relative error " << worst.error
                                      << " > " << tolerance;
 }

@@ -22,13 +22,13 @@ using VectorFunction = std::function<Eigen::VectorXd(const Eigen::VectorXd&)>;
 // Where a derivative and the differences disagree most.
 struct DerivativeComparison {
   double error = 0.0;  // |given - difference| over the largest entry of both matrices; infinite if not finite
-  Eigen::Index increment = 0;
+  Eigen::Index row = 0;
   Eigen::Index column = 0;
   double given = 0.0;
   double difference = 0.0;
 };
 
-// Jacobian of `function` at x, increments = entries of the function: central differences with steps that are halved,
+// Jacobian of `function` at x, a row for each entry of the function: central differences with steps that are halved,
 // extrapolated to step 0; of all extrapolations, entry by entry, the one that changed least is taken (Ridders 1982).
 Eigen::MatrixXd DifferenceJacobian(const VectorFunction& function, const Eigen::VectorXd& x,
                                    double step = kDifferenceStep);

@@ -42,7 +42,7 @@ TEST_F(DerivativeChecker, RejectsOneWrongEntry) {
       wrong(i, j) += 0.1;
       const DerivativeComparison worst = CompareWithDifferences(Function, x_, wrong);
       EXPECT_FALSE(IsJacobian(Function, x_, wrong));
-      EXPECT_EQ(worst.increment, i);
+      EXPECT_EQ(worst.row, i);
       EXPECT_EQ(worst.column, j);
       EXPECT_EQ(worst.given, wrong(i, j));
       EXPECT_NEAR(worst.difference, jacobian_(i, j), 1e-10);

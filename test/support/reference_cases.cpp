@@ -53,7 +53,7 @@ double SlidingLoad(double foot_x) {
   return 2.0 * std::sin(kSlope) * (1.0 - length / kRestLength);
 }
 
-// mu r_n = mu s / 2 over the branch of the foot.
+// The integral of mu r_n = mu s / 2 over the distance that the foot slides.
 double Dissipation(double foot_x) {
   return 0.25 * kFriction * (CornerLoad() + SlidingLoad(foot_x)) * (foot_x - kHalfSpan);
 }

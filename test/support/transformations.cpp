@@ -32,13 +32,13 @@ void ForEachPoint(std::vector<double>* components, Map map) {
 
 // Q K Q' for the block-diagonal Q of the map.
 template <typename Map>
-void TransformStiffness(std::vector<double>* stiffness, std::size_t increments, Map map) {
-  for (std::size_t column = 0; column < increments; ++column)
-    for (std::size_t increment = 0; increment < increments; increment += 2)
-      map(&(*stiffness)[increment * increments + column], &(*stiffness)[(increment + 1) * increments + column]);
-  for (std::size_t increment = 0; increment < increments; ++increment)
-    for (std::size_t column = 0; column < increments; column += 2)
-      map(&(*stiffness)[increment * increments + column], &(*stiffness)[increment * increments + column + 1]);
+void TransformStiffness(std::vector<double>* stiffness, std::size_t rows, Map map) {
+  for (std::size_t column = 0; column < rows; ++column)
+    for (std::size_t row = 0; row < rows; row += 2)
+      map(&(*stiffness)[row * rows + column], &(*stiffness)[(row + 1) * rows + column]);
+  for (std::size_t row = 0; row < rows; ++row)
+    for (std::size_t column = 0; column < rows; column += 2)
+      map(&(*stiffness)[row * rows + column], &(*stiffness)[row * rows + column + 1]);
 }
 
 // Calls change(&loads, &support motions, &obstacle motions) for those of the scene and of each stage.

@@ -1,4 +1,4 @@
-// When an inequality counts as being at its limit.
+// When an inequality counts as zero: weakly active.
 #ifndef CONTACT_PATH_BRANCH_ACTIVE_SET_TOLERANCE_H_
 #define CONTACT_PATH_BRANCH_ACTIVE_SET_TOLERANCE_H_
 
@@ -10,20 +10,21 @@
 
 namespace contact_path {
 
-// Scaled values up to which gaps, and reactions and margins to the friction cone, are at their limit. Points are exact
-// to about 1e-14, next to singular ones to about 1e-10.
+// Scaled values up to which gaps, and reactions and margins to the friction cone, count as zero. Points are exact to
+// about 1e-14, next to singular ones to about 1e-10.
 struct ActiveSetTolerance {
   double gap = tolerances::kActiveGap;
   double force = tolerances::kActiveForce;
 
   // Where the reactions of the path are far below the characteristic force, as in soft parts beside stiff ones, the
-  // limit follows them down to rounding. largest_reaction: of the path so far; load_factor: now, for the rounding that
-  // its loads leave. Both scaled.
+  // tolerance follows the reactions down to rounding. largest_reaction: of the path so far; load_factor: now, for the
+  // rounding that its loads leave. Both scaled.
   static ActiveSetTolerance For(double largest_reaction, double load_factor) {
-    ActiveSetTolerance limit;
+    ActiveSetTolerance tolerance;
     const double rounding = tolerances::kActiveRoundingOfLoads * std::max(1.0, std::abs(load_factor));
-    limit.force = std::min(limit.force, std::max(tolerances::kActiveShareOfReactions * largest_reaction, rounding));
-    return limit;
+    tolerance.force =
+        std::min(tolerance.force, std::max(tolerances::kActiveShareOfReactions * largest_reaction, rounding));
+    return tolerance;
   }
 
   // Of the normal reaction of a contact with this friction coefficient. Above 1, a reaction is as large as its friction

@@ -10,7 +10,7 @@ namespace contact_path {
 
 // Marks mirror branches and sorts: larger dissipation rate, then without mirror branch, then smaller deviation, then
 // the larger rate of the load factor in its wanted sense, then fewer changes of state in the first contacts. Values
-// that are equal but for rounding count as equal: they are grouped, sorted by value, where a gap larger than rounding
+// that are equal to rounding count as equal: they are grouped, sorted by value, where a gap larger than rounding
 // begins a new group. Groups do not depend on the order in which the branches are given, so neither does the result.
 // arrival: states by candidate, before the event. load_sense: +-1.
 void SortBranches(const std::vector<ContactState>& arrival, double load_sense, std::vector<Branch>* branches);

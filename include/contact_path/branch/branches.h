@@ -64,16 +64,16 @@ double DissipationRate(const ContactPairs& contacts, const std::vector<ContactSt
 using FurtherStates =
     std::function<std::vector<std::vector<ContactState>>(const PathPoint& point, const Eigen::VectorXd& direction)>;
 
-// All branches from `point`, an equilibrium, without the branch of arrival. WeaklyActive are the contacts with an
-// inequality at its limit, and all that slip. Of branches with the same direction one is kept: that in which fewest
-// contacts slip without moving. Where all branches turn by 90 degrees or more, or there is none, reactions may have to
-// change while nothing moves, as where a block that is carried along meets a stop: then the branches with all other
-// reactions that the point can have (reaction_redistribution.h) are added. Up to 4^6 combinations of states are all
-// tried; of more, those that principal pivoting on the rates (rate_problem.h) leads to from many first guesses, and the
-// `further` ones where the structure is small or nothing else was found. Each is certified like any other. cancelled:
-// asked often. further, cancelled: may be empty.
+// All branches from `point`, an equilibrium, without the branch of arrival. Weakly active are all contacts that slip,
+// and each contact with an inequality that is zero to `tolerance`. Of branches with equal directions one is kept: the
+// branch in which fewest contacts slip without moving. Where all branches turn by 90 degrees or more, or there is none,
+// reactions may have to change while nothing moves, as where a block that is carried along meets a stop. Then branches
+// are added for all other reactions that the point can have (reaction_redistribution.h). Up to 4^6 combinations of
+// states are all tried. Of more combinations, principal pivoting on the rates (rate_problem.h) selects some from many
+// first guesses; `further` adds combinations where the structure is small or no branch was found. All are certified
+// alike. cancelled: asked often. further, cancelled: may be empty.
 BranchSet FindBranches(const Structure& structure, const ContactPairs& contacts, const PathPoint& point,
-                       const Arrival& arrival, const ActiveSetTolerance& limit, const FurtherStates& further,
+                       const Arrival& arrival, const ActiveSetTolerance& tolerance, const FurtherStates& further,
                        const std::function<bool()>& cancelled = nullptr);
 
 }  // namespace contact_path

@@ -30,8 +30,8 @@ struct CondensedRates {
 // structure serves all combinations of states.
 class RateProblem {
  public:
-  // states: by candidate; those of the weakly_active contacts (indices of candidates) do not matter. arrival: (du, ds).
-  // structure and contacts must outlive the problem.
+  // states: by candidate; states of the weakly_active contacts (indices of candidates) do not matter. arrival: (du,
+  // ds). structure and contacts must outlive the problem.
   RateProblem(const Structure& structure, const ContactPairs& contacts, const PathPoint& point,
               const std::vector<ContactState>& states, const std::vector<int>& weakly_active,
               const Eigen::VectorXd& arrival);
@@ -39,15 +39,15 @@ class RateProblem {
   // False: the structure is singular even with the springs, and nothing below can be asked.
   bool regular() const { return regular_; }
 
-  // The rates for these states of all candidates, up to their sign: where they are not unique, without rigid modes and
-  // nearest to the arrival, as a branch is chosen. Nothing where that cannot be told from the condensed problem.
+  // The rates for these states of all candidates, up to their sign. Rates that are not unique are without rigid modes
+  // and nearest to the arrival, as a branch is chosen. Nothing where the condensed problem does not tell them.
   std::optional<CondensedRates> Rates(const std::vector<ContactState>& states) const;
-  // The same; nothing where they are not unique.
+  // Rates(), and nothing where they are not unique.
   std::optional<CondensedRates> UniqueRates(const std::vector<ContactState>& states) const;
 
-  // The first inequality at its limit that these rates, times sign, break by more than `tolerance` of the largest rate
-  // of its kind; all of them in `all` if that is not null. active: which inequalities are at their limit. Both are of
-  // reactions in the force unit of the contact.
+  // The first weakly active inequality that these rates, times sign, break by more than `tolerance` of the largest rate
+  // of its kind; all such inequalities in `all`, if it is not null. active: which inequalities are weakly active. Both
+  // tolerances measure reactions in the force unit of the contact.
   std::optional<Constraint> Broken(const std::vector<ContactState>& states, const CondensedRates& rates, double sign,
                                    const ActiveSetTolerance& active, double tolerance,
                                    std::vector<Constraint>* all) const;

@@ -11,18 +11,19 @@
 namespace contact_path {
 
 struct ReactionRedistributions {
-  std::vector<PathPoint> points;  // as the given one, but for rn and rt; that itself is not among them
+  std::vector<PathPoint> points;  // the given point with other rn and rt; without the given point itself
   bool complete = true;           // false: there are more
 };
 
 // Equation (1), phi(u, s) = T r, tells only the sum of the reactions at each node. Where more contacts touch a node, or
 // their cones have more to give, than its free components need, the reactions that it can have within all cones are a
-// convex polygon (or more): they can change while nothing moves. Each face of it belongs to states of the contacts
-// there (a contact without reaction may open, one at the edge of its cone may slip). For each face that the reactions
-// of `point` are not in: the mean of its vertices; of several such nodes, all combinations. point: scaled, an
-// equilibrium; tolerance: scaled gap of what touches, and scaled force that counts as none.
+// convex polygon (or more): they can change while nothing moves. Each face of the polygon belongs to states of the
+// contacts there (a contact without reaction may open, a contact at the edge of its cone may slip). The points have the
+// mean of the vertices of each face that the reactions of `point` are not in; of several such nodes, all combinations.
+// point: scaled, an equilibrium. tolerance: a contact with no larger gap touches, and no larger reaction counts as
+// zero.
 ReactionRedistributions FindReactionRedistributions(const ContactPairs& contacts, const PathPoint& point,
-                                                    const ActiveSetTolerance& limit);
+                                                    const ActiveSetTolerance& tolerance);
 
 }  // namespace contact_path
 

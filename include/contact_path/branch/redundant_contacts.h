@@ -12,18 +12,18 @@
 
 namespace contact_path {
 
-// Where several walls touch a node, as in a guide, there are states with more equations for its motion than it has
-// unknowns, and their reactions are not unique. No such states are needed: each force that the walls can exert is one
-// of at most two edges of friction cones (Caratheodory), which states without redundancy exert as well. The one thing
-// that they leave out are walls that face each other and squeeze the node between them: in a guide without clearance
-// one wall carries at a time.
+// Where several walls touch a node, as in a guide, some states have more equations for its motion than the node has
+// unknowns, and their reactions are not unique. Such states are not needed: each force that the walls can exert is a
+// sum of forces along at most two edges of friction cones (Caratheodory), and states without redundancy exert it, too.
+// States without redundancy leave out one case: walls that face each other and squeeze the node between them. In a
+// guide without clearance one wall carries at a time.
 class RedundantContacts {
  public:
   // contacts must outlive this. A gap up to `gap`, scaled, touches at the point.
   RedundantContacts(const ContactPairs& contacts, const PathPoint& point, double gap);
 
   // Whether, with these states, the conditions on the motion of some node, or the reactions on it, depend on each
-  // other: also those of a single contact that sticks at a node which moves in one direction only.
+  // other. Also true for a single contact that sticks at a node with one direction of motion.
   bool Among(const std::vector<ContactState>& states) const;
 
  private:

@@ -22,8 +22,8 @@ struct CurvePoint {
   Eigen::VectorXd second;    // orthogonal to first in (u, s)
   Eigen::Index nullity = 0;  // null directions of the equations besides the tangent
   int determinant_sign = 0;  // of the equations with the tangent as last row; 0 = singular
-  int side = 0;        // determinant_sign; of a regular point where that is 0 to rounding, that of the step's start
-  int pivot_sign = 0;  // the same, and other than 0 also where singular: see BorderedSolver::PivotSign()
+  int side = 0;        // determinant_sign; where it is 0 at a regular point, by rounding, `side` of the step's start
+  int pivot_sign = 0;  // sign of the determinant also where the equations are singular: BorderedSolver::PivotSign()
 };
 
 struct Correction {
@@ -86,11 +86,12 @@ class SmoothArc {
     *open_ends = system_.PatchEndsOfOpen(in_reach_);
     return system_.InequalitiesOf(in_reach_);
   }
-  // Whether one of those that were open and in reach is behind its surface at x, on a patch that was not looked at.
+  // Whether a candidate of the last InequalitiesInReach() that is open is behind its surface at x, on another patch
+  // than its own.
   bool BehindOtherPatch(const Eigen::VectorXd& x) const { return system_.BehindOtherPatch(in_reach_, x); }
 
-  // Below zero by less, an inequality other than of slip counts as holding.
-  double RoundingOf(const Constraint& limit) const;
+  // The rounding of an inequality other than of slip: down to minus this value it counts as holding.
+  double RoundingOf(const Constraint& constraint) const;
 
   int factorisations() const { return factorisations_; }
 
@@ -102,7 +103,7 @@ class SmoothArc {
   // Takes from *change, a solution of the singular equations, what would move the part at rest off its limit point:
   // with the null vectors n on the right, psi on the left, psi . F''(n, change) = 0.
   void HoldLimitPoint(const Eigen::VectorXd& x, Eigen::VectorXd* change);
-  // Of contacts that the states close over a gap, as small as what counts as none: the forces that this moves.
+  // States may close a contact over a gap that is not 0 but counts as closed: notes the forces that this changes.
   void NoteClosedGaps(const PathPoint& from);
   // Where elements want it, the first matrix of Newton's method from guess has the strains along the tangent of the
   // point set out from.
@@ -119,7 +120,7 @@ class SmoothArc {
   BorderedSolver solver_;
   std::vector<std::size_t> in_reach_;  // in the last call of InequalitiesInReach()
   bool at_hand_ = false;  // regular factors of a point of the curve with these states, the last row along the tangent
-  std::map<int, double> moved_forces_;  // by contact, of those that the states close over a gap
+  std::map<int, double> moved_forces_;  // by contact that the states close over a gap: see NoteClosedGaps()
   bool rests_ = false;  // part of the structure stands still at a limit point of its own (Branch::rests)
   Eigen::VectorXd residual_, step_length_;
   Eigen::VectorXd origin_, tangent_at_origin_;  // of SetOut() with these states, (u, s); empty: none

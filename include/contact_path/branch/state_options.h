@@ -9,11 +9,11 @@
 
 namespace contact_path {
 
-// Of the candidate: one mode if the contact is not weakly active. The state that it has at `point` comes first, if it
-// is among them. Where two patches meet, slip leads to the patch that lies ahead, a frictionless contact may go either
-// way, as one that slips by the total law of friction may, and stick and open contacts keep their patch. Over the end
-// of an open surface nothing slides. By the total law, where the node is tells whether it sticks, and to which side it
-// has slipped.
+// The modes of the candidate: one mode if the contact is not weakly active. The state at `point` comes first, if it is
+// among the modes. Where two patches meet, slip leads to the patch ahead, and contacts that stick or are open keep
+// their patch. Frictionless contacts, and contacts that slip by the total law of friction, may take either patch.
+// Nothing slides over the end of an open surface. By the total law, the place of the node tells whether the contact
+// sticks, and to which side it has slipped.
 ContactModes StateOptions(const ContactPair& contact, const PathPoint& point, std::size_t candidate,
                           const ActiveSetTolerance& tolerance);
 

@@ -37,7 +37,7 @@ struct StepEvent {
 // Where the bisection comes upon two points that are farther apart than one curve could take them, or upon a stretch in
 // which it reaches no point, the step has leapt to another curve, whatever other event lies there. A bifurcation that
 // is next to another event, but not at its place to rounding, is looked at with a shorter step. target: load factor to
-// end at, other than that of the start; nothing = none.
+// end at, other than the load factor of the start; nothing = none.
 StepEvent FirstEvent(SmoothArc* arc, const Step& step, std::optional<double> target = std::nullopt);
 
 // The exact point of a kind near t, by Newton's method, with its parameter within the step. Nothing if it is

@@ -16,9 +16,9 @@ namespace contact_path {
 
 // All without unit: forces over the characteristic force F, lengths over the characteristic length L (scene/scaling.h).
 struct Residuals {
-  // max |phi - T r| over the free components / F, of moments / (F L) (eq. 1). Where it is larger than F: over 1e-4 of
-  // the stiffness of the elements at the node times L, which is 1e11 times the rounding of coordinates. Reactions are
-  // measured in the same.
+  // max |phi - T r| over the free components / F, of moments / (F L) (eq. 1). In place of F, 1e-4 of the stiffness of
+  // the elements at the node times L where this is larger: 1e11 times the rounding of coordinates. Reactions have the
+  // same unit.
   double equilibrium = 0.0;
   double penetration = 0.0;       // max (-gap) / L, 0 if none
   double tensile_reaction = 0.0;  // max (-r_n) / F, 0 if none
@@ -75,8 +75,8 @@ class ResidualCheck {
   // Gap of a contact candidate in a state [length], and its slip between two: tangential motion along the obstacle, as
   // the obstacle sees it [length].
   double Gap(std::size_t contact, const CheckedState& state) const;
-  // The same, if a node that is over an end of the surface to rounding counts as past it: of a surface with a radius,
-  // the gap changes by the radius there.
+  // Gap() where a node that is over an end of the surface to rounding counts as past the end: of a surface with a
+  // radius, the gap changes by the radius there.
   double GapPastEnd(std::size_t contact, const CheckedState& state) const;
   double Slip(std::size_t contact, const CheckedState& from, const CheckedState& to) const;
   // By the total law of friction, slip since the start of the program; round a closed obstacle the shorter way. Throws

@@ -58,15 +58,15 @@ class ContactPair {
   // The patch where the surface is nearest; past an end of an open surface the number before the first patch, or after
   // the last one.
   virtual int PatchAt(const Eigen::VectorXd& u, double s) const = 0;
-  // The same; of a closed surface in the round in which it is nearest to the patch `from`.
+  // PatchAt(), with the number of a closed surface counted in the round that brings it nearest to the patch `from`.
   virtual int PatchAfter(const Eigen::VectorXd& u, double s, int from) const = 0;
-  // The patch itself, or the one that is nearest where it is kNearestPatch. All other functions but HasPatch() and
-  // RangeOf() take that, too.
+  // `patch` itself, or the nearest patch where `patch` is kNearestPatch. Functions with the parameter `patch` take
+  // kNearestPatch, too, except HasPatch() and RangeOf().
   int KnownPatch(const Eigen::VectorXd& u, double s, int patch) const {
     return patch == kNearestPatch ? PatchAt(u, s) : patch;
   }
   virtual bool HasPatch(int patch) const = 0;
-  // Of xi, measured from 0; past the ends of an open surface infinite on one side.
+  // The range of xi, measured from 0, on the patch; past the ends of an open surface infinite on one side.
   virtual XiRange RangeOf(int patch) const = 0;
   // *hessian = second derivatives by q of weights . (r_n grad u_n + r_t c grad xi), r_n and r_t do not change: m + 1
   // square, symmetric. Asked of curved pairs only, as SecondDirectional().
@@ -87,8 +87,8 @@ class ContactPair {
     return false;
   }
 
-  // The value of xi from which stick and slip are measured at (u, s): xi itself, or xi_0 of the total law; of a closed
-  // surface that of the round in which it is nearest.
+  // The value of xi from which stick and slip are measured at (u, s): xi itself, or xi_0 of the total law, on a closed
+  // surface counted in the round in which xi_0 is nearest.
   double SlipReference(const Eigen::VectorXd& u, double s, int patch) const;
   // Slip by the total law, since the start of the program: xi - xi_0. 0 by the incremental law.
   double Slipped(const Eigen::VectorXd& u, double s, int patch) const;
@@ -96,9 +96,9 @@ class ContactPair {
   double Xi(const Eigen::VectorXd& u, double s, int patch) const;
   // Slip along (du, ds) at (u, s): c grad xi . (du, ds).
   double SlipRate(const Eigen::VectorXd& u, double s, int patch, const Eigen::VectorXd& du, double ds) const;
-  // Slip from (u, s) on a patch to (u + du, s + ds) on another one, or the same: of a rigid surface the change of xi,
-  // of one that deforms the mean of the lengths between both feet on its shapes at both; past an end of it, the foot is
-  // that end.
+  // Slip from (u, s) on `patch` to (u + du, s + ds) on `patch_after`. On a rigid surface: the change of xi. On a
+  // deformable surface: the mean of two lengths between both feet, on its shapes before and after; past an end of the
+  // surface, the foot is its end.
   virtual double Slip(const Eigen::VectorXd& u, double s, int patch, const Eigen::VectorXd& du, double ds,
                       int patch_after) const;
 

@@ -10,14 +10,14 @@
 
 namespace contact_path {
 
-// The dofs are those of the node and of the control nodes of the patch. With y(tau) the spline of the boundary, p = x -
+// The dofs belong to the node and to the control nodes of the patch. With y(tau) the spline of the boundary, p = x -
 // y and p . y' = 0 at the foot: gap = p . n - radius, n on the left of y'; c = |dy/dxi| (1 - curvature radius), the
 // slip along the surface per change of the material coordinate xi. The reaction acts on the node, and opposite on the
 // control nodes: the two balance as forces and as moments, also where p is not zero.
 class DeformablePair : public ContactPair {
  public:
-  // patches: of the spline of the boundary; of a node of the boundary itself, those that it may touch. force_bounds: of
-  // Structure::ForceBounds(); without them, the force unit is 1.
+  // patches: of the spline of the boundary; of a node of the boundary itself, the patches that it may touch.
+  // force_bounds: of Structure::ForceBounds(); without them, the force unit is 1.
   DeformablePair(std::shared_ptr<const DeformableBoundary> boundary, const AdmissiblePatches& patches,
                  const NodePlace& node, double friction, const Eigen::VectorXd& force_bounds = Eigen::VectorXd());
 

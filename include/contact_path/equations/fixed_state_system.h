@@ -23,7 +23,7 @@ enum class Inequality {
   kSlip,            // slip+-: +-(xi - xi_ref), the motion since the reference; what must be >= 0 is its rate
   kTotalSlip,       // slip+- by the total law: +-(xi - xi_ref) itself
   kPatchBegin,      // touching, not sticking, on a surface with patches: xi - begin (at zero, the patch before is next)
-  kPatchEnd,        // the same: end - xi (at zero, the patch after is next)
+  kPatchEnd,        // touching, not sticking, on a surface with patches: end - xi (at zero, the patch after is next)
 };
 
 // Whether the inequality keeps a contact on its patch.
@@ -52,9 +52,9 @@ struct Constraint {
 //   u = start + rate s                        each prescribed component
 //   u_n = 0                                   each touching contact         (eq. 2)
 //   xi = xi_ref                               each sticking contact         (eq. 3)
-// and one equation "inequality = 0" for each limit that is active, and s = value where the load factor is active. With
-// nothing active there is one unknown more than equations: the solutions are a curve where the rank is full.
-// Slip has r_t = -+mu r_n eliminated.
+// and one equation "inequality = 0" for each constraint of SetActive(), and s = value where the load factor is active.
+// With nothing active there is one unknown more than equations: the solutions are a curve where the rank is full. Slip
+// has r_t = -+mu r_n eliminated.
 class FixedStateSystem {
  public:
   // Both must outlive the system.
@@ -63,7 +63,7 @@ class FixedStateSystem {
   // states, reference (xi_ref), patches of the surfaces: by candidate; no patches: all are 0.
   void SetStates(const std::vector<ContactState>& states, const Eigen::VectorXd& reference,
                  const std::vector<int>& patches = {});
-  // Puts those of these candidates that are open on the patches that are nearest at x: no equation changes.
+  // Puts each of these candidates that is open on the patch that is nearest at x: no equation changes.
   void PlaceOpen(const std::vector<std::size_t>& candidates, const Eigen::VectorXd& x);
   // Whether one of these candidates, if it is open, is behind its surface at x, on another patch than the one it is on.
   bool BehindOtherPatch(const std::vector<std::size_t>& candidates, const Eigen::VectorXd& x) const;
@@ -84,16 +84,17 @@ class FixedStateSystem {
 
   // residual: NumEquations(). Not finite where an element is singular.
   void Residual(const Eigen::VectorXd& x, Eigen::VectorXd* residual) const;
-  // The largest of its equations; of equilibrium in Structure::ResidualUnits().
+  // The largest entry of a residual; equations of equilibrium are measured in Structure::ResidualUnits().
   double Largest(const Eigen::VectorXd& residual) const;
-  // The largest of these units: rounding of residuals, and of the points that it leads to, grows with it.
+  // The largest of Structure::ResidualUnits(): rounding of residuals, and the error of points by it, grow with it.
   double ResidualUnit() const { return residual_unit_; }
   // Norm of a change of the unknowns. Of the force on a moved support the component along its motion counts: whether
   // the component across it is an unknown depends on the axes.
   double Norm(const Eigen::VectorXd& change) const;
   // Transposed Jacobian, NumUnknowns() x NumEquations(), compressed; the pattern is the same until the next set or pin.
   const Eigen::SparseMatrix<double>& TransposedJacobian(const Eigen::VectorXd& x);
-  // The same with Structure::MixedTangent(), strains linearised at the motion `from` towards the motion `to`.
+  // Transposed Jacobian with Structure::MixedTangent(): strains linearised at the motion `from` towards the motion
+  // `to`.
   const Eigen::SparseMatrix<double>& MixedJacobian(const Eigen::VectorXd& x, const Eigen::VectorXd& from,
                                                    const Eigen::VectorXd& to);
 
@@ -104,10 +105,10 @@ class FixedStateSystem {
 
   // All inequalities of the fixed states, in contact order, and their values at x (>= 0: holds).
   std::vector<Constraint> Inequalities() const;
-  // The same of the touching contacts and of these candidates, ascending, alone.
+  // Inequalities of the touching contacts and of these candidates, ascending, alone.
   std::vector<Constraint> InequalitiesOf(const std::vector<std::size_t>& candidates) const;
-  // The ends of the patches that these candidates, if they are open, are beside: not inequalities of the states, and
-  // values all the same.
+  // Both ends of the patch of each of these candidates that is open. They are no inequalities of the states, since an
+  // open contact may pass over them, but Value() has their values.
   std::vector<Constraint> PatchEndsOfOpen(const std::vector<std::size_t>& candidates) const;
   double Value(const Constraint& constraint, const Eigen::VectorXd& x) const;
   // What tolerances of the values and rates are multiplied with: 1, or for reactions the force unit of the contact.
@@ -122,11 +123,11 @@ class FixedStateSystem {
   // The value along a curve with these derivatives at x.
   Jet ValueAlong(const Constraint& constraint, const Eigen::VectorXd& x, const Eigen::VectorXd& first,
                  const Eigen::VectorXd& second) const;
-  // The same of r_n c of a touching contact (contact/kinematics.h): times mu dxi, the dissipation of its slip.
+  // r_n c of a touching contact (contact/kinematics.h) along such a curve: times mu dxi, the dissipation of its slip.
   Jet SlidingForceAlong(std::size_t contact, const Eigen::VectorXd& x, const Eigen::VectorXd& first,
                         const Eigen::VectorXd& second) const;
-  // The same of the force that moving supports and obstacles exert along their motion: their work is its integral over
-  // s.
+  // The force that moving supports and obstacles exert along their motion, along such a curve: their work is its
+  // integral over s.
   Jet DrivingForceAlong(const Eigen::VectorXd& x, const Eigen::VectorXd& first, const Eigen::VectorXd& second) const;
   // Second derivative of the residual along dx, d2/dh2 residual(x + h dx) at h = 0: NumEquations().
   Eigen::VectorXd SecondDerivative(const Eigen::VectorXd& x, const Eigen::VectorXd& dx);
@@ -161,8 +162,9 @@ class FixedStateSystem {
   void AddInequalities(std::size_t contact, std::vector<Constraint>* inequalities) const;
   void AddPatchEnds(std::size_t contact, std::vector<Constraint>* inequalities) const;
 
-  // Each calls emit(unknown, equation, value) for the structural entries of the Jacobian: those of a motion, of the
-  // reactions of a contact in the equilibrium equations, and of their change by the curvature of the surface there.
+  // Each calls emit(unknown, equation, value) for structural entries of the Jacobian: the entries of a motion, the
+  // entries of the reactions of a contact in the equilibrium equations, and the change of these reactions by the
+  // curvature of the surface there.
   template <typename Emit>
   void ForEachMotionEntry(const MotionEquation& of, const Kinematics& at, Emit emit) const;
   template <typename Emit>

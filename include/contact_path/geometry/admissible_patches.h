@@ -9,30 +9,32 @@
 
 namespace contact_path {
 
-// All patches; or, for a node of the spline itself, all but those near to it along the curve. Then a closed curve is
-// open there, and an open one has two parts, or one. Where patches are left out is an end of the curve.
+// The patches of a curve that a node may touch: all patches, or, for a node of the spline itself, all except the
+// patches near to the node along the curve. Where patches are left out, the curve ends: a closed curve is open there,
+// and an open curve has two parts, or one.
 class AdmissiblePatches {
  public:
   explicit AdmissiblePatches(const NodalSpline& spline) : spline_(spline) {}
-  // Left out for nodes[node] are its patch, two patches on either side of it, so that no other patch nor the one beside
-  // it has this node for a control node, and each patch that begins within pi times the radius, along the edges between
-  // the nodes. A curve that bends no sharper than the radius returns to the distance `radius` of a point of itself
-  // nowhere within this length.
-  // nodes: places of the nodes at the start, neighbours are apart; at least 2, closed 3. radius >= 0 [length].
+  // Left out for nodes[node] are its patch, two patches on either side, and each patch that begins within pi times the
+  // radius, along the edges between the nodes. With two patches on either side, nodes[node] is a control node neither
+  // of an admissible patch nor of the patch beside an admissible patch. A curve that bends no sharper than the radius
+  // does not return to the distance `radius` of one of its points within this length. nodes: places of the nodes at the
+  // start, neighbours are apart; at least 2, closed 3. radius >= 0 [length].
   AdmissiblePatches(const std::vector<Eigen::Vector2d>& nodes, bool closed, double radius, int node);
 
   // Whether the curve has the patch (geometry/surface.h), and the patch is not left out.
   bool Has(int patch) const;
   bool None() const { return left_out_ >= spline_.NumPatches(); }
-  // The patch itself; of one that is left out beside one that is not, or of a number past an end: that one.
+  // The patch itself if it is admissible, else the admissible patch beside it; `patch` where neither neighbour is
+  // admissible. patch: may be one past an end of the curve.
   int Beside(int patch) const;
-  // Of a patch that is left out beside one that is not: how that one is prolonged, from its end or up to its begin.
+  // The patch; where it is not admissible, the prolongation of the patch Beside() it, from its end or up to its begin.
   SplinePatch Patch(int patch) const;
 
  private:
   NodalSpline spline_;
-  int first_ = 0;     // of those left out, up the curve; of a closed one, of any round
-  int left_out_ = 0;  // how many
+  int first_ = 0;     // first patch that is left out, up the curve; on a closed curve in any round
+  int left_out_ = 0;  // number of patches that are left out
 };
 
 }  // namespace contact_path

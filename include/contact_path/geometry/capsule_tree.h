@@ -1,4 +1,4 @@
-// A search for what is nearest to a point, among things each of which lies in a capsule.
+// A search for the part that is nearest to a point, among parts each of which lies in a capsule.
 #ifndef CONTACT_PATH_GEOMETRY_CAPSULE_TREE_H_
 #define CONTACT_PATH_GEOMETRY_CAPSULE_TREE_H_
 
@@ -30,7 +30,7 @@ class CapsuleTree {
   void Search(const Eigen::Vector2d& x, const double* most, Visit visit) const {
     Search({0, 0, num_leaves_}, parts_[0].SquaredDistance(x), x, most, visit);
   }
-  // The same, but the leaf `first` comes first: half the time where it is the nearest one.
+  // Search() that visits the leaf `first` first: takes half the time where `first` is the nearest leaf.
   template <typename Visit>
   void SearchFrom(std::size_t first, const Eigen::Vector2d& x, const double* most, Visit visit) const {
     visit(first);
@@ -46,8 +46,8 @@ class CapsuleTree {
  private:
   static constexpr double kRounding = 1e-12;  // of the square of a distance
 
-  // The leaves from `begin` to before `end`; the capsules of the first half follow its own, then those of the second
-  // half.
+  // The leaves from `begin` to before `end`. The capsule of the node comes first, then the capsules of the first half,
+  // then the capsules of the second half.
   struct Node {
     std::size_t capsule, begin, end;
 

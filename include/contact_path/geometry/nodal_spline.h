@@ -7,7 +7,7 @@
 
 namespace contact_path {
 
-// y(tau) = sum of N_k(tau) x_k over up to three control nodes, tau from `begin` to `end`, and beyond for what is
+// y(tau) = sum of N_k(tau) x_k over up to three control nodes, tau from `begin` to `end`; beyond, the patch is
 // prolonged.
 struct SplinePatch {
   std::array<int, 3> nodes = {-1, -1, -1};            // ascending along the curve; -1: none, and its N_k is 0
@@ -44,12 +44,12 @@ class NodalSpline {
 struct Parabola {
   Eigen::Vector2d a, b, c;
 
-  // places: x_k; of a node that there is not, anything finite.
+  // places: x_k; anything finite for a node that does not exist.
   Parabola(const SplinePatch& patch, const std::array<Eigen::Vector2d, 3>& places);
 
   Eigen::Vector2d At(double tau) const { return a + tau * (b + tau * c); }
-  // Where the distance from x is least nearby: of two such places, the one that is nearer to begin <= tau <= end, then
-  // the one that is nearer to x. One of begin and end may be infinite.
+  // tau of a local minimum of the distance from x. Of two minima, the minimum nearer to begin <= tau <= end; if both
+  // are equally near, the minimum nearer to x. Either begin or end may be infinite.
   double FootOf(const Eigen::Vector2d& x, double begin, double end) const;
 };
 

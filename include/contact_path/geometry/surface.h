@@ -38,8 +38,8 @@ class Surface {
   virtual XiRange RangeOf(int /*patch*/) const { return {}; }
   // Of a closed curve a patch of the first round, 0 to NumPatches() - 1.
   virtual NearestFoot Nearest(const Eigen::Vector2d& x) const = 0;
-  // The same, found faster where it is on the patch `near` or not far from it. near: a patch of the first round; -1 =
-  // not known.
+  // Nearest(), found faster where the foot is on the patch `near` or not far from it. near: a patch of the first round;
+  // -1 = not known.
   virtual NearestFoot NearestFrom(const Eigen::Vector2d& x, int /*near*/) const { return Nearest(x); }
   // The foot on one patch, which is prolonged smoothly beyond both of its ends: xi tells where the foot is.
   virtual Projection Project(const Eigen::Vector2d& x, int patch) const = 0;
@@ -52,10 +52,10 @@ class Surface {
   Projection ProjectOnNearest(const Eigen::Vector2d& x) const { return Project(x, Nearest(x).patch); }
 };
 
-// The patch where a surface is nearest to x; past an end of the surface the number before the patch that begins there,
-// or after the one that ends there, which the surface does not have.
+// The patch where a surface is nearest to x. Past an end of the surface: the number before the patch that begins at
+// this end, or after the patch that ends there; the surface has no patch of this number.
 int PatchBeside(const Surface& surface, const Eigen::Vector2d& x);
-// The same; of a closed surface in the round in which it is nearest to the patch `from`.
+// PatchBeside(), with the number of a closed surface counted in the round that brings it nearest to the patch `from`.
 int PatchBeside(const Surface& surface, const Eigen::Vector2d& x, int from);
 // Of xi on a patch; past an end of the surface infinite on one side.
 XiRange RangeBeside(const Surface& surface, int patch);

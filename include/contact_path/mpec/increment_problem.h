@@ -26,8 +26,8 @@ struct IncrementGoal {
 //   prescribed components over S.
 // Objective, eq. (4) over gamma_2 S^2 at gamma2_factor 1:
 //   w rhat . y_t - (1 - w) direction . y + gamma2_factor |y|^2 / 2,   rhat = r_t^k / |T_t r_t^k|,
-// so gamma_1 and gamma_2 are those for which the unconstrained minimum is no longer than S for any w: no term, alone or
-// with the others, asks for more than the wanted length.
+// with gamma_1 and gamma_2 such that the unconstrained minimum is no longer than S for any w: neither one term nor all
+// terms together ask for more than the wanted length.
 // Constraints, all over S (products over S^2): equilibrium = 0; gaps >= 0; gap r_n <= eps; lambda -+ du_t >= 0;
 // mu r_n -+ r_t >= 0; lambda mu r_n + du_t r_t <= eps; prescribed components where they have to be. Frictionless
 // contacts have neither r_t nor lambda. By the total law of friction, xi - xi_0 at the end of the increment takes the

@@ -46,8 +46,8 @@ class IncrementSolver {
   // All must outlive the solver.
   IncrementSolver(const Structure& structure, const ContactPairs& contacts, NonlinearSolver* solver);
 
-  // From `from`, an equilibrium. Candidates out of reach are left out of the problem; should a gap among them turn
-  // negative all the same, the increment is solved again with them.
+  // From `from`, an equilibrium. Candidates out of reach are left out of the problem; where the gap of such a
+  // candidate turns negative, the increment is solved again with the candidate.
   IncrementTrial Solve(const PathPoint& from, const IncrementGoal& goal, const RegularisationSchedule& schedule);
 
  private:
@@ -58,8 +58,8 @@ class IncrementSolver {
               IncrementTrial* trial);
   // For the next increment.
   IncrementTrial Keep(const std::vector<int>& working_set, PrimalDual point, IncrementTrial trial);
-  // Replaces trial->point by the minimum of the same objective on the exact equations of its states, if that holds;
-  // otherwise by the exact point that is nearest to it.
+  // Replaces trial->point by the minimum of the objective on the exact equations of its states, if the inequalities
+  // hold there; otherwise by the exact point that is nearest to trial->point.
   void PolishActiveSet(const PathPoint& from, const IncrementProblem& problem, const IncrementGoal& goal,
                        IncrementTrial* trial);
   // By the solution of those equations nearest to `wanted`, unless that is another point. length: of the increment.

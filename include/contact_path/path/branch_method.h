@@ -93,7 +93,7 @@ class BranchMethod : public PathMethod {
   IncrementSolver mpec_;  // for events with very many contacts
   SmoothArc arc_;
   CurvePoint current_;
-  std::optional<PathPoint> begin_;        // of the branch, where its reactions are not those of the event
+  std::optional<PathPoint> begin_;        // of the branch, where it begins with other reactions than the event has
   std::optional<Eigen::VectorXd> moved_;  // while the path rests: the direction in which it moved before
   double step_length_;
   int increments_;                 // given so far, increment 0 not counted

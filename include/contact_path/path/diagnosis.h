@@ -39,25 +39,25 @@ std::string ContactTooSoft(const Model& model, const PathPoint& point, double le
 std::string CurveTooSharp(const Model& model, const PathPoint& point);
 
 // Names a contact at the edge of its friction cone that is pressed onto so sharp a curve of its obstacle that the rate
-// of its slip is below what counts as rest, in either direction: no branch can be trusted there. Else empty. The same
-// arguments.
+// of its slip is below what counts as rest, in either direction: no branch can be trusted there. Else empty. point:
+// where to look, scaled.
 std::string HiddenSlip(const Model& model, const PathPoint& point);
 
-// Why a point breaks the friction law where the law is total and an obstacle closed: beyond half a round, the shorter
-// way to where the node started is the other one.
+// Why a point breaks the total law of friction on a closed obstacle: check/ measures slip along the shorter way round,
+// so that slip changes its sign beyond half a round. Empty where this cannot be the reason.
 std::string BeyondHalfRound(const Model& model, const Residuals& residuals);
 
 // Names a contact with a deformable surface of which another part has come over the node while it touches, from one
 // point of a path to the next; else empty.
 std::string OverrunContact(const Model& model, const PathPoint& from, const PathPoint& to);
 
-// Names an open contact whose node is behind its deformable surface, to where it has come past an end of it; else
+// Names an open contact whose node has come past an end of its deformable surface and is behind the surface; else
 // empty. point: where to look, scaled.
 std::string BehindSurface(const Model& model, const PathPoint& point);
 
-// Names a contact that pulls at its node, by a share of what any contact has pushed with so far and by more than
-// rounding: it should have opened, and did not since its reactions are too small beside the characteristic force; else
-// empty. rounding: of the reactions of the point. largest_reaction: r_n, no less than those of the point. Both scaled,
+// Names a contact that pulls at its node, by more than rounding and by more than a share of the largest reaction so
+// far: it should have opened, and did not since its reactions are too small beside the characteristic force; else
+// empty. rounding: of the reactions of the point. largest_reaction: r_n so far, at the point included. Both scaled,
 // over the force unit of the contact.
 std::string PullingContact(const Model& model, const PathPoint& point, double rounding, double largest_reaction);
 

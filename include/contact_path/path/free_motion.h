@@ -1,4 +1,4 @@
-// Which nodes nothing holds: what a mistake in a scene looks like, and what is left of a structure that came free.
+// Which nodes nothing holds: by a mistake in the scene, or since part of the structure came free.
 #ifndef CONTACT_PATH_PATH_FREE_MOTION_H_
 #define CONTACT_PATH_PATH_FREE_MOTION_H_
 
@@ -15,12 +15,14 @@ namespace contact_path {
 // cannot rub. Of a null space of more than 64 dimensions, 64 motions are looked at.
 std::vector<int> FreeNodes(const Model& model, const PathPoint& point, double force);
 
-// "node b moves freely; b@floor touches", or "nodes a, b and 7 more move freely"; empty where no node does. Contacts
-// are those of the nodes that move, and five names of a kind are listed.
+// "node b moves freely; b@floor touches", or "nodes a, b and 7 more move freely"; empty where no node does. Lists
+// contacts of the nodes that move, and at most five names of a kind.
 std::string FreeMotionText(const Model& model, const PathPoint& point, double force);
 
-// The same with the question that goes with a start from which no branch leads: ": does the normal of floor point to
-// the side where the node may be, and is no contact or support missing?". Empty where no node moves freely.
+// For a start from which no branch leads: FreeMotionText() and the questions to ask, ": does the normal of floor point
+// to the side where the node may be? is a contact or a support missing? is the friction of floor (0.5) too small?". The
+// first question is asked where nodes that move touch obstacles, the last one where such an obstacle has friction.
+// Empty where no node moves freely.
 std::string FreeMotionQuestion(const Model& model, const PathPoint& point, double force);
 
 }  // namespace contact_path

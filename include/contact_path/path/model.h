@@ -19,8 +19,8 @@ namespace contact_path {
 
 // Not to be copied or moved: the solvers keep references to its parts.
 struct Model {
-  // `scene` must be sound. `scaling`: CharacteristicScales(scene), or those of a scene with other loads. configuration:
-  // in scene units; where not given, that of the scene.
+  // `scene` must be sound. scaling: CharacteristicScales() of the scene, or of the scene with other loads.
+  // configuration: in scene units; where not given, Configuration::Of(scene).
   Model(const Scene& scene, const Scaling& scaling);
   Model(const Scene& scene, const Configuration& configuration, const Scaling& scaling);
   Model(const Model&) = delete;
@@ -32,9 +32,9 @@ struct Model {
   // A point of another model with the same nodes, contacts and scales of length and force, as this one sees it at load
   // factor 0: where supports and obstacles are must agree.
   PathPoint Transfer(const Model& other, const PathPoint& point) const;
-  // The point in the units of the scene, as the check and the records want it. Fixed components are those of the scene.
+  // The point in the units of the scene, as the check and the records want it. Fixed components are as in the scene.
   CheckedState InSceneUnits(const PathPoint& point) const;
-  // The point of an increment that has its state: the other way round, with one rounding.
+  // The inverse of InSceneUnits(), with one rounding, for an increment that has positions and contacts.
   PathPoint FromIncrement(const Increment& increment) const;
   // By check/, of `now` reached from `before`.
   Residuals Check(const PathPoint& before, const PathPoint& now) const;

@@ -82,15 +82,15 @@ class MpecMethod : public PathMethod {
   // By the total law of friction. Where no increment along the direction leads on, the friction forces tell another
   // one.
   Trial TryTotal(const PathPoint& from, const Eigen::VectorXd& direction, double length);
-  // Without the dissipation term. Where the path turns by nearly 90 degrees, the increment is short; it tells the
-  // direction.
-  Trial TryAimless(const PathPoint& from, const Eigen::VectorXd& direction, double length);
-  // The first increment has no last one: directions are improved until the increment is as long as wanted.
+  // Where the path turns by nearly 90 degrees, the increment is short; it tells the direction.
+  Trial TryWithoutDissipation(const PathPoint& from, const Eigen::VectorXd& direction, double length);
+  // For the first increment, which has no direction of a last increment: improves the direction until the increment is
+  // as long as wanted.
   Trial TryFirst(const PathPoint& from, double length);
   // Whether the load factor turns back on the increment, and may have been past the target and back.
   bool MayMissTarget(const PathPoint& from, const PathPoint& to) const;
-  // Replaces the point of a trial beyond the target by the exact one at it, with its contact modes
-  // or those of `from`. False: there is none.
+  // Replaces the point of a trial beyond the target by the exact point at the target, with the contact modes of the
+  // trial or of `from`. False: there is no such point.
   bool EndAtTarget(const PathPoint& from, Trial* trial) const;
   bool EndAtTarget(const PathPoint& from, const PathPoint& modes, Trial* trial) const;
   // Where the path comes back to an earlier increment on the increment: its number, and the trial ends there.

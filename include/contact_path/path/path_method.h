@@ -28,7 +28,7 @@ struct AcceptedPoint {
   EventRecord event;
 };
 
-// Whether a load factor is at a target that a method has located, but for rounding.
+// Whether a load factor is, to rounding, at a target that a method has located.
 inline bool IsAtTarget(double load_factor, double target) {
   return std::abs(load_factor - target) <= tolerances::kAtTarget * std::abs(target);
 }

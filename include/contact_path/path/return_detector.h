@@ -14,16 +14,16 @@
 
 namespace contact_path {
 
-// Positions, load factor, reactions and contact states make up the whole state: friction remembers nothing but where
-// contacts stick, and those are positions. An earlier point that is met again in the same direction is therefore met
+// Positions, load factor, reactions and contact states make up the whole state: friction remembers only where contacts
+// stick, which the positions tell. A path that meets an earlier point again, in the same direction, therefore repeats
 // for ever. The path need not hit an increment again: it crosses the plane through it.
-// Memory: some increments of a stage, evenly spread, at most 8 MB of them or 4. A path that is closed is so found after
-// at most a sixteenth of it more than once round where it has few unknowns.
+// Memory: some increments of a stage, evenly spread, at most 8 MB of them or 4. With few unknowns, a closed path is
+// so found at most a sixteenth of its length after it has been once round.
 class ReturnDetector {
  public:
   struct Return {
     int increment = 0;  // that the path came back to
-    PathPoint point;    // of the path, scaled: the same point but for rounding
+    PathPoint point;    // of the path, scaled: to rounding the point of that increment
   };
 
   // model must outlive the test. every: only increments whose index is a multiple of it are remembered, > 0.
@@ -34,7 +34,7 @@ class ReturnDetector {
 
   // The first return between two points on the same arc, the later one with its states. Not before there is proof:
   // positions and load factor agree to 1e-9 of the extent of the path, reactions to 1e-9 of the largest so far, the
-  // contact states are the same, and so is the direction, to 1e-6.
+  // contact states are equal, and the directions agree to 1e-6.
   std::optional<Return> Find(const PathPoint& from, const PathPoint& to);
 
  private:

@@ -33,11 +33,12 @@ struct TraceControl {
 // (scene/validate.h) for a request that breaks a rule; numerical trouble is a reason, never thrown.
 TraceResult Trace(const TraceRequest& request, const TraceControl& control);
 
-// Goes on with a trace of `request` that was cut short: increments are its first ones, from increment 0. As many of
-// them as can be gone on from are given to `control.on_increment` again, unchanged, then the new ones: a path that is
-// the one of a trace without interruption but for rounding. The last increment kept is no event and has its state, and
-// so has one before it in its stage; without such an increment, all is traced anew. Throws std::invalid_argument for
-// increments that are not those of `request`, by number.
+// Goes on with a trace of `request` that was cut short. increments: the first increments of that trace, from increment
+// 0. Gives the increments up to the last one that a trace can go on from to `control.on_increment` again, unchanged,
+// then new increments. The path is equal, to rounding, to the path of a trace without interruption. A trace can go on
+// from an increment that is no event, has positions and contacts, and follows another increment of its stage with
+// positions and contacts; without such an increment, everything is traced anew. Throws std::invalid_argument, which
+// names the number, for an increment that cannot belong to `request`.
 TraceResult ResumeTrace(const TraceRequest& request, const std::vector<Increment>& increments,
                         const TraceControl& control);
 

@@ -29,9 +29,9 @@ struct RecordedTrace {
 
 // All traces in a bag, in its order: `rosbag record` may have been there for several. A request of which nothing
 // followed, as the latched one of the trace before, is left out if there is another. Throws BagError (bag_recorder.h),
-// one line for a person: for what is no bag, a bag without index (its node was killed; `rosbag reindex` mends it), a
-// bag without a trace, a request that is not valid, and a message that cannot be read. `cancelled` is asked before each
-// message: true throws ReadingCancelled. It may be empty.
+// one line for a person: for a file that is no bag, a bag without index (its node was killed; `rosbag reindex` mends
+// it), a bag without a trace, a request that is not valid, and a message that cannot be read. `cancelled` is asked
+// before each message: true throws ReadingCancelled. It may be empty.
 std::vector<RecordedTrace> ReadTraces(const std::string& file, const std::function<bool()>& cancelled = {});
 
 // The only trace in a bag. Throws BagError where there are several, too.

@@ -23,7 +23,7 @@ struct StreamOptions {
   std::uint32_t queue = 1;        // increments that roscpp keeps for a slow subscriber, > 0; it drops the oldest beyond
   std::size_t most_bytes = 0;     // of all increments in memory, waiting here or in roscpp
   double per_second = 0.0;        // increments sent in a second, >= 0; 0: no bound
-  double bytes_per_second = 0.0;  // likewise
+  double bytes_per_second = 0.0;  // of increments sent, >= 0; 0: no bound
 };
 
 // Sends the increments of one trace after the other in order, at a bounded pace, from a queue and on a thread of its

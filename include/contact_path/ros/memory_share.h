@@ -4,21 +4,21 @@
 
 namespace contact_path {
 
-// Data of this process, whether in memory or not [MB of 2^20 bytes]. 0 in a build with a sanitizer that reserves more
-// than there is: then there is no limit either.
+// Data of this process, whether in memory or not [MB of 2^20 bytes]. 0 in a build with a sanitizer, which reserves
+// terabytes: such a build has no limit either.
 double DataMegabytes();
-// Whether that, less what the allocator keeps free of earlier traces, is more.
+// Whether the data of this process, less the memory that the allocator keeps free, is more.
 bool TakesMoreThan(double megabytes);
 // Gives what the allocator keeps free back to the system.
 void ReturnFreeMemory();
 
-// From now on the system refuses data beyond `megabytes` to threads WithinLimit: std::bad_alloc where more is asked
-// for. Others, as those of roscpp, which a std::bad_alloc would end with the process, take what they need: messages
-// have a limit of their own. 0: as much as there is. Throws std::invalid_argument where what is in use leaves too
-// little for a small trace.
+// From now on an allocation that takes the data of the process beyond `megabytes` throws std::bad_alloc in a thread
+// WithinLimit. In all other threads, as of roscpp, a std::bad_alloc would end the process: there the limit is raised
+// for the allocation. Messages have a limit of their own. megabytes = 0: no limit. Throws std::invalid_argument where
+// the data in use leaves too little for a small trace.
 void LimitData(int megabytes);
 
-// While it lives, the thread is held to the limit, which is anew what it was set to.
+// While it lives, allocations of its thread are held to the limit; it first undoes what other threads raised.
 class WithinLimit {
  public:
   // 0: the limit stays as it is.
@@ -28,7 +28,7 @@ class WithinLimit {
   WithinLimit& operator=(const WithinLimit&) = delete;
 };
 
-// Of such a limit, as much as a trace may use before it is ended: what else the node does needs the rest.
+// The share of the limit that a trace may use before it is ended; the other work of the node needs the rest.
 constexpr double kShareOfTraces = 0.9;
 
 }  // namespace contact_path

@@ -6,13 +6,13 @@
 //   namespace      id  what
 //   obstacles       0  strips along the boundaries, on the forbidden side
 //                   1  their boundaries
-//                   2  strokes on those that move, which go along
+//                   2  strokes on the boundaries that move, which go along
 //   initial         0  bars, all elements of two nodes, and beams, in the initial shape
-//                   1  nodes, but for the inner ones of beams
+//                   1  nodes, without the inner nodes of beams
 //   superelements   0  lines from the nodes to their middle; of a single node, to its rest position
 //                   1  these middles
 //   structure       0  bars, and beams: curves with the directions that the rotations of the nodes give
-//                   1  nodes, but for the inner ones of beams
+//                   1  nodes, without the inner nodes of beams
 //   solids          0  elements in the initial shape: their boundaries
 //                   1  elements, from light where there is no energy to dark; the darkest colour is for 1 % of Young's
 //                      modulus as energy per volume, or more
@@ -25,7 +25,8 @@
 //                      loads are lighter
 //   caption         0  scene, stage, increment, load factor
 //                   1  arrow of full length
-//                   2  the force that it stands for; where there are moments, that of three quarters of a turn
+//                   2  the force that this arrow stands for; where there are moments, also the moment that three
+//                      quarters of a turn stand for
 #ifndef CONTACT_PATH_ROS_SCENE_MARKERS_H_
 #define CONTACT_PATH_ROS_SCENE_MARKERS_H_
 

@@ -32,7 +32,7 @@ struct NodeParameters {
   int increments_queue = 100000;         // increments kept for a subscriber that is slower than they are sent, > 0
   int increments_megabytes = 256;        // of increments that wait for subscribers [MB], > 0
   double increments_per_second = 500.0;  // sent at most, >= 0; 0: no bound
-  double increments_megabytes_per_second = 32.0;  // likewise [MB/s]
+  double increments_megabytes_per_second = 32.0;  // sent at most [MB/s], >= 0; 0: no bound
   MarkerOptions markers;                          // frame_id, picture_size
   TraceLimits limits;                             // max_nodes, max_elements, ..., keep_free_megabytes
 };

@@ -43,8 +43,8 @@ class BoundaryCurve {
   double radius_;
 };
 
-// What a node may touch of a surface: all of it, or where it is one of its nodes, what is not near to it. places: of
-// the nodes of the surface at the start [length].
+// The patches of a surface that a node may touch: all patches, or, for a node of the surface itself, the patches that
+// are not near to the node. places: of the nodes of the surface at the start [length].
 AdmissiblePatches PatchesFor(const std::string& node, const BoundarySurface& surface,
                              const std::vector<Eigen::Vector2d>& places);
 

@@ -16,9 +16,9 @@ namespace contact_path {
 // At least 1: a request without a program is one stage.
 std::size_t NumStages(const TraceRequest& request);
 
-// A stage of the program with its loads and motions per unit of its load factor. The loads and motions of a stage that
-// unloads are those that the stages before have left, with the opposite sign: one load for each load of these stages,
-// one motion for each support and obstacle.
+// A stage of the program with its loads and motions per unit of its load factor. A stage that unloads has
+// the loads and motions that the stages before have left, with the opposite sign: one load for each load of these
+// stages, one motion for each support and obstacle.
 Stage StageAsTraced(const TraceRequest& request, std::size_t stage);
 
 // The scene of a stage, from 0, at whose load factor 0 all stages before have come to their targets: their loads are

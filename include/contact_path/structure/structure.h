@@ -22,7 +22,7 @@ namespace contact_path {
 struct PrescribedDof {
   int dof = 0;
   double start = 0.0;  // unit of the unknown
-  double rate = 0.0;   // the same per unit of the load factor
+  double rate = 0.0;   // unit of the unknown, per unit of the load factor
 };
 
 // Total potential energy Pi(u, s) = sum of element energies - (s f + f_constant) . u, phi = dPi/du (Kanno & Martins
@@ -47,7 +47,8 @@ class Structure {
   const Eigen::VectorXd& ReferenceLoad() const { return reference_load_; }  // f, scaled by the load factor
   const Eigen::VectorXd& ConstantLoad() const { return constant_load_; }    // f_constant
   const std::vector<PrescribedDof>& PrescribedDofs() const { return prescribed_; }
-  // By number, those along x of nodes that move obliquely: the next one is the component along y of the same node.
+  // Nodes that move obliquely: the number of their prescribed component along x; the next number is their component
+  // along y.
   const std::vector<std::size_t>& ObliqueSupports() const { return oblique_supports_; }
   // Of the systems of the structure; the solvers of all of them share it.
   Orderings* SharedOrderings() const { return orderings_.get(); }
