@@ -55,8 +55,8 @@ bool Passes(const SmoothArc& arc, const CurvePoint& start, const CurvePoint& end
 }
 
 bool IsSame(const StepEvent& one, const StepEvent& other) {
-  return one.kind == other.kind && one.limit.contact == other.limit.contact &&
-         one.limit.inequality == other.limit.inequality;
+  return one.kind == other.kind && one.constraint.contact == other.constraint.contact &&
+         one.constraint.inequality == other.constraint.inequality;
 }
 
 // Whether the load factor, of which a limit point was located at `point`, goes on beyond it in its sense: its rate

@@ -152,14 +152,14 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, std::optional<double> tar
   };
   // No node moves further than the arc length, and that is hardly longer than the step.
   std::vector<Constraint> open_ends;
-  const std::vector<Constraint> limits = arc->InequalitiesInReach(step.start.x, kReach * step.length, &open_ends);
+  const std::vector<Constraint> inequalities = arc->InequalitiesInReach(step.start.x, kReach * step.length, &open_ends);
   for (const Constraint& end : open_ends) {
     Quintic beyond = FunctionOf(system, step, end);
     beyond[0] += tolerances::kBeyondPatch;
     if (const std::optional<double> t = FirstNegative(beyond, step.length, 0.0))
       consider(EventKind::kNearTouch, *t, end);
   }
-  for (const Constraint& constraint : limits) {
+  for (const Constraint& constraint : inequalities) {
     const Quintic quintic = FunctionOf(system, step, constraint);
     const double zero = constraint.inequality == Inequality::kSlip ? tolerances::kLevel * system.ResidualUnit()
                                                                    : RoundingOnStep(*arc, step, constraint);
@@ -264,17 +264,18 @@ std::optional<CurvePoint> LocateRegular(SmoothArc* arc, const Step& step, const 
     }
     case EventKind::kContactEvent: break;
   }
-  if (event.limit.inequality == Inequality::kSlip)
-    return LocateRate(arc, step, event.t, [&](const CurvePoint& at) { return ValueAlong(system, event.limit, at); });
+  if (event.constraint.inequality == Inequality::kSlip)
+    return LocateRate(arc, step, event.t,
+                      [&](const CurvePoint& at) { return ValueAlong(system, event.constraint, at); });
   // The inequality as the last equation. Where it only grazes zero, that has no solution: then its minimum counts, or
   // else the point itself. At the event itself the equations may be singular: then derivatives are those of the step
   // that crossed it.
   const Eigen::VectorXd guess = step.Point(event.t);
-  Correction correction = arc->CorrectOnto(event.limit, guess);
+  Correction correction = arc->CorrectOnto(event.constraint, guess);
   const double reach = 0.1 * step.length + tolerances::kLocatedReach;
   if (!correction.converged || !((correction.x - guess).head(arc->NumMotion()).norm() <= reach)) {
     std::optional<CurvePoint> lowest =
-        LocateRate(arc, step, event.t, [&](const CurvePoint& at) { return ValueAlong(system, event.limit, at); });
+        LocateRate(arc, step, event.t, [&](const CurvePoint& at) { return ValueAlong(system, event.constraint, at); });
     if (lowest) return lowest;
     correction = arc->CorrectOnPlane(guess, step.normal);
   }

@@ -116,10 +116,10 @@ Arrival BranchMethod::StartArrival() const {
 std::optional<EndReason> BranchMethod::LeaveEvent(const PathPoint& point, const Arrival& arrival,
                                                   const BranchChoice* choice, EventRecord* record,
                                                   std::string* message) {
-  ActiveSetTolerance limit = ActiveSetTolerance::For(largest_reaction_, point.s);
-  limit.gap = CoverGaps(model_.contacts, point, limit.gap);
+  ActiveSetTolerance tolerance = ActiveSetTolerance::For(largest_reaction_, point.s);
+  tolerance.gap = CoverGaps(model_.contacts, point, tolerance.gap);
   const BranchSet on = FindBranches(
-      model_.structure, model_.contacts, point, arrival, limit,
+      model_.structure, model_.contacts, point, arrival, tolerance,
       [this](const PathPoint& at, const Eigen::VectorXd& along) { return StatesOfShortIncrements(at, along, &mpec_); },
       cancelled_);
   if (on.cancelled) {
@@ -312,7 +312,7 @@ std::optional<EndReason> BranchMethod::PassContactEvent(const ArcStep& at, Accep
   increment->kind = IncrementKind::kContactEvent;
   increment->event.number = ++events_;
   if (SlidesOff(at, increment->point)) {
-    const ContactCandidate& lost = model_.scene.contacts[static_cast<std::size_t>(at.event.limit.contact)];
+    const ContactCandidate& lost = model_.scene.contacts[static_cast<std::size_t>(at.event.constraint.contact)];
     *message = "contact " + lost.Name() + " is lost: the node slides over the end of the " +
                (lost.OnSurface() ? "surface" : "obstacle") +
                " while it is pressed onto it, and only a dynamic jump leads further";
@@ -355,12 +355,12 @@ bool BranchMethod::TurnsLoad(const ArcStep& at) const {
 }
 
 bool BranchMethod::SlidesOff(const ArcStep& at, const PathPoint& point) const {
-  const Constraint& limit = at.event.limit;
-  if (at.event.kind != EventKind::kContactEvent || !KeepsPatch(limit.inequality)) return false;
-  const auto i = static_cast<std::size_t>(limit.contact);
-  const int next = point.Patch(i) + (limit.inequality == Inequality::kPatchEnd ? 1 : -1);
+  const Constraint& constraint = at.event.constraint;
+  if (at.event.kind != EventKind::kContactEvent || !KeepsPatch(constraint.inequality)) return false;
+  const auto i = static_cast<std::size_t>(constraint.contact);
+  const int next = point.Patch(i) + (constraint.inequality == Inequality::kPatchEnd ? 1 : -1);
   const double force = ActiveSetTolerance::For(largest_reaction_, point.s).force * model_.contacts[i]->ForceUnit();
-  return !model_.contacts[i]->HasPatch(next) && point.rn[limit.contact] > force;
+  return !model_.contacts[i]->HasPatch(next) && point.rn[constraint.contact] > force;
 }
 
 void BranchMethod::SetNextLength(const ArcStep& at) {

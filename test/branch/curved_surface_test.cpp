@@ -113,8 +113,8 @@ TEST_F(NodeOnADisc, TheNextDiscIsReachedExactly) {
   const Step step = MakeStep(start, end, 3);
   const StepEvent event = FirstEvent(&arc, step);
   ASSERT_EQ(event.kind, EventKind::kContactEvent);
-  EXPECT_EQ(event.limit.inequality, Inequality::kGap);
-  EXPECT_EQ(event.limit.contact, 1);
+  EXPECT_EQ(event.constraint.inequality, Inequality::kGap);
+  EXPECT_EQ(event.constraint.contact, 1);
   const std::optional<CurvePoint> located = Locate(&arc, step, event);
   ASSERT_TRUE(located);
   EXPECT_NEAR(AngleOf(located->x), touching, kExact);

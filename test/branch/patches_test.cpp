@@ -87,7 +87,7 @@ TEST_P(NodeOnABend, TheEndOfAPatchIsLocatedExactly) {
     const Step step = StepFrom(&arc, At(from, patch), Rate(from, patch, 1e-5), 0.2);
     const StepEvent event = FirstEvent(&arc, step);
     ASSERT_EQ(event.kind, EventKind::kContactEvent);
-    EXPECT_EQ(event.limit.inequality, Inequality::kPatchEnd);
+    EXPECT_EQ(event.constraint.inequality, Inequality::kPatchEnd);
     const std::optional<CurvePoint> located = Locate(&arc, step, event);
     ASSERT_TRUE(located);
     EXPECT_NEAR(Xi(located->x, patch), End(patch), kExact);

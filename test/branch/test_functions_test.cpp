@@ -39,8 +39,8 @@ TEST(TestFunctions, AGapCloses) {
     const Step step = arc.Between(0.0, length);
     const StepEvent event = FirstEvent(&arc.arc(), step);
     ASSERT_EQ(event.kind, EventKind::kContactEvent);
-    EXPECT_EQ(event.limit.contact, 0);
-    EXPECT_EQ(event.limit.inequality, Inequality::kGap);
+    EXPECT_EQ(event.constraint.contact, 0);
+    EXPECT_EQ(event.constraint.inequality, Inequality::kGap);
     EXPECT_NEAR(event.t, 0.1 * std::sqrt(2.0), 1e-14);
     const std::optional<CurvePoint> located = Locate(&arc.arc(), step, event);
     ASSERT_TRUE(located);
@@ -61,7 +61,7 @@ TEST(TestFunctions, TheConeIsReached) {
   const Step step = arc.Between(0.0, 0.3);
   const StepEvent event = FirstEvent(&arc.arc(), step);
   ASSERT_EQ(event.kind, EventKind::kContactEvent);
-  EXPECT_EQ(event.limit.inequality, Inequality::kConePlus);
+  EXPECT_EQ(event.constraint.inequality, Inequality::kConePlus);
   const std::optional<CurvePoint> located = Locate(&arc.arc(), step, event);
   ASSERT_TRUE(located);
   EXPECT_NEAR(arc.Load(*located), rough_truss::CornerLoad(), 1e-14);
@@ -74,7 +74,7 @@ TEST(TestFunctions, TheReactionVanishes) {
   const Step step = arc.Between(0.0, 3.0);
   const StepEvent event = FirstEvent(&arc.arc(), step);
   ASSERT_EQ(event.kind, EventKind::kContactEvent);
-  EXPECT_EQ(event.limit.inequality, Inequality::kNormalReaction);
+  EXPECT_EQ(event.constraint.inequality, Inequality::kNormalReaction);
   const std::optional<CurvePoint> located = Locate(&arc.arc(), step, event);
   ASSERT_TRUE(located);
   EXPECT_NEAR(arc.Load(*located), 2.0 / 3.0, 1e-14);
@@ -88,10 +88,10 @@ TEST(TestFunctions, SlipStops) {
   const Step step = arc.Between(0.0, 0.03);
   const StepEvent event = FirstEvent(&arc.arc(), step);
   ASSERT_EQ(event.kind, EventKind::kContactEvent);
-  EXPECT_EQ(event.limit.inequality, Inequality::kSlip);
+  EXPECT_EQ(event.constraint.inequality, Inequality::kSlip);
   const std::optional<CurvePoint> located = Locate(&arc.arc(), step, event);
   ASSERT_TRUE(located);
-  EXPECT_NEAR(arc.arc().system().Rate(event.limit, located->x, located->first), 0.0, 1e-12);
+  EXPECT_NEAR(arc.arc().system().Rate(event.constraint, located->x, located->first), 0.0, 1e-12);
   EXPECT_NEAR(located->x[0] * arc.model().scaling.length, snap_block::kEndX, 1e-14);
 }
 
@@ -137,7 +137,7 @@ TEST(TestFunctions, TheFirstOfSeveral) {
   const Step step = beyond.Between(0.0, 0.1);
   const StepEvent event = FirstEvent(&beyond.arc(), step);
   ASSERT_EQ(event.kind, EventKind::kContactEvent);
-  EXPECT_EQ(event.limit.contact, 1);  // "low", the higher of the two
+  EXPECT_EQ(event.constraint.contact, 1);  // "low", the higher of the two
   const std::optional<CurvePoint> located = Locate(&beyond.arc(), step, event);
   ASSERT_TRUE(located);
   EXPECT_NEAR(located->x[1] * beyond.model().scaling.length, limit_y - 0.01, 1e-15);

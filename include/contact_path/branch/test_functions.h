@@ -22,8 +22,8 @@ enum class EventKind {
 
 struct StepEvent {
   EventKind kind = EventKind::kNone;
-  double t = 0.0;    // parameter of the step, of the first kind
-  Constraint limit;  // kContactEvent: the inequality that fails first
+  double t = 0.0;         // parameter of the step, of the first kind
+  Constraint constraint;  // kContactEvent: the inequality that fails first
   // The equations are singular there: another path crosses at the very point. Then the interpolation is more exact than
   // Newton's method.
   bool singular = false;
