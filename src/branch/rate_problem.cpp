@@ -242,8 +242,9 @@ std::optional<Constraint> RateProblem::Broken(const std::vector<ContactState>& s
       continue;
     }
     const double unit = Unit(e);
-    if (rn <= active.NormalReaction(friction) * unit)
-      require(contact, Inequality::kNormalReaction, rates.rn[e], force * unit);
+    const double normal_unit = contacts_[i]->NormalForceUnit();
+    if (rn <= active.force * normal_unit)
+      require(contact, Inequality::kNormalReaction, rates.rn[e], force * normal_unit);
     if (states[i] == ContactState::kStick) {
       if (friction * rn + rt <= active.force * unit)
         require(contact, Inequality::kConePlus, friction * rates.rn[e] + rates.rt[e], force * unit);

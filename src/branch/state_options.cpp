@@ -12,7 +12,7 @@ std::vector<ContactState> States(const ContactPair& contact, const PathPoint& po
   const double gap = contact.Gap(point.u, point.s, patch), rn = point.rn[k], rt = point.rt[k];
   if (gap > tolerance.gap) return {ContactState::kOpen};
   const double force = tolerance.force * contact.ForceUnit();
-  const bool loaded = rn > tolerance.NormalReaction(contact.Friction()) * contact.ForceUnit();
+  const bool loaded = rn > tolerance.force * contact.NormalForceUnit();
   const double slipped = contact.Slipped(point.u, point.s, patch);
   std::vector<ContactState> options;
   if (!contact.Frictional()) {

@@ -400,7 +400,9 @@ double FixedStateSystem::Value(const Constraint& constraint, const Eigen::Vector
 }
 
 double FixedStateSystem::UnitOf(const Constraint& constraint) const {
-  return IsMotion(constraint.inequality) ? 1.0 : contacts_[static_cast<std::size_t>(constraint.contact)]->ForceUnit();
+  if (IsMotion(constraint.inequality)) return 1.0;
+  const ContactPair& contact = *contacts_[static_cast<std::size_t>(constraint.contact)];
+  return constraint.inequality == Inequality::kNormalReaction ? contact.NormalForceUnit() : contact.ForceUnit();
 }
 
 double FixedStateSystem::Rate(const Constraint& constraint, const Eigen::VectorXd& x, const Eigen::VectorXd& dx) const {

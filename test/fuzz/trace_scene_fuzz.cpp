@@ -14,9 +14,16 @@
 namespace contact_path {
 namespace {
 
+// The fuzzer tries many quick ones; the corpus, and its changes in the test, are long ones that once found something.
+#ifdef CONTACT_PATH_QUICK_SCENES
+constexpr bool kQuick = true;
+#else
+constexpr bool kQuick = false;
+#endif
+
 // Of the processor: other work on the machine does not count. Sanitizers and debuggers take their share.
-constexpr double kSeconds = 4.0;           // until the trace is cancelled
-constexpr double kSecondsToCancel = 10.0;  // until it has to be back then
+constexpr double kSeconds = kQuick ? 1.0 : 4.0;  // until the trace is cancelled
+constexpr double kSecondsToCancel = 10.0;        // until it has to be back then
 
 double Now() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
@@ -50,14 +57,8 @@ void CheckTrace(const TraceRequest& request) {
 }  // namespace
 }  // namespace contact_path
 
-// The fuzzer tries many quick ones; the corpus, and its changes in the test, are long ones that once found something.
-#ifdef CONTACT_PATH_QUICK_SCENES
-constexpr bool kQuick = true;
-#else
-constexpr bool kQuick = false;
-#endif
-
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using contact_path::kQuick;
   const contact_path::TraceRequest request = contact_path::VariedRequest(contact_path::BitsOf(data, size), kQuick);
   contact_path::Require(contact_path::Validate(request).empty(), "the generator makes valid requests");
   contact_path::CheckTrace(request);

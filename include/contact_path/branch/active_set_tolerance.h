@@ -26,21 +26,13 @@ struct ActiveSetTolerance {
         std::min(tolerance.force, std::max(tolerances::kActiveShareOfReactions * largest_reaction, rounding));
     return tolerance;
   }
-
-  // Of the normal reaction of a contact with this friction coefficient. Above 1, a reaction is as large as its friction
-  // force, and is not zero before that force is.
-  double NormalReaction(double friction) const {
-    return std::min(force, std::max(force / std::max(1.0, friction), tolerances::kReactionRounding));
-  }
 };
 
 // Whether the rate of the constraint counts at x. The slip rate always does.
 inline bool IsWeaklyActive(const FixedStateSystem& system, const Constraint& constraint, const Eigen::VectorXd& x,
                            const ActiveSetTolerance& tolerance) {
   if (constraint.inequality == Inequality::kSlip) return true;
-  double largest = IsMotion(constraint.inequality) ? tolerance.gap : tolerance.force;
-  if (constraint.inequality == Inequality::kNormalReaction)
-    largest = tolerance.NormalReaction(system.FrictionOf(constraint));
+  const double largest = IsMotion(constraint.inequality) ? tolerance.gap : tolerance.force;
   return system.Value(constraint, x) <= largest * system.UnitOf(constraint);
 }
 

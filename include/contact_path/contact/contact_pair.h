@@ -3,6 +3,7 @@
 #define CONTACT_PATH_CONTACT_CONTACT_PAIR_H_
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <bitset>
 #include <cstddef>
 #include <memory>
@@ -12,6 +13,7 @@
 #include "contact_path/contact/kinematics.h"
 #include "contact_path/contact/path_point.h"
 #include "contact_path/geometry/surface.h"
+#include "contact_path/tolerances.h"
 
 namespace contact_path {
 
@@ -32,6 +34,11 @@ class ContactPair {
   // A power of 2 up to 1, of the order of the forces across the surface where the parts at the node are far softer than
   // the structure as a whole: reactions are compared with tolerances times this force.
   double ForceUnit() const { return traits_.force_unit; }
+  // The same for the normal reaction. Where the friction coefficient is above 1, the friction force may be so much
+  // larger, and the contact bears something as long as that force is not zero.
+  double NormalForceUnit() const {
+    return traits_.force_unit / std::clamp(traits_.friction, 1.0, tolerances::kRoughest);
+  }
   // Whether the surface has patches with ends, and not one patch without ends.
   bool HasPatches() const { return traits_.has_patches; }
   // Whether Hessians can be other than zero.

@@ -113,10 +113,6 @@ class FixedStateSystem {
   double Value(const Constraint& constraint, const Eigen::VectorXd& x) const;
   // What tolerances of the values and rates are multiplied with: 1, or for reactions the force unit of the contact.
   double UnitOf(const Constraint& constraint) const;
-  // Friction coefficient of the contact of the constraint.
-  double FrictionOf(const Constraint& constraint) const {
-    return contacts_[static_cast<std::size_t>(constraint.contact)]->Friction();
-  }
   // Change of the value per change dx of the unknowns at x, and its gradient, NumUnknowns().
   double Rate(const Constraint& constraint, const Eigen::VectorXd& x, const Eigen::VectorXd& dx) const;
   Eigen::VectorXd Gradient(const Constraint& constraint, const Eigen::VectorXd& x) const;
