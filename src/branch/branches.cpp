@@ -263,7 +263,7 @@ class Finder {
     double rate = 0.0;
     for (const std::size_t i : system_.Touching()) {
       const Constraint pressed = {static_cast<int>(i), Inequality::kNormalReaction};
-      rate += system_.Rate(pressed, x, first) / system_.UnitOf(pressed);
+      rate += system_.Rate(pressed, x, first) / contacts_[i]->ForceUnit();
     }
     return rate;
   }
