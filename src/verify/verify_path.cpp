@@ -11,6 +11,7 @@
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/scaling.h"
 #include "contact_path/verify/verify_events.h"
+#include "verify/recorded_state.h"
 #include "verify/scaled_motion.h"
 #include "verify/trapezoid_work.h"
 #include "verify/verified_contacts.h"
@@ -335,30 +336,9 @@ class Verifier {
     // Where a point is repeated, as of a node between two discs, its place is known to no more.
     const bool repeated = before_ && !(Current().arc_length > increments_[*before_].arc_length);
     const double slip_tolerance = repeated ? std::max(tolerance, kInPlace) : tolerance;
-    const double rn = contact.rn / scaling_.force, rt = contact.rt / scaling_.force;
-    // A friction force that is rounding tells no sense of the slip.
-    const bool rubs = at.friction * rn > at.rounding * at.unit;
-    const auto wrong = [&](const char* state) { Report(at.name, " is recorded as ", state, ", but is not"); };
-    switch (contact.state) {
-      case ContactState::kOpen:
-        if (std::max(std::abs(rn), std::abs(rt)) > tolerance) wrong("open");
-        break;
-      case ContactState::kClosed:
-        if (std::abs(gap) > tolerance || std::abs(rt) > tolerance || at.friction != 0.0) wrong("closed");
-        break;
-      case ContactState::kStick:
-        if (std::abs(gap) > tolerance || std::abs(slip) > slip_tolerance) wrong("sticking");
-        break;
-      case ContactState::kSlipPlus:
-        if (std::abs(gap) > tolerance || (rubs && slip < -slip_tolerance) ||
-            std::abs(rt + at.friction * rn) > tolerance)
-          wrong("slipping forwards");
-        break;
-      case ContactState::kSlipMinus:
-        if (std::abs(gap) > tolerance || (rubs && slip > slip_tolerance) || std::abs(rt - at.friction * rn) > tolerance)
-          wrong("slipping backwards");
-        break;
-    }
+    const ContactNumbers numbers = {gap, slip, contact.rn / scaling_.force, contact.rt / scaling_.force};
+    if (!StateHolds(contact.state, at, numbers, {tolerance, slip_tolerance}))
+      Report(at.name, " is recorded as ", NameOf(contact.state), ", but is not");
   }
 
   // The arc of the path between two full increments.
