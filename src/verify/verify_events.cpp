@@ -19,7 +19,7 @@ constexpr double kOpenGap = 1e-8;   // of L: wider is open
 constexpr double kBend = 0.25;      // of F: what forces may change within an increment of length 1
 constexpr double kLevel = 1e-9;     // of the scale of the load factor: a smaller change has no sense
 constexpr double kMoreTurn = 1.5;   // of the angle between the tangents at both ends: the chord is within it
-constexpr double kShortest = 1e-5;  // arc length of an increment that has a direction: next to singular points rounding has more
+constexpr double kShortest = 1e-5;  // arc length: shorter increments may be rounding, and have no direction
 const double kPi = std::acos(-1.0);
 
 // By how much the tangent may turn in an increment [rad].
