@@ -96,8 +96,8 @@ inline constexpr double kReachMargin = 1e-9;
 // Scaled gap, and scaled reaction or margin to the friction cone, up to which an inequality is weakly active.
 inline constexpr double kActiveGap = 1e-10;
 inline constexpr double kActiveForce = 1e-10;
-// Friction coefficient up to which tolerances of normal reactions are divided by it. Beyond, rounding of reactions
-// would be told from zero.
+// Friction coefficient up to which tolerances of normal reactions are divided by it: where a rough contact slips, its
+// normal reaction is as exact as its friction force over the coefficient. Beyond, rounding would be told from zero.
 inline constexpr double kRoughest = 1e3;
 // Scaled gap up to which kActiveGap is widened where it lies among gaps of one size.
 inline constexpr double kWidestActiveGap = 5e-10;

@@ -61,25 +61,26 @@ bool IsSame(const StepEvent& one, const StepEvent& other) {
 
 // Whether the load factor, of which a limit point was located at `point`, goes on beyond it in its sense: its rate
 // touches zero, as where the load is a cubic of the arc length.
-bool LoadGoesOn(const Step& step, const CurvePoint& point, Eigen::Index s) {
+bool LoadGoesOn(const FixedStateSystem& system, const Step& step, const CurvePoint& point) {
+  const Eigen::Index s = system.NumDofs();
   if (!(step.start.first[s] * step.end.first[s] > 0.0)) return false;
   const Quintic load = step.InterpolateLinear([s](const Eigen::VectorXd& x) { return x[s]; });
   const double t = step.normal.dot((point.x - step.start.x).head(step.normal.size()));
   const double third = Evaluate(Derivative(Derivative(Derivative(load))), t), second = point.second[s];
   // The extreme of the rate, by its parabola.
-  return second * second <= 2.0 * tolerances::kLevel * std::abs(third);
+  return second * second <= 2.0 * tolerances::kLevel * system.ResidualUnit() * std::abs(third);
 }
 
 // Ends the step at the first event on it. The exact point of an event may show an earlier one. False: it is not found.
 bool EndAtFirstEvent(SmoothArc* arc, std::optional<double> target, ArcStep* at) {
   at->event = FirstEvent(arc, at->step, target);
   if (at->event.kind == EventKind::kNone) return true;
+  const Step whole = at->step;
   for (int attempt = 0; attempt < kLocatingAttempts; ++attempt) {
     std::optional<CurvePoint> point = Locate(arc, at->step, at->event, target);
     if (!point) return false;
     if (!at->event.singular) KeepSide(at->step.start, &*point);
-    if (at->event.kind == EventKind::kLimitPoint && !at->event.singular &&
-        LoadGoesOn(at->step, *point, arc->system().NumDofs()))
+    if (at->event.kind == EventKind::kLimitPoint && !at->event.singular && LoadGoesOn(arc->system(), whole, *point))
       at->event.kind = EventKind::kNearTouch;
     if (at->event.kind != EventKind::kTarget && target && Passes(*arc, at->step.start, *point, *target)) {
       at->event = {EventKind::kTarget, at->event.t, {}, false};

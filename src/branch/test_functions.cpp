@@ -183,7 +183,10 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, std::optional<double> tar
   // Nearer to a limit point at the start than this, another one is rounding.
   const double at_start = step.start.first[s] == 0.0 ? ReachOfExtreme(step.start.second[s]) : 0.0;
   for (const Quintic& rate : {load_rate, reversed}) {
-    const std::optional<double> t = FirstNegative(rate, step.length, tolerances::kLevel * system.ResidualUnit());
+    std::optional<double> t = FirstNegative(rate, step.length, tolerances::kLevel * system.ResidualUnit());
+    // Among stiff parts a rate may be told from zero, and yet be within the rounding that they may leave.
+    if (t && *t == 0.0 && std::abs(step.start.first[s]) > tolerances::kLevel)
+      t = FirstNegative(rate, step.length, tolerances::kLevel);
     if (t && *t > at_start) consider(EventKind::kLimitPoint, *t, {});
   }
   if (step.start.side * step.end.side < 0) {

@@ -77,6 +77,7 @@ struct ResidualCheck::Prepared {
     std::vector<Real> stiffness(scene.nodes.size(), 0.0L);
     for (const auto& element : elements)
       for (const std::size_t node : element->Nodes()) stiffness[node] += element->Stiffness();
+    for (const Real at_node : stiffness) largest_stiffness = std::max(largest_stiffness, at_node);
     for (const Real at_node : stiffness)
       units.push_back(std::max<Real>(scaling.force, kStiffForce * at_node * scaling.length));
     // Summed by node, so that what cancels does so before the load factor makes it large.
@@ -146,11 +147,12 @@ struct ResidualCheck::Prepared {
   }
 
   Scaling scaling;
-  std::size_t num_positions;  // the first values, x0, y0, x1, ...; rotations by node follow where there are beams
-  std::vector<double> start;  // values at load factor 0
-  std::vector<bool> free;     // the same components
-  std::vector<Real> units;    // by node: what unbalanced forces are measured in
-  std::vector<double> rates;  // of the fixed ones, per unit of the load factor
+  std::size_t num_positions;      // the first values, x0, y0, x1, ...; rotations by node follow where there are beams
+  std::vector<double> start;      // values at load factor 0
+  std::vector<bool> free;         // the same components
+  std::vector<Real> units;        // by node: what unbalanced forces are measured in
+  Real largest_stiffness = 0.0L;  // of all nodes, as LargestStiffness()
+  std::vector<double> rates;      // of the fixed ones, per unit of the load factor
   std::vector<std::unique_ptr<const check::Element>> elements;
   std::vector<PreparedLoad> loads;
   std::vector<std::unique_ptr<const check::Contact>> contacts;
@@ -305,11 +307,7 @@ std::vector<ContactForceBound> ResidualCheck::BoundContactForces(double length, 
   return forces;
 }
 
-double ResidualCheck::LargestStiffness() const {
-  Real largest = 0.0L;
-  for (const auto& element : prepared_->elements) largest = std::max(largest, element->Stiffness());
-  return static_cast<double>(largest);
-}
+double ResidualCheck::LargestStiffness() const { return static_cast<double>(prepared_->largest_stiffness); }
 
 double ResidualCheck::StrainEnergy(const std::vector<double>& positions, const std::vector<double>& rotations) const {
   RequireSize(positions, prepared_->num_positions, "positions");

@@ -84,7 +84,7 @@ bool IsCancelled() { return cancel_requested != 0; }
 std::string OptionMeant(const CLI::App& app) {
   for (const std::string& unknown : app.remaining()) {
     if (unknown.rfind("--", 0) != 0) continue;
-    NearestName nearest(unknown);
+    NearestName nearest(unknown.substr(0, unknown.find('=')));
     for (const CLI::Option* const option : app.get_options())
       for (const std::string& name : option->get_lnames()) nearest.Offer("--" + name);
     return nearest.Question();

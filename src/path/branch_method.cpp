@@ -329,7 +329,10 @@ std::optional<EndReason> BranchMethod::PassChoice(const ArcStep& at, AcceptedPoi
   if (reason) return reason;
   const bool goes_on = arc_.system().states() == states &&
                        arc_.system().Norm(current_.first - at.step.end.first) <= tolerances::kSameTangent;
-  if (goes_on) return std::nullopt;
+  if (goes_on) {
+    if (!begin_) current_ = at.step.end;
+    return std::nullopt;
+  }
   increment->kind = TurnsLoad(at) ? IncrementKind::kCornerLimit : IncrementKind::kContactEvent;
   increment->event.null_vector.clear();
   return std::nullopt;
@@ -359,7 +362,8 @@ bool BranchMethod::SlidesOff(const ArcStep& at, const PathPoint& point) const {
   if (at.event.kind != EventKind::kContactEvent || !KeepsPatch(constraint.inequality)) return false;
   const auto i = static_cast<std::size_t>(constraint.contact);
   const int next = point.Patch(i) + (constraint.inequality == Inequality::kPatchEnd ? 1 : -1);
-  const double force = ActiveSetTolerance::For(largest_reaction_, point.s).force * model_.contacts[i]->ForceUnit();
+  const double force =
+      ActiveSetTolerance::For(largest_reaction_, point.s).force * model_.contacts[i]->NormalForceUnit();
   return !model_.contacts[i]->HasPatch(next) && point.rn[constraint.contact] > force;
 }
 

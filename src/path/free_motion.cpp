@@ -38,7 +38,7 @@ Eigen::SparseMatrix<double> Resistance(const Model& model, const PathPoint& poin
     entries.emplace_back(prescribed.dof, equation++, 1.0);
   for (std::size_t i = 0; i < model.contacts.size(); ++i) {
     const ContactPair& pair = *model.contacts[i];
-    if (!(point.rn[static_cast<Eigen::Index>(i)] > force * pair.ForceUnit())) continue;
+    if (!(point.rn[static_cast<Eigen::Index>(i)] > force * pair.NormalForceUnit())) continue;
     Kinematics kinematics;
     pair.Evaluate(point.u, point.s, point.Patch(i), 0.0, &kinematics);
     AddEquation(kinematics.dofs, kinematics.gap_gradient, equation++, &entries);

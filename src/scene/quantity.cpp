@@ -76,15 +76,14 @@ NearestName NearestQuantity(std::string_view text, const Scene& scene) {
   NearestName nearest(text);
   nearest.Offer(kLoadFactor);
   const bool is_column = text.find('.') == text.npos;
-  for (const Component& component : kComponents) {
-    const auto offer = [&](const auto& parts, auto name_of) {
-      for (const auto& part : parts) nearest.Offer(QuantityText(component.kind, std::invoke(name_of, part), is_column));
-    };
-    if (Quantity{component.kind, 0}.IsOfNode())
-      offer(scene.nodes, &Node::name);
-    else
-      offer(scene.contacts, &ContactCandidate::Name);
-  }
+  const auto offer = [&](const auto& parts, auto name_of, bool of_node) {
+    for (const auto& part : parts)
+      for (const Component& component : kComponents)
+        if (Quantity{component.kind, 0}.IsOfNode() == of_node)
+          nearest.Offer(QuantityText(component.kind, std::invoke(name_of, part), is_column));
+  };
+  offer(scene.nodes, &Node::name, true);
+  offer(scene.contacts, &ContactCandidate::Name, false);
   return nearest;
 }
 

@@ -24,7 +24,7 @@ bool StateHolds(ContactState state, const VerifiedContact& contact, const Contac
   if (state == ContactState::kStick) return std::abs(numbers.slip) <= tolerances.slip;
   const double sense = state == ContactState::kSlipPlus ? 1.0 : -1.0, bound = contact.friction * numbers.rn;
   // A friction force that is rounding tells no sense of the slip.
-  const bool rubs = bound > contact.rounding * contact.unit;
+  const bool rubs = bound > contact.closing * contact.unit;
   return (!rubs || sense * numbers.slip >= -tolerances.slip) &&
          std::abs(numbers.rt + sense * bound) <= tolerances.value;
 }

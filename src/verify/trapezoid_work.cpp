@@ -67,8 +67,10 @@ TrapezoidWork WorkBetween(const VerifiedStage& stage, const Increment* earlier, 
     const double between = std::abs(from + to) + PowerOfReactions(stage, before) + PowerOfReactions(stage, increment);
     open_work += (0.5 * std::abs(to - from) + bend * between) * std::abs(moved) / unit;
     // Parts whose strains are of second order in the motion store energy, and may give it back by the end of the
-    // increment.
-    open_work += std::pow(bend * stage.scaling.length, 2) * stage.check.LargestStiffness() / unit;
+    // increment. Where no increment before tells how the force changes, as much is open as is stored at the end.
+    const double stored = std::abs(increment.strain_energy) + std::abs(before.strain_energy);
+    if (earlier == nullptr)
+      open_work += std::min(std::pow(bend * stage.scaling.length, 2) * stage.check.LargestStiffness(), stored) / unit;
     const double moved_before = earlier != nullptr ? before.load_factor - earlier->load_factor : 0.0;
     if (moved_before != 0.0) {
       const double going_on = (from - stage.check.DrivingForce(StateOf(*earlier))) / moved_before * moved;
@@ -79,7 +81,9 @@ TrapezoidWork WorkBetween(const VerifiedStage& stage, const Increment* earlier, 
   // increment, the reaction is 0 at both ends, and the forces of the parts there bound it in between.
   const auto open_force = [&](std::size_t i, double ContactRecord::*reaction) {
     const double was = before.contacts[i].*reaction, change = increment.contacts[i].*reaction - was;
-    const double largest = 2.0 * std::abs(was) + std::abs(change) + stage.contacts[i].of_parts * stage.scaling.force;
+    const bool rests = was == 0.0 && change == 0.0;
+    const double between = rests ? stage.contacts[i].of_parts : 1.0;
+    const double largest = 2.0 * std::abs(was) + std::abs(change) + between * stage.scaling.force;
     const double going_on = arc_before > 0.0 ? (was - earlier->contacts[i].*reaction) / arc_before * arc : change;
     return 0.5 * std::abs(change) + bend * largest + OpenOfParabola(going_on, change);
   };

@@ -55,7 +55,8 @@ std::vector<VerifiedContact> VerifiedContacts(const Scene& scene, const SceneInd
     if (kStiff * unit > 1.0) contact.unit = kStiff * unit;
     contact.of_parts = std::max(1.0, forces[i].of_all_parts / scaling.force);
     const double rounding = kRoundingOfParts * std::max(stiffest, forces[i].of_all_parts);
-    contact.rounding = std::max(kRounding, std::max(rounding, closing) / (scaling.force * contact.unit));
+    contact.rounding = std::max(kRounding, rounding / (scaling.force * contact.unit));
+    contact.closing = std::max(contact.rounding, closing / (scaling.force * contact.unit));
     contacts.push_back(std::move(contact));
   }
   return contacts;

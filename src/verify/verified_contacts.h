@@ -20,7 +20,7 @@ namespace contact_path {
 inline constexpr double kStiff = 1e-4;
 inline constexpr double kRoundingOfParts = 1e-14;
 
-// Over F: what residuals are measured in. stiffest: force of the stiffest element for a motion of L, over F.
+// Over F: what residuals are measured in. stiffest: force of the stiffest node for a motion of L, over F.
 inline double ResidualUnit(double stiffest) { return std::max(1.0, kStiff * stiffest); }
 
 struct VerifiedContact {
@@ -29,10 +29,11 @@ struct VerifiedContact {
   std::string name;
   // Forces across the contact that count as 1, over F: 1, or the forces there where these are far below F.
   double unit = 1.0;
-  // Rounding of a reaction, over F times the unit. Coordinates are known to 1e-16 of their size, and gaps that count as
-  // closed at the start are not 0; the stiffness of the parts turns both errors into forces. At least the rounding at a
-  // contact across which forces are F.
+  // Rounding of a reaction, over F times the unit. Coordinates are known to 1e-16 of their size, and the stiffness of
+  // the parts turns that into forces. At least the rounding at a contact across which forces are F.
   double rounding = 0.0;
+  // Rounding, or the largest force that closes a gap which counts as closed at the start and is not 0.
+  double closing = 0.0;
   double of_parts = 1.0;  // forces of the parts there for a motion of L, over F, at least 1
 };
 

@@ -117,7 +117,7 @@ class Verifier {
     CheckEnergy();
   }
 
-  // Force of the stiffest element for a motion of L, over F.
+  // Force of the stiffest node for a motion of L, over F.
   double Stiffest() const { return stiffest_; }
 
  private:
@@ -284,7 +284,7 @@ class Verifier {
           std::max(result_.largest_reaction, increment.contacts[i].rn / (contacts_[i].unit * scaling_.force));
     for (std::size_t i = 0; i < increment.contacts.size(); ++i) {
       // Where another path crosses, a point is known to less than rounding.
-      const double rounding = increment.event.null_vector.empty() ? contacts_[i].rounding : kExact;
+      const double rounding = increment.event.null_vector.empty() ? contacts_[i].closing : kExact;
       const double most = std::max(rounding, kPullShare * result_.largest_reaction);
       const double pull = -increment.contacts[i].rn / (contacts_[i].unit * scaling_.force);
       if (pull > most)
@@ -343,9 +343,11 @@ class Verifier {
 
   // The arc of the path between two full increments.
   void CheckPiece(const Increment& before, const Increment& increment) {
-    double square = std::pow((increment.load_factor - before.load_factor) / scaling_.load_factor, 2);
+    const double load = std::abs(increment.load_factor - before.load_factor) / scaling_.load_factor;
+    double square = 0.0;
     for (const double component : ScaledMotion(before, increment, scaling_.length)) square += component * component;
-    const double chord = std::sqrt(square), arc = increment.arc_length - before.arc_length;
+    const double motion = std::sqrt(square), chord = std::hypot(motion, load),
+                 arc = increment.arc_length - before.arc_length;
     const double rounding = arc > 0.0 ? rounding_ : std::max(rounding_, kInPlace);
     if (arc < chord * (1.0 - kChord) - rounding) Report("arc length grows by ", arc, ", less than the chord ", chord);
     if (before_ == increment_ - 1 && arc > kLongestArc * chord + kInPlace)
@@ -353,7 +355,9 @@ class Verifier {
 
     // Reactions may change at rest where a branch begins, and nowhere else.
     if (before_ == increment_ - 1 && !(arc > 0.0) && before.event.branches.empty())
-      BoundReactionChange("reactions change while nothing moves, and not at an event", before, increment, chord);
+      BoundReactionChange("reactions change while nothing moves, and not at an event", before, increment, motion);
+    if (!(arc > 0.0))
+      Bound("the load factor changes though the arc length does not", load, std::max(rounding_, kExact));
 
     // States: method branch has an increment of its own where they change; an increment of method mpec tells that they
     // have.

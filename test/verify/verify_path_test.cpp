@@ -239,6 +239,26 @@ INSTANTIATE_TEST_SUITE_P(VerifyPath, RightPathIsProved,
                                            "load_is_a_cubic", "very_rough_contact_opens"),
                          [](const auto& instance) { return std::string(instance.param); });
 
+// Work and dissipation are changed alike, so that the energies still balance: their trapezoids tell. The bars beside
+// the contact are 100 times as stiff as F over L.
+TEST(VerifyPath, DissipationThatIsBalancedByWorkIsFound) {
+  for (const double factor : {0.0, 0.5, 1.5, 3.0})
+    for (const double step : {0.0, 0.01}) {
+      SCOPED_TRACE(std::to_string(factor) + " of the dissipation, step " + std::to_string(step));
+      TraceRequest request =
+          ReadTraceRequestFile(std::string(CONTACT_PATH_TEST_DATA) + "/driven_through_a_stiff_bar.yaml");
+      request.options.step = step;
+      TracedPath path = TraceIncrements(request);
+      ExpectNoFindings(path);
+      ASSERT_GT(path.increments.back().dissipation, 0.0);
+      for (Increment& increment : path.increments) {
+        increment.external_work += (factor - 1.0) * increment.dissipation;
+        increment.dissipation *= factor;
+      }
+      EXPECT_FALSE(VerifyPath(path.request, path.increments).findings.empty());
+    }
+}
+
 TEST(VerifyPath, FixedNodesRest) {
   const TracedPath path = Traced("sliding_bar", Method::kBranch);
   ASSERT_TRUE(path.request.scene.nodes[0].fixed_x);

@@ -47,7 +47,7 @@ class RateProblem {
 
   // The first weakly active inequality that these rates, times sign, break by more than `tolerance` of the largest rate
   // of its kind; all such inequalities in `all`, if it is not null. active: which inequalities are weakly active. Both
-  // tolerances measure reactions in the force unit of the contact.
+  // tolerances measure reactions in the force unit of the contact, normal reactions in NormalForceUnit().
   std::optional<Constraint> Broken(const std::vector<ContactState>& states, const CondensedRates& rates, double sign,
                                    const ActiveSetTolerance& active, double tolerance,
                                    std::vector<Constraint>* all) const;

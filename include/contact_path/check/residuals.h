@@ -86,7 +86,7 @@ class ResidualCheck {
   std::array<double, 2> Normal(std::size_t contact, const CheckedState& state) const;
   // By contact candidate, at the start, for a motion of `length` of the elements and for the loads at `load_factor`.
   std::vector<ContactForceBound> BoundContactForces(double length, double load_factor) const;
-  // At least the largest force per motion that one element exerts at the start [force/length].
+  // At least the largest force per motion that the elements at a node exert at the start [force/length].
   double LargestStiffness() const;
   // Strain energy of the structure [force length]. rotations: as in CheckedState.
   double StrainEnergy(const std::vector<double>& positions, const std::vector<double>& rotations = {}) const;

@@ -111,7 +111,8 @@ class FixedStateSystem {
   // open contact may pass over them, but Value() has their values.
   std::vector<Constraint> PatchEndsOfOpen(const std::vector<std::size_t>& candidates) const;
   double Value(const Constraint& constraint, const Eigen::VectorXd& x) const;
-  // What tolerances of the values and rates are multiplied with: 1, or for reactions the force unit of the contact.
+  // What tolerances of the values and rates are multiplied with: 1, or for reactions the force unit of the contact
+  // (NormalForceUnit() for normal reactions).
   double UnitOf(const Constraint& constraint) const;
   // Change of the value per change dx of the unknowns at x, and its gradient, NumUnknowns().
   double Rate(const Constraint& constraint, const Eigen::VectorXd& x, const Eigen::VectorXd& dx) const;

@@ -21,8 +21,8 @@ enum class IncrementKind {
   kStart,         // increment 0, or the first of a stage: the same state as in the increment before, at load factor 0
   kRegular,       // none of the kinds below, and no start
   kSmoothLimit,   // the load factor turns on a smooth arc
-  kCornerLimit,   // the load factor turns where a contact changes its state
-  kContactEvent,  // a contact changes its state, and the load factor does not turn
+  kCornerLimit,   // the load factor turns where a contact changes its state, or a crossing path is taken
+  kContactEvent,  // a contact changes its state, or another branch is chosen, and the load factor does not turn
   kBifurcation,   // another equilibrium path crosses, and neither of the above
 };
 

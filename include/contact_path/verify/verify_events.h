@@ -20,7 +20,7 @@ namespace contact_path {
 //   increments before and after, to what an increment may turn;
 // - the sign of the determinant changes on an arc at bifurcations alone, and there is one relation between it, the sign
 //   of the stiffness and the sense of the load on all of an arc.
-// stiffest: by stage, the force of the stiffest element for a motion of L, over F: the load is known to its rounding.
+// stiffest: by stage, the force of the stiffest node for a motion of L, over F: the load is known to its rounding.
 void VerifyEvents(const TraceRequest& request, const std::vector<Increment>& increments,
                   const std::vector<double>& stiffest, std::vector<Finding>* findings);
 
