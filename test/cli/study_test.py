@@ -43,7 +43,7 @@ parameters:
 outputs: [max.load_factor, end_reason]
 table: table.csv
 """ % program_test.scene_file('rough_truss')
-# Takes so long that two workers are at it together, however long the second one takes to start.
+# Takes some seconds, so that two workers are at it together though the second one starts later.
 SLOWEST = SLOW.replace('[1.0e-3]}', '[5.0e-5]}\n- {path: options.max_increments, values: [100000]}')
 
 
