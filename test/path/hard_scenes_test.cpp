@@ -220,7 +220,7 @@ TEST(HardScenes, AVeryRoughContactSlidesBeforeItOpens) {
     EXPECT_EQ(opened, 1);
     dissipation.push_back(path.increments.back().dissipation);
   }
-  for (const double dissipated : dissipation) EXPECT_NEAR(dissipated, dissipation[0], 1e-4 * dissipation[0]);
+  for (const double dissipated : dissipation) EXPECT_NEAR(dissipated, dissipation[0], 1e-8 * dissipation[0]);
 }
 
 // A step of the length that was asked for would be off by 4 % of the energy that it exchanges.
