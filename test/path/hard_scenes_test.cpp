@@ -197,6 +197,18 @@ TEST(HardScenes, ALoadThatIsACubicDoesNotTurn) {
   }
 }
 
+// The load turns just after the end of an increment, at the same load for each preset.
+TEST(HardScenes, ALimitPointAmongStiffPartsIsFound) {
+  for (const Accuracy accuracy : kPresets) {
+    SCOPED_TRACE(ToString(accuracy));
+    const TracedPath path = TraceData("limit_point_among_stiff_parts", Method::kBranch, accuracy, 60);
+    ExpectNoFindings(path);
+    const std::vector<double> loads = LimitLoads(path);
+    ASSERT_FALSE(loads.empty());
+    EXPECT_NEAR(loads[0], -2.654765434e-8, 1e-17);
+  }
+}
+
 // A contact whose friction coefficient is 1e6 has lost its normal reaction to rounding before its friction force: it
 // slides until the force is zero, and no force vanishes at once.
 TEST(HardScenes, AVeryRoughContactSlidesBeforeItOpens) {
