@@ -113,10 +113,13 @@ void SmoothArc::ChooseInPlane(const Eigen::VectorXd& x, const Eigen::VectorXd& t
   const Eigen::Index dofs = system_.NumDofs();
   const Eigen::VectorXd forces = plane.col(0).tail(plane.rows() - dofs),
                         others = plane.col(1).tail(plane.rows() - dofs);
+  // At a limit point no motion in the plane changes them, and the nearest one stays.
+  const double rounding = tolerances::kRigid * system_.ResidualUnit();
+  if (!(forces.norm() > rounding)) return;
   Eigen::VectorXd free = forces.norm() * plane.col(1);
   free -= forces.dot(others) / forces.norm() * plane.col(0);
   free.normalize();
-  if (!(free.tail(plane.rows() - dofs).norm() <= tolerances::kRigid * system_.ResidualUnit())) return;
+  if (!(free.tail(plane.rows() - dofs).norm() <= rounding)) return;
   *first -= free.dot(*first) * free;
 }
 

@@ -16,9 +16,13 @@ namespace {
 
 constexpr Accuracy kPresets[] = {Accuracy::kFast, Accuracy::kBalanced, Accuracy::kAccurate};
 
+TraceRequest ReadData(const std::string& name) {
+  return ReadTraceRequestFile(std::string(CONTACT_PATH_TEST_DATA) + "/" + name + ".yaml");
+}
+
 // max_increments: 0: as the file has it.
 TracedPath TraceData(const std::string& name, Method method, Accuracy accuracy, int max_increments = 0) {
-  TraceRequest request = ReadTraceRequestFile(std::string(CONTACT_PATH_TEST_DATA) + "/" + name + ".yaml");
+  TraceRequest request = ReadData(name);
   if (max_increments > 0) request.options.max_increments = max_increments;
   request.options.method = method;
   request.options.accuracy = accuracy;
@@ -99,7 +103,7 @@ TEST(HardScenes, ConstantLoadNextToTheLimitLoad) {
 }
 
 TEST(HardScenes, ConstantLoadBeyondTheLimitLoad) {
-  TraceRequest request = ReadTraceRequestFile(std::string(CONTACT_PATH_TEST_DATA) + "/preload_near_limit.yaml");
+  TraceRequest request = ReadData("preload_near_limit");
   request.scene.loads[1].fy *= 1.01 / 0.999;
   for (const Method method : {Method::kBranch, Method::kMpec}) {
     request.options.method = method;
@@ -149,7 +153,7 @@ TEST(HardScenes, ConstantLoadGoesOnWhereItCan) {
 // Forces of 1e-8 of the characteristic one, which a stiff bar that carries nothing sets: regularised increments do not
 // see them. The block sticks until the load is 1, then slides with r_n = 1 - 1.5 x, and the load is 1 - 0.5 x.
 TEST(HardScenes, ForcesFarBelowTheCharacteristicOne) {
-  TraceRequest request = ReadTraceRequestFile(std::string(CONTACT_PATH_TEST_DATA) + "/stiff_neighbour.yaml");
+  TraceRequest request = ReadData("stiff_neighbour");
   request.options.method = Method::kMpec;
   request.options.max_increments = 40;
   const TracedPath path = TraceIncrements(request);
@@ -206,6 +210,26 @@ TEST(HardScenes, ALimitPointAmongStiffPartsIsFound) {
     const std::vector<double> loads = LimitLoads(path);
     ASSERT_FALSE(loads.empty());
     EXPECT_NEAR(loads[0], -2.654765434e-8, 1e-17);
+  }
+}
+
+// The limit points of a truss are those of the truss without the loose chain, and the path goes on beyond them.
+TEST(HardScenes, ALooseChainDoesNotStopAPathAtALimitPoint) {
+  TraceRequest request = ReadData("loose_chain_beside_a_limit_point");
+  Scene& scene = request.scene;
+  for (Node& node : scene.nodes)
+    if (node.name == "e" || node.name == "f") node.fixed_x = node.fixed_y = true;
+  scene.bars = {scene.bars[1], scene.bars[2], scene.bars[3]};
+  const std::vector<double> without = LimitLoads(TraceIncrements(request));
+  ASSERT_EQ(without.size(), 2U);
+  for (const Accuracy accuracy : kPresets) {
+    SCOPED_TRACE(ToString(accuracy));
+    const TracedPath path = TraceData("loose_chain_beside_a_limit_point", Method::kBranch, accuracy);
+    EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+    ExpectNoFindings(path);
+    const std::vector<double> loads = LimitLoads(path);
+    ASSERT_EQ(loads.size(), 2U);
+    for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(loads[i], without[i], 1e-12);
   }
 }
 
