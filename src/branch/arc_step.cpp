@@ -18,6 +18,13 @@ void KeepSide(const CurvePoint& start, CurvePoint* end) {
   if (end->side == 0 && end->nullity == 0) end->side = start.side;
 }
 
+// Second derivative at the start of the cubic that has the points and the tangents of both ends.
+Eigen::VectorXd SecondOfCubic(const Step& step) {
+  const CurvePoint &start = step.start, &end = step.end;
+  const Eigen::VectorXd first = end.first / step.normal.dot(end.first.head(step.normal.size()));
+  return (6.0 / step.length * (end.x - start.x) - 4.0 * start.first - 2.0 * first) / step.length;
+}
+
 // A whole step with this length along the tangent; nothing where it has to be shorter.
 std::optional<ArcStep> TryStep(SmoothArc* arc, const CurvePoint& start, double length, double prediction,
                                double smallest_cosine) {
@@ -34,7 +41,8 @@ std::optional<ArcStep> TryStep(SmoothArc* arc, const CurvePoint& start, double l
   };
   Correction correction = arc->CorrectOnPlane(straight + bend, normal);
   // Next to a singular point the second derivatives are little but rounding.
-  if (!good(correction) && arc->system().Norm(bend) > tolerance) correction = arc->CorrectOnPlane(straight, normal);
+  const bool bends = good(correction) || !(arc->system().Norm(bend) > tolerance);
+  if (!bends) correction = arc->CorrectOnPlane(straight, normal);
   if (!good(correction)) return std::nullopt;
   CurvePoint end;
   if (!arc->Derivatives(correction.x, normal, &end)) return std::nullopt;
@@ -42,6 +50,7 @@ std::optional<ArcStep> TryStep(SmoothArc* arc, const CurvePoint& start, double l
   KeepSide(start, &end);
   ArcStep result;
   result.step = MakeStep(start, end, arc->NumMotion());
+  if (!bends) result.step.start.second = SecondOfCubic(result.step);
   result.tried = length;
   result.iterations = correction.iterations;
   result.contraction = correction.contraction;

@@ -48,6 +48,15 @@ UnitForces UnitForcesOf(const ContactPair& pair, const PathPoint& point, int pat
   return forces;
 }
 
+// rt / rn at the edges of the cone, at most two. By the total law of friction, a contact that has slipped has one of them.
+std::vector<double> SlipsOf(const ContactPair& contact, const PathPoint& point, int patch, double tolerance) {
+  const double mu = contact.Friction();
+  if (!contact.Frictional()) return {0.0};
+  const double slipped = contact.Slipped(point.u, point.s, patch);
+  if (std::abs(slipped) > tolerance) return {slipped > 0.0 ? -mu : mu};
+  return {mu, -mu};
+}
+
 // Contacts that touch rigid surfaces, by the free components of their node.
 std::vector<Touching> TouchingByNode(const ContactPairs& contacts, const PathPoint& point, double tolerance) {
   std::map<std::vector<int>, Touching> nodes;
@@ -59,12 +68,8 @@ std::vector<Touching> TouchingByNode(const ContactPairs& contacts, const PathPoi
     Touching& node = nodes[std::vector<int>(dofs.begin(), dofs.end())];
     node.contacts.push_back(i);
     const UnitForces unit = UnitForcesOf(contact, point, point.Patch(i));
-    if (!contact.Frictional()) {
-      node.edges.push_back({i, 0.0, unit.normal});
-    } else {
-      for (const double slip : {contact.Friction(), -contact.Friction()})
-        node.edges.push_back({i, slip, unit.normal + slip * unit.tangential});
-    }
+    for (const double slip : SlipsOf(contact, point, point.Patch(i), tolerance))
+      node.edges.push_back({i, slip, unit.normal + slip * unit.tangential});
   }
   std::vector<Touching> result;
   result.reserve(nodes.size());

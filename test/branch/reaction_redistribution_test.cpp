@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,8 +21,13 @@ constexpr ObstacleShape kHalfPlane = ObstacleShape::kHalfPlane;
 // One node at the origin that touches these obstacles through it.
 struct Corner {
   explicit Corner(const std::vector<Obstacle>& obstacles, bool fixed_x = false)
-      : model(SceneOf(obstacles, fixed_x), Scaling()), point(model.InitialPoint()) {
-    const auto count = static_cast<Eigen::Index>(obstacles.size());
+      : Corner(SceneOf(obstacles, fixed_x), obstacles.size(), {}) {}
+  // By the total law of friction, where the node has slipped by this much in x.
+  Corner(const std::vector<Obstacle>& obstacles, double slipped)
+      : Corner(SceneOf(obstacles, false), obstacles.size(), slipped) {}
+  Corner(const Scene& scene, std::size_t contacts, std::optional<double> slipped)
+      : model(scene, ConfigurationOf(scene, contacts, slipped), Scaling()), point(model.InitialPoint()) {
+    const auto count = static_cast<Eigen::Index>(contacts);
     point.rn = Eigen::VectorXd::Zero(count);
     point.rt = Eigen::VectorXd::Zero(count);
   }
@@ -34,6 +40,13 @@ struct Corner {
     scene.obstacles = obstacles;
     for (const Obstacle& obstacle : obstacles) scene.contacts.push_back({"p", obstacle.name});
     return scene;
+  }
+
+  static Configuration ConfigurationOf(const Scene& scene, std::size_t contacts, std::optional<double> slipped) {
+    Configuration configuration = Configuration::Of(scene);
+    for (std::size_t i = 0; slipped && i < contacts; ++i)
+      configuration.slip_origins.insert(configuration.slip_origins.end(), {-*slipped, 0.0});
+    return configuration;
   }
 
   Eigen::Vector2d Force(const PathPoint& with) const {
@@ -98,6 +111,35 @@ TEST(ReactionRedistributions, BeltAgainstStop) {
   const std::vector<PathPoint> others = corner.Others();
   EXPECT_TRUE(Holds(others, {2.0, 0.6, 0.6, 0.0}));   // the belt slips
   EXPECT_FALSE(Holds(others, {2.0, 0.0, 0.0, 0.0}));  // as it is
+}
+
+// By the total law of friction the slip tells the force on the belt, and with it the one at the stop.
+TEST(ReactionRedistributions, TotalLawThatHasSlipped) {
+  const std::vector<Obstacle> obstacles = {{"belt", kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.3},
+                                           {"stop", kHalfPlane, 0.0, 0.0, -1.0, 0.0, 0.0}};
+  Corner back(obstacles, -0.5);
+  back.point.rn << 2.0, 0.6;
+  back.point.rt << 0.6, 0.0;
+  EXPECT_TRUE(back.Others().empty());
+  Corner forth(obstacles, 0.5);
+  forth.point.rn << 2.0, 0.0;
+  forth.point.rt << -0.6, 0.0;
+  EXPECT_TRUE(forth.Others().empty());
+  Corner rest(obstacles, 0.0);
+  rest.point.rn << 2.0, 0.6;
+  rest.point.rt << 0.6, 0.0;
+  EXPECT_TRUE(Holds(rest.Others(), {2.0, 0.0, 0.0, 0.0}));
+}
+
+// Two belts side by side: the one that has slipped the other way cannot take the force over.
+TEST(ReactionRedistributions, TotalLawOfTheOneThatWouldTakeOver) {
+  const std::vector<Obstacle> obstacles = {{"smooth", kHalfPlane, 0.0, 0.0, -1.0, 1.0, 0.0},
+                                           {"rough", kHalfPlane, 0.0, 0.0, 0.0, 1.0, 1.2}};
+  for (const double slipped : {-0.5, 0.0, 0.5}) {
+    Corner corner(obstacles, slipped);
+    corner.point.rn << std::sqrt(2.0), 0.0;
+    EXPECT_EQ(Holds(corner.Others(), {0.0, 0.0, 1.0, -1.0}), slipped == 0.0) << slipped;
+  }
 }
 
 // The lower of two tables in one plane, and the upper: who carries?

@@ -233,6 +233,40 @@ TEST(HardScenes, ALooseChainDoesNotStopAPathAtALimitPoint) {
   }
 }
 
+// Two paths cross where a step begins, and the second derivatives there are rounding: they do not count for its length.
+TEST(HardScenes, ArcLengthFromWherePathsCross) {
+  ExpectNoFindings(TraceData("bar_goes_slack_in_a_guide", Method::kBranch, Accuracy::kBalanced));
+  // Once the tie is taut all moves along one line.
+  const TracedPath path = TraceData("slack_tie", Method::kBranch, Accuracy::kFast);
+  const std::vector<Increment> crossings = IncrementsOfKind(path, IncrementKind::kBifurcation);
+  ASSERT_EQ(crossings.size(), 1U);
+  const Increment &crossing = crossings[0], &last = path.increments.back();
+  ASSERT_GT(last.index, crossing.index + 1);
+  const double slope = (last.arc_length - crossing.arc_length) / (last.load_factor - crossing.load_factor);
+  for (std::size_t i = static_cast<std::size_t>(crossing.index); i < path.increments.size(); ++i) {
+    const double load = path.increments[i].load_factor - crossing.load_factor;
+    EXPECT_NEAR(path.increments[i].arc_length - crossing.arc_length, slope * load, 1e-9) << i;
+  }
+}
+
+// The floor takes the force over as the node slides back, and not at once; the shelf leaves it then.
+TEST(HardScenes, TotalLawBetweenTwoObstacles) {
+  for (const Accuracy accuracy : kPresets) {
+    SCOPED_TRACE(ToString(accuracy));
+    const TracedPath path = TraceData("total_law_between_two", Method::kBranch, accuracy);
+    EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+    ExpectNoFindings(path);
+    const std::vector<double> loads = LimitLoads(path);
+    ASSERT_EQ(loads.size(), 2U);
+    EXPECT_GT(loads[0], loads[1]);
+    const ContactRecord &floor = path.increments.back().contacts[0], &shelf = path.increments.back().contacts[1];
+    EXPECT_EQ(shelf.state, ContactState::kOpen);
+    EXPECT_EQ(floor.state, ContactState::kSlipPlus);
+    EXPECT_GT(floor.rn, 0.0);
+    EXPECT_NEAR(floor.rt, -1.2 * floor.rn, 1e-12);
+  }
+}
+
 // A contact whose friction coefficient is 1e6 has lost its normal reaction to rounding before its friction force: it
 // slides until the force is zero, and no force vanishes at once.
 TEST(HardScenes, AVeryRoughContactSlidesBeforeItOpens) {
