@@ -48,7 +48,8 @@ UnitForces UnitForcesOf(const ContactPair& pair, const PathPoint& point, int pat
   return forces;
 }
 
-// rt / rn at the edges of the cone, at most two. By the total law of friction, a contact that has slipped has one of them.
+// rt / rn at the edges of the cone, at most two. By the total law of friction, a contact that has slipped has one of
+// them.
 std::vector<double> SlipsOf(const ContactPair& contact, const PathPoint& point, int patch, double tolerance) {
   const double mu = contact.Friction();
   if (!contact.Frictional()) return {0.0};
