@@ -12,6 +12,8 @@ constexpr double kCoarsePrediction = 0.05;  // largest error of the predictor wh
 constexpr double kNoise = 10.0;             // of the last Newton step: what rounding leaves of the predictor
 constexpr double kShortStep = 1e-3;         // of the longest one
 constexpr int kLocatingAttempts = 6;
+constexpr double kHasDirection = 1e-5;  // length of a chord
+constexpr double kOffCurve = 0.7;       // cosine between a chord and the tangent where it begins
 
 // A matrix that is singular to rounding at a regular point has no sign of its own.
 void KeepSide(const CurvePoint& start, CurvePoint* end) {
@@ -80,6 +82,12 @@ bool LoadGoesOn(const FixedStateSystem& system, const Step& step, const CurvePoi
   return second * second <= 2.0 * tolerances::kLevel * system.ResidualUnit() * std::abs(third);
 }
 
+// Whether the end of the step is beside the curve, as where rounding moves points by more than the length of the step.
+bool EndsBeside(const Step& step) {
+  const double chord = (step.end.x - step.start.x).head(step.normal.size()).norm();
+  return chord > kHasDirection && step.length < kOffCurve * chord;
+}
+
 // Ends the step at the first event on it. The exact point of an event may show an earlier one. False: it is not found.
 bool EndAtFirstEvent(SmoothArc* arc, std::optional<double> target, ArcStep* at) {
   at->event = FirstEvent(arc, at->step, target);
@@ -98,6 +106,7 @@ bool EndAtFirstEvent(SmoothArc* arc, std::optional<double> target, ArcStep* at) 
     const StepEvent found = at->event;
     const double before = at->step.length;
     at->step = MakeStep(at->step.start, *point, arc->NumMotion());
+    if (EndsBeside(at->step)) return false;
     if (!(at->step.length > tolerances::kNoMove)) {
       at->step.length = 0.0;
       return true;
