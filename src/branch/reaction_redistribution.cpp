@@ -48,11 +48,11 @@ UnitForces UnitForcesOf(const ContactPair& pair, const PathPoint& point, int pat
   return forces;
 }
 
-// rt / rn at the edges of the cone, at most two. By the total law of friction, a contact that has slipped has one of
-// them.
+// rt / rn at the edges of the cone, at most two: one where the two are parallel to rounding, and by the total law of
+// friction where the contact has slipped.
 std::vector<double> SlipsOf(const ContactPair& contact, const PathPoint& point, int patch, double tolerance) {
   const double mu = contact.Friction();
-  if (!contact.Frictional()) return {0.0};
+  if (!(mu > tolerances::kParallelEdges)) return {0.0};
   const double slipped = contact.Slipped(point.u, point.s, patch);
   if (std::abs(slipped) > tolerance) return {slipped > 0.0 ? -mu : mu};
   return {mu, -mu};

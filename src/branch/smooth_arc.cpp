@@ -185,7 +185,9 @@ Correction SmoothArc::Newton(const Eigen::VectorXd& guess, const Eigen::VectorXd
     if (norm <= tolerances::kNewtonStep * scale || stagnates) {
       system_.Residual(result.x, &residual_);
       const double force = 1.0 + result.x.tail(result.x.size() - system_.NumDofs()).lpNorm<Eigen::Infinity>();
+      const double place = 1.0 + result.x.head(NumMotion()).norm();
       result.converged = system_.Largest(residual_) <= tolerances::kResidual * force &&
+                         system_.LargestOfMotions(residual_) <= tolerances::kResidual * place &&
                          std::abs(row.dot(result.x) - value) <= tolerances::kResidual * scale;
       ++result.iterations;
       return result;

@@ -337,6 +337,10 @@ double FixedStateSystem::Largest(const Eigen::VectorXd& residual) const {
   return largest;
 }
 
+double FixedStateSystem::LargestOfMotions(const Eigen::VectorXd& residual) const {
+  return residual.segment(NumDofs(), first_active_equation_ - NumDofs()).lpNorm<Eigen::Infinity>();
+}
+
 double FixedStateSystem::Norm(const Eigen::VectorXd& change) const {
   if (structure_.ObliqueSupports().empty()) return change.norm();
   Eigen::VectorXd counted = change;

@@ -7,7 +7,8 @@
 namespace contact_path {
 namespace {
 
-constexpr double kBend = 0.25;  // of a force along an arc of length 1: what a trapezoid cannot know
+constexpr double kBend = 0.25;   // of a force along an arc of length 1: what a trapezoid cannot know
+constexpr double kWedged = 10.0;  // times the forces of the parts: a load and the friction that resists it grow together
 
 // Power per unit of the load factor of the contacts' forces, if all of them acted along the fastest prescribed motion
 // [force length].
@@ -82,7 +83,7 @@ TrapezoidWork WorkBetween(const VerifiedStage& stage, const Increment* earlier, 
   const auto open_force = [&](std::size_t i, double ContactRecord::*reaction) {
     const double was = before.contacts[i].*reaction, change = increment.contacts[i].*reaction - was;
     const bool rests = was == 0.0 && change == 0.0;
-    const double between = rests ? stage.contacts[i].of_parts : 1.0;
+    const double between = rests ? kWedged * stage.contacts[i].of_parts : 1.0;
     const double largest = 2.0 * std::abs(was) + std::abs(change) + between * stage.scaling.force;
     const double going_on = arc_before > 0.0 ? (was - earlier->contacts[i].*reaction) / arc_before * arc : change;
     return 0.5 * std::abs(change) + bend * largest + OpenOfParabola(going_on, change);
@@ -103,7 +104,10 @@ TrapezoidWork WorkBetween(const VerifiedStage& stage, const Increment* earlier, 
     if (mpec && Slips(was) && state != was)
       open_dissipation += at.friction * std::max(before.contacts[i].rn, increment.contacts[i].rn) * slip / unit;
     if (!Slips(state)) continue;
-    dissipation += 0.5 * at.friction * (before.contacts[i].rn + increment.contacts[i].rn) * slip;
+    // By method branch, what has slipped the other way is rounding, and gives nothing back.
+    const double sense = state == ContactState::kSlipPlus ? 1.0 : -1.0;
+    const double along_state = mpec ? slip : std::max(0.0, sense * forwards);
+    dissipation += 0.5 * at.friction * (before.contacts[i].rn + increment.contacts[i].rn) * along_state;
     open_dissipation += at.friction * open_force(i, &ContactRecord::rn) * slip / unit;
   }
   return {work / unit, dissipation / unit, open_work, open_dissipation};

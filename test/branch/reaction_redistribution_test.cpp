@@ -142,6 +142,14 @@ TEST(ReactionRedistributions, TotalLawOfTheOneThatWouldTakeOver) {
   }
 }
 
+// A friction of rounding bears nothing that a frictionless contact would not.
+TEST(ReactionRedistributions, FrictionOfRounding) {
+  Corner corner({{"one", kHalfPlane, 0.0, 0.0, 0.0, 1.0, 1e-12}, {"other", kHalfPlane, 0.0, 0.0, 1e-4, 1.0, 1e-12}});
+  corner.point.rn << 1.0, 0.0;
+  corner.point.rt << 1e-12, 0.0;
+  EXPECT_TRUE(corner.Others().empty());
+}
+
 // The lower of two tables in one plane, and the upper: who carries?
 TEST(ReactionRedistributions, OneAboveTheOther) {
   Corner smooth({{"table", kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.0}, {"lift", kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.0}});

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "contact_path/scene/read_scene.h"
@@ -264,6 +265,20 @@ TEST(HardScenes, TotalLawBetweenTwoObstacles) {
     EXPECT_EQ(floor.state, ContactState::kSlipPlus);
     EXPECT_GT(floor.rn, 0.0);
     EXPECT_NEAR(floor.rt, -1.2 * floor.rn, 1e-12);
+  }
+}
+
+// Increments that rounding makes hard are proved, or the path ends by name before them.
+TEST(HardScenes, RoundingOfStiffParts) {
+  const std::pair<const char*, EndReason> cases[] = {{"slip_turns_in_rounding", EndReason::kMaxIncrements},
+                                                     {"presses_in_between", EndReason::kMaxIncrements},
+                                                     {"stiff_support_moves", EndReason::kStepTooSmall},
+                                                     {"rounding_beside_the_curve", EndReason::kStepTooSmall}};
+  for (const auto& [name, end] : cases) {
+    SCOPED_TRACE(name);
+    const TracedPath path = TraceIncrements(ReadData(name));
+    EXPECT_EQ(path.result.reason, end) << path.result.message;
+    ExpectNoFindings(path);
   }
 }
 

@@ -86,6 +86,8 @@ class FixedStateSystem {
   void Residual(const Eigen::VectorXd& x, Eigen::VectorXd* residual) const;
   // The largest entry of a residual; equations of equilibrium are measured in Structure::ResidualUnits().
   double Largest(const Eigen::VectorXd& residual) const;
+  // The largest entry in the equations of touching contacts and of prescribed components.
+  double LargestOfMotions(const Eigen::VectorXd& residual) const;
   // The largest of Structure::ResidualUnits(): rounding of residuals, and the error of points by it, grow with it.
   double ResidualUnit() const { return residual_unit_; }
   // Norm of a change of the unknowns. Of the force on a moved support the component along its motion counts: whether
