@@ -7,8 +7,9 @@
 namespace contact_path {
 namespace {
 
-constexpr double kBend = 0.25;   // of a force along an arc of length 1: what a trapezoid cannot know
-constexpr double kWedged = 10.0;  // times the forces of the parts: a load and the friction that resists it grow together
+constexpr double kBend = 0.25;  // of a force along an arc of length 1: what a trapezoid cannot know
+constexpr double kWedged =
+    10.0;  // times the forces of the parts: a load and the friction that resists it grow together
 
 // Power per unit of the load factor of the contacts' forces, if all of them acted along the fastest prescribed motion
 // [force length].
