@@ -12,7 +12,7 @@ constexpr double kCoarsePrediction = 0.05;  // largest error of the predictor wh
 constexpr double kNoise = 10.0;             // of the last Newton step: what rounding leaves of the predictor
 constexpr double kShortStep = 1e-3;         // of the longest one
 constexpr int kLocatingAttempts = 6;
-constexpr double kHasDirection = 1e-5;  // length of a chord
+constexpr double kHasDirection = 1e-7;  // length of a chord
 constexpr double kOffCurve = 0.7;       // cosine between a chord and the tangent where it begins
 
 // A matrix that is singular to rounding at a regular point has no sign of its own.

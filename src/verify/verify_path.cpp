@@ -301,8 +301,8 @@ class Verifier {
   }
 
   void CheckRecorded(const Increment& increment, const Residuals& residuals) {
-    const auto same = [&](const char* what, double recorded, double anew) {
-      if (!(std::abs(recorded - anew) <= rounding_ * (1.0 + std::abs(anew))))
+    const auto same = [&](const char* what, double recorded, double anew, double rounding = 0.0) {
+      if (!(std::abs(recorded - anew) <= rounding_ * (1.0 + std::abs(anew)) + rounding))
         Report(what, " is recorded as ", recorded, ", but is ", anew);
     };
     same("equilibrium residual", increment.residuals.equilibrium, residuals.equilibrium);
@@ -316,7 +316,7 @@ class Verifier {
       same("friction law residual", increment.residuals.friction_law, residuals.friction_law);
     const double unit = scaling_.force * scaling_.length;
     same("scaled strain energy", increment.strain_energy / unit,
-         check_.StrainEnergy(increment.positions, increment.rotations) / unit);
+         check_.StrainEnergy(increment.positions, increment.rotations) / unit, kRoundingOfParts * stiffest_);
   }
 
   // What the law of friction is about. 0 where that is not known.
