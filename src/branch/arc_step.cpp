@@ -27,6 +27,13 @@ Eigen::VectorXd SecondOfCubic(const Step& step) {
   return (6.0 / step.length * (end.x - start.x) - 4.0 * start.first - 2.0 * first) / step.length;
 }
 
+// Whether the end of the step is beside the curve, as where rounding moves points by more than the length of the step.
+// cosine: smallest between the tangent at the start and the chord.
+bool EndsBeside(const Step& step, double cosine) {
+  const double chord = (step.end.x - step.start.x).head(step.normal.size()).norm();
+  return chord > kHasDirection && step.length < cosine * chord;
+}
+
 // A whole step with this length along the tangent; nothing where it has to be shorter.
 std::optional<ArcStep> TryStep(SmoothArc* arc, const CurvePoint& start, double length, double prediction,
                                double smallest_cosine) {
@@ -52,6 +59,7 @@ std::optional<ArcStep> TryStep(SmoothArc* arc, const CurvePoint& start, double l
   KeepSide(start, &end);
   ArcStep result;
   result.step = MakeStep(start, end, arc->NumMotion());
+  if (EndsBeside(result.step, smallest_cosine)) return std::nullopt;
   if (!bends) result.step.start.second = SecondOfCubic(result.step);
   result.tried = length;
   result.iterations = correction.iterations;
@@ -82,12 +90,6 @@ bool LoadGoesOn(const FixedStateSystem& system, const Step& step, const CurvePoi
   return second * second <= 2.0 * tolerances::kLevel * system.ResidualUnit() * std::abs(third);
 }
 
-// Whether the end of the step is beside the curve, as where rounding moves points by more than the length of the step.
-bool EndsBeside(const Step& step) {
-  const double chord = (step.end.x - step.start.x).head(step.normal.size()).norm();
-  return chord > kHasDirection && step.length < kOffCurve * chord;
-}
-
 // Ends the step at the first event on it. The exact point of an event may show an earlier one. False: it is not found.
 bool EndAtFirstEvent(SmoothArc* arc, std::optional<double> target, ArcStep* at) {
   at->event = FirstEvent(arc, at->step, target);
@@ -106,7 +108,7 @@ bool EndAtFirstEvent(SmoothArc* arc, std::optional<double> target, ArcStep* at) 
     const StepEvent found = at->event;
     const double before = at->step.length;
     at->step = MakeStep(at->step.start, *point, arc->NumMotion());
-    if (EndsBeside(at->step)) return false;
+    if (EndsBeside(at->step, kOffCurve)) return false;
     if (!(at->step.length > tolerances::kNoMove)) {
       at->step.length = 0.0;
       return true;
