@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "contact_path/tolerances.h"
 
@@ -12,6 +13,7 @@ constexpr double kCoarsePrediction = 0.05;  // largest error of the predictor wh
 constexpr double kNoise = 10.0;             // of the last Newton step: what rounding leaves of the predictor
 constexpr double kShortStep = 1e-3;         // of the longest one
 constexpr int kLocatingAttempts = 6;
+constexpr double kRounded = 10.0;       // times what the ends of a step show: a second derivative is rounding
 constexpr double kHasDirection = 1e-7;  // length of a chord
 constexpr double kOffCurve = 0.7;       // cosine between a chord and the tangent where it begins
 
@@ -60,7 +62,11 @@ std::optional<ArcStep> TryStep(SmoothArc* arc, const CurvePoint& start, double l
   ArcStep result;
   result.step = MakeStep(start, end, arc->NumMotion());
   if (EndsBeside(result.step, smallest_cosine)) return std::nullopt;
-  if (!bends) result.step.start.second = SecondOfCubic(result.step);
+  if (!bends) {
+    Eigen::VectorXd second = SecondOfCubic(result.step);
+    if (arc->system().Norm(start.second) > kRounded * arc->system().Norm(second))
+      result.step.start.second = std::move(second);
+  }
   result.tried = length;
   result.iterations = correction.iterations;
   result.contraction = correction.contraction;
