@@ -15,7 +15,7 @@ constexpr double kShortStep = 1e-3;         // of the longest one
 constexpr int kLocatingAttempts = 6;
 constexpr double kRounded = 10.0;       // times what the ends of a step show: a second derivative is rounding
 constexpr double kHasDirection = 1e-7;  // length of a chord
-constexpr double kOffCurve = 0.7;       // cosine between a chord and the tangent where it begins
+constexpr double kOffCurve = 0.7;       // cosine between a chord and its tangent: of a located end, which is less exact
 
 // A matrix that is singular to rounding at a regular point has no sign of its own.
 void KeepSide(const CurvePoint& start, CurvePoint* end) {

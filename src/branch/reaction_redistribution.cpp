@@ -50,7 +50,7 @@ UnitForces UnitForcesOf(const ContactPair& pair, const PathPoint& point, int pat
 
 // rt / rn at the edges of the cone, at most two: one where the two are parallel to rounding, and by the total law of
 // friction where the contact has slipped.
-std::vector<double> SlipsOf(const ContactPair& contact, const PathPoint& point, int patch, double tolerance) {
+std::vector<double> SlipRatiosOf(const ContactPair& contact, const PathPoint& point, int patch, double tolerance) {
   const double mu = contact.Friction();
   if (!(mu > tolerances::kParallelEdges)) return {0.0};
   const double slipped = contact.Slipped(point.u, point.s, patch);
@@ -69,7 +69,7 @@ std::vector<Touching> TouchingByNode(const ContactPairs& contacts, const PathPoi
     Touching& node = nodes[std::vector<int>(dofs.begin(), dofs.end())];
     node.contacts.push_back(i);
     const UnitForces unit = UnitForcesOf(contact, point, point.Patch(i));
-    for (const double slip : SlipsOf(contact, point, point.Patch(i), tolerance))
+    for (const double slip : SlipRatiosOf(contact, point, point.Patch(i), tolerance))
       node.edges.push_back({i, slip, unit.normal + slip * unit.tangential});
   }
   std::vector<Touching> result;

@@ -113,7 +113,8 @@ void SmoothArc::ChooseInPlane(const Eigen::VectorXd& x, const Eigen::VectorXd& t
   const Eigen::Index dofs = system_.NumDofs();
   const Eigen::VectorXd forces = plane.col(0).tail(plane.rows() - dofs),
                         others = plane.col(1).tail(plane.rows() - dofs);
-  // At a limit point no motion in the plane changes them, and the nearest one stays.
+  // Where the tangent changes them no more, as at a limit point without reactions, nothing tells it from a free motion:
+  // the nearest one stays.
   const double rounding = tolerances::kRigid * system_.ResidualUnit();
   if (!(forces.norm() > rounding)) return;
   Eigen::VectorXd free = forces.norm() * plane.col(1);
@@ -185,7 +186,7 @@ Correction SmoothArc::Newton(const Eigen::VectorXd& guess, const Eigen::VectorXd
     if (norm <= tolerances::kNewtonStep * scale || stagnates) {
       system_.Residual(result.x, &residual_);
       const double force = 1.0 + result.x.tail(result.x.size() - system_.NumDofs()).lpNorm<Eigen::Infinity>();
-      const double place = 1.0 + result.x.head(NumMotion()).norm();
+      const double place = 1.0 + result.x.head(NumMotion()).lpNorm<Eigen::Infinity>();
       result.converged = system_.Largest(residual_) <= tolerances::kResidual * force &&
                          system_.LargestOfMotions(residual_) <= tolerances::kResidual * place &&
                          std::abs(row.dot(result.x) - value) <= tolerances::kResidual * scale;
@@ -252,7 +253,9 @@ Eigen::VectorXd SmoothArc::CorrectSingular(const Eigen::VectorXd& guess, const E
 bool SmoothArc::IsOnCurve(const Eigen::VectorXd& x) {
   system_.Residual(x, &residual_);
   const double force = 1.0 + x.tail(x.size() - system_.NumDofs()).lpNorm<Eigen::Infinity>();
-  return system_.Largest(residual_) <= tolerances::kResidualSingular * force;
+  const double place = 1.0 + x.head(NumMotion()).lpNorm<Eigen::Infinity>();
+  return system_.Largest(residual_) <= tolerances::kResidualSingular * force &&
+         system_.LargestOfMotions(residual_) <= tolerances::kResidualSingular * place;
 }
 
 Eigen::VectorXd SmoothArc::CrossingDirection(const Eigen::VectorXd& x, const Eigen::VectorXd& towards) {

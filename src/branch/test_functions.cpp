@@ -183,11 +183,11 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, std::optional<double> tar
   // Nearer to a limit point at the start than this, another one is rounding.
   const double at_start = step.start.first[s] == 0.0 ? ReachOfExtreme(step.start.second[s]) : 0.0;
   for (const Quintic& rate : {load_rate, reversed}) {
-    std::optional<double> t = FirstNegative(rate, step.length, tolerances::kLevel * system.ResidualUnit());
+    const auto find = [&](double level) { return FirstNegative(rate, step.length, level).value_or(-1.0); };
+    double t = find(tolerances::kLevel * system.ResidualUnit());
     // Among stiff parts a rate may be told from zero, and yet be within the rounding that they may leave.
-    if (t && *t == 0.0 && std::abs(step.start.first[s]) > tolerances::kLevel)
-      t = FirstNegative(rate, step.length, tolerances::kLevel);
-    if (t && *t > at_start) consider(EventKind::kLimitPoint, *t, {});
+    if (t == 0.0 && std::abs(step.start.first[s]) > tolerances::kLevel) t = find(tolerances::kLevel);
+    if (t > at_start) consider(EventKind::kLimitPoint, t, {});
   }
   if (step.start.side * step.end.side < 0) {
     const std::optional<Bracket> bifurcation = FindBifurcation(arc, step);

@@ -256,7 +256,14 @@ std::optional<int> BranchMethod::EndAtReturn(const PathPoint& from, ArcStep* at)
   const FixedStateSystem& system = arc_.system();
   const std::optional<ReturnDetector::Return> found = options_.returns->Find(from, system.Unpack(step.end.x));
   CurvePoint end;
-  if (!found || !arc_.Derivatives(system.Pack(found->point), step.normal, &end)) return std::nullopt;
+  if (!found) return std::nullopt;
+  const Eigen::VectorXd x = system.Pack(found->point);
+  // The increment come back to is at the limit point where this one ends.
+  const bool at_limit =
+      at->event.kind == EventKind::kLimitPoint &&
+      (x - step.end.x).head(arc_.NumMotion()).norm() <= ReachOfExtreme(step.end.second[system.NumDofs()]);
+  if (at_limit) return found->increment;
+  if (!arc_.Derivatives(x, step.normal, &end)) return std::nullopt;
   step = MakeStep(step.start, end, arc_.NumMotion());
   at->event = StepEvent();
   return found->increment;
@@ -443,6 +450,7 @@ Advance BranchMethod::Next(const PathPoint& from) {
   std::optional<EndReason> reason;
   if (returned) {
     reason = EndReason::kClosedPath;
+    if (at->event.kind == EventKind::kLimitPoint) increment.kind = IncrementKind::kSmoothLimit;
     advance.message = ClosedPathText(*returned);
   } else if (advance.message = HiddenSlip(model_, increment.point); !advance.message.empty()) {
     reason = EndReason::kNumericalFailure;

@@ -8,8 +8,8 @@ namespace contact_path {
 namespace {
 
 constexpr double kBend = 0.25;  // of a force along an arc of length 1: what a trapezoid cannot know
-constexpr double kWedged =
-    10.0;  // times the forces of the parts: a load and the friction that resists it grow together
+// Times the forces of the parts: what presses on a contact whose friction resists the load, both of which grow.
+constexpr double kWedged = 10.0;
 
 // Power per unit of the load factor of the contacts' forces, if all of them acted along the fastest prescribed motion
 // [force length].
@@ -80,11 +80,11 @@ TrapezoidWork WorkBetween(const VerifiedStage& stage, const Increment* earlier, 
     }
   }
   // The part of a reaction of the contact i that is open [force]. Where the contact closes and opens inside the
-  // increment, the reaction is 0 at both ends, and the forces of the parts there bound it in between.
-  const auto open_force = [&](std::size_t i, double ContactRecord::*reaction) {
+  // increment, the reaction is 0 at both ends, and the forces of the parts there, times `wedged`, bound it in between.
+  const auto open_force = [&](std::size_t i, double ContactRecord::*reaction, double wedged) {
     const double was = before.contacts[i].*reaction, change = increment.contacts[i].*reaction - was;
     const bool rests = was == 0.0 && change == 0.0;
-    const double between = rests ? kWedged * stage.contacts[i].of_parts : 1.0;
+    const double between = rests ? wedged * stage.contacts[i].of_parts : 1.0;
     const double largest = 2.0 * std::abs(was) + std::abs(change) + between * stage.scaling.force;
     const double going_on = arc_before > 0.0 ? (was - earlier->contacts[i].*reaction) / arc_before * arc : change;
     return 0.5 * std::abs(change) + bend * largest + OpenOfParabola(going_on, change);
@@ -98,7 +98,7 @@ TrapezoidWork WorkBetween(const VerifiedStage& stage, const Increment* earlier, 
       dissipation -= 0.5 * (before.contacts[i].rt + increment.contacts[i].rt) * forwards;
       // By this law a slip that turns round is no event.
       const double most_slip = slip + bend * stage.scaling.length;
-      if (at.friction > 0.0) open_dissipation += open_force(i, &ContactRecord::rt) * most_slip / unit;
+      if (at.friction > 0.0) open_dissipation += open_force(i, &ContactRecord::rt, 1.0) * most_slip / unit;
       continue;
     }
     // Where within an increment of mpec it stopped to slip, or turned, is not known.
@@ -109,7 +109,7 @@ TrapezoidWork WorkBetween(const VerifiedStage& stage, const Increment* earlier, 
     const double sense = state == ContactState::kSlipPlus ? 1.0 : -1.0;
     const double along_state = mpec ? slip : std::max(0.0, sense * forwards);
     dissipation += 0.5 * at.friction * (before.contacts[i].rn + increment.contacts[i].rn) * along_state;
-    open_dissipation += at.friction * open_force(i, &ContactRecord::rn) * slip / unit;
+    open_dissipation += at.friction * open_force(i, &ContactRecord::rn, kWedged) * slip / unit;
   }
   return {work / unit, dissipation / unit, open_work, open_dissipation};
 }

@@ -316,7 +316,8 @@ class Verifier {
       same("friction law residual", increment.residuals.friction_law, residuals.friction_law);
     const double unit = scaling_.force * scaling_.length;
     same("scaled strain energy", increment.strain_energy / unit,
-         check_.StrainEnergy(increment.positions, increment.rotations) / unit, kRoundingOfParts * stiffest_);
+         check_.StrainEnergy(increment.positions, increment.rotations) / unit,
+         std::numeric_limits<double>::epsilon() * stiffest_);
   }
 
   // What the law of friction is about. 0 where that is not known.

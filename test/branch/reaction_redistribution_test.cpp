@@ -131,7 +131,21 @@ TEST(ReactionRedistributions, TotalLawThatHasSlipped) {
   EXPECT_TRUE(Holds(rest.Others(), {2.0, 0.0, 0.0, 0.0}));
 }
 
-// Two belts side by side: the one that has slipped the other way cannot take the force over.
+// A lift at a table, along both of which the node has slipped: the lift takes over the force that it would have, too.
+TEST(ReactionRedistributions, TotalLawOnBothSides) {
+  const std::vector<Obstacle> obstacles = {{"table", kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.3},
+                                           {"lift", kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.3}};
+  for (const double slipped : {-0.5, 0.5}) {
+    Corner corner(obstacles, slipped);
+    const double friction = slipped > 0.0 ? -0.6 : 0.6;
+    corner.point.rn << 2.0, 0.0;
+    corner.point.rt << friction, 0.0;
+    EXPECT_TRUE(Holds(corner.Others(), {0.0, 0.0, 2.0, friction})) << slipped;
+  }
+}
+
+// A smooth slope and a rough floor: once the node has slipped along the floor, its friction is at an edge of the cone,
+// and is no longer what holds the force inside of the cone.
 TEST(ReactionRedistributions, TotalLawOfTheOneThatWouldTakeOver) {
   const std::vector<Obstacle> obstacles = {{"smooth", kHalfPlane, 0.0, 0.0, -1.0, 1.0, 0.0},
                                            {"rough", kHalfPlane, 0.0, 0.0, 0.0, 1.0, 1.2}};

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "contact_path/scene/read_scene.h"
@@ -236,7 +235,11 @@ TEST(HardScenes, ALooseChainDoesNotStopAPathAtALimitPoint) {
 
 // Two paths cross where a step begins, and the second derivatives there are rounding: they do not count for its length.
 TEST(HardScenes, ArcLengthFromWherePathsCross) {
-  ExpectNoFindings(TraceData("bar_goes_slack_in_a_guide", Method::kBranch, Accuracy::kBalanced));
+  const TracedPath slack = TraceData("bar_goes_slack_in_a_guide", Method::kBranch, Accuracy::kBalanced);
+  ExpectNoFindings(slack);
+  EXPECT_TRUE(std::any_of(slack.increments.begin(), slack.increments.end(), [](const Increment& increment) {
+    return increment.event.number == 2 && increment.event.taken == 2;
+  })) << slack.result.message;
   // Once the tie is taut all moves along one line.
   const TracedPath path = TraceData("slack_tie", Method::kBranch, Accuracy::kFast);
   const std::vector<Increment> crossings = IncrementsOfKind(path, IncrementKind::kBifurcation);
@@ -265,19 +268,30 @@ TEST(HardScenes, TotalLawBetweenTwoObstacles) {
     EXPECT_EQ(floor.state, ContactState::kSlipPlus);
     EXPECT_GT(floor.rn, 0.0);
     EXPECT_NEAR(floor.rt, -1.2 * floor.rn, 1e-12);
+    for (std::size_t i = 1; i < path.increments.size(); ++i) {
+      const Increment &before = path.increments[i - 1], &now = path.increments[i];
+      const double change = now.arc_length == before.arc_length ? now.contacts[0].rn - before.contacts[0].rn : 0.0;
+      EXPECT_NEAR(change, 0.0, 1e-12) << i;
+    }
   }
 }
 
 // Increments that rounding makes hard are proved, or the path ends by name before them.
 TEST(HardScenes, RoundingOfStiffParts) {
-  const std::pair<const char*, EndReason> cases[] = {{"slip_turns_in_rounding", EndReason::kMaxIncrements},
-                                                     {"presses_in_between", EndReason::kMaxIncrements},
-                                                     {"stiff_support_moves", EndReason::kStepTooSmall},
-                                                     {"rounding_beside_the_curve", EndReason::kStepTooSmall}};
-  for (const auto& [name, end] : cases) {
-    SCOPED_TRACE(name);
-    const TracedPath path = TraceIncrements(ReadData(name));
-    EXPECT_EQ(path.result.reason, end) << path.result.message;
+  struct Case {
+    const char* name;
+    EndReason end;
+    std::size_t increments;  // at least
+  };
+  const Case cases[] = {{"slip_turns_in_rounding", EndReason::kMaxIncrements, 7},
+                        {"presses_in_between", EndReason::kMaxIncrements, 12},
+                        {"stiff_support_moves", EndReason::kStepTooSmall, 10},
+                        {"rounding_beside_the_curve", EndReason::kStepTooSmall, 8}};
+  for (const Case& of : cases) {
+    SCOPED_TRACE(of.name);
+    const TracedPath path = TraceIncrements(ReadData(of.name));
+    EXPECT_EQ(path.result.reason, of.end) << path.result.message;
+    EXPECT_GE(path.increments.size(), of.increments);
     ExpectNoFindings(path);
   }
 }

@@ -20,6 +20,8 @@ struct ReactionRedistributions {
 // convex polygon (or more): they can change while nothing moves. Each face of the polygon belongs to states of the
 // contacts there (a contact without reaction may open, a contact at the edge of its cone may slip). The points have the
 // mean of the vertices of each face that the reactions of `point` are not in; of several such nodes, all combinations.
+// By the total law of friction, a contact that has slipped has one edge of its cone only; a friction coefficient of
+// rounding counts as none.
 // point: scaled, an equilibrium. tolerance: a contact with no larger gap touches, and no larger reaction counts as
 // zero.
 ReactionRedistributions FindReactionRedistributions(const ContactPairs& contacts, const PathPoint& point,
