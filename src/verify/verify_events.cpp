@@ -199,9 +199,10 @@ class EventVerifier {
     const bool on_arc =
         before.event.branches.empty() || (before.kind == IncrementKind::kBifurcation && before.event.taken == 1);
     const bool goes_on = on_arc && before.stage == now.stage;
-    if (!goes_on || now.arc_length == before.arc_length) relation_ = 0;
+    const bool moves = goes_on && now.arc_length != before.arc_length;
+    if (!moves) relation_ = 0;
     const int sign = now.solve.determinant_sign;
-    if (goes_on && sign * before.solve.determinant_sign < 0)
+    if (moves && sign * before.solve.determinant_sign < 0)
       Report("the determinant changes its sign, but there is no bifurcation");
     const double change = now.load_factor - before.load_factor;
     if (now.kind != IncrementKind::kRegular || std::abs(change) <= level_) return;
