@@ -29,6 +29,23 @@ Eigen::VectorXd SecondOfCubic(const Step& step) {
   return (6.0 / step.length * (end.x - start.x) - 4.0 * start.first - 2.0 * first) / step.length;
 }
 
+// Second derivative at the end of that cubic, by arc length.
+Eigen::VectorXd SecondOfCubicAtEnd(const Step& step) {
+  const CurvePoint &start = step.start, &end = step.end;
+  const Eigen::Index n = step.normal.size();
+  const double speed = 1.0 / step.normal.dot(end.first.head(n));
+  const Eigen::VectorXd change = 6.0 / step.length * (end.x - start.x);
+  const Eigen::VectorXd second = (2.0 * start.first + 4.0 * speed * end.first - change) / step.length;
+  return (second - end.first.head(n).dot(second.head(n)) * end.first) / (speed * speed);
+}
+
+// A second derivative by which the curve would turn round within a tenth of the step, while the tangents at its ends
+// agree, is rounding of a point next to a singular one.
+void DropRoundedSecondAtEnd(Step* step) {
+  if (step->end.second.head(step->normal.size()).norm() * step->length > kRounded)
+    step->end.second = SecondOfCubicAtEnd(*step);
+}
+
 // Whether the end of the step is beside the curve, as where rounding moves points by more than the length of the step.
 // cosine: smallest between the tangent at the start and the chord.
 bool EndsBeside(const Step& step, double cosine) {
@@ -67,6 +84,7 @@ std::optional<ArcStep> TryStep(SmoothArc* arc, const CurvePoint& start, double l
     if (arc->system().Norm(start.second) > kRounded * arc->system().Norm(second))
       result.step.start.second = std::move(second);
   }
+  DropRoundedSecondAtEnd(&result.step);
   result.tried = length;
   result.iterations = correction.iterations;
   result.contraction = correction.contraction;
@@ -119,6 +137,7 @@ bool EndAtFirstEvent(SmoothArc* arc, std::optional<double> target, ArcStep* at) 
       at->step.length = 0.0;
       return true;
     }
+    DropRoundedSecondAtEnd(&at->step);
     const StepEvent earlier = FirstEvent(arc, at->step, target);
     if (earlier.kind == EventKind::kNone || earlier.t >= at->step.length - tolerances::kNoMove) return true;
     // The earlier event is rounding of a short step where it leads to this point again, or where it is a limit point at
