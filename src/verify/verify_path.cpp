@@ -423,12 +423,17 @@ class Verifier {
     const Increment& start = increments_[first_];
     const bool mpec = increments_[last_ - 1].solve.method == Method::kMpec;
     const double share = mpec ? kEnergyMpec : kEnergy;
-    double pressed = 0.0;  // work of the reactions along the gaps that may be left, or penetrated
+    // Work of the reactions along the gaps that may be left, or penetrated, and of those that may be left at open gaps.
+    double pressed = 0.0;
     for (increment_ = first_; increment_ < last_; ++increment_) {
       const Increment& increment = Current();
-      double reactions = 0.0;
-      for (const ContactRecord& contact : increment.contacts) reactions += std::abs(contact.rn);
-      if (mpec) pressed = std::max(pressed, kExact * reactions / scaling_.force);
+      double reactions = 0.0, left_open = 0.0;
+      for (const ContactRecord& contact : increment.contacts) {
+        reactions += std::abs(contact.rn);
+        if (contact.gap > kExact * scaling_.length) left_open += std::hypot(contact.rn, contact.rt);
+      }
+      const double moved = increment.arc_length - start.arc_length;
+      if (mpec) pressed = std::max(pressed, (kExact * reactions + left_open * moved) / scaling_.force);
       const double balance =
           (increment.external_work - start.external_work - (increment.strain_energy - start.strain_energy) -
            (increment.dissipation - start.dissipation)) /
