@@ -276,8 +276,20 @@ TEST(HardScenes, TotalLawBetweenTwoObstacles) {
   }
 }
 
+// The path is once round where it comes to the limit point at which it had left for another branch.
+TEST(HardScenes, APathThatClosesAtALimitPoint) {
+  const TracedPath path = TraceIncrements(ReadData("closed_at_a_limit_point"));
+  EXPECT_EQ(path.result.reason, EndReason::kClosedPath) << path.result.message;
+  ExpectNoFindings(path);
+  ASSERT_GT(path.increments.size(), 4U);
+  const Increment &first = path.increments[3], &last = path.increments.back();
+  EXPECT_EQ(first.event.taken, 2);
+  EXPECT_EQ(last.kind, IncrementKind::kSmoothLimit);
+  EXPECT_NEAR(last.load_factor, first.load_factor, 1e-12);
+}
+
 // Increments that rounding makes hard are proved, or the path ends by name before them.
-TEST(HardScenes, RoundingOfStiffParts) {
+TEST(HardScenes, RoundingIsNoPartOfAPath) {
   struct Case {
     const char* name;
     EndReason end;
@@ -285,6 +297,9 @@ TEST(HardScenes, RoundingOfStiffParts) {
   };
   const Case cases[] = {{"slip_turns_in_rounding", EndReason::kMaxIncrements, 7},
                         {"presses_in_between", EndReason::kMaxIncrements, 12},
+                        {"slack_bars_in_line", EndReason::kMaxIncrements, 11},
+                        {"friction_left_open", EndReason::kMaxIncrements, 3},
+                        {"signs_in_one_place", EndReason::kMaxIncrements, 9},
                         {"stiff_support_moves", EndReason::kStepTooSmall, 10},
                         {"rounding_beside_the_curve", EndReason::kStepTooSmall, 8}};
   for (const Case& of : cases) {
