@@ -172,10 +172,12 @@ class EventVerifier {
       Report("the branch taken has the load rate ", taken.load_rate, ", the increment after it ", after->motion.back());
     if (request_.options.friction_law == FrictionLaw::kTotal && taken.dissipation_rate != 0.0)
       Report("the branch taken dissipates, though by the total law of friction nothing does");
+    // A branch may begin with other reactions, which the increment before the next one has.
+    const std::vector<ContactRecord>& begin = (next - 1)->contacts;
     double friction = 0.0, change = 0.0;
-    for (std::size_t i = 0; i < now.contacts.size() && i < next->contacts.size(); ++i) {
-      friction += std::abs(now.contacts[i].rt) / scaling_.force;
-      change += std::abs(next->contacts[i].rt - now.contacts[i].rt) / scaling_.force;
+    for (std::size_t i = 0; i < begin.size() && i < next->contacts.size(); ++i) {
+      friction += std::abs(begin[i].rt) / scaling_.force;
+      change += std::abs(next->contacts[i].rt - begin[i].rt) / scaling_.force;
     }
     const double rate = (next->dissipation - now.dissipation) / (scaling_.force * scaling_.length) / after->arc;
     if (request_.options.friction_law == FrictionLaw::kIncremental &&
