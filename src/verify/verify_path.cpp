@@ -407,7 +407,8 @@ class Verifier {
     if (increment_ < first_ + 2) return;
     const Increment &a = increments_[increment_ - 2], &b = increments_[increment_ - 1], &c = increments_[increment_];
     const double before = b.load_factor - a.load_factor, after = c.load_factor - b.load_factor;
-    const double turn = b.kind == IncrementKind::kBifurcation ? kTurnCrossing : kTurn;
+    const bool singular = b.kind == IncrementKind::kBifurcation || b.kind == IncrementKind::kContactEvent;
+    const double turn = singular ? kTurnCrossing : kTurn;
     const double level = turn * ResidualUnit(stiffest_) * scaling_.load_factor;
     // mpec tells in the increment after.
     const Increment& located = c.solve.method == Method::kBranch ? b : c;
