@@ -295,13 +295,11 @@ TEST(HardScenes, RoundingIsNoPartOfAPath) {
     EndReason end;
     std::size_t increments;  // at least
   };
-  const Case cases[] = {{"slip_turns_in_rounding", EndReason::kMaxIncrements, 7},
-                        {"presses_in_between", EndReason::kMaxIncrements, 12},
-                        {"slack_bars_in_line", EndReason::kMaxIncrements, 11},
-                        {"friction_left_open", EndReason::kMaxIncrements, 3},
-                        {"signs_in_one_place", EndReason::kMaxIncrements, 9},
-                        {"stiff_support_moves", EndReason::kStepTooSmall, 10},
-                        {"rounding_beside_the_curve", EndReason::kStepTooSmall, 8}};
+  const Case cases[] = {
+      {"slip_turns_in_rounding", EndReason::kMaxIncrements, 7},  {"presses_in_between", EndReason::kMaxIncrements, 12},
+      {"slack_bars_in_line", EndReason::kMaxIncrements, 11},     {"friction_left_open", EndReason::kMaxIncrements, 3},
+      {"signs_in_one_place", EndReason::kMaxIncrements, 9},      {"stiff_support_moves", EndReason::kStepTooSmall, 10},
+      {"rounding_beside_the_curve", EndReason::kStepTooSmall, 8}};
   for (const Case& of : cases) {
     SCOPED_TRACE(of.name);
     const TracedPath path = TraceIncrements(ReadData(of.name));
