@@ -207,6 +207,8 @@ inline constexpr double kCondensedPivot = 1e-9;
 // squares.
 inline constexpr double kRestsBelow = 1e-7;
 inline constexpr double kMovesAbove = 1e-6;
+// Length of a chord between two points of a path: a shorter one may have any direction.
+inline constexpr double kHasDirection = 1e-7;
 // Sine of the angle between two edges of friction cones: parallel.
 inline constexpr double kParallelEdges = 1e-9;
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "contact_path/tolerances.h"
 
@@ -13,44 +12,34 @@ constexpr double kCoarsePrediction = 0.05;  // largest error of the predictor wh
 constexpr double kNoise = 10.0;             // of the last Newton step: what rounding leaves of the predictor
 constexpr double kShortStep = 1e-3;         // of the longest one
 constexpr int kLocatingAttempts = 6;
-constexpr double kRounded = 10.0;       // times what the ends of a step show: a second derivative is rounding
-constexpr double kHasDirection = 1e-7;  // length of a chord
-constexpr double kOffCurve = 0.7;       // cosine between a chord and its tangent: of a located end, which is less exact
+constexpr double kRounded = 10.0;  // turn along a step by a second derivative that is rounding
+constexpr double kOffCurve = 0.7;  // cosine between a chord and its tangent: of a located end, less exact
 
 // A matrix that is singular to rounding at a regular point has no sign of its own.
 void KeepSide(const CurvePoint& start, CurvePoint* end) {
   if (end->side == 0 && end->nullity == 0) end->side = start.side;
 }
 
-// Second derivative at the start of the cubic that has the points and the tangents of both ends.
-Eigen::VectorXd SecondOfCubic(const Step& step) {
-  const CurvePoint &start = step.start, &end = step.end;
-  const Eigen::VectorXd first = end.first / step.normal.dot(end.first.head(step.normal.size()));
-  return (6.0 / step.length * (end.x - start.x) - 4.0 * start.first - 2.0 * first) / step.length;
-}
-
-// Second derivative at the end of that cubic, by arc length.
-Eigen::VectorXd SecondOfCubicAtEnd(const Step& step) {
-  const CurvePoint &start = step.start, &end = step.end;
-  const Eigen::Index n = step.normal.size();
-  const double speed = 1.0 / step.normal.dot(end.first.head(n));
-  const Eigen::VectorXd change = 6.0 / step.length * (end.x - start.x);
-  const Eigen::VectorXd second = (2.0 * start.first + 4.0 * speed * end.first - change) / step.length;
-  return (second - end.first.head(n).dot(second.head(n)) * end.first) / (speed * speed);
-}
-
-// A second derivative by which the curve would turn round within a tenth of the step, while the tangents at its ends
-// agree, is rounding of a point next to a singular one.
-void DropRoundedSecondAtEnd(Step* step) {
-  if (step->end.second.head(step->normal.size()).norm() * step->length > kRounded)
-    step->end.second = SecondOfCubicAtEnd(*step);
+// A second derivative at an end of the step by which the curve would turn round within a tenth of it, while the
+// tangents at both ends agree, is rounding of a point next to a singular one. The one of the cubic that has the points
+// and the tangents of both ends takes its place.
+void DropRoundedSeconds(Step* step) {
+  const Eigen::Index n = step->normal.size();
+  CurvePoint &start = step->start, &end = step->end;
+  const auto rounded = [&](const CurvePoint& at) { return at.second.head(n).norm() * step->length > kRounded; };
+  const double speed = 1.0 / step->normal.dot(end.first.head(n));  // of arc length by the parameter
+  const Eigen::VectorXd chord = 6.0 / step->length * (end.x - start.x);
+  if (rounded(start)) start.second = (chord - 4.0 * start.first - 2.0 * speed * end.first) / step->length;
+  if (!rounded(end)) return;
+  const Eigen::VectorXd second = (2.0 * start.first + 4.0 * speed * end.first - chord) / step->length;
+  end.second = (second - end.first.head(n).dot(second.head(n)) * end.first) / (speed * speed);
 }
 
 // Whether the end of the step is beside the curve, as where rounding moves points by more than the length of the step.
 // cosine: smallest between the tangent at the start and the chord.
 bool EndsBeside(const Step& step, double cosine) {
   const double chord = (step.end.x - step.start.x).head(step.normal.size()).norm();
-  return chord > kHasDirection && step.length < cosine * chord;
+  return chord > tolerances::kHasDirection && step.length < cosine * chord;
 }
 
 // A whole step with this length along the tangent; nothing where it has to be shorter.
@@ -69,8 +58,7 @@ std::optional<ArcStep> TryStep(SmoothArc* arc, const CurvePoint& start, double l
   };
   Correction correction = arc->CorrectOnPlane(straight + bend, normal);
   // Next to a singular point the second derivatives are little but rounding.
-  const bool bends = good(correction) || !(arc->system().Norm(bend) > tolerance);
-  if (!bends) correction = arc->CorrectOnPlane(straight, normal);
+  if (!good(correction) && arc->system().Norm(bend) > tolerance) correction = arc->CorrectOnPlane(straight, normal);
   if (!good(correction)) return std::nullopt;
   CurvePoint end;
   if (!arc->Derivatives(correction.x, normal, &end)) return std::nullopt;
@@ -79,12 +67,7 @@ std::optional<ArcStep> TryStep(SmoothArc* arc, const CurvePoint& start, double l
   ArcStep result;
   result.step = MakeStep(start, end, arc->NumMotion());
   if (EndsBeside(result.step, smallest_cosine)) return std::nullopt;
-  if (!bends) {
-    Eigen::VectorXd second = SecondOfCubic(result.step);
-    if (arc->system().Norm(start.second) > kRounded * arc->system().Norm(second))
-      result.step.start.second = std::move(second);
-  }
-  DropRoundedSecondAtEnd(&result.step);
+  DropRoundedSeconds(&result.step);
   result.tried = length;
   result.iterations = correction.iterations;
   result.contraction = correction.contraction;
@@ -137,7 +120,7 @@ bool EndAtFirstEvent(SmoothArc* arc, std::optional<double> target, ArcStep* at) 
       at->step.length = 0.0;
       return true;
     }
-    DropRoundedSecondAtEnd(&at->step);
+    DropRoundedSeconds(&at->step);
     const StepEvent earlier = FirstEvent(arc, at->step, target);
     if (earlier.kind == EventKind::kNone || earlier.t >= at->step.length - tolerances::kNoMove) return true;
     // The earlier event is rounding of a short step where it leads to this point again, or where it is a limit point at

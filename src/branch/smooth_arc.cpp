@@ -184,11 +184,7 @@ Correction SmoothArc::Newton(const Eigen::VectorXd& guess, const Eigen::VectorXd
     const double stagnation = at_hand ? tolerances::kStagnationReused : tolerances::kStagnation;
     const bool stagnates = norm >= 0.5 * previous && norm <= stagnation * system_.ResidualUnit() * scale;
     if (norm <= tolerances::kNewtonStep * scale || stagnates) {
-      system_.Residual(result.x, &residual_);
-      const double force = 1.0 + result.x.tail(result.x.size() - system_.NumDofs()).lpNorm<Eigen::Infinity>();
-      const double place = 1.0 + result.x.head(NumMotion()).lpNorm<Eigen::Infinity>();
-      result.converged = system_.Largest(residual_) <= tolerances::kResidual * force &&
-                         system_.LargestOfMotions(residual_) <= tolerances::kResidual * place &&
+      result.converged = EquationsHold(result.x, tolerances::kResidual) &&
                          std::abs(row.dot(result.x) - value) <= tolerances::kResidual * scale;
       ++result.iterations;
       return result;
@@ -250,12 +246,13 @@ Eigen::VectorXd SmoothArc::CorrectSingular(const Eigen::VectorXd& guess, const E
   return x.allFinite() ? x : guess;
 }
 
-bool SmoothArc::IsOnCurve(const Eigen::VectorXd& x) {
+bool SmoothArc::IsOnCurve(const Eigen::VectorXd& x) { return EquationsHold(x, tolerances::kResidualSingular); }
+
+bool SmoothArc::EquationsHold(const Eigen::VectorXd& x, double tolerance) {
   system_.Residual(x, &residual_);
   const double force = 1.0 + x.tail(x.size() - system_.NumDofs()).lpNorm<Eigen::Infinity>();
   const double place = 1.0 + x.head(NumMotion()).lpNorm<Eigen::Infinity>();
-  return system_.Largest(residual_) <= tolerances::kResidualSingular * force &&
-         system_.LargestOfMotions(residual_) <= tolerances::kResidualSingular * place;
+  return system_.Largest(residual_) <= tolerance * force && system_.LargestOfMotions(residual_) <= tolerance * place;
 }
 
 Eigen::VectorXd SmoothArc::CrossingDirection(const Eigen::VectorXd& x, const Eigen::VectorXd& towards) {

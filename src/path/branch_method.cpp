@@ -255,7 +255,6 @@ std::optional<int> BranchMethod::EndAtReturn(const PathPoint& from, ArcStep* at)
     return std::nullopt;
   const FixedStateSystem& system = arc_.system();
   const std::optional<ReturnDetector::Return> found = options_.returns->Find(from, system.Unpack(step.end.x));
-  CurvePoint end;
   if (!found) return std::nullopt;
   const Eigen::VectorXd x = system.Pack(found->point);
   // The increment come back to is at the limit point where this one ends.
@@ -263,6 +262,7 @@ std::optional<int> BranchMethod::EndAtReturn(const PathPoint& from, ArcStep* at)
       at->event.kind == EventKind::kLimitPoint &&
       (x - step.end.x).head(arc_.NumMotion()).norm() <= ReachOfExtreme(step.end.second[system.NumDofs()]);
   if (at_limit) return found->increment;
+  CurvePoint end;
   if (!arc_.Derivatives(x, step.normal, &end)) return std::nullopt;
   step = MakeStep(step.start, end, arc_.NumMotion());
   at->event = StepEvent();

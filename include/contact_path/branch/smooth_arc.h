@@ -98,6 +98,8 @@ class SmoothArc {
  private:
   // at_hand: with the factors that there are; gives up where they do not lead on fast.
   Correction Newton(const Eigen::VectorXd& guess, const Eigen::VectorXd& row, double value, bool at_hand);
+  // Forces relative to the largest of load factor and reactions, motions to the largest coordinate, each + 1.
+  bool EquationsHold(const Eigen::VectorXd& x, double tolerance);
   // Where the Jacobian has a null plane with *first in it: puts the tangent that is nearest to `towards` into *first.
   void ChooseInPlane(const Eigen::VectorXd& x, const Eigen::VectorXd& towards, Eigen::VectorXd* first);
   // Takes from *change, a solution of the singular equations, what would move the part at rest off its limit point:
