@@ -1,4 +1,6 @@
 // What changes along a curve of the unknowns, with its derivatives by the parameter of the curve.
+#include <cmath>
+
 #include "contact_path/equations/fixed_state_system.h"
 
 namespace contact_path {
@@ -46,11 +48,13 @@ Jet FixedStateSystem::DrivingForceAlong(const Eigen::VectorXd& x, const Eigen::V
     ++k;
   }
   for (const std::size_t i : touching_) {
+    const Reaction reaction = ReactionOf(i, x), rate = ReactionOf(i, first), change = ReactionOf(i, second);
+    // A contact without a reaction may be too far from its curve for a foot there.
+    if (std::hypot(reaction.rn, rate.rn, change.rn) + std::hypot(reaction.rt, rate.rt, change.rt) == 0.0) continue;
     const ContactPair& pair = *contacts_[i];
     const Kinematics at = Evaluate(i, x);
     const auto last = static_cast<Eigen::Index>(at.dofs.size());
     const double gap = at.gap_gradient[last], xi = at.xi_gradient[last];
-    const Reaction reaction = ReactionOf(i, x), rate = ReactionOf(i, first), change = ReactionOf(i, second);
     force.value -= reaction.rn * gap + reaction.rt * xi;
     force.first -= rate.rn * gap + rate.rt * xi;
     force.second -= change.rn * gap + change.rt * xi;
