@@ -3,30 +3,51 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <vector>
+
+#include "verify/scaled_motion.h"
 
 namespace contact_path {
 namespace {
 
-constexpr double kBend = 0.25;  // of a force along an arc of length 1: what a trapezoid cannot know
+constexpr double kBend = 0.25;      // of a force along an arc of length 1: what a trapezoid cannot know
+constexpr double kSagitta = 0.125;  // of a circular arc, over its length and the angle by which it turns
 // Times the forces of the parts: what presses on a contact whose friction resists the load, both of which grow.
 constexpr double kWedged = 10.0;
 
-// Power per unit of the load factor of the contacts' forces, if all of them acted along the fastest prescribed motion
-// [force length].
-double PowerOfReactions(const VerifiedStage& stage, const Increment& increment) {
-  double speed = 0.0, reactions = 0.0;
+// Of the fastest prescribed motion [length per unit of the load factor].
+double LargestSpeed(const VerifiedStage& stage) {
+  double speed = 0.0;
   for (const SupportMotion& motion : stage.scene.support_motions)
     speed = std::max(speed, std::hypot(motion.dx, motion.dy, motion.rotation * stage.scaling.length));
   for (const ObstacleMotion& motion : stage.scene.obstacle_motions)
     speed = std::max(speed, std::hypot(motion.dx, motion.dy, motion.turn * stage.scaling.length));
+  return speed;
+}
+
+double SumOfReactions(const Increment& increment) {
+  double reactions = 0.0;
   for (const ContactRecord& contact : increment.contacts) reactions += std::hypot(contact.rn, contact.rt);
-  return speed * reactions;
+  return reactions;
 }
 
 // A value that goes on at first as it changed on the increment before, which would be by `going_on` on the whole
 // increment, and changes by `change`: a parabola. It is apart from its chord by at most a quarter of the distance
 // between its tangent at one end and its chord, measured at the other end.
 double OpenOfParabola(double going_on, double change) { return 0.25 * std::abs(going_on - change); }
+
+// Between the motions of two increments, one after the other [rad]; 0 where one of them is at rest.
+double TurnOf(const Increment& earlier, const Increment& before, const Increment& increment, double length) {
+  const std::vector<double> a = ScaledMotion(earlier, before, length), b = ScaledMotion(before, increment, length);
+  double product = 0.0, first = 0.0, second = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    product += a[i] * b[i];
+    first += a[i] * a[i];
+    second += b[i] * b[i];
+  }
+  const double norms = std::sqrt(first * second);
+  return norms > 0.0 ? std::acos(std::clamp(product / norms, -1.0, 1.0)) : 0.0;
+}
 
 }  // namespace
 
@@ -49,7 +70,8 @@ TrapezoidWork WorkBetween(const VerifiedStage& stage, const Increment* earlier, 
   // length L: the share `bend` of a force is open.
   const double arc = increment.arc_length - before.arc_length;
   const double bend = kBend * arc * arc;
-  // Nodes with loads may go forth and back inside the increment: `bend` times L of their motion is open.
+  // Nodes with loads may go forth and back inside the increment: `bend` times L of their motion is open, and what an
+  // arc is beside its chord that turns as the last two motions do.
   const double load_change = std::abs(increment.load_factor - before.load_factor);
   double load_open = 0.5 * load_change;
   const double arc_before = earlier != nullptr ? before.arc_length - earlier->arc_length : 0.0;
@@ -57,34 +79,41 @@ TrapezoidWork WorkBetween(const VerifiedStage& stage, const Increment* earlier, 
     const double going_on = (before.load_factor - earlier->load_factor) / arc_before * arc;
     load_open += OpenOfParabola(going_on, increment.load_factor - before.load_factor);
   }
-  double open_work =
-      (load_open * std::abs(along) + bend * (std::abs(work) + load_change * scaled_loads * stage.scaling.length)) /
-      unit;
+  const double turn = arc_before > 0.0 ? TurnOf(*earlier, before, increment, stage.scaling.length) : 0.0;
+  const double beside = std::max(bend, kSagitta * turn * arc);
+  double open_work = (load_open * std::abs(along) + bend * std::abs(work) +
+                      beside * load_change * scaled_loads * stage.scaling.length) /
+                     unit;
   if (!stage.scene.support_motions.empty() || !stage.scene.obstacle_motions.empty()) {
     const double from = stage.check.DrivingForce(from_state), to = stage.check.DrivingForce(to_state);
     const double moved = increment.load_factor - before.load_factor;
     work += 0.5 * (from + to) * moved;
     // An obstacle that is dragged without friction may exert no force at either end of the increment, and inside it the
     // forces of a wavy surface.
-    const double between = std::abs(from + to) + PowerOfReactions(stage, before) + PowerOfReactions(stage, increment);
+    const double speed = LargestSpeed(stage);
+    const double between = std::abs(from + to) + speed * (SumOfReactions(before) + SumOfReactions(increment));
     open_work += (0.5 * std::abs(to - from) + bend * between) * std::abs(moved) / unit;
-    // Parts whose strains are of second order in the motion store energy, and may give it back by the end of the
-    // increment. Where no increment before tells how the force changes, as much is open as is stored at the end.
-    const double stored = std::abs(increment.strain_energy) + std::abs(before.strain_energy);
-    if (earlier == nullptr)
-      open_work += std::min(std::pow(bend * stage.scaling.length, 2) * stage.check.LargestStiffness(), stored) / unit;
     const double moved_before = earlier != nullptr ? before.load_factor - earlier->load_factor : 0.0;
-    if (moved_before != 0.0) {
+    if (moved_before == 0.0) {
+      // No increment before tells how the force changes. Parts whose strains are of second order in the motion exert
+      // forces of that order, and do no more work than what they store.
+      const double stored = std::abs(increment.strain_energy) + std::abs(before.strain_energy);
+      const double of_parts = bend * stage.scaling.length * stage.check.LargestStiffness() * speed * std::abs(moved);
+      open_work += std::min(of_parts, stored) / unit;
+    } else {
       const double going_on = (from - stage.check.DrivingForce(StateOf(*earlier))) / moved_before * moved;
       open_work += OpenOfParabola(going_on, to - from) * std::abs(moved) / unit;
     }
   }
   // The part of a reaction of the contact i that is open [force]. Where the contact closes and opens inside the
   // increment, the reaction is 0 at both ends, and the forces of the parts there, times `wedged`, bound it in between.
+  // They bound it, too, where no increment before tells how it changes.
   const auto open_force = [&](std::size_t i, double ContactRecord::*reaction, double wedged) {
     const double was = before.contacts[i].*reaction, change = increment.contacts[i].*reaction - was;
     const bool rests = was == 0.0 && change == 0.0;
-    const double between = rests ? wedged * stage.contacts[i].of_parts : 1.0;
+    double between = 1.0;
+    if (rests || arc_before == 0.0) between = stage.contacts[i].of_parts;
+    if (rests) between *= wedged;
     const double largest = 2.0 * std::abs(was) + std::abs(change) + between * stage.scaling.force;
     const double going_on = arc_before > 0.0 ? (was - earlier->contacts[i].*reaction) / arc_before * arc : change;
     return 0.5 * std::abs(change) + bend * largest + OpenOfParabola(going_on, change);

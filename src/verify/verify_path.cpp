@@ -35,6 +35,8 @@ constexpr double kLongestArc = 1.05;   // of its chord: increments turn by less 
 
 // The same at a bifurcation: where paths cross, equilibrium holds to rounding at a distance of its root from both.
 constexpr double kTurnCrossing = 1e-7;
+// At an event of a contact that may be next to a singular point.
+constexpr double kTurnAtEvent = 1e-8;
 
 bool AtTarget(double target, double load_factor) {
   return std::abs(load_factor - target) <= kAtTarget * std::abs(target);
@@ -407,8 +409,9 @@ class Verifier {
     if (increment_ < first_ + 2) return;
     const Increment &a = increments_[increment_ - 2], &b = increments_[increment_ - 1], &c = increments_[increment_];
     const double before = b.load_factor - a.load_factor, after = c.load_factor - b.load_factor;
-    const bool singular = b.kind == IncrementKind::kBifurcation || b.kind == IncrementKind::kContactEvent;
-    const double turn = singular ? kTurnCrossing : kTurn;
+    const double turn = b.kind == IncrementKind::kBifurcation    ? kTurnCrossing
+                        : b.kind == IncrementKind::kContactEvent ? kTurnAtEvent
+                                                                 : kTurn;
     const double level = turn * ResidualUnit(stiffest_) * scaling_.load_factor;
     // mpec tells in the increment after.
     const Increment& located = c.solve.method == Method::kBranch ? b : c;
