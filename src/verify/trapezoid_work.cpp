@@ -13,7 +13,7 @@ namespace {
 constexpr double kBend = 0.25;      // of a force along an arc of length 1: what a trapezoid cannot know
 constexpr double kSagitta = 0.125;  // of a circular arc, over its length and the angle by which it turns
 // Times the forces of the parts: what presses on a contact whose friction resists the load, both of which grow.
-constexpr double kWedged = 10.0;
+constexpr double kWedged = 3.0;
 
 // Of the fastest prescribed motion [length per unit of the load factor].
 double LargestSpeed(const VerifiedStage& stage) {
