@@ -219,7 +219,8 @@ Residuals ResidualCheck::Check(const CheckedState& before, const CheckedState& n
         Worst(residuals.equilibrium, contact.Imbalance(to, now.rn[i], now.rt[i], scaling.length) / unit);
     residuals.penetration = Worst(residuals.penetration, -gap);
     residuals.tensile_reaction = Worst(residuals.tensile_reaction, -rn);
-    residuals.complementarity = Worst(residuals.complementarity, std::abs(std::min(gap, rn)));
+    const Real reaction = rn < 0.0L ? rn : std::max(rn, std::abs(rt));
+    residuals.complementarity = Worst(residuals.complementarity, std::abs(std::min(gap, reaction)));
     residuals.cone = Worst(residuals.cone, std::abs(rt) - contact.Friction() * rn);
     residuals.friction_law = Worst(residuals.friction_law, std::abs(rt - std::clamp(rt - slip, -bound, bound)));
   }

@@ -288,6 +288,19 @@ TEST(HardScenes, APathThatClosesAtALimitPoint) {
   EXPECT_NEAR(last.load_factor, first.load_factor, 1e-12);
 }
 
+// No friction acts across an open gap, however rough the wall.
+TEST(HardScenes, AnOpenContactHasNoFriction) {
+  const TracedPath path = TraceIncrements(ReadData("rough_wall_apart"));
+  EXPECT_EQ(path.result.reason, EndReason::kMaxIncrements) << path.result.message;
+  ExpectNoFindings(path);
+  ASSERT_EQ(path.increments.size(), 3U);
+  for (const Increment& increment : path.increments)
+    for (const ContactRecord& contact : increment.contacts) {
+      EXPECT_GT(contact.gap, 0.01);
+      EXPECT_NEAR(std::hypot(contact.rn, contact.rt), 0.0, 1e-12);
+    }
+}
+
 // Increments that are hard to prove are proved, or the path ends by name before them.
 TEST(HardScenes, IncrementsThatAreHardToProve) {
   struct Case {
