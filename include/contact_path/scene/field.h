@@ -106,9 +106,9 @@ struct Member {
   std::string_view formerly = {};
 };
 
-// The description of a part: Fields<Part>::Of<Struct>() is a tuple of Member<Struct, ...>, where Struct is Part or a
-// message with the same members. A member that Struct lacks is an error of compilation. The default of a field is the
-// initialiser of its member.
+// The description of a part: Fields has for it a function named Of, which with Struct as argument gives a tuple of
+// Member of Struct, where Struct is Part or a message with the same members. A member that Struct lacks is an error of
+// compilation. The default of a field is the initialiser of its member.
 template <typename Part>
 struct Fields;
 

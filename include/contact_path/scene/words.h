@@ -13,7 +13,7 @@
 namespace contact_path {
 
 // Words<Enum>::kAll: pairs of a word and its value; Words<Enum>::kDefault: the value of "". In scene.h.
-template <typename Enum>
+// Words of an enumeration has kAll, pairs of a word and its value, and kDefault, the value of "". In scene.h.
 struct Words;
 
 // Nothing for a word that is not known.
