@@ -24,7 +24,7 @@ struct Residuals {
   double tensile_reaction = 0.0;  // max (-r_n) / F, 0 if none
   // max |min(gap / L, r / F)| (eq. 2), where r is r_n, or |r_t| where this is larger: at an open gap there is neither.
   double complementarity = 0.0;
-  double cone = 0.0;              // max (|r_t| - mu r_n) / F, 0 if inside
+  double cone = 0.0;  // max (|r_t| - mu r_n) / F, 0 if inside
   // Friction law (eq. 3) with rt = r_t / F, rn = r_n / F, d = du_t / L: max |rt - clamp(rt - d, -mu rn, mu rn)|:
   // no slip inside the cone, slip opposed to r_t on its boundary. By the total law, d is the slip since the start of
   // the program.

@@ -12,8 +12,8 @@
 
 namespace contact_path {
 
-// Words<Enum>::kAll: pairs of a word and its value; Words<Enum>::kDefault: the value of "". In scene.h.
 // Words of an enumeration has kAll, pairs of a word and its value, and kDefault, the value of "". In scene.h.
+template <typename Enum>
 struct Words;
 
 // Nothing for a word that is not known.
