@@ -189,7 +189,8 @@ class Verifier {
     const double energy = scaling_.force * scaling_.length;
     if (!configuration_.HasTotalLaw())
       Bound("dissipation falls", (before.dissipation - increment.dissipation) / energy, kRecorded);
-    result_.work += std::abs(increment.external_work - before.external_work) / energy;
+    const double given_back = std::max(0.0, before.dissipation - increment.dissipation);  // by the total law
+    result_.work += (std::abs(increment.external_work - before.external_work) + given_back) / energy;
     const EventRecord& event = before.event;
     if (event.taken < 0 || event.taken > static_cast<int>(event.branches.size()))
       Report("the branch taken from the increment before, ", event.taken, ", is none of its ", event.branches.size());

@@ -317,6 +317,7 @@ TEST(HardScenes, IncrementsThatAreHardToProve) {
                         {"taut_after_slack", EndReason::kStopCriterion, 11},
                         {"loads_go_forth_and_back", EndReason::kMaxIncrements, 13},
                         {"presses_from_the_start", EndReason::kMaxIncrements, 16},
+                        {"friction_gives_back", EndReason::kMaxIncrements, 11},
                         {"guide_that_moves", EndReason::kStopCriterion, 5},
                         {"signs_in_one_place", EndReason::kMaxIncrements, 9},
                         {"stiff_support_moves", EndReason::kStepTooSmall, 10},

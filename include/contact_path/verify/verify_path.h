@@ -27,7 +27,9 @@ struct Verification {
   Residuals exact;              // largest of the exact increments, computed anew
   Residuals regularised;        // of the other ones
   double energy_balance = 0.0;  // largest |work of the loads - change of strain energy - dissipation| / (F L)
-  double work = 0.0;  // what that is to be compared with: sum of |work of the loads| of all increments / (F L)
+  // What that is to be compared with: sum of |work of the loads|, and of what friction gives back by the total law, of
+  // all increments / (F L).
+  double work = 0.0;
   double largest_reaction = 0.0;       // normal, over F, or where parts are far softer, over the forces there
   std::map<IncrementKind, int> kinds;  // number of increments of each
 };
