@@ -129,6 +129,11 @@ std::optional<EndReason> BranchMethod::LeaveEvent(const PathPoint& point, const 
   record->weakly_active = on.weakly_active;
   record->complete = on.complete;
   RecordBranches(on.branches, record);
+  if (on.branches.empty() && arrival.failed) {
+    *message = "contact " + model_.scene.contacts[static_cast<std::size_t>(arrival.failed->contact)].Name() +
+               " changes its state by a rate that cannot be told from rounding";
+    return EndReason::kNumericalFailure;
+  }
   if (on.branches.empty()) {
     *message = NoBranch(on);
     return EndReason::kPathEnd;
@@ -352,6 +357,7 @@ std::optional<EndReason> BranchMethod::LeaveEnd(const ArcStep& at, const BranchC
   arrival.singular = at.event.singular;
   arrival.before = moved_;
   if (at_start_) arrival = StartArrival();
+  if (at.event.kind == EventKind::kContactEvent && !(at.step.length > 0.0)) arrival.failed = at.event.constraint;
   arrival.load_sense = options_.direction;
   return LeaveEvent(increment->point, arrival, choice, &increment->event, message);
 }

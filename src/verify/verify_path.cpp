@@ -31,6 +31,7 @@ constexpr double kEnergyMpec = 3e-2;   // the same where increments may cut corn
 constexpr double kAtTarget = 1e-9;     // relative, of the load factor
 constexpr double kTurn = 1e-9;         // of the load factor: a smaller change is none
 constexpr double kPullShare = 0.02;    // of the largest reaction before: a contact that pulls with more is wrong
+constexpr double kPreloaded = 1e-10;   // of the forces there: to this contacts are known at the end of a preload
 constexpr double kLongestArc = 1.05;   // of its chord: increments turn by less than 60 degrees
 
 // The same at a bifurcation: where paths cross, equilibrium holds to rounding at a distance of its root from both.
@@ -285,9 +286,13 @@ class Verifier {
     for (std::size_t i = 0; i < increment.contacts.size(); ++i)
       result_.largest_reaction =
           std::max(result_.largest_reaction, increment.contacts[i].rn / (contacts_[i].unit * scaling_.force));
+    const bool preloaded =
+        std::any_of(scene_.loads.begin(), scene_.loads.end(), [](const Load& load) { return load.constant; });
     for (std::size_t i = 0; i < increment.contacts.size(); ++i) {
       // Where another path crosses, a point is known to less than rounding.
-      const double rounding = increment.event.null_vector.empty() ? contacts_[i].closing : kExact;
+      double rounding = increment.event.null_vector.empty() ? contacts_[i].closing : kExact;
+      // What contacts have pushed with in the preload is not recorded.
+      if (increment_ == 0 && preloaded) rounding = std::max(rounding, kPreloaded);
       const double most = std::max(rounding, kPullShare * result_.largest_reaction);
       const double pull = -increment.contacts[i].rn / (contacts_[i].unit * scaling_.force);
       if (pull > most)

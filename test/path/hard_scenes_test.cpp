@@ -318,8 +318,11 @@ TEST(HardScenes, IncrementsThatAreHardToProve) {
                         {"loads_go_forth_and_back", EndReason::kMaxIncrements, 13},
                         {"presses_from_the_start", EndReason::kMaxIncrements, 16},
                         {"friction_gives_back", EndReason::kMaxIncrements, 11},
+                        {"preload_that_nearly_cancels", EndReason::kStopCriterion, 13},
+                        {"preload_that_leaves_a_pull", EndReason::kStopCriterion, 13},
+                        {"rough_walls_part", EndReason::kMaxIncrements, 3},
                         {"guide_that_moves", EndReason::kStopCriterion, 5},
-                        {"signs_in_one_place", EndReason::kMaxIncrements, 9},
+                        {"moves_off_at_rounding", EndReason::kStopCriterion, 6},
                         {"stiff_support_moves", EndReason::kStepTooSmall, 10},
                         {"rounding_beside_the_curve", EndReason::kStepTooSmall, 8}};
   for (const Case& of : cases) {

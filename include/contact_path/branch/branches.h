@@ -10,6 +10,7 @@
 #include "contact_path/branch/active_set_tolerance.h"
 #include "contact_path/contact/contact_pair.h"
 #include "contact_path/contact/path_point.h"
+#include "contact_path/equations/fixed_state_system.h"
 #include "contact_path/structure/structure.h"
 
 namespace contact_path {
@@ -43,6 +44,8 @@ struct Arrival {
   // After an arc that rests: the direction in which the path moved before that arc. To go on so is no turn either.
   std::optional<Eigen::VectorXd> before;
   double load_sense = 1.0;  // +-1, the wanted change of the load factor: decides between branches that turn alike
+  // What fails at once on the branch that was taken here: its rate is negative however small it is.
+  std::optional<Constraint> failed;
 };
 
 struct BranchSet {

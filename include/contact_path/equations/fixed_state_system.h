@@ -44,6 +44,8 @@ inline bool IsMotion(Inequality inequality) {
 struct Constraint {
   int contact = 0;
   Inequality inequality = Inequality::kGap;
+
+  bool operator==(const Constraint& other) const { return contact == other.contact && inequality == other.inequality; }
 };
 
 // Unknowns x = (u, s, reactions of the touching contacts, reactions of the prescribed components): r_n, and r_t where
