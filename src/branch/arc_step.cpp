@@ -122,6 +122,9 @@ bool EndAtFirstEvent(SmoothArc* arc, std::optional<double> target, ArcStep* at) 
     }
     DropRoundedSeconds(&at->step);
     const StepEvent earlier = FirstEvent(arc, at->step, target);
+    // Rounding has put the point beyond the bifurcation that is in its place.
+    if (earlier.singular && earlier.t >= at->step.length - tolerances::kNoMove)
+      at->step.end.determinant_sign = at->step.end.side = 0;
     if (earlier.kind == EventKind::kNone || earlier.t >= at->step.length - tolerances::kNoMove) return true;
     // The earlier event is rounding of a short step where it leads to this point again, or where it is a limit point at
     // which the load is no other: that is not located any better.

