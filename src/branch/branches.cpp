@@ -163,7 +163,7 @@ class Finder {
       const bool grazes = constraint.inequality != Inequality::kSlip && rate < 0.0 &&
                           curvature > tolerances::kCurvature && rate * rate <= 2.0 * curvature * tolerances::kGraze;
       if (rate < -tolerances::kRate && !grazes) return false;
-      if (rate < 0.0 && arrival_.failed == constraint) return false;
+      if (rate < 0.0 && arrival_.failed == constraint && system_.states() == point_.states) return false;
       if (rate <= tolerances::kRate && curvature < -tolerances::kCurvature) return false;
       if (std::abs(rate) <= tolerances::kRate && std::abs(curvature) <= tolerances::kCurvature)
         level.push_back(constraint);

@@ -357,9 +357,16 @@ std::optional<EndReason> BranchMethod::LeaveEnd(const ArcStep& at, const BranchC
   arrival.singular = at.event.singular;
   arrival.before = moved_;
   if (at_start_) arrival = StartArrival();
-  if (at.event.kind == EventKind::kContactEvent && !(at.step.length > 0.0)) arrival.failed = at.event.constraint;
+  if (FailsByRounding(at)) arrival.failed = at.event.constraint;
   arrival.load_sense = options_.direction;
   return LeaveEvent(increment->point, arrival, choice, &increment->event, message);
+}
+
+bool BranchMethod::FailsByRounding(const ArcStep& at) const {
+  if (at.event.kind != EventKind::kContactEvent || at.step.length > 0.0) return false;
+  const Constraint& constraint = at.event.constraint;
+  const double rate = arc_.system().Rate(constraint, at.step.end.x, at.step.end.first);
+  return rate < 0.0 && rate >= -tolerances::kRate * arc_.system().UnitOf(constraint);
 }
 
 bool BranchMethod::TurnsLoad(const ArcStep& at) const {

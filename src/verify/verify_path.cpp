@@ -286,13 +286,11 @@ class Verifier {
     for (std::size_t i = 0; i < increment.contacts.size(); ++i)
       result_.largest_reaction =
           std::max(result_.largest_reaction, increment.contacts[i].rn / (contacts_[i].unit * scaling_.force));
-    const bool preloaded =
-        std::any_of(scene_.loads.begin(), scene_.loads.end(), [](const Load& load) { return load.constant; });
     for (std::size_t i = 0; i < increment.contacts.size(); ++i) {
       // Where another path crosses, a point is known to less than rounding.
       double rounding = increment.event.null_vector.empty() ? contacts_[i].closing : kExact;
-      // What contacts have pushed with in the preload is not recorded.
-      if (increment_ == 0 && preloaded) rounding = std::max(rounding, kPreloaded);
+      // What contacts have pushed with in a preload is not recorded.
+      if (increment_ == 0) rounding = std::max(rounding, kPreloaded);
       const double most = std::max(rounding, kPullShare * result_.largest_reaction);
       const double pull = -increment.contacts[i].rn / (contacts_[i].unit * scaling_.force);
       if (pull > most)

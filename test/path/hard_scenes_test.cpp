@@ -302,6 +302,23 @@ TEST(HardScenes, AnOpenContactHasNoFriction) {
 }
 
 // Increments that are hard to prove are proved, or the path ends by name before them.
+// The wall stands where a step ends, so that the next step has no length. The node rests by the wall, which rounding
+// alone could tell from open, and goes back by the floor: no reaction jumps.
+TEST(HardScenes, StepThatEndsAtAWall) {
+  const TracedPath path = TraceData("step_ends_at_a_wall", Method::kBranch, Accuracy::kBalanced);
+  ExpectNoFindings(path);
+  ASSERT_GT(path.increments.size(), 23U);
+  const Increment &slides = path.increments[20], &meets = path.increments[21], &sticks = path.increments[22];
+  EXPECT_EQ(meets.arc_length, slides.arc_length);
+  ASSERT_EQ(meets.event.branches.size(), 2U);
+  EXPECT_EQ(meets.event.branches[0].states, (std::vector<ContactState>{ContactState::kStick, ContactState::kOpen}));
+  EXPECT_EQ(meets.event.branches[1].states,
+            (std::vector<ContactState>{ContactState::kSlipPlus, ContactState::kClosed}));
+  EXPECT_NEAR(sticks.contacts[0].rn, meets.contacts[0].rn, 0.06);
+  EXPECT_NEAR(sticks.contacts[0].rt, meets.contacts[0].rt, 0.06);
+  EXPECT_EQ(sticks.contacts[1].rn, 0.0);
+}
+
 TEST(HardScenes, IncrementsThatAreHardToProve) {
   struct Case {
     const char* name;

@@ -44,7 +44,8 @@ struct Arrival {
   // After an arc that rests: the direction in which the path moved before that arc. To go on so is no turn either.
   std::optional<Eigen::VectorXd> before;
   double load_sense = 1.0;  // +-1, the wanted change of the load factor: decides between branches that turn alike
-  // What fails at once on the branch that was taken here: its rate is negative however small it is.
+  // What fails at once on the branch that was taken here, which has the states of the point: though its rate is within
+  // the tolerance, that branch does not lead on.
   std::optional<Constraint> failed;
 };
 

@@ -64,6 +64,8 @@ class BranchMethod : public PathMethod {
                                     std::string* message);
   // Whether the load factor turns at the end of the step, on the branch that was taken there. Where its first
   // derivative is zero, the second tells.
+  // Whether an inequality fails where the step sets out, by a rate within the tolerance.
+  bool FailsByRounding(const ArcStep& at) const;
   bool TurnsLoad(const ArcStep& at) const;
   // Whether the step ends where a node that is pressed onto an open surface slides over an end of it.
   bool SlidesOff(const ArcStep& at, const PathPoint& point) const;
