@@ -139,9 +139,7 @@ PathPoint IncrementProblem::Point(const Eigen::VectorXd& x) const {
     if (slot.rt >= 0) point.rt[working_set_[i]] = goal_.length * x[slot.rt];
     ContactState& state = point.states[static_cast<std::size_t>(working_set_[i])];
     const Kinematics at = ScaledKinematics(slot, x);
-    // Friction far above 1 leaves a reaction of which the normal part says nothing.
-    const double reaction = std::max(x[slot.rn], slot.rt >= 0 ? std::abs(x[slot.rt]) : 0.0);
-    if (at.gap > reaction) continue;
+    if (at.gap > x[slot.rn]) continue;
     if (slot.rt < 0) {
       state = ContactState::kClosed;
       continue;

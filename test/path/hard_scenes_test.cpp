@@ -338,7 +338,6 @@ TEST(HardScenes, IncrementsThatAreHardToProve) {
                         {"preload_that_nearly_cancels", EndReason::kStopCriterion, 13},
                         {"preload_that_leaves_a_pull", EndReason::kStopCriterion, 13},
                         {"slip_turns_where_a_chain_gets_taut", EndReason::kStepTooSmall, 12},
-                        {"rough_walls_part", EndReason::kMaxIncrements, 3},
                         {"guide_that_moves", EndReason::kStopCriterion, 5},
                         {"moves_off_at_rounding", EndReason::kStopCriterion, 6},
                         {"stiff_support_moves", EndReason::kStepTooSmall, 10},

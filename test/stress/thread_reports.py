@@ -10,7 +10,7 @@ import sys
 
 FRAME = re.compile(r'^ +#\d+ (.*)')
 # Also what roscpp reads messages with.
-THROUGH = re.compile(r'.*contact_path::(BoundedIStream|ReadBounded)|operator (delete|new)|pthread_|mem(cpy|move|set)\b|(void |bool )?boost::|std::|__|(free|malloc|close|poll|send|recv|read|write)\b')
+THROUGH = re.compile(r'.*contact_path::(BoundedIStream|ReadBounded)|operator (delete|new)|pthread_|mem(cpy|move|set)\b|(void |bool )?(boost|std)::|__|(free|malloc|close|poll|send|recv|read|write)\b')
 THEIRS = re.compile(r'(\w+ )?(ros|log4cxx)::|.*\((libroscpp|librosconsole|liblog4cxx|libxmlrpcpp)\.')
 
 

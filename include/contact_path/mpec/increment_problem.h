@@ -43,8 +43,8 @@ class IncrementProblem : public NonlinearProgram {
 
   // Variables for the guess from + S y with the reactions of `from`.
   Eigen::VectorXd StartingPoint(const Eigen::VectorXd& y) const;
-  // The point that variables stand for. States: the larger side of each complementary pair, open or touching, where
-  // friction counts as a reaction, and stick or slip.
+  // The point that variables stand for. States: the larger side of each complementary pair (open or touching, stick or
+  // slip).
   PathPoint Point(const Eigen::VectorXd& x) const;
   // Objective of a point, without its reactions.
   double ObjectiveAt(const PathPoint& point) const;
