@@ -125,9 +125,9 @@ const Increment* Counterpart(const std::vector<Increment>& reference, const Incr
   return found != reference.end() ? &*found : nullptr;
 }
 
-// A scene in other units has the path of the scene in units of order 1, increment by increment. By mpec, rounding decides
-// whether Ipopt solves a step that goes over a corner, and with it where the increments of the second half lie on that
-// path: an increment without a counterpart at its arc length has to pass the check, as all have.
+// A scene in other units has the path of the scene in units of order 1, increment by increment. By mpec, rounding
+// decides whether Ipopt solves a step that goes over a corner, and with it where the increments of the second half lie
+// on that path: an increment without a counterpart at its arc length has to pass the check, as all have.
 ExtremeCase Units(const std::string& name, double length, double force) {
   ExtremeCase extreme;
   extreme.group = "units";
