@@ -84,6 +84,7 @@ TrapezoidWork WorkBetween(const VerifiedStage& stage, const Increment* earlier, 
   double open_work = (load_open * std::abs(along) + bend * std::abs(work) +
                       beside * load_change * scaled_loads * stage.scaling.length) /
                      unit;
+  double of_parts = 0.0;  // a part of open_work: what prescribed motion may do against parts of which nothing is known
   if (!stage.scene.support_motions.empty() || !stage.scene.obstacle_motions.empty()) {
     const double from = stage.check.DrivingForce(from_state), to = stage.check.DrivingForce(to_state);
     const double moved = increment.load_factor - before.load_factor;
@@ -96,10 +97,8 @@ TrapezoidWork WorkBetween(const VerifiedStage& stage, const Increment* earlier, 
     const double moved_before = earlier != nullptr ? before.load_factor - earlier->load_factor : 0.0;
     if (moved_before == 0.0) {
       // No increment before tells how the force changes. Parts whose strains are of second order in the motion exert
-      // forces of that order, and do no more work than what they store.
-      const double stored = std::abs(increment.strain_energy) + std::abs(before.strain_energy);
-      const double of_parts = bend * stage.scaling.length * stage.check.LargestStiffness() * speed * std::abs(moved);
-      open_work += std::min(of_parts, stored) / unit;
+      // forces of that order.
+      of_parts = bend * stage.scaling.length * stage.check.LargestStiffness() * speed * std::abs(moved) / unit;
     } else {
       const double going_on = (from - stage.check.DrivingForce(StateOf(*earlier))) / moved_before * moved;
       open_work += OpenOfParabola(going_on, to - from) * std::abs(moved) / unit;
@@ -140,6 +139,9 @@ TrapezoidWork WorkBetween(const VerifiedStage& stage, const Increment* earlier, 
     dissipation += 0.5 * at.friction * (before.contacts[i].rn + increment.contacts[i].rn) * along_state;
     open_dissipation += at.friction * open_force(i, &ContactRecord::rn, kWedged) * slip / unit;
   }
+  // They take no more work than what they store and what their contacts dissipate.
+  const double stored = (std::abs(increment.strain_energy) + std::abs(before.strain_energy)) / unit;
+  open_work += std::min(of_parts, stored + std::abs(dissipation) / unit + open_dissipation);
   return {work / unit, dissipation / unit, open_work, open_dissipation};
 }
 

@@ -236,7 +236,8 @@ INSTANTIATE_TEST_SUITE_P(VerifyPath, RightPathIsProved,
                                            "drag_in_one_increment", "slot_on_stiff_bars", "strained_to_second_order",
                                            "slip_between_two_zeros", "largest_friction_within", "large_stored_energy",
                                            "soft_motion_in_place", "load_turns_on_soft_parts", "load_turns_in_rounding",
-                                           "load_is_a_cubic", "very_rough_contact_opens"),
+                                           "load_is_a_cubic", "very_rough_contact_opens", "presses_to_second_order",
+                                           "very_rough_contact_leaves"),
                          [](const auto& instance) { return std::string(instance.param); });
 
 // Work and dissipation are changed alike, so that the energies still balance: their trapezoids tell. The bars beside
