@@ -1,6 +1,7 @@
 #include "verify/trapezoid_work.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -35,6 +36,20 @@ double SumOfReactions(const Increment& increment) {
 // increment, and changes by `change`: a parabola. It is apart from its chord by at most a quarter of the distance
 // between its tangent at one end and its chord, measured at the other end.
 double OpenOfParabola(double going_on, double change) { return 0.25 * std::abs(going_on - change); }
+
+// Reactions that change while the surfaces turn under their nodes [force]: the rule leaves a sixth of the product of
+// two linear changes open, and no more than a quarter where they are not linear.
+double OpenOfTurnedReactions(const VerifiedStage& stage, const Increment& before, const Increment& increment) {
+  const CheckedState from = StateOf(before), to = StateOf(increment);
+  double open = 0.0;
+  for (std::size_t i = 0; i < stage.contacts.size(); ++i) {
+    const double change = std::hypot(to.rn[i] - from.rn[i], to.rt[i] - from.rt[i]);
+    if (change == 0.0) continue;
+    const std::array<double, 2> was = stage.check.Normal(i, from), is = stage.check.Normal(i, to);
+    open += 0.25 * change * std::hypot(is[0] - was[0], is[1] - was[1]);
+  }
+  return open;
+}
 
 // Between the motions of two increments, one after the other [rad]; 0 where one of them is at rest.
 double TurnOf(const Increment& earlier, const Increment& before, const Increment& increment, double length) {
@@ -93,7 +108,8 @@ TrapezoidWork WorkBetween(const VerifiedStage& stage, const Increment* earlier, 
     // forces of a wavy surface.
     const double speed = LargestSpeed(stage);
     const double between = std::abs(from + to) + speed * (SumOfReactions(before) + SumOfReactions(increment));
-    open_work += (0.5 * std::abs(to - from) + bend * between) * std::abs(moved) / unit;
+    const double turned = speed * OpenOfTurnedReactions(stage, before, increment);
+    open_work += (0.5 * std::abs(to - from) + bend * between + turned) * std::abs(moved) / unit;
     const double moved_before = earlier != nullptr ? before.load_factor - earlier->load_factor : 0.0;
     if (moved_before == 0.0) {
       // No increment before tells how the force changes. Parts whose strains are of second order in the motion exert
@@ -106,12 +122,12 @@ TrapezoidWork WorkBetween(const VerifiedStage& stage, const Increment* earlier, 
   }
   // The part of a reaction of the contact i that is open [force]. Where the contact closes and opens inside the
   // increment, the reaction is 0 at both ends, and the forces of the parts there, times `wedged`, bound it in between.
-  // They bound it, too, where no increment before tells how it changes.
+  // They bound it, too, where no increment before tells how it changes, as of a contact that begins to press.
   const auto open_force = [&](std::size_t i, double ContactRecord::*reaction, double wedged) {
     const double was = before.contacts[i].*reaction, change = increment.contacts[i].*reaction - was;
     const bool rests = was == 0.0 && change == 0.0;
     double between = 1.0;
-    if (rests || arc_before == 0.0) between = stage.contacts[i].of_parts;
+    if (was == 0.0 || arc_before == 0.0) between = stage.contacts[i].of_parts;
     if (rests) between *= wedged;
     const double largest = 2.0 * std::abs(was) + std::abs(change) + between * stage.scaling.force;
     const double going_on = arc_before > 0.0 ? (was - earlier->contacts[i].*reaction) / arc_before * arc : change;
