@@ -120,15 +120,16 @@ TrapezoidWork WorkBetween(const VerifiedStage& stage, const Increment* earlier, 
       open_work += OpenOfParabola(going_on, to - from) * std::abs(moved) / unit;
     }
   }
-  // The part of a reaction of the contact i that is open [force]. Where the contact closes and opens inside the
-  // increment, the reaction is 0 at both ends, and the forces of the parts there, times `wedged`, bound it in between.
-  // They bound it, too, where no increment before tells how it changes, as of a contact that begins to press.
+  // The part of a reaction of the contact i that is open [force]. Where the contact begins to press inside the
+  // increment, the reaction is 0 at the begin and may be next to nothing at the end: the forces of the parts there,
+  // times `wedged`, bound it in between. They bound it, too, where no increment before tells how it changes.
   const auto open_force = [&](std::size_t i, double ContactRecord::*reaction, double wedged) {
     const double was = before.contacts[i].*reaction, change = increment.contacts[i].*reaction - was;
-    const bool rests = was == 0.0 && change == 0.0;
     double between = 1.0;
-    if (was == 0.0 || arc_before == 0.0) between = stage.contacts[i].of_parts;
-    if (rests) between *= wedged;
+    if (was == 0.0)
+      between = wedged * stage.contacts[i].of_parts;
+    else if (arc_before == 0.0)
+      between = stage.contacts[i].of_parts;
     const double largest = 2.0 * std::abs(was) + std::abs(change) + between * stage.scaling.force;
     const double going_on = arc_before > 0.0 ? (was - earlier->contacts[i].*reaction) / arc_before * arc : change;
     return 0.5 * std::abs(change) + bend * largest + OpenOfParabola(going_on, change);
