@@ -181,12 +181,18 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, std::optional<double> tar
   Quintic reversed = load_rate;
   for (double& coefficient : reversed) coefficient = -coefficient;
   // Nearer to a limit point at the start than this, another one is rounding.
-  const double at_start = step.start.first[s] == 0.0 ? ReachOfExtreme(step.start.second[s]) : 0.0;
+  const double at_first = std::abs(step.start.first[s]);
+  const double at_start = at_first == 0.0 ? ReachOfExtreme(step.start.second[s]) : 0.0;
   for (const Quintic& rate : {load_rate, reversed}) {
     const auto find = [&](double level) { return FirstNegative(rate, step.length, level).value_or(-1.0); };
     double t = find(tolerances::kLevel * system.ResidualUnit());
     // Among stiff parts a rate may be told from zero, and yet be within the rounding that they may leave.
-    if (t == 0.0 && std::abs(step.start.first[s]) > tolerances::kLevel) t = find(tolerances::kLevel);
+    if (t == 0.0 && at_first > tolerances::kLevel) t = find(tolerances::kLevel);
+    // A smaller rate is not zero either, where the load changes by more than rounding until it rests.
+    if (t == 0.0 && at_first > 0.0) {
+      t = find(0.5 * at_first);
+      if (!(0.5 * at_first * t > tolerances::kExtreme * system.ResidualUnit())) t = 0.0;
+    }
     if (t > at_start) consider(EventKind::kLimitPoint, t, {});
   }
   if (step.start.side * step.end.side < 0) {

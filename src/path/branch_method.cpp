@@ -14,6 +14,7 @@ namespace {
 constexpr int kMostShorter = 6;          // times half as long, for the energies
 constexpr int kMostEventsInPlace = 8;    // then the contacts chatter, and no branch is trusted
 constexpr double kAfterSingular = 0.05;  // of the step: derivatives at a singular point are not exact to second order
+constexpr double kProbe = 0.1;  // of the wanted step: where a load that is level at an event is looked at again
 
 // The rate of a quantity; where it is zero, how it changes next to there; 0 where both are.
 double Trend(double rate, double change, double level) {
@@ -369,12 +370,21 @@ bool BranchMethod::FailsByRounding(const ArcStep& at) const {
   return rate < 0.0 && rate >= -tolerances::kRate * arc_.system().UnitOf(constraint);
 }
 
-bool BranchMethod::TurnsLoad(const ArcStep& at) const {
+bool BranchMethod::TurnsLoad(const ArcStep& at) {
   const double level = at.event.singular ? tolerances::kLevelSingular : tolerances::kLevel;
   const Eigen::Index s = LoadFactor();
-  return Trend(at.step.end.first[s], -at.step.end.second[s], level) *
-             Trend(current_.first[s], current_.second[s], level) <
-         0.0;
+  const double arrives = Trend(at.step.end.first[s], -at.step.end.second[s], level);
+  double leaves = Trend(current_.first[s], current_.second[s], level);
+  // A load that is level to second order may yet rise or fall.
+  if (leaves == 0.0 && arrives != 0.0) leaves = Trend(RateBeyond(kProbe * options_.step), 0.0, level);
+  return arrives * leaves < 0.0;
+}
+
+double BranchMethod::RateBeyond(double length) {
+  const Eigen::VectorXd normal = current_.first.head(arc_.NumMotion());
+  const Correction there = arc_.CorrectOnPlane(current_.x + length * current_.first, normal);
+  CurvePoint point;
+  return there.converged && arc_.Derivatives(there.x, normal, &point) ? point.first[LoadFactor()] : 0.0;
 }
 
 bool BranchMethod::SlidesOff(const ArcStep& at, const PathPoint& point) const {

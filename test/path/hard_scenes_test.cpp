@@ -213,6 +213,30 @@ TEST(HardScenes, ALimitPointAmongStiffPartsIsFound) {
   }
 }
 
+TEST(HardScenes, ALimitPointWhereAStepSetsOutIsFoundOnce) {
+  for (const Accuracy accuracy : kPresets) {
+    SCOPED_TRACE(ToString(accuracy));
+    const TracedPath path = TraceData("limit_next_to_a_start", Method::kBranch, accuracy, 15);
+    const std::vector<double> loads = LimitLoads(path);
+    ASSERT_EQ(loads.size(), 1U);
+    EXPECT_NEAR(loads[0], 9.4518259e-7, 1e-14);
+    ExpectNoFindings(path);
+  }
+}
+
+TEST(HardScenes, ALoadThatIsLevelAtAnEventTurnsThere) {
+  for (const Accuracy accuracy : {Accuracy::kFast, Accuracy::kBalanced}) {
+    SCOPED_TRACE(ToString(accuracy));
+    const TracedPath path = TraceData("load_leaves_level", Method::kBranch, accuracy);
+    EXPECT_EQ(path.result.reason, EndReason::kMaxIncrements) << path.result.message;
+    const std::vector<Increment> limits = IncrementsOfKind(path, IncrementKind::kCornerLimit);
+    ASSERT_EQ(limits.size(), 1U);
+    EXPECT_NEAR(limits[0].load_factor, -0.2, 1e-12);
+    EXPECT_GT(path.increments.back().load_factor, limits[0].load_factor + 1e-6);
+    ExpectNoFindings(path);
+  }
+}
+
 // The limit points of a truss are those of the truss without the loose chain, and the path goes on beyond them.
 TEST(HardScenes, ALooseChainDoesNotStopAPathAtALimitPoint) {
   TraceRequest request = ReadData("loose_chain_beside_a_limit_point");

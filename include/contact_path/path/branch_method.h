@@ -62,11 +62,13 @@ class BranchMethod : public PathMethod {
   // Sets out on a branch from the end of the step.
   std::optional<EndReason> LeaveEnd(const ArcStep& at, const BranchChoice* choice, AcceptedPoint* increment,
                                     std::string* message);
-  // Whether the load factor turns at the end of the step, on the branch that was taken there. Where its first
-  // derivative is zero, the second tells.
   // Whether an inequality fails where the step sets out, by a rate within the tolerance.
   bool FailsByRounding(const ArcStep& at) const;
-  bool TurnsLoad(const ArcStep& at) const;
+  // Whether the load factor turns at the end of the step, on the branch that was taken there. Where its first
+  // derivative is zero, the second tells, and where both are, its rate a little further on.
+  bool TurnsLoad(const ArcStep& at);
+  // Rate of the load factor at a distance along the arc from where the path stands now; 0 where it is not found.
+  double RateBeyond(double length);
   // Whether the step ends where a node that is pressed onto an open surface slides over an end of it.
   bool SlidesOff(const ArcStep& at, const PathPoint& point) const;
   void SetNextLength(const ArcStep& at);
