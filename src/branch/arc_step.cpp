@@ -12,8 +12,9 @@ constexpr double kCoarsePrediction = 0.05;  // largest error of the predictor wh
 constexpr double kNoise = 10.0;             // of the last Newton step: what rounding leaves of the predictor
 constexpr double kShortStep = 1e-3;         // of the longest one
 constexpr int kLocatingAttempts = 6;
-constexpr double kRounded = 10.0;  // turn along a step by a second derivative that is rounding
-constexpr double kOffCurve = 0.7;  // cosine between a chord and its tangent: of a located end, less exact
+constexpr double kRounded = 10.0;     // turn along a step by a second derivative that is rounding
+constexpr double kLongestArc = 1.05;  // of its chord
+constexpr double kOffCurve = 0.7;     // cosine between a chord and its tangent: of a located end, less exact
 
 // A matrix that is singular to rounding at a regular point has no sign of its own.
 void KeepSide(const CurvePoint& start, CurvePoint* end) {
@@ -40,6 +41,13 @@ void DropRoundedSeconds(Step* step) {
 bool EndsBeside(const Step& step, double cosine) {
   const double chord = (step.end.x - step.start.x).head(step.normal.size()).norm();
   return chord > tolerances::kHasDirection && step.length < cosine * chord;
+}
+
+// Whether the curve of the step is longer than an arc over its chord that turns by 60 degrees: its second derivatives
+// belong to a sharper turn than the step can show.
+bool Winds(const Step& step) {
+  const double chord = (step.end.x - step.start.x).head(step.normal.size()).norm();
+  return chord > tolerances::kHasDirection && step.ArcLength() > kLongestArc * chord;
 }
 
 // A whole step with this length along the tangent; nothing where it has to be shorter.
@@ -121,6 +129,7 @@ bool EndAtFirstEvent(SmoothArc* arc, std::optional<double> target, ArcStep* at) 
       return true;
     }
     DropRoundedSeconds(&at->step);
+    if (Winds(at->step)) return false;
     const StepEvent earlier = FirstEvent(arc, at->step, target);
     // Rounding has put the point beyond the bifurcation that is in its place.
     if (earlier.singular && earlier.t >= at->step.length - tolerances::kNoMove)

@@ -15,6 +15,8 @@ constexpr double kBend = 0.25;      // of a force along an arc of length 1: what
 constexpr double kSagitta = 0.125;  // of a circular arc, over its length and the angle by which it turns
 // Times the forces of the parts: what presses on a contact whose friction resists the load, both of which grow.
 constexpr double kWedged = 3.0;
+// Times kBend, where no increment before tells how a motion bends.
+constexpr double kSharper = 4.0;
 
 // Of the fastest prescribed motion [length per unit of the load factor].
 double LargestSpeed(const VerifiedStage& stage) {
@@ -141,8 +143,10 @@ TrapezoidWork WorkBetween(const VerifiedStage& stage, const Increment* earlier, 
     const double forwards = stage.check.Slip(i, from_state, to_state), slip = std::abs(forwards);
     if (stage.total_law) {
       dissipation -= 0.5 * (before.contacts[i].rt + increment.contacts[i].rt) * forwards;
-      // By this law a slip that turns round is no event.
-      const double most_slip = slip + bend * stage.scaling.length;
+      // By this law a slip that turns round is no event. Where no increment before tells how the motion bends, it may
+      // bend over a quarter of L.
+      const double forth_and_back = (arc_before > 0.0 ? 1.0 : kSharper) * bend * stage.scaling.length;
+      const double most_slip = slip + forth_and_back;
       if (at.friction > 0.0) open_dissipation += open_force(i, &ContactRecord::rt, 1.0) * most_slip / unit;
       continue;
     }

@@ -325,7 +325,6 @@ TEST(HardScenes, AnOpenContactHasNoFriction) {
     }
 }
 
-// Increments that are hard to prove are proved, or the path ends by name before them.
 // The wall stands where a step ends, so that the next step has no length. The node rests by the wall, which rounding
 // alone could tell from open, and goes back by the floor: no reaction jumps.
 TEST(HardScenes, StepThatEndsAtAWall) {
@@ -343,6 +342,7 @@ TEST(HardScenes, StepThatEndsAtAWall) {
   EXPECT_EQ(sticks.contacts[1].rn, 0.0);
 }
 
+// Increments that are hard to prove are proved, or the path ends by name before them.
 TEST(HardScenes, IncrementsThatAreHardToProve) {
   struct Case {
     const char* name;
@@ -365,6 +365,7 @@ TEST(HardScenes, IncrementsThatAreHardToProve) {
                         {"guide_that_moves", EndReason::kStopCriterion, 5},
                         {"moves_off_at_rounding", EndReason::kStopCriterion, 6},
                         {"stiff_support_moves", EndReason::kStepTooSmall, 10},
+                        {"winds_from_the_start", EndReason::kStepTooSmall, 1},
                         {"rounding_beside_the_curve", EndReason::kStepTooSmall, 8}};
   for (const Case& of : cases) {
     SCOPED_TRACE(of.name);

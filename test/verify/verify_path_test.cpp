@@ -238,7 +238,7 @@ INSTANTIATE_TEST_SUITE_P(VerifyPath, RightPathIsProved,
                                            "soft_motion_in_place", "load_turns_on_soft_parts", "load_turns_in_rounding",
                                            "load_is_a_cubic", "very_rough_contact_opens", "presses_to_second_order",
                                            "very_rough_contact_leaves", "begins_to_press", "presses_and_lets_go",
-                                           "over_a_bulge"),
+                                           "over_a_bulge", "slips_forth_and_back"),
                          [](const auto& instance) { return std::string(instance.param); });
 
 // Work and dissipation are changed alike, so that the energies still balance: their trapezoids tell. The bars beside
