@@ -160,7 +160,7 @@ TrapezoidWork WorkBetween(const VerifiedStage& stage, const Increment* earlier, 
     dissipation += 0.5 * at.friction * (before.contacts[i].rn + increment.contacts[i].rn) * along_state;
     open_dissipation += at.friction * open_force(i, &ContactRecord::rn, kWedged) * slip / unit;
   }
-  // They take no more work than what they store and what their contacts dissipate.
+  // Parts take no more work than what they store and what contacts dissipate.
   const double stored = (std::abs(increment.strain_energy) + std::abs(before.strain_energy)) / unit;
   open_work += std::min(of_parts, stored + std::abs(dissipation) / unit + open_dissipation);
   return {work / unit, dissipation / unit, open_work, open_dissipation};

@@ -114,15 +114,12 @@ const TracedPath& Reference(const std::string& name, const TraceRequest& request
   return found != paths.end() ? found->second : paths.emplace(key, TraceIncrements(request)).first->second;
 }
 
-// The increment of the reference that `increment` has to be equal to, or null.
-const Increment* Counterpart(const std::vector<Increment>& reference, const Increment& increment) {
-  const auto same_place = [&](const Increment& other) {
-    return std::abs(other.arc_length - increment.arc_length) <= 1e-9;
-  };
-  const auto index = static_cast<std::size_t>(increment.index);
-  if (index < reference.size() && same_place(reference[index])) return &reference[index];
-  const auto found = std::find_if(reference.begin(), reference.end(), same_place);
-  return found != reference.end() ? &*found : nullptr;
+// The increment of the path at this arc length, or null.
+const Increment* AtArcLength(const std::vector<Increment>& path, double arc_length) {
+  const auto found = std::find_if(path.begin(), path.end(), [&](const Increment& increment) {
+    return std::abs(increment.arc_length - arc_length) <= 1e-9;
+  });
+  return found != path.end() ? &*found : nullptr;
 }
 
 // A scene in other units has the path of the scene in units of order 1, increment by increment. By mpec, rounding
@@ -142,11 +139,13 @@ ExtremeCase Units(const std::string& name, double length, double force) {
     same.options.accuracy = as_run.options.accuracy;
     const Scaling scales = CharacteristicScales(Expand(request).request.scene);
     const std::vector<Increment>& reference = Reference(name, same).increments;
-    const Increment* counterpart = Counterpart(reference, increment);
-    if (counterpart == nullptr) {
-      const bool elsewhere = same.options.method == Method::kMpec && 2 * increment.index >= reference.back().index;
-      return elsewhere ? 0.0 : HUGE_VAL;
+    const auto index = static_cast<std::size_t>(increment.index);
+    const Increment* counterpart = index < reference.size() ? &reference[index] : nullptr;
+    if (same.options.method == Method::kMpec && 2 * increment.index >= reference.back().index) {
+      counterpart = AtArcLength(reference, increment.arc_length);
+      if (counterpart == nullptr) return 0.0;
     }
+    if (counterpart == nullptr) return HUGE_VAL;
     const Increment& other = *counterpart;
     double error = std::abs(increment.load_factor - other.load_factor) / scales.load_factor;
     for (std::size_t i = 0; i < increment.positions.size(); ++i)

@@ -225,9 +225,9 @@ TEST(HardScenes, ALimitPointWhereAStepSetsOutIsFoundOnce) {
 }
 
 TEST(HardScenes, ALoadThatIsLevelAtAnEventTurnsThere) {
-  for (const Accuracy accuracy : {Accuracy::kFast, Accuracy::kBalanced}) {
+  for (const Accuracy accuracy : kPresets) {
     SCOPED_TRACE(ToString(accuracy));
-    const TracedPath path = TraceData("load_leaves_level", Method::kBranch, accuracy);
+    const TracedPath path = TraceData("load_leaves_level", Method::kBranch, accuracy, 60);
     EXPECT_EQ(path.result.reason, EndReason::kMaxIncrements) << path.result.message;
     const std::vector<Increment> limits = IncrementsOfKind(path, IncrementKind::kCornerLimit);
     ASSERT_EQ(limits.size(), 1U);
