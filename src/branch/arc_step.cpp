@@ -36,17 +36,19 @@ void DropRoundedSeconds(Step* step) {
   end.second = (second - end.first.head(n).dot(second.head(n)) * end.first) / (speed * speed);
 }
 
+double Chord(const Step& step) { return (step.end.x - step.start.x).head(step.normal.size()).norm(); }
+
 // Whether the end of the step is beside the curve, as where rounding moves points by more than the length of the step.
 // cosine: smallest between the tangent at the start and the chord.
 bool EndsBeside(const Step& step, double cosine) {
-  const double chord = (step.end.x - step.start.x).head(step.normal.size()).norm();
+  const double chord = Chord(step);
   return chord > tolerances::kHasDirection && step.length < cosine * chord;
 }
 
 // Whether the curve of the step is longer than an arc over its chord that turns by 60 degrees: its second derivatives
 // belong to a sharper turn than the step can show.
 bool Winds(const Step& step) {
-  const double chord = (step.end.x - step.start.x).head(step.normal.size()).norm();
+  const double chord = Chord(step);
   return chord > tolerances::kHasDirection && step.ArcLength() > kLongestArc * chord;
 }
 

@@ -16,7 +16,7 @@ constexpr double kSagitta = 0.125;  // of a circular arc, over its length and th
 // Times the forces of the parts: what presses on a contact whose friction resists the load, both of which grow.
 constexpr double kWedged = 3.0;
 // Times kBend, where no increment before tells how a motion bends.
-constexpr double kSharper = 4.0;
+constexpr double kSharper = 2.0;
 
 // Of the fastest prescribed motion [length per unit of the load factor].
 double LargestSpeed(const VerifiedStage& stage) {
@@ -101,7 +101,7 @@ TrapezoidWork WorkBetween(const VerifiedStage& stage, const Increment* earlier, 
   double open_work = (load_open * std::abs(along) + bend * std::abs(work) +
                       beside * load_change * scaled_loads * stage.scaling.length) /
                      unit;
-  double of_parts = 0.0;  // a part of open_work: what prescribed motion may do against parts of which nothing is known
+  double against_parts = 0.0;  // of open_work: by prescribed motion, where no increment before tells of its force
   if (!stage.scene.support_motions.empty() || !stage.scene.obstacle_motions.empty()) {
     const double from = stage.check.DrivingForce(from_state), to = stage.check.DrivingForce(to_state);
     const double moved = increment.load_factor - before.load_factor;
@@ -116,7 +116,7 @@ TrapezoidWork WorkBetween(const VerifiedStage& stage, const Increment* earlier, 
     if (moved_before == 0.0) {
       // No increment before tells how the force changes. Parts whose strains are of second order in the motion exert
       // forces of that order.
-      of_parts = bend * stage.scaling.length * stage.check.LargestStiffness() * speed * std::abs(moved) / unit;
+      against_parts = bend * stage.scaling.length * stage.check.LargestStiffness() * speed * std::abs(moved) / unit;
     } else {
       const double going_on = (from - stage.check.DrivingForce(StateOf(*earlier))) / moved_before * moved;
       open_work += OpenOfParabola(going_on, to - from) * std::abs(moved) / unit;
@@ -144,7 +144,7 @@ TrapezoidWork WorkBetween(const VerifiedStage& stage, const Increment* earlier, 
     if (stage.total_law) {
       dissipation -= 0.5 * (before.contacts[i].rt + increment.contacts[i].rt) * forwards;
       // By this law a slip that turns round is no event. Where no increment before tells how the motion bends, it may
-      // bend over a quarter of L.
+      // bend over half of L.
       const double forth_and_back = (arc_before > 0.0 ? 1.0 : kSharper) * bend * stage.scaling.length;
       const double most_slip = slip + forth_and_back;
       if (at.friction > 0.0) open_dissipation += open_force(i, &ContactRecord::rt, 1.0) * most_slip / unit;
@@ -162,7 +162,7 @@ TrapezoidWork WorkBetween(const VerifiedStage& stage, const Increment* earlier, 
   }
   // Parts take no more work than what they store and what contacts dissipate.
   const double stored = (std::abs(increment.strain_energy) + std::abs(before.strain_energy)) / unit;
-  open_work += std::min(of_parts, stored + std::abs(dissipation) / unit + open_dissipation);
+  open_work += std::min(against_parts, stored + std::abs(dissipation) / unit + open_dissipation);
   return {work / unit, dissipation / unit, open_work, open_dissipation};
 }
 
