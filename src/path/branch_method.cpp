@@ -375,16 +375,23 @@ bool BranchMethod::TurnsLoad(const ArcStep& at) {
   const Eigen::Index s = LoadFactor();
   const double arrives = Trend(at.step.end.first[s], -at.step.end.second[s], level);
   double leaves = Trend(current_.first[s], current_.second[s], level);
-  // A load that is level to second order may yet rise or fall.
-  if (leaves == 0.0 && arrives != 0.0) leaves = Trend(RateBeyond(kProbe * options_.step), 0.0, level);
+  // A load that is level to second order may yet rise or fall; and where paths cross, a second derivative may be
+  // nothing but the distance of the located point from the crossing.
+  const bool is_level = std::abs(current_.first[s]) <= level;
+  if (is_level && arrives != 0.0 && (leaves == 0.0 || at.event.singular)) {
+    const std::optional<double> rate = RateBeyond(kProbe * options_.step);
+    const double beyond = rate ? Trend(*rate, 0.0, level) : leaves;
+    if (leaves == 0.0 || beyond == 0.0) leaves = beyond;
+  }
   return arrives * leaves < 0.0;
 }
 
-double BranchMethod::RateBeyond(double length) {
+std::optional<double> BranchMethod::RateBeyond(double length) {
   const Eigen::VectorXd normal = current_.first.head(arc_.NumMotion());
   const Correction there = arc_.CorrectOnPlane(current_.x + length * current_.first, normal);
   CurvePoint point;
-  return there.converged && arc_.Derivatives(there.x, normal, &point) ? point.first[LoadFactor()] : 0.0;
+  if (!there.converged || !arc_.Derivatives(there.x, normal, &point)) return std::nullopt;
+  return point.first[LoadFactor()];
 }
 
 bool BranchMethod::SlidesOff(const ArcStep& at, const PathPoint& point) const {

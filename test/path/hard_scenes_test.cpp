@@ -237,6 +237,20 @@ TEST(HardScenes, ALoadThatIsLevelAtAnEventTurnsThere) {
   }
 }
 
+// Where a frame that bears no load begins to move freely, the located point is off by rounding: what that leaves of the
+// derivatives of the load is no turn of it.
+TEST(HardScenes, ALoadThatEndsAtAMechanismDoesNotTurnThere) {
+  const TracedPath path = TraceData("free_motion_at_no_load", Method::kBranch, Accuracy::kFast);
+  EXPECT_EQ(path.result.reason, EndReason::kMaxIncrements) << path.result.message;
+  const std::vector<Increment> limits = IncrementsOfKind(path, IncrementKind::kCornerLimit);
+  ASSERT_EQ(limits.size(), 1U);
+  EXPECT_NEAR(limits[0].load_factor, -0.093445944556607874, 1e-12);
+  const std::vector<Increment> events = IncrementsOfKind(path, IncrementKind::kContactEvent);
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_NEAR(events[0].load_factor, 0.0, 1e-8);
+  ExpectNoFindings(path);
+}
+
 // The limit points of a truss are those of the truss without the loose chain, and the path goes on beyond them.
 TEST(HardScenes, ALooseChainDoesNotStopAPathAtALimitPoint) {
   TraceRequest request = ReadData("loose_chain_beside_a_limit_point");

@@ -65,10 +65,10 @@ class BranchMethod : public PathMethod {
   // Whether an inequality fails where the step sets out, by a rate within the tolerance.
   bool FailsByRounding(const ArcStep& at) const;
   // Whether the load factor turns at the end of the step, on the branch that was taken there. Where its first
-  // derivative is zero, the second tells, and where both are, its rate a little further on.
+  // derivative is zero, the second tells, and its rate a little further on where both are zero or paths cross.
   bool TurnsLoad(const ArcStep& at);
-  // Rate of the load factor at a distance along the arc from where the path stands now; 0 where it is not found.
-  double RateBeyond(double length);
+  // Rate of the load factor at a distance along the arc from where the path stands now; nothing where it is not found.
+  std::optional<double> RateBeyond(double length);
   // Whether the step ends where a node that is pressed onto an open surface slides over an end of it.
   bool SlidesOff(const ArcStep& at, const PathPoint& point) const;
   void SetNextLength(const ArcStep& at);
