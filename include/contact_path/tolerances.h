@@ -34,8 +34,6 @@ inline constexpr double kPredictor = 1e-12;
 inline constexpr double kPredictorRounding = 1e-15;
 // Component of a unit vector (du, ds): zero. A start along which the load changes less is a mechanism.
 inline constexpr double kUnitComponent = 1e-13;
-// Rate of the load in an equation, of the largest part of the equation: rounding.
-inline constexpr double kLostRate = 1e-14;
 // Component of a unit tangent of an obstacle: zero, as cos(pi / 2) = 6e-17.
 inline constexpr double kTangentComponent = 1e-12;
 // Reaction, of the characteristic force: zero.

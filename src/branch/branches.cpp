@@ -9,6 +9,7 @@
 #include "branch/rate_problems.h"
 #include "contact_path/branch/branch_order.h"
 #include "contact_path/branch/pivoting.h"
+#include "contact_path/branch/rate_complementarity.h"
 #include "contact_path/branch/rate_problem.h"
 #include "contact_path/branch/reaction_redistribution.h"
 #include "contact_path/branch/redundant_contacts.h"
@@ -25,6 +26,7 @@ namespace {
 constexpr double kFewCombinations = 8.0;             // not worth condensing the rate problem of a small structure for
 constexpr double kMostCondensed = 5e7;               // numbers that may be held for that
 constexpr std::size_t kMostCondensedContacts = 200;  // of more, dense equations take longer than the sparse ones of all
+constexpr int kGuesses = 3;                          // of the complementarity problem where its solution may not be unique
 constexpr int kMostRestarts = 64;                    // contacts, one after another in another state, to pivot from
 constexpr Eigen::Index kMostDofsForFurther = 300;    // beyond, further candidates are asked for if nothing else helps
 constexpr double kMostCombinations = 4096.0;         // 4^6
@@ -72,6 +74,7 @@ class Finder {
         cancelled_(cancelled),
         redundant_(contacts, point, tolerance.gap),
         system_(structure, contacts),
+        modes_(structure),
         reference_(SlipReferences(contacts, point)) {
     for (std::size_t i = 0; i < contacts.size(); ++i) touching_.push_back(TouchingState(*contacts[i], options[i]));
   }
@@ -84,7 +87,7 @@ class Finder {
     for (std::size_t k = 0; k < tangents.first.size(); ++k)
       for (const double sign : {1.0, -1.0}) {
         const Eigen::VectorXd first = sign * tangents.first[k];
-        if (Admissible(x, first, tangents.second[k])) Add(tangents, x, first, tangents.second[k], branches);
+        if (Admissible(tangents, k, x, first)) Add(tangents, x, first, tangents.second[k], branches);
       }
   }
 
@@ -121,7 +124,7 @@ class Finder {
   Tangents TangentsOf(const ContactModes& modes, Eigen::VectorXd* x) {
     system_.SetStates(StatesOf(modes), reference_, PatchesOf(modes));
     *x = system_.Pack(point_);
-    Tangents tangents = FindTangents(*x, arrival_.direction, arrival_.singular, &system_, &solvers_);
+    Tangents tangents = FindTangents(*x, arrival_.direction, arrival_.singular, modes_, &system_, &solvers_);
     rigid_modes_ = std::max(rigid_modes_, tangents.rigid_modes);
     return tangents;
   }
@@ -151,8 +154,10 @@ class Finder {
     return broken;
   }
 
-  bool Admissible(const Eigen::VectorXd& x, const Eigen::VectorXd& first, const Eigen::VectorXd& second) {
-    if (arrival_.is_start && !SetsOut(x, first, second)) return false;
+  // first: the tangent k, or its opposite.
+  bool Admissible(const Tangents& tangents, std::size_t k, const Eigen::VectorXd& x, const Eigen::VectorXd& first) {
+    const Eigen::VectorXd& second = tangents.second[k];
+    if (arrival_.is_start && (tangents.rigid || !SetsOut(x, first, second, tangents.load_error[k]))) return false;
     if (!arrival_.is_start && IsReversed(first)) return false;
     std::vector<Constraint> level;
     for (const Constraint& constraint : system_.Inequalities()) {
@@ -181,33 +186,16 @@ class Finder {
     });
   }
 
-  // Whether the load starts to change in the wanted sense. At a smooth limit point it rests, and its curvature tells;
-  // where that is zero as well, as of a load across straight bars, the rate a little farther along the curve does.
-  bool SetsOut(const Eigen::VectorXd& x, const Eigen::VectorXd& first, const Eigen::VectorXd& second) {
+  // Whether the load starts to change in the wanted sense, by more than the error of its rate: a motion without load is
+  // a mechanism. At a smooth limit point the load rests, and its curvature tells; where that is zero as well, as of a
+  // load across straight bars, the rate a little farther along the curve does.
+  bool SetsOut(const Eigen::VectorXd& x, const Eigen::VectorXd& first, const Eigen::VectorXd& second, double error) {
     const Eigen::Index s = NumMotion() - 1;
     const double sense = arrival_.direction[s];
-    if (first[s] * sense > tolerances::kRate) return true;
-    if (first[s] * sense > tolerances::kUnitComponent) return !LoadIsRounding(x, first);
-    if (std::abs(first[s]) > tolerances::kRate) return false;
+    if (std::abs(first[s]) > error) return first[s] * sense > 0.0;
     if (std::abs(second[s]) > tolerances::kCurvature) return second[s] * sense > 0.0;
     const std::optional<Ahead> ahead = LookAhead(x, first, second);
     return ahead && ahead->first[s] * sense > tolerances::kRate;
-  }
-
-  // Whether the rate of the load is lost in the rounding of the equations that it is in: nothing resists it.
-  bool LoadIsRounding(const Eigen::VectorXd& x, const Eigen::VectorXd& first) {
-    const Eigen::Index s = NumMotion() - 1;
-    const Eigen::SparseMatrix<double>& jacobian = system_.TransposedJacobian(x);
-    for (Eigen::Index equation = 0; equation < jacobian.outerSize(); ++equation) {
-      double all = 0.0, load = 0.0;
-      for (Eigen::SparseMatrix<double>::InnerIterator it(jacobian, equation); it; ++it) {
-        const double part = std::abs(it.value() * first[it.row()]);
-        all = std::max(all, part);
-        if (it.row() == s) load = part;
-      }
-      if (load > tolerances::kLostRate * all) return false;
-    }
-    return true;
   }
 
   // The tangent of the curve a little farther along; nothing where there is none. The error of the Taylor polynomial is
@@ -311,6 +299,7 @@ class Finder {
   bool was_cancelled_ = false;
   RedundantContacts redundant_;
   FixedStateSystem system_;
+  RigidModes modes_;
   Eigen::VectorXd reference_;
   States touching_;  // that each contact takes on where its gap closes
   TangentSolvers solvers_;
@@ -335,6 +324,22 @@ void TryAll(const Options& options, const std::function<bool(const ContactModes&
       turned = digits[i] != 0;
     }
   }
+}
+
+// The solutions of the complementarity problem of the rates, each tried like any other combination. Whether these are
+// all branches that there are.
+bool TrySolutions(const RateComplementarity& problem, const Options& options, const PathPoint& point, Finder* finder,
+                  BranchSet* result) {
+  std::set<States> tried;
+  for (int guess = 0; guess < (problem.unique() ? 1 : kGuesses); ++guess)
+    for (const double sense : {1.0, -1.0}) {
+      if (finder->Cancelled()) return false;
+      const std::optional<States> states = problem.Solve(sense, guess);
+      if (!states || !tried.insert(*states).second) continue;
+      finder->Try(ModesWith(*states, options, point), &result->branches);
+      ++result->combinations;
+    }
+  return problem.unique() && !result->branches.empty();
 }
 
 // Where there are too many combinations: principal pivoting from several first guesses, and the further candidates.
@@ -413,7 +418,7 @@ BranchSet BranchesWithReactions(const Structure& structure, const ContactPairs& 
   std::optional<RateProblem> problem;
   RateProblems of_patches(structure, contacts, point, natural, weakly_active, arrival.direction);
   const double entries = static_cast<double>(point.u.size()) * static_cast<double>(2 * weakly_active.size() + 1);
-  const double few = point.u.size() < BorderedSolver::kLargeSystem ? kFewCombinations : 1.0;
+  const double few = point.u.size() < kLargeSystem ? kFewCombinations : 1.0;
   const bool condenses = combinations > few && weakly_active.size() <= kMostCondensedContacts && !arrival.singular &&
                          entries <= kMostCondensed;
   if (condenses && !between_patches)
@@ -424,8 +429,16 @@ BranchSet BranchesWithReactions(const Structure& structure, const ContactPairs& 
         condenses && between_patches && !between_rigid ? of_patches.On(PatchesOf(modes)) : condensed;
     return rates != nullptr && finder.Excluded(StatesOf(modes), *rates);
   };
-  result.complete = combinations <= kMostCombinations;
-  if (result.complete)
+  bool solved = false;
+  if (condensed != nullptr) {
+    const RateComplementarity complementarity(contacts, *condensed, options, weakly_active);
+    if (complementarity.exists() && (complementarity.unique() || combinations > kMostCombinations))
+      solved = TrySolutions(complementarity, options, point, &finder, &result);
+  }
+  result.complete = solved || combinations <= kMostCombinations;
+  if (solved) {
+    // Nothing else is a solution.
+  } else if (result.complete)
     TryAll(options, excluded, &finder, &result);
   else
     TryLikely(options, point, arrival, condensed, further, &finder, &result);

@@ -117,11 +117,12 @@ double RateProblem::Unit(Eigen::Index k) const {
   return contacts_[static_cast<std::size_t>(weakly_active_[static_cast<std::size_t>(k)])]->ForceUnit();
 }
 
-Eigen::MatrixXd RateProblem::Kernel(const Eigen::MatrixXd& equations) const {
+Eigen::MatrixXd RateProblem::Kernel(const Eigen::MatrixXd& equations, bool* clear) const {
   // Nearly always one solution, and it is not orthogonal to the arrival.
   Eigen::MatrixXd square(equations.cols(), equations.cols());
   square << equations, along_.transpose();
   const Eigen::PartialPivLU<Eigen::MatrixXd> bordered(square);
+  *clear = bordered.rcond() > tolerances::kExcludedRate;
   if (bordered.rcond() > tolerances::kCondensedPivot)
     return bordered.solve(Eigen::VectorXd::Unit(square.cols(), square.cols() - 1));
   Eigen::FullPivLU<Eigen::MatrixXd> lu(equations);
@@ -190,12 +191,15 @@ Eigen::MatrixXd RateProblem::Equations(const std::vector<ContactState>& states) 
 }
 
 std::optional<CondensedRates> RateProblem::Rates(const std::vector<ContactState>& states) const {
-  const Eigen::MatrixXd kernel = Kernel(Equations(states));
+  bool clear = false;
+  const Eigen::MatrixXd kernel = Kernel(Equations(states), &clear);
+  if (kernel.cols() == 1 && !clear) return std::nullopt;
   return RatesOf(kernel.cols() == 1 ? kernel.col(0) : ShortestMember(kernel));
 }
 
 std::optional<CondensedRates> RateProblem::UniqueRates(const std::vector<ContactState>& states) const {
-  const Eigen::MatrixXd kernel = Kernel(Equations(states));
+  bool clear = false;
+  const Eigen::MatrixXd kernel = Kernel(Equations(states), &clear);
   if (kernel.cols() != 1) return std::nullopt;
   return RatesOf(kernel.col(0));
 }

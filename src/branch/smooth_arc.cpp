@@ -7,6 +7,7 @@
 #include "contact_path/branch/gauss_rule.h"
 #include "contact_path/branch/plane_tangents.h"
 #include "contact_path/linear/generic_vector.h"
+#include "contact_path/linear/linearised_equations.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
@@ -15,6 +16,7 @@ namespace {
 constexpr int kMaxIterations = 12;
 constexpr int kSingularIterations = 3;
 constexpr int kLinearisations = 8;
+constexpr int kMostLowerings = 3;
 constexpr double kSlow = 0.1;  // ratio of two steps beyond which that of another point is not
 
 // The six quintic Hermite basis polynomials: value, first, second at the start, then at the end.
@@ -41,13 +43,14 @@ void EndDerivatives(const Step& step, Eigen::VectorXd* first, Eigen::VectorXd* s
 }  // namespace
 
 SmoothArc::SmoothArc(const Structure& structure, const ContactPairs& contacts)
-    : structure_(structure), contacts_(contacts), system_(structure, contacts), tracker_(contacts) {}
+    : structure_(structure), contacts_(contacts), system_(structure, contacts), tracker_(contacts), modes_(structure) {}
 
 void SmoothArc::SetStates(const std::vector<ContactState>& states, const PathPoint& from, bool rests) {
   system_.SetStates(states, SlipReferences(contacts_, from), from.patches);
   at_hand_ = false;
   origin_.resize(0);
   rests_ = rests;
+  held_.reset();
   NoteClosedGaps(from);
 }
 
@@ -78,11 +81,14 @@ bool SmoothArc::Derivatives(const Eigen::VectorXd& x, const Eigen::VectorXd& tow
   const Eigen::Index n = NumMotion();
   Eigen::VectorXd row = Eigen::VectorXd::Zero(system_.NumUnknowns());
   row.head(n) = towards;
-  if (!Factorize(x, row)) return false;
+  const Eigen::SparseMatrix<double>& transposed = system_.TransposedJacobian(x);
+  if (!Factorize(x, transposed, row, 0.0)) return false;
   at_hand_ = solver_.Nullity() == 0;
   point->x = x;
   point->first = solver_.Solve(Eigen::VectorXd::Zero(system_.NumEquations()), 1.0);
-  if (solver_.Nullity() == 1) ChooseInPlane(x, towards, &point->first);
+  if (solver_.Nullity() == 0 || held_.value_or(false))
+    LinearisedEquations(transposed).Refine(solver_, &point->first);
+  else if (solver_.Nullity() == 1) ChooseInPlane(x, towards, &point->first);
   const double norm = point->first.head(n).norm();
   if (!std::isfinite(norm) || norm == 0.0 || point->first.head(n).dot(towards) <= 0.0) return false;
   point->first /= norm;
@@ -161,8 +167,8 @@ Correction SmoothArc::Newton(const Eigen::VectorXd& guess, const Eigen::VectorXd
   result.steps.reserve(kMaxIterations);
   ExtrapolateStrains(guess);
   const auto factorize = [&] {
-    return structure_.Mixed() ? Factorize(system_.MixedJacobian(result.x, strains_from_, strains_to_), row)
-                              : Factorize(result.x, row);
+    if (!structure_.Mixed()) return Factorize(result.x, row);
+    return Factorize(result.x, system_.MixedJacobian(result.x, strains_from_, strains_to_), row, 0.0);
   };
   bool factorise = !at_hand;
   double previous = std::numeric_limits<double>::infinity();
@@ -184,6 +190,7 @@ Correction SmoothArc::Newton(const Eigen::VectorXd& guess, const Eigen::VectorXd
     const double stagnation = at_hand ? tolerances::kStagnationReused : tolerances::kStagnation;
     const bool stagnates = norm >= 0.5 * previous && norm <= stagnation * system_.ResidualUnit() * scale;
     if (norm <= tolerances::kNewtonStep * scale || stagnates) {
+      LowerResidual(row, value, &result.x);
       result.converged = EquationsHold(result.x, tolerances::kResidual) &&
                          std::abs(row.dot(result.x) - value) <= tolerances::kResidual * scale;
       ++result.iterations;
@@ -194,6 +201,23 @@ Correction SmoothArc::Newton(const Eigen::VectorXd& guess, const Eigen::VectorXd
     previous = norm;
   }
   return result;
+}
+
+void SmoothArc::LowerResidual(const Eigen::VectorXd& row, double value, Eigen::VectorXd* x) {
+  system_.Residual(*x, &residual_);
+  double largest = residual_.lpNorm<Eigen::Infinity>();
+  const double zero = tolerances::kNewtonStep * (1.0 + x->lpNorm<Eigen::Infinity>());
+  for (int i = 0; i < kMostLowerings && largest > zero; ++i) {
+    residual_ = -residual_;
+    solver_.Solve(residual_, value - row.dot(*x), &step_length_);
+    HoldLimitPoint(*x, &step_length_);
+    const Eigen::VectorXd next = *x + step_length_;
+    system_.Residual(next, &residual_);
+    const double lowered = residual_.lpNorm<Eigen::Infinity>();
+    if (!(lowered <= 0.5 * largest)) return;
+    *x = next;
+    largest = lowered;
+  }
 }
 
 void SmoothArc::SetOut(const CurvePoint& at) {
@@ -211,16 +235,28 @@ void SmoothArc::ExtrapolateStrains(const Eigen::VectorXd& guess) {
 }
 
 bool SmoothArc::Factorize(const Eigen::VectorXd& x, const Eigen::VectorXd& row, double rank_tolerance) {
-  return Factorize(system_.TransposedJacobian(x), row, rank_tolerance);
+  return Factorize(x, system_.TransposedJacobian(x), row, rank_tolerance);
 }
 
-bool SmoothArc::Factorize(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& row,
-                          double rank_tolerance) {
+bool SmoothArc::Factorize(const Eigen::VectorXd& x, const Eigen::SparseMatrix<double>& transposed,
+                          const Eigen::VectorXd& row, double rank_tolerance) {
   ++factorisations_;
   at_hand_ = false;
   if (rests_ && rank_tolerance == 0.0) rank_tolerance = tolerances::kDependentColumnResting;
   // Coordinates of stiff elements leave more rounding in the equations, of a free motion, too.
   const double rounding = std::sqrt(system_.ResidualUnit());
+  if (rank_tolerance == 0.0 && modes_.Possible()) {
+    const auto hold = [&] {
+      const Eigen::MatrixXd modes = modes_.At(x.head(system_.NumDofs()), transposed);
+      held_ = modes.cols() > 0 && transposed.rows() == transposed.cols() + 1 &&
+              solver_.FactorizeHeld(transposed, row, modes, system_.InFrame());
+      return *held_;
+    };
+    // Along an arc the same motions stay free as a rule.
+    if (held_.value_or(true) && hold()) return true;
+    if (solver_.FactorizeRegular(transposed, row, rounding * tolerances::kSingularPivot, system_.InFrame()) || hold())
+      return true;
+  }
   return solver_.Factorize(transposed, row, system_.InFrame(), rank_tolerance, rounding);
 }
 

@@ -3,9 +3,11 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "contact_path/branch/plane_tangents.h"
+#include "contact_path/linear/linearised_equations.h"
 #include "contact_path/linear/singular_vectors.h"
 #include "contact_path/tolerances.h"
 
@@ -122,20 +124,61 @@ Tangents SingularTangents(const Eigen::VectorXd& x, const Eigen::VectorXd& arriv
   return tangents;
 }
 
+// Where rigid motions of parts are all that makes the equations singular. tangent: of the equations that are held, where
+// it solves the equations themselves; otherwise these leave the rigid motions alone.
+Tangents HeldTangents(const Eigen::VectorXd& arrival, std::optional<Eigen::VectorXd> tangent,
+                      const Eigen::MatrixXd& modes) {
+  const Eigen::Index motion = arrival.size();
+  NullSpaceParts parts;
+  parts.rigid = modes;
+  if (tangent) {
+    *tangent -= modes * (modes.transpose() * *tangent);
+    *tangent /= tangent->head(motion).norm();
+    const bool changes = tangent->tail(tangent->size() - motion + 1).norm() > tolerances::kRigid;
+    Eigen::MatrixXd& of = changes ? parts.proper : parts.rigid;
+    of.conservativeResize(tangent->size(), of.cols() + 1);
+    of.rightCols<1>() = *tangent;
+  }
+  Tangents tangents;
+  AddTangent(parts, arrival, &tangents);
+  if (parts.proper.cols() == 0) tangents.rigid = true;
+  return tangents;
+}
+
 }  // namespace
 
-Tangents FindTangents(const Eigen::VectorXd& x, const Eigen::VectorXd& arrival, bool crossed, FixedStateSystem* system,
-                      TangentSolvers* solvers) {
-  const Eigen::Index motion = arrival.size();
+Tangents FindTangents(const Eigen::VectorXd& x, const Eigen::VectorXd& arrival, bool crossed, const RigidModes& modes,
+                      FixedStateSystem* system, TangentSolvers* solvers) {
+  const Eigen::Index motion = arrival.size(), s = motion - 1;
   const Eigen::SparseMatrix<double>& transposed = system->TransposedJacobian(x);
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(system->NumEquations());
   Tangents tangents;
+  const auto add_by = [&](const BorderedSolver& solver) {
+    const LinearisedEquations equations(transposed);
+    for (Eigen::VectorXd& first : tangents.first) {
+      equations.Refine(solver, &first);
+      first /= first.head(motion).norm();
+      tangents.second.push_back(solver.Solve(-system->SecondDerivative(x, first), 0.0));
+      tangents.load_error.push_back(equations.ErrorOf(s, solver, first));
+    }
+  };
   if (!crossed) {
     Eigen::VectorXd row = Eigen::VectorXd::Zero(system->NumUnknowns());
     row.head(motion) = arrival;
-    if (solvers->regular.FactorizeRegular(transposed, row, tolerances::kRegularPivot, system->InFrame())) {
-      const Eigen::VectorXd tangent = solvers->regular.Solve(Eigen::VectorXd::Zero(system->NumEquations()), 1.0);
-      tangents.first = {tangent / tangent.head(motion).norm()};
-      tangents.second = {solvers->regular.Solve(-system->SecondDerivative(x, tangents.first[0]), 0.0)};
+    // Rounding of stiff parts may make equations regular that a rigid motion makes singular.
+    const Eigen::MatrixXd rigid = modes.At(x, transposed);
+    if (rigid.cols() == 0 &&
+        solvers->regular.FactorizeRegular(transposed, row, tolerances::kRegularPivot, system->InFrame())) {
+      tangents.first = {solvers->regular.Solve(none, 1.0)};
+      add_by(solvers->regular);
+      return tangents;
+    }
+    if (rigid.cols() > 0 && transposed.rows() == transposed.cols() + 1 &&
+        solvers->held.FactorizeHeld(transposed, row, rigid, system->InFrame())) {
+      std::optional<Eigen::VectorXd> tangent = solvers->held.Solve(none, 1.0);
+      if (!LinearisedEquations(transposed).Hold(*tangent)) tangent.reset();
+      tangents = HeldTangents(arrival, std::move(tangent), rigid);
+      add_by(solvers->held);
       return tangents;
     }
   }
@@ -145,6 +188,7 @@ Tangents FindTangents(const Eigen::VectorXd& x, const Eigen::VectorXd& arrival, 
   tangents = SingularTangents(x, arrival, crossed, system, solvers->singular);
   for (const Eigen::VectorXd& first : tangents.first)
     tangents.second.push_back(solvers->singular.Solve(-system->SecondDerivative(x, first)));
+  tangents.load_error.assign(tangents.first.size(), tolerances::kRate);
   return tangents;
 }
 

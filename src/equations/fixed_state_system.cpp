@@ -217,7 +217,7 @@ void FixedStateSystem::Rebuild() {
 }
 
 const Frame* FixedStateSystem::InFrame() {
-  if (num_unknowns_ < BorderedSolver::kLargeSystem || num_equations_ + 1 != num_unknowns_ || load_factor_fixed_ ||
+  if (num_unknowns_ < kLargeSystem || num_equations_ + 1 != num_unknowns_ || load_factor_fixed_ ||
       !active_.empty() || deformable_)
     return nullptr;
   if (placed_) return &frame_;

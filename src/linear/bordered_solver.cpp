@@ -1,5 +1,6 @@
 #include "contact_path/linear/bordered_solver.h"
 
+#include <Eigen/QR>
 #include <algorithm>
 
 #include "contact_path/linear/minimum_norm.h"
@@ -75,9 +76,17 @@ struct BorderedSolver::Factors {
   bool HasFactors() const { return is_large ? large.HasFactors() : klu.HasFactors(); }
 
   Eigen::SparseMatrix<double> matrix;  // M', unknowns x rows: of small systems
+  // Takes from each solution what lies along the null vectors.
+  void FreeOfNullVectors(double* x, Eigen::Index columns) const {
+    Eigen::Map<Eigen::MatrixXd> solutions(x, unknowns, columns);
+    if (null_space.cols() > 0) solutions -= null_space * (null_space.transpose() * solutions);
+  }
+
   Eigen::Index unknowns = 0;
   bool is_large = false;
-  bool regular = false;
+  bool regular = false;         // LU solves
+  Eigen::MatrixXd null_space;   // of M, orthonormal, where it is held by springs: LU is of M with them
+  Eigen::SparseMatrix<double> held;
   double pivot_ratio = 0.0;
   KluFactors klu;
   LargeFactors large;
@@ -96,6 +105,7 @@ bool BorderedSolver::Factorize(const Eigen::SparseMatrix<double>& transposed, co
     factors_->Free();
     factors_->regular = false;
     factors_->unknowns = transposed.rows();
+    factors_->null_space.resize(factors_->unknowns, 0);
   }
   if (!transposed.coeffs().allFinite() || !row.allFinite()) return false;
   factors_->Assemble(transposed, row);
@@ -111,9 +121,30 @@ bool BorderedSolver::FactorizeRegular(const Eigen::SparseMatrix<double>& transpo
       transposed.rows() == transposed.cols() + 1 && transposed.coeffs().allFinite() && row.allFinite();
   if (!possible) factors_->Free();
   factors_->unknowns = transposed.rows();
+  factors_->null_space.resize(factors_->unknowns, 0);
   factors_->regular = possible && factors_->FactorizeLu(transposed, row, frame) &&
                       factors_->pivot_ratio > std::max(regular, tolerances::kSingularPivot);
   return factors_->regular;
+}
+
+bool BorderedSolver::FactorizeHeld(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& row,
+                                   const Eigen::MatrixXd& modes, const Frame* frame) {
+  factors_->held = transposed;
+  // One unknown for each mode, so that none of their combinations moves without moving one of these.
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> places(modes.transpose());
+  for (Eigen::Index k = 0; k < modes.cols(); ++k) {
+    const Eigen::Index place = places.colsPermutation().indices()[k];
+    double stiffness = 0.0;
+    for (Eigen::SparseMatrix<double>::InnerIterator it(transposed, place); it; ++it)
+      stiffness = std::max(stiffness, std::abs(it.value()));
+    factors_->held.coeffRef(place, place) += stiffness > 0.0 ? stiffness : 1.0;
+  }
+  if (!FactorizeRegular(factors_->held, row, tolerances::kSingularPivot, frame)) return false;
+  const Eigen::VectorXd tangent = Solve(Eigen::VectorXd::Zero(transposed.cols()), 1.0);
+  const Eigen::MatrixXd null_vectors = modes - tangent * (row.transpose() * modes);
+  factors_->null_space = Eigen::HouseholderQR<Eigen::MatrixXd>(null_vectors).householderQ() *
+                         Eigen::MatrixXd::Identity(modes.rows(), modes.cols());
+  return factors_->null_space.allFinite();
 }
 
 Eigen::VectorXd BorderedSolver::Solve(const Eigen::VectorXd& b, double last) const {
@@ -130,6 +161,7 @@ void BorderedSolver::Solve(const Eigen::VectorXd& b, double last, Eigen::VectorX
     return;
   }
   factors_->SolveLu(x->data(), 1);
+  factors_->FreeOfNullVectors(x->data(), 1);
 }
 
 void BorderedSolver::SolveAll(const Eigen::MatrixXd& B, Eigen::MatrixXd* x) const {
@@ -137,17 +169,29 @@ void BorderedSolver::SolveAll(const Eigen::MatrixXd& B, Eigen::MatrixXd* x) cons
   x->topRows(B.rows()) = B;
   x->bottomRows(1).setZero();
   factors_->SolveLu(x->data(), x->cols());
+  factors_->FreeOfNullVectors(x->data(), x->cols());
 }
 
-Eigen::MatrixXd BorderedSolver::NullSpace() const { return factors_->minimum_norm.NullSpace(); }
+Eigen::VectorXd BorderedSolver::SolveTransposed(const Eigen::VectorXd& c) const {
+  Eigen::VectorXd y = c;
+  if (factors_->is_large)
+    factors_->large.SolveTransposed(y.data());
+  else
+    factors_->klu.Solve(y.data());
+  return y;
+}
+
+Eigen::MatrixXd BorderedSolver::NullSpace() const {
+  return factors_->regular ? factors_->null_space : factors_->minimum_norm.NullSpace();
+}
 
 Eigen::MatrixXd BorderedSolver::LeftNullSpace() const { return factors_->minimum_norm.LeftNullSpace(); }
 
 Eigen::Index BorderedSolver::Nullity() const {
-  return factors_->regular ? 0 : factors_->unknowns - factors_->minimum_norm.Rank();
+  return factors_->regular ? factors_->null_space.cols() : factors_->unknowns - factors_->minimum_norm.Rank();
 }
 
-int BorderedSolver::DeterminantSign() const { return factors_->regular ? PivotSign() : 0; }
+int BorderedSolver::DeterminantSign() const { return factors_->regular && Nullity() == 0 ? PivotSign() : 0; }
 
 int BorderedSolver::PivotSign() const { return factors_->HasFactors() ? factors_->DeterminantSign() : 0; }
 

@@ -77,4 +77,6 @@ void KluFactors::SolveTransposed(double* x, int columns) {
   klu_tsolve(symbolic_, numeric_, numeric_->n, columns, x, &common_);
 }
 
+void KluFactors::Solve(double* x) { klu_solve(symbolic_, numeric_, numeric_->n, 1, x, &common_); }
+
 }  // namespace contact_path

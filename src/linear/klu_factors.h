@@ -28,6 +28,7 @@ class KluFactors {
   int DeterminantSign() const;
   // Solves A' X = B in place, X: unknowns x columns.
   void SolveTransposed(double* x, int columns);
+  void Solve(double* x);  // A x = b in place
 
  private:
   void FreeNumeric();

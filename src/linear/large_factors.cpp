@@ -147,6 +147,21 @@ void LargeFactors::Solve(double* x, Eigen::Index columns) {
   }
 }
 
+void LargeFactors::SolveTransposed(double* y) {
+  const Eigen::Index last = row_.size() - 1;
+  right_.setZero();
+  for (std::size_t i = 0; i < unknowns_.size(); ++i) right_[unknowns_[i]] = y[i];
+  Eigen::VectorXd z(row_.size()), q(row_.size());
+  factors_.Solve(right_.data(), z.data());
+  right_ = row_;
+  for (std::size_t k = 0; k < ordering_->places.size(); ++k)
+    right_[ordering_->places[k]] -= border_[static_cast<Eigen::Index>(k)];
+  factors_.Solve(right_.data(), q.data());
+  z -= z[last] / along_ * q;
+  for (std::size_t e = 0; e < equations_.size(); ++e) y[e] = z[equations_[e]];
+  y[equations_.size()] = z[last];
+}
+
 int LargeFactors::DeterminantSign() const {
   return odd_ == (along_ < 0.0) ? factors_.DeterminantSign() : -factors_.DeterminantSign();
 }

@@ -1,6 +1,7 @@
 #include "contact_path/linear/minimum_norm.h"
 
 #include <Eigen/SPQRSupport>
+#include <Eigen/SparseQR>
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -11,25 +12,60 @@
 namespace contact_path {
 namespace {
 
+// A' E = Q R with R upper triangular in its first rank columns, A' unknowns x equations.
+class RankRevealingQr {
+ public:
+  virtual ~RankRevealingQr() = default;
+  virtual Eigen::Index Rank() const = 0;
+  virtual Eigen::SparseMatrix<double> R() const = 0;
+  // E, as a permutation of vectors of the equations: (E w) has w in the order of A.
+  virtual Eigen::VectorXd Permuted(const Eigen::VectorXd& w) const = 0;
+  virtual Eigen::VectorXd Unpermuted(const Eigen::VectorXd& v) const = 0;  // E' v
+  // Q v. Throws std::bad_alloc or LinearSolverError.
+  virtual Eigen::VectorXd Multiply(const Eigen::VectorXd& v) const = 0;
+};
+
+// Of small matrices: no call of the BLAS, so that the result does not depend on the processor.
+class SmallQr : public RankRevealingQr {
+ public:
+  SmallQr(const Eigen::SparseMatrix<double>& matrix, double rank_tolerance) {
+    qr_.setPivotThreshold(rank_tolerance);
+    qr_.compute(matrix);
+    if (qr_.info() != Eigen::Success) throw LinearSolverError("Eigen::SparseQR", static_cast<int>(qr_.info()));
+  }
+  Eigen::Index Rank() const override { return qr_.rank(); }
+  Eigen::SparseMatrix<double> R() const override { return qr_.matrixR(); }
+  Eigen::VectorXd Permuted(const Eigen::VectorXd& w) const override { return qr_.colsPermutation() * w; }
+  Eigen::VectorXd Unpermuted(const Eigen::VectorXd& v) const override { return qr_.colsPermutation().transpose() * v; }
+  Eigen::VectorXd Multiply(const Eigen::VectorXd& v) const override { return qr_.matrixQ() * v; }
+
+ private:
+  Eigen::SparseQR<Eigen::SparseMatrix<double>, Eigen::COLAMDOrdering<int>> qr_;
+};
+
 using Spqr = Eigen::SPQR<Eigen::SparseMatrix<double>>;
 
-// Eigen takes lack of memory for a singular matrix, and does not look whether a product was computed.
-class SparseQr : public Spqr {
+// Of large matrices, by SuiteSparseQR. Eigen takes lack of memory for a singular matrix, and does not look whether a
+// product was computed.
+class LargeQr : public RankRevealingQr, private Spqr {
  public:
-  SparseQr() { cholmodCommon()->print = 0; }  // standard output is not its own
-
   // Throws std::bad_alloc or LinearSolverError.
-  void Factorize(const Eigen::SparseMatrix<double>& matrix) {
+  LargeQr(const Eigen::SparseMatrix<double>& matrix, double rank_tolerance) {
+    cholmodCommon()->print = 0;  // standard output is not its own
+    setPivotThreshold(rank_tolerance);
     compute(matrix);
     if (m_cR != nullptr) return;
     RequireMemory();
     throw LinearSolverError("SuiteSparseQR", cholmodCommon()->status);
   }
-
-  // Q v. Throws std::bad_alloc or LinearSolverError.
-  Eigen::VectorXd Multiply(Eigen::VectorXd v) const {
+  Eigen::Index Rank() const override { return rank(); }
+  Eigen::SparseMatrix<double> R() const override { return matrixR(); }
+  Eigen::VectorXd Permuted(const Eigen::VectorXd& w) const override { return colsPermutation() * w; }
+  Eigen::VectorXd Unpermuted(const Eigen::VectorXd& v) const override { return colsPermutation().transpose() * v; }
+  Eigen::VectorXd Multiply(const Eigen::VectorXd& v) const override {
     cholmod_common* const common = cholmodCommon();
-    cholmod_dense dense = Eigen::viewAsCholmod(v);
+    Eigen::VectorXd copy = v;
+    cholmod_dense dense = Eigen::viewAsCholmod(copy);
     const auto free = [common](cholmod_dense* product) { cholmod_l_free_dense(&product, common); };
     const std::unique_ptr<cholmod_dense, decltype(free)> product(
         SuiteSparseQR_qmult<double>(SPQR_QX, m_H, m_HTau, m_HPinv, &dense, common), free);
@@ -78,8 +114,8 @@ Eigen::VectorXd NormsOf(const Eigen::SparseMatrix<double>& transposed, double ra
 }  // namespace
 
 struct MinimumNormSolver::Factors {
-  std::unique_ptr<SparseQr> qr;  // a new one each time: after a failure, Eigen frees what it has freed
-  Spqr::MatrixType r;
+  std::unique_ptr<const RankRevealingQr> qr;  // a new one each time: after a failure, Eigen frees what it has freed
+  Eigen::SparseMatrix<double> r;
   Eigen::Index rank = 0;
   Eigen::Index unknowns = 0;
   Eigen::SparseMatrix<double> scaled;
@@ -98,12 +134,13 @@ bool MinimumNormSolver::Factorize(const Eigen::SparseMatrix<double>& transposed,
   for (Eigen::Index column = 0; column < transposed.cols(); ++column)
     for (Eigen::SparseMatrix<double>::InnerIterator it(factors_->scaled, column); it; ++it)
       it.valueRef() /= norms[column];
-  factors_->qr = std::make_unique<SparseQr>();
-  factors_->qr->setPivotThreshold(rank_tolerance);
-  factors_->qr->Factorize(factors_->scaled);
-  factors_->rank = factors_->qr->rank();
+  if (transposed.rows() < kLargeSystem)
+    factors_->qr = std::make_unique<SmallQr>(factors_->scaled, rank_tolerance);
+  else
+    factors_->qr = std::make_unique<LargeQr>(factors_->scaled, rank_tolerance);
+  factors_->rank = factors_->qr->Rank();
   factors_->unknowns = transposed.rows();
-  factors_->r = factors_->qr->matrixR();
+  factors_->r = factors_->qr->R();
   return true;
 }
 
@@ -111,11 +148,11 @@ Eigen::Index MinimumNormSolver::Rank() const { return factors_->rank; }
 
 Eigen::VectorXd MinimumNormSolver::Solve(const Eigen::VectorXd& b) const {
   // A' E = Q R, so A x = b is R' (Q' x) = E' b: forward substitution, and zero in the rest of Q' x for the shortest x.
-  const Eigen::VectorXd permuted = factors_->qr->colsPermutation().transpose() * factors_->scale.cwiseProduct(b);
+  const Eigen::VectorXd permuted = factors_->qr->Unpermuted(factors_->scale.cwiseProduct(b));
   Eigen::VectorXd y = Eigen::VectorXd::Zero(factors_->unknowns);
   for (Eigen::Index j = 0; j < factors_->rank; ++j) {
     double sum = permuted[j], diagonal = 0.0;
-    for (Spqr::MatrixType::InnerIterator it(factors_->r, j); it; ++it) {
+    for (Eigen::SparseMatrix<double>::InnerIterator it(factors_->r, j); it; ++it) {
       if (it.row() < j) sum -= it.value() * y[it.row()];
       if (it.row() == j) diagonal = it.value();
     }
@@ -143,17 +180,17 @@ Eigen::MatrixXd MinimumNormSolver::LeftNullSpace() const {
     Eigen::VectorXd w = Eigen::VectorXd::Zero(equations);
     w[rank + k] = 1.0;
     Eigen::VectorXd right = Eigen::VectorXd::Zero(rank);
-    for (Spqr::MatrixType::InnerIterator it(factors_->r, rank + k); it; ++it)
+    for (Eigen::SparseMatrix<double>::InnerIterator it(factors_->r, rank + k); it; ++it)
       if (it.row() < rank) right[it.row()] -= it.value();
     for (Eigen::Index j = rank; j-- > 0;) {
       double diagonal = 0.0;
-      for (Spqr::MatrixType::InnerIterator it(factors_->r, j); it; ++it)
+      for (Eigen::SparseMatrix<double>::InnerIterator it(factors_->r, j); it; ++it)
         if (it.row() == j) diagonal = it.value();
       w[j] = right[j] / diagonal;
-      for (Spqr::MatrixType::InnerIterator it(factors_->r, j); it; ++it)
+      for (Eigen::SparseMatrix<double>::InnerIterator it(factors_->r, j); it; ++it)
         if (it.row() < j) right[it.row()] -= it.value() * w[j];
     }
-    basis.col(k) = factors_->scale.cwiseProduct(factors_->qr->colsPermutation() * w);
+    basis.col(k) = factors_->scale.cwiseProduct(factors_->qr->Permuted(w));
   }
   return basis;
 }

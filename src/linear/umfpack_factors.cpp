@@ -64,12 +64,16 @@ int UmfpackFactors::DeterminantSign() const {
   return mantissa > 0.0 ? 1 : mantissa < 0.0 ? -1 : 0;
 }
 
-void UmfpackFactors::SolveTransposed(const double* b, double* x) {
+void UmfpackFactors::SolveTransposed(const double* b, double* x) { Solve(UMFPACK_At, b, x); }
+
+void UmfpackFactors::Solve(const double* b, double* x) { Solve(UMFPACK_A, b, x); }
+
+void UmfpackFactors::Solve(int system, const double* b, double* x) {
   Info info{};
   // Without refinement the matrix itself is not looked at.
   const int none = 0;
   const double nothing = 0.0;
-  Require(umfpack_di_wsolve(UMFPACK_At, &none, &none, &nothing, x, b, numeric_, control_.data(), info.data(),
+  Require(umfpack_di_wsolve(system, &none, &none, &nothing, x, b, numeric_, control_.data(), info.data(),
                             integers_.data(), numbers_.data()));
 }
 

@@ -45,10 +45,13 @@ class UmfpackFactors {
   // Of the pivots, smallest over largest.
   double PivotRatio() const { return pivot_ratio_; }
   int DeterminantSign() const;
-  // Solves A' x = b.
+  // Solves A' x = b, and A x = b.
   void SolveTransposed(const double* b, double* x);
+  void Solve(const double* b, double* x);
 
  private:
+  void Solve(int system, const double* b, double* x);
+
   void* numeric_ = nullptr;
   double pivot_ratio_ = 0.0;
   Eigen::VectorXd control_;

@@ -18,7 +18,7 @@ Tangents TangentsAtStart(const Scene& scene, const std::vector<ContactState>& st
   FixedStateSystem system(model.structure, model.contacts);
   system.SetStates(states, SlipReferences(model.contacts, point));
   TangentSolvers solvers;
-  return FindTangents(system.Pack(point), arrival, false, &system, &solvers);
+  return FindTangents(system.Pack(point), arrival, false, RigidModes(model.structure), &system, &solvers);
 }
 
 Eigen::VectorXd Vector(std::vector<double> values) {

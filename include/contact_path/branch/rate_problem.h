@@ -38,9 +38,14 @@ class RateProblem {
 
   // False: the structure is singular even with the springs, and nothing below can be asked.
   bool regular() const { return regular_; }
+  // Rates of the gaps and of the slips of the weakly active contacts: rows, by ds, and by the normal and the tangential
+  // force of each, the force of its springs included, which have the stiffness 1.
+  const Eigen::MatrixXd& GapRates() const { return gap_; }
+  const Eigen::MatrixXd& SlipRates() const { return slip_; }
 
   // The rates for these states of all candidates, up to their sign. Rates that are not unique are without rigid modes
-  // and nearest to the arrival, as a branch is chosen. Nothing where the condensed problem does not tell them.
+  // and nearest to the arrival, as a branch is chosen. Nothing where the condensed problem does not tell them, as where
+  // rounding alone makes them unique.
   std::optional<CondensedRates> Rates(const std::vector<ContactState>& states) const;
   // Rates(), and nothing where they are not unique.
   std::optional<CondensedRates> UniqueRates(const std::vector<ContactState>& states) const;
@@ -56,8 +61,9 @@ class RateProblem {
   double Unit(Eigen::Index k) const;  // force unit of a weakly active contact
   Eigen::MatrixXd Equations(const std::vector<ContactState>& states) const;
   std::optional<CondensedRates> RatesOf(Eigen::VectorXd z) const;
-  // Columns span the solutions of equations . z = 0; they are not scaled.
-  Eigen::MatrixXd Kernel(const Eigen::MatrixXd& equations) const;
+  // Columns span the solutions of equations . z = 0; they are not scaled. *clear: whether there is one, and pivots are far
+  // from telling another one.
+  Eigen::MatrixXd Kernel(const Eigen::MatrixXd& equations, bool* clear) const;
   // Of a kernel of several columns, not scaled; empty where it cannot be told.
   Eigen::VectorXd ShortestMember(const Eigen::MatrixXd& kernel) const;
 

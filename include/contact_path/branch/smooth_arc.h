@@ -11,6 +11,7 @@
 #include "contact_path/branch/polynomial.h"
 #include "contact_path/contact/reach_tracker.h"
 #include "contact_path/equations/fixed_state_system.h"
+#include "contact_path/equations/rigid_modes.h"
 #include "contact_path/linear/bordered_solver.h"
 
 namespace contact_path {
@@ -98,6 +99,9 @@ class SmoothArc {
  private:
   // at_hand: with the factors that there are; gives up where they do not lead on fast.
   Correction Newton(const Eigen::VectorXd& guess, const Eigen::VectorXd& row, double value, bool at_hand);
+  // A short last step need not leave a small residual: not among stiff parts, nor by the factors of another point. Newton
+  // steps with the factors at hand follow for as long as each halves the residual.
+  void LowerResidual(const Eigen::VectorXd& row, double value, Eigen::VectorXd* x);
   // Forces relative to the largest of load factor and reactions, motions to the largest coordinate, each + 1.
   bool EquationsHold(const Eigen::VectorXd& x, double tolerance);
   // Where the Jacobian has a null plane with *first in it: puts the tangent that is nearest to `towards` into *first.
@@ -110,9 +114,9 @@ class SmoothArc {
   // Where elements want it, the first matrix of Newton's method from guess has the strains along the tangent of the
   // point set out from.
   void ExtrapolateStrains(const Eigen::VectorXd& guess);
-  // False if the matrix is not finite.
-  bool Factorize(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& row,
-                 double rank_tolerance = 0.0);
+  // x: where rigid motions of parts are looked for. False if the matrix is not finite.
+  bool Factorize(const Eigen::VectorXd& x, const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& row,
+                 double rank_tolerance);
   bool Factorize(const Eigen::VectorXd& x, const Eigen::VectorXd& row, double rank_tolerance = 0.0);
 
   const Structure& structure_;
@@ -123,6 +127,9 @@ class SmoothArc {
   std::vector<std::size_t> in_reach_;  // in the last call of InequalitiesInReach()
   bool at_hand_ = false;  // regular factors of a point of the curve with these states, the last row along the tangent
   std::map<int, double> moved_forces_;  // by contact that the states close over a gap: see NoteClosedGaps()
+  RigidModes modes_;
+  // Whether rigid motions of parts are free along the arc, and springs hold them; nothing: not known yet.
+  std::optional<bool> held_;
   bool rests_ = false;  // part of the structure stands still at a limit point of its own (Branch::rests)
   Eigen::VectorXd residual_, step_length_;
   Eigen::VectorXd origin_, tangent_at_origin_;  // of SetOut() with these states, (u, s); empty: none

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "contact_path/equations/fixed_state_system.h"
+#include "contact_path/equations/rigid_modes.h"
 #include "contact_path/linear/bordered_solver.h"
 #include "contact_path/linear/minimum_norm.h"
 
@@ -15,25 +16,30 @@ namespace contact_path {
 struct Tangents {
   std::vector<Eigen::VectorXd> first;   // |(u, s) part| = 1
   std::vector<Eigen::VectorXd> second;  // of each, up to a multiple of first
+  // Of the rate of the load in each tangent: what the rounding of the equations may make of it; where the equations are
+  // too singular to tell, the tolerance of rates.
+  std::vector<double> load_error;
   // The equations leave several motions without any change of load and reactions: first is the one nearest to the
   // direction of arrival.
   bool mechanism = false;
   // A part of the structure is at a limit point of its own: the equations are singular all along the arcs.
   bool rests = false;
+  bool rigid = false;   // parts move as rigid bodies: neither load nor reactions change all along the arcs
   int rigid_modes = 0;  // motions without any change of load and reactions, where nothing else moves
 };
 
 // Factors that FindTangents() leaves for its next call: equations of one pattern are factorised faster.
 struct TangentSolvers {
   BorderedSolver regular;      // where the equations are clearly regular
+  BorderedSolver held;         // where rigid motions of parts are all that makes them singular
   MinimumNormSolver singular;  // elsewhere
 };
 
 // At the point x, by the states of *system; none where the states leave no arc through x. arrival: (du, ds), unit
 // vector; of several directions the one nearest to it counts. crossed: another path crosses at x, so that nearly
 // singular counts as singular.
-Tangents FindTangents(const Eigen::VectorXd& x, const Eigen::VectorXd& arrival, bool crossed, FixedStateSystem* system,
-                      TangentSolvers* solvers);
+Tangents FindTangents(const Eigen::VectorXd& x, const Eigen::VectorXd& arrival, bool crossed, const RigidModes& modes,
+                      FixedStateSystem* system, TangentSolvers* solvers);
 
 }  // namespace contact_path
 

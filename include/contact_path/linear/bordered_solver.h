@@ -7,19 +7,17 @@
 #include <memory>
 
 #include "contact_path/linear/frame.h"
+#include "contact_path/linear/large_system.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
 
 // M = [J; row], J equations x unknowns. Square and regular as a rule: sparse LU, with the ordering kept for as long as
 // the pattern is the same; by KLU, and where it is large by UMFPACK. Where it is singular or not square (rigid modes,
-// redundant contacts): the shortest solution by a rank-revealing sparse QR factorisation.
+// redundant contacts): the shortest solution, by a rank-revealing sparse QR factorisation, or where null vectors are known
+// by LU as well.
 class BorderedSolver {
  public:
-  // Unknowns from which on a system is large: METIS and dense kernels are worth their overhead. KLU is as fast at 10^3,
-  // and takes three times as long at 10^4.
-  static constexpr Eigen::Index kLargeSystem = 3000;
-
   BorderedSolver();
   ~BorderedSolver();
   BorderedSolver(const BorderedSolver&) = delete;
@@ -35,13 +33,22 @@ class BorderedSolver {
   // LU only: false if M is singular, not square, or its pivots are further apart than `regular` admits.
   bool FactorizeRegular(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& row,
                         double regular = tolerances::kSingularPivot, const Frame* frame = nullptr);
+  // Where the columns of `modes` (orthonormal, unknowns x modes) are null vectors of J, each with a component at an
+  // unknown that has the number of an equation: a spring holds the motion there, which leaves consistent equations as
+  // they are since its force is zero. LU of M with these springs; solutions are then freed of null vectors of M, so that
+  // they are the shortest. False if M is singular beyond the modes.
+  bool FactorizeHeld(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& row,
+                     const Eigen::MatrixXd& modes, const Frame* frame = nullptr);
   // Solves M x = (b, last). The second one allocates nothing where M is regular and *x has its size.
   Eigen::VectorXd Solve(const Eigen::VectorXd& b, double last) const;
   void Solve(const Eigen::VectorXd& b, double last, Eigen::VectorXd* x) const;
   // Solves M x = (b, 0) for each column of B, where M is regular; *x: unknowns x columns.
   void SolveAll(const Eigen::MatrixXd& B, Eigen::MatrixXd* x) const;
 
-  // Of a singular M: bases of {x: M x = 0} and {y: M' y = 0}.
+  // Solves M' y = c where M is regular, or held: then with the springs. y: of the equations and of the row.
+  Eigen::VectorXd SolveTransposed(const Eigen::VectorXd& c) const;
+
+  // Of a singular M: bases of {x: M x = 0} and {y: M' y = 0}, the second one not after FactorizeHeld().
   Eigen::MatrixXd NullSpace() const;
   Eigen::MatrixXd LeftNullSpace() const;
   // unknowns - rank of M: 0 if regular.

@@ -6,11 +6,13 @@
 #include <Eigen/SparseCore>
 #include <memory>
 
+#include "contact_path/linear/large_system.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
 
-// Solves A x = b by a rank-revealing sparse QR factorisation of A' (SuiteSparseQR). Of all x the shortest is returned;
+// Solves A x = b by a rank-revealing sparse QR factorisation of A': Eigen's of small systems, which calls no BLAS, and
+// SuiteSparseQR of large ones (kLargeSystem). Of all x the shortest is returned;
 // where rows of A depend on each other, the dependent ones are left out, which is right if b is consistent.
 class MinimumNormSolver {
  public:

@@ -56,6 +56,11 @@ class Structure {
   Eigen::VectorXd SupportReactions(const Eigen::Ref<const Eigen::VectorXd>& u, double s) const;
   // The values of all Dofs().Components(), the unknown ones from u.
   Eigen::VectorXd AllValues(const Eigen::VectorXd& u) const;
+  // Calls visit(numbers) for each element: which of Dofs().Components() it joins.
+  template <typename Visit>
+  void ForEachElement(Visit visit) const {
+    for (const Part& part : parts_) visit(part.components);
+  }
 
   // By unknown: an upper bound of the forces on it at the start per unit of a motion of the elements, and of the loads.
   // An element that is not linear may turn: its largest stiffness counts in all directions.
