@@ -17,6 +17,7 @@ constexpr int kMaxIterations = 12;
 constexpr int kSingularIterations = 3;
 constexpr int kLinearisations = 8;
 constexpr int kMostLowerings = 3;
+constexpr double kSpread = 10.0;  // of rounding, from one point to another
 constexpr double kSlow = 0.1;  // ratio of two steps beyond which that of another point is not
 
 // The six quintic Hermite basis polynomials: value, first, second at the start, then at the end.
@@ -72,7 +73,8 @@ void SmoothArc::NoteClosedGaps(const PathPoint& from) {
 }
 
 double SmoothArc::RoundingOf(const Constraint& constraint) const {
-  const double rounding = tolerances::kBrokenOnStep * system_.UnitOf(constraint);
+  double rounding = tolerances::kBrokenOnStep * system_.UnitOf(constraint);
+  if (!IsMotion(constraint.inequality)) rounding = std::max(rounding, kSpread * reaction_error_);
   const auto moved = moved_forces_.find(constraint.contact);
   return moved == moved_forces_.end() ? rounding : std::max(rounding, moved->second);
 }
@@ -207,6 +209,7 @@ void SmoothArc::LowerResidual(const Eigen::VectorXd& row, double value, Eigen::V
   system_.Residual(*x, &residual_);
   double largest = residual_.lpNorm<Eigen::Infinity>();
   const double zero = tolerances::kNewtonStep * (1.0 + x->lpNorm<Eigen::Infinity>());
+  reaction_error_ = 0.0;
   for (int i = 0; i < kMostLowerings && largest > zero; ++i) {
     residual_ = -residual_;
     solver_.Solve(residual_, value - row.dot(*x), &step_length_);
@@ -214,6 +217,7 @@ void SmoothArc::LowerResidual(const Eigen::VectorXd& row, double value, Eigen::V
     const Eigen::VectorXd next = *x + step_length_;
     system_.Residual(next, &residual_);
     const double lowered = residual_.lpNorm<Eigen::Infinity>();
+    reaction_error_ = step_length_.tail(x->size() - NumMotion()).lpNorm<Eigen::Infinity>();
     if (!(lowered <= 0.5 * largest)) return;
     *x = next;
     largest = lowered;
@@ -243,8 +247,7 @@ bool SmoothArc::Factorize(const Eigen::VectorXd& x, const Eigen::SparseMatrix<do
   ++factorisations_;
   at_hand_ = false;
   if (rests_ && rank_tolerance == 0.0) rank_tolerance = tolerances::kDependentColumnResting;
-  // Coordinates of stiff elements leave more rounding in the equations, of a free motion, too.
-  const double rounding = std::sqrt(system_.ResidualUnit());
+  const double rounding = 1.0;
   if (rank_tolerance == 0.0 && modes_.Possible()) {
     const auto hold = [&] {
       const Eigen::MatrixXd modes = modes_.At(x.head(system_.NumDofs()), transposed);
