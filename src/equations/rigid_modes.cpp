@@ -86,18 +86,14 @@ RigidModes::RigidModes(const Structure& structure) : structure_(structure) {
   const Eigen::VectorXd values = structure.AllValues(structure.Start());
   for (const std::vector<int>& part : members) {
     RowSpace held(3);
-    Part loose;
-    for (const int i : part) {
-      const DofMap::Component& component = components[static_cast<std::size_t>(i)];
-      if (component.dof >= 0) {
-        loose.components.push_back(i);
-        continue;
-      }
-      const int x = structure.Dofs().Index(component.node, Field::kPosition, 0),
-                y = structure.Dofs().Index(component.node, Field::kPosition, 1);
-      held.Add(MotionOf(component, Eigen::Vector2d(values[x], values[y])));
+    bool moves = false;
+    const Eigen::MatrixX3d motions = MotionsOf({part}, values);
+    for (std::size_t k = 0; k < part.size(); ++k) {
+      const bool is_unknown = components[static_cast<std::size_t>(part[k])].dof >= 0;
+      moves = moves || is_unknown;
+      if (!is_unknown) held.Add(motions.row(static_cast<Eigen::Index>(k)));
     }
-    if (!loose.components.empty() && held.NullSpace().cols() > 0) loose_.push_back(std::move(loose));
+    if (moves && held.NullSpace().cols() > 0) loose_.push_back({part});
   }
 }
 
@@ -126,18 +122,22 @@ Eigen::MatrixXd RigidModes::At(const Eigen::VectorXd& u, const Eigen::SparseMatr
   // Which part moves an unknown, and how.
   std::vector<int> part_of(static_cast<std::size_t>(dofs), -1);
   Eigen::MatrixX3d motion = Eigen::MatrixX3d::Zero(dofs, 3);
+  std::vector<RowSpace> resisted(loose_.size(), RowSpace(3));
   for (std::size_t p = 0; p < loose_.size(); ++p) {
     const Eigen::MatrixX3d motions = MotionsOf(loose_[p], values);
     for (std::size_t k = 0; k < loose_[p].components.size(); ++k) {
       const int dof = structure_.Dofs().Components()[static_cast<std::size_t>(loose_[p].components[k])].dof;
+      if (dof < 0) {
+        resisted[p].Add(motions.row(static_cast<Eigen::Index>(k)));
+        continue;
+      }
       part_of[static_cast<std::size_t>(dof)] = static_cast<int>(p);
       motion.row(dof) = motions.row(static_cast<Eigen::Index>(k));
     }
   }
-  // What the elements of a part resist by themselves, so that few motions are left to look at together.
+  // What supports and the elements of a part resist by themselves, so that few motions are left to look at together.
   Eigen::SparseMatrix<double> tangent = structure_.TangentPattern();
   structure_.Tangent(u, &tangent);
-  std::vector<RowSpace> resisted(loose_.size(), RowSpace(3));
   const auto row_of = [](const Eigen::RowVectorXd& sum, const Eigen::RowVectorXd& size) {
     Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(sum.size());
     const double largest = size.maxCoeff();

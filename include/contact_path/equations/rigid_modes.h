@@ -27,7 +27,7 @@ class RigidModes {
 
  private:
   struct Part {
-    std::vector<int> components;  // into Dofs().Components(), of those that are unknowns
+    std::vector<int> components;  // into Dofs().Components()
   };
   // Columns: translation along x and y, rotation about the mean position, of the part; rows: its components.
   Eigen::MatrixX3d MotionsOf(const Part& part, const Eigen::VectorXd& values) const;
