@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <cstddef>
 #include <limits>
 #include <memory>
 #include <new>
@@ -350,7 +352,7 @@ class Tracer {
   }
 
   // Why no further increment is of use, from `before` to the last one: no contact is left, and the load moves away from
-  // its target, or nothing holds what moves. Empty: it may be; a stop criterion may yet be met.
+  // its target, or nothing holds the structure. Empty: it may be; a stop criterion may yet be met.
   std::string Escape(const Model& model, std::optional<double> target, const PathPoint& before) const {
     const auto is_open = [](ContactState state) { return state == ContactState::kOpen; };
     const bool opened = largest_reaction_ > 0.0 && std::all_of(point_.states.begin(), point_.states.end(), is_open);
@@ -362,11 +364,20 @@ class Tracer {
       return "every contact is open, and the load factor has gone beyond minus its target and moves away from it; with "
              "a stop criterion the path goes on";
     const double unloaded = tolerances::kUnloaded * largest_load_;
-    const bool drifts = std::abs(before.s) <= unloaded && std::abs(point_.s) <= unloaded && before.u != point_.u;
+    const bool drifts = std::abs(before.s) <= unloaded && std::abs(point_.s) <= unloaded && IsShifted(model, before);
     if (!drifts || Approaches(model, before)) return {};
-    if (FreeMotionText(model, point_, ActiveSetTolerance::For(largest_reaction_, point_.s).force).empty()) return {};
-    return "every contact is open, and what nothing holds drifts away without a load; with a stop criterion the path "
-           "goes on";
+    return "every contact is open, and the structure as a whole drifts away without a load; with a stop criterion the "
+           "path goes on";
+  }
+
+  // Whether all nodes have moved by one vector. A part that swings about a support may come round to an obstacle again.
+  bool IsShifted(const Model& model, const PathPoint& before) const {
+    const std::vector<double> from = model.InSceneUnits(before).positions, to = model.InSceneUnits(point_).positions;
+    const double rounding = tolerances::kActiveGap * model.scaling.length;
+    double apart = 0.0;
+    for (std::size_t i = 2; i < to.size(); ++i)
+      apart = std::max(apart, std::abs((to[i] - from[i]) - (to[i % 2] - from[i % 2])));
+    return apart <= rounding && std::hypot(to[0] - from[0], to[1] - from[1]) > rounding;
   }
 
   // Whether a gap has become smaller, by more than rounding.

@@ -223,9 +223,10 @@ double ExtentOfNodes(const Scene& scene) {
   return 2.0 * largest;
 }
 
-// How far the loads, those that the load factor scales or the constant ones, move a node of a scene of linear parts
-// that no contact holds [length]: the farthest one. Infinite where contacts alone hold something.
-double MotionByLoads(const Scene& scene, const SceneIndex& index) {
+// How far loads move a node of a scene of linear parts that no contact holds [length]: the farthest one, by the
+// constant loads, or by those that the load factor scales, of the norm force_norm. Infinite where contacts alone hold
+// something.
+double MotionByLoads(const Scene& scene, const SceneIndex& index, double force_norm) {
   std::vector<Eigen::Triplet<double>> entries;
   std::vector<int> dofs(2 * scene.nodes.size(), -1);
   int free = 0;
@@ -256,6 +257,7 @@ double MotionByLoads(const Scene& scene, const SceneIndex& index) {
     }
     if (force.isZero(0.0)) continue;
     if (factors.info() != Eigen::Success) return std::numeric_limits<double>::infinity();
+    if (!constant) force *= force_norm / LoadNorm(scene, index, false, kNoBeam);
     const Eigen::VectorXd motion = factors.solve(force);
     const auto along = [&](int at) { return at < 0 ? 0.0 : motion[at]; };
     for (std::size_t node = 0; node < scene.nodes.size(); ++node) {
@@ -312,7 +314,7 @@ Scaling CharacteristicScales(const Scene& scene, const SceneIndex& index) {
     scaling.length = scaling.force / stiffness;
     // Soft parts beside stiff ones move farther, though no farther than the scene is large. A power of 2 does not
     // depend on the rounding of the motion, as by the order of the nodes; next to a round number none begins.
-    const double farther = std::min(MotionByLoads(scene, index), ExtentOfNodes(scene)) / scaling.length;
+    const double farther = std::min(MotionByLoads(scene, index, scaling.force), ExtentOfNodes(scene)) / scaling.length;
     if (farther > 1.0) scaling.length *= std::exp2(std::floor(std::log2(farther) + 0.25));
   }
   scaling.load_factor = LoadFactorScale(scene, index, scaling.length, scaling.force);
