@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact_path/branch/active_set_tolerance.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
@@ -107,6 +108,13 @@ bool LoadGoesOn(const FixedStateSystem& system, const Step& step, const CurvePoi
   return second * second <= 2.0 * tolerances::kLevel * system.ResidualUnit() * std::abs(third);
 }
 
+// Whether the inequality that was to fail at `point` holds there, by more than what counts as zero at an event: the
+// interpolation of the step has shown a zero that the curve does not have.
+bool HoldsAt(const FixedStateSystem& system, const StepEvent& event, const CurvePoint& point) {
+  return event.kind == EventKind::kContactEvent && !event.singular &&
+         !IsWeaklyActive(system, event.constraint, point.x, ActiveSetTolerance());
+}
+
 // Ends the step at the first event on it. The exact point of an event may show an earlier one. False: it is not found.
 bool EndAtFirstEvent(SmoothArc* arc, std::optional<double> target, ArcStep* at) {
   at->event = FirstEvent(arc, at->step, target);
@@ -118,6 +126,7 @@ bool EndAtFirstEvent(SmoothArc* arc, std::optional<double> target, ArcStep* at) 
     if (!at->event.singular) KeepSide(at->step.start, &*point);
     if (at->event.kind == EventKind::kLimitPoint && !at->event.singular && LoadGoesOn(arc->system(), whole, *point))
       at->event.kind = EventKind::kNearTouch;
+    if (HoldsAt(arc->system(), at->event, *point)) at->event.kind = EventKind::kNearTouch;
     if (at->event.kind != EventKind::kTarget && target && Passes(*arc, at->step.start, *point, *target)) {
       at->event = {EventKind::kTarget, at->event.t, {}, false};
       continue;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <cstddef>
 #include <limits>
 #include <memory>
 #include <new>
@@ -304,6 +306,8 @@ class Tracer {
     if (const StopCriterion* criterion = stop_.FirstThatHolds(recorder_.increment()))
       return End(EndReason::kStopCriterion, ToText(*criterion));
     if (IsAt(target)) return EndStage(stage);
+    if (const std::string escape = Escape(model, target, model.FromIncrement(*resumption.before)); !escape.empty())
+      return End(EndReason::kPathEnd, escape);
     const std::unique_ptr<PathMethod> method = MakeMethod(model, target, recorder_.increments() - 1);
     if (!method->Resume({model.FromIncrement(*resumption.before), point_, resumption.from->solve, largest_reaction}))
       return End(EndReason::kNumericalFailure, "the path cannot be followed from the increment to go on from");
@@ -347,6 +351,45 @@ class Tracer {
     return goes_on && EndStage(stage);
   }
 
+  // Why no further increment is of use, from `before` to the last one: no contact is left, and the load moves away from
+  // its target, or nothing holds the structure. Empty: it may be; a stop criterion may yet be met.
+  std::string Escape(const Model& model, std::optional<double> target, const PathPoint& before) const {
+    const auto is_open = [](ContactState state) { return state == ContactState::kOpen; };
+    const bool opened = largest_reaction_ > 0.0 && std::all_of(point_.states.begin(), point_.states.end(), is_open);
+    if (!opened || !request_.options.stop.empty()) return {};
+    // Where the stiffness has an unstable direction, as of a structure that snaps, the load may come back.
+    const bool away = target && point_.s * *target < 0.0 && std::abs(point_.s) > std::abs(*target) &&
+                      std::abs(point_.s) > std::abs(before.s) && recorder_.increment().solve.stiffness_sign >= 0;
+    if (away)
+      return "every contact is open, and the load factor has gone beyond minus its target and moves away from it; with "
+             "a stop criterion the path goes on";
+    const double unloaded = tolerances::kUnloaded * largest_load_;
+    const bool drifts = std::abs(before.s) <= unloaded && std::abs(point_.s) <= unloaded && IsShifted(model, before);
+    if (!drifts || Approaches(model, before)) return {};
+    return "every contact is open, and the structure as a whole drifts away without a load; with a stop criterion the "
+           "path goes on";
+  }
+
+  // Whether all nodes have moved by one vector. A part that swings about a support may come round to an obstacle again.
+  bool IsShifted(const Model& model, const PathPoint& before) const {
+    const std::vector<double> from = model.InSceneUnits(before).positions, to = model.InSceneUnits(point_).positions;
+    const double rounding = tolerances::kActiveGap * model.scaling.length;
+    double apart = 0.0;
+    for (std::size_t i = 2; i < to.size(); ++i)
+      apart = std::max(apart, std::abs((to[i] - from[i]) - (to[i % 2] - from[i % 2])));
+    return apart <= rounding && std::hypot(to[0] - from[0], to[1] - from[1]) > rounding;
+  }
+
+  // Whether a gap has become smaller, by more than rounding.
+  bool Approaches(const Model& model, const PathPoint& before) const {
+    for (std::size_t i = 0; i < model.contacts.size(); ++i) {
+      const ContactPair& contact = *model.contacts[i];
+      const double gap = contact.Nearest(point_.u, point_.s).distance;
+      if (gap < contact.Nearest(before.u, before.s).distance - tolerances::kActiveGap) return true;
+    }
+    return false;
+  }
+
   bool IsAt(std::optional<double> target) const { return target && IsAtTarget(point_.s, *target); }
 
   // At its target. False: it was the last one.
@@ -374,10 +417,12 @@ class Tracer {
         if (!overrun.empty()) return End(EndReason::kNumericalFailure, overrun);
         recorder_.Append(model, increment, time);
         returns_->Add(recorder_.increment().index, point_, increment.point);
-        point_ = std::move(increment.point);
+        const PathPoint before = std::exchange(point_, std::move(increment.point));
         if (const StopCriterion* criterion = stop_.FirstThatHolds(recorder_.increment()))
           return End(EndReason::kStopCriterion, ToText(*criterion));
         if (IsAt(target)) return true;
+        if (const std::string escape = Escape(model, target, before); !escape.empty())
+          return End(EndReason::kPathEnd, escape);
         if (recorder_.increments() > most_increments) break;
       }
       if (advance.ended && recorder_.increments() <= most_increments) return End(advance.reason, advance.message);

@@ -3,12 +3,35 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <map>
+#include <numeric>
 #include <string_view>
 #include <unordered_map>
 #include <vector>
 
 namespace contact_path {
 namespace {
+
+// F of beams, of the sum of the loads of a stage at its target, at least: a beam that has been bent by about its length
+// carries further loads along its axis.
+constexpr double kShareOfLoads = 0.1;
+
+// Sum of the sizes of the loads of a stage at its target, of one node together, on free components [force]. Moments
+// count by the force that they are at `length`.
+double SumOfLoads(const Stage& stage, const Scene& scene, const SceneIndex& index, double length) {
+  std::map<std::size_t, Load> by_node;
+  for (const Load& load : stage.loads) {
+    const Node& node = scene.nodes[index.Node(load.node)];
+    Load& sum = by_node[index.Node(load.node)];
+    if (!node.fixed_x) sum.fx += load.fx;
+    if (!node.fixed_y) sum.fy += load.fy;
+    if (!node.fixed_rotation) sum.moment += load.moment;
+  }
+  std::vector<double> sizes;
+  for (const auto& [node, load] : by_node) sizes.push_back(std::hypot(load.fx, load.fy, load.moment / length));
+  std::sort(sizes.begin(), sizes.end());
+  return std::abs(stage.Target()) * std::accumulate(sizes.begin(), sizes.end(), 0.0);
+}
 
 // The load factors of the stages before `stage` that are on there: their targets, less what stages that unload have
 // taken back.
@@ -119,7 +142,7 @@ void SetLoading(const Stage& stage, Scene* scene) {
   scene->obstacle_motions = stage.obstacle_motions;
 }
 
-// A scene with superelements only, with the loads and motions of one stage at its target.
+// The scene with the loads and motions of one stage at its target.
 Scene LoadedAtTarget(const Stage& stage, Scene scene) {
   const double target = stage.Target();
   SetLoading(stage, &scene);
@@ -186,9 +209,14 @@ Configuration StageConfiguration(const TraceRequest& request, const SceneIndex& 
 }
 
 Scaling ProgramScales(const TraceRequest& request, const SceneIndex& index) {
-  if (HasForceScale(request.scene) || request.program.empty())
-    return CharacteristicScales(StageScene(request, index, 0), index);
-  Scaling largest;
+  Scaling largest = CharacteristicScales(StageScene(request, index, 0), index);
+  if (request.program.empty()) return largest;
+  if (HasForceScale(request.scene)) {
+    if (!request.scene.bars.empty() || !request.scene.solids.empty()) return largest;
+    for (const Stage& stage : request.program)
+      largest.force = std::max(largest.force, kShareOfLoads * SumOfLoads(stage, request.scene, index, largest.length));
+    return largest;
+  }
   largest.force = 0.0;
   for (const Stage& stage : request.program) {
     if (stage.unload) continue;  // brings no force on

@@ -1,8 +1,11 @@
 #include "contact_path/scene/scaling.h"
 
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -152,22 +155,28 @@ std::vector<Load> SumByNode(const std::vector<Load>& loads) {
   return result;
 }
 
-// Euclidean norm of the constant loads, or of those that the load factor scales, summed by node, over the free
-// components [force]. Moments count by the force that they are at `length`.
-double LoadNorm(const Scene& scene, const SceneIndex& index, bool constant, double length) {
-  struct Terms {
-    std::vector<double> x, y, moments;
-  };
-  std::unordered_map<std::size_t, Terms> loads;  // by node
+struct NodeLoad {
+  std::vector<double> x, y, moments;
+};
+
+// The constant loads, or those that the load factor scales, by node.
+std::unordered_map<std::size_t, NodeLoad> LoadsByNode(const Scene& scene, const SceneIndex& index, bool constant) {
+  std::unordered_map<std::size_t, NodeLoad> loads;
   for (const Load& load : scene.loads) {
     if (load.constant != constant) continue;
-    Terms& terms = loads[index.Node(load.node)];
+    NodeLoad& terms = loads[index.Node(load.node)];
     terms.x.push_back(load.fx);
     terms.y.push_back(load.fy);
     if (load.moment != 0.0) terms.moments.push_back(load.moment);
   }
+  return loads;
+}
+
+// Euclidean norm of the constant loads, or of those that the load factor scales, summed by node, over the free
+// components [force]. Moments count by the force that they are at `length`.
+double LoadNorm(const Scene& scene, const SceneIndex& index, bool constant, double length) {
   std::vector<double> squares;
-  for (const auto& [node, terms] : loads) {
+  for (const auto& [node, terms] : LoadsByNode(scene, index, constant)) {
     if (!scene.nodes[node].fixed_x) squares.push_back(std::pow(OrderedSum(terms.x), 2));
     if (!scene.nodes[node].fixed_y) squares.push_back(std::pow(OrderedSum(terms.y), 2));
     if (!scene.nodes[node].fixed_rotation && !terms.moments.empty())
@@ -198,6 +207,65 @@ double MeanStiffness(const Scene& scene) {
     squares.push_back(entry * entry);
   });
   return std::sqrt(OrderedSum(std::move(squares)) / static_cast<double>(rows));
+}
+
+// Twice the largest distance of a node from the mean of all nodes [length].
+double ExtentOfNodes(const Scene& scene) {
+  std::vector<double> x, y;
+  for (const Node& node : scene.nodes) {
+    x.push_back(node.x);
+    y.push_back(node.y);
+  }
+  const auto count = static_cast<double>(scene.nodes.size());
+  const double middle_x = OrderedSum(std::move(x)) / count, middle_y = OrderedSum(std::move(y)) / count;
+  double largest = 0.0;
+  for (const Node& node : scene.nodes) largest = std::max(largest, std::hypot(node.x - middle_x, node.y - middle_y));
+  return 2.0 * largest;
+}
+
+// How far loads move a node of a scene of linear parts that no contact holds [length]: the farthest one, by the
+// constant loads, or by those that the load factor scales, of the norm force_norm. Infinite where contacts alone hold
+// something.
+double MotionByLoads(const Scene& scene, const SceneIndex& index, double force_norm) {
+  std::vector<Eigen::Triplet<double>> entries;
+  std::vector<int> dofs(2 * scene.nodes.size(), -1);
+  int free = 0;
+  for (const Superelement& element : scene.superelements)
+    for (const std::string& name : element.nodes) {
+      const std::size_t node = index.Node(name);
+      if (!scene.nodes[node].fixed_x && dofs[2 * node] < 0) dofs[2 * node] = free++;
+      if (!scene.nodes[node].fixed_y && dofs[2 * node + 1] < 0) dofs[2 * node + 1] = free++;
+    }
+  const auto dof = [&](std::size_t node, std::size_t axis) { return dofs[2 * node + axis]; };
+  for (const Superelement& element : scene.superelements) {
+    const std::size_t rows = 2 * element.nodes.size();
+    for (std::size_t i = 0; i < element.stiffness.size(); ++i) {
+      const int row = dof(index.Node(element.nodes[i / rows / 2]), i / rows % 2);
+      const int column = dof(index.Node(element.nodes[i % rows / 2]), i % 2);
+      if (row >= 0 && column >= 0) entries.emplace_back(row, column, element.stiffness[i]);
+    }
+  }
+  Eigen::SparseMatrix<double> stiffness(free, free);
+  stiffness.setFromTriplets(entries.begin(), entries.end());
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(stiffness);
+  double farthest = 0.0;
+  for (const bool constant : {false, true}) {
+    Eigen::VectorXd force = Eigen::VectorXd::Zero(free);
+    for (const auto& [node, terms] : LoadsByNode(scene, index, constant)) {
+      if (dof(node, 0) >= 0) force[dof(node, 0)] = OrderedSum(terms.x);
+      if (dof(node, 1) >= 0) force[dof(node, 1)] = OrderedSum(terms.y);
+    }
+    if (force.isZero(0.0)) continue;
+    if (factors.info() != Eigen::Success) return std::numeric_limits<double>::infinity();
+    if (!constant) force *= force_norm / LoadNorm(scene, index, false, kNoBeam);
+    const Eigen::VectorXd motion = factors.solve(force);
+    const auto along = [&](int at) { return at < 0 ? 0.0 : motion[at]; };
+    for (std::size_t node = 0; node < scene.nodes.size(); ++node) {
+      const double moved = std::hypot(along(dof(node, 0)), along(dof(node, 1)));
+      farthest = std::max(farthest, std::isnan(moved) ? std::numeric_limits<double>::infinity() : moved);
+    }
+  }
+  return farthest;
 }
 
 // Smallest gap of a contact candidate at the start that is not rounding of a touching one, 0 if there is none [length].
@@ -240,10 +308,14 @@ Scaling CharacteristicScales(const Scene& scene, const SceneIndex& index) {
     scaling = ScalesOfElements(scene, index);
   } else {
     const double reference_load = LoadNorm(scene, index, false, kNoBeam), stiffness = MeanStiffness(scene);
-    scaling.force = reference_load > 0.0 ? reference_load : stiffness * MotionNorm(scene, kNoBeam);
-    scaling.force = std::max({scaling.force, LoadNorm(scene, index, true, kNoBeam),
-                              stiffness * NearestGap(scene, index) / kFarthestContact});
+    scaling.force =
+        std::max({reference_load, stiffness * MotionNorm(scene, kNoBeam), LoadNorm(scene, index, true, kNoBeam),
+                  stiffness * NearestGap(scene, index) / kFarthestContact});
     scaling.length = scaling.force / stiffness;
+    // Soft parts beside stiff ones move farther, though no farther than the scene is large. A power of 2 does not
+    // depend on the rounding of the motion, as by the order of the nodes; next to a round number none begins.
+    const double farther = std::min(MotionByLoads(scene, index, scaling.force), ExtentOfNodes(scene)) / scaling.length;
+    if (farther > 1.0) scaling.length *= std::exp2(std::floor(std::log2(farther) + 0.25));
   }
   scaling.load_factor = LoadFactorScale(scene, index, scaling.length, scaling.force);
   return scaling;

@@ -14,7 +14,8 @@
 namespace contact_path {
 namespace {
 
-constexpr double kSame = 1e-8;  // scaled
+constexpr double kSame = 1e-8;      // scaled
+constexpr double kUnloaded = 1e-9;  // load factor, of the largest one
 
 bool ProgramDone(const TraceRequest& request, const Increment& last) {
   return last.stage == static_cast<int>(request.program.size()) && AtTarget(request, last);
@@ -30,6 +31,20 @@ bool SameState(const Increment& a, const Increment& b, const Scaling& scaling) {
     worst = std::max({worst, std::abs(p.rn - q.rn) / scaling.force, std::abs(p.rt - q.rt) / scaling.force});
   }
   return worst <= kSame;
+}
+
+// Whether no contact is left at the last increment, and the load is zero or beyond minus the target of its stage.
+bool Escapes(const TraceRequest& request, const std::vector<Increment>& increments) {
+  const Increment& last = increments.back();
+  if (!request.options.stop.empty() || last.contacts.empty()) return false;
+  for (const ContactRecord& contact : last.contacts)
+    if (contact.state != ContactState::kOpen) return false;
+  double largest = 0.0;
+  for (const Increment& increment : increments) largest = std::max(largest, std::abs(increment.load_factor));
+  if (std::abs(last.load_factor) <= kUnloaded * largest) return true;
+  if (last.stage < 1 || request.program.empty()) return false;
+  const double target = request.program[static_cast<std::size_t>(last.stage) - 1].Target();
+  return last.load_factor * target < 0.0 && std::abs(last.load_factor) > std::abs(target);
 }
 
 }  // namespace
@@ -52,6 +67,7 @@ std::string EndContradicted(const TraceRequest& request_given, const std::vector
     return says + "the request wants " + std::to_string(request.options.MaxIncrements()) + " increments";
   }
   if (reason == "path_end") {
+    if (last.positions.empty() || Escapes(request, increments)) return {};
     if (request.options.method == Method::kMpec) return says + "mpec cannot tell the end of a path";
     const bool parts = last.kind == IncrementKind::kStart || last.event.number > 0 || !last.event.branches.empty();
     return parts && last.event.taken == 0 ? "" : says + "the path goes on from the last increment";

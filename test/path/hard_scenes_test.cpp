@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "contact_path/scene/read_scene.h"
+#include "contact_path/verify/verify_end.h"
 #include "contact_path/verify/verify_path.h"
 #include "support/reference_cases.h"
 #include "support/traced_path.h"
@@ -387,6 +388,55 @@ TEST(HardScenes, IncrementsThatAreHardToProve) {
     EXPECT_EQ(path.result.reason, of.end) << path.result.message;
     EXPECT_GE(path.increments.size(), of.increments);
     ExpectNoFindings(path);
+  }
+}
+
+// The interpolation of a coarse step shows a zero of a gap that the curve does not have: no event, by no accuracy.
+TEST(HardScenes, AGapThatIsZeroOnACoarseStepOnlyIsNoEvent) {
+  for (const Accuracy accuracy : kPresets) {
+    const TracedPath path = TraceData("gap_of_a_coarse_step", Method::kBranch, accuracy);
+    EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+    ExpectNoFindings(path);
+    const std::vector<Increment> events = IncrementsOfKind(path, IncrementKind::kContactEvent);
+    ASSERT_EQ(events.size(), 1U);
+    EXPECT_NEAR(events[0].load_factor, 0.2491609551, 1e-9);
+  }
+}
+
+TEST(HardScenes, ALoadThatHasLeftItsTargetForGoodEndsThePath) {
+  TraceRequest request = ReadData("load_leaves_its_target");
+  for (const Accuracy accuracy : {Accuracy::kFast, Accuracy::kBalanced}) {
+    request.options.accuracy = accuracy;
+    const TracedPath path = TraceIncrements(request);
+    EXPECT_EQ(path.result.reason, EndReason::kPathEnd);
+    EXPECT_EQ(path.result.message.rfind("every contact is open, and the load factor has gone beyond minus", 0), 0U)
+        << path.result.message;
+    EXPECT_LT(path.increments.back().load_factor, -1.0);
+    EXPECT_GT(path.increments.back().load_factor, -1.2);
+    ExpectNoFindings(path);
+    EXPECT_EQ(EndContradicted(request, path.increments, "path_end"), "");
+  }
+  // Who waits for something else may go on.
+  request.options.accuracy = Accuracy::kFast;
+  request.options.stop = {{"c.x", ">", 10.0}};
+  request.options.max_increments = 800;
+  const TracedPath path = TraceIncrements(request);
+  EXPECT_EQ(path.result.reason, EndReason::kMaxIncrements) << path.result.message;
+  EXPECT_LT(path.increments.back().load_factor, -2.0);
+}
+
+TEST(HardScenes, ABeamThatHasComeFreeEndsThePath) {
+  for (const Accuracy accuracy : kPresets) {
+    const TracedPath path = TraceData("drifts_off", Method::kBranch, accuracy);
+    EXPECT_EQ(path.result.reason, EndReason::kPathEnd);
+    EXPECT_EQ(path.result.message.rfind("every contact is open, and the structure as a whole drifts away", 0), 0U)
+        << path.result.message;
+    EXPECT_NE(path.result.message.find("move freely"), std::string::npos) << path.result.message;
+    const Increment& last = path.increments.back();
+    EXPECT_NEAR(last.load_factor, 0.0, 1e-12);
+    EXPECT_LT(std::abs(PositionY(path, last, "mid")), 1.0);
+    ExpectNoFindings(path);
+    EXPECT_EQ(EndContradicted(path.request, path.increments, "path_end"), "");
   }
 }
 

@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "contact_path/scene/expand.h"
+#include "contact_path/scene/program.h"
 #include "contact_path/scene/validate.h"
 
 namespace contact_path {
@@ -46,6 +48,17 @@ Scene SceneWithoutBars() {
   scene.name = "no bars";
   scene.bars.clear();
   scene.superelements.push_back({{"b"}, {1.0, -1.5, -1.5, 4.0}});
+  return scene;
+}
+
+// Two stiff nodes and a soft one: the soft one moves far.
+Scene SceneOfSoftParts() {
+  Scene scene = SceneWithoutBars();
+  scene.name = "soft parts";
+  scene.superelements = {{{"b", "c"},
+                          {9e4, 5e3, -1e3, 3e3, 5e3, 8e4, 1e3, -7e3,  //
+                           -1e3, 1e3, 7e4, 2e3, 3e3, -7e3, 2e3, 6e4}},
+                         {{"d"}, {1.0, -1.5, -1.5, 4.0}}};
   return scene;
 }
 
@@ -132,7 +145,7 @@ void ExpectSame(const Scene& actual, const Scene& expected) {
 
 class ScalingTest : public testing::TestWithParam<std::function<Scene()>> {};
 
-INSTANTIATE_TEST_SUITE_P(Scenes, ScalingTest, testing::Values(SceneWithBars, SceneWithoutBars));
+INSTANTIATE_TEST_SUITE_P(Scenes, ScalingTest, testing::Values(SceneWithBars, SceneWithoutBars, SceneOfSoftParts));
 
 TEST_P(ScalingTest, SceneIsSound) {
   TraceRequest request;
@@ -259,6 +272,77 @@ TEST(CharacteristicScalesTest, WithoutBarsByHand) {
   EXPECT_NEAR(scaling.force, 5.0, kRounding);
   EXPECT_NEAR(scaling.length, 5.0 / std::sqrt(25.5 / 4.0), kRounding);
   EXPECT_NEAR(scaling.load_factor, 1.0, kRounding);
+}
+
+// The mean stiffness is k sqrt(1/2), to rounding. Of F / k alone the soft node would move thousands.
+TEST(CharacteristicScalesTest, WithoutBarsASoftPartGivesTheLength) {
+  for (const double k : {1e2, 1e4, 1e6}) {
+    Scene scene;
+    scene.nodes = {{"p", 0.0, 0.0, false, false}, {"q", 10.0, 0.0, false, false}};
+    scene.superelements = {{{"p"}, {k, 0.0, 0.0, k}}, {{"q"}, {1.0, 0.0, 0.0, 1.0}}};
+    scene.loads = {{"q", 1.0, 0.0, false}};
+    const Scaling scaling = CharacteristicScales(scene);
+    EXPECT_DOUBLE_EQ(scaling.force, 1.0);
+    EXPECT_GT(scaling.length, 0.5);
+    EXPECT_LT(scaling.length, 2.0);
+  }
+}
+
+// A spring that is too soft to hold its node within the scene, or none: no farther than the scene is large.
+TEST(CharacteristicScalesTest, WithoutBarsNothingMovesFartherThanTheSceneIsLarge) {
+  for (const double soft : {1e-6, 0.0}) {
+    Scene scene;
+    scene.nodes = {{"p", 0.0, 0.0, false, false}, {"q", 3.0, 4.0, false, false}};
+    scene.superelements = {{{"p"}, {1e4, 0.0, 0.0, 1e4}}, {{"q"}, {1.0, 0.0, 0.0, soft}}};
+    scene.loads = {{"q", 0.0, 1.0, false}};
+    const Scaling scaling = CharacteristicScales(scene);
+    EXPECT_GT(scaling.length, 2.5) << soft;
+    EXPECT_LT(scaling.length, 10.0) << soft;
+  }
+}
+
+TEST(CharacteristicScalesTest, WithoutBarsMotionsCountBesideLoads) {
+  Scene scene;
+  scene.nodes = {{"p", 0.0, 0.0, false, false}};
+  scene.superelements = {{{"p"}, {2.0, 0.0, 0.0, 2.0}}};
+  scene.loads = {{"p", 1e-3, 0.0, false}};
+  scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.0}};
+  scene.obstacle_motions = {{"floor", 3.0, 4.0}};
+  const Scaling scaling = CharacteristicScales(scene);
+  EXPECT_DOUBLE_EQ(scaling.force, 10.0);
+  EXPECT_DOUBLE_EQ(scaling.length, 5.0);
+}
+
+// EI / l^2 = 1. Loads far beyond bend no further: F is a tenth of their sum.
+TEST(ProgramScalesTest, LoadsFarBeyondBendingGiveTheForce) {
+  for (const int segments : {1, 20, 80}) {
+    TraceRequest request;
+    request.scene.nodes = {{"a", 0.0, 0.0, true, true}, {"b", 2.0, 0.0, false, false}};
+    Beam beam;
+    beam.name = "leg";
+    beam.nodes = {"a", "b"};
+    beam.EA = 1e6;
+    beam.EI = 4.0;
+    beam.segments = segments;
+    request.scene.beams = {beam};
+    Stage light, heavy;
+    light.loads = {{"b", 3.0, 4.0, false}};
+    Load line;
+    line.group = "leg";
+    line.py = 10.0;
+    heavy.loads = {line, {"b", -20.0, 0.0, false}};
+    heavy.target = -2.0;
+    const auto scales = [&](const std::vector<Stage>& program) {
+      request.program = program;
+      const ExpandedRequest expanded(request);
+      return ProgramScales(expanded.Get(), SceneIndex(expanded.Get().scene));
+    };
+    EXPECT_NEAR(scales({light}).length, 2.0, kRounding);
+    EXPECT_NEAR(scales({light}).force, 1.0, kRounding);
+    const double end = 10.0 / segments;  // of the line load, on the last node
+    EXPECT_NEAR(scales({light, heavy}).force, 0.2 * (20.0 - 2.0 * end + std::hypot(20.0, end)), 1e-12);
+    EXPECT_NEAR(scales({light, heavy}).length, 2.0, kRounding);
+  }
 }
 
 TEST(ScaleSceneTest, ByHand) {

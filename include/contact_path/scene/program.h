@@ -34,8 +34,9 @@ inline Configuration StageConfiguration(const TraceRequest& request, std::size_t
   return StageConfiguration(request, SceneIndex(request.scene), stage);
 }
 
-// One length and one force for all stages, so that points can be handed on. A scene with bars gives both; without bars
-// the stage with the largest force at its target does.
+// One length and one force for all stages, so that points can be handed on. A scene with bars, beams or solids gives
+// both. Of beams alone the force is no less than a tenth of the sum of the loads of any stage at its target. Of linear
+// parts alone the stage with the largest force at its target gives both.
 Scaling ProgramScales(const TraceRequest& request, const SceneIndex& index);
 inline Scaling ProgramScales(const TraceRequest& request) { return ProgramScales(request, SceneIndex(request.scene)); }
 

@@ -10,10 +10,12 @@ namespace contact_path {
 // quantity of the scene = scaled quantity x scale. All are positive, change with the units as their quantities do, and
 // depend neither on the order of the parts nor on rotation or reflection of the scene.
 struct Scaling {
-  double length = 1.0;  // L: mean initial length of bars and beams; without them, F / mean stiffness
-  double force = 1.0;   // F: geometric mean of EA of bars and EI / length^2 of beams; without them, the norm of the
-                       // reference load, or mean stiffness x norm of the motions; no less than the norm of the constant
-                       // loads, and than 1e-4 x mean stiffness x the smallest gap of a contact that does not touch
+  double length =
+      1.0;             // L: mean initial length of bars and beams; without them, F / mean stiffness, times the power of
+                       // 2 that brings it to the motion by the loads, or to the extent of the nodes, whichever is less
+  double force = 1.0;  // F: geometric mean of EA of bars and EI / length^2 of beams; without them, the largest of the
+                       // norms of reference load and constant loads, mean stiffness x norm of the motions, and
+                       // 1e-4 x mean stiffness x the smallest gap of a contact that does not touch
   double load_factor = 1.0;  // LoadFactorScale
 };
 

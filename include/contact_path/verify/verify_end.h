@@ -13,8 +13,9 @@ namespace contact_path {
 
 // What speaks against it, in a line; empty: nothing does. reason: "stop_criterion", ..., of a trace whose increments
 // these are. Looked at: stop_criterion (one holds in the last increment, or the program is done), max_increments (their
-// number), path_end (no branch is taken from the last increment; mpec cannot tell one) and closed_path (an earlier
-// increment of the stage has the state of the last one).
+// number), path_end (no branch is taken from the last increment, and mpec cannot tell that; or no contact is left, and
+// the load is zero or beyond minus its target) and closed_path (an earlier increment of the stage has the state of the
+// last one).
 std::string EndContradicted(const TraceRequest& request, const std::vector<Increment>& increments,
                             std::string_view reason);
 

@@ -1,0 +1,116 @@
+// Random frames that an obstacle is driven against: the same events by every accuracy.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "support/random.h"
+#include "support/traced_path.h"
+
+namespace contact_path {
+namespace {
+
+constexpr unsigned kSeeds = 100;
+constexpr int kMostIncrements = 1500;
+constexpr double kPi = 3.14159265358979323846;
+
+Beam Segment(const std::string& name, const std::string& first, const std::string& second, double EA, int segments,
+             double angle) {
+  Beam beam;
+  beam.name = name;
+  beam.nodes = {first, second};
+  beam.EA = EA;
+  beam.EI = 1.0;
+  beam.segments = segments;
+  beam.angle = angle;
+  return beam;
+}
+
+// A disc, or a polygon with fillets, or a closed spline.
+Obstacle Indenter(Random* random, double x, double y) {
+  Obstacle obstacle;
+  obstacle.name = "o";
+  obstacle.friction = random->Number(0.0, 1.0) < 0.3 ? 0.0 : random->Number(0.1, 0.8);
+  if (random->Number(0.0, 1.0) < 0.3) {
+    obstacle.shape = ObstacleShape::kCircle;
+    obstacle.px = x;
+    obstacle.py = y;
+    obstacle.radius = random->Number(0.08, 0.3);
+    return obstacle;
+  }
+  obstacle.shape = random->Number(0.0, 1.0) < 0.5 ? ObstacleShape::kPolyline : ObstacleShape::kSpline;
+  obstacle.closed = true;
+  const int corners = 3 + static_cast<int>(random->Number(0.0, 3.99));
+  const double first = random->Number(0.0, 2.0 * kPi);
+  for (int i = 0; i < corners; ++i) {
+    const double radius = random->Number(0.18, 0.3), angle = first - 2.0 * kPi * i / corners;
+    obstacle.points.insert(obstacle.points.end(), {x + radius * std::cos(angle), y + radius * std::sin(angle)});
+  }
+  return obstacle;
+}
+
+// An arch of two beams, or a post with an arm, and an obstacle that comes down on it.
+TraceRequest RandomFrame(unsigned seed) {
+  Random random(seed);
+  const bool arch = random.Number(0.0, 1.0) < 0.5;
+  const double EA = std::pow(10.0, random.Number(2.5, 4.5));
+  const int segments = 4 + 2 * static_cast<int>(random.Number(0.0, 2.99));
+  TraceRequest request;
+  Scene& scene = request.scene;
+  scene.name = "frame_" + std::to_string(seed);
+  Node a{"a", arch ? -1.0 : 0.0, 0.0, true, true}, b{"b", 1.0, arch ? 0.0 : random.Number(0.8, 1.3), arch, arch};
+  a.fixed_rotation = true;
+  b.fixed_rotation = arch && random.Number(0.0, 1.0) < 0.5;
+  const Node c =
+      arch ? Node{"c", random.Number(-0.2, 0.2), random.Number(0.2, 0.6)} : Node{"c", random.Number(-0.1, 0.1), 1.0};
+  scene.nodes = {a, c, b};
+  const auto bend = [&] { return arch ? random.Number(-0.6, 0.6) : 0.0; };
+  scene.beams = {Segment("left", "a", "c", EA, segments, bend()), Segment("right", "c", "b", EA, segments, bend())};
+  Group chain;
+  chain.name = "chain";
+  for (const char* beam : {"left", "right"})
+    for (int i = 1; i < segments && (arch || beam[0] == 'r'); ++i)
+      chain.nodes.push_back(std::string(beam) + "/" + std::to_string(i));
+  scene.groups = {chain};
+  scene.obstacles = {arch ? Indenter(&random, random.Number(-0.4, 0.4), random.Number(1.0, 1.2))
+                          : Indenter(&random, random.Number(0.1, 0.7), random.Number(1.5, 1.9))};
+  ContactCandidate contact;
+  contact.group = "chain";
+  contact.obstacle = "o";
+  scene.contacts = {contact};
+  Stage drive;
+  drive.obstacle_motions = {{"o", random.Number(-0.7, 0.7), random.Number(-1.2, -0.6)}};
+  request.program = {drive};
+  request.options.max_increments = kMostIncrements;
+  return request;
+}
+
+TEST(FramesOnCurves, HaveTheSameEventsByEveryAccuracy) {
+  for (unsigned seed = 1; seed <= kSeeds; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    TraceRequest request = RandomFrame(seed);
+    request.options.accuracy = Accuracy::kBalanced;
+    const TracedPath path = TraceIncrements(request);
+    for (const Accuracy accuracy : {Accuracy::kFast, Accuracy::kAccurate}) {
+      request.options.accuracy = accuracy;
+      const TracedPath other = TraceIncrements(request);
+      const std::vector<const Increment*> events = EventsOf(path), others = EventsOf(other);
+      // Where one path was cut short, the other one may have more.
+      const bool whole =
+          path.result.reason != EndReason::kMaxIncrements && other.result.reason != EndReason::kMaxIncrements;
+      if (whole) {
+        EXPECT_EQ(others.size(), events.size());
+      }
+      for (std::size_t i = 0; i < std::min(events.size(), others.size()); ++i) {
+        EXPECT_EQ(ToString(others[i]->kind), ToString(events[i]->kind)) << i;
+        EXPECT_NEAR(others[i]->load_factor, events[i]->load_factor, 1e-8) << i;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace contact_path
