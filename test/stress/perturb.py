@@ -29,6 +29,7 @@ FLOOR = 1e-6  # of the largest load factor of a path: below, rounding of what ha
 BEYOND = 1e-2  # of arc lengths: steps may be cut elsewhere
 OPEN = ('max_increments', 'not_determined', 'cancelled')  # ends that leave open how the path goes on; cancelled: by the time limit
 MIRRORED = 'mirrored'
+STEPPED = ('stop_criterion', 'closed_path')  # ends at the first increment beyond something, wherever steps end
 SIDES = {'slip+': 'slip-', 'slip-': 'slip+'}
 
 Point = collections.namedtuple('Point', 'kind stage load_factor arc_length before after size')
@@ -53,18 +54,20 @@ def trace(scene, file, options, seconds):
     reason = re.match(r'contact_path_trace: (\w+): ', last)
     if process.returncode not in (0, 1) or not reason:
         raise ValueError(last.replace(file, 'scene'))
+    reason = 'end_of_program' if 'the program was traced to its end' in last else reason.group(1)
     path = read_csv(file + '.csv')
     if not len(path):
-        return Traced([], reason.group(1), None)
-    states = {name: path['state_' + name].tolist() for name in path.contacts}
+        return Traced([], reason, None)
+    states = [dict(zip(path.contacts, row)) for row in zip(*(path['state_' + name].tolist() for name in path.contacts))]
+    states = [*(states or [{}] * len(path)), {}]  # {}: not known
     loads = path['load_factor'].tolist()
     size = FLOOR * max(map(abs, loads))
     points = []
     for i, (kind, load, arc) in enumerate(zip(path['kind'].tolist(), loads, path['arc_length'].tolist())):
         size = max(size, abs(load))
-        before, after = ({name: column[k] for name, column in states.items()} for k in (max(i - 1, 0), i))
-        points.append(Point(kind, int(path['stage'][i]) if 'stage' in path else 1, load, arc, before, after, size))
-    return Traced([point for point in points if point.kind in LIMITS + EVENTS], reason.group(1), points[-1])
+        # An increment has the states of the arc that it ends.
+        points.append(Point(kind, int(path['stage'][i]) if 'stage' in path else 1, load, arc, states[i], states[i + 1], size))
+    return Traced([point for point in points if point.kind in LIMITS + EVENTS], reason, points[-1])
 
 
 def other_sides(traced):
@@ -82,7 +85,7 @@ def without_seams(traced):
 
 
 def states_that_differ(one, other):
-    return ', '.join('%s %s, not %s' % (name, one.get(name), state) for name, state in other.items() if one.get(name) != state)
+    return ', '.join('%s %s, not %s' % (name, one[name], state) for name, state in other.items() if one and one[name] != state)
 
 
 def first_difference(variant, given):
@@ -101,15 +104,15 @@ def first_difference(variant, given):
         return '' if variant.reason == given.reason else 'ends by %s, not %s' % (variant.reason, given.reason)
     common = min(len(variant.points), len(given.points))
     for traced, longer, more in (variant, given, 'no '), (given, variant, 'one more '):
-        if len(longer.points) > common and not (traced.reason in OPEN and beyond(longer.points[common], traced)):
+        if len(longer.points) > common and not (traced.reason in OPEN + STEPPED and beyond(longer.points[common], traced)):
             point = longer.points[common]
             return '%s%s at load factor %.10g of stage %d' % (more, point.kind, point.load_factor, point.stage)
     if given.reason not in OPEN and variant.reason not in OPEN:
         if variant.reason != given.reason:
             return 'ends by %s, not %s' % (variant.reason, given.reason)
-        if not abs(variant.last.load_factor - given.last.load_factor) <= SAME * max(variant.last.size, given.last.size):
-            return 'load factor at the end, %.10g, differs by %.1e' % (given.last.load_factor,
-                                                                       variant.last.load_factor - given.last.load_factor)
+        apart = variant.last.load_factor - given.last.load_factor
+        if given.reason not in STEPPED and not abs(apart) <= SAME * max(variant.last.size, given.last.size):
+            return 'load factor at the end, %.10g, differs by %.1e' % (given.last.load_factor, apart)
     elif given.reason not in OPEN and not beyond(given.last, variant):
         return 'goes on beyond the end by %s at load factor %.10g' % (given.reason, given.last.load_factor)
     elif variant.reason not in OPEN and not beyond(variant.last, given):
