@@ -101,12 +101,13 @@ def first_difference(variant, given):
         if not abs(one.load_factor - other.load_factor) <= SAME * max(one.size, other.size):
             return '%sdiffers by %.1e' % (where, one.load_factor - other.load_factor)
     if variant.last is None or given.last is None:
-        return '' if variant.reason == given.reason else 'ends by %s, not %s' % (variant.reason, given.reason)
+        return '' if variant.reason == given.reason or {variant.reason, given.reason} & set(OPEN) else 'ends by %s, not %s' % (variant.reason, given.reason)
     common = min(len(variant.points), len(given.points))
-    for traced, longer, more in (variant, given, 'no '), (given, variant, 'one more '):
+    for traced, longer, what in (variant, given, 'ends'), (given, variant, 'goes on beyond the end'):
         if len(longer.points) > common and not (traced.reason in OPEN + STEPPED and beyond(longer.points[common], traced)):
             point = longer.points[common]
-            return '%s%s at load factor %.10g of stage %d' % (more, point.kind, point.load_factor, point.stage)
+            return '%s by %s at load factor %.10g; there is %s at load factor %.10g of stage %d' % (
+                what, traced.reason, traced.last.load_factor, point.kind, point.load_factor, point.stage)
     if given.reason not in OPEN and variant.reason not in OPEN:
         if variant.reason != given.reason:
             return 'ends by %s, not %s' % (variant.reason, given.reason)
@@ -116,7 +117,7 @@ def first_difference(variant, given):
     elif given.reason not in OPEN and not beyond(given.last, variant):
         return 'goes on beyond the end by %s at load factor %.10g' % (given.reason, given.last.load_factor)
     elif variant.reason not in OPEN and not beyond(variant.last, given):
-        return 'ends by %s at load factor %.10g, where the path goes on' % (variant.reason, variant.last.load_factor)
+        return 'ends by %s at load factor %.10g; the path goes on' % (variant.reason, variant.last.load_factor)
     return ''
 
 

@@ -51,17 +51,20 @@ def criteria(request):
 
 
 def rounded(request, rng, relative):
-    """Coordinates of nodes, stiffnesses and loads changed by up to that share, each by another. Nodes at one place stay at one."""
+    """Coordinates of nodes, stiffnesses and loads changed by up to that share, each by another. Nodes at one place stay at one, and
+    far from the origin it is a share of the size of the structure."""
     request = copy.deepcopy(request)
     places = {}
+    nodes = entries(request, 'nodes')
+    size = max(max(values) - min(values) for values in ([node.get(axis, 0.0) for node in nodes] for axis in 'xy'))
 
-    def change(value):
-        return value * (1.0 + relative * rng.uniform(-1.0, 1.0))
+    def change(value, most=math.inf):
+        return value + relative * rng.uniform(-1.0, 1.0) * min(abs(value), most)
 
     def moved(x, y):
-        return places.setdefault((x, y), (change(x), change(y)))
+        return places.setdefault((x, y), (change(x, size or math.inf), change(y, size or math.inf)))
 
-    for node in entries(request, 'nodes'):
+    for node in nodes:
         node['x'], node['y'] = moved(node.get('x', 0.0), node.get('y', 0.0))
     for name, fields in ROUNDED.items():
         for entry in entries(request, name):
