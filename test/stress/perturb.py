@@ -101,7 +101,8 @@ def first_difference(variant, given):
         if not abs(one.load_factor - other.load_factor) <= SAME * max(one.size, other.size):
             return '%sdiffers by %.1e' % (where, one.load_factor - other.load_factor)
     if variant.last is None or given.last is None:
-        return '' if variant.reason == given.reason or {variant.reason, given.reason} & set(OPEN) else 'ends by %s, not %s' % (variant.reason, given.reason)
+        same = variant.reason == given.reason or variant.reason in OPEN or given.reason in OPEN
+        return '' if same else 'ends by %s, not %s' % (variant.reason, given.reason)
     common = min(len(variant.points), len(given.points))
     for traced, longer, what in (variant, given, 'ends'), (given, variant, 'goes on beyond the end'):
         if len(longer.points) > common and not (traced.reason in OPEN + STEPPED and beyond(longer.points[common], traced)):
