@@ -183,6 +183,7 @@ function(contact_path_add_python_test name file)
     catkin_run_tests_target("python" ${name} python-${name}.xml COMMAND ${command} DEPENDENCIES ${ARG_DEPENDS})
   else()
     add_test(NAME ${name} COMMAND ${command})
+    set_property(TEST ${name} PROPERTY LABELS python)
   endif()
 endfunction()
 
@@ -197,6 +198,15 @@ contact_path_add_python_test(mesh_test test/cli/mesh_test.py
 contact_path_add_python_test(study_test test/cli/study_test.py DEPENDS contact_path_trace contact_path_study_server
   VARIABLES CONTACT_PATH_STUDY=${CMAKE_CURRENT_SOURCE_DIR}/scripts/contact_path_study CONTACT_PATH_ROOT=${CMAKE_CURRENT_SOURCE_DIR}
     CONTACT_PATH_PROGRAMS=$<TARGET_FILE_DIR:contact_path_trace>)
+if(CONTACT_PATH_LONG_TESTS)
+  contact_path_add_python_test(perturb_test test/stress/perturb_test.py DEPENDS contact_path_trace
+    VARIABLES CONTACT_PATH_PROGRAMS=$<TARGET_FILE_DIR:contact_path_trace>)
+  if(contact_path_test_with_catkin)
+    set_property(TEST _ctest_${PROJECT_NAME}_python_perturb_test PROPERTY LABELS long)
+  else()
+    set_property(TEST perturb_test APPEND PROPERTY LABELS long)
+  endif()
+endif()
 foreach(test scene_test path_test page_test page_study_test surface_curves_test trace_test doctest_test)
   contact_path_add_python_test(python_${test} test/python/${test}.py DEPENDS contact_path_trace
     VARIABLES CONTACT_PATH_ROOT=${CMAKE_CURRENT_SOURCE_DIR} CONTACT_PATH_PROGRAMS=$<TARGET_FILE_DIR:contact_path_trace>)
