@@ -92,7 +92,11 @@ std::vector<bool> PatchesLeftOut(const BoundarySurface& surface, const std::vect
   return left_out;
 }
 
-Axis SymmetryOf(const Node& end, const Node& next) {
+Axis SymmetryOf(const Node& end, const Node& next, const Scene& scene) {
+  bool turns = !end.fixed_rotation;
+  for (const Solid& solid : scene.solids)
+    for (const std::string& node : solid.nodes) turns = turns && node != end.name;
+  if (turns) return Axis::kNone;
   const Real x = std::abs(static_cast<Real>(next.x) - end.x), y = std::abs(static_cast<Real>(next.y) - end.y);
   if (end.fixed_x && !end.fixed_y && x > y) return Axis::kAcrossX;
   if (end.fixed_y && !end.fixed_x && y > x) return Axis::kAcrossY;

@@ -43,9 +43,9 @@ std::vector<bool> PatchesLeftOut(const BoundarySurface& surface, const std::vect
 
 // Across which axis of symmetry an end of a surface is held.
 enum class Axis { kNone, kAcrossX, kAcrossY };
-// An end of an open surface is on an axis where its node is held in one component, and moves along the axis; the next
-// node is farther from the axis than along it.
-Axis SymmetryOf(const Node& end, const Node& next);
+// An end of an open surface is on an axis where its node is held in one component, and moves along the axis without a
+// turn; the next node is farther from the axis than along it.
+Axis SymmetryOf(const Node& end, const Node& next, const Scene& scene);
 
 // Which nodes the patches of a surface of a scene have.
 class Boundary {

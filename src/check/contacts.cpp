@@ -183,8 +183,8 @@ std::vector<Boundary> MakeBoundaries(const Scene& scene, const NodeNumbers& numb
     for (const std::string& node : surface.nodes) nodes.push_back(numbers.at(node));
     std::array<Axis, 2> axes = {Axis::kNone, Axis::kNone};
     if (const std::size_t n = nodes.size(); !surface.closed)
-      axes = {SymmetryOf(scene.nodes[nodes[0]], scene.nodes[nodes[1]]),
-              SymmetryOf(scene.nodes[nodes[n - 1]], scene.nodes[nodes[n - 2]])};
+      axes = {SymmetryOf(scene.nodes[nodes[0]], scene.nodes[nodes[1]], scene),
+              SymmetryOf(scene.nodes[nodes[n - 1]], scene.nodes[nodes[n - 2]], scene)};
     boundaries.emplace_back(surface, nodes, axes,
                             surface.closed ? Elements() : ElementsBehind(surface, scene, numbers));
   }

@@ -83,7 +83,10 @@ NearestFoot BoundaryAt::Nearest(const Vector2d& x) const {
     // The parabola is no farther from its chord than a quarter of c.
     if (Distance(x, begin, end) > most + 0.25 * curve.c.lpNorm<1>()) continue;
     const double tau = curve.FootOf(x, patch.begin, patch.end);
-    if (tau >= 0.0 && tau <= patch.end) {
+    // Over an axis of symmetry, rounding does not take a node that is held on the axis past the end.
+    const bool mirrored = std::max(patch.nodes[0], patch.nodes[2]) >= NumPatches();
+    const double rounding = mirrored ? tolerances::kFootStagnation : 0.0;
+    if (tau >= -rounding && tau <= patch.end + rounding) {
       consider(i, (x - curve.At(tau)).norm(), false, false);
       continue;
     }

@@ -48,8 +48,8 @@ PlacedBoundary MakeBoundary(const BoundarySurface& surface, const Scene& scene, 
     }
   const auto boundary = std::make_shared<DeformableBoundary>(std::move(nodes), start, surface.closed, surface.radius);
   boundary->SetSolid(std::move(elements));
-  placed.across =
-      SymmetryAxes(surface, [&](const std::string& name) -> const Node& { return scene.nodes[index.Node(name)]; });
+  placed.across = SymmetryAxes(surface, scene,
+                               [&](const std::string& name) -> const Node& { return scene.nodes[index.Node(name)]; });
   boundary->SetMirroredEnds(placed.across);
   placed.boundary = boundary;
   return placed;

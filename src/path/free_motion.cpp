@@ -160,8 +160,9 @@ std::string NearestOpenText(const Model& model, const PathPoint& point, std::siz
     from_edges = std::min(from_edges, (away - share * edge).norm());
   }
   if (from_edges > radius + tolerances::kTouchingAtStart) return text;
-  const std::array<int, 2> across = SymmetryAxes(
-      surface, [&](const std::string& name) -> const Node& { return model.scene.nodes[model.index.Node(name)]; });
+  const std::array<int, 2> across = SymmetryAxes(surface, model.scene, [&](const std::string& name) -> const Node& {
+    return model.scene.nodes[model.index.Node(name)];
+  });
   const double off = std::abs(BoundaryCurve(places, surface.closed, 0.0, across).Nearest(places[nearest]).gap) * length;
   return text + " (the smooth curve of surface " + surface.name + " passes " + Rounded(off) + " from its node " +
          surface.nodes[nearest] + ")";

@@ -97,7 +97,7 @@ void DrawnScene::AddContacts(const Scene& scene, const SceneIndex& index) {
     const auto [at, is_new] = drawn.try_emplace(index.Surface(contact.surface), surfaces.size());
     if (is_new) {
       const auto node_of = [&](const std::string& of) -> const Node& { return scene.nodes[index.Node(of)]; };
-      surfaces.push_back({{}, surface.closed, surface.radius, SymmetryAxes(surface, node_of)});
+      surfaces.push_back({{}, surface.closed, surface.radius, SymmetryAxes(surface, scene, node_of)});
       for (const std::string& node_name : surface.nodes) surfaces.back().nodes.push_back(index.Node(node_name));
     }
     const NodePlaces places = surfaces[at->second].PlacesIn(initial);

@@ -85,12 +85,16 @@ AdmissiblePatches PatchesFor(const std::string& node, const BoundarySurface& sur
   return {places, surface.closed, surface.radius, static_cast<int>(own - surface.nodes.begin()), ends};
 }
 
-std::array<int, 2> SymmetryAxes(const BoundarySurface& surface,
+std::array<int, 2> SymmetryAxes(const BoundarySurface& surface, const Scene& scene,
                                 const std::function<const Node&(const std::string&)>& node_of) {
   if (surface.closed) return {-1, -1};
   const auto axis = [&](const std::string& at, const std::string& beside) {
     const Node &end = node_of(at), &next = node_of(beside);
     if (end.fixed_x == end.fixed_y) return -1;
+    const bool turns = std::none_of(scene.solids.begin(), scene.solids.end(), [&](const Solid& solid) {
+      return std::find(solid.nodes.begin(), solid.nodes.end(), at) != solid.nodes.end();
+    });
+    if (turns && !end.fixed_rotation) return -1;
     const double x = std::abs(next.x - end.x), y = std::abs(next.y - end.y);
     if (!(end.fixed_x ? x > y : y > x)) return -1;
     return end.fixed_x ? 0 : 1;

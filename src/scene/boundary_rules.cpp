@@ -85,7 +85,7 @@ const BoundaryRules::Judged& BoundaryRules::Judge(const BoundarySurface& surface
     judged.places.emplace_back(node.x, node.y);
   }
   judged.across =
-      SymmetryAxes(surface, [&](const std::string& name) -> const Node& { return *checker_.KnownNode(name); });
+      SymmetryAxes(surface, scene_, [&](const std::string& name) -> const Node& { return *checker_.KnownNode(name); });
   judged.curve.emplace(judged.places, surface.closed, surface.radius, judged.across);
   return judged;
 }

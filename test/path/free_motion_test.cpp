@@ -59,9 +59,9 @@ TEST(FreeMotion, TellsTheGapAtWhichTheCurvePasses) {
   const TracedPath path = TraceIncrements(request);
   EXPECT_EQ(path.result.reason, EndReason::kPathEnd);
   EXPECT_NE(path.result.message.find(Question(request)), std::string::npos) << path.result.message;
-  scene.nodes[3].y = 0.5;
+  scene.nodes[3].y = 0.475;
   EXPECT_EQ(Question(request),
-            "nodes p, q move freely; the nearest candidate is open: p@lower, gap 0.52: is a contact or a support "
+            "nodes p, q move freely; the nearest candidate is open: p@lower, gap 0.5: is a contact or a support "
             "missing?");
 }
 

@@ -57,8 +57,9 @@ AdmissiblePatches PatchesFor(const std::string& node, const BoundarySurface& sur
 
 // Of the first and the last node of an open surface, the axis of symmetry that it lies on: 0, it is held across an axis
 // x = const, 1, across an axis y = const; -1, it lies on none. It is held in this component alone, and the edge there
-// leads from the axis rather than along it. node_of: the node of a name.
-std::array<int, 2> SymmetryAxes(const BoundarySurface& surface,
+// leads from the axis rather than along it. A solid has it, or its rotation is held: an end that turns stands on a
+// slide. node_of: the node of a name.
+std::array<int, 2> SymmetryAxes(const BoundarySurface& surface, const Scene& scene,
                                 const std::function<const Node&(const std::string&)>& node_of);
 
 // The elements of the solids that have edges of the surface, each as the names of the nodes round it. They must outlive
