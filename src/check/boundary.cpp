@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <unsupported/Eigen/AutoDiff>
+#include <utility>
 
 namespace contact_path::check {
 namespace {
@@ -18,6 +19,10 @@ constexpr Real kAtEnd = 1e-9L;     // [rad] off the normal at an end: a path tha
 constexpr BoundaryPatch::Weights kInner = {{{0.5L, -1.0L, 0.5L}, {0.5L, 1.0L, -1.0L}, {0.0L, 0.0L, 0.5L}}};
 constexpr BoundaryPatch::Weights kFirst = {{{1.0L, -0.5L, 0.0L}, {0.0L, 0.5L, 0.0L}, {}}};
 constexpr BoundaryPatch::Weights kLast = {{{0.5L, -0.5L, 0.0L}, {0.5L, 0.5L, 0.0L}, {}}};
+// The second and the first half of kInner.
+constexpr BoundaryPatch::Weights kFromAxis = {
+    {{0.125L, -0.25L, 0.125L}, {0.75L, 0.0L, -0.25L}, {0.125L, 0.25L, 0.125L}}};
+constexpr BoundaryPatch::Weights kToAxis = {{{0.5L, -0.5L, 0.125L}, {0.5L, 0.5L, -0.25L}, {0.0L, 0.0L, 0.125L}}};
 
 Real Cross(const Vector& a, const Vector& b) { return a.x * b.y - a.y * b.x; }
 Vector Plus(const Vector& a, Real factor, const Vector& b) { return {a.x + factor * b.x, a.y + factor * b.y}; }
@@ -87,16 +92,34 @@ std::vector<bool> PatchesLeftOut(const BoundarySurface& surface, const std::vect
   return left_out;
 }
 
-Boundary::Boundary(const BoundarySurface& surface, const std::vector<std::size_t>& nodes)
-    : closed_(surface.closed), radius_(surface.radius) {
+Axis SymmetryOf(const Node& end, const Node& next, const Scene& scene) {
+  bool turns = !end.fixed_rotation;
+  for (const Solid& solid : scene.solids)
+    for (const std::string& node : solid.nodes) turns = turns && node != end.name;
+  if (turns) return Axis::kNone;
+  const Real x = std::abs(static_cast<Real>(next.x) - end.x), y = std::abs(static_cast<Real>(next.y) - end.y);
+  if (end.fixed_x && !end.fixed_y && x > y) return Axis::kAcrossX;
+  if (end.fixed_y && !end.fixed_x && y > x) return Axis::kAcrossY;
+  return Axis::kNone;
+}
+
+Boundary::Boundary(const BoundarySurface& surface, const std::vector<std::size_t>& nodes,
+                   const std::array<Axis, 2>& axes, std::vector<std::vector<std::size_t>> elements)
+    : elements_(std::move(elements)), closed_(surface.closed), radius_(surface.radius) {
   const std::size_t n = nodes.size();
   for (std::size_t i = 0; i < n; ++i) {
-    if (closed_ || (i > 0 && i + 1 < n))
+    if (closed_ || (i > 0 && i + 1 < n)) {
       patches_.push_back({{nodes[(i + n - 1) % n], nodes[i], nodes[(i + 1) % n]}, kInner});
-    else if (i == 0)
+    } else if (const Axis axis = axes[i == 0 ? 0 : 1]; axis != Axis::kNone) {
+      const std::size_t next = i == 0 ? nodes[1] : nodes[n - 2];
+      patches_.push_back({{next, nodes[i], next}, i == 0 ? kFromAxis : kToAxis});
+      patches_.back().image = i == 0 ? 0 : 2;
+      patches_.back().across_x = axis == Axis::kAcrossX;
+    } else if (i == 0) {
       patches_.push_back({{nodes[0], nodes[1], nodes[1]}, kFirst});
-    else
+    } else {
       patches_.push_back({{nodes[n - 2], nodes[n - 1], nodes[n - 1]}, kLast});
+    }
   }
 }
 
@@ -106,7 +129,7 @@ BoundaryShape::BoundaryShape(const Boundary& boundary, const std::vector<double>
   for (const BoundaryPatch& patch : boundary.Patches()) {
     Parabola curve;
     for (std::size_t j = 0; j < patch.nodes.size(); ++j) {
-      const Vector place = NodePosition(positions, patch.nodes[j]);
+      const Vector place = PlaceOf(patch, j);
       curve.at = Plus(curve.at, patch.weights[j][0], place);
       curve.first = Plus(curve.first, patch.weights[j][1], place);
       curve.second = Plus(curve.second, 2.0L * patch.weights[j][2], place);
@@ -117,6 +140,20 @@ BoundaryShape::BoundaryShape(const Boundary& boundary, const std::vector<double>
     curves_.push_back(curve);
   }
   search_ = NearestPiece(std::move(around));
+}
+
+Vector BoundaryShape::PlaceOf(const BoundaryPatch& patch, std::size_t node) const {
+  Vector place = NodePosition(positions_, patch.nodes[node]);
+  if (node != patch.image) return place;
+  const Vector axis = NodePosition(positions_, patch.nodes[1]);
+  Real& across = patch.across_x ? place.x : place.y;
+  across = 2.0L * (patch.across_x ? axis.x : axis.y) - across;
+  return place;
+}
+
+Vector BoundaryShape::Reflected(const BoundaryPatch& patch, std::size_t node, const Vector& force) {
+  if (node != patch.image) return force;
+  return patch.across_x ? Vector{-force.x, force.y} : Vector{force.x, -force.y};
 }
 
 Vector BoundaryShape::Place(const Parabola& curve, Real tau) {
@@ -183,7 +220,29 @@ BoundaryFoot BoundaryShape::Nearest(const Vector& x, const std::vector<bool>& le
       (begins && nearest.tau == 0.0L && along < -rounding) || (ends && nearest.tau == 1.0L && along > rounding);
   nearest.over_end = !nearest.is_end && std::abs(along) <= rounding &&
                      ((begins && nearest.tau == 0.0L) || (ends && nearest.tau == 1.0L));
+  nearest.is_end = nearest.is_end || (!boundary_.Closed() && IsAway(x, nearest));
   return nearest;
+}
+
+bool BoundaryShape::IsAway(const Vector& x, const BoundaryFoot& foot) const {
+  const std::size_t last = curves_.size() - 1;
+  const Vector per_tau = Direction(curves_[foot.patch], foot.tau);
+  // The patches at both ends are halves of an edge.
+  const Real edge = (foot.patch == 0 || foot.patch == last ? 2.0L : 1.0L) * Length(per_tau);
+  if (!(-Gap(x, foot) > std::max(2.0L * boundary_.Radius(), edge))) return false;
+  // Of a ray to the right: how many sides of the element it crosses.
+  const auto has_inside = [&](const std::vector<std::size_t>& element) {
+    int crossed = 0;
+    for (std::size_t i = 0; i < element.size(); ++i) {
+      const Vector a = NodePosition(positions_, element[i]) - x;
+      const Vector b = NodePosition(positions_, element[(i + 1) % element.size()]) - x;
+      if (a.x == 0.0L && a.y == 0.0L) return false;
+      const bool up = a.y <= 0.0L && b.y > 0.0L, down = b.y <= 0.0L && a.y > 0.0L;
+      if ((up && Cross(a, b) > 0.0L) || (down && Cross(a, b) < 0.0L)) ++crossed;
+    }
+    return crossed % 2 == 1;
+  };
+  return std::none_of(boundary_.Elements().begin(), boundary_.Elements().end(), has_inside);
 }
 
 Vector BoundaryShape::Normal(const BoundaryFoot& foot) const {
@@ -229,8 +288,7 @@ BoundaryShape::Forces BoundaryShape::ForcesOf(const Vector& x, const BoundaryFoo
   const Parabola& curve = curves_[foot.patch];
   const DualVector node = VariableAt(x, 0);
   std::array<DualVector, BoundaryPatch::kNodes> nodes;
-  for (std::size_t j = 0; j < nodes.size(); ++j)
-    nodes[j] = VariableAt(NodePosition(positions_, patch.nodes[j]), 2 + 2 * static_cast<int>(j));
+  for (std::size_t j = 0; j < nodes.size(); ++j) nodes[j] = VariableAt(PlaceOf(patch, j), 2 + 2 * static_cast<int>(j));
 
   const Shapes at_foot = ShapesAt(patch.weights, Dual(foot.tau));
   const DualVector place = Combined(at_foot.values, nodes), direction = Combined(at_foot.slopes, nodes);

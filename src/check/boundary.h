@@ -22,13 +22,17 @@ struct BoundaryPatch {
 
   std::array<std::size_t, kNodes> nodes{};  // of the scene
   Weights weights{};
+  // At an axis of symmetry through nodes[1], x = const or y = const: nodes[image] stands for its mirror image. kNodes:
+  // none does.
+  std::size_t image = kNodes;
+  bool across_x = false;  // the axis is x = const
 };
 
 struct BoundaryFoot {
   std::size_t patch = 0;
   Real tau = 0.0L;
   Real distance = 0.0L;   // of the point from the foot [length]
-  bool is_end = false;    // the point is past an end of the boundary
+  bool is_end = false;    // the point is past an end of the boundary, or so deep behind it that it came round an end
   bool over_end = false;  // it is over an end to rounding, and need not be past it
 };
 
@@ -37,18 +41,28 @@ struct BoundaryFoot {
 // nodes of the surface at the start [length].
 std::vector<bool> PatchesLeftOut(const BoundarySurface& surface, const std::vector<Vector>& places, std::size_t node);
 
+// Across which axis of symmetry an end of a surface is held.
+enum class Axis { kNone, kAcrossX, kAcrossY };
+// An end of an open surface is on an axis where its node is held in one component, and moves along the axis without a
+// turn; the next node is farther from the axis than along it.
+Axis SymmetryOf(const Node& end, const Node& next, const Scene& scene);
+
 // Which nodes the patches of a surface of a scene have.
 class Boundary {
  public:
-  // nodes: of the surface, by their places in the scene.
-  Boundary(const BoundarySurface& surface, const std::vector<std::size_t>& nodes);
+  // nodes: of the surface, by their places in the scene. axes: SymmetryOf() both ends. elements: of the solids that it
+  // bounds, the nodes round each.
+  Boundary(const BoundarySurface& surface, const std::vector<std::size_t>& nodes, const std::array<Axis, 2>& axes,
+           std::vector<std::vector<std::size_t>> elements);
 
   const std::vector<BoundaryPatch>& Patches() const { return patches_; }
   bool Closed() const { return closed_; }
   Real Radius() const { return radius_; }
+  const std::vector<std::vector<std::size_t>>& Elements() const { return elements_; }
 
  private:
   std::vector<BoundaryPatch> patches_;
+  std::vector<std::vector<std::size_t>> elements_;
   bool closed_;
   Real radius_;
 };
@@ -59,10 +73,6 @@ class BoundaryShape {
   // positions: x0, y0, x1, ... of all nodes of the scene [length].
   BoundaryShape(const Boundary& boundary, const std::vector<double>& positions);
 
-  // The nodes of the patch, by their places in the scene.
-  const std::array<std::size_t, BoundaryPatch::kNodes>& NodesOf(const BoundaryFoot& foot) const {
-    return boundary_.Patches()[foot.patch].nodes;
-  }
   // The nearest point of the curve, which has ends where patches are left out. left_out: by patch; empty: none is.
   BoundaryFoot Nearest(const Vector& x, const std::vector<bool>& left_out) const;
   // Of length 1, on the left of the curve.
@@ -76,6 +86,11 @@ class BoundaryShape {
   // The forces of r_n and r_t: on a node at x with its foot, and after it on the nodes of the patch [force].
   using Forces = std::array<Vector, 1 + BoundaryPatch::kNodes>;
   Forces ForcesOf(const Vector& x, const BoundaryFoot& foot, Real rn, Real rt) const;
+  // Where these forces act: an image has a place and a force of its own.
+  Vector PlaceOf(const BoundaryPatch& patch, std::size_t node) const;
+  // A force on an image, as the node has it.
+  static Vector Reflected(const BoundaryPatch& patch, std::size_t node, const Vector& force);
+  const BoundaryPatch& PatchOf(const BoundaryFoot& foot) const { return boundary_.Patches()[foot.patch]; }
 
  private:
   // y(tau) = at + tau first + tau^2 / 2 second.
@@ -86,6 +101,9 @@ class BoundaryShape {
   static Vector Place(const Parabola& curve, Real tau);
   static Vector Direction(const Parabola& curve, Real tau);
   static BoundaryFoot FootOn(const Parabola& curve, const Vector& x);
+  // Whether a point is deeper behind an open boundary than an edge is long there and than a beam of this radius is
+  // thick, and in none of the elements. One with a corner at the point does not count.
+  bool IsAway(const Vector& x, const BoundaryFoot& foot) const;
   // Of a part of a patch.
   Real Walked(std::size_t patch, Real from, Real to) const;
 

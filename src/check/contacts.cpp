@@ -96,17 +96,27 @@ class BoundaryContact : public Contact {
     return 0.5L * (before.Walked(begin, end) + after.Walked(begin, end));
   }
   void AddForces(const PlacedState& state, Real rn, Real rt, Real factor, std::vector<Real>* forces) const override {
-    for (const auto& [node, force] : ForcesByNode(state, rn, rt)) {
+    const BoundaryShape& shape = state.Shape(surface_);
+    const BoundaryFoot foot = FootIn(state);
+    const BoundaryShape::Forces of = shape.ForcesOf(state.Place(Node()), foot, rn, rt);
+    const BoundaryPatch& patch = shape.PatchOf(foot);
+    const auto add = [&](std::size_t node, const Vector& force) {
       (*forces)[2 * node] += factor * force.x;
       (*forces)[2 * node + 1] += factor * force.y;
-    }
+    };
+    add(Node(), of[0]);
+    for (std::size_t i = 0; i < BoundaryPatch::kNodes; ++i)
+      add(patch.nodes[i], BoundaryShape::Reflected(patch, i, of[i + 1]));
   }
   Real Imbalance(const PlacedState& state, Real rn, Real rt, Real length) const override {
     const Vector x = state.Place(Node());
-    Vector sum;
+    const BoundaryShape& shape = state.Shape(surface_);
+    const BoundaryFoot foot = FootIn(state);
+    const BoundaryShape::Forces forces = shape.ForcesOf(x, foot, rn, rt);
+    Vector sum = forces[0];
     Real moment = 0.0L;
-    for (const auto& [node, force] : ForcesByNode(state, rn, rt)) {
-      const Vector arm = state.Place(node) - x;
+    for (std::size_t i = 0; i < BoundaryPatch::kNodes; ++i) {
+      const Vector arm = shape.PlaceOf(shape.PatchOf(foot), i) - x, force = forces[i + 1];
       sum = {sum.x + force.x, sum.y + force.y};
       moment += arm.x * force.y - arm.y * force.x;
     }
@@ -116,15 +126,6 @@ class BoundaryContact : public Contact {
  private:
   BoundaryFoot FootIn(const PlacedState& state) const {
     return state.Shape(surface_).Nearest(state.Place(Node()), left_out_);
-  }
-  std::array<std::pair<std::size_t, Vector>, 1 + BoundaryPatch::kNodes> ForcesByNode(const PlacedState& state, Real rn,
-                                                                                     Real rt) const {
-    const Vector x = state.Place(Node());
-    const BoundaryShape& shape = state.Shape(surface_);
-    const BoundaryFoot foot = FootIn(state);
-    const BoundaryShape::Forces forces = shape.ForcesOf(x, foot, rn, rt);
-    const std::array<std::size_t, BoundaryPatch::kNodes>& nodes = shape.NodesOf(foot);
-    return {{{Node(), forces[0]}, {nodes[0], forces[1]}, {nodes[1], forces[2]}, {nodes[2], forces[3]}}};
   }
 
   std::size_t surface_;
@@ -144,6 +145,35 @@ std::vector<bool> PatchesLeftOutFor(const std::string& node, const BoundarySurfa
   return PatchesLeftOut(surface, places, static_cast<std::size_t>(own - surface.nodes.begin()));
 }
 
+using Elements = std::vector<std::vector<std::size_t>>;
+
+// The nodes round each element of the solids that have two neighbours of the surface in one element.
+Elements ElementsBehind(const BoundarySurface& surface, const Scene& scene, const NodeNumbers& numbers) {
+  std::unordered_map<std::string_view, std::size_t> places;
+  for (std::size_t i = 0; i < surface.nodes.size(); ++i) places.emplace(surface.nodes[i], i);
+  Elements behind;
+  for (const Solid& solid : scene.solids) {
+    const std::size_t size = solid.NodesPerElement(), corners = size > 4 ? size / 2 : size;
+    Elements elements;
+    bool bounded = false;
+    for (std::size_t first = 0; first < solid.nodes.size(); first += size) {
+      std::vector<const std::string*> round;
+      for (std::size_t i = 0; i < corners; ++i) {
+        round.push_back(&solid.nodes[first + i]);
+        if (size > corners) round.push_back(&solid.nodes[first + corners + i]);
+      }
+      elements.emplace_back();
+      for (std::size_t i = 0; i < round.size(); ++i) {
+        const auto from = places.find(*round[i]), to = places.find(*round[(i + 1) % round.size()]);
+        bounded = bounded || (from != places.end() && to != places.end() && from->second == to->second + 1);
+        elements.back().push_back(numbers.at(*round[i]));
+      }
+    }
+    if (bounded) behind.insert(behind.end(), elements.begin(), elements.end());
+  }
+  return behind;
+}
+
 }  // namespace
 
 std::vector<Boundary> MakeBoundaries(const Scene& scene, const NodeNumbers& numbers) {
@@ -151,7 +181,12 @@ std::vector<Boundary> MakeBoundaries(const Scene& scene, const NodeNumbers& numb
   for (const BoundarySurface& surface : scene.surfaces) {
     std::vector<std::size_t> nodes;
     for (const std::string& node : surface.nodes) nodes.push_back(numbers.at(node));
-    boundaries.emplace_back(surface, nodes);
+    std::array<Axis, 2> axes = {Axis::kNone, Axis::kNone};
+    if (const std::size_t n = nodes.size(); !surface.closed)
+      axes = {SymmetryOf(scene.nodes[nodes[0]], scene.nodes[nodes[1]], scene),
+              SymmetryOf(scene.nodes[nodes[n - 1]], scene.nodes[nodes[n - 2]], scene)};
+    boundaries.emplace_back(surface, nodes, axes,
+                            surface.closed ? Elements() : ElementsBehind(surface, scene, numbers));
   }
   return boundaries;
 }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "contact_path/geometry/polygon.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
@@ -29,11 +30,32 @@ DeformableBoundary::DeformableBoundary(std::vector<NodePlace> nodes, const std::
   length_per_knot_ = length / static_cast<double>(closed ? start.size() : start.size() - 1);
 }
 
+void DeformableBoundary::SetMirroredEnds(const std::array<int, 2>& across) {
+  const int count = spline_.NumPatches();
+  const auto image = [&](int axis, int end, int next) {
+    const NodePlace& of = nodes_[static_cast<std::size_t>(next)];
+    return axis < 0 ? of : of.Mirrored(axis, nodes_[static_cast<std::size_t>(end)].held[axis]);
+  };
+  const NodePlace first = image(across[0], 0, 1), last = image(across[1], count - 1, count - 2);
+  nodes_.resize(static_cast<std::size_t>(count));
+  nodes_.insert(nodes_.end(), {first, last});
+  spline_ = NodalSpline(count, spline_.Closed(), {across[0] >= 0, across[1] >= 0});
+}
+
 std::array<Vector2d, 3> DeformableBoundary::Places(const SplinePatch& patch, const Eigen::VectorXd& u) const {
   std::array<Vector2d, 3> places;
   for (std::size_t k = 0; k < places.size(); ++k)
     places[k] = patch.nodes[k] >= 0 ? nodes_[static_cast<std::size_t>(patch.nodes[k])].At(u) : Vector2d::Zero();
   return places;
+}
+
+bool DeformableBoundary::InSolid(const Vector2d& x, const Eigen::VectorXd& u) const {
+  std::vector<Vector2d> corners;
+  return std::any_of(elements_.begin(), elements_.end(), [&](const std::vector<NodePlace>& element) {
+    corners.clear();
+    for (const NodePlace& node : element) corners.push_back(node.At(u));
+    return IsInside(corners, x);
+  });
 }
 
 XiRange BoundaryAt::RangeOf(int patch) const {
@@ -61,7 +83,10 @@ NearestFoot BoundaryAt::Nearest(const Vector2d& x) const {
     // The parabola is no farther from its chord than a quarter of c.
     if (Distance(x, begin, end) > most + 0.25 * curve.c.lpNorm<1>()) continue;
     const double tau = curve.FootOf(x, patch.begin, patch.end);
-    if (tau >= 0.0 && tau <= patch.end) {
+    // Over an axis of symmetry, rounding does not take a node that is held on the axis past the end.
+    const bool mirrored = std::max(patch.nodes[0], patch.nodes[2]) >= NumPatches();
+    const double rounding = mirrored ? tolerances::kFootStagnation : 0.0;
+    if (tau >= -rounding && tau <= patch.end + rounding) {
       consider(i, (x - curve.At(tau)).norm(), false, false);
       continue;
     }
@@ -69,7 +94,18 @@ NearestFoot BoundaryAt::Nearest(const Vector2d& x) const {
     consider(i, (x - begin).norm(), !begins, begins);
     consider(i, (x - end).norm(), !ends, ends);
   }
+  nearest.is_away = !Closed() && !nearest.is_end && IsAway(x, nearest.patch);
   return nearest;
+}
+
+bool BoundaryAt::IsAway(const Vector2d& x, int patch) const {
+  const SplinePatch of = patches_.Patch(patch);
+  const Parabola curve = ParabolaOf(of);
+  const double tau = curve.FootOf(x, of.begin, of.end);
+  const Vector2d first = curve.b + 2.0 * tau * curve.c, away = x - curve.At(tau);
+  const double edge = first.norm(), radius = boundary_.Radius();
+  const double behind = radius + (first.y() * away.x() - first.x() * away.y()) / edge;
+  return behind > DepthBehind(radius, edge) && !boundary_.InSolid(x, u_);
 }
 
 Projection BoundaryAt::Project(const Vector2d& x, int patch) const {

@@ -71,16 +71,20 @@ struct DeformablePair::Columns {
   Columns(const DeformablePair& pair, const SplinePatch& patch) {
     std::array<int, kPlaces> all{};
     all.fill(-1);
+    sign.fill(1.0);
     const auto set = [&](std::size_t node, const NodePlace& place) {
-      for (std::size_t axis = 0; axis < 2; ++axis) all[2 * node + axis] = place.dofs[axis];
+      for (std::size_t axis = 0; axis < 2; ++axis) {
+        all[2 * node + axis] = place.dofs[axis];
+        sign[2 * node + axis] = place.sign[axis];
+      }
     };
     set(0, pair.node_);
     for (std::size_t k = 0; k < 3; ++k)
       if (patch.nodes[k] >= 0) set(k + 1, pair.boundary_->Nodes()[static_cast<std::size_t>(patch.nodes[k])]);
     std::array<int, kPlaces> sorted = all;
     std::sort(sorted.begin(), sorted.end());
-    for (const int dof : sorted)
-      if (dof >= 0) dofs.push_back(dof);
+    for (std::size_t k = 0; k < kPlaces; ++k)
+      if (sorted[k] >= 0 && (k == 0 || sorted[k] != sorted[k - 1])) dofs.push_back(sorted[k]);
     for (std::size_t k = 0; k < kPlaces; ++k)
       of[k] = all[k] < 0 ? -1 : std::lower_bound(dofs.begin(), dofs.end(), all[k]) - dofs.begin();
   }
@@ -89,13 +93,13 @@ struct DeformablePair::Columns {
   PairVector Gather(const Place& values) const {
     PairVector q = PairVector::Zero(static_cast<Eigen::Index>(dofs.size()) + 1);
     for (std::size_t k = 0; k < kPlaces; ++k)
-      if (of[k] >= 0) q[of[k]] = values[static_cast<Eigen::Index>(k)];
+      if (of[k] >= 0) q[of[k]] += sign[k] * values[static_cast<Eigen::Index>(k)];
     return q;
   }
   Place Scatter(const PairVector& q) const {
     Place values = Place::Zero();
     for (std::size_t k = 0; k < kPlaces; ++k)
-      if (of[k] >= 0) values[static_cast<Eigen::Index>(k)] = q[of[k]];
+      if (of[k] >= 0) values[static_cast<Eigen::Index>(k)] = sign[k] * q[of[k]];
     return values;
   }
   // rows(k): by place, of the place k.
@@ -104,12 +108,13 @@ struct DeformablePair::Columns {
     const auto size = static_cast<Eigen::Index>(dofs.size()) + 1;
     PairMatrix matrix = PairMatrix::Zero(size, size);
     for (std::size_t k = 0; k < kPlaces; ++k)
-      if (of[k] >= 0) matrix.row(of[k]) = Gather(rows(k)).transpose();
+      if (of[k] >= 0) matrix.row(of[k]) += sign[k] * Gather(rows(k)).transpose();
     return matrix;
   }
 
   PairDofs dofs;
   std::array<Eigen::Index, kPlaces> of{};  // by place; -1: held, or there is none
+  std::array<double, kPlaces> sign{};      // by place, of the dof in it: an image has the dofs of its node
 };
 
 DeformablePair::DeformablePair(std::shared_ptr<const DeformableBoundary> boundary, const AdmissiblePatches& patches,

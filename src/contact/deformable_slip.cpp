@@ -45,7 +45,9 @@ double Walked(const DeformableBoundary& boundary, const Eigen::VectorXd& u, cons
 double DeformablePair::Slip(const Eigen::VectorXd& u, double s, int patch, const Eigen::VectorXd& du, double ds,
                             int patch_after) const {
   const auto foot_at = [this](const Eigen::VectorXd& at, int known) {
-    const int number = patches_.Beside(known);
+    // Away from the surface as past its end.
+    const int most = boundary_->Spline().NumPatches();
+    const int number = patches_.Beside(boundary_->Spline().Closed() ? known : std::min(known, most));
     const SplinePatch of = boundary_->Spline().Patch(number);
     const double tau = Parabola(of, boundary_->Places(of, at)).FootOf(node_.At(at), of.begin, of.end);
     return Foot{number, number == known ? tau : std::clamp(tau, of.begin, of.end)};

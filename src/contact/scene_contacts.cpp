@@ -1,9 +1,11 @@
 #include "contact_path/contact/scene_contacts.h"
 
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -23,6 +25,7 @@ NodePlace PlaceOf(const Structure& structure, int node) {
 struct PlacedBoundary {
   std::shared_ptr<const DeformableBoundary> boundary;
   std::vector<Eigen::Vector2d> initial;  // places of its nodes in the scene, in any stage of a program
+  std::array<int, 2> across = {-1, -1};  // SymmetryAxes()
 };
 
 PlacedBoundary MakeBoundary(const BoundarySurface& surface, const Scene& scene, const SceneIndex& index,
@@ -36,7 +39,19 @@ PlacedBoundary MakeBoundary(const BoundarySurface& surface, const Scene& scene, 
     start.push_back(nodes.back().held);
     placed.initial.emplace_back(scene.nodes[node].x, scene.nodes[node].y);
   }
-  placed.boundary = std::make_shared<DeformableBoundary>(std::move(nodes), start, surface.closed, surface.radius);
+  std::vector<std::vector<NodePlace>> elements;
+  if (!surface.closed)
+    for (const std::vector<std::string_view>& element : ElementsBehind(surface, scene)) {
+      elements.emplace_back();
+      for (const std::string_view node : element)
+        elements.back().push_back(PlaceOf(structure, static_cast<int>(index.Node(node))));
+    }
+  const auto boundary = std::make_shared<DeformableBoundary>(std::move(nodes), start, surface.closed, surface.radius);
+  boundary->SetSolid(std::move(elements));
+  placed.across = SymmetryAxes(surface, scene,
+                               [&](const std::string& name) -> const Node& { return scene.nodes[index.Node(name)]; });
+  boundary->SetMirroredEnds(placed.across);
+  placed.boundary = boundary;
   return placed;
 }
 
@@ -70,7 +85,8 @@ ContactPairs BuildContacts(const Scene& scene, const SceneIndex& index, const St
       const BoundarySurface& surface = scene.surfaces[index.Surface(candidate.surface)];
       PlacedBoundary& on = boundaries[index.Surface(candidate.surface)];
       if (on.boundary == nullptr) on = MakeBoundary(surface, scene, index, structure);
-      contacts.push_back(std::make_unique<DeformablePair>(on.boundary, PatchesFor(candidate.node, surface, on.initial),
+      contacts.push_back(std::make_unique<DeformablePair>(on.boundary,
+                                                          PatchesFor(candidate.node, surface, on.initial, on.across),
                                                           PlaceOf(structure, node), candidate.friction, force_bounds));
       continue;
     }

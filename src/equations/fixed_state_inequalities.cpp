@@ -50,8 +50,15 @@ void FixedStateSystem::PlaceOpen(const std::vector<std::size_t>& candidates, con
 bool FixedStateSystem::BehindOtherPatch(const std::vector<std::size_t>& candidates, const Eigen::VectorXd& x) const {
   return std::any_of(candidates.begin(), candidates.end(), [&](std::size_t i) {
     if (states_[i] != ContactState::kOpen || !contacts_[i]->HasPatches()) return false;
-    const int patch = contacts_[i]->PatchAt(x, x[NumDofs()]);
-    return patch != patches_[i] && contacts_[i]->Gap(x, x[NumDofs()], patch) < -tolerances::kBrokenOnStep;
+    const ContactPair& pair = *contacts_[i];
+    const int patch = pair.PatchAt(x, x[NumDofs()]);
+    if (patch == patches_[i]) return false;
+    const bool behind = pair.Gap(x, x[NumDofs()], patch) < -tolerances::kBrokenOnStep;
+    // In reach, a node from in front that is away from the surface, or the other way, may have gone through it.
+    if (patches_[i] == kNearestPatch) return behind;
+    if (pair.IsAway(patch)) return pair.HasPatch(patches_[i]);
+    if (pair.IsAway(patches_[i])) return pair.HasPatch(patch) && !behind;
+    return behind;
   });
 }
 

@@ -28,8 +28,9 @@ int BeginWithin(double length, const std::vector<Eigen::Vector2d>& nodes) {
 
 }  // namespace
 
-AdmissiblePatches::AdmissiblePatches(const std::vector<Eigen::Vector2d>& nodes, bool closed, double radius, int node)
-    : spline_(static_cast<int>(nodes.size()), closed) {
+AdmissiblePatches::AdmissiblePatches(const std::vector<Eigen::Vector2d>& nodes, bool closed, double radius, int node,
+                                     const MirroredEnds& ends)
+    : spline_(static_cast<int>(nodes.size()), closed, ends) {
   const int count = spline_.NumPatches();
   const double length = (1.0 + tolerances::kSameLength) * kPi * radius;
   // How many are left out in one sense, +1 or -1.

@@ -23,7 +23,15 @@ int NodalSpline::Within(int patch) const {
 SplinePatch NodalSpline::Patch(int patch) const {
   const int i = Within(patch);
   SplinePatch result;
-  if (!closed_ && (i == 0 || i == nodes_ - 1)) {
+  if (i == 0 && ends_.first) {
+    // tau from the axis.
+    result.nodes = {nodes_, 0, 1};
+    result.weights << 0.125, -0.5, 0.5, 0.75, 0.0, -1.0, 0.125, 0.5, 0.5;
+    result.end = 0.5;
+    return result;
+  }
+  const bool mirrored = i == nodes_ - 1 && ends_.last;
+  if (!closed_ && !mirrored && (i == 0 || i == nodes_ - 1)) {
     // Half of the edge between two nodes, tau from its beginning.
     const bool first = i == 0;
     result.nodes = {first ? 0 : i - 1, first ? 1 : i, -1};
@@ -32,10 +40,10 @@ SplinePatch NodalSpline::Patch(int patch) const {
     result.end = 0.5;
     return result;
   }
-  result.nodes = {Within(i - 1), i, Within(i + 1)};
+  result.nodes = {Within(i - 1), i, mirrored ? nodes_ + 1 : Within(i + 1)};
   result.weights << 0.5, -1.0, 0.5, 0.5, 1.0, -1.0, 0.0, 0.0, 0.5;
   result.knot = (closed_ ? patch : i) - 0.5;
-  result.end = 1.0;
+  result.end = mirrored ? 0.5 : 1.0;
   return result;
 }
 

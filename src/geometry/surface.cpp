@@ -6,6 +6,7 @@ namespace contact_path {
 
 int PatchBeside(const Surface& surface, const Eigen::Vector2d& x) {
   const NearestFoot nearest = surface.Nearest(x);
+  if (nearest.is_away) return surface.NumPatches() + 1;
   if (!nearest.is_end) return nearest.patch;
   const int before = nearest.patch - 1, after = nearest.patch + 1;
   if (surface.HasPatch(after)) return before;

@@ -136,7 +136,7 @@ std::optional<EndReason> BranchMethod::LeaveEvent(const PathPoint& point, const 
     return EndReason::kNumericalFailure;
   }
   if (on.branches.empty()) {
-    *message = NoBranch(on);
+    *message = After(NoBranch(on), StandsAtEnd(model_, point));
     return EndReason::kPathEnd;
   }
   const std::size_t preferred = options_.keep_loading ? BestThatLoads(on.branches) : 0;

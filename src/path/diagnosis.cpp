@@ -234,6 +234,25 @@ std::string OverrunContact(const Model& model, const PathPoint& from, const Path
   return {};
 }
 
+std::string StandsAtEnd(const Model& model, const PathPoint& point) {
+  std::vector<std::size_t> at_end;
+  for (std::size_t i = 0; i < model.contacts.size(); ++i) {
+    const ContactPair& pair = *model.contacts[i];
+    if (!pair.HasPatches() || point.states[i] == ContactState::kOpen) continue;
+    const int patch = pair.KnownPatch(point.u, point.s, point.Patch(i));
+    const double xi = pair.Xi(point.u, point.s, patch);
+    const XiRange range = pair.RangeOf(patch);
+    if ((xi - range.begin <= tolerances::kBeyondPatch && !pair.HasPatch(patch - 1)) ||
+        (range.end - xi <= tolerances::kBeyondPatch && !pair.HasPatch(patch + 1)))
+      at_end.push_back(i);
+  }
+  if (at_end.empty()) return {};
+  std::string text = "contact " + model.scene.contacts[at_end.front()].Name();
+  if (at_end.size() > 1) text += " and " + std::to_string(at_end.size() - 1) + " more";
+  return text + (at_end.size() > 1 ? " stand at ends of their surfaces" : " stands at an end of its surface") +
+         ", over which a contact cannot slide";
+}
+
 std::string BehindSurface(const Model& model, const PathPoint& point) {
   for (std::size_t i = 0; i < model.contacts.size(); ++i) {
     const ContactPair& pair = *model.contacts[i];

@@ -1,12 +1,23 @@
 #include "contact_path/path/free_motion.h"
 
 #include <Eigen/Core>
+#include <Eigen/QR>
 #include <Eigen/SparseCore>
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
+#include <limits>
+#include <locale>
+#include <map>
 #include <new>
+#include <numeric>
+#include <optional>
+#include <sstream>
 
 #include "contact_path/linear/minimum_norm.h"
+#include "contact_path/linear/singular_vectors.h"
+#include "contact_path/scene/boundary_curve.h"
 #include "contact_path/scene/number_text.h"
 #include "contact_path/tolerances.h"
 
@@ -49,6 +60,51 @@ Eigen::SparseMatrix<double> Resistance(const Model& model, const PathPoint& poin
   return resistance;
 }
 
+// By unknown, the largest component of unit motions in which a part shifts as a whole, where nothing resists. Parts are
+// what equations connect. In a fine mesh, the entries that are left out give such a motion a resistance of their own.
+Eigen::VectorXd FreeShifts(const Model& model, const Eigen::SparseMatrix<double>& resistance) {
+  const Eigen::Index size = resistance.rows();
+  std::vector<Eigen::Index> parent(static_cast<std::size_t>(size));
+  std::iota(parent.begin(), parent.end(), Eigen::Index{0});
+  const auto root = [&](Eigen::Index dof) {
+    while (parent[static_cast<std::size_t>(dof)] != dof) {
+      Eigen::Index& up = parent[static_cast<std::size_t>(dof)];
+      dof = up = parent[static_cast<std::size_t>(up)];
+    }
+    return dof;
+  };
+  for (int column = 0; column < resistance.outerSize(); ++column) {
+    Eigen::Index first = -1;
+    for (Eigen::SparseMatrix<double>::InnerIterator it(resistance, column); it; ++it) {
+      if (first < 0) first = root(it.row());
+      parent[static_cast<std::size_t>(root(it.row()))] = first;
+    }
+  }
+  std::map<Eigen::Index, Eigen::MatrixXd> shifts;  // by part: a column an axis, 1 where an unknown is a position
+  for (std::size_t i = 0; i < model.scene.nodes.size(); ++i)
+    for (const int axis : {0, 1}) {
+      const int dof = model.structure.Dof(static_cast<int>(i), axis);
+      if (dof < 0) continue;
+      Eigen::MatrixXd& shift = shifts[root(dof)];
+      if (shift.size() == 0) shift = Eigen::MatrixXd::Zero(size, 2);
+      shift(dof, axis) = 1.0;
+      if (static_cast<Eigen::Index>(shifts.size()) > kMostMotions) return Eigen::VectorXd::Zero(size);
+    }
+  // As much as the entries that count as none may leave, one in each equation.
+  const double least = tolerances::kNoResistance * resistance.coeffs().cwiseAbs().maxCoeff() *
+                       std::sqrt(static_cast<double>(resistance.cols()));
+  Eigen::VectorXd largest = Eigen::VectorXd::Zero(size);
+  for (const auto& [part, shift] : shifts) {
+    const Eigen::MatrixXd forces = resistance.transpose() * shift;
+    const Eigen::MatrixXd triangle = forces.householderQr().matrixQR().topRows(2).triangularView<Eigen::Upper>();
+    const SingularVectors of = RightSingularVectors(triangle);
+    for (const int k : {0, 1})
+      if (const Eigen::VectorXd motion = shift * of.v.col(k); of.values[k] <= least && motion.norm() > 0.0)
+        largest = largest.cwiseMax(motion.normalized().cwiseAbs());
+  }
+  return largest;
+}
+
 bool Has(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
@@ -64,6 +120,74 @@ std::string Listed(const std::vector<std::string>& names) {
 // One word for one of them, another for several.
 std::string Counted(const std::vector<std::string>& names, const char* one, const char* several) {
   return names.size() == 1 ? one : several;
+}
+
+// In two digits.
+std::string Rounded(double value) {
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out.precision(2);
+  out << value;
+  return out.str();
+}
+
+// The gap of an open candidate. Of one that is on a surface and would touch if that went through its nodes straight
+// from one to the next: the reason, that the smooth curve does not.
+std::string NearestOpenText(const Model& model, const PathPoint& point, std::size_t contact, double gap) {
+  const ContactCandidate& candidate = model.scene.contacts[contact];
+  const double length = model.scaling.length;
+  std::string text = "the nearest candidate is open: " + candidate.Name() + ", gap " + Rounded(gap * length);
+  if (!candidate.OnSurface()) return text;
+  const auto place = [&](const std::string& name) {
+    const auto node = static_cast<int>(model.index.Node(name));
+    Eigen::Vector2d at = model.structure.StartPosition(node);
+    for (const int axis : {0, 1})
+      if (const int dof = model.structure.Dof(node, axis); dof >= 0) at[axis] = point.u[dof];
+    return at;
+  };
+  const BoundarySurface& surface = model.scene.surfaces[model.index.Surface(candidate.surface)];
+  const Eigen::Vector2d x = place(candidate.node);
+  const double radius = surface.radius / length;
+  std::vector<Eigen::Vector2d> places;
+  for (const std::string& name : surface.nodes) places.push_back(place(name));
+  std::size_t nearest = 0;
+  double from_edges = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if ((x - places[i]).norm() < (x - places[nearest]).norm()) nearest = i;
+    if (!surface.closed && i + 1 == places.size()) continue;
+    const Eigen::Vector2d edge = places[(i + 1) % places.size()] - places[i], away = x - places[i];
+    const double share = std::clamp(edge.dot(away) / edge.squaredNorm(), 0.0, 1.0);
+    from_edges = std::min(from_edges, (away - share * edge).norm());
+  }
+  if (from_edges > radius + tolerances::kTouchingAtStart) return text;
+  const std::array<int, 2> across = SymmetryAxes(surface, model.scene, [&](const std::string& name) -> const Node& {
+    return model.scene.nodes[model.index.Node(name)];
+  });
+  const double off = std::abs(BoundaryCurve(places, surface.closed, 0.0, across).Nearest(places[nearest]).gap) * length;
+  return text + " (the smooth curve of surface " + surface.name + " passes " + Rounded(off) + " from its node " +
+         surface.nodes[nearest] + ")";
+}
+
+// Of the candidates with a node that moves freely, or with a surface that has one, the nearest, where all are open.
+std::string NearestOpen(const Model& model, const PathPoint& point, const std::vector<std::string>& free_nodes) {
+  std::optional<std::size_t> nearest;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < model.scene.contacts.size(); ++i) {
+    const ContactCandidate& candidate = model.scene.contacts[i];
+    std::vector<std::string> nodes = {candidate.node};
+    if (candidate.OnSurface()) {
+      const BoundarySurface& surface = model.scene.surfaces[model.index.Surface(candidate.surface)];
+      nodes.insert(nodes.end(), surface.nodes.begin(), surface.nodes.end());
+    }
+    if (std::none_of(nodes.begin(), nodes.end(), [&](const std::string& node) { return Has(free_nodes, node); }))
+      continue;
+    const double gap = model.contacts[i]->Gap(point.u, point.s, point.Patch(i));
+    if (!(gap > tolerances::kActiveGap)) return {};
+    if (!(gap < least)) continue;
+    least = gap;
+    nearest = i;
+  }
+  return nearest ? NearestOpenText(model, point, *nearest, least) : std::string();
 }
 
 struct Names {
@@ -108,10 +232,12 @@ std::vector<int> FreeNodes(const Model& model, const PathPoint& point, double fo
   std::vector<int> nodes;
   try {
     MinimumNormSolver solver;
-    if (!solver.Factorize(Resistance(model, point, force))) return nodes;
+    const Eigen::SparseMatrix<double> resistance = Resistance(model, point, force);
+    if (!solver.Factorize(resistance)) return nodes;
     const Eigen::Index motions = std::min(point.u.size() - solver.Rank(), kMostMotions);
     Eigen::VectorXd largest = Eigen::VectorXd::Zero(point.u.size());
     for (Eigen::Index k = 0; k < motions; ++k) largest = largest.cwiseMax(solver.NullVector(k).cwiseAbs());
+    if (motions == 0) largest = FreeShifts(model, resistance);
     for (std::size_t i = 0; i < model.scene.nodes.size(); ++i)
       for (const int axis : {0, 1}) {
         const int dof = model.structure.Dof(static_cast<int>(i), axis);
@@ -133,6 +259,8 @@ std::string FreeMotionQuestion(const Model& model, const PathPoint& point, doubl
   const Names names = FreeNames(model, point, force);
   if (names.nodes.empty()) return {};
   std::string question = "is a contact or a support missing?";
+  if (const std::string open = NearestOpen(model, point, names.nodes); !open.empty())
+    return TextOf(names) + "; " + open + ": " + question;
   if (!names.obstacles.empty())
     question = Counted(names.obstacles, "does the normal of ", "do the normals of ") + Listed(names.obstacles) +
                " point to the side where the " + Counted(names.contacts, "node", "nodes") + " may be? " + question;

@@ -55,7 +55,7 @@ NodePlaces DrawnSurface::PlacesIn(const NodePlaces& places) const {
   return own;
 }
 
-BoundaryCurve DrawnSurface::At(const NodePlaces& places) const { return {PlacesIn(places), closed, radius}; }
+BoundaryCurve DrawnSurface::At(const NodePlaces& places) const { return {PlacesIn(places), closed, radius, across}; }
 
 DrawnScene::DrawnScene(const TraceRequest& request_given) : name(OneLine(request_given.scene.name)) {
   const ExpandedRequest expanded(request_given);
@@ -96,11 +96,13 @@ void DrawnScene::AddContacts(const Scene& scene, const SceneIndex& index) {
     const BoundarySurface& surface = scene.surfaces[index.Surface(contact.surface)];
     const auto [at, is_new] = drawn.try_emplace(index.Surface(contact.surface), surfaces.size());
     if (is_new) {
-      surfaces.push_back({{}, surface.closed, surface.radius});
+      const auto node_of = [&](const std::string& of) -> const Node& { return scene.nodes[index.Node(of)]; };
+      surfaces.push_back({{}, surface.closed, surface.radius, SymmetryAxes(surface, scene, node_of)});
       for (const std::string& node_name : surface.nodes) surfaces.back().nodes.push_back(index.Node(node_name));
     }
     const NodePlaces places = surfaces[at->second].PlacesIn(initial);
-    contacts.push_back({node, true, at->second, contact.friction, PatchesFor(contact.node, surface, places)});
+    contacts.push_back({node, true, at->second, contact.friction,
+                        PatchesFor(contact.node, surface, places, surfaces[at->second].across)});
   }
 }
 

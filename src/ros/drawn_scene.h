@@ -43,6 +43,7 @@ struct DrawnSurface {
   std::vector<std::size_t> nodes;
   bool closed = false;
   double radius = 0.0;
+  std::array<int, 2> across = {-1, -1};  // SymmetryAxes()
 
   NodePlaces PlacesIn(const NodePlaces& places) const;
   BoundaryCurve At(const NodePlaces& places) const;

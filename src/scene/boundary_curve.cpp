@@ -2,8 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <limits>
+#include <set>
+#include <utility>
+
+#include "contact_path/scene/cell.h"
 
 namespace contact_path {
 namespace {
@@ -17,8 +22,16 @@ Eigen::Vector2d NormalOf(const Parabola& curve, double tau) {
 
 }  // namespace
 
-BoundaryCurve::BoundaryCurve(const std::vector<Eigen::Vector2d>& places, bool closed, double radius)
-    : spline_(static_cast<int>(places.size()), closed), radius_(radius) {
+BoundaryCurve::BoundaryCurve(const std::vector<Eigen::Vector2d>& given, bool closed, double radius,
+                             const std::array<int, 2>& across)
+    : spline_(static_cast<int>(given.size()), closed, {across[0] >= 0, across[1] >= 0}), radius_(radius) {
+  std::vector<Eigen::Vector2d> places = given;
+  const auto add_image = [&](int axis, std::size_t end, std::size_t next) {
+    places.push_back(given[next]);
+    if (axis >= 0) places.back()[axis] = 2.0 * given[end][axis] - given[next][axis];
+  };
+  add_image(across[0], 0, 1);
+  add_image(across[1], given.size() - 1, given.size() - 2);
   for (int i = 0; i < spline_.NumPatches(); ++i) {
     const SplinePatch patch = spline_.Patch(i);
     std::array<Eigen::Vector2d, 3> nodes;
@@ -47,8 +60,9 @@ BoundaryCurve::Foot BoundaryCurve::Nearest(const Eigen::Vector2d& x, const Admis
   const int number = static_cast<int>(at);
   const bool before = !patches.Has(number - 1) && foot == 0.0 && along < 0.0;
   const bool after = !patches.Has(number + 1) && foot == patch.end && along > 0.0;
-  if (before || after) return {nearest, normal, true};
-  return {away.dot(normal) - radius_, normal, false};
+  const double edge = SlopeOf(patch.curve, foot).norm();
+  if (before || after) return {nearest, normal, true, edge};
+  return {away.dot(normal) - radius_, normal, false, edge};
 }
 
 std::vector<OutlinePoint> BoundaryCurve::Points(int parts) const {
@@ -63,11 +77,57 @@ std::vector<OutlinePoint> BoundaryCurve::Points(int parts) const {
 }
 
 AdmissiblePatches PatchesFor(const std::string& node, const BoundarySurface& surface,
-                             const std::vector<Eigen::Vector2d>& places) {
+                             const std::vector<Eigen::Vector2d>& places, const std::array<int, 2>& across) {
+  const MirroredEnds ends = {across[0] >= 0, across[1] >= 0};
   const auto own = std::find(surface.nodes.begin(), surface.nodes.end(), node);
   if (own == surface.nodes.end())
-    return AdmissiblePatches(NodalSpline(static_cast<int>(surface.nodes.size()), surface.closed));
-  return {places, surface.closed, surface.radius, static_cast<int>(own - surface.nodes.begin())};
+    return AdmissiblePatches(NodalSpline(static_cast<int>(surface.nodes.size()), surface.closed, ends));
+  return {places, surface.closed, surface.radius, static_cast<int>(own - surface.nodes.begin()), ends};
+}
+
+std::array<int, 2> SymmetryAxes(const BoundarySurface& surface, const Scene& scene,
+                                const std::function<const Node&(const std::string&)>& node_of) {
+  if (surface.closed) return {-1, -1};
+  const auto axis = [&](const std::string& at, const std::string& beside) {
+    const Node &end = node_of(at), &next = node_of(beside);
+    if (end.fixed_x == end.fixed_y) return -1;
+    const bool turns = std::none_of(scene.solids.begin(), scene.solids.end(), [&](const Solid& solid) {
+      return std::find(solid.nodes.begin(), solid.nodes.end(), at) != solid.nodes.end();
+    });
+    if (turns && !end.fixed_rotation) return -1;
+    const double x = std::abs(next.x - end.x), y = std::abs(next.y - end.y);
+    if (!(end.fixed_x ? x > y : y > x)) return -1;
+    return end.fixed_x ? 0 : 1;
+  };
+  const std::size_t count = surface.nodes.size();
+  return {axis(surface.nodes[0], surface.nodes[1]), axis(surface.nodes[count - 1], surface.nodes[count - 2])};
+}
+
+std::vector<std::vector<std::string_view>> ElementsBehind(const BoundarySurface& surface, const Scene& scene) {
+  std::set<std::pair<std::string_view, std::string_view>> edges;
+  const std::size_t nodes = surface.nodes.size();
+  for (std::size_t i = 0; i < (surface.closed ? nodes : nodes - 1); ++i)
+    edges.emplace(surface.nodes[i], surface.nodes[(i + 1) % nodes]);
+  std::vector<std::vector<std::string_view>> behind;
+  for (const Solid& solid : scene.solids) {
+    const std::size_t count = solid.NodesPerElement();
+    if (!IsCellShape(count)) continue;
+    const std::vector<std::size_t>& boundary = CellBoundary(count);
+    std::vector<std::vector<std::string_view>> elements;
+    bool has_edge = false;
+    for (std::size_t first = 0; first + count <= solid.nodes.size(); first += count) {
+      elements.emplace_back();
+      for (std::size_t i = 0; i < count; ++i) {
+        const std::string &from = solid.nodes[first + boundary[i]],
+                          &to = solid.nodes[first + boundary[(i + 1) % count]];
+        elements.back().push_back(from);
+        // The surface is walked the other way.
+        has_edge = has_edge || edges.count({to, from}) > 0;
+      }
+    }
+    if (has_edge) behind.insert(behind.end(), elements.begin(), elements.end());
+  }
+  return behind;
 }
 
 }  // namespace contact_path

@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "contact_path/geometry/polygon.h"
 #include "contact_path/scene/cell.h"
 
 namespace contact_path {
@@ -47,7 +48,7 @@ void BoundaryRules::CheckContact(const KeyPath& path, const ContactCandidate& co
                                  const BoundarySurface& surface, double length) {
   const Judged& judged = Judge(surface);
   if (!judged.sound) return;
-  const AdmissiblePatches patches = PatchesFor(node.name, surface, judged.places);
+  const AdmissiblePatches patches = PatchesFor(node.name, surface, judged.places, judged.across);
   if (patches.None())
     return checker_.Add(path.Key("node"), node.name,
                         "a node of surface " + surface.name +
@@ -56,8 +57,19 @@ void BoundaryRules::CheckContact(const KeyPath& path, const ContactCandidate& co
     return checker_.Add(path.Key("node"), node.name,
                         "must be free to move, or a node of surface " + surface.name + " must be");
   const BoundaryCurve::Foot foot = judged.curve->Nearest({node.x, node.y}, patches);
-  if (length > 0.0 && !foot.is_end && foot.gap < -kPenetration * length)
+  if (length > 0.0 && !foot.is_end && foot.gap < -kPenetration * length && !IsAway(node, surface, foot))
     checker_.Add(path, contact.Name(), "initial position penetrates the surface by " + NumberText(-foot.gap));
+}
+
+bool BoundaryRules::IsAway(const Node& node, const BoundarySurface& surface, const BoundaryCurve::Foot& foot) const {
+  if (surface.closed || !(-foot.gap > DepthBehind(surface.radius, foot.edge))) return false;
+  const std::vector<std::vector<std::string_view>> elements = ElementsBehind(surface, scene_);
+  return std::none_of(elements.begin(), elements.end(), [&](const std::vector<std::string_view>& element) {
+    std::vector<Eigen::Vector2d> corners;
+    for (const std::string_view name : element)
+      if (const Node* const corner = checker_.KnownNode(std::string(name))) corners.emplace_back(corner->x, corner->y);
+    return IsInside(corners, {node.x, node.y});
+  });
 }
 
 const BoundaryRules::Judged& BoundaryRules::Judge(const BoundarySurface& surface) {
@@ -72,7 +84,9 @@ const BoundaryRules::Judged& BoundaryRules::Judge(const BoundarySurface& surface
     const Node& node = *checker_.KnownNode(name);
     judged.places.emplace_back(node.x, node.y);
   }
-  judged.curve.emplace(judged.places, surface.closed, surface.radius);
+  judged.across =
+      SymmetryAxes(surface, scene_, [&](const std::string& name) -> const Node& { return *checker_.KnownNode(name); });
+  judged.curve.emplace(judged.places, surface.closed, surface.radius, judged.across);
   return judged;
 }
 

@@ -2,6 +2,7 @@
 #ifndef CONTACT_PATH_SRC_SCENE_BOUNDARY_RULES_H_
 #define CONTACT_PATH_SRC_SCENE_BOUNDARY_RULES_H_
 
+#include <array>
 #include <optional>
 #include <set>
 #include <string>
@@ -32,8 +33,9 @@ class BoundaryRules {
   // A surface that a contact names is judged once.
   struct Judged {
     bool sound = false;
-    bool can_move = false;                // one of its nodes can
-    std::vector<Eigen::Vector2d> places;  // of its nodes
+    bool can_move = false;                 // one of its nodes can
+    std::vector<Eigen::Vector2d> places;   // of its nodes
+    std::array<int, 2> across = {-1, -1};  // SymmetryAxes()
     std::optional<BoundaryCurve> curve;
   };
   const Judged& Judge(const BoundarySurface& surface);
@@ -41,6 +43,8 @@ class BoundaryRules {
   bool CheckEdges(const KeyPath& path, const BoundarySurface& surface);
   // Whether its curve, and that at the distance of its radius, are smooth at the start.
   bool CheckBends(const KeyPath& path, const BoundarySurface& surface);
+  // Whether a node behind an open surface is deeper than its part reaches.
+  bool IsAway(const Node& node, const BoundarySurface& surface, const BoundaryCurve::Foot& foot) const;
   // What is wrong with an edge of a surface, or nothing.
   std::string FaultOf(const Edge& edge) const;
   // The edges of all elements.

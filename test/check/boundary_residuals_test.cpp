@@ -183,6 +183,22 @@ TEST(BoundaryResiduals, BehindTheSurfaceIsPenetrationAndPastAnEndNothing) {
   EXPECT_NEAR(check.Gap(0, StateOf({-0.4, -0.3}, places)), 0.5, kRounding);
 }
 
+// Edges are 1 long: as deep behind an open surface, and as deep as a beam of this radius is thick.
+TEST(BoundaryResiduals, FarBehindAnOpenSurfaceIsNoPenetration) {
+  const std::vector<Eigen::Vector2d> places = {{0.0, 0.0}, {1.0, 0.0}, {2.0, 0.0}};
+  for (const double radius : {0.0, 0.2, 0.8}) {
+    const Scene scene = BesideSurface(places, false, radius, 1.0);
+    const ResidualCheck check(scene, Configuration::Of(scene), {});
+    const auto penetration_at = [&](double gap) {
+      const CheckedState state = StateOf({1.0, radius + gap}, places);
+      return check.Check(state, state).penetration;
+    };
+    const double depth = std::max(1.0, 2.0 * radius);
+    EXPECT_NEAR(penetration_at(-0.99 * depth), 0.99 * depth, kRounding);
+    EXPECT_EQ(penetration_at(-1.01 * depth), 0.0);
+  }
+}
+
 // Where a path ends since the node is about to slide over an end, rounding does not take the contact away.
 TEST(BoundaryResiduals, AtAnEndToRoundingTheSurfaceIsTouched) {
   const std::vector<Eigen::Vector2d> places = {{0.0, 0.0}, {1.0, 0.0}};

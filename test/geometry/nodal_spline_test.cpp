@@ -51,6 +51,33 @@ TEST(NodalSpline, TouchesItsEdgesInTheirMiddlesWithOneSlope) {
     }
 }
 
+// The half of a curve that is its own mirror image is the curve that ends on the axis.
+TEST(NodalSpline, GoesOnAsItsMirrorImage) {
+  Random random(3);
+  std::vector<Eigen::Vector2d> half = RandomNodes(4, &random);
+  std::vector<Eigen::Vector2d> whole(half.rbegin(), half.rend() - 1);
+  for (Eigen::Vector2d& place : whole) place.x() = 2.0 * half[0].x() - place.x();
+  whole.insert(whole.end(), half.begin(), half.end());
+  const auto with_images = [](std::vector<Eigen::Vector2d> nodes, double axis) {
+    const Eigen::Vector2d second = nodes[1], last_but_one = nodes[nodes.size() - 2];
+    for (const Eigen::Vector2d& of : {second, last_but_one}) nodes.emplace_back(2.0 * axis - of.x(), of.y());
+    return nodes;
+  };
+  const double axis = half[0].x();
+  const NodalSpline of_whole(7, false), from(4, false, {true, false}), to(4, false, {false, true});
+  const Parabola middle = ParabolaOf(of_whole.Patch(3), whole);
+  const std::vector<Eigen::Vector2d> left(whole.begin(), whole.begin() + 4);
+  const Parabola first = ParabolaOf(from.Patch(0), with_images(half, axis)),
+                 last = ParabolaOf(to.Patch(3), with_images(left, axis));
+  EXPECT_EQ(from.Patch(0).knot, 0.0);
+  EXPECT_EQ(to.Patch(3).knot + to.Patch(3).end, 3.0);
+  for (const double tau : {0.0, 0.2, 0.5}) {
+    EXPECT_LE((first.At(tau) - middle.At(0.5 + tau)).norm(), kRounding);
+    EXPECT_LE((last.At(tau) - middle.At(tau)).norm(), kRounding);
+  }
+  EXPECT_NEAR(first.b.y(), 0.0, kRounding);
+}
+
 // y = (tau, tau^2) is nearest to (0, 5) at tau^2 = 4.5, on both sides.
 TEST(Parabola, FindsTheFootThatIsNearerToWhereItIsLookedFor) {
   const Eigen::Vector2d origin = Eigen::Vector2d::Zero();

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "contact_path/scene/read_scene.h"
 #include "support/plank.h"
 #include "support/traced_path.h"
 
@@ -171,6 +172,117 @@ TEST(FixedSurface, NamesANodeThatComesBehindItPastAnEnd) {
   EXPECT_NE(path.result.message.find("foot@ground: the node has come past an end of the surface"), std::string::npos)
       << path.result.message;
   EXPECT_NEAR(PositionX(path, path.increments.back(), "foot"), -1.0, 0.1);
+}
+
+// The same node deeper than an edge of the ground is long.
+TEST(FixedSurface, IsNotThereForANodeFarBehindIt) {
+  TraceRequest request = FootOn(true);
+  Scene& scene = request.scene;
+  scene.nodes[2].x = -1.2;
+  scene.nodes[2].y = -0.8;
+  request.program = {};
+  scene.loads = {{"foot", 4.0, 0.0}};
+  request.options.stop = {{"foot.x", ">", -0.9}};
+  const TracedPath path = TraceProved(request, kResidual);
+  EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+  EXPECT_GT(Contact(path, path.increments.back(), "foot@ground").gap, 0.7);
+}
+
+// A block of elements 0.2 wide and 1 high, with the surface on top, and a node beside it at half of its height.
+TraceRequest NodeBesideBlock(bool of_bars) {
+  TraceRequest request;
+  Scene& scene = request.scene;
+  scene.nodes = {{"l", -1.0, 0.5, true, true}, {"u", -0.3, 2.0, true, true}, {"foot", -0.3, 0.5, false, false}};
+  scene.bars = {{{"l", "foot"}, 1.0}, {{"u", "foot"}, 1.0}};
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < 2; ++j)
+      scene.nodes.push_back({"b" + std::to_string(i) + std::to_string(j), 0.2 * i, 1.0 * j, true, true});
+  scene.surfaces = {{"top", {"b01", "b11", "b21", "b31", "b41", "b51"}}};
+  scene.contacts = {{"foot", "", "", "top"}};
+  scene.loads = {{"foot", 1.0, 0.0}};
+  request.options.stop = {{"foot.x", ">", 0.1}};
+  if (of_bars) {
+    for (int i = 0; i < 5; ++i)
+      scene.bars.push_back({{"b" + std::to_string(i) + "1", "b" + std::to_string(i + 1) + "1"}, 1.0});
+    return request;
+  }
+  scene.materials.resize(1);
+  scene.materials[0].name = "stone";
+  scene.materials[0].E = 1.0;
+  scene.solids.resize(1);
+  scene.solids[0].material = "stone";
+  scene.solids[0].nodes_per_element = 4;
+  for (int i = 0; i < 5; ++i)
+    for (const auto& [di, j] : {std::pair(0, 0), std::pair(1, 0), std::pair(1, 1), std::pair(0, 1)})
+      scene.solids[0].nodes.push_back("b" + std::to_string(i + di) + std::to_string(j));
+  return request;
+}
+
+TEST(FixedSurface, IsThereAsDeepAsItsSolidReaches) {
+  const TracedPath past = TraceProved(NodeBesideBlock(true), kResidual), in = TraceIncrements(NodeBesideBlock(false));
+  EXPECT_EQ(past.result.reason, EndReason::kStopCriterion) << past.result.message;
+  EXPECT_EQ(in.result.reason, EndReason::kNumericalFailure);
+  EXPECT_NE(in.result.message.find("foot@top: the node has come past an end of the surface"), std::string::npos)
+      << in.result.message;
+}
+
+// Two cantilevers hook onto each other: each force was measured with the upper nodes alone as candidates.
+TEST(BothPasses, OfHookedCantileversGoRoundTheirFreeEnds) {
+  TraceRequest request = ReadTraceRequestFile(std::string(CONTACT_PATH_TEST_DATA) + "/hooked_both_passes.yaml");
+  const TracedPath both = TraceProved(request, kOfBeams);
+  request.scene.contacts.resize(1);
+  const TracedPath one = TraceProved(request, kOfBeams);
+  for (const TracedPath* path : {&both, &one})
+    EXPECT_EQ(path->result.reason, EndReason::kStopCriterion) << path->result.message;
+  const Increment &end = both.increments.back(), &end_of_one = one.increments.back();
+  EXPECT_NEAR(end.load_factor / end_of_one.load_factor, 1.0, 0.02);
+}
+
+// A block with nodes that are pressed onto it from above, whole, or the half of it on the right of its axis.
+TraceRequest PressedBlock(bool half) {
+  constexpr int kEdges = 3;  // on each side of the axis
+  TraceRequest request;
+  Scene& scene = request.scene;
+  const auto name = [](const char* of, int i) { return of + std::to_string(i + kEdges); };
+  const int from = half ? 0 : -kEdges;
+  for (int i = from; i <= kEdges; ++i) {
+    const bool on_axis = half && i == 0;
+    scene.nodes.push_back({name("low", i), 1.0 * i, 0.0, true, true});
+    scene.nodes.push_back({name("top", i), 1.0 * i, 1.0 - 0.01 * i * i, on_axis, false});
+  }
+  scene.surfaces = {{"top", {}}};
+  for (int i = from; i <= kEdges; ++i) scene.surfaces[0].nodes.push_back(name("top", i));
+  scene.materials.resize(1);
+  scene.materials[0].name = "rubber";
+  scene.materials[0].E = 1.0;
+  scene.materials[0].nu = 0.3;
+  scene.solids.resize(1);
+  scene.solids[0].material = "rubber";
+  scene.solids[0].nodes_per_element = 4;
+  for (int i = from; i < kEdges; ++i)
+    for (const std::string& node : {name("low", i), name("low", i + 1), name("top", i + 1), name("top", i)})
+      scene.solids[0].nodes.push_back(node);
+  Stage press;
+  for (int i = half ? 0 : -1; i <= 1; ++i) {
+    scene.nodes.push_back({name("held", i), 0.4 * i, 2.0, true, true});
+    scene.nodes.push_back({name("p", i), 0.4 * i, 1.05, true, false});
+    scene.bars.push_back({{name("held", i), name("p", i)}, half && i == 0 ? 0.5 : 1.0});
+    scene.contacts.push_back({name("p", i), "", "", "top"});
+    press.support_motions.push_back({name("held", i), 0.0, -0.3});
+  }
+  request.program = {press};
+  return request;
+}
+
+// Of the surface that ends on the axis, half the reaction of the node over the axis, and the whole of the other one.
+TEST(SymmetricSurface, BearsAsTheWholeOne) {
+  const TracedPath whole = TraceProved(PressedBlock(false), kResidual);
+  const TracedPath half = TraceProved(PressedBlock(true), kResidual);
+  const Increment &end = whole.increments.back(), &end_of_half = half.increments.back();
+  EXPECT_GT(Contact(whole, end, "p3@top").rn, 0.01);
+  EXPECT_NEAR(2.0 * Contact(half, end_of_half, "p3@top").rn, Contact(whole, end, "p3@top").rn, 1e-12);
+  EXPECT_NEAR(Contact(half, end_of_half, "p4@top").rn, Contact(whole, end, "p4@top").rn, 1e-12);
+  EXPECT_NEAR(PositionX(half, end_of_half, "top4"), PositionX(whole, end, "top4"), 1e-12);
 }
 
 }  // namespace

@@ -40,6 +40,31 @@ TEST(FreeMotion, AsksTheLikelyQuestion) {
   EXPECT_EQ(Question(request), "nodes a, b move freely: is a contact or a support missing?");
 }
 
+// Over the middle one of three nodes of an arch, at which the smooth curve is by an eighth of its rise of 0.2 lower.
+TEST(FreeMotion, TellsTheGapAtWhichTheCurvePasses) {
+  TraceRequest request;
+  Scene& scene = request.scene;
+  scene.nodes = {{"l0", -1.0, -0.1, true, true},
+                 {"l1", 0.0, 0.0, true, true},
+                 {"l2", 1.0, -0.1, true, true},
+                 {"p", 0.0, 0.0, true, false},
+                 {"q", 0.0, 1.0, true, false}};
+  scene.bars = {{{"l0", "l1"}, 1.0}, {{"l1", "l2"}, 1.0}, {{"p", "q"}, 1.0}};
+  scene.surfaces = {{"lower", {"l0", "l1", "l2"}}};
+  scene.contacts = {{"p", "", "", "lower"}};
+  scene.loads = {{"q", 0.0, -1.0}};
+  EXPECT_EQ(Question(request),
+            "nodes p, q move freely; the nearest candidate is open: p@lower, gap 0.025 (the smooth curve of surface "
+            "lower passes 0.025 from its node l1): is a contact or a support missing?");
+  const TracedPath path = TraceIncrements(request);
+  EXPECT_EQ(path.result.reason, EndReason::kPathEnd);
+  EXPECT_NE(path.result.message.find(Question(request)), std::string::npos) << path.result.message;
+  scene.nodes[3].y = 0.475;
+  EXPECT_EQ(Question(request),
+            "nodes p, q move freely; the nearest candidate is open: p@lower, gap 0.5: is a contact or a support "
+            "missing?");
+}
+
 // A post in a guide across the floor cannot slide on it: the friction of the floor is that of the bar.
 TEST(FreeMotion, AsksForTheFrictionThoughTheFirstContactCannotSlide) {
   TraceRequest request = ReadExample("sliding_bar");

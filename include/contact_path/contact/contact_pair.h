@@ -73,6 +73,8 @@ class ContactPair {
     return patch == kNearestPatch ? PatchAt(u, s) : patch;
   }
   virtual bool HasPatch(int patch) const = 0;
+  // Whether this number stands for a node that is away from the surface (geometry/surface.h).
+  bool IsAway(int patch) const { return !HasPatch(patch - 1) && !HasPatch(patch) && !HasPatch(patch + 1); }
   // The range of xi, measured from 0, on the patch; past the ends of an open surface infinite on one side.
   virtual XiRange RangeOf(int patch) const = 0;
   // *hessian = second derivatives by q of weights . (r_n grad u_n + r_t c grad xi), r_n and r_t do not change: m + 1

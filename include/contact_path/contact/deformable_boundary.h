@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "contact_path/geometry/admissible_patches.h"
@@ -13,13 +14,27 @@
 
 namespace contact_path {
 
-// Where a node is: its dofs in u, of x and y, or where a component is held its place [length].
+// Where a node is: its dofs in u, of x and y, or where a component is held its place [length]. Or where its mirror
+// image is.
 struct NodePlace {
   std::array<int, 2> dofs = {-1, -1};  // -1 = held
   Eigen::Vector2d held = Eigen::Vector2d::Zero();
+  std::array<double, 2> sign = {1.0, 1.0};               // of the dof in the place: -1 across the axis of a mirror
+  Eigen::Vector2d twice_axis = Eigen::Vector2d::Zero();  // twice the place of that axis [length]
 
-  Eigen::Vector2d At(const Eigen::VectorXd& u) const {
-    return {dofs[0] >= 0 ? u[dofs[0]] : held[0], dofs[1] >= 0 ? u[dofs[1]] : held[1]};
+  Eigen::Vector2d At(const Eigen::VectorXd& u) const { return {Component(u, 0), Component(u, 1)}; }
+  // The image of the node, with the axis at this x (across = 0) or at this y (across = 1).
+  NodePlace Mirrored(int across, double axis) const {
+    NodePlace image = *this;
+    image.sign[static_cast<std::size_t>(across)] = -1.0;
+    image.twice_axis[across] = 2.0 * axis;
+    return image;
+  }
+
+ private:
+  double Component(const Eigen::VectorXd& u, int axis) const {
+    const auto k = static_cast<std::size_t>(axis);
+    return twice_axis[axis] + sign[k] * (dofs[k] >= 0 ? u[dofs[k]] : held[axis]);
   }
 };
 
@@ -32,18 +47,27 @@ class DeformableBoundary {
   DeformableBoundary(std::vector<NodePlace> nodes, const std::vector<Eigen::Vector2d>& start, bool closed,
                      double radius);
 
+  // elements: of the solid that the curve bounds, the nodes round each.
+  void SetSolid(std::vector<std::vector<NodePlace>> elements) { elements_ = std::move(elements); }
+  // across: of each end of an open curve the axis of symmetry that it lies on, 0 across x and 1 across y; -1: none.
+  void SetMirroredEnds(const std::array<int, 2>& across);
+
   const NodalSpline& Spline() const { return spline_; }
+  // Those of the curve, and after them the images of its second and of its last but one node.
   const std::vector<NodePlace>& Nodes() const { return nodes_; }
   double Radius() const { return radius_; }
   double LengthPerKnot() const { return length_per_knot_; }  // d xi / d knot
   // Where the control nodes of a patch are.
   std::array<Eigen::Vector2d, 3> Places(const SplinePatch& patch, const Eigen::VectorXd& u) const;
+  // Whether x is inside the solid.
+  bool InSolid(const Eigen::Vector2d& x, const Eigen::VectorXd& u) const;
 
  private:
   std::vector<NodePlace> nodes_;
   NodalSpline spline_;
   double radius_;
   double length_per_knot_;
+  std::vector<std::vector<NodePlace>> elements_;
 };
 
 // A boundary at u, as a surface: its gaps are less by the radius than distances from the spline. The boundary and u
@@ -66,6 +90,8 @@ class BoundaryAt : public Surface {
 
  private:
   Parabola ParabolaOf(const SplinePatch& patch) const { return {patch, boundary_.Places(patch, u_)}; }
+  // Whether x, which has its foot on the patch, is deep behind the curve and not in its part.
+  bool IsAway(const Eigen::Vector2d& x, int patch) const;
 
   const DeformableBoundary& boundary_;
   const Eigen::VectorXd& u_;

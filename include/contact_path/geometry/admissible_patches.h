@@ -19,8 +19,9 @@ class AdmissiblePatches {
   // radius, along the edges between the nodes. With two patches on either side, nodes[node] is a control node neither
   // of an admissible patch nor of the patch beside an admissible patch. A curve that bends no sharper than the radius
   // does not return to the distance `radius` of one of its points within this length. nodes: places of the nodes at the
-  // start, neighbours are apart; at least 2, closed 3. radius >= 0 [length].
-  AdmissiblePatches(const std::vector<Eigen::Vector2d>& nodes, bool closed, double radius, int node);
+  // start, neighbours are apart; at least 2, closed 3. radius >= 0 [length]. ends: of an open curve.
+  AdmissiblePatches(const std::vector<Eigen::Vector2d>& nodes, bool closed, double radius, int node,
+                    const MirroredEnds& ends = {});
 
   // Whether the curve has the patch (geometry/surface.h), and the patch is not left out.
   bool Has(int patch) const;

@@ -3,6 +3,7 @@
 #define CONTACT_PATH_GEOMETRY_NODAL_SPLINE_H_
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 
 namespace contact_path {
@@ -10,7 +11,7 @@ namespace contact_path {
 // y(tau) = sum of N_k(tau) x_k over up to three control nodes, tau from `begin` to `end`; beyond, the patch is
 // prolonged.
 struct SplinePatch {
-  std::array<int, 3> nodes = {-1, -1, -1};            // ascending along the curve; -1: none, and its N_k is 0
+  std::array<int, 3> nodes = {-1, -1, -1};            // in order along the curve; -1: none, and its N_k is 0
   Eigen::Matrix3d weights = Eigen::Matrix3d::Zero();  // N_k(tau) = row k . (1, tau, tau^2)
   double knot = 0.0;                                  // where tau is 0
   double begin = 0.0;
@@ -19,13 +20,21 @@ struct SplinePatch {
   Eigen::Vector3d At(double tau) const { return weights * Eigen::Vector3d(1.0, tau, tau * tau); }
 };
 
+// Which ends of an open curve lie on an axis of symmetry, over which the curve goes on as its mirror image: the nodes
+// `nodes` and `nodes + 1` of a spline are then the images of its second and of its last but one node.
+struct MirroredEnds {
+  bool first = false;
+  bool last = false;
+};
+
 // Knots are uniform: 0 at the first node, 1 at the second one, and so on; dy/dknot is continuous. Patch i belongs to
 // node i and is a parabola from the middle of the edge before to the middle of the edge after, tangent to both. Of an
-// open curve the first and the last patch are halves of the edges there, which are straight.
+// open curve the first and the last patch are halves of the edges there, which are straight; at a mirrored end, the
+// half on this side of the patch that it would have inside a curve.
 class NodalSpline {
  public:
-  // nodes: at least 2; closed: at least 3.
-  NodalSpline(int nodes, bool closed) : nodes_(nodes), closed_(closed) {}
+  // nodes: at least 2; closed: at least 3. ends: of an open curve.
+  NodalSpline(int nodes, bool closed, const MirroredEnds& ends = {}) : nodes_(nodes), closed_(closed), ends_(ends) {}
 
   int NumPatches() const { return nodes_; }
   bool Closed() const { return closed_; }
@@ -38,6 +47,7 @@ class NodalSpline {
  private:
   int nodes_;
   bool closed_;
+  MirroredEnds ends_;
 };
 
 // A patch with its control nodes in place: y = a + b tau + c tau^2.
@@ -52,6 +62,11 @@ struct Parabola {
   // are equally near, the minimum nearer to x. Either begin or end may be infinite.
   double FootOf(const Eigen::Vector2d& x, double begin, double end) const;
 };
+
+// A point that is deeper behind an open curve has come round one of its ends, and the part of the curve is not there,
+// unless it is a solid that reaches so far [length]. radius: of the beam whose axis the curve is. edge: |dy/dknot| at
+// the foot, the length of an edge there.
+inline double DepthBehind(double radius, double edge) { return std::max(2.0 * radius, edge); }
 
 }  // namespace contact_path
 

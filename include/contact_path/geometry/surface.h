@@ -20,6 +20,7 @@ struct NearestFoot {
   int patch = 0;
   double distance = 0.0;  // >= 0 [length]
   bool is_end = false;    // it is an end of the curve, and not the foot of a perpendicular
+  bool is_away = false;   // the point is so far behind the curve that it is not behind it: it went round an end
 };
 
 // A curve with a tangent that is continuous, walked with the admissible side on the left. It consists of patches, on
@@ -53,7 +54,8 @@ class Surface {
 };
 
 // The patch where a surface is nearest to x. Past an end of the surface: the number before the patch that begins at
-// this end, or after the patch that ends there; the surface has no patch of this number.
+// this end, or after the patch that ends there; the surface has no patch of this number. Away from the surface: a
+// number whose neighbours the surface does not have either.
 int PatchBeside(const Surface& surface, const Eigen::Vector2d& x);
 // PatchBeside(), with the number of a closed surface counted in the round that brings it nearest to the patch `from`.
 int PatchBeside(const Surface& surface, const Eigen::Vector2d& x, int from);

@@ -51,6 +51,10 @@ std::string BeyondHalfRound(const Model& model, const Residuals& residuals);
 // point of a path to the next; else empty.
 std::string OverrunContact(const Model& model, const PathPoint& from, const PathPoint& to);
 
+// Names a contact that stands at an end of its surface, over which no branch slides, and counts the others that do; else
+// empty.
+std::string StandsAtEnd(const Model& model, const PathPoint& point);
+
 // Names an open contact whose node has come past an end of its deformable surface and is behind the surface; else
 // empty. point: where to look, scaled.
 std::string BehindSurface(const Model& model, const PathPoint& point);

@@ -22,7 +22,8 @@ std::string FreeMotionText(const Model& model, const PathPoint& point, double fo
 // For a start from which no branch leads: FreeMotionText() and the questions to ask, ": does the normal of floor point
 // to the side where the node may be? is a contact or a support missing? is the friction of floor (0.5) too small?". The
 // first question is asked where nodes that move touch obstacles, the last one where such an obstacle has friction.
-// Empty where no node moves freely.
+// Where all candidates of what moves are open, the nearest is told with its gap [length] in place of the first and the
+// last question. Empty where no node moves freely.
 std::string FreeMotionQuestion(const Model& model, const PathPoint& point, double force);
 
 }  // namespace contact_path
