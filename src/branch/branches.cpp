@@ -326,20 +326,18 @@ void TryAll(const Options& options, const std::function<bool(const ContactModes&
   }
 }
 
-// The solutions of the complementarity problem of the rates, each tried like any other combination. Whether these are
-// all branches that there are.
-bool TrySolutions(const RateComplementarity& problem, const Options& options, const PathPoint& point, Finder* finder,
+// The solutions of the complementarity problem of the rates, each tried like any other combination.
+void TrySolutions(const RateComplementarity& problem, const Options& options, const PathPoint& point, Finder* finder,
                   BranchSet* result) {
   std::set<States> tried;
   for (int guess = 0; guess < (problem.unique() ? 1 : kGuesses); ++guess)
     for (const double sense : {1.0, -1.0}) {
-      if (finder->Cancelled()) return false;
+      if (finder->Cancelled()) return;
       const std::optional<States> states = problem.Solve(sense, guess);
       if (!states || !tried.insert(*states).second) continue;
       finder->Try(ModesWith(*states, options, point), &result->branches);
       ++result->combinations;
     }
-  return problem.unique() && !result->branches.empty();
 }
 
 // Where there are too many combinations: principal pivoting from several first guesses, and the further candidates.
@@ -429,19 +427,23 @@ BranchSet BranchesWithReactions(const Structure& structure, const ContactPairs& 
         condenses && between_patches && !between_rigid ? of_patches.On(PatchesOf(modes)) : condensed;
     return rates != nullptr && finder.Excluded(StatesOf(modes), *rates);
   };
+  const bool few_enough = combinations <= kMostCombinations;
   bool solved = false;
   if (condensed != nullptr) {
     const RateComplementarity complementarity(contacts, *condensed, options, weakly_active);
-    if (complementarity.exists() && (complementarity.unique() || combinations > kMostCombinations))
-      solved = TrySolutions(complementarity, options, point, &finder, &result);
+    if (complementarity.exists() && (complementarity.unique() || !few_enough)) {
+      TrySolutions(complementarity, options, point, &finder, &result);
+      solved = !result.branches.empty();
+      result.complete = complementarity.unique();
+    }
   }
-  result.complete = solved || combinations <= kMostCombinations;
-  if (solved) {
-    // Nothing else is a solution.
-  } else if (result.complete)
-    TryAll(options, excluded, &finder, &result);
-  else
-    TryLikely(options, point, arrival, condensed, further, &finder, &result);
+  if (!solved) {
+    result.complete = few_enough;
+    if (few_enough)
+      TryAll(options, excluded, &finder, &result);
+    else
+      TryLikely(options, point, arrival, condensed, further, &finder, &result);
+  }
   if (result.branches.empty() && !result.complete && combinations <= kMostIfNone) {
     TryAll(options, excluded, &finder, &result);
     result.complete = true;
