@@ -28,7 +28,6 @@ constexpr double kMostCondensed = 5e7;               // numbers that may be held
 constexpr std::size_t kMostCondensedContacts = 200;  // of more, dense equations take longer than the sparse ones of all
 constexpr int kGuesses = 3;                          // of the complementarity problem where its solution may not be unique
 constexpr int kMostRestarts = 64;                    // contacts, one after another in another state, to pivot from
-constexpr Eigen::Index kMostDofsForFurther = 300;    // beyond, further candidates are asked for if nothing else helps
 constexpr double kMostCombinations = 4096.0;         // 4^6
 constexpr double kMostIfNone = 65536.0;              // 4^8: tried before the path is said to end
 
@@ -99,15 +98,19 @@ class Finder {
     });
   }
 
-  // Whether the rates of these states are broken in both directions by far more than rounding, or the structure starts
-  // as a mechanism with them.
+  // Whether contacts are redundant with these states, or their rates are broken in both directions by far more than
+  // rounding, or the structure starts as a mechanism with them.
   bool Excluded(const States& states, const RateProblem& condensed) const {
+    if (redundant_.Among(states)) return true;
     const std::optional<CondensedRates> rates = condensed.Rates(states);
     if (!rates) return false;
     if (arrival_.is_start && std::abs(rates->load) <= tolerances::kUnitComponent) return true;
     return condensed.Broken(states, *rates, 1.0, tolerance_, tolerances::kExcludedRate, nullptr) &&
            condensed.Broken(states, *rates, -1.0, tolerance_, tolerances::kExcludedRate, nullptr);
   }
+
+  // Whether each combination of the options has contacts that are redundant.
+  bool AllRedundant() const { return redundant_.AmongAll(options_); }
 
   int rigid_modes() const { return rigid_modes_; }
 
@@ -382,7 +385,7 @@ void TryLikely(const Options& options, const PathPoint& point, const Arrival& ar
           pivot_from(guess);
         }
   }
-  if (!further || (point.u.size() > kMostDofsForFurther && !result->branches.empty())) return;
+  if (!further || !result->branches.empty()) return;
   for (const States& states : further(point, arrival.direction)) attempt(states);
 }
 
@@ -410,6 +413,7 @@ BranchSet BranchesWithReactions(const Structure& structure, const ContactPairs& 
   }
   result.weakly_active = static_cast<int>(weakly_active.size());
   Finder finder(structure, contacts, point, options, arrival, tolerance, cancelled);
+  if (finder.AllRedundant()) return result;
   // Where another path crosses, rates are not unique, and every combination is looked at as a whole; so it is where
   // patches of a rigid surface meet, whose curvatures differ. Nodes pass from patch to patch of a deformable surface
   // all the time: then there is a problem for each combination of patches.
@@ -442,7 +446,7 @@ BranchSet BranchesWithReactions(const Structure& structure, const ContactPairs& 
     if (few_enough)
       TryAll(options, excluded, &finder, &result);
     else
-      TryLikely(options, point, arrival, condensed, further, &finder, &result);
+      TryLikely(options, point, arrival, condensed, combinations > kMostIfNone ? further : nullptr, &finder, &result);
   }
   if (result.branches.empty() && !result.complete && combinations <= kMostIfNone) {
     TryAll(options, excluded, &finder, &result);

@@ -88,10 +88,13 @@ std::optional<std::vector<bool>> RateComplementarity::GivenMotions(const Eigen::
     return true;
   };
   const auto at_edge = [](Role role) { return role == Role::kEdgePlus || role == Role::kEdgeMinus; };
-  // First what has to be: contacts at the edge of their cones stay closed, and smooth ones bear no tangential force.
+  // First what has to be: contacts at the edge of their cones stay closed, and smooth ones bear no tangential force. A
+  // contact at a node that others hold stays closed by itself, and its reaction need not change.
   // Where such a motion is of a part that nothing holds, its force holds the part, and vanishes.
   for (std::size_t k = 0; k < roles_.size(); ++k)
-    if (at_edge(roles_[k]) && !take(static_cast<Eigen::Index>(2 * k), true)) return std::nullopt;
+    if (at_edge(roles_[k]) && !take(static_cast<Eigen::Index>(2 * k), true) &&
+        !take(static_cast<Eigen::Index>(2 * k), false))
+      return std::nullopt;
   for (const bool normal : {true, false})
     for (std::size_t k = 0; k < roles_.size(); ++k) {
       const auto direction = static_cast<Eigen::Index>(2 * k + (normal ? 0 : 1));
@@ -170,8 +173,8 @@ void RateComplementarity::Build(const ContactPairs& contacts, const RateProblem&
     if (is_given(n)) {
       C(t, n) = -sense * friction;  // r_n follows
       coupled = true;
-    } else {
-      Q(t, normal_pair[static_cast<std::size_t>(pair.contact)]) = -sense * friction;
+    } else if (const Eigen::Index normal = normal_pair[static_cast<std::size_t>(pair.contact)]; normal >= 0) {
+      Q(t, normal) = -sense * friction;
     }
   }
   Eigen::MatrixXd Y = G * Q;

@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <functional>
 #include <iterator>
 
 #include "contact_path/contact/contact_state.h"
@@ -40,6 +41,21 @@ RedundantContacts::RedundantContacts(const ContactPairs& contacts, const PathPoi
 
 bool RedundantContacts::Among(const std::vector<ContactState>& states) const {
   return std::any_of(nodes_.begin(), nodes_.end(), [&](const auto& node) { return AtNode(node.second, states); });
+}
+
+bool RedundantContacts::AmongAll(const std::vector<ContactModes>& options) const {
+  std::vector<ContactState> states(options.size(), ContactState::kOpen);
+  // From the contact k of the node on.
+  const std::function<bool(const std::vector<Touching>&, std::size_t)> in_each = [&](const std::vector<Touching>& node,
+                                                                                    std::size_t k) {
+    if (k == node.size()) return AtNode(node, states);
+    const ContactModes& modes = options[node[k].contact];
+    return std::all_of(modes.begin(), modes.end(), [&](const ContactMode& mode) {
+      states[node[k].contact] = mode.state;
+      return in_each(node, k + 1);
+    });
+  };
+  return std::any_of(nodes_.begin(), nodes_.end(), [&](const auto& node) { return in_each(node.second, 0); });
 }
 
 bool RedundantContacts::AtNode(const std::vector<Touching>& node, const std::vector<ContactState>& states) const {

@@ -74,7 +74,9 @@ TEST(Complementarity, OtherMatrices) {
     if (positive) M = (M.cwiseAbs() + Eigen::MatrixXd::Identity(n, n)).eval();
     const Eigen::VectorXd q = random.Vector(n, -1.0, 1.0);
     const auto basic = SolveByLemke(M, q, Eigen::VectorXd::Ones(n));
-    if (positive) ASSERT_TRUE(basic) << round;
+    if (positive) {
+      ASSERT_TRUE(basic) << round;
+    }
     if (!basic) continue;
     ++found;
     EXPECT_TRUE(Solves(M, q, *basic)) << round;

@@ -7,6 +7,7 @@
 #include <map>
 #include <vector>
 
+#include "contact_path/contact/contact_mode.h"
 #include "contact_path/contact/contact_pair.h"
 #include "contact_path/contact/path_point.h"
 
@@ -25,6 +26,8 @@ class RedundantContacts {
   // Whether, with these states, the conditions on the motion of some node, or the reactions on it, depend on each
   // other. Also true for a single contact that sticks at a node with one direction of motion.
   bool Among(const std::vector<ContactState>& states) const;
+  // Whether they are among every combination of these options, by candidate, at some node.
+  bool AmongAll(const std::vector<ContactModes>& options) const;
 
  private:
   struct Touching {
