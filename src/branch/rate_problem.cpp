@@ -1,10 +1,12 @@
 #include "contact_path/branch/rate_problem.h"
 
 #include <Eigen/LU>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "contact_path/equations/rigid_modes.h"
 #include "contact_path/linear/bordered_solver.h"
 #include "contact_path/linear/singular_vectors.h"
 #include "contact_path/tolerances.h"
@@ -55,12 +57,19 @@ RateProblem::RateProblem(const Structure& structure, const ContactPairs& contact
   const Eigen::Index nd = system.NumDofs();
   std::vector<Kinematics> kinematics(weakly_active_.size());
   Eigen::SparseMatrix<double> transposed = system.TransposedJacobian(x);
+  const Eigen::MatrixXd modes = RigidModes(structure).At(point.u, transposed);
+  gap_of_modes_.resize(static_cast<Eigen::Index>(weakly_active_.size()), modes.cols());
+  slip_of_modes_.resize(gap_of_modes_.rows(), modes.cols());
   bool deformable = false;
   for (std::size_t k = 0; k < weakly_active_.size(); ++k) {
     const int i = weakly_active_[k];
     const ContactPair& pair = *contacts[static_cast<std::size_t>(i)];
     Kinematics& at = kinematics[k];
     pair.Evaluate(point.u, point.s, point.Patch(static_cast<std::size_t>(i)), 0.0, &at);
+    for (Eigen::Index j = 0; j < modes.cols(); ++j) {
+      gap_of_modes_(static_cast<Eigen::Index>(k), j) = at.Rate(at.gap_gradient, modes.col(j), 0.0);
+      slip_of_modes_(static_cast<Eigen::Index>(k), j) = at.Rate(at.xi_gradient, modes.col(j), 0.0);
+    }
     AddSpring(at.dofs, at.gap_gradient, kSpring, nd, &transposed);
     AddSpring(at.dofs, at.xi_gradient, kSpring * at.slip_factor, nd, &transposed);
     if (pair.Curved()) AddCurvature(at, point.rn[i], point.rt[i], nd, &transposed);
@@ -117,12 +126,11 @@ double RateProblem::Unit(Eigen::Index k) const {
   return contacts_[static_cast<std::size_t>(weakly_active_[static_cast<std::size_t>(k)])]->ForceUnit();
 }
 
-Eigen::MatrixXd RateProblem::Kernel(const Eigen::MatrixXd& equations, bool* clear) const {
+Eigen::MatrixXd RateProblem::Kernel(const Eigen::MatrixXd& equations) const {
   // Nearly always one solution, and it is not orthogonal to the arrival.
   Eigen::MatrixXd square(equations.cols(), equations.cols());
   square << equations, along_.transpose();
   const Eigen::PartialPivLU<Eigen::MatrixXd> bordered(square);
-  *clear = bordered.rcond() > tolerances::kExcludedRate;
   if (bordered.rcond() > tolerances::kCondensedPivot)
     return bordered.solve(Eigen::VectorXd::Unit(square.cols(), square.cols() - 1));
   Eigen::FullPivLU<Eigen::MatrixXd> lu(equations);
@@ -190,16 +198,28 @@ Eigen::MatrixXd RateProblem::Equations(const std::vector<ContactState>& states) 
   return equations;
 }
 
+bool RateProblem::LeavesRigidMotion(const std::vector<ContactState>& states) const {
+  const Eigen::Index modes = gap_of_modes_.cols();
+  if (modes == 0) return false;
+  Eigen::MatrixXd held = Eigen::MatrixXd::Zero(2 * gap_of_modes_.rows(), modes);
+  for (Eigen::Index k = 0; k < gap_of_modes_.rows(); ++k) {
+    const ContactState state = states[static_cast<std::size_t>(weakly_active_[static_cast<std::size_t>(k)])];
+    if (state != ContactState::kOpen) held.row(2 * k) = gap_of_modes_.row(k);
+    if (state == ContactState::kStick) held.row(2 * k + 1) = slip_of_modes_.row(k);
+  }
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(held);
+  qr.setThreshold(tolerances::kCondensedPivot);
+  return qr.rank() < modes;
+}
+
 std::optional<CondensedRates> RateProblem::Rates(const std::vector<ContactState>& states) const {
-  bool clear = false;
-  const Eigen::MatrixXd kernel = Kernel(Equations(states), &clear);
-  if (kernel.cols() == 1 && !clear) return std::nullopt;
+  if (LeavesRigidMotion(states)) return std::nullopt;
+  const Eigen::MatrixXd kernel = Kernel(Equations(states));
   return RatesOf(kernel.cols() == 1 ? kernel.col(0) : ShortestMember(kernel));
 }
 
 std::optional<CondensedRates> RateProblem::UniqueRates(const std::vector<ContactState>& states) const {
-  bool clear = false;
-  const Eigen::MatrixXd kernel = Kernel(Equations(states), &clear);
+  const Eigen::MatrixXd kernel = Kernel(Equations(states));
   if (kernel.cols() != 1) return std::nullopt;
   return RatesOf(kernel.col(0));
 }

@@ -92,7 +92,8 @@ bool SmoothArc::Derivatives(const Eigen::VectorXd& x, const Eigen::VectorXd& tow
     LinearisedEquations(transposed).Refine(solver_, &point->first);
   else if (solver_.Nullity() == 1) ChooseInPlane(x, towards, &point->first);
   const double norm = point->first.head(n).norm();
-  if (!std::isfinite(norm) || norm == 0.0 || point->first.head(n).dot(towards) <= 0.0) return false;
+  if (!std::isfinite(norm) || norm == 0.0) return false;
+  if (!(point->first.head(n).dot(towards) > tolerances::kUnitComponent * norm)) return false;
   point->first /= norm;
   point->second = solver_.Solve(-system_.SecondDerivative(x, point->first), 0.0);
   HoldLimitPoint(x, &point->second);

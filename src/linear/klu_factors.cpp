@@ -1,6 +1,7 @@
 #include "linear/klu_factors.h"
 
 #include <cstddef>
+#include <algorithm>
 #include <new>
 #include <vector>
 
@@ -48,7 +49,7 @@ bool KluFactors::Factorize(Eigen::SparseMatrix<double>* matrix, bool same_patter
   if (symbolic_ != nullptr) numeric_ = klu_factor(outer, inner, matrix->valuePtr(), symbolic_, &common_);
   // Not to be taken for a singular matrix.
   if (common_.status == KLU_OUT_OF_MEMORY || common_.status == KLU_TOO_LARGE) throw std::bad_alloc();
-  return numeric_ != nullptr && common_.status == KLU_OK && Regular();
+  return numeric_ != nullptr && common_.status == KLU_OK && Regular(matrix);
 }
 
 // With the pivots of the last factorisation; false where they are no longer good, or the matrix is singular.
@@ -57,11 +58,16 @@ bool KluFactors::Refactorize(Eigen::SparseMatrix<double>* matrix) {
   double* const values = matrix->valuePtr();
   return klu_refactor(outer, inner, values, symbolic_, numeric_, &common_) == 1 && common_.status == KLU_OK &&
          klu_rgrowth(outer, inner, values, symbolic_, numeric_, &common_) == 1 &&
-         common_.rgrowth > tolerances::kPivotGrowth && Regular();
+         common_.rgrowth > tolerances::kPivotGrowth && Regular(matrix);
 }
 
-bool KluFactors::Regular() {
-  return klu_rcond(symbolic_, numeric_, &common_) == 1 && common_.rcond > tolerances::kSingularPivot;
+bool KluFactors::Regular(Eigen::SparseMatrix<double>* matrix) {
+  pivot_ratio_ = klu_rcond(symbolic_, numeric_, &common_) == 1 ? common_.rcond : 0.0;
+  // Pivots of fine meshes are far apart though no motion is soft: Hager's estimate of the condition tells.
+  if (pivot_ratio_ > 0.0 && pivot_ratio_ < tolerances::kRegularPivotNearest &&
+      klu_condest(matrix->outerIndexPtr(), matrix->valuePtr(), symbolic_, numeric_, &common_) == 1)
+    pivot_ratio_ = std::max(pivot_ratio_, 1.0 / common_.condest);
+  return pivot_ratio_ > tolerances::kSingularPivot;
 }
 
 int KluFactors::DeterminantSign() const {

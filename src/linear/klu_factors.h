@@ -23,8 +23,8 @@ class KluFactors {
   bool Factorize(Eigen::SparseMatrix<double>* matrix, bool same_pattern);
   bool HasFactors() const { return numeric_ != nullptr; }
 
-  // Of the pivots, smallest over largest.
-  double PivotRatio() const { return common_.rcond; }
+  // Of the pivots, smallest over largest; where that is small, the reciprocal of the condition if that is larger.
+  double PivotRatio() const { return pivot_ratio_; }
   int DeterminantSign() const;
   // Solves A' X = B in place, X: unknowns x columns.
   void SolveTransposed(double* x, int columns);
@@ -33,9 +33,10 @@ class KluFactors {
  private:
   void FreeNumeric();
   bool Refactorize(Eigen::SparseMatrix<double>* matrix);
-  bool Regular();
+  bool Regular(Eigen::SparseMatrix<double>* matrix);
 
   klu_common common_{};
+  double pivot_ratio_ = 0.0;
   klu_symbolic* symbolic_ = nullptr;
   klu_numeric* numeric_ = nullptr;
 };

@@ -44,8 +44,8 @@ class RateProblem {
   const Eigen::MatrixXd& SlipRates() const { return slip_; }
 
   // The rates for these states of all candidates, up to their sign. Rates that are not unique are without rigid modes
-  // and nearest to the arrival, as a branch is chosen. Nothing where the condensed problem does not tell them, as where
-  // rounding alone makes them unique.
+  // and nearest to the arrival, as a branch is chosen. Nothing where the condensed problem does not tell them, and where
+  // parts can move as rigid bodies: in rounding such rates may look unique.
   std::optional<CondensedRates> Rates(const std::vector<ContactState>& states) const;
   // Rates(), and nothing where they are not unique.
   std::optional<CondensedRates> UniqueRates(const std::vector<ContactState>& states) const;
@@ -61,9 +61,10 @@ class RateProblem {
   double Unit(Eigen::Index k) const;  // force unit of a weakly active contact
   Eigen::MatrixXd Equations(const std::vector<ContactState>& states) const;
   std::optional<CondensedRates> RatesOf(Eigen::VectorXd z) const;
-  // Columns span the solutions of equations . z = 0; they are not scaled. *clear: whether there is one, and pivots are far
-  // from telling another one.
-  Eigen::MatrixXd Kernel(const Eigen::MatrixXd& equations, bool* clear) const;
+  // Whether a rigid motion of parts that only weakly active contacts may hold is free in these states.
+  bool LeavesRigidMotion(const std::vector<ContactState>& states) const;
+  // Columns span the solutions of equations . z = 0; they are not scaled.
+  Eigen::MatrixXd Kernel(const Eigen::MatrixXd& equations) const;
   // Of a kernel of several columns, not scaled; empty where it cannot be told.
   Eigen::VectorXd ShortestMember(const Eigen::MatrixXd& kernel) const;
 
@@ -75,6 +76,8 @@ class RateProblem {
   // springs included.
   Eigen::MatrixXd gap_;
   Eigen::MatrixXd slip_;
+  // The same by rigid motions of parts that nothing holds but weakly active contacts: columns.
+  Eigen::MatrixXd gap_of_modes_, slip_of_modes_;
   Eigen::VectorXd slipped_;  // xi - xi_0 by the total law of friction, 0 by the incremental law
   Eigen::MatrixXd gram_;     // z . gram z = |(du, ds)|^2
   Eigen::VectorXd along_;    // along_ . z = (du, ds) . arrival
