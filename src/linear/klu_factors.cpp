@@ -1,7 +1,6 @@
 #include "linear/klu_factors.h"
 
 #include <cstddef>
-#include <algorithm>
 #include <new>
 #include <vector>
 
@@ -9,6 +8,8 @@
 
 namespace contact_path {
 namespace {
+
+constexpr double kDiagonalFirst = 1e-3;  // of the largest entry of its column: a diagonal entry that is as large is the pivot
 
 // Sign of a permutation of 0..n-1.
 int Parity(const int* permutation, int n) {
@@ -46,10 +47,18 @@ bool KluFactors::Factorize(Eigen::SparseMatrix<double>* matrix, bool same_patter
     klu_free_symbolic(&symbolic_, &common_);
     symbolic_ = klu_analyze(static_cast<int>(matrix->rows()), outer, inner, &common_);
   }
-  if (symbolic_ != nullptr) numeric_ = klu_factor(outer, inner, matrix->valuePtr(), symbolic_, &common_);
-  // Not to be taken for a singular matrix.
-  if (common_.status == KLU_OUT_OF_MEMORY || common_.status == KLU_TOO_LARGE) throw std::bad_alloc();
-  return numeric_ != nullptr && common_.status == KLU_OK && Regular(matrix);
+  // Pivots on the diagonal first, which keep the factors sparse. Along a chain of contacts each may be small beside the
+  // entries below, and their growth takes all digits: then the largest entries are the pivots.
+  for (const double share : {kDiagonalFirst, 1.0}) {
+    FreeNumeric();
+    common_.tol = share;
+    if (symbolic_ != nullptr) numeric_ = klu_factor(outer, inner, matrix->valuePtr(), symbolic_, &common_);
+    // Not to be taken for a singular matrix.
+    if (common_.status == KLU_OUT_OF_MEMORY || common_.status == KLU_TOO_LARGE) throw std::bad_alloc();
+    if (numeric_ != nullptr && common_.status == KLU_OK && Regular() && pivot_ratio_ > tolerances::kRegularPivotNearest)
+      return true;
+  }
+  return numeric_ != nullptr && common_.status == KLU_OK && Regular();
 }
 
 // With the pivots of the last factorisation; false where they are no longer good, or the matrix is singular.
@@ -58,15 +67,11 @@ bool KluFactors::Refactorize(Eigen::SparseMatrix<double>* matrix) {
   double* const values = matrix->valuePtr();
   return klu_refactor(outer, inner, values, symbolic_, numeric_, &common_) == 1 && common_.status == KLU_OK &&
          klu_rgrowth(outer, inner, values, symbolic_, numeric_, &common_) == 1 &&
-         common_.rgrowth > tolerances::kPivotGrowth && Regular(matrix);
+         common_.rgrowth > tolerances::kPivotGrowth && Regular();
 }
 
-bool KluFactors::Regular(Eigen::SparseMatrix<double>* matrix) {
+bool KluFactors::Regular() {
   pivot_ratio_ = klu_rcond(symbolic_, numeric_, &common_) == 1 ? common_.rcond : 0.0;
-  // Pivots of fine meshes are far apart though no motion is soft: Hager's estimate of the condition tells.
-  if (pivot_ratio_ > 0.0 && pivot_ratio_ < tolerances::kRegularPivotNearest &&
-      klu_condest(matrix->outerIndexPtr(), matrix->valuePtr(), symbolic_, numeric_, &common_) == 1)
-    pivot_ratio_ = std::max(pivot_ratio_, 1.0 / common_.condest);
   return pivot_ratio_ > tolerances::kSingularPivot;
 }
 

@@ -23,7 +23,7 @@ class KluFactors {
   bool Factorize(Eigen::SparseMatrix<double>* matrix, bool same_pattern);
   bool HasFactors() const { return numeric_ != nullptr; }
 
-  // Of the pivots, smallest over largest; where that is small, the reciprocal of the condition if that is larger.
+  // Of the pivots, smallest over largest.
   double PivotRatio() const { return pivot_ratio_; }
   int DeterminantSign() const;
   // Solves A' X = B in place, X: unknowns x columns.
@@ -33,7 +33,7 @@ class KluFactors {
  private:
   void FreeNumeric();
   bool Refactorize(Eigen::SparseMatrix<double>* matrix);
-  bool Regular(Eigen::SparseMatrix<double>* matrix);
+  bool Regular();
 
   klu_common common_{};
   double pivot_ratio_ = 0.0;
