@@ -88,8 +88,12 @@ bool SmoothArc::Derivatives(const Eigen::VectorXd& x, const Eigen::VectorXd& tow
   at_hand_ = solver_.Nullity() == 0;
   point->x = x;
   point->first = solver_.Solve(Eigen::VectorXd::Zero(system_.NumEquations()), 1.0);
+  const LinearisedEquations equations(transposed);
   if (solver_.Nullity() == 0 || held_.value_or(false))
-    LinearisedEquations(transposed).Refine(solver_, &point->first);
+    equations.Refine(solver_, &point->first);
+  else if (!equations.Hold(point->first, tolerances::kSameTangent) ||
+           std::abs(point->first.head(n).dot(towards) - 1.0) > tolerances::kSameTangent)
+    return false;  // nothing solves the equations: another solution of least squares came out
   else if (solver_.Nullity() == 1) ChooseInPlane(x, towards, &point->first);
   const double norm = point->first.head(n).norm();
   if (!std::isfinite(norm) || norm == 0.0) return false;
@@ -252,8 +256,9 @@ bool SmoothArc::Factorize(const Eigen::VectorXd& x, const Eigen::SparseMatrix<do
   if (rank_tolerance == 0.0 && modes_.Possible()) {
     const auto hold = [&] {
       const Eigen::MatrixXd modes = modes_.At(x.head(system_.NumDofs()), transposed);
+      Eigen::VectorXd tangent;
       held_ = modes.cols() > 0 && transposed.rows() == transposed.cols() + 1 &&
-              solver_.FactorizeHeld(transposed, row, modes, system_.InFrame());
+              solver_.FactorizeHeld(transposed, row, modes, system_.InFrame(), &tangent) && tangent.size() > 0;
       return *held_;
     };
     // Along an arc the same motions stay free as a rule.

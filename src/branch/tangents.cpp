@@ -3,7 +3,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include "contact_path/branch/plane_tangents.h"
@@ -124,20 +123,19 @@ Tangents SingularTangents(const Eigen::VectorXd& x, const Eigen::VectorXd& arriv
   return tangents;
 }
 
-// Where rigid motions of parts are all that makes the equations singular. tangent: of the equations that are held, where
-// it solves the equations themselves; otherwise these leave the rigid motions alone.
-Tangents HeldTangents(const Eigen::VectorXd& arrival, std::optional<Eigen::VectorXd> tangent,
-                      const Eigen::MatrixXd& modes) {
+// Where rigid motions of parts are all that makes the equations singular. tangent: empty where the equations leave the
+// rigid motions alone.
+Tangents HeldTangents(const Eigen::VectorXd& arrival, Eigen::VectorXd tangent, const Eigen::MatrixXd& modes) {
   const Eigen::Index motion = arrival.size();
   NullSpaceParts parts;
   parts.rigid = modes;
-  if (tangent) {
-    *tangent -= modes * (modes.transpose() * *tangent);
-    *tangent /= tangent->head(motion).norm();
-    const bool changes = tangent->tail(tangent->size() - motion + 1).norm() > tolerances::kRigid;
+  if (tangent.size() > 0) {
+    tangent -= modes * (modes.transpose() * tangent);
+    tangent /= tangent.head(motion).norm();
+    const bool changes = tangent.tail(tangent.size() - motion + 1).norm() > tolerances::kRigid;
     Eigen::MatrixXd& of = changes ? parts.proper : parts.rigid;
-    of.conservativeResize(tangent->size(), of.cols() + 1);
-    of.rightCols<1>() = *tangent;
+    of.conservativeResize(tangent.size(), of.cols() + 1);
+    of.rightCols<1>() = tangent;
   }
   Tangents tangents;
   AddTangent(parts, arrival, &tangents);
@@ -173,12 +171,17 @@ Tangents FindTangents(const Eigen::VectorXd& x, const Eigen::VectorXd& arrival, 
       add_by(solvers->regular);
       return tangents;
     }
+    Eigen::VectorXd tangent;
     if (rigid.cols() > 0 && transposed.rows() == transposed.cols() + 1 &&
-        solvers->held.FactorizeHeld(transposed, row, rigid, system->InFrame())) {
-      std::optional<Eigen::VectorXd> tangent = solvers->held.Solve(none, 1.0);
-      if (!LinearisedEquations(transposed).Hold(*tangent)) tangent.reset();
-      tangents = HeldTangents(arrival, std::move(tangent), rigid);
-      add_by(solvers->held);
+        solvers->held.FactorizeHeld(transposed, row, rigid, system->InFrame(), &tangent)) {
+      tangents = HeldTangents(arrival, tangent, rigid);
+      if (tangent.size() > 0) {
+        add_by(solvers->held);
+        return tangents;
+      }
+      // Rigid motions without load: how they bend is of no use.
+      tangents.second.assign(tangents.first.size(), Eigen::VectorXd::Zero(system->NumUnknowns()));
+      tangents.load_error.assign(tangents.first.size(), tolerances::kRate);
       return tangents;
     }
   }

@@ -3,6 +3,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 
+#include "contact_path/linear/linearised_equations.h"
 #include "contact_path/linear/minimum_norm.h"
 #include "linear/klu_factors.h"
 #include "linear/large_factors.h"
@@ -128,7 +129,7 @@ bool BorderedSolver::FactorizeRegular(const Eigen::SparseMatrix<double>& transpo
 }
 
 bool BorderedSolver::FactorizeHeld(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& row,
-                                   const Eigen::MatrixXd& modes, const Frame* frame) {
+                                   const Eigen::MatrixXd& modes, const Frame* frame, Eigen::VectorXd* tangent) {
   factors_->held = transposed;
   // One unknown for each mode, so that none of their combinations moves without moving one of these.
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> places(modes.transpose());
@@ -140,8 +141,12 @@ bool BorderedSolver::FactorizeHeld(const Eigen::SparseMatrix<double>& transposed
     factors_->held.coeffRef(place, place) += stiffness > 0.0 ? stiffness : 1.0;
   }
   if (!FactorizeRegular(factors_->held, row, tolerances::kSingularPivot, frame)) return false;
-  const Eigen::VectorXd tangent = Solve(Eigen::VectorXd::Zero(transposed.cols()), 1.0);
-  const Eigen::MatrixXd null_vectors = modes - tangent * (row.transpose() * modes);
+  *tangent = Solve(Eigen::VectorXd::Zero(transposed.cols()), 1.0);
+  if (!LinearisedEquations(transposed).Hold(*tangent, tolerances::kDependentColumn)) {
+    tangent->resize(0);
+    return true;
+  }
+  const Eigen::MatrixXd null_vectors = modes - *tangent * (row.transpose() * modes);
   factors_->null_space = Eigen::HouseholderQR<Eigen::MatrixXd>(null_vectors).householderQ() *
                          Eigen::MatrixXd::Identity(modes.rows(), modes.cols());
   return factors_->null_space.allFinite();

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "contact_path/tolerances.h"
-
 namespace contact_path {
 namespace {
 
@@ -29,7 +27,7 @@ void LinearisedEquations::Evaluate(const Eigen::VectorXd& tangent, Eigen::Vector
   }
 }
 
-bool LinearisedEquations::Hold(const Eigen::VectorXd& tangent) const {
+bool LinearisedEquations::Hold(const Eigen::VectorXd& tangent, double share) const {
   const double size = tangent.lpNorm<Eigen::Infinity>();
   for (Eigen::Index equation = 0; equation < transposed_.cols(); ++equation) {
     double sum = 0.0, largest = 0.0;
@@ -37,7 +35,7 @@ bool LinearisedEquations::Hold(const Eigen::VectorXd& tangent) const {
       sum += it.value() * tangent[it.row()];
       largest = std::max(largest, std::abs(it.value()));
     }
-    if (!(std::abs(sum) <= tolerances::kDependentColumn * largest * size)) return false;
+    if (!(std::abs(sum) <= share * largest * size)) return false;
   }
   return true;
 }

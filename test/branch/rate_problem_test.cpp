@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "contact_path/equations/rigid_modes.h"
 #include "contact_path/linear/minimum_norm.h"
 #include "contact_path/path/model.h"
 #include "contact_path/scene/lattice.h"
@@ -90,7 +91,10 @@ class RestingColumn : public testing::Test {
     ASSERT_TRUE(solver.Factorize(system.TransposedJacobian(x)));
     const Eigen::MatrixXd null_space = solver.NullSpace();
     const std::optional<CondensedRates> rates = problem.Rates(states);
-    ASSERT_TRUE(rates.has_value());
+    // Where the structure can move as a rigid body, the condensed problem does not tell.
+    const bool free = RigidModes(model_.structure).At(point_.u, system.TransposedJacobian(x)).cols() > 0;
+    ASSERT_EQ(rates.has_value(), !free);
+    if (free) return;
     ++*compared;
     if (null_space.cols() > 1) return ExpectShortestMember(system, weakly_active, null_space, *rates);
     const Eigen::Index motion = system.NumDofs() + 1;
@@ -133,7 +137,7 @@ TEST_F(RestingColumn, RatesAreThoseOfTheWholeStructure) {
     for (int i = 0; i < 5; ++i) states.push_back(all_states[static_cast<std::size_t>(random.Number(0.0, 3.999))]);
     ExpectRatesOfTheWhole(problem, states, weakly_active, &compared);
   }
-  EXPECT_GT(compared, 190);
+  EXPECT_GT(compared, 150);
 }
 
 TEST_F(RestingColumn, OtherContactsKeepTheirStates) {

@@ -36,9 +36,10 @@ class BorderedSolver {
   // Where the columns of `modes` (orthonormal, unknowns x modes) are null vectors of J, each with a component at an
   // unknown that has the number of an equation: a spring holds the motion there, which leaves consistent equations as
   // they are since its force is zero. LU of M with these springs; solutions are then freed of null vectors of M, so that
-  // they are the shortest. False if M is singular beyond the modes.
+  // they are the shortest. False if M is singular beyond the modes. *tangent: M x = (0, 1), with springs that bear
+  // nothing; empty where only the springs solve this, and then nothing below can be asked.
   bool FactorizeHeld(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& row,
-                     const Eigen::MatrixXd& modes, const Frame* frame = nullptr);
+                     const Eigen::MatrixXd& modes, const Frame* frame, Eigen::VectorXd* tangent);
   // Solves M x = (b, last). The second one allocates nothing where M is regular and *x has its size.
   Eigen::VectorXd Solve(const Eigen::VectorXd& b, double last) const;
   void Solve(const Eigen::VectorXd& b, double last, Eigen::VectorXd* x) const;

@@ -16,8 +16,8 @@ class LinearisedEquations {
   // transposed: J', unknowns x equations; must outlive the object.
   explicit LinearisedEquations(const Eigen::SparseMatrix<double>& transposed) : transposed_(transposed) {}
 
-  // Whether each equation holds at the tangent to tolerances::kDependentColumn of its largest entry and of the tangent.
-  bool Hold(const Eigen::VectorXd& tangent) const;
+  // Whether each equation holds at the tangent, to this share of its largest entry times the tangent.
+  bool Hold(const Eigen::VectorXd& tangent, double share) const;
 
   // Iterative refinement of a tangent by the factors of M = [J; row]: until the equations hold to their rounding, twice
   // at most. row . t stays.
