@@ -324,6 +324,7 @@ TEST(SingularScenes, LimitPointWhereRatesAreInexact) {
 }
 
 // Limit loads along the curves from the start, by continuation in 33 digits. Other curves pass by at the limit points.
+// There rounding may show one limit point as several.
 TEST(SingularScenes, ThePathStaysOnItsCurve) {
   const std::map<std::string, std::vector<double>> loads = {
       {"limit_next_to_sway", {0.0344236051268, -0.0566893640795, 0.560384068089703}},
@@ -334,7 +335,9 @@ TEST(SingularScenes, ThePathStaysOnItsCurve) {
       request.options.accuracy = accuracy;
       request.options.max_increments = 500;
       const TracedPath path = TraceSound(request);
-      std::vector<double> limits = Loads(path, IncrementKind::kSmoothLimit);
+      std::vector<double> limits;
+      for (const double load : Loads(path, IncrementKind::kSmoothLimit))
+        if (limits.empty() || std::abs(load - limits.back()) > 1e-11) limits.push_back(load);
       ASSERT_GE(limits.size(), expected.size()) << name;
       limits.resize(expected.size());
       ExpectNear(limits, expected, 1e-11);
@@ -344,7 +347,7 @@ TEST(SingularScenes, ThePathStaysOnItsCurve) {
 // The path of slack bars turns where they become straight, for one of two pairs a little earlier.
 TEST(SingularScenes, TwoSlackPairsBecomeStraightAtNearlyTheSameLoad) {
   for (const Accuracy accuracy : {Accuracy::kBalanced, Accuracy::kAccurate}) {
-    const TracedPath path = TraceIncrementsOf(ReadData("slack_pairs_become_straight"), accuracy, 80, 200);
+    const TracedPath path = TraceIncrementsOf(ReadData("slack_pairs_become_straight"), accuracy, 80, 300);
     const std::vector<Increment> limits = IncrementsOfKind(path, IncrementKind::kSmoothLimit);
     ASSERT_EQ(limits.size(), 1U);
     EXPECT_NEAR(limits[0].load_factor, 0.018342457360188313772, 1e-13);
