@@ -238,7 +238,8 @@ std::optional<std::vector<ContactState>> RateComplementarity::Solve(double load_
   // Normal and tangential variables covered in other shares lead to other solutions, where there are several.
   if (guess > 0)
     for (std::size_t p = 0; p < pairs_.size(); ++p)
-      if ((pairs_[p].kind == Pair::Kind::kNormal) == (guess % 2 == 0)) cover[static_cast<Eigen::Index>(p)] = 16.0 * guess;
+      if ((pairs_[p].kind == Pair::Kind::kNormal) == (guess % 2 == 0))
+        cover[static_cast<Eigen::Index>(p)] = 16.0 * guess;
   const std::optional<std::vector<bool>> second = SolveByLemke(matrix_, load_sense * load_, cover);
   if (!second) return std::nullopt;
   std::vector<ContactState> states;

@@ -47,7 +47,7 @@ bool RedundantContacts::AmongAll(const std::vector<ContactModes>& options) const
   std::vector<ContactState> states(options.size(), ContactState::kOpen);
   // From the contact k of the node on.
   const std::function<bool(const std::vector<Touching>&, std::size_t)> in_each = [&](const std::vector<Touching>& node,
-                                                                                    std::size_t k) {
+                                                                                     std::size_t k) {
     if (k == node.size()) return AtNode(node, states);
     const ContactModes& modes = options[node[k].contact];
     return std::all_of(modes.begin(), modes.end(), [&](const ContactMode& mode) {

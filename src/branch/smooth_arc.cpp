@@ -18,7 +18,7 @@ constexpr int kSingularIterations = 3;
 constexpr int kLinearisations = 8;
 constexpr int kMostLowerings = 3;
 constexpr double kSpread = 10.0;  // of rounding, from one point to another
-constexpr double kSlow = 0.1;  // ratio of two steps beyond which that of another point is not
+constexpr double kSlow = 0.1;     // ratio of two steps beyond which that of another point is not
 
 // The six quintic Hermite basis polynomials: value, first, second at the start, then at the end.
 std::array<Quintic, 6> HermiteBasis(double length) {
@@ -94,7 +94,8 @@ bool SmoothArc::Derivatives(const Eigen::VectorXd& x, const Eigen::VectorXd& tow
   else if (!equations.Hold(point->first, tolerances::kSameTangent) ||
            std::abs(point->first.head(n).dot(towards) - 1.0) > tolerances::kSameTangent)
     return false;  // nothing solves the equations: another solution of least squares came out
-  else if (solver_.Nullity() == 1) ChooseInPlane(x, towards, &point->first);
+  else if (solver_.Nullity() == 1)
+    ChooseInPlane(x, towards, &point->first);
   const double norm = point->first.head(n).norm();
   if (!std::isfinite(norm) || norm == 0.0) return false;
   if (!(point->first.head(n).dot(towards) > tolerances::kUnitComponent * norm)) return false;

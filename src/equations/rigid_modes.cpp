@@ -178,8 +178,7 @@ Eigen::MatrixXd RigidModes::At(const Eigen::VectorXd& u, const Eigen::SparseMatr
       const Eigen::Index at = first_free[static_cast<std::size_t>(p)];
       sum.segment(at, modes.cols()) += it.value() * moves;
       // Parts of a motion cancel where it is a rotation.
-      size.segment(at, modes.cols()) +=
-          std::abs(it.value()) * (motion.row(it.row()).cwiseAbs() * modes.cwiseAbs());
+      size.segment(at, modes.cols()) += std::abs(it.value()) * (motion.row(it.row()).cwiseAbs() * modes.cwiseAbs());
     }
     if (size.isZero(0.0)) continue;
     const Eigen::RowVectorXd row = row_of(sum, size);
@@ -191,8 +190,8 @@ Eigen::MatrixXd RigidModes::At(const Eigen::VectorXd& u, const Eigen::SparseMatr
     const int p = part_of[static_cast<std::size_t>(dof)];
     if (p < 0) continue;
     const Eigen::MatrixXd& of_part = free[static_cast<std::size_t>(p)];
-    modes.row(dof) = motion.row(dof) * of_part *
-                     combinations.middleRows(first_free[static_cast<std::size_t>(p)], of_part.cols());
+    modes.row(dof) =
+        motion.row(dof) * of_part * combinations.middleRows(first_free[static_cast<std::size_t>(p)], of_part.cols());
   }
   if (modes.cols() == 0) return modes;
   // A rotation of nodes in one place without rotations of their own is none.

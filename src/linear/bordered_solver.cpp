@@ -85,8 +85,8 @@ struct BorderedSolver::Factors {
 
   Eigen::Index unknowns = 0;
   bool is_large = false;
-  bool regular = false;         // LU solves
-  Eigen::MatrixXd null_space;   // of M, orthonormal, where it is held by springs: LU is of M with them
+  bool regular = false;        // LU solves
+  Eigen::MatrixXd null_space;  // of M, orthonormal, where it is held by springs: LU is of M with them
   Eigen::SparseMatrix<double> held;
   double pivot_ratio = 0.0;
   KluFactors klu;

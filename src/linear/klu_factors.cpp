@@ -9,7 +9,8 @@
 namespace contact_path {
 namespace {
 
-constexpr double kDiagonalFirst = 1e-3;  // of the largest entry of its column: a diagonal entry that is as large is the pivot
+constexpr double kDiagonalFirst =
+    1e-3;  // of the largest entry of its column: a diagonal entry that is as large is the pivot
 
 // Sign of a permutation of 0..n-1.
 int Parity(const int* permutation, int n) {

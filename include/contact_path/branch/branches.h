@@ -73,11 +73,11 @@ using FurtherStates =
 // branch in which fewest contacts slip without moving. Where all branches turn by 90 degrees or more, or there is none,
 // reactions may have to change while nothing moves, as where a block that is carried along meets a stop. Then branches
 // are added for all other reactions that the point can have (reaction_redistribution.h). The
-// complementarity problem of the rates (rate_complementarity.h) tells the branches where its solutions are the only ones,
-// and where there are more than 4^6 combinations of states; up to 4^6 combinations are all tried otherwise. Where that
-// problem does not exist, or none of its solutions is a branch, principal pivoting on the rates (rate_problem.h) selects
-// combinations from many first guesses, then up to 4^8 are all tried, and of more, those of `further`. All are certified
-// alike. cancelled: asked often. further, cancelled: may be empty.
+// complementarity problem of the rates (rate_complementarity.h) tells the branches where its solutions are the only
+// ones, and where there are more than 4^6 combinations of states; up to 4^6 combinations are all tried otherwise. Where
+// that problem does not exist, or none of its solutions is a branch, principal pivoting on the rates (rate_problem.h)
+// selects combinations from many first guesses, then up to 4^8 are all tried, and of more, those of `further`. All are
+// certified alike. cancelled: asked often. further, cancelled: may be empty.
 BranchSet FindBranches(const Structure& structure, const ContactPairs& contacts, const PathPoint& point,
                        const Arrival& arrival, const ActiveSetTolerance& tolerance, const FurtherStates& further,
                        const std::function<bool()>& cancelled = nullptr);

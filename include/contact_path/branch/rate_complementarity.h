@@ -1,4 +1,5 @@
-// The rates at an event as one linear complementarity problem, of the size of the contacts that may change their states.
+// The rates at an event as one linear complementarity problem, of the size of the contacts that may change their
+// states.
 #ifndef CONTACT_PATH_BRANCH_RATE_COMPLEMENTARITY_H_
 #define CONTACT_PATH_BRANCH_RATE_COMPLEMENTARITY_H_
 

@@ -44,8 +44,8 @@ class RateProblem {
   const Eigen::MatrixXd& SlipRates() const { return slip_; }
 
   // The rates for these states of all candidates, up to their sign. Rates that are not unique are without rigid modes
-  // and nearest to the arrival, as a branch is chosen. Nothing where the condensed problem does not tell them, and where
-  // parts can move as rigid bodies: in rounding such rates may look unique.
+  // and nearest to the arrival, as a branch is chosen. Nothing where the condensed problem does not tell them, and
+  // where parts can move as rigid bodies: in rounding such rates may look unique.
   std::optional<CondensedRates> Rates(const std::vector<ContactState>& states) const;
   // Rates(), and nothing where they are not unique.
   std::optional<CondensedRates> UniqueRates(const std::vector<ContactState>& states) const;

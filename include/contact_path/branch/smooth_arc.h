@@ -99,9 +99,9 @@ class SmoothArc {
  private:
   // at_hand: with the factors that there are; gives up where they do not lead on fast.
   Correction Newton(const Eigen::VectorXd& guess, const Eigen::VectorXd& row, double value, bool at_hand);
-  // A short last step need not leave a small residual: not among stiff parts, nor by the factors of another point. Newton
-  // steps with the factors at hand follow for as long as each halves the residual. What the last one would have changed
-  // the reactions by is what rounding leaves of them.
+  // A short last step need not leave a small residual: not among stiff parts, nor by the factors of another point.
+  // Newton steps with the factors at hand follow for as long as each halves the residual. What the last one would have
+  // changed the reactions by is what rounding leaves of them.
   void LowerResidual(const Eigen::VectorXd& row, double value, Eigen::VectorXd* x);
   // Forces relative to the largest of load factor and reactions, motions to the largest coordinate, each + 1.
   bool EquationsHold(const Eigen::VectorXd& x, double tolerance);
@@ -132,7 +132,7 @@ class SmoothArc {
   // Whether rigid motions of parts are free along the arc, and springs hold them; nothing: not known yet.
   std::optional<bool> held_;
   double reaction_error_ = 0.0;  // of the last point that Newton's method found
-  bool rests_ = false;  // part of the structure stands still at a limit point of its own (Branch::rests)
+  bool rests_ = false;           // part of the structure stands still at a limit point of its own (Branch::rests)
   Eigen::VectorXd residual_, step_length_;
   Eigen::VectorXd origin_, tangent_at_origin_;  // of SetOut() with these states, (u, s); empty: none
   Eigen::VectorXd strains_from_, strains_to_;   // for Structure::MixedTangent(), (u, s)

@@ -14,8 +14,8 @@ namespace contact_path {
 
 // M = [J; row], J equations x unknowns. Square and regular as a rule: sparse LU, with the ordering kept for as long as
 // the pattern is the same; by KLU, and where it is large by UMFPACK. Where it is singular or not square (rigid modes,
-// redundant contacts): the shortest solution, by a rank-revealing sparse QR factorisation, or where null vectors are known
-// by LU as well.
+// redundant contacts): the shortest solution, by a rank-revealing sparse QR factorisation, or where null vectors are
+// known by LU as well.
 class BorderedSolver {
  public:
   BorderedSolver();
@@ -35,8 +35,8 @@ class BorderedSolver {
                         double regular = tolerances::kSingularPivot, const Frame* frame = nullptr);
   // Where the columns of `modes` (orthonormal, unknowns x modes) are null vectors of J, each with a component at an
   // unknown that has the number of an equation: a spring holds the motion there, which leaves consistent equations as
-  // they are since its force is zero. LU of M with these springs; solutions are then freed of null vectors of M, so that
-  // they are the shortest. False if M is singular beyond the modes. *tangent: M x = (0, 1), with springs that bear
+  // they are since its force is zero. LU of M with these springs; solutions are then freed of null vectors of M, so
+  // that they are the shortest. False if M is singular beyond the modes. *tangent: M x = (0, 1), with springs that bear
   // nothing; empty where only the springs solve this, and then nothing below can be asked.
   bool FactorizeHeld(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& row,
                      const Eigen::MatrixXd& modes, const Frame* frame, Eigen::VectorXd* tangent);
