@@ -86,7 +86,7 @@ class Finder {
     for (std::size_t k = 0; k < tangents.first.size(); ++k)
       for (const double sign : {1.0, -1.0}) {
         const Eigen::VectorXd first = sign * tangents.first[k];
-        if (Admissible(tangents, k, x, first)) Add(tangents, x, first, tangents.second[k], branches);
+        if (Admissible(tangents, k, x, first)) Add(tangents, first, tangents.second[k], branches);
       }
   }
 
@@ -107,6 +107,25 @@ class Finder {
     if (arrival_.is_start && std::abs(rates->load) <= tolerances::kUnitComponent) return true;
     return condensed.Broken(states, *rates, 1.0, tolerance_, tolerances::kExcludedRate, nullptr) &&
            condensed.Broken(states, *rates, -1.0, tolerance_, tolerances::kExcludedRate, nullptr);
+  }
+
+  // Where several contacts hold a node, others of their states may hold it with less: tries them, node by node.
+  void TryOtherStatesAtNodes(std::vector<Branch>* branches) {
+    for (std::size_t b = 0; b < branches->size(); ++b)
+      for (const std::vector<std::size_t>& node : redundant_.AtEachNode()) {
+        ContactModes modes = ModesWith((*branches)[b].states, options_, point_);
+        const std::function<void(std::size_t)> vary = [&](std::size_t k) {
+          if (k == node.size()) {
+            Try(modes, branches);
+            return;
+          }
+          for (const ContactMode& mode : options_[node[k]]) {
+            modes[node[k]] = mode;
+            vary(k + 1);
+          }
+        };
+        if (!Cancelled()) vary(0);
+      }
   }
 
   // Whether each combination of the options has contacts that are redundant.
@@ -251,25 +270,32 @@ class Finder {
     return idle;
   }
 
-  double PressingRate(const Eigen::VectorXd& x, const Eigen::VectorXd& first) const {
-    double rate = 0.0;
+  double ReactionRate(const Eigen::VectorXd& first) const {
+    const PathPoint rates = system_.Unpack(first);
+    double sum = 0.0;
     for (const std::size_t i : system_.Touching()) {
-      const Constraint pressed = {static_cast<int>(i), Inequality::kNormalReaction};
-      rate += system_.Rate(pressed, x, first) / contacts_[i]->ForceUnit();
+      const auto k = static_cast<Eigen::Index>(i);
+      sum += (rates.rn[k] * rates.rn[k] + rates.rt[k] * rates.rt[k]) / std::pow(contacts_[i]->ForceUnit(), 2);
     }
-    return rate;
+    return std::sqrt(sum);
   }
 
   // Of two branches with one direction of motion: whether the first is to be kept. Walls that hold a node have several
-  // states that do; those that press least are kept, whatever the order of the contacts.
+  // states that do; those with the least reactions are kept, whatever the order of the contacts, and whichever way the
+  // tangents of the walls point.
   bool IsPlainer(const Branch& branch, const Branch& other) const {
     const int idle = IdleSlips(branch), others = IdleSlips(other);
     if (idle != others) return idle < others;
-    return branch.pressing_rate < other.pressing_rate - tolerances::kSameRate * (1.0 + std::abs(other.pressing_rate));
+    return branch.reaction_rate < other.reaction_rate && !SameReactions(branch, other);
   }
 
-  void Add(const Tangents& tangents, const Eigen::VectorXd& x, const Eigen::VectorXd& first,
-           const Eigen::VectorXd& second, std::vector<Branch>* branches) const {
+  static bool SameReactions(const Branch& branch, const Branch& other) {
+    return std::abs(branch.reaction_rate - other.reaction_rate) <=
+           tolerances::kSameRate * (1.0 + std::abs(other.reaction_rate));
+  }
+
+  void Add(const Tangents& tangents, const Eigen::VectorXd& first, const Eigen::VectorXd& second,
+           std::vector<Branch>* branches) const {
     Branch branch;
     branch.states = system_.states();
     if (!point_.patches.empty()) branch.patches = system_.patches();
@@ -282,12 +308,14 @@ class Finder {
     branch.load_rate = first[NumMotion() - 1];
     branch.dissipation_rate = DissipationRate(contacts_, branch.states, point_, branch.direction);
     branch.turn = AngleTo(arrival_.direction, branch.direction);
-    branch.pressing_rate = PressingRate(x, first);
+    branch.reaction_rate = ReactionRate(first);
     branch.deviation =
         arrival_.before ? std::min(branch.turn, AngleTo(*arrival_.before, branch.direction)) : branch.turn;
     for (Branch& other : *branches) {
       if ((other.direction - branch.direction).norm() >= tolerances::kSameDirection) continue;
+      const bool others = other.other_reactions || !SameReactions(branch, other);
       if (IsPlainer(branch, other)) other = std::move(branch);
+      other.other_reactions = others;
       return;
     }
     branches->push_back(std::move(branch));
@@ -437,6 +465,7 @@ BranchSet BranchesWithReactions(const Structure& structure, const ContactPairs& 
     const RateComplementarity complementarity(contacts, *condensed, options, weakly_active);
     if (complementarity.exists() && (complementarity.unique() || !few_enough)) {
       TrySolutions(complementarity, options, point, &finder, &result);
+      finder.TryOtherStatesAtNodes(&result.branches);
       solved = !result.branches.empty();
       result.complete = complementarity.unique();
     }
@@ -461,15 +490,30 @@ BranchSet BranchesWithReactions(const Structure& structure, const ContactPairs& 
 
 bool GoesOn(const Branch& branch) { return std::cos(branch.deviation) > tolerances::kRate; }
 
-// A branch that needs no change of reactions comes before one in the same direction that does.
-void AddOthers(BranchSet&& others, const PathPoint& begin, BranchSet* result) {
+// The sum of the squares of all reactions, each in its force unit.
+double SquaredReactions(const ContactPairs& contacts, const PathPoint& point) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    sum += (point.rn[k] * point.rn[k] + point.rt[k] * point.rt[k]) / std::pow(contacts[i]->ForceUnit(), 2);
+  }
+  return sum;
+}
+
+// A branch that needs no change of reactions comes before one in the same direction that does. Of several changes, the
+// least reactions are kept: a choice that neither the order nor the tangents of the contacts decide.
+void AddOthers(const ContactPairs& contacts, BranchSet&& others, const PathPoint& begin, BranchSet* result) {
   for (Branch& branch : others.branches) {
-    const bool known = std::any_of(result->branches.begin(), result->branches.end(), [&](const Branch& other) {
+    branch.begin = begin;
+    branch.other_reactions = true;
+    const auto known = std::find_if(result->branches.begin(), result->branches.end(), [&](const Branch& other) {
       return (other.direction - branch.direction).norm() < tolerances::kSameDirection;
     });
-    if (known) continue;
-    branch.begin = begin;
-    result->branches.push_back(std::move(branch));
+    if (known == result->branches.end())
+      result->branches.push_back(std::move(branch));
+    else if (known->begin && SquaredReactions(contacts, begin) <
+                                 (1.0 - tolerances::kSameRate) * SquaredReactions(contacts, *known->begin))
+      *known = std::move(branch);
   }
   result->weakly_active = std::max(result->weakly_active, others.weakly_active);
   result->complete = result->complete && others.complete;
@@ -499,8 +543,8 @@ BranchSet FindBranches(const Structure& structure, const ContactPairs& contacts,
     result.complete = result.complete && others.complete;
     for (const PathPoint& begin : others.points) {
       if (result.cancelled) break;
-      AddOthers(BranchesWithReactions(structure, contacts, begin, arrival, tolerance, further, cancelled), begin,
-                &result);
+      AddOthers(contacts, BranchesWithReactions(structure, contacts, begin, arrival, tolerance, further, cancelled),
+                begin, &result);
     }
   }
   SortBranches(point.states, arrival.load_sense, &result.branches);

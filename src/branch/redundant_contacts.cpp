@@ -43,6 +43,16 @@ bool RedundantContacts::Among(const std::vector<ContactState>& states) const {
   return std::any_of(nodes_.begin(), nodes_.end(), [&](const auto& node) { return AtNode(node.second, states); });
 }
 
+std::vector<std::vector<std::size_t>> RedundantContacts::AtEachNode() const {
+  std::vector<std::vector<std::size_t>> nodes;
+  for (const auto& [dofs, touching] : nodes_) {
+    if (touching.size() < 2) continue;
+    nodes.emplace_back();
+    for (const Touching& contact : touching) nodes.back().push_back(contact.contact);
+  }
+  return nodes;
+}
+
 bool RedundantContacts::AmongAll(const std::vector<ContactModes>& options) const {
   std::vector<ContactState> states(options.size(), ContactState::kOpen);
   // From the contact k of the node on.

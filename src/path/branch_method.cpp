@@ -150,6 +150,7 @@ std::optional<EndReason> BranchMethod::LeaveEvent(const PathPoint& point, const 
     return EndReason::kPathEnd;
   }
   record->taken = static_cast<int>(*taken) + 1;
+  other_reactions_ = other_reactions_ || branch.other_reactions;
   if (!branch.rests)
     moved_.reset();
   else if (!moved_ && !arrival.is_start)
@@ -494,6 +495,11 @@ Advance BranchMethod::Next(const PathPoint& from) {
   increment.solve.factorisations = arc_.factorisations() - factorisations_before;
   advance.increments.push_back(std::move(increment));
   return advance;
+}
+
+std::string BranchMethod::Remark() const {
+  if (!other_reactions_) return {};
+  return "where several contacts hold a node its reactions are not unique: the least ones were taken";
 }
 
 std::string BranchMethod::NoStep(const PathPoint& from) {

@@ -25,7 +25,8 @@ struct Branch {
   double load_rate = 0.0;         // ds
   double dissipation_rate = 0.0;  // -r_t . du_t, >= 0
   double turn = 0.0;              // angle to the direction of arrival [rad]
-  double pressing_rate = 0.0;     // sum of the rates of the normal reactions, each in its force unit
+  double reaction_rate = 0.0;     // norm of the rates of all reactions, each in its force unit
+  bool other_reactions = false;   // the same motion has other reactions, too; these are the least ones found
   double deviation = 0.0;         // the smaller of turn and the angle to Arrival::before [rad]
   bool mechanism = false;         // one of several motions without any change of load and reactions: not to be followed
   // The whole structure, or a part of it that is at a limit point of its own, stands still while load and reactions go

@@ -26,6 +26,8 @@ class RedundantContacts {
   // Whether, with these states, the conditions on the motion of some node, or the reactions on it, depend on each
   // other. Also true for a single contact that sticks at a node with one direction of motion.
   bool Among(const std::vector<ContactState>& states) const;
+  // The candidates that touch at each node where several do.
+  std::vector<std::vector<std::size_t>> AtEachNode() const;
   // Whether they are among every combination of these options, by candidate, at some node.
   bool AmongAll(const std::vector<ContactModes>& options) const;
 

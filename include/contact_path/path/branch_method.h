@@ -29,6 +29,7 @@ class BranchMethod : public PathMethod {
   // `from` must be the point that was given last.
   Advance Next(const PathPoint& from) override;
   int NumEvents() const override { return events_; }
+  std::string Remark() const override;
 
  private:
   Eigen::Index LoadFactor() const { return arc_.NumMotion() - 1; }  // its place among the unknowns
@@ -103,6 +104,7 @@ class BranchMethod : public PathMethod {
   int increments_;                 // given so far, increment 0 not counted
   int events_;                     // passed so far, starts not counted
   int events_in_place_ = 0;        // passed without moving
+  bool other_reactions_ = false;   // a branch that was taken could have other reactions
   bool at_start_ = true;           // not moved yet
   double largest_reaction_ = 0.0;  // of the points so far, in the force unit of its contact
   std::optional<double> stored_;   // strain energy at current_, where it is known [force length]
