@@ -217,8 +217,8 @@ void FixedStateSystem::Rebuild() {
 }
 
 const Frame* FixedStateSystem::InFrame() {
-  if (num_unknowns_ < kLargeSystem || num_equations_ + 1 != num_unknowns_ || load_factor_fixed_ ||
-      !active_.empty() || deformable_)
+  if (num_unknowns_ < kLargeSystem || num_equations_ + 1 != num_unknowns_ || load_factor_fixed_ || !active_.empty() ||
+      deformable_)
     return nullptr;
   if (placed_) return &frame_;
   if (frame_.size == 0 || !std::includes(framed_.begin(), framed_.end(), touching_.begin(), touching_.end())) {

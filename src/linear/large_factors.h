@@ -30,8 +30,8 @@ class LargeFactors {
   int DeterminantSign() const;
   // In place: M x = (b, last) for each of so many columns of n entries.
   void Solve(double* x, Eigen::Index columns);
-  // In place: M' y = c, c of the unknowns, y of the equations and of the row. M' = N' + (row - border) e', e of the row:
-  // y = z - q z_e / (row . v) where N' z = c and N' q = row - border.
+  // In place: M' y = c, c of the unknowns, y of the equations and of the row. M' = N' + (row - border) e', e of the
+  // row: y = z - q z_e / (row . v) where N' z = c and N' q = row - border.
   void SolveTransposed(double* y);
 
  private:

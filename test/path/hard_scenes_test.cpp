@@ -342,8 +342,8 @@ TEST(HardScenes, AnOpenContactHasNoFriction) {
     }
 }
 
-// The wall stands where a step ends: rounding decides whether that step or one without a length meets it. The node rests
-// by the wall, which rounding alone could tell from open, and goes back by the floor: no reaction jumps.
+// The wall stands where a step ends: rounding decides whether that step or one without a length meets it. The node
+// rests by the wall, which rounding alone could tell from open, and goes back by the floor: no reaction jumps.
 TEST(HardScenes, StepThatEndsAtAWall) {
   const TracedPath path = TraceData("step_ends_at_a_wall", Method::kBranch, Accuracy::kBalanced);
   ExpectNoFindings(path);

@@ -51,8 +51,8 @@ std::string BeyondHalfRound(const Model& model, const Residuals& residuals);
 // point of a path to the next; else empty.
 std::string OverrunContact(const Model& model, const PathPoint& from, const PathPoint& to);
 
-// Names a contact that stands at an end of its surface, over which no branch slides, and counts the others that do; else
-// empty.
+// Names a contact that stands at an end of its surface, over which no branch slides, and counts the others that do;
+// else empty.
 std::string StandsAtEnd(const Model& model, const PathPoint& point);
 
 // Names an open contact whose node has come past an end of its deformable surface and is behind the surface; else
