@@ -142,6 +142,7 @@ bool BorderedSolver::FactorizeHeld(const Eigen::SparseMatrix<double>& transposed
   }
   if (!FactorizeRegular(factors_->held, row, tolerances::kSingularPivot, frame)) return false;
   *tangent = Solve(Eigen::VectorXd::Zero(transposed.cols()), 1.0);
+  LinearisedEquations(factors_->held).Refine(*this, tangent);
   if (!LinearisedEquations(transposed).Hold(*tangent, tolerances::kDependentColumn)) {
     tangent->resize(0);
     return true;
