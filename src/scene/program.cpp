@@ -28,6 +28,7 @@ double SumOfLoads(const Stage& stage, const Scene& scene, const SceneIndex& inde
     if (!node.fixed_rotation) sum.moment += load.moment;
   }
   std::vector<double> sizes;
+  sizes.reserve(by_node.size());
   for (const auto& [node, load] : by_node) sizes.push_back(std::hypot(load.fx, load.fy, load.moment / length));
   std::sort(sizes.begin(), sizes.end());
   return std::abs(stage.Target()) * std::accumulate(sizes.begin(), sizes.end(), 0.0);

@@ -101,7 +101,7 @@ struct EventRecord {
   std::vector<BranchRecord> branches;  // all admissible branches but the branch of arrival, best first
   int taken = 0;                       // number of the branch, from 1; 0 = none
   int weakly_active = 0;               // contacts that could change their state
-  bool complete = true;                // false: too many combinations of states to try them all
+  bool complete = true;                // false: there may be more branches than these
   std::vector<double> null_vector;     // where another path crosses: x0, y0, x1, ... of its unit direction; else empty
 };
 

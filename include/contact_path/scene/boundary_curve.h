@@ -20,8 +20,8 @@ namespace contact_path {
 // The quadratic B-spline of the nodes (geometry/nodal_spline.h), and the curve at the distance `radius` on its left.
 class BoundaryCurve {
  public:
-  // places: of the nodes of the surface, in their order [length]. across: as SymmetryAxes() tells.
-  BoundaryCurve(const std::vector<Eigen::Vector2d>& places, bool closed, double radius,
+  // given: places of the nodes of the surface, in their order [length]. across: as SymmetryAxes() tells.
+  BoundaryCurve(const std::vector<Eigen::Vector2d>& given, bool closed, double radius,
                 const std::array<int, 2>& across = {-1, -1});
 
   struct Foot {
