@@ -143,7 +143,7 @@ TEST(PartsOnContacts, CornersBetweenATableAndJaws) {
 }
 
 TEST(PartsOnContacts, AFrameThatIsPinnedOnlyGivesWayToAnObstacle) {
-  for (const Accuracy accuracy : {Accuracy::kFast, Accuracy::kBalanced}) {
+  for (const Accuracy accuracy : {Accuracy::kBalanced, Accuracy::kAccurate}) {
     TraceRequest request = ReadData("free_frame_pushed");
     request.options.accuracy = accuracy;
     const TracedPath path = TraceIncrements(request);
