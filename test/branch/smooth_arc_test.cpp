@@ -244,7 +244,7 @@ TEST(SmoothArc, TwoHalvesEndWhereTheWholeStepDoes) {
       const Correction rest = traced.arc().Correct(
           half.x + 0.5 * length * half.first + 0.125 * length * length * half.second, row, row.dot(traced.end()));
       ASSERT_TRUE(rest.converged) << scene << " increment " << i;
-      worst = std::max(worst, (rest.x - traced.end()).norm());
+      worst = std::max(worst, (rest.x - traced.end()).norm() / (1.0 + traced.end().norm()));
       ++arcs;
     }
   }
