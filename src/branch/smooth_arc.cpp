@@ -89,18 +89,23 @@ bool SmoothArc::Derivatives(const Eigen::VectorXd& x, const Eigen::VectorXd& tow
   point->x = x;
   point->first = solver_.Solve(Eigen::VectorXd::Zero(system_.NumEquations()), 1.0);
   const LinearisedEquations equations(transposed);
-  if (solver_.Nullity() == 0 || held_.value_or(false))
+  if (solver_.Nullity() == 0 || held_.value_or(false)) {
     equations.Refine(solver_, &point->first);
-  else if (!equations.Hold(point->first, tolerances::kSameTangent) ||
-           std::abs(point->first.head(n).dot(towards) - 1.0) > tolerances::kSameTangent)
-    return false;  // nothing solves the equations: another solution of least squares came out
-  else if (solver_.Nullity() == 1)
-    ChooseInPlane(x, towards, &point->first);
+    // A share of the free motions that `towards` has would grow from step to step.
+    if (held_.value_or(false)) point->first -= free_ * (free_.transpose() * point->first);
+  } else {
+    // Where nothing solves the equations, a solution of some of them has come out.
+    const bool solved = equations.Hold(point->first, tolerances::kSameTangent) &&
+                        std::abs(point->first.head(n).dot(towards) - 1.0) <= tolerances::kSameTangent;
+    if (!solved) return false;
+    if (solver_.Nullity() == 1) ChooseInPlane(x, towards, &point->first);
+  }
   const double norm = point->first.head(n).norm();
   if (!std::isfinite(norm) || norm == 0.0) return false;
   if (!(point->first.head(n).dot(towards) > tolerances::kUnitComponent * norm)) return false;
   point->first /= norm;
   point->second = solver_.Solve(-system_.SecondDerivative(x, point->first), 0.0);
+  if (held_.value_or(false)) point->second -= free_ * (free_.transpose() * point->second);
   HoldLimitPoint(x, &point->second);
   point->second -= point->first.head(n).dot(point->second.head(n)) * point->first;
   point->nullity = solver_.Nullity();
@@ -260,6 +265,7 @@ bool SmoothArc::Factorize(const Eigen::VectorXd& x, const Eigen::SparseMatrix<do
       Eigen::VectorXd tangent;
       held_ = modes.cols() > 0 && transposed.rows() == transposed.cols() + 1 &&
               solver_.FactorizeHeld(transposed, row, modes, system_.InFrame(), &tangent) && tangent.size() > 0;
+      if (*held_) free_ = modes;
       return *held_;
     };
     // Along an arc the same motions stay free as a rule.

@@ -141,9 +141,9 @@ void ExpectCancelledInsideAnIncrement(const TraceRequest& request) {
 TEST(Trace, CancelledInsideAnIncrementKeepsTheIncrementsBefore) { ExpectCancelledInsideAnIncrement(SlidingBar(0)); }
 
 TEST(Trace, CancelledWhileBranchesAreSoughtKeepsTheIncrementsBefore) {
-  // Eight feet on a rough floor: the start is sought among thousands of combinations of states.
+  // Six feet on a rough floor: the start is sought among thousands of combinations of states.
   LatticeOptions options;
-  options.columns = 7;
+  options.columns = 5;
   options.rows = 2;
   TraceRequest request = LatticeRequest(options);
   request.options.method = Method::kBranch;
