@@ -117,14 +117,14 @@ void ExpectCancelledInsideAnIncrement(const TraceRequest& request) {
   };
   Trace(request, count);
   ASSERT_GE(asked_at_increment.size(), 2u);
-  std::size_t longest = 1;
-  for (std::size_t increment = 2; increment < asked_at_increment.size(); ++increment)
-    if (asked_at_increment[increment] - asked_at_increment[increment - 1] >
-        asked_at_increment[longest] - asked_at_increment[longest - 1])
+  const auto before = [&](std::size_t increment) { return increment > 0 ? asked_at_increment[increment - 1] : 0; };
+  std::size_t longest = 0;
+  for (std::size_t increment = 1; increment < asked_at_increment.size(); ++increment)
+    if (asked_at_increment[increment] - before(increment) > asked_at_increment[longest] - before(longest))
       longest = increment;
-  ASSERT_GT(asked_at_increment[longest], asked_at_increment[longest - 1] + 10);  // often, also inside an increment
+  ASSERT_GT(asked_at_increment[longest], before(longest) + 10);  // often, also inside an increment
 
-  const long last_no = (asked_at_increment[longest - 1] + asked_at_increment[longest]) / 2;
+  const long last_no = (before(longest) + asked_at_increment[longest]) / 2;
   asked = 0;
   std::size_t increments = 0;
   TraceControl cancel;
