@@ -258,7 +258,6 @@ bool SmoothArc::Factorize(const Eigen::VectorXd& x, const Eigen::SparseMatrix<do
   ++factorisations_;
   at_hand_ = false;
   if (rests_ && rank_tolerance == 0.0) rank_tolerance = tolerances::kDependentColumnResting;
-  const double rounding = 1.0;
   if (rank_tolerance == 0.0 && modes_.Possible()) {
     const auto hold = [&] {
       const Eigen::MatrixXd modes = modes_.At(x.head(system_.NumDofs()), transposed);
@@ -270,10 +269,9 @@ bool SmoothArc::Factorize(const Eigen::VectorXd& x, const Eigen::SparseMatrix<do
     };
     // Along an arc the same motions stay free as a rule.
     if (held_.value_or(true) && hold()) return true;
-    if (solver_.FactorizeRegular(transposed, row, rounding * tolerances::kSingularPivot, system_.InFrame()) || hold())
-      return true;
+    if (solver_.FactorizeRegular(transposed, row, tolerances::kSingularPivot, system_.InFrame()) || hold()) return true;
   }
-  return solver_.Factorize(transposed, row, system_.InFrame(), rank_tolerance, rounding);
+  return solver_.Factorize(transposed, row, system_.InFrame(), rank_tolerance);
 }
 
 Correction SmoothArc::CorrectOnPlane(const Eigen::VectorXd& guess, const Eigen::VectorXd& normal) {

@@ -98,10 +98,10 @@ BorderedSolver::BorderedSolver() : factors_(std::make_unique<Factors>()) {}
 BorderedSolver::~BorderedSolver() = default;
 
 bool BorderedSolver::Factorize(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& row,
-                               const Frame* frame, double rank_tolerance, double rounding) {
+                               const Frame* frame, double rank_tolerance) {
   if (rank_tolerance == 0.0) {
-    if (FactorizeRegular(transposed, row, rounding * tolerances::kSingularPivot, frame)) return true;
-    rank_tolerance = std::min(rounding * tolerances::kDependentColumn, tolerances::kDependentColumnSingular);
+    if (FactorizeRegular(transposed, row, tolerances::kSingularPivot, frame)) return true;
+    rank_tolerance = tolerances::kDependentColumn;
   } else {
     factors_->Free();
     factors_->regular = false;
@@ -110,10 +110,7 @@ bool BorderedSolver::Factorize(const Eigen::SparseMatrix<double>& transposed, co
   }
   if (!transposed.coeffs().allFinite() || !row.allFinite()) return false;
   factors_->Assemble(transposed, row);
-  if (!factors_->minimum_norm.Factorize(factors_->matrix, rank_tolerance)) return false;
-  const bool full = factors_->unknowns == transposed.cols() + 1 && factors_->minimum_norm.Rank() == factors_->unknowns;
-  factors_->regular = full && factors_->HasFactors() && factors_->pivot_ratio > tolerances::kSingularPivot;
-  return true;
+  return factors_->minimum_norm.Factorize(factors_->matrix, rank_tolerance);
 }
 
 bool BorderedSolver::FactorizeRegular(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& row,

@@ -1,22 +1,18 @@
 #include "contact_path/path/free_motion.h"
 
 #include <Eigen/Core>
-#include <Eigen/QR>
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <locale>
-#include <map>
 #include <new>
-#include <numeric>
 #include <optional>
 #include <sstream>
 
+#include "contact_path/equations/rigid_modes.h"
 #include "contact_path/linear/minimum_norm.h"
-#include "contact_path/linear/singular_vectors.h"
 #include "contact_path/scene/boundary_curve.h"
 #include "contact_path/scene/number_text.h"
 #include "contact_path/tolerances.h"
@@ -58,51 +54,6 @@ Eigen::SparseMatrix<double> Resistance(const Model& model, const PathPoint& poin
   Eigen::SparseMatrix<double> resistance(tangent.rows(), equation);
   resistance.setFromTriplets(entries.begin(), entries.end());
   return resistance;
-}
-
-// By unknown, the largest component of unit motions in which a part shifts as a whole, where nothing resists. Parts are
-// what equations connect. In a fine mesh, the entries that are left out give such a motion a resistance of their own.
-Eigen::VectorXd FreeShifts(const Model& model, const Eigen::SparseMatrix<double>& resistance) {
-  const Eigen::Index size = resistance.rows();
-  std::vector<Eigen::Index> parent(static_cast<std::size_t>(size));
-  std::iota(parent.begin(), parent.end(), Eigen::Index{0});
-  const auto root = [&](Eigen::Index dof) {
-    while (parent[static_cast<std::size_t>(dof)] != dof) {
-      Eigen::Index& up = parent[static_cast<std::size_t>(dof)];
-      dof = up = parent[static_cast<std::size_t>(up)];
-    }
-    return dof;
-  };
-  for (int column = 0; column < resistance.outerSize(); ++column) {
-    Eigen::Index first = -1;
-    for (Eigen::SparseMatrix<double>::InnerIterator it(resistance, column); it; ++it) {
-      if (first < 0) first = root(it.row());
-      parent[static_cast<std::size_t>(root(it.row()))] = first;
-    }
-  }
-  std::map<Eigen::Index, Eigen::MatrixXd> shifts;  // by part: a column an axis, 1 where an unknown is a position
-  for (std::size_t i = 0; i < model.scene.nodes.size(); ++i)
-    for (const int axis : {0, 1}) {
-      const int dof = model.structure.Dof(static_cast<int>(i), axis);
-      if (dof < 0) continue;
-      Eigen::MatrixXd& shift = shifts[root(dof)];
-      if (shift.size() == 0) shift = Eigen::MatrixXd::Zero(size, 2);
-      shift(dof, axis) = 1.0;
-      if (static_cast<Eigen::Index>(shifts.size()) > kMostMotions) return Eigen::VectorXd::Zero(size);
-    }
-  // As much as the entries that count as none may leave, one in each equation.
-  const double least = tolerances::kNoResistance * resistance.coeffs().cwiseAbs().maxCoeff() *
-                       std::sqrt(static_cast<double>(resistance.cols()));
-  Eigen::VectorXd largest = Eigen::VectorXd::Zero(size);
-  for (const auto& [part, shift] : shifts) {
-    const Eigen::MatrixXd forces = resistance.transpose() * shift;
-    const Eigen::MatrixXd triangle = forces.householderQr().matrixQR().topRows(2).triangularView<Eigen::Upper>();
-    const SingularVectors of = RightSingularVectors(triangle);
-    for (const int k : {0, 1})
-      if (const Eigen::VectorXd motion = shift * of.v.col(k); of.values[k] <= least && motion.norm() > 0.0)
-        largest = largest.cwiseMax(motion.normalized().cwiseAbs());
-  }
-  return largest;
 }
 
 bool Has(const std::vector<std::string>& names, const std::string& name) {
@@ -237,7 +188,12 @@ std::vector<int> FreeNodes(const Model& model, const PathPoint& point, double fo
     const Eigen::Index motions = std::min(point.u.size() - solver.Rank(), kMostMotions);
     Eigen::VectorXd largest = Eigen::VectorXd::Zero(point.u.size());
     for (Eigen::Index k = 0; k < motions; ++k) largest = largest.cwiseMax(solver.NullVector(k).cwiseAbs());
-    if (motions == 0) largest = FreeShifts(model, resistance);
+    // In a fine mesh, the entries that are left out give a rigid motion of a part a resistance of its own.
+    if (motions == 0) {
+      const Eigen::SparseMatrix<double> held = resistance.rightCols(resistance.cols() - point.u.size());
+      const Eigen::MatrixXd modes = RigidModes(model.structure).At(point.u, held);
+      if (modes.cols() > 0) largest = modes.cwiseAbs().rowwise().maxCoeff();
+    }
     for (std::size_t i = 0; i < model.scene.nodes.size(); ++i)
       for (const int axis : {0, 1}) {
         const int dof = model.structure.Dof(static_cast<int>(i), axis);

@@ -149,28 +149,28 @@ TEST(BorderedSolver, SingularWhereTheDeterminantChangesItsSign) {
   EXPECT_EQ(solver.Nullity(), 1);
 }
 
-// Entries that carry more rounding: what was regular to 1e-12 may be singular, and what QR finds regular has a sign.
-TEST(BorderedSolver, RoundingOfEntries) {
-  const auto factorize = [](BorderedSolver* solver, double a, double soft, double rounding) {
-    MatrixXd jacobian(2, 3);
-    jacobian << 1.0, 2.0, 0.0,  //
-        0.5 * soft, (1.0 + a) * soft, 0.0;
-    return solver->Factorize(Transposed(jacobian), Eigen::Vector3d(0.0, 0.0, 1.0), nullptr, 0.0, rounding);
-  };
-  BorderedSolver solver;
-  ASSERT_TRUE(factorize(&solver, 1e-10, 1.0, 1.0));
-  EXPECT_EQ(solver.Nullity(), 0);
-  ASSERT_TRUE(factorize(&solver, 1e-10, 1.0, 1e3));
-  EXPECT_EQ(solver.Nullity(), 1);
-  EXPECT_EQ(solver.DeterminantSign(), 0);
-  // A soft equation is none that says nothing.
-  for (const double a : {1.0, -1.0}) {
-    ASSERT_TRUE(factorize(&solver, a, 1e-10, 1e3));
-    EXPECT_EQ(solver.Nullity(), 0);
-    EXPECT_EQ(solver.DeterminantSign(), a > 0.0 ? 1 : -1);
-    const VectorXd x = Eigen::Vector3d(1.0, 2.0, 3.0);
-    EXPECT_TRUE(solver.Solve(Eigen::Vector2d(5.0, 1e-10 * (0.5 + 2.0 * (1.0 + a))), 3.0).isApprox(x, 1e-12));
-  }
+// Each motion that is free is held by a spring that bears nothing: the shortest solution, as by QR.
+TEST(BorderedSolver, HoldsKnownNullVectors) {
+  MatrixXd jacobian(3, 4);          // two springs between three nodes in line, a load that they can bear
+  jacobian << 1.0, -1.0, 0.0, 1.0,  //
+      -1.0, 3.0, -2.0, 0.0,         //
+      0.0, -2.0, 2.0, -1.0;
+  const VectorXd row = Eigen::Vector4d(0.0, 0.0, 0.0, 1.0);
+  const MatrixXd shift = Eigen::Vector4d(1.0, 1.0, 1.0, 0.0).normalized();
+  BorderedSolver held, qr;
+  VectorXd tangent;
+  ASSERT_TRUE(held.FactorizeHeld(Transposed(jacobian), row, shift, nullptr, &tangent));
+  ASSERT_EQ(tangent.size(), 4);
+  ASSERT_TRUE(qr.Factorize(Transposed(jacobian), row));
+  EXPECT_EQ(held.Nullity(), 1);
+  EXPECT_EQ(qr.Nullity(), 1);
+  EXPECT_EQ(held.DeterminantSign(), 0);
+  const VectorXd b = jacobian * Eigen::Vector4d(0.3, -0.2, 0.7, 0.5);
+  EXPECT_LE((held.Solve(b, 0.5) - qr.Solve(b, 0.5)).norm(), 1e-14);
+  // A load that moves all nodes is borne by the spring alone.
+  jacobian.col(3) << 1.0, 1.0, 1.0;
+  ASSERT_TRUE(held.FactorizeHeld(Transposed(jacobian), row, shift, nullptr, &tangent));
+  EXPECT_EQ(tangent.size(), 0);
 }
 
 TEST(BorderedSolver, RefusesWhatIsNotFinite) {

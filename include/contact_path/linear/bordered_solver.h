@@ -25,11 +25,9 @@ class BorderedSolver {
 
   // transposed: J', unknowns x equations; row: NumUnknowns entries. False if the matrix is not finite.
   // frame: of the system, which saves large ones orderings, or null. rank_tolerance > 0: by the QR factorisation in any
-  // case, with this tolerance (minimum_norm.h). rounding >= 1: factor on the tolerances of LU
-  // and of QR, for entries that are off by more than 1e-16; where LU is in doubt and QR finds full rank, the factors of
-  // LU solve. It changes nothing where a rank_tolerance is given.
+  // case, with this tolerance (minimum_norm.h).
   bool Factorize(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& row,
-                 const Frame* frame = nullptr, double rank_tolerance = 0.0, double rounding = 1.0);
+                 const Frame* frame = nullptr, double rank_tolerance = 0.0);
   // LU only: false if M is singular, not square, or its pivots are further apart than `regular` admits.
   bool FactorizeRegular(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& row,
                         double regular = tolerances::kSingularPivot, const Frame* frame = nullptr);
