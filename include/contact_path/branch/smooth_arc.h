@@ -131,7 +131,7 @@ class SmoothArc {
   RigidModes modes_;
   // Whether rigid motions of parts are free along the arc, and springs hold them; nothing: not known yet.
   std::optional<bool> held_;
-  Eigen::MatrixXd free_;  // these motions at the last point, orthonormal columns; none where held_ is not true
+  Eigen::MatrixXd free_;         // these motions at the last point, orthonormal columns; none where held_ is not true
   double reaction_error_ = 0.0;  // of the last point that Newton's method found
   bool rests_ = false;           // part of the structure stands still at a limit point of its own (Branch::rests)
   Eigen::VectorXd residual_, step_length_;
