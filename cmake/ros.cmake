@@ -25,6 +25,7 @@ target_include_directories(contact_path_ros PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/
 target_include_directories(contact_path_ros SYSTEM
   PUBLIC ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION} ${catkin_INCLUDE_DIRS})
 target_precompile_headers(contact_path_ros PRIVATE <ros/ros.h> <algorithm> <memory> <string> <vector>)
+contact_path_join_sources(contact_path_ros)
 target_link_libraries(contact_path_ros
   PUBLIC contact_path_core ${catkin_LIBRARIES}
   PRIVATE contact_path_warnings)

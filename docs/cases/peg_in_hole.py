@@ -38,9 +38,10 @@ def border(offset, half_width):
 
 
 def sticks(friction, offset, half_width):
-    """Whether the corner sticks when it has touched."""
+    """Whether the corner sticks from where it touches."""
     path = cp.trace(peg(friction, offset, half_width), stop=[{'quantity': CORNER + '.rn', 'when': '>', 'value': 1.0e-3}])
-    return path['state_' + CORNER][-1] == 'stick'
+    states = path['state_' + CORNER]
+    return states[states != 'open'][0] == 'stick'
 
 
 def bisected(offset, half_width):

@@ -19,9 +19,9 @@ Eigen::VectorXd Norms(FixedStateSystem* system, const Eigen::VectorXd& x) {
 }
 
 // psi . F''(a, b).
-class Form {
+class DerivativeForm {
  public:
-  Form(FixedStateSystem* system, const Eigen::VectorXd& x, const Eigen::VectorXd& psi)
+  DerivativeForm(FixedStateSystem* system, const Eigen::VectorXd& x, const Eigen::VectorXd& psi)
       : system_(*system), x_(x), psi_(psi) {}
 
   double operator()(const Eigen::VectorXd& a) const { return psi_.dot(system_.SecondDerivative(x_, a)); }
@@ -71,7 +71,7 @@ std::optional<Crossing> FindCrossing(FixedStateSystem* system, const Eigen::Vect
   v /= length;
 
   const Eigen::VectorXd psi = solver.LeftNullSpace().col(0).normalized();
-  const Form form(system, x, psi);
+  const DerivativeForm form(system, x, psi);
   const double b = form(tangent, v), c = form(v);
   if (!(std::abs(b) > tolerances::kTransversal * std::hypot(b, c))) return std::nullopt;
   Crossing crossing;

@@ -9,7 +9,7 @@ namespace contact_path {
 namespace {
 
 // a y^2 + 2 b y z + c z^2
-struct Form {
+struct QuadraticForm {
   double a = 0.0, b = 0.0, c = 0.0;
   double Size() const { return std::abs(a) + std::abs(b) + std::abs(c); }
   double operator()(const Eigen::Vector2d& v) const {
@@ -18,7 +18,7 @@ struct Form {
 };
 
 // Unit zeros of the form, up to their sign.
-std::vector<Eigen::Vector2d> Zeros(const Form& form) {
+std::vector<Eigen::Vector2d> Zeros(const QuadraticForm& form) {
   const auto& [a, b, c] = form;
   const double discriminant = b * b - a * c;
   if (std::abs(discriminant) <= tolerances::kDoubleRoot * form.Size() * form.Size()) {
@@ -37,11 +37,11 @@ PlaneTangents TangentsInPlane(FixedStateSystem* system, const Eigen::VectorXd& x
   const Eigen::VectorXd first = system->SecondDerivative(x, plane.col(0));
   const Eigen::VectorXd second = system->SecondDerivative(x, plane.col(1));
   const Eigen::VectorXd sum = system->SecondDerivative(x, plane.col(0) + plane.col(1));
-  std::vector<Form> forms;
+  std::vector<QuadraticForm> forms;
   std::size_t largest = 0;
   for (Eigen::Index k = 0; k < left.cols(); ++k) {
     const Eigen::VectorXd psi = left.col(k).normalized();
-    Form form;
+    QuadraticForm form;
     form.a = psi.dot(first);
     form.c = psi.dot(second);
     form.b = 0.5 * (psi.dot(sum) - form.a - form.c);
@@ -56,7 +56,7 @@ PlaneTangents TangentsInPlane(FixedStateSystem* system, const Eigen::VectorXd& x
   const Eigen::Index motion = system->NumDofs() + 1;
   for (const Eigen::Vector2d& zero : Zeros(forms[largest])) {
     bool common = true;
-    for (const Form& form : forms)
+    for (const QuadraticForm& form : forms)
       common = common && std::abs(form(zero)) <= tolerances::kOtherForm * forms[largest].Size();
     const Eigen::VectorXd direction = plane * zero;
     const double norm = direction.head(motion).norm();

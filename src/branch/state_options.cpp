@@ -6,8 +6,8 @@
 namespace contact_path {
 namespace {
 
-std::vector<ContactState> States(const ContactPair& contact, const PathPoint& point, std::size_t candidate, int patch,
-                                 const ActiveSetTolerance& tolerance) {
+std::vector<ContactState> AdmissibleStates(const ContactPair& contact, const PathPoint& point, std::size_t candidate,
+                                           int patch, const ActiveSetTolerance& tolerance) {
   const auto k = static_cast<Eigen::Index>(candidate);
   const double gap = contact.Gap(point.u, point.s, patch), rn = point.rn[k], rt = point.rt[k];
   if (gap > tolerance.gap) return {ContactState::kOpen};
@@ -45,7 +45,7 @@ ContactModes StateOptions(const ContactPair& contact, const PathPoint& point, st
     if (xi >= range.end - tolerance.gap) ++after;
   }
   ContactModes modes;
-  for (const ContactState state : States(contact, point, candidate, patch, tolerance)) {
+  for (const ContactState state : AdmissibleStates(contact, point, candidate, patch, tolerance)) {
     std::vector<int> patches = {patch};
     const bool either_way = state == ContactState::kClosed || (contact.HasTotalLaw() && Slips(state));
     if (either_way) {

@@ -10,9 +10,8 @@
 namespace contact_path::check {
 namespace {
 
-constexpr int kIterations = 200;  // of a bisection: more than there are bits
-constexpr int kParts = 16;        // of a patch, for its length
-constexpr Real kPi = 3.14159265358979323846L;
+constexpr int kIterations = 200;   // of a bisection: more than there are bits
+constexpr int kParts = 16;         // of a patch, for its length
 constexpr Real kRounding = 1e-9L;  // of the length within which patches are left out
 constexpr Real kAtEnd = 1e-9L;     // [rad] off the normal at an end: a path that ends there does so to rounding
 
@@ -24,26 +23,25 @@ constexpr BoundaryPatch::Weights kFromAxis = {
     {{0.125L, -0.25L, 0.125L}, {0.75L, 0.0L, -0.25L}, {0.125L, 0.25L, 0.125L}}};
 constexpr BoundaryPatch::Weights kToAxis = {{{0.5L, -0.5L, 0.125L}, {0.5L, 0.5L, -0.25L}, {0.0L, 0.0L, 0.125L}}};
 
-Real Cross(const Vector& a, const Vector& b) { return a.x * b.y - a.y * b.x; }
 Vector Plus(const Vector& a, Real factor, const Vector& b) { return {a.x + factor * b.x, a.y + factor * b.y}; }
 Vector Times(Real factor, const Vector& v) { return {factor * v.x, factor * v.y}; }
 
 // A number with its derivatives by the positions of a node and of the nodes of a patch.
 constexpr int kVariables = 2 * (1 + static_cast<int>(BoundaryPatch::kNodes));
-using Dual = Eigen::AutoDiffScalar<Eigen::Matrix<Real, kVariables, 1>>;
+using VariableDual = Eigen::AutoDiffScalar<Eigen::Matrix<Real, kVariables, 1>>;
 
 struct DualVector {
-  Dual x, y;
+  VariableDual x, y;
 };
 
 DualVector VariableAt(const Vector& place, int number) {
-  return {Dual(place.x, kVariables, number), Dual(place.y, kVariables, number + 1)};
+  return {VariableDual(place.x, kVariables, number), VariableDual(place.y, kVariables, number + 1)};
 }
 
-Dual DualDot(const DualVector& a, const DualVector& b) { return a.x * b.x + a.y * b.y; }
+VariableDual DualDot(const DualVector& a, const DualVector& b) { return a.x * b.x + a.y * b.y; }
 
 // sum of factors[j] x_j.
-DualVector Combined(const std::array<Dual, BoundaryPatch::kNodes>& factors,
+DualVector Combined(const std::array<VariableDual, BoundaryPatch::kNodes>& factors,
                     const std::array<DualVector, BoundaryPatch::kNodes>& nodes) {
   DualVector sum = {factors[0] * nodes[0].x, factors[0] * nodes[0].y};
   for (std::size_t j = 1; j < factors.size(); ++j) {
@@ -55,10 +53,10 @@ DualVector Combined(const std::array<Dual, BoundaryPatch::kNodes>& factors,
 
 // The shape functions at tau, and their derivatives by it.
 struct Shapes {
-  std::array<Dual, BoundaryPatch::kNodes> values, slopes;
+  std::array<VariableDual, BoundaryPatch::kNodes> values, slopes;
 };
 
-Shapes ShapesAt(const BoundaryPatch::Weights& weights, const Dual& tau) {
+Shapes ShapesAt(const BoundaryPatch::Weights& weights, const VariableDual& tau) {
   Shapes shapes;
   for (std::size_t j = 0; j < weights.size(); ++j) {
     const auto& [constant, linear, square] = weights[j];
@@ -290,16 +288,16 @@ BoundaryShape::Forces BoundaryShape::ForcesOf(const Vector& x, const BoundaryFoo
   std::array<DualVector, BoundaryPatch::kNodes> nodes;
   for (std::size_t j = 0; j < nodes.size(); ++j) nodes[j] = VariableAt(PlaceOf(patch, j), 2 + 2 * static_cast<int>(j));
 
-  const Shapes at_foot = ShapesAt(patch.weights, Dual(foot.tau));
+  const Shapes at_foot = ShapesAt(patch.weights, VariableDual(foot.tau));
   const DualVector place = Combined(at_foot.values, nodes), direction = Combined(at_foot.slopes, nodes);
   const DualVector away = {node.x - place.x, node.y - place.y};
   const Vector first = Direction(curve, foot.tau);
   const Real slope = Dot(x - Place(curve, foot.tau), curve.second) - Dot(first, first);
-  const Dual tau = Dual(foot.tau) - DualDot(away, direction) / slope;
+  const VariableDual tau = VariableDual(foot.tau) - DualDot(away, direction) / slope;
 
   const Shapes shapes = ShapesAt(patch.weights, tau);
   const DualVector y = Combined(shapes.values, nodes), along = Combined(shapes.slopes, nodes);
-  const Dual gap =
+  const VariableDual gap =
       ((node.y - y.y) * along.x - (node.x - y.x) * along.y) / sqrt(DualDot(along, along)) - boundary_.Radius();
 
   const Real speed = Length(first), curvature = Cross(first, curve.second) / (speed * speed * speed);

@@ -145,16 +145,16 @@ std::vector<bool> PatchesLeftOutFor(const std::string& node, const BoundarySurfa
   return PatchesLeftOut(surface, places, static_cast<std::size_t>(own - surface.nodes.begin()));
 }
 
-using Elements = std::vector<std::vector<std::size_t>>;
+using NodeLists = std::vector<std::vector<std::size_t>>;
 
 // The nodes round each element of the solids that have two neighbours of the surface in one element.
-Elements ElementsBehind(const BoundarySurface& surface, const Scene& scene, const NodeNumbers& numbers) {
+NodeLists ElementsBehind(const BoundarySurface& surface, const Scene& scene, const NodeNumbers& numbers) {
   std::unordered_map<std::string_view, std::size_t> places;
   for (std::size_t i = 0; i < surface.nodes.size(); ++i) places.emplace(surface.nodes[i], i);
-  Elements behind;
+  NodeLists behind;
   for (const Solid& solid : scene.solids) {
     const std::size_t size = solid.NodesPerElement(), corners = size > 4 ? size / 2 : size;
-    Elements elements;
+    NodeLists elements;
     bool bounded = false;
     for (std::size_t first = 0; first < solid.nodes.size(); first += size) {
       std::vector<const std::string*> round;
@@ -186,7 +186,7 @@ std::vector<Boundary> MakeBoundaries(const Scene& scene, const NodeNumbers& numb
       axes = {SymmetryOf(scene.nodes[nodes[0]], scene.nodes[nodes[1]], scene),
               SymmetryOf(scene.nodes[nodes[n - 1]], scene.nodes[nodes[n - 2]], scene)};
     boundaries.emplace_back(surface, nodes, axes,
-                            surface.closed ? Elements() : ElementsBehind(surface, scene, numbers));
+                            surface.closed ? NodeLists() : ElementsBehind(surface, scene, numbers));
   }
   return boundaries;
 }

@@ -10,6 +10,8 @@ namespace contact_path::check {
 
 using Real = long double;
 
+constexpr Real kPi = 3.14159265358979323846264338327950288L;
+
 struct Vector {
   Real x = 0.0L;
   Real y = 0.0L;
@@ -17,6 +19,7 @@ struct Vector {
 
 inline Vector operator-(const Vector& a, const Vector& b) { return {a.x - b.x, a.y - b.y}; }
 inline Real Dot(const Vector& a, const Vector& b) { return a.x * b.x + a.y * b.y; }
+inline Real Cross(const Vector& a, const Vector& b) { return a.x * b.y - a.y * b.x; }
 // Of long double squares, which neither overflow nor vanish for finite doubles.
 inline Real Length(const Vector& v) { return std::sqrt(v.x * v.x + v.y * v.y); }
 

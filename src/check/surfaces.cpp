@@ -13,11 +13,8 @@
 namespace contact_path::check {
 namespace {
 
-constexpr Real kPi = 3.14159265358979323846264338327950288L;
-
 Vector operator+(const Vector& a, const Vector& b) { return {a.x + b.x, a.y + b.y}; }
 Vector operator*(Real factor, const Vector& v) { return {factor * v.x, factor * v.y}; }
-Real Cross(const Vector& a, const Vector& b) { return a.x * b.y - a.y * b.x; }
 // The left of a direction.
 Vector Left(const Vector& v) { return {-v.y, v.x}; }
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "contact_path/geometry/plane.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
@@ -20,10 +21,6 @@ constexpr int kDeepest = 12;  // halvings of a cubic
 constexpr int kSamples = 8;   // of a cubic, where the search for a foot sets out
 constexpr int kFootIterations = 60;
 constexpr double kFarthest = 2.0;  // tau of a foot, counted from the middle of the piece
-
-double Cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-Vector2d LeftOf(const Vector2d& tangent) { return {-tangent.y(), tangent.x()}; }
 
 // A number in two parts, high + low, of which the second is below the rounding of the first.
 struct TwoParts {

@@ -5,16 +5,13 @@
 #include <limits>
 #include <numeric>
 
+#include "contact_path/geometry/plane.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
 namespace {
 
 using Eigen::Vector2d;
-
-double Cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-Vector2d LeftOf(const Vector2d& tangent) { return {-tangent.y(), tangent.x()}; }
 
 double LengthOf(const Vector2d& v) { return std::hypot(v.x(), v.y()); }
 

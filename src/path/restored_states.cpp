@@ -17,12 +17,6 @@ namespace {
 
 constexpr int kIterations = 20;  // for the arc length
 
-Eigen::VectorXd Chord(const PathPoint& from, const PathPoint& to) {
-  Eigen::VectorXd chord(to.u.size() + 1);
-  chord << to.u - from.u, to.s - from.s;
-  return chord;
-}
-
 // The increments of one stage.
 class Restorer {
  public:

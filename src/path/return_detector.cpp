@@ -19,12 +19,6 @@ std::size_t MostReferences(const Model& model) {
   return std::clamp(kMostNumbers / numbers, kFewestReferences, kMostReferences);
 }
 
-Eigen::VectorXd Chord(const PathPoint& from, const PathPoint& to) {
-  Eigen::VectorXd chord(to.u.size() + 1);
-  chord << to.u - from.u, to.s - from.s;
-  return chord;
-}
-
 }  // namespace
 
 ReturnDetector::ReturnDetector(const Model& model, int every)

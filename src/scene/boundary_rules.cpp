@@ -14,7 +14,6 @@ namespace {
 
 constexpr double kStraightBack = 1e-6;  // [rad], far above the rounding of coordinates
 
-const KeyPath kScene("scene");
 const KeyPath kSurfaces = kScene.Key("surfaces");
 
 bool CanMove(const Node& node) { return !node.fixed_x || !node.fixed_y; }

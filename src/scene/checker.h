@@ -27,6 +27,8 @@ constexpr double kSmallestInput = 1e-100;  // of what must be positive
 // Relative bound, far above rounding and far below anything meant: of the sum of loads that cancel.
 constexpr double kLoadLeft = 1e-12;
 
+inline const KeyPath kScene("scene");
+
 std::string TextOrQuotes(const std::string& text);
 // "[a, b]"; of a long list its beginning.
 std::string ListText(const std::vector<std::string>& names);

@@ -11,8 +11,6 @@ namespace {
 
 constexpr double kNormalOnFree = 1e-12;  // of the normal's part along free components, far above rounding
 
-const KeyPath kScene("scene");
-
 double NumberOf(const Obstacle& obstacle, std::string_view name) {
   double number = 0.0;
   ForEachField<Obstacle>([&](const auto& field) {

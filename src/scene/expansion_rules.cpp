@@ -16,8 +16,6 @@ namespace {
 constexpr int kMostSegments = 1000000;
 constexpr double kFullTurn = 6.283185307179586;  // [rad]
 
-const KeyPath kScene("scene");
-
 class BeamRules {
  public:
   explicit BeamRules(Checker* checker) : checker_(*checker), scene_(checker->GetScene()) {}

@@ -12,8 +12,6 @@ namespace {
 
 constexpr double kAlong = 1e-12;  // of a motion: its part along the obstacle, far above rounding
 
-const KeyPath kScene("scene");
-
 }  // namespace
 
 void BroughtOn::Add(Kind kind, std::size_t part, int component, double value) {

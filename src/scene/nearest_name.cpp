@@ -9,7 +9,7 @@ namespace contact_path {
 namespace {
 
 // An error in a large scene, or in one with long names, must not take long.
-constexpr std::size_t kLongest = 48;
+constexpr std::size_t kLongestName = 48;
 constexpr std::size_t kMostNames = 4000;
 
 char LowerCase(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
@@ -50,7 +50,7 @@ NearestName::NearestName(std::string_view wanted)
 
 void NearestName::Offer(std::string_view name) {
   if (++offered_ > kMostNames) return;
-  if (wanted_.empty() || name.empty() || wanted_.size() > kLongest || name.size() > kLongest) return;
+  if (wanted_.empty() || name.empty() || wanted_.size() > kLongestName || name.size() > kLongestName) return;
   const std::size_t longer = std::max(name.size(), wanted_.size()), shorter = std::min(name.size(), wanted_.size());
   if (2 * (longer - shorter) >= distance_) return;
   const std::size_t distance = Distance(wanted_, name, distance_);

@@ -8,7 +8,7 @@
 namespace contact_path {
 namespace {
 
-constexpr std::size_t kLongest = 160;
+constexpr std::size_t kLongestLine = 160;
 
 // Bytes of the character that begins `text`; 0 if it is no UTF-8, or nothing to print on a line.
 std::size_t PrintableSize(std::string_view text) {
@@ -27,7 +27,7 @@ std::string OneLine(const std::string& text) {
   constexpr std::string_view kHex = "0123456789abcdef";
   std::string line;
   for (std::size_t i = 0; i < text.size();) {
-    if (line.size() >= kLongest) return line + "...";
+    if (line.size() >= kLongestLine) return line + "...";
     const std::size_t size = PrintableSize(std::string_view(text).substr(i));
     if (size > 0) {
       line.append(text, i, size);

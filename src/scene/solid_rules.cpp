@@ -112,7 +112,7 @@ void CheckElements(const KeyPath& key, const Solid& solid, Checker* checker) {
 }  // namespace
 
 void CheckMaterials(Checker* checker) {
-  const KeyPath scene("scene"), list = scene.Key("materials");
+  const KeyPath list = kScene.Key("materials");
   std::unordered_set<std::string> earlier;
   for (std::size_t i = 0; i < checker->GetScene().materials.size(); ++i) {
     const Material& material = checker->GetScene().materials[i];

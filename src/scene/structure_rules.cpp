@@ -10,8 +10,6 @@ namespace {
 
 constexpr double kSymmetry = 1e-9;  // of a stiffness matrix, relative to its largest entry
 
-const KeyPath kScene("scene");
-
 // "bar or superelement".
 std::string ElementKinds() {
   std::vector<std::string_view> kinds;

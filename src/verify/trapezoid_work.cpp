@@ -11,11 +11,11 @@
 namespace contact_path {
 namespace {
 
-constexpr double kBend = 0.25;      // of a force along an arc of length 1: what a trapezoid cannot know
-constexpr double kSagitta = 0.125;  // of a circular arc, over its length and the angle by which it turns
+constexpr double kBendOfForce = 0.25;  // of a force along an arc of length 1: what a trapezoid cannot know
+constexpr double kSagitta = 0.125;     // of a circular arc, over its length and the angle by which it turns
 // Times the forces of the parts: what presses on a contact whose friction resists the load, both of which grow.
 constexpr double kWedged = 3.0;
-// Times kBend, where no increment before tells how a motion bends.
+// Times kBendOfForce, where no increment before tells how a motion bends.
 constexpr double kSharper = 2.0;
 
 // Of the fastest prescribed motion [length per unit of the load factor].
@@ -86,7 +86,7 @@ TrapezoidWork WorkBetween(const VerifiedStage& stage, const Increment* earlier, 
   // A force may have its largest value inside the increment while both ends show equal values. Forces bend over the
   // length L: the share `bend` of a force is open.
   const double arc = increment.arc_length - before.arc_length;
-  const double bend = kBend * arc * arc;
+  const double bend = kBendOfForce * arc * arc;
   // Nodes with loads may go forth and back inside the increment: `bend` times L of their motion is open, and what an
   // arc is beside its chord that turns as the last two motions do.
   const double load_change = std::abs(increment.load_factor - before.load_factor);

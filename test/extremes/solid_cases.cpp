@@ -12,6 +12,8 @@ namespace contact_path {
 namespace {
 
 constexpr double kShear = 1.0;  // shear modulus
+// To which places of corners are known where an element is pressed to nothing, of its size.
+constexpr double kPlaces = 1e-9;
 
 Material MaterialOf(const std::string& name, MaterialModel model, double mu, double nu) {
   Material material;
@@ -171,7 +173,7 @@ ExtremeCase PressedToNothing(int nodes_per_element) {
   extreme.ends = {"element_inverted"};
   extreme.error = [corner](const TraceRequest&, const Increment& increment) {
     const double l = increment.positions[2 * corner + 1];
-    return l > 0.0 ? std::abs(increment.load_factor - kShear * l * (1.0 - l * l)) : HUGE_VAL;
+    return l > -kPlaces ? std::abs(increment.load_factor - kShear * l * (1.0 - l * l)) : HUGE_VAL;
   };
   return extreme;
 }

@@ -27,6 +27,13 @@ struct PathPoint {
   int Patch(std::size_t candidate) const { return patches.empty() ? 0 : patches[candidate]; }
 };
 
+// The increment (du, ds) between two points.
+inline Eigen::VectorXd Chord(const PathPoint& from, const PathPoint& to) {
+  Eigen::VectorXd chord(to.u.size() + 1);
+  chord << to.u - from.u, to.s - from.s;
+  return chord;
+}
+
 // Length of the increment between two points in (u, s): the norm of arc length.
 inline double Distance(const PathPoint& a, const PathPoint& b) {
   return std::sqrt((b.u - a.u).squaredNorm() + (b.s - a.s) * (b.s - a.s));
