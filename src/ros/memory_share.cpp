@@ -16,7 +16,7 @@
 namespace contact_path {
 namespace {
 
-constexpr double kMegabyte = 1024.0 * 1024.0;
+constexpr double kBytesPerMegabyte = 1024.0 * 1024.0;
 constexpr double kLeast = 128.0;  // MB: what the stacks of the threads reserve, and a small trace
 
 // The shadow memory of these counts as data: terabytes.
@@ -33,7 +33,7 @@ thread_local int scopes_within_limit = 0;
 bool SetLimit(double megabytes) {
   struct rlimit limit {};
   if (::getrlimit(RLIMIT_DATA, &limit) != 0) return false;
-  limit.rlim_cur = static_cast<rlim_t>(megabytes * kMegabyte);
+  limit.rlim_cur = static_cast<rlim_t>(megabytes * kBytesPerMegabyte);
   return ::setrlimit(RLIMIT_DATA, &limit) == 0;
 }
 
@@ -41,16 +41,16 @@ bool SetLimit(double megabytes) {
 void RefuseOrRaise() {
   struct rlimit limit {};
   const bool raises = scopes_within_limit == 0 && ::getrlimit(RLIMIT_DATA, &limit) == 0 &&
-                      SetLimit(static_cast<double>(limit.rlim_cur) / kMegabyte + kRaise);
+                      SetLimit(static_cast<double>(limit.rlim_cur) / kBytesPerMegabyte + kRaise);
   if (!raises) throw std::bad_alloc();
 }
 
 // What the allocator keeps for later.
 double FreeMegabytes() {
 #if __GLIBC_PREREQ(2, 33)
-  return static_cast<double>(::mallinfo2().fordblks) / kMegabyte;
+  return static_cast<double>(::mallinfo2().fordblks) / kBytesPerMegabyte;
 #else
-  return static_cast<double>(static_cast<unsigned>(::mallinfo().fordblks)) / kMegabyte;
+  return static_cast<double>(static_cast<unsigned>(::mallinfo().fordblks)) / kBytesPerMegabyte;
 #endif
 }
 
@@ -62,7 +62,7 @@ double DataMegabytes() {
   std::ifstream pages("/proc/self/statm");
   double value = 0.0;
   for (int column = 0; column < 6; ++column) pages >> value;
-  return value * static_cast<double>(::sysconf(_SC_PAGESIZE)) / kMegabyte;
+  return value * static_cast<double>(::sysconf(_SC_PAGESIZE)) / kBytesPerMegabyte;
 }
 
 bool TakesMoreThan(double megabytes) {
