@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "contact_path/branch/bifurcation_branches.h"
-#include "contact_path/mpec/short_increment.h"
 #include "contact_path/path/diagnosis.h"
 #include "contact_path/tolerances.h"
 
@@ -22,51 +21,6 @@ double Trend(double rate, double change, double level) {
   return std::abs(change) > level ? change : 0.0;
 }
 
-// Gaps of one size are all active or none: a tolerance that lies among them is widened to the largest.
-double CoverGaps(const ContactPairs& contacts, const PathPoint& point, double tolerance) {
-  std::vector<double> beyond;
-  bool among = false;
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    const double gap = contacts[i]->Gap(point.u, point.s, point.Patch(i));
-    among = among || (gap > 0.5 * tolerance && gap <= tolerance);
-    if (gap > tolerance && gap <= tolerances::kWidestActiveGap) beyond.push_back(gap);
-  }
-  if (!among) return tolerance;
-  std::sort(beyond.begin(), beyond.end());
-  for (const double gap : beyond) {
-    if (gap > 2.0 * tolerance) break;
-    tolerance = gap;
-  }
-  return tolerance;
-}
-
-std::string NoBranch(const BranchSet& on) {
-  if (on.rigid_modes > 0)
-    return "no admissible branch, and the structure is a mechanism here: nothing resists " +
-           std::to_string(on.rigid_modes) + (on.rigid_modes == 1 ? " motion" : " motions");
-  if (!on.complete) return "no admissible branch was found among the combinations of contact states tried";
-  return "no admissible branch: the quasi-static path ends here, only a dynamic jump leads further";
-}
-
-void RecordBranches(const std::vector<Branch>& branches, EventRecord* record) {
-  for (const Branch& branch : branches)
-    record->branches.push_back({branch.states, branch.load_rate, branch.dissipation_rate, branch.turn});
-}
-
-// Index of the branch that was chosen, or else of the preferred one; nothing where there is no such branch.
-std::optional<std::size_t> ChosenOf(const std::vector<Branch>& branches, const BranchChoice* choice,
-                                    std::size_t preferred, std::string* message) {
-  if (choice == nullptr) return preferred;
-  const auto chosen = static_cast<std::size_t>(std::max(choice->branch, 1) - 1);
-  if (chosen < branches.size()) return chosen;
-  *message = "branch_choices wants branch " + std::to_string(choice->branch) + " at " + PlaceOf(*choice) +
-             ": the number of branches there is " + std::to_string(branches.size());
-  return std::nullopt;
-}
-
-// The text, and what explains it, if anything does.
-std::string After(const std::string& text, const std::string& why) { return why.empty() ? text : text + "; " + why; }
-
 Advance Ended(EndReason reason, std::string message) {
   Advance advance;
   advance.reason = reason;
@@ -79,96 +33,11 @@ Advance Ended(EndReason reason, std::string message) {
 BranchMethod::BranchMethod(const Model& model, const BranchOptions& options, std::function<bool()> cancelled)
     : model_(model),
       options_(options),
-      cancelled_(std::move(cancelled)),
-      ipopt_(cancelled_),
-      mpec_(model.structure, model.contacts, &ipopt_),
+      departure_(model, {BranchSearch::kAll, options.direction, options.keep_loading}, std::move(cancelled)),
       arc_(model.structure, model.contacts),
       step_length_(options.step),
       increments_(options.increments),
       events_(options.events) {}
-
-bool BranchMethod::Leave(const PathPoint& point, const Branch& branch) {
-  PathPoint begin = point;
-  begin.patches = branch.patches;
-  arc_.SetStates(branch.states, begin, branch.singular);
-  const bool regular = arc_.Derivatives(arc_.system().Pack(point), branch.direction, &current_) &&
-                       arc_.system().Norm(current_.first - branch.first) <= tolerances::kSameTangent;
-  if (regular) return true;
-  // Another path crosses here, or the structure has rigid modes: the branch itself tells where to go.
-  current_.x = arc_.system().Pack(point);
-  current_.first = branch.first;
-  current_.second = branch.second;
-  current_.determinant_sign = current_.side = 0;
-  return current_.second.allFinite();
-}
-
-void BranchMethod::NoteReactions(const PathPoint& point) {
-  largest_reaction_ = std::max(largest_reaction_, LargestReaction(model_.contacts, point));
-}
-
-Arrival BranchMethod::StartArrival() const {
-  Arrival arrival;
-  arrival.is_start = true;
-  arrival.direction = Eigen::VectorXd::Unit(model_.structure.NumDofs() + 1, model_.structure.NumDofs());
-  arrival.direction *= options_.direction;
-  return arrival;
-}
-
-std::optional<EndReason> BranchMethod::LeaveEvent(const PathPoint& point, const Arrival& arrival,
-                                                  const BranchChoice* choice, EventRecord* record,
-                                                  std::string* message) {
-  ActiveSetTolerance tolerance = ActiveSetTolerance::For(largest_reaction_, point.s);
-  tolerance.gap = CoverGaps(model_.contacts, point, tolerance.gap);
-  const BranchSet on = FindBranches(
-      model_.structure, model_.contacts, point, arrival, tolerance,
-      [this](const PathPoint& at, const Eigen::VectorXd& along) { return StatesOfShortIncrements(at, along, &mpec_); },
-      cancelled_);
-  if (on.cancelled) {
-    *message = "the caller asked for it";
-    return EndReason::kCancelled;
-  }
-  record->weakly_active = on.weakly_active;
-  record->complete = on.complete;
-  RecordBranches(on.branches, record);
-  if (on.branches.empty() && arrival.failed) {
-    *message = "contact " + model_.scene.contacts[static_cast<std::size_t>(arrival.failed->contact)].Name() +
-               " changes its state by a rate that cannot be told from rounding";
-    return EndReason::kNumericalFailure;
-  }
-  if (on.branches.empty()) {
-    *message = After(NoBranch(on), StandsAtEnd(model_, point));
-    return EndReason::kPathEnd;
-  }
-  const std::size_t preferred = options_.keep_loading ? BestThatLoads(on.branches) : 0;
-  const std::optional<std::size_t> taken = ChosenOf(on.branches, choice, preferred, message);
-  if (!taken) return EndReason::kNoSuchBranch;
-  const Branch& branch = on.branches[*taken];
-  if (branch.mechanism) {
-    *message =
-        "the structure has become a mechanism: it can move in several directions without any change of load and "
-        "reactions";
-    return EndReason::kPathEnd;
-  }
-  record->taken = static_cast<int>(*taken) + 1;
-  other_reactions_ = other_reactions_ || branch.other_reactions;
-  if (!branch.rests)
-    moved_.reset();
-  else if (!moved_ && !arrival.is_start)
-    moved_ = arrival.direction;
-  begin_ = branch.begin;
-  if (!Leave(begin_ ? *begin_ : point, branch)) {
-    *message = "the branch from an event could not be followed";
-    return EndReason::kNumericalFailure;
-  }
-  return std::nullopt;
-}
-
-std::size_t BranchMethod::BestThatLoads(const std::vector<Branch>& branches) const {
-  const auto loads = [&](const Branch& branch) { return branch.load_rate * options_.direction > tolerances::kLevel; };
-  if (branches.front().load_rate * options_.direction >= -tolerances::kLevel) return 0;
-  const auto best = std::find_if(branches.begin(), branches.end(), loads);
-  return best == branches.end() ? 0 : static_cast<std::size_t>(best - branches.begin());
-}
 
 int BranchMethod::StiffnessSign(const CurvePoint& point) const {
   // By Cramer's rule from the rate of the load factor; the parity is that of the rows and columns of the reactions.
@@ -190,15 +59,16 @@ std::vector<double> BranchMethod::CrossingPath(const Step& step) {
 }
 
 std::optional<EndReason> BranchMethod::Start(const PathPoint& from, EventRecord* branches, std::string* message) {
-  NoteReactions(from);
+  departure_.NoteReactions(from);
   *message = HiddenSlip(model_, from);
   if (!message->empty()) return EndReason::kNumericalFailure;
-  return LeaveEvent(from, StartArrival(), options_.ChoiceAt(increments_, 0), branches, message);
+  return departure_.Leave(from, departure_.StartArrival(), options_.ChoiceAt(increments_, 0), &arc_, &current_,
+                          branches, message);
 }
 
 bool BranchMethod::Resume(const ResumePoint& at) {
   if (!(at.solve.next_step > 0.0)) return false;
-  largest_reaction_ = at.largest_reaction;
+  departure_.SetLargestReaction(at.largest_reaction);
   arc_.SetStates(at.point.states, at.point);
   Eigen::VectorXd towards(arc_.NumMotion());
   towards << at.point.u - at.before.u, at.point.s - at.before.s;
@@ -213,9 +83,9 @@ bool BranchMethod::Resume(const ResumePoint& at) {
 }
 
 Advance BranchMethod::ChangeReactions(const PathPoint& from) {
-  PathPoint point = *begin_;
+  PathPoint point = *departure_.begin();
   point.states = arc_.system().states();
-  begin_.reset();
+  departure_.begin().reset();
   if (options_.ChoiceAt(increments_ + 1, 0) != nullptr)
     return Ended(EndReason::kNoSuchBranch,
                  "branch_choices wants a branch at increment " + std::to_string(increments_ + 1) +
@@ -344,7 +214,7 @@ std::optional<EndReason> BranchMethod::PassChoice(const ArcStep& at, AcceptedPoi
   const bool goes_on = arc_.system().states() == states &&
                        arc_.system().Norm(current_.first - at.step.end.first) <= tolerances::kSameTangent;
   if (goes_on) {
-    if (!begin_) current_ = at.step.end;
+    if (!departure_.begin()) current_ = at.step.end;
     return std::nullopt;
   }
   increment->kind = TurnsLoad(at) ? IncrementKind::kCornerLimit : IncrementKind::kContactEvent;
@@ -357,11 +227,10 @@ std::optional<EndReason> BranchMethod::LeaveEnd(const ArcStep& at, const BranchC
   Arrival arrival;
   arrival.direction = at.step.end.first.head(arc_.NumMotion());
   arrival.singular = at.event.singular;
-  arrival.before = moved_;
-  if (at_start_) arrival = StartArrival();
+  if (at_start_) arrival = departure_.StartArrival();
   if (FailsByRounding(at)) arrival.failed = at.event.constraint;
   arrival.load_sense = options_.direction;
-  return LeaveEvent(increment->point, arrival, choice, &increment->event, message);
+  return departure_.Leave(increment->point, arrival, choice, &arc_, &current_, &increment->event, message);
 }
 
 bool BranchMethod::FailsByRounding(const ArcStep& at) const {
@@ -401,7 +270,7 @@ bool BranchMethod::SlidesOff(const ArcStep& at, const PathPoint& point) const {
   const auto i = static_cast<std::size_t>(constraint.contact);
   const int next = point.Patch(i) + (constraint.inequality == Inequality::kPatchEnd ? 1 : -1);
   const double force =
-      ActiveSetTolerance::For(largest_reaction_, point.s).force * model_.contacts[i]->NormalForceUnit();
+      ActiveSetTolerance::For(departure_.largest_reaction(), point.s).force * model_.contacts[i]->NormalForceUnit();
   return !model_.contacts[i]->HasPatch(next) && point.rn[constraint.contact] > force;
 }
 
@@ -446,7 +315,7 @@ bool BranchMethod::Balance(BalancedStep* step) const {
 }
 
 Advance BranchMethod::Next(const PathPoint& from) {
-  if (begin_) return ChangeReactions(from);
+  if (departure_.begin()) return ChangeReactions(from);
   const int factorisations_before = arc_.factorisations();
   std::optional<BalancedStep> next = NextBalancedStep();
   if (!next) return Ended(EndReason::kStepTooSmall, NoStep(from));
@@ -463,7 +332,7 @@ Advance BranchMethod::Next(const PathPoint& from) {
       message = After(message, cause);
     return Ended(EndReason::kNumericalFailure, message);
   }
-  NoteReactions(increment.point);
+  departure_.NoteReactions(increment.point);
   const bool moved = at->step.length > 0.0;
   events_in_place_ = moved ? 0 : events_in_place_ + 1;
   if (events_in_place_ > kMostEventsInPlace)
@@ -498,7 +367,7 @@ Advance BranchMethod::Next(const PathPoint& from) {
 }
 
 std::string BranchMethod::Remark() const {
-  if (!other_reactions_) return {};
+  if (!departure_.other_reactions()) return {};
   return "where several contacts hold a node its reactions are not unique: the least ones were taken";
 }
 

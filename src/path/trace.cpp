@@ -17,6 +17,7 @@
 #include "contact_path/linear/linear_solver_error.h"
 #include "contact_path/path/automatic_step.h"
 #include "contact_path/path/branch_method.h"
+#include "contact_path/path/certified_method.h"
 #include "contact_path/path/diagnosis.h"
 #include "contact_path/path/free_motion.h"
 #include "contact_path/path/model.h"
@@ -265,6 +266,8 @@ class Tracer {
     MpecOptions mpec = MpecOptions::For(options, growth);
     mpec.target = target;
     mpec.returns = &*returns_;
+    if (options.mpec_solver == MpecSolver::kCertified)
+      return std::make_unique<CertifiedMethod>(model, mpec, control_.cancelled);
     return std::make_unique<MpecMethod>(model, mpec, control_.cancelled);
   }
 

@@ -58,6 +58,7 @@ TraceRequest FullRequest() {
   request.options.stop = {{"b.x", ">", 19.0}, {"load_factor", "<", 20.0}};
   request.options.branch_choices = {{21, 22, 23}};
   request.options.friction_law = FrictionLaw::kTotal;
+  request.options.mpec_solver = MpecSolver::kIpopt;
   return request;
 }
 
@@ -141,6 +142,7 @@ void ExpectFullRequest(const TraceRequest& request) {
   EXPECT_EQ(options.max_increments, 18);
   EXPECT_EQ(options.full_state_every, 24);
   EXPECT_EQ(options.friction_law, FrictionLaw::kTotal);
+  EXPECT_EQ(options.mpec_solver, MpecSolver::kIpopt);
   ASSERT_EQ(options.stop.size(), 2U);
   EXPECT_EQ(options.stop[0].quantity, "b.x");
   EXPECT_EQ(options.stop[0].when, ">");

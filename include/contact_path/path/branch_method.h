@@ -10,9 +10,8 @@
 #include "contact_path/branch/arc_step.h"
 #include "contact_path/branch/branches.h"
 #include "contact_path/branch/smooth_arc.h"
-#include "contact_path/mpec/increment_solver.h"
-#include "contact_path/mpec/ipopt_solver.h"
 #include "contact_path/path/branch_options.h"
+#include "contact_path/path/departure.h"
 #include "contact_path/path/model.h"
 #include "contact_path/path/path_method.h"
 #include "contact_path/path/work.h"
@@ -33,14 +32,6 @@ class BranchMethod : public PathMethod {
 
  private:
   Eigen::Index LoadFactor() const { return arc_.NumMotion() - 1; }  // its place among the unknowns
-  Arrival StartArrival() const;
-  // Sets out on a branch from `point`. False: it cannot be followed.
-  bool Leave(const PathPoint& point, const Branch& branch);
-  // Finds the branches from `point` and sets out on one. Nothing: done. Otherwise why not, with *message.
-  std::optional<EndReason> LeaveEvent(const PathPoint& point, const Arrival& arrival, const BranchChoice* choice,
-                                      EventRecord* record, std::string* message);
-  // The branch to take where the load is to go on: the best one, or if that turns back, the best that does not.
-  std::size_t BestThatLoads(const std::vector<Branch>& branches) const;
   // An increment in which nothing moves: the reactions with which the branch begins.
   Advance ChangeReactions(const PathPoint& from);
   // An increment that ends at the point, and one that ends with the step, as far as both are known before the event
@@ -73,7 +64,6 @@ class BranchMethod : public PathMethod {
   // Whether the step ends where a node that is pressed onto an open surface slides over an end of it.
   bool SlidesOff(const ArcStep& at, const PathPoint& point) const;
   void SetNextLength(const ArcStep& at);
-  void NoteReactions(const PathPoint& point);
   // Direction of the path that crosses at the end of the step: x0, y0, x1, ..., unit norm.
   std::vector<double> CrossingPath(const Step& step);
   int StiffnessSign(const CurvePoint& point) const;
@@ -93,21 +83,15 @@ class BranchMethod : public PathMethod {
 
   const Model& model_;
   BranchOptions options_;
-  std::function<bool()> cancelled_;
-  IpoptSolver ipopt_;
-  IncrementSolver mpec_;  // for events with very many contacts
+  Departure departure_;
   SmoothArc arc_;
   CurvePoint current_;
-  std::optional<PathPoint> begin_;        // of the branch, where it begins with other reactions than the event has
-  std::optional<Eigen::VectorXd> moved_;  // while the path rests: the direction in which it moved before
   double step_length_;
-  int increments_;                 // given so far, increment 0 not counted
-  int events_;                     // passed so far, starts not counted
-  int events_in_place_ = 0;        // passed without moving
-  bool other_reactions_ = false;   // a branch that was taken could have other reactions
-  bool at_start_ = true;           // not moved yet
-  double largest_reaction_ = 0.0;  // of the points so far, in the force unit of its contact
-  std::optional<double> stored_;   // strain energy at current_, where it is known [force length]
+  int increments_;                // given so far, increment 0 not counted
+  int events_;                    // passed so far, starts not counted
+  int events_in_place_ = 0;       // passed without moving
+  bool at_start_ = true;          // not moved yet
+  std::optional<double> stored_;  // strain energy at current_, where it is known [force length]
 };
 
 }  // namespace contact_path

@@ -11,6 +11,11 @@
 
 namespace contact_path {
 
+// The text, and what explains it, if anything does.
+inline std::string After(const std::string& text, const std::string& why) {
+  return why.empty() ? text : text + "; " + why;
+}
+
 // Names the bar that has shrunk most if that is nearly to nothing, where its force has no direction; else empty.
 // index: of the scene. positions: current x0, y0, x1, ..., 2 x nodes [length].
 std::string CollapsedBar(const Scene& scene, const SceneIndex& index, const std::vector<double>& positions);

@@ -89,6 +89,19 @@ struct Words<FrictionLaw> {
                                                                       {"total", FrictionLaw::kTotal}};
 };
 
+// How method mpec finds its increments.
+enum class MpecSolver {
+  kCertified,  // predicted and certified; by Ipopt where the contact states are not known
+  kIpopt,      // Algorithm 3.2 to the letter: every increment by Ipopt
+};
+
+template <>
+struct Words<MpecSolver> {
+  static constexpr MpecSolver kDefault = MpecSolver::kCertified;
+  static constexpr std::pair<std::string_view, MpecSolver> kAll[] = {{"certified", MpecSolver::kCertified},
+                                                                     {"ipopt", MpecSolver::kIpopt}};
+};
+
 struct Node {
   std::string name;
   double x = 0.0;  // initial position [length]
@@ -392,6 +405,7 @@ struct TraceOptions {
   std::vector<StopCriterion> stop;
   std::vector<BranchChoice> branch_choices;
   FrictionLaw friction_law = FrictionLaw::kIncremental;
+  MpecSolver mpec_solver = MpecSolver::kCertified;
 
   int MaxIncrements() const { return max_increments == 0 ? 1000 : max_increments; }
   double Direction() const { return direction < 0.0 ? -1.0 : 1.0; }
@@ -406,7 +420,7 @@ struct Fields<TraceOptions> {
                       Member("max_increments", &P::max_increments).Within(Range::kNotNegative),
                       Member("full_state_every", &P::full_state_every).Within(Range::kNotNegative),
                       Member("stop", &P::stop), Member("branch_choices", &P::branch_choices),
-                      Member("friction_law", &P::friction_law));
+                      Member("friction_law", &P::friction_law), Member("mpec_solver", &P::mpec_solver));
   }
 };
 

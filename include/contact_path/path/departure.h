@@ -1,0 +1,78 @@
+// How a path leaves a point at which branches part.
+#ifndef CONTACT_PATH_PATH_DEPARTURE_H_
+#define CONTACT_PATH_PATH_DEPARTURE_H_
+
+#include <Eigen/Core>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "contact_path/branch/branches.h"
+#include "contact_path/branch/smooth_arc.h"
+#include "contact_path/contact/path_point.h"
+#include "contact_path/path/end_reason.h"
+#include "contact_path/path/increment.h"
+#include "contact_path/path/model.h"
+#include "contact_path/scene/scene.h"
+
+namespace contact_path {
+
+struct DepartureOptions {
+  BranchSearch search = BranchSearch::kAll;
+  double direction = 1.0;     // sign of the wanted change of the load factor
+  bool keep_loading = false;  // where the best branch unloads, the best one that does not is taken
+};
+
+// Adds what an event has on record of these branches.
+void RecordBranches(const std::vector<Branch>& branches, EventRecord* record);
+
+// Index of the branch that was chosen, or else of the preferred one; nothing, and *message, where there is no such
+// branch.
+std::optional<std::size_t> ChosenOf(const std::vector<Branch>& branches, const BranchChoice* choice,
+                                    std::size_t preferred, std::string* message);
+
+class Departure {
+ public:
+  // model must outlive the departure. cancelled may be empty.
+  Departure(const Model& model, const DepartureOptions& options, std::function<bool()> cancelled);
+  ~Departure();
+
+  // Takes the reactions of a point of the path into account: the tolerances of active sets follow the largest.
+  void NoteReactions(const PathPoint& point);
+  // The largest so far, in the force unit of its contact.
+  double largest_reaction() const { return largest_reaction_; }
+  void SetLargestReaction(double value) { largest_reaction_ = value; }
+
+  // That of a path that begins.
+  Arrival StartArrival() const;
+  // Finds the branches from `point`, an equilibrium, and puts *arc and *current where the path sets out on one of them:
+  // on the one chosen, or the best. Nothing: done. Otherwise the path ends for this reason, with *message.
+  std::optional<EndReason> Leave(const PathPoint& point, Arrival arrival, const BranchChoice* choice, SmoothArc* arc,
+                                 CurvePoint* current, EventRecord* record, std::string* message);
+
+  // Of the branch that was taken last, where it begins with other reactions than the point has: these.
+  std::optional<PathPoint>& begin() { return begin_; }
+  // Whether a branch that was taken could have other reactions.
+  bool other_reactions() const { return other_reactions_; }
+
+ private:
+  struct Programs;  // increments (9) by Ipopt, made where they are asked for first
+
+  bool SetOut(const PathPoint& point, const Branch& branch, SmoothArc* arc, CurvePoint* current) const;
+  std::size_t BestThatLoads(const std::vector<Branch>& branches) const;
+
+  const Model& model_;
+  DepartureOptions options_;
+  std::function<bool()> cancelled_;
+  std::unique_ptr<Programs> programs_;
+  std::optional<PathPoint> begin_;
+  std::optional<Eigen::VectorXd> moved_;  // while the path rests: the direction in which it moved before
+  bool other_reactions_ = false;
+  double largest_reaction_ = 0.0;
+};
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_PATH_DEPARTURE_H_

@@ -1,0 +1,160 @@
+#include "contact_path/path/departure.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "contact_path/mpec/increment_solver.h"
+#include "contact_path/mpec/ipopt_solver.h"
+#include "contact_path/mpec/short_increment.h"
+#include "contact_path/path/branch_options.h"
+#include "contact_path/path/diagnosis.h"
+#include "contact_path/tolerances.h"
+
+namespace contact_path {
+namespace {
+
+// Gaps of one size are all active or none: a tolerance that lies among them is widened to the largest.
+double CoverGaps(const ContactPairs& contacts, const PathPoint& point, double tolerance) {
+  std::vector<double> beyond;
+  bool among = false;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const double gap = contacts[i]->Gap(point.u, point.s, point.Patch(i));
+    among = among || (gap > 0.5 * tolerance && gap <= tolerance);
+    if (gap > tolerance && gap <= tolerances::kWidestActiveGap) beyond.push_back(gap);
+  }
+  if (!among) return tolerance;
+  std::sort(beyond.begin(), beyond.end());
+  for (const double gap : beyond) {
+    if (gap > 2.0 * tolerance) break;
+    tolerance = gap;
+  }
+  return tolerance;
+}
+
+std::string NoBranch(const BranchSet& on) {
+  if (on.rigid_modes > 0)
+    return "no admissible branch, and the structure is a mechanism here: nothing resists " +
+           std::to_string(on.rigid_modes) + (on.rigid_modes == 1 ? " motion" : " motions");
+  if (!on.complete) return "no admissible branch was found among the combinations of contact states tried";
+  return "no admissible branch: the quasi-static path ends here, only a dynamic jump leads further";
+}
+
+}  // namespace
+
+struct Departure::Programs {
+  Programs(const Model& model, const std::function<bool()>& cancelled)
+      : ipopt(cancelled), increments(model.structure, model.contacts, &ipopt) {}
+  IpoptSolver ipopt;
+  IncrementSolver increments;
+};
+
+void RecordBranches(const std::vector<Branch>& branches, EventRecord* record) {
+  for (const Branch& branch : branches)
+    record->branches.push_back({branch.states, branch.load_rate, branch.dissipation_rate, branch.turn});
+}
+
+std::optional<std::size_t> ChosenOf(const std::vector<Branch>& branches, const BranchChoice* choice,
+                                    std::size_t preferred, std::string* message) {
+  if (choice == nullptr) return preferred;
+  const auto chosen = static_cast<std::size_t>(std::max(choice->branch, 1) - 1);
+  if (chosen < branches.size()) return chosen;
+  *message = "branch_choices wants branch " + std::to_string(choice->branch) + " at " + PlaceOf(*choice) +
+             ": the number of branches there is " + std::to_string(branches.size());
+  return std::nullopt;
+}
+
+Departure::Departure(const Model& model, const DepartureOptions& options, std::function<bool()> cancelled)
+    : model_(model), options_(options), cancelled_(std::move(cancelled)) {}
+
+Departure::~Departure() = default;
+
+void Departure::NoteReactions(const PathPoint& point) {
+  largest_reaction_ = std::max(largest_reaction_, LargestReaction(model_.contacts, point));
+}
+
+Arrival Departure::StartArrival() const {
+  Arrival arrival;
+  arrival.is_start = true;
+  arrival.direction = Eigen::VectorXd::Unit(model_.structure.NumDofs() + 1, model_.structure.NumDofs());
+  arrival.direction *= options_.direction;
+  return arrival;
+}
+
+std::optional<EndReason> Departure::Leave(const PathPoint& point, Arrival arrival, const BranchChoice* choice,
+                                          SmoothArc* arc, CurvePoint* current, EventRecord* record,
+                                          std::string* message) {
+  if (!arrival.is_start) arrival.before = moved_;
+  ActiveSetTolerance tolerance = ActiveSetTolerance::For(largest_reaction_, point.s);
+  tolerance.gap = CoverGaps(model_.contacts, point, tolerance.gap);
+  const BranchSet on = FindBranches(
+      model_.structure, model_.contacts, point, arrival, tolerance,
+      [this](const PathPoint& at, const Eigen::VectorXd& along) {
+        if (!programs_) programs_ = std::make_unique<Programs>(model_, cancelled_);
+        return StatesOfShortIncrements(at, along, &programs_->increments);
+      },
+      cancelled_, options_.search);
+  if (on.cancelled) {
+    *message = "the caller asked for it";
+    return EndReason::kCancelled;
+  }
+  record->weakly_active = on.weakly_active;
+  record->complete = on.complete;
+  RecordBranches(on.branches, record);
+  if (on.branches.empty() && arrival.failed) {
+    *message = "contact " + model_.scene.contacts[static_cast<std::size_t>(arrival.failed->contact)].Name() +
+               " changes its state by a rate that cannot be told from rounding";
+    return EndReason::kNumericalFailure;
+  }
+  if (on.branches.empty()) {
+    *message = After(NoBranch(on), StandsAtEnd(model_, point));
+    return EndReason::kPathEnd;
+  }
+  const std::size_t preferred = options_.keep_loading ? BestThatLoads(on.branches) : 0;
+  const std::optional<std::size_t> taken = ChosenOf(on.branches, choice, preferred, message);
+  if (!taken) return EndReason::kNoSuchBranch;
+  const Branch& branch = on.branches[*taken];
+  if (branch.mechanism) {
+    *message =
+        "the structure has become a mechanism: it can move in several directions without any change of load and "
+        "reactions";
+    return EndReason::kPathEnd;
+  }
+  record->taken = static_cast<int>(*taken) + 1;
+  other_reactions_ = other_reactions_ || branch.other_reactions;
+  if (!branch.rests)
+    moved_.reset();
+  else if (!moved_ && !arrival.is_start)
+    moved_ = arrival.direction;
+  begin_ = branch.begin;
+  if (!SetOut(begin_ ? *begin_ : point, branch, arc, current)) {
+    *message = "the branch from an event could not be followed";
+    return EndReason::kNumericalFailure;
+  }
+  return std::nullopt;
+}
+
+// Sets out on a branch from `point`. False: it cannot be followed.
+bool Departure::SetOut(const PathPoint& point, const Branch& branch, SmoothArc* arc, CurvePoint* current) const {
+  PathPoint begin = point;
+  begin.patches = branch.patches;
+  arc->SetStates(branch.states, begin, branch.singular);
+  const bool regular = arc->Derivatives(arc->system().Pack(point), branch.direction, current) &&
+                       arc->system().Norm(current->first - branch.first) <= tolerances::kSameTangent;
+  if (regular) return true;
+  // Another path crosses here, or the structure has rigid modes: the branch itself tells where to go.
+  current->x = arc->system().Pack(point);
+  current->first = branch.first;
+  current->second = branch.second;
+  current->determinant_sign = current->side = 0;
+  return current->second.allFinite();
+}
+
+// The branch to take where the load is to go on: the best one, or if that turns back, the best that does not.
+std::size_t Departure::BestThatLoads(const std::vector<Branch>& branches) const {
+  const auto loads = [&](const Branch& branch) { return branch.load_rate * options_.direction > tolerances::kLevel; };
+  if (branches.front().load_rate * options_.direction >= -tolerances::kLevel) return 0;
+  const auto best = std::find_if(branches.begin(), branches.end(), loads);
+  return best == branches.end() ? 0 : static_cast<std::size_t>(best - branches.begin());
+}
+
+}  // namespace contact_path
