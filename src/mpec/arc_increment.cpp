@@ -152,12 +152,20 @@ class Increment {
     CurvePoint at_low = start_;
     *failure = ArcFailure::kFailsAtOnce;
     const auto unarmed_fails = [&](const CurvePoint& at) {
-      for (std::size_t i = 0; i < guards_.size(); ++i)
-        if (!std::binary_search(armed.begin(), armed.end(), i) && Fails(guards_[i], at)) return true;
-      return false;
+      std::optional<std::size_t> failing;
+      for (std::size_t i = 0; i < guards_.size() && !failing; ++i)
+        if (!std::binary_search(armed.begin(), armed.end(), i) && Fails(guards_[i], at)) failing = i;
+      return failing;
     };
     for (int halving = 0; unarmed_fails(at_high); ++halving) {
-      if (halving == kMostHalvings) return std::nullopt;
+      if (halving == kMostHalvings) {
+        // It is never positive: the start is the corner.
+        const Guard& failing = guards_[*unarmed_fails(at_high)];
+        result_.kind = failing.kind;
+        result_.constraint = failing.constraint;
+        *failure = ArcFailure::kNone;
+        return start_;
+      }
       const double middle = 0.5 * (low + high);
       const std::optional<CurvePoint> at = PointAt(middle, Predicted(middle), normal_);
       if (!at) return std::nullopt;

@@ -145,8 +145,11 @@ Advance CertifiedMethod::Next(const PathPoint& from) {
   const std::optional<int> returned = EndAtReturn(from, &*at);
 
   AcceptedPoint accepted = PointOf(at->point, at->residuals);
-  accepted.arc_length = Distance(from, at->point);
-  accepted.work = WorkOfIncrement(model_, from, at->point);
+  const Step step = MakeStep(current_, at->increment.end, arc_.NumMotion());
+  if (step.length > 0.0) {
+    accepted.arc_length = step.ArcLength();
+    accepted.work = WorkOfStep(model_, arc_.system(), step);
+  }
   accepted.solve.rejected = at->rejected;
   departure_.NoteReactions(at->point);
   corners_in_place_ = accepted.arc_length > tolerances::kNoMove ? 0 : corners_in_place_ + 1;
