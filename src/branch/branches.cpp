@@ -420,8 +420,7 @@ void TryLikely(const Options& options, const PathPoint& point, const Arrival& ar
 // With the reactions of the point. In no order, and mirror branches are not told.
 BranchSet BranchesWithReactions(const Structure& structure, const ContactPairs& contacts, const PathPoint& point,
                                 const Arrival& arrival, const ActiveSetTolerance& tolerance,
-                                const FurtherStates& further, const std::function<bool()>& cancelled,
-                                BranchSearch search) {
+                                const FurtherStates& further, const std::function<bool()>& cancelled) {
   BranchSet result;
   Options options;
   States natural;
@@ -450,9 +449,8 @@ BranchSet BranchesWithReactions(const Structure& structure, const ContactPairs& 
   RateProblems of_patches(structure, contacts, point, natural, weakly_active, arrival.direction);
   const double entries = static_cast<double>(point.u.size()) * static_cast<double>(2 * weakly_active.size() + 1);
   const double few = point.u.size() < kLargeSystem ? kFewCombinations : 1.0;
-  const bool tries_all = search == BranchSearch::kAll;
-  const bool condenses = combinations > (tries_all ? few : 1.0) && weakly_active.size() <= kMostCondensedContacts &&
-                         !arrival.singular && entries <= kMostCondensed;
+  const bool condenses = combinations > few && weakly_active.size() <= kMostCondensedContacts && !arrival.singular &&
+                         entries <= kMostCondensed;
   if (condenses && !between_patches)
     problem.emplace(structure, contacts, point, natural, weakly_active, arrival.direction);
   const RateProblem* condensed = problem && problem->regular() ? &*problem : nullptr;
@@ -461,14 +459,14 @@ BranchSet BranchesWithReactions(const Structure& structure, const ContactPairs& 
         condenses && between_patches && !between_rigid ? of_patches.On(PatchesOf(modes)) : condensed;
     return rates != nullptr && finder.Excluded(StatesOf(modes), *rates);
   };
-  const bool few_enough = tries_all && combinations <= kMostCombinations;
+  const bool few_enough = combinations <= kMostCombinations;
   bool solved = false;
   if (condensed != nullptr) {
     const RateComplementarity complementarity(contacts, *condensed, options, weakly_active);
     if (complementarity.exists() && (complementarity.unique() || !few_enough)) {
       TrySolutions(complementarity, options, point, &finder, &result);
       finder.TryOtherStatesAtNodes(&result.branches);
-      solved = !result.branches.empty() && (complementarity.unique() || tries_all);
+      solved = !result.branches.empty();
       result.complete = complementarity.unique();
     }
   }
@@ -477,10 +475,9 @@ BranchSet BranchesWithReactions(const Structure& structure, const ContactPairs& 
     if (few_enough)
       TryAll(options, excluded, &finder, &result);
     else
-      TryLikely(options, point, arrival, condensed, combinations > kMostIfNone || !tries_all ? further : nullptr,
-                &finder, &result);
+      TryLikely(options, point, arrival, condensed, combinations > kMostIfNone ? further : nullptr, &finder, &result);
   }
-  if (result.branches.empty() && !result.complete && tries_all && combinations <= kMostIfNone) {
+  if (result.branches.empty() && !result.complete && combinations <= kMostIfNone) {
     TryAll(options, excluded, &finder, &result);
     result.complete = true;
   }
@@ -539,15 +536,14 @@ double DissipationRate(const ContactPairs& contacts, const std::vector<ContactSt
 
 BranchSet FindBranches(const Structure& structure, const ContactPairs& contacts, const PathPoint& point,
                        const Arrival& arrival, const ActiveSetTolerance& tolerance, const FurtherStates& further,
-                       const std::function<bool()>& cancelled, BranchSearch search) {
-  BranchSet result = BranchesWithReactions(structure, contacts, point, arrival, tolerance, further, cancelled, search);
+                       const std::function<bool()>& cancelled) {
+  BranchSet result = BranchesWithReactions(structure, contacts, point, arrival, tolerance, further, cancelled);
   if (!result.cancelled && std::none_of(result.branches.begin(), result.branches.end(), GoesOn)) {
     const ReactionRedistributions others = FindReactionRedistributions(contacts, point, tolerance);
     result.complete = result.complete && others.complete;
     for (const PathPoint& begin : others.points) {
       if (result.cancelled) break;
-      AddOthers(contacts,
-                BranchesWithReactions(structure, contacts, begin, arrival, tolerance, further, cancelled, search),
+      AddOthers(contacts, BranchesWithReactions(structure, contacts, begin, arrival, tolerance, further, cancelled),
                 begin, &result);
     }
   }

@@ -11,12 +11,11 @@
 namespace contact_path {
 namespace {
 
-constexpr double kStationary = 1e-8;     // component along the curve, of the length: the increment is a minimiser
-constexpr int kMostMinimisations = 8;    // each with the tangent of the one before
-constexpr double kOtherCurve = 0.1;      // of the length: largest error of the predictor
-constexpr double kSmallestCosine = 0.5;  // between tangents and chord
-constexpr int kMostHalvings = 24;        // of an increment, until an inequality that is zero at its start is positive
-constexpr int kMostRoots = 60;           // evaluations for a root
+constexpr double kStationary = 1e-8;   // component along the curve, of the length: the increment is a minimiser
+constexpr int kMostMinimisations = 8;  // each with the tangent of the one before
+constexpr double kOtherCurve = 0.1;    // of the length: largest error of the predictor
+constexpr int kMostHalvings = 24;      // of an increment, until an inequality that is zero at its start is positive
+constexpr int kMostRoots = 60;         // evaluations for a root
 
 // What is >= 0 along the increment.
 struct Guard {
@@ -29,8 +28,14 @@ struct Guard {
 
 class Increment {
  public:
-  Increment(SmoothArc* arc, const CurvePoint& start, double length, std::optional<double> target)
-      : arc_(*arc), start_(start), length_(length), target_(target), normal_(start.first.head(arc->NumMotion())) {}
+  Increment(SmoothArc* arc, const CurvePoint& start, double length, double smallest_cosine,
+            std::optional<double> target)
+      : arc_(*arc),
+        start_(start),
+        length_(length),
+        smallest_cosine_(smallest_cosine),
+        target_(target),
+        normal_(start.first.head(arc->NumMotion())) {}
 
   std::optional<ArcIncrement> Solve(ArcFailure* failure) {
     std::optional<CurvePoint> end = Minimiser(failure);
@@ -41,6 +46,9 @@ class Increment {
       end = FirstRoot(*std::move(end), failure);
       if (!end) return std::nullopt;
       reached = normal_.dot((end->x - start_.x).head(normal_.size()));
+    } else if (const Guard* const guard = ZeroAt(*end)) {
+      result_.kind = guard->kind;
+      result_.constraint = guard->constraint;
     } else if (arc_.BehindOtherPatch(end->x)) {
       *failure = ArcFailure::kOther;
       return std::nullopt;
@@ -94,8 +102,8 @@ class Increment {
     *failure = ArcFailure::kTurns;
     const Eigen::VectorXd chord = (point.x - start_.x).head(n);
     const Eigen::VectorXd tangent = point.first.head(n);
-    if (!(chord.dot(normal_) >= kSmallestCosine * chord.norm()) ||
-        !(chord.dot(tangent) >= kSmallestCosine * chord.norm()) || chord.norm() > 2.0 * length_)
+    if (!(tangent.dot(normal_) >= smallest_cosine_) || !(chord.dot(normal_) >= smallest_cosine_ * chord.norm()) ||
+        !(chord.dot(tangent) >= smallest_cosine_ * chord.norm()) || chord.norm() > 2.0 * length_)
       return std::nullopt;
     *failure = ArcFailure::kNone;
     return point;
@@ -126,6 +134,13 @@ class Increment {
                                                             : system.Value(guard.constraint, at.x);
   }
   bool Fails(const Guard& guard, const CurvePoint& at) const { return Value(guard, at) < -guard.slack; }
+
+  // A guard that was positive at the start, and is zero to rounding at the end; null: none.
+  const Guard* ZeroAt(const CurvePoint& end) const {
+    for (const Guard& guard : guards_)
+      if (guard.at_start > guard.slack && std::abs(Value(guard, end)) <= guard.slack) return &guard;
+    return nullptr;
+  }
 
   // The least value of the guards that are armed, in their units, and whose it is.
   std::pair<double, std::size_t> Least(const std::vector<std::size_t>& armed, const CurvePoint& at) const {
@@ -239,7 +254,7 @@ class Increment {
 
   SmoothArc& arc_;
   const CurvePoint& start_;
-  const double length_;
+  const double length_, smallest_cosine_;
   const std::optional<double> target_;
   const Eigen::VectorXd normal_;
   std::vector<Guard> guards_;
@@ -249,9 +264,9 @@ class Increment {
 }  // namespace
 
 std::optional<ArcIncrement> IncrementOnArc(SmoothArc* arc, const CurvePoint& start, double length,
-                                           std::optional<double> target, ArcFailure* failure) {
+                                           double smallest_cosine, std::optional<double> target, ArcFailure* failure) {
   arc->SetOut(start);
-  return Increment(arc, start, length, target).Solve(failure);
+  return Increment(arc, start, length, smallest_cosine, target).Solve(failure);
 }
 
 }  // namespace contact_path

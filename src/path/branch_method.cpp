@@ -33,7 +33,7 @@ Advance Ended(EndReason reason, std::string message) {
 BranchMethod::BranchMethod(const Model& model, const BranchOptions& options, std::function<bool()> cancelled)
     : model_(model),
       options_(options),
-      departure_(model, {BranchSearch::kAll, options.direction, options.keep_loading}, std::move(cancelled)),
+      departure_(model, {options.direction, options.keep_loading}, std::move(cancelled)),
       arc_(model.structure, model.contacts),
       step_length_(options.step),
       increments_(options.increments),

@@ -30,9 +30,10 @@ CertifiedMethod::CertifiedMethod(const Model& model, const MpecOptions& options,
     : model_(model),
       options_(options),
       cancelled_(std::move(cancelled)),
-      departure_(model, {BranchSearch::kPivoting, options.direction, false}, cancelled_),
+      departure_(model, {options.direction, false}, cancelled_),
       arc_(model.structure, model.contacts),
-      step_length_(options.step) {}
+      step_length_(options.step),
+      events_(options.events) {}
 
 std::optional<EndReason> CertifiedMethod::Start(const PathPoint& from, EventRecord* branches, std::string* message) {
   departure_.NoteReactions(from);
@@ -89,7 +90,8 @@ std::optional<CertifiedMethod::Certified> CertifiedMethod::Certify(const PathPoi
       return std::nullopt;
     }
     ArcFailure failure = ArcFailure::kNone;
-    std::optional<ArcIncrement> increment = IncrementOnArc(&arc_, current_, at.tried, options_.target, &failure);
+    std::optional<ArcIncrement> increment =
+        IncrementOnArc(&arc_, current_, at.tried, options_.smallest_cosine, options_.target, &failure);
     if (increment) {
       at.increment = *std::move(increment);
       at.point = arc_.system().Unpack(at.increment.end.x);
@@ -109,10 +111,9 @@ std::optional<EndReason> CertifiedMethod::LeaveCorner(const Certified& at, Accep
   Arrival arrival;
   arrival.direction = at.increment.end.first.head(arc_.NumMotion());
   arrival.load_sense = options_.direction;
-  EventRecord branches;
+  accepted->event.number = ++events_;
   const std::optional<EndReason> reason =
-      departure_.Leave(at.point, arrival, nullptr, &arc_, &current_, &branches, message);
-  accepted->event.weakly_active = branches.weakly_active;
+      departure_.Leave(at.point, arrival, nullptr, &arc_, &current_, &accepted->event, message);
   if (reason) return reason;
   const double leaves = current_.first[LoadFactor()];
   const bool turns = arrives * leaves < 0.0 && std::min(std::abs(arrives), std::abs(leaves)) > tolerances::kLevel;

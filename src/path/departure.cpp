@@ -92,7 +92,7 @@ std::optional<EndReason> Departure::Leave(const PathPoint& point, Arrival arriva
         if (!programs_) programs_ = std::make_unique<Programs>(model_, cancelled_);
         return StatesOfShortIncrements(at, along, &programs_->increments);
       },
-      cancelled_, options_.search);
+      cancelled_);
   if (on.cancelled) {
     *message = "the caller asked for it";
     return EndReason::kCancelled;

@@ -8,6 +8,7 @@
 
 #include "contact_path/equations/fixed_state_system.h"
 #include "contact_path/equations/nearest_point.h"
+#include "contact_path/path/branch_options.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
@@ -111,6 +112,7 @@ MpecOptions MpecOptions::For(const TraceOptions& options, double growth) {
   result.corner_tolerance = std::min(result.corner_tolerance, kCornerShare * result.step);
   result.smallest_step = kSmallestStepRatio * result.step;
   result.direction = options.Direction();
+  result.smallest_cosine = BranchOptions::For(options, growth).smallest_cosine;
   return result;
 }
 

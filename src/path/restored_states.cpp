@@ -20,7 +20,9 @@ constexpr int kIterations = 20;  // for the arc length
 // The increments of one stage.
 class Restorer {
  public:
-  explicit Restorer(const Model& model) : model_(model), arc_(model.structure, model.contacts) {}
+  // along_arc: arc lengths are those of arcs, and not of chords.
+  Restorer(const Model& model, bool along_arc)
+      : model_(model), along_arc_(along_arc), arc_(model.structure, model.contacts) {}
 
   // Finds the state of the increment at `at`, the one before having its own; false: it is not found.
   bool Restore(std::vector<Increment>* increments, std::size_t at) {
@@ -33,7 +35,7 @@ class Restorer {
     const bool parts = before.event.taken >= 1 && before.event.taken <= static_cast<int>(before.event.branches.size());
     std::vector<ContactState> states = from.states;
     if (parts) states = before.event.branches[static_cast<std::size_t>(before.event.taken) - 1].states;
-    // mpec does not say with which states it sets out.
+    // Increments by Ipopt do not say with which states they set out.
     if (!parts && before.kind == IncrementKind::kStart) {
       const Increment* const next = NextWithState(*increments, at);
       if (next == nullptr) return false;
@@ -42,8 +44,7 @@ class Restorer {
     arc_.SetStates(states, from);
     CurvePoint start;
     if (!arc_.Derivatives(arc_.system().Pack(from), *towards, &start)) return false;
-    const std::optional<PathPoint> point =
-        PointAfter(start, from, wanted.arc_length - before.arc_length, wanted.solve.method);
+    const std::optional<PathPoint> point = PointAfter(start, from, wanted.arc_length - before.arc_length);
     const double load = wanted.load_factor / model_.scaling.load_factor;
     if (!point || !(std::abs(point->s - load) <= tolerances::kRecordedLoad * (1.0 + std::abs(load)))) return false;
     FillState(model_, *point, &wanted);
@@ -73,8 +74,8 @@ class Restorer {
     return nullptr;
   }
 
-  // On the arc: along it for method branch, along the chord for mpec.
-  std::optional<PathPoint> PointAfter(const CurvePoint& start, const PathPoint& from, double length, Method method) {
+  // At this length of the arc, or of the chord.
+  std::optional<PathPoint> PointAfter(const CurvePoint& start, const PathPoint& from, double length) {
     if (!(length > 0.0)) return std::nullopt;
     const Eigen::VectorXd normal = start.first.head(arc_.NumMotion());
     arc_.SetOut(start);
@@ -85,8 +86,7 @@ class Restorer {
       CurvePoint end;
       if (!correction.converged || !arc_.Derivatives(correction.x, normal, &end)) return std::nullopt;
       point = arc_.system().Unpack(end.x);
-      const double reached =
-          method == Method::kBranch ? MakeStep(start, end, arc_.NumMotion()).ArcLength() : Distance(from, *point);
+      const double reached = along_arc_ ? MakeStep(start, end, arc_.NumMotion()).ArcLength() : Distance(from, *point);
       const double error = std::abs(reached - length);
       if (error <= tolerances::kRecordedArc * length || error >= last_error) return point;
       last_error = error;
@@ -96,6 +96,7 @@ class Restorer {
   }
 
   const Model& model_;
+  const bool along_arc_;
   SmoothArc arc_;
 };
 
@@ -117,7 +118,7 @@ std::size_t RestoreStates(const TraceRequest& request, std::vector<Increment>* i
       restorer.reset();
       model = std::make_unique<const Model>(StageScene(request, number), StageConfiguration(request, number),
                                             StageScales(request, index, number, of_program));
-      restorer = std::make_unique<Restorer>(*model);
+      restorer = std::make_unique<Restorer>(*model, request.options.LocatesEvents());
     }
     if (!restorer->Restore(increments, i)) return i;
   }

@@ -265,6 +265,7 @@ class Tracer {
     }
     MpecOptions mpec = MpecOptions::For(options, growth);
     mpec.target = target;
+    mpec.events = events_;
     mpec.returns = &*returns_;
     if (options.mpec_solver == MpecSolver::kCertified)
       return std::make_unique<CertifiedMethod>(model, mpec, control_.cancelled);

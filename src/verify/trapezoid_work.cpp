@@ -70,7 +70,6 @@ double TurnOf(const Increment& earlier, const Increment& before, const Increment
 
 TrapezoidWork WorkBetween(const VerifiedStage& stage, const Increment* earlier, const Increment& before,
                           const Increment& increment) {
-  const bool mpec = increment.solve.method == Method::kMpec;
   const double unit = stage.scaling.force * stage.scaling.length;
   const CheckedState from_state = StateOf(before), to_state = StateOf(increment);
   double along = 0.0, work = 0.0, scaled_loads = 0.0;
@@ -150,13 +149,13 @@ TrapezoidWork WorkBetween(const VerifiedStage& stage, const Increment* earlier, 
       if (at.friction > 0.0) open_dissipation += open_force(i, &ContactRecord::rt, 1.0) * most_slip / unit;
       continue;
     }
-    // Where within an increment of mpec it stopped to slip, or turned, is not known.
-    if (mpec && Slips(was) && state != was)
+    // Where within an increment by Ipopt it stopped to slip, or turned, is not known.
+    if (!stage.located && Slips(was) && state != was)
       open_dissipation += at.friction * std::max(before.contacts[i].rn, increment.contacts[i].rn) * slip / unit;
     if (!Slips(state)) continue;
-    // By method branch, what has slipped the other way is rounding, and gives nothing back.
+    // Where events are located, what has slipped the other way is rounding, and gives nothing back.
     const double sense = state == ContactState::kSlipPlus ? 1.0 : -1.0;
-    const double along_state = mpec ? slip : std::max(0.0, sense * forwards);
+    const double along_state = stage.located ? std::max(0.0, sense * forwards) : slip;
     dissipation += 0.5 * at.friction * (before.contacts[i].rn + increment.contacts[i].rn) * along_state;
     open_dissipation += at.friction * open_force(i, &ContactRecord::rn, kWedged) * slip / unit;
   }

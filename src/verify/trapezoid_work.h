@@ -21,6 +21,7 @@ struct VerifiedStage {
   const Scaling& scaling;
   const std::vector<VerifiedContact>& contacts;
   bool total_law;  // of friction
+  bool located;    // increments end where contacts change their states
 };
 
 // All over F L.

@@ -68,7 +68,7 @@ std::string EndContradicted(const TraceRequest& request_given, const std::vector
   }
   if (reason == "path_end") {
     if (last.positions.empty() || Escapes(request, increments)) return {};
-    if (request.options.method == Method::kMpec) return says + "mpec cannot tell the end of a path";
+    if (!request.options.LocatesEvents()) return says + "increments by Ipopt cannot tell the end of a path";
     const bool parts = last.kind == IncrementKind::kStart || last.event.number > 0 || !last.event.branches.empty();
     return parts && last.event.taken == 0 ? "" : says + "the path goes on from the last increment";
   }

@@ -77,8 +77,6 @@ class EventVerifier {
     relation_ = 0;
   }
 
-  bool ByBranch() const { return request_.options.method == Method::kBranch; }
-
   // The choice of the request for this increment; null: none.
   const BranchChoice* ChoiceFor(const Increment& now) const {
     const BranchChoice* by_event = nullptr;
@@ -91,8 +89,8 @@ class EventVerifier {
 
   void CheckNumber(const Increment& now) {
     const EventRecord& event = now.event;
-    if (!ByBranch()) {
-      if (event.number != 0 || !event.branches.empty()) Report("an event, though mpec records none");
+    if (!request_.options.LocatesEvents()) {
+      if (event.number != 0 || !event.branches.empty()) Report("an event, though increments by Ipopt record none");
       return;
     }
     if (event.number != 0 && event.number != ++events_)
@@ -196,7 +194,7 @@ class EventVerifier {
 
   // Signs on arcs of method branch.
   void CheckSigns(const Increment& now) {
-    if (!ByBranch() || at_ == 0 || now.kind == IncrementKind::kStart) return;
+    if (request_.options.method != Method::kBranch || at_ == 0 || now.kind == IncrementKind::kStart) return;
     const Increment& before = increments_[at_ - 1];
     const bool on_arc =
         before.event.branches.empty() || (before.kind == IncrementKind::kBifurcation && before.event.taken == 1);

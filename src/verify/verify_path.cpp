@@ -27,12 +27,12 @@ constexpr double kSlack = 1e-3;        // of what the energy balance may be off 
 constexpr double kChord = 1e-9;        // relative: arc length against chord
 constexpr double kInPlace = 1e-7;      // of L: forces that are exact to kExact leave the place of soft parts open by it
 constexpr double kEnergy = 1e-2;       // of the work done: energies are quadratures
-constexpr double kEnergyMpec = 3e-2;   // the same where increments may cut corners
-constexpr double kAtTarget = 1e-9;     // relative, of the load factor
-constexpr double kTurn = 1e-9;         // of the load factor: a smaller change is none
-constexpr double kPullShare = 0.02;    // of the largest reaction before: a contact that pulls with more is wrong
-constexpr double kPreloaded = 1e-10;   // of the forces there: to this contacts are known at the end of a preload
-constexpr double kLongestArc = 1.05;   // of its chord: increments turn by less than 60 degrees
+constexpr double kEnergyNotLocated = 3e-2;  // the same where increments may cut corners
+constexpr double kAtTarget = 1e-9;          // relative, of the load factor
+constexpr double kTurn = 1e-9;              // of the load factor: a smaller change is none
+constexpr double kPullShare = 0.02;         // of the largest reaction before: a contact that pulls with more is wrong
+constexpr double kPreloaded = 1e-10;        // of the forces there: to this contacts are known at the end of a preload
+constexpr double kLongestArc = 1.05;        // of its chord: increments turn by less than 60 degrees
 
 // The same at a bifurcation: where paths cross, equilibrium holds to rounding at a distance of its root from both.
 constexpr double kTurnCrossing = 1e-7;
@@ -56,6 +56,7 @@ class Verifier {
         stage_(request.program.empty() ? 0 : static_cast<int>(stage) + 1),
         target_(request.program.empty() ? std::nullopt : std::optional(request.program[stage].Target())),
         full_state_every_(std::max(request.options.full_state_every, 1)),
+        located_(request.options.LocatesEvents()),
         increments_(increments),
         first_(first),
         last_(last),
@@ -216,15 +217,14 @@ class Verifier {
 
   // Whether what happened since the last full increment is one arc of the path.
   bool OnePiece(const Increment& increment) const {
-    return increment_ == first_ || before_ == increment_ - 1 || increment.solve.method == Method::kBranch;
+    return increment_ == first_ || before_ == increment_ - 1 || located_;
   }
 
   void CheckState(const Increment& increment) {
     ++result_.full_increments;
     if (increment.solve.exact) ++result_.exact_increments;
     CheckPull(increment);
-    if (increment.solve.method == Method::kBranch && !increment.solve.exact)
-      Report("an increment of method branch that is not exact");
+    if (located_ && !increment.solve.exact) Report("an increment that ends at events and is not exact");
     const double tolerance = increment.solve.exact ? kExact : kRegularised;
     const Increment& before = before_ ? increments_[*before_] : increment;
     const CheckedState from = StateOf(before), to = StateOf(increment);
@@ -366,13 +366,12 @@ class Verifier {
     if (!(arc > 0.0))
       Bound("the load factor changes though the arc length does not", load, std::max(rounding_, kExact));
 
-    // States: method branch has an increment of its own where they change; an increment of method mpec tells that they
+    // States: where events are located, an increment ends where they change; otherwise an increment tells that they
     // have.
-    const bool branch = increment.solve.method == Method::kBranch;
     bool changed = false;
     for (std::size_t i = 0; i < increment.contacts.size(); ++i)
       changed = changed || increment.contacts[i].state != before.contacts[i].state;
-    const IncrementKind kind = branch ? before.kind : increment.kind;
+    const IncrementKind kind = located_ ? before.kind : increment.kind;
     if (changed && before_ != first_ && kind != IncrementKind::kContactEvent && kind != IncrementKind::kCornerLimit)
       Report("contact states change without an event");
     const EventRecord& event = before.event;
@@ -395,9 +394,10 @@ class Verifier {
   }
 
   void CheckWork(const Increment& before, const Increment& increment) {
-    const TrapezoidWork work = WorkBetween({scene_, index_, check_, scaling_, contacts_, configuration_.HasTotalLaw()},
-                                           earlier_ ? &increments_[*earlier_] : nullptr, before, increment);
-    if (increment.solve.method == Method::kMpec) open_ += work.open_work + work.open_dissipation;
+    const TrapezoidWork work =
+        WorkBetween({scene_, index_, check_, scaling_, contacts_, configuration_.HasTotalLaw(), located_},
+                    earlier_ ? &increments_[*earlier_] : nullptr, before, increment);
+    if (!located_) open_ += work.open_work + work.open_dissipation;
     if (!OnePiece(increment)) return;  // trapezoids over several increments tell too little
     const double unit = scaling_.force * scaling_.length;
     const double slack = kEnergy * result_.work * kSlack + rounding_;
@@ -417,8 +417,8 @@ class Verifier {
                         : b.kind == IncrementKind::kContactEvent ? kTurnAtEvent
                                                                  : kTurn;
     const double level = turn * ResidualUnit(stiffest_) * scaling_.load_factor;
-    // mpec tells in the increment after.
-    const Increment& located = c.solve.method == Method::kBranch ? b : c;
+    // Where limit points are not located, the increment after tells.
+    const Increment& located = located_ ? b : c;
     const bool limit = located.kind == IncrementKind::kSmoothLimit || located.kind == IncrementKind::kCornerLimit;
     if (before * after < 0.0 && std::min(std::abs(before), std::abs(after)) > level && !limit)
       Report("the load factor turns without a limit point");
@@ -429,8 +429,7 @@ class Verifier {
   void CheckEnergy() {
     const double unit = scaling_.force * scaling_.length;
     const Increment& start = increments_[first_];
-    const bool mpec = increments_[last_ - 1].solve.method == Method::kMpec;
-    const double share = mpec ? kEnergyMpec : kEnergy;
+    const double share = located_ ? kEnergy : kEnergyNotLocated;
     // Work of the reactions along the gaps that may be left, or penetrated, and of those that may be left at open gaps.
     double pressed = 0.0;
     for (increment_ = first_; increment_ < last_; ++increment_) {
@@ -441,7 +440,7 @@ class Verifier {
         if (contact.gap > kExact * scaling_.length) left_open += std::hypot(contact.rn, contact.rt);
       }
       const double moved = increment.arc_length - start.arc_length;
-      if (mpec) pressed = std::max(pressed, (kExact * reactions + left_open * moved) / scaling_.force);
+      if (!located_) pressed = std::max(pressed, (kExact * reactions + left_open * moved) / scaling_.force);
       const double balance =
           (increment.external_work - start.external_work - (increment.strain_energy - start.strain_energy) -
            (increment.dissipation - start.dissipation)) /
@@ -463,6 +462,7 @@ class Verifier {
   const int stage_;
   const std::optional<double> target_;  // of the stage; nothing without a program
   const int full_state_every_;
+  const bool located_;  // increments end where contacts change their states
   const std::vector<Increment>& increments_;
   const std::size_t first_, last_;
   const Scaling scaling_;

@@ -69,13 +69,6 @@ double DissipationRate(const ContactPairs& contacts, const std::vector<ContactSt
 using FurtherStates =
     std::function<std::vector<std::vector<ContactState>>(const PathPoint& point, const Eigen::VectorXd& direction)>;
 
-// How combinations of states are come upon.
-enum class BranchSearch {
-  kAll,       // as FindBranches() says
-  kPivoting,  // never by trying them one after another: complementarity problem, pivoting, and where these give none,
-              // `further`
-};
-
 // All branches from `point`, an equilibrium, without the branch of arrival. Weakly active are all contacts that slip,
 // and each contact with an inequality that is zero to `tolerance`. Of branches with equal directions one is kept: the
 // branch in which fewest contacts slip without moving. Where all branches turn by 90 degrees or more, or there is none,
@@ -88,7 +81,7 @@ enum class BranchSearch {
 // certified alike. cancelled: asked often. further, cancelled: may be empty.
 BranchSet FindBranches(const Structure& structure, const ContactPairs& contacts, const PathPoint& point,
                        const Arrival& arrival, const ActiveSetTolerance& tolerance, const FurtherStates& further,
-                       const std::function<bool()>& cancelled = nullptr, BranchSearch search = BranchSearch::kAll);
+                       const std::function<bool()>& cancelled = nullptr);
 
 }  // namespace contact_path
 

@@ -22,7 +22,7 @@ enum class ArcFailure {
   kNone,
   kNotSolved,    // Newton's method does not converge
   kOther,        // it converges to a point too far from where the curve leads: another curve
-  kTurns,        // the path turns by more than 60 degrees
+  kTurns,        // the path turns too much
   kFailsAtOnce,  // an inequality fails from the start on
   kNotLocated,   // no root of the inequality that fails is found
 };
@@ -38,10 +38,11 @@ struct ArcIncrement {
 };
 
 // The minimiser of (9) on the arc: the point of the curve that is nearest to start + length x tangent, or the first end
-// before it. Of (9) the dissipation is left out: on one arc it has one sense, and only says how far to go. start: on
-// *arc, whose states are set. failure: set where there is none.
+// before it. smallest_cosine: between the tangents at both ends, and between them and the chord. Of (9) the dissipation
+// is left out: on one arc it has one sense, and only says how far to go. start: on *arc, whose states are set. failure:
+// set where there is none.
 std::optional<ArcIncrement> IncrementOnArc(SmoothArc* arc, const CurvePoint& start, double length,
-                                           std::optional<double> target, ArcFailure* failure);
+                                           double smallest_cosine, std::optional<double> target, ArcFailure* failure);
 
 }  // namespace contact_path
 

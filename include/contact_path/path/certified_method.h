@@ -29,6 +29,7 @@ class CertifiedMethod : public PathMethod {
   std::optional<EndReason> Start(const PathPoint& from, EventRecord* branches, std::string* message) override;
   bool Resume(const ResumePoint& at) override;
   Advance Next(const PathPoint& from) override;
+  int NumEvents() const override { return events_; }
   std::string Remark() const override;
 
  private:
@@ -58,6 +59,7 @@ class CertifiedMethod : public PathMethod {
   SmoothArc arc_;
   CurvePoint current_;
   double step_length_;
+  int events_;                // passed so far
   int corners_in_place_ = 0;  // passed without moving
 };
 

@@ -20,7 +20,6 @@
 namespace contact_path {
 
 struct DepartureOptions {
-  BranchSearch search = BranchSearch::kAll;
   double direction = 1.0;     // sign of the wanted change of the load factor
   bool keep_loading = false;  // where the best branch unloads, the best one that does not is taken
 };

@@ -24,6 +24,8 @@ struct MpecOptions {
   double corner_tolerance = 5e-4;
   RegularisationSchedule regularisation;
   double direction = 1.0;             // sign of the first change of the load factor
+  double smallest_cosine = 0.5;       // between tangents of one increment
+  int events = 0;                     // passed before this path
   std::optional<double> target;       // load factor at which the path is to end, in an increment of its own
   ReturnDetector* returns = nullptr;  // tells whether the path has come back to where it was; null: that is no end
 

@@ -409,6 +409,8 @@ struct TraceOptions {
 
   int MaxIncrements() const { return max_increments == 0 ? 1000 : max_increments; }
   double Direction() const { return direction < 0.0 ? -1.0 : 1.0; }
+  // Whether corners are located, each at the end of an increment, and on record as events.
+  bool LocatesEvents() const { return method == Method::kBranch || mpec_solver == MpecSolver::kCertified; }
 };
 
 template <>
