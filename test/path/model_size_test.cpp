@@ -27,6 +27,7 @@ TraceRequest Wall(Touch touch, Method method, int far_candidates = 0) {
   TraceRequest request = LatticeRequest(lattice);
   request.options = TraceOptions();
   request.options.method = method;
+  request.options.mpec_solver = MpecSolver::kIpopt;  // of the program that Ipopt is given
   request.options.max_increments = 4;
   Obstacle& floor = request.scene.obstacles.front();
   floor.py = touch == Touch::kOutOfReach ? -100.0 : 0.0;

@@ -1,4 +1,4 @@
-// The method mpec on the reference cases, against closed forms and independent results.
+// Algorithm 3.2 to the letter, every increment by Ipopt, on the reference cases, against closed forms and independent results.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,6 +25,7 @@ constexpr double kResidual = 1e-9;
 TraceRequest Example(const std::string& name, double step) {
   TraceRequest request = ReadExample(name);
   request.options.method = Method::kMpec;
+  request.options.mpec_solver = MpecSolver::kIpopt;
   request.options.step = step;
   return request;
 }
@@ -462,6 +463,7 @@ TEST(RigidStop, KinkWhereTheGapCloses) {
 TEST(Prestress, IncrementZeroIsInEquilibriumWithItsFrictionHistory) {
   TraceRequest request;
   request.options.method = Method::kMpec;
+  request.options.mpec_solver = MpecSolver::kIpopt;
   request.options.step = 0.05;
   request.options.stop = {{"load_factor", ">", 0.3}};
   request.scene.name = "prestress";

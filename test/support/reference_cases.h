@@ -15,8 +15,8 @@ constexpr double kFriction = 0.3;
 constexpr double kEA = 14.142135623730951;
 constexpr double kRestLength = 7.0710678118654755;
 // Smooth limit points.
-constexpr double kFirstLimitX = -1.985830222, kFirstLimit = 2.191505308;
-constexpr double kSecondLimitX = 3.232542605, kSecondLimit = -0.650152200;
+constexpr double kFirstLimitX = -1.9858302481884527, kFirstLimit = 2.191505308;
+constexpr double kSecondLimitX = 3.23254263015269, kSecondLimit = -0.650152200;
 
 Scene MakeScene();
 double LoadFactor(double x);       // s = EA (1/l - 1/l0) (h mu - x)

@@ -54,8 +54,10 @@ TEST(VerifyEnd, OfAPath) {
   ASSERT_EQ(path.result.reason, EndReason::kPathEnd);
   EXPECT_EQ(EndContradicted(request, path.increments, "path_end"), "");
   request.options.method = Method::kMpec;
+  EXPECT_EQ(EndContradicted(request, path.increments, "path_end"), "");
+  request.options.mpec_solver = MpecSolver::kIpopt;
   EXPECT_EQ(EndContradicted(request, path.increments, "path_end"),
-            "the result says path_end, but mpec cannot tell the end of a path");
+            "the result says path_end, but increments by Ipopt cannot tell the end of a path");
   // Where a branch is taken from an event, the path goes on.
   const TracedPath slides = TraceIncrements(ReadExample("rough_truss"));
   for (std::size_t i = 1; i + 1 < slides.increments.size(); ++i)
