@@ -53,9 +53,22 @@ bool Winds(const Step& step) {
   return chord > tolerances::kHasDirection && step.ArcLength() > kLongestArc * chord;
 }
 
-// A whole step with this length along the tangent; nothing where it has to be shorter.
+std::string_view NameOf(EventKind kind) {
+  switch (kind) {
+    case EventKind::kNone: return "";
+    case EventKind::kContactEvent: return "contact event";
+    case EventKind::kLimitPoint: return "limit point";
+    case EventKind::kBifurcation: return "bifurcation";
+    case EventKind::kTarget: return "target";
+    case EventKind::kNearTouch: return "near touch";
+    case EventKind::kTooLong: return "too long";
+  }
+  return "";
+}
+
+// A whole step with this length along the tangent; nothing where it has to be shorter. trial: null, or is told why.
 std::optional<ArcStep> TryStep(SmoothArc* arc, const CurvePoint& start, double length, double prediction,
-                               double smallest_cosine) {
+                               double smallest_cosine, TrialStep* trial) {
   const Eigen::VectorXd normal = start.first.head(arc->NumMotion());
   const double tolerance = prediction * length;
   const double rounding =
@@ -70,13 +83,28 @@ std::optional<ArcStep> TryStep(SmoothArc* arc, const CurvePoint& start, double l
   Correction correction = arc->CorrectOnPlane(straight + bend, normal);
   // Next to a singular point the second derivatives are little but rounding.
   if (!good(correction) && arc->system().Norm(bend) > tolerance) correction = arc->CorrectOnPlane(straight, normal);
+  if (trial != nullptr) {
+    trial->length = length;
+    trial->numbers = {{"newton_iterations", correction.iterations},
+                      {"contraction", correction.contraction},
+                      {"predictor_error", correction.first_step / length},
+                      {"largest_predictor_error", prediction}};
+    trial->verdict = correction.converged ? "predictor error" : "Newton's method does not converge";
+  }
   if (!good(correction)) return std::nullopt;
   CurvePoint end;
+  if (trial != nullptr) trial->verdict = "no tangent at the end";
   if (!arc->Derivatives(correction.x, normal, &end)) return std::nullopt;
-  if (end.first.head(normal.size()).dot(normal) < smallest_cosine) return std::nullopt;
+  const double cosine = end.first.head(normal.size()).dot(normal);
+  if (trial != nullptr) {
+    trial->numbers.insert(trial->numbers.end(), {{"cosine", cosine}, {"smallest_cosine", smallest_cosine}});
+    trial->verdict = "turn";
+  }
+  if (cosine < smallest_cosine) return std::nullopt;
   KeepSide(start, &end);
   ArcStep result;
   result.step = MakeStep(start, end, arc->NumMotion());
+  if (trial != nullptr) trial->verdict = "beside the curve";
   if (EndsBeside(result.step, smallest_cosine)) return std::nullopt;
   DropRoundedSeconds(&result.step);
   result.tried = length;
@@ -163,7 +191,7 @@ std::optional<ArcStep> StepBeyond(SmoothArc* arc, const CurvePoint& start, doubl
                                   std::optional<double> target) {
   for (const double factor : {2.0, 4.0, 8.0}) {
     if (factor * length > limits.largest) break;
-    std::optional<ArcStep> step = TryStep(arc, start, factor * length, kCoarsePrediction, limits.cosine);
+    std::optional<ArcStep> step = TryStep(arc, start, factor * length, kCoarsePrediction, limits.cosine, nullptr);
     if (step && step->step.end.nullity == 0 && EndAtFirstEvent(arc, target, &*step)) return step;
   }
   return std::nullopt;
@@ -175,6 +203,7 @@ std::optional<ArcStep> NextStep(SmoothArc* arc, const CurvePoint& start, double 
                                 std::optional<double> target) {
   arc->SetOut(start);
   double tried = length, prediction = limits.prediction;
+  TrialStep said;
   for (int rejected = 0;; ++rejected) {
     // Where another path crosses, or an imperfection has broken the crossing, points are less exact than the predictor
     // of a short step.
@@ -183,16 +212,27 @@ std::optional<ArcStep> NextStep(SmoothArc* arc, const CurvePoint& start, double 
       tried = length;
     }
     if (tried < limits.smallest) return std::nullopt;
-    std::optional<ArcStep> step = TryStep(arc, start, tried, prediction, limits.cosine);
+    TrialStep* const trial = limits.on_trial ? &said : nullptr;
+    std::optional<ArcStep> step = TryStep(arc, start, tried, prediction, limits.cosine, trial);
     // Where there are no second derivatives the predictor is no better than the tangent. A long step might leap then.
     if (!step && start.nullity > 0 && tried <= kShortStep * limits.largest)
-      step = TryStep(arc, start, tried, kCoarsePrediction, limits.cosine);
+      step = TryStep(arc, start, tried, kCoarsePrediction, limits.cosine, trial);
     const bool ends_singular = step && start.nullity == 0 && step->step.end.nullity > 0;
     bool good = step && EndAtFirstEvent(arc, target, &*step);
     if (ends_singular && !(good && step->event.kind != EventKind::kNone)) {
       std::optional<ArcStep> beyond = StepBeyond(arc, start, tried, limits, target);
       good = good || beyond;
       if (beyond) step = std::move(beyond);
+    }
+    if (trial != nullptr) {
+      if (good) {
+        said.verdict = "accepted";
+        said.ends_at = NameOf(step->event.kind);
+        said.numbers.emplace_back("reached", step->step.length);
+      } else if (step) {
+        said.verdict = "event not located";
+      }
+      limits.on_trial(said);
     }
     if (good) {
       step->rejected = rejected;

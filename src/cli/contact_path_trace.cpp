@@ -31,6 +31,7 @@
 #endif
 #include "cli/event_table.h"
 #include "cli/progress.h"
+#include "cli/trace_log.h"
 #include "process/keep_memory.h"
 #include "process/one_thread.h"
 
@@ -46,6 +47,7 @@ struct Arguments {
   std::string resume;                   // bag to go on from; empty: trace the scene file
   std::optional<std::string> csv_file;  // nothing: standard output
   std::optional<std::string> bag_file;  // nothing: no bag
+  std::optional<std::string> log_file;  // nothing: no log
   std::optional<std::string> method;
   std::optional<std::string> accuracy;
   std::optional<std::string> friction_law;
@@ -106,6 +108,9 @@ void DeclareOptions(CLI::App& app, Arguments& arguments) {
 #else
   scene->required();
 #endif
+  app.add_option("--log", arguments.log_file,
+                 "Write each trial step, increment and event to this file too, as a JSON object a line")
+      ->type_name("FILE");
   app.add_option("--method", arguments.method, "branch or mpec, instead of the scene's")
       ->type_name("NAME")
       ->needs(scene);
@@ -194,13 +199,13 @@ bool IsInput(const char* option, const std::string& file, const Arguments& argum
 }
 
 // Empties `file` for writing. Nothing where that cannot be done; says why on standard error.
-std::optional<std::ofstream> OpenCsv(const std::string& file) {
-  std::ofstream csv(file, std::ios::binary | std::ios::trunc);
-  if (!csv) {
-    PrintError("cannot open --csv '" + file + "': " + std::strerror(errno));
+std::optional<std::ofstream> Open(const char* option, const std::string& file) {
+  std::ofstream out(file, std::ios::binary | std::ios::trunc);
+  if (!out) {
+    PrintError(std::string("cannot open ") + option + " '" + file + "': " + std::strerror(errno));
     return std::nullopt;
   }
-  return csv;
+  return out;
 }
 
 // Flushes, so that every increment is out before the next one is computed.
@@ -218,8 +223,8 @@ Sink StartCsv(const TraceRequest& request, std::ostream& out, const std::string&
   };
 }
 
-// Traces with the increments going to `csv`. Throws WriteError.
-ExitStatus RunTrace(const Task& task, const Arguments& arguments, std::ostream& csv) {
+// Traces with the increments going to `csv`, and to `log_out` if it is not null. Throws WriteError.
+ExitStatus RunTrace(const Task& task, const Arguments& arguments, std::ostream& csv, std::ostream* log_out) {
   const TraceRequest& request = task.request;
   const ExpandedRequest expanded(request);
   const bool csv_on_terminal = !arguments.csv_file && isatty(STDOUT_FILENO) == 1;
@@ -232,6 +237,15 @@ ExitStatus RunTrace(const Task& task, const Arguments& arguments, std::ostream& 
     sinks.emplace_back([&, load_scale = ProgramScales(expanded.Get()).load_factor](const Increment& increment) {
       progress.Wipe();
       PrintBranches(expanded.Get(), increment, load_scale, std::cerr);
+    });
+  }
+  std::optional<TraceLog> log;
+  if (log_out != nullptr) {
+    log.emplace(expanded.Get(), log_out);
+    RequireWritten(*log_out, *arguments.log_file);
+    sinks.emplace_back([&](const Increment& increment) {
+      log->Add(increment);
+      RequireWritten(*log_out, *arguments.log_file);
     });
   }
 #ifdef CONTACT_PATH_WITH_ROS
@@ -250,12 +264,17 @@ ExitStatus RunTrace(const Task& task, const Arguments& arguments, std::ostream& 
     for (const Sink& sink : sinks) sink(increment);
   };
   control.cancelled = IsCancelled;
+  if (log) control.on_trial = [&log](const TrialStep& trial) { log->Add(trial); };
   const TraceResult result =
       task.increments ? ResumeTrace(request, *task.increments, control) : Trace(request, control);
 #ifdef CONTACT_PATH_WITH_ROS
   if (bag) bag->End(result);
 #endif
 
+  if (log) {
+    log->End(result);
+    RequireWritten(*log_out, *arguments.log_file);
+  }
   const bool complete = IsComplete(result.reason);
   if (!complete || !arguments.quiet) {
     progress.Wipe();
@@ -269,10 +288,12 @@ ExitStatus Run(const Arguments& arguments) {
   try {
     const Task task = ReadTask(arguments);
     if (arguments.bag_file && IsInput("--bag", *arguments.bag_file, arguments)) return kBadInput;
-    if (!arguments.csv_file) return RunTrace(task, arguments, std::cout);
-    if (IsInput("--csv", *arguments.csv_file, arguments)) return kBadInput;
-    std::optional<std::ofstream> csv = OpenCsv(*arguments.csv_file);
-    return csv ? RunTrace(task, arguments, *csv) : kBadInput;
+    if (arguments.csv_file && IsInput("--csv", *arguments.csv_file, arguments)) return kBadInput;
+    if (arguments.log_file && IsInput("--log", *arguments.log_file, arguments)) return kBadInput;
+    std::optional<std::ofstream> csv, log;
+    if (arguments.csv_file && !(csv = Open("--csv", *arguments.csv_file))) return kBadInput;
+    if (arguments.log_file && !(log = Open("--log", *arguments.log_file))) return kBadInput;
+    return RunTrace(task, arguments, csv ? *csv : std::cout, log ? &*log : nullptr);
   } catch (const InvalidRequest& invalid) {
     PrintViolations(invalid.violations());
     return kBadInput;

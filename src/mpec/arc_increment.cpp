@@ -6,16 +6,18 @@
 #include <utility>
 #include <vector>
 
+#include "contact_path/branch/test_functions.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
 namespace {
 
-constexpr double kStationary = 1e-8;   // component along the curve, of the length: the increment is a minimiser
-constexpr int kMostMinimisations = 8;  // each with the tangent of the one before
-constexpr double kOtherCurve = 0.1;    // of the length: largest error of the predictor
-constexpr int kMostHalvings = 24;      // of an increment, until an inequality that is zero at its start is positive
-constexpr int kMostRoots = 60;         // evaluations for a root
+constexpr double kStationary = 1e-8;    // component along the curve, of the length: the increment is a minimiser
+constexpr int kMostMinimisations = 8;   // each with the tangent of the one before
+constexpr int kMostHalvings = 24;       // of an increment, until an inequality that is zero at its start is positive
+constexpr int kMostEarlier = 6;         // events that the interpolation tells of, each before the one before
+constexpr double kInside = 1.0 - 1e-6;  // of an increment: an event beyond is that at its end
+constexpr int kMostRoots = 60;          // evaluations for a root
 
 // What is >= 0 along the increment.
 struct Guard {
@@ -28,36 +30,42 @@ struct Guard {
 
 class Increment {
  public:
-  Increment(SmoothArc* arc, const CurvePoint& start, double length, double smallest_cosine,
+  Increment(SmoothArc* arc, const CurvePoint& start, double length, const ArcLimits& limits,
             std::optional<double> target)
       : arc_(*arc),
         start_(start),
         length_(length),
-        smallest_cosine_(smallest_cosine),
+        limits_(limits),
         target_(target),
         normal_(start.first.head(arc->NumMotion())) {}
 
   std::optional<ArcIncrement> Solve(ArcFailure* failure) {
-    std::optional<CurvePoint> end = Minimiser(failure);
-    if (!end) return std::nullopt;
-    SetGuards();
-    double reached = length_;
-    if (std::any_of(guards_.begin(), guards_.end(), [&](const Guard& guard) { return Fails(guard, *end); })) {
-      end = FirstRoot(*std::move(end), failure);
+    for (int earlier = 0; earlier <= kMostEarlier; ++earlier) {
+      result_.kind = ArcEnd::kNone;
+      std::optional<CurvePoint> end = Minimiser(failure);
+      if (end) SetGuards();
+      if (end && std::any_of(guards_.begin(), guards_.end(), [&](const Guard& guard) { return Fails(guard, *end); })) {
+        end = FirstRoot(*std::move(end), failure);
+      } else if (end) {
+        const Guard* const zero = ZeroAt(*end);
+        if (zero != nullptr) result_.kind = zero->kind;
+        if (zero != nullptr) result_.constraint = zero->constraint;
+      }
       if (!end) return std::nullopt;
-      reached = normal_.dot((end->x - start_.x).head(normal_.size()));
-    } else if (const Guard* const guard = ZeroAt(*end)) {
-      result_.kind = guard->kind;
-      result_.constraint = guard->constraint;
-    } else if (arc_.BehindOtherPatch(end->x)) {
-      *failure = ArcFailure::kOther;
-      return std::nullopt;
+      if (result_.kind == ArcEnd::kNone) {
+        const Eigen::VectorXd motion = (end->x - start_.x).head(normal_.size());
+        result_.stationarity = std::abs(end->first.head(normal_.size()).dot(motion - length_ * normal_)) / length_;
+      }
+      const std::optional<double> inside = EventInside(*end, failure);
+      if (*failure != ArcFailure::kNone) return std::nullopt;
+      if (!inside) {
+        result_.end = *std::move(end);
+        return std::move(result_);
+      }
+      length_ = *inside;
     }
-    result_.end = *std::move(end);
-    result_.stationarity = std::abs(result_.end.first.head(normal_.size())
-                                        .dot((result_.end.x - start_.x).head(normal_.size()) - reached * normal_)) /
-                           length_;
-    return std::move(result_);
+    *failure = ArcFailure::kNotLocated;
+    return std::nullopt;
   }
 
  private:
@@ -72,7 +80,12 @@ class Increment {
     result_.corrections += correction.iterations;
     CurvePoint point;
     if (!correction.converged || !arc_.Derivatives(correction.x, normal, &point)) return std::nullopt;
+    KeepSide(&point);
     return point;
+  }
+  // A matrix that is singular to rounding at a regular point has no sign of its own.
+  void KeepSide(CurvePoint* point) const {
+    if (point->side == 0 && point->nullity == 0) point->side = start_.side;
   }
   Eigen::VectorXd Predicted(double along) const {
     return start_.x + along * start_.first + 0.5 * along * along * start_.second;
@@ -86,8 +99,11 @@ class Increment {
     CurvePoint point;
     *failure = ArcFailure::kNotSolved;
     if (!first.converged || !arc_.Derivatives(first.x, normal_, &point)) return std::nullopt;
+    KeepSide(&point);
     *failure = ArcFailure::kOther;
-    if ((point.x - bent).head(n).norm() > kOtherCurve * length_) return std::nullopt;
+    const double rounding = arc_.system().ResidualUnit() *
+                            std::max(tolerances::kPredictor, tolerances::kPredictorRounding * start_.x.norm());
+    if ((point.x - bent).head(n).norm() > limits_.prediction * length_ + rounding) return std::nullopt;
     for (int i = 0; i < kMostMinimisations; ++i) {
       const Eigen::VectorXd tangent = point.first.head(n);
       const double off = tangent.dot((point.x - start_.x).head(n) - length_ * normal_);
@@ -102,14 +118,32 @@ class Increment {
     *failure = ArcFailure::kTurns;
     const Eigen::VectorXd chord = (point.x - start_.x).head(n);
     const Eigen::VectorXd tangent = point.first.head(n);
-    if (!(tangent.dot(normal_) >= smallest_cosine_) || !(chord.dot(normal_) >= smallest_cosine_ * chord.norm()) ||
-        !(chord.dot(tangent) >= smallest_cosine_ * chord.norm()) || chord.norm() > 2.0 * length_)
+    if (!(tangent.dot(normal_) >= limits_.cosine) || !(chord.dot(normal_) >= limits_.cosine * chord.norm()) ||
+        !(chord.dot(tangent) >= limits_.cosine * chord.norm()) || chord.norm() > 2.0 * length_)
       return std::nullopt;
     *failure = ArcFailure::kNone;
     return point;
   }
 
+  // What the values at the ends do not show, as a contact that closes and opens in between: where the interpolation of
+  // the increment tells of an event before its end, or comes so near to one that only an increment there can tell.
+  std::optional<double> EventInside(const CurvePoint& end, ArcFailure* failure) {
+    const Step step = MakeStep(start_, end, normal_.size());
+    if (!(step.length > tolerances::kNoMove)) return std::nullopt;
+    const StepEvent event = FirstEvent(&arc_, step, target_);
+    if (event.kind == EventKind::kTooLong) *failure = ArcFailure::kOther;
+    const bool tells = event.kind == EventKind::kContactEvent || event.kind == EventKind::kNearTouch ||
+                       event.kind == EventKind::kLimitPoint || event.kind == EventKind::kTarget;
+    const auto reach = [&](const CurvePoint& at) {
+      return event.kind == EventKind::kLimitPoint ? ReachOfExtreme(at.second[LoadFactor()]) : 0.0;
+    };
+    if (!tells || event.t <= tolerances::kNoMove + reach(start_) || event.t >= kInside * step.length - reach(end))
+      return std::nullopt;
+    return event.t;
+  }
+
   void SetGuards() {
+    guards_.clear();
     std::vector<Constraint> open_ends;
     for (const Constraint& constraint : arc_.InequalitiesInReach(start_.x, 2.0 * length_, &open_ends)) {
       Guard guard;
@@ -119,8 +153,10 @@ class Increment {
           constraint.inequality == Inequality::kSlip ? tolerances::kRate * guard.unit : arc_.RoundingOf(constraint);
       guards_.push_back(guard);
     }
-    const double rate = start_.first[LoadFactor()];
-    if (std::abs(rate) > tolerances::kLevel) guards_.push_back({ArcEnd::kLimitPoint, {}, 1.0, 0.0, 0.0});
+    // At a limit point the rate is as small as the place of the point is exact.
+    const double rate = start_.first[LoadFactor()], bend = start_.second[LoadFactor()];
+    if (std::abs(rate) > tolerances::kLevel + std::abs(bend) * ReachOfExtreme(bend))
+      guards_.push_back({ArcEnd::kLimitPoint, {}, 1.0, 0.0, 0.0});
     if (target_ && start_.x[LoadFactor()] != *target_) guards_.push_back({ArcEnd::kTarget, {}, 1.0, 0.0, 0.0});
     for (Guard& guard : guards_) guard.at_start = Value(guard, start_);
   }
@@ -254,7 +290,8 @@ class Increment {
 
   SmoothArc& arc_;
   const CurvePoint& start_;
-  const double length_, smallest_cosine_;
+  double length_;
+  const ArcLimits limits_;
   const std::optional<double> target_;
   const Eigen::VectorXd normal_;
   std::vector<Guard> guards_;
@@ -264,9 +301,9 @@ class Increment {
 }  // namespace
 
 std::optional<ArcIncrement> IncrementOnArc(SmoothArc* arc, const CurvePoint& start, double length,
-                                           double smallest_cosine, std::optional<double> target, ArcFailure* failure) {
+                                           const ArcLimits& limits, std::optional<double> target, ArcFailure* failure) {
   arc->SetOut(start);
-  return Increment(arc, start, length, smallest_cosine, target).Solve(failure);
+  return Increment(arc, start, length, limits, target).Solve(failure);
 }
 
 }  // namespace contact_path

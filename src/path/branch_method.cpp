@@ -281,7 +281,8 @@ void BranchMethod::SetNextLength(const ArcStep& at) {
 }
 
 std::optional<BranchMethod::BalancedStep> BranchMethod::NextBalancedStep() {
-  const StepLimits limits = {options_.smallest_step, options_.step, options_.prediction, options_.smallest_cosine};
+  const StepLimits limits = {options_.smallest_step, options_.step, options_.prediction, options_.smallest_cosine,
+                             options_.on_trial};
   double length = step_length_;
   std::optional<BalancedStep> best;
   for (int shorter = 0; shorter <= kMostShorter; ++shorter) {
@@ -291,6 +292,11 @@ std::optional<BranchMethod::BalancedStep> BranchMethod::NextBalancedStep() {
     best.emplace();
     best->at = *std::move(at);
     if (Balance(&*best)) break;
+    if (options_.on_trial)
+      options_.on_trial({best->at.step.length,
+                         "the energies do not balance",
+                         {},
+                         {{"work", best->work.loads}, {"friction", best->work.friction}}});
     length = 0.5 * std::min(best->at.tried, best->at.step.length);
     if (length < options_.smallest_step) break;
   }

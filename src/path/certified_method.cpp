@@ -24,6 +24,19 @@ const char* Describe(ArcFailure failure) {
   return "";
 }
 
+constexpr double kCoarsePrediction = 0.05;  // of the length
+constexpr char kResiduals[] = "its residuals are too large";
+
+std::string_view NameOf(ArcEnd kind) {
+  switch (kind) {
+    case ArcEnd::kNone: return "";
+    case ArcEnd::kConstraint: return "corner";
+    case ArcEnd::kLimitPoint: return "limit point";
+    case ArcEnd::kTarget: return "target";
+  }
+  return "";
+}
+
 }  // namespace
 
 CertifiedMethod::CertifiedMethod(const Model& model, const MpecOptions& options, std::function<bool()> cancelled)
@@ -83,7 +96,14 @@ std::optional<CertifiedMethod::Certified> CertifiedMethod::Certify(const PathPoi
   Certified at;
   // Why the longest increment was refused: shorter ones fail for reasons that follow from it.
   std::string first;
-  for (at.tried = step_length_; at.tried >= options_.smallest_step; at.tried *= 0.5, ++at.rejected) {
+  ArcLimits limits = options_.arc;
+  for (at.tried = step_length_;; at.tried *= 0.5, ++at.rejected) {
+    // Where no length meets the limits, as next to singular points, the predictor may be further off.
+    if (at.tried < options_.smallest_step) {
+      if (limits.prediction == kCoarsePrediction) break;
+      limits.prediction = kCoarsePrediction;
+      at.tried = step_length_;
+    }
     if (cancelled_ && cancelled_()) {
       *reason = EndReason::kCancelled;
       *message = "the caller asked for it";
@@ -91,26 +111,43 @@ std::optional<CertifiedMethod::Certified> CertifiedMethod::Certify(const PathPoi
     }
     ArcFailure failure = ArcFailure::kNone;
     std::optional<ArcIncrement> increment =
-        IncrementOnArc(&arc_, current_, at.tried, options_.smallest_cosine, options_.target, &failure);
+        IncrementOnArc(&arc_, current_, at.tried, limits, options_.target, &failure);
+    TrialStep trial = {at.tried, Describe(failure), {}, {}};
     if (increment) {
       at.increment = *std::move(increment);
       at.point = arc_.system().Unpack(at.increment.end.x);
       at.residuals = model_.Check(from, at.point);
-      if (at.residuals.Largest() <= tolerances::kAcceptedExact) return at;
+      const bool accepted = at.residuals.Largest() <= tolerances::kAcceptedExact;
+      trial.verdict = accepted ? "accepted" : kResiduals;
+      trial.ends_at = NameOf(at.increment.kind);
+      trial.numbers = {{"reached", Distance(from, at.point)},
+                       {"stationarity", at.increment.stationarity},
+                       {"newton_iterations", at.increment.corrections},
+                       {"largest_residual", at.residuals.Largest()}};
+      if (options_.on_trial) options_.on_trial(trial);
+      if (accepted) return at;
+    } else if (options_.on_trial) {
+      options_.on_trial(trial);
     }
-    if (first.empty()) first = increment ? "its residuals are too large" : Describe(failure);
+    if (first.empty()) first = trial.verdict;
   }
   *reason = EndReason::kStepTooSmall;
   *message = "no increment could be accepted, however short: " + first;
   return std::nullopt;
 }
 
-std::optional<EndReason> CertifiedMethod::LeaveCorner(const Certified& at, AcceptedPoint* accepted,
-                                                      std::string* message) {
+std::optional<EndReason> CertifiedMethod::LeaveCorner(const PathPoint& from, const Certified& at,
+                                                      AcceptedPoint* accepted, std::string* message) {
   const double arrives = at.increment.end.first[LoadFactor()];
   Arrival arrival;
   arrival.direction = at.increment.end.first.head(arc_.NumMotion());
   arrival.load_sense = options_.direction;
+  // The corner is where the path stood, and its rate may be rounding.
+  const Constraint& constraint = at.increment.constraint;
+  const double rate = arc_.system().Rate(constraint, at.increment.end.x, at.increment.end.first);
+  const bool in_place = !(Distance(from, at.point) > tolerances::kNoMove);
+  if (in_place && rate < 0.0 && rate >= -tolerances::kRate * arc_.system().UnitOf(constraint))
+    arrival.failed = constraint;
   accepted->event.number = ++events_;
   const std::optional<EndReason> reason =
       departure_.Leave(at.point, arrival, nullptr, &arc_, &current_, &accepted->event, message);
@@ -169,7 +206,7 @@ Advance CertifiedMethod::Next(const PathPoint& from) {
     accepted.kind = IncrementKind::kSmoothLimit;
   } else if (at->increment.kind == ArcEnd::kConstraint) {
     accepted.kind = IncrementKind::kContactEvent;
-    reason = LeaveCorner(*at, &accepted, &advance.message);
+    reason = LeaveCorner(from, *at, &accepted, &advance.message);
   }
   advance.ended = reason.has_value();
   if (reason) advance.reason = *reason;

@@ -112,7 +112,8 @@ MpecOptions MpecOptions::For(const TraceOptions& options, double growth) {
   result.corner_tolerance = std::min(result.corner_tolerance, kCornerShare * result.step);
   result.smallest_step = kSmallestStepRatio * result.step;
   result.direction = options.Direction();
-  result.smallest_cosine = BranchOptions::For(options, growth).smallest_cosine;
+  const BranchOptions branch = BranchOptions::For(options, growth);
+  result.arc = {branch.prediction, branch.smallest_cosine};
   return result;
 }
 
@@ -383,6 +384,15 @@ Advance MpecMethod::Next(const PathPoint& from) {
       advance.message = "the caller asked for it";
       return advance;
     }
+    if (options_.on_trial)
+      options_.on_trial({length,
+                         trial.verdict == Verdict::kAccepted ? "accepted" : Describe(trial.verdict),
+                         {},
+                         {{"reached", Distance(from, to)},
+                          {"regularisation", trial.increment.regularisation},
+                          {"exact", trial.increment.exact ? 1.0 : 0.0},
+                          {"ipopt_iterations", iterations_},
+                          {"largest_residual", trial.residuals.Largest()}}});
     if (trial.verdict != Verdict::kAccepted) {
       length *= 0.5;
       if (length >= options_.smallest_step) continue;

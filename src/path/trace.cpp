@@ -260,12 +260,14 @@ class Tracer {
       branch.target = target;
       branch.increments = increment;
       branch.events = events_;
+      branch.on_trial = control_.on_trial;
       branch.returns = &*returns_;
       return std::make_unique<BranchMethod>(model, branch, control_.cancelled);
     }
     MpecOptions mpec = MpecOptions::For(options, growth);
     mpec.target = target;
     mpec.events = events_;
+    mpec.on_trial = control_.on_trial;
     mpec.returns = &*returns_;
     if (options.mpec_solver == MpecSolver::kCertified)
       return std::make_unique<CertifiedMethod>(model, mpec, control_.cancelled);
@@ -283,9 +285,9 @@ class Tracer {
     const Residuals residuals = model.Check(point_, point_);
     if (!(residuals.Largest() <= tolerances::kAcceptedExact))
       return End(EndReason::kNumericalFailure, "the start is not an equilibrium");
-    // Method branch measures reactions by the force unit of the contact; where loads drive the path, the load factor is
-    // as small as the reactions, though.
-    const bool measured = request_.options.method == Method::kBranch && model.structure.ReferenceLoad().isZero(0.0);
+    // Where events are located, reactions are measured by the force unit of the contact; where loads drive the path,
+    // the load factor is as small as the reactions, though.
+    const bool measured = request_.options.LocatesEvents() && model.structure.ReferenceLoad().isZero(0.0);
     const double softest = measured ? tolerances::kSoftestMeasuredContact : tolerances::kSoftestContact;
     if (const std::string soft = ContactTooSoft(model, point_, softest); !soft.empty())
       return End(EndReason::kNumericalFailure, soft);

@@ -216,9 +216,7 @@ class Verifier {
   }
 
   // Whether what happened since the last full increment is one arc of the path.
-  bool OnePiece(const Increment& increment) const {
-    return increment_ == first_ || before_ == increment_ - 1 || located_;
-  }
+  bool OnePiece() const { return increment_ == first_ || before_ == increment_ - 1 || located_; }
 
   void CheckState(const Increment& increment) {
     ++result_.full_increments;
@@ -234,7 +232,7 @@ class Verifier {
     Bound("tensile_reaction", residuals.tensile_reaction, tolerance);
     Bound("gap and reaction are both positive", residuals.complementarity, tolerance);
     Bound("reaction outside of the friction cone", residuals.cone, tolerance);
-    if (OnePiece(increment)) Bound("friction law", residuals.friction_law, tolerance);
+    if (OnePiece()) Bound("friction law", residuals.friction_law, tolerance);
     Keep(residuals, increment.solve.exact ? &result_.exact : &result_.regularised);
     CheckRecorded(increment, residuals);
     for (std::size_t i = 0; i < scene_.nodes.size(); ++i) {
@@ -329,7 +327,7 @@ class Verifier {
   // What the law of friction is about. 0 where that is not known.
   double SlipOf(std::size_t contact, const CheckedState& from, const CheckedState& to) const {
     if (configuration_.HasTotalLaw() && contacts_[contact].friction > 0.0) return check_.TotalSlip(contact, to);
-    return OnePiece(Current()) ? check_.Slip(contact, from, to) : 0.0;
+    return OnePiece() ? check_.Slip(contact, from, to) : 0.0;
   }
 
   void CheckContact(const ContactRecord& contact, const CheckedState& from, const CheckedState& to, std::size_t i,
@@ -398,7 +396,7 @@ class Verifier {
         WorkBetween({scene_, index_, check_, scaling_, contacts_, configuration_.HasTotalLaw(), located_},
                     earlier_ ? &increments_[*earlier_] : nullptr, before, increment);
     if (!located_) open_ += work.open_work + work.open_dissipation;
-    if (!OnePiece(increment)) return;  // trapezoids over several increments tell too little
+    if (!OnePiece()) return;  // trapezoids over several increments tell too little
     const double unit = scaling_.force * scaling_.length;
     const double slack = kEnergy * result_.work * kSlack + rounding_;
     const double work_off = std::abs((increment.external_work - before.external_work) / unit - work.work);

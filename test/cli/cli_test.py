@@ -5,6 +5,7 @@ CONTACT_PATH_TRACE: the program; CONTACT_PATH_SCENES: the directory of the examp
 """
 import csv
 import io
+import json
 import os
 import pty
 import re
@@ -194,6 +195,41 @@ class CompleteTraces(CliTest):
         self.assertTrue(lines[first + 1].startswith('* branch 1: dissipation rate '), lines[first + 1])
         self.assertTrue(lines[first + 1].endswith('; foot@floor slip+'), lines[first + 1])
         self.assertNotIn('branch', ''.join(run(truss, '--csv', self.csv).stderr.splitlines()))
+
+    def test_log_has_trials_increments_and_events(self):
+        truss = os.path.join(os.path.dirname(SCENE), 'rough_truss.yaml')
+        for method in ('branch', 'mpec'):
+            log = self.path('trace.jsonl')
+            result = run(truss, '--method', method, '--csv', self.csv, '--log', log)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            lines = [json.loads(line) for line in read(log).splitlines()]
+            of_type = {name: [line for line in lines if line['type'] == name]
+                       for name in ('header', 'trial', 'increment', 'event', 'end')}
+            self.assertEqual(sum(map(len, of_type.values())), len(lines))
+            self.assertEqual([lines[0]], of_type['header'])
+            self.assertEqual([lines[-1]], of_type['end'])
+            self.assertEqual(lines[0]['method'], method)
+            self.assertRegex(lines[0]['scene_hash'], '^[0-9a-f]{16}$')
+            self.assertEqual(lines[-1]['reason'], 'stop_criterion')
+            rows = increments_of(read(self.csv))
+            self.assertEqual(lines[-1]['increments'], len(rows))
+            self.assertEqual(len(of_type['increment']), len(rows))
+            for row, increment in zip(rows, of_type['increment']):
+                self.assertEqual(row['kind'], increment['kind'])
+                self.assertEqual(float(row['load_factor']), increment['load_factor'])
+                node = lines[0]['nodes'].index('apex')
+                self.assertEqual(float(row['y_apex']), increment['positions'][2 * node + 1])
+                self.assertEqual(row['state_foot@floor'], increment['contacts'][0]['state'])
+            # Each increment but the first follows the trial that was accepted.
+            accepted = [trial for trial in of_type['trial'] if trial['verdict'] == 'accepted']
+            self.assertEqual(len(accepted), len(rows) - 1)
+            corner = next(event for event in of_type['event'] if event['number'] == 1)
+            self.assertEqual(of_type['increment'][corner['increment']]['kind'], 'corner_limit')
+            self.assertEqual(corner['branches'][corner['taken'] - 1]['states'], ['slip+'])
+
+    def test_log_changes_no_increment(self):
+        without = [line.split(',')[:-1] for line in run(SCENE).stdout.splitlines()]
+        self.assertEqual([line.split(',')[:-1] for line in run(SCENE, '--log', self.path('log')).stdout.splitlines()], without)
 
     def test_step_overrides_the_scene(self):
         def length(step):
@@ -410,6 +446,14 @@ class BadInput(CliTest):
             line, = self.expect_refused(SCENE, '--csv', path)
             self.assertIn('--csv', line)
             self.assertIn(path, line)
+
+    def test_log_that_cannot_be_opened_or_is_the_scene(self):
+        line, = self.expect_refused(SCENE, '--log', self.directory)
+        self.assertIn('--log', line)
+        path = self.write_scene(read(SCENE))
+        line, = self.expect_refused(path, '--log', path)
+        self.assertIn(path, line)
+        self.assertEqual(read(path), read(SCENE))
 
     def test_csv_file_that_is_the_scene(self):
         path = self.write_scene(read(SCENE))

@@ -6,6 +6,7 @@
 
 #include "contact_path/branch/smooth_arc.h"
 #include "contact_path/branch/test_functions.h"
+#include "contact_path/branch/trial_step.h"
 
 namespace contact_path {
 
@@ -14,6 +15,7 @@ struct StepLimits {
   double largest = 0.0;     // scaled length that none exceeds
   double prediction = 0.0;  // largest error of the predictor, relative to the step
   double cosine = 0.0;      // smallest, between the tangents at both ends
+  TrialObserver on_trial = {};
 };
 
 struct ArcStep {

@@ -27,6 +27,12 @@ enum class ArcFailure {
   kNotLocated,   // no root of the inequality that fails is found
 };
 
+// How far the curve of an increment may be from what its start tells.
+struct ArcLimits {
+  double prediction = 1e-3;  // largest error of the predictor of second order, of the length: another curve is farther
+  double cosine = 0.98;      // smallest between the tangents at both ends, and between each and the chord
+};
+
 struct ArcIncrement {
   CurvePoint end;
   ArcEnd kind = ArcEnd::kNone;
@@ -38,11 +44,11 @@ struct ArcIncrement {
 };
 
 // The minimiser of (9) on the arc: the point of the curve that is nearest to start + length x tangent, or the first end
-// before it. smallest_cosine: between the tangents at both ends, and between them and the chord. Of (9) the dissipation
+// before it. Of (9) the dissipation
 // is left out: on one arc it has one sense, and only says how far to go. start: on *arc, whose states are set. failure:
 // set where there is none.
 std::optional<ArcIncrement> IncrementOnArc(SmoothArc* arc, const CurvePoint& start, double length,
-                                           double smallest_cosine, std::optional<double> target, ArcFailure* failure);
+                                           const ArcLimits& limits, std::optional<double> target, ArcFailure* failure);
 
 }  // namespace contact_path
 

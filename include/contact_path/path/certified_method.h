@@ -47,7 +47,8 @@ class CertifiedMethod : public PathMethod {
   // An increment in which nothing moves: the reactions with which the branch begins.
   Advance ChangeReactions(const PathPoint& from);
   // Sets out from the corner where the increment ends. Nothing: done. Otherwise the path ends, with *message.
-  std::optional<EndReason> LeaveCorner(const Certified& at, AcceptedPoint* accepted, std::string* message);
+  std::optional<EndReason> LeaveCorner(const PathPoint& from, const Certified& at, AcceptedPoint* accepted,
+                                       std::string* message);
   // Where the path comes back to an earlier increment: its number, and the increment ends there.
   std::optional<int> EndAtReturn(const PathPoint& from, Certified* at);
   AcceptedPoint PointOf(const PathPoint& point, const Residuals& residuals) const;

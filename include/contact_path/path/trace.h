@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "contact_path/branch/trial_step.h"
 #include "contact_path/path/end_reason.h"
 #include "contact_path/path/increment.h"
 #include "contact_path/scene/scene.h"
@@ -25,6 +26,9 @@ struct TraceControl {
   std::function<void(const Increment&)> on_increment;
   // Asked often, also inside an increment; true ends the trace with kCancelled. May be left empty.
   std::function<bool()> cancelled;
+  // Takes each step that the method has tried along the path, accepted or not, before the increment that it leads to;
+  // of the path on which constant loads are brought on, none. May be left empty: then no trial is described.
+  TrialObserver on_trial = {};
 };
 
 // Traces until a stop criterion holds or another end. Increment 0 is the equilibrium at load factor 0 with all constant

@@ -1,0 +1,141 @@
+#include "cli/trace_log.h"
+
+#include <cstdint>
+#include <iomanip>
+#include <locale>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "contact_path/contact/contact_state.h"
+#include "contact_path/path/end_reason.h"
+#include "contact_path/scene/program.h"
+#include "contact_path/scene/write_scene.h"
+
+namespace contact_path {
+namespace {
+
+// Fields stay in the order in which they are set.
+using Json = nlohmann::ordered_json;
+
+// A value of a field: a number, a word, or a list of these.
+template <typename Value>
+Json JsonOf(const Value& value) {
+  if constexpr (std::is_enum_v<Value>)
+    return std::string(ToString(value));
+  else
+    return value;
+}
+Json JsonOf(const std::vector<ContactState>& states) {
+  Json list = Json::array();
+  for (const ContactState state : states) list.push_back(JsonOf(state));
+  return list;
+}
+
+// Parts with a description of their fields become objects, lists of them lists of objects.
+template <typename Part>
+void SetFields(const Part& part, Json* object);
+template <typename Value>
+Json FieldOf(const Value& value) {
+  if constexpr (field_internal::IsDescribed<Value>::value) {
+    Json object;
+    SetFields(value, &object);
+    return object;
+  } else {
+    return JsonOf(value);
+  }
+}
+template <typename Part>
+void SetFields(const Part& part, Json* object) {
+  ForEachField<Part>([&](const auto& field) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(part.*field.member)>, std::vector<BranchRecord>>) {
+      Json list = Json::array();
+      for (const BranchRecord& branch : part.*field.member) list.push_back(FieldOf(branch));
+      (*object)[std::string(field.name)] = std::move(list);
+    } else {
+      (*object)[std::string(field.name)] = FieldOf(part.*field.member);
+    }
+  });
+}
+
+void WriteLine(const Json& object, std::ostream* out) {
+  // Text that is not UTF-8 does not come through the reader of scenes.
+  *out << object.dump(-1, ' ', false, Json::error_handler_t::replace) << '\n' << std::flush;
+}
+
+}  // namespace
+
+std::string HashOf(const TraceRequest& request) {
+  std::uint64_t hash = 14695981039346656037U;
+  for (const char byte : WriteTraceRequest(request)) hash = (hash ^ static_cast<unsigned char>(byte)) * 1099511628211U;
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << std::hex << std::setfill('0') << std::setw(16) << hash;
+  return text.str();
+}
+
+TraceLog::TraceLog(const TraceRequest& request, std::ostream* out) : out_(*out) {
+  const Scaling scaling = ProgramScales(request);
+  Json header;
+  header["type"] = "header";
+  header["format"] = 1;
+  header["version"] = CONTACT_PATH_VERSION;
+  header["scene"] = request.scene.name;
+  header["scene_hash"] = HashOf(request);
+  header["method"] = JsonOf(request.options.method);
+  header["mpec_solver"] = JsonOf(request.options.mpec_solver);
+  header["accuracy"] = JsonOf(request.options.accuracy);
+  header["friction_law"] = JsonOf(request.options.friction_law);
+  header["scaling"] = {{"length", scaling.length}, {"force", scaling.force}, {"load_factor", scaling.load_factor}};
+  Json nodes = Json::array(), contacts = Json::array();
+  for (const Node& node : request.scene.nodes) nodes.push_back(node.name);
+  for (const ContactCandidate& contact : request.scene.contacts) contacts.push_back(contact.Name());
+  header["nodes"] = std::move(nodes);
+  header["contacts"] = std::move(contacts);
+  WriteLine(header, &out_);
+}
+
+void TraceLog::Add(const TrialStep& trial) {
+  Json line = {{"type", "trial"}, {"length", trial.length}, {"verdict", std::string(trial.verdict)}};
+  if (!trial.ends_at.empty()) line["ends_at"] = std::string(trial.ends_at);
+  for (const auto& [name, number] : trial.numbers) line[std::string(name)] = number;
+  WriteLine(line, &out_);
+}
+
+void TraceLog::Add(const Increment& increment) {
+  Json line = {{"type", "increment"},
+               {"index", increment.index},
+               {"stage", increment.stage},
+               {"load_factor", increment.load_factor},
+               {"arc_length", increment.arc_length},
+               {"kind", JsonOf(increment.kind)},
+               {"dissipation", increment.dissipation},
+               {"strain_energy", increment.strain_energy},
+               {"external_work", increment.external_work},
+               {"equilibrium_residual", increment.residuals.equilibrium},
+               {"complementarity_residual", increment.residuals.Contact()}};
+  SetFields(increment.solve, &line);
+  line["solve_time"] = increment.solve.time;
+  line["positions"] = increment.positions;
+  line["rotations"] = increment.rotations;
+  Json contacts = Json::array();
+  for (const ContactRecord& contact : increment.contacts) contacts.push_back(FieldOf(contact));
+  line["contacts"] = std::move(contacts);
+  WriteLine(line, &out_);
+  if (increment.event.number == 0 && increment.event.branches.empty()) return;
+  Json event = {{"type", "event"}, {"increment", increment.index}};
+  SetFields(increment.event, &event);
+  WriteLine(event, &out_);
+}
+
+void TraceLog::End(const TraceResult& result) {
+  WriteLine({{"type", "end"},
+             {"reason", JsonOf(result.reason)},
+             {"message", result.message},
+             {"increments", result.increments}},
+            &out_);
+}
+
+}  // namespace contact_path
