@@ -153,7 +153,8 @@ TEST(HardScenes, ConstantLoadGoesOnWhereItCan) {
   }
 }
 
-// Forces of 1e-8 of the characteristic one, which a stiff bar that carries nothing sets. The block sticks until the load is 1, then slides with r_n = 1 - 1.5 x, and the load is 1 - 0.5 x.
+// Forces of 1e-8 of the characteristic one, which a stiff bar that carries nothing sets. The block sticks until the
+// load is 1, then slides with r_n = 1 - 1.5 x, and the load is 1 - 0.5 x.
 TEST(HardScenes, ForcesFarBelowTheCharacteristicOne) {
   TraceRequest request = ReadData("stiff_neighbour");
   request.options.method = Method::kMpec;

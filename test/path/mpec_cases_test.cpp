@@ -1,4 +1,5 @@
-// Algorithm 3.2 to the letter, every increment by Ipopt, on the reference cases, against closed forms and independent results.
+// Algorithm 3.2 to the letter, every increment by Ipopt, on the reference cases, against closed forms and independent
+// results.
 #include <gtest/gtest.h>
 
 #include <algorithm>
