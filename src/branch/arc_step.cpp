@@ -12,6 +12,8 @@ namespace {
 constexpr double kCoarsePrediction = 0.05;  // largest error of the predictor where no smaller one is met
 constexpr double kNoise = 10.0;             // of the last Newton step: what rounding leaves of the predictor
 constexpr double kShortStep = 1e-3;         // of the longest one
+constexpr double kStationary = 1e-8;        // component along the curve, of the length: a step ends at the minimiser
+constexpr int kMostMinimisations = 12;      // each with the tangent of the one before
 constexpr int kLocatingAttempts = 6;
 constexpr double kRounded = 10.0;     // turn along a step by a second derivative that is rounding
 constexpr double kLongestArc = 1.05;  // of its chord
@@ -66,9 +68,32 @@ std::string_view NameOf(EventKind kind) {
   return "";
 }
 
+// Component of (du, ds) - S d on the tangent at the end, over S: 0 at a stationary point of (9) on the arc.
+double Stationarity(const CurvePoint& start, double length, const CurvePoint& end, Eigen::Index motion) {
+  return end.first.head(motion).dot((end.x - start.x).head(motion)) / length -
+         end.first.head(motion).dot(start.first.head(motion));
+}
+
+// Moves the end of a step along the curve to the point nearest to start + length x tangent. Of (4), the dissipation is
+// left out: on one arc it has one sense, and only says how far to go.
+bool MoveToNearest(SmoothArc* arc, const CurvePoint& start, double length, CurvePoint* end) {
+  const Eigen::Index motion = arc->NumMotion();
+  Eigen::VectorXd row = Eigen::VectorXd::Zero(start.x.size());
+  for (int i = 0; i < kMostMinimisations; ++i) {
+    const double off = Stationarity(start, length, *end, motion);
+    if (std::abs(off) <= kStationary) return true;
+    const Eigen::VectorXd tangent = end->first.head(motion);
+    row.head(motion) = tangent;
+    const double wanted = tangent.dot(start.x.head(motion) + length * start.first.head(motion));
+    const Correction correction = arc->Correct(end->x - off * length * end->first, row, wanted);
+    if (!correction.converged || !arc->Derivatives(correction.x, tangent, end)) return false;
+  }
+  return std::abs(Stationarity(start, length, *end, motion)) <= kStationary;
+}
+
 // A whole step with this length along the tangent; nothing where it has to be shorter. trial: null, or is told why.
 std::optional<ArcStep> TryStep(SmoothArc* arc, const CurvePoint& start, double length, double prediction,
-                               double smallest_cosine, TrialStep* trial) {
+                               const StepLimits& limits, TrialStep* trial) {
   const Eigen::VectorXd normal = start.first.head(arc->NumMotion());
   const double tolerance = prediction * length;
   const double rounding =
@@ -95,17 +120,22 @@ std::optional<ArcStep> TryStep(SmoothArc* arc, const CurvePoint& start, double l
   CurvePoint end;
   if (trial != nullptr) trial->verdict = "no tangent at the end";
   if (!arc->Derivatives(correction.x, normal, &end)) return std::nullopt;
+  if (limits.nearest) {
+    if (trial != nullptr) trial->verdict = "no minimiser";
+    if (!MoveToNearest(arc, start, length, &end)) return std::nullopt;
+    if (trial != nullptr) trial->numbers.emplace_back("stationarity", Stationarity(start, length, end, normal.size()));
+  }
   const double cosine = end.first.head(normal.size()).dot(normal);
   if (trial != nullptr) {
-    trial->numbers.insert(trial->numbers.end(), {{"cosine", cosine}, {"smallest_cosine", smallest_cosine}});
+    trial->numbers.insert(trial->numbers.end(), {{"cosine", cosine}, {"smallest_cosine", limits.cosine}});
     trial->verdict = "turn";
   }
-  if (cosine < smallest_cosine) return std::nullopt;
+  if (cosine < limits.cosine) return std::nullopt;
   KeepSide(start, &end);
   ArcStep result;
   result.step = MakeStep(start, end, arc->NumMotion());
   if (trial != nullptr) trial->verdict = "beside the curve";
-  if (EndsBeside(result.step, smallest_cosine)) return std::nullopt;
+  if (EndsBeside(result.step, limits.cosine)) return std::nullopt;
   DropRoundedSeconds(&result.step);
   result.tried = length;
   result.iterations = correction.iterations;
@@ -191,7 +221,7 @@ std::optional<ArcStep> StepBeyond(SmoothArc* arc, const CurvePoint& start, doubl
                                   std::optional<double> target) {
   for (const double factor : {2.0, 4.0, 8.0}) {
     if (factor * length > limits.largest) break;
-    std::optional<ArcStep> step = TryStep(arc, start, factor * length, kCoarsePrediction, limits.cosine, nullptr);
+    std::optional<ArcStep> step = TryStep(arc, start, factor * length, kCoarsePrediction, limits, nullptr);
     if (step && step->step.end.nullity == 0 && EndAtFirstEvent(arc, target, &*step)) return step;
   }
   return std::nullopt;
@@ -213,10 +243,10 @@ std::optional<ArcStep> NextStep(SmoothArc* arc, const CurvePoint& start, double 
     }
     if (tried < limits.smallest) return std::nullopt;
     TrialStep* const trial = limits.on_trial ? &said : nullptr;
-    std::optional<ArcStep> step = TryStep(arc, start, tried, prediction, limits.cosine, trial);
+    std::optional<ArcStep> step = TryStep(arc, start, tried, prediction, limits, trial);
     // Where there are no second derivatives the predictor is no better than the tangent. A long step might leap then.
     if (!step && start.nullity > 0 && tried <= kShortStep * limits.largest)
-      step = TryStep(arc, start, tried, kCoarsePrediction, limits.cosine, trial);
+      step = TryStep(arc, start, tried, kCoarsePrediction, limits, trial);
     const bool ends_singular = step && start.nullity == 0 && step->step.end.nullity > 0;
     bool good = step && EndAtFirstEvent(arc, target, &*step);
     if (ends_singular && !(good && step->event.kind != EventKind::kNone)) {

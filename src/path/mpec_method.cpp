@@ -8,7 +8,6 @@
 
 #include "contact_path/equations/fixed_state_system.h"
 #include "contact_path/equations/nearest_point.h"
-#include "contact_path/path/branch_options.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
@@ -112,8 +111,6 @@ MpecOptions MpecOptions::For(const TraceOptions& options, double growth) {
   result.corner_tolerance = std::min(result.corner_tolerance, kCornerShare * result.step);
   result.smallest_step = kSmallestStepRatio * result.step;
   result.direction = options.Direction();
-  const BranchOptions branch = BranchOptions::For(options, growth);
-  result.arc = {branch.prediction, branch.smallest_cosine};
   return result;
 }
 
@@ -369,6 +366,7 @@ Advance MpecMethod::Next(const PathPoint& from) {
   Advance advance;
   iterations_ = 0;
   double length = step_length_;
+  std::optional<Verdict> first;
   for (int rejected = 0;; ++rejected) {
     Trial trial = started_ ? Try(from, direction_, length) : TryFirst(from, length);
     const PathPoint& to = trial.increment.point;
@@ -394,10 +392,12 @@ Advance MpecMethod::Next(const PathPoint& from) {
                           {"ipopt_iterations", iterations_},
                           {"largest_residual", trial.residuals.Largest()}}});
     if (trial.verdict != Verdict::kAccepted) {
+      // Shorter increments fail for reasons that follow from the first one.
+      if (!first) first = trial.verdict;
       length *= 0.5;
       if (length >= options_.smallest_step) continue;
       advance.reason = EndReason::kStepTooSmall;
-      advance.message = std::string("no increment could be accepted, however short: ") + Describe(trial.verdict);
+      advance.message = std::string("no increment could be accepted, however short: ") + Describe(*first);
       return advance;
     }
 

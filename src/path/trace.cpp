@@ -17,7 +17,6 @@
 #include "contact_path/linear/linear_solver_error.h"
 #include "contact_path/path/automatic_step.h"
 #include "contact_path/path/branch_method.h"
-#include "contact_path/path/certified_method.h"
 #include "contact_path/path/diagnosis.h"
 #include "contact_path/path/free_motion.h"
 #include "contact_path/path/model.h"
@@ -255,22 +254,20 @@ class Tracer {
     TraceOptions options = request_.options;
     if (target) options.direction = *target < 0.0 ? -1.0 : 1.0;
     const double growth = AutomaticStepGrowth(model);
-    if (options.method == Method::kBranch) {
+    if (options.LocatesEvents()) {
       BranchOptions branch = BranchOptions::For(options, growth);
       branch.target = target;
       branch.increments = increment;
       branch.events = events_;
+      branch.method = options.method;
       branch.on_trial = control_.on_trial;
       branch.returns = &*returns_;
       return std::make_unique<BranchMethod>(model, branch, control_.cancelled);
     }
     MpecOptions mpec = MpecOptions::For(options, growth);
     mpec.target = target;
-    mpec.events = events_;
     mpec.on_trial = control_.on_trial;
     mpec.returns = &*returns_;
-    if (options.mpec_solver == MpecSolver::kCertified)
-      return std::make_unique<CertifiedMethod>(model, mpec, control_.cancelled);
     return std::make_unique<MpecMethod>(model, mpec, control_.cancelled);
   }
 
@@ -438,7 +435,7 @@ class Tracer {
   // What the user wanted and never was asked for.
   std::string MissedChoices() const {
     std::string text;
-    if (request_.options.method != Method::kBranch) return text;
+    if (!request_.options.LocatesEvents()) return text;
     for (const BranchChoice& choice : request_.options.branch_choices)
       if (choice.event > events_ || (choice.event == 0 && choice.increment >= recorder_.increments()))
         text += (text.empty() ? "; branch_choices: never came to " : ", ") + PlaceOf(choice);

@@ -33,8 +33,8 @@ void CheckOptions(Checker* checker) {
   if (options.friction_law == FrictionLaw::kTotal &&
       std::any_of(contacts.begin(), contacts.end(), [](const auto& contact) { return contact.friction > 0.0; }))
     checker->Add(path.Key("friction_law"), "total", "must be incremental where a contact with a surface has friction");
-  if (options.method == Method::kMpec && !options.branch_choices.empty())
-    checker->Add(choices, "", "must be empty with the method mpec, which does not find the branches of an event");
+  if (!options.LocatesEvents() && !options.branch_choices.empty())
+    checker->Add(choices, "", "must be empty with mpec_solver ipopt, which does not find the branches of an event");
   for (std::size_t i = 0; i < options.branch_choices.size(); ++i) {
     const BranchChoice& choice = options.branch_choices[i];
     checker->CheckFields(choices[i], choice);

@@ -11,7 +11,7 @@
 namespace contact_path {
 namespace {
 
-constexpr StepLimits kLimits = {1e-9, 1.0, 1e-3, 0.98};
+const StepLimits kLimits = {1e-9, 1.0, 1e-3, 0.98};
 
 TracedArc LinearArc() { return {TraceScene(ReadExample("rigid_stop").scene, 3), 1}; }
 TracedArc BentArc() { return {TraceScene(ReadExample("sliding_bar").scene, 21), 20}; }

@@ -373,10 +373,10 @@ class BadInput(CliTest):
         self.assertIn('no_such_branch: branch_choices wants branch 99 at increment 10', line)
         self.expect_whole_increments(read(self.csv))  # the increments up to there stay
 
-    def test_choice_of_branches_is_refused_with_mpec(self):
-        scene = self.write_scene(read(SCENE) + '  branch_choices: [{event: 1, branch: 2}]\n')
+    def test_choice_of_branches_is_refused_with_increments_by_ipopt(self):
+        scene = self.write_scene(read(SCENE) + '  mpec_solver: ipopt\n  branch_choices: [{event: 1, branch: 2}]\n')
         line, = self.expect_refused(scene, '--csv', self.csv, '--method', 'mpec')
-        self.assertIn('options.branch_choices: must be empty with the method mpec', line)
+        self.assertIn('options.branch_choices: must be empty with mpec_solver ipopt', line)
 
     def test_overrides_keep_the_rules_of_the_scene(self):
         for option, value in (('--step', '-1'), ('--step', 'nan'), ('--step', 'inf'), ('--max-increments', '-3'),

@@ -20,12 +20,11 @@ TraceRequest ByMpec(TraceRequest request) {
   return request;
 }
 
-// Limit points and changes of contact states. Where another path crosses, method mpec goes straight on without a word.
+// Limit points, crossing paths and changes of contact states.
 std::vector<const Increment*> Located(const TracedPath& path) {
   std::vector<const Increment*> located;
   for (const Increment& increment : path.increments)
-    if (increment.kind != IncrementKind::kStart && increment.kind != IncrementKind::kRegular &&
-        increment.kind != IncrementKind::kBifurcation)
+    if (increment.kind != IncrementKind::kStart && increment.kind != IncrementKind::kRegular)
       located.push_back(&increment);
   return located;
 }

@@ -275,15 +275,17 @@ const BrokenRule kOptionRules[] = {
 };
 INSTANTIATE_TEST_SUITE_P(Options, ValidateTest, testing::ValuesIn(kOptionRules), NameOf<BrokenRule>);
 
-TEST(ValidateOptionsTest, MpecTakesNoBranchChoices) {
+TEST(ValidateOptionsTest, IncrementsByIpoptTakeNoBranchChoices) {
   TraceRequest request = SoundRequest();
   request.options.branch_choices = {{1, 0, 2}};
   EXPECT_TRUE(Validate(request).empty());
   request.options.method = Method::kMpec;
+  EXPECT_TRUE(Validate(request).empty());
+  request.options.mpec_solver = MpecSolver::kIpopt;
   const std::vector<Violation> violations = Validate(request);
   ASSERT_EQ(violations.size(), 1U);
   EXPECT_EQ(violations[0].ToLine(),
-            "options.branch_choices: must be empty with the method mpec, which does not find the branches of an event");
+            "options.branch_choices: must be empty with mpec_solver ipopt, which does not find the branches of an event");
 }
 
 // A stage that presses b and moves the floor down, and one that takes that back.

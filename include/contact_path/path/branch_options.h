@@ -21,6 +21,7 @@ struct BranchOptions {
   double smallest_cosine = 0.98;  // between the tangents at both ends of an increment
   double direction = 1.0;         // sign of the first change of the load factor
   std::vector<BranchChoice> choices;
+  Method method = Method::kBranch;  // mpec: increments end at the minimisers of (9)
   TrialObserver on_trial = {};
   bool keep_loading = false;     // at an event, rather than turn the load back, the best branch with which it goes on
   std::optional<double> target;  // load factor at which the path is to end, in an increment of its own

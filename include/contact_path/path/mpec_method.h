@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "contact_path/branch/trial_step.h"
-#include "contact_path/mpec/arc_increment.h"
 #include "contact_path/mpec/increment_solver.h"
 #include "contact_path/mpec/ipopt_solver.h"
 #include "contact_path/path/model.h"
@@ -26,8 +25,6 @@ struct MpecOptions {
   double corner_tolerance = 5e-4;
   RegularisationSchedule regularisation;
   double direction = 1.0;        // sign of the first change of the load factor
-  ArcLimits arc;                 // of certified increments
-  int events = 0;                // passed before this path
   std::optional<double> target;  // load factor at which the path is to end, in an increment of its own
   TrialObserver on_trial = {};
   ReturnDetector* returns = nullptr;  // tells whether the path has come back to where it was; null: that is no end
