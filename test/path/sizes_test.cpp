@@ -142,8 +142,10 @@ TEST(Sizes, ContactThatIsSoftInAllDirections) {
 
 // The regularisation of method mpec cannot tell slip from stick there, nor any method where loads drive the path.
 TEST(Sizes, ContactThatIsTooSoftEndsByName) {
-  const TracedPath mpec = TraceData("soft_support", Method::kMpec, Accuracy::kBalanced);
-  TraceRequest request = mpec.request;
+  TraceRequest request = ReadTraceRequestFile(std::string(CONTACT_PATH_TEST_DATA) + "/soft_support.yaml");
+  request.options.method = Method::kMpec;
+  request.options.mpec_solver = MpecSolver::kIpopt;
+  const TracedPath mpec = TraceIncrements(request);
   request.options.method = Method::kBranch;
   request.program = {request.program[0]};
   request.program[0].support_motions.clear();
