@@ -154,7 +154,7 @@ void PointOfAnArc(benchmark::State& state) {
   }
 }
 
-// Increments of method mpec, out of reach of the floor or along it.
+// Increments by Ipopt, out of reach of the floor or along it.
 void MpecIncrement(benchmark::State& state) {
   const OneBlasThread one_thread;
   const TraceRequest request = BlockOf(static_cast<int>(state.range(0)), 0, state.range(1) == 0 ? 5.0 : kNear);

@@ -48,17 +48,21 @@ struct Path {
   bool cut = false;  // for want of time
 };
 
+// method: branch, mpec, or ipopt for mpec with mpec_solver ipopt.
 struct Setting {
   std::string method, accuracy;
   double step = 0.0;     // 0: of the preset
-  double minimum = 0.0;  // eps_min of mpec; 0: of the preset
-  bool cold = false;     // mpec: every increment by the whole schedule of eps, not from the last one
+  double minimum = 0.0;  // eps_min of ipopt; 0: of the preset
+  bool cold = false;     // ipopt: every increment by the whole schedule of eps, not from the last one
 };
 
 std::unique_ptr<PathMethod> MakeMethod(const Model& model, const TraceOptions& options, const Setting& setting,
                                        const std::function<bool()>& cancelled = nullptr) {
-  if (options.method == Method::kBranch)
-    return std::make_unique<BranchMethod>(model, BranchOptions::For(options, AutomaticStepGrowth(model)), cancelled);
+  if (options.LocatesEvents()) {
+    BranchOptions located = BranchOptions::For(options, AutomaticStepGrowth(model));
+    located.method = options.method;
+    return std::make_unique<BranchMethod>(model, located, cancelled);
+  }
   MpecOptions mpec = MpecOptions::For(options, AutomaticStepGrowth(model));
   if (setting.minimum > 0.0) mpec.regularisation.minimum = setting.minimum;
   if (setting.cold) mpec.regularisation.warm_start = false;
@@ -67,7 +71,8 @@ std::unique_ptr<PathMethod> MakeMethod(const Model& model, const TraceOptions& o
 
 TraceOptions OptionsOf(const TraceRequest& request, const Setting& setting) {
   TraceOptions options = request.options;
-  options.method = setting.method == "mpec" ? Method::kMpec : Method::kBranch;
+  options.method = setting.method == "branch" ? Method::kBranch : Method::kMpec;
+  options.mpec_solver = setting.method == "ipopt" ? MpecSolver::kIpopt : MpecSolver::kCertified;
   options.accuracy = setting.accuracy == "fast"       ? Accuracy::kFast
                      : setting.accuracy == "accurate" ? Accuracy::kAccurate
                                                       : Accuracy::kBalanced;
@@ -251,13 +256,13 @@ double LimitError(const Path& exact, const Path& path) {
 // unit: what the steps of a small scene are multiplied by.
 std::vector<Setting> AllSettings(double unit) {
   std::vector<Setting> settings;
-  for (const char* method : {"branch", "mpec"})
+  for (const char* method : {"branch", "mpec", "ipopt"})
     for (const char* accuracy : {"fast", "balanced", "accurate"}) settings.push_back({method, accuracy, 0.0, 0.0});
   for (const double step : {0.2, 0.1, 0.04, 0.01, 0.0025}) settings.push_back({"branch", "balanced", unit * step, 0.0});
-  if (unit > 1.0) return settings;  // a big scene: mpec does not come to its end in the time
-  for (const double step : {0.1, 0.04, 0.01}) settings.push_back({"mpec", "balanced", step, 0.0});
-  for (const double minimum : {1e-4, 1e-6, 1e-10, 1e-12}) settings.push_back({"mpec", "balanced", 0.0, minimum});
-  settings.push_back({"mpec", "balanced", 0.0, 0.0, true});
+  if (unit > 1.0) return settings;  // a big scene: ipopt does not come to its end in the time
+  for (const double step : {0.1, 0.04, 0.01}) settings.push_back({"ipopt", "balanced", step, 0.0});
+  for (const double minimum : {1e-4, 1e-6, 1e-10, 1e-12}) settings.push_back({"ipopt", "balanced", 0.0, minimum});
+  settings.push_back({"ipopt", "balanced", 0.0, 0.0, true});
   return settings;
 }
 
@@ -333,7 +338,7 @@ void MeasureModels() {
       request.scene.obstacles.push_back(rough);
     }
     const Model model(request.scene, CharacteristicScales(request.scene));
-    for (const char* method : {"branch", "mpec"}) {
+    for (const char* method : {"branch", "mpec", "ipopt"}) {
       constexpr int kRows = 20;
       const std::unique_ptr<PathMethod> tracer =
           MakeMethod(model, OptionsOf(request, {method, "balanced", 0.0, 0.0}), {method, "balanced", 0.0, 0.0});
