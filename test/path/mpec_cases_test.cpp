@@ -1,4 +1,4 @@
-// Algorithm 3.2 to the letter, every increment by Ipopt, on the reference cases, against closed forms and independent
+// Algorithm 3.2, every increment by Ipopt, on the reference cases, against closed forms and independent
 // results.
 #include <gtest/gtest.h>
 

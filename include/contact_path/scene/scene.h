@@ -92,7 +92,7 @@ struct Words<FrictionLaw> {
 // How method mpec finds its increments.
 enum class MpecSolver {
   kCertified,  // predicted and certified; by Ipopt where the contact states are not known
-  kIpopt,      // Algorithm 3.2 to the letter: every increment by Ipopt
+  kIpopt,      // Algorithm 3.2: every increment by Ipopt
 };
 
 template <>
