@@ -284,8 +284,9 @@ TEST(ValidateOptionsTest, IncrementsByIpoptTakeNoBranchChoices) {
   request.options.mpec_solver = MpecSolver::kIpopt;
   const std::vector<Violation> violations = Validate(request);
   ASSERT_EQ(violations.size(), 1U);
-  EXPECT_EQ(violations[0].ToLine(),
-            "options.branch_choices: must be empty with mpec_solver ipopt, which does not find the branches of an event");
+  EXPECT_EQ(
+      violations[0].ToLine(),
+      "options.branch_choices: must be empty with mpec_solver ipopt, which does not find the branches of an event");
 }
 
 // A stage that presses b and moves the floor down, and one that takes that back.
