@@ -10,7 +10,8 @@ import numpy
 import contact_path as cp
 
 HEIGHT, REST, EA = 5.0, 5.0 * sqrt(2.0), 14.142135623730951  # of the sliding bar
-METHODS = ['branch', 'mpec']
+# By located events, and by Algorithm 3.2 with every increment by Ipopt.
+METHODS = {'branch': {'method': 'branch'}, 'ipopt': {'method': 'mpec', 'mpec_solver': 'ipopt'}}
 
 
 def traced(scene, friction, method):
@@ -18,7 +19,7 @@ def traced(scene, friction, method):
     scene = cp.Scene.read('scenes/%s.yaml' % scene)
     for obstacle in scene.request['scene']['obstacles']:
         obstacle['friction'] = friction
-    return cp.trace(scene, method=method)
+    return cp.trace(scene, **METHODS[method])
 
 
 def limit_loads(friction):

@@ -295,7 +295,7 @@ std::optional<BranchMethod::BalancedStep> BranchMethod::NextBalancedStep() {
     if (Balance(&*best)) break;
     if (options_.on_trial)
       options_.on_trial({best->at.step.length,
-                         "the energies do not balance",
+                         kEnergiesOff,
                          {},
                          {{"work", best->work.loads}, {"friction", best->work.friction}}});
     length = 0.5 * std::min(best->at.tried, best->at.step.length);

@@ -17,6 +17,9 @@ struct TrialStep {
   std::vector<std::pair<std::string_view, double>> numbers;
 };
 
+// A verdict: the work of the loads is not what the strain energy gains and friction takes.
+inline constexpr std::string_view kEnergiesOff = "the energies do not balance";
+
 // Called with each trial; empty: nobody asks, and no trial is described.
 using TrialObserver = std::function<void(const TrialStep&)>;
 
