@@ -302,7 +302,7 @@ class Examples(ProgramTest):
                 self.assertTrue(close, '%s: %s, the page says %s' % (command, a, b))
 
     def test_examples(self):
-        for name in 'docs', 'scenes', 'scripts':
+        for name in 'docs', 'scenes', 'scripts', 'test':
             os.symlink(str(ROOT / name), self.path(name))
         seen = 0
         for page in PAGES:
