@@ -294,10 +294,8 @@ std::optional<BranchMethod::BalancedStep> BranchMethod::NextBalancedStep() {
     best->at = *std::move(at);
     if (Balance(&*best)) break;
     if (options_.on_trial)
-      options_.on_trial({best->at.step.length,
-                         kEnergiesOff,
-                         {},
-                         {{"work", best->work.loads}, {"friction", best->work.friction}}});
+      options_.on_trial(
+          {best->at.step.length, kEnergiesOff, {}, {{"work", best->work.loads}, {"friction", best->work.friction}}});
     length = 0.5 * std::min(best->at.tried, best->at.step.length);
     if (length < options_.smallest_step) break;
   }

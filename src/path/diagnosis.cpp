@@ -249,8 +249,8 @@ std::string StandsAtEnd(const Model& model, const PathPoint& point) {
   if (at_end.empty()) return {};
   std::string text = "contact " + model.scene.contacts[at_end.front()].Name();
   if (at_end.size() > 1) text += " and " + std::to_string(at_end.size() - 1) + " more";
-  return text + (at_end.size() > 1 ? " stand at ends of their surfaces" : " stands at an end of its surface") +
-         ", over which a contact cannot slide";
+  return text + (at_end.size() > 1 ? " stand at ends of their surfaces, over which a contact cannot slide"
+                                   : " stands at an end of its surface, over which a contact cannot slide");
 }
 
 std::string BehindSurface(const Model& model, const PathPoint& point) {
