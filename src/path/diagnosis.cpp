@@ -247,10 +247,10 @@ std::string StandsAtEnd(const Model& model, const PathPoint& point) {
       at_end.push_back(i);
   }
   if (at_end.empty()) return {};
-  std::string text = "contact " + model.scene.contacts[at_end.front()].Name();
-  if (at_end.size() > 1) text += " and " + std::to_string(at_end.size() - 1) + " more";
-  return text + (at_end.size() > 1 ? " stand at ends of their surfaces, over which a contact cannot slide"
-                                   : " stands at an end of its surface, over which a contact cannot slide");
+  const std::string first = "contact " + model.scene.contacts[at_end.front()].Name();
+  if (at_end.size() == 1) return first + " stands at an end of its surface, over which a contact cannot slide";
+  return first + " and " + std::to_string(at_end.size() - 1) +
+         " more stand at ends of their surfaces, over which a contact cannot slide";
 }
 
 std::string BehindSurface(const Model& model, const PathPoint& point) {
