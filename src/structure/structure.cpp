@@ -207,6 +207,8 @@ Eigen::VectorXd Structure::StiffnessBounds() const {
     Gather(part, start_, x);
     part.element->Tangent(x, local);
     const Eigen::MatrixXd sizes = local.cwiseAbs();
+    // In a later stage supports have moved, and an element that is not yet deformed with them may be inside out.
+    if (!sizes.allFinite()) continue;
     for (std::size_t i = 0; i < part.dofs.size(); ++i)
       if (part.dofs[i] >= 0)
         bounds[part.dofs[i]] +=
