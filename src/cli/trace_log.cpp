@@ -17,8 +17,8 @@
 namespace contact_path {
 namespace {
 
-// Fields stay in the order in which they are set.
-using Json = nlohmann::ordered_json;
+// Keys are sorted: objects that keep their order came to the library later than Ubuntu 20.04.
+using Json = nlohmann::json;
 
 // A value of a field: a number, a word, or a list of these.
 template <typename Value>
