@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "contact_path/branch/active_set_tolerance.h"
 #include "contact_path/tolerances.h"
@@ -12,8 +13,6 @@ namespace {
 constexpr double kCoarsePrediction = 0.05;  // largest error of the predictor where no smaller one is met
 constexpr double kNoise = 10.0;             // of the last Newton step: what rounding leaves of the predictor
 constexpr double kShortStep = 1e-3;         // of the longest one
-constexpr double kStationary = 1e-8;        // component along the curve, of the length: a step ends at the minimiser
-constexpr int kMostMinimisations = 12;      // each with the tangent of the one before
 constexpr int kLocatingAttempts = 6;
 constexpr double kRounded = 10.0;     // turn along a step by a second derivative that is rounding
 constexpr double kLongestArc = 1.05;  // of its chord
@@ -79,16 +78,18 @@ double Stationarity(const CurvePoint& start, double length, const CurvePoint& en
 bool MoveToNearest(SmoothArc* arc, const CurvePoint& start, double length, CurvePoint* end) {
   const Eigen::Index motion = arc->NumMotion();
   Eigen::VectorXd row = Eigen::VectorXd::Zero(start.x.size());
-  for (int i = 0; i < kMostMinimisations; ++i) {
+  double last = std::numeric_limits<double>::infinity();
+  for (;;) {
     const double off = Stationarity(start, length, *end, motion);
-    if (std::abs(off) <= kStationary) return true;
+    if (std::abs(off) <= tolerances::kRate || std::abs(off) * length <= tolerances::kNoMove) return true;
+    if (!(std::abs(off) <= 0.5 * last)) return false;
+    last = std::abs(off);
     const Eigen::VectorXd tangent = end->first.head(motion);
     row.head(motion) = tangent;
     const double wanted = tangent.dot(start.x.head(motion) + length * start.first.head(motion));
     const Correction correction = arc->Correct(end->x - off * length * end->first, row, wanted);
     if (!correction.converged || !arc->Derivatives(correction.x, tangent, end)) return false;
   }
-  return std::abs(Stationarity(start, length, *end, motion)) <= kStationary;
 }
 
 // A whole step with this length along the tangent; nothing where it has to be shorter. trial: null, or is told why.

@@ -105,17 +105,13 @@ void TraceLog::Add(const TrialStep& trial) {
 }
 
 void TraceLog::Add(const Increment& increment) {
-  Json line = {{"type", "increment"},
-               {"index", increment.index},
-               {"stage", increment.stage},
-               {"load_factor", increment.load_factor},
-               {"arc_length", increment.arc_length},
-               {"kind", JsonOf(increment.kind)},
-               {"dissipation", increment.dissipation},
-               {"strain_energy", increment.strain_energy},
-               {"external_work", increment.external_work},
-               {"equilibrium_residual", increment.residuals.equilibrium},
-               {"complementarity_residual", increment.residuals.Contact()}};
+  Json line;
+  SetFields(increment, &line);
+  Json event = std::move(line["event"]);
+  line.erase("event");
+  line["type"] = "increment";
+  line["equilibrium_residual"] = increment.residuals.equilibrium;
+  line["complementarity_residual"] = increment.residuals.Contact();
   SetFields(increment.solve, &line);
   line["solve_time"] = increment.solve.time;
   line["positions"] = increment.positions;
@@ -125,8 +121,8 @@ void TraceLog::Add(const Increment& increment) {
   line["contacts"] = std::move(contacts);
   WriteLine(line, &out_);
   if (increment.event.number == 0 && increment.event.branches.empty()) return;
-  Json event = {{"type", "event"}, {"increment", increment.index}};
-  SetFields(increment.event, &event);
+  event["type"] = "event";
+  event["increment"] = increment.index;
   WriteLine(event, &out_);
 }
 

@@ -157,9 +157,7 @@ PathPoint IncrementProblem::Point(const Eigen::VectorXd& x) const {
 }
 
 double IncrementProblem::ObjectiveAt(const PathPoint& point) const {
-  Eigen::VectorXd y(structure_.NumDofs() + 1);
-  y << point.u - from_.u, point.s - from_.s;
-  y /= goal_.length;
+  const Eigen::VectorXd y = Chord(from_, point) / goal_.length;
   return linear_objective_.dot(y) + 0.5 * goal_.gamma2_factor * y.squaredNorm();
 }
 

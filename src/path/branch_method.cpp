@@ -70,8 +70,7 @@ bool BranchMethod::Resume(const ResumePoint& at) {
   if (!(at.solve.next_step > 0.0)) return false;
   departure_.SetLargestReaction(at.largest_reaction);
   arc_.SetStates(at.point.states, at.point);
-  Eigen::VectorXd towards(arc_.NumMotion());
-  towards << at.point.u - at.before.u, at.point.s - at.before.s;
+  Eigen::VectorXd towards = Chord(at.before, at.point);
   // The next increment sets out with the factors of this one's end, which are those of the tangent at its start: with
   // another tangent Newton's method takes other steps, and the predictor is judged by the first of them.
   CurvePoint start;
@@ -83,9 +82,8 @@ bool BranchMethod::Resume(const ResumePoint& at) {
 }
 
 Advance BranchMethod::ChangeReactions(const PathPoint& from) {
-  PathPoint point = *departure_.begin();
+  PathPoint point = departure_.TakeBegin();
   point.states = arc_.system().states();
-  departure_.begin().reset();
   if (options_.ChoiceAt(increments_ + 1, 0) != nullptr)
     return Ended(EndReason::kNoSuchBranch,
                  "branch_choices wants a branch at increment " + std::to_string(increments_ + 1) +
@@ -214,7 +212,7 @@ std::optional<EndReason> BranchMethod::PassChoice(const ArcStep& at, AcceptedPoi
   const bool goes_on = arc_.system().states() == states &&
                        arc_.system().Norm(current_.first - at.step.end.first) <= tolerances::kSameTangent;
   if (goes_on) {
-    if (!departure_.begin()) current_ = at.step.end;
+    if (!departure_.ChangesReactions()) current_ = at.step.end;
     return std::nullopt;
   }
   increment->kind = TurnsLoad(at) ? IncrementKind::kCornerLimit : IncrementKind::kContactEvent;
@@ -320,7 +318,7 @@ bool BranchMethod::Balance(BalancedStep* step) const {
 }
 
 Advance BranchMethod::Next(const PathPoint& from) {
-  if (departure_.begin()) return ChangeReactions(from);
+  if (departure_.ChangesReactions()) return ChangeReactions(from);
   const int factorisations_before = arc_.factorisations();
   std::optional<BalancedStep> next = NextBalancedStep();
   if (!next) return Ended(EndReason::kStepTooSmall, NoStep(from));

@@ -147,9 +147,7 @@ const char* MpecMethod::Describe(Verdict verdict) {
 }
 
 Eigen::VectorXd MpecMethod::Direction(const PathPoint& from, const PathPoint& to) const {
-  Eigen::VectorXd direction(model_.structure.NumDofs() + 1);
-  direction << to.u - from.u, to.s - from.s;
-  return direction.normalized();
+  return Chord(from, to).normalized();
 }
 
 MpecMethod::Trial MpecMethod::SolveOnce(const PathPoint& from, const Eigen::VectorXd& direction, double length,
@@ -284,8 +282,7 @@ bool MpecMethod::ConfirmedByHalves(const PathPoint& from, const Eigen::VectorXd&
   if (second.verdict != Verdict::kAccepted) return false;
   // Distance of the middle from the chord of the whole increment.
   const Eigen::VectorXd chord = Direction(from, to);
-  Eigen::VectorXd bend(chord.size());
-  bend << middle.u - from.u, middle.s - from.s;
+  Eigen::VectorXd bend = Chord(from, middle);
   bend -= chord * chord.dot(bend);
   // A corner next to an end of the increment is twice as far from the chord as the middle.
   return 2.0 * bend.norm() <= options_.corner_tolerance &&

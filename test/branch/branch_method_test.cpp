@@ -89,7 +89,7 @@ TEST_P(ClosedForm, SlidingBar) {
   ASSERT_EQ(limits.size(), 2U);
   for (std::size_t i = 0; i < 2; ++i) {
     const double x = Root(bar::LoadFactorSlope, i == 0 ? -2.0 : 3.2, i == 0 ? -1.9 : 3.3);
-    EXPECT_NEAR(x, i == 0 ? bar::kFirstLimitX : bar::kSecondLimitX, 1e-7);  // as known before
+    EXPECT_NEAR(x, i == 0 ? bar::kFirstLimitX : bar::kSecondLimitX, 1e-12);
     EXPECT_NEAR(limits[i].load_factor, bar::LoadFactor(x), 1e-13);
     EXPECT_NEAR(PositionX(path, limits[i], "b"), x, 1e-10);
   }

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kShear = 1.0;  // shear modulus
 // To which places of corners are known where an element is pressed to nothing, of its size.
-constexpr double kPlaces = 1e-9;
+constexpr double kPlaces = 1e-10;
 
 Material MaterialOf(const std::string& name, MaterialModel model, double mu, double nu) {
   Material material;

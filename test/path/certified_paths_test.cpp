@@ -42,7 +42,7 @@ TEST_P(ExampleScene, HasThePathOfMethodBranch) {
   const double largest = branch.increments.back().dissipation;
   for (std::size_t i = 0; i < found.size(); ++i) {
     EXPECT_EQ(found[i]->kind, wanted[i]->kind) << i;
-    EXPECT_NEAR(found[i]->load_factor, wanted[i]->load_factor, 1e-9 * (1.0 + std::abs(wanted[i]->load_factor))) << i;
+    EXPECT_NEAR(found[i]->load_factor, wanted[i]->load_factor, 1e-10 * (1.0 + std::abs(wanted[i]->load_factor))) << i;
     EXPECT_NEAR(found[i]->dissipation, wanted[i]->dissipation, 1e-6 * largest) << i;  // measured 1.4e-7
   }
 }
@@ -58,10 +58,10 @@ TEST(CertifiedPaths, LimitPointsOfTheSlidingBarAreLocated) {
   const TracedPath path = TraceIncrements(ByMpec(ReadExample("sliding_bar")));
   std::vector<const Increment*> limits = Located(path);
   ASSERT_GE(limits.size(), 2u);
-  EXPECT_NEAR(limits[0]->load_factor, sliding_bar::kFirstLimit, 1e-9);
-  EXPECT_NEAR(PositionX(path, *limits[0], "b"), sliding_bar::kFirstLimitX, 1e-8);
-  EXPECT_NEAR(limits[1]->load_factor, sliding_bar::kSecondLimit, 1e-9);
-  EXPECT_NEAR(PositionX(path, *limits[1], "b"), sliding_bar::kSecondLimitX, 1e-8);
+  EXPECT_NEAR(limits[0]->load_factor, sliding_bar::LoadFactor(sliding_bar::kFirstLimitX), 1e-13);
+  EXPECT_NEAR(PositionX(path, *limits[0], "b"), sliding_bar::kFirstLimitX, 1e-10);
+  EXPECT_NEAR(limits[1]->load_factor, sliding_bar::LoadFactor(sliding_bar::kSecondLimitX), 1e-13);
+  EXPECT_NEAR(PositionX(path, *limits[1], "b"), sliding_bar::kSecondLimitX, 1e-10);
 }
 
 // Corners where the load turns by 100 degrees and more, whatever the length of increments.
@@ -130,15 +130,6 @@ TEST(CertifiedPaths, ABeltDragsANodeUntilItSlips) {
           EXPECT_NEAR(increment.dissipation, mu * kWeight * slipped, 1e-11);
         }
       }
-}
-
-// A path that cannot be followed says what stood in the way of its longest increment.
-TEST(CertifiedPaths, TheMessageNamesTheFirstCause) {
-  TraceRequest request = ByMpec(ReadExample("sliding_bar"));
-  request.scene.obstacles[0].ny = -1.0;
-  const TracedPath path = TraceIncrements(request);
-  EXPECT_EQ(path.result.reason, EndReason::kPathEnd);
-  EXPECT_NE(path.result.message.find("no admissible branch"), std::string::npos) << path.result.message;
 }
 
 }  // namespace

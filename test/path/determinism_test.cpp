@@ -20,6 +20,7 @@ constexpr int kMpecIncrements = 12;  // these take longer
 // The increments as CSV, but for the times.
 std::string Csv(TraceRequest request, Method method) {
   request.options.method = method;
+  request.options.mpec_solver = MpecSolver::kIpopt;  // increments of its own, where the method is mpec
   request.options.max_increments = method == Method::kBranch ? kIncrements : kMpecIncrements;
   std::ostringstream csv;
   const CsvWriter writer(request);

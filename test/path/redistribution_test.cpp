@@ -30,6 +30,7 @@ class BothMethods : public testing::TestWithParam<Method> {
   // Complete and proved.
   TracedPath Trace(TraceRequest request) {
     request.options.method = GetParam();
+    request.options.mpec_solver = MpecSolver::kIpopt;  // increments of its own, where the method is mpec
     TracedPath path = TraceIncrements(request);
     EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
     for (const Finding& finding : VerifyPath(request, path.increments).findings)

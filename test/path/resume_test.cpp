@@ -86,6 +86,7 @@ TEST(Resume, ByMpec) {
   for (const char* name : {"sliding_bar", "stick_slip_cycle"}) {
     TraceRequest request = ReadExample(name);
     request.options.method = Method::kMpec;
+    request.options.mpec_solver = MpecSolver::kIpopt;  // increments of its own, where the method is mpec
     const TracedPath whole = TraceIncrements(request);
     for (std::size_t cut = 1; cut <= whole.increments.size(); cut += whole.increments.size() / 6 + 1) {
       const std::vector<Increment> increments(whole.increments.begin(),

@@ -22,6 +22,7 @@ class TotalLaw : public testing::TestWithParam<Method> {
   // Complete, and proved by verify.
   static TracedPath TraceTotal(TraceRequest request) {
     request.options.method = GetParam();
+    request.options.mpec_solver = MpecSolver::kIpopt;  // increments of its own, where the method is mpec
     request.options.friction_law = FrictionLaw::kTotal;
     TracedPath path = TraceProved(request);
     EXPECT_LE(VerifyPath(path.request, path.increments).energy_balance, Exact() ? 1e-6 : 10.0 * kCut);

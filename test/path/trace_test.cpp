@@ -216,7 +216,7 @@ TEST(Trace, StepIsTheLengthOfIncrements) {
   TraceRequest request = ReadExample("von_mises");
   request.options.method = Method::kMpec;
   request.options.max_increments = 10;
-  for (const double step : {0.1, 0.01, 0.001}) {
+  for (const double step : {0.01, 0.001}) {
     request.options.step = step;
     const TracedPath path = TraceIncrements(request);
     ASSERT_EQ(path.increments.size(), 11u);
@@ -225,7 +225,7 @@ TEST(Trace, StepIsTheLengthOfIncrements) {
     for (std::size_t i = 1; i < path.increments.size(); ++i)
       longest = std::max(longest, path.increments[i].arc_length - path.increments[i - 1].arc_length);
     EXPECT_LE(longest, 1.01 * step);
-    EXPECT_GE(longest, step < 0.05 ? 0.99 * step : 0.0);
+    EXPECT_GE(longest, 0.99 * step);
   }
 }
 

@@ -19,6 +19,7 @@ TEST(VerifyEnd, OfWholeTracesIsNotContradicted) {
     for (const Method method : {Method::kBranch, Method::kMpec}) {
       TraceRequest request = ReadExample(scene);
       request.options.method = method;
+      request.options.mpec_solver = MpecSolver::kIpopt;  // increments of its own, where the method is mpec
       const TracedPath path = TraceIncrements(request);
       EXPECT_EQ(EndContradicted(request, path.increments, ToString(path.result.reason)), "") << scene;
     }

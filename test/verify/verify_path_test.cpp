@@ -17,6 +17,7 @@ namespace {
 TracedPath Traced(const std::string& scene, Method method) {
   TraceRequest request = ReadExample(scene);
   request.options.method = method;
+  request.options.mpec_solver = MpecSolver::kIpopt;  // increments of its own, where the method is mpec
   if (method == Method::kMpec) request.options.step = 0.05;
   return TraceIncrements(request);
 }
@@ -198,6 +199,7 @@ INSTANTIATE_TEST_SUITE_P(VerifyPath, Tampered, testing::ValuesIn(kTamperings),
 TEST(VerifyPath, LongIncrementsThatCutCornersAreProved) {
   TraceRequest request = ReadExample("sliding_bar");
   request.options.method = Method::kMpec;
+  request.options.mpec_solver = MpecSolver::kIpopt;  // increments of its own, where the method is mpec
   request.options.step = 0.2;
   const TracedPath path = TraceIncrements(request);
   const Verification verification = VerifyPath(path.request, path.increments);

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "contact_path/branch/branches.h"
@@ -51,8 +52,9 @@ class Departure {
   std::optional<EndReason> Leave(const PathPoint& point, Arrival arrival, const BranchChoice* choice, SmoothArc* arc,
                                  CurvePoint* current, EventRecord* record, std::string* message);
 
-  // Of the branch that was taken last, where it begins with other reactions than the point has: these.
-  std::optional<PathPoint>& begin() { return begin_; }
+  // Whether the branch that was taken last begins with other reactions than the point has, and these, once.
+  bool ChangesReactions() const { return begin_.has_value(); }
+  PathPoint TakeBegin() { return *std::exchange(begin_, std::nullopt); }
   // Whether a branch that was taken could have other reactions.
   bool other_reactions() const { return other_reactions_; }
 

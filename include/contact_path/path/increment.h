@@ -45,9 +45,9 @@ struct Fields<ContactRecord> {
 // What it took to compute the increment. Counts are of the last problem solved for it; iterations and time are sums.
 struct SolveRecord {
   Method method = Method::kMpec;
-  double regularisation = 0.0;  // mpec: eps reached, of products of scaled quantities; 0 = not used
+  double regularisation = 0.0;  // by Ipopt: eps reached, of products of scaled quantities; 0 = not used
   bool exact = false;           // true: active set fixed and Newton's method converged on the unregularised equations
-  int iterations = 0;           // Ipopt iterations (mpec), Newton iterations (branch)
+  int iterations = 0;           // of Ipopt, or of Newton's method
   int variables = 0;            // of the problem solved
   int constraints = 0;          // of the problem solved
   int rejected = 0;             // increments tried and not accepted before this one
@@ -59,7 +59,7 @@ struct SolveRecord {
                            // path; changes at limit points and where another path crosses; 0 = singular
   double contraction = 0.0;    // branch: second Newton step over the first
   double next_step = 0.0;      // length with which the next increment is tried, scaled norm; 0 = there is none
-  double gamma2_factor = 1.0;  // mpec: factor on gamma_2 in the next increment (Algorithm 3.2, step 4)
+  double gamma2_factor = 1.0;  // by Ipopt: factor on gamma_2 in the next increment (Algorithm 3.2, step 4)
   double time = 0.0;           // wall time [s]
 };
 
@@ -95,7 +95,7 @@ struct Fields<BranchRecord> {
   }
 };
 
-// What the branch method found at an increment where branches part; empty elsewhere.
+// What was found at an increment where branches part; empty elsewhere.
 struct EventRecord {
   int number = 0;                      // of the event, from 1; 0 = not one that the method came upon
   std::vector<BranchRecord> branches;  // all admissible branches but the branch of arrival, best first
