@@ -4,6 +4,7 @@
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <locale>
@@ -222,6 +223,24 @@ std::string FreeMotionQuestion(const Model& model, const PathPoint& point, doubl
                " point to the side where the " + Counted(names.contacts, "node", "nodes") + " may be? " + question;
   if (!names.rough.empty()) question += " is the friction of " + Listed(names.rough) + " too small?";
   return TextOf(names) + ": " + question;
+}
+
+bool IsShifted(const Model& model, const PathPoint& before, const PathPoint& now) {
+  const std::vector<double> from = model.InSceneUnits(before).positions, to = model.InSceneUnits(now).positions;
+  const double rounding = tolerances::kActiveGap * model.scaling.length;
+  double apart = 0.0;
+  for (std::size_t i = 2; i < to.size(); ++i)
+    apart = std::max(apart, std::abs((to[i] - from[i]) - (to[i % 2] - from[i % 2])));
+  return apart <= rounding && std::hypot(to[0] - from[0], to[1] - from[1]) > rounding;
+}
+
+bool Approaches(const Model& model, const PathPoint& before, const PathPoint& now) {
+  for (std::size_t i = 0; i < model.contacts.size(); ++i) {
+    const ContactPair& contact = *model.contacts[i];
+    const double gap = contact.Nearest(now.u, now.s).distance;
+    if (gap < contact.Nearest(before.u, before.s).distance - tolerances::kActiveGap) return true;
+  }
+  return false;
 }
 
 }  // namespace contact_path

@@ -367,30 +367,11 @@ class Tracer {
       return "every contact is open, and the load factor has gone beyond minus its target and moves away from it; with "
              "a stop criterion the path goes on";
     const double unloaded = tolerances::kUnloaded * largest_load_;
-    const bool drifts = std::abs(before.s) <= unloaded && std::abs(point_.s) <= unloaded && IsShifted(model, before);
-    if (!drifts || Approaches(model, before)) return {};
+    const bool drifts =
+        std::abs(before.s) <= unloaded && std::abs(point_.s) <= unloaded && IsShifted(model, before, point_);
+    if (!drifts || Approaches(model, before, point_)) return {};
     return "every contact is open, and the structure as a whole drifts away without a load; with a stop criterion the "
            "path goes on";
-  }
-
-  // Whether all nodes have moved by one vector. A part that swings about a support may come round to an obstacle again.
-  bool IsShifted(const Model& model, const PathPoint& before) const {
-    const std::vector<double> from = model.InSceneUnits(before).positions, to = model.InSceneUnits(point_).positions;
-    const double rounding = tolerances::kActiveGap * model.scaling.length;
-    double apart = 0.0;
-    for (std::size_t i = 2; i < to.size(); ++i)
-      apart = std::max(apart, std::abs((to[i] - from[i]) - (to[i % 2] - from[i % 2])));
-    return apart <= rounding && std::hypot(to[0] - from[0], to[1] - from[1]) > rounding;
-  }
-
-  // Whether a gap has become smaller, by more than rounding.
-  bool Approaches(const Model& model, const PathPoint& before) const {
-    for (std::size_t i = 0; i < model.contacts.size(); ++i) {
-      const ContactPair& contact = *model.contacts[i];
-      const double gap = contact.Nearest(point_.u, point_.s).distance;
-      if (gap < contact.Nearest(before.u, before.s).distance - tolerances::kActiveGap) return true;
-    }
-    return false;
   }
 
   bool IsAt(std::optional<double> target) const { return target && IsAtTarget(point_.s, *target); }
