@@ -83,15 +83,20 @@ RigidModes::RigidModes(const Structure& structure) : structure_(structure) {
   std::vector<std::vector<int>> members(components.size());
   for (std::size_t i = 0; i < owner.size(); ++i)
     members[static_cast<std::size_t>(owner[i])].push_back(static_cast<int>(i));
+  // At a given load factor a support that moves holds as one that rests does.
+  std::vector<bool> prescribed(static_cast<std::size_t>(structure.NumDofs()), false);
+  for (const PrescribedDof& support : structure.PrescribedDofs())
+    prescribed[static_cast<std::size_t>(support.dof)] = true;
   const Eigen::VectorXd values = structure.AllValues(structure.Start());
   for (const std::vector<int>& part : members) {
     RowSpace held(3);
     bool moves = false;
     const Eigen::MatrixX3d motions = MotionsOf({part}, values);
     for (std::size_t k = 0; k < part.size(); ++k) {
-      const bool is_unknown = components[static_cast<std::size_t>(part[k])].dof >= 0;
-      moves = moves || is_unknown;
-      if (!is_unknown) held.Add(motions.row(static_cast<Eigen::Index>(k)));
+      const int dof = components[static_cast<std::size_t>(part[k])].dof;
+      const bool is_free = dof >= 0 && !prescribed[static_cast<std::size_t>(dof)];
+      moves = moves || is_free;
+      if (!is_free) held.Add(motions.row(static_cast<Eigen::Index>(k)));
     }
     if (moves && held.NullSpace().cols() > 0) loose_.push_back({part});
   }

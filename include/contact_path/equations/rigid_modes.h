@@ -17,7 +17,7 @@ class RigidModes {
   // structure must outlive the object.
   explicit RigidModes(const Structure& structure);
 
-  // Whether supports leave a part a rigid motion. Otherwise At() finds none anywhere.
+  // Whether supports, resting or moving, leave a part a rigid motion. Otherwise At() finds none anywhere.
   bool Possible() const { return !loose_.empty(); }
 
   // Orthonormal columns, unknowns x modes, zero beside the positions and rotations: the rigid motions of loose parts,
