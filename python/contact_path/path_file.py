@@ -138,7 +138,8 @@ def matrix(rows: Sequence[Sequence[float]], width: int) -> np.ndarray:
 
 def branches_of(contacts: Sequence[str], event: Any) -> Dict[str, Any]:
     """What Path.events tells of an increment beside its kind."""
-    return {'number': event.number, 'taken': event.taken, 'complete': event.complete, 'branches': [
+    return {'number': event.number, 'taken': event.taken, 'complete': event.complete,
+            'complete_by': getattr(event, 'complete_by', ''), 'branches': [
         {'states': {contact: STATES[state] for contact, state in zip(contacts, branch.states)},
          'load_rate': branch.load_rate, 'dissipation_rate': branch.dissipation_rate, 'turn': branch.turn}
         for branch in event.branches]}

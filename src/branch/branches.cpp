@@ -160,19 +160,19 @@ BranchSet BranchesWithReactions(const Structure& structure, const ContactPairs& 
       TrySolutions(complementarity, options, point, &finder, &result);
       finder.TryOtherStatesAtNodes(&result.branches);
       solved = !result.branches.empty();
-      result.complete = complementarity.unique();
+      result.complete_by = complementarity.unique() ? Completeness::kOnlySolution : Completeness::kNone;
     }
   }
   if (!solved) {
-    result.complete = few_enough;
+    result.complete_by = few_enough ? Completeness::kAllCombinations : Completeness::kNone;
     if (few_enough)
       TryAll(options, excluded, &finder, &result);
     else
       TryLikely(options, point, arrival, condensed, combinations > kMostIfNone ? further : nullptr, &finder, &result);
   }
-  if (result.branches.empty() && !result.complete && combinations <= kMostIfNone) {
+  if (result.branches.empty() && result.complete_by == Completeness::kNone && combinations <= kMostIfNone) {
     TryAll(options, excluded, &finder, &result);
-    result.complete = true;
+    result.complete_by = Completeness::kAllCombinations;
   }
   if (result.branches.empty() && condensed != nullptr)
     finder.Try(ModesWith(natural, options, point), &result.branches);  // for its rigid modes
@@ -193,6 +193,12 @@ double SquaredReactions(const ContactPairs& contacts, const PathPoint& point) {
   return sum;
 }
 
+// Of the branches of two lists together.
+Completeness BothComplete(Completeness a, Completeness b) {
+  if (a == Completeness::kNone || b == Completeness::kNone) return Completeness::kNone;
+  return a == b ? a : Completeness::kAllCombinations;
+}
+
 // A branch that needs no change of reactions comes before one in the same direction that does. Of several changes, the
 // least reactions are kept: a choice that neither the order nor the tangents of the contacts decide.
 void AddOthers(const ContactPairs& contacts, BranchSet&& others, const PathPoint& begin, BranchSet* result) {
@@ -209,13 +215,22 @@ void AddOthers(const ContactPairs& contacts, BranchSet&& others, const PathPoint
       *known = std::move(branch);
   }
   result->weakly_active = std::max(result->weakly_active, others.weakly_active);
-  result->complete = result->complete && others.complete;
+  result->complete_by = BothComplete(result->complete_by, others.complete_by);
   result->cancelled = result->cancelled || others.cancelled;
   result->combinations += others.combinations;
   result->rigid_modes = std::max(result->rigid_modes, others.rigid_modes);
 }
 
 }  // namespace
+
+std::string_view ToString(Completeness completeness) {
+  switch (completeness) {
+    case Completeness::kNone: return "";
+    case Completeness::kOnlySolution: return "only_solution";
+    case Completeness::kAllCombinations: return "all_combinations";
+  }
+  return "unknown";
+}
 
 double DissipationRate(const ContactPairs& contacts, const std::vector<ContactState>& states, const PathPoint& point,
                        const Eigen::VectorXd& direction) {
@@ -233,7 +248,7 @@ BranchSet FindBranches(const Structure& structure, const ContactPairs& contacts,
   BranchSet result = BranchesWithReactions(structure, contacts, point, arrival, tolerance, further, cancelled);
   if (!result.cancelled && std::none_of(result.branches.begin(), result.branches.end(), GoesOn)) {
     const ReactionRedistributions others = FindReactionRedistributions(contacts, point, tolerance);
-    result.complete = result.complete && others.complete;
+    if (!others.complete) result.complete_by = Completeness::kNone;
     for (const PathPoint& begin : others.points) {
       if (result.cancelled) break;
       AddOthers(contacts, BranchesWithReactions(structure, contacts, begin, arrival, tolerance, further, cancelled),

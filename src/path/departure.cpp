@@ -35,7 +35,8 @@ std::string NoBranch(const BranchSet& on) {
   if (on.rigid_modes > 0)
     return "no admissible branch, and the structure is a mechanism here: nothing resists " +
            std::to_string(on.rigid_modes) + (on.rigid_modes == 1 ? " motion" : " motions");
-  if (!on.complete) return "no admissible branch was found among the combinations of contact states tried";
+  if (on.complete_by == Completeness::kNone)
+    return "no admissible branch was found among the combinations of contact states tried";
   return "no admissible branch: the quasi-static path ends here, only a dynamic jump leads further";
 }
 
@@ -98,7 +99,8 @@ std::optional<EndReason> Departure::Leave(const PathPoint& point, Arrival arriva
     return EndReason::kCancelled;
   }
   record->weakly_active = on.weakly_active;
-  record->complete = on.complete;
+  record->complete = on.complete_by != Completeness::kNone;
+  record->complete_by = ToString(on.complete_by);
   RecordBranches(on.branches, record);
   if (on.branches.empty() && arrival.failed) {
     *message = "contact " + model_.scene.contacts[static_cast<std::size_t>(arrival.failed->contact)].Name() +

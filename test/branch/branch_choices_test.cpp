@@ -192,6 +192,7 @@ TEST(BranchChoices, BranchesOnRecord) {
     EXPECT_EQ(increment.event.branches.empty(), !event) << increment.index;
     EXPECT_EQ(increment.event.taken, event ? 1 : 0);
     EXPECT_TRUE(increment.event.complete);
+    EXPECT_EQ(increment.event.complete_by.empty(), !event);
     EXPECT_EQ(increment.event.weakly_active, increment.kind == IncrementKind::kCornerLimit ? 1 : 0);
   }
   const std::vector<Increment> corners = IncrementsOfKind(path, IncrementKind::kCornerLimit);

@@ -90,7 +90,7 @@ TEST(FindBranches, StickInsideTheCone) {
     EXPECT_EQ(on.branches[0].direction, Eigen::Vector3d(0.0, 0.0, sign));
     EXPECT_EQ(on.weakly_active, 0);
     EXPECT_EQ(on.combinations, 1);
-    EXPECT_TRUE(on.complete);
+    EXPECT_EQ(on.complete_by, Completeness::kAllCombinations);
   }
 }
 
@@ -363,7 +363,7 @@ TEST(FindBranches, FindsExactlyTheAdmissibleRays) {
     arrival.direction = random.Vector(2 * n + 1, -1.0, 1.0).normalized();
     const BranchSet on = rest.Branches(arrival);
     ASSERT_EQ(on.branches.size(), rays.size()) << "problem " << i;
-    EXPECT_TRUE(on.complete);
+    EXPECT_EQ(on.complete_by, Completeness::kAllCombinations);
     for (const Ray& ray : rays) {
       const auto branch =
           std::min_element(on.branches.begin(), on.branches.end(), [&](const Branch& a, const Branch& b) {
@@ -431,7 +431,7 @@ TEST(FindBranches, ManyContactsAtOnce) {
   Rest rest(scene);
   const BranchSet on = rest.FromStart(1.0);
   EXPECT_EQ(on.weakly_active, 12);
-  EXPECT_FALSE(on.complete);
+  EXPECT_EQ(on.complete_by, Completeness::kNone);
   EXPECT_LE(on.combinations, 100);
   ASSERT_EQ(on.branches.size(), 1U);
   EXPECT_EQ(on.branches[0].states, expected);
@@ -506,7 +506,7 @@ TEST(FindBranches, ManyCoupledContacts) {
     const std::vector<VectorXd> all = BranchesWithRisingLoad(problem);
     Rest rest(problem.ToScene());
     const BranchSet on = rest.FromStart(1.0);
-    EXPECT_EQ(on.complete, on.combinations >= 1 << 14);
+    EXPECT_EQ(on.complete_by == Completeness::kAllCombinations, on.combinations >= 1 << 14);
     for (const Branch& branch : on.branches) {
       double distance = 1.0;
       for (const VectorXd& other : all) distance = std::min(distance, (other - branch.direction).norm());

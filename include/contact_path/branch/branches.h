@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <functional>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "contact_path/branch/active_set_tolerance.h"
@@ -50,14 +51,24 @@ struct Arrival {
   std::optional<Constraint> failed;
 };
 
+// Why a list of branches has all branches.
+enum class Completeness {
+  kNone,             // it may not have: too many combinations of states to try them all, the likely ones were
+  kOnlySolution,     // the rates have one solution for each sense of the load (rate_complementarity.h)
+  kAllCombinations,  // all combinations of states were tried
+};
+
+// "", "only_solution", "all_combinations".
+std::string_view ToString(Completeness completeness);
+
 struct BranchSet {
   std::vector<Branch> branches;  // best first: largest dissipation rate, then without mirror branch, then smallest
                                  // deviation, then a fixed order
   int weakly_active = 0;         // contacts that could change their state
-  bool complete = true;          // false: too many combinations to try them all, the likely ones were
-  bool cancelled = false;        // before the end: nothing else counts
-  int combinations = 0;          // tried
-  int rigid_modes = 0;           // most motions found that change neither load nor reactions where nothing else moves
+  Completeness complete_by = Completeness::kAllCombinations;
+  bool cancelled = false;  // before the end: nothing else counts
+  int combinations = 0;    // tried
+  int rigid_modes = 0;     // most motions found that change neither load nor reactions where nothing else moves
 };
 
 // -r_t . du_t >= 0 of the contacts that slide, with the reactions of the point. By the total law of friction, which
