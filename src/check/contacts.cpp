@@ -22,6 +22,7 @@ Vector Turned(const Vector& v, Real angle) {
 // An obstacle, which is turned about a point and then moved, both in proportion to the load factor.
 struct MovedObstacle {
   std::shared_ptr<const Surface> surface;
+  Vector point;      // p of the scene
   Vector motion;     // per unit of the load factor
   Real turn = 0.0L;  // before that, about a point
   Vector about;
@@ -53,6 +54,13 @@ class ObstacleContact : public Contact {
     (*forces)[2 * Node()] += factor * (rn * normal.x + rt * tangent.x);
     (*forces)[2 * Node() + 1] += factor * (rn * normal.y + rt * tangent.y);
   }
+  // The moment as the obstacle sees it.
+  OnNode ForceOnNode(const PlacedState& state, Real rn, Real rt) const override {
+    const Vector place = Position(state), n = obstacle_.surface->Normal(place), arm = place - obstacle_.point;
+    const Vector seen{rn * n.x + rt * n.y, rn * n.y - rt * n.x};
+    return {obstacle_.turn == 0.0L ? seen : Turned(seen, obstacle_.turn * state.LoadFactor()),
+            arm.x * seen.y - arm.y * seen.x};
+  }
   Vector Velocity(const PlacedState& state) const override {
     if (obstacle_.turn == 0.0L) return obstacle_.motion;
     const Vector arm = state.Place(Node()) - obstacle_.about -
@@ -77,8 +85,10 @@ class ObstacleContact : public Contact {
 class BoundaryContact : public Contact {
  public:
   // left_out: patches of the surface, where the node is one of its own; empty: none.
-  BoundaryContact(std::size_t node, std::size_t surface, Real friction, std::vector<bool> left_out)
-      : Contact(node, friction), surface_(surface), left_out_(std::move(left_out)) {}
+  // first_node: of the surface.
+  BoundaryContact(std::size_t node, std::size_t surface, std::size_t first_node, Real friction,
+                  std::vector<bool> left_out)
+      : Contact(node, friction), surface_(surface), first_node_(first_node), left_out_(std::move(left_out)) {}
 
   std::optional<std::size_t> TouchedSurface() const override { return surface_; }
   Real Gap(const PlacedState& state) const override {
@@ -108,6 +118,11 @@ class BoundaryContact : public Contact {
     for (std::size_t i = 0; i < BoundaryPatch::kNodes; ++i)
       add(patch.nodes[i], BoundaryShape::Reflected(patch, i, of[i + 1]));
   }
+  OnNode ForceOnNode(const PlacedState& state, Real rn, Real rt) const override {
+    const Vector place = state.Place(Node()), arm = place - state.Place(first_node_);
+    const Vector force = state.Shape(surface_).ForcesOf(place, FootIn(state), rn, rt)[0];
+    return {force, arm.x * force.y - arm.y * force.x};
+  }
   Real Imbalance(const PlacedState& state, Real rn, Real rt, Real length) const override {
     const Vector x = state.Place(Node());
     const BoundaryShape& shape = state.Shape(surface_);
@@ -128,7 +143,7 @@ class BoundaryContact : public Contact {
     return state.Shape(surface_).Nearest(state.Place(Node()), left_out_);
   }
 
-  std::size_t surface_;
+  std::size_t surface_, first_node_;
   std::vector<bool> left_out_;
 };
 
@@ -195,7 +210,9 @@ std::vector<std::unique_ptr<const Contact>> MakeContacts(const Scene& scene, con
                                                          const std::vector<double>& slip_origins) {
   std::unordered_map<std::string_view, MovedObstacle> obstacles;
   for (const Obstacle& obstacle : scene.obstacles)
-    obstacles.emplace(obstacle.name, MovedObstacle{MakeSurface(obstacle), {}, 0.0L, {}, obstacle.friction});
+    obstacles.emplace(
+        obstacle.name,
+        MovedObstacle{MakeSurface(obstacle), {obstacle.px, obstacle.py}, {}, 0.0L, {}, obstacle.friction});
   for (const ObstacleMotion& motion : scene.obstacle_motions) {
     MovedObstacle& moved = obstacles.at(motion.obstacle);
     moved.motion = {motion.dx, motion.dy};
@@ -210,7 +227,8 @@ std::vector<std::unique_ptr<const Contact>> MakeContacts(const Scene& scene, con
     if (contact.OnSurface()) {
       const std::size_t surface = surfaces.at(contact.surface);
       contacts.push_back(std::make_unique<BoundaryContact>(
-          node, surface, contact.friction, PatchesLeftOutFor(contact.node, scene.surfaces[surface], scene, numbers)));
+          node, surface, numbers.at(scene.surfaces[surface].nodes.front()), contact.friction,
+          PatchesLeftOutFor(contact.node, scene.surfaces[surface], scene, numbers)));
       continue;
     }
     const auto obstacle = obstacles.find(contact.obstacle);

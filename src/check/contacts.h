@@ -62,6 +62,13 @@ class Contact {
   }
   // Adds the forces of r_n and r_t, times factor, to *forces: x0, y0, x1, ... by node.
   virtual void AddForces(const PlacedState& state, Real rn, Real rt, Real factor, std::vector<Real>* forces) const = 0;
+  // Force on the node, and its moment about the point p of an obstacle where it is now, or about the first node of a
+  // surface.
+  struct OnNode {
+    Vector force;
+    Real moment = 0.0L;
+  };
+  virtual OnNode ForceOnNode(const PlacedState& state, Real rn, Real rt) const = 0;
   // Velocity of what the node touches and is fixed to a moving obstacle, per unit of the load factor.
   virtual Vector Velocity(const PlacedState&) const { return {}; }
   // How far the forces on all nodes are from balance, and their moments about the node over `length`; 0 for an

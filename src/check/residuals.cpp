@@ -18,6 +18,7 @@
 #include "check/elements.h"
 #include "check/plane.h"
 #include "contact_path/scene/expand.h"
+#include "contact_path/scene/reacting_parts.h"
 
 namespace contact_path {
 namespace {
@@ -95,6 +96,16 @@ struct ResidualCheck::Prepared {
       rates[2 * index.at(motion.node) + 1] = motion.dy;
       if (motion.rotation != 0.0) rates.at(num_positions + index.at(motion.node)) = motion.rotation;
     }
+    supports = SupportedNodes(scene);
+    const std::vector<TouchedBoundary> touched = TouchedBoundaries(scene);
+    num_touched = touched.size();
+    for (const ContactCandidate& contact : scene.contacts) {
+      const std::string& name = contact.OnSurface() ? contact.surface : contact.obstacle;
+      const auto of = std::find_if(touched.begin(), touched.end(), [&](const TouchedBoundary& boundary) {
+        return boundary.is_surface == contact.OnSurface() && boundary.name == name;
+      });
+      touched_by.push_back(static_cast<std::size_t>(of - touched.begin()));
+    }
     contacts = check::MakeContacts(scene, index, configuration.slip_origins);
     if (std::any_of(contacts.begin(), contacts.end(), [](const auto& contact) { return contact->TouchedSurface(); }))
       boundaries = check::MakeBoundaries(scene, index);
@@ -157,6 +168,9 @@ struct ResidualCheck::Prepared {
   std::vector<PreparedLoad> loads;
   std::vector<std::unique_ptr<const check::Contact>> contacts;
   std::vector<Real> contact_units;
+  std::vector<SupportedNode> supports;
+  std::vector<std::size_t> touched_by;  // by contact: which of TouchedBoundaries()
+  std::size_t num_touched = 0;
   std::vector<check::Boundary> boundaries;  // by surface of the scene; empty where no contact touches one
 };
 
@@ -231,6 +245,33 @@ std::vector<double> ResidualCheck::Unbalance(const CheckedState& state) const {
   prepared_->RequireSizes(state);
   const std::vector<Real> unbalance = prepared_->Unbalance(state);
   return {unbalance.begin(), unbalance.end()};
+}
+
+CheckedForces ResidualCheck::Forces(const CheckedState& state) const {
+  const Prepared& scene = *prepared_;
+  scene.RequireSizes(state);
+  const std::vector<Real> unbalance = scene.Unbalance(state);
+  CheckedForces forces;
+  for (const SupportedNode& support : scene.supports) {
+    std::array<double, 3>& of = forces.supports.emplace_back();
+    if (support.x) of[0] = static_cast<double>(unbalance[2 * support.node]);
+    if (support.y) of[1] = static_cast<double>(unbalance[2 * support.node + 1]);
+    if (support.rotation) of[2] = static_cast<double>(unbalance[scene.num_positions + support.node]);
+  }
+  std::vector<std::array<Real, 3>> sums(scene.num_touched);
+  const check::PlacedState placed = scene.Placed(state);
+  for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
+    if (state.rn[i] == 0.0 && state.rt[i] == 0.0) continue;
+    const check::Contact::OnNode on_node = scene.contacts[i]->ForceOnNode(placed, state.rn[i], state.rt[i]);
+    std::array<Real, 3>& sum = sums[scene.touched_by[i]];
+    sum[0] += on_node.force.x;
+    sum[1] += on_node.force.y;
+    sum[2] += on_node.moment;
+  }
+  for (const std::array<Real, 3>& sum : sums)
+    forces.boundaries.push_back(
+        {static_cast<double>(sum[0]), static_cast<double>(sum[1]), static_cast<double>(sum[2])});
+  return forces;
 }
 
 double ResidualCheck::DrivingForce(const CheckedState& state) const {

@@ -38,6 +38,18 @@ Json JsonOf(const std::vector<ContactState>& states) {
 template <typename Part>
 void SetFields(const Part& part, Json* object);
 template <typename Value>
+Json FieldOf(const Value& value);
+template <typename Value>
+Json FieldOf(const std::vector<Value>& values) {
+  if constexpr (field_internal::IsDescribed<Value>::value) {
+    Json list = Json::array();
+    for (const Value& value : values) list.push_back(FieldOf(value));
+    return list;
+  } else {
+    return JsonOf(values);
+  }
+}
+template <typename Value>
 Json FieldOf(const Value& value) {
   if constexpr (field_internal::IsDescribed<Value>::value) {
     Json object;
@@ -49,15 +61,7 @@ Json FieldOf(const Value& value) {
 }
 template <typename Part>
 void SetFields(const Part& part, Json* object) {
-  ForEachField<Part>([&](const auto& field) {
-    if constexpr (std::is_same_v<std::decay_t<decltype(part.*field.member)>, std::vector<BranchRecord>>) {
-      Json list = Json::array();
-      for (const BranchRecord& branch : part.*field.member) list.push_back(FieldOf(branch));
-      (*object)[std::string(field.name)] = std::move(list);
-    } else {
-      (*object)[std::string(field.name)] = FieldOf(part.*field.member);
-    }
-  });
+  ForEachField<Part>([&](const auto& field) { (*object)[std::string(field.name)] = FieldOf(part.*field.member); });
 }
 
 void WriteLine(const Json& object, std::ostream* out) {
@@ -116,9 +120,7 @@ void TraceLog::Add(const Increment& increment) {
   line["solve_time"] = increment.solve.time;
   line["positions"] = increment.positions;
   line["rotations"] = increment.rotations;
-  Json contacts = Json::array();
-  for (const ContactRecord& contact : increment.contacts) contacts.push_back(FieldOf(contact));
-  line["contacts"] = std::move(contacts);
+  line["contacts"] = FieldOf(increment.contacts);
   WriteLine(line, &out_);
   if (increment.event.number == 0 && increment.event.branches.empty()) return;
   event["type"] = "event";

@@ -6,6 +6,7 @@
 #include <ostream>
 
 #include "contact_path/scene/expand.h"
+#include "contact_path/scene/scene_index.h"
 
 namespace contact_path {
 namespace {
@@ -27,6 +28,10 @@ CsvWriter::CsvWriter(const TraceRequest& request) : program_(!request.program.em
   for (const Node& node : scene.nodes) nodes_.push_back(node.name);
   for (const ContactCandidate& contact : scene.contacts) contacts_.push_back(contact.Name());
   turn_ = NodesThatTurn(scene);
+  supports_ = SupportedNodes(scene);
+  const SceneIndex index(scene);
+  for (const TouchedBoundary& boundary : TouchedBoundaries(scene))
+    boundaries_.push_back(index.FindSupport(boundary.name) ? "" : boundary.name);
 }
 
 void CsvWriter::WriteHeader(std::ostream& out) const {
@@ -40,6 +45,13 @@ void CsvWriter::WriteHeader(std::ostream& out) const {
   for (const std::string& name : contacts_)
     line << ",gap_" << name << ",rn_" << name << ",rt_" << name << ",state_" << name;
   for (std::size_t i = kCsvNumbersFirst; i < NumNumbers(program_); ++i) line << ',' << kCsvNumbers[i].name;
+  for (const SupportedNode& support : supports_) {
+    if (support.x) line << ",rx_" << nodes_[support.node];
+    if (support.y) line << ",ry_" << nodes_[support.node];
+    if (support.rotation) line << ",rm_" << nodes_[support.node];
+  }
+  for (const std::string& name : boundaries_)
+    if (!name.empty()) line << ",rx_" << name << ",ry_" << name << ",rm_" << name;
   line << '\n';
   out << line.str();
 }
@@ -58,6 +70,16 @@ void CsvWriter::WriteRow(const Increment& increment, std::ostream& out) const {
   }
   for (std::size_t i = kCsvNumbersFirst; i < NumNumbers(increment.stage > 0); ++i)
     line << ',' << kCsvNumbers[i].value(increment);
+  for (std::size_t i = 0; i < supports_.size(); ++i) {
+    const Resultant& reaction = increment.supports[i];
+    if (supports_[i].x) line << ',' << reaction.rx;
+    if (supports_[i].y) line << ',' << reaction.ry;
+    if (supports_[i].rotation) line << ',' << reaction.rm;
+  }
+  for (std::size_t i = 0; i < boundaries_.size(); ++i) {
+    const Resultant& of = increment.boundaries[i];
+    if (!boundaries_[i].empty()) line << ',' << of.rx << ',' << of.ry << ',' << of.rm;
+  }
   line << '\n';
   out << line.str();
 }

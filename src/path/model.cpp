@@ -32,6 +32,7 @@ Model::Model(const Scene& scene_in, const Configuration& configuration_in, const
       structure(scaled, index, CountedFrom(origin, configuration_in).Over(scaling.length)),
       contacts(BuildContacts(scaled, index, structure,
                              CountedFrom(origin, configuration_in).Over(scaling.length).slip_origins)),
+      reactions(scaled, index, CountedFrom(origin, configuration_in).Over(scaling.length), scaling),
       check(scene_in, configuration_in, scaling_in) {}
 
 PathPoint Model::InitialPoint() const {
@@ -118,6 +119,8 @@ PathPoint Model::FromIncrement(const Increment& increment) const {
   NotePatches(&point);
   return point;
 }
+
+Reactions Model::ReactionsAt(const PathPoint& point) const { return reactions.At(structure.AllValues(point.u), point); }
 
 Residuals Model::Check(const PathPoint& before, const PathPoint& now) const {
   return check.Check(InSceneUnits(before), InSceneUnits(now));

@@ -29,6 +29,9 @@ void FillState(const Model& model, const PathPoint& point, Increment* increment)
   for (std::size_t i = 0; i < model.contacts.size(); ++i)
     increment->contacts[i] = {model.contacts[i]->Gap(point.u, point.s, point.Patch(i)) * model.scaling.length,
                               state.rn[i], state.rt[i], point.states[i]};
+  Reactions reactions = model.ReactionsAt(point);
+  increment->supports = std::move(reactions.supports);
+  increment->boundaries = std::move(reactions.boundaries);
 }
 
 void Recorder::Start(const Model& model, int stage, const PathPoint& point, const Residuals& residuals,

@@ -21,6 +21,14 @@ std::vector<Quantity> StopQuantities(const TraceRequest& request, const SceneInd
   return quantities;
 }
 
+namespace {
+
+const Resultant& ResultantOf(const Quantity& quantity, const Increment& increment) {
+  return (quantity.of_boundary ? increment.boundaries : increment.supports)[quantity.part];
+}
+
+}  // namespace
+
 double ValueOf(const Quantity& quantity, const Increment& increment) {
   switch (quantity.kind) {
     case Quantity::Kind::kLoadFactor: return increment.load_factor;
@@ -30,6 +38,9 @@ double ValueOf(const Quantity& quantity, const Increment& increment) {
     case Quantity::Kind::kGap: return increment.contacts[quantity.part].gap;
     case Quantity::Kind::kRn: return increment.contacts[quantity.part].rn;
     case Quantity::Kind::kRt: return increment.contacts[quantity.part].rt;
+    case Quantity::Kind::kForceX: return ResultantOf(quantity, increment).rx;
+    case Quantity::Kind::kForceY: return ResultantOf(quantity, increment).ry;
+    case Quantity::Kind::kMoment: return ResultantOf(quantity, increment).rm;
   }
   return 0.0;
 }

@@ -124,19 +124,20 @@ void Checker::CheckQuantity(const KeyPath& key, const std::string& text) {
   const std::optional<SpelledQuantity> quantity = ReadQuantity(text);
   if (!quantity) {
     Add(key, TextOrQuotes(text),
-        "must be load_factor, <node>.x, <node>.y, <node>.rotation, <contact>.gap, <contact>.rn or <contact>.rt" +
+        "must be load_factor, <node>.x, <node>.y, <node>.rotation, <contact>.gap, <contact>.rn, <contact>.rt, or .rx, "
+        ".ry or .rm "
+        "of a supported node, an obstacle or a surface" +
             NearestQuantity(text, request_.scene).Question());
   } else if (quantity->kind == Quantity::Kind::kLoadFactor) {
     if (!request_.program.empty())
       Add(key, text, "must be of a node or contact where there is a program: each stage has a target of its own");
   } else if (!FindQuantity(text, index_)) {
-    const bool of_node = Quantity{quantity->kind, 0}.IsOfNode();
     const NearestName nearest = NearestPart(*quantity, request_.scene);
     const std::string question =
         nearest.Get().empty()
             ? ""
             : "; did you mean " + QuantityText(quantity->kind, nearest.Get(), quantity->is_column) + "?";
-    Add(key, text, (of_node ? "must refer to a node of the scene" : "must refer to a contact of the scene") + question);
+    Add(key, text, "must refer to " + PartOf(quantity->kind) + question);
   } else if (quantity->kind == Quantity::Kind::kRotation && !Turns(std::string(quantity->name))) {
     Add(key, text, "must be of a node that a beam turns");
   }

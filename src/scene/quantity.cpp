@@ -1,7 +1,8 @@
 #include "contact_path/scene/quantity.h"
 
 #include <array>
-#include <functional>
+
+#include "contact_path/scene/reacting_parts.h"
 
 namespace contact_path {
 namespace {
@@ -12,13 +13,16 @@ struct Component {
   Unit unit;
 };
 
-// Of nodes and contacts.
-constexpr std::array<Component, 6> kComponents = {{{"x", Quantity::Kind::kX, units::kLength},
+// Of nodes, contacts, supports and boundaries.
+constexpr std::array<Component, 9> kComponents = {{{"x", Quantity::Kind::kX, units::kLength},
                                                    {"y", Quantity::Kind::kY, units::kLength},
                                                    {"rotation", Quantity::Kind::kRotation, units::kNone},
                                                    {"gap", Quantity::Kind::kGap, units::kLength},
                                                    {"rn", Quantity::Kind::kRn, units::kForce},
-                                                   {"rt", Quantity::Kind::kRt, units::kForce}}};
+                                                   {"rt", Quantity::Kind::kRt, units::kForce},
+                                                   {"rx", Quantity::Kind::kForceX, units::kForce},
+                                                   {"ry", Quantity::Kind::kForceY, units::kForce},
+                                                   {"rm", Quantity::Kind::kMoment, units::kMoment}}};
 constexpr std::string_view kLoadFactor = "load_factor";
 
 const Component* FindComponent(Quantity::Kind kind) {
@@ -31,6 +35,19 @@ const Component* FindComponent(std::string_view word) {
   for (const Component& component : kComponents)
     if (component.word == word) return &component;
   return nullptr;
+}
+
+bool Holds(const SupportedNode& support, Quantity::Kind kind) {
+  if (kind == Quantity::Kind::kMoment) return support.rotation;
+  return kind == Quantity::Kind::kForceX ? support.x : support.y;
+}
+
+std::optional<Quantity> FindReaction(Quantity::Kind kind, std::string_view name, const SceneIndex& index) {
+  const std::optional<std::size_t> support = index.FindSupport(name);
+  if (support && Holds(index.Support(*support), kind)) return Quantity{kind, *support, false};
+  const std::optional<std::size_t> boundary = index.FindBoundary(name);
+  if (!support && boundary) return Quantity{kind, *boundary, true};
+  return std::nullopt;
 }
 
 }  // namespace
@@ -60,6 +77,7 @@ std::optional<Quantity> FindQuantity(std::string_view text, const SceneIndex& in
   Quantity quantity;
   quantity.kind = spelled->kind;
   if (quantity.kind == Quantity::Kind::kLoadFactor) return quantity;
+  if (quantity.IsReaction()) return FindReaction(quantity.kind, spelled->name, index);
   const std::optional<std::size_t> part =
       quantity.IsOfNode() ? index.FindNode(spelled->name) : index.FindContact(std::string(spelled->name));
   if (!part) return std::nullopt;
@@ -68,7 +86,14 @@ std::optional<Quantity> FindQuantity(std::string_view text, const SceneIndex& in
 }
 
 NearestName NearestPart(const SpelledQuantity& quantity, const Scene& scene) {
-  if (Quantity{quantity.kind, 0}.IsOfNode()) return NearestOf(quantity.name, scene.nodes, &Node::name);
+  if (Quantity{quantity.kind}.IsReaction()) {
+    NearestName nearest(quantity.name);
+    for (const SupportedNode& support : SupportedNodes(scene))
+      if (Holds(support, quantity.kind)) nearest.Offer(scene.nodes[support.node].name);
+    for (const TouchedBoundary& boundary : TouchedBoundaries(scene)) nearest.Offer(boundary.name);
+    return nearest;
+  }
+  if (Quantity{quantity.kind}.IsOfNode()) return NearestOf(quantity.name, scene.nodes, &Node::name);
   return NearestOf(quantity.name, scene.contacts, &ContactCandidate::Name);
 }
 
@@ -76,15 +101,25 @@ NearestName NearestQuantity(std::string_view text, const Scene& scene) {
   NearestName nearest(text);
   nearest.Offer(kLoadFactor);
   const bool is_column = text.find('.') == text.npos;
-  const auto offer = [&](const auto& parts, auto name_of, bool of_node) {
-    for (const auto& part : parts)
-      for (const Component& component : kComponents)
-        if (Quantity{component.kind, 0}.IsOfNode() == of_node)
-          nearest.Offer(QuantityText(component.kind, std::invoke(name_of, part), is_column));
+  const auto offer = [&](const std::string& name, auto is_of) {
+    for (const Component& component : kComponents)
+      if (is_of(Quantity{component.kind})) nearest.Offer(QuantityText(component.kind, name, is_column));
   };
-  offer(scene.nodes, &Node::name, true);
-  offer(scene.contacts, &ContactCandidate::Name, false);
+  for (const Node& node : scene.nodes) offer(node.name, [](const Quantity& of) { return of.IsOfNode(); });
+  for (const ContactCandidate& contact : scene.contacts)
+    offer(contact.Name(), [](const Quantity& of) { return of.IsOfContact(); });
+  for (const SupportedNode& support : SupportedNodes(scene))
+    offer(scene.nodes[support.node].name,
+          [&](const Quantity& of) { return of.IsReaction() && Holds(support, of.kind); });
+  for (const TouchedBoundary& boundary : TouchedBoundaries(scene))
+    offer(boundary.name, [](const Quantity& of) { return of.IsReaction(); });
   return nearest;
+}
+
+std::string PartOf(Quantity::Kind kind) {
+  if (Quantity{kind}.IsReaction())
+    return "a component that a support holds, or an obstacle or surface with contact candidates";
+  return Quantity{kind}.IsOfNode() ? "a node of the scene" : "a contact of the scene";
 }
 
 std::string QuantityText(Quantity::Kind kind, std::string_view name, bool is_column) {

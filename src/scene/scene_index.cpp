@@ -11,6 +11,10 @@ SceneIndex::SceneIndex(const Scene& scene) {
   for (std::size_t i = 0; i < scene.obstacles.size(); ++i) obstacles_.emplace(scene.obstacles[i].name, i);
   contacts_.reserve(scene.contacts.size());
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) contacts_.emplace(scene.contacts[i].Name(), i);
+  supported_ = SupportedNodes(scene);
+  for (std::size_t i = 0; i < supported_.size(); ++i) supports_.emplace(scene.nodes[supported_[i].node].name, i);
+  for (const TouchedBoundary& boundary : TouchedBoundaries(scene))
+    boundaries_.emplace(boundary.name, boundaries_.size());
 }
 
 }  // namespace contact_path

@@ -21,8 +21,7 @@ constexpr std::string_view kSolveTime = "solve_time";
 
 // What to say of a node or contact that the scene does not have.
 std::string UnknownPart(const SpelledQuantity& quantity, const Scene& scene) {
-  const char* const part = Quantity{quantity.kind, 0}.IsOfNode() ? "node" : "contact";
-  return std::string("must be of a ") + part + " of the scene" + NearestPart(quantity, scene).Question();
+  return "must be of " + PartOf(quantity.kind) + NearestPart(quantity, scene).Question();
 }
 
 std::string UnknownColumn(const std::string& name) {

@@ -322,6 +322,26 @@ class Verifier {
     same("scaled strain energy", increment.strain_energy / unit,
          check_.StrainEnergy(increment.positions, increment.rotations) / unit,
          std::numeric_limits<double>::epsilon() * stiffest_);
+    const CheckedForces forces = check_.Forces(StateOf(increment));
+    CheckForces("support", increment.supports, forces.supports);
+    CheckForces("boundary", increment.boundaries, forces.boundaries);
+  }
+
+  // part: what the forces are of, numbered from 1.
+  void CheckForces(const char* part, const std::vector<Resultant>& recorded,
+                   const std::vector<std::array<double, 3>>& anew) {
+    if (recorded.size() != anew.size()) {
+      Report("there are forces of ", recorded.size(), " in place of ", anew.size(), " of the kind ", part);
+      return;
+    }
+    const double moment = scaling_.force * scaling_.length;
+    const double rounding = std::numeric_limits<double>::epsilon() * stiffest_;
+    for (std::size_t i = 0; i < anew.size(); ++i)
+      for (const auto& [name, is, be, unit] : {std::tuple("rx", recorded[i].rx, anew[i][0], scaling_.force),
+                                               std::tuple("ry", recorded[i].ry, anew[i][1], scaling_.force),
+                                               std::tuple("rm", recorded[i].rm, anew[i][2], moment)})
+        if (!(std::abs(is - be) / unit <= rounding_ * (1.0 + std::abs(be) / unit) + rounding))
+          Report(name, " of ", part, " ", i + 1, " is recorded as ", is, ", but is ", be);
   }
 
   // What the law of friction is about. 0 where that is not known.

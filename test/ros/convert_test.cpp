@@ -244,6 +244,7 @@ Increment FullIncrement() {
   increment.event.taken = 1;
   increment.event.weakly_active = 38;
   increment.event.complete = false;
+  increment.event.complete_by = "only_solution";
   increment.event.null_vector = {39.0, 40.0, 41.0, 42.0};
   return increment;
 }
@@ -295,6 +296,7 @@ TEST(ConvertTest, IncrementMessageHoldsEveryFieldUnderItsName) {
   EXPECT_EQ(message.event.taken, 1);
   EXPECT_EQ(message.event.weakly_active, 38U);
   EXPECT_FALSE(message.event.complete);
+  EXPECT_EQ(message.event.complete_by, "only_solution");
   EXPECT_EQ(message.event.null_vector, (std::vector<double>{39.0, 40.0, 41.0, 42.0}));
 }
 

@@ -46,6 +46,13 @@ struct CheckedState {
   std::vector<double> rt;
 };
 
+// What holds the structure: x, y [force] and moment [force length], on the structure.
+struct CheckedForces {
+  std::vector<std::array<double, 3>> supports;    // of SupportedNodes() (scene/reacting_parts.h); 0 in free components
+  std::vector<std::array<double, 3>> boundaries;  // of TouchedBoundaries(): sum of all contacts, the moment about the
+                                                  // point p of an obstacle, or about the first node of a surface
+};
+
 // Upper bounds of the forces at a contact candidate [force].
 struct ContactForceBound {
   double on_node = 0.0;       // on its node, across the contact
@@ -70,6 +77,8 @@ class ResidualCheck {
   // phi - T r by component x0, y0, x1, ... [force], and after them by rotation where there are beams [force length]; of
   // a fixed component, the force that holds it.
   std::vector<double> Unbalance(const CheckedState& state) const;
+  // Of supports, obstacles and surfaces.
+  CheckedForces Forces(const CheckedState& state) const;
   // The force that moving supports and obstacles exert along their motion per unit of the load factor [force length]:
   // the integral over the load factor is their work.
   double DrivingForce(const CheckedState& state) const;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "contact_path/path/increment.h"
+#include "contact_path/scene/reacting_parts.h"
 #include "contact_path/scene/scene.h"
 
 namespace contact_path {
@@ -41,7 +42,9 @@ std::ostringstream NewCsvLine();
 
 // Columns: index, load_factor, arc_length, kind, x_<node>, y_<node>, ..., gap_<contact>, rn_<contact>, rt_<contact>,
 // state_<contact>, ..., dissipation, strain_energy, equilibrium_residual, complementarity_residual, solve_time;
-// with a program, last: stage. rotation_<node> follows y_<node> where a beam turns the node. Nodes and contacts in the
+// with a program: stage; rx_<node>, ry_<node>, rm_<node> of each component that a support holds; rx_<boundary>,
+// ry_<boundary>, rm_<boundary> of each obstacle and surface with candidates, except of one that has the name of a
+// supported node. rotation_<node> follows y_<node> where a beam turns the node. Nodes and contacts in the
 // order of the expanded scene (scene/expand.h). Errors are left in the state of the stream.
 class CsvWriter {
  public:
@@ -53,7 +56,9 @@ class CsvWriter {
 
  private:
   std::vector<std::string> nodes_, contacts_;  // names
-  std::vector<bool> turn_;                     // by node
+  std::vector<SupportedNode> supports_;
+  std::vector<std::string> boundaries_;  // names; empty: no columns
+  std::vector<bool> turn_;               // by node
   bool program_;
 };
 

@@ -6,12 +6,14 @@
 #ifndef CONTACT_PATH_PATH_INCREMENT_H_
 #define CONTACT_PATH_PATH_INCREMENT_H_
 
+#include <string>
 #include <string_view>
 #include <tuple>
 #include <vector>
 
 #include "contact_path/check/residuals.h"
 #include "contact_path/contact/contact_state.h"
+#include "contact_path/response/resultant.h"
 #include "contact_path/scene/field.h"
 #include "contact_path/scene/scene.h"
 
@@ -102,7 +104,9 @@ struct EventRecord {
   int taken = 0;                       // number of the branch, from 1; 0 = none
   int weakly_active = 0;               // contacts that could change their state
   bool complete = true;                // false: there may be more branches than these
-  std::vector<double> null_vector;     // where another path crosses: x0, y0, x1, ... of its unit direction; else empty
+  std::string
+      complete_by;  // why there are no more: only_solution, all_combinations; empty where no branches are listed
+  std::vector<double> null_vector;  // where another path crosses: x0, y0, x1, ... of its unit direction; else empty
 };
 
 template <>
@@ -111,7 +115,7 @@ struct Fields<EventRecord> {
   static constexpr auto Of() {
     return std::tuple(Member("number", &P::number), Member("branches", &P::branches), Member("taken", &P::taken),
                       Member("weakly_active", &P::weakly_active), Member("complete", &P::complete),
-                      Member("null_vector", &P::null_vector));
+                      Member("complete_by", &P::complete_by), Member("null_vector", &P::null_vector));
   }
 };
 
@@ -125,6 +129,8 @@ struct Increment {
   // Since the start, by node; 0 for a node that no beam turns [rad]. Empty in a scene without beams.
   std::vector<double> rotations;
   std::vector<ContactRecord> contacts;  // in scene order
+  std::vector<Resultant> supports;      // on the structure, by SupportedNodes() of the scene (scene/reacting_parts.h)
+  std::vector<Resultant> boundaries;    // of all contacts with it, by TouchedBoundaries() of the scene
   double dissipation = 0.0;             // since increment 0, by friction; total law: work against it [force length]
   double strain_energy = 0.0;           // now [force length]
   double external_work = 0.0;           // of all loads since increment 0 [force length]
@@ -142,7 +148,8 @@ struct Fields<Increment> {
     return std::tuple(Member("index", &P::index), Member("stage", &P::stage), Member("load_factor", &P::load_factor),
                       Member("arc_length", &P::arc_length), Member("kind", &P::kind),
                       Member("dissipation", &P::dissipation), Member("strain_energy", &P::strain_energy),
-                      Member("external_work", &P::external_work), Member("event", &P::event));
+                      Member("external_work", &P::external_work), Member("supports", &P::supports),
+                      Member("boundaries", &P::boundaries), Member("event", &P::event));
   }
 };
 

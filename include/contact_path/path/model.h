@@ -8,6 +8,7 @@
 #include "contact_path/contact/contact_pair.h"
 #include "contact_path/contact/path_point.h"
 #include "contact_path/path/increment.h"
+#include "contact_path/response/reactions.h"
 #include "contact_path/scene/configuration.h"
 #include "contact_path/scene/origin.h"
 #include "contact_path/scene/scaling.h"
@@ -36,6 +37,8 @@ struct Model {
   CheckedState InSceneUnits(const PathPoint& point) const;
   // The inverse of InSceneUnits(), with one rounding, for an increment that has positions and contacts.
   PathPoint FromIncrement(const Increment& increment) const;
+  // Of supports, obstacles and surfaces, in the units of the scene.
+  Reactions ReactionsAt(const PathPoint& point) const;
   // By check/, of `now` reached from `before`.
   Residuals Check(const PathPoint& before, const PathPoint& now) const;
 
@@ -50,7 +53,8 @@ struct Model {
   const Scene scaled;
   const Structure structure;    // of the scaled scene
   const ContactPairs contacts;  // of the scaled scene
-  const ResidualCheck check;    // of the scene
+  const ReactionProblem reactions;
+  const ResidualCheck check;  // of the scene
 };
 
 }  // namespace contact_path

@@ -13,7 +13,7 @@
 
 namespace contact_path {
 
-// Positions and contacts of the increment as of the point.
+// Positions, contacts and reactions of the increment as of the point.
 void FillState(const Model& model, const PathPoint& point, Increment* increment);
 
 class Recorder {

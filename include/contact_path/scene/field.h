@@ -38,6 +38,7 @@ constexpr Unit kLoadFactor = {0, 0, 1};
 constexpr Unit kLengthRate = {1, 0, -1};
 constexpr Unit kForceRate = {0, 1, -1};
 constexpr Unit kBending = {2, 1, 0};  // EI
+constexpr Unit kMoment = {1, 1, 0};
 constexpr Unit kMomentRate = {1, 1, -1};
 constexpr Unit kTractionRate = {-1, 1, -1};  // force per length
 constexpr Unit kRotationRate = {0, 0, -1};   // [rad] per unit of the load factor

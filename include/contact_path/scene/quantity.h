@@ -24,35 +24,47 @@ struct Quantity {
     kGap,         // <contact>.gap, or gap_<contact>; a contact has the name of its candidate
     kRn,          // <contact>.rn, or rn_<contact>: normal reaction
     kRt,          // <contact>.rt, or rt_<contact>: tangential reaction
+    // <node>.rx, or rx_<node>: of the support, on the structure; <obstacle>.rx, <surface>.rx: of all contacts with it.
+    // Of a support and a boundary with one name the support is meant.
+    kForceX,
+    kForceY,  // .ry
+    kMoment,  // .rm
   };
 
   bool IsOfNode() const { return kind == Kind::kX || kind == Kind::kY || kind == Kind::kRotation; }
   bool IsOfContact() const { return kind == Kind::kGap || kind == Kind::kRn || kind == Kind::kRt; }
 
+  bool IsReaction() const { return kind == Kind::kForceX || kind == Kind::kForceY || kind == Kind::kMoment; }
+
   Kind kind = Kind::kLoadFactor;
-  std::size_t part = 0;  // place of the node or contact in its list of the scene
+  // Place of the node or contact in its list of the scene; of a reaction, in SupportedNodes() or TouchedBoundaries().
+  std::size_t part = 0;
+  bool of_boundary = false;
 };
 
 Unit UnitOf(Quantity::Kind kind);
 
-// A quantity as its spelling tells it, before the name of its node or contact is looked up.
+// A quantity as its spelling tells it, before the name of its part is looked up.
 struct SpelledQuantity {
   Quantity::Kind kind = Quantity::Kind::kLoadFactor;
-  std::string_view name;   // of the node or contact; a part of the text
+  std::string_view name;   // of the part; a piece of the text
   bool is_column = false;  // in the spelling of a column of the CSV
 };
 
 // The spellings above; nothing for another one. `text` must outlive the result.
 std::optional<SpelledQuantity> ReadQuantity(std::string_view text);
 
-// Nothing for another spelling, or a node or contact that the scene does not have.
+// Nothing for another spelling, a part that the scene does not have, and a component that no support holds.
 std::optional<Quantity> FindQuantity(std::string_view text, const SceneIndex& index);
 
 // The quantity of the scene that another spelling may mean.
 NearestName NearestQuantity(std::string_view text, const Scene& scene);
 
-// The node or contact of the scene that a spelled quantity may mean.
+// The part of the scene that a spelled quantity may mean.
 NearestName NearestPart(const SpelledQuantity& quantity, const Scene& scene);
+
+// What such a quantity is of, as "a node of the scene".
+std::string PartOf(Quantity::Kind kind);
 
 // The spelling of a quantity of `name`: "<name>.rn", or "rn_<name>" as a column.
 std::string QuantityText(Quantity::Kind kind, std::string_view name, bool is_column);

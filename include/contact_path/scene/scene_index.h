@@ -1,5 +1,5 @@
-// The names of a scene, each resolved once: nodes, materials, surfaces, obstacles and contacts by their place in the
-// scene.
+// The names of a scene, each resolved once: nodes, materials, surfaces, obstacles, contacts, supports and boundaries by
+// their places.
 #ifndef CONTACT_PATH_SCENE_SCENE_INDEX_H_
 #define CONTACT_PATH_SCENE_SCENE_INDEX_H_
 
@@ -8,7 +8,9 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <vector>
 
+#include "contact_path/scene/reacting_parts.h"
 #include "contact_path/scene/scene.h"
 
 namespace contact_path {
@@ -31,6 +33,10 @@ class SceneIndex {
   std::optional<std::size_t> FindSurface(std::string_view name) const { return Find(surfaces_, name); }
   std::optional<std::size_t> FindObstacle(std::string_view name) const { return Find(obstacles_, name); }
   std::optional<std::size_t> FindContact(const std::string& name) const { return Find(contacts_, name); }
+  // Places in SupportedNodes() and TouchedBoundaries().
+  std::optional<std::size_t> FindSupport(std::string_view node) const { return Find(supports_, node); }
+  std::optional<std::size_t> FindBoundary(std::string_view name) const { return Find(boundaries_, std::string(name)); }
+  const SupportedNode& Support(std::size_t place) const { return supported_[place]; }
 
  private:
   template <typename Map, typename Name>
@@ -39,8 +45,9 @@ class SceneIndex {
     return found == map.end() ? std::nullopt : std::optional(found->second);
   }
 
-  std::unordered_map<std::string_view, std::size_t> nodes_, materials_, surfaces_, obstacles_;
-  std::unordered_map<std::string, std::size_t> contacts_;  // by name
+  std::unordered_map<std::string_view, std::size_t> nodes_, materials_, surfaces_, obstacles_, supports_;
+  std::unordered_map<std::string, std::size_t> contacts_, boundaries_;  // by name
+  std::vector<SupportedNode> supported_;
 };
 
 }  // namespace contact_path

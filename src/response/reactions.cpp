@@ -1,0 +1,101 @@
+#include "contact_path/response/reactions.h"
+
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <string>
+#include <unordered_map>
+
+#include "contact_path/contact/kinematics.h"
+#include "contact_path/contact/scene_contacts.h"
+
+namespace contact_path {
+namespace {
+
+Scene WithoutSupports(Scene scene) {
+  for (Node& node : scene.nodes) node.fixed_x = node.fixed_y = node.fixed_rotation = false;
+  scene.support_motions.clear();
+  return scene;
+}
+
+double Moment(const Eigen::Vector2d& arm, const Eigen::Vector2d& force) {
+  return arm.x() * force.y() - arm.y() * force.x();
+}
+
+}  // namespace
+
+ReactionProblem::ReactionProblem(const Scene& scaled, const SceneIndex& index, const Configuration& configuration,
+                                 const Scaling& scaling)
+    : scaling_(scaling),
+      released_(WithoutSupports(scaled), index, configuration),
+      contacts_(BuildContacts(scaled, index, released_)),
+      supports_(SupportedNodes(scaled)),
+      boundaries_(TouchedBoundaries(scaled)) {
+  std::vector<std::size_t> of_obstacle(scaled.obstacles.size()), of_surface(scaled.surfaces.size());
+  for (std::size_t i = 0; i < boundaries_.size(); ++i)
+    (boundaries_[i].is_surface ? of_surface : of_obstacle)[boundaries_[i].place] = i;
+  for (const ContactCandidate& contact : scaled.contacts) {
+    nodes_.push_back(index.Node(contact.node));
+    boundary_of_.push_back(contact.OnSurface() ? of_surface[index.Surface(contact.surface)]
+                                               : of_obstacle[index.Obstacle(contact.obstacle)]);
+  }
+  for (const Obstacle& obstacle : scaled.obstacles) points_.push_back({{obstacle.px, obstacle.py}});
+  for (const ObstacleMotion& motion : scaled.obstacle_motions) {
+    MovingPoint& point = points_[index.Obstacle(motion.obstacle)];
+    point.velocity = {motion.dx, motion.dy};
+    point.turn = motion.turn;
+    point.about = {motion.about_x, motion.about_y};
+  }
+  for (const BoundarySurface& surface : scaled.surfaces) first_nodes_.push_back(index.Node(surface.nodes.front()));
+}
+
+Eigen::Vector2d ReactionProblem::PlaceOf(std::size_t node, const Eigen::VectorXd& values) const {
+  const auto number = static_cast<int>(node);
+  return {values[released_.Dof(number, 0)], values[released_.Dof(number, 1)]};
+}
+
+Eigen::Vector2d ReactionProblem::Centre(const TouchedBoundary& boundary, const Eigen::VectorXd& values,
+                                        double s) const {
+  if (boundary.is_surface) return PlaceOf(first_nodes_[boundary.place], values);
+  const MovingPoint& point = points_[boundary.place];
+  return point.about + Eigen::Rotation2Dd(point.turn * s) * (point.at - point.about) + s * point.velocity;
+}
+
+Reactions ReactionProblem::At(const Eigen::VectorXd& values, const PathPoint& point) const {
+  Reactions reactions;
+  reactions.boundaries.resize(boundaries_.size());
+  Eigen::VectorXd missing(released_.NumDofs());  // phi - s f - f_constant - T r
+  released_.InternalForce(values, missing);
+  missing -= point.s * released_.ReferenceLoad() + released_.ConstantLoad();
+  Kinematics at;
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    const double rn = point.rn[k], rt = point.rt[k];
+    if (rn == 0.0 && rt == 0.0) continue;
+    contacts_[i]->Evaluate(values, point.s, point.Patch(i), 0.0, &at);
+    const auto number = static_cast<int>(nodes_[i]);
+    Eigen::Vector2d on_node = Eigen::Vector2d::Zero();
+    for (std::size_t j = 0; j < at.dofs.size(); ++j) {
+      const auto entry = static_cast<Eigen::Index>(j);
+      const double force = rn * at.gap_gradient[entry] + rt * at.slip_factor * at.xi_gradient[entry];
+      missing[at.dofs[j]] -= force;
+      for (const int axis : {0, 1})
+        if (at.dofs[j] == released_.Dof(number, axis)) on_node[axis] = force;
+    }
+    Resultant& sum = reactions.boundaries[boundary_of_[i]];
+    sum.rx += scaling_.force * on_node.x();
+    sum.ry += scaling_.force * on_node.y();
+    sum.rm += scaling_.force * scaling_.length *
+              Moment(PlaceOf(nodes_[i], values) - Centre(boundaries_[boundary_of_[i]], values, point.s), on_node);
+  }
+  for (const SupportedNode& support : supports_) {
+    const auto number = static_cast<int>(support.node);
+    Resultant& of = reactions.supports.emplace_back();
+    if (support.x) of.rx = scaling_.force * missing[released_.Dof(number, 0)];
+    if (support.y) of.ry = scaling_.force * missing[released_.Dof(number, 1)];
+    if (support.rotation)
+      of.rm = scaling_.force * scaling_.length * missing[released_.Dofs().Dof(number, Field::kRotation, 0)];
+  }
+  return reactions;
+}
+
+}  // namespace contact_path
