@@ -1,8 +1,9 @@
 """Traces scenes by the action of the node, with rospy."""
 from __future__ import annotations
 
+import keyword
 import time
-from typing import Any, Callable, List
+from typing import Any, Callable, List, Mapping
 
 import actionlib
 import genpy
@@ -39,11 +40,18 @@ def trace(scene: Scene, progress: Callable[[Progress], None] | None, node: str) 
         client.stop()
 
 
+def safe(value: Any) -> Any:
+    """Maps with the names of fields as messages of Python have them: `from_` for `from`."""
+    if isinstance(value, Mapping):
+        return {key + '_' if keyword.iskeyword(key) else key: safe(item) for key, item in value.items()}
+    return [safe(item) for item in value] if isinstance(value, list) else value
+
+
 def goal_of(scene: Scene) -> TracePathGoal:
     """InvalidScene: a field or a value is not of the type of the message."""
     goal = TracePathGoal()
     try:
-        genpy.message.fill_message_args(goal, scene.request)
+        genpy.message.fill_message_args(goal, safe(scene.request))
         goal._check_types()
     except (genpy.MessageException, ValueError) as error:
         raise InvalidScene(' '.join(str(error).split())) from error

@@ -11,7 +11,7 @@ from contact_path.path_marks import COLOURS, ENERGIES, FEW_PATHS, MARKS, kinds_m
 from contact_path.path_quantities import label
 
 SYMBOLS = {'start': 'circle', 'smooth_limit': 'square', 'corner_limit': 'triangle-up', 'contact_event': 'diamond',
-           'bifurcation': 'star', 'stage_end': 'x'}
+           'bifurcation': 'star', 'sample': 'circle-open', 'stage_end': 'x'}
 DASHES = {'strain_energy': 'solid', 'dissipation': 'dash', 'external_work': 'dot'}
 PATH_AXES = {'xaxis': 'x', 'yaxis': 'y'}
 ENERGY_AXES = {'xaxis': 'x2', 'yaxis': 'y2'}

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 #: Kinds of increments, in the order of the constants of the message Increment.
-KINDS = ('start', 'regular', 'smooth_limit', 'corner_limit', 'contact_event', 'bifurcation')
+KINDS = ('start', 'regular', 'smooth_limit', 'corner_limit', 'contact_event', 'bifurcation', 'sample')
 #: States of contacts, in the order of the constants of the message ContactState.
 STATES = ('open', 'stick', 'slip+', 'slip-', 'closed')
 #: Why a trace ended; docs/end_reasons.md explains them. The first three are complete answers.

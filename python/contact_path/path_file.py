@@ -13,6 +13,9 @@ from contact_path.path import KINDS, STATES, Path
 from contact_path.scene import Scene
 from contact_path.scene_expand import contact_name
 
+#: Components of a force and its moment on the structure.
+REACTIONS = ('rx', 'ry', 'rm')
+
 
 def read(file: str | os.PathLike[str]) -> Path:
     """The path in a CSV file or a bag. OSError; ValueError where it holds none.
@@ -125,7 +128,39 @@ def columns_of(scene: Dict[str, Any], contacts: Sequence[str], increments: Seque
     for field in ('dissipation', 'strain_energy', 'external_work', 'equilibrium_residual', 'complementarity_residual',
                   'solve_time'):
         table[field] = column(field)
+    table.update(reaction_columns(scene, increments))
     return table
+
+
+def reaction_columns(scene: Dict[str, Any], increments: Sequence[Any]) -> Dict[str, np.ndarray]:
+    """Forces of supports, obstacles and surfaces, as the CSV has them. scene: as drawn() gives it."""
+    supports, boundaries = supported_nodes(scene), touched_boundaries(scene)
+    table: Dict[str, np.ndarray] = {}
+    for field, names in (('supports', list(supports)), ('boundaries', boundaries)):
+        forces = [matrix([[getattr(of, axis) for of in getattr(message, field, ())] for message in increments], len(names))
+                  for axis in REACTIONS]
+        for i, name in enumerate(names):
+            if field == 'boundaries' and name in supports:
+                continue  # its columns are those of the support
+            for axis, values in zip(REACTIONS, forces):
+                if field == 'boundaries' or axis in supports[name]:
+                    table['%s_%s' % (axis, name)] = values[:, i]
+    return table
+
+
+def supported_nodes(scene: Dict[str, Any]) -> Dict[str, List[str]]:
+    """Nodes with a fixed component -> which of REACTIONS hold them, in the order of the scene."""
+    held = {node['name']: [axis for axis, fixed in zip(REACTIONS, (
+        node['fixed_x'], node['fixed_y'], node['fixed_rotation'] and node['name'] in scene['turning'])) if fixed]
+            for node in scene['nodes']}
+    return {name: axes for name, axes in held.items() if axes}
+
+
+def touched_boundaries(scene: Dict[str, Any]) -> List[str]:
+    """Names of the obstacles, then the surfaces, that have contact candidates."""
+    touched = {(contact['surface'] != '', contact['surface'] or contact['obstacle']) for contact in scene['contacts']}
+    return ([obstacle['name'] for obstacle in scene['obstacles'] if (False, obstacle['name']) in touched] +
+            [surface['name'] for surface in scene['surfaces'] if (True, surface['name']) in touched])
 
 
 def matrix(rows: Sequence[Sequence[float]], width: int) -> np.ndarray:

@@ -15,6 +15,7 @@ MARKS = {
     'corner_limit': ('corner limit point', '#9467bd'),
     'contact_event': ('contact event', '#2ca02c'),
     'bifurcation': ('bifurcation', '#ff7f0e'),
+    'sample': ('wanted value', '#1f77b4'),
     'stage_end': ('end of a stage', '#4d4d4d'),
 }
 

@@ -20,7 +20,8 @@ LABELS = {'x': ('position x of node', '[length]'), 'y': ('position y of node', '
           'rotation': ('rotation of node', '[rad]'),
           'fx': ('load fx on node', '[force]'), 'fy': ('load fy on node', '[force]'),
           'gap': ('gap of', '[length]'), 'rn': ('normal reaction of', '[force]'),
-          'rt': ('tangential reaction of', '[force]'), 'slip': ('slip of', '[length]')}
+          'rt': ('tangential reaction of', '[force]'),
+          'rx': ('force x of', '[force]'), 'ry': ('force y of', '[force]'), 'rm': ('moment of', '[force length]'), 'slip': ('slip of', '[length]')}
 UNITS = {'load_factor': '[-]', 'arc_length': '[-]', 'dissipation': '[force length]', 'strain_energy': '[force length]',
          'external_work': '[force length]', 'equilibrium_residual': '[-]', 'complementarity_residual': '[-]',
          'solve_time': '[s]', 'load_x': '[force]', 'load_y': '[force]'}

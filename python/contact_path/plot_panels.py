@@ -12,7 +12,8 @@ from contact_path.path import Path
 from contact_path.path_marks import COLOURS, ENERGIES, FEW_PATHS, MARKS, STATES, kinds_marked, line, points
 from contact_path.path_quantities import label
 
-MARKERS = {'start': 'o', 'smooth_limit': 's', 'corner_limit': '^', 'contact_event': 'D', 'bifurcation': '*', 'stage_end': 'X'}
+MARKERS = {'start': 'o', 'smooth_limit': 's', 'corner_limit': '^', 'contact_event': 'D', 'bifurcation': '*', 'sample': '.',
+           'stage_end': 'X'}
 ENERGY_DASHES = {'strain_energy': '-', 'dissipation': '--', 'external_work': ':'}
 EDGE = '0.35'  # around fields in the colours of contact states
 

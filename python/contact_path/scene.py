@@ -169,14 +169,26 @@ class Scene(Loading):
                 step: float | None = None, max_increments: int | None = None, full_state_every: int | None = None,
                 stop: Sequence[Mapping[str, Any]] | None = None,
                 branch_choices: Sequence[Mapping[str, Any]] | None = None, friction_law: str | None = None,
-                mpec_solver: str | None = None) -> None:
-        """Sets options of the trace; None: as it was. stop and branch_choices replace the whole list."""
+                mpec_solver: str | None = None, at: Sequence[Mapping[str, Any]] | None = None) -> None:
+        """Sets options of the trace; None: as it was. stop, at and branch_choices replace the whole list."""
         given = {key: _plain(value) for key, value in locals().items() if key != 'self' and value is not None}
         self.request.setdefault('options', {}).update(given)
 
-    def stop(self, quantity: str, when: str, value: float) -> None:
-        """One more criterion that ends the trace: quantity as NODE.x or load_factor, when '>' or '<'."""
+    def stop(self, quantity: str, when: str, value: float, *, exact: str = '') -> None:
+        """One more criterion that ends the trace: quantity as NODE.x or load_factor, when '>' or '<'. The last increment lies at
+        the value; exact 'false': it is the next one beyond."""
         self._option('stop', locals())
+
+    def at(self, quantity: str, *, values: Sequence[float] = (), from_: float = 0.0, to: float = 0.0, count: int = 0) -> None:
+        """Increments of the kind `sample` wherever the path comes to one of the values (n,) of a quantity, in its unit; without
+        values to `count` values from from_ to `to` at equal distances. from_ is the field `from`, which is a word of Python.
+
+        >>> scene = Scene()
+        >>> scene.at('tip.y', from_=-1.0, to=-2.0, count=5)
+        >>> scene.request['options']['at']
+        [{'quantity': 'tip.y', 'from': -1.0, 'to': -2.0, 'count': 5}]
+        """
+        self._option('at', locals())
 
     def branch_choice(self, *, event: int = 0, increment: int = 0, branch: int = 0) -> None:
         """One more branch to take instead of the best one: its number, at an event or at an increment."""
@@ -279,9 +291,9 @@ OPTIONS: Dict[str, str] = _fields(Scene.options)
 STAGE: Dict[str, str] = _fields(Scene.stage)
 # Map of a request -> field -> type; and the fields of it that are maps or lists of maps themselves.
 _MAPS: Dict[str, Dict[str, str]] = {
-    **PARTS, 'stop': _fields(Scene.stop), 'branch_choices': _fields(Scene.branch_choice), 'options': OPTIONS, 'program': STAGE}
+    **PARTS, 'stop': _fields(Scene.stop), 'at': _fields(Scene.at), 'branch_choices': _fields(Scene.branch_choice), 'options': OPTIONS, 'program': STAGE}
 _NESTED: Dict[str, Sequence[str]] = {
-    'request': ('scene', 'options', 'program'), 'scene': tuple(PARTS), 'options': ('stop', 'branch_choices'),
+    'request': ('scene', 'options', 'program'), 'scene': tuple(PARTS), 'options': ('stop', 'at', 'branch_choices'),
     'program': ('loads', 'support_motions', 'obstacle_motions')}
 _DEFAULTS: Dict[str, Any] = {'str': '', 'float': 0.0, 'int': 0, 'bool': False}
 # Words of YAML, as contact_path_trace takes them.
@@ -364,5 +376,6 @@ def _of_message(message: Any) -> Any:
         return [_of_message(item) for item in message]
     if not hasattr(message, '__slots__'):
         return message
-    fields = {field: _of_message(getattr(message, field)) for field in message.__slots__}
+    # Messages have from_ and lambda_ for what are words of Python.
+    fields = {field.rstrip('_'): _of_message(getattr(message, field)) for field in message.__slots__}
     return {field: value for field, value in fields.items() if value or field == 'scene'}

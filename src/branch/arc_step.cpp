@@ -61,6 +61,7 @@ std::string_view NameOf(EventKind kind) {
     case EventKind::kLimitPoint: return "limit point";
     case EventKind::kBifurcation: return "bifurcation";
     case EventKind::kTarget: return "target";
+    case EventKind::kSample: return "sample";
     case EventKind::kNearTouch: return "near touch";
     case EventKind::kTooLong: return "too long";
   }
@@ -144,15 +145,35 @@ std::optional<ArcStep> TryStep(SmoothArc* arc, const CurvePoint& start, double l
   return result;
 }
 
-// Whether the load factor goes beyond the target: where an event is as near to it as rounding.
-bool Passes(const SmoothArc& arc, const CurvePoint& start, const CurvePoint& end, double target) {
-  const Eigen::Index s = arc.system().NumDofs();
-  return (start.x[s] - target) * (end.x[s] - target) < 0.0;
+// Puts in place of an event one of the ends that lies between the start and the located point of the event, where both
+// are as near as rounding. False: none does.
+bool PassesAnEnd(const SmoothArc& arc, const CurvePoint& start, const CurvePoint& end, const StepEnds& ends,
+                 StepEvent* event) {
+  if (event->kind == EventKind::kTarget) return false;
+  const FixedStateSystem& system = arc.system();
+  const Eigen::Index s = system.NumDofs();
+  if (ends.load_factor && (start.x[s] - *ends.load_factor) * (end.x[s] - *ends.load_factor) < 0.0) {
+    *event = {EventKind::kTarget, event->t, {}, false};
+    return true;
+  }
+  if (event->kind == EventKind::kSample) return false;
+  for (std::size_t i = 0; i < ends.functions.size(); ++i) {
+    const ArcTarget& target = ends.functions[i];
+    const double before = target.of(system, start.x), after = target.of(system, end.x);
+    for (const double value : target.values)
+      if (std::abs(before - value) > target.rounding && (before - value) * (after - value) < 0.0 &&
+          target.sense * (after - before) >= 0.0) {
+        *event = {EventKind::kSample, event->t, {}, false, i, value};
+        return true;
+      }
+  }
+  return false;
 }
 
 bool IsSame(const StepEvent& one, const StepEvent& other) {
   return one.kind == other.kind && one.constraint.contact == other.constraint.contact &&
-         one.constraint.inequality == other.constraint.inequality;
+         one.constraint.inequality == other.constraint.inequality && one.target == other.target &&
+         one.value == other.value;
 }
 
 // Whether the load factor, of which a limit point was located at `point`, goes on beyond it in its sense: its rate
@@ -175,21 +196,18 @@ bool HoldsAt(const FixedStateSystem& system, const StepEvent& event, const Curve
 }
 
 // Ends the step at the first event on it. The exact point of an event may show an earlier one. False: it is not found.
-bool EndAtFirstEvent(SmoothArc* arc, std::optional<double> target, ArcStep* at) {
-  at->event = FirstEvent(arc, at->step, target);
+bool EndAtFirstEvent(SmoothArc* arc, const StepEnds& ends, ArcStep* at) {
+  at->event = FirstEvent(arc, at->step, ends);
   if (at->event.kind == EventKind::kNone) return true;
   const Step whole = at->step;
   for (int attempt = 0; attempt < kLocatingAttempts; ++attempt) {
-    std::optional<CurvePoint> point = Locate(arc, at->step, at->event, target);
+    std::optional<CurvePoint> point = Locate(arc, at->step, at->event, ends);
     if (!point) return false;
     if (!at->event.singular) KeepSide(at->step.start, &*point);
     if (at->event.kind == EventKind::kLimitPoint && !at->event.singular && LoadGoesOn(arc->system(), whole, *point))
       at->event.kind = EventKind::kNearTouch;
     if (HoldsAt(arc->system(), at->event, *point)) at->event.kind = EventKind::kNearTouch;
-    if (at->event.kind != EventKind::kTarget && target && Passes(*arc, at->step.start, *point, *target)) {
-      at->event = {EventKind::kTarget, at->event.t, {}, false};
-      continue;
-    }
+    if (PassesAnEnd(*arc, at->step.start, *point, ends, &at->event)) continue;
     const StepEvent found = at->event;
     const double before = at->step.length;
     at->step = MakeStep(at->step.start, *point, arc->NumMotion());
@@ -200,7 +218,7 @@ bool EndAtFirstEvent(SmoothArc* arc, std::optional<double> target, ArcStep* at) 
     }
     DropRoundedSeconds(&at->step);
     if (Winds(at->step)) return false;
-    const StepEvent earlier = FirstEvent(arc, at->step, target);
+    const StepEvent earlier = FirstEvent(arc, at->step, ends);
     // Rounding has put the point beyond the bifurcation that is in its place.
     if (earlier.singular && earlier.t >= at->step.length - tolerances::kNoMove)
       at->step.end.determinant_sign = at->step.end.side = 0;
@@ -208,6 +226,7 @@ bool EndAtFirstEvent(SmoothArc* arc, std::optional<double> target, ArcStep* at) 
     // The earlier event is rounding of a short step where it leads to this point again, or where it is a limit point at
     // which the load is no other: that is not located any better.
     const bool same = IsSame(earlier, found);
+    if (same && found.kind == EventKind::kSample) return true;
     if (attempt > 0 && same && std::abs(at->step.length - before) <= tolerances::kNoMove) return true;
     const double reach = ReachOfExtreme(point->second[arc->system().NumDofs()]);
     if (same && found.kind == EventKind::kLimitPoint && at->step.length - earlier.t <= reach) return true;
@@ -219,11 +238,11 @@ bool EndAtFirstEvent(SmoothArc* arc, std::optional<double> target, ArcStep* at) 
 // Where the matrix is singular to rounding there are no second derivatives, and no event is found on a step that ends
 // there. A longer one ends beyond. Nothing: none does.
 std::optional<ArcStep> StepBeyond(SmoothArc* arc, const CurvePoint& start, double length, const StepLimits& limits,
-                                  std::optional<double> target) {
+                                  const StepEnds& ends) {
   for (const double factor : {2.0, 4.0, 8.0}) {
     if (factor * length > limits.largest) break;
     std::optional<ArcStep> step = TryStep(arc, start, factor * length, kCoarsePrediction, limits, nullptr);
-    if (step && step->step.end.nullity == 0 && EndAtFirstEvent(arc, target, &*step)) return step;
+    if (step && step->step.end.nullity == 0 && EndAtFirstEvent(arc, ends, &*step)) return step;
   }
   return std::nullopt;
 }
@@ -231,7 +250,7 @@ std::optional<ArcStep> StepBeyond(SmoothArc* arc, const CurvePoint& start, doubl
 }  // namespace
 
 std::optional<ArcStep> NextStep(SmoothArc* arc, const CurvePoint& start, double length, const StepLimits& limits,
-                                std::optional<double> target) {
+                                const StepEnds& ends) {
   arc->SetOut(start);
   double tried = length, prediction = limits.prediction;
   TrialStep said;
@@ -249,9 +268,9 @@ std::optional<ArcStep> NextStep(SmoothArc* arc, const CurvePoint& start, double 
     if (!step && start.nullity > 0 && tried <= kShortStep * limits.largest)
       step = TryStep(arc, start, tried, kCoarsePrediction, limits, trial);
     const bool ends_singular = step && start.nullity == 0 && step->step.end.nullity > 0;
-    bool good = step && EndAtFirstEvent(arc, target, &*step);
+    bool good = step && EndAtFirstEvent(arc, ends, &*step);
     if (ends_singular && !(good && step->event.kind != EventKind::kNone)) {
-      std::optional<ArcStep> beyond = StepBeyond(arc, start, tried, limits, target);
+      std::optional<ArcStep> beyond = StepBeyond(arc, start, tried, limits, ends);
       good = good || beyond;
       if (beyond) step = std::move(beyond);
     }

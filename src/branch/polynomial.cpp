@@ -61,6 +61,30 @@ Quintic HermiteQuintic(const Jet& start, const Jet& end, double length) {
           (6.0 * value - 3.0 * first + 0.5 * second) / (h3 * h * h)};
 }
 
+double QuinticNode(std::size_t i, double length) {
+  return 0.5 * length * (1.0 - std::cos(std::acos(-1.0) * static_cast<double>(i) / 5.0));
+}
+
+Quintic QuinticThrough(const std::array<double, 6>& values, double length) {
+  // By divided differences on [0, 1], then as a sum of powers.
+  std::array<double, 6> at{}, difference = values;
+  for (std::size_t i = 0; i < at.size(); ++i) at[i] = QuinticNode(i, 1.0);
+  for (std::size_t order = 1; order < at.size(); ++order)
+    for (std::size_t i = at.size() - 1; i >= order; --i)
+      difference[i] = (difference[i] - difference[i - 1]) / (at[i] - at[i - order]);
+  Quintic sum{};
+  for (std::size_t i = at.size(); i-- > 0;) {
+    for (std::size_t k = sum.size() - 1; k > 0; --k) sum[k] = sum[k - 1] - at[i] * sum[k];
+    sum[0] = difference[i] - at[i] * sum[0];
+  }
+  double power = 1.0;
+  for (double& coefficient : sum) {
+    coefficient /= power;
+    power *= length;
+  }
+  return sum;
+}
+
 double Evaluate(const Quintic& polynomial, double t) {
   double value = 0.0;
   for (std::size_t i = polynomial.size(); i-- > 0;) value = value * t + polynomial[i];

@@ -355,6 +355,20 @@ CurvePoint Step::At(double t) const {
   return point;
 }
 
+QuinticNodes::QuinticNodes(const Step& step) : length_(step.length) {
+  Eigen::VectorXd first, second;
+  EndDerivatives(step, &first, &second);
+  const std::array<Quintic, 6> basis = HermiteBasis(length_);
+  points_.front() = step.start.x;
+  points_.back() = step.end.x;
+  for (std::size_t i = 1; i + 1 < points_.size(); ++i) {
+    std::array<double, 6> b{};
+    for (std::size_t k = 0; k < b.size(); ++k) b[k] = Evaluate(basis[k], QuinticNode(i, length_));
+    points_[i] = step.start.x + b[1] * step.start.first + b[2] * step.start.second +
+                 b[3] * (step.end.x - step.start.x) + b[4] * first + b[5] * second;
+  }
+}
+
 double Step::ArcLength() const {
   const Eigen::Index n = normal.size();
   Eigen::VectorXd first, second;

@@ -131,7 +131,60 @@ std::optional<double> FirstAt(Quintic load, double target, double length) {
   return FirstNegative(load, length, 0.0);
 }
 
-std::optional<CurvePoint> LocateRegular(SmoothArc* arc, const Step& step, const StepEvent& event, double target);
+// Where the quintic comes to a value on (0, length], in the sense that is wanted. At a start that has the value to
+// rounding, not there.
+std::optional<double> FirstAtValue(Quintic function, double value, double rounding, double sense, double length) {
+  const Quintic slope = Derivative(function);
+  function[0] -= value;
+  if (std::abs(function[0]) <= rounding) {
+    for (std::size_t k = 0; k + 1 < function.size(); ++k) function[k] = function[k + 1];
+    function.back() = 0.0;
+  }
+  int count = 0;
+  const std::array<double, 5> roots = Roots(function, length, &count);
+  for (int i = 0; i < count; ++i)
+    if (sense * Evaluate(slope, roots[static_cast<std::size_t>(i)]) >= 0.0) return roots[static_cast<std::size_t>(i)];
+  return std::nullopt;
+}
+
+// Ends *first at the first value of a function before it.
+void FindSample(const FixedStateSystem& system, const Step& step, const ArcTargets& functions, StepEvent* first) {
+  if (functions.empty()) return;
+  const QuinticNodes at(step);
+  for (std::size_t i = 0; i < functions.size(); ++i) {
+    const Quintic along = at.Interpolate([&](const Eigen::VectorXd& x) { return functions[i].of(system, x); });
+    for (const double value : functions[i].values)
+      if (const std::optional<double> t =
+              FirstAtValue(along, value, functions[i].rounding, functions[i].sense, step.length);
+          t && *t <= first->t)
+        *first = {EventKind::kSample, *t, {}, false, i, value};
+  }
+}
+
+// The point near t where the function has the value, by Newton's method with the slope of its interpolation.
+std::optional<CurvePoint> LocateSample(SmoothArc* arc, const Step& step, double t, const ArcTarget& target,
+                                       double value) {
+  const FixedStateSystem& system = arc->system();
+  const Quintic slope =
+      Derivative(QuinticNodes(step).Interpolate([&](const Eigen::VectorXd& x) { return target.of(system, x); }));
+  double previous = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kNewtonIterations; ++i) {
+    const Correction correction = arc->CorrectOnPlane(step.Point(t), step.normal);
+    if (!correction.converged) return std::nullopt;
+    const double off = target.of(system, correction.x) - value;
+    // No nearer: rounding, or the function does not come to the value.
+    if (off == 0.0 || !(std::abs(off) < 0.5 * previous)) {
+      CurvePoint point;
+      const bool there = std::abs(off) <= target.rounding && arc->Derivatives(correction.x, step.normal, &point);
+      return there ? std::optional(point) : std::nullopt;
+    }
+    previous = std::abs(off);
+    t -= off / Evaluate(slope, t);
+  }
+  return std::nullopt;
+}
+
+std::optional<CurvePoint> LocateRegular(SmoothArc* arc, const Step& step, const StepEvent& event, const StepEnds& ends);
 
 }  // namespace
 
@@ -139,7 +192,7 @@ double ReachOfExtreme(double second) {
   return std::min(std::sqrt(2.0 * tolerances::kExtreme / std::abs(second)), tolerances::kExtremeReach);
 }
 
-StepEvent FirstEvent(SmoothArc* arc, const Step& step, std::optional<double> target) {
+StepEvent FirstEvent(SmoothArc* arc, const Step& step, const StepEnds& ends) {
   const FixedStateSystem& system = arc->system();
   StepEvent first;
   first.t = step.length;
@@ -219,14 +272,14 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, std::optional<double> tar
   // From wall to wall of one obstacle in one step: a shorter step sees the wall that is ahead.
   if (first.kind == EventKind::kNone && arc->BehindOtherPatch(step.end.x)) return {EventKind::kTooLong, 0.0, {}, false};
   // Whatever lies behind the target, however near, is not of this path.
-  if (target)
-    if (const std::optional<double> t = FirstAt(load_factor, *target, step.length); t && *t <= first.t)
+  FindSample(system, step, ends.functions, &first);
+  if (ends.load_factor)
+    if (const std::optional<double> t = FirstAt(load_factor, *ends.load_factor, step.length); t && *t <= first.t)
       first = {EventKind::kTarget, *t, {}, false};
   return first;
 }
 
-std::optional<CurvePoint> Locate(SmoothArc* arc, const Step& step, const StepEvent& event,
-                                 std::optional<double> target) {
+std::optional<CurvePoint> Locate(SmoothArc* arc, const Step& step, const StepEvent& event, const StepEnds& ends) {
   if (event.singular) {
     CurvePoint point = step.At(event.t);
     point.x = arc->CorrectSingular(point.x, step.normal);
@@ -235,7 +288,7 @@ std::optional<CurvePoint> Locate(SmoothArc* arc, const Step& step, const StepEve
     if (event.kind == EventKind::kLimitPoint) RestLoad(arc->system().NumDofs(), &point);
     return point;
   }
-  std::optional<CurvePoint> point = LocateRegular(arc, step, event, target.value_or(0.0));
+  std::optional<CurvePoint> point = LocateRegular(arc, step, event, ends);
   if (!point) return std::nullopt;
   const double t = step.normal.dot((point->x - step.start.x).head(step.normal.size()));
   const double slack = tolerances::kLocatedPlace * step.length;
@@ -253,7 +306,8 @@ std::optional<CurvePoint> Locate(SmoothArc* arc, const Step& step, const StepEve
 
 namespace {
 
-std::optional<CurvePoint> LocateRegular(SmoothArc* arc, const Step& step, const StepEvent& event, double target) {
+std::optional<CurvePoint> LocateRegular(SmoothArc* arc, const Step& step, const StepEvent& event,
+                                        const StepEnds& ends) {
   const FixedStateSystem& system = arc->system();
   switch (event.kind) {
     case EventKind::kNone: return step.end;
@@ -265,12 +319,13 @@ std::optional<CurvePoint> LocateRegular(SmoothArc* arc, const Step& step, const 
         return Jet{at.x[s], at.first[s], at.second[s]};
       });
     case EventKind::kTarget: {
-      const Correction correction =
-          arc->Correct(step.Point(event.t), Eigen::VectorXd::Unit(system.NumUnknowns(), system.NumDofs()), target);
+      const Correction correction = arc->Correct(
+          step.Point(event.t), Eigen::VectorXd::Unit(system.NumUnknowns(), system.NumDofs()), ends.load_factor.value());
       CurvePoint point;
       if (!correction.converged || !arc->Derivatives(correction.x, step.normal, &point)) return std::nullopt;
       return point;
     }
+    case EventKind::kSample: return LocateSample(arc, step, event.t, ends.functions[event.target], event.value);
     case EventKind::kContactEvent: break;
   }
   if (event.constraint.inequality == Inequality::kSlip)

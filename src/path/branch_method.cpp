@@ -147,6 +147,7 @@ std::optional<int> BranchMethod::EndAtReturn(const PathPoint& from, ArcStep* at)
 std::optional<EndReason> BranchMethod::PassEnd(const ArcStep& at, AcceptedPoint* increment, std::string* message) {
   if (at.event.kind == EventKind::kBifurcation) return PassBifurcation(at, increment, message);
   if (at.event.kind == EventKind::kContactEvent) return PassContactEvent(at, increment, message);
+  if (at.event.kind == EventKind::kSample) increment->kind = IncrementKind::kSample;
   if (at.event.kind == EventKind::kLimitPoint) {
     increment->kind = IncrementKind::kSmoothLimit;
     if (at.event.singular) increment->event.null_vector = CrossingPath(at.step);
@@ -285,7 +286,7 @@ std::optional<BranchMethod::BalancedStep> BranchMethod::NextBalancedStep() {
   double length = step_length_;
   std::optional<BalancedStep> best;
   for (int shorter = 0; shorter <= kMostShorter; ++shorter) {
-    std::optional<ArcStep> at = NextStep(&arc_, current_, length, limits, options_.target);
+    std::optional<ArcStep> at = NextStep(&arc_, current_, length, limits, options_.ends);
     if (!at) break;
     if (best) at->rejected += best->at.rejected + 1;
     best.emplace();

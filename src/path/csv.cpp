@@ -22,8 +22,13 @@ std::ostringstream NewCsvLine() {
   return line;
 }
 
-CsvWriter::CsvWriter(const TraceRequest& request) : program_(!request.program.empty()) {
-  const ExpandedRequest expanded(request);
+CsvWriter::CsvWriter(const TraceRequest& request) : CsvWriter(ExpandedRequest(request)) {}
+
+CsvWriter::CsvWriter(const ExpandedRequest& expanded)
+    : elements_(expanded.Get().scene),
+      sections_(expanded.Get().options.Records("sections")),
+      stresses_(expanded.Get().options.Records("stresses")),
+      program_(!expanded.Get().program.empty()) {
   const Scene& scene = expanded.Get().scene;
   for (const Node& node : scene.nodes) nodes_.push_back(node.name);
   for (const ContactCandidate& contact : scene.contacts) contacts_.push_back(contact.Name());
@@ -52,6 +57,14 @@ void CsvWriter::WriteHeader(std::ostream& out) const {
   }
   for (const std::string& name : boundaries_)
     if (!name.empty()) line << ",rx_" << name << ",ry_" << name << ",rm_" << name;
+  for (std::size_t i = 0; sections_ && i < elements_.NumSections(); ++i) {
+    const std::string name = elements_.SectionName(i);
+    line << ",N_" << name;
+    if (!elements_.IsBar(i)) line << ",Q_" << name << ",M_" << name << ",M1_" << name << ",M2_" << name;
+  }
+  for (std::size_t i = 0; stresses_ && i < elements_.NumElements(); ++i)
+    for (const char* const field : {"sxx", "syy", "sxy", "szz", "mises", "energy"})
+      line << ',' << field << '_' << elements_.ElementName(i);
   line << '\n';
   out << line.str();
 }
@@ -80,6 +93,14 @@ void CsvWriter::WriteRow(const Increment& increment, std::ostream& out) const {
     const Resultant& of = increment.boundaries[i];
     if (!boundaries_[i].empty()) line << ',' << of.rx << ',' << of.ry << ',' << of.rm;
   }
+  for (std::size_t i = 0; sections_ && i < increment.sections.size(); ++i) {
+    const SectionForces& of = increment.sections[i];
+    line << ',' << of.N;
+    if (!elements_.IsBar(i)) line << ',' << of.Q << ',' << of.M << ',' << of.M1 << ',' << of.M2;
+  }
+  if (stresses_)
+    for (const SolidStress& of : increment.stresses)
+      line << ',' << of.sxx << ',' << of.syy << ',' << of.sxy << ',' << of.szz << ',' << of.mises << ',' << of.energy;
   line << '\n';
   out << line.str();
 }

@@ -118,7 +118,7 @@ std::string InvertedElement(const Scene& scene, const SceneIndex& index, const s
   double smallest = tolerances::kCollapsed;
   std::string text;
   for (std::size_t i = 0; i < scene.solids.size(); ++i) {
-    const std::vector<PlacedElement> elements =
+    const std::vector<PlacedSolidElement> elements =
         MakeSolidElements(scene.solids[i], scene, index, Configuration::Of(scene).reference);
     for (std::size_t k = 0; k < elements.size(); ++k) {
       std::vector<double> x;

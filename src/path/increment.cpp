@@ -22,6 +22,7 @@ std::string_view ToString(IncrementKind kind) {
     case IncrementKind::kCornerLimit: return "corner_limit";
     case IncrementKind::kContactEvent: return "contact_event";
     case IncrementKind::kBifurcation: return "bifurcation";
+    case IncrementKind::kSample: return "sample";
   }
   return "unknown";
 }

@@ -122,6 +122,13 @@ PathPoint Model::FromIncrement(const Increment& increment) const {
 
 Reactions Model::ReactionsAt(const PathPoint& point) const { return reactions.At(structure.AllValues(point.u), point); }
 
+const ElementResponse& Model::Elements() const {
+  if (elements_ == nullptr)
+    elements_ = std::make_unique<const ElementResponse>(
+        scaled, index, CountedFrom(origin, configuration).Over(scaling.length), structure.Dofs(), scaling);
+  return *elements_;
+}
+
 Residuals Model::Check(const PathPoint& before, const PathPoint& now) const {
   return check.Check(InSceneUnits(before), InSceneUnits(now));
 }

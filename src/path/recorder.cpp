@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "contact_path/scene/quantity.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
@@ -32,6 +33,25 @@ void FillState(const Model& model, const PathPoint& point, Increment* increment)
   Reactions reactions = model.ReactionsAt(point);
   increment->supports = std::move(reactions.supports);
   increment->boundaries = std::move(reactions.boundaries);
+}
+
+LongLists LongLists::Of(const TraceRequest& request, const SceneIndex& index) {
+  LongLists lists{request.options.Records("sections"), request.options.Records("stresses")};
+  const auto note = [&](const std::string& text) {
+    const Quantity quantity = FindQuantity(text, index).value();
+    lists.sections = lists.sections || quantity.IsOfSection();
+    lists.stresses = lists.stresses || quantity.IsOfElement();
+  };
+  for (const StopCriterion& criterion : request.options.stop) note(criterion.quantity);
+  for (const Samples& samples : request.options.at) note(samples.quantity);
+  return lists;
+}
+
+void FillLists(const Model& model, const PathPoint& point, const LongLists& lists, Increment* increment) {
+  if (!lists.sections && !lists.stresses) return;
+  const Eigen::VectorXd values = model.structure.AllValues(point.u);
+  if (lists.sections) increment->sections = model.Elements().Sections(values);
+  if (lists.stresses) increment->stresses = model.Elements().Stresses(values);
 }
 
 void Recorder::Start(const Model& model, int stage, const PathPoint& point, const Residuals& residuals,
@@ -72,6 +92,7 @@ std::string Recorder::Remark() const {
 
 void Recorder::Fill(const Model& model, const PathPoint& point, const AcceptedPoint& accepted, double time) {
   FillState(model, point, &increment_);
+  FillLists(model, point, lists_, &increment_);
   increment_.index = increments_;
   increment_.load_factor = point.s * model.scaling.load_factor;
   increment_.kind = accepted.kind;

@@ -41,6 +41,17 @@ double ValueOf(const Quantity& quantity, const Increment& increment) {
     case Quantity::Kind::kForceX: return ResultantOf(quantity, increment).rx;
     case Quantity::Kind::kForceY: return ResultantOf(quantity, increment).ry;
     case Quantity::Kind::kMoment: return ResultantOf(quantity, increment).rm;
+    case Quantity::Kind::kN: return increment.sections[quantity.part].N;
+    case Quantity::Kind::kQ: return increment.sections[quantity.part].Q;
+    case Quantity::Kind::kM: return increment.sections[quantity.part].M;
+    case Quantity::Kind::kM1: return increment.sections[quantity.part].M1;
+    case Quantity::Kind::kM2: return increment.sections[quantity.part].M2;
+    case Quantity::Kind::kSxx: return increment.stresses[quantity.part].sxx;
+    case Quantity::Kind::kSyy: return increment.stresses[quantity.part].syy;
+    case Quantity::Kind::kSxy: return increment.stresses[quantity.part].sxy;
+    case Quantity::Kind::kSzz: return increment.stresses[quantity.part].szz;
+    case Quantity::Kind::kMises: return increment.stresses[quantity.part].mises;
+    case Quantity::Kind::kEnergy: return increment.stresses[quantity.part].energy;
   }
   return 0.0;
 }
@@ -50,21 +61,43 @@ StopTest::StopTest(const TraceRequest& request, const SceneIndex& index) {
   const std::vector<Quantity> quantities = StopQuantities(request, index);
   for (std::size_t i = 0; i < quantities.size(); ++i) {
     const double unit = SizeOf(UnitOf(quantities[i].kind), {scaling.length, scaling.force, scaling.load_factor});
-    items_.push_back({&request.options.stop[i], quantities[i], tolerances::kStopMargin * unit});
+    const StopCriterion& criterion = request.options.stop[i];
+    const bool located = request.options.LocatesEvents() && criterion.exact == Exact::kTrue;
+    items_.push_back(
+        {&criterion, quantities[i], (located ? tolerances::kAtTarget : tolerances::kStopMargin) * unit, located});
+  }
+}
+
+StopTest::Item::Beyond StopTest::Item::BeyondIn(const Increment& increment) const {
+  const double value = ValueOf(quantity, increment);
+  // Where a coordinate is large, its last digit is larger than rounding of the scaled one.
+  const double digits = (located ? tolerances::kAtTarget : tolerances::kLastDigits) *
+                        std::max(std::abs(value), std::abs(criterion->value));
+  return {criterion->when == ">" ? value - criterion->value : criterion->value - value, std::max(rounding, digits)};
+}
+
+void StopTest::Note(const Increment& increment) {
+  for (Item& item : items_) {
+    const Item::Beyond beyond = item.BeyondIn(increment);
+    item.short_of_it = item.short_of_it || beyond.by < -beyond.rounding;
   }
 }
 
 const StopCriterion* StopTest::FirstThatHolds(const Increment& increment) const {
   if (increment.index == 0) return nullptr;
   for (const Item& item : items_) {
-    const double value = ValueOf(item.quantity, increment);
-    const StopCriterion& criterion = *item.criterion;
-    const double beyond = criterion.when == ">" ? value - criterion.value : criterion.value - value;
-    // Where a coordinate is large, its last digit is larger than rounding of the scaled one.
-    const double digit = tolerances::kLastDigits * std::max(std::abs(value), std::abs(criterion.value));
-    if (beyond > std::max(item.rounding, digit)) return &criterion;
+    const Item::Beyond beyond = item.BeyondIn(increment);
+    if (beyond.by > beyond.rounding || (item.located && item.short_of_it && beyond.by >= -beyond.rounding))
+      return item.criterion;
   }
   return nullptr;
+}
+
+bool StopTest::MayHold(const Increment& increment) const {
+  return std::any_of(items_.begin(), items_.end(), [&](const Item& item) {
+    const Item::Beyond beyond = item.BeyondIn(increment);
+    return beyond.by > beyond.rounding || (item.located && beyond.by >= -beyond.rounding);
+  });
 }
 
 std::string ToText(const StopCriterion& criterion) {

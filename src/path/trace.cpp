@@ -26,6 +26,7 @@
 #include "contact_path/path/recorder.h"
 #include "contact_path/path/return_detector.h"
 #include "contact_path/path/stop.h"
+#include "contact_path/path/watched_quantities.h"
 #include "contact_path/scene/expand.h"
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/scene_index.h"
@@ -65,7 +66,8 @@ bool CanGoOnFrom(const Increment& before, const Increment& increment) {
   if (IsSingularPoint(increment)) return false;
   return !increment.positions.empty() && increment.event.number == 0 && increment.event.branches.empty() &&
          increment.solve.next_step > 0.0 &&
-         (increment.kind == IncrementKind::kRegular || increment.kind == IncrementKind::kSmoothLimit);
+         (increment.kind == IncrementKind::kRegular || increment.kind == IncrementKind::kSmoothLimit ||
+          increment.kind == IncrementKind::kSample);
 }
 
 // The last increment that can be; nothing: none can.
@@ -101,11 +103,14 @@ class Tracer {
         control_(control),
         index_(request.scene),
         scales_(ProgramScales(request, index_)),
-        recorder_(request.options.method, Receiver()),
+        recorder_(request.options.method, LongLists::Of(request, index_), Receiver()),
         stop_(request, index_) {}
 
   // An increment of an earlier trace that is kept.
-  void Repeat(const Increment& increment) { recorder_.Repeat(increment); }
+  void Repeat(const Increment& increment) {
+    recorder_.Repeat(increment);
+    if (!increment.positions.empty()) stop_.Note(increment);
+  }
 
   // resumption: where to go on after the increments of an earlier trace, which were repeated; nothing: from the start.
   TraceResult Run(const std::optional<Resumption>& resumption) {
@@ -231,7 +236,7 @@ class Tracer {
       TraceOptions upwards;
       upwards.accuracy = request_.options.accuracy;
       BranchOptions options = BranchOptions::For(upwards, AutomaticStepGrowth(of));
-      options.target = target;
+      options.ends.load_factor = target;
       options.keep_loading = true;
       return std::make_unique<BranchMethod>(of, options, control_.cancelled);
     };
@@ -256,7 +261,7 @@ class Tracer {
     const double growth = AutomaticStepGrowth(model);
     if (options.LocatesEvents()) {
       BranchOptions branch = BranchOptions::For(options, growth);
-      branch.target = target;
+      branch.ends = {target, WatchedQuantities(model, request_)};
       branch.increments = increment;
       branch.events = events_;
       branch.method = options.method;
@@ -294,6 +299,7 @@ class Tracer {
     const std::optional<EndReason> not_started = method->Start(point_, &branches, &message);
     recorder_.Start(model, request_.program.empty() ? 0 : static_cast<int>(stage) + 1, point_, residuals, branches,
                     Seconds(Clock::now() - start));
+    stop_.Note(recorder_.increment());
     return not_started ? End(*not_started, message) : FollowStage(model, stage, method.get());
   }
 
@@ -404,6 +410,7 @@ class Tracer {
         const PathPoint before = std::exchange(point_, std::move(increment.point));
         if (const StopCriterion* criterion = stop_.FirstThatHolds(recorder_.increment()))
           return End(EndReason::kStopCriterion, ToText(*criterion));
+        stop_.Note(recorder_.increment());
         if (IsAt(target)) return true;
         if (const std::string escape = Escape(model, target, before); !escape.empty())
           return End(EndReason::kPathEnd, escape);
@@ -428,7 +435,7 @@ class Tracer {
   const SceneIndex index_;  // of all stages
   const Scaling scales_;    // of the program
   Recorder recorder_;
-  const StopTest stop_;
+  StopTest stop_;
   PathPoint point_;
   int events_ = 0;
   std::unique_ptr<const Model> model_;     // of the stage

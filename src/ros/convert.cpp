@@ -44,6 +44,7 @@ struct Constants<IncrementKind> {
       {IncrementKind::kCornerLimit, msgs::Increment::CORNER_LIMIT},
       {IncrementKind::kContactEvent, msgs::Increment::CONTACT_EVENT},
       {IncrementKind::kBifurcation, msgs::Increment::BIFURCATION},
+      {IncrementKind::kSample, msgs::Increment::SAMPLE},
   };
 };
 

@@ -139,7 +139,7 @@ void DrawnScene::AddBeam(const Beam& beam, const SceneIndex& index) {
 
 void DrawnScene::AddMesh(const Solid& solid, const Scene& scene, const SceneIndex& index) {
   const double modulus = YoungModulus(LameOf(scene.materials[index.Material(solid.material)]));
-  for (PlacedElement& placed : MakeSolidElements(solid, scene, index, Configuration::Of(scene).reference)) {
+  for (PlacedSolidElement& placed : MakeSolidElements(solid, scene, index, Configuration::Of(scene).reference)) {
     DrawnCell cell;
     cell.nodes.assign(placed.nodes.begin(), placed.nodes.end());
     for (const std::size_t local : CellBoundary(cell.nodes.size())) cell.boundary.push_back(cell.nodes[local]);

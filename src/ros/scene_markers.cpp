@@ -80,6 +80,7 @@ const char* KindInWords(std::uint8_t kind) {
     case msgs::Increment::CORNER_LIMIT: return ", corner limit point";
     case msgs::Increment::CONTACT_EVENT: return ", contact event";
     case msgs::Increment::BIFURCATION: return ", bifurcation";
+    case msgs::Increment::SAMPLE: return ", wanted value";
     default: return "";
   }
 }

@@ -13,16 +13,27 @@ struct Component {
   Unit unit;
 };
 
-// Of nodes, contacts, supports and boundaries.
-constexpr std::array<Component, 9> kComponents = {{{"x", Quantity::Kind::kX, units::kLength},
-                                                   {"y", Quantity::Kind::kY, units::kLength},
-                                                   {"rotation", Quantity::Kind::kRotation, units::kNone},
-                                                   {"gap", Quantity::Kind::kGap, units::kLength},
-                                                   {"rn", Quantity::Kind::kRn, units::kForce},
-                                                   {"rt", Quantity::Kind::kRt, units::kForce},
-                                                   {"rx", Quantity::Kind::kForceX, units::kForce},
-                                                   {"ry", Quantity::Kind::kForceY, units::kForce},
-                                                   {"rm", Quantity::Kind::kMoment, units::kMoment}}};
+// Of nodes, contacts, supports, boundaries, sections and elements.
+constexpr std::array<Component, 20> kComponents = {{{"x", Quantity::Kind::kX, units::kLength},
+                                                    {"y", Quantity::Kind::kY, units::kLength},
+                                                    {"rotation", Quantity::Kind::kRotation, units::kNone},
+                                                    {"gap", Quantity::Kind::kGap, units::kLength},
+                                                    {"rn", Quantity::Kind::kRn, units::kForce},
+                                                    {"rt", Quantity::Kind::kRt, units::kForce},
+                                                    {"rx", Quantity::Kind::kForceX, units::kForce},
+                                                    {"ry", Quantity::Kind::kForceY, units::kForce},
+                                                    {"rm", Quantity::Kind::kMoment, units::kMoment},
+                                                    {"N", Quantity::Kind::kN, units::kForce},
+                                                    {"Q", Quantity::Kind::kQ, units::kForce},
+                                                    {"M", Quantity::Kind::kM, units::kMoment},
+                                                    {"M1", Quantity::Kind::kM1, units::kMoment},
+                                                    {"M2", Quantity::Kind::kM2, units::kMoment},
+                                                    {"sxx", Quantity::Kind::kSxx, units::kStress},
+                                                    {"syy", Quantity::Kind::kSyy, units::kStress},
+                                                    {"sxy", Quantity::Kind::kSxy, units::kStress},
+                                                    {"szz", Quantity::Kind::kSzz, units::kStress},
+                                                    {"mises", Quantity::Kind::kMises, units::kStress},
+                                                    {"energy", Quantity::Kind::kEnergy, units::kMoment}}};
 constexpr std::string_view kLoadFactor = "load_factor";
 
 const Component* FindComponent(Quantity::Kind kind) {
@@ -50,6 +61,15 @@ std::optional<Quantity> FindReaction(Quantity::Kind kind, std::string_view name,
   return std::nullopt;
 }
 
+// A bar has no shear force and no moments.
+std::optional<Quantity> FindInElements(Quantity::Kind kind, std::string_view name, const SceneIndex& index) {
+  const ElementNames& names = index.Elements();
+  const bool of_section = Quantity{kind}.IsOfSection();
+  const std::optional<std::size_t> part = of_section ? names.FindSection(name) : names.FindElement(name);
+  if (!part || (of_section && kind != Quantity::Kind::kN && names.IsBar(*part))) return std::nullopt;
+  return Quantity{kind, *part};
+}
+
 }  // namespace
 
 Unit UnitOf(Quantity::Kind kind) {
@@ -59,9 +79,9 @@ Unit UnitOf(Quantity::Kind kind) {
 
 std::optional<SpelledQuantity> ReadQuantity(std::string_view text) {
   if (text == kLoadFactor) return SpelledQuantity();
-  // Names have no points, so that one tells the spellings apart.
+  // Names of sections and elements end with a point and a number, other names have no points.
   const std::size_t point = text.rfind('.'), line = text.find('_');
-  const bool is_column = point == text.npos;
+  const bool is_column = point == text.npos || FindComponent(text.substr(point + 1)) == nullptr;
   const std::size_t at = is_column ? line : point;
   if (at == text.npos) return std::nullopt;
   const std::string_view before = text.substr(0, at), after = text.substr(at + 1);
@@ -77,6 +97,7 @@ std::optional<Quantity> FindQuantity(std::string_view text, const SceneIndex& in
   Quantity quantity;
   quantity.kind = spelled->kind;
   if (quantity.kind == Quantity::Kind::kLoadFactor) return quantity;
+  if (quantity.IsOfSection() || quantity.IsOfElement()) return FindInElements(quantity.kind, spelled->name, index);
   if (quantity.IsReaction()) return FindReaction(quantity.kind, spelled->name, index);
   const std::optional<std::size_t> part =
       quantity.IsOfNode() ? index.FindNode(spelled->name) : index.FindContact(std::string(spelled->name));
@@ -93,6 +114,7 @@ NearestName NearestPart(const SpelledQuantity& quantity, const Scene& scene) {
     for (const TouchedBoundary& boundary : TouchedBoundaries(scene)) nearest.Offer(boundary.name);
     return nearest;
   }
+  if (Quantity{quantity.kind}.IsOfSection() || Quantity{quantity.kind}.IsOfElement()) return NearestName(quantity.name);
   if (Quantity{quantity.kind}.IsOfNode()) return NearestOf(quantity.name, scene.nodes, &Node::name);
   return NearestOf(quantity.name, scene.contacts, &ContactCandidate::Name);
 }
@@ -119,6 +141,8 @@ NearestName NearestQuantity(std::string_view text, const Scene& scene) {
 std::string PartOf(Quantity::Kind kind) {
   if (Quantity{kind}.IsReaction())
     return "a component that a support holds, or an obstacle or surface with contact candidates";
+  if (Quantity{kind}.IsOfSection()) return "a segment of a beam, as leg.1, or of N a bar, as bar1";
+  if (Quantity{kind}.IsOfElement()) return "an element of a solid, as block.1";
   return Quantity{kind}.IsOfNode() ? "a node of the scene" : "a contact of the scene";
 }
 

@@ -2,7 +2,7 @@
 
 namespace contact_path {
 
-SceneIndex::SceneIndex(const Scene& scene) {
+SceneIndex::SceneIndex(const Scene& scene) : elements_(scene) {
   nodes_.reserve(scene.nodes.size());
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) nodes_.emplace(scene.nodes[i].name, i);
   for (std::size_t i = 0; i < scene.materials.size(); ++i) materials_.emplace(scene.materials[i].name, i);

@@ -29,6 +29,18 @@ void CheckOptions(Checker* checker) {
     if (stop.when != ">" && stop.when != "<")
       checker->Add(stops[i].Key("when"), TextOrQuotes(stop.when), "must be \">\" or \"<\"");
   }
+  for (std::size_t i = 0; i < options.at.size(); ++i) {
+    const Samples& samples = options.at[i];
+    const KeyPath key = path.Key("at")[i];
+    checker->CheckFields(key, samples);
+    if (samples.values.empty() == (samples.count == 0))
+      checker->Add(key, samples.quantity, "must have values, or else from, to and count");
+  }
+  for (std::size_t i = 0; i < options.record.size(); ++i)
+    if (options.record[i] != "sections" && options.record[i] != "stresses")
+      checker->Add(path.Key("record")[i], TextOrQuotes(options.record[i]), "must be sections or stresses");
+  if (!options.LocatesEvents() && !options.at.empty())
+    checker->Add(path.Key("at"), "", "must be empty with mpec_solver ipopt, which does not locate values");
   const std::vector<ContactCandidate>& contacts = checker->GetScene().contacts;
   if (options.friction_law == FrictionLaw::kTotal &&
       std::any_of(contacts.begin(), contacts.end(), [](const auto& contact) { return contact.friction > 0.0; }))

@@ -174,6 +174,29 @@ PlaneMaterial::Gradient PlaneMaterial::Stress(const Gradient& F) const {
   return of.p * at.p_gradient + of.q * at.q_gradient;
 }
 
+// J sigma33 = 2 C33 dW/dC33.
+PlaneMaterial::Across PlaneMaterial::AcrossPlane(const Gradient& F) const {
+  const Measures at = MeasuresOf(F);
+  const double p = at.p, q = at.q, lambda = lame_.lambda, mu = lame_.mu, J = 1.0 + q;
+  const bool stress = plane_ == PlaneState::kStress;
+  switch (model_) {
+    case MaterialModel::kNeoHookean:
+      if (stress) return {std::exp(NeoHookeanThickness(lame_, std::log1p(q))), 0.0};
+      return {1.0, lambda * std::log1p(q)};
+    case MaterialModel::kStVenantKirchhoff:
+      if (stress) return {1.0 - 2.0 * lambda / (lambda + 2.0 * mu) * (p + q), 0.0};
+      return {1.0, lambda * (p + q)};
+    case MaterialModel::kCiarletGeymonat: {
+      const double slope = a_ + 2.0 * (0.5 * mu - a_) * (p + J) + (0.25 * lambda - 0.5 * mu + a_) * J * J;
+      const double rest = 0.5 * lambda + mu;
+      if (stress) return {0.5 * rest / slope, 0.0};
+      return {1.0, 2.0 * slope - rest};
+    }
+    case MaterialModel::kLinear: return {1.0, stress ? 0.0 : lambda * q};
+  }
+  return {};
+}
+
 PlaneMaterial::Square PlaneMaterial::Tangent(const Gradient& F) const {
   const Measures at = MeasuresOf(F);
   const Derivatives of = DerivativesAt(at);

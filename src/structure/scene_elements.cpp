@@ -62,16 +62,16 @@ void Place(const Beam& beam, const std::vector<int>& nodes, const std::vector<do
 
 }  // namespace
 
-std::vector<PlacedElement> MakeSolidElements(const Solid& solid, const Scene& scene, const SceneIndex& index,
-                                             const std::vector<double>& reference) {
+std::vector<PlacedSolidElement> MakeSolidElements(const Solid& solid, const Scene& scene, const SceneIndex& index,
+                                                  const std::vector<double>& reference) {
   const PlaneMaterial material(scene.materials[index.Material(solid.material)], solid.plane);
-  std::vector<PlacedElement> elements;
+  std::vector<PlacedSolidElement> elements;
   std::vector<int> nodes;
   for (const std::string& name : solid.nodes) {
     nodes.push_back(static_cast<int>(index.Node(name)));
     if (nodes.size() < solid.NodesPerElement()) continue;
     const Eigen::VectorXd positions = PositionsOf(nodes, reference);
-    std::unique_ptr<const Element> element =
+    std::unique_ptr<const SolidElement> element =
         MakeSolidElement(material, solid.Thickness(), {positions.begin(), positions.end()});
     elements.push_back({std::move(element), std::exchange(nodes, {})});
   }
@@ -84,8 +84,8 @@ std::vector<PlacedElement> MakeElements(const Scene& scene, const SceneIndex& in
   ForEachElementList(scene, [&](std::string_view, const auto& parts) {
     for (const auto& part : parts) {
       if constexpr (std::is_same_v<std::decay_t<decltype(part)>, Solid>) {
-        std::vector<PlacedElement> own = MakeSolidElements(part, scene, index, reference);
-        std::move(own.begin(), own.end(), std::back_inserter(elements));
+        for (PlacedSolidElement& own : MakeSolidElements(part, scene, index, reference))
+          elements.push_back({std::move(own.element), std::move(own.nodes)});
       } else {
         std::vector<int> nodes;
         for (const std::string& name : part.nodes) nodes.push_back(static_cast<int>(index.Node(name)));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 
@@ -13,10 +14,9 @@ namespace {
 using Gradient = PlaneMaterial::Gradient;
 
 template <int kNodes>
-class SolidElement : public Element {
+class SolidOf : public SolidElement {
  public:
-  SolidElement(const PlaneMaterial& material, double thickness, const std::vector<double>& positions)
-      : material_(material) {
+  SolidOf(const PlaneMaterial& material, double thickness, const std::vector<double>& positions) : material_(material) {
     const std::vector<PlacedPoint> points = PlacePoints(positions);
     for (std::size_t k = 0; k < kPoints; ++k) {
       points_[k].volume = points[k].area * thickness;
@@ -40,6 +40,30 @@ class SolidElement : public Element {
       smallest = std::min(smallest, F[0] * F[3] - F[1] * F[2]);
     }
     return smallest;
+  }
+
+  // sigma dv = P F' dV (plane), J sigma33 dV across it; the linear law does not tell the volumes apart.
+  SolidStress MeanStress(const Eigen::Ref<const Eigen::VectorXd>& x) const override {
+    using Plane = Eigen::Matrix<double, 2, 2, Eigen::RowMajor>;
+    Plane sum = Plane::Zero();
+    double across = 0.0, volume = 0.0;
+    SolidStress stress;
+    for (const Point& point : points_) {
+      const Gradient F = point.Of(x), P = material_.Stress(F);
+      const PlaneMaterial::Across at = material_.AcrossPlane(F);
+      const Eigen::Map<const Plane> stresses(P.data()), gradient(F.data());
+      sum += point.volume * (Linear() ? Plane(stresses) : Plane(stresses * gradient.transpose()));
+      across += point.volume * at.stress;
+      volume += point.volume * (Linear() ? 1.0 : (F[0] * F[3] - F[1] * F[2]) * std::sqrt(at.C33));
+      stress.energy += point.volume * material_.Energy(F);
+    }
+    stress.sxx = sum(0, 0) / volume;
+    stress.syy = sum(1, 1) / volume;
+    stress.sxy = 0.5 * (sum(0, 1) + sum(1, 0)) / volume;
+    stress.szz = across / volume;
+    const double a = stress.sxx - stress.syy, b = stress.syy - stress.szz, c = stress.szz - stress.sxx;
+    stress.mises = std::sqrt(0.5 * (a * a + b * b + c * c) + 3.0 * stress.sxy * stress.sxy);
+    return stress;
   }
 
   double Energy(const Eigen::Ref<const Eigen::VectorXd>& x) const override {
@@ -116,13 +140,13 @@ class SolidElement : public Element {
 
 }  // namespace
 
-std::unique_ptr<const Element> MakeSolidElement(const PlaneMaterial& material, double thickness,
-                                                const std::vector<double>& positions) {
+std::unique_ptr<const SolidElement> MakeSolidElement(const PlaneMaterial& material, double thickness,
+                                                     const std::vector<double>& positions) {
   switch (positions.size() / 2) {
-    case 3: return std::make_unique<SolidElement<3>>(material, thickness, positions);
-    case 4: return std::make_unique<SolidElement<4>>(material, thickness, positions);
-    case 6: return std::make_unique<SolidElement<6>>(material, thickness, positions);
-    default: return std::make_unique<SolidElement<8>>(material, thickness, positions);
+    case 3: return std::make_unique<SolidOf<3>>(material, thickness, positions);
+    case 4: return std::make_unique<SolidOf<4>>(material, thickness, positions);
+    case 6: return std::make_unique<SolidOf<6>>(material, thickness, positions);
+    default: return std::make_unique<SolidOf<8>>(material, thickness, positions);
   }
 }
 

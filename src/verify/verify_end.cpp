@@ -58,9 +58,8 @@ std::string EndContradicted(const TraceRequest& request_given, const std::vector
   const std::string says = "the result says " + std::string(reason) + ", but ";
   if (reason == "stop_criterion") {
     if (last.positions.empty() || ProgramDone(request, last)) return {};
-    return StopTest(request, SceneIndex(request.scene)).FirstThatHolds(last) == nullptr
-               ? says + "none holds in the last increment"
-               : "";
+    const bool may_hold = last.index > 0 && StopTest(request, SceneIndex(request.scene)).MayHold(last);
+    return may_hold ? "" : says + "none holds in the last increment";
   }
   if (reason == "max_increments") {
     if (last.index == request.options.MaxIncrements()) return {};

@@ -205,7 +205,8 @@ class EventVerifier {
     if (moves && sign * before.solve.determinant_sign < 0)
       Report("the determinant changes its sign, but there is no bifurcation");
     const double change = now.load_factor - before.load_factor;
-    if (now.kind != IncrementKind::kRegular || std::abs(change) <= level_) return;
+    const bool smooth = now.kind == IncrementKind::kRegular || now.kind == IncrementKind::kSample;
+    if (!smooth || std::abs(change) <= level_) return;
     const int relation = sign * now.solve.stiffness_sign * (change > 0.0 ? 1 : -1);
     if (relation == 0) return;
     if (relation_ != 0 && relation != relation_)

@@ -19,7 +19,7 @@ TracedArc BentArc() { return {TraceScene(ReadExample("sliding_bar").scene, 21), 
 // u and s move by the same, and the wall is at the distance 0.1.
 TEST(ArcStep, EndsAtTheFirstEvent) {
   TracedArc arc = LinearArc();
-  const std::optional<ArcStep> at = NextStep(&arc.arc(), arc.start(), 0.5, kLimits, std::nullopt);
+  const std::optional<ArcStep> at = NextStep(&arc.arc(), arc.start(), 0.5, kLimits, {});
   ASSERT_TRUE(at);
   EXPECT_EQ(at->event.kind, EventKind::kContactEvent);
   EXPECT_NEAR(at->step.length, 0.1 * std::sqrt(2.0), 1e-14);
@@ -30,7 +30,7 @@ TEST(ArcStep, EndsAtTheFirstEvent) {
 
 TEST(ArcStep, OfTheWantedLengthWithoutAnEvent) {
   TracedArc arc = LinearArc();
-  const std::optional<ArcStep> at = NextStep(&arc.arc(), arc.start(), 0.1, kLimits, std::nullopt);
+  const std::optional<ArcStep> at = NextStep(&arc.arc(), arc.start(), 0.1, kLimits, {});
   ASSERT_TRUE(at);
   EXPECT_EQ(at->event.kind, EventKind::kNone);
   EXPECT_NEAR(at->step.length, 0.1, 1e-14);
@@ -38,7 +38,7 @@ TEST(ArcStep, OfTheWantedLengthWithoutAnEvent) {
 
 TEST(ArcStep, EndsAtTheTarget) {
   TracedArc arc = LinearArc();
-  const std::optional<ArcStep> at = NextStep(&arc.arc(), arc.start(), 0.5, kLimits, 0.05);
+  const std::optional<ArcStep> at = NextStep(&arc.arc(), arc.start(), 0.5, kLimits, {0.05});
   ASSERT_TRUE(at);
   EXPECT_EQ(at->event.kind, EventKind::kTarget);
   EXPECT_NEAR(arc.Load(at->step.end), 0.05, 1e-15);
@@ -48,7 +48,7 @@ TEST(ArcStep, EndsAtTheTarget) {
 TEST(ArcStep, OfNoLengthWhereTheEventIsAtTheStart) {
   TracedArc arc = LinearArc();
   const CurvePoint start = arc.At(0.1 * std::sqrt(2.0));
-  const std::optional<ArcStep> at = NextStep(&arc.arc(), start, 0.1, kLimits, std::nullopt);
+  const std::optional<ArcStep> at = NextStep(&arc.arc(), start, 0.1, kLimits, {});
   ASSERT_TRUE(at);
   EXPECT_EQ(at->event.kind, EventKind::kContactEvent);
   EXPECT_EQ(at->step.length, 0.0);
@@ -58,7 +58,7 @@ TEST(ArcStep, OfNoLengthWhereTheEventIsAtTheStart) {
 TEST(ArcStep, IsHalvedWhileTheTangentTurnsTooFar) {
   TracedArc arc = BentArc();
   const StepLimits limits = {1e-9, 1.0, 1.0, 0.9999};
-  const std::optional<ArcStep> at = NextStep(&arc.arc(), arc.start(), 0.4, limits, std::nullopt);
+  const std::optional<ArcStep> at = NextStep(&arc.arc(), arc.start(), 0.4, limits, {});
   ASSERT_TRUE(at);
   ASSERT_GT(at->rejected, 0);
   EXPECT_EQ(at->tried, std::ldexp(0.4, -at->rejected));
@@ -69,13 +69,13 @@ TEST(ArcStep, IsHalvedWhileTheTangentTurnsTooFar) {
 
 TEST(ArcStep, NothingBelowTheSmallest) {
   TracedArc arc = BentArc();
-  EXPECT_FALSE(NextStep(&arc.arc(), arc.start(), 0.4, {0.3, 1.0, 1.0, 0.9999}, std::nullopt));
+  EXPECT_FALSE(NextStep(&arc.arc(), arc.start(), 0.4, {0.3, 1.0, 1.0, 0.9999}, {}));
 }
 
 // Where no step meets the limit, a predictor that is further off is taken in the end.
 TEST(ArcStep, InTheEndThePredictorMayBeFurtherOff) {
   TracedArc arc = BentArc();
-  const std::optional<ArcStep> at = NextStep(&arc.arc(), arc.start(), 0.04, {0.01, 1.0, 1e-12, 0.98}, std::nullopt);
+  const std::optional<ArcStep> at = NextStep(&arc.arc(), arc.start(), 0.04, {0.01, 1.0, 1e-12, 0.98}, {});
   ASSERT_TRUE(at);
   EXPECT_EQ(at->tried, 0.04);
   EXPECT_GT(at->rejected, 0);

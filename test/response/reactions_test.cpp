@@ -76,7 +76,7 @@ Balance BalanceOf(const Scene& scene, const Increment& increment) {
     std::vector<double> displacement;
     for (std::size_t i = 0; i < element.nodes.size(); ++i) {
       const std::size_t node = index.Node(element.nodes[i]);
-      for (const std::size_t axis : {0, 1}) {
+      for (std::size_t axis = 0; axis < 2; ++axis) {
         const double initial = axis == 0 ? scene.nodes[node].x : scene.nodes[node].y;
         displacement.push_back(x[2 * node + axis] -
                                (element.rest_positions.empty() ? initial : element.rest_positions[2 * i + axis]));
@@ -84,7 +84,7 @@ Balance BalanceOf(const Scene& scene, const Increment& increment) {
     }
     for (std::size_t i = 0; i < element.nodes.size(); ++i) {
       std::array<double, 2> force = {};
-      for (const std::size_t axis : {0, 1})
+      for (std::size_t axis = 0; axis < 2; ++axis)
         for (std::size_t k = 0; k < size; ++k)
           force[axis] -= element.stiffness[(2 * i + axis) * size + k] * displacement[k];
       const std::size_t node = index.Node(element.nodes[i]);

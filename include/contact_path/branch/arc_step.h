@@ -36,9 +36,9 @@ struct ArcStep {
 // rounding of the forces across both paths hides how good it is. How far rounding moves points there is seen by the
 // last step of Newton's method; an error of the predictor of ten times its length asks for no shorter step.
 // A step may be longer than wanted, up to the largest: where it would end at a point that is singular to rounding, and
-// events on it are not found for that. target: load factor to end at. Nothing: no step is accepted, however short.
+// events on it are not found for that. Nothing: no step is accepted, however short.
 std::optional<ArcStep> NextStep(SmoothArc* arc, const CurvePoint& start, double length, const StepLimits& limits,
-                                std::optional<double> target);
+                                const StepEnds& ends);
 
 }  // namespace contact_path
 

@@ -3,6 +3,7 @@
 #define CONTACT_PATH_BRANCH_POLYNOMIAL_H_
 
 #include <array>
+#include <cstddef>
 #include <optional>
 
 #include "contact_path/equations/jet.h"
@@ -14,6 +15,13 @@ using Quintic = std::array<double, 6>;
 
 // The quintic on [0, length] with the given jets at its ends. length > 0.
 Quintic HermiteQuintic(const Jet& start, const Jet& end, double length);
+
+// Where the i-th of six points stands on [0, length]: both ends, and Chebyshev's points of the second kind between
+// them.
+double QuinticNode(std::size_t i, double length);
+
+// The quintic with these values there. length > 0.
+Quintic QuinticThrough(const std::array<double, 6>& values, double length);
 
 double Evaluate(const Quintic& polynomial, double t);
 Quintic Derivative(const Quintic& polynomial);  // c[5] = 0

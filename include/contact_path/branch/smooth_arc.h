@@ -3,6 +3,7 @@
 #define CONTACT_PATH_BRANCH_SMOOTH_ARC_H_
 
 #include <Eigen/Core>
+#include <array>
 #include <map>
 #include <optional>
 #include <vector>
@@ -170,6 +171,25 @@ struct Step {
   CurvePoint At(double t) const;
   // Length of the curve in (u, s), by Gauss quadrature of the interpolation.
   double ArcLength() const;
+};
+
+// Six points on the interpolation of a step, to interpolate any function of the unknowns by a quintic: a linear one
+// exactly.
+class QuinticNodes {
+ public:
+  explicit QuinticNodes(const Step& step);
+
+  // value(x): the function.
+  template <typename Value>
+  Quintic Interpolate(Value value) const {
+    std::array<double, 6> values{};
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = value(points_[i]);
+    return QuinticThrough(values, length_);
+  }
+
+ private:
+  double length_;
+  std::array<Eigen::VectorXd, 6> points_;  // at QuinticNode(i, length)
 };
 
 Step MakeStep(const CurvePoint& start, const CurvePoint& end, Eigen::Index num_motion);

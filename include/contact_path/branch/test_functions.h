@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "contact_path/branch/arc_target.h"
 #include "contact_path/branch/smooth_arc.h"
 #include "contact_path/equations/fixed_state_system.h"
 
@@ -15,6 +16,7 @@ enum class EventKind {
                // comes to the next patch of its surface
   kContactEvent,  // an inequality reaches zero and would be broken
   kTarget,        // the load factor comes to where the path is to end
+  kSample,        // a function of the unknowns comes to a value at which a step is to end
   kLimitPoint,    // ds = 0
   kBifurcation,   // the bordered determinant changes its sign
   kTooLong,       // a shorter step is needed: it leapt to another curve, or what coincides cannot be told
@@ -27,6 +29,14 @@ struct StepEvent {
   // The equations are singular there: another path crosses at the very point. Then the interpolation is more exact than
   // Newton's method.
   bool singular = false;
+  std::size_t target = 0;  // kSample: which of the functions
+  double value = 0.0;      // kSample: of that function
+};
+
+// What else ends a step.
+struct StepEnds {
+  std::optional<double> load_factor = {};  // other than that of the start; nothing = none
+  ArcTargets functions = {};
 };
 
 // The first kind on the step, from its interpolation: all inequalities as quintics on the whole step, so roots
@@ -36,14 +46,13 @@ struct StepEvent {
 // determinant at the ends, and is then found by bisection; two of them within one step are not seen.
 // Where the bisection comes upon two points that are farther apart than one curve could take them, or upon a stretch in
 // which it reaches no point, the step has leapt to another curve, whatever other event lies there. A bifurcation that
-// is next to another event, but not at its place to rounding, is looked at with a shorter step. target: load factor to
-// end at, other than the load factor of the start; nothing = none.
-StepEvent FirstEvent(SmoothArc* arc, const Step& step, std::optional<double> target = std::nullopt);
+// is next to another event, but not at its place to rounding, is looked at with a shorter step. Functions of `ends` are
+// interpolated by quintics, too.
+StepEvent FirstEvent(SmoothArc* arc, const Step& step, const StepEnds& ends = {});
 
 // The exact point of a kind near t, by Newton's method, with its parameter within the step. Nothing if it is
 // not found.
-std::optional<CurvePoint> Locate(SmoothArc* arc, const Step& step, const StepEvent& event,
-                                 std::optional<double> target = std::nullopt);
+std::optional<CurvePoint> Locate(SmoothArc* arc, const Step& step, const StepEvent& event, const StepEnds& ends = {});
 
 // Distance from an extreme of a quantity with this second derivative by arc length, up to which it differs from its
 // extreme by rounding only. Scaled.

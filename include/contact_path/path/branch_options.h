@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "contact_path/branch/test_functions.h"
 #include "contact_path/branch/trial_step.h"
 #include "contact_path/path/return_detector.h"
 #include "contact_path/scene/scene.h"
@@ -23,10 +24,11 @@ struct BranchOptions {
   std::vector<BranchChoice> choices;
   Method method = Method::kBranch;  // mpec: increments end at the minimisers of (9)
   TrialObserver on_trial = {};
-  bool keep_loading = false;     // at an event, rather than turn the load back, the best branch with which it goes on
-  std::optional<double> target;  // load factor at which the path is to end, in an increment of its own
-  int increments = 0;            // given before this path, of which it goes on
-  int events = 0;                // passed before this path
+  bool keep_loading = false;  // at an event, rather than turn the load back, the best branch with which it goes on
+  StepEnds ends = {};         // the load factor at which the path is to end, and values of quantities, each in an
+                              // increment of its own
+  int increments = 0;         // given before this path, of which it goes on
+  int events = 0;             // passed before this path
   ReturnDetector* returns = nullptr;  // tells whether the path has come back to where it was; null: that is no end
 
   // growth: AutomaticStepGrowth() of the scene.

@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "contact_path/path/increment.h"
+#include "contact_path/scene/element_names.h"
+#include "contact_path/scene/expand.h"
 #include "contact_path/scene/reacting_parts.h"
 #include "contact_path/scene/scene.h"
 
@@ -44,8 +46,9 @@ std::ostringstream NewCsvLine();
 // state_<contact>, ..., dissipation, strain_energy, equilibrium_residual, complementarity_residual, solve_time;
 // with a program: stage; rx_<node>, ry_<node>, rm_<node> of each component that a support holds; rx_<boundary>,
 // ry_<boundary>, rm_<boundary> of each obstacle and surface with candidates, except of one that has the name of a
-// supported node. rotation_<node> follows y_<node> where a beam turns the node. Nodes and contacts in the
-// order of the expanded scene (scene/expand.h). Errors are left in the state of the stream.
+// supported node; with options.record: N_bar<place>, and N_, Q_, M_, M1_, M2_<beam>.<segment>; sxx_, syy_, sxy_, szz_,
+// mises_, energy_<solid>.<element>. rotation_<node> follows y_<node> where a beam turns the node. Nodes and contacts in
+// the order of the expanded scene (scene/expand.h). Errors are left in the state of the stream.
 class CsvWriter {
  public:
   // `request` must be sound (scene/validate.h).
@@ -55,10 +58,14 @@ class CsvWriter {
   void WriteRow(const Increment& increment, std::ostream& out) const;
 
  private:
+  explicit CsvWriter(const ExpandedRequest& expanded);
+
   std::vector<std::string> nodes_, contacts_;  // names
   std::vector<SupportedNode> supports_;
   std::vector<std::string> boundaries_;  // names; empty: no columns
-  std::vector<bool> turn_;               // by node
+  ElementNames elements_;
+  bool sections_, stresses_;
+  std::vector<bool> turn_;  // by node
   bool program_;
 };
 

@@ -13,6 +13,7 @@
 
 #include "contact_path/check/residuals.h"
 #include "contact_path/contact/contact_state.h"
+#include "contact_path/response/element_response.h"
 #include "contact_path/response/resultant.h"
 #include "contact_path/scene/field.h"
 #include "contact_path/scene/scene.h"
@@ -26,6 +27,7 @@ enum class IncrementKind {
   kCornerLimit,   // the load factor turns where a contact changes its state, or a crossing path is taken
   kContactEvent,  // a contact changes its state, or another branch is chosen, and the load factor does not turn
   kBifurcation,   // another equilibrium path crosses, and neither of the above
+  kSample,        // a quantity has a value that the request asks for, and none of the above
 };
 
 // A contact candidate at the end of an increment.
@@ -131,10 +133,13 @@ struct Increment {
   std::vector<ContactRecord> contacts;  // in scene order
   std::vector<Resultant> supports;      // on the structure, by SupportedNodes() of the scene (scene/reacting_parts.h)
   std::vector<Resultant> boundaries;    // of all contacts with it, by TouchedBoundaries() of the scene
-  double dissipation = 0.0;             // since increment 0, by friction; total law: work against it [force length]
-  double strain_energy = 0.0;           // now [force length]
-  double external_work = 0.0;           // of all loads since increment 0 [force length]
-  Residuals residuals;                  // by check/, from the scene alone
+  // Where the request wants them, else empty: in the order of scene/element_names.h.
+  std::vector<SectionForces> sections;
+  std::vector<SolidStress> stresses;
+  double dissipation = 0.0;    // since increment 0, by friction; total law: work against it [force length]
+  double strain_energy = 0.0;  // now [force length]
+  double external_work = 0.0;  // of all loads since increment 0 [force length]
+  Residuals residuals;         // by check/, from the scene alone
   SolveRecord solve;
   EventRecord event;
 };
@@ -149,14 +154,15 @@ struct Fields<Increment> {
                       Member("arc_length", &P::arc_length), Member("kind", &P::kind),
                       Member("dissipation", &P::dissipation), Member("strain_energy", &P::strain_energy),
                       Member("external_work", &P::external_work), Member("supports", &P::supports),
-                      Member("boundaries", &P::boundaries), Member("event", &P::event));
+                      Member("boundaries", &P::boundaries), Member("sections", &P::sections),
+                      Member("stresses", &P::stresses), Member("event", &P::event));
   }
 };
 
 // What check/ looks at of an increment that has its state.
 CheckedState StateOf(const Increment& increment);
 
-// "start", "regular", "smooth_limit", "corner_limit", "contact_event", "bifurcation".
+// "start", "regular", "smooth_limit", "corner_limit", "contact_event", "bifurcation", "sample".
 std::string_view ToString(IncrementKind kind);
 
 }  // namespace contact_path

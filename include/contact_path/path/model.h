@@ -2,12 +2,14 @@
 #ifndef CONTACT_PATH_PATH_MODEL_H_
 #define CONTACT_PATH_PATH_MODEL_H_
 
+#include <memory>
 #include <vector>
 
 #include "contact_path/check/residuals.h"
 #include "contact_path/contact/contact_pair.h"
 #include "contact_path/contact/path_point.h"
 #include "contact_path/path/increment.h"
+#include "contact_path/response/element_response.h"
 #include "contact_path/response/reactions.h"
 #include "contact_path/scene/configuration.h"
 #include "contact_path/scene/origin.h"
@@ -39,6 +41,8 @@ struct Model {
   PathPoint FromIncrement(const Increment& increment) const;
   // Of supports, obstacles and surfaces, in the units of the scene.
   Reactions ReactionsAt(const PathPoint& point) const;
+  // Made when it is first asked for. Not by two threads at once.
+  const ElementResponse& Elements() const;
   // By check/, of `now` reached from `before`.
   Residuals Check(const PathPoint& before, const PathPoint& now) const;
 
@@ -55,6 +59,9 @@ struct Model {
   const ContactPairs contacts;  // of the scaled scene
   const ReactionProblem reactions;
   const ResidualCheck check;  // of the scene
+
+ private:
+  mutable std::unique_ptr<const ElementResponse> elements_;
 };
 
 }  // namespace contact_path

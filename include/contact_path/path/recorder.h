@@ -13,14 +13,26 @@
 
 namespace contact_path {
 
+// Which of the lists of Increment that are computed where they are wanted alone.
+struct LongLists {
+  bool sections = false;
+  bool stresses = false;
+
+  // Of options.record, and what quantities of `stop` and `at` are of. `request` must be sound, index: of its scene.
+  static LongLists Of(const TraceRequest& request, const SceneIndex& index);
+};
+
+// The lists as of the point.
+void FillLists(const Model& model, const PathPoint& point, const LongLists& lists, Increment* increment);
+
 // Positions, contacts and reactions of the increment as of the point.
 void FillState(const Model& model, const PathPoint& point, Increment* increment);
 
 class Recorder {
  public:
-  // method: of the request. on_increment takes each increment; may be empty.
-  Recorder(Method method, std::function<void(const Increment&)> on_increment)
-      : method_(method), on_increment_(std::move(on_increment)) {}
+  // lists: the long lists that increments are to have. on_increment takes each increment; may be empty.
+  Recorder(Method method, const LongLists& lists, std::function<void(const Increment&)> on_increment)
+      : method_(method), lists_(lists), on_increment_(std::move(on_increment)) {}
 
   // The last increment.
   const Increment& increment() const { return increment_; }
@@ -45,6 +57,7 @@ class Recorder {
   void Give(double load_before);
 
   Method method_;
+  LongLists lists_;
   std::function<void(const Increment&)> on_increment_;
   Increment increment_;
   int increments_ = 0;

@@ -23,15 +23,28 @@ class StopTest {
   // `request` must be sound and outlive the test, `index` of its scene.
   StopTest(const TraceRequest& request, const SceneIndex& index);
 
-  // The first criterion that holds in `increment`, by more than rounding, or null. Increment 0 is not asked: a
+  // Takes an increment of the path that has its state.
+  void Note(const Increment& increment);
+  // The first criterion that holds in `increment`, or null. A criterion holds by more than rounding; where the path
+  // locates its value, it holds at the value, too, once a noted increment was short of it. Increment 0 is not asked: a
   // criterion can end a path, not forbid its start.
   const StopCriterion* FirstThatHolds(const Increment& increment) const;
+  // Whether a criterion may have ended a path here, whatever the increments before.
+  bool MayHold(const Increment& increment) const;
 
  private:
   struct Item {
     const StopCriterion* criterion;
     Quantity quantity;
-    double rounding;  // of the quantity
+    double rounding;           // of the quantity
+    bool located;              // the path has an increment at the value
+    bool short_of_it = false;  // a noted increment was on the other side of the value
+    // How far the increment is beyond the value, and the rounding of that.
+    struct Beyond {
+      double by;
+      double rounding;
+    };
+    Beyond BeyondIn(const Increment& increment) const;
   };
   std::vector<Item> items_;
 };

@@ -29,6 +29,19 @@ struct Quantity {
     kForceX,
     kForceY,  // .ry
     kMoment,  // .rm
+    // <beam>.<segment>.N or bar<place>.N, or N_<beam>.<segment>: of a section (response/element_response.h)
+    kN,
+    kQ,   // .Q
+    kM,   // .M
+    kM1,  // .M1
+    kM2,  // .M2
+    // <solid>.<element>.sxx, or sxx_<solid>.<element>: of an element of a solid (structure/solid.h)
+    kSxx,
+    kSyy,     // .syy
+    kSxy,     // .sxy
+    kSzz,     // .szz
+    kMises,   // .mises
+    kEnergy,  // .energy
   };
 
   bool IsOfNode() const { return kind == Kind::kX || kind == Kind::kY || kind == Kind::kRotation; }
@@ -36,8 +49,12 @@ struct Quantity {
 
   bool IsReaction() const { return kind == Kind::kForceX || kind == Kind::kForceY || kind == Kind::kMoment; }
 
+  bool IsOfSection() const { return kind >= Kind::kN && kind <= Kind::kM2; }
+  bool IsOfElement() const { return kind >= Kind::kSxx; }
+
   Kind kind = Kind::kLoadFactor;
-  // Place of the node or contact in its list of the scene; of a reaction, in SupportedNodes() or TouchedBoundaries().
+  // Place of the node or contact in its list of the scene; of a reaction, in SupportedNodes() or TouchedBoundaries();
+  // number of the section or element (scene/element_names.h).
   std::size_t part = 0;
   bool of_boundary = false;
 };

@@ -359,11 +359,25 @@ void ForEachElementList(const Scene& scene, Visit&& visit) {
   });
 }
 
-// Holds when `quantity` lies beyond `value` on the side that `when` names.
+// Whether the last increment of a path lies at the value of a stop criterion. Words in files and messages, since a
+// message has no flag that is true where it is left out.
+enum class Exact {
+  kTrue,   // located at the value, as events are
+  kFalse,  // the next increment beyond
+};
+
+template <>
+struct Words<Exact> {
+  static constexpr Exact kDefault = Exact::kTrue;
+  static constexpr std::pair<std::string_view, Exact> kAll[] = {{"true", Exact::kTrue}, {"false", Exact::kFalse}};
+};
+
+// Holds when `quantity` comes to `value` from the side that `when` does not name, or lies beyond.
 struct StopCriterion {
   std::string quantity;  // "b.x", "b@floor.rn", "load_factor", ... (quantity.h)
   std::string when;      // ">" or "<"
   double value = 0.0;
+  Exact exact = Exact::kTrue;
 };
 
 template <>
@@ -371,7 +385,33 @@ struct Fields<StopCriterion> {
   template <typename P>
   static constexpr auto Of() {
     return std::tuple(Member("quantity", &P::quantity).Naming(TextKind::kQuantity), Member("when", &P::when),
-                      Member("value", &P::value));
+                      Member("value", &P::value), Member("exact", &P::exact));
+  }
+};
+
+// Values of a quantity, each of which has an increment of its own wherever the path comes to it.
+struct Samples {
+  std::string quantity;        // as of StopCriterion
+  std::vector<double> values;  // empty: `count` values at equal distances instead
+  double from = 0.0;
+  double to = 0.0;
+  int count = 0;  // 0 with `values`; 1: `from` alone
+
+  std::vector<double> Values() const {
+    if (!values.empty()) return values;
+    std::vector<double> between;
+    for (int i = 0; i < count; ++i) between.push_back(count == 1 ? from : from + (to - from) * i / (count - 1));
+    return between;
+  }
+};
+
+template <>
+struct Fields<Samples> {
+  template <typename P>
+  static constexpr auto Of() {
+    return std::tuple(Member("quantity", &P::quantity).Naming(TextKind::kQuantity), Member("values", &P::values),
+                      Member("from", &P::from), Member("to", &P::to),
+                      Member("count", &P::count).Within(Range::kNotNegative));
   }
 };
 
@@ -403,12 +443,16 @@ struct TraceOptions {
   // increments have; all further ones leave them empty. >= 0; 0 = 1, all of them.
   int full_state_every = 0;
   std::vector<StopCriterion> stop;
+  std::vector<Samples> at;
+  // Long lists that increments, bags and the CSV carry: "sections", of bars and beams; "stresses", of solids.
+  std::vector<std::string> record;
   std::vector<BranchChoice> branch_choices;
   FrictionLaw friction_law = FrictionLaw::kIncremental;
   MpecSolver mpec_solver = MpecSolver::kCertified;
 
   int MaxIncrements() const { return max_increments == 0 ? 1000 : max_increments; }
   double Direction() const { return direction < 0.0 ? -1.0 : 1.0; }
+  bool Records(std::string_view list) const { return std::find(record.begin(), record.end(), list) != record.end(); }
   // Whether corners are located, each at the end of an increment, and on record as events.
   bool LocatesEvents() const { return method == Method::kBranch || mpec_solver == MpecSolver::kCertified; }
 };
@@ -421,8 +465,9 @@ struct Fields<TraceOptions> {
                       Member("direction", &P::direction), Member("step", &P::step).Within(Range::kNotNegative),
                       Member("max_increments", &P::max_increments).Within(Range::kNotNegative),
                       Member("full_state_every", &P::full_state_every).Within(Range::kNotNegative),
-                      Member("stop", &P::stop), Member("branch_choices", &P::branch_choices),
-                      Member("friction_law", &P::friction_law), Member("mpec_solver", &P::mpec_solver));
+                      Member("stop", &P::stop), Member("at", &P::at), Member("record", &P::record),
+                      Member("branch_choices", &P::branch_choices), Member("friction_law", &P::friction_law),
+                      Member("mpec_solver", &P::mpec_solver));
   }
 };
 

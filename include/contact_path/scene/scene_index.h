@@ -10,6 +10,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "contact_path/scene/element_names.h"
 #include "contact_path/scene/reacting_parts.h"
 #include "contact_path/scene/scene.h"
 
@@ -37,6 +38,7 @@ class SceneIndex {
   std::optional<std::size_t> FindSupport(std::string_view node) const { return Find(supports_, node); }
   std::optional<std::size_t> FindBoundary(std::string_view name) const { return Find(boundaries_, std::string(name)); }
   const SupportedNode& Support(std::size_t place) const { return supported_[place]; }
+  const ElementNames& Elements() const { return elements_; }
 
  private:
   template <typename Map, typename Name>
@@ -48,6 +50,7 @@ class SceneIndex {
   std::unordered_map<std::string_view, std::size_t> nodes_, materials_, surfaces_, obstacles_, supports_;
   std::unordered_map<std::string, std::size_t> contacts_, boundaries_;  // by name
   std::vector<SupportedNode> supported_;
+  ElementNames elements_;
 };
 
 }  // namespace contact_path

@@ -34,6 +34,13 @@ class PlaneMaterial {
   double Energy(const Gradient& F) const;
   // P = dW/dF [force/length^2].
   Gradient Stress(const Gradient& F) const;
+  // C33, and J times Cauchy's stress across the plane [force/length^2], which is 0 in plane stress. The linear law: 1,
+  // and the stress.
+  struct Across {
+    double C33 = 1.0;
+    double stress = 0.0;
+  };
+  Across AcrossPlane(const Gradient& F) const;
   // A = d2W/dF2, symmetric.
   Square Tangent(const Gradient& F) const;
   // d/dh A(F + h V) at h = 0, symmetric.

@@ -8,6 +8,7 @@
 #include "contact_path/scene/scene.h"
 #include "contact_path/scene/scene_index.h"
 #include "contact_path/structure/element.h"
+#include "contact_path/structure/solid.h"
 
 namespace contact_path {
 
@@ -20,9 +21,14 @@ struct PlacedElement {
 std::vector<PlacedElement> MakeElements(const Scene& scene, const SceneIndex& index,
                                         const std::vector<double>& reference);
 
+struct PlacedSolidElement {
+  std::unique_ptr<const SolidElement> element;
+  std::vector<int> nodes;
+};
+
 // Of one solid of the scene, in the order of its nodes.
-std::vector<PlacedElement> MakeSolidElements(const Solid& solid, const Scene& scene, const SceneIndex& index,
-                                             const std::vector<double>& reference);
+std::vector<PlacedSolidElement> MakeSolidElements(const Solid& solid, const Scene& scene, const SceneIndex& index,
+                                                  const std::vector<double>& reference);
 
 }  // namespace contact_path
 

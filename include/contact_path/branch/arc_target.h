@@ -1,0 +1,24 @@
+// Functions of the unknowns at whose values steps end.
+#ifndef CONTACT_PATH_BRANCH_ARC_TARGET_H_
+#define CONTACT_PATH_BRANCH_ARC_TARGET_H_
+
+#include <Eigen/Core>
+#include <functional>
+#include <vector>
+
+#include "contact_path/equations/fixed_state_system.h"
+
+namespace contact_path {
+
+struct ArcTarget {
+  std::function<double(const FixedStateSystem& system, const Eigen::VectorXd& x)> of;  // scaled
+  std::vector<double> values;  // finite; a step ends where `of` first comes to one of them
+  double rounding = 0.0;       // differences up to this are none, > 0
+  double sense = 0.0;          // 1: only where `of` rises through a value, -1: only where it falls; 0: both
+};
+
+using ArcTargets = std::vector<ArcTarget>;
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_BRANCH_ARC_TARGET_H_

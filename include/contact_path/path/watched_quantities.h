@@ -1,0 +1,17 @@
+// The quantities at whose values a request wants increments.
+#ifndef CONTACT_PATH_PATH_WATCHED_QUANTITIES_H_
+#define CONTACT_PATH_PATH_WATCHED_QUANTITIES_H_
+
+#include "contact_path/branch/arc_target.h"
+#include "contact_path/path/model.h"
+#include "contact_path/scene/scene.h"
+
+namespace contact_path {
+
+// Of options.at, and of the exact criteria of options.stop; scaled by the unit of each quantity. model: of a stage of
+// the request, must outlive the result.
+ArcTargets WatchedQuantities(const Model& model, const TraceRequest& request);
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_PATH_WATCHED_QUANTITIES_H_

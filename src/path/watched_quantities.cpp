@@ -1,0 +1,104 @@
+#include "contact_path/path/watched_quantities.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "contact_path/path/recorder.h"
+#include "contact_path/path/stop.h"
+#include "contact_path/scene/change_units.h"
+#include "contact_path/scene/quantity.h"
+#include "contact_path/tolerances.h"
+
+namespace contact_path {
+namespace {
+
+using Function = std::function<double(const FixedStateSystem& system, const Eigen::VectorXd& x)>;
+
+// What a node has, in scaled units counted from the origin of the model; nothing where no unknown changes it.
+Function OfNode(const Model& model, const Quantity& quantity) {
+  const bool is_rotation = quantity.kind == Quantity::Kind::kRotation;
+  const int component = quantity.kind == Quantity::Kind::kY ? 1 : 0;
+  const int dof = model.structure.Dofs().Dof(static_cast<int>(quantity.part),
+                                             is_rotation ? Field::kRotation : Field::kPosition, component);
+  if (dof < 0) return nullptr;
+  return [dof](const FixedStateSystem&, const Eigen::VectorXd& x) { return x[dof]; };
+}
+
+Function OfContact(const Model& model, const Quantity& quantity) {
+  const std::size_t i = quantity.part;
+  if (quantity.kind != Quantity::Kind::kGap)
+    return
+        [i, normal = quantity.kind == Quantity::Kind::kRn](const FixedStateSystem& system, const Eigen::VectorXd& x) {
+          const PathPoint point = system.Unpack(x);
+          return (normal ? point.rn : point.rt)[static_cast<Eigen::Index>(i)];
+        };
+  return [i, &contact = *model.contacts[i]](const FixedStateSystem& system, const Eigen::VectorXd& x) {
+    const PathPoint point = system.Unpack(x);
+    return contact.Gap(point.u, point.s, contact.KnownPatch(point.u, point.s, point.Patch(i)));
+  };
+}
+
+// unit: of the quantity, in the scene.
+Function OfResponse(const Model& model, const Quantity& quantity, double unit) {
+  return [&model, quantity, unit](const FixedStateSystem& system, const Eigen::VectorXd& x) {
+    const PathPoint point = system.Unpack(x);
+    Increment increment;
+    FillLists(model, point, {quantity.IsOfSection(), quantity.IsOfElement()}, &increment);
+    if (quantity.IsReaction()) {
+      Reactions reactions = model.ReactionsAt(point);
+      increment.supports = std::move(reactions.supports);
+      increment.boundaries = std::move(reactions.boundaries);
+    }
+    return ValueOf(quantity, increment) / unit;
+  };
+}
+
+// Where the scaled quantity is counted from, in the scene.
+double OriginOf(const Model& model, Quantity::Kind kind) {
+  if (kind == Quantity::Kind::kX) return model.origin[0];
+  return kind == Quantity::Kind::kY ? model.origin[1] : 0.0;
+}
+
+// sense: as of ArcTarget.
+void Add(const Model& model, const std::string& text, const std::vector<double>& values, double sense,
+         ArcTargets* targets) {
+  const Quantity quantity = FindQuantity(text, model.index).value();
+  const Scaling& scaling = model.scaling;
+  const double unit = SizeOf(UnitOf(quantity.kind), {scaling.length, scaling.force, scaling.load_factor});
+  ArcTarget target;
+  target.sense = sense;
+  if (quantity.kind == Quantity::Kind::kLoadFactor)
+    target.of = [](const FixedStateSystem& system, const Eigen::VectorXd& x) { return x[system.NumDofs()]; };
+  else if (quantity.IsOfNode())
+    target.of = OfNode(model, quantity);
+  else if (quantity.IsOfContact())
+    target.of = OfContact(model, quantity);
+  else
+    target.of = OfResponse(model, quantity, unit);
+  if (target.of == nullptr) return;
+  double largest = 0.0;
+  for (const double value : values) {
+    target.values.push_back((value - OriginOf(model, quantity.kind)) / unit);
+    largest = std::max(largest, std::abs(target.values.back()));
+  }
+  target.rounding = tolerances::kAtTarget * (1.0 + largest);
+  targets->push_back(std::move(target));
+}
+
+}  // namespace
+
+ArcTargets WatchedQuantities(const Model& model, const TraceRequest& request) {
+  ArcTargets targets;
+  for (const StopCriterion& criterion : request.options.stop)
+    if (criterion.exact == Exact::kTrue)
+      Add(model, criterion.quantity, {criterion.value}, criterion.when == ">" ? 1.0 : -1.0, &targets);
+  for (const Samples& samples : request.options.at) Add(model, samples.quantity, samples.Values(), 0.0, &targets);
+  return targets;
+}
+
+}  // namespace contact_path

@@ -1,0 +1,159 @@
+// Increments at wanted values of quantities: the ends of paths by stop criteria, and samples.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "contact_path/path/stop.h"
+#include "contact_path/path/trace.h"
+#include "contact_path/scene/expand.h"
+#include "contact_path/scene/quantity.h"
+#include "contact_path/scene/scene_index.h"
+#include "support/traced_path.h"
+
+namespace contact_path {
+namespace {
+
+double Value(const TracedPath& path, const std::string& quantity, const Increment& increment) {
+  const ExpandedRequest expanded(path.request);
+  return ValueOf(FindQuantity(quantity, SceneIndex(expanded.Get().scene)).value(), increment);
+}
+
+struct Wanted {
+  std::string scene;
+  StopCriterion stop;
+};
+
+class StopAtValue : public testing::TestWithParam<Wanted> {};
+
+// By any steps the same end, to rounding.
+TEST_P(StopAtValue, EndsThereWhateverTheSteps) {
+  std::vector<double> loads, arcs;
+  for (const Method method : {Method::kBranch, Method::kMpec})
+    for (const Accuracy accuracy : {Accuracy::kFast, Accuracy::kBalanced, Accuracy::kAccurate}) {
+      TraceRequest request = ReadExample(GetParam().scene);
+      request.options.method = method;
+      request.options.accuracy = accuracy;
+      request.options.stop = {GetParam().stop};
+      const TracedPath path = TraceIncrements(request);
+      ASSERT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+      const Increment& last = path.increments.back();
+      EXPECT_EQ(last.kind, IncrementKind::kSample);
+      const double value = GetParam().stop.value;
+      EXPECT_NEAR(Value(path, GetParam().stop.quantity, last), value, 1e-11 * (1.0 + std::abs(value)));
+      loads.push_back(last.load_factor);
+      ExpectNoFindings(path);
+    }
+  for (const double load : loads) EXPECT_NEAR(load, loads[0], 1e-9 * (1.0 + std::abs(loads[0])));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Quantities, StopAtValue,
+    testing::Values(Wanted{"sliding_bar", {"b.x", ">", 4.95}}, Wanted{"sliding_bar", {"load_factor", ">", 1.5}},
+                    Wanted{"sliding_bar", {"b@floor.rn", ">", 1.1}}, Wanted{"rough_truss", {"apex.y", "<", 0.9}},
+                    Wanted{"rough_truss", {"foot@floor.rt", "<", -0.05}}, Wanted{"rough_truss", {"left.ry", ">", 0.06}},
+                    Wanted{"rough_truss", {"floor.ry", ">", 0.06}}, Wanted{"deep_arch", {"load_factor", ">", 500.0}},
+                    Wanted{"rigid_stop", {"load_factor", ">", 0.5}}),
+    [](const auto& info) {
+      std::string name = info.param.scene + "_" + info.param.stop.quantity;
+      std::replace_if(
+          name.begin(), name.end(), [](char c) { return c == '.' || c == '@'; }, '_');
+      return name;
+    });
+
+TEST(StopAtValue, InexactTakesTheNextIncrementBeyond) {
+  TraceRequest request = ReadExample("sliding_bar");
+  const TracedPath exact = TraceIncrements(request);
+  request.options.stop[0].exact = Exact::kFalse;
+  const TracedPath beyond = TraceIncrements(request);
+  ASSERT_EQ(beyond.increments.size(), exact.increments.size());
+  EXPECT_GT(Value(beyond, "b.x", beyond.increments.back()), 4.95 + 1e-6);
+  EXPECT_NE(beyond.increments.back().kind, IncrementKind::kSample);
+  for (std::size_t i = 0; i + 1 < exact.increments.size(); ++i)
+    EXPECT_EQ(beyond.increments[i].positions, exact.increments[i].positions);
+}
+
+// A criterion that holds from the start on cannot be come to: the first increment ends the path.
+TEST(StopAtValue, ThatHoldsFromTheStartEndsAfterOneIncrement) {
+  TraceRequest request = ReadExample("sliding_bar");
+  request.options.stop = {{"b.x", ">", -100.0}};
+  const TracedPath path = TraceIncrements(request);
+  EXPECT_EQ(path.result.reason, EndReason::kStopCriterion);
+  EXPECT_EQ(path.increments.size(), 2U);
+}
+
+// At the start the criterion is not yet met: a path that comes back to its load ends there.
+TEST(StopAtValue, IsComeToFromItsOtherSideOnly) {
+  TraceRequest request = ReadExample("rough_truss");
+  const TracedPath path = TraceIncrements(request);
+  const auto samples = std::count_if(path.increments.begin(), path.increments.end(),
+                                     [](const Increment& of) { return of.kind == IncrementKind::kSample; });
+  EXPECT_EQ(samples, 1);
+  EXPECT_NEAR(path.increments.back().load_factor, 1e-9, 1e-12);
+}
+
+// The load of a snap-through passes the values three times, or once.
+TEST(Samples, LieWhereverThePathPassesTheValues) {
+  TraceRequest request = ReadExample("von_mises");
+  const TracedPath without = TraceIncrements(request);
+  request.options.at = {{"load_factor", {0.1, -0.1, 0.15}}, {"apex.y", {}, 0.9, -0.9, 7}};
+  const TracedPath path = TraceIncrements(request);
+  EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+  for (const Samples& samples : request.options.at)
+    for (const double value : samples.Values()) {
+      SCOPED_TRACE(samples.quantity + " = " + std::to_string(value));
+      std::size_t passes = 0, found = 0;
+      for (std::size_t i = 0; i + 1 < without.increments.size(); ++i)
+        passes += (Value(without, samples.quantity, without.increments[i]) - value) *
+                      (Value(without, samples.quantity, without.increments[i + 1]) - value) <
+                  0.0;
+      for (const Increment& increment : path.increments)
+        found += increment.kind == IncrementKind::kSample &&
+                 std::abs(Value(path, samples.quantity, increment) - value) <= 1e-12;
+      EXPECT_GE(passes, 1U);
+      EXPECT_EQ(found, passes);
+    }
+  // What the path passes on its way is as without samples.
+  const std::vector<Increment> limits = IncrementsOfKind(path, IncrementKind::kSmoothLimit);
+  const std::vector<Increment> others = IncrementsOfKind(without, IncrementKind::kSmoothLimit);
+  ASSERT_EQ(limits.size(), others.size());
+  for (std::size_t i = 0; i < limits.size(); ++i) EXPECT_NEAR(limits[i].load_factor, others[i].load_factor, 1e-12);
+  ExpectNoFindings(path);
+}
+
+TEST(Samples, OfAProgramAreInEveryStage) {
+  TraceRequest request = ReadExample("stick_slip_cycle");
+  const TracedPath without = TraceIncrements(request);
+  const ExpandedRequest expanded(request);
+  const std::string quantity = expanded.Get().scene.contacts[0].Name() + ".rt";
+  request.options.at = {{quantity, {0.1}}};
+  const TracedPath path = TraceIncrements(request);
+  std::size_t passes = 0;
+  for (std::size_t i = 0; i + 1 < without.increments.size(); ++i)
+    passes += (without.increments[i].contacts[0].rt - 0.1) * (without.increments[i + 1].contacts[0].rt - 0.1) < 0.0;
+  EXPECT_GE(passes, 2U);
+  EXPECT_EQ(IncrementsOfKind(path, IncrementKind::kSample).size(), passes);
+  for (const Increment& increment : IncrementsOfKind(path, IncrementKind::kSample))
+    EXPECT_NEAR(increment.contacts[0].rt, 0.1, 1e-12);
+  ExpectSameEvents(path, without, 1e-9);
+}
+
+// What a study tabulates at the end of a path is a smooth function of the friction: 40 values, second differences.
+TEST(StopAtValue, FinalValuesOfAStudyAreSmooth) {
+  std::vector<double> loads;
+  for (int i = 0; i < 40; ++i) {
+    TraceRequest request = ReadExample("sliding_bar");
+    request.scene.obstacles[0].friction = 0.3 + 1e-3 * i;
+    request.options.stop = {{"b.x", ">", -1.0}};
+    loads.push_back(TraceIncrements(request).increments.back().load_factor);
+  }
+  std::vector<double> second;
+  for (std::size_t i = 1; i + 1 < loads.size(); ++i) second.push_back(loads[i - 1] - 2.0 * loads[i] + loads[i + 1]);
+  for (std::size_t i = 1; i < second.size(); ++i) EXPECT_NEAR(second[i], second[i - 1], 1e-8);
+}
+
+}  // namespace
+}  // namespace contact_path
