@@ -5,7 +5,7 @@ half of the turn of the stress-free arc. A hinged end turns as no moment acts on
 """
 from __future__ import annotations
 
-from typing import Any, Mapping, Sequence
+from typing import Any, List, Mapping, Sequence
 
 import numpy as np
 
@@ -19,12 +19,14 @@ class Beams:
     def __init__(self, beams: Sequence[Mapping[str, Any]], index: Mapping[str, int], initial: np.ndarray) -> None:
         """beams: nodes, angle and hinged of each, as scene_expand leaves them; index: name -> node; initial: places (n, 2)."""
         nodes, turns, free = [], [], []
+        self.names: List[str] = []  # of the segments, as quantities have them
         self.inner = np.zeros(len(initial), dtype=bool)  # nodes between the ends of a beam
         for beam in beams:
             axis = [index[name] for name in beam['nodes']]
             count = len(axis) - 1
             self.inner[axis[1:-1]] = True
             first, last = beam['hinged'] or (False, False)
+            self.names += ['%s.%d' % (beam['name'], i + 1) for i in range(count)]
             for i in range(count):
                 nodes.append(axis[i:i + 2])
                 turns.append(beam['angle'] / count)

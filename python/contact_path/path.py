@@ -10,6 +10,8 @@ import numpy as np
 from contact_path.scene import Scene
 
 if TYPE_CHECKING:
+    import pandas
+    import xarray
     from matplotlib.figure import Figure
 
 #: Kinds of increments, in the order of the constants of the message Increment.
@@ -19,6 +21,7 @@ STATES = ('open', 'stick', 'slip+', 'slip-', 'closed')
 #: Why a trace ended; docs/end_reasons.md explains them. The first three are complete answers.
 END_REASONS = ('stop_criterion', 'max_increments', 'closed_path', 'path_end', 'step_too_small', 'element_inverted', 'cancelled',
                'no_such_branch', 'time_limit', 'memory_limit', 'numerical_failure')
+COMPLETE = END_REASONS[:3]
 
 LIMITS = ('smooth_limit', 'corner_limit')
 EVENTS = ('corner_limit', 'contact_event', 'bifurcation')
@@ -154,6 +157,31 @@ class Path:
         from contact_path import path_quantities  # it needs this module
 
         return path_quantities.values(self, name)
+
+    @property
+    def success(self) -> bool:
+        """Whether the path goes as far as it was asked to; False also where that is not known, as of a CSV file."""
+        return self.end_reason in COMPLETE
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """A table of pandas: a row for each increment, a column for each of the path's. Needs pandas."""
+        from contact_path import path_frames  # it needs this module
+
+        return path_frames.dataframe(self)
+
+    def to_xarray(self) -> xarray.Dataset:
+        """A data set of xarray: 'x' (increment, node), 'rn' (increment, contact), 'rx' (increment, reacting), 'load_factor'
+        (increment,), ... with the names of nodes, contacts, sections and elements as coordinates. Needs xarray."""
+        from contact_path import path_frames  # it needs this module
+
+        return path_frames.dataset(self)
+
+    def to_vtk(self, directory: str | os.PathLike[str]) -> str:
+        """Writes files for ParaView, and returns the name of the collection, path.pvd: a file of the structure and one of the
+        obstacles for each increment that carries positions. Needs meshio. ValueError: the path has no scene."""
+        from contact_path import path_vtk  # it needs this module
+
+        return path_vtk.write(self, os.fspath(directory))
 
     def plot(self, x: str | None = None, y: str = 'load_factor', *, states: bool = False, energy: bool = False,
              shapes: bool = False, at: str | None = None, increments: Sequence[int | str] = (),

@@ -11,10 +11,13 @@ import numpy as np
 from contact_path.drawn_scene import drawn
 from contact_path.path import KINDS, STATES, Path
 from contact_path.scene import Scene
-from contact_path.scene_expand import contact_name
+from contact_path.scene_expand import contact_name, solid_names
 
 #: Components of a force and its moment on the structure.
 REACTIONS = ('rx', 'ry', 'rm')
+#: Of a section, a bar has the first alone; and of an element of a solid.
+SECTIONS = ('N', 'Q', 'M', 'M1', 'M2')
+STRESSES = ('sxx', 'syy', 'sxy', 'szz', 'mises', 'energy')
 
 
 def read(file: str | os.PathLike[str]) -> Path:
@@ -129,6 +132,7 @@ def columns_of(scene: Dict[str, Any], contacts: Sequence[str], increments: Seque
                   'solve_time'):
         table[field] = column(field)
     table.update(reaction_columns(scene, increments))
+    table.update(element_columns(scene, increments))
     return table
 
 
@@ -145,6 +149,24 @@ def reaction_columns(scene: Dict[str, Any], increments: Sequence[Any]) -> Dict[s
             for axis, values in zip(REACTIONS, forces):
                 if field == 'boundaries' or axis in supports[name]:
                     table['%s_%s' % (axis, name)] = values[:, i]
+    return table
+
+
+def element_columns(scene: Dict[str, Any], increments: Sequence[Any]) -> Dict[str, np.ndarray]:
+    """Section forces and stresses, as the CSV has them where they are recorded. scene: as drawn() gives it."""
+    bars = ['bar%d' % (i + 1) for i in range(len(scene['bars']))]
+    segments = ['%s.%d' % (beam['name'], i + 1) for beam in scene['beams'] for i in range(len(beam['nodes']) - 1)]
+    elements = ['%s.%d' % (name, i + 1) for solid, name in zip(scene['solids'], solid_names(scene['solids']))
+                for i in range(len(solid['nodes']) // (solid['nodes_per_element'] or 3))]
+    table: Dict[str, np.ndarray] = {}
+    for lists, fields, names in (('sections', SECTIONS, bars + segments), ('stresses', STRESSES, elements)):
+        if not any(getattr(message, lists, ()) for message in increments):
+            continue
+        values = {field: matrix([[getattr(of, field) for of in getattr(message, lists, ())] for message in increments], len(names))
+                  for field in fields}
+        for i, name in enumerate(names):
+            for field in fields[:1] if lists == 'sections' and i < len(bars) else fields:
+                table['%s_%s' % (field, name)] = values[field][:, i]
     return table
 
 

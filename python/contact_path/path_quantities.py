@@ -21,7 +21,13 @@ LABELS = {'x': ('position x of node', '[length]'), 'y': ('position y of node', '
           'fx': ('load fx on node', '[force]'), 'fy': ('load fy on node', '[force]'),
           'gap': ('gap of', '[length]'), 'rn': ('normal reaction of', '[force]'),
           'rt': ('tangential reaction of', '[force]'),
-          'rx': ('force x of', '[force]'), 'ry': ('force y of', '[force]'), 'rm': ('moment of', '[force length]'), 'slip': ('slip of', '[length]')}
+          'rx': ('force x of', '[force]'), 'ry': ('force y of', '[force]'), 'rm': ('moment of', '[force length]'),
+          'N': ('normal force in', '[force]'), 'Q': ('shear force in', '[force]'), 'M': ('moment in', '[force length]'),
+          'M1': ('moment at the first node of', '[force length]'), 'M2': ('moment at the second node of', '[force length]'),
+          'sxx': ('stress xx in', '[force/length^2]'), 'syy': ('stress yy in', '[force/length^2]'),
+          'sxy': ('stress xy in', '[force/length^2]'), 'szz': ('stress zz in', '[force/length^2]'),
+          'mises': ('von Mises stress in', '[force/length^2]'), 'energy': ('strain energy of', '[force length]'),
+          'slip': ('slip of', '[length]')}
 UNITS = {'load_factor': '[-]', 'arc_length': '[-]', 'dissipation': '[force length]', 'strain_energy': '[force length]',
          'external_work': '[force length]', 'equilibrium_residual': '[-]', 'complementarity_residual': '[-]',
          'solve_time': '[s]', 'load_x': '[force]', 'load_y': '[force]'}

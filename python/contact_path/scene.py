@@ -169,7 +169,8 @@ class Scene(Loading):
                 step: float | None = None, max_increments: int | None = None, full_state_every: int | None = None,
                 stop: Sequence[Mapping[str, Any]] | None = None,
                 branch_choices: Sequence[Mapping[str, Any]] | None = None, friction_law: str | None = None,
-                mpec_solver: str | None = None, at: Sequence[Mapping[str, Any]] | None = None) -> None:
+                mpec_solver: str | None = None, at: Sequence[Mapping[str, Any]] | None = None,
+                record: Sequence[str] | None = None) -> None:
         """Sets options of the trace; None: as it was. stop, at and branch_choices replace the whole list."""
         given = {key: _plain(value) for key, value in locals().items() if key != 'self' and value is not None}
         self.request.setdefault('options', {}).update(given)

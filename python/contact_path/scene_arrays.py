@@ -11,7 +11,7 @@ from contact_path.obstacle_curves import Boundary, Placement
 from contact_path.obstacle_outlines import outlines
 from contact_path.path import Path
 from contact_path.scene import Scene
-from contact_path.scene_expand import contact_name
+from contact_path.scene_expand import contact_name, solid_names
 from contact_path.solid_energy import Solid
 from contact_path.surface_curves import SurfaceCurve
 
@@ -41,7 +41,8 @@ class Structure:
         self.fixed = np.array([[node['fixed_x'], node['fixed_y']] for node in scene['nodes']])
         self.bars = np.array([[index[name] for name in bar['nodes']] for bar in scene['bars']], dtype=int).reshape(-1, 2)
         self.beams = Beams(scene['beams'], index, self.initial)
-        self.solids = [Solid(solid, scene['materials'], index) for solid in scene['solids']]
+        self.solids = [Solid(solid, scene['materials'], index, name)
+                       for solid, name in zip(scene['solids'], solid_names(scene['solids']))]
         self.bar_directions = self.find_bar_directions()
         self.supports = self.find_supports()
         self.superelements = [([index[name] for name in part['nodes']], np.array(part['rest_positions'], dtype=float))

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import math
+import re
 from typing import Any, Callable, Dict, List, Mapping, Sequence, Tuple
 
 Entry = Dict[str, Any]
@@ -13,7 +14,7 @@ SEGMENTS = 20  # of a beam that does not tell
 def expand(scene: Dict[str, Any]) -> Callable[[List[Entry]], List[Entry]]:
     """Adds to a scene, as drawn_scene.drawn has it, the inner nodes of its beams, and expands its loads and contacts.
 
-    scene['beams'] becomes a list of the beams with the names of all their nodes, scene['turning'] the set of the names of the
+    scene['beams'] becomes a list of the beams with their names and those of all their nodes, scene['turning'] the set of the names of the
     nodes that a beam turns. Returns a function that expands the loads of a stage.
     """
     places = {node['name']: (node['x'], node['y']) for node in scene['nodes']}
@@ -37,8 +38,8 @@ def expand(scene: Dict[str, Any]) -> Callable[[List[Entry]], List[Entry]]:
         hinged = beam['hinged'] or [False, False]
         scene['turning'].update(inner)
         scene['turning'].update(node for node, hinge in zip(beam['nodes'], hinged) if not hinge)
-    scene['beams'] = [{'nodes': axis, 'angle': beam['angle'], 'hinged': beam['hinged']}
-                      for axis, beam in zip(axes.values(), scene['beams'])]
+    scene['beams'] = [{'name': name, 'nodes': axis, 'angle': beam['angle'], 'hinged': beam['hinged']}
+                      for (name, axis), beam in zip(axes.items(), scene['beams'])]
 
     fixed = {node['name'] for node in scene['nodes'] if node['fixed_x'] and node['fixed_y']}
 
@@ -118,3 +119,16 @@ def point_of_arc(first: Point, second: Point, angle: float, share: float) -> Poi
     turn = -0.5 * (1.0 - share) * angle
     return (first[0] + stretch * (math.cos(turn) * dx - math.sin(turn) * dy),
             first[1] + stretch * (math.sin(turn) * dx + math.cos(turn) * dy))
+
+
+def solid_names(solids: Sequence[Mapping[str, Any]]) -> List[str]:
+    """Of the solids in the names of their elements: their own where it is fit for a column and not that of one before.
+
+    >>> solid_names([{'name': 'sole'}, {'name': ''}, {'name': 'sole'}])
+    ['sole', 'solid2', 'solid3']
+    """
+    names: List[str] = []
+    for number, solid in enumerate(solids, 1):
+        fit = re.fullmatch(r'[^\s@,"./\x00-\x1f\x7f]+', solid['name']) is not None and solid['name'] not in names
+        names.append(solid['name'] if fit else 'solid%d' % number)
+    return names

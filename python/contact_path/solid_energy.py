@@ -9,9 +9,12 @@ BOUNDARIES = {3: (0, 1, 2), 4: (0, 1, 2, 3), 6: (0, 3, 1, 4, 2, 5), 8: (0, 4, 1,
 
 
 class Solid:
-    """A mesh: nodes (m, k) of indices, of each element in turn; boundaries (m, k), the same counterclockwise."""
+    """A mesh: nodes (m, k) of indices, of each element in turn; boundaries (m, k), the same counterclockwise. name: as quantities
+    of its elements have it."""
 
-    def __init__(self, solid: Mapping[str, Any], materials: Sequence[Mapping[str, Any]], index: Mapping[str, int]) -> None:
+    def __init__(self, solid: Mapping[str, Any], materials: Sequence[Mapping[str, Any]], index: Mapping[str, int],
+                 name: str = '') -> None:
+        self.name = name
         count = solid['nodes_per_element'] or 3
         self.nodes = np.array([index[name] for name in solid['nodes']], dtype=int).reshape(-1, count)
         self.boundaries = self.nodes[:, BOUNDARIES[count]]
