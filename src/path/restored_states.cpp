@@ -20,9 +20,9 @@ constexpr int kIterations = 20;  // for the arc length
 // The increments of one stage.
 class Restorer {
  public:
-  // along_arc: arc lengths are those of arcs, and not of chords.
-  Restorer(const Model& model, bool along_arc)
-      : model_(model), along_arc_(along_arc), arc_(model.structure, model.contacts) {}
+  // along_arc: arc lengths are those of arcs, and not of chords. lists: that increments are to have.
+  Restorer(const Model& model, bool along_arc, const LongLists& lists)
+      : model_(model), along_arc_(along_arc), lists_(lists), arc_(model.structure, model.contacts) {}
 
   // Finds the state of the increment at `at`, the one before having its own; false: it is not found.
   bool Restore(std::vector<Increment>* increments, std::size_t at) {
@@ -48,6 +48,7 @@ class Restorer {
     const double load = wanted.load_factor / model_.scaling.load_factor;
     if (!point || !(std::abs(point->s - load) <= tolerances::kRecordedLoad * (1.0 + std::abs(load)))) return false;
     FillState(model_, *point, &wanted);
+    FillLists(model_, *point, lists_, &wanted);
     return true;
   }
 
@@ -97,6 +98,7 @@ class Restorer {
 
   const Model& model_;
   const bool along_arc_;
+  const LongLists lists_;
   SmoothArc arc_;
 };
 
@@ -118,7 +120,7 @@ std::size_t RestoreStates(const TraceRequest& request, std::vector<Increment>* i
       restorer.reset();
       model = std::make_unique<const Model>(StageScene(request, number), StageConfiguration(request, number),
                                             StageScales(request, index, number, of_program));
-      restorer = std::make_unique<Restorer>(*model, request.options.LocatesEvents());
+      restorer = std::make_unique<Restorer>(*model, request.options.LocatesEvents(), LongLists::Of(request, index));
     }
     if (!restorer->Restore(increments, i)) return i;
   }

@@ -230,6 +230,9 @@ msgs::Increment ToMessage(const Increment& increment, int full_state_every) {
     }
     message.rotation = increment.rotations;
     CopyToMessage(increment.contacts, &message.contacts);
+  } else {
+    message.sections.clear();
+    message.stresses.clear();
   }
   message.equilibrium_residual = increment.residuals.equilibrium;
   message.penetration_residual = increment.residuals.penetration;
