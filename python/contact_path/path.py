@@ -99,9 +99,8 @@ class Path:
         """Where contacts change their states, or paths cross: `index`, `kind`, `load_factor`, `stage` with a load program.
 
         Of the method `branch`, except where the path was read from a CSV file, also: `number`, as branch_choices count; `taken`, the
-        number of the branch that was taken, from 1, 0: none; `complete`, whether all combinations of states were tried; `branches`,
-        best first, with `states` (contact -> state), `load_rate`, `dissipation_rate` [-] and `turn` [rad]. trace() by the program
-        has these three in four digits.
+        number of the branch that was taken, from 1, 0: none; `complete`, whether there are no more branches, and `complete_by`, for which reason; `branches`,
+        best first, with `states` (contact -> state), `load_rate`, `dissipation_rate` [-] and `turn` [rad].
         """
         wanted = np.isin(self['kind'], EVENTS)
         rows = {int(self['index'][number]): int(number) for number in np.flatnonzero(wanted)}

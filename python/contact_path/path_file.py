@@ -15,7 +15,8 @@ from contact_path.scene_expand import contact_name, solid_names
 
 #: Components of a force and its moment on the structure.
 REACTIONS = ('rx', 'ry', 'rm')
-#: Of a section, a bar has the first alone; and of an element of a solid.
+#: Of a contact; of a section, of which a bar has the first alone; and of an element of a solid.
+PRESSURES = ('pressure', 'traction')
 SECTIONS = ('N', 'Q', 'M', 'M1', 'M2')
 STRESSES = ('sxx', 'syy', 'sxy', 'szz', 'mises', 'energy')
 
@@ -153,7 +154,7 @@ def reaction_columns(scene: Dict[str, Any], increments: Sequence[Any]) -> Dict[s
 
 
 def element_columns(scene: Dict[str, Any], increments: Sequence[Any]) -> Dict[str, np.ndarray]:
-    """Section forces and stresses, as the CSV has them where they are recorded. scene: as drawn() gives it."""
+    """Section forces, stresses and pressures, as the CSV has them where they are recorded. scene: as drawn() gives it."""
     bars = ['bar%d' % (i + 1) for i in range(len(scene['bars']))]
     segments = ['%s.%d' % (beam['name'], i + 1) for beam in scene['beams'] for i in range(len(beam['nodes']) - 1)]
     elements = ['%s.%d' % (name, i + 1) for solid, name in zip(scene['solids'], solid_names(scene['solids']))
@@ -167,6 +168,14 @@ def element_columns(scene: Dict[str, Any], increments: Sequence[Any]) -> Dict[st
         for i, name in enumerate(names):
             for field in fields[:1] if lists == 'sections' and i < len(bars) else fields:
                 table['%s_%s' % (field, name)] = values[field][:, i]
+    contacts = [contact_name(contact) for contact in scene['contacts']]
+    if any(getattr(message, 'pressures', ()) for message in increments):
+        values = {field: matrix([[getattr(of, field) for of in message.pressures] for message in increments], len(contacts))
+                  for field in PRESSURES}
+        table.update({'%s_%s' % (field, name): values[field][:, i] for i, name in enumerate(contacts) for field in PRESSURES})
+        names = touched_boundaries(scene)
+        widths = matrix([message.widths for message in increments], len(names))
+        table.update({'width_' + name: widths[:, i] for i, name in enumerate(names)})
     return table
 
 

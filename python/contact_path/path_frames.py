@@ -6,14 +6,14 @@ from typing import TYPE_CHECKING, Dict, List, Sequence, Tuple
 import numpy as np
 
 from contact_path.path import Path
-from contact_path.path_file import REACTIONS, SECTIONS, STRESSES
+from contact_path.path_file import PRESSURES, REACTIONS, SECTIONS, STRESSES
 
 if TYPE_CHECKING:
     import pandas
     import xarray
 
 # Quantities of parts of the scene: dimension -> fields of the columns FIELD_NAME.
-FIELDS = {'node': ('x', 'y', 'rotation'), 'contact': ('gap', 'rn', 'rt', 'state'), 'reacting': REACTIONS,
+FIELDS = {'node': ('x', 'y', 'rotation'), 'contact': ('gap', 'rn', 'rt', 'state', *PRESSURES), 'reacting': (*REACTIONS, 'width'),
           'section': SECTIONS, 'element': STRESSES}
 
 

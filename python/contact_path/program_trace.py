@@ -1,6 +1,7 @@
 """Traces scenes by the program contact_path_trace."""
 from __future__ import annotations
 
+import json
 import os
 import queue
 import re
@@ -9,10 +10,10 @@ import signal
 import subprocess
 import tempfile
 import threading
-from typing import IO, Any, Callable, Dict, List, NamedTuple, Sequence
+from typing import IO, Any, Callable, Dict, List, Mapping, NamedTuple, Sequence
 
 from contact_path.errors import InvalidScene, TraceFailed
-from contact_path.path import END_REASONS, Path
+from contact_path.path import Path
 from contact_path.path_file import table_of
 from contact_path.scene import Scene
 from contact_path.tracing import Progress, with_options
@@ -44,21 +45,35 @@ def find_program(name: str = PROGRAM) -> str:
 def trace(scene: Scene | str | os.PathLike[str], options: Dict[str, Any], progress: Callable[[Progress], None] | None,
           bag: str | os.PathLike[str] | None) -> Path:
     """As contact_path.trace."""
-    command = [find_program(), '--events', *(['--bag', os.fspath(bag)] if bag is not None else [])]
-    if not isinstance(scene, Scene) and options.keys() <= FLAGS.keys():
-        # The file as it is: the validator names its lines, and judges what is no scene at all.
-        with open(scene, encoding='utf-8'):
-            pass
-        command += ['%s=%s' % (FLAGS[key], value) for key, value in options.items() if value is not None]
-        output = run([*command, '--', os.fspath(scene)], progress)
-        return path_of(output, lambda: with_options(scene, options))
-    traced = with_options(scene, options)
     with tempfile.TemporaryDirectory() as directory:
+        log = os.path.join(directory, 'log.jsonl')
+        command = [find_program(), '--log', log, *(['--bag', os.fspath(bag)] if bag is not None else [])]
+        if not isinstance(scene, Scene) and options.keys() <= FLAGS.keys():
+            # The file as it is: the validator names its lines, and judges what is no scene at all.
+            with open(scene, encoding='utf-8'):
+                pass
+            command += ['%s=%s' % (FLAGS[key], value) for key, value in options.items() if value is not None]
+            output = run([*command, '--', os.fspath(scene)], progress)
+            return path_of(output, read_log(log), lambda: with_options(scene, options))
+        traced = with_options(scene, options)
         file = os.path.join(directory, 'scene.yaml')
         traced.write(file)
         output = run([*command, '--', file], progress)
-    said = re.sub(re.escape(file) + r':(?:\d+: )?\s*', '', output.said)  # nobody has seen this file
-    return path_of(output._replace(said=said), lambda: traced)
+        said = re.sub(re.escape(file) + r':(?:\d+: )?\s*', '', output.said)  # nobody has seen this file
+        return path_of(output._replace(said=said), read_log(log), lambda: traced)
+
+
+def read_log(file: str) -> Dict[str, List[Dict[str, Any]]]:
+    """Lines of a log (docs/log.md) by their types; those of trial steps and increments are left out. A program that refuses a
+    scene leaves none."""
+    lines: Dict[str, List[Dict[str, Any]]] = {'header': [], 'event': [], 'end': []}
+    if os.path.exists(file):
+        with open(file, encoding='utf-8') as text:
+            for line in text:
+                if any('"type":"%s"' % kind in line for kind in lines):
+                    found = json.loads(line)
+                    lines[found['type']].append(found)
+    return lines
 
 
 class Output(NamedTuple):
@@ -123,14 +138,13 @@ def follow(table: Listener, progress: Callable[[Progress], None] | None) -> None
             progress(Progress(int(index), float(load_factor), float(arc_length), kind))
 
 
-def path_of(output: Output, scene: Callable[[], Scene]) -> Path:
+def path_of(output: Output, log: Mapping[str, List[Dict[str, Any]]], scene: Callable[[], Scene]) -> Path:
     """The path that the program has told of, or why there is none. scene: gives the scene that was traced."""
+    if log['end']:
+        traced, end = scene(), log['end'][0]
+        return Path(table_of(output.table), title=traced.name, scene=traced, end_reason=end['reason'], message=end['summary'],
+                    branches=branches_of(log['event'], log['header'][0]['contacts']))
     last = output.said.rstrip('\n').rpartition('\n')[2]
-    summary = re.fullmatch('%s: ((%s): .*)' % (PROGRAM, '|'.join(END_REASONS)), last)
-    if summary:
-        traced = scene()
-        return Path(table_of(output.table), title=traced.name, scene=traced, end_reason=summary.group(2),
-                    message=summary.group(1), branches=branches_of(output.said))
     if output.cancelled and output.status == -signal.SIGINT:  # before it had begun
         return Path(table_of('index,load_factor,arc_length,kind\n'), end_reason='cancelled',
                     message='cancelled: the caller asked for it; 0 increments')
@@ -140,19 +154,9 @@ def path_of(output: Output, scene: Callable[[], Scene]) -> Path:
     raise TraceFailed(message or last or '%s ended with the exit status %d' % (PROGRAM, output.status))
 
 
-def branches_of(said: str) -> Dict[int, Dict[str, Any]]:
-    """What --events prints: index of an increment -> as in Path.events."""
-    found: Dict[int, Dict[str, Any]] = {}
-    for line in said.splitlines():
-        event = re.match(r'(?:event (\d+), )?increment (\d+), \w+ at load factor [^;]*(;.*)?$', line)
-        branch = re.match(r'([* ]) branch (\d+): dissipation rate (\S+), load rate (\S+), turn ([^\s;]+)(?:; (.*))?$', line)
-        if event:
-            last = found[int(event.group(2))] = {'number': int(event.group(1) or 0), 'taken': 0, 'complete': not event.group(3),
-                                                 'branches': []}
-        elif branch and found:
-            if branch.group(1) == '*':
-                last['taken'] = int(branch.group(2))
-            states = dict(state.rsplit(' ', 1) for state in (branch.group(6) or '').split(', ') if state)
-            last['branches'].append({'states': states, 'load_rate': float(branch.group(4)),
-                                     'dissipation_rate': float(branch.group(3)), 'turn': float(branch.group(5))})
-    return found
+def branches_of(events: Sequence[Mapping[str, Any]], contacts: Sequence[str]) -> Dict[int, Dict[str, Any]]:
+    """Events of the log: index of an increment -> as in Path.events."""
+    return {event['increment']: {
+        **{field: event[field] for field in ('number', 'taken', 'complete', 'complete_by')},
+        'branches': [{**branch, 'states': dict(zip(contacts, branch['states']))} for branch in event['branches']]}
+        for event in events}

@@ -196,18 +196,28 @@ bool HoldsAt(const FixedStateSystem& system, const StepEvent& event, const Curve
 }
 
 // Ends the step at the first event on it. The exact point of an event may show an earlier one. False: it is not found.
-bool EndAtFirstEvent(SmoothArc* arc, const StepEnds& ends, ArcStep* at) {
-  at->event = FirstEvent(arc, at->step, ends);
+bool EndAtFirstEvent(SmoothArc* arc, const StepEnds& wanted, ArcStep* at) {
+  const StepEnds* ends = &wanted;
+  std::optional<StepEnds> fewer;  // of them
+  at->event = FirstEvent(arc, at->step, *ends);
   if (at->event.kind == EventKind::kNone) return true;
   const Step whole = at->step;
   for (int attempt = 0; attempt < kLocatingAttempts; ++attempt) {
-    std::optional<CurvePoint> point = Locate(arc, at->step, at->event, ends);
+    std::optional<CurvePoint> point = Locate(arc, at->step, at->event, *ends);
+    if (!point && at->event.kind == EventKind::kSample) {
+      // The function is known less well than the value asks for: the path goes on without that increment.
+      if (!fewer) ends = &fewer.emplace(wanted);
+      fewer->functions[at->event.target].values.clear();
+      at->event = FirstEvent(arc, at->step, *ends);
+      if (at->event.kind == EventKind::kNone) return true;
+      point = Locate(arc, at->step, at->event, *ends);
+    }
     if (!point) return false;
     if (!at->event.singular) KeepSide(at->step.start, &*point);
     if (at->event.kind == EventKind::kLimitPoint && !at->event.singular && LoadGoesOn(arc->system(), whole, *point))
       at->event.kind = EventKind::kNearTouch;
     if (HoldsAt(arc->system(), at->event, *point)) at->event.kind = EventKind::kNearTouch;
-    if (PassesAnEnd(*arc, at->step.start, *point, ends, &at->event)) continue;
+    if (PassesAnEnd(*arc, at->step.start, *point, *ends, &at->event)) continue;
     const StepEvent found = at->event;
     const double before = at->step.length;
     at->step = MakeStep(at->step.start, *point, arc->NumMotion());
@@ -218,7 +228,7 @@ bool EndAtFirstEvent(SmoothArc* arc, const StepEnds& ends, ArcStep* at) {
     }
     DropRoundedSeconds(&at->step);
     if (Winds(at->step)) return false;
-    const StepEvent earlier = FirstEvent(arc, at->step, ends);
+    const StepEvent earlier = FirstEvent(arc, at->step, *ends);
     // Rounding has put the point beyond the bifurcation that is in its place.
     if (earlier.singular && earlier.t >= at->step.length - tolerances::kNoMove)
       at->step.end.determinant_sign = at->step.end.side = 0;

@@ -175,7 +175,8 @@ std::optional<CurvePoint> LocateSample(SmoothArc* arc, const Step& step, double 
     // No nearer: rounding, or the function does not come to the value.
     if (off == 0.0 || !(std::abs(off) < 0.5 * previous)) {
       CurvePoint point;
-      const bool there = std::abs(off) <= target.rounding && arc->Derivatives(correction.x, step.normal, &point);
+      const bool there = std::abs(off) <= target.rounding * system.ResidualUnit() &&
+                         arc->Derivatives(correction.x, step.normal, &point);
       return there ? std::optional(point) : std::nullopt;
     }
     previous = std::abs(off);

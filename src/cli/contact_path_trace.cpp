@@ -272,7 +272,7 @@ ExitStatus RunTrace(const Task& task, const Arguments& arguments, std::ostream& 
 #endif
 
   if (log) {
-    log->End(result);
+    log->End(result, progress.Summary(result));
     RequireWritten(*log_out, *arguments.log_file);
   }
   const bool complete = IsComplete(result.reason);

@@ -128,10 +128,11 @@ void TraceLog::Add(const Increment& increment) {
   WriteLine(event, &out_);
 }
 
-void TraceLog::End(const TraceResult& result) {
+void TraceLog::End(const TraceResult& result, const std::string& summary) {
   WriteLine({{"type", "end"},
              {"reason", JsonOf(result.reason)},
              {"message", result.message},
+             {"summary", summary},
              {"increments", result.increments}},
             &out_);
 }

@@ -22,7 +22,8 @@ class TraceLog {
   void Add(const TrialStep& trial);
   // An event follows the increment where branches part.
   void Add(const Increment& increment);
-  void End(const TraceResult& result);
+  // summary: of the path, in one line for a person.
+  void End(const TraceResult& result, const std::string& summary);
 
  private:
   std::ostream& out_;

@@ -28,6 +28,7 @@ CsvWriter::CsvWriter(const ExpandedRequest& expanded)
     : elements_(expanded.Get().scene),
       sections_(expanded.Get().options.Records("sections")),
       stresses_(expanded.Get().options.Records("stresses")),
+      pressures_(expanded.Get().options.Records("pressures")),
       program_(!expanded.Get().program.empty()) {
   const Scene& scene = expanded.Get().scene;
   for (const Node& node : scene.nodes) nodes_.push_back(node.name);
@@ -35,8 +36,10 @@ CsvWriter::CsvWriter(const ExpandedRequest& expanded)
   turn_ = NodesThatTurn(scene);
   supports_ = SupportedNodes(scene);
   const SceneIndex index(scene);
-  for (const TouchedBoundary& boundary : TouchedBoundaries(scene))
+  for (const TouchedBoundary& boundary : TouchedBoundaries(scene)) {
+    touched_.push_back(boundary.name);
     boundaries_.push_back(index.FindSupport(boundary.name) ? "" : boundary.name);
+  }
 }
 
 void CsvWriter::WriteHeader(std::ostream& out) const {
@@ -65,6 +68,10 @@ void CsvWriter::WriteHeader(std::ostream& out) const {
   for (std::size_t i = 0; stresses_ && i < elements_.NumElements(); ++i)
     for (const char* const field : {"sxx", "syy", "sxy", "szz", "mises", "energy"})
       line << ',' << field << '_' << elements_.ElementName(i);
+  if (pressures_) {
+    for (const std::string& name : contacts_) line << ",pressure_" << name << ",traction_" << name;
+    for (const std::string& name : touched_) line << ",width_" << name;
+  }
   line << '\n';
   out << line.str();
 }
@@ -101,6 +108,10 @@ void CsvWriter::WriteRow(const Increment& increment, std::ostream& out) const {
   if (stresses_)
     for (const SolidStress& of : increment.stresses)
       line << ',' << of.sxx << ',' << of.syy << ',' << of.sxy << ',' << of.szz << ',' << of.mises << ',' << of.energy;
+  if (pressures_) {
+    for (const ContactPressure& of : increment.pressures) line << ',' << of.pressure << ',' << of.traction;
+    for (const double width : increment.widths) line << ',' << width;
+  }
   line << '\n';
   out << line.str();
 }

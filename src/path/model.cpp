@@ -129,6 +129,12 @@ const ElementResponse& Model::Elements() const {
   return *elements_;
 }
 
+const PressureProblem& Model::PressuresOfContacts() const {
+  if (pressures_ == nullptr)
+    pressures_ = std::make_unique<const PressureProblem>(scaled, index, structure.Dofs(), scaling);
+  return *pressures_;
+}
+
 Residuals Model::Check(const PathPoint& before, const PathPoint& now) const {
   return check.Check(InSceneUnits(before), InSceneUnits(now));
 }

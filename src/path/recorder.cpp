@@ -36,11 +36,13 @@ void FillState(const Model& model, const PathPoint& point, Increment* increment)
 }
 
 LongLists LongLists::Of(const TraceRequest& request, const SceneIndex& index) {
-  LongLists lists{request.options.Records("sections"), request.options.Records("stresses")};
+  LongLists lists{request.options.Records("sections"), request.options.Records("stresses"),
+                  request.options.Records("pressures")};
   const auto note = [&](const std::string& text) {
     const Quantity quantity = FindQuantity(text, index).value();
     lists.sections = lists.sections || quantity.IsOfSection();
     lists.stresses = lists.stresses || quantity.IsOfElement();
+    lists.pressures = lists.pressures || quantity.IsOfPressure();
   };
   for (const StopCriterion& criterion : request.options.stop) note(criterion.quantity);
   for (const Samples& samples : request.options.at) note(samples.quantity);
@@ -48,10 +50,15 @@ LongLists LongLists::Of(const TraceRequest& request, const SceneIndex& index) {
 }
 
 void FillLists(const Model& model, const PathPoint& point, const LongLists& lists, Increment* increment) {
-  if (!lists.sections && !lists.stresses) return;
+  if (!lists.sections && !lists.stresses && !lists.pressures) return;
   const Eigen::VectorXd values = model.structure.AllValues(point.u);
   if (lists.sections) increment->sections = model.Elements().Sections(values);
   if (lists.stresses) increment->stresses = model.Elements().Stresses(values);
+  if (lists.pressures) {
+    Pressures pressures = model.PressuresOfContacts().At(values, point);
+    increment->pressures = std::move(pressures.contacts);
+    increment->widths = std::move(pressures.widths);
+  }
 }
 
 void Recorder::Start(const Model& model, int stage, const PathPoint& point, const Residuals& residuals,

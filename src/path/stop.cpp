@@ -38,6 +38,9 @@ double ValueOf(const Quantity& quantity, const Increment& increment) {
     case Quantity::Kind::kGap: return increment.contacts[quantity.part].gap;
     case Quantity::Kind::kRn: return increment.contacts[quantity.part].rn;
     case Quantity::Kind::kRt: return increment.contacts[quantity.part].rt;
+    case Quantity::Kind::kPressure: return increment.pressures[quantity.part].pressure;
+    case Quantity::Kind::kTraction: return increment.pressures[quantity.part].traction;
+    case Quantity::Kind::kWidth: return increment.widths[quantity.part];
     case Quantity::Kind::kForceX: return ResultantOf(quantity, increment).rx;
     case Quantity::Kind::kForceY: return ResultantOf(quantity, increment).ry;
     case Quantity::Kind::kMoment: return ResultantOf(quantity, increment).rm;

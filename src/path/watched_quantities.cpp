@@ -48,7 +48,7 @@ Function OfResponse(const Model& model, const Quantity& quantity, double unit) {
   return [&model, quantity, unit](const FixedStateSystem& system, const Eigen::VectorXd& x) {
     const PathPoint point = system.Unpack(x);
     Increment increment;
-    FillLists(model, point, {quantity.IsOfSection(), quantity.IsOfElement()}, &increment);
+    FillLists(model, point, {quantity.IsOfSection(), quantity.IsOfElement(), quantity.IsOfPressure()}, &increment);
     if (quantity.IsReaction()) {
       Reactions reactions = model.ReactionsAt(point);
       increment.supports = std::move(reactions.supports);
@@ -76,7 +76,7 @@ void Add(const Model& model, const std::string& text, const std::vector<double>&
     target.of = [](const FixedStateSystem& system, const Eigen::VectorXd& x) { return x[system.NumDofs()]; };
   else if (quantity.IsOfNode())
     target.of = OfNode(model, quantity);
-  else if (quantity.IsOfContact())
+  else if (quantity.IsOfContact() && !quantity.IsOfPressure())
     target.of = OfContact(model, quantity);
   else
     target.of = OfResponse(model, quantity, unit);

@@ -233,6 +233,8 @@ msgs::Increment ToMessage(const Increment& increment, int full_state_every) {
   } else {
     message.sections.clear();
     message.stresses.clear();
+    message.pressures.clear();
+    message.widths.clear();
   }
   message.equilibrium_residual = increment.residuals.equilibrium;
   message.penetration_residual = increment.residuals.penetration;

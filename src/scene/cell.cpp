@@ -1,5 +1,7 @@
 #include "contact_path/scene/cell.h"
 
+#include <utility>
+
 #include <cmath>
 
 namespace contact_path {
@@ -113,6 +115,21 @@ std::vector<PlacedPoint> PlacePoints(const std::vector<double>& positions) {
     placed.push_back(at);
   }
   return placed;
+}
+
+std::array<double, 3> ShapeLengths(const std::array<double, 2>& first, const std::array<double, 2>& middle,
+                                   const std::array<double, 2>& last) {
+  std::array<double, 3> lengths = {};
+  for (const auto& [xi, weight] :
+       {std::pair(-std::sqrt(0.6), 5.0 / 9.0), std::pair(0.0, 8.0 / 9.0), std::pair(std::sqrt(0.6), 5.0 / 9.0)}) {
+    const double slope_a = xi - 0.5, slope_m = -2.0 * xi, slope_b = xi + 0.5;
+    const double speed = std::hypot(slope_a * first[0] + slope_m * middle[0] + slope_b * last[0],
+                                    slope_a * first[1] + slope_m * middle[1] + slope_b * last[1]);
+    lengths[0] += weight * speed * 0.5 * xi * (xi - 1.0);
+    lengths[1] += weight * speed * (1.0 - xi * xi);
+    lengths[2] += weight * speed * 0.5 * xi * (xi + 1.0);
+  }
+  return lengths;
 }
 
 }  // namespace contact_path

@@ -86,26 +86,6 @@ class Groups {
   std::unordered_set<std::string_view> mid_sides_;  // nodes of solids
 };
 
-// Lengths that stand for the integrals of the shape functions of an edge with a node in the middle: first, middle,
-// last.
-std::array<double, 3> ShapeLengths(const Groups& groups, const std::string& first, const std::string& middle,
-                                   const std::string& last) {
-  const auto [ax, ay] = groups.Place(first);
-  const auto [mx, my] = groups.Place(middle);
-  const auto [bx, by] = groups.Place(last);
-  std::array<double, 3> lengths = {};
-  for (const auto& [xi, weight] :
-       {std::pair(-std::sqrt(0.6), 5.0 / 9.0), std::pair(0.0, 8.0 / 9.0), std::pair(std::sqrt(0.6), 5.0 / 9.0)}) {
-    const double slope_a = xi - 0.5, slope_m = -2.0 * xi, slope_b = xi + 0.5;
-    const double speed =
-        std::hypot(slope_a * ax + slope_m * mx + slope_b * bx, slope_a * ay + slope_m * my + slope_b * by);
-    lengths[0] += weight * speed * 0.5 * xi * (xi - 1.0);
-    lengths[1] += weight * speed * (1.0 - xi * xi);
-    lengths[2] += weight * speed * 0.5 * xi * (xi + 1.0);
-  }
-  return lengths;
-}
-
 // Calls add(load on a node) for a traction on a surface.
 template <typename Add>
 void ExpandTraction(const Load& load, const Groups& groups, Add&& add) {
@@ -122,7 +102,11 @@ void ExpandTraction(const Load& load, const Groups& groups, Add&& add) {
   };
   for (std::size_t i = 0; i + 1 < nodes.size();) {
     if (i + 2 < nodes.size() && groups.IsMidSide(nodes[i + 1])) {
-      const std::array<double, 3> lengths = ShapeLengths(groups, nodes[i], nodes[i + 1], nodes[i + 2]);
+      const auto place = [&](std::size_t k) -> std::array<double, 2> {
+        const auto [x, y] = groups.Place(nodes[k]);
+        return {x, y};
+      };
+      const std::array<double, 3> lengths = ShapeLengths(place(i), place(i + 1), place(i + 2));
       for (std::size_t k = 0; k < 3; ++k) give(nodes[i + k], lengths[k]);
       i += 2;
     } else {

@@ -14,12 +14,15 @@ struct Component {
 };
 
 // Of nodes, contacts, supports, boundaries, sections and elements.
-constexpr std::array<Component, 20> kComponents = {{{"x", Quantity::Kind::kX, units::kLength},
+constexpr std::array<Component, 23> kComponents = {{{"x", Quantity::Kind::kX, units::kLength},
                                                     {"y", Quantity::Kind::kY, units::kLength},
                                                     {"rotation", Quantity::Kind::kRotation, units::kNone},
                                                     {"gap", Quantity::Kind::kGap, units::kLength},
                                                     {"rn", Quantity::Kind::kRn, units::kForce},
                                                     {"rt", Quantity::Kind::kRt, units::kForce},
+                                                    {"pressure", Quantity::Kind::kPressure, units::kStiffness},
+                                                    {"traction", Quantity::Kind::kTraction, units::kStiffness},
+                                                    {"width", Quantity::Kind::kWidth, units::kLength},
                                                     {"rx", Quantity::Kind::kForceX, units::kForce},
                                                     {"ry", Quantity::Kind::kForceY, units::kForce},
                                                     {"rm", Quantity::Kind::kMoment, units::kMoment},
@@ -98,6 +101,10 @@ std::optional<Quantity> FindQuantity(std::string_view text, const SceneIndex& in
   quantity.kind = spelled->kind;
   if (quantity.kind == Quantity::Kind::kLoadFactor) return quantity;
   if (quantity.IsOfSection() || quantity.IsOfElement()) return FindInElements(quantity.kind, spelled->name, index);
+  if (quantity.kind == Quantity::Kind::kWidth) {
+    const std::optional<std::size_t> boundary = index.FindBoundary(spelled->name);
+    return boundary ? std::optional(Quantity{quantity.kind, *boundary, true}) : std::nullopt;
+  }
   if (quantity.IsReaction()) return FindReaction(quantity.kind, spelled->name, index);
   const std::optional<std::size_t> part =
       quantity.IsOfNode() ? index.FindNode(spelled->name) : index.FindContact(std::string(spelled->name));
@@ -107,10 +114,11 @@ std::optional<Quantity> FindQuantity(std::string_view text, const SceneIndex& in
 }
 
 NearestName NearestPart(const SpelledQuantity& quantity, const Scene& scene) {
-  if (Quantity{quantity.kind}.IsReaction()) {
+  if (Quantity{quantity.kind}.IsReaction() || quantity.kind == Quantity::Kind::kWidth) {
     NearestName nearest(quantity.name);
     for (const SupportedNode& support : SupportedNodes(scene))
-      if (Holds(support, quantity.kind)) nearest.Offer(scene.nodes[support.node].name);
+      if (Quantity{quantity.kind}.IsReaction() && Holds(support, quantity.kind))
+        nearest.Offer(scene.nodes[support.node].name);
     for (const TouchedBoundary& boundary : TouchedBoundaries(scene)) nearest.Offer(boundary.name);
     return nearest;
   }
@@ -134,13 +142,14 @@ NearestName NearestQuantity(std::string_view text, const Scene& scene) {
     offer(scene.nodes[support.node].name,
           [&](const Quantity& of) { return of.IsReaction() && Holds(support, of.kind); });
   for (const TouchedBoundary& boundary : TouchedBoundaries(scene))
-    offer(boundary.name, [](const Quantity& of) { return of.IsReaction(); });
+    offer(boundary.name, [](const Quantity& of) { return of.IsReaction() || of.kind == Quantity::Kind::kWidth; });
   return nearest;
 }
 
 std::string PartOf(Quantity::Kind kind) {
   if (Quantity{kind}.IsReaction())
     return "a component that a support holds, or an obstacle or surface with contact candidates";
+  if (kind == Quantity::Kind::kWidth) return "an obstacle or surface with contact candidates";
   if (Quantity{kind}.IsOfSection()) return "a segment of a beam, as leg.1, or of N a bar, as bar1";
   if (Quantity{kind}.IsOfElement()) return "an element of a solid, as block.1";
   return Quantity{kind}.IsOfNode() ? "a node of the scene" : "a contact of the scene";

@@ -37,8 +37,8 @@ void CheckOptions(Checker* checker) {
       checker->Add(key, samples.quantity, "must have values, or else from, to and count");
   }
   for (std::size_t i = 0; i < options.record.size(); ++i)
-    if (options.record[i] != "sections" && options.record[i] != "stresses")
-      checker->Add(path.Key("record")[i], TextOrQuotes(options.record[i]), "must be sections or stresses");
+    if (options.record[i] != "sections" && options.record[i] != "stresses" && options.record[i] != "pressures")
+      checker->Add(path.Key("record")[i], TextOrQuotes(options.record[i]), "must be sections, stresses or pressures");
   if (!options.LocatesEvents() && !options.at.empty())
     checker->Add(path.Key("at"), "", "must be empty with mpec_solver ipopt, which does not locate values");
   const std::vector<ContactCandidate>& contacts = checker->GetScene().contacts;

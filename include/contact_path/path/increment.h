@@ -13,6 +13,7 @@
 
 #include "contact_path/check/residuals.h"
 #include "contact_path/contact/contact_state.h"
+#include "contact_path/response/contact_pressure.h"
 #include "contact_path/response/element_response.h"
 #include "contact_path/response/resultant.h"
 #include "contact_path/scene/field.h"
@@ -136,10 +137,12 @@ struct Increment {
   // Where the request wants them, else empty: in the order of scene/element_names.h.
   std::vector<SectionForces> sections;
   std::vector<SolidStress> stresses;
-  double dissipation = 0.0;    // since increment 0, by friction; total law: work against it [force length]
-  double strain_energy = 0.0;  // now [force length]
-  double external_work = 0.0;  // of all loads since increment 0 [force length]
-  Residuals residuals;         // by check/, from the scene alone
+  std::vector<ContactPressure> pressures;  // in scene order
+  std::vector<double> widths;              // of TouchedBoundaries() [length]
+  double dissipation = 0.0;                // since increment 0, by friction; total law: work against it [force length]
+  double strain_energy = 0.0;              // now [force length]
+  double external_work = 0.0;              // of all loads since increment 0 [force length]
+  Residuals residuals;                     // by check/, from the scene alone
   SolveRecord solve;
   EventRecord event;
 };
@@ -155,7 +158,8 @@ struct Fields<Increment> {
                       Member("dissipation", &P::dissipation), Member("strain_energy", &P::strain_energy),
                       Member("external_work", &P::external_work), Member("supports", &P::supports),
                       Member("boundaries", &P::boundaries), Member("sections", &P::sections),
-                      Member("stresses", &P::stresses), Member("event", &P::event));
+                      Member("stresses", &P::stresses), Member("pressures", &P::pressures),
+                      Member("widths", &P::widths), Member("event", &P::event));
   }
 };
 

@@ -9,6 +9,7 @@
 #include "contact_path/contact/contact_pair.h"
 #include "contact_path/contact/path_point.h"
 #include "contact_path/path/increment.h"
+#include "contact_path/response/contact_pressure.h"
 #include "contact_path/response/element_response.h"
 #include "contact_path/response/reactions.h"
 #include "contact_path/scene/configuration.h"
@@ -41,8 +42,9 @@ struct Model {
   PathPoint FromIncrement(const Increment& increment) const;
   // Of supports, obstacles and surfaces, in the units of the scene.
   Reactions ReactionsAt(const PathPoint& point) const;
-  // Made when it is first asked for. Not by two threads at once.
+  // Made when they are first asked for. Not by two threads at once.
   const ElementResponse& Elements() const;
+  const PressureProblem& PressuresOfContacts() const;
   // By check/, of `now` reached from `before`.
   Residuals Check(const PathPoint& before, const PathPoint& now) const;
 
@@ -62,6 +64,7 @@ struct Model {
 
  private:
   mutable std::unique_ptr<const ElementResponse> elements_;
+  mutable std::unique_ptr<const PressureProblem> pressures_;
 };
 
 }  // namespace contact_path

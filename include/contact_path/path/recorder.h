@@ -17,6 +17,7 @@ namespace contact_path {
 struct LongLists {
   bool sections = false;
   bool stresses = false;
+  bool pressures = false;
 
   // Of options.record, and what quantities of `stop` and `at` are of. `request` must be sound, index: of its scene.
   static LongLists Of(const TraceRequest& request, const SceneIndex& index);

@@ -27,6 +27,11 @@ const std::vector<CellPoint>& CellPoints(std::size_t nodes);
 // The nodes in the order of a walk along the boundary, counterclockwise from the first corner.
 const std::vector<std::size_t>& CellBoundary(std::size_t nodes);
 
+// Lengths that stand for the integrals of the shape functions of an edge with a node in the middle: first, middle,
+// last. Places x, y of these nodes [length].
+std::array<double, 3> ShapeLengths(const std::array<double, 2>& first, const std::array<double, 2>& middle,
+                                   const std::array<double, 2>& last);
+
 // An integration point of an element whose nodes are at `positions`: x0, y0, x1, ... [length].
 struct PlacedPoint {
   double area = 0.0;  // weight x Jacobian [length^2]; > 0 where the element is sound

@@ -24,6 +24,9 @@ struct Quantity {
     kGap,         // <contact>.gap, or gap_<contact>; a contact has the name of its candidate
     kRn,          // <contact>.rn, or rn_<contact>: normal reaction
     kRt,          // <contact>.rt, or rt_<contact>: tangential reaction
+    kPressure,    // <contact>.pressure: rn over the length of the boundary there (response/contact_pressure.h)
+    kTraction,    // <contact>.traction: rt over that length
+    kWidth,       // <obstacle>.width, <surface>.width: length of the contacts that touch it
     // <node>.rx, or rx_<node>: of the support, on the structure; <obstacle>.rx, <surface>.rx: of all contacts with it.
     // Of a support and a boundary with one name the support is meant.
     kForceX,
@@ -45,7 +48,8 @@ struct Quantity {
   };
 
   bool IsOfNode() const { return kind == Kind::kX || kind == Kind::kY || kind == Kind::kRotation; }
-  bool IsOfContact() const { return kind == Kind::kGap || kind == Kind::kRn || kind == Kind::kRt; }
+  bool IsOfContact() const { return kind >= Kind::kGap && kind <= Kind::kTraction; }
+  bool IsOfPressure() const { return kind >= Kind::kPressure && kind <= Kind::kWidth; }
 
   bool IsReaction() const { return kind == Kind::kForceX || kind == Kind::kForceY || kind == Kind::kMoment; }
 

@@ -444,7 +444,8 @@ struct TraceOptions {
   int full_state_every = 0;
   std::vector<StopCriterion> stop;
   std::vector<Samples> at;
-  // Long lists that increments, bags and the CSV carry: "sections", of bars and beams; "stresses", of solids.
+  // Long lists that increments, bags and the CSV carry: "sections", of bars and beams; "stresses", of solids;
+  // "pressures", of contacts.
   std::vector<std::string> record;
   std::vector<BranchChoice> branch_choices;
   FrictionLaw friction_law = FrictionLaw::kIncremental;
