@@ -175,9 +175,14 @@ std::optional<CurvePoint> LocateSample(SmoothArc* arc, const Step& step, double 
     // No nearer: rounding, or the function does not come to the value.
     if (off == 0.0 || !(std::abs(off) < 0.5 * previous)) {
       CurvePoint point;
-      const bool there = std::abs(off) <= target.rounding * system.ResidualUnit() &&
-                         arc->Derivatives(correction.x, step.normal, &point);
-      return there ? std::optional(point) : std::nullopt;
+      if (!(std::abs(off) <= target.rounding * system.ResidualUnit()) ||
+          !arc->Derivatives(correction.x, step.normal, &point))
+        return std::nullopt;
+      // Next to a singular point second derivatives are little but rounding.
+      const CurvePoint interpolated = step.At(t);
+      if (system.Norm(point.second - interpolated.second) * step.length > tolerances::kSameDerivative)
+        point.second = interpolated.second;
+      return point;
     }
     previous = std::abs(off);
     t -= off / Evaluate(slope, t);

@@ -124,9 +124,7 @@ void Checker::CheckQuantity(const KeyPath& key, const std::string& text) {
   const std::optional<SpelledQuantity> quantity = ReadQuantity(text);
   if (!quantity) {
     Add(key, TextOrQuotes(text),
-        "must be load_factor, <node>.x, <node>.y, <node>.rotation, <contact>.gap, <contact>.rn, <contact>.rt, or .rx, "
-        ".ry or .rm "
-        "of a supported node, an obstacle or a surface, or of a section or an element" +
+        "must be a quantity, as load_factor, <node>.x, <contact>.rn, <obstacle>.ry or <beam>.1.M" +
             NearestQuantity(text, request_.scene).Question());
   } else if (quantity->kind == Quantity::Kind::kLoadFactor) {
     if (!request_.program.empty())

@@ -24,7 +24,8 @@ TraceRequest ByMpec(TraceRequest request) {
 std::vector<const Increment*> Located(const TracedPath& path) {
   std::vector<const Increment*> located;
   for (const Increment& increment : path.increments)
-    if (increment.kind != IncrementKind::kStart && increment.kind != IncrementKind::kRegular)
+    if (increment.kind != IncrementKind::kStart && increment.kind != IncrementKind::kRegular &&
+        increment.kind != IncrementKind::kSample)
       located.push_back(&increment);
   return located;
 }

@@ -102,7 +102,8 @@ TracedPath TraceSound(const TraceRequest& request) {
 
 int NumEvents(const TracedPath& path) {
   return static_cast<int>(std::count_if(path.increments.begin(), path.increments.end(), [](const Increment& increment) {
-    return increment.kind != IncrementKind::kRegular && increment.kind != IncrementKind::kStart;
+    return increment.kind != IncrementKind::kRegular && increment.kind != IncrementKind::kStart &&
+           increment.kind != IncrementKind::kSample;
   }));
 }
 

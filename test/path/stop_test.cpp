@@ -129,20 +129,19 @@ TEST(StopOfATrace, QuantitiesOfContactsEndItWhereTheyPassTheValue) {
   for (const Method method : {Method::kBranch, Method::kMpec}) {
     const TracedPath unloaded = TraceIncrements(Block(0.0, 1.0, {"p@floor.rn", "<", 0.4}, method));
     EXPECT_EQ(unloaded.result.reason, EndReason::kStopCriterion) << unloaded.result.message;
-    EXPECT_LT(unloaded.increments.back().contacts[0].rn, 0.4);
+    EXPECT_NEAR(unloaded.increments.back().contacts[0].rn, 0.4, kRounding);
     EXPECT_GE(unloaded.increments[unloaded.increments.size() - 2].contacts[0].rn, 0.4 - kRounding);
-    EXPECT_GT(unloaded.increments.back().load_factor, 0.6);
-    EXPECT_LE(unloaded.increments.back().load_factor, 1.0);
+    EXPECT_NEAR(unloaded.increments.back().load_factor, 0.6, kRounding);
 
     const TracedPath lifted = TraceIncrements(Block(0.0, 1.0, {"gap_p@floor", ">", 0.1}, method));
     EXPECT_EQ(lifted.result.reason, EndReason::kStopCriterion) << lifted.result.message;
-    EXPECT_GT(lifted.increments.back().contacts[0].gap, 0.1);
+    EXPECT_NEAR(lifted.increments.back().contacts[0].gap, 0.1, kRounding);
     EXPECT_LE(lifted.increments[lifted.increments.size() - 2].contacts[0].gap, 0.1 + kRounding);
     EXPECT_NEAR(lifted.increments.back().load_factor, 1.0 + 2.0 * lifted.increments.back().contacts[0].gap, 1e-6);
 
     const TracedPath pushed = TraceIncrements(Block(1.0, 0.0, {"p@floor.rt", "<", -0.3}, method));
     EXPECT_EQ(pushed.result.reason, EndReason::kStopCriterion) << pushed.result.message;
-    EXPECT_LT(pushed.increments.back().contacts[0].rt, -0.3);
+    EXPECT_NEAR(pushed.increments.back().contacts[0].rt, -0.3, kRounding);
     EXPECT_GE(pushed.increments[pushed.increments.size() - 2].contacts[0].rt, -0.3 - kRounding);
 
     // Friction is never larger than 0.5: this criterion is not met.

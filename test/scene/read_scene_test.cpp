@@ -346,7 +346,7 @@ const BadLine kRules[] = {
     {"IncrementsNegative", 46, "  max_increments: -1", "options.max_increments", 46, "-1", "must be >= 0"},
     {"EventAndIncrement", 47, "  branch_choices:\n  - event: 1\n    increment: 5\n  stop:",
      "options.branch_choices[0].increment", 49, "5", "must be 0 where event is given"},
-    {"UnknownQuantity", 48, "  - quantity: force", "options.stop[0].quantity", 48, "force", "must be load_factor, "},
+    {"UnknownQuantity", 48, "  - quantity: force", "options.stop[0].quantity", 48, "force", "must be a quantity, "},
     {"QuantityOfUnknownNode", 48, "  - quantity: zz.x", "options.stop[0].quantity", 48, "zz.x", "must refer to a node"},
     {"UnknownWhen", 49, "    when: '='", "options.stop[0].when", 49, "=", "must be \">\" or \"<\""},
     {"WhenMissing", 49, "", "options.stop[0].when", 48, "\"\"", "must be \">\" or \"<\""},
@@ -469,7 +469,7 @@ TEST(ReadSceneTest, NamesTheKeyOrWordThatWasMeant) {
       {45, "  Step: 1.0",
        "file.yaml:45: options.Step = 1.0: unknown key (did you mean step?), must be one of: method, accuracy, "
        "direction, "
-       "step, max_increments, full_state_every, stop, branch_choices, friction_law, mpec_..."},
+       "step, max_increments, full_state_every, stop, at, record, branch_choices, friction_law, mpec_..."},
       {43, "  accuracy: Fast",
        "file.yaml:43: options.accuracy = Fast: must be fast, balanced or accurate; did you mean fast?"},
       {39, "    obstacle: flor",

@@ -101,10 +101,10 @@ TEST(FindField, SaysWhatAPathMustDo) {
   EXPECT_EQ(RuleOf("solids.0.plane"), "must not name an element of solids, which has none");
   EXPECT_EQ(RuleOf("obstacles.floor.frction"), "must name a field of obstacles[0]; did you mean friction?");
   EXPECT_EQ(RuleOf("obstcles.floor.friction"), "must name a field of the scene; did you mean obstacles?");
-  EXPECT_EQ(RuleOf("options.stop.0.limit"), "must name a field of options.stop[0]: quantity, when, value");
+  EXPECT_EQ(RuleOf("options.stop.0.limit"), "must name a field of options.stop[0]: quantity, when, value, exact");
   EXPECT_EQ(RuleOf("obstacles.floor.friction.x"), "must end at obstacles[0].friction, which has no fields");
   EXPECT_EQ(RuleOf("bars"), "must go on to one of the 2 elements of bars");
-  EXPECT_EQ(RuleOf("options.stop.0"), "must go on to a field of options.stop[0]: quantity, when, value");
+  EXPECT_EQ(RuleOf("options.stop.0"), "must go on to a field of options.stop[0]: quantity, when, value, exact");
   EXPECT_EQ(RuleOf("").substr(0, 33), "must name a field of the scene: n");
 }
 

@@ -224,19 +224,19 @@ const BrokenRule kOptionRules[] = {
     {"FullStateNegative", [](auto& r) { r.options.full_state_every = -2; }, "options.full_state_every", "-2",
      "must be >= 0"},
     {"EmptyQuantity", [](auto& r) { r.options.stop[0].quantity = ""; }, "options.stop[0].quantity", "\"\"",
-     "must be load_factor, <node>.x, <node>.y, <node>.rotation, <contact>.gap, <contact>.rn or <contact>.rt"},
+     "must be a quantity, as load_factor, <node>.x, <contact>.rn, <obstacle>.ry or <beam>.1.M"},
     {"QuantityWithoutComponent", [](auto& r) { r.options.stop[0].quantity = "b"; }, "options.stop[0].quantity", "b",
-     "must be load_factor, <node>.x, <node>.y, <node>.rotation, <contact>.gap, <contact>.rn or <contact>.rt"},
+     "must be a quantity, as load_factor, <node>.x, <contact>.rn, <obstacle>.ry or <beam>.1.M"},
     {"QuantityWithoutNode", [](auto& r) { r.options.stop[0].quantity = ".x"; }, "options.stop[0].quantity", ".x",
-     "must be load_factor, <node>.x, <node>.y, <node>.rotation, <contact>.gap, <contact>.rn or <contact>.rt"},
+     "must be a quantity, as load_factor, <node>.x, <contact>.rn, <obstacle>.ry or <beam>.1.M"},
     {"QuantityWithWrongComponent", [](auto& r) { r.options.stop[0].quantity = "b.z"; }, "options.stop[0].quantity",
-     "b.z", "must be load_factor, <node>.x, <node>.y, <node>.rotation, <contact>.gap, <contact>.rn or <contact>.rt"},
+     "b.z", "must be a quantity, as load_factor, <node>.x, <contact>.rn, <obstacle>.ry or <beam>.1.M"},
     {"MisspeltLoadFactor", [](auto& r) { r.options.stop[0].quantity = "load_facto"; }, "options.stop[0].quantity",
      "load_facto",
-     "must be load_factor, <node>.x, <node>.y, <node>.rotation, <contact>.gap, <contact>.rn or <contact>.rt; did you "
+     "must be a quantity, as load_factor, <node>.x, <contact>.rn, <obstacle>.ry or <beam>.1.M; did you "
      "mean load_factor?"},
     {"MisspeltComponent", [](auto& r) { r.options.stop[0].quantity = "b.xx"; }, "options.stop[0].quantity", "b.xx",
-     "must be load_factor, <node>.x, <node>.y, <node>.rotation, <contact>.gap, <contact>.rn or <contact>.rt; did you "
+     "must be a quantity, as load_factor, <node>.x, <contact>.rn, <obstacle>.ry or <beam>.1.M; did you "
      "mean b.x?"},
     {"QuantityOfUnknownNode", [](auto& r) { r.options.stop[2].quantity = "zz.y"; }, "options.stop[2].quantity", "zz.y",
      "must refer to a node"},
