@@ -180,9 +180,7 @@ class BranchFinder {
     for (const Constraint& constraint : system_.Inequalities()) {
       if (!IsWeaklyActive(system_, constraint, x, tolerance_)) continue;
       const Jet along = system_.ValueAlong(constraint, x, first, second);
-      // Among stiff parts the rounding of reactions, and of their rates, is larger.
-      const double unit = system_.UnitOf(constraint) * (IsMotion(constraint.inequality) ? 1.0 : system_.ResidualUnit());
-      const double rate = along.first / unit, curvature = along.second / unit;
+      const double unit = system_.UnitOf(constraint), rate = along.first / unit, curvature = along.second / unit;
       // A graze, located to the root of rounding only: the value is past its minimum before it counts as negative.
       const bool grazes = constraint.inequality != Inequality::kSlip && rate < 0.0 &&
                           curvature > tolerances::kCurvature && rate * rate <= 2.0 * curvature * tolerances::kGraze;

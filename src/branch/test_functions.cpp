@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <vector>
 
 #include "contact_path/branch/polynomial.h"
@@ -178,10 +179,10 @@ std::optional<CurvePoint> LocateSample(SmoothArc* arc, const Step& step, double 
       if (!(std::abs(off) <= target.rounding * system.ResidualUnit()) ||
           !arc->Derivatives(correction.x, step.normal, &point))
         return std::nullopt;
-      // Next to a singular point second derivatives are little but rounding.
+      // Next to a singular point derivatives are less exact than their interpolation.
       const CurvePoint interpolated = step.At(t);
       if (system.Norm(point.second - interpolated.second) * step.length > tolerances::kSameDerivative)
-        point.second = interpolated.second;
+        std::tie(point.first, point.second) = std::tie(interpolated.first, interpolated.second);
       return point;
     }
     previous = std::abs(off);

@@ -51,10 +51,9 @@ Preload TracePreload(const Model& model, int max_increments, const MethodFactory
   preload.point = model.InitialPoint();
   Eigen::VectorXd holding(model.structure.NumDofs());
   model.structure.InternalForce(preload.point.u, holding);
-  // Coordinates are rounded, and stiff elements make forces of that.
-  const Eigen::VectorXd rounding =
-      (tolerances::kLastDigits * model.structure.ForceBounds()).array() + tolerances::kUnstressed;
-  const bool stressed = (holding.array().abs() > rounding.array()).any();
+  // Residuals of stiff parts are forces that rounding makes.
+  const bool stressed =
+      (holding.array().abs() > tolerances::kUnstressed * model.structure.ResidualUnits().array()).any();
   const double constant = model.structure.ConstantLoad().lpNorm<Eigen::Infinity>();
   if (!stressed && constant <= 0.0) {
     preload.done = true;
