@@ -64,7 +64,7 @@ TEST_F(SlidingBarMethod, GivesOneExactIncrementAtATime) {
     EXPECT_GT(increment.solve.regularisation, 0.0);
     EXPECT_EQ(increment.solve.variables, 6);
     EXPECT_EQ(increment.solve.constraints, 9);
-    EXPECT_EQ(increment.arc_length, Distance(point, increment.point));
+    EXPECT_DOUBLE_EQ(increment.arc_length, Distance(point, increment.point));
     EXPECT_EQ(increment.work.friction, WorkOfIncrement(model_, point, increment.point).friction);
     point = increment.point;
   }
