@@ -238,6 +238,12 @@ Increment FullIncrement() {
   increment.solve.determinant_sign = -1;
   increment.solve.stiffness_sign = 1;
   increment.solve.contraction = 31.0;
+  increment.supports = {{51.0, 52.0, 53.0}};
+  increment.boundaries = {{54.0, 55.0, 56.0}, {57.0, 58.0, 59.0}};
+  increment.sections = {{60.0, 61.0, 62.0, 63.0, 64.0}};
+  increment.stresses = {{65.0, 66.0, 67.0, 68.0, 69.0, 70.0}};
+  increment.pressures = {{71.0, 72.0, 73.0}, {74.0, 75.0, 76.0}};
+  increment.widths = {77.0, 78.0};
   increment.event.branches = {{{ContactState::kOpen, ContactState::kSlipPlus}, 32.0, 33.0, 34.0},
                               {{ContactState::kStick, ContactState::kOpen}, 35.0, 36.0, 37.0}};
   increment.event.number = 41;
@@ -286,6 +292,20 @@ TEST(ConvertTest, IncrementMessageHoldsEveryFieldUnderItsName) {
   EXPECT_EQ(message.determinant_sign, -1);
   EXPECT_EQ(message.stiffness_sign, 1);
   EXPECT_EQ(message.contraction, 31.0);
+  ASSERT_EQ(message.supports.size(), 1U);
+  EXPECT_EQ(message.supports[0].rx, 51.0);
+  EXPECT_EQ(message.supports[0].rm, 53.0);
+  ASSERT_EQ(message.boundaries.size(), 2U);
+  EXPECT_EQ(message.boundaries[1].ry, 58.0);
+  ASSERT_EQ(message.sections.size(), 1U);
+  EXPECT_EQ(message.sections[0].N, 60.0);
+  EXPECT_EQ(message.sections[0].M2, 64.0);
+  ASSERT_EQ(message.stresses.size(), 1U);
+  EXPECT_EQ(message.stresses[0].szz, 68.0);
+  EXPECT_EQ(message.stresses[0].energy, 70.0);
+  ASSERT_EQ(message.pressures.size(), 2U);
+  EXPECT_EQ(message.pressures[1].traction, 75.0);
+  EXPECT_EQ(message.widths, (std::vector<double>{77.0, 78.0}));
   ASSERT_EQ(message.event.branches.size(), 2U);
   EXPECT_EQ(message.event.branches[0].states,
             (std::vector<std::uint8_t>{msgs::ContactState::OPEN, msgs::ContactState::SLIP_PLUS}));
@@ -310,6 +330,9 @@ TEST(ConvertTest, RegularIncrementsMayLeaveTheirStateOut) {
     EXPECT_EQ(message.dissipation, increment.dissipation);
     EXPECT_EQ(message.x.empty(), message.contacts.empty());
     EXPECT_EQ(message.x.empty(), message.y.empty());
+    EXPECT_EQ(message.x.empty(), message.sections.empty());
+    EXPECT_EQ(message.x.empty(), message.pressures.empty());
+    EXPECT_EQ(message.supports.size(), 1U);  // always
     return !message.x.empty();
   };
   for (const int every : {0, 1}) EXPECT_TRUE(has_state(7, IncrementKind::kRegular, every));
@@ -318,7 +341,7 @@ TEST(ConvertTest, RegularIncrementsMayLeaveTheirStateOut) {
   EXPECT_FALSE(has_state(2, IncrementKind::kRegular, 3));
   EXPECT_TRUE(has_state(3, IncrementKind::kRegular, 3));
   for (const IncrementKind kind : {IncrementKind::kSmoothLimit, IncrementKind::kCornerLimit,
-                                   IncrementKind::kContactEvent, IncrementKind::kBifurcation})
+                                   IncrementKind::kContactEvent, IncrementKind::kBifurcation, IncrementKind::kSample})
     EXPECT_TRUE(has_state(4, kind, 3));
 }
 
@@ -347,12 +370,12 @@ TEST(ConvertTest, EveryKindStateAndMethodHasItsConstant) {
   std::set<std::uint8_t> constants;
   for (const IncrementKind kind :
        {IncrementKind::kStart, IncrementKind::kRegular, IncrementKind::kSmoothLimit, IncrementKind::kCornerLimit,
-        IncrementKind::kContactEvent, IncrementKind::kBifurcation}) {
+        IncrementKind::kContactEvent, IncrementKind::kBifurcation, IncrementKind::kSample}) {
     increment.kind = kind;
     constants.insert(ToMessage(increment).kind);
     EXPECT_EQ(FromMessage(ToMessage(increment)).kind, kind);
   }
-  EXPECT_EQ(constants.size(), 6U);
+  EXPECT_EQ(constants.size(), 7U);
 
   constants.clear();
   increment.contacts.resize(1);
