@@ -56,8 +56,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Wanted{"sliding_bar", {"b@floor.rn", ">", 1.1}}, Wanted{"rough_truss", {"apex.y", "<", 1.15}},
                     Wanted{"rough_truss", {"foot@floor.rt", "<", -0.05}}, Wanted{"rough_truss", {"left.ry", ">", 0.06}},
                     Wanted{"rough_truss", {"floor.ry", ">", 0.06}}, Wanted{"deep_arch", {"load_factor", ">", 500.0}}),
-    [](const auto& info) {
-      std::string name = info.param.scene + "_" + info.param.stop.quantity;
+    [](const auto& of) {
+      std::string name = of.param.scene + "_" + of.param.stop.quantity;
       std::replace_if(
           name.begin(), name.end(), [](char c) { return c == '.' || c == '@'; }, '_');
       return name;
