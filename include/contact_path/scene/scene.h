@@ -400,6 +400,7 @@ struct Samples {
   std::vector<double> Values() const {
     if (!values.empty()) return values;
     std::vector<double> between;
+    between.reserve(static_cast<std::size_t>(std::max(count, 0)));
     for (int i = 0; i < count; ++i) between.push_back(count == 1 ? from : from + (to - from) * i / (count - 1));
     return between;
   }
