@@ -80,6 +80,13 @@ def processes_below(parent):
     return [(number, commands[number]) for number in found]
 
 
+def untimed(table):
+    """The rows of a path, but for the time that they took."""
+    rows = [line.split(b',') for line in table.splitlines()]
+    time = rows[0].index(b'solve_time')
+    return [row[:time] + row[time + 1:] for row in rows]
+
+
 class StudyTest(program_test.ProgramTest):
 
     def write(self, text, name='study.yaml'):
@@ -318,8 +325,7 @@ class GoingOn(StudyTest):
         for lose in (lambda: None, lambda: os.remove(kept[1]), lambda: shutil.rmtree(self.path('kept'))):
             lose()
             self.run_study(description=text)
-            self.assertEqual([re.sub(rb',[^,]*\n', b'\n', read(file)) for file in kept],
-                             [re.sub(rb',[^,]*\n', b'\n', path) for path in paths])  # but for the time that it took
+            self.assertEqual([untimed(read(file)) for file in kept], [untimed(path) for path in paths])
             self.assertEqual(read(self.path('table.csv')), table)
 
     def test_two_tables_at_a_time_with_the_same_paths(self):

@@ -125,7 +125,7 @@ class Complete(unittest.TestCase):
                  'Group': 'groups', 'BoundarySurface': 'surfaces', 'Material': 'materials', 'Solid': 'solids', 'Load': 'loads',
                  'Obstacle': 'obstacles', 'Contact': 'contacts', 'SupportMotion': 'support_motions',
                  'ObstacleMotion': 'obstacle_motions', 'Stage': 'Load programs', 'TraceOptions': 'Options of a trace',
-                 'StopCriterion': 'stop', 'BranchChoice': 'branch_choices'}
+                 'StopCriterion': 'stop', 'Samples': 'at', 'BranchChoice': 'branch_choices'}
         for message, title in pages.items():
             lines = [re.sub('#.*', '', line).split() for line in read('msg/%s.msg' % message).splitlines()]
             fields = [line[1] for line in lines if line]
@@ -165,7 +165,8 @@ class Complete(unittest.TestCase):
             after = {path.name: path.read_text() for path in messages.iterdir()}
         self.assertEqual({name for name in before if after[name] != before[name]}, {'Bar.msg', 'StopCriterion.msg'})
         self.assertTrue(after['Bar.msg'].endswith('float64 EA  # [force], > 0\n'))
-        self.assertEqual(after['StopCriterion.msg'], 'string quantity\nstring when\nfloat64 value\n')
+        self.assertEqual(after['StopCriterion.msg'], 'string quantity\nstring when\nfloat64 value\n'
+                         'string exact  # "true" (also ""), "false"\n')
 
     def test_tables_of_messages_are_those_of_the_message_files(self):
         spec = importlib.util.spec_from_file_location('message_tables', str(ROOT / 'docs' / 'maintainers' / 'message_tables.py'))

@@ -50,7 +50,7 @@ class PathTest(ProgramTest):
         path = cp.read(self.table('rough_truss'))
         self.assertEqual([(point['kind'], round(point['load_factor'], 6)) for point in path.limit_points],
                          [('corner_limit', 0.133845)])
-        self.assertEqual([event['kind'] for event in path.events], ['corner_limit', 'contact_event'])
+        self.assertEqual([event['kind'] for event in path.events], ['corner_limit'])
         for event in path.events:
             self.assertEqual(event, {name: path.increment(event['index'])[name] for name in ('index', 'kind', 'load_factor')})
         of_program = cp.read(self.table('stick_slip_cycle'))

@@ -43,10 +43,10 @@ class Fields(unittest.TestCase):
             self.assertEqual(scene.PARTS[part], fields_of_message(message), part)
 
     def test_options_and_stages(self):
-        options = {field: kind for field, kind in scene.OPTIONS.items() if field not in ('stop', 'branch_choices')}
+        options = {field: kind for field, kind in scene.OPTIONS.items() if field not in ('stop', 'at', 'branch_choices')}
         self.assertEqual(options, fields_of_message('TraceOptions'))
         self.assertEqual(scene.STAGE, fields_of_message('Stage'))
-        for method, message in (Scene.stop, 'StopCriterion'), (Scene.branch_choice, 'BranchChoice'):
+        for method, message in (Scene.stop, 'StopCriterion'), (Scene.at, 'Samples'), (Scene.branch_choice, 'BranchChoice'):
             self.assertEqual(scene._fields(method), fields_of_message(message))
 
     def test_what_is_no_field_is_a_type_error(self):

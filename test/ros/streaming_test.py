@@ -33,7 +33,7 @@ def long_request(increments):
     request = request_of(increments)
     node = type(request.scene.nodes[0])
     request.scene.nodes += [node(name='far_%d' % i, x=float(i), y=-9.0, fixed_x=True, fixed_y=True)
-                            for i in range(2000)]
+                            for i in range(800)]
     return request
 
 

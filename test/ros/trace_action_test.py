@@ -139,7 +139,7 @@ class TraceActionTest(unittest.TestCase):
     def test_each_increment_has_its_feedback(self):
         with helpers.Collector(ACTION + '/feedback', TracePathActionFeedback) as collector, \
                 helpers.Collector(NODE + '/increments') as increments:
-            _, result = self.send(helpers.request_of('sliding_bar')).finish()
+            _, result = self.send(helpers.request_of('rough_truss')).finish()
             for messages in collector.messages, increments.messages:
                 helpers.wait_until(lambda: len(messages) >= result.increments, 'everything has arrived')
             goals = {message.status.goal_id.id for message in collector.messages}
