@@ -204,10 +204,11 @@ bool EndAtFirstEvent(SmoothArc* arc, const StepEnds& wanted, ArcStep* at) {
   const Step whole = at->step;
   for (int attempt = 0; attempt < kLocatingAttempts; ++attempt) {
     std::optional<CurvePoint> point = Locate(arc, at->step, at->event, *ends);
-    if (!point && at->event.kind == EventKind::kSample) {
+    while (!point && at->event.kind == EventKind::kSample) {
       // The function is known less well than the value asks for: the path goes on without that increment.
       if (!fewer) ends = &fewer.emplace(wanted);
-      fewer->functions[at->event.target].values.clear();
+      std::vector<double>& values = fewer->functions[at->event.target].values;
+      values.erase(std::find(values.begin(), values.end(), at->event.value));
       at->event = FirstEvent(arc, at->step, *ends);
       if (at->event.kind == EventKind::kNone) return true;
       point = Locate(arc, at->step, at->event, *ends);

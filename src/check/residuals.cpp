@@ -99,13 +99,7 @@ struct ResidualCheck::Prepared {
     supports = SupportedNodes(scene);
     const std::vector<TouchedBoundary> touched = TouchedBoundaries(scene);
     num_touched = touched.size();
-    for (const ContactCandidate& contact : scene.contacts) {
-      const std::string& name = contact.OnSurface() ? contact.surface : contact.obstacle;
-      const auto of = std::find_if(touched.begin(), touched.end(), [&](const TouchedBoundary& boundary) {
-        return boundary.is_surface == contact.OnSurface() && boundary.name == name;
-      });
-      touched_by.push_back(static_cast<std::size_t>(of - touched.begin()));
-    }
+    touched_by = BoundaryOfContacts(scene, touched);
     contacts = check::MakeContacts(scene, index, configuration.slip_origins);
     if (std::any_of(contacts.begin(), contacts.end(), [](const auto& contact) { return contact->TouchedSurface(); }))
       boundaries = check::MakeBoundaries(scene, index);

@@ -173,6 +173,7 @@ class Server {
       csv->WriteHeader(rows);
     }
     TraceControl control;
+    control.lists = outputs.lists();
     control.on_increment = [&](const Increment& increment) {
       outputs.Add(increment);
       if (csv) csv->WriteRow(increment, rows);

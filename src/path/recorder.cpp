@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "contact_path/scene/quantity.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
@@ -33,20 +32,6 @@ void FillState(const Model& model, const PathPoint& point, Increment* increment)
   Reactions reactions = model.ReactionsAt(point);
   increment->supports = std::move(reactions.supports);
   increment->boundaries = std::move(reactions.boundaries);
-}
-
-LongLists LongLists::Of(const TraceRequest& request, const SceneIndex& index) {
-  LongLists lists{request.options.Records("sections"), request.options.Records("stresses"),
-                  request.options.Records("pressures")};
-  const auto note = [&](const std::string& text) {
-    const Quantity quantity = FindQuantity(text, index).value();
-    lists.sections = lists.sections || quantity.IsOfSection();
-    lists.stresses = lists.stresses || quantity.IsOfElement();
-    lists.pressures = lists.pressures || quantity.IsOfPressure();
-  };
-  for (const StopCriterion& criterion : request.options.stop) note(criterion.quantity);
-  for (const Samples& samples : request.options.at) note(samples.quantity);
-  return lists;
 }
 
 void FillLists(const Model& model, const PathPoint& point, const LongLists& lists, Increment* increment) {

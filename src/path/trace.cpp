@@ -103,7 +103,7 @@ class Tracer {
         control_(control),
         index_(request.scene),
         scales_(ProgramScales(request, index_)),
-        recorder_(request.options.method, LongLists::Of(request, index_), Receiver()),
+        recorder_(request.options.method, ListsOf(request, control), Receiver()),
         stop_(request, index_) {}
 
   // An increment of an earlier trace that is kept.
@@ -133,6 +133,12 @@ class Tracer {
   }
 
  private:
+  LongLists ListsOf(const TraceRequest& request, const TraceControl& control) const {
+    LongLists lists = LongLists::Of(request, index_);
+    lists.Add(control.lists);
+    return lists;
+  }
+
   // What takes the increments, so that its failures can be told from those of the trace.
   std::function<void(const Increment&)> Receiver() {
     if (!control_.on_increment) return nullptr;
@@ -465,17 +471,13 @@ TraceResult ResumeTrace(const TraceRequest& request_as_given, const std::vector<
   RequireSound(request_as_given);
   const ExpandedRequest expanded(request_as_given);
   const TraceRequest& request = expanded.Get();
+  const IncrementLists lists(request, SceneIndex(request.scene));
   for (std::size_t i = 0; i < increments.size(); ++i) {
     const Increment& increment = increments[i];
     if (increment.index != static_cast<int>(i))
       throw std::invalid_argument("increment " + std::to_string(i) + " has the index " +
                                   std::to_string(increment.index));
-    const bool full = !increment.positions.empty();
-    const std::size_t nodes = request.scene.nodes.size();
-    if (full && (increment.positions.size() != 2 * nodes ||
-                 increment.rotations.size() != (request.scene.beams.empty() ? 0 : nodes) ||
-                 increment.contacts.size() != request.scene.contacts.size()))
-      throw std::invalid_argument("increment " + std::to_string(i) + " is not of this scene");
+    if (!lists.Fit(increment)) throw std::invalid_argument("increment " + std::to_string(i) + " is not of this scene");
     if (increment.stage < 0 || increment.stage > static_cast<int>(request.program.size()) ||
         (increment.stage == 0) != request.program.empty())
       throw std::invalid_argument("increment " + std::to_string(i) + " is not of this program");

@@ -45,15 +45,10 @@ PressureProblem::PressureProblem(const Scene& scene, const SceneIndex& index, co
     : scaling_(scaling) {
   const std::vector<TouchedBoundary> boundaries = TouchedBoundaries(scene);
   num_boundaries_ = boundaries.size();
-  std::map<std::pair<bool, std::size_t>, std::size_t> numbers;  // of boundaries, by kind and place
-  for (std::size_t i = 0; i < boundaries.size(); ++i) numbers[{boundaries[i].is_surface, boundaries[i].place}] = i;
+  boundary_of_ = BoundaryOfContacts(scene, boundaries);
   std::vector<std::map<std::size_t, std::size_t>> contact_at(boundaries.size());  // by boundary: node -> contact
-  for (const ContactCandidate& contact : scene.contacts) {
-    const std::size_t place = contact.OnSurface() ? index.Surface(contact.surface) : index.Obstacle(contact.obstacle);
-    const std::size_t boundary = numbers.at({contact.OnSurface(), place});
-    contact_at[boundary].emplace(index.Node(contact.node), boundary_of_.size());
-    boundary_of_.push_back(boundary);
-  }
+  for (std::size_t i = 0; i < scene.contacts.size(); ++i)
+    contact_at[boundary_of_[i]].emplace(index.Node(scene.contacts[i].node), i);
   for (const Nodes& nodes : BoundaryEdges(scene, index))
     for (const std::map<std::size_t, std::size_t>& contacts : contact_at) {
       Edge edge;

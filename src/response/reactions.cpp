@@ -2,8 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <cstddef>
-#include <string>
-#include <unordered_map>
 
 #include "contact_path/contact/kinematics.h"
 #include "contact_path/contact/scene_contacts.h"
@@ -29,15 +27,9 @@ ReactionProblem::ReactionProblem(const Scene& scaled, const SceneIndex& index, c
       released_(WithoutSupports(scaled), index, configuration),
       contacts_(BuildContacts(scaled, index, released_)),
       supports_(SupportedNodes(scaled)),
-      boundaries_(TouchedBoundaries(scaled)) {
-  std::vector<std::size_t> of_obstacle(scaled.obstacles.size()), of_surface(scaled.surfaces.size());
-  for (std::size_t i = 0; i < boundaries_.size(); ++i)
-    (boundaries_[i].is_surface ? of_surface : of_obstacle)[boundaries_[i].place] = i;
-  for (const ContactCandidate& contact : scaled.contacts) {
-    nodes_.push_back(index.Node(contact.node));
-    boundary_of_.push_back(contact.OnSurface() ? of_surface[index.Surface(contact.surface)]
-                                               : of_obstacle[index.Obstacle(contact.obstacle)]);
-  }
+      boundaries_(TouchedBoundaries(scaled)),
+      boundary_of_(BoundaryOfContacts(scaled, boundaries_)) {
+  for (const ContactCandidate& contact : scaled.contacts) nodes_.push_back(index.Node(contact.node));
   for (const Obstacle& obstacle : scaled.obstacles) points_.push_back({{obstacle.px, obstacle.py}});
   for (const ObstacleMotion& motion : scaled.obstacle_motions) {
     MovingPoint& point = points_[index.Obstacle(motion.obstacle)];

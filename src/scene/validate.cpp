@@ -35,6 +35,10 @@ void CheckOptions(Checker* checker) {
     checker->CheckFields(key, samples);
     if (samples.values.empty() == (samples.count == 0))
       checker->Add(key, samples.quantity, "must have values, or else from, to and count");
+    const std::size_t count = std::max(samples.values.size(), static_cast<std::size_t>(std::max(samples.count, 0)));
+    if (count > static_cast<std::size_t>(std::max(options.MaxIncrements(), 0)))
+      checker->Add(key.Key(samples.values.empty() ? "count" : "values"), std::to_string(count),
+                   "must be at most max_increments, since each value wants an increment");
   }
   for (std::size_t i = 0; i < options.record.size(); ++i)
     if (options.record[i] != "sections" && options.record[i] != "stresses" && options.record[i] != "pressures")

@@ -56,6 +56,7 @@ PathColumn::PathColumn(const std::string& name, const TraceRequest& request, con
   if (!quantity) Reject(UnknownPart(*spelled, scene));
   if (quantity->kind == Quantity::Kind::kRotation && !NodesThatTurn(scene)[quantity->part])
     Reject("must be of a node that a beam turns");
+  lists_.Add(*quantity);
   number_ = [quantity = *quantity](const Increment& increment) { return ValueOf(quantity, increment); };
 }
 

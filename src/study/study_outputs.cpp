@@ -55,6 +55,13 @@ StudyOutputs::StudyOutputs(const std::vector<std::string>& names, const TraceReq
   }
 }
 
+LongLists StudyOutputs::lists() const {
+  LongLists lists;
+  for (const Output& output : outputs_)
+    if (output.column) lists.Add(output.column->lists());
+  return lists;
+}
+
 void StudyOutputs::Add(const Increment& increment) {
   summary_.Add(increment);
   for (Output& output : outputs_) {

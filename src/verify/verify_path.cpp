@@ -7,10 +7,12 @@
 #include <optional>
 #include <sstream>
 
+#include "contact_path/path/increment_lists.h"
 #include "contact_path/scene/expand.h"
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/scaling.h"
 #include "contact_path/verify/verify_events.h"
+#include "verify/recorded_forces.h"
 #include "verify/recorded_state.h"
 #include "verify/scaled_motion.h"
 #include "verify/trapezoid_work.h"
@@ -57,6 +59,7 @@ class Verifier {
         target_(request.program.empty() ? std::nullopt : std::optional(request.program[stage].Target())),
         full_state_every_(std::max(request.options.full_state_every, 1)),
         located_(request.options.LocatesEvents()),
+        lists_(request, index),
         increments_(increments),
         first_(first),
         last_(last),
@@ -95,6 +98,10 @@ class Verifier {
       ++result_.increments;
       ++result_.kinds[increment.kind];
       CheckPlace(increment);
+      if (!lists_.Fit(increment)) {
+        Report("the numbers of positions, rotations, contacts and forces are not those of the scene");
+        continue;
+      }
       if (!AllFinite(increment)) {
         Report("a number is not finite");
         before_.reset();
@@ -103,12 +110,6 @@ class Verifier {
       }
       if (increment_ > first_) CheckProgress(increments_[increment_ - 1], increment);
       if (!increment.positions.empty()) {
-        if (increment.positions.size() != 2 * scene_.nodes.size() ||
-            increment.rotations.size() != (scene_.beams.empty() ? 0 : scene_.nodes.size()) ||
-            increment.contacts.size() != scene_.contacts.size()) {
-          Report("the numbers of positions, rotations and contacts are not those of the scene");
-          continue;
-        }
         CheckState(increment);
         earlier_ = before_;
         before_ = increment_;
@@ -145,6 +146,9 @@ class Verifier {
     bool finite = std::isfinite(increment.load_factor) && std::isfinite(increment.arc_length) &&
                   std::isfinite(increment.dissipation) && std::isfinite(increment.strain_energy) &&
                   std::isfinite(increment.external_work);
+    for (const std::vector<Resultant>* const forces : {&increment.supports, &increment.boundaries})
+      for (const Resultant& of : *forces)
+        finite = finite && std::isfinite(of.rx) && std::isfinite(of.ry) && std::isfinite(of.rm);
     for (const std::vector<double>* const values : {&increment.positions, &increment.rotations})
       for (const double value : *values) finite = finite && std::isfinite(value);
     for (const ContactRecord& contact : increment.contacts)
@@ -322,27 +326,10 @@ class Verifier {
     same("scaled strain energy", increment.strain_energy / unit,
          check_.StrainEnergy(increment.positions, increment.rotations) / unit,
          std::numeric_limits<double>::epsilon() * stiffest_);
-    const CheckedForces forces = check_.Forces(StateOf(increment));
-    CheckForces("support", increment.supports, forces.supports);
-    CheckForces("boundary", increment.boundaries, forces.boundaries);
-  }
-
-  // part: what the forces are of, numbered from 1.
-  void CheckForces(const char* part, const std::vector<Resultant>& recorded,
-                   const std::vector<std::array<double, 3>>& anew) {
-    if (recorded.size() != anew.size()) {
-      Report("there are forces of ", recorded.size(), " in place of ", anew.size(), " of the kind ", part);
-      return;
-    }
-    const double moment = scaling_.force * scaling_.length;
     // The normal of a sharp corner is known less well than the place of the node.
-    const double rounding = kRoundingOfParts * stiffest_;
-    for (std::size_t i = 0; i < anew.size(); ++i)
-      for (const auto& [name, is, be, unit] : {std::tuple("rx", recorded[i].rx, anew[i][0], scaling_.force),
-                                               std::tuple("ry", recorded[i].ry, anew[i][1], scaling_.force),
-                                               std::tuple("rm", recorded[i].rm, anew[i][2], moment)})
-        if (!(std::abs(is - be) / unit <= kExact * (1.0 + std::abs(be) / unit) + rounding))
-          Report(name, " of ", part, " ", i + 1, " is recorded as ", is, ", but is ", be);
+    const std::string wrong = ForcesContradicted(increment, check_.Forces(StateOf(increment)), scaling_, kExact,
+                                                 kRoundingOfParts * stiffest_);
+    if (!wrong.empty()) Report(wrong);
   }
 
   // What the law of friction is about. 0 where that is not known.
@@ -482,6 +469,7 @@ class Verifier {
   const std::optional<double> target_;  // of the stage; nothing without a program
   const int full_state_every_;
   const bool located_;  // increments end where contacts change their states
+  const IncrementLists lists_;
   const std::vector<Increment>& increments_;
   const std::size_t first_, last_;
   const Scaling scaling_;

@@ -172,6 +172,13 @@ const Tampering kTamperings[] = {
     {"NotFinite", [](auto& increments) { increments[5].load_factor = std::numeric_limits<double>::quiet_NaN(); },
      "not finite"},
     {"OtherScene", [](auto& increments) { increments[5].positions.pop_back(); }, "not those of the scene"},
+    {"SupportsRemoved", [](auto& increments) { increments[5].supports.clear(); }, "not those of the scene"},
+    {"ForceOfASupport", [](auto& increments) { increments[5].supports[0].ry += 1e-6; },
+     "ry of support 1 is recorded as"},
+    {"MomentOfAnObstacle", [](auto& increments) { increments.back().boundaries[0].rm += 1e-6; },
+     "rm of boundary 1 is recorded as"},
+    {"ForceIsNoNumber",
+     [](auto& increments) { increments[5].boundaries[0].rx = std::numeric_limits<double>::infinity(); }, "not finite"},
     {"Pull",
      [](auto& increments) {
        for (auto& increment : increments)

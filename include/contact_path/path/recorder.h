@@ -8,20 +8,11 @@
 
 #include "contact_path/contact/path_point.h"
 #include "contact_path/path/increment.h"
+#include "contact_path/path/increment_lists.h"
 #include "contact_path/path/model.h"
 #include "contact_path/path/path_method.h"
 
 namespace contact_path {
-
-// Which of the lists of Increment that are computed where they are wanted alone.
-struct LongLists {
-  bool sections = false;
-  bool stresses = false;
-  bool pressures = false;
-
-  // Of options.record, and what quantities of `stop` and `at` are of. `request` must be sound, index: of its scene.
-  static LongLists Of(const TraceRequest& request, const SceneIndex& index);
-};
 
 // The lists as of the point.
 void FillLists(const Model& model, const PathPoint& point, const LongLists& lists, Increment* increment);

@@ -9,6 +9,7 @@
 #include "contact_path/branch/trial_step.h"
 #include "contact_path/path/end_reason.h"
 #include "contact_path/path/increment.h"
+#include "contact_path/path/increment_lists.h"
 #include "contact_path/scene/scene.h"
 
 namespace contact_path {
@@ -29,6 +30,7 @@ struct TraceControl {
   // Takes each step that the method has tried along the path, accepted or not, before the increment that it leads to;
   // of the path on which constant loads are brought on, none. May be left empty: then no trial is described.
   TrialObserver on_trial = {};
+  LongLists lists = {};  // that increments are to have besides those that the request wants
 };
 
 // Traces until a stop criterion holds or another end. Increment 0 is the equilibrium at load factor 0 with all constant

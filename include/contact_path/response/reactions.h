@@ -50,11 +50,11 @@ class ReactionProblem {
 
   Scaling scaling_;
   Structure released_;
-  ContactPairs contacts_;                 // of the structure without supports
-  std::vector<std::size_t> nodes_;        // by contact
-  std::vector<std::size_t> boundary_of_;  // by contact: into boundaries_
+  ContactPairs contacts_;           // of the structure without supports
+  std::vector<std::size_t> nodes_;  // by contact
   std::vector<SupportedNode> supports_;
   std::vector<TouchedBoundary> boundaries_;
+  std::vector<std::size_t> boundary_of_;  // by contact: into boundaries_
   std::vector<MovingPoint> points_;       // p of each obstacle
   std::vector<std::size_t> first_nodes_;  // of each surface
 };

@@ -31,6 +31,9 @@ struct TouchedBoundary {
 // Obstacles, then surfaces, that have contact candidates, in the order of the scene. scene: expanded.
 std::vector<TouchedBoundary> TouchedBoundaries(const Scene& scene);
 
+// By contact candidate, in scene order: which of these boundaries it may touch. boundaries: TouchedBoundaries(scene).
+std::vector<std::size_t> BoundaryOfContacts(const Scene& scene, const std::vector<TouchedBoundary>& boundaries);
+
 }  // namespace contact_path
 
 #endif  // CONTACT_PATH_SCENE_REACTING_PARTS_H_

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "contact_path/path/increment.h"
+#include "contact_path/path/increment_lists.h"
 #include "contact_path/scene/scene.h"
 #include "contact_path/scene/scene_index.h"
 
@@ -18,6 +19,8 @@ class PathColumn {
   // (scene/expand.h), `index` of its scene. Throws std::invalid_argument for another name; what() is what it must be.
   PathColumn(const std::string& name, const TraceRequest& request, const SceneIndex& index);
 
+  // What increments must have for it.
+  const LongLists& lists() const { return lists_; }
   // False: a column of words, kind or state_<contact>.
   bool IsNumber() const { return number_ != nullptr; }
 
@@ -26,6 +29,7 @@ class PathColumn {
   std::string_view Word(const Increment& increment) const { return word_(increment); }
 
  private:
+  LongLists lists_;
   std::function<double(const Increment&)> number_;
   std::function<std::string_view(const Increment&)> word_;
 };

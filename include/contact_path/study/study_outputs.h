@@ -32,6 +32,9 @@ class StudyOutputs {
   // max.<column>, min.<column> of study/path_column.h. `request` must be sound. Throws UnknownOutput.
   StudyOutputs(const std::vector<std::string>& names, const TraceRequest& request);
 
+  // What increments must have for them.
+  LongLists lists() const;
+
   // Takes every increment, in order.
   void Add(const Increment& increment);
 
