@@ -123,6 +123,15 @@ std::optional<Bracket> FindBifurcation(SmoothArc* arc, const Step& step) {
   return Bracket{0.5 * (before + beyond), beyond - before};
 }
 
+// Where the load factor first is `target` on (0, length]; nothing if it is not, or at the start.
+std::optional<double> FirstAt(Quintic load, double target, double length) {
+  load[0] -= target;
+  if (load[0] == 0.0) return std::nullopt;
+  if (load[0] < 0.0)
+    for (double& coefficient : load) coefficient = -coefficient;
+  return FirstNegative(load, length, 0.0);
+}
+
 // Where the quintic comes to a value on (0, length], in the sense that is wanted. At a start that has the value to
 // rounding, not there.
 std::optional<double> FirstAtValue(Quintic function, double value, double rounding, double sense, double length) {
@@ -272,8 +281,7 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, const StepEnds& ends) {
   // Whatever lies behind the target, however near, is not of this path.
   FindSample(system, step, ends.functions, &first);
   if (ends.load_factor)
-    if (const std::optional<double> t = FirstAtValue(load_factor, *ends.load_factor, 0.0, 0.0, step.length);
-        t && *t <= first.t)
+    if (const std::optional<double> t = FirstAt(load_factor, *ends.load_factor, step.length); t && *t <= first.t)
       first = {EventKind::kTarget, *t, {}, false};
   return first;
 }
