@@ -322,14 +322,24 @@ Step MakeStep(const CurvePoint& start, const CurvePoint& end, Eigen::Index num_m
   return step;
 }
 
-Eigen::VectorXd Step::Point(double t) const { return At(t).x; }
+// The interpolated points: the first basis polynomials of start and end add up to 1.
+Eigen::VectorXd Step::Point(double t) const {
+  Eigen::VectorXd first, second;
+  EndDerivatives(*this, &first, &second);
+  const std::array<Quintic, 6> basis = HermiteBasis(length);
+  std::array<double, 6> b{};
+  for (std::size_t i = 0; i < b.size(); ++i) b[i] = Evaluate(basis[i], t);
+  Eigen::VectorXd x =
+      b[1] * start.first + b[2] * start.second + b[3] * (end.x - start.x) + b[4] * first + b[5] * second;
+  x += start.x;
+  return x;
+}
 
 CurvePoint Step::At(double t) const {
   Eigen::VectorXd first, second;
   EndDerivatives(*this, &first, &second);
   const std::array<Quintic, 6> basis = HermiteBasis(length);
-  // Derivative of the given order by t, for the interpolation of x: the first basis polynomials of start and end add up
-  // to 1.
+  // Derivative of the given order by t.
   const auto combine = [&](int order) {
     std::array<double, 6> b{};
     for (std::size_t i = 0; i < 6; ++i) {
@@ -337,13 +347,11 @@ CurvePoint Step::At(double t) const {
       for (int k = 0; k < order; ++k) polynomial = Derivative(polynomial);
       b[i] = Evaluate(polynomial, t);
     }
-    Eigen::VectorXd sum =
-        b[1] * start.first + b[2] * start.second + b[3] * (end.x - start.x) + b[4] * first + b[5] * second;
-    if (order == 0) sum += start.x;
-    return sum;
+    return Eigen::VectorXd(b[1] * start.first + b[2] * start.second + b[3] * (end.x - start.x) + b[4] * first +
+                           b[5] * second);
   };
   CurvePoint point = start;
-  point.x = combine(0);
+  point.x = Point(t);
   point.first = combine(1);
   point.second = combine(2);
   // From derivatives by t to derivatives by arc length.

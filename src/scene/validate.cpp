@@ -29,9 +29,10 @@ void CheckOptions(Checker* checker) {
     if (stop.when != ">" && stop.when != "<")
       checker->Add(stops[i].Key("when"), TextOrQuotes(stop.when), "must be \">\" or \"<\"");
   }
+  const KeyPath at = path.Key("at");  // a variable: a path refers to the one that it extends
   for (std::size_t i = 0; i < options.at.size(); ++i) {
     const Samples& samples = options.at[i];
-    const KeyPath key = path.Key("at")[i];
+    const KeyPath key = at[i];
     checker->CheckFields(key, samples);
     if (samples.values.empty() == (samples.count == 0))
       checker->Add(key, samples.quantity, "must have values, or else from, to and count");

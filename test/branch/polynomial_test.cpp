@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <vector>
 
@@ -224,6 +226,19 @@ TEST(FirstNegative, AgreesWithTheSignsOnAGrid) {
     ++negative;
   }
   EXPECT_GT(negative, 100);
+}
+
+TEST(QuinticThrough, ReproducesQuintics) {
+  Random random(6);
+  for (int i = 0; i < 100; ++i) {
+    const double length = random.Number(0.1, 3.0);
+    const Quintic polynomial = RandomQuintic(&random);
+    std::array<double, 6> values{};
+    for (std::size_t k = 0; k < 6; ++k) values[k] = Evaluate(polynomial, QuinticNode(k, length));
+    const Quintic through = QuinticThrough(values, length);
+    for (int k = 0; k <= 20; ++k)
+      EXPECT_NEAR(Evaluate(through, length * k / 20.0), Evaluate(polynomial, length * k / 20.0), 1e-11);
+  }
 }
 
 TEST(Minimum, IsTheSmallestValueAndItsPlace) {

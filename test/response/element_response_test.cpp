@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -15,7 +16,7 @@
 #include "contact_path/scene/expand.h"
 #include "contact_path/scene/quantity.h"
 #include "contact_path/scene/scene_index.h"
-#include "support/random.h"
+#include "response/cantilever.h"
 #include "support/traced_path.h"
 
 namespace contact_path {
@@ -24,19 +25,9 @@ namespace {
 // A cantilever under a force at its tip, whatever bends: what each section bears is the force and its moment about
 // where the section is.
 TEST(Sections, OfACantileverBearItsForce) {
-  TraceRequest request;
-  Scene& scene = request.scene;
-  scene.nodes = {{"root", 1.0, 2.0, true, true, true}, {"tip", 4.0, 3.0}};
-  Beam beam;
-  beam.name = "arm";
-  beam.nodes = {"root", "tip"};
-  beam.EA = 1e3;
-  beam.EI = 3.0;
-  beam.GA = 500.0;
-  beam.segments = 7;
-  scene.beams = {beam};
-  scene.loads = {{"tip", 0.3, -1.0}};
-  request.options.stop = {{"load_factor", ">", 1.5}};
+  TraceRequest request = Cantilever({"tip", 4.0, 3.0});
+  request.scene.beams[0].GA = 500.0;
+  request.scene.beams[0].segments = 7;
   request.options.record = {"sections"};
   const TracedPath path = TraceIncrements(request);
   const ExpandedRequest expanded(path.request);
@@ -202,8 +193,9 @@ TEST_P(StressPatch, IsExact) {
 }
 
 // Forces on the boundary of a body, times the places where they act, are its mean stress times its volume.
-TEST_P(StressPatch, IsThatOfTheForcesOnTheBoundary) {
-  if (GetParam().plane == PlaneState::kStress || GetParam().model == MaterialModel::kLinear) return;
+class StressAndForces : public StressPatch {};
+
+TEST_P(StressAndForces, Agree) {
   const TracedPath path = TraceIncrements(Request());
   const ExpandedRequest expanded(path.request);
   const Scene& scene = expanded.Get().scene;
@@ -231,6 +223,11 @@ TEST_P(StressPatch, IsThatOfTheForcesOnTheBoundary) {
   EXPECT_NEAR(last.stresses[0].sxy, sum[2] / volume, 1e-10);
 }
 
+std::string NameOfLaw(const testing::TestParamInfo<Law>& of) {
+  return std::string(ToString(of.param.model)) + "_" + std::string(ToString(of.param.plane)) + "_" +
+         std::to_string(of.param.nodes_per_element);
+}
+
 std::vector<Law> AllLaws() {
   std::vector<Law> laws;
   for (const auto& [word, model] : Words<MaterialModel>::kAll)
@@ -239,35 +236,19 @@ std::vector<Law> AllLaws() {
   return laws;
 }
 
-INSTANTIATE_TEST_SUITE_P(Laws, StressPatch, testing::ValuesIn(AllLaws()), [](const auto& of) {
-  return std::string(ToString(of.param.model)) + "_" + std::string(ToString(of.param.plane)) + "_" +
-         std::to_string(of.param.nodes_per_element);
-});
-
-TEST(ElementNames, FindWhatTheySay) {
-  TraceRequest request = ReadExample("cantilever_block");
-  const ExpandedRequest expanded(request);
-  const ElementNames names(expanded.Get().scene);
-  for (std::size_t i = 0; i < names.NumElements(); ++i) EXPECT_EQ(names.FindElement(names.ElementName(i)), i);
-  EXPECT_EQ(names.FindElement("nothing.1"), std::nullopt);
-  EXPECT_EQ(names.FindElement(names.ElementName(0) + "1000"), std::nullopt);
-
-  Scene scene;
-  scene.bars.resize(3);
-  Beam first, second;
-  second.name = "leg";
-  first.nodes = {"a", "b", "c"};
-  second.nodes = {"a", "b"};
-  scene.beams = {first, second};
-  const ElementNames sections(scene);
-  EXPECT_EQ(sections.NumSections(), 6U);
-  EXPECT_EQ(sections.FindSection("bar3"), 2U);
-  EXPECT_EQ(sections.FindSection("beam1.2"), 4U);
-  EXPECT_EQ(sections.FindSection("leg.1"), 5U);
-  for (const char* const none : {"bar0", "bar4", "bar03", "bar", "leg.2", "leg.0", "leg", "leg.", "leg.x", ".1"})
-    EXPECT_EQ(sections.FindSection(none), std::nullopt) << none;
-  for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(sections.FindSection(sections.SectionName(i)), i);
+// In plane stress the thickness changes with the body; linear stresses are those of the shape at the start.
+std::vector<Law> LawsOfBodies() {
+  std::vector<Law> laws = AllLaws();
+  laws.erase(std::remove_if(laws.begin(), laws.end(),
+                            [](const Law& law) {
+                              return law.plane == PlaneState::kStress || law.model == MaterialModel::kLinear;
+                            }),
+             laws.end());
+  return laws;
 }
+
+INSTANTIATE_TEST_SUITE_P(Laws, StressPatch, testing::ValuesIn(AllLaws()), NameOfLaw);
+INSTANTIATE_TEST_SUITE_P(Laws, StressAndForces, testing::ValuesIn(LawsOfBodies()), NameOfLaw);
 
 // Recorded or not, sections and stresses are quantities; the columns are there where they are recorded.
 TEST(Sections, AreQuantitiesWithoutBeingRecorded) {

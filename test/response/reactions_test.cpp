@@ -18,6 +18,7 @@
 #include "contact_path/scene/expand.h"
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/scene_index.h"
+#include "response/cantilever.h"
 #include "support/traced_path.h"
 
 namespace contact_path {
@@ -148,18 +149,7 @@ TEST(Reactions, HoldTheLoadsOfAllExampleScenes) {
 
 // Whatever bends, the root carries the moment of the force at the tip where the tip is.
 TEST(Reactions, CantileverCarriesTheMomentAtItsRoot) {
-  TraceRequest request;
-  Scene& scene = request.scene;
-  scene.nodes = {{"root", 1.0, 2.0, true, true, true}, {"tip", 4.0, 2.0}};
-  Beam beam;
-  beam.name = "arm";
-  beam.nodes = {"root", "tip"};
-  beam.EA = 1e4;
-  beam.EI = 3.0;
-  scene.beams = {beam};
-  scene.loads = {{"tip", 0.3, -1.0}};
-  request.options.stop = {{"load_factor", ">", 1.5}};
-  const TracedPath path = TraceIncrements(request);
+  const TracedPath path = TraceIncrements(Cantilever({"tip", 4.0, 2.0}));
   const Increment& last = path.increments.back();
   const double s = last.load_factor, x = PositionX(path, last, "tip"), y = PositionY(path, last, "tip");
   ASSERT_EQ(last.supports.size(), 1U);

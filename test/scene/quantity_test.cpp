@@ -44,6 +44,25 @@ TEST_F(QuantityTest, BothSpellings) {
   ExpectQuantity("rt_a@floor", Kind::kRt, 0);
 }
 
+TEST_F(QuantityTest, SupportsBoundariesAndSections) {
+  scene_.nodes[1].fixed_y = true;
+  scene_.bars = {{{"a", "x_b"}, 1.0}};
+  ExpectQuantity("x_b.ry", Kind::kForceY, 0);
+  ExpectQuantity("ry_x_b", Kind::kForceY, 0);
+  ExpectQuantity("gap_c.rx", Kind::kForceX, 1);
+  ExpectQuantity("rm_floor", Kind::kMoment, 0);
+  ExpectQuantity("floor.width", Kind::kWidth, 0);
+  ExpectQuantity("a@floor.pressure", Kind::kPressure, 0);
+  ExpectQuantity("traction_x_b@gap_c", Kind::kTraction, 1);
+  ExpectQuantity("bar1.N", Kind::kN, 0);
+  ExpectQuantity("N_bar1", Kind::kN, 0);
+  EXPECT_TRUE(FindQuantity("floor.rx", SceneIndex(scene_))->of_boundary);
+  EXPECT_FALSE(FindQuantity("x_b.ry", SceneIndex(scene_))->of_boundary);
+  // A free component has no reaction, a node without a beam no moment, a bar that is not there no section.
+  for (const char* text : {"x_b.rx", "x_b.rm", "a.ry", "load_factor.rx", "bar0.N", "bar2.N", "bar1.sxx", "wall.rx"})
+    EXPECT_EQ(FindQuantity(text, SceneIndex(scene_)), std::nullopt) << text;
+}
+
 TEST_F(QuantityTest, OtherTextsAreNone) {
   for (const char* text : {"",
                            ".",

@@ -267,6 +267,44 @@ const BrokenRule kOptionRules[] = {
        r.options.branch_choices = {{1, 0, -2}};
      },
      "options.branch_choices[0].branch", "-2", "must be >= 0"},
+    {"SamplesOfUnknownNode",
+     [](auto& r) {
+       r.options.at = {{"zz.y", {1.0}}};
+     },
+     "options.at[0].quantity", "zz.y", "must refer to a node"},
+    {"SamplesWithoutValues",
+     [](auto& r) {
+       r.options.at = {{"b.y", {}}};
+     },
+     "options.at[0]", "b.y", "must have values, or else from, to and count"},
+    {"SamplesWithBoth",
+     [](auto& r) {
+       r.options.at = {{"b.y", {1.0}}, {"b.y", {1.0}, 0.0, 1.0, 3}};
+     },
+     "options.at[1]", "b.y", "must have values, or else from, to and count"},
+    {"SampleNotFinite",
+     [](auto& r) {
+       r.options.at = {{"b.y", {1.0, kNaN}}};
+     },
+     "options.at[0].values[1]", ".nan", "must be finite"},
+    {"SamplesNegativeCount",
+     [](auto& r) {
+       r.options.at = {{"b.y", {}, 0.0, 1.0, -3}};
+     },
+     "options.at[0].count", "-3", "must be >= 0"},
+    {"SamplesTooMany",
+     [](auto& r) {
+       r.options.max_increments = 10;
+       r.options.at = {{"b.y", {}, 0.0, 1.0, 11}};
+     },
+     "options.at[0].count", "11", "must be at most max_increments"},
+    {"UnknownRecord",
+     [](auto& r) {
+       r.options.record = {"sections", "strains"};
+     },
+     "options.record[1]", "strains", "must be sections, stresses or pressures"},
+    {"ReactionOfAFreeComponent", [](auto& r) { r.options.stop[0].quantity = "b.rx"; }, "options.stop[0].quantity",
+     "b.rx", "must refer to a component that a support holds"},
     {"EventAndIncrement",
      [](auto& r) {
        r.options.branch_choices = {{1, 5, 2}};
@@ -287,6 +325,17 @@ TEST(ValidateOptionsTest, IncrementsByIpoptTakeNoBranchChoices) {
   EXPECT_EQ(
       violations[0].ToLine(),
       "options.branch_choices: must be empty with mpec_solver ipopt, which does not find the branches of an event");
+}
+
+TEST(ValidateOptionsTest, IncrementsByIpoptHaveNoSamples) {
+  TraceRequest request = SoundRequest();
+  request.options.at = {{"b.y", {1.0}}};
+  EXPECT_TRUE(Validate(request).empty());
+  request.options.method = Method::kMpec;
+  request.options.mpec_solver = MpecSolver::kIpopt;
+  const std::vector<Violation> violations = Validate(request);
+  ASSERT_EQ(violations.size(), 1U);
+  EXPECT_EQ(violations[0].key, "options.at");
 }
 
 // A stage that presses b and moves the floor down, and one that takes that back.

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,26 @@ TEST(StudyOutputs, ListLimitLoadsInTheirOrder) {
 }
 
 TEST(StudyOutputs, HaveSeventeenDigits) { EXPECT_EQ(TextsOf({"final.load_factor"}, {0.1})[0], "0.10000000000000001"); }
+
+// Lists that no option asks for are there where an output needs them.
+TEST(StudyOutputs, HaveTheListsThatTheyNeed) {
+  TraceRequest request = ReadExample("rough_truss");
+  const std::vector<std::string> names = {"final.bar1.N", "max.bar2.N", "final.left.ry", "final.floor.ry"};
+  StudyOutputs outputs(names, request);
+  EXPECT_TRUE(outputs.lists().sections);
+  EXPECT_FALSE(outputs.lists().stresses || outputs.lists().pressures);
+  request.options.record = {"sections"};
+  const TracedPath path = TraceIncrements(request);
+  for (const Increment& increment : path.increments) outputs.Add(increment);
+  const std::vector<std::string> texts = outputs.Texts(path.result.reason);
+  ASSERT_FALSE(path.increments.back().sections.empty());
+  EXPECT_EQ(std::stod(texts[0]), path.increments.back().sections[0].N);
+  double largest = -1e300;
+  for (const Increment& increment : path.increments) largest = std::max(largest, increment.sections[1].N);
+  EXPECT_EQ(std::stod(texts[1]), largest);
+  EXPECT_EQ(std::stod(texts[2]), path.increments.back().supports[0].ry);
+  EXPECT_EQ(std::stod(texts[3]), path.increments.back().boundaries[0].ry);
+}
 
 TEST(StudyOutputs, OfNoIncrementsAreEmpty) {
   EXPECT_EQ(TextsOf({"limit_loads", "events", "end_reason", "final.load_factor", "final.kind"}, {}),
