@@ -244,8 +244,6 @@ inline constexpr double kNoMove = 1e-12;
 // Energy balance of a step, of the energy that it exchanges; rounding of energies, relative.
 inline constexpr double kEnergyOfStep = 2e-3;
 inline constexpr double kEnergyRounding = 1e-12;
-// Length of an increment of method mpec, of the wanted length: shorter, it does not tell where the path goes on.
-inline constexpr double kNoDirection = 1e-3;
 // Place of the smallest value of an inequality on a step: nearer to an end, it is at the end.
 inline constexpr double kAtEndOfStep = 1e-3;
 // Place of a located point.

@@ -38,7 +38,7 @@ IncrementProblem::IncrementProblem(const Structure& structure, const ContactPair
   const Eigen::Index nd = structure_.NumDofs();
   num_variables_ = nd + 1 + static_cast<Eigen::Index>(working_set_.size());
   num_constraints_ = nd;
-  Eigen::VectorXd drive = Eigen::VectorXd::Zero(nd);  // T_t r_t^k
+  Eigen::VectorXd drive = Eigen::VectorXd::Zero(nd + 1);  // T_t r_t^k, by (u, s)
   for (std::size_t i = 0; i < working_set_.size(); ++i) {
     const ContactPair& pair = *contacts_[static_cast<std::size_t>(working_set_[i])];
     const int patch = pair.KnownPatch(from_.u, from_.s, from_.Patch(static_cast<std::size_t>(working_set_[i])));
@@ -53,7 +53,9 @@ IncrementProblem::IncrementProblem(const Structure& structure, const ContactPair
       slot.lambda = num_variables_++;
       slot.friction_row = num_constraints_;
       num_constraints_ += 5;
-      at_start.AddForce(at_start.xi_gradient, at_start.slip_factor * from_.rt[working_set_[i]], &drive);
+      const double rt = at_start.slip_factor * from_.rt[working_set_[i]];
+      at_start.AddForce(at_start.xi_gradient, rt, &drive);
+      drive[nd] += rt * at_start.xi_gradient[at_start.xi_gradient.size() - 1];  // the motion of the obstacle
     }
     slots_.push_back(slot);
   }
@@ -61,7 +63,7 @@ IncrementProblem::IncrementProblem(const Structure& structure, const ContactPair
     supports_.push_back({&prescribed, num_variables_++, num_constraints_++});
   const double norm = drive.norm();
   linear_objective_ = -(norm > 0.0 ? 1.0 - goal_.dissipation : 1.0) * goal_.direction;
-  if (norm > 0.0) linear_objective_.head(nd) += goal_.dissipation / norm * drive;
+  if (norm > 0.0) linear_objective_ += goal_.dissipation / norm * drive;
 
   const Eigen::VectorXd x = Eigen::VectorXd::Zero(num_variables_);
   const auto record = [](std::vector<MatrixEntry>* structure_out) {

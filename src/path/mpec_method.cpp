@@ -19,12 +19,8 @@ constexpr double kProgress = 0.05;
 // Without a change of state the path does not turn by more than 60 degrees in one increment.
 constexpr double kSmallestCosine = 0.5;
 
-// Shares of the dissipation term in the minimiser. Small: the path is followed; larger where nothing but dissipation
-// leads on.
-constexpr double kDissipationShares[] = {0.2, 0.6, 1.0};
-// Shares by the total law of friction. Nothing dissipates there: the term only tells in which sense a contact at the
-// edge of its cone can slip.
-constexpr double kSlipShares[] = {0.6, 1.0};
+// Share of the dissipation term in the minimiser: gamma_1 of eq. (4) is what is left of 1.
+constexpr double kDissipationShare = 0.6;
 
 constexpr double kFarthestTarget = 2.0;  // of the increment that goes past the target: farther is another branch
 constexpr double kLevelling =
@@ -42,8 +38,6 @@ bool IsNearlyActive(const ContactPair& contact, const PathPoint& point, std::siz
   const double unit = contact.ForceUnit();
   if ((open ? contact.Gap(point.u, point.s, point.Patch(i)) : point.rn[k] / unit) <= tolerances::kNearlyActive)
     return true;
-  if (contact.HasTotalLaw() && Slips(point.states[i]))
-    return std::abs(contact.Slipped(point.u, point.s, point.Patch(i))) <= tolerances::kNearlyActive;
   return point.states[i] == ContactState::kStick &&
          contact.Friction() * point.rn[k] - std::abs(point.rt[k]) <= tolerances::kNearlyActive * unit;
 }
@@ -72,9 +66,7 @@ bool StatesAgree(const ContactPairs& contacts, const PathPoint& from, const Path
   const double length = tolerances::kRegularisedState * Distance(from, to);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
-    const double slip = contacts[i]->HasTotalLaw() ? contacts[i]->Slipped(to.u, to.s, to.Patch(i))
-                                                   : contacts[i]->Slip(from.u, from.s, from.Patch(i), to.u - from.u,
-                                                                       to.s - from.s, to.Patch(i));
+    const double slip = contacts[i]->Slip(from.u, from.s, from.Patch(i), to.u - from.u, to.s - from.s, to.Patch(i));
     const double margin = contacts[i]->Friction() * to.rn[k] - std::abs(to.rt[k]);
     const ContactState state = to.states[i];
     if (state == ContactState::kOpen) {
@@ -120,8 +112,6 @@ MpecMethod::MpecMethod(const Model& model, const MpecOptions& options, std::func
       cancelled_(std::move(cancelled)),
       ipopt_(cancelled_),
       solver_(model.structure, model.contacts, &ipopt_),
-      has_total_law_(std::any_of(model.contacts.begin(), model.contacts.end(),
-                                 [](const auto& contact) { return contact->HasTotalLaw(); })),
       step_length_(options.step) {
   direction_ = Eigen::VectorXd::Zero(model.structure.NumDofs() + 1);
   direction_[model.structure.NumDofs()] = options.direction;
@@ -163,24 +153,18 @@ MpecMethod::Trial MpecMethod::SolveOnce(const PathPoint& from, const Eigen::Vect
   return SolveOnce(from, direction, length, dissipation, anew);
 }
 
-// By the total law of friction equilibrium does not depend on the sense of the motion: the way that the path has come
-// solves the increment problem, too, also where a contact is about to change its state. Without a change of state the
-// path does not bend by a right angle.
 bool MpecMethod::TurnsBack(const PathPoint& from, const PathPoint& to, const Eigen::VectorXd& direction) const {
-  if (!started_ || bent_ || to.states != from.states) return false;
-  const double cosine = Direction(from, to).dot(direction);
-  if (has_total_law_ && cosine < 0.0) return true;
-  return cosine < kSmallestCosine && !SomeNearlyActive(model_.contacts, from);
+  return started_ && !bent_ && to.states == from.states && Direction(from, to).dot(direction) < kSmallestCosine &&
+         !SomeNearlyActive(model_.contacts, from);
 }
 
 // A path that slides on and one that goes back with all contacts at rest are two solutions of the increment problem,
-// and the solver may find either. The second one dissipates nothing. By the total law of friction only one is.
+// and the solver may find either. The second one dissipates nothing.
 bool MpecMethod::GoesBackAtRest(const PathPoint& from, const PathPoint& to) const {
   const auto slides = [](const PathPoint& point) {
     return std::any_of(point.states.begin(), point.states.end(), Slips);
   };
-  return started_ && !has_total_law_ && (to.s - from.s) * direction_[direction_.size() - 1] < 0.0 && slides(from) &&
-         !slides(to);
+  return started_ && (to.s - from.s) * direction_[direction_.size() - 1] < 0.0 && slides(from) && !slides(to);
 }
 
 void MpecMethod::Judge(const PathPoint& from, const Eigen::VectorXd& direction, double length, Trial* result) const {
@@ -211,42 +195,11 @@ void MpecMethod::Judge(const PathPoint& from, const Eigen::VectorXd& direction, 
     trial.verdict = Verdict::kAccepted;
 }
 
-MpecMethod::Trial MpecMethod::SolveOrRaise(const PathPoint& from, const Eigen::VectorXd& direction, double length,
-                                           double dissipation) {
-  Trial trial = SolveOnce(from, direction, length, dissipation, options_.regularisation);
-  if (trial.verdict != Verdict::kNotSolved) return trial;
-  RegularisationSchedule raised = options_.regularisation;
-  raised.warm_start = false;
-  raised.initial = 1.0;
-  raised.factor = 0.1;
-  raised.minimum *= 100.0;
-  return SolveOnce(from, direction, length, dissipation, raised);
-}
-
 MpecMethod::Trial MpecMethod::Try(const PathPoint& from, const Eigen::VectorXd& direction, double length) {
-  if (has_total_law_) return TryTotal(from, direction, length);
-  const bool rough = from.rt.size() > 0 && from.rt.lpNorm<Eigen::Infinity>() > 0.0;
-  Trial trial;
-  for (const double share : kDissipationShares) {
-    trial = SolveOrRaise(from, direction, length, share);
-    if (trial.verdict != Verdict::kNoProgress || !rough) break;
-  }
-  return trial;
+  return SolveOnce(from, direction, length, kDissipationShare, options_.regularisation);
 }
 
-MpecMethod::Trial MpecMethod::TryTotal(const PathPoint& from, const Eigen::VectorXd& direction, double length) {
-  Trial trial = TryWithoutDissipation(from, direction, length);
-  // Where the only solution is the point itself, the nonlinear solver need not find it.
-  if (trial.verdict != Verdict::kNoProgress && trial.verdict != Verdict::kNotSolved) return trial;
-  for (const double share : kSlipShares) {
-    const Trial slipping = SolveOnce(from, direction, length, share, options_.regularisation);
-    if (slipping.verdict != Verdict::kAccepted) continue;
-    Trial along = TryWithoutDissipation(from, Direction(from, slipping.increment.point), length);
-    if (along.verdict == Verdict::kAccepted) return along;
-  }
-  return trial;
-}
-
+// The direction that step 0 of Algorithm 3.2 leaves to the user.
 MpecMethod::Trial MpecMethod::TryFirst(const PathPoint& from, double length) {
   Eigen::VectorXd direction = direction_;
   Trial trial;
@@ -255,19 +208,6 @@ MpecMethod::Trial MpecMethod::TryFirst(const PathPoint& from, double length) {
     const bool moved = trial.increment.status == SolveStatus::kSolved && Distance(from, trial.increment.point) > 0.0;
     if (!moved || Distance(from, trial.increment.point) >= 0.5 * length) break;
     direction = Direction(from, trial.increment.point);
-  }
-  return trial;
-}
-
-MpecMethod::Trial MpecMethod::TryWithoutDissipation(const PathPoint& from, const Eigen::VectorXd& direction,
-                                                    double length) {
-  Trial trial = SolveOrRaise(from, direction, length, 0.0);
-  for (int i = 0; i < kMostDirections && trial.verdict == Verdict::kNoProgress; ++i) {
-    const PathPoint& to = trial.increment.point;
-    if (!(Distance(from, to) > tolerances::kNoDirection * length)) break;
-    Trial next = SolveOnce(from, Direction(from, to), length, 0.0, options_.regularisation);
-    if (next.verdict != Verdict::kAccepted && next.verdict != Verdict::kNoProgress) break;
-    trial = std::move(next);
   }
   return trial;
 }

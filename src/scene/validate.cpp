@@ -46,6 +46,8 @@ void CheckOptions(Checker* checker) {
       checker->Add(path.Key("record")[i], TextOrQuotes(options.record[i]), "must be sections, stresses or pressures");
   if (!options.LocatesEvents() && !options.at.empty())
     checker->Add(path.Key("at"), "", "must be empty with mpec_solver ipopt, which does not locate values");
+  if (!options.LocatesEvents() && options.friction_law == FrictionLaw::kTotal)
+    checker->Add(path.Key("friction_law"), "total", "must be incremental with mpec_solver ipopt");
   const std::vector<ContactCandidate>& contacts = checker->GetScene().contacts;
   if (options.friction_law == FrictionLaw::kTotal &&
       std::any_of(contacts.begin(), contacts.end(), [](const auto& contact) { return contact.friction > 0.0; }))

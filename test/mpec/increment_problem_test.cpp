@@ -351,6 +351,27 @@ TEST_P(MixedProblem, UnconstrainedMinimiserIsNoFartherThanWanted) {
   }
 }
 
+// A belt that moves under a node which rests dissipates as a node that slides over a floor does.
+TEST(MovingProblem, DissipationCountsTheMotionOfTheObstacle) {
+  Scene scene;
+  scene.nodes = {{"a", 0.0, 0.0}};
+  scene.superelements = {{{"a"}, {1.0, 0.0, 0.0, 1.0}}};
+  scene.obstacles = {{"belt", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.3}};
+  scene.contacts = {{"a", "belt"}};
+  scene.obstacle_motions = {{"belt", 2.0, 0.0}};
+  const Structure structure(scene);
+  const ContactPairs contacts = BuildContacts(scene, structure);
+  PathPoint from;
+  from.u = structure.Start();
+  from.rn = Eigen::VectorXd::Constant(1, 1.0);
+  from.rt = Eigen::VectorXd::Constant(1, 0.3);
+  from.states = {ContactState::kSlipMinus};
+  const IncrementProblem problem(structure, contacts, from, {0}, {0.1, Eigen::Vector3d(0.0, 0.0, 1.0), 1.0, 1.0});
+  // xi' = u_x' - 2 s': the dissipation grows most along (-1, 0, 2).
+  const Eigen::VectorXd wanted = problem.UnconstrainedMinimiser();
+  EXPECT_LE((wanted - 0.1 / std::sqrt(5.0) * Eigen::Vector3d(-1.0, 0.0, 2.0)).norm(), kRounding);
+}
+
 TEST_P(MixedProblem, Gamma2FactorShortensTheMinimiserAndDissipationTurnsItAgainstTheReaction) {
   goal_.dissipation = 0.0;
   goal_.gamma2_factor = 2.0;

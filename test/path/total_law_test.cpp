@@ -13,19 +13,16 @@ namespace contact_path {
 namespace {
 
 constexpr double kRounding = 1e-11;
-constexpr double kCut = 1e-3;  // what an increment of method mpec may cut off at a corner, in work
 
 class TotalLaw : public testing::TestWithParam<Method> {
  protected:
-  static bool Exact() { return GetParam() == Method::kBranch; }
-
   // Complete, and proved by verify.
   static TracedPath TraceTotal(TraceRequest request) {
     request.options.method = GetParam();
-    request.options.mpec_solver = MpecSolver::kIpopt;  // increments of its own, where the method is mpec
+    request.options.mpec_solver = MpecSolver::kCertified;
     request.options.friction_law = FrictionLaw::kTotal;
     TracedPath path = TraceProved(request);
-    EXPECT_LE(VerifyPath(path.request, path.increments).energy_balance, Exact() ? 1e-6 : 10.0 * kCut);
+    EXPECT_LE(VerifyPath(path.request, path.increments).energy_balance, 1e-6);
     for (const Increment& increment : path.increments)
       for (const BranchRecord& branch : increment.event.branches) EXPECT_EQ(branch.dissipation_rate, 0.0);
     return path;
@@ -45,7 +42,7 @@ TEST_P(TotalLaw, AStickSlipCycleHasNoLoop) {
     const double block = std::clamp(belt, -0.3, 0.3), slipped = block - belt;
     EXPECT_NEAR(PositionX(path, increment, "b"), 1.0 + block, kRounding) << "increment " << increment.index;
     EXPECT_NEAR(Contact(path, increment, "b@belt").rt, block, kRounding);
-    EXPECT_NEAR(increment.dissipation, 0.3 * std::abs(slipped), Exact() ? kRounding : kCut);
+    EXPECT_NEAR(increment.dissipation, 0.3 * std::abs(slipped), kRounding);
     if (std::abs(slipped) < 1e-9) continue;
     ++slipping;
     EXPECT_EQ(Contact(path, increment, "b@belt").state,
@@ -58,14 +55,14 @@ TEST_P(TotalLaw, AStickSlipCycleHasNoLoop) {
 TEST_P(TotalLaw, RoughTrussIsThatOfTheIncrementalLaw) {
   const TracedPath path = TraceTotal(ReadExample("rough_truss"));
   const double l0 = std::hypot(1.0, 1.2), lc = std::sqrt(2.0), corner = std::sqrt(2.0) * (1.0 - lc / l0);
-  EXPECT_NEAR(path.increments[LargestLoad(path)].load_factor, corner, Exact() ? kRounding : kCut);
+  EXPECT_NEAR(path.increments[LargestLoad(path)].load_factor, corner, kRounding);
   for (const Increment& increment : path.increments) {
     if (Contact(path, increment, "foot@floor").state != ContactState::kSlipPlus) continue;
     // The slope of the bars stays 1 / mu = 1.
     const double l = std::sqrt(2.0) * PositionY(path, increment, "apex");
     EXPECT_NEAR(increment.load_factor, std::sqrt(2.0) * (1.0 - l / l0), 1e-9);
   }
-  EXPECT_NEAR(path.increments.back().dissipation, 0.5 * std::pow(l0 - lc, 2) / l0, Exact() ? 1e-8 : kCut);
+  EXPECT_NEAR(path.increments.back().dissipation, 0.5 * std::pow(l0 - lc, 2) / l0, 1e-8);
 }
 
 // A node between springs is lifted off, carried along and pressed down again: where it touches, it has slipped.

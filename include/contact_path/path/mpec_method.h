@@ -77,15 +77,7 @@ class MpecMethod : public PathMethod {
   // One solve, judged by itself.
   Trial SolveOnce(const PathPoint& from, const Eigen::VectorXd& direction, double length, double dissipation,
                   const RegularisationSchedule& schedule);
-  // With a higher eps where it is not solved for.
-  Trial SolveOrRaise(const PathPoint& from, const Eigen::VectorXd& direction, double length, double dissipation);
-  // Shares of the dissipation term, from the smallest on.
   Trial Try(const PathPoint& from, const Eigen::VectorXd& direction, double length);
-  // By the total law of friction. Where no increment along the direction leads on, the friction forces tell another
-  // one.
-  Trial TryTotal(const PathPoint& from, const Eigen::VectorXd& direction, double length);
-  // Where the path turns by nearly 90 degrees, the increment is short; it tells the direction.
-  Trial TryWithoutDissipation(const PathPoint& from, const Eigen::VectorXd& direction, double length);
   // For the first increment, which has no direction of a last increment: improves the direction until the increment is
   // as long as wanted.
   Trial TryFirst(const PathPoint& from, double length);
@@ -104,7 +96,6 @@ class MpecMethod : public PathMethod {
   std::function<bool()> cancelled_;
   IpoptSolver ipopt_;
   IncrementSolver solver_;
-  const bool has_total_law_;  // of friction: then nothing dissipates
   double step_length_;
   double gamma2_factor_ = 1.0;
   double length_ = 0.0;  // of the path so far
