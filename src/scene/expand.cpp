@@ -8,6 +8,8 @@
 #include <unordered_set>
 #include <utility>
 
+#include "contact_path/scene/cell.h"
+
 namespace contact_path {
 namespace {
 
