@@ -53,7 +53,7 @@ void RegularIncrements(benchmark::State& state, TraceRequest request, double flo
     EventRecord branches;
     std::string message;
     if (method.Start(point, &branches, &message)) throw std::runtime_error(message);
-    Recorder recorder(Method::kBranch, nullptr);
+    Recorder recorder(Method::kBranch, LongLists(), nullptr);
     recorder.Start(model, 0, point, Residuals(), branches, 0.0);
     double seconds = 0.0;
     int regular = 0, factorised = 0;

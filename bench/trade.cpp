@@ -270,7 +270,7 @@ void Measure(const std::string& name, const TraceRequest& request) {
   const Model model(request.scene, CharacteristicScales(request.scene));
   const Preload preload = TracePreload(model, 100000, [](const Model& of, double target) {
     BranchOptions options = BranchOptions::For(TraceOptions(), AutomaticStepGrowth(of));
-    options.target = target;
+    options.ends.load_factor = target;
     return std::make_unique<BranchMethod>(of, options, nullptr);
   });
   if (!preload.done) {
