@@ -52,7 +52,7 @@ set(contact_path_devel_programs ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_BIN_DEST
 install(TARGETS contact_path_ros contact_path_core
   ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
   LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
-install(TARGETS contact_path_node contact_path_markers contact_path_trace contact_path_lattice contact_path_outlines
+install(TARGETS contact_path_node contact_path_markers contact_path_trace contact_path_lattice contact_path_outlines contact_path_expand contact_path_response
   contact_path_study_server contact_path_verify
   RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(DIRECTORY include/${PROJECT_NAME}/ DESTINATION ${CATKIN_PACKAGE_INCLUDE_DESTINATION})

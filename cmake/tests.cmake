@@ -121,7 +121,7 @@ contact_path_add_long_test(branch branch_method_test)
 contact_path_add_long_test(branch branches_test)
 contact_path_add_long_test(branch random_paths_test)
 contact_path_add_stage(response contact_pressure_test element_response_test reactions_test)
-contact_path_add_stage(check boundary_residuals_test curved_residuals_test residuals_test solid_residuals_test)
+contact_path_add_stage(check answers_test boundary_residuals_test curved_residuals_test residuals_test solid_residuals_test)
 contact_path_add_stage(path automatic_step_test branch_options_test csv_test determinism_test diagnosis_test free_motion_test
   hard_scenes_test increment_lists_test increment_test large_requests_test model_size_test model_test path_summary_test preload_test
   program_test progress_estimate_test redistribution_test restored_states_test return_detector_test
@@ -196,6 +196,8 @@ contact_path_add_python_test(determinism_test test/cli/determinism_test.py DEPEN
   VARIABLES CONTACT_PATH_TRACE=$<TARGET_FILE:contact_path_trace>)
 contact_path_add_python_test(plot_test test/cli/plot_test.py DEPENDS contact_path_trace
   VARIABLES CONTACT_PATH_TRACE=$<TARGET_FILE:contact_path_trace> CONTACT_PATH_PLOT=${CMAKE_CURRENT_SOURCE_DIR}/scripts/plot)
+contact_path_add_python_test(expand_test test/cli/expand_test.py DEPENDS contact_path_trace contact_path_expand contact_path_response
+  VARIABLES CONTACT_PATH_PROGRAMS=$<TARGET_FILE_DIR:contact_path_trace>)
 contact_path_add_python_test(mesh_test test/cli/mesh_test.py
   VARIABLES CONTACT_PATH_MESH=${CMAKE_CURRENT_SOURCE_DIR}/scripts/contact_path_mesh)
 contact_path_add_python_test(study_test test/cli/study_test.py DEPENDS contact_path_trace contact_path_study_server
@@ -226,7 +228,7 @@ if(CONTACT_PATH_ROS)
   contact_path_add_python_test(path_bag_test test/ros/path_bag_test.py DEPENDS contact_path_trace
     VARIABLES CONTACT_PATH_TRACE=$<TARGET_FILE:contact_path_trace> CONTACT_PATH_ROOT=${CMAKE_CURRENT_SOURCE_DIR}
       CONTACT_PATH_PROGRAMS=$<TARGET_FILE_DIR:contact_path_trace>)
-  set(contact_path_all_programs contact_path_trace contact_path_lattice contact_path_outlines contact_path_study_server contact_path_node
+  set(contact_path_all_programs contact_path_trace contact_path_lattice contact_path_outlines contact_path_expand contact_path_response contact_path_study_server contact_path_node
     contact_path_markers contact_path_verify ${PROJECT_NAME}_generate_messages)
   contact_path_add_python_test(docs_test test/docs/docs_test.py DEPENDS ${contact_path_all_programs}
     VARIABLES CONTACT_PATH_ROOT=${CMAKE_CURRENT_SOURCE_DIR} CONTACT_PATH_PROGRAMS=${contact_path_devel_programs}

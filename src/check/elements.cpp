@@ -48,7 +48,7 @@ Real StrainRatePerLength(StrainMeasure measure, const BarLengths& lengths) {
 class BarElement : public Element {
  public:
   BarElement(const Bar& bar, const std::vector<std::size_t>& nodes, const std::vector<double>& reference)
-      : Element(nodes),
+      : Element(Kind::kBar, nodes),
         first_(nodes.at(0)),
         second_(nodes.at(1)),
         EA_(bar.EA),
@@ -91,7 +91,7 @@ class BarElement : public Element {
 class LinearPart : public Element {
  public:
   LinearPart(const Superelement& part, const std::vector<std::size_t>& nodes, const std::vector<double>& reference)
-      : Element(nodes),
+      : Element(Kind::kLinearPart, nodes),
         stiffness_(part.stiffness.begin(), part.stiffness.end()),
         rest_(part.rest_positions.begin(), part.rest_positions.end()) {
     if (rest_.empty())
@@ -154,7 +154,7 @@ class Segment : public Element {
   // first_turns, second_turns: whether the end turns with its node, or is hinged.
   Segment(const Beam& beam, std::size_t first, std::size_t second, bool first_turns, bool second_turns,
           const std::vector<double>& reference)
-      : Element({first, second}),
+      : Element(Kind::kSegment, {first, second}),
         beam_(beam),
         turns_{first_turns, second_turns},
         places_{2 * first,  2 * first + 1,  reference.size() + first,

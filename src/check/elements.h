@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
@@ -21,14 +22,25 @@ inline std::vector<double> ValuesOf(std::vector<double> positions, const std::ve
   return positions;
 }
 
+// Means over the volume of an element of a solid.
+struct MeanStress {
+  Real xx = 0.0L, yy = 0.0L, xy = 0.0L, zz = 0.0L;  // Cauchy [force/length^2]
+  Real energy = 0.0L;                               // of the whole element [force length]
+  Real per_motion = 0.0L;  // at least the change of a stress by a motion of the nodes [force/length^3]
+};
+
 // values and forces: as ValuesOf() orders them.
 class Element {
  public:
   virtual ~Element() = default;
 
+  enum class Kind { kBar, kSegment, kLinearPart, kSolid };
+  Kind GetKind() const { return kind_; }
   const std::vector<std::size_t>& Nodes() const { return nodes_; }
   // Whether the directions of its forces turn with the motion.
   virtual bool Turns() const { return true; }
+  // Of an element of a solid; nothing of another one.
+  virtual std::optional<MeanStress> Stress(const std::vector<double>&) const { return std::nullopt; }
   // At least the largest force per motion that it exerts at the start [force/length].
   virtual Real Stiffness() const = 0;
   // Adds the strain energy W to *energy [force length].
@@ -37,9 +49,10 @@ class Element {
   virtual void AddForce(const std::vector<double>& values, std::vector<Real>* forces) const = 0;
 
  protected:
-  explicit Element(std::vector<std::size_t> nodes) : nodes_(std::move(nodes)) {}
+  Element(Kind kind, std::vector<std::size_t> nodes) : kind_(kind), nodes_(std::move(nodes)) {}
 
  private:
+  Kind kind_;
   std::vector<std::size_t> nodes_;
 };
 

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "check/answers.h"
 #include "check/boundary.h"
 #include "check/contacts.h"
 #include "check/elements.h"
@@ -101,6 +102,9 @@ struct ResidualCheck::Prepared {
     num_touched = touched.size();
     touched_by = BoundaryOfContacts(scene, touched);
     contacts = check::MakeContacts(scene, index, configuration.slip_origins);
+    std::vector<check::ContactPlace> places;
+    for (std::size_t i = 0; i < contacts.size(); ++i) places.push_back({contacts[i]->Node(), touched_by[i]});
+    contact_edges = check::ContactEdges(elements, places);
     if (std::any_of(contacts.begin(), contacts.end(), [](const auto& contact) { return contact->TouchedSurface(); }))
       boundaries = check::MakeBoundaries(scene, index);
     const std::vector<Real> of_surfaces = LargestOnSurfaces<Real>([&](std::size_t node) { return units[node]; });
@@ -165,6 +169,7 @@ struct ResidualCheck::Prepared {
   std::vector<SupportedNode> supports;
   std::vector<std::size_t> touched_by;  // by contact: which of TouchedBoundaries()
   std::size_t num_touched = 0;
+  std::vector<check::ContactEdge> contact_edges;
   std::vector<check::Boundary> boundaries;  // by surface of the scene; empty where no contact touches one
 };
 
@@ -266,6 +271,28 @@ CheckedForces ResidualCheck::Forces(const CheckedState& state) const {
     forces.boundaries.push_back(
         {static_cast<double>(sum[0]), static_cast<double>(sum[1]), static_cast<double>(sum[2])});
   return forces;
+}
+
+CheckedAnswers ResidualCheck::Answers(const CheckedState& state) const {
+  const Prepared& scene = *prepared_;
+  scene.RequireSizes(state);
+  const std::vector<double> values = check::ValuesOf(state.positions, state.rotations);
+  CheckedAnswers answers;
+  answers.sections = check::Sections(scene.elements, values, scene.num_positions);
+  for (const auto& element : scene.elements)
+    if (const std::optional<check::MeanStress> of = element->Stress(values)) {
+      // Von Mises, by the deviator.
+      const Real mean = (of->xx + of->yy + of->zz) / 3.0L, a = of->xx - mean, b = of->yy - mean, c = of->zz - mean;
+      const Real mises = std::sqrt(1.5L * (a * a + b * b + c * c + 2.0L * of->xy * of->xy));
+      std::array<double, 6>& stress = answers.stresses.emplace_back();
+      std::size_t i = 0;
+      for (const Real number : {of->xx, of->yy, of->xy, of->zz, mises, of->energy})
+        stress[i++] = static_cast<double>(number);
+      answers.stress_per_motion.push_back(static_cast<double>(of->per_motion));
+    }
+  answers.boundaries = scene.touched_by;
+  answers.lengths = check::ContactLengths(scene.contact_edges, scene.contacts.size(), state.positions);
+  return answers;
 }
 
 double ResidualCheck::DrivingForce(const CheckedState& state) const {

@@ -150,7 +150,7 @@ class SolidElement : public Element {
  public:
   SolidElement(const Solid& solid, const Material& material, std::vector<std::size_t> nodes,
                const std::vector<double>& reference)
-      : Element(std::move(nodes)) {
+      : Element(Kind::kSolid, std::move(nodes)) {
     law_.model = material.model;
     law_.plane = solid.plane;
     law_.lambda = material.lambda;
@@ -184,16 +184,40 @@ class SolidElement : public Element {
     }
   }
 
+  // The force across an area is the same whether it is told by the area now or at the start: sigma dv = P F' dV.
+  std::optional<MeanStress> Stress(const std::vector<double>& positions) const override {
+    const bool linear = law_.model == MaterialModel::kLinear;
+    MeanStress mean;
+    Real volume = 0.0L, steepest = 0.0L;
+    for (const Point& point : points_) {
+      const std::array<Real, 4> F = GradientAt(point, positions);
+      const Real across = Sound(F) ? law_.Across(F) : kNaN;
+      const Derivatives P = StressAt(F, across);
+      const Real sideways = law_.StressAcross(F, across);  // half the stress over C33, of the linear law the stress
+      if (linear) {
+        mean.xx += point.volume * P[0];
+        mean.yy += point.volume * P[3];
+        mean.xy += point.volume * (P[1] + P[2]) / 2.0L;
+        mean.zz += point.volume * sideways;
+      } else {
+        mean.xx += point.volume * (P[0] * F[0] + P[1] * F[1]);
+        mean.yy += point.volume * (P[2] * F[2] + P[3] * F[3]);
+        mean.xy += point.volume * (P[0] * F[2] + P[1] * F[3]);
+        mean.zz += point.volume * 2.0L * sideways * across;
+      }
+      volume += point.volume * (linear ? 1.0L : (F[0] * F[3] - F[1] * F[2]) * std::sqrt(across));
+      for (const Vector& gradient : point.gradients) steepest = std::max(steepest, Length(gradient));
+    }
+    for (Real* const of : {&mean.xx, &mean.yy, &mean.xy, &mean.zz}) *of /= volume;
+    mean.per_motion = (std::abs(law_.lambda) + 2.0L * law_.mu) * steepest;
+    AddEnergy(positions, &mean.energy);
+    return mean;
+  }
+
   void AddForce(const std::vector<double>& positions, std::vector<Real>* forces) const override {
     for (const Point& point : points_) {
       const std::array<Real, 4> F = GradientAt(point, positions);
-      std::array<Dual<4>, 4> variables;
-      for (int i = 0; i < 4; ++i)
-        variables[static_cast<std::size_t>(i)] = Variable<4>(F[static_cast<std::size_t>(i)], i);
-      // The thickness of plane stress makes W least: W does not change with it.
-      const Real across = Sound(F) ? law_.Across(F) : kNaN;
-      const Dual<4> energy = law_.Energy<Dual<4>>(variables, Dual<4>(across, Dual<4>::DerType::Zero()));
-      const auto& stress = energy.derivatives();
+      const Derivatives stress = StressAt(F, Sound(F) ? law_.Across(F) : kNaN);
       for (std::size_t i = 0; i < Nodes().size(); ++i) {
         const Vector& gradient = point.gradients[i];
         (*forces)[2 * Nodes()[i]] += point.volume * (stress[0] * gradient.x + stress[1] * gradient.y);
@@ -203,6 +227,15 @@ class SolidElement : public Element {
   }
 
  private:
+  using Derivatives = Dual<4>::DerType;
+
+  // dW/dF. The thickness of plane stress makes W least: W does not change with it.
+  Derivatives StressAt(const std::array<Real, 4>& F, Real across) const {
+    std::array<Dual<4>, 4> variables;
+    for (int i = 0; i < 4; ++i) variables[static_cast<std::size_t>(i)] = Variable<4>(F[static_cast<std::size_t>(i)], i);
+    return law_.Energy<Dual<4>>(variables, Dual<4>(across, Derivatives::Zero())).derivatives();
+  }
+
   // An integration point.
   struct Point {
     Real volume = 0.0L;

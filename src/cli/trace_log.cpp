@@ -3,73 +3,15 @@
 #include <cstdint>
 #include <iomanip>
 #include <locale>
-#include <nlohmann/json.hpp>
 #include <sstream>
-#include <type_traits>
 #include <utility>
-#include <vector>
 
-#include "contact_path/contact/contact_state.h"
+#include "cli/json_fields.h"
 #include "contact_path/path/end_reason.h"
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/write_scene.h"
 
 namespace contact_path {
-namespace {
-
-// Keys are sorted: objects that keep their order came to the library later than Ubuntu 20.04.
-using Json = nlohmann::json;
-
-// A value of a field: a number, a word, or a list of these.
-template <typename Value>
-Json JsonOf(const Value& value) {
-  if constexpr (std::is_enum_v<Value>)
-    return std::string(ToString(value));
-  else
-    return value;
-}
-Json JsonOf(const std::vector<ContactState>& states) {
-  Json list = Json::array();
-  for (const ContactState state : states) list.push_back(JsonOf(state));
-  return list;
-}
-
-// Parts with a description of their fields become objects, lists of them lists of objects.
-template <typename Part>
-void SetFields(const Part& part, Json* object);
-template <typename Value>
-Json FieldOf(const Value& value);
-template <typename Value>
-Json FieldOf(const std::vector<Value>& values) {
-  if constexpr (field_internal::IsDescribed<Value>::value) {
-    Json list = Json::array();
-    for (const Value& value : values) list.push_back(FieldOf(value));
-    return list;
-  } else {
-    return JsonOf(values);
-  }
-}
-template <typename Value>
-Json FieldOf(const Value& value) {
-  if constexpr (field_internal::IsDescribed<Value>::value) {
-    Json object;
-    SetFields(value, &object);
-    return object;
-  } else {
-    return JsonOf(value);
-  }
-}
-template <typename Part>
-void SetFields(const Part& part, Json* object) {
-  ForEachField<Part>([&](const auto& field) { (*object)[std::string(field.name)] = FieldOf(part.*field.member); });
-}
-
-void WriteLine(const Json& object, std::ostream* out) {
-  // Text that is not UTF-8 does not come through the reader of scenes.
-  *out << object.dump(-1, ' ', false, Json::error_handler_t::replace) << '\n' << std::flush;
-}
-
-}  // namespace
 
 std::string HashOf(const TraceRequest& request) {
   std::uint64_t hash = 14695981039346656037U;

@@ -330,6 +330,10 @@ class Verifier {
     const std::string wrong = ForcesContradicted(increment, check_.Forces(StateOf(increment)), scaling_, kExact,
                                                  kRoundingOfParts * stiffest_);
     if (!wrong.empty()) Report(wrong);
+    if (increment.sections.empty() && increment.stresses.empty() && increment.pressures.empty()) return;
+    const std::string answer = AnswersContradicted(increment, check_.Answers(StateOf(increment)), scaling_, kExact,
+                                                   kRoundingOfParts * stiffest_, kRoundingOfParts * scaling_.length);
+    if (!answer.empty()) Report(answer);
   }
 
   // What the law of friction is about. 0 where that is not known.

@@ -87,8 +87,9 @@ class InstallTest(unittest.TestCase):
     def test_rosrun_offers_the_programs_for_users_alone(self):
         """rosrun, and its completion, find every executable file of the package."""
         found = self.run_here('find', '-L', self.programs, self.share, '-type', 'f', '-perm', '/111', '-printf', '%f\n')
-        self.assertEqual(sorted(found.split()), ['contact_path_lattice', 'contact_path_markers', 'contact_path_mesh',
-                                                 'contact_path_node', 'contact_path_outlines', 'contact_path_study',
+        self.assertEqual(sorted(found.split()), ['contact_path_expand', 'contact_path_lattice', 'contact_path_markers', 'contact_path_mesh',
+                                                 'contact_path_node', 'contact_path_outlines', 'contact_path_response',
+                                                 'contact_path_study',
                                                  'contact_path_study_server', 'contact_path_trace', 'play', 'plot', 'verify',
                                                  'watch'])
 

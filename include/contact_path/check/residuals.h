@@ -53,6 +53,16 @@ struct CheckedForces {
                                                   // point p of an obstacle, or about the first node of a surface
 };
 
+// What the elements bear, and the lengths that contacts stand for.
+struct CheckedAnswers {
+  std::vector<std::array<double, 5>> sections;  // of bars and segments of beams: N, Q [force], M, M1, M2 [force length]
+  std::vector<std::array<double, 6>>
+      stresses;                           // of solids: xx, yy, xy, zz, mises [force/length^2], energy [force length]
+  std::vector<double> stress_per_motion;  // at least its change by a motion of the nodes [force/length^3]
+  std::vector<double> lengths;            // by contact candidate [length]
+  std::vector<std::size_t> boundaries;    // by contact candidate: which of TouchedBoundaries()
+};
+
 // Upper bounds of the forces at a contact candidate [force].
 struct ContactForceBound {
   double on_node = 0.0;       // on its node, across the contact
@@ -79,6 +89,7 @@ class ResidualCheck {
   std::vector<double> Unbalance(const CheckedState& state) const;
   // Of supports, obstacles and surfaces.
   CheckedForces Forces(const CheckedState& state) const;
+  CheckedAnswers Answers(const CheckedState& state) const;
   // The force that moving supports and obstacles exert along their motion per unit of the load factor [force length]:
   // the integral over the load factor is their work.
   double DrivingForce(const CheckedState& state) const;

@@ -1,0 +1,74 @@
+// contact_path_expand SCENE.yaml: writes what is traced of a scene as one JSON object to standard output: every field
+// of every part, also where the file leaves its default; the inner nodes of beams; loads and contacts of groups on
+// their nodes; stages that unload with the loads and motions that they take back; and the names that columns have.
+#include <CLI/CLI.hpp>
+#include <cstddef>
+#include <exception>
+#include <iostream>
+#include <string>
+
+#include "cli/json_fields.h"
+#include "contact_path/scene/element_names.h"
+#include "contact_path/scene/expand.h"
+#include "contact_path/scene/program.h"
+#include "contact_path/scene/reacting_parts.h"
+#include "contact_path/scene/read_scene.h"
+#include "contact_path/scene/validate.h"
+
+namespace contact_path {
+namespace {
+
+// The names of `count` things, by their place.
+template <typename Name>
+Json ListOf(std::size_t count, Name name) {
+  Json list = Json::array();
+  for (std::size_t i = 0; i < count; ++i) list.push_back(name(i));
+  return list;
+}
+
+Json Expanded(const TraceRequest& given) {
+  const ExpandedRequest expanded(given);
+  const TraceRequest& request = expanded.Get();
+  const Scene& scene = request.scene;
+  Json object = FieldOf(request);
+  for (std::size_t i = 0; i < request.program.size(); ++i) object["program"][i] = FieldOf(StageAsTraced(request, i));
+  for (std::size_t i = 0; i < scene.beams.size(); ++i)
+    object["scene"]["beams"][i]["name"] = BeamName(scene.beams[i], i);
+  const std::vector<bool> turns = NodesThatTurn(scene);
+  Json turning = Json::array(), supports = Json::array(), boundaries = Json::array(), contacts = Json::array();
+  for (std::size_t i = 0; i < turns.size(); ++i)
+    if (turns[i]) turning.push_back(scene.nodes[i].name);
+  for (const SupportedNode& support : SupportedNodes(scene))
+    supports.push_back(
+        {{"node", scene.nodes[support.node].name}, {"x", support.x}, {"y", support.y}, {"rotation", support.rotation}});
+  for (const TouchedBoundary& boundary : TouchedBoundaries(scene))
+    boundaries.push_back({{"name", boundary.name}, {"is_surface", boundary.is_surface}});
+  for (const ContactCandidate& contact : scene.contacts) contacts.push_back(contact.Name());
+  const ElementNames names(scene);
+  object["names"] = {{"turning", turning},
+                     {"supports", supports},
+                     {"boundaries", boundaries},
+                     {"contacts", contacts},
+                     {"sections", ListOf(names.NumSections(), [&](std::size_t i) { return names.SectionName(i); })},
+                     {"elements", ListOf(names.NumElements(), [&](std::size_t i) { return names.ElementName(i); })}};
+  return object;
+}
+
+}  // namespace
+}  // namespace contact_path
+
+int main(int argc, char** argv) {
+  CLI::App app("Writes what is traced of a scene as JSON to standard output.", "contact_path_expand");
+  std::string scene_file = "/dev/stdin";
+  app.add_option("SCENE", scene_file, "Scene file")->capture_default_str();
+  try {
+    app.parse(argc, argv);
+    contact_path::WriteLine(contact_path::Expanded(contact_path::ReadTraceRequestFile(scene_file)), &std::cout);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  } catch (const std::exception& error) {
+    std::cerr << "contact_path_expand: " << error.what() << '\n';
+    return 2;
+  }
+  return std::cout ? 0 : 1;
+}

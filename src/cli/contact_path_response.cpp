@@ -1,0 +1,128 @@
+// contact_path_response SCENE.yaml: what elements and contacts bear at increments of a path of the scene. Reads
+// increments as JSON, one a line, as contact_path_trace --log writes them, from standard input; for each writes a line
+// with its reactions, section forces, stresses, pressures and widths to standard output.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstddef>
+#include <exception>
+#include <iostream>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "cli/json_fields.h"
+#include "contact_path/path/increment_lists.h"
+#include "contact_path/path/model.h"
+#include "contact_path/path/recorder.h"
+#include "contact_path/scene/expand.h"
+#include "contact_path/scene/program.h"
+#include "contact_path/scene/read_scene.h"
+
+namespace contact_path {
+namespace {
+
+// Throws std::invalid_argument for a word that is none.
+ContactState StateFrom(const std::string& word) {
+  for (const ContactState state : {ContactState::kOpen, ContactState::kStick, ContactState::kSlipPlus,
+                                   ContactState::kSlipMinus, ContactState::kClosed})
+    if (word == ToString(state)) return state;
+  throw std::invalid_argument("state = " + word + ": must be open, closed, stick, slip+ or slip-");
+}
+
+// Throws Json::exception for another type.
+Increment IncrementFrom(const Json& line) {
+  Increment increment;
+  increment.stage = line.value("stage", 0);
+  increment.load_factor = line.at("load_factor").get<double>();
+  increment.positions = line.at("positions").get<std::vector<double>>();
+  increment.rotations = line.value("rotations", std::vector<double>());
+  for (const Json& contact : line.at("contacts")) {
+    ContactRecord& record = increment.contacts.emplace_back();
+    record.rn = contact.at("rn").get<double>();
+    record.rt = contact.at("rt").get<double>();
+    record.state = StateFrom(contact.at("state").get<std::string>());
+  }
+  return increment;
+}
+
+class Responder {
+ public:
+  explicit Responder(const TraceRequest& given)
+      : expanded_(given), index_(Request().scene), of_program_(ProgramScales(Request(), index_)) {}
+
+  // Throws std::invalid_argument where the increment is none of the scene.
+  Json Of(Increment increment) {
+    RequireSize(increment.positions.size(), 2 * Request().scene.nodes.size(), "positions");
+    RequireSize(increment.rotations.size(), Request().scene.beams.empty() ? 0 : Request().scene.nodes.size(),
+                "rotations");
+    RequireSize(increment.contacts.size(), Request().scene.contacts.size(), "contacts");
+    const auto stages = static_cast<int>(NumStages(Request()));
+    if (increment.stage < 0 || std::max(increment.stage, 1) > stages)
+      throw std::invalid_argument("stage = " + std::to_string(increment.stage) + ": must be at most " +
+                                  std::to_string(stages));
+    SetStage(static_cast<std::size_t>(std::max(increment.stage, 1) - 1));
+    const PathPoint point = model_->FromIncrement(increment);
+    FillState(*model_, point, &increment);
+    FillLists(*model_, point, {true, true, true}, &increment);
+    return {{"supports", FieldOf(increment.supports)},   {"boundaries", FieldOf(increment.boundaries)},
+            {"sections", FieldOf(increment.sections)},   {"stresses", FieldOf(increment.stresses)},
+            {"pressures", FieldOf(increment.pressures)}, {"widths", increment.widths}};
+  }
+
+ private:
+  const TraceRequest& Request() const { return expanded_.Get(); }
+
+  static void RequireSize(std::size_t size, std::size_t wanted, const std::string& name) {
+    if (size == wanted) return;
+    throw std::invalid_argument(name + " has " + std::to_string(size) + " entries: must be " + std::to_string(wanted));
+  }
+
+  void SetStage(std::size_t stage) {
+    if (model_ && stage == stage_) return;
+    stage_ = stage;
+    model_ = std::make_unique<const Model>(StageScene(Request(), index_, stage),
+                                           StageConfiguration(Request(), index_, stage),
+                                           StageScales(Request(), index_, stage, of_program_));
+  }
+
+  const ExpandedRequest expanded_;
+  const SceneIndex index_;
+  const Scaling of_program_;
+  std::size_t stage_ = 0;
+  std::unique_ptr<const Model> model_;  // of the stage
+};
+
+void Respond(const TraceRequest& request) {
+  Responder responder(request);
+  std::string line;
+  for (int number = 1; std::getline(std::cin, line); ++number) {
+    try {
+      WriteLine(responder.Of(IncrementFrom(Json::parse(line))), &std::cout);
+    } catch (const std::exception& error) {
+      throw std::invalid_argument("increment " + std::to_string(number) + " of standard input: " + error.what());
+    }
+  }
+}
+
+}  // namespace
+}  // namespace contact_path
+
+int main(int argc, char** argv) {
+  CLI::App app(
+      "Writes what elements and contacts bear at increments of a path, which are read as JSON lines from standard "
+      "input.",
+      "contact_path_response");
+  std::string scene_file;
+  app.add_option("SCENE", scene_file, "Scene file")->required();
+  try {
+    app.parse(argc, argv);
+    contact_path::Respond(contact_path::ReadTraceRequestFile(scene_file));
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  } catch (const std::exception& error) {
+    std::cerr << "contact_path_response: " << error.what() << '\n';
+    return 2;
+  }
+  return std::cout ? 0 : 1;
+}
