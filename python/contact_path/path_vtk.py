@@ -1,4 +1,4 @@
-"""Paths as files for ParaView: a collection with the structure and the obstacles in each increment."""
+"""Paths as files for ParaView: a collection with the structure, the obstacles and the superelements in each increment."""
 from __future__ import annotations
 
 import os
