@@ -176,8 +176,8 @@ class Path:
         return path_frames.dataset(self)
 
     def to_vtk(self, directory: str | os.PathLike[str]) -> str:
-        """Writes files for ParaView, and returns the name of the collection, path.pvd: a file of the structure and one of the
-        obstacles for each increment that carries positions. Needs meshio. ValueError: the path has no scene."""
+        """Writes files for ParaView, and returns the name of the collection, path.pvd: a file of the structure, one of the
+        obstacles and one of the superelements for each increment that carries positions. Needs meshio. ValueError: the path has no scene."""
         from contact_path import path_vtk  # it needs this module
 
         return path_vtk.write(self, os.fspath(directory))

@@ -1,18 +1,21 @@
-"""Paths as files for ParaView: a collection with the structure and the obstacles in each increment."""
+"""Paths as files for ParaView: a collection with the structure, the obstacles and the superelements in each increment."""
 from __future__ import annotations
 
 import os
-from typing import Any, Dict, List, Sequence, Tuple
+from typing import Any, Dict, List, Mapping, Sequence, Tuple
 
 import numpy as np
 
 from contact_path.path import STATES, Path
-from contact_path.path_file import SECTIONS, STRESSES
+from contact_path.path_file import PRESSURES, SECTIONS, STRESSES
 from contact_path.scene_arrays import Structure
 from contact_path.shapes import Curve, Shape
 
 CELLS = {3: 'triangle', 4: 'quad', 6: 'triangle6', 8: 'quad8'}
 COLLECTION = 'path.pvd'
+GRID = '<UnstructuredGrid>\n'
+#: Of an increment as a whole.
+FACTS = ('stage', 'load_factor', 'arc_length', 'strain_energy', 'dissipation')
 
 
 def write(path: Path, directory: str) -> str:
@@ -32,15 +35,29 @@ def write(path: Path, directory: str) -> str:
         parts = [('structure', structure_mesh(structure, shape))]
         if structure.obstacles:
             parts.append(('obstacles', obstacle_mesh(structure, shape, box)))
+        if structure.superelements:
+            parts.append(('superelements', superelement_mesh(structure, shape)))
         for number, (name, mesh) in enumerate(parts):
             file = '%s_%05d.vtu' % (name, index)
             mesh.write(os.path.join(directory, file))
+            if number == 0:
+                add_facts(os.path.join(directory, file), shape.increment)
             lines.append('    <DataSet timestep="%d" part="%d" name="%s" file="%s"/>' % (index, number, name, file))
     collection = os.path.join(directory, COLLECTION)
     with open(collection, 'w', encoding='utf-8') as out:
         out.write('<?xml version="1.0"?>\n<VTKFile type="Collection" version="0.1" byte_order="LittleEndian">\n  <Collection>\n'
                   + '\n'.join(lines) + '\n  </Collection>\n</VTKFile>\n')
     return collection
+
+
+def add_facts(file: str, increment: Mapping[str, Any]) -> None:
+    """Puts what belongs to no point into a file, as field data, which meshio does not write."""
+    with open(file, encoding='utf-8') as mesh:
+        before, grid, after = mesh.read().partition(GRID)
+    facts = ''.join('<DataArray type="Float64" Name="%s" NumberOfTuples="1" format="ascii">%.17g</DataArray>\n'
+                    % (name, increment[name]) for name in FACTS if name in increment)
+    with open(file, 'w', encoding='utf-8') as mesh:
+        mesh.write(before + grid + '<FieldData>\n' + facts + '</FieldData>\n' + after)
 
 
 def in_space(vectors: np.ndarray) -> np.ndarray:
@@ -65,8 +82,19 @@ def structure_mesh(structure: Structure, shape: Shape) -> Any:
             'displacement': in_space(shape.places - structure.initial), 'initial': in_space(structure.initial),
             'rotation': np.nan_to_num(structure.rotations(increment)), 'load': in_space(shape.loads + shape.constant_loads),
             'moment': shape.moments + shape.constant_moments, 'contact_force': in_space(reactions), 'contact_state': states,
-            'support_force': in_space(supports[:, :2]), 'support_moment': supports[:, 2]},
+            'support_force': in_space(supports[:, :2]), 'support_moment': supports[:, 2], **pressures(structure, increment)},
         cell_data=cell_data(increment, cells))
+
+
+def pressures(structure: Structure, increment: Mapping[str, Any]) -> Dict[str, np.ndarray]:
+    """Pressure and traction (n,) that the increment carries; of a node with several contacts those of the largest pressure."""
+    if not any('pressure_' + name in increment for name in structure.contacts):
+        return {}
+    of_contacts = np.array([structure.of_contacts(increment, field + '_') for field in PRESSURES])
+    data = np.zeros((len(PRESSURES), len(structure.names)))
+    for contact in np.argsort(of_contacts[0], kind='stable'):
+        data[:, structure.contact_nodes[contact]] = of_contacts[:, contact]
+    return dict(zip(PRESSURES, data))
 
 
 def cell_blocks(structure: Structure) -> List[Tuple[str, np.ndarray, List[str]]]:
@@ -105,3 +133,20 @@ def obstacle_mesh(structure: Structure, shape: Shape, box: Tuple[np.ndarray, np.
         count += len(curve)
     return meshio.Mesh(in_space(np.concatenate(points)), [('line', np.concatenate(lines))],
                        cell_data={'obstacle': [np.array(numbers)]})
+
+
+def superelement_mesh(structure: Structure, shape: Shape) -> Any:
+    """Lines from the nodes of each superelement to their midst, of a single node to where it is at rest."""
+    import meshio
+
+    nodes = np.array([node for members, _ in structure.superelements for node in members])
+    numbers = np.array([number for number, (members, _) in enumerate(structure.superelements) for _ in members])
+    # A single node is held at one place.
+    hubs = [rest if len(members) == 1 and len(rest) else structure.initial[members].mean(axis=0)
+            for members, rest in structure.superelements]
+    now, initial = (np.concatenate((places[nodes], middles))
+                    for places, middles in ((shape.places, shape.hubs), (structure.initial, hubs)))
+    lines = np.column_stack((np.arange(len(nodes)), len(nodes) + numbers))
+    return meshio.Mesh(in_space(now), [('line', lines)],
+                       point_data={'displacement': in_space(now - initial), 'initial': in_space(initial)},
+                       cell_data={'superelement': [numbers]})

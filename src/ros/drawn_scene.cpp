@@ -69,6 +69,7 @@ DrawnScene::DrawnScene(const TraceRequest& request_given) : name(OneLine(request
   inner.assign(initial.size(), false);
   AddElements(scene, index);
   FindSupports(scene);
+  reacting = SupportedNodes(scene);
   AddContacts(scene, index);
   has_program = !request.program.empty();
   num_stages = NumStages(request);
@@ -222,7 +223,8 @@ bool DrawnScene::Fits(const msgs::Increment& increment) const {
   const bool of_a_stage = has_program ? increment.stage >= 1 && increment.stage <= num_stages : increment.stage == 0;
   return of_a_stage && increment.x.size() == initial.size() && increment.y.size() == initial.size() &&
          (segments.empty() || increment.rotation.size() == initial.size()) &&
-         increment.contacts.size() == contacts.size();
+         increment.contacts.size() == contacts.size() &&
+         (increment.supports.empty() || increment.supports.size() == reacting.size());
 }
 
 double DrawnScene::LargestForce(const msgs::Increment& increment) const {
@@ -234,6 +236,8 @@ double DrawnScene::LargestForce(const msgs::Increment& increment) const {
   }
   for (const msgs::ContactState& contact : increment.contacts)
     largest = std::max(largest, std::hypot(contact.rn, contact.rt));
+  for (const msgs::Resultant& reaction : increment.supports)
+    largest = std::max({largest, std::hypot(reaction.rx, reaction.ry), std::abs(reaction.rm) / size});
   return largest;
 }
 

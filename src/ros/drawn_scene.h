@@ -13,6 +13,7 @@
 
 #include "contact_path/ros/messages.h"
 #include "contact_path/scene/boundary_curve.h"
+#include "contact_path/scene/reacting_parts.h"
 #include "contact_path/scene/scene.h"
 #include "contact_path/scene/scene_index.h"
 #include "contact_path/structure/element.h"
@@ -63,7 +64,8 @@ struct DrawnScene {
   // `request` must be sound (validate.h).
   explicit DrawnScene(const TraceRequest& request);
 
-  // Whether the increment is of a stage of the request and has as many positions and contacts as the scene.
+  // Whether the increment is of a stage of the request and has as many positions and contacts as the scene, and as many
+  // reactions of supports, or none.
   bool Fits(const contact_path_msgs::Increment& increment) const;
   std::shared_ptr<const DrawnStage> StageOf(const contact_path_msgs::Increment& increment) const;
   // The largest of all loads and reactions; a moment counts as a force at the distance of the size [force].
@@ -82,6 +84,7 @@ struct DrawnScene {
   std::vector<Eigen::Vector2d> rest;             // by star: of its first node
   std::vector<DrawnCell> cells;                  // elements of solids
   std::vector<DrawnSupport> supports;
+  std::vector<SupportedNode> reacting;  // whose reactions the increments have
   std::vector<DrawnSurface> surfaces;
   std::vector<DrawnCandidate> contacts;
 

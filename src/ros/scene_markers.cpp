@@ -58,6 +58,7 @@ const ColorRGBA kSupportColour = Colour(0.60F, 0.60F, 0.60F);
 const ColorRGBA kLoadColour = Colour(0.13F, 0.40F, 0.67F);
 const ColorRGBA kConstantLoadColour = Colour(0.50F, 0.70F, 0.84F);
 const ColorRGBA kReactionColour = Colour(0.70F, 0.09F, 0.17F);
+const ColorRGBA kSupportReactionColour = Colour(0.46F, 0.16F, 0.51F);
 const ColorRGBA kConeColour = Colour(0.70F, 0.09F, 0.17F, 0.45F);
 const ColorRGBA kSurfaceColour = Colour(0.11F, 0.47F, 0.22F);
 const ColorRGBA kTextColour = Colour(0.25F, 0.25F, 0.25F);
@@ -289,19 +290,28 @@ void DrawForces(const DrawnScene& scene, const DrawnStage& stage, const NodePlac
   const auto draw = [&](std::size_t node, const Vector2d& force, const ColorRGBA& colour) {
     if (force.norm() > kShortest * full_force) picture->AddArrow(places[node], scale * force, colour);
   };
+  const auto draw_moment = [&](std::size_t node, double moment, const ColorRGBA& colour) {
+    const double part = moment / (full_force * scene.size);
+    if (std::abs(part) > kShortest)
+      picture->AddTurnedArrow(places[node], kMomentRadius * scene.size, kFullTurn * part, colour);
+  };
   picture->BeginTriangles("loads", 0, kLoadColour, kArrows);
   for (const DrawnLoad& load : stage.loads) {
     const ColorRGBA& colour = load.constant ? kConstantLoadColour : kLoadColour;
     const double share = load.Share(increment.load_factor);
     draw(load.node, share * load.force, colour);
-    const double part = share * load.moment / (full_force * scene.size);
-    if (std::abs(part) > kShortest)
-      picture->AddTurnedArrow(places[load.node], kMomentRadius * scene.size, kFullTurn * part, colour);
+    draw_moment(load.node, share * load.moment, colour);
   }
   picture->BeginTriangles("reactions", 0, kReactionColour, kArrows);
   for (std::size_t i = 0; i < scene.contacts.size(); ++i)
     draw(scene.contacts[i].node, increment.contacts[i].rn * normals[i] + increment.contacts[i].rt * Tangent(normals[i]),
          kReactionColour);
+  picture->BeginTriangles("support_reactions", 0, kSupportReactionColour, kArrows);
+  for (std::size_t i = 0; i < increment.supports.size(); ++i) {
+    const msgs::Resultant& reaction = increment.supports[i];
+    draw(scene.reacting[i].node, {reaction.rx, reaction.ry}, kSupportReactionColour);
+    draw_moment(scene.reacting[i].node, reaction.rm, kSupportReactionColour);
+  }
 }
 
 // Above the initial shape.
@@ -314,7 +324,9 @@ void DrawCaption(const DrawnScene& scene, const std::string& caption, const Draw
   force.imbue(std::locale::classic());
   force << std::setprecision(3) << full_force;
   const bool moments =
-      std::any_of(stage.loads.begin(), stage.loads.end(), [](const DrawnLoad& load) { return load.moment != 0.0; });
+      std::any_of(stage.loads.begin(), stage.loads.end(), [](const DrawnLoad& load) { return load.moment != 0.0; }) ||
+      std::any_of(scene.reacting.begin(), scene.reacting.end(),
+                  [](const SupportedNode& node) { return node.rotation; });
   if (moments) force << ", turned by 3/4: " << full_force * scene.size;
   picture->AddText("caption", 0, above + Vector2d(0.0, 2.0 * height), height, kTextColour, caption);
   picture->BeginTriangles("caption", 1, kTextColour, kText);

@@ -91,5 +91,77 @@ class TablesTest(unittest.TestCase):
             cp.Path({'x_a': np.zeros(1)}).to_vtk('nowhere')
 
 
+# Nodes of a unit square and of the middles of its edges, and by the number of its nodes an element, corners before mid-sides.
+SQUARE = {'a': (0.0, 0.0), 'b': (1.0, 0.0), 'c': (1.0, 1.0), 'd': (0.0, 1.0), 'ab': (0.5, 0.0), 'bc': (1.0, 0.5), 'cd': (0.5, 1.0),
+          'da': (0.0, 0.5), 'ca': (0.5, 0.5)}
+ELEMENTS = {3: ['a', 'b', 'c'], 4: ['a', 'b', 'c', 'd'], 6: ['a', 'b', 'c', 'ab', 'bc', 'ca'],
+            8: ['a', 'b', 'c', 'd', 'ab', 'bc', 'cd', 'da']}
+
+
+@unittest.skipIf(meshio is None, 'meshio is not installed')
+class ParaviewTest(unittest.TestCase):
+    """What the files for ParaView hold of each kind of part, in the last increment."""
+
+    def last(self, path, name):
+        """The file of a block as a mesh, and its field data."""
+        with tempfile.TemporaryDirectory() as directory:
+            entries = xml.etree.ElementTree.parse(path.to_vtk(directory)).getroot().findall('Collection/DataSet')
+            files = [entry.get('file') for entry in entries if entry.get('name') == name]
+            self.assertEqual(len(files), len(path))
+            file = os.path.join(directory, files[-1])
+            fields = {array.get('Name'): float(array.text) for array in xml.etree.ElementTree.parse(file).iter('DataArray')
+                      if array.get('NumberOfTuples') == '1'}
+            return meshio.read(file), fields
+
+    def test_elements_of_solids(self):
+        for count, names in ELEMENTS.items():
+            scene = cp.Scene('element')
+            for name in names:
+                scene.node(name, x=SQUARE[name][0], y=SQUARE[name][1], fixed_x=name != 'c', fixed_y=name != 'c')
+            scene.material('rubber', E=1.0, nu=0.3)
+            scene.solid('element', material='rubber', nodes_per_element=count, nodes=names)
+            scene.load(node='c', fx=0.01)
+            scene.stop('load_factor', '>', 1.0)
+            path = cp.trace(scene, record=['stresses'])
+            mesh, fields = self.last(path, 'structure')
+            kind = {3: 'triangle', 4: 'quad', 6: 'triangle6', 8: 'quad8'}[count]
+            self.assertEqual([block.type for block in mesh.cells], [kind])
+            corners, middles = np.split(mesh.point_data['initial'][mesh.cells[0].data[0]], [3 if count in (3, 6) else 4])
+            if len(middles):
+                np.testing.assert_array_equal(middles, 0.5 * (corners + np.roll(corners, -1, axis=0)))
+            np.testing.assert_array_equal(mesh.cell_data['mises'][0], [path['mises_element.1'][-1]])
+            self.assertEqual(fields['load_factor'], path['load_factor'][-1])
+            self.assertEqual(fields['strain_energy'], path['strain_energy'][-1])
+            self.assertNotIn('pressure', mesh.point_data)  # without contacts
+
+    def test_superelements(self):
+        """One between two nodes and one of a single node, which is held at one place."""
+        scene = cp.Scene('springs')
+        scene.node('a', x=0.0, y=0.0)
+        scene.node('b', x=2.0, y=0.0)
+        apart = np.array([[1.0, 0.0], [0.0, 1.0]])
+        scene.superelement(['a', 'b'], stiffness=np.block([[apart, -apart], [-apart, apart]]))
+        scene.superelement(['a'], stiffness=apart, rest_positions=[0.0, 0.5])
+        scene.load(node='b', fx=1.0)
+        scene.stop('load_factor', '>', 1.0)
+        path = cp.trace(scene)
+        mesh, _ = self.last(path, 'superelements')
+        lines = mesh.points[mesh.cells[0].data][:, :, :2]
+        a, b = ([path[axis + node][-1] for axis in ('x_', 'y_')] for node in ('a', 'b'))
+        middle = 0.5 * np.add(a, b)
+        np.testing.assert_allclose(lines, [[a, middle], [b, middle], [a, [0.0, 0.5]]], atol=1e-12)
+        np.testing.assert_array_equal(mesh.cell_data['superelement'][0], [0, 0, 1])
+        np.testing.assert_allclose(mesh.points - mesh.point_data['displacement'], mesh.point_data['initial'], atol=1e-12)
+        self.assertEqual([block.type for block in self.last(path, 'structure')[0].cells], ['vertex'])
+
+    def test_pressures(self):
+        path = cp.trace(os.path.join(os.environ['CONTACT_PATH_ROOT'], 'scenes', 'hertz.yaml'), record=['pressures'])
+        mesh, _ = self.last(path, 'structure')
+        nodes = [path.nodes.index(name.split('@')[0]) for name in path.contacts]
+        for field in 'pressure', 'traction':
+            np.testing.assert_array_equal(mesh.point_data[field][nodes], [path[field + '_' + name][-1] for name in path.contacts])
+            self.assertEqual(np.count_nonzero(np.delete(mesh.point_data[field], nodes)), 0)
+
+
 if __name__ == '__main__':
     unittest.main()

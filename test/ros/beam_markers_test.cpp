@@ -110,21 +110,24 @@ TEST(BeamMarkersTest, IncrementsWithoutRotationsDoNotFit) {
   EXPECT_FALSE(markers.Fits(increment));
 }
 
-// The angle that the arrow of the moment at the tip goes around, > 0 to the left.
-double TurnAtTip(const MarkerArray& picture, const msgs::Increment& increment) {
-  const Vector2d tip(increment.x[1], increment.y[1]);
-  const std::vector<Vector2d> points = Points(Find(picture, "loads"));
+// The angle that the arrow of a moment on a node goes around, > 0 to the left.
+double TurnAround(const Vector2d& node, const std::vector<Vector2d>& points) {
   if (points.empty()) return 0.0;
   double turn = 0.0;
-  Vector2d before = points.front() - tip;
+  Vector2d before = points.front() - node;
   for (const Vector2d& point : points) {
-    const Vector2d now = point - tip;
+    const Vector2d now = point - node;
     turn += std::atan2(before.x() * now.y() - before.y() * now.x(), before.dot(now));
     before = now;
   }
   // The last corner is of the head, behind its tip.
-  const Vector2d head = points[points.size() - 2] - tip;
+  const Vector2d head = points[points.size() - 2] - node;
   return turn + std::atan2(before.x() * head.y() - before.y() * head.x(), before.dot(head));
+}
+
+// Of the moment at the tip.
+double TurnAtTip(const MarkerArray& picture, const msgs::Increment& increment) {
+  return TurnAround({increment.x[1], increment.y[1]}, Points(Find(picture, "loads")));
 }
 
 TEST(BeamMarkersTest, MomentsAreArrowsThatTurnByTheirSize) {
@@ -145,6 +148,28 @@ TEST(BeamMarkersTest, MomentsAreArrowsThatTurnByTheirSize) {
     EXPECT_EQ(Find(markers.Draw(increment, 2.0), "loads").action, visualization_msgs::Marker::DELETE);
     EXPECT_NE(Find(picture, "caption", 2).text.find("turned by 3/4: "), std::string::npos);
   }
+}
+
+// The moment of a clamp, in the scale of the moments of loads; the force of the clamp is an arrow besides.
+TEST(BeamMarkersTest, MomentsOfClampsAreTurnedArrows) {
+  TraceRequest request = Leg(4);
+  request.scene.nodes[0].fixed_rotation = true;
+  request.scene.loads = {{"b", 0.0, 0.0, false, 2.0}};
+  const SceneMarkers markers(request, World());
+  msgs::Increment increment = BentLeg(4, 1.0);
+  increment.supports.resize(1);
+  for (const double moment : {-2.0, 1.0}) {
+    increment.supports[0].rm = moment;
+    EXPECT_NEAR(markers.LargestForce(increment), 2.0, kRounding);
+    const MarkerArray picture = markers.Draw(increment, 2.0);
+    ExpectSound(picture);
+    EXPECT_NEAR(TurnAround(Vector2d::Zero(), Points(Find(picture, "support_reactions"))),
+                0.5 * moment * TurnAtTip(picture, increment), kRounding);
+    EXPECT_NE(Find(picture, "caption", 2).text.find("turned by 3/4: "), std::string::npos);
+  }
+  const std::size_t points = Find(markers.Draw(increment, 2.0), "support_reactions").points.size();
+  increment.supports[0].rx = 1.0;
+  EXPECT_EQ(Find(markers.Draw(increment, 2.0), "support_reactions").points.size(), points + 9U);
 }
 
 }  // namespace

@@ -192,7 +192,7 @@ class MarkersTest(unittest.TestCase):
         self.assertEqual(manager['Views']['Current']['Class'], 'rviz/TopDownOrtho')
 
     def test_layout_of_plotjuggler_plots_numbers_of_the_increments(self):
-        increment = self.increments_of(self.trace(helpers.request_of('portal_frame')))[-1]  # contacts and rotations
+        increment = self.increments_of(self.trace(helpers.request_of('peg_in_hole')))[-1]  # contacts, rotations and supports
         curves = list(tree.parse(self.package_file('config', 'plotjuggler.xml')).getroot().iter('curve'))
         self.assertGreater(len(curves), 5)
         for curve in curves:

@@ -106,7 +106,8 @@ TEST(SceneMarkersTest, AnyPictureReplacesAnyOther) {
     ExpectSound(picture);
   }
   const MarkerArray picture = spring.Draw(SpringIncrement(0.0), 0.0);
-  for (const char* const name : {"obstacles", "supports", "contacts", "cones", "reactions", "loads"}) {
+  for (const char* const name :
+       {"obstacles", "supports", "contacts", "cones", "reactions", "support_reactions", "loads"}) {
     EXPECT_EQ(Find(picture, name).action, Marker::DELETE) << name;
   }
   EXPECT_EQ(Find(picture, "structure").action, Marker::DELETE);  // no bars
@@ -324,6 +325,48 @@ TEST(SceneMarkersTest, LargestForceIsThatOfReactionsAndLoads) {
   const SceneMarkers markers(Slope(), World());
   EXPECT_NEAR(markers.LargestForce(SlopeIncrement(3.0)), 6.0, kRounding);
   EXPECT_NEAR(markers.LargestForce(SlopeIncrement(0.0)), std::hypot(1.2, 0.6), kRounding);
+}
+
+msgs::Resultant Reaction(double rx, double ry, double rm = 0.0) {
+  msgs::Resultant reaction;
+  reaction.rx = rx;
+  reaction.ry = ry;
+  reaction.rm = rm;
+  return reaction;
+}
+
+// Of the pin at (0, 2) and of the roll at (5.5, 3).
+TEST(SceneMarkersTest, ReactionsOfSupportsHaveTheScaleOfTheOthers) {
+  const SceneMarkers markers(Slope(), World());
+  msgs::Increment increment = SlopeIncrement();
+  increment.supports = {Reaction(-1.5, 2.0), Reaction(0.0, 0.0)};
+  EXPECT_TRUE(markers.Fits(increment));
+  EXPECT_NEAR(markers.LargestForce(increment), 2.5, kRounding);
+  const Vector2d pin(0.0, 2.0), foot(3.8, 1.6), roll(5.5, 3.0);
+  const MarkerArray picture = markers.Draw(increment, 2.5);
+  ExpectSound(picture);
+  ASSERT_EQ(Find(picture, "support_reactions").points.size(), 9U);  // the roll, which does not react, has no arrow
+  const Vector2d arrow = Farthest(Find(picture, "support_reactions"), pin) - pin;
+  const double scale = (Farthest(Find(picture, "reactions"), foot) - foot).norm() / std::hypot(1.2, 0.6);
+  EXPECT_LT((arrow - scale * Vector2d(-1.5, 2.0)).norm(), kRounding);
+
+  increment.supports = {Reaction(0.0, 0.0), Reaction(0.0, -1.0)};
+  const MarkerArray at_roll = markers.Draw(increment, 2.5);
+  ASSERT_EQ(Find(at_roll, "support_reactions").points.size(), 9U);
+  EXPECT_LT((Farthest(Find(at_roll, "support_reactions"), roll) - roll - scale * Vector2d(0.0, -1.0)).norm(),
+            kRounding);
+}
+
+TEST(SceneMarkersTest, SupportsThatDoNotReactDrawNothing) {
+  const SceneMarkers markers(Slope(), World());
+  msgs::Increment increment = SlopeIncrement();
+  EXPECT_EQ(Find(markers.Draw(increment, 2.0), "support_reactions").action, Marker::DELETE);  // none are told
+  EXPECT_EQ(Find(markers.DrawInitial(), "support_reactions").action, Marker::DELETE);
+  increment.supports = {Reaction(0.0, 0.0), Reaction(0.0, 0.0)};
+  EXPECT_TRUE(markers.Fits(increment));
+  EXPECT_EQ(Find(markers.Draw(increment, 2.0), "support_reactions").action, Marker::DELETE);
+  increment.supports.pop_back();
+  EXPECT_FALSE(markers.Fits(increment));
 }
 
 TEST(SceneMarkersTest, SuperelementsAreTiedToTheirMiddleOrToTheGround) {

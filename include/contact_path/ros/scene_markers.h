@@ -20,7 +20,8 @@
 //   supports        0  triangles away from the structure; with a stroke beyond where the node can slide along it
 //   contacts        0  nodes of contact candidates: open grey, stick orange, slip+ yellow, slip- blue, closed green
 //   cones           0  friction cones at contacts that touch
-//   reactions       0  arrows, from the node
+//   reactions       0  arrows of contacts, from the node
+//   support_reactions  0  arrows of supports, from the node; of moments around it, as those of loads
 //   loads           0  arrows, from the node; of moments around it, counterclockwise where they are positive; constant
 //                      loads are lighter
 //   caption         0  scene, stage, increment, load factor
@@ -58,7 +59,7 @@ class SceneMarkers {
   SceneMarkers(const TraceRequest& request, const MarkerOptions& options);
 
   // Whether the increment is of a stage of the request and has as many positions, rotations and contacts as the
-  // scene; increments that are thinned out (full_state_every) have none.
+  // scene; increments that are thinned out (full_state_every) have none. Of reactions of supports it may have none.
   bool Fits(const contact_path_msgs::Increment& increment) const;
 
   // The largest of all loads and reactions of an increment that fits; a moment counts as a force at the distance of
