@@ -10,7 +10,7 @@ import inspect
 import os
 from typing import Any, Dict, List, Mapping, Sequence
 
-from contact_path import scene_text
+from contact_path.io.text import block
 
 Entry = Dict[str, Any]
 
@@ -232,7 +232,7 @@ class Scene(Loading):
 
     def text(self) -> str:
         """The scene as the text of a scene file."""
-        return scene_text.block(_without_defaults(self.request))
+        return block(_without_defaults(self.request))
 
     def write(self, file: str | os.PathLike[str]) -> None:
         """Writes a scene file, which Scene.read reads back as it is."""
@@ -272,6 +272,13 @@ class Scene(Loading):
         return _without_defaults(self.request) == _without_defaults(other.request)
 
     __hash__ = None  # type: ignore[assignment]  # it changes
+
+
+def with_options(scene: Scene | str | os.PathLike[str], options: dict[str, Any]) -> Scene:
+    """A scene of its own with these options."""
+    scene = scene.copy() if isinstance(scene, Scene) else Scene.read(scene)
+    scene.options(**options)
+    return scene
 
 
 def _fields(method: Any) -> Dict[str, str]:
