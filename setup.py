@@ -5,4 +5,4 @@ from setuptools import find_packages, setup
 PACKAGES = find_packages('python')
 
 setup(**generate_distutils_setup(packages=PACKAGES, package_dir={'': 'python'},
-                                 package_data={'contact_path.page': ['web/*']}))
+                                 package_data={'contact_path': ['py.typed'], 'contact_path.page': ['web/*']}))

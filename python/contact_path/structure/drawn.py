@@ -3,7 +3,8 @@ from __future__ import annotations
 
 from typing import Any, Dict, Iterable, List
 
-from contact_path.scene import PARTS, Scene, with_defaults
+from contact_path.parts import PARTS, with_defaults
+from contact_path.scene import Scene
 from contact_path.structure.expand import expand
 
 Entry = Dict[str, Any]
