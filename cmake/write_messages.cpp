@@ -1,6 +1,9 @@
 // Gives the messages of the parts of a scene what scene/scene.h and solid_parts.h describe and they lack: a field, or a whole message
 // for a new kind of part. What a message has stays as it is. Usage: write_messages DIRECTORY
 //
+// write_messages --fields: prints the fields instead, for write_signatures.py. In a line: the field of a request that holds the part, the
+// field, its type and its comment as in messages, with tabs between them.
+//
 // The messages must be there before CMake runs, so scripts/messages compiles this from the headers alone.
 #include <cxxabi.h>
 
@@ -92,14 +95,30 @@ void Complete(const std::string& directory) {
   }
 }
 
+// holder: the field that holds the part.
+template <typename Part>
+void Print(const std::string& holder) {
+  ForEachField<Part>([&](const auto& field) {
+    using Value = typename std::decay_t<decltype(field)>::Value;
+    const std::string comment = CommentOf(field), name(field.name);
+    std::cout << holder << '\t' << name << '\t' << TypeOf<Value>() << '\t' << (comment.empty() ? "" : comment.substr(4))
+              << '\n';
+    if constexpr (kIsPart<Value>) Print<Value>(name);
+    if constexpr (kIsPartList<Value>) Print<typename Value::value_type>(name);
+  });
+}
+
 }  // namespace
 }  // namespace contact_path
 
 int main(int argc, char** argv) {
   if (argc != 2) {
-    std::cerr << "usage: write_messages DIRECTORY\n";
+    std::cerr << "usage: write_messages DIRECTORY, or write_messages --fields\n";
     return 2;
   }
-  contact_path::Complete<contact_path::TraceRequest>(argv[1]);
+  if (std::string(argv[1]) == "--fields")
+    contact_path::Print<contact_path::TraceRequest>("request");
+  else
+    contact_path::Complete<contact_path::TraceRequest>(argv[1]);
   return 0;
 }

@@ -1,5 +1,5 @@
 // contact_path_study_server SCENE.yaml: traces variants of a scene, one for each line of standard input. Python's
-// study_server.py is its client.
+// study/server.py of the Python package is its client.
 //
 // Says "ready", its version and the kinds of the parameters, then answers each line with a line. Words of a line are
 // separated by tabs. Requests: "value PARAMETER VALUE", whether a value is of the type of its parameter: answered by

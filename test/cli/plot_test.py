@@ -23,8 +23,10 @@ import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 from matplotlib.quiver import Quiver  # noqa: E402
 
-from contact_path import Path, Scene, obstacle_curves, plot_panels, plot_shapes, program_trace, read  # noqa: E402
-from contact_path.scene_arrays import Structure  # noqa: E402
+from contact_path import Path, Scene, programs, read  # noqa: E402
+from contact_path.plot import panels as plot_panels, shapes as plot_shapes  # noqa: E402
+from contact_path.structure import obstacles as obstacle_curves  # noqa: E402
+from contact_path.structure.arrays import Structure  # noqa: E402
 
 
 loader = importlib.machinery.SourceFileLoader('plot', PLOT)
@@ -319,7 +321,7 @@ class Obstacles(QuickPlotTest):
     def test_program_for_curves_alone(self):
         """Where it is not, half planes are drawn, and anything else is refused by one line."""
         with mock.patch.dict(os.environ, {'CMAKE_PREFIX_PATH': '', 'PATH': '', 'CONTACT_PATH_PROGRAMS': ''}), \
-                mock.patch.object(program_trace, '__file__', self.path('program_trace.py')):
+                mock.patch.object(programs, '__file__', self.path('programs.py')):
             self.assertTrue(self.boundary(nx=1.0).flat)
             thing = self.boundary(shape='circle', radius=2.5)
             with self.assertRaisesRegex(ValueError, '^contact_path_outlines is not there: .*$'):

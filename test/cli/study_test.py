@@ -19,7 +19,7 @@ import unittest
 import program_test
 
 sys.path.insert(0, os.path.join(os.environ['CONTACT_PATH_ROOT'], 'python'))
-from contact_path import study_file, study_points  # noqa: E402
+from contact_path.study import file as study_file, points as study_points  # noqa: E402
 
 STUDY = os.environ['CONTACT_PATH_STUDY']
 SERVER = os.path.join(os.environ['CONTACT_PATH_PROGRAMS'], 'contact_path_study_server')

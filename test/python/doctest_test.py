@@ -13,13 +13,13 @@ import unittest
 sys.path.insert(0, os.path.join(os.environ['CONTACT_PATH_ROOT'], 'python'))
 import contact_path  # noqa: E402
 
-NEED_ROS = ('node_trace', 'msg', 'srv')
+NEED_ROS = ('contact_path.io.node', 'contact_path.msg', 'contact_path.srv')
 
 
 def load_tests(_, tests, __):
-    for module in pkgutil.iter_modules(contact_path.__path__):
-        if module.name not in NEED_ROS:
-            found = doctest.DocTestFinder(exclude_empty=True).find(importlib.import_module('contact_path.' + module.name))
+    for module in pkgutil.walk_packages(contact_path.__path__, 'contact_path.'):
+        if not module.name.startswith(NEED_ROS):
+            found = doctest.DocTestFinder(exclude_empty=True).find(importlib.import_module(module.name))
             tests.addTests(doctest.DocTestCase(test) for test in found if test.examples)
     return tests
 

@@ -17,7 +17,8 @@ ROOT = os.environ['CONTACT_PATH_ROOT']
 PLOT = os.path.join(ROOT, 'scripts', 'plot')
 sys.path.insert(0, os.path.join(ROOT, 'python'))
 import contact_path as cp  # noqa: E402
-from contact_path import path_file, study_server  # noqa: E402
+from contact_path.io.table import table_of  # noqa: E402
+from contact_path.study import server as study_server  # noqa: E402
 
 FRICTIONS, HEIGHTS = ('1.0', '1.2', '1.4'), ('1.2', '1.3')
 STUDY = '''scene: %s
@@ -96,7 +97,7 @@ class PageOfStudy(ProgramTest):
             self.addCleanup(server.close)
             self.assertEqual([server.rule(i, value) for i, value in enumerate(values.values())], [''] * len(values))
             answer, text = server.trace('\t'.join(values.values()))
-            traced = path_file.table_of(text.decode())
+            traced = table_of(text.decode())
             self.assertEqual(list(traced), own.columns, answer)
             for column in own.columns:
                 if column != 'solve_time':

@@ -16,9 +16,9 @@ ROOT = os.environ['CONTACT_PATH_ROOT']
 PROGRAMS = os.environ['CONTACT_PATH_PROGRAMS']
 sys.path.insert(0, os.path.join(ROOT, 'python'))
 import contact_path as cp  # noqa: E402
-from contact_path import page, page_arrays  # noqa: E402
-from contact_path.scene_arrays import Structure  # noqa: E402
-from contact_path.shapes import Shape, View  # noqa: E402
+from contact_path.page import arrays as page_arrays, document as page  # noqa: E402
+from contact_path.structure.arrays import Structure  # noqa: E402
+from contact_path.structure.shapes import Shape, View  # noqa: E402
 
 # What is drawn of a trace of the structure by its name in the legend, as numbers.
 DRAWN = '''await page.ready; await page.choose(%d, %d);

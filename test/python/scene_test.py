@@ -16,19 +16,21 @@ from program_test import SCENES, ProgramTest
 
 ROOT = os.environ['CONTACT_PATH_ROOT']
 sys.path.insert(0, os.path.join(ROOT, 'python'))
-from contact_path import Scene, scene  # noqa: E402
+import contact_path as cp  # noqa: E402
+from contact_path import Scene, parts  # noqa: E402
 
 MESSAGES = {'nodes': 'Node', 'bars': 'Bar', 'superelements': 'Superelement', 'beams': 'Beam', 'materials': 'Material',
             'solids': 'Solid', 'groups': 'Group', 'surfaces': 'BoundarySurface', 'loads': 'Load', 'obstacles': 'Obstacle',
             'contacts': 'Contact', 'support_motions': 'SupportMotion', 'obstacle_motions': 'ObstacleMotion'}
 TYPES = {'string': 'str', 'float64': 'float', 'int32': 'int', 'bool': 'bool'}
+LISTS = {'string': 'Texts', 'float64': 'Numbers', 'int32': 'Integers', 'bool': 'Truths'}
 
 
 def fields_of_message(name):
     """Field -> type, as Python has it; fields that are messages themselves are left out."""
     with open(os.path.join(ROOT, 'msg', name + '.msg')) as file:
         fields = re.findall(r'^(\w+)(\[\])? (\w+)', file.read(), re.M)
-    return {field: 'Sequence[%s]' % TYPES[kind] if many else TYPES[kind] for kind, many, field in fields if kind in TYPES}
+    return {field: (LISTS if many else TYPES)[kind] for kind, many, field in fields if kind in TYPES}
 
 
 class Fields(unittest.TestCase):
@@ -37,17 +39,17 @@ class Fields(unittest.TestCase):
         with open(os.path.join(ROOT, 'msg', 'Scene.msg')) as file:
             lists = re.findall(r'^(\w+)\[\] (\w+)', file.read(), re.M)
         self.assertEqual({part: message for message, part in lists}, MESSAGES)
-        self.assertEqual(scene.PARTS.keys(), MESSAGES.keys())
+        self.assertEqual(parts.PARTS.keys(), MESSAGES.keys())
         for part, message in MESSAGES.items():
             self.assertTrue(callable(getattr(Scene, part[:-1])), part)
-            self.assertEqual(scene.PARTS[part], fields_of_message(message), part)
+            self.assertEqual(parts.PARTS[part], fields_of_message(message), part)
 
     def test_options_and_stages(self):
-        options = {field: kind for field, kind in scene.OPTIONS.items() if field not in ('stop', 'at', 'branch_choices')}
+        options = {field: kind for field, kind in parts.OPTIONS.items() if field not in ('stop', 'at', 'branch_choices')}
         self.assertEqual(options, fields_of_message('TraceOptions'))
-        self.assertEqual(scene.STAGE, fields_of_message('Stage'))
+        self.assertEqual(parts.STAGE, fields_of_message('Stage'))
         for method, message in (Scene.stop, 'StopCriterion'), (Scene.at, 'Samples'), (Scene.branch_choice, 'BranchChoice'):
-            self.assertEqual(scene._fields(method), fields_of_message(message))
+            self.assertEqual(parts.fields_of(method), fields_of_message(message))
 
     def test_what_is_no_field_is_a_type_error(self):
         made = Scene()
@@ -55,6 +57,22 @@ class Fields(unittest.TestCase):
                      lambda: made.stage('push').load(node='a', fz=1.0)):
             with self.assertRaises(TypeError):
                 call()
+
+    def test_which_keyword_may_be_meant(self):
+        made = Scene()
+        for call, told in ((lambda: made.node('a', fixedx=True), r'^node: unknown key fixedx \(did you mean fixed_x\?\), must be one of: '
+                            'name, x, y, fixed_x, fixed_y, fixed_rotation$'),
+                           (lambda: made.bar(['a', 'b'], ea=1.0), r'^bar: unknown key ea \(did you mean EA\?\), must be one of: nodes, EA, '),
+                           (lambda: made.stage('push').load(node='a', colour='red'), '^load: unknown key colour, must be one of: node, '),
+                           (lambda: cp.trace(made, acuracy='fast'), r'^trace: unknown key acuracy \(did you mean accuracy\?\), '),
+                           (lambda: made.options(methd='mpec'), r'^options: unknown key methd \(did you mean method\?\), ')):
+            with self.assertRaisesRegex(TypeError, told):
+                call()
+        self.assertEqual(made.request, {'scene': {}, 'program': [{'name': 'push'}]})
+
+    def test_trace_has_the_options_of_scenes(self):
+        options = {name: kind for name, kind in parts.fields_of(cp.trace).items() if name in parts.OPTIONS}
+        self.assertEqual(options, parts.OPTIONS)
 
 
 class Text(ProgramTest):

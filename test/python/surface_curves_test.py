@@ -11,9 +11,10 @@ import numpy as np
 
 ROOT = os.environ['CONTACT_PATH_ROOT']
 sys.path.insert(0, os.path.join(ROOT, 'python'))
-from contact_path import Scene, drawn_scene  # noqa: E402
-from contact_path.scene_expand import contact_name  # noqa: E402
-from contact_path.surface_curves import SurfaceCurve  # noqa: E402
+from contact_path import Scene  # noqa: E402
+from contact_path.structure.drawn import drawn  # noqa: E402
+from contact_path.structure.expand import contact_name  # noqa: E402
+from contact_path.structure.surfaces import SurfaceCurve  # noqa: E402
 
 
 def curve(count, closed, radius=0.0):
@@ -72,7 +73,7 @@ class SurfaceCurvesTest(unittest.TestCase):
         scene.obstacle('floor', ny=1.0)
         scene.contact(group='g', obstacle='floor')
         scene.contact(group='g', surface='top', friction=0.2)
-        contacts = drawn_scene.drawn(scene)['contacts']
+        contacts = drawn(scene)['contacts']
         self.assertEqual([contact_name(contact) for contact in contacts], ['a@floor', 'a@top', 'held@top'])
         self.assertEqual([contact['friction'] for contact in contacts], [0.0, 0.2, 0.2])
 

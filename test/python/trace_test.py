@@ -17,7 +17,7 @@ from program_test import ProgramTest, run, scene_file
 
 sys.path.insert(0, os.path.join(os.environ['CONTACT_PATH_ROOT'], 'python'))
 import contact_path as cp  # noqa: E402
-from contact_path import program_trace  # noqa: E402
+from contact_path import programs  # noqa: E402
 
 LONG = {'method': 'mpec', 'mpec_solver': 'ipopt', 'step': 1e-5, 'max_increments': 1000000, 'stop': []}  # sliding_bar: far longer than any test
 
@@ -103,7 +103,7 @@ class TraceTest(ProgramTest):
         self.assertIn('%d increments' % len(path), path.message)
 
     def has_bags(self):
-        return '--bag' in run(program_trace.find_program(), '--help').stdout
+        return '--bag' in run(programs.find_program(), '--help').stdout
 
     def test_ctrl_c_without_progress(self):
         timer = threading.Timer(1.0, lambda: os.kill(os.getpid(), signal.SIGINT))
@@ -155,12 +155,12 @@ class TraceTest(ProgramTest):
             with self.assertRaisesRegex(cp.TraceFailed, 'nowhere'):
                 cp.trace(small_truss(), bag=self.path('nowhere/a.bag'))
         nothing = mock.patch.dict(os.environ, {'CONTACT_PATH_PROGRAMS': '', 'CMAKE_PREFIX_PATH': '', 'PATH': ''})
-        with nothing, mock.patch.object(program_trace, '__file__', self.path('program_trace.py')):
+        with nothing, mock.patch.object(programs, '__file__', self.path('programs.py')):
             with self.assertRaisesRegex(cp.TraceFailed, 'scripts/build'):
                 cp.trace(small_truss())
 
     def test_where_the_program_is_looked_for(self):
-        program = program_trace.find_program()
+        program = programs.find_program()
         root = self.path('prefix')
         for there in 'lib/contact_path', 'bin':
             os.makedirs(os.path.join(root, there))
@@ -170,12 +170,12 @@ class TraceTest(ProgramTest):
                                  ({'PATH': os.path.join(root, 'bin')}, 'bin')):
             variables = {'CONTACT_PATH_PROGRAMS': '', 'CMAKE_PREFIX_PATH': '', 'PATH': '', **variables}
             with mock.patch.dict(os.environ, variables), \
-                    mock.patch.object(program_trace, '__file__', self.path('program_trace.py')):
-                self.assertEqual(program_trace.find_program(), os.path.join(root, found, 'contact_path_trace'))
-        installed = os.path.join(root, 'lib/python3/dist-packages/contact_path/program_trace.py')
+                    mock.patch.object(programs, '__file__', self.path('programs.py')):
+                self.assertEqual(programs.find_program(), os.path.join(root, found, 'contact_path_trace'))
+        installed = os.path.join(root, 'lib/python3/dist-packages/contact_path/programs.py')
         with mock.patch.dict(os.environ, {'CONTACT_PATH_PROGRAMS': '', 'CMAKE_PREFIX_PATH': '', 'PATH': ''}), \
-                mock.patch.object(program_trace, '__file__', installed):
-            self.assertEqual(program_trace.find_program(), os.path.join(root, 'lib/contact_path/contact_path_trace'))
+                mock.patch.object(programs, '__file__', installed):
+            self.assertEqual(programs.find_program(), os.path.join(root, 'lib/contact_path/contact_path_trace'))
 
 
 if __name__ == '__main__':

@@ -10,7 +10,7 @@ import contact_path as cp
 import numpy as np
 import rospy
 import rostest
-from contact_path import node_trace
+from contact_path.io import node as node_trace
 from std_srvs.srv import Trigger
 
 import helpers

@@ -20,9 +20,9 @@ HERE = os.path.dirname(os.path.realpath(__file__))
 sys.path[:0] = [HERE, os.path.join(HERE, '..', '..', 'python')]
 import variants  # noqa: E402
 from contact_path import Scene, TraceFailed  # noqa: E402
-from contact_path.path import EVENTS, LIMITS  # noqa: E402
-from contact_path.path_file import read_csv  # noqa: E402
-from contact_path.program_trace import find_program  # noqa: E402
+from contact_path.increments import EVENTS, LIMITS  # noqa: E402
+from contact_path.io.table import read_csv  # noqa: E402
+from contact_path.programs import find_program  # noqa: E402
 
 SAME = 1e-9  # of load factors, by the largest so far
 FLOOR = 1e-6  # of the largest load factor of a path: below, rounding of what has been counts

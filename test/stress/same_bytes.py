@@ -9,7 +9,7 @@ import subprocess
 import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), '..', '..', 'python'))
-from contact_path.program_trace import find_program  # noqa: E402
+from contact_path.programs import find_program  # noqa: E402
 
 MOST_UNKNOWNS = 3000  # from here on UMFPACK solves
 

@@ -4,7 +4,8 @@
 // unique within their list. The structs hold what the user wrote; nothing is checked or normalised here (validate.h).
 //
 // Each struct is followed by the description of its fields (field.h). A new field is a member and its description here;
-// a new kind of part is a struct with its description and a list in Scene. scripts/messages adds both to the messages.
+// a new kind of part is a struct with its description and a list in Scene. scripts/messages adds both to the messages,
+// and to the Python package.
 // Solids and surfaces are in solid_parts.h.
 #ifndef CONTACT_PATH_SCENE_SCENE_H_
 #define CONTACT_PATH_SCENE_SCENE_H_

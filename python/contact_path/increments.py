@@ -1,0 +1,124 @@
+"""The increments of a trace as columns, and the words in them."""
+from __future__ import annotations
+
+import dataclasses
+from typing import Any, Dict, List, Mapping
+
+import numpy as np
+
+from contact_path.scene import Scene
+
+#: Kinds of increments, in the order of the constants of the message Increment.
+KINDS = ('start', 'regular', 'smooth_limit', 'corner_limit', 'contact_event', 'bifurcation', 'sample')
+#: States of contacts, in the order of the constants of the message ContactState.
+STATES = ('open', 'stick', 'slip+', 'slip-', 'closed')
+#: Why a trace ended; docs/end_reasons.md explains them. The first three are complete answers.
+END_REASONS = ('stop_criterion', 'max_increments', 'closed_path', 'path_end', 'step_too_small', 'element_inverted', 'cancelled',
+               'no_such_branch', 'time_limit', 'memory_limit', 'numerical_failure')
+COMPLETE = END_REASONS[:3]
+
+LIMITS = ('smooth_limit', 'corner_limit')
+EVENTS = ('corner_limit', 'contact_event', 'bifurcation')
+# Quantities of parts of the scene, as columns name them: a force and its moment on the structure; of a contact; of a section, of
+# which a bar has the first alone; and of an element of a solid.
+REACTIONS = ('rx', 'ry', 'rm')
+PRESSURES = ('pressure', 'traction')
+SECTIONS = ('N', 'Q', 'M', 'M1', 'M2')
+STRESSES = ('sxx', 'syy', 'sxy', 'szz', 'mises', 'energy')
+
+
+@dataclasses.dataclass(frozen=True, repr=False, eq=False)
+class Increments:
+    """The increments of a trace, n of them, in order: what figures, pages and files are made of. Path is it for users, and says
+    what its columns are."""
+
+    #: Column -> array (n,).
+    table: Mapping[str, np.ndarray]
+    #: For figures: the name of the scene or of the file.
+    title: str = ''
+    #: What was traced, with its options and program; None where it is not known, as of a CSV file.
+    scene: Scene | None = None
+    #: A word of END_REASONS; '' where it is not known, as of a CSV file.
+    end_reason: str = ''
+    #: The same in a line for a person, with limit points and the number of events.
+    message: str = ''
+    #: Index of an increment -> what the method found there, as in `events`; empty where it is not known, as of a CSV file.
+    branches: Mapping[int, Mapping[str, Any]] = dataclasses.field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        for column in self.table.values():
+            column.setflags(write=False)
+
+    def __getitem__(self, column: str) -> np.ndarray:
+        return self.table[column]
+
+    def __contains__(self, column: object) -> bool:
+        return column in self.table
+
+    def __len__(self) -> int:
+        """The number of increments, increment 0 included; 0 where none was accepted."""
+        return len(next(iter(self.table.values()), ()))
+
+    def __repr__(self) -> str:
+        return '<Path%s: %s>' % (self.title and ' ' + self.title, self.message or '%d increments' % len(self))
+
+    @property
+    def columns(self) -> List[str]:
+        """Names of the columns, in the order of the CSV."""
+        return list(self.table)
+
+    def increment(self, number: int) -> Dict[str, Any]:
+        """An increment: column -> int, float or str. number: from 0, or from the end if negative. IndexError: there is none."""
+        return {name: column[number].item() for name, column in self.table.items()}
+
+    @property
+    def limit_points(self) -> List[Dict[str, Any]]:
+        """Where the load factor turns: `index`, `kind`, `load_factor`, and `stage` with a load program."""
+        return [self._point(number) for number in np.flatnonzero(np.isin(self['kind'], LIMITS))]
+
+    @property
+    def events(self) -> List[Dict[str, Any]]:
+        """Where contacts change their states, or paths cross: `index`, `kind`, `load_factor`, `stage` with a load program.
+
+        Of the method `branch`, except where the path was read from a CSV file, also: `number`, as branch_choices count; `taken`, the
+        number of the branch that was taken, from 1, 0: none; `complete`, whether there are no more branches, and `complete_by`, for which reason; `branches`,
+        best first, with `states` (contact -> state), `load_rate`, `dissipation_rate` [-] and `turn` [rad].
+        """
+        wanted = np.isin(self['kind'], EVENTS)
+        rows = {int(self['index'][number]): int(number) for number in np.flatnonzero(wanted)}
+        rows.update({index: self._number(index) for index, found in self.branches.items() if found['number']})
+        return [{**self._point(number), **self.branches.get(index, {})} for index, number in sorted(rows.items())]
+
+    def _number(self, index: int) -> int:
+        return int(np.searchsorted(self['index'], index))
+
+    def _point(self, number: int) -> Dict[str, Any]:
+        return {name: self[name][number].item() for name in ('index', 'stage', 'kind', 'load_factor') if name in self}
+
+    @property
+    def nodes(self) -> List[str]:
+        """Names, in the order of the scene, inner nodes of beams at the end."""
+        return [name[len('x_'):] for name in self.table if name.startswith('x_')]
+
+    @property
+    def contacts(self) -> List[str]:
+        """Names NODE@OBSTACLE or NODE@SURFACE of the candidates, in the order of the scene."""
+        return [name[len('state_'):] for name in self.table if name.startswith('state_')]
+
+    @property
+    def stages(self) -> List[str]:
+        """The names of the stages of the program that were traced; none without a program."""
+        count = int(self['stage'][-1]) if 'stage' in self and len(self) else 0
+        program = self.scene.request.get('program', []) if self.scene is not None else []
+        names = [stage.get('name', '') for stage in program] + [''] * count
+        return ['stage %d' % (i + 1) + (names[i] and ': ' + names[i]) for i in range(count)]
+
+    @property
+    def full(self) -> np.ndarray:
+        """Numbers of the rows that carry positions and contacts."""
+        return np.flatnonzero(~np.isnan(self['x_' + self.nodes[0]]))
+
+    @property
+    def success(self) -> bool:
+        """Whether the path goes as far as it was asked to; False also where that is not known, as of a CSV file."""
+        return self.end_reason in COMPLETE

@@ -1,0 +1,1 @@
+"""Figures of paths and studies, by matplotlib."""

@@ -1,0 +1,25 @@
+"""Where the programs of contact_path are."""
+from __future__ import annotations
+
+import os
+import shutil
+
+from contact_path.errors import TraceFailed
+
+
+def find_program(name: str = 'contact_path_trace') -> str:
+    """The file of a program. It is looked for in the directory CONTACT_PATH_PROGRAMS, in the spaces whose setup.bash was sourced,
+    next to this package, built or installed, and on the PATH. TraceFailed: it is not there."""
+    here = os.path.dirname(os.path.realpath(__file__))
+    prefixes = [prefix for prefix in os.environ.get('CMAKE_PREFIX_PATH', '').split(os.pathsep) if prefix]
+    prefixes += [os.path.join(here, '..', '..', 'build', 'devel'), os.path.join(here, '..', '..', '..', '..')]
+    directories = [os.environ.get('CONTACT_PATH_PROGRAMS', '')]
+    directories += [os.path.join(prefix, 'lib', 'contact_path') for prefix in prefixes]
+    for directory in filter(None, directories):
+        program = os.path.normpath(os.path.join(directory, name))
+        if os.access(program, os.X_OK):
+            return program
+    found = shutil.which(name)
+    if not found:
+        raise TraceFailed('%s is not there: build it with scripts/build, or source the setup.bash of the space that has it' % name)
+    return found

@@ -1,0 +1,131 @@
+"""The quantities of a path that can be plotted: names, values, labels.
+
+A quantity is named as the column of the CSV (x_apex, rn_b@floor) or by its part of the scene (apex.x, b@floor.rn). Four kinds are
+no columns of the file, and need the scene:
+  slip_CONTACT           tangential motion of the node against the obstacle while the contact touches and does not stick [length]
+  fx_NODE, fy_NODE       load on the node, of all stages and with the constant loads [force]
+  load_x, load_y         sum of the loads on all nodes [force]
+"""
+from __future__ import annotations
+
+import difflib
+from typing import List, Tuple
+
+import numpy as np
+
+from contact_path.increments import Increments
+from contact_path.structure.arrays import Structure
+
+LABELS = {'x': ('position x of node', '[length]'), 'y': ('position y of node', '[length]'),
+          'rotation': ('rotation of node', '[rad]'),
+          'fx': ('load fx on node', '[force]'), 'fy': ('load fy on node', '[force]'),
+          'gap': ('gap of', '[length]'), 'rn': ('normal reaction of', '[force]'),
+          'rt': ('tangential reaction of', '[force]'),
+          'pressure': ('pressure of', '[force/length]'), 'traction': ('traction of', '[force/length]'),
+          'width': ('contact width of', '[length]'), 'rx': ('force x of', '[force]'), 'ry': ('force y of', '[force]'), 'rm': ('moment of', '[force length]'),
+          'N': ('normal force in', '[force]'), 'Q': ('shear force in', '[force]'), 'M': ('moment in', '[force length]'),
+          'M1': ('moment at the first node of', '[force length]'), 'M2': ('moment at the second node of', '[force length]'),
+          'sxx': ('stress xx in', '[force/length^2]'), 'syy': ('stress yy in', '[force/length^2]'),
+          'sxy': ('stress xy in', '[force/length^2]'), 'szz': ('stress zz in', '[force/length^2]'),
+          'mises': ('von Mises stress in', '[force/length^2]'), 'energy': ('strain energy of', '[force length]'),
+          'slip': ('slip of', '[length]')}
+UNITS = {'load_factor': '[-]', 'arc_length': '[-]', 'dissipation': '[force length]', 'strain_energy': '[force length]',
+         'external_work': '[force length]', 'equilibrium_residual': '[-]', 'complementarity_residual': '[-]',
+         'solve_time': '[s]', 'load_x': '[force]', 'load_y': '[force]'}
+LISTED = 12  # names in a message
+
+
+def column(quantity: str) -> str:
+    """The column that a quantity is in: its name with the field in front."""
+    part, dot, field = quantity.rpartition('.')
+    return '%s_%s' % (field, part) if dot and field in LABELS else quantity
+
+
+def split(name: str) -> Tuple[str, str]:
+    """Field and part of the scene of a column; ('', name) where it is of no part."""
+    field, line, part = name.partition('_')
+    return (field, part) if line and field in LABELS else ('', name)
+
+
+def spelled(name: str) -> str:
+    """A column as stop criteria spell it."""
+    field, part = split(name)
+    return '%s.%s' % (part, field) if field else name
+
+
+def label(quantity: str) -> str:
+    name = column(quantity)
+    field, part = split(name)
+    if field:
+        return '%s %s %s' % (LABELS[field][0], part, LABELS[field][1])
+    return ' '.join((name.replace('_', ' '), UNITS.get(name, ''))).strip()
+
+
+def derived(path: Increments) -> List[str]:
+    """The columns that the scene adds to the columns of the file."""
+    return (['slip_' + contact for contact in path.contacts] +
+            [axis + node for node in path.nodes for axis in ('fx_', 'fy_')] + ['load_x', 'load_y'])
+
+
+def values(path: Increments, quantity: str) -> np.ndarray:
+    """The quantity (n,) in the increments of the path. ValueError: the path does not have it."""
+    name = column(quantity)
+    there = [known for known in path.columns if known != 'kind' and not known.startswith('state_')]
+    if name in there:
+        return path[name]
+    if name not in derived(path):
+        known = there + derived(path)
+        near = difflib.get_close_matches(name, known, 1)
+        listed = ', '.join(map(spelled, known[:LISTED])) + (', ...' if len(known) > LISTED else '')
+        raise ValueError('no quantity %s: %s' % (quantity, 'did you mean %s?' % spelled(near[0]) if near else listed))
+    if path.scene is None:
+        raise ValueError('%s needs the scene: give it by --scene, or by Path.with_scene' % quantity)
+    structure = Structure(path.scene)
+    field, part = split(name)
+    return slip(path, structure, part) if field == 'slip' else load(path, structure, field, part)
+
+
+def slip(path: Increments, structure: Structure, contact: str) -> np.ndarray:
+    """(n,); nan where the increment carries no state."""
+    index = structure.contacts.index(contact)
+    node, obstacle = structure.names[structure.contact_nodes[index]], structure.contact_obstacles[index]
+    states = path['state_' + contact]
+    known = states != ''
+    if structure.contact_surfaces[index]:
+        steps = steps_on_surface(path, structure, index, known)
+    else:
+        places = np.column_stack((path['x_' + node], path['y_' + node]))
+        boundary = structure.obstacles[obstacle]
+        _, xi = boundary.foot(structure.placement(obstacle, path).back(places)[known])
+        steps = boundary.slips(np.diff(xi, prepend=xi[:1]))
+    slips = np.full(len(path), np.nan)
+    slips[known] = np.cumsum(np.where(np.isin(states[known], ('slip+', 'slip-', 'closed')), steps, 0.0))
+    return slips
+
+
+def steps_on_surface(path: Increments, structure: Structure, contact: int, known: np.ndarray) -> np.ndarray:
+    """From each increment that is known to the next: how far the node goes over the material, in the mean of the lengths that
+    the surface has in the two increments; 0 for the first."""
+    surface, node = structure.surfaces[structure.contact_surfaces[contact]], structure.contact_nodes[contact]
+    x, y = (np.column_stack([path[axis + name] for name in structure.names])[known] for axis in ('x_', 'y_'))
+    touched = surface.touched(np.array([node]), structure.initial)
+    steps = np.zeros(len(x))
+    before, start = None, 0.0
+    for i, places in enumerate(np.stack((x, y), axis=2)):
+        shape = surface.shape(places)
+        end = shape.foot(places[[node]], touched)[1][0]
+        if before is not None:
+            step = end - start
+            if surface.closed:
+                step -= len(surface.nodes) * round(step / len(surface.nodes))
+            steps[i] = 0.5 * (before.walked(start, step) + shape.walked(start, step))
+        before, start = shape, end
+    return steps
+
+
+def load(path: Increments, structure: Structure, field: str, part: str) -> np.ndarray:
+    """(n,). field, part: 'fx', a node; or '', 'load_x'."""
+    axis = 'xy'.index(field[-1:] or part[-1])
+    nodes = [structure.names.index(part)] if field else slice(None)
+    loads = [stage.loads[nodes, axis].sum() for stage in structure.stages]
+    return structure.constant_loads[nodes, axis].sum() + structure.shares(path).dot(loads)

@@ -1,0 +1,165 @@
+"""The scene of a path as arrays, and what its loads and moving obstacles are in an increment."""
+from __future__ import annotations
+
+from typing import Any, Dict, Iterable, List, Mapping, NamedTuple, Tuple
+
+import numpy as np
+
+from contact_path.increments import Increments
+from contact_path.scene import Scene
+from contact_path.structure.beams import Beams
+from contact_path.structure.drawn import drawn
+from contact_path.structure.expand import contact_name, solid_names
+from contact_path.structure.obstacles import Boundary, Placement
+from contact_path.structure.outlines import outlines
+from contact_path.structure.solids import Solid
+from contact_path.structure.surfaces import SurfaceCurve
+
+Increment = Mapping[str, Any]  # an increment, as Path.increment gives it
+
+
+class Stage(NamedTuple):
+    """What a load factor of 1 brings on in a stage."""
+
+    name: str
+    target: float
+    loads: np.ndarray  # (n, 3) forces and moments on the nodes
+    motions: Dict[str, Mapping[str, Any]]  # obstacle -> its motion with all fields
+
+
+class Structure:
+    """The scene as arrays: nodes (n, 2), bars (m, 2) of indices, friction (k,) of the k contacts.
+
+    stages: without a program there is one, of the scene's own. ValueError: it is no scene.
+    """
+
+    def __init__(self, given: Scene) -> None:
+        scene = drawn(given)
+        self.names = [node['name'] for node in scene['nodes']]
+        index = {name: i for i, name in enumerate(self.names)}
+        self.initial = np.array([[node['x'], node['y']] for node in scene['nodes']])
+        self.fixed = np.array([[node['fixed_x'], node['fixed_y']] for node in scene['nodes']])
+        self.bars = np.array([[index[name] for name in bar['nodes']] for bar in scene['bars']], dtype=int).reshape(-1, 2)
+        self.beams = Beams(scene['beams'], index, self.initial)
+        self.solids = [Solid(solid, scene['materials'], index, name)
+                       for solid, name in zip(scene['solids'], solid_names(scene['solids']))]
+        self.bar_directions = self.find_bar_directions()
+        self.supports = self.find_supports()
+        self.superelements = [([index[name] for name in part['nodes']], np.array(part['rest_positions'], dtype=float))
+                              for part in scene['superelements']]
+        self.constant_loads = self.loads_of(load for load in scene['loads'] if load['constant'])
+        own = {'name': '', 'target': 1.0, 'loads': [load for load in scene['loads'] if not load['constant']],
+               'obstacle_motions': scene['obstacle_motions']}
+        self.stages = [Stage(stage['name'], stage['target'], self.loads_of(stage['loads']),
+                             {motion['obstacle']: motion for motion in stage['obstacle_motions']})
+                       for stage in scene['program'] or [own]]
+        self.obstacles = {obstacle['name']: Boundary(obstacle, lambda: outlines(given)) for obstacle in scene['obstacles']}
+        turning = {name for stage in self.stages for name, motion in stage.motions.items() if motion['turn'] != 0.0}
+        # Half planes that do not turn: their normals.
+        self.normals = {name: boundary.normal for name, boundary in self.obstacles.items()
+                        if boundary.flat and name not in turning}
+        self.contact_nodes = np.array([index[contact['node']] for contact in scene['contacts']], dtype=int)
+        # By contact; '' where it has none.
+        self.contact_obstacles = [contact['obstacle'] for contact in scene['contacts']]
+        self.contact_surfaces = [contact['surface'] for contact in scene['contacts']]
+        self.surfaces = {surface['name']: SurfaceCurve(surface, index) for surface in scene['surfaces']
+                         if surface['name'] in self.contact_surfaces}
+        # Surface -> its contacts, and which of its lines their nodes may touch.
+        self.touched = {name: (own, surface.touched(self.contact_nodes[own], self.initial))
+                        for name, surface in self.surfaces.items()
+                        for own in [np.flatnonzero(np.array(self.contact_surfaces) == name)]}
+        self.contacts = [contact_name(contact) for contact in scene['contacts']]
+        self.friction = np.array([contact['friction'] if contact['surface'] else self.obstacles[contact['obstacle']].friction
+                                  for contact in scene['contacts']])
+
+    def loads_of(self, loads: Iterable[Mapping[str, Any]]) -> np.ndarray:
+        """Forces and moments (n, 3) on the nodes."""
+        total = np.zeros((len(self.names), 3))
+        for load in loads:
+            total[self.names.index(load['node'])] += (load['fx'], load['fy'], load['moment'])
+        return total
+
+    def has(self, obstacle: str, normal: Tuple[float, float]) -> bool:
+        return obstacle in self.normals and tuple(self.normals[obstacle]) == normal
+
+    def is_at(self, obstacle: str, normal: Tuple[float, float]) -> np.ndarray:
+        """For each contact, whether its obstacle is this one."""
+        return np.array([name == obstacle and self.has(name, normal) for name in self.contact_obstacles], dtype=bool)
+
+    def positions(self, increment: Increment) -> np.ndarray:
+        """(n, 2)."""
+        return np.array([[increment['x_' + name], increment['y_' + name]] for name in self.names])
+
+    def rotations(self, increment: Increment) -> np.ndarray:
+        """(n,) of the nodes since the start; nan where no beam turns them."""
+        return np.array([increment.get('rotation_' + name, np.nan) for name in self.names])
+
+    def of_contacts(self, increment: Increment, quantity: str) -> np.ndarray:
+        """(k,)."""
+        return np.array([increment[quantity + name] for name in self.contacts])
+
+    def stage_index(self, increment: Increment) -> int:
+        return increment.get('stage', 1) - 1
+
+    def loads_by_stage(self, increment: Increment) -> Tuple[np.ndarray, np.ndarray]:
+        """Forces and moments (n, 3) on the nodes: of the stage of the increment, and those that do not change in it."""
+        number = self.stage_index(increment)
+        before = self.constant_loads + sum(stage.target * stage.loads for stage in self.stages[:number])  # they stay
+        return increment['load_factor'] * self.stages[number].loads, before
+
+    def shares(self, increments: Increment | Increments) -> np.ndarray:
+        """The load factors that the stages have been brought to: (stages,) in an increment, (n, stages) along a path."""
+        targets = np.array([stage.target for stage in self.stages])
+        factors = np.asarray(increments['load_factor'], dtype=float)[..., None]
+        current = np.asarray(increments['stage'] if 'stage' in increments else 1)[..., None] - 1
+        numbers = np.arange(len(targets))
+        return np.where(numbers < current, targets, np.where(numbers == current, factors, 0.0))
+
+    def placement(self, obstacle: str, increments: Increment | Increments) -> Placement:
+        """Where an obstacle is in an increment, or in each increment of a path."""
+        placement = Placement()
+        for stage, share in zip(self.stages, np.moveaxis(self.shares(increments), -1, 0)):
+            if obstacle in stage.motions:
+                placement = placement.then(stage.motions[obstacle], share)
+        return placement
+
+    def contact_normals(self, places: np.ndarray, placements: Mapping[str, Placement]) -> np.ndarray:
+        """(k, 2) where the contacts are nearest to their obstacles or surfaces. places (n, 2): of the nodes; placements:
+        obstacle -> where it is."""
+        normals = np.empty((len(self.contacts), 2))
+        for name in set(self.contact_obstacles) - {''}:
+            own = np.flatnonzero(np.array(self.contact_obstacles) == name)
+            found, _ = self.obstacles[name].foot(placements[name].back(places[self.contact_nodes[own]]))
+            normals[own] = placements[name].vectors(found)
+        for name, surface in self.surfaces.items():
+            own, touched = self.touched[name]
+            normals[own], _ = surface.shape(places).foot(places[self.contact_nodes[own]], touched)
+        return normals
+
+    def find_bar_directions(self) -> List[List[np.ndarray]]:
+        """For each node the directions, of unit length, to those that it is joined to at the start, and to the middles of
+        its elements of solids."""
+        directions: List[List[np.ndarray]] = [[] for _ in self.names]
+        pairs = np.vstack((self.bars, self.beams.nodes))
+        vectors = self.initial[pairs[:, 1]] - self.initial[pairs[:, 0]]
+        vectors /= np.maximum(np.hypot(*vectors.T), 1e-300)[:, None]
+        for (a, b), vector in zip(pairs, vectors):
+            directions[a].append(vector)
+            directions[b].append(-vector)
+        for solid in self.solids:
+            for nodes in solid.nodes:
+                middle = self.initial[nodes].mean(axis=0)
+                for node in nodes:
+                    vector = middle - self.initial[node]
+                    directions[node].append(vector / np.hypot(*vector))
+        return directions
+
+    def find_supports(self) -> Dict[int, np.ndarray]:
+        """Node -> direction to the ground of its support: away from the structure, as far as the support allows."""
+        found = {}
+        for node in np.flatnonzero(self.fixed.any(axis=1)):
+            inwards = sum(self.bar_directions[node], np.zeros(2))
+            fixed_x, fixed_y = self.fixed[node]
+            directions = ([(0, -1), (0, 1)] if fixed_y else []) + ([(-1, 0), (1, 0)] if fixed_x else [])
+            found[node] = np.array(min(directions, key=lambda direction: round(inwards.dot(direction), 6)))
+        return found
