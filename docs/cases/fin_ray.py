@@ -29,36 +29,18 @@ def finger(ribs, friction, finer):
     return scene
 
 
-def forces_on_disc(path, scene):
-    """Along x and y [force], arrays (increments,). The disc moves along y by the load factor of the second stage."""
-    disc = scene.request['scene']['obstacles'][0]
-    centre_y = disc['py'] + numpy.where(path['stage'] == 2, path['load_factor'], 0.0)
-    fx, fy = numpy.zeros(len(path)), numpy.zeros(len(path))
-    for contact in path.contacts:
-        node = contact.split('@')[0]
-        nx, ny = path['x_' + node] - disc['px'], path['y_' + node] - centre_y
-        length = numpy.hypot(nx, ny)
-        nx, ny = nx / length, ny / length
-        rn, rt = path['rn_' + contact], path['rt_' + contact]
-        fx -= rn * nx + rt * ny
-        fy -= rn * ny - rt * nx
-    return fx, fy
-
-
 def grip(ribs, friction, finer):
     """Force of the grip, the largest force that holds the disc back, how far the disc comes, and the balance of energies.
 
     The balance: work of the pull less what the finger stores and friction takes of it, as a part of the dissipation. The path gives
     the work by the trapezoidal rule.
     """
-    scene = finger(ribs, friction, finer)
-    path = cp.trace(scene)
-    fx, fy = forces_on_disc(path, scene)
+    path = cp.trace(finger(ribs, friction, finer))
     first = numpy.flatnonzero(path['stage'] == 2)[0]
-    s, force = path['load_factor'][first:], -fy[first:]
+    s, force = path['load_factor'][first:], path['ry_disc'][first:]  # the disc on the finger
     work = numpy.sum(0.5 * (force[1:] + force[:-1]) * numpy.diff(s))
     kept = sum(path[column][-1] - path[column][first] for column in ('strain_energy', 'dissipation'))
-    return fx[first], force.max(), s.max(), abs(work - kept) / path['dissipation'][-1]
+    return -path['rx_disc'][first], force.max(), s.max(), abs(work - kept) / path['dissipation'][-1]
 
 
 def line(ribs, friction, finer):

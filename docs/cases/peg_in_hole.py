@@ -65,10 +65,10 @@ def print_borders(cases):
 
 def print_depths(frictions):
     paths = {}
-    print('friction  depth of the corner  largest rn  end')
+    print('friction  depth of the corner  largest push  end')
     for friction in frictions:
         paths[friction] = path = cp.trace(peg(friction))
-        print('%8.3f  %19.4f  %10.4f  %s' % (friction, -path['y_right'].min(), path['rn_' + CORNER].max(), path.end_reason))
+        print('%8.3f  %19.4f  %12.4f  %s' % (friction, -path['y_right'].min(), -path['ry_hand'].min(), path.end_reason))
     return paths
 
 

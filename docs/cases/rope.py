@@ -33,18 +33,15 @@ def rope(kinks, friction):
 
 
 def tensions(path, kinks):
-    """Of the held and the pulled bar [force], arrays (increments,): both are 1 long at the start."""
-    def tension(EA, a, b):
-        return EA * (((path['x_' + a] - path['x_' + b]) ** 2 + (path['y_' + a] - path['y_' + b]) ** 2) ** 0.5 - 1.0)
-
-    return tension(SOFT, 'held', 'n1'), tension(STIFF, 'n%d' % kinks, 'pulled')
+    """Of the held and the pulled bar [force], arrays (increments,): the first and the last one of the chain."""
+    return path.quantity('bar1.N'), path.quantity('bar%d.N' % (kinks + 1))
 
 
 def sliding_ratio(kinks, friction):
     """Of the tensions where all nodes slide."""
     scene = rope(kinks, friction)
     scene.stage('pull', target=SLIDING_PULL).support_motion('pulled', dy=-1.0)
-    held, pulled = tensions(cp.trace(scene), kinks)
+    held, pulled = tensions(cp.trace(scene, record=['sections']), kinks)
     return pulled[-1] / held[-1]
 
 
@@ -59,7 +56,7 @@ def eased(kinks, friction):
     scene = rope(kinks, friction)
     scene.stage('pull', target=EASED_PULL).support_motion('pulled', dy=-1.0)
     scene.stage('let go', target=0.2 * EASED_PULL).support_motion('pulled', dy=1.0)
-    return cp.trace(scene)
+    return cp.trace(scene, record=['sections'])
 
 
 def print_sliding():

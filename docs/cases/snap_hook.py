@@ -11,7 +11,6 @@ import numpy
 RISE = 0.04  # of the top of the catch above the nose at rest
 FILLET = 0.02  # radius of the edges of the catch
 HEAD = 0.1  # distance of the nose below the arm
-SPRING = 5.0  # stiffness at the root
 RAMP = 0.25  # length of the ramp along x
 FLANK = sqrt(3.0)  # slope of the flank behind the catch
 
@@ -54,8 +53,8 @@ def rows(table):
             slope = -float(line['obstacles.die.points.1']) / RAMP
             friction = float(line['obstacles.die.friction'])
             yield (degrees(atan(slope)), friction,
-                   -SPRING * float(line['min.root.x']), handbook(slope, friction), beam_column(slope, friction, push),
-                   SPRING * float(line['max.root.x']), handbook(FLANK, friction), beam_column(FLANK, friction, pull))
+                   -float(line['min.die.rx']), handbook(slope, friction), beam_column(slope, friction, push),
+                   float(line['max.die.rx']), handbook(FLANK, friction), beam_column(FLANK, friction, pull))
 
 
 def plot(table, file):
