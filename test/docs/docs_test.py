@@ -212,10 +212,15 @@ class Complete(unittest.TestCase):
                     self.assertTrue(part.strip('; ') in code, message)
 
     def test_versions(self):
+        """All are that of package.xml; a date is that of its release."""
         version = xml.fromstring(read('package.xml')).find('version').text
-        self.assertIn('project(contact_path VERSION %s ' % version, read('CMakeLists.txt'))
-        self.assertEqual(yaml.safe_load(read('CITATION.cff'))['version'], version)
-        self.assertEqual(re.findall(r'^(\d+\.\d+\.\d+) \(\d{4}-\d\d-\d\d\)\n-{18}$', read('CHANGELOG.rst'), re.M)[0], version)
+        citation = yaml.safe_load(read('CITATION.cff'))
+        releases = re.findall(r'^(\d+\.\d+\.\d+) \((\d{4}-\d\d-\d\d)\)\n-{18}$', read('CHANGELOG.rst'), re.M)
+        self.assertEqual(releases[0], (version, citation['date-released']))
+        self.assertEqual(citation['version'], version)
+        told = subprocess.run([str(PROGRAMS / 'contact_path_trace'), '--version'], check=True, stdout=subprocess.PIPE,
+                              universal_newlines=True)
+        self.assertEqual(told.stdout, 'contact_path_trace %s\n' % version)
 
 
 class Existing(unittest.TestCase):
