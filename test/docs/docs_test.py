@@ -134,7 +134,7 @@ class Complete(unittest.TestCase):
             self.assertEqual(first_column(text), fields, message)
 
     def test_settings_of_cmake(self):
-        text = ''.join(path.read_text() for path in [ROOT / 'CMakeLists.txt', *sorted((ROOT / 'cmake').iterdir())])
+        text = ''.join(path.read_text() for path in [ROOT / 'CMakeLists.txt', *sorted((ROOT / 'cmake').glob('*.cmake'))])
         settings = set(re.findall(r'^ *option\((CONTACT_PATH_\w+)', text, re.M))
         settings |= set(re.findall(r'^set\((CONTACT_PATH_\w+) .* CACHE', text, re.M))
         self.assertEqual(set(first_column(section('docs/install.md', 'Building'))), settings)
