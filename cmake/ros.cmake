@@ -46,6 +46,11 @@ target_sources(contact_path_trace PRIVATE src/ros/bag_sink.cpp)
 target_compile_definitions(contact_path_trace PRIVATE CONTACT_PATH_WITH_ROS)
 target_link_libraries(contact_path_trace PRIVATE contact_path_ros)
 
+# Programs and libraries find the libraries beside them wherever the tree is put.
+set_target_properties(contact_path_ros PROPERTIES INSTALL_RPATH "$ORIGIN")
+set_target_properties(contact_path_node contact_path_markers contact_path_trace contact_path_lattice contact_path_outlines
+  contact_path_study_server contact_path_verify PROPERTIES INSTALL_RPATH "$ORIGIN/..")
+
 # Where programs are, for tests.
 set(contact_path_devel_programs ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_BIN_DESTINATION})
 

@@ -244,4 +244,16 @@ if(CONTACT_PATH_ROS)
   contact_path_add_python_test(enumerate_branches_test test/stress/enumerate_branches_test.py)
   contact_path_add_python_test(install_test test/install/install_test.py DEPENDS ${contact_path_all_programs}
     VARIABLES CONTACT_PATH_ROOT=${CMAKE_CURRENT_SOURCE_DIR} CONTACT_PATH_BUILD=${CMAKE_BINARY_DIR})
+  if(CMAKE_SOURCE_DIR STREQUAL CMAKE_CURRENT_SOURCE_DIR)  # as package.cmake
+    contact_path_add_python_test(package_test test/install/package_test.py DEPENDS ${contact_path_all_programs}
+      VARIABLES CONTACT_PATH_ROOT=${CMAKE_CURRENT_SOURCE_DIR} CONTACT_PATH_BUILD=${CMAKE_BINARY_DIR}
+        CONTACT_PATH_PROGRAMS=${contact_path_devel_programs})
+    if(contact_path_test_with_catkin)
+      # Both install, which sets the Python package up in the build tree.
+      set_property(TEST _ctest_${PROJECT_NAME}_python_install_test _ctest_${PROJECT_NAME}_python_package_test
+        PROPERTY RESOURCE_LOCK contact_path_install)
+    else()
+      set_property(TEST install_test package_test PROPERTY RESOURCE_LOCK contact_path_install)
+    endif()
+  endif()
 endif()

@@ -129,6 +129,7 @@ void DeclareOptions(CLI::App& app, Arguments& arguments) {
   app.add_flag("--events", arguments.events,
                "Print each event and the branches from there on standard error: what branch_choices chooses from");
   app.add_flag("--quiet", arguments.quiet, "Say nothing on standard error unless the trace ends early");
+  app.set_version_flag("--version", std::string(kProgram) + ' ' + CONTACT_PATH_VERSION, "Print the version and exit");
 }
 
 // The word as an option of the trace. Throws InvalidRequest where it is not known.
@@ -320,6 +321,9 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
     std::cout << app.help() << std::flush;
+    return std::cout ? contact_path::kComplete : contact_path::kEndedEarly;
+  } catch (const CLI::CallForVersion& version) {
+    std::cout << version.what() << std::endl;
     return std::cout ? contact_path::kComplete : contact_path::kEndedEarly;
   } catch (const CLI::ParseError& error) {
     contact_path::PrintError(error.what() + contact_path::OptionMeant(app));

@@ -136,7 +136,7 @@ class Complete(unittest.TestCase):
             self.assertEqual(first_column(text), fields, message)
 
     def test_settings_of_cmake(self):
-        text = ''.join(path.read_text() for path in [ROOT / 'CMakeLists.txt', *sorted((ROOT / 'cmake').iterdir())])
+        text = ''.join(path.read_text() for path in [ROOT / 'CMakeLists.txt', *sorted((ROOT / 'cmake').glob('*.cmake'))])
         settings = set(re.findall(r'^ *option\((CONTACT_PATH_\w+)', text, re.M))
         settings |= set(re.findall(r'^set\((CONTACT_PATH_\w+) .* CACHE', text, re.M))
         self.assertEqual(set(first_column(section('docs/install.md', 'Building'))), settings)
@@ -214,10 +214,15 @@ class Complete(unittest.TestCase):
                     self.assertTrue(part.strip('; ') in code, message)
 
     def test_versions(self):
+        """All are that of package.xml; a date is that of its release."""
         version = xml.fromstring(read('package.xml')).find('version').text
-        self.assertIn('project(contact_path VERSION %s ' % version, read('CMakeLists.txt'))
-        self.assertEqual(yaml.safe_load(read('CITATION.cff'))['version'], version)
-        self.assertEqual(re.findall(r'^(\d+\.\d+\.\d+) \(\d{4}-\d\d-\d\d\)\n-{18}$', read('CHANGELOG.rst'), re.M)[0], version)
+        citation = yaml.safe_load(read('CITATION.cff'))
+        releases = re.findall(r'^(\d+\.\d+\.\d+) \((\d{4}-\d\d-\d\d)\)\n-{18}$', read('CHANGELOG.rst'), re.M)
+        self.assertEqual(releases[0], (version, citation['date-released']))
+        self.assertEqual(citation['version'], version)
+        told = subprocess.run([str(PROGRAMS / 'contact_path_trace'), '--version'], check=True, stdout=subprocess.PIPE,
+                              universal_newlines=True)
+        self.assertEqual(told.stdout, 'contact_path_trace %s\n' % version)
 
 
 class Existing(unittest.TestCase):
