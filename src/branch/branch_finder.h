@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -85,6 +86,13 @@ class BranchFinder {
       }
   }
 
+  // Adds the branches with these states, each on the patches onto which it leads.
+  void TryStates(const States& states, std::vector<Branch>* branches) {
+    std::set<ContactModes> tried;
+    for (const double sign : {1.0, -1.0})
+      if (ContactModes modes = OntoPatches(states, sign); tried.insert(modes).second) Try(modes, branches);
+  }
+
   // From these states to admissible ones. sign: of the tangent, relative to the direction of arrival. condensed: null,
   // or the rate problem condensed.
   std::optional<States> PivotFrom(States states, double sign, const RateProblem* condensed) {
@@ -144,6 +152,38 @@ class BranchFinder {
     Tangents tangents = FindTangents(*x, arrival_.direction, arrival_.singular, modes_, &system_, &solvers_);
     rigid_modes_ = std::max(rigid_modes_, tangents.rigid_modes);
     return tangents;
+  }
+
+  // The modes with these states, each on the patch onto which the first tangent leads. sign: of the tangent, relative
+  // to the direction of arrival. Of one patch after another, tangents may differ: a few rounds.
+  ContactModes OntoPatches(const States& states, double sign) {
+    ContactModes modes = ModesWith(states, options_, point_);
+    bool choice = false;
+    for (std::size_t i = 0; i < modes.size() && !choice; ++i)
+      choice = std::any_of(options_[i].begin(), options_[i].end(), [&](const ContactMode& other) {
+        return other.state == modes[i].state && other.patch != modes[i].patch;
+      });
+    if (!choice) return modes;
+    std::set<ContactModes> seen;
+    while (!Cancelled() && seen.insert(modes).second) {
+      Eigen::VectorXd x;
+      const Tangents tangents = TangentsOf(modes, &x);
+      if (tangents.first.empty()) break;
+      const double along = tangents.first[0].head(NumMotion()).dot(arrival_.direction);
+      const Eigen::VectorXd first = (along < 0.0 ? -sign : sign) * tangents.first[0];
+      for (const Constraint& constraint : system_.Inequalities()) {
+        if (!KeepsPatch(constraint.inequality) || !IsWeaklyActive(system_, constraint, x, tolerance_)) continue;
+        const Jet value = system_.ValueAlong(constraint, x, first, tangents.second[0]);
+        const double unit = system_.UnitOf(constraint), rate = value.first / unit, bend = value.second / unit;
+        if (rate > tolerances::kRate || (rate >= -tolerances::kRate && bend >= -tolerances::kCurvature)) continue;
+        const auto i = static_cast<std::size_t>(constraint.contact);
+        const int next = modes[i].patch + (constraint.inequality == Inequality::kPatchEnd ? 1 : -1);
+        const ContactModes& of_contact = options_[i];
+        const ContactMode wanted{modes[i].state, next};
+        if (std::find(of_contact.begin(), of_contact.end(), wanted) != of_contact.end()) modes[i] = wanted;
+      }
+    }
+    return modes;
   }
 
   // By the rates of these states, times sign relative to the direction of arrival.

@@ -51,15 +51,14 @@ void TryAll(const Options& options, const std::function<bool(const ContactModes&
 }
 
 // The solutions of the complementarity problem of the rates, each tried like any other combination.
-void TrySolutions(const RateComplementarity& problem, const Options& options, const PathPoint& point,
-                  BranchFinder* finder, BranchSet* result) {
+void TrySolutions(const RateComplementarity& problem, BranchFinder* finder, BranchSet* result) {
   std::set<States> tried;
   for (int guess = 0; guess < (problem.unique() ? 1 : kGuesses); ++guess)
     for (const double sense : {1.0, -1.0}) {
       if (finder->Cancelled()) return;
       const std::optional<States> states = problem.Solve(sense, guess);
       if (!states || !tried.insert(*states).second) continue;
-      finder->Try(ModesWith(*states, options, point), &result->branches);
+      finder->TryStates(*states, &result->branches);
       ++result->combinations;
     }
 }
@@ -85,8 +84,7 @@ void TryLikely(const Options& options, const PathPoint& point, const Arrival& ar
   std::set<States> tried;
   const auto attempt = [&](const States& states) {
     if (finder->Cancelled() || !tried.insert(states).second) return;
-    if (condensed == nullptr || !finder->Excluded(states, *condensed))
-      finder->Try(ModesWith(states, options, point), &result->branches);
+    if (condensed == nullptr || !finder->Excluded(states, *condensed)) finder->TryStates(states, &result->branches);
     ++result->combinations;
   };
   const auto pivot_from = [&](const States& guess) {
@@ -144,7 +142,9 @@ BranchSet BranchesWithReactions(const Structure& structure, const ContactPairs& 
   const double few = point.u.size() < kLargeSystem ? kFewCombinations : 1.0;
   const bool condenses = combinations > few && weakly_active.size() <= kMostCondensedContacts && !arrival.singular &&
                          entries <= kMostCondensed;
-  if (condenses && !between_patches)
+  const bool few_enough = combinations <= kMostCombinations;
+  // Too many of them, and the rates on the patches of now lead to states whose branches lie on the next patches.
+  if (condenses && (!between_patches || !few_enough))
     problem.emplace(structure, contacts, point, natural, weakly_active, arrival.direction);
   const RateProblem* condensed = problem && problem->regular() ? &*problem : nullptr;
   const auto excluded = [&](const ContactModes& modes) {
@@ -152,15 +152,15 @@ BranchSet BranchesWithReactions(const Structure& structure, const ContactPairs& 
         condenses && between_patches && !between_rigid ? of_patches.On(PatchesOf(modes)) : condensed;
     return rates != nullptr && finder.Excluded(StatesOf(modes), *rates);
   };
-  const bool few_enough = combinations <= kMostCombinations;
   bool solved = false;
   if (condensed != nullptr) {
     const RateComplementarity complementarity(contacts, *condensed, options, weakly_active);
-    if (complementarity.exists() && (complementarity.unique() || !few_enough)) {
-      TrySolutions(complementarity, options, point, &finder, &result);
+    const bool unique = complementarity.unique() && !between_patches;
+    if (complementarity.exists() && (unique || !few_enough)) {
+      TrySolutions(complementarity, &finder, &result);
       finder.TryOtherStatesAtNodes(&result.branches);
       solved = !result.branches.empty();
-      result.complete_by = complementarity.unique() ? Completeness::kOnlySolution : Completeness::kNone;
+      result.complete_by = unique ? Completeness::kOnlySolution : Completeness::kNone;
     }
   }
   if (!solved) {
@@ -168,7 +168,8 @@ BranchSet BranchesWithReactions(const Structure& structure, const ContactPairs& 
     if (few_enough)
       TryAll(options, excluded, &finder, &result);
     else
-      TryLikely(options, point, arrival, condensed, combinations > kMostIfNone ? further : nullptr, &finder, &result);
+      TryLikely(options, point, arrival, between_patches ? nullptr : condensed,
+                combinations > kMostIfNone ? further : nullptr, &finder, &result);
   }
   if (result.branches.empty() && result.complete_by == Completeness::kNone && combinations <= kMostIfNone) {
     TryAll(options, excluded, &finder, &result);

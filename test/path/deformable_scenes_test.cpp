@@ -285,5 +285,71 @@ TEST(SymmetricSurface, BearsAsTheWholeOne) {
   EXPECT_NEAR(PositionX(half, end_of_half, "top4"), PositionX(whole, end, "top4"), 1e-12);
 }
 
+// A block of `columns` elements pressed flush on a wider one, of twice as long elements: every second node stands where
+// edges of the surface meet. aside: of the upper block.
+TraceRequest FlushBlocks(int columns, double aside) {
+  TraceRequest request;
+  Scene& scene = request.scene;
+  Material material;
+  material.name = "rubber";
+  material.model = MaterialModel::kLinear;
+  material.E = 1.0;
+  material.nu = 0.3;
+  scene.materials = {material};
+  BoundarySurface top, table;
+  top.name = "top";
+  table.name = "table";
+  Group pressed;
+  pressed.name = "pressed";
+  const auto add = [&](const std::string& name, int count, double width, double low, double middle, bool on_ground) {
+    Solid block;
+    block.name = block.material = name;
+    block.material = "rubber";
+    block.nodes_per_element = 4;
+    const auto node = [&](int i, int row) { return name + std::to_string(i) + (row == 0 ? "_low" : "_high"); };
+    for (const int row : {0, 1})
+      for (int i = 0; i <= count; ++i) {
+        const bool fixed = on_ground && row == 0;
+        scene.nodes.push_back({node(i, row), middle - 0.5 * width + width * i / count, low + row,
+                               fixed || (!on_ground && 2 * i == count), fixed});
+      }
+    for (int i = 0; i < count; ++i)
+      for (const auto& [k, row] : {std::pair(i, 0), std::pair(i + 1, 0), std::pair(i + 1, 1), std::pair(i, 1)})
+        block.nodes.push_back(node(k, row));
+    for (int i = 0; i <= count; ++i) {
+      (on_ground ? table : top).nodes.push_back(node(i, 1));
+      if (!on_ground) pressed.nodes.push_back(node(i, 0));
+    }
+    scene.solids.push_back(block);
+  };
+  add("u", columns, 2.0, 0.0, aside, false);
+  add("b", columns, 4.0, -1.0, 0.0, true);
+  scene.surfaces = {top, table};
+  scene.groups = {pressed};
+  Load load;
+  load.surface = "top";
+  load.py = -1.0;
+  scene.loads = {load};
+  ContactCandidate contact;
+  contact.group = "pressed";
+  contact.surface = "table";
+  scene.contacts = {contact};
+  request.options.stop = {{"load_factor", ">", 0.01}};
+  return request;
+}
+
+// Whether nodes stand where edges meet or beside, the block is borne, and by hardly other reactions.
+TEST(FlushBlocks, AreBorneWhereverNodesStand) {
+  for (const int columns : {6, 8, 12, 16, 20}) {
+    SCOPED_TRACE(columns);
+    const TracedPath path = TraceProved(FlushBlocks(columns, 0.0)), beside = TraceProved(FlushBlocks(columns, 1e-3));
+    EXPECT_NEAR(SumOfNormals(path.increments.back()), 0.01 * 2.0, 1e-5);
+    const Increment &end = path.increments.back(), &other = beside.increments.back();
+    ASSERT_EQ(end.contacts.size(), other.contacts.size());
+    for (std::size_t i = 0; i < end.contacts.size(); ++i)
+      EXPECT_NEAR(end.contacts[i].rn, other.contacts[i].rn, 0.05 * end.contacts[0].rn) << i;
+  }
+}
+
 }  // namespace
 }  // namespace contact_path
