@@ -46,10 +46,12 @@ target_sources(contact_path_trace PRIVATE src/ros/bag_sink.cpp)
 target_compile_definitions(contact_path_trace PRIVATE CONTACT_PATH_WITH_ROS)
 target_link_libraries(contact_path_trace PRIVATE contact_path_ros)
 
+set(contact_path_programs contact_path_node contact_path_markers contact_path_trace contact_path_lattice contact_path_outlines
+  contact_path_expand contact_path_response contact_path_study_server contact_path_verify)
+
 # Programs and libraries find the libraries beside them wherever the tree is put.
 set_target_properties(contact_path_ros PROPERTIES INSTALL_RPATH "$ORIGIN")
-set_target_properties(contact_path_node contact_path_markers contact_path_trace contact_path_lattice contact_path_outlines
-  contact_path_study_server contact_path_verify PROPERTIES INSTALL_RPATH "$ORIGIN/..")
+set_target_properties(${contact_path_programs} PROPERTIES INSTALL_RPATH "$ORIGIN/..")
 
 # Where programs are, for tests.
 set(contact_path_devel_programs ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_BIN_DESTINATION})
@@ -57,8 +59,7 @@ set(contact_path_devel_programs ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_BIN_DEST
 install(TARGETS contact_path_ros contact_path_core
   ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
   LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
-install(TARGETS contact_path_node contact_path_markers contact_path_trace contact_path_lattice contact_path_outlines contact_path_expand contact_path_response
-  contact_path_study_server contact_path_verify
+install(TARGETS ${contact_path_programs}
   RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(DIRECTORY include/${PROJECT_NAME}/ DESTINATION ${CATKIN_PACKAGE_INCLUDE_DESTINATION})
 catkin_install_python(PROGRAMS scripts/contact_path_mesh scripts/contact_path_study scripts/play scripts/plot scripts/watch

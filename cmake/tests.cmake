@@ -229,8 +229,7 @@ if(CONTACT_PATH_ROS)
   contact_path_add_python_test(path_bag_test test/ros/path_bag_test.py DEPENDS contact_path_trace
     VARIABLES CONTACT_PATH_TRACE=$<TARGET_FILE:contact_path_trace> CONTACT_PATH_ROOT=${CMAKE_CURRENT_SOURCE_DIR}
       CONTACT_PATH_PROGRAMS=$<TARGET_FILE_DIR:contact_path_trace>)
-  set(contact_path_all_programs contact_path_trace contact_path_lattice contact_path_outlines contact_path_expand contact_path_response contact_path_study_server contact_path_node
-    contact_path_markers contact_path_verify ${PROJECT_NAME}_generate_messages)
+  set(contact_path_all_programs ${contact_path_programs} ${PROJECT_NAME}_generate_messages)
   contact_path_add_python_test(docs_test test/docs/docs_test.py DEPENDS ${contact_path_all_programs}
     VARIABLES CONTACT_PATH_ROOT=${CMAKE_CURRENT_SOURCE_DIR} CONTACT_PATH_PROGRAMS=${contact_path_devel_programs}
       CONTACT_PATH_MODULES=${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_PYTHON_DESTINATION})

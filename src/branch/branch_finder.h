@@ -90,7 +90,8 @@ class BranchFinder {
   void TryStates(const States& states, std::vector<Branch>* branches) {
     std::set<ContactModes> tried;
     for (const double sign : {1.0, -1.0})
-      if (ContactModes modes = OntoPatches(states, sign); tried.insert(modes).second) Try(modes, branches);
+      if (const ContactModes modes = OntoPatches(states, sign); !Cancelled() && tried.insert(modes).second)
+        Try(modes, branches);
   }
 
   // From these states to admissible ones. sign: of the tangent, relative to the direction of arrival. condensed: null,
@@ -117,6 +118,8 @@ class BranchFinder {
     for (std::size_t b = 0; b < branches->size(); ++b)
       for (const std::vector<std::size_t>& node : redundant_.AtEachNode()) {
         ContactModes modes = ModesWith((*branches)[b].states, options_, point_);
+        const std::vector<int>& patches = (*branches)[b].patches;
+        for (std::size_t i = 0; i < patches.size(); ++i) modes[i].patch = patches[i];
         const std::function<void(std::size_t)> vary = [&](std::size_t k) {
           if (k == node.size()) {
             Try(modes, branches);
@@ -155,7 +158,7 @@ class BranchFinder {
   }
 
   // The modes with these states, each on the patch onto which the first tangent leads. sign: of the tangent, relative
-  // to the direction of arrival. Of one patch after another, tangents may differ: a few rounds.
+  // to the direction of arrival. On other patches the tangent may be another one: until modes come back.
   ContactModes OntoPatches(const States& states, double sign) {
     ContactModes modes = ModesWith(states, options_, point_);
     bool choice = false;

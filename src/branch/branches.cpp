@@ -143,13 +143,14 @@ BranchSet BranchesWithReactions(const Structure& structure, const ContactPairs& 
   const bool condenses = combinations > few && weakly_active.size() <= kMostCondensedContacts && !arrival.singular &&
                          entries <= kMostCondensed;
   const bool few_enough = combinations <= kMostCombinations;
-  // Too many of them, and the rates on the patches of now lead to states whose branches lie on the next patches.
-  if (condenses && (!between_patches || !few_enough))
+  // Where there are too many of them, rates on the patches of now lead to the states; their branches lie on the next
+  // patches, which have the same tangents on a surface that deforms.
+  if (condenses && (!between_patches || (!few_enough && !between_rigid)))
     problem.emplace(structure, contacts, point, natural, weakly_active, arrival.direction);
   const RateProblem* condensed = problem && problem->regular() ? &*problem : nullptr;
   const auto excluded = [&](const ContactModes& modes) {
-    const RateProblem* const rates =
-        condenses && between_patches && !between_rigid ? of_patches.On(PatchesOf(modes)) : condensed;
+    const RateProblem* rates = condensed;
+    if (between_patches) rates = condenses && !between_rigid ? of_patches.On(PatchesOf(modes)) : nullptr;
     return rates != nullptr && finder.Excluded(StatesOf(modes), *rates);
   };
   bool solved = false;

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <exception>
 #include <iostream>
 #include <memory>
@@ -30,13 +31,19 @@ ContactState StateFrom(const std::string& word) {
   throw std::invalid_argument("state = " + word + ": must be open, closed, stick, slip+ or slip-");
 }
 
-// Throws Json::exception for another type.
-Increment IncrementFrom(const Json& line) {
+// Throws Json::exception and std::invalid_argument for another type. stages: of the program; 0: there is none.
+Increment IncrementFrom(const Json& line, std::int64_t stages) {
   Increment increment;
-  increment.stage = line.value("stage", 0);
+  const Json stage = line.contains("stage") ? line.at("stage") : Json(0);
+  const std::int64_t number = stage.is_number_integer() ? stage.get<std::int64_t>() : -1;
+  if (number < std::min<std::int64_t>(stages, 1) || number > stages)
+    throw std::invalid_argument("stage = " + stage.dump() + ": must be " +
+                                (stages == 0 ? "0: there is no program" : "1 to " + std::to_string(stages)));
+  increment.stage = static_cast<int>(number);
   increment.load_factor = line.at("load_factor").get<double>();
   increment.positions = line.at("positions").get<std::vector<double>>();
   increment.rotations = line.value("rotations", std::vector<double>());
+  if (!line.at("contacts").is_array()) throw std::invalid_argument("contacts: must be a list");
   for (const Json& contact : line.at("contacts")) {
     ContactRecord& record = increment.contacts.emplace_back();
     record.rn = contact.at("rn").get<double>();
@@ -51,23 +58,25 @@ class Responder {
   explicit Responder(const TraceRequest& given)
       : expanded_(given), index_(Request().scene), of_program_(ProgramScales(Request(), index_)) {}
 
+  std::int64_t Stages() const { return static_cast<std::int64_t>(Request().program.size()); }
+
   // Throws std::invalid_argument where the increment is none of the scene.
   Json Of(Increment increment) {
     RequireSize(increment.positions.size(), 2 * Request().scene.nodes.size(), "positions");
     RequireSize(increment.rotations.size(), Request().scene.beams.empty() ? 0 : Request().scene.nodes.size(),
                 "rotations");
     RequireSize(increment.contacts.size(), Request().scene.contacts.size(), "contacts");
-    const auto stages = static_cast<int>(NumStages(Request()));
-    if (increment.stage < 0 || std::max(increment.stage, 1) > stages)
-      throw std::invalid_argument("stage = " + std::to_string(increment.stage) + ": must be at most " +
-                                  std::to_string(stages));
     SetStage(static_cast<std::size_t>(std::max(increment.stage, 1) - 1));
     const PathPoint point = model_->FromIncrement(increment);
     FillState(*model_, point, &increment);
     FillLists(*model_, point, {true, true, true}, &increment);
-    return {{"supports", FieldOf(increment.supports)},   {"boundaries", FieldOf(increment.boundaries)},
-            {"sections", FieldOf(increment.sections)},   {"stresses", FieldOf(increment.stresses)},
-            {"pressures", FieldOf(increment.pressures)}, {"widths", increment.widths}};
+    Json answer = {{"supports", FieldOf(increment.supports)},   {"boundaries", FieldOf(increment.boundaries)},
+                   {"sections", FieldOf(increment.sections)},   {"stresses", FieldOf(increment.stresses)},
+                   {"pressures", FieldOf(increment.pressures)}, {"widths", increment.widths}};
+    // Numbers that are not finite become null.
+    if (answer.dump().find("null") != std::string::npos)
+      throw std::invalid_argument("the numbers are beyond what can be computed");
+    return answer;
   }
 
  private:
@@ -96,13 +105,17 @@ class Responder {
 void Respond(const TraceRequest& request) {
   Responder responder(request);
   std::string line;
-  for (int number = 1; std::getline(std::cin, line); ++number) {
+  for (int number = 1; std::cout && std::getline(std::cin, line); ++number) {
     try {
-      WriteLine(responder.Of(IncrementFrom(Json::parse(line))), &std::cout);
+      const Json increment = Json::parse(line);
+      // A log has lines of other types.
+      if (increment.is_object() && increment.value("type", "increment") != "increment") continue;
+      WriteLine(responder.Of(IncrementFrom(increment, responder.Stages())), &std::cout);
     } catch (const std::exception& error) {
-      throw std::invalid_argument("increment " + std::to_string(number) + " of standard input: " + error.what());
+      throw std::invalid_argument("line " + std::to_string(number) + " of standard input: " + error.what());
     }
   }
+  if (std::cin.bad()) throw std::invalid_argument("standard input cannot be read");
 }
 
 }  // namespace

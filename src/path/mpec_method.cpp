@@ -19,7 +19,7 @@ constexpr double kProgress = 0.05;
 // Without a change of state the path does not turn by more than 60 degrees in one increment.
 constexpr double kSmallestCosine = 0.5;
 
-// Share of the dissipation term in the minimiser: gamma_1 of eq. (4) is what is left of 1.
+// Share of the dissipation term in the minimiser: gamma_1 of eq. (4) is what is left of 1, over this share.
 constexpr double kDissipationShare = 0.6;
 
 constexpr double kFarthestTarget = 2.0;  // of the increment that goes past the target: farther is another branch

@@ -73,6 +73,7 @@ program:
 class Response(ProgramTest):
 
     def test_lists_are_those_that_a_trace_records(self):
+        filled = set()
         for scene in 'portal_frame', 'two_blocks', 'stick_slip_cycle':
             with open(SCENES / (scene + '.yaml')) as file:
                 text = file.read()
@@ -81,10 +82,12 @@ class Response(ProgramTest):
             with open(self.path('scene.yaml'), 'w') as file:
                 file.write(text.replace('options:', 'options:\n  record: [sections, stresses, pressures]'))
             log = self.path('log.jsonl')
-            run('contact_path_trace', self.path('scene.yaml'), '--log', log, '--quiet')
+            self.assertEqual(run('contact_path_trace', self.path('scene.yaml'), '--log', log, '--quiet').returncode, 0)
             with open(log) as file:
-                lines = [line for line in file if json.loads(line)['type'] == 'increment']
-            result = run('contact_path_response', SCENES / (scene + '.yaml'), text=''.join(lines))
+                text = file.read()
+            lines = [line for line in text.splitlines() if json.loads(line)['type'] == 'increment']
+            self.assertGreater(len(lines), 10)
+            result = run('contact_path_response', SCENES / (scene + '.yaml'), text=text)
             self.assertEqual(result.returncode, 0, result.stderr)
             answers = [json.loads(line) for line in result.stdout.splitlines()]
             self.assertEqual(len(answers), len(lines))
@@ -92,6 +95,8 @@ class Response(ProgramTest):
                 recorded = json.loads(line)
                 for name in 'supports', 'boundaries', 'sections', 'stresses', 'pressures', 'widths':
                     self.expect_near(recorded[name], answer[name], name)
+                    filled.update([name] if recorded[name] else [])
+        self.assertEqual(len(filled), 6)
 
     def expect_near(self, recorded, answer, name):
         """Positions are recorded with one rounding, which the stiffness of the parts multiplies."""
@@ -100,13 +105,22 @@ class Response(ProgramTest):
             for key, value in one.items() if isinstance(one, dict) else [('', one)]:
                 self.assertAlmostEqual(value, other[key] if key else other, 7, '%s %s' % (name, key))
 
+    def test_a_stage_of_the_program_is_wanted(self):
+        result = run('contact_path_response', SCENES / 'stick_slip_cycle.yaml', text='{"load_factor": 0}\n')
+        self.assertEqual((result.returncode, result.stdout), (2, ''))
+        self.assertIn('stage = 0: must be 1 to 3', result.stderr)
+
     def test_a_line_that_is_no_increment_is_told(self):
         scene = SCENES / 'rough_truss.yaml'
-        for text, fault in (('{}', "increment 1 of standard input: .*load_factor"), ('x', 'increment 1 of standard input: '),
+        for text, fault in (('{}', "line 1 of standard input: .*load_factor"), ('x', 'line 1 of standard input: '),
                             ('{"load_factor": 0, "positions": [1.0], "contacts": []}', 'positions has 1 entries: must be 6'),
                             ('{"load_factor": 0, "positions": [0, 0, 0, 0, 0, 0], "contacts": []}', 'contacts has 0 entries: must be 1'),
                             ('{"load_factor": 0, "stage": 2, "positions": [0, 0, 0, 0, 0, 0], '
-                             '"contacts": [{"rn": 0, "rt": 0, "state": "open"}]}', 'stage = 2: must be at most 1'),
+                             '"contacts": [{"rn": 0, "rt": 0, "state": "open"}]}', 'stage = 2: must be 0: there is no program'),
+                            ('{"load_factor": 0, "stage": 1.5, "positions": [], "contacts": []}', 'stage = 1.5: must be 0'),
+                            ('{"load_factor": 0, "positions": [0, 0, 0, 0, 0, 0], "contacts": null}', 'contacts: must be a list'),
+                            ('{"load_factor": 0, "positions": [1e200, 0, 0, 1e200, 0, 0], '
+                             '"contacts": [{"rn": 0, "rt": 0, "state": "open"}]}', 'beyond what can be computed'),
                             ('{"load_factor": 0, "positions": [0, 0, 0, 0, 0, 0], '
                              '"contacts": [{"rn": 0, "rt": 0, "state": "shut"}]}', 'state = shut: must be')):
             result = run('contact_path_response', scene, text=text + '\n')

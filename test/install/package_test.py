@@ -148,7 +148,8 @@ class PackageTest(unittest.TestCase):
 
     def test_commands_are_programs(self):
         commands = os.listdir(self.environment['PATH'])
-        self.assertEqual(sorted(commands), ['contact_path_lattice', 'contact_path_mesh', 'contact_path_outlines', 'contact_path_plot',
+        self.assertEqual(sorted(commands), ['contact_path_expand', 'contact_path_lattice', 'contact_path_mesh', 'contact_path_outlines',
+                                            'contact_path_plot', 'contact_path_response',
                                             'contact_path_study', 'contact_path_trace', 'contact_path_verify'])
         for command in commands:
             self.assertIn('--help', self.run_here(command, '--help'))
@@ -192,8 +193,8 @@ class PackageTest(unittest.TestCase):
             self.assertEqual(told.returncode, 1)
 
     def test_python_package(self):
-        code = ('import sys, contact_path.program_trace; path = contact_path.trace(sys.argv[1]); '
-                'print(contact_path.__file__, contact_path.program_trace.find_program(), path.end_reason, sep="\\n")')
+        code = ('import sys, contact_path.programs; path = contact_path.trace(sys.argv[1]); '
+                'print(contact_path.__file__, contact_path.programs.find_program(), path.end_reason, sep="\\n")')
         told = subprocess.run(['/usr/bin/python3', '-c', code, self.scene('sliding_bar')], env=self.environment, cwd=self.home,
                               check=True, timeout=PATIENCE, stdout=subprocess.PIPE, universal_newlines=True).stdout.splitlines()
         self.assertEqual(told, [self.modules + '/contact_path/__init__.py', self.prefix + '/lib/contact_path/contact_path_trace',

@@ -262,5 +262,34 @@ TEST(CurvedScenes, OtherStepsLeadToTheSameEvents) {
   }
 }
 
+// Nodes on bars of their own are pressed onto the joints of a straight floor, and then pressed more or less in turn: on
+// which side of its joint a node stands decides nothing.
+TEST(JointsOfAFloor, BearManyNodes) {
+  for (const int count : {6, 12, 13, 14}) {
+    SCOPED_TRACE(count);
+    TraceRequest request;
+    Obstacle floor;
+    floor.name = "floor";
+    floor.shape = ObstacleShape::kPolyline;
+    for (int i = 0; i < count + 2; ++i) floor.points.insert(floor.points.end(), {static_cast<double>(i), 0.0});
+    request.scene.obstacles = {floor};
+    request.program.resize(2);
+    request.program[1].target = 2.0;
+    for (int i = 0; i < count; ++i) {
+      const std::string foot = "foot" + std::to_string(i), top = "top" + std::to_string(i);
+      request.scene.nodes.push_back({foot, i + 1.0, 0.0, true});
+      request.scene.nodes.push_back({top, i + 1.0, 1.0, true, true});
+      request.scene.bars.push_back({{foot, top}, 1.0 + 0.1 * i});
+      request.scene.contacts.push_back({foot, "floor"});
+      request.program[0].loads.push_back({foot, 0.0, -1.0});
+      request.program[1].loads.push_back({foot, 0.0, i % 2 == 0 ? 0.5 : -0.5});
+    }
+    const TracedPath path = TraceProved(request);
+    ASSERT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+    for (int i = 0; i < count; ++i)
+      EXPECT_NEAR(path.increments.back().contacts[static_cast<std::size_t>(i)].rn, i % 2 == 0 ? 0.0 : 2.0, 1e-12) << i;
+  }
+}
+
 }  // namespace
 }  // namespace contact_path

@@ -338,6 +338,17 @@ TEST(ValidateOptionsTest, IncrementsByIpoptHaveNoSamples) {
   EXPECT_EQ(violations[0].key, "options.at");
 }
 
+TEST(ValidateOptionsTest, IncrementsByIpoptTakeTheIncrementalLawAlone) {
+  TraceRequest request = SoundRequest();
+  request.options.method = Method::kMpec;
+  request.options.friction_law = FrictionLaw::kTotal;
+  EXPECT_TRUE(Validate(request).empty());
+  request.options.mpec_solver = MpecSolver::kIpopt;
+  const std::vector<Violation> violations = Validate(request);
+  ASSERT_EQ(violations.size(), 1U);
+  EXPECT_EQ(violations[0].ToLine(), "options.friction_law = total: must be incremental with mpec_solver ipopt");
+}
+
 // A stage that presses b and moves the floor down, and one that takes that back.
 TraceRequest SoundProgram() {
   TraceRequest request = SoundRequest();

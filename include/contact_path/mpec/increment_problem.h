@@ -25,7 +25,7 @@ struct IncrementGoal {
 //   y (NumDofs() + 1), r_n / S by contact, then r_t / S and lambda / S by frictional contact, then the reactions of the
 //   prescribed components over S.
 // Objective, eq. (4) over gamma_2 S^2 at gamma2_factor 1:
-//   w rhat . y_t - (1 - w) direction . y + gamma2_factor |y|^2 / 2,   rhat = r_t^k / |T_t r_t^k|,
+//   w g . y / |g| - (1 - w) direction . y + gamma2_factor |y|^2 / 2,   g . y = sum of r_t^k xi', by (u, s),
 // with gamma_1 and gamma_2 such that the unconstrained minimum is no longer than S for any w: neither one term nor all
 // terms together ask for more than the wanted length.
 // Constraints, all over S (products over S^2): equilibrium = 0; gaps >= 0; gap r_n <= eps; lambda -+ du_t >= 0;
