@@ -12,8 +12,7 @@ from contact_path.increments import Increments
 from contact_path.io import frames, vtk
 from contact_path.page import document
 from contact_path.scene import Scene
-from contact_path.structure.drawn import drawn
-from contact_path.structure.expand import contact_name
+from contact_path.structure.expanded import expanded
 
 if TYPE_CHECKING:
     import pandas
@@ -45,10 +44,10 @@ class Path(Increments):
     """
 
     def with_scene(self, scene: Scene) -> Path:
-        """The same path with its scene, where it was read from a CSV file. ValueError: it is not a path of this scene."""
-        parts = drawn(scene)
-        contacts = [contact_name(contact) for contact in parts['contacts']]
-        if [node['name'] for node in parts['nodes']] != self.nodes or contacts != self.contacts:
+        """The same path with its scene, where it was read from a CSV file. ValueError: it is not a path of this scene,
+        the scene breaks a rule, or contact_path_expand is not there."""
+        parts = expanded(scene)
+        if [node['name'] for node in parts['scene']['nodes']] != self.nodes or parts['names']['contacts'] != self.contacts:
             raise ValueError('not a path of this scene: nodes and contacts differ')
         stages = len(parts['program'])
         if ('stage' in self) != (stages > 0) or stages and len(self) and self['stage'][-1] > stages:

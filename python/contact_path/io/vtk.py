@@ -98,10 +98,9 @@ def pressures(structure: Structure, increment: Mapping[str, Any]) -> Dict[str, n
 
 def cell_blocks(structure: Structure) -> List[Tuple[str, np.ndarray, List[str]]]:
     """Kind, nodes (m, k) and names of the m cells: bars, segments of beams, solids, and nodes that none of these has."""
-    bars, segments = np.asarray(structure.bars), np.asarray(structure.beams.nodes)
-    blocks = [('line', bars, ['bar%d' % (i + 1) for i in range(len(bars))]), ('line', segments, structure.beams.names)]
+    blocks = [('line', structure.bars, structure.bar_names), ('line', structure.beams.nodes, structure.beams.names)]
     for solid in structure.solids:
-        blocks.append((CELLS[solid.nodes.shape[1]], solid.nodes, ['%s.%d' % (solid.name, i + 1) for i in range(len(solid.nodes))]))
+        blocks.append((CELLS[solid.nodes.shape[1]], solid.nodes, solid.names))
     used = np.concatenate([nodes.ravel() for _, nodes, _ in blocks])
     alone = np.setdiff1d(np.arange(len(structure.names)), used)[:, None]
     blocks.append(('vertex', alone, [structure.names[node] for node in alone[:, 0]]))
