@@ -1,13 +1,14 @@
 """Paths from the messages of the node, which bags hold, too."""
 from __future__ import annotations
 
-from typing import Any, Dict, Mapping, Sequence, Tuple
+from typing import Any, Dict, Mapping, Sequence
 
 import numpy as np
 
-from contact_path.increments import KINDS, PRESSURES, REACTIONS, SECTIONS, STATES, STRESSES
+from contact_path.increments import KINDS, STATES
 from contact_path.path import Path
 from contact_path.scene import Scene
+from contact_path.structure.columns import list_columns, matrix, parts_of
 from contact_path.structure.expanded import expanded
 
 
@@ -50,51 +51,11 @@ def columns_of(traced: Mapping[str, Any], increments: Sequence[Any]) -> Dict[str
     for field in ('dissipation', 'strain_energy', 'external_work', 'equilibrium_residual', 'complementarity_residual',
                   'solve_time'):
         table[field] = column(field)
-    table.update(reaction_columns(traced['names'], increments))
-    table.update(list_columns(traced['names'], len(traced['scene']['bars']), increments))
+    for name, own in parts_of(traced).items():
+        lists = [getattr(message, name, ()) for message in increments]
+        if name in ('supports', 'boundaries') or any(lists):
+            table.update(list_columns(own, lists, getattr))
     return table
-
-
-def reaction_columns(names: Mapping[str, Any], increments: Sequence[Any]) -> Dict[str, np.ndarray]:
-    """Forces of supports, obstacles and surfaces, as the CSV has them. names: as expanded() has them."""
-    supports = [(support['node'], [axis for axis, component in zip(REACTIONS, ('x', 'y', 'rotation')) if support[component]])
-                for support in names['supports']]
-    # A boundary with the name of a supported node has no columns beside those of the node.
-    taken = {name for name, _ in supports}
-    boundaries = [(of['name'], [] if of['name'] in taken else REACTIONS) for of in names['boundaries']]
-    return {**columns_of_list(increments, 'supports', supports), **columns_of_list(increments, 'boundaries', boundaries)}
-
-
-def list_columns(names: Mapping[str, Any], bars: int, increments: Sequence[Any]) -> Dict[str, np.ndarray]:
-    """Section forces, stresses, pressures and widths, as the CSV has them where they are recorded. names: as expanded() has them;
-    bars: how many of the sections are of bars."""
-    parts = {'sections': [(name, SECTIONS[:1] if i < bars else SECTIONS) for i, name in enumerate(names['sections'])],
-             'stresses': [(name, STRESSES) for name in names['elements']],
-             'pressures': [(name, PRESSURES) for name in names['contacts']]}
-    table: Dict[str, np.ndarray] = {}
-    for field, of in parts.items():
-        if any(getattr(message, field, ()) for message in increments):
-            table.update(columns_of_list(increments, field, of))
-            if field == 'pressures':
-                widths = matrix([message.widths for message in increments], len(names['boundaries']))
-                table.update({'width_' + boundary['name']: widths[:, i] for i, boundary in enumerate(names['boundaries'])})
-    return table
-
-
-def columns_of_list(increments: Sequence[Any], field: str, parts: Sequence[Tuple[str, Sequence[str]]]) -> Dict[str, np.ndarray]:
-    """Of a list that increments have, an entry for each part. parts: name, and which fields of its entry are columns."""
-    wanted = {of for _, fields in parts for of in fields}
-    values = {of: matrix([[getattr(entry, of) for entry in getattr(message, field, ())] for message in increments], len(parts))
-              for of in wanted}
-    return {'%s_%s' % (of, name): values[of][:, i] for i, (name, fields) in enumerate(parts) for of in fields}
-
-
-def matrix(rows: Sequence[Sequence[float]], width: int) -> np.ndarray:
-    """The rows (n, width); nan where one is shorter, as of an increment without positions and contacts."""
-    full = np.full((len(rows), width), np.nan)
-    for number, row in enumerate(rows):
-        full[number, :min(len(row), width)] = row[:width]
-    return full
 
 
 def branches_of(contacts: Sequence[str], event: Any) -> Dict[str, Any]:

@@ -8,6 +8,7 @@ import numpy as np
 
 from contact_path.increments import PRESSURES, SECTIONS, STATES, STRESSES, Increments
 from contact_path.structure.arrays import Structure
+from contact_path.structure.response import with_response
 from contact_path.structure.shapes import Curve, Shape
 
 CELLS = {3: 'triangle', 4: 'quad', 6: 'triangle6', 8: 'quad8'}
@@ -18,9 +19,12 @@ FACTS = ('stage', 'load_factor', 'arc_length', 'strain_energy', 'dissipation')
 
 
 def write(path: Increments, directory: str) -> str:
-    """Writes the increments that carry positions; the name of the collection. ValueError: the path has no scene."""
+    """Writes the increments that carry positions; the name of the collection. What parts bear is computed where the path lacks it.
+
+    ValueError: the path has no scene, or a program is not there."""
     if path.scene is None:
         raise ValueError('files for ParaView need the scene: give it by Path.with_scene')
+    path = with_response(path, ('sections', 'stresses', 'pressures'))
     structure = Structure(path.scene)
     os.makedirs(directory, exist_ok=True)
     rows = path.full

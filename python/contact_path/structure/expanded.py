@@ -17,10 +17,14 @@ def expanded(scene: Scene) -> Dict[str, Any]:
 
     ValueError: the program is not there, or refuses the scene, in a line.
     """
-    # Options do not change what is traced: scenes that differ in options alone share an answer.
+    return json.loads(answer_of(text_of(scene)))
+
+
+def text_of(scene: Scene) -> str:
+    """The scene and its program. Options do not change what is traced: scenes that differ in options alone share an answer."""
     traced = Scene()
     traced.request = {part: given for part, given in scene.request.items() if part != 'options'}
-    return json.loads(answer_of(traced.text()))
+    return traced.text()
 
 
 @functools.lru_cache(maxsize=1024)  # of a study; paths take more memory
