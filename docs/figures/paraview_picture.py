@@ -3,7 +3,7 @@
 
 xvfb-run -a pvpython --force-offscreen-rendering docs/figures/paraview_picture.py foot/path.pvd foot.png [INCREMENT]
 
-The path has solids whose stresses are recorded, contacts and obstacles. Without INCREMENT it is the last one.
+The path has solids, contacts and obstacles. Without INCREMENT it is the last one.
 """
 import sys
 

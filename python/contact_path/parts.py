@@ -222,17 +222,6 @@ PARTS: Dict[str, Dict[str, str]] = {part: fields_of(getattr(Parts, part[:-1])) f
 OPTIONS: Dict[str, str] = fields_of(Parts.options)
 #: Of a stage, besides its lists.
 STAGE: Dict[str, str] = fields_of(Parts.stage)
-_DEFAULTS: Dict[str, Any] = {'str': '', 'float': 0.0, 'int': 0, 'bool': False}
-
-
-def with_defaults(part: str, entries: Sequence[Mapping[str, Any]]) -> List[Entry]:
-    """The entries of a list of a scene with all fields.
-
-    >>> with_defaults('contacts', [{'node': 'a', 'obstacle': 'floor'}])
-    [{'node': 'a', 'group': '', 'obstacle': 'floor', 'surface': '', 'friction': 0.0}]
-    """
-    defaults = {field: _DEFAULTS.get(kind, []) for field, kind in PARTS[part].items()}
-    return [{**defaults, **entry} for entry in entries]
 
 
 def plain(value: Any) -> Any:

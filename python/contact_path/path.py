@@ -12,8 +12,8 @@ from contact_path.increments import Increments
 from contact_path.io import frames, vtk
 from contact_path.page import document
 from contact_path.scene import Scene
-from contact_path.structure.drawn import drawn
-from contact_path.structure.expand import contact_name
+from contact_path.structure.expanded import expanded
+from contact_path.structure.response import with_response
 
 if TYPE_CHECKING:
     import pandas
@@ -45,10 +45,10 @@ class Path(Increments):
     """
 
     def with_scene(self, scene: Scene) -> Path:
-        """The same path with its scene, where it was read from a CSV file. ValueError: it is not a path of this scene."""
-        parts = drawn(scene)
-        contacts = [contact_name(contact) for contact in parts['contacts']]
-        if [node['name'] for node in parts['nodes']] != self.nodes or contacts != self.contacts:
+        """The same path with its scene, where it was read from a CSV file. ValueError: it is not a path of this scene,
+        the scene breaks a rule, or contact_path_expand is not there."""
+        parts = expanded(scene)
+        if [node['name'] for node in parts['scene']['nodes']] != self.nodes or parts['names']['contacts'] != self.contacts:
             raise ValueError('not a path of this scene: nodes and contacts differ')
         stages = len(parts['program'])
         if ('stage' in self) != (stages > 0) or stages and len(self) and self['stage'][-1] > stages:
@@ -57,8 +57,21 @@ class Path(Increments):
 
     def quantity(self, name: str) -> np.ndarray:
         """A quantity (n,), spelled as a column or as in stop criteria: 'b.x', 'b@floor.rn'; with a scene also 'b@floor.slip'
-        [length], 'b.fx', 'b.fy', 'load_x', 'load_y' [force]. ValueError: there is none of this name."""
+        [length], 'b.fx', 'b.fy', 'load_x', 'load_y' [force], and where they are not recorded those of response(): 'arm.3.M'. ValueError:
+        there is none of this name."""
         return quantities.values(self, name)
+
+    def response(self, *lists: str) -> Path:
+        """The same path with further columns (n,): what its parts bear, where it is not recorded.
+
+        lists: 'sections' [force] and [force length], 'stresses' [force/length^2] with energies [force length], 'pressures' [force/length]
+        with widths [length], as of the option record; 'reactions' [force] and [force length]; none: the first three. Columns that the
+        path has stay as they are. Increments without positions have nan. The program contact_path_response computes them, by the code
+        of the trace, from positions as they are recorded: as exact as rounding of these leaves them.
+
+        ValueError: the path has no scene, there is no such list, or the program is not there.
+        """
+        return with_response(self, lists or ('sections', 'stresses', 'pressures'))
 
     def to_dataframe(self) -> pandas.DataFrame:
         """A table of pandas: a row for each increment, a column for each of the path's. Needs pandas."""
@@ -71,7 +84,8 @@ class Path(Increments):
 
     def to_vtk(self, directory: str | os.PathLike[str]) -> str:
         """Writes files for ParaView, and returns the name of the collection, path.pvd: a file of the structure, one of the
-        obstacles and one of the superelements for each increment that carries positions. Needs meshio. ValueError: the path has no scene."""
+        obstacles and one of the superelements for each increment that carries positions, with the columns of response(). Needs meshio.
+        ValueError: the path has no scene."""
         return vtk.write(self, os.fspath(directory))
 
     def plot(self, x: str | None = None, y: str = 'load_factor', *, states: bool = False, energy: bool = False,

@@ -1,7 +1,7 @@
 """The quantities of a path that can be plotted: names, values, labels.
 
-A quantity is named as the column of the CSV (x_apex, rn_b@floor) or by its part of the scene (apex.x, b@floor.rn). Four kinds are
-no columns of the file, and need the scene:
+A quantity is named as the column of the CSV (x_apex, rn_b@floor) or by its part of the scene (apex.x, b@floor.rn). Section forces, stresses,
+pressures and widths that are not recorded are computed, with the scene. Four kinds are no columns of the file, and need the scene:
   slip_CONTACT           tangential motion of the node against the obstacle while the contact touches and does not stick [length]
   fx_NODE, fy_NODE       load on the node, of all stages and with the constant loads [force]
   load_x, load_y         sum of the loads on all nodes [force]
@@ -13,7 +13,8 @@ from typing import List, Tuple
 
 import numpy as np
 
-from contact_path.increments import Increments
+from contact_path.increments import PRESSURES, SECTIONS, STRESSES, Increments
+from contact_path.structure import response
 from contact_path.structure.arrays import Structure
 
 LABELS = {'x': ('position x of node', '[length]'), 'y': ('position y of node', '[length]'),
@@ -32,6 +33,7 @@ LABELS = {'x': ('position x of node', '[length]'), 'y': ('position y of node', '
 UNITS = {'load_factor': '[-]', 'arc_length': '[-]', 'dissipation': '[force length]', 'strain_energy': '[force length]',
          'external_work': '[force length]', 'equilibrium_residual': '[-]', 'complementarity_residual': '[-]',
          'solve_time': '[s]', 'load_x': '[force]', 'load_y': '[force]'}
+RESPONSE = (*SECTIONS, *STRESSES, *PRESSURES, 'width')  # fields that are computed where they are not recorded
 LISTED = 12  # names in a message
 
 
@@ -73,15 +75,20 @@ def values(path: Increments, quantity: str) -> np.ndarray:
     there = [known for known in path.columns if known != 'kind' and not known.startswith('state_')]
     if name in there:
         return path[name]
-    if name not in derived(path):
-        known = there + derived(path)
+    field, part = split(name)
+    of_scene = derived(path)
+    computed = response.names(path) if field in RESPONSE and path.scene is not None else {}
+    if name in computed:
+        return response.columns(path, [computed[name]])[name]
+    unknown = field in RESPONSE and path.scene is None and not any(split(other)[0] == field for other in there)  # it may be there
+    if name not in of_scene and not unknown:
+        known = there + of_scene + [other for other in computed if other not in path]
         near = difflib.get_close_matches(name, known, 1)
         listed = ', '.join(map(spelled, known[:LISTED])) + (', ...' if len(known) > LISTED else '')
         raise ValueError('no quantity %s: %s' % (quantity, 'did you mean %s?' % spelled(near[0]) if near else listed))
     if path.scene is None:
         raise ValueError('%s needs the scene: give it by --scene, or by Path.with_scene' % quantity)
     structure = Structure(path.scene)
-    field, part = split(name)
     return slip(path, structure, part) if field == 'slip' else load(path, structure, field, part)
 
 

@@ -27,6 +27,7 @@ from contact_path import Path, Scene, programs, read  # noqa: E402
 from contact_path.plot import panels as plot_panels, shapes as plot_shapes  # noqa: E402
 from contact_path.structure import obstacles as obstacle_curves  # noqa: E402
 from contact_path.structure.arrays import Structure  # noqa: E402
+from contact_path.structure.outlines import outlines  # noqa: E402
 
 
 loader = importlib.machinery.SourceFileLoader('plot', PLOT)
@@ -257,13 +258,16 @@ class Obstacles(QuickPlotTest):
     """Boundaries of obstacles that are no half planes."""
 
     @staticmethod
-    def boundary(**fields):
+    def scene(**fields):
         scene = Scene()
         scene.node('p')
         scene.superelement(nodes=['p'], stiffness=np.eye(2).ravel())
         scene.load(node='p', fx=1.0)
         scene.obstacle('thing', **fields)
-        return Structure(scene).obstacles['thing']
+        return scene
+
+    def boundary(self, **fields):
+        return Structure(self.scene(**fields)).obstacles['thing']
 
     def test_normals_are_on_the_left_of_who_walks_along(self):
         square = [0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0]
@@ -318,16 +322,19 @@ class Obstacles(QuickPlotTest):
         points, _, _, _ = self.boundary(shape='spline', points=given, px=1.0).outline
         self.assertLess(np.abs(points[:, None] - given - (1.0, 0.0)).max(axis=2).min(axis=0).max(), 1e-12)
 
-    def test_program_for_curves_alone(self):
-        """Where it is not, half planes are drawn, and anything else is refused by one line."""
+    def test_without_the_programs(self):
+        """One line says so; so does one where the scene is refused."""
+        thing = self.boundary(shape='circle', radius=2.5)
         with mock.patch.dict(os.environ, {'CMAKE_PREFIX_PATH': '', 'PATH': '', 'CONTACT_PATH_PROGRAMS': ''}), \
                 mock.patch.object(programs, '__file__', self.path('programs.py')):
-            self.assertTrue(self.boundary(nx=1.0).flat)
-            thing = self.boundary(shape='circle', radius=2.5)
             with self.assertRaisesRegex(ValueError, '^contact_path_outlines is not there: .*$'):
                 self.assertFalse(thing.outline)
+            with self.assertRaisesRegex(ValueError, '^contact_path_expand is not there: .*$'):
+                self.boundary(nx=0.7)
+        with self.assertRaisesRegex(ValueError, r'^contact_path_expand: scene.obstacles\[0\].radius = 0: .*$'):
+            self.boundary(shape='circle')
         with self.assertRaisesRegex(ValueError, r'^contact_path_outlines: scene.obstacles\[0\].radius = 0: .*$'):
-            self.assertFalse(self.boundary(shape='circle').outline)
+            outlines(self.scene(shape='circle'))
 
     def test_turned_about_a_point_and_then_moved(self):
         motion = {'dx': 3.0, 'dy': 0.0, 'turn': np.pi, 'about_x': 1.0, 'about_y': 0.0}
@@ -339,7 +346,9 @@ class Obstacles(QuickPlotTest):
     def test_motion_that_a_stage_takes_back(self):
         scene = Scene()
         scene.node('p')
+        scene.superelement(nodes=['p'], stiffness=np.eye(2).ravel())
         scene.obstacle('wall', nx=1.0)
+        scene.contact(node='p', obstacle='wall')
         scene.stage().obstacle_motion('wall', dx=3.0, dy=-1.0)
         scene.stage(unload=True)
         placement = Structure(scene).placement('wall', {'stage': 2, 'load_factor': 0.5})
@@ -513,9 +522,10 @@ options:
 HINGED = """scene:
   nodes:
   - {name: a, fixed_x: true, fixed_y: true}
-  - {name: b, x: 1.0, fixed_x: true, fixed_y: true, fixed_rotation: true}
+  - {name: b, x: 1.0, fixed_y: true}
   beams:
   - {name: leg, nodes: [a, b], EA: 1.0e4, EI: 1.0, segments: 1, hinged: [true, false]}
+  loads: [{node: b, fx: 1.0}]
 """
 
 

@@ -1,21 +1,30 @@
 #!/usr/bin/python3
 """What a path answers beside its columns of state: reactions, sections, samples, tables of pandas and xarray, files for ParaView."""
+import dataclasses
 import os
+import subprocess
 import sys
 import tempfile
 import unittest
 import xml.etree.ElementTree
+from unittest import mock
 
 import numpy as np
 
 sys.path.insert(0, os.path.join(os.environ['CONTACT_PATH_ROOT'], 'python'))
 import contact_path as cp  # noqa: E402
+from contact_path import programs  # noqa: E402
+from contact_path.structure import response  # noqa: E402
 
 try:
     import pandas
     import xarray
 except ImportError:
     pandas = xarray = None
+try:
+    import rosbag
+except ImportError:
+    rosbag = None
 try:
     import meshio
 except ImportError:
@@ -39,6 +48,86 @@ class ReactionsTest(unittest.TestCase):
         np.testing.assert_allclose(path['ry_tip'][samples], 3.0 * path['y_tip'][samples], rtol=1e-4)  # 3 EI / l^3
         np.testing.assert_allclose(path['ry_root'], -path['ry_tip'], atol=1e-10)
         np.testing.assert_allclose(path.quantity('root.rm'), -path['ry_tip'] * path['x_tip'], atol=1e-10)
+
+
+def scene_named(name):
+    return cp.Scene.read(os.path.join(os.environ['CONTACT_PATH_ROOT'], 'scenes', name + '.yaml'))
+
+
+def has_bags():
+    return '--bag' in subprocess.run([programs.find_program(), '--help'], stdout=subprocess.PIPE, encoding='utf-8', check=True).stdout
+
+
+class ResponseTest(unittest.TestCase):
+    """What parts bear where it is not recorded."""
+
+    def check(self, name, record, count):
+        """The columns of a path that does not record them, of count columns, are those of one that does; also of a CSV file and, where
+        there is rosbag, of a bag."""
+        scene = scene_named(name)
+        scene.options(max_increments=20)
+        recorded = cp.trace(scene, record=[record])
+        with tempfile.TemporaryDirectory() as directory:
+            scene.options(record=[], full_state_every=4)
+            bag = os.path.join(directory, 'a.bag') if rosbag is not None and has_bags() else None
+            bare = cp.trace(scene, bag=bag)
+            table = os.path.join(directory, 'a.csv')
+            with open(table, 'w') as file:
+                file.write(','.join(bare.columns) + '\n')
+                file.writelines(','.join(map(str, row)) + '\n' for row in zip(*(bare[column].tolist() for column in bare.columns)))
+            paths = [bare, cp.read(table).with_scene(scene)] + [cp.read(bag)] * (bag is not None)
+        added = [column for column in recorded.columns if column not in bare]
+        self.assertEqual(len(added), count)
+        for path in paths:
+            answered = path.response(record)
+            self.assertEqual(answered.columns, path.columns + added)
+            self.assertEqual(answered.end_reason, path.end_reason)
+            for column in added:
+                rows = path.full
+                scale = max(1.0, np.abs(recorded[column]).max())
+                np.testing.assert_allclose(answered[column][rows], recorded[column][rows], rtol=0.0, atol=1e-9 * scale, err_msg=column)
+                self.assertTrue(np.isnan(np.delete(answered[column], rows)).all())
+            np.testing.assert_array_equal(path.quantity(added[-1]), answered[added[-1]])
+            self.assertIs(answered.response(record)[added[0]], answered[added[0]])  # not once more
+        if bag is not None:
+            self.assertLess(len(paths[-1].full), len(bare))  # some increments have no positions
+        return bare
+
+    def test_sections(self):
+        bare = self.check('portal_frame', 'sections', 24 * 5)
+        with mock.patch.object(response, 'answer', side_effect=response.answer) as asked:
+            path = dataclasses.replace(bare)
+            np.testing.assert_array_equal(path.quantity('N_left.1'), path.response('sections')['N_left.1'])
+            self.assertEqual(len(path.quantity('beam.8.M')), len(path))
+            self.assertEqual(asked.call_count, 1)
+        with self.assertRaisesRegex(ValueError, '^no quantity left.9.M: did you mean left.[1-8].M'):
+            bare.quantity('left.9.M')
+
+    def test_stresses(self):
+        self.check('cantilever_block', 'stresses', 20 * 6)
+
+    def test_pressures(self):
+        self.check('two_blocks', 'pressures', 11)
+
+    def test_all_lists_and_reactions(self):
+        scene = scene_named('two_blocks')
+        path = cp.trace(scene, max_increments=5)
+        held = [column for column in path.columns if column.startswith(('rx_', 'ry_', 'rm_'))]
+        bare = dataclasses.replace(path, table={column: path[column] for column in path.columns if column not in held})
+        found = bare.response('reactions')
+        self.assertEqual(found.columns, bare.columns + held)
+        for column in held:
+            np.testing.assert_allclose(found[column], path[column], rtol=0.0, atol=1e-9)
+        self.assertEqual(path.response().columns, path.response('stresses', 'pressures').columns)
+
+    def test_what_cannot_be_told(self):
+        path = cp.trace(scene_named('rough_truss'), max_increments=3)
+        with self.assertRaisesRegex(ValueError, '^no list forces: must be reactions, sections, stresses, pressures$'):
+            path.response('forces')
+        path = dataclasses.replace(path, scene=None)
+        for ask in path.response, lambda: path.quantity('bar1.N'):
+            with self.assertRaisesRegex(ValueError, '^.*needs? the scene: .*Path.with_scene$'):
+                ask()
 
 
 class TablesTest(unittest.TestCase):
@@ -66,6 +155,23 @@ class TablesTest(unittest.TestCase):
         self.assertEqual(data['load_factor'].dims, ('increment',))
         self.assertEqual(data['strain_energy'].dims, ('increment',))
         self.assertEqual(data.attrs['end_reason'], 'stop_criterion')
+
+    @unittest.skipIf(meshio is None, 'meshio is not installed')
+    def test_paraview_without_record(self):
+        """Section forces are those that are recorded."""
+        bare = dataclasses.replace(self.path, table={column: self.path[column] for column in self.path.columns
+                                                     if column.partition('_')[0] not in ('N', 'Q', 'M', 'M1', 'M2')})
+        with tempfile.TemporaryDirectory() as directory:
+            meshes = []
+            for number, path in enumerate((self.path, bare)):
+                collection = path.to_vtk(os.path.join(directory, str(number)))
+                last = [entry.get('file') for entry in xml.etree.ElementTree.parse(collection).getroot().findall('Collection/DataSet')
+                        if entry.get('part') == '0'][-1]
+                meshes.append(meshio.read(os.path.join(directory, str(number), last)))
+        self.assertEqual(set(meshes[0].cell_data), set(meshes[1].cell_data))
+        for field in 'N', 'Q', 'M', 'M1', 'M2':
+            for one, other in zip(meshes[0].cell_data[field], meshes[1].cell_data[field]):
+                np.testing.assert_allclose(one, other, rtol=0.0, atol=1e-9)
 
     @unittest.skipIf(meshio is None, 'meshio is not installed')
     def test_paraview(self):

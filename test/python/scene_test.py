@@ -1,23 +1,25 @@
 #!/usr/bin/env python3
 """The builder of scenes: its methods against the messages, what it writes and reads.
 
-CONTACT_PATH_ROOT: the sources; CONTACT_PATH_SCENES: the directory of the example scenes.
+CONTACT_PATH_ROOT: the sources; CONTACT_PATH_PROGRAMS: the directory of the programs; CONTACT_PATH_SCENES: the example scenes.
 """
 import glob
 import os
 import re
 import sys
 import unittest
+from unittest import mock
 
 import numpy as np
 import yaml
 
-from program_test import SCENES, ProgramTest
+from program_test import SCENES, ProgramTest, scene_file
 
 ROOT = os.environ['CONTACT_PATH_ROOT']
 sys.path.insert(0, os.path.join(ROOT, 'python'))
 import contact_path as cp  # noqa: E402
 from contact_path import Scene, parts  # noqa: E402
+from contact_path.structure import expanded  # noqa: E402
 
 MESSAGES = {'nodes': 'Node', 'bars': 'Bar', 'superelements': 'Superelement', 'beams': 'Beam', 'materials': 'Material',
             'solids': 'Solid', 'groups': 'Group', 'surfaces': 'BoundarySurface', 'loads': 'Load', 'obstacles': 'Obstacle',
@@ -174,6 +176,22 @@ program:
         other.options(step=0.1)
         self.assertEqual((len(made.request['scene']['nodes']), 'options' in made.request), (1, False))
         self.assertNotEqual(made, other)
+
+    def test_a_scene_is_expanded_once(self):
+        """Whatever its options; changed, it is expanded again."""
+        scene = Scene.read(scene_file('rough_arch'))
+        with mock.patch.object(expanded, 'answer', side_effect=expanded.answer) as asked:
+            expanded.answer_of.cache_clear()
+            names = expanded.expanded(scene)['names']
+            scene.options(step=0.01, record=['nothing'])
+            self.assertEqual(expanded.expanded(scene)['names'], names)
+            self.assertEqual(asked.call_count, 1)
+            scene.request['scene']['beams'][0]['segments'] = 2
+            self.assertEqual(len(expanded.expanded(scene)['names']['sections']), len(names['sections']) - 14)
+            self.assertEqual(asked.call_count, 2)
+        scene.request['scene']['beams'][0]['segments'] = -1
+        with self.assertRaisesRegex(ValueError, r'^contact_path_expand: scene.beams\[0\].segments = -1: .*$'):
+            expanded.expanded(scene)
 
     def test_what_is_no_scene(self):
         for text in '', 'index,load_factor', '- a', 'scene: none', 'scene: {', 'a: \x00':

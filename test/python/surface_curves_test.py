@@ -12,8 +12,7 @@ import numpy as np
 ROOT = os.environ['CONTACT_PATH_ROOT']
 sys.path.insert(0, os.path.join(ROOT, 'python'))
 from contact_path import Scene  # noqa: E402
-from contact_path.structure.drawn import drawn  # noqa: E402
-from contact_path.structure.expand import contact_name  # noqa: E402
+from contact_path.structure.expanded import expanded  # noqa: E402
 from contact_path.structure.surfaces import SurfaceCurve  # noqa: E402
 
 
@@ -66,16 +65,19 @@ class SurfaceCurvesTest(unittest.TestCase):
 
     def test_contacts_of_a_group(self):
         scene = Scene()
-        for name, fixed in (('a', False), ('b', False), ('held', True)):
-            scene.node(name, fixed_x=fixed, fixed_y=fixed)
+        for name, x, y, fixed in (('a', 0.0, 1.0, False), ('held', 0.0, 0.0, True), *(('t%d' % i, i, 0.0, False) for i in range(1, 4))):
+            scene.node(name, x=x, y=y, fixed_x=fixed, fixed_y=fixed)
+        for pair in (('a', 't1'), ('held', 't1'), ('t1', 't2'), ('t2', 't3')):
+            scene.bar(pair, EA=1.0)
+        scene.load(node='a', fx=1.0)
         scene.group('g', nodes=['a', 'held'])
-        scene.surface('top', nodes=['a', 'b'])
+        scene.surface('top', nodes=['t1', 't2', 't3'])
         scene.obstacle('floor', ny=1.0)
         scene.contact(group='g', obstacle='floor')
         scene.contact(group='g', surface='top', friction=0.2)
-        contacts = drawn(scene)['contacts']
-        self.assertEqual([contact_name(contact) for contact in contacts], ['a@floor', 'a@top', 'held@top'])
-        self.assertEqual([contact['friction'] for contact in contacts], [0.0, 0.2, 0.2])
+        traced = expanded(scene)
+        self.assertEqual(traced['names']['contacts'], ['a@floor', 'a@top', 'held@top'])
+        self.assertEqual([contact['friction'] for contact in traced['scene']['contacts']], [0.0, 0.2, 0.2])
 
 
 if __name__ == '__main__':

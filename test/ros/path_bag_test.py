@@ -6,6 +6,7 @@ CONTACT_PATH_TRACE: the program; CONTACT_PATH_SCENES: the directory of the examp
 import os
 import sys
 import unittest
+from unittest import mock
 
 import numpy as np
 import rosbag
@@ -15,6 +16,8 @@ from program_test import ProgramTest, run, scene_file
 
 sys.path.insert(0, os.path.join(os.environ['CONTACT_PATH_ROOT'], 'python'))
 import contact_path as cp  # noqa: E402
+from contact_path import programs  # noqa: E402
+from contact_path.structure import expanded  # noqa: E402
 
 
 class PathBagTest(ProgramTest):
@@ -24,6 +27,14 @@ class PathBagTest(ProgramTest):
         bag, table = self.path('a.bag'), self.path('a.csv')
         run(os.environ['CONTACT_PATH_TRACE'], scene, '--csv', table, '--bag', bag, '--quiet', *options)
         return cp.read(table), cp.read(bag)
+
+    def test_without_the_program_one_line_tells(self):
+        self.trace(scene_file('rough_truss'))
+        with mock.patch.dict(os.environ, {'CONTACT_PATH_PROGRAMS': '', 'CMAKE_PREFIX_PATH': '', 'PATH': ''}), \
+                mock.patch.object(programs, '__file__', self.path('programs.py')):
+            expanded.answer_of.cache_clear()
+            with self.assertRaisesRegex(ValueError, '^contact_path_expand is not there: .*$'):
+                cp.read(self.path('a.bag'))
 
     def test_columns_are_those_of_the_csv(self):
         for name in 'rough_truss', 'stick_slip_cycle', 'portal_frame', 'von_mises':

@@ -17,7 +17,9 @@ from contact_path.increments import KINDS
 from contact_path.io.messages import path_of
 from contact_path.io.progress import Progress
 from contact_path.path import Path
+from contact_path.programs import find_program
 from contact_path.scene import Scene
+from contact_path.structure.expanded import PROGRAM as EXPAND
 
 PATIENCE = 30.0  # [s] for the node to be there, and for increments that are still on their way when it has answered
 POLL = 0.02  # [s]
@@ -25,6 +27,7 @@ POLL = 0.02  # [s]
 
 def trace(scene: Scene, progress: Callable[[Progress], None] | None, node: str) -> Path:
     """As contact_path.trace. Where the process is no ROS node yet, it becomes one, named contact_path_client_...."""
+    find_program(EXPAND)  # before the node traces what could not be read
     if not rosgraph.is_master_online():
         raise TraceFailed('no roscore at %s: roslaunch contact_path trace.launch' % rosgraph.get_master_uri())
     if not rospy.core.is_initialized():

@@ -8,6 +8,7 @@ import numpy as np
 
 from contact_path.increments import PRESSURES, SECTIONS, STATES, STRESSES, Increments
 from contact_path.structure.arrays import Structure
+from contact_path.structure.response import with_response
 from contact_path.structure.shapes import Curve, Shape
 
 CELLS = {3: 'triangle', 4: 'quad', 6: 'triangle6', 8: 'quad8'}
@@ -18,9 +19,12 @@ FACTS = ('stage', 'load_factor', 'arc_length', 'strain_energy', 'dissipation')
 
 
 def write(path: Increments, directory: str) -> str:
-    """Writes the increments that carry positions; the name of the collection. ValueError: the path has no scene."""
+    """Writes the increments that carry positions; the name of the collection. What parts bear is computed where the path lacks it.
+
+    ValueError: the path has no scene, or a program is not there."""
     if path.scene is None:
         raise ValueError('files for ParaView need the scene: give it by Path.with_scene')
+    path = with_response(path, ('sections', 'stresses', 'pressures'))
     structure = Structure(path.scene)
     os.makedirs(directory, exist_ok=True)
     rows = path.full
@@ -98,10 +102,9 @@ def pressures(structure: Structure, increment: Mapping[str, Any]) -> Dict[str, n
 
 def cell_blocks(structure: Structure) -> List[Tuple[str, np.ndarray, List[str]]]:
     """Kind, nodes (m, k) and names of the m cells: bars, segments of beams, solids, and nodes that none of these has."""
-    bars, segments = np.asarray(structure.bars), np.asarray(structure.beams.nodes)
-    blocks = [('line', bars, ['bar%d' % (i + 1) for i in range(len(bars))]), ('line', segments, structure.beams.names)]
+    blocks = [('line', structure.bars, structure.bar_names), ('line', structure.beams.nodes, structure.beams.names)]
     for solid in structure.solids:
-        blocks.append((CELLS[solid.nodes.shape[1]], solid.nodes, ['%s.%d' % (solid.name, i + 1) for i in range(len(solid.nodes))]))
+        blocks.append((CELLS[solid.nodes.shape[1]], solid.nodes, solid.names))
     used = np.concatenate([nodes.ravel() for _, nodes, _ in blocks])
     alone = np.setdiff1d(np.arange(len(structure.names)), used)[:, None]
     blocks.append(('vertex', alone, [structure.names[node] for node in alone[:, 0]]))

@@ -1,6 +1,7 @@
 """Paths as a page for browsers: one file with its data and plotly.js, which needs no network."""
 from __future__ import annotations
 
+import concurrent.futures
 import html
 import os
 from typing import List, Sequence, Tuple
@@ -46,13 +47,19 @@ def has_positions(path: Increments) -> None:
 
 def path_entries(paths: Sequence[Increments], x: str, y: str, alone: bool = False) -> Tuple[List[np.ndarray], List[Entry]]:
     """For each path its steps, and what the page knows of it. alone: each has its own curves."""
-    points = [Points(Structure(path.scene)) if path.scene is not None else None for path in paths]
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:  # they ask a program, each by itself
+        points = list(pool.map(points_of, paths))
     total = sum(2 * own.count for own in points if own is not None)
     most = max(2, min(MOST_STEPS, MOST_STEPS_TOGETHER // len(paths), MOST_COORDINATES // max(total, 1)))
     steps = [steps_of(path, most) for path in paths]
     return steps, [{'title': path.title, 'zlib': packed_entry({
         **path_data(path, rows, own, x, y), 'curves': curves.figure([path], [rows], x, y) if alone else None})}
         for path, rows, own in zip(paths, steps, points)]
+
+
+def points_of(path: Increments) -> Points | None:
+    """None without a scene."""
+    return Points(Structure(path.scene)) if path.scene is not None else None
 
 
 def document(title: str, data: Entry) -> str:

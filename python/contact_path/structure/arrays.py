@@ -8,14 +8,16 @@ import numpy as np
 from contact_path.increments import Increments
 from contact_path.scene import Scene
 from contact_path.structure.beams import Beams
-from contact_path.structure.drawn import drawn
-from contact_path.structure.expand import contact_name, solid_names
+from contact_path.structure.expanded import expanded
 from contact_path.structure.obstacles import Boundary, Placement
 from contact_path.structure.outlines import outlines
 from contact_path.structure.solids import Solid
 from contact_path.structure.surfaces import SurfaceCurve
 
 Increment = Mapping[str, Any]  # an increment, as Path.increment gives it
+
+# Lists whose entries have nodes and are no elements, or elements with a look of their own.
+DRAWN_APART = ('bars', 'superelements', 'beams', 'solids', 'groups', 'surfaces')
 
 
 class Stage(NamedTuple):
@@ -30,29 +32,40 @@ class Stage(NamedTuple):
 class Structure:
     """The scene as arrays: nodes (n, 2), bars (m, 2) of indices, friction (k,) of the k contacts.
 
-    stages: without a program there is one, of the scene's own. ValueError: it is no scene.
+    bar_names (m,), contacts (k,): as quantities have them. Elements of further kinds are drawn as bars, without a name, or as
+    superelements where they join more or fewer than two nodes. stages: without a program there is one, of the scene's own.
+
+    ValueError: as of expanded().
     """
 
     def __init__(self, given: Scene) -> None:
-        scene = drawn(given)
+        request = expanded(given)
+        scene, names = request['scene'], request['names']
         self.names = [node['name'] for node in scene['nodes']]
         index = {name: i for i, name in enumerate(self.names)}
         self.initial = np.array([[node['x'], node['y']] for node in scene['nodes']])
         self.fixed = np.array([[node['fixed_x'], node['fixed_y']] for node in scene['nodes']])
-        self.bars = np.array([[index[name] for name in bar['nodes']] for bar in scene['bars']], dtype=int).reshape(-1, 2)
-        self.beams = Beams(scene['beams'], index, self.initial)
-        self.solids = [Solid(solid, scene['materials'], index, name)
-                       for solid, name in zip(scene['solids'], solid_names(scene['solids']))]
+        further = [entry['nodes'] for part, entries in scene.items() if part not in DRAWN_APART and isinstance(entries, list)
+                   for entry in entries if 'nodes' in entry]
+        bars = [bar['nodes'] for bar in scene['bars']]
+        self.bar_names = names['sections'][:len(bars)]
+        bars += [nodes for nodes in further if len(nodes) == 2]
+        self.bar_names += [''] * (len(bars) - len(self.bar_names))
+        self.bars = np.array([[index[name] for name in nodes] for nodes in bars], dtype=int).reshape(-1, 2)
+        self.beams = Beams(scene['beams'], names['sections'][len(scene['bars']):], index, self.initial)
+        elements = iter(names['elements'])
+        self.solids = [Solid(solid, scene['materials'], index, elements) for solid in scene['solids']]
         self.bar_directions = self.find_bar_directions()
         self.supports = self.find_supports()
         self.superelements = [([index[name] for name in part['nodes']], np.array(part['rest_positions'], dtype=float))
                               for part in scene['superelements']]
+        self.superelements += [([index[name] for name in nodes], np.array([])) for nodes in further if len(nodes) != 2]
         self.constant_loads = self.loads_of(load for load in scene['loads'] if load['constant'])
         own = {'name': '', 'target': 1.0, 'loads': [load for load in scene['loads'] if not load['constant']],
                'obstacle_motions': scene['obstacle_motions']}
-        self.stages = [Stage(stage['name'], stage['target'], self.loads_of(stage['loads']),
+        self.stages = [Stage(stage['name'], stage['target'] or 1.0, self.loads_of(stage['loads']),
                              {motion['obstacle']: motion for motion in stage['obstacle_motions']})
-                       for stage in scene['program'] or [own]]
+                       for stage in request['program'] or [own]]
         self.obstacles = {obstacle['name']: Boundary(obstacle, lambda: outlines(given)) for obstacle in scene['obstacles']}
         turning = {name for stage in self.stages for name, motion in stage.motions.items() if motion['turn'] != 0.0}
         # Half planes that do not turn: their normals.
@@ -68,7 +81,7 @@ class Structure:
         self.touched = {name: (own, surface.touched(self.contact_nodes[own], self.initial))
                         for name, surface in self.surfaces.items()
                         for own in [np.flatnonzero(np.array(self.contact_surfaces) == name)]}
-        self.contacts = [contact_name(contact) for contact in scene['contacts']]
+        self.contacts = names['contacts']
         self.friction = np.array([contact['friction'] if contact['surface'] else self.obstacles[contact['obstacle']].friction
                                   for contact in scene['contacts']])
 

@@ -5,7 +5,7 @@ half of the turn of the stress-free arc. A hinged end turns as no moment acts on
 """
 from __future__ import annotations
 
-from typing import Any, List, Mapping, Sequence
+from typing import Any, Mapping, Sequence
 
 import numpy as np
 
@@ -16,17 +16,17 @@ MOST_LINES = 4000
 class Beams:
     """nodes (m, 2): of the m segments; turns (m,): of their arcs, to the left; free (m, 2): ends with no rotation of a node."""
 
-    def __init__(self, beams: Sequence[Mapping[str, Any]], index: Mapping[str, int], initial: np.ndarray) -> None:
-        """beams: nodes, angle and hinged of each, as expand() leaves them; index: name -> node; initial: places (n, 2)."""
+    def __init__(self, beams: Sequence[Mapping[str, Any]], names: Sequence[str], index: Mapping[str, int],
+                 initial: np.ndarray) -> None:
+        """beams: all nodes, angle and hinged of each; names (m,): of the segments; index: name -> node; initial: places (n, 2)."""
         nodes, turns, free = [], [], []
-        self.names: List[str] = []  # of the segments, as quantities have them
+        self.names = names
         self.inner = np.zeros(len(initial), dtype=bool)  # nodes between the ends of a beam
         for beam in beams:
             axis = [index[name] for name in beam['nodes']]
             count = len(axis) - 1
             self.inner[axis[1:-1]] = True
             first, last = beam['hinged'] or (False, False)
-            self.names += ['%s.%d' % (beam['name'], i + 1) for i in range(count)]
             for i in range(count):
                 nodes.append(axis[i:i + 2])
                 turns.append(beam['angle'] / count)

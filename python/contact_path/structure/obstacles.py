@@ -56,7 +56,7 @@ class Boundary:
         """obstacle: with all fields. outlines: by the names of obstacles; asked for when one is needed."""
         self.friction = obstacle['friction']
         self.point = np.array([obstacle['px'], obstacle['py']])
-        self.flat = obstacle['shape'] in ('', 'half_plane')
+        self.flat = obstacle['shape'] == 'half_plane'
         if self.flat:
             normal = np.array([obstacle['nx'], obstacle['ny']])
             self.normal = normal / np.hypot(*normal)

@@ -3,14 +3,11 @@ from __future__ import annotations
 
 import functools
 import itertools
-import re
-import subprocess
 from typing import Dict, NamedTuple
 
 import numpy as np
 
-from contact_path.errors import TraceFailed
-from contact_path.programs import find_program
+from contact_path.programs import answer
 from contact_path.scene import Scene
 
 PROGRAM = 'contact_path_outlines'
@@ -33,15 +30,7 @@ def outlines(scene: Scene) -> Dict[str, Outline]:
 
 @functools.lru_cache(maxsize=4)
 def outlines_of_text(text: str) -> Dict[str, Outline]:
-    try:
-        program = find_program(PROGRAM)
-    except TraceFailed as error:
-        raise ValueError(str(error)) from error
-    run = subprocess.run([program], input=text, stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding='utf-8', check=False)
-    if run.returncode != 0:
-        said = re.sub(r'/dev/stdin:(?:\d+: )?\s*', '', run.stderr).strip()  # nobody has seen this file
-        raise ValueError(said or '%s ended with the exit status %d' % (PROGRAM, run.returncode))
-    rows = (line.split(',') for line in run.stdout.splitlines()[1:])
+    rows = (line.split(',') for line in answer(PROGRAM, text).splitlines()[1:])
     found = {}
     for name, own in itertools.groupby(rows, key=lambda row: row[0]):
         numbers = np.array([row[1:] for row in own], dtype=float)

@@ -1,7 +1,8 @@
 """Strain energy per volume of the elements of solids."""
 from __future__ import annotations
 
-from typing import Any, Mapping, Sequence, Tuple
+import itertools
+from typing import Any, Iterator, Mapping, Sequence, Tuple
 
 import numpy as np
 
@@ -9,17 +10,18 @@ BOUNDARIES = {3: (0, 1, 2), 4: (0, 1, 2, 3), 6: (0, 3, 1, 4, 2, 5), 8: (0, 4, 1,
 
 
 class Solid:
-    """A mesh: nodes (m, k) of indices, of each element in turn; boundaries (m, k), the same counterclockwise. name: as quantities
-    of its elements have it."""
+    """A mesh: nodes (m, k) of indices, of each element in turn; boundaries (m, k), the same counterclockwise. names
+    (m,): of its elements, as quantities have them."""
 
     def __init__(self, solid: Mapping[str, Any], materials: Sequence[Mapping[str, Any]], index: Mapping[str, int],
-                 name: str = '') -> None:
-        self.name = name
+                 names: Iterator[str]) -> None:
+        """names: of its elements, and of those of the solids after it."""
         count = solid['nodes_per_element'] or 3
         self.nodes = np.array([index[name] for name in solid['nodes']], dtype=int).reshape(-1, count)
+        self.names = list(itertools.islice(names, len(self.nodes)))
         self.boundaries = self.nodes[:, BOUNDARIES[count]]
         self.material = next(material for material in materials if material['name'] == solid['material'])
-        self.plane = solid['plane'] or 'strain'
+        self.plane = solid['plane']
 
     def energies(self, initial: np.ndarray, places: np.ndarray) -> np.ndarray:
         """Of each element [force/length^2]; initial, places: (n, 2) of all nodes."""
@@ -66,7 +68,7 @@ def lame(material: Mapping[str, Any]) -> Tuple[float, float]:
 def energy(material: Mapping[str, Any], plane: str, gradients: np.ndarray) -> np.ndarray:
     """W by F (m, 2, 2). Invariants of C in the plane: trace i, J^2; C33 is that of the plane state."""
     lam, mu = lame(material)
-    model = material['model'] or 'neo_hookean'
+    model = material['model']
     stress = plane == 'stress'
     flat = 2.0 * lam * mu / (lam + 2.0 * mu) if stress else lam
     if model == 'linear':
