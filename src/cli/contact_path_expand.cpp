@@ -31,7 +31,12 @@ Json Expanded(const TraceRequest& given) {
   const TraceRequest& request = expanded.Get();
   const Scene& scene = request.scene;
   Json object = FieldOf(request);
-  for (std::size_t i = 0; i < request.program.size(); ++i) object["program"][i] = FieldOf(StageAsTraced(request, i));
+  for (std::size_t i = 0; i < request.program.size(); ++i) {
+    object["program"][i] = FieldOf(StageAsTraced(request, i));
+    object["program"][i]["target"] = request.program[i].Target();
+  }
+  for (std::size_t i = 0; i < scene.solids.size(); ++i)
+    object["scene"]["solids"][i]["nodes_per_element"] = scene.solids[i].NodesPerElement();
   for (std::size_t i = 0; i < scene.beams.size(); ++i)
     object["scene"]["beams"][i]["name"] = BeamName(scene.beams[i], i);
   const std::vector<bool> turns = NodesThatTurn(scene);

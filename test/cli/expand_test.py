@@ -58,6 +58,7 @@ program:
         stages = expanded(path)['program']
         self.assertEqual([load['fx'] for load in stages[0]['loads']], [3.0])
         self.assertEqual([load['fx'] for load in stages[1]['loads']], [-1.5])
+        self.assertEqual([stage['target'] for stage in stages], [0.5, 1.0])
 
     def test_invalid_scenes_are_told_in_one_line(self):
         path = self.path('bad.yaml')

@@ -63,7 +63,7 @@ class Structure:
         self.constant_loads = self.loads_of(load for load in scene['loads'] if load['constant'])
         own = {'name': '', 'target': 1.0, 'loads': [load for load in scene['loads'] if not load['constant']],
                'obstacle_motions': scene['obstacle_motions']}
-        self.stages = [Stage(stage['name'], stage['target'] or 1.0, self.loads_of(stage['loads']),
+        self.stages = [Stage(stage['name'], stage['target'], self.loads_of(stage['loads']),
                              {motion['obstacle']: motion for motion in stage['obstacle_motions']})
                        for stage in request['program'] or [own]]
         self.obstacles = {obstacle['name']: Boundary(obstacle, lambda: outlines(given)) for obstacle in scene['obstacles']}

@@ -16,7 +16,7 @@ class Solid:
     def __init__(self, solid: Mapping[str, Any], materials: Sequence[Mapping[str, Any]], index: Mapping[str, int],
                  names: Iterator[str]) -> None:
         """names: of its elements, and of those of the solids after it."""
-        count = solid['nodes_per_element'] or 3
+        count = solid['nodes_per_element']
         self.nodes = np.array([index[name] for name in solid['nodes']], dtype=int).reshape(-1, count)
         self.names = list(itertools.islice(names, len(self.nodes)))
         self.boundaries = self.nodes[:, BOUNDARIES[count]]
