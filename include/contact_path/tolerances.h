@@ -45,6 +45,9 @@ inline constexpr double kStopMargin = 1e-14;
 inline constexpr double kToldAsZero = 1e-14;
 // Load factor, relative to the target that it was located at.
 inline constexpr double kAtTarget = 1e-12;
+// Error of a force, of what rounding of the positions changes forces by: no rest stress, and no other value of one that
+// a path is to have.
+inline constexpr double kForceErrors = 16.0;
 // Load factor of a record, relative to 1 + |s|, scaled: the point found again is the recorded one. Records of other
 // programs may have fewer digits, so this is wider than kAtTarget.
 inline constexpr double kRecordedLoad = 1e-9;

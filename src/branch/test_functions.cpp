@@ -133,18 +133,29 @@ std::optional<double> FirstAt(Quintic load, double target, double length) {
 }
 
 // Where the quintic comes to a value on (0, length], in the sense that is wanted. At a start that has the value to
-// rounding, not there.
+// rounding, not there, and not before the quintic has left the value by more. An end that has the value to rounding is
+// where the quintic comes to it: the next step starts there, and does not come to it again.
 std::optional<double> FirstAtValue(Quintic function, double value, double rounding, double sense, double length) {
-  const Quintic slope = Derivative(function);
   function[0] -= value;
-  if (std::abs(function[0]) <= rounding) {
+  const Quintic off = function, slope = Derivative(function);
+  const bool starts_there = std::abs(function[0]) <= rounding;
+  if (starts_there) {
     for (std::size_t k = 0; k + 1 < function.size(); ++k) function[k] = function[k + 1];
     function.back() = 0.0;
   }
+  const auto has_left = [&](double end) {
+    for (std::size_t i = 0; i < 6; ++i)
+      if (std::abs(Evaluate(off, QuinticNode(i, end))) > rounding) return true;
+    return false;
+  };
   int count = 0;
   const std::array<double, 5> roots = Roots(function, length, &count);
-  for (int i = 0; i < count; ++i)
-    if (sense * Evaluate(slope, roots[static_cast<std::size_t>(i)]) >= 0.0) return roots[static_cast<std::size_t>(i)];
+  for (int i = 0; i < count; ++i) {
+    const double root = roots[static_cast<std::size_t>(i)];
+    if (sense * Evaluate(slope, root) >= 0.0 && (!starts_there || has_left(root))) return root;
+  }
+  const double at_end = Evaluate(off, length);
+  if (!starts_there && std::abs(at_end) <= rounding && sense * (at_end - off[0]) >= 0.0) return length;
   return std::nullopt;
 }
 
@@ -166,6 +177,23 @@ void FindSample(const FixedStateSystem& system, const Step& step, const ArcTarge
 std::optional<CurvePoint> LocateSample(SmoothArc* arc, const Step& step, double t, const ArcTarget& target,
                                        double value) {
   const FixedStateSystem& system = arc->system();
+  const auto point_at = [&](const Eigen::VectorXd& x, double at) -> std::optional<CurvePoint> {
+    CurvePoint point;
+    if (!arc->Derivatives(x, step.normal, &point)) return std::nullopt;
+    // Next to a singular point derivatives are less exact than their interpolation.
+    const CurvePoint interpolated = step.At(at);
+    if (system.Norm(point.second - interpolated.second) * step.length > tolerances::kSameDerivative)
+      std::tie(point.first, point.second) = std::tie(interpolated.first, interpolated.second);
+    return point;
+  };
+  // An unknown is set to the value, unless it turns there.
+  if (target.unknown >= 0) {
+    const Eigen::VectorXd guess = step.Point(t);
+    const Correction correction = arc->Correct(guess, Eigen::VectorXd::Unit(guess.size(), target.unknown), value);
+    const double reach = 0.1 * step.length + tolerances::kLocatedReach;
+    if (correction.converged && (correction.x - guess).head(arc->NumMotion()).norm() <= reach)
+      return point_at(correction.x, t);
+  }
   const Quintic slope =
       Derivative(QuinticNodes(step).Interpolate([&](const Eigen::VectorXd& x) { return target.of(system, x); }));
   double previous = std::numeric_limits<double>::infinity();
@@ -175,15 +203,7 @@ std::optional<CurvePoint> LocateSample(SmoothArc* arc, const Step& step, double 
     const double off = target.of(system, correction.x) - value;
     // No nearer: rounding, or the function does not come to the value.
     if (off == 0.0 || !(std::abs(off) < 0.5 * previous)) {
-      CurvePoint point;
-      if (!(std::abs(off) <= target.rounding * system.ResidualUnit()) ||
-          !arc->Derivatives(correction.x, step.normal, &point))
-        return std::nullopt;
-      // Next to a singular point derivatives are less exact than their interpolation.
-      const CurvePoint interpolated = step.At(t);
-      if (system.Norm(point.second - interpolated.second) * step.length > tolerances::kSameDerivative)
-        std::tie(point.first, point.second) = std::tie(interpolated.first, interpolated.second);
-      return point;
+      return std::abs(off) <= target.rounding ? point_at(correction.x, t) : std::nullopt;
     }
     previous = std::abs(off);
     t -= off / Evaluate(slope, t);

@@ -121,6 +121,10 @@ AcceptedPoint BranchMethod::IncrementOf(const ArcStep& step, const PathPoint& fr
   increment.solve.stiffness_sign = StiffnessSign(end);
   increment.solve.iterations = step.iterations;
   increment.solve.contraction = step.contraction;
+  if (step.event.kind != EventKind::kNone)
+    for (const ArcTarget& target : options_.ends.functions)
+      if (target.criterion >= 0 && std::abs(target.of(arc_.system(), end.x) - target.values.front()) <= target.rounding)
+        increment.at_criteria.push_back(target.criterion);
   return increment;
 }
 

@@ -51,9 +51,11 @@ Preload TracePreload(const Model& model, int max_increments, const MethodFactory
   preload.point = model.InitialPoint();
   Eigen::VectorXd holding(model.structure.NumDofs());
   model.structure.InternalForce(preload.point.u, holding);
-  // Residuals of stiff parts are forces that rounding makes.
+  // Stiff parts have forces that rounding of the positions makes.
   const bool stressed =
-      (holding.array().abs() > tolerances::kUnstressed * model.structure.ResidualUnits().array()).any();
+      (holding.array().abs() >
+       (tolerances::kForceErrors * model.structure.ForceRounding().array()).max(tolerances::kUnstressed))
+          .any();
   const double constant = model.structure.ConstantLoad().lpNorm<Eigen::Infinity>();
   if (!stressed && constant <= 0.0) {
     preload.done = true;

@@ -67,7 +67,7 @@ StopTest::StopTest(const TraceRequest& request, const SceneIndex& index) {
     const StopCriterion& criterion = request.options.stop[i];
     const bool located = request.options.LocatesEvents() && criterion.exact == Exact::kTrue;
     items_.push_back(
-        {&criterion, quantities[i], (located ? tolerances::kAtTarget : tolerances::kStopMargin) * unit, located});
+        {&criterion, quantities[i], unit, (located ? tolerances::kAtTarget : tolerances::kStopMargin) * unit, located});
   }
 }
 
@@ -86,20 +86,23 @@ void StopTest::Note(const Increment& increment) {
   }
 }
 
-const StopCriterion* StopTest::FirstThatHolds(const Increment& increment) const {
+const StopCriterion* StopTest::FirstThatHolds(const Increment& increment, const std::vector<int>& at_criteria) const {
   if (increment.index == 0) return nullptr;
-  for (const Item& item : items_) {
+  for (std::size_t i = 0; i < items_.size(); ++i) {
+    const Item& item = items_[i];
     const Item::Beyond beyond = item.BeyondIn(increment);
-    if (beyond.by > beyond.rounding || (item.located && item.short_of_it && beyond.by >= -beyond.rounding))
+    const bool is_at = std::find(at_criteria.begin(), at_criteria.end(), static_cast<int>(i)) != at_criteria.end();
+    if (beyond.by > beyond.rounding || (item.located && item.short_of_it && (is_at || beyond.by >= -beyond.rounding)))
       return item.criterion;
   }
   return nullptr;
 }
 
-bool StopTest::MayHold(const Increment& increment) const {
+bool StopTest::MayHold(const Increment& increment, double force_rounding) const {
   return std::any_of(items_.begin(), items_.end(), [&](const Item& item) {
     const Item::Beyond beyond = item.BeyondIn(increment);
-    return beyond.by > beyond.rounding || (item.located && beyond.by >= -beyond.rounding);
+    const double error = std::max(beyond.rounding, force_rounding * item.unit);
+    return beyond.by > beyond.rounding || (item.located && beyond.by >= -error);
   });
 }
 

@@ -414,7 +414,7 @@ class Tracer {
         recorder_.Append(model, increment, time);
         returns_->Add(recorder_.increment().index, point_, increment.point);
         const PathPoint before = std::exchange(point_, std::move(increment.point));
-        if (const StopCriterion* criterion = stop_.FirstThatHolds(recorder_.increment()))
+        if (const StopCriterion* criterion = stop_.FirstThatHolds(recorder_.increment(), increment.at_criteria))
           return End(EndReason::kStopCriterion, ToText(*criterion));
         stop_.Note(recorder_.increment());
         if (IsAt(target)) return true;

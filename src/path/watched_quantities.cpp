@@ -19,14 +19,12 @@ namespace {
 
 using Function = std::function<double(const FixedStateSystem& system, const Eigen::VectorXd& x)>;
 
-// What a node has, in scaled units counted from the origin of the model; nothing where no unknown changes it.
-Function OfNode(const Model& model, const Quantity& quantity) {
+// Of what a node has, in scaled units counted from the origin of the model; -1 where no unknown changes it.
+int UnknownOf(const Model& model, const Quantity& quantity) {
   const bool is_rotation = quantity.kind == Quantity::Kind::kRotation;
   const int component = quantity.kind == Quantity::Kind::kY ? 1 : 0;
-  const int dof = model.structure.Dofs().Dof(static_cast<int>(quantity.part),
-                                             is_rotation ? Field::kRotation : Field::kPosition, component);
-  if (dof < 0) return nullptr;
-  return [dof](const FixedStateSystem&, const Eigen::VectorXd& x) { return x[dof]; };
+  return model.structure.Dofs().Dof(static_cast<int>(quantity.part), is_rotation ? Field::kRotation : Field::kPosition,
+                                    component);
 }
 
 Function OfContact(const Model& model, const Quantity& quantity) {
@@ -64,29 +62,44 @@ double OriginOf(const Model& model, Quantity::Kind kind) {
   return kind == Quantity::Kind::kY ? model.origin[1] : 0.0;
 }
 
-// sense: as of ArcTarget.
-void Add(const Model& model, const std::string& text, const std::vector<double>& values, double sense,
+// Forces are known as positions are, times the stiffness; means and quotients of them, no better than their size.
+double ErrorOf(const Model& model, const Quantity& quantity, double largest) {
+  const double of_size = tolerances::kAtTarget * (1.0 + largest);
+  const double of_forces = tolerances::kForceErrors * model.structure.ForceRounding().maxCoeff();
+  const bool is_force =
+      quantity.IsReaction() || quantity.kind == Quantity::Kind::kRn || quantity.kind == Quantity::Kind::kRt;
+  if (is_force) return std::max(tolerances::kLastDigits * largest, of_forces);
+  const bool is_motion = quantity.kind == Quantity::Kind::kLoadFactor || quantity.IsOfNode() || quantity.IsOfContact();
+  if (is_motion && !quantity.IsOfPressure()) return of_size * model.structure.ResidualUnits().maxCoeff();
+  return std::max(of_size, of_forces);
+}
+
+// sense, criterion: as of ArcTarget.
+void Add(const Model& model, const std::string& text, const std::vector<double>& values, double sense, int criterion,
          ArcTargets* targets) {
   const Quantity quantity = FindQuantity(text, model.index).value();
   const Scaling& scaling = model.scaling;
   const double unit = SizeOf(UnitOf(quantity.kind), {scaling.length, scaling.force, scaling.load_factor});
   ArcTarget target;
   target.sense = sense;
+  target.criterion = criterion;
   if (quantity.kind == Quantity::Kind::kLoadFactor)
-    target.of = [](const FixedStateSystem& system, const Eigen::VectorXd& x) { return x[system.NumDofs()]; };
+    target.unknown = model.structure.NumDofs();
   else if (quantity.IsOfNode())
-    target.of = OfNode(model, quantity);
+    target.unknown = UnknownOf(model, quantity);
   else if (quantity.IsOfContact() && !quantity.IsOfPressure())
     target.of = OfContact(model, quantity);
   else
     target.of = OfResponse(model, quantity, unit);
+  if (target.unknown >= 0)
+    target.of = [i = target.unknown](const FixedStateSystem&, const Eigen::VectorXd& x) { return x[i]; };
   if (target.of == nullptr) return;
   double largest = 0.0;
   for (const double value : values) {
     target.values.push_back((value - OriginOf(model, quantity.kind)) / unit);
     largest = std::max(largest, std::abs(target.values.back()));
   }
-  target.rounding = tolerances::kAtTarget * (1.0 + largest);
+  target.rounding = ErrorOf(model, quantity, largest);
   targets->push_back(std::move(target));
 }
 
@@ -94,10 +107,13 @@ void Add(const Model& model, const std::string& text, const std::vector<double>&
 
 ArcTargets WatchedQuantities(const Model& model, const TraceRequest& request) {
   ArcTargets targets;
-  for (const StopCriterion& criterion : request.options.stop)
+  for (std::size_t i = 0; i < request.options.stop.size(); ++i) {
+    const StopCriterion& criterion = request.options.stop[i];
     if (criterion.exact == Exact::kTrue)
-      Add(model, criterion.quantity, {criterion.value}, criterion.when == ">" ? 1.0 : -1.0, &targets);
-  for (const Samples& samples : request.options.at) Add(model, samples.quantity, samples.Values(), 0.0, &targets);
+      Add(model, criterion.quantity, {criterion.value}, criterion.when == ">" ? 1.0 : -1.0, static_cast<int>(i),
+          &targets);
+  }
+  for (const Samples& samples : request.options.at) Add(model, samples.quantity, samples.Values(), 0.0, -1, &targets);
   return targets;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "contact_path/tolerances.h"
@@ -53,7 +54,9 @@ Structure::Structure(const Scene& scene, const SceneIndex& index, const Configur
   for (const DofMap::Component& component : dofs_.Components())
     if (component.field == Field::kPosition && component.dof >= 0)
       size = std::max(size, std::abs(start_[component.dof]));
-  residual_units_ = (tolerances::kStiffForce * size * StiffnessBounds()).cwiseMax(1.0);
+  const Eigen::VectorXd stiffness = size * StiffnessBounds();
+  residual_units_ = (tolerances::kStiffForce * stiffness).cwiseMax(1.0);
+  force_rounding_ = std::numeric_limits<double>::epsilon() * stiffness;
 }
 
 void Structure::NumberUnknowns(const Scene& scene, const SceneIndex& index, const Configuration& configuration,

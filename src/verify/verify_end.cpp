@@ -4,12 +4,14 @@
 #include <cmath>
 #include <cstddef>
 
+#include "contact_path/check/residuals.h"
 #include "contact_path/path/stop.h"
 #include "contact_path/scene/expand.h"
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/scaling.h"
 #include "contact_path/verify/verify_path.h"
 #include "verify/scaled_motion.h"
+#include "verify/verified_contacts.h"
 
 namespace contact_path {
 namespace {
@@ -58,7 +60,13 @@ std::string EndContradicted(const TraceRequest& request_given, const std::vector
   const std::string says = "the result says " + std::string(reason) + ", but ";
   if (reason == "stop_criterion") {
     if (last.positions.empty() || ProgramDone(request, last)) return {};
-    const bool may_hold = last.index > 0 && StopTest(request, SceneIndex(request.scene)).MayHold(last);
+    const auto stage = static_cast<std::size_t>(std::max(last.stage, 1) - 1);
+    const Scaling scaling = StageScales(request, stage);
+    const Scene scene = StageScene(request, stage);
+    const double stiffest = ResidualCheck(scene, StageConfiguration(request, stage), scaling).LargestStiffness() *
+                            scaling.length / scaling.force;
+    const bool may_hold =
+        last.index > 0 && StopTest(request, SceneIndex(request.scene)).MayHold(last, kRoundingOfParts * stiffest);
     return may_hold ? "" : says + "none holds in the last increment";
   }
   if (reason == "max_increments") {

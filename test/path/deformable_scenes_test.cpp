@@ -351,5 +351,22 @@ TEST(FlushBlocks, AreBorneWhereverNodesStand) {
   }
 }
 
+// A block of steel stands on rubber. Rounding of the places of its nodes stresses it by more than the load: it is at
+// rest.
+TEST(FlushBlocks, OfSteelOnRubberAreAtRestWhereverTheyStand) {
+  for (const double aside : {0.0, 0.0123, 0.1, 0.07})
+    for (const double stiffness : {1e3, 1e5}) {
+      SCOPED_TRACE(testing::Message() << "aside " << aside << ", stiffness " << stiffness);
+      TraceRequest request = FlushBlocks(4, aside);
+      request.scene.materials.push_back(request.scene.materials[0]);
+      request.scene.materials[1].name = "steel";
+      request.scene.materials[1].E = stiffness;
+      request.scene.solids[0].material = "steel";
+      request.scene.contacts[0].friction = 0.3;
+      const TracedPath path = TraceProved(request);
+      EXPECT_NEAR(SumOfNormals(path.increments.back()), 0.02, 1e-4);
+    }
+}
+
 }  // namespace
 }  // namespace contact_path

@@ -154,5 +154,71 @@ TEST(StopAtValue, FinalValuesOfAStudyAreSmooth) {
   for (std::size_t i = 1; i < second.size(); ++i) EXPECT_NEAR(second[i], second[i - 1], 1e-8);
 }
 
+// Two halves of a slender steel arch, on a rough floor, pressed by their crown. unit: of length; 1: mm.
+TraceRequest SteelArch(double unit, double friction) {
+  TraceRequest request;
+  Scene& scene = request.scene;
+  const double span = 1000.0 / unit;
+  scene.nodes = {{"crown", 0.0, span, true, true, true}, {"l", -span, 0.0}, {"r", span, 0.0}};
+  for (const char* const side : {"l", "r"}) {
+    Beam beam;
+    beam.name = std::string(side) + "g";
+    beam.nodes = {side, "crown"};
+    beam.EA = 1.05e8;
+    beam.EI = 8.75e8 / (unit * unit);
+    beam.angle = (side[0] == 'l' ? -0.5 : 0.5) * std::acos(-1.0);
+    beam.segments = 10;
+    scene.beams.push_back(beam);
+    scene.contacts.push_back({side, "floor"});
+  }
+  scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, friction}};
+  scene.support_motions = {{"crown", 0.0, -0.1 * span}};
+  request.options.max_increments = 1000;
+  return request;
+}
+
+// Forces of slender beams are known to rounding of their stiffness. Values that both sides come to at once, and values
+// at which the path ends, are there once.
+TEST(Samples, OfForcesOfStiffPartsAreThereOnce) {
+  for (const Method method : {Method::kBranch, Method::kMpec})
+    for (const double unit : {1.0, 1000.0})
+      for (const double friction : {0.1, 0.4}) {
+        SCOPED_TRACE(testing::Message() << ToString(method) << ", unit " << unit << ", friction " << friction);
+        TraceRequest request = SteelArch(unit, friction);
+        request.options.method = method;
+        request.options.stop = {{"load_factor", ">", 1.0}};
+        const TracedPath whole = TraceProved(request);
+        EXPECT_EQ(whole.increments.back().load_factor, 1.0);
+        const double half = 0.5 * whole.increments.back().contacts[0].rn, last = whole.increments.back().supports[0].ry;
+        request.options.at = {{"l@floor.rn", {half, 1.5 * half}},
+                              {"r@floor.rn", {half, 1.5 * half}},
+                              {"crown.ry", {0.5 * last, 0.7 * last}},
+                              {"lg.3.N", {-half, -1.2 * half}},
+                              {"rg.3.N", {-half, -1.2 * half}}};
+        const TracedPath path = TraceProved(request);
+        EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+        EXPECT_EQ(path.increments.back().load_factor, 1.0);
+        double before = 0.0;
+        std::size_t samples = 0;
+        for (const Increment& increment : path.increments) {
+          if (increment.kind == IncrementKind::kSample) {
+            ++samples;
+            EXPECT_GT(increment.load_factor, before + 1e-9);
+          }
+          before = increment.load_factor;
+        }
+        EXPECT_LE(samples, 11U);
+        EXPECT_GE(samples, 4U);
+        // A force as the criterion: there, and not at the next increment.
+        request.options.at.clear();
+        for (const double share : {0.11, 0.37, 0.52, 0.83}) {
+          request.options.stop = {{"crown.ry", "<", share * last}, {"crown.ry", ">", -share * last}};
+          const TracedPath ends = TraceProved(request);
+          EXPECT_EQ(ends.result.reason, EndReason::kStopCriterion) << ends.result.message;
+          EXPECT_NEAR(std::abs(ends.increments.back().supports[0].ry), share * std::abs(last), 1e-9 * std::abs(last));
+        }
+      }
+}
+
 }  // namespace
 }  // namespace contact_path

@@ -26,6 +26,7 @@ struct AcceptedPoint {
   Residuals residuals;
   SolveRecord solve;  // without time
   EventRecord event;
+  std::vector<int> at_criteria;  // of options.stop: whose value the point has, exactly
 };
 
 // Whether a load factor is, to rounding, at a target that a method has located.

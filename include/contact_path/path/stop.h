@@ -27,15 +27,17 @@ class StopTest {
   void Note(const Increment& increment);
   // The first criterion that holds in `increment`, or null. A criterion holds by more than rounding; where the path
   // locates its value, it holds at the value, too, once a noted increment was short of it. Increment 0 is not asked: a
-  // criterion can end a path, not forbid its start.
-  const StopCriterion* FirstThatHolds(const Increment& increment) const;
-  // Whether a criterion may have ended a path here, whatever the increments before.
-  bool MayHold(const Increment& increment) const;
+  // criterion can end a path, not forbid its start. at_criteria: those whose value the increment has.
+  const StopCriterion* FirstThatHolds(const Increment& increment, const std::vector<int>& at_criteria = {}) const;
+  // Whether a criterion may have ended a path here, whatever the increments before. force_rounding: what rounding of
+  // the positions changes forces by, of the characteristic one.
+  bool MayHold(const Increment& increment, double force_rounding) const;
 
  private:
   struct Item {
     const StopCriterion* criterion;
     Quantity quantity;
+    double unit;               // of the quantity, in the scene
     double rounding;           // of the quantity
     bool located;              // the path has an increment at the value
     bool short_of_it = false;  // a noted increment was on the other side of the value

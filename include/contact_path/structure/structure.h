@@ -69,6 +69,8 @@ class Structure {
   // By unknown, in a scaled structure: what residuals of equilibrium are measured in. 1, and more where the structure
   // is so stiff at the start that the rounding of coordinates alone makes forces (tolerances::kStiffForce).
   const Eigen::VectorXd& ResidualUnits() const { return residual_units_; }
+  // At most what rounding of the positions changes a force by, by dof. Scaled.
+  const Eigen::VectorXd& ForceRounding() const { return force_rounding_; }
 
   // Strain energy [force length].
   double Energy(const Eigen::VectorXd& u) const;
@@ -114,6 +116,7 @@ class Structure {
   std::vector<Part> parts_;
   Eigen::SparseMatrix<double> pattern_;
   Eigen::VectorXd residual_units_;
+  Eigen::VectorXd force_rounding_;
   bool mixed_ = false;
   std::unique_ptr<Orderings> orderings_ = std::make_unique<Orderings>();
 };
