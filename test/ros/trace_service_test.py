@@ -32,6 +32,7 @@ scene:
   beams: [{name: leg, nodes: [hip, foot], EA: 1.0, EI: 1.0, segments: 2}]
   obstacles: [{name: floor, ny: 1.0, friction: 0.5}]
   contacts: [{group: leg, obstacle: floor}]
+  loads: [{node: foot, fy: -1.0}]
 options: {max_increments: 10}
 """
 UNLOADED_BLOCK = """
