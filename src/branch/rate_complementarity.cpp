@@ -63,12 +63,10 @@ bool RateComplementarity::FindRoles(const ContactPairs& contacts) {
     const ContactPair& contact = *contacts[static_cast<std::size_t>(i)];
     const ContactModes& modes = options_[static_cast<std::size_t>(i)];
     if (contact.HasTotalLaw()) return false;
-    // It bears a force where patches meet: a state with several patches, and no pair.
-    if (!contact.Frictional() && !Has(modes, ContactState::kOpen)) return false;
-    if (!contact.Frictional())
-      roles_.push_back(Role::kFrictionless);
-    else if (Has(modes, ContactState::kOpen))
-      roles_.push_back(Role::kRough);
+    if (Has(modes, ContactState::kOpen))
+      roles_.push_back(contact.Frictional() ? Role::kRough : Role::kFrictionless);
+    else if (!contact.Frictional())
+      return false;  // it bears a force where patches meet: one state, and no pair
     else if (Has(modes, ContactState::kSlipPlus))
       roles_.push_back(Role::kEdgePlus);
     else

@@ -41,6 +41,14 @@ void EndDerivatives(const Step& step, Eigen::VectorXd* first, Eigen::VectorXd* s
   *second = (step.end.second - *first * bend) / (c * c);
 }
 
+// Of the interpolation less its start, with these values of the basis polynomials, of which the first ones of start and
+// end add up to 1. first, second: EndDerivatives().
+Eigen::VectorXd Combination(const Step& step, const std::array<double, 6>& basis, const Eigen::VectorXd& first,
+                            const Eigen::VectorXd& second) {
+  return basis[1] * step.start.first + basis[2] * step.start.second + basis[3] * (step.end.x - step.start.x) +
+         basis[4] * first + basis[5] * second;
+}
+
 }  // namespace
 
 SmoothArc::SmoothArc(const Structure& structure, const ContactPairs& contacts)
@@ -322,17 +330,13 @@ Step MakeStep(const CurvePoint& start, const CurvePoint& end, Eigen::Index num_m
   return step;
 }
 
-// The interpolated points: the first basis polynomials of start and end add up to 1.
 Eigen::VectorXd Step::Point(double t) const {
   Eigen::VectorXd first, second;
   EndDerivatives(*this, &first, &second);
   const std::array<Quintic, 6> basis = HermiteBasis(length);
   std::array<double, 6> b{};
   for (std::size_t i = 0; i < b.size(); ++i) b[i] = Evaluate(basis[i], t);
-  Eigen::VectorXd x =
-      b[1] * start.first + b[2] * start.second + b[3] * (end.x - start.x) + b[4] * first + b[5] * second;
-  x += start.x;
-  return x;
+  return Combination(*this, b, first, second) + start.x;
 }
 
 CurvePoint Step::At(double t) const {
@@ -347,8 +351,7 @@ CurvePoint Step::At(double t) const {
       for (int k = 0; k < order; ++k) polynomial = Derivative(polynomial);
       b[i] = Evaluate(polynomial, t);
     }
-    return Eigen::VectorXd(b[1] * start.first + b[2] * start.second + b[3] * (end.x - start.x) + b[4] * first +
-                           b[5] * second);
+    return Combination(*this, b, first, second);
   };
   CurvePoint point = start;
   point.x = Point(t);
@@ -364,17 +367,9 @@ CurvePoint Step::At(double t) const {
 }
 
 QuinticNodes::QuinticNodes(const Step& step) : length_(step.length) {
-  Eigen::VectorXd first, second;
-  EndDerivatives(step, &first, &second);
-  const std::array<Quintic, 6> basis = HermiteBasis(length_);
   points_.front() = step.start.x;
   points_.back() = step.end.x;
-  for (std::size_t i = 1; i + 1 < points_.size(); ++i) {
-    std::array<double, 6> b{};
-    for (std::size_t k = 0; k < b.size(); ++k) b[k] = Evaluate(basis[k], QuinticNode(i, length_));
-    points_[i] = step.start.x + b[1] * step.start.first + b[2] * step.start.second +
-                 b[3] * (step.end.x - step.start.x) + b[4] * first + b[5] * second;
-  }
+  for (std::size_t i = 1; i + 1 < points_.size(); ++i) points_[i] = step.Point(QuinticNode(i, length_));
 }
 
 double Step::ArcLength() const {

@@ -1,19 +1,16 @@
 // contact_path_expand SCENE.yaml: writes what is traced of a scene as one JSON object to standard output: every field
 // of every part, also where the file leaves its default; the inner nodes of beams; loads and contacts of groups on
 // their nodes; stages that unload with the loads and motions that they take back; and the names that columns have.
-#include <CLI/CLI.hpp>
 #include <cstddef>
-#include <exception>
 #include <iostream>
 #include <string>
 
 #include "cli/json_fields.h"
+#include "cli/scene_program.h"
 #include "contact_path/scene/element_names.h"
 #include "contact_path/scene/expand.h"
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/reacting_parts.h"
-#include "contact_path/scene/read_scene.h"
-#include "contact_path/scene/validate.h"
 
 namespace contact_path {
 namespace {
@@ -63,17 +60,8 @@ Json Expanded(const TraceRequest& given) {
 }  // namespace contact_path
 
 int main(int argc, char** argv) {
-  CLI::App app("Writes what is traced of a scene as JSON to standard output.", "contact_path_expand");
-  std::string scene_file = "/dev/stdin";
-  app.add_option("SCENE", scene_file, "Scene file")->capture_default_str();
-  try {
-    app.parse(argc, argv);
-    contact_path::WriteLine(contact_path::Expanded(contact_path::ReadTraceRequestFile(scene_file)), &std::cout);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  } catch (const std::exception& error) {
-    std::cerr << "contact_path_expand: " << error.what() << '\n';
-    return 2;
-  }
-  return std::cout ? 0 : 1;
+  return contact_path::RunOnScene("contact_path_expand", "Writes what is traced of a scene as JSON to standard output.",
+                                  "/dev/stdin", argc, argv, [](const contact_path::TraceRequest& request) {
+                                    contact_path::WriteLine(contact_path::Expanded(request), &std::cout);
+                                  });
 }

@@ -1,14 +1,11 @@
 // contact_path_outlines SCENE.yaml: writes points along the curved obstacles of a scene as CSV to standard output.
-#include <CLI/CLI.hpp>
-#include <exception>
 #include <iostream>
 #include <limits>
 #include <locale>
 #include <memory>
-#include <string>
 
+#include "cli/scene_program.h"
 #include "contact_path/geometry/outline.h"
-#include "contact_path/scene/read_scene.h"
 #include "contact_path/scene/surface.h"
 
 namespace contact_path {
@@ -35,19 +32,9 @@ void WriteOutlines(const Scene& scene, std::ostream& out) {
 }  // namespace contact_path
 
 int main(int argc, char** argv) {
-  CLI::App app(
+  return contact_path::RunOnScene(
+      "contact_path_outlines",
       "Writes points along the curved obstacles of a scene, where they are at the start, as CSV to standard output.",
-      "contact_path_outlines");
-  std::string scene_file = "/dev/stdin";
-  app.add_option("SCENE", scene_file, "Scene file")->capture_default_str();
-  try {
-    app.parse(argc, argv);
-    contact_path::WriteOutlines(contact_path::ReadTraceRequestFile(scene_file).scene, std::cout);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  } catch (const std::exception& error) {
-    std::cerr << "contact_path_outlines: " << error.what() << '\n';
-    return 2;
-  }
-  return std::cout ? 0 : 1;
+      "/dev/stdin", argc, argv,
+      [](const contact_path::TraceRequest& request) { contact_path::WriteOutlines(request.scene, std::cout); });
 }

@@ -1,8 +1,8 @@
 // contact_path_response SCENE.yaml: what elements and contacts bear at increments of a path of the scene. Reads
 // increments as JSON, one a line, as contact_path_trace --log writes them, from standard input; for each writes a line
 // with its reactions, section forces, stresses, pressures and widths to standard output.
-#include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
@@ -13,12 +13,12 @@
 #include <vector>
 
 #include "cli/json_fields.h"
+#include "cli/scene_program.h"
 #include "contact_path/path/increment_lists.h"
 #include "contact_path/path/model.h"
 #include "contact_path/path/recorder.h"
 #include "contact_path/scene/expand.h"
 #include "contact_path/scene/program.h"
-#include "contact_path/scene/read_scene.h"
 
 namespace contact_path {
 namespace {
@@ -53,6 +53,12 @@ Increment IncrementFrom(const Json& line, std::int64_t stages) {
   return increment;
 }
 
+// Whether all numbers in lists and objects are finite.
+bool AllFinite(const Json& value) {
+  if (value.is_number_float()) return std::isfinite(value.get<double>());
+  return !value.is_structured() || std::all_of(value.begin(), value.end(), AllFinite);
+}
+
 class Responder {
  public:
   explicit Responder(const TraceRequest& given)
@@ -73,9 +79,7 @@ class Responder {
     Json answer = {{"supports", FieldOf(increment.supports)},   {"boundaries", FieldOf(increment.boundaries)},
                    {"sections", FieldOf(increment.sections)},   {"stresses", FieldOf(increment.stresses)},
                    {"pressures", FieldOf(increment.pressures)}, {"widths", increment.widths}};
-    // Numbers that are not finite become null.
-    if (answer.dump().find("null") != std::string::npos)
-      throw std::invalid_argument("the numbers are beyond what can be computed");
+    if (!AllFinite(answer)) throw std::invalid_argument("the numbers are beyond what can be computed");
     return answer;
   }
 
@@ -122,20 +126,8 @@ void Respond(const TraceRequest& request) {
 }  // namespace contact_path
 
 int main(int argc, char** argv) {
-  CLI::App app(
-      "Writes what elements and contacts bear at increments of a path, which are read as JSON lines from standard "
-      "input.",
-      "contact_path_response");
-  std::string scene_file;
-  app.add_option("SCENE", scene_file, "Scene file")->required();
-  try {
-    app.parse(argc, argv);
-    contact_path::Respond(contact_path::ReadTraceRequestFile(scene_file));
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  } catch (const std::exception& error) {
-    std::cerr << "contact_path_response: " << error.what() << '\n';
-    return 2;
-  }
-  return std::cout ? 0 : 1;
+  return contact_path::RunOnScene("contact_path_response",
+                                  "Writes what elements and contacts bear at increments of a path, which are read as "
+                                  "JSON lines from standard input.",
+                                  "", argc, argv, contact_path::Respond);
 }

@@ -59,23 +59,18 @@ TEST(Answers, AreThoseOfAllExampleScenes) {
       ASSERT_EQ(answers.stresses.size(), increment.stresses.size());
       ASSERT_EQ(answers.lengths.size(), increment.pressures.size());
       for (std::size_t i = 0; i < increment.sections.size(); ++i) {
-        const SectionForces& of = increment.sections[i];
-        const std::array<double, 5>& other = answers.sections[i];
-        forces.Add(of.N, other[0]);
-        forces.Add(of.Q, other[1]);
-        moments.Add(of.M, other[2]);
-        moments.Add(of.M1, other[3]);
-        moments.Add(of.M2, other[4]);
+        std::size_t k = 0;  // N, Q, then moments
+        ForEachField<SectionForces>([&](const auto& field) {
+          (k < 2 ? forces : moments).Add(increment.sections[i].*field.member, answers.sections[i][k]);
+          ++k;
+        });
       }
       for (std::size_t i = 0; i < increment.stresses.size(); ++i) {
-        const SolidStress& of = increment.stresses[i];
-        const std::array<double, 6>& other = answers.stresses[i];
-        stresses.Add(of.sxx, other[0]);
-        stresses.Add(of.syy, other[1]);
-        stresses.Add(of.sxy, other[2]);
-        stresses.Add(of.szz, other[3]);
-        stresses.Add(of.mises, other[4]);
-        energies.Add(of.energy, other[5]);
+        std::size_t k = 0;  // stresses, then the energy
+        ForEachField<SolidStress>([&](const auto& field) {
+          (k < 5 ? stresses : energies).Add(increment.stresses[i].*field.member, answers.stresses[i][k]);
+          ++k;
+        });
       }
       for (std::size_t i = 0; i < increment.pressures.size(); ++i)
         lengths.Add(increment.pressures[i].length, answers.lengths[i]);

@@ -9,6 +9,7 @@
 
 #include "contact_path/scene/expand.h"
 #include "contact_path/verify/verify_path.h"
+#include "support/beams.h"
 #include "support/traced_path.h"
 
 namespace contact_path {
@@ -26,17 +27,6 @@ Node Clamped(Node node) {
 Node Pinned(Node node) {
   node.fixed_x = node.fixed_y = true;
   return node;
-}
-
-Beam Between(const std::string& name, const std::string& first, const std::string& second, double EA, double EI,
-             int segments) {
-  Beam beam;
-  beam.name = name;
-  beam.nodes = {first, second};
-  beam.EA = EA;
-  beam.EI = EI;
-  beam.segments = segments;
-  return beam;
 }
 
 // From (0, 0), of length 1 along x, EI = 1.

@@ -287,7 +287,7 @@ TEST(JointsOfAFloor, BearManyNodes) {
     const TracedPath path = TraceProved(request);
     ASSERT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
     for (int i = 0; i < count; ++i)
-      EXPECT_NEAR(path.increments.back().contacts[static_cast<std::size_t>(i)].rn, i % 2 == 0 ? 0.0 : 2.0, 1e-12) << i;
+      EXPECT_NEAR(path.increments.back().contacts[static_cast<std::size_t>(i)].rn, i % 2 == 0 ? 0.0 : 2.0, 1e-14) << i;
   }
 }
 

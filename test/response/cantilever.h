@@ -3,6 +3,7 @@
 #define CONTACT_PATH_TEST_RESPONSE_CANTILEVER_H_
 
 #include "contact_path/scene/scene.h"
+#include "support/beams.h"
 
 namespace contact_path {
 
@@ -11,12 +12,7 @@ inline TraceRequest Cantilever(const Node& tip) {
   TraceRequest request;
   Scene& scene = request.scene;
   scene.nodes = {{"root", 1.0, 2.0, true, true, true}, tip};
-  Beam beam;
-  beam.name = "arm";
-  beam.nodes = {"root", tip.name};
-  beam.EA = 1e3;
-  beam.EI = 3.0;
-  scene.beams = {beam};
+  scene.beams = {Between("arm", "root", tip.name, 1e3, 3.0, 0)};  // segments by default
   scene.loads = {{tip.name, 0.3, -1.0}};
   request.options.stop = {{"load_factor", ">", 1.5}};
   return request;

@@ -17,6 +17,7 @@
 #include "contact_path/scene/quantity.h"
 #include "contact_path/scene/reacting_parts.h"
 #include "contact_path/scene/scene_index.h"
+#include "support/beams.h"
 #include "support/traced_path.h"
 
 namespace contact_path {
@@ -51,15 +52,8 @@ TraceRequest ClampedPortal(const std::vector<double>& load_factors) {
                  {"b", 0.0, kHeight},
                  {"c", kSpan, kHeight},
                  {"d", kSpan, 0.0, true, true, true}};
-  for (const auto& [name, from, to] : {std::tuple("left", "a", "b"), {"beam", "b", "c"}, {"right", "c", "d"}}) {
-    Beam beam;
-    beam.name = name;
-    beam.nodes = {from, to};
-    beam.EA = kEA;
-    beam.EI = kEI;
-    beam.segments = kSegments;
-    scene.beams.push_back(beam);
-  }
+  scene.beams = {Between("left", "a", "b", kEA, kEI, kSegments), Between("beam", "b", "c", kEA, kEI, kSegments),
+                 Between("right", "c", "d", kEA, kEI, kSegments)};
   Samples samples;
   samples.quantity = "load_factor";
   samples.values = load_factors;
