@@ -153,7 +153,7 @@ bool PassesAnEnd(const SmoothArc& arc, const CurvePoint& start, const CurvePoint
   const FixedStateSystem& system = arc.system();
   const Eigen::Index s = system.NumDofs();
   if (ends.load_factor && (start.x[s] - *ends.load_factor) * (end.x[s] - *ends.load_factor) < 0.0) {
-    *event = {EventKind::kTarget, event->t, {}, false};
+    *event = {EventKind::kTarget, event->t, {}};
     return true;
   }
   if (event->kind == EventKind::kSample) return false;
@@ -163,7 +163,7 @@ bool PassesAnEnd(const SmoothArc& arc, const CurvePoint& start, const CurvePoint
     for (const double value : target.values)
       if (std::abs(before - value) > target.rounding && (before - value) * (after - value) < 0.0 &&
           target.sense * (after - before) >= 0.0) {
-        *event = {EventKind::kSample, event->t, {}, false, i, value};
+        *event = {EventKind::kSample, event->t, {}, {}, i, value};
         return true;
       }
   }
@@ -191,7 +191,7 @@ bool LoadGoesOn(const FixedStateSystem& system, const Step& step, const CurvePoi
 // Whether the inequality that was to fail at `point` holds there, by more than what counts as zero at an event: the
 // interpolation of the step has shown a zero that the curve does not have.
 bool HoldsAt(const FixedStateSystem& system, const StepEvent& event, const CurvePoint& point) {
-  return event.kind == EventKind::kContactEvent && !event.singular &&
+  return event.kind == EventKind::kContactEvent && !event.crossing &&
          !IsWeaklyActive(system, event.constraint, point.x, ActiveSetTolerance());
 }
 
@@ -214,8 +214,8 @@ bool EndAtFirstEvent(SmoothArc* arc, const StepEnds& wanted, ArcStep* at) {
       point = Locate(arc, at->step, at->event, *ends);
     }
     if (!point) return false;
-    if (!at->event.singular) KeepSide(at->step.start, &*point);
-    if (at->event.kind == EventKind::kLimitPoint && !at->event.singular && LoadGoesOn(arc->system(), whole, *point))
+    if (!at->event.crossing) KeepSide(at->step.start, &*point);
+    if (at->event.kind == EventKind::kLimitPoint && !at->event.crossing && LoadGoesOn(arc->system(), whole, *point))
       at->event.kind = EventKind::kNearTouch;
     if (HoldsAt(arc->system(), at->event, *point)) at->event.kind = EventKind::kNearTouch;
     if (PassesAnEnd(*arc, at->step.start, *point, *ends, &at->event)) continue;
@@ -231,7 +231,7 @@ bool EndAtFirstEvent(SmoothArc* arc, const StepEnds& wanted, ArcStep* at) {
     if (Winds(at->step)) return false;
     const StepEvent earlier = FirstEvent(arc, at->step, *ends);
     // Rounding has put the point beyond the bifurcation that is in its place.
-    if (earlier.singular && earlier.t >= at->step.length - tolerances::kNoMove)
+    if (earlier.crossing && earlier.t >= at->step.length - tolerances::kNoMove)
       at->step.end.determinant_sign = at->step.end.side = 0;
     if (earlier.kind == EventKind::kNone || earlier.t >= at->step.length - tolerances::kNoMove) return true;
     // The earlier event is rounding of a short step where it leads to this point again, or where it is a limit point at

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "contact_path/tolerances.h"
 
@@ -19,11 +18,10 @@ bool SlidesOn(const FixedStateSystem& system, const Eigen::VectorXd& x, const Ei
 
 }  // namespace
 
-std::vector<Branch> BifurcationBranches(SmoothArc* arc, const ContactPairs& contacts, const Eigen::VectorXd& before,
-                                        const CurvePoint& at) {
-  const FixedStateSystem& system = arc->system();
-  const Eigen::Index motion = arc->NumMotion();
-  const PathPoint point = system.Unpack(at.x);
+std::vector<Branch> BifurcationBranches(const SmoothArc& arc, const ContactPairs& contacts, const Crossing& crossing) {
+  const FixedStateSystem& system = arc.system();
+  const Eigen::Index motion = arc.NumMotion();
+  const PathPoint point = system.Unpack(crossing.x);
   const auto branch_along = [&](const Eigen::VectorXd& first, const Eigen::VectorXd& second) {
     Branch branch;
     branch.states = system.states();
@@ -33,15 +31,14 @@ std::vector<Branch> BifurcationBranches(SmoothArc* arc, const ContactPairs& cont
     branch.second = second;
     branch.load_rate = first[motion - 1];
     branch.dissipation_rate = DissipationRate(contacts, branch.states, point, branch.direction);
-    branch.turn = std::acos(std::clamp(branch.direction.dot(at.first.head(motion)), -1.0, 1.0));
+    branch.turn = std::acos(std::clamp(branch.direction.dot(crossing.along.first.head(motion)), -1.0, 1.0));
     return branch;
   };
-  std::vector<Branch> branches = {branch_along(at.first, at.second)};
+  std::vector<Branch> branches = {branch_along(crossing.along.first, crossing.along.second)};
   branches.front().turn = 0.0;  // the arc cosine of 1 less rounding is not
-  if (const std::optional<Crossing> crossing = arc->FindCrossing(before, at.x, at.first))
-    for (const double sense : {1.0, -1.0})
-      if (const Eigen::VectorXd first = sense * crossing->first; SlidesOn(system, at.x, first))
-        branches.push_back(branch_along(first, crossing->second));
+  for (const double sense : {1.0, -1.0})
+    if (const Eigen::VectorXd first = sense * crossing.across.first; SlidesOn(system, crossing.x, first))
+      branches.push_back(branch_along(first, crossing.across.second));
   return branches;
 }
 

@@ -6,7 +6,6 @@
 
 #include "contact_path/branch/gauss_rule.h"
 #include "contact_path/branch/plane_tangents.h"
-#include "contact_path/linear/generic_vector.h"
 #include "contact_path/linear/linearised_equations.h"
 #include "contact_path/tolerances.h"
 
@@ -14,7 +13,6 @@ namespace contact_path {
 namespace {
 
 constexpr int kMaxIterations = 12;
-constexpr int kSingularIterations = 3;
 constexpr int kLinearisations = 8;
 constexpr int kMostLowerings = 3;
 constexpr double kSpread = 10.0;  // of rounding, from one point to another
@@ -292,36 +290,24 @@ Correction SmoothArc::CorrectOnPlane(const Eigen::VectorXd& guess, const Eigen::
   return Newton(guess, row, row.dot(guess), false);
 }
 
-Eigen::VectorXd SmoothArc::CorrectSingular(const Eigen::VectorXd& guess, const Eigen::VectorXd& normal) {
+double SmoothArc::MovedByRounding(const Eigen::VectorXd& x, const Eigen::VectorXd& normal) {
   Eigen::VectorXd row = Eigen::VectorXd::Zero(system_.NumUnknowns());
   row.head(normal.size()) = normal;
-  Eigen::VectorXd x = guess;
-  for (int i = 0; i < kSingularIterations; ++i) {
-    system_.Residual(x, &residual_);
-    if (!residual_.allFinite() || !Factorize(x, row, tolerances::kDependentColumnSingular)) return guess;
-    x += solver_.Solve(-residual_, 0.0);
-  }
-  return x.allFinite() ? x : guess;
+  if (!Factorize(x, row)) return std::numeric_limits<double>::infinity();
+  return solver_.Solve(system_.Rounding(x), 0.0).head(normal.size()).norm();
 }
 
-bool SmoothArc::IsOnCurve(const Eigen::VectorXd& x) { return EquationsHold(x, tolerances::kResidualSingular); }
+std::optional<Crossing> SmoothArc::FindCrossing(const Eigen::VectorXd& guess, const Eigen::VectorXd& tangent) {
+  std::optional<Crossing> crossing = contact_path::FindCrossing(&system_, guess, tangent);
+  if (crossing) factorisations_ += crossing->factorisations;
+  return crossing;
+}
 
 bool SmoothArc::EquationsHold(const Eigen::VectorXd& x, double tolerance) {
   system_.Residual(x, &residual_);
   const double force = 1.0 + x.tail(x.size() - system_.NumDofs()).lpNorm<Eigen::Infinity>();
   const double place = 1.0 + x.head(NumMotion()).lpNorm<Eigen::Infinity>();
   return system_.Largest(residual_) <= tolerance * force && system_.LargestOfMotions(residual_) <= tolerance * place;
-}
-
-Eigen::VectorXd SmoothArc::CrossingDirection(const Eigen::VectorXd& x, const Eigen::VectorXd& towards) {
-  Eigen::VectorXd row = Eigen::VectorXd::Zero(system_.NumUnknowns());
-  row.head(NumMotion()) = towards;
-  Eigen::VectorXd none = Eigen::VectorXd::Zero(NumMotion());
-  if (!Factorize(x, row)) return none;
-  // Of nearly singular equations any solution points along the null vector.
-  const Eigen::VectorXd direction = solver_.Solve(GenericVector(system_.NumEquations()), 0.0).head(NumMotion());
-  const double norm = direction.norm();
-  return std::isfinite(norm) && norm > 0.0 ? Eigen::VectorXd(direction / norm) : none;
 }
 
 Step MakeStep(const CurvePoint& start, const CurvePoint& end, Eigen::Index num_motion) {

@@ -14,8 +14,7 @@ namespace {
 constexpr double kNearShare = 0.05;  // of the difference of quintic and cubic interpolation
 constexpr double kReach = 2.0;       // of the length of a step: wider gaps stay open on it
 constexpr int kNewtonIterations = 25;
-constexpr int kBisections = 60;
-constexpr double kLeap = 1.1;  // of a straight line across the bracket: points of one curve are nearer to each other
+constexpr double kReachOfLocated = 0.1;  // of the length of a step: what is located beside its curve is of another one
 
 Jet ValueAlong(const FixedStateSystem& system, const Constraint& constraint, const CurvePoint& point) {
   return system.ValueAlong(constraint, point.x, point.first, point.second);
@@ -72,55 +71,36 @@ std::optional<CurvePoint> LocateRate(SmoothArc* arc, const Step& step, double t,
   return point;
 }
 
-// Less than this below zero, an inequality other than of slip counts as holding on the step. Where another path crosses
-// at an end of it, reactions are no better known than the point.
-double RoundingOnStep(const SmoothArc& arc, const Step& step, const Constraint& constraint) {
-  const auto is_crossing = [](const CurvePoint& point) { return point.determinant_sign == 0 && point.nullity == 0; };
-  const double rounding = arc.RoundingOf(constraint);
-  if (IsMotion(constraint.inequality) || !(is_crossing(step.start) || is_crossing(step.end))) return rounding;
-  return std::max(rounding, tolerances::kForceSingular * arc.system().UnitOf(constraint));
-}
-
-struct Bracket {
-  double t = 0.0;  // middle
-  double width = 0.0;
-  bool sure = true;  // false: the ends of the step may be on two curves
+struct LocatedCrossing {
+  double t = 0.0;  // parameter of the step
+  Crossing at;
 };
 
-// Where the determinant changes its sign; nothing where it does so because the ends of the step are on two curves. Next
-// to a bifurcation that a small imperfection has broken, a step may leap from one curve to the other.
-std::optional<Bracket> FindBifurcation(SmoothArc* arc, const Step& step) {
-  const Eigen::Index n = step.normal.size();
-  const double narrow = tolerances::kLeapWidth * step.length;
-  const double slope = step.normal.dot(step.end.first.head(n));
-  double before = 0.0, beyond = step.length;
-  CurvePoint near_before = step.start, near_beyond = step.end;
-  for (int i = 0; i < kBisections && beyond - before > tolerances::kBifurcationWidth * step.length; ++i) {
-    double width = beyond - before;
-    const auto on_two_curves = [&] {
-      const double apart = (near_beyond.x - near_before.x).head(n).norm();
-      return width >= tolerances::kLeapNarrowest && apart > kLeap / slope * width + tolerances::kLeapRounding / width;
-    };
-    double t = 0.5 * (before + beyond);
-    std::optional<CurvePoint> point = PointAt(arc, step, t);
-    // Next to the bifurcation no point is reached; farther from it one is, unless the ends are on two curves.
-    for (const double share : {0.25, 0.75}) {
-      if (point) break;
-      t = before + share * width;
-      point = PointAt(arc, step, t);
-    }
-    if (!point) {
-      const bool sure = width <= tolerances::kUnreachedWidth && !on_two_curves();
-      return Bracket{0.5 * (before + beyond), width, sure};
-    }
-    if (point->pivot_sign == 0) return Bracket{t, width};  // singular to rounding
-    const bool is_before = point->pivot_sign == step.start.side;
-    (is_before ? before : beyond) = t;
-    (is_before ? near_before : near_beyond) = *point;
-    width = beyond - before;
-    if (width <= narrow && on_two_curves()) return std::nullopt;
+// Where another curve crosses the curve of the step, whose determinant has another sign at the end than at the start.
+// Nothing: the ends are on two curves, as next to a crossing that a small imperfection has broken.
+std::optional<LocatedCrossing> CrossingOn(SmoothArc* arc, const Step& step) {
+  const double reach = kReachOfLocated * step.length + tolerances::kLocatedReach;
+  for (const double share : {0.5, 0.1, 0.9}) {
+    const CurvePoint guess = step.At(share * step.length);
+    std::optional<Crossing> found = arc->FindCrossing(guess.x, guess.first.head(step.normal.size()));
+    if (!found) continue;
+    const double t = step.normal.dot((found->x - step.start.x).head(step.normal.size()));
+    const double inside = std::clamp(t, 0.0, step.length);
+    if (std::abs(t - inside) > tolerances::kNoMove || !found->IsPerfect() ||
+        (found->x - step.Point(inside)).head(step.normal.size()).norm() > reach)
+      continue;
+    return LocatedCrossing{inside, *std::move(found)};
   }
-  return Bracket{0.5 * (before + beyond), beyond - before};
+  return std::nullopt;
+}
+
+// Whether an inequality is zero where the curves cross.
+bool IsZeroAt(const FixedStateSystem& system, const Constraint& constraint, const Crossing& crossing) {
+  const Jet along = system.ValueAlong(constraint, crossing.x, crossing.along.first, crossing.along.second);
+  const double unit = system.UnitOf(constraint);
+  if (constraint.inequality == Inequality::kSlip) return std::abs(along.first) <= tolerances::kLevel * unit;
+  return std::abs(along.value) <=
+         (IsMotion(constraint.inequality) ? tolerances::kActiveGap : tolerances::kActiveForce) * unit;
 }
 
 // Where the load factor first is `target` on (0, length]; nothing if it is not, or at the start.
@@ -169,7 +149,7 @@ void FindSample(const FixedStateSystem& system, const Step& step, const ArcTarge
       if (const std::optional<double> t =
               FirstAtValue(along, value, functions[i].rounding, functions[i].sense, step.length);
           t && *t <= first->t)
-        *first = {EventKind::kSample, *t, {}, false, i, value};
+        *first = {EventKind::kSample, *t, {}, {}, i, value};
   }
 }
 
@@ -190,7 +170,7 @@ std::optional<CurvePoint> LocateSample(SmoothArc* arc, const Step& step, double 
   if (target.unknown >= 0) {
     const Eigen::VectorXd guess = step.Point(t);
     const Correction correction = arc->Correct(guess, Eigen::VectorXd::Unit(guess.size(), target.unknown), value);
-    const double reach = 0.1 * step.length + tolerances::kLocatedReach;
+    const double reach = kReachOfLocated * step.length + tolerances::kLocatedReach;
     if (correction.converged && (correction.x - guess).head(arc->NumMotion()).norm() <= reach)
       return point_at(correction.x, t);
   }
@@ -228,7 +208,7 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, const StepEnds& ends) {
     // An event that coincides with something else is the one to act on.
     const double head_start = first.kind == EventKind::kContactEvent && kind != EventKind::kContactEvent ? width : 0.0;
     if (t + head_start > first.t || (t == first.t && first.kind != EventKind::kNone)) return;
-    first = {kind, t, constraint, false};
+    first = {kind, t, constraint};
   };
   // No node moves further than the arc length, and that is hardly longer than the step.
   std::vector<Constraint> open_ends;
@@ -242,7 +222,7 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, const StepEnds& ends) {
   for (const Constraint& constraint : inequalities) {
     const Quintic quintic = FunctionOf(system, step, constraint);
     const double zero = constraint.inequality == Inequality::kSlip ? tolerances::kLevel * system.ResidualUnit()
-                                                                   : RoundingOnStep(*arc, step, constraint);
+                                                                   : arc->RoundingOf(constraint);
     if (const std::optional<double> t = FirstNegative(quintic, step.length, zero)) {
       consider(EventKind::kContactEvent, *t, constraint);
       continue;
@@ -276,42 +256,33 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, const StepEnds& ends) {
     if (t > at_start) consider(EventKind::kLimitPoint, t, {});
   }
   if (step.start.side * step.end.side < 0) {
-    const std::optional<Bracket> bifurcation = FindBifurcation(arc, step);
-    if (!bifurcation) return {EventKind::kTooLong, 0.0, {}, false};
-    const double apart = std::abs(bifurcation->t - first.t);
-    double near = std::max(width, bifurcation->width);
-    if (first.kind != EventKind::kNone && apart > near && apart <= tolerances::kUnclear * step.length)
-      return {EventKind::kTooLong, 0.0, {}, false};
-    // A step as short as this does not tell them apart either.
-    if (first.kind == EventKind::kLimitPoint)
-      near = std::max(near, ReachOfExtreme(Evaluate(Derivative(load_rate), first.t)));
-    // A point beyond such a bracket may be one of another curve, whatever event coincides with it.
-    if (!bifurcation->sure && first.t >= bifurcation->t - near) return {EventKind::kTooLong, 0.0, {}, false};
-    // The step was cut short at a limit point, and rounding has put that point beyond the bifurcation.
-    const bool ends_at_limit = first.kind == EventKind::kNone && step.end.first[s] == 0.0;
-    if (ends_at_limit && apart <= ReachOfExtreme(step.end.second[s]))
-      first = {EventKind::kLimitPoint, bifurcation->t, {}, true};
-    else if (first.kind != EventKind::kNone && apart <= near)
-      first.singular = true;
-    else if (bifurcation->t < first.t)
-      first = {EventKind::kBifurcation, bifurcation->t, {}, true};
+    std::optional<LocatedCrossing> found = CrossingOn(arc, step);
+    if (!found) return {EventKind::kTooLong, 0.0, {}};
+    const bool coincides = (first.kind == EventKind::kContactEvent && IsZeroAt(system, first.constraint, found->at)) ||
+                           (first.kind == EventKind::kLimitPoint &&
+                            std::abs(found->at.along.first[s]) <= tolerances::kLevel * system.ResidualUnit());
+    if (coincides)
+      first.t = found->t;
+    else if (found->t > tolerances::kNoMove && found->t <= first.t)  // one at the start is where the step has come from
+      first = {EventKind::kBifurcation, found->t, {}};
+    if (coincides || first.kind == EventKind::kBifurcation) first.crossing = std::move(found->at);
   }
   // From wall to wall of one obstacle in one step: a shorter step sees the wall that is ahead.
-  if (first.kind == EventKind::kNone && arc->BehindOtherPatch(step.end.x)) return {EventKind::kTooLong, 0.0, {}, false};
+  if (first.kind == EventKind::kNone && arc->BehindOtherPatch(step.end.x)) return {EventKind::kTooLong, 0.0, {}};
   // Whatever lies behind the target, however near, is not of this path.
   FindSample(system, step, ends.functions, &first);
   if (ends.load_factor)
     if (const std::optional<double> t = FirstAt(load_factor, *ends.load_factor, step.length); t && *t <= first.t)
-      first = {EventKind::kTarget, *t, {}, false};
+      first = {EventKind::kTarget, *t, {}};
   return first;
 }
 
 std::optional<CurvePoint> Locate(SmoothArc* arc, const Step& step, const StepEvent& event, const StepEnds& ends) {
-  if (event.singular) {
-    CurvePoint point = step.At(event.t);
-    point.x = arc->CorrectSingular(point.x, step.normal);
-    point.determinant_sign = point.side = 0;
-    if (!arc->IsOnCurve(point.x)) return std::nullopt;
+  if (event.crossing) {
+    CurvePoint point;
+    point.x = event.crossing->x;
+    point.first = event.crossing->along.first;
+    point.second = event.crossing->along.second;
     if (event.kind == EventKind::kLimitPoint) RestLoad(arc->system().NumDofs(), &point);
     return point;
   }
@@ -340,7 +311,7 @@ std::optional<CurvePoint> LocateRegular(SmoothArc* arc, const Step& step, const 
     case EventKind::kNone: return step.end;
     case EventKind::kTooLong: return std::nullopt;
     case EventKind::kNearTouch: return PointAt(arc, step, event.t);
-    case EventKind::kBifurcation: return step.At(event.t);
+    case EventKind::kBifurcation: return std::nullopt;
     case EventKind::kLimitPoint:
       return LocateRate(arc, step, event.t, [s = system.NumDofs()](const CurvePoint& at) {
         return Jet{at.x[s], at.first[s], at.second[s]};
@@ -363,7 +334,7 @@ std::optional<CurvePoint> LocateRegular(SmoothArc* arc, const Step& step, const 
   // that crossed it.
   const Eigen::VectorXd guess = step.Point(event.t);
   Correction correction = arc->CorrectOnto(event.constraint, guess);
-  const double reach = 0.1 * step.length + tolerances::kLocatedReach;
+  const double reach = kReachOfLocated * step.length + tolerances::kLocatedReach;
   if (!correction.converged || !((correction.x - guess).head(arc->NumMotion()).norm() <= reach)) {
     std::optional<CurvePoint> lowest =
         LocateRate(arc, step, event.t, [&](const CurvePoint& at) { return ValueAlong(system, event.constraint, at); });

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <numeric>
 
 #include "contact_path/equations/frame_around.h"
@@ -328,6 +329,21 @@ void FixedStateSystem::Residual(const Eigen::VectorXd& x, Eigen::VectorXd* resid
     if (!IsMotion(active_[c].inequality))
       (*residual)[first_active_equation_ + static_cast<Eigen::Index>(c)] = Value(active_[c], x);
   if (load_factor_fixed_) (*residual)[num_equations_ - 1] = s - load_factor_;
+}
+
+Eigen::VectorXd FixedStateSystem::Rounding(const Eigen::VectorXd& x) const {
+  constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+  Eigen::VectorXd rounding =
+      Eigen::VectorXd::Constant(num_equations_, kEpsilon * (1.0 + x.head(NumDofs() + 1).lpNorm<Eigen::Infinity>()));
+  rounding.head(NumDofs()) =
+      structure_.ForceRounding() + kEpsilon * (std::abs(x[NumDofs()]) * structure_.ReferenceLoad().cwiseAbs() +
+                                               structure_.ConstantLoad().cwiseAbs());
+  for (const std::size_t i : touching_) {
+    const Reaction reaction = ReactionOf(i, x);
+    for (const int dof : contacts_[i]->Dofs(patches_[i]))
+      rounding[dof] += kEpsilon * (std::abs(reaction.rn) + std::abs(reaction.rt));
+  }
+  return rounding;
 }
 
 double FixedStateSystem::Largest(const Eigen::VectorXd& residual) const {

@@ -47,10 +47,10 @@ int BranchMethod::StiffnessSign(const CurvePoint& point) const {
   return (rate > 0.0 ? 1 : -1) * point.determinant_sign * (reactions % 2 == 0 ? 1 : -1);
 }
 
-std::vector<double> BranchMethod::CrossingPath(const Step& step) {
-  // A little before the bifurcation, where the equations are regular.
-  const CurvePoint near = step.At((1.0 - tolerances::kBeforeBifurcation) * step.length);
-  const Eigen::VectorXd direction = arc_.CrossingDirection(near.x, near.first.head(arc_.NumMotion()));
+std::vector<double> BranchMethod::CrossingPath(const Crossing& crossing) const {
+  const Eigen::Index motion = arc_.NumMotion();
+  const auto along = crossing.along.first.head(motion), across = crossing.across.first.head(motion);
+  const Eigen::VectorXd direction = (across - across.dot(along) * along).normalized();
   std::vector<double> components(model_.configuration.start.size(), 0.0);
   for (const DofMap::Component& of : model_.structure.Dofs().Components())
     if (of.field == Field::kPosition && of.dof >= 0)
@@ -113,8 +113,6 @@ AcceptedPoint BranchMethod::IncrementAt(PathPoint point, const PathPoint& from) 
 AcceptedPoint BranchMethod::IncrementOf(const ArcStep& step, const PathPoint& from) const {
   const CurvePoint& end = step.step.end;
   AcceptedPoint increment = IncrementAt(arc_.system().Unpack(end.x), from);
-  if (step.event.singular && step.event.kind != EventKind::kContactEvent)
-    increment.force_rounding = tolerances::kForceSingular;
   increment.solve.rejected = step.rejected;
   increment.solve.nullity = static_cast<int>(end.nullity);
   increment.solve.determinant_sign = end.determinant_sign;
@@ -154,17 +152,17 @@ std::optional<EndReason> BranchMethod::PassEnd(const ArcStep& at, AcceptedPoint*
   if (at.event.kind == EventKind::kSample) increment->kind = IncrementKind::kSample;
   if (at.event.kind == EventKind::kLimitPoint) {
     increment->kind = IncrementKind::kSmoothLimit;
-    if (at.event.singular) increment->event.null_vector = CrossingPath(at.step);
-    if (at.event.singular && options_.keep_loading && TakeCrossingThatLoads(at))
+    if (at.event.crossing) increment->event.null_vector = CrossingPath(*at.event.crossing);
+    if (at.event.crossing && options_.keep_loading && TakeCrossingThatLoads(at))
       increment->kind = IncrementKind::kBifurcation;
   }
   return options_.ChoiceAt(increments_, 0) == nullptr ? std::nullopt : PassChoice(at, increment, message);
 }
 
 bool BranchMethod::TakeCrossingThatLoads(const ArcStep& at) {
-  const std::vector<Branch> branches = BifurcationBranches(&arc_, model_.contacts, at.step.start.x, at.step.end);
+  const std::vector<Branch> branches = BifurcationBranches(arc_, model_.contacts, *at.event.crossing);
   const auto found = std::find_if(branches.begin(), branches.end(), [&](const Branch& branch) {
-    return branch.load_rate * options_.direction > tolerances::kLevelSingular;
+    return branch.load_rate * options_.direction > tolerances::kLevel;
   });
   if (found == branches.end()) return false;
   current_.first = found->first;
@@ -176,10 +174,9 @@ std::optional<EndReason> BranchMethod::PassBifurcation(const ArcStep& at, Accept
                                                        std::string* message) {
   EventRecord* record = &increment->event;
   increment->kind = IncrementKind::kBifurcation;
-  record->null_vector = CrossingPath(at.step);
+  record->null_vector = CrossingPath(*at.event.crossing);
   record->number = ++events_;
-  const CurvePoint& end = at.step.end;
-  const std::vector<Branch> branches = BifurcationBranches(&arc_, model_.contacts, at.step.start.x, end);
+  const std::vector<Branch> branches = BifurcationBranches(arc_, model_.contacts, *at.event.crossing);
   RecordBranches(branches, record);
   const std::optional<std::size_t> taken = ChosenOf(branches, options_.ChoiceAt(increments_, events_), 0, message);
   if (!taken) return EndReason::kNoSuchBranch;
@@ -229,7 +226,7 @@ std::optional<EndReason> BranchMethod::LeaveEnd(const ArcStep& at, const BranchC
                                                 std::string* message) {
   Arrival arrival;
   arrival.direction = at.step.end.first.head(arc_.NumMotion());
-  arrival.singular = at.event.singular;
+  arrival.singular = at.event.crossing.has_value();
   if (at_start_) arrival = departure_.StartArrival();
   if (FailsByRounding(at)) arrival.failed = at.event.constraint;
   arrival.load_sense = options_.direction;
@@ -244,14 +241,14 @@ bool BranchMethod::FailsByRounding(const ArcStep& at) const {
 }
 
 bool BranchMethod::TurnsLoad(const ArcStep& at) {
-  const double level = at.event.singular ? tolerances::kLevelSingular : tolerances::kLevel;
+  const double level = tolerances::kLevel;
   const Eigen::Index s = LoadFactor();
   const double arrives = Trend(at.step.end.first[s], -at.step.end.second[s], level);
   double leaves = Trend(current_.first[s], current_.second[s], level);
   // A load that is level to second order may yet rise or fall; and where paths cross, a second derivative may be
   // nothing but the distance of the located point from the crossing.
   const bool is_level = std::abs(current_.first[s]) <= level;
-  if (is_level && arrives != 0.0 && (leaves == 0.0 || at.event.singular)) {
+  if (is_level && arrives != 0.0 && (leaves == 0.0 || at.event.crossing)) {
     const std::optional<double> rate = RateBeyond(kProbe * options_.step);
     const double beyond = rate ? Trend(*rate, 0.0, level) : leaves;
     if (leaves == 0.0 || beyond == 0.0) leaves = beyond;
@@ -280,7 +277,7 @@ bool BranchMethod::SlidesOff(const ArcStep& at, const PathPoint& point) const {
 void BranchMethod::SetNextLength(const ArcStep& at) {
   // As long as wanted unless this step had to be shortened.
   step_length_ = std::min(options_.step, at.rejected > 0 ? 1.5 * at.tried : 2.0 * step_length_);
-  if (at.event.singular) step_length_ *= kAfterSingular;
+  if (at.event.crossing) step_length_ *= kAfterSingular;
 }
 
 std::optional<BranchMethod::BalancedStep> BranchMethod::NextBalancedStep() {
@@ -382,7 +379,7 @@ std::string BranchMethod::Remark() const {
 std::string BranchMethod::NoStep(const PathPoint& from) {
   std::string text = "no increment could be accepted, however short: Newton's method does not stay on the branch";
   text = After(text, CollapsedBar(model_.scene, model_.index, model_.InSceneUnits(from).positions));
-  const double moved = arc_.CorrectOnPlane(current_.x, current_.first.head(arc_.NumMotion())).first_step;
+  const double moved = arc_.MovedByRounding(current_.x, current_.first.head(arc_.NumMotion()));
   if (moved > options_.smallest_step) text += "; " + MovedByRounding(moved * model_.scaling.length);
   return After(text, CurveTooSharp(model_, from));
 }

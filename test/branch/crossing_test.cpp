@@ -139,13 +139,14 @@ TEST(Crossing, HasTheSecondDerivativeOfThePath) {
   Eigen::VectorXd tangent = x - before;
   tangent.normalize();
   tangent[0] = 0.0;
-  const std::optional<Crossing> found = FindCrossing(&system, before, x, tangent.normalized());
+  const std::optional<Crossing> found = FindCrossing(&system, x, tangent.normalized());
   ASSERT_TRUE(found);
-  EXPECT_NEAR(found->first[0], 1.0, 1e-6);
+  EXPECT_TRUE(found->IsPerfect());
+  EXPECT_NEAR(found->across.first[0], 1.0, 1e-12);
   const Eigen::VectorXd next = system.Pack(model.FromIncrement(path.increments[at + 1]));
-  const double length = found->first.dot(next - x);
+  const double length = found->across.first.dot(next - x);
   for (const Eigen::Index i : {1, 2})
-    EXPECT_NEAR(0.5 * found->second[i] * length * length, next[i] - x[i], 1e-2 * std::abs(next[i] - x[i]) + 1e-9);
+    EXPECT_NEAR(0.5 * found->across.second[i] * length * length, next[i] - x[i], 1e-2 * std::abs(next[i] - x[i]) + 1e-9);
 }
 
 TEST(Crossing, OfABranchThatIsNotThereEndsTheTrace) {

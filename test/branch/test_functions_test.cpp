@@ -46,7 +46,7 @@ TEST(TestFunctions, AGapCloses) {
     ASSERT_TRUE(located);
     EXPECT_NEAR(located->x[0], 1.1, 1e-15);
     EXPECT_NEAR(arc.Load(*located), 0.1, 1e-15);
-    EXPECT_FALSE(event.singular);
+    EXPECT_FALSE(event.crossing);
   }
   // Just before, and just at the end of the step.
   EXPECT_EQ(FirstEvent(&arc.arc(), arc.Between(0.0, 0.14)).kind, EventKind::kNone);
@@ -116,11 +116,11 @@ TEST(TestFunctions, Bifurcations) {
   const Step step = arc.Between(0.0, 0.02);
   const StepEvent event = FirstEvent(&arc.arc(), step);
   ASSERT_EQ(event.kind, EventKind::kBifurcation);
-  EXPECT_TRUE(event.singular);
+  EXPECT_TRUE(event.crossing);
   const std::optional<CurvePoint> located = Locate(&arc.arc(), step, event);
   ASSERT_TRUE(located);
   EXPECT_EQ(located->determinant_sign, 0);
-  EXPECT_NEAR(located->x[1] * arc.model().scaling.length, tall_truss::BifurcationY(), 1e-9);
+  EXPECT_NEAR(located->x[1] * arc.model().scaling.length, tall_truss::BifurcationY(), 1e-14);
 }
 
 // Of several events on a step the first is reported, whatever its kind.

@@ -284,9 +284,10 @@ TEST(HardScenes, ArcLengthFromWherePathsCross) {
   })) << slack.result.message;
   // Once the tie is taut all moves along one line.
   const TracedPath path = TraceData("slack_tie", Method::kBranch, Accuracy::kFast);
-  const std::vector<Increment> crossings = IncrementsOfKind(path, IncrementKind::kBifurcation);
-  ASSERT_EQ(crossings.size(), 1U);
-  const Increment &crossing = crossings[0], &last = path.increments.back();
+  const auto crosses = [](const Increment& increment) { return increment.event.number == 2; };
+  const auto found = std::find_if(path.increments.begin(), path.increments.end(), crosses);
+  ASSERT_NE(found, path.increments.end());
+  const Increment &crossing = *found, &last = path.increments.back();
   ASSERT_GT(last.index, crossing.index + 1);
   const double slope = (last.arc_length - crossing.arc_length) / (last.load_factor - crossing.load_factor);
   for (std::size_t i = static_cast<std::size_t>(crossing.index); i < path.increments.size(); ++i) {

@@ -10,10 +10,9 @@
 
 namespace contact_path {
 
-// The arc itself, which goes on, comes first. Then both directions of the path that crosses it at the point `at`, where
-// they are found, without those that let a contact slide back (crossing.h). before: a point of the arc before.
-std::vector<Branch> BifurcationBranches(SmoothArc* arc, const ContactPairs& contacts, const Eigen::VectorXd& before,
-                                        const CurvePoint& at);
+// The arc itself, which goes on, comes first. Then both directions of the path that crosses the arc, without those that
+// let a contact slide back.
+std::vector<Branch> BifurcationBranches(const SmoothArc& arc, const ContactPairs& contacts, const Crossing& crossing);
 
 }  // namespace contact_path
 

@@ -63,20 +63,11 @@ class SmoothArc {
   // Newton's method for the point of the curve where an inequality of the states is exactly zero, from guess.
   Correction CorrectOnto(const Constraint& constraint, const Eigen::VectorXd& guess);
 
-  // The point of the curve nearest to guess, itself near, where another path crosses: nothing is moved along the null
-  // vector.
-  Eigen::VectorXd CorrectSingular(const Eigen::VectorXd& guess, const Eigen::VectorXd& normal);
-  // Whether the equations hold at x.
-  bool IsOnCurve(const Eigen::VectorXd& x);
-  // Near a bifurcation: the direction of the crossing path, normal to the tangent `towards` in (u, s); |(u, s) part|
-  // = 1. Zero where it cannot be told.
-  Eigen::VectorXd CrossingDirection(const Eigen::VectorXd& x, const Eigen::VectorXd& towards);
+  // How far rounding of the equations may move a point x of the curve on the plane with this normal in (u, s).
+  double MovedByRounding(const Eigen::VectorXd& x, const Eigen::VectorXd& normal);
 
-  // At a bifurcation x of the curve with the tangent `first`, after the point `before`: the path that crosses there.
-  std::optional<Crossing> FindCrossing(const Eigen::VectorXd& before, const Eigen::VectorXd& x,
-                                       const Eigen::VectorXd& first) {
-    return contact_path::FindCrossing(&system_, before, x, first);
-  }
+  // Where another curve crosses, or nearly crosses, the arc near guess, whose tangent in (u, s) is about `tangent`.
+  std::optional<Crossing> FindCrossing(const Eigen::VectorXd& guess, const Eigen::VectorXd& tangent);
 
   // Of the touching contacts, and the gaps at x that an increment of length `reach` may close.
   // open_ends: the ends of the patches that open candidates in reach are beside.

@@ -26,9 +26,7 @@ struct StepEvent {
   EventKind kind = EventKind::kNone;
   double t = 0.0;         // parameter of the step, of the first kind
   Constraint constraint;  // kContactEvent: the inequality that fails first
-  // The equations are singular there: another path crosses at the very point. Then the interpolation is more exact than
-  // Newton's method.
-  bool singular = false;
+  std::optional<Crossing> crossing = {};  // another curve crosses at the very point, whatever happens there
   std::size_t target = 0;  // kSample: which of the functions
   double value = 0.0;      // kSample: of that function
 };
@@ -43,11 +41,9 @@ struct StepEnds {
 // inside it count too. A pair of roots could only be missed where the curve differs from its quintic interpolation by
 // more than a twentieth of the difference between the quintic and the cubic interpolation at the middle of the step:
 // minima that come nearer to zero than that are reported as kNearTouch. A bifurcation shows by the sign of the
-// determinant at the ends, and is then found by bisection; two of them within one step are not seen.
-// Where the bisection comes upon two points that are farther apart than one curve could take them, or upon a stretch in
-// which it reaches no point, the step has leapt to another curve, whatever other event lies there. A bifurcation that
-// is next to another event, but not at its place to rounding, is looked at with a shorter step. Functions of `ends` are
-// interpolated by quintics, too.
+// determinant at the ends, and is located as a crossing; two of them within one step are not seen. Where no crossing
+// lies on the step, or an imperfection has broken the crossing, the step has leapt to another curve, whatever other
+// event lies there. Functions of `ends` are interpolated by quintics, too.
 StepEvent FirstEvent(SmoothArc* arc, const Step& step, const StepEnds& ends = {});
 
 // The exact point of a kind near t, by Newton's method, with its parameter within the step. Nothing if it is

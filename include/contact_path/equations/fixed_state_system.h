@@ -86,6 +86,9 @@ class FixedStateSystem {
 
   // residual: NumEquations(). Not finite where an element is singular.
   void Residual(const Eigen::VectorXd& x, Eigen::VectorXd* residual) const;
+  // What rounding may leave of each entry of the residual at x: forces of the parts by the rounding of the coordinates,
+  // loads and reactions, and lengths, by their own. NumEquations().
+  Eigen::VectorXd Rounding(const Eigen::VectorXd& x) const;
   // The largest entry of a residual; equations of equilibrium are measured in Structure::ResidualUnits().
   double Largest(const Eigen::VectorXd& residual) const;
   // The largest entry in the equations of touching contacts and of prescribed components.

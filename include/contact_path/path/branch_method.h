@@ -67,7 +67,7 @@ class BranchMethod : public PathMethod {
   bool SlidesOff(const ArcStep& at, const PathPoint& point) const;
   void SetNextLength(const ArcStep& at);
   // Direction of the path that crosses at the end of the step: x0, y0, x1, ..., unit norm.
-  std::vector<double> CrossingPath(const Step& step);
+  std::vector<double> CrossingPath(const Crossing& crossing) const;
   int StiffnessSign(const CurvePoint& point) const;
   struct BalancedStep {
     ArcStep at;
