@@ -239,8 +239,6 @@ bool EndAtFirstEvent(SmoothArc* arc, const StepEnds& wanted, ArcStep* at) {
     const bool same = IsSame(earlier, found);
     if (same && found.kind == EventKind::kSample) return true;
     if (attempt > 0 && same && std::abs(at->step.length - before) <= tolerances::kNoMove) return true;
-    const double reach = ReachOfExtreme(point->second[arc->system().NumDofs()]);
-    if (same && found.kind == EventKind::kLimitPoint && at->step.length - earlier.t <= reach) return true;
     at->event = earlier;
   }
   return false;

@@ -116,7 +116,11 @@ bool SmoothArc::Derivatives(const Eigen::VectorXd& x, const Eigen::VectorXd& tow
   point->second -= point->first.head(n).dot(point->second.head(n)) * point->first;
   point->nullity = solver_.Nullity();
   point->determinant_sign = point->side = solver_.DeterminantSign();
-  point->pivot_sign = solver_.PivotSign();
+  point->is_limit = false;
+  const double rate = point->first[n - 1];
+  point->load_error = std::abs(rate) > tolerances::kMovingLoad
+                          ? 0.0
+                          : ErrorOfRate(Eigen::VectorXd::Unit(x.size(), n - 1), *point);
   return point->second.allFinite();
 }
 
@@ -288,6 +292,24 @@ Correction SmoothArc::CorrectOnPlane(const Eigen::VectorXd& guess, const Eigen::
     if (correction.converged) return correction;
   }
   return Newton(guess, row, row.dot(guess), false);
+}
+
+double SmoothArc::ErrorOfRate(const Eigen::VectorXd& gradient, const CurvePoint& at) {
+  if (at.nullity > 0 && !held_.value_or(false)) return tolerances::kLevel * system_.ResidualUnit();
+  const Eigen::VectorXd rounding = system_.Rounding(at.x);
+  const Eigen::VectorXd shares = solver_.SolveTransposed(gradient).head(rounding.size());
+  const double of_equations = shares.cwiseAbs().dot(rounding);
+  // The tangent of a point beside the curve is another one.
+  const Eigen::VectorXd moved = solver_.Solve(rounding, 0.0);
+  const double distance = moved.norm();
+  double of_point = 0.0;
+  if (distance > 0.0) {
+    const Eigen::VectorXd across = moved / distance;
+    of_point = 0.25 * distance *
+               std::abs(shares.dot(system_.SecondDerivative(at.x, at.first + across) -
+                                   system_.SecondDerivative(at.x, at.first - across)));
+  }
+  return tolerances::kUnitComponent * gradient.lpNorm<Eigen::Infinity>() + of_equations + of_point;
 }
 
 double SmoothArc::MovedByRounding(const Eigen::VectorXd& x, const Eigen::VectorXd& normal) {

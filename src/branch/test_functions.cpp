@@ -42,14 +42,10 @@ std::optional<CurvePoint> PointAt(SmoothArc* arc, const Step& step, double t) {
   return point;
 }
 
-// At a limit point the rate of the load factor is zero. What rounding leaves of it would be found as another one.
-void RestLoad(Eigen::Index s, CurvePoint* point) {
-  if (std::abs(point->first[s]) > tolerances::kLevel) point->first[s] = 0.0;
-}
-
-// Zero of a rate, by Newton's method along the curve. along(point): the jet whose first derivative it is.
-template <typename Along>
-std::optional<CurvePoint> LocateRate(SmoothArc* arc, const Step& step, double t, Along along) {
+// Zero of a rate, by Newton's method along the curve. along(point): the jet whose first derivative it is; gradient(x):
+// of the quantity by the unknowns.
+template <typename Along, typename Gradient>
+std::optional<CurvePoint> LocateRate(SmoothArc* arc, const Step& step, double t, Along along, Gradient gradient) {
   std::optional<CurvePoint> point = PointAt(arc, step, t);
   double previous = std::numeric_limits<double>::infinity();
   for (int i = 0; point && i < kNewtonIterations; ++i) {
@@ -58,10 +54,7 @@ std::optional<CurvePoint> LocateRate(SmoothArc* arc, const Step& step, double t,
     if (std::abs(value) <= tolerances::kUnitComponent) return point;
     const double move = -value / slope;
     if (std::abs(value) >= 0.5 * previous)  // rounding, or there is no zero
-      return std::abs(value) <= tolerances::kLevel * arc->system().ResidualUnit() ||
-                     (std::abs(value) <= tolerances::kLevelSingular && std::abs(move) <= ReachOfExtreme(slope))
-                 ? point
-                 : std::nullopt;
+      return std::abs(value) <= arc->ErrorOfRate(gradient(point->x), *point) ? point : std::nullopt;
     previous = std::abs(value);
     if (!(std::abs(move) <= step.length)) return std::nullopt;
     const Eigen::VectorXd guess = point->x + move * point->first + 0.5 * move * move * point->second;
@@ -101,6 +94,37 @@ bool IsZeroAt(const FixedStateSystem& system, const Constraint& constraint, cons
   if (constraint.inequality == Inequality::kSlip) return std::abs(along.first) <= tolerances::kLevel * unit;
   return std::abs(along.value) <=
          (IsMotion(constraint.inequality) ? tolerances::kActiveGap : tolerances::kActiveForce) * unit;
+}
+
+// Where the load turns first within the step. A rate that has not been told from zero before, since the step began or
+// since the last turn, is not turned.
+std::optional<double> FirstTurn(const Quintic& load_factor, const Step& step) {
+  const Quintic rate = Derivative(load_factor);
+  const double level = std::max({tolerances::kUnitComponent, step.start.load_error, step.end.load_error,
+                                 tolerances::kNewtonStep * (1.0 + std::abs(load_factor[0])) / step.length});
+  // The largest rate between two places, by its sign: 0 where all of them are within the level.
+  const auto sense_between = [&](double from, double to) {
+    double largest = 0.0;
+    for (std::size_t i = 0; i < 6; ++i) {
+      const double value = Evaluate(rate, from + QuinticNode(i, 1.0) * (to - from));
+      if (std::abs(value) > std::abs(largest)) largest = value;
+    }
+    return std::abs(largest) <= level ? 0 : largest > 0.0 ? 1 : -1;
+  };
+  int count = 0;
+  const std::array<double, 5> roots = Roots(rate, step.length, &count);
+  int before = 0;
+  for (int i = 0; i <= count; ++i) {
+    const double from = i == 0 ? 0.0 : roots[static_cast<std::size_t>(i) - 1];
+    const double to = i < count ? roots[static_cast<std::size_t>(i)] : step.length;
+    const int sense = sense_between(from, to);
+    if (before * sense < 0) return from;
+    if (sense != 0) before = sense;
+  }
+  // The step ends as the load is about to turn, and the next step would begin with a rate of zero.
+  const bool ends_at_root = count > 0 && before != 0 && !step.end.is_limit;
+  if (ends_at_root && before * Evaluate(rate, step.length) < 0.0) return roots[static_cast<std::size_t>(count) - 1];
+  return std::nullopt;
 }
 
 // Where the load factor first is `target` on (0, length]; nothing if it is not, or at the start.
@@ -195,8 +219,8 @@ std::optional<CurvePoint> LocateRegular(SmoothArc* arc, const Step& step, const 
 
 }  // namespace
 
-double ReachOfExtreme(double second) {
-  return std::min(std::sqrt(2.0 * tolerances::kExtreme / std::abs(second)), tolerances::kExtremeReach);
+double ErrorOfPlace(const CurvePoint& limit_point, Eigen::Index load) {
+  return limit_point.load_error / std::abs(limit_point.second[load]);
 }
 
 StepEvent FirstEvent(SmoothArc* arc, const Step& step, const StepEnds& ends) {
@@ -235,37 +259,23 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, const StepEnds& ends) {
       consider(EventKind::kNearTouch, where, constraint);
   }
   const Eigen::Index s = system.NumDofs();
-  const auto load = [s](const Eigen::VectorXd& x) { return x[s]; };
-  const Quintic load_factor = step.InterpolateLinear(load);
-  const Quintic load_rate = Derivative(load_factor);
-  Quintic reversed = load_rate;
-  for (double& coefficient : reversed) coefficient = -coefficient;
-  // Nearer to a limit point at the start than this, another one is rounding.
-  const double at_first = std::abs(step.start.first[s]);
-  const double at_start = at_first == 0.0 ? ReachOfExtreme(step.start.second[s]) : 0.0;
-  for (const Quintic& rate : {load_rate, reversed}) {
-    const auto find = [&](double level) { return FirstNegative(rate, step.length, level).value_or(-1.0); };
-    double t = find(tolerances::kLevel * system.ResidualUnit());
-    // Among stiff parts a rate may be told from zero, and yet be within the rounding that they may leave.
-    if (t == 0.0 && at_first > tolerances::kLevel) t = find(tolerances::kLevel);
-    // A smaller rate is not zero either, where the load changes by more than rounding until it rests.
-    if (t == 0.0 && at_first > 0.0) {
-      t = find(0.5 * at_first);
-      if (!(0.5 * at_first * t > tolerances::kExtreme * system.ResidualUnit())) t = 0.0;
-    }
-    if (t > at_start) consider(EventKind::kLimitPoint, t, {});
-  }
+  const Quintic load_factor = step.InterpolateLinear([s](const Eigen::VectorXd& x) { return x[s]; });
+  if (const std::optional<double> t = FirstTurn(load_factor, step)) consider(EventKind::kLimitPoint, *t, {});
   if (step.start.side * step.end.side < 0) {
     std::optional<LocatedCrossing> found = CrossingOn(arc, step);
     if (!found) return {EventKind::kTooLong, 0.0, {}};
+    const CurveDerivatives& along = found->at.along;
+    const bool is_level = std::abs(along.first[s]) <= tolerances::kLevel * system.ResidualUnit();
+    const bool turns = is_level && std::abs(along.second[s]) > tolerances::kCurvature;
     const bool coincides = (first.kind == EventKind::kContactEvent && IsZeroAt(system, first.constraint, found->at)) ||
-                           (first.kind == EventKind::kLimitPoint &&
-                            std::abs(found->at.along.first[s]) <= tolerances::kLevel * system.ResidualUnit());
+                           (first.kind == EventKind::kLimitPoint && is_level);
+    // A crossing at the start is where the step has come from.
+    const bool comes_first = found->t > tolerances::kNoMove && found->t <= first.t;
     if (coincides)
       first.t = found->t;
-    else if (found->t > tolerances::kNoMove && found->t <= first.t)  // one at the start is where the step has come from
-      first = {EventKind::kBifurcation, found->t, {}};
-    if (coincides || first.kind == EventKind::kBifurcation) first.crossing = std::move(found->at);
+    else if (comes_first)
+      first = {turns ? EventKind::kLimitPoint : EventKind::kBifurcation, found->t, {}};
+    if (coincides || comes_first) first.crossing = std::move(found->at);
   }
   // From wall to wall of one obstacle in one step: a shorter step sees the wall that is ahead.
   if (first.kind == EventKind::kNone && arc->BehindOtherPatch(step.end.x)) return {EventKind::kTooLong, 0.0, {}};
@@ -283,7 +293,7 @@ std::optional<CurvePoint> Locate(SmoothArc* arc, const Step& step, const StepEve
     point.x = event.crossing->x;
     point.first = event.crossing->along.first;
     point.second = event.crossing->along.second;
-    if (event.kind == EventKind::kLimitPoint) RestLoad(arc->system().NumDofs(), &point);
+    point.is_limit = event.kind == EventKind::kLimitPoint;
     return point;
   }
   std::optional<CurvePoint> point = LocateRegular(arc, step, event, ends);
@@ -298,7 +308,7 @@ std::optional<CurvePoint> Locate(SmoothArc* arc, const Step& step, const StepEve
     point->first = interpolated.first;
     point->second = interpolated.second;
   }
-  RestLoad(arc->system().NumDofs(), &*point);
+  point->is_limit = true;
   return point;
 }
 
@@ -313,9 +323,12 @@ std::optional<CurvePoint> LocateRegular(SmoothArc* arc, const Step& step, const 
     case EventKind::kNearTouch: return PointAt(arc, step, event.t);
     case EventKind::kBifurcation: return std::nullopt;
     case EventKind::kLimitPoint:
-      return LocateRate(arc, step, event.t, [s = system.NumDofs()](const CurvePoint& at) {
-        return Jet{at.x[s], at.first[s], at.second[s]};
-      });
+      return LocateRate(
+          arc, step, event.t,
+          [s = system.NumDofs()](const CurvePoint& at) {
+            return Jet{at.x[s], at.first[s], at.second[s]};
+          },
+          [s = system.NumDofs()](const Eigen::VectorXd& x) { return Eigen::VectorXd::Unit(x.size(), s); });
     case EventKind::kTarget: {
       const Correction correction = arc->Correct(
           step.Point(event.t), Eigen::VectorXd::Unit(system.NumUnknowns(), system.NumDofs()), ends.load_factor.value());
@@ -326,9 +339,9 @@ std::optional<CurvePoint> LocateRegular(SmoothArc* arc, const Step& step, const 
     case EventKind::kSample: return LocateSample(arc, step, event.t, ends.functions[event.target], event.value);
     case EventKind::kContactEvent: break;
   }
-  if (event.constraint.inequality == Inequality::kSlip)
-    return LocateRate(arc, step, event.t,
-                      [&](const CurvePoint& at) { return ValueAlong(system, event.constraint, at); });
+  const auto along = [&](const CurvePoint& at) { return ValueAlong(system, event.constraint, at); };
+  const auto gradient = [&](const Eigen::VectorXd& x) { return system.Gradient(event.constraint, x); };
+  if (event.constraint.inequality == Inequality::kSlip) return LocateRate(arc, step, event.t, along, gradient);
   // The inequality as the last equation. Where it only grazes zero, that has no solution: then its minimum counts, or
   // else the point itself. At the event itself the equations may be singular: then derivatives are those of the step
   // that crossed it.
@@ -336,8 +349,7 @@ std::optional<CurvePoint> LocateRegular(SmoothArc* arc, const Step& step, const 
   Correction correction = arc->CorrectOnto(event.constraint, guess);
   const double reach = kReachOfLocated * step.length + tolerances::kLocatedReach;
   if (!correction.converged || !((correction.x - guess).head(arc->NumMotion()).norm() <= reach)) {
-    std::optional<CurvePoint> lowest =
-        LocateRate(arc, step, event.t, [&](const CurvePoint& at) { return ValueAlong(system, event.constraint, at); });
+    std::optional<CurvePoint> lowest = LocateRate(arc, step, event.t, along, gradient);
     if (lowest) return lowest;
     correction = arc->CorrectOnPlane(guess, step.normal);
   }

@@ -41,8 +41,8 @@ BranchMethod::BranchMethod(const Model& model, const BranchOptions& options, std
 
 int BranchMethod::StiffnessSign(const CurvePoint& point) const {
   // By Cramer's rule from the rate of the load factor; the parity is that of the rows and columns of the reactions.
+  if (point.is_limit) return 0;
   const double rate = point.first[arc_.NumMotion() - 1];
-  if (rate == 0.0) return 0;
   const Eigen::Index reactions = arc_.system().NumUnknowns() - arc_.NumMotion();
   return (rate > 0.0 ? 1 : -1) * point.determinant_sign * (reactions % 2 == 0 ? 1 : -1);
 }
@@ -137,7 +137,7 @@ std::optional<int> BranchMethod::EndAtReturn(const PathPoint& from, ArcStep* at)
   // The increment come back to is at the limit point where this one ends.
   const bool at_limit =
       at->event.kind == EventKind::kLimitPoint &&
-      (x - step.end.x).head(arc_.NumMotion()).norm() <= ReachOfExtreme(step.end.second[system.NumDofs()]);
+      (x - step.end.x).head(arc_.NumMotion()).norm() <= ErrorOfPlace(step.end, system.NumDofs());
   if (at_limit) return found->increment;
   CurvePoint end;
   if (!arc_.Derivatives(x, step.normal, &end)) return std::nullopt;

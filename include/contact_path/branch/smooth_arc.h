@@ -24,8 +24,9 @@ struct CurvePoint {
   Eigen::VectorXd second;    // orthogonal to first in (u, s)
   Eigen::Index nullity = 0;  // null directions of the equations besides the tangent
   int determinant_sign = 0;  // of the equations with the tangent as last row; 0 = singular
-  int side = 0;        // determinant_sign; where it is 0 at a regular point, by rounding, `side` of the step's start
-  int pivot_sign = 0;  // sign of the determinant also where the equations are singular: BorderedSolver::PivotSign()
+  int side = 0;  // determinant_sign; where it is 0 at a regular point, by rounding, `side` of the step's start
+  double load_error = 0.0;  // of first of the load factor, where that is small: what rounding leaves of it
+  bool is_limit = false;    // located where the rate of the load factor is zero
 };
 
 struct Correction {
@@ -63,6 +64,10 @@ class SmoothArc {
   // Newton's method for the point of the curve where an inequality of the states is exactly zero, from guess.
   Correction CorrectOnto(const Constraint& constraint, const Eigen::VectorXd& guess);
 
+  // What rounding leaves of a rate gradient . first at the point of the last Derivatives(): rounding of the equations
+  // that the tangent solves, and of the point, M d = rounding with M = [J; row], which changes the rate by y . F''(t, d),
+  // M' y = gradient.
+  double ErrorOfRate(const Eigen::VectorXd& gradient, const CurvePoint& at);
   // How far rounding of the equations may move a point x of the curve on the plane with this normal in (u, s).
   double MovedByRounding(const Eigen::VectorXd& x, const Eigen::VectorXd& normal);
 

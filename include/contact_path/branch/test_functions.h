@@ -50,9 +50,9 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, const StepEnds& ends = {}
 // not found.
 std::optional<CurvePoint> Locate(SmoothArc* arc, const Step& step, const StepEvent& event, const StepEnds& ends = {});
 
-// Distance from an extreme of a quantity with this second derivative by arc length, up to which it differs from its
-// extreme by rounding only. Scaled.
-double ReachOfExtreme(double second);
+// What rounding leaves of the place of a limit point along its arc (scaled).
+// load: the load factor's place among the unknowns.
+double ErrorOfPlace(const CurvePoint& limit_point, Eigen::Index load);
 
 }  // namespace contact_path
 
