@@ -18,9 +18,14 @@ constexpr double kRounded = 10.0;     // turn along a step by a second derivativ
 constexpr double kLongestArc = 1.05;  // of its chord
 constexpr double kOffCurve = 0.7;     // cosine between a chord and its tangent: of a located end, less exact
 
-// A matrix that is singular to rounding at a regular point has no sign of its own.
-void KeepSide(const CurvePoint& start, CurvePoint* end) {
+// What rounding does not leave of a point, the start of its step tells: the sign of a matrix that is singular to rounding
+// at a regular point, and the sense of a load that hardly changes.
+void KeepSigns(const CurvePoint& start, CurvePoint* end) {
   if (end->side == 0 && end->nullity == 0) end->side = start.side;
+  if (end->is_limit)
+    end->load_sense = -start.load_sense;
+  else if (end->load_sense == 0)
+    end->load_sense = start.load_sense;
 }
 
 // A second derivative at an end of the step by which the curve would turn round within a tenth of it, while the
@@ -133,7 +138,7 @@ std::optional<ArcStep> TryStep(SmoothArc* arc, const CurvePoint& start, double l
     trial->verdict = "turn";
   }
   if (cosine < limits.cosine) return std::nullopt;
-  KeepSide(start, &end);
+  KeepSigns(start, &end);
   ArcStep result;
   result.step = MakeStep(start, end, arc->NumMotion());
   if (trial != nullptr) trial->verdict = "beside the curve";
@@ -214,7 +219,7 @@ bool EndAtFirstEvent(SmoothArc* arc, const StepEnds& wanted, ArcStep* at) {
       point = Locate(arc, at->step, at->event, *ends);
     }
     if (!point) return false;
-    if (!at->event.crossing) KeepSide(at->step.start, &*point);
+    if (!at->event.crossing) KeepSigns(at->step.start, &*point);
     if (at->event.kind == EventKind::kLimitPoint && !at->event.crossing && LoadGoesOn(arc->system(), whole, *point))
       at->event.kind = EventKind::kNearTouch;
     if (HoldsAt(arc->system(), at->event, *point)) at->event.kind = EventKind::kNearTouch;

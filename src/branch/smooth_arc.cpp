@@ -121,6 +121,7 @@ bool SmoothArc::Derivatives(const Eigen::VectorXd& x, const Eigen::VectorXd& tow
   point->load_error = std::abs(rate) > tolerances::kMovingLoad
                           ? 0.0
                           : ErrorOfRate(Eigen::VectorXd::Unit(x.size(), n - 1), *point);
+  point->load_sense = std::abs(rate) <= point->load_error ? 0 : rate > 0.0 ? 1 : -1;
   return point->second.allFinite();
 }
 
@@ -300,7 +301,7 @@ double SmoothArc::ErrorOfRate(const Eigen::VectorXd& gradient, const CurvePoint&
   const Eigen::VectorXd shares = solver_.SolveTransposed(gradient).head(rounding.size());
   const double of_equations = shares.cwiseAbs().dot(rounding);
   // The tangent of a point beside the curve is another one.
-  const Eigen::VectorXd moved = solver_.Solve(rounding, 0.0);
+  const Eigen::VectorXd moved = solver_.Solve(rounding.cwiseProduct(shares.cwiseSign()), 0.0);
   const double distance = moved.norm();
   double of_point = 0.0;
   if (distance > 0.0) {

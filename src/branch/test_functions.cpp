@@ -113,7 +113,7 @@ std::optional<double> FirstTurn(const Quintic& load_factor, const Step& step) {
   };
   int count = 0;
   const std::array<double, 5> roots = Roots(rate, step.length, &count);
-  int before = 0;
+  int before = step.start.load_sense;
   for (int i = 0; i <= count; ++i) {
     const double from = i == 0 ? 0.0 : roots[static_cast<std::size_t>(i) - 1];
     const double to = i < count ? roots[static_cast<std::size_t>(i)] : step.length;

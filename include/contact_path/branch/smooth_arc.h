@@ -26,7 +26,10 @@ struct CurvePoint {
   int determinant_sign = 0;  // of the equations with the tangent as last row; 0 = singular
   int side = 0;  // determinant_sign; where it is 0 at a regular point, by rounding, `side` of the step's start
   double load_error = 0.0;  // of first of the load factor, where that is small: what rounding leaves of it
-  bool is_limit = false;    // located where the rate of the load factor is zero
+  // Sign of that rate; where it cannot be told from zero, the one that was told last on the arc, and at a limit point
+  // the one beyond. 0: not told yet.
+  int load_sense = 0;
+  bool is_limit = false;  // located where the rate of the load factor is zero
 };
 
 struct Correction {
