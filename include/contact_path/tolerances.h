@@ -116,9 +116,6 @@ inline constexpr double kBeyondPatch = 1e-9;
 inline constexpr double kOverrun = 1e-8;
 // Scaled value of an inequality between the ends of a step: less below zero is rounding of the interpolation.
 inline constexpr double kBrokenOnStep = 1e-11;
-// Scaled reaction, or margin to the friction cone, at a located point where another path crosses: less below zero is
-// rounding, as kAcceptedExact admits it.
-inline constexpr double kForceSingular = 1e-9;
 // Scaled value of an inequality at an exact point of method mpec: less below zero is rounding.
 inline constexpr double kBrokenAtPoint = 1e-11;
 // Slip of an increment of method mpec, of its length: the contact has not moved if there is a solution without slip,
@@ -137,10 +134,8 @@ inline constexpr double kGraze = 1e-12;
 // One-sided rate of an inequality, and second derivative where its rate is zero: not negative.
 inline constexpr double kRate = 1e-9;
 inline constexpr double kCurvature = 1e-9;
-// Rate of the load, or of slip: the load neither rises nor falls, the contact rests. At a regular point, and where the
-// tangent is interpolated.
+// Rate of the load, or of slip: the load neither rises nor falls, the contact rests.
 inline constexpr double kLevel = 1e-9;
-inline constexpr double kLevelSingular = 1e-6;
 // Rate of slip over the rate of the load, in kLevel over this number: below, slip on a sharp curve cannot be told from
 // rest. It is apart from kLevel by this factor.
 inline constexpr double kOfHiddenSlip = 0.2;
@@ -152,11 +147,9 @@ inline constexpr double kSameRate = 1e-9;
 inline constexpr double kSameTurn = 1e-7;
 // Rate by which a combination of states breaks an inequality: the combination is excluded.
 inline constexpr double kExcludedRate = 1e-6;
-// Norm of the difference of two unit tangents: they are of one branch; the tangent is the reversed tangent of arrival,
-// at a regular point and where the tangent of arrival is interpolated.
+// Norm of the difference of two unit tangents: they are of one branch; the tangent is the reversed tangent of arrival.
 inline constexpr double kSameDirection = 1e-7;
 inline constexpr double kReversed = 1e-6;
-inline constexpr double kReversedSingular = 1e-3;
 // Norm of the difference of two unit tangents that were computed at different points, or in different ways: equal.
 inline constexpr double kSameTangent = 1e-6;
 // Norm of the difference of a tangent and its interpolation on the step: more is the mark of singular equations.
@@ -167,8 +160,6 @@ inline constexpr double kNoForm = 1e-7;
 inline constexpr double kDoubleRoot = 1e-9;
 // Value of a quadratic form at a root of another one, relative to its size: larger, the root is none of this form.
 inline constexpr double kOtherForm = 1e-5;
-// Sine of the angle at which two paths cross: below, they are not told apart.
-inline constexpr double kTransversal = 1e-6;
 // Difference of two components of a vector, relative: equally large.
 inline constexpr double kSameComponent = 1e-6;
 
@@ -190,11 +181,11 @@ inline constexpr double kGoodBorder = 1e-5;
 // Norm of an equation, of the largest entries that its unknowns have in any equation: smaller, it is rounding where the
 // equations are singular, and counts as large as this.
 inline constexpr double kFadingEquation = 1e-3;
-// Norm of a column of a QR factorisation, relative to the largest: dependent. While a part rests at its limit point,
-// the matrix is known to rounding of that point; where another path crosses, the point is known to about 1e-10 only.
+// Norm of a column of a QR factorisation, relative to the largest: dependent. Where the equations are known to be
+// singular, as while a part rests at its limit point or where another path crosses, rounding of an equation that fades
+// there counts by kFadingEquation.
 inline constexpr double kDependentColumn = 1e-11;
-inline constexpr double kDependentColumnResting = 1e-9;
-inline constexpr double kDependentColumnSingular = 1e-6;
+inline constexpr double kDependentColumnSingular = 1e-8;
 // Singular value below which unit motions change neither load nor reactions: a rigid mode.
 inline constexpr double kRigid = 1e-9;
 // Entry of the tangent, relative to the largest: no resistance to a motion.
@@ -253,25 +244,8 @@ inline constexpr double kAtEndOfStep = 1e-3;
 inline constexpr double kLocatedPlace = 1e-9;
 // Scaled distance of a located point from its guess that is admitted on the shortest steps.
 inline constexpr double kLocatedReach = 1e-9;
-// Rounding of a scaled quantity: its extreme is known to the root of this along the arc, ...
-inline constexpr double kExtreme = 1e-14;
-// ... or to this, scaled, where it is flatter.
-inline constexpr double kExtremeReach = 1e-6;
-// Place of a bifurcation between its brackets.
-inline constexpr double kBifurcationWidth = 1e-10;
 // Distance of a bifurcation from another event: up to the first they are one; up to the second, a shorter step tells.
 inline constexpr double kCoincident = 1e-5;
-inline constexpr double kUnclear = 1e-4;
-// Width between brackets, at which points of two curves are told apart.
-inline constexpr double kLeapWidth = 1e-4;
-// Scaled width between brackets, above which a point in between that Newton's method does not reach is the mark of two
-// curves. Points of one curve are reached until nearer than this to a bifurcation.
-inline constexpr double kUnreachedWidth = 1e-5;
-// Scaled width, below which rounding hides it, and rounding of points over their distance to a bifurcation.
-inline constexpr double kLeapNarrowest = 1e-9;
-inline constexpr double kLeapRounding = 1e-13;
-// Distance before a bifurcation at which the crossing path's direction is computed: the equations are regular there.
-inline constexpr double kBeforeBifurcation = 1e-6;
 // Scaled length along a curve at whose end rates tell what its start does not: where the load, or an inequality,
 // changes with the third power of the arc length.
 inline constexpr double kAhead = 1e-3;

@@ -18,8 +18,8 @@ constexpr double kRounded = 10.0;     // turn along a step by a second derivativ
 constexpr double kLongestArc = 1.05;  // of its chord
 constexpr double kOffCurve = 0.7;     // cosine between a chord and its tangent: of a located end, less exact
 
-// What rounding does not leave of a point, the start of its step tells: the sign of a matrix that is singular to rounding
-// at a regular point, and the sense of a load that hardly changes.
+// What rounding does not leave of a point, the start of its step tells: the sign of a matrix that is singular to
+// rounding at a regular point, and the sense of a load that hardly changes.
 void KeepSigns(const CurvePoint& start, CurvePoint* end) {
   if (end->side == 0 && end->nullity == 0) end->side = start.side;
   if (end->is_limit)

@@ -280,19 +280,17 @@ class BranchFinder {
   }
 
   bool IsReversed(const Eigen::VectorXd& first) const {
-    return (first.head(NumMotion()) + arrival_.direction).norm() <
-               (arrival_.singular ? tolerances::kReversedSingular : tolerances::kReversed) &&
-           !SetsSliding(first);
+    return (first.head(NumMotion()) + arrival_.direction).norm() < tolerances::kReversed && !SetsSliding(first);
   }
 
   // Whether a contact that stuck slides on a curve, however little, other than back: over a sharp one the load changes
   // far more than the node moves.
   bool SetsSliding(const Eigen::VectorXd& first) const {
-    const double level = arrival_.singular ? tolerances::kLevelSingular : tolerances::kLevel;
     const Eigen::VectorXd apart = first.head(NumMotion()) + arrival_.direction;
     for (const std::size_t i : system_.Touching())
       if (contacts_[i]->Curved() && Slips(system_.states()[i]) && point_.states[i] == ContactState::kStick &&
-          std::abs(contacts_[i]->SlipRate(point_.u, point_.s, point_.Patch(i), apart, apart[NumMotion() - 1])) > level)
+          std::abs(contacts_[i]->SlipRate(point_.u, point_.s, point_.Patch(i), apart, apart[NumMotion() - 1])) >
+              tolerances::kLevel)
         return true;
     return false;
   }

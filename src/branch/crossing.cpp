@@ -109,9 +109,9 @@ class BorderedJacobian {
   // The null vectors found last become the borders.
   void UpdateBorders() { SetBorders(across, psi); }
 
-  Eigen::VectorXd along, across;              // J along + left_along b = 0, ...
+  Eigen::VectorXd along, across;               // J along + left_along b = 0, ...
   double left_along = 0.0, left_across = 0.0;  // g_t, g_v
-  Eigen::VectorXd psi;                        // psi . b = 1
+  Eigen::VectorXd psi;                         // psi . b = 1
 
  private:
   Eigen::VectorXd Extended(const Eigen::VectorXd& motion) const {

@@ -118,9 +118,8 @@ bool SmoothArc::Derivatives(const Eigen::VectorXd& x, const Eigen::VectorXd& tow
   point->determinant_sign = point->side = solver_.DeterminantSign();
   point->is_limit = false;
   const double rate = point->first[n - 1];
-  point->load_error = std::abs(rate) > tolerances::kMovingLoad
-                          ? 0.0
-                          : ErrorOfRate(Eigen::VectorXd::Unit(x.size(), n - 1), *point);
+  point->load_error =
+      std::abs(rate) > tolerances::kMovingLoad ? 0.0 : ErrorOfRate(Eigen::VectorXd::Unit(x.size(), n - 1), *point);
   point->load_sense = std::abs(rate) <= point->load_error ? 0 : rate > 0.0 ? 1 : -1;
   return point->second.allFinite();
 }
@@ -268,7 +267,7 @@ bool SmoothArc::Factorize(const Eigen::VectorXd& x, const Eigen::SparseMatrix<do
                           const Eigen::VectorXd& row, double rank_tolerance) {
   ++factorisations_;
   at_hand_ = false;
-  if (rests_ && rank_tolerance == 0.0) rank_tolerance = tolerances::kDependentColumnResting;
+  if (rests_ && rank_tolerance == 0.0) rank_tolerance = tolerances::kDependentColumnSingular;
   if (rank_tolerance == 0.0 && modes_.Possible()) {
     const auto hold = [&] {
       const Eigen::MatrixXd modes = modes_.At(x.head(system_.NumDofs()), transposed);

@@ -135,9 +135,8 @@ std::optional<int> BranchMethod::EndAtReturn(const PathPoint& from, ArcStep* at)
   if (!found) return std::nullopt;
   const Eigen::VectorXd x = system.Pack(found->point);
   // The increment come back to is at the limit point where this one ends.
-  const bool at_limit =
-      at->event.kind == EventKind::kLimitPoint &&
-      (x - step.end.x).head(arc_.NumMotion()).norm() <= ErrorOfPlace(step.end, system.NumDofs());
+  const bool at_limit = at->event.kind == EventKind::kLimitPoint &&
+                        (x - step.end.x).head(arc_.NumMotion()).norm() <= ErrorOfPlace(step.end, system.NumDofs());
   if (at_limit) return found->increment;
   CurvePoint end;
   if (!arc_.Derivatives(x, step.normal, &end)) return std::nullopt;

@@ -203,7 +203,7 @@ std::string HiddenSlip(const Model& model, const PathPoint& point) {
     const auto k = static_cast<Eigen::Index>(i);
     if (!pair.Curved() || !pair.Frictional()) continue;
     const double rn = point.rn[k], margin = pair.Friction() * rn - std::abs(point.rt[k]);
-    if (!(rn > 0.0) || margin > tolerances::kForceSingular * (1.0 + rn)) continue;
+    if (!(rn > 0.0) || margin > tolerances::kAcceptedExact * (1.0 + rn)) continue;
     const double curvature = SharpestAt(pair, point, point.Patch(i)).curvature;
     // As it slides by dxi, the reaction turns by curvature * dxi, and the load has to follow.
     const double load_rate = (1.0 + pair.Friction() * pair.Friction()) * rn * curvature;

@@ -146,7 +146,8 @@ TEST(Crossing, HasTheSecondDerivativeOfThePath) {
   const Eigen::VectorXd next = system.Pack(model.FromIncrement(path.increments[at + 1]));
   const double length = found->across.first.dot(next - x);
   for (const Eigen::Index i : {1, 2})
-    EXPECT_NEAR(0.5 * found->across.second[i] * length * length, next[i] - x[i], 1e-2 * std::abs(next[i] - x[i]) + 1e-9);
+    EXPECT_NEAR(0.5 * found->across.second[i] * length * length, next[i] - x[i],
+                1e-2 * std::abs(next[i] - x[i]) + 1e-9);
 }
 
 TEST(Crossing, OfABranchThatIsNotThereEndsTheTrace) {

@@ -23,7 +23,7 @@ struct Crossing {
   // psi . F(x), |psi| = 1: 0 where the curves cross. Otherwise an imperfection has broken the crossing into two curves,
   // and x is between them.
   double unfolding = 0.0;
-  double error = 0.0;  // of the unfolding, by the rounding of F
+  double error = 0.0;       // of the unfolding, by the rounding of F
   CurveDerivatives along;   // with the tangent nearest to the one wanted, in its sense
   CurveDerivatives across;  // the other one: ds > 0, or where the load rests, the largest component of u > 0
   int factorisations = 0;

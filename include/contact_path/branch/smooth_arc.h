@@ -68,8 +68,8 @@ class SmoothArc {
   Correction CorrectOnto(const Constraint& constraint, const Eigen::VectorXd& guess);
 
   // What rounding leaves of a rate gradient . first at the point of the last Derivatives(): rounding of the equations
-  // that the tangent solves, and of the point, M d = rounding with M = [J; row], which changes the rate by y . F''(t, d),
-  // M' y = gradient.
+  // that the tangent solves, and of the point, M d = rounding with M = [J; row], which changes the rate by y . F''(t,
+  // d), M' y = gradient.
   double ErrorOfRate(const Eigen::VectorXd& gradient, const CurvePoint& at);
   // How far rounding of the equations may move a point x of the curve on the plane with this normal in (u, s).
   double MovedByRounding(const Eigen::VectorXd& x, const Eigen::VectorXd& normal);

@@ -24,11 +24,11 @@ enum class EventKind {
 
 struct StepEvent {
   EventKind kind = EventKind::kNone;
-  double t = 0.0;         // parameter of the step, of the first kind
-  Constraint constraint;  // kContactEvent: the inequality that fails first
+  double t = 0.0;                         // parameter of the step, of the first kind
+  Constraint constraint;                  // kContactEvent: the inequality that fails first
   std::optional<Crossing> crossing = {};  // another curve crosses at the very point, whatever happens there
-  std::size_t target = 0;  // kSample: which of the functions
-  double value = 0.0;      // kSample: of that function
+  std::size_t target = 0;                 // kSample: which of the functions
+  double value = 0.0;                     // kSample: of that function
 };
 
 // What else ends a step.
