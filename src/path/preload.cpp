@@ -1,24 +1,13 @@
 #include "contact_path/path/preload.h"
 
-#include <locale>
 #include <optional>
-#include <sstream>
 #include <utility>
 
+#include "contact_path/path/sentences.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
 namespace {
-
-const char* const kWhere = "while the constant loads were brought on: ";
-
-std::string LimitMessage(double share) {
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text.precision(6);
-  text << "a limit point at " << share << " of their full size; only a dynamic jump leads further";
-  return text.str();
-}
 
 // The scene whose load factor, from 0 to 1, brings the constant loads on. holding: internal force at the start, by dof,
 // in scene units.
@@ -69,16 +58,15 @@ Preload TracePreload(const Model& model, int max_increments, const MethodFactory
   const Model preload_model(scene, model.configuration, scaling);
   const double target = 1.0 / scaling.load_factor;
   const std::unique_ptr<PathMethod> method = make_method(preload_model, target);
-  const auto end = [&preload](EndReason reason, const std::string& message) {
-    preload.reason = reason;
-    preload.message = kWhere + message;
+  const auto end = [&preload](EndReason reason, const Causes& causes) {
+    preload.end = {reason, {{sentences::kConstantLoads}}};
+    Append(causes, &preload.end.causes);
     return preload;
   };
   EventRecord branches;
-  if (const std::optional<EndReason> reason = method->Start(preload.point, &branches, &preload.message))
-    return end(*reason, preload.message);
+  if (const std::optional<End> none = method->Start(preload.point, &branches)) return end(none->reason, none->causes);
   for (int i = 0; i < max_increments; ++i) {
-    if (cancelled && cancelled()) return end(EndReason::kCancelled, "the caller asked for it");
+    if (cancelled && cancelled()) return end(EndReason::kCancelled, {{sentences::kCancelled}});
     Advance advance = method->Next(preload.point);
     for (AcceptedPoint& increment : advance.increments) {
       preload.point = std::move(increment.point);
@@ -88,11 +76,11 @@ Preload TracePreload(const Model& model, int max_increments, const MethodFactory
         return preload;
       }
       if (increment.kind == IncrementKind::kSmoothLimit || increment.kind == IncrementKind::kCornerLimit)
-        return end(EndReason::kPathEnd, LimitMessage(preload.point.s / target));
+        return end(EndReason::kPathEnd, {{sentences::kLimitPointOfLoads, {}, preload.point.s / target}});
     }
-    if (advance.ended) return end(advance.reason, advance.message);
+    if (advance.end) return end(advance.end->reason, advance.end->causes);
   }
-  return end(EndReason::kMaxIncrements, "too many increments");
+  return end(EndReason::kMaxIncrements, {{sentences::kTooManyIncrements}});
 }
 
 }  // namespace contact_path

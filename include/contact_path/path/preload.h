@@ -4,9 +4,8 @@
 
 #include <functional>
 #include <memory>
-#include <string>
 
-#include "contact_path/path/end_reason.h"
+#include "contact_path/path/end.h"
 #include "contact_path/path/model.h"
 #include "contact_path/path/path_method.h"
 
@@ -18,8 +17,7 @@ using MethodFactory = std::function<std::unique_ptr<PathMethod>(const Model& mod
 struct Preload {
   bool done = false;
   PathPoint point;  // equilibrium at load factor 0 under the constant loads, with the friction history of getting there
-  EndReason reason = EndReason::kNumericalFailure;  // if not done
-  std::string message;                              // if not done
+  End end;          // if not done
 };
 
 // The path from the initial configuration, held by the forces that keep it there, to `model` at load factor 0: these
