@@ -15,7 +15,7 @@ std::string EndText(const Causes& causes) {
          {std::pair<std::string, std::string>("<unknown>", "is not known: its value is <value>, its error <other>"),
           {"<value>", RoundedText(cause.value)},
           {"<other>", RoundedText(cause.other)},
-          {"<share>", RoundedText(cause.value, 6)},
+          {"<digits>", RoundedText(cause.value, 6)},
           {"<count>", std::to_string(static_cast<long>(cause.value))},
           {"<of>", std::to_string(static_cast<long>(cause.other))},
           {"<name>", cause.name}})

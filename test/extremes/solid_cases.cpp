@@ -126,7 +126,7 @@ ExtremeCase Layers(double ratio) {
   extreme.exact = "closed form";
   extreme.allowed = std::max(1e-9, 1e-15 * ratio);
   extreme.allowed_regularised = std::max(1e-3, extreme.allowed);
-  if (ratio > 1e5) extreme.ends = {"step_too_small", "numerical_failure"};
+  if (ratio > 1e5) extreme.ends = {"step_too_small", "not_determined", "numerical_failure"};
   extreme.error = [=](const TraceRequest&, const Increment& increment) {
     // mu (l^2 - 1) / l is the force in each.
     const auto stretch = [&](double mu) {

@@ -5,7 +5,7 @@
 #include <string_view>
 
 // EndText() puts in: <name>, <value>, <other> of the cause; its two numbers as <count> and <of>, which are whole there;
-// <share>, the value in six digits; <unknown>, what is not known of a sign. A sentence that ends with a colon goes on
+// <digits>, the value in up to six digits; <unknown>, what is not known of a sign. A sentence that ends with a colon goes on
 // with the next cause.
 namespace contact_path::sentences {
 
@@ -46,7 +46,7 @@ inline constexpr Sentence kSlidesOffSurface =
     "contact <name> is lost: the node slides over the end of the surface while it is pressed onto it, and only a "
     "dynamic jump leads further";
 inline constexpr Sentence kLimitPointOfLoads =
-    "a limit point at <share> of their full size; only a dynamic jump leads further";
+    "a limit point at <digits> of their full size; only a dynamic jump leads further";
 inline constexpr Sentence kStandsAtEnd =
     "contact <name> stands at an end of its surface, over which a contact cannot slide";
 inline constexpr Sentence kStandAtEnds =
