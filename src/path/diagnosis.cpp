@@ -6,8 +6,12 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <string>
+#include <utility>
 
+#include "contact_path/path/branch_options.h"
 #include "contact_path/path/sentences.h"
+#include "contact_path/path/stop.h"
 #include "contact_path/scene/elasticity.h"
 #include "contact_path/structure/scene_elements.h"
 #include "contact_path/tolerances.h"
@@ -15,7 +19,8 @@
 namespace contact_path {
 namespace {
 
-constexpr double kClosing = 10.0;  // the nodes of a surface have shares in a gap: each moves by more than that
+constexpr double kClosing = 10.0;           // the nodes of a surface have shares in a gap: each moves by more than that
+constexpr std::size_t kCriteriaListed = 3;  // in a message
 constexpr double kNearlyIncompressible = 0.49;  // Poisson's ratio beyond which elements of few nodes lock
 
 std::string SolidName(const Scene& scene, std::size_t i) {
@@ -73,24 +78,7 @@ double ForceOfClosingAtStart(const Model& model, const PathPoint& point, std::si
   return kClosing * gap * LargestOf(DiagonalStiffness(model, point), pair, point, point.Patch(contact));
 }
 
-}  // namespace
-
-Causes CollapsedBar(const Scene& scene, const SceneIndex& index, const std::vector<double>& positions) {
-  double smallest = tolerances::kCollapsed;
-  Causes found;
-  for (std::size_t i = 0; i < scene.bars.size(); ++i) {
-    const std::vector<std::string>& ends = scene.bars[i].nodes;
-    const std::size_t a = index.Node(ends[0]), b = index.Node(ends[1]);
-    const double length = std::hypot(positions[2 * b] - positions[2 * a], positions[2 * b + 1] - positions[2 * a + 1]);
-    const double initial = std::hypot(scene.nodes[b].x - scene.nodes[a].x, scene.nodes[b].y - scene.nodes[a].y);
-    if (!(length < smallest * initial)) continue;
-    smallest = length / initial;
-    const std::string name = std::to_string(i) + " (" + ends[0] + ", " + ends[1] + ")";
-    found = {{sentences::kCollapsedBar, name, smallest}};
-  }
-  return found;
-}
-
+// The element of a solid whose area has shrunk most at one of its integration points, if that is nearly to nothing.
 Causes InvertedElement(const Scene& scene, const SceneIndex& index, const std::vector<double>& positions) {
   double smallest = tolerances::kCollapsed;
   Causes found;
@@ -113,16 +101,48 @@ Causes InvertedElement(const Scene& scene, const SceneIndex& index, const std::v
   return found;
 }
 
+std::string Joined(const std::vector<std::string>& parts) {
+  std::string text;
+  for (const std::string& part : parts) text += (text.empty() ? "" : ", ") + part;
+  return text;
+}
+
+}  // namespace
+
+Causes CollapsedBar(const Scene& scene, const SceneIndex& index, const std::vector<double>& positions) {
+  double smallest = tolerances::kCollapsed;
+  Causes found;
+  for (std::size_t i = 0; i < scene.bars.size(); ++i) {
+    const std::vector<std::string>& ends = scene.bars[i].nodes;
+    const std::size_t a = index.Node(ends[0]), b = index.Node(ends[1]);
+    const double length = std::hypot(positions[2 * b] - positions[2 * a], positions[2 * b + 1] - positions[2 * a + 1]);
+    const double initial = std::hypot(scene.nodes[b].x - scene.nodes[a].x, scene.nodes[b].y - scene.nodes[a].y);
+    if (!(length < smallest * initial)) continue;
+    smallest = length / initial;
+    const std::string name = std::to_string(i) + " (" + ends[0] + ", " + ends[1] + ")";
+    found = {{sentences::kCollapsedBar, name, smallest}};
+  }
+  return found;
+}
+
+void NameInvertedElement(const Model& model, const PathPoint& point, End* end) {
+  if (!IsNumerical(end->reason)) return;
+  Causes inverted = InvertedElement(model.scene, model.index, model.InSceneUnits(point).positions);
+  if (inverted.empty()) return;
+  Append(end->causes, &inverted);
+  *end = {EndReason::kElementInverted, std::move(inverted)};
+}
+
 Causes LockingSolids(const Scene& scene, const SceneIndex& index) {
-  std::string names;
+  std::vector<std::string> names;
   for (std::size_t i = 0; i < scene.solids.size(); ++i) {
     const Solid& solid = scene.solids[i];
     const double nu = PoissonRatio(LameOf(scene.materials[index.Material(solid.material)]));
     if (solid.NodesPerElement() > 4 || solid.plane != PlaneState::kStrain || !(nu > kNearlyIncompressible)) continue;
-    names += (names.empty() ? "" : ", ") + SolidName(scene, i);
+    names.push_back(SolidName(scene, i));
   }
   if (names.empty()) return {};
-  return {{sentences::kLockingSolids, names}};
+  return {{sentences::kLockingSolids, Joined(names)}};
 }
 
 Causes SlenderBeam(const Scene& scene, const SceneIndex& index) {
@@ -247,6 +267,28 @@ Causes ContactTooSoft(const Model& model, const PathPoint& point, double least) 
       return {{sentences::kStiffnessSign, model.scene.contacts[i].Name(), unit * largest, unit * least}};
   }
   return {};
+}
+
+Causes MissedEnd(const TraceRequest& request, int stage) {
+  const auto stages = static_cast<double>(request.program.size());
+  if (stages > 0.0) return {{sentences::kMissedTarget, {}, static_cast<double>(stage), stages}};
+  std::vector<std::string> criteria;
+  for (const StopCriterion& criterion : request.options.stop) criteria.push_back(ToText(criterion));
+  if (criteria.empty()) return {{sentences::kNoCriterion}};
+  if (criteria.size() > kCriteriaListed) {
+    criteria.resize(kCriteriaListed);
+    criteria.emplace_back("...");
+  }
+  return {{sentences::kMissedCriteria, Joined(criteria)}};
+}
+
+Causes MissedChoices(const TraceRequest& request, int increments, int events) {
+  std::vector<std::string> missed;
+  for (const BranchChoice& choice : request.options.branch_choices)
+    if (choice.event > events || (choice.event == 0 && choice.increment >= increments))
+      missed.push_back(PlaceOf(choice));
+  if (missed.empty() || !request.options.LocatesEvents()) return {};
+  return {{sentences::kMissedChoices, Joined(missed)}};
 }
 
 }  // namespace contact_path

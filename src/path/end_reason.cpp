@@ -24,6 +24,10 @@ bool IsNumerical(EndReason reason) {
          reason == EndReason::kNumericalFailure;
 }
 
+bool IsStuck(EndReason reason) {
+  return reason == EndReason::kPathEnd || reason == EndReason::kStepTooSmall || reason == EndReason::kNotDetermined;
+}
+
 bool IsComplete(EndReason reason) {
   return reason == EndReason::kStopCriterion || reason == EndReason::kMaxIncrements || reason == EndReason::kClosedPath;
 }

@@ -1,13 +1,22 @@
 #include "contact_path/path/preload.h"
 
+#include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 
+#include "contact_path/branch/active_set_tolerance.h"
+#include "contact_path/path/automatic_step.h"
+#include "contact_path/path/branch_method.h"
+#include "contact_path/path/diagnosis.h"
+#include "contact_path/path/free_motion.h"
 #include "contact_path/path/sentences.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
 namespace {
+
+constexpr int kMostIncrements = 100000;  // to bring the constant loads on; not counted with the others
 
 // The scene whose load factor, from 0 to 1, brings the constant loads on. holding: internal force at the start, by dof,
 // in scene units.
@@ -81,6 +90,35 @@ Preload TracePreload(const Model& model, int max_increments, const MethodFactory
     if (advance.end) return end(advance.end->reason, advance.end->causes);
   }
   return end(EndReason::kMaxIncrements, {{sentences::kTooManyIncrements}});
+}
+
+Preload TraceStart(const Model& model, Accuracy accuracy, const std::function<bool()>& cancelled) {
+  Scene resting = model.scene;
+  resting.support_motions.clear();
+  const bool moves = !model.structure.PrescribedDofs().empty();
+  const std::unique_ptr<const Model> other =
+      moves ? std::make_unique<const Model>(resting, model.configuration, model.scaling) : nullptr;
+  const Model& start = moves ? *other : model;
+  const MethodFactory make_method = [&](const Model& of, double target) -> std::unique_ptr<PathMethod> {
+    TraceOptions upwards;
+    upwards.accuracy = accuracy;
+    BranchOptions options = BranchOptions::For(upwards, AutomaticStepGrowth(of));
+    options.ends.load_factor = target;
+    options.keep_loading = true;
+    return std::make_unique<BranchMethod>(of, options, cancelled);
+  };
+  Preload preload = TracePreload(start, kMostIncrements, make_method, cancelled);
+  if (preload.done) {
+    if (moves) preload.point = model.Transfer(start, preload.point);
+    return preload;
+  }
+  const double force = ActiveSetTolerance::For(0.0, 0.0).force;
+  if (IsStuck(preload.end.reason))
+    if (const std::string free = FreeMotionQuestion(start, preload.point, force); !free.empty())
+      preload.end.causes.push_back({sentences::kFreeNodes, free});
+  if (preload.end.reason == EndReason::kMaxIncrements) preload.end.reason = EndReason::kNumericalFailure;
+  NameInvertedElement(start, preload.point, &preload.end);
+  return preload;
 }
 
 }  // namespace contact_path

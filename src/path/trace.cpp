@@ -40,21 +40,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kMostPreloadIncrements = 100000;  // to bring the constant loads on; not counted with the others
-
-constexpr std::size_t kCriteriaListed = 3;  // in a message
-
-std::string Joined(const std::vector<std::string>& parts) {
-  std::string text;
-  for (const std::string& part : parts) text += (text.empty() ? "" : ", ") + part;
-  return text;
-}
-
-// Whether the path may have come to where nothing holds a node.
-bool IsStuck(EndReason reason) {
-  return reason == EndReason::kPathEnd || reason == EndReason::kStepTooSmall || reason == EndReason::kNotDetermined;
-}
-
 double Seconds(Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
 
 // A request on its way: one stage after another.
@@ -88,9 +73,10 @@ class Tracer {
       EndBy(EndReason::kNumericalFailure,
             {last() < 0.0 ? sentences::kNoSolutionAtStart : sentences::kNoSolution, error.what(), last()});
     }
-    if (model_ != nullptr) NameInvertedElement(*model_, point_);
-    for (const Causes& remarks :
-         {MissedEnd(), WhatMovesFreely(), recorder_.Remarks(), remarks_, StiffParts(), MissedChoices()})
+    if (model_ != nullptr) NameInvertedElement(*model_, point_, &end_);
+    const Causes missed = EndedBeforeItsEnd() ? MissedEnd(request_, recorder_.increment().stage) : Causes();
+    const Causes choices = MissedChoices(request_, recorder_.increments(), events_);
+    for (const Causes& remarks : {missed, WhatMovesFreely(), recorder_.Remarks(), remarks_, StiffParts(), choices})
       Append(remarks, &end_.causes);
     return {end_.reason, EndText(end_.causes), recorder_.increments()};
   }
@@ -123,12 +109,18 @@ class Tracer {
         EndBy(EndReason::kMaxIncrements, {sentences::kMaxIncrements});
         return;
       }
-      if (stage > first)
+      if (stage > first) {
         point_ = next->Transfer(*model_, point_);
-      else if (resumption)
+      } else if (resumption) {
         point_ = next->FromIncrement(*resumption->from);
-      else if (!Begin(*next))
-        return;
+      } else {
+        Preload start = TraceStart(*next, request_.options.accuracy, control_.cancelled);
+        if (!start.done) {
+          EndWith(std::move(start.end));
+          return;
+        }
+        point_ = std::move(start.point);
+      }
       model_ = std::move(next);
       largest_reaction_.of_stage = 0.0;
       returns_.emplace(*model_, std::max(request_.options.full_state_every, 1), largest_reaction_);
@@ -145,32 +137,8 @@ class Tracer {
   }
   bool EndBy(EndReason reason, Cause cause) { return EndWith({reason, {std::move(cause)}}); }
 
-  // Where no increment leads on from a point at which an element of a solid has no area left: that is why.
-  void NameInvertedElement(const Model& model, const PathPoint& point) {
-    if (!IsNumerical(end_.reason)) return;
-    Causes inverted = InvertedElement(model.scene, model.index, model.InSceneUnits(point).positions);
-    if (inverted.empty()) return;
-    Append(end_.causes, &inverted);
-    EndWith({EndReason::kElementInverted, std::move(inverted)});
-  }
-
   bool EndedBeforeItsEnd() const {
     return end_.reason == EndReason::kMaxIncrements || end_.reason == EndReason::kClosedPath;
-  }
-
-  // The end that the user had in mind and the path did not come to.
-  Causes MissedEnd() const {
-    if (!EndedBeforeItsEnd()) return {};
-    const auto stages = static_cast<double>(request_.program.size());
-    if (stages > 0.0) return {{sentences::kMissedTarget, {}, static_cast<double>(recorder_.increment().stage), stages}};
-    std::vector<std::string> criteria;
-    for (const StopCriterion& criterion : request_.options.stop) criteria.push_back(ToText(criterion));
-    if (criteria.empty()) return {{sentences::kNoCriterion}};
-    if (criteria.size() > kCriteriaListed) {
-      criteria.resize(kCriteriaListed);
-      criteria.push_back("...");
-    }
-    return {{sentences::kMissedCriteria, Joined(criteria)}};
   }
 
   // Nodes that nothing holds: where no branch leads on, and where the path wanders about without a load.
@@ -191,38 +159,6 @@ class Tracer {
     Causes stiff = IsNumerical(end_.reason) ? SlenderBeam(request_.scene, index_) : Causes();
     Append(LockingSolids(request_.scene, index_), &stiff);
     return stiff;
-  }
-
-  // The equilibrium at load factor 0 with the constant loads, before anything moves.
-  bool Begin(const Model& model) {
-    Scene resting = model.scene;
-    resting.support_motions.clear();
-    const bool moves = !model.structure.PrescribedDofs().empty();
-    const std::unique_ptr<const Model> other =
-        moves ? std::make_unique<const Model>(resting, model.configuration, model.scaling) : nullptr;
-    const Model& start = moves ? *other : model;
-    // The start does not depend on how the path from there is traced, but for the accuracy.
-    const MethodFactory make_method = [&](const Model& of, double target) -> std::unique_ptr<PathMethod> {
-      TraceOptions upwards;
-      upwards.accuracy = request_.options.accuracy;
-      BranchOptions options = BranchOptions::For(upwards, AutomaticStepGrowth(of));
-      options.ends.load_factor = target;
-      options.keep_loading = true;
-      return std::make_unique<BranchMethod>(of, options, control_.cancelled);
-    };
-    Preload preload = TracePreload(start, kMostPreloadIncrements, make_method, control_.cancelled);
-    if (!preload.done) {
-      const double force = ActiveSetTolerance::For(0.0, 0.0).force;
-      if (IsStuck(preload.end.reason))
-        if (const std::string free = FreeMotionQuestion(start, preload.point, force); !free.empty())
-          preload.end.causes.push_back({sentences::kFreeNodes, free});
-      if (preload.end.reason == EndReason::kMaxIncrements) preload.end.reason = EndReason::kNumericalFailure;
-      EndWith(std::move(preload.end));
-      NameInvertedElement(start, preload.point);
-      return false;
-    }
-    point_ = moves ? model.Transfer(start, preload.point) : std::move(preload.point);
-    return true;
   }
 
   // increment: index of the one to set out from.
@@ -381,16 +317,6 @@ class Tracer {
       }
       if (advance.end && recorder_.increments() <= most_increments) return EndWith(*std::move(advance.end));
     }
-  }
-
-  // What the user wanted and never was asked for.
-  Causes MissedChoices() const {
-    std::vector<std::string> missed;
-    for (const BranchChoice& choice : request_.options.branch_choices)
-      if (choice.event > events_ || (choice.event == 0 && choice.increment >= recorder_.increments()))
-        missed.push_back(PlaceOf(choice));
-    if (missed.empty() || !request_.options.LocatesEvents()) return {};
-    return {{sentences::kMissedChoices, Joined(missed)}};
   }
 
   const TraceRequest& request_;

@@ -16,9 +16,9 @@ namespace contact_path {
 // index: of the scene. positions: current x0, y0, x1, ..., 2 x nodes [length].
 Causes CollapsedBar(const Scene& scene, const SceneIndex& index, const std::vector<double>& positions);
 
-// Names the element of a solid whose area has shrunk most at one of its integration points, if that is nearly to
-// nothing, where it turns inside out; else empty. The same arguments.
-Causes InvertedElement(const Scene& scene, const SceneIndex& index, const std::vector<double>& positions);
+// Where numbers end a path and an element of a solid has next to no area left at one of its integration points, it
+// turns inside out: that is why. point: where no increment leads on, scaled.
+void NameInvertedElement(const Model& model, const PathPoint& point, End* end);
 
 // Names the solids whose elements are too stiff, as they have few nodes and are of a nearly incompressible material in
 // plane strain; empty: none are. index: of the scene.
@@ -62,6 +62,12 @@ Causes BehindSurface(const Model& model, const PathPoint& point);
 // reaction that changes its sign. rounding: of the reactions of the point. largest_reaction: of the path so far, the
 // point included. Both in the force unit of the contact.
 std::optional<End> PullingContact(const Model& model, const PathPoint& point, double rounding, double largest_reaction);
+
+// The end that the user had in mind, where the path did not come to it. stage: of the last increment.
+Causes MissedEnd(const TraceRequest& request, int stage);
+
+// Choices of branches that the path never came to. increments, events: their numbers.
+Causes MissedChoices(const TraceRequest& request, int increments, int events);
 
 }  // namespace contact_path
 

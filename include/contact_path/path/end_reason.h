@@ -27,6 +27,9 @@ std::string_view ToString(EndReason reason);
 // Whether numbers end the trace, and not the structure or the caller.
 bool IsNumerical(EndReason reason);
 
+// Whether the path may have come to where nothing holds a node.
+bool IsStuck(EndReason reason);
+
 // Whether the trace went as far as it was asked to, or as far as there is anything new.
 bool IsComplete(EndReason reason);
 

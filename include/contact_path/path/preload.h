@@ -27,6 +27,10 @@ struct Preload {
 Preload TracePreload(const Model& model, int max_increments, const MethodFactory& make_method,
                      const std::function<bool()>& cancelled = nullptr);
 
+// The equilibrium of `model` at load factor 0 with the constant loads, before supports move: by method branch, which
+// depends on the accuracy alone.
+Preload TraceStart(const Model& model, Accuracy accuracy, const std::function<bool()>& cancelled);
+
 }  // namespace contact_path
 
 #endif  // CONTACT_PATH_PATH_PRELOAD_H_

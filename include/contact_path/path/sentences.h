@@ -5,8 +5,8 @@
 #include <string_view>
 
 // EndText() puts in: <name>, <value>, <other> of the cause; its two numbers as <count> and <of>, which are whole there;
-// <digits>, the value in up to six digits; <unknown>, what is not known of a sign. A sentence that ends with a colon goes on
-// with the next cause.
+// <digits>, the value in up to six digits; <unknown>, what is not known of a sign. A sentence that ends with a colon
+// goes on with the next cause.
 namespace contact_path::sentences {
 
 using Sentence = std::string_view;
