@@ -102,7 +102,7 @@ ExtremeCase ThinElements(int nodes_per_element, double aspect) {
       Pulled("thin elements", "width / height = " + Text(aspect) + ", " + Text(nodes_per_element) + " nodes",
              nodes_per_element, 0.3, std::sqrt(aspect), 1.0 / std::sqrt(aspect));
   // Stiffnesses of eight nodes differ by the fourth power of it.
-  if (nodes_per_element == 8 && std::abs(std::log10(aspect)) > 3.0) extreme.ends = {"step_too_small"};
+  if (nodes_per_element == 8 && std::abs(std::log10(aspect)) > 3.0) extreme.ends = {"step_too_small", "not_determined"};
   return extreme;
 }
 
