@@ -12,6 +12,7 @@ add_library(contact_path_ros
   src/ros/marker_picture.cpp
   src/ros/marker_publisher.cpp
   src/ros/memory_share.cpp
+  src/ros/node_parameters.cpp
   src/ros/resume.cpp
   src/ros/scene_markers.cpp
   src/ros/shutdown_signal.cpp

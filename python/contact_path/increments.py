@@ -14,7 +14,7 @@ KINDS = ('start', 'regular', 'smooth_limit', 'corner_limit', 'contact_event', 'b
 STATES = ('open', 'stick', 'slip+', 'slip-', 'closed')
 #: Why a trace ended; docs/end_reasons.md explains them. The first three are complete answers.
 END_REASONS = ('stop_criterion', 'max_increments', 'closed_path', 'path_end', 'step_too_small', 'element_inverted', 'cancelled',
-               'no_such_branch', 'time_limit', 'memory_limit', 'numerical_failure')
+               'no_such_branch', 'time_limit', 'memory_limit', 'not_determined', 'numerical_failure')
 COMPLETE = END_REASONS[:3]
 
 LIMITS = ('smooth_limit', 'corner_limit')

@@ -5,6 +5,7 @@
 
 #include "contact_path/branch/bifurcation_branches.h"
 #include "contact_path/path/diagnosis.h"
+#include "contact_path/path/sentences.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
@@ -21,19 +22,16 @@ double Trend(double rate, double change, double level) {
   return std::abs(change) > level ? change : 0.0;
 }
 
-Advance Ended(EndReason reason, std::string message) {
-  Advance advance;
-  advance.reason = reason;
-  advance.message = std::move(message);
-  return advance;
-}
+Advance Ended(End end) { return {{}, std::move(end)}; }
+
+End Failure(std::string_view sentence) { return {EndReason::kNumericalFailure, {{sentence}}}; }
 
 }  // namespace
 
 BranchMethod::BranchMethod(const Model& model, const BranchOptions& options, std::function<bool()> cancelled)
     : model_(model),
       options_(options),
-      departure_(model, {options.direction, options.keep_loading}, std::move(cancelled)),
+      departure_(model, {options.direction, options.keep_loading, options.largest_reaction}, std::move(cancelled)),
       arc_(model.structure, model.contacts),
       step_length_(options.step),
       increments_(options.increments),
@@ -58,17 +56,15 @@ std::vector<double> BranchMethod::CrossingPath(const Crossing& crossing) const {
   return components;
 }
 
-std::optional<EndReason> BranchMethod::Start(const PathPoint& from, EventRecord* branches, std::string* message) {
+std::optional<End> BranchMethod::Start(const PathPoint& from, EventRecord* branches) {
   departure_.NoteReactions(from);
-  *message = HiddenSlip(model_, from);
-  if (!message->empty()) return EndReason::kNumericalFailure;
+  if (Causes hidden = HiddenSlip(model_, from); !hidden.empty()) return End{EndReason::kNotDetermined, hidden};
   return departure_.Leave(from, departure_.StartArrival(), options_.ChoiceAt(increments_, 0), &arc_, &current_,
-                          branches, message);
+                          branches);
 }
 
 bool BranchMethod::Resume(const ResumePoint& at) {
   if (!(at.solve.next_step > 0.0)) return false;
-  departure_.SetLargestReaction(at.largest_reaction);
   arc_.SetStates(at.point.states, at.point);
   Eigen::VectorXd towards = Chord(at.before, at.point);
   // The next increment sets out with the factors of this one's end, which are those of the tangent at its start: with
@@ -85,16 +81,13 @@ Advance BranchMethod::ChangeReactions(const PathPoint& from) {
   PathPoint point = departure_.TakeBegin();
   point.states = arc_.system().states();
   if (options_.ChoiceAt(increments_ + 1, 0) != nullptr)
-    return Ended(EndReason::kNoSuchBranch,
-                 "branch_choices wants a branch at increment " + std::to_string(increments_ + 1) +
-                     ": only reactions change there, and the branches part in the increment before");
+    return Ended({EndReason::kNoSuchBranch, {{sentences::kOnlyReactionsChange, {}, increments_ + 1.0}}});
   AcceptedPoint increment = IncrementAt(std::move(point), from);
   increment.solve.next_step = step_length_;
   if (!(increment.residuals.Largest() <= tolerances::kAcceptedExact))
-    return Ended(EndReason::kNumericalFailure, "the reactions with which a branch begins are not in equilibrium");
+    return Ended(Failure(sentences::kReactionsAtRest));
   ++increments_;
   Advance advance;
-  advance.ended = false;
   advance.increments.push_back(std::move(increment));
   return advance;
 }
@@ -145,9 +138,9 @@ std::optional<int> BranchMethod::EndAtReturn(const PathPoint& from, ArcStep* at)
   return found->increment;
 }
 
-std::optional<EndReason> BranchMethod::PassEnd(const ArcStep& at, AcceptedPoint* increment, std::string* message) {
-  if (at.event.kind == EventKind::kBifurcation) return PassBifurcation(at, increment, message);
-  if (at.event.kind == EventKind::kContactEvent) return PassContactEvent(at, increment, message);
+std::optional<End> BranchMethod::PassEnd(const ArcStep& at, AcceptedPoint* increment) {
+  if (at.event.kind == EventKind::kBifurcation) return PassBifurcation(at, increment);
+  if (at.event.kind == EventKind::kContactEvent) return PassContactEvent(at, increment);
   if (at.event.kind == EventKind::kSample) increment->kind = IncrementKind::kSample;
   if (at.event.kind == EventKind::kLimitPoint) {
     increment->kind = IncrementKind::kSmoothLimit;
@@ -155,7 +148,7 @@ std::optional<EndReason> BranchMethod::PassEnd(const ArcStep& at, AcceptedPoint*
     if (at.event.crossing && options_.keep_loading && TakeCrossingThatLoads(at))
       increment->kind = IncrementKind::kBifurcation;
   }
-  return options_.ChoiceAt(increments_, 0) == nullptr ? std::nullopt : PassChoice(at, increment, message);
+  return options_.ChoiceAt(increments_, 0) == nullptr ? std::nullopt : PassChoice(at, increment);
 }
 
 bool BranchMethod::TakeCrossingThatLoads(const ArcStep& at) {
@@ -169,16 +162,16 @@ bool BranchMethod::TakeCrossingThatLoads(const ArcStep& at) {
   return true;
 }
 
-std::optional<EndReason> BranchMethod::PassBifurcation(const ArcStep& at, AcceptedPoint* increment,
-                                                       std::string* message) {
+std::optional<End> BranchMethod::PassBifurcation(const ArcStep& at, AcceptedPoint* increment) {
   EventRecord* record = &increment->event;
   increment->kind = IncrementKind::kBifurcation;
   record->null_vector = CrossingPath(*at.event.crossing);
   record->number = ++events_;
   const std::vector<Branch> branches = BifurcationBranches(arc_, model_.contacts, *at.event.crossing);
   RecordBranches(branches, record);
-  const std::optional<std::size_t> taken = ChosenOf(branches, options_.ChoiceAt(increments_, events_), 0, message);
-  if (!taken) return EndReason::kNoSuchBranch;
+  End end_here;
+  const std::optional<std::size_t> taken = ChosenOf(branches, options_.ChoiceAt(increments_, events_), 0, &end_here);
+  if (!taken) return end_here;
   record->taken = static_cast<int>(*taken) + 1;
   if (*taken == 0) return std::nullopt;
   current_.first = branches[*taken].first;
@@ -190,26 +183,22 @@ std::optional<EndReason> BranchMethod::PassBifurcation(const ArcStep& at, Accept
   return std::nullopt;
 }
 
-std::optional<EndReason> BranchMethod::PassContactEvent(const ArcStep& at, AcceptedPoint* increment,
-                                                        std::string* message) {
+std::optional<End> BranchMethod::PassContactEvent(const ArcStep& at, AcceptedPoint* increment) {
   increment->kind = IncrementKind::kContactEvent;
   increment->event.number = ++events_;
   if (SlidesOff(at, increment->point)) {
     const ContactCandidate& lost = model_.scene.contacts[static_cast<std::size_t>(at.event.constraint.contact)];
-    *message = "contact " + lost.Name() + " is lost: the node slides over the end of the " +
-               (lost.OnSurface() ? "surface" : "obstacle") +
-               " while it is pressed onto it, and only a dynamic jump leads further";
-    return EndReason::kPathEnd;
+    return End{EndReason::kPathEnd,
+               {{lost.OnSurface() ? sentences::kSlidesOffSurface : sentences::kSlidesOffObstacle, lost.Name()}}};
   }
-  const std::optional<EndReason> reason = LeaveEnd(at, options_.ChoiceAt(increments_, events_), increment, message);
-  if (!reason && TurnsLoad(at)) increment->kind = IncrementKind::kCornerLimit;
-  return reason;
+  std::optional<End> end = LeaveEnd(at, options_.ChoiceAt(increments_, events_), increment);
+  if (!end && TurnsLoad(at)) increment->kind = IncrementKind::kCornerLimit;
+  return end;
 }
 
-std::optional<EndReason> BranchMethod::PassChoice(const ArcStep& at, AcceptedPoint* increment, std::string* message) {
+std::optional<End> BranchMethod::PassChoice(const ArcStep& at, AcceptedPoint* increment) {
   const std::vector<ContactState> states = arc_.system().states();
-  const std::optional<EndReason> reason = LeaveEnd(at, options_.ChoiceAt(increments_, 0), increment, message);
-  if (reason) return reason;
+  if (std::optional<End> end = LeaveEnd(at, options_.ChoiceAt(increments_, 0), increment)) return end;
   const bool goes_on = arc_.system().states() == states &&
                        arc_.system().Norm(current_.first - at.step.end.first) <= tolerances::kSameTangent;
   if (goes_on) {
@@ -221,15 +210,14 @@ std::optional<EndReason> BranchMethod::PassChoice(const ArcStep& at, AcceptedPoi
   return std::nullopt;
 }
 
-std::optional<EndReason> BranchMethod::LeaveEnd(const ArcStep& at, const BranchChoice* choice, AcceptedPoint* increment,
-                                                std::string* message) {
+std::optional<End> BranchMethod::LeaveEnd(const ArcStep& at, const BranchChoice* choice, AcceptedPoint* increment) {
   Arrival arrival;
   arrival.direction = at.step.end.first.head(arc_.NumMotion());
   arrival.singular = at.event.crossing.has_value();
   if (at_start_) arrival = departure_.StartArrival();
   if (FailsByRounding(at)) arrival.failed = at.event.constraint;
   arrival.load_sense = options_.direction;
-  return departure_.Leave(increment->point, arrival, choice, &arc_, &current_, &increment->event, message);
+  return departure_.Leave(increment->point, arrival, choice, &arc_, &current_, &increment->event);
 }
 
 bool BranchMethod::FailsByRounding(const ArcStep& at) const {
@@ -268,8 +256,7 @@ bool BranchMethod::SlidesOff(const ArcStep& at, const PathPoint& point) const {
   if (at.event.kind != EventKind::kContactEvent || !KeepsPatch(constraint.inequality)) return false;
   const auto i = static_cast<std::size_t>(constraint.contact);
   const int next = point.Patch(i) + (constraint.inequality == Inequality::kPatchEnd ? 1 : -1);
-  const double force =
-      ActiveSetTolerance::For(departure_.largest_reaction(), point.s).force * model_.contacts[i]->NormalForceUnit();
+  const double force = departure_.ToleranceAt(point).force * model_.contacts[i]->NormalForceUnit();
   return !model_.contacts[i]->HasPatch(next) && point.rn[constraint.contact] > force;
 }
 
@@ -322,25 +309,23 @@ Advance BranchMethod::Next(const PathPoint& from) {
   if (departure_.ChangesReactions()) return ChangeReactions(from);
   const int factorisations_before = arc_.factorisations();
   std::optional<BalancedStep> next = NextBalancedStep();
-  if (!next) return Ended(EndReason::kStepTooSmall, NoStep(from));
+  if (!next) return Ended(NoStep(from));
   ArcStep* const at = &next->at;
   const std::optional<int> returned = EndAtReturn(from, at);
   if (returned) Balance(&*next);  // of the shorter step
 
   AcceptedPoint increment = IncrementOf(*at, from);
   if (!(increment.residuals.Largest() <= tolerances::kAcceptedExact)) {
-    std::string message = "the residuals of the next point are too large";
-    for (const std::string& cause :
-         {CurveTooSharp(model_, increment.point), BeyondHalfRound(model_, increment.residuals),
-          BehindSurface(model_, increment.point)})
-      message = After(message, cause);
-    return Ended(EndReason::kNumericalFailure, message);
+    End end = Failure(sentences::kResiduals);
+    Append(CurveTooSharp(model_, increment.point), &end.causes);
+    Append(BeyondHalfRound(model_, increment.residuals), &end.causes);
+    Append(BehindSurface(model_, increment.point), &end.causes);
+    return Ended(end);
   }
   departure_.NoteReactions(increment.point);
   const bool moved = at->step.length > 0.0;
   events_in_place_ = moved ? 0 : events_in_place_ + 1;
-  if (events_in_place_ > kMostEventsInPlace)
-    return Ended(EndReason::kNumericalFailure, "contacts change their states again and again in one place");
+  if (events_in_place_ > kMostEventsInPlace) return Ended(Failure(sentences::kEventsInPlace));
   if (moved) {
     increment.arc_length = at->step.ArcLength();
     increment.work = next->work;
@@ -351,18 +336,14 @@ Advance BranchMethod::Next(const PathPoint& from) {
   ++increments_;
 
   Advance advance;
-  std::optional<EndReason> reason;
   if (returned) {
-    reason = EndReason::kClosedPath;
     if (at->event.kind == EventKind::kLimitPoint) increment.kind = IncrementKind::kSmoothLimit;
-    advance.message = ClosedPathText(*returned);
-  } else if (advance.message = HiddenSlip(model_, increment.point); !advance.message.empty()) {
-    reason = EndReason::kNumericalFailure;
+    advance.end = ClosedPath(*returned);
+  } else if (Causes hidden = HiddenSlip(model_, increment.point); !hidden.empty()) {
+    advance.end = {EndReason::kNotDetermined, hidden};
   } else {
-    reason = PassEnd(*at, &increment, &advance.message);
+    advance.end = PassEnd(*at, &increment);
   }
-  advance.ended = reason.has_value();
-  if (reason) advance.reason = *reason;
   SetNextLength(*at);
   increment.solve.next_step = step_length_;
   increment.solve.factorisations = arc_.factorisations() - factorisations_before;
@@ -370,17 +351,20 @@ Advance BranchMethod::Next(const PathPoint& from) {
   return advance;
 }
 
-std::string BranchMethod::Remark() const {
+Causes BranchMethod::Remarks() const {
   if (!departure_.other_reactions()) return {};
-  return "where several contacts hold a node its reactions are not unique: the least ones were taken";
+  return {{sentences::kOtherReactions}};
 }
 
-std::string BranchMethod::NoStep(const PathPoint& from) {
-  std::string text = "no increment could be accepted, however short: Newton's method does not stay on the branch";
-  text = After(text, CollapsedBar(model_.scene, model_.index, model_.InSceneUnits(from).positions));
+End BranchMethod::NoStep(const PathPoint& from) {
   const double moved = arc_.MovedByRounding(current_.x, current_.first.head(arc_.NumMotion()));
-  if (moved > options_.smallest_step) text += "; " + MovedByRounding(moved * model_.scaling.length);
-  return After(text, CurveTooSharp(model_, from));
+  const double length = model_.scaling.length;
+  End end = {EndReason::kStepTooSmall, {{sentences::kNoIncrement}, {sentences::kNewtonLeavesBranch}}};
+  if (moved > options_.smallest_step)
+    end = {EndReason::kNotDetermined, {{sentences::kMotionSign, {}, options_.smallest_step * length, moved * length}}};
+  Append(CollapsedBar(model_.scene, model_.index, model_.InSceneUnits(from).positions), &end.causes);
+  Append(CurveTooSharp(model_, from), &end.causes);
+  return end;
 }
 
 }  // namespace contact_path

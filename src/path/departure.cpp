@@ -8,6 +8,7 @@
 #include "contact_path/mpec/short_increment.h"
 #include "contact_path/path/branch_options.h"
 #include "contact_path/path/diagnosis.h"
+#include "contact_path/path/sentences.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
@@ -31,13 +32,26 @@ double CoverGaps(const ContactPairs& contacts, const PathPoint& point, double to
   return tolerance;
 }
 
-std::string NoBranch(const BranchSet& on) {
+Cause NoBranch(const BranchSet& on) {
   if (on.rigid_modes > 0)
-    return "no admissible branch, and the structure is a mechanism here: nothing resists " +
-           std::to_string(on.rigid_modes) + (on.rigid_modes == 1 ? " motion" : " motions");
-  if (on.complete_by == Completeness::kNone)
-    return "no admissible branch was found among the combinations of contact states tried";
-  return "no admissible branch: the quasi-static path ends here, only a dynamic jump leads further";
+    return {on.rigid_modes == 1 ? sentences::kOneFreeMotion : sentences::kFreeMotions,
+            {},
+            static_cast<double>(on.rigid_modes)};
+  return {on.complete_by == Completeness::kNone ? sentences::kNoBranchFound : sentences::kNoBranch};
+}
+
+std::string_view SignOfRate(Inequality inequality) {
+  switch (inequality) {
+    case Inequality::kGap: return sentences::kGapRateSign;
+    case Inequality::kNormalReaction: return sentences::kReactionRateSign;
+    case Inequality::kConePlus:
+    case Inequality::kConeMinus: return sentences::kMarginRateSign;
+    case Inequality::kSlip:
+    case Inequality::kTotalSlip: return sentences::kSlipRateSign;
+    case Inequality::kPatchBegin:
+    case Inequality::kPatchEnd: break;
+  }
+  return sentences::kPatchRateSign;
 }
 
 }  // namespace
@@ -55,22 +69,28 @@ void RecordBranches(const std::vector<Branch>& branches, EventRecord* record) {
 }
 
 std::optional<std::size_t> ChosenOf(const std::vector<Branch>& branches, const BranchChoice* choice,
-                                    std::size_t preferred, std::string* message) {
+                                    std::size_t preferred, End* end) {
   if (choice == nullptr) return preferred;
   const auto chosen = static_cast<std::size_t>(std::max(choice->branch, 1) - 1);
   if (chosen < branches.size()) return chosen;
-  *message = "branch_choices wants branch " + std::to_string(choice->branch) + " at " + PlaceOf(*choice) +
-             ": the number of branches there is " + std::to_string(branches.size());
+  *end = {EndReason::kNoSuchBranch,
+          {{sentences::kNoSuchBranch, PlaceOf(*choice), static_cast<double>(choice->branch),
+            static_cast<double>(branches.size())}}};
   return std::nullopt;
 }
 
 Departure::Departure(const Model& model, const DepartureOptions& options, std::function<bool()> cancelled)
-    : model_(model), options_(options), cancelled_(std::move(cancelled)) {}
+    : model_(model),
+      options_(options),
+      cancelled_(std::move(cancelled)),
+      largest_reaction_(options.largest_reaction == nullptr ? &own_ : options.largest_reaction) {}
 
 Departure::~Departure() = default;
 
-void Departure::NoteReactions(const PathPoint& point) {
-  largest_reaction_ = std::max(largest_reaction_, LargestReaction(model_.contacts, point));
+void Departure::NoteReactions(const PathPoint& point) { largest_reaction_->Note(model_.contacts, point); }
+
+ActiveSetTolerance Departure::ToleranceAt(const PathPoint& point) const {
+  return ActiveSetTolerance::For(largest_reaction_->of_stage, point.s);
 }
 
 Arrival Departure::StartArrival() const {
@@ -81,11 +101,10 @@ Arrival Departure::StartArrival() const {
   return arrival;
 }
 
-std::optional<EndReason> Departure::Leave(const PathPoint& point, Arrival arrival, const BranchChoice* choice,
-                                          SmoothArc* arc, CurvePoint* current, EventRecord* record,
-                                          std::string* message) {
+std::optional<End> Departure::Leave(const PathPoint& point, Arrival arrival, const BranchChoice* choice, SmoothArc* arc,
+                                    CurvePoint* current, EventRecord* record) {
   if (!arrival.is_start) arrival.before = moved_;
-  ActiveSetTolerance tolerance = ActiveSetTolerance::For(largest_reaction_, point.s);
+  ActiveSetTolerance tolerance = ToleranceAt(point);
   tolerance.gap = CoverGaps(model_.contacts, point, tolerance.gap);
   const BranchSet on = FindBranches(
       model_.structure, model_.contacts, point, arrival, tolerance,
@@ -94,33 +113,23 @@ std::optional<EndReason> Departure::Leave(const PathPoint& point, Arrival arriva
         return StatesOfShortIncrements(at, along, &programs_->increments);
       },
       cancelled_);
-  if (on.cancelled) {
-    *message = "the caller asked for it";
-    return EndReason::kCancelled;
-  }
+  if (on.cancelled) return End{EndReason::kCancelled, {{sentences::kCancelled}}};
   record->weakly_active = on.weakly_active;
   record->complete = on.complete_by != Completeness::kNone;
   record->complete_by = ToString(on.complete_by);
   RecordBranches(on.branches, record);
-  if (on.branches.empty() && arrival.failed) {
-    *message = "contact " + model_.scene.contacts[static_cast<std::size_t>(arrival.failed->contact)].Name() +
-               " changes its state by a rate that cannot be told from rounding";
-    return EndReason::kNumericalFailure;
-  }
+  if (on.branches.empty() && arrival.failed) return UnknownRate(*arrival.failed, arc->system(), *current);
   if (on.branches.empty()) {
-    *message = After(NoBranch(on), StandsAtEnd(model_, point));
-    return EndReason::kPathEnd;
+    End end{EndReason::kPathEnd, {NoBranch(on)}};
+    Append(StandsAtEnd(model_, point), &end.causes);
+    return end;
   }
   const std::size_t preferred = options_.keep_loading ? BestThatLoads(on.branches) : 0;
-  const std::optional<std::size_t> taken = ChosenOf(on.branches, choice, preferred, message);
-  if (!taken) return EndReason::kNoSuchBranch;
+  End end;
+  const std::optional<std::size_t> taken = ChosenOf(on.branches, choice, preferred, &end);
+  if (!taken) return end;
   const Branch& branch = on.branches[*taken];
-  if (branch.mechanism) {
-    *message =
-        "the structure has become a mechanism: it can move in several directions without any change of load and "
-        "reactions";
-    return EndReason::kPathEnd;
-  }
+  if (branch.mechanism) return End{EndReason::kPathEnd, {{sentences::kBecameMechanism}}};
   record->taken = static_cast<int>(*taken) + 1;
   other_reactions_ = other_reactions_ || branch.other_reactions;
   if (!branch.rests)
@@ -128,11 +137,18 @@ std::optional<EndReason> Departure::Leave(const PathPoint& point, Arrival arriva
   else if (!moved_ && !arrival.is_start)
     moved_ = arrival.direction;
   begin_ = branch.begin;
-  if (!SetOut(begin_ ? *begin_ : point, branch, arc, current)) {
-    *message = "the branch from an event could not be followed";
-    return EndReason::kNumericalFailure;
-  }
+  if (!SetOut(begin_ ? *begin_ : point, branch, arc, current))
+    return End{EndReason::kNumericalFailure, {{sentences::kBranchLost}}};
   return std::nullopt;
+}
+
+// Where the path arrives at an inequality that fails by a rate within the tolerance.
+End Departure::UnknownRate(const Constraint& constraint, const FixedStateSystem& system, const CurvePoint& at) const {
+  const double unit = IsMotion(constraint.inequality) ? model_.scaling.length : model_.scaling.force;
+  return {
+      EndReason::kNotDetermined,
+      {{SignOfRate(constraint.inequality), model_.scene.contacts[static_cast<std::size_t>(constraint.contact)].Name(),
+        unit * system.Rate(constraint, at.x, at.first), unit * tolerances::kRate * system.UnitOf(constraint)}}};
 }
 
 // Sets out on a branch from `point`. False: it cannot be followed.

@@ -6,9 +6,12 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <locale>
-#include <sstream>
+#include <string>
+#include <utility>
 
+#include "contact_path/path/branch_options.h"
+#include "contact_path/path/sentences.h"
+#include "contact_path/path/stop.h"
 #include "contact_path/scene/elasticity.h"
 #include "contact_path/structure/scene_elements.h"
 #include "contact_path/tolerances.h"
@@ -16,10 +19,11 @@
 namespace contact_path {
 namespace {
 
-constexpr double kClosing = 10.0;  // the nodes of a surface have shares in a gap: each moves by more than that
+constexpr double kClosing = 10.0;           // the nodes of a surface have shares in a gap: each moves by more than that
+constexpr std::size_t kCriteriaListed = 3;  // in a message
 constexpr double kNearlyIncompressible = 0.49;  // Poisson's ratio beyond which elements of few nodes lock
 
-std::string SolidText(const Scene& scene, std::size_t i) {
+std::string SolidName(const Scene& scene, std::size_t i) {
   const std::string& name = scene.solids[i].name;
   return "solids[" + std::to_string(i) + "]" + (name.empty() ? name : " (" + name + ")");
 }
@@ -74,49 +78,10 @@ double ForceOfClosingAtStart(const Model& model, const PathPoint& point, std::si
   return kClosing * gap * LargestOf(DiagonalStiffness(model, point), pair, point, point.Patch(contact));
 }
 
-// The contact and the radius of the curve that it is pressed onto: the beginning of a sentence.
-std::string OnCurve(const Model& model, std::size_t contact, double curvature) {
-  std::ostringstream out;
-  out.imbue(std::locale::classic());
-  out.precision(2);
-  out << "contact " << model.scene.contacts[contact].Name() << " is pressed onto a curve of the radius "
-      << model.scaling.length / curvature;
-  return out.str();
-}
-
-}  // namespace
-
-std::string CollapsedBar(const Scene& scene, const SceneIndex& index, const std::vector<double>& positions) {
+// The element of a solid whose area has shrunk most at one of its integration points, if that is nearly to nothing.
+Causes InvertedElement(const Scene& scene, const SceneIndex& index, const std::vector<double>& positions) {
   double smallest = tolerances::kCollapsed;
-  std::string text;
-  for (std::size_t i = 0; i < scene.bars.size(); ++i) {
-    const std::size_t a = index.Node(scene.bars[i].nodes[0]), b = index.Node(scene.bars[i].nodes[1]);
-    const double length = std::hypot(positions[2 * b] - positions[2 * a], positions[2 * b + 1] - positions[2 * a + 1]);
-    const double initial = std::hypot(scene.nodes[b].x - scene.nodes[a].x, scene.nodes[b].y - scene.nodes[a].y);
-    if (!(length < smallest * initial)) continue;
-    smallest = length / initial;
-    std::ostringstream out;
-    out.imbue(std::locale::classic());
-    out.precision(2);
-    out << "bar " << i << " (" << scene.bars[i].nodes[0] << ", " << scene.bars[i].nodes[1] << ") has shrunk to "
-        << smallest << " of its initial length";
-    text = out.str();
-  }
-  return text;
-}
-
-std::string MovedByRounding(double distance) {
-  std::ostringstream out;
-  out.imbue(std::locale::classic());
-  out.precision(2);
-  out << "the equations are so nearly singular that rounding moves the points of the path by " << distance
-      << ", more than the shortest step";
-  return out.str();
-}
-
-std::string InvertedElement(const Scene& scene, const SceneIndex& index, const std::vector<double>& positions) {
-  double smallest = tolerances::kCollapsed;
-  std::string text;
+  Causes found;
   for (std::size_t i = 0; i < scene.solids.size(); ++i) {
     const std::vector<PlacedSolidElement> elements =
         MakeSolidElements(scene.solids[i], scene, index, Configuration::Of(scene).reference);
@@ -130,74 +95,86 @@ std::string InvertedElement(const Scene& scene, const SceneIndex& index, const s
           Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size())));
       if (!(ratio < smallest)) continue;
       smallest = ratio;
-      std::ostringstream out;
-      out.imbue(std::locale::classic());
-      out.precision(2);
-      out << "element " << k + 1 << " of " << SolidText(scene, i) << " turns inside out: its area has shrunk to "
-          << smallest << " of the initial one";
-      text = out.str();
+      found = {{sentences::kInvertedElement, std::to_string(k + 1) + " of " + SolidName(scene, i), smallest}};
     }
   }
+  return found;
+}
+
+std::string Joined(const std::vector<std::string>& parts) {
+  std::string text;
+  for (const std::string& part : parts) text += (text.empty() ? "" : ", ") + part;
   return text;
 }
 
-std::string LockingSolids(const Scene& scene, const SceneIndex& index) {
-  std::string text;
+}  // namespace
+
+Causes CollapsedBar(const Scene& scene, const SceneIndex& index, const std::vector<double>& positions) {
+  double smallest = tolerances::kCollapsed;
+  Causes found;
+  for (std::size_t i = 0; i < scene.bars.size(); ++i) {
+    const std::vector<std::string>& ends = scene.bars[i].nodes;
+    const std::size_t a = index.Node(ends[0]), b = index.Node(ends[1]);
+    const double length = std::hypot(positions[2 * b] - positions[2 * a], positions[2 * b + 1] - positions[2 * a + 1]);
+    const double initial = std::hypot(scene.nodes[b].x - scene.nodes[a].x, scene.nodes[b].y - scene.nodes[a].y);
+    if (!(length < smallest * initial)) continue;
+    smallest = length / initial;
+    const std::string name = std::to_string(i) + " (" + ends[0] + ", " + ends[1] + ")";
+    found = {{sentences::kCollapsedBar, name, smallest}};
+  }
+  return found;
+}
+
+void NameInvertedElement(const Model& model, const PathPoint& point, End* end) {
+  if (!IsNumerical(end->reason)) return;
+  Causes inverted = InvertedElement(model.scene, model.index, model.InSceneUnits(point).positions);
+  if (inverted.empty()) return;
+  Append(end->causes, &inverted);
+  *end = {EndReason::kElementInverted, std::move(inverted)};
+}
+
+Causes LockingSolids(const Scene& scene, const SceneIndex& index) {
+  std::vector<std::string> names;
   for (std::size_t i = 0; i < scene.solids.size(); ++i) {
     const Solid& solid = scene.solids[i];
     const double nu = PoissonRatio(LameOf(scene.materials[index.Material(solid.material)]));
     if (solid.NodesPerElement() > 4 || solid.plane != PlaneState::kStrain || !(nu > kNearlyIncompressible)) continue;
-    text += (text.empty() ? "" : ", ") + SolidText(scene, i);
+    names.push_back(SolidName(scene, i));
   }
-  if (text.empty()) return text;
-  return text + ": elements of 3 or 4 nodes are far too stiff in plane strain where nu is beyond 0.49; take 8 nodes";
+  if (names.empty()) return {};
+  return {{sentences::kLockingSolids, Joined(names)}};
 }
 
-std::string SlenderBeam(const Scene& scene, const SceneIndex& index) {
+Causes SlenderBeam(const Scene& scene, const SceneIndex& index) {
   double most = tolerances::kMostSlender;
-  std::string text;
+  Causes found;
   for (const Beam& beam : scene.beams) {
     const Node &first = scene.nodes[index.Node(beam.nodes.front())], &last = scene.nodes[index.Node(beam.nodes.back())];
     const double length = std::hypot(last.x - first.x, last.y - first.y);
     const double slender = beam.EA * length * length / beam.EI;
     if (!(slender > most)) continue;
     most = slender;
-    std::ostringstream out;
-    out.imbue(std::locale::classic());
-    out.precision(2);
-    out << "EA L^2 / EI of beam " << beam.name << " is " << slender
-        << ": rounding of its axial force hides its bending; where it hardly stretches, EA with 1e7 gives nearly the "
-           "path";
-    text = out.str();
+    found = {{sentences::kSlenderBeam, beam.name, slender}};
   }
-  return text;
+  return found;
 }
 
-std::string CurveTooSharp(const Model& model, const PathPoint& point) {
+Causes CurveTooSharp(const Model& model, const PathPoint& point) {
   for (std::size_t i = 0; i < model.contacts.size(); ++i) {
     const double rn = point.rn[static_cast<Eigen::Index>(i)];
     if (!(rn > 0.0)) continue;
     const SharpestCurve at = SharpestAt(*model.contacts[i], point, point.Patch(i));
     const double turn = std::numeric_limits<double>::epsilon() * at.size * at.curvature;
-    const double stiffness = rn * at.curvature;
-    std::ostringstream out;
-    out.imbue(std::locale::classic());
-    out.precision(2);
-    out << OnCurve(model, i, at.curvature);
-    if (turn * rn > tolerances::kResidual * (1.0 + rn)) {
-      out << ": rounding of the coordinates turns its reaction by " << turn << " rad";
-      return out.str();
-    }
-    if (stiffness > tolerances::kOfSingular / tolerances::kSingularPivot) {
-      out << ": reaction over radius is " << stiffness
-          << " of the characteristic stiffness, which is lost in rounding beside it";
-      return out.str();
-    }
+    const double stiffness = rn * at.curvature, radius = model.scaling.length / at.curvature;
+    const std::string name = model.scene.contacts[i].Name();
+    if (turn * rn > tolerances::kResidual * (1.0 + rn)) return {{sentences::kCurveTurnsReaction, name, radius, turn}};
+    if (stiffness > tolerances::kOfSingular / tolerances::kSingularPivot)
+      return {{sentences::kCurveHidesStiffness, name, radius, stiffness}};
   }
   return {};
 }
 
-std::string HiddenSlip(const Model& model, const PathPoint& point) {
+Causes HiddenSlip(const Model& model, const PathPoint& point) {
   for (std::size_t i = 0; i < model.contacts.size(); ++i) {
     const ContactPair& pair = *model.contacts[i];
     const auto k = static_cast<Eigen::Index>(i);
@@ -207,34 +184,36 @@ std::string HiddenSlip(const Model& model, const PathPoint& point) {
     const double curvature = SharpestAt(pair, point, point.Patch(i)).curvature;
     // As it slides by dxi, the reaction turns by curvature * dxi, and the load has to follow.
     const double load_rate = (1.0 + pair.Friction() * pair.Friction()) * rn * curvature;
-    if (!(load_rate > tolerances::kOfHiddenSlip / tolerances::kLevel)) continue;
-    return OnCurve(model, i, curvature) +
-           ": it slides by so little while the load changes that this cannot be told from rest";
+    const double least = tolerances::kLevel / tolerances::kOfHiddenSlip;
+    if (!(load_rate > 1.0 / least)) continue;
+    const std::string name = model.scene.contacts[i].Name();
+    const double unit = model.scaling.length / model.scaling.load_factor;
+    return {{sentences::kSlipSign, name, unit / load_rate, unit * least},
+            {sentences::kOnCurve, name, model.scaling.length / curvature}};
   }
   return {};
 }
 
-std::string BeyondHalfRound(const Model& model, const Residuals& residuals) {
+Causes BeyondHalfRound(const Model& model, const Residuals& residuals) {
   if (!(residuals.friction_law > tolerances::kAcceptedExact)) return {};
   const bool possible = std::any_of(model.contacts.begin(), model.contacts.end(), [](const auto& contact) {
     return contact->HasTotalLaw() && contact->Round() > 0.0;
   });
-  return possible ? "by the total law of friction a node cannot slide beyond half a round of a closed obstacle" : "";
+  if (!possible) return {};
+  return {{sentences::kHalfRound}};
 }
 
-std::string OverrunContact(const Model& model, const PathPoint& from, const PathPoint& to) {
+Causes OverrunContact(const Model& model, const PathPoint& from, const PathPoint& to) {
   for (std::size_t i = 0; i < model.contacts.size(); ++i) {
     const ContactPair& pair = *model.contacts[i];
     if (!pair.Deformable() || to.states[i] == ContactState::kOpen) continue;
     if (pair.Overrun(from.u, to.u, pair.KnownPatch(to.u, to.s, to.Patch(i))))
-      return "contact " + model.scene.contacts[i].Name() +
-             ": another part of the surface comes over the node while it touches, and contact with two parts of a "
-             "surface at a time is not covered";
+      return {{sentences::kOverrun, model.scene.contacts[i].Name()}};
   }
   return {};
 }
 
-std::string StandsAtEnd(const Model& model, const PathPoint& point) {
+Causes StandsAtEnd(const Model& model, const PathPoint& point) {
   std::vector<std::size_t> at_end;
   for (std::size_t i = 0; i < model.contacts.size(); ++i) {
     const ContactPair& pair = *model.contacts[i];
@@ -247,59 +226,68 @@ std::string StandsAtEnd(const Model& model, const PathPoint& point) {
       at_end.push_back(i);
   }
   if (at_end.empty()) return {};
-  const std::string first = "contact " + model.scene.contacts[at_end.front()].Name();
-  if (at_end.size() == 1) return first + " stands at an end of its surface, over which a contact cannot slide";
-  return first + " and " + std::to_string(at_end.size() - 1) +
-         " more stand at ends of their surfaces, over which a contact cannot slide";
+  return {{at_end.size() == 1 ? sentences::kStandsAtEnd : sentences::kStandAtEnds,
+           model.scene.contacts[at_end.front()].Name(), static_cast<double>(at_end.size() - 1)}};
 }
 
-std::string BehindSurface(const Model& model, const PathPoint& point) {
+Causes BehindSurface(const Model& model, const PathPoint& point) {
   for (std::size_t i = 0; i < model.contacts.size(); ++i) {
     const ContactPair& pair = *model.contacts[i];
     if (!pair.Deformable() || point.states[i] != ContactState::kOpen) continue;
     const double gap = pair.Gap(point.u, point.s, kNearestPatch);
-    if (!(gap < -tolerances::kBeyondPatch)) continue;
-    std::ostringstream out;
-    out.imbue(std::locale::classic());
-    out.precision(2);
-    out << "contact " << model.scene.contacts[i].Name() << ": the node has come past an end of the surface to "
-        << -gap * model.scaling.length << " behind it";
-    return out.str();
+    if (gap < -tolerances::kBeyondPatch)
+      return {{sentences::kBehindSurface, model.scene.contacts[i].Name(), -gap * model.scaling.length}};
   }
   return {};
 }
 
-std::string PullingContact(const Model& model, const PathPoint& point, double rounding, double largest_reaction) {
-  const double most = std::max(rounding, tolerances::kPullOfLargest * largest_reaction);
+std::optional<End> PullingContact(const Model& model, const PathPoint& point, double largest_reaction) {
+  const double most = std::max(tolerances::kReactionRounding, tolerances::kPullOfLargest * largest_reaction);
   for (std::size_t i = 0; i < model.contacts.size(); ++i) {
     const double pull = -point.rn[static_cast<Eigen::Index>(i)];
     const double unit = model.contacts[i]->ForceUnit();
     if (!(pull > most * unit) || pull <= ForceOfClosingAtStart(model, point, i)) continue;
-    std::ostringstream out;
-    out.imbue(std::locale::classic());
-    out.precision(2);
-    out << "contact " << model.scene.contacts[i].Name() << " pulls with " << pull
-        << " of the characteristic force, where contacts have pushed with at most " << largest_reaction * unit
-        << ": reactions so small cannot be told from rounding";
-    return out.str();
+    const double error = tolerances::kBrokenOnStep * model.contacts[i]->NormalForceUnit();
+    const std::string name = model.scene.contacts[i].Name();
+    const double force = model.scaling.force;
+    if (pull <= error)
+      return End{EndReason::kNotDetermined, {{sentences::kReactionSign, name, -force * pull, force * error}}};
+    return End{EndReason::kNumericalFailure, {{sentences::kPulls, name, force * pull, force * error}}};
+  }
+  return std::nullopt;
+}
+
+Causes ContactTooSoft(const Model& model, const PathPoint& point, double least) {
+  const Eigen::VectorXd stiffness = DiagonalStiffness(model, point);
+  const double unit = model.scaling.force / model.scaling.length;
+  for (std::size_t i = 0; i < model.contacts.size(); ++i) {
+    const double largest = LargestOf(stiffness, *model.contacts[i], point, point.Patch(i));
+    if (largest > 0.0 && largest < least)
+      return {{sentences::kStiffnessSign, model.scene.contacts[i].Name(), unit * largest, unit * least}};
   }
   return {};
 }
 
-std::string ContactTooSoft(const Model& model, const PathPoint& point, double least) {
-  const Eigen::VectorXd stiffness = DiagonalStiffness(model, point);
-  for (std::size_t i = 0; i < model.contacts.size(); ++i) {
-    const double largest = LargestOf(stiffness, *model.contacts[i], point, point.Patch(i));
-    if (largest == 0.0 || !(largest < least)) continue;
-    std::ostringstream out;
-    out.imbue(std::locale::classic());
-    out.precision(2);
-    out << "the parts at node " << model.scene.contacts[i].node << " are " << 1.0 / largest
-        << " times softer than the characteristic stiffness: reactions of contact " << model.scene.contacts[i].Name()
-        << " cannot be told from rounding";
-    return out.str();
+Causes MissedEnd(const TraceRequest& request, int stage) {
+  const auto stages = static_cast<double>(request.program.size());
+  if (stages > 0.0) return {{sentences::kMissedTarget, {}, static_cast<double>(stage), stages}};
+  std::vector<std::string> criteria;
+  for (const StopCriterion& criterion : request.options.stop) criteria.push_back(ToText(criterion));
+  if (criteria.empty()) return {{sentences::kNoCriterion}};
+  if (criteria.size() > kCriteriaListed) {
+    criteria.resize(kCriteriaListed);
+    criteria.emplace_back("...");
   }
-  return {};
+  return {{sentences::kMissedCriteria, Joined(criteria)}};
+}
+
+Causes MissedChoices(const TraceRequest& request, int increments, int events) {
+  std::vector<std::string> missed;
+  for (const BranchChoice& choice : request.options.branch_choices)
+    if (choice.event > events || (choice.event == 0 && choice.increment >= increments))
+      missed.push_back(PlaceOf(choice));
+  if (missed.empty() || !request.options.LocatesEvents()) return {};
+  return {{sentences::kMissedChoices, Joined(missed)}};
 }
 
 }  // namespace contact_path

@@ -14,8 +14,18 @@ std::string_view ToString(EndReason reason) {
     case EndReason::kClosedPath: return "closed_path";
     case EndReason::kMemoryLimit: return "memory_limit";
     case EndReason::kElementInverted: return "element_inverted";
+    case EndReason::kNotDetermined: return "not_determined";
   }
   return "";
+}
+
+bool IsNumerical(EndReason reason) {
+  return reason == EndReason::kStepTooSmall || reason == EndReason::kNotDetermined ||
+         reason == EndReason::kNumericalFailure;
+}
+
+bool IsStuck(EndReason reason) {
+  return reason == EndReason::kPathEnd || reason == EndReason::kStepTooSmall || reason == EndReason::kNotDetermined;
 }
 
 bool IsComplete(EndReason reason) {

@@ -7,10 +7,8 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <locale>
 #include <new>
 #include <optional>
-#include <sstream>
 
 #include "contact_path/equations/rigid_modes.h"
 #include "contact_path/linear/minimum_norm.h"
@@ -74,21 +72,12 @@ std::string Counted(const std::vector<std::string>& names, const char* one, cons
   return names.size() == 1 ? one : several;
 }
 
-// In two digits.
-std::string Rounded(double value) {
-  std::ostringstream out;
-  out.imbue(std::locale::classic());
-  out.precision(2);
-  out << value;
-  return out.str();
-}
-
 // The gap of an open candidate. Of one that is on a surface and would touch if that went through its nodes straight
 // from one to the next: the reason, that the smooth curve does not.
 std::string NearestOpenText(const Model& model, const PathPoint& point, std::size_t contact, double gap) {
   const ContactCandidate& candidate = model.scene.contacts[contact];
   const double length = model.scaling.length;
-  std::string text = "the nearest candidate is open: " + candidate.Name() + ", gap " + Rounded(gap * length);
+  std::string text = "the nearest candidate is open: " + candidate.Name() + ", gap " + RoundedText(gap * length);
   if (!candidate.OnSurface()) return text;
   const auto place = [&](const std::string& name) {
     const auto node = static_cast<int>(model.index.Node(name));
@@ -116,7 +105,7 @@ std::string NearestOpenText(const Model& model, const PathPoint& point, std::siz
     return model.scene.nodes[model.index.Node(name)];
   });
   const double off = std::abs(BoundaryCurve(places, surface.closed, 0.0, across).Nearest(places[nearest]).gap) * length;
-  return text + " (the smooth curve of surface " + surface.name + " passes " + Rounded(off) + " from its node " +
+  return text + " (the smooth curve of surface " + surface.name + " passes " + RoundedText(off) + " from its node " +
          surface.nodes[nearest] + ")";
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
+#include <string_view>
 #include <utility>
 
 #include "contact_path/equations/fixed_state_system.h"
@@ -57,15 +57,14 @@ bool MayHaveCutCorner(const ContactPairs& contacts, const PathPoint& from, const
   return false;
 }
 
-double LargestForce(const PathPoint& point) { return std::max(std::abs(point.s), LargestReaction(point)); }
-
 // Whether what a regularised point says of each contact is what its numbers say. They may all be small against the
 // characteristic force, and then small residuals prove nothing.
 bool StatesAgree(const ContactPairs& contacts, const PathPoint& from, const PathPoint& to) {
-  const double force = tolerances::kRegularisedState * LargestForce(to);
+  const double largest = std::max(std::abs(to.s), LargestReaction(contacts, to));
   const double length = tolerances::kRegularisedState * Distance(from, to);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
+    const double force = tolerances::kRegularisedState * largest * contacts[i]->ForceUnit();
     const double slip = contacts[i]->Slip(from.u, from.s, from.Patch(i), to.u - from.u, to.s - from.s, to.Patch(i));
     const double margin = contacts[i]->Friction() * to.rn[k] - std::abs(to.rt[k]);
     const ContactState state = to.states[i];
@@ -117,25 +116,6 @@ MpecMethod::MpecMethod(const Model& model, const MpecOptions& options, std::func
   direction_[model.structure.NumDofs()] = options.direction;
 }
 
-const char* MpecMethod::Describe(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::kAccepted: return "accepted";
-    case Verdict::kNotSolved: return "the increment problem was not solved";
-    case Verdict::kResidual: return "the residuals of the solution are too large";
-    case Verdict::kContradiction: return "the regularised solution contradicts its own contact states";
-    case Verdict::kTooLong: return "the solution is a jump, far longer than the wanted increment";
-    case Verdict::kNoProgress: return "the increment problem has no solution but the point itself";
-    case Verdict::kWrongDirection: return "the load factor changes against the wanted direction";
-    case Verdict::kTurnedBack: return "the path turns sharply without a change of contact state";
-    case Verdict::kBackAtRest:
-      return "the load goes back with all contacts at rest, and no branch was found that slides";
-    case Verdict::kNotConfirmed: return "two half increments do not confirm the change of contact state";
-    case Verdict::kBeyondTarget: return "the load factor goes past its target, and no point at the target is found";
-    case Verdict::kCancelled: return "cancelled";
-  }
-  return "";
-}
-
 Eigen::VectorXd MpecMethod::Direction(const PathPoint& from, const PathPoint& to) const {
   return Chord(from, to).normalized();
 }
@@ -146,7 +126,7 @@ MpecMethod::Trial MpecMethod::SolveOnce(const PathPoint& from, const Eigen::Vect
   trial.increment = solver_.Solve(from, {length, direction, dissipation, gamma2_factor_}, schedule);
   iterations_ += trial.increment.iterations;
   Judge(from, direction, length, &trial);
-  if (trial.verdict == Verdict::kAccepted || !trial.increment.warm_start) return trial;
+  if (trial.verdict == sentences::kAccepted || !trial.increment.warm_start) return trial;
   // Another solution may lie nearer to the first guess than to the last increment.
   RegularisationSchedule anew = schedule;
   anew.warm_start = false;
@@ -170,7 +150,7 @@ bool MpecMethod::GoesBackAtRest(const PathPoint& from, const PathPoint& to) cons
 void MpecMethod::Judge(const PathPoint& from, const Eigen::VectorXd& direction, double length, Trial* result) const {
   Trial& trial = *result;
   if (trial.increment.status != SolveStatus::kSolved) {
-    trial.verdict = trial.increment.status == SolveStatus::kCancelled ? Verdict::kCancelled : Verdict::kNotSolved;
+    trial.verdict = trial.increment.status == SolveStatus::kCancelled ? sentences::kCancelled : sentences::kNotSolved;
     return;
   }
   const PathPoint& to = trial.increment.point;
@@ -178,21 +158,21 @@ void MpecMethod::Judge(const PathPoint& from, const Eigen::VectorXd& direction, 
   const double tolerance = trial.increment.exact ? tolerances::kAcceptedExact : tolerances::kAcceptedRegularised;
   const double moved = Distance(from, to);
   if (!(trial.residuals.Largest() <= tolerance))
-    trial.verdict = Verdict::kResidual;
+    trial.verdict = sentences::kResidual;
   else if (!trial.increment.exact && !StatesAgree(model_.contacts, from, to))
-    trial.verdict = Verdict::kContradiction;
+    trial.verdict = sentences::kContradiction;
   else if (moved > IncrementSolver::kLongestIncrement * length)
-    trial.verdict = Verdict::kTooLong;
+    trial.verdict = sentences::kTooLong;
   else if (moved < kProgress * length)
-    trial.verdict = Verdict::kNoProgress;
+    trial.verdict = sentences::kNoProgress;
   else if (!started_ && (to.s - from.s) * options_.direction <= tolerances::kUnitComponent * moved)
-    trial.verdict = Verdict::kWrongDirection;
+    trial.verdict = sentences::kWrongDirection;
   else if (TurnsBack(from, to, direction))
-    trial.verdict = Verdict::kTurnedBack;
+    trial.verdict = sentences::kTurnedBack;
   else if (GoesBackAtRest(from, to))
-    trial.verdict = Verdict::kBackAtRest;
+    trial.verdict = sentences::kBackAtRest;
   else
-    trial.verdict = Verdict::kAccepted;
+    trial.verdict = sentences::kAccepted;
 }
 
 MpecMethod::Trial MpecMethod::Try(const PathPoint& from, const Eigen::VectorXd& direction, double length) {
@@ -216,10 +196,10 @@ bool MpecMethod::ConfirmedByHalves(const PathPoint& from, const Eigen::VectorXd&
                                    const Trial& whole) {
   const PathPoint& to = whole.increment.point;
   const Trial first = Try(from, direction, 0.5 * length);
-  if (first.verdict != Verdict::kAccepted) return false;
+  if (first.verdict != sentences::kAccepted) return false;
   const PathPoint& middle = first.increment.point;
   const Trial second = Try(middle, Direction(from, middle), 0.5 * length);
-  if (second.verdict != Verdict::kAccepted) return false;
+  if (second.verdict != sentences::kAccepted) return false;
   // Distance of the middle from the chord of the whole increment.
   const Eigen::VectorXd chord = Direction(from, to);
   Eigen::VectorXd bend = Chord(from, middle);
@@ -294,47 +274,45 @@ bool MpecMethod::Resume(const ResumePoint& at) {
   return true;
 }
 
-std::string MpecMethod::Remark() const {
+Causes MpecMethod::Remarks() const {
   if (!started_ || !(length_ < kShortPath * options_.corner_tolerance)) return {};
-  return "the whole path is hardly longer than what increments may cut off: to be trusted only with a smaller step";
+  return {{sentences::kShortPath}};
 }
 
 Advance MpecMethod::Next(const PathPoint& from) {
   Advance advance;
   iterations_ = 0;
   double length = step_length_;
-  std::optional<Verdict> first;
+  std::optional<std::string_view> first;
   for (int rejected = 0;; ++rejected) {
     Trial trial = started_ ? Try(from, direction_, length) : TryFirst(from, length);
     const PathPoint& to = trial.increment.point;
-    if (trial.verdict == Verdict::kAccepted && MayHaveCutCorner(model_.contacts, from, to) &&
+    if (trial.verdict == sentences::kAccepted && MayHaveCutCorner(model_.contacts, from, to) &&
         !ConfirmedByHalves(from, started_ ? direction_ : Direction(from, to), length, trial))
-      trial.verdict = Verdict::kNotConfirmed;
-    if (trial.verdict == Verdict::kAccepted && options_.target &&
+      trial.verdict = sentences::kNotConfirmed;
+    if (trial.verdict == sentences::kAccepted && options_.target &&
         (from.s - *options_.target) * (to.s - *options_.target) < 0.0 && !EndAtTarget(from, &trial))
-      trial.verdict = Verdict::kBeyondTarget;
-    if (trial.verdict == Verdict::kAccepted && MayMissTarget(from, to)) trial.verdict = Verdict::kBeyondTarget;
-    if (trial.verdict == Verdict::kCancelled || (cancelled_ && cancelled_())) {
-      advance.reason = EndReason::kCancelled;
-      advance.message = "the caller asked for it";
+      trial.verdict = sentences::kBeyondTarget;
+    if (trial.verdict == sentences::kAccepted && MayMissTarget(from, to)) trial.verdict = sentences::kBeyondTarget;
+    if (trial.verdict == sentences::kCancelled || (cancelled_ && cancelled_())) {
+      advance.end = {EndReason::kCancelled, {{sentences::kCancelled}}};
       return advance;
     }
     if (options_.on_trial)
       options_.on_trial({length,
-                         trial.verdict == Verdict::kAccepted ? "accepted" : Describe(trial.verdict),
+                         trial.verdict,
                          {},
                          {{"reached", Distance(from, to)},
                           {"regularisation", trial.increment.regularisation},
                           {"exact", trial.increment.exact ? 1.0 : 0.0},
                           {"ipopt_iterations", iterations_},
                           {"largest_residual", trial.residuals.Largest()}}});
-    if (trial.verdict != Verdict::kAccepted) {
+    if (trial.verdict != sentences::kAccepted) {
       // Shorter increments fail for reasons that follow from the first one.
       if (!first) first = trial.verdict;
       length *= 0.5;
       if (length >= options_.smallest_step) continue;
-      advance.reason = EndReason::kStepTooSmall;
-      advance.message = std::string("no increment could be accepted, however short: ") + Describe(*first);
+      advance.end = {EndReason::kStepTooSmall, {{sentences::kNoIncrement}, {*first}}};
       return advance;
     }
 
@@ -371,11 +349,7 @@ Advance MpecMethod::Next(const PathPoint& from) {
     increment.solve.gamma2_factor = gamma2_factor_;
     increment.point = trial.increment.point;
     advance.increments.push_back(std::move(increment));
-    advance.ended = returned.has_value();
-    if (returned) {
-      advance.reason = EndReason::kClosedPath;
-      advance.message = ClosedPathText(*returned);
-    }
+    if (returned) advance.end = ClosedPath(*returned);
     return advance;
   }
 }

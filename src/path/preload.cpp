@@ -1,24 +1,22 @@
 #include "contact_path/path/preload.h"
 
-#include <locale>
+#include <memory>
 #include <optional>
-#include <sstream>
+#include <string>
 #include <utility>
 
+#include "contact_path/branch/active_set_tolerance.h"
+#include "contact_path/path/automatic_step.h"
+#include "contact_path/path/branch_method.h"
+#include "contact_path/path/diagnosis.h"
+#include "contact_path/path/free_motion.h"
+#include "contact_path/path/sentences.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
 namespace {
 
-const char* const kWhere = "while the constant loads were brought on: ";
-
-std::string LimitMessage(double share) {
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text.precision(6);
-  text << "a limit point at " << share << " of their full size; only a dynamic jump leads further";
-  return text.str();
-}
+constexpr int kMostIncrements = 100000;  // to bring the constant loads on; not counted with the others
 
 // The scene whose load factor, from 0 to 1, brings the constant loads on. holding: internal force at the start, by dof,
 // in scene units.
@@ -69,16 +67,15 @@ Preload TracePreload(const Model& model, int max_increments, const MethodFactory
   const Model preload_model(scene, model.configuration, scaling);
   const double target = 1.0 / scaling.load_factor;
   const std::unique_ptr<PathMethod> method = make_method(preload_model, target);
-  const auto end = [&preload](EndReason reason, const std::string& message) {
-    preload.reason = reason;
-    preload.message = kWhere + message;
+  const auto end = [&preload](EndReason reason, const Causes& causes) {
+    preload.end = {reason, {{sentences::kConstantLoads}}};
+    Append(causes, &preload.end.causes);
     return preload;
   };
   EventRecord branches;
-  if (const std::optional<EndReason> reason = method->Start(preload.point, &branches, &preload.message))
-    return end(*reason, preload.message);
+  if (const std::optional<End> none = method->Start(preload.point, &branches)) return end(none->reason, none->causes);
   for (int i = 0; i < max_increments; ++i) {
-    if (cancelled && cancelled()) return end(EndReason::kCancelled, "the caller asked for it");
+    if (cancelled && cancelled()) return end(EndReason::kCancelled, {{sentences::kCancelled}});
     Advance advance = method->Next(preload.point);
     for (AcceptedPoint& increment : advance.increments) {
       preload.point = std::move(increment.point);
@@ -88,11 +85,40 @@ Preload TracePreload(const Model& model, int max_increments, const MethodFactory
         return preload;
       }
       if (increment.kind == IncrementKind::kSmoothLimit || increment.kind == IncrementKind::kCornerLimit)
-        return end(EndReason::kPathEnd, LimitMessage(preload.point.s / target));
+        return end(EndReason::kPathEnd, {{sentences::kLimitPointOfLoads, {}, preload.point.s / target}});
     }
-    if (advance.ended) return end(advance.reason, advance.message);
+    if (advance.end) return end(advance.end->reason, advance.end->causes);
   }
-  return end(EndReason::kMaxIncrements, "too many increments");
+  return end(EndReason::kMaxIncrements, {{sentences::kTooManyIncrements}});
+}
+
+Preload TraceStart(const Model& model, Accuracy accuracy, const std::function<bool()>& cancelled) {
+  Scene resting = model.scene;
+  resting.support_motions.clear();
+  const bool moves = !model.structure.PrescribedDofs().empty();
+  const std::unique_ptr<const Model> other =
+      moves ? std::make_unique<const Model>(resting, model.configuration, model.scaling) : nullptr;
+  const Model& start = moves ? *other : model;
+  const MethodFactory make_method = [&](const Model& of, double target) -> std::unique_ptr<PathMethod> {
+    TraceOptions upwards;
+    upwards.accuracy = accuracy;
+    BranchOptions options = BranchOptions::For(upwards, AutomaticStepGrowth(of));
+    options.ends.load_factor = target;
+    options.keep_loading = true;
+    return std::make_unique<BranchMethod>(of, options, cancelled);
+  };
+  Preload preload = TracePreload(start, kMostIncrements, make_method, cancelled);
+  if (preload.done) {
+    if (moves) preload.point = model.Transfer(start, preload.point);
+    return preload;
+  }
+  const double force = ActiveSetTolerance::For(0.0, 0.0).force;
+  if (IsStuck(preload.end.reason))
+    if (const std::string free = FreeMotionQuestion(start, preload.point, force); !free.empty())
+      preload.end.causes.push_back({sentences::kFreeNodes, free});
+  if (preload.end.reason == EndReason::kMaxIncrements) preload.end.reason = EndReason::kNumericalFailure;
+  NameInvertedElement(start, preload.point, &preload.end);
+  return preload;
 }
 
 }  // namespace contact_path

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "contact_path/path/sentences.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
@@ -74,12 +75,12 @@ void Recorder::Append(const Model& model, const AcceptedPoint& accepted, double 
   Give(load_before);
 }
 
-std::string Recorder::Remark() const {
+Causes Recorder::Remarks() const {
   if (turned_back_ == 0) return {};
-  std::string text = "; at increment " + std::to_string(first_turned_back_) +
-                     " the load turns back, since that dissipates most, where another branch goes on with it";
-  if (turned_back_ > 1) text += " (the first of " + std::to_string(turned_back_) + " such increments)";
-  return text + ": see branch_choices";
+  return {{turned_back_ > 1 ? sentences::kTurnsBackOften : sentences::kTurnsBack,
+           {},
+           static_cast<double>(first_turned_back_),
+           static_cast<double>(turned_back_)}};
 }
 
 void Recorder::Fill(const Model& model, const PathPoint& point, const AcceptedPoint& accepted, double time) {

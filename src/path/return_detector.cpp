@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "contact_path/path/sentences.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
@@ -21,13 +22,16 @@ std::size_t MostReferences(const Model& model) {
 
 }  // namespace
 
-ReturnDetector::ReturnDetector(const Model& model, int every)
-    : most_references_(MostReferences(model)), spacing_(every), arc_(model.structure, model.contacts) {}
+ReturnDetector::ReturnDetector(const Model& model, int every, const LargestReactionSoFar& largest_reaction)
+    : most_references_(MostReferences(model)),
+      spacing_(every),
+      arc_(model.structure, model.contacts),
+      contacts_(model.contacts),
+      largest_reaction_(largest_reaction) {}
 
 void ReturnDetector::Add(int increment, const PathPoint& from, const PathPoint& to) {
   if (!first_) first_ = from;
   extent_ = std::max(extent_, Distance(*first_, to));
-  largest_reaction_ = std::max(largest_reaction_, LargestReaction(to));
   const double length = Distance(from, to);
   if (increment % spacing_ != 0 || !(length > 0.0) || to.states != from.states) return;
   if (references_.size() == most_references_) {
@@ -77,9 +81,11 @@ std::optional<PathPoint> ReturnDetector::CrossingOf(const Reference& reference, 
 
 bool ReturnDetector::IsSame(const PathPoint& a, const PathPoint& b) const {
   if (!(Distance(a, b) <= tolerances::kReturnPoint * extent_)) return false;
-  if (a.rn.size() == 0) return true;
-  const double difference = std::max((a.rn - b.rn).lpNorm<Eigen::Infinity>(), (a.rt - b.rt).lpNorm<Eigen::Infinity>());
-  return difference <= tolerances::kReactionRounding + tolerances::kReturnReaction * largest_reaction_;
+  PathPoint difference;
+  difference.rn = a.rn - b.rn;
+  difference.rt = a.rt - b.rt;
+  return LargestReaction(contacts_, difference) <=
+         tolerances::kReactionRounding + tolerances::kReturnReaction * largest_reaction_.of_stage;
 }
 
 Eigen::VectorXd ReturnDetector::TangentAt(const PathPoint& point, const Eigen::VectorXd& towards) {
@@ -89,8 +95,8 @@ Eigen::VectorXd ReturnDetector::TangentAt(const PathPoint& point, const Eigen::V
   return derivatives.first.head(arc_.NumMotion());
 }
 
-std::string ClosedPathText(int increment) {
-  return "the path has come back to increment " + std::to_string(increment) + " and repeats from there on";
+End ClosedPath(int increment) {
+  return {EndReason::kClosedPath, {{sentences::kClosedPath, {}, static_cast<double>(increment)}}};
 }
 
 }  // namespace contact_path

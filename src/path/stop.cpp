@@ -4,9 +4,9 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <sstream>
 
 #include "contact_path/scene/change_units.h"
+#include "contact_path/scene/number_text.h"
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/scaling.h"
 #include "contact_path/tolerances.h"
@@ -107,10 +107,8 @@ bool StopTest::MayHold(const Increment& increment, double force_rounding) const 
 }
 
 std::string ToText(const StopCriterion& criterion) {
-  std::ostringstream text;
-  text.precision(std::numeric_limits<double>::digits10);
-  text << criterion.quantity << " " << criterion.when << " " << criterion.value;
-  return text.str();
+  return criterion.quantity + " " + criterion.when + " " +
+         RoundedText(criterion.value, std::numeric_limits<double>::digits10);
 }
 
 }  // namespace contact_path

@@ -69,6 +69,7 @@ struct Constants<EndReason> {
       {EndReason::kClosedPath, Response::END_CLOSED_PATH},
       {EndReason::kMemoryLimit, Response::END_MEMORY_LIMIT},
       {EndReason::kElementInverted, Response::END_ELEMENT_INVERTED},
+      {EndReason::kNotDetermined, Response::END_NOT_DETERMINED},
   };
 };
 

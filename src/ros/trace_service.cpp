@@ -2,29 +2,27 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <memory>
 #include <new>
-#include <sstream>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include <boost/make_shared.hpp>
 
 #include "contact_path/linear/blas.h"
+#include "contact_path/path/end.h"
 #include "contact_path/ros/bag_reader.h"
 #include "contact_path/ros/convert.h"
 #include "contact_path/ros/memory_share.h"
 #include "contact_path/ros/names.h"
-#include "contact_path/ros/read_parameter.h"
 #include "contact_path/ros/resume.h"
 #include "contact_path/ros/stamp.h"
 #include "contact_path/scene/expand.h"
 #include "contact_path/scene/one_line.h"
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/validate.h"
+#include "ros/service_sentences.h"
 
 namespace contact_path {
 namespace {
@@ -39,21 +37,29 @@ constexpr std::size_t kMegabyte = std::size_t{1} << 20U;
 constexpr double kMoreTime = 0.1;
 constexpr double kMoreSeconds = 10.0;
 
-// `path` with a leading ~ replaced by the home directory.
-std::string ExpandHome(const std::string& path) {
-  const char* const home = std::getenv("HOME");
-  const bool at_home = path == "~" || path.rfind("~/", 0) == 0;
-  return at_home && home != nullptr ? home + path.substr(1) : path;
+// What ends a request before it is traced.
+struct Refusal : std::runtime_error {
+  Refusal(std::uint8_t status_of_response, const std::string& why)
+      : std::runtime_error(why), status(status_of_response) {}
+  std::uint8_t status;
+};
+
+void Tell(std::uint8_t status, const std::string& message, TraceService::Response* response) {
+  response->status = status;
+  response->message = message;
 }
 
-std::string InSeconds(double seconds) {
-  std::ostringstream text;
-  text << seconds << " s";
-  return text.str();
+void TellEnd(std::uint8_t end_reason, const std::string& message, TraceService::Response* response) {
+  Tell(TraceService::Response::ENDED_EARLY, message, response);
+  response->end_reason = end_reason;
 }
 
-std::string MemoryLimitText(const TraceLimits& limits) {
-  return "the node admits " + std::to_string(limits.max_memory) + " MB of memory (~" + names::kMaxMemory + ")";
+std::string Text(std::string_view sentence, const std::string& name = {}, double value = 0.0) {
+  return EndText({{sentence, name, value}});
+}
+
+std::string MemoryText(const TraceLimits& limits) {
+  return Text(sentences::kAdmitsMemory, names::kMaxMemory, limits.max_memory);
 }
 
 // Of the megabytes that the node may take, increments that wait take a quarter at most.
@@ -74,44 +80,6 @@ StreamOptions StreamOptionsOf(const NodeParameters& parameters) {
 double SecondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 }  // namespace
-
-NodeParameters ReadParameters(const ros::NodeHandle& private_node) {
-  NodeParameters parameters;
-  ReadParameter(private_node, names::kBagDirectory, "a string", &parameters.bag_directory);
-  ReadParameter(private_node, names::kIncrementsQueue, "an integer", &parameters.increments_queue);
-  ReadParameter(private_node, names::kIncrementsMegabytes, "an integer", &parameters.increments_megabytes);
-  ReadParameter(private_node, names::kIncrementsPerSecond, "a number", &parameters.increments_per_second);
-  ReadParameter(private_node, names::kIncrementsMegabytesPerSecond, "a number",
-                &parameters.increments_megabytes_per_second);
-  parameters.markers = ReadMarkerOptions(private_node);
-  ReadParameter(private_node, names::kMaxNodes, "an integer", &parameters.limits.max_nodes);
-  ReadParameter(private_node, names::kMaxElements, "an integer", &parameters.limits.max_elements);
-  ReadParameter(private_node, names::kMaxContacts, "an integer", &parameters.limits.max_contacts);
-  ReadParameter(private_node, names::kMaxIncrements, "an integer", &parameters.limits.max_increments);
-  ReadParameter(private_node, names::kMaxSeconds, "a number", &parameters.limits.max_seconds);
-  ReadParameter(private_node, names::kMaxMemory, "an integer", &parameters.limits.max_memory);
-  ReadParameter(private_node, names::kKeepFree, "an integer", &parameters.limits.keep_free);
-
-  if (parameters.bag_directory.empty()) {
-    throw std::invalid_argument("~" + std::string(names::kBagDirectory) + " = \"\": must not be empty");
-  }
-  parameters.bag_directory = std::filesystem::absolute(ExpandHome(parameters.bag_directory)).string();
-  for (const auto& [name, value] : {std::pair(names::kIncrementsQueue, parameters.increments_queue),
-                                    std::pair(names::kIncrementsMegabytes, parameters.increments_megabytes)}) {
-    if (value <= 0)
-      throw std::invalid_argument("~" + std::string(name) + " = " + std::to_string(value) + ": must be > 0");
-  }
-  for (const auto& [name, value] :
-       {std::pair(names::kIncrementsPerSecond, parameters.increments_per_second),
-        std::pair(names::kIncrementsMegabytesPerSecond, parameters.increments_megabytes_per_second)}) {
-    if (!(value >= 0.0) || std::isinf(value)) {
-      throw std::invalid_argument("~" + std::string(name) + " = " + std::to_string(value) +
-                                  ": must be finite and >= 0");
-    }
-  }
-  parameters.limits.Validate();
-  return parameters;
-}
 
 TraceService::TraceService(ros::NodeHandle private_node, const NodeParameters& parameters)
     : parameters_(parameters),
@@ -153,15 +121,12 @@ void TraceService::FinishStream(double seconds) {
 bool TraceService::Admit(const std::string& scene_name, Response* response) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (shutting_down_) {
-    response->status = Response::SHUTTING_DOWN;
-    response->message = "the node is being shut down";
+    Tell(Response::SHUTTING_DOWN, Text(sentences::kShutDown), response);
     return false;
   }
   if (running_) {
-    response->status = Response::BUSY;
-    response->message =
-        std::string(streaming_ ? "the node is sending the last increments of \"" : "the node is tracing \"") +
-        running_scene_ + "\": call ~cancel or wait for its end";
+    Tell(Response::BUSY, Text(streaming_ ? sentences::kBusySending : sentences::kBusyTracing, running_scene_),
+         response);
     return false;
   }
   running_scene_ = OneLine(scene_name);  // first: it may throw
@@ -180,12 +145,19 @@ void TraceService::Run(const std::function<contact_path_msgs::TraceRequest()>& r
   try {
     try {
       Serve(request(), observer, response);
+    } catch (const Refusal& refusal) {
+      Tell(refusal.status, refusal.what(), response);
+    } catch (const InvalidRequest& error) {
+      Tell(Response::INVALID_REQUEST, error.what(), response);
+    } catch (const BagError& error) {
+      Tell(Response::BAG_FAILED, error.what(), response);
+    } catch (const ReadingCancelled&) {
+      TellStop(Text(sentences::kStoppedReading), response);
+      response->end_reason_name = EndReasonName(response->end_reason);
     } catch (const std::bad_alloc&) {
-      response->status = Response::LIMIT_EXCEEDED;
-      response->message = MemoryLimitText(parameters_.limits);
+      Tell(Response::LIMIT_EXCEEDED, MemoryText(parameters_.limits), response);
     } catch (const std::exception& error) {
-      response->status = Response::FAILED;
-      response->message = error.what();
+      Tell(Response::FAILED, error.what(), response);
     }
     Log(*response);
   } catch (const std::exception&) {
@@ -222,81 +194,66 @@ bool TraceService::HandleCancel(std_srvs::Trigger::Request& /*request*/, std_srv
     RequestStop(StopCause::kCancel);
     answer_at_once_ = true;
     response.success = true;
-    response.message =
-        streaming_ ? "the caller is answered now; the last increments of \"" + running_scene_ + "\" are still sent"
-                   : "cancelling the trace of \"" + running_scene_ + "\"";
+    response.message = Text(streaming_ ? sentences::kAnsweredNow : sentences::kCancelling, running_scene_);
     return true;
   }
   const std::size_t dropped = increments_publisher_.Discard();
   response.success = dropped > 0;
-  response.message = "no trace is running";
-  if (dropped > 0)
-    response.message += "; " + std::to_string(dropped) + " increments that were still to be sent are dropped";
+  response.message = Text(dropped > 0 ? sentences::kDropped : sentences::kNotRunning, {}, static_cast<double>(dropped));
   return true;
 }
 
-void TraceService::Serve(const contact_path_msgs::TraceRequest& asked, const TraceObserver& observer,
-                         Response* response) {
-  std::optional<contact_path_msgs::TraceRequest> resumed;
-  std::optional<std::vector<Increment>> increments;  // of the trace to go on with
-  TraceRequest core_request;
-  try {
-    if (!asked.resume.empty()) {
-      TraceSoFar so_far = ReadTraceSoFar(parameters_.bag_directory, asked, [&] { return StopWanted(observer); });
-      resumed = ToMessage(so_far.request);
-      resumed->resume = asked.resume;
-      increments = std::move(so_far.increments);
-    }
-    const contact_path_msgs::TraceRequest& request = resumed ? *resumed : asked;
-    const std::string exceeded = ExceededLimit(request.scene, request.options, request.program, parameters_.limits);
-    if (!exceeded.empty()) {
-      response->status = Response::LIMIT_EXCEEDED;
-      response->message = exceeded;
-      return;
-    }
-    core_request = FromMessage(request.scene, request.options, request.program);
-    std::vector<Violation> violations = Validate(core_request);
-    if (!violations.empty()) throw InvalidRequest(std::move(violations));
-  } catch (const InvalidRequest& error) {
-    response->status = Response::INVALID_REQUEST;
-    response->message = error.what();
-    return;
-  } catch (const ReadingCancelled&) {
-    response->message = "the caller asked for it while the bag to resume was read";
-    TellStop(response);
-    response->end_reason_name = EndReasonName(response->end_reason);
-    return;
-  }
+void TraceService::Serve(contact_path_msgs::TraceRequest asked, const TraceObserver& observer, Response* response) {
+  const Job job = Accept(std::move(asked), observer);
+  BagRecorder bag(parameters_.bag_directory, job.message.scene.name, topic_prefix_,
+                  static_cast<std::size_t>(parameters_.limits.keep_free) * kMegabyte);
+  bag.WriteRequest(job.message);
+  response->bag = bag.file_name();
+  Announce(job, bag, observer);
+  RunTrace(job, observer, &bag, response);
+  TellResult(response);
+  Close(&bag, response);
+  WaitForStream(observer);
+}
 
-  const contact_path_msgs::TraceRequest& request = resumed ? *resumed : asked;
-  std::unique_ptr<BagRecorder> bag;
-  try {
-    bag = std::make_unique<BagRecorder>(parameters_.bag_directory, request.scene.name, topic_prefix_,
-                                        static_cast<std::size_t>(parameters_.limits.keep_free) * kMegabyte);
-    bag->WriteRequest(request);
-  } catch (const BagError& error) {
-    response->status = Response::BAG_FAILED;
-    response->message = error.what();
-    return;
+// Reads what is to be gone on with, and refuses what is too large or breaks a rule.
+TraceService::Job TraceService::Accept(contact_path_msgs::TraceRequest asked, const TraceObserver& observer) {
+  Job job;
+  if (asked.resume.empty()) {
+    job.message = std::move(asked);
+  } else {
+    TraceSoFar so_far = ReadTraceSoFar(parameters_.bag_directory, asked, [&] { return StopWanted(observer); });
+    job.message = ToMessage(so_far.request);
+    job.message.resume = asked.resume;
+    job.so_far = std::move(so_far.increments);
   }
-  response->bag = bag->file_name();
+  const contact_path_msgs::TraceRequest& message = job.message;
+  const std::string exceeded = ExceededLimit(message.scene, message.options, message.program, parameters_.limits);
+  if (!exceeded.empty()) throw Refusal(Response::LIMIT_EXCEEDED, exceeded);
+  job.request = FromMessage(message.scene, message.options, message.program);
+  std::vector<Violation> violations = Validate(job.request);
+  if (!violations.empty()) throw InvalidRequest(std::move(violations));
+  return job;
+}
 
+void TraceService::Announce(const Job& job, const BagRecorder& bag, const TraceObserver& observer) {
   status_ = contact_path_msgs::TraceStatus();
   status_.state = contact_path_msgs::TraceStatus::RUNNING;
-  status_.trace_id = bag->number();
-  status_.scene = request.scene.name;
-  status_.bag = response->bag;
-  increments_publisher_.PublishRequest(request);
-  markers_.TakeRequest(core_request);
+  status_.trace_id = bag.number();
+  status_.scene = job.message.scene.name;
+  status_.bag = bag.file_name();
+  full_state_every_ = job.request.options.full_state_every;
+  progress_.emplace(job.request);
+  summary_ = PathSummary(ProgramScales(ExpandedRequest(job.request).Get()).load_factor);
+  increments_publisher_.PublishRequest(job.message);
+  markers_.TakeRequest(job.request);
   PublishStatus();
   if (observer.on_start) observer.on_start();
-
-  full_state_every_ = core_request.options.full_state_every;
-  progress_.emplace(core_request);
-  summary_ = PathSummary(ProgramScales(ExpandedRequest(core_request).Get()).load_factor);
-  if (const std::string advice = BlasAdvice(core_request.scene.nodes.size()); !advice.empty())
+  if (const std::string advice = BlasAdvice(job.request.scene.nodes.size()); !advice.empty())
     ROS_WARN_ONCE("%s", advice.c_str());
-  RunTrace(core_request, increments, observer, bag.get(), response);
+}
+
+void TraceService::TellResult(Response* response) {
   response->increments = status_.increments;
   response->end_reason_name = EndReasonName(response->end_reason);
   response->limit_points = ToMessages(summary_.limit_points());
@@ -306,16 +263,15 @@ void TraceService::Serve(const contact_path_msgs::TraceRequest& asked, const Tra
   } catch (const std::exception& error) {
     ROS_ERROR("no picture of the last increment: %s", error.what());
   }
+}
+
+void TraceService::Close(BagRecorder* bag, Response* response) {
   try {
     bag->WriteResult(ToResult(*response));
     bag->Close();
   } catch (const BagError& error) {
-    if (response->status != Response::BAG_FAILED) {
-      response->status = Response::BAG_FAILED;
-      response->message = error.what();
-    }
+    if (response->status != Response::BAG_FAILED) Tell(Response::BAG_FAILED, error.what(), response);
   }
-  WaitForStream(observer);
 }
 
 void TraceService::WaitForStream(const TraceObserver& observer) {
@@ -334,45 +290,34 @@ void TraceService::WaitForStream(const TraceObserver& observer) {
              left_out, parameters_.increments_megabytes, names::kIncrementsMegabytes);
 }
 
-void TraceService::RunTrace(const TraceRequest& request, const std::optional<std::vector<Increment>>& increments,
-                            const TraceObserver& observer, BagRecorder* bag, Response* response) {
+void TraceService::RunTrace(const Job& job, const TraceObserver& observer, BagRecorder* bag, Response* response) {
   TraceControl control;
   control.on_increment = [&](const Increment& increment) { TakeIncrement(increment, observer, bag); };
   control.cancelled = [&] { return StopWanted(observer); };
+  const auto out_of_memory = [&] { TellEnd(Response::END_MEMORY_LIMIT, MemoryText(parameters_.limits), response); };
   try {
-    const TraceResult result = increments ? ResumeTrace(request, *increments, control) : Trace(request, control);
-    response->status = StatusOf(result.reason);
+    const TraceResult result =
+        job.so_far ? ResumeTrace(job.request, *job.so_far, control) : Trace(job.request, control);
+    Tell(StatusOf(result.reason), result.message, response);
     response->end_reason = ToConstant(result.reason);
-    response->message = result.message;
-    if (result.reason == EndReason::kMemoryLimit) response->message = MemoryLimitText(parameters_.limits);
-    if (result.reason == EndReason::kCancelled) TellStop(response);
+    if (result.reason == EndReason::kMemoryLimit) out_of_memory();
+    if (result.reason == EndReason::kCancelled) TellStop(result.message, response);
   } catch (const std::bad_alloc&) {
-    response->status = Response::ENDED_EARLY;
-    response->end_reason = Response::END_MEMORY_LIMIT;
-    response->message = MemoryLimitText(parameters_.limits);
+    out_of_memory();
   } catch (const BagError& error) {
-    response->status = Response::BAG_FAILED;
-    response->message = error.what();
+    Tell(Response::BAG_FAILED, error.what(), response);
   } catch (const std::exception& error) {
-    response->status = Response::FAILED;
-    response->message = error.what();
+    Tell(Response::FAILED, error.what(), response);
   }
 }
 
-void TraceService::TellStop(Response* response) const {
-  response->status = Response::ENDED_EARLY;
-  response->end_reason = Response::END_CANCELLED;
-  if (stop_cause_ == StopCause::kTimeLimit) {
-    response->end_reason = Response::END_TIME_LIMIT;
-    response->message =
-        "the node admits " + InSeconds(parameters_.limits.max_seconds) + " (~" + names::kMaxSeconds + ")";
-  } else if (stop_cause_ == StopCause::kMemoryLimit) {
-    response->end_reason = Response::END_MEMORY_LIMIT;
-    response->message = MemoryLimitText(parameters_.limits);
-  } else if (stop_cause_ == StopCause::kShutdown) {
-    response->status = Response::SHUTTING_DOWN;
-    response->message = "the node is being shut down";
-  }
+void TraceService::TellStop(const std::string& cancelled, Response* response) const {
+  const TraceLimits& limits = parameters_.limits;
+  TellEnd(Response::END_CANCELLED, cancelled, response);
+  if (stop_cause_ == StopCause::kTimeLimit)
+    TellEnd(Response::END_TIME_LIMIT, Text(sentences::kAdmitsTime, names::kMaxSeconds, limits.max_seconds), response);
+  if (stop_cause_ == StopCause::kMemoryLimit) TellEnd(Response::END_MEMORY_LIMIT, MemoryText(limits), response);
+  if (stop_cause_ == StopCause::kShutdown) Tell(Response::SHUTTING_DOWN, Text(sentences::kShutDown), response);
 }
 
 void TraceService::TakeIncrement(const Increment& increment, const TraceObserver& observer, BagRecorder* bag) {

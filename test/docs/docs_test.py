@@ -197,21 +197,26 @@ class Complete(unittest.TestCase):
     def test_messages_of_ends(self):
         """Every sentence that src/path can end a trace with, and no message that the code does not have."""
         page = re.sub(r'<[^<>`]*>', '<>', read('docs/end_reasons.md'))
+        plain = re.sub('[<>]', '', read('docs/end_reasons.md')).replace('\n', ' ')
         code = ''
-        for folder in 'path', 'ros':
-            for path in sorted((ROOT / 'src' / folder).glob('*.cpp')):
-                text = re.sub(r'^#include.*$', '', path.read_text(encoding='utf-8'), flags=re.M)
-                literals = re.findall(r'"((?:[^"\\\n]|\\.)*)"', re.sub(r'"\s*\n\s*"', '', text))
-                code += '\n'.join(literals) + '\n'
-                for literal in literals if folder == 'path' else ():
-                    if ' ' in literal.strip() and len(literal) >= 12:
-                        self.assertTrue(literal.strip('; ') in page.replace('\n', ' '), path.name + ': ' + literal)
+        for path in [ROOT / 'include/contact_path/path/sentences.h', *sorted((ROOT / 'src/path').glob('*.cpp')),
+                     *sorted((ROOT / 'src/ros').glob('*'))]:
+            text = re.sub(r'^#include.*$', '', path.read_text(encoding='utf-8'), flags=re.M)
+            literals = re.findall(r'"((?:[^"\\\n]|\\.)*)"', re.sub(r'"\s*\n\s*"', '', text))
+            literals = [re.sub('<[a-z]+>|(?<=over the end of the )(obstacle|surface)', '<>', literal) for literal in literals]
+            code += '\n'.join(literals) + '\n'
+            for literal in literals if path.parent.name == 'path' else ():
+                # A sentence on a sign has the quantity in a table of its own.
+                for part in re.split(r'<>| \(|: see |(?<=^the sign) of ', literal):
+                    if ' ' in part.strip() and len(part) >= 12:
+                        part = part.strip('; ')
+                        self.assertTrue(part in page.replace('\n', ' ') or part in plain, path.name + ': ' + literal)
         told = [line.split(' | ')[0].strip('| `') for line in page.splitlines() if re.match(r'\| `[^`]*[a-z] [a-z]', line)]
         self.assertGreater(len(told), 15)
         for message in told:
-            for part in message.replace('"', '\\"').split('<>'):
+            for part in re.split('<>|`, `|(?<=:) ', message.replace('"', '\\"')):
                 if len(part) > 3:
-                    self.assertTrue(part.strip('; ') in code, message)
+                    self.assertTrue(part.strip('; ()') in code, message)
 
     def test_versions(self):
         """All are that of package.xml; a date is that of its release."""

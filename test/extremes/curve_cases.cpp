@@ -59,7 +59,7 @@ ExtremeCase DiscOfRadius(double radius) {
     const double drop = -x * x / (radius + std::sqrt(radius * radius - x * x));
     return Largest({LoadError(increment, std::asin(x / radius)), y - drop});
   };
-  if (radius < kSmallestDisc) extreme.ends = {"numerical_failure"};
+  if (radius < kSmallestDisc) extreme.ends = {"not_determined", "numerical_failure"};
   return extreme;
 }
 
@@ -80,7 +80,7 @@ ExtremeCase EdgeRoundedBy(double fillet) {
     return Largest(
         {LoadError(increment, angle), increment.positions[1] + 2.0 * fillet * std::pow(std::sin(0.5 * angle), 2)});
   };
-  if (fillet < kSmallestFillet) extreme.ends = {"step_too_small", "numerical_failure"};
+  if (fillet < kSmallestFillet) extreme.ends = {"step_too_small", "not_determined", "numerical_failure"};
   return extreme;
 }
 

@@ -101,7 +101,7 @@ ExtremeCase InValley(double room) {
     return Largest({x - foot * (1.0 - radius / root), increment.load_factor - sliding});
   };
   extreme.allowed = std::max(1e-9, 1e-13 / room);  // as the rounding of coordinates turns the reaction
-  if (room < kLeastRoom) extreme.ends = {"step_too_small", "numerical_failure"};
+  if (room < kLeastRoom) extreme.ends = {"step_too_small", "not_determined", "numerical_failure"};
   return extreme;
 }
 
@@ -171,7 +171,7 @@ void AddDeformableCases(std::vector<ExtremeCase>* cases) {
     plank.from_origin = distance;
     ExtremeCase extreme = OnPlank(plank, "distance from the origin", Text(distance) + " of its length");
     extreme.allowed = std::max(1e-9, 1e-14 * distance);  // coordinates are rounded
-    if (distance > kFarthest) extreme.ends = {"numerical_failure"};
+    if (distance > kFarthest) extreme.ends = {"not_determined", "numerical_failure"};
     cases->push_back(std::move(extreme));
   }
   for (const double stiffness : {1e3, 1e8}) {
@@ -190,7 +190,7 @@ void AddDeformableCases(std::vector<ExtremeCase>* cases) {
     PressedNode pressed;
     pressed.radius = radius;
     ExtremeCase extreme = pressed.Case("radius", Text(4.0 * radius) + " of the spacing of its nodes");
-    if (radius > kLargestRadius) extreme.ends = {"numerical_failure"};
+    if (radius > kLargestRadius) extreme.ends = {"not_determined", "numerical_failure"};
     cases->push_back(std::move(extreme));
   }
   for (const double room : {0.1, 1e-3, 1e-6, 1e-9}) cases->push_back(InValley(room));

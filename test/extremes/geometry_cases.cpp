@@ -23,7 +23,8 @@ ExtremeCase ThroughZero(StrainMeasure strain) {
   } else {
     extreme.request = Until(scene, "b.x", "<", -1.2, 0.0, 3000);
   }
-  if (strain == StrainMeasure::kBiot) extreme.ends = {"step_too_small", "path_end", "numerical_failure"};
+  if (strain == StrainMeasure::kBiot)
+    extreme.ends = {"step_too_small", "path_end", "not_determined", "numerical_failure"};
   extreme.error = [strain](const TraceRequest&, const Increment& increment) {
     const double x = increment.positions[2];
     if (strain == StrainMeasure::kGreenLagrange) return std::abs(increment.load_factor - 0.5 * x * (1.0 - x * x));
@@ -68,7 +69,7 @@ ExtremeCase Straight() {
   extreme.value = "two bars in one line";
   extreme.request = Until(Arch(0.0), "apex.y", "<", -0.5);
   extreme.exact = "closed form";
-  extreme.ends = {"path_end", "numerical_failure", "step_too_small"};
+  extreme.ends = {"path_end", "not_determined", "numerical_failure", "step_too_small"};
   extreme.error = [](const TraceRequest&, const Increment& increment) {
     const double y = -increment.positions[5];
     return std::abs(increment.load_factor - 2.0 * y * (1.0 - 1.0 / std::hypot(1.0, y)));

@@ -30,7 +30,7 @@ ExtremeCase Chain(double soft, double stiff) {
   scene.contacts = {{"c", "wall"}};
   const double compliance = 1.0 / soft + 1.0 / stiff, at_wall = kGap / compliance;
   extreme.request = Until(scene, "load_factor", ">", 3.0 * at_wall);
-  extreme.ends = {"step_too_small", "numerical_failure"};
+  extreme.ends = {"step_too_small", "not_determined", "numerical_failure"};
   // The force of the stiff bar is known to the rounding of its length, and that of the soft one is as small as it is.
   extreme.allowed = std::max(1e-9, 10.0 * std::numeric_limits<double>::epsilon() * stiff / at_wall);
   extreme.allowed_regularised = std::max(extreme.allowed_regularised, extreme.allowed);
@@ -60,7 +60,7 @@ ExtremeCase BesideABar(double stiffness) {
   extreme.request.options = {};
   extreme.request.options.stop = {{scene.contacts[0].node + ".x", ">", x0 + 1.0}};
   extreme.exact = "closed form";
-  extreme.ends = {"numerical_failure", "step_too_small"};
+  extreme.ends = {"not_determined", "numerical_failure", "step_too_small"};
   extreme.error = [node, x0](const TraceRequest&, const Increment& increment) {
     const double x = increment.positions[node] - x0, y = increment.positions[node + 1], s = increment.load_factor;
     switch (increment.contacts[0].state) {
@@ -92,7 +92,7 @@ ExtremeCase TrussBesideABar(double stiffness) {
   extreme.request.options.stop = {{scene.contacts[0].node + ".x", ">", 1.15}};
   extreme.request.options.max_increments = 20000;
   extreme.exact = "closed form";
-  extreme.ends = {"numerical_failure"};
+  extreme.ends = {"not_determined", "numerical_failure"};
   extreme.error = [foot, apex](const TraceRequest&, const Increment& increment) {
     const double x = increment.positions[foot];
     if (increment.contacts[0].state == ContactState::kSlipPlus)

@@ -102,7 +102,7 @@ ExtremeCase ThinElements(int nodes_per_element, double aspect) {
       Pulled("thin elements", "width / height = " + Text(aspect) + ", " + Text(nodes_per_element) + " nodes",
              nodes_per_element, 0.3, std::sqrt(aspect), 1.0 / std::sqrt(aspect));
   // Stiffnesses of eight nodes differ by the fourth power of it.
-  if (nodes_per_element == 8 && std::abs(std::log10(aspect)) > 3.0) extreme.ends = {"step_too_small"};
+  if (nodes_per_element == 8 && std::abs(std::log10(aspect)) > 3.0) extreme.ends = {"step_too_small", "not_determined"};
   return extreme;
 }
 
@@ -126,7 +126,7 @@ ExtremeCase Layers(double ratio) {
   extreme.exact = "closed form";
   extreme.allowed = std::max(1e-9, 1e-15 * ratio);
   extreme.allowed_regularised = std::max(1e-3, extreme.allowed);
-  if (ratio > 1e5) extreme.ends = {"step_too_small", "numerical_failure"};
+  if (ratio > 1e5) extreme.ends = {"step_too_small", "not_determined", "numerical_failure"};
   extreme.error = [=](const TraceRequest&, const Increment& increment) {
     // mu (l^2 - 1) / l is the force in each.
     const auto stretch = [&](double mu) {

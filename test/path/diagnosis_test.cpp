@@ -21,7 +21,7 @@ Scene TwoBars() {
 
 std::string Collapsed(const std::vector<double>& positions) {
   const Scene scene = TwoBars();
-  return CollapsedBar(scene, SceneIndex(scene), positions);
+  return EndText(CollapsedBar(scene, SceneIndex(scene), positions));
 }
 
 TEST(CollapsedBar, NamesTheOneThatHasShrunkMost) {
@@ -43,10 +43,9 @@ TEST(ContactTooSoft, NamesTheContact) {
   const Model model(scene, CharacteristicScales(scene));
   const PathPoint point = model.InitialPoint();
   EXPECT_EQ(
-      ContactTooSoft(model, point, 1e-7),
-      "the parts at node b are 9.4e+07 times softer than the characteristic stiffness: reactions of contact b@floor "
-      "cannot be told from rounding");
-  EXPECT_EQ(ContactTooSoft(model, point, 1e-9), "");
+      EndText(ContactTooSoft(model, point, 1e-7)),
+      "the sign of the stiffness of the parts at contact b@floor is not known: its value is 5e-05, its error 0.00047");
+  EXPECT_TRUE(ContactTooSoft(model, point, 1e-9).empty());
 }
 
 constexpr double kFriction = 0.3;
@@ -98,7 +97,7 @@ Obstacle Disc(double radius) {
 TEST(CurveTooSharp, NamesTheContactWhereTheCurveBegins) {
   const auto text = [](double fillet, double x) {
     const Pressed at(Table(fillet), x);
-    return CurveTooSharp(at.model, at.point);
+    return EndText(CurveTooSharp(at.model, at.point));
   };
   EXPECT_EQ(
       text(1e-9, 0.2 - 1e-9),
@@ -110,25 +109,43 @@ TEST(CurveTooSharp, NamesTheContactWhereTheCurveBegins) {
 
 TEST(CurveTooSharp, NamesADiscNextToTheOriginOnlyWhereItHidesTheParts) {
   const Pressed small(Disc(1e-9), 0.0);
-  EXPECT_EQ(CurveTooSharp(small.model, small.point), "");
+  EXPECT_TRUE(CurveTooSharp(small.model, small.point).empty());
   const Pressed smaller(Disc(1e-12), 0.0);
-  EXPECT_EQ(CurveTooSharp(smaller.model, smaller.point),
+  EXPECT_EQ(EndText(CurveTooSharp(smaller.model, smaller.point)),
             "contact p@disc is pressed onto a curve of the radius 1e-12: reaction over radius is 1e+12 of the "
             "characteristic stiffness, which is lost in rounding beside it");
 }
 
 TEST(HiddenSlip, NamesAContactThatIsAboutToSlide) {
   Pressed at(Disc(1e-10), 0.0);
-  EXPECT_EQ(HiddenSlip(at.model, at.point),
-            "contact p@disc is pressed onto a curve of the radius 1e-10: it slides by so little while the load changes "
-            "that this cannot be told from rest");
+  EXPECT_EQ(
+      EndText(HiddenSlip(at.model, at.point)),
+      "the sign of the slip per load factor of contact p@disc is not known: its value is 9.2e-11, its error 5e-09; "
+      "contact p@disc is pressed onto a curve of the radius 1e-10");
   at.point.rt[0] = -0.29;
-  EXPECT_EQ(HiddenSlip(at.model, at.point), "");
+  EXPECT_TRUE(HiddenSlip(at.model, at.point).empty());
 }
 
 TEST(HiddenSlip, SaysNothingOfALargerDisc) {
   const Pressed at(Disc(1e-8), 0.0);
-  EXPECT_EQ(HiddenSlip(at.model, at.point), "");
+  EXPECT_TRUE(HiddenSlip(at.model, at.point).empty());
+}
+
+// The sign of a reaction is known beyond 1e-11 F, or beyond the rounding of the point where that is larger.
+TEST(PullingContact, TellsASignThatIsNotKnownFromAFailure) {
+  Pressed at(Disc(1.0), 0.0);
+  at.point.rn[0] = -1.2e-12;
+  EXPECT_FALSE(PullingContact(at.model, at.point, 1.0));
+  const std::optional<End> small = PullingContact(at.model, at.point, 5e-12);
+  ASSERT_TRUE(small);
+  EXPECT_EQ(small->reason, EndReason::kNotDetermined);
+  EXPECT_EQ(EndText(small->causes),
+            "the sign of the reaction of contact p@disc is not known: its value is -1.2e-12, its error 1e-11");
+  at.point.rn[0] = -1e-3;
+  const std::optional<End> large = PullingContact(at.model, at.point, 1e-2);
+  ASSERT_TRUE(large);
+  EXPECT_EQ(large->reason, EndReason::kNumericalFailure);
+  EXPECT_EQ(EndText(large->causes), "contact p@disc pulls with 0.001, and the error of its reaction is 1e-11");
 }
 
 }  // namespace

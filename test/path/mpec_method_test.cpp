@@ -54,7 +54,7 @@ TEST_F(SlidingBarMethod, GivesOneExactIncrementAtATime) {
   PathPoint point = model_.InitialPoint();
   for (int i = 0; i < 5; ++i) {
     const Advance advance = method.Next(point);
-    ASSERT_FALSE(advance.ended) << advance.message;
+    ASSERT_FALSE(advance.end) << EndText(advance.end->causes);
     ASSERT_EQ(advance.increments.size(), 1u);
     const AcceptedPoint& increment = advance.increments[0];
     EXPECT_LE(increment.residuals.equilibrium, kRounding);
@@ -78,7 +78,7 @@ TEST_F(SlidingBarMethod, EndsAtTheTarget) {
   int increments = 0;
   while (point.s < *options.target) {
     const Advance advance = method.Next(point);
-    ASSERT_EQ(advance.increments.size(), 1u) << advance.message;
+    ASSERT_EQ(advance.increments.size(), 1u);
     EXPECT_LE(advance.increments[0].residuals.Largest(), kRounding);
     point = advance.increments[0].point;
     ++increments;
@@ -91,14 +91,14 @@ TEST_F(SlidingBarMethod, CancelledGivesNoIncrement) {
   bool cancel = false;
   MpecMethod method(model_, Options(0.05), [&] { return cancel; });
   const Advance first = method.Next(model_.InitialPoint());
-  ASSERT_FALSE(first.ended);
+  ASSERT_FALSE(first.end);
   cancel = true;
   const Advance second = method.Next(first.increments[0].point);
-  EXPECT_TRUE(second.ended);
+  ASSERT_TRUE(second.end);
   EXPECT_TRUE(second.increments.empty());
-  EXPECT_EQ(second.reason, EndReason::kCancelled);
+  EXPECT_EQ(second.end->reason, EndReason::kCancelled);
   cancel = false;
-  EXPECT_FALSE(method.Next(first.increments[0].point).ended);
+  EXPECT_FALSE(method.Next(first.increments[0].point).end);
 }
 
 TEST_F(SlidingBarMethod, EndsWhereNoIncrementCanBeAccepted) {
@@ -107,12 +107,12 @@ TEST_F(SlidingBarMethod, EndsWhereNoIncrementCanBeAccepted) {
   MpecMethod method(model_, Options(0.05), nullptr);
   Advance advance = method.Next(nowhere);
   // The increment problem asks for equilibrium at its end only, so a first increment may lead back to the path.
-  if (!advance.ended) {
+  if (!advance.end) {
     ASSERT_EQ(advance.increments.size(), 1u);
     EXPECT_LE(advance.increments[0].residuals.equilibrium, kRounding);
   } else {
-    EXPECT_EQ(advance.reason, EndReason::kStepTooSmall);
-    EXPECT_NE(advance.message.find("no increment could be accepted"), std::string::npos) << advance.message;
+    EXPECT_EQ(advance.end->reason, EndReason::kStepTooSmall);
+    EXPECT_EQ(advance.end->causes.front().sentence, sentences::kNoIncrement);
   }
 }
 
@@ -139,8 +139,8 @@ class StickSlipCycle : public testing::Test {
     double dissipation = 0.0;
     for (int i = 0; i < 100 && direction * (point->s - target) < 0.0; ++i) {
       const Advance advance = method.Next(*point);
-      EXPECT_FALSE(advance.ended) << advance.message;
-      if (advance.ended) return dissipation;
+      EXPECT_FALSE(advance.end) << EndText(advance.end->causes);
+      if (advance.end) return dissipation;
       for (const AcceptedPoint& increment : advance.increments) {
         const double s = increment.point.s;
         const bool sticks = direction * (s - stick_until) < 0.0;
@@ -169,7 +169,7 @@ TEST_F(StickSlipCycle, DissipatesFrictionTimesTheWayInEveryCycle) {
     options.target = target;
     return std::make_unique<MpecMethod>(of, options, nullptr);
   });
-  ASSERT_TRUE(preload.done) << preload.message;
+  ASSERT_TRUE(preload.done) << EndText(preload.end.causes);
   PathPoint point = preload.point;
   Drive(model, +1.0, 1.0, 0.3, -0.3, &point);
   const double top_s = point.s, top_u = point.u[0];

@@ -66,7 +66,7 @@ TEST(Preload, ConstantLoadIsCarriedByTheContact) {
   Scene scene = Block(0.0, 0.5);
   scene.loads.push_back({"b", 0.1, -2.0, true});
   const Preload preload = RunPreload(scene);
-  ASSERT_TRUE(preload.done) << preload.message;
+  ASSERT_TRUE(preload.done) << EndText(preload.end.causes);
   EXPECT_NEAR(preload.point.u[0], 1.0, kRounding);
   EXPECT_NEAR(preload.point.rn[0], 2.0, kRounding);
   EXPECT_NEAR(preload.point.rt[0], -0.1, kRounding);  // inside the cone: it sticks
@@ -77,7 +77,7 @@ TEST(Preload, ConstantLoadBeyondTheConeSlides) {
   Scene scene = Block(0.0, 0.5);
   scene.loads.push_back({"b", 0.3, -0.4, true});
   const Preload preload = RunPreload(scene);
-  ASSERT_TRUE(preload.done) << preload.message;
+  ASSERT_TRUE(preload.done) << EndText(preload.end.causes);
   EXPECT_NEAR(preload.point.rn[0], 0.4, kRounding);
   EXPECT_NEAR(preload.point.rt[0], -0.2, kRounding);
   EXPECT_NEAR(preload.point.u[0], 1.1, kRounding);  // the bar takes the rest, 0.3 - 0.2
@@ -89,7 +89,7 @@ TEST(Preload, BarReleasedFromItsInitialLengthGoesToItsRestLength) {
     Scene scene = Block(rest_length, 0.0);
     const Model model(scene, CharacteristicScales(scene));
     const Preload preload = RunPreload(scene);
-    ASSERT_TRUE(preload.done) << preload.message;
+    ASSERT_TRUE(preload.done) << EndText(preload.end.causes);
     EXPECT_NEAR(preload.point.u[0] * model.scaling.length, rest_length, kRounding);
   }
 }
@@ -99,7 +99,7 @@ TEST(Preload, ReleasedBarDragsTheBlockUntilFrictionHoldsIt) {
   Scene scene = Block(0.8, 0.1);
   scene.loads.push_back({"b", 0.0, -1.0, true});
   const Preload preload = RunPreload(scene);
-  ASSERT_TRUE(preload.done) << preload.message;
+  ASSERT_TRUE(preload.done) << EndText(preload.end.causes);
   EXPECT_NEAR(preload.point.u[0], 0.8 * 1.1, kRounding);
   EXPECT_NEAR(preload.point.rn[0], 1.0, kRounding);
   EXPECT_NEAR(preload.point.rt[0], 0.1, kRounding);
@@ -120,18 +120,17 @@ TEST(Preload, SaysWhenThereAreTooManyIncrements) {
   scene.loads.push_back({"b", 0.3, -0.4, true});
   const Preload preload = RunPreload(scene, 0.01, 3);
   EXPECT_FALSE(preload.done);
-  EXPECT_EQ(preload.reason, EndReason::kMaxIncrements);
-  EXPECT_NE(preload.message.find("constant loads"), std::string::npos) << preload.message;
+  EXPECT_EQ(preload.end.reason, EndReason::kMaxIncrements);
+  EXPECT_NE(EndText(preload.end.causes).find("constant loads"), std::string::npos) << EndText(preload.end.causes);
 }
 
 // Gives what it is told to give.
 class FakeMethod : public PathMethod {
  public:
   FakeMethod(bool starts, Advance advance) : starts_(starts), advance_(std::move(advance)) {}
-  std::optional<EndReason> Start(const PathPoint&, EventRecord*, std::string* message) override {
-    *message = starts_ ? "" : "because";
+  std::optional<End> Start(const PathPoint&, EventRecord*) override {
     if (starts_) return std::nullopt;
-    return EndReason::kPathEnd;
+    return End{EndReason::kPathEnd, {{"because"}}};
   }
   bool Resume(const ResumePoint&) override { return false; }
   Advance Next(const PathPoint&) override { return advance_; }
@@ -148,13 +147,12 @@ TEST(Preload, EndOfTheMethodIsTheEndOfThePreload) {
   for (const EndReason reason : {EndReason::kCancelled, EndReason::kPathEnd, EndReason::kStepTooSmall}) {
     const Preload preload = TracePreload(model, 100, [&](const Model&, double) {
       Advance advance;
-      advance.reason = reason;
-      advance.message = "because";
+      advance.end = {reason, {{"because"}}};
       return std::make_unique<FakeMethod>(true, advance);
     });
     EXPECT_FALSE(preload.done);
-    EXPECT_EQ(preload.reason, reason);
-    EXPECT_NE(preload.message.find("because"), std::string::npos) << preload.message;
+    EXPECT_EQ(preload.end.reason, reason);
+    EXPECT_NE(EndText(preload.end.causes).find("because"), std::string::npos) << EndText(preload.end.causes);
   }
 }
 
@@ -164,7 +162,6 @@ TEST(Preload, EndsAtALimitPoint) {
   const Model model(scene, CharacteristicScales(scene));
   for (const IncrementKind kind : {IncrementKind::kSmoothLimit, IncrementKind::kCornerLimit}) {
     Advance advance;
-    advance.ended = false;
     advance.increments.resize(1);
     advance.increments[0].point = model.InitialPoint();
     advance.increments[0].point.s = 0.25 * model.structure.ConstantLoad().norm();
@@ -172,8 +169,9 @@ TEST(Preload, EndsAtALimitPoint) {
     const Preload preload =
         TracePreload(model, 100, [&](const Model&, double) { return std::make_unique<FakeMethod>(true, advance); });
     EXPECT_FALSE(preload.done);
-    EXPECT_EQ(preload.reason, EndReason::kPathEnd);
-    EXPECT_NE(preload.message.find("a limit point at 0.25 of"), std::string::npos) << preload.message;
+    EXPECT_EQ(preload.end.reason, EndReason::kPathEnd);
+    EXPECT_NE(EndText(preload.end.causes).find("a limit point at 0.25 of"), std::string::npos)
+        << EndText(preload.end.causes);
   }
 }
 
@@ -185,7 +183,7 @@ TEST(Preload, CanBeCancelled) {
       model, 100, [](const Model&, double) { return std::make_unique<FakeMethod>(true, Advance()); },
       [] { return true; });
   EXPECT_FALSE(preload.done);
-  EXPECT_EQ(preload.reason, EndReason::kCancelled);
+  EXPECT_EQ(preload.end.reason, EndReason::kCancelled);
 }
 
 TEST(Preload, MethodThatCannotSetOutIsTheEndOfThePath) {
@@ -195,8 +193,8 @@ TEST(Preload, MethodThatCannotSetOutIsTheEndOfThePath) {
   const Preload preload =
       TracePreload(model, 100, [](const Model&, double) { return std::make_unique<FakeMethod>(false, Advance()); });
   EXPECT_FALSE(preload.done);
-  EXPECT_EQ(preload.reason, EndReason::kPathEnd);
-  EXPECT_NE(preload.message.find("because"), std::string::npos) << preload.message;
+  EXPECT_EQ(preload.end.reason, EndReason::kPathEnd);
+  EXPECT_NE(EndText(preload.end.causes).find("because"), std::string::npos) << EndText(preload.end.causes);
 }
 
 TEST(Preload, TheModelOfTheMethodLoadsWithTheConstantLoadsOnly) {

@@ -42,7 +42,8 @@ class NodeOnTwoFloorsReturns : public testing::Test {
 
   const Scene scene_ = NodeOnTwoFloors();
   const Model model_{scene_, CharacteristicScales(scene_)};
-  ReturnDetector detector_{model_, 1};
+  LargestReactionSoFar largest_reaction_;
+  ReturnDetector detector_{model_, 1, largest_reaction_};
 };
 
 TEST_F(NodeOnTwoFloorsReturns, OnlyWithTheSameReactions) {

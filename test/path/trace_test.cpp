@@ -31,6 +31,7 @@ TEST(EndReason, WordsAreThoseOfTheOutput) {
   EXPECT_EQ(ToString(EndReason::kStepTooSmall), "step_too_small");
   EXPECT_EQ(ToString(EndReason::kCancelled), "cancelled");
   EXPECT_EQ(ToString(EndReason::kNoSuchBranch), "no_such_branch");
+  EXPECT_EQ(ToString(EndReason::kNotDetermined), "not_determined");
   EXPECT_EQ(ToString(EndReason::kNumericalFailure), "numerical_failure");
 }
 

@@ -436,6 +436,8 @@ TEST(ConvertTest, EndReasonsHaveConstantNameAndStatus) {
       {EndReason::kNoSuchBranch, Response::END_NO_SUCH_BRANCH, "no_such_branch", Response::INVALID_REQUEST},
       {EndReason::kClosedPath, Response::END_CLOSED_PATH, "closed_path", Response::OK},
       {EndReason::kMemoryLimit, Response::END_MEMORY_LIMIT, "memory_limit", Response::ENDED_EARLY},
+      {EndReason::kElementInverted, Response::END_ELEMENT_INVERTED, "element_inverted", Response::ENDED_EARLY},
+      {EndReason::kNotDetermined, Response::END_NOT_DETERMINED, "not_determined", Response::ENDED_EARLY},
   };
   for (const Increment& increment : increments) {
     EXPECT_EQ(ToConstant(increment.reason), increment.constant);

@@ -17,7 +17,7 @@ SECONDS = 2.0  # admitted
 MOST_SECONDS = 1.1 * SECONDS + 10.0  # then the node would end itself
 NAMED = {Response.OK: {Response.END_STOP_CRITERION, Response.END_MAX_INCREMENTS, Response.END_CLOSED_PATH},
          Response.ENDED_EARLY: {Response.END_PATH_END, Response.END_STEP_TOO_SMALL, Response.END_TIME_LIMIT,
-                                Response.END_MEMORY_LIMIT, Response.END_NUMERICAL_FAILURE}}
+                                Response.END_MEMORY_LIMIT, Response.END_NOT_DETERMINED, Response.END_NUMERICAL_FAILURE}}
 
 
 def elements(kind, values):

@@ -320,7 +320,7 @@ def examine(program, seed, directory):
         verdict, why = preload_verdict(program, request, message, path)
     else:
         verdict, why = verdict_of(request, rows)
-    if reason == 'step_too_small' and verdict in ('confirmed', 'missed'):
+    if reason in ('step_too_small', 'not_determined') and verdict in ('confirmed', 'missed'):
         verdict, why = inside_arc_verdict(request, rows, why)
     return kind, reason, verdict, why
 

@@ -3,7 +3,6 @@
 #define CONTACT_PATH_CONTACT_PATH_POINT_H_
 
 #include <Eigen/Core>
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -37,12 +36,6 @@ inline Eigen::VectorXd Chord(const PathPoint& from, const PathPoint& to) {
 // Length of the increment between two points in (u, s): the norm of arc length.
 inline double Distance(const PathPoint& a, const PathPoint& b) {
   return std::sqrt((b.u - a.u).squaredNorm() + (b.s - a.s) * (b.s - a.s));
-}
-
-// The largest of |r_n| and |r_t| of all candidates; 0 without candidates.
-inline double LargestReaction(const PathPoint& point) {
-  if (point.rn.size() == 0) return 0.0;
-  return std::max(point.rn.lpNorm<Eigen::Infinity>(), point.rt.lpNorm<Eigen::Infinity>());
 }
 
 }  // namespace contact_path

@@ -4,7 +4,6 @@
 
 #include <functional>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "contact_path/branch/arc_step.h"
@@ -25,12 +24,12 @@ class BranchMethod : public PathMethod {
   // model must outlive the method. cancelled may be empty.
   BranchMethod(const Model& model, const BranchOptions& options, std::function<bool()> cancelled);
 
-  std::optional<EndReason> Start(const PathPoint& from, EventRecord* branches, std::string* message) override;
+  std::optional<End> Start(const PathPoint& from, EventRecord* branches) override;
   bool Resume(const ResumePoint& at) override;
   // `from` must be the point that was given last.
   Advance Next(const PathPoint& from) override;
   int NumEvents() const override { return events_; }
-  std::string Remark() const override;
+  Causes Remarks() const override;
 
  private:
   Eigen::Index LoadFactor() const { return arc_.NumMotion() - 1; }  // its place among the unknowns
@@ -43,19 +42,18 @@ class BranchMethod : public PathMethod {
   // Where the path comes back to an earlier increment on the step: its number, and the step ends there. Not where a
   // branch is to be chosen farther on: then a path that comes back need not repeat.
   std::optional<int> EndAtReturn(const PathPoint& from, ArcStep* at);
-  // Records the event at the end of the step, and sets out from there. Nothing: done. Otherwise why not, with *message.
-  std::optional<EndReason> PassEnd(const ArcStep& at, AcceptedPoint* increment, std::string* message);
+  // Records the event at the end of the step, and sets out from there. Nothing: done. Otherwise why not.
+  std::optional<End> PassEnd(const ArcStep& at, AcceptedPoint* increment);
   // Where another path crosses at a limit point, as where slack bars become taut: sets out on it if the load grows
   // there.
   bool TakeCrossingThatLoads(const ArcStep& at);
-  std::optional<EndReason> PassBifurcation(const ArcStep& at, AcceptedPoint* increment, std::string* message);
-  std::optional<EndReason> PassContactEvent(const ArcStep& at, AcceptedPoint* increment, std::string* message);
+  std::optional<End> PassBifurcation(const ArcStep& at, AcceptedPoint* increment);
+  std::optional<End> PassContactEvent(const ArcStep& at, AcceptedPoint* increment);
   // Where branch_choices names the increment: takes a branch there. The increment keeps its kind if that is the path
   // itself.
-  std::optional<EndReason> PassChoice(const ArcStep& at, AcceptedPoint* increment, std::string* message);
+  std::optional<End> PassChoice(const ArcStep& at, AcceptedPoint* increment);
   // Sets out on a branch from the end of the step.
-  std::optional<EndReason> LeaveEnd(const ArcStep& at, const BranchChoice* choice, AcceptedPoint* increment,
-                                    std::string* message);
+  std::optional<End> LeaveEnd(const ArcStep& at, const BranchChoice* choice, AcceptedPoint* increment);
   // Whether an inequality fails where the step sets out, by a rate within the tolerance.
   bool FailsByRounding(const ArcStep& at) const;
   // Whether the load factor turns at the end of the step, on the branch that was taken there. Where its first
@@ -80,8 +78,8 @@ class BranchMethod : public PathMethod {
   // Fills in the energies. Whether the work of the loads is what the strain energy gains and friction takes, up to a
   // share that a step may be off by.
   bool Balance(BalancedStep* step) const;
-  // Why no step is accepted.
-  std::string NoStep(const PathPoint& from);
+  // Where no step is accepted.
+  End NoStep(const PathPoint& from);
 
   const Model& model_;
   BranchOptions options_;

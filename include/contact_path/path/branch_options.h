@@ -9,6 +9,7 @@
 
 #include "contact_path/branch/test_functions.h"
 #include "contact_path/branch/trial_step.h"
+#include "contact_path/path/largest_reaction.h"
 #include "contact_path/path/return_detector.h"
 #include "contact_path/scene/scene.h"
 
@@ -30,6 +31,7 @@ struct BranchOptions {
   int increments = 0;         // given before this path, of which it goes on
   int events = 0;             // passed before this path
   ReturnDetector* returns = nullptr;  // tells whether the path has come back to where it was; null: that is no end
+  LargestReactionSoFar* largest_reaction = nullptr;  // of the trace that the path is a part of; null: of this path
 
   // growth: AutomaticStepGrowth() of the scene.
   static BranchOptions For(const TraceOptions& options, double growth);

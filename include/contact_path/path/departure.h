@@ -6,15 +6,16 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <string>
 #include <utility>
 #include <vector>
 
+#include "contact_path/branch/active_set_tolerance.h"
 #include "contact_path/branch/branches.h"
 #include "contact_path/branch/smooth_arc.h"
 #include "contact_path/contact/path_point.h"
-#include "contact_path/path/end_reason.h"
+#include "contact_path/path/end.h"
 #include "contact_path/path/increment.h"
+#include "contact_path/path/largest_reaction.h"
 #include "contact_path/path/model.h"
 #include "contact_path/scene/scene.h"
 
@@ -23,15 +24,15 @@ namespace contact_path {
 struct DepartureOptions {
   double direction = 1.0;     // sign of the wanted change of the load factor
   bool keep_loading = false;  // where the best branch unloads, the best one that does not is taken
+  LargestReactionSoFar* largest_reaction = nullptr;  // of the trace that the path is a part of; null: of this path
 };
 
 // Adds what an event has on record of these branches.
 void RecordBranches(const std::vector<Branch>& branches, EventRecord* record);
 
-// Index of the branch that was chosen, or else of the preferred one; nothing, and *message, where there is no such
-// branch.
+// Index of the branch that was chosen, or else of the preferred one; nothing, and *end, where there is no such branch.
 std::optional<std::size_t> ChosenOf(const std::vector<Branch>& branches, const BranchChoice* choice,
-                                    std::size_t preferred, std::string* message);
+                                    std::size_t preferred, End* end);
 
 class Departure {
  public:
@@ -41,16 +42,14 @@ class Departure {
 
   // Takes the reactions of a point of the path into account: the tolerances of active sets follow the largest.
   void NoteReactions(const PathPoint& point);
-  // The largest so far, in the force unit of its contact.
-  double largest_reaction() const { return largest_reaction_; }
-  void SetLargestReaction(double value) { largest_reaction_ = value; }
+  ActiveSetTolerance ToleranceAt(const PathPoint& point) const;
 
   // That of a path that begins.
   Arrival StartArrival() const;
-  // Finds the branches from `point`, an equilibrium, and puts *arc and *current where the path sets out on one of them:
-  // on the one chosen, or the best. Nothing: done. Otherwise the path ends for this reason, with *message.
-  std::optional<EndReason> Leave(const PathPoint& point, Arrival arrival, const BranchChoice* choice, SmoothArc* arc,
-                                 CurvePoint* current, EventRecord* record, std::string* message);
+  // Finds the branches from `point`, an equilibrium, and puts *arc and *current, with which the path arrives there,
+  // where it sets out on one of them: on the one chosen, or the best. Nothing: done. Otherwise the path ends.
+  std::optional<End> Leave(const PathPoint& point, Arrival arrival, const BranchChoice* choice, SmoothArc* arc,
+                           CurvePoint* current, EventRecord* record);
 
   // Whether the branch that was taken last begins with other reactions than the point has, and these, once.
   bool ChangesReactions() const { return begin_.has_value(); }
@@ -63,6 +62,7 @@ class Departure {
 
   bool SetOut(const PathPoint& point, const Branch& branch, SmoothArc* arc, CurvePoint* current) const;
   std::size_t BestThatLoads(const std::vector<Branch>& branches) const;
+  End UnknownRate(const Constraint& constraint, const FixedStateSystem& system, const CurvePoint& at) const;
 
   const Model& model_;
   DepartureOptions options_;
@@ -71,7 +71,8 @@ class Departure {
   std::optional<PathPoint> begin_;
   std::optional<Eigen::VectorXd> moved_;  // while the path rests: the direction in which it moved before
   bool other_reactions_ = false;
-  double largest_reaction_ = 0.0;
+  LargestReactionSoFar own_;  // where the options have none
+  LargestReactionSoFar* const largest_reaction_;
 };
 
 }  // namespace contact_path

@@ -17,11 +17,18 @@ enum class EndReason {
   kClosedPath,        // the last increment is an earlier one again: the path repeats from there on
   kMemoryLimit,       // there was not enough memory to go on
   kElementInverted,   // an element of a solid would be turned inside out
+  kNotDetermined,     // the sign of a value is not known, since the error of the value is larger
 };
 
 // "stop_criterion", "max_increments", "path_end", "step_too_small", "cancelled", "no_such_branch", "numerical_failure",
-// "closed_path", "memory_limit", "element_inverted".
+// "closed_path", "memory_limit", "element_inverted", "not_determined".
 std::string_view ToString(EndReason reason);
+
+// Whether numbers end the trace, and not the structure or the caller.
+bool IsNumerical(EndReason reason);
+
+// Whether the path may have come to where nothing holds a node.
+bool IsStuck(EndReason reason);
 
 // Whether the trace went as far as it was asked to, or as far as there is anything new.
 bool IsComplete(EndReason reason);

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <functional>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "contact_path/branch/trial_step.h"
@@ -13,6 +14,7 @@
 #include "contact_path/path/model.h"
 #include "contact_path/path/path_method.h"
 #include "contact_path/path/return_detector.h"
+#include "contact_path/path/sentences.h"
 
 namespace contact_path {
 
@@ -39,33 +41,17 @@ class MpecMethod : public PathMethod {
   MpecMethod(const Model& model, const MpecOptions& options, std::function<bool()> cancelled);
 
   // Nothing to do: the first increment finds its own way.
-  std::optional<EndReason> Start(const PathPoint&, EventRecord*, std::string*) override { return std::nullopt; }
+  std::optional<End> Start(const PathPoint&, EventRecord*) override { return std::nullopt; }
   bool Resume(const ResumePoint& at) override;
   Advance Next(const PathPoint& from) override;
-  std::string Remark() const override;
+  Causes Remarks() const override;
 
  private:
-  // Why a trial is not accepted; kAccepted if it is.
-  enum class Verdict {
-    kAccepted,
-    kNotSolved,
-    kResidual,
-    kContradiction,
-    kWrongDirection,
-    kTooLong,
-    kNoProgress,
-    kTurnedBack,
-    kBackAtRest,
-    kNotConfirmed,
-    kBeyondTarget,
-    kCancelled
-  };
   struct Trial {
-    Verdict verdict = Verdict::kNotSolved;
+    std::string_view verdict = sentences::kNotSolved;  // kAccepted, or why the trial is not accepted
     IncrementTrial increment;
     Residuals residuals;
   };
-  static const char* Describe(Verdict verdict);
   // Whether the increment turns away from the direction (a unit vector) though no contact changes its state.
   bool TurnsBack(const PathPoint& from, const PathPoint& to, const Eigen::VectorXd& direction) const;
   // Whether the load goes back on the increment, and no contact slides there, though one did before.

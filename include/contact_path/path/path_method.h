@@ -4,11 +4,10 @@
 
 #include <cmath>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "contact_path/contact/path_point.h"
-#include "contact_path/path/end_reason.h"
+#include "contact_path/path/end.h"
 #include "contact_path/path/increment.h"
 #include "contact_path/path/work.h"
 #include "contact_path/tolerances.h"
@@ -20,9 +19,7 @@ struct AcceptedPoint {
   PathPoint point;
   IncrementKind kind = IncrementKind::kRegular;
   double arc_length = 0.0;  // of the increment, scaled norm
-  double force_rounding =
-      tolerances::kReactionRounding;  // reactions are known to this, in the force unit of the contact
-  Work work;                          // of the increment
+  Work work;                // of the increment
   Residuals residuals;
   SolveRecord solve;  // without time
   EventRecord event;
@@ -36,17 +33,14 @@ inline bool IsAtTarget(double load_factor, double target) {
 
 struct Advance {
   std::vector<AcceptedPoint> increments;  // in order; may hold increments also where the path ended
-  bool ended = true;
-  EndReason reason = EndReason::kNumericalFailure;  // if ended
-  std::string message;                              // if ended: one line for a person
+  std::optional<End> end;                 // nothing: the path goes on
 };
 
 // An increment of an earlier path to go on from, one that is no event.
 struct ResumePoint {
-  PathPoint before;               // of the last increment before it that has its state on record
-  PathPoint point;                // its own
-  SolveRecord solve;              // recorded of it
-  double largest_reaction = 0.0;  // in force units, of all increments of its stage up to it
+  PathPoint before;   // of the last increment before it that has its state on record
+  PathPoint point;    // its own
+  SolveRecord solve;  // recorded of it
 };
 
 class PathMethod {
@@ -54,8 +48,8 @@ class PathMethod {
   virtual ~PathMethod() = default;
 
   // Sets out from the initial point, once, before the first Next(). `branches`: those found there. Nothing: done.
-  // Otherwise the path ends where it begins, for this reason; *message: one line for a person.
-  virtual std::optional<EndReason> Start(const PathPoint& from, EventRecord* branches, std::string* message) = 0;
+  // Otherwise the path ends where it begins.
+  virtual std::optional<End> Start(const PathPoint& from, EventRecord* branches) = 0;
 
   // Goes on in place of Start(). False: that is not possible here.
   virtual bool Resume(const ResumePoint& at) = 0;
@@ -65,8 +59,8 @@ class PathMethod {
   virtual Advance Next(const PathPoint& from) = 0;
   // Events passed so far, those before this path included; 0 for a method that does not number them.
   virtual int NumEvents() const { return 0; }
-  // What else the user should know when the trace has ended; empty: nothing.
-  virtual std::string Remark() const { return {}; }
+  // What else the user should know when the trace has ended.
+  virtual Causes Remarks() const { return {}; }
 };
 
 }  // namespace contact_path

@@ -4,9 +4,8 @@
 
 #include <functional>
 #include <memory>
-#include <string>
 
-#include "contact_path/path/end_reason.h"
+#include "contact_path/path/end.h"
 #include "contact_path/path/model.h"
 #include "contact_path/path/path_method.h"
 
@@ -18,8 +17,7 @@ using MethodFactory = std::function<std::unique_ptr<PathMethod>(const Model& mod
 struct Preload {
   bool done = false;
   PathPoint point;  // equilibrium at load factor 0 under the constant loads, with the friction history of getting there
-  EndReason reason = EndReason::kNumericalFailure;  // if not done
-  std::string message;                              // if not done
+  End end;          // if not done
 };
 
 // The path from the initial configuration, held by the forces that keep it there, to `model` at load factor 0: these
@@ -28,6 +26,10 @@ struct Preload {
 // cancelled is asked before every increment; may be empty.
 Preload TracePreload(const Model& model, int max_increments, const MethodFactory& make_method,
                      const std::function<bool()>& cancelled = nullptr);
+
+// The equilibrium of `model` at load factor 0 with the constant loads, before supports move: by method branch, which
+// depends on the accuracy alone.
+Preload TraceStart(const Model& model, Accuracy accuracy, const std::function<bool()>& cancelled);
 
 }  // namespace contact_path
 

@@ -3,7 +3,6 @@
 #define CONTACT_PATH_PATH_RECORDER_H_
 
 #include <functional>
-#include <string>
 #include <utility>
 
 #include "contact_path/contact/path_point.h"
@@ -39,9 +38,8 @@ class Recorder {
   // accepted: from the last increment on. time: what it took [s].
   void Append(const Model& model, const AcceptedPoint& accepted, double time);
 
-  // For the end of the message, "; at increment ..": where the load was turned back although it could go on. Empty:
-  // nowhere.
-  std::string Remark() const;
+  // Where the load was turned back although it could go on.
+  Causes Remarks() const;
 
  private:
   void Fill(const Model& model, const PathPoint& point, const AcceptedPoint& accepted, double time);

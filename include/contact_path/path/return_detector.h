@@ -5,11 +5,12 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "contact_path/branch/smooth_arc.h"
 #include "contact_path/contact/path_point.h"
+#include "contact_path/path/end.h"
+#include "contact_path/path/largest_reaction.h"
 #include "contact_path/path/model.h"
 
 namespace contact_path {
@@ -26,8 +27,9 @@ class ReturnDetector {
     PathPoint point;    // of the path, scaled: to rounding the point of that increment
   };
 
-  // model must outlive the test. every: only increments whose index is a multiple of it are remembered, > 0.
-  ReturnDetector(const Model& model, int every);
+  // model and largest_reaction must outlive the test. every: only increments whose index is a multiple of it are
+  // remembered, > 0. largest_reaction: of_stage measures reactions that agree.
+  ReturnDetector(const Model& model, int every, const LargestReactionSoFar& largest_reaction);
 
   // The next increment of the stage, which ends in `to`, and the point before.
   void Add(int increment, const PathPoint& from, const PathPoint& to);
@@ -54,12 +56,13 @@ class ReturnDetector {
   std::vector<Reference> references_;  // in the order of the path
   SmoothArc arc_;
   std::optional<PathPoint> first_;
-  double extent_ = 0.0;            // largest distance from the first point
-  double largest_reaction_ = 0.0;  // so far
+  double extent_ = 0.0;  // largest distance from the first point
+  const ContactPairs& contacts_;
+  const LargestReactionSoFar& largest_reaction_;
 };
 
-// Why a trace ends there: one line for a person.
-std::string ClosedPathText(int increment);
+// The end of a trace that comes back to an increment.
+End ClosedPath(int increment);
 
 }  // namespace contact_path
 

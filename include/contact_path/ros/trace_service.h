@@ -20,25 +20,11 @@
 #include "contact_path/path/trace.h"
 #include "contact_path/ros/bag_recorder.h"
 #include "contact_path/ros/increment_publisher.h"
-#include "contact_path/ros/limits.h"
 #include "contact_path/ros/marker_publisher.h"
 #include "contact_path/ros/messages.h"
+#include "contact_path/ros/node_parameters.h"
 
 namespace contact_path {
-
-// Parameters of the node, by their names in names.h.
-struct NodeParameters {
-  std::string bag_directory = "~/.ros/contact_path";  // a leading ~ is the home directory; absolute once it is read
-  int increments_queue = 100000;         // increments kept for a subscriber that is slower than they are sent, > 0
-  int increments_megabytes = 256;        // of increments that wait for subscribers [MB], > 0
-  double increments_per_second = 500.0;  // sent at most, >= 0; 0: no bound
-  double increments_megabytes_per_second = 32.0;  // sent at most [MB/s], >= 0; 0: no bound
-  MarkerOptions markers;                          // frame_id, picture_size
-  TraceLimits limits;                             // max_nodes, max_elements, ..., keep_free_megabytes
-};
-
-// Throws std::invalid_argument naming the parameter that has a wrong type or value.
-NodeParameters ReadParameters(const ros::NodeHandle& private_node);
 
 // What a trace is called before it runs: its scene, or the bag that it goes on with.
 template <typename Request>
@@ -88,10 +74,18 @@ class TraceService {
   bool HandleTrace(Request& request, Response& response);
   bool HandleCancel(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
 
-  void Serve(const contact_path_msgs::TraceRequest& asked, const TraceObserver& observer, Response* response);
-  // increments: of the trace to go on with; nothing: from the start.
-  void RunTrace(const TraceRequest& request, const std::optional<std::vector<Increment>>& increments,
-                const TraceObserver& observer, BagRecorder* bag, Response* response);
+  struct Job {
+    contact_path_msgs::TraceRequest message;
+    TraceRequest request;                          // the same
+    std::optional<std::vector<Increment>> so_far;  // of the trace to go on with; nothing: from the start
+  };
+  // The steps of Serve() before the bag is open throw, for Run() to answer.
+  void Serve(contact_path_msgs::TraceRequest asked, const TraceObserver& observer, Response* response);
+  Job Accept(contact_path_msgs::TraceRequest asked, const TraceObserver& observer);
+  void Announce(const Job& job, const BagRecorder& bag, const TraceObserver& observer);
+  void RunTrace(const Job& job, const TraceObserver& observer, BagRecorder* bag, Response* response);
+  void TellResult(Response* response);
+  void Close(BagRecorder* bag, Response* response);
   void TakeIncrement(const Increment& increment, const TraceObserver& observer, BagRecorder* bag);
   contact_path_msgs::TracePathFeedback FeedbackOn(const contact_path_msgs::Increment& increment) const;
   void Log(const Response& response) const;
@@ -99,8 +93,8 @@ class TraceService {
   void PublishEnd(const Response& response);
 
   void RequestStop(StopCause cause);  // the first cause stays
-  // Status and end reason of what was asked to stop; also the message, unless ~cancel asked.
-  void TellStop(Response* response) const;
+  // What was asked to stop. cancelled: the message where ~cancel asked.
+  void TellStop(const std::string& cancelled, Response* response) const;
   bool StopWanted(const TraceObserver& observer);
   void WaitForStream(const TraceObserver& observer);  // until the last increment is sent, or the caller will not wait
 

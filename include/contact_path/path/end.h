@@ -1,0 +1,34 @@
+// Why a path ends, as data: what is decided in path/. The words are in sentences.h.
+#ifndef CONTACT_PATH_PATH_END_H_
+#define CONTACT_PATH_PATH_END_H_
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "contact_path/path/end_reason.h"
+
+namespace contact_path {
+
+struct Cause {
+  std::string_view sentence;  // of sentences.h
+  std::string name = {};      // of the contact, bar, ... that the sentence is about
+  double value = 0.0;         // in units of the scene
+  double other = 0.0;         // the second number of the sentence, in units of the scene: of a sign, the error of value
+};
+
+using Causes = std::vector<Cause>;
+
+inline void Append(const Causes& causes, Causes* to) { to->insert(to->end(), causes.begin(), causes.end()); }
+
+struct End {
+  EndReason reason = EndReason::kNumericalFailure;
+  Causes causes = {};
+};
+
+// One line for a person.
+std::string EndText(const Causes& causes);
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_PATH_END_H_

@@ -1,0 +1,40 @@
+#include "contact_path/path/largest_reaction.h"
+
+#include <gtest/gtest.h>
+
+#include "contact_path/path/model.h"
+
+namespace contact_path {
+namespace {
+
+// A node on springs of 1 above a floor.
+Scene NodeOnFloor() {
+  Scene scene;
+  scene.nodes = {{"p", 0.0, 0.0, false, false}};
+  scene.superelements = {{{"p"}, {1.0, 0.0, 0.0, 1.0}}};
+  scene.loads = {{"p", 1.0, 0.0}};
+  scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.5}};
+  scene.contacts = {{"p", "floor"}};
+  return scene;
+}
+
+TEST(LargestReactionSoFar, IsThatOfTheTraceAndOfTheStage) {
+  const Scene scene = NodeOnFloor();
+  const Model model(scene, CharacteristicScales(scene));
+  const double unit = model.contacts[0]->ForceUnit();
+  PathPoint point = model.InitialPoint();
+  LargestReactionSoFar largest;
+  point.rn[0] = 2.0;
+  point.rt[0] = -3.0;
+  largest.Note(model.contacts, point);
+  EXPECT_EQ(largest.of_stage, 3.0 / unit);
+  largest.of_stage = 0.0;
+  point.rn[0] = -1.0;
+  point.rt[0] = 0.5;
+  largest.Note(model.contacts, point);
+  EXPECT_EQ(largest.of_stage, 1.0 / unit);
+  EXPECT_EQ(largest.of_trace, 3.0 / unit);
+}
+
+}  // namespace
+}  // namespace contact_path
