@@ -1,4 +1,4 @@
-// The motion between two increments that have their state.
+// The motion between two states of one scene.
 #ifndef CONTACT_PATH_SRC_VERIFY_SCALED_MOTION_H_
 #define CONTACT_PATH_SRC_VERIFY_SCALED_MOTION_H_
 
@@ -15,8 +15,10 @@ inline bool SameSizes(const Increment& a, const Increment& b) {
          a.contacts.size() == b.contacts.size();
 }
 
-// Of all positions, over the characteristic length, and of all rotations. The increments must have the same sizes.
-inline std::vector<double> ScaledMotion(const Increment& from, const Increment& to, double length) {
+// Of all positions, over the characteristic length, and of all rotations. State: Increment or CheckedState, both of the
+// same sizes.
+template <typename State>
+std::vector<double> ScaledMotion(const State& from, const State& to, double length) {
   std::vector<double> motion;
   motion.reserve(to.positions.size() + to.rotations.size());
   for (std::size_t i = 0; i < to.positions.size(); ++i)

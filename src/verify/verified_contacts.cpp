@@ -6,14 +6,14 @@
 #include <utility>
 
 #include "contact_path/scene/can_slide.h"
+#include "verify/bounds.h"
 
 namespace contact_path {
 namespace {
 
-constexpr double kSoft = 1e-6;           // of F: where forces across a contact are smaller, F is no measure of them
-constexpr double kRounding = 2e-13;      // of F: a contact that pulls with more is not at rounding
-constexpr double kClosedAtStart = 1e-9;  // gap over L
-constexpr double kClosing = 10.0;        // the nodes of a surface have shares in a gap: each moves by more than that
+constexpr double kSoft = 1e-6;       // of F: where forces across a contact are smaller, F is no measure of them
+constexpr double kRounding = 2e-13;  // of F: a contact that pulls with more is not at rounding
+constexpr double kClosing = 10.0;    // the nodes of a surface have shares in a gap: each moves by more than that
 
 }  // namespace
 
@@ -43,7 +43,7 @@ std::vector<VerifiedContact> VerifiedContacts(const Scene& scene, const SceneInd
   double closing = 0.0;  // largest force that closes a gap which counts as closed at the start
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
     const double gap = std::abs(check.Gap(i, start)) / scaling.length;
-    if (gap <= kClosedAtStart) closing = std::max(closing, kClosing * gap * forces[i].of_all_parts);
+    if (gap <= kExact) closing = std::max(closing, kClosing * gap * forces[i].of_all_parts);
   }
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
     VerifiedContact contact;

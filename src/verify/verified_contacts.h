@@ -2,7 +2,6 @@
 #ifndef CONTACT_PATH_SRC_VERIFY_VERIFIED_CONTACTS_H_
 #define CONTACT_PATH_SRC_VERIFY_VERIFIED_CONTACTS_H_
 
-#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -14,14 +13,6 @@
 #include "contact_path/scene/scene_index.h"
 
 namespace contact_path {
-
-// Of the force of a part for a motion of L: residuals and reactions are measured in no less, and the rounding of
-// coordinates makes so much of it.
-inline constexpr double kStiff = 1e-4;
-inline constexpr double kRoundingOfParts = 1e-14;
-
-// Over F: what residuals are measured in. stiffest: force of the stiffest node for a motion of L, over F.
-inline double ResidualUnit(double stiffest) { return std::max(1.0, kStiff * stiffest); }
 
 struct VerifiedContact {
   std::size_t node = 0;

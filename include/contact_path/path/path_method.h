@@ -23,6 +23,7 @@ struct AcceptedPoint {
   double force_rounding =
       tolerances::kReactionRounding;  // reactions are known to this, in the force unit of the contact
   Work work;                          // of the increment
+  std::optional<PathPoint> inner;     // at the middle of its step, where it is wanted
   Residuals residuals;
   SolveRecord solve;  // without time
   EventRecord event;

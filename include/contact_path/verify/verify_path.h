@@ -24,6 +24,8 @@ struct Verification {
   int increments = 0;
   int full_increments = 0;      // with positions and contacts: increments without them can only be counted
   int exact_increments = 0;     // of the full ones, those that solve the unregularised equations
+  int proved_integrals = 0;     // of these, whose arc length, work and dissipation are integrals through three states
+  int open_integrals = 0;       // those where no third state is, so that residuals and the energy balance alone tell
   Residuals exact;              // largest of the exact increments, computed anew
   Residuals regularised;        // of the other ones
   double energy_balance = 0.0;  // largest |work of the loads - change of strain energy - dissipation| / (F L)

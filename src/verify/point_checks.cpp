@@ -1,0 +1,178 @@
+#include "verify/point_checks.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "verify/recorded_forces.h"
+
+namespace contact_path {
+namespace {
+
+constexpr double kRegularised = 1e-5;  // residuals of a regularised increment
+constexpr double kPullShare = 0.02;    // of the largest reaction before: a contact that pulls with more is wrong
+
+void Keep(const Residuals& residuals, Residuals* largest) {
+  for (double Residuals::*const field :
+       {&Residuals::equilibrium, &Residuals::penetration, &Residuals::tensile_reaction, &Residuals::complementarity,
+        &Residuals::cone, &Residuals::friction_law, &Residuals::support})
+    largest->*field = std::max(largest->*field, residuals.*field);
+}
+
+}  // namespace
+
+void PointChecks::Check(const Increment* before, const Increment& increment) {
+  ++result_.full_increments;
+  if (increment.solve.exact) ++result_.exact_increments;
+  if (stage_.located && !increment.solve.exact) findings_.Report("an increment that ends at events and is not exact");
+  const bool next = before == nullptr || before->index + 1 == increment.index;
+  const Increment& from = before != nullptr ? *before : increment;
+  const Residuals residuals = stage_.check.Check(StateOf(from), StateOf(increment));
+  CheckState(from, increment, next || stage_.located, residuals);
+  CheckRecorded(increment, residuals, next);
+  if (!increment.inner.positions.empty()) CheckInner(from, increment);
+}
+
+void PointChecks::CheckInner(const Increment& before, const Increment& increment) {
+  Increment at;
+  at.index = increment.index;
+  at.load_factor = increment.inner.load_factor;
+  at.arc_length = increment.arc_length;
+  at.positions = increment.inner.positions;
+  at.rotations = increment.inner.rotations;
+  at.contacts = increment.inner.contacts;
+  at.solve.exact = true;
+  CheckState(before, at, true, stage_.check.Check(StateOf(before), StateOf(at)));
+  for (std::size_t i = 0; i < at.contacts.size(); ++i)
+    if (at.contacts[i].state != increment.contacts[i].state)
+      findings_.Report(stage_.contacts[i].name, " has another state inside the increment");
+}
+
+void PointChecks::CheckState(const Increment& before, const Increment& at, bool in_one_piece,
+                             const Residuals& residuals) {
+  CheckPull(at);
+  const double tolerance = at.solve.exact ? kExact : kRegularised;
+  findings_.Bound("equilibrium residual", residuals.equilibrium, tolerance);
+  findings_.Bound("penetration", residuals.penetration, tolerance);
+  findings_.Bound("tensile_reaction", residuals.tensile_reaction, tolerance);
+  findings_.Bound("gap and reaction are both positive", residuals.complementarity, tolerance);
+  findings_.Bound("reaction outside of the friction cone", residuals.cone, tolerance);
+  if (in_one_piece) findings_.Bound("friction law", residuals.friction_law, tolerance);
+  Keep(residuals, at.solve.exact ? &result_.exact : &result_.regularised);
+  CheckSupports(at);
+  // Where a point is repeated, as of a node between two discs, its place is known to no more.
+  const bool repeated = &before != &at && !(at.arc_length > before.arc_length);
+  const StateTolerances tolerances = {tolerance, repeated ? std::max(tolerance, kSingular) : tolerance};
+  const CheckedState from = StateOf(before), to = StateOf(at);
+  for (std::size_t i = 0; i < at.contacts.size(); ++i)
+    CheckContact(i, at.contacts[i], from, to, in_one_piece, tolerances);
+  if (at.solve.exact) CheckSoftContacts(at);
+}
+
+void PointChecks::CheckSupports(const Increment& at) {
+  for (std::size_t i = 0; i < stage_.scene.nodes.size(); ++i) {
+    const Node& node = stage_.scene.nodes[i];
+    const auto off = [&](std::size_t k) {
+      return std::abs(at.positions[k] - stage_.configuration.start[k] - stage_.rates[k] * at.load_factor) /
+                 stage_.scaling.length >
+             stage_.rounding;
+    };
+    if ((node.fixed_x && off(2 * i)) || (node.fixed_y && off(2 * i + 1)))
+      findings_.Report("support ", node.name, " is not where it has to be");
+    if (node.fixed_rotation && !(std::abs(at.rotations[i] - stage_.configuration.start_rotations[i] -
+                                          stage_.turn_rates[i] * at.load_factor) <= stage_.rounding))
+      findings_.Report("support ", node.name, " is not turned as it has to be");
+  }
+}
+
+void PointChecks::CheckContact(std::size_t i, const ContactRecord& contact, const CheckedState& from,
+                               const CheckedState& to, bool in_one_piece, const StateTolerances& tolerances) {
+  const VerifiedContact& at = stage_.contacts[i];
+  const double length = stage_.scaling.length, force = stage_.scaling.force;
+  const double gap = stage_.check.Gap(i, to) / length, past_end = stage_.check.GapPastEnd(i, to) / length;
+  const double recorded = contact.gap / length;
+  findings_.Bound("recorded gap of " + at.name + " less the true one",
+                  std::min(std::abs(recorded - gap), std::abs(recorded - past_end)), stage_.rounding);
+  // What the law of friction is about; 0 where that is not known.
+  double slip = 0.0;
+  if (stage_.configuration.HasTotalLaw() && at.friction > 0.0)
+    slip = stage_.check.TotalSlip(i, to);
+  else if (in_one_piece)
+    slip = stage_.check.Slip(i, from, to);
+  if (!StateHolds(contact.state, at, {gap, slip / length, contact.rn / force, contact.rt / force}, tolerances))
+    findings_.Report(at.name, " is recorded as ", NameOf(contact.state), ", but is not");
+}
+
+void PointChecks::CheckRecorded(const Increment& increment, const Residuals& residuals, bool with_law) {
+  const auto same = [&](const char* what, double recorded, double anew, double rounding = 0.0) {
+    if (!(std::abs(recorded - anew) <= stage_.rounding * (1.0 + std::abs(anew)) + rounding))
+      findings_.Report(what, " is recorded as ", recorded, ", but is ", anew);
+  };
+  same("equilibrium residual", increment.residuals.equilibrium, residuals.equilibrium);
+  same("penetration residual", increment.residuals.penetration, residuals.penetration);
+  same("tensile_reaction residual", increment.residuals.tensile_reaction, residuals.tensile_reaction);
+  same("min form residual", increment.residuals.complementarity, residuals.complementarity);
+  same("cone residual", increment.residuals.cone, residuals.cone);
+  same("support residual", increment.residuals.support, residuals.support);
+  if (with_law) same("friction law residual", increment.residuals.friction_law, residuals.friction_law);
+  same("scaled strain energy", increment.strain_energy / stage_.Energy(),
+       stage_.check.StrainEnergy(increment.positions, increment.rotations) / stage_.Energy(),
+       std::numeric_limits<double>::epsilon() * stage_.stiffest);
+  // The normal of a sharp corner is known less well than the place of the node.
+  const CheckedState state = StateOf(increment);
+  std::string wrong = ForcesContradicted(increment, stage_.check.Forces(state), stage_.scaling, kExact,
+                                         kRoundingOfParts * stage_.stiffest);
+  if (!wrong.empty()) findings_.Report(wrong);
+  if (increment.sections.empty() && increment.stresses.empty() && increment.pressures.empty()) return;
+  wrong = AnswersContradicted(increment, stage_.check.Answers(state), stage_.scaling, kExact,
+                              kRoundingOfParts * stage_.stiffest, kRoundingOfParts * stage_.scaling.length);
+  if (!wrong.empty()) findings_.Report(wrong);
+}
+
+void PointChecks::CheckSoftContacts(const Increment& increment) {
+  if (std::all_of(stage_.contacts.begin(), stage_.contacts.end(),
+                  [](const VerifiedContact& contact) { return contact.unit == 1.0; }))
+    return;
+  const CheckedState state = StateOf(increment);
+  const std::vector<double> unbalance = stage_.check.Unbalance(state);
+  for (std::size_t i = 0; i < stage_.contacts.size(); ++i) {
+    const VerifiedContact& at = stage_.contacts[i];
+    if (at.unit == 1.0) continue;
+    const Node& node = stage_.scene.nodes[at.node];
+    const double unit = at.unit * stage_.scaling.force;
+    const double rn = increment.contacts[i].rn / unit, rt = increment.contacts[i].rt / unit;
+    const std::array<double, 2> normal = stage_.check.Normal(i, state);
+    const double fx = node.fixed_x ? 0.0 : normal[0] * unbalance[2 * at.node];
+    const double fy = node.fixed_y ? 0.0 : normal[1] * unbalance[2 * at.node + 1];
+    findings_.Bound("equilibrium residual across " + at.name + ", of the forces there", std::abs(fx + fy) / unit,
+                    kExact);
+    findings_.Bound("tensile reaction of " + at.name + ", of the forces there", -rn, kExact);
+    findings_.Bound("gap and reaction of " + at.name + " are both positive",
+                    std::min(increment.contacts[i].gap / stage_.scaling.length, rn), kExact);
+    findings_.Bound("reaction of " + at.name + " outside of the friction cone, of the forces there",
+                    std::abs(rt) - at.friction * rn, kExact);
+  }
+}
+
+void PointChecks::CheckPull(const Increment& at) {
+  const auto push_of = [&](std::size_t i) {
+    return at.contacts[i].rn / (stage_.contacts[i].unit * stage_.scaling.force);
+  };
+  for (std::size_t i = 0; i < at.contacts.size(); ++i)
+    result_.largest_reaction = std::max(result_.largest_reaction, push_of(i));
+  for (std::size_t i = 0; i < at.contacts.size(); ++i) {
+    // Where another path crosses, a point is known to less than rounding; and what contacts have pushed with in a
+    // preload is not recorded.
+    const bool known = at.event.null_vector.empty() && at.index > 0;
+    const double rounding = known ? stage_.contacts[i].closing : std::max(stage_.contacts[i].closing, kExact);
+    const double most = std::max(rounding, kPullShare * result_.largest_reaction);
+    if (-push_of(i) > most)
+      findings_.Report(stage_.contacts[i].name, " pulls with ", -push_of(i),
+                       " of the forces there, where contacts push with at most ", result_.largest_reaction);
+  }
+}
+
+}  // namespace contact_path
