@@ -25,16 +25,30 @@ class IntegralChecks {
       : stage_(stage), findings_(*findings), result_(*result) {}
 
   // From `before` to `increment`, both with states. earlier, after: the increments with states before and after these
-  // two; null: there is none. in_one_piece: what happened in between is one arc of the path.
+  // two; null: there is none. next: `increment` is the one after `before`, with none without a state in between.
   void Check(const Increment* earlier, const Increment& before, const Increment& increment, const Increment* after,
-             bool in_one_piece);
+             bool next);
   // Over F L, of the increments from the start of the stage on.
   void CheckEnergy(const Increment& start, const Increment& increment);
 
  private:
   using ThreeStates = std::array<CheckedState, 3>;
 
+  // From one increment to the other: arc length, and energies over F L.
+  struct Recorded {
+    Recorded(const Increment& before, const Increment& increment, const VerifiedStage& stage);
+    double arc, work, dissipation, stored;
+    double rounding;  // of forces and motions
+  };
+  struct Integrals {
+    double t = 0.0;  // the place of the third state
+    Integral arc, work, dissipation;
+  };
+
+  // Whether one smooth arc leads from `before` through `at` to `after`.
   bool GoesOn(const Increment& before, const Increment& at, const Increment& after) const;
+  void Compare(const Recorded& recorded, const Integrals& anew, const Increment& increment, double rounding_of_arc);
+  Integrals Integrate(const ThreeStates& states, const Increment& increment) const;
   Integral Work(const ThreeStates& states, const ThreePoints& rule) const;
   Integral Dissipation(const ThreeStates& states, const ThreePoints& rule, const Increment& increment) const;
 

@@ -2,6 +2,7 @@
 #ifndef CONTACT_PATH_SRC_VERIFY_THREE_POINTS_H_
 #define CONTACT_PATH_SRC_VERIFY_THREE_POINTS_H_
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -13,11 +14,20 @@ using ThreeValues = std::array<double, 3>;
 // A sum of integrals.
 struct Integral {
   double value = 0.0;
-  double bulge = 0.0;  // size of what the quadratics add to the trapezoids; not known without a third state
+  double open = 0.0;   // what the quadratics add to the trapezoids, or what the trapezoids leave open
+  double force = 0.0;  // sum of the sizes of the forces
 
-  void Add(const Integral& other, double factor = 1.0) {
-    value += factor * other.value;
-    bulge += std::abs(factor) * other.bulge;
+  void Add(const Integral& other) {
+    value += other.value;
+    open += other.open;
+    force += other.force;
+  }
+
+  // Of two rules for one integral: the value of the first, and the larger error of both.
+  void Take(const Integral& other, bool first) {
+    const double larger = first ? other.open : std::max(open, other.open);
+    if (first) *this = other;
+    open = larger;
   }
 };
 
@@ -27,13 +37,16 @@ class ThreePoints {
  public:
   explicit ThreePoints(double t) : t_(t) {}
 
+  double t() const { return t_; }
   bool HasThird() const { return t_ != 0.0; }
 
   // Of f dx. A quantity is f0 + (f1 - f0) t + F t (1 - t); the bulge adds up the parts that F has, each by its size,
   // for they may cancel.
   Integral Of(const ThreeValues& f, const ThreeValues& x) const {
     const double df = f[1] - f[0], dx = x[1] - x[0], bend_f = Bend(f), bend_x = Bend(x);
-    return {0.5 * (f[0] + f[1]) * dx + (bend_f * dx - bend_x * df) / 6.0,
+    const double mean = 0.5 * (f[0] + f[1]);
+    if (!HasThird()) return {mean * dx, 0.5 * std::abs(df * dx)};
+    return {mean * dx + (bend_f * dx - bend_x * df) / 6.0,
             (std::abs(bend_f * dx) + std::abs(bend_x * df) + std::abs(bend_f * bend_x)) / 6.0};
   }
 

@@ -24,6 +24,8 @@ struct VerifiedStage {
 
   double Energy() const { return scaling.force * scaling.length; }  // characteristic [force length]
 
+  bool Driven() const { return !scene.support_motions.empty() || !scene.obstacle_motions.empty(); }
+
   const SceneIndex& index;
   const Scene scene;
   const Configuration configuration;

@@ -97,7 +97,7 @@ class StageVerifier {
         if (before != nullptr) {
           const bool next = before == &increments_[increment_ - 1];
           CheckStates(*before, increment, next);
-          integrals_.Check(earlier, *before, increment, After(), next || stage_.located);
+          integrals_.Check(earlier, *before, increment, After(), next);
         }
         earlier = before;
         before = &increment;
