@@ -4,8 +4,6 @@
 #include <cmath>
 #include <vector>
 
-#include "verify/scaled_motion.h"
-
 namespace contact_path {
 namespace {
 

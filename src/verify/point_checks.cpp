@@ -7,13 +7,43 @@
 #include <string>
 #include <vector>
 
-#include "verify/recorded_forces.h"
-
 namespace contact_path {
 namespace {
 
 constexpr double kRegularised = 1e-5;  // residuals of a regularised increment
 constexpr double kPullShare = 0.02;    // of the largest reaction before: a contact that pulls with more is wrong
+
+// For a person: "slipping forwards".
+const char* NameOf(ContactState state) {
+  switch (state) {
+    case ContactState::kOpen: return "open";
+    case ContactState::kClosed: return "closed";
+    case ContactState::kStick: return "sticking";
+    case ContactState::kSlipPlus: return "slipping forwards";
+    case ContactState::kSlipMinus: return "slipping backwards";
+  }
+  return "";
+}
+
+// All scaled: lengths over L, forces over F.
+struct ContactNumbers {
+  double gap = 0.0;
+  double slip = 0.0;  // what the law of friction is about: since the increment before, or since the start
+  double rn = 0.0, rt = 0.0;
+};
+
+bool StateHolds(ContactState state, const VerifiedContact& contact, const ContactNumbers& numbers,
+                const StateTolerances& tolerances) {
+  if (state == ContactState::kOpen) return std::max(std::abs(numbers.rn), std::abs(numbers.rt)) <= tolerances.value;
+  if (!(std::abs(numbers.gap) <= tolerances.value)) return false;
+  if (state == ContactState::kClosed) return std::abs(numbers.rt) <= tolerances.value && contact.friction == 0.0;
+  if (state == ContactState::kStick) return std::abs(numbers.slip) <= tolerances.slip;
+  const double sense = state == ContactState::kSlipPlus ? 1.0 : -1.0, bound = contact.friction * numbers.rn;
+  // A friction force that is rounding tells no sense of the slip.
+  const bool rubs = bound > contact.closing * contact.unit;
+  return (!rubs || sense * numbers.slip >= -tolerances.slip) &&
+         std::abs(numbers.rt + sense * bound) <= tolerances.value;
+}
 
 void Keep(const Residuals& residuals, Residuals* largest) {
   for (double Residuals::*const field :
@@ -121,15 +151,67 @@ void PointChecks::CheckRecorded(const Increment& increment, const Residuals& res
   same("scaled strain energy", increment.strain_energy / stage_.Energy(),
        stage_.check.StrainEnergy(increment.positions, increment.rotations) / stage_.Energy(),
        std::numeric_limits<double>::epsilon() * stage_.stiffest);
-  // The normal of a sharp corner is known less well than the place of the node.
+  CheckForces(increment);
+}
+
+void PointChecks::CheckForces(const Increment& increment) {
   const CheckedState state = StateOf(increment);
-  std::string wrong = ForcesContradicted(increment, stage_.check.Forces(state), stage_.scaling, kExact,
-                                         kRoundingOfParts * stage_.stiffest);
-  if (!wrong.empty()) findings_.Report(wrong);
+  const double force = stage_.scaling.force, length = stage_.scaling.length, stress = force / (length * length);
+  const double rounding = kRoundingOfParts * stage_.stiffest;
+  bool found = false;  // one finding tells enough
+  // part: what the number is of. off: of the unit, what rounding may leave. The normal of a sharp corner is known less
+  // well than the place of the node.
+  const auto same = [&](const char* name, const char* part, std::size_t i, double is, double be, double unit,
+                        double off) {
+    if (found || std::abs(is - be) / unit <= kExact * (1.0 + std::abs(be) / unit) + off) return;
+    found = true;
+    findings_.Report(name, " of ", part, " ", i + 1, " is recorded as ", is, ", but is ", be);
+  };
+  const auto same_forces = [&](const char* part, const std::vector<Resultant>& recorded,
+                               const std::vector<std::array<double, 3>>& forces) {
+    for (std::size_t i = 0; i < forces.size(); ++i) {
+      same("rx", part, i, recorded[i].rx, forces[i][0], force, rounding);
+      same("ry", part, i, recorded[i].ry, forces[i][1], force, rounding);
+      same("rm", part, i, recorded[i].rm, forces[i][2], force * length, rounding);
+    }
+  };
+  const CheckedForces forces = stage_.check.Forces(state);
+  same_forces("support", increment.supports, forces.supports);
+  same_forces("boundary", increment.boundaries, forces.boundaries);
   if (increment.sections.empty() && increment.stresses.empty() && increment.pressures.empty()) return;
-  wrong = AnswersContradicted(increment, stage_.check.Answers(state), stage_.scaling, kExact,
-                              kRoundingOfParts * stage_.stiffest, kRoundingOfParts * stage_.scaling.length);
-  if (!wrong.empty()) findings_.Report(wrong);
+  const CheckedAnswers anew = stage_.check.Answers(state);
+  for (std::size_t i = 0; i < increment.sections.size(); ++i) {
+    const SectionForces& of = increment.sections[i];
+    const auto& [N, Q, M, M1, M2] = anew.sections[i];
+    same("N", "section", i, of.N, N, force, rounding);
+    same("Q", "section", i, of.Q, Q, force, rounding);
+    same("M", "section", i, of.M, M, force * length, rounding);
+    same("M1", "section", i, of.M1, M1, force * length, rounding);
+    same("M2", "section", i, of.M2, M2, force * length, rounding);
+  }
+  for (std::size_t i = 0; i < increment.stresses.size(); ++i) {
+    const SolidStress& of = increment.stresses[i];
+    const auto& [sxx, syy, sxy, szz, mises, energy] = anew.stresses[i];
+    const double off = anew.stress_per_motion[i] * kRoundingOfParts * length / stress;
+    same("sxx", "element", i, of.sxx, sxx, stress, off);
+    same("syy", "element", i, of.syy, syy, stress, off);
+    same("sxy", "element", i, of.sxy, sxy, stress, off);
+    same("szz", "element", i, of.szz, szz, stress, off);
+    same("mises", "element", i, of.mises, mises, stress, off);
+    same("energy", "element", i, of.energy, energy, force * length, rounding);
+  }
+  std::vector<double> widths(increment.widths.size());
+  for (std::size_t i = 0; i < increment.pressures.size(); ++i) {
+    const ContactPressure& of = increment.pressures[i];
+    const ContactRecord& contact = increment.contacts[i];
+    const double be = anew.lengths[i], unit = force / (be > 0.0 ? be : length);
+    same("length", "contact", i, of.length, be, length, rounding);
+    same("pressure", "contact", i, of.pressure, be > 0.0 ? contact.rn / be : 0.0, unit, rounding);
+    same("traction", "contact", i, of.traction, be > 0.0 ? contact.rt / be : 0.0, unit, rounding);
+    if (contact.state != ContactState::kOpen) widths[anew.boundaries[i]] += be;
+  }
+  for (std::size_t i = 0; i < widths.size(); ++i)
+    same("width", "boundary", i, increment.widths[i], widths[i], length, rounding);
 }
 
 void PointChecks::CheckSoftContacts(const Increment& increment) {

@@ -7,10 +7,14 @@
 #include "contact_path/path/increment.h"
 #include "contact_path/verify/verify_path.h"
 #include "verify/findings.h"
-#include "verify/recorded_state.h"
 #include "verify/verified_stage.h"
 
 namespace contact_path {
+
+struct StateTolerances {
+  double value = 0.0;  // of gaps and forces, scaled
+  double slip = 0.0;   // scaled
+};
 
 // Residuals, supports, gaps, contact states and recorded numbers of the increments of one stage.
 class PointChecks {
@@ -28,6 +32,8 @@ class PointChecks {
   void CheckInner(const Increment& before, const Increment& increment);
   // Numbers of the increment that follow from its state. with_law: the residual of the friction law, too.
   void CheckRecorded(const Increment& increment, const Residuals& residuals, bool with_law);
+  // Forces of supports and boundaries, and what elements and contacts bear.
+  void CheckForces(const Increment& increment);
   void CheckSupports(const Increment& at);
   void CheckContact(std::size_t i, const ContactRecord& contact, const CheckedState& from, const CheckedState& to,
                     bool in_one_piece, const StateTolerances& tolerances);

@@ -2,10 +2,68 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string>
+#include <utility>
 
+#include "contact_path/scene/can_slide.h"
 #include "contact_path/scene/program.h"
 
 namespace contact_path {
+namespace {
+
+constexpr double kSoft = 1e-6;       // of F: where forces across a contact are smaller, F is no measure of them
+constexpr double kRounding = 2e-13;  // of F: a contact that pulls with more is not at rounding
+constexpr double kClosing = 10.0;    // the nodes of a surface have shares in a gap: each moves by more than that
+
+// In the order of the scene. check, configuration: of the scene. rates: x, y by node, of the fixed components [length]
+// per unit of the load factor. load: largest load factor of the path.
+std::vector<VerifiedContact> VerifiedContacts(const Scene& scene, const SceneIndex& index, const ResidualCheck& check,
+                                              const Configuration& configuration, const Scaling& scaling,
+                                              const std::vector<double>& rates, double load) {
+  const std::vector<ContactForceBound> forces = check.BoundContactForces(scaling.length, load);
+  CheckedState start;
+  start.positions = configuration.start;
+  start.rotations = configuration.start_rotations;
+  std::vector<VerifiedContact> contacts;
+  contacts.reserve(scene.contacts.size());
+  std::set<std::string> turning;
+  for (const ObstacleMotion& motion : scene.obstacle_motions)
+    if (motion.turn != 0.0) turning.insert(motion.obstacle);
+  // Of an obstacle where the node cannot slide: none.
+  const auto friction_of = [&](const ContactCandidate& candidate, std::size_t at) {
+    if (candidate.OnSurface()) return candidate.friction;
+    const Obstacle& obstacle = scene.obstacles[index.Obstacle(candidate.obstacle)];
+    const Node& node = scene.nodes[at];
+    const bool can_slide = CanSlide(!node.fixed_x || rates[2 * at] != 0.0, !node.fixed_y || rates[2 * at + 1] != 0.0,
+                                    obstacle, turning.count(candidate.obstacle) > 0);
+    return can_slide ? obstacle.friction : 0.0;
+  };
+  // Parts pass on forces: of the stiffest one the rounding, too.
+  const double stiffest = check.LargestStiffness() * scaling.length;
+  double closing = 0.0;  // largest force that closes a gap which counts as closed at the start
+  for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
+    const double gap = std::abs(check.Gap(i, start)) / scaling.length;
+    if (gap <= kExact) closing = std::max(closing, kClosing * gap * forces[i].of_all_parts);
+  }
+  for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
+    VerifiedContact contact;
+    contact.node = index.Node(scene.contacts[i].node);
+    contact.friction = friction_of(scene.contacts[i], contact.node);
+    contact.name = scene.contacts[i].Name();
+    const double unit = forces[i].on_node / scaling.force;
+    if (unit > 0.0 && unit < kSoft) contact.unit = unit;
+    if (kStiff * unit > 1.0) contact.unit = kStiff * unit;
+    contact.of_parts = std::max(1.0, forces[i].of_all_parts / scaling.force);
+    const double rounding = kRoundingOfParts * std::max(stiffest, forces[i].of_all_parts);
+    contact.rounding = std::max(kRounding, rounding / (scaling.force * contact.unit));
+    contact.closing = std::max(contact.rounding, closing / (scaling.force * contact.unit));
+    contacts.push_back(std::move(contact));
+  }
+  return contacts;
+}
+
+}  // namespace
 
 VerifiedStage::VerifiedStage(const TraceRequest& request, const SceneIndex& index_given, const Scaling& of_program,
                              std::size_t stage, double largest_load)

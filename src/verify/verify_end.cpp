@@ -10,8 +10,7 @@
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/scaling.h"
 #include "contact_path/verify/verify_path.h"
-#include "verify/bounds.h"
-#include "verify/scaled_motion.h"
+#include "verify/verified_stage.h"
 
 namespace contact_path {
 namespace {

@@ -7,9 +7,8 @@
 
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/scaling.h"
-#include "verify/bounds.h"
 #include "verify/findings.h"
-#include "verify/scaled_motion.h"
+#include "verify/verified_stage.h"
 
 namespace contact_path {
 namespace {

@@ -8,11 +8,9 @@
 #include "contact_path/scene/expand.h"
 #include "contact_path/scene/program.h"
 #include "contact_path/verify/verify_events.h"
-#include "verify/bounds.h"
 #include "verify/findings.h"
 #include "verify/integral_checks.h"
 #include "verify/point_checks.h"
-#include "verify/scaled_motion.h"
 #include "verify/verified_stage.h"
 
 namespace contact_path {

@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <functional>
 #include <limits>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -290,10 +289,8 @@ TEST(VerifyPath, DissipationThatIsBalancedByWorkIsFound) {
     }
 }
 
-TracedPath WithInnerStates(const std::string& file, std::optional<Method> method, int increments) {
-  TraceRequest request = ReadTraceRequestFile(file);
+TracedPath WithInnerStates(TraceRequest request, int increments) {
   request.options.record.emplace_back("inner");
-  if (method) request.options.method = *method;
   request.options.max_increments = increments;
   return TraceIncrements(request);
 }
@@ -302,10 +299,17 @@ bool HasInner(const Increment& increment) { return !increment.inner.positions.em
 
 // Scenes whose integrals are those of loads, of friction on arcs of beams, of a solid with a surface, and of an
 // obstacle that moves.
-class InnerStates : public ::testing::TestWithParam<const char*> {
+struct AccurateScene {
+  const char* name;
+  Accuracy accuracy;  // so that a millionth of the whole path is more than what an increment leaves open
+};
+
+class InnerStates : public ::testing::TestWithParam<AccurateScene> {
  protected:
   void SetUp() override {
-    path_ = WithInnerStates(std::string(CONTACT_PATH_SCENES) + "/" + GetParam() + ".yaml", Method::kBranch, 150);
+    TraceRequest request = ReadExample(GetParam().name);
+    request.options.accuracy = GetParam().accuracy;
+    path_ = WithInnerStates(request, 150);
     for (std::size_t i = 1; i < path_.increments.size(); ++i)
       if (path_.increments[i].kind == IncrementKind::kRegular && HasInner(path_.increments[i])) regular_.push_back(i);
     ASSERT_GT(regular_.size(), 10U);
@@ -334,7 +338,10 @@ TEST_P(InnerStates, ProveEachIncrementThatMoves) {
 TEST_P(InnerStates, ShowAMillionthOfEachSum) {
   for (std::size_t k = 0; k < regular_.size(); k += regular_.size() / 6) {
     SCOPED_TRACE(regular_[k]);
-    EXPECT_NE(FindingsWith(&Increment::arc_length, regular_[k]).find("arc length is off by"), std::string::npos);
+    // Before other increments longer steps were tried, and their arc length is known to less.
+    if (path_.increments[regular_[k]].solve.rejected == 0) {
+      EXPECT_NE(FindingsWith(&Increment::arc_length, regular_[k]).find("arc length is off by"), std::string::npos);
+    }
     EXPECT_NE(FindingsWith(&Increment::external_work, regular_[k]).find("work of the loads"), std::string::npos);
     if (path_.increments.back().dissipation > 0.0) {
       EXPECT_NE(FindingsWith(&Increment::dissipation, regular_[k]).find("dissipation, over"), std::string::npos);
@@ -350,7 +357,13 @@ TEST_P(InnerStates, ThatWereChangedAreFound) {
     return Listed(VerifyPath(path_.request, increments));
   };
   EXPECT_NE(findings_with([](InnerState& inner) { inner.load_factor += 1e-4; }), "");
-  EXPECT_NE(findings_with([&](InnerState& inner) { inner.positions = path_.increments[at - 1].positions; }), "");
+  // The coordinate that moves most on the path.
+  const std::vector<double>&first = path_.increments.front().positions, &last = path_.increments.back().positions;
+  std::size_t most = 0;
+  for (std::size_t i = 0; i < first.size(); ++i)
+    if (std::abs(last[i] - first[i]) > std::abs(last[most] - first[most])) most = i;
+  EXPECT_NE(findings_with([&](InnerState& inner) { inner.positions[most] += 1e-5; }).find("equilibrium residual"),
+            std::string::npos);
   EXPECT_NE(findings_with([](InnerState& inner) { inner.contacts.back().gap += 1e-3; }).find("recorded gap"),
             std::string::npos);
   EXPECT_NE(findings_with([](InnerState& inner) { inner.positions.pop_back(); }).find("not those of the scene"),
@@ -363,13 +376,18 @@ TEST_P(InnerStates, ThatWereChangedAreFound) {
 }
 
 INSTANTIATE_TEST_SUITE_P(VerifyPath, InnerStates,
-                         ::testing::Values("sliding_bar", "rough_arch", "two_blocks", "snap_hook"),
-                         [](const auto& instance) { return std::string(instance.param); });
+                         ::testing::Values(AccurateScene{"sliding_bar", Accuracy::kAccurate},
+                                           AccurateScene{"rough_arch", Accuracy::kBalanced},
+                                           AccurateScene{"two_blocks", Accuracy::kBalanced},
+                                           AccurateScene{"snap_hook", Accuracy::kBalanced}),
+                         [](const auto& instance) { return std::string(instance.param.name); });
 
 // Steps do not depend on whether inner states are recorded.
 TEST(VerifyPath, InnerStatesLeaveThePathAsItIs) {
   for (const Method method : {Method::kBranch, Method::kMpec}) {
-    TracedPath with = WithInnerStates(std::string(CONTACT_PATH_SCENES) + "/fin_ray.yaml", method, 80);
+    TraceRequest request = ReadExample("fin_ray");
+    request.options.method = method;
+    TracedPath with = WithInnerStates(request, 80);
     with.request.options.record.clear();
     const TracedPath without = TraceIncrements(with.request);
     ASSERT_EQ(with.increments.size(), without.increments.size());
@@ -407,7 +425,9 @@ TEST(VerifyPath, AllScenesAreProvedWithAndWithoutInnerStates) {
     for (const auto& entry : std::filesystem::directory_iterator(directory)) {
       if (entry.path().extension() != ".yaml") continue;
       SCOPED_TRACE(entry.path().filename().string());
-      TracedPath path = WithInnerStates(entry.path().string(), std::nullopt, 60);
+      const TraceRequest request = ReadTraceRequestFile(entry.path().string());
+      if (!request.options.LocatesEvents()) continue;
+      TracedPath path = WithInnerStates(request, 50);
       if (path.increments.empty()) continue;
       for (const Increment& increment : path.increments) inner += HasInner(increment) ? 1 : 0;
       const Verification verification = VerifyPath(path.request, path.increments);
