@@ -12,19 +12,6 @@ namespace {
 constexpr double kShare = 0.1;
 constexpr double kEnergy = 1e-2;  // of the work done: steps keep their energy balance, and their arc length, to less
 
-// Scaled, with the load factor last.
-std::vector<double> MotionWithLoad(const CheckedState& from, const CheckedState& to, const Scaling& scaling) {
-  std::vector<double> motion = ScaledMotion(from, to, scaling.length);
-  motion.push_back((to.load_factor - from.load_factor) / scaling.load_factor);
-  return motion;
-}
-
-double Product(const std::vector<double>& a, const std::vector<double>& b) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
-  return sum;
-}
-
 }  // namespace
 
 IntegralChecks::Recorded::Recorded(const Increment& before, const Increment& increment, const VerifiedStage& stage)
@@ -48,7 +35,7 @@ void IntegralChecks::Check(const Increment* earlier, const Increment& before, co
                            const Increment* after, bool next) {
   const Recorded recorded(before, increment, stage_);
   const ThreeStates ends = {StateOf(before), StateOf(increment), {}};
-  const std::vector<double> motion = MotionWithLoad(ends[0], ends[1], stage_.scaling);
+  const std::vector<double> motion = ScaledMotion(ends[0], ends[1], stage_.scaling);
   const double chord = std::sqrt(Product(motion, motion));
   if (!(recorded.arc > 0.0)) {
     findings_.Bound("nodes move though the arc length does not grow", chord, std::max(stage_.rounding, kSingular));
@@ -118,13 +105,13 @@ void IntegralChecks::Compare(const Recorded& recorded, const Integrals& anew, co
 }
 
 IntegralChecks::Integrals IntegralChecks::Integrate(const ThreeStates& states, const Increment& increment) const {
-  const std::vector<double> chord = MotionWithLoad(states[0], states[1], stage_.scaling);
+  const std::vector<double> chord = ScaledMotion(states[0], states[1], stage_.scaling);
   const double square = Product(chord, chord), length = std::sqrt(square);
   Integrals integrals;
   integrals.arc.value = length;
   double ratio = 0.0;  // of the bend of the quadratic curve, which is across its chord, to the chord
   if (!states[2].positions.empty() && square > 0.0) {
-    const std::vector<double> third = MotionWithLoad(states[0], states[2], stage_.scaling);
+    const std::vector<double> third = ScaledMotion(states[0], states[2], stage_.scaling);
     const double t = integrals.t = Product(third, chord) / square;
     ratio = std::sqrt(std::max(0.0, Product(third, third) / square - t * t)) / std::abs(t * (1.0 - t));
   }

@@ -25,26 +25,6 @@ const char* NameOf(ContactState state) {
   return "";
 }
 
-// All scaled: lengths over L, forces over F.
-struct ContactNumbers {
-  double gap = 0.0;
-  double slip = 0.0;  // what the law of friction is about: since the increment before, or since the start
-  double rn = 0.0, rt = 0.0;
-};
-
-bool StateHolds(ContactState state, const VerifiedContact& contact, const ContactNumbers& numbers,
-                const StateTolerances& tolerances) {
-  if (state == ContactState::kOpen) return std::max(std::abs(numbers.rn), std::abs(numbers.rt)) <= tolerances.value;
-  if (!(std::abs(numbers.gap) <= tolerances.value)) return false;
-  if (state == ContactState::kClosed) return std::abs(numbers.rt) <= tolerances.value && contact.friction == 0.0;
-  if (state == ContactState::kStick) return std::abs(numbers.slip) <= tolerances.slip;
-  const double sense = state == ContactState::kSlipPlus ? 1.0 : -1.0, bound = contact.friction * numbers.rn;
-  // A friction force that is rounding tells no sense of the slip.
-  const bool rubs = bound > contact.closing * contact.unit;
-  return (!rubs || sense * numbers.slip >= -tolerances.slip) &&
-         std::abs(numbers.rt + sense * bound) <= tolerances.value;
-}
-
 void Keep(const Residuals& residuals, Residuals* largest) {
   for (double Residuals::*const field :
        {&Residuals::equilibrium, &Residuals::penetration, &Residuals::tensile_reaction, &Residuals::complementarity,
@@ -95,10 +75,17 @@ void PointChecks::CheckState(const Increment& before, const Increment& at, bool 
   CheckSupports(at);
   // Where a point is repeated, as of a node between two discs, its place is known to no more.
   const bool repeated = &before != &at && !(at.arc_length > before.arc_length);
-  const StateTolerances tolerances = {tolerance, repeated ? std::max(tolerance, kSingular) : tolerance};
+  const double tolerance_of_slip = repeated ? std::max(tolerance, kSingular) : tolerance;
   const CheckedState from = StateOf(before), to = StateOf(at);
-  for (std::size_t i = 0; i < at.contacts.size(); ++i)
-    CheckContact(i, at.contacts[i], from, to, in_one_piece, tolerances);
+  for (std::size_t i = 0; i < at.contacts.size(); ++i) {
+    // What the law of friction is about; 0 where that is not known.
+    double slip = 0.0;
+    if (stage_.configuration.HasTotalLaw() && stage_.contacts[i].friction > 0.0)
+      slip = stage_.check.TotalSlip(i, to);
+    else if (in_one_piece)
+      slip = stage_.check.Slip(i, from, to);
+    CheckContact(i, at.contacts[i], to, slip / stage_.scaling.length, tolerance, tolerance_of_slip);
+  }
   if (at.solve.exact) CheckSoftContacts(at);
 }
 
@@ -118,22 +105,25 @@ void PointChecks::CheckSupports(const Increment& at) {
   }
 }
 
-void PointChecks::CheckContact(std::size_t i, const ContactRecord& contact, const CheckedState& from,
-                               const CheckedState& to, bool in_one_piece, const StateTolerances& tolerances) {
+void PointChecks::CheckContact(std::size_t i, const ContactRecord& contact, const CheckedState& state, double slip,
+                               double tolerance, double tolerance_of_slip) {
   const VerifiedContact& at = stage_.contacts[i];
-  const double length = stage_.scaling.length, force = stage_.scaling.force;
-  const double gap = stage_.check.Gap(i, to) / length, past_end = stage_.check.GapPastEnd(i, to) / length;
-  const double recorded = contact.gap / length;
+  const double length = stage_.scaling.length, recorded = contact.gap / length;
+  const double gap = stage_.check.Gap(i, state) / length, past_end = stage_.check.GapPastEnd(i, state) / length;
   findings_.Bound("recorded gap of " + at.name + " less the true one",
                   std::min(std::abs(recorded - gap), std::abs(recorded - past_end)), stage_.rounding);
-  // What the law of friction is about; 0 where that is not known.
-  double slip = 0.0;
-  if (stage_.configuration.HasTotalLaw() && at.friction > 0.0)
-    slip = stage_.check.TotalSlip(i, to);
-  else if (in_one_piece)
-    slip = stage_.check.Slip(i, from, to);
-  if (!StateHolds(contact.state, at, {gap, slip / length, contact.rn / force, contact.rt / force}, tolerances))
-    findings_.Report(at.name, " is recorded as ", NameOf(contact.state), ", but is not");
+  const double rn = contact.rn / stage_.scaling.force, rt = contact.rt / stage_.scaling.force;
+  bool holds = contact.state == ContactState::kOpen ? std::max(std::abs(rn), std::abs(rt)) <= tolerance
+                                                    : std::abs(gap) <= tolerance;
+  if (contact.state == ContactState::kClosed) holds = holds && std::abs(rt) <= tolerance && at.friction == 0.0;
+  if (contact.state == ContactState::kStick) holds = holds && std::abs(slip) <= tolerance_of_slip;
+  if (Slips(contact.state)) {
+    const double sense = contact.state == ContactState::kSlipPlus ? 1.0 : -1.0, bound = at.friction * rn;
+    // A friction force that is rounding tells no sense of the slip.
+    const bool rubs = bound > at.closing * at.unit;
+    holds = holds && (!rubs || sense * slip >= -tolerance_of_slip) && std::abs(rt + sense * bound) <= tolerance;
+  }
+  if (!holds) findings_.Report(at.name, " is recorded as ", NameOf(contact.state), ", but is not");
 }
 
 void PointChecks::CheckRecorded(const Increment& increment, const Residuals& residuals, bool with_law) {
@@ -215,14 +205,12 @@ void PointChecks::CheckForces(const Increment& increment) {
 }
 
 void PointChecks::CheckSoftContacts(const Increment& increment) {
-  if (std::all_of(stage_.contacts.begin(), stage_.contacts.end(),
-                  [](const VerifiedContact& contact) { return contact.unit == 1.0; }))
-    return;
   const CheckedState state = StateOf(increment);
-  const std::vector<double> unbalance = stage_.check.Unbalance(state);
+  std::vector<double> unbalance;
   for (std::size_t i = 0; i < stage_.contacts.size(); ++i) {
     const VerifiedContact& at = stage_.contacts[i];
     if (at.unit == 1.0) continue;
+    if (unbalance.empty()) unbalance = stage_.check.Unbalance(state);
     const Node& node = stage_.scene.nodes[at.node];
     const double unit = at.unit * stage_.scaling.force;
     const double rn = increment.contacts[i].rn / unit, rt = increment.contacts[i].rt / unit;

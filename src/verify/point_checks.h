@@ -11,11 +11,6 @@
 
 namespace contact_path {
 
-struct StateTolerances {
-  double value = 0.0;  // of gaps and forces, scaled
-  double slip = 0.0;   // scaled
-};
-
 // Residuals, supports, gaps, contact states and recorded numbers of the increments of one stage.
 class PointChecks {
  public:
@@ -35,8 +30,9 @@ class PointChecks {
   // Forces of supports and boundaries, and what elements and contacts bear.
   void CheckForces(const Increment& increment);
   void CheckSupports(const Increment& at);
-  void CheckContact(std::size_t i, const ContactRecord& contact, const CheckedState& from, const CheckedState& to,
-                    bool in_one_piece, const StateTolerances& tolerances);
+  // Gap and state of a contact. slip: what the law of friction is about, over L. Tolerances: scaled.
+  void CheckContact(std::size_t i, const ContactRecord& contact, const CheckedState& state, double slip,
+                    double tolerance, double tolerance_of_slip);
   // Equilibrium across the surfaces and the laws of reactions where F is no measure of them.
   void CheckSoftContacts(const Increment& at);
   // Where reactions are so small that residuals over F cannot tell: against what contacts have pushed with.

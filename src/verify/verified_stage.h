@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -71,16 +72,20 @@ inline bool SameSizes(const Increment& a, const Increment& b) {
          a.contacts.size() == b.contacts.size();
 }
 
-// Of all positions, over the characteristic length, and of all rotations. State: Increment or CheckedState, both of the
-// same sizes.
+// Of all positions and rotations, and of the load factor, scaled. State: Increment or CheckedState of the same sizes.
 template <typename State>
-std::vector<double> ScaledMotion(const State& from, const State& to, double length) {
+std::vector<double> ScaledMotion(const State& from, const State& to, const Scaling& scaling) {
   std::vector<double> motion;
-  motion.reserve(to.positions.size() + to.rotations.size());
+  motion.reserve(to.positions.size() + to.rotations.size() + 1);
   for (std::size_t i = 0; i < to.positions.size(); ++i)
-    motion.push_back((to.positions[i] - from.positions[i]) / length);
+    motion.push_back((to.positions[i] - from.positions[i]) / scaling.length);
   for (std::size_t i = 0; i < to.rotations.size(); ++i) motion.push_back(to.rotations[i] - from.rotations[i]);
+  motion.push_back((to.load_factor - from.load_factor) / scaling.load_factor);
   return motion;
+}
+
+inline double Product(const std::vector<double>& a, const std::vector<double>& b) {
+  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
 }
 
 }  // namespace contact_path

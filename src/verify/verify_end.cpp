@@ -21,8 +21,8 @@ bool ProgramDone(const TraceRequest& request, const Increment& last) {
 
 bool SameState(const Increment& a, const Increment& b, const Scaling& scaling) {
   if (a.stage != b.stage || !SameSizes(a, b)) return false;
-  double worst = std::abs(a.load_factor - b.load_factor) / scaling.load_factor;
-  for (const double component : ScaledMotion(a, b, scaling.length)) worst = std::max(worst, std::abs(component));
+  double worst = 0.0;
+  for (const double component : ScaledMotion(a, b, scaling)) worst = std::max(worst, std::abs(component));
   for (std::size_t i = 0; i < a.contacts.size(); ++i) {
     const ContactRecord &p = a.contacts[i], &q = b.contacts[i];
     if (p.state != q.state) return false;

@@ -127,11 +127,9 @@ class EventVerifier {
     Chord chord;
     chord.arc = to.arc_length - from.arc_length;
     if (!(chord.arc > kShortest)) return std::nullopt;
-    double square = 0.0;
-    chord.motion = ScaledMotion(from, to, scaling_.length);
-    chord.motion.push_back((to.load_factor - from.load_factor) / scaling_.load_factor);
-    for (const double component : chord.motion) square += component * component;
-    for (double& component : chord.motion) component /= std::sqrt(square);
+    chord.motion = ScaledMotion(from, to, scaling_);
+    const double length = std::sqrt(Product(chord.motion, chord.motion));
+    for (double& component : chord.motion) component /= length;
     return chord;
   }
 
@@ -177,9 +175,7 @@ class EventVerifier {
     if (at_ == 0 || now.kind == IncrementKind::kStart) return;
     const std::optional<Chord> before = ChordOf(increments_[at_ - 1], now);
     if (!before) return;
-    double cosine = 0.0;
-    for (std::size_t i = 0; i < after->motion.size(); ++i) cosine += before->motion[i] * after->motion[i];
-    const double angle = std::acos(std::clamp(cosine, -1.0, 1.0));
+    const double angle = std::acos(std::clamp(Product(before->motion, after->motion), -1.0, 1.0));
     if (!(std::abs(taken.turn - angle) <= 2.0 * turn_ + kRate))
       findings_.Report("the branch taken turns by ", taken.turn, ", the increments do by ", angle);
   }

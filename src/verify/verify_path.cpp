@@ -147,9 +147,12 @@ class StageVerifier {
         increment.external_work != last.external_work)
       findings_.Report("arc length, dissipation and work do not go on from the last increment of the stage before");
     if (!SameSizes(last, increment)) return;
+    // At load factors of two stages: of the nodes alone.
     double motion = 0.0;
-    for (const double component : ScaledMotion(last, increment, stage_.scaling.length))
-      motion = std::max(motion, std::abs(component));
+    for (std::size_t i = 0; i < last.positions.size(); ++i)
+      motion = std::max(motion, std::abs(increment.positions[i] - last.positions[i]) / stage_.scaling.length);
+    for (std::size_t i = 0; i < last.rotations.size(); ++i)
+      motion = std::max(motion, std::abs(increment.rotations[i] - last.rotations[i]));
     findings_.Bound("positions differ from those at the end of the stage before", motion, stage_.rounding);
     BoundReactionChange("reactions differ from those at the end of the stage before", last, increment, motion);
     if (!SameStates(last, increment))
@@ -194,11 +197,9 @@ class StageVerifier {
   void CheckStates(const Increment& before, const Increment& increment, bool next) {
     // Reactions may change at rest where a branch begins, and nowhere else.
     if (next && !(increment.arc_length > before.arc_length) && before.event.branches.empty()) {
-      double square = 0.0;
-      for (const double component : ScaledMotion(before, increment, stage_.scaling.length))
-        square += component * component;
+      const std::vector<double> motion = ScaledMotion(before, increment, stage_.scaling);
       BoundReactionChange("reactions change while nothing moves, and not at an event", before, increment,
-                          std::sqrt(square));
+                          std::sqrt(Product(motion, motion)));
     }
     // Where events are located, an increment ends where states change; otherwise an increment tells that they have.
     const IncrementKind kind = stage_.located ? before.kind : increment.kind;
