@@ -167,7 +167,7 @@ class EventVerifier {
       change += std::abs(next->contacts[i].rt - begin[i].rt) / scaling_.force;
     }
     const double rate = (next->dissipation - now.dissipation) / (scaling_.force * scaling_.length) / after->arc;
-    if (request_.options.friction_law == FrictionLaw::kIncremental &&
+    if (request_.options.friction_law == FrictionLaw::kIncremental && begin.size() == next->contacts.size() &&
         !(std::abs(taken.dissipation_rate - rate) <=
           reach * friction + change + kBend * after->arc * (1.0 + friction) + kRate))
       findings_.Report("the branch taken has the dissipation rate ", taken.dissipation_rate,
