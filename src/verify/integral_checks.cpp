@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace contact_path {
@@ -68,13 +69,13 @@ void IntegralChecks::Check(const Increment* earlier, const Increment& before, co
     integrals.dissipation.Take(by.dissipation, i == 0);
     if (inner && !(by.t > 0.0 && by.t < 1.0)) findings_.Report("the inner state is not inside of the increment");
   }
-  // The recorded arc length is of an interpolation, which is rougher where longer steps were not accepted.
+  const double imbalance = std::abs(recorded.work - recorded.stored - recorded.dissipation);
   if (!thirds.empty()) {
     ++result_.proved_integrals;
     // What parts store and give back between three states the driving forces there need not show.
-    const double imbalance = std::abs(recorded.work - recorded.stored - recorded.dissipation);
     if (!inner && stage_.Driven() && imbalance < std::abs(recorded.work - integrals.work.value))
       integrals.work.value = recorded.stored + recorded.dissipation;
+    // The recorded arc length is of an interpolation, which is rougher where longer steps were not accepted.
     Compare(recorded, integrals, increment, kSingular + (increment.solve.rejected > 0 ? kEnergy * recorded.arc : 0.0));
     return;
   }
@@ -83,8 +84,7 @@ void IntegralChecks::Check(const Increment* earlier, const Increment& before, co
   if (next && recorded.arc > std::acos(0.5) * chord + kSingular)
     findings_.Report("arc length grows by ", recorded.arc, ", more than a curve with the chord ", chord, " would");
   const double exchanged = std::abs(recorded.work) + std::abs(recorded.stored) + std::abs(recorded.dissipation);
-  findings_.Bound("energies of the increment are out of balance, over F L",
-                  std::abs(recorded.work - recorded.stored - recorded.dissipation),
+  findings_.Bound("energies of the increment are out of balance, over F L", imbalance,
                   kEnergy * exchanged +
                       recorded.rounding * (1.0 + std::abs(increment.strain_energy) / stage_.Energy()) +
                       kRoundingOfParts * std::abs(increment.external_work) / stage_.Energy());
@@ -134,8 +134,7 @@ Integral IntegralChecks::Work(const ThreeStates& states, const ThreePoints& rule
     for (std::size_t k = 0; k < (rule.HasThird() ? 3 : 2); ++k) values[k] = function(states[k]);
     return values;
   };
-  const auto load_factor = [](const CheckedState& state) { return state.load_factor; };
-  const ThreeValues load = along(load_factor);
+  const ThreeValues load = along([](const CheckedState& state) { return state.load_factor; });
   for (const Load& of : stage_.scene.loads) {
     const std::size_t node = stage_.index.Node(of.node);
     const ThreeValues motion = along([&](const CheckedState& state) {

@@ -48,8 +48,8 @@ class ThreePoints {
   double t() const { return t_; }
   bool HasThird() const { return t_ != 0.0; }
 
-  // Of f dx. A quantity is f0 + (f1 - f0) t + F t (1 - t); the bulge adds up the parts that F has, each by its size,
-  // for they may cancel.
+  // Of f dx. A quantity is f0 + (f1 - f0) t + F t (1 - t); what is open adds up the terms
+  // with F, each by its size, for they may cancel.
   Integral Of(const ThreeValues& f, const ThreeValues& x) const {
     const double df = f[1] - f[0], dx = x[1] - x[0], bend_f = Bend(f), bend_x = Bend(x);
     const double mean = 0.5 * (f[0] + f[1]);
