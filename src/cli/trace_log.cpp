@@ -55,6 +55,7 @@ void TraceLog::Add(const Increment& increment) {
   SetFields(increment, &line);
   Json event = std::move(line["event"]);
   line.erase("event");
+  if (increment.inner.positions.empty()) line.erase("inner");
   line["type"] = "increment";
   line["equilibrium_residual"] = increment.residuals.equilibrium;
   line["complementarity_residual"] = increment.residuals.Contact();

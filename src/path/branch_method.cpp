@@ -119,6 +119,18 @@ AcceptedPoint BranchMethod::IncrementOf(const ArcStep& step, const PathPoint& fr
   return increment;
 }
 
+std::optional<PathPoint> BranchMethod::InnerPoint(const Step& step, const PathPoint& from) const {
+  if (!options_.inner || !(step.length > 0.0)) return std::nullopt;
+  // On an arc of its own: the steps of the path are the same with and without inner states.
+  SmoothArc arc(model_.structure, model_.contacts);
+  arc.SetStates(arc_.system().states(), arc_.system().Unpack(step.start.x), arc_.Rests());
+  const Correction middle = arc.CorrectOnPlane(step.Point(0.5 * step.length), step.normal);
+  if (!middle.converged) return std::nullopt;
+  PathPoint point = arc.system().Unpack(middle.x);
+  const bool sound = model_.Check(from, point).Largest() <= tolerances::kAcceptedExact;
+  return sound ? std::optional(std::move(point)) : std::nullopt;
+}
+
 std::optional<int> BranchMethod::EndAtReturn(const PathPoint& from, ArcStep* at) {
   Step& step = at->step;
   if (options_.returns == nullptr || !(step.length > 0.0) || options_.HasChoiceAfter(increments_, events_))
@@ -329,6 +341,7 @@ Advance BranchMethod::Next(const PathPoint& from) {
   if (moved) {
     increment.arc_length = at->step.ArcLength();
     increment.work = next->work;
+    increment.inner = InnerPoint(at->step, from);
     at_start_ = false;
   }
   current_ = at->step.end;

@@ -27,6 +27,7 @@ BranchOptions BranchOptions::For(const TraceOptions& options, double growth) {
   result.smallest_step = std::min(result.smallest_step, 1e-3 * result.step);
   result.direction = options.Direction();
   result.choices = options.branch_choices;
+  result.inner = options.Records("inner");
   return result;
 }
 

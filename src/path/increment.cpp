@@ -1,18 +1,25 @@
 #include "contact_path/path/increment.h"
 
 namespace contact_path {
+namespace {
 
-CheckedState StateOf(const Increment& increment) {
+template <typename Record>
+CheckedState CheckedStateOf(const Record& record) {
   CheckedState state;
-  state.load_factor = increment.load_factor;
-  state.positions = increment.positions;
-  state.rotations = increment.rotations;
-  for (const ContactRecord& contact : increment.contacts) {
+  state.load_factor = record.load_factor;
+  state.positions = record.positions;
+  state.rotations = record.rotations;
+  for (const ContactRecord& contact : record.contacts) {
     state.rn.push_back(contact.rn);
     state.rt.push_back(contact.rt);
   }
   return state;
 }
+
+}  // namespace
+
+CheckedState StateOf(const Increment& increment) { return CheckedStateOf(increment); }
+CheckedState StateOf(const InnerState& inner) { return CheckedStateOf(inner); }
 
 std::string_view ToString(IncrementKind kind) {
   switch (kind) {

@@ -41,10 +41,15 @@ IncrementLists::IncrementLists(const TraceRequest& request, const SceneIndex& in
 
 bool IncrementLists::Fit(const Increment& increment) const {
   const bool forces = increment.supports.size() == supports_ && increment.boundaries.size() == boundaries_;
+  const InnerState& inner = increment.inner;
+  const bool no_inner = inner.positions.empty() && inner.rotations.empty() && inner.contacts.empty();
   if (increment.positions.empty())
-    return forces && increment.rotations.empty() && increment.contacts.empty() && increment.sections.empty() &&
-           increment.stresses.empty() && increment.pressures.empty() && increment.widths.empty();
-  return forces && increment.positions.size() == 2 * nodes_ && increment.rotations.size() == rotations_ &&
+    return forces && no_inner && increment.rotations.empty() && increment.contacts.empty() &&
+           increment.sections.empty() && increment.stresses.empty() && increment.pressures.empty() &&
+           increment.widths.empty();
+  const bool inner_fits = no_inner || (inner.positions.size() == 2 * nodes_ && inner.rotations.size() == rotations_ &&
+                                       inner.contacts.size() == contacts_);
+  return forces && inner_fits && increment.positions.size() == 2 * nodes_ && increment.rotations.size() == rotations_ &&
          increment.contacts.size() == contacts_ && increment.sections.size() == sections_ &&
          increment.stresses.size() == stresses_ && increment.pressures.size() == pressures_ &&
          increment.widths.size() == widths_;

@@ -20,16 +20,27 @@ bool TurnsBackByChoice(const EventRecord& event, double change) {
          });
 }
 
+std::vector<ContactRecord> ContactsAt(const Model& model, const PathPoint& point, const CheckedState& state) {
+  std::vector<ContactRecord> contacts(model.contacts.size());
+  for (std::size_t i = 0; i < contacts.size(); ++i)
+    contacts[i] = {model.contacts[i]->Gap(point.u, point.s, point.Patch(i)) * model.scaling.length, state.rn[i],
+                   state.rt[i], point.states[i]};
+  return contacts;
+}
+
+InnerState InnerStateAt(const Model& model, const PathPoint& point) {
+  CheckedState state = model.InSceneUnits(point);
+  std::vector<ContactRecord> contacts = ContactsAt(model, point, state);
+  return {state.load_factor, std::move(state.positions), std::move(state.rotations), std::move(contacts)};
+}
+
 }  // namespace
 
 void FillState(const Model& model, const PathPoint& point, Increment* increment) {
   CheckedState state = model.InSceneUnits(point);
+  increment->contacts = ContactsAt(model, point, state);
   increment->positions = std::move(state.positions);
   increment->rotations = std::move(state.rotations);
-  increment->contacts.resize(model.contacts.size());
-  for (std::size_t i = 0; i < model.contacts.size(); ++i)
-    increment->contacts[i] = {model.contacts[i]->Gap(point.u, point.s, point.Patch(i)) * model.scaling.length,
-                              state.rn[i], state.rt[i], point.states[i]};
   Reactions reactions = model.ReactionsAt(point);
   increment->supports = std::move(reactions.supports);
   increment->boundaries = std::move(reactions.boundaries);
@@ -86,6 +97,7 @@ Causes Recorder::Remarks() const {
 void Recorder::Fill(const Model& model, const PathPoint& point, const AcceptedPoint& accepted, double time) {
   FillState(model, point, &increment_);
   FillLists(model, point, lists_, &increment_);
+  increment_.inner = accepted.inner ? InnerStateAt(model, *accepted.inner) : InnerState();
   increment_.index = increments_;
   increment_.load_factor = point.s * model.scaling.load_factor;
   increment_.kind = accepted.kind;

@@ -236,6 +236,7 @@ msgs::Increment ToMessage(const Increment& increment, int full_state_every) {
     message.stresses.clear();
     message.pressures.clear();
     message.widths.clear();
+    message.inner = msgs::InnerState();
   }
   message.equilibrium_residual = increment.residuals.equilibrium;
   message.penetration_residual = increment.residuals.penetration;

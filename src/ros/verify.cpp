@@ -43,7 +43,11 @@ void PrintTable(const RecordedTrace& trace, const Verification& verification) {
     std::cout << "increments without state    " << std::setw(7)
               << verification.increments - verification.full_increments << '\n';
   std::cout << "\nenergy balance: off by " << verification.energy_balance << " of F L at most, with "
-            << verification.work << " of work done by the loads\n\n";
+            << verification.work << " of work done by the loads\n";
+  if (verification.proved_integrals + verification.open_integrals > 0)
+    std::cout << "arc length, work and dissipation: " << verification.proved_integrals
+              << " increments through three states, " << verification.open_integrals << " by their ends alone\n";
+  std::cout << '\n';
 }
 
 // What speaks against the limit points of the result, in a line; empty: nothing does.

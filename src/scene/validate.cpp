@@ -42,8 +42,9 @@ void CheckOptions(Checker* checker) {
                    "must be at most max_increments, since each value wants an increment");
   }
   for (std::size_t i = 0; i < options.record.size(); ++i)
-    if (options.record[i] != "sections" && options.record[i] != "stresses" && options.record[i] != "pressures")
-      checker->Add(path.Key("record")[i], TextOrQuotes(options.record[i]), "must be sections, stresses or pressures");
+    if (const std::string& list = options.record[i];
+        list != "sections" && list != "stresses" && list != "pressures" && list != "inner")
+      checker->Add(path.Key("record")[i], TextOrQuotes(list), "must be sections, stresses, pressures or inner");
   if (!options.LocatesEvents() && !options.at.empty())
     checker->Add(path.Key("at"), "", "must be empty with mpec_solver ipopt, which does not locate values");
   if (!options.LocatesEvents() && options.friction_law == FrictionLaw::kTotal)

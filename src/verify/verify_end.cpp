@@ -10,14 +10,10 @@
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/scaling.h"
 #include "contact_path/verify/verify_path.h"
-#include "verify/scaled_motion.h"
-#include "verify/verified_contacts.h"
+#include "verify/verified_stage.h"
 
 namespace contact_path {
 namespace {
-
-constexpr double kSame = 1e-8;      // scaled
-constexpr double kUnloaded = 1e-9;  // load factor, of the largest one
 
 bool ProgramDone(const TraceRequest& request, const Increment& last) {
   return last.stage == static_cast<int>(request.program.size()) && AtTarget(request, last);
@@ -25,14 +21,14 @@ bool ProgramDone(const TraceRequest& request, const Increment& last) {
 
 bool SameState(const Increment& a, const Increment& b, const Scaling& scaling) {
   if (a.stage != b.stage || !SameSizes(a, b)) return false;
-  double worst = std::abs(a.load_factor - b.load_factor) / scaling.load_factor;
-  for (const double component : ScaledMotion(a, b, scaling.length)) worst = std::max(worst, std::abs(component));
+  double worst = 0.0;
+  for (const double component : ScaledMotion(a, b, scaling)) worst = std::max(worst, std::abs(component));
   for (std::size_t i = 0; i < a.contacts.size(); ++i) {
     const ContactRecord &p = a.contacts[i], &q = b.contacts[i];
     if (p.state != q.state) return false;
     worst = std::max({worst, std::abs(p.rn - q.rn) / scaling.force, std::abs(p.rt - q.rt) / scaling.force});
   }
-  return worst <= kSame;
+  return worst <= kSingular;
 }
 
 // Whether no contact is left at the last increment, and the load is zero or beyond minus the target of its stage.
@@ -43,7 +39,7 @@ bool Escapes(const TraceRequest& request, const std::vector<Increment>& incremen
     if (contact.state != ContactState::kOpen) return false;
   double largest = 0.0;
   for (const Increment& increment : increments) largest = std::max(largest, std::abs(increment.load_factor));
-  if (std::abs(last.load_factor) <= kUnloaded * largest) return true;
+  if (std::abs(last.load_factor) <= kExact * largest) return true;
   if (last.stage < 1 || request.program.empty()) return false;
   const double target = request.program[static_cast<std::size_t>(last.stage) - 1].Target();
   return last.load_factor * target < 0.0 && std::abs(last.load_factor) > std::abs(target);

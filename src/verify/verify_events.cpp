@@ -3,21 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <sstream>
 #include <string>
 
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/scaling.h"
-#include "verify/scaled_motion.h"
-#include "verify/verified_contacts.h"
+#include "verify/findings.h"
+#include "verify/verified_stage.h"
 
 namespace contact_path {
 namespace {
 
 constexpr double kRate = 1e-6;      // of unit rates
-constexpr double kOpenGap = 1e-8;   // of L: wider is open
 constexpr double kBend = 0.25;      // of F: what forces may change within an increment of length 1
-constexpr double kLevel = 1e-9;     // of the scale of the load factor: a smaller change has no sense
 constexpr double kMoreTurn = 1.5;   // of the angle between the tangents at both ends: the chord is within it
 constexpr double kShortest = 1e-5;  // arc length: shorter increments may be rounding, and have no direction
 const double kPi = std::acos(-1.0);
@@ -42,15 +39,16 @@ class EventVerifier {
         turn_(kMoreTurn * LargestTurn(request.options.accuracy)),
         index_(request.scene),
         of_program_(ProgramScales(request, index_)),
-        findings_(*findings) {}
+        findings_(findings) {}
 
   void Run() {
     for (at_ = 0; at_ < increments_.size(); ++at_) {
       const Increment& now = increments_[at_];
+      findings_.SetIncrement(at_);
       if (at_ == 0 || now.stage != increments_[at_ - 1].stage) EnterStage(now);
       if (now.kind != IncrementKind::kStart && now.solve.method != request_.options.method)
-        Report("is of the method ", ToString(now.solve.method), ", the request wants ",
-               ToString(request_.options.method));
+        findings_.Report("is of the method ", ToString(now.solve.method), ", the request wants ",
+                         ToString(request_.options.method));
       CheckNumber(now);
       CheckBranches(now);
       CheckTaken(now);
@@ -59,19 +57,10 @@ class EventVerifier {
   }
 
  private:
-  template <typename... Parts>
-  void Report(const Parts&... parts) {
-    if (findings_.size() >= static_cast<std::size_t>(kMostFindings)) return;
-    std::ostringstream text;
-    text.precision(6);
-    (text << ... << parts);
-    findings_.push_back({static_cast<int>(at_), text.str()});
-  }
-
   void EnterStage(const Increment& start) {
     const std::size_t stage = static_cast<std::size_t>(std::max(start.stage, 1) - 1);
     scaling_ = StageScales(request_, index_, stage, of_program_);
-    level_ = kLevel * ResidualUnit(stiffest_[stage]) * scaling_.load_factor;
+    level_ = kExact * ResidualUnit(stiffest_[stage]) * scaling_.load_factor;
     direction_ = request_.options.Direction();
     if (!request_.program.empty()) direction_ = request_.program[stage].Target() < 0.0 ? -1.0 : 1.0;
     relation_ = 0;
@@ -90,14 +79,15 @@ class EventVerifier {
   void CheckNumber(const Increment& now) {
     const EventRecord& event = now.event;
     if (!request_.options.LocatesEvents()) {
-      if (event.number != 0 || !event.branches.empty()) Report("an event, though increments by Ipopt record none");
+      if (event.number != 0 || !event.branches.empty())
+        findings_.Report("an event, though increments by Ipopt record none");
       return;
     }
     if (event.number != 0 && event.number != ++events_)
-      Report("is event ", event.number, ", but the event after ", events_ - 1);
+      findings_.Report("is event ", event.number, ", but the event after ", events_ - 1);
     if (event.number != 0 || event.branches.empty() || now.kind == IncrementKind::kStart) return;
     const BranchChoice* const choice = ChoiceFor(now);
-    if (choice == nullptr || choice->event != 0) Report("an event without a number that no choice asks for");
+    if (choice == nullptr || choice->event != 0) findings_.Report("an event without a number that no choice asks for");
   }
 
   // What holds for any branches from here.
@@ -105,7 +95,7 @@ class EventVerifier {
     const std::vector<BranchRecord>& branches = now.event.branches;
     for (std::size_t k = 0; k < branches.size(); ++k) {
       const BranchRecord& branch = branches[k];
-      const auto wrong = [&](const char* what) { Report("branch ", k + 1, ": ", what); };
+      const auto wrong = [&](const char* what) { findings_.Report("branch ", k + 1, ": ", what); };
       if (!(std::abs(branch.load_rate) <= 1.0 + kRate)) wrong("a load rate beyond 1");
       if (!(branch.dissipation_rate >= 0.0)) wrong("a negative dissipation rate");
       if (!(branch.turn >= 0.0 && branch.turn <= kPi + kRate)) wrong("an angle beyond pi");
@@ -122,7 +112,7 @@ class EventVerifier {
         continue;
       }
       for (std::size_t i = 0; i < branch.states.size(); ++i)
-        if (branch.states[i] != ContactState::kOpen && now.contacts[i].gap > kOpenGap * scaling_.length)
+        if (branch.states[i] != ContactState::kOpen && now.contacts[i].gap > kSingular * scaling_.length)
           wrong("closes an open contact");
     }
   }
@@ -137,11 +127,9 @@ class EventVerifier {
     Chord chord;
     chord.arc = to.arc_length - from.arc_length;
     if (!(chord.arc > kShortest)) return std::nullopt;
-    double square = 0.0;
-    chord.motion = ScaledMotion(from, to, scaling_.length);
-    chord.motion.push_back((to.load_factor - from.load_factor) / scaling_.load_factor);
-    for (const double component : chord.motion) square += component * component;
-    for (double& component : chord.motion) component /= std::sqrt(square);
+    chord.motion = ScaledMotion(from, to, scaling_);
+    const double length = std::sqrt(Product(chord.motion, chord.motion));
+    for (double& component : chord.motion) component /= length;
     return chord;
   }
 
@@ -159,7 +147,7 @@ class EventVerifier {
     if (event.taken < 1 || event.taken > static_cast<int>(event.branches.size())) return;
     const BranchChoice* const choice = ChoiceFor(now);
     const int wanted = choice == nullptr ? 1 : std::max(choice->branch, 1);
-    if (event.taken != wanted) Report("branch ", event.taken, " is taken, but ", wanted, " is wanted");
+    if (event.taken != wanted) findings_.Report("branch ", event.taken, " is taken, but ", wanted, " is wanted");
     const Increment* const next = Next();
     if (next == nullptr) return;
     const std::optional<Chord> after = ChordOf(now, *next);
@@ -167,9 +155,10 @@ class EventVerifier {
     const BranchRecord& taken = event.branches[static_cast<std::size_t>(event.taken) - 1];
     const double reach = 2.0 * std::sin(0.5 * turn_) + kRate;
     if (!(std::abs(taken.load_rate - after->motion.back()) <= reach))
-      Report("the branch taken has the load rate ", taken.load_rate, ", the increment after it ", after->motion.back());
+      findings_.Report("the branch taken has the load rate ", taken.load_rate, ", the increment after it ",
+                       after->motion.back());
     if (request_.options.friction_law == FrictionLaw::kTotal && taken.dissipation_rate != 0.0)
-      Report("the branch taken dissipates, though by the total law of friction nothing does");
+      findings_.Report("the branch taken dissipates, though by the total law of friction nothing does");
     // A branch may begin with other reactions, which the increment before the next one has.
     const std::vector<ContactRecord>& begin = (next - 1)->contacts;
     double friction = 0.0, change = 0.0;
@@ -178,18 +167,17 @@ class EventVerifier {
       change += std::abs(next->contacts[i].rt - begin[i].rt) / scaling_.force;
     }
     const double rate = (next->dissipation - now.dissipation) / (scaling_.force * scaling_.length) / after->arc;
-    if (request_.options.friction_law == FrictionLaw::kIncremental &&
+    if (request_.options.friction_law == FrictionLaw::kIncremental && begin.size() == next->contacts.size() &&
         !(std::abs(taken.dissipation_rate - rate) <=
           reach * friction + change + kBend * after->arc * (1.0 + friction) + kRate))
-      Report("the branch taken has the dissipation rate ", taken.dissipation_rate, ", the increment after it ", rate);
+      findings_.Report("the branch taken has the dissipation rate ", taken.dissipation_rate,
+                       ", the increment after it ", rate);
     if (at_ == 0 || now.kind == IncrementKind::kStart) return;
     const std::optional<Chord> before = ChordOf(increments_[at_ - 1], now);
     if (!before) return;
-    double cosine = 0.0;
-    for (std::size_t i = 0; i < after->motion.size(); ++i) cosine += before->motion[i] * after->motion[i];
-    const double angle = std::acos(std::clamp(cosine, -1.0, 1.0));
+    const double angle = std::acos(std::clamp(Product(before->motion, after->motion), -1.0, 1.0));
     if (!(std::abs(taken.turn - angle) <= 2.0 * turn_ + kRate))
-      Report("the branch taken turns by ", taken.turn, ", the increments do by ", angle);
+      findings_.Report("the branch taken turns by ", taken.turn, ", the increments do by ", angle);
   }
 
   // Signs on arcs of method branch.
@@ -203,14 +191,14 @@ class EventVerifier {
     if (!moves) relation_ = 0;
     const int sign = now.solve.determinant_sign;
     if (moves && sign * before.solve.determinant_sign < 0)
-      Report("the determinant changes its sign, but there is no bifurcation");
+      findings_.Report("the determinant changes its sign, but there is no bifurcation");
     const double change = now.load_factor - before.load_factor;
     const bool smooth = now.kind == IncrementKind::kRegular || now.kind == IncrementKind::kSample;
     if (!smooth || std::abs(change) <= level_) return;
     const int relation = sign * now.solve.stiffness_sign * (change > 0.0 ? 1 : -1);
     if (relation == 0) return;
     if (relation_ != 0 && relation != relation_)
-      Report("the sign of the stiffness is not that of the determinant and the load");
+      findings_.Report("the sign of the stiffness is not that of the determinant and the load");
     relation_ = relation;
   }
 
@@ -226,7 +214,7 @@ class EventVerifier {
   int events_ = 0;          // numbered so far
   int relation_ = 0;        // of the signs on this arc; 0: not known
   std::size_t at_ = 0;      // being checked
-  std::vector<Finding>& findings_;
+  Findings findings_;
 };
 
 }  // namespace

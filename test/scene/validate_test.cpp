@@ -302,7 +302,7 @@ const BrokenRule kOptionRules[] = {
      [](auto& r) {
        r.options.record = {"sections", "strains"};
      },
-     "options.record[1]", "strains", "must be sections, stresses or pressures"},
+     "options.record[1]", "strains", "must be sections, stresses, pressures or inner"},
     {"ReactionOfAFreeComponent", [](auto& r) { r.options.stop[0].quantity = "b.rx"; }, "options.stop[0].quantity",
      "b.rx", "must refer to a component that a support holds"},
     {"EventAndIncrement",

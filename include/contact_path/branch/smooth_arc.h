@@ -50,6 +50,7 @@ class SmoothArc {
   // stands still at a limit point of its own (Branch::rests), so that the equations are singular all along the arc.
   void SetStates(const std::vector<ContactState>& states, const PathPoint& from, bool rests = false);
   const FixedStateSystem& system() const { return system_; }
+  bool Rests() const { return rests_; }
   Eigen::Index NumMotion() const { return system_.NumDofs() + 1; }  // size of (u, s)
 
   // Derivatives at a point x of the curve, along the direction with a positive component on `towards` (NumMotion()).

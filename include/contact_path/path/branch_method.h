@@ -39,6 +39,9 @@ class BranchMethod : public PathMethod {
   // there.
   AcceptedPoint IncrementAt(PathPoint point, const PathPoint& from) const;
   AcceptedPoint IncrementOf(const ArcStep& step, const PathPoint& from) const;
+  // The exact point of the arc on the plane at half of the step, where the options want it and Newton's method finds
+  // it.
+  std::optional<PathPoint> InnerPoint(const Step& step, const PathPoint& from) const;
   // Where the path comes back to an earlier increment on the step: its number, and the step ends there. Not where a
   // branch is to be chosen farther on: then a path that comes back need not repeat.
   std::optional<int> EndAtReturn(const PathPoint& from, ArcStep* at);

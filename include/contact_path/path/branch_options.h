@@ -25,6 +25,7 @@ struct BranchOptions {
   std::vector<BranchChoice> choices;
   Method method = Method::kBranch;  // mpec: increments end at the minimisers of (9)
   TrialObserver on_trial = {};
+  bool inner = false;         // increments are to have a state at the middle of their steps
   bool keep_loading = false;  // at an event, rather than turn the load back, the best branch with which it goes on
   StepEnds ends = {};         // the load factor at which the path is to end, and values of quantities, each in an
                               // increment of its own

@@ -59,8 +59,8 @@ Causes BehindSurface(const Model& model, const PathPoint& point);
 
 // Where a contact pulls at its node, by more than rounding and by more than a share of the largest reaction so far: it
 // should have opened, and did not. The sign of its reaction is not known, where the pull is below what a step sees of a
-// reaction that changes its sign. rounding: of the reactions of the point. largest_reaction: of the path so far, the
-// point included. Both in the force unit of the contact.
+// reaction that changes its sign. largest_reaction: of the path so far, the point included, in the force unit of the
+// contact.
 std::optional<End> PullingContact(const Model& model, const PathPoint& point, double largest_reaction);
 
 // The end that the user had in mind, where the path did not come to it. stage: of the last increment.

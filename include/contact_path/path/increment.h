@@ -47,6 +47,23 @@ struct Fields<ContactRecord> {
   }
 };
 
+// A state inside an increment, on the arc that it follows. Empty lists: there is none.
+struct InnerState {
+  double load_factor = 0.0;
+  std::vector<double> positions;  // as those of the increment
+  std::vector<double> rotations;
+  std::vector<ContactRecord> contacts;
+};
+
+template <>
+struct Fields<InnerState> {
+  template <typename P>
+  static constexpr auto Of() {
+    return std::tuple(Member("load_factor", &P::load_factor), Member("positions", &P::positions),
+                      Member("rotations", &P::rotations), Member("contacts", &P::contacts));
+  }
+};
+
 // What it took to compute the increment. Counts are of the last problem solved for it; iterations and time are sums.
 struct SolveRecord {
   Method method = Method::kMpec;
@@ -139,6 +156,7 @@ struct Increment {
   std::vector<SolidStress> stresses;
   std::vector<ContactPressure> pressures;  // in scene order
   std::vector<double> widths;              // of TouchedBoundaries() [length]
+  InnerState inner;                        // at the middle of the step, where the request wants it and there is a step
   double dissipation = 0.0;                // since increment 0, by friction; total law: work against it [force length]
   double strain_energy = 0.0;              // now [force length]
   double external_work = 0.0;              // of all loads since increment 0 [force length]
@@ -159,12 +177,13 @@ struct Fields<Increment> {
                       Member("external_work", &P::external_work), Member("supports", &P::supports),
                       Member("boundaries", &P::boundaries), Member("sections", &P::sections),
                       Member("stresses", &P::stresses), Member("pressures", &P::pressures),
-                      Member("widths", &P::widths), Member("event", &P::event));
+                      Member("widths", &P::widths), Member("inner", &P::inner), Member("event", &P::event));
   }
 };
 
 // What check/ looks at of an increment that has its state.
 CheckedState StateOf(const Increment& increment);
+CheckedState StateOf(const InnerState& inner);
 
 // "start", "regular", "smooth_limit", "corner_limit", "contact_event", "bifurcation", "sample".
 std::string_view ToString(IncrementKind kind);

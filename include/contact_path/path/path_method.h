@@ -18,8 +18,9 @@ namespace contact_path {
 struct AcceptedPoint {
   PathPoint point;
   IncrementKind kind = IncrementKind::kRegular;
-  double arc_length = 0.0;  // of the increment, scaled norm
-  Work work;                // of the increment
+  double arc_length = 0.0;         // of the increment, scaled norm
+  Work work;                       // of the increment
+  std::optional<PathPoint> inner;  // at the middle of its step, where it is wanted
   Residuals residuals;
   SolveRecord solve;  // without time
   EventRecord event;

@@ -447,7 +447,7 @@ struct TraceOptions {
   std::vector<StopCriterion> stop;
   std::vector<Samples> at;
   // Long lists that increments, bags and the CSV carry: "sections", of bars and beams; "stresses", of solids;
-  // "pressures", of contacts.
+  // "pressures", of contacts. And "inner", a state inside each increment, which bags carry for verify.
   std::vector<std::string> record;
   std::vector<BranchChoice> branch_choices;
   FrictionLaw friction_law = FrictionLaw::kIncremental;

@@ -24,6 +24,8 @@ struct Verification {
   int increments = 0;
   int full_increments = 0;      // with positions and contacts: increments without them can only be counted
   int exact_increments = 0;     // of the full ones, those that solve the unregularised equations
+  int proved_integrals = 0;     // full increments that move and have a third state on their arc, for the integrals
+  int open_integrals = 0;       // those that have none: chord and energy balance tell. Increments by Ipopt: neither
   Residuals exact;              // largest of the exact increments, computed anew
   Residuals regularised;        // of the other ones
   double energy_balance = 0.0;  // largest |work of the loads - change of strain energy - dissipation| / (F L)
@@ -39,15 +41,15 @@ constexpr int kMostFindings = 20;
 // Request: valid. Increments: all that were recorded, in their order; regular increments that full_state_every leaves
 // out have empty positions and contacts.
 //
-// Checked of each increment: its place; fixed nodes are where they have to be; the residuals, computed from the scene
-// alone, are within the tolerance of the method (1e-9, regularised 1e-5) and as recorded; gaps, strain energy; the
-// contact states against gaps, reactions and motions. From increment to increment: arc length (between the chord
-// and 1.05 of it), dissipation and work (to what a trapezoid between the increments leaves open), energy balance (to 1
-// % of the work done, mpec: 3 %, and what trapezoids leave open), states change only at events, the load factor turns
-// at limit points and only there, and the branch taken at an event is the one that follows; stages follow each other at
-// their targets, in the same state. A contact that pulls with more than 0.02 of the largest reaction so far is a
-// finding, however small both are. Where nothing of all that is found, events and signs are looked at
-// (verify_events.h). Not checked: rates of branches that were not taken, counters and times.
+// Checked of each state, inner states included: fixed nodes are where they have to be; the residuals, computed from the
+// scene alone, are within the tolerance of the method (1e-9, regularised 1e-5); gaps; the contact states against gaps,
+// reactions and motions; of increments, residuals, strain energy, forces and lists as recorded. From increment to
+// increment: arc length, work and dissipation against integrals through three states on one arc, to what the quadratics
+// leave open (method.md), increments by Ipopt against trapezoids; the energy balance, to 1 % of the work done; states
+// change only at events, the load factor turns at limit points and only there, and the branch taken at an event is the
+// one that follows; stages follow each other at their targets, in the same state. A contact that pulls with more than
+// 0.02 of the largest reaction so far is a finding, however small both are. Where nothing of all that is found, events
+// and signs are looked at (verify_events.h). Not checked: rates of branches that were not taken, counters and times.
 //
 // before_each: called before each increment is checked; what it throws leaves VerifyPath(). May be empty.
 Verification VerifyPath(const TraceRequest& request, const std::vector<Increment>& increments,

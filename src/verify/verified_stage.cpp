@@ -1,22 +1,23 @@
-#include "verify/verified_contacts.h"
+#include "verify/verified_stage.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <string>
 #include <utility>
 
 #include "contact_path/scene/can_slide.h"
+#include "contact_path/scene/program.h"
 
 namespace contact_path {
 namespace {
 
-constexpr double kSoft = 1e-6;           // of F: where forces across a contact are smaller, F is no measure of them
-constexpr double kRounding = 2e-13;      // of F: a contact that pulls with more is not at rounding
-constexpr double kClosedAtStart = 1e-9;  // gap over L
-constexpr double kClosing = 10.0;        // the nodes of a surface have shares in a gap: each moves by more than that
+constexpr double kSoft = 1e-6;       // of F: where forces across a contact are smaller, F is no measure of them
+constexpr double kRounding = 2e-13;  // of F: a contact that pulls with more is not at rounding
+constexpr double kClosing = 10.0;    // the nodes of a surface have shares in a gap: each moves by more than that
 
-}  // namespace
-
+// In the order of the scene. check, configuration: of the scene. rates: x, y by node, of the fixed components [length]
+// per unit of the load factor. load: largest load factor of the path.
 std::vector<VerifiedContact> VerifiedContacts(const Scene& scene, const SceneIndex& index, const ResidualCheck& check,
                                               const Configuration& configuration, const Scaling& scaling,
                                               const std::vector<double>& rates, double load) {
@@ -43,7 +44,7 @@ std::vector<VerifiedContact> VerifiedContacts(const Scene& scene, const SceneInd
   double closing = 0.0;  // largest force that closes a gap which counts as closed at the start
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
     const double gap = std::abs(check.Gap(i, start)) / scaling.length;
-    if (gap <= kClosedAtStart) closing = std::max(closing, kClosing * gap * forces[i].of_all_parts);
+    if (gap <= kExact) closing = std::max(closing, kClosing * gap * forces[i].of_all_parts);
   }
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
     VerifiedContact contact;
@@ -60,6 +61,39 @@ std::vector<VerifiedContact> VerifiedContacts(const Scene& scene, const SceneInd
     contacts.push_back(std::move(contact));
   }
   return contacts;
+}
+
+}  // namespace
+
+VerifiedStage::VerifiedStage(const TraceRequest& request, const SceneIndex& index_given, const Scaling& of_program,
+                             std::size_t stage, double largest_load)
+    : index(index_given),
+      scene(StageScene(request, index, stage)),
+      configuration(StageConfiguration(request, index, stage)),
+      scaling(StageScales(request, index, stage, of_program)),
+      check(scene, configuration, scaling),
+      located(request.options.LocatesEvents()),
+      rates(2 * scene.nodes.size()),
+      turn_rates(scene.nodes.size()),
+      stiffest(check.LargestStiffness() * scaling.length / scaling.force) {
+  double farthest = 0.0;
+  for (const double coordinate : configuration.start) farthest = std::max(farthest, std::abs(coordinate));
+  // What moves takes nodes along, and lengths of arc are of the load factor, too.
+  for (const SupportMotion& motion : scene.support_motions) {
+    const std::size_t node = index.Node(motion.node);
+    farthest += largest_load * std::hypot(motion.dx, motion.dy);
+    rates[2 * node] = motion.dx;
+    rates[2 * node + 1] = motion.dy;
+    turn_rates[node] = motion.rotation;
+  }
+  for (const ObstacleMotion& motion : scene.obstacle_motions)
+    farthest += largest_load * std::hypot(motion.dx, motion.dy);
+  for (const Obstacle& obstacle : scene.obstacles) {
+    farthest = std::max({farthest, std::abs(obstacle.px), std::abs(obstacle.py), obstacle.radius});
+    for (const double number : obstacle.points) farthest = std::max(farthest, std::abs(number));
+  }
+  rounding = kRecorded + kRoundingOfParts * (farthest / scaling.length + largest_load / scaling.load_factor);
+  contacts = VerifiedContacts(scene, index, check, configuration, scaling, rates, largest_load);
 }
 
 }  // namespace contact_path
