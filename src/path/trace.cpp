@@ -114,12 +114,12 @@ class Tracer {
       } else if (resumption) {
         point_ = next->FromIncrement(*resumption->from);
       } else {
-        Preload start = TraceStart(*next, request_.options.accuracy, control_.cancelled);
-        if (!start.done) {
-          EndWith(std::move(start.end));
+        Preload preload = TraceStart(*next, request_.options.accuracy, control_.cancelled);
+        if (!preload.done) {
+          EndWith(std::move(preload.end));
           return;
         }
-        point_ = std::move(start.point);
+        point_ = std::move(preload.point);
       }
       model_ = std::move(next);
       largest_reaction_.of_stage = 0.0;
