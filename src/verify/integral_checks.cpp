@@ -9,8 +9,9 @@ namespace contact_path {
 namespace {
 
 // Of what a quadratic adds to the trapezoid: error of Simpson's rule. With the third state at t, not at the middle, the
-// third derivative adds to the error in proportion to |t - 1/2|.
+// third derivative adds kThird |t - 1/2| to this share.
 constexpr double kShare = 0.1;
+constexpr double kThird = 4.0;
 constexpr double kEnergy = 1e-2;  // of the work done: steps keep their energy balance, and their arc length, to less
 
 }  // namespace
@@ -76,7 +77,8 @@ void IntegralChecks::Check(const Increment* earlier, const Increment& before, co
     if (!inner && stage_.Driven() && imbalance < std::abs(recorded.work - integrals.work.value))
       integrals.work.value = recorded.stored + recorded.dissipation;
     // The recorded arc length is of an interpolation, which is rougher where longer steps were not accepted.
-    Compare(recorded, integrals, increment, kSingular + (increment.solve.rejected > 0 ? kEnergy * recorded.arc : 0.0));
+    Compare(recorded, integrals, increment,
+            kSingular + recorded.rounding + (increment.solve.rejected > 0 ? kEnergy * recorded.arc : 0.0));
     return;
   }
   ++result_.open_integrals;
@@ -121,7 +123,7 @@ IntegralChecks::Integrals IntegralChecks::Integrate(const ThreeStates& states, c
   if (ratio > 0.0) integrals.arc.value *= 0.5 * (std::hypot(1.0, ratio) + std::asinh(ratio) / ratio);
   const double beside = std::abs(integrals.t - 0.5);
   integrals.arc.open = (1.0 + beside) * (integrals.arc.value - length);
-  const double share = rule.HasThird() ? kShare + beside : 1.0;
+  const double share = rule.HasThird() ? kShare + kThird * beside : 1.0;
   integrals.work.open *= share;
   integrals.dissipation.open *= share;
   return integrals;

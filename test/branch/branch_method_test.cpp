@@ -61,9 +61,18 @@ class ClosedForm : public testing::TestWithParam<Setting> {
   }
 };
 
-constexpr double kExact = 2e-13;           // of loads, reactions and positions
-constexpr double kCrossing = 1e-9;         // the same where other paths cross
-constexpr double kNextToCrossing = 1e-12;  // in the increment after
+constexpr double kExact = 2e-13;    // of loads, reactions and positions
+constexpr double kCrossing = 1e-9;  // of residuals where other paths cross
+
+// Rounding of points next to where another path crosses grows with the inverse of the distance from there.
+double ExactTo(const TracedPath& path, const Increment& increment) {
+  double bound = kExact;
+  for (const Increment& crossing : IncrementsOfKind(path, IncrementKind::kBifurcation)) {
+    const double distance = std::abs(increment.arc_length - crossing.arc_length);
+    if (distance > 0.0) bound = std::max(bound, 0.1 * kExact / distance);
+  }
+  return bound;
+}
 constexpr double kDissipation = 1e-9;
 
 TEST_P(ClosedForm, SlidingBar) {
@@ -232,7 +241,6 @@ TEST_P(ClosedForm, SnapBlock) {
   const TracedPath path = TraceScene(snap_block::MakeScene(), {}, kCrossing);
   EXPECT_EQ(path.result.reason, EndReason::kPathEnd) << path.result.message;
   for (const Increment& increment : path.increments) {
-    const Increment& before = path.increments[static_cast<std::size_t>(std::max(increment.index - 1, 0))];
     const ContactRecord& contact = Contact(path, increment, "p@floor");
     const double w = PositionX(path, increment, "p"), y = PositionY(path, increment, "up");
     // w is given by y only to the square root of rounding where the path ends.
@@ -243,13 +251,7 @@ TEST_P(ClosedForm, SnapBlock) {
     const double error = std::max({std::abs(increment.load_factor - load), std::abs(height),
                                    std::abs(y + PositionY(path, increment, "down")), std::abs(contact.rn - 1.0),
                                    std::abs(increment.dissipation - snap_block::Dissipation(w))});
-    // Next to a crossing, rounding is magnified by the distance from it.
-    const bool next_to_crossing = increment.index > 0 && increment.arc_length - before.arc_length < 1e-3 &&
-                                  before.kind == IncrementKind::kBifurcation;
-    const double bound = increment.kind == IncrementKind::kBifurcation ? kCrossing
-                         : next_to_crossing                            ? kNextToCrossing
-                                                                       : kExact;
-    EXPECT_LE(error, bound) << "increment " << increment.index;
+    EXPECT_LE(error, ExactTo(path, increment)) << "increment " << increment.index;
   }
   const std::vector<Increment> corners = IncrementsOfKind(path, IncrementKind::kCornerLimit);
   ASSERT_EQ(corners.size(), 1U);
@@ -355,8 +357,7 @@ TEST_P(ClosedForm, Bifurcation) {
   for (const Increment& increment : path.increments) {
     const double load = von_mises::BiotLoad(1.0, tall_truss::kRise, PositionY(path, increment, "apex"));
     const double error = std::max(std::abs(PositionX(path, increment, "apex")), std::abs(increment.load_factor - load));
-    EXPECT_LE(error, increment.kind == IncrementKind::kBifurcation ? kCrossing : kExact)
-        << "increment " << increment.index;
+    EXPECT_LE(error, ExactTo(path, increment)) << "increment " << increment.index;
   }
   // The sideways stiffness vanishes twice: y^2 l0 = l^3.
   const std::vector<Increment> crossings = IncrementsOfKind(path, IncrementKind::kBifurcation);

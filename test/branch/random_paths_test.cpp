@@ -53,7 +53,6 @@ const char* ToString(Cause cause) {
 // Those of 1..kSeeds whose traces are not all the same, with the cause.
 const std::map<unsigned, Cause>& ListedDifferences() {
   static const std::map<unsigned, Cause> listed = {
-      {14, Cause::kMechanism},  // comes mechanism at s = 0: how many of the free motions are named depends on the order
       {92, Cause::kMechanism},  // a four-bar chain hangs free from the start
   };
   return listed;

@@ -198,7 +198,7 @@ void AddDeformableCases(std::vector<ExtremeCase>* cases) {
     PressedNode pressed;
     pressed.edges = UnevenEdges(12, ratio);
     ExtremeCase extreme = pressed.Case("edges in turn", "1 and " + Text(1.0 / ratio));
-    if (ratio > kMostUneven) extreme.ends = {"step_too_small"};
+    if (ratio > kMostUneven) extreme.ends = {"step_too_small", "not_determined"};
     cases->push_back(std::move(extreme));
   }
   for (const double friction : {1e-6, 1e3, 1e6}) {

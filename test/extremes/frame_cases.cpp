@@ -76,7 +76,7 @@ ExtremeCase BentCantilever(double ratio) {
   // Coordinates are rounded: that alone changes the axial forces by EA eps.
   extreme.allowed = std::max(1e-9, 1e-15 * ratio);
   extreme.allowed_regularised = std::max(1e-3, extreme.allowed);
-  if (ratio > 1e9) extreme.ends = {"step_too_small"};
+  if (ratio > 1e9) extreme.ends = {"step_too_small", "not_determined"};
   extreme.error = [ratio](const TraceRequest&, const Increment& increment) {
     const std::vector<BeamNode> nodes =
         FromTheTip(NodeOf(increment, kSegments), ratio, 1.0, 0.0, increment.load_factor);
@@ -100,7 +100,7 @@ ExtremeCase RolledUp(double slenderness) {
   extreme.exact = "closed form";
   extreme.allowed = std::max(1e-9, 1e-15 * EA);
   extreme.allowed_regularised = std::max(1e-3, extreme.allowed);
-  if (EA > 1e9) extreme.ends = {"step_too_small"};
+  if (EA > 1e9) extreme.ends = {"step_too_small", "not_determined"};
   extreme.error = [](const TraceRequest&, const Increment& increment) {
     const double turn = 2.0 * kPi * increment.load_factor / kSegments;
     BeamNode node = {0.0, 0.0, 0.0};
@@ -163,7 +163,7 @@ ExtremeCase Column(double slenderness) {
   scene.loads = {{"tip", -1.0, 0.0}};
   extreme.request = Until(scene, "load_factor", ">", 3.0);
   extreme.exact = "closed form";
-  if (EA > 1e9) extreme.ends = {"step_too_small"};
+  if (EA > 1e9) extreme.ends = {"step_too_small", "not_determined"};
   extreme.error = [EA](const TraceRequest&, const Increment& increment) {
     const BeamNode tip = NodeOf(increment, kSegments);
     return Distance(tip, {1.0 - increment.load_factor / EA, 0.0, 0.0});
