@@ -49,14 +49,14 @@ double Chord(const Step& step) { return (step.end.x - step.start.x).head(step.no
 // cosine: smallest between the tangent at the start and the chord.
 bool EndsBeside(const Step& step, double cosine) {
   const double chord = Chord(step);
-  return chord > tolerances::kHasDirection && step.length < cosine * chord;
+  return chord > tolerances::kSameDirection && step.length < cosine * chord;
 }
 
 // Whether the curve of the step is longer than an arc over its chord that turns by 60 degrees: its second derivatives
 // belong to a sharper turn than the step can show.
 bool Winds(const Step& step) {
   const double chord = Chord(step);
-  return chord > tolerances::kHasDirection && step.ArcLength() > kLongestArc * chord;
+  return chord > tolerances::kSameDirection && step.ArcLength() > kLongestArc * chord;
 }
 
 std::string_view NameOf(EventKind kind) {
@@ -104,7 +104,7 @@ std::optional<ArcStep> TryStep(SmoothArc* arc, const CurvePoint& start, double l
   const Eigen::VectorXd normal = start.first.head(arc->NumMotion());
   const double tolerance = prediction * length;
   const double rounding =
-      arc->system().ResidualUnit() * std::max(tolerances::kPredictor, tolerances::kPredictorRounding * start.x.norm());
+      arc->system().ResidualUnit() * std::max(tolerances::kNoMove, tolerances::kLastDigits * start.x.norm());
   const Eigen::VectorXd straight = start.x + length * start.first;
   const Eigen::VectorXd bend = 0.5 * length * length * start.second;
   const auto good = [&](const Correction& correction) {
@@ -190,7 +190,7 @@ bool LoadGoesOn(const FixedStateSystem& system, const Step& step, const CurvePoi
   const double t = step.normal.dot((point.x - step.start.x).head(step.normal.size()));
   const double third = Evaluate(Derivative(Derivative(Derivative(load))), t), second = point.second[s];
   // The extreme of the rate, by its parabola.
-  return second * second <= 2.0 * tolerances::kLevel * system.ResidualUnit() * std::abs(third);
+  return second * second <= 2.0 * tolerances::kRate * system.ResidualUnit() * std::abs(third);
 }
 
 // Whether the inequality that was to fail at `point` holds there, by more than what counts as zero at an event: the

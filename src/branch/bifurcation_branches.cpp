@@ -12,7 +12,7 @@ namespace {
 bool SlidesOn(const FixedStateSystem& system, const Eigen::VectorXd& x, const Eigen::VectorXd& first) {
   const std::vector<Constraint> constraints = system.Inequalities();
   return std::all_of(constraints.begin(), constraints.end(), [&](const Constraint& constraint) {
-    return constraint.inequality != Inequality::kSlip || system.Rate(constraint, x, first) >= -tolerances::kLevel;
+    return constraint.inequality != Inequality::kSlip || system.Rate(constraint, x, first) >= -tolerances::kRate;
   });
 }
 

@@ -109,8 +109,8 @@ class BranchFinder {
     const std::optional<CondensedRates> rates = condensed.Rates(states);
     if (!rates) return false;
     if (arrival_.is_start && std::abs(rates->load) <= tolerances::kUnitComponent) return true;
-    return condensed.Broken(states, *rates, 1.0, tolerance_, tolerances::kExcludedRate, nullptr) &&
-           condensed.Broken(states, *rates, -1.0, tolerance_, tolerances::kExcludedRate, nullptr);
+    return condensed.Broken(states, *rates, 1.0, tolerance_, tolerances::kSameTangent, nullptr) &&
+           condensed.Broken(states, *rates, -1.0, tolerance_, tolerances::kSameTangent, nullptr);
   }
 
   // Where several contacts hold a node, others of their states may hold it with less: tries them, node by node.
@@ -178,7 +178,7 @@ class BranchFinder {
         if (!KeepsPatch(constraint.inequality) || !IsWeaklyActive(system_, constraint, x, tolerance_)) continue;
         const Jet value = system_.ValueAlong(constraint, x, first, tangents.second[0]);
         const double unit = system_.UnitOf(constraint), rate = value.first / unit, bend = value.second / unit;
-        if (rate > tolerances::kRate || (rate >= -tolerances::kRate && bend >= -tolerances::kCurvature)) continue;
+        if (rate > tolerances::kRate || (rate >= -tolerances::kRate && bend >= -tolerances::kRate)) continue;
         const auto i = static_cast<std::size_t>(constraint.contact);
         const int next = modes[i].patch + (constraint.inequality == Inequality::kPatchEnd ? 1 : -1);
         const ContactModes& of_contact = options_[i];
@@ -225,13 +225,12 @@ class BranchFinder {
       const Jet along = system_.ValueAlong(constraint, x, first, second);
       const double unit = system_.UnitOf(constraint), rate = along.first / unit, curvature = along.second / unit;
       // A graze, located to the root of rounding only: the value is past its minimum before it counts as negative.
-      const bool grazes = constraint.inequality != Inequality::kSlip && rate < 0.0 &&
-                          curvature > tolerances::kCurvature && rate * rate <= 2.0 * curvature * tolerances::kGraze;
+      const bool grazes = constraint.inequality != Inequality::kSlip && rate < 0.0 && curvature > tolerances::kRate &&
+                          rate * rate <= 2.0 * curvature * tolerances::kNoMove;
       if (rate < -tolerances::kRate && !grazes) return false;
       if (rate < 0.0 && arrival_.failed == constraint && system_.states() == point_.states) return false;
-      if (rate <= tolerances::kRate && curvature < -tolerances::kCurvature) return false;
-      if (std::abs(rate) <= tolerances::kRate && std::abs(curvature) <= tolerances::kCurvature)
-        level.push_back(constraint);
+      if (rate <= tolerances::kRate && curvature < -tolerances::kRate) return false;
+      if (std::abs(rate) <= tolerances::kRate && std::abs(curvature) <= tolerances::kRate) level.push_back(constraint);
     }
     return level.empty() || HoldsAhead(level, x, first, second);
   }
@@ -253,7 +252,7 @@ class BranchFinder {
     const Eigen::Index s = NumMotion() - 1;
     const double sense = arrival_.direction[s];
     if (std::abs(first[s]) > error) return first[s] * sense > 0.0;
-    if (std::abs(second[s]) > tolerances::kCurvature) return second[s] * sense > 0.0;
+    if (std::abs(second[s]) > tolerances::kRate) return second[s] * sense > 0.0;
     const std::optional<Ahead> ahead = LookAhead(x, first, second);
     return ahead && ahead->first[s] * sense > tolerances::kRate;
   }
@@ -266,7 +265,7 @@ class BranchFinder {
   std::optional<Ahead> LookAhead(const Eigen::VectorXd& x, const Eigen::VectorXd& first,
                                  const Eigen::VectorXd& second) {
     const Eigen::Index n = NumMotion();
-    const double length = tolerances::kAhead;
+    const double length = tolerances::kNextToStart;
     Ahead ahead{x + length * first + 0.5 * length * length * second, {}};
     Eigen::VectorXd row = Eigen::VectorXd::Zero(system_.NumUnknowns());
     row.head(n) = first.head(n);
@@ -280,7 +279,7 @@ class BranchFinder {
   }
 
   bool IsReversed(const Eigen::VectorXd& first) const {
-    return (first.head(NumMotion()) + arrival_.direction).norm() < tolerances::kReversed && !SetsSliding(first);
+    return (first.head(NumMotion()) + arrival_.direction).norm() < tolerances::kSameTangent && !SetsSliding(first);
   }
 
   // Whether a contact that stuck slides on a curve, however little, other than back: over a sharp one the load changes
@@ -290,7 +289,7 @@ class BranchFinder {
     for (const std::size_t i : system_.Touching())
       if (contacts_[i]->Curved() && Slips(system_.states()[i]) && point_.states[i] == ContactState::kStick &&
           std::abs(contacts_[i]->SlipRate(point_.u, point_.s, point_.Patch(i), apart, apart[NumMotion() - 1])) >
-              tolerances::kLevel)
+              tolerances::kRate)
         return true;
     return false;
   }
@@ -327,7 +326,7 @@ class BranchFinder {
 
   static bool SameReactions(const Branch& branch, const Branch& other) {
     return std::abs(branch.reaction_rate - other.reaction_rate) <=
-           tolerances::kSameRate * (1.0 + std::abs(other.reaction_rate));
+           tolerances::kRate * (1.0 + std::abs(other.reaction_rate));
   }
 
   void Add(const Tangents& tangents, const Eigen::VectorXd& first, const Eigen::VectorXd& second,

@@ -16,7 +16,7 @@ using Iterator = std::vector<Branch>::iterator;
 
 // Two branches with the same rates are images of each other under a symmetry of the scene, and break it.
 void MarkMirrorBranches(std::vector<Branch>* branches) {
-  const auto same = [](double a, double b) { return std::abs(a - b) <= tolerances::kSameRate; };
+  const auto same = [](double a, double b) { return std::abs(a - b) <= tolerances::kRate; };
   for (Branch& a : *branches)
     for (const Branch& b : *branches)
       if (&a != &b && same(a.dissipation_rate, b.dissipation_rate) && same(a.load_rate, b.load_rate) &&
@@ -64,17 +64,17 @@ void SortBranches(const std::vector<ContactState>& arrival, double load_sense, s
   MarkMirrorBranches(branches);
   const auto by_load = [&](Iterator from, Iterator to) {
     ForEachGroup(
-        from, to, tolerances::kSameRate, [&](const Branch& branch) { return -load_sense * branch.load_rate; },
+        from, to, tolerances::kRate, [&](const Branch& branch) { return -load_sense * branch.load_rate; },
         [&](Iterator begin, Iterator end) {
           std::sort(begin, end, [&](const Branch& a, const Branch& b) { return Before(arrival, a, b); });
         });
   };
   const auto by_deviation = [&](Iterator from, Iterator to) {
     ForEachGroup(
-        from, to, tolerances::kSameTurn, [](const Branch& branch) { return branch.deviation; }, by_load);
+        from, to, tolerances::kSameDirection, [](const Branch& branch) { return branch.deviation; }, by_load);
   };
   ForEachGroup(
-      branches->begin(), branches->end(), tolerances::kSameRate,
+      branches->begin(), branches->end(), tolerances::kRate,
       [](const Branch& branch) { return -branch.dissipation_rate; },
       [&](Iterator begin, Iterator end) {
         const Iterator mirrors = std::partition(begin, end, [](const Branch& branch) { return !branch.has_mirror; });

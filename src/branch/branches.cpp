@@ -212,8 +212,8 @@ void AddOthers(const ContactPairs& contacts, BranchSet&& others, const PathPoint
     });
     if (known == result->branches.end())
       result->branches.push_back(std::move(branch));
-    else if (known->begin && SquaredReactions(contacts, begin) <
-                                 (1.0 - tolerances::kSameRate) * SquaredReactions(contacts, *known->begin))
+    else if (known->begin &&
+             SquaredReactions(contacts, begin) < (1.0 - tolerances::kRate) * SquaredReactions(contacts, *known->begin))
       *known = std::move(branch);
   }
   result->weakly_active = std::max(result->weakly_active, others.weakly_active);

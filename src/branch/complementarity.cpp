@@ -114,7 +114,7 @@ std::optional<std::vector<bool>> SolveByLemke(const Eigen::MatrixXd& M, const Ei
 bool HasOneSolutionForEach(const Eigen::MatrixXd& M) {
   if (M.rows() == 0) return true;
   const Eigen::LLT<Eigen::MatrixXd> factors(0.5 * (M + M.transpose()));
-  return factors.info() == Eigen::Success && factors.rcond() > tolerances::kCondensedPivot;
+  return factors.info() == Eigen::Success && factors.rcond() > tolerances::kDependent;
 }
 
 }  // namespace contact_path

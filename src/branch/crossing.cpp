@@ -45,10 +45,10 @@ class DerivativeForm {
 // Makes the sense of a unit vector in (u, s) the same whatever it was.
 void Orient(Eigen::Index motion, Eigen::VectorXd* direction) {
   double sense = (*direction)[motion - 1];
-  if (std::abs(sense) <= tolerances::kLevel) {
+  if (std::abs(sense) <= tolerances::kRate) {
     const double largest = direction->head(motion).cwiseAbs().maxCoeff();
     Eigen::Index i = 0;
-    while (std::abs((*direction)[i]) < (1.0 - tolerances::kSameComponent) * largest) ++i;
+    while (std::abs((*direction)[i]) < (1.0 - tolerances::kSameTangent) * largest) ++i;
     sense = (*direction)[i];
   }
   if (sense < 0.0) *direction = -*direction;
@@ -144,7 +144,7 @@ bool FindCurves(FixedStateSystem* system, const BorderedJacobian& at, const Eige
   const Eigen::VectorXd &t = at.along, &v = at.across;
   const double a = form(t), b = form(t, v), c = form(v);
   const double size = std::abs(a) + std::abs(b) + std::abs(c), discriminant = b * b - a * c;
-  if (!(discriminant > tolerances::kDoubleRoot * size * size)) return false;
+  if (!(discriminant > tolerances::kDependent * size * size)) return false;
   const double q = -b - std::copysign(std::sqrt(discriminant), b);
   CurveDerivatives one, other;
   one.first = q * t + a * v;
@@ -202,7 +202,7 @@ std::optional<Crossing> FindCrossing(FixedStateSystem* system, const Eigen::Vect
     const double norm = system->Norm(step), scale = 1.0 + crossing.x.norm();
     if (!std::isfinite(norm)) return std::nullopt;
     const bool stagnates = norm >= 0.5 * previous && norm <= tolerances::kStagnation * system->ResidualUnit() * scale;
-    if (norm <= tolerances::kNewtonStep * scale || stagnates) {
+    if (norm <= tolerances::kRounding * scale || stagnates) {
       system->Residual(crossing.x, &residual);
       const double length = at.psi.norm();
       crossing.unfolding = at.psi.dot(residual) / length;

@@ -21,7 +21,7 @@ struct QuadraticForm {
 std::vector<Eigen::Vector2d> Zeros(const QuadraticForm& form) {
   const auto& [a, b, c] = form;
   const double discriminant = b * b - a * c;
-  if (std::abs(discriminant) <= tolerances::kDoubleRoot * form.Size() * form.Size()) {
+  if (std::abs(discriminant) <= tolerances::kDependent * form.Size() * form.Size()) {
     const Eigen::Vector2d zero = std::abs(a) >= std::abs(c) ? Eigen::Vector2d(-b, a) : Eigen::Vector2d(c, -b);
     return {zero.normalized()};
   }
@@ -57,7 +57,7 @@ PlaneTangents TangentsInPlane(FixedStateSystem* system, const Eigen::VectorXd& x
   for (const Eigen::Vector2d& zero : Zeros(forms[largest])) {
     bool common = true;
     for (const QuadraticForm& form : forms)
-      common = common && std::abs(form(zero)) <= tolerances::kOtherForm * forms[largest].Size();
+      common = common && std::abs(form(zero)) <= tolerances::kNearlyParallel * forms[largest].Size();
     const Eigen::VectorXd direction = plane * zero;
     const double norm = direction.head(motion).norm();
     if (common && norm > 0.0) result.directions.emplace_back(direction / norm);

@@ -23,7 +23,7 @@ class IndependentColumns {
       if (value != 0.0) column -= value * factors_[j];
     }
     Eigen::Index row = -1;
-    double pivot = tolerances::kCondensedPivot * size;
+    double pivot = tolerances::kDependent * size;
     for (Eigen::Index i = 0; i < column.size(); ++i) {
       if (used_[static_cast<std::size_t>(i)] || !(std::abs(column[i]) > pivot)) continue;
       pivot = std::abs(column[i]);

@@ -131,10 +131,10 @@ Eigen::MatrixXd RateProblem::Kernel(const Eigen::MatrixXd& equations) const {
   Eigen::MatrixXd square(equations.cols(), equations.cols());
   square << equations, along_.transpose();
   const Eigen::PartialPivLU<Eigen::MatrixXd> bordered(square);
-  if (bordered.rcond() > tolerances::kCondensedPivot)
+  if (bordered.rcond() > tolerances::kDependent)
     return bordered.solve(Eigen::VectorXd::Unit(square.cols(), square.cols() - 1));
   Eigen::FullPivLU<Eigen::MatrixXd> lu(equations);
-  lu.setThreshold(tolerances::kCondensedPivot);
+  lu.setThreshold(tolerances::kDependent);
   return lu.kernel();
 }
 
@@ -147,8 +147,8 @@ Eigen::VectorXd RateProblem::ShortestMember(const Eigen::MatrixXd& kernel) const
   Eigen::MatrixXd moving(kernel.rows(), 0);
   for (Eigen::Index k = 0; k < kernel.cols(); ++k) {
     const double rate = std::sqrt(motions.values[k] / largest);
-    if (rate <= tolerances::kRestsBelow) break;
-    if (!(rate >= tolerances::kMovesAbove)) return {};
+    if (rate <= tolerances::kSameDirection) break;
+    if (!(rate >= tolerances::kSameTangent)) return {};
     moving.conservativeResize(Eigen::NoChange, moving.cols() + 1);
     moving.rightCols<1>() = basis * motions.v.col(k) / (rate * std::sqrt(largest));
   }
@@ -163,8 +163,8 @@ Eigen::VectorXd RateProblem::ShortestMember(const Eigen::MatrixXd& kernel) const
   }
   const SingularVectors changes = RightSingularVectors(forces);
   Eigen::Index proper = 0;
-  while (proper < changes.values.size() && changes.values[proper] >= tolerances::kMovesAbove) ++proper;
-  if (proper < changes.values.size() && !(changes.values[proper] <= tolerances::kRigid)) return {};
+  while (proper < changes.values.size() && changes.values[proper] >= tolerances::kSameTangent) ++proper;
+  if (proper < changes.values.size() && !(changes.values[proper] <= tolerances::kDependent)) return {};
   const Eigen::MatrixXd candidates = moving * (proper > 0 ? changes.v.leftCols(proper) : changes.v);
   // Among several proper directions second derivatives choose, which are not condensed.
   if (candidates.cols() > 1 && proper > 0) return {};
@@ -208,7 +208,7 @@ bool RateProblem::LeavesRigidMotion(const std::vector<ContactState>& states) con
     if (state == ContactState::kStick) held.row(2 * k + 1) = slip_of_modes_.row(k);
   }
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(held);
-  qr.setThreshold(tolerances::kCondensedPivot);
+  qr.setThreshold(tolerances::kDependent);
   return qr.rank() < modes;
 }
 

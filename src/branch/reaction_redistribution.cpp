@@ -52,7 +52,7 @@ UnitForces UnitForcesOf(const ContactPair& pair, const PathPoint& point, int pat
 // friction where the contact has slipped.
 std::vector<double> SlipRatiosOf(const ContactPair& contact, const PathPoint& point, int patch, double tolerance) {
   const double mu = contact.Friction();
-  if (!(mu > tolerances::kParallelEdges)) return {0.0};
+  if (!(mu > tolerances::kDependent)) return {0.0};
   const double slipped = contact.Slipped(point.u, point.s, patch);
   if (std::abs(slipped) > tolerance) return {slipped > 0.0 ? -mu : mu};
   return {mu, -mu};
@@ -113,7 +113,7 @@ std::vector<Weights> Vertices(const std::vector<Edge>& edges, const Eigen::Vecto
     for (std::size_t b = a + 1; b < edges.size(); ++b) {
       Eigen::Matrix2d pair;
       pair << g, edges[b].force;
-      if (!(std::abs(pair.determinant()) > tolerances::kParallelEdges * g.norm() * edges[b].force.norm())) continue;
+      if (!(std::abs(pair.determinant()) > tolerances::kDependent * g.norm() * edges[b].force.norm())) continue;
       const Eigen::Vector2d both = pair.inverse() * force;
       if (std::min(both[0], both[1]) <= tolerance) continue;  // one edge alone, or none
       Weights weights = none;

@@ -16,7 +16,7 @@ bool Dependent(const Eigen::MatrixXd& columns) {
   if (columns.cols() == 0) return false;
   if (columns.cols() > columns.rows()) return true;
   Eigen::FullPivLU<Eigen::MatrixXd> lu(columns);
-  lu.setThreshold(tolerances::kParallelEdges);
+  lu.setThreshold(tolerances::kDependent);
   return lu.rank() < columns.cols();
 }
 

@@ -66,7 +66,7 @@ void SmoothArc::NoteClosedGaps(const PathPoint& from) {
   Eigen::VectorXd stiffness;
   for (const std::size_t i : system_.Touching()) {
     const double gap = contacts_[i]->Gap(from.u, from.s, from.Patch(i));
-    if (!(gap > tolerances::kBrokenOnStep)) continue;
+    if (!(gap > tolerances::kBroken)) continue;
     if (stiffness.size() == 0) {
       Eigen::SparseMatrix<double> tangent = structure_.TangentPattern();
       structure_.Tangent(from.u, &tangent);
@@ -79,7 +79,7 @@ void SmoothArc::NoteClosedGaps(const PathPoint& from) {
 }
 
 double SmoothArc::RoundingOf(const Constraint& constraint) const {
-  double rounding = tolerances::kBrokenOnStep * system_.UnitOf(constraint);
+  double rounding = tolerances::kBroken * system_.UnitOf(constraint);
   if (!IsMotion(constraint.inequality)) rounding = std::max(rounding, kSpread * reaction_error_);
   const auto moved = moved_forces_.find(constraint.contact);
   return moved == moved_forces_.end() ? rounding : std::max(rounding, moved->second);
@@ -119,7 +119,7 @@ bool SmoothArc::Derivatives(const Eigen::VectorXd& x, const Eigen::VectorXd& tow
   point->is_limit = false;
   const double rate = point->first[n - 1];
   point->load_error =
-      std::abs(rate) > tolerances::kMovingLoad ? 0.0 : ErrorOfRate(Eigen::VectorXd::Unit(x.size(), n - 1), *point);
+      std::abs(rate) > tolerances::kSmallShare ? 0.0 : ErrorOfRate(Eigen::VectorXd::Unit(x.size(), n - 1), *point);
   point->load_sense = std::abs(rate) <= point->load_error ? 0 : rate > 0.0 ? 1 : -1;
   return point->second.allFinite();
 }
@@ -144,7 +144,7 @@ void SmoothArc::ChooseInPlane(const Eigen::VectorXd& x, const Eigen::VectorXd& t
                         others = plane.col(1).tail(plane.rows() - dofs);
   // Where the tangent changes them no more, as at a limit point without reactions, nothing tells it from a free motion:
   // the nearest one stays.
-  const double rounding = tolerances::kRigid * system_.ResidualUnit();
+  const double rounding = tolerances::kDependent * system_.ResidualUnit();
   if (!(forces.norm() > rounding)) return;
   Eigen::VectorXd free = forces.norm() * plane.col(1);
   free -= forces.dot(others) / forces.norm() * plane.col(0);
@@ -210,9 +210,9 @@ Correction SmoothArc::Newton(const Eigen::VectorXd& guess, const Eigen::VectorXd
     result.steps.push_back(norm);
     if (result.iterations == 0) result.first_step = norm;
     if (result.iterations == 1) result.contraction = norm / result.first_step;
-    const double stagnation = at_hand ? tolerances::kStagnationReused : tolerances::kStagnation;
+    const double stagnation = at_hand ? tolerances::kUnitComponent : tolerances::kStagnation;
     const bool stagnates = norm >= 0.5 * previous && norm <= stagnation * system_.ResidualUnit() * scale;
-    if (norm <= tolerances::kNewtonStep * scale || stagnates) {
+    if (norm <= tolerances::kRounding * scale || stagnates) {
       LowerResidual(row, value, &result.x);
       result.converged = EquationsHold(result.x, tolerances::kResidual) &&
                          std::abs(row.dot(result.x) - value) <= tolerances::kResidual * scale;
@@ -220,7 +220,7 @@ Correction SmoothArc::Newton(const Eigen::VectorXd& guess, const Eigen::VectorXd
       return result;
     }
     if (at_hand && norm > kSlow * previous) return result;
-    factorise = !at_hand && norm > tolerances::kReuseFactors * scale;
+    factorise = !at_hand && norm > tolerances::kShort * scale;
     previous = norm;
   }
   return result;
@@ -229,7 +229,7 @@ Correction SmoothArc::Newton(const Eigen::VectorXd& guess, const Eigen::VectorXd
 void SmoothArc::LowerResidual(const Eigen::VectorXd& row, double value, Eigen::VectorXd* x) {
   system_.Residual(*x, &residual_);
   double largest = residual_.lpNorm<Eigen::Infinity>();
-  const double zero = tolerances::kNewtonStep * (1.0 + x->lpNorm<Eigen::Infinity>());
+  const double zero = tolerances::kRounding * (1.0 + x->lpNorm<Eigen::Infinity>());
   reaction_error_ = 0.0;
   for (int i = 0; i < kMostLowerings && largest > zero; ++i) {
     residual_ = -residual_;
@@ -267,7 +267,7 @@ bool SmoothArc::Factorize(const Eigen::VectorXd& x, const Eigen::SparseMatrix<do
                           const Eigen::VectorXd& row, double rank_tolerance) {
   ++factorisations_;
   at_hand_ = false;
-  if (rests_ && rank_tolerance == 0.0) rank_tolerance = tolerances::kDependentColumnSingular;
+  if (rests_ && rank_tolerance == 0.0) rank_tolerance = tolerances::kRootOfRounding;
   if (rank_tolerance == 0.0 && modes_.Possible()) {
     const auto hold = [&] {
       const Eigen::MatrixXd modes = modes_.At(x.head(system_.NumDofs()), transposed);
@@ -295,7 +295,7 @@ Correction SmoothArc::CorrectOnPlane(const Eigen::VectorXd& guess, const Eigen::
 }
 
 double SmoothArc::ErrorOfRate(const Eigen::VectorXd& gradient, const CurvePoint& at) {
-  if (at.nullity > 0 && !held_.value_or(false)) return tolerances::kLevel * system_.ResidualUnit();
+  if (at.nullity > 0 && !held_.value_or(false)) return tolerances::kRate * system_.ResidualUnit();
   const Eigen::VectorXd rounding = system_.Rounding(at.x);
   const Eigen::VectorXd shares = solver_.SolveTransposed(gradient).head(rounding.size());
   const double of_equations = shares.cwiseAbs().dot(rounding);

@@ -22,7 +22,7 @@ Eigen::MatrixXd Split(const Eigen::MatrixXd& basis, Eigen::Index from, Eigen::In
   if (basis.cols() == 0) return basis;
   const SingularVectors rows = RightSingularVectors(basis.middleRows(from, count));
   Eigen::Index rank = 0;
-  while (rank < rows.values.size() && rows.values[rank] > tolerances::kRigid) ++rank;
+  while (rank < rows.values.size() && rows.values[rank] > tolerances::kDependent) ++rank;
   return still ? basis * rows.v.rightCols(basis.cols() - rank) : basis * rows.v.leftCols(rank);
 }
 
@@ -72,7 +72,7 @@ void AddTangent(const NullSpaceParts& parts, const Eigen::VectorXd& arrival, Tan
   Eigen::VectorXd tangent =
       candidates.cols() == 1 ? Eigen::VectorXd(candidates.col(0)) : NearestTo(arrival, candidates);
   const double norm = tangent.head(arrival.size()).norm();
-  if (!(norm > tolerances::kRigid)) return;
+  if (!(norm > tolerances::kDependent)) return;
   tangent /= norm;
   tangents->first.push_back(std::move(tangent));
 }
@@ -98,7 +98,7 @@ void AddShareOfModes(const Eigen::VectorXd& x, const Eigen::MatrixXd& modes, con
     z -= modes * slope.partialPivLu().solve(value);
     value = form(z);
     if (!value.allFinite()) return;
-    if (value.norm() > tolerances::kLevel * z.squaredNorm()) continue;
+    if (value.norm() > tolerances::kRate * z.squaredNorm()) continue;
     *tangent = z / z.head(system->NumDofs() + 1).norm();
     return;
   }
@@ -132,7 +132,7 @@ Tangents HeldTangents(const Eigen::VectorXd& arrival, Eigen::VectorXd tangent, c
   if (tangent.size() > 0) {
     tangent -= modes * (modes.transpose() * tangent);
     tangent /= tangent.head(motion).norm();
-    const bool changes = tangent.tail(tangent.size() - motion + 1).norm() > tolerances::kRigid;
+    const bool changes = tangent.tail(tangent.size() - motion + 1).norm() > tolerances::kDependent;
     Eigen::MatrixXd& of = changes ? parts.proper : parts.rigid;
     of.conservativeResize(tangent.size(), of.cols() + 1);
     of.rightCols<1>() = tangent;
@@ -185,8 +185,7 @@ Tangents FindTangents(const Eigen::VectorXd& x, const Eigen::VectorXd& arrival, 
       return tangents;
     }
   }
-  if (!solvers->singular.Factorize(transposed,
-                                   crossed ? tolerances::kDependentColumnSingular : tolerances::kDependentColumn))
+  if (!solvers->singular.Factorize(transposed, crossed ? tolerances::kRootOfRounding : tolerances::kDependentColumn))
     return tangents;
   tangents = SingularTangents(x, arrival, crossed, system, solvers->singular);
   for (const Eigen::VectorXd& first : tangents.first)

@@ -72,7 +72,7 @@ struct LocatedCrossing {
 // Where another curve crosses the curve of the step, whose determinant has another sign at the end than at the start.
 // Nothing: the ends are on two curves, as next to a crossing that a small imperfection has broken.
 std::optional<LocatedCrossing> CrossingOn(SmoothArc* arc, const Step& step) {
-  const double reach = kReachOfLocated * step.length + tolerances::kLocatedReach;
+  const double reach = kReachOfLocated * step.length + tolerances::kSamePoint;
   for (const double share : {0.5, 0.1, 0.9}) {
     const CurvePoint guess = step.At(share * step.length);
     std::optional<Crossing> found = arc->FindCrossing(guess.x, guess.first.head(step.normal.size()));
@@ -91,9 +91,8 @@ std::optional<LocatedCrossing> CrossingOn(SmoothArc* arc, const Step& step) {
 bool IsZeroAt(const FixedStateSystem& system, const Constraint& constraint, const Crossing& crossing) {
   const Jet along = system.ValueAlong(constraint, crossing.x, crossing.along.first, crossing.along.second);
   const double unit = system.UnitOf(constraint);
-  if (constraint.inequality == Inequality::kSlip) return std::abs(along.first) <= tolerances::kLevel * unit;
-  return std::abs(along.value) <=
-         (IsMotion(constraint.inequality) ? tolerances::kActiveGap : tolerances::kActiveForce) * unit;
+  if (constraint.inequality == Inequality::kSlip) return std::abs(along.first) <= tolerances::kRate * unit;
+  return std::abs(along.value) <= tolerances::kActive * unit;
 }
 
 // Where the load turns first within the step. A rate that has not been told from zero before, since the step began or
@@ -101,7 +100,7 @@ bool IsZeroAt(const FixedStateSystem& system, const Constraint& constraint, cons
 std::optional<double> FirstTurn(const Quintic& load_factor, const Step& step) {
   const Quintic rate = Derivative(load_factor);
   const double level = std::max({tolerances::kUnitComponent, step.start.load_error, step.end.load_error,
-                                 tolerances::kNewtonStep * (1.0 + std::abs(load_factor[0])) / step.length});
+                                 tolerances::kRounding * (1.0 + std::abs(load_factor[0])) / step.length});
   // The largest rate between two places, by its sign: 0 where all of them are within the level.
   const auto sense_between = [&](double from, double to) {
     double largest = 0.0;
@@ -186,7 +185,7 @@ std::optional<CurvePoint> LocateSample(SmoothArc* arc, const Step& step, double 
     if (!arc->Derivatives(x, step.normal, &point)) return std::nullopt;
     // Next to a singular point derivatives are less exact than their interpolation.
     const CurvePoint interpolated = step.At(at);
-    if (system.Norm(point.second - interpolated.second) * step.length > tolerances::kSameDerivative)
+    if (system.Norm(point.second - interpolated.second) * step.length > tolerances::kSmallShare)
       std::tie(point.first, point.second) = std::tie(interpolated.first, interpolated.second);
     return point;
   };
@@ -194,7 +193,7 @@ std::optional<CurvePoint> LocateSample(SmoothArc* arc, const Step& step, double 
   if (target.unknown >= 0) {
     const Eigen::VectorXd guess = step.Point(t);
     const Correction correction = arc->Correct(guess, Eigen::VectorXd::Unit(guess.size(), target.unknown), value);
-    const double reach = kReachOfLocated * step.length + tolerances::kLocatedReach;
+    const double reach = kReachOfLocated * step.length + tolerances::kSamePoint;
     if (correction.converged && (correction.x - guess).head(arc->NumMotion()).norm() <= reach)
       return point_at(correction.x, t);
   }
@@ -227,7 +226,7 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, const StepEnds& ends) {
   const FixedStateSystem& system = arc->system();
   StepEvent first;
   first.t = step.length;
-  const double width = tolerances::kCoincident * step.length;
+  const double width = tolerances::kShort * step.length;
   const auto consider = [&](EventKind kind, double t, const Constraint& constraint) {
     // An event that coincides with something else is the one to act on.
     const double head_start = first.kind == EventKind::kContactEvent && kind != EventKind::kContactEvent ? width : 0.0;
@@ -239,13 +238,13 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, const StepEnds& ends) {
   const std::vector<Constraint> inequalities = arc->InequalitiesInReach(step.start.x, kReach * step.length, &open_ends);
   for (const Constraint& end : open_ends) {
     Quintic beyond = FunctionOf(system, step, end);
-    beyond[0] += tolerances::kBeyondPatch;
+    beyond[0] += tolerances::kTouching;
     if (const std::optional<double> t = FirstNegative(beyond, step.length, 0.0))
       consider(EventKind::kNearTouch, *t, end);
   }
   for (const Constraint& constraint : inequalities) {
     const Quintic quintic = FunctionOf(system, step, constraint);
-    const double zero = constraint.inequality == Inequality::kSlip ? tolerances::kLevel * system.ResidualUnit()
+    const double zero = constraint.inequality == Inequality::kSlip ? tolerances::kRate * system.ResidualUnit()
                                                                    : arc->RoundingOf(constraint);
     if (const std::optional<double> t = FirstNegative(quintic, step.length, zero)) {
       consider(EventKind::kContactEvent, *t, constraint);
@@ -254,7 +253,7 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, const StepEnds& ends) {
     double where = 0.0;
     const double smallest = Minimum(quintic, step.length, &where);
     const bool inside =
-        where > tolerances::kAtEndOfStep * step.length && where < (1.0 - tolerances::kAtEndOfStep) * step.length;
+        where > tolerances::kNextToStart * step.length && where < (1.0 - tolerances::kNextToStart) * step.length;
     if (inside && smallest > zero && smallest < kNearShare * CubicDifference(quintic, step.length))
       consider(EventKind::kNearTouch, where, constraint);
   }
@@ -265,8 +264,8 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, const StepEnds& ends) {
     std::optional<LocatedCrossing> found = CrossingOn(arc, step);
     if (!found) return {EventKind::kTooLong, 0.0, {}};
     const CurveDerivatives& along = found->at.along;
-    const bool is_level = std::abs(along.first[s]) <= tolerances::kLevel * system.ResidualUnit();
-    const bool turns = is_level && std::abs(along.second[s]) > tolerances::kCurvature;
+    const bool is_level = std::abs(along.first[s]) <= tolerances::kRate * system.ResidualUnit();
+    const bool turns = is_level && std::abs(along.second[s]) > tolerances::kRate;
     const bool coincides = (first.kind == EventKind::kContactEvent && IsZeroAt(system, first.constraint, found->at)) ||
                            (first.kind == EventKind::kLimitPoint && is_level);
     // A crossing at the start is where the step has come from.
@@ -299,7 +298,7 @@ std::optional<CurvePoint> Locate(SmoothArc* arc, const Step& step, const StepEve
   std::optional<CurvePoint> point = LocateRegular(arc, step, event, ends);
   if (!point) return std::nullopt;
   const double t = step.normal.dot((point->x - step.start.x).head(step.normal.size()));
-  const double slack = tolerances::kLocatedPlace * step.length;
+  const double slack = tolerances::kSamePoint * step.length;
   if (!(t >= -slack && t <= step.length + slack)) return std::nullopt;
   if (event.kind != EventKind::kLimitPoint) return point;
   if (point->nullity > 0 && step.start.nullity == 0 && step.end.nullity == 0) {
@@ -347,7 +346,7 @@ std::optional<CurvePoint> LocateRegular(SmoothArc* arc, const Step& step, const 
   // that crossed it.
   const Eigen::VectorXd guess = step.Point(event.t);
   Correction correction = arc->CorrectOnto(event.constraint, guess);
-  const double reach = kReachOfLocated * step.length + tolerances::kLocatedReach;
+  const double reach = kReachOfLocated * step.length + tolerances::kSamePoint;
   if (!correction.converged || !((correction.x - guess).head(arc->NumMotion()).norm() <= reach)) {
     std::optional<CurvePoint> lowest = LocateRate(arc, step, event.t, along, gradient);
     if (lowest) return lowest;
@@ -357,7 +356,7 @@ std::optional<CurvePoint> LocateRegular(SmoothArc* arc, const Step& step, const 
   const CurvePoint interpolated = step.At(step.normal.dot((correction.x - step.start.x).head(step.normal.size())));
   CurvePoint point;
   const bool regular = arc->Derivatives(correction.x, interpolated.first.head(step.normal.size()), &point) &&
-                       system.Norm(point.first - interpolated.first) <= tolerances::kSameDerivative;
+                       system.Norm(point.first - interpolated.first) <= tolerances::kSmallShare;
   if (!regular) point = interpolated;
   point.x = correction.x;
   return point;

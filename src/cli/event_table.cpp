@@ -31,8 +31,8 @@ void PrintBranches(const TraceRequest& request, const Increment& increment, doub
     const BranchRecord& branch = increment.event.branches[i];
     const bool taken = static_cast<int>(i) + 1 == increment.event.taken;
     text << (taken ? "* branch " : "  branch ") << i + 1 << ": dissipation rate "
-         << Shown(branch.dissipation_rate, tolerances::kSameRate) << ", load rate "
-         << Shown(branch.load_rate, tolerances::kLevel) << ", turn " << Shown(branch.turn, tolerances::kSameTurn);
+         << Shown(branch.dissipation_rate, tolerances::kRate) << ", load rate "
+         << Shown(branch.load_rate, tolerances::kRate) << ", turn " << Shown(branch.turn, tolerances::kSameDirection);
     for (std::size_t k = 0; k < branch.states.size(); ++k)
       text << (k == 0 ? "; " : ", ") << request.scene.contacts[k].Name() << ' ' << ToString(branch.states[k]);
     text << '\n';

@@ -70,7 +70,7 @@ NearestFoot BoundaryAt::Nearest(const Vector2d& x) const {
   // Next to the end of a patch, the end and the foot on the next patch are equally far, to rounding.
   double most = nearest.distance;
   const auto consider = [&](int patch, double distance, bool is_joint, bool is_end) {
-    const double counted = is_joint ? (1.0 + tolerances::kEquallyFar) * distance : distance;
+    const double counted = is_joint ? (1.0 + tolerances::kActive) * distance : distance;
     if (!(counted < most || (counted == most && patch < nearest.patch))) return;
     most = counted;
     nearest = {patch, distance, is_end};
@@ -85,7 +85,7 @@ NearestFoot BoundaryAt::Nearest(const Vector2d& x) const {
     const double tau = curve.FootOf(x, patch.begin, patch.end);
     // Over an axis of symmetry, rounding does not take a node that is held on the axis past the end.
     const bool mirrored = std::max(patch.nodes[0], patch.nodes[2]) >= NumPatches();
-    const double rounding = mirrored ? tolerances::kFootStagnation : 0.0;
+    const double rounding = mirrored ? tolerances::kEqual : 0.0;
     if (tau >= -rounding && tau <= patch.end + rounding) {
       consider(i, (x - curve.At(tau)).norm(), false, false);
       continue;

@@ -197,7 +197,8 @@ bool DeformablePair::Overrun(const Eigen::VectorXd& u, const Eigen::VectorXd& af
   const BoundaryAt from = BoundaryAtPlaces(u), to = BoundaryAtPlaces(after);
   const Eigen::Vector2d x = node_.At(u), moved = node_.At(after);
   const double radius = boundary_->Radius();
-  if (to.Nearest(moved).distance < std::abs(to.Project(moved, patch).gap + radius) - tolerances::kOverrun) return true;
+  if (to.Nearest(moved).distance < std::abs(to.Project(moved, patch).gap + radius) - tolerances::kRootOfRounding)
+    return true;
   const NodalSpline& spline = boundary_->Spline();
   const int own = spline.Within(patch), count = spline.NumPatches();
   for (int i = 0; i < count; ++i) {

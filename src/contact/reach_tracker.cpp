@@ -17,7 +17,7 @@ std::vector<std::size_t> ReachTracker::InReach(const Eigen::Ref<const Eigen::Vec
   u_ = u;
   s_ = s;
   // Rounding of the sum and of the distances.
-  const double slack = tolerances::kReachMargin * (moved_ + reach);
+  const double slack = tolerances::kTouching * (moved_ + reach);
   const auto later = std::greater<>();
   std::vector<std::size_t> in_reach;
   auto end = looks_.end();  // of the heap; behind it what was looked at in this call
@@ -27,7 +27,7 @@ std::vector<std::size_t> ReachTracker::InReach(const Eigen::Ref<const Eigen::Vec
     const ContactPair& pair = *contacts_[look.second];
     const double gap = pair.Nearest(u_, s_).distance, rate = pair.LargestGapRate();
     if (gap <= reach * rate) in_reach.push_back(look.second);
-    const double distance = (1.0 - tolerances::kReachMargin) * gap / rate;
+    const double distance = (1.0 - tolerances::kTouching) * gap / rate;
     look.first = std::isfinite(distance) ? moved_ + distance : moved_;
   }
   while (end != looks_.end()) std::push_heap(looks_.begin(), ++end, later);

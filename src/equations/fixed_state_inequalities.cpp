@@ -53,7 +53,7 @@ bool FixedStateSystem::BehindOtherPatch(const std::vector<std::size_t>& candidat
     const ContactPair& pair = *contacts_[i];
     const int patch = pair.PatchAt(x, x[NumDofs()]);
     if (patch == patches_[i]) return false;
-    const bool behind = pair.Gap(x, x[NumDofs()], patch) < -tolerances::kBrokenOnStep;
+    const bool behind = pair.Gap(x, x[NumDofs()], patch) < -tolerances::kBroken;
     // In reach, a node from in front that is away from the surface, or the other way, may have gone through it.
     if (patches_[i] == kNearestPatch) return behind;
     if (pair.IsAway(patch)) return pair.HasPatch(patches_[i]);

@@ -23,7 +23,7 @@ class ShortestStep {
   // transposed: unknowns x equations. frame: of the system. False if the matrix is not finite.
   bool Factorize(const Eigen::SparseMatrix<double>& transposed, const Frame* frame) {
     const Eigen::Index unknowns = transposed.rows();
-    curve_ = lu_.FactorizeRegular(transposed, GenericVector(unknowns), tolerances::kRegularPivotNearest, frame);
+    curve_ = lu_.FactorizeRegular(transposed, GenericVector(unknowns), tolerances::kRootOfRounding, frame);
     if (!curve_) return qr_.Factorize(transposed);
     along_ = lu_.Solve(Eigen::VectorXd::Zero(transposed.cols()), 1.0).normalized();
     rank_ = transposed.cols();
@@ -76,11 +76,11 @@ NearestPoint FindNearestPoint(FixedStateSystem* system, const Eigen::VectorXd& s
     result.residual = system->Largest(residual);
     if (!std::isfinite(result.residual)) return result;
     const double scale = 1.0 + result.x.norm();
-    const bool at_rounding = result.last_step <= tolerances::kNewtonStep * scale ||
-                             (result.last_step <= tolerances::kStagnationSingular * system->ResidualUnit() * scale &&
+    const bool at_rounding = result.last_step <= tolerances::kRounding * scale ||
+                             (result.last_step <= tolerances::kStagnation * system->ResidualUnit() * scale &&
                               result.last_step >= 0.5 * previous);
     if (at_rounding) {
-      result.converged = result.residual <= tolerances::kResidualSingular;
+      result.converged = result.residual <= tolerances::kStagnation;
       ++result.iterations;
       return result;
     }

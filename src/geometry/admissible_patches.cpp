@@ -32,7 +32,7 @@ AdmissiblePatches::AdmissiblePatches(const std::vector<Eigen::Vector2d>& nodes, 
                                      const MirroredEnds& ends)
     : spline_(static_cast<int>(nodes.size()), closed, ends) {
   const int count = spline_.NumPatches();
-  const double length = (1.0 + tolerances::kSameLength) * kPi * radius;
+  const double length = (1.0 + tolerances::kTouching) * kPi * radius;
   // How many are left out in one sense, +1 or -1.
   const auto beside = [&](int sense) {
     const int end = sense > 0 ? count - 1 - node : node, most = closed ? count : end;

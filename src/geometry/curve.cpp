@@ -50,7 +50,7 @@ double SquaredExcess(const Vector2d& x, const Vector2d& centre, double radius) {
 // How far the point that is computed for an end of a piece may be from the end.
 double RoundingAt(const CurvePiece& piece, double xi, const Vector2d& point) {
   const Projection at = piece.Project(point);
-  return std::abs(at.gap) + std::abs(at.xi - xi) + tolerances::kRoundingOfPoint * (point.lpNorm<1>() + piece.Length());
+  return std::abs(at.gap) + std::abs(at.xi - xi) + tolerances::kLastDigits * (point.lpNorm<1>() + piece.Length());
 }
 
 // A curve between two points lies within the ellipse around them from whose points the ways to both are together as
@@ -112,7 +112,7 @@ double CubicPiece::Integral(double from, double to) const {
 
 void CubicPiece::Divide(double from, double to, double integral, int depth) {
   const double middle = 0.5 * (from + to), before = Integral(from, middle), after = Integral(middle, to);
-  if (depth < kDeepest && std::abs(before + after - integral) > tolerances::kArcLength * scale_) {
+  if (depth < kDeepest && std::abs(before + after - integral) > tolerances::kLastDigits * scale_) {
     Divide(from, middle, before, depth + 1);
     Divide(middle, to, after, depth + 1);
     return;
@@ -147,8 +147,8 @@ double CubicPiece::FootOf(const Vector2d& from_begin) const {
     double move = -away.dot(first) / (slope > 0.0 ? slope : square);
     if (std::abs(move) > 0.5) move = std::copysign(0.5, move);
     tau += move;
-    if (std::abs(move) <= tolerances::kFootStep ||
-        (std::abs(move) < tolerances::kFootStagnation && std::abs(move) >= previous))
+    if (std::abs(move) <= tolerances::kLastDigits ||
+        (std::abs(move) < tolerances::kEqual && std::abs(move) >= previous))
       return tau;
     if (!(std::abs(tau - 0.5) <= kFarthest)) break;
     previous = std::abs(move);
@@ -184,7 +184,7 @@ Vector2d CubicPiece::PointAt(double xi) const {
   for (int i = 0; i < kFootIterations; ++i) {
     const double move = (xi - ArcLength(tau)) / At(tau).first.norm();
     tau += move;
-    if (!(std::abs(move) > tolerances::kFootStep)) break;
+    if (!(std::abs(move) > tolerances::kLastDigits)) break;
   }
   return begin_ + Offset(tau);
 }
@@ -227,7 +227,7 @@ NearestFoot Curve::NearestFrom(const Vector2d& x, int near) const {
   // Next to the end of a patch, the end and the foot on the next patch are equally far, to rounding.
   double most = nearest.distance;
   const auto consider = [&](std::size_t patch, double distance, bool is_joint, bool is_end) {
-    const double counted = is_joint ? (1.0 + tolerances::kEquallyFar) * distance : distance;
+    const double counted = is_joint ? (1.0 + tolerances::kActive) * distance : distance;
     const int number = static_cast<int>(patch);
     if (!(counted < most || (counted == most && number < nearest.patch))) return;  // in whatever order they are visited
     most = counted;

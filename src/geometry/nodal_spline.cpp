@@ -72,8 +72,7 @@ double Parabola::FootOf(const Eigen::Vector2d& x, double begin, double end) cons
     for (int i = 0; i < kIterations; ++i) {
       const double move = -f(tau) / slope(tau), size = std::abs(move);
       tau += move;
-      if (!(size > tolerances::kFootStep) ||
-          (size < tolerances::kFootStagnation * (1.0 + std::abs(tau)) && size >= previous))
+      if (!(size > tolerances::kLastDigits) || (size < tolerances::kEqual * (1.0 + std::abs(tau)) && size >= previous))
         break;
       previous = size;
     }

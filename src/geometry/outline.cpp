@@ -31,7 +31,7 @@ std::vector<OutlinePoint> Outline(const Surface& surface, const XiRange& range, 
   for (; surface.HasPatch(patch) && surface.RangeOf(patch).begin < range.end; ++patch) {
     const XiRange own = surface.RangeOf(patch);
     const double begin = std::max(own.begin, range.begin), end = std::min(own.end, range.end);
-    if (!(end - begin > (std::isfinite(length) ? tolerances::kDrawnPatch * length : 0.0))) continue;
+    if (!(end - begin > (std::isfinite(length) ? tolerances::kNoMove * length : 0.0))) continue;
     OutlinePoint before = point_at(begin);
     if (points.empty()) points.push_back(before);
     const bool bent = point_at(0.5 * (begin + end)).normal != before.normal || point_at(end).normal != before.normal;

@@ -33,7 +33,7 @@ struct Edges {
 
   // Of a fillet with the radius 1 at the corner where edge i begins: what it takes from both edges.
   double Share(std::size_t i) const {
-    return i >= turns.size() || std::abs(turns[i]) <= tolerances::kInLine ? 0.0 : std::tan(0.5 * std::abs(turns[i]));
+    return i >= turns.size() || std::abs(turns[i]) <= tolerances::kRounding ? 0.0 : std::tan(0.5 * std::abs(turns[i]));
   }
   // The corner where edge i ends; past the last one there is none.
   std::size_t EndCorner(std::size_t i, bool closed) const { return closed ? (i + 1) % turns.size() : i + 1; }
@@ -104,7 +104,7 @@ double LargestFillet(const PlanePoints& points, bool closed) {
   }
   // The tangent of a quarter of a turn is large, and not infinite.
   for (std::size_t i = 0; i < edges.turns.size(); ++i)
-    if (edges.Share(i) > 1.0 / tolerances::kInLine) return 0.0;
+    if (edges.Share(i) > 1.0 / tolerances::kRounding) return 0.0;
   return largest;
 }
 
@@ -117,7 +117,7 @@ std::unique_ptr<const Curve> MakePolyline(const PlanePoints& points, bool closed
     const std::size_t corner = edges.EndCorner(i, closed);
     const double from = fillet * edges.Share(i), cut = fillet * edges.Share(corner);
     const double length = edges.lengths[i] - from - cut;
-    if (length > tolerances::kUsedUpEdge * edges.lengths[i])
+    if (length > tolerances::kRounding * edges.lengths[i])
       pieces.push_back(std::make_unique<LinePiece>(points[i] + from * direction, direction, length));
     if (cut == 0.0) continue;
     const double turn = edges.turns[corner], sign = turn > 0.0 ? 1.0 : -1.0;

@@ -56,7 +56,7 @@ bool KluFactors::Factorize(Eigen::SparseMatrix<double>* matrix, bool same_patter
     if (symbolic_ != nullptr) numeric_ = klu_factor(outer, inner, matrix->valuePtr(), symbolic_, &common_);
     // Not to be taken for a singular matrix.
     if (common_.status == KLU_OUT_OF_MEMORY || common_.status == KLU_TOO_LARGE) throw std::bad_alloc();
-    if (numeric_ != nullptr && common_.status == KLU_OK && Regular() && pivot_ratio_ > tolerances::kRegularPivotNearest)
+    if (numeric_ != nullptr && common_.status == KLU_OK && Regular() && pivot_ratio_ > tolerances::kRootOfRounding)
       return true;
   }
   return numeric_ != nullptr && common_.status == KLU_OK && Regular();

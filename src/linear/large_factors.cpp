@@ -130,7 +130,7 @@ bool LargeFactors::FactorizeBordered(bool any_border) {
   along_ = row_.dot(direction_);  // its sign is of use also where N is singular but for rounding
   const double length = direction_.norm();
   if (!(PivotRatio() > tolerances::kSingularPivot)) return false;
-  if (!any_border && !(border_.norm() * length < 1.0 / tolerances::kGoodBorder)) return false;
+  if (!any_border && !(border_.norm() * length < 1.0 / tolerances::kNearlyParallel)) return false;
   return std::abs(along_) > tolerances::kSingularPivot * row_.norm() * length;
 }
 

@@ -22,7 +22,7 @@ constexpr int kMaxActiveSetChanges = 4;
 // With a larger eps the relaxed products leave room to leave the branch for another one: arch19 fell off its ceilings.
 constexpr double kLargestAtOnce = 1e-8;
 
-constexpr double kSameEps = 1.0 + tolerances::kRegularisation;
+constexpr double kSameEps = 1.0 + tolerances::kEqual;
 
 }  // namespace
 
@@ -144,7 +144,7 @@ bool IncrementSolver::PolishActiveSet(const PathPoint& from, const Eigen::Vector
     const std::size_t before = active.size();
     bool passed = false;
     for (const Constraint& constraint : system_.Inequalities()) {
-      if (system_.Value(constraint, nearest.x) >= -tolerances::kBrokenAtPoint * system_.UnitOf(constraint)) continue;
+      if (system_.Value(constraint, nearest.x) >= -tolerances::kBroken * system_.UnitOf(constraint)) continue;
       const auto i = static_cast<std::size_t>(constraint.contact);
       if (!KeepsPatch(constraint.inequality)) {
         active.push_back(constraint);
@@ -169,8 +169,8 @@ bool IncrementSolver::PolishActiveSet(const PathPoint& from, const Eigen::Vector
       trial->point = std::move(exact);
       trial->exact = true;
       IncrementTrial stuck = *trial;
-      const double slow = tolerances::kRestsAtPoint * Distance(from, trial->point);
-      StickWhereAtRest(nearest.x, tolerances::kNoSlip, &trial->point);
+      const double slow = tolerances::kRootOfRounding * Distance(from, trial->point);
+      StickWhereAtRest(nearest.x, tolerances::kRounding, &trial->point);
       if (StickWhereAtRest(nearest.x, slow, &stuck.point) && PolishActiveSet(from, wanted, length, &stuck))
         *trial = std::move(stuck);
       return true;

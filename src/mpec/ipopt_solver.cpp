@@ -156,7 +156,7 @@ IpoptSolver::IpoptSolver(std::function<bool()> cancelled) : implementation_(std:
   options.SetIntegerValue("mumps_pivot_order", 0);
   options.SetIntegerValue("print_level", 0);
   options.SetStringValue("sb", "yes");
-  options.SetNumericValue("tol", tolerances::kInteriorPoint);
+  options.SetNumericValue("tol", tolerances::kAccepted);
   options.SetNumericValue("bound_relax_factor", 0.0);
   options.SetStringValue("honor_original_bounds", "yes");
   options.SetIntegerValue("max_iter", 300);

@@ -8,7 +8,7 @@ std::vector<std::vector<ContactState>> StatesOfShortIncrements(const PathPoint& 
   std::vector<std::vector<ContactState>> found;
   for (const double dissipation : {0.0, 0.5, 1.0}) {
     const IncrementTrial trial =
-        solver->Solve(point, {tolerances::kShortIncrement, direction, dissipation, 1.0}, RegularisationSchedule());
+        solver->Solve(point, {tolerances::kShort, direction, dissipation, 1.0}, RegularisationSchedule());
     if (trial.status == SolveStatus::kSolved) found.push_back(trial.point.states);
   }
   return found;

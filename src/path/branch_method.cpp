@@ -84,8 +84,7 @@ Advance BranchMethod::ChangeReactions(const PathPoint& from) {
     return Ended({EndReason::kNoSuchBranch, {{sentences::kOnlyReactionsChange, {}, increments_ + 1.0}}});
   AcceptedPoint increment = IncrementAt(std::move(point), from);
   increment.solve.next_step = step_length_;
-  if (!(increment.residuals.Largest() <= tolerances::kAcceptedExact))
-    return Ended(Failure(sentences::kReactionsAtRest));
+  if (!(increment.residuals.Largest() <= tolerances::kAccepted)) return Ended(Failure(sentences::kReactionsAtRest));
   ++increments_;
   Advance advance;
   advance.increments.push_back(std::move(increment));
@@ -127,7 +126,7 @@ std::optional<PathPoint> BranchMethod::InnerPoint(const Step& step, const PathPo
   const Correction middle = arc.CorrectOnPlane(step.Point(0.5 * step.length), step.normal);
   if (!middle.converged) return std::nullopt;
   PathPoint point = arc.system().Unpack(middle.x);
-  const bool sound = model_.Check(from, point).Largest() <= tolerances::kAcceptedExact;
+  const bool sound = model_.Check(from, point).Largest() <= tolerances::kAccepted;
   return sound ? std::optional(std::move(point)) : std::nullopt;
 }
 
@@ -166,7 +165,7 @@ std::optional<End> BranchMethod::PassEnd(const ArcStep& at, AcceptedPoint* incre
 bool BranchMethod::TakeCrossingThatLoads(const ArcStep& at) {
   const std::vector<Branch> branches = BifurcationBranches(arc_, model_.contacts, *at.event.crossing);
   const auto found = std::find_if(branches.begin(), branches.end(), [&](const Branch& branch) {
-    return branch.load_rate * options_.direction > tolerances::kLevel;
+    return branch.load_rate * options_.direction > tolerances::kRate;
   });
   if (found == branches.end()) return false;
   current_.first = found->first;
@@ -240,7 +239,7 @@ bool BranchMethod::FailsByRounding(const ArcStep& at) const {
 }
 
 bool BranchMethod::TurnsLoad(const ArcStep& at) {
-  const double level = tolerances::kLevel;
+  const double level = tolerances::kRate;
   const Eigen::Index s = LoadFactor();
   const double arrives = Trend(at.step.end.first[s], -at.step.end.second[s], level);
   double leaves = Trend(current_.first[s], current_.second[s], level);
@@ -314,7 +313,7 @@ bool BranchMethod::Balance(BalancedStep* step) const {
   const double change = step->stored - before;
   const double exchanged = std::abs(step->work.loads) + std::abs(step->work.friction) + std::abs(change);
   return std::abs(step->work.loads - step->work.friction - change) <=
-         tolerances::kEnergyOfStep * exchanged + tolerances::kEnergyRounding * (before + unit);
+         tolerances::kEnergyOfStep * exchanged + tolerances::kEqual * (before + unit);
 }
 
 Advance BranchMethod::Next(const PathPoint& from) {
@@ -327,7 +326,7 @@ Advance BranchMethod::Next(const PathPoint& from) {
   if (returned) Balance(&*next);  // of the shorter step
 
   AcceptedPoint increment = IncrementOf(*at, from);
-  if (!(increment.residuals.Largest() <= tolerances::kAcceptedExact)) {
+  if (!(increment.residuals.Largest() <= tolerances::kAccepted)) {
     End end = Failure(sentences::kResiduals);
     Append(CurveTooSharp(model_, increment.point), &end.causes);
     Append(BeyondHalfRound(model_, increment.residuals), &end.causes);

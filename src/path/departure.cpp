@@ -169,8 +169,8 @@ bool Departure::SetOut(const PathPoint& point, const Branch& branch, SmoothArc* 
 
 // The branch to take where the load is to go on: the best one, or if that turns back, the best that does not.
 std::size_t Departure::BestThatLoads(const std::vector<Branch>& branches) const {
-  const auto loads = [&](const Branch& branch) { return branch.load_rate * options_.direction > tolerances::kLevel; };
-  if (branches.front().load_rate * options_.direction >= -tolerances::kLevel) return 0;
+  const auto loads = [&](const Branch& branch) { return branch.load_rate * options_.direction > tolerances::kRate; };
+  if (branches.front().load_rate * options_.direction >= -tolerances::kRate) return 0;
   const auto best = std::find_if(branches.begin(), branches.end(), loads);
   return best == branches.end() ? 0 : static_cast<std::size_t>(best - branches.begin());
 }

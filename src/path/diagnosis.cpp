@@ -51,8 +51,8 @@ SharpestCurve SharpestAt(const ContactPair& pair, const PathPoint& point, int pa
     sharpest.curvature = std::max(sharpest.curvature, kinematics.gap_hessian.topLeftCorner(dofs, dofs).norm());
   };
   look(known);
-  if (xi - range.begin <= tolerances::kBeyondPatch && pair.HasPatch(known - 1)) look(known - 1);
-  if (range.end - xi <= tolerances::kBeyondPatch && pair.HasPatch(known + 1)) look(known + 1);
+  if (xi - range.begin <= tolerances::kTouching && pair.HasPatch(known - 1)) look(known - 1);
+  if (range.end - xi <= tolerances::kTouching && pair.HasPatch(known + 1)) look(known + 1);
   return sharpest;
 }
 
@@ -74,7 +74,7 @@ double LargestOf(const Eigen::VectorXd& stiffness, const ContactPair& pair, cons
 double ForceOfClosingAtStart(const Model& model, const PathPoint& point, std::size_t contact) {
   const ContactPair& pair = *model.contacts[contact];
   const double gap = std::abs(pair.Gap(model.structure.Start(), 0.0, kNearestPatch));
-  if (!(gap <= tolerances::kTouchingAtStart)) return 0.0;
+  if (!(gap <= tolerances::kTouching)) return 0.0;
   return kClosing * gap * LargestOf(DiagonalStiffness(model, point), pair, point, point.Patch(contact));
 }
 
@@ -168,7 +168,7 @@ Causes CurveTooSharp(const Model& model, const PathPoint& point) {
     const double stiffness = rn * at.curvature, radius = model.scaling.length / at.curvature;
     const std::string name = model.scene.contacts[i].Name();
     if (turn * rn > tolerances::kResidual * (1.0 + rn)) return {{sentences::kCurveTurnsReaction, name, radius, turn}};
-    if (stiffness > tolerances::kOfSingular / tolerances::kSingularPivot)
+    if (stiffness > tolerances::kSmallShare / tolerances::kSingularPivot)
       return {{sentences::kCurveHidesStiffness, name, radius, stiffness}};
   }
   return {};
@@ -180,11 +180,11 @@ Causes HiddenSlip(const Model& model, const PathPoint& point) {
     const auto k = static_cast<Eigen::Index>(i);
     if (!pair.Curved() || !pair.Frictional()) continue;
     const double rn = point.rn[k], margin = pair.Friction() * rn - std::abs(point.rt[k]);
-    if (!(rn > 0.0) || margin > tolerances::kAcceptedExact * (1.0 + rn)) continue;
+    if (!(rn > 0.0) || margin > tolerances::kAccepted * (1.0 + rn)) continue;
     const double curvature = SharpestAt(pair, point, point.Patch(i)).curvature;
     // As it slides by dxi, the reaction turns by curvature * dxi, and the load has to follow.
     const double load_rate = (1.0 + pair.Friction() * pair.Friction()) * rn * curvature;
-    const double least = tolerances::kLevel / tolerances::kOfHiddenSlip;
+    const double least = tolerances::kRate / tolerances::kOfHiddenSlip;
     if (!(load_rate > 1.0 / least)) continue;
     const std::string name = model.scene.contacts[i].Name();
     const double unit = model.scaling.length / model.scaling.load_factor;
@@ -195,7 +195,7 @@ Causes HiddenSlip(const Model& model, const PathPoint& point) {
 }
 
 Causes BeyondHalfRound(const Model& model, const Residuals& residuals) {
-  if (!(residuals.friction_law > tolerances::kAcceptedExact)) return {};
+  if (!(residuals.friction_law > tolerances::kAccepted)) return {};
   const bool possible = std::any_of(model.contacts.begin(), model.contacts.end(), [](const auto& contact) {
     return contact->HasTotalLaw() && contact->Round() > 0.0;
   });
@@ -221,8 +221,8 @@ Causes StandsAtEnd(const Model& model, const PathPoint& point) {
     const int patch = pair.KnownPatch(point.u, point.s, point.Patch(i));
     const double xi = pair.Xi(point.u, point.s, patch);
     const XiRange range = pair.RangeOf(patch);
-    if ((xi - range.begin <= tolerances::kBeyondPatch && !pair.HasPatch(patch - 1)) ||
-        (range.end - xi <= tolerances::kBeyondPatch && !pair.HasPatch(patch + 1)))
+    if ((xi - range.begin <= tolerances::kTouching && !pair.HasPatch(patch - 1)) ||
+        (range.end - xi <= tolerances::kTouching && !pair.HasPatch(patch + 1)))
       at_end.push_back(i);
   }
   if (at_end.empty()) return {};
@@ -235,19 +235,19 @@ Causes BehindSurface(const Model& model, const PathPoint& point) {
     const ContactPair& pair = *model.contacts[i];
     if (!pair.Deformable() || point.states[i] != ContactState::kOpen) continue;
     const double gap = pair.Gap(point.u, point.s, kNearestPatch);
-    if (gap < -tolerances::kBeyondPatch)
+    if (gap < -tolerances::kTouching)
       return {{sentences::kBehindSurface, model.scene.contacts[i].Name(), -gap * model.scaling.length}};
   }
   return {};
 }
 
 std::optional<End> PullingContact(const Model& model, const PathPoint& point, double largest_reaction) {
-  const double most = std::max(tolerances::kReactionRounding, tolerances::kPullOfLargest * largest_reaction);
+  const double most = std::max(tolerances::kUnitComponent, tolerances::kSmallShare * largest_reaction);
   for (std::size_t i = 0; i < model.contacts.size(); ++i) {
     const double pull = -point.rn[static_cast<Eigen::Index>(i)];
     const double unit = model.contacts[i]->ForceUnit();
     if (!(pull > most * unit) || pull <= ForceOfClosingAtStart(model, point, i)) continue;
-    const double error = tolerances::kBrokenOnStep * model.contacts[i]->NormalForceUnit();
+    const double error = tolerances::kBroken * model.contacts[i]->NormalForceUnit();
     const std::string name = model.scene.contacts[i].Name();
     const double force = model.scaling.force;
     if (pull <= error)

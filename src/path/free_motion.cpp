@@ -34,7 +34,7 @@ void AddEquation(const PairDofs& dofs, const PairVector& gradient, int equation,
 Eigen::SparseMatrix<double> Resistance(const Model& model, const PathPoint& point, double force) {
   Eigen::SparseMatrix<double> tangent = model.structure.TangentPattern();
   model.structure.Tangent(point.u, &tangent);
-  const double least = tolerances::kNoResistance * tangent.coeffs().cwiseAbs().maxCoeff();
+  const double least = tolerances::kRegularPivot * tangent.coeffs().cwiseAbs().maxCoeff();
   Triplets entries;
   for (int column = 0; column < tangent.outerSize(); ++column)
     for (Eigen::SparseMatrix<double>::InnerIterator it(tangent, column); it; ++it)
@@ -100,7 +100,7 @@ std::string NearestOpenText(const Model& model, const PathPoint& point, std::siz
     const double share = std::clamp(edge.dot(away) / edge.squaredNorm(), 0.0, 1.0);
     from_edges = std::min(from_edges, (away - share * edge).norm());
   }
-  if (from_edges > radius + tolerances::kTouchingAtStart) return text;
+  if (from_edges > radius + tolerances::kTouching) return text;
   const std::array<int, 2> across = SymmetryAxes(surface, model.scene, [&](const std::string& name) -> const Node& {
     return model.scene.nodes[model.index.Node(name)];
   });
@@ -123,7 +123,7 @@ std::string NearestOpen(const Model& model, const PathPoint& point, const std::v
     if (std::none_of(nodes.begin(), nodes.end(), [&](const std::string& node) { return Has(free_nodes, node); }))
       continue;
     const double gap = model.contacts[i]->Gap(point.u, point.s, point.Patch(i));
-    if (!(gap > tolerances::kActiveGap)) return {};
+    if (!(gap > tolerances::kActive)) return {};
     if (!(gap < least)) continue;
     least = gap;
     nearest = i;
@@ -145,7 +145,7 @@ Names FreeNames(const Model& model, const PathPoint& point, double force) {
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
     const ContactCandidate& contact = scene.contacts[i];
     if (!Has(names.nodes, contact.node) ||
-        model.contacts[i]->Gap(point.u, point.s, point.Patch(i)) > tolerances::kActiveGap)
+        model.contacts[i]->Gap(point.u, point.s, point.Patch(i)) > tolerances::kActive)
       continue;
     names.contacts.push_back(contact.Name());
     if (contact.OnSurface()) continue;
@@ -187,7 +187,7 @@ std::vector<int> FreeNodes(const Model& model, const PathPoint& point, double fo
     for (std::size_t i = 0; i < model.scene.nodes.size(); ++i)
       for (const int axis : {0, 1}) {
         const int dof = model.structure.Dof(static_cast<int>(i), axis);
-        if (dof < 0 || !(largest[dof] > tolerances::kTakesPart)) continue;
+        if (dof < 0 || !(largest[dof] > tolerances::kSameTangent)) continue;
         nodes.push_back(static_cast<int>(i));
         break;
       }
@@ -216,7 +216,7 @@ std::string FreeMotionQuestion(const Model& model, const PathPoint& point, doubl
 
 bool IsShifted(const Model& model, const PathPoint& before, const PathPoint& now) {
   const std::vector<double> from = model.InSceneUnits(before).positions, to = model.InSceneUnits(now).positions;
-  const double rounding = tolerances::kActiveGap * model.scaling.length;
+  const double rounding = tolerances::kActive * model.scaling.length;
   double apart = 0.0;
   for (std::size_t i = 2; i < to.size(); ++i)
     apart = std::max(apart, std::abs((to[i] - from[i]) - (to[i % 2] - from[i % 2])));
@@ -227,7 +227,7 @@ bool Approaches(const Model& model, const PathPoint& before, const PathPoint& no
   for (std::size_t i = 0; i < model.contacts.size(); ++i) {
     const ContactPair& contact = *model.contacts[i];
     const double gap = contact.Nearest(now.u, now.s).distance;
-    if (gap < contact.Nearest(before.u, before.s).distance - tolerances::kActiveGap) return true;
+    if (gap < contact.Nearest(before.u, before.s).distance - tolerances::kActive) return true;
   }
   return false;
 }

@@ -43,7 +43,7 @@ PathPoint Model::InitialPoint() const {
   NotePatches(&point);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const auto& contact = contacts[i];
-    const bool touches = contact->Gap(point.u, point.s, point.Patch(i)) <= tolerances::kTouchingAtStart;
+    const bool touches = contact->Gap(point.u, point.s, point.Patch(i)) <= tolerances::kTouching;
     const ContactState rest = contact->Frictional() ? ContactState::kStick : ContactState::kClosed;
     point.states.push_back(touches ? rest : ContactState::kOpen);
     if (touches && contact->HasPatches()) point.patches[i] = PatchOfTouching(*contact, point.patches[i]);

@@ -36,10 +36,9 @@ bool IsNearlyActive(const ContactPair& contact, const PathPoint& point, std::siz
   const auto k = static_cast<Eigen::Index>(i);
   const bool open = point.states[i] == ContactState::kOpen;
   const double unit = contact.ForceUnit();
-  if ((open ? contact.Gap(point.u, point.s, point.Patch(i)) : point.rn[k] / unit) <= tolerances::kNearlyActive)
-    return true;
+  if ((open ? contact.Gap(point.u, point.s, point.Patch(i)) : point.rn[k] / unit) <= tolerances::kTouching) return true;
   return point.states[i] == ContactState::kStick &&
-         contact.Friction() * point.rn[k] - std::abs(point.rt[k]) <= tolerances::kNearlyActive * unit;
+         contact.Friction() * point.rn[k] - std::abs(point.rt[k]) <= tolerances::kTouching * unit;
 }
 
 bool SomeNearlyActive(const ContactPairs& contacts, const PathPoint& point) {
@@ -155,7 +154,7 @@ void MpecMethod::Judge(const PathPoint& from, const Eigen::VectorXd& direction, 
   }
   const PathPoint& to = trial.increment.point;
   trial.residuals = model_.Check(from, to);
-  const double tolerance = trial.increment.exact ? tolerances::kAcceptedExact : tolerances::kAcceptedRegularised;
+  const double tolerance = trial.increment.exact ? tolerances::kAccepted : tolerances::kAcceptedRegularised;
   const double moved = Distance(from, to);
   if (!(trial.residuals.Largest() <= tolerance))
     trial.verdict = sentences::kResidual;
@@ -239,11 +238,11 @@ bool MpecMethod::EndAtTarget(const PathPoint& from, const PathPoint& modes, Tria
   const NearestPoint nearest = FindNearestPoint(&system, start, start.head(from.u.size() + 1));
   if (!nearest.converged) return false;
   for (const Constraint& constraint : system.Inequalities())
-    if (system.Value(constraint, nearest.x) < -tolerances::kBrokenAtPoint * system.UnitOf(constraint)) return false;
+    if (system.Value(constraint, nearest.x) < -tolerances::kBroken * system.UnitOf(constraint)) return false;
   PathPoint point = system.Unpack(nearest.x);
   if (Distance(from, point) > kFarthestTarget * Distance(from, to)) return false;
   trial->residuals = model_.Check(from, point);
-  if (!(trial->residuals.Largest() <= tolerances::kAcceptedExact)) return false;
+  if (!(trial->residuals.Largest() <= tolerances::kAccepted)) return false;
   trial->increment.point = std::move(point);
   trial->increment.exact = true;
   return true;
@@ -256,7 +255,7 @@ std::optional<int> MpecMethod::EndAtReturn(const PathPoint& from, Trial* trial) 
   const std::optional<ReturnDetector::Return> found = options_.returns->Find(from, to);
   if (!found) return std::nullopt;
   const Residuals residuals = model_.Check(from, found->point);
-  if (!(residuals.Largest() <= tolerances::kAcceptedExact)) return std::nullopt;
+  if (!(residuals.Largest() <= tolerances::kAccepted)) return std::nullopt;
   trial->increment.point = found->point;
   trial->residuals = residuals;
   return found->increment;
@@ -322,7 +321,7 @@ Advance MpecMethod::Next(const PathPoint& from) {
     const Eigen::VectorXd direction = Direction(from, to);
     const Eigen::Index s = direction.size() - 1;
     if (started_ && direction[s] * direction_[s] < 0.0 &&
-        std::min(std::abs(direction[s]), std::abs(direction_[s])) > tolerances::kLevel)
+        std::min(std::abs(direction[s]), std::abs(direction_[s])) > tolerances::kRate)
       increment.kind = changed || bent_ ? IncrementKind::kCornerLimit : IncrementKind::kSmoothLimit;
     else if (changed)
       increment.kind = IncrementKind::kContactEvent;

@@ -27,7 +27,7 @@ std::string Counted(int count, const char* what) {
 }  // namespace
 
 std::string LoadFactorText(double load_factor, double scale) {
-  if (std::abs(load_factor) <= tolerances::kToldAsZero * scale) return "0";
+  if (std::abs(load_factor) <= tolerances::kRounding * scale) return "0";
   std::ostringstream text = NewText();
   text << std::setprecision(10) << load_factor;
   return text.str();

@@ -52,7 +52,7 @@ Preload TracePreload(const Model& model, int max_increments, const MethodFactory
   // Stiff parts have forces that rounding of the positions makes.
   const bool stressed =
       (holding.array().abs() >
-       (tolerances::kForceErrors * model.structure.ForceRounding().array()).max(tolerances::kUnstressed))
+       (tolerances::kForceErrors * model.structure.ForceRounding().array()).max(tolerances::kRounding))
           .any();
   const double constant = model.structure.ConstantLoad().lpNorm<Eigen::Infinity>();
   if (!stressed && constant <= 0.0) {

@@ -13,10 +13,10 @@ namespace {
 bool TurnsBackByChoice(const EventRecord& event, double change) {
   if (event.taken != 1) return false;
   const double sign = change > 0.0 ? 1.0 : -1.0;
-  return event.branches[0].load_rate * sign < -tolerances::kLevel &&
+  return event.branches[0].load_rate * sign < -tolerances::kRate &&
          std::any_of(event.branches.begin(), event.branches.end(), [&](const BranchRecord& branch) {
-           return branch.load_rate * sign > tolerances::kLevel &&
-                  branch.dissipation_rate < event.branches[0].dissipation_rate - tolerances::kLevel;
+           return branch.load_rate * sign > tolerances::kRate &&
+                  branch.dissipation_rate < event.branches[0].dissipation_rate - tolerances::kRate;
          });
 }
 

@@ -46,7 +46,7 @@ class Restorer {
     if (!arc_.Derivatives(arc_.system().Pack(from), *towards, &start)) return false;
     const std::optional<PathPoint> point = PointAfter(start, from, wanted.arc_length - before.arc_length);
     const double load = wanted.load_factor / model_.scaling.load_factor;
-    if (!point || !(std::abs(point->s - load) <= tolerances::kRecordedLoad * (1.0 + std::abs(load)))) return false;
+    if (!point || !(std::abs(point->s - load) <= tolerances::kSamePoint * (1.0 + std::abs(load)))) return false;
     FillState(model_, *point, &wanted);
     FillLists(model_, *point, lists_, &wanted);
     return true;
@@ -61,7 +61,7 @@ class Restorer {
     if (before.event.branches.empty() && at >= 2 && increments[at - 2].stage == before.stage)
       return Chord(model_.FromIncrement(increments[at - 2]), from);
     const double change = (increments[at].load_factor - before.load_factor) / model_.scaling.load_factor;
-    if (std::abs(change) > tolerances::kMovingLoad * (increments[at].arc_length - before.arc_length))
+    if (std::abs(change) > tolerances::kSmallShare * (increments[at].arc_length - before.arc_length))
       return Eigen::VectorXd(change * Eigen::VectorXd::Unit(from.u.size() + 1, from.u.size()));
     const Increment* const next = NextWithState(increments, at);
     if (next == nullptr) return std::nullopt;
@@ -89,7 +89,7 @@ class Restorer {
       point = arc_.system().Unpack(end.x);
       const double reached = along_arc_ ? MakeStep(start, end, arc_.NumMotion()).ArcLength() : Distance(from, *point);
       const double error = std::abs(reached - length);
-      if (error <= tolerances::kRecordedArc * length || error >= last_error) return point;
+      if (error <= tolerances::kEqual * length || error >= last_error) return point;
       last_error = error;
       t += length - reached;
     }

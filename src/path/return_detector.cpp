@@ -62,7 +62,7 @@ std::optional<PathPoint> ReturnDetector::CrossingOf(const Reference& reference, 
                                                     const PathPoint& to) {
   const double before = reference.direction.dot(Chord(reference.point, from));
   const double beyond = reference.direction.dot(Chord(reference.point, to));
-  const double slack = tolerances::kLocatedPlace * Distance(from, to);
+  const double slack = tolerances::kSamePoint * Distance(from, to);
   if (!(before < -slack) || !(beyond >= -slack)) return std::nullopt;
   arc_.SetStates(to.states, from);
   const FixedStateSystem& system = arc_.system();
@@ -75,17 +75,17 @@ std::optional<PathPoint> ReturnDetector::CrossingOf(const Reference& reference, 
   PathPoint crossing = system.Unpack(correction.x);
   const Eigen::VectorXd chord = Chord(from, to);
   const double place = chord.dot(Chord(from, crossing)) / chord.squaredNorm();
-  if (!(place > 0.0) || !(place <= 1.0 + tolerances::kLocatedPlace)) return std::nullopt;
+  if (!(place > 0.0) || !(place <= 1.0 + tolerances::kSamePoint)) return std::nullopt;
   return crossing;
 }
 
 bool ReturnDetector::IsSame(const PathPoint& a, const PathPoint& b) const {
-  if (!(Distance(a, b) <= tolerances::kReturnPoint * extent_)) return false;
+  if (!(Distance(a, b) <= tolerances::kSamePoint * extent_)) return false;
   PathPoint difference;
   difference.rn = a.rn - b.rn;
   difference.rt = a.rt - b.rt;
   return LargestReaction(contacts_, difference) <=
-         tolerances::kReactionRounding + tolerances::kReturnReaction * largest_reaction_.of_stage;
+         tolerances::kUnitComponent + tolerances::kSamePoint * largest_reaction_.of_stage;
 }
 
 Eigen::VectorXd ReturnDetector::TangentAt(const PathPoint& point, const Eigen::VectorXd& towards) {

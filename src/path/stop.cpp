@@ -67,15 +67,15 @@ StopTest::StopTest(const TraceRequest& request, const SceneIndex& index) {
     const StopCriterion& criterion = request.options.stop[i];
     const bool located = request.options.LocatesEvents() && criterion.exact == Exact::kTrue;
     items_.push_back(
-        {&criterion, quantities[i], unit, (located ? tolerances::kAtTarget : tolerances::kStopMargin) * unit, located});
+        {&criterion, quantities[i], unit, (located ? tolerances::kEqual : tolerances::kRounding) * unit, located});
   }
 }
 
 StopTest::Item::Beyond StopTest::Item::BeyondIn(const Increment& increment) const {
   const double value = ValueOf(quantity, increment);
   // Where a coordinate is large, its last digit is larger than rounding of the scaled one.
-  const double digits = (located ? tolerances::kAtTarget : tolerances::kLastDigits) *
-                        std::max(std::abs(value), std::abs(criterion->value));
+  const double digits =
+      (located ? tolerances::kEqual : tolerances::kLastDigits) * std::max(std::abs(value), std::abs(criterion->value));
   return {criterion->when == ">" ? value - criterion->value : criterion->value - value, std::max(rounding, digits)};
 }
 

@@ -145,7 +145,7 @@ class Tracer {
   Causes WhatMovesFreely() const {
     if (model_ == nullptr) return {};
     const bool stuck = IsStuck(end_.reason);
-    const bool wanders = EndedBeforeItsEnd() && std::abs(point_.s) <= tolerances::kUnloaded * largest_load_;
+    const bool wanders = EndedBeforeItsEnd() && std::abs(point_.s) <= tolerances::kSamePoint * largest_load_;
     if (!stuck && !wanders) return {};
     const double force = ActiveSetTolerance::For(largest_reaction_.of_trace, point_.s).force;
     const std::string text = stuck && recorder_.increments() <= 1 ? FreeMotionQuestion(*model_, point_, force)
@@ -193,12 +193,12 @@ class Tracer {
   // From its first increment until its target. False: the trace has ended.
   bool TraceStage(const Model& model, std::size_t stage, Clock::time_point start) {
     const Residuals residuals = model.Check(point_, point_);
-    if (!(residuals.Largest() <= tolerances::kAcceptedExact))
+    if (!(residuals.Largest() <= tolerances::kAccepted))
       return EndBy(EndReason::kNumericalFailure, {sentences::kStartNoEquilibrium});
     // Where events are located, reactions are measured by the force unit of the contact; where loads drive the path,
     // the load factor is as small as the reactions, though.
     const bool measured = request_.options.LocatesEvents() && model.structure.ReferenceLoad().isZero(0.0);
-    const double softest = measured ? tolerances::kSoftestMeasuredContact : tolerances::kSoftestContact;
+    const double softest = measured ? tolerances::kDependentColumn : tolerances::kRootOfRounding;
     if (Causes soft = ContactTooSoft(model, point_, softest); !soft.empty())
       return EndWith({EndReason::kNotDetermined, std::move(soft)});
     const std::unique_ptr<PathMethod> method = MakeMethod(model, TargetOf(model, stage), recorder_.increments());
@@ -214,7 +214,7 @@ class Tracer {
   bool ResumeStage(const Model& model, std::size_t stage, const Resumption& resumption) {
     const Residuals residuals = model.Check(point_, point_);
     if (!(residuals.Largest() <=
-          (resumption.from->solve.exact ? tolerances::kAcceptedExact : tolerances::kAcceptedRegularised)))
+          (resumption.from->solve.exact ? tolerances::kAccepted : tolerances::kAcceptedRegularised)))
       return EndBy(EndReason::kNumericalFailure, {sentences::kResumeNoEquilibrium});
     events_ = resumption.events;
     Remember(model, resumption);
@@ -271,7 +271,7 @@ class Tracer {
     const bool away = target && point_.s * *target < 0.0 && std::abs(point_.s) > std::abs(*target) &&
                       std::abs(point_.s) > std::abs(before.s) && recorder_.increment().solve.stiffness_sign >= 0;
     if (away) return Cause{sentences::kOpenBeyondTarget};
-    const double unloaded = tolerances::kUnloaded * largest_load_;
+    const double unloaded = tolerances::kSamePoint * largest_load_;
     const bool drifts =
         std::abs(before.s) <= unloaded && std::abs(point_.s) <= unloaded && IsShifted(model, before, point_);
     if (!drifts || Approaches(model, before, point_)) return std::nullopt;

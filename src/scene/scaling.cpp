@@ -290,7 +290,7 @@ double NearestGap(const Scene& scene, const SceneIndex& index) {
     size = std::max(size, std::hypot(node.x - scene.nodes[0].x, node.y - scene.nodes[0].y));
   double nearest = 0.0;
   for (const double gap : gaps)
-    if (gap > tolerances::kNoGap * size && (nearest == 0.0 || gap < nearest)) nearest = gap;
+    if (gap > tolerances::kTouching * size && (nearest == 0.0 || gap < nearest)) nearest = gap;
   return nearest;
 }
 

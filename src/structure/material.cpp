@@ -26,9 +26,9 @@ double NeoHookeanThickness(const Lame& lame, double area) {
     if (!(slope > 0.0)) return kNaN;
     const double step = value(z) / slope;
     z -= step;
-    if (!(std::abs(step) > tolerances::kThicknessStep * (1.0 + std::abs(z)))) return z;
+    if (!(std::abs(step) > tolerances::kLastDigits * (1.0 + std::abs(z)))) return z;
   }
-  return std::abs(value(z)) <= tolerances::kThicknessResidual * (lame.mu + std::abs(lame.lambda)) ? z : kNaN;
+  return std::abs(value(z)) <= tolerances::kEqual * (lame.mu + std::abs(lame.lambda)) ? z : kNaN;
 }
 
 }  // namespace

@@ -13,15 +13,15 @@ namespace contact_path {
 // Scaled values up to which gaps, and reactions and margins to the friction cone, count as zero. Points are exact to
 // about 1e-14, next to singular ones to about 1e-10.
 struct ActiveSetTolerance {
-  double gap = tolerances::kActiveGap;
-  double force = tolerances::kActiveForce;
+  double gap = tolerances::kActive;
+  double force = tolerances::kActive;
 
   // Where the reactions of the path are far below the characteristic force, as in soft parts beside stiff ones, the
   // tolerance follows the reactions down to rounding. largest_reaction: of the path so far; load_factor: now, for the
   // rounding that its loads leave. Both scaled.
   static ActiveSetTolerance For(double largest_reaction, double load_factor) {
     ActiveSetTolerance tolerance;
-    const double rounding = tolerances::kActiveRoundingOfLoads * std::max(1.0, std::abs(load_factor));
+    const double rounding = tolerances::kRounding * std::max(1.0, std::abs(load_factor));
     tolerance.force =
         std::min(tolerance.force, std::max(tolerances::kActiveShareOfReactions * largest_reaction, rounding));
     return tolerance;

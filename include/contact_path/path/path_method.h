@@ -29,7 +29,7 @@ struct AcceptedPoint {
 
 // Whether a load factor is, to rounding, at a target that a method has located.
 inline bool IsAtTarget(double load_factor, double target) {
-  return std::abs(load_factor - target) <= tolerances::kAtTarget * std::abs(target);
+  return std::abs(load_factor - target) <= tolerances::kEqual * std::abs(target);
 }
 
 struct Advance {
