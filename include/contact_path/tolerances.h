@@ -34,9 +34,9 @@ inline constexpr double kResidual = 1e-11;
 inline constexpr double kBroken = kResidual;
 // Length of a Newton step that no longer shrinks, relative to 1 + |x|, and residual then: rounding.
 inline constexpr double kStagnation = 1e-10;
-// Error of a force, of what rounding of the positions changes forces by: no rest stress, and no other value of one that
-// a path is to have.
-inline constexpr double kForceErrors = 16.0;
+// What rounding may be at a point, of an estimate of it, or of its value at another point. The nodes of a surface have
+// shares in a gap that closes: each moves by less than this times the gap.
+inline constexpr double kMargin = 16.0;
 // Force, of the stiffness of the elements at an unknown, scaled: residuals are measured in it where it is larger
 // than 1. Coordinates are known to 1e-15 of their size, which is kResidual of this force.
 inline constexpr double kStiffForce = kLastDigits / kResidual;

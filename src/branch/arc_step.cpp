@@ -11,8 +11,6 @@ namespace contact_path {
 namespace {
 
 constexpr double kCoarsePrediction = 0.05;  // largest error of the predictor where no smaller one is met
-constexpr double kNoise = 10.0;             // of the last Newton step: what rounding leaves of the predictor
-constexpr double kShortStep = 1e-3;         // of the longest one
 constexpr int kLocatingAttempts = 6;
 constexpr double kRounded = 10.0;     // turn along a step by a second derivative that is rounding
 constexpr double kLongestArc = 1.05;  // of its chord
@@ -21,7 +19,7 @@ constexpr double kOffCurve = 0.7;     // cosine between a chord and its tangent:
 // What rounding does not leave of a point, the start of its step tells: the sign of a matrix that is singular to
 // rounding at a regular point, and the sense of a load that hardly changes.
 void KeepSigns(const CurvePoint& start, CurvePoint* end) {
-  if (end->side == 0 && end->nullity == 0) end->side = start.side;
+  if (end->side == 0 && end->nullity == 0 && !end->is_crossing) end->side = start.side;
   if (end->is_limit)
     end->load_sense = -start.load_sense;
   else if (end->load_sense == 0)
@@ -109,7 +107,7 @@ std::optional<ArcStep> TryStep(SmoothArc* arc, const CurvePoint& start, double l
   const Eigen::VectorXd bend = 0.5 * length * length * start.second;
   const auto good = [&](const Correction& correction) {
     if (!correction.converged) return false;
-    const double noise = kNoise * std::min(correction.steps.back(), tolerances::kStagnation);
+    const double noise = tolerances::kMargin * std::min(correction.steps.back(), tolerances::kStagnation);
     return correction.first_step <= tolerance + std::max(rounding, std::min(noise, kCoarsePrediction * length));
   };
   Correction correction = arc->CorrectOnPlane(straight + bend, normal);
@@ -219,7 +217,7 @@ bool EndAtFirstEvent(SmoothArc* arc, const StepEnds& wanted, ArcStep* at) {
       point = Locate(arc, at->step, at->event, *ends);
     }
     if (!point) return false;
-    if (!at->event.crossing) KeepSigns(at->step.start, &*point);
+    KeepSigns(at->step.start, &*point);
     if (at->event.kind == EventKind::kLimitPoint && !at->event.crossing && LoadGoesOn(arc->system(), whole, *point))
       at->event.kind = EventKind::kNearTouch;
     if (HoldsAt(arc->system(), at->event, *point)) at->event.kind = EventKind::kNearTouch;
@@ -279,7 +277,7 @@ std::optional<ArcStep> NextStep(SmoothArc* arc, const CurvePoint& start, double 
     TrialStep* const trial = limits.on_trial ? &said : nullptr;
     std::optional<ArcStep> step = TryStep(arc, start, tried, prediction, limits, trial);
     // Where there are no second derivatives the predictor is no better than the tangent. A long step might leap then.
-    if (!step && start.nullity > 0 && tried <= kShortStep * limits.largest)
+    if (!step && start.nullity > 0 && tried <= tolerances::kNextToStart * limits.largest)
       step = TryStep(arc, start, tried, kCoarsePrediction, limits, trial);
     const bool ends_singular = step && start.nullity == 0 && step->step.end.nullity > 0;
     bool good = step && EndAtFirstEvent(arc, ends, &*step);

@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "contact_path/iterations.h"
 #include "contact_path/linear/bordered_solver.h"
 #include "contact_path/linear/generic_vector.h"
 #include "contact_path/tolerances.h"
@@ -11,7 +12,6 @@
 namespace contact_path {
 namespace {
 
-constexpr int kMostIterations = 12;
 constexpr double kDifference = 1e-3;  // step of the differences of F'', whose error is of the order of its fourth power
 
 // psi . F''(a, b) at x.
@@ -185,7 +185,7 @@ std::optional<Crossing> FindCrossing(FixedStateSystem* system, const Eigen::Vect
   crossing.x = guess;
   Eigen::VectorXd residual;
   double previous = std::numeric_limits<double>::infinity();
-  for (crossing.factorisations = 1; crossing.factorisations <= kMostIterations;) {
+  for (crossing.factorisations = 1; crossing.factorisations <= kMostCorrections;) {
     system->Residual(crossing.x, &residual);
     ++crossing.factorisations;
     if (!residual.allFinite() || !at.Factorize(crossing.x)) return std::nullopt;

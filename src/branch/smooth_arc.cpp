@@ -6,17 +6,15 @@
 
 #include "contact_path/branch/gauss_rule.h"
 #include "contact_path/branch/plane_tangents.h"
+#include "contact_path/iterations.h"
 #include "contact_path/linear/linearised_equations.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
 namespace {
 
-constexpr int kMaxIterations = 12;
-constexpr int kLinearisations = 8;
 constexpr int kMostLowerings = 3;
-constexpr double kSpread = 10.0;  // of rounding, from one point to another
-constexpr double kSlow = 0.1;     // ratio of two steps beyond which that of another point is not
+constexpr double kSlow = 0.1;  // ratio of two steps beyond which that of another point is not
 
 // The six quintic Hermite basis polynomials: value, first, second at the start, then at the end.
 std::array<Quintic, 6> HermiteBasis(double length) {
@@ -80,7 +78,7 @@ void SmoothArc::NoteClosedGaps(const PathPoint& from) {
 
 double SmoothArc::RoundingOf(const Constraint& constraint) const {
   double rounding = tolerances::kBroken * system_.UnitOf(constraint);
-  if (!IsMotion(constraint.inequality)) rounding = std::max(rounding, kSpread * reaction_error_);
+  if (!IsMotion(constraint.inequality)) rounding = std::max(rounding, tolerances::kMargin * reaction_error_);
   const auto moved = moved_forces_.find(constraint.contact);
   return moved == moved_forces_.end() ? rounding : std::max(rounding, moved->second);
 }
@@ -116,7 +114,7 @@ bool SmoothArc::Derivatives(const Eigen::VectorXd& x, const Eigen::VectorXd& tow
   point->second -= point->first.head(n).dot(point->second.head(n)) * point->first;
   point->nullity = solver_.Nullity();
   point->determinant_sign = point->side = solver_.DeterminantSign();
-  point->is_limit = false;
+  point->is_limit = point->is_crossing = false;
   const double rate = point->first[n - 1];
   point->load_error =
       std::abs(rate) > tolerances::kSmallShare ? 0.0 : ErrorOfRate(Eigen::VectorXd::Unit(x.size(), n - 1), *point);
@@ -173,7 +171,7 @@ Correction SmoothArc::CorrectOnto(const Constraint& constraint, const Eigen::Vec
   // The inequality as the last equation, linearised anew where it is curved.
   Eigen::VectorXd from = guess;
   Correction correction;
-  for (int round = 0; round < kLinearisations; ++round) {
+  for (int round = 0; round < kMostCorrections; ++round) {
     const Eigen::VectorXd row = system_.Gradient(constraint, from);
     correction = Correct(from, row, row.dot(from) - system_.Value(constraint, from));
     if (!correction.converged) break;
@@ -187,7 +185,7 @@ Correction SmoothArc::CorrectOnto(const Constraint& constraint, const Eigen::Vec
 Correction SmoothArc::Newton(const Eigen::VectorXd& guess, const Eigen::VectorXd& row, double value, bool at_hand) {
   Correction result;
   result.x = guess;
-  result.steps.reserve(kMaxIterations);
+  result.steps.reserve(kMostCorrections);
   ExtrapolateStrains(guess);
   const auto factorize = [&] {
     if (!structure_.Mixed()) return Factorize(result.x, row);
@@ -195,7 +193,7 @@ Correction SmoothArc::Newton(const Eigen::VectorXd& guess, const Eigen::VectorXd
   };
   bool factorise = !at_hand;
   double previous = std::numeric_limits<double>::infinity();
-  for (; result.iterations < kMaxIterations; ++result.iterations) {
+  for (; result.iterations < kMostCorrections; ++result.iterations) {
     system_.Residual(result.x, &residual_);
     if (!residual_.allFinite()) return result;
     if (factorise && !factorize()) return result;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "contact_path/branch/plane_tangents.h"
+#include "contact_path/iterations.h"
 #include "contact_path/linear/linearised_equations.h"
 #include "contact_path/linear/singular_vectors.h"
 #include "contact_path/tolerances.h"
@@ -14,7 +15,6 @@ namespace contact_path {
 namespace {
 
 constexpr Eigen::Index kMostModes = 20;  // of more, their share is not looked for
-constexpr int kIterations = 10;          // of Newton's method
 
 // Columns of `basis` without what lies in the span of the rows' null space: splits a null space by what moves.
 // Returns the part of basis in which the rows `from`..`from + count` vanish (still = true) or its complement.
@@ -89,7 +89,7 @@ void AddShareOfModes(const Eigen::VectorXd& x, const Eigen::MatrixXd& modes, con
   };
   Eigen::VectorXd z = *tangent, value = form(z);
   if (value.norm() <= tolerances::kNoForm) return;
-  for (int i = 0; i < kIterations; ++i) {
+  for (int i = 0; i < kMostIterations; ++i) {
     Eigen::MatrixXd slope(modes.cols(), modes.cols());
     for (Eigen::Index k = 0; k < modes.cols(); ++k)
       slope.col(k) = 0.5 * (form(z + modes.col(k)) - form(z - modes.col(k)));

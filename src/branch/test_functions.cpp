@@ -6,14 +6,14 @@
 #include <vector>
 
 #include "contact_path/branch/polynomial.h"
+#include "contact_path/iterations.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
 namespace {
 
-constexpr double kNearShare = 0.05;  // of the difference of quintic and cubic interpolation
-constexpr double kReach = 2.0;       // of the length of a step: wider gaps stay open on it
-constexpr int kNewtonIterations = 25;
+constexpr double kNearShare = 0.05;      // of the difference of quintic and cubic interpolation
+constexpr double kReach = 2.0;           // of the length of a step: wider gaps stay open on it
 constexpr double kReachOfLocated = 0.1;  // of the length of a step: what is located beside its curve is of another one
 
 Jet ValueAlong(const FixedStateSystem& system, const Constraint& constraint, const CurvePoint& point) {
@@ -48,7 +48,7 @@ template <typename Along, typename Gradient>
 std::optional<CurvePoint> LocateRate(SmoothArc* arc, const Step& step, double t, Along along, Gradient gradient) {
   std::optional<CurvePoint> point = PointAt(arc, step, t);
   double previous = std::numeric_limits<double>::infinity();
-  for (int i = 0; point && i < kNewtonIterations; ++i) {
+  for (int i = 0; point && i < kMostIterations; ++i) {
     const Jet jet = along(*point);
     const double value = jet.first, slope = jet.second;
     if (std::abs(value) <= tolerances::kUnitComponent) return point;
@@ -200,7 +200,7 @@ std::optional<CurvePoint> LocateSample(SmoothArc* arc, const Step& step, double 
   const Quintic slope =
       Derivative(QuinticNodes(step).Interpolate([&](const Eigen::VectorXd& x) { return target.of(system, x); }));
   double previous = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < kNewtonIterations; ++i) {
+  for (int i = 0; i < kMostIterations; ++i) {
     const Correction correction = arc->CorrectOnPlane(step.Point(t), step.normal);
     if (!correction.converged) return std::nullopt;
     const double off = target.of(system, correction.x) - value;
@@ -293,6 +293,10 @@ std::optional<CurvePoint> Locate(SmoothArc* arc, const Step& step, const StepEve
     point.first = event.crossing->along.first;
     point.second = event.crossing->along.second;
     point.is_limit = event.kind == EventKind::kLimitPoint;
+    point.is_crossing = true;
+    const double rate = point.first[arc->system().NumDofs()];
+    point.load_error = tolerances::kRate * arc->system().ResidualUnit();
+    point.load_sense = std::abs(rate) <= point.load_error ? 0 : rate > 0.0 ? 1 : -1;
     return point;
   }
   std::optional<CurvePoint> point = LocateRegular(arc, step, event, ends);

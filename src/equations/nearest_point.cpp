@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "contact_path/iterations.h"
 #include "contact_path/linear/bordered_solver.h"
 #include "contact_path/linear/generic_vector.h"
 #include "contact_path/linear/minimum_norm.h"
@@ -9,8 +10,6 @@
 
 namespace contact_path {
 namespace {
-
-constexpr int kMaxIterations = 40;
 
 // Weight of the reactions in the norm of a step. They take no part in what is wanted; the weight only makes a step
 // unique where reactions are redundant, and acts on steps, so it leaves the converged point untouched.
@@ -56,7 +55,7 @@ NearestPoint FindNearestPoint(FixedStateSystem* system, const Eigen::VectorXd& s
   Eigen::VectorXd residual;
   system->Residual(result.x, &residual);
   double previous = std::numeric_limits<double>::infinity();
-  for (; result.iterations < kMaxIterations; ++result.iterations) {
+  for (; result.iterations < kMostIterations; ++result.iterations) {
     scaled = system->TransposedJacobian(result.x);
     for (Eigen::Index column = 0; column < scaled.cols(); ++column)
       for (Eigen::SparseMatrix<double>::InnerIterator it(scaled, column); it; ++it)

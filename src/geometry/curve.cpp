@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "contact_path/geometry/plane.h"
+#include "contact_path/iterations.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
@@ -17,9 +18,8 @@ using Eigen::Vector2d;
 
 constexpr double kHalfTurn = 3.141592653589793;
 
-constexpr int kDeepest = 12;  // halvings of a cubic
-constexpr int kSamples = 8;   // of a cubic, where the search for a foot sets out
-constexpr int kFootIterations = 60;
+constexpr int kDeepest = 12;       // halvings of a cubic
+constexpr int kSamples = 8;        // of a cubic, where the search for a foot sets out
 constexpr double kFarthest = 2.0;  // tau of a foot, counted from the middle of the piece
 
 // A number in two parts, high + low, of which the second is below the rounding of the first.
@@ -139,7 +139,7 @@ double CubicPiece::FootOf(const Vector2d& from_begin) const {
     tau = sample;
   }
   double previous = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < kFootIterations; ++i) {
+  for (int i = 0; i < kMostIterations; ++i) {
     const Vector2d away = Offset(tau) - from_begin;
     const auto [first, second] = At(tau);
     const double square = first.squaredNorm(), slope = square + away.dot(second);
@@ -181,7 +181,7 @@ Projection CubicPiece::Project(const Vector2d& x) const {
 
 Vector2d CubicPiece::PointAt(double xi) const {
   double tau = xi / Length();
-  for (int i = 0; i < kFootIterations; ++i) {
+  for (int i = 0; i < kMostIterations; ++i) {
     const double move = (xi - ArcLength(tau)) / At(tau).first.norm();
     tau += move;
     if (!(std::abs(move) > tolerances::kLastDigits)) break;

@@ -5,14 +5,11 @@
 #include <cstddef>
 #include <limits>
 
+#include "contact_path/iterations.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
-namespace {
-
-constexpr int kIterations = 60;
-
-}  // namespace
+namespace {}  // namespace
 
 int NodalSpline::Within(int patch) const {
   if (!closed_) return std::clamp(patch, 0, nodes_ - 1);
@@ -69,7 +66,7 @@ double Parabola::FootOf(const Eigen::Vector2d& x, double begin, double end) cons
   double foot = 0.0, outside = std::numeric_limits<double>::infinity(), square = outside;
   const auto consider = [&](double tau) {
     double previous = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < kIterations; ++i) {
+    for (int i = 0; i < kMostIterations; ++i) {
       const double move = -f(tau) / slope(tau), size = std::abs(move);
       tau += move;
       if (!(size > tolerances::kLastDigits) || (size < tolerances::kEqual * (1.0 + std::abs(tau)) && size >= previous))

@@ -11,10 +11,9 @@
 namespace contact_path {
 namespace {
 
-constexpr int kMostShorter = 6;          // times half as long, for the energies
-constexpr int kMostEventsInPlace = 8;    // then the contacts chatter, and no branch is trusted
-constexpr double kAfterSingular = 0.05;  // of the step: derivatives at a singular point are not exact to second order
-constexpr double kProbe = 0.1;  // of the wanted step: where a load that is level at an event is looked at again
+constexpr int kMostShorter = 6;        // times half as long, for the energies
+constexpr int kMostEventsInPlace = 8;  // then the contacts chatter, and no branch is trusted
+constexpr double kProbe = 0.1;         // of the wanted step: where a load that is level at an event is looked at again
 
 // The rate of a quantity; where it is zero, how it changes next to there; 0 where both are.
 double Trend(double rate, double change, double level) {
@@ -168,8 +167,7 @@ bool BranchMethod::TakeCrossingThatLoads(const ArcStep& at) {
     return branch.load_rate * options_.direction > tolerances::kRate;
   });
   if (found == branches.end()) return false;
-  current_.first = found->first;
-  current_.second = found->second;
+  TakeCurve(found->first, found->second, LoadFactor(), &current_);
   return true;
 }
 
@@ -185,8 +183,7 @@ std::optional<End> BranchMethod::PassBifurcation(const ArcStep& at, AcceptedPoin
   if (!taken) return end_here;
   record->taken = static_cast<int>(*taken) + 1;
   if (*taken == 0) return std::nullopt;
-  current_.first = branches[*taken].first;
-  current_.second = branches[*taken].second;
+  TakeCurve(branches[*taken].first, branches[*taken].second, LoadFactor(), &current_);
   if (TurnsLoad(at)) {
     increment->kind = IncrementKind::kCornerLimit;
     record->null_vector.clear();
@@ -274,7 +271,6 @@ bool BranchMethod::SlidesOff(const ArcStep& at, const PathPoint& point) const {
 void BranchMethod::SetNextLength(const ArcStep& at) {
   // As long as wanted unless this step had to be shortened.
   step_length_ = std::min(options_.step, at.rejected > 0 ? 1.5 * at.tried : 2.0 * step_length_);
-  if (at.event.crossing) step_length_ *= kAfterSingular;
 }
 
 std::optional<BranchMethod::BalancedStep> BranchMethod::NextBalancedStep() {

@@ -19,8 +19,7 @@
 namespace contact_path {
 namespace {
 
-constexpr double kClosing = 10.0;           // the nodes of a surface have shares in a gap: each moves by more than that
-constexpr std::size_t kCriteriaListed = 3;  // in a message
+constexpr std::size_t kCriteriaListed = 3;      // in a message
 constexpr double kNearlyIncompressible = 0.49;  // Poisson's ratio beyond which elements of few nodes lock
 
 std::string SolidName(const Scene& scene, std::size_t i) {
@@ -75,7 +74,7 @@ double ForceOfClosingAtStart(const Model& model, const PathPoint& point, std::si
   const ContactPair& pair = *model.contacts[contact];
   const double gap = std::abs(pair.Gap(model.structure.Start(), 0.0, kNearestPatch));
   if (!(gap <= tolerances::kTouching)) return 0.0;
-  return kClosing * gap * LargestOf(DiagonalStiffness(model, point), pair, point, point.Patch(contact));
+  return tolerances::kMargin * gap * LargestOf(DiagonalStiffness(model, point), pair, point, point.Patch(contact));
 }
 
 // The element of a solid whose area has shrunk most at one of its integration points, if that is nearly to nothing.

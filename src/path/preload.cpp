@@ -50,10 +50,9 @@ Preload TracePreload(const Model& model, int max_increments, const MethodFactory
   Eigen::VectorXd holding(model.structure.NumDofs());
   model.structure.InternalForce(preload.point.u, holding);
   // Stiff parts have forces that rounding of the positions makes.
-  const bool stressed =
-      (holding.array().abs() >
-       (tolerances::kForceErrors * model.structure.ForceRounding().array()).max(tolerances::kRounding))
-          .any();
+  const bool stressed = (holding.array().abs() >
+                         (tolerances::kMargin * model.structure.ForceRounding().array()).max(tolerances::kRounding))
+                            .any();
   const double constant = model.structure.ConstantLoad().lpNorm<Eigen::Infinity>();
   if (!stressed && constant <= 0.0) {
     preload.done = true;

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "contact_path/branch/smooth_arc.h"
+#include "contact_path/iterations.h"
 #include "contact_path/path/model.h"
 #include "contact_path/path/recorder.h"
 #include "contact_path/scene/program.h"
@@ -14,8 +15,6 @@
 
 namespace contact_path {
 namespace {
-
-constexpr int kIterations = 20;  // for the arc length
 
 // The increments of one stage.
 class Restorer {
@@ -82,7 +81,7 @@ class Restorer {
     arc_.SetOut(start);
     double t = length, last_error = std::numeric_limits<double>::infinity();
     std::optional<PathPoint> point;
-    for (int i = 0; i < kIterations; ++i) {
+    for (int i = 0; i < kMostIterations; ++i) {
       const Correction correction = arc_.CorrectOnPlane(start.x + t * start.first + 0.5 * t * t * start.second, normal);
       CurvePoint end;
       if (!correction.converged || !arc_.Derivatives(correction.x, normal, &end)) return std::nullopt;

@@ -65,7 +65,7 @@ double OriginOf(const Model& model, Quantity::Kind kind) {
 // Forces are known as positions are, times the stiffness; means and quotients of them, no better than their size.
 double ErrorOf(const Model& model, const Quantity& quantity, double largest) {
   const double of_size = tolerances::kEqual * (1.0 + largest);
-  const double of_forces = tolerances::kForceErrors * model.structure.ForceRounding().maxCoeff();
+  const double of_forces = tolerances::kMargin * model.structure.ForceRounding().maxCoeff();
   const bool is_force =
       quantity.IsReaction() || quantity.kind == Quantity::Kind::kRn || quantity.kind == Quantity::Kind::kRt;
   if (is_force) return std::max(tolerances::kLastDigits * largest, of_forces);

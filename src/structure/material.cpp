@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "contact_path/iterations.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
@@ -13,7 +14,6 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 // ln C33 of the neo-Hookean material in plane stress where ln of the area ratio is `area`: mu (e^z - 1) + lambda (area
 // + z/2) = 0. NaN where there is none. The left side is convex in z; beyond its least value it grows.
 double NeoHookeanThickness(const Lame& lame, double area) {
-  constexpr int kMostIterations = 60;
   const auto value = [&](double z) { return lame.mu * std::expm1(z) + lame.lambda * (area + 0.5 * z); };
   // Newton's method comes down to the root from any point above it.
   double z = std::max(0.0, -2.0 * area);

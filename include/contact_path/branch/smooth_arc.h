@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <vector>
@@ -29,8 +30,18 @@ struct CurvePoint {
   // Sign of that rate; where it cannot be told from zero, the one that was told last on the arc, and at a limit point
   // the one beyond. 0: not told yet.
   int load_sense = 0;
-  bool is_limit = false;  // located where the rate of the load factor is zero
+  bool is_limit = false;     // located where the rate of the load factor is zero
+  bool is_crossing = false;  // located where another curve crosses
 };
+
+// Turns the point onto another curve through it.
+inline void TakeCurve(const Eigen::VectorXd& first, const Eigen::VectorXd& second, Eigen::Index load,
+                      CurvePoint* point) {
+  point->first = first;
+  point->second = second;
+  point->load_sense = std::abs(first[load]) <= point->load_error ? 0 : first[load] > 0.0 ? 1 : -1;
+  point->is_limit = false;
+}
 
 struct Correction {
   bool converged = false;
