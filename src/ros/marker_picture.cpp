@@ -25,7 +25,6 @@ constexpr double kMostHead = 0.6;
 constexpr double kTurnedHead = 0.6;       // [rad]
 constexpr double kTurnedHeadWidth = 0.5;  // in parts of the radius
 constexpr int kTurnedSteps = 24;
-constexpr double kUpwards = 1.57079632679489661923;  // [rad]
 
 }  // namespace
 
@@ -49,7 +48,7 @@ void MarkerPicture::AddTurnedArrow(const Vector2d& centre, double radius, double
     return Vector2d(centre.x() + distance * std::cos(angle), centre.y() + distance * std::sin(angle));
   };
   const double head = std::min(kTurnedHead, kMostHead * std::abs(turn));
-  const double begin = kUpwards - 0.5 * turn, end = kUpwards + 0.5 * turn;
+  const double begin = 0.5 * M_PI - 0.5 * turn, end = 0.5 * M_PI + 0.5 * turn;  // around upwards
   const double neck = end - std::copysign(head, turn);
   const double half = 0.5 * std::min(kShaftWidth * detail_, 0.2 * radius);
   for (int i = 0; i < kTurnedSteps; ++i) {

@@ -30,9 +30,6 @@ constexpr double kTextHeight = 0.045;
 constexpr double kMostCone = 0.12;      // edge of a cone
 constexpr double kMomentRadius = 0.07;  // of the arrow of a moment
 
-// Of the arrow of a moment that is the full force at the distance of the scene's size [rad].
-constexpr double kFullTurn = 4.71238898038468985769;
-
 // Lines of a segment of a beam, and of all.
 constexpr std::size_t kMostSteps = 16;
 constexpr std::size_t kFewestSteps = 2;
@@ -290,10 +287,11 @@ void DrawForces(const DrawnScene& scene, const DrawnStage& stage, const NodePlac
   const auto draw = [&](std::size_t node, const Vector2d& force, const ColorRGBA& colour) {
     if (force.norm() > kShortest * full_force) picture->AddArrow(places[node], scale * force, colour);
   };
+  // Three quarters of a turn for a moment that is the full force at the distance of the scene's size.
   const auto draw_moment = [&](std::size_t node, double moment, const ColorRGBA& colour) {
     const double part = moment / (full_force * scene.size);
     if (std::abs(part) > kShortest)
-      picture->AddTurnedArrow(places[node], kMomentRadius * scene.size, kFullTurn * part, colour);
+      picture->AddTurnedArrow(places[node], kMomentRadius * scene.size, 1.5 * M_PI * part, colour);
   };
   picture->BeginTriangles("loads", 0, kLoadColour, kArrows);
   for (const DrawnLoad& load : stage.loads) {
