@@ -9,11 +9,11 @@
 namespace contact_path {
 namespace {
 
-constexpr double kPress = 0.02;             // constant load on each unit of the top of a column, EA = 1
-constexpr double kClearance = 0.02;         // gap below the wall
-constexpr double kArchClearance = 0.1;      // gap below the crown, of the rise
+constexpr double kPress = 0.02;              // constant load on each unit of the top of a column, EA = 1
+constexpr double kClearance = 0.02;          // gap below the wall
+constexpr double kArchClearance = 0.1;       // gap below the crown, of the rise
 constexpr double kArchOpening = 0.5 * M_PI;  // angle of the arch
-constexpr double kFar = 1000.0;             // distance of candidates out of reach, in sizes of the lattice
+constexpr double kFar = 1000.0;              // distance of candidates out of reach, in sizes of the lattice
 
 std::string NodeName(int column, int row) { return "n" + std::to_string(column) + "_" + std::to_string(row); }
 
