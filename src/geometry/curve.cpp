@@ -15,9 +15,8 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr int kDeepest = 12;  // halvings of a cubic
-constexpr int kSamples = 8;   // of a cubic, where the search for a foot sets out
-constexpr int kFootIterations = 60;
+constexpr int kDeepest = 12;       // halvings of a cubic
+constexpr int kSamples = 8;        // of a cubic, where the search for a foot sets out
 constexpr double kFarthest = 2.0;  // tau of a foot, counted from the middle of the piece
 
 // A number in two parts, high + low, of which the second is below the rounding of the first.

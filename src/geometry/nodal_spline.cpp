@@ -5,14 +5,10 @@
 #include <cstddef>
 #include <limits>
 
+#include "contact_path/geometry/projection.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
-namespace {
-
-constexpr int kIterations = 60;
-
-}  // namespace
 
 int NodalSpline::Within(int patch) const {
   if (!closed_) return std::clamp(patch, 0, nodes_ - 1);
@@ -69,7 +65,7 @@ double Parabola::FootOf(const Eigen::Vector2d& x, double begin, double end) cons
   double foot = 0.0, outside = std::numeric_limits<double>::infinity(), square = outside;
   const auto consider = [&](double tau) {
     double previous = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < kIterations; ++i) {
+    for (int i = 0; i < kFootIterations; ++i) {
       const double move = -f(tau) / slope(tau), size = std::abs(move);
       tau += move;
       if (!(size > tolerances::kLastDigits) || (size < tolerances::kEqual * (1.0 + std::abs(tau)) && size >= previous))

@@ -19,6 +19,9 @@ struct Projection {
   double curvature_second = 0.0;
 };
 
+// Steps of Newton's method for a foot on one piece of a curve, at most.
+inline constexpr int kFootIterations = 60;
+
 // t of a normal n: n is on the left of t.
 inline Eigen::Vector2d TangentOf(const Eigen::Vector2d& normal) { return {normal.y(), -normal.x()}; }
 
