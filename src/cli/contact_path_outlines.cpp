@@ -1,4 +1,5 @@
 // contact_path_outlines SCENE.yaml: writes points along the curved obstacles of a scene as CSV to standard output.
+#include <cmath>
 #include <iostream>
 #include <limits>
 #include <locale>
@@ -11,7 +12,7 @@
 namespace contact_path {
 namespace {
 
-constexpr OutlineSteps kSteps = {32, 3.141592653589793 / 360.0};
+constexpr OutlineSteps kSteps = {32, M_PI / 360.0};
 
 void WriteOutlines(const Scene& scene, std::ostream& out) {
   out.imbue(std::locale::classic());

@@ -1,6 +1,7 @@
 #include "contact_path/geometry/admissible_patches.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 
@@ -9,8 +10,6 @@
 namespace contact_path {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kPi = 3.14159265358979323846;
 constexpr int kLeastBeside = 2;
 
 // How many patches after that of the first node begin within a length. nodes: up or down the curve.
@@ -32,7 +31,7 @@ AdmissiblePatches::AdmissiblePatches(const std::vector<Eigen::Vector2d>& nodes, 
                                      const MirroredEnds& ends)
     : spline_(static_cast<int>(nodes.size()), closed, ends) {
   const int count = spline_.NumPatches();
-  const double length = (1.0 + tolerances::kTouching) * kPi * radius;
+  const double length = (1.0 + tolerances::kTouching) * M_PI * radius;
   // How many are left out in one sense, +1 or -1.
   const auto beside = [&](int sense) {
     const int end = sense > 0 ? count - 1 - node : node, most = closed ? count : end;
@@ -61,10 +60,10 @@ SplinePatch AdmissiblePatches::Patch(int patch) const {
   SplinePatch prolonged = spline_.Patch(beside);
   if (beside < patch) {
     prolonged.begin = prolonged.end;
-    prolonged.end = kInfinity;
+    prolonged.end = std::numeric_limits<double>::infinity();
   } else if (beside > patch) {
     prolonged.end = prolonged.begin;
-    prolonged.begin = -kInfinity;
+    prolonged.begin = -std::numeric_limits<double>::infinity();
   }
   return prolonged;
 }

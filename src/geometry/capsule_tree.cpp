@@ -25,7 +25,8 @@ Capsule CapsuleTree::Fill(const Node& node, const std::vector<Capsule>& leaves) 
   // The distance from a straight line between two points is convex: on another such line it is largest at an end.
   for (const Capsule& inner : within)
     for (const Eigen::Vector2d& end : {inner.begin, inner.end})
-      around.radius = std::max(around.radius, (1.0 + kRounding) * std::sqrt(part.SquaredDistance(end)) + inner.radius);
+      around.radius =
+          std::max(around.radius, (1.0 + tolerances::kEqual) * std::sqrt(part.SquaredDistance(end)) + inner.radius);
   part.radius = around.radius;
   return around;
 }

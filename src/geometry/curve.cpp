@@ -16,8 +16,6 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kHalfTurn = 3.141592653589793;
-
 constexpr int kDeepest = 12;       // halvings of a cubic
 constexpr int kSamples = 8;        // of a cubic, where the search for a foot sets out
 constexpr double kFarthest = 2.0;  // tau of a foot, counted from the middle of the piece
@@ -264,13 +262,13 @@ std::unique_ptr<const Curve> MakeCircle(const Vector2d& centre, double radius, b
   const Vector2d first(0.0, inside ? -1.0 : 1.0);
   std::vector<std::unique_ptr<const CurvePiece>> pieces;
   for (const double sign : {1.0, -1.0})
-    pieces.push_back(std::make_unique<ArcPiece>(centre, radius, sign * first, kHalfTurn, side));
-  return std::make_unique<Curve>(std::move(pieces), true, -0.5 * kHalfTurn * radius);
+    pieces.push_back(std::make_unique<ArcPiece>(centre, radius, sign * first, M_PI, side));
+  return std::make_unique<Curve>(std::move(pieces), true, -0.5 * M_PI * radius);
 }
 
 std::unique_ptr<const Curve> MakeArc(const Vector2d& centre, double radius, double begin, double turn) {
   const auto side = turn > 0.0 ? ArcPiece::Side::kInside : ArcPiece::Side::kOutside;
-  const int patches = std::abs(turn) > kHalfTurn ? 2 : 1;
+  const int patches = std::abs(turn) > M_PI ? 2 : 1;
   std::vector<std::unique_ptr<const CurvePiece>> pieces;
   for (int i = 0; i < patches; ++i) {
     const double middle = begin + turn * (i + 0.5) / patches;

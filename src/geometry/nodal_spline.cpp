@@ -9,7 +9,6 @@
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
-namespace {}  // namespace
 
 int NodalSpline::Within(int patch) const {
   if (!closed_) return std::clamp(patch, 0, nodes_ - 1);

@@ -27,8 +27,7 @@ namespace {
 constexpr std::size_t kMaxNamePart = 64;
 constexpr std::size_t kChunkBytes = 16 * 1024;
 constexpr std::chrono::milliseconds kChunkTime{100};
-constexpr std::uint32_t kNever = std::numeric_limits<std::uint32_t>::max();  // thresholds of chunks
-constexpr std::uint32_t kAtOnce = 0;
+enum ChunkThreshold : std::uint32_t { kAtOnce = 0, kNever = std::numeric_limits<std::uint32_t>::max() };
 constexpr char kExtension[] = ".bag";
 
 bool IsDigit(char c) { return c >= '0' && c <= '9'; }

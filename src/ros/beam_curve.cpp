@@ -8,8 +8,6 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kTwoPi = 6.28318530717958647692;
-
 double Heading(const Vector2d& along) { return std::atan2(along.y(), along.x()); }
 
 }  // namespace
@@ -20,7 +18,7 @@ std::vector<Vector2d> CurveOf(const DrawnSegment& segment, const SegmentEnds& en
   const double turned = heading - Heading(segment.chord);
   std::array<double, 2> bends = {};
   for (std::size_t k = 0; k < 2; ++k) {
-    if (!segment.hinged[k]) bends[k] = std::remainder(ends.rotations[k] - turned, kTwoPi);
+    if (!segment.hinged[k]) bends[k] = std::remainder(ends.rotations[k] - turned, 2.0 * M_PI);
   }
   for (std::size_t k = 0; k < 2; ++k)
     if (segment.hinged[k] && !segment.hinged[1 - k]) bends[k] = -0.5 * bends[1 - k];

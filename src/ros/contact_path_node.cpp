@@ -12,18 +12,6 @@
 #include "contact_path/ros/trace_service.h"
 #include "process/one_thread.h"
 
-namespace {
-
-constexpr int kThreads = 4;  // one thread traces for ~trace, three answer ~cancel and further requests
-
-// What was published is sent by a thread of roscpp that cannot be waited for. It needs far less.
-constexpr double kTimeToSend = 0.1;  // [s]
-
-// What is left of the stream of a trace that was just cut short; the rest of a long one is dropped.
-constexpr double kTimeToStream = 0.3;  // [s]
-
-}  // namespace
-
 int main(int argc, char** argv) {
   contact_path::UseOneThread(argv);
   const contact_path::ShutdownSignal shutdown;
@@ -38,7 +26,7 @@ int main(int argc, char** argv) {
     contact_path::LimitData(parameters.limits.max_memory);
     contact_path::TraceService service(node, parameters);
     contact_path::TraceAction action(node, parameters, &service);
-    ros::AsyncSpinner spinner(kThreads);
+    ros::AsyncSpinner spinner(4);  // one thread traces for ~trace, three answer ~cancel and further requests
     spinner.start();
     ROS_INFO("ready: %s, bags in %s", node.resolveName(contact_path::names::kTrace).c_str(),
              parameters.bag_directory.c_str());
@@ -57,8 +45,10 @@ int main(int argc, char** argv) {
     }
     spinner.stop();   // waits for its caller to be answered
     action.Finish();  // likewise
-    service.FinishStream(kTimeToStream);
-    ros::WallDuration(kTimeToSend).sleep();
+    // What is left of the stream of a trace that was just cut short has 0.3 s; the rest of a long one is dropped.
+    service.FinishStream(0.3);
+    // What was published is sent by a thread of roscpp that cannot be waited for. It needs far less than 0.1 s.
+    ros::WallDuration(0.1).sleep();
   } catch (const std::exception& error) {
     ROS_FATAL("%s", error.what());
     return 1;

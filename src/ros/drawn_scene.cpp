@@ -17,17 +17,13 @@
 #include "contact_path/scene/quantity.h"
 #include "contact_path/scene/scaling.h"
 #include "contact_path/structure/scene_elements.h"
+#include "ros/marker_style.h"
 
 namespace contact_path {
 namespace {
 
 namespace msgs = contact_path_msgs;
 using Eigen::Vector2d;
-
-constexpr double kFarthestStop = 5.0;  // in parts of the scene's size
-
-// Energy per volume of a solid, of Young's modulus, that has the darkest colour.
-constexpr double kFullEnergy = 0.01;
 
 constexpr double kRounding = 1e-6;  // of sums of unit vectors
 
@@ -77,7 +73,7 @@ DrawnScene::DrawnScene(const TraceRequest& request_given) : name(OneLine(request
   ExtendBoxBySupports(request, index);
 
   const Scaling scales = StageScales(request, index, 0, ProgramScales(request, index));
-  ExtendBoxByStops(request, index, kFarthestStop * std::max(box.diagonal().norm(), scales.length));
+  ExtendBoxByStops(request, index, kStyle.farthest_stop * std::max(box.diagonal().norm(), scales.length));
   const double diagonal = box.diagonal().norm();
   size = diagonal > 0.0 ? diagonal : scales.length;
   detail = std::min(0.025 * size, bars.empty() && segments.empty() ? size : 0.12 * scales.length);
@@ -148,7 +144,7 @@ void DrawnScene::AddMesh(const Solid& solid, const Scene& scene, const SceneInde
     for (const std::size_t node : cell.nodes) positions.insert(positions.end(), {initial[node].x(), initial[node].y()});
     for (const PlacedPoint& point : PlacePoints(positions)) cell.area += point.area;
     cell.element = std::move(placed.element);
-    cell.full_energy = kFullEnergy * modulus * cell.area * solid.Thickness();
+    cell.full_energy = kStyle.full_energy * modulus * cell.area * solid.Thickness();
     cells.push_back(std::move(cell));
   }
 }

@@ -4,40 +4,23 @@
 #include <cmath>
 #include <utility>
 
+#include "ros/marker_style.h"
+
 namespace contact_path {
-namespace {
 
 using Eigen::Vector2d;
 using std_msgs::ColorRGBA;
 using visualization_msgs::Marker;
 
-constexpr double kLayer = 0.002;  // distance in z, in parts of the scene's size
-
-// Lengths in parts of the detail.
-constexpr double kShaftWidth = 0.35;
-constexpr double kHeadWidth = 1.3;
-constexpr double kHeadLength = 1.8;
-
-// Where an arrow is too short for its head, the head is this part of it.
-constexpr double kMostHead = 0.6;
-
-// Of the arrow of a moment.
-constexpr double kTurnedHead = 0.6;       // [rad]
-constexpr double kTurnedHeadWidth = 0.5;  // in parts of the radius
-constexpr int kTurnedSteps = 24;
-constexpr double kUpwards = 1.57079632679489661923;  // [rad]
-
-}  // namespace
-
-MarkerPicture::MarkerPicture(double size, double detail) : layer_(kLayer * size), detail_(detail) {}
+MarkerPicture::MarkerPicture(double size, double detail) : layer_(kStyle.layer * size), detail_(detail) {}
 
 void MarkerPicture::AddArrow(const Vector2d& from, const Vector2d& vector, const ColorRGBA& colour) {
   const double length = vector.norm();
   const Vector2d along = vector / length;
   const Vector2d across = Tangent(along);
-  const double head = std::min(kHeadLength * detail_, kMostHead * length);
-  const Vector2d head_side = (0.5 * kHeadWidth / kHeadLength * head) * across;
-  const Vector2d shaft_side = (0.5 * kShaftWidth / kHeadLength * head) * across;
+  const double head = std::min(kStyle.head_length * detail_, kStyle.most_head * length);
+  const Vector2d head_side = (0.5 * kStyle.head_width / kStyle.head_length * head) * across;
+  const Vector2d shaft_side = (0.5 * kStyle.shaft_width / kStyle.head_length * head) * across;
   const Vector2d neck = from + (length - head) * along;
   AddTriangle(from - shaft_side, neck - shaft_side, neck + shaft_side, colour);
   AddTriangle(from - shaft_side, neck + shaft_side, from + shaft_side, colour);
@@ -48,16 +31,17 @@ void MarkerPicture::AddTurnedArrow(const Vector2d& centre, double radius, double
   const auto at = [&](double angle, double distance) {
     return Vector2d(centre.x() + distance * std::cos(angle), centre.y() + distance * std::sin(angle));
   };
-  const double head = std::min(kTurnedHead, kMostHead * std::abs(turn));
-  const double begin = kUpwards - 0.5 * turn, end = kUpwards + 0.5 * turn;
+  const double head = std::min(kStyle.turned_head, kStyle.most_head * std::abs(turn));
+  const double begin = 0.5 * M_PI - 0.5 * turn, end = 0.5 * M_PI + 0.5 * turn;  // around upwards
   const double neck = end - std::copysign(head, turn);
-  const double half = 0.5 * std::min(kShaftWidth * detail_, 0.2 * radius);
-  for (int i = 0; i < kTurnedSteps; ++i) {
-    const double a = begin + (neck - begin) * i / kTurnedSteps, b = begin + (neck - begin) * (i + 1) / kTurnedSteps;
+  const double half = 0.5 * std::min(kStyle.shaft_width * detail_, 0.2 * radius);
+  const int steps = kStyle.turned_steps;
+  for (int i = 0; i < steps; ++i) {
+    const double a = begin + (neck - begin) * i / steps, b = begin + (neck - begin) * (i + 1) / steps;
     AddTriangle(at(a, radius - half), at(a, radius + half), at(b, radius + half), colour);
     AddTriangle(at(a, radius - half), at(b, radius + half), at(b, radius - half), colour);
   }
-  const double side = 0.5 * kTurnedHeadWidth * head / kTurnedHead * radius;
+  const double side = 0.5 * kStyle.turned_head_width * head / kStyle.turned_head * radius;
   AddTriangle(at(neck, radius - side), at(end, radius), at(neck, radius + side), colour);
 }
 

@@ -16,7 +16,6 @@
 namespace contact_path {
 namespace {
 
-constexpr double kBytesPerMegabyte = 1024.0 * 1024.0;
 constexpr double kLeast = 128.0;  // MB: what the stacks of the threads reserve, and a small trace
 
 // The shadow memory of these counts as data: terabytes.
@@ -28,12 +27,17 @@ constexpr bool kCountable = true;
 
 constexpr double kRaise = 64.0;  // MB at a time
 
+template <typename Number>
+double InMegabytes(Number bytes) {
+  return static_cast<double>(bytes) / static_cast<double>(kMegabyte);
+}
+
 thread_local int scopes_within_limit = 0;
 
 bool SetLimit(double megabytes) {
   struct rlimit limit {};
   if (::getrlimit(RLIMIT_DATA, &limit) != 0) return false;
-  limit.rlim_cur = static_cast<rlim_t>(megabytes * kBytesPerMegabyte);
+  limit.rlim_cur = static_cast<rlim_t>(megabytes * static_cast<double>(kMegabyte));
   return ::setrlimit(RLIMIT_DATA, &limit) == 0;
 }
 
@@ -41,16 +45,16 @@ bool SetLimit(double megabytes) {
 void RefuseOrRaise() {
   struct rlimit limit {};
   const bool raises = scopes_within_limit == 0 && ::getrlimit(RLIMIT_DATA, &limit) == 0 &&
-                      SetLimit(static_cast<double>(limit.rlim_cur) / kBytesPerMegabyte + kRaise);
+                      SetLimit(InMegabytes(limit.rlim_cur) + kRaise);
   if (!raises) throw std::bad_alloc();
 }
 
 // What the allocator keeps for later.
 double FreeMegabytes() {
 #if __GLIBC_PREREQ(2, 33)
-  return static_cast<double>(::mallinfo2().fordblks) / kBytesPerMegabyte;
+  return InMegabytes(::mallinfo2().fordblks);
 #else
-  return static_cast<double>(static_cast<unsigned>(::mallinfo().fordblks)) / kBytesPerMegabyte;
+  return InMegabytes(static_cast<unsigned>(::mallinfo().fordblks));
 #endif
 }
 
@@ -62,7 +66,7 @@ double DataMegabytes() {
   std::ifstream pages("/proc/self/statm");
   double value = 0.0;
   for (int column = 0; column < 6; ++column) pages >> value;
-  return value * static_cast<double>(::sysconf(_SC_PAGESIZE)) / kBytesPerMegabyte;
+  return InMegabytes(value * static_cast<double>(::sysconf(_SC_PAGESIZE)));
 }
 
 bool TakesMoreThan(double megabytes) {

@@ -11,6 +11,7 @@
 #include "contact_path/geometry/outline.h"
 #include "ros/drawn_scene.h"
 #include "ros/marker_picture.h"
+#include "ros/marker_style.h"
 
 namespace contact_path {
 namespace {
@@ -19,34 +20,6 @@ namespace msgs = contact_path_msgs;
 using Eigen::Vector2d;
 using std_msgs::ColorRGBA;
 using visualization_msgs::Marker;
-
-// Lengths in parts of the scene's size.
-constexpr double kFullArrow = 0.2;
-constexpr int kMostStrokes = 200;  // of a moving obstacle
-constexpr int kPatchSteps = 48;    // of a patch of a curve that is bent
-constexpr int kSurfaceSteps = 8;   // of a patch of a surface that deforms
-constexpr double kStripDepth = 0.05;
-constexpr double kTextHeight = 0.045;
-constexpr double kMostCone = 0.12;      // edge of a cone
-constexpr double kMomentRadius = 0.07;  // of the arrow of a moment
-
-// Of the arrow of a moment that is the full force at the distance of the scene's size [rad].
-constexpr double kFullTurn = 4.71238898038468985769;
-
-// Lines of a segment of a beam, and of all.
-constexpr std::size_t kMostSteps = 16;
-constexpr std::size_t kFewestSteps = 2;
-constexpr std::size_t kMostLines = 4000;
-
-// Lengths in parts of the detail.
-constexpr double kBarWidth = 0.35;
-constexpr double kThinWidth = 0.2;
-constexpr double kContactDiameter = 1.6;
-constexpr double kSupportHeight = 2.2;
-constexpr double kConeEdge = 6.0;
-
-// Arrows that are shorter, in parts of the full length, are left out.
-constexpr double kShortest = 1e-3;
 
 // As in the drawings of scripts/plot.
 const ColorRGBA kGround = Colour(0.85F, 0.85F, 0.85F);
@@ -108,7 +81,8 @@ std::vector<OutlinePoint> BoundaryOf(const DrawnObstacle& obstacle, double load_
   if (!std::isfinite(middle)) middle = surface.RangeOf(patch).begin;  // the centre of a circle
   const XiRange whole = surface.Range();
   if (surface.Closed()) half_length = std::min(half_length, 0.5 * (whole.end - whole.begin));
-  std::vector<OutlinePoint> points = Outline(surface, {middle - half_length, middle + half_length}, {kPatchSteps});
+  std::vector<OutlinePoint> points =
+      Outline(surface, {middle - half_length, middle + half_length}, {kStyle.patch_steps});
   for (OutlinePoint& point : points) {
     point.place = obstacle.Placed(load_factor, point.place);
     point.normal = obstacle.Rotation(load_factor) * point.normal;
@@ -128,7 +102,7 @@ void DrawObstacles(const DrawnScene& scene, const DrawnStage& stage, const NodeP
   boundaries.reserve(obstacles.size());
   for (const DrawnObstacle& obstacle : obstacles)
     boundaries.push_back(BoundaryOf(obstacle, increment.load_factor, centre, half_length));
-  const double depth = kStripDepth * scene.size;
+  const double depth = kStyle.strip_depth * scene.size;
 
   picture->BeginTriangles("obstacles", 0, kGround, kStrips);
   for (const std::vector<OutlinePoint>& boundary : boundaries) {
@@ -138,11 +112,11 @@ void DrawObstacles(const DrawnScene& scene, const DrawnStage& stage, const NodeP
       picture->AddTriangle(from.place, to.place - depth * to.normal, to.place);
     }
   }
-  picture->BeginLines("obstacles", 1, kBarWidth * scene.detail, kGroundLine, kBoundaries);
+  picture->BeginLines("obstacles", 1, kStyle.bar_width * scene.detail, kGroundLine, kBoundaries);
   for (const std::vector<OutlinePoint>& boundary : boundaries)
     for (std::size_t k = 1; k < boundary.size(); ++k) picture->AddLine(boundary[k - 1].place, boundary[k].place);
-  picture->BeginLines("obstacles", 2, kThinWidth * scene.detail, kGroundLine, kBoundaries);
-  const double distance = std::max(2.0 * depth, 2.0 * half_length / kMostStrokes);
+  picture->BeginLines("obstacles", 2, kStyle.thin_width * scene.detail, kGroundLine, kBoundaries);
+  const double distance = std::max(2.0 * depth, 2.0 * half_length / kStyle.most_strokes);
   for (std::size_t i = 0; i < obstacles.size(); ++i) {
     if (!obstacles[i].moves) continue;
     // At multiples of the distance from the point that moves.
@@ -163,8 +137,8 @@ void DrawObstacles(const DrawnScene& scene, const DrawnStage& stage, const NodeP
 
 void DrawStructure(const DrawnScene& scene, const NodePlaces& places, const std::vector<double>& rotations,
                    MarkerPicture* picture) {
-  const std::size_t steps =
-      std::clamp(kMostLines / std::max<std::size_t>(scene.segments.size(), 1), kFewestSteps, kMostSteps);
+  const std::size_t steps = std::clamp(kStyle.most_lines / std::max<std::size_t>(scene.segments.size(), 1),
+                                       kStyle.fewest_steps, kStyle.most_steps);
   const auto draw_lines = [&](const NodePlaces& at, const std::vector<double>& turned) {
     for (const auto& [a, b] : scene.bars) picture->AddLine(at[a], at[b]);
     for (const DrawnSegment& segment : scene.segments) {
@@ -177,12 +151,12 @@ void DrawStructure(const DrawnScene& scene, const NodePlaces& places, const std:
     for (std::size_t i = 0; i < at.size(); ++i)
       if (!scene.inner[i]) picture->AddPoint(at[i]);
   };
-  picture->BeginLines("initial", 0, kThinWidth * scene.detail, kInitialColour, kInitial);
+  picture->BeginLines("initial", 0, kStyle.thin_width * scene.detail, kInitialColour, kInitial);
   draw_lines(scene.initial, std::vector<double>(scene.initial.size(), 0.0));
   picture->BeginDots("initial", 1, Marker::SPHERE_LIST, 0.6 * scene.detail, kInitialColour, kInitial);
   draw_nodes(scene.initial);
 
-  picture->BeginLines("structure", 0, kBarWidth * scene.detail, kBarColour, kBars);
+  picture->BeginLines("structure", 0, kStyle.bar_width * scene.detail, kBarColour, kBars);
   draw_lines(places, rotations);
   picture->BeginDots("structure", 1, Marker::SPHERE_LIST, scene.detail, kBarColour, kNodes);
   draw_nodes(places);
@@ -192,7 +166,7 @@ void DrawStars(const DrawnScene& scene, const NodePlaces& places, MarkerPicture*
   NodePlaces middles;
   for (std::size_t i = 0; i < scene.stars.size(); ++i)
     middles.push_back(scene.stars[i].size() == 1 ? scene.rest[i] : MiddleOf(scene.stars[i], places));
-  picture->BeginLines("superelements", 0, kBarWidth * scene.detail, kSpringColour, kSprings);
+  picture->BeginLines("superelements", 0, kStyle.bar_width * scene.detail, kSpringColour, kSprings);
   for (std::size_t i = 0; i < scene.stars.size(); ++i) {
     for (const std::size_t node : scene.stars[i]) picture->AddLine(places[node], middles[i]);
   }
@@ -206,7 +180,7 @@ void DrawMeshes(const DrawnScene& scene, const NodePlaces& places, MarkerPicture
       for (std::size_t i = 0; i < cell.boundary.size(); ++i)
         picture->AddLine(at[cell.boundary[i]], at[cell.boundary[(i + 1) % cell.boundary.size()]]);
   };
-  picture->BeginLines("solids", 0, kThinWidth * scene.detail, kInitialColour, kInitial);
+  picture->BeginLines("solids", 0, kStyle.thin_width * scene.detail, kInitialColour, kInitial);
   draw_boundaries(scene.initial);
   picture->BeginTriangles("solids", 1, SolidColour(0.0), kSprings);
   for (const DrawnCell& cell : scene.cells) {
@@ -219,12 +193,12 @@ void DrawMeshes(const DrawnScene& scene, const NodePlaces& places, MarkerPicture
       picture->AddTriangle(middle, places[cell.boundary[i]], places[cell.boundary[(i + 1) % cell.boundary.size()]],
                            colour);
   }
-  picture->BeginLines("solids", 2, kThinWidth * scene.detail, kBarColour, kBars);
+  picture->BeginLines("solids", 2, kStyle.thin_width * scene.detail, kBarColour, kBars);
   draw_boundaries(places);
 }
 
 void DrawSupports(const DrawnScene& scene, const NodePlaces& places, MarkerPicture* picture) {
-  const double height = kSupportHeight * scene.detail;
+  const double height = kStyle.support_height * scene.detail;
   picture->BeginTriangles("supports", 0, kSupportColour, kSprings);
   for (const DrawnSupport& support : scene.supports) {
     const Vector2d& node = places[support.node];
@@ -240,9 +214,9 @@ void DrawSupports(const DrawnScene& scene, const NodePlaces& places, MarkerPictu
 }
 
 void DrawSurfaces(const DrawnScene& scene, const NodePlaces& places, MarkerPicture* picture) {
-  picture->BeginLines("surfaces", 0, kThinWidth * scene.detail, kSurfaceColour, kBars);
+  picture->BeginLines("surfaces", 0, kStyle.thin_width * scene.detail, kSurfaceColour, kBars);
   for (const DrawnSurface& surface : scene.surfaces) {
-    const std::vector<OutlinePoint> points = surface.At(places).Points(kSurfaceSteps);
+    const std::vector<OutlinePoint> points = surface.At(places).Points(kStyle.surface_steps);
     for (std::size_t k = 1; k < points.size(); ++k) picture->AddLine(points[k - 1].place, points[k].place);
   }
 }
@@ -264,7 +238,8 @@ std::vector<Vector2d> NormalsOf(const DrawnScene& scene, const DrawnStage& stage
 void DrawContacts(const DrawnScene& scene, const NodePlaces& places, const std::vector<Vector2d>& normals,
                   const msgs::Increment& increment, MarkerPicture* picture) {
   const std::vector<msgs::ContactState>& states = increment.contacts;
-  picture->BeginDots("contacts", 0, Marker::SPHERE_LIST, kContactDiameter * scene.detail, StateColour(0), kCandidates);
+  picture->BeginDots("contacts", 0, Marker::SPHERE_LIST, kStyle.contact_diameter * scene.detail, StateColour(0),
+                     kCandidates);
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
     // A node in a corner has several candidates: seen is one that touches.
     const Layer layer = states[i].state == msgs::ContactState::OPEN ? kCandidates : kTouching;
@@ -278,7 +253,7 @@ void DrawContacts(const DrawnScene& scene, const NodePlaces& places, const std::
     if (friction <= 0.0 || state == msgs::ContactState::OPEN || state == msgs::ContactState::CLOSED) continue;
     const Vector2d& apex = places[scene.contacts[i].node];
     const Vector2d &normal = normals[i], side = friction * Tangent(normal);
-    const double edge = std::min(kConeEdge * scene.detail, kMostCone * scene.size);
+    const double edge = std::min(kStyle.cone_edge * scene.detail, kStyle.most_cone * scene.size);
     picture->AddTriangle(apex, apex + edge * (normal - side).normalized(), apex + edge * (normal + side).normalized());
   }
 }
@@ -286,14 +261,14 @@ void DrawContacts(const DrawnScene& scene, const NodePlaces& places, const std::
 void DrawForces(const DrawnScene& scene, const DrawnStage& stage, const NodePlaces& places,
                 const std::vector<Vector2d>& normals, const msgs::Increment& increment, double full_force,
                 MarkerPicture* picture) {
-  const double scale = kFullArrow * scene.size / full_force;
+  const double scale = kStyle.full_arrow * scene.size / full_force;
   const auto draw = [&](std::size_t node, const Vector2d& force, const ColorRGBA& colour) {
-    if (force.norm() > kShortest * full_force) picture->AddArrow(places[node], scale * force, colour);
+    if (force.norm() > kStyle.shortest * full_force) picture->AddArrow(places[node], scale * force, colour);
   };
   const auto draw_moment = [&](std::size_t node, double moment, const ColorRGBA& colour) {
     const double part = moment / (full_force * scene.size);
-    if (std::abs(part) > kShortest)
-      picture->AddTurnedArrow(places[node], kMomentRadius * scene.size, kFullTurn * part, colour);
+    if (std::abs(part) > kStyle.shortest)
+      picture->AddTurnedArrow(places[node], kStyle.moment_radius * scene.size, kStyle.full_turn * part, colour);
   };
   picture->BeginTriangles("loads", 0, kLoadColour, kArrows);
   for (const DrawnLoad& load : stage.loads) {
@@ -317,9 +292,9 @@ void DrawForces(const DrawnScene& scene, const DrawnStage& stage, const NodePlac
 // Above the initial shape.
 void DrawCaption(const DrawnScene& scene, const std::string& caption, const DrawnStage& stage, double full_force,
                  MarkerPicture* picture) {
-  const double height = kTextHeight * scene.size;
+  const double height = kStyle.text_height * scene.size;
   const Vector2d above(scene.box.center().x(), scene.box.max().y() + 0.2 * scene.size);
-  const double length = kFullArrow * scene.size;
+  const double length = kStyle.full_arrow * scene.size;
   std::ostringstream force;
   force.imbue(std::locale::classic());
   force << std::setprecision(3) << full_force;

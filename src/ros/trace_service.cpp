@@ -31,7 +31,6 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kStatusPeriod{200};
 constexpr std::chrono::milliseconds kMemoryPeriod{10};
-constexpr std::size_t kMegabyte = std::size_t{1} << 20U;
 
 // A trace that is asked to end for its time has as much longer: a tenth of it, and so many seconds.
 constexpr double kMoreTime = 0.1;
@@ -62,16 +61,14 @@ std::string MemoryText(const TraceLimits& limits) {
   return Text(sentences::kAdmitsMemory, names::kMaxMemory, limits.max_memory);
 }
 
-// Of the megabytes that the node may take, increments that wait take a quarter at most.
-constexpr std::size_t kShareOfIncrements = 4;
-
 StreamOptions StreamOptionsOf(const NodeParameters& parameters) {
   StreamOptions options;
   options.queue = static_cast<std::uint32_t>(parameters.increments_queue);
   options.most_bytes = static_cast<std::size_t>(parameters.increments_megabytes) * kMegabyte;
+  // Of the memory that the node may take, increments that wait take a quarter at most.
   if (parameters.limits.max_memory > 0)
-    options.most_bytes = std::min(
-        options.most_bytes, static_cast<std::size_t>(parameters.limits.max_memory) * kMegabyte / kShareOfIncrements);
+    options.most_bytes =
+        std::min(options.most_bytes, static_cast<std::size_t>(parameters.limits.max_memory) * kMegabyte / 4);
   options.per_second = parameters.increments_per_second;
   options.bytes_per_second = parameters.increments_megabytes_per_second * static_cast<double>(kMegabyte);
   return options;

@@ -56,7 +56,7 @@ void BoundaryRules::CheckContact(const KeyPath& path, const ContactCandidate& co
     return checker_.Add(path.Key("node"), node.name,
                         "must be free to move, or a node of surface " + surface.name + " must be");
   const BoundaryCurve::Foot foot = judged.curve->Nearest({node.x, node.y}, patches);
-  if (length > 0.0 && !foot.is_end && foot.gap < -kPenetration * length && !IsAway(node, surface, foot))
+  if (length > 0.0 && !foot.is_end && foot.gap < -kWrittenRounding * length && !IsAway(node, surface, foot))
     checker_.Add(path, contact.Name(), "initial position penetrates the surface by " + NumberText(-foot.gap));
 }
 

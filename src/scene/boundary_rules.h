@@ -16,9 +16,6 @@
 
 namespace contact_path {
 
-// Of the initial gap of a contact, by the characteristic length: far above rounding and far below anything meant.
-constexpr double kPenetration = 1e-9;
-
 class BoundaryRules {
  public:
   explicit BoundaryRules(Checker* checker) : checker_(*checker), scene_(checker->GetScene()) {}

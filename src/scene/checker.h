@@ -17,15 +17,9 @@
 #include "contact_path/scene/scene.h"
 #include "contact_path/scene/scene_index.h"
 #include "contact_path/scene/validate.h"
+#include "scene/input_bounds.h"
 
 namespace contact_path {
-
-// Within these bounds no product or quotient that is formed of two inputs leaves the range of double.
-constexpr double kLargestInput = 1e100;
-constexpr double kSmallestInput = 1e-100;  // of what must be positive
-
-// Relative bound, far above rounding and far below anything meant: of the sum of loads that cancel.
-constexpr double kLoadLeft = 1e-12;
 
 inline const KeyPath kScene("scene");
 

@@ -9,8 +9,6 @@
 namespace contact_path {
 namespace {
 
-constexpr double kNormalOnFree = 1e-12;  // of the normal's part along free components, far above rounding
-
 double NumberOf(const Obstacle& obstacle, std::string_view name) {
   double number = 0.0;
   ForEachField<Obstacle>([&](const auto& field) {
@@ -95,9 +93,9 @@ void ContactRules::CheckGeometry(const KeyPath& path, const ContactCandidate& co
   if (obstacle.shape != ObstacleShape::kHalfPlane) return CheckOnCurve(path, contact, node, obstacle, length);
   const Projection at = ProjectNode(node, obstacle);
   const double free_part = std::hypot(node.fixed_x ? 0.0 : at.normal.x(), node.fixed_y ? 0.0 : at.normal.y());
-  if (free_part <= kNormalOnFree)
+  if (free_part <= kCancelled)
     checker_.Add(path.Key("node"), contact.node, "must be free to move along the normal of the obstacle");
-  if (length > 0.0 && at.gap < -kPenetration * length)
+  if (length > 0.0 && at.gap < -kWrittenRounding * length)
     checker_.Add(path, contact.Name(),
                  "initial position penetrates the obstacle by " + NumberText(-at.gap) +
                      "; its normal points to the side where nodes may be");
@@ -111,7 +109,7 @@ void ContactRules::CheckOnCurve(const KeyPath& path, const ContactCandidate& con
   const Surface& surface = *surfaces_.at(&obstacle);
   const NearestFoot nearest = surface.Nearest(x);
   const double gap = surface.Project(x, nearest.patch).gap;
-  if (length > 0.0 && !nearest.is_end && gap < -kPenetration * length)
+  if (length > 0.0 && !nearest.is_end && gap < -kWrittenRounding * length)
     checker_.Add(path, contact.Name(),
                  "initial position penetrates the obstacle by " + NumberText(-gap) +
                      (obstacle.shape == ObstacleShape::kCircle

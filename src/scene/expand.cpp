@@ -9,12 +9,12 @@
 #include <utility>
 
 #include "contact_path/scene/cell.h"
+#include "scene/input_bounds.h"
 
 namespace contact_path {
 namespace {
 
 constexpr int kSegments = 20;
-constexpr double kStraight = 1e-12;  // [rad]: below, a chord is shorter than its arc by less than rounding
 
 bool IsExpanded(const Beam& beam) { return static_cast<int>(beam.nodes.size()) == beam.segments + 1; }
 
@@ -22,7 +22,7 @@ bool IsExpanded(const Beam& beam) { return static_cast<int>(beam.nodes.size()) =
 Node PointOfArc(const Node& a, const Node& b, double angle, double share) {
   const double dx = b.x - a.x, dy = b.y - a.y;
   Node point;
-  if (std::abs(angle) < kStraight) {
+  if (std::abs(angle) < kCancelled) {  // the chord is shorter than the arc by less than rounding
     point.x = a.x + share * dx;
     point.y = a.y + share * dy;
     return point;

@@ -14,7 +14,6 @@ namespace contact_path {
 namespace {
 
 constexpr int kMostSegments = 1000000;
-constexpr double kFullTurn = 6.283185307179586;  // [rad]
 
 class BeamRules {
  public:
@@ -37,7 +36,7 @@ class BeamRules {
     if (beam.segments > kMostSegments)
       checker_.Add(path.Key("segments"), std::to_string(beam.segments),
                    "must be at most " + std::to_string(kMostSegments));
-    if (std::isfinite(beam.angle) && !(std::abs(beam.angle) < kFullTurn))
+    if (std::isfinite(beam.angle) && !(std::abs(beam.angle) < 2.0 * M_PI))
       checker_.Add(path.Key("angle"), NumberText(beam.angle), "must be between -2 pi and 2 pi");
     if (!beam.hinged.empty() && beam.hinged.size() != 2)
       checker_.Add(path.Key("hinged"), std::to_string(beam.hinged.size()) + " entries",

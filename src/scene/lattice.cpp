@@ -9,12 +9,8 @@
 namespace contact_path {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kPress = 0.02;             // constant load on each unit of the top of a column, EA = 1
-constexpr double kClearance = 0.02;         // gap below the wall
-constexpr double kArchClearance = 0.1;      // gap below the crown, of the rise
-constexpr double kArchOpening = 0.5 * kPi;  // angle of the arch
-constexpr double kFar = 1000.0;             // distance of candidates out of reach, in sizes of the lattice
+constexpr double kPress = 0.02;              // constant load on each unit of the top of a column, EA = 1
+constexpr double kArchOpening = 0.5 * M_PI;  // angle of the arch
 
 std::string NodeName(int column, int row) { return "n" + std::to_string(column) + "_" + std::to_string(row); }
 
@@ -131,14 +127,14 @@ class Lattice {
     for (const int column : {0, options_.columns}) At(column, 0).fixed_x = At(column, 0).fixed_y = true;
     const double radius = options_.columns / kArchOpening;
     const double rise = radius * (1.0 - std::cos(0.5 * kArchOpening));
-    AddFloor(radius - kArchClearance * rise);
+    AddFloor(radius - 0.1 * rise);  // below the crown
     AddCandidates((2 * options_.columns + 4) / 5, 3 * options_.columns / 5);
     AddLoad(options_.columns / 2, options_.rows, 0.0, -1.0, false);
   }
 
   void HoldAboveFloor() {
     for (int row = 0; row <= options_.rows; ++row) At(0, row).fixed_x = At(0, row).fixed_y = true;
-    AddFloor(-kClearance);
+    AddFloor(-0.02);
     AddCandidates(1, options_.columns);
   }
 
@@ -154,9 +150,9 @@ class Lattice {
     for (int column = 1; column <= options_.columns; ++column) AddLoad(column, options_.rows, 0.0, -1.0, false);
   }
 
-  // Of free nodes with obstacles of their own, one after another.
+  // Of free nodes with obstacles of their own, one after another, out of reach.
   void AddFarCandidates() {
-    const double distance = kFar * (options_.columns + options_.rows);
+    const double distance = 1000.0 * (options_.columns + options_.rows);
     std::vector<std::string> free_nodes;
     for (const Node& node : scene().nodes)
       if (!node.fixed_x && !node.fixed_y) free_nodes.push_back(node.name);

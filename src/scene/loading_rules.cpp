@@ -8,23 +8,18 @@
 #include "contact_path/scene/can_slide.h"
 
 namespace contact_path {
-namespace {
-
-constexpr double kAlong = 1e-12;  // of a motion: its part along the obstacle, far above rounding
-
-}  // namespace
 
 void BroughtOn::Add(Kind kind, std::size_t part, int component, double value) {
   const auto at = sums_.try_emplace({kind, part, component}).first;
   Sum& sum = at->second;
   sum.value += value / left_;
   sum.largest = std::max(sum.largest, std::abs(value / left_));
-  if (std::abs(sum.value) <= kLoadLeft * sum.largest) sums_.erase(at);
+  if (std::abs(sum.value) <= kCancelled * sum.largest) sums_.erase(at);
 }
 
 void BroughtOn::TakeBack(double share) {
   left_ *= 1.0 - share;
-  if (left_ > kLoadLeft) return;
+  if (left_ > kCancelled) return;
   sums_.clear();
   left_ = 1.0;
 }
@@ -214,7 +209,7 @@ void LoadingRules::CheckNodesCanFollow(const KeyPath& path, const ObstacleMotion
   const double norm = std::hypot(obstacle.nx, obstacle.ny);
   const double along = std::abs(obstacle.ny * motion.dx - obstacle.nx * motion.dy) / norm;
   // Not along a normal, nor along one that turns: its candidates can follow.
-  if (!(obstacle.friction > 0.0) || !(along > kAlong * std::hypot(motion.dx, motion.dy))) return;
+  if (!(obstacle.friction > 0.0) || !(along > kCancelled * std::hypot(motion.dx, motion.dy))) return;
   const auto held = held_.find(&obstacle);
   if (held != held_.end())
     checker_.Add(path.Key("obstacle"), motion.obstacle,
@@ -226,7 +221,7 @@ bool LoadingRules::HasReferenceLoad(const std::vector<Load>& loads) const {
     double fx = 0.0, fy = 0.0, moment = 0.0;
   };
   std::map<const Node*, Sums> by_node;
-  double largest = kSmallestInput / kLoadLeft, largest_moment = largest;
+  double largest = kSmallestInput / kCancelled, largest_moment = largest;
   for (const Load& load : loads) {
     if (load.constant) continue;
     const Node* const node = checker_.KnownNode(load.node);
@@ -241,7 +236,7 @@ bool LoadingRules::HasReferenceLoad(const std::vector<Load>& loads) const {
   }
   return std::any_of(by_node.begin(), by_node.end(), [&](const auto& item) {
     const Sums& sums = item.second;
-    return std::hypot(sums.fx, sums.fy) >= kLoadLeft * largest || std::abs(sums.moment) >= kLoadLeft * largest_moment;
+    return std::hypot(sums.fx, sums.fy) >= kCancelled * largest || std::abs(sums.moment) >= kCancelled * largest_moment;
   });
 }
 

@@ -14,9 +14,6 @@
 namespace contact_path {
 namespace {
 
-// Area of an integration point, relative to the square of the extent of its element: zero but for rounding.
-constexpr double kNoArea = 1e-12;
-
 // "element 2 [a, b, c]", counted from 1.
 std::string ElementText(std::size_t number, const std::vector<std::string>& nodes) {
   return "element " + std::to_string(number) + " " + ListText(nodes);
@@ -76,7 +73,7 @@ double ExtentSquared(const std::vector<double>& positions) {
 
 // What is wrong with the shape of an element; empty: nothing.
 std::string FindShapeFault(const std::vector<double>& positions) {
-  const double none = kNoArea * ExtentSquared(positions);
+  const double none = kCancelled * ExtentSquared(positions);
   std::size_t unsound = 0;
   double area = 0.0;
   const std::vector<PlacedPoint> points = PlacePoints(positions);

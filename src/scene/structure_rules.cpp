@@ -8,8 +8,6 @@
 namespace contact_path {
 namespace {
 
-constexpr double kSymmetry = 1e-9;  // of a stiffness matrix, relative to its largest entry
-
 // "bar or superelement".
 std::string ElementKinds() {
   std::vector<std::string_view> kinds;
@@ -127,7 +125,7 @@ class StructureRules {
       for (std::size_t column = row + 1; column < rows; ++column) {
         const std::size_t above = row * rows + column;
         const std::size_t below = column * rows + row;
-        if (std::abs(entries[above] - entries[below]) <= kSymmetry * largest) continue;
+        if (std::abs(entries[above] - entries[below]) <= kWrittenRounding * largest) continue;
         return checker_.Add(
             key[below], NumberText(entries[below]),
             "the matrix must be symmetric, but entry [" + std::to_string(above) + "] is " + NumberText(entries[above]));

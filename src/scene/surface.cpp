@@ -10,14 +10,12 @@
 #include "contact_path/geometry/curve.h"
 #include "contact_path/geometry/polyline.h"
 #include "contact_path/geometry/spline.h"
+#include "scene/input_bounds.h"
 
 namespace contact_path {
 namespace {
 
-constexpr double kSmallest = 1e-100;  // length of a normal: what is formed of it stays in the range of double
-constexpr double kLargest = 1e100;    // coordinate of a point, for the same reason
 constexpr double kFilletShare = 0.1;  // of the largest fillet, where none is given
-constexpr double kRounding = 1e-12;   // of a fillet
 
 std::string Text(double value) {
   std::ostringstream text;
@@ -60,7 +58,7 @@ ShapeFault FindPointFault(const Obstacle& obstacle, const PlanePoints& points) {
     return {"points", obstacle.closed ? "must be at least three where the curve is closed" : "must be at least two",
             std::to_string(points.size()) + (points.size() == 1 ? " point" : " points")};
   if (!std::all_of(obstacle.points.begin(), obstacle.points.end(),
-                   [](double number) { return std::abs(number) <= kLargest; }))
+                   [](double number) { return std::abs(number) <= kLargestInput; }))
     return {"points", "must be finite and at most 1e100 in magnitude", "a number"};
   if (const auto equal = FindEqualPoints(points, obstacle.closed))
     return {"points",
@@ -79,7 +77,7 @@ ShapeFault FindPolylineFault(const Obstacle& obstacle, const PlanePoints& points
   }
   const double largest = LargestFillet(points, obstacle.closed);
   if (largest == 0.0) return {"points", "an edge must not lead straight back", "a corner"};
-  if (obstacle.fillet > (1.0 + kRounding) * largest)
+  if (obstacle.fillet > (1.0 + kCancelled) * largest)
     return {"fillet", "must be at most " + Text(largest) + ": the edges have no room for larger fillets"};
   return {};
 }
@@ -89,11 +87,11 @@ ShapeFault FindPolylineFault(const Obstacle& obstacle, const PlanePoints& points
 ShapeFault FindShapeFault(const Obstacle& obstacle) {
   switch (obstacle.shape) {
     case ObstacleShape::kHalfPlane:
-      if (std::hypot(obstacle.nx, obstacle.ny) < kSmallest)  // false for a normal that is not finite
+      if (std::hypot(obstacle.nx, obstacle.ny) < kSmallestInput)  // false for a normal that is not finite
         return {"nx", "the normal (nx, ny) must not be zero (length at least 1e-100)"};
       return {};
     case ObstacleShape::kCircle:
-      if (!(obstacle.radius >= kSmallest)) return {"radius", "must be > 0 where the shape is circle"};
+      if (!(obstacle.radius >= kSmallestInput)) return {"radius", "must be > 0 where the shape is circle"};
       return {};
     case ObstacleShape::kPolyline:
     case ObstacleShape::kSpline: break;

@@ -43,12 +43,11 @@ std::optional<int> ParseInteger(const YamlValue& value) {
 }
 
 std::optional<double> ParseNumber(const YamlValue& value) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const std::string& word = value.text;
   if (!IsPlain(value) || HasLeadingZero(word)) return std::nullopt;
   for (const char* special : {".inf", ".Inf", ".INF"}) {
-    if (word == special || word == std::string("+") + special) return kInfinity;
-    if (word == std::string("-") + special) return -kInfinity;
+    if (word == special || word == std::string("+") + special) return std::numeric_limits<double>::infinity();
+    if (word == std::string("-") + special) return -std::numeric_limits<double>::infinity();
   }
   for (const char* special : {".nan", ".NaN", ".NAN"}) {
     if (word == special) return std::numeric_limits<double>::quiet_NaN();
@@ -59,7 +58,7 @@ std::optional<double> ParseNumber(const YamlValue& value) {
   double number = 0.0;
   stream >> number;
   if (stream.fail()) {  // out of range: the largest number; otherwise 0
-    return number == 0.0 ? std::nullopt : std::optional(std::copysign(kInfinity, number));
+    return number == 0.0 ? std::nullopt : std::optional(std::copysign(std::numeric_limits<double>::infinity(), number));
   }
   return stream.peek() == std::istringstream::traits_type::eof() ? std::optional(number) : std::nullopt;
 }

@@ -6,8 +6,6 @@
 namespace contact_path {
 namespace {
 
-constexpr double kTurn = 6.283185307179586;
-
 // d2W by the rotations (a, b) of the ends against the chord. Of a hinged end, the rotation without moment is
 // eliminated.
 Eigen::Matrix2d BendingStiffness(const BeamSegment::Stiffness& stiffness, double length, bool hinged_first,
@@ -84,7 +82,7 @@ Eigen::Vector2d BeamSegment::EndRotations(const Chord& chord, const Coordinates&
   const double mean = 0.5 * (first + second);
   const double turned =
       std::atan2(along_[0] * chord.along[1] - along_[1] * chord.along[0], along_.dot(chord.along)) - mean;
-  const double beta = mean + turned - kTurn * std::round(turned / kTurn);
+  const double beta = mean + turned - 2.0 * M_PI * std::round(turned / (2.0 * M_PI));
   return {hinged_first_ ? 0.0 : first - beta, hinged_second_ ? 0.0 : second - beta};
 }
 

@@ -1,15 +1,12 @@
 #include "contact_path/structure/material.h"
 
 #include <cmath>
-#include <limits>
 
 #include "contact_path/iterations.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 // ln C33 of the neo-Hookean material in plane stress where ln of the area ratio is `area`: mu (e^z - 1) + lambda (area
 // + z/2) = 0. NaN where there is none. The left side is convex in z; beyond its least value it grows.
@@ -23,12 +20,12 @@ double NeoHookeanThickness(const Lame& lame, double area) {
   }
   for (int i = 0; i < kMostIterations; ++i) {
     const double slope = lame.mu * std::exp(z) + 0.5 * lame.lambda;
-    if (!(slope > 0.0)) return kNaN;
+    if (!(slope > 0.0)) return NAN;
     const double step = value(z) / slope;
     z -= step;
     if (!(std::abs(step) > tolerances::kLastDigits * (1.0 + std::abs(z)))) return z;
   }
-  return std::abs(value(z)) <= tolerances::kEqual * (lame.mu + std::abs(lame.lambda)) ? z : kNaN;
+  return std::abs(value(z)) <= tolerances::kEqual * (lame.mu + std::abs(lame.lambda)) ? z : NAN;
 }
 
 }  // namespace
@@ -80,10 +77,10 @@ PlaneMaterial::Measures PlaneMaterial::MeasuresOf(const Gradient& F) const {
     return at;
   }
   const double area = F[0] * F[3] - F[1] * F[2];
-  at.q = area > 0.0 ? area - 1.0 : kNaN;
+  at.q = area > 0.0 ? area - 1.0 : NAN;
   if (model_ == MaterialModel::kStVenantKirchhoff && plane_ == PlaneState::kStress &&
       !(lame_.lambda + 2.0 * lame_.mu > 2.0 * lame_.lambda * (at.p + at.q)))
-    at.q = kNaN;  // C33 = 1 - 2 lambda / (lambda + 2 mu) tr E <= 0
+    at.q = NAN;  // C33 = 1 - 2 lambda / (lambda + 2 mu) tr E <= 0
   at.q_gradient << F[3], -F[2], -F[1], F[0];
   return at;
 }

@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "contact_path/tolerances.h"
+
 namespace contact_path {
 
 // The points that are no farther than the radius from a straight line between two points, which may be the same one.
@@ -44,8 +46,6 @@ class CapsuleTree {
   }
 
  private:
-  static constexpr double kRounding = 1e-12;  // of the square of a distance
-
   // The leaves from `begin` to before `end`. The capsule of the node comes first, then the capsules of the first half,
   // then the capsules of the second half.
   struct Node {
@@ -73,7 +73,7 @@ class CapsuleTree {
   template <typename Visit>
   void Search(const Node& node, double square, const Eigen::Vector2d& x, const double* most, Visit& visit) const {
     const double reach = *most + parts_[node.capsule].radius;
-    if ((1.0 - kRounding) * square > reach * reach) return;
+    if ((1.0 - tolerances::kEqual) * square > reach * reach) return;
     if (node.end - node.begin == 1) {
       visit(node.begin);
       return;

@@ -2,10 +2,14 @@
 #ifndef CONTACT_PATH_ROS_MEMORY_SHARE_H_
 #define CONTACT_PATH_ROS_MEMORY_SHARE_H_
 
+#include <cstddef>
+
 namespace contact_path {
 
-// Data of this process, whether in memory or not [MB of 2^20 bytes]. 0 in a build with a sanitizer, which reserves
-// terabytes: such a build has no limit either.
+constexpr std::size_t kMegabyte = std::size_t{1} << 20U;  // [bytes]
+
+// Data of this process, whether in memory or not [MB]. 0 in a build with a sanitizer, which reserves terabytes: such a
+// build has no limit either.
 double DataMegabytes();
 // Whether the data of this process, less the memory that the allocator keeps free, is more.
 bool TakesMoreThan(double megabytes);

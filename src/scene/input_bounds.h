@@ -1,0 +1,21 @@
+// What the rules of a request take for a number that was meant: the bounds of inputs, and what counts as zero.
+#ifndef CONTACT_PATH_SRC_SCENE_INPUT_BOUNDS_H_
+#define CONTACT_PATH_SRC_SCENE_INPUT_BOUNDS_H_
+
+namespace contact_path {
+
+// Within these bounds no product or quotient that is formed of two inputs leaves the range of double.
+constexpr double kLargestInput = 1e100;
+constexpr double kSmallestInput = 1e-100;  // of what must be positive
+
+// What is left of numbers that cancel, relative to these numbers, or an angle [rad]: zero but for rounding. Far above
+// rounding and far below anything meant.
+constexpr double kCancelled = 1e-12;
+
+// What inputs may be off by because they were written with few digits, relative to the largest of them; a gap, to the
+// characteristic length. Far above rounding and far below anything meant, too.
+constexpr double kWrittenRounding = 1e-9;
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_SRC_SCENE_INPUT_BOUNDS_H_
