@@ -39,7 +39,7 @@ inline constexpr double kStagnation = 1e-10;
 inline constexpr double kMargin = 16.0;
 // Force, of the stiffness of the elements at an unknown, scaled: residuals are measured in it where it is larger
 // than 1. Coordinates are known to 1e-15 of their size, which is kResidual of this force.
-inline constexpr double kStiffForce = kLastDigits / kResidual;
+inline constexpr double kStiffForce = 1e-4;
 // Difference of two points of a path, scaled or of the length of the step: it is one point that was found twice.
 inline constexpr double kSamePoint = 1e-9;
 // Distance from the origin, over the extent of the scene and L: from here on coordinates are counted from the scene.
