@@ -218,6 +218,7 @@ bool EndAtFirstEvent(SmoothArc* arc, const StepEnds& wanted, ArcStep* at) {
     }
     if (!point) return false;
     KeepSigns(at->step.start, &*point);
+    if (at->event.singular) point->determinant_sign = point->side = 0;
     if (at->event.kind == EventKind::kLimitPoint && !at->event.crossing && LoadGoesOn(arc->system(), whole, *point))
       at->event.kind = EventKind::kNearTouch;
     if (HoldsAt(arc->system(), at->event, *point)) at->event.kind = EventKind::kNearTouch;

@@ -70,13 +70,15 @@ struct LocatedCrossing {
 };
 
 // Where another curve crosses the curve of the step, whose determinant has another sign at the end than at the start.
-// Nothing: the ends are on two curves, as next to a crossing that a small imperfection has broken.
-std::optional<LocatedCrossing> CrossingOn(SmoothArc* arc, const Step& step) {
+// Nothing: the ends are on two curves, as next to a crossing that a small imperfection has broken, or more than one
+// curve crosses. *broken: becomes true where a broken crossing was found.
+std::optional<LocatedCrossing> CrossingOn(SmoothArc* arc, const Step& step, bool* broken) {
   const double reach = kReachOfLocated * step.length + tolerances::kSamePoint;
   for (const double share : {0.5, 0.1, 0.9}) {
     const CurvePoint guess = step.At(share * step.length);
     std::optional<Crossing> found = arc->FindCrossing(guess.x, guess.first.head(step.normal.size()));
     if (!found) continue;
+    *broken = *broken || !found->IsPerfect();
     const double t = step.normal.dot((found->x - step.start.x).head(step.normal.size()));
     const double inside = std::clamp(t, 0.0, step.length);
     if (std::abs(t - inside) > tolerances::kNoMove || !found->IsPerfect() ||
@@ -261,20 +263,29 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, const StepEnds& ends) {
   const Quintic load_factor = step.InterpolateLinear([s](const Eigen::VectorXd& x) { return x[s]; });
   if (const std::optional<double> t = FirstTurn(load_factor, step)) consider(EventKind::kLimitPoint, *t, {});
   if (step.start.side * step.end.side < 0) {
-    std::optional<LocatedCrossing> found = CrossingOn(arc, step);
-    if (!found) return {EventKind::kTooLong, 0.0, {}};
-    const CurveDerivatives& along = found->at.along;
-    const bool is_level = std::abs(along.first[s]) <= tolerances::kRate * system.ResidualUnit();
-    const bool turns = is_level && std::abs(along.second[s]) > tolerances::kRate;
-    const bool coincides = (first.kind == EventKind::kContactEvent && IsZeroAt(system, first.constraint, found->at)) ||
-                           (first.kind == EventKind::kLimitPoint && is_level);
-    // A crossing at the start is where the step has come from.
-    const bool comes_first = found->t > tolerances::kNoMove && found->t <= first.t;
-    if (coincides)
-      first.t = found->t;
-    else if (comes_first)
-      first = {turns ? EventKind::kLimitPoint : EventKind::kBifurcation, found->t, {}};
-    if (coincides || comes_first) first.crossing = std::move(found->at);
+    bool broken = false;
+    std::optional<LocatedCrossing> found = CrossingOn(arc, step, &broken);
+    if (!found && !broken && first.kind == EventKind::kLimitPoint && step.length <= tolerances::kNextToStart) {
+      // Rounding hides the points next to the limit point: the determinant changes its sign there.
+      const std::optional<CurvePoint> limit = Locate(arc, step, first, ends);
+      first.singular = limit && arc->MovedByRounding(limit->x, step.normal) > tolerances::kSamePoint;
+    }
+    if (!found && !first.singular) return {EventKind::kTooLong, 0.0, {}};
+    if (found) {
+      const CurveDerivatives& along = found->at.along;
+      const bool is_level = std::abs(along.first[s]) <= tolerances::kRate * system.ResidualUnit();
+      const bool turns = is_level && std::abs(along.second[s]) > tolerances::kRate;
+      const bool coincides =
+          (first.kind == EventKind::kContactEvent && IsZeroAt(system, first.constraint, found->at)) ||
+          (first.kind == EventKind::kLimitPoint && is_level);
+      // A crossing at the start is where the step has come from.
+      const bool comes_first = found->t > tolerances::kNoMove && found->t <= first.t;
+      if (coincides)
+        first.t = found->t;
+      else if (comes_first)
+        first = {turns ? EventKind::kLimitPoint : EventKind::kBifurcation, found->t, {}};
+      if (coincides || comes_first) first.crossing = std::move(found->at);
+    }
   }
   // From wall to wall of one obstacle in one step: a shorter step sees the wall that is ahead.
   if (first.kind == EventKind::kNone && arc->BehindOtherPatch(step.end.x)) return {EventKind::kTooLong, 0.0, {}};
@@ -305,7 +316,7 @@ std::optional<CurvePoint> Locate(SmoothArc* arc, const Step& step, const StepEve
   const double slack = tolerances::kSamePoint * step.length;
   if (!(t >= -slack && t <= step.length + slack)) return std::nullopt;
   if (event.kind != EventKind::kLimitPoint) return point;
-  if (point->nullity > 0 && step.start.nullity == 0 && step.end.nullity == 0) {
+  if ((event.singular || point->nullity > 0) && step.start.nullity == 0 && step.end.nullity == 0) {
     // There the equations give no derivatives; the interpolation of the step that goes beyond does.
     const CurvePoint interpolated = step.At(t);
     point->first = interpolated.first;

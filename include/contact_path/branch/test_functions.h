@@ -29,6 +29,7 @@ struct StepEvent {
   std::optional<Crossing> crossing = {};  // another curve crosses at the very point, whatever happens there
   std::size_t target = 0;                 // kSample: which of the functions
   double value = 0.0;                     // kSample: of that function
+  bool singular = false;  // kLimitPoint: more than one other curve crosses there, as at two dead centres at once
 };
 
 // What else ends a step.
