@@ -1,4 +1,5 @@
-// How often Newton's method goes on before it is given up. It ends by its own step as a rule: these bound what diverges.
+// How often Newton's method goes on before it is given up. It ends by its own step as a rule: these bound what
+// diverges.
 #ifndef CONTACT_PATH_ITERATIONS_H_
 #define CONTACT_PATH_ITERATIONS_H_
 
