@@ -219,8 +219,11 @@ bool EndAtFirstEvent(SmoothArc* arc, const StepEnds& wanted, ArcStep* at) {
     if (!point) return false;
     KeepSigns(at->step.start, &*point);
     if (at->event.singular) point->determinant_sign = point->side = 0;
-    if (at->event.kind == EventKind::kLimitPoint && !at->event.crossing && LoadGoesOn(arc->system(), whole, *point))
+    if (at->event.kind == EventKind::kLimitPoint && !at->event.crossing && LoadGoesOn(arc->system(), whole, *point)) {
       at->event.kind = EventKind::kNearTouch;
+      point->is_limit = false;
+      point->load_sense = at->step.start.load_sense;
+    }
     if (HoldsAt(arc->system(), at->event, *point)) at->event.kind = EventKind::kNearTouch;
     if (PassesAnEnd(*arc, at->step.start, *point, *ends, &at->event)) continue;
     const StepEvent found = at->event;
@@ -238,8 +241,7 @@ bool EndAtFirstEvent(SmoothArc* arc, const StepEnds& wanted, ArcStep* at) {
     if (earlier.crossing && earlier.t >= at->step.length - tolerances::kNoMove)
       at->step.end.determinant_sign = at->step.end.side = 0;
     if (earlier.kind == EventKind::kNone || earlier.t >= at->step.length - tolerances::kNoMove) return true;
-    // The earlier event is rounding of a short step where it leads to this point again, or where it is a limit point at
-    // which the load is no other: that is not located any better.
+    // The earlier event is rounding of a short step where it leads to this point again.
     const bool same = IsSame(earlier, found);
     if (same && found.kind == EventKind::kSample) return true;
     if (attempt > 0 && same && std::abs(at->step.length - before) <= tolerances::kNoMove) return true;

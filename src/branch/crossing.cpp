@@ -65,8 +65,8 @@ class BorderedJacobian {
     BorderedSolver solver;
     const Eigen::VectorXd row = t_.head(unknowns_);
     if (!solver.Factorize(system_.TransposedJacobian(x), row, system_.InFrame()) || solver.Nullity() > 1) return false;
-    if (solver.Nullity() == 1) {
-      if (solver.LeftNullSpace().cols() != 1) return false;
+    if (!solver.HasLu()) {
+      if (solver.Nullity() != 1 || solver.LeftNullSpace().cols() != 1) return false;
       SetBorders(solver.NullSpace().col(0), solver.LeftNullSpace().col(0));
     } else {
       SetBorders(solver.Solve(GenericVector(system_.NumEquations()), 0.0),

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "contact_path/branch/gauss_rule.h"
 #include "contact_path/branch/plane_tangents.h"
 #include "contact_path/iterations.h"
+#include "contact_path/linear/generic_vector.h"
 #include "contact_path/linear/linearised_equations.h"
 #include "contact_path/tolerances.h"
 
@@ -116,8 +118,9 @@ bool SmoothArc::Derivatives(const Eigen::VectorXd& x, const Eigen::VectorXd& tow
   point->determinant_sign = point->side = solver_.DeterminantSign();
   point->is_limit = point->is_crossing = false;
   const double rate = point->first[n - 1];
-  point->load_error =
-      std::abs(rate) > tolerances::kSmallShare ? 0.0 : ErrorOfRate(Eigen::VectorXd::Unit(x.size(), n - 1), *point);
+  // A small component of a vector of n + 1 entries.
+  const double small = tolerances::kSmallShare / std::sqrt(static_cast<double>(n));
+  point->load_error = std::abs(rate) > small ? 0.0 : ErrorOfRate(Eigen::VectorXd::Unit(x.size(), n - 1), *point);
   point->load_sense = std::abs(rate) <= point->load_error ? 0 : rate > 0.0 ? 1 : -1;
   return point->second.allFinite();
 }
@@ -212,8 +215,8 @@ Correction SmoothArc::Newton(const Eigen::VectorXd& guess, const Eigen::VectorXd
     const bool stagnates = norm >= 0.5 * previous && norm <= stagnation * system_.ResidualUnit() * scale;
     if (norm <= tolerances::kRounding * scale || stagnates) {
       LowerResidual(row, value, &result.x);
-      result.converged = EquationsHold(result.x, tolerances::kResidual) &&
-                         std::abs(row.dot(result.x) - value) <= tolerances::kResidual * scale;
+      result.converged =
+          EquationsHold(result.x) && std::abs(row.dot(result.x) - value) <= tolerances::kResidual * scale;
       ++result.iterations;
       return result;
     }
@@ -293,7 +296,8 @@ Correction SmoothArc::CorrectOnPlane(const Eigen::VectorXd& guess, const Eigen::
 }
 
 double SmoothArc::ErrorOfRate(const Eigen::VectorXd& gradient, const CurvePoint& at) {
-  if (at.nullity > 0 && !held_.value_or(false)) return tolerances::kRate * system_.ResidualUnit();
+  const double unknown = tolerances::kRate * system_.ResidualUnit();
+  if (!solver_.HasLu()) return unknown;
   const Eigen::VectorXd rounding = system_.Rounding(at.x);
   const Eigen::VectorXd shares = solver_.SolveTransposed(gradient).head(rounding.size());
   const double of_equations = shares.cwiseAbs().dot(rounding);
@@ -307,14 +311,19 @@ double SmoothArc::ErrorOfRate(const Eigen::VectorXd& gradient, const CurvePoint&
                std::abs(shares.dot(system_.SecondDerivative(at.x, at.first + across) -
                                    system_.SecondDerivative(at.x, at.first - across)));
   }
-  return tolerances::kUnitComponent * gradient.lpNorm<Eigen::Infinity>() + of_equations + of_point;
+  const double error = tolerances::kUnitComponent * gradient.lpNorm<Eigen::Infinity>() + of_equations + of_point;
+  return std::isfinite(error) ? error : unknown;
 }
 
 double SmoothArc::MovedByRounding(const Eigen::VectorXd& x, const Eigen::VectorXd& normal) {
   Eigen::VectorXd row = Eigen::VectorXd::Zero(system_.NumUnknowns());
   row.head(normal.size()) = normal;
-  if (!Factorize(x, row)) return std::numeric_limits<double>::infinity();
-  return solver_.Solve(system_.Rounding(x), 0.0).head(normal.size()).norm();
+  if (!Factorize(x, row) || !solver_.HasLu()) return std::numeric_limits<double>::infinity();
+  // Signs of the rounding that move the point far: those of the left singular vector, by one inverse iteration.
+  const Eigen::VectorXd rounding = system_.Rounding(x);
+  const Eigen::VectorXd moved = solver_.Solve(GenericVector(rounding.size()), 0.0);
+  const Eigen::VectorXd signs = solver_.SolveTransposed(moved).head(rounding.size()).cwiseSign();
+  return solver_.Solve(rounding.cwiseProduct(signs), 0.0).head(normal.size()).norm();
 }
 
 std::optional<Crossing> SmoothArc::FindCrossing(const Eigen::VectorXd& guess, const Eigen::VectorXd& tangent) {
@@ -323,11 +332,12 @@ std::optional<Crossing> SmoothArc::FindCrossing(const Eigen::VectorXd& guess, co
   return crossing;
 }
 
-bool SmoothArc::EquationsHold(const Eigen::VectorXd& x, double tolerance) {
+bool SmoothArc::EquationsHold(const Eigen::VectorXd& x) {
   system_.Residual(x, &residual_);
   const double force = 1.0 + x.tail(x.size() - system_.NumDofs()).lpNorm<Eigen::Infinity>();
   const double place = 1.0 + x.head(NumMotion()).lpNorm<Eigen::Infinity>();
-  return system_.Largest(residual_) <= tolerance * force && system_.LargestOfMotions(residual_) <= tolerance * place;
+  return system_.Largest(residual_) <= tolerances::kResidual * force &&
+         system_.LargestOfMotions(residual_) <= tolerances::kResidual * place;
 }
 
 Step MakeStep(const CurvePoint& start, const CurvePoint& end, Eigen::Index num_motion) {
@@ -361,6 +371,7 @@ CurvePoint Step::At(double t) const {
   };
   CurvePoint point = start;
   point.x = Point(t);
+  point.is_limit = point.is_crossing = false;
   point.first = combine(1);
   point.second = combine(2);
   // From derivatives by t to derivatives by arc length.

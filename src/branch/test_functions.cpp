@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
 #include <vector>
 
@@ -78,12 +79,13 @@ std::optional<LocatedCrossing> CrossingOn(SmoothArc* arc, const Step& step, bool
     const CurvePoint guess = step.At(share * step.length);
     std::optional<Crossing> found = arc->FindCrossing(guess.x, guess.first.head(step.normal.size()));
     if (!found) continue;
-    *broken = *broken || !found->IsPerfect();
     const double t = step.normal.dot((found->x - step.start.x).head(step.normal.size()));
     const double inside = std::clamp(t, 0.0, step.length);
-    if (std::abs(t - inside) > tolerances::kNoMove || !found->IsPerfect() ||
+    if (std::abs(t - inside) > tolerances::kNoMove ||
         (found->x - step.Point(inside)).head(step.normal.size()).norm() > reach)
       continue;
+    *broken = *broken || !found->IsPerfect();
+    if (!found->IsPerfect()) continue;
     return LocatedCrossing{inside, *std::move(found)};
   }
   return std::nullopt;

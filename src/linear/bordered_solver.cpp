@@ -175,6 +175,8 @@ void BorderedSolver::SolveAll(const Eigen::MatrixXd& B, Eigen::MatrixXd* x) cons
   factors_->FreeOfNullVectors(x->data(), x->cols());
 }
 
+bool BorderedSolver::HasLu() const { return factors_->regular; }
+
 Eigen::VectorXd BorderedSolver::SolveTransposed(const Eigen::VectorXd& c) const {
   Eigen::VectorXd y = c;
   if (factors_->is_large)

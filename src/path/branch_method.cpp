@@ -138,7 +138,7 @@ std::optional<int> BranchMethod::EndAtReturn(const PathPoint& from, ArcStep* at)
   if (!found) return std::nullopt;
   const Eigen::VectorXd x = system.Pack(found->point);
   // The increment come back to is at the limit point where this one ends.
-  const bool at_limit = at->event.kind == EventKind::kLimitPoint &&
+  const bool at_limit = at->event.kind == EventKind::kLimitPoint && !at->event.crossing &&
                         (x - step.end.x).head(arc_.NumMotion()).norm() <= ErrorOfPlace(step.end, system.NumDofs());
   if (at_limit) return found->increment;
   CurvePoint end;
@@ -163,8 +163,8 @@ std::optional<End> BranchMethod::PassEnd(const ArcStep& at, AcceptedPoint* incre
 
 bool BranchMethod::TakeCrossingThatLoads(const ArcStep& at) {
   const std::vector<Branch> branches = BifurcationBranches(arc_, model_.contacts, *at.event.crossing);
-  const auto found = std::find_if(branches.begin(), branches.end(), [&](const Branch& branch) {
-    return branch.load_rate * options_.direction > tolerances::kRate;
+  const auto found = std::find_if(branches.begin() + 1, branches.end(), [&](const Branch& branch) {
+    return branch.load_rate * options_.direction > current_.load_error;
   });
   if (found == branches.end()) return false;
   TakeCurve(found->first, found->second, LoadFactor(), &current_);
@@ -221,7 +221,7 @@ std::optional<End> BranchMethod::PassChoice(const ArcStep& at, AcceptedPoint* in
 std::optional<End> BranchMethod::LeaveEnd(const ArcStep& at, const BranchChoice* choice, AcceptedPoint* increment) {
   Arrival arrival;
   arrival.direction = at.step.end.first.head(arc_.NumMotion());
-  arrival.singular = at.event.crossing.has_value();
+  arrival.singular = at.event.crossing.has_value() || at.event.singular;
   if (at_start_) arrival = departure_.StartArrival();
   if (FailsByRounding(at)) arrival.failed = at.event.constraint;
   arrival.load_sense = options_.direction;

@@ -161,6 +161,7 @@ bool Departure::SetOut(const PathPoint& point, const Branch& branch, SmoothArc* 
   if (regular) return true;
   // Another path crosses here, or the structure has rigid modes: the branch itself tells where to go.
   current->x = arc->system().Pack(point);
+  current->load_error = tolerances::kRate * arc->system().ResidualUnit();
   TakeCurve(branch.first, branch.second, arc->NumMotion() - 1, current);
   current->determinant_sign = current->side = 0;
   return current->second.allFinite();

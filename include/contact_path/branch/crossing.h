@@ -3,7 +3,6 @@
 #define CONTACT_PATH_BRANCH_CROSSING_H_
 
 #include <Eigen/Core>
-#include <array>
 #include <optional>
 
 #include "contact_path/equations/fixed_state_system.h"
@@ -32,7 +31,7 @@ struct Crossing {
 };
 
 // Newton's method on F(x) + l b = 0, g(x) = 0 (Griewank & Reddien 1984; Govaerts 2000, 3.6) with the unknowns x and l,
-// where the pair g is what [J b; t' 0; v' 0] (z, g_t) = (0; 1, 0), and (0; 0, 1) for g_v, leaves: J loses a rank where
+// where the pair g is what [J b; v' 0; t' 0] (z, g_t) = (0; 0, 1), and (0; 1, 0) for g_v, leaves: J loses a rank where
 // both are 0. The equations are regular where the curves cross at an angle, and x has the digits of a regular point.
 // guess: near x; tangent: of (u, s), of the curve there. Nothing where no such point is found.
 std::optional<Crossing> FindCrossing(FixedStateSystem* system, const Eigen::VectorXd& guess,

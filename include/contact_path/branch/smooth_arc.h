@@ -40,7 +40,7 @@ inline void TakeCurve(const Eigen::VectorXd& first, const Eigen::VectorXd& secon
   point->first = first;
   point->second = second;
   point->load_sense = std::abs(first[load]) <= point->load_error ? 0 : first[load] > 0.0 ? 1 : -1;
-  point->is_limit = false;
+  point->is_limit = point->is_crossing = false;
 }
 
 struct Correction {
@@ -116,7 +116,7 @@ class SmoothArc {
   // changed the reactions by is what rounding leaves of them.
   void LowerResidual(const Eigen::VectorXd& row, double value, Eigen::VectorXd* x);
   // Forces relative to the largest of load factor and reactions, motions to the largest coordinate, each + 1.
-  bool EquationsHold(const Eigen::VectorXd& x, double tolerance);
+  bool EquationsHold(const Eigen::VectorXd& x);
   // Where the Jacobian has a null plane with *first in it: puts the tangent that is nearest to `towards` into *first.
   void ChooseInPlane(const Eigen::VectorXd& x, const Eigen::VectorXd& towards, Eigen::VectorXd* first);
   // Takes from *change, a solution of the singular equations, what would move the part at rest off its limit point:

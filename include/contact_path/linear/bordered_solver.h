@@ -44,7 +44,9 @@ class BorderedSolver {
   // Solves M x = (b, 0) for each column of B, where M is regular; *x: unknowns x columns.
   void SolveAll(const Eigen::MatrixXd& B, Eigen::MatrixXd* x) const;
 
-  // Solves M' y = c where M is regular, or held: then with the springs. y: of the equations and of the row.
+  // Whether M was factorised by LU: regular, or held.
+  bool HasLu() const;
+  // Solves M' y = c by LU; where M is held, with the springs. y: of the equations and of the row.
   Eigen::VectorXd SolveTransposed(const Eigen::VectorXd& c) const;
 
   // Of a singular M: bases of {x: M x = 0} and {y: M' y = 0}, the second one not after FactorizeHeld().
