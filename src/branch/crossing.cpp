@@ -57,7 +57,7 @@ void Orient(Eigen::Index motion, Eigen::VectorXd* direction) {
 // The equations with two rows and one column more, [J b; v' 0; t' 0].
 class BorderedJacobian {
  public:
-  BorderedJacobian(FixedStateSystem* system, Eigen::VectorXd t)
+  BorderedJacobian(FixedStateSystem* system, const Eigen::VectorXd& t)
       : system_(*system), motion_(t.size()), unknowns_(system->NumUnknowns()), t_(Extended(t)) {}
 
   // Borders by one inverse iteration with the factors of [J; t'] at x.

@@ -34,7 +34,7 @@ class PointChecks {
   void CheckContact(std::size_t i, const ContactRecord& contact, const CheckedState& state, double slip,
                     double tolerance, double tolerance_of_slip);
   // Equilibrium across the surfaces and the laws of reactions where F is no measure of them.
-  void CheckSoftContacts(const Increment& at);
+  void CheckSoftContacts(const Increment& increment);
   // Where reactions are so small that residuals over F cannot tell: against what contacts have pushed with.
   void CheckPull(const Increment& at);
 

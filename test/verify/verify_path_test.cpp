@@ -263,7 +263,8 @@ INSTANTIATE_TEST_SUITE_P(VerifyPath, RightPathIsProved,
 TEST(VerifyPath, StiffSolidAmongSoftBarsIsProvedAsFarAsItGoes) {
   const TracedPath path =
       TraceIncrements(ReadTraceRequestFile(std::string(CONTACT_PATH_TEST_DATA) + "/stiff_solid_among_soft_bars.yaml"));
-  EXPECT_TRUE(path.result.reason == EndReason::kMaxIncrements || path.result.reason == EndReason::kStepTooSmall)
+  EXPECT_TRUE(path.result.reason == EndReason::kMaxIncrements || path.result.reason == EndReason::kStepTooSmall ||
+              path.result.reason == EndReason::kNotDetermined)
       << path.result.message;
   const Verification verification = VerifyPath(path.request, path.increments);
   EXPECT_TRUE(verification.findings.empty()) << Listed(verification);
