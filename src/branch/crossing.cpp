@@ -1,5 +1,6 @@
 #include "contact_path/branch/crossing.h"
 
+#include <Eigen/LU>
 #include <cmath>
 #include <limits>
 #include <utility>
