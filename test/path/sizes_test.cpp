@@ -92,7 +92,8 @@ TEST(Sizes, VeryRoughFloor) {
         EXPECT_EQ(IncrementsOfKind(path, IncrementKind::kSmoothLimit).size(), 1U);
       } else {
         // The node slides by a millionth of what the load grows: less than the regularisation can tell from sticking.
-        EXPECT_EQ(path.result.reason, EndReason::kStepTooSmall) << path.result.message;
+        EXPECT_TRUE(path.result.reason == EndReason::kStepTooSmall || path.result.reason == EndReason::kNotDetermined)
+            << path.result.message;
       }
       for (const Increment& increment : path.increments) {
         const double x = PositionX(path, increment, "b");
