@@ -270,8 +270,8 @@ std::optional<ArcStep> NextStep(SmoothArc* arc, const CurvePoint& start, double 
   double tried = length, prediction = limits.prediction;
   TrialStep said;
   for (int rejected = 0;; ++rejected) {
-    // Where another path crosses, or an imperfection has broken the crossing, points are less exact than the predictor
-    // of a short step.
+    // Next to where another path crosses, or an imperfection has broken the crossing, points are less exact than the
+    // predictor of a short step.
     if (tried < limits.smallest && prediction == limits.prediction) {
       prediction = kCoarsePrediction;
       tried = length;

@@ -164,16 +164,20 @@ bool FindCurves(FixedStateSystem* system, const BorderedJacobian& at, const Eige
   one.second = bend(one, other);
   other.second = bend(other, one);
   if (!one.second.allFinite() || !other.second.allFinite()) return false;
-  const auto along = [&](const CurveDerivatives& curve) { return curve.first.head(motion).dot(tangent); };
-  if (std::abs(along(other)) > std::abs(along(one))) std::swap(one, other);
-  if (along(one) < 0.0) one.first = -one.first;
-  Orient(motion, &other.first);
   crossing->along = std::move(one);
   crossing->across = std::move(other);
+  crossing->NameCurves(tangent);
   return true;
 }
 
 }  // namespace
+
+void Crossing::NameCurves(const Eigen::VectorXd& tangent) {
+  const auto component = [&](const CurveDerivatives& curve) { return curve.first.head(tangent.size()).dot(tangent); };
+  if (std::abs(component(across)) > std::abs(component(along))) std::swap(along, across);
+  if (component(along) < 0.0) along.first = -along.first;
+  Orient(tangent.size(), &across.first);
+}
 
 bool Crossing::IsPerfect() const { return std::abs(unfolding) <= error; }
 

@@ -121,7 +121,7 @@ bool SmoothArc::Derivatives(const Eigen::VectorXd& x, const Eigen::VectorXd& tow
   // A small component of a vector of n + 1 entries.
   const double small = tolerances::kSmallShare / std::sqrt(static_cast<double>(n));
   point->load_error = std::abs(rate) > small ? 0.0 : ErrorOfRate(Eigen::VectorXd::Unit(x.size(), n - 1), *point);
-  point->load_sense = std::abs(rate) <= point->load_error ? 0 : rate > 0.0 ? 1 : -1;
+  point->load_sense = SignBeyond(rate, point->load_error);
   return point->second.allFinite();
 }
 

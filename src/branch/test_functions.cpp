@@ -86,6 +86,7 @@ std::optional<LocatedCrossing> CrossingOn(SmoothArc* arc, const Step& step, bool
       continue;
     *broken = *broken || !found->IsPerfect();
     if (!found->IsPerfect()) continue;
+    found->NameCurves(step.At(inside).first.head(step.normal.size()));
     return LocatedCrossing{inside, *std::move(found)};
   }
   return std::nullopt;
@@ -97,6 +98,35 @@ bool IsZeroAt(const FixedStateSystem& system, const Constraint& constraint, cons
   const double unit = system.UnitOf(constraint);
   if (constraint.inequality == Inequality::kSlip) return std::abs(along.first) <= tolerances::kRate * unit;
   return std::abs(along.value) <= tolerances::kActive * unit;
+}
+
+// Where the determinant has changed its sign on the step: puts the crossing in the place of the first event, or beside
+// it where both coincide. False: no crossing explains the change of sign.
+bool LookForCrossing(SmoothArc* arc, const Step& step, const StepEnds& ends, StepEvent* first) {
+  const FixedStateSystem& system = arc->system();
+  bool broken = false;
+  std::optional<LocatedCrossing> found = CrossingOn(arc, step, &broken);
+  if (!found) {
+    if (broken || first->kind != EventKind::kLimitPoint || step.length > tolerances::kNextToStart) return false;
+    // Rounding hides the points next to a limit point at which several curves cross.
+    const std::optional<CurvePoint> limit = Locate(arc, step, *first, ends);
+    first->singular = limit && arc->MovedByRounding(limit->x, step.normal) > tolerances::kSamePoint;
+    return first->singular;
+  }
+  const CurveDerivatives& along = found->at.along;
+  const Eigen::Index s = system.NumDofs();
+  const bool is_level = std::abs(along.first[s]) <= tolerances::kRate * system.ResidualUnit();
+  const bool turns = is_level && std::abs(along.second[s]) > tolerances::kRate;
+  const bool coincides = (first->kind == EventKind::kContactEvent && IsZeroAt(system, first->constraint, found->at)) ||
+                         (first->kind == EventKind::kLimitPoint && is_level);
+  // A crossing at the start is where the step has come from.
+  const bool comes_first = found->t > tolerances::kNoMove && found->t <= first->t;
+  if (coincides)
+    first->t = found->t;
+  else if (comes_first)
+    *first = {turns ? EventKind::kLimitPoint : EventKind::kBifurcation, found->t, {}};
+  if (coincides || comes_first) first->crossing = std::move(found->at);
+  return true;
 }
 
 // Where the load turns first within the step. A rate that has not been told from zero before, since the step began or
@@ -112,7 +142,7 @@ std::optional<double> FirstTurn(const Quintic& load_factor, const Step& step) {
       const double value = Evaluate(rate, from + QuinticNode(i, 1.0) * (to - from));
       if (std::abs(value) > std::abs(largest)) largest = value;
     }
-    return std::abs(largest) <= level ? 0 : largest > 0.0 ? 1 : -1;
+    return SignBeyond(largest, level);
   };
   int count = 0;
   const std::array<double, 5> roots = Roots(rate, step.length, &count);
@@ -261,34 +291,10 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, const StepEnds& ends) {
     if (inside && smallest > zero && smallest < kNearShare * CubicDifference(quintic, step.length))
       consider(EventKind::kNearTouch, where, constraint);
   }
-  const Eigen::Index s = system.NumDofs();
-  const Quintic load_factor = step.InterpolateLinear([s](const Eigen::VectorXd& x) { return x[s]; });
+  const Quintic load_factor = step.InterpolateLinear([s = system.NumDofs()](const Eigen::VectorXd& x) { return x[s]; });
   if (const std::optional<double> t = FirstTurn(load_factor, step)) consider(EventKind::kLimitPoint, *t, {});
-  if (step.start.side * step.end.side < 0) {
-    bool broken = false;
-    std::optional<LocatedCrossing> found = CrossingOn(arc, step, &broken);
-    if (!found && !broken && first.kind == EventKind::kLimitPoint && step.length <= tolerances::kNextToStart) {
-      // Rounding hides the points next to the limit point: the determinant changes its sign there.
-      const std::optional<CurvePoint> limit = Locate(arc, step, first, ends);
-      first.singular = limit && arc->MovedByRounding(limit->x, step.normal) > tolerances::kSamePoint;
-    }
-    if (!found && !first.singular) return {EventKind::kTooLong, 0.0, {}};
-    if (found) {
-      const CurveDerivatives& along = found->at.along;
-      const bool is_level = std::abs(along.first[s]) <= tolerances::kRate * system.ResidualUnit();
-      const bool turns = is_level && std::abs(along.second[s]) > tolerances::kRate;
-      const bool coincides =
-          (first.kind == EventKind::kContactEvent && IsZeroAt(system, first.constraint, found->at)) ||
-          (first.kind == EventKind::kLimitPoint && is_level);
-      // A crossing at the start is where the step has come from.
-      const bool comes_first = found->t > tolerances::kNoMove && found->t <= first.t;
-      if (coincides)
-        first.t = found->t;
-      else if (comes_first)
-        first = {turns ? EventKind::kLimitPoint : EventKind::kBifurcation, found->t, {}};
-      if (coincides || comes_first) first.crossing = std::move(found->at);
-    }
-  }
+  if (step.start.side * step.end.side < 0 && !LookForCrossing(arc, step, ends, &first))
+    return {EventKind::kTooLong, 0.0, {}};
   // From wall to wall of one obstacle in one step: a shorter step sees the wall that is ahead.
   if (first.kind == EventKind::kNone && arc->BehindOtherPatch(step.end.x)) return {EventKind::kTooLong, 0.0, {}};
   // Whatever lies behind the target, however near, is not of this path.
@@ -303,13 +309,10 @@ std::optional<CurvePoint> Locate(SmoothArc* arc, const Step& step, const StepEve
   if (event.crossing) {
     CurvePoint point;
     point.x = event.crossing->x;
-    point.first = event.crossing->along.first;
-    point.second = event.crossing->along.second;
+    point.load_error = tolerances::kRate * arc->system().ResidualUnit();
+    TakeCurve(event.crossing->along.first, event.crossing->along.second, arc->system().NumDofs(), &point);
     point.is_limit = event.kind == EventKind::kLimitPoint;
     point.is_crossing = true;
-    const double rate = point.first[arc->system().NumDofs()];
-    point.load_error = tolerances::kRate * arc->system().ResidualUnit();
-    point.load_sense = std::abs(rate) <= point.load_error ? 0 : rate > 0.0 ? 1 : -1;
     return point;
   }
   std::optional<CurvePoint> point = LocateRegular(arc, step, event, ends);

@@ -196,8 +196,8 @@ Eigen::Index BorderedSolver::Nullity() const {
   return factors_->regular ? factors_->null_space.cols() : factors_->unknowns - factors_->minimum_norm.Rank();
 }
 
-int BorderedSolver::DeterminantSign() const { return factors_->regular && Nullity() == 0 ? PivotSign() : 0; }
-
-int BorderedSolver::PivotSign() const { return factors_->HasFactors() ? factors_->DeterminantSign() : 0; }
+int BorderedSolver::DeterminantSign() const {
+  return factors_->regular && Nullity() == 0 ? factors_->DeterminantSign() : 0;
+}
 
 }  // namespace contact_path

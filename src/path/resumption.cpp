@@ -12,7 +12,7 @@
 namespace contact_path {
 namespace {
 
-// Whether another path crosses right there: the point and its tangent are then less exact than what an increment
+// Whether another path crosses right there: which of the curves the path goes on along is not what an increment
 // records. Nullity tells such a point from redundant contacts, which make the equations singular all along an arc.
 bool IsSingularPoint(const Increment& increment) {
   return increment.solve.method == Method::kBranch && increment.solve.determinant_sign == 0 &&

@@ -28,6 +28,8 @@ struct Crossing {
   int factorisations = 0;
 
   bool IsPerfect() const;  // whether the curves cross, as far as rounding tells
+  // Names the curve nearest to this tangent in (u, s) `along`, in its sense.
+  void NameCurves(const Eigen::VectorXd& tangent);
 };
 
 // Newton's method on F(x) + l b = 0, g(x) = 0 (Griewank & Reddien 1984; Govaerts 2000, 3.6) with the unknowns x and l,

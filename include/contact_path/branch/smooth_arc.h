@@ -4,7 +4,6 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <cmath>
 #include <map>
 #include <optional>
 #include <vector>
@@ -13,6 +12,7 @@
 #include "contact_path/branch/polynomial.h"
 #include "contact_path/contact/reach_tracker.h"
 #include "contact_path/equations/fixed_state_system.h"
+#include "contact_path/equations/jet.h"
 #include "contact_path/equations/rigid_modes.h"
 #include "contact_path/linear/bordered_solver.h"
 
@@ -39,7 +39,7 @@ inline void TakeCurve(const Eigen::VectorXd& first, const Eigen::VectorXd& secon
                       CurvePoint* point) {
   point->first = first;
   point->second = second;
-  point->load_sense = std::abs(first[load]) <= point->load_error ? 0 : first[load] > 0.0 ? 1 : -1;
+  point->load_sense = SignBeyond(first[load], point->load_error);
   point->is_limit = point->is_crossing = false;
 }
 

@@ -56,8 +56,6 @@ class BorderedSolver {
   Eigen::Index Nullity() const;
   // Sign of the determinant of M; 0 if M is singular or not square.
   int DeterminantSign() const;
-  // The same also where M is singular to tolerances::kSingularPivot: of use between points with different signs only.
-  int PivotSign() const;
 
  private:
   struct Factors;
