@@ -62,7 +62,7 @@ class ClosedForm : public testing::TestWithParam<Setting> {
 };
 
 constexpr double kExact = 2e-13;    // of loads, reactions and positions
-constexpr double kCrossing = 1e-9;  // of residuals where other paths cross
+constexpr double kCrossing = 1e-12;  // of residuals where other paths cross
 
 // Rounding of points next to where another path crosses grows with the inverse of the distance from there.
 double ExactTo(const TracedPath& path, const Increment& increment) {

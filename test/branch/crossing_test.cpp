@@ -67,12 +67,12 @@ TEST(Crossing, IsOnRecordInBothDirections) {
   EXPECT_EQ(event.branches[0].turn, 0.0);
   EXPECT_GT(event.branches[0].load_rate, 0.0);
   for (const std::size_t k : {1U, 2U}) {
-    EXPECT_NEAR(event.branches[k].load_rate, 0.0, 1e-7);
-    EXPECT_NEAR(event.branches[k].turn, std::acos(0.0), 1e-7);
+    EXPECT_NEAR(event.branches[k].load_rate, 0.0, 1e-13);
+    EXPECT_NEAR(event.branches[k].turn, std::acos(0.0), 1e-13);
     EXPECT_EQ(event.branches[k].dissipation_rate, 0.0);
   }
   // The path itself stays straight.
-  for (const Increment& increment : path.increments) EXPECT_NEAR(PositionX(path, increment, "apex"), 0.0, 1e-9);
+  for (const Increment& increment : path.increments) EXPECT_NEAR(PositionX(path, increment, "apex"), 0.0, 1e-11);
 }
 
 TEST(Crossing, IsTheSwayOfAHighTruss) {
@@ -102,9 +102,9 @@ TEST(Crossing, BothDirectionsAreMirrorImages) {
   ASSERT_EQ(right.increments.size(), left.increments.size());
   for (std::size_t i = 0; i < right.increments.size(); ++i) {
     const Increment &a = right.increments[i], &b = left.increments[i];
-    EXPECT_NEAR(PositionX(right, a, "apex"), -PositionX(left, b, "apex"), 1e-8);
-    EXPECT_NEAR(PositionY(right, a, "apex"), PositionY(left, b, "apex"), 1e-8);
-    EXPECT_NEAR(a.load_factor, b.load_factor, 1e-8);
+    EXPECT_NEAR(PositionX(right, a, "apex"), -PositionX(left, b, "apex"), 1e-12);
+    EXPECT_NEAR(PositionY(right, a, "apex"), PositionY(left, b, "apex"), 1e-12);
+    EXPECT_NEAR(a.load_factor, b.load_factor, 1e-12);
   }
 }
 

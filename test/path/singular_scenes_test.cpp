@@ -467,8 +467,8 @@ TEST(SingularScenes, PathThatCrossesAtALimitPointIsOnRecord) {
     const TracedPath line = TraceData("cross_symmetry", accuracy);
     const Increment limit = first_limit(line);
     ASSERT_EQ(limit.event.null_vector.size(), 6U);
-    EXPECT_NEAR(PositionY(line, limit, "n"), 0.0, 1e-8);
-    EXPECT_NEAR(limit.event.null_vector[5], 0.0, 1e-6);  // along the line, s rises along it
+    EXPECT_NEAR(PositionY(line, limit, "n"), 0.0, 1e-13);
+    EXPECT_NEAR(limit.event.null_vector[5], 0.0, 1e-13);  // along the line, s rises along it
     EXPECT_GT(std::abs(limit.event.null_vector[4]), 0.1);
     EXPECT_LT(PositionY(line, line.increments[static_cast<std::size_t>(limit.index) + 5], "n"), -0.01);
   }
