@@ -74,7 +74,6 @@ struct BorderedSolver::Factors {
 
   // Needs the factors.
   int DeterminantSign() const { return is_large ? large.DeterminantSign() : klu.DeterminantSign(); }
-  bool HasFactors() const { return is_large ? large.HasFactors() : klu.HasFactors(); }
 
   Eigen::SparseMatrix<double> matrix;  // M', unknowns x rows: of small systems
   // Takes from each solution what lies along the null vectors.

@@ -21,7 +21,6 @@ class KluFactors {
   // matrix: square, compressed, finite. same_pattern: as of the last call. False if it is singular: a pivot below
   // tolerances::kSingularPivot of the largest.
   bool Factorize(Eigen::SparseMatrix<double>* matrix, bool same_pattern);
-  bool HasFactors() const { return numeric_ != nullptr; }
 
   // Of the pivots, smallest over largest.
   double PivotRatio() const { return pivot_ratio_; }

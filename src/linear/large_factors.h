@@ -23,7 +23,6 @@ class LargeFactors {
   // transposed: J', n x (n - 1); row: n entries. frame: of the system, or null. Everything is finite. False if M is
   // singular: a pivot below tolerances::kSingularPivot of the largest.
   bool Factorize(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& row, const Frame* frame);
-  bool HasFactors() const { return factors_.HasFactors(); }
 
   // Of the pivots, smallest over largest.
   double PivotRatio() const { return factors_.PivotRatio(); }

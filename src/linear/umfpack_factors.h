@@ -40,7 +40,6 @@ class UmfpackFactors {
   // values: of the entries of the pattern, finite. False if the matrix is singular. Throws LinearSolverError where the
   // factorisation fails otherwise.
   bool Factorize(const UmfpackAnalysis& analysis, const Eigen::VectorXd& values);
-  bool HasFactors() const { return numeric_ != nullptr; }
 
   // Of the pivots, smallest over largest.
   double PivotRatio() const { return pivot_ratio_; }
