@@ -61,7 +61,7 @@ class ClosedForm : public testing::TestWithParam<Setting> {
   }
 };
 
-constexpr double kExact = 2e-13;    // of loads, reactions and positions
+constexpr double kExact = 2e-13;     // of loads, reactions and positions
 constexpr double kCrossing = 1e-12;  // of residuals where other paths cross
 
 // Rounding of points next to where another path crosses grows with the inverse of the distance from there.
