@@ -15,6 +15,8 @@ std::string_view ToString(EndReason reason) {
     case EndReason::kMemoryLimit: return "memory_limit";
     case EndReason::kElementInverted: return "element_inverted";
     case EndReason::kNotDetermined: return "not_determined";
+    case EndReason::kAtLimit: return "at_limit";
+    case EndReason::kNoLanding: return "no_landing";
   }
   return "";
 }
@@ -29,7 +31,8 @@ bool IsStuck(EndReason reason) {
 }
 
 bool IsComplete(EndReason reason) {
-  return reason == EndReason::kStopCriterion || reason == EndReason::kMaxIncrements || reason == EndReason::kClosedPath;
+  return reason == EndReason::kStopCriterion || reason == EndReason::kMaxIncrements || reason == EndReason::kClosedPath ||
+         reason == EndReason::kAtLimit;
 }
 
 }  // namespace contact_path

@@ -30,6 +30,8 @@ std::string_view ToString(IncrementKind kind) {
     case IncrementKind::kContactEvent: return "contact_event";
     case IncrementKind::kBifurcation: return "bifurcation";
     case IncrementKind::kSample: return "sample";
+    case IncrementKind::kOnset: return "onset";
+    case IncrementKind::kJump: return "jump";
   }
   return "unknown";
 }

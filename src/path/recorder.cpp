@@ -106,6 +106,8 @@ void Recorder::Fill(const Model& model, const PathPoint& point, const AcceptedPo
   increment_.solve = accepted.solve;
   increment_.solve.time = time;
   increment_.event = accepted.event;
+  increment_.stability = accepted.stability;
+  increment_.jump = accepted.jump;
 }
 
 void Recorder::Give(double load_before) {

@@ -65,7 +65,7 @@ StopTest::StopTest(const TraceRequest& request, const SceneIndex& index) {
   for (std::size_t i = 0; i < quantities.size(); ++i) {
     const double unit = SizeOf(UnitOf(quantities[i].kind), {scaling.length, scaling.force, scaling.load_factor});
     const StopCriterion& criterion = request.options.stop[i];
-    const bool located = request.options.LocatesEvents() && criterion.exact == Exact::kTrue;
+    const bool located = request.options.LocatesEvents() && criterion.exact == DefaultTrue::kTrue;
     items_.push_back(
         {&criterion, quantities[i], unit, (located ? tolerances::kEqual : tolerances::kRounding) * unit, located});
   }

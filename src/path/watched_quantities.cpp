@@ -109,7 +109,7 @@ ArcTargets WatchedQuantities(const Model& model, const TraceRequest& request) {
   ArcTargets targets;
   for (std::size_t i = 0; i < request.options.stop.size(); ++i) {
     const StopCriterion& criterion = request.options.stop[i];
-    if (criterion.exact == Exact::kTrue)
+    if (criterion.exact == DefaultTrue::kTrue)
       Add(model, criterion.quantity, {criterion.value}, criterion.when == ">" ? 1.0 : -1.0, static_cast<int>(i),
           &targets);
   }

@@ -45,6 +45,8 @@ struct Constants<IncrementKind> {
       {IncrementKind::kContactEvent, msgs::Increment::CONTACT_EVENT},
       {IncrementKind::kBifurcation, msgs::Increment::BIFURCATION},
       {IncrementKind::kSample, msgs::Increment::SAMPLE},
+      {IncrementKind::kOnset, msgs::Increment::ONSET},
+      {IncrementKind::kJump, msgs::Increment::JUMP},
   };
 };
 
@@ -70,6 +72,8 @@ struct Constants<EndReason> {
       {EndReason::kMemoryLimit, Response::END_MEMORY_LIMIT},
       {EndReason::kElementInverted, Response::END_ELEMENT_INVERTED},
       {EndReason::kNotDetermined, Response::END_NOT_DETERMINED},
+      {EndReason::kAtLimit, Response::END_AT_LIMIT},
+      {EndReason::kNoLanding, Response::END_NO_LANDING},
   };
 };
 
@@ -222,6 +226,8 @@ msgs::Increment ToMessage(const Increment& increment, int full_state_every) {
   msgs::Increment message;
   CopyToMessage(increment, &message);
   CopyToMessage(increment.solve, &message);
+  CopyToMessage(increment.stability, &message);
+  CopyToMessage(increment.jump, &message);
   if (increment.kind != IncrementKind::kRegular || increment.index % std::max(full_state_every, 1) == 0) {
     message.x.reserve(increment.positions.size() / 2);
     message.y.reserve(increment.positions.size() / 2);
@@ -259,6 +265,8 @@ Increment FromMessage(const msgs::Increment& message) {
   FromMessages from;
   from.Copy(message, KeyPath(), &increment);
   from.Copy(message, KeyPath(), &increment.solve);
+  from.Copy(message, KeyPath(), &increment.stability);
+  from.Copy(message, KeyPath(), &increment.jump);
   from.Copy(message.contacts, KeyPath("contacts"), &increment.contacts);
   for (std::size_t i = 0; i < message.x.size(); ++i) {
     increment.positions.push_back(message.x[i]);

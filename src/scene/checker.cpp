@@ -62,7 +62,9 @@ void Checker::Add(const KeyPath& path, std::string value, std::string rule) {
 }
 
 void Checker::CheckNumber(const KeyPath& key, double value, Range range) {
-  if (!std::isfinite(value)) {
+  if (range == Range::kNotNegativeOrInfinite) {
+    if (!(value >= 0.0)) Add(key, NumberText(value), "must be >= 0");
+  } else if (!std::isfinite(value)) {
     Add(key, NumberText(value), "must be finite");
   } else if (std::abs(value) > kLargestInput) {
     Add(key, NumberText(value), "must not exceed 1e+100 in magnitude");

@@ -69,7 +69,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(StopAtValue, InexactTakesTheNextIncrementBeyond) {
   TraceRequest request = ReadExample("sliding_bar");
   const TracedPath exact = TraceIncrements(request);
-  request.options.stop[0].exact = Exact::kFalse;
+  request.options.stop[0].exact = DefaultTrue::kFalse;
   const TracedPath beyond = TraceIncrements(request);
   ASSERT_EQ(beyond.increments.size(), exact.increments.size());
   EXPECT_GT(Value(beyond, "b.x", beyond.increments.back()), 4.95 + 1e-6);

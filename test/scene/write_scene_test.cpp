@@ -41,7 +41,7 @@ TEST(WriteTraceRequest, EveryFieldThatDiffersFromItsDefault) {
   ExpectRoundTrip(request);
   request.options.method = Method::kBranch;  // the default; the other method takes no choices
   request.options.branch_choices = {{2, 0, 3}, {0, 4, 1}};
-  request.options.stop[0].exact = Exact::kFalse;
+  request.options.stop[0].exact = DefaultTrue::kFalse;
   request.options.at = {{"b.x", {0.1, 1.0 / 3.0}}, {"load_factor", {}, -1.0, 0.7, 5}};
   request.options.record = {"sections", "pressures"};
   ExpectRoundTrip(request);

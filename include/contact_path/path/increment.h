@@ -18,6 +18,7 @@
 #include "contact_path/response/resultant.h"
 #include "contact_path/scene/field.h"
 #include "contact_path/scene/scene.h"
+#include "contact_path/scene/words.h"
 
 namespace contact_path {
 
@@ -29,6 +30,58 @@ enum class IncrementKind {
   kContactEvent,  // a contact changes its state, or another branch is chosen, and the load factor does not turn
   kBifurcation,   // another equilibrium path crosses, and neither of the above
   kSample,        // a quantity has a value that the request asks for, and none of the above
+  kOnset,         // the equilibrium ceases to be stable, and none of the above
+  kJump,          // where a jump from the increment before has landed
+};
+
+// Whether a disturbance of an equilibrium grows, whatever the masses and dampings are (stability/stability.h).
+enum class Verdict { kNotAsked, kStable, kUnstable, kNotProved };
+
+template <>
+struct Words<Verdict> {
+  static constexpr Verdict kDefault = Verdict::kNotAsked;
+  static constexpr std::pair<std::string_view, Verdict> kAll[] = {{"stable", Verdict::kStable},
+                                                                  {"unstable", Verdict::kUnstable},
+                                                                  {"not_proved", Verdict::kNotProved},
+                                                                  {"", Verdict::kNotAsked}};
+};
+
+// Of an increment.
+struct StabilityRecord {
+  Verdict stability = Verdict::kNotAsked;             // under dead loads: the load factor keeps its value
+  Verdict stability_controlled = Verdict::kNotAsked;  // the displacement of the loads keeps its value
+  int unstable_directions = -1;                       // under dead loads; -1 = not known
+  // Above this stiffness of the machine (TraceOptions::machine_stiffness) the point is stable; 0 = also under dead
+  // loads, infinite = under no machine, -1 = not known.
+  double critical_stiffness = -1.0;
+  // x0, y0, x1, ... of the direction of unit norm in which a disturbance grows under dead loads; empty = none is known.
+  std::vector<double> unstable_direction;
+};
+
+template <>
+struct Fields<StabilityRecord> {
+  template <typename P>
+  static constexpr auto Of() {
+    return std::tuple(Member("stability", &P::stability), Member("stability_controlled", &P::stability_controlled),
+                      Member("unstable_directions", &P::unstable_directions),
+                      Member("critical_stiffness", &P::critical_stiffness),
+                      Member("unstable_direction", &P::unstable_direction));
+  }
+};
+
+// Of an increment of kind jump: the motion from the increment before to this one, with drag alone.
+struct JumpRecord {
+  double energy_released = 0.0;  // what the loads did, less the strain energy gained and friction [force length], >= 0
+  // Whether motions with drag in proportion to stiffness, and with inertia and light drag, land there, too.
+  bool landing_robust = false;
+};
+
+template <>
+struct Fields<JumpRecord> {
+  template <typename P>
+  static constexpr auto Of() {
+    return std::tuple(Member("energy_released", &P::energy_released), Member("landing_robust", &P::landing_robust));
+  }
 };
 
 // A contact candidate at the end of an increment.
@@ -163,9 +216,11 @@ struct Increment {
   Residuals residuals;                     // by check/, from the scene alone
   SolveRecord solve;
   EventRecord event;
+  StabilityRecord stability;
+  JumpRecord jump;
 };
 
-// All fields except positions, rotations, contacts and residuals: a message has them in another form, or leaves them
+// All fields except positions, rotations, contacts, residuals, stability and jump: a message has them in another form, or leaves them
 // out.
 template <>
 struct Fields<Increment> {

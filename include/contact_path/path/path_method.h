@@ -24,6 +24,8 @@ struct AcceptedPoint {
   Residuals residuals;
   SolveRecord solve;  // without time
   EventRecord event;
+  StabilityRecord stability;
+  JumpRecord jump;
   std::vector<int> at_criteria;  // of options.stop: whose value the point has, exactly
 };
 

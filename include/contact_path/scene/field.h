@@ -44,12 +44,13 @@ constexpr Unit kTractionRate = {-1, 1, -1};  // force per length
 constexpr Unit kRotationRate = {0, 0, -1};   // [rad] per unit of the load factor
 }  // namespace units
 
-// The numbers that a field admits. All must be finite and at most 1e100 in magnitude.
+// The numbers that a field admits. All but the last must be finite and at most 1e100 in magnitude.
 enum class Range {
   kAny,
   kNotNegative,     // >= 0
   kPositive,        // >= 1e-100
   kZeroOrPositive,  // 0, or >= 1e-100
+  kNotNegativeOrInfinite,  // >= 0, or infinite
 };
 
 // What a text, or each text of a list, is.

@@ -90,6 +90,20 @@ struct Words<FrictionLaw> {
                                                                       {"total", FrictionLaw::kTotal}};
 };
 
+// What a path does where the device that loads the structure can go no further on a stable path.
+enum class AtLimit {
+  kFollow,  // goes on over the limit point, as an arc-length method does
+  kStop,    // ends
+  kJump,    // moves, over-damped, to the next stable equilibrium, and goes on from there
+};
+
+template <>
+struct Words<AtLimit> {
+  static constexpr AtLimit kDefault = AtLimit::kFollow;
+  static constexpr std::pair<std::string_view, AtLimit> kAll[] = {
+      {"follow", AtLimit::kFollow}, {"stop", AtLimit::kStop}, {"jump", AtLimit::kJump}};
+};
+
 // How method mpec finds its increments.
 enum class MpecSolver {
   kCertified,  // predicted and certified; by Ipopt where the contact states are not known
@@ -360,17 +374,16 @@ void ForEachElementList(const Scene& scene, Visit&& visit) {
   });
 }
 
-// Whether the last increment of a path lies at the value of a stop criterion. Words in files and messages, since a
-// message has no flag that is true where it is left out.
-enum class Exact {
-  kTrue,   // located at the value, as events are
-  kFalse,  // the next increment beyond
+// A flag that is true where it is left out. Words in files and messages, since a message has no such flag.
+enum class DefaultTrue {
+  kTrue,
+  kFalse,
 };
 
 template <>
-struct Words<Exact> {
-  static constexpr Exact kDefault = Exact::kTrue;
-  static constexpr std::pair<std::string_view, Exact> kAll[] = {{"true", Exact::kTrue}, {"false", Exact::kFalse}};
+struct Words<DefaultTrue> {
+  static constexpr DefaultTrue kDefault = DefaultTrue::kTrue;
+  static constexpr std::pair<std::string_view, DefaultTrue> kAll[] = {{"true", DefaultTrue::kTrue}, {"false", DefaultTrue::kFalse}};
 };
 
 // Holds when `quantity` comes to `value` from the side that `when` does not name, or lies beyond.
@@ -378,7 +391,7 @@ struct StopCriterion {
   std::string quantity;  // "b.x", "b@floor.rn", "load_factor", ... (quantity.h)
   std::string when;      // ">" or "<"
   double value = 0.0;
-  Exact exact = Exact::kTrue;
+  DefaultTrue exact = DefaultTrue::kTrue;  // the last increment is located at the value; false: the next increment beyond
 };
 
 template <>
@@ -452,6 +465,11 @@ struct TraceOptions {
   std::vector<BranchChoice> branch_choices;
   FrictionLaw friction_law = FrictionLaw::kIncremental;
   MpecSolver mpec_solver = MpecSolver::kCertified;
+  DefaultTrue stability = DefaultTrue::kTrue;  // the verdict of stability of each increment is looked for
+  AtLimit at_limit = AtLimit::kFollow;
+  // k of the machine that loads the structure: with loads f, it keeps s = k (Q - f . u), Q growing. >= 0; 0 = dead loads,
+  // infinite = the displacement f . u of the loads is prescribed [force / length where f is one force of 1].
+  double machine_stiffness = 0.0;
 
   int MaxIncrements() const { return max_increments == 0 ? 1000 : max_increments; }
   double Direction() const { return direction < 0.0 ? -1.0 : 1.0; }
@@ -470,7 +488,9 @@ struct Fields<TraceOptions> {
                       Member("full_state_every", &P::full_state_every).Within(Range::kNotNegative),
                       Member("stop", &P::stop), Member("at", &P::at), Member("record", &P::record),
                       Member("branch_choices", &P::branch_choices), Member("friction_law", &P::friction_law),
-                      Member("mpec_solver", &P::mpec_solver));
+                      Member("mpec_solver", &P::mpec_solver), Member("stability", &P::stability),
+                      Member("at_limit", &P::at_limit),
+                      Member("machine_stiffness", &P::machine_stiffness).Within(Range::kNotNegativeOrInfinite));
   }
 };
 
