@@ -21,7 +21,7 @@ double Trend(double rate, double change, double level) {
   return std::abs(change) > level ? change : 0.0;
 }
 
-Advance Ended(End end) { return {{}, std::move(end)}; }
+Advance Ended(End end) { return {{}, std::move(end), {}}; }
 
 End Failure(std::string_view sentence) { return {EndReason::kNumericalFailure, {{sentence}}}; }
 
@@ -30,6 +30,8 @@ End Failure(std::string_view sentence) { return {EndReason::kNumericalFailure, {
 BranchMethod::BranchMethod(const Model& model, const BranchOptions& options, std::function<bool()> cancelled)
     : model_(model),
       options_(options),
+      device_(Device::Of(model.structure, options.machine_stiffness / model.UnitOfMachineStiffness())),
+      stability_(options.stability ? std::make_unique<StabilityMonitor>(model, device_) : nullptr),
       departure_(model, {options.direction, options.keep_loading, options.largest_reaction}, std::move(cancelled)),
       arc_(model.structure, model.contacts),
       step_length_(options.step),
@@ -47,19 +49,101 @@ int BranchMethod::StiffnessSign(const CurvePoint& point) const {
 std::vector<double> BranchMethod::CrossingPath(const Crossing& crossing) const {
   const Eigen::Index motion = arc_.NumMotion();
   const auto along = crossing.along.first.head(motion), across = crossing.across.first.head(motion);
-  const Eigen::VectorXd direction = (across - across.dot(along) * along).normalized();
-  std::vector<double> components(model_.configuration.start.size(), 0.0);
-  for (const DofMap::Component& of : model_.structure.Dofs().Components())
-    if (of.field == Field::kPosition && of.dof >= 0)
-      components[static_cast<std::size_t>(kPositionComponents * of.node + of.component)] = direction[of.dof];
-  return components;
+  return model_.ComponentsOf((across - across.dot(along) * along).normalized());
 }
 
-std::optional<End> BranchMethod::Start(const PathPoint& from, EventRecord* branches) {
+std::optional<End> BranchMethod::Start(const PathPoint& from, StartRecord* found) {
   departure_.NoteReactions(from);
+  if (stability_) {
+    stability_->Start(from, departure_.ToleranceAt(from));
+    found->stability = stability_->record();
+  }
   if (Causes hidden = HiddenSlip(model_, from); !hidden.empty()) return End{EndReason::kNotDetermined, hidden};
   return departure_.Leave(from, departure_.StartArrival(), options_.ChoiceAt(increments_, 0), &arc_, &current_,
-                          branches);
+                          &found->branches);
+}
+
+bool BranchMethod::LoadsOn() const { return SettingRate(current_) > 0.0; }
+
+double BranchMethod::SettingRate(const CurvePoint& at) const {
+  return options_.setting_sense * device_.SettingRate(model_.structure, at.first);
+}
+
+bool BranchMethod::ShortenTo(const std::function<bool(const CurvePoint&)>& beyond, BalancedStep* next) {
+  Step& step = next->at.step;
+  const FixedStateSystem& system = arc_.system();
+  double before = 0.0, after = step.length;
+  CurvePoint end = step.end, middle;
+  while (after - before > tolerances::kLastDigits * step.length) {
+    const double t = 0.5 * (before + after);
+    if (!(t > before && t < after)) break;
+    const Correction there = arc_.CorrectOnPlane(step.Point(t), step.normal);
+    if (!there.converged || !arc_.Derivatives(there.x, step.normal, &middle)) return false;
+    if (beyond(middle)) {
+      after = t;
+      end = middle;
+    } else {
+      before = t;
+    }
+  }
+  if (!(after < step.length) || system.Norm(end.x - step.start.x) == 0.0) return false;
+  step = MakeStep(step.start, end, arc_.NumMotion());
+  next->at.event = StepEvent();
+  Balance(next);
+  return true;
+}
+
+void BranchMethod::NoteStability(const ArcStep& at, const AcceptedPoint& increment, bool inside) {
+  const CurvePoint& end = at.step.end;
+  const Eigen::Index nd = LoadFactor();
+  Eigen::VectorXd null_direction;
+  if (at.event.crossing) {
+    const Eigen::VectorXd &along = at.event.crossing->along.first, &across = at.event.crossing->across.first;
+    null_direction = (across.head(nd) * along[nd] - along.head(nd) * across[nd]).normalized();
+  } else if (end.is_limit) {
+    null_direction = end.first.head(nd).normalized();
+  }
+  std::optional<ActiveSetTolerance> weakly_active;
+  if (!inside) weakly_active = departure_.ToleranceAt(increment.point);
+  stability_->Note(increment.point, end, StiffnessSign(end), weakly_active, null_direction);
+}
+
+bool BranchMethod::EndAtOnset(const PathPoint& from, BalancedStep* next, AcceptedPoint* increment) {
+  const ArcStep& at = next->at;
+  if (!(at.step.length > 0.0)) return false;
+  bool found = false;
+  if (!device_.IsDead() && SettingRate(at.step.start) > 0.0 && SettingRate(at.step.end) < 0.0)
+    found = ShortenTo([this](const CurvePoint& point) { return SettingRate(point) < 0.0; }, next);
+  if (stability_) {
+    const Verdict before = stability_->OnArc();
+    NoteStability(at, *increment, true);
+    const bool lost = before == Verdict::kStable && stability_->UnderDevice() == Verdict::kUnstable;
+    if (!found && lost && stability_->HasSlips() && !at.step.end.is_limit && !at.step.end.is_crossing)
+      found = ShortenTo(
+          [this](const CurvePoint& point) {
+            return stability_->At(arc_.system().Unpack(point.x)) == Verdict::kUnstable;
+          },
+          next);
+  }
+  if (!found) return false;
+  *increment = IncrementOf(next->at, from);
+  increment->kind = IncrementKind::kOnset;
+  if (stability_) NoteStability(next->at, *increment, true);
+  return true;
+}
+
+std::optional<Eigen::VectorXd> BranchMethod::MovesOff(const ArcStep& at, IncrementKind kind) const {
+  if (!options_.ends_at_limit) return std::nullopt;
+  const Eigen::VectorXd along = current_.first.head(LoadFactor());
+  const bool loaded = SettingRate(at.step.start) > 0.0;
+  const bool smooth = device_.IsDead() ? kind == IncrementKind::kSmoothLimit : kind == IncrementKind::kOnset;
+  if (loaded && smooth) return along;
+  const bool turns = SettingRate(at.step.end) > 0.0 && SettingRate(current_) < 0.0;
+  if (turns) return along;
+  const bool unstable = stability_ && kind == IncrementKind::kRegular && loaded &&
+                        stability_->UnderDevice() == Verdict::kUnstable;
+  if (!unstable) return std::nullopt;
+  return stability_->Direction().size() > 0 ? stability_->Direction() : along;
 }
 
 bool BranchMethod::Resume(const ResumePoint& at) {
@@ -330,6 +414,7 @@ Advance BranchMethod::Next(const PathPoint& from) {
     return Ended(end);
   }
   departure_.NoteReactions(increment.point);
+  const bool onset = EndAtOnset(from, &*next, &increment);
   const bool moved = at->step.length > 0.0;
   events_in_place_ = moved ? 0 : events_in_place_ + 1;
   if (events_in_place_ > kMostEventsInPlace) return Ended(Failure(sentences::kEventsInPlace));
@@ -352,6 +437,13 @@ Advance BranchMethod::Next(const PathPoint& from) {
   } else {
     advance.end = PassEnd(*at, &increment);
   }
+  if (onset && increment.kind == IncrementKind::kRegular) increment.kind = IncrementKind::kOnset;
+  if (stability_) {
+    if (increment.kind == IncrementKind::kContactEvent || increment.kind == IncrementKind::kCornerLimit)
+      NoteStability(*at, increment, false);
+    increment.stability = stability_->record();
+  }
+  if (!advance.end) advance.moves_off = MovesOff(*at, increment.kind);
   SetNextLength(*at);
   increment.solve.next_step = step_length_;
   increment.solve.factorisations = arc_.factorisations() - factorisations_before;

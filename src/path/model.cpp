@@ -51,6 +51,14 @@ PathPoint Model::InitialPoint() const {
   return point;
 }
 
+std::vector<double> Model::ComponentsOf(const Eigen::VectorXd& motion) const {
+  std::vector<double> components(configuration.start.size(), 0.0);
+  for (const DofMap::Component& of : structure.Dofs().Components())
+    if (of.field == Field::kPosition && of.dof >= 0)
+      components[static_cast<std::size_t>(kPositionComponents * of.node + of.component)] = motion[of.dof];
+  return components;
+}
+
 void Model::NotePatches(PathPoint* point) const {
   point->patches.clear();
   for (std::size_t i = 0; i < contacts.size(); ++i) {

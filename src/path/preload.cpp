@@ -71,8 +71,8 @@ Preload TracePreload(const Model& model, int max_increments, const MethodFactory
     Append(causes, &preload.end.causes);
     return preload;
   };
-  EventRecord branches;
-  if (const std::optional<End> none = method->Start(preload.point, &branches)) return end(none->reason, none->causes);
+  StartRecord found;
+  if (const std::optional<End> none = method->Start(preload.point, &found)) return end(none->reason, none->causes);
   for (int i = 0; i < max_increments; ++i) {
     if (cancelled && cancelled()) return end(EndReason::kCancelled, {{sentences::kCancelled}});
     Advance advance = method->Next(preload.point);
@@ -101,6 +101,7 @@ Preload TraceStart(const Model& model, Accuracy accuracy, const std::function<bo
   const MethodFactory make_method = [&](const Model& of, double target) -> std::unique_ptr<PathMethod> {
     TraceOptions upwards;
     upwards.accuracy = accuracy;
+    upwards.stability = DefaultTrue::kFalse;
     BranchOptions options = BranchOptions::For(upwards, AutomaticStepGrowth(of));
     options.ends.load_factor = target;
     options.keep_loading = true;

@@ -59,14 +59,15 @@ void FillLists(const Model& model, const PathPoint& point, const LongLists& list
 }
 
 void Recorder::Start(const Model& model, int stage, const PathPoint& point, const Residuals& residuals,
-                     const EventRecord& branches, double time) {
+                     const StartRecord& found, double time) {
   increment_.stage = stage;
   AcceptedPoint accepted;
   accepted.kind = IncrementKind::kStart;
   accepted.residuals = residuals;
   accepted.solve.method = method_;
   accepted.solve.exact = true;
-  accepted.event = branches;
+  accepted.event = found.branches;
+  accepted.stability = found.stability;
   Fill(model, point, accepted, time);
   Give(increment_.load_factor);
 }

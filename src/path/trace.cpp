@@ -33,6 +33,8 @@
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/scene_index.h"
 #include "contact_path/scene/validate.h"
+#include "contact_path/stability/device.h"
+#include "contact_path/stability/jump.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
@@ -162,7 +164,9 @@ class Tracer {
   }
 
   // increment: index of the one to set out from.
-  std::unique_ptr<PathMethod> MakeMethod(const Model& model, std::optional<double> target, int increment) {
+  // load_sense: of the first change of the load factor, relative to the sense in which the path is loaded.
+  std::unique_ptr<PathMethod> MakeMethod(const Model& model, std::optional<double> target, int increment,
+                                         double load_sense = 1.0) {
     TraceOptions options = request_.options;
     if (target) options.direction = *target < 0.0 ? -1.0 : 1.0;
     const double growth = AutomaticStepGrowth(model);
@@ -175,6 +179,7 @@ class Tracer {
       branch.on_trial = control_.on_trial;
       branch.returns = &*returns_;
       branch.largest_reaction = &largest_reaction_;
+      branch.direction *= load_sense;
       return std::make_unique<BranchMethod>(model, branch, control_.cancelled);
     }
     MpecOptions mpec = MpecOptions::For(options, growth);
@@ -201,13 +206,13 @@ class Tracer {
     const double softest = measured ? tolerances::kDependentColumn : tolerances::kRootOfRounding;
     if (Causes soft = ContactTooSoft(model, point_, softest); !soft.empty())
       return EndWith({EndReason::kNotDetermined, std::move(soft)});
-    const std::unique_ptr<PathMethod> method = MakeMethod(model, TargetOf(model, stage), recorder_.increments());
-    EventRecord branches;
-    std::optional<End> not_started = method->Start(point_, &branches);
-    recorder_.Start(model, request_.program.empty() ? 0 : static_cast<int>(stage) + 1, point_, residuals, branches,
+    std::unique_ptr<PathMethod> method = MakeMethod(model, TargetOf(model, stage), recorder_.increments());
+    StartRecord found;
+    std::optional<End> not_started = method->Start(point_, &found);
+    recorder_.Start(model, request_.program.empty() ? 0 : static_cast<int>(stage) + 1, point_, residuals, found,
                     Seconds(Clock::now() - start));
     stop_.Note(recorder_.increment());
-    return not_started ? EndWith(*std::move(not_started)) : FollowStage(model, stage, method.get());
+    return not_started ? EndWith(*std::move(not_started)) : FollowStage(model, stage, std::move(method));
   }
 
   // The same from an increment inside.
@@ -224,10 +229,10 @@ class Tracer {
     if (IsAt(target)) return EndStage(stage);
     const PathPoint before = model.FromIncrement(*resumption.before);
     if (const std::optional<Cause> escape = Escape(model, target, before)) return EndBy(EndReason::kPathEnd, *escape);
-    const std::unique_ptr<PathMethod> method = MakeMethod(model, target, recorder_.increments() - 1);
+    std::unique_ptr<PathMethod> method = MakeMethod(model, target, recorder_.increments() - 1);
     if (!method->Resume({before, point_, resumption.from->solve}))
       return EndBy(EndReason::kNumericalFailure, {sentences::kResumeLost});
-    return FollowStage(model, stage, method.get());
+    return FollowStage(model, stage, std::move(method));
   }
 
   // The increments up to the one to go on from.
@@ -252,12 +257,16 @@ class Tracer {
     largest_reaction_.Note(model_->contacts, point);
   }
 
-  bool FollowStage(const Model& model, std::size_t stage, PathMethod* method) {
+  bool FollowStage(const Model& model, std::size_t stage, std::unique_ptr<PathMethod> method) {
     NotePoint(point_);
-    const bool goes_on = Follow(model, TargetOf(model, stage), method);
-    events_ = method->NumEvents();
-    Append(method->Remarks(), &remarks_);
+    const bool goes_on = Follow(model, TargetOf(model, stage), &method);
+    LeaveMethod(*method);
     return goes_on && EndStage(stage);
+  }
+
+  void LeaveMethod(const PathMethod& method) {
+    events_ = method.NumEvents();
+    Append(method.Remarks(), &remarks_);
   }
 
   // Why no further increment is of use, from `before` to the last one: no contact is left, and the load moves away from
@@ -286,36 +295,93 @@ class Tracer {
     return EndBy(EndReason::kStopCriterion, {sentences::kProgramDone});
   }
 
-  // Until the target, or something ends the trace: then false.
-  bool Follow(const Model& model, std::optional<double> target, PathMethod* method) {
+  // Until the target, or something ends the trace: then false. *method: the one that goes on behind a jump.
+  bool Follow(const Model& model, std::optional<double> target, std::unique_ptr<PathMethod>* method) {
     const int most_increments = request_.options.MaxIncrements();
     for (;;) {
       if (control_.cancelled && control_.cancelled()) return EndBy(EndReason::kCancelled, {sentences::kCancelled});
       if (recorder_.increments() > most_increments)
         return EndBy(EndReason::kMaxIncrements, {sentences::kMaxIncrements});
       const Clock::time_point start = Clock::now();
-      Advance advance = method->Next(point_);
+      Advance advance = (*method)->Next(point_);
       const auto increments = static_cast<double>(std::max<std::size_t>(1, advance.increments.size()));
       const double time = Seconds(Clock::now() - start) / increments;
       for (AcceptedPoint& increment : advance.increments) {
-        NotePoint(increment.point);
-        if (std::optional<End> pulls = PullingContact(model, increment.point, largest_reaction_.of_trace))
-          return EndWith(*std::move(pulls));
-        if (Causes overrun = OverrunContact(model, point_, increment.point); !overrun.empty())
-          return EndWith({EndReason::kNumericalFailure, std::move(overrun)});
-        recorder_.Append(model, increment, time);
-        returns_->Add(recorder_.increment().index, point_, increment.point);
-        const PathPoint before = std::exchange(point_, std::move(increment.point));
-        if (const StopCriterion* criterion = stop_.FirstThatHolds(recorder_.increment(), increment.at_criteria))
-          return EndBy(EndReason::kStopCriterion, {sentences::kStopCriterion, ToText(*criterion)});
-        stop_.Note(recorder_.increment());
-        if (IsAt(target)) return true;
-        if (const std::optional<Cause> escape = Escape(model, target, before))
-          return EndBy(EndReason::kPathEnd, *escape);
+        if (const std::optional<bool> goes_on = Take(model, target, &increment, time)) return *goes_on;
         if (recorder_.increments() > most_increments) break;
       }
-      if (advance.end && recorder_.increments() <= most_increments) return EndWith(*std::move(advance.end));
+      if (recorder_.increments() > most_increments) continue;
+      const bool jumps = request_.options.at_limit == AtLimit::kJump;
+      if (jumps && advance.end && advance.end->reason == EndReason::kPathEnd)
+        advance.moves_off = arrival_;
+      else if (advance.end)
+        return EndWith(*std::move(advance.end));
+      if (!advance.moves_off) continue;
+      if (!jumps) return EndBy(EndReason::kAtLimit, {sentences::kAtLimit});
+      if (const std::optional<bool> goes_on = TakeJump(model, target, *advance.moves_off, method)) return *goes_on;
     }
+  }
+
+  // Records the increment. Nothing: the path goes on; otherwise whether the stage was followed to its target.
+  std::optional<bool> Take(const Model& model, std::optional<double> target, AcceptedPoint* increment, double time) {
+    NotePoint(increment->point);
+    if (std::optional<End> pulls = PullingContact(model, increment->point, largest_reaction_.of_trace))
+      return EndWith(*std::move(pulls));
+    const bool jumped = increment->kind == IncrementKind::kJump;
+    if (Causes overrun = jumped ? Causes() : OverrunContact(model, point_, increment->point); !overrun.empty())
+      return EndWith({EndReason::kNumericalFailure, std::move(overrun)});
+    recorder_.Append(model, *increment, time);
+    if (!jumped) returns_->Add(recorder_.increment().index, point_, increment->point);
+    arrival_ = Chord(point_, increment->point).head(point_.u.size());
+    const PathPoint before = std::exchange(point_, std::move(increment->point));
+    if (const StopCriterion* criterion = stop_.FirstThatHolds(recorder_.increment(), increment->at_criteria))
+      return EndBy(EndReason::kStopCriterion, {sentences::kStopCriterion, ToText(*criterion)});
+    stop_.Note(recorder_.increment());
+    if (IsAt(target)) return true;
+    if (const std::optional<Cause> escape = Escape(model, target, before)) return EndBy(EndReason::kPathEnd, *escape);
+    return std::nullopt;
+  }
+
+  // The motion from the last increment at rest of the machine, in an increment of its own, and the method that goes on
+  // from where it lands. As Take().
+  std::optional<bool> TakeJump(const Model& model, std::optional<double> target, const Eigen::VectorXd& push,
+                               std::unique_ptr<PathMethod>* method) {
+    const Clock::time_point start = Clock::now();
+    const Device device =
+        Device::Of(model.structure, request_.options.machine_stiffness / model.UnitOfMachineStiffness());
+    JumpResult jump = Jump(model.structure, model.contacts, point_, push, device, control_.cancelled);
+    if (jump.cancelled) return EndBy(EndReason::kCancelled, {sentences::kCancelled});
+    if (jump.came_back) return std::nullopt;  // it is held
+    if (!jump.landing)
+      return EndBy(EndReason::kNoLanding, {sentences::kNoLanding, {}, static_cast<double>(recorder_.increment().index),
+                                           jump.followed * model.scaling.length});
+    AcceptedPoint increment;
+    increment.kind = IncrementKind::kJump;
+    increment.point = std::move(jump.landing->point);
+    increment.arc_length = Distance(point_, increment.point);
+    const double unit = model.scaling.force * model.scaling.length;
+    increment.work = {unit * jump.landing->friction, unit * jump.landing->loads};
+    increment.jump = {unit * jump.landing->energy_released(), jump.robust};
+    // Coulomb's law holds on the way, and not between its ends.
+    increment.residuals = model.Check(increment.point, increment.point);
+    if (!(increment.residuals.Largest() <= tolerances::kAccepted))
+      return EndBy(EndReason::kNumericalFailure, {sentences::kResiduals});
+    increment.solve.method = request_.options.method;
+    increment.solve.exact = true;
+    LeaveMethod(**method);
+    // Under a machine the load may fall from the landing on, while its setting grows.
+    std::optional<End> not_started;
+    for (const double load_sense : {1.0, -1.0}) {
+      StartRecord found;
+      *method = MakeMethod(model, target, recorder_.increments(), load_sense);
+      not_started = (*method)->Start(increment.point, &found);
+      increment.event = std::move(found.branches);
+      increment.stability = std::move(found.stability);
+      if (!not_started && (device.IsDead() || (*method)->LoadsOn())) break;
+    }
+    const std::optional<bool> goes_on = Take(model, target, &increment, Seconds(Clock::now() - start));
+    if (!goes_on && not_started) return EndWith(*std::move(not_started));
+    return goes_on;
   }
 
   const TraceRequest& request_;
@@ -325,6 +391,7 @@ class Tracer {
   Recorder recorder_;
   StopTest stop_;
   PathPoint point_;
+  Eigen::VectorXd arrival_;  // du of the last increment
   int events_ = 0;
   std::unique_ptr<const Model> model_;     // of the stage
   std::optional<ReturnDetector> returns_;  // of the stage

@@ -45,6 +45,9 @@ void CheckOptions(Checker* checker) {
     if (const std::string& list = options.record[i];
         list != "sections" && list != "stresses" && list != "pressures" && list != "inner")
       checker->Add(path.Key("record")[i], TextOrQuotes(list), "must be sections, stresses, pressures or inner");
+  if (!options.LocatesEvents() && options.at_limit != AtLimit::kFollow)
+    checker->Add(path.Key("at_limit"), std::string(ToString(options.at_limit)),
+                 "must be follow with mpec_solver ipopt, which does not locate limit points");
   if (!options.LocatesEvents() && !options.at.empty())
     checker->Add(path.Key("at"), "", "must be empty with mpec_solver ipopt, which does not locate values");
   if (!options.LocatesEvents() && options.friction_law == FrictionLaw::kTotal)

@@ -11,8 +11,10 @@
 #include "contact_path/branch/smooth_arc.h"
 #include "contact_path/path/branch_options.h"
 #include "contact_path/path/departure.h"
+#include "contact_path/stability/device.h"
 #include "contact_path/path/model.h"
 #include "contact_path/path/path_method.h"
+#include "contact_path/path/stability_monitor.h"
 #include "contact_path/path/work.h"
 
 namespace contact_path {
@@ -24,10 +26,11 @@ class BranchMethod : public PathMethod {
   // model must outlive the method. cancelled may be empty.
   BranchMethod(const Model& model, const BranchOptions& options, std::function<bool()> cancelled);
 
-  std::optional<End> Start(const PathPoint& from, EventRecord* branches) override;
+  std::optional<End> Start(const PathPoint& from, StartRecord* found) override;
   bool Resume(const ResumePoint& at) override;
   // `from` must be the point that was given last.
   Advance Next(const PathPoint& from) override;
+  bool LoadsOn() const override;
   int NumEvents() const override { return events_; }
   Causes Remarks() const override;
 
@@ -45,6 +48,21 @@ class BranchMethod : public PathMethod {
   // Where the path comes back to an earlier increment on the step: its number, and the step ends there. Not where a
   // branch is to be chosen farther on: then a path that comes back need not repeat.
   std::optional<int> EndAtReturn(const PathPoint& from, ArcStep* at);
+  struct BalancedStep {
+    ArcStep at;
+    Work work;
+    double stored = 0.0;  // strain energy at its end [force length]
+  };
+  // Shortens the step to where the equilibrium ceases to be stable under the machine: the setting of the machine turns
+  // on it, or contacts that slip let go. Whether there is such a place; increment: of the step, made anew then.
+  bool EndAtOnset(const PathPoint& from, BalancedStep* next, AcceptedPoint* increment);
+  // Ends the step at the first place behind which `beyond` holds; false where it is not found.
+  bool ShortenTo(const std::function<bool(const CurvePoint&)>& beyond, BalancedStep* next);
+  void NoteStability(const ArcStep& at, const AcceptedPoint& increment, bool inside);
+  // Of the setting of the machine, in the sense of the loads, along a curve.
+  double SettingRate(const CurvePoint& at) const;
+  // du with which the structure moves off where the machine can go no further.
+  std::optional<Eigen::VectorXd> MovesOff(const ArcStep& at, IncrementKind kind) const;
   // Records the event at the end of the step, and sets out from there. Nothing: done. Otherwise why not.
   std::optional<End> PassEnd(const ArcStep& at, AcceptedPoint* increment);
   // Where another path crosses at a limit point, as where slack bars become taut: sets out on it if the load grows
@@ -70,11 +88,6 @@ class BranchMethod : public PathMethod {
   // Direction of the path that crosses at the end of the step: x0, y0, x1, ..., unit norm.
   std::vector<double> CrossingPath(const Crossing& crossing) const;
   int StiffnessSign(const CurvePoint& point) const;
-  struct BalancedStep {
-    ArcStep at;
-    Work work;
-    double stored = 0.0;  // strain energy at its end [force length]
-  };
   // The next step, short enough for the energies to tell, too: where only soft parts move, the load may change along
   // the step by far more than what its predictor shows.
   std::optional<BalancedStep> NextBalancedStep();
@@ -86,6 +99,8 @@ class BranchMethod : public PathMethod {
 
   const Model& model_;
   BranchOptions options_;
+  const Device device_;
+  std::unique_ptr<StabilityMonitor> stability_;  // null: not asked for
   Departure departure_;
   SmoothArc arc_;
   CurvePoint current_;

@@ -18,7 +18,7 @@
 #include "contact_path/response/resultant.h"
 #include "contact_path/scene/field.h"
 #include "contact_path/scene/scene.h"
-#include "contact_path/scene/words.h"
+#include "contact_path/stability/verdict.h"
 
 namespace contact_path {
 
@@ -32,18 +32,6 @@ enum class IncrementKind {
   kSample,        // a quantity has a value that the request asks for, and none of the above
   kOnset,         // the equilibrium ceases to be stable, and none of the above
   kJump,          // where a jump from the increment before has landed
-};
-
-// Whether a disturbance of an equilibrium grows, whatever the masses and dampings are (stability/stability.h).
-enum class Verdict { kNotAsked, kStable, kUnstable, kNotProved };
-
-template <>
-struct Words<Verdict> {
-  static constexpr Verdict kDefault = Verdict::kNotAsked;
-  static constexpr std::pair<std::string_view, Verdict> kAll[] = {{"stable", Verdict::kStable},
-                                                                  {"unstable", Verdict::kUnstable},
-                                                                  {"not_proved", Verdict::kNotProved},
-                                                                  {"", Verdict::kNotAsked}};
 };
 
 // Of an increment.

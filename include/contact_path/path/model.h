@@ -48,6 +48,13 @@ struct Model {
   // By check/, of `now` reached from `before`.
   Residuals Check(const PathPoint& before, const PathPoint& now) const;
 
+  // k of TraceOptions over the scaled one: of s over f . u.
+  double UnitOfMachineStiffness() const {
+    return scaling.load_factor * scaling.load_factor / (scaling.force * scaling.length);
+  }
+  // x0, y0, x1, ... over the nodes of a motion of the unknowns, NumDofs() or more entries: 0 where nothing is free.
+  std::vector<double> ComponentsOf(const Eigen::VectorXd& motion) const;
+
   // Puts each candidate on the patch of its surface that is nearest.
   void NotePatches(PathPoint* point) const;
 

@@ -29,6 +29,12 @@ struct AcceptedPoint {
   std::vector<int> at_criteria;  // of options.stop: whose value the point has, exactly
 };
 
+// Where a path sets out.
+struct StartRecord {
+  EventRecord branches;
+  StabilityRecord stability;
+};
+
 // Whether a load factor is, to rounding, at a target that a method has located.
 inline bool IsAtTarget(double load_factor, double target) {
   return std::abs(load_factor - target) <= tolerances::kEqual * std::abs(target);
@@ -37,6 +43,9 @@ inline bool IsAtTarget(double load_factor, double target) {
 struct Advance {
   std::vector<AcceptedPoint> increments;  // in order; may hold increments also where the path ended
   std::optional<End> end;                 // nothing: the path goes on
+  // du with which the structure moves off from the last increment, where the machine that loads it can go no further on
+  // a stable path; nothing: it can, or that is no end.
+  std::optional<Eigen::VectorXd> moves_off = {};
 };
 
 // An increment of an earlier path to go on from, one that is no event.
@@ -50,9 +59,11 @@ class PathMethod {
  public:
   virtual ~PathMethod() = default;
 
-  // Sets out from the initial point, once, before the first Next(). `branches`: those found there. Nothing: done.
+  // Sets out from the initial point, once, before the first Next(). `found`: what is found there. Nothing: done.
   // Otherwise the path ends where it begins.
-  virtual std::optional<End> Start(const PathPoint& from, EventRecord* branches) = 0;
+  virtual std::optional<End> Start(const PathPoint& from, StartRecord* found) = 0;
+  // Whether the setting of the machine grows along the path as it sets out, in the sense of the loads.
+  virtual bool LoadsOn() const { return true; }
 
   // Goes on in place of Start(). False: that is not possible here.
   virtual bool Resume(const ResumePoint& at) = 0;

@@ -30,9 +30,9 @@ class Recorder {
   // Given so far.
   int increments() const { return increments_; }
 
-  // The first increment of a stage. stage: from 1; 0 = there is no program. branches: those found there.
+  // The first increment of a stage. stage: from 1; 0 = there is no program.
   void Start(const Model& model, int stage, const PathPoint& point, const Residuals& residuals,
-             const EventRecord& branches, double time);
+             const StartRecord& found, double time);
   // An increment of an earlier trace, as it is.
   void Repeat(const Increment& increment);
   // accepted: from the last increment on. time: what it took [s].

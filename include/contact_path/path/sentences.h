@@ -22,6 +22,10 @@ inline constexpr Sentence kNoMemory = "there is not enough memory after incremen
 inline constexpr Sentence kNoSolutionAtStart = "<name>, before increment 0";
 inline constexpr Sentence kNoSolution = "<name>, after increment <count>";
 inline constexpr Sentence kConstantLoads = "while the constant loads were brought on:";
+inline constexpr Sentence kAtLimit =
+    "the machine can go no further on a stable path: at_limit jump tells where the structure lands, follow goes on";
+inline constexpr Sentence kNoLanding =
+    "the jump from increment <count> comes to no equilibrium: it was followed until a node had moved by <other>";
 
 // Where branches part, and where none leads on.
 inline constexpr Sentence kNoBranch =

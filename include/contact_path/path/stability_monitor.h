@@ -1,0 +1,66 @@
+// The stability of the increments of a path.
+#ifndef CONTACT_PATH_PATH_STABILITY_MONITOR_H_
+#define CONTACT_PATH_PATH_STABILITY_MONITOR_H_
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "contact_path/branch/active_set_tolerance.h"
+#include "contact_path/branch/smooth_arc.h"
+#include "contact_path/contact/path_point.h"
+#include "contact_path/stability/device.h"
+#include "contact_path/path/increment.h"
+#include "contact_path/path/model.h"
+#include "contact_path/stability/stability_problem.h"
+
+namespace contact_path {
+
+// Where no contact slips, n0 changes on an arc at limit points and crossings alone: it is counted where an arc begins,
+// and behind singular points, and the sign of the determinant is compared with its parity on each increment. Where
+// contacts slip, the verdict may change anywhere: it is sought on each increment of a small system; of a large one
+// where the arc begins, and where the parity changes.
+class StabilityMonitor {
+ public:
+  // model must outlive the monitor.
+  StabilityMonitor(const Model& model, const Device& device) : model_(model), device_(device), problem_(model.structure, model.contacts) {}
+
+  // The next increment. at: the curve on which it was reached. stiffness_sign: of the determinant of the tangent at
+  // fixed load factor, 0 = singular. weakly_active: at an event, else nothing. null_direction: of the tangent at fixed
+  // load factor, du, where it is known to be singular; else empty.
+  void Note(const PathPoint& point, const CurvePoint& at, int stiffness_sign,
+            const std::optional<ActiveSetTolerance>& weakly_active, const Eigen::VectorXd& null_direction);
+  // An equilibrium from which a path sets out.
+  void Start(const PathPoint& point, const ActiveSetTolerance& weakly_active);
+  const StabilityRecord& record() const { return record_; }
+  // Under the device of the path.
+  Verdict UnderDevice() const { return under_device_; }
+  // The same of the arc that the last increment is inside of; not proved where it begins there.
+  Verdict OnArc() const { return known_ ? under_device_ : Verdict::kNotProved; }
+  bool HasSlips() const { return problem_.HasSlips(); }
+  // Under the device, at a point of the arc that begins or goes on at `of`: looked for anew, and not noted.
+  Verdict At(const PathPoint& point);
+  // In which a disturbance grows under dead loads, (du); empty = not known.
+  const Eigen::VectorXd& Direction() const { return dead_.direction; }
+
+ private:
+  void Count(const PathPoint& point, const std::optional<ActiveSetTolerance>& weakly_active,
+             const Eigen::VectorXd& null_direction);
+  // From the count before, and the tangent.
+  void Follow(const CurvePoint& at);
+  void Write(const CurvePoint* at);
+  // k of the machine that just holds the point, scaled.
+  double CriticalStiffness(const CurvePoint* at) const;
+
+  const Model& model_;
+  const Device device_;
+  StabilityProblem problem_;
+  bool known_ = false;    // dead_ and controlled_ hold on this arc
+  bool small_ = true;     // the system is
+  Stability dead_, controlled_;
+  Verdict under_device_ = Verdict::kNotProved;
+  StabilityRecord record_;
+};
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_PATH_STABILITY_MONITOR_H_

@@ -1,0 +1,112 @@
+// Whether an equilibrium with contacts and friction, at rest, is stable.
+#ifndef CONTACT_PATH_STABILITY_STABILITY_PROBLEM_H_
+#define CONTACT_PATH_STABILITY_STABILITY_PROBLEM_H_
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <optional>
+#include <vector>
+
+#include "contact_path/branch/active_set_tolerance.h"
+#include "contact_path/contact/contact_pair.h"
+#include "contact_path/contact/path_point.h"
+#include "contact_path/equations/fixed_state_system.h"
+#include "contact_path/linear/bordered_solver.h"
+#include "contact_path/linear/symmetric_factors.h"
+#include "contact_path/stability/verdict.h"
+#include "contact_path/structure/structure.h"
+
+namespace contact_path {
+
+// Of one equilibrium under one machine. Vectors: unknowns u of the structure.
+struct Stability {
+  Verdict verdict = Verdict::kNotProved;
+  int directions = -1;        // in which a disturbance grows; -1 = not known
+  Eigen::VectorXd direction;  // one of them, of unit norm; empty = none is known
+};
+
+// A disturbance grows by divergence if for some growth rate a >= 0 there are motions v and changes rho of the reactions
+// other than 0 with
+//   (a^2 M + a C + K) v = N rho_n + T rho_t
+// K: tangent at fixed load factor, contacts' curvature included (Martins, Barbarin, Raous & Pinto da Costa 1999).
+//   inside the cone (D): v_n = v_t = 0; without friction: v_n = 0
+//   at the edge of the cone, sliding or about to with the sense sigma (S):
+//     v_n = 0, 0 <= z = sigma v_t, 0 <= w = sigma rho_t + mu rho_n, z w = 0
+//   touching without a reaction (Z): 0 <= v_n, 0 <= rho_n, v_n rho_n = 0, |rho_t| <= mu rho_n against v_t
+// M and C: of nodes, equal in both directions of a node. With K condensed onto the slips z, w = H z.
+//
+// Unstable, whatever M and C are: the degree of this problem at a = 0 is not 1, its degree for large a. The degree is
+// (-1)^n0 times that of H, n0: negative eigenvalues of K where S sticks. Without S and with at most one contact in Z
+// also where n0 is even, and not 0: one of the senses of a mode opens Z.
+// Stable, whatever M and C are: v . K v + sum of mu_i z_i p_i . K v > 0 for all v with z >= 0. p_i: v -> its component
+// along the normal of contact i, so that p_i . (K v) = rho_ni, M and C having no part in it where v_n = 0. Least over
+// what is not z the form is z . F z, F = sym H - mu R mu / 4, R_ij = p_i K Y (Y' K Y)^-1 Y' K p_j, Y: motions without
+// slip. The contacts Z do no work on v, and do not count here. Where the normals and tangents of several contacts are
+// not orthogonal, as between deformable bodies, the proof is for equal masses and drags of all nodes.
+class StabilityProblem {
+ public:
+  // Both must outlive the problem.
+  StabilityProblem(const Structure& structure, const ContactPairs& contacts);
+
+  // Looks at an equilibrium. weakly_active: which inequalities are at zero; nothing: those of the states alone, as
+  // inside an arc. null_direction: of the tangent, du, where the equations are known to be singular; else empty.
+  void Set(const PathPoint& point, const std::optional<ActiveSetTolerance>& weakly_active,
+           const Eigen::VectorXd& null_direction);
+
+  // Under s = (Q - f . u) / compliance, f the reference load, for Q at rest: infinite = dead loads, 0 = displacement
+  // control. Without reference loads the machine is rigid already: as with dead loads.
+  Stability Under(double compliance) const;
+  // f . du / ds of the structure whose contacts S stick; infinite where the equations are singular.
+  double LoadCompliance() const { return load_compliance_; }
+  // Whether contacts are at the edge of their cones.
+  bool HasSlips() const { return !slips_.empty(); }
+  int factorisations() const { return factorisations_; }
+
+ private:
+  struct Slip {
+    std::size_t contact;
+    double sense;  // sigma
+    double friction;
+    Eigen::Index normal, tangent;  // unknowns of its reactions among those of the saddle
+  };
+
+  void Classify(const PathPoint& point, const std::optional<ActiveSetTolerance>& weakly_active);
+  void BuildSaddle(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& null_direction);
+  bool Condense(const Eigen::SparseMatrix<double>& transposed);
+  // Columns p_i of the slips; false where they do not exist, as of contacts that depend on each other.
+  bool NormalComponents(Eigen::MatrixXd* components) const;
+  // The motion whose energy falls, from the flexibility by loads and its inverse iterations.
+  Eigen::VectorXd FallingMode() const;
+  Eigen::VectorXd Normalised(const Eigen::VectorXd& du) const;
+
+  const Structure& structure_;
+  const ContactPairs& contacts_;
+  FixedStateSystem system_;
+  SymmetricFactors factors_;
+  BorderedSolver unsymmetric_;
+
+  std::vector<Slip> slips_;
+  int resting_ = 0;            // contacts Z
+  bool covered_ = true;        // by the theory: no contact with the total law of friction
+  bool regular_ = false;       // the saddle is
+  bool singular_ = false;      // the point is known to be
+  bool symmetric_ = true;      // K is
+  Eigen::SparseMatrix<double> saddle_, stiffness_, forces_;  // symmetric K and columns of reactions
+  Eigen::Index negative_ = 0;  // n0; where the point is singular, besides its null direction
+  int sign_ = 1;               // of det K where S sticks
+  double load_compliance_ = INFINITY;
+  Eigen::VectorXd by_load_;    // du by a unit of s
+  Eigen::MatrixXd motions_;    // by unit slips, columns
+  Eigen::MatrixXd H_, F_, R_;
+  Eigen::VectorXd w_of_load_;  // of by_load_
+  Eigen::VectorXd load_of_slips_;  // f . motions
+  Eigen::VectorXd null_;           // du, where singular_
+  bool certified_ = false;        // F tells about stability under dead loads
+  bool certified_loads_ = false;  // and under a machine
+  Eigen::VectorXd h_of_load_;      // mu_i p_i . K by_load
+  int factorisations_ = 0;
+};
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_STABILITY_STABILITY_PROBLEM_H_

@@ -1,0 +1,30 @@
+// What is known about the stability of an equilibrium.
+#ifndef CONTACT_PATH_STABILITY_VERDICT_H_
+#define CONTACT_PATH_STABILITY_VERDICT_H_
+
+#include <string_view>
+#include <utility>
+
+#include "contact_path/scene/words.h"
+
+namespace contact_path {
+
+enum class Verdict {
+  kNotAsked,
+  kStable,    // no disturbance grows by divergence
+  kUnstable,  // some disturbance grows
+  kNotProved,
+};
+
+template <>
+struct Words<Verdict> {
+  static constexpr Verdict kDefault = Verdict::kNotAsked;
+  static constexpr std::pair<std::string_view, Verdict> kAll[] = {{"stable", Verdict::kStable},
+                                                                  {"unstable", Verdict::kUnstable},
+                                                                  {"not_proved", Verdict::kNotProved},
+                                                                  {"", Verdict::kNotAsked}};
+};
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_STABILITY_VERDICT_H_

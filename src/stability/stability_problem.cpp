@@ -1,0 +1,334 @@
+#include "contact_path/stability/stability_problem.h"
+
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "contact_path/stability/slip_stability.h"
+#include "contact_path/tolerances.h"
+
+namespace contact_path {
+namespace {
+
+constexpr int kInverseIterations = 12;  // each multiplies the share of a mode by the ratio of two eigenvalues
+
+Eigen::VectorXd GenericVector(Eigen::Index size) {
+  Eigen::VectorXd vector(size);
+  for (Eigen::Index i = 0; i < size; ++i) vector[i] = 0.5 + std::fmod(static_cast<double>(i + 1) * M_SQRT2, 1.0);
+  return vector;
+}
+
+// -1, 0 or 1 for +: which side of its cone a contact is at; of a contact inside of it nothing.
+std::optional<double> SenseAtEdge(ContactState state, double friction, double rn, double rt, double level) {
+  if (state == ContactState::kSlipPlus) return 1.0;
+  if (state == ContactState::kSlipMinus) return -1.0;
+  if (friction * rn + rt <= level) return 1.0;
+  if (friction * rn - rt <= level) return -1.0;
+  return std::nullopt;
+}
+
+}  // namespace
+
+StabilityProblem::StabilityProblem(const Structure& structure, const ContactPairs& contacts)
+    : structure_(structure), contacts_(contacts), system_(structure, contacts) {}
+
+void StabilityProblem::Set(const PathPoint& point, const std::optional<ActiveSetTolerance>& weakly_active,
+                           const Eigen::VectorXd& null_direction) {
+  Classify(point, weakly_active);
+  const Eigen::VectorXd x = system_.Pack(point);
+  const Eigen::SparseMatrix<double>& transposed = system_.TransposedJacobian(x);
+  singular_ = null_direction.size() > 0 && slips_.empty();
+  null_ = singular_ ? null_direction : Eigen::VectorXd();
+  BuildSaddle(transposed, null_);
+  ++factorisations_;
+  regular_ = factors_.Factorize(saddle_);
+  load_compliance_ = INFINITY;
+  if (!regular_) return;
+  // Each equation of motion is a constraint, whose multiplier makes one eigenvalue negative.
+  negative_ = factors_.NegativeEigenvalues() - (saddle_.rows() - structure_.NumDofs());
+  regular_ = negative_ >= 0 && Condense(transposed);
+}
+
+void StabilityProblem::Classify(const PathPoint& point, const std::optional<ActiveSetTolerance>& weakly_active) {
+  std::vector<ContactState> states = point.states;
+  slips_.clear();
+  resting_ = 0;
+  covered_ = true;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const ContactPair& pair = *contacts_[i];
+    if (states[i] == ContactState::kOpen) {
+      if (weakly_active && pair.Gap(point.u, point.s, point.Patch(i)) <= weakly_active->gap) ++resting_;
+      continue;
+    }
+    const auto k = static_cast<Eigen::Index>(i);
+    if (weakly_active && point.rn[k] <= weakly_active->force * pair.NormalForceUnit()) {
+      ++resting_;
+      states[i] = ContactState::kOpen;
+      continue;
+    }
+    if (!pair.Frictional()) continue;
+    covered_ = covered_ && !pair.HasTotalLaw();
+    // Inside an arc the states tell: no margin is below this level.
+    const double level = weakly_active ? weakly_active->force * pair.ForceUnit() : -INFINITY;
+    const std::optional<double> sense = SenseAtEdge(states[i], pair.Friction(), point.rn[k], point.rt[k], level);
+    if (!sense) continue;
+    states[i] = ContactState::kStick;
+    slips_.push_back({i, *sense, pair.Friction(), 0, 0});
+  }
+  if (states != system_.states() || point.patches != system_.patches())
+    system_.SetStates(states, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(states.size())), point.patches);
+  // Unknowns of the saddle: u, then the reactions as the system numbers them, without the load factor.
+  Eigen::Index next = structure_.NumDofs();
+  std::size_t slip = 0;
+  for (const std::size_t i : system_.Touching()) {
+    if (slip < slips_.size() && slips_[slip].contact == i) {
+      slips_[slip].normal = next;
+      slips_[slip++].tangent = next + 1;
+    }
+    next += system_.states()[i] == ContactState::kStick ? 2 : 1;
+  }
+}
+
+void StabilityProblem::BuildSaddle(const Eigen::SparseMatrix<double>& transposed,
+                                   const Eigen::VectorXd& null_direction) {
+  const Eigen::Index nd = structure_.NumDofs(), reactions = transposed.rows() - nd - 1;
+  const Eigen::Index size = nd + reactions + (null_direction.size() > 0 ? 1 : 0);
+  std::vector<Eigen::Triplet<double>> entries, forces, stiffness;
+  double largest = 0.0, skew = 0.0;
+  for (Eigen::Index equation = 0; equation < nd; ++equation) {
+    for (Eigen::SparseMatrix<double>::InnerIterator it(transposed, equation); it; ++it) {
+      const Eigen::Index unknown = it.row();
+      if (unknown < nd) {
+        stiffness.emplace_back(static_cast<int>(equation), static_cast<int>(unknown), 0.5 * it.value());
+        stiffness.emplace_back(static_cast<int>(unknown), static_cast<int>(equation), 0.5 * it.value());
+        largest = std::max(largest, std::abs(it.value()));
+      } else if (unknown > nd && it.value() != 0.0) {
+        const auto reaction = static_cast<int>(unknown - 1);
+        entries.emplace_back(static_cast<int>(equation), reaction, it.value());
+        entries.emplace_back(reaction, static_cast<int>(equation), it.value());
+        forces.emplace_back(static_cast<int>(equation), reaction - static_cast<int>(nd), -it.value());
+      }
+    }
+  }
+  stiffness_.resize(nd, nd);
+  stiffness_.setFromTriplets(stiffness.begin(), stiffness.end());
+  for (Eigen::Index equation = 0; equation < nd; ++equation)
+    for (Eigen::SparseMatrix<double>::InnerIterator it(transposed, equation); it && it.row() < nd; ++it)
+      if (it.row() != equation)
+        skew = std::max(skew, std::abs(it.value() - stiffness_.coeff(it.row(), equation)));
+  symmetric_ = skew <= tolerances::kEqual * largest;
+  for (Eigen::Index column = 0; column < nd; ++column)
+    for (Eigen::SparseMatrix<double>::InnerIterator it(stiffness_, column); it; ++it)
+      entries.emplace_back(static_cast<int>(it.row()), static_cast<int>(column), it.value());
+  for (Eigen::Index i = 0; i < null_direction.size(); ++i) {
+    if (null_direction[i] == 0.0) continue;
+    entries.emplace_back(static_cast<int>(i), static_cast<int>(size - 1), null_direction[i]);
+    entries.emplace_back(static_cast<int>(size - 1), static_cast<int>(i), null_direction[i]);
+  }
+  forces_.resize(nd, reactions);
+  forces_.setFromTriplets(forces.begin(), forces.end());
+  saddle_.resize(size, size);
+  saddle_.setFromTriplets(entries.begin(), entries.end());
+}
+
+bool StabilityProblem::NormalComponents(Eigen::MatrixXd* components) const {
+  const auto count = static_cast<Eigen::Index>(slips_.size());
+  const Eigen::Index nd = structure_.NumDofs();
+  const Eigen::SparseMatrix<double> gram = forces_.transpose() * forces_;
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(gram);
+  if (solver.info() != Eigen::Success ||
+      !(solver.vectorD().minCoeff() > tolerances::kDependent * solver.vectorD().maxCoeff()))
+    return false;
+  Eigen::MatrixXd of_normals = Eigen::MatrixXd::Zero(gram.rows(), count);
+  for (Eigen::Index k = 0; k < count; ++k) of_normals(slips_[static_cast<std::size_t>(k)].normal - nd, k) = 1.0;
+  const Eigen::MatrixXd inverse = solver.solve(of_normals);
+  *components = forces_ * inverse;
+  // The same form for K = I, of equal masses: where normals and tangents are not orthogonal, they have a part in it.
+  Eigen::MatrixXd of_tangents = Eigen::MatrixXd::Zero(gram.rows(), count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const Slip& slip = slips_[static_cast<std::size_t>(k)];
+    of_tangents(slip.tangent - nd, k) = slip.sense;
+  }
+  const Eigen::MatrixXd by_tangents = solver.solve(of_tangents);
+  Eigen::MatrixXd masses(count, count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Slip& slip = slips_[static_cast<std::size_t>(i)];
+    masses.row(i) =
+        slip.sense * by_tangents.row(slip.tangent - nd) + slip.friction * by_tangents.row(slip.normal - nd);
+  }
+  return IsStrictlyCopositive(masses);
+}
+
+bool StabilityProblem::Condense(const Eigen::SparseMatrix<double>& transposed) {
+  const Eigen::Index nd = structure_.NumDofs(), size = saddle_.rows();
+  const auto count = static_cast<Eigen::Index>(slips_.size());
+  const Eigen::VectorXd& f = structure_.ReferenceLoad();
+  Eigen::MatrixXd components;
+  certified_ = count == 0 || NormalComponents(&components);
+
+  // By the load, by unit slips, and by the forces of unit normal motions.
+  Eigen::MatrixXd solutions = Eigen::MatrixXd::Zero(size, 1 + (certified_ ? 2 : 1) * count);
+  solutions.col(0).head(nd) = f;
+  for (Eigen::Index k = 0; k < count; ++k)
+    solutions(slips_[static_cast<std::size_t>(k)].tangent, 1 + k) = -slips_[static_cast<std::size_t>(k)].sense;
+  Eigen::MatrixXd of_normals;
+  if (count > 0 && certified_) {
+    of_normals = stiffness_ * components;
+    solutions.block(0, 1 + count, nd, count) = of_normals;
+  }
+  factors_.Solve(&solutions);
+  if (!solutions.allFinite()) return false;
+  by_load_ = solutions.col(0).head(nd);
+  load_compliance_ = f.dot(by_load_);
+  sign_ = negative_ % 2 == 0 ? 1 : -1;
+  if (count == 0 && symmetric_) return true;
+
+  motions_ = solutions.block(0, 1, nd, count);
+  load_of_slips_ = motions_.transpose() * f;
+  if (count > 0 && certified_) {
+    Eigen::MatrixXd along(count, count);
+    for (Eigen::Index i = 0; i < count; ++i)
+      along.row(i) = slips_[static_cast<std::size_t>(i)].sense *
+                     solutions.row(slips_[static_cast<std::size_t>(i)].tangent).segment(1, count);
+    Eigen::VectorXd friction(count);
+    for (Eigen::Index i = 0; i < count; ++i) friction[i] = slips_[static_cast<std::size_t>(i)].friction;
+    of_normals = of_normals * friction.asDiagonal();
+    R_ = of_normals.transpose() * solutions.block(0, 1 + count, nd, count) * friction.asDiagonal();
+    F_ = along + of_normals.transpose() * motions_;
+    h_of_load_ = of_normals.transpose() * by_load_;
+    // A load on the normal of a contact that slips would be a part of its reaction.
+    const Eigen::VectorXd on_normals = friction.asDiagonal() * (components.transpose() * f);
+    certified_loads_ = on_normals.size() == 0 || on_normals.cwiseAbs().maxCoeff() <= tolerances::kDependent * f.norm();
+  }
+
+  if (!symmetric_) {
+    ++factorisations_;
+    if (!unsymmetric_.FactorizeRegular(transposed, Eigen::VectorXd::Unit(transposed.rows(), nd))) return false;
+    sign_ = unsymmetric_.DeterminantSign() * ((transposed.rows() - nd - 1) % 2 == 0 ? 1 : -1);
+    Eigen::MatrixXd right = Eigen::MatrixXd::Zero(transposed.cols(), 1 + count), all;
+    right.col(0).head(nd) = f;
+    // The equations of motion are by grad xi, the columns of forces by c grad xi, slip by c dxi.
+    for (Eigen::Index k = 0; k < count; ++k) {
+      const Slip& slip = slips_[static_cast<std::size_t>(k)];
+      double by_row = 0.0, by_force = 0.0;
+      for (Eigen::SparseMatrix<double>::InnerIterator it(transposed, slip.tangent); it && it.row() < nd; ++it) {
+        by_row += it.value() * it.value();
+        by_force += it.value() * forces_.coeff(it.row(), slip.tangent - nd);
+      }
+      right(slip.tangent, 1 + k) = slip.sense * by_row / by_force;
+    }
+    unsymmetric_.SolveAll(right, &all);
+    by_load_ = all.col(0).head(nd);
+    load_compliance_ = f.dot(by_load_);
+    motions_ = all.block(0, 1, nd, count);
+    load_of_slips_ = motions_.transpose() * f;
+    solutions.resize(size, 1 + count);
+    solutions.topRows(nd) = all.topRows(nd);
+    solutions.bottomRows(size - nd) = all.bottomRows(all.rows() - nd - 1).topRows(size - nd);
+  }
+  H_.resize(count, count);
+  w_of_load_.resize(count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Slip& slip = slips_[static_cast<std::size_t>(i)];
+    H_.row(i) = slip.sense * solutions.row(slip.tangent).segment(1, count) +
+                slip.friction * solutions.row(slip.normal).segment(1, count);
+    w_of_load_[i] = slip.sense * solutions(slip.tangent, 0) + slip.friction * solutions(slip.normal, 0);
+  }
+  return H_.allFinite();
+}
+
+Eigen::VectorXd StabilityProblem::Normalised(const Eigen::VectorXd& du) const {
+  const double norm = du.norm();
+  return norm > 0.0 && std::isfinite(norm) ? Eigen::VectorXd(du / norm) : Eigen::VectorXd();
+}
+
+Eigen::VectorXd StabilityProblem::FallingMode() const {
+  const Eigen::Index nd = structure_.NumDofs();
+  Eigen::MatrixXd mode = Eigen::MatrixXd::Zero(saddle_.rows(), 1);
+  const bool by_load = load_compliance_ < 0.0;
+  mode.col(0).head(nd) = by_load ? by_load_ : GenericVector(nd);
+  Eigen::VectorXd falling;
+  for (int i = 0; i < kInverseIterations; ++i) {
+    const Eigen::VectorXd before = mode.col(0).head(nd);
+    mode.bottomRows(mode.rows() - nd).setZero();
+    factors_.Solve(&mode);
+    // v = K^-1 before, where the contacts stick: v . K v = v . before.
+    const Eigen::VectorXd v = mode.col(0).head(nd);
+    const double norm = v.norm();
+    if (!(norm > 0.0) || !std::isfinite(norm)) break;
+    if (v.dot(before) < 0.0) falling = v / norm;
+    mode /= norm;
+  }
+  return falling;
+}
+
+Stability StabilityProblem::Under(double compliance) const {
+  Stability found;
+  if (!covered_) return found;
+  const bool dead = !std::isfinite(compliance) || structure_.ReferenceLoad().isZero(0.0);
+  if (!regular_) return found;
+  if (singular_) {
+    // What is left of the null direction under the machine resists, or nothing is.
+    const double along = structure_.ReferenceLoad().dot(null_);
+    const bool held = !dead && std::abs(along) > tolerances::kSameTangent * structure_.ReferenceLoad().norm();
+    found.directions = static_cast<int>(negative_) + (held ? 0 : 1);
+    found.verdict = found.directions > 0 ? (resting_ <= 1 ? Verdict::kUnstable : Verdict::kNotProved) : Verdict::kStable;
+    if (!held) found.direction = Normalised(null_);
+    return found;
+  }
+  const double machine = load_compliance_ + compliance;  // f . du per unit of Q - f . u
+  if (!dead && std::abs(machine) <= tolerances::kDependent * std::abs(load_compliance_)) return found;
+  const double share = dead ? 0.0 : 1.0 / machine;
+  const Eigen::Index n0 = negative_ - (!dead && machine < 0.0 ? 1 : 0);
+  const int sign = dead || machine > 0.0 ? sign_ : -sign_;
+  const auto fill = [&] {
+    found.direction = Normalised(dead ? FallingMode() : Eigen::VectorXd());
+  };
+
+  if (slips_.empty()) {
+    found.directions = static_cast<int>(n0);
+    if (n0 == 0 && sign > 0) {
+      found.verdict = Verdict::kStable;
+    } else if (resting_ <= 1) {
+      found.verdict = symmetric_ || sign < 0 ? Verdict::kUnstable : Verdict::kNotProved;
+    }
+    if (n0 > 0) fill();
+    if (found.verdict == Verdict::kNotProved) found.directions = -1;
+    return found;
+  }
+
+  const Eigen::VectorXd scale = H_.diagonal().cwiseAbs().cwiseMax(H_.cwiseAbs().maxCoeff() * tolerances::kRootOfRounding)
+                                    .cwiseSqrt().cwiseInverse();
+  if (n0 == 0 && certified_ && (dead || certified_loads_)) {
+    const Eigen::MatrixXd F = F_ + share * (load_of_slips_ - h_of_load_) * load_of_slips_.transpose() -
+                              0.25 * (R_ - share * h_of_load_ * h_of_load_.transpose());
+    if (IsStrictlyCopositive(scale.asDiagonal() * F * scale.asDiagonal())) {
+      found.verdict = Verdict::kStable;
+      found.directions = 0;
+      return found;
+    }
+  }
+  if (resting_ > 0) return found;
+  const Eigen::MatrixXd H =
+      scale.asDiagonal() * (H_ - share * w_of_load_ * load_of_slips_.transpose()) * scale.asDiagonal();
+  const std::vector<GrowingSlip> growing = GrowingSlips(H);
+  const std::optional<int> degree = ComplementarityDegree(H);
+  // Where H is singular along slips that are possible, they set out with the rate 0.
+  const bool level = !degree && !growing.empty();
+  if (!level && (!degree || sign * *degree == 1) && !(n0 > 0 && slips_.size() == 1)) return found;
+  found.verdict = Verdict::kUnstable;
+  if (const std::optional<int> count = CountGrowing(H, growing)) found.directions = static_cast<int>(n0) + *count;
+  if (found.directions == 0) found.directions = -1;
+  if (!growing.empty()) {
+    const auto fastest = std::max_element(growing.begin(), growing.end(),
+                                          [](const auto& a, const auto& b) { return a.rate < b.rate; });
+    const Eigen::VectorXd z = scale.asDiagonal() * fastest->z;
+    found.direction = Normalised(motions_ * z - (dead ? 0.0 : share * load_of_slips_.dot(z)) * by_load_);
+  } else if (n0 > 0) {
+    fill();
+  }
+  return found;
+}
+
+}  // namespace contact_path
