@@ -1,6 +1,5 @@
 #include "contact_path/stability/stability_problem.h"
 
-#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -132,76 +131,26 @@ void StabilityProblem::BuildSaddle(const Eigen::SparseMatrix<double>& transposed
   saddle_.setFromTriplets(entries.begin(), entries.end());
 }
 
-bool StabilityProblem::NormalComponents(Eigen::MatrixXd* components) const {
-  const auto count = static_cast<Eigen::Index>(slips_.size());
-  const Eigen::Index nd = structure_.NumDofs();
-  const Eigen::SparseMatrix<double> gram = forces_.transpose() * forces_;
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(gram);
-  if (solver.info() != Eigen::Success ||
-      !(solver.vectorD().minCoeff() > tolerances::kDependent * solver.vectorD().maxCoeff()))
-    return false;
-  Eigen::MatrixXd of_normals = Eigen::MatrixXd::Zero(gram.rows(), count);
-  for (Eigen::Index k = 0; k < count; ++k) of_normals(slips_[static_cast<std::size_t>(k)].normal - nd, k) = 1.0;
-  const Eigen::MatrixXd inverse = solver.solve(of_normals);
-  *components = forces_ * inverse;
-  // The same form for K = I, of equal masses: where normals and tangents are not orthogonal, they have a part in it.
-  Eigen::MatrixXd of_tangents = Eigen::MatrixXd::Zero(gram.rows(), count);
-  for (Eigen::Index k = 0; k < count; ++k) {
-    const Slip& slip = slips_[static_cast<std::size_t>(k)];
-    of_tangents(slip.tangent - nd, k) = slip.sense;
-  }
-  const Eigen::MatrixXd by_tangents = solver.solve(of_tangents);
-  Eigen::MatrixXd masses(count, count);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const Slip& slip = slips_[static_cast<std::size_t>(i)];
-    masses.row(i) =
-        slip.sense * by_tangents.row(slip.tangent - nd) + slip.friction * by_tangents.row(slip.normal - nd);
-  }
-  return IsStrictlyCopositive(masses);
-}
-
 bool StabilityProblem::Condense(const Eigen::SparseMatrix<double>& transposed) {
   const Eigen::Index nd = structure_.NumDofs(), size = saddle_.rows();
   const auto count = static_cast<Eigen::Index>(slips_.size());
   const Eigen::VectorXd& f = structure_.ReferenceLoad();
-  Eigen::MatrixXd components;
-  certified_ = count == 0 || NormalComponents(&components);
 
-  // By the load, by unit slips, and by the forces of unit normal motions.
-  Eigen::MatrixXd solutions = Eigen::MatrixXd::Zero(size, 1 + (certified_ ? 2 : 1) * count);
+  Eigen::MatrixXd solutions = Eigen::MatrixXd::Zero(size, 1 + count);  // by the load, and by unit slips
   solutions.col(0).head(nd) = f;
   for (Eigen::Index k = 0; k < count; ++k)
     solutions(slips_[static_cast<std::size_t>(k)].tangent, 1 + k) = -slips_[static_cast<std::size_t>(k)].sense;
-  Eigen::MatrixXd of_normals;
-  if (count > 0 && certified_) {
-    of_normals = stiffness_ * components;
-    solutions.block(0, 1 + count, nd, count) = of_normals;
-  }
   factors_.Solve(&solutions);
   if (!solutions.allFinite()) return false;
   by_load_ = solutions.col(0).head(nd);
   load_compliance_ = f.dot(by_load_);
   sign_ = negative_ % 2 == 0 ? 1 : -1;
+  H_.resize(count, count);
+  load_of_slips_.resize(count);
   if (count == 0 && symmetric_) return true;
 
   motions_ = solutions.block(0, 1, nd, count);
   load_of_slips_ = motions_.transpose() * f;
-  if (count > 0 && certified_) {
-    Eigen::MatrixXd along(count, count);
-    for (Eigen::Index i = 0; i < count; ++i)
-      along.row(i) = slips_[static_cast<std::size_t>(i)].sense *
-                     solutions.row(slips_[static_cast<std::size_t>(i)].tangent).segment(1, count);
-    Eigen::VectorXd friction(count);
-    for (Eigen::Index i = 0; i < count; ++i) friction[i] = slips_[static_cast<std::size_t>(i)].friction;
-    of_normals = of_normals * friction.asDiagonal();
-    R_ = of_normals.transpose() * solutions.block(0, 1 + count, nd, count) * friction.asDiagonal();
-    F_ = along + of_normals.transpose() * motions_;
-    h_of_load_ = of_normals.transpose() * by_load_;
-    // A load on the normal of a contact that slips would be a part of its reaction.
-    const Eigen::VectorXd on_normals = friction.asDiagonal() * (components.transpose() * f);
-    certified_loads_ = on_normals.size() == 0 || on_normals.cwiseAbs().maxCoeff() <= tolerances::kDependent * f.norm();
-  }
-
   if (!symmetric_) {
     ++factorisations_;
     if (!unsymmetric_.FactorizeRegular(transposed, Eigen::VectorXd::Unit(transposed.rows(), nd))) return false;
@@ -227,7 +176,6 @@ bool StabilityProblem::Condense(const Eigen::SparseMatrix<double>& transposed) {
     solutions.topRows(nd) = all.topRows(nd);
     solutions.bottomRows(size - nd) = all.bottomRows(all.rows() - nd - 1).topRows(size - nd);
   }
-  H_.resize(count, count);
   w_of_load_.resize(count);
   for (Eigen::Index i = 0; i < count; ++i) {
     const Slip& slip = slips_[static_cast<std::size_t>(i)];
@@ -277,8 +225,16 @@ Stability StabilityProblem::Under(double compliance) const {
     if (!held) found.direction = Normalised(null_);
     return found;
   }
-  const double machine = load_compliance_ + compliance;  // f . du per unit of Q - f . u
-  if (!dead && std::abs(machine) <= tolerances::kDependent * std::abs(load_compliance_)) return found;
+  // f . du per unit of Q - f . u. Where the loads act on what the contacts hold, a rigid machine is taken for a very
+  // stiff one.
+  double machine = load_compliance_ + compliance;
+  if (!dead) {
+    double flexible = std::abs(load_compliance_);
+    for (Eigen::Index i = 0; i < H_.rows(); ++i)
+      flexible = std::max(flexible, load_of_slips_[i] * load_of_slips_[i] / H_.cwiseAbs().maxCoeff());
+    if (flexible == 0.0) flexible = 1.0;
+    if (std::abs(machine) <= tolerances::kRootOfRounding * flexible) machine = tolerances::kRootOfRounding * flexible;
+  }
   const double share = dead ? 0.0 : 1.0 / machine;
   const Eigen::Index n0 = negative_ - (!dead && machine < 0.0 ? 1 : 0);
   const int sign = dead || machine > 0.0 ? sign_ : -sign_;
@@ -298,20 +254,16 @@ Stability StabilityProblem::Under(double compliance) const {
     return found;
   }
 
-  const Eigen::VectorXd scale = H_.diagonal().cwiseAbs().cwiseMax(H_.cwiseAbs().maxCoeff() * tolerances::kRootOfRounding)
-                                    .cwiseSqrt().cwiseInverse();
-  if (n0 == 0 && certified_ && (dead || certified_loads_)) {
-    const Eigen::MatrixXd F = F_ + share * (load_of_slips_ - h_of_load_) * load_of_slips_.transpose() -
-                              0.25 * (R_ - share * h_of_load_ * h_of_load_.transpose());
-    if (IsStrictlyCopositive(scale.asDiagonal() * F * scale.asDiagonal())) {
-      found.verdict = Verdict::kStable;
-      found.directions = 0;
-      return found;
-    }
-  }
+  const double least = H_.cwiseAbs().maxCoeff() * tolerances::kRootOfRounding;
+  const Eigen::VectorXd scale = H_.diagonal().cwiseAbs().cwiseMax(least).cwiseSqrt().cwiseInverse();
   if (resting_ > 0) return found;
   const Eigen::MatrixXd H =
       scale.asDiagonal() * (H_ - share * w_of_load_ * load_of_slips_.transpose()) * scale.asDiagonal();
+  if (n0 == 0 && IsStrictlyCopositive(H)) {
+    found.verdict = Verdict::kStable;
+    found.directions = 0;
+    return found;
+  }
   const std::vector<GrowingSlip> growing = GrowingSlips(H);
   const std::optional<int> degree = ComplementarityDegree(H);
   // Where H is singular along slips that are possible, they set out with the rate 0.

@@ -38,11 +38,9 @@ struct Stability {
 // Unstable, whatever M and C are: the degree of this problem at a = 0 is not 1, its degree for large a. The degree is
 // (-1)^n0 times that of H, n0: negative eigenvalues of K where S sticks. Without S and with at most one contact in Z
 // also where n0 is even, and not 0: one of the senses of a mode opens Z.
-// Stable, whatever M and C are: v . K v + sum of mu_i z_i p_i . K v > 0 for all v with z >= 0. p_i: v -> its component
-// along the normal of contact i, so that p_i . (K v) = rho_ni, M and C having no part in it where v_n = 0. Least over
-// what is not z the form is z . F z, F = sym H - mu R mu / 4, R_ij = p_i K Y (Y' K Y)^-1 Y' K p_j, Y: motions without
-// slip. The contacts Z do no work on v, and do not count here. Where the normals and tangents of several contacts are
-// not orthogonal, as between deformable bodies, the proof is for equal masses and drags of all nodes.
+// Stable, whatever masses and drags the nodes of the contacts S have, if all other nodes follow at once: sym H is
+// strictly copositive, since z . (a^2 M + a C + H) z = 0 for a growing motion, and n0 is 0. Contacts Z do no work on a
+// motion, and are left out where there are none in S. Masses of other nodes may let contacts go that H holds.
 class StabilityProblem {
  public:
   // Both must outlive the problem.
@@ -73,8 +71,6 @@ class StabilityProblem {
   void Classify(const PathPoint& point, const std::optional<ActiveSetTolerance>& weakly_active);
   void BuildSaddle(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& null_direction);
   bool Condense(const Eigen::SparseMatrix<double>& transposed);
-  // Columns p_i of the slips; false where they do not exist, as of contacts that depend on each other.
-  bool NormalComponents(Eigen::MatrixXd* components) const;
   // The motion whose energy falls, from the flexibility by loads and its inverse iterations.
   Eigen::VectorXd FallingMode() const;
   Eigen::VectorXd Normalised(const Eigen::VectorXd& du) const;
@@ -97,13 +93,10 @@ class StabilityProblem {
   double load_compliance_ = INFINITY;
   Eigen::VectorXd by_load_;    // du by a unit of s
   Eigen::MatrixXd motions_;    // by unit slips, columns
-  Eigen::MatrixXd H_, F_, R_;
+  Eigen::MatrixXd H_;
   Eigen::VectorXd w_of_load_;  // of by_load_
   Eigen::VectorXd load_of_slips_;  // f . motions
   Eigen::VectorXd null_;           // du, where singular_
-  bool certified_ = false;        // F tells about stability under dead loads
-  bool certified_loads_ = false;  // and under a machine
-  Eigen::VectorXd h_of_load_;      // mu_i p_i . K by_load
   int factorisations_ = 0;
 };
 
