@@ -205,7 +205,7 @@ TEST(Jump, ReportsHowFarSomethingFliesOff) {
   Scene scene;
   scene.name = "tear";
   scene.nodes = {{"wall", 0.0, 0.0, true, true}, {"end", 1.0, 0.0, false, false}};
-  scene.bars = {{{"wall", "end"}, 1.0, 0.0, StrainMeasure::kHencky}};
+  scene.bars = {{{"wall", "end"}, 1.0, 0.0, StrainMeasure::kLogarithmic}};
   scene.loads = {{"end", 1.0, 0.0, false}};
   const Model model(scene, CharacteristicScales(scene));
   PathPoint from = model.InitialPoint();
@@ -242,8 +242,8 @@ void ExpectLandings(const std::string& name, int most) {
     const Increment& limit = path.increments[i];
     if (limit.kind != IncrementKind::kSmoothLimit && limit.kind != IncrementKind::kCornerLimit) continue;
     const std::size_t stage = static_cast<std::size_t>(std::max(limit.stage, 1) - 1);
-    const Model model(StageScene(expanded.get(), stage), StageConfiguration(expanded.get(), stage),
-                      StageScales(expanded.get(), stage));
+    const Model model(StageScene(expanded.Get(), stage), StageConfiguration(expanded.Get(), stage),
+                      StageScales(expanded.Get(), stage));
     const PathPoint from = model.FromIncrement(limit), next = model.FromIncrement(path.increments[i + 1]);
     if (std::abs(next.s) > std::abs(from.s) || limit.stage != path.increments[i + 1].stage) continue;
     ++jumps;
