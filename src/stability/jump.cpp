@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "contact_path/branch/smooth_arc.h"
+#include "contact_path/linear/generic_vector.h"
 #include "contact_path/tolerances.h"
 #include "stability/motion_step.h"
 
@@ -37,6 +38,7 @@ constexpr double kMostGrowth = 2.0, kSlowGrowth = 1.25;
 constexpr double kSettles = 0.5;
 // First step: drag is so many times the stiffness, so that each contact alone decides on its state.
 constexpr double kFirstDrag = 10.0;
+constexpr double kOverStride = 1.5;   // a step that is longer than it should be by less is not made again
 constexpr int kMostShortenings = 12;  // of a step for its quality; kinks of the motion stay
 constexpr int kEasyIterations = 6;    // of Newton's method in a step that may become longer
 constexpr int kEasyRounds = 2;        // of the active set
@@ -86,6 +88,12 @@ Eigen::VectorXd StiffnessOfNodes(const Structure& structure, const Eigen::Vector
   return share;
 }
 
+Eigen::VectorXd DefaultPush(const Structure& structure, double s) {
+  if (!structure.ReferenceLoad().isZero(0.0)) return (s < 0.0 ? -1.0 : 1.0) * structure.ReferenceLoad();
+  if (!structure.ConstantLoad().isZero(0.0)) return structure.ConstantLoad();
+  return GenericVector(structure.NumDofs());
+}
+
 // M u'' + C u' resist the motion. By unknown; supports move as they are driven.
 struct Resistance {
   Eigen::VectorXd mass, drag;
@@ -109,6 +117,10 @@ class WorkAlong {
       : model_(model), slopes_(model.contacts.size(), 0.0), driving_(model.structure, model.contacts) {}
 
   void Add(const PathPoint& from, const MotionStep& step) {
+    const bool impact =
+        std::any_of(step.closed_after.begin(), step.closed_after.end(), [](double share) { return share > 0.0; });
+    end_alone_ = impact || after_impact_;
+    after_impact_ = impact;
     for (std::size_t i = 0; i < model_.contacts.size(); ++i)
       if (model_.contacts[i]->Frictional()) friction_ += OfContact(i, from, step);
     const PathPoint& to = step.point;
@@ -132,7 +144,8 @@ class WorkAlong {
     const bool touched = from.states[i] != ContactState::kOpen;
     if (Slips(to.states[i])) {
       const double length = std::abs(slip()) * (1.0 - step.closed_after[i]);
-      const double after = pair.Friction() * to.rn[k], before = touched ? pair.Friction() * from.rn[k] : after;
+      const double after = pair.Friction() * to.rn[k],
+                   before = touched && !end_alone_ ? pair.Friction() * from.rn[k] : after;
       slopes_[i] = length > 0.0 ? (before - after) / length : 0.0;
       return 0.5 * (before + after) * length;
     }
@@ -151,6 +164,8 @@ class WorkAlong {
   const Model& model_;
   std::vector<double> slopes_;  // by candidate: how its friction force has fallen with its slip
   FixedStateSystem driving_;
+  // Reactions of a step in which a contact closes are of an impact: they hold in this step alone.
+  bool after_impact_ = false, end_alone_ = false;
   double friction_ = 0.0, loads_ = 0.0;
 };
 
@@ -160,6 +175,7 @@ struct Course {
   double followed = 0.0;  // largest distance from the start
   double length = 0.0;    // of the way, by the largest unknown of each step
   double norm = 0.0;      // of the way, by the Euclidean norm
+  Eigen::VectorXd left;   // motion (u) with which it has left the start for good; empty where it has not
   bool came_back = false;
   bool cancelled = false;
 };
@@ -184,25 +200,29 @@ class Jumper {
     const double size = Largest(push);
     if (!(size > 0.0)) return result;
     Eigen::VectorXd disturbance = kPush * extent_ / size * push;
-    Course course = FollowFinely(disturbance);
-    if (course.came_back) {
-      disturbance = -disturbance;
-      course = FollowFinely(disturbance);
-    }
+    const Course course = FollowFinely(&disturbance);
     result.cancelled = course.cancelled;
     result.came_back = course.came_back;
     result.followed = course.followed;
     result.landing = result.landings[0] = course.landing;
-    if (course.landing) Compare(course, disturbance, &result);
+    if (course.landing) Compare(course, &result);
     return result;
   }
 
  private:
+  // With the disturbance, or where the structure comes back against it: then it has the other sign.
+  Course FollowEither(const Resistance& resistance, Eigen::VectorXd* disturbance, double stride) {
+    const Course course = Follow(resistance, *disturbance, stride);
+    if (!course.came_back) return course;
+    *disturbance = -*disturbance;
+    return Follow(resistance, *disturbance, stride);
+  }
+
   // By uniform drag, with as many steps as the way of the jump wants.
-  Course FollowFinely(const Eigen::VectorXd& disturbance) {
+  Course FollowFinely(Eigen::VectorXd* disturbance) {
     const Resistance uniform = {0.0 * moved_, moved_};
     for (stride_ = kStride * extent_;;) {
-      Course course = Follow(uniform, disturbance, stride_);
+      const Course course = FollowEither(uniform, disturbance, stride_);
       const double wanted = course.length / kLeastSteps;
       if (!course.landing || wanted >= 0.99 * stride_) return course;
       stride_ = wanted;
@@ -210,14 +230,17 @@ class Jumper {
   }
 
   // Adds the other drags.
-  void Compare(const Course& uniform, const Eigen::VectorXd& disturbance, JumpResult* result) {
+  void Compare(const Course& uniform, JumpResult* result) {
+    const Eigen::VectorXd disturbance = kPush * extent_ / Largest(uniform.left) * uniform.left;
+    Eigen::VectorXd either = disturbance;
     const Eigen::VectorXd by_stiffness = moved_.cwiseProduct(StiffnessOfNodes(model_.structure, diagonal_));
-    result->landings[1] = Follow({0.0 * moved_, by_stiffness}, disturbance, stride_).landing;
+    result->landings[1] = FollowEither({0.0 * moved_, by_stiffness}, &either, stride_).landing;
     // The slowest motion: the energy released, as kinetic energy of a swing over half the way.
     const double released = std::max(0.0, uniform.landing->energy_released());
+    either = disturbance;
     const double rate = 2.0 * std::sqrt(2.0 * released) / uniform.norm;
     result->landings[2] =
-        Follow({moved_, 2.0 * kLightDrag * rate * moved_}, disturbance, uniform.length / kLeastStepsOfSwing).landing;
+        FollowEither({moved_, 2.0 * kLightDrag * rate * moved_}, &either, uniform.length / kLeastStepsOfSwing).landing;
     result->robust = true;
     for (const std::optional<Landing>& a : result->landings) {
       result->robust = result->robust && a.has_value();
@@ -225,8 +248,10 @@ class Jumper {
         if (a && b) result->largest_difference = std::max(result->largest_difference, Largest(a->point.u - b->point.u));
     }
     result->robust = result->robust && result->largest_difference <= kSameLanding * extent_;
-    if (cancelled_ && cancelled_()) result->cancelled = true;
+    result->cancelled = Cancelled();
   }
+
+  bool Cancelled() const { return cancelled_ && cancelled_(); }
 
   // The time of the first step.
   double FirstTime(const Resistance& resistance) const {
@@ -238,67 +263,112 @@ class Jumper {
     return resistance.HasMass() ? 1.0 / std::sqrt(largest) : 1.0 / largest;
   }
 
+  // One motion on its way.
+  struct Motion {
+    const Resistance& resistance;
+    const Eigen::VectorXd& disturbance;
+    double stride;  // largest motion of a step within the extent of the structure
+    PathPoint now;
+    Eigen::VectorXd velocity;
+    WorkAlong work;
+    double time = 0.0;  // of the next step
+    bool pushed = false;
+    int shortened = 0;  // how often the next step was, for its quality
+    // Of the last step, and the largest so far. A push moves the structure from rest to rest.
+    double speed = 0.0, most_kinetic = 0.0, fastest = 0.0;
+    double growth = 0.0;  // of the speed, from the step before
+    Course course = {};
+
+    bool Swings() const { return resistance.HasMass(); }
+    double Nearby() const { return kBack * Largest(disturbance); }
+    // Swings slow down and speed up; only on its way from the start does a motion that is too long a step look so.
+    bool IsEarly() const { return !Swings() || course.followed < stride; }
+  };
+
   Course Follow(const Resistance& resistance, const Eigen::VectorXd& disturbance, double stride) {
-    Course course;
-    WorkAlong work(model_);
-    const bool swings = resistance.HasMass();
+    Motion motion{resistance, disturbance, stride, start_, 0.0 * start_.u, WorkAlong(model_)};
     const double first = FirstTime(resistance);
     // A drag below the rounding of the stiffness lets everything come to rest.
     const double longest = first / tolerances::kUnitComponent, shortest = first * tolerances::kRootOfRounding;
-    PathPoint now = start_;
-    Eigen::VectorXd velocity = Eigen::VectorXd::Zero(now.u.size());
-    double h = first, speed = 0.0, most_kinetic = 0.0, fastest = 0.0;
-    for (int count = 0, shortened = 0; count < kMostSteps; ++count) {
-      if (cancelled_ && cancelled_()) {
-        course.cancelled = true;
-        return course;
-      }
-      Eigen::VectorXd anchor = resistance.Anchor(h, now.u, velocity);
-      if (now.u == start_.u && course.length == 0.0) anchor += disturbance;
-      const std::optional<MotionStep> step = solver_.Solve(now, resistance.Diagonal(h), anchor);
-      if (!step) {
-        h *= 0.25;
-        if (h < shortest) return course;
+    motion.time = first;
+    Course& course = motion.course;
+    for (int count = 0; count < kMostSteps; ++count) {
+      course.cancelled = Cancelled();
+      if (course.cancelled) break;
+      const std::optional<MotionStep> step = Try(motion);
+      if (!step || IsTooLong(motion, *step)) {
+        motion.time *= step ? 0.5 : 0.25;
+        motion.shortened += step ? 1 : 0;
+        if (motion.time < shortest) break;
         continue;
       }
-      const Eigen::VectorXd du = step->point.u - now.u;
-      const double motion = Largest(du), speed_now = du.norm() / h;
-      const double admitted = std::max(stride, kStride * (course.followed - extent_));
-      const bool early = !swings || course.followed < stride;
-      const bool grows = early && speed > 0.0 && speed_now > kMostGrowth * speed && !step->changed;
-      if ((motion > 1.5 * admitted || grows) && shortened < kMostShortenings) {
-        h *= 0.5;
-        ++shortened;
-        continue;
-      }
-      work.Add(now, *step);
-      course.length += motion;
-      course.norm += du.norm();
-      now = step->point;
-      course.followed = std::max(course.followed, Largest(now.u - start_.u));
-      if (course.followed > kFar * extent_) return course;
-      const double kinetic = swings ? 0.5 * speed_now * speed_now : 0.0;
-      most_kinetic = std::max(most_kinetic, kinetic);
-      const double distance = Largest(now.u - start_.u), nearby = kBack * Largest(disturbance);
-      const bool settles = swings ? kinetic <= kAtRest * most_kinetic : speed_now <= kSettles * speed;
-      if (settles && !step->changed && motion <= admitted && distance > nearby) {
-        course.landing = Land(now, stride, work);
-        if (course.landing) return course;
-      }
-      if (h > longest) {
-        course.came_back = distance <= nearby;
-        return course;
-      }
-      if (swings) velocity = du / h;
-      fastest = std::max(fastest, motion / h);
-      const bool easy = shortened == 0 && step->iterations <= kEasyIterations && step->rounds <= kEasyRounds &&
-                        motion < 0.5 * admitted && (!early || speed == 0.0 || speed_now <= kSlowGrowth * speed);
-      if (easy) h *= 2.0;
-      if (swings && fastest > 0.0) h = std::min(h, stride / fastest);
-      speed = speed_now;
-      shortened = 0;
+      const double length = Largest(step->point.u - motion.now.u);
+      const bool settles = Accept(*step, &motion) && length <= Admitted(motion);
+      const double distance = Largest(motion.now.u - start_.u);
+      if (course.followed > kFar * extent_) break;
+      if (course.left.size() == 0 && distance > motion.Nearby()) course.left = motion.now.u - start_.u;
+      if (settles && distance > motion.Nearby()) course.landing = Land(motion.now, stride, motion.work);
+      if (course.landing) break;
+      course.came_back = motion.time > longest && distance <= motion.Nearby();
+      if (motion.time > longest) break;
+      ChooseTime(*step, length, &motion);
     }
     return course;
+  }
+
+  std::optional<MotionStep> Try(const Motion& motion) {
+    Eigen::VectorXd anchor = motion.resistance.Anchor(motion.time, motion.now.u, motion.velocity);
+    if (!motion.pushed) anchor += motion.disturbance;
+    return solver_.Solve(motion.now, motion.resistance.Diagonal(motion.time), anchor);
+  }
+
+  // Largest motion of a step: beyond the structure it grows with the way.
+  double Admitted(const Motion& motion) const {
+    return std::max(motion.stride, kStride * (motion.course.followed - extent_));
+  }
+
+  bool IsTooLong(const Motion& motion, const MotionStep& step) {
+    if (motion.shortened >= kMostShortenings) return false;
+    if (step.determinant_sign * SignOfDrag(step.point) < 0) return true;
+    const Eigen::VectorXd du = step.point.u - motion.now.u;
+    if (Largest(du) > kOverStride * Admitted(motion)) return true;
+    return motion.IsEarly() && motion.speed > 0.0 && !step.changed &&
+           du.norm() / motion.time > kMostGrowth * motion.speed;
+  }
+
+  // Goes to the end of the step. Whether the motion comes to rest, in states that stay.
+  bool Accept(const MotionStep& step, Motion* motion) const {
+    const Eigen::VectorXd du = step.point.u - motion->now.u;
+    const double speed = du.norm() / motion->time;
+    motion->work.Add(motion->now, step);
+    motion->course.length += Largest(du);
+    motion->course.norm += du.norm();
+    motion->now = step.point;
+    motion->course.followed = std::max(motion->course.followed, Largest(step.point.u - start_.u));
+    if (!motion->pushed) {
+      motion->pushed = true;
+      return false;
+    }
+    bool settles = speed <= kSettles * motion->speed;
+    if (motion->Swings()) {
+      motion->velocity = du / motion->time;
+      motion->fastest = std::max(motion->fastest, Largest(motion->velocity));
+      const double kinetic = 0.5 * speed * speed;
+      motion->most_kinetic = std::max(motion->most_kinetic, kinetic);
+      settles = kinetic <= kAtRest * motion->most_kinetic;
+    }
+    motion->growth = motion->speed > 0.0 ? speed / motion->speed : 0.0;
+    motion->speed = speed;
+    return settles && !step.changed;
+  }
+
+  // The time of the step after this one of the given length.
+  void ChooseTime(const MotionStep& step, double length, Motion* motion) const {
+    const bool easy = motion->shortened == 0 && step.iterations <= kEasyIterations && step.rounds <= kEasyRounds;
+    const bool slow = !motion->IsEarly() || motion->growth <= kSlowGrowth;
+    if (easy && slow && length < 0.5 * Admitted(*motion)) motion->time *= 2.0;
+    if (motion->fastest > 0.0) motion->time = std::min(motion->time, motion->stride / motion->fastest);
+    motion->shortened = 0;
   }
 
   // The equilibrium at a point where the motion comes to rest: the step of infinite time, with the states that there
@@ -316,9 +386,8 @@ class Jumper {
     MotionStep last = *step;
     last.point = system.Unpack(correction.x);
     if (!(model_.Check(last.point, last.point).Largest() <= tolerances::kAccepted)) return std::nullopt;
-    const double stiff = kFirstDrag / tolerances::kRootOfRounding * std::max(1.0, diagonal_.maxCoeff());
     const int sign = solver_.DeterminantSign(last.point, 0.0 * moved_);
-    if (sign != 0 && sign == -solver_.DeterminantSign(last.point, stiff * moved_)) return std::nullopt;
+    if (sign * SignOfDrag(last.point) < 0) return std::nullopt;
     work.Add(at, last);
     Landing landing;
     landing.point = last.point;
@@ -326,6 +395,18 @@ class Jumper {
     landing.loads = work.loads();
     landing.stored = model_.structure.Energy(last.point.u) - model_.structure.Energy(start_.u);
     return landing;
+  }
+
+  // Sign of the determinant with so much drag that nothing drives away from the point. A step by implicit Euler from
+  // which the same drag drives the structure has the same sign; where it has the other one it is so long that growth is
+  // taken for decay.
+  int SignOfDrag(const PathPoint& point) {
+    if (point.states != states_of_sign_) {
+      const double stiff = kFirstDrag / tolerances::kRootOfRounding * std::max(1.0, diagonal_.maxCoeff());
+      sign_ = solver_.DeterminantSign(point, stiff * moved_);
+      states_of_sign_ = point.states;
+    }
+    return sign_;
   }
 
   bool InequalitiesHold(const Eigen::VectorXd& x) const {
@@ -345,15 +426,15 @@ class Jumper {
   Eigen::VectorXd moved_;           // 1, and 0 for components of supports
   const std::function<bool()>& cancelled_;
   double stride_ = 0.0;
+  std::vector<ContactState> states_of_sign_;  // for which sign_ is known
+  int sign_ = 0;
 };
 
 }  // namespace
 
 JumpResult Jump(const Model& model, const PathPoint& from, const Eigen::VectorXd& push, const Device& device,
                 const std::function<bool()>& cancelled) {
-  const Structure& structure = model.structure;
-  const Eigen::VectorXd along =
-      push.size() > 0 ? push : Eigen::VectorXd(from.s * structure.ReferenceLoad() + structure.ConstantLoad());
+  const Eigen::VectorXd along = push.size() > 0 ? push : DefaultPush(model.structure, from.s);
   return Jumper(model, from, device.stiffness, cancelled).Run(along);
 }
 

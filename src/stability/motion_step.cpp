@@ -12,8 +12,8 @@
 namespace contact_path {
 namespace {
 
-constexpr int kMostRounds = 40;        // of the active set: what takes more is done by shorter steps
-constexpr int kRoundsTogether = 6;     // contacts change their states together, from then on one by one
+constexpr int kMostRounds = 40;     // of the active set: what takes more is done by shorter steps
+constexpr int kRoundsTogether = 6;  // contacts change their states together, from then on one by one
 
 // Of a contact that has been on `patch`.
 int PatchOfOpen(const ContactPair& pair, int patch) { return pair.HasPatches() ? kNearestPatch : patch; }
@@ -70,6 +70,7 @@ std::optional<MotionStep> MotionStepSolver::Solve(const PathPoint& from, const E
     std::vector<Change> changes = Changes(x);
     if (changes.empty()) {
       step.point = system_.Unpack(x);
+      step.determinant_sign = solver_.DeterminantSign();
       step.changed = step.point.states != from.states;
       return step;
     }
@@ -148,8 +149,8 @@ MotionStepSolver::Change MotionStepSolver::Next(const Constraint& violated, doub
 }
 
 bool MotionStepSolver::Factorize(const Eigen::VectorXd& x, const Eigen::VectorXd& drag, const Eigen::VectorXd& row) {
-  jacobian_ = model_.structure.Mixed() ? system_.MixedJacobian(x, strains_from_, strains_to_)
-                                       : system_.TransposedJacobian(x);
+  jacobian_ =
+      model_.structure.Mixed() ? system_.MixedJacobian(x, strains_from_, strains_to_) : system_.TransposedJacobian(x);
   for (Eigen::Index i = 0; i < drag.size(); ++i) jacobian_.coeffRef(i, i) += drag[i];
   return solver_.Factorize(jacobian_, row, system_.InFrame());
 }

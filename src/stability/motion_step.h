@@ -26,10 +26,11 @@ struct DeviceEquation {
 };
 
 struct MotionStep {
-  PathPoint point;      // the end
-  int iterations = 0;   // of Newton's method, with the last states
-  int rounds = 0;       // of the active set
-  bool changed = false;  // other states than at the start
+  PathPoint point;           // the end
+  int iterations = 0;        // of Newton's method, with the last states
+  int rounds = 0;            // of the active set
+  bool changed = false;      // other states than at the start
+  int determinant_sign = 0;  // of the equations of the step; 0 where they are singular
   // By candidate: the share of the step after which it touches, where it closes; else 0.
   std::vector<double> closed_after;
 };

@@ -2,10 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
-#include <vector>
 
 #include "contact_path/branch/smooth_arc.h"
 #include "contact_path/scene/expand.h"
@@ -92,7 +93,8 @@ const double kLimit = 2.0 * kC * std::pow(kHeight, 3) / (3.0 * std::sqrt(3.0));
 Scene VonMises() {
   Scene scene;
   scene.name = "von_mises";
-  scene.nodes = {{"left", -1.0, 0.0, true, true}, {"apex", 0.0, kHeight, false, false}, {"right", 1.0, 0.0, true, true}};
+  scene.nodes = {
+      {"left", -1.0, 0.0, true, true}, {"apex", 0.0, kHeight, false, false}, {"right", 1.0, 0.0, true, true}};
   scene.bars = {{{"left", "apex"}, 1.0, 0.0, StrainMeasure::kGreenLagrange},
                 {{"apex", "right"}, 1.0, 0.0, StrainMeasure::kGreenLagrange}};
   scene.loads = {{"apex", 0.0, -1.0, false}};
@@ -147,8 +149,9 @@ TEST_F(Snap, ASoftMachineDrivesIt) {
 
 // ----- the truss lies on its side on a rough floor, pressed onto it by the constant load N
 
-// The apex moves along x from h. It slides where s - mu N = -W'(x), so that the limit is mu N above that of the truss.
-JumpResult SnapOnFloor(double friction_force, Model const& model) {
+// The apex moves along x from h, with the friction force mu N = `friction_force` and mu = 0.5. It slides where s - mu N
+// = -W'(x): the limit is mu N above that of the truss.
+JumpResult SnapOnFloor(double friction_force, const Model& model) {
   PathPoint from = model.InitialPoint();
   from.u = Eigen::Vector2d(kLimitY, 0.0) / model.scaling.length;
   from.s = (kLimit + friction_force) / model.scaling.load_factor;
@@ -180,8 +183,8 @@ TEST(SnapOnAFloor, WithInertiaItStopsBeyond) {
   const Model model(scene, CharacteristicScales(scene));
   const JumpResult jump = SnapOnFloor(friction_force, model);
   EXPECT_FALSE(jump.robust);
-  for (const std::size_t drag : {0, 1}) {
-    const std::optional<Landing>& landing = jump.landings[drag];
+  for (const Drag drag : {Drag::kUniform, Drag::kStiffness}) {
+    const std::optional<Landing>& landing = jump.landings[static_cast<std::size_t>(drag)];
     ASSERT_TRUE(landing);
     EXPECT_NEAR(landing->point.u.x() * model.scaling.length, -2.0 * kLimitY, 1e-9);
     EXPECT_NEAR(landing->friction * model.scaling.force * model.scaling.length, friction_force * 3.0 * kLimitY, 1e-9);
@@ -194,8 +197,6 @@ TEST(SnapOnAFloor, WithInertiaItStopsBeyond) {
   EXPECT_GT(x, -std::sqrt(3.0) * kHeight);
   EXPECT_EQ(jump.landings[2]->point.states[0], ContactState::kStick);
   EXPECT_NEAR(jump.largest_difference * model.scaling.length, -2.0 * kLimitY - x, 1e-9);
-  std::cout << "inertia stops at " << x << " released "
-            << jump.landings[2]->energy_released() * model.scaling.force * model.scaling.length << "\n";
 }
 
 // ----- nothing to land on
@@ -232,46 +233,49 @@ TEST(Jump, CanBeCancelled) {
 
 // ----- limit points of examples
 
-// Jumps from each limit point of the traced path, under dead loads, towards where the path goes on.
+// Newton's method stays at an equilibrium that is one to rounding.
+void ExpectEquilibrium(const Model& model, const PathPoint& point) {
+  EXPECT_LE(model.Check(point, point).Largest(), tolerances::kAccepted);
+  SmoothArc arc(model.structure, model.contacts);
+  arc.SetStates(point.states, point);
+  const Eigen::VectorXd at = arc.system().Pack(point);
+  const Correction again = arc.Correct(at, Eigen::VectorXd::Unit(at.size(), arc.NumMotion() - 1), point.s);
+  EXPECT_TRUE(again.converged);
+  EXPECT_LE((again.x - at).norm(), 1e-9);
+}
+
+// Jumps under dead loads from the first limit points of the traced path, towards where the path goes on.
 void ExpectLandings(const std::string& name, int most) {
   const TraceRequest request = ReadExample(name);
   const TracedPath path = TraceIncrements(request);
   const ExpandedRequest expanded(request);
   int jumps = 0;
   for (std::size_t i = 0; i + 1 < path.increments.size() && jumps < most; ++i) {
-    const Increment& limit = path.increments[i];
+    const Increment &limit = path.increments[i], &after = path.increments[i + 1];
     if (limit.kind != IncrementKind::kSmoothLimit && limit.kind != IncrementKind::kCornerLimit) continue;
-    const std::size_t stage = static_cast<std::size_t>(std::max(limit.stage, 1) - 1);
+    if (std::abs(after.load_factor) > std::abs(limit.load_factor) || limit.stage != after.stage) continue;
+    SCOPED_TRACE(name + ", increment " + std::to_string(i));
+    const auto stage = static_cast<std::size_t>(std::max(limit.stage, 1) - 1);
     const Model model(StageScene(expanded.Get(), stage), StageConfiguration(expanded.Get(), stage),
                       StageScales(expanded.Get(), stage));
-    const PathPoint from = model.FromIncrement(limit), next = model.FromIncrement(path.increments[i + 1]);
-    if (std::abs(next.s) > std::abs(from.s) || limit.stage != path.increments[i + 1].stage) continue;
+    const PathPoint from = model.FromIncrement(limit);
+    const JumpResult jump = Jump(model, from, model.FromIncrement(after).u - from.u, {}, nullptr);
     ++jumps;
-    const JumpResult jump = Jump(model, from, next.u - from.u, {}, nullptr);
-    SCOPED_TRACE(name + ", increment " + std::to_string(i));
-    EXPECT_TRUE(jump.landing) << "followed " << jump.followed << " came back " << jump.came_back;
-    if (!jump.landing) continue;
-    const PathPoint& to = jump.landing->point;
-    EXPECT_LE(model.Check(to, to).Largest(), tolerances::kAccepted);
-    EXPECT_EQ(to.s, from.s);
-    EXPECT_GT(jump.landing->energy_released(), 0.0);
-    EXPECT_GE(jump.landing->friction, 0.0);
-    SmoothArc arc(model.structure, model.contacts);
-    arc.SetStates(to.states, to);
-    const Eigen::VectorXd at = arc.system().Pack(to);
-    const Correction again = arc.Correct(at, Eigen::VectorXd::Unit(at.size(), arc.NumMotion() - 1), to.s);
-    EXPECT_TRUE(again.converged);
-    EXPECT_LE((again.x - at).norm(), 1e-9);
-    std::cout << name << " " << i << ": moved " << (to.u - from.u).lpNorm<Eigen::Infinity>() << " released "
-              << jump.landing->energy_released() << " friction " << jump.landing->friction << " robust " << jump.robust
-              << " differs " << jump.largest_difference << "\n";
+    EXPECT_TRUE(jump.landing);
+    for (const std::optional<Landing>& landing : jump.landings) {
+      ASSERT_TRUE(landing);
+      ExpectEquilibrium(model, landing->point);
+      EXPECT_EQ(landing->point.s, from.s);
+      EXPECT_GT(landing->energy_released(), 0.0);
+      EXPECT_GT(landing->friction, 0.0);
+    }
   }
   EXPECT_GT(jumps, 0);
 }
 
 TEST(JumpOfAnExample, SnapHook) { ExpectLandings("snap_hook", 10); }
 TEST(JumpOfAnExample, RoughArch) { ExpectLandings("rough_arch", 10); }
-TEST(JumpOfAnExample, RingOnRing) { ExpectLandings("ring_on_ring", 3); }
+TEST(JumpOfAnExample, RingOnRing) { ExpectLandings("ring_on_ring", 1); }
 
 }  // namespace
 }  // namespace contact_path

@@ -40,17 +40,17 @@ struct Landing {
 };
 
 struct JumpResult {
-  std::optional<Landing> landing;                            // by Drag::kUniform
-  std::array<std::optional<Landing>, kNumDrags> landings;    // by Drag; without a landing by kUniform, all are empty
-  bool robust = false;                                       // all three land on one equilibrium
-  double largest_difference = 0.0;  // of an unknown between any two landings that there are
-  double followed = 0.0;            // largest distance of an unknown from the start on the way by Drag::kUniform
-  bool came_back = false;           // pushed either way, the structure returns: it is held
+  std::optional<Landing> landing;                          // by Drag::kUniform
+  std::array<std::optional<Landing>, kNumDrags> landings;  // by Drag; without a landing by kUniform, all are empty
+  bool robust = false;                                     // all three land on one equilibrium
+  double largest_difference = 0.0;                         // of an unknown between any two landings that there are
+  double followed = 0.0;   // largest distance of an unknown from the start on the way by Drag::kUniform
+  bool came_back = false;  // pushed either way, the structure returns: it is held
   bool cancelled = false;
 };
 
 // push: the direction (u) in which the structure is disturbed, NumDofs(); its length does not matter. Both signs are
-// tried, + first. Empty: along the loads.
+// tried, + first. Empty: along the loads that s scales, or else the constant ones, or else generic.
 JumpResult Jump(const Model& model, const PathPoint& from, const Eigen::VectorXd& push, const Device& device,
                 const std::function<bool()>& cancelled);
 
