@@ -1,25 +1,59 @@
+// The motion of the structure from an equilibrium that is not held any more to the next equilibrium.
 #ifndef CONTACT_PATH_STABILITY_JUMP_H_
 #define CONTACT_PATH_STABILITY_JUMP_H_
+
 #include <Eigen/Core>
+#include <array>
+#include <cstddef>
 #include <functional>
 #include <optional>
-#include "contact_path/contact/contact_pair.h"
+
 #include "contact_path/contact/path_point.h"
-#include "contact_path/stability/device.h"
+#include "contact_path/path/model.h"
+
 namespace contact_path {
+
+// A machine that drives the displacement f . u of the loads: s = k (Q - f . u). Its setting Q stays during a jump.
+struct Device {
+  // k >= 0, in scaled quantities. 0: dead loads, s stays. Infinite: f . u stays. Where no load is scaled by s, as where
+  // supports or obstacles alone are moved, s stays whatever k is.
+  double stiffness = 0.0;
+};
+
+// What resists the motion. A node has one coefficient for all directions of its position, which makes velocities unique
+// for every friction coefficient.
+enum class Drag {
+  kUniform,    // C = 1 for every unknown
+  kStiffness,  // C = the largest diagonal stiffness of the node at the start, over the largest of all nodes
+  kInertia,    // mass 1 for every unknown, and light uniform drag
+};
+inline constexpr std::size_t kNumDrags = 3;
+
+// Scaled. The work of the loads is stored, taken by friction, and released: taken by drag.
 struct Landing {
-  PathPoint point;
-  double friction = 0.0, loads = 0.0, stored = 0.0;
+  PathPoint point;        // Newton's method has converged on the equations of equilibrium
+  double friction = 0.0;  // work against friction along the way [force length]; by the incremental law >= 0
+  double loads = 0.0;     // of all loads, constant and scaled, and of supports and obstacles that move with s
+  double stored = 0.0;    // strain energy gained
+
   double energy_released() const { return loads - friction - stored; }
 };
+
 struct JumpResult {
-  std::optional<Landing> landing;
-  bool robust = false;
-  double followed = 0.0;
-  bool came_back = false;
+  std::optional<Landing> landing;                          // by Drag::kUniform
+  std::array<std::optional<Landing>, kNumDrags> landings;  // by Drag; without a landing by kUniform, all are empty
+  bool robust = false;                                     // all three land on one equilibrium
+  double largest_difference = 0.0;                         // of an unknown between any two landings that there are
+  double followed = 0.0;   // largest distance of an unknown from the start on the way by Drag::kUniform
+  bool came_back = false;  // pushed either way, the structure returns: it is held
   bool cancelled = false;
 };
-inline JumpResult Jump(const Structure&, const ContactPairs&, const PathPoint&, const Eigen::VectorXd&, const Device&,
-                const std::function<bool()>&) { return {}; }
+
+// push: the direction (u) in which the structure is disturbed, NumDofs(); its length does not matter. Both signs are
+// tried, + first. Empty: along the loads that s scales, or else the constant ones, or else generic.
+JumpResult Jump(const Model& model, const PathPoint& from, const Eigen::VectorXd& push, const Device& device,
+                const std::function<bool()>& cancelled);
+
 }  // namespace contact_path
-#endif
+
+#endif  // CONTACT_PATH_STABILITY_JUMP_H_

@@ -1,0 +1,191 @@
+#include "stability/motion_step.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <utility>
+
+#include "contact_path/iterations.h"
+#include "contact_path/tolerances.h"
+
+namespace contact_path {
+namespace {
+
+constexpr int kMostRounds = 40;     // of the active set: what takes more is done by shorter steps
+constexpr int kRoundsTogether = 6;  // contacts change their states together, from then on one by one
+
+// Of a contact that has been on `patch`.
+int PatchOfOpen(const ContactPair& pair, int patch) { return pair.HasPatches() ? kNearestPatch : patch; }
+
+int PatchOfClosing(const ContactPair& pair, const Eigen::VectorXd& x, double s) {
+  const int patch = pair.PatchAt(x, s);
+  if (!pair.HasPatches() || pair.HasPatch(patch)) return patch;
+  return pair.HasPatch(patch + 1) ? patch + 1 : patch - 1;
+}
+
+}  // namespace
+
+DeviceEquation DeviceEquation::Of(const Structure& structure, double stiffness, const PathPoint& at) {
+  const Eigen::VectorXd& load = structure.ReferenceLoad();
+  const Eigen::Index nd = structure.NumDofs();
+  DeviceEquation device;
+  device.row = Eigen::VectorXd::Unit(nd + 1, nd);
+  const double size = load.norm();
+  if (size > 0.0 && stiffness > 0.0) {
+    // With the displacement in units in which f has norm 1, k becomes k |f|^2.
+    const double k = stiffness * size;
+    device.row[nd] = std::isinf(k) ? 0.0 : 1.0 / (1.0 + k);
+    device.row.head(nd) = (std::isinf(k) ? 1.0 : k / (1.0 + k)) / size * load;
+  }
+  device.value = device.row.head(nd).dot(at.u) + device.row[nd] * at.s;
+  return device;
+}
+
+Eigen::VectorXd DeviceEquation::Row(Eigen::Index unknowns) const {
+  Eigen::VectorXd of_all = Eigen::VectorXd::Zero(unknowns);
+  of_all.head(row.size()) = row;
+  return of_all;
+}
+
+MotionStepSolver::MotionStepSolver(const Model& model, const DeviceEquation& device)
+    : model_(model), device_(device), system_(model.structure, model.contacts) {}
+
+PathPoint MotionStepSolver::WithPatches(const PathPoint& point) {
+  system_.SetStates(point.states, SlipReferences(model_.contacts, point), point.patches);
+  return system_.Unpack(system_.Pack(point));
+}
+
+std::optional<MotionStep> MotionStepSolver::Solve(const PathPoint& from, const Eigen::VectorXd& drag,
+                                                  const Eigen::VectorXd& anchor) {
+  MotionStep step;
+  step.closed_after.assign(model_.contacts.size(), 0.0);
+  Eigen::VectorXd references = SlipReferences(model_.contacts, from);
+  PathPoint trial = from;
+  std::set<std::pair<std::vector<ContactState>, std::vector<int>>> tried;
+  for (; step.rounds < kMostRounds; ++step.rounds) {
+    system_.SetStates(trial.states, references, trial.patches);
+    Eigen::VectorXd x = system_.Pack(trial);
+    if (!Newton(drag, anchor, &x, &step.iterations)) return std::nullopt;
+    std::vector<Change> changes = Changes(x);
+    if (changes.empty()) {
+      step.point = system_.Unpack(x);
+      step.determinant_sign = solver_.DeterminantSign();
+      step.changed = step.point.states != from.states;
+      return step;
+    }
+    const bool again = !tried.emplace(trial.states, trial.patches).second;
+    if (again || step.rounds >= kRoundsTogether) {
+      std::iter_swap(changes.begin(),
+                     std::max_element(changes.begin(), changes.end(),
+                                      [](const Change& a, const Change& b) { return a.excess < b.excess; }));
+      changes.resize(1);
+    }
+    for (const Change& change : changes) {
+      NoteClosing(from, change, x, &references, &step);
+      trial.states[change.contact] = change.state;
+      if (!trial.patches.empty()) trial.patches[change.contact] = change.patch;
+    }
+  }
+  return std::nullopt;
+}
+
+void MotionStepSolver::NoteClosing(const PathPoint& from, const Change& change, const Eigen::VectorXd& x,
+                                   Eigen::VectorXd* references, MotionStep* step) const {
+  const std::size_t i = change.contact;
+  const bool closes = from.states[i] == ContactState::kOpen && change.state != ContactState::kOpen;
+  if (!closes || system_.states()[i] != ContactState::kOpen) return;
+  const ContactPair& pair = *model_.contacts[i];
+  const double s = x[system_.NumDofs()];
+  const double before = std::max(0.0, pair.Gap(from.u, from.s, change.patch)), after = pair.Gap(x, s, change.patch);
+  const double share = after < 0.0 ? before / (before - after) : 1.0;
+  step->closed_after[i] = share;
+  if (pair.HasTotalLaw()) return;
+  const double start = pair.Xi(from.u, from.s, change.patch);
+  (*references)[static_cast<Eigen::Index>(i)] = start + share * (pair.Xi(x, s, change.patch) - start);
+}
+
+std::vector<MotionStepSolver::Change> MotionStepSolver::Changes(const Eigen::VectorXd& x) const {
+  std::vector<Change> changes;
+  for (const Constraint& constraint : system_.Inequalities()) {
+    double tolerance = tolerances::kActive * system_.UnitOf(constraint);
+    if (!IsMotion(constraint.inequality)) tolerance *= system_.ResidualUnit();
+    const double excess = -system_.Value(constraint, x) / tolerance;
+    if (!(excess > 1.0)) continue;
+    const auto contact = static_cast<std::size_t>(constraint.contact);
+    // Of a contact the worst one alone.
+    if (!changes.empty() && changes.back().contact == contact) {
+      if (changes.back().excess >= excess) continue;
+      changes.pop_back();
+    }
+    changes.push_back(Next(constraint, excess, x));
+  }
+  return changes;
+}
+
+MotionStepSolver::Change MotionStepSolver::Next(const Constraint& violated, double excess,
+                                                const Eigen::VectorXd& x) const {
+  const auto i = static_cast<std::size_t>(violated.contact);
+  const ContactPair& pair = *model_.contacts[i];
+  const ContactState state = system_.states()[i];
+  const int patch = system_.patches()[i];
+  const auto on_patch = [&](int other) {
+    return pair.HasPatch(other) ? Change{i, state, other, excess}
+                                : Change{i, ContactState::kOpen, PatchOfOpen(pair, patch), excess};
+  };
+  switch (violated.inequality) {
+    case Inequality::kGap:
+      return {i, pair.Frictional() ? ContactState::kStick : ContactState::kClosed,
+              PatchOfClosing(pair, x, x[system_.NumDofs()]), excess};
+    case Inequality::kConePlus: return {i, ContactState::kSlipPlus, patch, excess};
+    case Inequality::kConeMinus: return {i, ContactState::kSlipMinus, patch, excess};
+    case Inequality::kSlip:
+    case Inequality::kTotalSlip: return {i, ContactState::kStick, patch, excess};
+    case Inequality::kPatchBegin: return on_patch(patch - 1);
+    case Inequality::kPatchEnd: return on_patch(patch + 1);
+    case Inequality::kNormalReaction: break;
+  }
+  return {i, ContactState::kOpen, PatchOfOpen(pair, patch), excess};
+}
+
+bool MotionStepSolver::Factorize(const Eigen::VectorXd& x, const Eigen::VectorXd& drag, const Eigen::VectorXd& row) {
+  jacobian_ =
+      model_.structure.Mixed() ? system_.MixedJacobian(x, strains_from_, strains_to_) : system_.TransposedJacobian(x);
+  for (Eigen::Index i = 0; i < drag.size(); ++i) jacobian_.coeffRef(i, i) += drag[i];
+  return solver_.Factorize(jacobian_, row, system_.InFrame());
+}
+
+bool MotionStepSolver::Newton(const Eigen::VectorXd& drag, const Eigen::VectorXd& anchor, Eigen::VectorXd* x,
+                              int* iterations) {
+  const Eigen::Index nd = system_.NumDofs();
+  const Eigen::VectorXd row = device_.Row(system_.NumUnknowns());
+  strains_from_ = strains_to_ = x->head(nd + 1);
+  bool factorise = true;
+  double previous = std::numeric_limits<double>::infinity();
+  for (*iterations = 1; *iterations <= kMostCorrections; ++*iterations) {
+    system_.Residual(*x, &residual_);
+    residual_.head(nd) += drag.cwiseProduct(x->head(nd) - anchor);
+    if (!residual_.allFinite() || (factorise && !Factorize(*x, drag, row))) return false;
+    residual_ = -residual_;
+    solver_.Solve(residual_, device_.value - row.dot(*x), &newton_step_);
+    const double norm = system_.Norm(newton_step_), scale = 1.0 + x->norm();
+    if (!std::isfinite(norm)) return false;
+    strains_from_ = x->head(nd + 1);
+    *x += newton_step_;
+    strains_to_ = x->head(nd + 1);
+    const bool stagnates = norm >= 0.5 * previous && norm <= tolerances::kStagnation * system_.ResidualUnit() * scale;
+    if (norm <= tolerances::kUnitComponent * scale || stagnates) return true;
+    factorise = norm > tolerances::kShort * scale;
+    previous = norm;
+  }
+  return false;
+}
+
+int MotionStepSolver::DeterminantSign(const PathPoint& point, const Eigen::VectorXd& drag) {
+  system_.SetStates(point.states, SlipReferences(model_.contacts, point), point.patches);
+  const Eigen::VectorXd x = system_.Pack(point);
+  strains_from_ = strains_to_ = x.head(system_.NumDofs() + 1);
+  return Factorize(x, drag, device_.Row(system_.NumUnknowns())) ? solver_.DeterminantSign() : 0;
+}
+
+}  // namespace contact_path

@@ -1,0 +1,81 @@
+// One step of the motion of the structure against drag, by implicit Euler.
+#ifndef CONTACT_PATH_SRC_STABILITY_MOTION_STEP_H_
+#define CONTACT_PATH_SRC_STABILITY_MOTION_STEP_H_
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <optional>
+#include <vector>
+
+#include "contact_path/contact/path_point.h"
+#include "contact_path/equations/fixed_state_system.h"
+#include "contact_path/linear/bordered_solver.h"
+#include "contact_path/path/model.h"
+
+namespace contact_path {
+
+// The equation that a machine with a fixed setting adds: row . (u, s) = value.
+struct DeviceEquation {
+  Eigen::VectorXd row;  // NumDofs() + 1
+  double value = 0.0;
+
+  // s = k (Q - f . u), with the Q that the machine has at a point.
+  static DeviceEquation Of(const Structure& structure, double stiffness, const PathPoint& at);
+  // By the unknowns of a fixed-state system.
+  Eigen::VectorXd Row(Eigen::Index unknowns) const;
+};
+
+struct MotionStep {
+  PathPoint point;           // the end
+  int iterations = 0;        // of Newton's method, with the last states
+  int rounds = 0;            // of the active set
+  bool changed = false;      // other states than at the start
+  int determinant_sign = 0;  // of the equations of the step; 0 where they are singular
+  // By candidate: the share of the step after which it touches, where it closes; else 0.
+  std::vector<double> closed_after;
+};
+
+// Solves phi(u, s) - T r + D (u - a) = 0 with the equation of the machine and the laws of contact: gaps and reactions
+// are those of the end of the step, slip counts from its start, or from where a contact closes. D: diagonal, a: the
+// anchor of the drag, NumDofs() both. The states are found by an active set iteration around Newton's method.
+class MotionStepSolver {
+ public:
+  // Both must outlive the solver.
+  MotionStepSolver(const Model& model, const DeviceEquation& device);
+
+  // Nothing: Newton's method fails, or no states were found. `from` has known patches where contacts touch.
+  std::optional<MotionStep> Solve(const PathPoint& from, const Eigen::VectorXd& drag, const Eigen::VectorXd& anchor);
+  // Sign of the determinant of these equations with the states of the point: 0 where they are singular.
+  int DeterminantSign(const PathPoint& point, const Eigen::VectorXd& drag);
+  // The point with open contacts on kNearestPatch.
+  PathPoint WithPatches(const PathPoint& point);
+
+ private:
+  struct Change {
+    std::size_t contact;
+    ContactState state;
+    int patch;
+    double excess;  // of the inequality, over its tolerance
+  };
+
+  // From the values of *x.
+  bool Newton(const Eigen::VectorXd& drag, const Eigen::VectorXd& anchor, Eigen::VectorXd* x, int* iterations);
+  bool Factorize(const Eigen::VectorXd& x, const Eigen::VectorXd& drag, const Eigen::VectorXd& row);
+  std::vector<Change> Changes(const Eigen::VectorXd& x) const;
+  Change Next(const Constraint& violated, double excess, const Eigen::VectorXd& x) const;
+  // Slip of a contact that closes counts from where its gap is zero: by linear interpolation of the step.
+  void NoteClosing(const PathPoint& from, const Change& change, const Eigen::VectorXd& x, Eigen::VectorXd* references,
+                   MotionStep* step) const;
+
+  const Model& model_;
+  const DeviceEquation& device_;
+  FixedStateSystem system_;
+  BorderedSolver solver_;
+  Eigen::SparseMatrix<double> jacobian_;
+  Eigen::VectorXd residual_, newton_step_;
+  Eigen::VectorXd strains_from_, strains_to_;  // for Structure::MixedTangent(), (u, s)
+};
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_SRC_STABILITY_MOTION_STEP_H_
