@@ -10,15 +10,9 @@
 
 #include "contact_path/contact/path_point.h"
 #include "contact_path/path/model.h"
+#include "contact_path/stability/device.h"
 
 namespace contact_path {
-
-// A machine that drives the displacement f . u of the loads: s = k (Q - f . u). Its setting Q stays during a jump.
-struct Device {
-  // k >= 0, in scaled quantities. 0: dead loads, s stays. Infinite: f . u stays. Where no load is scaled by s, as where
-  // supports or obstacles alone are moved, s stays whatever k is.
-  double stiffness = 0.0;
-};
 
 // What resists the motion. A node has one coefficient for all directions of its position, which makes velocities unique
 // for every friction coefficient.
