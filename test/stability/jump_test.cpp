@@ -273,6 +273,36 @@ void ExpectLandings(const std::string& name, int most) {
   EXPECT_GT(jumps, 0);
 }
 
+// At the corner the load and the apex turn back, so that no machine holds the truss. Where the apex is held, at the
+// height 1, the foot slides until the bars have their rest length: the half span is sqrt(l0^2 - 1) = 1.2.
+TEST(JumpOfAnExample, RoughTrussUnderDisplacementControl) {
+  const TracedPath path = TraceIncrements(ReadExample("rough_truss"));
+  const auto corner = std::find_if(path.increments.begin(), path.increments.end(), [](const Increment& increment) {
+    return increment.kind == IncrementKind::kCornerLimit;
+  });
+  ASSERT_NE(corner, path.increments.end());
+  const Scene& scene = path.request.scene;
+  const Model model(scene, CharacteristicScales(scene));
+  const PathPoint from = model.FromIncrement(*corner);
+  Device device;
+  device.stiffness = std::numeric_limits<double>::infinity();
+  const JumpResult jump = Jump(model, from, model.FromIncrement(*(corner + 1)).u - from.u, device, nullptr);
+  for (const Drag drag : {Drag::kUniform, Drag::kStiffness}) {
+    const std::optional<Landing>& landing = jump.landings[static_cast<std::size_t>(drag)];
+    ASSERT_TRUE(landing);
+    const CheckedState to = model.InSceneUnits(landing->point);
+    EXPECT_NEAR(to.load_factor, 0.0, 1e-9);
+    const std::size_t left = NodeNumber(scene, "left"), foot = NodeNumber(scene, "foot");
+    EXPECT_NEAR(to.positions[2 * foot] - to.positions[2 * left], 2.4, 1e-9);
+    EXPECT_NEAR(landing->loads, 0.0, 1e-12);
+    EXPECT_GT(landing->energy_released(), 0.0);
+  }
+  // With inertia the foot leaves the floor, and nothing brings it back.
+  ASSERT_TRUE(jump.landings[2]);
+  EXPECT_EQ(jump.landings[2]->point.states[0], ContactState::kOpen);
+  EXPECT_FALSE(jump.robust);
+}
+
 TEST(JumpOfAnExample, SnapHook) { ExpectLandings("snap_hook", 10); }
 TEST(JumpOfAnExample, RoughArch) { ExpectLandings("rough_arch", 10); }
 TEST(JumpOfAnExample, RingOnRing) { ExpectLandings("ring_on_ring", 1); }
