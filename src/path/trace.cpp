@@ -349,7 +349,7 @@ class Tracer {
     const Clock::time_point start = Clock::now();
     const Device device =
         Device::Of(model.structure, request_.options.machine_stiffness / model.UnitOfMachineStiffness());
-    JumpResult jump = Jump(model, point_, push, device, control_.cancelled);
+    JumpResult jump = Jump(model.structure, model.contacts, point_, push, device, control_.cancelled);
     if (jump.cancelled) return EndBy(EndReason::kCancelled, {sentences::kCancelled});
     if (jump.came_back) return std::nullopt;  // it is held
     if (!jump.landing)

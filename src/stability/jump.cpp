@@ -114,20 +114,19 @@ struct Resistance {
 // Work along the way, by the trapezoidal rule.
 class WorkAlong {
  public:
-  explicit WorkAlong(const Model& model)
-      : model_(model), slopes_(model.contacts.size(), 0.0), driving_(model.structure, model.contacts) {}
+  WorkAlong(const Structure& structure, const ContactPairs& contacts)
+      : structure_(structure), contacts_(contacts), slopes_(contacts.size(), 0.0), driving_(structure, contacts) {}
 
   void Add(const PathPoint& from, const MotionStep& step) {
     const bool impact =
         std::any_of(step.closed_after.begin(), step.closed_after.end(), [](double share) { return share > 0.0; });
     end_alone_ = impact || after_impact_;
     after_impact_ = impact;
-    for (std::size_t i = 0; i < model_.contacts.size(); ++i)
-      if (model_.contacts[i]->Frictional()) friction_ += OfContact(i, from, step);
+    for (std::size_t i = 0; i < contacts_.size(); ++i)
+      if (contacts_[i]->Frictional()) friction_ += OfContact(i, from, step);
     const PathPoint& to = step.point;
-    const Structure& structure = model_.structure;
     const Eigen::VectorXd du = to.u - from.u;
-    loads_ += 0.5 * (from.s + to.s) * structure.ReferenceLoad().dot(du) + structure.ConstantLoad().dot(du);
+    loads_ += 0.5 * (from.s + to.s) * structure_.ReferenceLoad().dot(du) + structure_.ConstantLoad().dot(du);
     if (to.s != from.s) loads_ += 0.5 * (DrivingForce(from) + DrivingForce(to)) * (to.s - from.s);
   }
   double friction() const { return friction_; }
@@ -135,7 +134,7 @@ class WorkAlong {
 
  private:
   double OfContact(std::size_t i, const PathPoint& from, const MotionStep& step) {
-    const ContactPair& pair = *model_.contacts[i];
+    const ContactPair& pair = *contacts_[i];
     const PathPoint& to = step.point;
     const auto k = static_cast<Eigen::Index>(i);
     const auto slip = [&] {
@@ -157,12 +156,13 @@ class WorkAlong {
   }
   // Of moving supports and obstacles, along their motion with s.
   double DrivingForce(const PathPoint& at) {
-    driving_.SetStates(at.states, SlipReferences(model_.contacts, at), at.patches);
+    driving_.SetStates(at.states, SlipReferences(contacts_, at), at.patches);
     const Eigen::VectorXd x = driving_.Pack(at), still = Eigen::VectorXd::Zero(x.size());
     return driving_.DrivingForceAlong(x, still, still).value;
   }
 
-  const Model& model_;
+  const Structure& structure_;
+  const ContactPairs& contacts_;
   std::vector<double> slopes_;  // by candidate: how its friction force has fallen with its slip
   FixedStateSystem driving_;
   // Reactions of a step in which a contact closes are of an impact: they hold in this step alone.
@@ -183,17 +183,18 @@ struct Course {
 
 class Jumper {
  public:
-  Jumper(const Model& model, const PathPoint& from, double stiffness, const std::function<bool()>& cancelled)
-      : model_(model),
-        device_(DeviceEquation::Of(model.structure, stiffness, from)),
-        solver_(model, device_),
-        arc_(model.structure, model.contacts),
+  Jumper(const Structure& structure, const ContactPairs& contacts, const PathPoint& from, double stiffness, const std::function<bool()>& cancelled)
+      : structure_(structure),
+        contacts_(contacts),
+        device_(DeviceEquation::Of(structure, stiffness, from)),
+        solver_(structure, contacts, device_),
+        arc_(structure, contacts),
         start_(solver_.WithPatches(from)),
-        extent_(ExtentOf(model.structure, from.u)),
-        diagonal_(DiagonalStiffness(model.structure, from.u)),
+        extent_(ExtentOf(structure, from.u)),
+        diagonal_(DiagonalStiffness(structure, from.u)),
         moved_(Eigen::VectorXd::Ones(from.u.size())),
         cancelled_(cancelled) {
-    for (const PrescribedDof& prescribed : model.structure.PrescribedDofs()) moved_[prescribed.dof] = 0.0;
+    for (const PrescribedDof& prescribed : structure.PrescribedDofs()) moved_[prescribed.dof] = 0.0;
   }
 
   JumpResult Run(const Eigen::VectorXd& push) {
@@ -234,7 +235,7 @@ class Jumper {
   void Compare(const Course& uniform, JumpResult* result) {
     const Eigen::VectorXd disturbance = kPush * extent_ / Largest(uniform.left) * uniform.left;
     Eigen::VectorXd either = disturbance;
-    const Eigen::VectorXd by_stiffness = moved_.cwiseProduct(StiffnessOfNodes(model_.structure, diagonal_));
+    const Eigen::VectorXd by_stiffness = moved_.cwiseProduct(StiffnessOfNodes(structure_, diagonal_));
     result->landings[1] = FollowEither({0.0 * moved_, by_stiffness}, &either, stride_).landing;
     // The slowest motion: the energy released, as kinetic energy of a swing over half the way.
     const double released = std::max(0.0, uniform.landing->energy_released());
@@ -287,7 +288,7 @@ class Jumper {
   };
 
   Course Follow(const Resistance& resistance, const Eigen::VectorXd& disturbance, double stride) {
-    Motion motion{resistance, disturbance, stride, start_, 0.0 * start_.u, WorkAlong(model_)};
+    Motion motion{resistance, disturbance, stride, start_, 0.0 * start_.u, WorkAlong(structure_, contacts_)};
     const double first = FirstTime(resistance);
     // A drag below the rounding of the stiffness lets everything come to rest.
     const double longest = first / tolerances::kUnitComponent, shortest = first * tolerances::kRootOfRounding;
@@ -386,7 +387,6 @@ class Jumper {
     if (!correction.converged || !InequalitiesHold(correction.x)) return std::nullopt;
     MotionStep last = *step;
     last.point = system.Unpack(correction.x);
-    if (!(model_.Check(last.point, last.point).Largest() <= tolerances::kAccepted)) return std::nullopt;
     const int sign = solver_.DeterminantSign(last.point, 0.0 * moved_);
     if (sign * SignOfDrag(last.point) < 0) return std::nullopt;
     work.Add(at, last);
@@ -394,7 +394,7 @@ class Jumper {
     landing.point = last.point;
     landing.friction = work.friction();
     landing.loads = work.loads();
-    landing.stored = model_.structure.Energy(last.point.u) - model_.structure.Energy(start_.u);
+    landing.stored = structure_.Energy(last.point.u) - structure_.Energy(start_.u);
     return landing;
   }
 
@@ -417,7 +417,8 @@ class Jumper {
     });
   }
 
-  const Model& model_;
+  const Structure& structure_;
+  const ContactPairs& contacts_;
   const DeviceEquation device_;
   MotionStepSolver solver_;
   SmoothArc arc_;
@@ -433,10 +434,10 @@ class Jumper {
 
 }  // namespace
 
-JumpResult Jump(const Model& model, const PathPoint& from, const Eigen::VectorXd& push, const Device& device,
-                const std::function<bool()>& cancelled) {
-  const Eigen::VectorXd along = push.size() > 0 ? push : DefaultPush(model.structure, from.s);
-  return Jumper(model, from, device.stiffness, cancelled).Run(along);
+JumpResult Jump(const Structure& structure, const ContactPairs& contacts, const PathPoint& from,
+                const Eigen::VectorXd& push, const Device& device, const std::function<bool()>& cancelled) {
+  const Eigen::VectorXd along = push.size() > 0 ? push : DefaultPush(structure, from.s);
+  return Jumper(structure, contacts, from, device.stiffness, cancelled).Run(along);
 }
 
 }  // namespace contact_path

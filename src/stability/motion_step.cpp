@@ -48,19 +48,20 @@ Eigen::VectorXd DeviceEquation::Row(Eigen::Index unknowns) const {
   return of_all;
 }
 
-MotionStepSolver::MotionStepSolver(const Model& model, const DeviceEquation& device)
-    : model_(model), device_(device), system_(model.structure, model.contacts) {}
+MotionStepSolver::MotionStepSolver(const Structure& structure, const ContactPairs& contacts,
+                                   const DeviceEquation& device)
+    : structure_(structure), contacts_(contacts), device_(device), system_(structure, contacts) {}
 
 PathPoint MotionStepSolver::WithPatches(const PathPoint& point) {
-  system_.SetStates(point.states, SlipReferences(model_.contacts, point), point.patches);
+  system_.SetStates(point.states, SlipReferences(contacts_, point), point.patches);
   return system_.Unpack(system_.Pack(point));
 }
 
 std::optional<MotionStep> MotionStepSolver::Solve(const PathPoint& from, const Eigen::VectorXd& drag,
                                                   const Eigen::VectorXd& anchor) {
   MotionStep step;
-  step.closed_after.assign(model_.contacts.size(), 0.0);
-  Eigen::VectorXd references = SlipReferences(model_.contacts, from);
+  step.closed_after.assign(contacts_.size(), 0.0);
+  Eigen::VectorXd references = SlipReferences(contacts_, from);
   PathPoint trial = from;
   std::set<std::pair<std::vector<ContactState>, std::vector<int>>> tried;
   for (; step.rounds < kMostRounds; ++step.rounds) {
@@ -95,7 +96,7 @@ void MotionStepSolver::NoteClosing(const PathPoint& from, const Change& change, 
   const std::size_t i = change.contact;
   const bool closes = from.states[i] == ContactState::kOpen && change.state != ContactState::kOpen;
   if (!closes || system_.states()[i] != ContactState::kOpen) return;
-  const ContactPair& pair = *model_.contacts[i];
+  const ContactPair& pair = *contacts_[i];
   const double s = x[system_.NumDofs()];
   const double before = std::max(0.0, pair.Gap(from.u, from.s, change.patch)), after = pair.Gap(x, s, change.patch);
   const double share = after < 0.0 ? before / (before - after) : 1.0;
@@ -126,7 +127,7 @@ std::vector<MotionStepSolver::Change> MotionStepSolver::Changes(const Eigen::Vec
 MotionStepSolver::Change MotionStepSolver::Next(const Constraint& violated, double excess,
                                                 const Eigen::VectorXd& x) const {
   const auto i = static_cast<std::size_t>(violated.contact);
-  const ContactPair& pair = *model_.contacts[i];
+  const ContactPair& pair = *contacts_[i];
   const ContactState state = system_.states()[i];
   const int patch = system_.patches()[i];
   const auto on_patch = [&](int other) {
@@ -150,7 +151,7 @@ MotionStepSolver::Change MotionStepSolver::Next(const Constraint& violated, doub
 
 bool MotionStepSolver::Factorize(const Eigen::VectorXd& x, const Eigen::VectorXd& drag, const Eigen::VectorXd& row) {
   jacobian_ =
-      model_.structure.Mixed() ? system_.MixedJacobian(x, strains_from_, strains_to_) : system_.TransposedJacobian(x);
+      structure_.Mixed() ? system_.MixedJacobian(x, strains_from_, strains_to_) : system_.TransposedJacobian(x);
   for (Eigen::Index i = 0; i < drag.size(); ++i) jacobian_.coeffRef(i, i) += drag[i];
   return solver_.Factorize(jacobian_, row, system_.InFrame());
 }
@@ -182,7 +183,7 @@ bool MotionStepSolver::Newton(const Eigen::VectorXd& drag, const Eigen::VectorXd
 }
 
 int MotionStepSolver::DeterminantSign(const PathPoint& point, const Eigen::VectorXd& drag) {
-  system_.SetStates(point.states, SlipReferences(model_.contacts, point), point.patches);
+  system_.SetStates(point.states, SlipReferences(contacts_, point), point.patches);
   const Eigen::VectorXd x = system_.Pack(point);
   strains_from_ = strains_to_ = x.head(system_.NumDofs() + 1);
   return Factorize(x, drag, device_.Row(system_.NumUnknowns())) ? solver_.DeterminantSign() : 0;

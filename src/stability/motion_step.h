@@ -10,7 +10,8 @@
 #include "contact_path/contact/path_point.h"
 #include "contact_path/equations/fixed_state_system.h"
 #include "contact_path/linear/bordered_solver.h"
-#include "contact_path/path/model.h"
+#include "contact_path/contact/contact_pair.h"
+#include "contact_path/structure/structure.h"
 
 namespace contact_path {
 
@@ -40,8 +41,9 @@ struct MotionStep {
 // anchor of the drag, NumDofs() both. The states are found by an active set iteration around Newton's method.
 class MotionStepSolver {
  public:
-  // Both must outlive the solver.
-  MotionStepSolver(const Model& model, const DeviceEquation& device);
+  // All must outlive the solver.
+  MotionStepSolver(const Structure& structure, const ContactPairs& contacts,
+                                   const DeviceEquation& device);
 
   // Nothing: Newton's method fails, or no states were found. `from` has known patches where contacts touch.
   std::optional<MotionStep> Solve(const PathPoint& from, const Eigen::VectorXd& drag, const Eigen::VectorXd& anchor);
@@ -67,7 +69,8 @@ class MotionStepSolver {
   void NoteClosing(const PathPoint& from, const Change& change, const Eigen::VectorXd& x, Eigen::VectorXd* references,
                    MotionStep* step) const;
 
-  const Model& model_;
+  const Structure& structure_;
+  const ContactPairs& contacts_;
   const DeviceEquation& device_;
   FixedStateSystem system_;
   BorderedSolver solver_;

@@ -8,9 +8,10 @@
 #include <functional>
 #include <optional>
 
+#include "contact_path/contact/contact_pair.h"
 #include "contact_path/contact/path_point.h"
-#include "contact_path/path/model.h"
 #include "contact_path/stability/device.h"
+#include "contact_path/structure/structure.h"
 
 namespace contact_path {
 
@@ -45,8 +46,8 @@ struct JumpResult {
 
 // push: the direction (u) in which the structure is disturbed, NumDofs(); its length does not matter. Both signs are
 // tried, + first. Empty: along the loads that s scales, or else the constant ones, or else generic.
-JumpResult Jump(const Model& model, const PathPoint& from, const Eigen::VectorXd& push, const Device& device,
-                const std::function<bool()>& cancelled);
+JumpResult Jump(const Structure& structure, const ContactPairs& contacts, const PathPoint& from,
+                const Eigen::VectorXd& push, const Device& device, const std::function<bool()>& cancelled);
 
 }  // namespace contact_path
 
