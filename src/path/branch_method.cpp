@@ -103,9 +103,14 @@ void BranchMethod::NoteStability(const ArcStep& at, const AcceptedPoint& increme
   } else if (end.is_limit) {
     null_direction = end.first.head(nd).normalized();
   }
-  std::optional<ActiveSetTolerance> weakly_active;
-  if (!inside) weakly_active = departure_.ToleranceAt(increment.point);
-  stability_->Note(increment.point, end, StiffnessSign(end), weakly_active, null_direction);
+  if (inside) {
+    stability_->Note(increment.point, end, StiffnessSign(end), null_direction);
+    return;
+  }
+  PathPoint leaves = increment.point;
+  leaves.states = arc_.system().states();
+  leaves.patches = arc_.system().patches();
+  stability_->NoteEvent(increment.point, leaves, departure_.ToleranceAt(increment.point), current_);
 }
 
 bool BranchMethod::EndAtOnset(const PathPoint& from, BalancedStep* next, AcceptedPoint* increment) {

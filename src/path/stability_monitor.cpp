@@ -31,20 +31,35 @@ void StabilityMonitor::Start(const PathPoint& point, const ActiveSetTolerance& w
 }
 
 void StabilityMonitor::Note(const PathPoint& point, const CurvePoint& at, int stiffness_sign,
-                            const std::optional<ActiveSetTolerance>& weakly_active,
                             const Eigen::VectorXd& null_direction) {
   const bool singular = null_direction.size() > 0;
   const bool small = model_.structure.NumDofs() <= kSmallSystem;
-  const bool follows = known_ && !singular && !weakly_active && dead_.directions >= 0 &&
+  const bool follows = known_ && !singular && dead_.directions >= 0 &&
                        (problem_.HasSlips() ? !small : stiffness_sign == (dead_.directions % 2 == 0 ? 1 : -1));
-  if (follows) {
+  if (follows)
     Follow(at);
-  } else {
-    Count(point, weakly_active, null_direction);
-    // The same contacts slip at its end; where others may, or the point is singular, it says nothing about the arc.
-    known_ = !singular && !weakly_active;
-  }
+  else
+    Count(point, std::nullopt, null_direction);
+  known_ = !singular;
   Write(&at);
+}
+
+void StabilityMonitor::NoteEvent(const PathPoint& arrives, const PathPoint& leaves,
+                                 const ActiveSetTolerance& weakly_active, const CurvePoint& ahead) {
+  Count(arrives, weakly_active, {});
+  // On a kink of a surface the stiffness of each side is for disturbances to this side.
+  if (arrives.patches != leaves.patches && dead_.verdict != Verdict::kUnstable) {
+    const Stability dead = dead_, controlled = controlled_;
+    const Verdict under_device = under_device_;
+    PathPoint other = arrives;
+    other.patches = leaves.patches;
+    Count(other, weakly_active, {});
+    if (dead_.verdict == Verdict::kStable) dead_ = dead;
+    if (controlled_.verdict == Verdict::kStable) controlled_ = controlled;
+    if (under_device_ == Verdict::kStable) under_device_ = under_device;
+  }
+  known_ = false;
+  Write(&ahead);
 }
 
 void StabilityMonitor::Follow(const CurvePoint& at) {
@@ -72,7 +87,7 @@ double StabilityMonitor::CriticalStiffness(const CurvePoint* at) const {
   if (controlled_.verdict != Verdict::kStable || dead_.directions != 1 || at == nullptr) return kNotKnown;
   const Eigen::Index nd = model_.structure.NumDofs();
   const double stiffness = -at->first[nd] / model_.structure.ReferenceLoad().dot(at->first.head(nd));
-  return stiffness >= 0.0 ? stiffness : kNotKnown;
+  return stiffness >= 0.0 ? std::abs(stiffness) : kNotKnown;  // none is -0
 }
 
 void StabilityMonitor::Write(const CurvePoint* at) {

@@ -1,3 +1,4 @@
+#include "contact_path/path/model.h"
 #include "contact_path/stability/jump.h"
 
 #include <gtest/gtest.h>

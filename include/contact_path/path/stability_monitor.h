@@ -25,10 +25,12 @@ class StabilityMonitor {
   StabilityMonitor(const Model& model, const Device& device) : model_(model), device_(device), problem_(model.structure, model.contacts) {}
 
   // The next increment. at: the curve on which it was reached. stiffness_sign: of the determinant of the tangent at
-  // fixed load factor, 0 = singular. weakly_active: at an event, else nothing. null_direction: of the tangent at fixed
-  // load factor, du, where it is known to be singular; else empty.
-  void Note(const PathPoint& point, const CurvePoint& at, int stiffness_sign,
-            const std::optional<ActiveSetTolerance>& weakly_active, const Eigen::VectorXd& null_direction);
+  // fixed load factor, 0 = singular. null_direction: of the tangent at fixed load factor, du, where it is known to be
+  // singular; else empty.
+  void Note(const PathPoint& point, const CurvePoint& at, int stiffness_sign, const Eigen::VectorXd& null_direction);
+  // The same where contacts change their states or patches: the point as it is reached, and as it is left along `ahead`.
+  void NoteEvent(const PathPoint& arrives, const PathPoint& leaves, const ActiveSetTolerance& weakly_active,
+                 const CurvePoint& ahead);
   // An equilibrium from which a path sets out.
   void Start(const PathPoint& point, const ActiveSetTolerance& weakly_active);
   const StabilityRecord& record() const { return record_; }
@@ -55,7 +57,6 @@ class StabilityMonitor {
   const Device device_;
   StabilityProblem problem_;
   bool known_ = false;    // dead_ and controlled_ hold on this arc
-  bool small_ = true;     // the system is
   Stability dead_, controlled_;
   Verdict under_device_ = Verdict::kNotProved;
   StabilityRecord record_;
