@@ -196,7 +196,7 @@ AcceptedPoint BranchMethod::IncrementOf(const ArcStep& step, const PathPoint& fr
   increment.solve.rejected = step.rejected;
   increment.solve.nullity = static_cast<int>(end.nullity);
   increment.solve.determinant_sign = end.determinant_sign;
-  increment.solve.stiffness_sign = StiffnessSign(end);
+  increment.stiffness_sign = StiffnessSign(end);
   increment.solve.iterations = step.iterations;
   increment.solve.contraction = step.contraction;
   if (step.event.kind != EventKind::kNone)

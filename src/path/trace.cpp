@@ -228,6 +228,7 @@ class Tracer {
       return EndBy(EndReason::kStopCriterion, {sentences::kStopCriterion, ToText(*criterion)});
     if (IsAt(target)) return EndStage(stage);
     const PathPoint before = model.FromIncrement(*resumption.before);
+    may_snap_ = MaySnap(resumption.from->stability, request_.options.method == Method::kBranch);
     if (const std::optional<Cause> escape = Escape(model, target, before)) return EndBy(EndReason::kPathEnd, *escape);
     std::unique_ptr<PathMethod> method = MakeMethod(model, target, recorder_.increments() - 1);
     if (!method->Resume({before, point_, resumption.from->solve}))
@@ -269,6 +270,11 @@ class Tracer {
     Append(method.Remarks(), &remarks_);
   }
 
+  // otherwise: where the number of unstable directions is not known.
+  static bool MaySnap(const StabilityRecord& stability, bool otherwise) {
+    return stability.unstable_directions < 0 ? otherwise : stability.unstable_directions > 0;
+  }
+
   // Why no further increment is of use, from `before` to the last one: no contact is left, and the load moves away from
   // its target, or nothing holds the structure. Nothing: it may be; a stop criterion may yet be met.
   std::optional<Cause> Escape(const Model& model, std::optional<double> target, const PathPoint& before) const {
@@ -276,9 +282,9 @@ class Tracer {
     const bool opened =
         largest_reaction_.of_trace > 0.0 && std::all_of(point_.states.begin(), point_.states.end(), is_open);
     if (!opened || !request_.options.stop.empty()) return std::nullopt;
-    // Where the stiffness has an unstable direction, as of a structure that snaps, the load may come back.
+    // The load of a structure that snaps may come back.
     const bool away = target && point_.s * *target < 0.0 && std::abs(point_.s) > std::abs(*target) &&
-                      std::abs(point_.s) > std::abs(before.s) && recorder_.increment().solve.stiffness_sign >= 0;
+                      std::abs(point_.s) > std::abs(before.s) && !may_snap_;
     if (away) return Cause{sentences::kOpenBeyondTarget};
     const double unloaded = tolerances::kSamePoint * largest_load_;
     const bool drifts =
@@ -331,6 +337,7 @@ class Tracer {
     if (Causes overrun = jumped ? Causes() : OverrunContact(model, point_, increment->point); !overrun.empty())
       return EndWith({EndReason::kNumericalFailure, std::move(overrun)});
     recorder_.Append(model, *increment, time);
+    may_snap_ = MaySnap(increment->stability, increment->stiffness_sign < 0);
     if (!jumped) returns_->Add(recorder_.increment().index, point_, increment->point);
     arrival_ = Chord(point_, increment->point).head(point_.u.size());
     const PathPoint before = std::exchange(point_, std::move(increment->point));
@@ -392,6 +399,7 @@ class Tracer {
   StopTest stop_;
   PathPoint point_;
   Eigen::VectorXd arrival_;  // du of the last increment
+  bool may_snap_ = false;    // the last increment has, or may have, an unstable direction under dead loads
   int events_ = 0;
   std::unique_ptr<const Model> model_;     // of the stage
   std::optional<ReturnDetector> returns_;  // of the stage

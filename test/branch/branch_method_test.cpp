@@ -375,13 +375,13 @@ TEST_P(ClosedForm, Bifurcation) {
   const std::vector<Increment> limits = IncrementsOfKind(path, IncrementKind::kSmoothLimit);
   ASSERT_EQ(limits.size(), 1U);
   EXPECT_NEAR(limits[0].load_factor, von_mises::BiotLimit(1.0, tall_truss::kRise), 1e-13);
-  // Stable up to the first crossing only: the sign of the stiffness tells.
+  // Sideways between the crossings, and down behind the limit point.
   for (const Increment& increment : path.increments) {
     if (increment.index == 0 || increment.kind != IncrementKind::kRegular) continue;
     const double y = PositionY(path, increment, "apex");
     const bool between = y < PositionY(path, crossings[0], "apex") && y > PositionY(path, crossings[1], "apex");
     const bool falling = increment.index > limits[0].index;
-    EXPECT_EQ(increment.solve.stiffness_sign, between != falling ? -1 : 1) << increment.index;
+    EXPECT_EQ(increment.stability.unstable_directions, (between ? 1 : 0) + (falling ? 1 : 0)) << increment.index;
   }
 }
 

@@ -236,7 +236,6 @@ Increment FullIncrement() {
   increment.solve.factorisations = 29;
   increment.solve.nullity = 30;
   increment.solve.determinant_sign = -1;
-  increment.solve.stiffness_sign = 1;
   increment.solve.contraction = 31.0;
   increment.supports = {{51.0, 52.0, 53.0}};
   increment.boundaries = {{54.0, 55.0, 56.0}, {57.0, 58.0, 59.0}};
@@ -290,7 +289,6 @@ TEST(ConvertTest, IncrementMessageHoldsEveryFieldUnderItsName) {
   EXPECT_EQ(message.factorisations, 29U);
   EXPECT_EQ(message.nullity, 30U);
   EXPECT_EQ(message.determinant_sign, -1);
-  EXPECT_EQ(message.stiffness_sign, 1);
   EXPECT_EQ(message.contraction, 31.0);
   ASSERT_EQ(message.supports.size(), 1U);
   EXPECT_EQ(message.supports[0].rx, 51.0);

@@ -23,6 +23,8 @@ struct AcceptedPoint {
   std::optional<PathPoint> inner;  // at the middle of its step, where it is wanted
   Residuals residuals;
   SolveRecord solve;  // without time
+  // Branch: of det of the tangent at fixed load, contacts in their states; 0 = singular, or not known.
+  int stiffness_sign = 0;
   EventRecord event;
   StabilityRecord stability;
   JumpRecord jump;
