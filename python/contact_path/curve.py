@@ -3,13 +3,15 @@
 Between events every quantity of a path is a smooth function of the arc length, and the load factor turns at increments only.
 So each quantity is interpolated over the arc length by cubics that are monotone between two increments (Fritsch and Carlson,
 1980): the line passes a limit point without a kink, and never leaves the range of its two neighbours. At events, where the
-direction of a path may jump, at bifurcations and where nothing moves the line has a corner, as the path has.
+direction of a path may turn at once, at bifurcations and where nothing moves the line has a corner, as the path has. Over a jump
+there is no line: the structure is in no equilibrium there.
 """
 from __future__ import annotations
 
 import numpy as np
 
 SMOOTH = ('regular', 'smooth_limit')  # kinds of increments that a path passes without a corner
+GAPS = ('start', 'jump')  # and those to which no line goes
 BETWEEN = 12  # points of the line from one increment to the next
 MOST_POINTS = 40000  # of a line
 
@@ -56,7 +58,7 @@ def smooth(arc: np.ndarray, values: np.ndarray, between: int) -> np.ndarray:
 
 
 def line_through(arc: np.ndarray, kinds: np.ndarray, values: np.ndarray) -> np.ndarray:
-    """Points (m, k) of the line through values (n, k) of increments; nan where a stage begins: no line goes there.
+    """Points (m, k) of the line through values (n, k) of increments; nan where a stage begins, or a jump lands: no line goes there.
 
     arc (n,): their arc length; kinds (n,) of str, as in Path.
     """
@@ -64,13 +66,13 @@ def line_through(arc: np.ndarray, kinds: np.ndarray, values: np.ndarray) -> np.n
     parts = []
     begin = 0
     for i in range(1, len(arc)):
-        if kinds[i] == 'start':
+        if kinds[i] in GAPS:
             parts += [values[begin:i], np.full((1, values.shape[1]), np.nan)]
             begin = i
         elif arc[i] <= arc[i - 1]:  # nothing moves
             parts.append(values[i - 1:i])
             begin = i
-        elif i + 1 == len(arc) or kinds[i] not in SMOOTH or arc[i + 1] <= arc[i] or kinds[i + 1] == 'start':
+        elif i + 1 == len(arc) or kinds[i] not in SMOOTH or arc[i + 1] <= arc[i] or kinds[i + 1] in GAPS:
             parts.append(smooth(arc[begin:i + 1], values[begin:i + 1], between))
             begin = i
     parts.append(values[begin:])

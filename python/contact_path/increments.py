@@ -2,23 +2,30 @@
 from __future__ import annotations
 
 import dataclasses
-from typing import Any, Dict, List, Mapping
+from typing import Any, Dict, List, Mapping, Tuple
 
 import numpy as np
 
 from contact_path.scene import Scene
 
 #: Kinds of increments, in the order of the constants of the message Increment.
-KINDS = ('start', 'regular', 'smooth_limit', 'corner_limit', 'contact_event', 'bifurcation', 'sample')
+KINDS = ('start', 'regular', 'smooth_limit', 'corner_limit', 'contact_event', 'bifurcation', 'sample', 'onset', 'jump')
 #: States of contacts, in the order of the constants of the message ContactState.
 STATES = ('open', 'stick', 'slip+', 'slip-', 'closed')
-#: Why a trace ended; docs/end_reasons.md explains them. The first three are complete answers.
-END_REASONS = ('stop_criterion', 'max_increments', 'closed_path', 'path_end', 'step_too_small', 'element_inverted', 'cancelled',
-               'no_such_branch', 'time_limit', 'memory_limit', 'not_determined', 'numerical_failure')
-COMPLETE = END_REASONS[:3]
+#: Why a trace ended; docs/end_reasons.md explains them. The first four are complete answers.
+END_REASONS = ('stop_criterion', 'max_increments', 'closed_path', 'at_limit', 'path_end', 'no_landing', 'step_too_small',
+               'element_inverted', 'cancelled', 'no_such_branch', 'time_limit', 'memory_limit', 'not_determined', 'numerical_failure')
+COMPLETE = END_REASONS[:4]
+#: Verdicts in the columns `stability` and `stability_controlled`; '' where none was asked for.
+VERDICTS = ('stable', 'unstable', 'not_proved')
 
 LIMITS = ('smooth_limit', 'corner_limit')
-EVENTS = ('corner_limit', 'contact_event', 'bifurcation')
+EVENTS = ('corner_limit', 'contact_event', 'bifurcation', 'onset', 'jump')
+# Columns of the path as a whole, whose names begin as that of a field.
+WHOLE = ('energy_released',)
+# Columns of words and of whole numbers, besides state_CONTACT; all others have numbers.
+WORDS = ('kind', 'stability', 'stability_controlled')
+INTEGERS = ('index', 'stage', 'unstable_directions', 'landing_robust')
 # Quantities of parts of the scene, as columns name them: a force and its moment on the structure; of a contact; of a section, of
 # which a bar has the first alone; and of an element of a solid.
 REACTIONS = ('rx', 'ry', 'rm')
@@ -44,6 +51,9 @@ class Increments:
     message: str = ''
     #: Index of an increment -> what the method found there, as in `events`; empty where it is not known, as of a CSV file.
     branches: Mapping[int, Mapping[str, Any]] = dataclasses.field(default_factory=dict)
+    #: Index of an increment -> the direction (nodes, 2) of unit norm in which a disturbance grows there under dead loads, where it is
+    #: known; empty where the path was read from a CSV file.
+    unstable: Mapping[int, np.ndarray] = dataclasses.field(default_factory=dict)
 
     def __post_init__(self) -> None:
         for column in self.table.values():
@@ -78,7 +88,8 @@ class Increments:
 
     @property
     def events(self) -> List[Dict[str, Any]]:
-        """Where contacts change their states, or paths cross: `index`, `kind`, `load_factor`, `stage` with a load program.
+        """Where contacts change their states, paths cross, stability is lost, or a jump lands: `index`, `kind`, `load_factor`, `stage`
+        with a load program.
 
         Of the method `branch`, except where the path was read from a CSV file, also: `number`, as branch_choices count; `taken`, the
         number of the branch that was taken, from 1, 0: none; `complete`, whether there are no more branches, and `complete_by`, for which reason; `branches`,
@@ -88,6 +99,21 @@ class Increments:
         rows = {int(self['index'][number]): int(number) for number in np.flatnonzero(wanted)}
         rows.update({index: self._number(index) for index, found in self.branches.items() if found['number']})
         return [{**self._point(number), **self.branches.get(index, {})} for index, number in sorted(rows.items())]
+
+    @property
+    def jumps(self) -> List[Dict[str, Any]]:
+        """Where jumps land: `index`, `load_factor`, `stage` with a load program; `load_factor_before`, of the increment before, from
+        which the structure moves off; `energy_released` [force length], and `landing_robust`, whether other motions land there, too."""
+        return [{**self._point(number), 'load_factor_before': self['load_factor'][number - 1].item(),
+                 'energy_released': self['energy_released'][number].item(), 'landing_robust': bool(self['landing_robust'][number])}
+                for number in np.flatnonzero(self['kind'] == 'jump')]
+
+    @property
+    def stable_ranges(self) -> List[Tuple[int, int]]:
+        """First and last index of each row of increments that are stable under dead loads, in order; none where no verdict is known."""
+        stable = self['stability'] == 'stable' if 'stability' in self else np.zeros(len(self), dtype=bool)
+        changes = np.flatnonzero(np.diff(np.concatenate(([False], stable, [False]))))
+        return [(self['index'][begin].item(), self['index'][end - 1].item()) for begin, end in changes.reshape(-1, 2)]
 
     def _number(self, index: int) -> int:
         return int(np.searchsorted(self['index'], index))

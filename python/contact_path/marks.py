@@ -1,12 +1,12 @@
 """What figures and pages mark along a path, and in which colours; the line of a path through its increments."""
 from __future__ import annotations
 
-from typing import Callable, Sequence, Tuple
+from typing import Callable, List, NamedTuple, Sequence, Tuple
 
 import numpy as np
 
 from contact_path import quantities
-from contact_path.curve import line_through
+from contact_path.curve import GAPS, line_through
 from contact_path.increments import Increments
 
 # Kinds that are marked: label, colour.
@@ -17,8 +17,14 @@ MARKS = {
     'contact_event': ('contact event', '#2ca02c'),
     'bifurcation': ('bifurcation', '#ff7f0e'),
     'sample': ('wanted value', '#1f77b4'),
+    'onset': ('onset of instability', '#8c564b'),
+    'jump': ('landing of a jump', '#e377c2'),
     'stage_end': ('end of a stage', '#4d4d4d'),
 }
+
+# Verdicts of stability, as figures call them; '' is drawn as stable.
+VERDICTS = {'stable': 'stable', 'unstable': 'unstable', 'not_proved': 'not proved'}
+INSIDE = ('regular', 'sample')  # kinds of increments with the verdict of the arc that they lie inside of
 
 # Colours of the contact states: they differ for those who see no red or no green, too.
 STATES = {'open': '#ffffff', 'stick': '#d55e00', 'slip+': '#f0c000', 'slip-': '#56b4e9', 'closed': '#009e73'}
@@ -79,3 +85,52 @@ def points(path: Increments, x: str, y: str) -> Tuple[np.ndarray, np.ndarray]:
 def line(path: Increments, rows: np.ndarray, places: np.ndarray) -> np.ndarray:
     """Points (k, 2) of the line through the places of these rows."""
     return line_through(path['arc_length'][rows], path['kind'][rows], places)
+
+
+class Part(NamedTuple):
+    """Of the line of a path: points (k, 2), the number of the stage from 0, and the verdict of stability."""
+
+    points: np.ndarray
+    stage: int
+    verdict: str
+
+
+def line_parts(path: Increments, rows: np.ndarray, places: np.ndarray) -> List[Part]:
+    """The line through the places of these rows, cut where stability is lost or won, at jumps, and where a stage begins."""
+    # The third column tells where on the path a point of the line is: the number of a row, and a fraction.
+    drawn = line(path, rows, np.column_stack((places, np.arange(len(rows)))))
+    moves = np.flatnonzero(np.diff(drawn[:, 2]) > 0.0)  # the points from which the line goes on
+    if not len(moves):
+        return [Part(drawn[:, :2], 0, '')]
+    ends = np.floor(drawn[moves, 2]).astype(int) + 1  # the row at the end of the arc
+    verdicts = verdicts_of_arcs(path, rows)[ends]
+    stages = path['stage'][rows][ends] - 1 if 'stage' in path else np.zeros(len(ends), dtype=int)
+    gaps = np.cumsum(np.isnan(drawn[:, 2]))[moves]
+    cuts = (verdicts[1:] != verdicts[:-1]) | (stages[1:] != stages[:-1]) | (gaps[1:] != gaps[:-1])
+    bounds = [0, *(np.flatnonzero(cuts) + 1), len(moves)]
+    return [Part(drawn[moves[first]:moves[last - 1] + 2, :2], int(stages[first]), str(verdicts[first]))
+            for first, last in zip(bounds, bounds[1:])]
+
+
+def verdicts_of_arcs(path: Increments, rows: np.ndarray) -> np.ndarray:
+    """(m,) of the arcs that end in these rows; '' where that is not known. An event has a verdict of its own, which is not that of
+    the arc before it: there the increment before tells, if it lies inside of the arc or begins it."""
+    if 'stability' not in path:
+        return np.full(len(rows), '')
+    verdicts, kinds = path['stability'][rows], path['kind'][rows]
+    before = np.append(verdicts[:1], verdicts[:-1])
+    begins = np.isin(np.append(kinds[:1], kinds[:-1]), (*INSIDE, *GAPS))
+    return np.where(~np.isin(kinds, INSIDE) & begins, before, verdicts)
+
+
+def verdicts_shown(paths: Sequence[Increments]) -> List[str]:
+    """Those that a legend explains: none where all increments are stable, or no verdict is known."""
+    found = {word for path in paths if 'stability' in path for word in path['stability'].tolist()}
+    return [word for word in VERDICTS if word in found] if found - {'', 'stable'} else []
+
+
+def jumps(path: Increments, rows: np.ndarray, places: np.ndarray) -> np.ndarray:
+    """(m, 2, 2): from where each jump sets out, and where it lands, among the places of these rows."""
+    landings = np.flatnonzero(path['kind'][rows] == 'jump')
+    landings = landings[landings > 0]
+    return np.stack((places[landings - 1], places[landings]), axis=1)

@@ -25,8 +25,8 @@ if TYPE_CHECKING:
 class Path(Increments):
     """The increments of a trace, n of them, in order.
 
-    path['load_factor'] is a column as an array (n,): of int for `index` and for `stage`, which only load programs have, of str for
-    `kind` and state_CONTACT, of float for all others. They are named as in the CSV. Arrays are not to be written to. Where an
+    path['load_factor'] is a column as an array (n,): of int for `index`, `unstable_directions`, `landing_robust`, and for `stage`, which
+    only load programs have; of str for `kind`, `stability`, `stability_controlled` and state_CONTACT; of float for all others. They are named as in the CSV. Arrays are not to be written to. Where an
     increment of a bag carries no positions and contacts (full_state_every), numbers are nan and states ''.
 
     >>> import numpy as np

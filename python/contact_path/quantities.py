@@ -13,7 +13,7 @@ from typing import List, Tuple
 
 import numpy as np
 
-from contact_path.increments import PRESSURES, SECTIONS, STRESSES, Increments
+from contact_path.increments import PRESSURES, SECTIONS, STRESSES, WHOLE, WORDS, Increments
 from contact_path.structure import response
 from contact_path.structure.arrays import Structure
 
@@ -32,7 +32,8 @@ LABELS = {'x': ('position x of node', '[length]'), 'y': ('position y of node', '
           'slip': ('slip of', '[length]')}
 UNITS = {'load_factor': '[-]', 'arc_length': '[-]', 'dissipation': '[force length]', 'strain_energy': '[force length]',
          'external_work': '[force length]', 'equilibrium_residual': '[-]', 'complementarity_residual': '[-]',
-         'solve_time': '[s]', 'load_x': '[force]', 'load_y': '[force]'}
+         'solve_time': '[s]', 'load_x': '[force]', 'load_y': '[force]', 'unstable_directions': '[-]',
+         'critical_stiffness': '[force/length]', 'energy_released': '[force length]'}
 RESPONSE = (*SECTIONS, *STRESSES, *PRESSURES, 'width')  # fields that are computed where they are not recorded
 LISTED = 12  # names in a message
 
@@ -46,7 +47,7 @@ def column(quantity: str) -> str:
 def split(name: str) -> Tuple[str, str]:
     """Field and part of the scene of a column; ('', name) where it is of no part."""
     field, line, part = name.partition('_')
-    return (field, part) if line and field in LABELS else ('', name)
+    return (field, part) if line and field in LABELS and name not in WHOLE else ('', name)
 
 
 def spelled(name: str) -> str:
@@ -72,7 +73,7 @@ def derived(path: Increments) -> List[str]:
 def values(path: Increments, quantity: str) -> np.ndarray:
     """The quantity (n,) in the increments of the path. ValueError: the path does not have it."""
     name = column(quantity)
-    there = [known for known in path.columns if known != 'kind' and not known.startswith('state_')]
+    there = [known for known in path.columns if known not in WORDS and not known.startswith('state_')]
     if name in there:
         return path[name]
     field, part = split(name)

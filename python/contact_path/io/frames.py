@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Dict, List, Sequence, Tuple
 
 import numpy as np
 
-from contact_path.increments import PRESSURES, REACTIONS, SECTIONS, STRESSES, Increments
+from contact_path.increments import PRESSURES, REACTIONS, SECTIONS, STRESSES, WHOLE, Increments
 
 if TYPE_CHECKING:
     import pandas
@@ -34,7 +34,7 @@ def dataset(path: Increments) -> xarray.Dataset:
     variables: Dict[str, Tuple[Sequence[str], np.ndarray]] = {}
     for column in path.columns:
         field, line, name = column.partition('_')
-        if line and field in fields and column not in ('energy', 'strain_energy'):
+        if line and field in fields and column not in WHOLE:
             of_parts.setdefault(field, {})[name] = path[column]
         elif column != 'index':
             variables[column] = (('increment',), path[column])

@@ -11,23 +11,30 @@ from contact_path.scene import Scene
 from contact_path.structure.columns import list_columns, matrix, parts_of
 from contact_path.structure.expanded import expanded
 
+STABILITY = {'stability': str, 'stability_controlled': str, 'unstable_directions': int, 'critical_stiffness': float}  # columns
+
 
 def path_of(request: Any, increments: Sequence[Any], result: Any = None) -> Path:
     """The path of messages: TraceRequest, Increment, and TraceResult or None. ValueError: as of expanded()."""
     scene = Scene.from_message(request)
     traced = expanded(scene)
     contacts = traced['names']['contacts']
-    return Path(columns_of(traced, increments), title=scene.name, scene=scene,
+    return Path(columns_of(traced, increments, scene.request.get('options', {})), title=scene.name, scene=scene,
                 end_reason=result.end_reason_name if result is not None else '',
                 message=result.message if result is not None else '',
                 branches={message.index: branches_of(contacts, message.event) for message in increments
-                          if message.event.branches or message.event.number})
+                          if message.event.branches or message.event.number},
+                unstable={message.index: np.reshape(message.unstable_direction, (-1, 2)) for message in increments
+                          if getattr(message, 'unstable_direction', ())})
 
 
-def columns_of(traced: Mapping[str, Any], increments: Sequence[Any]) -> Dict[str, np.ndarray]:
-    """The columns of a path, as the CSV has them, and external_work. traced: as expanded() gives it."""
+def columns_of(traced: Mapping[str, Any], increments: Sequence[Any], options: Mapping[str, Any]) -> Dict[str, np.ndarray]:
+    """The columns of a path, as the CSV has them, and external_work. traced: as expanded() gives it; options: of the request."""
     def column(field: str, kind: type = float) -> np.ndarray:
         return np.array([getattr(message, field) for message in increments], dtype=kind)
+
+    # Messages of earlier versions have no verdicts.
+    has_verdicts = options.get('stability') != 'false' and all(hasattr(message, 'stability') for message in increments)
 
     table = {'index': column('index', int), 'load_factor': column('load_factor'), 'arc_length': column('arc_length')}
     if traced['program']:
@@ -55,6 +62,11 @@ def columns_of(traced: Mapping[str, Any], increments: Sequence[Any]) -> Dict[str
         lists = [getattr(message, name, ()) for message in increments]
         if name in ('supports', 'boundaries') or any(lists):
             table.update(list_columns(own, lists, getattr))
+        if name == 'boundaries':
+            if has_verdicts:
+                table.update((field, column(field, kind)) for field, kind in STABILITY.items())
+            if options.get('at_limit') == 'jump':
+                table.update(energy_released=column('energy_released'), landing_robust=column('landing_robust', int))
     return table
 
 

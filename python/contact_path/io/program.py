@@ -11,7 +11,7 @@ import threading
 from typing import IO, Any, Callable, Dict, List, Mapping, NamedTuple, Sequence
 
 from contact_path.errors import InvalidScene, TraceFailed
-from contact_path.io.log import branches_of, read_log
+from contact_path.io.log import branches_of, read_log, unstable_of
 from contact_path.io.progress import Progress
 from contact_path.io.table import table_of
 from contact_path.path import Path
@@ -112,7 +112,7 @@ def path_of(output: Output, log: Mapping[str, List[Dict[str, Any]]], scene: Call
     if log['end']:
         traced, end = scene(), log['end'][0]
         return Path(table_of(output.table), title=traced.name, scene=traced, end_reason=end['reason'], message=end['summary'],
-                    branches=branches_of(log['event'], log['header'][0]['contacts']))
+                    branches=branches_of(log['event'], log['header'][0]['contacts']), unstable=unstable_of(log['increment']))
     last = output.said.rstrip('\n').rpartition('\n')[2]
     if output.cancelled and output.status == -signal.SIGINT:  # before it had begun
         return Path(table_of('index,load_factor,arc_length,kind\n'), end_reason='cancelled',

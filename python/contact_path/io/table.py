@@ -7,6 +7,7 @@ from typing import Dict, Sequence
 
 import numpy as np
 
+from contact_path.increments import INTEGERS, WORDS
 from contact_path.path import Path
 
 
@@ -22,7 +23,7 @@ def table_of(text: str) -> Dict[str, np.ndarray]:
     names = header.rstrip('\r').split(',')
     if 'kind' not in names:
         raise ValueError('no table of a path')
-    types = [(name, 'i8' if name in ('index', 'stage') else 'U13' if name == 'kind' else
+    types = [(name, 'i8' if name in INTEGERS else 'U13' if name in WORDS else
               'U6' if name.startswith('state_') else 'f8') for name in names]
     if not body:
         return {name: np.empty(0, kind) for name, kind in types}

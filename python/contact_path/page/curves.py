@@ -7,11 +7,13 @@ import numpy as np
 
 from contact_path import quantities
 from contact_path.increments import Increments
-from contact_path.marks import COLOURS, ENERGIES, FEW_PATHS, MARKS, kinds_marked, line, points
+from contact_path.marks import (COLOURS, ENERGIES, FEW_PATHS, MARKS, VERDICTS, Part, jumps, kinds_marked, line_parts, points,
+                                verdicts_shown)
 from contact_path.page.arrays import Entry, plain
 
 SYMBOLS = {'start': 'circle', 'smooth_limit': 'square', 'corner_limit': 'triangle-up', 'contact_event': 'diamond',
-           'bifurcation': 'star', 'sample': 'circle-open', 'stage_end': 'x'}
+           'bifurcation': 'star', 'sample': 'circle-open', 'onset': 'cross', 'jump': 'triangle-down', 'stage_end': 'x'}
+VERDICT_DASHES = {'unstable': 'dash', 'not_proved': 'dot'}
 DASHES = {'strain_energy': 'solid', 'dissipation': 'dash', 'external_work': 'dot'}
 PATH_AXES = {'xaxis': 'x', 'yaxis': 'y'}
 ENERGY_AXES = {'xaxis': 'x2', 'yaxis': 'y2'}
@@ -35,7 +37,7 @@ def figure(paths: Sequence[Increments], steps: Sequence[np.ndarray], x: str, y: 
     for number, path in enumerate(paths):
         traces += path_traces(path, number, len(paths), x, y)
         traces += energy_traces(path, number, len(paths))
-    traces += mark_legend(paths)
+    traces += mark_legend(paths) + verdict_legend(paths)
     for number, (path, rows) in enumerate(zip(paths, steps)):
         traces += step_traces(path, rows, number, x, y)
     return {'data': traces, 'layout': layout(paths, x, y)}
@@ -72,8 +74,15 @@ def path_traces(path: Increments, number: int, count: int, x: str, y: str) -> Li
     """The line and its critical points; of several paths these are in the colour of the line."""
     several = count > 1
     rows, places = points(path, x, y)
-    traces = [drawn_line(line(path, rows, places), PATH_AXES, name=path.title, showlegend=several, legendgroup='path%d' % number,
-                         line={'color': colour(number) if several else '#333333', 'width': width(number, count)})]
+    style = {'color': colour(number) if several else '#333333', 'width': width(number, count)}
+    traces = [drawn_line(part.points, PATH_AXES, name=path.title, showlegend=several and place == 0, legendgroup='path%d' % number,
+                         line={**style, **dashes(part.verdict)})
+              for place, part in enumerate(joined(line_parts(path, rows, places)))]
+    for ends in jumps(path, rows, places):
+        traces.append({**drawn_line(ends, PATH_AXES, name=path.title, showlegend=False, legendgroup='path%d' % number,
+                                    line={'color': style['color'] if several else MARKS['jump'][1], 'width': 1.0}),
+                       'mode': 'lines+markers', 'marker': {'symbol': 'arrow', 'angleref': 'previous', 'size': [0, 10],
+                                                           'color': style['color'] if several else MARKS['jump'][1]}})
     kinds = kinds_marked(path)[rows]
     for kind, (_, own) in MARKS.items():
         at = places[kinds == kind]
@@ -81,6 +90,26 @@ def path_traces(path: Increments, number: int, count: int, x: str, y: str) -> Li
             traces.append({**drawn_line(at, PATH_AXES), 'mode': 'markers', 'showlegend': False, 'legendgroup': 'path%d' % number,
                            'marker': marker(kind, colour(number) if several else own)})
     return traces
+
+
+def dashes(verdict: str) -> Dict[str, str]:
+    """Of a line, where it is not solid."""
+    return {'dash': VERDICT_DASHES[verdict]} if verdict in VERDICT_DASHES else {}
+
+
+def joined(parts: Sequence[Part]) -> List[Part]:
+    """Parts with the same verdict as one, in the order of their firsts, with gaps between them: a line is an element of the page."""
+    own: Dict[str, List[np.ndarray]] = {}
+    for part in parts:
+        pieces = own.setdefault(part.verdict if part.verdict in VERDICT_DASHES else '', [])
+        pieces += [np.full((1, 2), np.nan), part.points] if pieces else [part.points]
+    return [Part(np.vstack(pieces), 0, verdict) for verdict, pieces in own.items()]
+
+
+def verdict_legend(paths: Sequence[Increments]) -> List[Entry]:
+    """An entry for each verdict."""
+    return [{'type': 'scatter', 'mode': 'lines', 'x': [None], 'y': [None], 'hoverinfo': 'skip', 'name': VERDICTS[word],
+             'line': {'color': '#666666', 'width': 2.0, **dashes(word)}, **PATH_AXES} for word in verdicts_shown(paths)]
 
 
 def marker(kind: str, own: str) -> Entry:

@@ -77,11 +77,14 @@ def columns_of(count: int, room: float, aspect: float) -> int:
 
 
 def add_shapes(page: Page, paths: Sequence[Increments], chosen: Chosen) -> None:
-    """A group of shapes for each path, all at one scale, and a legend for all."""
+    """A group of shapes for each path, all at one scale, and a legend for all. The first one that is known to be unstable shows its
+    unstable direction."""
     groups = []
     for path, (rows, left_out) in zip(paths, chosen):
         structure = Structure(path.scene)
-        groups.append((path, [Shape(structure, path.increment(row)) for row in rows], left_out))
+        first = next((row for row in rows if int(path['index'][row]) in path.unstable), None)
+        groups.append((path, [Shape(structure, path.increment(row), path.unstable[int(path['index'][row])] if row == first else None)
+                              for row in rows], left_out))
     shapes = [shape for _, group, _ in groups for shape in group]
     view = View(shapes)
     room = page.width - page.left - RIGHT + SHAPE_GAP

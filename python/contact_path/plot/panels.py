@@ -9,12 +9,15 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Rectangle
 
 from contact_path.increments import Increments
-from contact_path.marks import COLOURS, ENERGIES, FEW_PATHS, MARKS, STATES, kinds_marked, line, points
+from contact_path.marks import (COLOURS, ENERGIES, FEW_PATHS, MARKS, STATES, VERDICTS, Part, jumps, kinds_marked, line_parts, points,
+                                verdicts_shown)
 from contact_path.quantities import label
 
 MARKERS = {'start': 'o', 'smooth_limit': 's', 'corner_limit': '^', 'contact_event': 'D', 'bifurcation': '*', 'sample': '.',
-           'stage_end': 'X'}
+           'onset': 'P', 'jump': 'v', 'stage_end': 'X'}
+VERDICT_DASHES = {'unstable': (0, (4, 1.5)), 'not_proved': (0, (1, 1.2))}  # of a line whose colour alone tells it apart
 ENERGY_DASHES = {'strain_energy': '-', 'dissipation': '--', 'external_work': ':'}
+JUMP = MARKS['jump'][1]
 EDGE = '0.35'  # around fields in the colours of contact states
 
 # Of lines where there are several paths: told apart by colour and dashes together.
@@ -31,7 +34,8 @@ NEAR = 30.0  # points: increments as near as this on the figure share a label
 
 def draw_path(axes: Axes, paths: Sequence[Increments], x: str, y: str, numbered: Sequence[Sequence[int]] = ()) -> None:
     """A quantity y against another, x, a line for each path; critical points in the colours of their kinds, or, where
-    there are several paths, in the colours of the lines. A single path of a program has a colour for each stage.
+    there are several paths, in the colours of the lines. A single path of a program has a colour for each stage. Lines are
+    dashed where the path is unstable, dotted where that is not known; jumps are arrows.
 
     numbered: for each path, the numbers of the rows that get their index beside them.
     """
@@ -43,9 +47,12 @@ def draw_path(axes: Axes, paths: Sequence[Increments], x: str, y: str, numbered:
         style = line_style(number, len(paths))
         if several or len(path.stages) < 2:
             text = ('%d: %s' % (number + 1, path.title) if len(paths) > FEW_PATHS else path.title) if several else None
-            axes.plot(*line(path, rows, places).T, label=text, **style)
+            draw_parts(axes, line_parts(path, rows, places), text, style)
         else:
-            draw_stages(axes, path, line(path, rows, places))
+            draw_stages(axes, path, line_parts(path, rows, places))
+        for begin, end in jumps(path, rows, places):
+            axes.annotate('', end, begin, zorder=style['zorder'], arrowprops={
+                'arrowstyle': '->', 'color': style['color'] if several else JUMP, 'linewidth': 0.8, 'shrinkA': 0.0, 'shrinkB': 0.0})
         for kind, (_, colour) in MARKS.items():
             marker = MARKERS[kind]
             axes.scatter(*places[marked[number][rows] == kind].T, marker=marker, zorder=20 + number,
@@ -57,6 +64,9 @@ def draw_path(axes: Axes, paths: Sequence[Increments], x: str, y: str, numbered:
         if count:
             axes.scatter([], [], marker=marker, color='0.4' if several else colour, s=130 if marker == '*' else 65,
                          label=text if several else '%s (%d)' % (text, count))
+    if len(paths) <= FEW_PATHS and len(paths[0].stages) <= FEW_PATHS:  # else dashes tell the lines apart
+        for word in verdicts_shown(paths):
+            axes.plot([], [], color='0.4', linewidth=1.5, linestyle=VERDICT_DASHES.get(word, '-'), label=VERDICTS[word])
     axes.axhline(0.0, color='0.6', linewidth=0.8, zorder=0)
     axes.margins(0.06)
     axes.set_xlabel(label(x), fontsize=12)
@@ -96,13 +106,20 @@ def legend_width(paths: Sequence[Increments]) -> float:
     return 0.9 + 0.068 * max(20, max(map(len, texts))) if has_legend_beside(paths) else 0.0
 
 
-def draw_stages(axes: Axes, path: Increments, points_of_line: np.ndarray) -> None:
+def draw_parts(axes: Axes, parts: Sequence[Part], text: str | None, style: Dict[str, Any]) -> None:
+    """The parts of a line, and its text for the legend. Dashes of verdicts give way to those of the style."""
+    for number, part in enumerate(parts):
+        dashes = {'linestyle': VERDICT_DASHES[part.verdict]} if part.verdict in VERDICT_DASHES else {}
+        axes.plot(*part.points.T, label=text if number == 0 else None, **{**dashes, **style})
+
+
+def draw_stages(axes: Axes, path: Increments, parts: Sequence[Part]) -> None:
     """A line in a colour of its own for each stage."""
-    cuts = [0, *np.flatnonzero(np.isnan(points_of_line[:, 0])), len(points_of_line)]
     stages = path.stages
-    for number, (begin, end) in enumerate(zip(cuts, cuts[1:])):
-        text = stages[number] if number < MOST_LISTED else '... %d stages' % len(stages) if number == MOST_LISTED else None
-        axes.plot(*points_of_line[begin:end].T, label=text, **{**line_style(number, len(stages)), 'alpha': 1.0})
+    for number, stage in enumerate(stages):
+        text = stage if number < MOST_LISTED else '... %d stages' % len(stages) if number == MOST_LISTED else None
+        own = [part for part in parts if part.stage == number] or [Part(np.empty((0, 2)), number, '')]
+        draw_parts(axes, own, text, {**line_style(number, len(stages)), 'alpha': 1.0})
 
 
 def draw_legend(axes: Axes) -> np.ndarray:

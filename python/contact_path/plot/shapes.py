@@ -17,7 +17,7 @@ from contact_path.increments import LIMITS, Increments
 from contact_path.marks import MARKS, STATES
 from contact_path.plot.panels import free_direction, text_box
 from contact_path.structure.shapes import (BARS, CONSTANT_LOAD, FEW_NODES, FULL_TURN, HATCH_DEPTH, INITIAL, LOAD, LONGEST_ARROW, MANY_MARKS,
-                                 MANY_NODES, MOMENT_RADIUS, OBSTACLE, REACTION, SHORTEST_ARROW, SOLID_COLOURS, SURFACE, Curve, Shape, View,
+                                 MANY_NODES, MOMENT_RADIUS, OBSTACLE, REACTION, SHORTEST_ARROW, SOLID_COLOURS, SURFACE, UNSTABLE, Curve, Shape, View,
                                  hatched_line, hatching, turned_arrow)
 
 MOST = 9  # shapes that are chosen where nothing is said
@@ -87,6 +87,11 @@ def draw(axes: Axes, shape: Shape, view: View, size: Tuple[float, float], named:
         axes.scatter(*shape.places.T, s=12.0 * small, color=BARS, zorder=4, linewidths=0)
     draw_supports(axes, shape, 300.0 if not many else 60.0)
     draw_forces(axes, shape, view)
+    tips = view.unstable_arrows(shape)
+    long = np.hypot(*tips.T) > SHORTEST_ARROW * view.size
+    if long.any():
+        arrows(axes, shape.places[long], tips[long], color=UNSTABLE, zorder=5.4,
+               width=ARROW_WIDTH if long.sum() <= MANY_MARKS else 0.5 * ARROW_WIDTH)
     draw_states(axes, shape, view)
     if named and len(structure.names) <= FEW_NODES:
         draw_names(axes, shape, view, (view.high - view.low)[0] / size[0])
@@ -274,6 +279,8 @@ def legend_handles(shapes: Sequence[Shape], view: View) -> List[Any]:
         if any(map(np.any, moments)):
             handles.append(Line2D([], [], color=colour, linestyle='', marker=r'$\circlearrowleft$', markersize=11,
                                   label='%s, 3/4 turn: %.3g [force length]' % (kind, view.full_moment)))
+    if any(shape.unstable is not None for shape in shapes):
+        handles.append(arrow(UNSTABLE, 'unstable direction'))
     handles.append(Line2D([], [], color=INITIAL, linewidth=1.5, marker='o', markersize=3, label='initial shape'))
     if any(structure.superelements for structure in structures):
         handles.append(Line2D([], [], color=BARS, linewidth=1.2, linestyle='dashed', label='superelement'))

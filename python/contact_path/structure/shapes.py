@@ -10,10 +10,11 @@ from contact_path.structure.arrays import Increment, Structure
 from contact_path.structure.obstacles import Boundary, Placement
 
 BARS, INITIAL, REACTION, LOAD, CONSTANT_LOAD, OBSTACLE = '#44546a', '#cccccc', '#b2182b', '#2166ac', '#7fb3d5', '#737373'
-SURFACE = '#1b7837'
+SURFACE, UNSTABLE = '#1b7837', '#8c564b'
 SOLID_COLOURS = ('#e8ecf2', '#f4b183', '#9c2f13')  # by the root of the strain energy, from 0 to the largest
 LONGEST_ARROW = 0.2  # of the size of the structure
 SHORTEST_ARROW = 0.01  # shorter ones are not drawn
+UNSTABLE_ARROW = 0.1  # of the node that moves most in an unstable direction, of the size
 FULL_TURN = 1.5 * math.pi  # of the arrow of a moment that is as large as the largest force at a distance of the size
 MOMENT_RADIUS = 0.07  # of the size
 MOMENT_HEAD, MOMENT_HEAD_WIDTH = 0.6, 0.5  # of the radius
@@ -49,11 +50,14 @@ class Curve:
 
 
 class Shape:
-    """The structure in an increment of the path. Loads (n, 2), moments (n,) on the nodes; reactions (k, 2) on the contacts."""
+    """The structure in an increment of the path. Loads (n, 2), moments (n,) on the nodes; reactions (k, 2) on the contacts.
 
-    def __init__(self, structure: Structure, increment: Increment) -> None:
+    unstable: direction (n, 2) in which a disturbance grows, to be drawn; None: there is none."""
+
+    def __init__(self, structure: Structure, increment: Increment, unstable: np.ndarray | None = None) -> None:
         self.structure = structure
         self.increment = increment
+        self.unstable = unstable
         self.places = structure.positions(increment)
         self.states = [increment['state_' + name] for name in structure.contacts]
         self.gaps = structure.of_contacts(increment, 'gap_')
@@ -118,6 +122,7 @@ class View:
             points.append(shape.touching + scale * (shape.normal_parts + shape.cone))
             points.append(shape.touching + scale * (shape.normal_parts - shape.cone))
             points += [place + scale * force for place, force in shape.forces()]
+            points.append(shape.places + self.unstable_arrows(shape))
             depth = (np.maximum(shape.gaps, 0.0) + HATCH_DEPTH * self.size)[:, None]
             points += [shape.places[[node]] + SUPPORT_DEPTH * self.size * direction
                        for node, direction in shape.structure.supports.items()]
@@ -134,6 +139,12 @@ class View:
         self.low, self.high = low - margin - more, high + margin + more
         self.aspect = (self.high - self.low)[1] / (self.high - self.low)[0]
         self.obstacles = self.extents(shapes)
+
+    def unstable_arrows(self, shape: Shape) -> np.ndarray:
+        """(n, 2) from the nodes on, where the shape has an unstable direction."""
+        if shape.unstable is None:
+            return np.zeros_like(shape.places)
+        return UNSTABLE_ARROW * self.size / np.hypot(*shape.unstable.T).max() * shape.unstable
 
     def sees(self, curve: Curve) -> bool:
         return len(curve.points) == 2 or np.any(np.all((curve.points > self.low) & (curve.points < self.high), axis=1))
