@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import numpy as np
 
-SMOOTH = ('regular', 'smooth_limit')  # kinds of increments that a path passes without a corner
+SMOOTH = ('regular', 'smooth_limit', 'onset')  # kinds of increments that a path passes without a corner
 GAPS = ('start', 'jump')  # and those to which no line goes
 BETWEEN = 12  # points of the line from one increment to the next
 MOST_POINTS = 40000  # of a line

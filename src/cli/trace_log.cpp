@@ -60,6 +60,8 @@ void TraceLog::Add(const Increment& increment) {
   line["equilibrium_residual"] = increment.residuals.equilibrium;
   line["complementarity_residual"] = increment.residuals.Contact();
   SetFields(increment.solve, &line);
+  SetFields(increment.stability, &line);
+  if (increment.kind == IncrementKind::kJump) SetFields(increment.jump, &line);
   line["solve_time"] = increment.solve.time;
   line["positions"] = increment.positions;
   line["rotations"] = increment.rotations;

@@ -38,6 +38,7 @@ void PathSummary::Add(const Increment& increment) {
   if (increment.event.number > 0 || increment.kind == IncrementKind::kContactEvent ||
       increment.kind == IncrementKind::kCornerLimit)
     ++events_;
+  if (increment.kind == IncrementKind::kJump) ++jumps_;
   const CriticalPoint point = {increment.index, increment.stage, increment.kind, increment.load_factor};
   if (increment.kind == IncrementKind::kSmoothLimit || increment.kind == IncrementKind::kCornerLimit)
     limit_points_.push_back(point);
@@ -59,7 +60,8 @@ std::string PathSummary::ToText() const {
   std::string text = Counted(increments_, "increment") + "; limit points: ";
   text += limit_points_.empty() ? "none" : Listed(limit_points_);
   if (!crossings_.empty()) text += "; another path crosses: " + Listed(crossings_);
-  return text + "; " + Counted(events_, "event");
+  text += "; " + Counted(events_, "event");
+  return jumps_ > 0 ? text + ", " + Counted(jumps_, "jump") : text;
 }
 
 std::string PathSummary::ToText(std::string_view reason, const std::string& message) const {

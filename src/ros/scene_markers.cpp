@@ -32,6 +32,7 @@ const ColorRGBA kLoadColour = Colour(0.13F, 0.40F, 0.67F);
 const ColorRGBA kConstantLoadColour = Colour(0.50F, 0.70F, 0.84F);
 const ColorRGBA kReactionColour = Colour(0.70F, 0.09F, 0.17F);
 const ColorRGBA kSupportReactionColour = Colour(0.46F, 0.16F, 0.51F);
+const ColorRGBA kUnstableColour = Colour(0.55F, 0.34F, 0.29F);
 const ColorRGBA kConeColour = Colour(0.70F, 0.09F, 0.17F, 0.45F);
 const ColorRGBA kSurfaceColour = Colour(0.11F, 0.47F, 0.22F);
 const ColorRGBA kTextColour = Colour(0.25F, 0.25F, 0.25F);
@@ -55,6 +56,8 @@ const char* KindInWords(std::uint8_t kind) {
     case msgs::Increment::CONTACT_EVENT: return ", contact event";
     case msgs::Increment::BIFURCATION: return ", bifurcation";
     case msgs::Increment::SAMPLE: return ", wanted value";
+    case msgs::Increment::ONSET: return ", onset of instability";
+    case msgs::Increment::JUMP: return ", landing of a jump";
     default: return "";
   }
 }
@@ -289,6 +292,20 @@ void DrawForces(const DrawnScene& scene, const DrawnStage& stage, const NodePlac
   }
 }
 
+// Half as long as the arrow of the full force where the direction has its largest motion.
+void DrawUnstableDirection(const DrawnScene& scene, const NodePlaces& places, const msgs::Increment& increment,
+                           MarkerPicture* picture) {
+  picture->BeginTriangles("unstable_direction", 0, kUnstableColour, kArrows);
+  const std::vector<double>& direction = increment.unstable_direction;
+  if (direction.size() != 2 * places.size()) return;
+  const auto of = [&](std::size_t node) { return Vector2d(direction[2 * node], direction[2 * node + 1]); };
+  double largest = 0.0;
+  for (std::size_t i = 0; i < places.size(); ++i) largest = std::max(largest, of(i).norm());
+  for (std::size_t i = 0; i < places.size(); ++i)
+    if (of(i).norm() > kStyle.shortest * largest)
+      picture->AddArrow(places[i], 0.5 * kStyle.full_arrow * scene.size / largest * of(i), kUnstableColour);
+}
+
 // Above the initial shape.
 void DrawCaption(const DrawnScene& scene, const std::string& caption, const DrawnStage& stage, double full_force,
                  MarkerPicture* picture) {
@@ -361,6 +378,7 @@ visualization_msgs::MarkerArray SceneMarkers::Draw(const msgs::Increment& increm
   const std::vector<Vector2d> normals = NormalsOf(scene, *stage, places, increment.load_factor);
   DrawContacts(scene, places, normals, increment, &picture);
   DrawForces(scene, *stage, places, normals, increment, full_force, &picture);
+  DrawUnstableDirection(scene, places, increment, &picture);
   DrawCaption(scene, caption, *stage, full_force, &picture);
   if (options_.picture_size == 0.0) return picture.Finish(options_.frame_id, Vector2d::Zero(), 1.0);
   return picture.Finish(options_.frame_id, scene.box.center(), options_.picture_size / scene.size);

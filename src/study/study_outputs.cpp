@@ -19,11 +19,18 @@ std::string TextOf(double number) {
   return text.str();
 }
 
+std::string Joined(const std::vector<double>& numbers) {
+  std::string text;
+  for (const double number : numbers) text += (text.empty() ? "" : " ") + TextOf(number);
+  return text;
+}
+
 }  // namespace
 
 StudyOutputs::StudyOutputs(const std::vector<std::string>& names, const TraceRequest& request) {
   constexpr std::pair<std::string_view, Kind> kOfPath[] = {
-      {"limit_loads", Kind::kLimitLoads}, {"events", Kind::kEvents}, {"end_reason", Kind::kEndReason}};
+      {"limit_loads", Kind::kLimitLoads}, {"events", Kind::kEvents},          {"jumps", Kind::kJumps},
+      {"released", Kind::kReleased},      {"stable_until", Kind::kStableUntil}, {"end_reason", Kind::kEndReason}};
   constexpr std::pair<std::string_view, Kind> kOfColumn[] = {
       {"final.", Kind::kFinal}, {"max.", Kind::kMax}, {"min.", Kind::kMin}};
   const ExpandedRequest expanded(request);
@@ -43,7 +50,7 @@ StudyOutputs::StudyOutputs(const std::vector<std::string>& names, const TraceReq
       return {kind, std::move(column), {}, {}};
     }
     throw std::invalid_argument(
-        "must be limit_loads, events, end_reason, final.<column>, max.<column> or min.<column>" + nearest.Question());
+        "must be limit_loads, events, jumps, released, stable_until, end_reason, final.<column>, max.<column> or min.<column>" + nearest.Question());
   };
   outputs_.reserve(names.size());
   for (const std::string& name : names) {
@@ -63,6 +70,13 @@ LongLists StudyOutputs::lists() const {
 }
 
 void StudyOutputs::Add(const Increment& increment) {
+  if (increment.kind == IncrementKind::kJump) released_.push_back(increment.jump.energy_released);
+  if (!stable_until_ && increment.stability.stability == Verdict::kUnstable) {
+    // An arc that is unstable inside is so from its beginning on.
+    const bool inside = increment.kind == IncrementKind::kRegular && summary_.increments() > 0;
+    stable_until_ = inside ? load_before_ : increment.load_factor;
+  }
+  load_before_ = increment.load_factor;
   summary_.Add(increment);
   for (Output& output : outputs_) {
     if (!output.column) continue;
@@ -83,11 +97,13 @@ std::string StudyOutputs::Text(const Output& output, EndReason reason) const {
   switch (output.kind) {
     case Kind::kEndReason: return std::string(ToString(reason));
     case Kind::kEvents: return summary_.increments() == 0 ? "" : std::to_string(summary_.events());
+    case Kind::kJumps: return summary_.increments() == 0 ? "" : std::to_string(summary_.jumps());
+    case Kind::kReleased: return Joined(released_);
+    case Kind::kStableUntil: return stable_until_ ? TextOf(*stable_until_) : "";
     case Kind::kLimitLoads: {
-      std::string text;
-      for (const CriticalPoint& point : summary_.limit_points())
-        text += (text.empty() ? "" : " ") + TextOf(point.load_factor);
-      return text;
+      std::vector<double> loads;
+      for (const CriticalPoint& point : summary_.limit_points()) loads.push_back(point.load_factor);
+      return Joined(loads);
     }
     case Kind::kFinal:
     case Kind::kMax:

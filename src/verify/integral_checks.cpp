@@ -24,9 +24,9 @@ IntegralChecks::Recorded::Recorded(const Increment& before, const Increment& inc
       rounding(stage.rounding + kRoundingOfParts * stage.stiffest * arc) {}
 
 bool IntegralChecks::GoesOn(const Increment& before, const Increment& at, const Increment& after) const {
-  const bool passes =
-      at.kind == IncrementKind::kRegular || at.kind == IncrementKind::kSample || at.kind == IncrementKind::kSmoothLimit;
-  if (!passes || !at.event.branches.empty() || !at.event.null_vector.empty()) return false;
+  const bool passes = at.kind == IncrementKind::kRegular || at.kind == IncrementKind::kSample ||
+                      at.kind == IncrementKind::kOnset || at.kind == IncrementKind::kSmoothLimit;
+  if (!passes || after.kind == IncrementKind::kJump || !at.event.branches.empty() || !at.event.null_vector.empty()) return false;
   if (!(at.arc_length > before.arc_length && after.arc_length > at.arc_length)) return false;
   for (std::size_t i = 0; i < at.contacts.size(); ++i)
     if (after.contacts[i].state != at.contacts[i].state) return false;
@@ -90,6 +90,48 @@ void IntegralChecks::Check(const Increment* earlier, const Increment& before, co
                   kEnergy * exchanged +
                       recorded.rounding * (1.0 + std::abs(increment.strain_energy) / stage_.Energy()) +
                       kRoundingOfParts * std::abs(increment.external_work) / stage_.Energy());
+}
+
+void IntegralChecks::CheckJump(const Increment& last, const Increment* before, const Increment& landing,
+                               double machine_stiffness) {
+  const Recorded recorded(last, landing, stage_);
+  const double energy = stage_.Energy(), released = landing.jump.energy_released / energy;
+  const double exchanged = std::abs(recorded.work) + std::abs(recorded.stored) + std::abs(recorded.dissipation);
+  const double rounding = kExact * exchanged + recorded.rounding * (1.0 + std::abs(landing.strain_energy) / energy) +
+                          kRoundingOfParts * std::abs(landing.external_work) / energy;
+  findings_.Bound("energy released is not what the jump leaves, over F L",
+                  std::abs(recorded.work - recorded.stored - recorded.dissipation - released), rounding);
+  findings_.Bound("energy released is negative, over F L", -released, kRecorded);
+  if (before == nullptr) return;
+  const ThreeStates ends = {StateOf(*before), StateOf(landing), {}};
+  const std::vector<double> motion = ScaledMotion(ends[0], ends[1], stage_.scaling);
+  const double chord = std::sqrt(Product(motion, motion));
+  findings_.Bound("arc length of the jump less its chord", std::abs(recorded.arc - chord), kExact * chord + stage_.rounding);
+  // f . du of the loads that the load factor scales, and what the machine makes of it, over F L and the load factor.
+  double along = 0.0, size = 0.0;
+  for (const Load& of : stage_.scene.loads) {
+    if (of.constant) continue;
+    const std::size_t node = stage_.index.Node(of.node);
+    const double moment = of.moment != 0.0 ? of.moment * (landing.rotations[node] - before->rotations[node]) : 0.0;
+    along += of.fx * (landing.positions[2 * node] - before->positions[2 * node]) +
+             of.fy * (landing.positions[2 * node + 1] - before->positions[2 * node + 1]) + moment;
+    size += std::hypot(of.fx, of.fy, of.moment / stage_.scaling.length);
+  }
+  const double loads = stage_.scaling.load_factor, scaled = along * loads / energy;
+  const double of_motion = (kExact * chord + recorded.rounding) * (1.0 + size * loads / stage_.scaling.force);
+  const double dead = motion.back();
+  if (machine_stiffness == 0.0 || size == 0.0) {
+    findings_.Bound("the load factor changes in a jump under dead loads", std::abs(dead), stage_.rounding);
+  } else {
+    const double given = dead * loads * loads / (machine_stiffness * energy);  // 0 by prescribed displacement
+    findings_.Bound("the setting of the machine changes in a jump, over F L", std::abs(scaled + given),
+                    of_motion + kExact * std::abs(given));
+  }
+  // Forces of moving supports and obstacles are not linear along the way.
+  if (stage_.Driven() && dead != 0.0) return;
+  const Integral work = Work(ends, ThreePoints(0.0));
+  findings_.Bound("work of the loads over a jump is off, over F L", std::abs(recorded.work - work.value),
+                  rounding + of_motion * work.force);
 }
 
 void IntegralChecks::Compare(const Recorded& recorded, const Integrals& anew, const Increment& increment,
@@ -190,6 +232,7 @@ Integral IntegralChecks::Dissipation(const ThreeStates& states, const ThreePoint
 }
 
 void IntegralChecks::CheckEnergy(const Increment& start, const Increment& increment) {
+  if (increment.kind == IncrementKind::kJump) released_ += increment.jump.energy_released / stage_.Energy();
   // What trapezoids leave open is known up to the last increment with a state.
   if (!balanced_ || (!stage_.located && increment.positions.empty())) return;
   const double unit = stage_.Energy();
@@ -204,7 +247,8 @@ void IntegralChecks::CheckEnergy(const Increment& start, const Increment& increm
   const double balance =
       (increment.external_work - start.external_work - (increment.strain_energy - start.strain_energy) -
        (increment.dissipation - start.dissipation)) /
-      unit;
+          unit -
+      released_;
   const double rounding =
       stage_.rounding * (1.0 + std::abs(increment.strain_energy) / unit) + kRoundingOfParts * stage_.stiffest * moved;
   result_.energy_balance = std::max(result_.energy_balance, std::abs(balance));

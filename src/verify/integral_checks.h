@@ -79,6 +79,9 @@ class IntegralChecks {
   // two; null: there is none. next: `increment` is the one after `before`, with none without a state in between.
   void Check(const Increment* earlier, const Increment& before, const Increment& increment, const Increment* after,
              bool next);
+  // The same over a jump: energies by what was released, and the work of the loads, which the machine prescribes. The
+  // machine: of TraceOptions. before: null if the increment before has no state.
+  void CheckJump(const Increment& last, const Increment* before, const Increment& landing, double machine_stiffness);
   // Over F L, of the increments from the start of the stage on.
   void CheckEnergy(const Increment& start, const Increment& increment);
 
@@ -106,6 +109,7 @@ class IntegralChecks {
   const VerifiedStage& stage_;
   Findings& findings_;
   Verification& result_;
+  double released_ = 0.0;  // by jumps so far, over F L
   double open_ = 0.0;     // sum of what integrals of increments by Ipopt leave open, over F L
   double pressed_ = 0.0;  // largest work of reactions along gaps that are left, over F L
   bool balanced_ = true;  // so far

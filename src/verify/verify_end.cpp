@@ -75,6 +75,12 @@ std::string EndContradicted(const TraceRequest& request_given, const std::vector
     const bool parts = last.kind == IncrementKind::kStart || last.event.number > 0 || !last.event.branches.empty();
     return parts && last.event.taken == 0 ? "" : says + "the path goes on from the last increment";
   }
+  if (reason == "at_limit" || reason == "no_landing") {
+    const AtLimit wanted = reason == "at_limit" ? AtLimit::kStop : AtLimit::kJump;
+    return request.options.at_limit == wanted
+               ? ""
+               : says + "at_limit is " + std::string(ToString(request.options.at_limit));
+  }
   if (reason == "closed_path") {
     if (last.positions.empty()) return {};
     const auto stage = static_cast<std::size_t>(std::max(last.stage, 1) - 1);

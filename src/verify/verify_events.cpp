@@ -85,7 +85,7 @@ class EventVerifier {
     }
     if (event.number != 0 && event.number != ++events_)
       findings_.Report("is event ", event.number, ", but the event after ", events_ - 1);
-    if (event.number != 0 || event.branches.empty() || now.kind == IncrementKind::kStart) return;
+    if (event.number != 0 || event.branches.empty() || SetsOut(now)) return;
     const BranchChoice* const choice = ChoiceFor(now);
     if (choice == nullptr || choice->event != 0) findings_.Report("an event without a number that no choice asks for");
   }
@@ -133,9 +133,15 @@ class EventVerifier {
     return chord;
   }
 
-  // The first increment after this one that moves; none where another branch is taken before.
+  // Whether a path begins at the increment: in a stage, or where a jump has landed.
+  static bool SetsOut(const Increment& now) {
+    return now.kind == IncrementKind::kStart || now.kind == IncrementKind::kJump;
+  }
+
+  // The first increment after this one that moves; none where another branch is taken before, or the structure jumps.
   const Increment* Next() const {
     for (std::size_t i = at_ + 1; i < increments_.size() && increments_[i].stage == increments_[at_].stage; ++i) {
+      if (increments_[i].kind == IncrementKind::kJump) return nullptr;
       if (increments_[i].arc_length > increments_[at_].arc_length) return &increments_[i];
       if (increments_[i].event.taken > 0) return nullptr;
     }
@@ -172,7 +178,7 @@ class EventVerifier {
           reach * friction + change + kBend * after->arc * (1.0 + friction) + kRate))
       findings_.Report("the branch taken has the dissipation rate ", taken.dissipation_rate,
                        ", the increment after it ", rate);
-    if (at_ == 0 || now.kind == IncrementKind::kStart) return;
+    if (at_ == 0 || SetsOut(now)) return;
     const std::optional<Chord> before = ChordOf(increments_[at_ - 1], now);
     if (!before) return;
     const double angle = std::acos(std::clamp(Product(before->motion, after->motion), -1.0, 1.0));
@@ -182,11 +188,11 @@ class EventVerifier {
 
   // Signs on arcs of method branch.
   void CheckSigns(const Increment& now) {
-    if (request_.options.method != Method::kBranch || at_ == 0 || now.kind == IncrementKind::kStart) return;
+    if (request_.options.method != Method::kBranch || at_ == 0 || SetsOut(now)) return;
     const Increment& before = increments_[at_ - 1];
     const bool on_arc =
         before.event.branches.empty() || (before.kind == IncrementKind::kBifurcation && before.event.taken == 1);
-    const bool goes_on = on_arc && before.stage == now.stage;
+    const bool goes_on = on_arc && before.stage == now.stage && before.kind != IncrementKind::kJump;
     const bool moves = goes_on && now.arc_length != before.arc_length;
     if (!moves) relation_ = 0;
     const int sign = now.solve.determinant_sign;
@@ -194,11 +200,15 @@ class EventVerifier {
       findings_.Report("the determinant changes its sign, but there is no bifurcation");
     const double change = now.load_factor - before.load_factor;
     const bool smooth = now.kind == IncrementKind::kRegular || now.kind == IncrementKind::kSample;
-    if (!smooth || std::abs(change) <= level_) return;
-    const int relation = sign * now.solve.stiffness_sign * (change > 0.0 ? 1 : -1);
+    // Where contacts slip, unstable directions are no eigenvectors of the stiffness.
+    const bool slips = std::any_of(now.contacts.begin(), now.contacts.end(),
+                                   [](const ContactRecord& contact) { return Slips(contact.state); });
+    if (!smooth || slips || now.stability.unstable_directions < 0 || std::abs(change) <= level_) return;
+    const int parity = now.stability.unstable_directions % 2 == 0 ? 1 : -1;
+    const int relation = sign * parity * (change > 0.0 ? 1 : -1);
     if (relation == 0) return;
     if (relation_ != 0 && relation != relation_)
-      findings_.Report("the sign of the stiffness is not that of the determinant and the load");
+      findings_.Report("the number of unstable directions does not go with the determinant and the load");
     relation_ = relation;
   }
 

@@ -11,6 +11,7 @@
 #include "verify/findings.h"
 #include "verify/integral_checks.h"
 #include "verify/point_checks.h"
+#include "verify/stability_checks.h"
 #include "verify/verified_stage.h"
 
 namespace contact_path {
@@ -31,7 +32,8 @@ bool StateFinite(const State& state) {
 bool AllFinite(const Increment& increment) {
   bool finite = StateFinite(increment) && StateFinite(increment.inner);
   for (const double value :
-       {increment.arc_length, increment.dissipation, increment.strain_energy, increment.external_work})
+       {increment.arc_length, increment.dissipation, increment.strain_energy, increment.external_work,
+        increment.jump.energy_released})
     finite = finite && std::isfinite(value);
   for (const std::vector<Resultant>* const forces : {&increment.supports, &increment.boundaries})
     for (const Resultant& of : *forces)
@@ -63,6 +65,7 @@ class StageVerifier {
         number_(request.program.empty() ? 0 : static_cast<int>(stage) + 1),
         target_(request.program.empty() ? std::nullopt : std::optional(request.program[stage].Target())),
         full_state_every_(std::max(request.options.full_state_every, 1)),
+        options_(request.options),
         lists_(request, index),
         increments_(increments),
         first_(first),
@@ -70,6 +73,7 @@ class StageVerifier {
         findings_(&result->findings),
         points_(stage_, &findings_, result),
         integrals_(stage_, &findings_, result),
+        stability_(stage_, &findings_, result),
         result_(*result) {}
 
   void Run(const std::function<void()>& before_each) {
@@ -90,9 +94,14 @@ class StageVerifier {
         continue;
       }
       if (increment_ > first_) CheckProgress(increments_[increment_ - 1], increment);
+      const bool jumps = increment.kind == IncrementKind::kJump;
+      if (jumps) CheckJump(before, increment);
+      if (!jumps && (increment.jump.energy_released != 0.0 || increment.jump.landing_robust))
+        findings_.Report("energy is released, but there is no jump");
       if (!increment.positions.empty()) {
-        points_.Check(before, increment);
-        if (before != nullptr) {
+        points_.Check(jumps ? nullptr : before, increment);
+        stability_.Check(increment);
+        if (before != nullptr && !jumps) {
           const bool next = before == &increments_[increment_ - 1];
           CheckStates(*before, increment, next);
           integrals_.Check(earlier, *before, increment, After(), next);
@@ -116,6 +125,15 @@ class StageVerifier {
   void At(std::size_t increment) {
     increment_ = increment;
     findings_.SetIncrement(increment);
+  }
+
+  // before: the last increment that has its state; null: there is none.
+  void CheckJump(const Increment* before, const Increment& landing) {
+    if (options_.at_limit != AtLimit::kJump)
+      findings_.Report("a jump, though at_limit is ", ToString(options_.at_limit));
+    if (increment_ == first_) return;
+    const Increment& last = increments_[increment_ - 1];
+    integrals_.CheckJump(last, before == &last ? before : nullptr, landing, options_.machine_stiffness);
   }
 
   // The next increment that has its state, if that is sound; null: there is none.
@@ -160,7 +178,7 @@ class StageVerifier {
   }
 
   void CheckProgress(const Increment& before, const Increment& increment) {
-    if (target_ && !AtTarget(*target_, increment.load_factor) && !AtTarget(*target_, before.load_factor) &&
+    if (target_ && increment.kind != IncrementKind::kJump && !AtTarget(*target_, increment.load_factor) && !AtTarget(*target_, before.load_factor) &&
         (before.load_factor - *target_) * (increment.load_factor - *target_) < 0.0)
       findings_.Report("goes past the target of its stage, ", *target_);
     if (increment.arc_length < before.arc_length)
@@ -184,7 +202,8 @@ class StageVerifier {
     // Where a choice names an increment, its branches are on record, too.
     const bool numbered = increment.event.number != 0 && !increment.event.branches.empty();
     if (numbered && !event && increment.kind != IncrementKind::kBifurcation) findings_.Report("branches, but no event");
-    if (event && increment.event.taken == 0) findings_.Report("an event where no branch is taken");
+    const bool left = increments_[increment_ + 1].kind == IncrementKind::kJump;
+    if (event && increment.event.taken == 0 && !left) findings_.Report("an event where no branch is taken");
     // At a smooth limit point another path may cross too.
     const bool crosses = !increment.event.null_vector.empty();
     if (increment.kind == IncrementKind::kBifurcation && !crosses)
@@ -203,7 +222,7 @@ class StageVerifier {
     }
     // Where events are located, an increment ends where states change; otherwise an increment tells that they have.
     const IncrementKind kind = stage_.located ? before.kind : increment.kind;
-    if (!SameStates(before, increment) && before.kind != IncrementKind::kStart &&
+    if (!SameStates(before, increment) && before.kind != IncrementKind::kStart && before.kind != IncrementKind::kJump &&
         kind != IncrementKind::kContactEvent && kind != IncrementKind::kCornerLimit)
       findings_.Report("contact states change without an event");
     const EventRecord& event = before.event;
@@ -230,6 +249,7 @@ class StageVerifier {
   void CheckLimit() {
     if (increment_ < first_ + 2) return;
     const Increment &a = increments_[increment_ - 2], &b = increments_[increment_ - 1], &c = increments_[increment_];
+    if (b.kind == IncrementKind::kJump || c.kind == IncrementKind::kJump) return;
     const double before = b.load_factor - a.load_factor, after = c.load_factor - b.load_factor;
     // A smaller change has no sense; a point next to a singular one is known to less.
     const bool regular = b.kind != IncrementKind::kBifurcation && b.kind != IncrementKind::kContactEvent;
@@ -246,12 +266,14 @@ class StageVerifier {
   const int number_;                    // of the stage, from 1; 0: there is no program
   const std::optional<double> target_;  // of the stage; nothing without a program
   const int full_state_every_;
+  const TraceOptions& options_;
   const IncrementLists lists_;
   const std::vector<Increment>& increments_;
   const std::size_t first_, last_;
   Findings findings_;
   PointChecks points_;
   IntegralChecks integrals_;
+  StabilityChecks stability_;
   std::size_t increment_ = 0;  // being checked
   Verification& result_;
 };

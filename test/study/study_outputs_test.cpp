@@ -46,6 +46,27 @@ TEST(StudyOutputs, ListLimitLoadsInTheirOrder) {
             (std::vector<std::string>{"0.5 -2 0.25", "0.25", "0.5", "-2"}));
 }
 
+TEST(StudyOutputs, ListJumpsAndWhereStabilityIsLost) {
+  StudyOutputs outputs({"jumps", "released", "stable_until", "final.stability", "max.critical_stiffness"},
+                       ReadExample("rough_truss"));
+  const auto add = [&](IncrementKind kind, double load_factor, Verdict verdict, double stiffness, double released) {
+    Increment increment;
+    increment.kind = kind;
+    increment.load_factor = load_factor;
+    increment.stability.stability = verdict;
+    increment.stability.critical_stiffness = stiffness;
+    increment.jump.energy_released = released;
+    outputs.Add(increment);
+  };
+  add(IncrementKind::kStart, 0.0, Verdict::kStable, 0.0, 0.0);
+  add(IncrementKind::kCornerLimit, 0.5, Verdict::kNotProved, -1.0, 0.0);
+  EXPECT_EQ(outputs.Texts(EndReason::kPathEnd), (std::vector<std::string>{"0", "", "", "not_proved", "0"}));
+  add(IncrementKind::kRegular, 0.25, Verdict::kUnstable, 1.5, 0.0);
+  add(IncrementKind::kJump, 0.25, Verdict::kStable, 0.0, 0.125);
+  add(IncrementKind::kJump, 1.0, Verdict::kUnstable, 0.25, 2.0);
+  EXPECT_EQ(outputs.Texts(EndReason::kPathEnd), (std::vector<std::string>{"2", "0.125 2", "0.5", "unstable", "1.5"}));
+}
+
 TEST(StudyOutputs, HaveSeventeenDigits) { EXPECT_EQ(TextsOf({"final.load_factor"}, {0.1})[0], "0.10000000000000001"); }
 
 // Lists that no option asks for are there where an output needs them.
@@ -69,8 +90,10 @@ TEST(StudyOutputs, HaveTheListsThatTheyNeed) {
 }
 
 TEST(StudyOutputs, OfNoIncrementsAreEmpty) {
-  EXPECT_EQ(TextsOf({"limit_loads", "events", "end_reason", "final.load_factor", "final.kind"}, {}),
-            (std::vector<std::string>{"", "", "path_end", "", ""}));
+  EXPECT_EQ(TextsOf({"limit_loads", "events", "end_reason", "final.load_factor", "final.kind", "jumps", "released",
+                     "stable_until"},
+                    {}),
+            (std::vector<std::string>{"", "", "path_end", "", "", "", "", ""}));
 }
 
 TEST(StudyOutputs, NameTheOneThatIsNotThere) {
@@ -84,8 +107,8 @@ TEST(StudyOutputs, NameTheOneThatIsNotThere) {
     return "is an output";
   };
   EXPECT_EQ(rule_of("limit_load"),
-            "must be limit_loads, events, end_reason, final.<column>, max.<column> or min.<column>; did you mean "
-            "limit_loads?");
+            "must be limit_loads, events, jumps, released, stable_until, end_reason, final.<column>, max.<column> or "
+            "min.<column>; did you mean limit_loads?");
   EXPECT_EQ(rule_of("final.x_apx"), "must be of a node of the scene; did you mean apex?");
   EXPECT_EQ(rule_of("max.kind"), "must be of a column of numbers, or begin with final.");
   EXPECT_EQ(rule_of("final.kind"), "is an output");

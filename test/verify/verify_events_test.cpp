@@ -117,8 +117,8 @@ const Tampering kTamperings[] = {
      "closes an open contact"},
     {"DeterminantSign", Corners, [](auto& increments) { increments[5].solve.determinant_sign *= -1; },
      "but there is no bifurcation"},
-    {"StiffnessSign", Corners, [](auto& increments) { increments[5].solve.stiffness_sign *= -1; },
-     "the sign of the stiffness"},
+    {"UnstableDirections", Crossed, [](auto& increments) { increments[5].stability.unstable_directions += 1; },
+     "the number of unstable directions"},
     {"BifurcationHidden", Crossed,
      [](auto& increments) {
        Increment& crossing = Of(increments, IncrementKind::kBifurcation);

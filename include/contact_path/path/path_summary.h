@@ -31,10 +31,12 @@ class PathSummary {
 
   int increments() const { return increments_; }                                    // increment 0 included
   const std::vector<CriticalPoint>& limit_points() const { return limit_points_; }  // in the order of the path
+  int jumps() const { return jumps_; }
   int events() const { return events_; }  // increments where contacts change their states, or could
 
   // "98 increments; limit points: smooth_limit at load factor 2.191505308 (increment 31); 4 events". Ten points at
-  // most, and likewise before the events "another path crosses: bifurcation at load factor ..." where one does.
+  // most, and likewise before the events "another path crosses: bifurcation at load factor ..." where one does; "1 jump"
+  // at the end where there are any.
   std::string ToText() const;
 
   // The same after why the trace ended: "stop_criterion: b.x > 4.95; 98 increments; ...". reason: "" is left out.
@@ -46,6 +48,7 @@ class PathSummary {
   double load_scale_;
   int increments_ = 0;
   int events_ = 0;
+  int jumps_ = 0;
   std::vector<CriticalPoint> limit_points_;
   std::vector<CriticalPoint> crossings_;  // bifurcations, and limit points where another path crosses
 };

@@ -28,7 +28,8 @@ class UnknownOutput : public std::invalid_argument {
 
 class StudyOutputs {
  public:
-  // names: limit_loads (load factors of the limit points), events (their number), end_reason, and final.<column>,
+  // names: limit_loads (load factors of the limit points), events (their number), jumps (their number), released (energy
+  // of each jump), stable_until (the load factor where the path first becomes unstable), end_reason, and final.<column>,
   // max.<column>, min.<column> of study/path_column.h. `request` must be sound. Throws UnknownOutput.
   StudyOutputs(const std::vector<std::string>& names, const TraceRequest& request);
 
@@ -38,12 +39,12 @@ class StudyOutputs {
   // Takes every increment, in order.
   void Add(const Increment& increment);
 
-  // By name: numbers with 17 digits, limit loads with a space between them. Of a path without increments all but
-  // end_reason are empty.
+  // By name: numbers with 17 digits, limit loads and energies with a space between them. Of a path without increments all
+  // but end_reason are empty, and stable_until of one that does not become unstable.
   std::vector<std::string> Texts(EndReason reason) const;
 
  private:
-  enum class Kind { kLimitLoads, kEvents, kEndReason, kFinal, kMax, kMin };
+  enum class Kind { kLimitLoads, kEvents, kJumps, kReleased, kStableUntil, kEndReason, kFinal, kMax, kMin };
   struct Output {
     Kind kind;
     std::optional<PathColumn> column;
@@ -55,6 +56,9 @@ class StudyOutputs {
 
   std::vector<Output> outputs_;
   PathSummary summary_{/*load_scale=*/1.0};
+  std::vector<double> released_;
+  double load_before_ = 0.0;  // of the last increment
+  std::optional<double> stable_until_;
 };
 
 }  // namespace contact_path

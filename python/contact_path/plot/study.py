@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from contact_path import marks, quantities
 from contact_path.increments import Increments
 from contact_path.study.file import Parameter, Study
-from contact_path.study.table import numbers
+from contact_path.study.table import LISTS, numbers
 
 SIZE = 8.5, 5.6  # of the figure [inches]
 LEVELS = 12  # of a map
@@ -70,11 +70,12 @@ def check(study: Study, output: str) -> None:
     """ValueError: draw() cannot draw this output, whatever the traces give."""
     if len(study.parameters) > 2:
         raise ValueError('--plot: the study has %d parameters, a figure shows one or two' % len(study.parameters))
-    is_limit = 'limit_loads' in study.outputs and re.fullmatch('limit_[1-9][0-9]*', output)
-    known = [name for name in study.outputs if name != 'limit_loads']
-    if output and output not in known and not is_limit:
+    lists = [name for name in LISTS if name in study.outputs]
+    is_of_list = any(re.fullmatch(LISTS[name] + '_[1-9][0-9]*', output) for name in lists)
+    known = [name for name in study.outputs if name not in lists]
+    if output and output not in known and not is_of_list:
         raise ValueError('--output %s: must be a column of the table: %s' % (
-            output, ', '.join((['limit_1, limit_2, ...'] if 'limit_loads' in study.outputs else []) + known)))
+            output, ', '.join(['%s_1, %s_2, ...' % (LISTS[name], LISTS[name]) for name in lists] + known)))
 
 
 def draw(parameters: Sequence[Parameter], table: Sequence[Sequence[str]], title: str, output: str = '') -> Figure:

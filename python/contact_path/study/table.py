@@ -11,13 +11,21 @@ import numpy as np
 from contact_path.study.points import Point
 
 
+# Outputs that are lists: what their columns are called, before a number.
+LISTS = {'limit_loads': 'limit', 'released': 'released'}
+
+
+def longest(place: int, answers: Sequence[str]) -> int:
+    """How many values the list at this place of an answer has, at most."""
+    return max((len(answer.split('\t')[place].split()) for answer in answers), default=0)
+
+
 def columns(parameters: Sequence[str], outputs: Sequence[str], answers: Sequence[str]) -> List[str]:
-    """limit_loads has as many columns, limit_1, limit_2, ..., as the path with the most limit points needs."""
+    """limit_loads has as many columns, limit_1, limit_2, ..., as the path with the most limit points needs; released likewise."""
     names = list(parameters) + ['status']
     for place, output in enumerate(outputs, 1):
-        if output == 'limit_loads':
-            most = max((len(answer.split('\t')[place].split()) for answer in answers), default=0)
-            names += ['limit_%d' % (i + 1) for i in range(most)]
+        if output in LISTS:
+            names += ['%s_%d' % (LISTS[output], i + 1) for i in range(longest(place, answers))]
         else:
             names.append(output)
     return names
@@ -33,15 +41,15 @@ def lines(parameters: Sequence[str], outputs: Sequence[str], points: Sequence[Po
     ['0.2', 'failed: x', '', '']
     """
     names = columns(parameters, outputs, answers)
-    limits = sum(name.startswith('limit_') for name in names)
+    lengths = [longest(place, answers) for place in range(1, len(outputs) + 1)]
     found = [names]
     for point, answer in zip(points, answers):
         status, *values = answer.split('\t')
         line = [*point, status]
-        for output, value in zip(outputs, values):
-            if output == 'limit_loads':
-                loads = value.split()
-                line += loads + [''] * (limits - len(loads))
+        for output, value, length in zip(outputs, values, lengths):
+            if output in LISTS:
+                own = value.split()
+                line += own + [''] * (length - len(own))
             else:
                 line.append(value)
         found.append(line)

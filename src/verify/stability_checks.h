@@ -1,0 +1,41 @@
+// Verdicts of stability, by second differences of the energy.
+#ifndef CONTACT_PATH_SRC_VERIFY_STABILITY_CHECKS_H_
+#define CONTACT_PATH_SRC_VERIFY_STABILITY_CHECKS_H_
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "contact_path/path/increment.h"
+#include "contact_path/verify/verify_path.h"
+#include "verify/findings.h"
+#include "verify/verified_stage.h"
+
+namespace contact_path {
+
+// Of regular increments of small structures whose contacts are open, or stick to obstacles: such a contact is a pin, and
+// an equilibrium is stable if the stiffness of all other components is positive definite. Where contacts slip, or touch
+// surfaces that deform, the verdict is not looked at.
+class StabilityChecks {
+ public:
+  // All must outlive the checks.
+  StabilityChecks(const VerifiedStage& stage, Findings* findings, Verification* result);
+
+  void Check(const Increment& increment);
+
+ private:
+  // Components that are free at the increment, as CheckedState has them, then rotations; nothing where it is not covered.
+  std::optional<std::vector<std::size_t>> FreeComponents(const Increment& increment) const;
+  // Of Unbalance() by a component, or, at the number of all components, by the load factor.
+  Eigen::VectorXd Derivative(const Increment& increment, std::size_t component) const;
+
+  const VerifiedStage& stage_;
+  Findings& findings_;
+  Verification& result_;
+  std::vector<bool> of_surfaces_;  // by candidate: what it touches deforms
+};
+
+}  // namespace contact_path
+
+#endif  // CONTACT_PATH_SRC_VERIFY_STABILITY_CHECKS_H_
