@@ -28,9 +28,12 @@ std::string Joined(const std::vector<double>& numbers) {
 }  // namespace
 
 StudyOutputs::StudyOutputs(const std::vector<std::string>& names, const TraceRequest& request) {
-  constexpr std::pair<std::string_view, Kind> kOfPath[] = {
-      {"limit_loads", Kind::kLimitLoads}, {"events", Kind::kEvents},          {"jumps", Kind::kJumps},
-      {"released", Kind::kReleased},      {"stable_until", Kind::kStableUntil}, {"end_reason", Kind::kEndReason}};
+  constexpr std::pair<std::string_view, Kind> kOfPath[] = {{"limit_loads", Kind::kLimitLoads},
+                                                           {"events", Kind::kEvents},
+                                                           {"jumps", Kind::kJumps},
+                                                           {"released", Kind::kReleased},
+                                                           {"stable_until", Kind::kStableUntil},
+                                                           {"end_reason", Kind::kEndReason}};
   constexpr std::pair<std::string_view, Kind> kOfColumn[] = {
       {"final.", Kind::kFinal}, {"max.", Kind::kMax}, {"min.", Kind::kMin}};
   const ExpandedRequest expanded(request);
@@ -50,7 +53,9 @@ StudyOutputs::StudyOutputs(const std::vector<std::string>& names, const TraceReq
       return {kind, std::move(column), {}, {}};
     }
     throw std::invalid_argument(
-        "must be limit_loads, events, jumps, released, stable_until, end_reason, final.<column>, max.<column> or min.<column>" + nearest.Question());
+        "must be limit_loads, events, jumps, released, stable_until, end_reason, final.<column>, max.<column> or "
+        "min.<column>" +
+        nearest.Question());
   };
   outputs_.reserve(names.size());
   for (const std::string& name : names) {

@@ -26,7 +26,8 @@ IntegralChecks::Recorded::Recorded(const Increment& before, const Increment& inc
 bool IntegralChecks::GoesOn(const Increment& before, const Increment& at, const Increment& after) const {
   const bool passes = at.kind == IncrementKind::kRegular || at.kind == IncrementKind::kSample ||
                       at.kind == IncrementKind::kOnset || at.kind == IncrementKind::kSmoothLimit;
-  if (!passes || after.kind == IncrementKind::kJump || !at.event.branches.empty() || !at.event.null_vector.empty()) return false;
+  if (!passes || after.kind == IncrementKind::kJump || !at.event.branches.empty() || !at.event.null_vector.empty())
+    return false;
   if (!(at.arc_length > before.arc_length && after.arc_length > at.arc_length)) return false;
   for (std::size_t i = 0; i < at.contacts.size(); ++i)
     if (after.contacts[i].state != at.contacts[i].state) return false;
@@ -106,7 +107,8 @@ void IntegralChecks::CheckJump(const Increment& last, const Increment* before, c
   const ThreeStates ends = {StateOf(*before), StateOf(landing), {}};
   const std::vector<double> motion = ScaledMotion(ends[0], ends[1], stage_.scaling);
   const double chord = std::sqrt(Product(motion, motion));
-  findings_.Bound("arc length of the jump less its chord", std::abs(recorded.arc - chord), kExact * chord + stage_.rounding);
+  findings_.Bound("arc length of the jump less its chord", std::abs(recorded.arc - chord),
+                  kExact * chord + stage_.rounding);
   // f . du of the loads that the load factor scales, and what the machine makes of it, over F L and the load factor.
   double along = 0.0, size = 0.0;
   for (const Load& of : stage_.scene.loads) {

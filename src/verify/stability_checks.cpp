@@ -19,10 +19,9 @@ struct Inertia {
 
 Inertia InertiaOf(const Eigen::MatrixXd& matrix) {
   const Eigen::VectorXd scale = matrix.cwiseAbs().rowwise().maxCoeff().cwiseSqrt().cwiseInverse();
-  const Eigen::VectorXd values =
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scale.asDiagonal() * matrix * scale.asDiagonal(),
-                                                     Eigen::EigenvaluesOnly)
-          .eigenvalues();
+  const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(
+                                     scale.asDiagonal() * matrix * scale.asDiagonal(), Eigen::EigenvaluesOnly)
+                                     .eigenvalues();
   return {static_cast<int>((values.array() < 0.0).count()),
           values.cwiseAbs().minCoeff() / values.cwiseAbs().maxCoeff()};
 }

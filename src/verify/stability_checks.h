@@ -14,9 +14,9 @@
 
 namespace contact_path {
 
-// Of regular increments of small structures whose contacts are open, or stick to obstacles: such a contact is a pin, and
-// an equilibrium is stable if the stiffness of all other components is positive definite. Where contacts slip, or touch
-// surfaces that deform, the verdict is not looked at.
+// Of regular increments of small structures whose contacts are open, or stick to obstacles: such a contact is a pin,
+// and an equilibrium is stable if the stiffness of all other components is positive definite. Where contacts slip, or
+// touch surfaces that deform, the verdict is not looked at.
 class StabilityChecks {
  public:
   // All must outlive the checks.
@@ -25,7 +25,8 @@ class StabilityChecks {
   void Check(const Increment& increment);
 
  private:
-  // Components that are free at the increment, as CheckedState has them, then rotations; nothing where it is not covered.
+  // Components that are free at the increment, as CheckedState has them, then rotations; nothing where it is not
+  // covered.
   std::optional<std::vector<std::size_t>> FreeComponents(const Increment& increment) const;
   // Of Unbalance() by a component, or, at the number of all components, by the load factor.
   Eigen::VectorXd Derivative(const Increment& increment, std::size_t component) const;

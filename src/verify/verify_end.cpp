@@ -77,9 +77,8 @@ std::string EndContradicted(const TraceRequest& request_given, const std::vector
   }
   if (reason == "at_limit" || reason == "no_landing") {
     const AtLimit wanted = reason == "at_limit" ? AtLimit::kStop : AtLimit::kJump;
-    return request.options.at_limit == wanted
-               ? ""
-               : says + "at_limit is " + std::string(ToString(request.options.at_limit));
+    return request.options.at_limit == wanted ? ""
+                                              : says + "at_limit is " + std::string(ToString(request.options.at_limit));
   }
   if (reason == "closed_path") {
     if (last.positions.empty()) return {};

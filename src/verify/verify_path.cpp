@@ -31,9 +31,8 @@ bool StateFinite(const State& state) {
 
 bool AllFinite(const Increment& increment) {
   bool finite = StateFinite(increment) && StateFinite(increment.inner);
-  for (const double value :
-       {increment.arc_length, increment.dissipation, increment.strain_energy, increment.external_work,
-        increment.jump.energy_released})
+  for (const double value : {increment.arc_length, increment.dissipation, increment.strain_energy,
+                             increment.external_work, increment.jump.energy_released})
     finite = finite && std::isfinite(value);
   for (const std::vector<Resultant>* const forces : {&increment.supports, &increment.boundaries})
     for (const Resultant& of : *forces)
@@ -178,7 +177,8 @@ class StageVerifier {
   }
 
   void CheckProgress(const Increment& before, const Increment& increment) {
-    if (target_ && increment.kind != IncrementKind::kJump && !AtTarget(*target_, increment.load_factor) && !AtTarget(*target_, before.load_factor) &&
+    if (target_ && increment.kind != IncrementKind::kJump && !AtTarget(*target_, increment.load_factor) &&
+        !AtTarget(*target_, before.load_factor) &&
         (before.load_factor - *target_) * (increment.load_factor - *target_) < 0.0)
       findings_.Report("goes past the target of its stage, ", *target_);
     if (increment.arc_length < before.arc_length)

@@ -35,8 +35,8 @@ class PathSummary {
   int events() const { return events_; }  // increments where contacts change their states, or could
 
   // "98 increments; limit points: smooth_limit at load factor 2.191505308 (increment 31); 4 events". Ten points at
-  // most, and likewise before the events "another path crosses: bifurcation at load factor ..." where one does; "1 jump"
-  // at the end where there are any.
+  // most, and likewise before the events "another path crosses: bifurcation at load factor ..." where one does; "1
+  // jump" at the end where there are any.
   std::string ToText() const;
 
   // The same after why the trace ended: "stop_criterion: b.x > 4.95; 98 increments; ...". reason: "" is left out.

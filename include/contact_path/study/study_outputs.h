@@ -28,9 +28,9 @@ class UnknownOutput : public std::invalid_argument {
 
 class StudyOutputs {
  public:
-  // names: limit_loads (load factors of the limit points), events (their number), jumps (their number), released (energy
-  // of each jump), stable_until (the load factor where the path first becomes unstable), end_reason, and final.<column>,
-  // max.<column>, min.<column> of study/path_column.h. `request` must be sound. Throws UnknownOutput.
+  // names: limit_loads (load factors of the limit points), events (their number), jumps (their number), released
+  // (energy of each jump), stable_until (the load factor where the path first becomes unstable), end_reason, and
+  // final.<column>, max.<column>, min.<column> of study/path_column.h. `request` must be sound. Throws UnknownOutput.
   StudyOutputs(const std::vector<std::string>& names, const TraceRequest& request);
 
   // What increments must have for them.
@@ -39,8 +39,8 @@ class StudyOutputs {
   // Takes every increment, in order.
   void Add(const Increment& increment);
 
-  // By name: numbers with 17 digits, limit loads and energies with a space between them. Of a path without increments all
-  // but end_reason are empty, and stable_until of one that does not become unstable.
+  // By name: numbers with 17 digits, limit loads and energies with a space between them. Of a path without increments
+  // all but end_reason are empty, and stable_until of one that does not become unstable.
   std::vector<std::string> Texts(EndReason reason) const;
 
  private:
