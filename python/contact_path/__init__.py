@@ -14,11 +14,11 @@ import pkgutil
 __path__ = pkgutil.extend_path(__path__, __name__)
 
 from contact_path.errors import InvalidScene, TraceFailed  # noqa: E402
-from contact_path.increments import END_REASONS, KINDS, STATES  # noqa: E402
+from contact_path.increments import END_REASONS, KINDS, STATES, VERDICTS  # noqa: E402
 from contact_path.io.file import read  # noqa: E402
 from contact_path.io.progress import Progress  # noqa: E402
 from contact_path.io.tracing import trace  # noqa: E402
 from contact_path.path import Path  # noqa: E402
 from contact_path.scene import Scene, Stage  # noqa: E402
 
-__all__ = ['END_REASONS', 'InvalidScene', 'KINDS', 'Path', 'Progress', 'STATES', 'Scene', 'Stage', 'TraceFailed', 'read', 'trace']
+__all__ = ['END_REASONS', 'InvalidScene', 'KINDS', 'Path', 'Progress', 'STATES', 'Scene', 'Stage', 'TraceFailed', 'VERDICTS', 'read', 'trace']

@@ -124,8 +124,8 @@ def verdicts_of_arcs(path: Increments, rows: np.ndarray) -> np.ndarray:
 
 
 def verdicts_shown(paths: Sequence[Increments]) -> List[str]:
-    """Those that a legend explains: none where all increments are stable, or no verdict is known."""
-    found = {word for path in paths if 'stability' in path for word in path['stability'].tolist()}
+    """Those that a legend explains: none where all arcs are stable, or no verdict is known."""
+    found = {word for path in paths for word in verdicts_of_arcs(path, np.arange(len(path)))[1:].tolist()}
     return [word for word in VERDICTS if word in found] if found - {'', 'stable'} else []
 
 

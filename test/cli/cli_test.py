@@ -24,7 +24,8 @@ SCENE = program_test.scene_file('sliding_bar')
 ENDLESS = ['--step', '1e-6', '--max-increments', '1000000000']
 
 HEADER = ('index,load_factor,arc_length,kind,x_a,y_a,x_b,y_b,gap_b@floor,rn_b@floor,rt_b@floor,state_b@floor,'
-          'dissipation,strain_energy,equilibrium_residual,complementarity_residual,solve_time,rx_a,ry_a,rx_floor,ry_floor,rm_floor').split(',')
+          'dissipation,strain_energy,equilibrium_residual,complementarity_residual,solve_time,rx_a,ry_a,rx_floor,ry_floor,rm_floor,'
+          'stability,stability_controlled,unstable_directions,critical_stiffness').split(',')
 
 
 def run(*arguments, **options):

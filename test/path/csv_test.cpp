@@ -45,11 +45,14 @@ Increment FullIncrement() {
   increment.residuals.tensile_reaction = 128.0;
   increment.residuals.friction_law = 256.0;
   increment.solve.time = 512.0;
+  increment.stability = {Verdict::kUnstable, Verdict::kNotProved, 2, 1.5, {0.0, 1.0, 0.0, 0.0}};
+  increment.jump = {0.75, true};
   return increment;
 }
 
 constexpr char kFullIncrement[] =
-    "1234567,0.5,2,corner_limit,-1,0.25,3,-4.5,0.125,0,0,open,0,8,-2,slip+,16,32,64,256,512\n";
+    "1234567,0.5,2,corner_limit,-1,0.25,3,-4.5,0.125,0,0,open,0,8,-2,slip+,16,32,64,256,512,unstable,not_proved,2,1."
+    "5\n";
 
 std::string Row(const Increment& increment) {
   std::ostringstream out;
@@ -70,7 +73,31 @@ TEST(CsvHeader, NamesNodesAndContactsInSceneOrder) {
   EXPECT_EQ(out.str(),
             "index,load_factor,arc_length,kind,x_b,y_b,x_a,y_a,gap_b@wall,rn_b@wall,rt_b@wall,state_b@wall,"
             "gap_b@floor,rn_b@floor,rt_b@floor,state_b@floor,dissipation,strain_energy,equilibrium_residual,"
-            "complementarity_residual,solve_time\n");
+            "complementarity_residual,solve_time,stability,stability_controlled,unstable_directions,"
+            "critical_stiffness\n");
+}
+
+TEST(CsvHeader, HasVerdictsAndJumpsAsTheOptionsSay) {
+  const std::size_t columns = Cells(kFullIncrement).size();
+  TraceRequest request = TwoNodes();
+  const auto line = [&](bool header) {
+    std::ostringstream out;
+    if (header)
+      CsvWriter(request).WriteHeader(out);
+    else
+      CsvWriter(request).WriteRow(FullIncrement(), out);
+    return Cells(out.str());
+  };
+  request.options.at_limit = AtLimit::kJump;
+  ASSERT_EQ(line(true).size(), columns + 2);
+  EXPECT_EQ(line(true)[columns], "energy_released");
+  EXPECT_EQ(line(true)[columns + 1], "landing_robust\n");
+  EXPECT_EQ(line(false)[columns], "0.75");
+  EXPECT_EQ(line(false)[columns + 1], "1\n");
+  request.options = {};
+  request.options.stability = DefaultTrue::kFalse;
+  EXPECT_EQ(line(true).size(), columns - 4);
+  EXPECT_EQ(line(false).size(), columns - 4);
 }
 
 TEST(CsvRow, HasAllColumnsInTheOrderOfTheHeader) {
@@ -80,20 +107,21 @@ TEST(CsvRow, HasAllColumnsInTheOrderOfTheHeader) {
   EXPECT_EQ(Cells(header.str()).size(), Cells(kFullIncrement).size());
 }
 
-TEST(CsvRow, EndsWithTheStageOfAProgram) {
+TEST(CsvRow, HasTheStageOfAProgramBehindTheTime) {
   std::ostringstream header;
   CsvWriter(Program()).WriteHeader(header);
   Increment increment = FullIncrement();
   increment.stage = 2;
-  EXPECT_EQ(Cells(header.str()).back(), "stage\n");
-  EXPECT_EQ(Cells(Row(increment)).back(), "2\n");
+  const std::size_t stage = Cells(header.str()).size() - 5;
+  EXPECT_EQ(Cells(header.str())[stage], "stage");
+  EXPECT_EQ(Cells(Row(increment))[stage], "2");
   EXPECT_EQ(Cells(header.str()).size(), Cells(Row(increment)).size());
 }
 
 TEST(CsvRow, WithoutContacts) {
   Increment increment;
   increment.positions = {1.0, 2.0};
-  EXPECT_EQ(Row(increment), "0,0,0,regular,1,2,0,0,0,0,0\n");
+  EXPECT_EQ(Row(increment), "0,0,0,regular,1,2,0,0,0,0,0,,,-1,-1\n");
 }
 
 TEST(CsvRow, NumbersReadBackExactly) {
@@ -119,12 +147,15 @@ TEST(CsvRow, NumbersReadBackExactly) {
 }
 
 TEST(CsvRow, KindsAndStatesHaveTheirWords) {
-  const std::array<std::pair<IncrementKind, const char*>, 6> kinds{{{IncrementKind::kStart, "start"},
+  const std::array<std::pair<IncrementKind, const char*>, 9> kinds{{{IncrementKind::kStart, "start"},
                                                                     {IncrementKind::kRegular, "regular"},
                                                                     {IncrementKind::kSmoothLimit, "smooth_limit"},
                                                                     {IncrementKind::kCornerLimit, "corner_limit"},
                                                                     {IncrementKind::kContactEvent, "contact_event"},
-                                                                    {IncrementKind::kBifurcation, "bifurcation"}}};
+                                                                    {IncrementKind::kBifurcation, "bifurcation"},
+                                                                    {IncrementKind::kSample, "sample"},
+                                                                    {IncrementKind::kOnset, "onset"},
+                                                                    {IncrementKind::kJump, "jump"}}};
   for (const auto& [kind, word] : kinds) {
     Increment increment;
     increment.kind = kind;

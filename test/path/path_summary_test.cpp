@@ -72,6 +72,13 @@ TEST_F(SummaryOfIncrements, ListsTenLimitPointsAndCountsTheRest) {
   EXPECT_NE(text.find("smooth_limit at load factor 9 (increment 9) and 2 more; 0 events"), std::string::npos) << text;
 }
 
+TEST_F(SummaryOfIncrements, CountsJumps) {
+  Add(IncrementKind::kStart);
+  Add(IncrementKind::kJump, 1.0);
+  EXPECT_EQ(summary_.jumps(), 1);
+  EXPECT_EQ(summary_.ToText(), "2 increments; limit points: none; 0 events, 1 jump");
+}
+
 TEST_F(SummaryOfIncrements, TellsTheStageOfALimitPoint) {
   Increment increment;
   increment.kind = IncrementKind::kSmoothLimit;

@@ -37,7 +37,8 @@ class PathTest(ProgramTest):
             self.assertEqual((len(path), path.columns, path.title), (len(rows), list(rows[0]), scene))
             for name in path.columns:
                 column = path[name]
-                kind = int if name in ('index', 'stage') else str if name == 'kind' or name.startswith('state_') else float
+                kind = (int if name in ('index', 'stage', 'unstable_directions') else
+                        str if name in ('kind', 'stability', 'stability_controlled') or name.startswith('state_') else float)
                 self.assertEqual(column.dtype.kind, {int: 'i', str: 'U', float: 'f'}[kind], name)
                 self.assertEqual(column.tolist(), [kind(row[name]) for row in rows], name)
                 self.assertEqual(path.increment(3)[name], kind(rows[3][name]))
@@ -45,6 +46,7 @@ class PathTest(ProgramTest):
             self.assertTrue(set(path['kind']) <= set(cp.KINDS))
             for contact in path.contacts:
                 self.assertTrue(set(path['state_' + contact]) <= set(cp.STATES))
+            self.assertTrue(set(path['stability']) <= set(cp.VERDICTS))
 
     def test_critical_points(self):
         path = cp.read(self.table('rough_truss'))
@@ -55,6 +57,57 @@ class PathTest(ProgramTest):
             self.assertEqual(event, {name: path.increment(event['index'])[name] for name in ('index', 'kind', 'load_factor')})
         of_program = cp.read(self.table('stick_slip_cycle'))
         self.assertEqual([event['stage'] for event in of_program.events], [1, 2, 3])
+
+    # A jump from a limit point, and arcs of three verdicts.
+    JUMPS = """index,load_factor,arc_length,kind,x_a,dissipation,strain_energy,stability,stability_controlled,unstable_directions,critical_stiffness,energy_released,landing_robust
+0,0.0,0.0,start,0.0,0.0,0.0,stable,stable,0,0,0,0
+1,0.5,1.0,regular,0.5,0.0,0.0,stable,stable,0,0,0,0
+2,1.0,2.0,smooth_limit,1.0,0.0,0.0,unstable,stable,1,0,0,0
+3,1.0,4.0,jump,3.0,0.0,0.0,stable,stable,0,0,0.25,1
+4,1.5,4.5,onset,3.5,0.0,0.0,not_proved,stable,-1,-1,0,0
+5,1.6,5.0,regular,4.0,0.0,0.0,unstable,unstable,2,inf,0,0
+"""
+
+    def test_jumps_and_stable_ranges(self):
+        path = self.read(self.JUMPS)
+        self.assertEqual(path.jumps, [{'index': 3, 'kind': 'jump', 'load_factor': 1.0, 'load_factor_before': 1.0, 'energy_released': 0.25,
+                                       'landing_robust': True}])
+        self.assertEqual(path.stable_ranges, [(0, 1), (3, 3)])
+        self.assertEqual([event['kind'] for event in path.events], ['jump', 'onset'])
+        self.assertEqual(path['critical_stiffness'][-1], np.inf)
+        self.assertEqual(path['landing_robust'].dtype.kind, 'i')
+        np.testing.assert_array_equal(path.quantity('energy_released'), path['energy_released'])
+        with self.assertRaisesRegex(ValueError, 'no quantity stability'):
+            path.quantity('stability')
+        without = self.read('index,load_factor,kind,x_a\n0,0.0,start,1.0\n1,0.5,regular,2.0\n')
+        self.assertEqual((without.jumps, without.stable_ranges, dict(without.unstable)), ([], [], {}))
+
+    def test_lines_are_cut_at_verdicts_and_jumps(self):
+        import matplotlib
+        matplotlib.use('Agg')
+        from contact_path import marks
+        path = self.read(self.JUMPS)
+        rows, places = marks.points(path, 'a.x', 'load_factor')
+        parts = marks.line_parts(path, rows, places)
+        self.assertEqual([(part.verdict, part.points[0].tolist(), part.points[-1].tolist()) for part in parts],
+                         [('stable', [0.0, 0.0], [1.0, 1.0]), ('stable', [3.0, 1.0], [3.5, 1.5]), ('unstable', [3.5, 1.5], [4.0, 1.6])])
+        self.assertEqual(marks.jumps(path, rows, places).tolist(), [[[1.0, 1.0], [3.0, 1.0]]])
+        axes = path.plot('a.x').axes[0]
+        legend = [text.get_text() for text in axes.get_legend().get_texts()]
+        self.assertEqual([text for text in legend if text in marks.VERDICTS.values()], ['stable', 'unstable'])
+        self.assertEqual(len([text for text in axes.texts if getattr(text, 'arrow_patch', None) is not None]), 1)
+        path.page(self.path('jump.html'), 'a.x')
+        # Without verdicts a path is one line, as long as nothing jumps.
+        plain = self.read(self.table_of_lines(path, 3))
+        rows, places = marks.points(plain, 'a.x', 'load_factor')
+        (part,) = marks.line_parts(plain, rows, places)
+        np.testing.assert_array_equal(part.points, marks.line(plain, rows, places))
+        self.assertEqual(marks.verdicts_shown([plain]), [])
+
+    @staticmethod
+    def table_of_lines(path, count):
+        names = [name for name in path.columns if not name.startswith('stability')]
+        return '\n'.join([','.join(names)] + [','.join(str(path[name][i]) for name in names) for i in range(count)]) + '\n'
 
     def test_a_path_is_not_changed(self):
         path = cp.read(self.table('rigid_stop'))

@@ -251,6 +251,8 @@ Increment FullIncrement() {
   increment.event.complete = false;
   increment.event.complete_by = "only_solution";
   increment.event.null_vector = {39.0, 40.0, 41.0, 42.0};
+  increment.stability = {Verdict::kUnstable, Verdict::kNotProved, 2, 79.0, {80.0, 81.0, 82.0, 83.0}};
+  increment.jump = {84.0, true};
   return increment;
 }
 
@@ -316,6 +318,13 @@ TEST(ConvertTest, IncrementMessageHoldsEveryFieldUnderItsName) {
   EXPECT_FALSE(message.event.complete);
   EXPECT_EQ(message.event.complete_by, "only_solution");
   EXPECT_EQ(message.event.null_vector, (std::vector<double>{39.0, 40.0, 41.0, 42.0}));
+  EXPECT_EQ(message.stability, "unstable");
+  EXPECT_EQ(message.stability_controlled, "not_proved");
+  EXPECT_EQ(message.unstable_directions, 2);
+  EXPECT_EQ(message.critical_stiffness, 79.0);
+  EXPECT_EQ(message.unstable_direction, (std::vector<double>{80.0, 81.0, 82.0, 83.0}));
+  EXPECT_EQ(message.energy_released, 84.0);
+  EXPECT_TRUE(message.landing_robust);
 }
 
 TEST(ConvertTest, RegularIncrementsMayLeaveTheirStateOut) {
@@ -338,8 +347,9 @@ TEST(ConvertTest, RegularIncrementsMayLeaveTheirStateOut) {
   EXPECT_FALSE(has_state(1, IncrementKind::kRegular, 3));
   EXPECT_FALSE(has_state(2, IncrementKind::kRegular, 3));
   EXPECT_TRUE(has_state(3, IncrementKind::kRegular, 3));
-  for (const IncrementKind kind : {IncrementKind::kSmoothLimit, IncrementKind::kCornerLimit,
-                                   IncrementKind::kContactEvent, IncrementKind::kBifurcation, IncrementKind::kSample})
+  for (const IncrementKind kind :
+       {IncrementKind::kSmoothLimit, IncrementKind::kCornerLimit, IncrementKind::kContactEvent,
+        IncrementKind::kBifurcation, IncrementKind::kSample, IncrementKind::kOnset, IncrementKind::kJump})
     EXPECT_TRUE(has_state(4, kind, 3));
 }
 
@@ -363,17 +373,32 @@ TEST(ConvertTest, NumbersSurviveToTheLastBit) {
   EXPECT_EQ(back.arc_length, increment.arc_length);
 }
 
+TEST(ConvertTest, VerdictsMayBeUnknownAndStiffnessInfinite) {
+  Increment increment;
+  increment.stability.critical_stiffness = std::numeric_limits<double>::infinity();
+  const msgs::Increment message = ThroughTheWire(ToMessage(increment));
+  EXPECT_EQ(message.stability, "");
+  EXPECT_EQ(message.unstable_directions, -1);
+  const Increment back = FromMessage(message);
+  EXPECT_EQ(back.stability.stability, Verdict::kNotAsked);
+  EXPECT_EQ(back.stability.critical_stiffness, increment.stability.critical_stiffness);
+  msgs::Increment wrong = message;
+  wrong.stability = "steady";
+  EXPECT_THROW(FromMessage(wrong), std::invalid_argument);
+}
+
 TEST(ConvertTest, EveryKindStateAndMethodHasItsConstant) {
   Increment increment;
   std::set<std::uint8_t> constants;
   for (const IncrementKind kind :
        {IncrementKind::kStart, IncrementKind::kRegular, IncrementKind::kSmoothLimit, IncrementKind::kCornerLimit,
-        IncrementKind::kContactEvent, IncrementKind::kBifurcation, IncrementKind::kSample}) {
+        IncrementKind::kContactEvent, IncrementKind::kBifurcation, IncrementKind::kSample, IncrementKind::kOnset,
+        IncrementKind::kJump}) {
     increment.kind = kind;
     constants.insert(ToMessage(increment).kind);
     EXPECT_EQ(FromMessage(ToMessage(increment)).kind, kind);
   }
-  EXPECT_EQ(constants.size(), 7U);
+  EXPECT_EQ(constants.size(), 9U);
 
   constants.clear();
   increment.contacts.resize(1);
@@ -436,6 +461,8 @@ TEST(ConvertTest, EndReasonsHaveConstantNameAndStatus) {
       {EndReason::kMemoryLimit, Response::END_MEMORY_LIMIT, "memory_limit", Response::ENDED_EARLY},
       {EndReason::kElementInverted, Response::END_ELEMENT_INVERTED, "element_inverted", Response::ENDED_EARLY},
       {EndReason::kNotDetermined, Response::END_NOT_DETERMINED, "not_determined", Response::ENDED_EARLY},
+      {EndReason::kAtLimit, Response::END_AT_LIMIT, "at_limit", Response::OK},
+      {EndReason::kNoLanding, Response::END_NO_LANDING, "no_landing", Response::ENDED_EARLY},
   };
   for (const Increment& increment : increments) {
     EXPECT_EQ(ToConstant(increment.reason), increment.constant);

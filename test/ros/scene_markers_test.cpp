@@ -106,8 +106,8 @@ TEST(SceneMarkersTest, AnyPictureReplacesAnyOther) {
     ExpectSound(picture);
   }
   const MarkerArray picture = spring.Draw(SpringIncrement(0.0), 0.0);
-  for (const char* const name :
-       {"obstacles", "supports", "contacts", "cones", "reactions", "support_reactions", "loads"}) {
+  for (const char* const name : {"obstacles", "supports", "contacts", "cones", "reactions", "support_reactions",
+                                 "unstable_direction", "loads"}) {
     EXPECT_EQ(Find(picture, name).action, Marker::DELETE) << name;
   }
   EXPECT_EQ(Find(picture, "structure").action, Marker::DELETE);  // no bars
@@ -355,6 +355,28 @@ TEST(SceneMarkersTest, ReactionsOfSupportsHaveTheScaleOfTheOthers) {
   ASSERT_EQ(Find(at_roll, "support_reactions").points.size(), 9U);
   EXPECT_LT((Farthest(Find(at_roll, "support_reactions"), roll) - roll - scale * Vector2d(0.0, -1.0)).norm(),
             kRounding);
+}
+
+// The node that moves most has an arrow half as long as that of the full force, whatever the forces are.
+TEST(SceneMarkersTest, UnstableDirectionHasArrowsOfItsOwnScale) {
+  const SceneMarkers markers(Slope(), World());
+  msgs::Increment increment = SlopeIncrement();
+  const Vector2d foot(3.8, 1.6), roll(5.5, 3.0);
+  increment.unstable_direction = {0.0, 0.0, 0.48, 0.64, -0.6, 0.0};
+  const MarkerArray picture = markers.Draw(increment, 2.0);
+  ExpectSound(picture);
+  const Marker& arrows = Find(picture, "unstable_direction");
+  ASSERT_EQ(arrows.points.size(), 18U);  // of two nodes: the pin does not move
+  Marker of_foot = arrows;
+  of_foot.points.resize(9);
+  const Vector2d arrow = Farthest(of_foot, foot) - foot;
+  EXPECT_NEAR(arrow.x() / arrow.y(), 0.75, kRounding);
+  const double full = (Farthest(Find(picture, "loads"), roll) - roll).norm();  // the load of 2
+  EXPECT_NEAR(arrow.norm(), 0.5 * full, kRounding);
+  EXPECT_NEAR((Farthest(Find(markers.Draw(increment, 20.0), "unstable_direction"), foot) - foot).norm(),
+              (Farthest(arrows, foot) - foot).norm(), kRounding);
+  increment.unstable_direction = {1.0};  // of another scene
+  EXPECT_EQ(Find(markers.Draw(increment, 2.0), "unstable_direction").action, Marker::DELETE);
 }
 
 TEST(SceneMarkersTest, SupportsThatDoNotReactDrawNothing) {

@@ -21,7 +21,8 @@ import helpers
 NODE = '/contact_path'
 KINDS = {'start': Increment.START, 'regular': Increment.REGULAR, 'smooth_limit': Increment.SMOOTH_LIMIT,
          'corner_limit': Increment.CORNER_LIMIT, 'contact_event': Increment.CONTACT_EVENT,
-         'bifurcation': Increment.BIFURCATION, 'sample': Increment.SAMPLE}
+         'bifurcation': Increment.BIFURCATION, 'sample': Increment.SAMPLE, 'onset': Increment.ONSET,
+         'jump': Increment.JUMP}
 STATES = {'open': ContactState.OPEN, 'stick': ContactState.STICK, 'slip+': ContactState.SLIP_PLUS,
           'slip-': ContactState.SLIP_MINUS, 'closed': ContactState.CLOSED}
 

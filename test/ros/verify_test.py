@@ -120,14 +120,15 @@ class VerifyTest(ProgramTest):
             self.assert_not_proved(self.rewrite(bag, change), told)
 
     def test_events_and_signs_that_were_changed_are_found(self):
-        for field, value, told in (('determinant_sign', -1, 'the determinant changes its sign'),
-                                   ('stiffness_sign', -1, 'the sign of the stiffness'),
-                                   ('method', 1, 'is of the method mpec')):
+        for scene, field, new, told in (
+                ('sliding_bar', 'determinant_sign', lambda value: -value, 'the determinant changes its sign'),
+                ('von_mises', 'unstable_directions', lambda value: value + 1, 'unstable directions are recorded as'),
+                ('sliding_bar', 'method', lambda value: 1, 'is of the method mpec')):
             def change(kind, message):
                 if kind == 'increments' and message.index == 20:
-                    setattr(message, field, value if field == 'method' else -getattr(message, field))
+                    setattr(message, field, new(getattr(message, field)))
                 return message
-            self.assert_not_proved(self.rewrite(self.record(), change), told)
+            self.assert_not_proved(self.rewrite(self.record(scene), change), told)
 
         def renumber(kind, message):
             if kind == 'increments' and message.event.number == 1:

@@ -47,6 +47,18 @@ TEST(VerifyEnd, OfMaxIncrements) {
   EXPECT_NE(EndContradicted(request, First(path, 12), "max_increments"), "");
 }
 
+TEST(VerifyEnd, OfALimitOfTheMachine) {
+  TraceRequest request = ReadExample("von_mises");
+  request.options.at_limit = AtLimit::kStop;
+  const TracedPath path = TraceIncrements(request);
+  ASSERT_EQ(path.result.reason, EndReason::kAtLimit) << path.result.message;
+  EXPECT_EQ(EndContradicted(request, path.increments, "at_limit"), "");
+  EXPECT_EQ(EndContradicted(request, path.increments, "no_landing"),
+            "the result says no_landing, but at_limit is stop");
+  request.options.at_limit = AtLimit::kJump;
+  EXPECT_EQ(EndContradicted(request, path.increments, "no_landing"), "");
+}
+
 // A normal that was turned round: no branch leads from the start.
 TEST(VerifyEnd, OfAPath) {
   TraceRequest request = ReadExample("sliding_bar");

@@ -10,7 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "contact_path/scene/program.h"
 #include "contact_path/scene/read_scene.h"
+#include "contact_path/scene/scaling.h"
 #include "support/traced_path.h"
 
 namespace contact_path {
@@ -234,6 +236,156 @@ TEST(VerifyPath, FarFromTheOriginIsRounding) {
     const Verification verification = VerifyPath(path.request, path.increments);
     EXPECT_TRUE(verification.findings.empty()) << Listed(verification);
   }
+}
+
+// ----- jumps -----
+
+// A truss that snaps, and from the limit point on the increment with the same load factor behind it, as if it had
+// jumped there. With a machine: to the first increment with less load, and the machine that leads there.
+struct JumpedPath {
+  TraceRequest request;
+  std::vector<Increment> increments;
+  std::size_t landing = 0;
+};
+
+JumpedPath Jumped(bool machine) {
+  JumpedPath jumped;
+  jumped.request = ReadExample("von_mises");
+  jumped.request.options.stop = {{"apex.y", "<", -1.4}};
+  TracedPath path = TraceIncrements(jumped.request);
+  std::vector<Increment> limits = IncrementsOfKind(path, IncrementKind::kSmoothLimit);
+  EXPECT_EQ(limits.size(), 2U);
+  if (!machine) {
+    jumped.request.options.at = {{"load_factor", {limits[0].load_factor}}};
+    path = TraceIncrements(jumped.request);
+    limits = IncrementsOfKind(path, IncrementKind::kSmoothLimit);
+  }
+  const std::vector<Increment>& all = path.increments;
+  std::size_t to = static_cast<std::size_t>(limits[1].index) + 1;
+  while (machine ? all[to].kind != IncrementKind::kRegular : all[to].kind != IncrementKind::kSample) ++to;
+  const Increment& from = limits[0];
+  jumped.landing = static_cast<std::size_t>(from.index) + 1;
+  jumped.increments = {all.begin(), all.begin() + static_cast<std::ptrdiff_t>(jumped.landing)};
+  jumped.increments.insert(jumped.increments.end(), all.begin() + static_cast<std::ptrdiff_t>(to), all.end());
+  Increment& landing = jumped.increments[jumped.landing];
+  const Scaling scaling = ProgramScales(jumped.request);
+  const double down = PositionY(path, from, "apex") - PositionY(path, landing, "apex");
+  const double change = landing.load_factor - from.load_factor;
+  const double chord = std::hypot(down / scaling.length, change / scaling.load_factor);
+  const double work = 0.5 * (from.load_factor + landing.load_factor) * down;
+  const double arc_before = landing.arc_length, work_before = landing.external_work;
+  for (std::size_t i = jumped.landing; i < jumped.increments.size(); ++i) {
+    Increment& increment = jumped.increments[i];
+    increment.index = static_cast<int>(i);
+    increment.arc_length += from.arc_length + chord - arc_before;
+    increment.external_work += from.external_work + work - work_before;
+  }
+  landing.kind = IncrementKind::kJump;
+  landing.jump = {work - (landing.strain_energy - from.strain_energy), true};
+  EXPECT_GT(landing.jump.energy_released, 0.0);
+  jumped.request.options.at_limit = AtLimit::kJump;
+  if (machine) jumped.request.options.machine_stiffness = -change / down;
+  return jumped;
+}
+
+TEST(VerifyPath, ProvesJumps) {
+  for (const bool machine : {false, true}) {
+    const JumpedPath path = Jumped(machine);
+    const Verification verification = VerifyPath(path.request, path.increments);
+    EXPECT_TRUE(verification.findings.empty()) << Listed(verification);
+    EXPECT_GT(verification.proved_verdicts, 5);
+  }
+}
+
+struct JumpTampering {
+  const char* name;
+  std::function<void(JumpedPath*)> change;
+  const char* found;
+};
+
+Increment& LandingOf(JumpedPath* path) { return path->increments[path->landing]; }
+
+void ShiftWork(JumpedPath* path, double by) {
+  for (std::size_t i = path->landing; i < path->increments.size(); ++i) path->increments[i].external_work += by;
+}
+
+const JumpTampering kJumpTamperings[] = {
+    {"EnergyReleased", [](auto* path) { LandingOf(path).jump.energy_released += 1e-7; }, "energy released is not what"},
+    {"EnergyBalance", [](auto* path) { ShiftWork(path, 1e-7); }, "energy released is not what"},
+    {"WorkOfLoads",
+     [](auto* path) {
+       ShiftWork(path, 1e-7);
+       LandingOf(path).jump.energy_released += 1e-7;
+     },
+     "work of the loads over a jump is off"},
+    {"Negative",
+     [](auto* path) {
+       const double by = 2.0 * LandingOf(path).jump.energy_released;
+       ShiftWork(path, -by);
+       LandingOf(path).jump.energy_released -= by;
+     },
+     "energy released is negative"},
+    {"Dissipation",
+     [](auto* path) {
+       for (std::size_t i = path->landing; i < path->increments.size(); ++i) path->increments[i].dissipation -= 1e-3;
+       LandingOf(path).jump.energy_released += 1e-3;
+     },
+     "dissipation falls"},
+    {"NotAskedFor", [](auto* path) { path->request.options.at_limit = AtLimit::kFollow; }, "though at_limit is follow"},
+    {"OtherMachine", [](auto* path) { path->request.options.machine_stiffness *= 1.01; }, "setting of the machine"},
+    {"DeadLoads", [](auto* path) { path->request.options.machine_stiffness = 0.0; }, "under dead loads"},
+    {"Landing", [](auto* path) { LandingOf(path).positions[3] += 1e-7; }, "equilibrium residual"},
+    {"ArcLength",
+     [](auto* path) {
+       for (std::size_t i = path->landing; i < path->increments.size(); ++i) path->increments[i].arc_length += 1e-3;
+     },
+     "arc length of the jump"},
+    {"NoJump", [](auto* path) { path->increments[2].jump.energy_released = 1e-3; }, "but there is no jump"},
+    {"KindHidden", [](auto* path) { LandingOf(path).kind = IncrementKind::kRegular; }, "but there is no jump"},
+};
+
+class TamperedJump : public testing::TestWithParam<JumpTampering> {};
+
+TEST_P(TamperedJump, IsFound) {
+  JumpedPath path = Jumped(true);
+  GetParam().change(&path);
+  const Verification verification = VerifyPath(path.request, path.increments);
+  EXPECT_NE(Listed(verification).find(GetParam().found), std::string::npos) << Listed(verification);
+}
+
+INSTANTIATE_TEST_SUITE_P(VerifyPath, TamperedJump, testing::ValuesIn(kJumpTamperings),
+                         [](const auto& tested) { return std::string(tested.param.name); });
+
+// ----- verdicts -----
+
+// On the rising and on the falling part of a path without contact.
+TEST(VerifyPath, FindsVerdictsThatWereChanged) {
+  const TracedPath path = Traced("von_mises", Method::kBranch);
+  const std::size_t rising = FirstRegular(path.increments);
+  const std::size_t falling = First(path.increments, [](const Increment& increment) {
+    return increment.kind == IncrementKind::kRegular && increment.stability.stability == Verdict::kUnstable;
+  });
+  const auto found = [&](std::size_t increment, const std::function<void(StabilityRecord*)>& change) {
+    std::vector<Increment> increments = path.increments;
+    change(&increments[increment].stability);
+    return Listed(VerifyPath(path.request, increments));
+  };
+  EXPECT_EQ(found(falling, [](auto*) {}), "");
+  const auto expect = [&](std::size_t increment, const char* what,
+                          const std::function<void(StabilityRecord*)>& change) {
+    EXPECT_NE(found(increment, change).find(what), std::string::npos) << found(increment, change);
+  };
+  expect(rising, "is recorded as unstable, but is stable", [](auto* of) { of->stability = Verdict::kUnstable; });
+  expect(falling, "is recorded as stable, but is unstable", [](auto* of) { of->stability = Verdict::kStable; });
+  expect(falling, "unstable directions are recorded as 2, but are 1", [](auto* of) { of->unstable_directions = 2; });
+  expect(falling, "under displacement control it is recorded as unstable",
+         [](auto* of) { of->stability_controlled = Verdict::kUnstable; });
+  expect(falling, "the critical stiffness is recorded as", [](auto* of) { of->critical_stiffness *= 1.001; });
+  expect(falling, "does not fall along the unstable direction", [](auto* of) {
+    // To the side, which the bars hold.
+    of->unstable_direction.assign(of->unstable_direction.size(), 0.0);
+    of->unstable_direction[2] = 1.0;
+  });
 }
 
 // Paths that are right, whatever rounding or long increments make of single figures.
