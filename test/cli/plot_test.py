@@ -23,7 +23,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 from matplotlib.quiver import Quiver  # noqa: E402
 
-from contact_path import Path, Scene, programs, read  # noqa: E402
+from contact_path import Path, Scene, marks, programs, read  # noqa: E402
 from contact_path.plot import panels as plot_panels, shapes as plot_shapes  # noqa: E402
 from contact_path.structure import obstacles as obstacle_curves  # noqa: E402
 from contact_path.structure.arrays import Structure  # noqa: E402
@@ -139,7 +139,7 @@ class Curves(QuickPlotTest):
 
     def line(self, path, x, y):
         rows, places = plot_panels.points(path, x, y)
-        return rows, places, plot_panels.line(path, rows, places)
+        return rows, places, marks.line(path, rows, places)
 
     def test_closed_form(self):
         """The load of the sliding bar, as docs/scenes.md has it."""
