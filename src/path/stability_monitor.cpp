@@ -17,6 +17,7 @@ void StabilityMonitor::Count(const PathPoint& point, const std::optional<ActiveS
   dead_ = problem_.Under(INFINITY);
   controlled_ = problem_.Under(0.0);
   under_device_ = device_.IsDead() ? dead_.verdict : problem_.Under(device_.Compliance()).verdict;
+  is_direction_here_ = true;
 }
 
 Verdict StabilityMonitor::At(const PathPoint& point) {
@@ -63,6 +64,7 @@ void StabilityMonitor::NoteEvent(const PathPoint& arrives, const PathPoint& leav
 }
 
 void StabilityMonitor::Follow(const CurvePoint& at) {
+  is_direction_here_ = false;
   if (problem_.HasSlips()) return;
   // du . K du = (ds/dt) (f . du/dt) along the path: where it is negative, a machine holds one of the directions.
   const Eigen::Index nd = model_.structure.NumDofs();
@@ -76,6 +78,7 @@ void StabilityMonitor::Follow(const CurvePoint& at) {
     const double machine = model_.structure.ReferenceLoad().dot(at.first.head(nd)) / at.first[nd] + device_.Compliance();
     under_device_ = dead_.directions - (held == 1 && machine < 0.0 ? 1 : 0) > 0 ? Verdict::kUnstable : Verdict::kStable;
   }
+  is_direction_here_ = held == 1;
   if (dead_.directions > 0 && held == 1) dead_.direction = at.first.head(nd).normalized();
 }
 
@@ -97,7 +100,7 @@ void StabilityMonitor::Write(const CurvePoint* at) {
   const double stiffness = CriticalStiffness(at);
   record_.critical_stiffness = stiffness > 0.0 ? stiffness * model_.UnitOfMachineStiffness() : stiffness;
   record_.unstable_direction.clear();
-  if (dead_.verdict == Verdict::kUnstable && dead_.direction.size() > 0)
+  if (dead_.verdict == Verdict::kUnstable && dead_.direction.size() > 0 && is_direction_here_)
     record_.unstable_direction = model_.ComponentsOf(dead_.direction);
 }
 

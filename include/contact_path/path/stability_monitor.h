@@ -58,6 +58,7 @@ class StabilityMonitor {
   StabilityProblem problem_;
   bool known_ = false;    // dead_ and controlled_ hold on this arc
   Stability dead_, controlled_;
+  bool is_direction_here_ = false;  // dead_.direction is of the last increment, and not of one before on its arc
   Verdict under_device_ = Verdict::kNotProved;
   StabilityRecord record_;
 };
