@@ -13,6 +13,7 @@
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/read_scene.h"
 #include "contact_path/scene/scaling.h"
+#include "contact_path/verify/verify_end.h"
 #include "support/traced_path.h"
 
 namespace contact_path {
@@ -295,6 +296,22 @@ TEST(VerifyPath, ProvesJumps) {
     EXPECT_TRUE(verification.findings.empty()) << Listed(verification);
     EXPECT_GT(verification.proved_verdicts, 5);
   }
+}
+
+// Under dead loads, a machine, and with friction on the way.
+TEST(VerifyPath, ProvesJumpsThatWereTraced) {
+  for (const char* const scene : {"von_mises", "two_dof_friction", "rough_truss", "snap_hook", "williams_toggle"})
+    for (const double stiffness : {0.0, 0.1}) {
+      SCOPED_TRACE(std::string(scene) + ", machine of stiffness " + std::to_string(stiffness));
+      TraceRequest request = ReadExample(scene);
+      request.options.at_limit = AtLimit::kJump;
+      request.options.machine_stiffness = stiffness;
+      request.options.max_increments = 100;
+      const TracedPath path = TraceIncrements(request);
+      EXPECT_FALSE(IncrementsOfKind(path, IncrementKind::kJump).empty() && stiffness == 0.0);
+      ExpectNoFindings(path);
+      EXPECT_EQ(EndContradicted(path.request, path.increments, ToString(path.result.reason)), "");
+    }
 }
 
 struct JumpTampering {

@@ -59,7 +59,7 @@ def path_entries(paths: Sequence[Increments], x: str, y: str, alone: bool = Fals
 
 def points_of(path: Increments) -> Points | None:
     """None without a scene."""
-    return Points(Structure(path.scene)) if path.scene is not None else None
+    return Points(Structure(path.scene), bool(path.unstable)) if path.scene is not None else None
 
 
 def document(title: str, data: Entry) -> str:

@@ -20,7 +20,8 @@ class Points:
     """Which points there are, the same in every step: nodes, points within segments of beams, along surfaces, hubs of superelements, tips of
     arrows, bases of friction cones, turned arrows. `groups`: name -> their numbers (m, ...)."""
 
-    def __init__(self, structure: Structure) -> None:
+    def __init__(self, structure: Structure, has_unstable: bool) -> None:
+        """has_unstable: whether there are unstable directions to be drawn."""
         self.structure = structure
         self.groups: Dict[str, np.ndarray] = {}
         self.count = 0
@@ -43,6 +44,7 @@ class Points:
             self.add(name, len(self.loaded[name]))
         for name in MOMENTS:
             self.add(name, len(self.turned[name]), STEPS + 1 + HEAD)
+        self.add('unstable', len(structure.names) if has_unstable else 0)
 
     def add(self, name: str, *shape: int) -> None:
         size = int(np.prod(shape))
@@ -67,6 +69,8 @@ class Points:
         for name in MOMENTS:
             for node in self.turned[name]:
                 parts.append(turning(shape.places[node], getattr(shape, name)[node], view))
+        if len(self.groups['unstable']):
+            parts.append(long_ones(shape.places, view.unstable_arrows(shape), view))
         return np.vstack(parts)
 
     def initial(self) -> np.ndarray:
@@ -105,8 +109,9 @@ class Points:
         return joined(np.column_stack((nodes, self.groups['cones'], nodes)))
 
     def arrows(self, name: str) -> np.ndarray:
-        """name: 'reactions' or one of FORCES."""
-        nodes = self.structure.contact_nodes if name == 'reactions' else self.loaded[name]
+        """name: 'reactions', 'unstable' or one of FORCES."""
+        nodes = {'reactions': self.structure.contact_nodes, 'unstable': self.groups['nodes'][:len(self.groups['unstable'])],
+                 **self.loaded}[name]
         return joined(np.column_stack((nodes, self.groups[name])))
 
     def shafts(self, name: str) -> np.ndarray:
@@ -132,7 +137,11 @@ def closed(boundaries: np.ndarray) -> np.ndarray:
 
 def tips(places: np.ndarray, forces: np.ndarray, view: View) -> np.ndarray:
     """(m, 2) of arrows from the places on."""
-    arrows = view.length_per_force * forces
+    return long_ones(places, view.length_per_force * forces, view)
+
+
+def long_ones(places: np.ndarray, arrows: np.ndarray, view: View) -> np.ndarray:
+    """(m, 2): the tips of arrows; nan of those that are too short to be seen."""
     short = np.hypot(*arrows.T) <= SHORTEST_ARROW * view.size
     return np.where(short[:, None], np.nan, places + arrows)
 

@@ -15,13 +15,14 @@ from contact_path.page.points import Points, closed
 from contact_path.page.trails import GAP
 from contact_path.structure.arrays import Structure
 from contact_path.structure.shapes import (BARS, CONSTANT_LOAD, FEW_NODES, INITIAL, LOAD, LONGEST_ARROW, MANY_MARKS, MANY_NODES, OBSTACLE,
-                                 REACTION, SOLID_COLOURS, SURFACE, Shape, View)
+                                 REACTION, SOLID_COLOURS, SURFACE, UNSTABLE, Shape, View)
 
 CLASSES = 12  # of colours of solids
 ARROW_HEAD, SMALL_ARROW_HEAD = 11, 7  # in pixels
 MARK, SMALL_MARK = 11, 7
 SUPPORTS = {(0, -1): 'arrow-up', (0, 1): 'arrow-down', (-1, 0): 'arrow-right', (1, 0): 'arrow-left'}  # ground: its symbol
-ARROWS = (('constant_loads', 'constant load', CONSTANT_LOAD), ('loads', 'load', LOAD), ('reactions', 'reaction', REACTION))
+ARROWS = (('constant_loads', 'constant load', CONSTANT_LOAD), ('loads', 'load', LOAD), ('reactions', 'reaction', REACTION),
+          ('unstable', 'unstable direction', UNSTABLE))
 TURNED = (('constant_moments', 'constant moment', CONSTANT_LOAD), ('moments', 'moment', LOAD))
 
 
@@ -38,7 +39,7 @@ def structure_of(path: Increments, rows: np.ndarray, points: Points) -> Entry:
     names       of the nodes; decimals: of their positions, so many are right
     """
     structure = points.structure
-    shapes = [Shape(structure, path.increment(row)) for row in rows]
+    shapes = [Shape(structure, path.increment(row), path.unstable.get(int(path['index'][row]))) for row in rows]
     view = View(shapes)
     places = np.array([points.places(shape, view) for shape in shapes])
     moved = trajectories(places.reshape(len(rows), -1))
