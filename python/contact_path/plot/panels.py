@@ -52,7 +52,7 @@ def draw_path(axes: Axes, paths: Sequence[Increments], x: str, y: str, numbered:
             draw_stages(axes, path, line_parts(path, rows, places))
         for begin, end in jumps(path, rows, places):
             axes.annotate('', end, begin, zorder=style['zorder'], arrowprops={
-                'arrowstyle': '->', 'color': style['color'] if several else JUMP, 'linewidth': 0.8, 'shrinkA': 0.0, 'shrinkB': 0.0})
+                'arrowstyle': '->', 'color': style['color'] if several else JUMP, 'linewidth': 0.8, 'shrinkA': 0.0, 'shrinkB': 5.0})
         for kind, (_, colour) in MARKS.items():
             marker = MARKERS[kind]
             axes.scatter(*places[marked[number][rows] == kind].T, marker=marker, zorder=20 + number,
