@@ -56,6 +56,25 @@ class TraceTest(ProgramTest):
             self.assertNotEqual(scene.request.get('options', {}).get('max_increments'), 30)
             self.assertEqual((path.title, path.scene.name), (scene.name, scene.name))
 
+    def test_a_truss_that_snaps_jumps(self):
+        path = cp.trace(scene_file('von_mises'), at_limit='jump')
+        (jump,) = path.jumps
+        self.assertEqual((jump['kind'], jump['load_factor_before'], jump['landing_robust']), ('jump', jump['load_factor'], True))
+        self.assertAlmostEqual(jump['load_factor'], 0.1874032752, 9)
+        before, after = path.increment(jump['index'] - 1), path.increment(jump['index'])
+        work = jump['load_factor'] * (before['y_apex'] - after['y_apex'])
+        self.assertAlmostEqual(jump['energy_released'], work - (after['strain_energy'] - before['strain_energy']), 12)
+        self.assertEqual(path.stable_ranges, [(0, jump['index'] - 2), (jump['index'], len(path) - 1)])
+        # The limit point is the only increment that is not stable: down it goes.
+        self.assertEqual(list(path.unstable), [jump['index'] - 1])
+        np.testing.assert_allclose(path.unstable[jump['index'] - 1], [(0.0, 0.0), (0.0, -1.0), (0.0, 0.0)], atol=1e-9)
+        self.assertIn('1 jump', path.message)
+        # A machine that is stiff enough holds it.
+        self.assertEqual(cp.trace(scene_file('von_mises'), at_limit='jump', machine_stiffness=1.0).jumps, [])
+        stopped = cp.trace(scene_file('von_mises'), at_limit='stop')
+        self.assertEqual((stopped.end_reason, stopped.success, stopped['kind'][-1]), ('at_limit', True, 'smooth_limit'))
+        self.assertNotIn('stability', cp.trace(scene_file('von_mises'), stability='false', max_increments=3))
+
     def test_options_replace_those_of_the_file(self):
         file = scene_file('sliding_bar')
         path = cp.trace(file, stop=[{'quantity': 'b.x', 'when': '>', 'value': 0.0}], full_state_every=7)

@@ -37,8 +37,14 @@ class PathBagTest(ProgramTest):
                 cp.read(self.path('a.bag'))
 
     def test_columns_are_those_of_the_csv(self):
-        for name in 'rough_truss', 'stick_slip_cycle', 'portal_frame', 'von_mises':
-            table, bag = self.trace(scene_file(name))
+        jumps = self.path('jumps.yaml')
+        scene = cp.Scene.read(scene_file('von_mises'))
+        scene.options(at_limit='jump')
+        scene.write(jumps)
+        for name in 'rough_truss', 'stick_slip_cycle', 'portal_frame', 'von_mises', jumps:
+            table, bag = self.trace(scene_file(name) if name != jumps else jumps)
+            self.assertEqual(bag.jumps, table.jumps)
+            self.assertEqual(len(bag.jumps), 1 if name == jumps else 0)
             self.assertEqual([column for column in bag.columns if column not in ('external_work', 'stage')],
                              [column for column in table.columns if column != 'stage'])
             for column in table.columns:

@@ -39,6 +39,8 @@ def lines(parameters: Sequence[str], outputs: Sequence[str], points: Sequence[Po
     ['mu', 'status', 'limit_1', 'events']
     ['0.1', 'complete', '1.5', '1']
     ['0.2', 'failed: x', '', '']
+    >>> lines([], ['released'], [(), ()], ['complete\\t0.5 0.25', 'complete\\t'])
+    [['status', 'released_1', 'released_2'], ['complete', '0.5', '0.25'], ['complete', '', '']]
     """
     names = columns(parameters, outputs, answers)
     lengths = [longest(place, answers) for place in range(1, len(outputs) + 1)]
