@@ -1,5 +1,7 @@
 #include "contact_path/stability/stability_problem.h"
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -10,13 +12,8 @@
 namespace contact_path {
 namespace {
 
-constexpr int kInverseIterations = 12;  // each multiplies the share of a mode by the ratio of two eigenvalues
-
-Eigen::VectorXd GenericVector(Eigen::Index size) {
-  Eigen::VectorXd vector(size);
-  for (Eigen::Index i = 0; i < size; ++i) vector[i] = 0.5 + std::fmod(static_cast<double>(i + 1) * M_SQRT2, 1.0);
-  return vector;
-}
+constexpr Eigen::Index kModes = 8;      // of the softest motions, among which one whose energy falls is looked for
+constexpr int kInverseIterations = 6;  // each multiplies the share of a mode by the ratio of two eigenvalues
 
 // -1, 0 or 1 for +: which side of its cone a contact is at; of a contact inside of it nothing.
 std::optional<double> SenseAtEdge(ContactState state, double friction, double rn, double rt, double level) {
@@ -192,23 +189,22 @@ Eigen::VectorXd StabilityProblem::Normalised(const Eigen::VectorXd& du) const {
 }
 
 Eigen::VectorXd StabilityProblem::FallingMode() const {
-  const Eigen::Index nd = structure_.NumDofs();
-  Eigen::MatrixXd mode = Eigen::MatrixXd::Zero(saddle_.rows(), 1);
-  const bool by_load = load_compliance_ < 0.0;
-  mode.col(0).head(nd) = by_load ? by_load_ : GenericVector(nd);
-  Eigen::VectorXd falling;
+  const Eigen::Index nd = structure_.NumDofs(), size = saddle_.rows(), count = std::min(kModes, nd);
+  Eigen::MatrixXd modes = Eigen::MatrixXd::Zero(size, count);
+  for (Eigen::Index k = 0; k < count; ++k)
+    for (Eigen::Index i = 0; i < nd; ++i) modes(i, k) = std::fmod(static_cast<double>((k + 1) * (i + 1)) * M_SQRT2, 1.0);
+  if (load_compliance_ < 0.0) modes.col(0).head(nd) = by_load_;
   for (int i = 0; i < kInverseIterations; ++i) {
-    const Eigen::VectorXd before = mode.col(0).head(nd);
-    mode.bottomRows(mode.rows() - nd).setZero();
-    factors_.Solve(&mode);
-    // v = K^-1 before, where the contacts stick: v . K v = v . before.
-    const Eigen::VectorXd v = mode.col(0).head(nd);
-    const double norm = v.norm();
-    if (!(norm > 0.0) || !std::isfinite(norm)) break;
-    if (v.dot(before) < 0.0) falling = v / norm;
-    mode /= norm;
+    factors_.Solve(&modes);
+    if (!modes.allFinite()) return {};
+    const Eigen::MatrixXd basis = Eigen::HouseholderQR<Eigen::MatrixXd>(modes.topRows(nd)).householderQ() *
+                                  Eigen::MatrixXd::Identity(nd, count);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(basis.transpose() * (stiffness_ * basis));
+    if (solver.eigenvalues()[0] < 0.0) return basis * solver.eigenvectors().col(0);
+    modes.topRows(nd) = basis;
+    modes.bottomRows(size - nd).setZero();
   }
-  return falling;
+  return {};
 }
 
 Stability StabilityProblem::Under(double compliance) const {

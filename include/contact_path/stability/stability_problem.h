@@ -71,7 +71,8 @@ class StabilityProblem {
   void Classify(const PathPoint& point, const std::optional<ActiveSetTolerance>& weakly_active);
   void BuildSaddle(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& null_direction);
   bool Condense(const Eigen::SparseMatrix<double>& transposed);
-  // The motion whose energy falls, from the flexibility by loads and its inverse iterations.
+  // A motion without slip whose energy falls, among the softest ones, by inverse iterations of a subspace; empty: none is
+  // found.
   Eigen::VectorXd FallingMode() const;
   Eigen::VectorXd Normalised(const Eigen::VectorXd& du) const;
 
