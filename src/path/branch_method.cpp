@@ -54,13 +54,17 @@ std::vector<double> BranchMethod::CrossingPath(const Crossing& crossing) const {
 
 std::optional<End> BranchMethod::Start(const PathPoint& from, StartRecord* found) {
   departure_.NoteReactions(from);
+  if (Causes hidden = HiddenSlip(model_, from); !hidden.empty()) return End{EndReason::kNotDetermined, hidden};
+  std::optional<End> end = departure_.Leave(from, departure_.StartArrival(), options_.ChoiceAt(increments_, 0), &arc_,
+                                            &current_, &found->branches);
   if (stability_) {
-    stability_->Start(from, departure_.ToleranceAt(from));
+    PathPoint leaves = from;
+    if (!end) leaves.states = arc_.system().states();
+    if (!end) leaves.patches = arc_.system().patches();
+    stability_->Start(leaves);
     found->stability = stability_->record();
   }
-  if (Causes hidden = HiddenSlip(model_, from); !hidden.empty()) return End{EndReason::kNotDetermined, hidden};
-  return departure_.Leave(from, departure_.StartArrival(), options_.ChoiceAt(increments_, 0), &arc_, &current_,
-                          &found->branches);
+  return end;
 }
 
 bool BranchMethod::LoadsOn() const { return SettingRate(current_) > 0.0; }
@@ -110,7 +114,15 @@ void BranchMethod::NoteStability(const ArcStep& at, const AcceptedPoint& increme
   PathPoint leaves = increment.point;
   leaves.states = arc_.system().states();
   leaves.patches = arc_.system().patches();
-  stability_->NoteEvent(increment.point, leaves, departure_.ToleranceAt(increment.point), current_);
+  int changed = 0;
+  for (std::size_t i = 0; i < leaves.states.size(); ++i)
+    changed += leaves.states[i] != increment.point.states[i] ? 1 : 0;
+  StabilityMonitor::Decides decides = StabilityMonitor::Decides::kBoth;
+  if (changed == 1 && at.event.kind == EventKind::kContactEvent && !KeepsPatch(at.event.constraint.inequality)) {
+    const bool closes = at.event.constraint.inequality == Inequality::kGap || IsOfSlip(at.event.constraint.inequality);
+    decides = closes ? StabilityMonitor::Decides::kArrival : StabilityMonitor::Decides::kDeparture;
+  }
+  stability_->NoteEvent(leaves, current_, decides);
 }
 
 bool BranchMethod::EndAtOnset(const PathPoint& from, BalancedStep* next, AcceptedPoint* increment) {

@@ -15,23 +15,13 @@ namespace {
 constexpr Eigen::Index kModes = 8;      // of the softest motions, among which one whose energy falls is looked for
 constexpr int kInverseIterations = 6;  // each multiplies the share of a mode by the ratio of two eigenvalues
 
-// -1, 0 or 1 for +: which side of its cone a contact is at; of a contact inside of it nothing.
-std::optional<double> SenseAtEdge(ContactState state, double friction, double rn, double rt, double level) {
-  if (state == ContactState::kSlipPlus) return 1.0;
-  if (state == ContactState::kSlipMinus) return -1.0;
-  if (friction * rn + rt <= level) return 1.0;
-  if (friction * rn - rt <= level) return -1.0;
-  return std::nullopt;
-}
-
 }  // namespace
 
 StabilityProblem::StabilityProblem(const Structure& structure, const ContactPairs& contacts)
     : structure_(structure), contacts_(contacts), system_(structure, contacts) {}
 
-void StabilityProblem::Set(const PathPoint& point, const std::optional<ActiveSetTolerance>& weakly_active,
-                           const Eigen::VectorXd& null_direction) {
-  Classify(point, weakly_active);
+void StabilityProblem::Set(const PathPoint& point, const Eigen::VectorXd& null_direction) {
+  Classify(point);
   const Eigen::VectorXd x = system_.Pack(point);
   const Eigen::SparseMatrix<double>& transposed = system_.TransposedJacobian(x);
   singular_ = null_direction.size() > 0 && slips_.empty();
@@ -46,31 +36,17 @@ void StabilityProblem::Set(const PathPoint& point, const std::optional<ActiveSet
   regular_ = negative_ >= 0 && Condense(transposed);
 }
 
-void StabilityProblem::Classify(const PathPoint& point, const std::optional<ActiveSetTolerance>& weakly_active) {
+void StabilityProblem::Classify(const PathPoint& point) {
   std::vector<ContactState> states = point.states;
   slips_.clear();
-  resting_ = 0;
   covered_ = true;
   for (std::size_t i = 0; i < states.size(); ++i) {
     const ContactPair& pair = *contacts_[i];
-    if (states[i] == ContactState::kOpen) {
-      if (weakly_active && pair.Gap(point.u, point.s, point.Patch(i)) <= weakly_active->gap) ++resting_;
-      continue;
-    }
-    const auto k = static_cast<Eigen::Index>(i);
-    if (weakly_active && point.rn[k] <= weakly_active->force * pair.NormalForceUnit()) {
-      ++resting_;
-      states[i] = ContactState::kOpen;
-      continue;
-    }
-    if (!pair.Frictional()) continue;
+    if (states[i] == ContactState::kOpen || !pair.Frictional()) continue;
     covered_ = covered_ && !pair.HasTotalLaw();
-    // Inside an arc the states tell: no margin is below this level.
-    const double level = weakly_active ? weakly_active->force * pair.ForceUnit() : -INFINITY;
-    const std::optional<double> sense = SenseAtEdge(states[i], pair.Friction(), point.rn[k], point.rt[k], level);
-    if (!sense) continue;
+    if (!Slips(states[i])) continue;
+    slips_.push_back({i, states[i] == ContactState::kSlipPlus ? 1.0 : -1.0, pair.Friction(), 0, 0});
     states[i] = ContactState::kStick;
-    slips_.push_back({i, *sense, pair.Friction(), 0, 0});
   }
   if (states != system_.states() || point.patches != system_.patches())
     system_.SetStates(states, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(states.size())), point.patches);
@@ -217,7 +193,7 @@ Stability StabilityProblem::Under(double compliance) const {
     const double along = structure_.ReferenceLoad().dot(null_);
     const bool held = !dead && std::abs(along) > tolerances::kSameTangent * structure_.ReferenceLoad().norm();
     found.directions = static_cast<int>(negative_) + (held ? 0 : 1);
-    found.verdict = found.directions > 0 ? (resting_ <= 1 ? Verdict::kUnstable : Verdict::kNotProved) : Verdict::kStable;
+    found.verdict = found.directions > 0 ? Verdict::kUnstable : Verdict::kStable;
     if (!held) found.direction = Normalised(null_);
     return found;
   }
@@ -242,8 +218,8 @@ Stability StabilityProblem::Under(double compliance) const {
     found.directions = static_cast<int>(n0);
     if (n0 == 0 && sign > 0) {
       found.verdict = Verdict::kStable;
-    } else if (resting_ <= 1) {
-      found.verdict = symmetric_ || sign < 0 ? Verdict::kUnstable : Verdict::kNotProved;
+    } else if (symmetric_ || sign < 0) {
+      found.verdict = Verdict::kUnstable;
     }
     if (n0 > 0) fill();
     if (found.verdict == Verdict::kNotProved) found.directions = -1;
@@ -252,7 +228,6 @@ Stability StabilityProblem::Under(double compliance) const {
 
   const double least = H_.cwiseAbs().maxCoeff() * tolerances::kRootOfRounding;
   const Eigen::VectorXd scale = H_.diagonal().cwiseAbs().cwiseMax(least).cwiseSqrt().cwiseInverse();
-  if (resting_ > 0) return found;
   const Eigen::MatrixXd H =
       scale.asDiagonal() * (H_ - share * w_of_load_ * load_of_slips_.transpose()) * scale.asDiagonal();
   if (n0 == 0 && IsStrictlyCopositive(H)) {

@@ -69,7 +69,7 @@ PathPoint Sliding(const Model& model, double friction) {
 Stability SlidingVerdict(const Eigen::MatrixXd& stiffness, std::size_t on_floor, double friction, double compliance) {
   const Model model(LinearScene(stiffness, on_floor, friction), kUnscaled);
   StabilityProblem problem(model.structure, model.contacts);
-  problem.Set(Sliding(model, friction), std::nullopt, {});
+  problem.Set(Sliding(model, friction), {});
   return problem.Under(compliance);
 }
 
@@ -163,7 +163,7 @@ TEST(StabilityProblemTest, CountsAgainstEigenvalues) {
       continue;
     const auto negative = static_cast<int>((solver.eigenvalues().array() < 0.0).count());
     StabilityProblem problem(model.structure, model.contacts);
-    problem.Set(point, std::nullopt, {});
+    problem.Set(point, {});
     const Stability found = problem.Under(INFINITY);
     EXPECT_EQ(found.directions, negative) << seed;
     EXPECT_EQ(found.verdict, negative > 0 ? Verdict::kUnstable : Verdict::kStable) << seed;

@@ -3,9 +3,7 @@
 #define CONTACT_PATH_PATH_STABILITY_MONITOR_H_
 
 #include <Eigen/Core>
-#include <optional>
 
-#include "contact_path/branch/active_set_tolerance.h"
 #include "contact_path/branch/smooth_arc.h"
 #include "contact_path/contact/path_point.h"
 #include "contact_path/stability/device.h"
@@ -28,38 +26,43 @@ class StabilityMonitor {
   // fixed load factor, 0 = singular. null_direction: of the tangent at fixed load factor, du, where it is known to be
   // singular; else empty.
   void Note(const PathPoint& point, const CurvePoint& at, int stiffness_sign, const Eigen::VectorXd& null_direction);
-  // The same where contacts change their states or patches: the point as it is reached, and as it is left along `ahead`.
-  void NoteEvent(const PathPoint& arrives, const PathPoint& leaves, const ActiveSetTolerance& weakly_active,
-                 const CurvePoint& ahead);
-  // An equilibrium from which a path sets out.
-  void Start(const PathPoint& point, const ActiveSetTolerance& weakly_active);
+  // Where contacts change their states or patches, behind Note(): the point as it is left, along `ahead`. A contact that
+  // closes, or comes to stick, is free to do what it did where it arrives; one that opens, or comes to slip, what it does
+  // where it leaves. On a kink of a surface, and where several contacts change, both sides count.
+  enum class Decides { kArrival, kDeparture, kBoth };
+  void NoteEvent(const PathPoint& leaves, const CurvePoint& ahead, Decides decides);
+  // An equilibrium from which a path sets out, with the states of its arc.
+  void Start(const PathPoint& point);
+
   const StabilityRecord& record() const { return record_; }
   // Under the device of the path.
-  Verdict UnderDevice() const { return under_device_; }
+  Verdict UnderDevice() const { return noted_.under_device; }
   // The same of the arc that the last increment is inside of; not proved where it begins there.
-  Verdict OnArc() const { return known_ ? under_device_ : Verdict::kNotProved; }
+  Verdict OnArc() const { return known_ ? arc_.under_device : Verdict::kNotProved; }
   bool HasSlips() const { return problem_.HasSlips(); }
   // Under the device, at a point of the arc that begins or goes on at `of`: looked for anew, and not noted.
   Verdict At(const PathPoint& point);
   // In which a disturbance grows under dead loads, (du); empty = not known.
-  const Eigen::VectorXd& Direction() const { return dead_.direction; }
+  const Eigen::VectorXd& Direction() const { return noted_.dead.direction; }
 
  private:
-  void Count(const PathPoint& point, const std::optional<ActiveSetTolerance>& weakly_active,
-             const Eigen::VectorXd& null_direction);
+  // Of a point under one machine after the other.
+  struct Verdicts {
+    Stability dead, controlled;
+    Verdict under_device = Verdict::kNotProved;
+  };
+  void Count(const PathPoint& point, const Eigen::VectorXd& null_direction);
   // From the count before, and the tangent.
   void Follow(const CurvePoint& at);
-  void Write(const CurvePoint* at);
+  void Write(const Verdicts& of, const CurvePoint* at);
   // k of the machine that just holds the point, scaled.
-  double CriticalStiffness(const CurvePoint* at) const;
+  double CriticalStiffness(const Verdicts& of, const CurvePoint* at) const;
 
   const Model& model_;
   const Device device_;
   StabilityProblem problem_;
-  bool known_ = false;    // dead_ and controlled_ hold on this arc
-  Stability dead_, controlled_;
-  bool is_direction_here_ = false;  // dead_.direction is of the last increment, and not of one before on its arc
-  Verdict under_device_ = Verdict::kNotProved;
+  bool known_ = false;  // arc_ holds on this arc
+  Verdicts arc_, noted_;
   StabilityRecord record_;
 };
 

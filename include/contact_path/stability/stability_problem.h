@@ -4,10 +4,8 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
-#include <optional>
 #include <vector>
 
-#include "contact_path/branch/active_set_tolerance.h"
 #include "contact_path/contact/contact_pair.h"
 #include "contact_path/contact/path_point.h"
 #include "contact_path/equations/fixed_state_system.h"
@@ -32,24 +30,23 @@ struct Stability {
 //   inside the cone (D): v_n = v_t = 0; without friction: v_n = 0
 //   at the edge of the cone, sliding or about to with the sense sigma (S):
 //     v_n = 0, 0 <= z = sigma v_t, 0 <= w = sigma rho_t + mu rho_n, z w = 0
-//   touching without a reaction (Z): 0 <= v_n, 0 <= rho_n, v_n rho_n = 0, |rho_t| <= mu rho_n against v_t
 // M and C: of nodes, equal in both directions of a node. With K condensed onto the slips z, w = H z.
 //
 // Unstable, whatever M and C are: the degree of this problem at a = 0 is not 1, its degree for large a. The degree is
-// (-1)^n0 times that of H, n0: negative eigenvalues of K where S sticks. Without S and with at most one contact in Z
-// also where n0 is even, and not 0: one of the senses of a mode opens Z.
+// (-1)^n0 times that of H, n0: negative eigenvalues of K where S sticks. Without S also where n0 is even, and not 0, and
+// with one contact in S where n0 is not 0: one of the senses of a mode keeps w >= 0.
 // Stable, whatever masses and drags the nodes of the contacts S have, if all other nodes follow at once: sym H is
-// strictly copositive, since z . (a^2 M + a C + H) z = 0 for a growing motion, and n0 is 0. Contacts Z do no work on a
-// motion, and are left out where there are none in S. Masses of other nodes may let contacts go that H holds.
+// strictly copositive, since z . (a^2 M + a C + H) z = 0 for a growing motion, and n0 is 0. Masses of
+// other nodes may let contacts go that H holds.
 class StabilityProblem {
  public:
   // Both must outlive the problem.
   StabilityProblem(const Structure& structure, const ContactPairs& contacts);
 
-  // Looks at an equilibrium. weakly_active: which inequalities are at zero; nothing: those of the states alone, as
-  // inside an arc. null_direction: of the tangent, du, where the equations are known to be singular; else empty.
-  void Set(const PathPoint& point, const std::optional<ActiveSetTolerance>& weakly_active,
-           const Eigen::VectorXd& null_direction);
+  // Looks at an equilibrium inside an arc, or at an end of it with the states of the arc: contacts that slip are S, all
+  // others that stick are D. null_direction: of the tangent, du, where the equations are known to be singular; else
+  // empty.
+  void Set(const PathPoint& point, const Eigen::VectorXd& null_direction);
 
   // Under s = (Q - f . u) / compliance, f the reference load, for Q at rest: infinite = dead loads, 0 = displacement
   // control. Without reference loads the machine is rigid already: as with dead loads.
@@ -68,7 +65,7 @@ class StabilityProblem {
     Eigen::Index normal, tangent;  // unknowns of its reactions among those of the saddle
   };
 
-  void Classify(const PathPoint& point, const std::optional<ActiveSetTolerance>& weakly_active);
+  void Classify(const PathPoint& point);
   void BuildSaddle(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& null_direction);
   bool Condense(const Eigen::SparseMatrix<double>& transposed);
   // A motion without slip whose energy falls, among the softest ones, by inverse iterations of a subspace; empty: none is
@@ -83,7 +80,6 @@ class StabilityProblem {
   BorderedSolver unsymmetric_;
 
   std::vector<Slip> slips_;
-  int resting_ = 0;            // contacts Z
   bool covered_ = true;        // by the theory: no contact with the total law of friction
   bool regular_ = false;       // the saddle is
   bool singular_ = false;      // the point is known to be
