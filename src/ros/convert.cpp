@@ -267,6 +267,10 @@ Increment FromMessage(const msgs::Increment& message) {
   from.Copy(message, KeyPath(), &increment.solve);
   from.Copy(message, KeyPath(), &increment.stability);
   from.Copy(message, KeyPath(), &increment.jump);
+  if (!from.violations().empty()) {
+    const Violation& wrong = from.violations().front();
+    throw std::invalid_argument(wrong.key + " = " + wrong.value + ": " + wrong.rule);
+  }
   from.Copy(message.contacts, KeyPath("contacts"), &increment.contacts);
   for (std::size_t i = 0; i < message.x.size(); ++i) {
     increment.positions.push_back(message.x[i]);

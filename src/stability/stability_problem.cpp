@@ -165,7 +165,9 @@ Eigen::VectorXd StabilityProblem::Normalised(const Eigen::VectorXd& du) const {
 }
 
 Eigen::VectorXd StabilityProblem::FallingMode() const {
-  const Eigen::Index nd = structure_.NumDofs(), size = saddle_.rows(), count = std::min(kModes, nd);
+  const Eigen::Index nd = structure_.NumDofs(), size = saddle_.rows();
+  // Not more than there are motions that the contacts admit: further columns of a basis would be none.
+  const Eigen::Index count = std::min(kModes, nd - (size - nd));
   Eigen::MatrixXd modes = Eigen::MatrixXd::Zero(size, count);
   for (Eigen::Index k = 0; k < count; ++k)
     for (Eigen::Index i = 0; i < nd; ++i) modes(i, k) = std::fmod(static_cast<double>((k + 1) * (i + 1)) * M_SQRT2, 1.0);

@@ -28,8 +28,9 @@ class StabilityChecks {
   // Components that are free at the increment, as CheckedState has them, then rotations; nothing where it is not
   // covered.
   std::optional<std::vector<std::size_t>> FreeComponents(const Increment& increment) const;
-  // Of Unbalance() by a component, or, at the number of all components, by the load factor.
-  Eigen::VectorXd Derivative(const Increment& increment, std::size_t component) const;
+  // Of Unbalance() by a component, or, at the number of all components, by the load factor. step: to either side, over
+  // the unit of the component.
+  Eigen::VectorXd Derivative(const Increment& increment, std::size_t component, double step) const;
 
   const VerifiedStage& stage_;
   Findings& findings_;

@@ -16,7 +16,7 @@ from program_test import ProgramTest, run, scene_file
 
 TRACE = os.environ['CONTACT_PATH_TRACE']
 VERIFY = os.environ['CONTACT_PATH_VERIFY']
-WORDS = 'kind', 'state_'
+WORDS = 'kind', 'state_', 'stability'
 
 
 def increments_of(path):
