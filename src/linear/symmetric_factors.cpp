@@ -131,8 +131,7 @@ struct SymmetricFactors::Sparse {
       mumps.infog[0] = 0;
     }
     if (Information(1) == kOutOfMemory) throw std::bad_alloc();
-    if (Information(1) < 0 && Information(1) != kSingular)
-      throw LinearSolverError("MUMPS", Information(1));
+    if (Information(1) < 0 && Information(1) != kSingular) throw LinearSolverError("MUMPS", Information(1));
     return Information(1) != kSingular && Information(28) == 0;
   }
 

@@ -157,8 +157,8 @@ std::optional<Eigen::VectorXd> BranchMethod::MovesOff(const ArcStep& at, Increme
   if (loaded && smooth) return along;
   const bool turns = SettingRate(at.step.end) > 0.0 && SettingRate(current_) < 0.0;
   if (turns) return along;
-  const bool unstable = stability_ && kind == IncrementKind::kRegular && loaded &&
-                        stability_->UnderDevice() == Verdict::kUnstable;
+  const bool unstable =
+      stability_ && kind == IncrementKind::kRegular && loaded && stability_->UnderDevice() == Verdict::kUnstable;
   if (!unstable) return std::nullopt;
   return stability_->Direction().size() > 0 ? stability_->Direction() : along;
 }

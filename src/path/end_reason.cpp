@@ -31,8 +31,8 @@ bool IsStuck(EndReason reason) {
 }
 
 bool IsComplete(EndReason reason) {
-  return reason == EndReason::kStopCriterion || reason == EndReason::kMaxIncrements || reason == EndReason::kClosedPath ||
-         reason == EndReason::kAtLimit;
+  return reason == EndReason::kStopCriterion || reason == EndReason::kMaxIncrements ||
+         reason == EndReason::kClosedPath || reason == EndReason::kAtLimit;
 }
 
 }  // namespace contact_path

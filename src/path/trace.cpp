@@ -360,7 +360,9 @@ class Tracer {
     if (jump.cancelled) return EndBy(EndReason::kCancelled, {sentences::kCancelled});
     if (jump.came_back) return std::nullopt;  // it is held
     if (!jump.landing)
-      return EndBy(EndReason::kNoLanding, {sentences::kNoLanding, {}, static_cast<double>(recorder_.increment().index),
+      return EndBy(EndReason::kNoLanding, {sentences::kNoLanding,
+                                           {},
+                                           static_cast<double>(recorder_.increment().index),
                                            jump.followed * model.scaling.length});
     AcceptedPoint increment;
     increment.kind = IncrementKind::kJump;

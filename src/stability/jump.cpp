@@ -183,7 +183,8 @@ struct Course {
 
 class Jumper {
  public:
-  Jumper(const Structure& structure, const ContactPairs& contacts, const PathPoint& from, double stiffness, const std::function<bool()>& cancelled)
+  Jumper(const Structure& structure, const ContactPairs& contacts, const PathPoint& from, double stiffness,
+         const std::function<bool()>& cancelled)
       : structure_(structure),
         contacts_(contacts),
         device_(DeviceEquation::Of(structure, stiffness, from)),

@@ -150,8 +150,7 @@ MotionStepSolver::Change MotionStepSolver::Next(const Constraint& violated, doub
 }
 
 bool MotionStepSolver::Factorize(const Eigen::VectorXd& x, const Eigen::VectorXd& drag, const Eigen::VectorXd& row) {
-  jacobian_ =
-      structure_.Mixed() ? system_.MixedJacobian(x, strains_from_, strains_to_) : system_.TransposedJacobian(x);
+  jacobian_ = structure_.Mixed() ? system_.MixedJacobian(x, strains_from_, strains_to_) : system_.TransposedJacobian(x);
   for (Eigen::Index i = 0; i < drag.size(); ++i) jacobian_.coeffRef(i, i) += drag[i];
   return solver_.Factorize(jacobian_, row, system_.InFrame());
 }

@@ -7,10 +7,10 @@
 #include <optional>
 #include <vector>
 
+#include "contact_path/contact/contact_pair.h"
 #include "contact_path/contact/path_point.h"
 #include "contact_path/equations/fixed_state_system.h"
 #include "contact_path/linear/bordered_solver.h"
-#include "contact_path/contact/contact_pair.h"
 #include "contact_path/structure/structure.h"
 
 namespace contact_path {
@@ -42,8 +42,7 @@ struct MotionStep {
 class MotionStepSolver {
  public:
   // All must outlive the solver.
-  MotionStepSolver(const Structure& structure, const ContactPairs& contacts,
-                                   const DeviceEquation& device);
+  MotionStepSolver(const Structure& structure, const ContactPairs& contacts, const DeviceEquation& device);
 
   // Nothing: Newton's method fails, or no states were found. `from` has known patches where contacts touch.
   std::optional<MotionStep> Solve(const PathPoint& from, const Eigen::VectorXd& drag, const Eigen::VectorXd& anchor);

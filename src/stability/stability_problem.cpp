@@ -12,7 +12,7 @@
 namespace contact_path {
 namespace {
 
-constexpr Eigen::Index kModes = 8;      // of the softest motions, among which one whose energy falls is looked for
+constexpr Eigen::Index kModes = 8;     // of the softest motions, among which one whose energy falls is looked for
 constexpr int kInverseIterations = 6;  // each multiplies the share of a mode by the ratio of two eigenvalues
 
 }  // namespace
@@ -87,8 +87,7 @@ void StabilityProblem::BuildSaddle(const Eigen::SparseMatrix<double>& transposed
   stiffness_.setFromTriplets(stiffness.begin(), stiffness.end());
   for (Eigen::Index equation = 0; equation < nd; ++equation)
     for (Eigen::SparseMatrix<double>::InnerIterator it(transposed, equation); it && it.row() < nd; ++it)
-      if (it.row() != equation)
-        skew = std::max(skew, std::abs(it.value() - stiffness_.coeff(it.row(), equation)));
+      if (it.row() != equation) skew = std::max(skew, std::abs(it.value() - stiffness_.coeff(it.row(), equation)));
   symmetric_ = skew <= tolerances::kEqual * largest;
   for (Eigen::Index column = 0; column < nd; ++column)
     for (Eigen::SparseMatrix<double>::InnerIterator it(stiffness_, column); it; ++it)
@@ -170,13 +169,14 @@ Eigen::VectorXd StabilityProblem::FallingMode() const {
   const Eigen::Index count = std::min(kModes, nd - (size - nd));
   Eigen::MatrixXd modes = Eigen::MatrixXd::Zero(size, count);
   for (Eigen::Index k = 0; k < count; ++k)
-    for (Eigen::Index i = 0; i < nd; ++i) modes(i, k) = std::fmod(static_cast<double>((k + 1) * (i + 1)) * M_SQRT2, 1.0);
+    for (Eigen::Index i = 0; i < nd; ++i)
+      modes(i, k) = std::fmod(static_cast<double>((k + 1) * (i + 1)) * M_SQRT2, 1.0);
   if (load_compliance_ < 0.0) modes.col(0).head(nd) = by_load_;
   for (int i = 0; i < kInverseIterations; ++i) {
     factors_.Solve(&modes);
     if (!modes.allFinite()) return {};
-    const Eigen::MatrixXd basis = Eigen::HouseholderQR<Eigen::MatrixXd>(modes.topRows(nd)).householderQ() *
-                                  Eigen::MatrixXd::Identity(nd, count);
+    const Eigen::MatrixXd basis =
+        Eigen::HouseholderQR<Eigen::MatrixXd>(modes.topRows(nd)).householderQ() * Eigen::MatrixXd::Identity(nd, count);
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(basis.transpose() * (stiffness_ * basis));
     if (solver.eigenvalues()[0] < 0.0) return basis * solver.eigenvectors().col(0);
     modes.topRows(nd) = basis;
@@ -212,9 +212,7 @@ Stability StabilityProblem::Under(double compliance) const {
   const double share = dead ? 0.0 : 1.0 / machine;
   const Eigen::Index n0 = negative_ - (!dead && machine < 0.0 ? 1 : 0);
   const int sign = dead || machine > 0.0 ? sign_ : -sign_;
-  const auto fill = [&] {
-    found.direction = Normalised(dead ? FallingMode() : Eigen::VectorXd());
-  };
+  const auto fill = [&] { found.direction = Normalised(dead ? FallingMode() : Eigen::VectorXd()); };
 
   if (slips_.empty()) {
     found.directions = static_cast<int>(n0);
@@ -246,8 +244,8 @@ Stability StabilityProblem::Under(double compliance) const {
   if (const std::optional<int> count = CountGrowing(H, growing)) found.directions = static_cast<int>(n0) + *count;
   if (found.directions == 0) found.directions = -1;
   if (!growing.empty()) {
-    const auto fastest = std::max_element(growing.begin(), growing.end(),
-                                          [](const auto& a, const auto& b) { return a.rate < b.rate; });
+    const auto fastest =
+        std::max_element(growing.begin(), growing.end(), [](const auto& a, const auto& b) { return a.rate < b.rate; });
     const Eigen::VectorXd z = scale.asDiagonal() * fastest->z;
     found.direction = Normalised(motions_ * z - (dead ? 0.0 : share * load_of_slips_.dot(z)) * by_load_);
   } else if (n0 > 0) {

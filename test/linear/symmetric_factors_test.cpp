@@ -40,8 +40,7 @@ TEST(SymmetricFactorsTest, InertiaAndSolutions) {
       const Eigen::MatrixXd b = dense * x, wanted = x;
       x = b;
       factors.Solve(&x);
-      const double condition =
-          solver.eigenvalues().cwiseAbs().maxCoeff() / solver.eigenvalues().cwiseAbs().minCoeff();
+      const double condition = solver.eigenvalues().cwiseAbs().maxCoeff() / solver.eigenvalues().cwiseAbs().minCoeff();
       EXPECT_LT((x - wanted).norm(), 1e-13 * condition * wanted.norm()) << size << " " << seed;
     }
   }

@@ -1,6 +1,6 @@
 // A trace that was cut short and gone on with is the one without interruption.
-#include <Eigen/Core>
 #include <gtest/gtest.h>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
@@ -115,8 +115,7 @@ TEST(Resume, ByMpec) {
       const TracedPath resumed = Resume(request, increments);
       EXPECT_EQ(whole.result.reason, resumed.result.reason) << name << " after " << cut;
       double worst = 0.0;
-      for (const Increment& increment : resumed.increments)
-        worst = std::max(worst, DistanceFrom(whole, increment));
+      for (const Increment& increment : resumed.increments) worst = std::max(worst, DistanceFrom(whole, increment));
       EXPECT_LE(worst, kChords) << name << " after " << cut;
     }
   }

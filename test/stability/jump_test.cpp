@@ -1,5 +1,5 @@
-#include "contact_path/path/model.h"
 #include "contact_path/stability/jump.h"
+#include "contact_path/path/model.h"
 
 #include <gtest/gtest.h>
 
@@ -116,7 +116,8 @@ class Snap : public testing::Test {
 
 TEST_F(Snap, LandsWhereTheLoadIsTheSame) {
   for (const double sign : {1.0, -1.0}) {
-    const JumpResult jump = Jump(model_.structure, model_.contacts, At(kLimitY, kLimit), Eigen::Vector2d(0.0, sign), {}, nullptr);
+    const JumpResult jump =
+        Jump(model_.structure, model_.contacts, At(kLimitY, kLimit), Eigen::Vector2d(0.0, sign), {}, nullptr);
     EXPECT_TRUE(jump.robust);
     for (const std::optional<Landing>& landing : jump.landings) {
       ASSERT_TRUE(landing);
@@ -227,7 +228,8 @@ TEST(Jump, CanBeCancelled) {
   PathPoint from = model.InitialPoint();
   from.u = Eigen::Vector2d(0.0, 0.0);
   int asked = 0;
-  const JumpResult jump = Jump(model.structure, model.contacts, from, Eigen::Vector2d(0.0, -1.0), {}, [&asked] { return ++asked > 20; });
+  const JumpResult jump =
+      Jump(model.structure, model.contacts, from, Eigen::Vector2d(0.0, -1.0), {}, [&asked] { return ++asked > 20; });
   EXPECT_TRUE(jump.cancelled);
   EXPECT_FALSE(jump.landing);
 }
@@ -260,7 +262,8 @@ void ExpectLandings(const std::string& name, int most) {
     const Model model(StageScene(expanded.Get(), stage), StageConfiguration(expanded.Get(), stage),
                       StageScales(expanded.Get(), stage));
     const PathPoint from = model.FromIncrement(limit);
-    const JumpResult jump = Jump(model.structure, model.contacts, from, model.FromIncrement(after).u - from.u, {}, nullptr);
+    const JumpResult jump =
+        Jump(model.structure, model.contacts, from, model.FromIncrement(after).u - from.u, {}, nullptr);
     ++jumps;
     EXPECT_TRUE(jump.landing);
     for (const std::optional<Landing>& landing : jump.landings) {
@@ -287,7 +290,8 @@ TEST(JumpOfAnExample, RoughTrussUnderDisplacementControl) {
   const PathPoint from = model.FromIncrement(*corner);
   Device device;
   device.stiffness = std::numeric_limits<double>::infinity();
-  const JumpResult jump = Jump(model.structure, model.contacts, from, model.FromIncrement(*(corner + 1)).u - from.u, device, nullptr);
+  const JumpResult jump =
+      Jump(model.structure, model.contacts, from, model.FromIncrement(*(corner + 1)).u - from.u, device, nullptr);
   for (const Drag drag : {Drag::kUniform, Drag::kStiffness}) {
     const std::optional<Landing>& landing = jump.landings[static_cast<std::size_t>(drag)];
     ASSERT_TRUE(landing);

@@ -159,8 +159,7 @@ TEST(StabilityProblemTest, CountsAgainstEigenvalues) {
     if (!K.allFinite()) continue;
     if (n == 0) continue;
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(K);
-    if (!(solver.eigenvalues().cwiseAbs().minCoeff() > 1e-8 * solver.eigenvalues().cwiseAbs().maxCoeff()))
-      continue;
+    if (!(solver.eigenvalues().cwiseAbs().minCoeff() > 1e-8 * solver.eigenvalues().cwiseAbs().maxCoeff())) continue;
     const auto negative = static_cast<int>((solver.eigenvalues().array() < 0.0).count());
     StabilityProblem problem(model.structure, model.contacts);
     problem.Set(point, {});
@@ -177,8 +176,8 @@ TEST(StabilityProblemTest, CountsAgainstEigenvalues) {
   EXPECT_GE(with_direction, 0.95 * unstable);  // a mode far from the softest ones may be missed
 }
 
-// The linear motion of nodes with masses m and drags c, equal in x and y, of which the first `contacts` slide on a floor
-// towards +x under a pressure, by implicit Euler. Contacts at rest hold as long as their cones allow it.
+// The linear motion of nodes with masses m and drags c, equal in x and y, of which the first `contacts` slide on a
+// floor towards +x under a pressure, by implicit Euler. Contacts at rest hold as long as their cones allow it.
 class Motion {
  public:
   Motion(const Eigen::MatrixXd& K, Eigen::Index contacts, double friction, const Eigen::VectorXd& m,
@@ -282,7 +281,9 @@ TEST(StabilityProblemTest, VerdictsAgainstMotions) {
       }
       Eigen::VectorXd v = random.Vector(2 * nodes, -1.0, 1.0);
       for (Eigen::Index i = 0; i < contacts; ++i) v[2 * i + 1] = 0.0;
-      largest = std::max(largest, Motion(K, contacts, friction, m, c, 0.05).Growth(1e-3 * v, verdict == Verdict::kStable ? 500 : 4000));
+      largest = std::max(
+          largest,
+          Motion(K, contacts, friction, m, c, 0.05).Growth(1e-3 * v, verdict == Verdict::kStable ? 500 : 4000));
     }
     if (verdict == Verdict::kStable) EXPECT_LT(largest, kGrown) << seed;
     if (verdict == Verdict::kUnstable) EXPECT_GT(largest, kGrown) << seed;

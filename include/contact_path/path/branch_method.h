@@ -11,11 +11,11 @@
 #include "contact_path/branch/smooth_arc.h"
 #include "contact_path/path/branch_options.h"
 #include "contact_path/path/departure.h"
-#include "contact_path/stability/device.h"
 #include "contact_path/path/model.h"
 #include "contact_path/path/path_method.h"
 #include "contact_path/path/stability_monitor.h"
 #include "contact_path/path/work.h"
+#include "contact_path/stability/device.h"
 
 namespace contact_path {
 

@@ -25,16 +25,16 @@ struct BranchOptions {
   std::vector<BranchChoice> choices;
   Method method = Method::kBranch;  // mpec: increments end at the minimisers of (9)
   TrialObserver on_trial = {};
-  bool inner = false;         // increments are to have a state at the middle of their steps
-  bool stability = false;           // increments are to have verdicts of stability
-  bool ends_at_limit = false;       // the path ends where the machine can go no further
-  double machine_stiffness = 0.0;   // of TraceOptions
-  double setting_sense = 1.0;       // sign of the wanted change of the setting of the machine
-  bool keep_loading = false;  // at an event, rather than turn the load back, the best branch with which it goes on
-  StepEnds ends = {};         // the load factor at which the path is to end, and values of quantities, each in an
-                              // increment of its own
-  int increments = 0;         // given before this path, of which it goes on
-  int events = 0;             // passed before this path
+  bool inner = false;              // increments are to have a state at the middle of their steps
+  bool stability = false;          // increments are to have verdicts of stability
+  bool ends_at_limit = false;      // the path ends where the machine can go no further
+  double machine_stiffness = 0.0;  // of TraceOptions
+  double setting_sense = 1.0;      // sign of the wanted change of the setting of the machine
+  bool keep_loading = false;       // at an event, rather than turn the load back, the best branch with which it goes on
+  StepEnds ends = {};              // the load factor at which the path is to end, and values of quantities, each in an
+                                   // increment of its own
+  int increments = 0;              // given before this path, of which it goes on
+  int events = 0;                  // passed before this path
   ReturnDetector* returns = nullptr;  // tells whether the path has come back to where it was; null: that is no end
   LargestReactionSoFar* largest_reaction = nullptr;  // of the trace that the path is a part of; null: of this path
 

@@ -118,8 +118,8 @@ struct SolveRecord {
   int nullity = 0;           // branch: null directions of the equations besides the tangent (rigid modes, redundancy)
   int determinant_sign = 0;  // branch: sign of det of the Jacobian bordered by the tangent; 0 = singular; changes where
                              // another path crosses
-  double contraction = 0.0;    // branch: second Newton step over the first
-  double next_step = 0.0;      // length with which the next increment is tried, scaled norm; 0 = there is none
+  double contraction = 0.0;  // branch: second Newton step over the first
+  double next_step = 0.0;    // length with which the next increment is tried, scaled norm; 0 = there is none
   double gamma2_factor = 1.0;  // by Ipopt: factor on gamma_2 in the next increment (Algorithm 3.2, step 4)
   double time = 0.0;           // wall time [s]
 };
@@ -206,8 +206,8 @@ struct Increment {
   JumpRecord jump;
 };
 
-// All fields except positions, rotations, contacts, residuals, stability and jump: a message has them in another form, or
-// leaves them out.
+// All fields except positions, rotations, contacts, residuals, stability and jump: a message has them in another form,
+// or leaves them out.
 template <>
 struct Fields<Increment> {
   template <typename P>

@@ -6,9 +6,9 @@
 
 #include "contact_path/branch/smooth_arc.h"
 #include "contact_path/contact/path_point.h"
-#include "contact_path/stability/device.h"
 #include "contact_path/path/increment.h"
 #include "contact_path/path/model.h"
+#include "contact_path/stability/device.h"
 #include "contact_path/stability/stability_problem.h"
 
 namespace contact_path {
@@ -20,15 +20,16 @@ namespace contact_path {
 class StabilityMonitor {
  public:
   // model must outlive the monitor.
-  StabilityMonitor(const Model& model, const Device& device) : model_(model), device_(device), problem_(model.structure, model.contacts) {}
+  StabilityMonitor(const Model& model, const Device& device)
+      : model_(model), device_(device), problem_(model.structure, model.contacts) {}
 
   // The next increment. at: the curve on which it was reached. stiffness_sign: of the determinant of the tangent at
   // fixed load factor, 0 = singular. null_direction: of the tangent at fixed load factor, du, where it is known to be
   // singular; else empty.
   void Note(const PathPoint& point, const CurvePoint& at, int stiffness_sign, const Eigen::VectorXd& null_direction);
-  // Where contacts change their states or patches, behind Note(): the point as it is left, along `ahead`. A contact that
-  // closes, or comes to stick, is free to do what it did where it arrives; one that opens, or comes to slip, what it does
-  // where it leaves. On a kink of a surface, and where several contacts change, both sides count.
+  // Where contacts change their states or patches, behind Note(): the point as it is left, along `ahead`. A contact
+  // that closes, or comes to stick, is free to do what it did where it arrives; one that opens, or comes to slip, what
+  // it does where it leaves. On a kink of a surface, and where several contacts change, both sides count.
   enum class Decides { kArrival, kDeparture, kBoth };
   void NoteEvent(const PathPoint& leaves, const CurvePoint& ahead, Decides decides);
   // An equilibrium from which a path sets out, with the states of its arc.

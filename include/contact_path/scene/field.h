@@ -47,9 +47,9 @@ constexpr Unit kRotationRate = {0, 0, -1};   // [rad] per unit of the load facto
 // The numbers that a field admits. All but the last must be finite and at most 1e100 in magnitude.
 enum class Range {
   kAny,
-  kNotNegative,     // >= 0
-  kPositive,        // >= 1e-100
-  kZeroOrPositive,  // 0, or >= 1e-100
+  kNotNegative,            // >= 0
+  kPositive,               // >= 1e-100
+  kZeroOrPositive,         // 0, or >= 1e-100
   kNotNegativeOrInfinite,  // >= 0, or infinite
 };
 

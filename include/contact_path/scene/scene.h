@@ -383,7 +383,8 @@ enum class DefaultTrue {
 template <>
 struct Words<DefaultTrue> {
   static constexpr DefaultTrue kDefault = DefaultTrue::kTrue;
-  static constexpr std::pair<std::string_view, DefaultTrue> kAll[] = {{"true", DefaultTrue::kTrue}, {"false", DefaultTrue::kFalse}};
+  static constexpr std::pair<std::string_view, DefaultTrue> kAll[] = {{"true", DefaultTrue::kTrue},
+                                                                      {"false", DefaultTrue::kFalse}};
 };
 
 // Holds when `quantity` comes to `value` from the side that `when` does not name, or lies beyond.
@@ -391,7 +392,8 @@ struct StopCriterion {
   std::string quantity;  // "b.x", "b@floor.rn", "load_factor", ... (quantity.h)
   std::string when;      // ">" or "<"
   double value = 0.0;
-  DefaultTrue exact = DefaultTrue::kTrue;  // the last increment is located at the value; false: the next increment beyond
+  DefaultTrue exact =
+      DefaultTrue::kTrue;  // the last increment is located at the value; false: the next increment beyond
 };
 
 template <>
@@ -467,8 +469,8 @@ struct TraceOptions {
   MpecSolver mpec_solver = MpecSolver::kCertified;
   DefaultTrue stability = DefaultTrue::kTrue;  // the verdict of stability of each increment is looked for
   AtLimit at_limit = AtLimit::kFollow;
-  // k of the machine that loads the structure: with loads f, it keeps s = k (Q - f . u), Q growing. >= 0; 0 = dead loads,
-  // infinite = the displacement f . u of the loads is prescribed [force / length where f is one force of 1].
+  // k of the machine that loads the structure: with loads f, it keeps s = k (Q - f . u), Q growing. >= 0; 0 = dead
+  // loads, infinite = the displacement f . u of the loads is prescribed [force / length where f is one force of 1].
   double machine_stiffness = 0.0;
 
   int MaxIncrements() const { return max_increments == 0 ? 1000 : max_increments; }

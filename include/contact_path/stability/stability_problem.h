@@ -33,11 +33,10 @@ struct Stability {
 // M and C: of nodes, equal in both directions of a node. With K condensed onto the slips z, w = H z.
 //
 // Unstable, whatever M and C are: the degree of this problem at a = 0 is not 1, its degree for large a. The degree is
-// (-1)^n0 times that of H, n0: negative eigenvalues of K where S sticks. Without S also where n0 is even, and not 0, and
-// with one contact in S where n0 is not 0: one of the senses of a mode keeps w >= 0.
-// Stable, whatever masses and drags the nodes of the contacts S have, if all other nodes follow at once: sym H is
-// strictly copositive, since z . (a^2 M + a C + H) z = 0 for a growing motion, and n0 is 0. Masses of
-// other nodes may let contacts go that H holds.
+// (-1)^n0 times that of H, n0: negative eigenvalues of K where S sticks. Without S also where n0 is even, and not 0,
+// and with one contact in S where n0 is not 0: one of the senses of a mode keeps w >= 0. Stable, whatever masses and
+// drags the nodes of the contacts S have, if all other nodes follow at once: sym H is strictly copositive, since z .
+// (a^2 M + a C + H) z = 0 for a growing motion, and n0 is 0. Masses of other nodes may let contacts go that H holds.
 class StabilityProblem {
  public:
   // Both must outlive the problem.
@@ -68,8 +67,8 @@ class StabilityProblem {
   void Classify(const PathPoint& point);
   void BuildSaddle(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& null_direction);
   bool Condense(const Eigen::SparseMatrix<double>& transposed);
-  // A motion without slip whose energy falls, among the softest ones, by inverse iterations of a subspace; empty: none is
-  // found.
+  // A motion without slip whose energy falls, among the softest ones, by inverse iterations of a subspace; empty: none
+  // is found.
   Eigen::VectorXd FallingMode() const;
   Eigen::VectorXd Normalised(const Eigen::VectorXd& du) const;
 
@@ -80,18 +79,18 @@ class StabilityProblem {
   BorderedSolver unsymmetric_;
 
   std::vector<Slip> slips_;
-  bool covered_ = true;        // by the theory: no contact with the total law of friction
-  bool regular_ = false;       // the saddle is
-  bool singular_ = false;      // the point is known to be
-  bool symmetric_ = true;      // K is
+  bool covered_ = true;                                      // by the theory: no contact with the total law of friction
+  bool regular_ = false;                                     // the saddle is
+  bool singular_ = false;                                    // the point is known to be
+  bool symmetric_ = true;                                    // K is
   Eigen::SparseMatrix<double> saddle_, stiffness_, forces_;  // symmetric K and columns of reactions
   Eigen::Index negative_ = 0;  // n0; where the point is singular, besides its null direction
   int sign_ = 1;               // of det K where S sticks
   double load_compliance_ = INFINITY;
-  Eigen::VectorXd by_load_;    // du by a unit of s
-  Eigen::MatrixXd motions_;    // by unit slips, columns
+  Eigen::VectorXd by_load_;  // du by a unit of s
+  Eigen::MatrixXd motions_;  // by unit slips, columns
   Eigen::MatrixXd H_;
-  Eigen::VectorXd w_of_load_;  // of by_load_
+  Eigen::VectorXd w_of_load_;      // of by_load_
   Eigen::VectorXd load_of_slips_;  // f . motions
   Eigen::VectorXd null_;           // du, where singular_
   int factorisations_ = 0;

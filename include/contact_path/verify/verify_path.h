@@ -48,11 +48,12 @@ constexpr int kMostFindings = 20;
 // increment: arc length, work and dissipation against integrals through three states on one arc, to what the quadratics
 // leave open (method.md), increments by Ipopt against trapezoids; the energy balance, to 1 % of the work done; states
 // change only at events, the load factor turns at limit points and only there, and the branch taken at an event is the
-// one that follows; stages follow each other at their targets, in the same state. Over a jump: the balance of energies with
-// what was released, and the work of the loads under the machine, to 1e-9; no law of friction between its ends.
+// one that follows; stages follow each other at their targets, in the same state. Over a jump: the balance of energies
+// with what was released, and the work of the loads under the machine, to 1e-9; no law of friction between its ends.
 // Verdicts of stability of small structures whose contacts do not slip. A contact that pulls with more than 0.02 of the
 // largest reaction so far is a finding, however small both are. Where nothing of all that is found, events
-// and signs are looked at (verify_events.h). Not checked: rates of branches that were not taken, verdicts where contacts slip, landing_robust, counters and times.
+// and signs are looked at (verify_events.h). Not checked: rates of branches that were not taken, verdicts where
+// contacts slip, landing_robust, counters and times.
 //
 // before_each: called before each increment is checked; what it throws leaves VerifyPath(). May be empty.
 Verification VerifyPath(const TraceRequest& request, const std::vector<Increment>& increments,
