@@ -25,8 +25,8 @@ void StabilityProblem::Set(const PathPoint& point, const Eigen::VectorXd& null_d
   const Eigen::VectorXd x = system_.Pack(point);
   const Eigen::SparseMatrix<double>& transposed = system_.TransposedJacobian(x);
   singular_ = null_direction.size() > 0 && slips_.empty();
-  null_ = singular_ ? null_direction : Eigen::VectorXd();
-  BuildSaddle(transposed, null_);
+  null_ = null_direction;
+  BuildSaddle(transposed, singular_ ? null_ : Eigen::VectorXd());
   ++factorisations_;
   regular_ = factors_.Factorize(saddle_);
   load_compliance_ = INFINITY;
@@ -185,18 +185,41 @@ Eigen::VectorXd StabilityProblem::FallingMode() const {
   return {};
 }
 
+double StabilityProblem::PossibleSense() const {
+  Eigen::VectorXd slips(static_cast<Eigen::Index>(slips_.size()));
+  for (Eigen::Index k = 0; k < slips.size(); ++k) {
+    const Slip& slip = slips_[static_cast<std::size_t>(k)];
+    slips[k] = slip.sense * forces_.col(slip.tangent - structure_.NumDofs()).dot(null_);
+  }
+  const double rounding = tolerances::kSameTangent * slips.cwiseAbs().maxCoeff();
+  if (slips.minCoeff() >= -rounding) return 1.0;
+  return slips.maxCoeff() <= rounding ? -1.0 : 0.0;
+}
+
 Stability StabilityProblem::Under(double compliance) const {
   Stability found;
   if (!covered_) return found;
   const bool dead = !std::isfinite(compliance) || structure_.ReferenceLoad().isZero(0.0);
   if (!regular_) return found;
+  // A machine may hold the null direction.
+  const bool level = null_.size() > 0 && (dead || std::abs(structure_.ReferenceLoad().dot(null_)) <=
+                                                      tolerances::kSameTangent * structure_.ReferenceLoad().norm());
   if (singular_) {
-    // What is left of the null direction under the machine resists, or nothing is.
-    const double along = structure_.ReferenceLoad().dot(null_);
-    const bool held = !dead && std::abs(along) > tolerances::kSameTangent * structure_.ReferenceLoad().norm();
+    const bool held = !level;
     found.directions = static_cast<int>(negative_) + (held ? 0 : 1);
     found.verdict = found.directions > 0 ? Verdict::kUnstable : Verdict::kStable;
     if (!held) found.direction = Normalised(null_);
+    return found;
+  }
+  if (level) {
+    // Slips set out along it with the growth rate 0, if they are possible.
+    const double sense = PossibleSense();
+    if (sense == 0.0) return found;
+    found.verdict = Verdict::kUnstable;
+    found.direction = Normalised(sense * null_);
+    if (const Stability controlled = dead ? Under(0.0) : Stability();
+        controlled.directions >= 0 && !structure_.ReferenceLoad().isZero(0.0))
+      found.directions = controlled.directions + 1;
     return found;
   }
   // f . du per unit of Q - f . u. Where the loads act on what the contacts hold, a rigid machine is taken for a very
@@ -237,9 +260,8 @@ Stability StabilityProblem::Under(double compliance) const {
   }
   const std::vector<GrowingSlip> growing = GrowingSlips(H);
   const std::optional<int> degree = ComplementarityDegree(H);
-  // Where H is singular along slips that are possible, they set out with the rate 0.
-  const bool level = !degree && !growing.empty();
-  if (!level && (!degree || sign * *degree == 1) && !(n0 > 0 && slips_.size() == 1)) return found;
+  const bool sets_out = !degree && !growing.empty();  // with the growth rate 0
+  if (!sets_out && (!degree || sign * *degree == 1) && !(n0 > 0 && slips_.size() == 1)) return found;
   found.verdict = Verdict::kUnstable;
   if (const std::optional<int> count = CountGrowing(H, growing)) found.directions = static_cast<int>(n0) + *count;
   if (found.directions == 0) found.directions = -1;

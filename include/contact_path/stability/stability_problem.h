@@ -70,6 +70,8 @@ class StabilityProblem {
   // A motion without slip whose energy falls, among the softest ones, by inverse iterations of a subspace; empty: none
   // is found.
   Eigen::VectorXd FallingMode() const;
+  // The sense in which the slips of the null direction are those of the contacts; 0: in none.
+  double PossibleSense() const;
   Eigen::VectorXd Normalised(const Eigen::VectorXd& du) const;
 
   const Structure& structure_;
@@ -92,7 +94,7 @@ class StabilityProblem {
   Eigen::MatrixXd H_;
   Eigen::VectorXd w_of_load_;      // of by_load_
   Eigen::VectorXd load_of_slips_;  // f . motions
-  Eigen::VectorXd null_;           // du, where singular_
+  Eigen::VectorXd null_;           // du; empty where the equations are not known to be singular
   int factorisations_ = 0;
 };
 
