@@ -217,9 +217,8 @@ Stability StabilityProblem::Under(double compliance) const {
     if (sense == 0.0) return found;
     found.verdict = Verdict::kUnstable;
     found.direction = Normalised(sense * null_);
-    if (const Stability controlled = dead ? Under(0.0) : Stability();
-        controlled.directions >= 0 && !structure_.ReferenceLoad().isZero(0.0))
-      found.directions = controlled.directions + 1;
+    const bool held = !std::isfinite(compliance) && !structure_.ReferenceLoad().isZero(0.0);
+    if (const int directions = held ? Under(0.0).directions : -1; directions >= 0) found.directions = directions + 1;
     return found;
   }
   // f . du per unit of Q - f . u. Where the loads act on what the contacts hold, a rigid machine is taken for a very
