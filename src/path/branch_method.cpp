@@ -61,7 +61,7 @@ std::optional<End> BranchMethod::Start(const PathPoint& from, StartRecord* found
     PathPoint leaves = from;
     if (!end) leaves.states = arc_.system().states();
     if (!end) leaves.patches = arc_.system().patches();
-    stability_->Start(leaves);
+    stability_->Start(leaves, end ? nullptr : &current_);
     found->stability = stability_->record();
   }
   return end;

@@ -33,10 +33,10 @@ Verdict StabilityMonitor::At(const PathPoint& point) {
   return problem_.Under(device_.IsDead() ? INFINITY : device_.Compliance()).verdict;
 }
 
-void StabilityMonitor::Start(const PathPoint& point) {
+void StabilityMonitor::Start(const PathPoint& point, const CurvePoint* ahead) {
   Count(point, {});
   known_ = true;
-  Write(arc_, nullptr);
+  Write(arc_, ahead);
 }
 
 void StabilityMonitor::Note(const PathPoint& point, const CurvePoint& at, int stiffness_sign,
@@ -89,7 +89,8 @@ double StabilityMonitor::CriticalStiffness(const Verdicts& of, const CurvePoint*
   if (of.controlled.verdict != Verdict::kStable || of.dead.directions != 1 || at == nullptr) return kNotKnown;
   const Eigen::Index nd = model_.structure.NumDofs();
   const double stiffness = -at->first[nd] / model_.structure.ReferenceLoad().dot(at->first.head(nd));
-  return stiffness >= 0.0 ? std::abs(stiffness) : kNotKnown;  // none is -0
+  if (at->is_limit) return 0.0;
+  return stiffness > 0.0 ? stiffness : kNotKnown;
 }
 
 void StabilityMonitor::Write(const Verdicts& of, const CurvePoint* at) {

@@ -32,8 +32,8 @@ class StabilityMonitor {
   // it does where it leaves. On a kink of a surface, and where several contacts change, both sides count.
   enum class Decides { kArrival, kDeparture, kBoth };
   void NoteEvent(const PathPoint& leaves, const CurvePoint& ahead, Decides decides);
-  // An equilibrium from which a path sets out, with the states of its arc.
-  void Start(const PathPoint& point);
+  // An equilibrium from which a path sets out, with the states of its arc. ahead: null where none leads on.
+  void Start(const PathPoint& point, const CurvePoint* ahead);
 
   const StabilityRecord& record() const { return record_; }
   // Under the device of the path.
