@@ -1,0 +1,127 @@
+// Paths that jump where the machine can go no further.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "contact_path/path/end_reason.h"
+#include "contact_path/verify/verify_path.h"
+#include "support/random_scene.h"
+#include "support/traced_path.h"
+
+namespace contact_path {
+namespace {
+
+constexpr double kRigid = std::numeric_limits<double>::infinity();
+
+TraceRequest Jumping(const std::string& name, double stiffness = 0.0) {
+  TraceRequest request = ReadExample(name);
+  request.options.at_limit = AtLimit::kJump;
+  request.options.machine_stiffness = stiffness;
+  return request;
+}
+
+std::vector<Increment> JumpsOf(const TracedPath& path) { return IncrementsOfKind(path, IncrementKind::kJump); }
+
+// A von Mises truss with Green-Lagrange bars, half span 1, rise h = 1.2,
+// EA = 1, c = EA / l0^3.
+TraceRequest SnappingTruss() {
+  TraceRequest request;
+  Scene& scene = request.scene;
+  scene.name = "snapping_truss";
+  scene.nodes = {{"left", -1.0, 0.0, true, true}, {"apex", 0.0, 1.2, true, false}, {"right", 1.0, 0.0, true, true}};
+  for (const char* foot : {"left", "right"}) {
+    Bar bar;
+    bar.nodes = {foot, "apex"};
+    bar.EA = 1.0;
+    bar.strain = StrainMeasure::kGreenLagrange;
+    scene.bars.push_back(bar);
+  }
+  scene.loads = {{"apex", 0.0, -1.0, false}};
+  request.options.stop = {{"apex.y", "<", -1.5}};
+  return request;
+}
+
+TEST(JumpPaths, SnapThroughInClosedForm) {
+  TraceRequest request = SnappingTruss();
+  const double h = 1.2, c = 1.0 / std::pow(1.0 + h * h, 1.5);
+  // The stiffest machine that the falling part needs is c h^2, at y = 0.
+  double stiffest = 0.0;
+  const TracedPath followed = TraceProved(request);
+  for (const Increment& increment : followed.increments)
+    if (increment.stability.stability == Verdict::kUnstable)
+      stiffest = std::max(stiffest, increment.stability.critical_stiffness);
+  EXPECT_NEAR(stiffest, c * h * h, 2e-3);
+  request.options.at_limit = AtLimit::kJump;
+  const TracedPath path = TraceProved(request);
+  ASSERT_EQ(JumpsOf(path).size(), 1U);
+  const Increment jump = JumpsOf(path)[0];
+  EXPECT_NEAR(jump.load_factor, 2.0 * c * h * h * h / (3.0 * std::sqrt(3.0)), 1e-12);
+  EXPECT_NEAR(PositionY(path, jump, "apex"), -2.0 * h / std::sqrt(3.0), 1e-9);
+  EXPECT_NEAR(jump.jump.energy_released, 0.75 * c * std::pow(h, 4), 1e-9);
+  EXPECT_TRUE(jump.jump.landing_robust);
+  EXPECT_EQ(jump.stability.stability, Verdict::kStable);
+  // A machine that is stiff enough needs no jump.
+  request.options.machine_stiffness = 1.01 * c * h * h;
+  EXPECT_TRUE(JumpsOf(TraceProved(request)).empty());
+  request.options.machine_stiffness = 0.5 * c * h * h;
+  EXPECT_EQ(JumpsOf(TraceProved(request)).size(), 1U);
+}
+
+TEST(JumpPaths, SlipThatLetsTheLoadFall) {
+  const TracedPath path = TraceProved(Jumping("two_dof_friction"));
+  ASSERT_EQ(JumpsOf(path).size(), 1U);
+  const Increment jump = JumpsOf(path)[0];
+  EXPECT_NEAR(jump.load_factor, 1.0, 1e-12);
+  EXPECT_NEAR(PositionX(path, jump, "p"), 10.0 / 7.0, 1e-9);
+  EXPECT_NEAR(PositionY(path, jump, "p"), 2.0 / 7.0, 1e-9);
+  EXPECT_NEAR(jump.dissipation, 1.0 / 3.0, 1e-6);
+  EXPECT_NEAR(jump.jump.energy_released + jump.dissipation, 4.0 / 7.0, 1e-6);
+  EXPECT_TRUE(jump.jump.landing_robust);
+  EXPECT_TRUE(JumpsOf(TraceProved(Jumping("two_dof_friction", kRigid))).empty());
+  EXPECT_TRUE(JumpsOf(TraceProved(Jumping("two_dof_friction", 0.51))).empty());
+  EXPECT_EQ(JumpsOf(TraceProved(Jumping("two_dof_friction", 0.49))).size(), 1U);
+}
+
+TEST(JumpPaths, StopsWhereItIsAsked) {
+  TraceRequest request = Jumping("von_mises");
+  request.options.at_limit = AtLimit::kStop;
+  const TracedPath path = TraceIncrements(request);
+  EXPECT_EQ(path.result.reason, EndReason::kAtLimit);
+  EXPECT_EQ(path.increments.back().kind, IncrementKind::kSmoothLimit);
+}
+
+// The path from a landing on is the one that a trace finds there without a jump before: residuals and proof.
+TEST(JumpPaths, ExampleScenesLand) {
+  for (const char* name : {"snap_hook", "rough_arch", "stick_slip_chain", "bistable_arch"}) {
+    const TracedPath path = TraceProved(Jumping(name));
+    const std::vector<Increment> jumps = JumpsOf(path);
+    EXPECT_FALSE(jumps.empty()) << name;
+    for (const Increment& jump : jumps) {
+      EXPECT_GT(jump.jump.energy_released, 0.0) << name;
+      EXPECT_EQ(jump.stability.stability, Verdict::kStable) << name;
+    }
+  }
+}
+
+TEST(JumpPaths, RandomScenes) {
+  int jumps = 0;
+  for (unsigned seed = 1; seed <= 100; ++seed) {
+    TraceRequest request = RandomRequest(seed);
+    request.options.at_limit = AtLimit::kJump;
+    request.options.machine_stiffness = seed % 3 == 0 ? kRigid : seed % 3 == 1 ? 0.0 : 1.0;
+    request.options.max_increments = 200;
+    const TracedPath path = TraceIncrements(request);
+    if (path.increments.empty()) continue;  // its constant loads make it snap, or nothing holds it
+    jumps += static_cast<int>(JumpsOf(path).size());
+    for (const Finding& finding : VerifyPath(path.request, path.increments).findings)
+      ADD_FAILURE() << "seed " << seed << ", increment " << finding.increment << ": " << finding.what << " (" << ToString(path.increments[static_cast<std::size_t>(finding.increment)].kind) << ")";
+  }
+  EXPECT_GT(jumps, 20);
+}
+
+}  // namespace
+}  // namespace contact_path
