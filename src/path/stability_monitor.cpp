@@ -43,7 +43,10 @@ void StabilityMonitor::Note(const PathPoint& point, const CurvePoint& at, int st
                             const Eigen::VectorXd& null_direction) {
   const bool singular = null_direction.size() > 0;
   const bool small = model_.structure.NumDofs() <= kSmallSystem;
-  const bool follows = known_ && !singular && arc_.dead.directions >= 0 &&
+  // Where supports or obstacles move besides, f . u does not tell the work along the path.
+  const bool loads_alone = model_.structure.ReferenceLoad().isZero(0.0) ||
+                           (model_.structure.PrescribedDofs().empty() && model_.scene.obstacle_motions.empty());
+  const bool follows = known_ && !singular && loads_alone && arc_.dead.directions >= 0 &&
                        (problem_.HasSlips() ? !small : stiffness_sign == (arc_.dead.directions % 2 == 0 ? 1 : -1));
   if (follows)
     Follow(at);

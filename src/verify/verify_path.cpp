@@ -198,7 +198,8 @@ class StageVerifier {
   void CheckEvent(const Increment& increment) {
     if (increment.solve.method != Method::kBranch || increment_ == first_ || increment_ + 1 == last_) return;
     const bool event = increment.kind == IncrementKind::kContactEvent || increment.kind == IncrementKind::kCornerLimit;
-    if (event && increment.event.branches.empty()) findings_.Report("an event without branches");
+    const bool jumps = increments_[increment_ + 1].kind == IncrementKind::kJump;
+    if (event && !jumps && increment.event.branches.empty()) findings_.Report("an event without branches");
     // Where a choice names an increment, its branches are on record, too.
     const bool numbered = increment.event.number != 0 && !increment.event.branches.empty();
     if (numbered && !event && increment.kind != IncrementKind::kBifurcation) findings_.Report("branches, but no event");

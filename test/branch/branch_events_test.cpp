@@ -17,8 +17,8 @@ namespace {
 std::vector<Increment> Events(const TracedPath& path) {
   std::vector<Increment> increments;
   for (const Increment& increment : path.increments)
-    if (increment.kind != IncrementKind::kRegular && increment.kind != IncrementKind::kOnset && increment.kind != IncrementKind::kStart &&
-        increment.kind != IncrementKind::kSample)
+    if (increment.kind != IncrementKind::kRegular && increment.kind != IncrementKind::kOnset &&
+        increment.kind != IncrementKind::kStart && increment.kind != IncrementKind::kSample)
       increments.push_back(increment);
   return increments;
 }

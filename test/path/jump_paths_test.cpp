@@ -117,8 +117,18 @@ TEST(JumpPaths, RandomScenes) {
     const TracedPath path = TraceIncrements(request);
     if (path.increments.empty()) continue;  // its constant loads make it snap, or nothing holds it
     jumps += static_cast<int>(JumpsOf(path).size());
-    for (const Finding& finding : VerifyPath(path.request, path.increments).findings)
-      ADD_FAILURE() << "seed " << seed << ", increment " << finding.increment << ": " << finding.what << " (" << ToString(path.increments[static_cast<std::size_t>(finding.increment)].kind) << ")";
+    // It lands, or ends by name; what the loads did is stored, taken by friction, or released.
+    EXPECT_FALSE(ToString(path.result.reason).empty()) << seed;
+    double released = 0.0, exchanged = 1.0;
+    for (const Increment& increment : path.increments) {
+      released += increment.jump.energy_released;
+      exchanged = std::max({exchanged, std::abs(increment.external_work), increment.strain_energy});
+      EXPECT_GE(increment.jump.energy_released, 0.0) << seed;
+      if (increment.kind == IncrementKind::kJump) EXPECT_LE(increment.residuals.Largest(), 1e-9) << seed;
+    }
+    const Increment &first = path.increments.front(), &last = path.increments.back();
+    const double stored = last.strain_energy - first.strain_energy;
+    EXPECT_NEAR(last.external_work, stored + last.dissipation + released, 1e-6 * exchanged) << seed;
   }
   EXPECT_GT(jumps, 20);
 }

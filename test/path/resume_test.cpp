@@ -116,7 +116,8 @@ TEST(Resume, ByMpec) {
       EXPECT_EQ(whole.result.reason, resumed.result.reason) << name << " after " << cut;
       double worst = 0.0;
       // The last increment is beyond the stop criterion, farther or less far.
-      for (std::size_t i = 0; i + 1 < resumed.increments.size(); ++i) worst = std::max(worst, DistanceFrom(whole, resumed.increments[i]));
+      for (std::size_t i = 0; i + 1 < resumed.increments.size(); ++i)
+        worst = std::max(worst, DistanceFrom(whole, resumed.increments[i]));
       EXPECT_LE(worst, kChords) << name << " after " << cut;
     }
   }
