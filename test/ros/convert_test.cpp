@@ -59,6 +59,9 @@ TraceRequest FullRequest() {
   request.options.branch_choices = {{21, 22, 23}};
   request.options.friction_law = FrictionLaw::kTotal;
   request.options.mpec_solver = MpecSolver::kIpopt;
+  request.options.stability = DefaultTrue::kFalse;
+  request.options.at_limit = AtLimit::kJump;
+  request.options.machine_stiffness = 85.0;
   return request;
 }
 
@@ -143,6 +146,9 @@ void ExpectFullRequest(const TraceRequest& request) {
   EXPECT_EQ(options.full_state_every, 24);
   EXPECT_EQ(options.friction_law, FrictionLaw::kTotal);
   EXPECT_EQ(options.mpec_solver, MpecSolver::kIpopt);
+  EXPECT_EQ(options.stability, DefaultTrue::kFalse);
+  EXPECT_EQ(options.at_limit, AtLimit::kJump);
+  EXPECT_EQ(options.machine_stiffness, 85.0);
   ASSERT_EQ(options.stop.size(), 2U);
   EXPECT_EQ(options.stop[0].quantity, "b.x");
   EXPECT_EQ(options.stop[0].when, ">");

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <ctime>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -336,6 +337,29 @@ TEST(ValidateOptionsTest, IncrementsByIpoptHaveNoSamples) {
   const std::vector<Violation> violations = Validate(request);
   ASSERT_EQ(violations.size(), 1U);
   EXPECT_EQ(violations[0].key, "options.at");
+}
+
+TEST(ValidateOptionsTest, IncrementsByIpoptCanButFollowAtLimits) {
+  TraceRequest request = SoundRequest();
+  request.options.at_limit = AtLimit::kJump;
+  EXPECT_TRUE(Validate(request).empty());
+  request.options.method = Method::kMpec;
+  request.options.mpec_solver = MpecSolver::kIpopt;
+  const std::vector<Violation> violations = Validate(request);
+  ASSERT_EQ(violations.size(), 1U);
+  EXPECT_EQ(violations[0].key, "options.at_limit");
+}
+
+TEST(ValidateOptionsTest, MachinesMayBeRigid) {
+  TraceRequest request = SoundRequest();
+  request.options.machine_stiffness = std::numeric_limits<double>::infinity();
+  EXPECT_TRUE(Validate(request).empty());
+  for (const double wrong : {-1.0, std::numeric_limits<double>::quiet_NaN()}) {
+    request.options.machine_stiffness = wrong;
+    const std::vector<Violation> violations = Validate(request);
+    ASSERT_EQ(violations.size(), 1U);
+    EXPECT_EQ(violations[0].key, "options.machine_stiffness");
+  }
 }
 
 TEST(ValidateOptionsTest, IncrementsByIpoptTakeTheIncrementalLawAlone) {

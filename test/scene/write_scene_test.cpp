@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <string>
 
 #include "contact_path/scene/lattice.h"
@@ -44,6 +45,12 @@ TEST(WriteTraceRequest, EveryFieldThatDiffersFromItsDefault) {
   request.options.stop[0].exact = DefaultTrue::kFalse;
   request.options.at = {{"b.x", {0.1, 1.0 / 3.0}}, {"load_factor", {}, -1.0, 0.7, 5}};
   request.options.record = {"sections", "pressures"};
+  ExpectRoundTrip(request);
+  request.options.stability = DefaultTrue::kFalse;
+  request.options.at_limit = AtLimit::kStop;
+  request.options.machine_stiffness = 0.1;
+  ExpectRoundTrip(request);
+  request.options.machine_stiffness = std::numeric_limits<double>::infinity();
   ExpectRoundTrip(request);
 }
 
