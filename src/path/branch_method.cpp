@@ -31,6 +31,7 @@ BranchMethod::BranchMethod(const Model& model, const BranchOptions& options, std
     : model_(model),
       options_(options),
       device_(Device::Of(model.structure, options.machine_stiffness / model.UnitOfMachineStiffness())),
+      setting_row_(device_.Row(model.structure)),
       stability_(options.stability ? std::make_unique<StabilityMonitor>(model, device_) : nullptr),
       departure_(model, {options.direction, options.keep_loading, options.largest_reaction}, std::move(cancelled)),
       arc_(model.structure, model.contacts),
@@ -70,7 +71,7 @@ std::optional<End> BranchMethod::Start(const PathPoint& from, StartRecord* found
 bool BranchMethod::LoadsOn() const { return SettingRate(current_) > 0.0; }
 
 double BranchMethod::SettingRate(const CurvePoint& at) const {
-  return options_.setting_sense * device_.SettingRate(model_.structure, at.first);
+  return options_.setting_sense * setting_row_.dot(at.first.head(setting_row_.size()));
 }
 
 bool BranchMethod::ShortenTo(const std::function<bool(const CurvePoint&)>& beyond, BalancedStep* next) {
@@ -419,10 +420,12 @@ Advance BranchMethod::Next(const PathPoint& from) {
   std::optional<BalancedStep> next = NextBalancedStep();
   if (!next) return Ended(NoStep(from));
   ArcStep* const at = &next->at;
-  const std::optional<int> returned = EndAtReturn(from, at);
+  std::optional<int> returned = EndAtReturn(from, at);
   if (returned) Balance(&*next);  // of the shorter step
 
   AcceptedPoint increment = IncrementOf(*at, from);
+  const bool onset = EndAtOnset(from, &*next, &increment);
+  if (onset) returned.reset();
   if (!(increment.residuals.Largest() <= tolerances::kAccepted)) {
     End end = Failure(sentences::kResiduals);
     Append(CurveTooSharp(model_, increment.point), &end.causes);
@@ -431,7 +434,6 @@ Advance BranchMethod::Next(const PathPoint& from) {
     return Ended(end);
   }
   departure_.NoteReactions(increment.point);
-  const bool onset = EndAtOnset(from, &*next, &increment);
   const bool moved = at->step.length > 0.0;
   events_in_place_ = moved ? 0 : events_in_place_ + 1;
   if (events_in_place_ > kMostEventsInPlace) return Ended(Failure(sentences::kEventsInPlace));

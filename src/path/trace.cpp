@@ -163,8 +163,8 @@ class Tracer {
     return stiff;
   }
 
-  // increment: index of the one to set out from.
-  // load_sense: of the first change of the load factor, relative to the sense in which the path is loaded.
+  // increment: index of the one to set out from. load_sense: of the first change of the load factor, relative to the
+  // sense in which the path is loaded.
   std::unique_ptr<PathMethod> MakeMethod(const Model& model, std::optional<double> target, int increment,
                                          double load_sense = 1.0) {
     TraceOptions options = request_.options;
@@ -318,13 +318,14 @@ class Tracer {
       }
       if (recorder_.increments() > most_increments) continue;
       const bool jumps = request_.options.at_limit == AtLimit::kJump;
-      if (jumps && advance.end && advance.end->reason == EndReason::kPathEnd)
-        advance.moves_off = arrival_;
-      else if (advance.end)
-        return EndWith(*std::move(advance.end));
-      if (!advance.moves_off) continue;
-      if (!jumps) return EndBy(EndReason::kAtLimit, {sentences::kAtLimit});
-      if (const std::optional<bool> goes_on = TakeJump(model, target, *advance.moves_off, method)) return *goes_on;
+      if (jumps && advance.end && advance.end->reason == EndReason::kPathEnd) advance.moves_off = arrival_;
+      if (jumps && advance.moves_off) {
+        const Landed landed = TakeJump(model, target, *advance.moves_off, method);
+        if (landed.goes_on) return *landed.goes_on;
+        if (landed.jumped) continue;
+      }
+      if (advance.end) return EndWith(*std::move(advance.end));
+      if (!jumps && advance.moves_off) return EndBy(EndReason::kAtLimit, {sentences::kAtLimit});
     }
   }
 
@@ -349,21 +350,26 @@ class Tracer {
     return std::nullopt;
   }
 
-  // The motion from the last increment at rest of the machine, in an increment of its own, and the method that goes on
-  // from where it lands. As Take().
-  std::optional<bool> TakeJump(const Model& model, std::optional<double> target, const Eigen::VectorXd& push,
-                               std::unique_ptr<PathMethod>* method) {
+  struct Landed {
+    std::optional<bool> goes_on;  // as Take()
+    bool jumped = true;           // false: the structure is held after all
+  };
+
+  // The motion from the last increment while the machine rests, in an increment of its own, and the method that goes on
+  // from where the motion lands.
+  Landed TakeJump(const Model& model, std::optional<double> target, const Eigen::VectorXd& push,
+                  std::unique_ptr<PathMethod>* method) {
     const Clock::time_point start = Clock::now();
     const Device device =
         Device::Of(model.structure, request_.options.machine_stiffness / model.UnitOfMachineStiffness());
     JumpResult jump = Jump(model.structure, model.contacts, point_, push, device, control_.cancelled);
-    if (jump.cancelled) return EndBy(EndReason::kCancelled, {sentences::kCancelled});
-    if (jump.came_back) return std::nullopt;  // it is held
+    if (jump.cancelled) return {EndBy(EndReason::kCancelled, {sentences::kCancelled})};
+    if (jump.came_back) return {std::nullopt, false};
     if (!jump.landing)
-      return EndBy(EndReason::kNoLanding, {sentences::kNoLanding,
-                                           {},
-                                           static_cast<double>(recorder_.increment().index),
-                                           jump.followed * model.scaling.length});
+      return {EndBy(EndReason::kNoLanding, {sentences::kNoLanding,
+                                            {},
+                                            static_cast<double>(recorder_.increment().index),
+                                            jump.followed * model.scaling.length})};
     AcceptedPoint increment;
     increment.kind = IncrementKind::kJump;
     increment.point = std::move(jump.landing->point);
@@ -374,7 +380,7 @@ class Tracer {
     // Coulomb's law holds on the way, and not between its ends.
     increment.residuals = model.Check(increment.point, increment.point);
     if (!(increment.residuals.Largest() <= tolerances::kAccepted))
-      return EndBy(EndReason::kNumericalFailure, {sentences::kResiduals});
+      return {EndBy(EndReason::kNumericalFailure, {sentences::kResiduals})};
     increment.solve.method = request_.options.method;
     increment.solve.exact = true;
     LeaveMethod(**method);
@@ -389,8 +395,8 @@ class Tracer {
       if (!not_started && (device.IsDead() || (*method)->LoadsOn())) break;
     }
     const std::optional<bool> goes_on = Take(model, target, &increment, Seconds(Clock::now() - start));
-    if (!goes_on && not_started) return EndWith(*std::move(not_started));
-    return goes_on;
+    if (!goes_on && not_started) return {EndWith(*std::move(not_started))};
+    return {goes_on};
   }
 
   const TraceRequest& request_;

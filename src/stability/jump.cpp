@@ -14,8 +14,6 @@
 namespace contact_path {
 namespace {
 
-// Of the extent of the structure. Limit points are known to the root of rounding: a push is far above that.
-constexpr double kPush = 1e-5;
 // A motion that ends within so many pushes has come back.
 constexpr double kBack = 10.0;
 // Largest motion of a step, of the extent of the structure and of the way from the start.
@@ -32,11 +30,10 @@ constexpr double kLightDrag = 0.03;
 constexpr double kAtRest = 1e-3;
 // Extents of the structure: what goes farther flies off.
 constexpr double kFar = 1e3;
-// Ratio of the speeds of two steps beyond which implicit Euler takes growth, 1 / (1 - lambda h), for decay; and up to
-// which a step of twice the length does not.
-constexpr double kMostGrowth = 2.0, kSlowGrowth = 1.25;
-// A motion with this ratio comes to rest within few steps.
-constexpr double kSettles = 0.5;
+// Ratio of the speeds of two steps, 1 / (1 - lambda h) by implicit Euler: beyond, growth is taken for decay. A step of
+// twice the length stays below this ratio if the ratio now is below kSlowGrowth. Decay by this ratio settles within few
+// steps.
+constexpr double kMostGrowth = 2.0, kSlowGrowth = 2.0 * kMostGrowth / (kMostGrowth + 1.0);
 // First step: drag is so many times the stiffness, so that each contact alone decides on its state.
 constexpr double kFirstDrag = 10.0;
 constexpr double kOverStride = 1.5;   // a step that is longer than it should be by less is not made again
@@ -44,8 +41,6 @@ constexpr int kMostShortenings = 12;  // of a step for its quality; kinks of the
 constexpr int kEasyIterations = 6;    // of Newton's method in a step that may become longer
 constexpr int kEasyRounds = 2;        // of the active set
 constexpr int kMostSteps = 20000;
-// Positions of two landings, of the extent: one equilibrium.
-constexpr double kSameLanding = 1e-6;
 
 double Largest(const Eigen::VectorXd& change) { return change.size() == 0 ? 0.0 : change.lpNorm<Eigen::Infinity>(); }
 
@@ -183,11 +178,11 @@ struct Course {
 
 class Jumper {
  public:
-  Jumper(const Structure& structure, const ContactPairs& contacts, const PathPoint& from, double stiffness,
+  Jumper(const Structure& structure, const ContactPairs& contacts, const PathPoint& from, const Device& device,
          const std::function<bool()>& cancelled)
       : structure_(structure),
         contacts_(contacts),
-        device_(DeviceEquation::Of(structure, stiffness, from)),
+        device_(DeviceEquation::Of(structure, device, from)),
         solver_(structure, contacts, device_),
         arc_(structure, contacts),
         start_(solver_.WithPatches(from)),
@@ -202,7 +197,7 @@ class Jumper {
     JumpResult result;
     const double size = Largest(push);
     if (!(size > 0.0)) return result;
-    Eigen::VectorXd disturbance = kPush * extent_ / size * push;
+    Eigen::VectorXd disturbance = tolerances::kShort * extent_ / size * push;
     const Course course = FollowFinely(&disturbance);
     result.cancelled = course.cancelled;
     result.came_back = course.came_back;
@@ -234,7 +229,7 @@ class Jumper {
 
   // Adds the other drags.
   void Compare(const Course& uniform, JumpResult* result) {
-    const Eigen::VectorXd disturbance = kPush * extent_ / Largest(uniform.left) * uniform.left;
+    const Eigen::VectorXd disturbance = tolerances::kShort * extent_ / Largest(uniform.left) * uniform.left;
     Eigen::VectorXd either = disturbance;
     const Eigen::VectorXd by_stiffness = moved_.cwiseProduct(StiffnessOfNodes(structure_, diagonal_));
     result->landings[1] = FollowEither({0.0 * moved_, by_stiffness}, &either, stride_).landing;
@@ -250,7 +245,7 @@ class Jumper {
       for (const std::optional<Landing>& b : result->landings)
         if (a && b) result->largest_difference = std::max(result->largest_difference, Largest(a->point.u - b->point.u));
     }
-    result->robust = result->robust && result->largest_difference <= kSameLanding * extent_;
+    result->robust = result->robust && result->largest_difference <= tolerances::kSameTangent * extent_;
     result->cancelled = Cancelled();
   }
 
@@ -352,7 +347,7 @@ class Jumper {
       motion->pushed = true;
       return false;
     }
-    bool settles = speed <= kSettles * motion->speed;
+    bool settles = kMostGrowth * speed <= motion->speed;
     if (motion->Swings()) {
       motion->velocity = du / motion->time;
       motion->fastest = std::max(motion->fastest, Largest(motion->velocity));
@@ -438,7 +433,7 @@ class Jumper {
 JumpResult Jump(const Structure& structure, const ContactPairs& contacts, const PathPoint& from,
                 const Eigen::VectorXd& push, const Device& device, const std::function<bool()>& cancelled) {
   const Eigen::VectorXd along = push.size() > 0 ? push : DefaultPush(structure, from.s);
-  return Jumper(structure, contacts, from, device.stiffness, cancelled).Run(along);
+  return Jumper(structure, contacts, from, device, cancelled).Run(along);
 }
 
 }  // namespace contact_path

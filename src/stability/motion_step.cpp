@@ -26,20 +26,9 @@ int PatchOfClosing(const ContactPair& pair, const Eigen::VectorXd& x, double s) 
 
 }  // namespace
 
-DeviceEquation DeviceEquation::Of(const Structure& structure, double stiffness, const PathPoint& at) {
-  const Eigen::VectorXd& load = structure.ReferenceLoad();
-  const Eigen::Index nd = structure.NumDofs();
-  DeviceEquation device;
-  device.row = Eigen::VectorXd::Unit(nd + 1, nd);
-  const double size = load.norm();
-  if (size > 0.0 && stiffness > 0.0) {
-    // With the displacement in units in which f has norm 1, k becomes k |f|^2.
-    const double k = stiffness * size;
-    device.row[nd] = std::isinf(k) ? 0.0 : 1.0 / (1.0 + k);
-    device.row.head(nd) = (std::isinf(k) ? 1.0 : k / (1.0 + k)) / size * load;
-  }
-  device.value = device.row.head(nd).dot(at.u) + device.row[nd] * at.s;
-  return device;
+DeviceEquation DeviceEquation::Of(const Structure& structure, const Device& device, const PathPoint& at) {
+  const Eigen::VectorXd row = device.Row(structure);
+  return {row, row.head(at.u.size()).dot(at.u) + row[at.u.size()] * at.s};
 }
 
 Eigen::VectorXd DeviceEquation::Row(Eigen::Index unknowns) const {

@@ -11,6 +11,7 @@
 #include "contact_path/contact/path_point.h"
 #include "contact_path/equations/fixed_state_system.h"
 #include "contact_path/linear/bordered_solver.h"
+#include "contact_path/stability/device.h"
 #include "contact_path/structure/structure.h"
 
 namespace contact_path {
@@ -21,7 +22,7 @@ struct DeviceEquation {
   double value = 0.0;
 
   // s = k (Q - f . u), with the Q that the machine has at a point.
-  static DeviceEquation Of(const Structure& structure, double stiffness, const PathPoint& at);
+  static DeviceEquation Of(const Structure& structure, const Device& device, const PathPoint& at);
   // By the unknowns of a fixed-state system.
   Eigen::VectorXd Row(Eigen::Index unknowns) const;
 };

@@ -3,9 +3,9 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
-#include <cmath>
 #include <utility>
 
+#include "contact_path/linear/generic_vector.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
@@ -38,9 +38,6 @@ std::optional<Eigen::VectorXd> AsPositive(Eigen::VectorXd vector) {
   return vector;
 }
 
-// Numbers without a relation between them, between 1 and 2.
-double Generic(Eigen::Index i) { return 1.0 + std::fmod(static_cast<double>(i + 1) * M_SQRT2, 1.0); }
-
 }  // namespace
 
 bool IsStrictlyCopositive(const Eigen::MatrixXd& F) {
@@ -62,8 +59,8 @@ std::optional<int> ComplementarityDegree(const Eigen::MatrixXd& H) {
   if (H.rows() == 0) return 1;
   if (H.rows() > kMostSlips) return std::nullopt;
   const double size = H.cwiseAbs().maxCoeff();
-  Eigen::VectorXd q(H.rows());
-  for (Eigen::Index i = 0; i < q.size(); ++i) q[i] = size * Generic(i);
+  // Roots have no simple ratios, as numbers that a person writes have.
+  const Eigen::VectorXd q = size * GenericVector(H.rows()).cwiseSqrt();
   int degree = 1;  // of no slip
   for (Set set = 1; set <= All(H); ++set) {
     const std::vector<int> members = Members(set), others = Members(All(H) & ~set);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "contact_path/linear/generic_vector.h"
 #include "contact_path/stability/slip_stability.h"
 #include "contact_path/tolerances.h"
 
@@ -27,9 +28,7 @@ void StabilityProblem::Set(const PathPoint& point, const Eigen::VectorXd& null_d
   singular_ = null_direction.size() > 0 && slips_.empty();
   null_ = null_direction;
   BuildSaddle(transposed, singular_ ? null_ : Eigen::VectorXd());
-  ++factorisations_;
   regular_ = factors_.Factorize(saddle_);
-  load_compliance_ = INFINITY;
   if (!regular_) return;
   // Each equation of motion is a constraint, whose multiplier makes one eigenvalue negative.
   negative_ = factors_.NegativeEigenvalues() - (saddle_.rows() - structure_.NumDofs());
@@ -124,7 +123,6 @@ bool StabilityProblem::Condense(const Eigen::SparseMatrix<double>& transposed) {
   motions_ = solutions.block(0, 1, nd, count);
   load_of_slips_ = motions_.transpose() * f;
   if (!symmetric_) {
-    ++factorisations_;
     if (!unsymmetric_.FactorizeRegular(transposed, Eigen::VectorXd::Unit(transposed.rows(), nd))) return false;
     sign_ = unsymmetric_.DeterminantSign() * ((transposed.rows() - nd - 1) % 2 == 0 ? 1 : -1);
     Eigen::MatrixXd right = Eigen::MatrixXd::Zero(transposed.cols(), 1 + count), all;
@@ -168,9 +166,7 @@ Eigen::VectorXd StabilityProblem::FallingMode() const {
   // Not more than there are motions that the contacts admit: further columns of a basis would be none.
   const Eigen::Index count = std::min(kModes, nd - (size - nd));
   Eigen::MatrixXd modes = Eigen::MatrixXd::Zero(size, count);
-  for (Eigen::Index k = 0; k < count; ++k)
-    for (Eigen::Index i = 0; i < nd; ++i)
-      modes(i, k) = std::fmod(static_cast<double>((k + 1) * (i + 1)) * M_SQRT2, 1.0);
+  for (Eigen::Index k = 0; k < count; ++k) modes.col(k).head(nd) = GenericVector(nd).array().pow(k + 1);
   if (load_compliance_ < 0.0) modes.col(0).head(nd) = by_load_;
   for (int i = 0; i < kInverseIterations; ++i) {
     factors_.Solve(&modes);
@@ -205,10 +201,9 @@ Stability StabilityProblem::Under(double compliance) const {
   const bool level = null_.size() > 0 && (dead || std::abs(structure_.ReferenceLoad().dot(null_)) <=
                                                       tolerances::kSameTangent * structure_.ReferenceLoad().norm());
   if (singular_) {
-    const bool held = !level;
-    found.directions = static_cast<int>(negative_) + (held ? 0 : 1);
+    found.directions = static_cast<int>(negative_) + (level ? 1 : 0);
     found.verdict = found.directions > 0 ? Verdict::kUnstable : Verdict::kStable;
-    if (!held) found.direction = Normalised(null_);
+    if (level) found.direction = Normalised(null_);
     return found;
   }
   if (level) {
@@ -234,7 +229,6 @@ Stability StabilityProblem::Under(double compliance) const {
   const double share = dead ? 0.0 : 1.0 / machine;
   const Eigen::Index n0 = negative_ - (!dead && machine < 0.0 ? 1 : 0);
   const int sign = dead || machine > 0.0 ? sign_ : -sign_;
-  const auto fill = [&] { found.direction = Normalised(dead ? FallingMode() : Eigen::VectorXd()); };
 
   if (slips_.empty()) {
     found.directions = static_cast<int>(n0);
@@ -243,7 +237,7 @@ Stability StabilityProblem::Under(double compliance) const {
     } else if (symmetric_ || sign < 0) {
       found.verdict = Verdict::kUnstable;
     }
-    if (n0 > 0) fill();
+    if (n0 > 0 && dead) found.direction = FallingMode();
     if (found.verdict == Verdict::kNotProved) found.directions = -1;
     return found;
   }
@@ -269,8 +263,8 @@ Stability StabilityProblem::Under(double compliance) const {
         std::max_element(growing.begin(), growing.end(), [](const auto& a, const auto& b) { return a.rate < b.rate; });
     const Eigen::VectorXd z = scale.asDiagonal() * fastest->z;
     found.direction = Normalised(motions_ * z - (dead ? 0.0 : share * load_of_slips_.dot(z)) * by_load_);
-  } else if (n0 > 0) {
-    fill();
+  } else if (n0 > 0 && dead) {
+    found.direction = FallingMode();
   }
   return found;
 }

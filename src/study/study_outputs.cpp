@@ -32,7 +32,7 @@ StudyOutputs::StudyOutputs(const std::vector<std::string>& names, const TraceReq
                                                            {"events", Kind::kEvents},
                                                            {"jumps", Kind::kJumps},
                                                            {"released", Kind::kReleased},
-                                                           {"stable_until", Kind::kStableUntil},
+                                                           {"stable_range", Kind::kStableRange},
                                                            {"end_reason", Kind::kEndReason}};
   constexpr std::pair<std::string_view, Kind> kOfColumn[] = {
       {"final.", Kind::kFinal}, {"max.", Kind::kMax}, {"min.", Kind::kMin}};
@@ -53,7 +53,7 @@ StudyOutputs::StudyOutputs(const std::vector<std::string>& names, const TraceReq
       return {kind, std::move(column), {}, {}};
     }
     throw std::invalid_argument(
-        "must be limit_loads, events, jumps, released, stable_until, end_reason, final.<column>, max.<column> or "
+        "must be limit_loads, events, jumps, released, stable_range, end_reason, final.<column>, max.<column> or "
         "min.<column>" +
         nearest.Question());
   };
@@ -76,10 +76,10 @@ LongLists StudyOutputs::lists() const {
 
 void StudyOutputs::Add(const Increment& increment) {
   if (increment.kind == IncrementKind::kJump) released_.push_back(increment.jump.energy_released);
-  if (!stable_until_ && increment.stability.stability == Verdict::kUnstable) {
+  if (!stable_range_ && increment.stability.stability == Verdict::kUnstable) {
     // An arc that is unstable inside is so from its beginning on.
     const bool inside = increment.kind == IncrementKind::kRegular && summary_.increments() > 0;
-    stable_until_ = inside ? load_before_ : increment.load_factor;
+    stable_range_ = inside ? load_before_ : increment.load_factor;
   }
   load_before_ = increment.load_factor;
   summary_.Add(increment);
@@ -104,7 +104,7 @@ std::string StudyOutputs::Text(const Output& output, EndReason reason) const {
     case Kind::kEvents: return summary_.increments() == 0 ? "" : std::to_string(summary_.events());
     case Kind::kJumps: return summary_.increments() == 0 ? "" : std::to_string(summary_.jumps());
     case Kind::kReleased: return Joined(released_);
-    case Kind::kStableUntil: return stable_until_ ? TextOf(*stable_until_) : "";
+    case Kind::kStableRange: return stable_range_ ? TextOf(*stable_range_) : "";
     case Kind::kLimitLoads: {
       std::vector<double> loads;
       for (const CriticalPoint& point : summary_.limit_points()) loads.push_back(point.load_factor);

@@ -203,8 +203,7 @@ class StageVerifier {
     // Where a choice names an increment, its branches are on record, too.
     const bool numbered = increment.event.number != 0 && !increment.event.branches.empty();
     if (numbered && !event && increment.kind != IncrementKind::kBifurcation) findings_.Report("branches, but no event");
-    const bool left = increments_[increment_ + 1].kind == IncrementKind::kJump;
-    if (event && increment.event.taken == 0 && !left) findings_.Report("an event where no branch is taken");
+    if (event && !jumps && increment.event.taken == 0) findings_.Report("an event where no branch is taken");
     // At a smooth limit point another path may cross too.
     const bool crosses = !increment.event.null_vector.empty();
     if (increment.kind == IncrementKind::kBifurcation && !crosses)

@@ -47,7 +47,7 @@ TEST(StudyOutputs, ListLimitLoadsInTheirOrder) {
 }
 
 TEST(StudyOutputs, ListJumpsAndWhereStabilityIsLost) {
-  StudyOutputs outputs({"jumps", "released", "stable_until", "final.stability", "max.critical_stiffness"},
+  StudyOutputs outputs({"jumps", "released", "stable_range", "final.stability", "max.critical_stiffness"},
                        ReadExample("rough_truss"));
   const auto add = [&](IncrementKind kind, double load_factor, Verdict verdict, double stiffness, double released) {
     Increment increment;
@@ -91,7 +91,7 @@ TEST(StudyOutputs, HaveTheListsThatTheyNeed) {
 
 TEST(StudyOutputs, OfNoIncrementsAreEmpty) {
   EXPECT_EQ(TextsOf({"limit_loads", "events", "end_reason", "final.load_factor", "final.kind", "jumps", "released",
-                     "stable_until"},
+                     "stable_range"},
                     {}),
             (std::vector<std::string>{"", "", "path_end", "", "", "", "", ""}));
 }
@@ -107,7 +107,7 @@ TEST(StudyOutputs, NameTheOneThatIsNotThere) {
     return "is an output";
   };
   EXPECT_EQ(rule_of("limit_load"),
-            "must be limit_loads, events, jumps, released, stable_until, end_reason, final.<column>, max.<column> or "
+            "must be limit_loads, events, jumps, released, stable_range, end_reason, final.<column>, max.<column> or "
             "min.<column>; did you mean limit_loads?");
   EXPECT_EQ(rule_of("final.x_apx"), "must be of a node of the scene; did you mean apex?");
   EXPECT_EQ(rule_of("max.kind"), "must be of a column of numbers, or begin with final.");

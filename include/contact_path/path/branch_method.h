@@ -100,6 +100,7 @@ class BranchMethod : public PathMethod {
   const Model& model_;
   BranchOptions options_;
   const Device device_;
+  const Eigen::VectorXd setting_row_;            // Device::Row()
   std::unique_ptr<StabilityMonitor> stability_;  // null: not asked for
   Departure departure_;
   SmoothArc arc_;

@@ -6,7 +6,7 @@
 // Each struct is followed by the description of its fields (field.h). A new field is a member and its description here;
 // a new kind of part is a struct with its description and a list in Scene. scripts/messages adds both to the messages,
 // and to the Python package.
-// Solids and surfaces are in solid_parts.h.
+// Solids and surfaces are in solid_parts.h, options in trace_options.h.
 #ifndef CONTACT_PATH_SCENE_SCENE_H_
 #define CONTACT_PATH_SCENE_SCENE_H_
 
@@ -20,6 +20,7 @@
 
 #include "contact_path/scene/field.h"
 #include "contact_path/scene/solid_parts.h"
+#include "contact_path/scene/trace_options.h"
 #include "contact_path/scene/words.h"
 
 namespace contact_path {
@@ -55,66 +56,6 @@ struct Words<ObstacleShape> {
                                                                         {"circle", ObstacleShape::kCircle},
                                                                         {"polyline", ObstacleShape::kPolyline},
                                                                         {"spline", ObstacleShape::kSpline}};
-};
-
-enum class Method {
-  kBranch,  // piecewise smooth continuation with located events
-  kMpec,    // Algorithm 3.2 of Kanno & Martins 2005
-};
-
-template <>
-struct Words<Method> {
-  static constexpr Method kDefault = Method::kBranch;
-  static constexpr std::pair<std::string_view, Method> kAll[] = {{"branch", Method::kBranch}, {"mpec", Method::kMpec}};
-};
-
-enum class Accuracy { kFast, kBalanced, kAccurate };
-
-template <>
-struct Words<Accuracy> {
-  static constexpr Accuracy kDefault = Accuracy::kBalanced;
-  static constexpr std::pair<std::string_view, Accuracy> kAll[] = {
-      {"fast", Accuracy::kFast}, {"balanced", Accuracy::kBalanced}, {"accurate", Accuracy::kAccurate}};
-};
-
-// From where on a contact that slides is said to have moved.
-enum class FrictionLaw {
-  kIncremental,  // Coulomb's law: the motion since the last increment
-  kTotal,        // the motion since the start of the program
-};
-
-template <>
-struct Words<FrictionLaw> {
-  static constexpr FrictionLaw kDefault = FrictionLaw::kIncremental;
-  static constexpr std::pair<std::string_view, FrictionLaw> kAll[] = {{"incremental", FrictionLaw::kIncremental},
-                                                                      {"total", FrictionLaw::kTotal}};
-};
-
-// What a path does where the device that loads the structure can go no further on a stable path.
-enum class AtLimit {
-  kFollow,  // goes on over the limit point, as an arc-length method does
-  kStop,    // ends
-  kJump,    // moves, over-damped, to the next stable equilibrium, and goes on from there
-};
-
-template <>
-struct Words<AtLimit> {
-  static constexpr AtLimit kDefault = AtLimit::kFollow;
-  static constexpr std::pair<std::string_view, AtLimit> kAll[] = {
-      {"follow", AtLimit::kFollow}, {"stop", AtLimit::kStop}, {"jump", AtLimit::kJump}};
-};
-
-// How method mpec finds its increments.
-enum class MpecSolver {
-  kCertified,  // predicted and certified; by Ipopt where the contact states are not known
-  kIpopt,      // Algorithm 3.2: every increment by Ipopt
-};
-
-template <>
-struct Words<MpecSolver> {
-  static constexpr MpecSolver kDefault = MpecSolver::kCertified;
-  static constexpr std::pair<std::string_view, MpecSolver> kAll[] = {{"certified", MpecSolver::kCertified},
-                                                                     {"ipopt", MpecSolver::kIpopt}};
 };
 
 struct Node {
@@ -373,128 +314,6 @@ void ForEachElementList(const Scene& scene, Visit&& visit) {
     if constexpr (kIsElementList<typename std::decay_t<decltype(field)>::Value>) visit(field.name, scene.*field.member);
   });
 }
-
-// A flag that is true where it is left out. Words in files and messages, since a message has no such flag.
-enum class DefaultTrue {
-  kTrue,
-  kFalse,
-};
-
-template <>
-struct Words<DefaultTrue> {
-  static constexpr DefaultTrue kDefault = DefaultTrue::kTrue;
-  static constexpr std::pair<std::string_view, DefaultTrue> kAll[] = {{"true", DefaultTrue::kTrue},
-                                                                      {"false", DefaultTrue::kFalse}};
-};
-
-// Holds when `quantity` comes to `value` from the side that `when` does not name, or lies beyond.
-struct StopCriterion {
-  std::string quantity;  // "b.x", "b@floor.rn", "load_factor", ... (quantity.h)
-  std::string when;      // ">" or "<"
-  double value = 0.0;
-  DefaultTrue exact =
-      DefaultTrue::kTrue;  // the last increment is located at the value; false: the next increment beyond
-};
-
-template <>
-struct Fields<StopCriterion> {
-  template <typename P>
-  static constexpr auto Of() {
-    return std::tuple(Member("quantity", &P::quantity).Naming(TextKind::kQuantity), Member("when", &P::when),
-                      Member("value", &P::value), Member("exact", &P::exact));
-  }
-};
-
-// Values of a quantity, each of which has an increment of its own wherever the path comes to it.
-struct Samples {
-  std::string quantity;        // as of StopCriterion
-  std::vector<double> values;  // empty: `count` values at equal distances instead
-  double from = 0.0;
-  double to = 0.0;
-  int count = 0;  // 0 with `values`; 1: `from` alone
-
-  std::vector<double> Values() const {
-    if (!values.empty()) return values;
-    std::vector<double> between;
-    between.reserve(static_cast<std::size_t>(std::max(count, 0)));
-    for (int i = 0; i < count; ++i) between.push_back(count == 1 ? from : from + (to - from) * i / (count - 1));
-    return between;
-  }
-};
-
-template <>
-struct Fields<Samples> {
-  template <typename P>
-  static constexpr auto Of() {
-    return std::tuple(Member("quantity", &P::quantity).Naming(TextKind::kQuantity), Member("values", &P::values),
-                      Member("from", &P::from), Member("to", &P::to),
-                      Member("count", &P::count).Within(Range::kNotNegative));
-  }
-};
-
-// Takes another branch than the best one (method branch): at the n-th event, or at an increment, which then counts as
-// an event.
-struct BranchChoice {
-  int event = 0;      // n, from 1; 0 = `increment` is meant
-  int increment = 0;  // index of the increment, from 0; used where event = 0
-  int branch = 0;     // number of the branch in the record of that event, from 1; 0 = 1, the best
-};
-
-template <>
-struct Fields<BranchChoice> {
-  template <typename P>
-  static constexpr auto Of() {
-    return std::tuple(Member("event", &P::event).Within(Range::kNotNegative),
-                      Member("increment", &P::increment).Within(Range::kNotNegative).Formerly("row"),
-                      Member("branch", &P::branch).Within(Range::kNotNegative).Formerly("way"));
-  }
-};
-
-struct TraceOptions {
-  Method method = Method::kBranch;
-  Accuracy accuracy = Accuracy::kBalanced;
-  double direction = 0.0;  // sign of the first change of the load factor; 0 = +1
-  double step = 0.0;       // target increment length in the scaled norm, >= 0; 0 = automatic (by accuracy)
-  int max_increments = 0;  // >= 0; 0 = 1000
-  // Of messages and bags, not of the CSV: every n-th regular increment has positions and contacts, and all located
-  // increments have; all further ones leave them empty. >= 0; 0 = 1, all of them.
-  int full_state_every = 0;
-  std::vector<StopCriterion> stop;
-  std::vector<Samples> at;
-  // Long lists that increments, bags and the CSV carry: "sections", of bars and beams; "stresses", of solids;
-  // "pressures", of contacts. And "inner", a state inside each increment, which bags carry for verify.
-  std::vector<std::string> record;
-  std::vector<BranchChoice> branch_choices;
-  FrictionLaw friction_law = FrictionLaw::kIncremental;
-  MpecSolver mpec_solver = MpecSolver::kCertified;
-  DefaultTrue stability = DefaultTrue::kTrue;  // the verdict of stability of each increment is looked for
-  AtLimit at_limit = AtLimit::kFollow;
-  // k of the machine that loads the structure: with loads f, it keeps s = k (Q - f . u), Q growing. >= 0; 0 = dead
-  // loads, infinite = the displacement f . u of the loads is prescribed [force / length where f is one force of 1].
-  double machine_stiffness = 0.0;
-
-  int MaxIncrements() const { return max_increments == 0 ? 1000 : max_increments; }
-  double Direction() const { return direction < 0.0 ? -1.0 : 1.0; }
-  bool Records(std::string_view list) const { return std::find(record.begin(), record.end(), list) != record.end(); }
-  // Whether corners are located, each at the end of an increment, and on record as events.
-  bool LocatesEvents() const { return method == Method::kBranch || mpec_solver == MpecSolver::kCertified; }
-};
-
-template <>
-struct Fields<TraceOptions> {
-  template <typename P>
-  static constexpr auto Of() {
-    return std::tuple(Member("method", &P::method), Member("accuracy", &P::accuracy),
-                      Member("direction", &P::direction), Member("step", &P::step).Within(Range::kNotNegative),
-                      Member("max_increments", &P::max_increments).Within(Range::kNotNegative),
-                      Member("full_state_every", &P::full_state_every).Within(Range::kNotNegative),
-                      Member("stop", &P::stop), Member("at", &P::at), Member("record", &P::record),
-                      Member("branch_choices", &P::branch_choices), Member("friction_law", &P::friction_law),
-                      Member("mpec_solver", &P::mpec_solver), Member("stability", &P::stability),
-                      Member("at_limit", &P::at_limit),
-                      Member("machine_stiffness", &P::machine_stiffness).Within(Range::kNotNegativeOrInfinite));
-  }
-};
 
 // A part of a load program. Its load factor goes from 0 to `target`; then the stage leaves its loads and motions on,
 // until a stage unloads.

@@ -20,18 +20,16 @@ struct Device {
   }
   bool IsDead() const { return stiffness == 0.0; }
   double Compliance() const { return 1.0 / stiffness; }
-  // Of the change of Q along a change (du, ds), the load factor last, or of a multiple > 0 of Q: a row.
-  Eigen::VectorXd SettingRow(const Structure& structure) const {
-    Eigen::VectorXd row = Eigen::VectorXd::Unit(structure.NumDofs() + 1, structure.NumDofs());
-    if (IsDead()) return row;
-    row *= Compliance();
-    row.head(structure.NumDofs()) = structure.ReferenceLoad();
-    return row;
-  }
-  double SettingRate(const Structure& structure, const Eigen::VectorXd& change) const {
+  // row . (u, s) is the setting times a number > 0, NumDofs() + 1 entries: with the displacement in units in which f
+  // has norm 1, k becomes k |f|.
+  Eigen::VectorXd Row(const Structure& structure) const {
     const Eigen::Index nd = structure.NumDofs();
-    if (IsDead()) return change[nd];
-    return structure.ReferenceLoad().dot(change.head(nd)) + Compliance() * change[nd];
+    Eigen::VectorXd row = Eigen::VectorXd::Unit(nd + 1, nd);
+    const double size = structure.ReferenceLoad().norm(), k = stiffness * size;
+    if (!(k > 0.0)) return row;
+    row[nd] = std::isinf(k) ? 0.0 : 1.0 / (1.0 + k);
+    row.head(nd) = (std::isinf(k) ? 1.0 : k / (1.0 + k)) / size * structure.ReferenceLoad();
+    return row;
   }
 };
 

@@ -50,11 +50,8 @@ class StabilityProblem {
   // Under s = (Q - f . u) / compliance, f the reference load, for Q at rest: infinite = dead loads, 0 = displacement
   // control. Without reference loads the machine is rigid already: as with dead loads.
   Stability Under(double compliance) const;
-  // f . du / ds of the structure whose contacts S stick; infinite where the equations are singular.
-  double LoadCompliance() const { return load_compliance_; }
   // Whether contacts are at the edge of their cones.
   bool HasSlips() const { return !slips_.empty(); }
-  int factorisations() const { return factorisations_; }
 
  private:
   struct Slip {
@@ -86,16 +83,15 @@ class StabilityProblem {
   bool singular_ = false;                                    // the point is known to be
   bool symmetric_ = true;                                    // K is
   Eigen::SparseMatrix<double> saddle_, stiffness_, forces_;  // symmetric K and columns of reactions
-  Eigen::Index negative_ = 0;  // n0; where the point is singular, besides its null direction
-  int sign_ = 1;               // of det K where S sticks
-  double load_compliance_ = INFINITY;
-  Eigen::VectorXd by_load_;  // du by a unit of s
-  Eigen::MatrixXd motions_;  // by unit slips, columns
+  Eigen::Index negative_ = 0;     // n0; where the point is singular, besides its null direction
+  int sign_ = 1;                  // of det K where S sticks
+  double load_compliance_ = 0.0;  // f . by_load_
+  Eigen::VectorXd by_load_;       // du by a unit of s
+  Eigen::MatrixXd motions_;       // by unit slips, columns
   Eigen::MatrixXd H_;
   Eigen::VectorXd w_of_load_;      // of by_load_
   Eigen::VectorXd load_of_slips_;  // f . motions
   Eigen::VectorXd null_;           // du; empty where the equations are not known to be singular
-  int factorisations_ = 0;
 };
 
 }  // namespace contact_path

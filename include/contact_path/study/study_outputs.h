@@ -29,7 +29,7 @@ class UnknownOutput : public std::invalid_argument {
 class StudyOutputs {
  public:
   // names: limit_loads (load factors of the limit points), events (their number), jumps (their number), released
-  // (energy of each jump), stable_until (the load factor where the path first becomes unstable), end_reason, and
+  // (energy of each jump), stable_range (the load factor where the path first becomes unstable), end_reason, and
   // final.<column>, max.<column>, min.<column> of study/path_column.h. `request` must be sound. Throws UnknownOutput.
   StudyOutputs(const std::vector<std::string>& names, const TraceRequest& request);
 
@@ -40,11 +40,11 @@ class StudyOutputs {
   void Add(const Increment& increment);
 
   // By name: numbers with 17 digits, limit loads and energies with a space between them. Of a path without increments
-  // all but end_reason are empty, and stable_until of one that does not become unstable.
+  // all but end_reason are empty, and stable_range of one that does not become unstable.
   std::vector<std::string> Texts(EndReason reason) const;
 
  private:
-  enum class Kind { kLimitLoads, kEvents, kJumps, kReleased, kStableUntil, kEndReason, kFinal, kMax, kMin };
+  enum class Kind { kLimitLoads, kEvents, kJumps, kReleased, kStableRange, kEndReason, kFinal, kMax, kMin };
   struct Output {
     Kind kind;
     std::optional<PathColumn> column;
@@ -58,7 +58,7 @@ class StudyOutputs {
   PathSummary summary_{/*load_scale=*/1.0};
   std::vector<double> released_;
   double load_before_ = 0.0;  // of the last increment
-  std::optional<double> stable_until_;
+  std::optional<double> stable_range_;
 };
 
 }  // namespace contact_path
