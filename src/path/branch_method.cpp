@@ -76,7 +76,6 @@ double BranchMethod::SettingRate(const CurvePoint& at) const {
 
 bool BranchMethod::ShortenTo(const std::function<bool(const CurvePoint&)>& beyond, BalancedStep* next) {
   Step& step = next->at.step;
-  const FixedStateSystem& system = arc_.system();
   double before = 0.0, after = step.length;
   CurvePoint end = step.end, middle;
   while (after - before > tolerances::kLastDigits * step.length) {
@@ -91,7 +90,10 @@ bool BranchMethod::ShortenTo(const std::function<bool(const CurvePoint&)>& beyon
       before = t;
     }
   }
-  if (!(after < step.length) || system.Norm(end.x - step.start.x) == 0.0) return false;
+  // An event that coincides with something else is the one to act on.
+  const double width = tolerances::kShort * step.length;
+  const bool at_event = next->at.event.kind != EventKind::kNone && step.length - after <= width;
+  if (at_event || after <= width || !(after < step.length)) return false;
   step = MakeStep(step.start, end, arc_.NumMotion());
   next->at.event = StepEvent();
   Balance(next);
@@ -154,10 +156,8 @@ std::optional<Eigen::VectorXd> BranchMethod::MovesOff(const ArcStep& at, Increme
   if (!options_.ends_at_limit) return std::nullopt;
   const Eigen::VectorXd along = current_.first.head(LoadFactor());
   const bool loaded = SettingRate(at.step.start) > 0.0;
-  const bool smooth = device_.IsDead() ? kind == IncrementKind::kSmoothLimit : kind == IncrementKind::kOnset;
-  if (loaded && smooth) return along;
-  const bool turns = SettingRate(at.step.end) > 0.0 && SettingRate(current_) < 0.0;
-  if (turns) return along;
+  const bool at_limit = device_.IsDead() && kind == IncrementKind::kSmoothLimit;
+  if (loaded && (at_limit || SettingRate(current_) < 0.0)) return along;
   const bool unstable =
       stability_ && kind == IncrementKind::kRegular && loaded && stability_->UnderDevice() == Verdict::kUnstable;
   if (!unstable) return std::nullopt;

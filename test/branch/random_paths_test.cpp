@@ -77,8 +77,7 @@ bool InPreload(const TracedPath& path) { return path.increments.empty(); }
 std::vector<const Increment*> Events(const TracedPath& path) {
   std::vector<const Increment*> increments;
   for (const Increment& increment : path.increments)
-    if (increment.kind != IncrementKind::kRegular && increment.kind != IncrementKind::kOnset &&
-        increment.arc_length < kArcLength - 1e-3)
+    if (increment.kind != IncrementKind::kRegular && increment.arc_length < kArcLength - 1e-3)
       increments.push_back(&increment);
   return increments;
 }

@@ -49,12 +49,13 @@ TEST(JumpPaths, SnapThroughInClosedForm) {
   TraceRequest request = SnappingTruss();
   const double h = 1.2, c = 1.0 / std::pow(1.0 + h * h, 1.5);
   // The stiffest machine that the falling part needs is c h^2, at y = 0.
+  request.options.at = {{"apex.y", {0.0}}};
   double stiffest = 0.0;
   const TracedPath followed = TraceProved(request);
   for (const Increment& increment : followed.increments)
     if (increment.stability.stability == Verdict::kUnstable)
       stiffest = std::max(stiffest, increment.stability.critical_stiffness);
-  EXPECT_NEAR(stiffest, c * h * h, 2e-3);
+  EXPECT_NEAR(stiffest, c * h * h, 1e-10);
   request.options.at_limit = AtLimit::kJump;
   const TracedPath path = TraceProved(request);
   ASSERT_EQ(JumpsOf(path).size(), 1U);
@@ -78,8 +79,8 @@ TEST(JumpPaths, SlipThatLetsTheLoadFall) {
   EXPECT_NEAR(jump.load_factor, 1.0, 1e-12);
   EXPECT_NEAR(PositionX(path, jump, "p"), 10.0 / 7.0, 1e-9);
   EXPECT_NEAR(PositionY(path, jump, "p"), 2.0 / 7.0, 1e-9);
-  EXPECT_NEAR(jump.dissipation, 1.0 / 3.0, 1e-6);
-  EXPECT_NEAR(jump.jump.energy_released + jump.dissipation, 4.0 / 7.0, 1e-6);
+  EXPECT_NEAR(jump.dissipation, 1.0 / 3.0, 1e-8);
+  EXPECT_NEAR(jump.jump.energy_released + jump.dissipation, 4.0 / 7.0, 1e-10);
   EXPECT_TRUE(jump.jump.landing_robust);
   EXPECT_TRUE(JumpsOf(TraceProved(Jumping("two_dof_friction", kRigid))).empty());
   EXPECT_TRUE(JumpsOf(TraceProved(Jumping("two_dof_friction", 0.51))).empty());
@@ -94,7 +95,6 @@ TEST(JumpPaths, StopsWhereItIsAsked) {
   EXPECT_EQ(path.increments.back().kind, IncrementKind::kSmoothLimit);
 }
 
-// The path from a landing on is the one that a trace finds there without a jump before: residuals and proof.
 TEST(JumpPaths, ExampleScenesLand) {
   for (const char* name : {"snap_hook", "rough_arch", "stick_slip_chain", "bistable_arch"}) {
     const TracedPath path = TraceProved(Jumping(name));
@@ -119,16 +119,15 @@ TEST(JumpPaths, RandomScenes) {
     jumps += static_cast<int>(JumpsOf(path).size());
     // It lands, or ends by name; what the loads did is stored, taken by friction, or released.
     EXPECT_NE(path.result.reason, EndReason::kNumericalFailure) << seed << " " << path.result.message;
+    ExpectNoFindings(path);
     double released = 0.0, exchanged = 1.0;
     for (const Increment& increment : path.increments) {
       released += increment.jump.energy_released;
       exchanged = std::max({exchanged, std::abs(increment.external_work), increment.strain_energy});
-      EXPECT_GE(increment.jump.energy_released, 0.0) << seed;
-      if (increment.kind == IncrementKind::kJump) EXPECT_LE(increment.residuals.Largest(), 1e-9) << seed;
     }
     const Increment &first = path.increments.front(), &last = path.increments.back();
     const double stored = last.strain_energy - first.strain_energy;
-    EXPECT_NEAR(last.external_work, stored + last.dissipation + released, 1e-6 * exchanged) << seed;
+    EXPECT_NEAR(last.external_work, stored + last.dissipation + released, 1e-10 * exchanged) << seed;
   }
   EXPECT_GT(jumps, 20);
 }

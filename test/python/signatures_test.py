@@ -95,9 +95,10 @@ class Signatures(unittest.TestCase):
         self.change('include/contact_path/scene/scene.h',
                     ('  bool fixed_x = false;', '  bool fixed_x = false;\n  double mass = 0.0;'),
                     ('Member("fixed_x", &P::fixed_x),', 'Member("fixed_x", &P::fixed_x), Member("mass", &P::mass),'),
-                    ('  Method method = ', '  double pace = 0.0;\n  Method method = '),
-                    ('Member("method", &P::method),', 'Member("method", &P::method), Member("pace", &P::pace),'),
                     ('\nstruct Scene {\n', CABLE), ('Member("bars", &P::bars),', 'Member("bars", &P::bars), Member("cables", &P::cables),'))
+        self.change('include/contact_path/scene/trace_options.h',
+                    ('  Method method = ', '  double pace = 0.0;\n  Method method = '),
+                    ('Member("method", &P::method),', 'Member("method", &P::method), Member("pace", &P::pace),'))
         self.change('python/contact_path/parts.py', ('friction: float = 0.0, radius: float', 'friction: int = 0, radius: float'))
 
         checked = run(self.path('scripts/messages'), '--check')

@@ -168,8 +168,7 @@ std::vector<Increment> IncrementsOfKind(const TracedPath& path, IncrementKind ki
 std::vector<const Increment*> EventsOf(const TracedPath& path) {
   std::vector<const Increment*> events;
   for (const Increment& increment : path.increments)
-    if (increment.kind != IncrementKind::kRegular && increment.kind != IncrementKind::kSample &&
-        increment.kind != IncrementKind::kOnset)
+    if (increment.kind != IncrementKind::kRegular && increment.kind != IncrementKind::kSample)
       events.push_back(&increment);
   return events;
 }

@@ -52,7 +52,7 @@ std::size_t LargestLoad(const TracedPath& path);
 
 std::vector<Increment> IncrementsOfKind(const TracedPath& path, IncrementKind kind);
 
-// Starts of stages, limit points, events, bifurcations and jumps: without the onset of instability between them.
+// Starts of stages, limit points, events, bifurcations, onsets of instability and jumps.
 std::vector<const Increment*> EventsOf(const TracedPath& path);
 
 // Both paths end for the same reason, and their events are of the same stages and kinds at the same load factors:
