@@ -166,7 +166,9 @@ TEST(StabilityProblemTest, CountsAgainstEigenvalues) {
     const Stability found = problem.Under(INFINITY);
     EXPECT_EQ(found.directions, negative) << seed;
     EXPECT_EQ(found.verdict, negative > 0 ? Verdict::kUnstable : Verdict::kStable) << seed;
-    if (found.direction.size() > 0) EXPECT_LT(found.direction.dot(tangent * found.direction), 0.0) << seed;
+    if (found.direction.size() > 0) {
+      EXPECT_LT(found.direction.dot(tangent * found.direction), 0.0) << seed;
+    }
     unstable += negative > 0 ? 1 : 0;
     with_direction += found.direction.size() > 0 ? 1 : 0;
     ++compared;
@@ -285,8 +287,12 @@ TEST(StabilityProblemTest, VerdictsAgainstMotions) {
           largest,
           Motion(K, contacts, friction, m, c, 0.05).Growth(1e-3 * v, verdict == Verdict::kStable ? 500 : 4000));
     }
-    if (verdict == Verdict::kStable) EXPECT_LT(largest, kGrown) << seed;
-    if (verdict == Verdict::kUnstable) EXPECT_GT(largest, kGrown) << seed;
+    if (verdict == Verdict::kStable) {
+      EXPECT_LT(largest, kGrown) << seed;
+    }
+    if (verdict == Verdict::kUnstable) {
+      EXPECT_GT(largest, kGrown) << seed;
+    }
   }
   EXPECT_GT(stable, 30);
   EXPECT_GT(unstable, 30);
