@@ -210,7 +210,7 @@ class Jumper {
  private:
   // With the disturbance, or where the structure comes back against it: then it has the other sign.
   Course FollowEither(const Resistance& resistance, Eigen::VectorXd* disturbance, double stride) {
-    const Course course = Follow(resistance, *disturbance, stride);
+    Course course = Follow(resistance, *disturbance, stride);
     if (!course.came_back) return course;
     *disturbance = -*disturbance;
     return Follow(resistance, *disturbance, stride);
@@ -220,7 +220,7 @@ class Jumper {
   Course FollowFinely(Eigen::VectorXd* disturbance) {
     const Resistance uniform = {0.0 * moved_, moved_};
     for (stride_ = kStride * extent_;;) {
-      const Course course = FollowEither(uniform, disturbance, stride_);
+      Course course = FollowEither(uniform, disturbance, stride_);
       const double wanted = course.length / kLeastSteps;
       if (!course.landing || wanted >= 0.99 * stride_) return course;
       stride_ = wanted;
