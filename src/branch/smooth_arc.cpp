@@ -315,6 +315,13 @@ double SmoothArc::ErrorOfRate(const Eigen::VectorXd& gradient, const CurvePoint&
   return std::isfinite(error) ? error : unknown;
 }
 
+Eigen::VectorXd SmoothArc::MotionUnder(const Eigen::VectorXd& forces) const {
+  if (!at_hand_) return {};
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(system_.NumEquations());
+  right.head(forces.size()) = forces;
+  return solver_.Solve(right, 0.0);
+}
+
 double SmoothArc::MovedByRounding(const Eigen::VectorXd& x, const Eigen::VectorXd& normal) {
   Eigen::VectorXd row = Eigen::VectorXd::Zero(system_.NumUnknowns());
   row.head(normal.size()) = normal;

@@ -74,7 +74,7 @@ double BranchMethod::SettingRate(const CurvePoint& at) const {
   return options_.setting_sense * setting_row_.dot(at.first.head(setting_row_.size()));
 }
 
-bool BranchMethod::ShortenTo(const std::function<bool(const CurvePoint&)>& beyond, BalancedStep* next) {
+bool BranchMethod::ShortenTo(const std::function<bool(const CurvePoint&)>& beyond, bool singular, BalancedStep* next) {
   Step& step = next->at.step;
   double before = 0.0, after = step.length;
   CurvePoint end = step.end, middle;
@@ -82,7 +82,17 @@ bool BranchMethod::ShortenTo(const std::function<bool(const CurvePoint&)>& beyon
     const double t = 0.5 * (before + after);
     if (!(t > before && t < after)) break;
     const Correction there = arc_.CorrectOnPlane(step.Point(t), step.normal);
-    if (!there.converged || !arc_.Derivatives(there.x, step.normal, &middle)) return false;
+    if (!there.converged) return false;
+    if (singular) {
+      // There the equations give no derivatives; the interpolation of the step does.
+      middle = step.At(t);
+      middle.x = there.x;
+      middle.determinant_sign = middle.side = 0;
+      middle.is_limit = false;
+      middle.is_crossing = true;
+    } else if (!arc_.Derivatives(there.x, step.normal, &middle)) {
+      return false;
+    }
     if (beyond(middle)) {
       after = t;
       end = middle;
@@ -111,7 +121,7 @@ void BranchMethod::NoteStability(const ArcStep& at, const AcceptedPoint& increme
     null_direction = end.first.head(nd).normalized();
   }
   if (inside) {
-    stability_->Note(increment.point, end, StiffnessSign(end), null_direction);
+    stability_->Note(increment.point, arc_, end, StiffnessSign(end), null_direction);
     return;
   }
   PathPoint leaves = increment.point;
@@ -133,17 +143,17 @@ bool BranchMethod::EndAtOnset(const PathPoint& from, BalancedStep* next, Accepte
   if (!(at.step.length > 0.0)) return false;
   bool found = false;
   if (!device_.IsDead() && SettingRate(at.step.start) > 0.0 && SettingRate(at.step.end) < 0.0)
-    found = ShortenTo([this](const CurvePoint& point) { return SettingRate(point) < 0.0; }, next);
+    found = ShortenTo([this](const CurvePoint& point) { return SettingRate(point) < 0.0; }, false, next);
   if (stability_) {
     const Verdict before = stability_->OnArc();
     NoteStability(at, *increment, true);
     const bool lost = before == Verdict::kStable && stability_->UnderDevice() == Verdict::kUnstable;
-    if (!found && lost && stability_->HasSlips() && !at.step.end.is_limit && !at.step.end.is_crossing)
+    if (!found && lost && !at.step.end.is_limit && !at.step.end.is_crossing)
       found = ShortenTo(
           [this](const CurvePoint& point) {
             return stability_->At(arc_.system().Unpack(point.x)) == Verdict::kUnstable;
           },
-          next);
+          !stability_->HasSlips(), next);
   }
   if (!found) return false;
   *increment = IncrementOf(next->at, from);

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "contact_path/linear/generic_vector.h"
+
 namespace contact_path {
 namespace {
 
@@ -39,21 +41,38 @@ void StabilityMonitor::Start(const PathPoint& point, const CurvePoint* ahead) {
   Write(arc_, ahead);
 }
 
-void StabilityMonitor::Note(const PathPoint& point, const CurvePoint& at, int stiffness_sign,
+void StabilityMonitor::Note(const PathPoint& point, const SmoothArc& arc, const CurvePoint& at, int stiffness_sign,
                             const Eigen::VectorXd& null_direction) {
   const bool singular = null_direction.size() > 0;
   const bool small = model_.structure.NumDofs() <= kSmallSystem;
   // Where supports or obstacles move besides, f . u does not tell the work along the path.
   const bool loads_alone = model_.structure.ReferenceLoad().isZero(0.0) ||
                            (model_.structure.PrescribedDofs().empty() && model_.scene.obstacle_motions.empty());
-  const bool follows = known_ && !singular && loads_alone && arc_.dead.directions >= 0 &&
-                       (problem_.HasSlips() ? !small : stiffness_sign == (arc_.dead.directions % 2 == 0 ? 1 : -1));
+  const bool follows =
+      known_ && !small && !singular && loads_alone && arc_.dead.directions >= 0 &&
+      (problem_.HasSlips() || (stiffness_sign == (arc_.dead.directions % 2 == 0 ? 1 : -1) && !OneMoreFalls(arc, at)));
   if (follows)
     Follow(at);
   else
     Count(point, null_direction);
   known_ = !singular;
   Write(arc_, &at);
+}
+
+bool StabilityMonitor::OneMoreFalls(const SmoothArc& arc, const CurvePoint& at) {
+  const Eigen::Index nd = model_.structure.NumDofs();
+  if (softest_.size() != nd) softest_ = GenericVector(nd).normalized();
+  const Eigen::VectorXd x = arc.MotionUnder(softest_);
+  if (x.size() == 0 || arc_.controlled.directions != 0) return false;
+  const Eigen::VectorXd& f = model_.structure.ReferenceLoad();
+  const double along = f.dot(at.first.head(nd));
+  const double share = along != 0.0 ? f.dot(x.head(nd)) / along : x[nd] / at.first[nd];
+  const Eigen::VectorXd motion = x.head(nd) - share * at.first.head(nd);
+  const double norm = motion.norm();
+  if (!(norm > 0.0) || !std::isfinite(norm)) return false;
+  const double energy = motion.dot(softest_);  // motion . K motion, as the loads do no work
+  softest_ = motion / norm;
+  return energy < 0.0;
 }
 
 void StabilityMonitor::NoteEvent(const PathPoint& leaves, const CurvePoint& ahead, Decides decides) {

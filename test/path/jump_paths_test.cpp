@@ -87,6 +87,42 @@ TEST(JumpPaths, SlipThatLetsTheLoadFall) {
   EXPECT_EQ(JumpsOf(TraceProved(Jumping("two_dof_friction", 0.49))).size(), 1U);
 }
 
+// Columns of a bar each, l0 = 1, EA = 10, that a spring of stiffness 2 at the top holds along x: each buckles where the
+// load is 2 l, l = 1 - s / EA. All do at one place, and the determinant of an even number of them keeps its sign.
+TEST(JumpPaths, SeveralPartsBuckleAtOnce) {
+  constexpr double kEA = 10.0, kSpring = 2.0;
+  for (const int copies : {2, 4, 40}) {
+    TraceRequest request;
+    Scene& scene = request.scene;
+    scene.name = "columns";
+    for (int i = 0; i < copies; ++i) {
+      const std::string foot = "foot" + std::to_string(i), top = "top" + std::to_string(i);
+      scene.nodes.push_back({foot, 2.0 * i, 0.0, true, true});
+      scene.nodes.push_back({top, 2.0 * i, 1.0, false, false});
+      Bar bar;
+      bar.nodes = {foot, top};
+      bar.EA = kEA;
+      scene.bars.push_back(bar);
+      Superelement spring;
+      spring.nodes = {top};
+      spring.stiffness = {kSpring, 0.0, 0.0, 0.0};
+      scene.superelements.push_back(spring);
+      scene.loads.push_back({top, 0.0, -1.0, false});
+    }
+    request.options.stop = {{"load_factor", ">", 3.0}};
+    const TracedPath path = TraceProved(request);
+    EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << copies << " " << path.result.message;
+    const std::vector<Increment> onsets = IncrementsOfKind(path, IncrementKind::kOnset);
+    ASSERT_EQ(onsets.size(), 1U) << copies;
+    EXPECT_NEAR(onsets[0].load_factor, kEA * kSpring / (kEA + kSpring), 1e-10) << copies;
+    for (const Increment& increment : path.increments) {
+      const bool buckled = increment.index >= onsets[0].index;
+      EXPECT_EQ(increment.stability.unstable_directions, buckled ? copies : 0) << copies << " " << increment.index;
+      EXPECT_EQ(increment.stability.stability, buckled ? Verdict::kUnstable : Verdict::kStable) << copies;
+    }
+  }
+}
+
 TEST(JumpPaths, StopsWhereItIsAsked) {
   TraceRequest request = Jumping("von_mises");
   request.options.at_limit = AtLimit::kStop;

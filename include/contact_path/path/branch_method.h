@@ -56,8 +56,9 @@ class BranchMethod : public PathMethod {
   // Shortens the step to where the equilibrium ceases to be stable under the machine: the setting of the machine turns
   // on it, or contacts that slip let go. Whether there is such a place; increment: of the step, made anew then.
   bool EndAtOnset(const PathPoint& from, BalancedStep* next, AcceptedPoint* increment);
-  // Ends the step at the first place behind which `beyond` holds; false where it is not found.
-  bool ShortenTo(const std::function<bool(const CurvePoint&)>& beyond, BalancedStep* next);
+  // Ends the step at the first place behind which `beyond` holds; false where it is not found. singular: the equations
+  // are singular there.
+  bool ShortenTo(const std::function<bool(const CurvePoint&)>& beyond, bool singular, BalancedStep* next);
   void NoteStability(const ArcStep& at, const AcceptedPoint& increment, bool inside);
   // Of the setting of the machine, in the sense of the loads, along a curve.
   double SettingRate(const CurvePoint& at) const;

@@ -13,9 +13,9 @@
 
 namespace contact_path {
 
-// Where no contact slips, n0 changes on an arc at limit points and crossings alone: it is counted where an arc begins,
-// and behind singular points, and the sign of the determinant is compared with its parity on each increment. Where
-// contacts slip, the verdict may change anywhere: it is sought on each increment of a small system; of a large one
+// A small system is counted on each increment. In a large one where no contact slips, n0 changes at limit points and
+// crossings alone: it is counted where an arc begins, behind singular points, and where the sign of the determinant or
+// the softest motion tells of a change. Where contacts slip, the verdict may change anywhere: a large system is counted
 // where the arc begins, and where the parity changes.
 class StabilityMonitor {
  public:
@@ -26,7 +26,9 @@ class StabilityMonitor {
   // The next increment. at: the curve on which it was reached. stiffness_sign: of the determinant of the tangent at
   // fixed load factor, 0 = singular. null_direction: of the tangent at fixed load factor, du, where it is known to be
   // singular; else empty.
-  void Note(const PathPoint& point, const CurvePoint& at, int stiffness_sign, const Eigen::VectorXd& null_direction);
+  // arc: with the factors of the point.
+  void Note(const PathPoint& point, const SmoothArc& arc, const CurvePoint& at, int stiffness_sign,
+            const Eigen::VectorXd& null_direction);
   // Where contacts change their states or patches, behind Note(): the point as it is left, along `ahead`. A contact
   // that closes, or comes to stick, is free to do what it did where it arrives; one that opens, or comes to slip, what
   // it does where it leaves. On a kink of a surface, and where several contacts change, both sides count.
@@ -55,6 +57,10 @@ class StabilityMonitor {
   void Count(const PathPoint& point, const Eigen::VectorXd& null_direction);
   // From the count before, and the tangent.
   void Follow(const CurvePoint& at);
+  // Two modes of a symmetric structure lose their stiffness at one place, and the determinant keeps its sign. Inverse
+  // iteration, one solution an increment, is drawn to modes next to zero: whether the energy of its motion is negative
+  // where the count has no direction in which the loads do no work.
+  bool OneMoreFalls(const SmoothArc& arc, const CurvePoint& at);
   void Write(const Verdicts& of, const CurvePoint* at);
   // k of the machine that just holds the point, scaled.
   double CriticalStiffness(const Verdicts& of, const CurvePoint* at) const;
@@ -64,6 +70,7 @@ class StabilityMonitor {
   StabilityProblem problem_;
   bool known_ = false;  // arc_ holds on this arc
   Verdicts arc_, noted_;
+  Eigen::VectorXd softest_;  // motion (du) of OneMoreFalls()
   StabilityRecord record_;
 };
 
