@@ -142,7 +142,9 @@ bool BranchMethod::EndAtOnset(const PathPoint& from, BalancedStep* next, Accepte
   const ArcStep& at = next->at;
   if (!(at.step.length > 0.0)) return false;
   bool found = false;
-  if (!device_.IsDead() && SettingRate(at.step.start) > 0.0 && SettingRate(at.step.end) < 0.0)
+  // Where curves cross, the tangent is known less well, and the setting may turn at that point.
+  const double rounding = at.step.end.is_crossing ? tolerances::kSameTangent * setting_row_.norm() : 0.0;
+  if (!device_.IsDead() && SettingRate(at.step.start) > 0.0 && SettingRate(at.step.end) < -rounding)
     found = ShortenTo([this](const CurvePoint& point) { return SettingRate(point) < 0.0; }, false, next);
   if (stability_) {
     const Verdict before = stability_->OnArc();
@@ -168,8 +170,9 @@ std::optional<Eigen::VectorXd> BranchMethod::MovesOff(const ArcStep& at, Increme
   const bool loaded = SettingRate(at.step.start) > 0.0;
   const bool at_limit = device_.IsDead() && kind == IncrementKind::kSmoothLimit;
   if (loaded && (at_limit || SettingRate(current_) < 0.0)) return along;
-  const bool unstable =
-      stability_ && kind == IncrementKind::kRegular && loaded && stability_->UnderDevice() == Verdict::kUnstable;
+  const bool between_events =
+      kind == IncrementKind::kRegular || kind == IncrementKind::kOnset || kind == IncrementKind::kBifurcation;
+  const bool unstable = stability_ && between_events && loaded && stability_->UnderDevice() == Verdict::kUnstable;
   if (!unstable) return std::nullopt;
   return stability_->Direction().size() > 0 ? stability_->Direction() : along;
 }
@@ -267,7 +270,7 @@ std::optional<End> BranchMethod::PassEnd(const ArcStep& at, AcceptedPoint* incre
   if (at.event.kind == EventKind::kLimitPoint) {
     increment->kind = IncrementKind::kSmoothLimit;
     if (at.event.crossing) increment->event.null_vector = CrossingPath(*at.event.crossing);
-    if (at.event.crossing && options_.keep_loading && TakeCrossingThatLoads(at))
+    if (at.event.crossing && (options_.keep_loading || options_.ends_at_limit) && TakeCrossingThatLoads(at))
       increment->kind = IncrementKind::kBifurcation;
   }
   return options_.ChoiceAt(increments_, 0) == nullptr ? std::nullopt : PassChoice(at, increment);
@@ -276,7 +279,7 @@ std::optional<End> BranchMethod::PassEnd(const ArcStep& at, AcceptedPoint* incre
 bool BranchMethod::TakeCrossingThatLoads(const ArcStep& at) {
   const std::vector<Branch> branches = BifurcationBranches(arc_, model_.contacts, *at.event.crossing);
   const auto found = std::find_if(branches.begin() + 1, branches.end(), [&](const Branch& branch) {
-    return branch.load_rate * options_.direction > current_.load_error;
+    return options_.setting_sense * setting_row_.dot(branch.first.head(setting_row_.size())) > current_.load_error;
   });
   if (found == branches.end()) return false;
   TakeCurve(found->first, found->second, LoadFactor(), &current_);
@@ -474,6 +477,9 @@ Advance BranchMethod::Next(const PathPoint& from) {
   }
   if (!advance.end) advance.moves_off = MovesOff(*at, increment.kind);
   SetNextLength(*at);
+  // Where a disturbance sets out too slowly to be followed, it does so right behind.
+  if (advance.moves_off && increment.kind != IncrementKind::kRegular)
+    step_length_ = std::max(options_.smallest_step, tolerances::kNextToStart * step_length_);
   increment.solve.next_step = step_length_;
   increment.solve.factorisations = arc_.factorisations() - factorisations_before;
   advance.increments.push_back(std::move(increment));
