@@ -164,17 +164,20 @@ bool BranchMethod::EndAtOnset(const PathPoint& from, BalancedStep* next, Accepte
   return true;
 }
 
-std::optional<Eigen::VectorXd> BranchMethod::MovesOff(const ArcStep& at, IncrementKind kind) const {
-  if (!options_.ends_at_limit) return std::nullopt;
+void BranchMethod::NoteLimit(const ArcStep& at, const AcceptedPoint& increment, Advance* advance) const {
+  if (!options_.ends_at_limit || !(SettingRate(at.step.start) > 0.0)) return;
   const Eigen::VectorXd along = current_.first.head(LoadFactor());
-  const bool loaded = SettingRate(at.step.start) > 0.0;
-  const bool at_limit = device_.IsDead() && kind == IncrementKind::kSmoothLimit;
-  if (loaded && (at_limit || SettingRate(current_) < 0.0)) return along;
-  const bool between_events =
-      kind == IncrementKind::kRegular || kind == IncrementKind::kOnset || kind == IncrementKind::kBifurcation;
-  const bool unstable = stability_ && between_events && loaded && stability_->UnderDevice() == Verdict::kUnstable;
-  if (!unstable) return std::nullopt;
-  return stability_->Direction().size() > 0 ? stability_->Direction() : along;
+  const bool at_limit = device_.IsDead() && increment.kind == IncrementKind::kSmoothLimit;
+  advance->turns = at_limit || SettingRate(current_) < 0.0;
+  if (advance->turns) {
+    advance->moves_off = along;
+    return;
+  }
+  // At a bifurcation of the curve on which the path arrives and goes on, not where it takes another one.
+  const bool goes_on = increment.kind == IncrementKind::kRegular || increment.kind == IncrementKind::kOnset ||
+                       (at.event.kind == EventKind::kBifurcation && increment.event.taken == 1);
+  if (stability_ && goes_on && stability_->UnderDevice() == Verdict::kUnstable)
+    advance->moves_off = stability_->Direction().size() > 0 ? stability_->Direction() : along;
 }
 
 bool BranchMethod::Resume(const ResumePoint& at) {
@@ -475,7 +478,7 @@ Advance BranchMethod::Next(const PathPoint& from) {
       NoteStability(*at, increment, false);
     increment.stability = stability_->record();
   }
-  if (!advance.end) advance.moves_off = MovesOff(*at, increment.kind);
+  if (!advance.end) NoteLimit(*at, increment, &advance);
   SetNextLength(*at);
   // Where a disturbance sets out too slowly to be followed, it does so right behind.
   if (advance.moves_off && increment.kind != IncrementKind::kRegular)

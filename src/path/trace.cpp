@@ -320,7 +320,7 @@ class Tracer {
       const bool jumps = request_.options.at_limit == AtLimit::kJump;
       if (jumps && advance.end && advance.end->reason == EndReason::kPathEnd) advance.moves_off = arrival_;
       if (jumps && advance.moves_off) {
-        const Landed landed = TakeJump(model, target, *advance.moves_off, method);
+        const Landed landed = TakeJump(model, target, *advance.moves_off, advance.turns, method);
         if (landed.goes_on) return *landed.goes_on;
         if (landed.jumped) continue;
       }
@@ -355,16 +355,37 @@ class Tracer {
     bool jumped = true;           // false: the structure is held after all
   };
 
+  // Makes the method that goes on from an equilibrium with all contact states open to it. Under a machine the load may
+  // fall from there on, while its setting grows. Nothing: it has started.
+  std::optional<End> SetOut(const Model& model, std::optional<double> target, const Device& device,
+                            const PathPoint& from, StartRecord* found, std::unique_ptr<PathMethod>* method) {
+    std::optional<End> not_started;
+    for (const double load_sense : {1.0, -1.0}) {
+      *found = StartRecord();
+      *method = MakeMethod(model, target, recorder_.increments(), load_sense);
+      not_started = (*method)->Start(from, found);
+      if (!not_started && (device.IsDead() || (*method)->LoadsOn())) break;
+    }
+    return not_started;
+  }
+
   // The motion from the last increment while the machine rests, in an increment of its own, and the method that goes on
   // from where the motion lands.
-  Landed TakeJump(const Model& model, std::optional<double> target, const Eigen::VectorXd& push,
+  Landed TakeJump(const Model& model, std::optional<double> target, const Eigen::VectorXd& push, bool turns,
                   std::unique_ptr<PathMethod>* method) {
     const Clock::time_point start = Clock::now();
     const Device device =
         Device::Of(model.structure, request_.options.machine_stiffness / model.UnitOfMachineStiffness());
     JumpResult jump = Jump(model.structure, model.contacts, point_, push, device, control_.cancelled);
     if (jump.cancelled) return {EndBy(EndReason::kCancelled, {sentences::kCancelled})};
-    if (jump.came_back) return {std::nullopt, false};
+    if (jump.came_back && !turns) return {std::nullopt, false};
+    if (jump.came_back) {
+      StartRecord found;
+      LeaveMethod(**method);
+      const std::optional<End> not_started = SetOut(model, target, device, point_, &found, method);
+      if (!not_started && (device.IsDead() || (*method)->LoadsOn())) return {};
+      return {EndBy(EndReason::kNoLanding, {sentences::kNoJump, {}, static_cast<double>(recorder_.increment().index)})};
+    }
     if (!jump.landing)
       return {EndBy(EndReason::kNoLanding, {sentences::kNoLanding,
                                             {},
@@ -384,18 +405,12 @@ class Tracer {
     increment.solve.method = request_.options.method;
     increment.solve.exact = true;
     LeaveMethod(**method);
-    // Under a machine the load may fall from the landing on, while its setting grows.
-    std::optional<End> not_started;
-    for (const double load_sense : {1.0, -1.0}) {
-      StartRecord found;
-      *method = MakeMethod(model, target, recorder_.increments(), load_sense);
-      not_started = (*method)->Start(increment.point, &found);
-      increment.event = std::move(found.branches);
-      increment.stability = std::move(found.stability);
-      if (!not_started && (device.IsDead() || (*method)->LoadsOn())) break;
-    }
+    StartRecord found;
+    const std::optional<End> not_started = SetOut(model, target, device, increment.point, &found, method);
+    increment.event = std::move(found.branches);
+    increment.stability = std::move(found.stability);
     const std::optional<bool> goes_on = Take(model, target, &increment, Seconds(Clock::now() - start));
-    if (!goes_on && not_started) return {EndWith(*std::move(not_started))};
+    if (!goes_on && not_started) return {EndWith(*not_started)};
     return {goes_on};
   }
 

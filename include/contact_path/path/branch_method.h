@@ -62,8 +62,8 @@ class BranchMethod : public PathMethod {
   void NoteStability(const ArcStep& at, const AcceptedPoint& increment, bool inside);
   // Of the setting of the machine, in the sense of the loads, along a curve.
   double SettingRate(const CurvePoint& at) const;
-  // du with which the structure moves off where the machine can go no further.
-  std::optional<Eigen::VectorXd> MovesOff(const ArcStep& at, IncrementKind kind) const;
+  // Advance::turns and moves_off where the machine can go no further.
+  void NoteLimit(const ArcStep& at, const AcceptedPoint& increment, Advance* advance) const;
   // Records the event at the end of the step, and sets out from there. Nothing: done. Otherwise why not.
   std::optional<End> PassEnd(const ArcStep& at, AcceptedPoint* increment);
   // Where another path crosses at a limit point, as where slack bars become taut: sets out on it if the load grows

@@ -48,6 +48,7 @@ struct Advance {
   // du with which the structure moves off from the last increment, where the machine that loads it can go no further on
   // a stable path; nothing: it can, or that is no end.
   std::optional<Eigen::VectorXd> moves_off = {};
+  bool turns = false;  // with moves_off: the setting of the machine would have to go back
 };
 
 // An increment of an earlier path to go on from, one that is no event.

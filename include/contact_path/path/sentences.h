@@ -26,6 +26,8 @@ inline constexpr Sentence kAtLimit =
     "the machine can go no further on a stable path: at_limit jump tells where the structure lands, follow goes on";
 inline constexpr Sentence kNoLanding =
     "the jump from increment <count> comes to no equilibrium: it was followed until a node had moved by <other>";
+inline constexpr Sentence kNoJump =
+    "the machine can go no further, and the jump from increment <count> comes back to where it began";
 
 // Where branches part, and where none leads on.
 inline constexpr Sentence kNoBranch =
