@@ -14,7 +14,7 @@ DEPTH = RISE / 10.0  # of its section
 ELEMENTS = 32  # of a half
 CROSSHEADS = [0.0, 300.0, inf]  # stiffness of the machine that presses on the crown: dead weight, soft, rigid
 WAYS = [0.4, 0.8, 1.2, 1.6]  # of the crown, in rises
-TOP, BOTTOM = 0.16, 1.92  # ways of the largest and the smallest force, published
+PUBLISHED = [(0.16, 740.0), (1.92, -370.0)]  # way and force of the top and of the bottom
 HOOK = 'scenes/snap_hook.yaml'
 ROOTS = [2.0, 5.0, 20.0, 100.0]  # stiffness of the machine that holds the root of the hook
 
@@ -85,7 +85,7 @@ def plot(beams, hooks, file):
     words = {0.0: 'dead weight', inf: 'rigid machine'}
     for stiffness, (way, force, _) in beams.items():
         left.plot(way, force, label=words.get(stiffness, 'machine of %g' % stiffness))
-    left.plot([TOP, BOTTOM], [formula(TOP), formula(BOTTOM)], 'ko', label='published')
+    left.plot(*zip(*PUBLISHED), 'ko', label='published')
     left.set(xlabel='way of the crown [rise]', ylabel='force [EI rise / span^3]')
     for stiffness, (way, force, path) in hooks.items():
         line, = right.plot(way[path['stage'] == 1], force[path['stage'] == 1], label='machine of %g' % stiffness)

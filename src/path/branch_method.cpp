@@ -68,10 +68,10 @@ std::optional<End> BranchMethod::Start(const PathPoint& from, StartRecord* found
   return end;
 }
 
-bool BranchMethod::LoadsOn() const { return SettingRate(current_) > 0.0; }
+bool BranchMethod::LoadsOn() const { return SettingRate(current_.first) > 0.0; }
 
-double BranchMethod::SettingRate(const CurvePoint& at) const {
-  return options_.setting_sense * setting_row_.dot(at.first.head(setting_row_.size()));
+double BranchMethod::SettingRate(const Eigen::VectorXd& first) const {
+  return options_.setting_sense * setting_row_.dot(first.head(setting_row_.size()));
 }
 
 bool BranchMethod::ShortenTo(const std::function<bool(const CurvePoint&)>& beyond, bool singular, BalancedStep* next) {
@@ -144,8 +144,8 @@ bool BranchMethod::EndAtOnset(const PathPoint& from, BalancedStep* next, Accepte
   bool found = false;
   // Where curves cross, the tangent is known less well, and the setting may turn at that point.
   const double rounding = at.step.end.is_crossing ? tolerances::kSameTangent * setting_row_.norm() : 0.0;
-  if (!device_.IsDead() && SettingRate(at.step.start) > 0.0 && SettingRate(at.step.end) < -rounding)
-    found = ShortenTo([this](const CurvePoint& point) { return SettingRate(point) < 0.0; }, false, next);
+  if (!device_.IsDead() && SettingRate(at.step.start.first) > 0.0 && SettingRate(at.step.end.first) < -rounding)
+    found = ShortenTo([this](const CurvePoint& point) { return SettingRate(point.first) < 0.0; }, false, next);
   if (stability_) {
     const Verdict before = stability_->OnArc();
     NoteStability(at, *increment, true);
@@ -165,10 +165,10 @@ bool BranchMethod::EndAtOnset(const PathPoint& from, BalancedStep* next, Accepte
 }
 
 void BranchMethod::NoteLimit(const ArcStep& at, const AcceptedPoint& increment, Advance* advance) const {
-  if (!options_.ends_at_limit || !(SettingRate(at.step.start) > 0.0)) return;
+  if (!options_.ends_at_limit || !(SettingRate(at.step.start.first) > 0.0)) return;
   const Eigen::VectorXd along = current_.first.head(LoadFactor());
   const bool at_limit = device_.IsDead() && increment.kind == IncrementKind::kSmoothLimit;
-  advance->turns = at_limit || SettingRate(current_) < 0.0;
+  advance->turns = at_limit || SettingRate(current_.first) < 0.0;
   if (advance->turns) {
     advance->moves_off = along;
     return;
@@ -282,7 +282,7 @@ std::optional<End> BranchMethod::PassEnd(const ArcStep& at, AcceptedPoint* incre
 bool BranchMethod::TakeCrossingThatLoads(const ArcStep& at) {
   const std::vector<Branch> branches = BifurcationBranches(arc_, model_.contacts, *at.event.crossing);
   const auto found = std::find_if(branches.begin() + 1, branches.end(), [&](const Branch& branch) {
-    return options_.setting_sense * setting_row_.dot(branch.first.head(setting_row_.size())) > current_.load_error;
+    return SettingRate(branch.first) > current_.load_error;
   });
   if (found == branches.end()) return false;
   TakeCurve(found->first, found->second, LoadFactor(), &current_);

@@ -60,10 +60,11 @@ void StabilityMonitor::Note(const PathPoint& point, const SmoothArc& arc, const 
 }
 
 bool StabilityMonitor::OneMoreFalls(const SmoothArc& arc, const CurvePoint& at) {
+  if (arc_.controlled.directions != 0) return false;
   const Eigen::Index nd = model_.structure.NumDofs();
   if (softest_.size() != nd) softest_ = GenericVector(nd).normalized();
   const Eigen::VectorXd x = arc.MotionUnder(softest_);
-  if (x.size() == 0 || arc_.controlled.directions != 0) return false;
+  if (x.size() == 0) return false;
   const Eigen::VectorXd& f = model_.structure.ReferenceLoad();
   const double along = f.dot(at.first.head(nd));
   const double share = along != 0.0 ? f.dot(x.head(nd)) / along : x[nd] / at.first[nd];

@@ -382,8 +382,7 @@ class Tracer {
     if (jump.came_back) {
       StartRecord found;
       LeaveMethod(**method);
-      const std::optional<End> not_started = SetOut(model, target, device, point_, &found, method);
-      if (!not_started && (device.IsDead() || (*method)->LoadsOn())) return {};
+      if (!SetOut(model, target, device, point_, &found, method) && (*method)->LoadsOn()) return {};
       return {EndBy(EndReason::kNoLanding, {sentences::kNoJump, {}, static_cast<double>(recorder_.increment().index)})};
     }
     if (!jump.landing)

@@ -39,7 +39,7 @@ class BranchMethod : public PathMethod {
   // An increment in which nothing moves: the reactions with which the branch begins.
   Advance ChangeReactions(const PathPoint& from);
   // An increment that ends at the point, and one that ends with the step, as far as both are known before the event
-  // there.
+  // setting of the machine grows there.
   AcceptedPoint IncrementAt(PathPoint point, const PathPoint& from) const;
   AcceptedPoint IncrementOf(const ArcStep& step, const PathPoint& from) const;
   // The exact point of the arc on the plane at half of the step, where the options want it and Newton's method finds
@@ -54,20 +54,21 @@ class BranchMethod : public PathMethod {
     double stored = 0.0;  // strain energy at its end [force length]
   };
   // Shortens the step to where the equilibrium ceases to be stable under the machine: the setting of the machine turns
-  // on it, or contacts that slip let go. Whether there is such a place; increment: of the step, made anew then.
+  // on it, contacts that slip let go, or several parts buckle at one place. Whether there is such a place; increment:
+  // of the step, made anew then.
   bool EndAtOnset(const PathPoint& from, BalancedStep* next, AcceptedPoint* increment);
   // Ends the step at the first place behind which `beyond` holds; false where it is not found. singular: the equations
   // are singular there.
   bool ShortenTo(const std::function<bool(const CurvePoint&)>& beyond, bool singular, BalancedStep* next);
   void NoteStability(const ArcStep& at, const AcceptedPoint& increment, bool inside);
   // Of the setting of the machine, in the sense of the loads, along a curve.
-  double SettingRate(const CurvePoint& at) const;
+  double SettingRate(const Eigen::VectorXd& first) const;
   // Advance::turns and moves_off where the machine can go no further.
   void NoteLimit(const ArcStep& at, const AcceptedPoint& increment, Advance* advance) const;
   // Records the event at the end of the step, and sets out from there. Nothing: done. Otherwise why not.
   std::optional<End> PassEnd(const ArcStep& at, AcceptedPoint* increment);
-  // Where another path crosses at a limit point, as where slack bars become taut: sets out on it if the load grows
-  // there.
+  // Where another path crosses at a limit point, as where slack bars become taut: sets out on it if the
+  // setting of the machine grows there.
   bool TakeCrossingThatLoads(const ArcStep& at);
   std::optional<End> PassBifurcation(const ArcStep& at, AcceptedPoint* increment);
   std::optional<End> PassContactEvent(const ArcStep& at, AcceptedPoint* increment);
