@@ -3,7 +3,7 @@
 Prints three tables; --plot FILE draws the forces. Lengths in the span of the beam and in the arm of the hook, forces in EI / length^2.
 """
 import argparse
-from math import atan, cos, inf, pi, sin
+from math import atan, cos, inf, pi, sin, sqrt
 
 import numpy
 
@@ -14,7 +14,6 @@ DEPTH = RISE / 10.0  # of its section
 ELEMENTS = 32  # of a half
 CROSSHEADS = [0.0, 300.0, inf]  # stiffness of the machine that presses on the crown: dead weight, soft, rigid
 WAYS = [0.4, 0.8, 1.2, 1.6]  # of the crown, in rises
-PUBLISHED = [(0.16, 740.0), (1.92, -370.0)]  # way and force of the top and of the bottom
 HOOK = 'scenes/snap_hook.yaml'
 ROOTS = [2.0, 5.0, 20.0, 100.0]  # stiffness of the machine that holds the root of the hook
 
@@ -22,6 +21,20 @@ ROOTS = [2.0, 5.0, 20.0, 100.0]  # stiffness of the machine that holds the root 
 def formula(way):
     """The force on the crown while the beam snaps, in EI rise / span^3, of a shallow beam. way: in rises."""
     return 64.0 * pi ** 2 * (4.0 / 3.0 - way)
+
+
+def formula_way(force):
+    return 4.0 / 3.0 - force / (64.0 * pi ** 2)
+
+
+def formula_ends():
+    """The largest and the smallest force while the axial force is N = 16 pi^2 and the beam has no share of the buckling mode.
+
+    With F = N p: the beam is shortened by N / EA where 3/8 p^2 - 8/9 p = 4/9 pi^2 - 8/3 (pi depth / rise)^2.
+    """
+    right = 4.0 / 9.0 * pi ** 2 - 8.0 / 3.0 * (pi * DEPTH / RISE) ** 2
+    root = sqrt(64.0 / 81.0 + 1.5 * right)
+    return [16.0 * pi ** 2 * (8.0 / 9.0 + sign * root) / 0.75 for sign in (1.0, -1.0)]
 
 
 def half_beam():
@@ -64,6 +77,8 @@ def print_beam(beams):
         print('%7g  %7.1f  %7.3f  %5d  %8.1f  %7.1f  %7.3f  %8.4f'
               % (stiffness, force[top], way[top], len(jumps), force[first], force[bottom], way[bottom],
                  2.0 * sum(jump['energy_released'] for jump in path.jumps)))
+    top, bottom = formula_ends()
+    print('formula  %7.1f  %7.3f  %15s  %7.1f  %7.3f' % (top, formula_way(top), '', bottom, formula_way(bottom)))
     way, force, _ = beams[inf]
     print('    way    force  formula')
     for wanted in WAYS:
@@ -85,7 +100,7 @@ def plot(beams, hooks, file):
     words = {0.0: 'dead weight', inf: 'rigid machine'}
     for stiffness, (way, force, _) in beams.items():
         left.plot(way, force, label=words.get(stiffness, 'machine of %g' % stiffness))
-    left.plot(*zip(*PUBLISHED), 'ko', label='published')
+    left.plot([formula_way(force) for force in formula_ends()], formula_ends(), 'ko', label='formula')
     left.set(xlabel='way of the crown [rise]', ylabel='force [EI rise / span^3]')
     for stiffness, (way, force, path) in hooks.items():
         line, = right.plot(way[path['stage'] == 1], force[path['stage'] == 1], label='machine of %g' % stiffness)
