@@ -287,7 +287,7 @@ class Jumper {
     Motion motion{resistance, disturbance, stride, start_, 0.0 * start_.u, WorkAlong(structure_, contacts_)};
     const double first = FirstTime(resistance);
     // A drag below the rounding of the stiffness lets everything come to rest.
-    const double longest = first / tolerances::kUnitComponent, shortest = first * tolerances::kRootOfRounding;
+    const double longest = first / tolerances::kLastDigits, shortest = first * tolerances::kRootOfRounding;
     motion.time = first;
     Course& course = motion.course;
     for (int count = 0; count < kMostSteps; ++count) {

@@ -132,7 +132,7 @@ TEST(JumpPaths, StopsWhereItIsAsked) {
 }
 
 TEST(JumpPaths, ExampleScenesLand) {
-  for (const char* name : {"snap_hook", "rough_arch", "stick_slip_chain", "bistable_arch"}) {
+  for (const char* name : {"snap_hook", "rough_arch", "stick_slip_chain", "bistable_arch", "deep_arch"}) {
     const TracedPath path = TraceProved(Jumping(name));
     const std::vector<Increment> jumps = JumpsOf(path);
     EXPECT_FALSE(jumps.empty()) << name;
