@@ -197,8 +197,13 @@ class Jumper {
     JumpResult result;
     const double size = Largest(push);
     if (!(size > 0.0)) return result;
-    Eigen::VectorXd disturbance = tolerances::kShort * extent_ / size * push;
-    const Course course = FollowFinely(&disturbance);
+    // A limit point is left with the square of the distance from it, a bifurcation with the third power.
+    Course course;
+    for (const double share : {tolerances::kShort, tolerances::kNextToStart}) {
+      Eigen::VectorXd disturbance = share * extent_ / size * push;
+      course = FollowFinely(&disturbance);
+      if (!course.came_back) break;
+    }
     result.cancelled = course.cancelled;
     result.came_back = course.came_back;
     result.followed = course.followed;
@@ -287,7 +292,7 @@ class Jumper {
     Motion motion{resistance, disturbance, stride, start_, 0.0 * start_.u, WorkAlong(structure_, contacts_)};
     const double first = FirstTime(resistance);
     // A drag below the rounding of the stiffness lets everything come to rest.
-    const double longest = first / tolerances::kLastDigits, shortest = first * tolerances::kRootOfRounding;
+    const double longest = first / tolerances::kUnitComponent, shortest = first * tolerances::kRootOfRounding;
     motion.time = first;
     Course& course = motion.course;
     for (int count = 0; count < kMostSteps; ++count) {
