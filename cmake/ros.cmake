@@ -88,16 +88,17 @@ if(CATKIN_ENABLE_TESTING)
   )
   set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${contact_path_programs_directory}")
   # For a quick build, as those of the core (tests.cmake).
-  target_compile_options(contact_path_ros_test PRIVATE -O1 -g0)
-  target_link_libraries(contact_path_ros_test contact_path_ros contact_path_warnings)
+  target_compile_options(contact_path_ros_test PRIVATE -O0 -g0)
+  contact_path_join_sources(contact_path_ros_test)
+  target_link_libraries(contact_path_ros_test contact_path_ros contact_path_test_support contact_path_warnings)
 
   # catkin runs tests in a snapshot of the environment from before the messages were generated; this one is read when
   # the tests run.
   set(CATKIN_ENV ${CATKIN_DEVEL_PREFIX}/env.sh)
   foreach(test markers python_client shutdown streaming trace_action trace_service)
     add_rostest(test/ros/${test}.test DEPENDENCIES contact_path_node contact_path_markers contact_path_trace)
-    # They wait for nodes: nothing beside them.
-    set_property(TEST _ctest_${PROJECT_NAME}_rostest_test_ros_${test}.test PROPERTY RUN_SERIAL ON)
+    # They wait for nodes: one at a time, the first of all tests.
+    set_tests_properties(_ctest_${PROJECT_NAME}_rostest_test_ros_${test}.test PROPERTIES RESOURCE_LOCK contact_path_nodes COST 100)
   endforeach()
   unset(CATKIN_ENV)
 endif()

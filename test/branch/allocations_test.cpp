@@ -21,7 +21,7 @@ extern "C" void* malloc(std::size_t size) {
   return __libc_malloc(size);
 }
 
-namespace contact_path {
+namespace contact_path::allocations_test {
 namespace {
 
 struct Counted {
@@ -58,4 +58,4 @@ TEST(Allocations, AreAsManyForFewIterationsOfTheCorrectorAsForMany) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::allocations_test

@@ -8,7 +8,7 @@
 #include "branch/traced_arc.h"
 #include "support/traced_path.h"
 
-namespace contact_path {
+namespace contact_path::arc_step_test {
 namespace {
 
 const StepLimits kLimits = {1e-9, 1.0, 1e-3, 0.98};
@@ -82,4 +82,4 @@ TEST(ArcStep, InTheEndThePredictorMayBeFurtherOff) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::arc_step_test

@@ -11,7 +11,7 @@
 #include "support/reference_cases.h"
 #include "support/traced_path.h"
 
-namespace contact_path {
+namespace contact_path::branch_choices_test {
 namespace {
 
 constexpr double kExact = 2e-13;  // of loads, reactions and positions
@@ -205,4 +205,4 @@ TEST(BranchChoices, BranchesOnRecord) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::branch_choices_test

@@ -11,7 +11,7 @@
 #include "support/traced_path.h"
 #include "support/transformations.h"
 
-namespace contact_path {
+namespace contact_path::branch_events_test {
 namespace {
 
 std::vector<Increment> Events(const TracedPath& path) {
@@ -427,4 +427,4 @@ TEST(Branches, StartAtASmoothLimitPoint) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::branch_events_test

@@ -13,7 +13,7 @@
 #include "support/reference_cases.h"
 #include "support/traced_path.h"
 
-namespace contact_path {
+namespace contact_path::branch_method_test {
 namespace {
 
 struct Setting {
@@ -455,4 +455,4 @@ TEST(BranchMethod, GoesOnFromNextToASingularPoint) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::branch_method_test

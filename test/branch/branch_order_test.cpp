@@ -7,7 +7,7 @@
 #include <numeric>
 #include <vector>
 
-namespace contact_path {
+namespace contact_path::branch_order_test {
 namespace {
 
 constexpr ContactState kOpen = ContactState::kOpen, kStick = ContactState::kStick, kSlip = ContactState::kSlipPlus;
@@ -83,4 +83,4 @@ TEST(BranchOrder, TheStatesOfArrivalComeFirst) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::branch_order_test

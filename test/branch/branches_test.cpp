@@ -18,7 +18,7 @@
 #include "support/reference_cases.h"
 #include "support/traced_path.h"
 
-namespace contact_path {
+namespace contact_path::branches_test {
 namespace {
 
 using Eigen::Index;
@@ -564,4 +564,4 @@ TEST(FindBranches, RigidModes) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::branches_test

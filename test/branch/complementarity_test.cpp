@@ -7,7 +7,7 @@
 
 #include "support/random.h"
 
-namespace contact_path {
+namespace contact_path::complementarity_test {
 namespace {
 
 constexpr double kRounding = 1e-10;
@@ -107,4 +107,4 @@ TEST(Complementarity, TiesEnd) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::complementarity_test

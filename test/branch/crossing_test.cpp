@@ -10,7 +10,7 @@
 #include "contact_path/verify/verify_path.h"
 #include "support/traced_path.h"
 
-namespace contact_path {
+namespace contact_path::crossing_test {
 namespace {
 
 // A von Mises truss, half span 1 and rise 3: under a load -s at its apex it sways to one side before it snaps.
@@ -159,4 +159,4 @@ TEST(Crossing, OfABranchThatIsNotThereEndsTheTrace) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::crossing_test

@@ -12,7 +12,7 @@
 #include "contact_path/branch/test_functions.h"
 #include "support/curved_contacts.h"
 
-namespace contact_path {
+namespace contact_path::curved_surface_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -147,4 +147,4 @@ TEST_F(NodeOnADisc, RatesAtAnEventAreThoseOfTheClosedForm) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::curved_surface_test

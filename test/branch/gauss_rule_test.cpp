@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace contact_path {
+namespace contact_path::gauss_rule_test {
 namespace {
 
 template <std::size_t N>
@@ -22,4 +22,4 @@ TEST(GaussRule, IsExactUpToItsDegreeAndNoFurther) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::gauss_rule_test

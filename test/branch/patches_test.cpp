@@ -14,7 +14,7 @@
 #include "contact_path/geometry/polyline.h"
 #include "contact_path/structure/structure.h"
 
-namespace contact_path {
+namespace contact_path::patches_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -187,4 +187,4 @@ TEST_P(NodeOnABend, OpenContactsChangeTheirPatchWithoutAnEvent) {
 INSTANTIATE_TEST_SUITE_P(RoughAndSmooth, NodeOnABend, testing::Values(0.3, 0.0));
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::patches_test

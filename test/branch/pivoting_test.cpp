@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace contact_path {
+namespace contact_path::pivoting_test {
 namespace {
 
 using States = std::vector<ContactState>;
@@ -67,4 +67,4 @@ TEST(Pivoting, GivesUp) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::pivoting_test

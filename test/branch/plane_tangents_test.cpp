@@ -10,7 +10,7 @@
 #include "contact_path/linear/minimum_norm.h"
 #include "contact_path/path/model.h"
 
-namespace contact_path {
+namespace contact_path::plane_tangents_test {
 namespace {
 
 constexpr double kSingularRank = 1e-6;
@@ -94,4 +94,4 @@ TEST(PlaneTangents, LinearPartsLeaveASurface) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::plane_tangents_test

@@ -11,7 +11,7 @@
 
 #include "support/random.h"
 
-namespace contact_path {
+namespace contact_path::polynomial_test {
 namespace {
 
 constexpr double kTolerance = 1e-11;
@@ -260,4 +260,4 @@ TEST(Minimum, IsTheSmallestValueAndItsPlace) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::polynomial_test

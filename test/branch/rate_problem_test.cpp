@@ -13,7 +13,7 @@
 #include "support/kinematics.h"
 #include "support/random.h"
 
-namespace contact_path {
+namespace contact_path::rate_problem_test {
 namespace {
 
 using States = std::vector<ContactState>;
@@ -208,4 +208,4 @@ TEST_F(RestingColumn, SingularWhereNothingHoldsTheStructure) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::rate_problem_test

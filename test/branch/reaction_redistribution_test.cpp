@@ -14,7 +14,7 @@
 #include "contact_path/scene/scaling.h"
 #include "support/kinematics.h"
 
-namespace contact_path {
+namespace contact_path::reaction_redistribution_test {
 namespace {
 
 constexpr ObstacleShape kHalfPlane = ObstacleShape::kHalfPlane;
@@ -230,4 +230,4 @@ TEST(ReactionRedistributions, CombinationsOfTwoNodes) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::reaction_redistribution_test

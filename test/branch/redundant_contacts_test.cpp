@@ -6,7 +6,7 @@
 
 #include "contact_path/path/model.h"
 
-namespace contact_path {
+namespace contact_path::redundant_contacts_test {
 namespace {
 
 constexpr ContactState kOpen = ContactState::kOpen, kClosed = ContactState::kClosed, kStick = ContactState::kStick;
@@ -75,4 +75,4 @@ TEST(RedundantContacts, OneWallAtANodeThatMovesInOneDirection) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::redundant_contacts_test

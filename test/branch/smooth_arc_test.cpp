@@ -13,7 +13,7 @@
 #include "support/reference_cases.h"
 #include "support/traced_path.h"
 
-namespace contact_path {
+namespace contact_path::smooth_arc_test {
 namespace {
 
 using Eigen::VectorXd;
@@ -274,4 +274,4 @@ TEST(SmoothArc, CountsNullDirections) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::smooth_arc_test

@@ -7,7 +7,7 @@
 #include "branch/example_scenes.h"
 #include "contact_path/path/model.h"
 
-namespace contact_path {
+namespace contact_path::state_options_test {
 namespace {
 
 using States = std::vector<ContactState>;
@@ -50,4 +50,4 @@ TEST(StateOptions, TheStateAsItWasComesFirst) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::state_options_test

@@ -8,7 +8,7 @@
 #include "branch/example_scenes.h"
 #include "contact_path/path/model.h"
 
-namespace contact_path {
+namespace contact_path::tangents_test {
 namespace {
 
 // At the start of a scene, in its own scales, with these states.
@@ -65,4 +65,4 @@ TEST(Tangents, OfAMechanismIsNearestToTheArrival) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::tangents_test

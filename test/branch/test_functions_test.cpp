@@ -13,7 +13,7 @@
 #include "support/reference_cases.h"
 #include "support/traced_path.h"
 
-namespace contact_path {
+namespace contact_path::test_functions_test {
 namespace {
 
 std::size_t FirstIncrement(const TracedPath& path, IncrementKind kind, std::size_t from = 1) {
@@ -214,4 +214,4 @@ TEST_F(Swing, ANearMissIsLookedAtMoreClosely) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::test_functions_test

@@ -18,7 +18,7 @@
 #include "contact_path/verify/verify_path.h"
 #include "support/traced_path.h"
 
-namespace contact_path {
+namespace contact_path::answers_test {
 namespace {
 
 // Numbers of one unit, from two sources.
@@ -125,4 +125,4 @@ TEST(Answers, ThatWereChangedAreFound) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::answers_test

@@ -12,7 +12,7 @@
 #include "contact_path/check/residuals.h"
 #include "support/random.h"
 
-namespace contact_path {
+namespace contact_path::boundary_residuals_test {
 namespace {
 
 constexpr double kRounding = 1e-13;
@@ -293,4 +293,4 @@ TEST_F(OwnSurface, WrongReactionsAreRefuted) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::boundary_residuals_test

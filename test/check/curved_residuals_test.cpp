@@ -14,7 +14,7 @@
 #include "contact_path/structure/structure.h"
 #include "support/random.h"
 
-namespace contact_path {
+namespace contact_path::curved_residuals_test {
 namespace {
 
 constexpr double kRounding = 1e-13;
@@ -197,4 +197,4 @@ TEST(CurvedResiduals, OfAnExactStateAreRounding) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::curved_residuals_test

@@ -14,7 +14,7 @@
 
 #include "contact_path/scene/scaling.h"
 
-namespace contact_path {
+namespace contact_path::residuals_test {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -476,4 +476,4 @@ TEST(ResidualCheckOfAStage, SupportsAreAtTheStartAndRestIsOfTheReference) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::residuals_test

@@ -9,7 +9,7 @@
 #include "support/random.h"
 #include "support/solid_grid.h"
 
-namespace contact_path {
+namespace contact_path::solid_residuals_test {
 namespace {
 
 Scene GridOf(MaterialModel model, PlaneState plane, int nodes, Random* random) {
@@ -81,4 +81,4 @@ TEST(SolidResiduals, PlaneStressFarFromRest) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::solid_residuals_test

@@ -4,7 +4,7 @@
 
 #include <sstream>
 
-namespace contact_path {
+namespace contact_path::event_table_test {
 namespace {
 
 TEST(EventTable, WhatIsZeroToRoundingIsPrintedAsZero) {
@@ -27,4 +27,4 @@ TEST(EventTable, WhatIsZeroToRoundingIsPrintedAsZero) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::event_table_test

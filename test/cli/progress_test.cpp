@@ -6,7 +6,7 @@
 #include <sstream>
 #include <string>
 
-namespace contact_path {
+namespace contact_path::progress_test {
 namespace {
 
 using std::chrono::steady_clock;
@@ -72,4 +72,4 @@ TEST_F(ProgressBar, WithoutAnEndShowsWhereItIs) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::progress_test

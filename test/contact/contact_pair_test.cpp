@@ -7,7 +7,7 @@
 #include "support/kinematics.h"
 #include "support/random.h"
 
-namespace contact_path {
+namespace contact_path::contact_pair_test {
 namespace {
 
 constexpr double kRounding = 1e-13;
@@ -70,4 +70,4 @@ TEST_F(Pairs, SlipReferencesAreThoseOfAllCandidates) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::contact_pair_test

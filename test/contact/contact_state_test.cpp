@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace contact_path {
+namespace contact_path::contact_state_test {
 namespace {
 
 TEST(ContactState, WordsAreThoseOfTheOutput) {
@@ -14,4 +14,4 @@ TEST(ContactState, WordsAreThoseOfTheOutput) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::contact_state_test

@@ -8,7 +8,7 @@
 #include "support/deformable_contacts.h"
 #include "support/random.h"
 
-namespace contact_path {
+namespace contact_path::deformable_boundary_test {
 namespace {
 
 // Against the nearest of many points.
@@ -64,4 +64,4 @@ TEST(BoundaryAt, XiStaysWithTheMaterial) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::deformable_boundary_test

@@ -14,7 +14,7 @@
 #include "support/kinematics.h"
 #include "support/random.h"
 
-namespace contact_path {
+namespace contact_path::deformable_pair_test {
 namespace {
 
 constexpr double kRounding = 1e-13;
@@ -447,4 +447,4 @@ TEST(DeformablePairOfItsOwnBoundary, HasForcesThatBalance) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::deformable_pair_test

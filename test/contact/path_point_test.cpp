@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace contact_path {
+namespace contact_path::path_point_test {
 namespace {
 
 TEST(PathPoint, DistanceTakesPositionsAndLoadFactorButNoReactions) {
@@ -19,4 +19,4 @@ TEST(PathPoint, DistanceTakesPositionsAndLoadFactorButNoReactions) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::path_point_test

@@ -9,7 +9,7 @@
 #include "support/mixed_scene.h"
 #include "support/random.h"
 
-namespace contact_path {
+namespace contact_path::reach_tracker_test {
 namespace {
 
 std::vector<std::size_t> LookedAtAll(const ContactPairs& contacts, const Eigen::VectorXd& u, double s, double reach) {
@@ -84,4 +84,4 @@ TEST(ReachTracker, LooksSeldomAtWhatIsFar) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::reach_tracker_test

@@ -13,7 +13,7 @@
 #include "support/kinematics.h"
 #include "support/random.h"
 
-namespace contact_path {
+namespace contact_path::rigid_pair_test {
 namespace {
 
 constexpr double kRounding = 1e-13;
@@ -226,4 +226,4 @@ TEST(RigidPair, HasSlippedFromItsOriginByTheTotalLawOnly) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::rigid_pair_test

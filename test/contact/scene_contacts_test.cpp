@@ -9,7 +9,7 @@
 #include "support/kinematics.h"
 #include "support/mixed_scene.h"
 
-namespace contact_path {
+namespace contact_path::scene_contacts_test {
 namespace {
 
 constexpr double kRounding = 1e-15;
@@ -139,4 +139,4 @@ TEST(ForceUnit, CountsBarsInAllDirectionsAndLoads) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::scene_contacts_test

@@ -9,7 +9,7 @@
 #include "support/derivative_checker.h"
 #include "support/random.h"
 
-namespace contact_path {
+namespace contact_path::deformable_system_test {
 namespace {
 
 using State = ContactState;
@@ -80,4 +80,4 @@ TEST_F(DeformableSystem, ValuesAlongACurveMeetDifferences) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::deformable_system_test

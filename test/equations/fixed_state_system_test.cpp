@@ -15,7 +15,7 @@
 #include "support/random.h"
 #include "support/reference_cases.h"
 
-namespace contact_path {
+namespace contact_path::fixed_state_system_test {
 namespace {
 
 constexpr double kRounding = 1e-14;  // of sums of a few terms of order 1
@@ -476,4 +476,4 @@ TEST(FixedStateSystem, LargeSystemsInTheirFrameWithManyCandidates) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::fixed_state_system_test

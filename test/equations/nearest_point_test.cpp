@@ -8,7 +8,7 @@
 #include "contact_path/contact/scene_contacts.h"
 #include "support/reference_cases.h"
 
-namespace contact_path {
+namespace contact_path::nearest_point_test {
 namespace {
 
 // Newton's method stops at rounding; measured up to 3e-14 in the unscaled lengths of the sliding bar.
@@ -130,4 +130,4 @@ TEST(NearestPoint, RigidModesAreNoObstacle) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::nearest_point_test

@@ -5,7 +5,7 @@
 #include "contact_path/equations/fixed_state_system.h"
 #include "contact_path/path/model.h"
 
-namespace contact_path {
+namespace contact_path::rigid_modes_test {
 namespace {
 
 constexpr double kRounding = 1e-13;
@@ -69,4 +69,4 @@ TEST(RigidModes, NoneWhereSupportsHoldThePart) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::rigid_modes_test

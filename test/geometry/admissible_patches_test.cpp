@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-namespace contact_path {
+namespace contact_path::admissible_patches_test {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
@@ -92,4 +92,4 @@ TEST(AdmissiblePatches, AreNoneOfAShortCurve) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::admissible_patches_test

@@ -9,7 +9,7 @@
 
 #include "support/random.h"
 
-namespace contact_path {
+namespace contact_path::capsule_tree_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -92,4 +92,4 @@ TEST(CapsuleTree, LooksAtFewLeaves) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::capsule_tree_test

@@ -8,7 +8,7 @@
 #include "support/random.h"
 #include "support/surface_checks.h"
 
-namespace contact_path {
+namespace contact_path::curve_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -137,4 +137,4 @@ TEST(CubicPiece, ArcLengthIsExactWhereTheSpeedNearlyVanishes) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::curve_test

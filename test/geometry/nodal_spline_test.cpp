@@ -8,7 +8,7 @@
 
 #include "support/random.h"
 
-namespace contact_path {
+namespace contact_path::nodal_spline_test {
 namespace {
 
 constexpr double kRounding = 1e-14;
@@ -142,4 +142,4 @@ TEST(Parabola, FootOnAStraightLineIsExact) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::nodal_spline_test

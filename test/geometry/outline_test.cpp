@@ -9,7 +9,7 @@
 #include "contact_path/geometry/polyline.h"
 #include "contact_path/geometry/spline.h"
 
-namespace contact_path {
+namespace contact_path::outline_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -95,4 +95,4 @@ TEST(Outline, OfAHalfPlaneHasTwoPoints) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::outline_test

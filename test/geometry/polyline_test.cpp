@@ -8,7 +8,7 @@
 
 #include "support/surface_checks.h"
 
-namespace contact_path {
+namespace contact_path::polyline_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -118,4 +118,4 @@ TEST(Polyline, CrossingsOfAClosedOneAreFound) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::polyline_test

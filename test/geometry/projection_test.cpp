@@ -5,7 +5,7 @@
 #include "support/curved_surfaces.h"
 #include "support/derivative_checker.h"
 
-namespace contact_path {
+namespace contact_path::projection_test {
 namespace {
 
 constexpr double kStep = 1e-3;
@@ -48,4 +48,4 @@ TEST(Projection, TheNormalIsOnTheLeftOfTheTangent) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::projection_test

@@ -6,7 +6,7 @@
 
 #include "support/surface_checks.h"
 
-namespace contact_path {
+namespace contact_path::spline_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -78,4 +78,4 @@ TEST(Spline, ThroughPointsOfACircleConvergesToIt) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::spline_test

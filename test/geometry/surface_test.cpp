@@ -9,7 +9,7 @@
 #include "support/curved_surfaces.h"
 #include "support/random.h"
 
-namespace contact_path {
+namespace contact_path::surface_test {
 namespace {
 
 constexpr double kRounding = 1e-14;
@@ -75,4 +75,4 @@ TEST(HalfPlane, AdmissibleSideIsWhereTheNormalPoints) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::surface_test

@@ -3,7 +3,7 @@
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 
-namespace contact_path {
+namespace contact_path::blas_test {
 namespace {
 
 // 0: no OpenBLAS.
@@ -33,4 +33,4 @@ TEST(Blas, AdviceForLargeStructuresOnTheReferenceBlas) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::blas_test

@@ -9,7 +9,7 @@
 #include "support/dense.h"
 #include "support/random.h"
 
-namespace contact_path {
+namespace contact_path::bordered_solver_test {
 namespace {
 
 using Eigen::Index;
@@ -285,4 +285,4 @@ TEST(BorderedSolver, LargeAndNearlySingular) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::bordered_solver_test

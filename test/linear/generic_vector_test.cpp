@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace contact_path {
+namespace contact_path::generic_vector_test {
 namespace {
 
 // Null vectors of symmetric structures, and of single unknowns.
@@ -21,4 +21,4 @@ TEST(GenericVector, IsNotOrthogonalToSymmetricOrAntisymmetricVectors) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::generic_vector_test

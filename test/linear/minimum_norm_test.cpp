@@ -8,7 +8,7 @@
 #include "support/dense.h"
 #include "support/random.h"
 
-namespace contact_path {
+namespace contact_path::minimum_norm_test {
 namespace {
 
 // Rounding of factorisations of well-conditioned matrices of a few rows; measured up to 2e-15.
@@ -122,4 +122,4 @@ TEST_F(MinimumNorm, RefusesWhatIsNotFinite) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::minimum_norm_test

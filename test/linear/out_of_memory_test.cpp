@@ -9,7 +9,7 @@
 #include "contact_path/linear/minimum_norm.h"
 #include "support/random.h"
 
-namespace contact_path {
+namespace contact_path::out_of_memory_test {
 namespace {
 
 int allocations_left = 0;
@@ -93,4 +93,4 @@ TEST(OutOfMemory, OfTheSparseLu) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::out_of_memory_test

@@ -6,7 +6,7 @@
 
 #include "support/random.h"
 
-namespace contact_path {
+namespace contact_path::singular_vectors_test {
 namespace {
 
 using Eigen::Index;
@@ -54,4 +54,4 @@ TEST(SingularVectors, NullVectorByHand) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::singular_vectors_test

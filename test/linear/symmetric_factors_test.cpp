@@ -7,7 +7,7 @@
 
 #include "support/random.h"
 
-namespace contact_path {
+namespace contact_path::symmetric_factors_test {
 namespace {
 
 // Symmetric, with a random pattern of this density; the last quarter of its diagonal is zero, as of constraints.
@@ -64,4 +64,4 @@ TEST(SymmetricFactorsTest, SingularMatrices) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::symmetric_factors_test

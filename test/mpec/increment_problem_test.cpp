@@ -16,7 +16,7 @@
 #include "support/random.h"
 #include "support/reference_cases.h"
 
-namespace contact_path {
+namespace contact_path::increment_problem_test {
 namespace {
 
 constexpr double kRounding = 1e-14;  // of sums of a few terms of order 1
@@ -465,4 +465,4 @@ TEST_F(SlidingBarProblem, FrictionlessContactIsOpenOrClosed) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::increment_problem_test

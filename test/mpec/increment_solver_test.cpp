@@ -13,7 +13,7 @@
 #include "support/random.h"
 #include "support/reference_cases.h"
 
-namespace contact_path {
+namespace contact_path::increment_solver_test {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -264,4 +264,4 @@ TEST_F(SlidingBarIncrement, GarbageThatClaimsToBeSolvedIsExactOnlyWhereItIsRight
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::increment_solver_test

@@ -11,7 +11,7 @@
 #include <limits>
 #include <string>
 
-namespace contact_path {
+namespace contact_path::ipopt_solver_test {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -245,4 +245,4 @@ TEST_F(OptionsFile, ChangesNothing) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::ipopt_solver_test

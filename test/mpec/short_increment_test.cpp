@@ -7,7 +7,7 @@
 #include "contact_path/mpec/ipopt_solver.h"
 #include "contact_path/path/model.h"
 
-namespace contact_path {
+namespace contact_path::short_increment_test {
 namespace {
 
 // A node on a spring, pressed on a rough floor with r_n = 1 and at the limit of its cone to the right.
@@ -47,4 +47,4 @@ TEST_F(NodeAboutToSlide, SticksWhereTheLoadPullsBack) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::short_increment_test

@@ -9,7 +9,7 @@
 #include "contact_path/scene/expand.h"
 #include "support/transformations.h"
 
-namespace contact_path {
+namespace contact_path::automatic_step_test {
 namespace {
 
 double GrowthOf(const TraceRequest& request) {
@@ -55,4 +55,4 @@ TEST(AutomaticStepGrowth, IsTheSameInAxesThatAreTurned) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::automatic_step_test

@@ -12,7 +12,7 @@
 #include "support/beams.h"
 #include "support/traced_path.h"
 
-namespace contact_path {
+namespace contact_path::beam_paths_test {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
@@ -365,4 +365,4 @@ TEST(BeamPaths, ArchThatNothingHoldsSideways) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::beam_paths_test

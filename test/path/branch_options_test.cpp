@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace contact_path {
+namespace contact_path::branch_options_test {
 namespace {
 
 BranchOptions WithChoices() {
@@ -53,4 +53,4 @@ TEST(BranchOptions, PlacesAsMessagesNameThem) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::branch_options_test

@@ -12,7 +12,7 @@
 #include "support/reference_cases.h"
 #include "support/traced_path.h"
 
-namespace contact_path {
+namespace contact_path::certified_paths_test {
 namespace {
 
 TraceRequest ByMpec(TraceRequest request) {
@@ -134,4 +134,4 @@ TEST(CertifiedPaths, ABeltDragsANodeUntilItSlips) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::certified_paths_test

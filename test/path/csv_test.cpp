@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace contact_path {
+namespace contact_path::csv_test {
 namespace {
 
 TraceRequest TwoNodes() {
@@ -202,4 +202,4 @@ TEST(Csv, ErrorsAreLeftInTheStream) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::csv_test

@@ -13,7 +13,7 @@
 #include "support/curved_obstacles.h"
 #include "support/traced_path.h"
 
-namespace contact_path {
+namespace contact_path::curved_paths_test {
 namespace {
 
 const double kPi = std::acos(-1.0);
@@ -324,4 +324,4 @@ TEST(CurvedPaths, NoForceJumpsWherePatchesMeet) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::curved_paths_test

@@ -8,12 +8,13 @@
 
 #include "support/curved_obstacles.h"
 #include "support/random_scene.h"
+#include "support/seeds.h"
 #include "support/traced_path.h"
 
-namespace contact_path {
+namespace contact_path::curved_random_paths_test {
 namespace {
 
-constexpr unsigned kSeeds = 120;
+const unsigned kSeeds = Seeds(120);
 constexpr double kArcLength = 1.2;
 
 bool Reached(const TracedPath& path) {
@@ -58,4 +59,4 @@ TEST(RandomPathsOnCurves, AreProvedAndTheSameForOtherSteps) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::curved_random_paths_test

@@ -12,7 +12,7 @@
 #include "contact_path/scene/surface.h"
 #include "support/traced_path.h"
 
-namespace contact_path {
+namespace contact_path::curved_scenes_test {
 namespace {
 
 const double kPi = std::acos(-1.0);
@@ -292,4 +292,4 @@ TEST(JointsOfAFloor, BearManyNodes) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::curved_scenes_test

@@ -9,7 +9,7 @@
 #include "support/plank.h"
 #include "support/traced_path.h"
 
-namespace contact_path {
+namespace contact_path::deformable_scenes_test {
 namespace {
 
 constexpr double kResidual = 1e-13, kOfBeams = 1e-10;  // the largest one of an increment; of stiff beams
@@ -369,4 +369,4 @@ TEST(FlushBlocks, OfSteelOnRubberAreAtRestWhereverTheyStand) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::deformable_scenes_test

@@ -8,7 +8,7 @@
 #include "contact_path/path/trace.h"
 #include "support/traced_path.h"
 
-namespace contact_path {
+namespace contact_path::determinism_test {
 namespace {
 
 constexpr const char* kExamples[] = {"sliding_bar", "arch19",          "rough_truss",      "two_dof_friction",
@@ -46,4 +46,4 @@ TEST_P(DeterminismTest, OtherTracesInBetweenLeaveNoMark) {
 INSTANTIATE_TEST_SUITE_P(Methods, DeterminismTest, testing::Values(Method::kBranch, Method::kMpec));
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::determinism_test

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace contact_path {
+namespace contact_path::diagnosis_test {
 namespace {
 
 Scene TwoBars() {
@@ -149,4 +149,4 @@ TEST(PullingContact, TellsASignThatIsNotKnownFromAFailure) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::diagnosis_test

@@ -4,7 +4,7 @@
 
 #include "contact_path/path/sentences.h"
 
-namespace contact_path {
+namespace contact_path::end_test {
 namespace {
 
 TEST(EndText, PutsNamesAndNumbersIn) {
@@ -33,4 +33,4 @@ TEST(EndText, JoinsCauses) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::end_test

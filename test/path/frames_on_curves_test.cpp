@@ -8,12 +8,13 @@
 #include <vector>
 
 #include "support/random.h"
+#include "support/seeds.h"
 #include "support/traced_path.h"
 
-namespace contact_path {
+namespace contact_path::frames_on_curves_test {
 namespace {
 
-constexpr unsigned kSeeds = 100;
+const unsigned kSeeds = Seeds(100);
 constexpr int kMostIncrements = 1500;
 constexpr double kPi = 3.14159265358979323846;
 
@@ -88,7 +89,7 @@ TraceRequest RandomFrame(unsigned seed) {
   return request;
 }
 
-TEST(FramesOnCurves, HaveTheSameEventsByEveryAccuracy) {
+TEST(RandomFramesOnCurves, HaveTheSameEventsByEveryAccuracy) {
   for (unsigned seed = 1; seed <= kSeeds; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     TraceRequest request = RandomFrame(seed);
@@ -113,4 +114,4 @@ TEST(FramesOnCurves, HaveTheSameEventsByEveryAccuracy) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::frames_on_curves_test

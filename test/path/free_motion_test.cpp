@@ -6,7 +6,7 @@
 
 #include "support/traced_path.h"
 
-namespace contact_path {
+namespace contact_path::free_motion_test {
 namespace {
 
 constexpr double kForce = 1e-10;
@@ -127,4 +127,4 @@ TEST(FreeMotion, IsToldWhereThePathWandersWithoutALoad) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::free_motion_test

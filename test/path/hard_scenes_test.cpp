@@ -14,7 +14,7 @@
 #include "support/reference_cases.h"
 #include "support/traced_path.h"
 
-namespace contact_path {
+namespace contact_path::hard_scenes_test {
 namespace {
 
 constexpr Accuracy kPresets[] = {Accuracy::kFast, Accuracy::kBalanced, Accuracy::kAccurate};
@@ -495,4 +495,4 @@ TEST(HardScenes, StepsAreShortEnoughForTheEnergies) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::hard_scenes_test

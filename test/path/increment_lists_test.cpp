@@ -9,7 +9,7 @@
 #include "contact_path/scene/expand.h"
 #include "support/traced_path.h"
 
-namespace contact_path {
+namespace contact_path::increment_lists_test {
 namespace {
 
 // A quantity of `stop` brings the list that it is of.
@@ -67,4 +67,4 @@ TEST(IncrementLists, Fit) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::increment_lists_test

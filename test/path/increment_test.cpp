@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace contact_path {
+namespace contact_path::increment_test {
 namespace {
 
 TEST(IncrementKind, WordsAreThoseOfTheOutput) {
@@ -15,4 +15,4 @@ TEST(IncrementKind, WordsAreThoseOfTheOutput) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::increment_test

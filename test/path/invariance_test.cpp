@@ -7,7 +7,7 @@
 #include "contact_path/verify/verify_path.h"
 #include "support/transformations.h"
 
-namespace contact_path {
+namespace contact_path::invariance_test {
 namespace {
 
 // Scaled quantities, row by row; measured up to 3e-12 (arch19, whose stiffness is singular).
@@ -111,4 +111,4 @@ TEST_P(Invariance, OrderOfParts) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::invariance_test

@@ -9,7 +9,7 @@
 #include "contact_path/scene/validate.h"
 #include "contact_path/verify/verify_path.h"
 
-namespace contact_path {
+namespace contact_path::large_requests_test {
 namespace {
 
 constexpr int kParts = 30000;
@@ -53,4 +53,4 @@ TEST(LargeRequests, CostNoSquareOfTheirSize) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::large_requests_test

@@ -4,7 +4,7 @@
 
 #include "contact_path/path/model.h"
 
-namespace contact_path {
+namespace contact_path::largest_reaction_test {
 namespace {
 
 // A node on springs of 1 above a floor.
@@ -37,4 +37,4 @@ TEST(LargestReactionSoFar, IsThatOfTheTraceAndOfTheStage) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::largest_reaction_test

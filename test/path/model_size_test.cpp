@@ -7,7 +7,7 @@
 #include "contact_path/path/trace.h"
 #include "contact_path/scene/lattice.h"
 
-namespace contact_path {
+namespace contact_path::model_size_test {
 namespace {
 
 constexpr int kCandidates = 4;
@@ -115,4 +115,4 @@ TEST(ModelSize, OneFactorisationAnIncrementOnASmoothStretch) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::model_size_test

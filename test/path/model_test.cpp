@@ -7,7 +7,7 @@
 #include "support/mixed_scene.h"
 #include "support/reference_cases.h"
 
-namespace contact_path {
+namespace contact_path::model_test {
 namespace {
 
 constexpr double kRounding = 1e-13;  // of positions and forces of order 10 that were scaled and scaled back
@@ -94,4 +94,4 @@ TEST(Model, StructureAndContactsAreOfTheScaledScene) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::model_test

@@ -13,7 +13,7 @@
 #include "support/reference_cases.h"
 #include "support/traced_path.h"
 
-namespace contact_path {
+namespace contact_path::mpec_cases_test {
 namespace {
 
 // Increments are equilibria to rounding. Largest distance from the closed forms that was measured: 9e-15 (sliding_bar,
@@ -506,4 +506,4 @@ TEST(Prestress, FreeTrussGoesToItsRestLength) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::mpec_cases_test

@@ -8,7 +8,7 @@
 #include "contact_path/path/work.h"
 #include "support/reference_cases.h"
 
-namespace contact_path {
+namespace contact_path::mpec_method_test {
 namespace {
 
 // Accepted points are exact; measured up to 3e-16 in scaled quantities.
@@ -185,4 +185,4 @@ TEST_F(StickSlipCycle, DissipatesFrictionTimesTheWayInEveryCycle) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::mpec_method_test

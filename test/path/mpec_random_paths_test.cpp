@@ -13,7 +13,7 @@
 #include "support/random_scene.h"
 #include "support/traced_path.h"
 
-namespace contact_path {
+namespace contact_path::mpec_random_paths_test {
 namespace {
 
 constexpr double kArc = 0.16, kPolygon = 1e-6, kCorner = 5e-4;  // scaled
@@ -126,4 +126,4 @@ TEST(RandomPathsByMpec, AreTheExactPathOnCurves) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::mpec_random_paths_test

@@ -12,7 +12,7 @@
 #include "support/solid_grid.h"
 #include "support/traced_path.h"
 
-namespace contact_path {
+namespace contact_path::own_surface_test {
 namespace {
 
 const double kPi = std::acos(-1.0);
@@ -250,4 +250,4 @@ TEST(OwnSurface, AWrongReactionIsRefuted) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::own_surface_test

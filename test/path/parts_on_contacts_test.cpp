@@ -8,7 +8,7 @@
 #include "contact_path/scene/read_scene.h"
 #include "support/traced_path.h"
 
-namespace contact_path {
+namespace contact_path::parts_on_contacts_test {
 namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
@@ -182,4 +182,4 @@ TEST(PartsOnContacts, AnArmThatNothingHoldsTakesNoLoad) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::parts_on_contacts_test

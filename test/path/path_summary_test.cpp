@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace contact_path {
+namespace contact_path::path_summary_test {
 namespace {
 
 // Takes increments of which only kind, load factor and event matter, and numbers them.
@@ -96,4 +96,4 @@ TEST_F(SummaryOfIncrements, FollowsTheReasonOfTheEnd) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::path_summary_test

@@ -14,7 +14,7 @@
 #include "support/curved_obstacles.h"
 #include "support/traced_path.h"
 
-namespace contact_path {
+namespace contact_path::polygon_disc_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -276,4 +276,4 @@ TEST(PolygonDisc, OneThatTurnsHoldsANodeAsTheCircleDoes) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::polygon_disc_test

@@ -9,7 +9,7 @@
 
 #include "contact_path/path/mpec_method.h"
 
-namespace contact_path {
+namespace contact_path::preload_test {
 namespace {
 
 // The preload ends in equations solved to rounding; measured up to 4e-16.
@@ -214,4 +214,4 @@ TEST(Preload, TheModelOfTheMethodLoadsWithTheConstantLoadsOnly) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::preload_test

@@ -13,7 +13,7 @@
 #include "support/traced_path.h"
 #include "support/transformations.h"
 
-namespace contact_path {
+namespace contact_path::program_test {
 namespace {
 
 constexpr double kRounding = 1e-12;
@@ -575,4 +575,4 @@ TEST(ProgramRules, AreTold) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::program_test

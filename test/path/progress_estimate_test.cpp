@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace contact_path {
+namespace contact_path::progress_estimate_test {
 namespace {
 
 Increment MakeIncrement(int index, double load_factor, double x) {
@@ -60,4 +60,4 @@ TEST(ProgressEstimate, StartOnTheCriterionCountsForNothing) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::progress_estimate_test

@@ -8,7 +8,7 @@
 #include "support/traced_path.h"
 #include "support/transformations.h"
 
-namespace contact_path {
+namespace contact_path::redistribution_test {
 namespace {
 
 constexpr ObstacleShape kHalfPlane = ObstacleShape::kHalfPlane;
@@ -157,4 +157,4 @@ TEST(Redistribution, IsTheSameInOtherWords) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::redistribution_test

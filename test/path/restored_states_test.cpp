@@ -9,7 +9,7 @@
 
 #include "support/traced_path.h"
 
-namespace contact_path {
+namespace contact_path::restored_states_test {
 namespace {
 
 // Without what full_state_every leaves out.
@@ -72,4 +72,4 @@ TEST(RestoreStates, StopsAtAnIncrementThatIsNotOnThePath) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::restored_states_test

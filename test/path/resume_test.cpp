@@ -12,7 +12,7 @@
 #include "contact_path/verify/verify_path.h"
 #include "support/traced_path.h"
 
-namespace contact_path {
+namespace contact_path::resume_test {
 namespace {
 
 TracedPath Resume(const TraceRequest& request, std::vector<Increment> increments) {
@@ -183,4 +183,4 @@ TEST(Resume, IncrementsOfSomethingElseAreRefused) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::resume_test

@@ -10,7 +10,7 @@
 #include "contact_path/verify/verify_path.h"
 #include "support/traced_path.h"
 
-namespace contact_path {
+namespace contact_path::return_detector_test {
 namespace {
 
 // A node on two floors in the same place, pressed on them by a constant load and held along them by a spring: the path
@@ -176,4 +176,4 @@ TEST(ClosedPath, IsNotOneThatGoesBackOverItself) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::return_detector_test

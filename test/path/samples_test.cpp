@@ -17,7 +17,7 @@
 #include "support/beams.h"
 #include "support/traced_path.h"
 
-namespace contact_path {
+namespace contact_path::samples_test {
 namespace {
 
 double Value(const TracedPath& path, const std::string& quantity, const Increment& increment) {
@@ -221,4 +221,4 @@ TEST(Samples, OfForcesOfStiffPartsAreThereOnce) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::samples_test

@@ -11,9 +11,10 @@
 #include "contact_path/scene/read_scene.h"
 #include "contact_path/verify/verify_path.h"
 #include "support/decisions.h"
+#include "support/seeds.h"
 #include "support/traced_path.h"
 
-namespace contact_path {
+namespace contact_path::singular_scenes_test {
 namespace {
 
 constexpr Accuracy kPresets[] = {Accuracy::kFast, Accuracy::kBalanced, Accuracy::kAccurate};
@@ -657,7 +658,7 @@ TraceRequest RandomDrag(unsigned seed) {
 // They end early only where a bar has shrunk to a point, where a Biot bar has no direction.
 TEST(SingularScenes, RandomDragsEndOnlyWithABarWithoutLength) {
   int rests = 0;
-  for (unsigned seed = 1; seed <= 120; ++seed) {
+  for (unsigned seed = 1; seed <= Seeds(120); ++seed) {
     const TracedPath path = TraceSound(RandomDrag(seed));
     if (path.result.reason == EndReason::kStepTooSmall) {
       EXPECT_NE(path.result.message.find("has shrunk to"), std::string::npos) << seed << ": " << path.result.message;
@@ -668,8 +669,8 @@ TEST(SingularScenes, RandomDragsEndOnlyWithABarWithoutLength) {
       if (path.increments[i - 1].event.number > 1 && path.increments[i].positions == path.increments[i - 1].positions)
         ++rests;
   }
-  EXPECT_GE(rests, 10);
+  EXPECT_GE(rests, AtLeast(10));
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::singular_scenes_test

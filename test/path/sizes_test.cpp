@@ -11,7 +11,7 @@
 #include "support/reference_cases.h"
 #include "support/traced_path.h"
 
-namespace contact_path {
+namespace contact_path::sizes_test {
 namespace {
 
 constexpr Method kMethods[] = {Method::kBranch, Method::kMpec};
@@ -221,4 +221,4 @@ TEST(Sizes, LoadsThatNearlyCancel) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::sizes_test

@@ -11,7 +11,7 @@
 #include "support/solid_grid.h"
 #include "support/traced_path.h"
 
-namespace contact_path {
+namespace contact_path::solid_paths_test {
 namespace {
 
 // nx x ny cells of a block, held nowhere.
@@ -235,4 +235,4 @@ TEST(SolidPaths, RubberFoot) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::solid_paths_test

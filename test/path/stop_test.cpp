@@ -4,7 +4,7 @@
 
 #include "support/traced_path.h"
 
-namespace contact_path {
+namespace contact_path::stop_test {
 namespace {
 
 class Stop : public testing::Test {
@@ -152,4 +152,4 @@ TEST(StopOfATrace, QuantitiesOfContactsEndItWhereTheyPassTheValue) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::stop_test

@@ -15,7 +15,7 @@
 #include "support/solid_grid.h"
 #include "support/traced_path.h"
 
-namespace contact_path {
+namespace contact_path::surface_scenes_test {
 namespace {
 
 const double kPi = std::acos(-1.0);
@@ -156,4 +156,4 @@ TEST(SurfaceScenes, RingOnRing) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::surface_scenes_test

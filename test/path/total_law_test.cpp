@@ -9,7 +9,7 @@
 #include "contact_path/verify/verify_path.h"
 #include "support/traced_path.h"
 
-namespace contact_path {
+namespace contact_path::total_law_test {
 namespace {
 
 constexpr double kRounding = 1e-11;
@@ -162,4 +162,4 @@ TEST(VerifyTotalLaw, TellsThePathOfTheOtherLaw) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::total_law_test

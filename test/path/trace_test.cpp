@@ -13,7 +13,7 @@
 #include "contact_path/scene/validate.h"
 #include "support/traced_path.h"
 
-namespace contact_path {
+namespace contact_path::trace_test {
 namespace {
 
 TraceRequest SlidingBar(int max_increments) {
@@ -256,4 +256,4 @@ TEST(Trace, SceneThatCannotStandIsANumericalFailureWithoutIncrements) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::trace_test

@@ -6,7 +6,7 @@
 
 #include "support/reference_cases.h"
 
-namespace contact_path {
+namespace contact_path::work_test {
 namespace {
 
 class SlidingBarWork : public testing::Test {
@@ -82,4 +82,4 @@ TEST(Work, ConstantLoadsWorkAlsoAtLoadFactorZero) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::work_test

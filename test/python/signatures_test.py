@@ -121,7 +121,7 @@ class Signatures(unittest.TestCase):
         self.assertIn('One of the cables: EA [force], > 0; slack [length].', told.stdout)
 
     @unittest.skipIf(importlib.util.find_spec('mypy') is None, 'mypy is not installed')
-    def test_type_checkers_see_them(self):
+    def test_long_type_checkers_see_them(self):
         with open(self.path('program.py'), 'w', encoding='utf-8') as file:
             file.write(PROGRAM + '\n'.join(WRONG) + '\n')
         with open(self.path('mypy.ini'), 'w', encoding='utf-8') as file:

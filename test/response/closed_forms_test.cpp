@@ -20,7 +20,7 @@
 #include "support/beams.h"
 #include "support/traced_path.h"
 
-namespace contact_path {
+namespace contact_path::closed_forms_test {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
@@ -482,4 +482,4 @@ INSTANTIATE_TEST_SUITE_P(Scenes, PressuresOfScene, testing::ValuesIn(kWithPressu
                          [](const auto& of) { return std::string(of.param); });
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::closed_forms_test

@@ -14,7 +14,7 @@
 #include "contact_path/scene/scene_index.h"
 #include "support/traced_path.h"
 
-namespace contact_path {
+namespace contact_path::contact_pressure_test {
 namespace {
 
 // A block of columns x rows elements that a uniform traction presses onto a floor without friction.
@@ -117,4 +117,4 @@ TEST(ContactPressure, OfANodeAloneIsZero) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::contact_pressure_test

@@ -19,7 +19,7 @@
 #include "response/cantilever.h"
 #include "support/traced_path.h"
 
-namespace contact_path {
+namespace contact_path::element_response_test {
 namespace {
 
 // A cantilever under a force at its tip, whatever bends: what each section bears is the force and its moment about
@@ -270,4 +270,4 @@ TEST(Sections, AreQuantitiesWithoutBeingRecorded) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::element_response_test

@@ -21,7 +21,7 @@
 #include "response/cantilever.h"
 #include "support/traced_path.h"
 
-namespace contact_path {
+namespace contact_path::reactions_test {
 namespace {
 
 // Sums of forces, and of their moments about the origin of the coordinates.
@@ -248,4 +248,4 @@ TEST(Reactions, SupportHidesABoundaryOfItsName) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::reactions_test

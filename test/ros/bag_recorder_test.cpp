@@ -18,7 +18,7 @@
 
 #include "contact_path/ros/memory_share.h"
 
-namespace contact_path {
+namespace contact_path::bag_recorder_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -294,4 +294,4 @@ TEST_F(BagRecorderTest, SaysSoWhenWritingFailsAndGoesOnLiving) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::bag_recorder_test

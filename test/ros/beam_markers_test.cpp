@@ -11,7 +11,7 @@
 #include "contact_path/ros/scene_markers.h"
 #include "read_markers.h"
 
-namespace contact_path {
+namespace contact_path::beam_markers_test {
 namespace {
 
 namespace msgs = contact_path_msgs;
@@ -173,4 +173,4 @@ TEST(BeamMarkersTest, MomentsOfClampsAreTurnedArrows) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::beam_markers_test

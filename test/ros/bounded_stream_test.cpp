@@ -11,7 +11,7 @@
 #include "bytes.h"
 #include "contact_path/ros/messages.h"
 
-namespace contact_path {
+namespace contact_path::bounded_stream_test {
 namespace {
 
 namespace msgs = contact_path_msgs;
@@ -82,4 +82,4 @@ TEST(BoundedStreamTest, MakesNoRoomForWhatIsNotThere) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::bounded_stream_test

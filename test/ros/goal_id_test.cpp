@@ -10,7 +10,7 @@
 #include "bytes.h"
 #include "contact_path/ros/messages.h"
 
-namespace contact_path {
+namespace contact_path::goal_id_test {
 namespace {
 
 // As roscpp reads it from a connection.
@@ -63,4 +63,4 @@ TEST(GoalIdTest, LongIdsAreRefused) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::goal_id_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace contact_path {
+namespace contact_path::limits_test {
 namespace {
 
 namespace msgs = contact_path_msgs;
@@ -149,4 +149,4 @@ TEST(LimitsTest, RefusesLimitsThatMakeNoSense) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::limits_test

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-namespace contact_path {
+namespace contact_path::memory_share_test {
 namespace {
 
 constexpr std::size_t kMegabyte = std::size_t{1} << 20U;
@@ -58,4 +58,4 @@ TEST(MemoryShareTest, RefusesALimitThatIsUsedUp) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::memory_share_test

@@ -16,7 +16,7 @@
 #include "contact_path/scene/lattice.h"
 #include "read_markers.h"
 
-namespace contact_path {
+namespace contact_path::scene_markers_test {
 namespace {
 
 namespace msgs = contact_path_msgs;
@@ -633,4 +633,4 @@ TEST(SceneMarkersTest, BigScenesHaveAsManyMarkersAsSmallOnes) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::scene_markers_test

@@ -9,7 +9,7 @@
 #include "contact_path/ros/scene_markers.h"
 #include "read_markers.h"
 
-namespace contact_path {
+namespace contact_path::surface_markers_test {
 namespace {
 
 namespace msgs = contact_path_msgs;
@@ -72,4 +72,4 @@ TEST(SurfaceMarkersTest, OfTractionsAreNotDrawn) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::surface_markers_test

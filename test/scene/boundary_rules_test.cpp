@@ -10,7 +10,7 @@
 #include "support/broken_rule.h"
 #include "support/solid_grid.h"
 
-namespace contact_path {
+namespace contact_path::boundary_rules_test {
 namespace {
 
 // Two cells side by side, held below, under a node p on two bars and a beam over them.
@@ -201,4 +201,4 @@ TEST(SurfacesInContact, HeldNodesOfGroupsAreCandidatesOfSurfaces) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::boundary_rules_test

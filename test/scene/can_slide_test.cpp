@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace contact_path {
+namespace contact_path::can_slide_test {
 namespace {
 
 Obstacle WithNormal(double nx, double ny) { return {"o", ObstacleShape::kHalfPlane, 0.0, 0.0, nx, ny, 0.5}; }
@@ -28,4 +28,4 @@ TEST(CanSlide, NotByTheRoundingOfANormal) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::can_slide_test

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace contact_path {
+namespace contact_path::cell_test {
 namespace {
 
 // Corners, then mid-sides, of a cell with the side 2.
@@ -89,4 +89,4 @@ TEST(CellShapes, AreFour) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::cell_test

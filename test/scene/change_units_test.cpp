@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace contact_path {
+namespace contact_path::change_units_test {
 namespace {
 
 // In units of 2 [length], 8 [force] and 32 [load factor], every number of a request is divided by what it is measured
@@ -59,4 +59,4 @@ TEST(ChangeUnitsTest, EveryNumberHasItsUnit) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::change_units_test

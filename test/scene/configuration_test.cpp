@@ -4,7 +4,7 @@
 
 #include "support/mixed_scene.h"
 
-namespace contact_path {
+namespace contact_path::configuration_test {
 namespace {
 
 TEST(Configuration, OfASceneIsWhereItsNodesAre) {
@@ -24,4 +24,4 @@ TEST(Configuration, OverALengthBothShapesAreScaled) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::configuration_test

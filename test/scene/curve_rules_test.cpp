@@ -4,7 +4,7 @@
 #include "support/broken_rule.h"
 #include "support/curved_obstacles.h"
 
-namespace contact_path {
+namespace contact_path::curve_rules_test {
 namespace {
 
 // A bar from a pinned node a down to b, with a load.
@@ -138,4 +138,4 @@ TEST(CurveRules, ThoseThatKeepTheirRulesAreSound) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::curve_rules_test

@@ -9,7 +9,7 @@
 #include "contact_path/scene/expand.h"
 #include "support/traced_path.h"
 
-namespace contact_path {
+namespace contact_path::element_names_test {
 namespace {
 
 TEST(ElementNames, OfElementsAreFound) {
@@ -61,4 +61,4 @@ TEST(ElementNames, OfSolidsWithoutAFitName) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::element_names_test

@@ -11,7 +11,7 @@
 #include "contact_path/scene/write_scene.h"
 #include "support/broken_rule.h"
 
-namespace contact_path {
+namespace contact_path::expand_test {
 namespace {
 
 constexpr char kFrame[] = R"(
@@ -188,4 +188,4 @@ INSTANTIATE_TEST_SUITE_P(
     NameOf<BrokenRule>);
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::expand_test

@@ -10,7 +10,7 @@
 #include "contact_path/scene/key_path.h"
 #include "contact_path/scene/scene.h"
 
-namespace contact_path {
+namespace contact_path::field_test {
 namespace {
 
 // Calls visit(part) for an object of each kind of part in Part, which comes first.
@@ -57,4 +57,4 @@ TEST(KeyPathTest, IsWrittenAsMessagesWantIt) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::field_test

@@ -6,7 +6,7 @@
 
 #include "support/traced_path.h"
 
-namespace contact_path {
+namespace contact_path::lattice_test {
 namespace {
 
 LatticeOptions Options(LatticeKind kind, int columns, int rows) {
@@ -79,4 +79,4 @@ TEST(Lattice, KnowsItsKinds) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::lattice_test

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace contact_path {
+namespace contact_path::nearest_name_test {
 namespace {
 
 std::string Nearest(const std::string& wanted, const std::vector<std::string>& names) {
@@ -55,4 +55,4 @@ TEST(NearestNameTest, VeryLongNamesAreNotCompared) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::nearest_name_test

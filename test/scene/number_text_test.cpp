@@ -7,7 +7,7 @@
 
 #include "support/random.h"
 
-namespace contact_path {
+namespace contact_path::number_text_test {
 namespace {
 
 TEST(NumberText, IsAsAPersonWroteIt) {
@@ -32,4 +32,4 @@ TEST(NumberText, IsInYamlsSpellingWhereItIsNotFinite) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::number_text_test

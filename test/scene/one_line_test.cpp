@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace contact_path {
+namespace contact_path::one_line_test {
 namespace {
 
 TEST(OneLineTest, KeepsPrintableCharacters) {
@@ -39,4 +39,4 @@ TEST(OneLineTest, IsNeverMuchLongerThanALine) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::one_line_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace contact_path {
+namespace contact_path::origin_test {
 namespace {
 
 Scene SceneAt(double x, double y) {
@@ -43,4 +43,4 @@ TEST(OriginTest, AllCoordinatesAreCountedFromIt) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::origin_test

@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace contact_path {
+namespace contact_path::quantity_test {
 namespace {
 
 using Kind = Quantity::Kind;
@@ -107,4 +107,4 @@ TEST_F(QuantityTest, IsSpelledAsItIsRead) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::quantity_test

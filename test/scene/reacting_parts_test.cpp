@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace contact_path {
+namespace contact_path::reacting_parts_test {
 namespace {
 
 // Nodes of a beam turn; the others do not.
@@ -54,4 +54,4 @@ TEST(TouchedBoundaries, HaveCandidates) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::reacting_parts_test

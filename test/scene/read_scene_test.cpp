@@ -15,7 +15,7 @@
 #include "contact_path/scene/validate.h"
 #include "support/broken_rule.h"
 
-namespace contact_path {
+namespace contact_path::read_scene_test {
 namespace {
 
 // A request with every key. Tests name its lines by the number, from 1.
@@ -668,4 +668,4 @@ TEST(ScenesTest, ArchIsItsOwnMirrorImage) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::read_scene_test

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace contact_path {
+namespace contact_path::request_field_test {
 namespace {
 
 // A node is called "1", as the place of another one; bars have no names.
@@ -109,4 +109,4 @@ TEST(FindField, SaysWhatAPathMustDo) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::request_field_test

@@ -15,7 +15,7 @@
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/validate.h"
 
-namespace contact_path {
+namespace contact_path::scaling_test {
 namespace {
 
 // Rounding of a few operations on numbers of order 1.
@@ -407,4 +407,4 @@ TEST(CharacteristicScales, WithoutBarsRoundingOfATouchingContactIsNoGap) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::scaling_test

@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-namespace contact_path {
+namespace contact_path::scene_index_test {
 namespace {
 
 TEST(SceneIndexTest, NamesAreTheirPlaces) {
@@ -35,4 +35,4 @@ TEST(SceneIndexTest, OfEqualNamesTheFirstIsKnown) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::scene_index_test

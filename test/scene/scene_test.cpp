@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace contact_path {
+namespace contact_path::scene_test {
 namespace {
 
 // Every enumerator has the word of the scene format, both ways; "" is the first; nothing else is a word.
@@ -67,4 +67,4 @@ TEST(SceneTest, ContactsAreNamedByNodeAndObstacle) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::scene_test

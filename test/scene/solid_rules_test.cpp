@@ -14,7 +14,7 @@
 #include "support/same_request.h"
 #include "support/solid_grid.h"
 
-namespace contact_path {
+namespace contact_path::solid_rules_test {
 namespace {
 
 // Two cells side by side, held on the left, pulled on the right.
@@ -148,4 +148,4 @@ TEST(SolidScales, AreThoseOfTheBody) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::solid_rules_test

@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace contact_path {
+namespace contact_path::utf8_test {
 namespace {
 
 TEST(Utf8Test, CharactersHaveOneToFourBytes) {
@@ -36,4 +36,4 @@ TEST(Utf8Test, TheFirstByteOfNoCharacterIsFound) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::utf8_test

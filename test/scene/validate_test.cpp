@@ -9,7 +9,7 @@
 
 #include "support/broken_rule.h"
 
-namespace contact_path {
+namespace contact_path::validate_test {
 namespace {
 
 // A pinned node a, a bar to b, a superelement from b to c, both on a floor; with something of every kind.
@@ -604,4 +604,4 @@ TEST(Validate, NumbersAreShownAsShortAsExact) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::validate_test

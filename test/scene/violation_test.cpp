@@ -4,7 +4,7 @@
 
 #include "contact_path/scene/validate.h"
 
-namespace contact_path {
+namespace contact_path::violation_test {
 namespace {
 
 Violation MakeViolation(const std::string& file, int line, const std::string& key, const std::string& value) {
@@ -45,4 +45,4 @@ TEST(InvalidRequestTest, WhatIsTheFirstViolation) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::violation_test

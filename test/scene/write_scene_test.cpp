@@ -10,7 +10,7 @@
 #include "support/same_request.h"
 #include "support/traced_path.h"
 
-namespace contact_path {
+namespace contact_path::write_scene_test {
 namespace {
 
 void ExpectRoundTrip(const TraceRequest& request) {
@@ -97,4 +97,4 @@ TEST(WriteTraceRequest, LatticesAreSound) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::write_scene_test

@@ -15,7 +15,7 @@
 #include "contact_path/tolerances.h"
 #include "support/traced_path.h"
 
-namespace contact_path {
+namespace contact_path::jump_test {
 namespace {
 
 // ----- a node with a coupled stiffness on a rough floor: K = [[1, -1.5], [-1.5, 4]], mu = 1, constant load (0, -1)
@@ -313,4 +313,4 @@ TEST(JumpOfAnExample, RoughArch) { ExpectLandings("rough_arch", 10); }
 TEST(JumpOfAnExample, RingOnRing) { ExpectLandings("ring_on_ring", 1); }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::jump_test

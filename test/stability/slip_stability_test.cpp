@@ -6,7 +6,7 @@
 
 #include "support/random.h"
 
-namespace contact_path {
+namespace contact_path::slip_stability_test {
 namespace {
 
 Eigen::MatrixXd Matrix2(double a, double b, double c, double d) {
@@ -86,4 +86,4 @@ TEST(SlipStabilityTest, RandomMatrices) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::slip_stability_test

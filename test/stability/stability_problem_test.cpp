@@ -14,7 +14,7 @@
 #include "support/random.h"
 #include "support/random_scene.h"
 
-namespace contact_path {
+namespace contact_path::stability_problem_test {
 namespace {
 
 // Nodes on floors, and free nodes, in one linear part of this stiffness, by x0, y0, x1, ...
@@ -300,4 +300,4 @@ TEST(StabilityProblemTest, VerdictsAgainstMotions) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::stability_problem_test

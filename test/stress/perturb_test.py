@@ -19,7 +19,7 @@ def file_of(name):
     return os.path.join(SCENES, name + '.yaml')
 
 
-class PerturbTest(unittest.TestCase):
+class LongPerturbTest(unittest.TestCase):
 
     def test_variants_have_the_same_path(self):
         for name in QUICK:

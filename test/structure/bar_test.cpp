@@ -10,7 +10,7 @@
 #include "support/derivative_checker.h"
 #include "support/random.h"
 
-namespace contact_path {
+namespace contact_path::bar_test {
 namespace {
 
 // Units in the last place of quantities of order 1 after a handful of operations.
@@ -167,4 +167,4 @@ TEST(BarElement, OnlyGreenLagrangeIsSmoothAtZeroLength) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::bar_test

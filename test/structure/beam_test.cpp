@@ -11,7 +11,7 @@
 #include "support/derivative_checker.h"
 #include "support/random.h"
 
-namespace contact_path {
+namespace contact_path::beam_test {
 namespace {
 
 constexpr double kTurn = 6.283185307179586;
@@ -156,4 +156,4 @@ TEST(BeamStiffness, Cantilever) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::beam_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace contact_path {
+namespace contact_path::dof_map_test {
 namespace {
 
 // Two nodes: the first held along y, with a rotation; the second without one.
@@ -42,4 +42,4 @@ TEST_F(TwoNodes, PositionsAreLengthsAndRotationsAreNot) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::dof_map_test

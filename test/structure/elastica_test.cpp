@@ -12,7 +12,7 @@
 #include "contact_path/structure/beam.h"
 #include "contact_path/structure/structure.h"
 
-namespace contact_path {
+namespace contact_path::elastica_test {
 namespace {
 
 constexpr double kPi = 3.141592653589793;
@@ -131,4 +131,4 @@ TEST(CantileverUnderAnEndMoment, RollsUp) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::elastica_test

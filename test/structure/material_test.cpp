@@ -11,7 +11,7 @@
 #include "support/random.h"
 #include "support/solid_grid.h"
 
-namespace contact_path {
+namespace contact_path::material_test {
 namespace {
 
 // W of F in the plane and C33, from its definition in three dimensions. Linear: e33 = C33 - 1.
@@ -195,4 +195,4 @@ TEST(Elasticity, BothPairsOfConstants) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::material_test

@@ -5,7 +5,7 @@
 #include "contact_path/scene/configuration.h"
 #include "support/mixed_scene.h"
 
-namespace contact_path {
+namespace contact_path::scene_elements_test {
 namespace {
 
 TEST(SceneElements, BarsThenSuperelementsAtTheirNodes) {
@@ -35,4 +35,4 @@ TEST(SceneElements, RestIsTakenFromTheReferenceShape) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::scene_elements_test

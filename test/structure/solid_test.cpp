@@ -16,7 +16,7 @@
 #include "support/random.h"
 #include "support/solid_grid.h"
 
-namespace contact_path {
+namespace contact_path::solid_test {
 namespace {
 
 constexpr double kThickness = 0.7;
@@ -263,4 +263,4 @@ TEST(CooksMembrane, EightNodesDoNotLock) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::solid_test

@@ -12,7 +12,7 @@
 #include "support/mixed_scene.h"
 #include "support/random.h"
 
-namespace contact_path {
+namespace contact_path::structure_test {
 namespace {
 
 constexpr double kRounding = 1e-14;  // of sums of a few terms of order 1
@@ -285,4 +285,4 @@ TEST(StructureConfiguration, AnElementThatIsInsideOutAtTheStart) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::structure_test

@@ -5,7 +5,7 @@
 #include "support/derivative_checker.h"
 #include "support/random.h"
 
-namespace contact_path {
+namespace contact_path::superelement_test {
 namespace {
 
 class Superelement : public testing::Test {
@@ -61,4 +61,4 @@ TEST_F(Superelement, DerivativesMeetDifferences) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::superelement_test

@@ -12,7 +12,7 @@
 #include "contact_path/scene/expand.h"
 #include "support/traced_path.h"
 
-namespace contact_path {
+namespace contact_path::path_column_test {
 namespace {
 
 std::vector<std::string> Cells(const std::string& line) {
@@ -82,4 +82,4 @@ TEST(PathColumn, SaysWhatANameMustBe) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::path_column_test

@@ -9,7 +9,7 @@
 #include "support/reference_cases.h"
 #include "support/traced_path.h"
 
-namespace contact_path {
+namespace contact_path::study_outputs_test {
 namespace {
 
 TEST(StudyOutputs, OfTheRoughTrussAreItsClosedForms) {
@@ -115,4 +115,4 @@ TEST(StudyOutputs, NameTheOneThatIsNotThere) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::study_outputs_test

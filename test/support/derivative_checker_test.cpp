@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace contact_path {
+namespace contact_path::derivative_checker_test {
 namespace {
 
 // (x y^2, sin x + 3 z, exp(y z), 5): all kinds of entries, zeros among them.
@@ -86,4 +86,4 @@ TEST_F(DerivativeChecker, FailureNamesTheWorstEntry) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::derivative_checker_test

@@ -1,7 +1,9 @@
 #!/usr/bin/python3
 """Runs one file of unittests and leaves the results as XML, as the C++ tests do.
 
-Usage: run_unittest.py TEST.py RESULTS.xml [NAME=VALUE...]: environment variables for the tests.
+Usage: run_unittest.py TEST.py NAME=VALUE...: environment variables for the tests, and RESULTS=FILE.xml. As in GoogleTest,
+GTEST_TOTAL_SHARDS and GTEST_SHARD_INDEX choose every so many-th test. Classes and tests whose names begin with Long, or test_long,
+run with CONTACT_PATH_LONG=1 alone, and then nothing else does.
 """
 import importlib.util
 import os
@@ -53,15 +55,30 @@ class Result(unittest.TextTestResult):
         self.note('skipped', reason)
 
 
+def tests_in(suite):
+    """One after the other."""
+    for test in suite:
+        yield from tests_in(test) if isinstance(test, unittest.TestSuite) else [test]
+
+
+def chosen(suite):
+    """The tests of this run."""
+    wanted = bool(os.environ.get('CONTACT_PATH_LONG'))
+    tests = [test for test in tests_in(suite)
+             if (type(test).__name__.startswith('Long') or test.id().rpartition('.')[2].startswith('test_long')) == wanted]
+    return tests[int(os.environ.get('GTEST_SHARD_INDEX', 0))::int(os.environ.get('GTEST_TOTAL_SHARDS', 1))]
+
+
 def main():
-    source, results = sys.argv[1], sys.argv[2]
-    os.environ.update(setting.split('=', 1) for setting in sys.argv[3:])
+    source = sys.argv[1]
+    os.environ.update(setting.split('=', 1) for setting in sys.argv[2:])
+    results = os.environ.pop('RESULTS')
     name = os.path.splitext(os.path.basename(source))[0]
     spec = importlib.util.spec_from_file_location(name, source)
     module = importlib.util.module_from_spec(spec)
     sys.modules[name] = module
     spec.loader.exec_module(module)
-    suite = unittest.defaultTestLoader.loadTestsFromModule(module)
+    suite = unittest.TestSuite(chosen(unittest.defaultTestLoader.loadTestsFromModule(module)))
     start = time.monotonic()
     result = unittest.TextTestRunner(resultclass=Result, verbosity=2).run(suite)
 

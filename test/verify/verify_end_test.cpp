@@ -7,7 +7,7 @@
 
 #include "support/traced_path.h"
 
-namespace contact_path {
+namespace contact_path::verify_end_test {
 namespace {
 
 std::vector<Increment> First(const TracedPath& path, std::size_t count) {
@@ -97,4 +97,4 @@ TEST(VerifyEnd, OfAClosedPath) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::verify_end_test

@@ -9,7 +9,7 @@
 #include "contact_path/scene/program.h"
 #include "support/traced_path.h"
 
-namespace contact_path {
+namespace contact_path::verify_events_test {
 namespace {
 
 // Of the increments alone: what they show is not looked at.
@@ -152,4 +152,4 @@ TEST(VerifyEvents, FindingsHaveAnEnd) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::verify_events_test

@@ -16,7 +16,7 @@
 #include "contact_path/verify/verify_end.h"
 #include "support/traced_path.h"
 
-namespace contact_path {
+namespace contact_path::verify_path_test {
 namespace {
 
 TracedPath Traced(const std::string& scene, Method method) {
@@ -697,4 +697,4 @@ TEST_F(SoftContact, MustBeInEquilibrium) {
 }
 
 }  // namespace
-}  // namespace contact_path
+}  // namespace contact_path::verify_path_test
