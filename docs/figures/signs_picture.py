@@ -75,7 +75,7 @@ def draw_frame(axes):
     along = points[6:foot + 1] + 0.16 * normals(points)[6:foot + 1]
     axes.plot(*along[:-3].T, color=BARS, lw=1.4)
     arrow(axes, along[-5], along[-1], BARS)
-    note(axes, along[30] + (0.0, 0.3), r'$\xi$, from the first point on', BARS, 10)
+    note(axes, along[34] + (0.0, 0.3), r'$\xi$ grows along +t', BARS, 10)
     axes.plot(*points[0], 'k.', ms=8)
     note(axes, (1.5, 1.75), 'admissible side:\non the left', SIDE, 10)
     note(axes, (4.6, -0.9), 't = (n_y, -n_x)', size=10)
