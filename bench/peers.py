@@ -128,9 +128,9 @@ def told_of_incremental_law(start, total):
     path = trace_by([UNLOADED, end - UNLOADED], 'incremental', start)
     first = next((event['load_factor'] for event in path.events if event['stage'] == 2), math.nan)
     _, unloaded, last = pressing(path, ends_of_stages(path))
-    return ('By the incremental law, which GetFEM lacks, the same start leaves this path at gamma = %.4g, where contacts change their states. '
+    return ('By Coulomb\'s law, which GetFEM lacks, the same start leaves this path at gamma = %.4g, where contacts change their states. '
             'Slip is kept then: at gamma = 0.5, without loads, the floor still presses with %.4g N in all. '
-            'At gamma = %.3g it presses with %.4g N, by the total law with %.4g N.' % (
+            'At gamma = %.3g it presses with %.4g N, with holonomic friction with %.4g N.' % (
                 first, unloaded, end, last, pressing(total, [-1])[0]))
 
 

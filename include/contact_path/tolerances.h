@@ -1,6 +1,7 @@
 // Every tolerance of the solvers, by its meaning: it tells a computed quantity from zero, or from another quantity.
 // Constants that steer steps and iterations stand where they are used. verify/, check/ and the rules of scene/ have
-// tolerances of their own: verify/ and check/ share nothing with the solvers, and rules judge what a person wrote.
+// tolerances of their own: verify/ and check/ share the expanded scene and its units with the solvers, and no
+// mechanics; rules judge what a person wrote.
 //
 // Scaled: positions over L, forces over F, the load factor times c (scene/scaling.h). A scene then has numbers of the
 // order of 1. Points of a path are exact to about 1e-14, singular points too, since they are located by regular

@@ -117,7 +117,8 @@ void DeclareOptions(CLI::App& app, Arguments& arguments) {
   app.add_option("--accuracy", arguments.accuracy, "fast, balanced or accurate, instead of the scene's")
       ->type_name("NAME")
       ->needs(scene);
-  app.add_option("--friction-law", arguments.friction_law, "incremental or total, instead of the scene's")
+  app.add_option("--friction-law", arguments.friction_law,
+                 "incremental (Coulomb's law) or total (holonomic), instead of the scene's")
       ->type_name("NAME")
       ->needs(scene);
   app.add_option("--step", arguments.step, "Increment length, instead of the scene's; 0 = automatic")

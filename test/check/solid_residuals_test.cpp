@@ -1,4 +1,4 @@
-// The check of solids against the elements of the solvers, with which it shares nothing.
+// The check of solids against the elements of the solvers, with which it shares the scene and no mechanics.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
-// Residuals of an increment of a path, computed from the scene alone. Nothing here comes from the code that solved for
-// the increment.
+// Residuals of an increment of a path, computed from the scene alone: the expanded scene and its units are shared with
+// the code that solved for the increment, and no mechanics.
 #ifndef CONTACT_PATH_CHECK_RESIDUALS_H_
 #define CONTACT_PATH_CHECK_RESIDUALS_H_
 

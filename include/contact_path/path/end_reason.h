@@ -18,8 +18,8 @@ enum class EndReason {
   kMemoryLimit,       // there was not enough memory to go on
   kElementInverted,   // an element of a solid would be turned inside out
   kNotDetermined,     // the sign of a value is not known, since the error of the value is larger
-  kAtLimit,           // the device that loads the structure can go no further on a stable path, as at_limit: stop wants
-  kNoLanding,         // a jump was followed for long and came to no equilibrium
+  kAtLimit,    // the machine that loads the structure can go no further on a stable path, as at_limit: stop wants
+  kNoLanding,  // a jump was followed for long and came to no equilibrium
 };
 
 // "stop_criterion", "max_increments", "path_end", "step_too_small", "cancelled", "no_such_branch", "numerical_failure",

@@ -24,7 +24,7 @@ namespace contact_path {
 
 enum class IncrementKind {
   kStart,         // increment 0, or the first of a stage: the same state as in the increment before, at load factor 0
-  kRegular,       // none of the kinds below, and no start
+  kRegular,       // none of the other kinds
   kSmoothLimit,   // the load factor turns on a smooth arc
   kCornerLimit,   // the load factor turns where a contact changes its state, or a crossing path is taken
   kContactEvent,  // a contact changes its state, or another branch is chosen, and the load factor does not turn
@@ -226,7 +226,7 @@ struct Fields<Increment> {
 CheckedState StateOf(const Increment& increment);
 CheckedState StateOf(const InnerState& inner);
 
-// "start", "regular", "smooth_limit", "corner_limit", "contact_event", "bifurcation", "sample".
+// "start", "regular", "smooth_limit", "corner_limit", "contact_event", "bifurcation", "sample", "onset", "jump".
 std::string_view ToString(IncrementKind kind);
 
 }  // namespace contact_path

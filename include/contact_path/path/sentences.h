@@ -119,7 +119,7 @@ inline constexpr Sentence kCurveHidesStiffness =
     "contact <name> is pressed onto a curve of the radius <value>: reaction over radius is <other> of the "
     "characteristic stiffness, which is lost in rounding beside it";
 inline constexpr Sentence kHalfRound =
-    "by the total law of friction a node cannot slide beyond half a round of a closed obstacle";
+    "with holonomic friction a node cannot slide beyond half a round of a closed obstacle";
 inline constexpr Sentence kOverrun =
     "contact <name>: another part of the surface comes over the node while it touches, and contact with two parts of "
     "a surface at a time is not covered";

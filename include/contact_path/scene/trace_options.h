@@ -37,7 +37,7 @@ struct Words<Accuracy> {
 // From where on a contact that slides is said to have moved.
 enum class FrictionLaw {
   kIncremental,  // Coulomb's law: the motion since the last increment
-  kTotal,        // the motion since the start of the program
+  kTotal,        // holonomic friction (deformation theory): the motion since the start of the program
 };
 
 template <>
@@ -47,7 +47,7 @@ struct Words<FrictionLaw> {
                                                                       {"total", FrictionLaw::kTotal}};
 };
 
-// What a path does where the device that loads the structure can go no further on a stable path.
+// What a path does where the machine that loads the structure can go no further on a stable path.
 enum class AtLimit {
   kFollow,  // goes on over the limit point, as an arc-length method does
   kStop,    // ends

@@ -11,9 +11,11 @@ namespace contact_path {
 
 enum class Verdict {
   kNotAsked,
-  kStable,    // no disturbance grows by divergence
-  kUnstable,  // some disturbance grows
-  kNotProved,
+  // No disturbance grows by divergence, whatever the masses and dampings of the contact nodes are, if the others follow
+  // at once.
+  kStable,
+  kUnstable,   // some disturbance grows, whatever all masses and dampings are
+  kNotProved,  // neither was shown
 };
 
 template <>

@@ -13,7 +13,7 @@ from matplotlib.patches import Patch
 from matplotlib.path import Path as Outline
 from matplotlib.patheffects import withStroke
 
-from contact_path.increments import LIMITS, Increments
+from contact_path.increments import EVENTS, LIMITS, Increments
 from contact_path.marks import MARKS, STATES
 from contact_path.plot.panels import free_direction, text_box
 from contact_path.structure.shapes import (BARS, CONSTANT_LOAD, FEW_NODES, FULL_TURN, HATCH_DEPTH, INITIAL, LOAD, LONGEST_ARROW, MANY_MARKS,
@@ -22,7 +22,7 @@ from contact_path.structure.shapes import (BARS, CONSTANT_LOAD, FEW_NODES, FULL_
 
 MOST = 9  # shapes that are chosen where nothing is said
 MOST_WANTED = 24  # shapes in a figure
-KINDS_AT = {'events': ('corner_limit', 'contact_event'), 'limits': LIMITS, 'all': tuple(MARKS)}
+KINDS_AT = {'events': EVENTS, 'limits': LIMITS, 'all': tuple(MARKS)}
 
 ARROW_WIDTH = 0.022  # of the shaft, in inches
 FEW_CONTACTS = 6  # as few show the parts of their reactions
