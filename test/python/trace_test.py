@@ -53,11 +53,13 @@ class TraceTest(ProgramTest):
             scene = cp.Scene.read(file)
             self.same(cp.trace(scene, max_increments=30), path)
             self.assertEqual(path.scene.request['options']['max_increments'], 30)
+            self.assertFalse(path.success)
             self.assertNotEqual(scene.request.get('options', {}).get('max_increments'), 30)
             self.assertEqual((path.title, path.scene.name), (scene.name, scene.name))
 
     def test_a_truss_that_snaps_jumps(self):
-        path = cp.trace(scene_file('von_mises'), at_limit='jump')
+        self.assertNotIn('landing_robust', cp.trace(scene_file('von_mises'), at_limit='jump').jumps[0])
+        path = cp.trace(scene_file('von_mises'), at_limit='jump', landing_checks=True)
         (jump,) = path.jumps
         self.assertEqual((jump['kind'], jump['load_factor_before'], jump['landing_robust']), ('jump', jump['load_factor'], True))
         self.assertAlmostEqual(jump['load_factor'], 0.1874032752, 9)
