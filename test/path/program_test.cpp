@@ -265,10 +265,11 @@ TEST(Program, ByDefaultEachStageHasAThousandIncrements) {
   for (const Increment& increment : whole.increments) ++of_stage[static_cast<std::size_t>(increment.stage) - 1];
   EXPECT_LE(*std::max_element(of_stage.begin(), of_stage.end()), 1001);
   EXPECT_GT(whole.increments.size(), 1001U);
-  request.options.step = 5e-4;
+  request.options.step = 1e-3;
   const TracedPath cut = TraceIncrements(request);
   EXPECT_EQ(cut.result.reason, EndReason::kMaxIncrements);
-  EXPECT_EQ(cut.increments.back().index, LastOfStage(cut, cut.increments.back().stage - 1).index + 1001);
+  EXPECT_EQ(cut.increments.back().stage, 2);
+  EXPECT_EQ(cut.increments.back().index, LastOfStage(cut, 1).index + 1001);
   EXPECT_EQ(EndContradicted(request, cut.increments, "max_increments"), "");
   request.options.max_increments = 1200;
   EXPECT_EQ(TraceIncrements(request).increments.size(), 1201U);

@@ -53,9 +53,14 @@ class TraceTest(ProgramTest):
             scene = cp.Scene.read(file)
             self.same(cp.trace(scene, max_increments=30), path)
             self.assertEqual(path.scene.request['options']['max_increments'], 30)
-            self.assertFalse(path.success)
             self.assertNotEqual(scene.request.get('options', {}).get('max_increments'), 30)
             self.assertEqual((path.title, path.scene.name), (scene.name, scene.name))
+
+    def test_success_is_what_was_asked_for(self):
+        file = scene_file('rough_truss')
+        self.assertTrue(cp.trace(file).success)
+        self.assertFalse(cp.trace(file, max_increments=3).success)
+        self.assertTrue(cp.trace(file, max_increments=3, stop=[]).success)
 
     def test_a_truss_that_snaps_jumps(self):
         self.assertNotIn('landing_robust', cp.trace(scene_file('von_mises'), at_limit='jump').jumps[0])
