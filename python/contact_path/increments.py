@@ -12,10 +12,9 @@ from contact_path.scene import Scene
 KINDS = ('start', 'regular', 'smooth_limit', 'corner_limit', 'contact_event', 'bifurcation', 'sample', 'onset', 'jump')
 #: States of contacts, in the order of the constants of the message ContactState.
 STATES = ('open', 'stick', 'slip+', 'slip-', 'closed')
-#: Why a trace ended; docs/end_reasons.md explains them. The first four are complete answers.
+#: Why a trace ended; docs/end_reasons.md explains them.
 END_REASONS = ('stop_criterion', 'max_increments', 'closed_path', 'at_limit', 'path_end', 'no_landing', 'step_too_small',
                'element_inverted', 'cancelled', 'no_such_branch', 'time_limit', 'memory_limit', 'not_determined', 'numerical_failure')
-COMPLETE = END_REASONS[:4]
 #: Verdicts in the columns `stability` and `stability_controlled`; '' where none was asked for.
 VERDICTS = ('stable', 'unstable', 'not_proved')
 
@@ -54,6 +53,8 @@ class Increments:
     #: Index of an increment -> the direction (nodes, 2) of unit norm in which a disturbance grows there under dead loads, where it is
     #: known; empty where the path was read from a CSV file.
     unstable: Mapping[int, np.ndarray] = dataclasses.field(default_factory=dict)
+    #: Whether the path came to what the trace was asked for; False also where that is not known, as of a CSV file.
+    success: bool = False
 
     def __post_init__(self) -> None:
         for column in self.table.values():
@@ -103,9 +104,12 @@ class Increments:
     @property
     def jumps(self) -> List[Dict[str, Any]]:
         """Where jumps land: `index`, `load_factor`, `stage` with a load program; `load_factor_before`, of the increment before, from
-        which the structure moves off; `energy_released` [force length], and `landing_robust`, whether other motions land there, too."""
+        which the structure moves off; `energy_released` [force length], and with landing_checks `landing_robust`, whether other
+        motions land there, too."""
+        robust = self.table.get('landing_robust')
         return [{**self._point(number), 'load_factor_before': self['load_factor'][number - 1].item(),
-                 'energy_released': self['energy_released'][number].item(), 'landing_robust': bool(self['landing_robust'][number])}
+                 'energy_released': self['energy_released'][number].item(),
+                 **({} if robust is None else {'landing_robust': bool(robust[number])})}
                 for number in np.flatnonzero(self['kind'] == 'jump')]
 
     @property
@@ -143,8 +147,3 @@ class Increments:
     def full(self) -> np.ndarray:
         """Numbers of the rows that carry positions and contacts."""
         return np.flatnonzero(~np.isnan(self['x_' + self.nodes[0]]))
-
-    @property
-    def success(self) -> bool:
-        """Whether the path goes as far as it was asked to; False also where that is not known, as of a CSV file."""
-        return self.end_reason in COMPLETE

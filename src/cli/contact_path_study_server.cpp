@@ -99,7 +99,7 @@ struct Answer {
 };
 
 std::string StatusOf(const TraceResult& result) {
-  if (IsComplete(result.reason)) return "complete";
+  if (result.reached) return "complete";
   const bool is_invalid = result.reason == EndReason::kNoSuchBranch;
   const bool is_failure = result.reason == EndReason::kMemoryLimit || result.reason == EndReason::kCancelled;
   return std::string(is_invalid   ? "invalid"

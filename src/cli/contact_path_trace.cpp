@@ -1,8 +1,8 @@
 // contact_path_trace SCENE.yaml: traces the equilibrium path of a scene file and writes its increments as CSV.
 // contact_path_trace --resume BAG: goes on with a trace that was cut short.
 //
-// Exit status: 0 ended by a stop criterion, the number of increments or a closed path; 1 ended earlier, all accepted
-// increments written; 2 bad usage or invalid scene.
+// Exit status: 0 what was asked for was reached (path/end_reason.h); 1 it was not, all accepted increments written; 2
+// bad usage or invalid scene.
 #include <CLI/CLI.hpp>
 #include <cerrno>
 #include <csignal>
@@ -40,12 +40,12 @@ namespace {
 
 constexpr char kProgram[] = "contact_path_trace";
 
-enum ExitStatus { kComplete = 0, kEndedEarly = 1, kBadInput = 2 };
+enum ExitStatus { kReached = 0, kEndedEarly = 1, kBadInput = 2 };
 
 struct Arguments {
   std::string scene_file;               // empty: resume
   std::string resume;                   // bag to go on from; empty: trace the scene file
-  std::optional<std::string> csv_file;  // nothing: standard output
+  std::optional<std::string> csv_file;  // "-": standard output; nothing: standard output, unless there is a bag
   std::optional<std::string> bag_file;  // nothing: no bag
   std::optional<std::string> log_file;  // nothing: no log
   std::optional<std::string> method;
@@ -96,7 +96,8 @@ std::string OptionMeant(const CLI::App& app) {
 
 void DeclareOptions(CLI::App& app, Arguments& arguments) {
   CLI::Option* const scene = app.add_option("SCENE", arguments.scene_file, "Scene file (YAML)");
-  app.add_option("--csv", arguments.csv_file, "Write the increments to this file; -, or none: standard output")
+  app.add_option("--csv", arguments.csv_file,
+                 "Write the increments to this file; -, or none and no --bag: standard output")
       ->type_name("FILE");
 #ifdef CONTACT_PATH_WITH_ROS
   app.add_option("--bag", arguments.bag_file, "Record the trace to this bag too")->type_name("FILE");
@@ -125,11 +126,11 @@ void DeclareOptions(CLI::App& app, Arguments& arguments) {
       ->type_name("NUMBER")
       ->needs(scene);
   app.add_option("--max-increments", arguments.max_increments,
-                 "Largest number, instead of that of the scene or bag; 0 = 1000")
+                 "Largest number, instead of that of the scene or bag; 0 = 1000 for each stage")
       ->type_name("NUMBER");
   app.add_flag("--events", arguments.events,
                "Print each event and the branches from there on standard error: what branch_choices chooses from");
-  app.add_flag("--quiet", arguments.quiet, "Say nothing on standard error unless the trace ends early");
+  app.add_flag("--quiet", arguments.quiet, "Say nothing on standard error unless what was asked for is not reached");
   app.set_version_flag("--version", std::string(kProgram) + ' ' + CONTACT_PATH_VERSION, "Print the version and exit");
 }
 
@@ -225,16 +226,16 @@ Sink StartCsv(const TraceRequest& request, std::ostream& out, const std::string&
   };
 }
 
-// Traces with the increments going to `csv`, and to `log_out` if it is not null. Throws WriteError.
-ExitStatus RunTrace(const Task& task, const Arguments& arguments, std::ostream& csv, std::ostream* log_out) {
+// Traces with the increments going to `csv` and `log_out`, where these are not null. Throws WriteError.
+ExitStatus RunTrace(const Task& task, const Arguments& arguments, std::ostream* csv, std::ostream* log_out) {
   const TraceRequest& request = task.request;
   const ExpandedRequest expanded(request);
-  const bool csv_on_terminal = !arguments.csv_file && isatty(STDOUT_FILENO) == 1;
+  const bool csv_on_terminal = csv == &std::cout && isatty(STDOUT_FILENO) == 1;
   Progress progress(request, !arguments.quiet && !csv_on_terminal && isatty(STDERR_FILENO) == 1, std::cerr);
-  std::vector<Sink> sinks = {
-      StartCsv(request, csv, arguments.csv_file.value_or("standard output")),
-      [&progress](const Increment& increment) { progress.Add(increment); },
-  };
+  std::vector<Sink> sinks;
+  if (csv != nullptr)
+    sinks.push_back(StartCsv(request, *csv, csv == &std::cout ? "standard output" : *arguments.csv_file));
+  sinks.emplace_back([&progress](const Increment& increment) { progress.Add(increment); });
   if (arguments.events) {
     sinks.emplace_back([&, load_scale = ProgramScales(expanded.Get()).load_factor](const Increment& increment) {
       progress.Wipe();
@@ -277,13 +278,12 @@ ExitStatus RunTrace(const Task& task, const Arguments& arguments, std::ostream& 
     log->End(result, progress.Summary(result));
     RequireWritten(*log_out, *arguments.log_file);
   }
-  const bool complete = IsComplete(result.reason);
-  if (!complete || !arguments.quiet) {
+  if (!result.reached || !arguments.quiet) {
     progress.Wipe();
     PrintError(progress.Summary(result));
   }
   if (result.reason == EndReason::kNoSuchBranch) return kBadInput;
-  return complete ? kComplete : kEndedEarly;
+  return result.reached ? kReached : kEndedEarly;
 }
 
 ExitStatus Run(const Arguments& arguments) {
@@ -292,10 +292,14 @@ ExitStatus Run(const Arguments& arguments) {
     if (arguments.bag_file && IsInput("--bag", *arguments.bag_file, arguments)) return kBadInput;
     if (arguments.csv_file && IsInput("--csv", *arguments.csv_file, arguments)) return kBadInput;
     if (arguments.log_file && IsInput("--log", *arguments.log_file, arguments)) return kBadInput;
-    std::optional<std::ofstream> csv, log;
-    if (arguments.csv_file && !(csv = Open("--csv", *arguments.csv_file))) return kBadInput;
+    std::optional<std::ofstream> file, log;
+    std::ostream* csv = arguments.csv_file || !arguments.bag_file ? &std::cout : nullptr;
+    if (arguments.csv_file && *arguments.csv_file != "-") {
+      if (!(file = Open("--csv", *arguments.csv_file))) return kBadInput;
+      csv = &*file;
+    }
     if (arguments.log_file && !(log = Open("--log", *arguments.log_file))) return kBadInput;
-    return RunTrace(task, arguments, csv ? *csv : std::cout, log ? &*log : nullptr);
+    return RunTrace(task, arguments, csv, log ? &*log : nullptr);
   } catch (const InvalidRequest& invalid) {
     PrintViolations(invalid.violations());
     return kBadInput;
@@ -322,10 +326,10 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
     std::cout << app.help() << std::flush;
-    return std::cout ? contact_path::kComplete : contact_path::kEndedEarly;
+    return std::cout ? contact_path::kReached : contact_path::kEndedEarly;
   } catch (const CLI::CallForVersion& version) {
     std::cout << version.what() << std::endl;
-    return std::cout ? contact_path::kComplete : contact_path::kEndedEarly;
+    return std::cout ? contact_path::kReached : contact_path::kEndedEarly;
   } catch (const CLI::ParseError& error) {
     contact_path::PrintError(error.what() + contact_path::OptionMeant(app));
     return contact_path::kBadInput;
@@ -334,6 +338,5 @@ int main(int argc, char** argv) {
     contact_path::PrintError("SCENE is required");
     return contact_path::kBadInput;
   }
-  if (arguments.csv_file == "-") arguments.csv_file.reset();
   return contact_path::Run(arguments);
 }

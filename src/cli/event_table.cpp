@@ -33,8 +33,14 @@ void PrintBranches(const TraceRequest& request, const Increment& increment, doub
     text << (taken ? "* branch " : "  branch ") << i + 1 << ": dissipation rate "
          << Shown(branch.dissipation_rate, tolerances::kRate) << ", load rate "
          << Shown(branch.load_rate, tolerances::kRate) << ", turn " << Shown(branch.turn, tolerances::kSameDirection);
-    for (std::size_t k = 0; k < branch.states.size(); ++k)
-      text << (k == 0 ? "; " : ", ") << request.scene.contacts[k].Name() << ' ' << ToString(branch.states[k]);
+    std::size_t changes = 0;
+    for (std::size_t k = 0; k < branch.states.size(); ++k) {
+      const ContactState before = increment.contacts[k].state;
+      if (branch.states[k] == before) continue;
+      text << (changes++ == 0 ? "; " : ", ") << request.scene.contacts[k].Name() << ' ' << ToString(before) << " -> "
+           << ToString(branch.states[k]);
+    }
+    if (const std::size_t same = branch.states.size() - changes; same > 0) text << "; " << same << " unchanged";
     text << '\n';
   }
   out << text.str();

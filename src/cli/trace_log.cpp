@@ -22,7 +22,8 @@ std::string HashOf(const TraceRequest& request) {
   return text.str();
 }
 
-TraceLog::TraceLog(const TraceRequest& request, std::ostream* out) : out_(*out) {
+TraceLog::TraceLog(const TraceRequest& request, std::ostream* out)
+    : out_(*out), landing_checks_(request.options.landing_checks) {
   const Scaling scaling = ProgramScales(request);
   Json header;
   header["type"] = "header";
@@ -62,6 +63,7 @@ void TraceLog::Add(const Increment& increment) {
   SetFields(increment.solve, &line);
   SetFields(increment.stability, &line);
   if (increment.kind == IncrementKind::kJump) SetFields(increment.jump, &line);
+  if (!landing_checks_) line.erase("landing_robust");
   line["solve_time"] = increment.solve.time;
   line["positions"] = increment.positions;
   line["rotations"] = increment.rotations;
@@ -78,7 +80,8 @@ void TraceLog::End(const TraceResult& result, const std::string& summary) {
              {"reason", JsonOf(result.reason)},
              {"message", result.message},
              {"summary", summary},
-             {"increments", result.increments}},
+             {"increments", result.increments},
+             {"reached", result.reached}},
             &out_);
 }
 

@@ -27,6 +27,7 @@ class TraceLog {
 
  private:
   std::ostream& out_;
+  bool landing_checks_;
 };
 
 // 64 bits of FNV-1a over the request in the form in which it is written, as 16 hexadecimal digits.

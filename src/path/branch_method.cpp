@@ -334,7 +334,7 @@ Advance BranchMethod::Next(const PathPoint& from) {
     End end = Failure(sentences::kResiduals);
     Append(CurveTooSharp(model_, increment.point), &end.causes);
     Append(BeyondHalfRound(model_, increment.residuals), &end.causes);
-    Append(BehindSurface(model_, increment.point), &end.causes);
+    Append(BehindBoundary(model_, increment.point), &end.causes);
     return Ended(end);
   }
   departure_.NoteReactions(increment.point);

@@ -31,6 +31,7 @@ CsvWriter::CsvWriter(const ExpandedRequest& expanded)
       pressures_(expanded.Get().options.Records("pressures")),
       stability_(expanded.Get().options.stability == DefaultTrue::kTrue),
       jumps_(expanded.Get().options.at_limit == AtLimit::kJump),
+      checks_(jumps_ && expanded.Get().options.landing_checks),
       program_(!expanded.Get().program.empty()) {
   const Scene& scene = expanded.Get().scene;
   for (const Node& node : scene.nodes) nodes_.push_back(node.name);
@@ -63,7 +64,7 @@ void CsvWriter::WriteHeader(std::ostream& out) const {
   for (const std::string& name : boundaries_)
     if (!name.empty()) line << ",rx_" << name << ",ry_" << name << ",rm_" << name;
   if (stability_) line << ",stability,stability_controlled,unstable_directions,critical_stiffness";
-  if (jumps_) line << ",energy_released,landing_robust";
+  if (jumps_) line << ",energy_released" << (checks_ ? ",landing_robust" : "");
   for (std::size_t i = 0; sections_ && i < elements_.NumSections(); ++i) {
     const std::string name = elements_.SectionName(i);
     line << ",N_" << name;
@@ -109,7 +110,8 @@ void CsvWriter::WriteRow(const Increment& increment, std::ostream& out) const {
     line << ',' << ToString(of.stability) << ',' << ToString(of.stability_controlled) << ',' << of.unstable_directions
          << ',' << of.critical_stiffness;
   }
-  if (jumps_) line << ',' << increment.jump.energy_released << ',' << (increment.jump.landing_robust ? 1 : 0);
+  if (jumps_) line << ',' << increment.jump.energy_released;
+  if (checks_) line << ',' << (increment.jump.landing_robust ? 1 : 0);
   for (std::size_t i = 0; sections_ && i < increment.sections.size(); ++i) {
     const SectionForces& of = increment.sections[i];
     line << ',' << of.N;

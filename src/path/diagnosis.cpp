@@ -6,20 +6,27 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <memory>
+#include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "contact_path/path/branch_options.h"
 #include "contact_path/path/sentences.h"
 #include "contact_path/path/stop.h"
 #include "contact_path/scene/elasticity.h"
+#include "contact_path/scene/number_text.h"
+#include "contact_path/scene/program.h"
+#include "contact_path/scene/surface.h"
 #include "contact_path/structure/scene_elements.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
 namespace {
 
-constexpr std::size_t kCriteriaListed = 3;      // in a message
+constexpr std::size_t kListed = 3;  // in a message
+constexpr double kDeep = 1e-3;      // of the characteristic length: what is not as deep in an obstacle is not told
 constexpr double kNearlyIncompressible = 0.49;  // Poisson's ratio beyond which elements of few nodes lock
 
 std::string SolidName(const Scene& scene, std::size_t i) {
@@ -98,6 +105,12 @@ Causes InvertedElement(const Scene& scene, const SceneIndex& index, const std::v
     }
   }
   return found;
+}
+
+// Behind a curve; 0 on its admissible side, and past an end of it.
+double DepthIn(const Surface& surface, const Eigen::Vector2d& x) {
+  const NearestFoot nearest = surface.Nearest(x);
+  return nearest.is_end || nearest.is_away ? 0.0 : std::max(0.0, -surface.Project(x, nearest.patch).gap);
 }
 
 std::string Joined(const std::vector<std::string>& parts) {
@@ -229,15 +242,43 @@ Causes StandsAtEnd(const Model& model, const PathPoint& point) {
            model.scene.contacts[at_end.front()].Name(), static_cast<double>(at_end.size() - 1)}};
 }
 
-Causes BehindSurface(const Model& model, const PathPoint& point) {
+Causes BehindBoundary(const Model& model, const PathPoint& point) {
   for (std::size_t i = 0; i < model.contacts.size(); ++i) {
     const ContactPair& pair = *model.contacts[i];
-    if (!pair.Deformable() || point.states[i] != ContactState::kOpen) continue;
+    const bool ends = pair.Deformable() || (pair.HasPatches() && pair.Round() == 0.0);
+    if (!ends || point.states[i] != ContactState::kOpen) continue;
     const double gap = pair.Gap(point.u, point.s, kNearestPatch);
     if (gap < -tolerances::kTouching)
-      return {{sentences::kBehindSurface, model.scene.contacts[i].Name(), -gap * model.scaling.length}};
+      return {{pair.Deformable() ? sentences::kBehindSurface : sentences::kBehindObstacle,
+               model.scene.contacts[i].Name(), -gap * model.scaling.length}};
   }
   return {};
+}
+
+Causes NodesInObstacles(const Scene& start, const Model& model, const PathPoint& point) {
+  if (start.obstacles.empty()) return {};
+  std::set<std::pair<std::string_view, std::string_view>> candidates;
+  for (const ContactCandidate& contact : model.scene.contacts) candidates.emplace(contact.node, contact.obstacle);
+  const std::vector<double> positions = model.InSceneUnits(point).positions;
+  const std::vector<Obstacle> now = ObstaclesAt(model.scene, model.index, point.s * model.scaling.load_factor);
+  const double least = kDeep * model.scaling.length;
+  std::vector<std::pair<double, std::string>> inside;
+  for (std::size_t k = 0; k < now.size(); ++k) {
+    const std::unique_ptr<const Surface> before = MakeSurface(start.obstacles[k]), after = MakeSurface(now[k]);
+    for (std::size_t i = 0; i < start.nodes.size(); ++i) {
+      const Node& node = start.nodes[i];
+      const double depth = DepthIn(*after, {positions[2 * i], positions[2 * i + 1]});
+      if (depth > least && DepthIn(*before, {node.x, node.y}) <= least &&
+          candidates.count({node.name, now[k].name}) == 0)
+        inside.emplace_back(-depth, node.name + " into " + now[k].name + " by " + RoundedText(depth));
+    }
+  }
+  if (inside.empty()) return {};
+  std::sort(inside.begin(), inside.end());
+  std::vector<std::string> deepest;
+  for (std::size_t i = 0; i < std::min(inside.size(), kListed); ++i) deepest.push_back(inside[i].second);
+  if (inside.size() > kListed) deepest.push_back("and " + std::to_string(inside.size() - kListed) + " more");
+  return {{sentences::kInObstacles, Joined(deepest)}};
 }
 
 std::optional<End> PullingContact(const Model& model, const PathPoint& point, double largest_reaction) {
@@ -273,8 +314,8 @@ Causes MissedEnd(const TraceRequest& request, int stage) {
   std::vector<std::string> criteria;
   for (const StopCriterion& criterion : request.options.stop) criteria.push_back(ToText(criterion));
   if (criteria.empty()) return {{sentences::kNoCriterion}};
-  if (criteria.size() > kCriteriaListed) {
-    criteria.resize(kCriteriaListed);
+  if (criteria.size() > kListed) {
+    criteria.resize(kListed);
     criteria.emplace_back("...");
   }
   return {{sentences::kMissedCriteria, Joined(criteria)}};

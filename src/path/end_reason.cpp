@@ -30,9 +30,11 @@ bool IsStuck(EndReason reason) {
   return reason == EndReason::kPathEnd || reason == EndReason::kStepTooSmall || reason == EndReason::kNotDetermined;
 }
 
-bool IsComplete(EndReason reason) {
-  return reason == EndReason::kStopCriterion || reason == EndReason::kMaxIncrements ||
-         reason == EndReason::kClosedPath || reason == EndReason::kAtLimit;
+bool IsReached(EndReason reason, const TraceRequest& request) {
+  const TraceOptions& options = request.options;
+  const bool asks = !options.stop.empty() || !request.program.empty() || options.at_limit == AtLimit::kStop;
+  return reason == EndReason::kStopCriterion || reason == EndReason::kAtLimit ||
+         (reason == EndReason::kMaxIncrements && !asks);
 }
 
 }  // namespace contact_path

@@ -61,6 +61,7 @@ void FillLists(const Model& model, const PathPoint& point, const LongLists& list
 void Recorder::Start(const Model& model, int stage, const PathPoint& point, const Residuals& residuals,
                      const StartRecord& found, double time) {
   increment_.stage = stage;
+  first_of_stage_ = increments_;
   AcceptedPoint accepted;
   accepted.kind = IncrementKind::kStart;
   accepted.residuals = residuals;
@@ -74,6 +75,7 @@ void Recorder::Start(const Model& model, int stage, const PathPoint& point, cons
 
 void Recorder::Repeat(const Increment& increment) {
   const double load_before = increment.stage == increment_.stage ? increment_.load_factor : increment.load_factor;
+  if (increment.stage != increment_.stage) first_of_stage_ = increment.index;
   increment_ = increment;
   Give(load_before);
 }

@@ -78,9 +78,10 @@ class Tracer {
     if (model_ != nullptr) NameInvertedElement(*model_, point_, &end_);
     const Causes missed = EndedBeforeItsEnd() ? MissedEnd(request_, recorder_.increment().stage) : Causes();
     const Causes choices = MissedChoices(request_, recorder_.increments(), events_);
-    for (const Causes& remarks : {missed, WhatMovesFreely(), recorder_.Remarks(), remarks_, StiffParts(), choices})
+    for (const Causes& remarks :
+         {missed, WhatMovesFreely(), recorder_.Remarks(), remarks_, StiffParts(), choices, InsideObstacles()})
       Append(remarks, &end_.causes);
-    return {end_.reason, EndText(end_.causes), recorder_.increments()};
+    return {end_.reason, EndText(end_.causes), recorder_.increments(), IsReached(end_.reason, request_)};
   }
 
  private:
@@ -107,7 +108,7 @@ class Tracer {
       auto next = std::make_unique<const Model>(StageScene(request_, index_, stage),
                                                 StageConfiguration(request_, index_, stage),
                                                 StageScales(request_, index_, stage, scales_));
-      if (stage > first && recorder_.increments() > request_.options.MaxIncrements()) {
+      if (stage > first && request_.options.max_increments > 0 && HasAllIncrements()) {
         EndBy(EndReason::kMaxIncrements, {sentences::kMaxIncrements});
         return;
       }
@@ -154,6 +155,11 @@ class Tracer {
                                                                   : FreeMotionText(*model_, point_, force);
     if (text.empty()) return {};
     return {{wanders ? sentences::kFreeWithoutLoad : sentences::kFreeNodes, text}};
+  }
+
+  Causes InsideObstacles() const {
+    if (model_ == nullptr || end_.reason == EndReason::kMemoryLimit) return {};
+    return NodesInObstacles(request_.scene, *model_, point_);
   }
 
   // Parts that are too stiff for the path to be trusted, or to be found.
@@ -293,6 +299,10 @@ class Tracer {
     return Cause{sentences::kOpenAndDrifts};
   }
 
+  bool HasAllIncrements() const {
+    return recorder_.increment().index >= request_.options.LastIncrement(recorder_.first_of_stage());
+  }
+
   bool IsAt(std::optional<double> target) const { return target && IsAtTarget(point_.s, *target); }
 
   // At its target. False: it was the last one.
@@ -303,20 +313,18 @@ class Tracer {
 
   // Until the target, or something ends the trace: then false. *method: the one that goes on behind a jump.
   bool Follow(const Model& model, std::optional<double> target, std::unique_ptr<PathMethod>* method) {
-    const int most_increments = request_.options.MaxIncrements();
     for (;;) {
       if (control_.cancelled && control_.cancelled()) return EndBy(EndReason::kCancelled, {sentences::kCancelled});
-      if (recorder_.increments() > most_increments)
-        return EndBy(EndReason::kMaxIncrements, {sentences::kMaxIncrements});
+      if (HasAllIncrements()) return EndBy(EndReason::kMaxIncrements, {sentences::kMaxIncrements});
       const Clock::time_point start = Clock::now();
       Advance advance = (*method)->Next(point_);
       const auto increments = static_cast<double>(std::max<std::size_t>(1, advance.increments.size()));
       const double time = Seconds(Clock::now() - start) / increments;
       for (AcceptedPoint& increment : advance.increments) {
         if (const std::optional<bool> goes_on = Take(model, target, &increment, time)) return *goes_on;
-        if (recorder_.increments() > most_increments) break;
+        if (HasAllIncrements()) break;
       }
-      if (recorder_.increments() > most_increments) continue;
+      if (HasAllIncrements()) continue;
       const bool jumps = request_.options.at_limit == AtLimit::kJump;
       if (jumps && advance.end && advance.end->reason == EndReason::kPathEnd) advance.moves_off = arrival_;
       if (jumps && advance.moves_off) {
@@ -376,7 +384,8 @@ class Tracer {
     const Clock::time_point start = Clock::now();
     const Device device =
         Device::Of(model.structure, request_.options.machine_stiffness / model.UnitOfMachineStiffness());
-    JumpResult jump = Jump(model.structure, model.contacts, point_, push, device, control_.cancelled);
+    JumpResult jump = Jump(model.structure, model.contacts, point_, push, device, request_.options.landing_checks,
+                           control_.cancelled);
     if (jump.cancelled) return {EndBy(EndReason::kCancelled, {sentences::kCancelled})};
     if (jump.came_back && !turns) return {std::nullopt, false};
     if (jump.came_back) {

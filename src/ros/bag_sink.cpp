@@ -42,7 +42,7 @@ void BagSink::Add(const Increment& increment) {
 
 void BagSink::End(const TraceResult& result) {
   contact_path_msgs::TraceResult message;
-  message.status = StatusOf(result.reason);
+  message.status = StatusOf(result);
   message.increments = implementation_->increments;
   message.end_reason = ToConstant(result.reason);
   message.end_reason_name = EndReasonName(message.end_reason);

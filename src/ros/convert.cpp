@@ -314,9 +314,9 @@ std::string EndMessage(const std::string& name, const std::string& why, const Pa
   return path.ToText(name, why) + "; bag " + bag;
 }
 
-std::uint8_t StatusOf(EndReason reason) {
-  if (reason == EndReason::kNoSuchBranch) return Response::INVALID_REQUEST;
-  return IsComplete(reason) ? Response::OK : Response::ENDED_EARLY;
+std::uint8_t StatusOf(const TraceResult& result) {
+  if (result.reason == EndReason::kNoSuchBranch) return Response::INVALID_REQUEST;
+  return result.reached ? Response::OK : Response::ENDED_EARLY;
 }
 
 msgs::TraceResult ToResult(const msgs::TracePathResponse& response) { return SameResult<msgs::TraceResult>(response); }

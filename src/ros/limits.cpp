@@ -121,10 +121,10 @@ std::string ExceededByScene(const contact_path_msgs::Scene& scene, const TraceLi
   return exceeded.empty() ? ExceededByExpansion(scene, limits) : exceeded;
 }
 
-std::size_t IncrementsWanted(const contact_path_msgs::TraceOptions& options) {
+std::size_t IncrementsWanted(const contact_path_msgs::TraceOptions& options, std::size_t stages) {
   TraceOptions core_options;
-  core_options.max_increments = options.max_increments;
-  return options.max_increments < 0 ? 0 : static_cast<std::size_t>(core_options.MaxIncrements());
+  core_options.max_increments = std::max(options.max_increments, 0);
+  return options.max_increments < 0 ? 0 : core_options.MaxIncrements(stages);
 }
 
 }  // namespace
@@ -165,7 +165,8 @@ std::string ExceededLimit(const contact_path_msgs::Scene& scene, const contact_p
   check("obstacles of all stages of program", program.size() * scene.obstacles.size(), elements);
   check("options.stop", options.stop.size(), contacts);
   check("options.branch_choices", options.branch_choices.size(), contacts);
-  check("options.max_increments", IncrementsWanted(options), {names::kMaxIncrements, limits.max_increments});
+  check("options.max_increments", IncrementsWanted(options, program.size()),
+        {names::kMaxIncrements, limits.max_increments});
   return exceeded;
 }
 

@@ -295,7 +295,7 @@ void TraceService::RunTrace(const Job& job, const TraceObserver& observer, BagRe
   try {
     const TraceResult result =
         job.so_far ? ResumeTrace(job.request, *job.so_far, control) : Trace(job.request, control);
-    Tell(StatusOf(result.reason), result.message, response);
+    Tell(StatusOf(result), result.message, response);
     response->end_reason = ToConstant(result.reason);
     if (result.reason == EndReason::kMemoryLimit) out_of_memory();
     if (result.reason == EndReason::kCancelled) TellStop(result.message, response);

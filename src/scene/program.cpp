@@ -192,6 +192,13 @@ Scene StageScene(const TraceRequest& request, const SceneIndex& index, std::size
   return scene;
 }
 
+std::vector<Obstacle> ObstaclesAt(const Scene& scene, const SceneIndex& index, double load_factor) {
+  std::vector<Obstacle> obstacles = scene.obstacles;
+  for (const ObstacleMotion& motion : scene.obstacle_motions)
+    Move(load_factor, motion, &obstacles[index.Obstacle(motion.obstacle)]);
+  return obstacles;
+}
+
 Configuration StageConfiguration(const TraceRequest& request, const SceneIndex& index, std::size_t stage) {
   Configuration configuration = Configuration::Of(request.scene);
   if (request.options.friction_law == FrictionLaw::kTotal)

@@ -193,7 +193,7 @@ class Jumper {
     for (const PrescribedDof& prescribed : structure.PrescribedDofs()) moved_[prescribed.dof] = 0.0;
   }
 
-  JumpResult Run(const Eigen::VectorXd& push) {
+  JumpResult Run(const Eigen::VectorXd& push, bool checked) {
     JumpResult result;
     const double size = Largest(push);
     if (!(size > 0.0)) return result;
@@ -208,7 +208,7 @@ class Jumper {
     result.came_back = course.came_back;
     result.followed = course.followed;
     result.landing = result.landings[0] = course.landing;
-    if (course.landing) Compare(course, &result);
+    if (course.landing && checked) Compare(course, &result);
     return result;
   }
 
@@ -436,9 +436,10 @@ class Jumper {
 }  // namespace
 
 JumpResult Jump(const Structure& structure, const ContactPairs& contacts, const PathPoint& from,
-                const Eigen::VectorXd& push, const Device& device, const std::function<bool()>& cancelled) {
+                const Eigen::VectorXd& push, const Device& device, bool checked,
+                const std::function<bool()>& cancelled) {
   const Eigen::VectorXd along = push.size() > 0 ? push : DefaultPush(structure, from.s);
-  return Jumper(structure, contacts, from, device, cancelled).Run(along);
+  return Jumper(structure, contacts, from, device, cancelled).Run(along, checked);
 }
 
 }  // namespace contact_path

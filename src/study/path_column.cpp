@@ -55,6 +55,7 @@ std::string UnknownColumn(const std::string& name) {
 PathColumn::PathColumn(const std::string& name, const TraceRequest& request, const SceneIndex& index) {
   const Scene& scene = request.scene;
   if (name == "stage" && request.program.empty()) Reject("must be of a scene with a program");
+  if (name == "landing_robust" && !request.options.landing_checks) Reject("must be of a trace with landing_checks");
   if (name == kSolveTime) Reject("must be the same whenever it is computed: solve_time is not");
   for (const CsvNumber& column : kCsvNumbers)
     if (name == column.name) number_ = column.value;

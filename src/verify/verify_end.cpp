@@ -66,8 +66,10 @@ std::string EndContradicted(const TraceRequest& request_given, const std::vector
     return may_hold ? "" : says + "none holds in the last increment";
   }
   if (reason == "max_increments") {
-    if (last.index == request.options.MaxIncrements()) return {};
-    return says + "the request wants " + std::to_string(request.options.MaxIncrements()) + " increments";
+    const auto first = std::find_if(increments.begin(), increments.end(),
+                                    [&](const Increment& increment) { return increment.stage == last.stage; });
+    const int wanted = request.options.LastIncrement(first->index);
+    return last.index == wanted ? "" : says + "the request wants " + std::to_string(wanted) + " increments";
   }
   if (reason == "path_end") {
     if (last.positions.empty() || Escapes(request, increments)) return {};

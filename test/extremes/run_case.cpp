@@ -99,9 +99,10 @@ Outcome RunCase(const ExtremeCase& extreme, Method method, Accuracy accuracy, do
 
 double AttainableError(const ExtremeCase& extreme) {
   constexpr Eigen::Index kMostUnknowns = 60;
-  constexpr int kMostRows = 2000, kSamples = 20;
+  constexpr std::size_t kMostRows = 2000;
+  constexpr int kSamples = 20;
   TraceRequest request = extreme.request;
-  request.options.max_increments = std::min(request.options.MaxIncrements(), kMostRows);
+  request.options.max_increments = static_cast<int>(std::min(request.options.MaxIncrements(1), kMostRows));
   const TraceRequest expanded = Expand(request).request;
   const Model model(StageScene(expanded, 0), StageScales(expanded, 0));
   if (model.structure.NumDofs() > kMostUnknowns) return -1.0;

@@ -42,7 +42,8 @@ void CheckTrace(const TraceRequest& request) {
   RequireLine(result.message);
   Require(cancelled || result.reason != EndReason::kCancelled, "only what was cancelled ends as cancelled");
   Require(result.increments == static_cast<int>(increments.size()), "all increments are given and counted");
-  Require(result.increments <= request.options.MaxIncrements() + 1, "no more increments than wanted");
+  const std::size_t stages = std::max<std::size_t>(request.program.size(), 1);
+  Require(increments.size() <= request.options.MaxIncrements(stages) + stages, "no more increments than wanted");
   if (increments.empty()) {
     const bool expected = result.reason != EndReason::kStopCriterion && result.reason != EndReason::kMaxIncrements;
     return Require(expected, "a trace without increments ended early");

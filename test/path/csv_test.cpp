@@ -89,6 +89,9 @@ TEST(CsvHeader, HasVerdictsAndJumpsAsTheOptionsSay) {
     return Cells(out.str());
   };
   request.options.at_limit = AtLimit::kJump;
+  EXPECT_EQ(line(true).size(), columns + 1);
+  EXPECT_EQ(line(false).size(), columns + 1);
+  request.options.landing_checks = true;
   ASSERT_EQ(line(true).size(), columns + 2);
   EXPECT_EQ(line(true)[columns], "energy_released");
   EXPECT_EQ(line(true)[columns + 1], "landing_robust\n");

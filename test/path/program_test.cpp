@@ -9,6 +9,7 @@
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/scaling.h"
 #include "contact_path/scene/validate.h"
+#include "contact_path/verify/verify_end.h"
 #include "contact_path/verify/verify_path.h"
 #include "support/traced_path.h"
 #include "support/transformations.h"
@@ -254,6 +255,24 @@ TEST(Program, NumberOfIncrementsIsKeptAlsoWhereAStageEnds) {
     request.options.max_increments = most;
     EXPECT_LE(TraceIncrements(request).increments.size(), static_cast<std::size_t>(most) + 1);
   }
+}
+
+TEST(Program, ByDefaultEachStageHasAThousandIncrements) {
+  TraceRequest request = ReadExample("stick_slip_cycle");
+  request.options.step = 2e-3;
+  const TracedPath whole = TraceProgram(request);
+  std::vector<int> of_stage(request.program.size(), 0);
+  for (const Increment& increment : whole.increments) ++of_stage[static_cast<std::size_t>(increment.stage) - 1];
+  EXPECT_LE(*std::max_element(of_stage.begin(), of_stage.end()), 1001);
+  EXPECT_GT(whole.increments.size(), 1001U);
+  request.options.step = 1e-3;
+  const TracedPath cut = TraceIncrements(request);
+  EXPECT_EQ(cut.result.reason, EndReason::kMaxIncrements);
+  EXPECT_EQ(cut.increments.back().stage, 2);
+  EXPECT_EQ(cut.increments.back().index, LastOfStage(cut, 1).index + 1001);
+  EXPECT_EQ(EndContradicted(request, cut.increments, "max_increments"), "");
+  request.options.max_increments = 1200;
+  EXPECT_EQ(TraceIncrements(request).increments.size(), 1201U);
 }
 
 TEST(Program, EventsAndIncrementsAreNumberedThroughAllStages) {

@@ -36,7 +36,7 @@ TracedPath TraceSound(const TraceRequest& request) {
 TracedPath TraceData(const std::string& name, Accuracy accuracy) {
   TraceRequest request = ReadData(name);
   request.options.accuracy = accuracy;
-  request.options.max_increments = 4 * request.options.MaxIncrements();
+  request.options.max_increments = 4 * static_cast<int>(request.options.MaxIncrements(request.program.size()));
   return TraceSound(request);
 }
 

@@ -56,8 +56,15 @@ class TraceTest(ProgramTest):
             self.assertNotEqual(scene.request.get('options', {}).get('max_increments'), 30)
             self.assertEqual((path.title, path.scene.name), (scene.name, scene.name))
 
+    def test_success_is_what_was_asked_for(self):
+        file = scene_file('rough_truss')
+        self.assertTrue(cp.trace(file).success)
+        self.assertFalse(cp.trace(file, max_increments=3).success)
+        self.assertTrue(cp.trace(file, max_increments=3, stop=[]).success)
+
     def test_a_truss_that_snaps_jumps(self):
-        path = cp.trace(scene_file('von_mises'), at_limit='jump')
+        self.assertNotIn('landing_robust', cp.trace(scene_file('von_mises'), at_limit='jump').jumps[0])
+        path = cp.trace(scene_file('von_mises'), at_limit='jump', landing_checks=True)
         (jump,) = path.jumps
         self.assertEqual((jump['kind'], jump['load_factor_before'], jump['landing_robust']), ('jump', jump['load_factor'], True))
         self.assertAlmostEqual(jump['load_factor'], 0.1874032752, 9)

@@ -317,28 +317,29 @@ TEST(ConvertTest, EndReasonsHaveConstantNameAndStatus) {
     EndReason reason;
     std::uint8_t constant;
     std::string name;
-    std::uint8_t status;
+    std::uint8_t early;  // where what was asked for was not reached
   };
   const std::vector<Increment> increments = {
       {EndReason::kNumericalFailure, Response::END_NUMERICAL_FAILURE, "numerical_failure", Response::ENDED_EARLY},
-      {EndReason::kStopCriterion, Response::END_STOP_CRITERION, "stop_criterion", Response::OK},
-      {EndReason::kMaxIncrements, Response::END_MAX_INCREMENTS, "max_increments", Response::OK},
+      {EndReason::kStopCriterion, Response::END_STOP_CRITERION, "stop_criterion", Response::ENDED_EARLY},
+      {EndReason::kMaxIncrements, Response::END_MAX_INCREMENTS, "max_increments", Response::ENDED_EARLY},
       {EndReason::kPathEnd, Response::END_PATH_END, "path_end", Response::ENDED_EARLY},
       {EndReason::kStepTooSmall, Response::END_STEP_TOO_SMALL, "step_too_small", Response::ENDED_EARLY},
       {EndReason::kCancelled, Response::END_CANCELLED, "cancelled", Response::ENDED_EARLY},
       {EndReason::kNoSuchBranch, Response::END_NO_SUCH_BRANCH, "no_such_branch", Response::INVALID_REQUEST},
-      {EndReason::kClosedPath, Response::END_CLOSED_PATH, "closed_path", Response::OK},
+      {EndReason::kClosedPath, Response::END_CLOSED_PATH, "closed_path", Response::ENDED_EARLY},
       {EndReason::kMemoryLimit, Response::END_MEMORY_LIMIT, "memory_limit", Response::ENDED_EARLY},
       {EndReason::kElementInverted, Response::END_ELEMENT_INVERTED, "element_inverted", Response::ENDED_EARLY},
       {EndReason::kNotDetermined, Response::END_NOT_DETERMINED, "not_determined", Response::ENDED_EARLY},
-      {EndReason::kAtLimit, Response::END_AT_LIMIT, "at_limit", Response::OK},
+      {EndReason::kAtLimit, Response::END_AT_LIMIT, "at_limit", Response::ENDED_EARLY},
       {EndReason::kNoLanding, Response::END_NO_LANDING, "no_landing", Response::ENDED_EARLY},
   };
   for (const Increment& increment : increments) {
     EXPECT_EQ(ToConstant(increment.reason), increment.constant);
     EXPECT_EQ(EndReasonName(increment.constant), increment.name);
-    EXPECT_EQ(StatusOf(increment.reason), increment.status);
+    EXPECT_EQ(StatusOf({increment.reason, "", 0, false}), increment.early);
   }
+  EXPECT_EQ(StatusOf({EndReason::kMaxIncrements, "", 0, true}), Response::OK);
   EXPECT_EQ(EndReasonName(Response::END_NONE), "");
   EXPECT_EQ(EndReasonName(Response::END_TIME_LIMIT), "time_limit");
   EXPECT_EQ(EndReasonName(Response::END_MEMORY_LIMIT), "memory_limit");

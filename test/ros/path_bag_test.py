@@ -39,7 +39,7 @@ class PathBagTest(ProgramTest):
     def test_columns_are_those_of_the_csv(self):
         jumps = self.path('jumps.yaml')
         scene = cp.Scene.read(scene_file('von_mises'))
-        scene.options(at_limit='jump')
+        scene.options(at_limit='jump', landing_checks=True)
         scene.write(jumps)
         for name in 'rough_truss', 'stick_slip_cycle', 'portal_frame', 'von_mises', jumps:
             table, bag = self.trace(scene_file(name) if name != jumps else jumps)

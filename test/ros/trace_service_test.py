@@ -168,8 +168,9 @@ class TraceServiceTest(unittest.TestCase):
     def test_end_by_number_of_increments_is_as_asked_for(self):
         response = self.trace(helpers.request_of('von_mises', step=1e-3, max_increments=5))
         self.assertEqual((response.status, response.end_reason, response.end_reason_name),
-                         (Response.OK, Response.END_MAX_INCREMENTS, 'max_increments'))
+                         (Response.ENDED_EARLY, Response.END_MAX_INCREMENTS, 'max_increments'))
         self.assertEqual(response.increments, 6)
+        self.assertEqual(self.trace(helpers.request_of('von_mises', max_increments=5, stop=[])).status, Response.OK)
 
     # Topics
 

@@ -39,7 +39,7 @@ class TwoDofFriction : public testing::Test {
 TEST_F(TwoDofFriction, LandsOffTheFloorWhateverTheDrag) {
   const PathPoint from = Threshold();
   ASSERT_LE(model_.Check(from, from).Largest(), 1e-14);
-  const JumpResult jump = Jump(model_.structure, model_.contacts, from, Eigen::Vector2d(1.0, 0.0), {}, nullptr);
+  const JumpResult jump = Jump(model_.structure, model_.contacts, from, Eigen::Vector2d(1.0, 0.0), {}, true, nullptr);
   EXPECT_TRUE(jump.robust);
   for (const std::optional<Landing>& landing : jump.landings) {
     ASSERT_TRUE(landing);
@@ -54,7 +54,7 @@ TEST_F(TwoDofFriction, LandsOffTheFloorWhateverTheDrag) {
 
 TEST_F(TwoDofFriction, FindsTheSignByItself) {
   for (const Eigen::VectorXd& push : {Eigen::VectorXd(Eigen::Vector2d(-1.0, 0.0)), Eigen::VectorXd()}) {
-    const JumpResult jump = Jump(model_.structure, model_.contacts, Threshold(), push, {}, nullptr);
+    const JumpResult jump = Jump(model_.structure, model_.contacts, Threshold(), push, {}, true, nullptr);
     ASSERT_TRUE(jump.landing);
     EXPECT_NEAR(jump.landing->point.u.x() * model_.scaling.length, 10.0 / 7.0, 1e-12);
   }
@@ -64,7 +64,7 @@ TEST_F(TwoDofFriction, IsHeldBelowTheThreshold) {
   PathPoint from = Threshold();
   from.s *= 0.9;
   from.rt *= 0.9;
-  const JumpResult jump = Jump(model_.structure, model_.contacts, from, Eigen::Vector2d(1.0, 0.0), {}, nullptr);
+  const JumpResult jump = Jump(model_.structure, model_.contacts, from, Eigen::Vector2d(1.0, 0.0), {}, true, nullptr);
   EXPECT_FALSE(jump.landing);
   EXPECT_TRUE(jump.came_back);
   EXPECT_LE(jump.followed, 1e-4);
@@ -77,7 +77,7 @@ TEST_F(TwoDofFriction, AMachineHoldsItFromItsCriticalStiffness) {
   const auto by_machine = [&](double k) {
     Device device;
     device.stiffness = k / unit / (f * f);
-    return Jump(model_.structure, model_.contacts, Threshold(), Eigen::Vector2d(1.0, 0.0), device, nullptr);
+    return Jump(model_.structure, model_.contacts, Threshold(), Eigen::Vector2d(1.0, 0.0), device, true, nullptr);
   };
   EXPECT_TRUE(by_machine(0.51).came_back);
   EXPECT_TRUE(by_machine(std::numeric_limits<double>::infinity()).came_back);
@@ -117,7 +117,7 @@ class Snap : public testing::Test {
 TEST_F(Snap, LandsWhereTheLoadIsTheSame) {
   for (const double sign : {1.0, -1.0}) {
     const JumpResult jump =
-        Jump(model_.structure, model_.contacts, At(kLimitY, kLimit), Eigen::Vector2d(0.0, sign), {}, nullptr);
+        Jump(model_.structure, model_.contacts, At(kLimitY, kLimit), Eigen::Vector2d(0.0, sign), {}, true, nullptr);
     EXPECT_TRUE(jump.robust);
     for (const std::optional<Landing>& landing : jump.landings) {
       ASSERT_TRUE(landing);
@@ -135,7 +135,8 @@ TEST_F(Snap, ASoftMachineDrivesIt) {
   Device device;
   device.stiffness = 0.5 * kC * kHeight * kHeight / unit / (f * f);
   const PathPoint from = At(0.0, 0.0);
-  const JumpResult jump = Jump(model_.structure, model_.contacts, from, Eigen::Vector2d(0.0, -1.0), device, nullptr);
+  const JumpResult jump =
+      Jump(model_.structure, model_.contacts, from, Eigen::Vector2d(0.0, -1.0), device, true, nullptr);
   ASSERT_TRUE(jump.landing);
   EXPECT_TRUE(jump.robust);
   // W' = -k y with W' = c y (y^2 - h^2): y^2 = h^2 / 2.
@@ -146,7 +147,8 @@ TEST_F(Snap, ASoftMachineDrivesIt) {
   EXPECT_NEAR(jump.landing->loads, mean, 1e-12);
   EXPECT_GT(jump.landing->energy_released(), 0.0);
   device.stiffness *= 2.1;
-  EXPECT_TRUE(Jump(model_.structure, model_.contacts, from, Eigen::Vector2d(0.0, -1.0), device, nullptr).came_back);
+  EXPECT_TRUE(
+      Jump(model_.structure, model_.contacts, from, Eigen::Vector2d(0.0, -1.0), device, true, nullptr).came_back);
 }
 
 // ----- the truss lies on its side on a rough floor, pressed onto it by the constant load N
@@ -161,7 +163,7 @@ JumpResult SnapOnFloor(double friction_force, const Model& model) {
   from.rt[0] = friction_force / model.scaling.force;
   from.states[0] = ContactState::kSlipMinus;
   EXPECT_LE(model.Check(from, from).Largest(), 1e-14);
-  return Jump(model.structure, model.contacts, from, Eigen::Vector2d(-1.0, 0.0), {}, nullptr);
+  return Jump(model.structure, model.contacts, from, Eigen::Vector2d(-1.0, 0.0), {}, true, nullptr);
 }
 
 Scene OnFloor(double friction_force) {
@@ -215,7 +217,7 @@ TEST(Jump, ReportsHowFarSomethingFliesOff) {
   const double e = std::exp(1.0);
   from.u = Eigen::Vector2d(e, 0.0) / model.scaling.length;
   from.s = 1.0 / e / model.scaling.load_factor;
-  const JumpResult jump = Jump(model.structure, model.contacts, from, Eigen::Vector2d(1.0, 0.0), {}, nullptr);
+  const JumpResult jump = Jump(model.structure, model.contacts, from, Eigen::Vector2d(1.0, 0.0), {}, true, nullptr);
   EXPECT_FALSE(jump.landing);
   EXPECT_FALSE(jump.robust);
   EXPECT_FALSE(jump.came_back);
@@ -228,8 +230,8 @@ TEST(Jump, CanBeCancelled) {
   PathPoint from = model.InitialPoint();
   from.u = Eigen::Vector2d(0.0, 0.0);
   int asked = 0;
-  const JumpResult jump =
-      Jump(model.structure, model.contacts, from, Eigen::Vector2d(0.0, -1.0), {}, [&asked] { return ++asked > 20; });
+  const JumpResult jump = Jump(model.structure, model.contacts, from, Eigen::Vector2d(0.0, -1.0), {}, true,
+                               [&asked] { return ++asked > 20; });
   EXPECT_TRUE(jump.cancelled);
   EXPECT_FALSE(jump.landing);
 }
@@ -263,7 +265,7 @@ void ExpectLandings(const std::string& name, int most) {
                       StageScales(expanded.Get(), stage));
     const PathPoint from = model.FromIncrement(limit);
     const JumpResult jump =
-        Jump(model.structure, model.contacts, from, model.FromIncrement(after).u - from.u, {}, nullptr);
+        Jump(model.structure, model.contacts, from, model.FromIncrement(after).u - from.u, {}, true, nullptr);
     ++jumps;
     EXPECT_TRUE(jump.landing);
     for (const std::optional<Landing>& landing : jump.landings) {
@@ -291,7 +293,7 @@ TEST(JumpOfAnExample, RoughTrussUnderDisplacementControl) {
   Device device;
   device.stiffness = std::numeric_limits<double>::infinity();
   const JumpResult jump =
-      Jump(model.structure, model.contacts, from, model.FromIncrement(*(corner + 1)).u - from.u, device, nullptr);
+      Jump(model.structure, model.contacts, from, model.FromIncrement(*(corner + 1)).u - from.u, device, true, nullptr);
   for (const Drag drag : {Drag::kUniform, Drag::kStiffness}) {
     const std::optional<Landing>& landing = jump.landings[static_cast<std::size_t>(drag)];
     ASSERT_TRUE(landing);

@@ -15,8 +15,8 @@ from world import quickly, require
 
 SECONDS = 2.0  # admitted
 MOST_SECONDS = 1.1 * SECONDS + 10.0  # then the node would end itself
-NAMED = {Response.OK: {Response.END_STOP_CRITERION, Response.END_MAX_INCREMENTS, Response.END_CLOSED_PATH},
-         Response.ENDED_EARLY: {Response.END_PATH_END, Response.END_STEP_TOO_SMALL, Response.END_TIME_LIMIT,
+NAMED = {Response.OK: {Response.END_STOP_CRITERION, Response.END_MAX_INCREMENTS},
+         Response.ENDED_EARLY: {Response.END_MAX_INCREMENTS, Response.END_CLOSED_PATH, Response.END_PATH_END, Response.END_STEP_TOO_SMALL, Response.END_TIME_LIMIT,
                                 Response.END_MEMORY_LIMIT, Response.END_NOT_DETERMINED, Response.END_NUMERICAL_FAILURE}}
 
 

@@ -49,8 +49,8 @@ def repeated(world, short):
     """Many traces in a row, by clients that come and go: nothing grows."""
     warm_up, traces, every = (50, 1000, 50) if not short else (20, 100, 10)
     node = world.node('repeated')
-    requests = [helpers.request_of('von_mises'), helpers.request_of('sliding_bar', method='mpec', max_increments=20),
-                helpers.request_of('two_dof_friction', max_increments=30)]
+    requests = [helpers.request_of('von_mises'), helpers.request_of('sliding_bar', method='mpec', max_increments=20, stop=[]),
+                helpers.request_of('two_dof_friction', max_increments=30, stop=[])]
     samples = []
     with helpers.Collector(node.name + '/increments') as collector:
         start = time.monotonic()
@@ -81,13 +81,13 @@ def clients(world, short):
     """Twenty clients at once, in several rounds: each gets its trace or the refusal."""
     count, rounds = 20, 2 if short else 25
     node = world.node('clients')
-    expected = helpers.request_of('sliding_bar', method='mpec', max_increments=40)
+    expected = helpers.request_of('sliding_bar', method='mpec', max_increments=40, stop=[])
     barrier = threading.Barrier(count)
     answers = []  # (client, round, answer or error, seconds)
 
     def client(number):
         trace = rospy.ServiceProxy(node.name + '/trace', TracePath)
-        request = helpers.request_of('sliding_bar', method='mpec', max_increments=40)
+        request = helpers.request_of('sliding_bar', method='mpec', max_increments=40, stop=[])
         for turn in range(rounds):
             request.scene.name = 'client_%d_%d' % (number, turn)
             barrier.wait(PATIENCE)

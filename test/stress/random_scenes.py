@@ -40,7 +40,6 @@ from enumerate_branches import Problem, Undecided, branches_from
 MAX_INCREMENTS = 300
 LONGEST = 120         # seconds for one path
 COLLAPSED = 1e-4      # length of a bar over its initial length
-NO_EARLY_END = ('stop_criterion', 'max_increments', 'closed_path', 'at_limit')
 CHECKED = ('confirmed', 'collapsed', 'preload', 'rounding')
 
 STRAINS = ('biot', 'biot', 'green_lagrange', 'logarithmic')

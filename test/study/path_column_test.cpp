@@ -77,6 +77,7 @@ TEST(PathColumn, SaysWhatANameMustBe) {
   EXPECT_EQ(RuleOf("rotation_apex"), "must be of a node that a beam turns");
   EXPECT_EQ(RuleOf("disipation"),
             "must be a column of the CSV, as load_factor, x_<node> or rn_<contact>; did you mean dissipation?");
+  EXPECT_EQ(RuleOf("landing_robust"), "must be of a trace with landing_checks");
   EXPECT_EQ(RuleOf("stage"), "must be of a scene with a program");
   EXPECT_EQ(RuleOf("solve_time"), "must be the same whenever it is computed: solve_time is not");
 }

@@ -47,10 +47,11 @@ std::ostringstream NewCsvLine();
 // with a program: stage; rx_<node>, ry_<node>, rm_<node> of each component that a support holds; rx_<boundary>,
 // ry_<boundary>, rm_<boundary> of each obstacle and surface with candidates, except of one that has the name of a
 // supported node; unless options.stability is false: stability, stability_controlled, unstable_directions,
-// critical_stiffness; where options.at_limit is jump: energy_released, landing_robust; with options.record:
-// N_bar<place>, and N_, Q_, M_, M1_, M2_<beam>.<segment>; sxx_, syy_, sxy_, szz_, mises_, energy_<solid>.<element>;
-// pressure_, traction_<contact>, width_<boundary>. rotation_<node> follows y_<node> where a beam turns the node. Nodes
-// and contacts in the order of the expanded scene (scene/expand.h). Errors are left in the state of the stream.
+// critical_stiffness; where options.at_limit is jump: energy_released, and with options.landing_checks landing_robust;
+// with options.record: N_bar<place>, and N_, Q_, M_, M1_, M2_<beam>.<segment>; sxx_, syy_, sxy_, szz_, mises_,
+// energy_<solid>.<element>; pressure_, traction_<contact>, width_<boundary>. rotation_<node> follows y_<node> where a
+// beam turns the node. Nodes and contacts in the order of the expanded scene (scene/expand.h). Errors are left in the
+// state of the stream.
 class CsvWriter {
  public:
   // `request` must be sound (scene/validate.h).
@@ -66,7 +67,7 @@ class CsvWriter {
   std::vector<SupportedNode> supports_;
   std::vector<std::string> touched_, boundaries_;  // names; of boundaries empty: no columns of forces
   ElementNames elements_;
-  bool sections_, stresses_, pressures_, stability_, jumps_;
+  bool sections_, stresses_, pressures_, stability_, jumps_, checks_;
   std::vector<bool> turn_;  // by node
   bool program_;
 };

@@ -53,9 +53,13 @@ Causes OverrunContact(const Model& model, const PathPoint& from, const PathPoint
 // else empty.
 Causes StandsAtEnd(const Model& model, const PathPoint& point);
 
-// Names an open contact whose node has come past an end of its deformable surface and is behind the surface; else
-// empty. point: where to look, scaled.
-Causes BehindSurface(const Model& model, const PathPoint& point);
+// Names an open contact whose node has come past an end of its boundary and is behind the boundary; else empty. point:
+// where to look, scaled.
+Causes BehindBoundary(const Model& model, const PathPoint& point);
+
+// Names the nodes that are deepest in obstacles for which they are no candidates and in which they were not at the
+// start; else empty. start: the scene of the request. point: of `model`, where to look, scaled.
+Causes NodesInObstacles(const Scene& start, const Model& model, const PathPoint& point);
 
 // Where a contact pulls at its node, by more than rounding and by more than a share of the largest reaction so far: it
 // should have opened, and did not. The sign of its reaction is not known, where the pull is below what a step sees of a

@@ -4,6 +4,8 @@
 
 #include <string_view>
 
+#include "contact_path/scene/scene.h"
+
 namespace contact_path {
 
 enum class EndReason {
@@ -32,8 +34,9 @@ bool IsNumerical(EndReason reason);
 // Whether the path may have come to where nothing holds a node.
 bool IsStuck(EndReason reason);
 
-// Whether the trace went as far as it was asked to, or as far as there is anything new.
-bool IsComplete(EndReason reason);
+// Whether the trace came to what the request asks for: to a stop criterion, the end of its program, or the limit at
+// which at_limit: stop ends it. Where it asks for none of these: to max_increments.
+bool IsReached(EndReason reason, const TraceRequest& request);
 
 }  // namespace contact_path
 

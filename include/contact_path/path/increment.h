@@ -60,7 +60,8 @@ struct Fields<StabilityRecord> {
 // Of an increment of kind jump: the motion from the increment before to this one, with drag alone.
 struct JumpRecord {
   double energy_released = 0.0;  // what the loads did, less the strain energy gained and friction [force length], >= 0
-  // Whether motions with drag in proportion to stiffness, and with inertia and light drag, land there, too.
+  // With landing_checks, whether motions with drag in proportion to stiffness, and with inertia and light drag, land
+  // there, too.
   bool landing_robust = false;
 };
 

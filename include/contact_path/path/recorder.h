@@ -29,6 +29,8 @@ class Recorder {
   const Increment& increment() const { return increment_; }
   // Given so far.
   int increments() const { return increments_; }
+  // The index of the first one of the stage of the last one.
+  int first_of_stage() const { return first_of_stage_; }
 
   // The first increment of a stage. stage: from 1; 0 = there is no program.
   void Start(const Model& model, int stage, const PathPoint& point, const Residuals& residuals,
@@ -51,6 +53,7 @@ class Recorder {
   std::function<void(const Increment&)> on_increment_;
   Increment increment_;
   int increments_ = 0;
+  int first_of_stage_ = 0;
   int turned_back_ = 0;        // increments from which the load goes back and need not
   int first_turned_back_ = 0;  // the first of them
 };

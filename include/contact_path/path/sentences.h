@@ -125,6 +125,10 @@ inline constexpr Sentence kOverrun =
     "a surface at a time is not covered";
 inline constexpr Sentence kBehindSurface =
     "contact <name>: the node has come past an end of the surface to <value> behind it";
+inline constexpr Sentence kBehindObstacle =
+    "contact <name>: the node has come past an end of the obstacle to <value> behind it; nodes may be on the left of "
+    "the "
+    "curve";
 inline constexpr Sentence kPulls = "contact <name> pulls with <value>, and the error of its reaction is <other>";
 
 // Remarks.
@@ -142,6 +146,7 @@ inline constexpr Sentence kTurnsBack =
 inline constexpr Sentence kTurnsBackOften =
     "at increment <count> the load turns back, since that dissipates most, where another branch goes on with it (the "
     "first of <of> such increments): see branch_choices";
+inline constexpr Sentence kInObstacles = "nodes that are no candidates have gone into obstacles: <name>";
 inline constexpr Sentence kShortPath =
     "the whole path is hardly longer than what increments may cut off: to be trusted only with a smaller step";
 

@@ -16,8 +16,9 @@ namespace contact_path {
 
 struct TraceResult {
   EndReason reason = EndReason::kNumericalFailure;
-  std::string message;  // one line for a person: why and where
-  int increments = 0;   // increments accepted, increment 0 included
+  std::string message;   // one line for a person: why and where
+  int increments = 0;    // increments accepted, increment 0 included
+  bool reached = false;  // what the request asks for: IsReached()
 };
 
 // How the caller takes part. Both functions are called on the thread of Trace().

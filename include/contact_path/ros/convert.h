@@ -48,7 +48,7 @@ std::string EndMessage(const std::string& name, const std::string& why, const Pa
                        const std::string& bag);
 
 // OK, ENDED_EARLY, or INVALID_REQUEST for a branch that does not exist.
-std::uint8_t StatusOf(EndReason reason);
+std::uint8_t StatusOf(const TraceResult& result);
 
 // The same fields.
 contact_path_msgs::TraceResult ToResult(const contact_path_msgs::TracePathResponse& response);

@@ -3,6 +3,7 @@
 #define CONTACT_PATH_SCENE_PROGRAM_H_
 
 #include <cstddef>
+#include <vector>
 
 #include "contact_path/scene/configuration.h"
 #include "contact_path/scene/scaling.h"
@@ -33,6 +34,9 @@ Configuration StageConfiguration(const TraceRequest& request, const SceneIndex& 
 inline Configuration StageConfiguration(const TraceRequest& request, std::size_t stage) {
   return StageConfiguration(request, SceneIndex(request.scene), stage);
 }
+
+// The obstacles of a scene, which may be that of a stage, where they are at a load factor. index: of the scene.
+std::vector<Obstacle> ObstaclesAt(const Scene& scene, const SceneIndex& index, double load_factor);
 
 // One length and one force for all stages, so that points can be handed on. A scene with bars, beams or solids gives
 // both. Of beams alone the force is no less than a tenth of the sum of the loads of any stage at its target. Of linear

@@ -3,6 +3,7 @@
 #define CONTACT_PATH_SCENE_TRACE_OPTIONS_H_
 
 #include <algorithm>
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -155,7 +156,7 @@ struct TraceOptions {
   Accuracy accuracy = Accuracy::kBalanced;
   double direction = 0.0;  // sign of the first change of the load factor; 0 = +1
   double step = 0.0;       // target increment length in the scaled norm, >= 0; 0 = automatic (by accuracy)
-  int max_increments = 0;  // >= 0; 0 = 1000
+  int max_increments = 0;  // of the whole path, >= 0; 0 = 1000 for each stage
   // Of messages and bags, not of the CSV: every n-th regular increment has positions and contacts, and all located
   // increments have; all further ones leave them empty. >= 0; 0 = 1, all of them.
   int full_state_every = 0;
@@ -172,8 +173,14 @@ struct TraceOptions {
   // k of the machine that loads the structure: with loads f, it keeps s = k (Q - f . u), Q growing. >= 0; 0 = dead
   // loads, infinite = the displacement f . u of the loads is prescribed [force / length where f is one force of 1].
   double machine_stiffness = 0.0;
+  bool landing_checks = false;  // whether other motions land where a jump lands is looked for
 
-  int MaxIncrements() const { return max_increments == 0 ? 1000 : max_increments; }
+  // Of the whole path. stages: of the program, 0 = there is none.
+  std::size_t MaxIncrements(std::size_t stages) const {
+    return max_increments == 0 ? 1000 * std::max<std::size_t>(stages, 1) : static_cast<std::size_t>(max_increments);
+  }
+  // The index that ends the path, of a stage whose first increment has the index `first`.
+  int LastIncrement(int first) const { return max_increments == 0 ? first + 1000 : max_increments; }
   double Direction() const { return direction < 0.0 ? -1.0 : 1.0; }
   bool Records(std::string_view list) const { return std::find(record.begin(), record.end(), list) != record.end(); }
   // Whether corners are located, each at the end of an increment, and on record as events.
@@ -192,7 +199,8 @@ struct Fields<TraceOptions> {
                       Member("branch_choices", &P::branch_choices), Member("friction_law", &P::friction_law),
                       Member("mpec_solver", &P::mpec_solver), Member("stability", &P::stability),
                       Member("at_limit", &P::at_limit),
-                      Member("machine_stiffness", &P::machine_stiffness).Within(Range::kNotNegativeOrInfinite));
+                      Member("machine_stiffness", &P::machine_stiffness).Within(Range::kNotNegativeOrInfinite),
+                      Member("landing_checks", &P::landing_checks));
   }
 };
 

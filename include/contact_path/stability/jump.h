@@ -37,7 +37,7 @@ struct Landing {
 struct JumpResult {
   std::optional<Landing> landing;                          // by Drag::kUniform
   std::array<std::optional<Landing>, kNumDrags> landings;  // by Drag; without a landing by kUniform, all are empty
-  bool robust = false;                                     // all three land on one equilibrium
+  bool robust = false;                                     // checked, and all three land on one equilibrium
   double largest_difference = 0.0;                         // of an unknown between any two landings that there are
   double followed = 0.0;   // largest distance of an unknown from the start on the way by Drag::kUniform
   bool came_back = false;  // pushed either way, the structure returns: it is held
@@ -45,9 +45,11 @@ struct JumpResult {
 };
 
 // push: the direction (u) in which the structure is disturbed, NumDofs(); its length does not matter. Both signs are
-// tried, + first. Empty: along the loads that s scales, or else the constant ones, or else generic.
+// tried, + first. Empty: along the loads that s scales, or else the constant ones, or else generic. checked: the other
+// drags are tried, too.
 JumpResult Jump(const Structure& structure, const ContactPairs& contacts, const PathPoint& from,
-                const Eigen::VectorXd& push, const Device& device, const std::function<bool()>& cancelled);
+                const Eigen::VectorXd& push, const Device& device, bool checked,
+                const std::function<bool()>& cancelled);
 
 }  // namespace contact_path
 

@@ -11,6 +11,7 @@ from contact_path.scene import Scene
 from contact_path.structure.columns import list_columns, matrix, parts_of
 from contact_path.structure.expanded import expanded
 
+OK = 1  # of TracePath's response, as status
 STABILITY = {'stability': str, 'stability_controlled': str, 'unstable_directions': int, 'critical_stiffness': float}  # columns
 
 
@@ -21,7 +22,7 @@ def path_of(request: Any, increments: Sequence[Any], result: Any = None) -> Path
     contacts = traced['names']['contacts']
     return Path(columns_of(traced, increments, scene.request.get('options', {})), title=scene.name, scene=scene,
                 end_reason=result.end_reason_name if result is not None else '',
-                message=result.message if result is not None else '',
+                message=result.message if result is not None else '', success=result is not None and result.status == OK,
                 branches={message.index: branches_of(contacts, message.event) for message in increments
                           if message.event.branches or message.event.number},
                 unstable={message.index: np.reshape(message.unstable_direction, (-1, 2)) for message in increments
@@ -66,7 +67,9 @@ def columns_of(traced: Mapping[str, Any], increments: Sequence[Any], options: Ma
             if has_verdicts:
                 table.update((field, column(field, kind)) for field, kind in STABILITY.items())
             if options.get('at_limit') == 'jump':
-                table.update(energy_released=column('energy_released'), landing_robust=column('landing_robust', int))
+                table['energy_released'] = column('energy_released')
+                if options.get('landing_checks'):
+                    table['landing_robust'] = column('landing_robust', int)
     return table
 
 

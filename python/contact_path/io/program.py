@@ -29,7 +29,7 @@ def trace(scene: Scene | str | os.PathLike[str], options: Dict[str, Any], progre
     """As contact_path.trace."""
     with tempfile.TemporaryDirectory() as directory:
         log = os.path.join(directory, 'log.jsonl')
-        command = [find_program(PROGRAM), '--log', log, *(['--bag', os.fspath(bag)] if bag is not None else [])]
+        command = [find_program(PROGRAM), '--csv', '-', '--log', log, *(['--bag', os.fspath(bag)] if bag is not None else [])]
         if not isinstance(scene, Scene) and options.keys() <= FLAGS.keys():
             # The file as it is: the validator names its lines, and judges what is no scene at all.
             with open(scene, encoding='utf-8'):
@@ -111,7 +111,7 @@ def path_of(output: Output, log: Mapping[str, List[Dict[str, Any]]], scene: Call
     """The path that the program has told of, or why there is none. scene: gives the scene that was traced."""
     if log['end']:
         traced, end = scene(), log['end'][0]
-        return Path(table_of(output.table), title=traced.name, scene=traced, end_reason=end['reason'], message=end['summary'],
+        return Path(table_of(output.table), title=traced.name, scene=traced, end_reason=end['reason'], message=end['summary'], success=end['reached'],
                     branches=branches_of(log['event'], log['header'][0]['contacts']), unstable=unstable_of(log['increment']))
     last = output.said.rstrip('\n').rpartition('\n')[2]
     if output.cancelled and output.status == -signal.SIGINT:  # before it had begun
