@@ -5,7 +5,7 @@
 #include <Eigen/SparseCore>
 
 #include "contact_path/path/model.h"
-#include "contact_path/scene/lattice.h"
+#include "lattice.h"
 
 namespace contact_path {
 

@@ -20,8 +20,9 @@
 #include "contact_path/path/mpec_method.h"
 #include "contact_path/path/preload.h"
 #include "contact_path/path/stop.h"
-#include "contact_path/scene/lattice.h"
 #include "contact_path/scene/read_scene.h"
+#include "contact_path/scene/write_scene.h"
+#include "lattice.h"
 #include "process/keep_memory.h"
 
 namespace contact_path {
@@ -315,6 +316,17 @@ void Measure(const std::string& name, const TraceRequest& request) {
   }
 }
 
+TraceRequest LargeWall() {
+  LatticeOptions lattice;
+  lattice.kind = LatticeKind::kWall;
+  lattice.columns = 40;
+  lattice.rows = 24;
+  lattice.contacts = 10;
+  TraceRequest request = LatticeRequest(lattice);
+  request.options.stop = {{"load_factor", ">", 0.012}};
+  return request;
+}
+
 // The same wall four times, what it may touch being another matter each time.
 void MeasureModels() {
   std::puts("case,method,variables,constraints,seconds");
@@ -370,6 +382,10 @@ int main(int argc, char** argv) {
   KeepMemory();
   if (argc == 2 && std::string(argv[1]) == "--model") {
     MeasureModels();
+    return 0;
+  }
+  if (argc == 2 && std::string(argv[1]) == "--lattice") {
+    std::fputs(WriteTraceRequest(LargeWall()).c_str(), stdout);
     return 0;
   }
   std::puts(

@@ -29,7 +29,7 @@ endforeach()
 
 # Programs that need no ROS are found without rosrun, too. Other packages may want the names `plot` and `verify`.
 file(MAKE_DIRECTORY ${packed}/bin)
-foreach(program contact_path_expand contact_path_lattice contact_path_mesh contact_path_outlines contact_path_response
+foreach(program contact_path_expand contact_path_mesh contact_path_outlines contact_path_response
     contact_path_study contact_path_trace)
   file(CREATE_LINK ../lib/contact_path/${program} ${packed}/bin/${program} SYMBOLIC)
 endforeach()

@@ -47,7 +47,7 @@ target_sources(contact_path_trace PRIVATE src/ros/bag_sink.cpp)
 target_compile_definitions(contact_path_trace PRIVATE CONTACT_PATH_WITH_ROS)
 target_link_libraries(contact_path_trace PRIVATE contact_path_ros)
 
-set(contact_path_programs contact_path_node contact_path_markers contact_path_trace contact_path_lattice contact_path_outlines
+set(contact_path_programs contact_path_node contact_path_markers contact_path_trace contact_path_outlines
   contact_path_expand contact_path_response contact_path_study_server contact_path_verify)
 
 # Programs and libraries find the libraries beside them wherever the tree is put.

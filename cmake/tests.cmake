@@ -18,6 +18,7 @@ endif()
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/tests)
 
 add_library(contact_path_test_support STATIC EXCLUDE_FROM_ALL
+  bench/lattice.cpp
   test/support/dense.cpp
   test/support/derivative_checker.cpp
   test/support/curved_obstacles.cpp
@@ -29,7 +30,7 @@ add_library(contact_path_test_support STATIC EXCLUDE_FROM_ALL
   test/support/traced_path.cpp
   test/support/transformations.cpp
 )
-target_include_directories(contact_path_test_support PUBLIC ${CMAKE_CURRENT_SOURCE_DIR}/test)
+target_include_directories(contact_path_test_support PUBLIC ${CMAKE_CURRENT_SOURCE_DIR}/test ${CMAKE_CURRENT_SOURCE_DIR}/bench)
 target_compile_definitions(contact_path_test_support PUBLIC
   CONTACT_PATH_SCENES="${CMAKE_CURRENT_SOURCE_DIR}/scenes"
   CONTACT_PATH_TEST_DATA="${CMAKE_CURRENT_SOURCE_DIR}/test/data")
@@ -125,7 +126,7 @@ contact_path_add_stage(support NAMES derivative_checker_test)
 contact_path_add_stage(geometry NAMES admissible_patches_test capsule_tree_test curve_test nodal_spline_test outline_test polyline_test
   projection_test spline_test surface_test)
 contact_path_add_stage(scene NAMES boundary_rules_test can_slide_test cell_test change_units_test configuration_test curve_rules_test
-  element_names_test expand_test field_test lattice_test nearest_name_test number_text_test one_line_test origin_test quantity_test
+  element_names_test expand_test field_test nearest_name_test number_text_test one_line_test origin_test quantity_test
   reacting_parts_test read_scene_test request_field_test scaling_test scene_index_test scene_test solid_rules_test utf8_test
   validate_test violation_test write_scene_test)
 contact_path_add_stage(structure NAMES bar_test beam_test dof_map_test elastica_test material_test scene_elements_test solid_test

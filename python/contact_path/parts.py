@@ -25,7 +25,7 @@ Function = TypeVar('Function', bound=Callable[..., Any])
 
 #: Lists of parts of a scene, in the order of scene files. A method of Parts or Loading for each, named by its singular.
 LISTS = ('nodes', 'bars', 'superelements', 'beams', 'materials', 'solids', 'groups', 'surfaces', 'loads', 'obstacles', 'contacts',
-         'support_motions', 'obstacle_motions')
+         'supports', 'support_motions', 'obstacle_motions')
 
 
 def named(function: Function) -> Function:
@@ -62,8 +62,8 @@ class Loading:
         self._add('loads', locals())
 
     @named
-    def support_motion(self, node: str, *, dx: float = 0.0, dy: float = 0.0, rotation: float = 0.0) -> None:
-        """How far a support moves by load factor 1: dx, dy [length], rotation [rad]."""
+    def support_motion(self, node: str = '', *, dx: float = 0.0, dy: float = 0.0, rotation: float = 0.0, group: str = '') -> None:
+        """How far a support, or each node of a group, moves by load factor 1: dx, dy [length], rotation [rad]."""
         self._add('support_motions', locals())
 
     @named
@@ -155,6 +155,12 @@ class Parts(Loading):
         """A node that may touch an obstacle, called NODE@OBSTACLE, or a surface, called NODE@SURFACE; or each node of a group.
         friction: coefficient with the surface [-]; an obstacle has its own."""
         self._add('contacts', locals())
+
+    @named
+    def support(self, *, node: str = '', group: str = '', fixed_x: bool = False, fixed_y: bool = False,
+                fixed_rotation: bool = False) -> None:
+        """Fixes a node, or each node of a group, besides what the node itself says."""
+        self._add('supports', locals())
 
     @named
     def stage(self, name: str = '', *, target: float = 0.0, unload: bool = False) -> Stage:

@@ -44,6 +44,11 @@ class Path(Increments):
     3.0
     """
 
+    def __getitem__(self, column: str) -> np.ndarray:
+        if column not in self.table:
+            raise KeyError('no column %s' % quantities.unknown(column, self.columns, quantities.column))
+        return self.table[column]
+
     def with_scene(self, scene: Scene) -> Path:
         """The same path with its scene, where it was read from a CSV file. ValueError: it is not a path of this scene,
         the scene breaks a rule, or contact_path_expand is not there."""

@@ -1,23 +1,25 @@
 """The quantities of a path that can be plotted: names, values, labels.
 
 A quantity is named as the column of the CSV (x_apex, rn_b@floor) or by its part of the scene (apex.x, b@floor.rn). Section forces, stresses,
-pressures and widths that are not recorded are computed, with the scene. Four kinds are no columns of the file, and need the scene:
+pressures and widths that are not recorded are computed, with the scene. Further kinds are no columns of the file, and need the scene:
   slip_CONTACT           tangential motion of the node against the obstacle while the contact touches and does not stick [length]
   fx_NODE, fy_NODE       load on the node, of all stages and with the constant loads [force]
   load_x, load_y         sum of the loads on all nodes [force]
+  x_OBSTACLE, y_OBSTACLE where the point p of the obstacle is now [length]; of a node and an obstacle with one name the node is meant
+  turn_OBSTACLE          how far the obstacle has turned since the start [rad]
 """
 from __future__ import annotations
 
 import difflib
-from typing import List, Tuple
+from typing import Callable, List, Sequence, Tuple
 
 import numpy as np
 
-from contact_path.increments import PRESSURES, SECTIONS, STRESSES, WHOLE, WORDS, Increments
+from contact_path.increments import PRESSURES, REACTIONS, SECTIONS, STRESSES, WHOLE, WORDS, Increments
 from contact_path.structure import response
 from contact_path.structure.arrays import Structure
 
-LABELS = {'x': ('position x of node', '[length]'), 'y': ('position y of node', '[length]'),
+LABELS = {'x': ('position x of', '[length]'), 'y': ('position y of', '[length]'), 'turn': ('turn of', '[rad]'),
           'rotation': ('rotation of node', '[rad]'),
           'fx': ('load fx on node', '[force]'), 'fy': ('load fy on node', '[force]'),
           'gap': ('gap of', '[length]'), 'rn': ('normal reaction of', '[force]'),
@@ -35,7 +37,12 @@ UNITS = {'load_factor': '[-]', 'arc_length': '[-]', 'dissipation': '[force lengt
          'solve_time': '[s]', 'load_x': '[force]', 'load_y': '[force]', 'unstable_directions': '[-]',
          'critical_stiffness': '[force/length]', 'energy_released': '[force length]'}
 RESPONSE = (*SECTIONS, *STRESSES, *PRESSURES, 'width')  # fields that are computed where they are not recorded
+PLACES = ('x', 'y', 'turn')  # of obstacles
 LISTED = 12  # names in a message
+# Field -> what it is of, where it is not a node.
+PARTS = {**dict.fromkeys((*PRESSURES, 'gap', 'rn', 'rt', 'slip'), 'contact'), **dict.fromkeys(SECTIONS, 'section'),
+         **dict.fromkeys(STRESSES, 'element of a solid'), **dict.fromkeys(REACTIONS, 'support, obstacle or surface'),
+         'width': 'obstacle or surface', 'turn': 'obstacle', 'x': 'node or obstacle', 'y': 'node or obstacle'}
 
 
 def column(quantity: str) -> str:
@@ -67,7 +74,37 @@ def label(quantity: str) -> str:
 def derived(path: Increments) -> List[str]:
     """The columns that the scene adds to the columns of the file."""
     return (['slip_' + contact for contact in path.contacts] +
-            [axis + node for node in path.nodes for axis in ('fx_', 'fy_')] + ['load_x', 'load_y'])
+            [axis + node for node in path.nodes for axis in ('fx_', 'fy_')] + ['load_x', 'load_y'] +
+            ['%s_%s' % (field, name) for name in obstacles_of(path) for field in PLACES if field == 'turn' or name not in path.nodes])
+
+
+def obstacles_of(path: Increments) -> List[str]:
+    """Names; none without a scene."""
+    return [obstacle['name'] for obstacle in path.scene.request['scene'].get('obstacles', [])] if path.scene is not None else []
+
+
+def listed(names: Sequence[str]) -> str:
+    return ', '.join(names[:LISTED]) + (', ...' if len(names) > LISTED else '')
+
+
+def unknown(quantity: str, known: Sequence[str], spell: Callable[[str], str]) -> str:
+    """What to say of a quantity that is none of these columns: the part that is not there, or what its part has, and the nearest one.
+    spell: of a column, as the caller wants it."""
+    name = column(quantity)
+    field, part = split(name)
+    if not field:
+        part = quantity.rpartition('.')[0] or quantity.partition('_')[2]
+    fields = [split(other)[0] for other in known if split(other) == (split(other)[0], part) and split(other)[0]]
+    there = list(dict.fromkeys(of for own, of in map(split, known) if own == field))
+    near = difflib.get_close_matches(name, known, 1)
+    said = quantity
+    if fields:
+        said += ': of %s there are %s' % (part, listed([spell('%s_%s' % (own, part)) for own in fields]))
+    elif field:
+        said += ': no %s %s, there are %s' % (PARTS.get(field, 'node'), part, listed(there) or 'none')
+    elif not near:
+        said += ': there are ' + listed([spell(other) for other in known])
+    return said + ('; did you mean %s?' % spell(near[0]) if near else '')
 
 
 def values(path: Increments, quantity: str) -> np.ndarray:
@@ -81,16 +118,24 @@ def values(path: Increments, quantity: str) -> np.ndarray:
     computed = response.names(path) if field in RESPONSE and path.scene is not None else {}
     if name in computed:
         return response.columns(path, [computed[name]])[name]
-    unknown = field in RESPONSE and path.scene is None and not any(split(other)[0] == field for other in there)  # it may be there
-    if name not in of_scene and not unknown:
+    # It may be there, where there is no scene that could tell.
+    may_be = path.scene is None and (field == 'turn' or field in RESPONSE and not any(split(other)[0] == field for other in there))
+    if name not in of_scene and not may_be:
         known = there + of_scene + [other for other in computed if other not in path]
-        near = difflib.get_close_matches(name, known, 1)
-        listed = ', '.join(map(spelled, known[:LISTED])) + (', ...' if len(known) > LISTED else '')
-        raise ValueError('no quantity %s: %s' % (quantity, 'did you mean %s?' % spelled(near[0]) if near else listed))
+        raise ValueError('no quantity ' + unknown(quantity, known, spelled))
     if path.scene is None:
         raise ValueError('%s needs the scene: give it by --scene, or by Path.with_scene' % quantity)
     structure = Structure(path.scene)
+    if field in PLACES:
+        return place(path, structure, field, part)
     return slip(path, structure, part) if field == 'slip' else load(path, structure, field, part)
+
+
+def place(path: Increments, structure: Structure, field: str, obstacle: str) -> np.ndarray:
+    """(n,)."""
+    placement = structure.placement(obstacle, path)
+    of_all = placement.angle if field == 'turn' else placement.points(structure.obstacles[obstacle].point)[..., 'xy'.index(field)]
+    return np.broadcast_to(of_all, len(path)).copy()
 
 
 def slip(path: Increments, structure: Structure, contact: str) -> np.ndarray:

@@ -183,14 +183,6 @@ Task ReadTask(const Arguments& arguments) {
   return task;
 }
 
-// At most three lines.
-void PrintViolations(const std::vector<Violation>& violations) {
-  constexpr std::size_t kLines = 3;
-  const std::size_t listed = violations.size() <= kLines ? violations.size() : kLines - 1;
-  for (std::size_t i = 0; i < listed; ++i) std::cerr << violations[i].ToLine() << '\n';
-  if (listed < violations.size()) std::cerr << "... and " << violations.size() - listed << " more\n";
-}
-
 // Whether what `option` would overwrite is what is read; says so on standard error.
 bool IsInput(const char* option, const std::string& file, const Arguments& arguments) {
   const std::string& input = arguments.scene_file.empty() ? arguments.resume : arguments.scene_file;
@@ -301,7 +293,7 @@ ExitStatus Run(const Arguments& arguments) {
     if (arguments.log_file && !(log = Open("--log", *arguments.log_file))) return kBadInput;
     return RunTrace(task, arguments, csv, log ? &*log : nullptr);
   } catch (const InvalidRequest& invalid) {
-    PrintViolations(invalid.violations());
+    std::cerr << invalid.what() << '\n';
     return kBadInput;
   } catch (const std::exception& error) {
     PrintError(error.what());

@@ -11,6 +11,8 @@ ProgressEstimate::ProgressEstimate(const TraceRequest& request) : max_increments
   const std::vector<Quantity> quantities = StopQuantities(request, SceneIndex(expanded.Get().scene));
   for (std::size_t i = 0; i < quantities.size(); ++i)
     goals_.push_back({quantities[i], 0.0, request.options.stop[i].value});
+  if (std::any_of(quantities.begin(), quantities.end(), [](const Quantity& of) { return of.IsOfObstacle(); }))
+    request_ = request;
   for (const Stage& stage : request.program) targets_.push_back(stage.Target());
 }
 
@@ -24,9 +26,9 @@ double ProgressEstimate::Add(const Increment& increment) {
   for (Goal& goal : goals_) {
     // Increments that were recorded without their state have no positions.
     if (goal.quantity.kind != Quantity::Kind::kLoadFactor && increment.positions.empty()) continue;
-    if (increment.index == 0) goal.start = ValueOf(goal.quantity, increment);
+    if (increment.index == 0) goal.start = ValueOf(goal.quantity, increment, request_);
     if (goal.end != goal.start)
-      done = std::max(done, (ValueOf(goal.quantity, increment) - goal.start) / (goal.end - goal.start));
+      done = std::max(done, (ValueOf(goal.quantity, increment, request_) - goal.start) / (goal.end - goal.start));
   }
   return std::min(done, 1.0);
 }

@@ -32,6 +32,9 @@ const Resultant& ResultantOf(const Quantity& quantity, const Increment& incremen
 double ValueOf(const Quantity& quantity, const Increment& increment) {
   switch (quantity.kind) {
     case Quantity::Kind::kLoadFactor: return increment.load_factor;
+    case Quantity::Kind::kObstacleX:
+    case Quantity::Kind::kObstacleY:
+    case Quantity::Kind::kTurn: break;
     case Quantity::Kind::kX: return increment.positions[2 * quantity.part];
     case Quantity::Kind::kY: return increment.positions[2 * quantity.part + 1];
     case Quantity::Kind::kRotation: return increment.rotations[quantity.part];
@@ -59,7 +62,16 @@ double ValueOf(const Quantity& quantity, const Increment& increment) {
   return 0.0;
 }
 
-StopTest::StopTest(const TraceRequest& request, const SceneIndex& index) {
+double ValueOf(const Quantity& quantity, const Increment& increment, const TraceRequest& request) {
+  if (!quantity.IsOfObstacle()) return ValueOf(quantity, increment);
+  const ObstaclePlace place =
+      PlaceOf(request, request.scene.obstacles[quantity.part],
+              static_cast<std::size_t>(std::max(increment.stage, 1) - 1), increment.load_factor);
+  if (quantity.kind == Quantity::Kind::kTurn) return place.turn;
+  return quantity.kind == Quantity::Kind::kObstacleX ? place.x : place.y;
+}
+
+StopTest::StopTest(const TraceRequest& request, const SceneIndex& index) : request_(request) {
   const Scaling scaling = ProgramScales(request, index);
   const std::vector<Quantity> quantities = StopQuantities(request, index);
   for (std::size_t i = 0; i < quantities.size(); ++i) {
@@ -71,8 +83,8 @@ StopTest::StopTest(const TraceRequest& request, const SceneIndex& index) {
   }
 }
 
-StopTest::Item::Beyond StopTest::Item::BeyondIn(const Increment& increment) const {
-  const double value = ValueOf(quantity, increment);
+StopTest::Item::Beyond StopTest::Item::BeyondIn(const Increment& increment, const TraceRequest& request) const {
+  const double value = ValueOf(quantity, increment, request);
   // Where a coordinate is large, its last digit is larger than rounding of the scaled one.
   const double digits =
       (located ? tolerances::kEqual : tolerances::kLastDigits) * std::max(std::abs(value), std::abs(criterion->value));
@@ -81,7 +93,7 @@ StopTest::Item::Beyond StopTest::Item::BeyondIn(const Increment& increment) cons
 
 void StopTest::Note(const Increment& increment) {
   for (Item& item : items_) {
-    const Item::Beyond beyond = item.BeyondIn(increment);
+    const Item::Beyond beyond = item.BeyondIn(increment, request_);
     item.short_of_it = item.short_of_it || beyond.by < -beyond.rounding;
   }
 }
@@ -90,7 +102,7 @@ const StopCriterion* StopTest::FirstThatHolds(const Increment& increment, const 
   if (increment.index == 0) return nullptr;
   for (std::size_t i = 0; i < items_.size(); ++i) {
     const Item& item = items_[i];
-    const Item::Beyond beyond = item.BeyondIn(increment);
+    const Item::Beyond beyond = item.BeyondIn(increment, request_);
     const bool is_at = std::find(at_criteria.begin(), at_criteria.end(), static_cast<int>(i)) != at_criteria.end();
     if (beyond.by > beyond.rounding || (item.located && item.short_of_it && (is_at || beyond.by >= -beyond.rounding)))
       return item.criterion;
@@ -100,7 +112,7 @@ const StopCriterion* StopTest::FirstThatHolds(const Increment& increment, const 
 
 bool StopTest::MayHold(const Increment& increment, double force_rounding) const {
   return std::any_of(items_.begin(), items_.end(), [&](const Item& item) {
-    const Item::Beyond beyond = item.BeyondIn(increment);
+    const Item::Beyond beyond = item.BeyondIn(increment, request_);
     const double error = std::max(beyond.rounding, force_rounding * item.unit);
     return beyond.by > beyond.rounding || (item.located && beyond.by >= -error);
   });

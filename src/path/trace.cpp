@@ -104,6 +104,7 @@ class Tracer {
   void TraceStages(const std::optional<Resumption>& resumption) {
     const std::size_t first = resumption ? static_cast<std::size_t>(std::max(resumption->from->stage, 1) - 1) : 0;
     for (std::size_t stage = first; stage < NumStages(request_); ++stage) {
+      stage_ = stage;
       const Clock::time_point start = Clock::now();
       auto next = std::make_unique<const Model>(StageScene(request_, index_, stage),
                                                 StageConfiguration(request_, index_, stage),
@@ -178,7 +179,7 @@ class Tracer {
     const double growth = AutomaticStepGrowth(model);
     if (options.LocatesEvents()) {
       BranchOptions branch = BranchOptions::For(options, growth);
-      branch.ends = {target, WatchedQuantities(model, request_)};
+      branch.ends = {target, WatchedQuantities(model, request_, stage_)};
       branch.increments = increment;
       branch.events = events_;
       branch.method = options.method;
@@ -432,6 +433,7 @@ class Tracer {
   Eigen::VectorXd arrival_;  // du of the last increment
   bool may_snap_ = false;    // the last increment has, or may have, an unstable direction under dead loads
   int events_ = 0;
+  std::size_t stage_ = 0;                  // from 0
   std::unique_ptr<const Model> model_;     // of the stage
   std::optional<ReturnDetector> returns_;  // of the stage
   bool handing_out_ = false;               // an increment, to the caller

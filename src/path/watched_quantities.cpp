@@ -41,7 +41,17 @@ Function OfContact(const Model& model, const Quantity& quantity) {
   };
 }
 
-// unit: of the quantity, in the scene.
+// unit: of the quantity, in the scene; here and below.
+Function OfObstacle(const Model& model, const Quantity& quantity, double unit, const TraceRequest& request,
+                    std::size_t stage) {
+  return [=, &model, &request](const FixedStateSystem& system, const Eigen::VectorXd& x) {
+    Increment increment;
+    increment.stage = static_cast<int>(stage) + 1;
+    increment.load_factor = system.Unpack(x).s * model.scaling.load_factor;
+    return ValueOf(quantity, increment, request) / unit;
+  };
+}
+
 Function OfResponse(const Model& model, const Quantity& quantity, double unit) {
   return [&model, quantity, unit](const FixedStateSystem& system, const Eigen::VectorXd& x) {
     const PathPoint point = system.Unpack(x);
@@ -54,6 +64,11 @@ Function OfResponse(const Model& model, const Quantity& quantity, double unit) {
     }
     return ValueOf(quantity, increment) / unit;
   };
+}
+
+bool Moves(const Scene& scene, std::size_t obstacle) {
+  return std::any_of(scene.obstacle_motions.begin(), scene.obstacle_motions.end(),
+                     [&](const ObstacleMotion& motion) { return motion.obstacle == scene.obstacles[obstacle].name; });
 }
 
 // Where the scaled quantity is counted from, in the scene.
@@ -69,14 +84,15 @@ double ErrorOf(const Model& model, const Quantity& quantity, double largest) {
   const bool is_force =
       quantity.IsReaction() || quantity.kind == Quantity::Kind::kRn || quantity.kind == Quantity::Kind::kRt;
   if (is_force) return std::max(tolerances::kLastDigits * largest, of_forces);
-  const bool is_motion = quantity.kind == Quantity::Kind::kLoadFactor || quantity.IsOfNode() || quantity.IsOfContact();
+  const bool is_motion = quantity.kind == Quantity::Kind::kLoadFactor || quantity.IsOfNode() ||
+                         quantity.IsOfObstacle() || quantity.IsOfContact();
   if (is_motion && !quantity.IsOfPressure()) return of_size * model.structure.ResidualUnits().maxCoeff();
   return std::max(of_size, of_forces);
 }
 
 // sense, criterion: as of ArcTarget.
-void Add(const Model& model, const std::string& text, const std::vector<double>& values, double sense, int criterion,
-         ArcTargets* targets) {
+void Add(const Model& model, const TraceRequest& request, std::size_t stage, const std::string& text,
+         const std::vector<double>& values, double sense, int criterion, ArcTargets* targets) {
   const Quantity quantity = FindQuantity(text, model.index).value();
   const Scaling& scaling = model.scaling;
   const double unit = SizeOf(UnitOf(quantity.kind), {scaling.length, scaling.force, scaling.load_factor});
@@ -87,6 +103,10 @@ void Add(const Model& model, const std::string& text, const std::vector<double>&
     target.unknown = model.structure.NumDofs();
   else if (quantity.IsOfNode())
     target.unknown = UnknownOf(model, quantity);
+  else if (quantity.IsOfObstacle() && Moves(model.scene, quantity.part))
+    target.of = OfObstacle(model, quantity, unit, request, stage);
+  else if (quantity.IsOfObstacle())
+    return;
   else if (quantity.IsOfContact() && !quantity.IsOfPressure())
     target.of = OfContact(model, quantity);
   else
@@ -105,15 +125,16 @@ void Add(const Model& model, const std::string& text, const std::vector<double>&
 
 }  // namespace
 
-ArcTargets WatchedQuantities(const Model& model, const TraceRequest& request) {
+ArcTargets WatchedQuantities(const Model& model, const TraceRequest& request, std::size_t stage) {
   ArcTargets targets;
   for (std::size_t i = 0; i < request.options.stop.size(); ++i) {
     const StopCriterion& criterion = request.options.stop[i];
     if (criterion.exact == DefaultTrue::kTrue)
-      Add(model, criterion.quantity, {criterion.value}, criterion.when == ">" ? 1.0 : -1.0, static_cast<int>(i),
-          &targets);
+      Add(model, request, stage, criterion.quantity, {criterion.value}, criterion.when == ">" ? 1.0 : -1.0,
+          static_cast<int>(i), &targets);
   }
-  for (const Samples& samples : request.options.at) Add(model, samples.quantity, samples.Values(), 0.0, -1, &targets);
+  for (const Samples& samples : request.options.at)
+    Add(model, request, stage, samples.quantity, samples.Values(), 0.0, -1, &targets);
   return targets;
 }
 

@@ -48,13 +48,16 @@ class Checker {
   const SceneIndex& Index() const { return index_; }
   // The nodes that are listed in the request, the first ones of the scene.
   std::size_t NumListedNodes() const { return expansion_ == nullptr ? GetScene().nodes.size() : num_nodes_; }
-  // Where a load of the scene, a contact, or a load of a stage, stands in the list of the request.
-  std::size_t LoadPlace(std::size_t load) const { return expansion_ == nullptr ? load : expansion_->loads[load]; }
+  // Where a contact, or a load or a support motion, stands in the list of the request. loading: 0 = of the scene, else
+  // of the stage of this number, from 1.
   std::size_t ContactPlace(std::size_t contact) const {
     return expansion_ == nullptr ? contact : expansion_->contacts[contact];
   }
-  std::size_t StageLoadPlace(std::size_t stage, std::size_t load) const {
-    return expansion_ == nullptr ? load : expansion_->stage_loads[stage][load];
+  std::size_t LoadPlace(std::size_t loading, std::size_t load) const {
+    return expansion_ == nullptr ? load : expansion_->loads[loading][load];
+  }
+  std::size_t MotionPlace(std::size_t loading, std::size_t motion) const {
+    return expansion_ == nullptr ? motion : expansion_->motions[loading][motion];
   }
 
   // Null for a name that the scene does not have.
@@ -70,6 +73,7 @@ class Checker {
   // The violations since the last call.
   std::vector<Violation> Take() { return std::exchange(violations_, {}); }
   bool NothingFound() const { return violations_.empty(); }
+  std::size_t NumFound() const { return found_; }
 
   // Checks each field of a part by itself, as its description says. earlier: the names of the parts before it in its
   // list; null for a part without a name. False after adding a violation.
@@ -80,17 +84,27 @@ class Checker {
       const auto& value = part.*field.member;
       using Value = std::decay_t<decltype(value)>;
       const KeyPath key = path.Key(field.name);
-      if constexpr (std::is_same_v<Value, double>) CheckNumber(key, value, field.range);
-      if constexpr (std::is_same_v<Value, int>)
-        if (value < 0 && field.range == Range::kNotNegative) Add(key, std::to_string(value), "must be >= 0");
+      CheckNumbersIn(key, value, field.range);
       if constexpr (std::is_same_v<Value, std::string>)
         if (!field.optional || !value.empty()) CheckText(key, value, field.text, earlier);
-      if constexpr (std::is_same_v<Value, std::vector<double>>)
-        for (std::size_t i = 0; i < value.size(); ++i) CheckNumber(key[i], value[i], field.range);
       if constexpr (std::is_same_v<Value, std::vector<std::string>>)
         for (std::size_t i = 0; i < value.size(); ++i) CheckText(key[i], value[i], field.text, earlier);
     });
     return found_ == found_before;
+  }
+
+  // Checks each number of a part and of the parts in it by itself: what needs no other field.
+  template <typename Part>
+  void CheckNumbers(const KeyPath& path, const Part& part) {
+    ForEachField<Part>([&](const auto& field) {
+      const auto& value = part.*field.member;
+      using Value = std::decay_t<decltype(value)>;
+      const KeyPath key = path.Key(field.name);
+      CheckNumbersIn(key, value, field.range);
+      if constexpr (kIsPart<Value>) CheckNumbers(key, value);
+      if constexpr (kIsPartList<Value>)
+        for (std::size_t i = 0; i < value.size(); ++i) CheckNumbers(key[i], value[i]);
+    });
   }
 
   // A name that is given or made up.
@@ -102,6 +116,14 @@ class Checker {
   bool CheckUtf8(const KeyPath& key, const std::string& name);
 
  private:
+  template <typename Value>
+  void CheckNumbersIn(const KeyPath& key, const Value& value, Range range) {
+    if constexpr (std::is_same_v<Value, double>) CheckNumber(key, value, range);
+    if constexpr (std::is_same_v<Value, int>)
+      if (value < 0 && range == Range::kNotNegative) Add(key, std::to_string(value), "must be >= 0");
+    if constexpr (std::is_same_v<Value, std::vector<double>>)
+      for (std::size_t i = 0; i < value.size(); ++i) CheckNumber(key[i], value[i], range);
+  }
   void CheckNumber(const KeyPath& key, double value, Range range);
   void CheckText(const KeyPath& key, const std::string& text, TextKind kind, std::unordered_set<std::string>* earlier);
   void CheckName(const KeyPath& key, const std::string& name, std::unordered_set<std::string>& earlier);

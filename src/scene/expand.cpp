@@ -57,9 +57,15 @@ class Groups {
     }
   }
 
-  const GroupNodes& At(const std::string& name) const { return groups_.at(name); }
-
-  const BoundarySurface& Surface(const std::string& name) const { return *surfaces_.at(name); }
+  // Null for a name that the scene does not have.
+  const GroupNodes* Find(const std::string& name) const {
+    const auto found = groups_.find(name);
+    return found == groups_.end() ? nullptr : &found->second;
+  }
+  const BoundarySurface* FindSurface(const std::string& name) const {
+    const auto found = surfaces_.find(name);
+    return found == surfaces_.end() ? nullptr : found->second;
+  }
   bool IsMidSide(const std::string& node) const { return mid_sides_.count(node) > 0; }
 
   std::pair<double, double> Place(const std::string& node) const {
@@ -90,8 +96,7 @@ class Groups {
 
 // Calls add(load on a node) for a traction on a surface.
 template <typename Add>
-void ExpandTraction(const Load& load, const Groups& groups, Add&& add) {
-  const BoundarySurface& surface = groups.Surface(load.surface);
+void ExpandTraction(const Load& load, const BoundarySurface& surface, const Groups& groups, Add&& add) {
   std::vector<std::string> nodes = surface.nodes;
   if (surface.closed) nodes.push_back(nodes.front());
   Load on_node;
@@ -123,9 +128,11 @@ void ExpandTraction(const Load& load, const Groups& groups, Add&& add) {
 // Calls add(load on a node).
 template <typename Add>
 void ExpandLoad(const Load& load, const Groups& groups, Add&& add) {
-  if (!load.surface.empty()) return ExpandTraction(load, groups, add);
-  if (load.group.empty()) return add(load);
-  const GroupNodes& group = groups.At(load.group);
+  if (const BoundarySurface* const surface = groups.FindSurface(load.surface))
+    return ExpandTraction(load, *surface, groups, add);
+  const GroupNodes* const found = groups.Find(load.group);
+  if (found == nullptr) return add(load);
+  const GroupNodes& group = *found;
   Load on_node;
   on_node.constant = load.constant;
   if (load.fx != 0.0 || load.fy != 0.0 || load.moment != 0.0) {
@@ -151,41 +158,67 @@ void ExpandLoad(const Load& load, const Groups& groups, Add&& add) {
   }
 }
 
-Places ExpandLoads(const Groups& groups, std::vector<Load>* loads) {
-  std::vector<Load> expanded;
+// expand(part, add): calls add(part on a node) for a part of the list.
+template <typename Part, typename Expander>
+Places ExpandList(std::vector<Part>* list, Expander&& expand) {
+  std::vector<Part> expanded;
   Places places;
-  for (std::size_t i = 0; i < loads->size(); ++i)
-    ExpandLoad((*loads)[i], groups, [&](const Load& load) {
-      expanded.push_back(load);
+  for (std::size_t i = 0; i < list->size(); ++i)
+    expand((*list)[i], [&](const Part& part) {
+      expanded.push_back(part);
       places.push_back(i);
     });
-  *loads = std::move(expanded);
+  *list = std::move(expanded);
   return places;
 }
 
-Places ExpandContacts(const Groups& groups, std::vector<ContactCandidate>* contacts) {
-  std::vector<ContactCandidate> expanded;
-  Places places;
-  const auto add = [&](const ContactCandidate& contact, std::size_t place) {
-    expanded.push_back(contact);
-    places.push_back(place);
-  };
-  for (std::size_t i = 0; i < contacts->size(); ++i) {
-    ContactCandidate contact = (*contacts)[i];
-    if (contact.group.empty()) {
-      add(contact, i);
-      continue;
-    }
-    const std::string group = std::exchange(contact.group, {});
-    const bool all = contact.OnSurface() && groups.CanMove(groups.Surface(contact.surface));
-    for (const std::string& node : *groups.At(group).nodes) {
-      if (!all && !groups.CanMove(node)) continue;
-      contact.node = node;
-      add(contact, i);
-    }
+// Calls add(part on a node) for each node of its group, or with the part as it is.
+template <typename Part, typename Add>
+void ForEachNode(Part part, const Groups& groups, Add&& add) {
+  const GroupNodes* const group = groups.Find(part.group);
+  if (group == nullptr) return add(part);
+  part.group.clear();
+  for (const std::string& node : *group->nodes) {
+    part.node = node;
+    add(part);
   }
-  *contacts = std::move(expanded);
-  return places;
+}
+
+Places ExpandContacts(const Groups& groups, std::vector<ContactCandidate>* contacts) {
+  return ExpandList(contacts, [&](const ContactCandidate& contact, auto&& add) {
+    const BoundarySurface* const surface = groups.FindSurface(contact.surface);
+    const bool all = groups.Find(contact.group) == nullptr || (surface != nullptr && groups.CanMove(*surface));
+    ForEachNode(contact, groups, [&](const ContactCandidate& on_node) {
+      if (all || groups.CanMove(on_node.node)) add(on_node);
+    });
+  });
+}
+
+// Scene or Stage.
+template <typename Loading>
+void ExpandLoading(const Groups& groups, Loading* loading, Expansion* expansion) {
+  expansion->loads.push_back(
+      ExpandList(&loading->loads, [&](const Load& load, auto&& add) { ExpandLoad(load, groups, add); }));
+  expansion->motions.push_back(ExpandList(
+      &loading->support_motions, [&](const SupportMotion& motion, auto&& add) { ForEachNode(motion, groups, add); }));
+}
+
+// Of an expanded scene but for its supports.
+void FixNodes(Scene* scene) {
+  if (scene->supports.empty()) return;
+  const Groups groups(*scene);
+  std::unordered_map<std::string_view, std::size_t> places;
+  for (std::size_t i = 0; i < scene->nodes.size(); ++i) places.emplace(scene->nodes[i].name, i);
+  const std::vector<bool> turns = NodesThatTurn(*scene);
+  for (const Support& support : std::exchange(scene->supports, {}))
+    ForEachNode(support, groups, [&](const Support& on_node) {
+      const auto place = places.find(on_node.node);
+      if (place == places.end()) return;
+      Node& node = scene->nodes[place->second];
+      node.fixed_x = node.fixed_x || support.fixed_x;
+      node.fixed_y = node.fixed_y || support.fixed_y;
+      node.fixed_rotation = node.fixed_rotation || (support.fixed_rotation && turns[place->second]);
+    });
 }
 
 }  // namespace
@@ -240,25 +273,29 @@ Expansion Expand(const TraceRequest& request) {
   expansion.request = request;
   Scene& scene = expansion.request.scene;
   ExpandBeams(&scene);
+  FixNodes(&scene);
   const Groups groups(scene);
-  expansion.loads = ExpandLoads(groups, &scene.loads);
   expansion.contacts = ExpandContacts(groups, &scene.contacts);
-  for (Stage& stage : expansion.request.program) expansion.stage_loads.push_back(ExpandLoads(groups, &stage.loads));
+  ExpandLoading(groups, &scene, &expansion);
+  for (Stage& stage : expansion.request.program) ExpandLoading(groups, &stage, &expansion);
   return expansion;
 }
 
 bool NeedsExpansion(const TraceRequest& request) {
-  const auto any_load = [](const std::vector<Load>& loads) {
-    return std::any_of(loads.begin(), loads.end(), [](const Load& load) {
-      return !load.group.empty() || !load.surface.empty() || load.px != 0.0 || load.py != 0.0;
-    });
+  const auto any_group = [](const auto& parts) {
+    return std::any_of(parts.begin(), parts.end(), [](const auto& part) { return !part.group.empty(); });
+  };
+  const auto any_in = [&](const auto& loading) {
+    return any_group(loading.loads) || any_group(loading.support_motions) ||
+           std::any_of(loading.loads.begin(), loading.loads.end(),
+                       [](const Load& load) { return !load.surface.empty() || load.px != 0.0 || load.py != 0.0; });
   };
   const Scene& scene = request.scene;
-  return !scene.beams.empty() || !scene.groups.empty() || !scene.surfaces.empty() || any_load(scene.loads) ||
+  return !scene.beams.empty() || !scene.groups.empty() || !scene.surfaces.empty() || !scene.supports.empty() ||
+         any_in(scene) || any_group(scene.contacts) ||
          std::any_of(scene.contacts.begin(), scene.contacts.end(),
-                     [](const ContactCandidate& contact) { return contact.OnSurface() || !contact.group.empty(); }) ||
-         std::any_of(request.program.begin(), request.program.end(),
-                     [&](const Stage& stage) { return any_load(stage.loads); });
+                     [](const ContactCandidate& contact) { return contact.OnSurface(); }) ||
+         std::any_of(request.program.begin(), request.program.end(), any_in);
 }
 
 }  // namespace contact_path

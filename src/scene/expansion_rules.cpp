@@ -50,9 +50,16 @@ class BeamRules {
       for (const auto& element : elements)
         for (const std::string& node : element.nodes) ++parts[node];
     });
-    std::unordered_set<std::string> in_contact;  // nodes, groups, and beams with inner nodes on a surface
+    std::unordered_set<std::string> in_contact;  // or held; nodes, groups, and beams with inner nodes on a surface
+    const auto hold = [&](const auto& part) {
+      in_contact.insert({part.node, part.node.substr(0, part.node.find('/')), part.group});
+      if (part.group.empty()) return;
+      for (const Group& group : scene_.groups)
+        if (group.name == part.group) in_contact.insert(group.nodes.begin(), group.nodes.end());
+    };
+    std::for_each(scene_.supports.begin(), scene_.supports.end(), hold);
     for (const ContactCandidate& contact : scene_.contacts) {
-      in_contact.insert({contact.node, contact.group});
+      hold(contact);
       if (const BoundarySurface* const surface = checker_.KnownSurface(contact.surface))
         for (const std::string& node : surface->nodes) in_contact.insert(node.substr(0, node.find('/')));
     }
@@ -98,7 +105,8 @@ class GroupRules {
       groups_.insert(group.name);
     }
     CheckSurfaces();
-    CheckLoads(kScene.Key("loads"), scene_.loads);
+    CheckSupports();
+    CheckLoading(kScene, scene_);
     const KeyPath contacts = kScene.Key("contacts"), program("program");
     for (std::size_t i = 0; i < scene_.contacts.size(); ++i) {
       const ContactCandidate& contact = scene_.contacts[i];
@@ -106,7 +114,7 @@ class GroupRules {
       if (contact.OnSurface()) CheckSurfaceName(contacts[i], contact.surface);
     }
     for (std::size_t i = 0; i < checker_.Request().program.size(); ++i)
-      CheckLoads(program[i].Key("loads"), checker_.Request().program[i].loads);
+      CheckLoading(program[i], checker_.Request().program[i]);
   }
 
  private:
@@ -155,9 +163,42 @@ class GroupRules {
     checker_.Add(path.Key("surface"), surface, "must name a surface of the scene" + nearest.Question());
   }
 
-  void CheckLoads(const KeyPath& list, const std::vector<Load>& loads) {
-    for (std::size_t i = 0; i < loads.size(); ++i) {
-      const Load& load = loads[i];
+  void CheckSupports() {
+    const KeyPath list = kScene.Key("supports");
+    for (std::size_t i = 0; i < scene_.supports.size(); ++i) {
+      const Support& support = scene_.supports[i];
+      const KeyPath path = list[i];
+      if (support.group.empty()) checker_.CheckFields(path, support);
+      CheckGroup(path, support.node, support.group);
+      if (!support.fixed_x && !support.fixed_y && !support.fixed_rotation)
+        checker_.Add(path, support.group.empty() ? support.node : support.group,
+                     "fixed_x, fixed_y or fixed_rotation must be true");
+      if (const std::string* const node = support.fixed_rotation ? FirstThatNoBeamTurns(support) : nullptr)
+        checker_.Add(path.Key("fixed_rotation"), "true", "must be false: no beam turns node " + *node);
+    }
+  }
+
+  // Null: there is none among its nodes.
+  const std::string* FirstThatNoBeamTurns(const Support& support) const {
+    const auto stays = [&](const std::string& node) {
+      return checker_.KnownNode(node) != nullptr && !checker_.Turns(node);
+    };
+    if (stays(support.node)) return &support.node;
+    for (const Group& group : scene_.groups) {
+      const auto found = std::find_if(group.nodes.begin(), group.nodes.end(), stays);
+      if (group.name == support.group && found != group.nodes.end()) return &*found;
+    }
+    return nullptr;
+  }
+
+  // Of a scene or a stage.
+  template <typename Loading>
+  void CheckLoading(const KeyPath& where, const Loading& loading) {
+    const KeyPath list = where.Key("loads"), motions = where.Key("support_motions");
+    for (std::size_t i = 0; i < loading.support_motions.size(); ++i)
+      CheckGroup(motions[i], loading.support_motions[i].node, loading.support_motions[i].group);
+    for (std::size_t i = 0; i < loading.loads.size(); ++i) {
+      const Load& load = loading.loads[i];
       if (!load.surface.empty()) {
         CheckSurfaceLoad(list[i], load);
         continue;

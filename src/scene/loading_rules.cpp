@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <type_traits>
 
@@ -40,16 +41,16 @@ LoadingRules::LoadingRules(Checker* checker) : checker_(*checker), scene_(checke
 }
 
 void LoadingRules::CheckSceneLoads() {
-  CheckLoads(kScene.Key("loads"), scene_.loads, [this](std::size_t i) { return checker_.LoadPlace(i); });
+  CheckLoads(kScene, 0, scene_.loads);
   CheckWhatMoves();
 }
 
-void LoadingRules::CheckSceneMotions() { CheckMotions(kScene, scene_.support_motions, scene_.obstacle_motions); }
+void LoadingRules::CheckSceneMotions() { CheckMotions(kScene, 0, scene_.support_motions, scene_.obstacle_motions); }
 
-template <typename Place>
-void LoadingRules::CheckLoads(const KeyPath& list, const std::vector<Load>& loads, Place&& place) {
+void LoadingRules::CheckLoads(const KeyPath& where, std::size_t loading, const std::vector<Load>& loads) {
+  const KeyPath list = where.Key("loads");
   for (std::size_t i = 0; i < loads.size(); ++i) {
-    const KeyPath path = list[place(i)];
+    const KeyPath path = list[checker_.LoadPlace(loading, i)];
     bool sound = checker_.CheckFields(path, loads[i]);
     if (sound && loads[i].moment != 0.0 && !checker_.Turns(loads[i].node)) {
       checker_.Add(path.Key("moment"), NumberText(loads[i].moment), "must be 0: no beam turns node " + loads[i].node);
@@ -65,7 +66,7 @@ void LoadingRules::CheckWhatMoves() {
   if (!checker_.Request().program.empty()) {
     for (std::size_t i = 0; i < scene_.loads.size(); ++i)
       if (!scene_.loads[i].constant)
-        checker_.Add(list[checker_.LoadPlace(i)].Key("constant"), "false",
+        checker_.Add(list[checker_.LoadPlace(0, i)].Key("constant"), "false",
                      "must be true where there is a program: loads that a load factor scales belong to a stage");
     return;
   }
@@ -90,14 +91,14 @@ void LoadingRules::CheckProgram() {
 
 void LoadingRules::CheckStage(const KeyPath& path, std::size_t number) {
   const Stage& stage = checker_.Request().program[number];
-  const auto place = [&](std::size_t load) { return checker_.StageLoadPlace(number, load); };
   const KeyPath loads = path.Key("loads");
   const bool sound = checker_.CheckFields(path, stage);
-  CheckLoads(loads, stage.loads, place);
+  CheckLoads(path, number + 1, stage.loads);
   for (std::size_t k = 0; k < stage.loads.size(); ++k)
     if (stage.loads[k].constant)
-      checker_.Add(loads[place(k)].Key("constant"), "true", "must be false: constant loads belong to the scene");
-  CheckMotions(path, stage.support_motions, stage.obstacle_motions);
+      checker_.Add(loads[checker_.LoadPlace(number + 1, k)].Key("constant"), "true",
+                   "must be false: constant loads belong to the scene");
+  CheckMotions(path, number + 1, stage.support_motions, stage.obstacle_motions);
   if (stage.unload)
     CheckUnloading(path, stage, sound);
   else if (loads_are_sound_ && checker_.HasFreeComponent() && !HasReferenceLoad(stage.loads) &&
@@ -165,32 +166,18 @@ bool LoadingRules::CheckMotion(const KeyPath& path, const Motion& motion) {
   return false;
 }
 
-void LoadingRules::CheckMotions(const KeyPath& where, const std::vector<SupportMotion>& supports,
+void LoadingRules::CheckMotions(const KeyPath& where, std::size_t loading, const std::vector<SupportMotion>& supports,
                                 const std::vector<ObstacleMotion>& obstacles) {
   const KeyPath support_list = where.Key("support_motions"), obstacle_list = where.Key("obstacle_motions");
   std::unordered_set<std::string> moved;
+  std::optional<std::size_t> faulty;
   for (std::size_t i = 0; i < supports.size(); ++i) {
     const SupportMotion& motion = supports[i];
-    const KeyPath path = support_list[i];
-    checker_.CheckFields(path, motion);
-    if (!moved.insert(motion.node).second) checker_.Add(path.Key("node"), motion.node, "must not be repeated");
-    const Node* const node = checker_.KnownNode(motion.node);
-    if (!CheckMotion(path, motion) || node == nullptr) continue;
-    if (motion.dx != 0.0 && !node->fixed_x)
-      checker_.Add(path.Key("dx"), NumberText(motion.dx), "must be 0: node " + node->name + " is not fixed in x");
-    if (motion.dy != 0.0 && !node->fixed_y)
-      checker_.Add(path.Key("dy"), NumberText(motion.dy), "must be 0: node " + node->name + " is not fixed in y");
-    if (motion.rotation != 0.0 && !node->fixed_rotation)
-      checker_.Add(path.Key("rotation"), NumberText(motion.rotation),
-                   "must be 0: the rotation of node " + node->name + " is not fixed");
-    if (motion.dx == 0.0 && motion.dy == 0.0) continue;
-    if (contact_nodes_.count(motion.node) > 0)
-      checker_.Add(path.Key("node"), motion.node,
-                   "must not be a contact candidate: its reactions would not be determined");
-    if (const auto on = surface_nodes_.find(motion.node); on != surface_nodes_.end())
-      checker_.Add(path.Key("node"), motion.node,
-                   "must not belong to surface " + std::string(on->second) +
-                       ", which contacts touch: leave it out of the surface");
+    const std::size_t place = checker_.MotionPlace(loading, i);
+    if (place == faulty) continue;  // one node of a group tells
+    const std::size_t found_before = checker_.NumFound();
+    CheckSupportMotion(support_list[place], motion, &moved);
+    if (checker_.NumFound() > found_before) faulty = place;
   }
   moved.clear();
   for (std::size_t i = 0; i < obstacles.size(); ++i) {
@@ -202,6 +189,29 @@ void LoadingRules::CheckMotions(const KeyPath& where, const std::vector<SupportM
     const Obstacle* const obstacle = checker_.KnownObstacle(motion.obstacle);
     if (CheckMotion(path, motion) && obstacle != nullptr) CheckNodesCanFollow(path, motion, *obstacle);
   }
+}
+
+void LoadingRules::CheckSupportMotion(const KeyPath& path, const SupportMotion& motion,
+                                      std::unordered_set<std::string>* moved) {
+  checker_.CheckFields(path, motion);
+  if (!moved->insert(motion.node).second) checker_.Add(path.Key("node"), motion.node, "must not be repeated");
+  const Node* const node = checker_.KnownNode(motion.node);
+  if (!CheckMotion(path, motion) || node == nullptr) return;
+  if (motion.dx != 0.0 && !node->fixed_x)
+    checker_.Add(path.Key("dx"), NumberText(motion.dx), "must be 0: node " + node->name + " is not fixed in x");
+  if (motion.dy != 0.0 && !node->fixed_y)
+    checker_.Add(path.Key("dy"), NumberText(motion.dy), "must be 0: node " + node->name + " is not fixed in y");
+  if (motion.rotation != 0.0 && !node->fixed_rotation)
+    checker_.Add(path.Key("rotation"), NumberText(motion.rotation),
+                 "must be 0: the rotation of node " + node->name + " is not fixed");
+  if (motion.dx == 0.0 && motion.dy == 0.0) return;
+  if (contact_nodes_.count(motion.node) > 0)
+    checker_.Add(path.Key("node"), motion.node,
+                 "must not be a contact candidate: its reactions would not be determined");
+  if (const auto on = surface_nodes_.find(motion.node); on != surface_nodes_.end())
+    checker_.Add(path.Key("node"), motion.node,
+                 "must not belong to surface " + std::string(on->second) +
+                     ", which contacts touch: leave it out of the surface");
 }
 
 void LoadingRules::CheckNodesCanFollow(const KeyPath& path, const ObstacleMotion& motion, const Obstacle& obstacle) {

@@ -44,12 +44,12 @@ class LoadingRules {
   void CheckProgram();
 
  private:
-  // place(i): of a load in the list of the request.
-  template <typename Place>
-  void CheckLoads(const KeyPath& list, const std::vector<Load>& loads, Place&& place);
+  // loading: as of Checker::LoadPlace.
+  void CheckLoads(const KeyPath& where, std::size_t loading, const std::vector<Load>& loads);
   void CheckWhatMoves();
-  void CheckMotions(const KeyPath& where, const std::vector<SupportMotion>& supports,
+  void CheckMotions(const KeyPath& where, std::size_t loading, const std::vector<SupportMotion>& supports,
                     const std::vector<ObstacleMotion>& obstacles);
+  void CheckSupportMotion(const KeyPath& path, const SupportMotion& motion, std::unordered_set<std::string>* moved);
   // Of a support or an obstacle.
   template <typename Motion>
   bool CheckMotion(const KeyPath& path, const Motion& motion);

@@ -216,6 +216,25 @@ Configuration StageConfiguration(const TraceRequest& request, const SceneIndex& 
   return configuration;
 }
 
+ObstaclePlace PlaceOf(const TraceRequest& request, const Obstacle& obstacle, std::size_t stage, double load_factor) {
+  ObstaclePlace place{obstacle.px, obstacle.py, 0.0};
+  const auto move = [&](const std::vector<ObstacleMotion>& motions, double share) {
+    for (const ObstacleMotion& motion : motions) {
+      if (motion.obstacle != obstacle.name) continue;
+      Move(share, motion, &place.x, &place.y);
+      place.turn += share * motion.turn;
+    }
+  };
+  if (request.program.empty()) {
+    move(request.scene.obstacle_motions, load_factor);
+    return place;
+  }
+  const std::vector<double> shares = SharesBefore(request.program, stage);
+  for (std::size_t i = 0; i < stage; ++i) move(request.program[i].obstacle_motions, shares[i]);
+  move(StageAsTraced(request, stage).obstacle_motions, load_factor);
+  return place;
+}
+
 Scaling ProgramScales(const TraceRequest& request, const SceneIndex& index) {
   Scaling largest = CharacteristicScales(StageScene(request, index, 0), index);
   if (request.program.empty()) return largest;

@@ -13,9 +13,13 @@ struct Component {
   Unit unit;
 };
 
-// Of nodes, contacts, supports, boundaries, sections and elements.
-constexpr std::array<Component, 23> kComponents = {{{"x", Quantity::Kind::kX, units::kLength},
+// Of nodes, obstacles, contacts, supports, boundaries, sections and elements. A word stands for the first kind that it
+// has.
+constexpr std::array<Component, 26> kComponents = {{{"x", Quantity::Kind::kX, units::kLength},
                                                     {"y", Quantity::Kind::kY, units::kLength},
+                                                    {"x", Quantity::Kind::kObstacleX, units::kLength},
+                                                    {"y", Quantity::Kind::kObstacleY, units::kLength},
+                                                    {"turn", Quantity::Kind::kTurn, units::kNone},
                                                     {"rotation", Quantity::Kind::kRotation, units::kNone},
                                                     {"gap", Quantity::Kind::kGap, units::kLength},
                                                     {"rn", Quantity::Kind::kRn, units::kForce},
@@ -106,6 +110,13 @@ std::optional<Quantity> FindQuantity(std::string_view text, const SceneIndex& in
     return boundary ? std::optional(Quantity{quantity.kind, *boundary, true}) : std::nullopt;
   }
   if (quantity.IsReaction()) return FindReaction(quantity.kind, spelled->name, index);
+  if (const std::optional<std::size_t> obstacle = index.FindObstacle(spelled->name)) {
+    const bool is_node = index.FindNode(spelled->name).has_value();
+    if (quantity.kind == Quantity::Kind::kX && !is_node) quantity.kind = Quantity::Kind::kObstacleX;
+    if (quantity.kind == Quantity::Kind::kY && !is_node) quantity.kind = Quantity::Kind::kObstacleY;
+    quantity.part = *obstacle;
+    if (quantity.IsOfObstacle()) return quantity;
+  }
   const std::optional<std::size_t> part =
       quantity.IsOfNode() ? index.FindNode(spelled->name) : index.FindContact(std::string(spelled->name));
   if (!part) return std::nullopt;
@@ -123,7 +134,14 @@ NearestName NearestPart(const SpelledQuantity& quantity, const Scene& scene) {
     return nearest;
   }
   if (Quantity{quantity.kind}.IsOfSection() || Quantity{quantity.kind}.IsOfElement()) return NearestName(quantity.name);
-  if (Quantity{quantity.kind}.IsOfNode()) return NearestOf(quantity.name, scene.nodes, &Node::name);
+  if (Quantity{quantity.kind}.IsOfNode() || quantity.kind == Quantity::Kind::kTurn) {
+    NearestName nearest(quantity.name);
+    if (quantity.kind != Quantity::Kind::kTurn)
+      for (const Node& node : scene.nodes) nearest.Offer(node.name);
+    if (quantity.kind != Quantity::Kind::kRotation)
+      for (const Obstacle& obstacle : scene.obstacles) nearest.Offer(obstacle.name);
+    return nearest;
+  }
   return NearestOf(quantity.name, scene.contacts, &ContactCandidate::Name);
 }
 
@@ -136,6 +154,8 @@ NearestName NearestQuantity(std::string_view text, const Scene& scene) {
       if (is_of(Quantity{component.kind})) nearest.Offer(QuantityText(component.kind, name, is_column));
   };
   for (const Node& node : scene.nodes) offer(node.name, [](const Quantity& of) { return of.IsOfNode(); });
+  for (const Obstacle& obstacle : scene.obstacles)
+    offer(obstacle.name, [](const Quantity& of) { return of.IsOfObstacle(); });
   for (const ContactCandidate& contact : scene.contacts)
     offer(contact.Name(), [](const Quantity& of) { return of.IsOfContact(); });
   for (const SupportedNode& support : SupportedNodes(scene))
@@ -152,7 +172,9 @@ std::string PartOf(Quantity::Kind kind) {
   if (kind == Quantity::Kind::kWidth) return "an obstacle or surface with contact candidates";
   if (Quantity{kind}.IsOfSection()) return "a segment of a beam, as leg.1, or of N a bar, as bar1";
   if (Quantity{kind}.IsOfElement()) return "an element of a solid, as block.1";
-  return Quantity{kind}.IsOfNode() ? "a node of the scene" : "a contact of the scene";
+  if (kind == Quantity::Kind::kRotation) return "a node of the scene";
+  if (kind == Quantity::Kind::kTurn) return "an obstacle of the scene";
+  return Quantity{kind}.IsOfNode() ? "a node or an obstacle of the scene" : "a contact of the scene";
 }
 
 std::string QuantityText(Quantity::Kind kind, std::string_view name, bool is_column) {

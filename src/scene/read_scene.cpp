@@ -5,10 +5,12 @@
 #include <charconv>
 #include <cstddef>
 #include <fstream>
-#include <iterator>
+#include <limits>
 #include <string_view>
 #include <system_error>
+#include <type_traits>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -27,8 +29,15 @@ namespace {
 class Reader {
  public:
   const std::vector<Violation>& violations() const { return violations_; }
-  // False where a value could not be read and is missing from the result.
+  // False where a list, a map, a truth value or an integer could not be read: rules would judge what is missing.
   bool complete() const { return complete_; }
+  // Whether a violation of a rule is there because of what could not be read.
+  bool Explains(const Violation& violation) const {
+    const std::string& key = violation.key;
+    for (std::size_t end = key.size(); end != key.npos; end = end == 0 ? key.npos : key.find_last_of(".[", end - 1))
+      if (not_read_.count(key.substr(0, end)) > 0) return true;
+    return false;
+  }
 
   template <typename T>
   void Read(const YamlValue& value, const KeyPath& path, T* out) {
@@ -39,7 +48,17 @@ class Reader {
     } else if (const auto parsed = Scalar<T>::Parse(value)) {
       *out = *parsed;
     } else {
-      WrongType(value, path, Scalar<T>::Rule(value));
+      Add(0, path, value, Scalar<T>::Rule(value));
+      if constexpr (std::is_same_v<T, double>) {
+        *out = std::numeric_limits<double>::quiet_NaN();  // no rule compares it with others
+      } else if constexpr (std::is_same_v<T, std::string>) {
+        *out = value.text;  // other parts may refer to it
+        complete_ = complete_ && value.kind == YamlValue::Kind::kText;
+      } else {
+        complete_ = complete_ && std::is_enum_v<T>;
+      }
+      const std::string key = path.ToString();
+      not_read_.insert(std::is_enum_v<T> ? key.substr(0, key.find_last_of('.')) : key);
     }
   }
 
@@ -67,7 +86,9 @@ class Reader {
       if (const auto [earlier, is_new] = lines.emplace(name, key.line); !is_new) {
         Add(key.line, path.Key(name), value, "repeated key, first in line " + std::to_string(earlier->second));
       } else if (!ReadField(name, value, path, out)) {
-        Add(key.line, path.Key(name), value, UnknownKey<Part>(name));
+        std::string meant;
+        Add(key.line, path.Key(name), value, UnknownKey<Part>(name, &meant));
+        not_read_.insert(path.Key(meant).ToString());
       }
     }
   }
@@ -85,13 +106,14 @@ class Reader {
   }
 
   template <typename Part>
-  static std::string UnknownKey(std::string_view name) {
+  static std::string UnknownKey(std::string_view name, std::string* meant) {
     std::string new_name;
     NearestName nearest(name);
     ForEachField<Part>([&](const auto& field) {
       if (field.formerly == name) new_name = field.name;
       nearest.Offer(field.name);
     });
+    *meant = new_name.empty() ? nearest.Get() : new_name;
     if (!new_name.empty()) return "unknown key, is named " + new_name + " now";
     const std::string question = nearest.Get().empty() ? "" : " (did you mean " + nearest.Get() + "?)";
     return "unknown key" + question + ", must be one of: " + FieldNames<Part>();
@@ -109,9 +131,11 @@ class Reader {
   void WrongType(const YamlValue& value, const KeyPath& path, std::string rule) {
     Add(0, path, value, std::move(rule));
     complete_ = false;
+    not_read_.insert(path.ToString());
   }
 
   std::vector<Violation> violations_;
+  std::unordered_set<std::string> not_read_;  // keys
   bool complete_ = true;
 };
 
@@ -151,15 +175,15 @@ TraceRequest ReadTraceRequest(const std::string& text, const std::string& file_n
   Reader in;
   in.Read(root, KeyPath(), &request);
   std::vector<Violation> violations = in.violations();
-  if (in.complete()) {  // otherwise the request would be judged by what is missing
-    std::vector<Violation> broken_rules = Validate(request);
-    std::move(broken_rules.begin(), broken_rules.end(), std::back_inserter(violations));
-  }
+  for (const Violation& broken : in.complete() ? Validate(request) : ValidateNumbers(request))
+    if (!in.Explains(broken)) violations.push_back(broken);
   if (violations.empty()) return request;
   for (Violation& violation : violations) {
     violation.file = file_name;
     if (violation.line == 0) violation.line = LineOf(root, violation.key);
   }
+  std::stable_sort(violations.begin(), violations.end(),
+                   [](const Violation& a, const Violation& b) { return a.line < b.line; });
   throw InvalidRequest(std::move(violations));
 }
 

@@ -104,6 +104,40 @@ std::vector<Violation> ValidateExpanded(Checker* checker_of_request) {
   return all;
 }
 
+bool StartsWith(const std::string& text, std::string_view beginning) {
+  return text.compare(0, beginning.size(), beginning) == 0;
+}
+
+// Whether violations that were found before the expansion leave it without its nodes.
+bool PreventExpansion(const std::vector<Violation>& violations) {
+  return std::any_of(violations.begin(), violations.end(), [](const Violation& violation) {
+    const std::string& key = violation.key;
+    if (StartsWith(key, "scene.groups") || StartsWith(key, "scene.surfaces")) return true;
+    const std::string field = key.substr(key.find_last_of('.') + 1);
+    return StartsWith(key, "scene.beams") && field != "EA" && field != "EI" && field != "GA" &&
+           !StartsWith(field, "hinged[");
+  });
+}
+
+// Whether a violation of the expanded request is there because of one that was found before.
+bool Follows(const Violation& violation, const Violation& cause) {
+  const std::string part = cause.key.substr(0, cause.key.find_last_of(']') + 1);
+  if (violation.key == cause.key || violation.key == part + ".node") return true;
+  const bool is_quantity = StartsWith(violation.key, "options.stop") || StartsWith(violation.key, "options.at[");
+  if (StartsWith(cause.key, "scene.contacts")) return is_quantity;
+  return StartsWith(cause.key, "scene.supports") &&
+         (is_quantity || violation.key.find("support_motions") != std::string::npos);
+}
+
+std::string LinesOf(const std::vector<Violation>& violations) {
+  if (violations.empty()) return "invalid request";
+  const std::size_t listed = violations.size() <= kMostViolationLines ? violations.size() : kMostViolationLines - 1;
+  std::string lines;
+  for (std::size_t i = 0; i < listed; ++i) lines += (i > 0 ? "\n" : "") + violations[i].ToLine();
+  if (listed < violations.size()) lines += "\n... and " + std::to_string(violations.size() - listed) + " more";
+  return lines;
+}
+
 }  // namespace
 
 std::string Violation::ToLine() const {
@@ -119,8 +153,11 @@ std::string Violation::ToLine() const {
 }
 
 InvalidRequest::InvalidRequest(std::vector<Violation> violations)
-    : std::invalid_argument(violations.empty() ? "invalid request" : violations.front().ToLine()),
-      violations_(std::move(violations)) {}
+    : std::invalid_argument(LinesOf(violations)), violations_(std::move(violations)) {}
+
+std::vector<Violation> ValidateNumbers(const TraceRequest& request) {
+  return FoundBy([](Checker* checker) { checker->CheckNumbers(KeyPath(), checker->Request()); }, request);
+}
 
 // What stands for several nodes is judged first: the rules of nodes, loads and contacts cannot be told without it.
 std::vector<Violation> Validate(const TraceRequest& request) {
@@ -128,15 +165,26 @@ std::vector<Violation> Validate(const TraceRequest& request) {
     Checker checker(request);
     return ValidateExpanded(&checker);
   }
-  std::vector<Violation> violations = FoundBy(CheckBeams, request);
-  if (!violations.empty()) return violations;
-  TraceRequest with_nodes = request;
-  ExpandBeams(&with_nodes.scene);
-  violations = FoundBy(CheckGroups, with_nodes);
-  if (!violations.empty()) return violations;
-  const Expansion expansion = Expand(request);
-  Checker checker(expansion, request.scene.nodes.size());
-  return ValidateExpanded(&checker);
+  std::vector<Violation> first = FoundBy(CheckBeams, request), others;
+  if (!PreventExpansion(first)) {
+    TraceRequest with_nodes = request;
+    ExpandBeams(&with_nodes.scene);
+    const std::vector<Violation> of_groups = FoundBy(CheckGroups, with_nodes);
+    first.insert(first.end(), of_groups.begin(), of_groups.end());
+  }
+  if (PreventExpansion(first)) {
+    others = ValidateNumbers(request);
+  } else {
+    const Expansion expansion = Expand(request);
+    Checker checker(expansion, request.scene.nodes.size());
+    others = ValidateExpanded(&checker);
+  }
+  const std::size_t count = first.size();
+  for (const Violation& violation : others)
+    if (!std::any_of(first.begin(), first.begin() + static_cast<std::ptrdiff_t>(count),
+                     [&](const Violation& cause) { return Follows(violation, cause); }))
+      first.push_back(violation);
+  return first;
 }
 
 }  // namespace contact_path

@@ -81,7 +81,12 @@ PathColumn::PathColumn(const std::string& name, const TraceRequest& request, con
   if (quantity->kind == Quantity::Kind::kRotation && !NodesThatTurn(scene)[quantity->part])
     Reject("must be of a node that a beam turns");
   lists_.Add(*quantity);
-  number_ = [quantity = *quantity](const Increment& increment) { return ValueOf(quantity, increment); };
+  if (quantity->IsOfObstacle())
+    number_ = [quantity = *quantity, request](const Increment& increment) {
+      return ValueOf(quantity, increment, request);
+    };
+  else
+    number_ = [quantity = *quantity](const Increment& increment) { return ValueOf(quantity, increment); };
 }
 
 }  // namespace contact_path

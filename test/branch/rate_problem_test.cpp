@@ -8,7 +8,7 @@
 #include "contact_path/equations/rigid_modes.h"
 #include "contact_path/linear/minimum_norm.h"
 #include "contact_path/path/model.h"
-#include "contact_path/scene/lattice.h"
+#include "lattice.h"
 #include "support/dense.h"
 #include "support/kinematics.h"
 #include "support/random.h"

@@ -32,14 +32,14 @@ ENVIRONMENT = {**os.environ, 'OMP_NUM_THREADS': '1', 'MPLBACKEND': 'agg', 'PATH'
 
 PYTHON = [path.name for path in sorted((ROOT / 'scripts').iterdir())
           if path.suffix == '' and path.is_file() and path.read_text(encoding='utf-8').startswith('#!/usr/bin/python3')]
-WITH_HELP = ['contact_path_trace', 'contact_path_lattice', 'contact_path_outlines', 'contact_path_expand', 'contact_path_response',
+WITH_HELP = ['contact_path_trace', 'contact_path_outlines', 'contact_path_expand', 'contact_path_response',
              'verify', *PYTHON]
 # What stands for a program in a command.
-SCRIPTS = {**{'scripts/' + name: name for name in ('contact_path_trace', 'contact_path_lattice', 'contact_path_outlines',
+SCRIPTS = {**{'scripts/' + name: name for name in ('contact_path_trace', 'contact_path_outlines',
                                                    'contact_path_expand', 'contact_path_response', 'contact_path_markers')},
            'scripts/mesh': 'contact_path_mesh', 'scripts/study': 'contact_path_study', 'scripts/python': 'python3', 'scripts/trace': 'contact_path_trace', **{'scripts/' + name: name for name in PYTHON}}
 OF_THE_SYSTEM = ('python3', 'sed')
-QUICK = ('contact_path_trace', 'contact_path_lattice', 'contact_path_study', 'verify', *OF_THE_SYSTEM)  # of the examples, run here
+QUICK = ('contact_path_trace', 'contact_path_study', 'verify', *OF_THE_SYSTEM)  # of the examples, run here
 
 SAME = 1e-6  # relative, of numbers that an example prints
 NOTHING = 1e-9  # a number that is but rounding
@@ -179,7 +179,7 @@ class Complete(unittest.TestCase):
     def test_scenes(self):
         scenes = [path.stem for path in sorted((ROOT / 'scenes').glob('*.yaml'))]
         titles = re.findall(r'^## (\w+)$', read('docs/scenes.md'), re.M)
-        self.assertEqual(sorted(set(titles) - {'Lattices'}), scenes)
+        self.assertEqual(sorted(set(titles)), scenes)
         for scene in scenes:
             text = section('docs/scenes.md', scene)
             self.assertIn('scripts/trace scenes/%s.yaml' % scene, text)

@@ -148,7 +148,7 @@ class PackageTest(unittest.TestCase):
 
     def test_commands_are_programs(self):
         commands = os.listdir(self.environment['PATH'])
-        self.assertEqual(sorted(commands), ['contact_path_expand', 'contact_path_lattice', 'contact_path_mesh', 'contact_path_outlines',
+        self.assertEqual(sorted(commands), ['contact_path_expand', 'contact_path_mesh', 'contact_path_outlines',
                                             'contact_path_plot', 'contact_path_response',
                                             'contact_path_study', 'contact_path_trace', 'contact_path_verify'])
         for command in commands:

@@ -22,7 +22,7 @@ namespace {
 
 double Value(const TracedPath& path, const std::string& quantity, const Increment& increment) {
   const ExpandedRequest expanded(path.request);
-  return ValueOf(FindQuantity(quantity, SceneIndex(expanded.Get().scene)).value(), increment);
+  return ValueOf(FindQuantity(quantity, SceneIndex(expanded.Get().scene)).value(), increment, path.request);
 }
 
 struct Wanted {
@@ -65,6 +65,39 @@ INSTANTIATE_TEST_SUITE_P(
           name.begin(), name.end(), [](char c) { return c == '.' || c == '@'; }, '_');
       return name;
     });
+
+// A peg is pushed down onto a bar in two stages and turned about a point beside it; far from the origin.
+TEST(StopAtValue, PlacesOfObstacles) {
+  TraceRequest request;
+  request.scene.nodes = {
+      {"a", 1000.0, 0.0, true, true}, {"b", 1001.0, 0.0, false, false}, {"c", 1001.0, -1.0, true, true}};
+  request.scene.bars = {{{"a", "b"}, 10.0}, {{"c", "b"}, 10.0}};
+  request.scene.obstacles = {{"peg", ObstacleShape::kCircle, 1001.0, 1.0}};
+  request.scene.obstacles[0].radius = 0.5;
+  request.scene.contacts = {{"b", "peg"}};
+  Stage push, turn;
+  push.obstacle_motions = {{"peg", 0.0, -0.6}};
+  turn.obstacle_motions = {{"peg", 0.0, -0.1, 1.0, 1001.5, 0.4}};
+  request.program = {push, turn};
+  request.options.at = {{"peg.y", {0.6, 0.45}}};
+  request.options.stop = {{"turn_peg", ">", 0.25}};
+  for (const Method method : {Method::kBranch, Method::kMpec}) {
+    request.options.method = method;
+    const TracedPath path = TraceIncrements(request);
+    ASSERT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+    const Increment& last = path.increments.back();
+    EXPECT_NEAR(last.load_factor, 0.25, 1e-12);
+    EXPECT_NEAR(Value(path, "peg.x", last), 1001.5 - 0.5 * std::cos(0.25), 1e-10);
+    EXPECT_NEAR(Value(path, "peg.y", last), 0.4 - 0.5 * std::sin(0.25) - 0.025, 1e-10);
+    std::vector<double> found;
+    for (const Increment& increment : path.increments)
+      if (increment.kind == IncrementKind::kSample && increment.stage == 1) found.push_back(increment.load_factor);
+    ASSERT_EQ(found.size(), 2u);
+    EXPECT_NEAR(found[0], 0.4 / 0.6, 1e-10);
+    EXPECT_NEAR(found[1], 0.55 / 0.6, 1e-10);
+    ExpectNoFindings(path);
+  }
+}
 
 TEST(StopAtValue, InexactTakesTheNextIncrementBeyond) {
   TraceRequest request = ReadExample("sliding_bar");

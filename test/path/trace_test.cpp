@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "contact_path/scene/lattice.h"
 #include "contact_path/scene/validate.h"
+#include "lattice.h"
 #include "support/traced_path.h"
 
 namespace contact_path::trace_test {

@@ -50,6 +50,39 @@ class ReactionsTest(unittest.TestCase):
         np.testing.assert_allclose(path.quantity('root.rm'), -path['ry_tip'] * path['x_tip'], atol=1e-10)
 
 
+    def test_obstacles_that_move(self):
+        """A floor that is lifted and then turned under a block that two supports of a group lift with it."""
+        scene = cp.Scene('lift')
+        for i, x in enumerate((0.0, 1.0)):
+            scene.node('n%d' % i, x=x, y=1.0)
+            scene.node('f%d' % i, x=x)
+            scene.bar(['n%d' % i, 'f%d' % i], EA=10.0)
+            scene.contact(node='f%d' % i, obstacle='die')
+        scene.group('top', nodes=['n0', 'n1'])
+        scene.support(group='top', fixed_x=True, fixed_y=True)
+        for i in range(2):
+            scene.support(node='f%d' % i, fixed_x=True)
+        scene.obstacle('die', px=2.0, ny=1.0)
+        lift = scene.stage('lift')
+        lift.obstacle_motion('die', dy=0.5)
+        lift.support_motion(group='top', dy=0.25)
+        scene.stage('turn').obstacle_motion('die', turn=0.1, about_x=0.0, about_y=0.5)
+        scene.stop('die.turn', '>', 0.05)
+        scene.at('die.y', values=[0.125])
+        path = cp.trace(scene)
+        self.assertEqual(path.end_reason, 'stop_criterion')
+        self.assertAlmostEqual(path['load_factor'][-1], 0.5, delta=1e-12)
+        for name in ('y_n0', 'y_n1'):
+            np.testing.assert_allclose(path[name][path['stage'] == 2], 1.25, rtol=0.0, atol=1e-12)
+        self.assertIn(0.25, path['load_factor'][path['kind'] == 'sample'].round(12))
+        y, turn = path.quantity('die.y'), path.quantity('turn_die')
+        first = path['stage'] == 1
+        np.testing.assert_allclose(y[first], 0.5 * path['load_factor'][first], atol=1e-14)
+        np.testing.assert_allclose(turn, np.where(first, 0.0, 0.1 * path['load_factor']), atol=1e-14)
+        np.testing.assert_allclose(path.quantity('die.x')[~first], 2.0 * np.cos(turn[~first]), atol=1e-14)
+        np.testing.assert_allclose(y[~first], 0.5 + 2.0 * np.sin(turn[~first]), atol=1e-14)
+
+
 def scene_named(name):
     return cp.Scene.read(os.path.join(os.environ['CONTACT_PATH_ROOT'], 'scenes', name + '.yaml'))
 
@@ -100,7 +133,7 @@ class ResponseTest(unittest.TestCase):
             np.testing.assert_array_equal(path.quantity('N_left.1'), path.response('sections')['N_left.1'])
             self.assertEqual(len(path.quantity('beam.8.M')), len(path))
             self.assertEqual(asked.call_count, 1)
-        with self.assertRaisesRegex(ValueError, '^no quantity left.9.M: did you mean left.[1-8].M'):
+        with self.assertRaisesRegex(ValueError, r'^no quantity left.9.M: no section left.9, there are left.1, .*; did you mean left.[1-8].M\?$'):
             bare.quantity('left.9.M')
 
     def test_stresses(self):

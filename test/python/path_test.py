@@ -127,8 +127,15 @@ class PathTest(ProgramTest):
         for other in 'rough_truss', 'stick_slip_cycle':
             with self.assertRaisesRegex(ValueError, 'not a path of this scene'):
                 path.with_scene(cp.Scene.read(scene_file(other)))
-        with self.assertRaises(KeyError):
-            path['x_q']
+        for name, told in (('x_q', 'no column x_q: no node or obstacle q, there are p; did you mean x_p?'),
+                           ('p.z', 'no column p.z: of p there are x_p, y_p'),
+                           ('lod_factor', 'no column lod_factor; did you mean load_factor?'),
+                           ('rn_p@flor', 'no column rn_p@flor: no contact p@flor, there are p@floor; did you mean rn_p@floor?')):
+            with self.assertRaises(KeyError) as wrong:
+                path[name]
+            self.assertEqual(wrong.exception.args[0], told)
+        with self.assertRaisesRegex(ValueError, '^no quantity flor.y: no node or obstacle flor, there are p, floor; did you mean floor.y.$'):
+            with_scene.quantity('flor.y')
 
     def test_plot(self):
         import matplotlib

@@ -23,7 +23,7 @@ from contact_path.structure import expanded  # noqa: E402
 
 MESSAGES = {'nodes': 'Node', 'bars': 'Bar', 'superelements': 'Superelement', 'beams': 'Beam', 'materials': 'Material',
             'solids': 'Solid', 'groups': 'Group', 'surfaces': 'BoundarySurface', 'loads': 'Load', 'obstacles': 'Obstacle',
-            'contacts': 'Contact', 'support_motions': 'SupportMotion', 'obstacle_motions': 'ObstacleMotion'}
+            'contacts': 'Contact', 'supports': 'Support', 'support_motions': 'SupportMotion', 'obstacle_motions': 'ObstacleMotion'}
 TYPES = {'string': 'str', 'float64': 'float', 'int32': 'int', 'bool': 'bool'}
 LISTS = {'string': 'Texts', 'float64': 'Numbers', 'int32': 'Integers', 'bool': 'Truths'}
 
@@ -140,6 +140,8 @@ class Text(ProgramTest):
         push = made.stage('push', target=2.0)
         push.load(node='a', fx=1.0)
         push.support_motion('b', rotation=1.0)
+        push.support_motion(group='leg', dx=1.0)
+        made.support(group='leg', fixed_y=True)
         push.obstacle_motion('floor', dy=-1.0)
         made.stage(unload=True)
         self.assertEqual(made.text(), '''scene:
@@ -148,13 +150,15 @@ class Text(ProgramTest):
   - {name: rubber, lambda: 1.0, mu: 0.5}
   beams:
   - {name: leg, nodes: [a, b], EA: 1.0, EI: 1.0, hinged: [true, false]}
+  supports:
+  - {group: leg, fixed_y: true}
 options:
   stop:
   - {quantity: "a.x", when: ">"}
   branch_choices:
   - {event: 1, branch: 2}
 program:
-- {name: push, target: 2.0, loads: [{node: a, fx: 1.0}], support_motions: [{node: b, rotation: 1.0}], '''
+- {name: push, target: 2.0, loads: [{node: a, fx: 1.0}], support_motions: [{node: b, rotation: 1.0}, {dx: 1.0, group: leg}], '''
                          '''obstacle_motions: [{obstacle: floor, dy: -1.0}]}
 - {unload: true}
 ''')

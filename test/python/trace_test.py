@@ -158,7 +158,8 @@ class TraceTest(ProgramTest):
     def test_invalid_scenes_in_the_words_of_the_validator(self):
         scene = small_truss()
         scene.request['scene']['bars'][0]['EA'] = -1.0
-        with self.assertRaisesRegex(cp.InvalidScene, r'^scene\.bars\[0\]\.EA = -1: must be > 0'):
+        scene.load(node='fot', fx=1.0)
+        with self.assertRaisesRegex(cp.InvalidScene, r'^scene\.bars\[0\]\.EA = -1: must be > 0.*\nscene\.loads\[1\]\.node = fot: .* did you mean foot\?$'):
             cp.trace(scene)
         scene.write(self.path('wrong.yaml'))
         with self.assertRaisesRegex(cp.InvalidScene, r'wrong\.yaml:\d+: scene\.bars\[0\]\.EA = -1: must be > 0'):

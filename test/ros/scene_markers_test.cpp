@@ -13,7 +13,7 @@
 #include <gtest/gtest.h>
 #include <visualization_msgs/Marker.h>
 
-#include "contact_path/scene/lattice.h"
+#include "lattice.h"
 #include "read_markers.h"
 
 namespace contact_path::scene_markers_test {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "contact_path/scene/read_scene.h"
@@ -111,6 +112,35 @@ scene:
   EXPECT_NEAR(sum, 4.0 + std::sqrt(8.0), 1e-14);
 }
 
+TEST(Expand, SupportsAndTheirMotionsOfGroups) {
+  TraceRequest request = Frame();
+  request.scene.contacts.clear();
+  request.scene.supports = {{"", "some", false, true, true}, {"c", "", true, false, false}};
+  request.scene.support_motions = {{"c", 2.0}, {"", 0.0, 1.0, 0.5, "some"}};
+  EXPECT_EQ(Validate(request).size(), 0u);
+  const Expansion expansion = Expand(request);
+  const Scene& scene = expansion.request.scene;
+  for (const std::size_t node : {std::size_t{1}, std::size_t{4}}) {  // b, leg/2
+    EXPECT_FALSE(scene.nodes[node].fixed_x);
+    EXPECT_TRUE(scene.nodes[node].fixed_y && scene.nodes[node].fixed_rotation);
+  }
+  EXPECT_TRUE(scene.nodes[2].fixed_x);
+  EXPECT_FALSE(scene.nodes[2].fixed_y);
+  ASSERT_EQ(scene.support_motions.size(), 3u);
+  EXPECT_EQ(scene.support_motions[2].node, "leg/2");
+  EXPECT_EQ(scene.support_motions[2].dy, 1.0);
+  EXPECT_EQ(scene.support_motions[2].rotation, 0.5);
+  EXPECT_EQ(expansion.motions[0], (Places{0, 1, 1}));
+  // The same of a stage.
+  TraceRequest program = request;
+  program.scene.loads.clear();
+  program.program.resize(1);
+  program.program[0].support_motions = std::exchange(program.scene.support_motions, {});
+  EXPECT_EQ(Validate(program).size(), 0u);
+  EXPECT_EQ(Expand(program).request.program[0].support_motions.size(), 3u);
+  EXPECT_EQ(WriteTraceRequest(ReadTraceRequest(WriteTraceRequest(program), "again.yaml")), WriteTraceRequest(program));
+}
+
 TEST(Expand, ChangesNothingASecondTime) {
   const TraceRequest once = Expand(Frame()).request;
   EXPECT_EQ(WriteTraceRequest(Expand(once).request), WriteTraceRequest(once));
@@ -177,6 +207,38 @@ INSTANTIATE_TEST_SUITE_P(
                      r.scene.support_motions[0].rotation = 1.0;
                    },
                    "scene.support_motions[0].rotation", "1", "must be 0: the rotation of node c is not fixed"},
+        BrokenRule{"MotionOfAFreeGroup",
+                   [](TraceRequest& r) {
+                     r.scene.contacts.erase(r.scene.contacts.begin());
+                     r.scene.support_motions = {{"", 1.0, 0.0, 0.0, "some"}};
+                   },
+                   "scene.support_motions[0].dx", "1", "must be 0: node b is not fixed in x"},
+        BrokenRule{"MotionOfNoGroup",
+                   [](TraceRequest& r) {
+                     r.scene.support_motions = {{"", 1.0, 0.0, 0.0, "sme"}};
+                   },
+                   "scene.support_motions[0].group", "sme", "must name a group or a beam of the scene; did you mean"},
+        BrokenRule{"MotionTwice",
+                   [](TraceRequest& r) {
+                     r.scene.support_motions = {{"a", 1.0}, {"", 0.0, 1.0, 0.0, "leg"}};
+                   },
+                   "scene.support_motions[1].node", "a", "must not be repeated"},
+        BrokenRule{"SupportOfNoNode",
+                   [](TraceRequest& r) {
+                     r.scene.supports = {{"leg/4", "", true}};
+                   },
+                   "scene.supports[0].node", "leg/4", "must name a node of the scene; did you mean leg/1?"},
+        BrokenRule{"SupportThatFixesNothing",
+                   [](TraceRequest& r) {
+                     r.scene.supports = {{"", "some"}};
+                   },
+                   "scene.supports[0]", "some", "fixed_x, fixed_y or fixed_rotation must be true"},
+        BrokenRule{"SupportOfARotationThatIsNone",
+                   [](TraceRequest& r) {
+                     r.scene.beams[0].hinged = {false, true};
+                     r.scene.supports = {{"", "some", false, false, true}};
+                   },
+                   "scene.supports[0].fixed_rotation", "true", "must be false: no beam turns node b"},
         BrokenRule{"GroupTooLow", [](TraceRequest& r) { r.scene.obstacles[0].py = -0.9; }, "scene.contacts[0]",
                    "leg/2@floor", "initial position penetrates the obstacle by 0."},
         BrokenRule{"RotationOfAHinge",

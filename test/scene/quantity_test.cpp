@@ -44,6 +44,17 @@ TEST_F(QuantityTest, BothSpellings) {
   ExpectQuantity("rt_a@floor", Kind::kRt, 0);
 }
 
+TEST_F(QuantityTest, PlacesOfObstacles) {
+  ExpectQuantity("floor.x", Kind::kObstacleX, 0);
+  ExpectQuantity("y_gap_c", Kind::kObstacleY, 1);
+  ExpectQuantity("gap_c.turn", Kind::kTurn, 1);
+  scene_.obstacles[1].name = "x_b";  // the node is meant
+  ExpectQuantity("x_b.y", Kind::kY, 1);
+  ExpectQuantity("turn_x_b", Kind::kTurn, 1);
+  EXPECT_EQ(FindQuantity("a.turn", SceneIndex(scene_)), std::nullopt);
+  EXPECT_EQ(NearestPart(*ReadQuantity("flor.y"), scene_).Get(), "floor");
+}
+
 TEST_F(QuantityTest, SupportsBoundariesAndSections) {
   scene_.nodes[1].fixed_y = true;
   scene_.bars = {{{"a", "x_b"}, 1.0}};

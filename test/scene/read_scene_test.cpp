@@ -408,13 +408,59 @@ TEST(ReadSceneTest, AllViolationsAreReported) {
       ViolationsOf(BaseWith({{13, "    EA: -1.0"}, {26, "    gy: 1.0"}, {42, "  method: x"}, {45, "  step: -1.0"}}));
   std::vector<int> lines;
   for (const Violation& violation : violations) lines.push_back(violation.line);
-  // A value that cannot be read leaves a hole, so that the rules are not looked at.
-  EXPECT_EQ(lines, (std::vector<int>{26, 42}));
+  // The step is an option, as the word that could not be read is.
+  EXPECT_EQ(lines, (std::vector<int>{13, 26, 42}));
   lines.clear();
   for (const Violation& violation :
        ViolationsOf(BaseWith({{13, "    EA: -1.0"}, {26, "    gy: 1.0"}, {45, "  step: -1.0"}})))
     lines.push_back(violation.line);
-  EXPECT_EQ(lines, (std::vector<int>{26, 13, 45}));
+  EXPECT_EQ(lines, (std::vector<int>{13, 26, 45}));
+}
+
+// One fault is told once, and none because of another.
+TEST(ReadSceneTest, FaultsOfAllKindsAreReportedTogether) {
+  struct Case {
+    std::string text;
+    std::vector<std::string> lines;  // key = value
+  };
+  const std::string scene =
+      "scene:\n"
+      "  nodes: [{name: a, fixed_x: true, fixed_y: true}, {name: b, x: 2}, {name: 7, x: 2, y: 1}]\n"
+      "  obstacles: [{name: floor, ny: 1, py: -1, friction: -0.5}]\n";
+  const std::vector<Case> cases = {
+      // A text that needs quotes can be referred to; a key that is misspelt, or a number that is none, breaks no rule.
+      {scene + "  bars: [{nodes: [a, b], AE: 1}, {nodes: [b, \"7\"], EA: x}, {nodes: [a, c], EA: 1}]\n"
+               "  loads: [{node: b, fx: 1}]\n  contacts: [{node: b, obstacle: flor}]\n",
+       {"scene.nodes[2].name = 7", "scene.obstacles[0].friction = -0.5", "scene.bars[0].AE = 1", "scene.bars[1].EA = x",
+        "scene.bars[2].nodes[1] = c", "scene.contacts[0].obstacle = flor"}},
+      // What cannot be expanded is left out, as are the candidates that it would be.
+      {"scene:\n  nodes: [{name: a, fixed_x: true, fixed_y: true}, {name: b, x: 2}]\n"
+       "  beams: [{name: leg, nodes: [a, b], EA: -1, EI: 1}]\n"
+       "  supports: [{group: lag, fixed_x: true}, {group: leg}]\n"
+       "  loads: [{group: lge, fx: 1}, {node: leg/3, fx: 1}]\n"
+       "  obstacles: [{name: floor, py: -1}]\n"
+       "  contacts: [{group: foot, obstacle: floor}, {node: b, surface: top}]\n"
+       "  support_motions: [{group: leg, dx: 1}]\n"
+       "options: {step: -1, stop: [{quantity: b@floor.rn, when: \">\", value: 1}]}\n",
+       {"scene.beams[0].EA = -1", "scene.supports[0].group = lag", "scene.supports[1] = leg",
+        "scene.loads[0].group = lge", "scene.obstacles[0].nx = 0", "scene.contacts[0].group = foot",
+        "scene.contacts[1].surface = top", "options.step = -1"}},
+      // Without the nodes of the beam, or a list, numbers alone are judged.
+      {"scene:\n  nodes: [{name: a}, {name: b, x: 2}]\n  beams: [{name: leg, nodes: [a, c], EA: 1, EI: 1}]\n"
+       "  loads: [{node: leg/3, fx: .inf}]\noptions: {step: -1}\n",
+       {"scene.beams[0].nodes[1] = c", "scene.loads[0].fx = .inf", "options.step = -1"}},
+      {"scene:\n  nodes: 5\n  bars: [{nodes: [a, b], EA: -1}]\noptions: {max_increments: many, step: -1}\n",
+       {"scene.nodes = 5", "scene.bars[0].EA = -1", "options.max_increments = many", "options.step = -1"}},
+  };
+  for (const Case& c : cases) {
+    std::vector<std::string> lines;
+    for (const Violation& violation : ViolationsOf(c.text)) {
+      lines.push_back(violation.key + " = " + violation.value);
+      EXPECT_FALSE(violation.rule.empty());
+      EXPECT_GT(violation.line, 0);
+    }
+    EXPECT_EQ(lines, c.lines);
+  }
 }
 
 TEST(ReadSceneTest, NumbersInTheSpellingsOfYaml) {

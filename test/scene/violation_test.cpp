@@ -36,12 +36,15 @@ TEST(ViolationTest, LineIsOneLineWhateverTheText) {
   EXPECT_EQ(line, "EA = " + std::string(159, '1') + "\xc3\xa9...: must be > 0");
 }
 
-TEST(InvalidRequestTest, WhatIsTheFirstViolation) {
+TEST(InvalidRequestTest, WhatIsALineForEachViolation) {
   const InvalidRequest error({MakeViolation("a.yaml", 3, "EA", "-1"), MakeViolation("a.yaml", 4, "x", "9")});
-  EXPECT_STREQ(error.what(), "a.yaml:3: EA = -1: must be > 0");
+  EXPECT_STREQ(error.what(), "a.yaml:3: EA = -1: must be > 0\na.yaml:4: x = 9: must be > 0");
   ASSERT_EQ(error.violations().size(), 2U);
   EXPECT_EQ(error.violations()[1].line, 4);
   EXPECT_NO_THROW(InvalidRequest({}));
+  const std::string of_many = InvalidRequest(std::vector<Violation>(25, MakeViolation("", 0, "x", "9"))).what();
+  EXPECT_EQ(std::count(of_many.begin(), of_many.end(), '\n'), 19);
+  EXPECT_EQ(of_many.substr(of_many.rfind('\n')), "\n... and 6 more");
 }
 
 }  // namespace

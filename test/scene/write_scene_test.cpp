@@ -5,7 +5,6 @@
 #include <limits>
 #include <string>
 
-#include "contact_path/scene/lattice.h"
 #include "contact_path/scene/read_scene.h"
 #include "support/same_request.h"
 #include "support/traced_path.h"
@@ -85,15 +84,6 @@ TEST(WriteTraceRequest, OnePartALineWithoutDefaults) {
             "options:\n"
             "  stop:\n"
             "    - {quantity: \"b.x\", when: \">\", value: 2}\n");
-}
-
-TEST(WriteTraceRequest, LatticesAreSound) {
-  for (const LatticeKind kind : {LatticeKind::kColumn, LatticeKind::kArch, LatticeKind::kWall}) {
-    LatticeOptions options;
-    options.kind = kind;
-    options.far_candidates = 500;
-    ExpectRoundTrip(LatticeRequest(options));
-  }
 }
 
 }  // namespace

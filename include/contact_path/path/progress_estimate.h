@@ -33,6 +33,7 @@ class ProgressEstimate {
   std::vector<double> targets_;  // of the stages
   int max_increments_;           // as in the request: 0 = not asked for
   std::vector<Goal> goals_;
+  TraceRequest request_;  // empty where no goal is of an obstacle
 };
 
 }  // namespace contact_path

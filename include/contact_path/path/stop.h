@@ -15,8 +15,10 @@ namespace contact_path {
 // The quantities of options.stop, in its order. `request` must be sound, `index` of its scene.
 std::vector<Quantity> StopQuantities(const TraceRequest& request, const SceneIndex& index);
 
-// The value of a quantity in an increment that has its state; of the load factor in any increment.
+// The value of a quantity in an increment that has its state; of the load factor in any increment. Not of an obstacle.
 double ValueOf(const Quantity& quantity, const Increment& increment);
+// Also of an obstacle, in any increment. request: of the path.
+double ValueOf(const Quantity& quantity, const Increment& increment, const TraceRequest& request);
 
 class StopTest {
  public:
@@ -46,8 +48,9 @@ class StopTest {
       double by;
       double rounding;
     };
-    Beyond BeyondIn(const Increment& increment) const;
+    Beyond BeyondIn(const Increment& increment, const TraceRequest& request) const;
   };
+  const TraceRequest& request_;
   std::vector<Item> items_;
 };
 

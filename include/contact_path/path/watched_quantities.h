@@ -9,8 +9,8 @@
 namespace contact_path {
 
 // Of options.at, and of the exact criteria of options.stop; scaled by the unit of each quantity. model: of a stage of
-// the request, must outlive the result.
-ArcTargets WatchedQuantities(const Model& model, const TraceRequest& request);
+// the request, from 0. Both must outlive the result.
+ArcTargets WatchedQuantities(const Model& model, const TraceRequest& request, std::size_t stage);
 
 }  // namespace contact_path
 

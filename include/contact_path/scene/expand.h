@@ -31,14 +31,17 @@ void ExpandBeams(Scene* scene);
 // Where the parts of an expanded list stand in the list of the request, from 0.
 using Places = std::vector<std::size_t>;
 
-// The request with the inner nodes of its beams, and with loads and contacts on nodes in place of those on groups; a
-// node that is fixed in x and y is no candidate of its group, but with a surface that can move. A traction acts on the
-// nodes of each segment of a beam, half of its resultant on each, which is exact to second order in the length of the
-// segment, and on the nodes of each edge of a solid by their shape functions. `request` must be sound (validate.h).
+// The request with the inner nodes of its beams, and with loads, contacts and support motions on nodes in place of
+// those on groups; what `supports` fix is fixed in the nodes. A node that is fixed in x and y is no candidate of its
+// group, but with a surface that can move. A traction acts on the nodes of each segment of a beam, half of its
+// resultant on each, which is exact to second order in the length of the segment, and on the nodes of each edge of a
+// solid by their shape functions. `request` must be sound (validate.h); a part that names no group, beam or surface of
+// the scene stays as it is.
 struct Expansion {
   TraceRequest request;
-  Places loads, contacts;           // of the scene
-  std::vector<Places> stage_loads;  // by stage
+  Places contacts;
+  // Of the scene, and then by stage.
+  std::vector<Places> loads, motions;
 };
 Expansion Expand(const TraceRequest& request);
 

@@ -37,6 +37,14 @@ inline Configuration StageConfiguration(const TraceRequest& request, std::size_t
 
 // The obstacles of a scene, which may be that of a stage, where they are at a load factor. index: of the scene.
 std::vector<Obstacle> ObstaclesAt(const Scene& scene, const SceneIndex& index, double load_factor);
+// Where the point p of an obstacle is at a load factor of a stage, from 0, and how far the obstacle has turned since
+// the start [rad].
+struct ObstaclePlace {
+  double x = 0.0;
+  double y = 0.0;
+  double turn = 0.0;
+};
+ObstaclePlace PlaceOf(const TraceRequest& request, const Obstacle& obstacle, std::size_t stage, double load_factor);
 
 // One length and one force for all stages, so that points can be handed on. A scene with bars, beams or solids gives
 // both. Of beams alone the force is no less than a tenth of the sum of the loads of any stage at its target. Of linear

@@ -20,13 +20,18 @@ struct Quantity {
     kLoadFactor,  // load_factor
     kX,           // <node>.x, or x_<node>: current position
     kY,           // <node>.y, or y_<node>
-    kRotation,    // <node>.rotation, or rotation_<node>: of a node that a beam turns, since the start [rad]
-    kGap,         // <contact>.gap, or gap_<contact>; a contact has the name of its candidate
-    kRn,          // <contact>.rn, or rn_<contact>: normal reaction
-    kRt,          // <contact>.rt, or rt_<contact>: tangential reaction
-    kPressure,    // <contact>.pressure: rn over the length of the boundary there (response/contact_pressure.h)
-    kTraction,    // <contact>.traction: rt over that length
-    kWidth,       // <obstacle>.width, <surface>.width: length of the contacts that touch it
+    // <obstacle>.x, or x_<obstacle>: of its point p, where it is now. Of a node and an obstacle with one name the node
+    // is meant.
+    kObstacleX,
+    kObstacleY,  // .y
+    kTurn,       // <obstacle>.turn, or turn_<obstacle>: since the start [rad]
+    kRotation,   // <node>.rotation, or rotation_<node>: of a node that a beam turns, since the start [rad]
+    kGap,        // <contact>.gap, or gap_<contact>; a contact has the name of its candidate
+    kRn,         // <contact>.rn, or rn_<contact>: normal reaction
+    kRt,         // <contact>.rt, or rt_<contact>: tangential reaction
+    kPressure,   // <contact>.pressure: rn over the length of the boundary there (response/contact_pressure.h)
+    kTraction,   // <contact>.traction: rt over that length
+    kWidth,      // <obstacle>.width, <surface>.width: length of the contacts that touch it
     // <node>.rx, or rx_<node>: of the support, on the structure; <obstacle>.rx, <surface>.rx: of all contacts with it.
     // Of a support and a boundary with one name the support is meant.
     kForceX,
@@ -48,6 +53,7 @@ struct Quantity {
   };
 
   bool IsOfNode() const { return kind == Kind::kX || kind == Kind::kY || kind == Kind::kRotation; }
+  bool IsOfObstacle() const { return kind >= Kind::kObstacleX && kind <= Kind::kTurn; }
   bool IsOfContact() const { return kind >= Kind::kGap && kind <= Kind::kTraction; }
   bool IsOfPressure() const { return kind >= Kind::kPressure && kind <= Kind::kWidth; }
 
@@ -57,8 +63,8 @@ struct Quantity {
   bool IsOfElement() const { return kind >= Kind::kSxx; }
 
   Kind kind = Kind::kLoadFactor;
-  // Place of the node or contact in its list of the scene; of a reaction, in SupportedNodes() or TouchedBoundaries();
-  // number of the section or element (scene/element_names.h).
+  // Place of the node, obstacle or contact in its list of the scene; of a reaction, in SupportedNodes() or
+  // TouchedBoundaries(); number of the section or element (scene/element_names.h).
   std::size_t part = 0;
   bool of_boundary = false;
 };

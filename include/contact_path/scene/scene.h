@@ -236,13 +236,33 @@ struct Fields<ContactCandidate> {
   }
 };
 
+// Fixes a node besides what the node itself says, or each node of a group.
+struct Support {
+  std::string node;
+  std::string group;  // in place of node
+  bool fixed_x = false;
+  bool fixed_y = false;
+  bool fixed_rotation = false;  // only where a beam turns the node
+};
+
+template <>
+struct Fields<Support> {
+  template <typename P>
+  static constexpr auto Of() {
+    return std::tuple(Member("node", &P::node).Naming(TextKind::kNode), Member("group", &P::group),
+                      Member("fixed_x", &P::fixed_x), Member("fixed_y", &P::fixed_y),
+                      Member("fixed_rotation", &P::fixed_rotation));
+  }
+};
+
 // Prescribed displacement of a support: the fixed components of the node are at their initial position + (dx, dy) x
-// load factor, its fixed rotation is rotation x load factor.
+// load factor, its fixed rotation is rotation x load factor. Or of each node of a group.
 struct SupportMotion {
   std::string node;
   double dx = 0.0;  // [length] per unit of the load factor; 0 where the component is free
   double dy = 0.0;
-  double rotation = 0.0;  // [rad] per unit of the load factor; 0 where the rotation is free
+  double rotation = 0.0;   // [rad] per unit of the load factor; 0 where the rotation is free
+  std::string group = {};  // in place of node
 };
 
 template <>
@@ -251,7 +271,7 @@ struct Fields<SupportMotion> {
   static constexpr auto Of() {
     return std::tuple(Member("node", &P::node).Naming(TextKind::kNode), Member("dx", &P::dx).In(units::kLengthRate),
                       Member("dy", &P::dy).In(units::kLengthRate),
-                      Member("rotation", &P::rotation).In(units::kRotationRate));
+                      Member("rotation", &P::rotation).In(units::kRotationRate), Member("group", &P::group));
   }
 };
 
@@ -290,6 +310,7 @@ struct Scene {
   std::vector<Load> loads;
   std::vector<Obstacle> obstacles;
   std::vector<ContactCandidate> contacts;
+  std::vector<Support> supports;
   std::vector<SupportMotion> support_motions;
   std::vector<ObstacleMotion> obstacle_motions;
 };
@@ -302,8 +323,8 @@ struct Fields<Scene> {
                       Member("superelements", &P::superelements), Member("beams", &P::beams),
                       Member("materials", &P::materials), Member("solids", &P::solids), Member("groups", &P::groups),
                       Member("surfaces", &P::surfaces), Member("loads", &P::loads), Member("obstacles", &P::obstacles),
-                      Member("contacts", &P::contacts), Member("support_motions", &P::support_motions),
-                      Member("obstacle_motions", &P::obstacle_motions));
+                      Member("contacts", &P::contacts), Member("supports", &P::supports),
+                      Member("support_motions", &P::support_motions), Member("obstacle_motions", &P::obstacle_motions));
   }
 };
 

@@ -23,7 +23,8 @@ struct Violation {
   std::string ToLine() const;
 };
 
-// Thrown where a request enters; what() is the line of the first violation.
+// Thrown where a request enters; what() has a line for each violation, of more than kMostViolationLines the first ones
+// and their number.
 class InvalidRequest : public std::invalid_argument {
  public:
   explicit InvalidRequest(std::vector<Violation> violations);  // at least one
@@ -35,10 +36,14 @@ class InvalidRequest : public std::invalid_argument {
 
 // Nobody reads more, and a large request can break its rules a million times.
 constexpr std::size_t kMostViolations = 100;
+constexpr std::size_t kMostViolationLines = 20;
 
-// The rules that `request` breaks, in the order of the request, at most kMostViolations; empty if it is sound. Lines
-// and files are left unset.
+// The rules that `request` breaks, in the order of the request, at most about kMostViolations; empty if it is sound.
+// Lines and files are left unset.
 std::vector<Violation> Validate(const TraceRequest& request);
+
+// Those of the rules that a number breaks by itself.
+std::vector<Violation> ValidateNumbers(const TraceRequest& request);
 
 }  // namespace contact_path
 

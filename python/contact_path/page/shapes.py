@@ -13,6 +13,7 @@ from contact_path.page.arrays import Entry, packed, plain, trajectories
 from contact_path.page.obstacles import obstacles
 from contact_path.page.points import Points, closed
 from contact_path.page.trails import GAP
+from contact_path.structure import response
 from contact_path.structure.arrays import Structure
 from contact_path.structure.shapes import (BARS, CONSTANT_LOAD, FEW_NODES, INITIAL, LOAD, LONGEST_ARROW, MANY_MARKS, MANY_NODES, OBSTACLE,
                                  REACTION, SOLID_COLOURS, SURFACE, UNSTABLE, Shape, View)
@@ -39,6 +40,8 @@ def structure_of(path: Increments, rows: np.ndarray, points: Points) -> Entry:
     names       of the nodes; decimals: of their positions, so many are right
     """
     structure = points.structure
+    if structure.solids:
+        path = response.at_rows(path, rows, ['stresses'])
     shapes = [Shape(structure, path.increment(row), path.unstable.get(int(path['index'][row]))) for row in rows]
     view = View(shapes)
     places = np.array([points.places(shape, view) for shape in shapes])

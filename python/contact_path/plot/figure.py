@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from contact_path.increments import Increments
 from contact_path.marks import checked
 from contact_path.plot import panels, shapes as plot_shapes
+from contact_path.structure import response
 from contact_path.structure.arrays import Structure
 from contact_path.structure.shapes import Shape, View
 
@@ -82,6 +83,8 @@ def add_shapes(page: Page, paths: Sequence[Increments], chosen: Chosen) -> None:
     groups = []
     for path, (rows, left_out) in zip(paths, chosen):
         structure = Structure(path.scene)
+        if structure.solids:
+            path = response.at_rows(path, rows, ['stresses'])
         first = next((row for row in rows if int(path['index'][row]) in path.unstable), None)
         groups.append((path, [Shape(structure, path.increment(row), path.unstable[int(path['index'][row])] if row == first else None)
                               for row in rows], left_out))

@@ -54,7 +54,7 @@ class Structure:
         self.bars = np.array([[index[name] for name in nodes] for nodes in bars], dtype=int).reshape(-1, 2)
         self.beams = Beams(scene['beams'], names['sections'][len(scene['bars']):], index, self.initial)
         elements = iter(names['elements'])
-        self.solids = [Solid(solid, scene['materials'], index, elements) for solid in scene['solids']]
+        self.solids = [Solid(solid, index, elements) for solid in scene['solids']]
         self.bar_directions = self.find_bar_directions()
         self.supports = self.find_supports()
         self.superelements = [([index[name] for name in part['nodes']], np.array(part['rest_positions'], dtype=float))

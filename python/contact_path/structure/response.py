@@ -30,6 +30,16 @@ def with_response(path: AnyPath, lists: Sequence[str]) -> AnyPath:
     return dataclasses.replace(path, table={**path.table, **columns(path, lists)})
 
 
+def at_rows(path: AnyPath, rows: Sequence[int] | np.ndarray, lists: Sequence[str]) -> AnyPath:
+    """As with_response(), for these rows alone: nan in the others."""
+    some = dataclasses.replace(path, table={column: values[rows] for column, values in path.table.items()})
+    found = {}
+    for column, values in columns(some, lists).items():
+        found[column] = np.full(len(path), np.nan)
+        found[column][rows] = values
+    return dataclasses.replace(path, table={**path.table, **found})
+
+
 def columns(path: Increments, lists: Sequence[str]) -> Dict[str, np.ndarray]:
     """Column -> (n,), of these of LISTS, but for those columns that the path has; nan in increments without positions. The program is asked
     once for each path.

@@ -52,7 +52,7 @@ class Curve:
 class Shape:
     """The structure in an increment of the path. Loads (n, 2), moments (n,) on the nodes; reactions (k, 2) on the contacts.
 
-    unstable: direction (n, 2) in which a disturbance grows, to be drawn; None: there is none."""
+    increment: with the columns of stresses, where there are solids. unstable: direction (n, 2) in which a disturbance grows, to be drawn; None: there is none."""
 
     def __init__(self, structure: Structure, increment: Increment, unstable: np.ndarray | None = None) -> None:
         self.structure = structure
@@ -76,7 +76,7 @@ class Shape:
         self.moments, self.constant_moments = loads[:, 2], constant[:, 2]
         self.beams = structure.beams.curves(self.places, structure.rotations(increment))
         self.hubs = [self.hub(nodes, rest) for nodes, rest in structure.superelements]
-        self.energies = [solid.energies(structure.initial, self.places) for solid in structure.solids]
+        self.energies = [solid.energies(structure.initial, increment) for solid in structure.solids]
         self.obstacles = {name: placements[name].points(boundary.point) for name, boundary in structure.obstacles.items()}
         self.curves = {name: Curve(boundary, placements[name]) for name, boundary in structure.obstacles.items()
                        if name not in structure.normals}

@@ -1,39 +1,27 @@
-#include "contact_path/scene/lattice.h"
+#include "lattice.h"
 
 #include <algorithm>
-#include <cmath>
-#include <stdexcept>
+#include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace contact_path {
 namespace {
 
-constexpr double kPress = 0.02;              // constant load on each unit of the top of a column, EA = 1
-constexpr double kArchOpening = 0.5 * M_PI;  // angle of the arch
+constexpr double kPress = 0.02;  // constant load on each unit of the top of a column, EA = 1
 
 std::string NodeName(int column, int row) { return "n" + std::to_string(column) + "_" + std::to_string(row); }
 
-void Require(bool holds, const char* rule) {
-  if (!holds) throw std::invalid_argument(std::string("lattice: ") + rule);
-}
-
 class Lattice {
  public:
-  explicit Lattice(const LatticeOptions& options) : options_(options) {
-    Require(options.columns >= 2, "columns must be at least 2");
-    Require(options.rows >= 1, "rows must be at least 1");
-    Require(options.contacts >= 0, "contacts must not be negative");
-    Require(options.far_candidates >= 0, "far candidates must not be negative");
-    Require(std::isfinite(options.friction) && options.friction >= 0.0, "friction must be finite and not negative");
-  }
+  explicit Lattice(const LatticeOptions& options) : options_(options) {}
 
   TraceRequest Build() {
     AddNodes();
     AddBars();
     switch (options_.kind) {
       case LatticeKind::kColumn: MakeColumn(); break;
-      case LatticeKind::kArch: MakeArch(); break;
       case LatticeKind::kWall: MakeWall(); break;
       case LatticeKind::kBlock: MakeBlock(); break;
     }
@@ -49,20 +37,13 @@ class Lattice {
            static_cast<std::size_t>(row);
   }
 
-  // Column by column. The arch is bent: its lower edge is a part of a circle with sides of length 1.
   void AddNodes() {
-    const double radius = options_.columns / kArchOpening;
     for (int column = 0; column <= options_.columns; ++column)
       for (int row = 0; row <= options_.rows; ++row) {
         Node node;
         node.name = NodeName(column, row);
         node.x = column;
         node.y = row;
-        if (options_.kind == LatticeKind::kArch) {
-          const double angle = (0.5 - static_cast<double>(column) / options_.columns) * kArchOpening;
-          node.x = -(radius + row) * std::sin(angle);
-          node.y = (radius + row) * std::cos(angle);
-        }
         scene().nodes.push_back(std::move(node));
       }
   }
@@ -100,7 +81,6 @@ class Lattice {
   void AddCandidates(int first, int last) {
     const int edge = last - first + 1;
     const int count = options_.contacts == 0 ? edge : options_.contacts;
-    Require(count <= edge, "contacts must not be more than the edge has free nodes");
     for (int i = 0; i < count; ++i) {
       const int column = count == 1 ? (first + last) / 2 : first + i * (edge - 1) / (count - 1);
       scene().contacts.push_back({NodeName(column, 0), "floor"});
@@ -120,16 +100,6 @@ class Lattice {
       AddLoad(column, options_.rows, 0.0, -kPress * share, true);
       AddLoad(column, options_.rows, kPress * share, 0.0, false);
     }
-  }
-
-  void MakeArch() {
-    scene().name = "arch";
-    for (const int column : {0, options_.columns}) At(column, 0).fixed_x = At(column, 0).fixed_y = true;
-    const double radius = options_.columns / kArchOpening;
-    const double rise = radius * (1.0 - std::cos(0.5 * kArchOpening));
-    AddFloor(radius - 0.1 * rise);  // below the crown
-    AddCandidates((2 * options_.columns + 4) / 5, 3 * options_.columns / 5);
-    AddLoad(options_.columns / 2, options_.rows, 0.0, -1.0, false);
   }
 
   void HoldAboveFloor() {
@@ -177,13 +147,5 @@ class Lattice {
 }  // namespace
 
 TraceRequest LatticeRequest(const LatticeOptions& options) { return Lattice(options).Build(); }
-
-std::optional<LatticeKind> ParseLatticeKind(std::string_view word) {
-  if (word == "column") return LatticeKind::kColumn;
-  if (word == "arch") return LatticeKind::kArch;
-  if (word == "wall") return LatticeKind::kWall;
-  if (word == "block") return LatticeKind::kBlock;
-  return std::nullopt;
-}
 
 }  // namespace contact_path
