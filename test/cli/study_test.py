@@ -148,7 +148,7 @@ class Tables(StudyTest):
         self.assertEqual(read(self.path('third.csv')), once)
         self.expect_no_servers(workers)
 
-    def test_an_interrupted_study_leaves_no_server_in_a_cluster(self):
+    def test_long_an_interrupted_study_leaves_no_server_in_a_cluster(self):
         address, workers = self.start_cluster(1)
         study = subprocess.Popen([STUDY, self.write(SLOW), '--scheduler', address, '--quiet'], stderr=subprocess.DEVNULL,
                                  preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler))
@@ -264,7 +264,7 @@ class GoingOn(StudyTest):
         self.assertEqual(self.journal().count(b'\n'), 21)
         self.assertEqual(read(self.path('table.csv')), self.whole)
 
-    def test_interrupted(self):
+    def test_long_interrupted(self):
         study = subprocess.Popen([STUDY, self.write(SLOW)], stderr=subprocess.PIPE, universal_newlines=True,
                                  preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler))
         self.addCleanup(study.wait)
@@ -274,7 +274,7 @@ class GoingOn(StudyTest):
         self.assertEqual(study.communicate(timeout=30)[1], 'contact_path_study: stopped; what is done is kept, the same command goes on\n')
         self.assertEqual(study.returncode, 1)
 
-    def test_worker_and_server_that_die_are_no_loss(self):
+    def test_long_worker_and_server_that_die_are_no_loss(self):
         self.run_study(description=SLOWEST)
         whole = read(self.path('table.csv'))
         os.remove(self.path('table.csv'))
@@ -309,14 +309,14 @@ class GoingOn(StudyTest):
         self.assertEqual(read(self.path('table.csv.journal.old')), before)
         self.assertEqual([line['obstacles.floor.friction'] for line in self.table()], ['0.9', '0.9', '1.1', '1.1', '1.8', '1.8'])
 
-    def test_two_runs_at_a_time(self):
+    def test_long_two_runs_at_a_time(self):
         study = self.start(STUDY, self.write(SLOW))
         self.wait_for(lambda: self.journal())
         self.assertIn('another run of the study is under way', self.run_study(description=SLOW, status=1))
         study.kill()
 
 
-    def test_paths_of_another_study_or_lost_ones_are_traced_again(self):
+    def test_long_paths_of_another_study_or_lost_ones_are_traced_again(self):
         text = re.sub(r'- \{path: nodes.*\n', '', DESCRIPTION) + 'paths: kept\n'
         kept = [self.path('kept/%06d.csv' % number) for number in (1, 2, 3)]
         self.run_study(description=text)
@@ -329,7 +329,7 @@ class GoingOn(StudyTest):
             self.assertEqual([untimed(read(file)) for file in kept], [untimed(path) for path in paths])
             self.assertEqual(read(self.path('table.csv')), table)
 
-    def test_two_tables_at_a_time_with_the_same_paths(self):
+    def test_long_two_tables_at_a_time_with_the_same_paths(self):
         text = SLOW + 'paths: kept\n'
         study = self.start(STUDY, self.write(text))
         self.wait_for(lambda: os.path.exists(self.path('kept/000001.csv')))

@@ -104,7 +104,7 @@ class PageOfStudy(ProgramTest):
                     np.testing.assert_array_equal(own[column], traced[column], column)
 
     @unittest.skipIf(browser.programs() is None, 'no chromium and chromedriver')
-    def test_words_of_truth(self):
+    def test_long_words_of_truth(self):
         with open(self.path('study.yaml'), 'w') as file:
             file.write(STUDY.replace('nodes.apex.y', 'nodes.left.fixed_x').replace('1.2, 1.3', 'yes, Yes'))
         with open(self.path('study.csv')) as file:
@@ -138,7 +138,7 @@ class PageOfStudy(ProgramTest):
         self.assertEqual(chromium.complaints(), [])
 
     @unittest.skipIf(browser.programs() is None, 'no chromium and chromedriver')
-    def test_the_later_choice_is_shown_though_its_path_is_unpacked_first(self):
+    def test_long_the_later_choice_is_shown_though_its_path_is_unpacked_first(self):
         chromium = self.opened()
         chromium.run('''const real = Response.prototype.arrayBuffer;
             let first = true;
@@ -157,7 +157,7 @@ class PageOfStudy(ProgramTest):
         self.assertEqual(chromium.complaints(), [])
 
     @unittest.skipIf(browser.programs() is None, 'no chromium and chromedriver')
-    def test_a_study_of_words_alone(self):
+    def test_long_a_study_of_words_alone(self):
         study = '''scene: %s
 parameters: [{path: options.friction_law, values: [incremental, total]}]
 outputs: [end_reason, limit_loads]

@@ -232,14 +232,14 @@ class InBrowser(ProgramTest):
             }
             return text();''' % figure)
 
-    def test_nothing_offers_to_send_data_away(self):
+    def test_long_nothing_offers_to_send_data_away(self):
         self.open(traced('rigid_stop'))
         buttons = self.browser.run(
             "return Array.from(document.querySelectorAll('.modebar-btn'), (button) => button.dataset.title);")
         self.assertIn('Zoom', buttons)
         self.assertFalse([title for title in buttons if 'hare' in title or 'loud' in title])
 
-    def test_several_paths(self):
+    def test_long_several_paths(self):
         paths = [traced('sliding_bar'), traced('sliding_bar', accuracy='fast')]
         self.open(*paths)
         self.assertEqual(self.browser.run("return document.getElementById('path').options.length;"), 2)
@@ -247,24 +247,24 @@ class InBrowser(ProgramTest):
             places, names = self.drawn(len(path) - 1, BARS, number)
             self.assertAlmostEqual(places[names.index('b'), 0], path['x_b'][-1], delta=1e-3)
 
-    def test_a_path_without_scene(self):
+    def test_long_a_path_without_scene(self):
         path = traced('sliding_bar')
         self.open(cp.Path(path.table, title='alone'))
         self.assertIn('--scene', self.browser.run("return document.getElementById('remarks').textContent;"))
 
-    def test_every_kind_of_part_is_drawn(self):
+    def test_long_every_kind_of_part_is_drawn(self):
         for scene in 'lee_frame', 'cantilever_block', 'cam', 'peg', 'two_dof_friction':
             path = traced(scene, max_increments=12)
             self.open(path)
             self.browser.run('await page.choose(0, %d);' % (len(path) - 1))
             self.assertEqual(self.browser.complaints(), [], scene)
 
-    def test_a_path_of_a_single_increment(self):
+    def test_long_a_path_of_a_single_increment(self):
         path = traced('sliding_bar', direction=-1.0)
         self.assertEqual(len(path), 1)
         self.open(path)
 
-    def test_play(self):
+    def test_long_play(self):
         path = traced('sliding_bar', max_increments=20)
         self.open(path)
         last = self.browser.run('''document.getElementById('play').click();
@@ -276,7 +276,7 @@ class InBrowser(ProgramTest):
             return Number(slider.value);''')
         self.assertEqual(last, len(path) - 1)
 
-    def test_a_click_on_another_curve_ends_play(self):
+    def test_long_a_click_on_another_curve_ends_play(self):
         long, scene = traced('von_mises'), cp.Scene.read(scene_file('von_mises'))
         for bar in scene.request['scene']['bars']:
             bar['EA'] *= 2.0
