@@ -6,7 +6,6 @@
 
 #include "contact_path/path/trace.h"
 #include "lattice.h"
-#include "support/traced_path.h"
 
 namespace contact_path::model_size_test {
 namespace {
@@ -113,28 +112,6 @@ TEST(ModelSize, OneFactorisationAnIncrementOnASmoothStretch) {
   Trace(request, control);
   ASSERT_GT(regular, 20);
   EXPECT_LE(factorisations, 1.2 * regular);
-}
-
-TEST(ModelSize, FarCandidatesChangeNothing) {
-  for (const LatticeKind kind : {LatticeKind::kColumn, LatticeKind::kWall, LatticeKind::kBlock}) {
-    LatticeOptions options;
-    options.kind = kind;
-    options.rows = 1;
-    options.contacts = 2;
-    TraceRequest request = LatticeRequest(options);
-    request.options.max_increments = 30;
-    const TracedPath without = TraceIncrements(request);
-    options.far_candidates = 40;
-    request.scene = LatticeRequest(options).scene;
-    const TracedPath with = TraceIncrements(request);
-    ASSERT_EQ(with.increments.size(), without.increments.size());
-    ASSERT_GT(with.increments.size(), 5U) << without.result.message;
-    for (std::size_t i = 0; i < with.increments.size(); ++i) {
-      EXPECT_EQ(with.increments[i].load_factor, without.increments[i].load_factor);
-      EXPECT_EQ(with.increments[i].positions, without.increments[i].positions);
-    }
-    ExpectSoundIncrements(with, 1e-9);
-  }
 }
 
 }  // namespace

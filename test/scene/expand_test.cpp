@@ -77,7 +77,7 @@ TEST(Expand, LoadsAndContactsOfGroups) {
   EXPECT_EQ(loads[3].node, "beam2/1");
   EXPECT_EQ(loads[3].fy, -1.5);
   EXPECT_TRUE(loads[3].constant);
-  EXPECT_EQ(expansion.loads, (Places{0, 0, 1, 1, 1, 2}));
+  EXPECT_EQ(expansion.loads[0], (Places{0, 0, 1, 1, 1, 2}));
   // The first node of the leg is fixed.
   ASSERT_EQ(expansion.request.scene.contacts.size(), 5u);
   EXPECT_EQ(expansion.request.scene.contacts[2].Name(), "leg/3@floor");
