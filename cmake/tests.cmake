@@ -214,7 +214,7 @@ if(CONTACT_PATH_LONG_TESTS)
     set_property(TEST perturb_test APPEND PROPERTY LABELS long)
   endif()
 endif()
-foreach(test answers_test imports_test signatures_test scene_test path_test page_test page_study_test surface_curves_test trace_test
+foreach(test answers_test imports_test markers_test signatures_test scene_test path_test page_test page_study_test surface_curves_test trace_test
     doctest_test)
   contact_path_add_python_test(python_${test} test/python/${test}.py DEPENDS contact_path_trace
     VARIABLES CONTACT_PATH_ROOT=${CMAKE_CURRENT_SOURCE_DIR} CONTACT_PATH_PROGRAMS=$<TARGET_FILE_DIR:contact_path_trace>)
