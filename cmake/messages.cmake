@@ -13,6 +13,6 @@ generate_messages(DEPENDENCIES actionlib_msgs std_msgs)
 catkin_package(
   INCLUDE_DIRS include
   LIBRARIES contact_path_ros contact_path_core
-  CATKIN_DEPENDS actionlib actionlib_msgs message_runtime rosbag roscpp std_msgs std_srvs visualization_msgs
+  CATKIN_DEPENDS actionlib actionlib_msgs message_runtime rosbag roscpp std_msgs std_srvs
   DEPENDS EIGEN3
 )

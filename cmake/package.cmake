@@ -14,7 +14,7 @@ else()
   list(TRANSFORM contact_path_ros_names PREPEND python3-)
   list(APPEND contact_path_ros_names ros-actionlib-msgs ros-std-msgs rosbash rosout)
   set(contact_path_build_names catkin libactionlib-dev libactionlib-msgs-dev librosbag-dev libroscpp-dev libstd-msgs-dev
-    libstd-srvs-dev libvisualization-msgs-dev ros-message-runtime)
+    libstd-srvs-dev ros-message-runtime)
 endif()
 # What the Python package imports at once it depends on, and the libraries that the programs load. Plots, meshes, studies and the
 # node want more, which apt installs unless it is told not to; whoever compiles with the library knows what for.

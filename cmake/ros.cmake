@@ -3,18 +3,12 @@
 add_library(contact_path_ros
   src/ros/bag_reader.cpp
   src/ros/bag_recorder.cpp
-  src/ros/beam_curve.cpp
   src/ros/convert.cpp
-  src/ros/drawn_scene.cpp
-  src/ros/drawn_stage.cpp
   src/ros/increment_publisher.cpp
   src/ros/limits.cpp
-  src/ros/marker_picture.cpp
-  src/ros/marker_publisher.cpp
   src/ros/memory_share.cpp
   src/ros/node_parameters.cpp
   src/ros/resume.cpp
-  src/ros/scene_markers.cpp
   src/ros/shutdown_signal.cpp
   src/ros/trace_action.cpp
   src/ros/trace_service.cpp
@@ -34,9 +28,6 @@ target_link_libraries(contact_path_ros
 add_executable(contact_path_node src/ros/contact_path_node.cpp)
 target_link_libraries(contact_path_node PRIVATE contact_path_process contact_path_ros contact_path_warnings)
 
-add_executable(contact_path_markers src/ros/contact_path_markers.cpp)
-target_link_libraries(contact_path_markers PRIVATE contact_path_ros contact_path_warnings)
-
 add_executable(contact_path_verify src/ros/verify.cpp)
 set_target_properties(contact_path_verify PROPERTIES OUTPUT_NAME verify)
 target_include_directories(contact_path_verify SYSTEM PRIVATE ${CLI11_INCLUDE_DIR})
@@ -47,7 +38,7 @@ target_sources(contact_path_trace PRIVATE src/ros/bag_sink.cpp)
 target_compile_definitions(contact_path_trace PRIVATE CONTACT_PATH_WITH_ROS)
 target_link_libraries(contact_path_trace PRIVATE contact_path_ros)
 
-set(contact_path_programs contact_path_node contact_path_markers contact_path_trace contact_path_outlines
+set(contact_path_programs contact_path_node contact_path_trace contact_path_outlines
   contact_path_expand contact_path_response contact_path_study_server contact_path_verify)
 
 # Programs and libraries find the libraries beside them wherever the tree is put.
@@ -63,8 +54,8 @@ install(TARGETS contact_path_ros contact_path_core
 install(TARGETS ${contact_path_programs}
   RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(DIRECTORY include/${PROJECT_NAME}/ DESTINATION ${CATKIN_PACKAGE_INCLUDE_DESTINATION})
-catkin_install_python(PROGRAMS scripts/contact_path_mesh scripts/contact_path_study scripts/play scripts/plot scripts/watch
-  DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+catkin_install_python(PROGRAMS scripts/contact_path_markers scripts/contact_path_mesh scripts/contact_path_study scripts/play
+  scripts/plot scripts/watch DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(DIRECTORY config launch scenes DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
 install(FILES CHANGELOG.rst CITATION.cff LICENSE README.md DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
 install(DIRECTORY docs DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION} FILES_MATCHING PATTERN *.md PATTERN *.png)
@@ -76,15 +67,12 @@ if(CATKIN_ENABLE_TESTING)
   set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/tests)  # as those of the core (tests.cmake)
   catkin_add_gtest(contact_path_ros_test
     test/ros/bag_recorder_test.cpp
-    test/ros/beam_markers_test.cpp
     test/ros/bounded_stream_test.cpp
     test/ros/convert_test.cpp
     test/ros/goal_id_test.cpp
     test/ros/limits_test.cpp
     test/ros/memory_share_test.cpp
     test/ros/ros_test_main.cpp
-    test/ros/scene_markers_test.cpp
-    test/ros/surface_markers_test.cpp
   )
   set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${contact_path_programs_directory}")
   # For a quick build, as those of the core (tests.cmake).
@@ -96,7 +84,7 @@ if(CATKIN_ENABLE_TESTING)
   # the tests run.
   set(CATKIN_ENV ${CATKIN_DEVEL_PREFIX}/env.sh)
   foreach(test markers python_client shutdown streaming trace_action trace_service)
-    add_rostest(test/ros/${test}.test DEPENDENCIES contact_path_node contact_path_markers contact_path_trace)
+    add_rostest(test/ros/${test}.test DEPENDENCIES contact_path_node contact_path_trace)
     # They wait for nodes: one at a time, the first of all tests.
     set_tests_properties(_ctest_${PROJECT_NAME}_rostest_test_ros_${test}.test PROPERTIES RESOURCE_LOCK contact_path_nodes COST 100)
   endforeach()

@@ -212,8 +212,8 @@ contact_path_add_python_test(study_test test/cli/study_test.py LONG SHARDS 2 DEP
     CONTACT_PATH_PROGRAMS=$<TARGET_FILE_DIR:contact_path_trace>)
 contact_path_add_python_test(perturb_test test/stress/perturb_test.py LONG DEPENDS contact_path_trace
   VARIABLES CONTACT_PATH_PROGRAMS=$<TARGET_FILE_DIR:contact_path_trace>)
-foreach(test answers_test imports_test signatures_test scene_test path_test page_test page_study_test surface_curves_test trace_test
-    doctest_test)
+foreach(test answers_test imports_test markers_test signatures_test scene_test path_test page_test page_study_test surface_curves_test
+    trace_test doctest_test)
   contact_path_add_python_test(python_${test} test/python/${test}.py LONG DEPENDS contact_path_trace
     VARIABLES CONTACT_PATH_ROOT=${CMAKE_CURRENT_SOURCE_DIR} CONTACT_PATH_PROGRAMS=$<TARGET_FILE_DIR:contact_path_trace>)
 endforeach()

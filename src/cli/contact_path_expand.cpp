@@ -1,6 +1,7 @@
 // contact_path_expand SCENE.yaml: writes what is traced of a scene as one JSON object to standard output: every field
 // of every part, also where the file leaves its default; the inner nodes of beams; loads and contacts of groups on
-// their nodes; stages that unload with the loads and motions that they take back; and the names that columns have.
+// their nodes; stages that unload with the loads and motions that they take back; the characteristic length and force;
+// and the names that columns have.
 #include <cstddef>
 #include <iostream>
 #include <string>
@@ -46,6 +47,8 @@ Json Expanded(const TraceRequest& given) {
   for (const TouchedBoundary& boundary : TouchedBoundaries(scene))
     boundaries.push_back({{"name", boundary.name}, {"is_surface", boundary.is_surface}});
   for (const ContactCandidate& contact : scene.contacts) contacts.push_back(contact.Name());
+  const Scaling scales = ProgramScales(request);
+  object["scales"] = {{"length", scales.length}, {"force", scales.force}};
   const ElementNames names(scene);
   object["names"] = {{"turning", turning},
                      {"supports", supports},

@@ -21,7 +21,7 @@ void WriteOutlines(const Scene& scene, std::ostream& out) {
   for (const Obstacle& obstacle : scene.obstacles) {
     const std::unique_ptr<const Surface> surface = MakeSurface(obstacle);
     if (surface->Flat()) continue;
-    for (const auto& [place, normal, xi] : Outline(*surface, surface->Range(), kSteps)) {
+    for (const auto& [place, normal, xi] : Outline(*surface, kSteps)) {
       out << obstacle.name << ',' << surface->Closed() << ',' << place.x() << ',' << place.y() << ',' << normal.x()
           << ',' << normal.y() << ',' << xi << '\n';
     }

@@ -16,22 +16,16 @@ double TurnBetween(const Vector2d& a, const Vector2d& b) {
 
 }  // namespace
 
-std::vector<OutlinePoint> Outline(const Surface& surface, const XiRange& range, const OutlineSteps& steps) {
+std::vector<OutlinePoint> Outline(const Surface& surface, const OutlineSteps& steps) {
   const XiRange whole = surface.Range();
-  const double length = whole.end - whole.begin;
-  int patch = 0;
-  while (surface.HasPatch(patch - 1) && surface.RangeOf(patch).begin > range.begin) --patch;
-  while (surface.HasPatch(patch + 1) && surface.RangeOf(patch).end <= range.begin) ++patch;
-  const auto point_at = [&](double xi) {
-    const double before = surface.Closed() ? std::floor((xi - whole.begin) / length) * length : 0.0;  // whole rounds
-    const Vector2d place = surface.PointAt(xi - before);
-    return OutlinePoint{place, surface.Project(place, patch).normal, xi};
-  };
   std::vector<OutlinePoint> points;
-  for (; surface.HasPatch(patch) && surface.RangeOf(patch).begin < range.end; ++patch) {
-    const XiRange own = surface.RangeOf(patch);
-    const double begin = std::max(own.begin, range.begin), end = std::min(own.end, range.end);
-    if (!(end - begin > (std::isfinite(length) ? tolerances::kNoMove * length : 0.0))) continue;
+  for (int patch = 0; surface.HasPatch(patch) && surface.RangeOf(patch).begin < whole.end; ++patch) {
+    const auto point_at = [&](double xi) {
+      const Vector2d place = surface.PointAt(surface.Closed() && xi >= whole.end ? whole.begin : xi);
+      return OutlinePoint{place, surface.Project(place, patch).normal, xi};
+    };
+    const double begin = surface.RangeOf(patch).begin, end = std::min(surface.RangeOf(patch).end, whole.end);
+    if (!(end - begin > tolerances::kNoMove * (whole.end - whole.begin))) continue;
     OutlinePoint before = point_at(begin);
     if (points.empty()) points.push_back(before);
     const bool bent = point_at(0.5 * (begin + end)).normal != before.normal || point_at(end).normal != before.normal;

@@ -6,10 +6,18 @@
 #include <stdexcept>
 
 #include "contact_path/ros/names.h"
-#include "contact_path/ros/read_parameter.h"
 
 namespace contact_path {
 namespace {
+
+// Leaves `value` as it is where the parameter is not set. Throws std::invalid_argument where it is not `type`, in
+// words.
+template <typename Value>
+void ReadParameter(const ros::NodeHandle& private_node, const char* name, const char* type, Value* value) {
+  if (private_node.hasParam(name) && !private_node.getParam(name, *value)) {
+    throw std::invalid_argument("~" + std::string(name) + ": must be " + type);
+  }
+}
 
 // `path` with a leading ~ replaced by the home directory.
 std::string ExpandHome(const std::string& path) {
@@ -32,7 +40,6 @@ NodeParameters ReadParameters(const ros::NodeHandle& private_node) {
   ReadParameter(private_node, names::kIncrementsPerSecond, "a number", &parameters.increments_per_second);
   ReadParameter(private_node, names::kIncrementsMegabytesPerSecond, "a number",
                 &parameters.increments_megabytes_per_second);
-  parameters.markers = ReadMarkerOptions(private_node);
   ReadParameter(private_node, names::kMaxNodes, "an integer", &parameters.limits.max_nodes);
   ReadParameter(private_node, names::kMaxElements, "an integer", &parameters.limits.max_elements);
   ReadParameter(private_node, names::kMaxContacts, "an integer", &parameters.limits.max_contacts);

@@ -8,8 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include <boost/make_shared.hpp>
-
 #include "contact_path/linear/blas.h"
 #include "contact_path/path/end.h"
 #include "contact_path/ros/bag_reader.h"
@@ -81,8 +79,7 @@ double SecondsSince(Clock::time_point start) { return std::chrono::duration<doub
 TraceService::TraceService(ros::NodeHandle private_node, const NodeParameters& parameters)
     : parameters_(parameters),
       topic_prefix_(private_node.getNamespace()),
-      increments_publisher_(private_node, StreamOptionsOf(parameters)),
-      markers_(private_node, parameters.markers) {
+      increments_publisher_(private_node, StreamOptionsOf(parameters)) {
   status_publisher_ = private_node.advertise<contact_path_msgs::TraceStatus>(names::kStatus, 10, /*latch=*/true);
   PublishStatus();
   trace_server_ = private_node.advertiseService(names::kTrace, &TraceService::HandleTrace, this);
@@ -243,7 +240,6 @@ void TraceService::Announce(const Job& job, const BagRecorder& bag, const TraceO
   progress_.emplace(job.request);
   summary_ = PathSummary(ProgramScales(ExpandedRequest(job.request).Get()).load_factor);
   increments_publisher_.PublishRequest(job.message);
-  markers_.TakeRequest(job.request);
   PublishStatus();
   if (observer.on_start) observer.on_start();
   if (const std::string advice = BlasAdvice(job.request.scene.nodes.size()); !advice.empty())
@@ -255,11 +251,6 @@ void TraceService::TellResult(Response* response) {
   response->end_reason_name = EndReasonName(response->end_reason);
   response->limit_points = ToMessages(summary_.limit_points());
   response->message = EndMessage(response->end_reason_name, response->message, summary_, response->bag);
-  try {
-    markers_.Publish();  // who has the answer finds the last increment
-  } catch (const std::exception& error) {
-    ROS_ERROR("no picture of the last increment: %s", error.what());
-  }
 }
 
 void TraceService::Close(BagRecorder* bag, Response* response) {
@@ -318,15 +309,14 @@ void TraceService::TellStop(const std::string& cancelled, Response* response) co
 }
 
 void TraceService::TakeIncrement(const Increment& increment, const TraceObserver& observer, BagRecorder* bag) {
-  const auto message = boost::make_shared<contact_path_msgs::Increment>(ToMessage(increment, full_state_every_));
-  message->header.stamp = StampNow();
+  contact_path_msgs::Increment message = ToMessage(increment, full_state_every_);
+  message.header.stamp = StampNow();
   // What the publisher makes of it on the wire: the recorded message is the one that subscribers get.
-  message->header.seq = increments_published_;
-  message->trace_id = status_.trace_id;
-  bag->WriteIncrement(*message);
-  increments_publisher_.Publish(*message, [&] { return StopWanted(observer); });
+  message.header.seq = increments_published_;
+  message.trace_id = status_.trace_id;
+  bag->WriteIncrement(message);
+  increments_publisher_.Publish(message, [&] { return StopWanted(observer); });
   ++increments_published_;
-  markers_.TakeIncrement(message);
 
   ++status_.increments;
   status_.stage = static_cast<std::uint32_t>(increment.stage);
@@ -335,7 +325,7 @@ void TraceService::TakeIncrement(const Increment& increment, const TraceObserver
   status_.progress = progress_->Add(increment);
   summary_.Add(increment);
   if (Clock::now() - status_time_ >= kStatusPeriod) PublishStatus();
-  if (observer.on_increment) observer.on_increment(FeedbackOn(*message));
+  if (observer.on_increment) observer.on_increment(FeedbackOn(message));
 }
 
 contact_path_msgs::TracePathFeedback TraceService::FeedbackOn(const contact_path_msgs::Increment& increment) const {

@@ -65,17 +65,6 @@ BoundaryCurve::Foot BoundaryCurve::Nearest(const Eigen::Vector2d& x, const Admis
   return {away.dot(normal) - radius_, normal, false, edge};
 }
 
-std::vector<OutlinePoint> BoundaryCurve::Points(int parts) const {
-  std::vector<OutlinePoint> points;
-  for (std::size_t i = 0; i < patches_.size(); ++i)
-    for (int part = 0; part < parts + (i + 1 == patches_.size() ? 1 : 0); ++part) {
-      const double tau = patches_[i].end * part / parts;
-      const Eigen::Vector2d normal = NormalOf(patches_[i].curve, tau);
-      points.push_back({patches_[i].curve.At(tau) + radius_ * normal, normal, static_cast<double>(points.size())});
-    }
-  return points;
-}
-
 AdmissiblePatches PatchesFor(const std::string& node, const BoundarySurface& surface,
                              const std::vector<Eigen::Vector2d>& places, const std::array<int, 2>& across) {
   const MirroredEnds ends = {across[0] >= 0, across[1] >= 0};

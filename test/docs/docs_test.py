@@ -36,7 +36,7 @@ WITH_HELP = ['contact_path_trace', 'contact_path_outlines', 'contact_path_expand
              'verify', *PYTHON]
 # What stands for a program in a command.
 SCRIPTS = {**{'scripts/' + name: name for name in ('contact_path_trace', 'contact_path_outlines',
-                                                   'contact_path_expand', 'contact_path_response', 'contact_path_markers')},
+                                                   'contact_path_expand', 'contact_path_response')},
            'scripts/mesh': 'contact_path_mesh', 'scripts/study': 'contact_path_study', 'scripts/python': 'python3', 'scripts/trace': 'contact_path_trace', **{'scripts/' + name: name for name in PYTHON}}
 OF_THE_SYSTEM = ('python3', 'sed')
 QUICK = ('contact_path_trace', 'contact_path_study', 'verify', *OF_THE_SYSTEM)  # of the examples, run here

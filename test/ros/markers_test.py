@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The pictures of a trace: of the node, of a bag that is played, and the views of them. Nodes: see markers.test."""
+"""The pictures of a trace: while the node traces, of a bag that is played, and the views of them. Nodes: see markers.test."""
 import os
 import re
 import shutil
@@ -77,22 +77,29 @@ class MarkersTest(unittest.TestCase):
     def latched(self, topic=MARKERS):
         return rospy.wait_for_message(topic, MarkerArray, helpers.PATIENCE)
 
+    def last_picture(self, scene):
+        """The latched picture of the last increment of a trace."""
+        last, pictures = self.increments_of(self.trace(helpers.request_of(scene)))[-1], []
+
+        def is_shown():
+            pictures.append(self.latched())
+            return shows(pictures[-1], last)
+
+        helpers.wait_until(is_shown, 'the last increment of %s is shown' % scene)
+        return pictures[-1]
+
     # The node
 
-    def test_who_has_the_answer_finds_the_last_increment(self):
+    def test_who_comes_late_finds_the_last_increment(self):
         for scene in 'sliding_bar', 'two_dof_friction', 'rigid_stop':
-            response = self.trace(helpers.request_of(scene))
-            picture = self.latched()
-            self.assertTrue(shows(picture, self.increments_of(response)[-1]), scene)
+            picture = self.last_picture(scene)
             self.assertIn(scene, by_name(picture)['caption', 0].text)
             self.assertEqual({marker.header.frame_id for marker in picture.markers}, {'table'})
 
     def test_next_scene_leaves_nothing_of_the_last_one(self):
-        self.trace(helpers.request_of('sliding_bar'))
-        before = by_name(self.latched())
+        before = by_name(self.last_picture('sliding_bar'))
         self.assertEqual(before['supports', 0].action, Marker.ADD)
-        self.trace(helpers.request_of('two_dof_friction'))
-        after = by_name(self.latched())
+        after = by_name(self.last_picture('two_dof_friction'))
         self.assertEqual(set(before), set(after))
         self.assertEqual(after['supports', 0].action, Marker.DELETE)  # nothing is fixed there
         self.assertEqual(after['structure', 0].action, Marker.DELETE)  # and there are no bars
@@ -101,7 +108,7 @@ class MarkersTest(unittest.TestCase):
         response = self.trace(helpers.request_of('von_mises', full_state_every=7, max_increments=12, stop=[]))
         increments = self.increments_of(response)
         self.assertLess(increments[-1].index, 12)
-        self.assertTrue(shows(self.latched(), increments[-1]))
+        helpers.wait_until(lambda: shows(self.latched(), increments[-1]), 'the last increment with its state is shown')
 
     def test_pictures_come_at_a_bounded_rate_and_the_last_increment_always(self):
         with helpers.Collector(MARKERS, MarkerArray) as pictures:
@@ -121,10 +128,10 @@ class MarkersTest(unittest.TestCase):
 
     def test_played_bag_gives_the_picture_of_the_node(self):
         for scene in 'sliding_bar', 'rough_truss':
-            response = self.trace(helpers.request_of(scene))
-            live = helpers.serialized(self.latched())
+            live = helpers.serialized(self.last_picture(scene))
+            bag = os.path.join(self.bags, max(os.listdir(self.bags)))
             with helpers.Collector('/played' + MARKERS, MarkerArray) as pictures:
-                self.start('rosbag', 'play', self.bag_of(response), '--quiet', '--queue', '100000', '--prefix',
+                self.start('rosbag', 'play', bag, '--quiet', '--queue', '100000', '--prefix',
                            '/played', '--wait-for-subscribers', '--topics', NODE + '/request', NODE + '/increments')
                 helpers.wait_until(lambda: pictures.messages and helpers.serialized(pictures.messages[-1]) == live,
                                    'the last increment of %s is shown' % scene)
@@ -155,6 +162,16 @@ class MarkersTest(unittest.TestCase):
             helpers.wait_until(lambda: pictures.messages and shows(pictures.messages[-1], last), 'the bag is shown')
             increments = [increment_of(picture) for picture in pictures.messages]
             self.assertGreater(len(set(increments)), 5)  # not in a flash
+
+    def test_wrong_parameters_are_named_at_the_start(self):
+        for parameter, line in (('picture_size:=-1.0', '~picture_size = -1.0: must be a number, finite and >= 0'),
+                                ('picture_size:=large', "~picture_size = 'large': must be a number"),
+                                ('frame_id:=/map', "~frame_id = '/map': must be a name that does not begin with a slash")):
+            told = subprocess.run([helpers.program('contact_path_markers'), '_' + parameter, '__name:=wrong'], stderr=subprocess.PIPE,
+                                  universal_newlines=True, timeout=helpers.PATIENCE)
+            self.assertEqual(told.returncode, 1)
+            self.assertIn('contact_path_markers: ' + line, told.stderr)
+            rospy.delete_param('/wrong')
 
     def test_play_tells_what_is_no_bag(self):
         for arguments, line in ((['none.bag'], 'play: none.bag: no such file'),

@@ -158,8 +158,6 @@ class ShutdownTest(unittest.TestCase):
                                 ('max_seconds:=-1.0', '~max_seconds = -1.000000: must be finite and >= 0'),
                                 ('max_memory_megabytes:=1', '~max_memory_megabytes = 1: the node itself takes'),
                                 ('keep_free_megabytes:=0', '~keep_free_megabytes = 0: must be > 0'),
-                                ('picture_size:=-1.0', '~picture_size = -1.000000: must be finite and >= 0'),
-                                ('frame_id:=/map', '~frame_id = "/map": must not be empty or begin with a slash'),
                                 ('bag_directory:=', '~bag_directory = "": must not be empty'),
                                 ('bag_directory:=7', '~bag_directory: must be a string')):
             if parameter.startswith('max_memory') and 'TSAN_OPTIONS' in os.environ:

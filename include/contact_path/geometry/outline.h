@@ -22,9 +22,9 @@ struct OutlineSteps {
   double turn = std::numeric_limits<double>::infinity();
 };
 
-// The points of the part of a curve between two values of xi, in the order of xi; a straight patch has its ends alone.
-// The range is finite. On an open curve it is cut off at the ends; on a closed one it may begin and end in any round.
-std::vector<OutlinePoint> Outline(const Surface& surface, const XiRange& range, const OutlineSteps& steps);
+// The points of a curve of finite length, in the order of xi; a straight patch has its ends alone. A closed curve ends
+// where it begins.
+std::vector<OutlinePoint> Outline(const Surface& surface, const OutlineSteps& steps);
 
 }  // namespace contact_path
 

@@ -16,7 +16,6 @@ inline constexpr char kTraceAction[] = "trace_action";  // action TracePath
 // Topics.
 inline constexpr char kIncrements[] = "increments";  // Increment, also in the bags
 inline constexpr char kStatus[] = "status";          // TraceStatus, latched
-inline constexpr char kMarkers[] = "markers";        // visualization_msgs/MarkerArray, latched
 
 inline constexpr char kRequest[] = "request";  // TraceRequest, latched; the first message of a bag
 
@@ -29,8 +28,6 @@ inline constexpr char kIncrementsQueue[] = "increments_queue";
 inline constexpr char kIncrementsMegabytes[] = "increments_megabytes";
 inline constexpr char kIncrementsPerSecond[] = "increments_per_second";
 inline constexpr char kIncrementsMegabytesPerSecond[] = "increments_megabytes_per_second";
-inline constexpr char kFrameId[] = "frame_id";          // marker_publisher.h
-inline constexpr char kPictureSize[] = "picture_size";  // marker_publisher.h
 inline constexpr char kMaxNodes[] = "max_nodes";
 inline constexpr char kMaxElements[] = "max_elements";
 inline constexpr char kMaxContacts[] = "max_contacts";

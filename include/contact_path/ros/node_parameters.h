@@ -7,7 +7,6 @@
 #include <ros/node_handle.h>
 
 #include "contact_path/ros/limits.h"
-#include "contact_path/ros/marker_publisher.h"
 
 namespace contact_path {
 
@@ -18,7 +17,6 @@ struct NodeParameters {
   int increments_megabytes = 256;        // of increments that wait for subscribers [MB], > 0
   double increments_per_second = 500.0;  // sent at most, >= 0; 0: no bound
   double increments_megabytes_per_second = 32.0;  // sent at most [MB/s], >= 0; 0: no bound
-  MarkerOptions markers;                          // frame_id, picture_size
   TraceLimits limits;                             // max_nodes, max_elements, ..., keep_free_megabytes
 };
 

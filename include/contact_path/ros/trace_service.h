@@ -1,5 +1,5 @@
-// The node's traces: for the service ~trace, and for the action (trace_action.h). Streams increments, status and
-// pictures, and records every trace.
+// The node's traces: for the service ~trace, and for the action (trace_action.h). Streams increments and status, and
+// records every trace.
 #ifndef CONTACT_PATH_ROS_TRACE_SERVICE_H_
 #define CONTACT_PATH_ROS_TRACE_SERVICE_H_
 
@@ -20,7 +20,6 @@
 #include "contact_path/path/trace.h"
 #include "contact_path/ros/bag_recorder.h"
 #include "contact_path/ros/increment_publisher.h"
-#include "contact_path/ros/marker_publisher.h"
 #include "contact_path/ros/messages.h"
 #include "contact_path/ros/node_parameters.h"
 
@@ -102,7 +101,6 @@ class TraceService {
   const std::string topic_prefix_;  // of the bags' topics: the name of the node
   IncrementPublisher increments_publisher_;
   ros::Publisher status_publisher_;
-  MarkerPublisher markers_;
 
   std::mutex mutex_;  // guards the next five
   bool running_ = false;

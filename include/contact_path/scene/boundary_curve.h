@@ -11,7 +11,6 @@
 
 #include "contact_path/geometry/admissible_patches.h"
 #include "contact_path/geometry/nodal_spline.h"
-#include "contact_path/geometry/outline.h"
 #include "contact_path/scene/scene.h"
 #include "contact_path/scene/solid_parts.h"
 
@@ -34,9 +33,6 @@ class BoundaryCurve {
   Foot Nearest(const Eigen::Vector2d& x) const { return Nearest(x, AdmissiblePatches(spline_)); }
   // Where the patches that x may touch are nearest to it; there must be some. patches: of as many nodes.
   Foot Nearest(const Eigen::Vector2d& x, const AdmissiblePatches& patches) const;
-
-  // Along the curve at the distance, `parts` for each patch; xi counts parts. A closed curve ends where it begins.
-  std::vector<OutlinePoint> Points(int parts) const;
 
  private:
   struct Patch {

@@ -6,6 +6,7 @@ import math
 import re
 from typing import Any, Mapping
 
+LONGEST_NAME = 160  # characters
 # Words that YAML 1.1 reads as something else than text.
 NO_TEXT = ('y', 'n', 'yes', 'no', 'true', 'false', 'on', 'off', 'null')
 
@@ -56,3 +57,13 @@ def block(value: Mapping[str, Any], indent: str = '') -> str:
         else:
             text += '%s%s: %s\n' % (indent, key, flow(item))
     return text
+
+
+def printable(name: str) -> str:
+    """A name from a request in a line for a person: no control characters, and no more than a line.
+
+    >>> printable('floor\\n')
+    'floor\\\\n'
+    """
+    shown = ''.join(c if c.isprintable() else c.encode('unicode_escape').decode() for c in name[:LONGEST_NAME])
+    return shown if len(name) <= LONGEST_NAME else shown + '...'

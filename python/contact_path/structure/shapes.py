@@ -197,8 +197,7 @@ def hatched_line(point: np.ndarray, normal: np.ndarray, first: float, last: floa
     origin = point.dot(normal) * normal
     strokes = max(1, round((last - first) / (0.4 * depth)))
     feet = origin + np.linspace(first, last, strokes + 1)[1:, None] * tangent
-    return (np.array([origin + first * tangent, origin + last * tangent]),
-            np.stack((feet, feet - depth * (normal + tangent)), axis=1))
+    return np.array([origin + first * tangent, origin + last * tangent]), hatches(feet, np.tile(normal, (strokes, 1)), depth)
 
 
 def hatching(points: np.ndarray, normals: np.ndarray, depth: float) -> np.ndarray:
@@ -207,7 +206,12 @@ def hatching(points: np.ndarray, normals: np.ndarray, depth: float) -> np.ndarra
     strokes = max(1, round(xi[-1] / (0.4 * depth)))
     at = np.linspace(0.0, xi[-1], strokes + 1)[1:]
     feet, inwards = (np.stack([np.interp(at, xi, column) for column in values.T], axis=1) for values in (points, normals))
-    return np.stack((feet, feet - depth * (inwards + np.column_stack((inwards[:, 1], -inwards[:, 0])))), axis=1)
+    return hatches(feet, inwards, depth)
+
+
+def hatches(feet: np.ndarray, normals: np.ndarray, depth: float) -> np.ndarray:
+    """Strokes (m, 2, 2) from points of a boundary on, with its normals (m, 2)."""
+    return np.stack((feet, feet - depth * (normals + np.column_stack((normals[:, 1], -normals[:, 0])))), axis=1)
 
 
 def turned_arrow(centre: np.ndarray, radius: float, turn: float) -> Tuple[np.ndarray, np.ndarray]:
