@@ -1,4 +1,4 @@
-# Tests of the core and of the command-line program: one program a stage, and one for each long test. They link the core alone.
+# Tests of the core and of the command-line program: one program a stage, and one for each long test. They link the core and method mpec alone.
 #
 # In a catkin build they are catkin's tests: built by the target `tests`, run by `run_tests` and by ctest. Otherwise they
 # are built with everything else and run by ctest. Either way each leaves its results as XML, one file a test program, in
@@ -41,7 +41,7 @@ endif()
 target_compile_options(contact_path_test_support PRIVATE ${contact_path_test_options})
 target_precompile_headers(contact_path_test_support PRIVATE <gtest/gtest.h> <Eigen/Core> <Eigen/SparseCore>
   <algorithm> <cmath> <functional> <map> <string> <vector>)
-target_link_libraries(contact_path_test_support PUBLIC contact_path_core GTest::gtest PRIVATE contact_path_warnings)
+target_link_libraries(contact_path_test_support PUBLIC contact_path_mpec contact_path_core GTest::gtest PRIVATE contact_path_warnings)
 
 # contact_path_add_gtest(<name> <source>...): one test program.
 function(contact_path_add_gtest name)
@@ -109,7 +109,7 @@ target_link_libraries(linear_tests ${SUITESPARSECONFIG_LIBRARY})
 contact_path_add_stage(contact contact_pair_test contact_state_test deformable_boundary_test deformable_pair_test path_point_test reach_tracker_test rigid_pair_test scene_contacts_test)
 contact_path_add_stage(equations deformable_system_test fixed_state_system_test nearest_point_test rigid_modes_test)
 contact_path_add_stage(stability jump_test slip_stability_test stability_problem_test)
-contact_path_add_stage(mpec increment_problem_test increment_solver_test ipopt_solver_test short_increment_test)
+contact_path_add_stage(mpec increment_problem_test increment_solver_test ipopt_solver_test)
 contact_path_add_stage(branch arc_step_test branch_choices_test branch_order_test complementarity_test crossing_test curved_surface_test
   gauss_rule_test patches_test pivoting_test plane_tangents_test polynomial_test rate_problem_test reaction_redistribution_test
   redundant_contacts_test smooth_arc_test state_options_test tangents_test test_functions_test)
@@ -136,7 +136,6 @@ contact_path_add_long_test(path frames_on_curves_test)
 contact_path_add_long_test(path invariance_test)
 contact_path_add_long_test(path jump_paths_test)
 contact_path_add_long_test(path total_law_test)
-contact_path_add_long_test(path certified_paths_test)
 contact_path_add_long_test(path mpec_cases_test)
 contact_path_add_long_test(path mpec_method_test)
 contact_path_add_long_test(path mpec_random_paths_test)
@@ -171,7 +170,7 @@ function(contact_path_add_replay target library count)
 endfunction()
 
 contact_path_add_replay(read_scene contact_path_core 20000)
-contact_path_add_replay(trace_scene contact_path_core 100 test/fuzz/varied_request.cpp)
+contact_path_add_replay(trace_scene contact_path_mpec 100 test/fuzz/varied_request.cpp)
 if(CONTACT_PATH_ROS)
   contact_path_add_replay(convert_request contact_path_ros 20000)
 endif()

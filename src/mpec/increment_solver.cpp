@@ -19,8 +19,10 @@ constexpr double kSamePoint = 0.1;
 
 constexpr int kMaxActiveSetChanges = 4;
 
-// With a larger eps the relaxed products leave room to leave the branch for another one: arch19 fell off its ceilings.
-constexpr double kLargestAtOnce = 1e-8;
+// Barrier parameter of a start that is nearly the solution: it counts as solved.
+constexpr double kBarrierAtOnce = 0.5 * tolerances::kAccepted;
+
+constexpr int kMaxPredictedChanges = 8;
 
 constexpr double kSameEps = 1.0 + tolerances::kEqual;
 
@@ -31,6 +33,12 @@ IncrementSolver::IncrementSolver(const Structure& structure, const ContactPairs&
 
 IncrementTrial IncrementSolver::Solve(const PathPoint& from, const IncrementGoal& goal,
                                       const RegularisationSchedule& schedule) {
+  int iterations = 0;
+  if (schedule.predicted) {
+    IncrementTrial trial = SolvePredicted(from, goal, schedule);
+    if (trial.status != SolveStatus::kFailed) return trial;
+    iterations = trial.iterations;
+  }
   std::vector<std::size_t> included = tracker_.InReach(from.u, from.s, kLongestIncrement * goal.length);
   // Past the end of its surface a node would meet the prolongation of the last patch.
   included.erase(
@@ -39,7 +47,6 @@ IncrementTrial IncrementSolver::Solve(const PathPoint& from, const IncrementGoal
                        return !contacts_[i]->HasPatch(contacts_[i]->KnownPatch(from.u, from.s, from.Patch(i)));
                      }),
       included.end());
-  int iterations = 0;
   for (;;) {
     const std::vector<int> working_set(included.begin(), included.end());
     IncrementTrial trial = SolveWith(from, working_set, goal, schedule);
@@ -66,34 +73,109 @@ IncrementTrial IncrementSolver::SolveWith(const PathPoint& from, const std::vect
 
   const bool regularised = !working_set.empty();
   trial.regularisation = regularised ? schedule.minimum * goal.length * goal.length : 0.0;
-  if (regularised && schedule.warm_start && schedule.minimum <= kLargestAtOnce && last_working_set_ == working_set &&
-      last_.x.size() == trial.variables && last_.multipliers.size() == trial.constraints) {
-    RegularisationSchedule at_once = schedule;
-    at_once.initial = schedule.minimum;
-    PrimalDual point = last_;
-    trial.warm_start = true;
-    if (Follow(&problem, at_once, &point, &trial)) {
-      PolishActiveSet(from, problem, goal, &trial);
-      if (trial.exact) return Keep(working_set, std::move(point), std::move(trial));
-    }
-    if (trial.status == SolveStatus::kCancelled) return trial;
-    trial.warm_start = false;
-  }
-
   PrimalDual point;
   point.x = problem.StartingPoint(goal.direction);
   RegularisationSchedule wanted = schedule;
   if (!regularised) wanted.initial = wanted.minimum = 0.0;
-  if (!Follow(&problem, wanted, &point, &trial)) return trial;
-  PolishActiveSet(from, problem, goal, &trial);
-  return Keep(working_set, std::move(point), std::move(trial));
+  if (Follow(&problem, wanted, &point, &trial)) PolishActiveSet(from, problem, goal, &trial);
+  return trial;
+}
+
+std::optional<PathPoint> IncrementSolver::Predict(const PathPoint& from, const IncrementGoal& goal) {
+  const Eigen::VectorXd wanted =
+      IncrementProblem(structure_, contacts_, from, TouchingAt(from), goal).UnconstrainedMinimiser();
+  const Eigen::VectorXd reference = SlipReferences(contacts_, from);
+  PathPoint point = from;
+  for (int change = 0; change <= kMaxPredictedChanges; ++change) {
+    system_.SetStates(point.states, reference, point.patches);
+    const NearestPoint nearest = FindNearestPoint(&system_, system_.Pack(point), wanted);
+    if (!nearest.converged) return std::nullopt;
+    const std::vector<int> patches = point.patches;
+    point = system_.Unpack(nearest.x);
+    if (Distance(from, point) > kLongestIncrement * goal.length) return std::nullopt;
+    PathPoint next = point;
+    next.patches = patches;
+    bool kept = true;
+    for (const Constraint& constraint : system_.Inequalities()) {
+      if (system_.Value(constraint, nearest.x) >= -tolerances::kBroken * system_.UnitOf(constraint)) continue;
+      kept = false;
+      const auto i = static_cast<std::size_t>(constraint.contact);
+      if (!ChangeState(constraint.inequality, point, i, &next)) return std::nullopt;
+    }
+    const double slow = tolerances::kRootOfRounding * Distance(from, point);
+    if (kept && !StickWhereAtRest(nearest.x, slow, &next)) return point;
+    point = std::move(next);
+  }
+  return std::nullopt;
+}
+
+bool IncrementSolver::ChangeState(Inequality failed, const PathPoint& point, std::size_t i, PathPoint* next) const {
+  ContactState& state = next->states[i];
+  switch (failed) {
+    case Inequality::kGap:
+      state = contacts_[i]->Frictional() ? ContactState::kStick : ContactState::kClosed;
+      if (!next->patches.empty() && next->patches[i] == kNearestPatch)
+        next->patches[i] = contacts_[i]->PatchAt(point.u, point.s);
+      return true;
+    case Inequality::kNormalReaction: state = ContactState::kOpen; return true;
+    case Inequality::kConePlus:
+      if (state != ContactState::kOpen) state = ContactState::kSlipPlus;
+      return true;
+    case Inequality::kConeMinus:
+      if (state != ContactState::kOpen) state = ContactState::kSlipMinus;
+      return true;
+    case Inequality::kSlip:
+    case Inequality::kTotalSlip:
+      if (state != ContactState::kOpen) state = ContactState::kStick;
+      return true;
+    case Inequality::kPatchBegin:
+    case Inequality::kPatchEnd: break;
+  }
+  next->patches[i] += failed == Inequality::kPatchEnd ? 1 : -1;
+  return contacts_[i]->HasPatch(next->patches[i]);
+}
+
+IncrementTrial IncrementSolver::SolvePredicted(const PathPoint& from, const IncrementGoal& goal,
+                                               const RegularisationSchedule& schedule) {
+  IncrementTrial trial;
+  const std::optional<PathPoint> predicted = Predict(from, goal);
+  if (!predicted) return trial;
+  std::vector<int> working_set = TouchingAt(from);
+  const std::vector<int> touching = TouchingAt(*predicted);
+  working_set.insert(working_set.end(), touching.begin(), touching.end());
+  std::sort(working_set.begin(), working_set.end());
+  working_set.erase(std::unique(working_set.begin(), working_set.end()), working_set.end());
+  IncrementProblem problem(structure_, contacts_, from, working_set, goal);
+  trial.variables = static_cast<int>(problem.NumVariables());
+  trial.constraints = static_cast<int>(problem.NumConstraints());
+  trial.predicted = true;
+  RegularisationSchedule at_once = schedule;
+  at_once.initial = schedule.minimum;
+  if (working_set.empty()) at_once.initial = at_once.minimum = 0.0;
+  trial.regularisation = at_once.minimum * goal.length * goal.length;
+  problem.SetRegularisation(at_once.minimum);
+  std::optional<PrimalDual> point = problem.CentralPoint(*predicted, kBarrierAtOnce);
+  if (point && Follow(&problem, at_once, &*point, &trial)) PolishActiveSet(from, problem, goal, &trial);
+  fprintf(stderr, "predicted: ws %zu touching %zu central %d status %d it %d exact %d dist %g\n", working_set.size(),
+          touching.size(), point.has_value(), (int)trial.status, trial.iterations, trial.exact,
+          trial.exact ? Distance(trial.point, *predicted) : -1.0);
+  if (trial.status == SolveStatus::kSolved && !trial.exact) trial.status = SolveStatus::kFailed;
+  return trial;
+}
+
+std::vector<int> IncrementSolver::TouchingAt(const PathPoint& point) const {
+  std::vector<int> touching;
+  for (std::size_t i = 0; i < point.states.size(); ++i)
+    if (point.states[i] != ContactState::kOpen) touching.push_back(static_cast<int>(i));
+  return touching;
 }
 
 bool IncrementSolver::Follow(IncrementProblem* problem, const RegularisationSchedule& schedule, PrimalDual* point,
                              IncrementTrial* trial) {
   for (double eps = schedule.initial;; eps = std::max(schedule.minimum, schedule.factor * eps)) {
     problem->SetRegularisation(eps);
-    const SolveOutcome outcome = solver_->Solve(*problem, kBarrierShare * eps, point);
+    const SolveOutcome outcome =
+        solver_->Solve(*problem, trial->predicted ? kBarrierAtOnce : kBarrierShare * eps, point);
     trial->iterations += outcome.iterations;
     trial->status = outcome.status;
     if (outcome.status != SolveStatus::kSolved) return false;
@@ -101,12 +183,6 @@ bool IncrementSolver::Follow(IncrementProblem* problem, const RegularisationSche
     trial->point = problem->Point(point->x);
     return true;
   }
-}
-
-IncrementTrial IncrementSolver::Keep(const std::vector<int>& working_set, PrimalDual point, IncrementTrial trial) {
-  last_working_set_ = working_set;
-  last_ = std::move(point);
-  return trial;
 }
 
 void IncrementSolver::PolishActiveSet(const PathPoint& from, const IncrementProblem& problem, const IncrementGoal& goal,

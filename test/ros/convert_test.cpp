@@ -58,7 +58,6 @@ TraceRequest FullRequest() {
   request.options.stop = {{"b.x", ">", 19.0}, {"load_factor", "<", 20.0}};
   request.options.branch_choices = {{21, 22, 23}};
   request.options.friction_law = FrictionLaw::kTotal;
-  request.options.mpec_solver = MpecSolver::kIpopt;
   request.options.stability = DefaultTrue::kFalse;
   request.options.at_limit = AtLimit::kJump;
   request.options.machine_stiffness = 85.0;
@@ -145,7 +144,6 @@ void ExpectFullRequest(const TraceRequest& request) {
   EXPECT_EQ(options.max_increments, 18);
   EXPECT_EQ(options.full_state_every, 24);
   EXPECT_EQ(options.friction_law, FrictionLaw::kTotal);
-  EXPECT_EQ(options.mpec_solver, MpecSolver::kIpopt);
   EXPECT_EQ(options.stability, DefaultTrue::kFalse);
   EXPECT_EQ(options.at_limit, AtLimit::kJump);
   EXPECT_EQ(options.machine_stiffness, 85.0);
