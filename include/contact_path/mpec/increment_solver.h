@@ -56,22 +56,21 @@ class IncrementSolver {
   // Solves for one eps after another; *trial: status, iterations, and where solved the point. False where one fails.
   bool Follow(IncrementProblem* problem, const RegularisationSchedule& schedule, PrimalDual* point,
               IncrementTrial* trial);
-  // The solution of (9) to which the contact states of `from` lead, changed where their inequalities fail; nothing
-  // where that comes to no end.
-  std::optional<PathPoint> Predict(const PathPoint& from, const IncrementGoal& goal);
-  // To the state, or the patch, beyond an inequality that fails. False: there is none.
-  bool ChangeState(Inequality failed, const PathPoint& point, std::size_t contact, PathPoint* next) const;
-  std::vector<int> TouchingAt(const PathPoint& point) const;
-  // One increment from there.
+  // One increment from where the contact states of `from` lead.
   IncrementTrial SolvePredicted(const PathPoint& from, const IncrementGoal& goal,
                                 const RegularisationSchedule& schedule);
-  // Replaces trial->point by the minimum of the objective on the exact equations of its states, if the inequalities
-  // hold there; otherwise by the exact point that is nearest to trial->point.
-  void PolishActiveSet(const PathPoint& from, const IncrementProblem& problem, const IncrementGoal& goal,
-                       IncrementTrial* trial);
-  // By the solution of those equations nearest to `wanted`, unless that is another point. length: of the increment.
-  bool PolishActiveSet(const PathPoint& from, const Eigen::VectorXd& wanted, double length, IncrementTrial* trial);
-  bool StickWhereAtRest(const Eigen::VectorXd& x, double slip, PathPoint* point) const;
+  // Replaces trial->point by the minimum of the objective on the exact equations of its states; otherwise by the exact
+  // point that is nearest to trial->point.
+  void MakeExact(const PathPoint& from, const IncrementProblem& problem, const IncrementGoal& goal,
+                 IncrementTrial* trial);
+  struct ExactPoint {
+    PathPoint point;
+    bool at_corner;  // between two states of a contact
+  };
+  // The solution, nearest to `wanted`, of the equations of the states of `guess`, which change where their inequalities
+  // fail; nothing where that comes to no end, or farther than `reach` from the guess.
+  std::optional<ExactPoint> Exact(const PathPoint& from, const Eigen::VectorXd& wanted, const PathPoint& guess,
+                                  double reach);
 
   const Structure& structure_;
   const ContactPairs& contacts_;
