@@ -50,11 +50,10 @@ void RegularIncrements(benchmark::State& state, TraceRequest request, double flo
   for (auto iteration : state) {
     BranchMethod method(model, BranchOptions::For(request.options, AutomaticStepGrowth(model)), nullptr);
     PathPoint point = model.InitialPoint();
-    EventRecord branches;
-    std::string message;
-    if (method.Start(point, &branches, &message)) throw std::runtime_error(message);
+    StartRecord found;
+    if (method.Start(point, &found)) throw std::runtime_error("the path cannot start");
     Recorder recorder(Method::kBranch, LongLists(), nullptr);
-    recorder.Start(model, 0, point, Residuals(), branches, 0.0);
+    recorder.Start(model, 0, point, Residuals(), found, 0.0);
     double seconds = 0.0;
     int regular = 0, factorised = 0;
     while (regular < kIncrements) {
@@ -62,7 +61,7 @@ void RegularIncrements(benchmark::State& state, TraceRequest request, double flo
       const Advance advance = method.Next(point);
       for (const AcceptedPoint& accepted : advance.increments) recorder.Append(model, accepted, 0.0);
       const double time = Seconds(start);
-      if (advance.increments.empty()) throw std::runtime_error(advance.message);
+      if (advance.increments.empty()) throw std::runtime_error("no increment");
       point = advance.increments.back().point;
       if (advance.increments.back().kind != IncrementKind::kRegular) continue;
       seconds += time;

@@ -56,7 +56,7 @@ def pareto(rows, path):
     """Error of the line through the increments, and of the increments, over time: one scene."""
     figure, axes = plt.subplots(1, 2, figsize=(11, 4.2), sharex=True)
     for axis, error, label in ((axes[0], 'line_error', 'lines between increments'), (axes[1], 'row_error', 'increments')):
-        for method, colour in (('branch', 'tab:blue'), ('mpec', 'tab:green'), ('ipopt', 'tab:orange')):
+        for method, colour in (('branch', 'tab:blue'), ('mpec', 'tab:orange')):
             for kind, marker in (('preset', 'o'), ('step', '.'), ('eps', 'x'), ('cold', '+')):
                 chosen = [row for row in rows if row['method'] == method and
                           (setting(row).split()[0] if ' ' in setting(row) else 'preset') == kind]

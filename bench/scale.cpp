@@ -54,16 +54,15 @@ void AlongThePath(const TraceRequest& given, bool events, benchmark::State& stat
   for (auto iteration : state) {
     BranchMethod method(model, BranchOptions::For(request.options, AutomaticStepGrowth(model)), nullptr);
     PathPoint point = model.InitialPoint();
-    EventRecord branches;
-    std::string message;
-    if (method.Start(point, &branches, &message)) throw std::runtime_error(message);
+    StartRecord found;
+    if (method.Start(point, &found)) throw std::runtime_error("the path cannot start");
     double seconds = 0.0, factorisations = 0.0;
     // The first increment finds the ordering.
     for (int counted = -1; counted < kIncrements;) {
       const Clock::time_point start = Clock::now();
       const Advance advance = method.Next(point);
       const double time = Seconds(start);
-      if (advance.increments.empty()) throw std::runtime_error(advance.message);
+      if (advance.increments.empty()) throw std::runtime_error("no increment");
       const AcceptedPoint& increment = advance.increments.back();
       point = increment.point;
       if ((increment.kind == IncrementKind::kRegular) == events) continue;
@@ -115,10 +114,9 @@ void EventOfContacts(benchmark::State& state) {
   for (auto iteration : state) {
     BranchMethod method(model, BranchOptions::For(request.options, AutomaticStepGrowth(model)), nullptr);
     const PathPoint point = model.InitialPoint();
-    EventRecord branches;
-    std::string message;
+    StartRecord found;
     const Clock::time_point start = Clock::now();
-    if (method.Start(point, &branches, &message)) throw std::runtime_error(message);
+    if (method.Start(point, &found)) throw std::runtime_error("the path cannot start");
     const double time = Seconds(start);
     Report(model, point, time, PeakMebibytes(), &state);
   }
@@ -166,7 +164,7 @@ void MpecIncrement(benchmark::State& state) {
     const Clock::time_point start = Clock::now();
     for (int k = 0; k < kIncrements; ++k) {
       const Advance advance = method.Next(point);
-      if (advance.increments.empty()) throw std::runtime_error(advance.message);
+      if (advance.increments.empty()) throw std::runtime_error("no increment");
       point = advance.increments.back().point;
       iterations += advance.increments.back().solve.iterations;
     }

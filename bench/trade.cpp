@@ -45,35 +45,30 @@ struct Path {
   std::vector<Sample> increments;
   double seconds = 0.0;
   long iterations = 0, factorisations = 0, rejected = 0;
-  std::string end;
-  bool cut = false;  // for want of time
+  bool stopped = false;  // by a criterion
+  bool cut = false;      // for want of time
 };
 
-// method: branch, mpec, or ipopt for mpec with mpec_solver ipopt.
 struct Setting {
   std::string method, accuracy;
   double step = 0.0;     // 0: of the preset
-  double minimum = 0.0;  // eps_min of ipopt; 0: of the preset
-  bool cold = false;     // ipopt: every increment by the whole schedule of eps, not from the last one
+  double minimum = 0.0;  // smallest eps of mpec; 0: of the preset
+  bool cold = false;     // mpec: every increment by the whole schedule of eps, not from a predicted point
 };
 
 std::unique_ptr<PathMethod> MakeMethod(const Model& model, const TraceOptions& options, const Setting& setting,
                                        const std::function<bool()>& cancelled = nullptr) {
-  if (options.LocatesEvents()) {
-    BranchOptions located = BranchOptions::For(options, AutomaticStepGrowth(model));
-    located.method = options.method;
-    return std::make_unique<BranchMethod>(model, located, cancelled);
-  }
+  if (options.method == Method::kBranch)
+    return std::make_unique<BranchMethod>(model, BranchOptions::For(options, AutomaticStepGrowth(model)), cancelled);
   MpecOptions mpec = MpecOptions::For(options, AutomaticStepGrowth(model));
   if (setting.minimum > 0.0) mpec.regularisation.minimum = setting.minimum;
-  if (setting.cold) mpec.regularisation.warm_start = false;
+  if (setting.cold) mpec.regularisation.predicted = false;
   return std::make_unique<MpecMethod>(model, mpec, cancelled);
 }
 
 TraceOptions OptionsOf(const TraceRequest& request, const Setting& setting) {
   TraceOptions options = request.options;
   options.method = setting.method == "branch" ? Method::kBranch : Method::kMpec;
-  options.mpec_solver = setting.method == "ipopt" ? MpecSolver::kIpopt : MpecSolver::kCertified;
   options.accuracy = setting.accuracy == "fast"       ? Accuracy::kFast
                      : setting.accuracy == "accurate" ? Accuracy::kAccurate
                                                       : Accuracy::kBalanced;
@@ -105,11 +100,9 @@ Path Follow(const TraceRequest& request, const Model& model, const PathPoint& st
     path.increments.push_back(std::move(increment));
   };
   append(start, nullptr);
-  EventRecord branches;
-  std::string message;
+  StartRecord found;
   PathPoint point = start;
-  bool ended = method->Start(point, &branches, &message).has_value();
-  path.end = ended ? message : "";
+  bool ended = method->Start(point, &found).has_value();
   while (!ended) {
     const Advance advance = method->Next(point);
     for (const AcceptedPoint& accepted : advance.increments) {
@@ -123,13 +116,11 @@ Path Follow(const TraceRequest& request, const Model& model, const PathPoint& st
       increment.index = static_cast<int>(path.increments.size()) - 1;
       increment.load_factor = state.load_factor;
       increment.positions = state.positions;
-      const StopCriterion* criterion = stop.FirstThatHolds(increment);
-      ended = ended || criterion != nullptr;
-      if (criterion != nullptr) path.end = "stop";
+      path.stopped = path.stopped || stop.FirstThatHolds(increment, accepted.at_criteria) != nullptr;
+      ended = ended || path.stopped;
     }
-    if (advance.ended && !ended) path.end = advance.message;
     path.cut = !ended && (late() || path.increments.size() > 100000);
-    ended = ended || path.cut || advance.ended;
+    ended = ended || path.cut || advance.end;
   }
   path.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   return path;
@@ -257,25 +248,21 @@ double LimitError(const Path& exact, const Path& path) {
 // unit: what the steps of a small scene are multiplied by.
 std::vector<Setting> AllSettings(double unit) {
   std::vector<Setting> settings;
-  for (const char* method : {"branch", "mpec", "ipopt"})
+  for (const char* method : {"branch", "mpec"})
     for (const char* accuracy : {"fast", "balanced", "accurate"}) settings.push_back({method, accuracy, 0.0, 0.0});
   for (const double step : {0.2, 0.1, 0.04, 0.01, 0.0025}) settings.push_back({"branch", "balanced", unit * step, 0.0});
-  if (unit > 1.0) return settings;  // a big scene: ipopt does not come to its end in the time
-  for (const double step : {0.1, 0.04, 0.01}) settings.push_back({"ipopt", "balanced", step, 0.0});
-  for (const double minimum : {1e-4, 1e-6, 1e-10, 1e-12}) settings.push_back({"ipopt", "balanced", 0.0, minimum});
-  settings.push_back({"ipopt", "balanced", 0.0, 0.0, true});
+  if (unit > 1.0) return settings;  // a big scene: mpec does not come to its end in the time
+  for (const double step : {0.1, 0.04, 0.01}) settings.push_back({"mpec", "balanced", step, 0.0});
+  for (const double minimum : {1e-4, 1e-6, 1e-10, 1e-12}) settings.push_back({"mpec", "balanced", 0.0, minimum});
+  settings.push_back({"mpec", "balanced", 0.0, 0.0, true});
   return settings;
 }
 
 void Measure(const std::string& name, const TraceRequest& request) {
   const Model model(request.scene, CharacteristicScales(request.scene));
-  const Preload preload = TracePreload(model, 100000, [](const Model& of, double target) {
-    BranchOptions options = BranchOptions::For(TraceOptions(), AutomaticStepGrowth(of));
-    options.ends.load_factor = target;
-    return std::make_unique<BranchMethod>(of, options, nullptr);
-  });
+  const Preload preload = TraceStart(model, Accuracy::kBalanced, nullptr);
   if (!preload.done) {
-    std::fprintf(stderr, "%s: %s\n", name.c_str(), preload.message.c_str());
+    std::fprintf(stderr, "%s: the constant loads cannot be brought on\n", name.c_str());
     return;
   }
   const double growth = AutomaticStepGrowth(model), preset = 0.02 * growth;
@@ -309,9 +296,9 @@ void Measure(const std::string& name, const TraceRequest& request) {
                 path.increments.size(), path.seconds, row_error, LineError(exact, path), LimitError(exact, path),
                 dissipation_error, static_cast<double>(path.iterations) / increments,
                 static_cast<double>(path.factorisations) / increments, path.rejected,
-                path.cut             ? "cut"
-                : path.end == "stop" ? "stop"
-                                     : "early");
+                path.cut       ? "cut"
+                : path.stopped ? "stop"
+                               : "early");
     std::fflush(stdout);
   }
 }
@@ -350,14 +337,13 @@ void MeasureModels() {
       request.scene.obstacles.push_back(rough);
     }
     const Model model(request.scene, CharacteristicScales(request.scene));
-    for (const char* method : {"branch", "mpec", "ipopt"}) {
+    for (const char* method : {"branch", "mpec"}) {
       constexpr int kRows = 20;
       const std::unique_ptr<PathMethod> tracer =
           MakeMethod(model, OptionsOf(request, {method, "balanced", 0.0, 0.0}), {method, "balanced", 0.0, 0.0});
       PathPoint point = model.InitialPoint();
-      EventRecord branches;
-      std::string message;
-      if (tracer->Start(point, &branches, &message)) std::fprintf(stderr, "%s: %s\n", name, message.c_str());
+      StartRecord found;
+      if (tracer->Start(point, &found)) std::fprintf(stderr, "%s: cannot start\n", name);
       const Clock::time_point begin = Clock::now();
       SolveRecord solve;
       int increments = 0;

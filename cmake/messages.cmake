@@ -12,7 +12,7 @@ generate_messages(DEPENDENCIES actionlib_msgs std_msgs)
 
 catkin_package(
   INCLUDE_DIRS include
-  LIBRARIES contact_path_ros contact_path_core
+  LIBRARIES contact_path_ros contact_path_mpec contact_path_core
   CATKIN_DEPENDS actionlib actionlib_msgs message_runtime rosbag roscpp std_msgs std_srvs
   DEPENDS EIGEN3
 )

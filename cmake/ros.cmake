@@ -23,7 +23,7 @@ target_precompile_headers(contact_path_ros PRIVATE <ros/ros.h> <algorithm> <memo
 contact_path_join_sources(contact_path_ros)
 target_link_libraries(contact_path_ros
   PUBLIC contact_path_core ${catkin_LIBRARIES}
-  PRIVATE contact_path_warnings)
+  PRIVATE contact_path_mpec contact_path_warnings)
 
 add_executable(contact_path_node src/ros/contact_path_node.cpp)
 target_link_libraries(contact_path_node PRIVATE contact_path_process contact_path_ros contact_path_warnings)
@@ -42,13 +42,13 @@ set(contact_path_programs contact_path_node contact_path_trace contact_path_outl
   contact_path_expand contact_path_response contact_path_study_server contact_path_verify)
 
 # Programs and libraries find the libraries beside them wherever the tree is put.
-set_target_properties(contact_path_ros PROPERTIES INSTALL_RPATH "$ORIGIN")
+set_target_properties(contact_path_ros contact_path_mpec PROPERTIES INSTALL_RPATH "$ORIGIN")
 set_target_properties(${contact_path_programs} PROPERTIES INSTALL_RPATH "$ORIGIN/..")
 
 # Where programs are, for tests.
 set(contact_path_devel_programs ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_BIN_DESTINATION})
 
-install(TARGETS contact_path_ros contact_path_core
+install(TARGETS contact_path_ros contact_path_mpec contact_path_core
   ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
   LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
 install(TARGETS ${contact_path_programs}

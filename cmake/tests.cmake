@@ -1,4 +1,4 @@
-# Tests of the core and of the command-line program: one program a stage. They link the core alone.
+# Tests of the core and of the command-line program: one program a stage. They link the core and method mpec alone.
 #
 # In a catkin build they are catkin's tests: built by the target `tests`, run by `run_tests` and by ctest. Otherwise they
 # are built with everything else and run by ctest. Either way each leaves its results as XML, one file a process, in
@@ -43,7 +43,7 @@ endif()
 target_compile_options(contact_path_test_support PRIVATE ${contact_path_test_options})
 target_precompile_headers(contact_path_test_support PRIVATE <gtest/gtest.h> <Eigen/Core> <Eigen/SparseCore>
   <algorithm> <cmath> <functional> <map> <string> <vector>)
-target_link_libraries(contact_path_test_support PUBLIC contact_path_core GTest::gtest PRIVATE contact_path_warnings)
+target_link_libraries(contact_path_test_support PUBLIC contact_path_mpec contact_path_core GTest::gtest PRIVATE contact_path_warnings)
 
 # contact_path_add_processes(<type> <name> <shards> <depends> <command>...): so many tests that share the tests of one command; the path
 # of the results is put behind its last word. Where several run side by side, those that take longest are to start first.
@@ -140,7 +140,7 @@ contact_path_add_stage(contact NAMES contact_pair_test contact_state_test deform
   reach_tracker_test rigid_pair_test scene_contacts_test)
 contact_path_add_stage(equations NAMES deformable_system_test fixed_state_system_test nearest_point_test rigid_modes_test)
 contact_path_add_stage(stability NAMES jump_test slip_stability_test stability_problem_test)
-contact_path_add_stage(mpec NAMES increment_problem_test increment_solver_test ipopt_solver_test short_increment_test)
+contact_path_add_stage(mpec NAMES increment_problem_test increment_solver_test ipopt_solver_test)
 contact_path_add_stage(branch LONG SHARDS 2 NAMES arc_step_test branch_choices_test branch_events_test branch_method_test branch_order_test
   branches_test complementarity_test crossing_test curved_surface_test gauss_rule_test patches_test pivoting_test
   plane_tangents_test polynomial_test random_paths_test rate_problem_test reaction_redistribution_test redundant_contacts_test
@@ -151,7 +151,7 @@ if(NOT CONTACT_PATH_SANITIZE)
 endif()
 contact_path_add_stage(response NAMES closed_forms_test contact_pressure_test element_response_test reactions_test)
 contact_path_add_stage(check NAMES answers_test boundary_residuals_test curved_residuals_test residuals_test solid_residuals_test)
-contact_path_add_stage(path LONG SHARDS 4 NAMES automatic_step_test beam_paths_test branch_options_test certified_paths_test csv_test
+contact_path_add_stage(path LONG SHARDS 4 NAMES automatic_step_test beam_paths_test branch_options_test csv_test
   curved_paths_test curved_random_paths_test curved_scenes_test deformable_random_paths_test deformable_scenes_test
   determinism_test diagnosis_test end_test frames_on_curves_test free_motion_test hard_scenes_test increment_lists_test
   increment_test invariance_test jump_paths_test large_requests_test largest_reaction_test model_size_test model_test
@@ -180,7 +180,7 @@ function(contact_path_add_replay target library count)
 endfunction()
 
 contact_path_add_replay(read_scene contact_path_core 20000)
-contact_path_add_replay(trace_scene contact_path_core 100 test/fuzz/varied_request.cpp)
+contact_path_add_replay(trace_scene contact_path_mpec 100 test/fuzz/varied_request.cpp)
 if(CONTACT_PATH_ROS)
   contact_path_add_replay(convert_request contact_path_ros 20000)
 endif()

@@ -10,8 +10,8 @@ import numpy
 import contact_path as cp
 
 HEIGHT, REST, EA = 5.0, 5.0 * sqrt(2.0), 14.142135623730951  # of the sliding bar
-# By located events, and by Algorithm 3.2 with every increment by Ipopt.
-METHODS = {'branch': {'method': 'branch'}, 'ipopt': {'method': 'mpec', 'mpec_solver': 'ipopt'}}
+# By located events, and by Algorithm 3.2.
+METHODS = {'branch': {'method': 'branch'}, 'mpec': {'method': 'mpec'}}
 
 
 def traced(scene, friction, method):

@@ -125,8 +125,8 @@ inline constexpr double kEnergyOfStep = 2e-3;
 // Scaled length, or share of a step, next to its start: rates there tell what the start does not, as where the load, or
 // an inequality, changes with the third power of the arc length.
 inline constexpr double kNextToStart = 1e-3;
-// Scaled length along which derivatives at the start hold: an increment of method mpec that stands for a rate, and a
-// Newton step, relative to 1 + |x|, from which on the factors at hand are good enough to finish with.
+// Scaled length along which derivatives at the start hold: a Newton step, relative to 1 + |x|, from which on the
+// factors at hand are good enough to finish with.
 inline constexpr double kShort = 1e-5;
 
 }  // namespace contact_path::tolerances

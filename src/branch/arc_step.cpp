@@ -71,31 +71,6 @@ std::string_view NameOf(EventKind kind) {
   return "";
 }
 
-// Component of (du, ds) - S d on the tangent at the end, over S: 0 at a stationary point of (9) on the arc.
-double Stationarity(const CurvePoint& start, double length, const CurvePoint& end, Eigen::Index motion) {
-  return end.first.head(motion).dot((end.x - start.x).head(motion)) / length -
-         end.first.head(motion).dot(start.first.head(motion));
-}
-
-// Moves the end of a step along the curve to the point nearest to start + length x tangent. Of (4), the dissipation is
-// left out: on one arc it has one sense, and only says how far to go.
-bool MoveToNearest(SmoothArc* arc, const CurvePoint& start, double length, CurvePoint* end) {
-  const Eigen::Index motion = arc->NumMotion();
-  Eigen::VectorXd row = Eigen::VectorXd::Zero(start.x.size());
-  double last = std::numeric_limits<double>::infinity();
-  for (;;) {
-    const double off = Stationarity(start, length, *end, motion);
-    if (std::abs(off) <= tolerances::kRate || std::abs(off) * length <= tolerances::kNoMove) return true;
-    if (!(std::abs(off) <= 0.5 * last)) return false;
-    last = std::abs(off);
-    const Eigen::VectorXd tangent = end->first.head(motion);
-    row.head(motion) = tangent;
-    const double wanted = tangent.dot(start.x.head(motion) + length * start.first.head(motion));
-    const Correction correction = arc->Correct(end->x - off * length * end->first, row, wanted);
-    if (!correction.converged || !arc->Derivatives(correction.x, tangent, end)) return false;
-  }
-}
-
 // A whole step with this length along the tangent; nothing where it has to be shorter. trial: null, or is told why.
 std::optional<ArcStep> TryStep(SmoothArc* arc, const CurvePoint& start, double length, double prediction,
                                const StepLimits& limits, TrialStep* trial) {
@@ -125,11 +100,6 @@ std::optional<ArcStep> TryStep(SmoothArc* arc, const CurvePoint& start, double l
   CurvePoint end;
   if (trial != nullptr) trial->verdict = "no tangent at the end";
   if (!arc->Derivatives(correction.x, normal, &end)) return std::nullopt;
-  if (limits.nearest) {
-    if (trial != nullptr) trial->verdict = "no minimiser";
-    if (!MoveToNearest(arc, start, length, &end)) return std::nullopt;
-    if (trial != nullptr) trial->numbers.emplace_back("stationarity", Stationarity(start, length, end, normal.size()));
-  }
   const double cosine = end.first.head(normal.size()).dot(normal);
   if (trial != nullptr) {
     trial->numbers.insert(trial->numbers.end(), {{"cosine", cosine}, {"smallest_cosine", limits.cosine}});

@@ -63,10 +63,9 @@ void TrySolutions(const RateComplementarity& problem, BranchFinder* finder, Bran
     }
 }
 
-// Where there are too many combinations: principal pivoting from several first guesses, and the further candidates.
+// Where there are too many combinations: principal pivoting from several first guesses.
 // Each result is tried like any other combination.
-void TryLikely(const Options& options, const PathPoint& point, const Arrival& arrival, const RateProblem* condensed,
-               const FurtherStates& further, BranchFinder* finder, BranchSet* result) {
+void TryLikely(const Options& options, const RateProblem* condensed, BranchFinder* finder, BranchSet* result) {
   std::vector<States> guesses;
   for (const ContactState preferred : {ContactState::kOpen, ContactState::kStick, ContactState::kSlipPlus,
                                        ContactState::kSlipMinus, ContactState::kClosed}) {
@@ -104,14 +103,12 @@ void TryLikely(const Options& options, const PathPoint& point, const Arrival& ar
           pivot_from(guess);
         }
   }
-  if (!further || !result->branches.empty()) return;
-  for (const States& states : further(point, arrival.direction)) attempt(states);
 }
 
 // With the reactions of the point. In no order, and mirror branches are not told.
 BranchSet BranchesWithReactions(const Structure& structure, const ContactPairs& contacts, const PathPoint& point,
                                 const Arrival& arrival, const ActiveSetTolerance& tolerance,
-                                const FurtherStates& further, const std::function<bool()>& cancelled) {
+                                const std::function<bool()>& cancelled) {
   BranchSet result;
   Options options;
   States natural;
@@ -169,8 +166,7 @@ BranchSet BranchesWithReactions(const Structure& structure, const ContactPairs& 
     if (few_enough)
       TryAll(options, excluded, &finder, &result);
     else
-      TryLikely(options, point, arrival, between_patches ? nullptr : condensed,
-                combinations > kMostIfNone ? further : nullptr, &finder, &result);
+      TryLikely(options, between_patches ? nullptr : condensed, &finder, &result);
   }
   if (result.branches.empty() && result.complete_by == Completeness::kNone && combinations <= kMostIfNone) {
     TryAll(options, excluded, &finder, &result);
@@ -245,16 +241,16 @@ double DissipationRate(const ContactPairs& contacts, const std::vector<ContactSt
 }
 
 BranchSet FindBranches(const Structure& structure, const ContactPairs& contacts, const PathPoint& point,
-                       const Arrival& arrival, const ActiveSetTolerance& tolerance, const FurtherStates& further,
+                       const Arrival& arrival, const ActiveSetTolerance& tolerance,
                        const std::function<bool()>& cancelled) {
-  BranchSet result = BranchesWithReactions(structure, contacts, point, arrival, tolerance, further, cancelled);
+  BranchSet result = BranchesWithReactions(structure, contacts, point, arrival, tolerance, cancelled);
   if (!result.cancelled && std::none_of(result.branches.begin(), result.branches.end(), GoesOn)) {
     const ReactionRedistributions others = FindReactionRedistributions(contacts, point, tolerance);
     if (!others.complete) result.complete_by = Completeness::kNone;
     for (const PathPoint& begin : others.points) {
       if (result.cancelled) break;
-      AddOthers(contacts, BranchesWithReactions(structure, contacts, begin, arrival, tolerance, further, cancelled),
-                begin, &result);
+      AddOthers(contacts, BranchesWithReactions(structure, contacts, begin, arrival, tolerance, cancelled), begin,
+                &result);
     }
   }
   SortBranches(point.states, arrival.load_sense, &result.branches);

@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "contact_path/path/csv.h"
+#include "contact_path/path/mpec_method.h"
 #include "contact_path/path/trace.h"
 #include "contact_path/scene/one_line.h"
 #include "contact_path/scene/read_scene.h"
@@ -180,6 +181,7 @@ class Server {
     };
     // Nobody waits for the answer where the client has gone.
     control.cancelled = [client = client_] { return getppid() != client; };
+    control.mpec = MakeMpecMethod;
     const TraceResult result = Trace(request, control);
     answer->status = StatusOf(result);
     answer->outputs = outputs.Texts(result.reason);

@@ -18,6 +18,7 @@
 
 #include "contact_path/linear/blas.h"
 #include "contact_path/path/csv.h"
+#include "contact_path/path/mpec_method.h"
 #include "contact_path/path/restored_states.h"
 #include "contact_path/path/trace.h"
 #include "contact_path/scene/expand.h"
@@ -259,6 +260,7 @@ ExitStatus RunTrace(const Task& task, const Arguments& arguments, std::ostream* 
     for (const Sink& sink : sinks) sink(increment);
   };
   control.cancelled = IsCancelled;
+  control.mpec = MakeMpecMethod;
   if (log) control.on_trial = [&log](const TrialStep& trial) { log->Add(trial); };
   const TraceResult result =
       task.increments ? ResumeTrace(request, *task.increments, control) : Trace(request, control);

@@ -32,7 +32,6 @@ TraceLog::TraceLog(const TraceRequest& request, std::ostream* out)
   header["scene"] = request.scene.name;
   header["scene_hash"] = HashOf(request);
   header["method"] = JsonOf(request.options.method);
-  header["mpec_solver"] = JsonOf(request.options.mpec_solver);
   header["accuracy"] = JsonOf(request.options.accuracy);
   header["friction_law"] = JsonOf(request.options.friction_law);
   header["scaling"] = {{"length", scaling.length}, {"force", scaling.force}, {"load_factor", scaling.load_factor}};

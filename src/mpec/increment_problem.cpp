@@ -6,10 +6,16 @@
 #include <set>
 #include <utility>
 
+#include "contact_path/linear/bordered_solver.h"
+#include "contact_path/linear/generic_vector.h"
+#include "contact_path/linear/minimum_norm.h"
 namespace contact_path {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// Newton steps with one matrix to a point of (10).
+constexpr int kCentralSteps = 3;
 
 int Int(Eigen::Index index) { return static_cast<int>(index); }
 
@@ -108,20 +114,143 @@ int IncrementProblem::PatchOf(const Slot& slot, const Eigen::VectorXd& u, double
   return slot.pair->Deformable() ? std::clamp(patch, slot.start_patch - 1, slot.start_patch + 1) : patch;
 }
 
-Eigen::VectorXd IncrementProblem::StartingPoint(const Eigen::VectorXd& y) const {
+Eigen::VectorXd IncrementProblem::Variables(const Eigen::VectorXd& y, const Eigen::VectorXd& rn,
+                                            const Eigen::VectorXd& rt) const {
   Eigen::VectorXd x = Eigen::VectorXd::Zero(num_variables_);
   x.head(y.size()) = y;
   for (std::size_t i = 0; i < slots_.size(); ++i) {
     const Slot& slot = slots_[i];
-    x[slot.rn] = from_.rn[working_set_[i]] / goal_.length;
+    x[slot.rn] = rn[working_set_[i]] / goal_.length;
     if (slot.rt < 0) continue;
-    x[slot.rt] = from_.rt[working_set_[i]] / goal_.length;
+    x[slot.rt] = rt[working_set_[i]] / goal_.length;
     x[slot.lambda] = std::abs(ScaledKinematics(slot, x).xi);
   }
+  return x;
+}
+
+Eigen::VectorXd IncrementProblem::StartingPoint(const Eigen::VectorXd& y) const {
+  Eigen::VectorXd x = Variables(y, from_.rn, from_.rt);
   const Eigen::VectorXd reactions = structure_.SupportReactions(from_.u, from_.s);
   for (std::size_t k = 0; k < supports_.size(); ++k)
     x[supports_[k].reaction] = reactions[static_cast<Eigen::Index>(k)] / goal_.length;
   return x;
+}
+
+std::vector<IncrementProblem::Zeros> IncrementProblem::ZerosAt(const PathPoint& point, const Eigen::VectorXd& x) const {
+  std::vector<Zeros> zeros;
+  for (std::size_t i = 0; i < slots_.size(); ++i) {
+    const Slot& slot = slots_[i];
+    const ContactState state = point.states[static_cast<std::size_t>(working_set_[i])];
+    const Kinematics at = ScaledKinematics(slot, x);
+    const bool open = state == ContactState::kOpen;
+    if (!open) zeros.push_back({{slot.gap_row, x[slot.rn]}});
+    if (slot.rt < 0) {
+      if (open) zeros.push_back({{num_constraints_ + slot.rn, at.gap}});
+      continue;
+    }
+    const double mu = slot.pair->Friction(), limit = mu * x[slot.rn], rt = x[slot.rt], lambda = x[slot.lambda];
+    const Eigen::Index row = slot.friction_row;
+    if (state == ContactState::kStick)
+      zeros.push_back({{row, 0.5 * (limit - rt)}, {row + 1, 0.5 * (limit + rt)}});
+    else if (state == ContactState::kSlipPlus)
+      zeros.push_back({{row, 0.5 * (limit - rt)}, {row + 3, 0.5 * (lambda + at.xi)}});
+    else if (state == ContactState::kSlipMinus)
+      zeros.push_back({{row + 1, 0.5 * (limit + rt)}, {row + 2, 0.5 * (lambda - at.xi)}});
+    else if (at.gap > mu * (lambda + std::abs(at.xi)))  // both products are of these two: the larger one counts
+      zeros.push_back({{row + 2, 0.5 * at.gap / mu}, {row + 3, 0.5 * at.gap / mu}});
+    else
+      zeros.push_back({{row + 2, 0.5 * (lambda - at.xi)}, {row + 3, 0.5 * (lambda + at.xi)}});
+  }
+  return zeros;
+}
+
+std::optional<PrimalDual> IncrementProblem::CentralPoint(const PathPoint& point, double barrier) const {
+  PrimalDual result;
+  Eigen::VectorXd& x = result.x;
+  x = Variables(Chord(from_, point) / goal_.length, point.rn, point.rt);
+  Eigen::VectorXd values, gradient;
+  Constraints(x, &values);
+  for (const Support& support : supports_) x[support.reaction] = values[support.prescribed->dof];
+  for (std::size_t i = 0; i < slots_.size(); ++i)
+    if (slots_[i].rt >= 0 && point.states[static_cast<std::size_t>(working_set_[i])] == ContactState::kOpen)
+      x[slots_[i].lambda] += 1.0;  // which is free, but for being far from its bounds
+
+  // The equations that hold there, with one row more: the multipliers of (9), and how far to move off.
+  const std::vector<Zeros> zeros = ZerosAt(point, x);
+  std::vector<Eigen::Index> equation(static_cast<std::size_t>(num_constraints_ + num_variables_), -1);
+  Eigen::Index equations = 0;
+  const auto number = [&](Eigen::Index row) { equation[static_cast<std::size_t>(row)] = equations++; };
+  for (Eigen::Index row = 0; row < structure_.NumDofs(); ++row) number(row);
+  for (const Support& support : supports_) number(support.row);
+  for (const Zeros& of : zeros)
+    for (const Zero& zero : of) number(zero.row);
+  Eigen::VectorXd jacobian;
+  JacobianValues(x, &jacobian);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t k = 0; k < jacobian_structure_.size(); ++k)
+    if (const Eigen::Index at = equation[static_cast<std::size_t>(jacobian_structure_[k].row)]; at >= 0)
+      entries.emplace_back(jacobian_structure_[k].column, at, jacobian[static_cast<Eigen::Index>(k)]);
+  for (Eigen::Index variable = 0; variable < num_variables_; ++variable)
+    if (const Eigen::Index at = equation[static_cast<std::size_t>(num_constraints_ + variable)]; at >= 0)
+      entries.emplace_back(variable, at, 1.0);
+  Eigen::SparseMatrix<double> transposed(num_variables_, equations);
+  transposed.setFromTriplets(entries.begin(), entries.end());
+  BorderedSolver lu;
+  MinimumNormSolver of_rows, of_columns;
+  const bool regular = lu.FactorizeRegular(transposed, GenericVector(num_variables_));
+  if (!regular && !(of_rows.Factorize(transposed) && of_columns.Factorize(transposed.transpose()))) return std::nullopt;
+  Gradient(x, &gradient);
+  const Eigen::VectorXd multipliers = regular ? lu.SolveTransposed(-gradient) : of_columns.Solve(-gradient);
+
+  // The zeros move off, and what the motion changes to the second order is taken back.
+  Eigen::VectorXd off(equations);
+  for (int step = 0; step < kCentralSteps; ++step) {
+    Constraints(x, &values);
+    const auto value = [&](Eigen::Index row) {
+      return row < num_constraints_ ? values[row] : x[row - num_constraints_];
+    };
+    for (std::size_t row = 0; row < equation.size(); ++row)
+      if (equation[row] >= 0) off[equation[row]] = -value(static_cast<Eigen::Index>(row));
+    for (const Zeros& of : ZerosAt(point, x)) {
+      const auto own = [&](const Zero& zero) { return multipliers[equation[static_cast<std::size_t>(zero.row)]]; };
+      // Each zero becomes barrier / (product's multiplier x factor - its own multiplier).
+      double lower = 0.0;
+      for (const Zero& zero : of) lower = std::max(lower, own(zero) / zero.factor);
+      double upper = lower + static_cast<double>(of.size() + 1) * barrier / eps_;
+      for (int halving = 0; halving < 60; ++halving) {
+        const double middle = 0.5 * (lower + upper);
+        double left = eps_ - barrier / middle;
+        for (const Zero& zero : of) left -= zero.factor * barrier / (middle * zero.factor - own(zero));
+        (left > 0.0 ? upper : lower) = middle;
+      }
+      for (const Zero& zero : of)
+        off[equation[static_cast<std::size_t>(zero.row)]] += barrier / (upper * zero.factor - own(zero));
+    }
+    x += regular ? lu.Solve(off, 0.0) : of_rows.Solve(off);
+  }
+
+  Constraints(x, &values);
+  result.multipliers = Eigen::VectorXd::Zero(num_constraints_);
+  result.multipliers.head(structure_.NumDofs()) = multipliers.head(structure_.NumDofs());
+  for (const Support& support : supports_)
+    result.multipliers[support.row] = multipliers[equation[static_cast<std::size_t>(support.row)]];
+  result.lower_multipliers = Eigen::VectorXd::Zero(num_variables_);
+  bool inside = true;
+  const auto multiplier = [&](double distance) {
+    inside = inside && distance > 0.0;
+    return barrier / distance;
+  };
+  for (const Slot& slot : slots_) {
+    result.lower_multipliers[slot.rn] = multiplier(x[slot.rn]);
+    result.multipliers[slot.gap_row] = -multiplier(values[slot.gap_row]);
+    result.multipliers[slot.gap_row + 1] = multiplier(eps_ - values[slot.gap_row + 1]);
+    if (slot.rt < 0) continue;
+    for (Eigen::Index row = slot.friction_row; row < slot.friction_row + 4; ++row)
+      result.multipliers[row] = -multiplier(values[row]);
+    result.multipliers[slot.friction_row + 4] = multiplier(eps_ - values[slot.friction_row + 4]);
+  }
+  if (!inside) return std::nullopt;
+  return result;
 }
 
 PathPoint IncrementProblem::Point(const Eigen::VectorXd& x) const {

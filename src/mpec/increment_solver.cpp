@@ -17,12 +17,23 @@ constexpr double kBarrierShare = 0.1;
 // The exact point must lie within this part of the wanted length of the regularised one, or it is another solution.
 constexpr double kSamePoint = 0.1;
 
-constexpr int kMaxActiveSetChanges = 4;
+constexpr int kMaxActiveSetChanges = 8;
 
-// With a larger eps the relaxed products leave room to leave the branch for another one: arch19 fell off its ceilings.
-constexpr double kLargestAtOnce = 1e-8;
+// Barrier parameter of a start that is nearly the solution: it counts as solved.
+constexpr double kBarrierAtOnce = 0.5 * tolerances::kAccepted;
 
 constexpr double kSameEps = 1.0 + tolerances::kEqual;
+
+ContactState StateBeyond(Inequality failed, const ContactPair& contact) {
+  switch (failed) {
+    case Inequality::kGap: return contact.Frictional() ? ContactState::kStick : ContactState::kClosed;
+    case Inequality::kConePlus: return ContactState::kSlipPlus;
+    case Inequality::kConeMinus: return ContactState::kSlipMinus;
+    case Inequality::kSlip:
+    case Inequality::kTotalSlip: return ContactState::kStick;
+    default: return ContactState::kOpen;
+  }
+}
 
 }  // namespace
 
@@ -31,6 +42,12 @@ IncrementSolver::IncrementSolver(const Structure& structure, const ContactPairs&
 
 IncrementTrial IncrementSolver::Solve(const PathPoint& from, const IncrementGoal& goal,
                                       const RegularisationSchedule& schedule) {
+  int iterations = 0;
+  if (schedule.predicted) {
+    IncrementTrial trial = SolvePredicted(from, goal, schedule);
+    if (trial.status != SolveStatus::kFailed) return trial;
+    iterations = trial.iterations;
+  }
   std::vector<std::size_t> included = tracker_.InReach(from.u, from.s, kLongestIncrement * goal.length);
   // Past the end of its surface a node would meet the prolongation of the last patch.
   included.erase(
@@ -39,7 +56,6 @@ IncrementTrial IncrementSolver::Solve(const PathPoint& from, const IncrementGoal
                        return !contacts_[i]->HasPatch(contacts_[i]->KnownPatch(from.u, from.s, from.Patch(i)));
                      }),
       included.end());
-  int iterations = 0;
   for (;;) {
     const std::vector<int> working_set(included.begin(), included.end());
     IncrementTrial trial = SolveWith(from, working_set, goal, schedule);
@@ -66,34 +82,49 @@ IncrementTrial IncrementSolver::SolveWith(const PathPoint& from, const std::vect
 
   const bool regularised = !working_set.empty();
   trial.regularisation = regularised ? schedule.minimum * goal.length * goal.length : 0.0;
-  if (regularised && schedule.warm_start && schedule.minimum <= kLargestAtOnce && last_working_set_ == working_set &&
-      last_.x.size() == trial.variables && last_.multipliers.size() == trial.constraints) {
-    RegularisationSchedule at_once = schedule;
-    at_once.initial = schedule.minimum;
-    PrimalDual point = last_;
-    trial.warm_start = true;
-    if (Follow(&problem, at_once, &point, &trial)) {
-      PolishActiveSet(from, problem, goal, &trial);
-      if (trial.exact) return Keep(working_set, std::move(point), std::move(trial));
-    }
-    if (trial.status == SolveStatus::kCancelled) return trial;
-    trial.warm_start = false;
-  }
-
   PrimalDual point;
   point.x = problem.StartingPoint(goal.direction);
   RegularisationSchedule wanted = schedule;
   if (!regularised) wanted.initial = wanted.minimum = 0.0;
-  if (!Follow(&problem, wanted, &point, &trial)) return trial;
-  PolishActiveSet(from, problem, goal, &trial);
-  return Keep(working_set, std::move(point), std::move(trial));
+  if (Follow(&problem, wanted, &point, &trial)) MakeExact(from, problem, goal, &trial);
+  return trial;
+}
+
+IncrementTrial IncrementSolver::SolvePredicted(const PathPoint& from, const IncrementGoal& goal,
+                                               const RegularisationSchedule& schedule) {
+  IncrementTrial trial;
+  std::vector<int> working_set;
+  const auto touches = [](const PathPoint& point, std::size_t i) { return point.states[i] != ContactState::kOpen; };
+  for (std::size_t i = 0; i < contacts_.size(); ++i)
+    if (touches(from, i)) working_set.push_back(static_cast<int>(i));
+  const Eigen::VectorXd wanted =
+      IncrementProblem(structure_, contacts_, from, working_set, goal).UnconstrainedMinimiser();
+  const std::optional<ExactPoint> predicted = Exact(from, wanted, from, kLongestIncrement * goal.length);
+  if (!predicted || predicted->at_corner) return trial;
+  working_set.clear();
+  for (std::size_t i = 0; i < contacts_.size(); ++i)
+    if (touches(from, i) || touches(predicted->point, i)) working_set.push_back(static_cast<int>(i));
+  IncrementProblem problem(structure_, contacts_, from, working_set, goal);
+  trial.variables = static_cast<int>(problem.NumVariables());
+  trial.constraints = static_cast<int>(problem.NumConstraints());
+  trial.predicted = true;
+  RegularisationSchedule at_once = schedule;
+  at_once.initial = schedule.minimum;
+  if (working_set.empty()) at_once.initial = at_once.minimum = 0.0;
+  trial.regularisation = at_once.minimum * goal.length * goal.length;
+  problem.SetRegularisation(at_once.minimum);
+  std::optional<PrimalDual> point = problem.CentralPoint(predicted->point, kBarrierAtOnce);
+  if (point && Follow(&problem, at_once, &*point, &trial)) MakeExact(from, problem, goal, &trial);
+  if (trial.status == SolveStatus::kSolved && !trial.exact) trial.status = SolveStatus::kFailed;
+  return trial;
 }
 
 bool IncrementSolver::Follow(IncrementProblem* problem, const RegularisationSchedule& schedule, PrimalDual* point,
                              IncrementTrial* trial) {
   for (double eps = schedule.initial;; eps = std::max(schedule.minimum, schedule.factor * eps)) {
     problem->SetRegularisation(eps);
-    const SolveOutcome outcome = solver_->Solve(*problem, kBarrierShare * eps, point);
+    const SolveOutcome outcome =
+        solver_->Solve(*problem, trial->predicted ? kBarrierAtOnce : kBarrierShare * eps, point);
     trial->iterations += outcome.iterations;
     trial->status = outcome.status;
     if (outcome.status != SolveStatus::kSolved) return false;
@@ -103,96 +134,76 @@ bool IncrementSolver::Follow(IncrementProblem* problem, const RegularisationSche
   }
 }
 
-IncrementTrial IncrementSolver::Keep(const std::vector<int>& working_set, PrimalDual point, IncrementTrial trial) {
-  last_working_set_ = working_set;
-  last_ = std::move(point);
-  return trial;
-}
-
-void IncrementSolver::PolishActiveSet(const PathPoint& from, const IncrementProblem& problem, const IncrementGoal& goal,
-                                      IncrementTrial* trial) {
+void IncrementSolver::MakeExact(const PathPoint& from, const IncrementProblem& problem, const IncrementGoal& goal,
+                                IncrementTrial* trial) {
   // Redundant reactions, of which an interior point is as large as it may be, change as little as they can.
-  IncrementTrial least = *trial;
-  least.point.rn = from.rn;
-  least.point.rt = from.rt;
-  if (PolishActiveSet(from, problem.UnconstrainedMinimiser(), goal.length, &least)) {
-    *trial = std::move(least);
-    return;
-  }
-  if (PolishActiveSet(from, problem.UnconstrainedMinimiser(), goal.length, trial)) return;
+  PathPoint least = trial->point;
+  least.rn = from.rn;
+  least.rt = from.rt;
+  const Eigen::VectorXd wanted = problem.UnconstrainedMinimiser();
+  std::optional<ExactPoint> exact = Exact(from, wanted, least, kSamePoint * goal.length);
+  if (!exact) exact = Exact(from, wanted, trial->point, kSamePoint * goal.length);
   // Next to a corner the nonlinear solver may stop where the minimiser is not reached: the equilibrium there is what it
   // found.
-  Eigen::VectorXd here(trial->point.u.size() + 1);
+  Eigen::VectorXd here(wanted.size());
   here << trial->point.u, trial->point.s;
-  PolishActiveSet(from, here, goal.length, trial);
+  if (!exact) exact = Exact(from, here, trial->point, kSamePoint * goal.length);
+  if (!exact) return;
+  trial->point = std::move(exact->point);
+  trial->exact = true;
 }
 
-bool IncrementSolver::PolishActiveSet(const PathPoint& from, const Eigen::VectorXd& wanted, double length,
-                                      IncrementTrial* trial) {
+std::optional<IncrementSolver::ExactPoint> IncrementSolver::Exact(const PathPoint& from, const Eigen::VectorXd& wanted,
+                                                                  const PathPoint& guess, double reach) {
   const Eigen::VectorXd reference = SlipReferences(contacts_, from);
-  std::vector<int> patches = trial->point.patches;
-  system_.SetStates(trial->point.states, reference, patches);
+  ExactPoint exact{guess, false};
+  std::vector<ContactState> states = guess.states;
+  std::vector<int> patches = guess.patches;
+  std::vector<bool> changed(states.size(), false);
   std::vector<Constraint> active;
-  Eigen::VectorXd start = system_.Pack(trial->point);
   for (int change = 0; change <= kMaxActiveSetChanges; ++change) {
-    const NearestPoint nearest = FindNearestPoint(&system_, start, wanted);
-    if (!nearest.converged) return false;
-    PathPoint exact = system_.Unpack(nearest.x);
-    if (Distance(exact, trial->point) > kSamePoint * length) return false;
-    // An inequality that fails is active at the minimum: it becomes an equation. The end of a patch is no inequality:
-    // the contact goes on on the next one.
-    const std::size_t before = active.size();
-    bool passed = false;
+    system_.SetStates(states, reference, patches);
+    system_.SetActive(active);
+    const NearestPoint nearest = FindNearestPoint(&system_, system_.Pack(exact.point), wanted);
+    if (!nearest.converged) return std::nullopt;
+    exact.point = system_.Unpack(nearest.x);
+    if (Distance(guess, exact.point) > reach) return std::nullopt;
+    // Of what has not moved, rounding alone would tell whether it has stuck or slipped.
+    const double slow = tolerances::kRootOfRounding * Distance(from, exact.point);
+    bool kept = true;
+    int last = -1;  // contact that has changed
     for (const Constraint& constraint : system_.Inequalities()) {
-      if (system_.Value(constraint, nearest.x) >= -tolerances::kBroken * system_.UnitOf(constraint)) continue;
+      if (constraint.contact == last) continue;
       const auto i = static_cast<std::size_t>(constraint.contact);
-      if (!KeepsPatch(constraint.inequality)) {
-        active.push_back(constraint);
-        // The equation is by the unknowns of one patch.
-        if (contacts_[i]->Deformable() && patches[i] == kNearestPatch) {
-          patches[i] = contacts_[i]->PatchAt(exact.u, exact.s);
-          passed = true;
-        }
+      const bool rests = IsOfSlip(constraint.inequality) && !changed[i];
+      const double least = rests ? slow : -tolerances::kBroken * system_.UnitOf(constraint);
+      if (system_.Value(constraint, nearest.x) >= least) continue;
+      const bool held = std::find(active.begin(), active.end(), constraint) != active.end();
+      if (held) continue;
+      kept = false;
+      last = constraint.contact;
+      if (KeepsPatch(constraint.inequality)) {
+        patches[i] += constraint.inequality == Inequality::kPatchEnd ? 1 : -1;
+        if (!contacts_[i]->HasPatch(patches[i])) return std::nullopt;
         continue;
       }
-      patches[i] += constraint.inequality == Inequality::kPatchEnd ? 1 : -1;
-      if (!contacts_[i]->HasPatch(patches[i])) return false;
-      passed = true;
+      if (contacts_[i]->Deformable() && patches[i] == kNearestPatch)
+        patches[i] = contacts_[i]->PatchAt(exact.point.u, exact.point.s);
+      // The state beyond it, and where the contact comes back from there, the corner between both.
+      if (changed[i])
+        active.push_back(constraint);
+      else
+        states[i] = StateBeyond(constraint.inequality, *contacts_[i]);
+      changed[i] = true;
     }
-    if (passed) {
-      system_.SetStates(trial->point.states, reference, patches);
-    } else if (active.size() == before) {
-      // Slip held at zero motion: the contact stuck, and is about to slip.
-      for (const Constraint& constraint : active)
-        if (IsOfSlip(constraint.inequality))
-          exact.states[static_cast<std::size_t>(constraint.contact)] = ContactState::kStick;
-      trial->point = std::move(exact);
-      trial->exact = true;
-      IncrementTrial stuck = *trial;
-      const double slow = tolerances::kRootOfRounding * Distance(from, trial->point);
-      StickWhereAtRest(nearest.x, tolerances::kRounding, &trial->point);
-      if (StickWhereAtRest(nearest.x, slow, &stuck.point) && PolishActiveSet(from, wanted, length, &stuck))
-        *trial = std::move(stuck);
-      return true;
-    }
-    system_.SetActive(active);
-    start = nearest.x;
+    if (!kept) continue;
+    exact.at_corner = !active.empty();
+    for (const Constraint& constraint : active)
+      if (IsOfSlip(constraint.inequality))
+        exact.point.states[static_cast<std::size_t>(constraint.contact)] = ContactState::kStick;
+    return exact;
   }
-  return false;
-}
-
-// An increment may end right at a corner, and rounding alone would tell whether a contact there has stuck or slipped.
-// Whether some contact slips by name and has moved by no more than `slip`: its state in *point becomes stick.
-bool IncrementSolver::StickWhereAtRest(const Eigen::VectorXd& x, double slip, PathPoint* point) const {
-  bool some = false;
-  for (const Constraint& constraint : system_.Inequalities()) {
-    ContactState& state = point->states[static_cast<std::size_t>(constraint.contact)];
-    if (!IsOfSlip(constraint.inequality) || !Slips(state)) continue;
-    if (system_.Value(constraint, x) > slip) continue;
-    state = ContactState::kStick;
-    some = true;
-  }
-  return some;
+  return std::nullopt;
 }
 
 }  // namespace contact_path

@@ -174,7 +174,7 @@ SolveOutcome IpoptSolver::Solve(const NonlinearProgram& program, double barrier,
   Ipopt::OptionsList& options = *implementation_->application->Options();
   options.SetStringValue("warm_start_init_point", warm ? "yes" : "no");
   options.SetNumericValue("mu_init", warm ? barrier : 1e-2);
-  const double push = warm ? barrier : 1e-3;
+  const double push = warm ? 1e-4 * barrier : 1e-3;
   for (const char* name :
        {"warm_start_bound_push", "warm_start_bound_frac", "warm_start_slack_bound_push", "warm_start_slack_bound_frac",
         "warm_start_mult_bound_push", "bound_push", "bound_frac", "slack_bound_push", "slack_bound_frac"})

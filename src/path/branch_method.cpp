@@ -100,7 +100,7 @@ AcceptedPoint BranchMethod::IncrementAt(PathPoint point, const PathPoint& from) 
   AcceptedPoint increment;
   increment.point = std::move(point);
   increment.residuals = model_.Check(from, increment.point);
-  increment.solve.method = options_.method;
+  increment.solve.method = Method::kBranch;
   increment.solve.exact = true;
   increment.solve.variables = static_cast<int>(arc_.system().NumUnknowns());
   increment.solve.constraints = static_cast<int>(arc_.system().NumEquations());
@@ -280,9 +280,8 @@ void BranchMethod::SetNextLength(const ArcStep& at) {
 }
 
 std::optional<BranchMethod::BalancedStep> BranchMethod::NextBalancedStep() {
-  const StepLimits limits = {
-      options_.smallest_step,           options_.step,    options_.prediction, options_.smallest_cosine,
-      options_.method == Method::kMpec, options_.on_trial};
+  const StepLimits limits = {options_.smallest_step, options_.step, options_.prediction, options_.smallest_cosine,
+                             options_.on_trial};
   double length = step_length_;
   std::optional<BalancedStep> best;
   for (int shorter = 0; shorter <= kMostShorter; ++shorter) {

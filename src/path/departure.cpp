@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "contact_path/mpec/increment_solver.h"
-#include "contact_path/mpec/ipopt_solver.h"
-#include "contact_path/mpec/short_increment.h"
 #include "contact_path/path/branch_options.h"
 #include "contact_path/path/diagnosis.h"
 #include "contact_path/path/sentences.h"
@@ -56,13 +53,6 @@ std::string_view SignOfRate(Inequality inequality) {
 
 }  // namespace
 
-struct Departure::Programs {
-  Programs(const Model& model, const std::function<bool()>& cancelled)
-      : ipopt(cancelled), increments(model.structure, model.contacts, &ipopt) {}
-  IpoptSolver ipopt;
-  IncrementSolver increments;
-};
-
 void RecordBranches(const std::vector<Branch>& branches, EventRecord* record) {
   for (const Branch& branch : branches)
     record->branches.push_back({branch.states, branch.load_rate, branch.dissipation_rate, branch.turn});
@@ -85,8 +75,6 @@ Departure::Departure(const Model& model, const DepartureOptions& options, std::f
       cancelled_(std::move(cancelled)),
       largest_reaction_(options.largest_reaction == nullptr ? &own_ : options.largest_reaction) {}
 
-Departure::~Departure() = default;
-
 void Departure::NoteReactions(const PathPoint& point) { largest_reaction_->Note(model_.contacts, point); }
 
 ActiveSetTolerance Departure::ToleranceAt(const PathPoint& point) const {
@@ -106,13 +94,7 @@ std::optional<End> Departure::Leave(const PathPoint& point, Arrival arrival, con
   if (!arrival.is_start) arrival.before = moved_;
   ActiveSetTolerance tolerance = ToleranceAt(point);
   tolerance.gap = CoverGaps(model_.contacts, point, tolerance.gap);
-  const BranchSet on = FindBranches(
-      model_.structure, model_.contacts, point, arrival, tolerance,
-      [this](const PathPoint& at, const Eigen::VectorXd& along) {
-        if (!programs_) programs_ = std::make_unique<Programs>(model_, cancelled_);
-        return StatesOfShortIncrements(at, along, &programs_->increments);
-      },
-      cancelled_);
+  const BranchSet on = FindBranches(model_.structure, model_.contacts, point, arrival, tolerance, cancelled_);
   if (on.cancelled) return End{EndReason::kCancelled, {{sentences::kCancelled}}};
   record->weakly_active = on.weakly_active;
   record->complete = on.complete_by != Completeness::kNone;

@@ -8,6 +8,8 @@
 
 #include "contact_path/equations/fixed_state_system.h"
 #include "contact_path/equations/nearest_point.h"
+#include "contact_path/path/automatic_step.h"
+#include "contact_path/path/sentences.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
@@ -79,11 +81,29 @@ bool StatesAgree(const ContactPairs& contacts, const PathPoint& from, const Path
   return true;
 }
 
+std::string_view SentenceOf(MpecVerdict verdict) {
+  switch (verdict) {
+    case MpecVerdict::kAccepted: return sentences::kAccepted;
+    case MpecVerdict::kCancelled: return sentences::kCancelled;
+    case MpecVerdict::kNotSolved: return sentences::kNotSolved;
+    case MpecVerdict::kResidual: return sentences::kResidual;
+    case MpecVerdict::kContradiction: return sentences::kContradiction;
+    case MpecVerdict::kTooLong: return sentences::kTooLong;
+    case MpecVerdict::kNoProgress: return sentences::kNoProgress;
+    case MpecVerdict::kWrongDirection: return sentences::kWrongDirection;
+    case MpecVerdict::kTurnedBack: return sentences::kTurnedBack;
+    case MpecVerdict::kBackAtRest: return sentences::kBackAtRest;
+    case MpecVerdict::kNotConfirmed: return sentences::kNotConfirmed;
+    case MpecVerdict::kBeyondTarget: return sentences::kBeyondTarget;
+  }
+  return {};
+}
+
 }  // namespace
 
 MpecOptions MpecOptions::For(const TraceOptions& options, double growth) {
   MpecOptions result;
-  result.regularisation.warm_start = true;
+  result.regularisation.predicted = true;
   switch (options.accuracy) {
     case Accuracy::kFast:
       result.step = 0.05;
@@ -125,10 +145,10 @@ MpecMethod::Trial MpecMethod::SolveOnce(const PathPoint& from, const Eigen::Vect
   trial.increment = solver_.Solve(from, {length, direction, dissipation, gamma2_factor_}, schedule);
   iterations_ += trial.increment.iterations;
   Judge(from, direction, length, &trial);
-  if (trial.verdict == sentences::kAccepted || !trial.increment.warm_start) return trial;
+  if (trial.verdict == MpecVerdict::kAccepted || !trial.increment.predicted) return trial;
   // Another solution may lie nearer to the first guess than to the last increment.
   RegularisationSchedule anew = schedule;
-  anew.warm_start = false;
+  anew.predicted = false;
   return SolveOnce(from, direction, length, dissipation, anew);
 }
 
@@ -149,7 +169,8 @@ bool MpecMethod::GoesBackAtRest(const PathPoint& from, const PathPoint& to) cons
 void MpecMethod::Judge(const PathPoint& from, const Eigen::VectorXd& direction, double length, Trial* result) const {
   Trial& trial = *result;
   if (trial.increment.status != SolveStatus::kSolved) {
-    trial.verdict = trial.increment.status == SolveStatus::kCancelled ? sentences::kCancelled : sentences::kNotSolved;
+    trial.verdict =
+        trial.increment.status == SolveStatus::kCancelled ? MpecVerdict::kCancelled : MpecVerdict::kNotSolved;
     return;
   }
   const PathPoint& to = trial.increment.point;
@@ -157,21 +178,21 @@ void MpecMethod::Judge(const PathPoint& from, const Eigen::VectorXd& direction, 
   const double tolerance = trial.increment.exact ? tolerances::kAccepted : tolerances::kAcceptedRegularised;
   const double moved = Distance(from, to);
   if (!(trial.residuals.Largest() <= tolerance))
-    trial.verdict = sentences::kResidual;
+    trial.verdict = MpecVerdict::kResidual;
   else if (!trial.increment.exact && !StatesAgree(model_.contacts, from, to))
-    trial.verdict = sentences::kContradiction;
+    trial.verdict = MpecVerdict::kContradiction;
   else if (moved > IncrementSolver::kLongestIncrement * length)
-    trial.verdict = sentences::kTooLong;
+    trial.verdict = MpecVerdict::kTooLong;
   else if (moved < kProgress * length)
-    trial.verdict = sentences::kNoProgress;
+    trial.verdict = MpecVerdict::kNoProgress;
   else if (!started_ && (to.s - from.s) * options_.direction <= tolerances::kUnitComponent * moved)
-    trial.verdict = sentences::kWrongDirection;
+    trial.verdict = MpecVerdict::kWrongDirection;
   else if (TurnsBack(from, to, direction))
-    trial.verdict = sentences::kTurnedBack;
+    trial.verdict = MpecVerdict::kTurnedBack;
   else if (GoesBackAtRest(from, to))
-    trial.verdict = sentences::kBackAtRest;
+    trial.verdict = MpecVerdict::kBackAtRest;
   else
-    trial.verdict = sentences::kAccepted;
+    trial.verdict = MpecVerdict::kAccepted;
 }
 
 MpecMethod::Trial MpecMethod::Try(const PathPoint& from, const Eigen::VectorXd& direction, double length) {
@@ -195,10 +216,10 @@ bool MpecMethod::ConfirmedByHalves(const PathPoint& from, const Eigen::VectorXd&
                                    const Trial& whole) {
   const PathPoint& to = whole.increment.point;
   const Trial first = Try(from, direction, 0.5 * length);
-  if (first.verdict != sentences::kAccepted) return false;
+  if (first.verdict != MpecVerdict::kAccepted) return false;
   const PathPoint& middle = first.increment.point;
   const Trial second = Try(middle, Direction(from, middle), 0.5 * length);
-  if (second.verdict != sentences::kAccepted) return false;
+  if (second.verdict != MpecVerdict::kAccepted) return false;
   // Distance of the middle from the chord of the whole increment.
   const Eigen::VectorXd chord = Direction(from, to);
   Eigen::VectorXd bend = Chord(from, middle);
@@ -282,36 +303,36 @@ Advance MpecMethod::Next(const PathPoint& from) {
   Advance advance;
   iterations_ = 0;
   double length = step_length_;
-  std::optional<std::string_view> first;
+  std::optional<MpecVerdict> first;
   for (int rejected = 0;; ++rejected) {
     Trial trial = started_ ? Try(from, direction_, length) : TryFirst(from, length);
     const PathPoint& to = trial.increment.point;
-    if (trial.verdict == sentences::kAccepted && MayHaveCutCorner(model_.contacts, from, to) &&
+    if (trial.verdict == MpecVerdict::kAccepted && MayHaveCutCorner(model_.contacts, from, to) &&
         !ConfirmedByHalves(from, started_ ? direction_ : Direction(from, to), length, trial))
-      trial.verdict = sentences::kNotConfirmed;
-    if (trial.verdict == sentences::kAccepted && options_.target &&
+      trial.verdict = MpecVerdict::kNotConfirmed;
+    if (trial.verdict == MpecVerdict::kAccepted && options_.target &&
         (from.s - *options_.target) * (to.s - *options_.target) < 0.0 && !EndAtTarget(from, &trial))
-      trial.verdict = sentences::kBeyondTarget;
-    if (trial.verdict == sentences::kAccepted && MayMissTarget(from, to)) trial.verdict = sentences::kBeyondTarget;
-    if (trial.verdict == sentences::kCancelled || (cancelled_ && cancelled_())) {
+      trial.verdict = MpecVerdict::kBeyondTarget;
+    if (trial.verdict == MpecVerdict::kAccepted && MayMissTarget(from, to)) trial.verdict = MpecVerdict::kBeyondTarget;
+    if (trial.verdict == MpecVerdict::kCancelled || (cancelled_ && cancelled_())) {
       advance.end = {EndReason::kCancelled, {{sentences::kCancelled}}};
       return advance;
     }
     if (options_.on_trial)
       options_.on_trial({length,
-                         trial.verdict,
+                         SentenceOf(trial.verdict),
                          {},
                          {{"reached", Distance(from, to)},
                           {"regularisation", trial.increment.regularisation},
                           {"exact", trial.increment.exact ? 1.0 : 0.0},
                           {"ipopt_iterations", iterations_},
                           {"largest_residual", trial.residuals.Largest()}}});
-    if (trial.verdict != sentences::kAccepted) {
+    if (trial.verdict != MpecVerdict::kAccepted) {
       // Shorter increments fail for reasons that follow from the first one.
       if (!first) first = trial.verdict;
       length *= 0.5;
       if (length >= options_.smallest_step) continue;
-      advance.end = {EndReason::kStepTooSmall, {{sentences::kNoIncrement}, {*first}}};
+      advance.end = {EndReason::kStepTooSmall, {{sentences::kNoIncrement}, {SentenceOf(*first)}}};
       return advance;
     }
 
@@ -351,6 +372,14 @@ Advance MpecMethod::Next(const PathPoint& from) {
     if (returned) advance.end = ClosedPath(*returned);
     return advance;
   }
+}
+
+std::unique_ptr<PathMethod> MakeMpecMethod(const MethodTask& task) {
+  MpecOptions options = MpecOptions::For(task.options, AutomaticStepGrowth(task.model));
+  options.target = task.target;
+  options.on_trial = task.on_trial;
+  options.returns = task.returns;
+  return std::make_unique<MpecMethod>(task.model, options, task.cancelled);
 }
 
 }  // namespace contact_path

@@ -20,7 +20,6 @@
 #include "contact_path/path/free_motion.h"
 #include "contact_path/path/largest_reaction.h"
 #include "contact_path/path/model.h"
-#include "contact_path/path/mpec_method.h"
 #include "contact_path/path/path_method.h"
 #include "contact_path/path/preload.h"
 #include "contact_path/path/recorder.h"
@@ -176,24 +175,17 @@ class Tracer {
                                          double load_sense = 1.0) {
     TraceOptions options = request_.options;
     if (target) options.direction = *target < 0.0 ? -1.0 : 1.0;
-    const double growth = AutomaticStepGrowth(model);
-    if (options.LocatesEvents()) {
-      BranchOptions branch = BranchOptions::For(options, growth);
-      branch.ends = {target, WatchedQuantities(model, request_, stage_)};
-      branch.increments = increment;
-      branch.events = events_;
-      branch.method = options.method;
-      branch.on_trial = control_.on_trial;
-      branch.returns = &*returns_;
-      branch.largest_reaction = &largest_reaction_;
-      branch.direction *= load_sense;
-      return std::make_unique<BranchMethod>(model, branch, control_.cancelled);
-    }
-    MpecOptions mpec = MpecOptions::For(options, growth);
-    mpec.target = target;
-    mpec.on_trial = control_.on_trial;
-    mpec.returns = &*returns_;
-    return std::make_unique<MpecMethod>(model, mpec, control_.cancelled);
+    if (options.method == Method::kMpec)
+      return control_.mpec({model, options, target, &*returns_, control_.on_trial, control_.cancelled});
+    BranchOptions branch = BranchOptions::For(options, AutomaticStepGrowth(model));
+    branch.ends = {target, WatchedQuantities(model, request_, stage_)};
+    branch.increments = increment;
+    branch.events = events_;
+    branch.on_trial = control_.on_trial;
+    branch.returns = &*returns_;
+    branch.largest_reaction = &largest_reaction_;
+    branch.direction *= load_sense;
+    return std::make_unique<BranchMethod>(model, branch, control_.cancelled);
   }
 
   // The scaled load factor at which a stage ends; nothing without a program.
@@ -443,22 +435,25 @@ class Tracer {
   Causes remarks_;
 };
 
-void RequireSound(const TraceRequest& request) {
+void RequireSound(const TraceRequest& request, const TraceControl& control) {
   std::vector<Violation> violations = Validate(request);
+  if (request.options.method == Method::kMpec && !control.mpec)
+    violations.push_back(
+        {"options.method", "mpec", "needs the library contact_path_mpec, which this program lacks", "", 0});
   if (!violations.empty()) throw InvalidRequest(std::move(violations));
 }
 
 }  // namespace
 
 TraceResult Trace(const TraceRequest& request, const TraceControl& control) {
-  RequireSound(request);
+  RequireSound(request, control);
   const ExpandedRequest expanded(request);
   return Tracer(expanded.Get(), control).Run(std::nullopt);
 }
 
 TraceResult ResumeTrace(const TraceRequest& request_as_given, const std::vector<Increment>& increments,
                         const TraceControl& control) {
-  RequireSound(request_as_given);
+  RequireSound(request_as_given, control);
   const ExpandedRequest expanded(request_as_given);
   const TraceRequest& request = expanded.Get();
   RequireIncrementsOf(request, increments);

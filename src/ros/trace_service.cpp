@@ -10,6 +10,7 @@
 
 #include "contact_path/linear/blas.h"
 #include "contact_path/path/end.h"
+#include "contact_path/path/mpec_method.h"
 #include "contact_path/ros/bag_reader.h"
 #include "contact_path/ros/convert.h"
 #include "contact_path/ros/memory_share.h"
@@ -282,6 +283,7 @@ void TraceService::RunTrace(const Job& job, const TraceObserver& observer, BagRe
   TraceControl control;
   control.on_increment = [&](const Increment& increment) { TakeIncrement(increment, observer, bag); };
   control.cancelled = [&] { return StopWanted(observer); };
+  control.mpec = MakeMpecMethod;
   const auto out_of_memory = [&] { TellEnd(Response::END_MEMORY_LIMIT, MemoryText(parameters_.limits), response); };
   try {
     const TraceResult result =

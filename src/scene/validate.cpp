@@ -47,17 +47,17 @@ void CheckOptions(Checker* checker) {
       checker->Add(path.Key("record")[i], TextOrQuotes(list), "must be sections, stresses, pressures or inner");
   if (!options.LocatesEvents() && options.at_limit != AtLimit::kFollow)
     checker->Add(path.Key("at_limit"), std::string(ToString(options.at_limit)),
-                 "must be follow with mpec_solver ipopt, which does not locate limit points");
+                 "must be follow with method mpec, which does not locate limit points");
   if (!options.LocatesEvents() && !options.at.empty())
-    checker->Add(path.Key("at"), "", "must be empty with mpec_solver ipopt, which does not locate values");
+    checker->Add(path.Key("at"), "", "must be empty with method mpec, which does not locate values");
   if (!options.LocatesEvents() && options.friction_law == FrictionLaw::kTotal)
-    checker->Add(path.Key("friction_law"), "total", "must be incremental with mpec_solver ipopt");
+    checker->Add(path.Key("friction_law"), "total", "must be incremental with method mpec");
   const std::vector<ContactCandidate>& contacts = checker->GetScene().contacts;
   if (options.friction_law == FrictionLaw::kTotal &&
       std::any_of(contacts.begin(), contacts.end(), [](const auto& contact) { return contact.friction > 0.0; }))
     checker->Add(path.Key("friction_law"), "total", "must be incremental where a contact with a surface has friction");
   if (!options.LocatesEvents() && !options.branch_choices.empty())
-    checker->Add(choices, "", "must be empty with mpec_solver ipopt, which does not find the branches of an event");
+    checker->Add(choices, "", "must be empty with method mpec, which does not find the branches of an event");
   for (std::size_t i = 0; i < options.branch_choices.size(); ++i) {
     const BranchChoice& choice = options.branch_choices[i];
     checker->CheckFields(choices[i], choice);

@@ -10,8 +10,6 @@
 #include <vector>
 
 #include "contact_path/branch/test_functions.h"
-#include "contact_path/mpec/ipopt_solver.h"
-#include "contact_path/mpec/short_increment.h"
 #include "contact_path/path/model.h"
 #include "support/dense.h"
 #include "support/random.h"
@@ -32,15 +30,10 @@ constexpr ContactState kSlipPlus = ContactState::kSlipPlus, kSlipMinus = Contact
 
 // A scene in its own scales: what is given here is what the rates are of.
 struct Rest {
-  explicit Rest(const Scene& scene)
-      : model(scene, Scaling()), ipopt(nullptr), mpec(model.structure, model.contacts, &ipopt) {
-    point = model.InitialPoint();
-  }
+  explicit Rest(const Scene& scene) : model(scene, Scaling()), point(model.InitialPoint()) {}
 
   BranchSet Branches(const Arrival& arrival) {
-    return FindBranches(
-        model.structure, model.contacts, point, arrival, ActiveSetTolerance(),
-        [this](const PathPoint& at, const VectorXd& along) { return StatesOfShortIncrements(at, along, &mpec); });
+    return FindBranches(model.structure, model.contacts, point, arrival, ActiveSetTolerance());
   }
   BranchSet FromStart(double sign) {
     Arrival arrival;
@@ -50,8 +43,6 @@ struct Rest {
   }
 
   Model model;
-  IpoptSolver ipopt;
-  IncrementSolver mpec;
   PathPoint point;
 };
 

@@ -139,7 +139,7 @@ TEST_F(NodeOnADisc, RatesAtAnEventAreThoseOfTheClosedForm) {
 
   Arrival from;
   from.direction = arrival;
-  const BranchSet set = FindBranches(structure_, contacts_, point, from, ActiveSetTolerance(), nullptr);
+  const BranchSet set = FindBranches(structure_, contacts_, point, from, ActiveSetTolerance());
   ASSERT_FALSE(set.branches.empty());
   EXPECT_EQ(set.branches[0].states[0], ContactState::kSlipPlus);
   EXPECT_LE((set.branches[0].direction - arrival).norm(), 1e-7);

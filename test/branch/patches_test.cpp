@@ -105,7 +105,7 @@ TEST_P(NodeOnABend, ThePathGoesOnOnTheNextPatch) {
     const Eigen::Vector3d before = Rate(End(patch), patch, -1e-5), after = Rate(End(patch), patch + 1, 1e-5);
     Arrival arrival;
     arrival.direction = before;
-    const BranchSet set = FindBranches(structure_, contacts_, point, arrival, ActiveSetTolerance(), nullptr);
+    const BranchSet set = FindBranches(structure_, contacts_, point, arrival, ActiveSetTolerance());
     ASSERT_FALSE(set.branches.empty());
     EXPECT_EQ(set.branches[0].states, point.states);
     ASSERT_EQ(set.branches[0].patches, std::vector<int>{patch + 1});

@@ -10,6 +10,7 @@
 #include "contact_path/contact/contact_pair.h"
 #include "contact_path/equations/fixed_state_system.h"
 #include "contact_path/path/model.h"
+#include "contact_path/path/mpec_method.h"
 #include "contact_path/scene/expand.h"
 #include "contact_path/scene/program.h"
 #include "contact_path/verify/verify_path.h"
@@ -75,6 +76,7 @@ Outcome RunCase(const ExtremeCase& extreme, Method method, Accuracy accuracy, do
     outcome.out_of_time = outcome.out_of_time || gone.count() > seconds;
     return outcome.out_of_time;
   };
+  control.mpec = MakeMpecMethod;
   const TraceResult result = Trace(request, control);
   outcome.reason = result.reason;
   outcome.message = result.message;

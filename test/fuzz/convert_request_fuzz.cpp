@@ -26,7 +26,6 @@ msgs::TraceRequest Normalised(msgs::TraceRequest message) {
   WriteOut(&message.options.method, "branch");
   WriteOut(&message.options.accuracy, "balanced");
   WriteOut(&message.options.friction_law, "incremental");
-  WriteOut(&message.options.mpec_solver, "certified");
   WriteOut(&message.options.stability, "true");
   WriteOut(&message.options.at_limit, "follow");
   for (msgs::Bar& bar : message.scene.bars) WriteOut(&bar.strain, "biot");

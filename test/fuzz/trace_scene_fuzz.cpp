@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "contact_path/path/increment.h"
+#include "contact_path/path/mpec_method.h"
 #include "contact_path/path/trace.h"
 #include "contact_path/scene/write_scene.h"
 #include "contact_path/verify/verify_path.h"
@@ -35,6 +36,7 @@ void CheckTrace(const TraceRequest& request) {
   TraceControl control;
   control.on_increment = [&increments](const Increment& increment) { increments.push_back(increment); };
   control.cancelled = [&] { return cancelled = cancelled || Now() - start > kSeconds; };
+  control.mpec = MakeMpecMethod;
   const TraceResult result = Trace(request, control);
 
   Require(Now() - start < kSeconds + kSecondsToCancel, "a cancelled trace ends soon");

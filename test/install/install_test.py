@@ -93,6 +93,11 @@ class InstallTest(unittest.TestCase):
                                                  'contact_path_study_server', 'contact_path_trace', 'play', 'plot', 'verify',
                                                  'watch'])
 
+    def test_the_core_needs_no_ipopt(self):
+        needs = {name: self.run_here('ldd', os.path.join(self.prefix, 'lib', 'libcontact_path_%s.so' % name)) for name in ('core', 'mpec')}
+        self.assertNotIn('ipopt', needs['core'])
+        self.assertIn('ipopt', needs['mpec'])
+
     def test_package_and_messages_are_found(self):
         self.assertEqual(self.run_here('rospack', 'find', 'contact_path').strip(), self.share)
         module = self.run_here('python3', '-c', 'import contact_path.msg; print(contact_path.msg.__file__)')

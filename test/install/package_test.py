@@ -82,7 +82,7 @@ class PackageTest(unittest.TestCase):
     def elf_files(self):
         found = [file for file in self.files() if is_elf(file)]
         names = {os.path.basename(file) for file in found}
-        self.assertLessEqual({'contact_path_trace', 'contact_path_node', 'verify', 'libcontact_path_core.so',
+        self.assertLessEqual({'contact_path_trace', 'contact_path_node', 'verify', 'libcontact_path_core.so', 'libcontact_path_mpec.so',
                               'libcontact_path_ros.so'}, names)
         return found
 

@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "contact_path/path/mpec_method.h"
 #include "contact_path/scene/expand.h"
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/validate.h"
@@ -62,6 +63,7 @@ TracedPath TraceBodies(TraceRequest request) {
     done = increment.load_factor < kTurnedBack;
   };
   control.cancelled = [&] { return done; };
+  control.mpec = MakeMpecMethod;
   path.result = Trace(path.request, control);
   return path;
 }

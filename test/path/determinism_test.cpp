@@ -5,6 +5,7 @@
 #include <string>
 
 #include "contact_path/path/csv.h"
+#include "contact_path/path/mpec_method.h"
 #include "contact_path/path/trace.h"
 #include "support/traced_path.h"
 
@@ -20,7 +21,6 @@ constexpr int kMpecIncrements = 12;  // these take longer
 // The increments as CSV, but for the times.
 std::string Csv(TraceRequest request, Method method) {
   request.options.method = method;
-  request.options.mpec_solver = MpecSolver::kIpopt;  // increments of its own, where the method is mpec
   request.options.max_increments = method == Method::kBranch ? kIncrements : kMpecIncrements;
   std::ostringstream csv;
   const CsvWriter writer(request);
@@ -29,6 +29,7 @@ std::string Csv(TraceRequest request, Method method) {
     increment.solve.time = 0.0;
     writer.WriteRow(increment, csv);
   };
+  control.mpec = MakeMpecMethod;
   const TraceResult result = Trace(request, control);
   return csv.str() + std::string(ToString(result.reason)) + result.message;
 }

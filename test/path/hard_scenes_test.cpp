@@ -158,7 +158,6 @@ TEST(HardScenes, ConstantLoadGoesOnWhereItCan) {
 TEST(HardScenes, ForcesFarBelowTheCharacteristicOne) {
   TraceRequest request = ReadData("stiff_neighbour");
   request.options.method = Method::kMpec;
-  request.options.mpec_solver = MpecSolver::kIpopt;
   request.options.max_increments = 40;
   const TracedPath path = TraceIncrements(request);
   EXPECT_EQ(path.result.reason, EndReason::kMaxIncrements) << path.result.message;

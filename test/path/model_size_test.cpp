@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "contact_path/path/mpec_method.h"
 #include "contact_path/path/trace.h"
 #include "lattice.h"
 
@@ -27,7 +28,6 @@ TraceRequest Wall(Touch touch, Method method, int far_candidates = 0) {
   TraceRequest request = LatticeRequest(lattice);
   request.options = TraceOptions();
   request.options.method = method;
-  request.options.mpec_solver = MpecSolver::kIpopt;  // of the program that Ipopt is given
   request.options.max_increments = 4;
   Obstacle& floor = request.scene.obstacles.front();
   floor.py = touch == Touch::kOutOfReach ? -100.0 : 0.0;
@@ -45,6 +45,7 @@ Increment LastIncrement(const TraceRequest& request) {
   Increment last;
   TraceControl control;
   control.on_increment = [&last](const Increment& increment) { last = increment; };
+  control.mpec = MakeMpecMethod;
   const TraceResult result = Trace(request, control);
   EXPECT_EQ(result.reason, EndReason::kMaxIncrements) << result.message;
   return last;
@@ -109,6 +110,7 @@ TEST(ModelSize, OneFactorisationAnIncrementOnASmoothStretch) {
     ++regular;
     factorisations += increment.solve.factorisations;
   };
+  control.mpec = MakeMpecMethod;
   Trace(request, control);
   ASSERT_GT(regular, 20);
   EXPECT_LE(factorisations, 1.2 * regular);

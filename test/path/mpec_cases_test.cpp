@@ -26,7 +26,6 @@ constexpr double kResidual = 1e-9;
 TraceRequest Example(const std::string& name, double step) {
   TraceRequest request = ReadExample(name);
   request.options.method = Method::kMpec;
-  request.options.mpec_solver = MpecSolver::kIpopt;
   request.options.step = step;
   return request;
 }
@@ -464,7 +463,6 @@ TEST(RigidStop, KinkWhereTheGapCloses) {
 TEST(Prestress, IncrementZeroIsInEquilibriumWithItsFrictionHistory) {
   TraceRequest request;
   request.options.method = Method::kMpec;
-  request.options.mpec_solver = MpecSolver::kIpopt;
   request.options.step = 0.05;
   request.options.stop = {{"load_factor", ">", 0.3}};
   request.scene.name = "prestress";

@@ -30,7 +30,6 @@ const Increment& LastOfStage(const TracedPath& path, int stage) {
 // Complete, sound, and proved.
 TracedPath TraceProgram(TraceRequest request, Method method = Method::kBranch) {
   request.options.method = method;
-  request.options.mpec_solver = MpecSolver::kIpopt;  // increments of its own, where the method is mpec
   TracedPath path = TraceIncrements(request);
   EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
   EXPECT_EQ(path.result.message.rfind("the program was traced to its end", 0), 0u);  // remarks may follow
@@ -129,7 +128,6 @@ TEST(Program, GripperIsSymmetricAndSlipsAtItsPullOutForce) {
 TEST_P(EachMethod, OneStageIsThePathUpToItsTarget) {
   TraceRequest plain = ReadExample("sliding_bar");
   plain.options.method = GetParam();
-  plain.options.mpec_solver = MpecSolver::kIpopt;
   plain.options.stop = {{"load_factor", ">", 0.5}};
   TraceRequest program = plain;
   program.options.stop.clear();
@@ -208,7 +206,6 @@ TEST_P(EachMethod, SupportMotionOfTheSceneItself) {
   request.scene.bars = {{{"a", "b"}, 1.0}, {{"b", "c"}, 1.0}, {{"b", "d"}, 100.0}};
   request.scene.support_motions = {{"d", 0.0, -1.0}};
   request.options.method = GetParam();
-  request.options.mpec_solver = MpecSolver::kIpopt;
   request.options.stop = {{"d.y", "<", 0.3}};
   const TracedPath path = TraceIncrements(request);
   ASSERT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
@@ -510,7 +507,6 @@ TEST(VerifyProgram, FindsWhatWasChanged) {
 TEST(VerifyProgram, ShortRecordsOfMpecWithoutAllStatesAreProved) {
   TraceRequest request = ReadExample("press_slide_lift");
   request.options.method = Method::kMpec;
-  request.options.mpec_solver = MpecSolver::kIpopt;  // increments of its own, where the method is mpec
   request.options.full_state_every = 3;
   for (request.options.max_increments = 1; request.options.max_increments <= 8; ++request.options.max_increments) {
     std::vector<Increment> increments = TraceIncrements(request).increments;

@@ -25,12 +25,10 @@ Scene Block(double side, double friction_of_floor) {
   return scene;
 }
 
-class BothMethods : public testing::TestWithParam<Method> {
+class Redistribution : public testing::Test {
  protected:
   // Complete and proved.
   TracedPath Trace(TraceRequest request) {
-    request.options.method = GetParam();
-    request.options.mpec_solver = MpecSolver::kCertified;
     TracedPath path = TraceIncrements(request);
     EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
     for (const Finding& finding : VerifyPath(request, path.increments).findings)
@@ -40,8 +38,6 @@ class BothMethods : public testing::TestWithParam<Method> {
     return path;
   }
 };
-INSTANTIATE_TEST_SUITE_P(Redistribution, BothMethods, testing::Values(Method::kBranch, Method::kMpec),
-                         [](const auto& method) { return std::string(ToString(method.param)); });
 
 TraceRequest BeltAgainstStop(double clearance) {
   TraceRequest request;
@@ -53,7 +49,7 @@ TraceRequest BeltAgainstStop(double clearance) {
 }
 
 // The belt pulls with the spring's force x; then the stop holds the block, and all at once the belt slips.
-TEST_P(BothMethods, ABlockOnABeltMeetsAStop) {
+TEST_F(Redistribution, ABlockOnABeltMeetsAStop) {
   for (const double clearance : {0.0, 0.1, 0.2}) {
     const TracedPath path = Trace(BeltAgainstStop(clearance));
     const Increment& end = path.increments.back();
@@ -93,7 +89,7 @@ TEST(Redistribution, TheChangeIsAnIncrement) {
 }
 
 // A lift takes the node off the table; a side load rests on friction before and after.
-TEST_P(BothMethods, ALiftTakesANodeOffATable) {
+TEST_F(Redistribution, ALiftTakesANodeOffATable) {
   TraceRequest request;
   request.scene = Block(0.1, 0.3);
   request.scene.obstacles.push_back({"lift", kHalfPlane, 0.0, -0.05, 0.0, 1.0, 0.3});
@@ -119,7 +115,7 @@ TraceRequest TableAbove(double friction_of_low) {
 }
 
 // A table goes down and hands a node over to a lower one that can hold its side load.
-TEST_P(BothMethods, ATableHandsANodeOver) {
+TEST_F(Redistribution, ATableHandsANodeOver) {
   const TracedPath path = Trace(TableAbove(0.6));
   const Increment& end = path.increments.back();
   EXPECT_NEAR(PositionX(path, end, "b"), 0.0, kRounding);

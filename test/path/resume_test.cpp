@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "contact_path/path/mpec_method.h"
 #include "contact_path/scene/read_scene.h"
 #include "contact_path/verify/verify_path.h"
 #include "support/traced_path.h"
@@ -20,6 +21,7 @@ TracedPath Resume(const TraceRequest& request, std::vector<Increment> increments
   path.request = request;
   TraceControl control;
   control.on_increment = [&](const Increment& increment) { path.increments.push_back(increment); };
+  control.mpec = MakeMpecMethod;
   path.result = ResumeTrace(request, increments, control);
   return path;
 }
@@ -107,7 +109,6 @@ TEST(Resume, ByMpec) {
   for (const char* name : {"sliding_bar", "stick_slip_cycle"}) {
     TraceRequest request = ReadExample(name);
     request.options.method = Method::kMpec;
-    request.options.mpec_solver = MpecSolver::kIpopt;  // increments of its own, where the method is mpec
     const TracedPath whole = TraceIncrements(request);
     for (std::size_t cut = 1; cut <= whole.increments.size(); cut += whole.increments.size() / 6 + 1) {
       const std::vector<Increment> increments(whole.increments.begin(),

@@ -35,21 +35,19 @@ class StopAtValue : public testing::TestWithParam<Wanted> {};
 // By any steps the same end, to rounding.
 TEST_P(StopAtValue, EndsThereWhateverTheSteps) {
   std::vector<double> loads, arcs;
-  for (const Method method : {Method::kBranch, Method::kMpec})
-    for (const Accuracy accuracy : {Accuracy::kFast, Accuracy::kBalanced, Accuracy::kAccurate}) {
-      TraceRequest request = ReadExample(GetParam().scene);
-      request.options.method = method;
-      request.options.accuracy = accuracy;
-      request.options.stop = {GetParam().stop};
-      const TracedPath path = TraceIncrements(request);
-      ASSERT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
-      const Increment& last = path.increments.back();
-      EXPECT_EQ(last.kind, IncrementKind::kSample);
-      const double value = GetParam().stop.value;
-      EXPECT_NEAR(Value(path, GetParam().stop.quantity, last), value, 1e-11 * (1.0 + std::abs(value)));
-      loads.push_back(last.load_factor);
-      ExpectNoFindings(path);
-    }
+  for (const Accuracy accuracy : {Accuracy::kFast, Accuracy::kBalanced, Accuracy::kAccurate}) {
+    TraceRequest request = ReadExample(GetParam().scene);
+    request.options.accuracy = accuracy;
+    request.options.stop = {GetParam().stop};
+    const TracedPath path = TraceIncrements(request);
+    ASSERT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+    const Increment& last = path.increments.back();
+    EXPECT_EQ(last.kind, IncrementKind::kSample);
+    const double value = GetParam().stop.value;
+    EXPECT_NEAR(Value(path, GetParam().stop.quantity, last), value, 1e-11 * (1.0 + std::abs(value)));
+    loads.push_back(last.load_factor);
+    ExpectNoFindings(path);
+  }
   for (const double load : loads) EXPECT_NEAR(load, loads[0], 1e-9 * (1.0 + std::abs(loads[0])));
 }
 
@@ -210,47 +208,45 @@ TraceRequest SteelArch(double unit, double friction) {
 // Forces of slender beams are known to rounding of their stiffness. Values that both sides come to at once, and values
 // at which the path ends, are there once.
 TEST(Samples, OfForcesOfStiffPartsAreThereOnce) {
-  for (const Method method : {Method::kBranch, Method::kMpec})
-    for (const double unit : {1.0, 1000.0})
-      for (const double friction : {0.1, 0.4}) {
-        SCOPED_TRACE(testing::Message() << ToString(method) << ", unit " << unit << ", friction " << friction);
-        TraceRequest request = SteelArch(unit, friction);
-        request.options.method = method;
-        request.options.stop = {{"load_factor", ">", 1.0}};
-        const TracedPath whole = TraceProved(request);
-        EXPECT_EQ(whole.increments.back().load_factor, 1.0);
-        const double half = 0.5 * whole.increments.back().contacts[0].rn, last = whole.increments.back().supports[0].ry;
-        request.options.at = {{"l@floor.rn", {half, 1.5 * half}},
-                              {"r@floor.rn", {half, 1.5 * half}},
-                              {"crown.ry", {0.5 * last, 0.7 * last}},
-                              {"lg.3.N", {-half, -1.2 * half}},
-                              {"rg.3.N", {-half, -1.2 * half}}};
-        const TracedPath path = TraceProved(request);
-        EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
-        EXPECT_EQ(path.increments.back().load_factor, 1.0);
-        for (std::size_t i = 1; i < path.increments.size(); ++i)
-          EXPECT_GT(path.increments[i].load_factor, path.increments[i - 1].load_factor + 1e-9) << i;
-        // Each force grows from 0 to its last value, and comes to what lies between.
-        for (const auto& [quantity, value] : {std::pair("l@floor.rn", half),
-                                              {"l@floor.rn", 1.5 * half},
-                                              {"r@floor.rn", half},
-                                              {"r@floor.rn", 1.5 * half},
-                                              {"crown.ry", 0.5 * last},
-                                              {"crown.ry", 0.7 * last}}) {
-          double nearest = std::numeric_limits<double>::infinity();
-          for (const Increment& increment : path.increments)
-            nearest = std::min(nearest, std::abs(Value(path, quantity, increment) - value));
-          EXPECT_LE(nearest, 1e-10 * half) << quantity << " = " << value;
-        }
-        // A force as the criterion: there, and not at the next increment.
-        request.options.at.clear();
-        for (const double share : {0.11, 0.37, 0.52, 0.83}) {
-          request.options.stop = {{"crown.ry", "<", share * last}, {"crown.ry", ">", -share * last}};
-          const TracedPath ends = TraceProved(request);
-          EXPECT_EQ(ends.result.reason, EndReason::kStopCriterion) << ends.result.message;
-          EXPECT_NEAR(std::abs(ends.increments.back().supports[0].ry), share * std::abs(last), 1e-10 * std::abs(last));
-        }
+  for (const double unit : {1.0, 1000.0})
+    for (const double friction : {0.1, 0.4}) {
+      SCOPED_TRACE(testing::Message() << "unit " << unit << ", friction " << friction);
+      TraceRequest request = SteelArch(unit, friction);
+      request.options.stop = {{"load_factor", ">", 1.0}};
+      const TracedPath whole = TraceProved(request);
+      EXPECT_EQ(whole.increments.back().load_factor, 1.0);
+      const double half = 0.5 * whole.increments.back().contacts[0].rn, last = whole.increments.back().supports[0].ry;
+      request.options.at = {{"l@floor.rn", {half, 1.5 * half}},
+                            {"r@floor.rn", {half, 1.5 * half}},
+                            {"crown.ry", {0.5 * last, 0.7 * last}},
+                            {"lg.3.N", {-half, -1.2 * half}},
+                            {"rg.3.N", {-half, -1.2 * half}}};
+      const TracedPath path = TraceProved(request);
+      EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+      EXPECT_EQ(path.increments.back().load_factor, 1.0);
+      for (std::size_t i = 1; i < path.increments.size(); ++i)
+        EXPECT_GT(path.increments[i].load_factor, path.increments[i - 1].load_factor + 1e-9) << i;
+      // Each force grows from 0 to its last value, and comes to what lies between.
+      for (const auto& [quantity, value] : {std::pair("l@floor.rn", half),
+                                            {"l@floor.rn", 1.5 * half},
+                                            {"r@floor.rn", half},
+                                            {"r@floor.rn", 1.5 * half},
+                                            {"crown.ry", 0.5 * last},
+                                            {"crown.ry", 0.7 * last}}) {
+        double nearest = std::numeric_limits<double>::infinity();
+        for (const Increment& increment : path.increments)
+          nearest = std::min(nearest, std::abs(Value(path, quantity, increment) - value));
+        EXPECT_LE(nearest, 1e-10 * half) << quantity << " = " << value;
       }
+      // A force as the criterion: there, and not at the next increment.
+      request.options.at.clear();
+      for (const double share : {0.11, 0.37, 0.52, 0.83}) {
+        request.options.stop = {{"crown.ry", "<", share * last}, {"crown.ry", ">", -share * last}};
+        const TracedPath ends = TraceProved(request);
+        EXPECT_EQ(ends.result.reason, EndReason::kStopCriterion) << ends.result.message;
+        EXPECT_NEAR(std::abs(ends.increments.back().supports[0].ry), share * std::abs(last), 1e-10 * std::abs(last));
+      }
+    }
 }
 
 }  // namespace

@@ -145,7 +145,6 @@ TEST(Sizes, ContactThatIsSoftInAllDirections) {
 TEST(Sizes, ContactThatIsTooSoftEndsByName) {
   TraceRequest request = ReadTraceRequestFile(std::string(CONTACT_PATH_TEST_DATA) + "/soft_support.yaml");
   request.options.method = Method::kMpec;
-  request.options.mpec_solver = MpecSolver::kIpopt;
   const TracedPath mpec = TraceIncrements(request);
   request.options.method = Method::kBranch;
   request.program = {request.program[0]};

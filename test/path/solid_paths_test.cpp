@@ -39,32 +39,30 @@ void ExpectProved(const TracedPath& path) {
 // A uniform block in plane stress, pressed between plates without friction: uniaxial stress. Of the neo-Hookean
 // material with the stretch l, mu (k^2 - 1) + lambda ln(l k^2) = 0 and P = (mu (l^2 - 1) + lambda ln(l k^2)) / l.
 TEST(SolidPaths, CompressedBlock) {
-  for (const Method method : {Method::kBranch, Method::kMpec})
-    for (const int nodes : {3, 4, 6, 8}) {
-      SCOPED_TRACE(std::string(ToString(method)) + ", nodes " + std::to_string(nodes));
-      TraceRequest request = Block(2, 2, 1.0, 1.0, nodes, MaterialModel::kNeoHookean, PlaneState::kStress);
-      for (Node& node : request.scene.nodes) {
-        node.fixed_y = node.y == 0.0 || node.y == 1.0;
-        node.fixed_x = node.x == 0.0 && node.y == 0.0;
-        if (node.y == 1.0) request.scene.support_motions.push_back({node.name, 0.0, -1.0});
-      }
-      request.options.method = method;
-      request.options.step = 0.2;
-      request.options.stop = {{"load_factor", ">", 0.5}};
-      const TracedPath path = TraceIncrements(request);
-      EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
-      ExpectProved(path);
-      const double l = 1.0 - path.increments.back().load_factor, mu = 10.0 / 2.6, lambda = 2.0 * mu * 0.3 / 0.4;
-      double k = 1.0;
-      for (int i = 0; i < 100; ++i)
-        k -= (mu * (k * k - 1.0) + lambda * std::log(l * k * k)) / (2.0 * mu * k + 2.0 * lambda / k);
-      EXPECT_NEAR(l, 0.5, 1e-12);
-      const Increment& last = path.increments.back();
-      EXPECT_NEAR(PositionX(path, last, "4_4"), k, 1e-9);
-      const double volume = std::log(l * k * k);
-      EXPECT_NEAR(last.strain_energy,
-                  0.5 * mu * (l * l + 2.0 * k * k - 3.0 - 2.0 * volume) + 0.5 * lambda * volume * volume, 1e-8);
+  for (const int nodes : {3, 4, 6, 8}) {
+    SCOPED_TRACE("nodes " + std::to_string(nodes));
+    TraceRequest request = Block(2, 2, 1.0, 1.0, nodes, MaterialModel::kNeoHookean, PlaneState::kStress);
+    for (Node& node : request.scene.nodes) {
+      node.fixed_y = node.y == 0.0 || node.y == 1.0;
+      node.fixed_x = node.x == 0.0 && node.y == 0.0;
+      if (node.y == 1.0) request.scene.support_motions.push_back({node.name, 0.0, -1.0});
     }
+    request.options.step = 0.2;
+    request.options.stop = {{"load_factor", ">", 0.5}};
+    const TracedPath path = TraceIncrements(request);
+    EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+    ExpectProved(path);
+    const double l = 1.0 - path.increments.back().load_factor, mu = 10.0 / 2.6, lambda = 2.0 * mu * 0.3 / 0.4;
+    double k = 1.0;
+    for (int i = 0; i < 100; ++i)
+      k -= (mu * (k * k - 1.0) + lambda * std::log(l * k * k)) / (2.0 * mu * k + 2.0 * lambda / k);
+    EXPECT_NEAR(l, 0.5, 1e-12);
+    const Increment& last = path.increments.back();
+    EXPECT_NEAR(PositionX(path, last, "4_4"), k, 1e-9);
+    const double volume = std::log(l * k * k);
+    EXPECT_NEAR(last.strain_energy,
+                0.5 * mu * (l * l + 2.0 * k * k - 3.0 - 2.0 * volume) + 0.5 * lambda * volume * volume, 1e-8);
+  }
 }
 
 // Of slender blocks in plane stress, the elastica: u/L and w/L of a cantilever with the dead load P L^2 / EI = 10 at
@@ -127,25 +125,21 @@ TEST(SolidPaths, BlockOnARoughFloor) {
 
 // A St. Venant-Kirchhoff block has no resistance to being pressed to nothing.
 TEST(SolidPaths, EndsWhereAnElementTurnsInsideOut) {
-  for (const Method method : {Method::kBranch, Method::kMpec}) {
-    SCOPED_TRACE(ToString(method));
-    TraceRequest request = Block(2, 1, 2.0, 1.0, 4, MaterialModel::kStVenantKirchhoff);
-    request.scene.name = "pressed";
-    for (Node& node : request.scene.nodes) {
-      node.fixed_x = node.fixed_y = true;
-      if (node.x == 1.0) node.fixed_x = false;
-      if (node.x == 2.0) request.scene.support_motions.push_back({node.name, -1.0, 0.0});
-    }
-    request.options.method = method;
-    const TracedPath path = TraceIncrements(request);
-    EXPECT_EQ(path.result.reason, EndReason::kElementInverted) << path.result.message;
-    EXPECT_NE(path.result.message.find(" of solids[0] (block) turns inside out: its area has shrunk to "),
-              std::string::npos)
-        << path.result.message;
-    EXPECT_EQ(path.result.message.find("element "), 0u);
-    EXPECT_GT(path.increments.size(), 5u);
-    ExpectProved(path);
+  TraceRequest request = Block(2, 1, 2.0, 1.0, 4, MaterialModel::kStVenantKirchhoff);
+  request.scene.name = "pressed";
+  for (Node& node : request.scene.nodes) {
+    node.fixed_x = node.fixed_y = true;
+    if (node.x == 1.0) node.fixed_x = false;
+    if (node.x == 2.0) request.scene.support_motions.push_back({node.name, -1.0, 0.0});
   }
+  const TracedPath path = TraceIncrements(request);
+  EXPECT_EQ(path.result.reason, EndReason::kElementInverted) << path.result.message;
+  EXPECT_NE(path.result.message.find(" of solids[0] (block) turns inside out: its area has shrunk to "),
+            std::string::npos)
+      << path.result.message;
+  EXPECT_EQ(path.result.message.find("element "), 0u);
+  EXPECT_GT(path.increments.size(), 5u);
+  ExpectProved(path);
 }
 
 // Elements of few nodes in a nearly incompressible material.

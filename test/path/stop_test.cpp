@@ -112,43 +112,40 @@ TEST_F(Stop, TextIsWhatThePersonWrote) {
 constexpr double kRounding = 1e-9;  // a criterion holds beyond its value by more than that
 
 // A block of weight 1 on a rough floor with mu = 0.5, on a spring of stiffness 2, under the load s (fx, fy).
-TraceRequest Block(double fx, double fy, const StopCriterion& stop, Method method) {
+TraceRequest Block(double fx, double fy, const StopCriterion& stop) {
   TraceRequest request;
   request.scene.nodes = {{"p", 0.0, 0.0, false, false}};
   request.scene.superelements = {{{"p"}, {2.0, 0.0, 0.0, 2.0}}};
   request.scene.loads = {{"p", 0.0, -1.0, true}, {"p", fx, fy, false}};
   request.scene.obstacles = {{"floor", ObstacleShape::kHalfPlane, 0.0, 0.0, 0.0, 1.0, 0.5}};
   request.scene.contacts = {{"p", "floor"}};
-  request.options.method = method;
   request.options.stop = {stop};
   return request;
 }
 
 // Lifted, the block leaves the floor at s = 1 and goes up by (s - 1) / 2; pushed, it slips from s = 0.5 on.
 TEST(StopOfATrace, QuantitiesOfContactsEndItWhereTheyPassTheValue) {
-  for (const Method method : {Method::kBranch, Method::kMpec}) {
-    const TracedPath unloaded = TraceIncrements(Block(0.0, 1.0, {"p@floor.rn", "<", 0.4}, method));
-    EXPECT_EQ(unloaded.result.reason, EndReason::kStopCriterion) << unloaded.result.message;
-    EXPECT_NEAR(unloaded.increments.back().contacts[0].rn, 0.4, kRounding);
-    EXPECT_GE(unloaded.increments[unloaded.increments.size() - 2].contacts[0].rn, 0.4 - kRounding);
-    EXPECT_NEAR(unloaded.increments.back().load_factor, 0.6, kRounding);
+  const TracedPath unloaded = TraceIncrements(Block(0.0, 1.0, {"p@floor.rn", "<", 0.4}));
+  EXPECT_EQ(unloaded.result.reason, EndReason::kStopCriterion) << unloaded.result.message;
+  EXPECT_NEAR(unloaded.increments.back().contacts[0].rn, 0.4, kRounding);
+  EXPECT_GE(unloaded.increments[unloaded.increments.size() - 2].contacts[0].rn, 0.4 - kRounding);
+  EXPECT_NEAR(unloaded.increments.back().load_factor, 0.6, kRounding);
 
-    const TracedPath lifted = TraceIncrements(Block(0.0, 1.0, {"gap_p@floor", ">", 0.1}, method));
-    EXPECT_EQ(lifted.result.reason, EndReason::kStopCriterion) << lifted.result.message;
-    EXPECT_NEAR(lifted.increments.back().contacts[0].gap, 0.1, kRounding);
-    EXPECT_LE(lifted.increments[lifted.increments.size() - 2].contacts[0].gap, 0.1 + kRounding);
-    EXPECT_NEAR(lifted.increments.back().load_factor, 1.0 + 2.0 * lifted.increments.back().contacts[0].gap, 1e-6);
+  const TracedPath lifted = TraceIncrements(Block(0.0, 1.0, {"gap_p@floor", ">", 0.1}));
+  EXPECT_EQ(lifted.result.reason, EndReason::kStopCriterion) << lifted.result.message;
+  EXPECT_NEAR(lifted.increments.back().contacts[0].gap, 0.1, kRounding);
+  EXPECT_LE(lifted.increments[lifted.increments.size() - 2].contacts[0].gap, 0.1 + kRounding);
+  EXPECT_NEAR(lifted.increments.back().load_factor, 1.0 + 2.0 * lifted.increments.back().contacts[0].gap, 1e-6);
 
-    const TracedPath pushed = TraceIncrements(Block(1.0, 0.0, {"p@floor.rt", "<", -0.3}, method));
-    EXPECT_EQ(pushed.result.reason, EndReason::kStopCriterion) << pushed.result.message;
-    EXPECT_NEAR(pushed.increments.back().contacts[0].rt, -0.3, kRounding);
-    EXPECT_GE(pushed.increments[pushed.increments.size() - 2].contacts[0].rt, -0.3 - kRounding);
+  const TracedPath pushed = TraceIncrements(Block(1.0, 0.0, {"p@floor.rt", "<", -0.3}));
+  EXPECT_EQ(pushed.result.reason, EndReason::kStopCriterion) << pushed.result.message;
+  EXPECT_NEAR(pushed.increments.back().contacts[0].rt, -0.3, kRounding);
+  EXPECT_GE(pushed.increments[pushed.increments.size() - 2].contacts[0].rt, -0.3 - kRounding);
 
-    // Friction is never larger than 0.5: this criterion is not met.
-    TraceRequest never = Block(1.0, 0.0, {"p@floor.rt", "<", -0.51}, method);
-    never.options.max_increments = 30;
-    EXPECT_EQ(TraceIncrements(never).result.reason, EndReason::kMaxIncrements);
-  }
+  // Friction is never larger than 0.5: this criterion is not met.
+  TraceRequest never = Block(1.0, 0.0, {"p@floor.rt", "<", -0.51});
+  never.options.max_increments = 30;
+  EXPECT_EQ(TraceIncrements(never).result.reason, EndReason::kMaxIncrements);
 }
 
 }  // namespace

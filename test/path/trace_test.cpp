@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "contact_path/path/mpec_method.h"
 #include "contact_path/scene/validate.h"
 #include "lattice.h"
 #include "support/traced_path.h"
@@ -18,7 +19,6 @@ namespace {
 
 TraceRequest SlidingBar(int max_increments) {
   TraceRequest request = ReadExample("sliding_bar");
-  request.options.method = Method::kMpec;
   request.options.step = 0.1;
   request.options.max_increments = max_increments;
   return request;
@@ -44,6 +44,17 @@ TEST(Trace, InvalidRequestThrowsBeforeAnyIncrement) {
   EXPECT_THROW(Trace(request, control), std::invalid_argument);
 }
 
+TEST(Trace, MpecIsRefusedWithoutItsLibrary) {
+  TraceRequest request = SlidingBar(2);
+  request.options.method = Method::kMpec;
+  try {
+    Trace(request, TraceControl());
+    FAIL() << "nothing was thrown";
+  } catch (const InvalidRequest& error) {
+    EXPECT_STREQ(error.what(), "options.method = mpec: needs the library contact_path_mpec, which this program lacks");
+  }
+}
+
 TEST(Trace, MaxIncrementsDoesNotCountIncrementZero) {
   for (const int increments : {1, 2, 5}) {
     const TracedPath path = TraceIncrements(SlidingBar(increments));
@@ -55,7 +66,6 @@ TEST(Trace, MaxIncrementsDoesNotCountIncrementZero) {
 
 TEST(Trace, MaxIncrementsDoesNotCountWhatBringsTheConstantLoadsOn) {
   TraceRequest request = ReadExample("two_dof_friction");
-  request.options.method = Method::kMpec;
   request.options.max_increments = 1;
   const TracedPath path = TraceIncrements(request);
   EXPECT_EQ(path.result.reason, EndReason::kMaxIncrements) << path.result.message;
@@ -117,6 +127,7 @@ void ExpectCancelledInsideAnIncrement(const TraceRequest& request) {
     ++asked;
     return false;
   };
+  count.mpec = MakeMpecMethod;
   Trace(request, count);
   ASSERT_GE(asked_at_increment.size(), 2u);
   const auto before = [&](std::size_t increment) { return increment > 0 ? asked_at_increment[increment - 1] : 0; };
@@ -132,6 +143,7 @@ void ExpectCancelledInsideAnIncrement(const TraceRequest& request) {
   TraceControl cancel;
   cancel.on_increment = [&](const Increment&) { ++increments; };
   cancel.cancelled = [&] { return ++asked > last_no; };
+  cancel.mpec = MakeMpecMethod;
   const TraceResult result = Trace(request, cancel);
   EXPECT_EQ(result.reason, EndReason::kCancelled);
   EXPECT_GE(increments, longest);
@@ -142,7 +154,7 @@ void ExpectCancelledInsideAnIncrement(const TraceRequest& request) {
 
 TEST(Trace, CancelledInsideAnIncrementKeepsTheIncrementsBefore) {
   TraceRequest request = SlidingBar(0);
-  request.options.mpec_solver = MpecSolver::kIpopt;
+  request.options.method = Method::kMpec;
   ExpectCancelledInsideAnIncrement(request);
 }
 
@@ -159,7 +171,6 @@ TEST(Trace, CancelledWhileBranchesAreSoughtKeepsTheIncrementsBefore) {
 
 TEST(Trace, CancelledDuringThePreloadGivesNoIncrement) {
   TraceRequest request = ReadExample("two_dof_friction");
-  request.options.method = Method::kMpec;
   TraceControl control;
   control.on_increment = [](const Increment&) { ADD_FAILURE() << "the constant loads are not on yet"; };
   control.cancelled = [] { return true; };
@@ -242,7 +253,6 @@ TEST(Trace, SolveTimeIsTheWallTimeOfTheIncrement) {
 TEST(Trace, SceneThatCannotStandIsANumericalFailureWithoutIncrements) {
   // The constant load pulls the block up along the wall, and nothing holds it: a mechanism without equilibrium.
   TraceRequest request;
-  request.options.method = Method::kMpec;
   request.scene.name = "falling";
   request.scene.nodes = {{"a", 0.0, 0.0, true, true}, {"b", 1.0, 0.0, false, false}};
   request.scene.superelements = {{{"b"}, {1.0, 0.0, 0.0, 0.0}}};

@@ -19,7 +19,7 @@ sys.path.insert(0, os.path.join(os.environ['CONTACT_PATH_ROOT'], 'python'))
 import contact_path as cp  # noqa: E402
 from contact_path import programs  # noqa: E402
 
-LONG = {'method': 'mpec', 'mpec_solver': 'ipopt', 'step': 1e-5, 'max_increments': 1000000, 'stop': []}  # sliding_bar: far longer than any test
+LONG = {'method': 'mpec', 'step': 1e-5, 'max_increments': 1000000, 'stop': []}  # sliding_bar: far longer than any test
 
 
 def small_truss():

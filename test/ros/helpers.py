@@ -48,7 +48,7 @@ def request_of(name, **options):
 
 def long_request():
     """A trace that takes far longer than any test."""
-    return request_of('sliding_bar', method='mpec', mpec_solver='ipopt', step=1e-5, max_increments=1000000, stop=[])
+    return request_of('sliding_bar', method='mpec', step=1e-5, max_increments=1000000, stop=[])
 
 
 def wait_until(condition, what):

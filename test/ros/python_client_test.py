@@ -16,7 +16,7 @@ from std_srvs.srv import Trigger
 import helpers
 
 NODE = '/contact_path'
-LONG = {'method': 'mpec', 'mpec_solver': 'ipopt', 'step': 1e-5, 'max_increments': 1000000, 'stop': []}  # sliding_bar: far longer than any test
+LONG = {'method': 'mpec', 'step': 1e-5, 'max_increments': 1000000, 'stop': []}  # sliding_bar: far longer than any test
 
 
 class PythonClientTest(unittest.TestCase):

@@ -314,37 +314,32 @@ const BrokenRule kOptionRules[] = {
 };
 INSTANTIATE_TEST_SUITE_P(Options, ValidateTest, testing::ValuesIn(kOptionRules), NameOf<BrokenRule>);
 
-TEST(ValidateOptionsTest, IncrementsByIpoptTakeNoBranchChoices) {
+TEST(ValidateOptionsTest, MpecTakesNoBranchChoices) {
   TraceRequest request = SoundRequest();
   request.options.branch_choices = {{1, 0, 2}};
   EXPECT_TRUE(Validate(request).empty());
   request.options.method = Method::kMpec;
-  EXPECT_TRUE(Validate(request).empty());
-  request.options.mpec_solver = MpecSolver::kIpopt;
   const std::vector<Violation> violations = Validate(request);
   ASSERT_EQ(violations.size(), 1U);
-  EXPECT_EQ(
-      violations[0].ToLine(),
-      "options.branch_choices: must be empty with mpec_solver ipopt, which does not find the branches of an event");
+  EXPECT_EQ(violations[0].ToLine(),
+            "options.branch_choices: must be empty with method mpec, which does not find the branches of an event");
 }
 
-TEST(ValidateOptionsTest, IncrementsByIpoptHaveNoSamples) {
+TEST(ValidateOptionsTest, MpecHasNoSamples) {
   TraceRequest request = SoundRequest();
   request.options.at = {{"b.y", {1.0}}};
   EXPECT_TRUE(Validate(request).empty());
   request.options.method = Method::kMpec;
-  request.options.mpec_solver = MpecSolver::kIpopt;
   const std::vector<Violation> violations = Validate(request);
   ASSERT_EQ(violations.size(), 1U);
   EXPECT_EQ(violations[0].key, "options.at");
 }
 
-TEST(ValidateOptionsTest, IncrementsByIpoptCanButFollowAtLimits) {
+TEST(ValidateOptionsTest, MpecCanButFollowAtLimits) {
   TraceRequest request = SoundRequest();
   request.options.at_limit = AtLimit::kJump;
   EXPECT_TRUE(Validate(request).empty());
   request.options.method = Method::kMpec;
-  request.options.mpec_solver = MpecSolver::kIpopt;
   const std::vector<Violation> violations = Validate(request);
   ASSERT_EQ(violations.size(), 1U);
   EXPECT_EQ(violations[0].key, "options.at_limit");
@@ -362,15 +357,14 @@ TEST(ValidateOptionsTest, MachinesMayBeRigid) {
   }
 }
 
-TEST(ValidateOptionsTest, IncrementsByIpoptTakeTheIncrementalLawAlone) {
+TEST(ValidateOptionsTest, MpecTakesTheIncrementalLawAlone) {
   TraceRequest request = SoundRequest();
-  request.options.method = Method::kMpec;
   request.options.friction_law = FrictionLaw::kTotal;
   EXPECT_TRUE(Validate(request).empty());
-  request.options.mpec_solver = MpecSolver::kIpopt;
+  request.options.method = Method::kMpec;
   const std::vector<Violation> violations = Validate(request);
   ASSERT_EQ(violations.size(), 1U);
-  EXPECT_EQ(violations[0].ToLine(), "options.friction_law = total: must be incremental with mpec_solver ipopt");
+  EXPECT_EQ(violations[0].ToLine(), "options.friction_law = total: must be incremental with method mpec");
 }
 
 // A stage that presses b and moves the floor down, and one that takes that back.

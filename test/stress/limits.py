@@ -92,7 +92,7 @@ def much_work():
     """(what, request)."""
     dice = random.Random(20261123)
     yield 'tiny steps', base()
-    yield 'mpec on a lattice', lattice_request(40, 40, method='mpec', mpec_solver='ipopt', step=1e-3, max_increments=1000000)
+    yield 'mpec on a lattice', lattice_request(40, 40, method='mpec', step=1e-3, max_increments=1000000)
     yield '1,400 stages with a load each', with_program(
         Repeated(Stage(loads=[Load(node='b', fy=-1e-3)]), 1400))
     request = with_program(Repeated(Stage(obstacle_motions=[ObstacleMotion(obstacle='o', dy=1e-6)]), 200000))

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "contact_path/check/residuals.h"
+#include "contact_path/path/mpec_method.h"
 #include "contact_path/scene/expand.h"
 #include "contact_path/scene/read_scene.h"
 #include "contact_path/scene/scaling.h"
@@ -84,6 +85,7 @@ TracedPath TraceIncrements(const TraceRequest& request) {
   path.request = request;
   TraceControl control;
   control.on_increment = [&path](const Increment& increment) { path.increments.push_back(increment); };
+  control.mpec = MakeMpecMethod;
   path.result = Trace(request, control);
   return path;
 }
@@ -120,6 +122,7 @@ TracedPath TraceArc(TraceRequest request, double arc_length) {
     done = increment.arc_length > arc_length;
   };
   control.cancelled = [&] { return done; };
+  control.mpec = MakeMpecMethod;
   path.result = Trace(path.request, control);
   return path;
 }

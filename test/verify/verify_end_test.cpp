@@ -19,7 +19,6 @@ TEST(VerifyEnd, OfWholeTracesIsNotContradicted) {
     for (const Method method : {Method::kBranch, Method::kMpec}) {
       TraceRequest request = ReadExample(scene);
       request.options.method = method;
-      request.options.mpec_solver = MpecSolver::kIpopt;  // increments of its own, where the method is mpec
       const TracedPath path = TraceIncrements(request);
       EXPECT_EQ(EndContradicted(request, path.increments, ToString(path.result.reason)), "") << scene;
     }
@@ -68,7 +67,6 @@ TEST(VerifyEnd, OfAPath) {
   EXPECT_EQ(EndContradicted(request, path.increments, "path_end"), "");
   request.options.method = Method::kMpec;
   EXPECT_EQ(EndContradicted(request, path.increments, "path_end"), "");
-  request.options.mpec_solver = MpecSolver::kIpopt;
   EXPECT_EQ(EndContradicted(request, path.increments, "path_end"),
             "the result says path_end, but increments by Ipopt cannot tell the end of a path");
   // Where a branch is taken from an event, the path goes on.

@@ -45,7 +45,6 @@ TEST(VerifyEvents, ProvesWhatBothMethodsTrace) {
         if (method == Method::kMpec && accuracy != Accuracy::kBalanced) continue;
         TraceRequest request = ReadExample(scene);
         request.options.method = method;
-        request.options.mpec_solver = MpecSolver::kIpopt;  // increments of its own, where the method is mpec
         request.options.accuracy = accuracy;
         EXPECT_EQ(Events(request, TraceIncrements(request).increments), "") << scene;
       }

@@ -22,7 +22,6 @@ namespace {
 TracedPath Traced(const std::string& scene, Method method) {
   TraceRequest request = ReadExample(scene);
   request.options.method = method;
-  request.options.mpec_solver = MpecSolver::kIpopt;  // increments of its own, where the method is mpec
   if (method == Method::kMpec) request.options.step = 0.05;
   return TraceIncrements(request);
 }
@@ -218,7 +217,6 @@ TEST(VerifyPath, ForceOfASupportIsProved) {
 TEST(VerifyPath, LongIncrementsThatCutCornersAreProved) {
   TraceRequest request = ReadExample("sliding_bar");
   request.options.method = Method::kMpec;
-  request.options.mpec_solver = MpecSolver::kIpopt;  // increments of its own, where the method is mpec
   request.options.step = 0.2;
   const TracedPath path = TraceIncrements(request);
   const Verification verification = VerifyPath(path.request, path.increments);
@@ -571,7 +569,6 @@ TEST(VerifyPath, InnerStatesLeaveThePathAsItIs) {
 TEST(VerifyPath, IncrementsByIpoptHaveNoInnerStates) {
   TraceRequest request = ReadExample("sliding_bar");
   request.options.method = Method::kMpec;
-  request.options.mpec_solver = MpecSolver::kIpopt;
   request.options.record = {"inner"};
   request.options.max_increments = 10;
   const TracedPath path = TraceIncrements(request);

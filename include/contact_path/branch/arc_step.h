@@ -15,9 +15,6 @@ struct StepLimits {
   double largest = 0.0;     // scaled length that none exceeds
   double prediction = 0.0;  // largest error of the predictor, relative to the step
   double cosine = 0.0;      // smallest, between the tangents at both ends
-  // Whether a step ends at the point of the curve that is nearest to start + length x tangent: the minimiser of (9) on
-  // the arc. Otherwise it ends on the plane through that point across the tangent.
-  bool nearest = false;
   TrialObserver on_trial = {};
 };
 

@@ -76,10 +76,6 @@ struct BranchSet {
 double DissipationRate(const ContactPairs& contacts, const std::vector<ContactState>& states, const PathPoint& point,
                        const Eigen::VectorXd& direction);
 
-// Combinations of the states of all contacts that may lead on from a point, found elsewhere. direction: of the arrival.
-using FurtherStates =
-    std::function<std::vector<std::vector<ContactState>>(const PathPoint& point, const Eigen::VectorXd& direction)>;
-
 // All branches from `point`, an equilibrium, without the branch of arrival. Weakly active are all contacts that slip,
 // and each contact with an inequality that is zero to `tolerance`. Of branches with equal directions one is kept: the
 // branch in which fewest contacts slip without moving. Where all branches turn by 90 degrees or more, or there is none,
@@ -88,10 +84,10 @@ using FurtherStates =
 // complementarity problem of the rates (rate_complementarity.h) tells the branches where its solutions are the only
 // ones, and where there are more than 4^6 combinations of states; up to 4^6 combinations are all tried otherwise. Where
 // that problem does not exist, or none of its solutions is a branch, principal pivoting on the rates (rate_problem.h)
-// selects combinations from many first guesses, then up to 4^8 are all tried, and of more, those of `further`. All are
-// certified alike. cancelled: asked often. further, cancelled: may be empty.
+// selects combinations from many first guesses, then up to 4^8 are all tried. All are certified alike.
+// cancelled: asked often; may be empty.
 BranchSet FindBranches(const Structure& structure, const ContactPairs& contacts, const PathPoint& point,
-                       const Arrival& arrival, const ActiveSetTolerance& tolerance, const FurtherStates& further,
+                       const Arrival& arrival, const ActiveSetTolerance& tolerance,
                        const std::function<bool()>& cancelled = nullptr);
 
 }  // namespace contact_path

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <optional>
 #include <vector>
 
 #include "contact_path/contact/contact_pair.h"
@@ -43,6 +44,10 @@ class IncrementProblem : public NonlinearProgram {
 
   // Variables for the guess from + S y with the reactions of `from`.
   Eigen::VectorXd StartingPoint(const Eigen::VectorXd& y) const;
+  // For a point that solves the equations of its states, is stationary for (9) on them and keeps their inequalities:
+  // the variables and multipliers next to it that solve (10) with this barrier parameter, to the first order of the
+  // regularisation. Nothing where the equations are singular.
+  std::optional<PrimalDual> CentralPoint(const PathPoint& point, double barrier) const;
   // The point that variables stand for. States: the larger side of each complementary pair (open or touching, stick or
   // slip).
   PathPoint Point(const Eigen::VectorXd& x) const;
@@ -84,6 +89,15 @@ class IncrementProblem : public NonlinearProgram {
     Eigen::Index row;       // constraint
   };
 
+  // What is zero at a point, one of a complementary pair.
+  struct Zero {
+    Eigen::Index row;     // constraint, or NumConstraints() + variable
+    double factor = 0.0;  // in the relaxed product
+  };
+  using Zeros = std::vector<Zero>;  // of one product
+  std::vector<Zeros> ZerosAt(const PathPoint& point, const Eigen::VectorXd& x) const;
+  // Variables of a chord y with these reactions over S.
+  Eigen::VectorXd Variables(const Eigen::VectorXd& y, const Eigen::VectorXd& rn, const Eigen::VectorXd& rt) const;
   // By y and the dofs of the slot: gap and slip over S; gradients as they are, Hessians and the gradient of the slip
   // factor times S.
   Kinematics ScaledKinematics(const Slot& slot, const Eigen::VectorXd& x) const;

@@ -2,6 +2,7 @@
 #ifndef CONTACT_PATH_MPEC_INCREMENT_SOLVER_H_
 #define CONTACT_PATH_MPEC_INCREMENT_SOLVER_H_
 
+#include <optional>
 #include <vector>
 
 #include "contact_path/contact/contact_pair.h"
@@ -20,17 +21,16 @@ struct RegularisationSchedule {
   double initial = 1e-3;
   double factor = 1e-5;   // rho, 0..1
   double minimum = 1e-8;  // > 0
-  // Sets out from the variables and multipliers of the last increment solved for with as many of them, at `minimum` at
-  // once: where the next increment is much like it, a few iterations do. Where that fails, or `minimum` is above 1e-8,
-  // the schedule from `initial`.
-  bool warm_start = false;
+  // Sets out, at `minimum` at once, from where the contact states of the last increment lead, with multipliers: a few
+  // iterations confirm or refuse the point. Where they refuse it, the schedule from `initial`.
+  bool predicted = false;
 };
 
 struct IncrementTrial {
   SolveStatus status = SolveStatus::kFailed;
   PathPoint point;
   double regularisation = 0.0;  // smallest eps that was solved for, on products of scaled quantities
-  bool warm_start = false;      // set out from the last increment
+  bool predicted = false;       // set out from where the states of the last increment lead
   bool exact = false;           // point solves the unregularised equations of its states and keeps their inequalities
   int iterations = 0;           // of the nonlinear solver
   int variables = 0;            // of the last problem solved
@@ -56,23 +56,27 @@ class IncrementSolver {
   // Solves for one eps after another; *trial: status, iterations, and where solved the point. False where one fails.
   bool Follow(IncrementProblem* problem, const RegularisationSchedule& schedule, PrimalDual* point,
               IncrementTrial* trial);
-  // For the next increment.
-  IncrementTrial Keep(const std::vector<int>& working_set, PrimalDual point, IncrementTrial trial);
-  // Replaces trial->point by the minimum of the objective on the exact equations of its states, if the inequalities
-  // hold there; otherwise by the exact point that is nearest to trial->point.
-  void PolishActiveSet(const PathPoint& from, const IncrementProblem& problem, const IncrementGoal& goal,
-                       IncrementTrial* trial);
-  // By the solution of those equations nearest to `wanted`, unless that is another point. length: of the increment.
-  bool PolishActiveSet(const PathPoint& from, const Eigen::VectorXd& wanted, double length, IncrementTrial* trial);
-  bool StickWhereAtRest(const Eigen::VectorXd& x, double slip, PathPoint* point) const;
+  // One increment from where the contact states of `from` lead.
+  IncrementTrial SolvePredicted(const PathPoint& from, const IncrementGoal& goal,
+                                const RegularisationSchedule& schedule);
+  // Replaces trial->point by the minimum of the objective on the exact equations of its states; otherwise by the exact
+  // point that is nearest to trial->point.
+  void MakeExact(const PathPoint& from, const IncrementProblem& problem, const IncrementGoal& goal,
+                 IncrementTrial* trial);
+  struct ExactPoint {
+    PathPoint point;
+    bool at_corner;  // between two states of a contact
+  };
+  // The solution, nearest to `wanted`, of the equations of the states of `guess`, which change where their inequalities
+  // fail; nothing where that comes to no end, or farther than `reach` from the guess.
+  std::optional<ExactPoint> Exact(const PathPoint& from, const Eigen::VectorXd& wanted, const PathPoint& guess,
+                                  double reach);
 
   const Structure& structure_;
   const ContactPairs& contacts_;
   NonlinearSolver* solver_;
   FixedStateSystem system_;
   ReachTracker tracker_;
-  std::vector<int> last_working_set_;
-  PrimalDual last_;  // of the last problem solved
 };
 
 }  // namespace contact_path

@@ -19,8 +19,7 @@
 
 namespace contact_path {
 
-// Located events and smooth arcs between them: method branch, and method mpec, whose increments end at the minimisers
-// of (9).
+// Located events and smooth arcs between them.
 class BranchMethod : public PathMethod {
  public:
   // model must outlive the method. cancelled may be empty.

@@ -23,7 +23,6 @@ struct BranchOptions {
   double smallest_cosine = 0.98;  // between the tangents at both ends of an increment
   double direction = 1.0;         // sign of the first change of the load factor
   std::vector<BranchChoice> choices;
-  Method method = Method::kBranch;  // mpec: increments end at the minimisers of (9)
   TrialObserver on_trial = {};
   bool inner = false;              // increments are to have a state at the middle of their steps
   bool stability = false;          // increments are to have verdicts of stability

@@ -4,7 +4,6 @@
 
 #include <Eigen/Core>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -38,7 +37,6 @@ class Departure {
  public:
   // model must outlive the departure. cancelled may be empty.
   Departure(const Model& model, const DepartureOptions& options, std::function<bool()> cancelled);
-  ~Departure();
 
   // Takes the reactions of a point of the path into account: the tolerances of active sets follow the largest.
   void NoteReactions(const PathPoint& point);
@@ -58,8 +56,6 @@ class Departure {
   bool other_reactions() const { return other_reactions_; }
 
  private:
-  struct Programs;  // increments (9) by Ipopt, made where they are asked for first
-
   bool SetOut(const PathPoint& point, const Branch& branch, SmoothArc* arc, CurvePoint* current) const;
   std::size_t BestThatLoads(const std::vector<Branch>& branches) const;
   End UnknownRate(const Constraint& constraint, const FixedStateSystem& system, const CurvePoint& at) const;
@@ -67,7 +63,6 @@ class Departure {
   const Model& model_;
   DepartureOptions options_;
   std::function<bool()> cancelled_;
-  std::unique_ptr<Programs> programs_;
   std::optional<PathPoint> begin_;
   std::optional<Eigen::VectorXd> moved_;  // while the path rests: the direction in which it moved before
   bool other_reactions_ = false;

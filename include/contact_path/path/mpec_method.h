@@ -4,8 +4,8 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <memory>
 #include <optional>
-#include <string_view>
 #include <vector>
 
 #include "contact_path/branch/trial_step.h"
@@ -14,7 +14,6 @@
 #include "contact_path/path/model.h"
 #include "contact_path/path/path_method.h"
 #include "contact_path/path/return_detector.h"
-#include "contact_path/path/sentences.h"
 
 namespace contact_path {
 
@@ -35,6 +34,22 @@ struct MpecOptions {
   static MpecOptions For(const TraceOptions& options, double growth);
 };
 
+// Of a trial: accepted, or why not.
+enum class MpecVerdict {
+  kAccepted,
+  kCancelled,
+  kNotSolved,
+  kResidual,
+  kContradiction,
+  kTooLong,
+  kNoProgress,
+  kWrongDirection,
+  kTurnedBack,
+  kBackAtRest,
+  kNotConfirmed,
+  kBeyondTarget,
+};
+
 class MpecMethod : public PathMethod {
  public:
   // model must outlive the method. cancelled may be empty.
@@ -48,7 +63,7 @@ class MpecMethod : public PathMethod {
 
  private:
   struct Trial {
-    std::string_view verdict = sentences::kNotSolved;  // kAccepted, or why the trial is not accepted
+    MpecVerdict verdict = MpecVerdict::kNotSolved;
     IncrementTrial increment;
     Residuals residuals;
   };
@@ -91,6 +106,9 @@ class MpecMethod : public PathMethod {
   double last_length_ = 0.0;   // of it
   int iterations_ = 0;         // since the last accepted increment
 };
+
+// For TraceControl::mpec.
+std::unique_ptr<PathMethod> MakeMpecMethod(const MethodTask& task);
 
 }  // namespace contact_path
 

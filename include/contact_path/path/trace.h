@@ -10,6 +10,7 @@
 #include "contact_path/path/end_reason.h"
 #include "contact_path/path/increment.h"
 #include "contact_path/path/increment_lists.h"
+#include "contact_path/path/path_method.h"
 #include "contact_path/scene/scene.h"
 
 namespace contact_path {
@@ -21,7 +22,7 @@ struct TraceResult {
   bool reached = false;  // what the request asks for: IsReached()
 };
 
-// How the caller takes part. Both functions are called on the thread of Trace().
+// How the caller takes part. The functions are called on the thread of Trace().
 struct TraceControl {
   // Takes each accepted increment, in order, as soon as it is accepted; increment 0 first. What it throws leaves
   // Trace().
@@ -32,12 +33,16 @@ struct TraceControl {
   // of the path on which constant loads are brought on, none. May be left empty: then no trial is described.
   TrialObserver on_trial = {};
   LongLists lists = {};  // that increments are to have besides those that the request wants
+  // Makes method mpec: MakeMpecMethod (path/mpec_method.h), which the library contact_path_mpec brings with Ipopt.
+  // Empty: a request for mpec is refused.
+  MethodMaker mpec = {};
 };
 
 // Traces until a stop criterion holds or another end. Increment 0 is the equilibrium at load factor 0 with all constant
 // loads. Each stage of a program begins with an increment at load factor 0 and ends with one at its target. Everything
 // accepted has been given to `control.on_increment` when this returns, whatever the reason. Throws InvalidRequest
-// (scene/validate.h) for a request that breaks a rule; numerical trouble is a reason, never thrown.
+// (scene/validate.h) for a request that breaks a rule, or wants mpec without control.mpec; numerical trouble is a
+// reason, never thrown.
 TraceResult Trace(const TraceRequest& request, const TraceControl& control);
 
 // Goes on with a trace of `request` that was cut short. increments: the first increments of that trace, from increment

@@ -62,19 +62,6 @@ struct Words<AtLimit> {
       {"follow", AtLimit::kFollow}, {"stop", AtLimit::kStop}, {"jump", AtLimit::kJump}};
 };
 
-// How method mpec finds its increments.
-enum class MpecSolver {
-  kCertified,  // predicted and certified; by Ipopt where the contact states are not known
-  kIpopt,      // Algorithm 3.2: every increment by Ipopt
-};
-
-template <>
-struct Words<MpecSolver> {
-  static constexpr MpecSolver kDefault = MpecSolver::kCertified;
-  static constexpr std::pair<std::string_view, MpecSolver> kAll[] = {{"certified", MpecSolver::kCertified},
-                                                                     {"ipopt", MpecSolver::kIpopt}};
-};
-
 // A flag that is true where it is left out. Words in files and messages, since a message has no such flag.
 enum class DefaultTrue {
   kTrue,
@@ -167,7 +154,6 @@ struct TraceOptions {
   std::vector<std::string> record;
   std::vector<BranchChoice> branch_choices;
   FrictionLaw friction_law = FrictionLaw::kIncremental;
-  MpecSolver mpec_solver = MpecSolver::kCertified;
   DefaultTrue stability = DefaultTrue::kTrue;  // the verdict of stability of each increment is looked for
   AtLimit at_limit = AtLimit::kFollow;
   // k of the machine that loads the structure: with loads f, it keeps s = k (Q - f . u), Q growing. >= 0; 0 = dead
@@ -184,7 +170,7 @@ struct TraceOptions {
   double Direction() const { return direction < 0.0 ? -1.0 : 1.0; }
   bool Records(std::string_view list) const { return std::find(record.begin(), record.end(), list) != record.end(); }
   // Whether corners are located, each at the end of an increment, and on record as events.
-  bool LocatesEvents() const { return method == Method::kBranch || mpec_solver == MpecSolver::kCertified; }
+  bool LocatesEvents() const { return method == Method::kBranch; }
 };
 
 template <>
@@ -197,7 +183,7 @@ struct Fields<TraceOptions> {
                       Member("full_state_every", &P::full_state_every).Within(Range::kNotNegative),
                       Member("stop", &P::stop), Member("at", &P::at), Member("record", &P::record),
                       Member("branch_choices", &P::branch_choices), Member("friction_law", &P::friction_law),
-                      Member("mpec_solver", &P::mpec_solver), Member("stability", &P::stability),
+                      Member("stability", &P::stability),
                       Member("at_limit", &P::at_limit),
                       Member("machine_stiffness", &P::machine_stiffness).Within(Range::kNotNegativeOrInfinite),
                       Member("landing_checks", &P::landing_checks));
