@@ -80,12 +80,12 @@ bool BranchMethod::EndAtOnset(const PathPoint& from, BalancedStep* next, Accepte
   bool found = false;
   // Where curves cross, the tangent is known less well, and the setting may turn at that point.
   const double rounding = at.step.end.is_crossing ? tolerances::kSameTangent * setting_row_.norm() : 0.0;
-  if (!device_.IsDead() && SettingRate(at.step.start.first) > 0.0 && SettingRate(at.step.end.first) < -rounding)
+  if (!machine_.IsDead() && SettingRate(at.step.start.first) > 0.0 && SettingRate(at.step.end.first) < -rounding)
     found = ShortenTo([this](const CurvePoint& point) { return SettingRate(point.first) < 0.0; }, false, next);
   if (stability_) {
     const Verdict before = stability_->OnArc();
     NoteStability(at, *increment, true);
-    const bool lost = before == Verdict::kStable && stability_->UnderDevice() == Verdict::kUnstable;
+    const bool lost = before == Verdict::kStable && stability_->UnderMachine() == Verdict::kUnstable;
     if (!found && lost && !at.step.end.is_limit && !at.step.end.is_crossing)
       found = ShortenTo(
           [this](const CurvePoint& point) {
@@ -103,7 +103,7 @@ bool BranchMethod::EndAtOnset(const PathPoint& from, BalancedStep* next, Accepte
 void BranchMethod::NoteLimit(const ArcStep& at, const AcceptedPoint& increment, Advance* advance) const {
   if (!options_.ends_at_limit || !(SettingRate(at.step.start.first) > 0.0)) return;
   const Eigen::VectorXd along = current_.first.head(LoadFactor());
-  const bool at_limit = device_.IsDead() && increment.kind == IncrementKind::kSmoothLimit;
+  const bool at_limit = machine_.IsDead() && increment.kind == IncrementKind::kSmoothLimit;
   advance->turns = at_limit || SettingRate(current_.first) < 0.0;
   if (advance->turns) {
     advance->moves_off = along;
@@ -112,7 +112,7 @@ void BranchMethod::NoteLimit(const ArcStep& at, const AcceptedPoint& increment, 
   // At a bifurcation of the curve on which the path arrives and goes on, not where it takes another one.
   const bool goes_on = increment.kind == IncrementKind::kRegular || increment.kind == IncrementKind::kOnset ||
                        (at.event.kind == EventKind::kBifurcation && increment.event.taken == 1);
-  if (stability_ && goes_on && stability_->UnderDevice() == Verdict::kUnstable)
+  if (stability_ && goes_on && stability_->UnderMachine() == Verdict::kUnstable)
     advance->moves_off = stability_->Direction().size() > 0 ? stability_->Direction() : along;
 }
 

@@ -30,9 +30,9 @@ End Failure(std::string_view sentence) { return {EndReason::kNumericalFailure, {
 BranchMethod::BranchMethod(const Model& model, const BranchOptions& options, std::function<bool()> cancelled)
     : model_(model),
       options_(options),
-      device_(Device::Of(model.structure, options.machine_stiffness / model.UnitOfMachineStiffness())),
-      setting_row_(device_.Row(model.structure)),
-      stability_(options.stability ? std::make_unique<StabilityMonitor>(model, device_) : nullptr),
+      machine_(Machine::Of(model.structure, options.machine_stiffness / model.UnitOfMachineStiffness())),
+      setting_row_(machine_.Row(model.structure)),
+      stability_(options.stability ? std::make_unique<StabilityMonitor>(model, machine_) : nullptr),
       departure_(model, {options.direction, options.keep_loading, options.largest_reaction}, std::move(cancelled)),
       arc_(model.structure, model.contacts),
       step_length_(options.step),

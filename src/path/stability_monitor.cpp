@@ -27,12 +27,12 @@ void StabilityMonitor::Count(const PathPoint& point, const Eigen::VectorXd& null
   problem_.Set(point, null_direction);
   arc_.dead = problem_.Under(INFINITY);
   arc_.controlled = problem_.Under(0.0);
-  arc_.under_device = device_.IsDead() ? arc_.dead.verdict : problem_.Under(device_.Compliance()).verdict;
+  arc_.under_machine = machine_.IsDead() ? arc_.dead.verdict : problem_.Under(machine_.Compliance()).verdict;
 }
 
 Verdict StabilityMonitor::At(const PathPoint& point) {
   problem_.Set(point, {});
-  return problem_.Under(device_.IsDead() ? INFINITY : device_.Compliance()).verdict;
+  return problem_.Under(machine_.IsDead() ? INFINITY : machine_.Compliance()).verdict;
 }
 
 void StabilityMonitor::Start(const PathPoint& point, const CurvePoint* ahead) {
@@ -85,7 +85,7 @@ void StabilityMonitor::NoteEvent(const PathPoint& leaves, const CurvePoint& ahea
     const auto verdict_of = [](const Stability& of) { return of.verdict; };
     at.dead = Worse(arrives.dead, arc_.dead, verdict_of);
     at.controlled = Worse(arrives.controlled, arc_.controlled, verdict_of);
-    at.under_device = Worse(arrives.under_device, arc_.under_device, [](Verdict of) { return of; });
+    at.under_machine = Worse(arrives.under_machine, arc_.under_machine, [](Verdict of) { return of; });
   }
   Write(at, &ahead);
 }
@@ -99,8 +99,8 @@ void StabilityMonitor::Follow(const CurvePoint& at) {
   const int held = at.first[nd] * along < 0.0 ? 1 : 0;
   arc_.controlled.directions = arc_.dead.directions - held;
   arc_.controlled.verdict = arc_.controlled.directions > 0 ? Verdict::kUnstable : Verdict::kStable;
-  const bool by_device = held == 1 && !device_.IsDead() && along / at.first[nd] + device_.Compliance() < 0.0;
-  arc_.under_device = arc_.dead.directions > (by_device ? 1 : 0) ? Verdict::kUnstable : Verdict::kStable;
+  const bool by_machine = held == 1 && !machine_.IsDead() && along / at.first[nd] + machine_.Compliance() < 0.0;
+  arc_.under_machine = arc_.dead.directions > (by_machine ? 1 : 0) ? Verdict::kUnstable : Verdict::kStable;
   if (arc_.dead.directions > 0 && held == 1) arc_.dead.direction = at.first.head(nd).normalized();
 }
 

@@ -32,8 +32,8 @@
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/scene_index.h"
 #include "contact_path/scene/validate.h"
-#include "contact_path/stability/device.h"
 #include "contact_path/stability/jump.h"
+#include "contact_path/stability/machine.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
@@ -358,14 +358,14 @@ class Tracer {
 
   // Makes the method that goes on from an equilibrium with all contact states open to it. Under a machine the load may
   // fall from there on, while its setting grows. Nothing: it has started.
-  std::optional<End> SetOut(const Model& model, std::optional<double> target, const Device& device,
+  std::optional<End> SetOut(const Model& model, std::optional<double> target, const Machine& machine,
                             const PathPoint& from, StartRecord* found, std::unique_ptr<PathMethod>* method) {
     std::optional<End> not_started;
     for (const double load_sense : {1.0, -1.0}) {
       *found = StartRecord();
       *method = MakeMethod(model, target, recorder_.increments(), load_sense);
       not_started = (*method)->Start(from, found);
-      if (!not_started && (device.IsDead() || (*method)->LoadsOn())) break;
+      if (!not_started && (machine.IsDead() || (*method)->LoadsOn())) break;
     }
     return not_started;
   }
@@ -375,16 +375,16 @@ class Tracer {
   Landed TakeJump(const Model& model, std::optional<double> target, const Eigen::VectorXd& push, bool turns,
                   std::unique_ptr<PathMethod>* method) {
     const Clock::time_point start = Clock::now();
-    const Device device =
-        Device::Of(model.structure, request_.options.machine_stiffness / model.UnitOfMachineStiffness());
-    JumpResult jump = Jump(model.structure, model.contacts, point_, push, device, request_.options.landing_checks,
+    const Machine machine =
+        Machine::Of(model.structure, request_.options.machine_stiffness / model.UnitOfMachineStiffness());
+    JumpResult jump = Jump(model.structure, model.contacts, point_, push, machine, request_.options.landing_checks,
                            control_.cancelled);
     if (jump.cancelled) return {EndBy(EndReason::kCancelled, {sentences::kCancelled})};
     if (jump.came_back && !turns) return {std::nullopt, false};
     if (jump.came_back) {
       StartRecord found;
       LeaveMethod(**method);
-      if (!SetOut(model, target, device, point_, &found, method) && (*method)->LoadsOn()) return {};
+      if (!SetOut(model, target, machine, point_, &found, method) && (*method)->LoadsOn()) return {};
       return {EndBy(EndReason::kNoLanding, {sentences::kNoJump, {}, static_cast<double>(recorder_.increment().index)})};
     }
     if (!jump.landing)
@@ -407,7 +407,7 @@ class Tracer {
     increment.solve.exact = true;
     LeaveMethod(**method);
     StartRecord found;
-    const std::optional<End> not_started = SetOut(model, target, device, increment.point, &found, method);
+    const std::optional<End> not_started = SetOut(model, target, machine, increment.point, &found, method);
     increment.event = std::move(found.branches);
     increment.stability = std::move(found.stability);
     const std::optional<bool> goes_on = Take(model, target, &increment, Seconds(Clock::now() - start));

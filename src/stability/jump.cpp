@@ -178,12 +178,12 @@ struct Course {
 
 class Jumper {
  public:
-  Jumper(const Structure& structure, const ContactPairs& contacts, const PathPoint& from, const Device& device,
+  Jumper(const Structure& structure, const ContactPairs& contacts, const PathPoint& from, const Machine& machine,
          const std::function<bool()>& cancelled)
       : structure_(structure),
         contacts_(contacts),
-        device_(DeviceEquation::Of(structure, device, from)),
-        solver_(structure, contacts, device_),
+        machine_(MachineEquation::Of(structure, machine, from)),
+        solver_(structure, contacts, machine_),
         arc_(structure, contacts),
         start_(solver_.WithPatches(from)),
         extent_(ExtentOf(structure, from.u)),
@@ -384,7 +384,7 @@ class Jumper {
     arc_.SetStates(step->point.states, from);
     const FixedStateSystem& system = arc_.system();
     const Correction correction =
-        arc_.Correct(system.Pack(step->point), device_.Row(system.NumUnknowns()), device_.value);
+        arc_.Correct(system.Pack(step->point), machine_.Row(system.NumUnknowns()), machine_.value);
     if (!correction.converged || !InequalitiesHold(correction.x)) return std::nullopt;
     MotionStep last = *step;
     last.point = system.Unpack(correction.x);
@@ -420,7 +420,7 @@ class Jumper {
 
   const Structure& structure_;
   const ContactPairs& contacts_;
-  const DeviceEquation device_;
+  const MachineEquation machine_;
   MotionStepSolver solver_;
   SmoothArc arc_;
   const PathPoint start_;
@@ -436,10 +436,10 @@ class Jumper {
 }  // namespace
 
 JumpResult Jump(const Structure& structure, const ContactPairs& contacts, const PathPoint& from,
-                const Eigen::VectorXd& push, const Device& device, bool checked,
+                const Eigen::VectorXd& push, const Machine& machine, bool checked,
                 const std::function<bool()>& cancelled) {
   const Eigen::VectorXd along = push.size() > 0 ? push : DefaultPush(structure, from.s);
-  return Jumper(structure, contacts, from, device, cancelled).Run(along, checked);
+  return Jumper(structure, contacts, from, machine, cancelled).Run(along, checked);
 }
 
 }  // namespace contact_path

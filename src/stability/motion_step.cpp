@@ -26,20 +26,20 @@ int PatchOfClosing(const ContactPair& pair, const Eigen::VectorXd& x, double s) 
 
 }  // namespace
 
-DeviceEquation DeviceEquation::Of(const Structure& structure, const Device& device, const PathPoint& at) {
-  const Eigen::VectorXd row = device.Row(structure);
+MachineEquation MachineEquation::Of(const Structure& structure, const Machine& machine, const PathPoint& at) {
+  const Eigen::VectorXd row = machine.Row(structure);
   return {row, row.head(at.u.size()).dot(at.u) + row[at.u.size()] * at.s};
 }
 
-Eigen::VectorXd DeviceEquation::Row(Eigen::Index unknowns) const {
+Eigen::VectorXd MachineEquation::Row(Eigen::Index unknowns) const {
   Eigen::VectorXd of_all = Eigen::VectorXd::Zero(unknowns);
   of_all.head(row.size()) = row;
   return of_all;
 }
 
 MotionStepSolver::MotionStepSolver(const Structure& structure, const ContactPairs& contacts,
-                                   const DeviceEquation& device)
-    : structure_(structure), contacts_(contacts), device_(device), system_(structure, contacts) {}
+                                   const MachineEquation& machine)
+    : structure_(structure), contacts_(contacts), machine_(machine), system_(structure, contacts) {}
 
 PathPoint MotionStepSolver::WithPatches(const PathPoint& point) {
   system_.SetStates(point.states, SlipReferences(contacts_, point), point.patches);
@@ -147,7 +147,7 @@ bool MotionStepSolver::Factorize(const Eigen::VectorXd& x, const Eigen::VectorXd
 bool MotionStepSolver::Newton(const Eigen::VectorXd& drag, const Eigen::VectorXd& anchor, Eigen::VectorXd* x,
                               int* iterations) {
   const Eigen::Index nd = system_.NumDofs();
-  const Eigen::VectorXd row = device_.Row(system_.NumUnknowns());
+  const Eigen::VectorXd row = machine_.Row(system_.NumUnknowns());
   strains_from_ = strains_to_ = x->head(nd + 1);
   bool factorise = true;
   double previous = std::numeric_limits<double>::infinity();
@@ -156,7 +156,7 @@ bool MotionStepSolver::Newton(const Eigen::VectorXd& drag, const Eigen::VectorXd
     residual_.head(nd) += drag.cwiseProduct(x->head(nd) - anchor);
     if (!residual_.allFinite() || (factorise && !Factorize(*x, drag, row))) return false;
     residual_ = -residual_;
-    solver_.Solve(residual_, device_.value - row.dot(*x), &newton_step_);
+    solver_.Solve(residual_, machine_.value - row.dot(*x), &newton_step_);
     const double norm = system_.Norm(newton_step_), scale = 1.0 + x->norm();
     if (!std::isfinite(norm)) return false;
     strains_from_ = x->head(nd + 1);
@@ -174,7 +174,7 @@ int MotionStepSolver::DeterminantSign(const PathPoint& point, const Eigen::Vecto
   system_.SetStates(point.states, SlipReferences(contacts_, point), point.patches);
   const Eigen::VectorXd x = system_.Pack(point);
   strains_from_ = strains_to_ = x.head(system_.NumDofs() + 1);
-  return Factorize(x, drag, device_.Row(system_.NumUnknowns())) ? solver_.DeterminantSign() : 0;
+  return Factorize(x, drag, machine_.Row(system_.NumUnknowns())) ? solver_.DeterminantSign() : 0;
 }
 
 }  // namespace contact_path

@@ -11,18 +11,18 @@
 #include "contact_path/contact/path_point.h"
 #include "contact_path/equations/fixed_state_system.h"
 #include "contact_path/linear/bordered_solver.h"
-#include "contact_path/stability/device.h"
+#include "contact_path/stability/machine.h"
 #include "contact_path/structure/structure.h"
 
 namespace contact_path {
 
 // The equation that a machine with a fixed setting adds: row . (u, s) = value.
-struct DeviceEquation {
+struct MachineEquation {
   Eigen::VectorXd row;  // NumDofs() + 1
   double value = 0.0;
 
   // s = k (Q - f . u), with the Q that the machine has at a point.
-  static DeviceEquation Of(const Structure& structure, const Device& device, const PathPoint& at);
+  static MachineEquation Of(const Structure& structure, const Machine& machine, const PathPoint& at);
   // By the unknowns of a fixed-state system.
   Eigen::VectorXd Row(Eigen::Index unknowns) const;
 };
@@ -43,7 +43,7 @@ struct MotionStep {
 class MotionStepSolver {
  public:
   // All must outlive the solver.
-  MotionStepSolver(const Structure& structure, const ContactPairs& contacts, const DeviceEquation& device);
+  MotionStepSolver(const Structure& structure, const ContactPairs& contacts, const MachineEquation& machine);
 
   // Nothing: Newton's method fails, or no states were found. `from` has known patches where contacts touch.
   std::optional<MotionStep> Solve(const PathPoint& from, const Eigen::VectorXd& drag, const Eigen::VectorXd& anchor);
@@ -71,7 +71,7 @@ class MotionStepSolver {
 
   const Structure& structure_;
   const ContactPairs& contacts_;
-  const DeviceEquation& device_;
+  const MachineEquation& machine_;
   FixedStateSystem system_;
   BorderedSolver solver_;
   Eigen::SparseMatrix<double> jacobian_;

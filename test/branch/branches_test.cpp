@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "contact_path/branch/test_functions.h"
+#include "contact_path/branch/event_functions.h"
 #include "contact_path/path/model.h"
 #include "support/dense.h"
 #include "support/random.h"

@@ -7,9 +7,9 @@
 #include <optional>
 
 #include "contact_path/branch/branches.h"
+#include "contact_path/branch/event_functions.h"
 #include "contact_path/branch/rate_problem.h"
 #include "contact_path/branch/smooth_arc.h"
-#include "contact_path/branch/test_functions.h"
 #include "support/curved_contacts.h"
 
 namespace contact_path::curved_surface_test {

@@ -7,9 +7,9 @@
 #include <optional>
 
 #include "contact_path/branch/branches.h"
+#include "contact_path/branch/event_functions.h"
 #include "contact_path/branch/smooth_arc.h"
 #include "contact_path/branch/state_options.h"
-#include "contact_path/branch/test_functions.h"
 #include "contact_path/contact/rigid_pair.h"
 #include "contact_path/geometry/polyline.h"
 #include "contact_path/structure/structure.h"

@@ -75,9 +75,9 @@ TEST_F(TwoDofFriction, AMachineHoldsItFromItsCriticalStiffness) {
   const double unit = model_.scaling.force / model_.scaling.length;  // per unit of f scaled
   const double f = model_.structure.ReferenceLoad().norm();
   const auto by_machine = [&](double k) {
-    Device device;
-    device.stiffness = k / unit / (f * f);
-    return Jump(model_.structure, model_.contacts, Threshold(), Eigen::Vector2d(1.0, 0.0), device, true, nullptr);
+    Machine machine;
+    machine.stiffness = k / unit / (f * f);
+    return Jump(model_.structure, model_.contacts, Threshold(), Eigen::Vector2d(1.0, 0.0), machine, true, nullptr);
   };
   EXPECT_TRUE(by_machine(0.51).came_back);
   EXPECT_TRUE(by_machine(std::numeric_limits<double>::infinity()).came_back);
@@ -132,23 +132,23 @@ TEST_F(Snap, LandsWhereTheLoadIsTheSame) {
 // From the top, s = 0 and y = 0, which is unstable; a machine of half the critical stiffness c h^2.
 TEST_F(Snap, ASoftMachineDrivesIt) {
   const double f = model_.structure.ReferenceLoad().norm(), unit = model_.scaling.force / model_.scaling.length;
-  Device device;
-  device.stiffness = 0.5 * kC * kHeight * kHeight / unit / (f * f);
+  Machine machine;
+  machine.stiffness = 0.5 * kC * kHeight * kHeight / unit / (f * f);
   const PathPoint from = At(0.0, 0.0);
   const JumpResult jump =
-      Jump(model_.structure, model_.contacts, from, Eigen::Vector2d(0.0, -1.0), device, true, nullptr);
+      Jump(model_.structure, model_.contacts, from, Eigen::Vector2d(0.0, -1.0), machine, true, nullptr);
   ASSERT_TRUE(jump.landing);
   EXPECT_TRUE(jump.robust);
   // W' = -k y with W' = c y (y^2 - h^2): y^2 = h^2 / 2.
   const PathPoint& to = jump.landing->point;
   EXPECT_NEAR(to.u.y() * model_.scaling.length, -kHeight / std::sqrt(2.0), 1e-12);
-  EXPECT_NEAR(to.s - from.s, -device.stiffness * model_.structure.ReferenceLoad().dot(to.u - from.u), 1e-13);
+  EXPECT_NEAR(to.s - from.s, -machine.stiffness * model_.structure.ReferenceLoad().dot(to.u - from.u), 1e-13);
   const double mean = 0.5 * (from.s + to.s) * model_.structure.ReferenceLoad().dot(to.u - from.u);
   EXPECT_NEAR(jump.landing->loads, mean, 1e-12);
   EXPECT_GT(jump.landing->energy_released(), 0.0);
-  device.stiffness *= 2.1;
+  machine.stiffness *= 2.1;
   EXPECT_TRUE(
-      Jump(model_.structure, model_.contacts, from, Eigen::Vector2d(0.0, -1.0), device, true, nullptr).came_back);
+      Jump(model_.structure, model_.contacts, from, Eigen::Vector2d(0.0, -1.0), machine, true, nullptr).came_back);
 }
 
 // ----- the truss lies on its side on a rough floor, pressed onto it by the constant load N
@@ -290,10 +290,10 @@ TEST(JumpOfAnExample, RoughTrussUnderDisplacementControl) {
   const Scene& scene = path.request.scene;
   const Model model(scene, CharacteristicScales(scene));
   const PathPoint from = model.FromIncrement(*corner);
-  Device device;
-  device.stiffness = std::numeric_limits<double>::infinity();
-  const JumpResult jump =
-      Jump(model.structure, model.contacts, from, model.FromIncrement(*(corner + 1)).u - from.u, device, true, nullptr);
+  Machine machine;
+  machine.stiffness = std::numeric_limits<double>::infinity();
+  const JumpResult jump = Jump(model.structure, model.contacts, from, model.FromIncrement(*(corner + 1)).u - from.u,
+                               machine, true, nullptr);
   for (const Drag drag : {Drag::kUniform, Drag::kStiffness}) {
     const std::optional<Landing>& landing = jump.landings[static_cast<std::size_t>(drag)];
     ASSERT_TRUE(landing);

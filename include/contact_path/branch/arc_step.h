@@ -4,8 +4,8 @@
 
 #include <optional>
 
+#include "contact_path/branch/event_functions.h"
 #include "contact_path/branch/smooth_arc.h"
-#include "contact_path/branch/test_functions.h"
 #include "contact_path/branch/trial_step.h"
 
 namespace contact_path {

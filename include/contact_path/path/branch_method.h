@@ -15,7 +15,7 @@
 #include "contact_path/path/path_method.h"
 #include "contact_path/path/stability_monitor.h"
 #include "contact_path/path/work.h"
-#include "contact_path/stability/device.h"
+#include "contact_path/stability/machine.h"
 
 namespace contact_path {
 
@@ -100,8 +100,8 @@ class BranchMethod : public PathMethod {
 
   const Model& model_;
   BranchOptions options_;
-  const Device device_;
-  const Eigen::VectorXd setting_row_;            // Device::Row()
+  const Machine machine_;
+  const Eigen::VectorXd setting_row_;            // Machine::Row()
   std::unique_ptr<StabilityMonitor> stability_;  // null: not asked for
   Departure departure_;
   SmoothArc arc_;

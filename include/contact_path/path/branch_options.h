@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "contact_path/branch/test_functions.h"
+#include "contact_path/branch/event_functions.h"
 #include "contact_path/branch/trial_step.h"
 #include "contact_path/path/largest_reaction.h"
 #include "contact_path/path/return_detector.h"

@@ -8,7 +8,7 @@
 #include "contact_path/contact/path_point.h"
 #include "contact_path/path/increment.h"
 #include "contact_path/path/model.h"
-#include "contact_path/stability/device.h"
+#include "contact_path/stability/machine.h"
 #include "contact_path/stability/stability_problem.h"
 
 namespace contact_path {
@@ -20,8 +20,8 @@ namespace contact_path {
 class StabilityMonitor {
  public:
   // model must outlive the monitor.
-  StabilityMonitor(const Model& model, const Device& device)
-      : model_(model), device_(device), problem_(model.structure, model.contacts) {}
+  StabilityMonitor(const Model& model, const Machine& machine)
+      : model_(model), machine_(machine), problem_(model.structure, model.contacts) {}
 
   // The next increment. at: the curve on which it was reached. stiffness_sign: of the determinant of the tangent at
   // fixed load factor, 0 = singular. null_direction: of the tangent at fixed load factor, du, where it is known to be
@@ -38,12 +38,12 @@ class StabilityMonitor {
   void Start(const PathPoint& point, const CurvePoint* ahead);
 
   const StabilityRecord& record() const { return record_; }
-  // Under the device of the path.
-  Verdict UnderDevice() const { return noted_.under_device; }
+  // Under the machine of the path.
+  Verdict UnderMachine() const { return noted_.under_machine; }
   // The same of the arc that the last increment is inside of; not proved where it begins there.
-  Verdict OnArc() const { return known_ ? arc_.under_device : Verdict::kNotProved; }
+  Verdict OnArc() const { return known_ ? arc_.under_machine : Verdict::kNotProved; }
   bool HasSlips() const { return problem_.HasSlips(); }
-  // Under the device, at a point of the arc that begins or goes on at `of`: looked for anew, and not noted.
+  // Under the machine, at a point of the arc that begins or goes on at `of`: looked for anew, and not noted.
   Verdict At(const PathPoint& point);
   // In which a disturbance grows under dead loads, (du); empty = not known.
   const Eigen::VectorXd& Direction() const { return noted_.dead.direction; }
@@ -52,7 +52,7 @@ class StabilityMonitor {
   // Of a point under one machine after the other.
   struct Verdicts {
     Stability dead, controlled;
-    Verdict under_device = Verdict::kNotProved;
+    Verdict under_machine = Verdict::kNotProved;
   };
   void Count(const PathPoint& point, const Eigen::VectorXd& null_direction);
   // From the count before, and the tangent.
@@ -66,7 +66,7 @@ class StabilityMonitor {
   double CriticalStiffness(const Verdicts& of, const CurvePoint* at) const;
 
   const Model& model_;
-  const Device device_;
+  const Machine machine_;
   StabilityProblem problem_;
   bool known_ = false;  // arc_ holds on this arc
   Verdicts arc_, noted_;

@@ -10,7 +10,7 @@
 
 #include "contact_path/contact/contact_pair.h"
 #include "contact_path/contact/path_point.h"
-#include "contact_path/stability/device.h"
+#include "contact_path/stability/machine.h"
 #include "contact_path/structure/structure.h"
 
 namespace contact_path {
@@ -48,7 +48,7 @@ struct JumpResult {
 // tried, + first. Empty: along the loads that s scales, or else the constant ones, or else generic. checked: the other
 // drags are tried, too.
 JumpResult Jump(const Structure& structure, const ContactPairs& contacts, const PathPoint& from,
-                const Eigen::VectorXd& push, const Device& device, bool checked,
+                const Eigen::VectorXd& push, const Machine& machine, bool checked,
                 const std::function<bool()>& cancelled);
 
 }  // namespace contact_path

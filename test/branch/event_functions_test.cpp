@@ -1,4 +1,4 @@
-#include "contact_path/branch/test_functions.h"
+#include "contact_path/branch/event_functions.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 #include "support/reference_cases.h"
 #include "support/traced_path.h"
 
-namespace contact_path::test_functions_test {
+namespace contact_path::event_functions_test {
 namespace {
 
 std::size_t FirstIncrement(const TracedPath& path, IncrementKind kind, std::size_t from = 1) {
@@ -21,7 +21,7 @@ std::size_t FirstIncrement(const TracedPath& path, IncrementKind kind, std::size
   return from;
 }
 
-TEST(TestFunctions, NothingHappens) {
+TEST(EventFunctions, NothingHappens) {
   TracedArc arc(TraceScene(ReadExample("rigid_stop").scene, 3), 1);
   const Step step = arc.Between(0.0, 0.1);
   const StepEvent event = FirstEvent(&arc.arc(), step);
@@ -33,7 +33,7 @@ TEST(TestFunctions, NothingHappens) {
 }
 
 // The scene is its own scaled scene, and u and s move by the same: the gap 0.1 is closed at sqrt(2) 0.1.
-TEST(TestFunctions, AGapCloses) {
+TEST(EventFunctions, AGapCloses) {
   TracedArc arc(TraceScene(ReadExample("rigid_stop").scene, 3), 1);
   for (const double length : {0.15, 1.0, 10.0}) {
     const Step step = arc.Between(0.0, length);
@@ -53,7 +53,7 @@ TEST(TestFunctions, AGapCloses) {
   EXPECT_EQ(FirstEvent(&arc.arc(), arc.Between(0.0, 0.1415)).kind, EventKind::kContactEvent);
 }
 
-TEST(TestFunctions, TheConeIsReached) {
+TEST(EventFunctions, TheConeIsReached) {
   const TracedPath path = TraceScene(ReadExample("rough_truss").scene, 60);
   TracedArc arc(path, 2);
   // t = 0 is increment 1; the corner limit point is where the slope of the bars is 1 / mu.
@@ -68,7 +68,7 @@ TEST(TestFunctions, TheConeIsReached) {
   EXPECT_NEAR(arc.Load(*located), path.increments[corner].load_factor, 1e-14);
 }
 
-TEST(TestFunctions, TheReactionVanishes) {
+TEST(EventFunctions, TheReactionVanishes) {
   const TracedPath path = TraceScene(ReadExample("two_dof_friction").scene, 100);
   TracedArc arc(path, FirstIncrement(path, IncrementKind::kCornerLimit) + 1);  // slip starts
   const Step step = arc.Between(0.0, 3.0);
@@ -81,7 +81,7 @@ TEST(TestFunctions, TheReactionVanishes) {
 }
 
 // The block comes to rest where the rate of slip is zero: the end of its path.
-TEST(TestFunctions, SlipStops) {
+TEST(EventFunctions, SlipStops) {
   const TracedPath path = TraceScene(snap_block::MakeScene(), 300);
   const std::size_t last = path.increments.size() - 1;
   TracedArc arc(path, last - 1);
@@ -95,7 +95,7 @@ TEST(TestFunctions, SlipStops) {
   EXPECT_NEAR(located->x[0] * arc.model().scaling.length, snap_block::kEndX, 1e-14);
 }
 
-TEST(TestFunctions, LimitPoints) {
+TEST(EventFunctions, LimitPoints) {
   const TracedPath path = TraceScene(ReadExample("von_mises").scene, 100);
   const std::size_t limit = FirstIncrement(path, IncrementKind::kSmoothLimit);
   for (const std::size_t before : {1U, 3U, 8U}) {
@@ -110,7 +110,7 @@ TEST(TestFunctions, LimitPoints) {
   }
 }
 
-TEST(TestFunctions, Bifurcations) {
+TEST(EventFunctions, Bifurcations) {
   const TracedPath path = TraceScene(tall_truss::MakeScene(), 40);
   TracedArc arc(path, FirstIncrement(path, IncrementKind::kBifurcation));
   const Step step = arc.Between(0.0, 0.02);
@@ -124,7 +124,7 @@ TEST(TestFunctions, Bifurcations) {
 }
 
 // Of several events on a step the first is reported, whatever its kind.
-TEST(TestFunctions, TheFirstOfSeveral) {
+TEST(EventFunctions, TheFirstOfSeveral) {
   Scene scene = ReadExample("von_mises").scene;
   const double limit_y = 0.50983;  // of the apex, at the limit point, rounded
   scene.obstacles = {{"low", ObstacleShape::kHalfPlane, 0.0, limit_y - 0.01, 0.0, 1.0, 0.0},
@@ -144,7 +144,7 @@ TEST(TestFunctions, TheFirstOfSeveral) {
 }
 
 // A start at the limit is no event while it is left to the admissible side; towards the other it is one at t = 0.
-TEST(TestFunctions, AStartAtTheLimit) {
+TEST(EventFunctions, AStartAtTheLimit) {
   Scene scene = ReadExample("rigid_stop").scene;
   scene.obstacles[0].px = 1.0;
   TraceRequest request;
@@ -214,4 +214,4 @@ TEST_F(Swing, ANearMissIsLookedAtMoreClosely) {
 }
 
 }  // namespace
-}  // namespace contact_path::test_functions_test
+}  // namespace contact_path::event_functions_test

@@ -1,6 +1,6 @@
 // Watches a step of a smooth arc for what ends it: a broken inequality, a limit point, a bifurcation.
-#ifndef CONTACT_PATH_BRANCH_TEST_FUNCTIONS_H_
-#define CONTACT_PATH_BRANCH_TEST_FUNCTIONS_H_
+#ifndef CONTACT_PATH_BRANCH_EVENT_FUNCTIONS_H_
+#define CONTACT_PATH_BRANCH_EVENT_FUNCTIONS_H_
 
 #include <optional>
 
@@ -57,4 +57,4 @@ double ErrorOfPlace(const CurvePoint& limit_point, Eigen::Index load);
 
 }  // namespace contact_path
 
-#endif  // CONTACT_PATH_BRANCH_TEST_FUNCTIONS_H_
+#endif  // CONTACT_PATH_BRANCH_EVENT_FUNCTIONS_H_

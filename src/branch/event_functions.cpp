@@ -1,4 +1,4 @@
-#include "contact_path/branch/test_functions.h"
+#include "contact_path/branch/event_functions.h"
 
 #include <algorithm>
 #include <cmath>

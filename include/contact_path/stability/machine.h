@@ -1,6 +1,6 @@
 // The machine that loads the structure.
-#ifndef CONTACT_PATH_STABILITY_DEVICE_H_
-#define CONTACT_PATH_STABILITY_DEVICE_H_
+#ifndef CONTACT_PATH_STABILITY_MACHINE_H_
+#define CONTACT_PATH_STABILITY_MACHINE_H_
 
 #include <Eigen/Core>
 #include <cmath>
@@ -10,12 +10,12 @@
 namespace contact_path {
 
 // s = k (Q - f . u): f the reference load, Q the setting of the machine. Scaled.
-struct Device {
+struct Machine {
   // k >= 0. 0: dead loads, s stays with the setting. Infinite: f . u does.
   double stiffness = 0.0;
 
   // Where no load is scaled by s, as where supports or obstacles alone are moved, s is the setting whatever k is.
-  static Device Of(const Structure& structure, double stiffness) {
+  static Machine Of(const Structure& structure, double stiffness) {
     return {structure.ReferenceLoad().isZero(0.0) ? 0.0 : stiffness};
   }
   bool IsDead() const { return stiffness == 0.0; }
@@ -35,4 +35,4 @@ struct Device {
 
 }  // namespace contact_path
 
-#endif  // CONTACT_PATH_STABILITY_DEVICE_H_
+#endif  // CONTACT_PATH_STABILITY_MACHINE_H_
