@@ -37,7 +37,7 @@ void CheckOptions(Checker* checker) {
     if (samples.values.empty() == (samples.count == 0))
       checker->Add(key, samples.quantity, "must have values, or else from, to and count");
     const std::size_t count = std::max(samples.values.size(), static_cast<std::size_t>(std::max(samples.count, 0)));
-    if (count > options.MaxIncrements(checker->Request().program.size()) && options.max_increments >= 0)
+    if (count > options.MaxIncrements(checker->Request().program.size()))
       checker->Add(key.Key(samples.values.empty() ? "count" : "values"), std::to_string(count),
                    "must be at most max_increments, since each value wants an increment");
   }

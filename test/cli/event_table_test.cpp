@@ -23,11 +23,12 @@ TEST(EventTable, NamesWhatChangesAndHasNoNumbersOfRounding) {
                               {{ContactState::kSlipMinus, ContactState::kStick}, 0.5, 0.0, 0.0}};
   std::ostringstream out;
   PrintBranches(request, increment, 1.0, out);
-  EXPECT_EQ(out.str(),
-            "event 2, increment 7, contact_event at load factor 0\n"
-            "* branch 1: dissipation rate 0, load rate 0, turn 0; 2 unchanged\n"
-            "  branch 2: dissipation rate 3.807e-07, load rate 4.958e-06, turn 0.25; b@floor stick -> slip+; 1 unchanged\n"
-            "  branch 3: dissipation rate 0, load rate 0.5, turn 0; b@floor stick -> slip-, c@floor open -> stick\n");
+  EXPECT_EQ(
+      out.str(),
+      "event 2, increment 7, contact_event at load factor 0\n"
+      "* branch 1: dissipation rate 0, load rate 0, turn 0; 2 unchanged\n"
+      "  branch 2: dissipation rate 3.807e-07, load rate 4.958e-06, turn 0.25; b@floor stick -> slip+; 1 unchanged\n"
+      "  branch 3: dissipation rate 0, load rate 0.5, turn 0; b@floor stick -> slip-, c@floor open -> stick\n");
 }
 
 }  // namespace
