@@ -11,8 +11,8 @@
 
 namespace contact_path {
 
-// The exit status: 2 for bad usage, an invalid scene, and what `write(request)` throws, with one line on standard
-// error; 1 where standard output cannot be written. default_scene: empty where the scene has to be given.
+// The exit status: 2 for bad usage, an invalid scene, and what `write(request)` throws, which standard error tells;
+// 1 where standard output cannot be written. default_scene: empty where the scene has to be given.
 template <typename Write>
 int RunOnScene(const std::string& program, const std::string& description, const std::string& default_scene, int argc,
                char** argv, Write write) {

@@ -1,10 +1,10 @@
 #include "scene/loading_rules.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <string>
-#include <type_traits>
 
 #include "contact_path/scene/can_slide.h"
 
@@ -130,39 +130,27 @@ void LoadingRules::NoteBroughtOn(const Stage& stage) {
   if (!checker_.NothingFound() || !loads_are_sound_) return;
   const double target = stage.Target();
   if (stage.unload) return brought_on_.TakeBack(target);
+  const auto add = [&](BroughtOn::Kind kind, std::size_t part, const std::array<double, 3>& values) {
+    for (int i = 0; i < 3; ++i) brought_on_.Add(kind, part, i, target * values[static_cast<std::size_t>(i)]);
+  };
   for (const Load& load : stage.loads) {
-    const std::size_t node = checker_.Index().Node(load.node);
-    if (!scene_.nodes[node].fixed_x) brought_on_.Add(BroughtOn::Kind::kLoad, node, 0, target * load.fx);
-    if (!scene_.nodes[node].fixed_y) brought_on_.Add(BroughtOn::Kind::kLoad, node, 1, target * load.fy);
-    if (!scene_.nodes[node].fixed_rotation) brought_on_.Add(BroughtOn::Kind::kLoad, node, 2, target * load.moment);
+    const std::size_t at = checker_.Index().Node(load.node);
+    const Node& node = scene_.nodes[at];
+    add(BroughtOn::Kind::kLoad, at,
+        {node.fixed_x ? 0.0 : load.fx, node.fixed_y ? 0.0 : load.fy, node.fixed_rotation ? 0.0 : load.moment});
   }
-  for (const SupportMotion& motion : stage.support_motions) {
-    const std::size_t node = checker_.Index().Node(motion.node);
-    brought_on_.Add(BroughtOn::Kind::kSupport, node, 0, target * motion.dx);
-    brought_on_.Add(BroughtOn::Kind::kSupport, node, 1, target * motion.dy);
-    brought_on_.Add(BroughtOn::Kind::kSupport, node, 2, target * motion.rotation);
-  }
-  for (const ObstacleMotion& motion : stage.obstacle_motions) {
-    const std::size_t obstacle = checker_.Index().Obstacle(motion.obstacle);
-    brought_on_.Add(BroughtOn::Kind::kObstacle, obstacle, 0, target * motion.dx);
-    brought_on_.Add(BroughtOn::Kind::kObstacle, obstacle, 1, target * motion.dy);
-    brought_on_.Add(BroughtOn::Kind::kObstacle, obstacle, 2, target * motion.turn);
-  }
+  for (const SupportMotion& motion : stage.support_motions)
+    add(BroughtOn::Kind::kSupport, checker_.Index().Node(motion.node), {motion.dx, motion.dy, motion.rotation});
+  for (const ObstacleMotion& motion : stage.obstacle_motions)
+    add(BroughtOn::Kind::kObstacle, checker_.Index().Obstacle(motion.obstacle), {motion.dx, motion.dy, motion.turn});
 }
 
-template <typename Motion>
-bool LoadingRules::CheckMotion(const KeyPath& path, const Motion& motion) {
-  double turn = 0.0;
-  if constexpr (std::is_same_v<Motion, SupportMotion>)
-    turn = std::abs(motion.rotation);
-  else
-    turn = std::abs(motion.turn);
-  if (!(std::abs(motion.dx) <= kLargestInput && std::abs(motion.dy) <= kLargestInput && turn <= kLargestInput))
+bool LoadingRules::CheckMotion(const KeyPath& path, double dx, double dy, double turn, const char* name_of_turn) {
+  if (!(std::abs(dx) <= kLargestInput && std::abs(dy) <= kLargestInput && std::abs(turn) <= kLargestInput))
     return false;
-  if (std::hypot(motion.dx, motion.dy) >= kSmallestInput || turn >= kSmallestInput) return true;
+  if (std::hypot(dx, dy) >= kSmallestInput || std::abs(turn) >= kSmallestInput) return true;
   checker_.Add(path, "no motion",
-               std::string(std::is_same_v<Motion, SupportMotion> ? "dx, dy or rotation" : "dx, dy or turn") +
-                   " must not be zero (length at least 1e-100)");
+               std::string("dx, dy or ") + name_of_turn + " must not be zero (length at least 1e-100)");
   return false;
 }
 
@@ -187,7 +175,8 @@ void LoadingRules::CheckMotions(const KeyPath& where, std::size_t loading, const
     if (!moved.insert(motion.obstacle).second)
       checker_.Add(path.Key("obstacle"), motion.obstacle, "must not be repeated");
     const Obstacle* const obstacle = checker_.KnownObstacle(motion.obstacle);
-    if (CheckMotion(path, motion) && obstacle != nullptr) CheckNodesCanFollow(path, motion, *obstacle);
+    if (CheckMotion(path, motion.dx, motion.dy, motion.turn, "turn") && obstacle != nullptr)
+      CheckNodesCanFollow(path, motion, *obstacle);
   }
 }
 
@@ -196,7 +185,7 @@ void LoadingRules::CheckSupportMotion(const KeyPath& path, const SupportMotion& 
   checker_.CheckFields(path, motion);
   if (!moved->insert(motion.node).second) checker_.Add(path.Key("node"), motion.node, "must not be repeated");
   const Node* const node = checker_.KnownNode(motion.node);
-  if (!CheckMotion(path, motion) || node == nullptr) return;
+  if (!CheckMotion(path, motion.dx, motion.dy, motion.rotation, "rotation") || node == nullptr) return;
   if (motion.dx != 0.0 && !node->fixed_x)
     checker_.Add(path.Key("dx"), NumberText(motion.dx), "must be 0: node " + node->name + " is not fixed in x");
   if (motion.dy != 0.0 && !node->fixed_y)

@@ -51,8 +51,7 @@ class LoadingRules {
                     const std::vector<ObstacleMotion>& obstacles);
   void CheckSupportMotion(const KeyPath& path, const SupportMotion& motion, std::unordered_set<std::string>* moved);
   // Of a support or an obstacle.
-  template <typename Motion>
-  bool CheckMotion(const KeyPath& path, const Motion& motion);
+  bool CheckMotion(const KeyPath& path, double dx, double dy, double turn, const char* name_of_turn);
   // What an obstacle with friction drags along must be able to follow it, or its reaction is not determined.
   void CheckNodesCanFollow(const KeyPath& path, const ObstacleMotion& motion, const Obstacle& obstacle);
   void CheckStage(const KeyPath& path, std::size_t number);

@@ -49,14 +49,10 @@ class Reader {
       *out = *parsed;
     } else {
       Add(0, path, value, Scalar<T>::Rule(value));
-      if constexpr (std::is_same_v<T, double>) {
-        *out = std::numeric_limits<double>::quiet_NaN();  // no rule compares it with others
-      } else if constexpr (std::is_same_v<T, std::string>) {
-        *out = value.text;  // other parts may refer to it
-        complete_ = complete_ && value.kind == YamlValue::Kind::kText;
-      } else {
-        complete_ = complete_ && std::is_enum_v<T>;
-      }
+      if constexpr (std::is_same_v<T, double>) *out = std::numeric_limits<double>::quiet_NaN();  // no rule compares it
+      if constexpr (std::is_same_v<T, std::string>) *out = value.text;  // other parts may refer to it
+      const bool stands_in = std::is_same_v<T, double> || std::is_same_v<T, std::string>;
+      complete_ = complete_ && (std::is_enum_v<T> || (stands_in && value.kind == YamlValue::Kind::kText));
       const std::string key = path.ToString();
       not_read_.insert(std::is_enum_v<T> ? key.substr(0, key.find_last_of('.')) : key);
     }

@@ -197,7 +197,7 @@ outputs: [final.x_column/7]
 table: table.csv
 """ % program_test.scene_file('lee_frame'))
         lines = self.table()
-        self.assertRegex(lines[0]['status'], r'^invalid: outputs\[0\] = final\.x_column/7: must be of a node of the scene')
+        self.assertRegex(lines[0]['status'], r'^invalid: outputs\[0\] = final\.x_column/7: must be of a node or an obstacle of the scene')
         self.assertEqual(lines[0]['final.x_column/7'], '')
         self.assertRegex(lines[1]['status'], '^ended_early: max_increments: the wanted number of increments was accepted; no stop')
         self.assertAlmostEqual(float(lines[1]['final.x_column/7']), self.traced_end('x_column/7'), delta=1e-12)

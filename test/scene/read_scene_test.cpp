@@ -521,7 +521,8 @@ TEST(ReadSceneTest, NamesTheKeyOrWordThatWasMeant) {
       {39, "    obstacle: flor",
        "file.yaml:39: scene.contacts[0].obstacle = flor: must name an obstacle of the scene; did you mean floor?"},
       {48, "  - quantity: B.x",
-       "file.yaml:48: options.stop[0].quantity = B.x: must refer to a node of the scene; did you mean b.x?"},
+       "file.yaml:48: options.stop[0].quantity = B.x: must refer to a node or an obstacle of the scene; did you mean "
+       "b.x?"},
   };
   for (const Case& c : cases) {
     const std::vector<Violation> violations = ViolationsOf(BaseWith({{c.replaced, c.by}}));

@@ -242,7 +242,7 @@ const BrokenRule kOptionRules[] = {
     {"QuantityOfUnknownNode", [](auto& r) { r.options.stop[2].quantity = "zz.y"; }, "options.stop[2].quantity", "zz.y",
      "must refer to a node"},
     {"QuantityOfMisspeltNode", [](auto& r) { r.options.stop[0].quantity = "B.x"; }, "options.stop[0].quantity", "B.x",
-     "must refer to a node of the scene; did you mean b.x?"},
+     "must refer to a node or an obstacle of the scene; did you mean b.x?"},
     {"ColumnOfMisspeltContact", [](auto& r) { r.options.stop[0].quantity = "rn_c@flor"; }, "options.stop[0].quantity",
      "rn_c@flor", "must refer to a contact of the scene; did you mean rn_c@floor?"},
     {"ReactionOfNode", [](auto& r) { r.options.stop[0].quantity = "b.rn"; }, "options.stop[0].quantity", "b.rn",

@@ -71,7 +71,7 @@ TEST(PathColumn, MayBeSpelledAsAQuantity) {
 }
 
 TEST(PathColumn, SaysWhatANameMustBe) {
-  EXPECT_EQ(RuleOf("x_apx"), "must be of a node of the scene; did you mean apex?");
+  EXPECT_EQ(RuleOf("x_apx"), "must be of a node or an obstacle of the scene; did you mean apex?");
   EXPECT_EQ(RuleOf("rn_foot@flor"), "must be of a contact of the scene; did you mean foot@floor?");
   EXPECT_EQ(RuleOf("state_apex@floor").substr(0, 34), "must be of a contact of the scene");
   EXPECT_EQ(RuleOf("rotation_apex"), "must be of a node that a beam turns");

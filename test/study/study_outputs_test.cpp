@@ -109,7 +109,7 @@ TEST(StudyOutputs, NameTheOneThatIsNotThere) {
   EXPECT_EQ(rule_of("limit_load"),
             "must be limit_loads, events, jumps, released, stable_range, end_reason, final.<column>, max.<column> or "
             "min.<column>; did you mean limit_loads?");
-  EXPECT_EQ(rule_of("final.x_apx"), "must be of a node of the scene; did you mean apex?");
+  EXPECT_EQ(rule_of("final.x_apx"), "must be of a node or an obstacle of the scene; did you mean apex?");
   EXPECT_EQ(rule_of("max.kind"), "must be of a column of numbers, or begin with final.");
   EXPECT_EQ(rule_of("final.kind"), "is an output");
 }
