@@ -157,7 +157,7 @@ class MarkersTest(unittest.TestCase):
                                'the last trace is shown')
             # By its path: an installation below build/ has a launch file of the same name.
             launch = os.path.join(os.path.dirname(os.path.dirname(helpers.scene_path('rough_truss'))), 'launch', 'play.launch')
-            self.start('roslaunch', launch, 'bag:=' + played.bag, 'seconds:=1', 'rviz:=false',
+            self.start('roslaunch', launch, 'bag:=' + played.bag, 'seconds:=3', 'rviz:=false',
                        'frame_id:=table', 'options:=--delay 1', cwd=self.bags, env=dict(os.environ, PWD=self.bags))
             helpers.wait_until(lambda: pictures.messages and shows(pictures.messages[-1], last), 'the bag is shown')
             increments = [increment_of(picture) for picture in pictures.messages]
