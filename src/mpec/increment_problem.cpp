@@ -16,6 +16,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Newton steps with one matrix to a point of (10).
 constexpr int kCentralSteps = 3;
+// Of a bound, over the barrier parameter: how far outside rounding may leave that point, and from where on it is
+// inside.
+constexpr double kOutside = 1e-2, kLeastDistance = 1e-3;
 
 int Int(Eigen::Index index) { return static_cast<int>(index); }
 
@@ -218,9 +221,10 @@ std::optional<PrimalDual> IncrementProblem::CentralPoint(const PathPoint& point,
   result.multipliers.resize(num_constraints_);
   for (Eigen::Index row = 0; row < num_constraints_; ++row) {
     const bool equality = lower[row] == upper[row];
-    if (!equality && !(distance[row] > 0.0)) return std::nullopt;
+    if (!equality && !(distance[row] > -kOutside * barrier)) return std::nullopt;
     const double sign = upper[row] == eps_ ? 1.0 : -1.0;
-    result.multipliers[row] = equality ? own[equation[row]] : sign * barrier / distance[row];
+    result.multipliers[row] =
+        equality ? own[equation[row]] : sign * barrier / std::max(distance[row], kLeastDistance * barrier);
   }
   result.lower_multipliers = Eigen::VectorXd::Zero(num_variables_);
   for (const Slot& slot : slots_) {
