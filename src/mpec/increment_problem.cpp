@@ -16,6 +16,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Newton steps with one matrix to a point of (10).
 constexpr int kCentralSteps = 3;
+// Of a bound, over the barrier parameter: how far outside rounding may leave that point, and from where on it is
+// inside.
+constexpr double kOutside = 1e-2, kLeastDistance = 1e-3;
 
 int Int(Eigen::Index index) { return static_cast<int>(index); }
 
@@ -114,9 +117,9 @@ int IncrementProblem::PatchOf(const Slot& slot, const Eigen::VectorXd& u, double
   return slot.pair->Deformable() ? std::clamp(patch, slot.start_patch - 1, slot.start_patch + 1) : patch;
 }
 
-Eigen::VectorXd IncrementProblem::Variables(const Eigen::VectorXd& y, const Eigen::VectorXd& rn,
-                                            const Eigen::VectorXd& rt) const {
-  Eigen::VectorXd x = Eigen::VectorXd::Zero(num_variables_);
+Eigen::VectorXd IncrementProblem::StartingPoint(const Eigen::VectorXd& y, const Eigen::VectorXd& rn,
+                                                const Eigen::VectorXd& rt) const {
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(num_variables_), values;
   x.head(y.size()) = y;
   for (std::size_t i = 0; i < slots_.size(); ++i) {
     const Slot& slot = slots_[i];
@@ -125,14 +128,8 @@ Eigen::VectorXd IncrementProblem::Variables(const Eigen::VectorXd& y, const Eige
     x[slot.rt] = rt[working_set_[i]] / goal_.length;
     x[slot.lambda] = std::abs(ScaledKinematics(slot, x).xi);
   }
-  return x;
-}
-
-Eigen::VectorXd IncrementProblem::StartingPoint(const Eigen::VectorXd& y) const {
-  Eigen::VectorXd x = Variables(y, from_.rn, from_.rt);
-  const Eigen::VectorXd reactions = structure_.SupportReactions(from_.u, from_.s);
-  for (std::size_t k = 0; k < supports_.size(); ++k)
-    x[supports_[k].reaction] = reactions[static_cast<Eigen::Index>(k)] / goal_.length;
+  Constraints(x, &values);
+  for (const Support& support : supports_) x[support.reaction] = values[support.prescribed->dof];
   return x;
 }
 
@@ -167,32 +164,27 @@ std::vector<IncrementProblem::Zeros> IncrementProblem::ZerosAt(const PathPoint& 
 std::optional<PrimalDual> IncrementProblem::CentralPoint(const PathPoint& point, double barrier) const {
   PrimalDual result;
   Eigen::VectorXd& x = result.x;
-  x = Variables(Chord(from_, point) / goal_.length, point.rn, point.rt);
-  Eigen::VectorXd values, gradient;
-  Constraints(x, &values);
-  for (const Support& support : supports_) x[support.reaction] = values[support.prescribed->dof];
+  x = StartingPoint(Chord(from_, point) / goal_.length, point.rn, point.rt);
   for (std::size_t i = 0; i < slots_.size(); ++i)
     if (slots_[i].rt >= 0 && point.states[static_cast<std::size_t>(working_set_[i])] == ContactState::kOpen)
       x[slots_[i].lambda] += 1.0;  // which is free, but for being far from its bounds
 
   // The equations that hold there, with one row more: the multipliers of (9), and how far to move off.
-  const std::vector<Zeros> zeros = ZerosAt(point, x);
-  std::vector<Eigen::Index> equation(static_cast<std::size_t>(num_constraints_ + num_variables_), -1);
-  Eigen::Index equations = 0;
-  const auto number = [&](Eigen::Index row) { equation[static_cast<std::size_t>(row)] = equations++; };
-  for (Eigen::Index row = 0; row < structure_.NumDofs(); ++row) number(row);
-  for (const Support& support : supports_) number(support.row);
-  for (const Zeros& of : zeros)
-    for (const Zero& zero : of) number(zero.row);
-  Eigen::VectorXd jacobian;
-  JacobianValues(x, &jacobian);
+  const Eigen::VectorXd lower = ConstraintLowerBounds(), upper = ConstraintUpperBounds();
+  Eigen::VectorXi equation = Eigen::VectorXi::Constant(num_constraints_ + num_variables_, -1);
+  int equations = 0;
+  for (Eigen::Index row = 0; row < num_constraints_; ++row)
+    if (lower[row] == upper[row]) equation[row] = equations++;
+  for (const Zeros& of : ZerosAt(point, x))
+    for (const Zero& zero : of) equation[zero.row] = equations++;
+  Eigen::VectorXd values, gradient;
+  JacobianValues(x, &values);
   std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t k = 0; k < jacobian_structure_.size(); ++k)
-    if (const Eigen::Index at = equation[static_cast<std::size_t>(jacobian_structure_[k].row)]; at >= 0)
-      entries.emplace_back(jacobian_structure_[k].column, at, jacobian[static_cast<Eigen::Index>(k)]);
+    if (const int at = equation[jacobian_structure_[k].row]; at >= 0)
+      entries.emplace_back(jacobian_structure_[k].column, at, values[static_cast<Eigen::Index>(k)]);
   for (Eigen::Index variable = 0; variable < num_variables_; ++variable)
-    if (const Eigen::Index at = equation[static_cast<std::size_t>(num_constraints_ + variable)]; at >= 0)
-      entries.emplace_back(variable, at, 1.0);
+    if (const int at = equation[num_constraints_ + variable]; at >= 0) entries.emplace_back(variable, at, 1.0);
   Eigen::SparseMatrix<double> transposed(num_variables_, equations);
   transposed.setFromTriplets(entries.begin(), entries.end());
   BorderedSolver lu;
@@ -200,56 +192,45 @@ std::optional<PrimalDual> IncrementProblem::CentralPoint(const PathPoint& point,
   const bool regular = lu.FactorizeRegular(transposed, GenericVector(num_variables_));
   if (!regular && !(of_rows.Factorize(transposed) && of_columns.Factorize(transposed.transpose()))) return std::nullopt;
   Gradient(x, &gradient);
-  const Eigen::VectorXd multipliers = regular ? lu.SolveTransposed(-gradient) : of_columns.Solve(-gradient);
+  const Eigen::VectorXd own = regular ? lu.SolveTransposed(-gradient) : of_columns.Solve(-gradient);
 
-  // The zeros move off, and what the motion changes to the second order is taken back.
+  // Each zero becomes barrier / (product's multiplier x factor - its own), and what that changes to the second order is
+  // taken back.
   Eigen::VectorXd off(equations);
   for (int step = 0; step < kCentralSteps; ++step) {
     Constraints(x, &values);
-    const auto value = [&](Eigen::Index row) {
-      return row < num_constraints_ ? values[row] : x[row - num_constraints_];
-    };
-    for (std::size_t row = 0; row < equation.size(); ++row)
-      if (equation[row] >= 0) off[equation[row]] = -value(static_cast<Eigen::Index>(row));
+    for (Eigen::Index row = 0; row < equation.size(); ++row)
+      if (equation[row] >= 0) off[equation[row]] = -(row < num_constraints_ ? values[row] : x[row - num_constraints_]);
     for (const Zeros& of : ZerosAt(point, x)) {
-      const auto own = [&](const Zero& zero) { return multipliers[equation[static_cast<std::size_t>(zero.row)]]; };
-      // Each zero becomes barrier / (product's multiplier x factor - its own multiplier).
-      double lower = 0.0;
-      for (const Zero& zero : of) lower = std::max(lower, own(zero) / zero.factor);
-      double upper = lower + static_cast<double>(of.size() + 1) * barrier / eps_;
+      double low = 0.0;
+      for (const Zero& zero : of) low = std::max(low, own[equation[zero.row]] / zero.factor);
+      double high = low + static_cast<double>(of.size() + 1) * barrier / eps_;
       for (int halving = 0; halving < 60; ++halving) {
-        const double middle = 0.5 * (lower + upper);
+        const double middle = 0.5 * (low + high);
         double left = eps_ - barrier / middle;
-        for (const Zero& zero : of) left -= zero.factor * barrier / (middle * zero.factor - own(zero));
-        (left > 0.0 ? upper : lower) = middle;
+        for (const Zero& zero : of) left -= zero.factor * barrier / (middle * zero.factor - own[equation[zero.row]]);
+        (left > 0.0 ? high : low) = middle;
       }
-      for (const Zero& zero : of)
-        off[equation[static_cast<std::size_t>(zero.row)]] += barrier / (upper * zero.factor - own(zero));
+      for (const Zero& zero : of) off[equation[zero.row]] += barrier / (high * zero.factor - own[equation[zero.row]]);
     }
     x += regular ? lu.Solve(off, 0.0) : of_rows.Solve(off);
   }
 
   Constraints(x, &values);
-  result.multipliers = Eigen::VectorXd::Zero(num_constraints_);
-  result.multipliers.head(structure_.NumDofs()) = multipliers.head(structure_.NumDofs());
-  for (const Support& support : supports_)
-    result.multipliers[support.row] = multipliers[equation[static_cast<std::size_t>(support.row)]];
-  result.lower_multipliers = Eigen::VectorXd::Zero(num_variables_);
-  bool inside = true;
-  const auto multiplier = [&](double distance) {
-    inside = inside && distance > 0.0;
-    return barrier / distance;
-  };
-  for (const Slot& slot : slots_) {
-    result.lower_multipliers[slot.rn] = multiplier(x[slot.rn]);
-    result.multipliers[slot.gap_row] = -multiplier(values[slot.gap_row]);
-    result.multipliers[slot.gap_row + 1] = multiplier(eps_ - values[slot.gap_row + 1]);
-    if (slot.rt < 0) continue;
-    for (Eigen::Index row = slot.friction_row; row < slot.friction_row + 4; ++row)
-      result.multipliers[row] = -multiplier(values[row]);
-    result.multipliers[slot.friction_row + 4] = multiplier(eps_ - values[slot.friction_row + 4]);
+  const Eigen::VectorXd distance = (values - lower).cwiseMin(upper - values);  // where it is not an equation
+  result.multipliers.resize(num_constraints_);
+  for (Eigen::Index row = 0; row < num_constraints_; ++row) {
+    const bool equality = lower[row] == upper[row];
+    if (!equality && !(distance[row] > -kOutside * barrier)) return std::nullopt;
+    const double sign = upper[row] == eps_ ? 1.0 : -1.0;
+    result.multipliers[row] =
+        equality ? own[equation[row]] : sign * barrier / std::max(distance[row], kLeastDistance * barrier);
   }
-  if (!inside) return std::nullopt;
+  result.lower_multipliers = Eigen::VectorXd::Zero(num_variables_);
+  for (const Slot& slot : slots_) {
+    if (!(x[slot.rn] > 0.0)) return std::nullopt;
+    result.lower_multipliers[slot.rn] = barrier / x[slot.rn];
+  }
   return result;
 }
 
@@ -285,11 +266,6 @@ PathPoint IncrementProblem::Point(const Eigen::VectorXd& x) const {
       state = slip > x[slot.rt] ? ContactState::kSlipPlus : ContactState::kSlipMinus;
   }
   return point;
-}
-
-double IncrementProblem::ObjectiveAt(const PathPoint& point) const {
-  const Eigen::VectorXd y = Chord(from_, point) / goal_.length;
-  return linear_objective_.dot(y) + 0.5 * goal_.gamma2_factor * y.squaredNorm();
 }
 
 Eigen::VectorXd IncrementProblem::UnconstrainedMinimiser() const {

@@ -58,7 +58,7 @@ IncrementTrial IncrementSolver::Solve(const PathPoint& from, const IncrementGoal
       included.end());
   for (;;) {
     const std::vector<int> working_set(included.begin(), included.end());
-    IncrementTrial trial = SolveWith(from, working_set, goal, schedule);
+    IncrementTrial trial = SolveWith(from, working_set, goal, schedule, nullptr);
     trial.iterations += iterations;
     if (trial.status != SolveStatus::kSolved) return trial;
     const std::size_t before = included.size();
@@ -74,19 +74,22 @@ IncrementTrial IncrementSolver::Solve(const PathPoint& from, const IncrementGoal
 }
 
 IncrementTrial IncrementSolver::SolveWith(const PathPoint& from, const std::vector<int>& working_set,
-                                          const IncrementGoal& goal, const RegularisationSchedule& schedule) {
+                                          const IncrementGoal& goal, RegularisationSchedule schedule,
+                                          const PathPoint* predicted) {
   IncrementProblem problem(structure_, contacts_, from, working_set, goal);
   IncrementTrial trial;
   trial.variables = static_cast<int>(problem.NumVariables());
   trial.constraints = static_cast<int>(problem.NumConstraints());
-
-  const bool regularised = !working_set.empty();
-  trial.regularisation = regularised ? schedule.minimum * goal.length * goal.length : 0.0;
-  PrimalDual point;
-  point.x = problem.StartingPoint(goal.direction);
-  RegularisationSchedule wanted = schedule;
-  if (!regularised) wanted.initial = wanted.minimum = 0.0;
-  if (Follow(&problem, wanted, &point, &trial)) MakeExact(from, problem, goal, &trial);
+  trial.predicted = predicted != nullptr;
+  if (trial.predicted) schedule.initial = schedule.minimum;
+  if (working_set.empty()) schedule.initial = schedule.minimum = 0.0;
+  trial.regularisation = schedule.minimum * goal.length * goal.length;
+  std::optional<PrimalDual> point = PrimalDual{problem.StartingPoint(goal.direction), {}, {}};
+  if (trial.predicted) {
+    problem.SetRegularisation(schedule.minimum);
+    point = problem.CentralPoint(*predicted, kBarrierAtOnce);
+  }
+  if (point && Follow(&problem, schedule, &*point, &trial)) MakeExact(from, problem, goal, &trial);
   return trial;
 }
 
@@ -99,22 +102,12 @@ IncrementTrial IncrementSolver::SolvePredicted(const PathPoint& from, const Incr
     if (touches(from, i)) working_set.push_back(static_cast<int>(i));
   const Eigen::VectorXd wanted =
       IncrementProblem(structure_, contacts_, from, working_set, goal).UnconstrainedMinimiser();
-  const std::optional<ExactPoint> predicted = Exact(from, wanted, from, kLongestIncrement * goal.length);
-  if (!predicted || predicted->at_corner) return trial;
+  const std::optional<PathPoint> predicted = Exact(from, wanted, from, kLongestIncrement * goal.length, false);
+  if (!predicted) return trial;
   working_set.clear();
   for (std::size_t i = 0; i < contacts_.size(); ++i)
-    if (touches(from, i) || touches(predicted->point, i)) working_set.push_back(static_cast<int>(i));
-  IncrementProblem problem(structure_, contacts_, from, working_set, goal);
-  trial.variables = static_cast<int>(problem.NumVariables());
-  trial.constraints = static_cast<int>(problem.NumConstraints());
-  trial.predicted = true;
-  RegularisationSchedule at_once = schedule;
-  at_once.initial = schedule.minimum;
-  if (working_set.empty()) at_once.initial = at_once.minimum = 0.0;
-  trial.regularisation = at_once.minimum * goal.length * goal.length;
-  problem.SetRegularisation(at_once.minimum);
-  std::optional<PrimalDual> point = problem.CentralPoint(predicted->point, kBarrierAtOnce);
-  if (point && Follow(&problem, at_once, &*point, &trial)) MakeExact(from, problem, goal, &trial);
+    if (touches(from, i) || touches(*predicted, i)) working_set.push_back(static_cast<int>(i));
+  trial = SolveWith(from, working_set, goal, schedule, &*predicted);
   if (trial.status == SolveStatus::kSolved && !trial.exact) trial.status = SolveStatus::kFailed;
   return trial;
 }
@@ -141,22 +134,22 @@ void IncrementSolver::MakeExact(const PathPoint& from, const IncrementProblem& p
   least.rn = from.rn;
   least.rt = from.rt;
   const Eigen::VectorXd wanted = problem.UnconstrainedMinimiser();
-  std::optional<ExactPoint> exact = Exact(from, wanted, least, kSamePoint * goal.length);
-  if (!exact) exact = Exact(from, wanted, trial->point, kSamePoint * goal.length);
+  std::optional<PathPoint> exact = Exact(from, wanted, least, kSamePoint * goal.length, true);
+  if (!exact) exact = Exact(from, wanted, trial->point, kSamePoint * goal.length, true);
   // Next to a corner the nonlinear solver may stop where the minimiser is not reached: the equilibrium there is what it
   // found.
   Eigen::VectorXd here(wanted.size());
   here << trial->point.u, trial->point.s;
-  if (!exact) exact = Exact(from, here, trial->point, kSamePoint * goal.length);
+  if (!exact) exact = Exact(from, here, trial->point, kSamePoint * goal.length, true);
   if (!exact) return;
-  trial->point = std::move(exact->point);
+  trial->point = *std::move(exact);
   trial->exact = true;
 }
 
-std::optional<IncrementSolver::ExactPoint> IncrementSolver::Exact(const PathPoint& from, const Eigen::VectorXd& wanted,
-                                                                  const PathPoint& guess, double reach) {
+std::optional<PathPoint> IncrementSolver::Exact(const PathPoint& from, const Eigen::VectorXd& wanted, PathPoint point,
+                                                double reach, bool corners) {
   const Eigen::VectorXd reference = SlipReferences(contacts_, from);
-  ExactPoint exact{guess, false};
+  const PathPoint guess = point;
   std::vector<ContactState> states = guess.states;
   std::vector<int> patches = guess.patches;
   std::vector<bool> changed(states.size(), false);
@@ -164,12 +157,12 @@ std::optional<IncrementSolver::ExactPoint> IncrementSolver::Exact(const PathPoin
   for (int change = 0; change <= kMaxActiveSetChanges; ++change) {
     system_.SetStates(states, reference, patches);
     system_.SetActive(active);
-    const NearestPoint nearest = FindNearestPoint(&system_, system_.Pack(exact.point), wanted);
+    const NearestPoint nearest = FindNearestPoint(&system_, system_.Pack(point), wanted);
     if (!nearest.converged) return std::nullopt;
-    exact.point = system_.Unpack(nearest.x);
-    if (Distance(guess, exact.point) > reach) return std::nullopt;
+    point = system_.Unpack(nearest.x);
+    if (Distance(guess, point) > reach) return std::nullopt;
     // Of what has not moved, rounding alone would tell whether it has stuck or slipped.
-    const double slow = tolerances::kRootOfRounding * Distance(from, exact.point);
+    const double slow = tolerances::kRootOfRounding * Distance(from, point);
     bool kept = true;
     int last = -1;  // contact that has changed
     for (const Constraint& constraint : system_.Inequalities()) {
@@ -188,20 +181,19 @@ std::optional<IncrementSolver::ExactPoint> IncrementSolver::Exact(const PathPoin
         continue;
       }
       if (contacts_[i]->Deformable() && patches[i] == kNearestPatch)
-        patches[i] = contacts_[i]->PatchAt(exact.point.u, exact.point.s);
-      // The state beyond it, and where the contact comes back from there, the corner between both.
-      if (changed[i])
+        patches[i] = contacts_[i]->PatchAt(point.u, point.s);
+      // The state beyond it; where the contact comes back from there, the corner between both.
+      if (corners && changed[i])
         active.push_back(constraint);
       else
         states[i] = StateBeyond(constraint.inequality, *contacts_[i]);
       changed[i] = true;
     }
     if (!kept) continue;
-    exact.at_corner = !active.empty();
     for (const Constraint& constraint : active)
       if (IsOfSlip(constraint.inequality))
-        exact.point.states[static_cast<std::size_t>(constraint.contact)] = ContactState::kStick;
-    return exact;
+        point.states[static_cast<std::size_t>(constraint.contact)] = ContactState::kStick;
+    return point;
   }
   return std::nullopt;
 }

@@ -21,9 +21,6 @@ constexpr double kProgress = 0.05;
 // Without a change of state the path does not turn by more than 60 degrees in one increment.
 constexpr double kSmallestCosine = 0.5;
 
-// Share of the dissipation term in the minimiser: gamma_1 of eq. (4) is what is left of 1, over this share.
-constexpr double kDissipationShare = 0.6;
-
 constexpr double kFarthestTarget = 2.0;  // of the increment that goes past the target: farther is another branch
 constexpr double kLevelling =
     0.25;  // a rate at the end of an increment that may be none, relative to the one at its begin
@@ -81,23 +78,13 @@ bool StatesAgree(const ContactPairs& contacts, const PathPoint& from, const Path
   return true;
 }
 
-std::string_view SentenceOf(MpecVerdict verdict) {
-  switch (verdict) {
-    case MpecVerdict::kAccepted: return sentences::kAccepted;
-    case MpecVerdict::kCancelled: return sentences::kCancelled;
-    case MpecVerdict::kNotSolved: return sentences::kNotSolved;
-    case MpecVerdict::kResidual: return sentences::kResidual;
-    case MpecVerdict::kContradiction: return sentences::kContradiction;
-    case MpecVerdict::kTooLong: return sentences::kTooLong;
-    case MpecVerdict::kNoProgress: return sentences::kNoProgress;
-    case MpecVerdict::kWrongDirection: return sentences::kWrongDirection;
-    case MpecVerdict::kTurnedBack: return sentences::kTurnedBack;
-    case MpecVerdict::kBackAtRest: return sentences::kBackAtRest;
-    case MpecVerdict::kNotConfirmed: return sentences::kNotConfirmed;
-    case MpecVerdict::kBeyondTarget: return sentences::kBeyondTarget;
-  }
-  return {};
-}
+// By verdict.
+constexpr sentences::Sentence kSentences[] = {
+    sentences::kAccepted,      sentences::kCancelled,  sentences::kNotSolved,    sentences::kResidual,
+    sentences::kContradiction, sentences::kTooLong,    sentences::kNoProgress,   sentences::kWrongDirection,
+    sentences::kTurnedBack,    sentences::kBackAtRest, sentences::kNotConfirmed, sentences::kBeyondTarget};
+
+sentences::Sentence SentenceOf(MpecVerdict verdict) { return kSentences[static_cast<std::size_t>(verdict)]; }
 
 }  // namespace
 
@@ -139,17 +126,17 @@ Eigen::VectorXd MpecMethod::Direction(const PathPoint& from, const PathPoint& to
   return Chord(from, to).normalized();
 }
 
-MpecMethod::Trial MpecMethod::SolveOnce(const PathPoint& from, const Eigen::VectorXd& direction, double length,
-                                        double dissipation, const RegularisationSchedule& schedule) {
+MpecMethod::Trial MpecMethod::Try(const PathPoint& from, const Eigen::VectorXd& direction, double length,
+                                  double dissipation, bool predicted) {
+  RegularisationSchedule schedule = options_.regularisation;
+  schedule.predicted = schedule.predicted && predicted;
   Trial trial;
   trial.increment = solver_.Solve(from, {length, direction, dissipation, gamma2_factor_}, schedule);
   iterations_ += trial.increment.iterations;
   Judge(from, direction, length, &trial);
   if (trial.verdict == MpecVerdict::kAccepted || !trial.increment.predicted) return trial;
-  // Another solution may lie nearer to the first guess than to the last increment.
-  RegularisationSchedule anew = schedule;
-  anew.predicted = false;
-  return SolveOnce(from, direction, length, dissipation, anew);
+  // Another solution may lie nearer to the first guess.
+  return Try(from, direction, length, dissipation, false);
 }
 
 bool MpecMethod::TurnsBack(const PathPoint& from, const PathPoint& to, const Eigen::VectorXd& direction) const {
@@ -195,16 +182,12 @@ void MpecMethod::Judge(const PathPoint& from, const Eigen::VectorXd& direction, 
     trial.verdict = MpecVerdict::kAccepted;
 }
 
-MpecMethod::Trial MpecMethod::Try(const PathPoint& from, const Eigen::VectorXd& direction, double length) {
-  return SolveOnce(from, direction, length, kDissipationShare, options_.regularisation);
-}
-
 // The direction that step 0 of Algorithm 3.2 leaves to the user.
 MpecMethod::Trial MpecMethod::TryFirst(const PathPoint& from, double length) {
   Eigen::VectorXd direction = direction_;
   Trial trial;
   for (int i = 0; i < kMostDirections; ++i) {
-    trial = SolveOnce(from, direction, length, 0.0, options_.regularisation);
+    trial = Try(from, direction, length, 0.0);
     const bool moved = trial.increment.status == SolveStatus::kSolved && Distance(from, trial.increment.point) > 0.0;
     if (!moved || Distance(from, trial.increment.point) >= 0.5 * length) break;
     direction = Direction(from, trial.increment.point);
@@ -377,9 +360,9 @@ Advance MpecMethod::Next(const PathPoint& from) {
 std::unique_ptr<PathMethod> MakeMpecMethod(const MethodTask& task) {
   MpecOptions options = MpecOptions::For(task.options, AutomaticStepGrowth(task.model));
   options.target = task.target;
-  options.on_trial = task.on_trial;
+  options.on_trial = task.control.on_trial;
   options.returns = task.returns;
-  return std::make_unique<MpecMethod>(task.model, options, task.cancelled);
+  return std::make_unique<MpecMethod>(task.model, options, task.control.cancelled);
 }
 
 }  // namespace contact_path

@@ -175,8 +175,7 @@ class Tracer {
                                          double load_sense = 1.0) {
     TraceOptions options = request_.options;
     if (target) options.direction = *target < 0.0 ? -1.0 : 1.0;
-    if (options.method == Method::kMpec)
-      return control_.mpec({model, options, target, &*returns_, control_.on_trial, control_.cancelled});
+    if (options.method == Method::kMpec) return control_.mpec({model, options, target, &*returns_, control_});
     BranchOptions branch = BranchOptions::For(options, AutomaticStepGrowth(model));
     branch.ends = {target, WatchedQuantities(model, request_, stage_)};
     branch.increments = increment;

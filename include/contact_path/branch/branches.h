@@ -84,7 +84,7 @@ double DissipationRate(const ContactPairs& contacts, const std::vector<ContactSt
 // complementarity problem of the rates (rate_complementarity.h) tells the branches where its solutions are the only
 // ones, and where there are more than 4^6 combinations of states; up to 4^6 combinations are all tried otherwise. Where
 // that problem does not exist, or none of its solutions is a branch, principal pivoting on the rates (rate_problem.h)
-// selects combinations from many first guesses, then up to 4^8 are all tried. All are certified alike.
+// selects combinations from many first guesses, then up to 4^8 are all tried. All are tried alike.
 // cancelled: asked often; may be empty.
 BranchSet FindBranches(const Structure& structure, const ContactPairs& contacts, const PathPoint& point,
                        const Arrival& arrival, const ActiveSetTolerance& tolerance,

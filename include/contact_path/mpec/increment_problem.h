@@ -40,10 +40,10 @@ class IncrementProblem : public NonlinearProgram {
                    std::vector<int> working_set, IncrementGoal goal);
 
   void SetRegularisation(double eps) { eps_ = eps; }
-  const std::vector<int>& working_set() const { return working_set_; }
 
-  // Variables for the guess from + S y with the reactions of `from`.
-  Eigen::VectorXd StartingPoint(const Eigen::VectorXd& y) const;
+  // Variables for the guess from + S y with these reactions of the contacts; without any, with those of `from`.
+  Eigen::VectorXd StartingPoint(const Eigen::VectorXd& y, const Eigen::VectorXd& rn, const Eigen::VectorXd& rt) const;
+  Eigen::VectorXd StartingPoint(const Eigen::VectorXd& y) const { return StartingPoint(y, from_.rn, from_.rt); }
   // For a point that solves the equations of its states, is stationary for (9) on them and keeps their inequalities:
   // the variables and multipliers next to it that solve (10) with this barrier parameter, to the first order of the
   // regularisation. Nothing where the equations are singular.
@@ -51,8 +51,6 @@ class IncrementProblem : public NonlinearProgram {
   // The point that variables stand for. States: the larger side of each complementary pair (open or touching, stick or
   // slip).
   PathPoint Point(const Eigen::VectorXd& x) const;
-  // Objective of a point, without its reactions.
-  double ObjectiveAt(const PathPoint& point) const;
   // The unconstrained minimum of the objective, (u, s): what an increment would be if nothing were in its way.
   Eigen::VectorXd UnconstrainedMinimiser() const;
 
@@ -96,8 +94,6 @@ class IncrementProblem : public NonlinearProgram {
   };
   using Zeros = std::vector<Zero>;  // of one product
   std::vector<Zeros> ZerosAt(const PathPoint& point, const Eigen::VectorXd& x) const;
-  // Variables of a chord y with these reactions over S.
-  Eigen::VectorXd Variables(const Eigen::VectorXd& y, const Eigen::VectorXd& rn, const Eigen::VectorXd& rt) const;
   // By y and the dofs of the slot: gap and slip over S; gradients as they are, Hessians and the gradient of the slip
   // factor times S.
   Kinematics ScaledKinematics(const Slot& slot, const Eigen::VectorXd& x) const;

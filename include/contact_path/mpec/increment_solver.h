@@ -51,8 +51,9 @@ class IncrementSolver {
   IncrementTrial Solve(const PathPoint& from, const IncrementGoal& goal, const RegularisationSchedule& schedule);
 
  private:
+  // predicted: the point to set out from, or null.
   IncrementTrial SolveWith(const PathPoint& from, const std::vector<int>& working_set, const IncrementGoal& goal,
-                           const RegularisationSchedule& schedule);
+                           RegularisationSchedule schedule, const PathPoint* predicted);
   // Solves for one eps after another; *trial: status, iterations, and where solved the point. False where one fails.
   bool Follow(IncrementProblem* problem, const RegularisationSchedule& schedule, PrimalDual* point,
               IncrementTrial* trial);
@@ -63,14 +64,11 @@ class IncrementSolver {
   // point that is nearest to trial->point.
   void MakeExact(const PathPoint& from, const IncrementProblem& problem, const IncrementGoal& goal,
                  IncrementTrial* trial);
-  struct ExactPoint {
-    PathPoint point;
-    bool at_corner;  // between two states of a contact
-  };
-  // The solution, nearest to `wanted`, of the equations of the states of `guess`, which change where their inequalities
-  // fail; nothing where that comes to no end, or farther than `reach` from the guess.
-  std::optional<ExactPoint> Exact(const PathPoint& from, const Eigen::VectorXd& wanted, const PathPoint& guess,
-                                  double reach);
+  // The solution, nearest to `wanted`, of the equations of the states of `point`, which change where their inequalities
+  // fail; nothing where that comes to no end, or farther than `reach` from the point. corners: the solution may lie
+  // where a contact changes its state.
+  std::optional<PathPoint> Exact(const PathPoint& from, const Eigen::VectorXd& wanted, PathPoint point, double reach,
+                                 bool corners);
 
   const Structure& structure_;
   const ContactPairs& contacts_;

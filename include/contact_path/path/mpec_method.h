@@ -11,9 +11,7 @@
 #include "contact_path/branch/trial_step.h"
 #include "contact_path/mpec/increment_solver.h"
 #include "contact_path/mpec/ipopt_solver.h"
-#include "contact_path/path/model.h"
-#include "contact_path/path/path_method.h"
-#include "contact_path/path/return_detector.h"
+#include "contact_path/path/trace.h"
 
 namespace contact_path {
 
@@ -34,7 +32,7 @@ struct MpecOptions {
   static MpecOptions For(const TraceOptions& options, double growth);
 };
 
-// Of a trial: accepted, or why not.
+// Of a trial: accepted, or why not. In the order of the sentences that say so.
 enum class MpecVerdict {
   kAccepted,
   kCancelled,
@@ -47,7 +45,7 @@ enum class MpecVerdict {
   kTurnedBack,
   kBackAtRest,
   kNotConfirmed,
-  kBeyondTarget,
+  kBeyondTarget
 };
 
 class MpecMethod : public PathMethod {
@@ -75,10 +73,11 @@ class MpecMethod : public PathMethod {
   void Judge(const PathPoint& from, const Eigen::VectorXd& direction, double length, Trial* result) const;
 
   Eigen::VectorXd Direction(const PathPoint& from, const PathPoint& to) const;
-  // One solve, judged by itself.
-  Trial SolveOnce(const PathPoint& from, const Eigen::VectorXd& direction, double length, double dissipation,
-                  const RegularisationSchedule& schedule);
-  Trial Try(const PathPoint& from, const Eigen::VectorXd& direction, double length);
+  // One increment, judged by itself. dissipation: share of that term in the minimiser; gamma_1 of eq. (4) is what is
+  // left of 1, over this share. predicted: where the solution from the predicted point is refused, another one is
+  // looked for.
+  Trial Try(const PathPoint& from, const Eigen::VectorXd& direction, double length, double dissipation = 0.6,
+            bool predicted = true);
   // For the first increment, which has no direction of a last increment: improves the direction until the increment is
   // as long as wanted.
   Trial TryFirst(const PathPoint& from, double length);

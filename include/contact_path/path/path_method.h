@@ -3,19 +3,13 @@
 #define CONTACT_PATH_PATH_PATH_METHOD_H_
 
 #include <cmath>
-#include <functional>
-#include <memory>
 #include <optional>
 #include <vector>
 
-#include "contact_path/branch/trial_step.h"
 #include "contact_path/contact/path_point.h"
 #include "contact_path/path/end.h"
 #include "contact_path/path/increment.h"
-#include "contact_path/path/model.h"
-#include "contact_path/path/return_detector.h"
 #include "contact_path/path/work.h"
-#include "contact_path/scene/trace_options.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
@@ -85,18 +79,6 @@ class PathMethod {
   // What else the user should know when the trace has ended.
   virtual Causes Remarks() const { return {}; }
 };
-
-// What a method is made for: a stage of a trace.
-struct MethodTask {
-  const Model& model;  // must outlive the method
-  TraceOptions options;
-  std::optional<double> target;          // load factor at which the path is to end, in an increment of its own; scaled
-  ReturnDetector* returns = nullptr;     // tells whether the path has come back to where it was; null: that is no end
-  TrialObserver on_trial = {};           // may be empty
-  std::function<bool()> cancelled = {};  // may be empty
-};
-
-using MethodMaker = std::function<std::unique_ptr<PathMethod>(const MethodTask&)>;
 
 }  // namespace contact_path
 

@@ -3,6 +3,8 @@
 #define CONTACT_PATH_PATH_TRACE_H_
 
 #include <functional>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,7 +12,9 @@
 #include "contact_path/path/end_reason.h"
 #include "contact_path/path/increment.h"
 #include "contact_path/path/increment_lists.h"
+#include "contact_path/path/model.h"
 #include "contact_path/path/path_method.h"
+#include "contact_path/path/return_detector.h"
 #include "contact_path/scene/scene.h"
 
 namespace contact_path {
@@ -21,6 +25,8 @@ struct TraceResult {
   int increments = 0;    // increments accepted, increment 0 included
   bool reached = false;  // what the request asks for: IsReached()
 };
+
+struct MethodTask;
 
 // How the caller takes part. The functions are called on the thread of Trace().
 struct TraceControl {
@@ -35,7 +41,16 @@ struct TraceControl {
   LongLists lists = {};  // that increments are to have besides those that the request wants
   // Makes method mpec: MakeMpecMethod (path/mpec_method.h), which the library contact_path_mpec brings with Ipopt.
   // Empty: a request for mpec is refused.
-  MethodMaker mpec = {};
+  std::function<std::unique_ptr<PathMethod>(const MethodTask&)> mpec = {};
+};
+
+// The stage that a method is made for.
+struct MethodTask {
+  const Model& model;  // outlives the method, as all of this
+  TraceOptions options;
+  std::optional<double> target;  // load factor at which the path is to end, scaled
+  ReturnDetector* returns;       // tells whether the path has come back to where it was
+  const TraceControl& control;
 };
 
 // Traces until a stop criterion holds or another end. Increment 0 is the equilibrium at load factor 0 with all constant
