@@ -199,6 +199,8 @@ endfunction()
 
 contact_path_add_python_test(cli_test test/cli/cli_test.py DEPENDS contact_path_trace
   VARIABLES CONTACT_PATH_TRACE=$<TARGET_FILE:contact_path_trace>)
+contact_path_add_python_test(no_blas_test test/cli/no_blas_test.py DEPENDS contact_path_trace
+  VARIABLES CONTACT_PATH_TRACE=$<TARGET_FILE:contact_path_trace> CONTACT_PATH_TEST_DATA=${CMAKE_CURRENT_SOURCE_DIR}/test/data)
 contact_path_add_python_test(determinism_test test/cli/determinism_test.py DEPENDS contact_path_trace
   VARIABLES CONTACT_PATH_TRACE=$<TARGET_FILE:contact_path_trace>)
 contact_path_add_python_test(plot_test test/cli/plot_test.py DEPENDS contact_path_trace

@@ -188,7 +188,7 @@ bool EndAtFirstEvent(SmoothArc* arc, const StepEnds& wanted, ArcStep* at) {
     }
     if (!point) return false;
     KeepSigns(at->step.start, &*point);
-    if (at->event.singular) point->determinant_sign = point->side = 0;
+    if (at->event.singular) point->BeSingular();
     if (at->event.kind == EventKind::kLimitPoint && !at->event.crossing && LoadGoesOn(arc->system(), whole, *point)) {
       at->event.kind = EventKind::kNearTouch;
       point->is_limit = false;
@@ -208,8 +208,7 @@ bool EndAtFirstEvent(SmoothArc* arc, const StepEnds& wanted, ArcStep* at) {
     if (Winds(at->step)) return false;
     const StepEvent earlier = FirstEvent(arc, at->step, *ends);
     // Rounding has put the point beyond the bifurcation that is in its place.
-    if (earlier.crossing && earlier.t >= at->step.length - tolerances::kNoMove)
-      at->step.end.determinant_sign = at->step.end.side = 0;
+    if (earlier.crossing && earlier.t >= at->step.length - tolerances::kNoMove) at->step.end.BeSingular();
     if (earlier.kind == EventKind::kNone || earlier.t >= at->step.length - tolerances::kNoMove) return true;
     // The earlier event is rounding of a short step where it leads to this point again.
     const bool same = IsSame(earlier, found);

@@ -2,26 +2,26 @@
 
 #include <dmumps_c.h>
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 #include <new>
 #include <vector>
 
+#include "contact_path/linear/large_system.h"
 #include "contact_path/linear/linear_solver_error.h"
 #include "contact_path/tolerances.h"
-
-extern "C" {
-void dsytrf_(const char* triangle, const int* n, double* a, const int* lda, int* pivots, double* work, const int* lwork,
-             int* info);
-void dsytrs_(const char* triangle, const int* n, const int* columns, const double* a, const int* lda, const int* pivots,
-             double* b, const int* ldb, int* info);
-}
 
 namespace contact_path {
 namespace {
 
-constexpr int kLargestDense = 150;  // unknowns: up to here dense factors take less time than the analysis of a pattern
-constexpr int kBlock = 32;          // columns that LAPACK eliminates at once
+// Of scaled matrices, whose entries are 1 at most.
+constexpr double kMostGrowth = 1e6;  // of |L| |D| |L'|: beyond, rounding may hide a small eigenvalue
+constexpr double kStiffened = 4.0;   // more than a negative stiffness
+constexpr double kLarge = 0.5;       // an entry of a constraint
+constexpr double kNoZero = 1e-15;    // on the diagonal, so that a pivot which is zero is told by the growth
 
 // The numbers of MUMPS' manual, which counts from 1.
 constexpr int kUseCommWorld = -987654;
@@ -29,56 +29,113 @@ constexpr int kInitialise = -1, kTerminate = -2, kAnalyse = 1, kFactorise = 2, k
 constexpr int kNotEnoughWorkspace = -9, kOutOfMemory = -13, kSingular = -10;
 constexpr int kMostRelaxed = 8;  // times that the estimate of the workspace is doubled
 
-}  // namespace
+// Constraints, at the end with zeros on their diagonal, each right behind the first unknown that is among its largest:
+// the two pivots are one of size two, and what is left is the matrix on the motions that the constraint admits.
+struct UnknownsWithConstraints {
+  using Permutation = Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int>;
 
-struct SymmetricFactors::Dense {
-  Eigen::MatrixXd factors;
-  std::vector<int> pivots;
-  Eigen::VectorXd work;
-  Eigen::Index negative = 0;
-
-  bool Factorize(const Eigen::SparseMatrix<double>& matrix, const Eigen::VectorXd& scale) {
-    const int n = static_cast<int>(matrix.rows());
-    factors.setZero(n, n);
-    for (Eigen::Index column = 0; column < n; ++column)
-      for (Eigen::SparseMatrix<double>::InnerIterator it(matrix, column); it; ++it)
-        factors(it.row(), column) = scale[it.row()] * it.value() * scale[column];
-    pivots.resize(static_cast<std::size_t>(n));
-    work.resize(std::max(1, n * kBlock));
-    const int size = static_cast<int>(work.size());
-    int info = 0;
-    dsytrf_("L", &n, factors.data(), &n, pivots.data(), work.data(), &size, &info);
-    return info == 0 && CountNegative();
-  }
-
-  // Of the blocks of D; false where one of them is next to singular. A block of two has eigenvalues of both signs.
-  bool CountNegative() {
-    negative = 0;
-    double smallest = factors.rows() > 0 ? INFINITY : 1.0, largest = 1.0;
-    for (Eigen::Index k = 0; k < factors.rows(); ++k) {
-      double size = std::abs(factors(k, k));
-      if (pivots[static_cast<std::size_t>(k)] > 0) {
-        negative += factors(k, k) < 0.0 ? 1 : 0;
-      } else {
-        size = std::sqrt(std::abs(factors(k, k) * factors(k + 1, k + 1) - factors(k + 1, k) * factors(k + 1, k)));
-        ++negative;
-        ++k;
-      }
-      smallest = std::min(smallest, size);
-      largest = std::max(largest, size);
-    }
-    return smallest > tolerances::kSingularPivot * largest;
-  }
-
-  void Solve(Eigen::MatrixXd* columns) const {
-    const int n = static_cast<int>(factors.rows()), count = static_cast<int>(columns->cols());
-    int info = 0;
-    dsytrs_("L", &n, &count, factors.data(), &n, pivots.data(), columns->data(), &n, &info);
-  }
+  void operator()(const Eigen::SparseMatrix<double>& matrix, Permutation& order) const;
 };
 
-struct SymmetricFactors::Sparse {
-  Sparse() {
+void UnknownsWithConstraints::operator()(const Eigen::SparseMatrix<double>& matrix, Permutation& order) const {
+  Eigen::Index unknowns = matrix.rows();
+  while (unknowns > 0 && matrix.coeff(unknowns - 1, unknowns - 1) == 0.0) --unknowns;
+  Permutation of_unknowns;
+  Eigen::AMDOrdering<int>()(Eigen::SparseMatrix<double>(matrix.topLeftCorner(unknowns, unknowns)), of_unknowns);
+  std::vector<bool> placed(static_cast<std::size_t>(matrix.rows()));
+  order.resize(matrix.rows());
+  Eigen::Index next = 0;
+  const auto place = [&](Eigen::Index k) {
+    placed[static_cast<std::size_t>(k)] = true;
+    order.indices()[next++] = static_cast<int>(k);
+  };
+  for (Eigen::Index k = 0; k < unknowns; ++k) {
+    const Eigen::Index unknown = of_unknowns.indices()[k];
+    place(unknown);
+    Eigen::Index with = -1;
+    double largest = kLarge;
+    for (Eigen::SparseMatrix<double>::InnerIterator it(matrix, unknown); it; ++it) {
+      if (it.row() < unknowns || placed[static_cast<std::size_t>(it.row())] || std::abs(it.value()) < largest) continue;
+      largest = std::abs(it.value());
+      with = it.row();
+    }
+    if (with >= 0) place(with);
+  }
+  for (Eigen::Index k = unknowns; k < matrix.rows(); ++k)
+    if (!placed[static_cast<std::size_t>(k)]) place(k);
+}
+
+}  // namespace
+
+// Below kLargeSystem: no call of the BLAS. Pivots are not looked for, as hardly any is small: the matrix is definite on
+// the motions that the constraints admit, up to a few directions. Where |L| |D| |L'| says that one was, eigenvalues
+// tell the count, which takes a second at 10^3 unknowns.
+struct SymmetricFactors::Small {
+  using Matrix = Eigen::SparseMatrix<double>;
+
+  bool Factorize(const Matrix& matrix, const Eigen::VectorXd& scale, Eigen::Index constraints) {
+    const Matrix scaled = scale.asDiagonal() * matrix * scale.asDiagonal();
+    // K + kStiffened C' C in place of K: the same solutions, and no pivot of an unknown that comes with its constraint
+    // is small.
+    columns = scaled.rightCols(constraints);
+    Matrix stiffened = scaled;
+    if (constraints > 0) stiffened += Matrix(kStiffened * columns * Matrix(columns.transpose()));
+    stiffened.makeCompressed();
+    const auto same = [](const auto& a, const auto& b, Eigen::Index size) { return std::equal(a, a + size, b); };
+    bool analysed = pattern.rows() == stiffened.rows() && pattern.nonZeros() == stiffened.nonZeros() &&
+                    same(pattern.outerIndexPtr(), stiffened.outerIndexPtr(), stiffened.rows()) &&
+                    same(pattern.innerIndexPtr(), stiffened.innerIndexPtr(), stiffened.nonZeros());
+    pattern.swap(stiffened);
+    factors.setShift(kNoZero);
+    is_dense = false;
+    for (const bool anew : {false, true}) {  // which entries of the constraints are large may have changed
+      if (anew && !analysed) break;
+      if (anew || !analysed) factors.analyzePattern(pattern);
+      factors.factorize(pattern);
+      if (factors.info() == Eigen::Success && Growth() < kMostGrowth) return Count(factors.vectorD());
+    }
+    is_dense = true;
+    const Eigen::MatrixXd dense = scaled;
+    lu.compute(dense);
+    return Count(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(dense, Eigen::EigenvaluesOnly).eigenvalues());
+  }
+
+  // The largest entry of |L| |D| |L'|, which is on its diagonal.
+  double Growth() const {
+    const Matrix& lower = factors.matrixL().nestedExpression();  // without its diagonal
+    const Eigen::VectorXd pivots = factors.vectorD().cwiseAbs();
+    Eigen::VectorXd growth = pivots;
+    for (Eigen::Index k = 0; k < lower.cols(); ++k)
+      for (Matrix::InnerIterator it(lower, k); it; ++it) growth[it.row()] += it.value() * it.value() * pivots[k];
+    return growth.size() > 0 ? growth.maxCoeff() : 0.0;
+  }
+
+  bool Count(const Eigen::VectorXd& pivots) {
+    negative = (pivots.array() < 0.0).count();
+    return pivots.size() == 0 ||
+           pivots.cwiseAbs().minCoeff() > tolerances::kSingularPivot * pivots.cwiseAbs().maxCoeff();
+  }
+
+  void Solve(Eigen::MatrixXd* right) const {
+    if (is_dense) {
+      *right = lu.solve(*right);
+      return;
+    }
+    if (columns.cols() > 0) *right += kStiffened * columns * right->bottomRows(columns.cols());
+    *right = factors.solve(*right);
+  }
+
+  Matrix pattern;  // with the values of the last time
+  Matrix columns;  // of the constraints
+  Eigen::SimplicialLDLT<Matrix, Eigen::Lower, UnknownsWithConstraints> factors;
+  Eigen::PartialPivLU<Eigen::MatrixXd> lu;
+  bool is_dense = false;
+  Eigen::Index negative = 0;
+};
+
+// By MUMPS, with the pivots of Bunch and Kaufman.
+struct SymmetricFactors::Large {
+  Large() {
     mumps.job = kInitialise;
     mumps.par = 1;
     mumps.sym = 2;  // symmetric and indefinite
@@ -90,12 +147,12 @@ struct SymmetricFactors::Sparse {
     Control(24) = 1;                                          // pivots next to zero are told
     mumps.cntl[2] = tolerances::kSingularPivot;               // relative to the matrix
   }
-  ~Sparse() {
+  ~Large() {
     mumps.job = kTerminate;
     dmumps_c(&mumps);
   }
-  Sparse(const Sparse&) = delete;
-  Sparse& operator=(const Sparse&) = delete;
+  Large(const Large&) = delete;
+  Large& operator=(const Large&) = delete;
 
   int& Control(int number) { return mumps.icntl[number - 1]; }
   int Information(int number) const { return mumps.infog[number - 1]; }
@@ -150,33 +207,40 @@ struct SymmetricFactors::Sparse {
 SymmetricFactors::SymmetricFactors() = default;
 SymmetricFactors::~SymmetricFactors() = default;
 
-bool SymmetricFactors::Factorize(const Eigen::SparseMatrix<double>& matrix) {
+bool SymmetricFactors::Factorize(const Eigen::SparseMatrix<double>& matrix, Eigen::Index constraints) {
+  const Eigen::Index unknowns = matrix.rows() - constraints;
   scale_.setZero(matrix.rows());
-  for (Eigen::Index column = 0; column < matrix.cols(); ++column)
-    for (Eigen::SparseMatrix<double>::InnerIterator it(matrix, column); it; ++it)
-      scale_[column] = std::max(scale_[column], std::abs(it.value()));
-  if (!(scale_.array() > 0.0).all() || !scale_.allFinite()) return false;
-  scale_ = scale_.cwiseSqrt().cwiseInverse();
-  is_dense_ = matrix.rows() <= kLargestDense;
-  if (is_dense_) {
-    if (!dense_) dense_ = std::make_unique<Dense>();
-    return dense_->Factorize(matrix, scale_);
+  for (Eigen::Index column = 0; column < matrix.cols(); ++column) {
+    for (Eigen::SparseMatrix<double>::InnerIterator it(matrix, column); it; ++it) {
+      if (column >= unknowns)
+        scale_[column] = std::max(scale_[column], scale_[it.row()] * std::abs(it.value()));
+      else if (it.row() < unknowns)
+        scale_[column] = std::max(scale_[column], std::abs(it.value()));
+    }
+    scale_[column] =
+        column < unknowns ? (scale_[column] > 0.0 ? 1.0 / std::sqrt(scale_[column]) : 1.0) : 1.0 / scale_[column];
   }
-  if (!sparse_) sparse_ = std::make_unique<Sparse>();
-  return sparse_->Factorize(matrix, scale_);
+  if (!scale_.allFinite() || !(scale_.array() > 0.0).all()) return false;
+  is_large_ = matrix.rows() >= kLargeSystem;
+  if (is_large_) {
+    if (!large_) large_ = std::make_unique<Large>();
+    return large_->Factorize(matrix, scale_);
+  }
+  if (!small_) small_ = std::make_unique<Small>();
+  return small_->Factorize(matrix, scale_, constraints);
 }
 
 Eigen::Index SymmetricFactors::NegativeEigenvalues() const {
-  return is_dense_ ? dense_->negative : sparse_->Information(12);
+  return is_large_ ? large_->Information(12) : small_->negative;
 }
 
 void SymmetricFactors::Solve(Eigen::MatrixXd* columns) const {
   if (columns->size() == 0) return;
   *columns = scale_.asDiagonal() * *columns;
-  if (is_dense_)
-    dense_->Solve(columns);
+  if (is_large_)
+    large_->Solve(columns);
   else
-    sparse_->Solve(columns);
+    small_->Solve(columns);
   *columns = scale_.asDiagonal() * *columns;
 }
 

@@ -23,7 +23,7 @@ bool BranchMethod::ShortenTo(const std::function<bool(const CurvePoint&)>& beyon
       // There the equations give no derivatives; the interpolation of the step does.
       middle = step.At(t);
       middle.x = there.x;
-      middle.determinant_sign = middle.side = 0;
+      middle.BeSingular();
       middle.is_limit = false;
       middle.is_crossing = true;
     } else if (!arc_.Derivatives(there.x, step.normal, &middle)) {

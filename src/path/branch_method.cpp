@@ -86,7 +86,7 @@ Advance BranchMethod::ChangeReactions(const PathPoint& from) {
   PathPoint point = departure_.TakeBegin();
   point.states = arc_.system().states();
   if (options_.ChoiceAt(increments_ + 1, 0) != nullptr)
-    return Ended({EndReason::kNoSuchBranch, {{sentences::kOnlyReactionsChange, {}, increments_ + 1.0}}});
+    return Ended({EndReason::kNoSuchBranch, {{sentences::kOnlyReactionsChange, {}, increments_ + 1}}});
   AcceptedPoint increment = IncrementAt(std::move(point), from);
   increment.solve.next_step = step_length_;
   if (!(increment.residuals.Largest() <= tolerances::kAccepted)) return Ended(Failure(sentences::kReactionsAtRest));

@@ -31,9 +31,7 @@ double CoverGaps(const ContactPairs& contacts, const PathPoint& point, double to
 
 Cause NoBranch(const BranchSet& on) {
   if (on.rigid_modes > 0)
-    return {on.rigid_modes == 1 ? sentences::kOneFreeMotion : sentences::kFreeMotions,
-            {},
-            static_cast<double>(on.rigid_modes)};
+    return {on.rigid_modes == 1 ? sentences::kOneFreeMotion : sentences::kFreeMotions, {}, on.rigid_modes};
   return {on.complete_by == Completeness::kNone ? sentences::kNoBranchFound : sentences::kNoBranch};
 }
 
@@ -64,8 +62,7 @@ std::optional<std::size_t> ChosenOf(const std::vector<Branch>& branches, const B
   const auto chosen = static_cast<std::size_t>(std::max(choice->branch, 1) - 1);
   if (chosen < branches.size()) return chosen;
   *end = {EndReason::kNoSuchBranch,
-          {{sentences::kNoSuchBranch, PlaceOf(*choice), static_cast<double>(choice->branch),
-            static_cast<double>(branches.size())}}};
+          {{sentences::kNoSuchBranch, PlaceOf(*choice), choice->branch, static_cast<long>(branches.size())}}};
   return std::nullopt;
 }
 
@@ -145,7 +142,7 @@ bool Departure::SetOut(const PathPoint& point, const Branch& branch, SmoothArc* 
   current->x = arc->system().Pack(point);
   current->load_error = tolerances::kRate * arc->system().ResidualUnit();
   TakeCurve(branch.first, branch.second, arc->NumMotion() - 1, current);
-  current->determinant_sign = current->side = 0;
+  current->BeSingular();
   return current->second.allFinite();
 }
 

@@ -239,7 +239,7 @@ Causes StandsAtEnd(const Model& model, const PathPoint& point) {
   }
   if (at_end.empty()) return {};
   return {{at_end.size() == 1 ? sentences::kStandsAtEnd : sentences::kStandAtEnds,
-           model.scene.contacts[at_end.front()].Name(), static_cast<double>(at_end.size() - 1)}};
+           model.scene.contacts[at_end.front()].Name(), static_cast<long>(at_end.size()) - 1}};
 }
 
 Causes BehindBoundary(const Model& model, const PathPoint& point) {
@@ -309,8 +309,8 @@ Causes ContactTooSoft(const Model& model, const PathPoint& point, double least) 
 }
 
 Causes MissedEnd(const TraceRequest& request, int stage) {
-  const auto stages = static_cast<double>(request.program.size());
-  if (stages > 0.0) return {{sentences::kMissedTarget, {}, static_cast<double>(stage), stages}};
+  const auto stages = static_cast<long>(request.program.size());
+  if (stages > 0) return {{sentences::kMissedTarget, {}, stage, stages}};
   std::vector<std::string> criteria;
   for (const StopCriterion& criterion : request.options.stop) criteria.push_back(ToText(criterion));
   if (criteria.empty()) return {{sentences::kNoCriterion}};

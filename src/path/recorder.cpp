@@ -91,10 +91,8 @@ void Recorder::Append(const Model& model, const AcceptedPoint& accepted, double 
 
 Causes Recorder::Remarks() const {
   if (turned_back_ == 0) return {};
-  return {{turned_back_ > 1 ? sentences::kTurnsBackOften : sentences::kTurnsBack,
-           {},
-           static_cast<double>(first_turned_back_),
-           static_cast<double>(turned_back_)}};
+  return {
+      {turned_back_ > 1 ? sentences::kTurnsBackOften : sentences::kTurnsBack, {}, first_turned_back_, turned_back_}};
 }
 
 void Recorder::Fill(const Model& model, const PathPoint& point, const AcceptedPoint& accepted, double time) {

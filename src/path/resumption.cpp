@@ -12,18 +12,12 @@
 namespace contact_path {
 namespace {
 
-// Whether another path crosses right there: which of the curves the path goes on along is not what an increment
-// records. Nullity tells such a point from redundant contacts, which make the equations singular all along an arc.
-bool IsSingularPoint(const Increment& increment) {
-  return increment.solve.method == Method::kBranch && increment.solve.determinant_sign == 0 &&
-         increment.solve.nullity == 0;
-}
-
 // mpec measures the direction and the bend of the path from the increment before.
 bool CanGoOnFrom(const Increment& before, const Increment& increment) {
   if (before.stage != increment.stage || !(increment.arc_length > before.arc_length)) return false;
   if (increment.solve.method == Method::kMpec && before.index + 1 != increment.index) return false;
-  if (IsSingularPoint(increment)) return false;
+  // Which of the curves that cross there the path goes on along is not what an increment records.
+  if (increment.solve.AtSingularPoint()) return false;
   return !increment.positions.empty() && increment.event.number == 0 && increment.event.branches.empty() &&
          increment.solve.next_step > 0.0 &&
          (increment.kind == IncrementKind::kRegular || increment.kind == IncrementKind::kSmoothLimit ||

@@ -95,8 +95,6 @@ Eigen::VectorXd ReturnDetector::TangentAt(const PathPoint& point, const Eigen::V
   return derivatives.first.head(arc_.NumMotion());
 }
 
-End ClosedPath(int increment) {
-  return {EndReason::kClosedPath, {{sentences::kClosedPath, {}, static_cast<double>(increment)}}};
-}
+End ClosedPath(int increment) { return {EndReason::kClosedPath, {{sentences::kClosedPath, {}, increment}}}; }
 
 }  // namespace contact_path

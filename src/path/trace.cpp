@@ -64,15 +64,15 @@ class Tracer {
   // resumption: where to go on after the increments of an earlier trace, which were repeated; nothing: from the start.
   TraceResult Run(const std::optional<Resumption>& resumption) {
     const OneBlasThread one_thread;
-    const auto last = [this] { return recorder_.increments() - 1.0; };
+    const auto last = [this] { return recorder_.increments() - 1; };
     try {
       TraceStages(resumption);
     } catch (const std::bad_alloc&) {
       if (handing_out_) throw;  // of the caller
-      EndBy(EndReason::kMemoryLimit, {last() < 0.0 ? sentences::kNoMemoryAtStart : sentences::kNoMemory, {}, last()});
+      EndBy(EndReason::kMemoryLimit, {last() < 0 ? sentences::kNoMemoryAtStart : sentences::kNoMemory, {}, last()});
     } catch (const LinearSolverError& error) {
       EndBy(EndReason::kNumericalFailure,
-            {last() < 0.0 ? sentences::kNoSolutionAtStart : sentences::kNoSolution, error.what(), last()});
+            {last() < 0 ? sentences::kNoSolutionAtStart : sentences::kNoSolution, error.what(), last()});
     }
     if (model_ != nullptr) NameInvertedElement(*model_, point_, &end_);
     const Causes missed = EndedBeforeItsEnd() ? MissedEnd(request_, recorder_.increment().stage) : Causes();
@@ -384,13 +384,11 @@ class Tracer {
       StartRecord found;
       LeaveMethod(**method);
       if (!SetOut(model, target, machine, point_, &found, method) && (*method)->LoadsOn()) return {};
-      return {EndBy(EndReason::kNoLanding, {sentences::kNoJump, {}, static_cast<double>(recorder_.increment().index)})};
+      return {EndBy(EndReason::kNoLanding, {sentences::kNoJump, {}, recorder_.increment().index})};
     }
     if (!jump.landing)
-      return {EndBy(EndReason::kNoLanding, {sentences::kNoLanding,
-                                            {},
-                                            static_cast<double>(recorder_.increment().index),
-                                            jump.followed * model.scaling.length})};
+      return {EndBy(EndReason::kNoLanding,
+                    {sentences::kNoLanding, {}, recorder_.increment().index, jump.followed * model.scaling.length})};
     AcceptedPoint increment;
     increment.kind = IncrementKind::kJump;
     increment.point = std::move(jump.landing->point);

@@ -13,9 +13,9 @@ inline constexpr Sentence kBusySending =
 inline constexpr Sentence kCancelling = "cancelling the trace of \"<name>\"";
 inline constexpr Sentence kAnsweredNow = "the caller is answered now; the last increments of \"<name>\" are still sent";
 inline constexpr Sentence kNotRunning = "no trace is running";
-inline constexpr Sentence kDropped = "no trace is running; <count> increments that were still to be sent are dropped";
+inline constexpr Sentence kDropped = "no trace is running; <value> increments that were still to be sent are dropped";
 inline constexpr Sentence kStoppedReading = "the caller asked for it while the bag to resume was read";
-inline constexpr Sentence kAdmitsMemory = "the node admits <count> MB of memory (~<name>)";
+inline constexpr Sentence kAdmitsMemory = "the node admits <value> MB of memory (~<name>)";
 inline constexpr Sentence kAdmitsTime = "the node admits <digits> s (~<name>)";
 
 }  // namespace contact_path::sentences

@@ -52,7 +52,7 @@ void TellEnd(std::uint8_t end_reason, const std::string& message, TraceService::
   response->end_reason = end_reason;
 }
 
-std::string Text(std::string_view sentence, const std::string& name = {}, double value = 0.0) {
+std::string Text(std::string_view sentence, const std::string& name = {}, Number value = 0.0) {
   return EndText({{sentence, name, value}});
 }
 
@@ -194,7 +194,7 @@ bool TraceService::HandleCancel(std_srvs::Trigger::Request& /*request*/, std_srv
   }
   const std::size_t dropped = increments_publisher_.Discard();
   response.success = dropped > 0;
-  response.message = Text(dropped > 0 ? sentences::kDropped : sentences::kNotRunning, {}, static_cast<double>(dropped));
+  response.message = Text(dropped > 0 ? sentences::kDropped : sentences::kNotRunning, {}, static_cast<long>(dropped));
   return true;
 }
 

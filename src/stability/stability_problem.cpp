@@ -27,8 +27,8 @@ void StabilityProblem::Set(const PathPoint& point, const Eigen::VectorXd& null_d
   const Eigen::SparseMatrix<double>& transposed = system_.TransposedJacobian(x);
   singular_ = null_direction.size() > 0 && slips_.empty();
   null_ = null_direction;
-  BuildSaddle(transposed, singular_ ? null_ : Eigen::VectorXd());
-  regular_ = factors_.Factorize(saddle_);
+  BuildSaddle(transposed);
+  regular_ = factors_.Factorize(saddle_, saddle_.rows() - structure_.NumDofs());
   if (!regular_) return;
   // Each equation of motion is a constraint, whose multiplier makes one eigenvalue negative.
   negative_ = factors_.NegativeEigenvalues() - (saddle_.rows() - structure_.NumDofs());
@@ -61,10 +61,8 @@ void StabilityProblem::Classify(const PathPoint& point) {
   }
 }
 
-void StabilityProblem::BuildSaddle(const Eigen::SparseMatrix<double>& transposed,
-                                   const Eigen::VectorXd& null_direction) {
-  const Eigen::Index nd = structure_.NumDofs(), reactions = transposed.rows() - nd - 1;
-  const Eigen::Index size = nd + reactions + (null_direction.size() > 0 ? 1 : 0);
+void StabilityProblem::BuildSaddle(const Eigen::SparseMatrix<double>& transposed) {
+  const Eigen::Index nd = structure_.NumDofs(), reactions = transposed.rows() - nd - 1, size = nd + reactions;
   std::vector<Eigen::Triplet<double>> entries, forces, stiffness;
   double largest = 0.0, skew = 0.0;
   for (Eigen::Index equation = 0; equation < nd; ++equation) {
@@ -91,10 +89,11 @@ void StabilityProblem::BuildSaddle(const Eigen::SparseMatrix<double>& transposed
   for (Eigen::Index column = 0; column < nd; ++column)
     for (Eigen::SparseMatrix<double>::InnerIterator it(stiffness_, column); it; ++it)
       entries.emplace_back(static_cast<int>(it.row()), static_cast<int>(column), it.value());
-  for (Eigen::Index i = 0; i < null_direction.size(); ++i) {
-    if (null_direction[i] == 0.0) continue;
-    entries.emplace_back(static_cast<int>(i), static_cast<int>(size - 1), null_direction[i]);
-    entries.emplace_back(static_cast<int>(size - 1), static_cast<int>(i), null_direction[i]);
+  if (singular_) {
+    // A spring holds one component of the null direction, and takes no part in motions without it.
+    Eigen::Index place = 0;
+    null_.cwiseAbs().maxCoeff(&place);
+    entries.emplace_back(static_cast<int>(place), static_cast<int>(place), largest > 0.0 ? largest : 1.0);
   }
   forces_.resize(nd, reactions);
   forces_.setFromTriplets(forces.begin(), forces.end());
@@ -115,6 +114,9 @@ bool StabilityProblem::Condense(const Eigen::SparseMatrix<double>& transposed) {
   if (!solutions.allFinite()) return false;
   by_load_ = solutions.col(0).head(nd);
   load_compliance_ = f.dot(by_load_);
+  stiff_compliance_ = 0.0;
+  for (Eigen::Index i = 0; i < nd; ++i)
+    if (f[i] != 0.0 && stiffness_.col(i).norm() > 0.0) stiff_compliance_ += f[i] * f[i] / stiffness_.col(i).norm();
   sign_ = negative_ % 2 == 0 ? 1 : -1;
   H_.resize(count, count);
   load_of_slips_.resize(count);
@@ -220,7 +222,7 @@ Stability StabilityProblem::Under(double compliance) const {
   // stiff one.
   double machine = load_compliance_ + compliance;
   if (!dead) {
-    double flexible = std::abs(load_compliance_);
+    double flexible = std::max(std::abs(load_compliance_), stiff_compliance_);
     for (Eigen::Index i = 0; i < H_.rows(); ++i)
       flexible = std::max(flexible, load_of_slips_[i] * load_of_slips_[i] / H_.cwiseAbs().maxCoeff());
     if (flexible == 0.0) flexible = 1.0;

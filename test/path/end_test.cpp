@@ -20,7 +20,7 @@ TEST(EndText, PutsNamesAndNumbersIn) {
       EndText({{sentences::kCurveTurnsReaction, "p@table", 1e-9, 2.7123e-7}}),
       "contact p@table is pressed onto a curve of the radius 1e-09: rounding of the coordinates turns its reaction "
       "by 2.7e-07 rad");
-  EXPECT_EQ(EndText({{sentences::kNoSuchBranch, "event 1", 7.0, 12345.0}}),
+  EXPECT_EQ(EndText({{sentences::kNoSuchBranch, "event 1", 7, 12345}}),
             "branch_choices wants branch 7 at event 1: the number of branches there is 12345");
   EXPECT_EQ(EndText({{sentences::kLimitPointOfLoads, "", 0.123456789}}),
             "a limit point at 0.123457 of their full size; only a dynamic jump leads further");

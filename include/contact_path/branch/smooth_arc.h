@@ -32,6 +32,9 @@ struct CurvePoint {
   int load_sense = 0;
   bool is_limit = false;     // located where the rate of the load factor is zero
   bool is_crossing = false;  // located where another curve crosses
+
+  // The equations are singular here and not along the arc, whatever rounding says.
+  void BeSingular() { determinant_sign = side = 0; }
 };
 
 // Turns the point onto another curve through it.

@@ -7,8 +7,8 @@
 namespace contact_path {
 
 // Unknowns from which on METIS and dense kernels are worth their overhead: KLU is as fast at 10^3, and takes three
-// times as long at 10^4. Below, no solver calls the BLAS, whose kernels depend on the processor: a path by method
-// branch has the same bytes on all of them.
+// times as long at 10^4. Below, no solver but Ipopt calls the BLAS, whose kernels depend on the processor: a path by
+// method branch has the same bytes with all of them, its stability included.
 inline constexpr Eigen::Index kLargeSystem = 3000;
 
 }  // namespace contact_path

@@ -1,4 +1,4 @@
-// L D L' factors of symmetric indefinite matrices, which tell how many eigenvalues are negative.
+// L D L' factors of symmetric matrices under constraints, which tell how many eigenvalues are negative.
 #ifndef CONTACT_PATH_LINEAR_SYMMETRIC_FACTORS_H_
 #define CONTACT_PATH_LINEAR_SYMMETRIC_FACTORS_H_
 
@@ -8,8 +8,9 @@
 
 namespace contact_path {
 
-// By Bunch and Kaufman's pivots: LAPACK where the matrix is small, MUMPS where it is large. By Sylvester's law of
-// inertia D has as many negative eigenvalues as the matrix.
+// Of [K C'; C 0], K unknowns x unknowns, C constraints x unknowns. By Sylvester's law of inertia D has as many negative
+// eigenvalues as the matrix. Below kLargeSystem without the BLAS, so that counts do not depend on the processor; beyond
+// by MUMPS.
 class SymmetricFactors {
  public:
   SymmetricFactors();
@@ -17,21 +18,21 @@ class SymmetricFactors {
   SymmetricFactors(const SymmetricFactors&) = delete;
   SymmetricFactors& operator=(const SymmetricFactors&) = delete;
 
-  // matrix: both triangles, compressed. False if the matrix is singular: its smallest pivot is below
-  // tolerances::kSingularPivot of the largest, after each row and column was divided by the root of its largest entry.
+  // matrix: both triangles, compressed; its last rows are the constraints. False if it is singular: its smallest pivot
+  // is below tolerances::kSingularPivot of the largest, with rows and columns divided so that entries are 1 at most.
   // Throws std::bad_alloc where there is not enough memory, and LinearSolverError where MUMPS fails otherwise.
-  bool Factorize(const Eigen::SparseMatrix<double>& matrix);
+  bool Factorize(const Eigen::SparseMatrix<double>& matrix, Eigen::Index constraints);
   Eigen::Index NegativeEigenvalues() const;
   // Solves A x = b in place for each column.
   void Solve(Eigen::MatrixXd* columns) const;
 
  private:
-  struct Dense;
-  struct Sparse;
+  struct Small;
+  struct Large;
   Eigen::VectorXd scale_;
-  std::unique_ptr<Dense> dense_;
-  std::unique_ptr<Sparse> sparse_;
-  bool is_dense_ = true;
+  std::unique_ptr<Small> small_;
+  std::unique_ptr<Large> large_;
+  bool is_large_ = false;
 };
 
 }  // namespace contact_path

@@ -37,8 +37,8 @@ class BranchMethod : public PathMethod {
   Eigen::Index LoadFactor() const { return arc_.NumMotion() - 1; }  // its place among the unknowns
   // An increment in which nothing moves: the reactions with which the branch begins.
   Advance ChangeReactions(const PathPoint& from);
-  // An increment that ends at the point, and one that ends with the step, as far as both are known before the event
-  // setting of the machine grows there.
+  // An increment that ends at the point, and one that ends with the step, as far as both are known before the event is
+  // passed.
   AcceptedPoint IncrementAt(PathPoint point, const PathPoint& from) const;
   AcceptedPoint IncrementOf(const ArcStep& step, const PathPoint& from) const;
   // The exact point of the arc on the plane at half of the step, where the options want it and Newton's method finds

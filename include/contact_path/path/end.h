@@ -4,17 +4,21 @@
 
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "contact_path/path/end_reason.h"
 
 namespace contact_path {
 
+// A quantity in units of the scene, or a count.
+using Number = std::variant<double, long>;
+
 struct Cause {
   std::string_view sentence;  // of sentences.h
   std::string name = {};      // of the contact, bar, ... that the sentence is about
-  double value = 0.0;         // in units of the scene
-  double other = 0.0;         // the second number of the sentence, in units of the scene: of a sign, the error of value
+  Number value = 0.0;
+  Number other = 0.0;  // the second number of the sentence: of a sign, the error of value
 };
 
 using Causes = std::vector<Cause>;

@@ -123,6 +123,10 @@ struct SolveRecord {
   double next_step = 0.0;    // length with which the next increment is tried, scaled norm; 0 = there is none
   double gamma2_factor = 1.0;  // by Ipopt: factor on gamma_2 in the next increment (Algorithm 3.2, step 4)
   double time = 0.0;           // wall time [s]
+
+  // Whether another path crosses right there. Nullity tells such a point from redundant contacts, which make the
+  // equations singular all along an arc.
+  bool AtSingularPoint() const { return method == Method::kBranch && determinant_sign == 0 && nullity == 0; }
 };
 
 // All fields except the time, which the message calls solve_time.

@@ -4,9 +4,8 @@
 
 #include <string_view>
 
-// EndText() puts in: <name>, <value>, <other> of the cause; its two numbers as <count> and <of>, which are whole there;
-// <digits>, the value in up to six digits; <unknown>, what is not known of a sign. A sentence that ends with a colon
-// goes on with the next cause.
+// EndText() puts in: <name>, <value>, <other> of the cause; <digits>, the value in up to six digits; <unknown>, what is
+// not known of a sign. A sentence that ends with a colon goes on with the next cause.
 namespace contact_path::sentences {
 
 using Sentence = std::string_view;
@@ -16,18 +15,18 @@ inline constexpr Sentence kStopCriterion = "<name>";
 inline constexpr Sentence kProgramDone = "the program was traced to its end";
 inline constexpr Sentence kMaxIncrements = "the wanted number of increments was accepted";
 inline constexpr Sentence kCancelled = "the caller asked for it";
-inline constexpr Sentence kClosedPath = "the path has come back to increment <count> and repeats from there on";
+inline constexpr Sentence kClosedPath = "the path has come back to increment <value> and repeats from there on";
 inline constexpr Sentence kNoMemoryAtStart = "there is not enough memory before increment 0";
-inline constexpr Sentence kNoMemory = "there is not enough memory after increment <count>";
+inline constexpr Sentence kNoMemory = "there is not enough memory after increment <value>";
 inline constexpr Sentence kNoSolutionAtStart = "<name>, before increment 0";
-inline constexpr Sentence kNoSolution = "<name>, after increment <count>";
+inline constexpr Sentence kNoSolution = "<name>, after increment <value>";
 inline constexpr Sentence kConstantLoads = "while the constant loads were brought on:";
 inline constexpr Sentence kAtLimit =
     "the machine can go no further on a stable path: at_limit jump tells where the structure lands, follow goes on";
 inline constexpr Sentence kNoLanding =
-    "the jump from increment <count> comes to no equilibrium: it was followed until a node had moved by <other>";
+    "the jump from increment <value> comes to no equilibrium: it was followed until a node had moved by <other>";
 inline constexpr Sentence kNoJump =
-    "the machine can go no further, and the jump from increment <count> comes back to where it began";
+    "the machine can go no further, and the jump from increment <value> comes back to where it began";
 
 // Where branches part, and where none leads on.
 inline constexpr Sentence kNoBranch =
@@ -37,13 +36,13 @@ inline constexpr Sentence kNoBranchFound =
 inline constexpr Sentence kOneFreeMotion =
     "no admissible branch, and the structure is a mechanism here: nothing resists 1 motion";
 inline constexpr Sentence kFreeMotions =
-    "no admissible branch, and the structure is a mechanism here: nothing resists <count> motions";
+    "no admissible branch, and the structure is a mechanism here: nothing resists <value> motions";
 inline constexpr Sentence kBecameMechanism =
     "the structure has become a mechanism: it can move in several directions without any change of load and reactions";
 inline constexpr Sentence kNoSuchBranch =
-    "branch_choices wants branch <count> at <name>: the number of branches there is <of>";
+    "branch_choices wants branch <value> at <name>: the number of branches there is <other>";
 inline constexpr Sentence kOnlyReactionsChange =
-    "branch_choices wants a branch at increment <count>: only reactions change there, and the branches part in the "
+    "branch_choices wants a branch at increment <value>: only reactions change there, and the branches part in the "
     "increment before";
 inline constexpr Sentence kSlidesOffObstacle =
     "contact <name> is lost: the node slides over the end of the obstacle while it is pressed onto it, and only a "
@@ -56,7 +55,7 @@ inline constexpr Sentence kLimitPointOfLoads =
 inline constexpr Sentence kStandsAtEnd =
     "contact <name> stands at an end of its surface, over which a contact cannot slide";
 inline constexpr Sentence kStandAtEnds =
-    "contact <name> and <count> more stand at ends of their surfaces, over which a contact cannot slide";
+    "contact <name> and <value> more stand at ends of their surfaces, over which a contact cannot slide";
 inline constexpr Sentence kOpenBeyondTarget =
     "every contact is open, and the load factor has gone beyond minus its target and moves away from it; with a stop "
     "criterion the path goes on";
@@ -132,7 +131,7 @@ inline constexpr Sentence kBehindObstacle =
 inline constexpr Sentence kPulls = "contact <name> pulls with <value>, and the error of its reaction is <other>";
 
 // Remarks.
-inline constexpr Sentence kMissedTarget = "the target of stage <count> of <of> was not reached";
+inline constexpr Sentence kMissedTarget = "the target of stage <value> of <other> was not reached";
 inline constexpr Sentence kNoCriterion = "no stop criterion was given";
 inline constexpr Sentence kMissedCriteria = "no stop criterion was met (<name>)";
 inline constexpr Sentence kMissedChoices = "branch_choices: never came to <name>";
@@ -141,11 +140,11 @@ inline constexpr Sentence kFreeWithoutLoad = "without a load, <name>";
 inline constexpr Sentence kOtherReactions =
     "where several contacts hold a node its reactions are not unique: the least ones were taken";
 inline constexpr Sentence kTurnsBack =
-    "at increment <count> the load turns back, since that dissipates most, where another branch goes on with it: see "
+    "at increment <value> the load turns back, since that dissipates most, where another branch goes on with it: see "
     "branch_choices";
 inline constexpr Sentence kTurnsBackOften =
-    "at increment <count> the load turns back, since that dissipates most, where another branch goes on with it (the "
-    "first of <of> such increments): see branch_choices";
+    "at increment <value> the load turns back, since that dissipates most, where another branch goes on with it (the "
+    "first of <other> such increments): see branch_choices";
 inline constexpr Sentence kInObstacles = "nodes that are no candidates have gone into obstacles: <name>";
 inline constexpr Sentence kShortPath =
     "the whole path is hardly longer than what increments may cut off: to be trusted only with a smaller step";

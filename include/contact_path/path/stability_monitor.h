@@ -25,8 +25,7 @@ class StabilityMonitor {
 
   // The next increment. at: the curve on which it was reached. stiffness_sign: of the determinant of the tangent at
   // fixed load factor, 0 = singular. null_direction: of the tangent at fixed load factor, du, where it is known to be
-  // singular; else empty.
-  // arc: with the factors of the point.
+  // singular; else empty. arc: with the factors of the point.
   void Note(const PathPoint& point, const SmoothArc& arc, const CurvePoint& at, int stiffness_sign,
             const Eigen::VectorXd& null_direction);
   // Where contacts change their states or patches, behind Note(): the point as it is left, along `ahead`. A contact

@@ -62,7 +62,7 @@ class StabilityProblem {
   };
 
   void Classify(const PathPoint& point);
-  void BuildSaddle(const Eigen::SparseMatrix<double>& transposed, const Eigen::VectorXd& null_direction);
+  void BuildSaddle(const Eigen::SparseMatrix<double>& transposed);
   bool Condense(const Eigen::SparseMatrix<double>& transposed);
   // A motion without slip whose energy falls, among the softest ones, by inverse iterations of a subspace; empty: none
   // is found.
@@ -83,11 +83,12 @@ class StabilityProblem {
   bool singular_ = false;                                    // the point is known to be
   bool symmetric_ = true;                                    // K is
   Eigen::SparseMatrix<double> saddle_, stiffness_, forces_;  // symmetric K and columns of reactions
-  Eigen::Index negative_ = 0;     // n0; where the point is singular, besides its null direction
-  int sign_ = 1;                  // of det K where S sticks
-  double load_compliance_ = 0.0;  // f . by_load_
-  Eigen::VectorXd by_load_;       // du by a unit of s
-  Eigen::MatrixXd motions_;       // by unit slips, columns
+  Eigen::Index negative_ = 0;      // n0; where the point is singular, besides its null direction
+  int sign_ = 1;                   // of det K where S sticks
+  double load_compliance_ = 0.0;   // f . by_load_
+  double stiff_compliance_ = 0.0;  // the same if only components that are loaded moved, one at a time
+  Eigen::VectorXd by_load_;        // du by a unit of s
+  Eigen::MatrixXd motions_;        // by unit slips, columns
   Eigen::MatrixXd H_;
   Eigen::VectorXd w_of_load_;      // of by_load_
   Eigen::VectorXd load_of_slips_;  // f . motions
