@@ -21,6 +21,9 @@ constexpr double kProgress = 0.05;
 // Without a change of state the path does not turn by more than 60 degrees in one increment.
 constexpr double kSmallestCosine = 0.5;
 
+// With one it may turn by more than a right angle, but not go back the way that it came.
+constexpr double kWayBack = -0.9;
+
 constexpr double kFarthestTarget = 2.0;  // of the increment that goes past the target: farther is another branch
 constexpr double kLevelling =
     0.25;  // a rate at the end of an increment that may be none, relative to the one at its begin
@@ -174,7 +177,7 @@ void MpecMethod::Judge(const PathPoint& from, const Eigen::VectorXd& direction, 
     trial.verdict = MpecVerdict::kNoProgress;
   else if (!started_ && (to.s - from.s) * options_.direction <= tolerances::kUnitComponent * moved)
     trial.verdict = MpecVerdict::kWrongDirection;
-  else if (TurnsBack(from, to, direction))
+  else if (TurnsBack(from, to, direction) || (started_ && Direction(from, to).dot(onward_) < kWayBack))
     trial.verdict = MpecVerdict::kTurnedBack;
   else if (GoesBackAtRest(from, to))
     trial.verdict = MpecVerdict::kBackAtRest;
@@ -267,7 +270,7 @@ std::optional<int> MpecMethod::EndAtReturn(const PathPoint& from, Trial* trial) 
 
 bool MpecMethod::Resume(const ResumePoint& at) {
   if (!(at.solve.next_step > 0.0) || !(Distance(at.before, at.point) > 0.0)) return false;
-  direction_ = Direction(at.before, at.point);
+  direction_ = onward_ = Direction(at.before, at.point);
   last_length_ = Distance(at.before, at.point);
   bent_ = at.before.states != at.point.states;
   step_length_ = at.solve.next_step;
@@ -343,6 +346,7 @@ Advance MpecMethod::Next(const PathPoint& from) {
 
     // gamma_2 grows with the length of the increment relative to what was wanted (Algorithm 3.2, step 4).
     gamma2_factor_ = std::clamp(gamma2_factor_ * Distance(from, to) / length, 1.0, IncrementSolver::kLongestIncrement);
+    if (!started_ || (!changed && !bent_)) onward_ = direction;
     direction_ = direction;
     last_length_ = increment.arc_length;
     bent_ = changed;

@@ -102,6 +102,7 @@ class MpecMethod : public PathMethod {
   bool started_ = false;
   bool bent_ = false;  // a contact changed its state in the last increment: its direction is a chord over the bend
   Eigen::VectorXd direction_;  // of the last accepted increment
+  Eigen::VectorXd onward_;     // of the last one that lies between events
   double last_length_ = 0.0;   // of it
   int iterations_ = 0;         // since the last accepted increment
 };
