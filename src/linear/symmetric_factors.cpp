@@ -112,8 +112,7 @@ struct SymmetricFactors::Small {
 
   bool Count(const Eigen::VectorXd& pivots) {
     negative = (pivots.array() < 0.0).count();
-    return pivots.size() == 0 ||
-           pivots.cwiseAbs().minCoeff() > tolerances::kSingularPivot * pivots.cwiseAbs().maxCoeff();
+    return (pivots.array().abs() > tolerances::kSingularPivot).all();
   }
 
   void Solve(Eigen::MatrixXd* right) const {
@@ -211,14 +210,11 @@ bool SymmetricFactors::Factorize(const Eigen::SparseMatrix<double>& matrix, Eige
   const Eigen::Index unknowns = matrix.rows() - constraints;
   scale_.setZero(matrix.rows());
   for (Eigen::Index column = 0; column < matrix.cols(); ++column) {
-    for (Eigen::SparseMatrix<double>::InnerIterator it(matrix, column); it; ++it) {
-      if (column >= unknowns)
-        scale_[column] = std::max(scale_[column], scale_[it.row()] * std::abs(it.value()));
-      else if (it.row() < unknowns)
-        scale_[column] = std::max(scale_[column], std::abs(it.value()));
-    }
-    scale_[column] =
-        column < unknowns ? (scale_[column] > 0.0 ? 1.0 / std::sqrt(scale_[column]) : 1.0) : 1.0 / scale_[column];
+    const bool is_constraint = column >= unknowns;
+    double largest = 0.0;
+    for (Eigen::SparseMatrix<double>::InnerIterator it(matrix, column); it; ++it)
+      largest = std::max(largest, std::abs(it.value()) * (is_constraint ? scale_[it.row()] : 1.0));
+    scale_[column] = 1.0 / (is_constraint ? largest : std::sqrt(largest));
   }
   if (!scale_.allFinite() || !(scale_.array() > 0.0).all()) return false;
   is_large_ = matrix.rows() >= kLargeSystem;

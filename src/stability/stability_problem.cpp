@@ -93,7 +93,7 @@ void StabilityProblem::BuildSaddle(const Eigen::SparseMatrix<double>& transposed
     // A spring holds one component of the null direction, and takes no part in motions without it.
     Eigen::Index place = 0;
     null_.cwiseAbs().maxCoeff(&place);
-    entries.emplace_back(static_cast<int>(place), static_cast<int>(place), largest > 0.0 ? largest : 1.0);
+    entries.emplace_back(static_cast<int>(place), static_cast<int>(place), 1.0 + largest);
   }
   forces_.resize(nd, reactions);
   forces_.setFromTriplets(forces.begin(), forces.end());
@@ -115,8 +115,11 @@ bool StabilityProblem::Condense(const Eigen::SparseMatrix<double>& transposed) {
   by_load_ = solutions.col(0).head(nd);
   load_compliance_ = f.dot(by_load_);
   stiff_compliance_ = 0.0;
-  for (Eigen::Index i = 0; i < nd; ++i)
-    if (f[i] != 0.0 && stiffness_.col(i).norm() > 0.0) stiff_compliance_ += f[i] * f[i] / stiffness_.col(i).norm();
+  for (Eigen::Index i = 0; i < nd; ++i) {
+    if (f[i] == 0.0) continue;
+    const double stiffness = stiffness_.col(i).norm();
+    stiff_compliance_ += f[i] * f[i] / (stiffness > 0.0 ? stiffness : 1.0);
+  }
   sign_ = negative_ % 2 == 0 ? 1 : -1;
   H_.resize(count, count);
   load_of_slips_.resize(count);

@@ -19,7 +19,7 @@ class SymmetricFactors {
   SymmetricFactors& operator=(const SymmetricFactors&) = delete;
 
   // matrix: both triangles, compressed; its last rows are the constraints. False if it is singular: its smallest pivot
-  // is below tolerances::kSingularPivot of the largest, with rows and columns divided so that entries are 1 at most.
+  // is below tolerances::kSingularPivot, with rows and columns divided so that entries are 1 at most.
   // Throws std::bad_alloc where there is not enough memory, and LinearSolverError where MUMPS fails otherwise.
   bool Factorize(const Eigen::SparseMatrix<double>& matrix, Eigen::Index constraints);
   Eigen::Index NegativeEigenvalues() const;
