@@ -174,6 +174,7 @@ target_link_libraries(contact_path_extremes PRIVATE contact_path_test_support co
 function(contact_path_add_replay target library count)
   set(name fuzz_${target})
   contact_path_add_gtest(${name} SOURCES test/fuzz/replay_test.cpp test/fuzz/${target}_fuzz.cpp ${ARGN})
+  set_target_properties(${name} PROPERTIES UNITY_BUILD OFF)
   target_compile_definitions(${name} PRIVATE CONTACT_PATH_CHANGED=${count}
     CONTACT_PATH_CORPUS="${CMAKE_CURRENT_SOURCE_DIR}/test/fuzz/corpus/${target}")
   target_link_libraries(${name} ${library})
