@@ -91,7 +91,7 @@ TEST_F(SlidingBar, LimitLoadsComeOutToTheSquareOfTheStep) {
 }
 
 // Errors of the trapezoidal rule in the last increment, at three steps.
-TEST(SlidingBarWork, DissipationAndEnergyBalanceConvergeWithSecondOrder) {
+TEST(SlidingBarWorkByMpec, DissipationAndEnergyBalanceConvergeWithSecondOrder) {
   double dissipation_error = 0.0, balance_error = 0.0;
   for (const double step : {0.1, 0.05, 0.025}) {
     const TracedPath path = TraceIncrements(Example("sliding_bar", step));

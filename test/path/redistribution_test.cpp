@@ -25,19 +25,16 @@ Scene Block(double side, double friction_of_floor) {
   return scene;
 }
 
-class Redistribution : public testing::Test {
- protected:
-  // Complete and proved.
-  TracedPath Trace(TraceRequest request) {
-    TracedPath path = TraceIncrements(request);
-    EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
-    for (const Finding& finding : VerifyPath(request, path.increments).findings)
-      ADD_FAILURE() << "increment " << finding.increment << ": " << finding.what;
-    for (const Increment& increment : path.increments)
-      EXPECT_LE(increment.residuals.Largest(), 1e-9) << "increment " << increment.index;
-    return path;
-  }
-};
+// Complete and proved.
+TracedPath TraceWhole(const TraceRequest& request) {
+  TracedPath path = TraceIncrements(request);
+  EXPECT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+  for (const Finding& finding : VerifyPath(request, path.increments).findings)
+    ADD_FAILURE() << "increment " << finding.increment << ": " << finding.what;
+  for (const Increment& increment : path.increments)
+    EXPECT_LE(increment.residuals.Largest(), 1e-9) << "increment " << increment.index;
+  return path;
+}
 
 TraceRequest BeltAgainstStop(double clearance) {
   TraceRequest request;
@@ -49,9 +46,9 @@ TraceRequest BeltAgainstStop(double clearance) {
 }
 
 // The belt pulls with the spring's force x; then the stop holds the block, and all at once the belt slips.
-TEST_F(Redistribution, ABlockOnABeltMeetsAStop) {
+TEST(Redistribution, ABlockOnABeltMeetsAStop) {
   for (const double clearance : {0.0, 0.1, 0.2}) {
-    const TracedPath path = Trace(BeltAgainstStop(clearance));
+    const TracedPath path = TraceWhole(BeltAgainstStop(clearance));
     const Increment& end = path.increments.back();
     EXPECT_NEAR(PositionX(path, end, "b"), clearance, kRounding);
     EXPECT_NEAR(Contact(path, end, "b@floor").rt, 0.3, kRounding);
@@ -89,13 +86,13 @@ TEST(Redistribution, TheChangeIsAnIncrement) {
 }
 
 // A lift takes the node off the table; a side load rests on friction before and after.
-TEST_F(Redistribution, ALiftTakesANodeOffATable) {
+TEST(Redistribution, ALiftTakesANodeOffATable) {
   TraceRequest request;
   request.scene = Block(0.1, 0.3);
   request.scene.obstacles.push_back({"lift", kHalfPlane, 0.0, -0.05, 0.0, 1.0, 0.3});
   request.scene.contacts.push_back({"b", "lift"});
   request.program = {{"up", {}, {}, {{"lift", 0.0, 1.0}}, 0.15}};
-  const TracedPath path = Trace(request);
+  const TracedPath path = TraceWhole(request);
   const Increment& end = path.increments.back();
   EXPECT_NEAR(PositionX(path, end, "b"), 0.0, kRounding);
   EXPECT_NEAR(PositionY(path, end, "b"), 0.1, kRounding);
@@ -115,8 +112,8 @@ TraceRequest TableAbove(double friction_of_low) {
 }
 
 // A table goes down and hands a node over to a lower one that can hold its side load.
-TEST_F(Redistribution, ATableHandsANodeOver) {
-  const TracedPath path = Trace(TableAbove(0.6));
+TEST(Redistribution, ATableHandsANodeOver) {
+  const TracedPath path = TraceWhole(TableAbove(0.6));
   const Increment& end = path.increments.back();
   EXPECT_NEAR(PositionX(path, end, "b"), 0.0, kRounding);
   EXPECT_NEAR(PositionY(path, end, "b"), -0.1, kRounding);

@@ -79,22 +79,19 @@ TEST(StopAtValue, PlacesOfObstacles) {
   request.program = {push, turn};
   request.options.at = {{"peg.y", {0.6, 0.45}}};
   request.options.stop = {{"turn_peg", ">", 0.25}};
-  for (const Method method : {Method::kBranch, Method::kMpec}) {
-    request.options.method = method;
-    const TracedPath path = TraceIncrements(request);
-    ASSERT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
-    const Increment& last = path.increments.back();
-    EXPECT_NEAR(last.load_factor, 0.25, 1e-12);
-    EXPECT_NEAR(Value(path, "peg.x", last), 1001.5 - 0.5 * std::cos(0.25), 1e-10);
-    EXPECT_NEAR(Value(path, "peg.y", last), 0.4 - 0.5 * std::sin(0.25) - 0.025, 1e-10);
-    std::vector<double> found;
-    for (const Increment& increment : path.increments)
-      if (increment.kind == IncrementKind::kSample && increment.stage == 1) found.push_back(increment.load_factor);
-    ASSERT_EQ(found.size(), 2u);
-    EXPECT_NEAR(found[0], 0.4 / 0.6, 1e-10);
-    EXPECT_NEAR(found[1], 0.55 / 0.6, 1e-10);
-    ExpectNoFindings(path);
-  }
+  const TracedPath path = TraceIncrements(request);
+  ASSERT_EQ(path.result.reason, EndReason::kStopCriterion) << path.result.message;
+  const Increment& last = path.increments.back();
+  EXPECT_NEAR(last.load_factor, 0.25, 1e-12);
+  EXPECT_NEAR(Value(path, "peg.x", last), 1001.5 - 0.5 * std::cos(0.25), 1e-10);
+  EXPECT_NEAR(Value(path, "peg.y", last), 0.4 - 0.5 * std::sin(0.25) - 0.025, 1e-10);
+  std::vector<double> found;
+  for (const Increment& increment : path.increments)
+    if (increment.kind == IncrementKind::kSample && increment.stage == 1) found.push_back(increment.load_factor);
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_NEAR(found[0], 0.4 / 0.6, 1e-10);
+  EXPECT_NEAR(found[1], 0.55 / 0.6, 1e-10);
+  ExpectNoFindings(path);
 }
 
 TEST(StopAtValue, InexactTakesTheNextIncrementBeyond) {
