@@ -262,7 +262,9 @@ Causes NodesInObstacles(const Scene& start, const Model& model, const PathPoint&
   const std::vector<double> positions = model.InSceneUnits(point).positions;
   const std::vector<Obstacle> now = ObstaclesAt(model.scene, model.index, point.s * model.scaling.load_factor);
   const double least = kDeep * model.scaling.length;
-  std::vector<std::pair<double, std::string>> inside;
+  // By depth in thousandths of the least one: equal depths stay in the order of the scene, whatever rounding makes of
+  // them.
+  std::vector<std::pair<long long, std::string>> inside;
   for (std::size_t k = 0; k < now.size(); ++k) {
     const std::unique_ptr<const Surface> before = MakeSurface(start.obstacles[k]), after = MakeSurface(now[k]);
     for (std::size_t i = 0; i < start.nodes.size(); ++i) {
@@ -270,11 +272,12 @@ Causes NodesInObstacles(const Scene& start, const Model& model, const PathPoint&
       const double depth = DepthIn(*after, {positions[2 * i], positions[2 * i + 1]});
       if (depth > least && DepthIn(*before, {node.x, node.y}) <= least &&
           candidates.count({node.name, now[k].name}) == 0)
-        inside.emplace_back(-depth, node.name + " into " + now[k].name + " by " + RoundedText(depth));
+        inside.emplace_back(std::llround(-1e3 * depth / least),
+                            node.name + " into " + now[k].name + " by " + RoundedText(depth));
     }
   }
   if (inside.empty()) return {};
-  std::sort(inside.begin(), inside.end());
+  std::stable_sort(inside.begin(), inside.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<std::string> deepest;
   for (std::size_t i = 0; i < std::min(inside.size(), kListed); ++i) deepest.push_back(inside[i].second);
   if (inside.size() > kListed) deepest.push_back("and " + std::to_string(inside.size() - kListed) + " more");

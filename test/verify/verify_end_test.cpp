@@ -66,7 +66,6 @@ TEST(VerifyEnd, OfAPath) {
   ASSERT_EQ(path.result.reason, EndReason::kPathEnd);
   EXPECT_EQ(EndContradicted(request, path.increments, "path_end"), "");
   request.options.method = Method::kMpec;
-  EXPECT_EQ(EndContradicted(request, path.increments, "path_end"), "");
   EXPECT_EQ(EndContradicted(request, path.increments, "path_end"),
             "the result says path_end, but increments by Ipopt cannot tell the end of a path");
   // Where a branch is taken from an event, the path goes on.
