@@ -308,7 +308,7 @@ Advance MpecMethod::Next(const PathPoint& from) {
       options_.on_trial({length,
                          SentenceOf(trial.verdict),
                          {},
-                         {{"reached", Distance(from, to)},
+                         {{"reached", to.u.size() > 0 ? Distance(from, to) : 0.0},
                           {"regularisation", trial.increment.regularisation},
                           {"exact", trial.increment.exact ? 1.0 : 0.0},
                           {"ipopt_iterations", iterations_},

@@ -18,6 +18,8 @@ def increments(scene, method, threads):
     """The CSV without its column of times, and how the trace ended."""
     process = program_test.run(PROGRAM, scene, '--method', method, '--max-increments', str(INCREMENTS[method]), '--quiet',
                                env=dict(os.environ, OMP_NUM_THREADS=threads))
+    if process.returncode == 2:  # jumps by mpec are refused
+        return [], 2
     lines = [line.split(',') for line in process.stdout.splitlines()]
     time = lines[0].index('solve_time')
     return [line[:time] + line[time + 1:] for line in lines], process.returncode
@@ -31,7 +33,7 @@ class DeterminismTest(program_test.ProgramTest):
                 with self.subTest(file, method=method):
                     scene = os.path.join(program_test.SCENES, file)
                     once = increments(scene, method, '1')
-                    self.assertGreater(len(once[0]), 5)
+                    self.assertTrue(len(once[0]) > 5 or once[1] == 2 and method == 'mpec')
                     self.assertEqual(increments(scene, method, '4'), once)
 
 

@@ -60,15 +60,17 @@ program:
         self.assertEqual([load['fx'] for load in stages[1]['loads']], [-1.5])
         self.assertEqual([stage['target'] for stage in stages], [0.5, 1.0])
 
-    def test_invalid_scenes_are_told_in_one_line(self):
+    def test_invalid_scenes_are_told_fault_by_fault(self):
         path = self.path('bad.yaml')
         with open(path, 'w') as file:
             file.write('scene:\n  nodes: [{name: a}]\n')
         for program in 'contact_path_expand', 'contact_path_response':
             result = run(program, path)
             self.assertEqual((result.returncode, result.stdout), (2, ''))
-            self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
-            self.assertIn('scene.bars', result.stderr)
+            faults = result.stderr.splitlines()
+            self.assertEqual(len(faults), 2, result.stderr)
+            self.assertIn('scene.bars', faults[0])
+            self.assertIn('scene.loads', faults[1])
 
 
 class Response(ProgramTest):

@@ -36,11 +36,16 @@ msgs::TraceRequest Normalised(msgs::TraceRequest message) {
     obstacle.inside = obstacle.inside != 0;
     obstacle.closed = obstacle.closed != 0;
   }
-  for (msgs::Node& node : message.scene.nodes) {
-    node.fixed_x = node.fixed_x != 0;
-    node.fixed_y = node.fixed_y != 0;
-    node.fixed_rotation = node.fixed_rotation != 0;
-  }
+  const auto normalise_supports = [](auto* parts) {
+    for (auto& part : *parts) {
+      part.fixed_x = part.fixed_x != 0;
+      part.fixed_y = part.fixed_y != 0;
+      part.fixed_rotation = part.fixed_rotation != 0;
+    }
+  };
+  normalise_supports(&message.scene.nodes);
+  normalise_supports(&message.scene.supports);
+  message.options.landing_checks = message.options.landing_checks != 0;
   for (msgs::Beam& beam : message.scene.beams)
     for (auto& hinged : beam.hinged) hinged = hinged != 0;
   for (msgs::BoundarySurface& surface : message.scene.surfaces) surface.closed = surface.closed != 0;

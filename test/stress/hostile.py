@@ -48,6 +48,7 @@ def huge_requests(short):
         request = base()
         request.scene.loads = []
         request.options.stop = []
+        request.options.max_increments = 1000  # in place of as many for each stage
         request.program = Repeated(stage, times, told)
         return request
 

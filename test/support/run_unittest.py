@@ -78,7 +78,8 @@ def main():
     module = importlib.util.module_from_spec(spec)
     sys.modules[name] = module
     spec.loader.exec_module(module)
-    suite = unittest.TestSuite(chosen(unittest.defaultTestLoader.loadTestsFromModule(module)))
+    found = unittest.defaultTestLoader.loadTestsFromModule(module)
+    suite = unittest.TestSuite(chosen(found))
     start = time.monotonic()
     result = unittest.TextTestRunner(resultclass=Result, verbosity=2).run(suite)
 
@@ -91,7 +92,7 @@ def main():
     root.extend(case for case, _ in result.cases)
     os.makedirs(os.path.dirname(os.path.abspath(results)), exist_ok=True)
     xml.ElementTree(root).write(results, encoding='utf-8', xml_declaration=True)
-    return 0 if result.wasSuccessful() and (result.cases or os.environ.get('CONTACT_PATH_LONG')) else 1
+    return 0 if result.wasSuccessful() and found.countTestCases() else 1
 
 
 if __name__ == '__main__':

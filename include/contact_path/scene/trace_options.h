@@ -183,8 +183,7 @@ struct Fields<TraceOptions> {
                       Member("full_state_every", &P::full_state_every).Within(Range::kNotNegative),
                       Member("stop", &P::stop), Member("at", &P::at), Member("record", &P::record),
                       Member("branch_choices", &P::branch_choices), Member("friction_law", &P::friction_law),
-                      Member("stability", &P::stability),
-                      Member("at_limit", &P::at_limit),
+                      Member("stability", &P::stability), Member("at_limit", &P::at_limit),
                       Member("machine_stiffness", &P::machine_stiffness).Within(Range::kNotNegativeOrInfinite),
                       Member("landing_checks", &P::landing_checks));
   }

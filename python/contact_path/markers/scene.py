@@ -38,7 +38,7 @@ from typing import Any, Dict, List, NamedTuple, Sequence, Tuple
 
 import numpy as np
 
-from contact_path.increments import KINDS, STATES
+from contact_path.increments import KINDS, STATES, Increments
 from contact_path.io.text import printable
 from contact_path.markers.picture import CUBES, SPHERES, Layer, Marker, Picture, chain, rgba, strip
 from contact_path.marks import MARKS, STATES as STATE_COLOURS
@@ -47,6 +47,7 @@ from contact_path.scene import Scene
 from contact_path.structure.arrays import Structure
 from contact_path.structure.expanded import expanded
 from contact_path.structure.obstacles import Boundary
+from contact_path.structure.response import columns
 from contact_path.structure.shapes import (BARS, CONSTANT_LOAD, FULL_TURN, INITIAL, LOAD, LONGEST_ARROW, MOMENT_RADIUS, OBSTACLE, REACTION,
                                            SURFACE, UNSTABLE, UNSTABLE_ARROW, Shape, hatches)
 
@@ -82,7 +83,7 @@ class SceneMarkers:
     """What is the same in all pictures of a trace. ValueError: as of expanded()."""
 
     def __init__(self, scene: Scene) -> None:
-        self.request = expanded(scene)
+        self.scene, self.request = scene, expanded(scene)
         self.name = printable(self.request['scene']['name'])
         self.structure = structure = Structure(scene)
         self.index = {name: i for i, name in enumerate(structure.names)}
@@ -90,7 +91,8 @@ class SceneMarkers:
         self.reacting = [(self.index[support['node']], support['rotation']) for support in self.request['names']['supports']]
         self.moving = {name for stage in structure.stages for name, motion in stage.motions.items()
                        if any(motion[field] for field in ('dx', 'dy', 'turn'))}
-        self.moduli = [young(solid.material) for solid in structure.solids]
+        materials = {material['name']: young(material) for material in self.request['scene']['materials']}
+        self.moduli = [materials[solid['material']] for solid in self.request['scene']['solids']]
         scales = self.request['scales']
         self.low, self.high = self.box(scene.request.get('options', {}).get('stop', ()), scales['length'])
         self.size = math.dist(self.low, self.high) or scales['length']
@@ -192,6 +194,9 @@ class SceneMarkers:
             state.update(zip((axis + name for name in structure.names), values))
         for name, of in zip(structure.contacts, increment.contacts):
             state.update({'state_' + name: STATES[of.state], 'gap_' + name: of.gap, 'rn_' + name: of.rn, 'rt_' + name: of.rt})
+        if structure.solids:
+            alone = Increments({name: np.array([value]) for name, value in {**state, 'stage': increment.stage}.items()}, scene=self.scene)
+            state.update((name, values[0]) for name, values in columns(alone, ['stresses']).items())
         unstable = increment.unstable_direction
         return Shape(structure, state, np.reshape(unstable, (-1, 2)) if len(unstable) == 2 * len(structure.names) else None)
 
