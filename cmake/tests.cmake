@@ -34,7 +34,7 @@ target_include_directories(contact_path_test_support PUBLIC ${CMAKE_CURRENT_SOUR
 target_compile_definitions(contact_path_test_support PUBLIC
   CONTACT_PATH_SCENES="${CMAKE_CURRENT_SOURCE_DIR}/scenes"
   CONTACT_PATH_TEST_DATA="${CMAKE_CURRENT_SOURCE_DIR}/test/data")
-# Tests are compiled for a quick build: hardly optimised, and what nearly all of them include is compiled once.
+# Tests are compiled for a quick build: not optimised, and what nearly all of them include is compiled once.
 set(contact_path_test_options -O0 -g0)
 if(CONTACT_PATH_SANITIZE MATCHES address)
   # What they call is watched, they themselves are not, which halves the time that they take to compile.
@@ -76,11 +76,11 @@ function(contact_path_add_processes type name shards depends)
   endforeach()
 endfunction()
 
-# contact_path_add_gtest(<name> [LONG] [SHARDS <count>] SOURCES <source>...): one test program, which so many processes run side by
-# side; LONG: it has tests that scripts/stress alone runs. Its sources are compiled as one where CONTACT_PATH_JOIN_SOURCES is
-# on: each has a namespace of its own.
+# contact_path_add_gtest(<name> [LONG] [OPTIMISED] [SHARDS <count>] SOURCES <source>...): one test program, which so many processes
+# run side by side. LONG: it has tests that scripts/stress alone runs. OPTIMISED: its sources are, where that takes less time in
+# sum. They are compiled as one where CONTACT_PATH_JOIN_SOURCES is on: each has a namespace of its own.
 function(contact_path_add_gtest name)
-  cmake_parse_arguments(ARG "LONG" "SHARDS" "SOURCES" SHARDS 1 ${ARGN})
+  cmake_parse_arguments(ARG "LONG;OPTIMISED" "SHARDS" "SOURCES" SHARDS 1 ${ARGN})
   if(contact_path_test_with_catkin)
     catkin_add_executable_with_gtest(${name} ${ARG_SOURCES} EXCLUDE_FROM_ALL)
     add_dependencies(tests ${name})
@@ -88,8 +88,12 @@ function(contact_path_add_gtest name)
     add_executable(${name} ${ARG_SOURCES})
   endif()
   contact_path_join_sources(${name})
-  target_compile_options(${name} PRIVATE ${contact_path_test_options})
-  target_precompile_headers(${name} REUSE_FROM contact_path_test_support)
+  if(ARG_OPTIMISED)
+    target_compile_options(${name} PRIVATE -O1 -g0)
+  else()
+    target_compile_options(${name} PRIVATE ${contact_path_test_options})
+    target_precompile_headers(${name} REUSE_FROM contact_path_test_support)
+  endif()
   # Without a keyword, as catkin does.
   target_link_libraries(${name} GTest::gtest_main contact_path_test_support contact_path_core contact_path_warnings)
   contact_path_add_processes(gtest ${name} ${ARG_SHARDS} ${name} $<TARGET_FILE:${name}> --gtest_brief=1 --gtest_filter=-*.Long*
@@ -138,7 +142,7 @@ target_include_directories(linear_tests SYSTEM PRIVATE ${SUITESPARSE_INCLUDE_DIR
 target_link_libraries(linear_tests ${SUITESPARSECONFIG_LIBRARY})
 contact_path_add_stage(contact NAMES contact_pair_test contact_state_test deformable_boundary_test deformable_pair_test path_point_test
   reach_tracker_test rigid_pair_test scene_contacts_test)
-contact_path_add_stage(equations NAMES deformable_system_test fixed_state_system_test nearest_point_test rigid_modes_test)
+contact_path_add_stage(equations OPTIMISED NAMES deformable_system_test fixed_state_system_test nearest_point_test rigid_modes_test)
 contact_path_add_stage(stability LONG NAMES jump_test slip_stability_test stability_problem_test)
 contact_path_add_stage(mpec NAMES increment_problem_test increment_solver_test ipopt_solver_test)
 contact_path_add_stage(branch LONG SHARDS 2 NAMES arc_step_test branch_choices_test branch_events_test branch_method_test branch_order_test
@@ -233,10 +237,10 @@ if(CONTACT_PATH_ROS)
     VARIABLES CONTACT_PATH_TRACE=$<TARGET_FILE:contact_path_trace> CONTACT_PATH_ROOT=${CMAKE_CURRENT_SOURCE_DIR}
       CONTACT_PATH_PROGRAMS=$<TARGET_FILE_DIR:contact_path_trace>)
   set(contact_path_all_programs ${contact_path_programs} ${PROJECT_NAME}_generate_messages)
-  contact_path_add_python_test(docs_test test/docs/docs_test.py SHARDS 2 DEPENDS ${contact_path_all_programs}
+  contact_path_add_python_test(docs_test test/docs/docs_test.py LONG SHARDS 2 DEPENDS ${contact_path_all_programs}
     VARIABLES CONTACT_PATH_ROOT=${CMAKE_CURRENT_SOURCE_DIR} CONTACT_PATH_PROGRAMS=${contact_path_devel_programs}
       CONTACT_PATH_MODULES=${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_PYTHON_DESTINATION})
-  contact_path_add_python_test(service_stress_test test/stress/service_stress_test.py
+  contact_path_add_python_test(service_stress_test test/stress/service_stress_test.py LONG
     DEPENDS ${contact_path_all_programs}
     VARIABLES CONTACT_PATH_ROOT=${CMAKE_CURRENT_SOURCE_DIR} CONTACT_PATH_BUILD=${CMAKE_BINARY_DIR})
   if(contact_path_test_with_catkin)

@@ -444,7 +444,7 @@ class BadInput(StudyTest):
                 self.assertIn(rule, self.run_study(*arguments, description=description, status=2))
                 self.assertEqual(self.journal(), b'')
 
-    def test_scheduler_that_is_not_there(self):
+    def test_long_scheduler_that_is_not_there(self):
         self.assertIn('no scheduler at tcp://127.0.0.1:9', self.run_study('--scheduler', 'tcp://127.0.0.1:9', status=1))
 
 

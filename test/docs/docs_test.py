@@ -337,7 +337,8 @@ def add_pages():
     with_commands = {page: text for page, text in texts.items() if commands_in(text)}
     assert len(with_commands) > 4
     for page, text in with_commands.items():
-        setattr(Examples, 'test_' + re.sub(r'\W', '_', str(page)), lambda self, text=text: self.run_page(text))
+        long = 'long_' if page.parent.name == 'cases' else ''
+        setattr(Examples, 'test_' + long + re.sub(r'\W', '_', str(page)), lambda self, text=text: self.run_page(text))
 
 
 add_pages()

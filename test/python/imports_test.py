@@ -85,7 +85,7 @@ class Imports(unittest.TestCase):
                     self.assertTrue(module.split('.')[0] in HEAVY or top.get(module, set()) & set(HEAVY),
                                     '%s imports %s in a function' % (name, module))
 
-    def test_each_module_first(self):
+    def test_long_each_module_first(self):
         """Each in a process to which nothing of the package is known yet, but what others take long to import; without ROS all but what needs it."""
         code = ('import importlib, os, sys, traceback\n'
                 'for name in %r:\n'

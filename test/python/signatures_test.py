@@ -86,7 +86,7 @@ class Signatures(unittest.TestCase):
         with open(self.path(file), 'w', encoding='utf-8') as target:
             target.write(text)
 
-    def test_new_fields_and_parts_get_their_keywords(self):
+    def test_long_new_fields_and_parts_get_their_keywords(self):
         for name in 'include/contact_path/scene', 'msg', 'python/contact_path':
             shutil.copytree(os.path.join(ROOT, name), self.path(name))
         for name in 'scripts/messages', 'cmake/write_messages.cpp', 'cmake/write_signatures.py':

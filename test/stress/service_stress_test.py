@@ -10,7 +10,7 @@ from program_test import run
 STRESS = os.path.join(os.environ['CONTACT_PATH_ROOT'], 'test', 'stress', 'service_stress.py')
 
 
-class ServiceStressTest(unittest.TestCase):
+class LongServiceStressTest(unittest.TestCase):
 
     def test_short_run(self):
         told = run(STRESS, '--short')
