@@ -14,9 +14,7 @@ import os
 import pathlib
 import re
 import shlex
-import shutil
 import subprocess
-import tempfile
 import unittest
 import xml.etree.ElementTree as xml
 
@@ -155,20 +153,6 @@ class Complete(unittest.TestCase):
         told = {span.split()[0] for span in first_column(section('docs/options.md', 'Scripts'))}
         there = {'scripts/' + path.name for path in (ROOT / 'scripts').iterdir() if path.suffix == '' and path.is_file()}
         self.assertEqual(told, there)
-
-    def test_messages_are_given_what_a_scene_describes(self):
-        with tempfile.TemporaryDirectory() as directory:
-            messages = pathlib.Path(directory) / 'msg'
-            shutil.copytree(str(ROOT / 'msg'), str(messages))
-            before = {path.name: path.read_text() for path in messages.iterdir()}
-            (messages / 'Bar.msg').write_text(re.sub('float64 EA .*\n', '', before['Bar.msg']))
-            (messages / 'StopCriterion.msg').unlink()
-            subprocess.run([str(ROOT / 'scripts' / 'messages'), str(messages)], stdout=subprocess.DEVNULL, check=True)
-            after = {path.name: path.read_text() for path in messages.iterdir()}
-        self.assertEqual({name for name in before if after[name] != before[name]}, {'Bar.msg', 'StopCriterion.msg'})
-        self.assertTrue(after['Bar.msg'].endswith('float64 EA  # [force], > 0\n'))
-        self.assertEqual(after['StopCriterion.msg'], 'string quantity\nstring when\nfloat64 value\n'
-                         'string exact  # "true" (also ""), "false"\n')
 
     def test_tables_of_messages_are_those_of_the_message_files(self):
         spec = importlib.util.spec_from_file_location('message_tables', str(ROOT / 'docs' / 'maintainers' / 'message_tables.py'))

@@ -31,20 +31,9 @@ TEST(SceneTest, WordsOfStrainMeasures) {
                               {"logarithmic", StrainMeasure::kLogarithmic}});
 }
 
-TEST(SceneTest, WordsOfObstacleShapes) { ExpectWords<ObstacleShape>({{"half_plane", ObstacleShape::kHalfPlane}}); }
-
-TEST(SceneTest, WordsOfMethods) { ExpectWords<Method>({{"branch", Method::kBranch}, {"mpec", Method::kMpec}}); }
-
 TEST(SceneTest, WordsOfAccuracies) {
   ExpectWords<Accuracy>(
       {{"balanced", Accuracy::kBalanced}, {"fast", Accuracy::kFast}, {"accurate", Accuracy::kAccurate}});
-}
-
-TEST(SceneTest, DefaultsAreThoseOfTheEmptyWord) {
-  EXPECT_EQ(Bar().strain, ParseWord<StrainMeasure>(""));
-  EXPECT_EQ(Obstacle().shape, ParseWord<ObstacleShape>(""));
-  EXPECT_EQ(TraceOptions().method, ParseWord<Method>(""));
-  EXPECT_EQ(TraceOptions().accuracy, ParseWord<Accuracy>(""));
 }
 
 TEST(SceneTest, ZeroOptionsStandForTheirDefaults) {
