@@ -185,7 +185,7 @@ function(contact_path_add_replay target library count)
 endfunction()
 
 contact_path_add_replay(read_scene contact_path_core 20000)
-contact_path_add_replay(trace_scene contact_path_mpec 100 test/fuzz/varied_request.cpp)
+contact_path_add_replay(trace_scene contact_path_mpec 20 test/fuzz/varied_request.cpp)
 if(CONTACT_PATH_ROS)
   contact_path_add_replay(convert_request contact_path_ros 20000)
 endif()

@@ -137,7 +137,7 @@ class Tables(StudyTest):
             self.assertAlmostEqual(float(line['limit_1']), limit, 8, line)
             self.assertEqual((line['status'], line['end_reason']), ('complete', 'stop_criterion'))
 
-    def test_table_does_not_depend_on_workers(self):
+    def test_long_table_does_not_depend_on_workers(self):
         self.run_study('--workers', '1', '--quiet')
         once = read(self.path('table.csv'))
         self.run_study('--workers', '2', '--table', self.path('other.csv'))
