@@ -254,9 +254,9 @@ if(CONTACT_PATH_ROS)
       VARIABLES CONTACT_PATH_ROOT=${CMAKE_CURRENT_SOURCE_DIR} CONTACT_PATH_BUILD=${CMAKE_BINARY_DIR}
         CONTACT_PATH_PROGRAMS=${contact_path_devel_programs})
     if(contact_path_test_with_catkin)
-      # Both install, which sets the Python package up in the build tree.
-      set_property(TEST _ctest_${PROJECT_NAME}_python_install_test _ctest_${PROJECT_NAME}_python_package_test
-        PROPERTY RESOURCE_LOCK contact_path_install)
+      # Both install, which sets the Python package up in the build tree. They take long, one after the other.
+      set_tests_properties(_ctest_${PROJECT_NAME}_python_install_test _ctest_${PROJECT_NAME}_python_package_test
+        PROPERTIES RESOURCE_LOCK contact_path_install COST 50)
     else()
       set_property(TEST install_test package_test PROPERTY RESOURCE_LOCK contact_path_install)
     endif()
