@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "contact_path/branch/active_set_tolerance.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
@@ -77,7 +76,7 @@ std::optional<ArcStep> TryStep(SmoothArc* arc, const CurvePoint& start, double l
   const Eigen::VectorXd normal = start.first.head(arc->NumMotion());
   const double tolerance = prediction * length;
   const double rounding =
-      arc->system().ResidualUnit() * std::max(tolerances::kNoMove, tolerances::kLastDigits * start.x.norm());
+      arc->equations().ResidualUnit() * std::max(tolerances::kNoMove, tolerances::kLastDigits * start.x.norm());
   const Eigen::VectorXd straight = start.x + length * start.first;
   const Eigen::VectorXd bend = 0.5 * length * length * start.second;
   const auto good = [&](const Correction& correction) {
@@ -87,7 +86,7 @@ std::optional<ArcStep> TryStep(SmoothArc* arc, const CurvePoint& start, double l
   };
   Correction correction = arc->CorrectOnPlane(straight + bend, normal);
   // Next to a singular point the second derivatives are little but rounding.
-  if (!good(correction) && arc->system().Norm(bend) > tolerance) correction = arc->CorrectOnPlane(straight, normal);
+  if (!good(correction) && arc->equations().Norm(bend) > tolerance) correction = arc->CorrectOnPlane(straight, normal);
   if (trial != nullptr) {
     trial->length = length;
     trial->numbers = {{"newton_iterations", correction.iterations},
@@ -123,8 +122,7 @@ std::optional<ArcStep> TryStep(SmoothArc* arc, const CurvePoint& start, double l
 bool PassesAnEnd(const SmoothArc& arc, const CurvePoint& start, const CurvePoint& end, const StepEnds& ends,
                  StepEvent* event) {
   if (event->kind == EventKind::kTarget) return false;
-  const FixedStateSystem& system = arc.system();
-  const Eigen::Index s = system.NumDofs();
+  const Eigen::Index s = arc.LoadFactor();
   if (ends.load_factor && (start.x[s] - *ends.load_factor) * (end.x[s] - *ends.load_factor) < 0.0) {
     *event = {EventKind::kTarget, event->t, {}};
     return true;
@@ -132,7 +130,7 @@ bool PassesAnEnd(const SmoothArc& arc, const CurvePoint& start, const CurvePoint
   if (event->kind == EventKind::kSample) return false;
   for (std::size_t i = 0; i < ends.functions.size(); ++i) {
     const ArcTarget& target = ends.functions[i];
-    const double before = target.of(system, start.x), after = target.of(system, end.x);
+    const double before = target.of(start.x), after = target.of(end.x);
     for (const double value : target.values)
       if (std::abs(before - value) > target.rounding && (before - value) * (after - value) < 0.0 &&
           target.sense * (after - before) >= 0.0) {
@@ -151,21 +149,22 @@ bool IsSame(const StepEvent& one, const StepEvent& other) {
 
 // Whether the load factor, of which a limit point was located at `point`, goes on beyond it in its sense: its rate
 // touches zero, as where the load is a cubic of the arc length.
-bool LoadGoesOn(const FixedStateSystem& system, const Step& step, const CurvePoint& point) {
-  const Eigen::Index s = system.NumDofs();
+bool LoadGoesOn(const SmoothArc& arc, const Step& step, const CurvePoint& point) {
+  const Eigen::Index s = arc.LoadFactor();
   if (!(step.start.first[s] * step.end.first[s] > 0.0)) return false;
   const Quintic load = step.InterpolateLinear([s](const Eigen::VectorXd& x) { return x[s]; });
   const double t = step.normal.dot((point.x - step.start.x).head(step.normal.size()));
   const double third = Evaluate(Derivative(Derivative(Derivative(load))), t), second = point.second[s];
   // The extreme of the rate, by its parabola.
-  return second * second <= 2.0 * tolerances::kRate * system.ResidualUnit() * std::abs(third);
+  return second * second <= 2.0 * tolerances::kRate * arc.equations().ResidualUnit() * std::abs(third);
 }
 
 // Whether the inequality that was to fail at `point` holds there, by more than what counts as zero at an event: the
 // interpolation of the step has shown a zero that the curve does not have.
-bool HoldsAt(const FixedStateSystem& system, const StepEvent& event, const CurvePoint& point) {
+bool HoldsAt(const ArcEquations& equations, const StepEvent& event, const CurvePoint& point) {
   return event.kind == EventKind::kContactEvent && !event.crossing &&
-         !IsWeaklyActive(system, event.constraint, point.x, ActiveSetTolerance());
+         !equations.IsOfRate(event.constraint) &&
+         equations.Value(event.constraint, point.x) > tolerances::kActive * equations.UnitOf(event.constraint);
 }
 
 // Ends the step at the first event on it. The exact point of an event may show an earlier one. False: it is not found.
@@ -189,12 +188,12 @@ bool EndAtFirstEvent(SmoothArc* arc, const StepEnds& wanted, ArcStep* at) {
     if (!point) return false;
     KeepSigns(at->step.start, &*point);
     if (at->event.singular) point->BeSingular();
-    if (at->event.kind == EventKind::kLimitPoint && !at->event.crossing && LoadGoesOn(arc->system(), whole, *point)) {
+    if (at->event.kind == EventKind::kLimitPoint && !at->event.crossing && LoadGoesOn(*arc, whole, *point)) {
       at->event.kind = EventKind::kNearTouch;
       point->is_limit = false;
       point->load_sense = at->step.start.load_sense;
     }
-    if (HoldsAt(arc->system(), at->event, *point)) at->event.kind = EventKind::kNearTouch;
+    if (HoldsAt(arc->equations(), at->event, *point)) at->event.kind = EventKind::kNearTouch;
     if (PassesAnEnd(*arc, at->step.start, *point, *ends, &at->event)) continue;
     const StepEvent found = at->event;
     const double before = at->step.length;

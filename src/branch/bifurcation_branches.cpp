@@ -18,7 +18,7 @@ bool SlidesOn(const FixedStateSystem& system, const Eigen::VectorXd& x, const Ei
 
 }  // namespace
 
-std::vector<Branch> BifurcationBranches(const SmoothArc& arc, const ContactPairs& contacts, const Crossing& crossing) {
+std::vector<Branch> BifurcationBranches(const ContactArc& arc, const ContactPairs& contacts, const Crossing& crossing) {
   const FixedStateSystem& system = arc.system();
   const Eigen::Index motion = arc.NumMotion();
   const PathPoint point = system.Unpack(crossing.x);
@@ -36,9 +36,10 @@ std::vector<Branch> BifurcationBranches(const SmoothArc& arc, const ContactPairs
   };
   std::vector<Branch> branches = {branch_along(crossing.along.first, crossing.along.second)};
   branches.front().turn = 0.0;  // the arc cosine of 1 less rounding is not
-  for (const double sense : {1.0, -1.0})
-    if (const Eigen::VectorXd first = sense * crossing.across.first; SlidesOn(system, crossing.x, first))
-      branches.push_back(branch_along(first, crossing.across.second));
+  for (const CurveDerivatives& across : crossing.across)
+    for (const double sense : {1.0, -1.0})
+      if (const Eigen::VectorXd first = sense * across.first; SlidesOn(system, crossing.x, first))
+        branches.push_back(branch_along(first, across.second));
   return branches;
 }
 

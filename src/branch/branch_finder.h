@@ -19,7 +19,6 @@
 #include "contact_path/branch/tangents.h"
 #include "contact_path/contact/contact_mode.h"
 #include "contact_path/equations/fixed_state_system.h"
-#include "contact_path/equations/rigid_modes.h"
 #include "contact_path/linear/bordered_solver.h"
 #include "contact_path/tolerances.h"
 
@@ -69,7 +68,6 @@ class BranchFinder {
         cancelled_(cancelled),
         redundant_(contacts, point, tolerance.gap),
         system_(structure, contacts),
-        modes_(structure),
         reference_(SlipReferences(contacts, point)) {
     for (std::size_t i = 0; i < contacts.size(); ++i) touching_.push_back(TouchingState(*contacts[i], options[i]));
   }
@@ -152,7 +150,7 @@ class BranchFinder {
   Tangents TangentsOf(const ContactModes& modes, Eigen::VectorXd* x) {
     system_.SetStates(StatesOf(modes), reference_, PatchesOf(modes));
     *x = system_.Pack(point_);
-    Tangents tangents = FindTangents(*x, arrival_.direction, arrival_.singular, modes_, &system_, &solvers_);
+    Tangents tangents = FindTangents(*x, arrival_.direction, arrival_.singular, &system_, &solvers_);
     rigid_modes_ = std::max(rigid_modes_, tangents.rigid_modes);
     return tangents;
   }
@@ -365,7 +363,6 @@ class BranchFinder {
   bool was_cancelled_ = false;
   RedundantContacts redundant_;
   FixedStateSystem system_;
-  RigidModes modes_;
   Eigen::VectorXd reference_;
   States touching_;  // that each contact takes on where its gap closes
   TangentSolvers solvers_;

@@ -1,47 +1,21 @@
 #include "contact_path/branch/crossing.h"
 
 #include <Eigen/LU>
+#include <Eigen/QR>
+#include <Eigen/SVD>
+#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
-#include "contact_path/iterations.h"
-#include "contact_path/linear/bordered_solver.h"
-#include "contact_path/linear/generic_vector.h"
+#include "branch/bordered_jacobian.h"
+#include "contact_path/equations/newton_loop.h"
+#include "contact_path/equations/second_form.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
 namespace {
 
-constexpr double kDifference = 1e-3;  // step of the differences of F'', whose error is of the order of its fourth power
-
-// psi . F''(a, b) at x.
-class DerivativeForm {
- public:
-  DerivativeForm(FixedStateSystem* system, const Eigen::VectorXd& x, const Eigen::VectorXd& psi)
-      : system_(*system), x_(x), psi_(psi) {}
-
-  double operator()(const Eigen::VectorXd& a) const { return psi_.dot(system_.SecondDerivative(x_, a)); }
-  double operator()(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const {
-    const double size = b.norm() / a.norm();
-    if (!(size > 0.0)) return 0.0;
-    const Eigen::VectorXd scaled = b / size;
-    return 0.25 * size * ((*this)(a + scaled) - (*this)(a - scaled));
-  }
-  // psi . F'''(a, a, a), by central differences and Richardson's extrapolation.
-  double Third(const Eigen::VectorXd& a) const {
-    const auto difference = [&](double step) {
-      const Eigen::VectorXd beyond = system_.SecondDerivative(x_ + step * a, a);
-      return psi_.dot(beyond - system_.SecondDerivative(x_ - step * a, a)) / (2.0 * step);
-    };
-    return (4.0 * difference(kDifference) - difference(2.0 * kDifference)) / 3.0;
-  }
-
- private:
-  FixedStateSystem& system_;
-  const Eigen::VectorXd& x_;
-  const Eigen::VectorXd& psi_;
-};
+constexpr Eigen::Index kMostParts = 8;  // null vectors at one point
 
 // Makes the sense of a unit vector in (u, s) the same whatever it was.
 void Orient(Eigen::Index motion, Eigen::VectorXd* direction) {
@@ -55,170 +29,167 @@ void Orient(Eigen::Index motion, Eigen::VectorXd* direction) {
   if (sense < 0.0) *direction = -*direction;
 }
 
-// The equations with two rows and one column more, [J b; v' 0; t' 0].
-class BorderedJacobian {
+// The crossing with its null vectors, each of one part: t, and columns of v with the left vectors in columns of psi, so
+// that psi_i . F''(t, v_j) is 0 for other parts.
+class Parts {
  public:
-  BorderedJacobian(FixedStateSystem* system, const Eigen::VectorXd& t)
-      : system_(*system), motion_(t.size()), unknowns_(system->NumUnknowns()), t_(Extended(t)) {}
-
-  // Borders by one inverse iteration with the factors of [J; t'] at x.
-  bool ChooseBorders(const Eigen::VectorXd& x) {
-    BorderedSolver solver;
-    const Eigen::VectorXd row = t_.head(unknowns_);
-    if (!solver.Factorize(system_.TransposedJacobian(x), row, system_.InFrame()) || solver.Nullity() > 1) return false;
-    if (!solver.HasLu()) {
-      if (solver.Nullity() != 1 || solver.LeftNullSpace().cols() != 1) return false;
-      SetBorders(solver.NullSpace().col(0), solver.LeftNullSpace().col(0));
-    } else {
-      SetBorders(solver.Solve(GenericVector(system_.NumEquations()), 0.0),
-                 solver.SolveTransposed(GenericVector(unknowns_)));
-    }
-    return v_.allFinite() && b_.allFinite();
+  Parts(ArcEquations* equations, const BorderedJacobian& at, const Eigen::VectorXd& x)
+      : equations_(*equations), at_(at), form_(equations, x), motion_(equations->NumMotion()), v_(at.across), psi_(at.psi) {
+    if (v_.cols() > 1) Separate();
   }
 
-  // Null vectors and left null vector at x, but for what g_t and g_v leave.
-  bool Factorize(const Eigen::VectorXd& x) {
-    const Eigen::SparseMatrix<double>& transposed = system_.TransposedJacobian(x);
-    const Eigen::Index equations = transposed.cols();
-    bordered_.resize(unknowns_ + 1, equations + 1);
-    bordered_.reserve(transposed.nonZeros() + equations + motion_);
-    for (Eigen::Index column = 0; column < equations; ++column) {
-      bordered_.startVec(column);
-      for (Eigen::SparseMatrix<double>::InnerIterator it(transposed, column); it; ++it)
-        bordered_.insertBack(it.row(), column) = it.value();
-      bordered_.insertBack(unknowns_, column) = b_[column];
-    }
-    bordered_.startVec(equations);
-    for (Eigen::Index i = 0; i < motion_; ++i) bordered_.insertBack(i, equations) = v_[i];
-    bordered_.finalize();
-    if (!solver_.FactorizeRegular(bordered_, t_)) return false;
-    const Eigen::VectorXd none = Eigen::VectorXd::Zero(equations + 1);
-    Split(solver_.Solve(none, 1.0), &along, &left_along);
-    Split(solver_.Solve(Eigen::VectorXd::Unit(equations + 1, equations), 0.0), &across, &left_across);
-    psi = solver_.SolveTransposed(Eigen::VectorXd::Unit(unknowns_ + 1, unknowns_)).head(equations);
-    return along.allFinite() && across.allFinite() && psi.allFinite();
+  // The tangents of the curve t + ... and of the one in which the part j alone takes part; false: they do not cross.
+  bool TangentsOf(Eigen::Index j, Eigen::VectorXd* one, Eigen::VectorXd* other) const {
+    const Eigen::VectorXd& t = at_.along;
+    const double a = Form(j, t), b = psi_.col(j).dot(form_(t, v_.col(j))), c = Form(j, v_.col(j));
+    const double size = std::abs(a) + std::abs(b) + std::abs(c), discriminant = b * b - a * c;
+    if (!(discriminant > tolerances::kDependent * size * size)) return false;
+    const double q = -b - std::copysign(std::sqrt(discriminant), b);
+    *one = Normalised(q * t + a * v_.col(j));
+    *other = Normalised(c * t + q * v_.col(j));
+    return true;
   }
 
-  // J z + l b = right, across both borders.
-  Eigen::VectorXd Solve(const Eigen::VectorXd& right, double* l) const {
-    Eigen::VectorXd extended(right.size() + 1), z;
-    extended << right, 0.0;
-    Split(solver_.Solve(extended, 0.0), &z, l);
-    return z;
+  // The curve with the tangent z: its second derivative has a share of `from`, the tangent of the other curve.
+  CurveDerivatives Curve(const Eigen::VectorXd& z, Eigen::Index j, const Eigen::VectorXd& from) const {
+    const auto without = [&](const Eigen::VectorXd& y) {
+      return Eigen::VectorXd(y - y.head(motion_).dot(z.head(motion_)) * z);
+    };
+    Eigen::VectorXd left;
+    const Eigen::VectorXd bent = without(at_.Solve(-form_(z), &left)), across = without(from);
+    const double along_psi = psi_.col(j).dot(form_.Third(z) + 3.0 * form_(z, bent));
+    const double share = along_psi / (3.0 * psi_.col(j).dot(form_(z, across)));
+    return {z, bent - share * across};
   }
 
-  // The null vectors found last become the borders.
-  void UpdateBorders() { SetBorders(across, psi); }
-
-  Eigen::VectorXd along, across;               // J along + left_along b = 0, ...
-  double left_along = 0.0, left_across = 0.0;  // g_t, g_v
-  Eigen::VectorXd psi;                         // psi . b = 1
+  Eigen::VectorXd Normalised(const Eigen::VectorXd& z) const { return z / z.head(motion_).norm(); }
 
  private:
-  Eigen::VectorXd Extended(const Eigen::VectorXd& motion) const {
-    Eigen::VectorXd row = Eigen::VectorXd::Zero(unknowns_ + 1);
-    row.head(motion_) = motion;
-    return row;
-  }
-  void SetBorders(const Eigen::VectorXd& v, const Eigen::VectorXd& psi_found) {
-    v_ = v.head(motion_).normalized();
-    b_ = psi_found.head(system_.NumEquations()).normalized();
-  }
-  void Split(const Eigen::VectorXd& solution, Eigen::VectorXd* z, double* l) const {
-    *z = solution.head(unknowns_);
-    *l = solution[unknowns_];
+  double Form(Eigen::Index j, const Eigen::VectorXd& z) const { return psi_.col(j).dot(form_(z)); }
+
+  // Null vectors of parts that are not connected have components of their own: those of a reduced echelon form.
+  void Separate() {
+    const Eigen::Index k = v_.cols();
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> places(v_.topRows(motion_).transpose());
+    Eigen::MatrixXd square(k, k), mixed(k, k);
+    for (Eigen::Index j = 0; j < k; ++j) square.row(j) = v_.row(places.colsPermutation().indices()[j]);
+    v_ = v_ * square.inverse();
+    for (Eigen::Index j = 0; j < k; ++j) v_.col(j) = Normalised(v_.col(j));
+    for (Eigen::Index j = 0; j < k; ++j) mixed.col(j) = psi_.transpose() * form_(at_.along, v_.col(j));
+    psi_ = psi_ * mixed.inverse().transpose();
   }
 
-  FixedStateSystem& system_;
-  const Eigen::Index motion_, unknowns_;
-  const Eigen::VectorXd t_;
-  Eigen::VectorXd v_, b_;
-  Eigen::SparseMatrix<double> bordered_;  // transposed
-  BorderedSolver solver_;
+  ArcEquations& equations_;
+  const BorderedJacobian& at_;
+  const SecondForm form_;
+  const Eigen::Index motion_;
+  Eigen::MatrixXd v_, psi_;
 };
 
-// Both tangents and second derivatives, from a factorised Jacobian at the crossing.
-bool FindCurves(FixedStateSystem* system, const BorderedJacobian& at, const Eigen::VectorXd& tangent,
+// The curves through the located point.
+bool FindCurves(ArcEquations* equations, const BorderedJacobian& at, const Eigen::VectorXd& tangent,
                 Crossing* crossing) {
-  const Eigen::Index motion = tangent.size();
-  const DerivativeForm form(system, crossing->x, at.psi);
-  const Eigen::VectorXd &t = at.along, &v = at.across;
-  const double a = form(t), b = form(t, v), c = form(v);
-  const double size = std::abs(a) + std::abs(b) + std::abs(c), discriminant = b * b - a * c;
-  if (!(discriminant > tolerances::kDependent * size * size)) return false;
-  const double q = -b - std::copysign(std::sqrt(discriminant), b);
-  CurveDerivatives one, other;
-  one.first = q * t + a * v;
-  other.first = c * t + q * v;
-  for (CurveDerivatives* curve : {&one, &other}) curve->first /= curve->first.head(motion).norm();
-  const auto without = [&](const CurveDerivatives& curve, const Eigen::VectorXd& z) {
-    return Eigen::VectorXd(z - z.head(motion).dot(curve.first.head(motion)) * curve.first);
-  };
-  const auto bend = [&](const CurveDerivatives& of, const CurveDerivatives& from) {
-    double left = 0.0;
-    const Eigen::VectorXd bent = without(of, at.Solve(-system->SecondDerivative(crossing->x, of.first), &left));
-    const Eigen::VectorXd across = without(of, from.first);
-    const double share = (form.Third(of.first) + 3.0 * form(of.first, bent)) / (3.0 * form(of.first, across));
-    return Eigen::VectorXd(bent - share * across);
-  };
-  one.second = bend(one, other);
-  other.second = bend(other, one);
-  if (!one.second.allFinite() || !other.second.allFinite()) return false;
-  crossing->along = std::move(one);
-  crossing->across = std::move(other);
+  const Parts parts(equations, at, crossing->x);
+  const Eigen::Index k = at.across.cols();
+  Eigen::VectorXd one, other, all = Eigen::VectorXd::Zero(at.along.size());
+  for (Eigen::Index j = 0; j < k; ++j) {
+    if (!parts.TangentsOf(j, &one, &other)) return false;
+    const auto component = [&](const Eigen::VectorXd& z) { return std::abs(z.head(tangent.size()).dot(tangent)); };
+    if (component(other) > component(one)) std::swap(one, other);
+    if (j == 0) crossing->along = parts.Curve(one, j, other);
+    crossing->across.push_back(parts.Curve(other, j, one));
+  }
   crossing->NameCurves(tangent);
-  return true;
+  if (k > 1) {
+    for (const CurveDerivatives& curve : crossing->across) all += curve.first;
+    all = parts.Normalised(all);
+    crossing->across.push_back({all, Eigen::VectorXd::Zero(all.size())});
+  }
+  const auto finite = [](const CurveDerivatives& curve) { return curve.second.allFinite(); };
+  return finite(crossing->along) && std::all_of(crossing->across.begin(), crossing->across.end(), finite);
+}
+
+// How many ranks are lost near x at about one place: singular values of sigma of one size.
+Eigen::Index RanksNear(ArcEquations* equations, const Eigen::VectorXd& x, const Eigen::VectorXd& tangent) {
+  const Eigen::Index most = std::min(kMostParts, equations->NumMotion() - 1);
+  BorderedJacobian at(equations, tangent);
+  if (most < 2 || !at.ChooseBorders(x, most) || !at.Factorize(x)) return 1;
+  at.UpdateBorders();
+  if (!at.Factorize(x)) return 1;
+  const Eigen::VectorXd values = Eigen::JacobiSVD<Eigen::MatrixXd>(at.sigma).singularValues();
+  Eigen::Index k = 1;
+  while (k < most && values[most - 1 - k] <= 2.0 * values[most - 1]) ++k;
+  return k;
 }
 
 }  // namespace
 
 void Crossing::NameCurves(const Eigen::VectorXd& tangent) {
   const auto component = [&](const CurveDerivatives& curve) { return curve.first.head(tangent.size()).dot(tangent); };
-  if (std::abs(component(across)) > std::abs(component(along))) std::swap(along, across);
+  if (across.size() == 1 && std::abs(component(across[0])) > std::abs(component(along))) std::swap(along, across[0]);
   if (component(along) < 0.0) along.first = -along.first;
-  Orient(tangent.size(), &across.first);
+  for (CurveDerivatives& curve : across) Orient(tangent.size(), &curve.first);
 }
 
 bool Crossing::IsPerfect() const { return std::abs(unfolding) <= error; }
 
-std::optional<Crossing> FindCrossing(FixedStateSystem* system, const Eigen::VectorXd& guess,
-                                     const Eigen::VectorXd& tangent) {
-  if (system->NumUnknowns() != system->NumEquations() + 1) return std::nullopt;
-  BorderedJacobian at(system, tangent);
-  if (!at.ChooseBorders(guess)) return std::nullopt;
+std::optional<Crossing> FindCrossing(ArcEquations* equations, const Eigen::VectorXd& guess,
+                                     const Eigen::VectorXd& tangent, Eigen::Index k) {
+  if (equations->NumUnknowns() != equations->NumEquations() + 1) return std::nullopt;
+  if (k == 0) k = RanksNear(equations, guess, tangent);
+  BorderedJacobian at(equations, tangent);
+  if (!at.ChooseBorders(guess, k)) return std::nullopt;
   Crossing crossing;
   crossing.x = guess;
-  Eigen::VectorXd residual;
-  double previous = std::numeric_limits<double>::infinity();
-  for (crossing.factorisations = 1; crossing.factorisations <= kMostCorrections;) {
-    system->Residual(crossing.x, &residual);
+  crossing.factorisations = 1;
+  Eigen::VectorXd residual, step;
+  const auto next = [&](const Eigen::VectorXd& x, bool, Eigen::VectorXd* dx) {
+    if (crossing.factorisations > 1) at.UpdateBorders();
+    equations->Residual(x, &residual);
     ++crossing.factorisations;
-    if (!residual.allFinite() || !at.Factorize(crossing.x)) return std::nullopt;
-    double left = 0.0;
+    if (!residual.allFinite() || !at.Factorize(x)) return false;
+    Eigen::VectorXd left;
     const Eigen::VectorXd back = at.Solve(-residual, &left);
-    const DerivativeForm form(system, crossing.x, at.psi);
-    const double mixed = form(at.along, at.across);
-    Eigen::Matrix2d slope;
-    slope << form(at.along), mixed, mixed, form(at.across);
-    const Eigen::Vector2d value(at.left_along - form(at.along, back), at.left_across - form(at.across, back));
-    const Eigen::Vector2d shares = slope.fullPivLu().solve(value);
-    const Eigen::VectorXd step = back + shares[0] * at.along + shares[1] * at.across;
-    crossing.x += step;
-    const double norm = system->Norm(step), scale = 1.0 + crossing.x.norm();
-    if (!std::isfinite(norm)) return std::nullopt;
-    const bool stagnates = norm >= 0.5 * previous && norm <= tolerances::kStagnation * system->ResidualUnit() * scale;
-    if (norm <= tolerances::kRounding * scale || stagnates) {
-      system->Residual(crossing.x, &residual);
-      const double length = at.psi.norm();
-      crossing.unfolding = at.psi.dot(residual) / length;
-      crossing.error = system->Rounding(crossing.x).dot(at.psi.cwiseAbs()) / length;
-      if (!FindCurves(system, at, tangent, &crossing)) return std::nullopt;
-      return crossing;
+    const SecondForm form(equations, x);
+    // Shares of t and of each v: k equations left_along = 0, and one that the mean of the diagonal of sigma is 0.
+    Eigen::MatrixXd slope(k + 1, k + 1);
+    Eigen::VectorXd value(k + 1);
+    const auto psi_of = [&](const Eigen::VectorXd& second) { return Eigen::VectorXd(at.psi.transpose() * second); };
+    slope.col(0).head(k) = psi_of(form(at.along));
+    value.head(k) = at.left_along - psi_of(form(at.along, back));
+    slope.row(k).setZero();
+    value[k] = 0.0;
+    for (Eigen::Index j = 0; j < k; ++j) {
+      const Eigen::VectorXd mixed = psi_of(form(at.along, at.across.col(j)));
+      slope.col(1 + j).head(k) = mixed;
+      slope(k, 0) += mixed[j];
+      value[k] += at.sigma(j, j) - at.psi.col(j).dot(form(at.across.col(j), back));
+      for (Eigen::Index i = 0; i < k; ++i)
+        slope(k, 1 + i) += at.psi.col(j).dot(i == j ? form(at.across.col(j)) : form(at.across.col(j), at.across.col(i)));
     }
-    at.UpdateBorders();
-    previous = norm;
+    const Eigen::VectorXd shares = slope.fullPivLu().solve(value);
+    *dx = back + shares[0] * at.along + at.across * shares.tail(k);
+    return true;
+  };
+  NewtonLimits limits;
+  limits.unit = equations->ResidualUnit();
+  const NewtonCourse course =
+      NewtonLoop(limits, true, next, [&](const Eigen::VectorXd& dx) { return equations->Norm(dx); }, &crossing.x, &step);
+  if (!course.at_rounding) return std::nullopt;
+  equations->Residual(crossing.x, &residual);
+  const Eigen::VectorXd rounding = equations->Rounding(crossing.x);
+  for (Eigen::Index j = 0; j < k; ++j) {
+    const double length = at.psi.col(j).norm();
+    const double unfolding = at.psi.col(j).dot(residual) / length;
+    const double error = rounding.dot(at.psi.col(j).cwiseAbs()) / length;
+    if (j > 0 && !(std::abs(unfolding) - error > std::abs(crossing.unfolding) - crossing.error)) continue;
+    crossing.unfolding = unfolding;
+    crossing.error = error;
   }
-  return std::nullopt;
+  // Of several null vectors, all entries of sigma are zero, or they belong to several points.
+  if (k > 1 && !(at.sigma.cwiseAbs().maxCoeff() <= tolerances::kRate * equations->ResidualUnit())) return std::nullopt;
+  if (!FindCurves(equations, at, tangent, &crossing)) return std::nullopt;
+  return crossing;
 }
 
 }  // namespace contact_path

@@ -17,14 +17,14 @@ constexpr double kNearShare = 0.05;      // of the difference of quintic and cub
 constexpr double kReach = 2.0;           // of the length of a step: wider gaps stay open on it
 constexpr double kReachOfLocated = 0.1;  // of the length of a step: what is located beside its curve is of another one
 
-Jet ValueAlong(const FixedStateSystem& system, const Constraint& constraint, const CurvePoint& point) {
-  return system.ValueAlong(constraint, point.x, point.first, point.second);
+Jet ValueAlong(const ArcEquations& equations, const Constraint& constraint, const CurvePoint& point) {
+  return equations.ValueAlong(constraint, point.x, point.first, point.second);
 }
 
 // The function of an inequality that must stay >= 0: its value, or for slip its rate.
-Quintic FunctionOf(const FixedStateSystem& system, const Step& step, const Constraint& constraint) {
-  const Quintic value = step.Interpolate([&](const CurvePoint& at) { return ValueAlong(system, constraint, at); });
-  return constraint.inequality == Inequality::kSlip ? Derivative(value) : value;
+Quintic FunctionOf(const ArcEquations& equations, const Step& step, const Constraint& constraint) {
+  const Quintic value = step.Interpolate([&](const CurvePoint& at) { return ValueAlong(equations, constraint, at); });
+  return equations.IsOfRate(constraint) ? Derivative(value) : value;
 }
 
 // By how much the cubic interpolation of the same ends differs from the quintic at the middle.
@@ -93,17 +93,17 @@ std::optional<LocatedCrossing> CrossingOn(SmoothArc* arc, const Step& step, bool
 }
 
 // Whether an inequality is zero where the curves cross.
-bool IsZeroAt(const FixedStateSystem& system, const Constraint& constraint, const Crossing& crossing) {
-  const Jet along = system.ValueAlong(constraint, crossing.x, crossing.along.first, crossing.along.second);
-  const double unit = system.UnitOf(constraint);
-  if (constraint.inequality == Inequality::kSlip) return std::abs(along.first) <= tolerances::kRate * unit;
+bool IsZeroAt(const ArcEquations& equations, const Constraint& constraint, const Crossing& crossing) {
+  const Jet along = equations.ValueAlong(constraint, crossing.x, crossing.along.first, crossing.along.second);
+  const double unit = equations.UnitOf(constraint);
+  if (equations.IsOfRate(constraint)) return std::abs(along.first) <= tolerances::kRate * unit;
   return std::abs(along.value) <= tolerances::kActive * unit;
 }
 
 // Where the determinant has changed its sign on the step: puts the crossing in the place of the first event, or beside
 // it where both coincide. False: no crossing explains the change of sign.
 bool LookForCrossing(SmoothArc* arc, const Step& step, const StepEnds& ends, StepEvent* first) {
-  const FixedStateSystem& system = arc->system();
+  ArcEquations& equations = arc->equations();
   bool broken = false;
   std::optional<LocatedCrossing> found = CrossingOn(arc, step, &broken);
   if (!found) {
@@ -114,10 +114,10 @@ bool LookForCrossing(SmoothArc* arc, const Step& step, const StepEnds& ends, Ste
     return first->singular;
   }
   const CurveDerivatives& along = found->at.along;
-  const Eigen::Index s = system.NumDofs();
-  const bool is_level = std::abs(along.first[s]) <= tolerances::kRate * system.ResidualUnit();
+  const Eigen::Index s = arc->LoadFactor();
+  const bool is_level = std::abs(along.first[s]) <= tolerances::kRate * equations.ResidualUnit();
   const bool turns = is_level && std::abs(along.second[s]) > tolerances::kRate;
-  const bool coincides = (first->kind == EventKind::kContactEvent && IsZeroAt(system, first->constraint, found->at)) ||
+  const bool coincides = (first->kind == EventKind::kContactEvent && IsZeroAt(equations, first->constraint, found->at)) ||
                          (first->kind == EventKind::kLimitPoint && is_level);
   // A crossing at the start is where the step has come from.
   const bool comes_first = found->t > tolerances::kNoMove && found->t <= first->t;
@@ -142,7 +142,7 @@ std::optional<double> FirstTurn(const Quintic& load_factor, const Step& step) {
       const double value = Evaluate(rate, from + QuinticNode(i, 1.0) * (to - from));
       if (std::abs(value) > std::abs(largest)) largest = value;
     }
-    return SignBeyond(largest, level);
+    return Measured{largest, level}.Sign();
   };
   int count = 0;
   const std::array<double, 5> roots = Roots(rate, step.length, &count);
@@ -197,11 +197,11 @@ std::optional<double> FirstAtValue(Quintic function, double value, double roundi
 }
 
 // Ends *first at the first value of a function before it.
-void FindSample(const FixedStateSystem& system, const Step& step, const ArcTargets& functions, StepEvent* first) {
+void FindSample(const Step& step, const ArcTargets& functions, StepEvent* first) {
   if (functions.empty()) return;
   const QuinticNodes at(step);
   for (std::size_t i = 0; i < functions.size(); ++i) {
-    const Quintic along = at.Interpolate([&](const Eigen::VectorXd& x) { return functions[i].of(system, x); });
+    const Quintic along = at.Interpolate([&](const Eigen::VectorXd& x) { return functions[i].of(x); });
     for (const double value : functions[i].values)
       if (const std::optional<double> t =
               FirstAtValue(along, value, functions[i].rounding, functions[i].sense, step.length);
@@ -213,13 +213,13 @@ void FindSample(const FixedStateSystem& system, const Step& step, const ArcTarge
 // The point near t where the function has the value, by Newton's method with the slope of its interpolation.
 std::optional<CurvePoint> LocateSample(SmoothArc* arc, const Step& step, double t, const ArcTarget& target,
                                        double value) {
-  const FixedStateSystem& system = arc->system();
+  ArcEquations& equations = arc->equations();
   const auto point_at = [&](const Eigen::VectorXd& x, double at) -> std::optional<CurvePoint> {
     CurvePoint point;
     if (!arc->Derivatives(x, step.normal, &point)) return std::nullopt;
     // Next to a singular point derivatives are less exact than their interpolation.
     const CurvePoint interpolated = step.At(at);
-    if (system.Norm(point.second - interpolated.second) * step.length > tolerances::kSmallShare)
+    if (equations.Norm(point.second - interpolated.second) * step.length > tolerances::kSmallShare)
       std::tie(point.first, point.second) = std::tie(interpolated.first, interpolated.second);
     return point;
   };
@@ -232,12 +232,12 @@ std::optional<CurvePoint> LocateSample(SmoothArc* arc, const Step& step, double 
       return point_at(correction.x, t);
   }
   const Quintic slope =
-      Derivative(QuinticNodes(step).Interpolate([&](const Eigen::VectorXd& x) { return target.of(system, x); }));
+      Derivative(QuinticNodes(step).Interpolate([&](const Eigen::VectorXd& x) { return target.of(x); }));
   double previous = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kMostIterations; ++i) {
     const Correction correction = arc->CorrectOnPlane(step.Point(t), step.normal);
     if (!correction.converged) return std::nullopt;
-    const double off = target.of(system, correction.x) - value;
+    const double off = target.of(correction.x) - value;
     // No nearer: rounding, or the function does not come to the value.
     if (off == 0.0 || !(std::abs(off) < 0.5 * previous)) {
       return std::abs(off) <= target.rounding ? point_at(correction.x, t) : std::nullopt;
@@ -257,7 +257,7 @@ double ErrorOfPlace(const CurvePoint& limit_point, Eigen::Index load) {
 }
 
 StepEvent FirstEvent(SmoothArc* arc, const Step& step, const StepEnds& ends) {
-  const FixedStateSystem& system = arc->system();
+  ArcEquations& equations = arc->equations();
   StepEvent first;
   first.t = step.length;
   const double width = tolerances::kShort * step.length;
@@ -269,16 +269,16 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, const StepEnds& ends) {
   };
   // No node moves further than the arc length, and that is hardly longer than the step.
   std::vector<Constraint> open_ends;
-  const std::vector<Constraint> inequalities = arc->InequalitiesInReach(step.start.x, kReach * step.length, &open_ends);
+  const std::vector<Constraint> inequalities = equations.LimitsInReach(step.start.x, kReach * step.length, &open_ends);
   for (const Constraint& end : open_ends) {
-    Quintic beyond = FunctionOf(system, step, end);
+    Quintic beyond = FunctionOf(equations, step, end);
     beyond[0] += tolerances::kTouching;
     if (const std::optional<double> t = FirstNegative(beyond, step.length, 0.0))
       consider(EventKind::kNearTouch, *t, end);
   }
   for (const Constraint& constraint : inequalities) {
-    const Quintic quintic = FunctionOf(system, step, constraint);
-    const double zero = constraint.inequality == Inequality::kSlip ? tolerances::kRate * system.ResidualUnit()
+    const Quintic quintic = FunctionOf(equations, step, constraint);
+    const double zero = equations.IsOfRate(constraint) ? tolerances::kRate * equations.ResidualUnit()
                                                                    : arc->RoundingOf(constraint);
     if (const std::optional<double> t = FirstNegative(quintic, step.length, zero)) {
       consider(EventKind::kContactEvent, *t, constraint);
@@ -291,14 +291,14 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, const StepEnds& ends) {
     if (inside && smallest > zero && smallest < kNearShare * CubicDifference(quintic, step.length))
       consider(EventKind::kNearTouch, where, constraint);
   }
-  const Quintic load_factor = step.InterpolateLinear([s = system.NumDofs()](const Eigen::VectorXd& x) { return x[s]; });
+  const Quintic load_factor = step.InterpolateLinear([s = arc->LoadFactor()](const Eigen::VectorXd& x) { return x[s]; });
   if (const std::optional<double> t = FirstTurn(load_factor, step)) consider(EventKind::kLimitPoint, *t, {});
   if (step.start.side * step.end.side < 0 && !LookForCrossing(arc, step, ends, &first))
     return {EventKind::kTooLong, 0.0, {}};
   // From wall to wall of one obstacle in one step: a shorter step sees the wall that is ahead.
-  if (first.kind == EventKind::kNone && arc->BehindOtherPatch(step.end.x)) return {EventKind::kTooLong, 0.0, {}};
+  if (first.kind == EventKind::kNone && equations.BeyondReach(step.end.x)) return {EventKind::kTooLong, 0.0, {}};
   // Whatever lies behind the target, however near, is not of this path.
-  FindSample(system, step, ends.functions, &first);
+  FindSample(step, ends.functions, &first);
   if (ends.load_factor)
     if (const std::optional<double> t = FirstAt(load_factor, *ends.load_factor, step.length); t && *t <= first.t)
       first = {EventKind::kTarget, *t, {}};
@@ -309,8 +309,8 @@ std::optional<CurvePoint> Locate(SmoothArc* arc, const Step& step, const StepEve
   if (event.crossing) {
     CurvePoint point;
     point.x = event.crossing->x;
-    point.load_error = tolerances::kRate * arc->system().ResidualUnit();
-    TakeCurve(event.crossing->along.first, event.crossing->along.second, arc->system().NumDofs(), &point);
+    point.load_error = tolerances::kRate * arc->equations().ResidualUnit();
+    TakeCurve(event.crossing->along.first, event.crossing->along.second, arc->LoadFactor(), &point);
     point.is_limit = event.kind == EventKind::kLimitPoint;
     point.is_crossing = true;
     return point;
@@ -335,7 +335,7 @@ namespace {
 
 std::optional<CurvePoint> LocateRegular(SmoothArc* arc, const Step& step, const StepEvent& event,
                                         const StepEnds& ends) {
-  const FixedStateSystem& system = arc->system();
+  ArcEquations& equations = arc->equations();
   switch (event.kind) {
     case EventKind::kNone: return step.end;
     case EventKind::kTooLong: return std::nullopt;
@@ -344,13 +344,13 @@ std::optional<CurvePoint> LocateRegular(SmoothArc* arc, const Step& step, const 
     case EventKind::kLimitPoint:
       return LocateRate(
           arc, step, event.t,
-          [s = system.NumDofs()](const CurvePoint& at) {
+          [s = arc->LoadFactor()](const CurvePoint& at) {
             return Jet{at.x[s], at.first[s], at.second[s]};
           },
-          [s = system.NumDofs()](const Eigen::VectorXd& x) { return Eigen::VectorXd::Unit(x.size(), s); });
+          [s = arc->LoadFactor()](const Eigen::VectorXd& x) { return Eigen::VectorXd::Unit(x.size(), s); });
     case EventKind::kTarget: {
       const Correction correction = arc->Correct(
-          step.Point(event.t), Eigen::VectorXd::Unit(system.NumUnknowns(), system.NumDofs()), ends.load_factor.value());
+          step.Point(event.t), Eigen::VectorXd::Unit(equations.NumUnknowns(), arc->LoadFactor()), ends.load_factor.value());
       CurvePoint point;
       if (!correction.converged || !arc->Derivatives(correction.x, step.normal, &point)) return std::nullopt;
       return point;
@@ -358,9 +358,9 @@ std::optional<CurvePoint> LocateRegular(SmoothArc* arc, const Step& step, const 
     case EventKind::kSample: return LocateSample(arc, step, event.t, ends.functions[event.target], event.value);
     case EventKind::kContactEvent: break;
   }
-  const auto along = [&](const CurvePoint& at) { return ValueAlong(system, event.constraint, at); };
-  const auto gradient = [&](const Eigen::VectorXd& x) { return system.Gradient(event.constraint, x); };
-  if (event.constraint.inequality == Inequality::kSlip) return LocateRate(arc, step, event.t, along, gradient);
+  const auto along = [&](const CurvePoint& at) { return ValueAlong(equations, event.constraint, at); };
+  const auto gradient = [&](const Eigen::VectorXd& x) { return equations.Gradient(event.constraint, x); };
+  if (equations.IsOfRate(event.constraint)) return LocateRate(arc, step, event.t, along, gradient);
   // The inequality as the last equation. Where it only grazes zero, that has no solution: then its minimum counts, or
   // else the point itself. At the event itself the equations may be singular: then derivatives are those of the step
   // that crossed it.
@@ -376,7 +376,7 @@ std::optional<CurvePoint> LocateRegular(SmoothArc* arc, const Step& step, const 
   const CurvePoint interpolated = step.At(step.normal.dot((correction.x - step.start.x).head(step.normal.size())));
   CurvePoint point;
   const bool regular = arc->Derivatives(correction.x, interpolated.first.head(step.normal.size()), &point) &&
-                       system.Norm(point.first - interpolated.first) <= tolerances::kSmallShare;
+                       equations.Norm(point.first - interpolated.first) <= tolerances::kSmallShare;
   if (!regular) point = interpolated;
   point.x = correction.x;
   return point;

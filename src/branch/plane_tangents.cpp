@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact_path/equations/second_form.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
@@ -32,28 +33,27 @@ std::vector<Eigen::Vector2d> Zeros(const QuadraticForm& form) {
 
 }  // namespace
 
-PlaneTangents TangentsInPlane(FixedStateSystem* system, const Eigen::VectorXd& x, const Eigen::MatrixXd& plane,
+PlaneTangents TangentsInPlane(ArcEquations* equations, const Eigen::VectorXd& x, const Eigen::MatrixXd& plane,
                               const Eigen::MatrixXd& left) {
-  const Eigen::VectorXd first = system->SecondDerivative(x, plane.col(0));
-  const Eigen::VectorXd second = system->SecondDerivative(x, plane.col(1));
-  const Eigen::VectorXd sum = system->SecondDerivative(x, plane.col(0) + plane.col(1));
+  const SecondForm of(equations, x);
+  const Eigen::VectorXd first = of(plane.col(0)), second = of(plane.col(1)), mixed = of(plane.col(0), plane.col(1));
   std::vector<QuadraticForm> forms;
   std::size_t largest = 0;
   for (Eigen::Index k = 0; k < left.cols(); ++k) {
     const Eigen::VectorXd psi = left.col(k).normalized();
     QuadraticForm form;
     form.a = psi.dot(first);
+    form.b = psi.dot(mixed);
     form.c = psi.dot(second);
-    form.b = 0.5 * (psi.dot(sum) - form.a - form.c);
     forms.push_back(form);
     if (form.Size() > forms[largest].Size()) largest = forms.size() - 1;
   }
   PlaneTangents result;
   // Null vectors are known to rounding, which stiff elements make large.
-  const double size = std::max({1.0, first.norm(), second.norm(), sum.norm()});
+  const double size = std::max({1.0, first.norm(), second.norm(), mixed.norm()});
   if (forms.empty() || !(forms[largest].Size() > tolerances::kNoForm * size)) return result;
   result.determined = true;
-  const Eigen::Index motion = system->NumDofs() + 1;
+  const Eigen::Index motion = equations->NumMotion();
   for (const Eigen::Vector2d& zero : Zeros(forms[largest])) {
     bool common = true;
     for (const QuadraticForm& form : forms)

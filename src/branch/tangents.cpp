@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "contact_path/branch/plane_tangents.h"
+#include "contact_path/equations/second_form.h"
 #include "contact_path/iterations.h"
 #include "contact_path/linear/linearised_equations.h"
 #include "contact_path/linear/singular_vectors.h"
@@ -81,36 +82,35 @@ void AddTangent(const NullSpaceParts& parts, const Eigen::VectorXd& arrival, Tan
 // tangent. The equations hold to second order along the curve: psi . F''(z, z) = 0 for each left null vector psi, where
 // z is the tangent with a share of each rigid mode. The tangent stays as it is where these equations do not tell.
 void AddShareOfModes(const Eigen::VectorXd& x, const Eigen::MatrixXd& modes, const Eigen::MatrixXd& left,
-                     FixedStateSystem* system, Eigen::VectorXd* tangent) {
+                     ArcEquations* equations, Eigen::VectorXd* tangent) {
   if (modes.cols() == 0 || modes.cols() > kMostModes || left.cols() != modes.cols()) return;
-  const Eigen::MatrixXd psi = left.topRows(system->NumEquations()).colwise().normalized();
-  const auto form = [&](const Eigen::VectorXd& z) {
-    return Eigen::VectorXd(psi.transpose() * system->SecondDerivative(x, z));
-  };
+  const Eigen::MatrixXd psi = left.topRows(equations->NumEquations()).colwise().normalized();
+  const SecondForm second(equations, x);
+  const auto form = [&](const Eigen::VectorXd& z) { return Eigen::VectorXd(psi.transpose() * second(z)); };
   Eigen::VectorXd z = *tangent, value = form(z);
   if (value.norm() <= tolerances::kNoForm) return;
   for (int i = 0; i < kMostIterations; ++i) {
     Eigen::MatrixXd slope(modes.cols(), modes.cols());
     for (Eigen::Index k = 0; k < modes.cols(); ++k)
-      slope.col(k) = 0.5 * (form(z + modes.col(k)) - form(z - modes.col(k)));
+      slope.col(k) = 2.0 * psi.transpose() * second(z, modes.col(k));
     const SingularVectors singular = RightSingularVectors(slope);
     if (!(singular.values[modes.cols() - 1] > tolerances::kNoForm)) return;
     z -= modes * slope.partialPivLu().solve(value);
     value = form(z);
     if (!value.allFinite()) return;
     if (value.norm() > tolerances::kRate * z.squaredNorm()) continue;
-    *tangent = z / z.head(system->NumDofs() + 1).norm();
+    *tangent = z / z.head(equations->NumMotion()).norm();
     return;
   }
 }
 
 Tangents SingularTangents(const Eigen::VectorXd& x, const Eigen::VectorXd& arrival, bool crossed,
-                          FixedStateSystem* system, const MinimumNormSolver& solver) {
+                          ArcEquations* equations, const MinimumNormSolver& solver) {
   Tangents tangents;
   const NullSpaceParts parts = PartsOf(solver.NullSpace(), arrival.size());
   const Eigen::MatrixXd& plane = crossed ? parts.moving : parts.proper;
   if (plane.cols() == 2 && (crossed || parts.rigid.cols() == 0)) {
-    PlaneTangents in_plane = TangentsInPlane(system, x, plane, solver.LeftNullSpace());
+    PlaneTangents in_plane = TangentsInPlane(equations, x, plane, solver.LeftNullSpace());
     if (in_plane.determined) {
       tangents.rests = !crossed;
       tangents.first = std::move(in_plane.directions);
@@ -119,7 +119,7 @@ Tangents SingularTangents(const Eigen::VectorXd& x, const Eigen::VectorXd& arriv
   }
   AddTangent(parts, arrival, &tangents);
   if (!crossed && parts.proper.cols() == 1 && tangents.first.size() == 1)
-    AddShareOfModes(x, parts.rigid, solver.LeftNullSpace(), system, &tangents.first[0]);
+    AddShareOfModes(x, parts.rigid, solver.LeftNullSpace(), equations, &tangents.first[0]);
   return tangents;
 }
 
@@ -145,51 +145,51 @@ Tangents HeldTangents(const Eigen::VectorXd& arrival, Eigen::VectorXd tangent, c
 
 }  // namespace
 
-Tangents FindTangents(const Eigen::VectorXd& x, const Eigen::VectorXd& arrival, bool crossed, const RigidModes& modes,
-                      FixedStateSystem* system, TangentSolvers* solvers) {
+Tangents FindTangents(const Eigen::VectorXd& x, const Eigen::VectorXd& arrival, bool crossed, ArcEquations* equations,
+                      TangentSolvers* solvers) {
   const Eigen::Index motion = arrival.size(), s = motion - 1;
-  const Eigen::SparseMatrix<double>& transposed = system->TransposedJacobian(x);
-  const Eigen::VectorXd none = Eigen::VectorXd::Zero(system->NumEquations());
+  const Eigen::SparseMatrix<double>& transposed = equations->TransposedJacobian(x);
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(equations->NumEquations());
   Tangents tangents;
   const auto add_by = [&](const BorderedSolver& solver) {
-    const LinearisedEquations equations(transposed);
+    const LinearisedEquations linearised(transposed);
     for (Eigen::VectorXd& first : tangents.first) {
-      equations.Refine(solver, &first);
+      linearised.Refine(solver, &first);
       first /= first.head(motion).norm();
-      tangents.second.push_back(solver.Solve(-system->SecondDerivative(x, first), 0.0));
-      tangents.load_error.push_back(equations.ErrorOf(s, solver, first));
+      tangents.second.push_back(solver.Solve(-equations->SecondDerivative(x, first), 0.0));
+      tangents.load_error.push_back(linearised.ErrorOf(s, solver, first));
     }
   };
   if (!crossed) {
-    Eigen::VectorXd row = Eigen::VectorXd::Zero(system->NumUnknowns());
+    Eigen::VectorXd row = Eigen::VectorXd::Zero(equations->NumUnknowns());
     row.head(motion) = arrival;
     // Rounding of stiff parts may make equations regular that a rigid motion makes singular.
-    const Eigen::MatrixXd rigid = modes.At(x, transposed);
+    const Eigen::MatrixXd rigid = equations->FreeMotions(x, transposed);
     if (rigid.cols() == 0 &&
-        solvers->regular.FactorizeRegular(transposed, row, tolerances::kRegularPivot, system->InFrame())) {
+        solvers->regular.FactorizeRegular(transposed, row, tolerances::kRegularPivot, equations->InFrame())) {
       tangents.first = {solvers->regular.Solve(none, 1.0)};
       add_by(solvers->regular);
       return tangents;
     }
     Eigen::VectorXd tangent;
     if (rigid.cols() > 0 && transposed.rows() == transposed.cols() + 1 &&
-        solvers->held.FactorizeHeld(transposed, row, rigid, system->InFrame(), &tangent)) {
+        solvers->held.FactorizeHeld(transposed, row, rigid, equations->InFrame(), &tangent)) {
       tangents = HeldTangents(arrival, tangent, rigid);
       if (tangent.size() > 0) {
         add_by(solvers->held);
         return tangents;
       }
       // Rigid motions without load: how they bend is of no use.
-      tangents.second.assign(tangents.first.size(), Eigen::VectorXd::Zero(system->NumUnknowns()));
+      tangents.second.assign(tangents.first.size(), Eigen::VectorXd::Zero(equations->NumUnknowns()));
       tangents.load_error.assign(tangents.first.size(), tolerances::kRate);
       return tangents;
     }
   }
   if (!solvers->singular.Factorize(transposed, crossed ? tolerances::kRootOfRounding : tolerances::kDependentColumn))
     return tangents;
-  tangents = SingularTangents(x, arrival, crossed, system, solvers->singular);
+  tangents = SingularTangents(x, arrival, crossed, equations, solvers->singular);
   for (const Eigen::VectorXd& first : tangents.first)
-    tangents.second.push_back(solvers->singular.Solve(-system->SecondDerivative(x, first)));
+    tangents.second.push_back(solvers->singular.Solve(-equations->SecondDerivative(x, first)));
   tangents.load_error.assign(tangents.first.size(), tolerances::kRate);
   return tangents;
 }

@@ -34,21 +34,50 @@ void FixedStateSystem::AddPatchEnds(std::size_t contact, std::vector<Constraint>
   if (std::isfinite(range.end)) inequalities->push_back({i, Inequality::kPatchEnd});
 }
 
-std::vector<Constraint> FixedStateSystem::PatchEndsOfOpen(const std::vector<std::size_t>& candidates) const {
-  std::vector<Constraint> ends;
-  for (const std::size_t i : candidates)
-    if (states_[i] == ContactState::kOpen) AddPatchEnds(i, &ends);
-  return ends;
+void FixedStateSystem::SetStatesFrom(const PathPoint& from, const std::vector<ContactState>& states) {
+  SetStates(states, SlipReferences(contacts_, from), from.patches);
+  moved_forces_.clear();
+  Eigen::VectorXd stiffness;
+  for (const std::size_t i : touching_) {
+    const double gap = contacts_[i]->Gap(from.u, from.s, from.Patch(i));
+    if (!(gap > tolerances::kBroken)) continue;
+    if (stiffness.size() == 0) {
+      structure_.Tangent(from.u, &tangent_);
+      stiffness = tangent_.diagonal().cwiseAbs();
+    }
+    double largest = 0.0;
+    for (const int dof : contacts_[i]->Dofs(from.Patch(i))) largest = std::max(largest, stiffness[dof]);
+    moved_forces_[static_cast<int>(i)] = (1.0 + contacts_[i]->Friction()) * largest * gap;
+  }
 }
 
-void FixedStateSystem::PlaceOpen(const std::vector<std::size_t>& candidates, const Eigen::VectorXd& x) {
-  for (const std::size_t i : candidates)
-    if (states_[i] == ContactState::kOpen && contacts_[i]->HasPatches())
-      patches_[i] = contacts_[i]->PatchAt(x, x[NumDofs()]);
+double FixedStateSystem::RoundingOf(const Constraint& limit, double of_forces) const {
+  double rounding = tolerances::kBroken * UnitOf(limit);
+  if (!IsMotion(limit.inequality)) rounding = std::max(rounding, of_forces);
+  const auto moved = moved_forces_.find(limit.contact);
+  return moved == moved_forces_.end() ? rounding : std::max(rounding, moved->second);
 }
 
-bool FixedStateSystem::BehindOtherPatch(const std::vector<std::size_t>& candidates, const Eigen::VectorXd& x) const {
-  return std::any_of(candidates.begin(), candidates.end(), [&](std::size_t i) {
+std::vector<Constraint> FixedStateSystem::LimitsInReach(const Eigen::VectorXd& x, double reach,
+                                                        std::vector<Constraint>* near) {
+  const double s = x[NumDofs()];
+  if (!tracker_) tracker_.emplace(contacts_);
+  in_reach_ = tracker_->InReach(x.head(NumDofs()), s, reach);
+  near->clear();
+  for (const std::size_t i : in_reach_) {
+    if (states_[i] != ContactState::kOpen) continue;
+    if (contacts_[i]->HasPatches()) patches_[i] = contacts_[i]->PatchAt(x, s);
+    AddPatchEnds(i, near);
+  }
+  std::vector<std::size_t> all;
+  std::set_union(touching_.begin(), touching_.end(), in_reach_.begin(), in_reach_.end(), std::back_inserter(all));
+  std::vector<Constraint> inequalities;
+  for (const std::size_t i : all) AddInequalities(i, &inequalities);
+  return inequalities;
+}
+
+bool FixedStateSystem::BeyondReach(const Eigen::VectorXd& x) const {
+  return std::any_of(in_reach_.begin(), in_reach_.end(), [&](std::size_t i) {
     if (states_[i] != ContactState::kOpen || !contacts_[i]->HasPatches()) return false;
     const ContactPair& pair = *contacts_[i];
     const int patch = pair.PatchAt(x, x[NumDofs()]);
@@ -68,12 +97,16 @@ std::vector<Constraint> FixedStateSystem::Inequalities() const {
   return inequalities;
 }
 
-std::vector<Constraint> FixedStateSystem::InequalitiesOf(const std::vector<std::size_t>& candidates) const {
-  std::vector<std::size_t> all;
-  std::set_union(touching_.begin(), touching_.end(), candidates.begin(), candidates.end(), std::back_inserter(all));
-  std::vector<Constraint> inequalities;
-  for (const std::size_t i : all) AddInequalities(i, &inequalities);
-  return inequalities;
+const RigidModes& FixedStateSystem::Modes() const {
+  if (!modes_) modes_.emplace(structure_);
+  return *modes_;
+}
+
+bool FixedStateSystem::MayMoveFreely() const { return Modes().Possible(); }
+
+Eigen::MatrixXd FixedStateSystem::FreeMotions(const Eigen::VectorXd& x,
+                                              const Eigen::SparseMatrix<double>& transposed) {
+  return Modes().At(x.head(NumDofs()), transposed);
 }
 
 }  // namespace contact_path

@@ -353,8 +353,12 @@ double FixedStateSystem::Largest(const Eigen::VectorXd& residual) const {
   return largest;
 }
 
-double FixedStateSystem::LargestOfMotions(const Eigen::VectorXd& residual) const {
-  return residual.segment(NumDofs(), first_active_equation_ - NumDofs()).lpNorm<Eigen::Infinity>();
+bool FixedStateSystem::Hold(const Eigen::VectorXd& x, const Eigen::VectorXd& residual) const {
+  const double force = 1.0 + x.tail(x.size() - NumDofs()).lpNorm<Eigen::Infinity>();
+  const double place = 1.0 + x.head(NumMotion()).lpNorm<Eigen::Infinity>();
+  const auto motions = residual.segment(NumDofs(), first_active_equation_ - NumDofs());
+  return Largest(residual) <= tolerances::kResidual * force &&
+         motions.lpNorm<Eigen::Infinity>() <= tolerances::kResidual * place;
 }
 
 double FixedStateSystem::Norm(const Eigen::VectorXd& change) const {

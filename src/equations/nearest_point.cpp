@@ -1,8 +1,6 @@
 #include "contact_path/equations/nearest_point.h"
 
-#include <cmath>
-
-#include "contact_path/iterations.h"
+#include "contact_path/equations/newton_loop.h"
 #include "contact_path/linear/bordered_solver.h"
 #include "contact_path/linear/generic_vector.h"
 #include "contact_path/linear/minimum_norm.h"
@@ -52,39 +50,32 @@ NearestPoint FindNearestPoint(FixedStateSystem* system, const Eigen::VectorXd& s
   result.x = start;
   ShortestStep solver;
   Eigen::SparseMatrix<double> scaled;
-  Eigen::VectorXd residual;
-  system->Residual(result.x, &residual);
-  double previous = std::numeric_limits<double>::infinity();
-  for (; result.iterations < kMostIterations; ++result.iterations) {
-    scaled = system->TransposedJacobian(result.x);
+  Eigen::VectorXd residual, step;
+  const auto next = [&](const Eigen::VectorXd& x, bool, Eigen::VectorXd* dx) {
+    system->Residual(x, &residual);
+    scaled = system->TransposedJacobian(x);
     for (Eigen::Index column = 0; column < scaled.cols(); ++column)
       for (Eigen::SparseMatrix<double>::InnerIterator it(scaled, column); it; ++it)
         if (it.row() >= size) it.valueRef() /= kReactionWeight;
-    if (!residual.allFinite() || !solver.Factorize(scaled, system->InFrame())) return result;
+    if (!residual.allFinite() || !solver.Factorize(scaled, system->InFrame())) return false;
     result.rank = solver.Rank();
-
     // Towards what is wanted, then back onto the linearised equations by the shortest step.
-    Eigen::VectorXd step = Eigen::VectorXd::Zero(system->NumUnknowns());
-    step.head(size) = wanted - result.x.head(size);
-    step += solver.Solve(-residual - scaled.transpose() * step);
-    step.tail(reactions) /= kReactionWeight;
-
-    result.x += step;
-    result.last_step = step.norm();
-    system->Residual(result.x, &residual);
-    result.residual = system->Largest(residual);
-    if (!std::isfinite(result.residual)) return result;
-    const double scale = 1.0 + result.x.norm();
-    const bool at_rounding = result.last_step <= tolerances::kRounding * scale ||
-                             (result.last_step <= tolerances::kStagnation * system->ResidualUnit() * scale &&
-                              result.last_step >= 0.5 * previous);
-    if (at_rounding) {
-      result.converged = result.residual <= tolerances::kStagnation;
-      ++result.iterations;
-      return result;
-    }
-    previous = result.last_step;
-  }
+    dx->setZero(system->NumUnknowns());
+    dx->head(size) = wanted - x.head(size);
+    *dx += solver.Solve(-residual - scaled.transpose() * *dx);
+    dx->tail(reactions) /= kReactionWeight;
+    return true;
+  };
+  NewtonLimits limits;
+  limits.most = kMostIterations;
+  limits.unit = system->ResidualUnit();
+  const NewtonCourse course =
+      NewtonLoop(limits, true, next, [](const Eigen::VectorXd& dx) { return dx.norm(); }, &result.x, &step);
+  result.iterations = course.iterations;
+  if (!course.steps.empty()) result.last_step = course.steps.back();
+  system->Residual(result.x, &residual);
+  result.residual = system->Largest(residual);
+  result.converged = course.at_rounding && result.residual <= tolerances::kStagnation;
   return result;
 }
 

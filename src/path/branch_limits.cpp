@@ -51,7 +51,7 @@ void BranchMethod::NoteStability(const ArcStep& at, const AcceptedPoint& increme
   const Eigen::Index nd = LoadFactor();
   Eigen::VectorXd null_direction;
   if (at.event.crossing) {
-    const Eigen::VectorXd &along = at.event.crossing->along.first, &across = at.event.crossing->across.first;
+    const Eigen::VectorXd &along = at.event.crossing->along.first, &across = at.event.crossing->across.front().first;
     null_direction = (across.head(nd) * along[nd] - along.head(nd) * across[nd]).normalized();
   } else if (end.is_limit) {
     null_direction = end.first.head(nd).normalized();

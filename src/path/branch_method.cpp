@@ -37,7 +37,10 @@ BranchMethod::BranchMethod(const Model& model, const BranchOptions& options, std
       arc_(model.structure, model.contacts),
       step_length_(options.step),
       increments_(options.increments),
-      events_(options.events) {}
+      events_(options.events) {
+  ends_.load_factor = options.load_factor;
+  if (options.watch) ends_.functions = options.watch(arc_.system());
+}
 
 int BranchMethod::StiffnessSign(const CurvePoint& point) const {
   // By Cramer's rule from the rate of the load factor; the parity is that of the rows and columns of the reactions.
@@ -49,7 +52,7 @@ int BranchMethod::StiffnessSign(const CurvePoint& point) const {
 
 std::vector<double> BranchMethod::CrossingPath(const Crossing& crossing) const {
   const Eigen::Index motion = arc_.NumMotion();
-  const auto along = crossing.along.first.head(motion), across = crossing.across.first.head(motion);
+  const auto along = crossing.along.first.head(motion), across = crossing.across.front().first.head(motion);
   return model_.ComponentsOf((across - across.dot(along) * along).normalized());
 }
 
@@ -117,8 +120,8 @@ AcceptedPoint BranchMethod::IncrementOf(const ArcStep& step, const PathPoint& fr
   increment.solve.iterations = step.iterations;
   increment.solve.contraction = step.contraction;
   if (step.event.kind != EventKind::kNone)
-    for (const ArcTarget& target : options_.ends.functions)
-      if (target.criterion >= 0 && std::abs(target.of(arc_.system(), end.x) - target.values.front()) <= target.rounding)
+    for (const ArcTarget& target : ends_.functions)
+      if (target.criterion >= 0 && std::abs(target.of(end.x) - target.values.front()) <= target.rounding)
         increment.at_criteria.push_back(target.criterion);
   return increment;
 }
@@ -126,7 +129,7 @@ AcceptedPoint BranchMethod::IncrementOf(const ArcStep& step, const PathPoint& fr
 std::optional<PathPoint> BranchMethod::InnerPoint(const Step& step, const PathPoint& from) const {
   if (!options_.inner || !(step.length > 0.0)) return std::nullopt;
   // On an arc of its own: the steps of the path are the same with and without inner states.
-  SmoothArc arc(model_.structure, model_.contacts);
+  ContactArc arc(model_.structure, model_.contacts);
   arc.SetStates(arc_.system().states(), arc_.system().Unpack(step.start.x), arc_.Rests());
   const Correction middle = arc.CorrectOnPlane(step.Point(0.5 * step.length), step.normal);
   if (!middle.converged) return std::nullopt;
@@ -285,7 +288,7 @@ std::optional<BranchMethod::BalancedStep> BranchMethod::NextBalancedStep() {
   double length = step_length_;
   std::optional<BalancedStep> best;
   for (int shorter = 0; shorter <= kMostShorter; ++shorter) {
-    std::optional<ArcStep> at = NextStep(&arc_, current_, length, limits, options_.ends);
+    std::optional<ArcStep> at = NextStep(&arc_, current_, length, limits, ends_);
     if (!at) break;
     if (best) at->rejected += best->at.rejected + 1;
     best.emplace();

@@ -86,7 +86,7 @@ Arrival Departure::StartArrival() const {
   return arrival;
 }
 
-std::optional<End> Departure::Leave(const PathPoint& point, Arrival arrival, const BranchChoice* choice, SmoothArc* arc,
+std::optional<End> Departure::Leave(const PathPoint& point, Arrival arrival, const BranchChoice* choice, ContactArc* arc,
                                     CurvePoint* current, EventRecord* record) {
   if (!arrival.is_start) arrival.before = moved_;
   ActiveSetTolerance tolerance = ToleranceAt(point);
@@ -131,7 +131,7 @@ End Departure::UnknownRate(const Constraint& constraint, const FixedStateSystem&
 }
 
 // Sets out on a branch from `point`. False: it cannot be followed.
-bool Departure::SetOut(const PathPoint& point, const Branch& branch, SmoothArc* arc, CurvePoint* current) const {
+bool Departure::SetOut(const PathPoint& point, const Branch& branch, ContactArc* arc, CurvePoint* current) const {
   PathPoint begin = point;
   begin.patches = branch.patches;
   arc->SetStates(branch.states, begin, branch.singular);

@@ -103,7 +103,7 @@ Preload TraceStart(const Model& model, Accuracy accuracy, const std::function<bo
     upwards.accuracy = accuracy;
     upwards.stability = DefaultTrue::kFalse;
     BranchOptions options = BranchOptions::For(upwards, AutomaticStepGrowth(of));
-    options.ends.load_factor = target;
+    options.load_factor = target;
     options.keep_loading = true;
     return std::make_unique<BranchMethod>(of, options, cancelled);
   };

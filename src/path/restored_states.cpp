@@ -6,7 +6,7 @@
 #include <memory>
 #include <optional>
 
-#include "contact_path/branch/smooth_arc.h"
+#include "contact_path/branch/contact_arc.h"
 #include "contact_path/iterations.h"
 #include "contact_path/path/model.h"
 #include "contact_path/path/recorder.h"
@@ -98,7 +98,7 @@ class Restorer {
   const Model& model_;
   const bool along_arc_;
   const LongLists lists_;
-  SmoothArc arc_;
+  ContactArc arc_;
 };
 
 }  // namespace

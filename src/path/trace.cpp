@@ -177,7 +177,10 @@ class Tracer {
     if (target) options.direction = *target < 0.0 ? -1.0 : 1.0;
     if (options.method == Method::kMpec) return control_.mpec({model, options, target, &*returns_, control_});
     BranchOptions branch = BranchOptions::For(options, AutomaticStepGrowth(model));
-    branch.ends = {target, WatchedQuantities(model, request_, stage_)};
+    branch.load_factor = target;
+    branch.watch = [this, &model](const FixedStateSystem& system) {
+      return WatchedQuantities(model, request_, stage_, system);
+    };
     branch.increments = increment;
     branch.events = events_;
     branch.on_trial = control_.on_trial;

@@ -17,7 +17,7 @@
 namespace contact_path {
 namespace {
 
-using Function = std::function<double(const FixedStateSystem& system, const Eigen::VectorXd& x)>;
+using Function = std::function<double(const Eigen::VectorXd& x)>;
 
 // Of what a node has, in scaled units counted from the origin of the model; -1 where no unknown changes it.
 int UnknownOf(const Model& model, const Quantity& quantity) {
@@ -27,15 +27,14 @@ int UnknownOf(const Model& model, const Quantity& quantity) {
                                     component);
 }
 
-Function OfContact(const Model& model, const Quantity& quantity) {
+Function OfContact(const Model& model, const Quantity& quantity, const FixedStateSystem& system) {
   const std::size_t i = quantity.part;
   if (quantity.kind != Quantity::Kind::kGap)
-    return
-        [i, normal = quantity.kind == Quantity::Kind::kRn](const FixedStateSystem& system, const Eigen::VectorXd& x) {
-          const PathPoint point = system.Unpack(x);
-          return (normal ? point.rn : point.rt)[static_cast<Eigen::Index>(i)];
-        };
-  return [i, &contact = *model.contacts[i]](const FixedStateSystem& system, const Eigen::VectorXd& x) {
+    return [i, &system, normal = quantity.kind == Quantity::Kind::kRn](const Eigen::VectorXd& x) {
+      const PathPoint point = system.Unpack(x);
+      return (normal ? point.rn : point.rt)[static_cast<Eigen::Index>(i)];
+    };
+  return [i, &system, &contact = *model.contacts[i]](const Eigen::VectorXd& x) {
     const PathPoint point = system.Unpack(x);
     return contact.Gap(point.u, point.s, contact.KnownPatch(point.u, point.s, point.Patch(i)));
   };
@@ -44,16 +43,16 @@ Function OfContact(const Model& model, const Quantity& quantity) {
 // unit: of the quantity, in the scene; here and below.
 Function OfObstacle(const Model& model, const Quantity& quantity, double unit, const TraceRequest& request,
                     std::size_t stage) {
-  return [=, &model, &request](const FixedStateSystem& system, const Eigen::VectorXd& x) {
+  return [=, &model, &request](const Eigen::VectorXd& x) {
     Increment increment;
     increment.stage = static_cast<int>(stage) + 1;
-    increment.load_factor = system.Unpack(x).s * model.scaling.load_factor;
+    increment.load_factor = x[model.structure.NumDofs()] * model.scaling.load_factor;
     return ValueOf(quantity, increment, request) / unit;
   };
 }
 
-Function OfResponse(const Model& model, const Quantity& quantity, double unit) {
-  return [&model, quantity, unit](const FixedStateSystem& system, const Eigen::VectorXd& x) {
+Function OfResponse(const Model& model, const Quantity& quantity, double unit, const FixedStateSystem& system) {
+  return [&model, &system, quantity, unit](const Eigen::VectorXd& x) {
     const PathPoint point = system.Unpack(x);
     Increment increment;
     FillLists(model, point, {quantity.IsOfSection(), quantity.IsOfElement(), quantity.IsOfPressure()}, &increment);
@@ -91,8 +90,8 @@ double ErrorOf(const Model& model, const Quantity& quantity, double largest) {
 }
 
 // sense, criterion: as of ArcTarget.
-void Add(const Model& model, const TraceRequest& request, std::size_t stage, const std::string& text,
-         const std::vector<double>& values, double sense, int criterion, ArcTargets* targets) {
+void Add(const Model& model, const TraceRequest& request, std::size_t stage, const FixedStateSystem& system,
+         const std::string& text, const std::vector<double>& values, double sense, int criterion, ArcTargets* targets) {
   const Quantity quantity = FindQuantity(text, model.index).value();
   const Scaling& scaling = model.scaling;
   const double unit = SizeOf(UnitOf(quantity.kind), {scaling.length, scaling.force, scaling.load_factor});
@@ -108,11 +107,11 @@ void Add(const Model& model, const TraceRequest& request, std::size_t stage, con
   else if (quantity.IsOfObstacle())
     return;
   else if (quantity.IsOfContact() && !quantity.IsOfPressure())
-    target.of = OfContact(model, quantity);
+    target.of = OfContact(model, quantity, system);
   else
-    target.of = OfResponse(model, quantity, unit);
+    target.of = OfResponse(model, quantity, unit, system);
   if (target.unknown >= 0)
-    target.of = [i = target.unknown](const FixedStateSystem&, const Eigen::VectorXd& x) { return x[i]; };
+    target.of = [i = target.unknown](const Eigen::VectorXd& x) { return x[i]; };
   if (target.of == nullptr) return;
   double largest = 0.0;
   for (const double value : values) {
@@ -125,16 +124,17 @@ void Add(const Model& model, const TraceRequest& request, std::size_t stage, con
 
 }  // namespace
 
-ArcTargets WatchedQuantities(const Model& model, const TraceRequest& request, std::size_t stage) {
+ArcTargets WatchedQuantities(const Model& model, const TraceRequest& request, std::size_t stage,
+                             const FixedStateSystem& system) {
   ArcTargets targets;
   for (std::size_t i = 0; i < request.options.stop.size(); ++i) {
     const StopCriterion& criterion = request.options.stop[i];
     if (criterion.exact == DefaultTrue::kTrue)
-      Add(model, request, stage, criterion.quantity, {criterion.value}, criterion.when == ">" ? 1.0 : -1.0,
+      Add(model, request, stage, system, criterion.quantity, {criterion.value}, criterion.when == ">" ? 1.0 : -1.0,
           static_cast<int>(i), &targets);
   }
   for (const Samples& samples : request.options.at)
-    Add(model, request, stage, samples.quantity, samples.Values(), 0.0, -1, &targets);
+    Add(model, request, stage, system, samples.quantity, samples.Values(), 0.0, -1, &targets);
   return targets;
 }
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "contact_path/branch/smooth_arc.h"
+#include "contact_path/branch/contact_arc.h"
 #include "contact_path/linear/generic_vector.h"
 #include "contact_path/tolerances.h"
 #include "stability/motion_step.h"
@@ -422,7 +422,7 @@ class Jumper {
   const ContactPairs& contacts_;
   const MachineEquation machine_;
   MotionStepSolver solver_;
-  SmoothArc arc_;
+  ContactArc arc_;
   const PathPoint start_;
   const double extent_;
   const Eigen::VectorXd diagonal_;  // of the stiffness at the start

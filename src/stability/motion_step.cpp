@@ -6,7 +6,7 @@
 #include <set>
 #include <utility>
 
-#include "contact_path/iterations.h"
+#include "contact_path/equations/newton_loop.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
@@ -148,26 +148,23 @@ bool MotionStepSolver::Newton(const Eigen::VectorXd& drag, const Eigen::VectorXd
                               int* iterations) {
   const Eigen::Index nd = system_.NumDofs();
   const Eigen::VectorXd row = machine_.Row(system_.NumUnknowns());
-  strains_from_ = strains_to_ = x->head(nd + 1);
-  bool factorise = true;
-  double previous = std::numeric_limits<double>::infinity();
-  for (*iterations = 1; *iterations <= kMostCorrections; ++*iterations) {
-    system_.Residual(*x, &residual_);
-    residual_.head(nd) += drag.cwiseProduct(x->head(nd) - anchor);
-    if (!residual_.allFinite() || (factorise && !Factorize(*x, drag, row))) return false;
+  strains_to_ = x->head(nd + 1);
+  const auto next = [&](const Eigen::VectorXd& at, bool refresh, Eigen::VectorXd* step) {
+    system_.Residual(at, &residual_);
+    residual_.head(nd) += drag.cwiseProduct(at.head(nd) - anchor);
+    strains_from_ = strains_to_;
+    strains_to_ = at.head(nd + 1);
+    if (!residual_.allFinite() || (refresh && !Factorize(at, drag, row))) return false;
     residual_ = -residual_;
-    solver_.Solve(residual_, machine_.value - row.dot(*x), &newton_step_);
-    const double norm = system_.Norm(newton_step_), scale = 1.0 + x->norm();
-    if (!std::isfinite(norm)) return false;
-    strains_from_ = x->head(nd + 1);
-    *x += newton_step_;
-    strains_to_ = x->head(nd + 1);
-    const bool stagnates = norm >= 0.5 * previous && norm <= tolerances::kStagnation * system_.ResidualUnit() * scale;
-    if (norm <= tolerances::kUnitComponent * scale || stagnates) return true;
-    factorise = norm > tolerances::kShort * scale;
-    previous = norm;
-  }
-  return false;
+    solver_.Solve(residual_, machine_.value - row.dot(at), step);
+    return true;
+  };
+  NewtonLimits limits;
+  limits.unit = system_.ResidualUnit();
+  const NewtonCourse course = NewtonLoop(
+      limits, true, next, [this](const Eigen::VectorXd& step) { return system_.Norm(step); }, x, &newton_step_);
+  *iterations = course.iterations;
+  return course.at_rounding;
 }
 
 int MotionStepSolver::DeterminantSign(const PathPoint& point, const Eigen::VectorXd& drag) {

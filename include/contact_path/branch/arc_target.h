@@ -6,12 +6,10 @@
 #include <functional>
 #include <vector>
 
-#include "contact_path/equations/fixed_state_system.h"
-
 namespace contact_path {
 
 struct ArcTarget {
-  std::function<double(const FixedStateSystem& system, const Eigen::VectorXd& x)> of;  // scaled
+  std::function<double(const Eigen::VectorXd& x)> of;  // scaled
   std::vector<double> values;  // finite; a step ends where `of` first comes to one of them
   double rounding = 0.0;       // error of `of`: differences up to this are none, > 0
   double sense = 0.0;          // 1: only where `of` rises through a value, -1: only where it falls; 0: both

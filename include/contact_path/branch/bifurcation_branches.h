@@ -6,13 +6,13 @@
 #include <vector>
 
 #include "contact_path/branch/branches.h"
-#include "contact_path/branch/smooth_arc.h"
+#include "contact_path/branch/contact_arc.h"
 
 namespace contact_path {
 
-// The arc itself, which goes on, comes first. Then both directions of the path that crosses the arc, without those that
+// The arc itself, which goes on, comes first. Then both directions of each path that crosses the arc, without those that
 // let a contact slide back.
-std::vector<Branch> BifurcationBranches(const SmoothArc& arc, const ContactPairs& contacts, const Crossing& crossing);
+std::vector<Branch> BifurcationBranches(const ContactArc& arc, const ContactPairs& contacts, const Crossing& crossing);
 
 }  // namespace contact_path
 

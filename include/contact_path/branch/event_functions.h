@@ -6,7 +6,6 @@
 
 #include "contact_path/branch/arc_target.h"
 #include "contact_path/branch/smooth_arc.h"
-#include "contact_path/equations/fixed_state_system.h"
 
 namespace contact_path {
 

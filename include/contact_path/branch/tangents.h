@@ -5,8 +5,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "contact_path/equations/fixed_state_system.h"
-#include "contact_path/equations/rigid_modes.h"
+#include "contact_path/equations/arc_equations.h"
 #include "contact_path/linear/bordered_solver.h"
 #include "contact_path/linear/minimum_norm.h"
 
@@ -35,11 +34,11 @@ struct TangentSolvers {
   MinimumNormSolver singular;  // elsewhere
 };
 
-// At the point x, by the states of *system; none where the states leave no arc through x. arrival: (du, ds), unit
+// At the point x; none where the equations leave no arc through x. arrival: (du, ds), unit
 // vector; of several directions the one nearest to it counts. crossed: another path crosses at x, so that nearly
 // singular counts as singular.
-Tangents FindTangents(const Eigen::VectorXd& x, const Eigen::VectorXd& arrival, bool crossed, const RigidModes& modes,
-                      FixedStateSystem* system, TangentSolvers* solvers);
+Tangents FindTangents(const Eigen::VectorXd& x, const Eigen::VectorXd& arrival, bool crossed, ArcEquations* equations,
+                      TangentSolvers* solvers);
 
 }  // namespace contact_path
 

@@ -4,49 +4,18 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <map>
+#include <optional>
 #include <vector>
 
 #include "contact_path/contact/contact_pair.h"
 #include "contact_path/contact/path_point.h"
-#include "contact_path/equations/jet.h"
-#include "contact_path/linear/frame.h"
+#include "contact_path/contact/reach_tracker.h"
+#include "contact_path/equations/arc_equations.h"
+#include "contact_path/equations/rigid_modes.h"
 #include "contact_path/structure/structure.h"
 
 namespace contact_path {
-
-// An inequality of the fixed states: what must stay >= 0 for the states to be right.
-enum class Inequality {
-  kGap,             // open: u_n
-  kNormalReaction,  // touching: r_n
-  kConePlus,        // stick: mu r_n + r_t (at zero, slip+ is next)
-  kConeMinus,       // stick: mu r_n - r_t (at zero, slip- is next)
-  kSlip,            // slip+-: +-(xi - xi_ref), the motion since the reference; what must be >= 0 is its rate
-  kTotalSlip,       // slip+- by the total law: +-(xi - xi_ref) itself
-  kPatchBegin,      // touching, not sticking, on a surface with patches: xi - begin (at zero, the patch before is next)
-  kPatchEnd,        // touching, not sticking, on a surface with patches: end - xi (at zero, the patch after is next)
-};
-
-// Whether the inequality keeps a contact on its patch.
-inline bool KeepsPatch(Inequality inequality) {
-  return inequality == Inequality::kPatchBegin || inequality == Inequality::kPatchEnd;
-}
-
-// Whether the inequality is of a slip, whose contact sticks next at zero.
-inline bool IsOfSlip(Inequality inequality) {
-  return inequality == Inequality::kSlip || inequality == Inequality::kTotalSlip;
-}
-
-// Whether its value is a length, and not a force.
-inline bool IsMotion(Inequality inequality) {
-  return inequality == Inequality::kGap || IsOfSlip(inequality) || KeepsPatch(inequality);
-}
-
-struct Constraint {
-  int contact = 0;
-  Inequality inequality = Inequality::kGap;
-
-  bool operator==(const Constraint& other) const { return contact == other.contact && inequality == other.inequality; }
-};
 
 // Unknowns x = (u, s, reactions of the touching contacts, reactions of the prescribed components): r_n, and r_t where
 // sticking. Equations:
@@ -57,7 +26,7 @@ struct Constraint {
 // and one equation "inequality = 0" for each constraint of SetActive(), and s = value where the load factor is active.
 // With nothing active there is one unknown more than equations: the solutions are a curve where the rank is full. Slip
 // has r_t = -+mu r_n eliminated.
-class FixedStateSystem {
+class FixedStateSystem : public ArcEquations {
  public:
   // Both must outlive the system.
   FixedStateSystem(const Structure& structure, const ContactPairs& contacts);
@@ -65,16 +34,16 @@ class FixedStateSystem {
   // states, reference (xi_ref), patches of the surfaces: by candidate; no patches: all are 0.
   void SetStates(const std::vector<ContactState>& states, const Eigen::VectorXd& reference,
                  const std::vector<int>& patches = {});
-  // Puts each of these candidates that is open on the patch that is nearest at x: no equation changes.
-  void PlaceOpen(const std::vector<std::size_t>& candidates, const Eigen::VectorXd& x);
-  // Whether one of these candidates, if it is open, is behind its surface at x, on another patch than the one it is on.
-  bool BehindOtherPatch(const std::vector<std::size_t>& candidates, const Eigen::VectorXd& x) const;
+  // For an arc that sets out from a point: stick and slip are measured from the tangential positions there. The states
+  // may close contacts over gaps that are not 0 but count as closed: RoundingOf() then knows the forces that this changes.
+  void SetStatesFrom(const PathPoint& from, const std::vector<ContactState>& states);
   void SetActive(const std::vector<Constraint>& constraints);
   void FixLoadFactor(double value);
   void FreeLoadFactor();
 
-  Eigen::Index NumUnknowns() const { return num_unknowns_; }
-  Eigen::Index NumEquations() const { return num_equations_; }
+  Eigen::Index NumUnknowns() const override { return num_unknowns_; }
+  Eigen::Index NumEquations() const override { return num_equations_; }
+  Eigen::Index NumMotion() const override { return NumDofs() + 1; }
   Eigen::Index NumDofs() const { return structure_.NumDofs(); }
   const std::vector<ContactState>& states() const { return states_; }
   const std::vector<int>& patches() const { return patches_; }
@@ -84,57 +53,59 @@ class FixedStateSystem {
   // Open contacts are on kNearestPatch.
   PathPoint Unpack(const Eigen::VectorXd& x) const;
 
-  // residual: NumEquations(). Not finite where an element is singular.
-  void Residual(const Eigen::VectorXd& x, Eigen::VectorXd* residual) const;
-  // What rounding may leave of each entry of the residual at x: forces of the parts by the rounding of the coordinates,
-  // loads and reactions, and lengths, by their own. NumEquations().
-  Eigen::VectorXd Rounding(const Eigen::VectorXd& x) const;
+  void Residual(const Eigen::VectorXd& x, Eigen::VectorXd* residual) const override;
+  // Forces of the parts by the rounding of the coordinates, loads and reactions, and lengths, by their own.
+  Eigen::VectorXd Rounding(const Eigen::VectorXd& x) const override;
   // The largest entry of a residual; equations of equilibrium are measured in Structure::ResidualUnits().
   double Largest(const Eigen::VectorXd& residual) const;
-  // The largest entry in the equations of touching contacts and of prescribed components.
-  double LargestOfMotions(const Eigen::VectorXd& residual) const;
-  // The largest of Structure::ResidualUnits(): rounding of residuals, and the error of points by it, grow with it.
-  double ResidualUnit() const { return residual_unit_; }
+  // Forces relative to the largest of load factor and reactions, motions to the largest coordinate, each + 1.
+  bool Hold(const Eigen::VectorXd& x, const Eigen::VectorXd& residual) const override;
+  // The largest of Structure::ResidualUnits().
+  double ResidualUnit() const override { return residual_unit_; }
   // Norm of a change of the unknowns. Of the force on a moved support the component along its motion counts: whether
   // the component across it is an unknown depends on the axes.
-  double Norm(const Eigen::VectorXd& change) const;
-  // Transposed Jacobian, NumUnknowns() x NumEquations(), compressed; the pattern is the same until the next set or pin.
-  const Eigen::SparseMatrix<double>& TransposedJacobian(const Eigen::VectorXd& x);
-  // Transposed Jacobian with Structure::MixedTangent(): strains linearised at the motion `from` towards the motion
-  // `to`.
+  double Norm(const Eigen::VectorXd& change) const override;
+  // The pattern is the same until the next set or pin.
+  const Eigen::SparseMatrix<double>& TransposedJacobian(const Eigen::VectorXd& x) override;
+  bool Mixed() const override { return structure_.Mixed(); }
   const Eigen::SparseMatrix<double>& MixedJacobian(const Eigen::VectorXd& x, const Eigen::VectorXd& from,
-                                                   const Eigen::VectorXd& to);
+                                                   const Eigen::VectorXd& to) override;
+  bool MayMoveFreely() const override;
+  Eigen::MatrixXd FreeMotions(const Eigen::VectorXd& x, const Eigen::SparseMatrix<double>& transposed) override;
 
   // The system among those of other contact states, for BorderedSolver; until the next set or pin. Null where the
   // system is small, or has active constraints or a fixed load factor, or where very many contacts touch, or one
   // touches a deformable surface.
-  const Frame* InFrame();
+  const Frame* InFrame() override;
 
+  // Inequalities of the touching contacts, and the gaps at x that an increment of length `reach` may close; near: the
+  // ends of the patches that open candidates in reach are beside. Open candidates in reach come onto the patch that is
+  // nearest at x: no equation changes.
+  std::vector<Constraint> LimitsInReach(const Eigen::VectorXd& x, double reach, std::vector<Constraint>* near) override;
+  // Whether a candidate of the last LimitsInReach() that is open is behind its surface at x, on another patch than its
+  // own.
+  bool BeyondReach(const Eigen::VectorXd& x) const override;
+  bool IsOfRate(const Constraint& limit) const override { return limit.inequality == Inequality::kSlip; }
+  double RoundingOf(const Constraint& limit, double of_forces) const override;
   // All inequalities of the fixed states, in contact order, and their values at x (>= 0: holds).
   std::vector<Constraint> Inequalities() const;
-  // Inequalities of the touching contacts and of these candidates, ascending, alone.
-  std::vector<Constraint> InequalitiesOf(const std::vector<std::size_t>& candidates) const;
-  // Both ends of the patch of each of these candidates that is open. They are no inequalities of the states, since an
-  // open contact may pass over them, but Value() has their values.
-  std::vector<Constraint> PatchEndsOfOpen(const std::vector<std::size_t>& candidates) const;
-  double Value(const Constraint& constraint, const Eigen::VectorXd& x) const;
+  double Value(const Constraint& constraint, const Eigen::VectorXd& x) const override;
   // What tolerances of the values and rates are multiplied with: 1, or for reactions the force unit of the contact
   // (NormalForceUnit() for normal reactions).
-  double UnitOf(const Constraint& constraint) const;
+  double UnitOf(const Constraint& constraint) const override;
   // Change of the value per change dx of the unknowns at x, and its gradient, NumUnknowns().
   double Rate(const Constraint& constraint, const Eigen::VectorXd& x, const Eigen::VectorXd& dx) const;
-  Eigen::VectorXd Gradient(const Constraint& constraint, const Eigen::VectorXd& x) const;
+  Eigen::VectorXd Gradient(const Constraint& constraint, const Eigen::VectorXd& x) const override;
   // The value along a curve with these derivatives at x.
   Jet ValueAlong(const Constraint& constraint, const Eigen::VectorXd& x, const Eigen::VectorXd& first,
-                 const Eigen::VectorXd& second) const;
+                 const Eigen::VectorXd& second) const override;
   // r_n c of a touching contact (contact/kinematics.h) along such a curve: times mu dxi, the dissipation of its slip.
   Jet SlidingForceAlong(std::size_t contact, const Eigen::VectorXd& x, const Eigen::VectorXd& first,
                         const Eigen::VectorXd& second) const;
   // The force that moving supports and obstacles exert along their motion, along such a curve: their work is its
   // integral over s.
   Jet DrivingForceAlong(const Eigen::VectorXd& x, const Eigen::VectorXd& first, const Eigen::VectorXd& second) const;
-  // Second derivative of the residual along dx, d2/dh2 residual(x + h dx) at h = 0: NumEquations().
-  Eigen::VectorXd SecondDerivative(const Eigen::VectorXd& x, const Eigen::VectorXd& dx);
+  Eigen::VectorXd SecondDerivative(const Eigen::VectorXd& x, const Eigen::VectorXd& dx) override;
 
  private:
   // sign u_n, or offset + sign (xi - xi_ref), of a contact.
@@ -163,6 +134,7 @@ class FixedStateSystem {
   double Bend(const Motion& motion, const Kinematics& at, const Eigen::VectorXd& dx) const;
   Reaction ReactionOf(std::size_t contact, const Eigen::VectorXd& x) const;
   Kinematics Evaluate(std::size_t contact, const Eigen::VectorXd& x) const;
+  const RigidModes& Modes() const;
   void AddInequalities(std::size_t contact, std::vector<Constraint>* inequalities) const;
   void AddPatchEnds(std::size_t contact, std::vector<Constraint>* inequalities) const;
 
@@ -212,6 +184,11 @@ class FixedStateSystem {
   Frame frame_;
   std::vector<std::size_t> framed_;  // contacts that have places in it, ascending
   bool placed_ = false;              // in the frame, as the states are
+  std::vector<std::size_t> in_reach_;   // in the last call of LimitsInReach()
+  std::map<int, double> moved_forces_;  // by contact that the states close over a gap: see SetStatesFrom()
+  // Made where they are asked for.
+  std::optional<ReachTracker> tracker_;
+  mutable std::optional<const RigidModes> modes_;
   Eigen::VectorXd constant_;         // values of transposed_ that do not change; kept where some contacts are curved
 };
 

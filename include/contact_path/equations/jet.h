@@ -11,9 +11,6 @@ struct Jet {
   double second = 0.0;
 };
 
-// Sign of a value that is known to this error: 0 where the error hides it.
-inline int SignBeyond(double value, double error) { return value > error ? 1 : value < -error ? -1 : 0; }
-
 }  // namespace contact_path
 
 #endif  // CONTACT_PATH_EQUATIONS_JET_H_

@@ -8,7 +8,7 @@
 
 #include "contact_path/branch/arc_step.h"
 #include "contact_path/branch/branches.h"
-#include "contact_path/branch/smooth_arc.h"
+#include "contact_path/branch/contact_arc.h"
 #include "contact_path/path/branch_options.h"
 #include "contact_path/path/departure.h"
 #include "contact_path/path/model.h"
@@ -104,7 +104,8 @@ class BranchMethod : public PathMethod {
   const Eigen::VectorXd setting_row_;            // Machine::Row()
   std::unique_ptr<StabilityMonitor> stability_;  // null: not asked for
   Departure departure_;
-  SmoothArc arc_;
+  ContactArc arc_;
+  StepEnds ends_;
   CurvePoint current_;
   double step_length_;
   int increments_;                // given so far, increment 0 not counted

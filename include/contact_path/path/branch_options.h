@@ -3,12 +3,14 @@
 #define CONTACT_PATH_PATH_BRANCH_OPTIONS_H_
 
 #include <Eigen/Core>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "contact_path/branch/event_functions.h"
+#include "contact_path/branch/arc_target.h"
 #include "contact_path/branch/trial_step.h"
+#include "contact_path/equations/fixed_state_system.h"
 #include "contact_path/path/largest_reaction.h"
 #include "contact_path/path/return_detector.h"
 #include "contact_path/scene/scene.h"
@@ -30,8 +32,9 @@ struct BranchOptions {
   double machine_stiffness = 0.0;  // of TraceOptions
   double setting_sense = 1.0;      // sign of the wanted change of the setting of the machine
   bool keep_loading = false;       // at an event, rather than turn the load back, the best branch with which it goes on
-  StepEnds ends = {};              // the load factor at which the path is to end, and values of quantities, each in an
-                                   // increment of its own
+  std::optional<double> load_factor = {};  // at which the path is to end
+  // Quantities of the system whose values get increments of their own; empty: none.
+  std::function<ArcTargets(const FixedStateSystem& system)> watch = {};
   int increments = 0;              // given before this path, of which it goes on
   int events = 0;                  // passed before this path
   ReturnDetector* returns = nullptr;  // tells whether the path has come back to where it was; null: that is no end

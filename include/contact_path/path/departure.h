@@ -10,7 +10,7 @@
 
 #include "contact_path/branch/active_set_tolerance.h"
 #include "contact_path/branch/branches.h"
-#include "contact_path/branch/smooth_arc.h"
+#include "contact_path/branch/contact_arc.h"
 #include "contact_path/contact/path_point.h"
 #include "contact_path/path/end.h"
 #include "contact_path/path/increment.h"
@@ -46,7 +46,7 @@ class Departure {
   Arrival StartArrival() const;
   // Finds the branches from `point`, an equilibrium, and puts *arc and *current, with which the path arrives there,
   // where it sets out on one of them: on the one chosen, or the best. Nothing: done. Otherwise the path ends.
-  std::optional<End> Leave(const PathPoint& point, Arrival arrival, const BranchChoice* choice, SmoothArc* arc,
+  std::optional<End> Leave(const PathPoint& point, Arrival arrival, const BranchChoice* choice, ContactArc* arc,
                            CurvePoint* current, EventRecord* record);
 
   // Whether the branch that was taken last begins with other reactions than the point has, and these, once.
@@ -56,7 +56,7 @@ class Departure {
   bool other_reactions() const { return other_reactions_; }
 
  private:
-  bool SetOut(const PathPoint& point, const Branch& branch, SmoothArc* arc, CurvePoint* current) const;
+  bool SetOut(const PathPoint& point, const Branch& branch, ContactArc* arc, CurvePoint* current) const;
   std::size_t BestThatLoads(const std::vector<Branch>& branches) const;
   End UnknownRate(const Constraint& constraint, const FixedStateSystem& system, const CurvePoint& at) const;
 

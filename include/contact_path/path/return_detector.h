@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "contact_path/branch/smooth_arc.h"
+#include "contact_path/branch/contact_arc.h"
 #include "contact_path/contact/path_point.h"
 #include "contact_path/path/end.h"
 #include "contact_path/path/largest_reaction.h"
@@ -54,7 +54,7 @@ class ReturnDetector {
   const std::size_t most_references_;
   int spacing_;
   std::vector<Reference> references_;  // in the order of the path
-  SmoothArc arc_;
+  ContactArc arc_;
   std::optional<PathPoint> first_;
   double extent_ = 0.0;  // largest distance from the first point
   const ContactPairs& contacts_;

@@ -3,14 +3,16 @@
 #define CONTACT_PATH_PATH_WATCHED_QUANTITIES_H_
 
 #include "contact_path/branch/arc_target.h"
+#include "contact_path/equations/fixed_state_system.h"
 #include "contact_path/path/model.h"
 #include "contact_path/scene/scene.h"
 
 namespace contact_path {
 
 // Of options.at, and of the exact criteria of options.stop; scaled by the unit of each quantity. model: of a stage of
-// the request, from 0. Both must outlive the result.
-ArcTargets WatchedQuantities(const Model& model, const TraceRequest& request, std::size_t stage);
+// the request, from 0; system: of the arcs. All must outlive the result.
+ArcTargets WatchedQuantities(const Model& model, const TraceRequest& request, std::size_t stage,
+                             const FixedStateSystem& system);
 
 }  // namespace contact_path
 

@@ -2,8 +2,9 @@
 #ifndef CONTACT_PATH_PATH_WORK_H_
 #define CONTACT_PATH_PATH_WORK_H_
 
-#include "contact_path/branch/smooth_arc.h"
+#include "contact_path/branch/step.h"
 #include "contact_path/contact/path_point.h"
+#include "contact_path/equations/fixed_state_system.h"
 #include "contact_path/path/model.h"
 
 namespace contact_path {
