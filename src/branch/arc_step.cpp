@@ -121,20 +121,27 @@ std::optional<ArcStep> TryStep(SmoothArc* arc, const CurvePoint& start, double l
 // are as near as rounding. False: none does.
 bool PassesAnEnd(const SmoothArc& arc, const CurvePoint& start, const CurvePoint& end, const StepEnds& ends,
                  StepEvent* event) {
-  if (event->kind == EventKind::kTarget) return false;
+  if (event->target) return false;
   const Eigen::Index s = arc.LoadFactor();
+  const auto at_end = [](const StepEvent& before) {
+    StepEvent other;
+    other.t = before.t;
+    return other;
+  };
   if (ends.load_factor && (start.x[s] - *ends.load_factor) * (end.x[s] - *ends.load_factor) < 0.0) {
-    *event = {EventKind::kTarget, event->t, {}};
+    *event = at_end(*event);
+    event->target = true;
     return true;
   }
-  if (event->kind == EventKind::kSample) return false;
+  if (event->sample) return false;
   for (std::size_t i = 0; i < ends.functions.size(); ++i) {
     const ArcTarget& target = ends.functions[i];
     const double before = target.of(start.x), after = target.of(end.x);
     for (const double value : target.values)
       if (std::abs(before - value) > target.rounding && (before - value) * (after - value) < 0.0 &&
           target.sense * (after - before) >= 0.0) {
-        *event = {EventKind::kSample, event->t, {}, {}, i, value};
+        *event = at_end(*event);
+        event->sample = {i, value};
         return true;
       }
   }
@@ -142,9 +149,9 @@ bool PassesAnEnd(const SmoothArc& arc, const CurvePoint& start, const CurvePoint
 }
 
 bool IsSame(const StepEvent& one, const StepEvent& other) {
-  return one.kind == other.kind && one.constraint.contact == other.constraint.contact &&
-         one.constraint.inequality == other.constraint.inequality && one.target == other.target &&
-         one.value == other.value;
+  if (one.Kind() != other.Kind() || !(one.fails == other.fails) || one.sample.has_value() != other.sample.has_value())
+    return false;
+  return !one.sample || (one.sample->target == other.sample->target && one.sample->value == other.sample->value);
 }
 
 // Whether the load factor, of which a limit point was located at `point`, goes on beyond it in its sense: its rate
@@ -162,9 +169,8 @@ bool LoadGoesOn(const SmoothArc& arc, const Step& step, const CurvePoint& point)
 // Whether the inequality that was to fail at `point` holds there, by more than what counts as zero at an event: the
 // interpolation of the step has shown a zero that the curve does not have.
 bool HoldsAt(const ArcEquations& equations, const StepEvent& event, const CurvePoint& point) {
-  return event.kind == EventKind::kContactEvent && !event.crossing &&
-         !equations.IsOfRate(event.constraint) &&
-         equations.Value(event.constraint, point.x) > tolerances::kActive * equations.UnitOf(event.constraint);
+  return event.Kind() == EventKind::kContactEvent && !event.crossing && !equations.IsOfRate(*event.fails) &&
+         equations.Value(*event.fails, point.x) > tolerances::kActive * equations.UnitOf(*event.fails);
 }
 
 // Ends the step at the first event on it. The exact point of an event may show an earlier one. False: it is not found.
@@ -172,28 +178,32 @@ bool EndAtFirstEvent(SmoothArc* arc, const StepEnds& wanted, ArcStep* at) {
   const StepEnds* ends = &wanted;
   std::optional<StepEnds> fewer;  // of them
   at->event = FirstEvent(arc, at->step, *ends);
-  if (at->event.kind == EventKind::kNone) return true;
+  if (at->event.Kind() == EventKind::kNone) return true;
   const Step whole = at->step;
   for (int attempt = 0; attempt < kLocatingAttempts; ++attempt) {
     std::optional<CurvePoint> point = Locate(arc, at->step, at->event, *ends);
-    while (!point && at->event.kind == EventKind::kSample) {
+    while (!point && at->event.sample) {
       // The function is known less well than the value asks for: the path goes on without that increment.
       if (!fewer) ends = &fewer.emplace(wanted);
-      std::vector<double>& values = fewer->functions[at->event.target].values;
-      values.erase(std::find(values.begin(), values.end(), at->event.value));
+      std::vector<double>& values = fewer->functions[at->event.sample->target].values;
+      values.erase(std::find(values.begin(), values.end(), at->event.sample->value));
       at->event = FirstEvent(arc, at->step, *ends);
-      if (at->event.kind == EventKind::kNone) return true;
+      if (at->event.Kind() == EventKind::kNone) return true;
       point = Locate(arc, at->step, at->event, *ends);
     }
     if (!point) return false;
     KeepSigns(at->step.start, &*point);
     if (at->event.singular) point->BeSingular();
-    if (at->event.kind == EventKind::kLimitPoint && !at->event.crossing && LoadGoesOn(*arc, whole, *point)) {
-      at->event.kind = EventKind::kNearTouch;
+    if (at->event.Kind() == EventKind::kLimitPoint && !at->event.crossing && LoadGoesOn(*arc, whole, *point)) {
+      at->event.turns = false;
+      at->event.near = true;
       point->is_limit = false;
       point->load_sense = at->step.start.load_sense;
     }
-    if (HoldsAt(arc->equations(), at->event, *point)) at->event.kind = EventKind::kNearTouch;
+    if (HoldsAt(arc->equations(), at->event, *point)) {
+      at->event.fails.reset();
+      at->event.near = true;
+    }
     if (PassesAnEnd(*arc, at->step.start, *point, *ends, &at->event)) continue;
     const StepEvent found = at->event;
     const double before = at->step.length;
@@ -208,10 +218,10 @@ bool EndAtFirstEvent(SmoothArc* arc, const StepEnds& wanted, ArcStep* at) {
     const StepEvent earlier = FirstEvent(arc, at->step, *ends);
     // Rounding has put the point beyond the bifurcation that is in its place.
     if (earlier.crossing && earlier.t >= at->step.length - tolerances::kNoMove) at->step.end.BeSingular();
-    if (earlier.kind == EventKind::kNone || earlier.t >= at->step.length - tolerances::kNoMove) return true;
+    if (earlier.Kind() == EventKind::kNone || earlier.t >= at->step.length - tolerances::kNoMove) return true;
     // The earlier event is rounding of a short step where it leads to this point again.
     const bool same = IsSame(earlier, found);
-    if (same && found.kind == EventKind::kSample) return true;
+    if (same && found.sample) return true;
     if (attempt > 0 && same && std::abs(at->step.length - before) <= tolerances::kNoMove) return true;
     at->event = earlier;
   }
@@ -252,7 +262,7 @@ std::optional<ArcStep> NextStep(SmoothArc* arc, const CurvePoint& start, double 
       step = TryStep(arc, start, tried, kCoarsePrediction, limits, trial);
     const bool ends_singular = step && start.nullity == 0 && step->step.end.nullity > 0;
     bool good = step && EndAtFirstEvent(arc, ends, &*step);
-    if (ends_singular && !(good && step->event.kind != EventKind::kNone)) {
+    if (ends_singular && !(good && step->event.Kind() != EventKind::kNone)) {
       std::optional<ArcStep> beyond = StepBeyond(arc, start, tried, limits, ends);
       good = good || beyond;
       if (beyond) step = std::move(beyond);
@@ -260,7 +270,7 @@ std::optional<ArcStep> NextStep(SmoothArc* arc, const CurvePoint& start, double 
     if (trial != nullptr) {
       if (good) {
         said.verdict = "accepted";
-        said.ends_at = NameOf(step->event.kind);
+        said.ends_at = NameOf(step->event.Kind());
         said.numbers.emplace_back("reached", step->step.length);
       } else if (step) {
         said.verdict = "event not located";

@@ -65,19 +65,13 @@ std::optional<CurvePoint> LocateRate(SmoothArc* arc, const Step& step, double t,
   return point;
 }
 
-struct LocatedCrossing {
-  double t = 0.0;  // parameter of the step
-  Crossing at;
-};
+}  // namespace
 
-// Where another curve crosses the curve of the step, whose determinant has another sign at the end than at the start.
-// Nothing: the ends are on two curves, as next to a crossing that a small imperfection has broken, or more than one
-// curve crosses. *broken: becomes true where a broken crossing was found.
-std::optional<LocatedCrossing> CrossingOn(SmoothArc* arc, const Step& step, bool* broken) {
+std::optional<LocatedCrossing> CrossingOn(SmoothArc* arc, const Step& step, Eigen::Index k, bool* broken) {
   const double reach = kReachOfLocated * step.length + tolerances::kSamePoint;
   for (const double share : {0.5, 0.1, 0.9}) {
     const CurvePoint guess = step.At(share * step.length);
-    std::optional<Crossing> found = arc->FindCrossing(guess.x, guess.first.head(step.normal.size()));
+    std::optional<Crossing> found = arc->FindCrossing(guess.x, guess.first.head(step.normal.size()), k);
     if (!found) continue;
     const double t = step.normal.dot((found->x - step.start.x).head(step.normal.size()));
     const double inside = std::clamp(t, 0.0, step.length);
@@ -92,6 +86,8 @@ std::optional<LocatedCrossing> CrossingOn(SmoothArc* arc, const Step& step, bool
   return std::nullopt;
 }
 
+namespace {
+
 // Whether an inequality is zero where the curves cross.
 bool IsZeroAt(const ArcEquations& equations, const Constraint& constraint, const Crossing& crossing) {
   const Jet along = equations.ValueAlong(constraint, crossing.x, crossing.along.first, crossing.along.second);
@@ -105,9 +101,11 @@ bool IsZeroAt(const ArcEquations& equations, const Constraint& constraint, const
 bool LookForCrossing(SmoothArc* arc, const Step& step, const StepEnds& ends, StepEvent* first) {
   ArcEquations& equations = arc->equations();
   bool broken = false;
-  std::optional<LocatedCrossing> found = CrossingOn(arc, step, &broken);
+  std::optional<LocatedCrossing> found = CrossingOn(arc, step, 1, &broken);
+  if (!found && !broken) found = CrossingOn(arc, step, 0, &broken);
+  const EventKind kind = first->Kind();
   if (!found) {
-    if (broken || first->kind != EventKind::kLimitPoint || step.length > tolerances::kNextToStart) return false;
+    if (broken || kind != EventKind::kLimitPoint || step.length > tolerances::kNextToStart) return false;
     // Rounding hides the points next to a limit point at which several curves cross.
     const std::optional<CurvePoint> limit = Locate(arc, step, *first, ends);
     first->singular = limit && arc->MovedByRounding(limit->x, step.normal) > tolerances::kSamePoint;
@@ -117,15 +115,15 @@ bool LookForCrossing(SmoothArc* arc, const Step& step, const StepEnds& ends, Ste
   const Eigen::Index s = arc->LoadFactor();
   const bool is_level = std::abs(along.first[s]) <= tolerances::kRate * equations.ResidualUnit();
   const bool turns = is_level && std::abs(along.second[s]) > tolerances::kRate;
-  const bool coincides = (first->kind == EventKind::kContactEvent && IsZeroAt(equations, first->constraint, found->at)) ||
-                         (first->kind == EventKind::kLimitPoint && is_level);
+  const bool coincides = (kind == EventKind::kContactEvent && IsZeroAt(equations, *first->fails, found->at)) ||
+                         (kind == EventKind::kLimitPoint && is_level);
   // A crossing at the start is where the step has come from.
   const bool comes_first = found->t > tolerances::kNoMove && found->t <= first->t;
-  if (coincides)
-    first->t = found->t;
-  else if (comes_first)
-    *first = {turns ? EventKind::kLimitPoint : EventKind::kBifurcation, found->t, {}};
-  if (coincides || comes_first) first->crossing = std::move(found->at);
+  if (!coincides && !comes_first) return true;
+  if (!coincides) *first = StepEvent();
+  first->t = found->t;
+  first->turns = first->turns || (!coincides && turns);
+  first->crossing = std::move(found->at);
   return true;
 }
 
@@ -205,8 +203,11 @@ void FindSample(const Step& step, const ArcTargets& functions, StepEvent* first)
     for (const double value : functions[i].values)
       if (const std::optional<double> t =
               FirstAtValue(along, value, functions[i].rounding, functions[i].sense, step.length);
-          t && *t <= first->t)
-        *first = {EventKind::kSample, *t, {}, {}, i, value};
+          t && *t <= first->t) {
+        *first = StepEvent();
+        first->t = *t;
+        first->sample = {i, value};
+      }
   }
 }
 
@@ -256,17 +257,38 @@ double ErrorOfPlace(const CurvePoint& limit_point, Eigen::Index load) {
   return limit_point.load_error / std::abs(limit_point.second[load]);
 }
 
+EventKind StepEvent::Kind() const {
+  if (too_long) return EventKind::kTooLong;
+  if (target) return EventKind::kTarget;
+  if (sample) return EventKind::kSample;
+  if (fails) return EventKind::kContactEvent;
+  if (turns) return EventKind::kLimitPoint;
+  if (crossing) return EventKind::kBifurcation;
+  return near ? EventKind::kNearTouch : EventKind::kNone;
+}
+
 StepEvent FirstEvent(SmoothArc* arc, const Step& step, const StepEnds& ends) {
   ArcEquations& equations = arc->equations();
   StepEvent first;
   first.t = step.length;
   const double width = tolerances::kShort * step.length;
-  const auto consider = [&](EventKind kind, double t, const Constraint& constraint) {
-    // An event that coincides with something else is the one to act on.
-    const double head_start = first.kind == EventKind::kContactEvent && kind != EventKind::kContactEvent ? width : 0.0;
-    if (t + head_start > first.t || (t == first.t && first.kind != EventKind::kNone)) return;
-    first = {kind, t, constraint};
+  const auto consider = [&](StepEvent fact) {
+    // A limit that fails next to something else is what to act on.
+    const double head_start = first.fails && !fact.fails ? width : 0.0;
+    if (fact.t + head_start > first.t || (fact.t == first.t && first.Kind() != EventKind::kNone)) return;
+    first = std::move(fact);
   };
+  const auto near_at = [](double t) {
+    StepEvent fact;
+    fact.t = t;
+    fact.near = true;
+    return fact;
+  };
+  const StepEvent too_long = [] {
+    StepEvent fact;
+    fact.too_long = true;
+    return fact;
+  }();
   // No node moves further than the arc length, and that is hardly longer than the step.
   std::vector<Constraint> open_ends;
   const std::vector<Constraint> inequalities = equations.LimitsInReach(step.start.x, kReach * step.length, &open_ends);
@@ -274,14 +296,14 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, const StepEnds& ends) {
     Quintic beyond = FunctionOf(equations, step, end);
     beyond[0] += tolerances::kTouching;
     if (const std::optional<double> t = FirstNegative(beyond, step.length, 0.0))
-      consider(EventKind::kNearTouch, *t, end);
+      consider(near_at(*t));
   }
   for (const Constraint& constraint : inequalities) {
     const Quintic quintic = FunctionOf(equations, step, constraint);
     const double zero = equations.IsOfRate(constraint) ? tolerances::kRate * equations.ResidualUnit()
                                                                    : arc->RoundingOf(constraint);
     if (const std::optional<double> t = FirstNegative(quintic, step.length, zero)) {
-      consider(EventKind::kContactEvent, *t, constraint);
+      consider({*t, constraint});
       continue;
     }
     double where = 0.0;
@@ -289,30 +311,51 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, const StepEnds& ends) {
     const bool inside =
         where > tolerances::kNextToStart * step.length && where < (1.0 - tolerances::kNextToStart) * step.length;
     if (inside && smallest > zero && smallest < kNearShare * CubicDifference(quintic, step.length))
-      consider(EventKind::kNearTouch, where, constraint);
+      consider(near_at(where));
   }
   const Quintic load_factor = step.InterpolateLinear([s = arc->LoadFactor()](const Eigen::VectorXd& x) { return x[s]; });
-  if (const std::optional<double> t = FirstTurn(load_factor, step)) consider(EventKind::kLimitPoint, *t, {});
+  if (const std::optional<double> t = FirstTurn(load_factor, step)) consider({*t, {}, true});
   if (step.start.side * step.end.side < 0 && !LookForCrossing(arc, step, ends, &first))
-    return {EventKind::kTooLong, 0.0, {}};
+    return too_long;
   // From wall to wall of one obstacle in one step: a shorter step sees the wall that is ahead.
-  if (first.kind == EventKind::kNone && equations.BeyondReach(step.end.x)) return {EventKind::kTooLong, 0.0, {}};
+  if (first.Kind() == EventKind::kNone && equations.BeyondReach(step.end.x)) return too_long;
   // Whatever lies behind the target, however near, is not of this path.
   FindSample(step, ends.functions, &first);
   if (ends.load_factor)
-    if (const std::optional<double> t = FirstAt(load_factor, *ends.load_factor, step.length); t && *t <= first.t)
-      first = {EventKind::kTarget, *t, {}};
+    if (const std::optional<double> t = FirstAt(load_factor, *ends.load_factor, step.length); t && *t <= first.t) {
+      first = StepEvent();
+      first.t = *t;
+      first.target = true;
+    }
   return first;
+}
+
+CurvePoint PointOf(const Crossing& crossing, const SmoothArc& arc) {
+  CurvePoint point;
+  point.x = crossing.x;
+  point.load_error = tolerances::kRate * arc.equations().ResidualUnit();
+  TakeCurve(crossing.along.first, crossing.along.second, arc.LoadFactor(), &point);
+  point.is_crossing = true;
+  return point;
+}
+
+std::optional<CurvePoint> LocateTurn(SmoothArc* arc, const Step& step, const Eigen::VectorXd& row) {
+  const Quintic along = step.InterpolateLinear([&](const Eigen::VectorXd& x) { return row.dot(x); });
+  int count = 0;
+  const std::array<double, 5> roots = Roots(Derivative(along), step.length, &count);
+  if (count == 0) return std::nullopt;
+  return LocateRate(
+      arc, step, roots[0],
+      [&](const CurvePoint& at) {
+        return Jet{row.dot(at.x), row.dot(at.first), row.dot(at.second)};
+      },
+      [&](const Eigen::VectorXd&) { return row; });
 }
 
 std::optional<CurvePoint> Locate(SmoothArc* arc, const Step& step, const StepEvent& event, const StepEnds& ends) {
   if (event.crossing) {
-    CurvePoint point;
-    point.x = event.crossing->x;
-    point.load_error = tolerances::kRate * arc->equations().ResidualUnit();
-    TakeCurve(event.crossing->along.first, event.crossing->along.second, arc->LoadFactor(), &point);
-    point.is_limit = event.kind == EventKind::kLimitPoint;
-    point.is_crossing = true;
+    CurvePoint point = PointOf(*event.crossing, *arc);
+    point.is_limit = event.Kind() == EventKind::kLimitPoint;
     return point;
   }
   std::optional<CurvePoint> point = LocateRegular(arc, step, event, ends);
@@ -320,7 +363,7 @@ std::optional<CurvePoint> Locate(SmoothArc* arc, const Step& step, const StepEve
   const double t = step.normal.dot((point->x - step.start.x).head(step.normal.size()));
   const double slack = tolerances::kSamePoint * step.length;
   if (!(t >= -slack && t <= step.length + slack)) return std::nullopt;
-  if (event.kind != EventKind::kLimitPoint) return point;
+  if (event.Kind() != EventKind::kLimitPoint) return point;
   if ((event.singular || point->nullity > 0) && step.start.nullity == 0 && step.end.nullity == 0) {
     // There the equations give no derivatives; the interpolation of the step that goes beyond does.
     const CurvePoint interpolated = step.At(t);
@@ -336,7 +379,7 @@ namespace {
 std::optional<CurvePoint> LocateRegular(SmoothArc* arc, const Step& step, const StepEvent& event,
                                         const StepEnds& ends) {
   ArcEquations& equations = arc->equations();
-  switch (event.kind) {
+  switch (event.Kind()) {
     case EventKind::kNone: return step.end;
     case EventKind::kTooLong: return std::nullopt;
     case EventKind::kNearTouch: return PointAt(arc, step, event.t);
@@ -355,17 +398,18 @@ std::optional<CurvePoint> LocateRegular(SmoothArc* arc, const Step& step, const 
       if (!correction.converged || !arc->Derivatives(correction.x, step.normal, &point)) return std::nullopt;
       return point;
     }
-    case EventKind::kSample: return LocateSample(arc, step, event.t, ends.functions[event.target], event.value);
+    case EventKind::kSample:
+      return LocateSample(arc, step, event.t, ends.functions[event.sample->target], event.sample->value);
     case EventKind::kContactEvent: break;
   }
-  const auto along = [&](const CurvePoint& at) { return ValueAlong(equations, event.constraint, at); };
-  const auto gradient = [&](const Eigen::VectorXd& x) { return equations.Gradient(event.constraint, x); };
-  if (equations.IsOfRate(event.constraint)) return LocateRate(arc, step, event.t, along, gradient);
+  const auto along = [&](const CurvePoint& at) { return ValueAlong(equations, *event.fails, at); };
+  const auto gradient = [&](const Eigen::VectorXd& x) { return equations.Gradient(*event.fails, x); };
+  if (equations.IsOfRate(*event.fails)) return LocateRate(arc, step, event.t, along, gradient);
   // The inequality as the last equation. Where it only grazes zero, that has no solution: then its minimum counts, or
   // else the point itself. At the event itself the equations may be singular: then derivatives are those of the step
   // that crossed it.
   const Eigen::VectorXd guess = step.Point(event.t);
-  Correction correction = arc->CorrectOnto(event.constraint, guess);
+  Correction correction = arc->CorrectOnto(*event.fails, guess);
   const double reach = kReachOfLocated * step.length + tolerances::kSamePoint;
   if (!correction.converged || !((correction.x - guess).head(arc->NumMotion()).norm() <= reach)) {
     std::optional<CurvePoint> lowest = LocateRate(arc, step, event.t, along, gradient);

@@ -267,8 +267,9 @@ double SmoothArc::MovedByRounding(const Eigen::VectorXd& x, const Eigen::VectorX
   return solver_.Solve(rounding.cwiseProduct(signs), 0.0).head(normal.size()).norm();
 }
 
-std::optional<Crossing> SmoothArc::FindCrossing(const Eigen::VectorXd& guess, const Eigen::VectorXd& tangent) {
-  std::optional<Crossing> crossing = contact_path::FindCrossing(&equations_, guess, tangent);
+std::optional<Crossing> SmoothArc::FindCrossing(const Eigen::VectorXd& guess, const Eigen::VectorXd& tangent,
+                                                Eigen::Index k) {
+  std::optional<Crossing> crossing = contact_path::FindCrossing(&equations_, guess, tangent, k);
   if (crossing) factorisations_ += crossing->factorisations;
   return crossing;
 }

@@ -1,4 +1,6 @@
 // Where the machine that loads the structure can go no further, and the equilibrium ceases to be stable.
+#include <algorithm>
+
 #include "contact_path/path/branch_method.h"
 #include "contact_path/tolerances.h"
 
@@ -6,60 +8,66 @@ namespace contact_path {
 
 bool BranchMethod::LoadsOn() const { return SettingRate(current_.first) > 0.0; }
 
+Eigen::VectorXd BranchMethod::SettingRow() const {
+  Eigen::VectorXd row = Eigen::VectorXd::Zero(arc_.system().NumUnknowns());
+  row.head(setting_row_.size()) = options_.setting_sense * setting_row_;
+  return row;
+}
+
 double BranchMethod::SettingRate(const Eigen::VectorXd& first) const {
   return options_.setting_sense * setting_row_.dot(first.head(setting_row_.size()));
 }
 
-bool BranchMethod::ShortenTo(const std::function<bool(const CurvePoint&)>& beyond, bool singular, BalancedStep* next) {
-  Step& step = next->at.step;
-  double before = 0.0, after = step.length;
-  CurvePoint end = step.end, middle;
-  while (after - before > tolerances::kLastDigits * step.length) {
-    const double t = 0.5 * (before + after);
-    if (!(t > before && t < after)) break;
-    const Correction there = arc_.CorrectOnPlane(step.Point(t), step.normal);
-    if (!there.converged) return false;
-    if (singular) {
-      // There the equations give no derivatives; the interpolation of the step does.
-      middle = step.At(t);
-      middle.x = there.x;
-      middle.BeSingular();
-      middle.is_limit = false;
-      middle.is_crossing = true;
-    } else if (!arc_.Derivatives(there.x, step.normal, &middle)) {
-      return false;
-    }
-    if (beyond(middle)) {
-      after = t;
-      end = middle;
-    } else {
-      before = t;
-    }
-  }
-  // An event that coincides with something else is the one to act on.
-  const double width = tolerances::kShort * step.length;
-  const bool at_event = next->at.event.kind != EventKind::kNone && step.length - after <= width;
-  if (at_event || after <= width || !(after < step.length)) return false;
-  step = MakeStep(step.start, end, arc_.NumMotion());
-  next->at.event = StepEvent();
-  Balance(next);
-  return true;
+std::optional<CurvePoint> BranchMethod::BucklingOn(const Step& step, int directions, Eigen::MatrixXd* null_directions) {
+  bool broken = false;
+  const std::optional<LocatedCrossing> found = CrossingOn(&arc_, step, directions, &broken);
+  if (!found) return std::nullopt;
+  CurvePoint place = PointOf(found->at, arc_);
+  place.BeSingular();
+  *null_directions = NullDirections(found->at);
+  return place;
 }
 
-void BranchMethod::NoteStability(const ArcStep& at, const AcceptedPoint& increment, bool inside) {
-  const CurvePoint& end = at.step.end;
+std::optional<CurvePoint> BranchMethod::LettingGoOn(const Step& step) {
+  double before = 0.0, after = step.length;
+  std::optional<CurvePoint> place;
+  for (double t = 0.5 * after; t > before && t < after && after - before > tolerances::kLastDigits * step.length;
+       t = 0.5 * (before + after)) {
+    const Correction there = arc_.CorrectOnPlane(step.Point(t), step.normal);
+    CurvePoint middle;
+    if (!there.converged || !arc_.Derivatives(there.x, step.normal, &middle)) return std::nullopt;
+    const bool gone = stability_->At(arc_.system().Unpack(there.x)) == Verdict::kUnstable;
+    if (gone) place = middle;
+    (gone ? after : before) = t;
+  }
+  return place;
+}
+
+Eigen::MatrixXd BranchMethod::NullDirections(const Crossing& crossing) const {
   const Eigen::Index nd = LoadFactor();
-  Eigen::VectorXd null_direction;
-  if (at.event.crossing) {
-    const Eigen::VectorXd &along = at.event.crossing->along.first, &across = at.event.crossing->across.front().first;
-    null_direction = (across.head(nd) * along[nd] - along.head(nd) * across[nd]).normalized();
-  } else if (end.is_limit) {
-    null_direction = end.first.head(nd).normalized();
+  // The last curve of several is that of all parts together.
+  const std::size_t parts = std::max<std::size_t>(1, crossing.across.size() - 1);
+  const Eigen::VectorXd& along = crossing.along.first;
+  Eigen::MatrixXd directions(nd, static_cast<Eigen::Index>(parts));
+  for (std::size_t j = 0; j < parts; ++j) {
+    const Eigen::VectorXd& across = crossing.across[j].first;
+    directions.col(static_cast<Eigen::Index>(j)) =
+        (across.head(nd) * along[nd] - along.head(nd) * across[nd]).normalized();
   }
-  if (inside) {
-    stability_->Note(increment.point, arc_, end, StiffnessSign(end), null_direction);
-    return;
-  }
+  return directions;
+}
+
+Eigen::MatrixXd BranchMethod::NullDirections(const ArcStep& at) const {
+  if (at.event.crossing) return NullDirections(*at.event.crossing);
+  return at.step.end.is_limit ? Eigen::MatrixXd(at.step.end.first.head(LoadFactor()).normalized()) : Eigen::MatrixXd();
+}
+
+void BranchMethod::NoteStability(const CurvePoint& end, const AcceptedPoint& increment,
+                                 const Eigen::MatrixXd& null_directions) {
+  stability_->Note(increment.point, arc_, end, StiffnessSign(end), null_directions);
+}
+
+void BranchMethod::NoteStabilityBehind(const ArcStep& at, const AcceptedPoint& increment) {
   PathPoint leaves = increment.point;
   leaves.states = arc_.system().states();
   leaves.patches = arc_.system().patches();
@@ -67,8 +75,8 @@ void BranchMethod::NoteStability(const ArcStep& at, const AcceptedPoint& increme
   for (std::size_t i = 0; i < leaves.states.size(); ++i)
     changed += leaves.states[i] != increment.point.states[i] ? 1 : 0;
   StabilityMonitor::Decides decides = StabilityMonitor::Decides::kBoth;
-  if (changed == 1 && at.event.kind == EventKind::kContactEvent && !KeepsPatch(at.event.constraint.inequality)) {
-    const bool closes = at.event.constraint.inequality == Inequality::kGap || IsOfSlip(at.event.constraint.inequality);
+  if (changed == 1 && at.event.Kind() == EventKind::kContactEvent && !KeepsPatch(at.event.fails->inequality)) {
+    const bool closes = at.event.fails->inequality == Inequality::kGap || IsOfSlip(at.event.fails->inequality);
     decides = closes ? StabilityMonitor::Decides::kArrival : StabilityMonitor::Decides::kDeparture;
   }
   stability_->NoteEvent(leaves, current_, decides);
@@ -77,26 +85,34 @@ void BranchMethod::NoteStability(const ArcStep& at, const AcceptedPoint& increme
 bool BranchMethod::EndAtOnset(const PathPoint& from, BalancedStep* next, AcceptedPoint* increment) {
   const ArcStep& at = next->at;
   if (!(at.step.length > 0.0)) return false;
-  bool found = false;
+  std::optional<CurvePoint> place;
+  Eigen::MatrixXd null_directions;
   // Where curves cross, the tangent is known less well, and the setting may turn at that point.
   const double rounding = at.step.end.is_crossing ? tolerances::kSameTangent * setting_row_.norm() : 0.0;
   if (!machine_.IsDead() && SettingRate(at.step.start.first) > 0.0 && SettingRate(at.step.end.first) < -rounding)
-    found = ShortenTo([this](const CurvePoint& point) { return SettingRate(point.first) < 0.0; }, false, next);
+    place = LocateTurn(&arc_, at.step, SettingRow());
   if (stability_) {
     const Verdict before = stability_->OnArc();
-    NoteStability(at, *increment, true);
+    const int directions = stability_->record().unstable_directions;
+    NoteStability(at.step.end, *increment, NullDirections(at));
     const bool lost = before == Verdict::kStable && stability_->UnderMachine() == Verdict::kUnstable;
-    if (!found && lost && !at.step.end.is_limit && !at.step.end.is_crossing)
-      found = ShortenTo(
-          [this](const CurvePoint& point) {
-            return stability_->At(arc_.system().Unpack(point.x)) == Verdict::kUnstable;
-          },
-          !stability_->HasSlips(), next);
+    if (!place && lost && !at.step.end.is_limit && !at.step.end.is_crossing) {
+      const int more = stability_->record().unstable_directions - directions;
+      if (!stability_->HasSlips() && directions >= 0 && more > 0) place = BucklingOn(at.step, more, &null_directions);
+      if (stability_->HasSlips()) place = LettingGoOn(at.step);
+    }
   }
-  if (!found) return false;
-  *increment = IncrementOf(next->at, from);
-  increment->kind = IncrementKind::kOnset;
-  if (stability_) NoteStability(next->at, *increment, true);
+  if (!place) return false;
+  // An event that coincides with something else is the one to act on.
+  const double t = at.step.normal.dot((place->x - at.step.start.x).head(at.step.normal.size()));
+  const double width = tolerances::kShort * at.step.length;
+  if (t <= width || (at.event.Kind() == EventKind::kNone ? t >= at.step.length : t >= at.step.length - width))
+    return false;
+  next->at.step = MakeStep(at.step.start, *place, arc_.NumMotion());
+  next->at.event = StepEvent();
+  Balance(next);
+  *increment = IncrementOf(at, from);
+  if (stability_) NoteStability(*place, *increment, null_directions);
   return true;
 }
 
@@ -111,7 +127,7 @@ void BranchMethod::NoteLimit(const ArcStep& at, const AcceptedPoint& increment, 
   }
   // At a bifurcation of the curve on which the path arrives and goes on, not where it takes another one.
   const bool goes_on = increment.kind == IncrementKind::kRegular || increment.kind == IncrementKind::kOnset ||
-                       (at.event.kind == EventKind::kBifurcation && increment.event.taken == 1);
+                       (at.event.Kind() == EventKind::kBifurcation && increment.event.taken == 1);
   if (stability_ && goes_on && stability_->UnderMachine() == Verdict::kUnstable)
     advance->moves_off = stability_->Direction().size() > 0 ? stability_->Direction() : along;
 }

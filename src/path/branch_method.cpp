@@ -15,12 +15,6 @@ constexpr int kMostShorter = 6;        // times half as long, for the energies
 constexpr int kMostEventsInPlace = 8;  // then the contacts chatter, and no branch is trusted
 constexpr double kProbe = 0.1;         // of the wanted step: where a load that is level at an event is looked at again
 
-// The rate of a quantity; where it is zero, how it changes next to there; 0 where both are.
-double Trend(double rate, double change, double level) {
-  if (std::abs(rate) > level) return rate;
-  return std::abs(change) > level ? change : 0.0;
-}
-
 Advance Ended(End end) { return {{}, std::move(end), {}}; }
 
 End Failure(std::string_view sentence) { return {EndReason::kNumericalFailure, {{sentence}}}; }
@@ -119,7 +113,7 @@ AcceptedPoint BranchMethod::IncrementOf(const ArcStep& step, const PathPoint& fr
   increment.stiffness_sign = StiffnessSign(end);
   increment.solve.iterations = step.iterations;
   increment.solve.contraction = step.contraction;
-  if (step.event.kind != EventKind::kNone)
+  if (step.event.Kind() != EventKind::kNone)
     for (const ArcTarget& target : ends_.functions)
       if (target.criterion >= 0 && std::abs(target.of(end.x) - target.values.front()) <= target.rounding)
         increment.at_criteria.push_back(target.criterion);
@@ -147,7 +141,7 @@ std::optional<int> BranchMethod::EndAtReturn(const PathPoint& from, ArcStep* at)
   if (!found) return std::nullopt;
   const Eigen::VectorXd x = system.Pack(found->point);
   // The increment come back to is at the limit point where this one ends.
-  const bool at_limit = at->event.kind == EventKind::kLimitPoint && !at->event.crossing &&
+  const bool at_limit = at->event.Kind() == EventKind::kLimitPoint && !at->event.crossing &&
                         (x - step.end.x).head(arc_.NumMotion()).norm() <= ErrorOfPlace(step.end, system.NumDofs());
   if (at_limit) return found->increment;
   CurvePoint end;
@@ -157,17 +151,26 @@ std::optional<int> BranchMethod::EndAtReturn(const PathPoint& from, ArcStep* at)
   return found->increment;
 }
 
-std::optional<End> BranchMethod::PassEnd(const ArcStep& at, AcceptedPoint* increment) {
-  if (at.event.kind == EventKind::kBifurcation) return PassBifurcation(at, increment);
-  if (at.event.kind == EventKind::kContactEvent) return PassContactEvent(at, increment);
-  if (at.event.kind == EventKind::kSample) increment->kind = IncrementKind::kSample;
-  if (at.event.kind == EventKind::kLimitPoint) {
-    increment->kind = IncrementKind::kSmoothLimit;
-    if (at.event.crossing) increment->event.null_vector = CrossingPath(*at.event.crossing);
-    if (at.event.crossing && (options_.keep_loading || options_.ends_at_limit) && TakeCrossingThatLoads(at))
-      increment->kind = IncrementKind::kBifurcation;
+IncrementKind BranchMethod::Facts::Kind() const {
+  if (leaves_curve && load_turns) return IncrementKind::kCornerLimit;
+  if (contact_event) return IncrementKind::kContactEvent;
+  if (bifurcation) return IncrementKind::kBifurcation;
+  if (smooth_limit) return IncrementKind::kSmoothLimit;
+  if (sample) return IncrementKind::kSample;
+  return onset ? IncrementKind::kOnset : IncrementKind::kRegular;
+}
+
+std::optional<End> BranchMethod::PassEnd(const ArcStep& at, AcceptedPoint* increment, Facts* facts) {
+  const EventKind kind = at.event.Kind();
+  if (kind == EventKind::kBifurcation) return PassBifurcation(at, increment, facts);
+  if (kind == EventKind::kContactEvent) return PassContactEvent(at, increment, facts);
+  facts->sample = kind == EventKind::kSample;
+  facts->smooth_limit = kind == EventKind::kLimitPoint;
+  if (facts->smooth_limit && at.event.crossing) {
+    increment->event.null_vector = CrossingPath(*at.event.crossing);
+    facts->bifurcation = (options_.keep_loading || options_.ends_at_limit) && TakeCrossingThatLoads(at);
   }
-  return options_.ChoiceAt(increments_, 0) == nullptr ? std::nullopt : PassChoice(at, increment);
+  return options_.ChoiceAt(increments_, 0) == nullptr ? std::nullopt : PassChoice(at, increment, facts);
 }
 
 bool BranchMethod::TakeCrossingThatLoads(const ArcStep& at) {
@@ -180,9 +183,10 @@ bool BranchMethod::TakeCrossingThatLoads(const ArcStep& at) {
   return true;
 }
 
-std::optional<End> BranchMethod::PassBifurcation(const ArcStep& at, AcceptedPoint* increment) {
+std::optional<End> BranchMethod::PassBifurcation(const ArcStep& at, AcceptedPoint* increment, Facts* facts) {
   EventRecord* record = &increment->event;
-  increment->kind = IncrementKind::kBifurcation;
+  facts->bifurcation = true;
+  record->complete = at.event.crossing->across.size() == 1;
   record->null_vector = CrossingPath(*at.event.crossing);
   record->number = ++events_;
   const std::vector<Branch> branches = BifurcationBranches(arc_, model_.contacts, *at.event.crossing);
@@ -193,27 +197,26 @@ std::optional<End> BranchMethod::PassBifurcation(const ArcStep& at, AcceptedPoin
   record->taken = static_cast<int>(*taken) + 1;
   if (*taken == 0) return std::nullopt;
   TakeCurve(branches[*taken].first, branches[*taken].second, LoadFactor(), &current_);
-  if (TurnsLoad(at)) {
-    increment->kind = IncrementKind::kCornerLimit;
-    record->null_vector.clear();
-  }
+  facts->leaves_curve = true;
+  facts->load_turns = TurnsLoad(at);
+  if (facts->load_turns) record->null_vector.clear();
   return std::nullopt;
 }
 
-std::optional<End> BranchMethod::PassContactEvent(const ArcStep& at, AcceptedPoint* increment) {
-  increment->kind = IncrementKind::kContactEvent;
+std::optional<End> BranchMethod::PassContactEvent(const ArcStep& at, AcceptedPoint* increment, Facts* facts) {
+  facts->contact_event = facts->leaves_curve = true;
   increment->event.number = ++events_;
   if (SlidesOff(at, increment->point)) {
-    const ContactCandidate& lost = model_.scene.contacts[static_cast<std::size_t>(at.event.constraint.contact)];
+    const ContactCandidate& lost = model_.scene.contacts[static_cast<std::size_t>(at.event.fails->contact)];
     return End{EndReason::kPathEnd,
                {{lost.OnSurface() ? sentences::kSlidesOffSurface : sentences::kSlidesOffObstacle, lost.Name()}}};
   }
   std::optional<End> end = LeaveEnd(at, options_.ChoiceAt(increments_, events_), increment);
-  if (!end && TurnsLoad(at)) increment->kind = IncrementKind::kCornerLimit;
+  facts->load_turns = !end && TurnsLoad(at);
   return end;
 }
 
-std::optional<End> BranchMethod::PassChoice(const ArcStep& at, AcceptedPoint* increment) {
+std::optional<End> BranchMethod::PassChoice(const ArcStep& at, AcceptedPoint* increment, Facts* facts) {
   const std::vector<ContactState> states = arc_.system().states();
   if (std::optional<End> end = LeaveEnd(at, options_.ChoiceAt(increments_, 0), increment)) return end;
   const bool goes_on = arc_.system().states() == states &&
@@ -222,7 +225,8 @@ std::optional<End> BranchMethod::PassChoice(const ArcStep& at, AcceptedPoint* in
     if (!departure_.ChangesReactions()) current_ = at.step.end;
     return std::nullopt;
   }
-  increment->kind = TurnsLoad(at) ? IncrementKind::kCornerLimit : IncrementKind::kContactEvent;
+  facts->contact_event = facts->leaves_curve = true;
+  facts->load_turns = TurnsLoad(at);
   increment->event.null_vector.clear();
   return std::nullopt;
 }
@@ -232,32 +236,31 @@ std::optional<End> BranchMethod::LeaveEnd(const ArcStep& at, const BranchChoice*
   arrival.direction = at.step.end.first.head(arc_.NumMotion());
   arrival.singular = at.event.crossing.has_value() || at.event.singular;
   if (at_start_) arrival = departure_.StartArrival();
-  if (FailsByRounding(at)) arrival.failed = at.event.constraint;
+  if (FailsByRounding(at)) arrival.failed = at.event.fails;
   arrival.load_sense = options_.direction;
   return departure_.Leave(increment->point, arrival, choice, &arc_, &current_, &increment->event);
 }
 
 bool BranchMethod::FailsByRounding(const ArcStep& at) const {
-  if (at.event.kind != EventKind::kContactEvent || at.step.length > 0.0) return false;
-  const Constraint& constraint = at.event.constraint;
+  if (at.event.Kind() != EventKind::kContactEvent || at.step.length > 0.0) return false;
+  const Constraint& constraint = *at.event.fails;
   const double rate = arc_.system().Rate(constraint, at.step.end.x, at.step.end.first);
   return rate < 0.0 && rate >= -tolerances::kRate * arc_.system().UnitOf(constraint);
 }
 
 bool BranchMethod::TurnsLoad(const ArcStep& at) {
-  const double level = tolerances::kRate;
+  const auto rate = [](double value) { return Measured{value, tolerances::kRate}; };
   const Eigen::Index s = LoadFactor();
-  const double arrives = Trend(at.step.end.first[s], -at.step.end.second[s], level);
-  double leaves = Trend(current_.first[s], current_.second[s], level);
+  const int arrives = LeadingSign({rate(at.step.end.first[s]), rate(-at.step.end.second[s])});
+  int leaves = LeadingSign({rate(current_.first[s]), rate(current_.second[s])});
   // A load that is level to second order may yet rise or fall; and where paths cross, a second derivative may be
   // nothing but the distance of the located point from the crossing.
-  const bool is_level = std::abs(current_.first[s]) <= level;
-  if (is_level && arrives != 0.0 && (leaves == 0.0 || at.event.crossing)) {
-    const std::optional<double> rate = RateBeyond(kProbe * options_.step);
-    const double beyond = rate ? Trend(*rate, 0.0, level) : leaves;
-    if (leaves == 0.0 || beyond == 0.0) leaves = beyond;
+  if (rate(current_.first[s]).Sign() == 0 && arrives != 0 && (leaves == 0 || at.event.crossing)) {
+    const std::optional<double> found = RateBeyond(kProbe * options_.step);
+    const int beyond = found ? rate(*found).Sign() : leaves;
+    if (leaves == 0 || beyond == 0) leaves = beyond;
   }
-  return arrives * leaves < 0.0;
+  return arrives * leaves < 0;
 }
 
 std::optional<double> BranchMethod::RateBeyond(double length) {
@@ -269,8 +272,8 @@ std::optional<double> BranchMethod::RateBeyond(double length) {
 }
 
 bool BranchMethod::SlidesOff(const ArcStep& at, const PathPoint& point) const {
-  const Constraint& constraint = at.event.constraint;
-  if (at.event.kind != EventKind::kContactEvent || !KeepsPatch(constraint.inequality)) return false;
+  if (at.event.Kind() != EventKind::kContactEvent || !KeepsPatch(at.event.fails->inequality)) return false;
+  const Constraint& constraint = *at.event.fails;
   const auto i = static_cast<std::size_t>(constraint.contact);
   const int next = point.Patch(i) + (constraint.inequality == Inequality::kPatchEnd ? 1 : -1);
   const double force = departure_.ToleranceAt(point).force * model_.contacts[i]->NormalForceUnit();
@@ -354,18 +357,20 @@ Advance BranchMethod::Next(const PathPoint& from) {
   ++increments_;
 
   Advance advance;
+  Facts facts;
+  facts.onset = onset;
   if (returned) {
-    if (at->event.kind == EventKind::kLimitPoint) increment.kind = IncrementKind::kSmoothLimit;
+    facts.smooth_limit = at->event.Kind() == EventKind::kLimitPoint;
     advance.end = ClosedPath(*returned);
   } else if (Causes hidden = HiddenSlip(model_, increment.point); !hidden.empty()) {
     advance.end = {EndReason::kNotDetermined, hidden};
   } else {
-    advance.end = PassEnd(*at, &increment);
+    advance.end = PassEnd(*at, &increment, &facts);
   }
-  if (onset && increment.kind == IncrementKind::kRegular) increment.kind = IncrementKind::kOnset;
+  increment.kind = facts.Kind();
   if (stability_) {
     if (increment.kind == IncrementKind::kContactEvent || increment.kind == IncrementKind::kCornerLimit)
-      NoteStability(*at, increment, false);
+      NoteStabilityBehind(*at, increment);
     increment.stability = stability_->record();
   }
   if (!advance.end) NoteLimit(*at, increment, &advance);

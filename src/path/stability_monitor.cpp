@@ -23,8 +23,8 @@ const Value& Worse(const Value& a, const Value& b, VerdictOf verdict) {
 
 }  // namespace
 
-void StabilityMonitor::Count(const PathPoint& point, const Eigen::VectorXd& null_direction) {
-  problem_.Set(point, null_direction);
+void StabilityMonitor::Count(const PathPoint& point, const Eigen::MatrixXd& null_directions) {
+  problem_.Set(point, null_directions);
   arc_.dead = problem_.Under(INFINITY);
   arc_.controlled = problem_.Under(0.0);
   arc_.under_machine = machine_.IsDead() ? arc_.dead.verdict : problem_.Under(machine_.Compliance()).verdict;
@@ -42,8 +42,8 @@ void StabilityMonitor::Start(const PathPoint& point, const CurvePoint* ahead) {
 }
 
 void StabilityMonitor::Note(const PathPoint& point, const SmoothArc& arc, const CurvePoint& at, int stiffness_sign,
-                            const Eigen::VectorXd& null_direction) {
-  const bool singular = null_direction.size() > 0;
+                            const Eigen::MatrixXd& null_directions) {
+  const bool singular = null_directions.cols() > 0;
   const bool small = model_.structure.NumDofs() <= kSmallSystem;
   // Where supports or obstacles move besides, f . u does not tell the work along the path.
   const bool loads_alone = model_.structure.ReferenceLoad().isZero(0.0) ||
@@ -54,7 +54,7 @@ void StabilityMonitor::Note(const PathPoint& point, const SmoothArc& arc, const 
   if (follows)
     Follow(at);
   else
-    Count(point, null_direction);
+    Count(point, null_directions);
   known_ = !singular;
   Write(arc_, &at);
 }

@@ -160,6 +160,7 @@ bool MotionStepSolver::Newton(const Eigen::VectorXd& drag, const Eigen::VectorXd
     return true;
   };
   NewtonLimits limits;
+  limits.small = tolerances::kUnitComponent;
   limits.unit = system_.ResidualUnit();
   const NewtonCourse course = NewtonLoop(
       limits, true, next, [this](const Eigen::VectorXd& step) { return system_.Norm(step); }, x, &newton_step_);

@@ -21,12 +21,12 @@ constexpr int kInverseIterations = 6;  // each multiplies the share of a mode by
 StabilityProblem::StabilityProblem(const Structure& structure, const ContactPairs& contacts)
     : structure_(structure), contacts_(contacts), system_(structure, contacts) {}
 
-void StabilityProblem::Set(const PathPoint& point, const Eigen::VectorXd& null_direction) {
+void StabilityProblem::Set(const PathPoint& point, const Eigen::MatrixXd& null_directions) {
   Classify(point);
   const Eigen::VectorXd x = system_.Pack(point);
   const Eigen::SparseMatrix<double>& transposed = system_.TransposedJacobian(x);
-  singular_ = null_direction.size() > 0 && slips_.empty();
-  null_ = null_direction;
+  singular_ = null_directions.cols() > 0 && slips_.empty();
+  null_ = null_directions;
   BuildSaddle(transposed);
   regular_ = factors_.Factorize(saddle_, saddle_.rows() - structure_.NumDofs());
   if (!regular_) return;
@@ -90,10 +90,12 @@ void StabilityProblem::BuildSaddle(const Eigen::SparseMatrix<double>& transposed
     for (Eigen::SparseMatrix<double>::InnerIterator it(stiffness_, column); it; ++it)
       entries.emplace_back(static_cast<int>(it.row()), static_cast<int>(column), it.value());
   if (singular_) {
-    // A spring holds one component of the null direction, and takes no part in motions without it.
-    Eigen::Index place = 0;
-    null_.cwiseAbs().maxCoeff(&place);
-    entries.emplace_back(static_cast<int>(place), static_cast<int>(place), 1.0 + largest);
+    // A spring holds one component of each null direction, and takes no part in motions without it.
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> places(null_.transpose());
+    for (Eigen::Index j = 0; j < null_.cols(); ++j) {
+      const int place = places.colsPermutation().indices()[j];
+      entries.emplace_back(place, place, 1.0 + largest);
+    }
   }
   forces_.resize(nd, reactions);
   forces_.setFromTriplets(forces.begin(), forces.end());
@@ -190,7 +192,7 @@ double StabilityProblem::PossibleSense() const {
   Eigen::VectorXd slips(static_cast<Eigen::Index>(slips_.size()));
   for (Eigen::Index k = 0; k < slips.size(); ++k) {
     const Slip& slip = slips_[static_cast<std::size_t>(k)];
-    slips[k] = slip.sense * forces_.col(slip.tangent - structure_.NumDofs()).dot(null_);
+    slips[k] = slip.sense * forces_.col(slip.tangent - structure_.NumDofs()).dot(null_.col(0));
   }
   const double rounding = tolerances::kSameTangent * slips.cwiseAbs().maxCoeff();
   if (slips.minCoeff() >= -rounding) return 1.0;
@@ -202,13 +204,17 @@ Stability StabilityProblem::Under(double compliance) const {
   if (!covered_) return found;
   const bool dead = !std::isfinite(compliance) || structure_.ReferenceLoad().isZero(0.0);
   if (!regular_) return found;
-  // A machine may hold the null direction.
-  const bool level = null_.size() > 0 && (dead || std::abs(structure_.ReferenceLoad().dot(null_)) <=
-                                                      tolerances::kSameTangent * structure_.ReferenceLoad().norm());
+  // A machine may hold one of the null directions.
+  const Eigen::VectorXd work = null_.transpose() * structure_.ReferenceLoad();
+  const bool one_held = !dead && null_.cols() > 0 &&
+                        work.cwiseAbs().maxCoeff() > tolerances::kSameTangent * structure_.ReferenceLoad().norm();
+  const Eigen::Index free = null_.cols() - (one_held ? 1 : 0);
+  const bool level = free > 0;
   if (singular_) {
-    found.directions = static_cast<int>(negative_) + (level ? 1 : 0);
+    found.directions = static_cast<int>(negative_ + free);
     found.verdict = found.directions > 0 ? Verdict::kUnstable : Verdict::kStable;
-    if (level) found.direction = Normalised(null_);
+    if (level)
+      found.direction = Normalised(one_held ? Eigen::VectorXd(null_.col(0) * work[1] - null_.col(1) * work[0]) : null_.col(0));
     return found;
   }
   if (level) {
@@ -216,7 +222,7 @@ Stability StabilityProblem::Under(double compliance) const {
     const double sense = PossibleSense();
     if (sense == 0.0) return found;
     found.verdict = Verdict::kUnstable;
-    found.direction = Normalised(sense * null_);
+    found.direction = Normalised(sense * null_.col(0));
     const bool held = !std::isfinite(compliance) && !structure_.ReferenceLoad().isZero(0.0);
     if (const int directions = held ? Under(0.0).directions : -1; directions >= 0) found.directions = directions + 1;
     return found;

@@ -9,26 +9,38 @@
 
 namespace contact_path {
 
+// In the order in which facts at one place are acted on, the last one first.
 enum class EventKind {
   kNone,       // the whole step is good
-  kNearTouch,  // an inequality comes so near to zero inside that only an increment there can tell; or an open contact
-               // comes to the next patch of its surface
-  kContactEvent,  // an inequality reaches zero and would be broken
-  kTarget,        // the load factor comes to where the path is to end
-  kSample,        // a function of the unknowns comes to a value at which a step is to end
+  kNearTouch,  // a limit comes so near to zero inside that only an increment there can tell; or an open contact comes to
+               // the next patch of its surface
+  kBifurcation,   // other curves cross
   kLimitPoint,    // ds = 0
-  kBifurcation,   // the bordered determinant changes its sign
+  kContactEvent,  // a limit reaches zero and would be broken
+  kSample,        // a function of the unknowns comes to a value at which a step is to end
+  kTarget,        // the load factor comes to where the path is to end
   kTooLong,       // a shorter step is needed: it leapt to another curve, or what coincides cannot be told
 };
 
+// What is the case at one place of a step: a set of facts.
 struct StepEvent {
-  EventKind kind = EventKind::kNone;
-  double t = 0.0;                         // parameter of the step, of the first kind
-  Constraint constraint;                  // kContactEvent: the inequality that fails first
-  std::optional<Crossing> crossing = {};  // another curve crosses at the very point, whatever happens there
-  std::size_t target = 0;                 // kSample: which of the functions
-  double value = 0.0;                     // kSample: of that function
-  bool singular = false;  // kLimitPoint: more than one other curve crosses there, as at two dead centres at once
+  struct Sample {
+    std::size_t target = 0;  // which of the functions
+    double value = 0.0;      // of that function
+  };
+
+  double t = 0.0;                         // parameter of the step
+  std::optional<Constraint> fails = {};   // the limit that reaches zero and would be broken
+  bool turns = false;                     // ds = 0
+  std::optional<Crossing> crossing = {};  // other curves cross
+  bool singular = false;  // more than one other curve crosses where the load turns, as at two dead centres at once
+  std::optional<Sample> sample = {};  // a function comes to one of its values
+  bool target = false;                // the load factor comes to where the path is to end
+  bool near = false;                  // an increment is wanted, and nothing fails
+  bool too_long = false;
+
+  // The fact to act on.
+  EventKind Kind() const;
 };
 
 // What else ends a step.
@@ -46,9 +58,23 @@ struct StepEnds {
 // event lies there. Functions of `ends` are interpolated by quintics, too.
 StepEvent FirstEvent(SmoothArc* arc, const Step& step, const StepEnds& ends = {});
 
-// The exact point of a kind near t, by Newton's method, with its parameter within the step. Nothing if it is
+// The exact point of an event near its t, by Newton's method, with its parameter within the step. Nothing if it is
 // not found.
 std::optional<CurvePoint> Locate(SmoothArc* arc, const Step& step, const StepEvent& event, const StepEnds& ends = {});
+
+// The point of the curve of the step where row . x turns, by Newton's method on its rate; row: unknowns. Nothing: it does
+// not.
+std::optional<CurvePoint> LocateTurn(SmoothArc* arc, const Step& step, const Eigen::VectorXd& row);
+
+// The point on the curve of the step at which k other curves cross, and its parameter; 0: as many as there are.
+// *broken: becomes true where a crossing was found that an imperfection has broken.
+struct LocatedCrossing {
+  double t = 0.0;
+  Crossing at;
+};
+std::optional<LocatedCrossing> CrossingOn(SmoothArc* arc, const Step& step, Eigen::Index k, bool* broken);
+// The point itself.
+CurvePoint PointOf(const Crossing& crossing, const SmoothArc& arc);
 
 // What rounding leaves of the place of a limit point along its arc (scaled).
 // load: the load factor's place among the unknowns.

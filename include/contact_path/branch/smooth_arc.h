@@ -62,8 +62,8 @@ class SmoothArc {
   // its point where nothing else was solved since. Empty: they are singular. forces: NumMotion() - 1.
   Eigen::VectorXd MotionUnder(const Eigen::VectorXd& forces) const;
 
-  // Where other curves cross, or nearly cross, the arc near guess, whose tangent in (u, s) is about `tangent`.
-  std::optional<Crossing> FindCrossing(const Eigen::VectorXd& guess, const Eigen::VectorXd& tangent);
+  // Where k other curves cross, or nearly cross, the arc near guess, whose tangent in (u, s) is about `tangent`.
+  std::optional<Crossing> FindCrossing(const Eigen::VectorXd& guess, const Eigen::VectorXd& tangent, Eigen::Index k);
 
   // The rounding of a limit's value: down to minus this it counts as holding.
   double RoundingOf(const Constraint& limit) const {

@@ -56,24 +56,39 @@ class BranchMethod : public PathMethod {
   // on it, contacts that slip let go, or several parts buckle at one place. Whether there is such a place; increment:
   // of the step, made anew then.
   bool EndAtOnset(const PathPoint& from, BalancedStep* next, AcceptedPoint* increment);
-  // Ends the step at the first place behind which `beyond` holds; false where it is not found. singular: the equations
-  // are singular there.
-  bool ShortenTo(const std::function<bool(const CurvePoint&)>& beyond, bool singular, BalancedStep* next);
-  void NoteStability(const ArcStep& at, const AcceptedPoint& increment, bool inside);
+  // The place on the step at which as many parts buckle at once as directions become unstable: curves cross there.
+  std::optional<CurvePoint> BucklingOn(const Step& step, int directions, Eigen::MatrixXd* null_directions);
+  // The place on the step from which on contacts that slip let go, by bisection on the verdict.
+  std::optional<CurvePoint> LettingGoOn(const Step& step);
+  // Of a point inside the arc; null_directions: of the tangent at fixed load factor, du, where it is singular.
+  void NoteStability(const CurvePoint& end, const AcceptedPoint& increment, const Eigen::MatrixXd& null_directions);
+  // Of the arc that begins at the event at the end of the step.
+  void NoteStabilityBehind(const ArcStep& at, const AcceptedPoint& increment);
+  Eigen::MatrixXd NullDirections(const Crossing& crossing) const;
+  Eigen::MatrixXd NullDirections(const ArcStep& at) const;
   // Of the setting of the machine, in the sense of the loads, along a curve.
   double SettingRate(const Eigen::VectorXd& first) const;
+  Eigen::VectorXd SettingRow() const;  // the same, by all unknowns
   // Advance::turns and moves_off where the machine can go no further.
   void NoteLimit(const ArcStep& at, const AcceptedPoint& increment, Advance* advance) const;
+  // What is the case where an increment ends.
+  struct Facts {
+    bool contact_event = false, bifurcation = false, smooth_limit = false, sample = false, onset = false;
+    bool leaves_curve = false;  // the path goes on along another curve
+    bool load_turns = false;    // there
+
+    IncrementKind Kind() const;
+  };
   // Records the event at the end of the step, and sets out from there. Nothing: done. Otherwise why not.
-  std::optional<End> PassEnd(const ArcStep& at, AcceptedPoint* increment);
+  std::optional<End> PassEnd(const ArcStep& at, AcceptedPoint* increment, Facts* facts);
   // Where another path crosses at a limit point, as where slack bars become taut: sets out on it if the
   // setting of the machine grows there.
   bool TakeCrossingThatLoads(const ArcStep& at);
-  std::optional<End> PassBifurcation(const ArcStep& at, AcceptedPoint* increment);
-  std::optional<End> PassContactEvent(const ArcStep& at, AcceptedPoint* increment);
+  std::optional<End> PassBifurcation(const ArcStep& at, AcceptedPoint* increment, Facts* facts);
+  std::optional<End> PassContactEvent(const ArcStep& at, AcceptedPoint* increment, Facts* facts);
   // Where branch_choices names the increment: takes a branch there. The increment keeps its kind if that is the path
   // itself.
-  std::optional<End> PassChoice(const ArcStep& at, AcceptedPoint* increment);
+  std::optional<End> PassChoice(const ArcStep& at, AcceptedPoint* increment, Facts* facts);
   // Sets out on a branch from the end of the step.
   std::optional<End> LeaveEnd(const ArcStep& at, const BranchChoice* choice, AcceptedPoint* increment);
   // Whether an inequality fails where the step sets out, by a rate within the tolerance.

@@ -24,10 +24,10 @@ class StabilityMonitor {
       : model_(model), machine_(machine), problem_(model.structure, model.contacts) {}
 
   // The next increment. at: the curve on which it was reached. stiffness_sign: of the determinant of the tangent at
-  // fixed load factor, 0 = singular. null_direction: of the tangent at fixed load factor, du, where it is known to be
-  // singular; else empty. arc: with the factors of the point.
+  // fixed load factor, 0 = singular. null_directions: of the tangent at fixed load factor, columns du, where it is known to be
+  // singular; else no columns. arc: with the factors of the point.
   void Note(const PathPoint& point, const SmoothArc& arc, const CurvePoint& at, int stiffness_sign,
-            const Eigen::VectorXd& null_direction);
+            const Eigen::MatrixXd& null_directions);
   // Where contacts change their states or patches, behind Note(): the point as it is left, along `ahead`. A contact
   // that closes, or comes to stick, is free to do what it did where it arrives; one that opens, or comes to slip, what
   // it does where it leaves. On a kink of a surface, and where several contacts change, both sides count.
@@ -53,7 +53,7 @@ class StabilityMonitor {
     Stability dead, controlled;
     Verdict under_machine = Verdict::kNotProved;
   };
-  void Count(const PathPoint& point, const Eigen::VectorXd& null_direction);
+  void Count(const PathPoint& point, const Eigen::MatrixXd& null_directions);
   // From the count before, and the tangent.
   void Follow(const CurvePoint& at);
   // Two modes of a symmetric structure lose their stiffness at one place, and the determinant keeps its sign. Inverse

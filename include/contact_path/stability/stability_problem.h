@@ -43,9 +43,9 @@ class StabilityProblem {
   StabilityProblem(const Structure& structure, const ContactPairs& contacts);
 
   // Looks at an equilibrium inside an arc, or at an end of it with the states of the arc: contacts that slip are S, all
-  // others that stick are D. null_direction: of the tangent, du, where the equations are known to be singular; else
-  // empty.
-  void Set(const PathPoint& point, const Eigen::VectorXd& null_direction);
+  // others that stick are D. null_directions: of the tangent, columns du, where the equations are known to be
+  // singular; else none.
+  void Set(const PathPoint& point, const Eigen::MatrixXd& null_directions);
 
   // Under s = (Q - f . u) / compliance, f the reference load, for Q at rest: infinite = dead loads, 0 = displacement
   // control. Without reference loads the machine is rigid already: as with dead loads.
@@ -92,7 +92,7 @@ class StabilityProblem {
   Eigen::MatrixXd H_;
   Eigen::VectorXd w_of_load_;      // of by_load_
   Eigen::VectorXd load_of_slips_;  // f . motions
-  Eigen::VectorXd null_;           // du; empty where the equations are not known to be singular
+  Eigen::MatrixXd null_;           // columns du; none where the equations are not known to be singular
 };
 
 }  // namespace contact_path
