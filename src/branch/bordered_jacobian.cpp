@@ -1,4 +1,4 @@
-#include "branch/bordered_jacobian.h"
+#include "contact_path/branch/bordered_jacobian.h"
 
 #include <Eigen/QR>
 

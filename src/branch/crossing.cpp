@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "branch/bordered_jacobian.h"
+#include "contact_path/branch/bordered_jacobian.h"
 #include "contact_path/equations/newton_loop.h"
 #include "contact_path/equations/second_form.h"
 #include "contact_path/tolerances.h"
@@ -34,7 +34,12 @@ void Orient(Eigen::Index motion, Eigen::VectorXd* direction) {
 class Parts {
  public:
   Parts(ArcEquations* equations, const BorderedJacobian& at, const Eigen::VectorXd& x)
-      : equations_(*equations), at_(at), form_(equations, x), motion_(equations->NumMotion()), v_(at.across), psi_(at.psi) {
+      : equations_(*equations),
+        at_(at),
+        form_(equations, x),
+        motion_(equations->NumMotion()),
+        v_(at.across),
+        psi_(at.psi) {
     if (v_.cols() > 1) Separate();
   }
 
@@ -165,7 +170,8 @@ std::optional<Crossing> FindCrossing(ArcEquations* equations, const Eigen::Vecto
       slope(k, 0) += mixed[j];
       value[k] += at.sigma(j, j) - at.psi.col(j).dot(form(at.across.col(j), back));
       for (Eigen::Index i = 0; i < k; ++i)
-        slope(k, 1 + i) += at.psi.col(j).dot(i == j ? form(at.across.col(j)) : form(at.across.col(j), at.across.col(i)));
+        slope(k, 1 + i) +=
+            at.psi.col(j).dot(i == j ? form(at.across.col(j)) : form(at.across.col(j), at.across.col(i)));
     }
     const Eigen::VectorXd shares = slope.fullPivLu().solve(value);
     *dx = back + shares[0] * at.along + at.across * shares.tail(k);
@@ -173,8 +179,8 @@ std::optional<Crossing> FindCrossing(ArcEquations* equations, const Eigen::Vecto
   };
   NewtonLimits limits;
   limits.unit = equations->ResidualUnit();
-  const NewtonCourse course =
-      NewtonLoop(limits, true, next, [&](const Eigen::VectorXd& dx) { return equations->Norm(dx); }, &crossing.x, &step);
+  const NewtonCourse course = NewtonLoop(
+      limits, true, next, [&](const Eigen::VectorXd& dx) { return equations->Norm(dx); }, &crossing.x, &step);
   if (!course.at_rounding) return std::nullopt;
   equations->Residual(crossing.x, &residual);
   const Eigen::VectorXd rounding = equations->Rounding(crossing.x);

@@ -295,13 +295,12 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, const StepEnds& ends) {
   for (const Constraint& end : open_ends) {
     Quintic beyond = FunctionOf(equations, step, end);
     beyond[0] += tolerances::kTouching;
-    if (const std::optional<double> t = FirstNegative(beyond, step.length, 0.0))
-      consider(near_at(*t));
+    if (const std::optional<double> t = FirstNegative(beyond, step.length, 0.0)) consider(near_at(*t));
   }
   for (const Constraint& constraint : inequalities) {
     const Quintic quintic = FunctionOf(equations, step, constraint);
-    const double zero = equations.IsOfRate(constraint) ? tolerances::kRate * equations.ResidualUnit()
-                                                                   : arc->RoundingOf(constraint);
+    const double zero =
+        equations.IsOfRate(constraint) ? tolerances::kRate * equations.ResidualUnit() : arc->RoundingOf(constraint);
     if (const std::optional<double> t = FirstNegative(quintic, step.length, zero)) {
       consider({*t, constraint});
       continue;
@@ -313,10 +312,10 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, const StepEnds& ends) {
     if (inside && smallest > zero && smallest < kNearShare * CubicDifference(quintic, step.length))
       consider(near_at(where));
   }
-  const Quintic load_factor = step.InterpolateLinear([s = arc->LoadFactor()](const Eigen::VectorXd& x) { return x[s]; });
+  const Quintic load_factor =
+      step.InterpolateLinear([s = arc->LoadFactor()](const Eigen::VectorXd& x) { return x[s]; });
   if (const std::optional<double> t = FirstTurn(load_factor, step)) consider({*t, {}, true});
-  if (step.start.side * step.end.side < 0 && !LookForCrossing(arc, step, ends, &first))
-    return too_long;
+  if (step.start.side * step.end.side < 0 && !LookForCrossing(arc, step, ends, &first)) return too_long;
   // From wall to wall of one obstacle in one step: a shorter step sees the wall that is ahead.
   if (first.Kind() == EventKind::kNone && equations.BeyondReach(step.end.x)) return too_long;
   // Whatever lies behind the target, however near, is not of this path.
@@ -392,8 +391,9 @@ std::optional<CurvePoint> LocateRegular(SmoothArc* arc, const Step& step, const 
           },
           [s = arc->LoadFactor()](const Eigen::VectorXd& x) { return Eigen::VectorXd::Unit(x.size(), s); });
     case EventKind::kTarget: {
-      const Correction correction = arc->Correct(
-          step.Point(event.t), Eigen::VectorXd::Unit(equations.NumUnknowns(), arc->LoadFactor()), ends.load_factor.value());
+      const Correction correction =
+          arc->Correct(step.Point(event.t), Eigen::VectorXd::Unit(equations.NumUnknowns(), arc->LoadFactor()),
+                       ends.load_factor.value());
       CurvePoint point;
       if (!correction.converged || !arc->Derivatives(correction.x, step.normal, &point)) return std::nullopt;
       return point;

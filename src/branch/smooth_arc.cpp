@@ -166,8 +166,8 @@ Correction SmoothArc::Newton(const Eigen::VectorXd& guess, const Eigen::VectorXd
   LowerResidual(row, value, &result.x);
   equations_.Residual(result.x, &residual_);
   const double scale = 1.0 + result.x.norm();
-  result.converged = equations_.Hold(result.x, residual_) &&
-                     std::abs(row.dot(result.x) - value) <= tolerances::kResidual * scale;
+  result.converged =
+      equations_.Hold(result.x, residual_) && std::abs(row.dot(result.x) - value) <= tolerances::kResidual * scale;
   return result;
 }
 
@@ -259,7 +259,8 @@ Eigen::VectorXd SmoothArc::MotionUnder(const Eigen::VectorXd& forces) const {
 }
 
 double SmoothArc::MovedByRounding(const Eigen::VectorXd& x, const Eigen::VectorXd& normal) {
-  if (!Factorize(x, equations_.TransposedJacobian(x), RowOf(normal)) || !solver_.HasLu()) return std::numeric_limits<double>::infinity();
+  if (!Factorize(x, equations_.TransposedJacobian(x), RowOf(normal)) || !solver_.HasLu())
+    return std::numeric_limits<double>::infinity();
   // Signs of the rounding that move the point far: those of the left singular vector, by one inverse iteration.
   const Eigen::VectorXd rounding = equations_.Rounding(x);
   const Eigen::VectorXd moved = solver_.Solve(GenericVector(rounding.size()), 0.0);

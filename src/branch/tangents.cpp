@@ -91,8 +91,7 @@ void AddShareOfModes(const Eigen::VectorXd& x, const Eigen::MatrixXd& modes, con
   if (value.norm() <= tolerances::kNoForm) return;
   for (int i = 0; i < kMostIterations; ++i) {
     Eigen::MatrixXd slope(modes.cols(), modes.cols());
-    for (Eigen::Index k = 0; k < modes.cols(); ++k)
-      slope.col(k) = 2.0 * psi.transpose() * second(z, modes.col(k));
+    for (Eigen::Index k = 0; k < modes.cols(); ++k) slope.col(k) = 2.0 * psi.transpose() * second(z, modes.col(k));
     const SingularVectors singular = RightSingularVectors(slope);
     if (!(singular.values[modes.cols() - 1] > tolerances::kNoForm)) return;
     z -= modes * slope.partialPivLu().solve(value);

@@ -104,8 +104,7 @@ const RigidModes& FixedStateSystem::Modes() const {
 
 bool FixedStateSystem::MayMoveFreely() const { return Modes().Possible(); }
 
-Eigen::MatrixXd FixedStateSystem::FreeMotions(const Eigen::VectorXd& x,
-                                              const Eigen::SparseMatrix<double>& transposed) {
+Eigen::MatrixXd FixedStateSystem::FreeMotions(const Eigen::VectorXd& x, const Eigen::SparseMatrix<double>& transposed) {
   return Modes().At(x.head(NumDofs()), transposed);
 }
 

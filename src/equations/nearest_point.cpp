@@ -69,8 +69,8 @@ NearestPoint FindNearestPoint(FixedStateSystem* system, const Eigen::VectorXd& s
   NewtonLimits limits;
   limits.most = kMostIterations;
   limits.unit = system->ResidualUnit();
-  const NewtonCourse course =
-      NewtonLoop(limits, true, next, [](const Eigen::VectorXd& dx) { return dx.norm(); }, &result.x, &step);
+  const NewtonCourse course = NewtonLoop(
+      limits, true, next, [](const Eigen::VectorXd& dx) { return dx.norm(); }, &result.x, &step);
   result.iterations = course.iterations;
   if (!course.steps.empty()) result.last_step = course.steps.back();
   system->Residual(result.x, &residual);

@@ -86,8 +86,8 @@ Arrival Departure::StartArrival() const {
   return arrival;
 }
 
-std::optional<End> Departure::Leave(const PathPoint& point, Arrival arrival, const BranchChoice* choice, ContactArc* arc,
-                                    CurvePoint* current, EventRecord* record) {
+std::optional<End> Departure::Leave(const PathPoint& point, Arrival arrival, const BranchChoice* choice,
+                                    ContactArc* arc, CurvePoint* current, EventRecord* record) {
   if (!arrival.is_start) arrival.before = moved_;
   ActiveSetTolerance tolerance = ToleranceAt(point);
   tolerance.gap = CoverGaps(model_.contacts, point, tolerance.gap);

@@ -110,8 +110,7 @@ void Add(const Model& model, const TraceRequest& request, std::size_t stage, con
     target.of = OfContact(model, quantity, system);
   else
     target.of = OfResponse(model, quantity, unit, system);
-  if (target.unknown >= 0)
-    target.of = [i = target.unknown](const Eigen::VectorXd& x) { return x[i]; };
+  if (target.unknown >= 0) target.of = [i = target.unknown](const Eigen::VectorXd& x) { return x[i]; };
   if (target.of == nullptr) return;
   double largest = 0.0;
   for (const double value : values) {

@@ -214,7 +214,8 @@ Stability StabilityProblem::Under(double compliance) const {
     found.directions = static_cast<int>(negative_ + free);
     found.verdict = found.directions > 0 ? Verdict::kUnstable : Verdict::kStable;
     if (level)
-      found.direction = Normalised(one_held ? Eigen::VectorXd(null_.col(0) * work[1] - null_.col(1) * work[0]) : null_.col(0));
+      found.direction =
+          Normalised(one_held ? Eigen::VectorXd(null_.col(0) * work[1] - null_.col(1) * work[0]) : null_.col(0));
     return found;
   }
   if (level) {

@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-#include "contact_path/branch/smooth_arc.h"
+#include "contact_path/branch/contact_arc.h"
 #include "contact_path/path/model.h"
 #include "support/traced_path.h"
 
@@ -42,7 +42,7 @@ TEST(Allocations, AreAsManyForFewIterationsOfTheCorrectorAsForMany) {
     SCOPED_TRACE(scene);
     const Scene example = ReadExample(scene).scene;
     const Model model(example, CharacteristicScales(example));
-    SmoothArc arc(model.structure, model.contacts);
+    ContactArc arc(model.structure, model.contacts);
     const PathPoint start = model.InitialPoint();
     arc.SetStates(start.states, start);
     const Eigen::VectorXd x = arc.system().Pack(start);

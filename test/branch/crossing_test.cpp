@@ -1,12 +1,9 @@
-#include "contact_path/branch/crossing.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "contact_path/path/model.h"
 #include "contact_path/verify/verify_path.h"
 #include "support/traced_path.h"
 
@@ -124,30 +121,6 @@ TEST(Crossing, IsWhereASmallImperfectionLeads) {
     EXPECT_GT(seen, 5) << path.result.message;
     EXPECT_LE(worst, 1e-12);
   }
-}
-
-// The load along the crossing path is s_c + s'' h^2 / 2: its second derivative needs the third one of the equations.
-TEST(Crossing, HasTheSecondDerivativeOfThePath) {
-  const TracedPath path = Swaying(2);
-  const Model model(path.request.scene, CharacteristicScales(path.request.scene));
-  const Increment crossing = First(path);
-  FixedStateSystem system(model.structure, model.contacts);
-  system.SetStates({}, Eigen::VectorXd());
-  const auto at = static_cast<std::size_t>(crossing.index);
-  const Eigen::VectorXd x = system.Pack(model.FromIncrement(crossing));
-  const Eigen::VectorXd before = system.Pack(model.FromIncrement(path.increments[at - 1]));
-  Eigen::VectorXd tangent = x - before;
-  tangent.normalize();
-  tangent[0] = 0.0;
-  const std::optional<Crossing> found = FindCrossing(&system, x, tangent.normalized());
-  ASSERT_TRUE(found);
-  EXPECT_TRUE(found->IsPerfect());
-  EXPECT_NEAR(found->across.first[0], 1.0, 1e-12);
-  const Eigen::VectorXd next = system.Pack(model.FromIncrement(path.increments[at + 1]));
-  const double length = found->across.first.dot(next - x);
-  for (const Eigen::Index i : {1, 2})
-    EXPECT_NEAR(0.5 * found->across.second[i] * length * length, next[i] - x[i],
-                1e-2 * std::abs(next[i] - x[i]) + 1e-9);
 }
 
 TEST(Crossing, OfABranchThatIsNotThereEndsTheTrace) {

@@ -8,7 +8,7 @@
 
 #include "contact_path/branch/branches.h"
 #include "contact_path/branch/event_functions.h"
-#include "contact_path/branch/smooth_arc.h"
+#include "contact_path/branch/contact_arc.h"
 #include "contact_path/branch/state_options.h"
 #include "contact_path/contact/rigid_pair.h"
 #include "contact_path/geometry/polyline.h"
@@ -65,7 +65,7 @@ class NodeOnABend : public testing::TestWithParam<double> {
   }
   double Xi(const VectorXd& x, int patch) const { return curve_->Project(x.head<2>(), patch).xi; }
   // From xi, by this length along the tangent.
-  Step StepFrom(SmoothArc* arc, const PathPoint& point, const Eigen::Vector3d& towards, double length) const {
+  Step StepFrom(ContactArc* arc, const PathPoint& point, const Eigen::Vector3d& towards, double length) const {
     arc->SetStates(point.states, point);
     CurvePoint start, end;
     EXPECT_TRUE(arc->Derivatives(arc->system().Pack(point), towards, &start));
@@ -82,12 +82,12 @@ class NodeOnABend : public testing::TestWithParam<double> {
 
 TEST_P(NodeOnABend, TheEndOfAPatchIsLocatedExactly) {
   for (const int patch : {0, 1}) {
-    SmoothArc arc(structure_, contacts_);
+    ContactArc arc(structure_, contacts_);
     const double from = End(patch) - 0.03;
     const Step step = StepFrom(&arc, At(from, patch), Rate(from, patch, 1e-5), 0.2);
     const StepEvent event = FirstEvent(&arc, step);
-    ASSERT_EQ(event.kind, EventKind::kContactEvent);
-    EXPECT_EQ(event.constraint.inequality, Inequality::kPatchEnd);
+    ASSERT_EQ(event.Kind(), EventKind::kContactEvent);
+    EXPECT_EQ(event.fails->inequality, Inequality::kPatchEnd);
     const std::optional<CurvePoint> located = Locate(&arc, step, event);
     ASSERT_TRUE(located);
     EXPECT_NEAR(Xi(located->x, patch), End(patch), kExact);
@@ -119,10 +119,10 @@ TEST_P(NodeOnABend, ThePathGoesOnOnTheNextPatch) {
 }
 
 TEST_P(NodeOnABend, StepsOnTheNextPatchStayOnIt) {
-  SmoothArc arc(structure_, contacts_);
+  ContactArc arc(structure_, contacts_);
   const PathPoint point = At(End(0), 1);
   const Step step = StepFrom(&arc, point, Rate(End(0), 1, 1e-5), 0.05);
-  EXPECT_EQ(FirstEvent(&arc, step).kind, EventKind::kNone);
+  EXPECT_EQ(FirstEvent(&arc, step).Kind(), EventKind::kNone);
   const double xi = Xi(step.end.x, 1);
   EXPECT_GT(xi, End(0));
   EXPECT_LE((step.end.x.head<3>() - Motion(At(xi, 1))).norm(), kExact);
@@ -168,20 +168,20 @@ TEST_P(NodeOnABend, OpenContactsChangeTheirPatchWithoutAnEvent) {
   point.s = force.x();
   scene.loads.push_back({"p", 0.0, force.y() + 0.2 * point.s, true});
   const Structure held(scene);
-  SmoothArc free(held, contacts_);
+  ContactArc free(held, contacts_);
   point.rn = point.rt = VectorXd::Zero(1);
   point.states = {kOpen};
   point.patches = {0};
   const Step step = StepFrom(&free, point, {1.0, 0.0, 1.0}, 0.1);
   const StepEvent event = FirstEvent(&free, step);
-  ASSERT_EQ(event.kind, EventKind::kNearTouch);
+  ASSERT_EQ(event.Kind(), EventKind::kNearTouch);
   const std::optional<CurvePoint> located = Locate(&free, step, event);
   ASSERT_TRUE(located);
   EXPECT_GT(Xi(located->x, 0), End(0));
   EXPECT_LT(Xi(located->x, 0), End(0) + 1e-8);
   const PathPoint there = free.system().Unpack(located->x);
   EXPECT_EQ(contacts_[0]->KnownPatch(there.u, there.s, there.patches[0]), 1);
-  EXPECT_EQ(FirstEvent(&free, MakeStep(*located, step.end, 3)).kind, EventKind::kNone);
+  EXPECT_EQ(FirstEvent(&free, MakeStep(*located, step.end, 3)).Kind(), EventKind::kNone);
 }
 
 INSTANTIATE_TEST_SUITE_P(RoughAndSmooth, NodeOnABend, testing::Values(0.3, 0.0));

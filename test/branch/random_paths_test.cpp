@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "contact_path/branch/smooth_arc.h"
+#include "contact_path/branch/contact_arc.h"
 #include "contact_path/path/model.h"
 #include "contact_path/path/trace.h"
 #include "contact_path/scene/scaling.h"
@@ -474,7 +474,7 @@ class Neighbourhood {
 
   const TracedPath& path_;
   Model model_;
-  SmoothArc arc_;
+  ContactArc arc_;
   PathPoint point_;
   Eigen::VectorXd back_;
   int found_ = 0;

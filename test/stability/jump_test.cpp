@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-#include "contact_path/branch/smooth_arc.h"
+#include "contact_path/branch/contact_arc.h"
 #include "contact_path/scene/expand.h"
 #include "contact_path/scene/program.h"
 #include "contact_path/tolerances.h"
@@ -241,7 +241,7 @@ TEST(Jump, CanBeCancelled) {
 // Newton's method stays at an equilibrium that is one to rounding.
 void ExpectEquilibrium(const Model& model, const PathPoint& point) {
   EXPECT_LE(model.Check(point, point).Largest(), tolerances::kAccepted);
-  SmoothArc arc(model.structure, model.contacts);
+  ContactArc arc(model.structure, model.contacts);
   arc.SetStates(point.states, point);
   const Eigen::VectorXd at = arc.system().Pack(point);
   const Correction again = arc.Correct(at, Eigen::VectorXd::Unit(at.size(), arc.NumMotion() - 1), point.s);

@@ -10,8 +10,8 @@
 
 namespace contact_path {
 
-// The arc itself, which goes on, comes first. Then both directions of each path that crosses the arc, without those that
-// let a contact slide back.
+// The arc itself, which goes on, comes first. Then both directions of each path that crosses the arc, without those
+// that let a contact slide back.
 std::vector<Branch> BifurcationBranches(const ContactArc& arc, const ContactPairs& contacts, const Crossing& crossing);
 
 }  // namespace contact_path

@@ -22,8 +22,8 @@ struct CurveDerivatives {
 // once; the null vectors are then those of the parts, one by one.
 struct Crossing {
   Eigen::VectorXd x;
-  // psi . F(x), |psi| = 1, the largest: 0 where the curves cross. Otherwise an imperfection has broken the crossing into
-  // two curves, and x is between them.
+  // psi . F(x), |psi| = 1, the largest: 0 where the curves cross. Otherwise an imperfection has broken the crossing
+  // into two curves, and x is between them.
   double unfolding = 0.0;
   double error = 0.0;      // of the unfolding, by the rounding of F
   CurveDerivatives along;  // with the tangent nearest to the one wanted, in its sense
@@ -39,10 +39,10 @@ struct Crossing {
 
 // Newton's method on F(x) + B l = 0, g(x) = 0 (Griewank & Reddien 1984; Govaerts 2000, 3.6) with the unknowns x and l,
 // where the k + 1 functions g are what J with borders leaves of its tangent, and the mean of the diagonal of sigma
-// (branch/bordered_jacobian.h): J loses k ranks where all of sigma is 0. The equations are regular where the curves cross
-// at an angle, and x has the digits of a regular point.
-// guess: near x; tangent: of (u, s), of the curve there. k: as many null vectors; 0: as many singular values of one size
-// as there are at the guess. Nothing where no such point is found.
+// (branch/bordered_jacobian.h): J loses k ranks where all of sigma is 0. The equations are regular where the curves
+// cross at an angle, and x has the digits of a regular point. guess: near x; tangent: of (u, s), of the curve there. k:
+// as many null vectors; 0: as many singular values of one size as there are at the guess. Nothing where no such point
+// is found.
 std::optional<Crossing> FindCrossing(ArcEquations* equations, const Eigen::VectorXd& guess,
                                      const Eigen::VectorXd& tangent, Eigen::Index k = 1);
 

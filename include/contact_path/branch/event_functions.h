@@ -12,8 +12,8 @@ namespace contact_path {
 // In the order in which facts at one place are acted on, the last one first.
 enum class EventKind {
   kNone,       // the whole step is good
-  kNearTouch,  // a limit comes so near to zero inside that only an increment there can tell; or an open contact comes to
-               // the next patch of its surface
+  kNearTouch,  // a limit comes so near to zero inside that only an increment there can tell; or an open contact comes
+               // to the next patch of its surface
   kBifurcation,   // other curves cross
   kLimitPoint,    // ds = 0
   kContactEvent,  // a limit reaches zero and would be broken
@@ -62,8 +62,8 @@ StepEvent FirstEvent(SmoothArc* arc, const Step& step, const StepEnds& ends = {}
 // not found.
 std::optional<CurvePoint> Locate(SmoothArc* arc, const Step& step, const StepEvent& event, const StepEnds& ends = {});
 
-// The point of the curve of the step where row . x turns, by Newton's method on its rate; row: unknowns. Nothing: it does
-// not.
+// The point of the curve of the step where row . x turns, by Newton's method on its rate; row: unknowns. Nothing: it
+// does not.
 std::optional<CurvePoint> LocateTurn(SmoothArc* arc, const Step& step, const Eigen::VectorXd& row);
 
 // The point on the curve of the step at which k other curves cross, and its parameter; 0: as many as there are.

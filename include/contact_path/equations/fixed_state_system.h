@@ -35,7 +35,8 @@ class FixedStateSystem : public ArcEquations {
   void SetStates(const std::vector<ContactState>& states, const Eigen::VectorXd& reference,
                  const std::vector<int>& patches = {});
   // For an arc that sets out from a point: stick and slip are measured from the tangential positions there. The states
-  // may close contacts over gaps that are not 0 but count as closed: RoundingOf() then knows the forces that this changes.
+  // may close contacts over gaps that are not 0 but count as closed: RoundingOf() then knows the forces that this
+  // changes.
   void SetStatesFrom(const PathPoint& from, const std::vector<ContactState>& states);
   void SetActive(const std::vector<Constraint>& constraints);
   void FixLoadFactor(double value);
@@ -182,14 +183,14 @@ class FixedStateSystem : public ArcEquations {
   Eigen::SparseMatrix<double> tangent_;
   Eigen::SparseMatrix<double> transposed_;
   Frame frame_;
-  std::vector<std::size_t> framed_;  // contacts that have places in it, ascending
-  bool placed_ = false;              // in the frame, as the states are
+  std::vector<std::size_t> framed_;     // contacts that have places in it, ascending
+  bool placed_ = false;                 // in the frame, as the states are
   std::vector<std::size_t> in_reach_;   // in the last call of LimitsInReach()
   std::map<int, double> moved_forces_;  // by contact that the states close over a gap: see SetStatesFrom()
   // Made where they are asked for.
   std::optional<ReachTracker> tracker_;
   mutable std::optional<const RigidModes> modes_;
-  Eigen::VectorXd constant_;         // values of transposed_ that do not change; kept where some contacts are curved
+  Eigen::VectorXd constant_;  // values of transposed_ that do not change; kept where some contacts are curved
 };
 
 }  // namespace contact_path

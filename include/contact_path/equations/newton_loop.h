@@ -14,14 +14,14 @@ namespace contact_path {
 
 struct NewtonLimits {
   int most = kMostCorrections;
-  double small = tolerances::kRounding;          // a step below this, relative to 1 + |x|, is the last one
-  double stagnation = tolerances::kStagnation;   // so is one that no longer shrinks and is below this
+  double small = tolerances::kRounding;                      // a step below this, relative to 1 + |x|, is the last one
+  double stagnation = tolerances::kStagnation;               // so is one that no longer shrinks and is below this
   double slowest = std::numeric_limits<double>::infinity();  // ratio of two steps; a slower one is given up
-  double unit = 1.0;                             // ArcEquations::ResidualUnit(): stagnation grows with it
+  double unit = 1.0;                                         // ArcEquations::ResidualUnit(): stagnation grows with it
 };
 
 struct NewtonCourse {
-  bool at_rounding = false;   // the last step was rounding; otherwise the method was given up
+  bool at_rounding = false;  // the last step was rounding; otherwise the method was given up
   int iterations = 0;
   std::vector<double> steps;  // their norms, in order
 };

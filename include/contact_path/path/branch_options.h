@@ -35,8 +35,8 @@ struct BranchOptions {
   std::optional<double> load_factor = {};  // at which the path is to end
   // Quantities of the system whose values get increments of their own; empty: none.
   std::function<ArcTargets(const FixedStateSystem& system)> watch = {};
-  int increments = 0;              // given before this path, of which it goes on
-  int events = 0;                  // passed before this path
+  int increments = 0;                 // given before this path, of which it goes on
+  int events = 0;                     // passed before this path
   ReturnDetector* returns = nullptr;  // tells whether the path has come back to where it was; null: that is no end
   LargestReactionSoFar* largest_reaction = nullptr;  // of the trace that the path is a part of; null: of this path
 

@@ -24,8 +24,8 @@ class StabilityMonitor {
       : model_(model), machine_(machine), problem_(model.structure, model.contacts) {}
 
   // The next increment. at: the curve on which it was reached. stiffness_sign: of the determinant of the tangent at
-  // fixed load factor, 0 = singular. null_directions: of the tangent at fixed load factor, columns du, where it is known to be
-  // singular; else no columns. arc: with the factors of the point.
+  // fixed load factor, 0 = singular. null_directions: of the tangent at fixed load factor, columns du, where it is
+  // known to be singular; else no columns. arc: with the factors of the point.
   void Note(const PathPoint& point, const SmoothArc& arc, const CurvePoint& at, int stiffness_sign,
             const Eigen::MatrixXd& null_directions);
   // Where contacts change their states or patches, behind Note(): the point as it is left, along `ahead`. A contact

@@ -1,6 +1,6 @@
 // The Jacobian with borders that make it regular where it loses ranks.
-#ifndef CONTACT_PATH_SRC_BRANCH_BORDERED_JACOBIAN_H_
-#define CONTACT_PATH_SRC_BRANCH_BORDERED_JACOBIAN_H_
+#ifndef CONTACT_PATH_BRANCH_BORDERED_JACOBIAN_H_
+#define CONTACT_PATH_BRANCH_BORDERED_JACOBIAN_H_
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
@@ -30,8 +30,8 @@ class BorderedJacobian {
   Eigen::VectorXd along;   // J along + B left_along = 0, V' along = 0, t' along = 1
   Eigen::MatrixXd across;  // columns v_j, unknowns x k
   Eigen::VectorXd left_along;
-  Eigen::MatrixXd sigma;  // J v_j + B sigma_j = 0
-  Eigen::MatrixXd psi;    // columns, equations x k: psi' B = 1
+  Eigen::MatrixXd sigma;     // J v_j + B sigma_j = 0
+  Eigen::MatrixXd psi;       // columns, equations x k: psi' B = 1
   int determinant_sign = 0;  // of M
 
  private:
@@ -47,4 +47,4 @@ class BorderedJacobian {
 
 }  // namespace contact_path
 
-#endif  // CONTACT_PATH_SRC_BRANCH_BORDERED_JACOBIAN_H_
+#endif  // CONTACT_PATH_BRANCH_BORDERED_JACOBIAN_H_
