@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "contact_path/branch/smooth_arc.h"
+#include "contact_path/branch/contact_arc.h"
 #include "contact_path/linear/blas.h"
 #include "contact_path/path/automatic_step.h"
 #include "contact_path/path/branch_method.h"
@@ -133,7 +133,7 @@ void PointOfAnArc(benchmark::State& state) {
   const Model model(request.scene, CharacteristicScales(request.scene));
   const PathPoint from = model.InitialPoint();
   for (auto iteration : state) {
-    SmoothArc arc(model.structure, model.contacts);
+    ContactArc arc(model.structure, model.contacts);
     std::vector<ContactState> states(model.contacts.size(), ContactState::kOpen);
     std::fill_n(states.begin(), state.range(0), ContactState::kSlipPlus);
     arc.SetStates(states, from);

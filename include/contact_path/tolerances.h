@@ -29,10 +29,9 @@ inline constexpr double kUnitComponent = 1e-13;
 inline constexpr double kNoMove = 1e-12;
 // Difference of two values of one quantity that are computed in two ways, relative to the value: equal.
 inline constexpr double kEqual = 1e-12;
-// Residual of a converged point, scaled; on an arc relative to 1 + the largest of load factor and reactions.
+// Residual of a converged point, scaled; on an arc relative to 1 + the largest of load factor and reactions. An
+// inequality that is less below zero holds.
 inline constexpr double kResidual = 1e-11;
-// Value of an inequality, scaled: less below zero is rounding, since equations hold to kResidual.
-inline constexpr double kBroken = kResidual;
 // Length of a Newton step that no longer shrinks, relative to 1 + |x|, and residual then: rounding.
 inline constexpr double kStagnation = 1e-10;
 // What rounding may be at a point, of an estimate of it, or of its value at another point. The nodes of a surface have
@@ -43,22 +42,14 @@ inline constexpr double kMargin = 16.0;
 inline constexpr double kStiffForce = 1e-4;
 // Difference of two points of a path, scaled or of the length of the step: it is one point that was found twice.
 inline constexpr double kSamePoint = 1e-9;
-// Distance from the origin, over the extent of the scene and L: from here on coordinates are counted from the scene.
-// Nearer, their rounding is below kNoMove.
-inline constexpr double kFarFromOrigin = kNoMove / kLastDigits;
 
 // ----- active set: which inequalities are at zero -----
 
 // Scaled gap, and scaled reaction or margin to the friction cone, up to which an inequality is weakly active.
 inline constexpr double kActive = 1e-10;
-// Scaled gap up to which kActive is widened where it lies among gaps of one size: no wider than half of kTouching.
-inline constexpr double kWidestActiveGap = 5.0 * kActive;
 // Where the reactions of a path are far below F, kActive follows them down, to this share of the largest of them: a
 // path whose largest reaction is 1e-3 F has kActive.
 inline constexpr double kActiveShareOfReactions = 1e3 * kActive;
-// Friction coefficient up to which tolerances of normal reactions are divided by it: where a rough contact slips, its
-// normal reaction is as exact as its friction force over the coefficient. Beyond, rounding would be told from zero.
-inline constexpr double kRoughest = kActive / kUnitComponent;
 // Gap or length along a surface as a person writes it, scaled, with nine digits: zero. Method mpec expects an
 // inequality to change the state of its contact up to this value.
 inline constexpr double kTouching = 1e-9;
@@ -67,9 +58,6 @@ inline constexpr double kTouching = 1e-9;
 
 // Rate of the load, of slip or of an inequality, second derivative where a rate is zero, difference of two rates: zero.
 inline constexpr double kRate = 1e-9;
-// Rate of slip over the rate of the load, in kRate over this number: below, slip on a sharp curve cannot be told from
-// rest. The factor keeps this test apart from the tests by kRate itself.
-inline constexpr double kOfHiddenSlip = 0.2;
 // Norm of the difference of two unit tangents, or two angles [rad]: of one branch. Angles are known to the root of
 // rounding where they are 0, and a chord that is shorter has any direction.
 inline constexpr double kSameDirection = 1e-7;
@@ -95,9 +83,6 @@ inline constexpr double kDependentColumn = 1e-11;
 inline constexpr double kRootOfRounding = 1e-8;
 // Pivot, singular value, sine or discriminant of few unknowns, relative to the largest: zero.
 inline constexpr double kDependent = 1e-9;
-// Reciprocal growth of the pivots, with the pivots of an earlier matrix: below, they are chosen anew. Solutions then
-// keep kLastDigits over this.
-inline constexpr double kPivotGrowth = kResidual / kSameDirection;
 // Norm of an equation, of the largest entries that its unknowns have in any equation: smaller, it is rounding where the
 // equations are singular, and counts as large as this: kDependentColumn then is kUnitComponent / 10 of these entries.
 inline constexpr double kFadingEquation = 1e-3;
@@ -108,15 +93,9 @@ inline constexpr double kFadingEquation = 1e-3;
 // root of its eps. Error of Ipopt's optimality conditions, as Ipopt scales them: that of an exact point.
 inline constexpr double kAccepted = 1e-9;
 inline constexpr double kAcceptedRegularised = 1e-5;
-// Difference of a regularised point from its contact states, of the largest force and of the increment.
-inline constexpr double kRegularisedState = 0.1;
 // Share of a whole that does not count beside the whole: of the largest reaction so far, of a unit vector, of a step,
 // of the range between kSingularPivot and 1.
 inline constexpr double kSmallShare = 1e-2;
-// Length of a bar, or area at an integration point of a solid, over its initial size: collapsed.
-inline constexpr double kCollapsed = 1e-2;
-// EA L^2 / EI of a beam: above, rounding of the axial force hides the bending, of which kRootOfRounding is left.
-inline constexpr double kMostSlender = 1.0 / kRootOfRounding;
 // Energy balance of a step, of the energy that it exchanges: what a quintic leaves of the longest steps.
 inline constexpr double kEnergyOfStep = 2e-3;
 

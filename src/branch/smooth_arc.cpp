@@ -43,7 +43,7 @@ bool SmoothArc::Derivatives(const Eigen::VectorXd& x, const Eigen::VectorXd& tow
   if (solver_.Nullity() == 0 || held_.value_or(false)) {
     linearised.Refine(solver_, &point->first);
     // A share of the free motions that `towards` has would grow from step to step.
-    if (held_.value_or(false)) point->first -= free_ * (free_.transpose() * point->first);
+    if (held_.value_or(false)) point->first -= factors_.free * (factors_.free.transpose() * point->first);
   } else {
     // Where nothing solves the equations, a solution of some of them has come out.
     const bool solved = linearised.Hold(point->first, tolerances::kSameTangent) &&
@@ -56,7 +56,7 @@ bool SmoothArc::Derivatives(const Eigen::VectorXd& x, const Eigen::VectorXd& tow
   if (!(point->first.head(n).dot(towards) > tolerances::kUnitComponent * norm)) return false;
   point->first /= norm;
   point->second = solver_.Solve(-equations_.SecondDerivative(x, point->first), 0.0);
-  if (held_.value_or(false)) point->second -= free_ * (free_.transpose() * point->second);
+  if (held_.value_or(false)) point->second -= factors_.free * (factors_.free.transpose() * point->second);
   HoldLimitPoint(x, &point->second);
   point->second -= point->first.head(n).dot(point->second.head(n)) * point->first;
   point->nullity = solver_.Nullity();
@@ -209,21 +209,11 @@ bool SmoothArc::Factorize(const Eigen::VectorXd& x, const Eigen::SparseMatrix<do
   ++factorisations_;
   at_hand_ = false;
   if (rests_) return solver_.Factorize(transposed, row, equations_.InFrame(), tolerances::kRootOfRounding);
-  if (equations_.MayMoveFreely()) {
-    const auto hold = [&] {
-      const Eigen::MatrixXd modes = equations_.FreeMotions(x, transposed);
-      Eigen::VectorXd tangent;
-      held_ = modes.cols() > 0 && transposed.rows() == transposed.cols() + 1 &&
-              solver_.FactorizeHeld(transposed, row, modes, equations_.InFrame(), &tangent) && tangent.size() > 0;
-      if (*held_) free_ = modes;
-      return *held_;
-    };
-    // Along an arc the same motions stay free as a rule.
-    if (held_.value_or(true) && hold()) return true;
-    if (solver_.FactorizeRegular(transposed, row, tolerances::kSingularPivot, equations_.InFrame()) || hold())
-      return true;
-  }
-  return solver_.Factorize(transposed, row, equations_.InFrame());
+  // Along an arc the same motions stay free as a rule.
+  const Factorised::Kind kind =
+      factors_.Make(&equations_, x, transposed, row, tolerances::kSingularPivot, held_.value_or(true));
+  held_ = kind == Factorised::Kind::kHeld && factors_.tangent.size() > 0;
+  return *held_ || kind == Factorised::Kind::kRegular || solver_.Factorize(transposed, row, equations_.InFrame());
 }
 
 Correction SmoothArc::CorrectOnPlane(const Eigen::VectorXd& guess, const Eigen::VectorXd& normal) {

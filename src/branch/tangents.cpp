@@ -162,20 +162,17 @@ Tangents FindTangents(const Eigen::VectorXd& x, const Eigen::VectorXd& arrival, 
   if (!crossed) {
     Eigen::VectorXd row = Eigen::VectorXd::Zero(equations->NumUnknowns());
     row.head(motion) = arrival;
-    // Rounding of stiff parts may make equations regular that a rigid motion makes singular.
-    const Eigen::MatrixXd rigid = equations->FreeMotions(x, transposed);
-    if (rigid.cols() == 0 &&
-        solvers->regular.FactorizeRegular(transposed, row, tolerances::kRegularPivot, equations->InFrame())) {
-      tangents.first = {solvers->regular.Solve(none, 1.0)};
-      add_by(solvers->regular);
+    Factorised& factors = solvers->factors;
+    const Factorised::Kind kind = factors.Make(equations, x, transposed, row, tolerances::kRegularPivot, true);
+    if (kind == Factorised::Kind::kRegular) {
+      tangents.first = {factors.solver.Solve(none, 1.0)};
+      add_by(factors.solver);
       return tangents;
     }
-    Eigen::VectorXd tangent;
-    if (rigid.cols() > 0 && transposed.rows() == transposed.cols() + 1 &&
-        solvers->held.FactorizeHeld(transposed, row, rigid, equations->InFrame(), &tangent)) {
-      tangents = HeldTangents(arrival, tangent, rigid);
-      if (tangent.size() > 0) {
-        add_by(solvers->held);
+    if (kind == Factorised::Kind::kHeld) {
+      tangents = HeldTangents(arrival, factors.tangent, factors.free);
+      if (factors.tangent.size() > 0) {
+        add_by(factors.solver);
         return tangents;
       }
       // Rigid motions without load: how they bend is of no use.

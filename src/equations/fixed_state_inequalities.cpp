@@ -40,7 +40,7 @@ void FixedStateSystem::SetStatesFrom(const PathPoint& from, const std::vector<Co
   Eigen::VectorXd stiffness;
   for (const std::size_t i : touching_) {
     const double gap = contacts_[i]->Gap(from.u, from.s, from.Patch(i));
-    if (!(gap > tolerances::kBroken)) continue;
+    if (!(gap > tolerances::kResidual)) continue;
     if (stiffness.size() == 0) {
       structure_.Tangent(from.u, &tangent_);
       stiffness = tangent_.diagonal().cwiseAbs();
@@ -52,7 +52,7 @@ void FixedStateSystem::SetStatesFrom(const PathPoint& from, const std::vector<Co
 }
 
 double FixedStateSystem::RoundingOf(const Constraint& limit, double of_forces) const {
-  double rounding = tolerances::kBroken * UnitOf(limit);
+  double rounding = tolerances::kResidual * UnitOf(limit);
   if (!IsMotion(limit.inequality)) rounding = std::max(rounding, of_forces);
   const auto moved = moved_forces_.find(limit.contact);
   return moved == moved_forces_.end() ? rounding : std::max(rounding, moved->second);
@@ -82,7 +82,7 @@ bool FixedStateSystem::BeyondReach(const Eigen::VectorXd& x) const {
     const ContactPair& pair = *contacts_[i];
     const int patch = pair.PatchAt(x, x[NumDofs()]);
     if (patch == patches_[i]) return false;
-    const bool behind = pair.Gap(x, x[NumDofs()], patch) < -tolerances::kBroken;
+    const bool behind = pair.Gap(x, x[NumDofs()], patch) < -tolerances::kResidual;
     // In reach, a node from in front that is away from the surface, or the other way, may have gone through it.
     if (patches_[i] == kNearestPatch) return behind;
     if (pair.IsAway(patch)) return pair.HasPatch(patches_[i]);

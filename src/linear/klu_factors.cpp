@@ -68,7 +68,7 @@ bool KluFactors::Refactorize(Eigen::SparseMatrix<double>* matrix) {
   double* const values = matrix->valuePtr();
   return klu_refactor(outer, inner, values, symbolic_, numeric_, &common_) == 1 && common_.status == KLU_OK &&
          klu_rgrowth(outer, inner, values, symbolic_, numeric_, &common_) == 1 &&
-         common_.rgrowth > tolerances::kPivotGrowth && Regular();
+         common_.rgrowth > tolerances::kResidual / tolerances::kSameDirection && Regular();
 }
 
 bool KluFactors::Regular() {

@@ -169,7 +169,7 @@ std::optional<PathPoint> IncrementSolver::Exact(const PathPoint& from, const Eig
       if (constraint.contact == last) continue;
       const auto i = static_cast<std::size_t>(constraint.contact);
       const bool rests = IsOfSlip(constraint.inequality) && !changed[i];
-      const double least = rests ? slow : -tolerances::kBroken * system_.UnitOf(constraint);
+      const double least = rests ? slow : -tolerances::kResidual * system_.UnitOf(constraint);
       if (system_.Value(constraint, nearest.x) >= least) continue;
       const bool held = std::find(active.begin(), active.end(), constraint) != active.end();
       if (held) continue;

@@ -18,7 +18,7 @@ double CoverGaps(const ContactPairs& contacts, const PathPoint& point, double to
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const double gap = contacts[i]->Gap(point.u, point.s, point.Patch(i));
     among = among || (gap > 0.5 * tolerance && gap <= tolerance);
-    if (gap > tolerance && gap <= tolerances::kWidestActiveGap) beyond.push_back(gap);
+    if (gap > tolerance && gap <= 0.5 * tolerances::kTouching) beyond.push_back(gap);
   }
   if (!among) return tolerance;
   std::sort(beyond.begin(), beyond.end());

@@ -86,7 +86,7 @@ double ForceOfClosingAtStart(const Model& model, const PathPoint& point, std::si
 
 // The element of a solid whose area has shrunk most at one of its integration points, if that is nearly to nothing.
 Causes InvertedElement(const Scene& scene, const SceneIndex& index, const std::vector<double>& positions) {
-  double smallest = tolerances::kCollapsed;
+  double smallest = tolerances::kSmallShare;
   Causes found;
   for (std::size_t i = 0; i < scene.solids.size(); ++i) {
     const std::vector<PlacedSolidElement> elements =
@@ -122,7 +122,7 @@ std::string Joined(const std::vector<std::string>& parts) {
 }  // namespace
 
 Causes CollapsedBar(const Scene& scene, const SceneIndex& index, const std::vector<double>& positions) {
-  double smallest = tolerances::kCollapsed;
+  double smallest = tolerances::kSmallShare;
   Causes found;
   for (std::size_t i = 0; i < scene.bars.size(); ++i) {
     const std::vector<std::string>& ends = scene.bars[i].nodes;
@@ -158,7 +158,7 @@ Causes LockingSolids(const Scene& scene, const SceneIndex& index) {
 }
 
 Causes SlenderBeam(const Scene& scene, const SceneIndex& index) {
-  double most = tolerances::kMostSlender;
+  double most = 1.0 / tolerances::kRootOfRounding;  // beyond, rounding of the axial force hides the bending
   Causes found;
   for (const Beam& beam : scene.beams) {
     const Node &first = scene.nodes[index.Node(beam.nodes.front())], &last = scene.nodes[index.Node(beam.nodes.back())];
@@ -196,7 +196,7 @@ Causes HiddenSlip(const Model& model, const PathPoint& point) {
     const double curvature = SharpestAt(pair, point, point.Patch(i)).curvature;
     // As it slides by dxi, the reaction turns by curvature * dxi, and the load has to follow.
     const double load_rate = (1.0 + pair.Friction() * pair.Friction()) * rn * curvature;
-    const double least = tolerances::kRate / tolerances::kOfHiddenSlip;
+    const double least = tolerances::kRate;
     if (!(load_rate > 1.0 / least)) continue;
     const std::string name = model.scene.contacts[i].Name();
     const double unit = model.scaling.length / model.scaling.load_factor;
@@ -290,7 +290,7 @@ std::optional<End> PullingContact(const Model& model, const PathPoint& point, do
     const double pull = -point.rn[static_cast<Eigen::Index>(i)];
     const double unit = model.contacts[i]->ForceUnit();
     if (!(pull > most * unit) || pull <= ForceOfClosingAtStart(model, point, i)) continue;
-    const double error = tolerances::kBroken * model.contacts[i]->NormalForceUnit();
+    const double error = tolerances::kResidual * model.contacts[i]->NormalForceUnit();
     const std::string name = model.scene.contacts[i].Name();
     const double force = model.scaling.force;
     if (pull <= error)

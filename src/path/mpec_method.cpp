@@ -16,6 +16,7 @@ namespace contact_path {
 namespace {
 
 // An increment shorter than this part of what was wanted has not moved: (0, 0) is always feasible.
+constexpr double kRegularisedState = 0.1;  // off its contact states, of the largest force and of the increment
 constexpr double kProgress = 0.05;
 
 // Without a change of state the path does not turn by more than 60 degrees in one increment.
@@ -62,10 +63,10 @@ bool MayHaveCutCorner(const ContactPairs& contacts, const PathPoint& from, const
 // characteristic force, and then small residuals prove nothing.
 bool StatesAgree(const ContactPairs& contacts, const PathPoint& from, const PathPoint& to) {
   const double largest = std::max(std::abs(to.s), LargestReaction(contacts, to));
-  const double length = tolerances::kRegularisedState * Distance(from, to);
+  const double length = kRegularisedState * Distance(from, to);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
-    const double force = tolerances::kRegularisedState * largest * contacts[i]->ForceUnit();
+    const double force = kRegularisedState * largest * contacts[i]->ForceUnit();
     const double slip = contacts[i]->Slip(from.u, from.s, from.Patch(i), to.u - from.u, to.s - from.s, to.Patch(i));
     const double margin = contacts[i]->Friction() * to.rn[k] - std::abs(to.rt[k]);
     const ContactState state = to.states[i];
@@ -245,7 +246,7 @@ bool MpecMethod::EndAtTarget(const PathPoint& from, const PathPoint& modes, Tria
   const NearestPoint nearest = FindNearestPoint(&system, start, start.head(from.u.size() + 1));
   if (!nearest.converged) return false;
   for (const Constraint& constraint : system.Inequalities())
-    if (system.Value(constraint, nearest.x) < -tolerances::kBroken * system.UnitOf(constraint)) return false;
+    if (system.Value(constraint, nearest.x) < -tolerances::kResidual * system.UnitOf(constraint)) return false;
   PathPoint point = system.Unpack(nearest.x);
   if (Distance(from, point) > kFarthestTarget * Distance(from, to)) return false;
   trial->residuals = model_.Check(from, point);

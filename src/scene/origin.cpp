@@ -28,7 +28,8 @@ Origin OriginOf(const Scene& scene, double length) {
     farthest = std::max({farthest, std::abs(node.x), std::abs(node.y)});
   }
   const double extent = std::max({most[0] - least[0], most[1] - least[1], length});
-  return farthest > tolerances::kFarFromOrigin * extent ? least : Origin{};
+  // Nearer, the rounding of coordinates is below kNoMove.
+  return farthest > tolerances::kNoMove / tolerances::kLastDigits * extent ? least : Origin{};
 }
 
 Scene CountedFrom(const Origin& origin, Scene scene) {

@@ -82,7 +82,7 @@ class ToyEquations : public ArcEquations {
     const Along along = Of(limit).of(At(x, first));
     return {along.value, along.first, along.second + Gradient(limit, x).dot(second)};
   }
-  double RoundingOf(const Constraint& /*limit*/, double /*of_forces*/) const override { return tolerances::kBroken; }
+  double RoundingOf(const Constraint& /*limit*/, double /*of_forces*/) const override { return tolerances::kResidual; }
   bool Hold(const Eigen::VectorXd& /*x*/, const Eigen::VectorXd& residual) const override {
     return residual.lpNorm<Eigen::Infinity>() <= tolerances::kResidual;
   }

@@ -11,11 +11,11 @@ namespace contact_path {
 
 // In the order in which facts at one place are acted on, the last one first.
 enum class EventKind {
-  kNone,       // the whole step is good
-  kNearTouch,  // a limit comes so near to zero inside that only an increment there can tell; or an open contact comes
-               // to the next patch of its surface
-  kBifurcation,   // other curves cross
-  kLimitPoint,    // ds = 0
+  kNone,         // the whole step is good
+  kNearTouch,    // a limit comes so near to zero inside that only an increment there can tell; or an open contact comes
+                 // to the next patch of its surface
+  kBifurcation,  // other curves cross
+  kLimitPoint,   // ds = 0
   kContactEvent,  // a limit reaches zero and would be broken
   kSample,        // a function of the unknowns comes to a value at which a step is to end
   kTarget,        // the load factor comes to where the path is to end

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "contact_path/branch/crossing.h"
+#include "contact_path/branch/factorised.h"
 #include "contact_path/branch/step.h"
 #include "contact_path/equations/arc_equations.h"
 #include "contact_path/equations/newton_loop.h"
-#include "contact_path/linear/bordered_solver.h"
 
 namespace contact_path {
 
@@ -92,11 +92,11 @@ class SmoothArc {
   Eigen::VectorXd RowOf(const Eigen::VectorXd& motion) const;  // by all unknowns
 
   ArcEquations& equations_;
-  BorderedSolver solver_;
-  bool at_hand_ = false;  // regular factors of a point of the curve, the last row along the tangent
-  // Whether motions are free along the arc, and springs hold them; nothing: not known yet.
+  Factorised factors_;
+  BorderedSolver& solver_ = factors_.solver;
+  bool at_hand_ = false;         // regular factors of a point of the curve, the last row along the tangent
+  // Whether the last factors are those of springs that hold free motions; nothing: the arc begins.
   std::optional<bool> held_;
-  Eigen::MatrixXd free_;         // these motions at the last point, orthonormal columns; none where held_ is not true
   double reaction_error_ = 0.0;  // of the last point that Newton's method found
   bool rests_ = false;           // part of the structure stands still at a limit point of its own (Branch::rests)
   Eigen::VectorXd residual_, step_;

@@ -5,8 +5,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "contact_path/branch/factorised.h"
 #include "contact_path/equations/arc_equations.h"
-#include "contact_path/linear/bordered_solver.h"
 #include "contact_path/linear/minimum_norm.h"
 
 namespace contact_path {
@@ -29,9 +29,8 @@ struct Tangents {
 
 // Factors that FindTangents() leaves for its next call: equations of one pattern are factorised faster.
 struct TangentSolvers {
-  BorderedSolver regular;      // where the equations are clearly regular
-  BorderedSolver held;         // where rigid motions of parts are all that makes them singular
-  MinimumNormSolver singular;  // elsewhere
+  Factorised factors;
+  MinimumNormSolver singular;  // where it is singular
 };
 
 // At the point x; none where the equations leave no arc through x. arrival: (du, ds), unit

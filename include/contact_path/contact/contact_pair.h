@@ -37,7 +37,8 @@ class ContactPair {
   // The same for the normal reaction. Where the friction coefficient is above 1, the friction force may be so much
   // larger, and the contact bears something as long as that force is not zero.
   double NormalForceUnit() const {
-    return traits_.force_unit / std::clamp(traits_.friction, 1.0, tolerances::kRoughest);
+    // Of a rougher one, rounding would be told from zero.
+    return traits_.force_unit / std::clamp(traits_.friction, 1.0, tolerances::kActive / tolerances::kUnitComponent);
   }
   // Whether the surface has patches with ends, and not one patch without ends.
   bool HasPatches() const { return traits_.has_patches; }

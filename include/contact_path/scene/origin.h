@@ -13,7 +13,7 @@ namespace contact_path {
 // scene that is small beside its distance from (0, 0) is therefore traced from an origin of its own.
 using Origin = std::array<double, 2>;  // x, y [length]
 
-// (0, 0); where a node is farther from there than tolerances::kFarFromOrigin times the extent of the scene and L, the
+// (0, 0); where a node is farther from there than 1000 times the extent of the scene and L, the
 // corner of the smallest rectangle around all nodes that has the least x and y. length: L.
 Origin OriginOf(const Scene& scene, double length);
 
