@@ -15,8 +15,11 @@
 namespace contact_path {
 namespace {
 
+// A regularised point differs from its contact states by less than this share of the largest force and of the
+// increment.
+constexpr double kRegularisedState = 0.1;
+
 // An increment shorter than this part of what was wanted has not moved: (0, 0) is always feasible.
-constexpr double kRegularisedState = 0.1;  // off its contact states, of the largest force and of the increment
 constexpr double kProgress = 0.05;
 
 // Without a change of state the path does not turn by more than 60 degrees in one increment.

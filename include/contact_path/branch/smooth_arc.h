@@ -94,7 +94,7 @@ class SmoothArc {
   ArcEquations& equations_;
   Factorised factors_;
   BorderedSolver& solver_ = factors_.solver;
-  bool at_hand_ = false;         // regular factors of a point of the curve, the last row along the tangent
+  bool at_hand_ = false;  // regular factors of a point of the curve, the last row along the tangent
   // Whether the last factors are those of springs that hold free motions; nothing: the arc begins.
   std::optional<bool> held_;
   double reaction_error_ = 0.0;  // of the last point that Newton's method found
