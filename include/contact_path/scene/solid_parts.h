@@ -56,17 +56,14 @@ struct Material {
   double a = 0.0;       // of ciarlet_geymonat alone [force/length^2], max(0, mu/2 - lambda/4) <= a <= mu/2
 };
 
-template <>
-struct Fields<Material> {
-  template <typename P>
-  static constexpr auto Of() {
-    return std::tuple(Member("name", &P::name).Naming(TextKind::kNewName), Member("model", &P::model),
-                      Member("E", &P::E).In(units::kStress).Within(Range::kZeroOrPositive), Member("nu", &P::nu),
-                      Member("lambda", &P::lambda).In(units::kStress),
-                      Member("mu", &P::mu).In(units::kStress).Within(Range::kZeroOrPositive),
-                      Member("a", &P::a).In(units::kStress).Within(Range::kNotNegative));
-  }
-};
+template <typename P>
+constexpr auto Fields(Of<Material>) {
+  return std::tuple(Member("name", &P::name).Naming(TextKind::kNewName), Member("model", &P::model),
+                    Member("E", &P::E).In(units::kStress).Within(Range::kZeroOrPositive), Member("nu", &P::nu),
+                    Member("lambda", &P::lambda).In(units::kStress),
+                    Member("mu", &P::mu).In(units::kStress).Within(Range::kZeroOrPositive),
+                    Member("a", &P::a).In(units::kStress).Within(Range::kNotNegative));
+}
 
 // Mesh of plane elements of one material. The nodes of each element in turn: corners counterclockwise, then mid-sides,
 // the first of them after the first corner.
@@ -84,17 +81,13 @@ struct Solid {
   double Thickness() const { return thickness == 0.0 ? 1.0 : thickness; }
 };
 
-template <>
-struct Fields<Solid> {
-  static constexpr std::size_t kNodes = 0;
-  template <typename P>
-  static constexpr auto Of() {
-    return std::tuple(Member("name", &P::name), Member("material", &P::material).Naming(TextKind::kMaterial),
-                      Member("thickness", &P::thickness).In(units::kLength).Within(Range::kZeroOrPositive),
-                      Member("plane", &P::plane), Member("nodes_per_element", &P::nodes_per_element),
-                      Member("nodes", &P::nodes).Naming(TextKind::kNode));
-  }
-};
+template <typename P>
+constexpr auto Fields(Of<Solid>) {
+  return std::tuple(Member("name", &P::name), Member("material", &P::material).Naming(TextKind::kMaterial),
+                    Member("thickness", &P::thickness).In(units::kLength).Within(Range::kZeroOrPositive),
+                    Member("plane", &P::plane), Member("nodes_per_element", &P::nodes_per_element),
+                    Member("nodes", &P::nodes).Naming(TextKind::kNode));
+}
 
 // Part of the boundary of a solid, or the axis of a beam: nodes in order, the material on the right of who walks along
 // them. Mid-side nodes stand between the corners of their edge. To contacts, the surface is the quadratic B-spline of
@@ -106,15 +99,12 @@ struct BoundarySurface {
   double radius = 0.0;  // half of the thickness of a beam whose axis this is [length]
 };
 
-template <>
-struct Fields<BoundarySurface> {
-  template <typename P>
-  static constexpr auto Of() {
-    return std::tuple(Member("name", &P::name).Naming(TextKind::kNewName),
-                      Member("nodes", &P::nodes).Naming(TextKind::kNode), Member("closed", &P::closed),
-                      Member("radius", &P::radius).In(units::kLength).Within(Range::kNotNegative));
-  }
-};
+template <typename P>
+constexpr auto Fields(Of<BoundarySurface>) {
+  return std::tuple(Member("name", &P::name).Naming(TextKind::kNewName),
+                    Member("nodes", &P::nodes).Naming(TextKind::kNode), Member("closed", &P::closed),
+                    Member("radius", &P::radius).In(units::kLength).Within(Range::kNotNegative));
+}
 
 }  // namespace contact_path
 
