@@ -12,7 +12,7 @@
 #include "contact_path/path/branch_method.h"
 #include "contact_path/path/recorder.h"
 #include "lattices.h"
-#include "process/keep_memory.h"
+#include "process/process.h"
 
 namespace contact_path {
 namespace {

@@ -23,7 +23,7 @@
 #include "contact_path/scene/read_scene.h"
 #include "contact_path/scene/write_scene.h"
 #include "lattice.h"
-#include "process/keep_memory.h"
+#include "process/process.h"
 
 namespace contact_path {
 namespace {

@@ -130,8 +130,8 @@ contact_path_add_stage(support NAMES derivative_checker_test)
 contact_path_add_stage(geometry NAMES admissible_patches_test capsule_tree_test curve_test nodal_spline_test outline_test polyline_test
   projection_test spline_test surface_test)
 contact_path_add_stage(scene NAMES boundary_rules_test can_slide_test cell_test change_units_test configuration_test curve_rules_test
-  element_names_test expand_test field_test nearest_name_test number_text_test one_line_test origin_test quantity_test
-  reacting_parts_test read_scene_test request_field_test scaling_test scene_index_test scene_test solid_rules_test utf8_test
+  element_names_test expand_test field_test nearest_name_test text_test origin_test quantity_test
+  reacting_parts_test read_scene_test request_field_test scaling_test scene_index_test scene_test solid_rules_test
   validate_test violation_test write_scene_test)
 contact_path_add_stage(structure NAMES bar_test beam_test dof_map_test elastica_test material_test scene_elements_test solid_test
   structure_test superelement_test)

@@ -10,7 +10,6 @@
 namespace contact_path::check {
 namespace {
 
-constexpr int kIterations = 200;   // of a bisection: more than there are bits
 constexpr int kParts = 16;         // of a patch, for its length
 constexpr Real kRounding = 1e-9L;  // of the length within which patches are left out
 constexpr Real kAtEnd = 1e-9L;     // [rad] off the normal at an end: a path that ends there does so to rounding
@@ -23,19 +22,17 @@ constexpr BoundaryPatch::Weights kFromAxis = {
     {{0.125L, -0.25L, 0.125L}, {0.75L, 0.0L, -0.25L}, {0.125L, 0.25L, 0.125L}}};
 constexpr BoundaryPatch::Weights kToAxis = {{{0.5L, -0.5L, 0.125L}, {0.5L, 0.5L, -0.25L}, {0.0L, 0.0L, 0.125L}}};
 
-Vector Plus(const Vector& a, Real factor, const Vector& b) { return {a.x + factor * b.x, a.y + factor * b.y}; }
-Vector Times(Real factor, const Vector& v) { return {factor * v.x, factor * v.y}; }
-
 // A number with its derivatives by the positions of a node and of the nodes of a patch.
-constexpr int kVariables = 2 * (1 + static_cast<int>(BoundaryPatch::kNodes));
-using VariableDual = Eigen::AutoDiffScalar<Eigen::Matrix<Real, kVariables, 1>>;
+using PlaceGradient = Eigen::Matrix<Real, 2 * (1 + static_cast<int>(BoundaryPatch::kNodes)), 1>;
+using VariableDual = Eigen::AutoDiffScalar<PlaceGradient>;
 
 struct DualVector {
   VariableDual x, y;
 };
 
 DualVector VariableAt(const Vector& place, int number) {
-  return {VariableDual(place.x, kVariables, number), VariableDual(place.y, kVariables, number + 1)};
+  return {VariableDual(place.x, PlaceGradient::SizeAtCompileTime, number),
+          VariableDual(place.y, PlaceGradient::SizeAtCompileTime, number + 1)};
 }
 
 VariableDual DualDot(const DualVector& a, const DualVector& b) { return a.x * b.x + a.y * b.y; }
@@ -128,12 +125,12 @@ BoundaryShape::BoundaryShape(const Boundary& boundary, const std::vector<double>
     Parabola curve;
     for (std::size_t j = 0; j < patch.nodes.size(); ++j) {
       const Vector place = PlaceOf(patch, j);
-      curve.at = Plus(curve.at, patch.weights[j][0], place);
-      curve.first = Plus(curve.first, patch.weights[j][1], place);
-      curve.second = Plus(curve.second, 2.0L * patch.weights[j][2], place);
+      curve.at = curve.at + patch.weights[j][0] * place;
+      curve.first = curve.first + patch.weights[j][1] * place;
+      curve.second = curve.second + 2.0L * patch.weights[j][2] * place;
     }
     // Within the triangle of its Bezier points.
-    const Vector corner = Plus(curve.at, 0.5L, curve.first), end = Place(curve, 1.0L);
+    const Vector corner = curve.at + 0.5L * curve.first, end = Place(curve, 1.0L);
     around.push_back({corner, std::max(Length(curve.at - corner), Length(end - corner))});
     curves_.push_back(curve);
   }
@@ -155,10 +152,10 @@ Vector BoundaryShape::Reflected(const BoundaryPatch& patch, std::size_t node, co
 }
 
 Vector BoundaryShape::Place(const Parabola& curve, Real tau) {
-  return Plus(Plus(curve.at, tau, curve.first), 0.5L * tau * tau, curve.second);
+  return curve.at + tau * curve.first + 0.5L * tau * tau * curve.second;
 }
 
-Vector BoundaryShape::Direction(const Parabola& curve, Real tau) { return Plus(curve.first, tau, curve.second); }
+Vector BoundaryShape::Direction(const Parabola& curve, Real tau) { return curve.first + tau * curve.second; }
 
 // The distance has its minima at roots of h = (y - x) . y', a cubic; between the roots of h' there is one of h at most.
 BoundaryFoot BoundaryShape::FootOn(const Parabola& curve, const Vector& x) {
@@ -187,11 +184,8 @@ BoundaryFoot BoundaryShape::FootOn(const Parabola& curve, const Vector& x) {
   for (std::size_t i = 0; i < 3; ++i) {
     Real low = bounds[i], high = bounds[i + 1];
     if (!(h(low) < 0.0L && h(high) > 0.0L)) continue;  // no minimum inside
-    for (int k = 0; k < kIterations; ++k) {
-      const Real middle = 0.5L * (low + high);
-      if (middle <= low || middle >= high) break;
+    for (Real middle = 0.5L * (low + high); middle > low && middle < high; middle = 0.5L * (low + high))
       (h(middle) < 0.0L ? low : high) = middle;
-    }
     offer(0.5L * (low + high));
   }
   return nearest;
@@ -245,7 +239,7 @@ bool BoundaryShape::IsAway(const Vector& x, const BoundaryFoot& foot) const {
 
 Vector BoundaryShape::Normal(const BoundaryFoot& foot) const {
   const Vector direction = Direction(curves_[foot.patch], foot.tau);
-  return Times(1.0L / Length(direction), {-direction.y, direction.x});
+  return 1.0L / Length(direction) * Vector{-direction.y, direction.x};
 }
 
 Real BoundaryShape::Gap(const Vector& x, const BoundaryFoot& foot) const {

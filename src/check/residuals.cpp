@@ -194,8 +194,10 @@ Residuals ResidualCheck::Check(const CheckedState& before, const CheckedState& n
   scene.RequireSizes(before);
   scene.RequireSizes(now);
   if (!AllFinite(before) || !AllFinite(now)) {
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    return {kInfinity, kInfinity, kInfinity, kInfinity, kInfinity, kInfinity, kInfinity};
+    Residuals infinite;
+    for (double Residuals::*const residual : Residuals::kAll)
+      infinite.*residual = std::numeric_limits<double>::infinity();
+    return infinite;
   }
 
   const Scaling& scaling = scene.scaling;

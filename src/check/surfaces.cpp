@@ -9,12 +9,11 @@
 #include <vector>
 
 #include "check/nearest_piece.h"
+#include "contact_path/iterations.h"
 
 namespace contact_path::check {
 namespace {
 
-Vector operator+(const Vector& a, const Vector& b) { return {a.x + b.x, a.y + b.y}; }
-Vector operator*(Real factor, const Vector& v) { return {factor * v.x, factor * v.y}; }
 // The left of a direction.
 Vector Left(const Vector& v) { return {-v.y, v.x}; }
 
@@ -273,7 +272,6 @@ class Spline : public Walk {
   static constexpr int kSweeps = 80;
   static constexpr int kParts = 32;
   static constexpr int kSamples = 12;
-  static constexpr int kIterations = 60;
   static constexpr Real kRounding = 1e-18L;  // of w
 
   struct Piece {
@@ -314,7 +312,7 @@ class Spline : public Walk {
         w = sample;
       }
     }
-    for (int i = 0; i < kIterations; ++i) {
+    for (int i = 0; i < kMostIterations; ++i) {
       const Vector first = First(piece, w), away = At(piece, w) - x;
       const Real square = Dot(first, first), slope = square + Dot(away, Second(piece, w));
       const Real move = -Dot(away, first) / (slope > 0.0L ? slope : square);

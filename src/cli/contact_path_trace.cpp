@@ -33,8 +33,7 @@
 #include "cli/event_table.h"
 #include "cli/progress.h"
 #include "cli/trace_log.h"
-#include "process/keep_memory.h"
-#include "process/one_thread.h"
+#include "process/process.h"
 
 namespace contact_path {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "cli/json_fields.h"
-#include "contact_path/path/end_reason.h"
+#include "contact_path/path/end.h"
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/write_scene.h"
 

@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <utility>
 
-#include "contact/force_unit.h"
 #include "contact/spline_contact.h"
+#include "contact_path/contact/contact_pair.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {

@@ -7,9 +7,6 @@
 namespace contact_path {
 namespace {
 
-// Of one node that is free.
-constexpr double kDofsOfNode = 3.0;
-
 double NumFree(const Model& model, int node) {
   double free = 0.0;
   for (const int axis : {0, 1}) free += model.structure.Dof(node, axis) >= 0 ? 1.0 : 0.0;
@@ -27,7 +24,7 @@ double AutomaticStepGrowth(const Model& model) {
     double inner = 0.0;
     for (std::size_t i = 1; i + 1 < beam.nodes.size(); ++i)
       inner += NumFree(model, static_cast<int>(model.index.Node(beam.nodes[i])));
-    counted -= std::max(0.0, inner - kDofsOfNode);
+    counted -= std::max(0.0, inner - kMostNodeComponents);
   }
   if (!(counted > 0.0)) return 1.0;
   return std::sqrt(all / counted * std::max(1.0, counted / 100.0));

@@ -1,9 +1,8 @@
-#include "scene/structure_rules.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "scene/solid_rules.h"
+#include "scene/rules.h"
 
 namespace contact_path {
 namespace {

@@ -6,13 +6,12 @@
 #include <utility>
 
 #include "contact_path/scene/expand.h"
-#include "contact_path/scene/one_line.h"
 #include "contact_path/scene/program.h"
+#include "contact_path/scene/text.h"
 #include "scene/checker.h"
 #include "scene/contact_rules.h"
-#include "scene/expansion_rules.h"
 #include "scene/loading_rules.h"
-#include "scene/structure_rules.h"
+#include "scene/rules.h"
 
 namespace contact_path {
 namespace {

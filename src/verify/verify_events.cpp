@@ -7,7 +7,6 @@
 
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/scaling.h"
-#include "verify/findings.h"
 #include "verify/verified_stage.h"
 
 namespace contact_path {

@@ -13,7 +13,6 @@
 #include "contact_path/response/element_response.h"
 #include "contact_path/response/reactions.h"
 #include "contact_path/scene/configuration.h"
-#include "contact_path/scene/origin.h"
 #include "contact_path/scene/scaling.h"
 #include "contact_path/scene/scene.h"
 #include "contact_path/scene/scene_index.h"

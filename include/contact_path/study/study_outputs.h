@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "contact_path/path/end_reason.h"
+#include "contact_path/path/end.h"
 #include "contact_path/path/increment.h"
 #include "contact_path/path/path_summary.h"
 #include "contact_path/scene/scene.h"
