@@ -22,8 +22,8 @@ constexpr BoundaryPatch::Weights kFromAxis = {
     {{0.125L, -0.25L, 0.125L}, {0.75L, 0.0L, -0.25L}, {0.125L, 0.25L, 0.125L}}};
 constexpr BoundaryPatch::Weights kToAxis = {{{0.5L, -0.5L, 0.125L}, {0.5L, 0.5L, -0.25L}, {0.0L, 0.0L, 0.125L}}};
 
-// A number with its derivatives by the positions of a node and of the nodes of a patch.
-using PlaceGradient = Eigen::Matrix<Real, 2 * (1 + static_cast<int>(BoundaryPatch::kNodes)), 1>;
+// A number with its derivatives by the positions of a node and of the three nodes of a patch.
+using PlaceGradient = Eigen::Matrix<Real, 8, 1>;
 using VariableDual = Eigen::AutoDiffScalar<PlaceGradient>;
 
 struct DualVector {
@@ -38,8 +38,8 @@ DualVector VariableAt(const Vector& place, int number) {
 VariableDual DualDot(const DualVector& a, const DualVector& b) { return a.x * b.x + a.y * b.y; }
 
 // sum of factors[j] x_j.
-DualVector Combined(const std::array<VariableDual, BoundaryPatch::kNodes>& factors,
-                    const std::array<DualVector, BoundaryPatch::kNodes>& nodes) {
+DualVector Combined(const BoundaryPatch::PerNode<VariableDual>& factors,
+                    const BoundaryPatch::PerNode<DualVector>& nodes) {
   DualVector sum = {factors[0] * nodes[0].x, factors[0] * nodes[0].y};
   for (std::size_t j = 1; j < factors.size(); ++j) {
     sum.x += factors[j] * nodes[j].x;
@@ -50,7 +50,7 @@ DualVector Combined(const std::array<VariableDual, BoundaryPatch::kNodes>& facto
 
 // The shape functions at tau, and their derivatives by it.
 struct Shapes {
-  std::array<VariableDual, BoundaryPatch::kNodes> values, slopes;
+  BoundaryPatch::PerNode<VariableDual> values, slopes;
 };
 
 Shapes ShapesAt(const BoundaryPatch::Weights& weights, const VariableDual& tau) {
@@ -279,7 +279,7 @@ BoundaryShape::Forces BoundaryShape::ForcesOf(const Vector& x, const BoundaryFoo
   const BoundaryPatch& patch = boundary_.Patches()[foot.patch];
   const Parabola& curve = curves_[foot.patch];
   const DualVector node = VariableAt(x, 0);
-  std::array<DualVector, BoundaryPatch::kNodes> nodes;
+  BoundaryPatch::PerNode<DualVector> nodes;
   for (std::size_t j = 0; j < nodes.size(); ++j) nodes[j] = VariableAt(PlaceOf(patch, j), 2 + 2 * static_cast<int>(j));
 
   const Shapes at_foot = ShapesAt(patch.weights, VariableDual(foot.tau));
@@ -296,13 +296,11 @@ BoundaryShape::Forces BoundaryShape::ForcesOf(const Vector& x, const BoundaryFoo
 
   const Real speed = Length(first), curvature = Cross(first, curve.second) / (speed * speed * speed);
   const Real per_tau = speed * (1.0L - curvature * boundary_.Radius());
-  Forces forces;
-  for (std::size_t i = 0; i < forces.size(); ++i) {
-    const auto k = static_cast<Eigen::Index>(2 * i);
-    forces[i] = {rn * gap.derivatives()[k] + rt * per_tau * tau.derivatives()[k],
-                 rn * gap.derivatives()[k + 1] + rt * per_tau * tau.derivatives()[k + 1]};
-  }
-  return forces;
+  const auto force = [&](Eigen::Index k) -> Vector {
+    return {rn * gap.derivatives()[k] + rt * per_tau * tau.derivatives()[k],
+            rn * gap.derivatives()[k + 1] + rt * per_tau * tau.derivatives()[k + 1]};
+  };
+  return {force(0), {force(2), force(4), force(6)}};
 }
 
 }  // namespace contact_path::check

@@ -106,13 +106,13 @@ class BoundaryContact : public Contact {
     const BoundaryFoot foot = FootIn(state);
     const BoundaryShape::Forces of = shape.ForcesOf(state.Place(Node()), foot, rn, rt);
     const BoundaryPatch& patch = shape.PatchOf(foot);
-    AddTo(forces, Node(), factor * of[0]);
-    for (std::size_t i = 0; i < BoundaryPatch::kNodes; ++i)
-      AddTo(forces, patch.nodes[i], factor * BoundaryShape::Reflected(patch, i, of[i + 1]));
+    AddTo(forces, Node(), factor * of.on_node);
+    for (std::size_t i = 0; i < patch.nodes.size(); ++i)
+      AddTo(forces, patch.nodes[i], factor * BoundaryShape::Reflected(patch, i, of.on_patch[i]));
   }
   OnNode ForceOnNode(const PlacedState& state, Real rn, Real rt) const override {
     const Vector place = state.Place(Node()), arm = place - state.Place(first_node_);
-    const Vector force = state.Shape(surface_).ForcesOf(place, FootIn(state), rn, rt)[0];
+    const Vector force = state.Shape(surface_).ForcesOf(place, FootIn(state), rn, rt).on_node;
     return {force, arm.x * force.y - arm.y * force.x};
   }
   Real Imbalance(const PlacedState& state, Real rn, Real rt, Real length) const override {
@@ -120,10 +120,10 @@ class BoundaryContact : public Contact {
     const BoundaryShape& shape = state.Shape(surface_);
     const BoundaryFoot foot = FootIn(state);
     const BoundaryShape::Forces forces = shape.ForcesOf(x, foot, rn, rt);
-    Vector sum = forces[0];
+    Vector sum = forces.on_node;
     Real moment = 0.0L;
-    for (std::size_t i = 0; i < BoundaryPatch::kNodes; ++i) {
-      const Vector arm = shape.PlaceOf(shape.PatchOf(foot), i) - x, force = forces[i + 1];
+    for (std::size_t i = 0; i < forces.on_patch.size(); ++i) {
+      const Vector arm = shape.PlaceOf(shape.PatchOf(foot), i) - x, force = forces.on_patch[i];
       sum = sum + force;
       moment += arm.x * force.y - arm.y * force.x;
     }

@@ -246,7 +246,7 @@ class Spline : public Walk {
     for (std::size_t i = 0; i < count; ++i) steps.push_back(Length(points[(i + 1) % n] - points[i]));
     std::vector<Vector> bends(n);
     // Gauss-Seidel: each sweep halves the error at least.
-    for (int sweep = 0; sweep < kSweeps; ++sweep)
+    for (int sweep = 0; sweep < kMostIterations; ++sweep)
       for (std::size_t i = closed_ ? 0 : 1; i < (closed_ ? n : n - 1); ++i) {
         const std::size_t before = (i + n - 1) % n, after = (i + 1) % n;
         const Real h = steps[before % count], k = steps[i];
@@ -269,7 +269,6 @@ class Spline : public Walk {
   }
 
  private:
-  static constexpr int kSweeps = 80;
   static constexpr int kParts = 32;
   static constexpr int kSamples = 12;
   static constexpr Real kRounding = 1e-18L;  // of w

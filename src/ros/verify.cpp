@@ -13,6 +13,7 @@
 #include "contact_path/ros/bag_reader.h"
 #include "contact_path/ros/convert.h"
 #include "contact_path/scene/text.h"
+#include "contact_path/scene/validate.h"
 #include "contact_path/verify/verify_end.h"
 #include "contact_path/verify/verify_path.h"
 
@@ -80,7 +81,7 @@ bool Verify(const RecordedTrace& trace) {
   PrintTable(trace, verification);
   for (const Finding& finding : verification.findings)
     std::cout << "increment " << finding.increment << ": " << finding.what << '\n';
-  if (verification.findings.size() == static_cast<std::size_t>(kMostFindings)) std::cout << "...\n";
+  if (verification.findings.size() == kMostLines) std::cout << "...\n";
   const std::string lacks = Lacks(trace);
   if (!lacks.empty()) std::cout << lacks << '\n';
   const bool proved = verification.findings.empty() && lacks.empty();

@@ -130,7 +130,7 @@ bool Follows(const Violation& violation, const Violation& cause) {
 
 std::string LinesOf(const std::vector<Violation>& violations) {
   if (violations.empty()) return "invalid request";
-  const std::size_t listed = violations.size() <= kMostViolationLines ? violations.size() : kMostViolationLines - 1;
+  const std::size_t listed = violations.size() <= kMostLines ? violations.size() : kMostLines - 1;
   std::string lines;
   for (std::size_t i = 0; i < listed; ++i) lines += (i > 0 ? "\n" : "") + violations[i].ToLine();
   if (listed < violations.size()) lines += "\n... and " + std::to_string(violations.size() - listed) + " more";

@@ -15,6 +15,7 @@
 #include "contact_path/scene/scaling.h"
 #include "contact_path/scene/scene.h"
 #include "contact_path/scene/scene_index.h"
+#include "contact_path/scene/validate.h"
 #include "contact_path/verify/verify_path.h"
 
 namespace contact_path {
@@ -92,7 +93,7 @@ inline double Product(const std::vector<double>& a, const std::vector<double>& b
 
 class Findings {
  public:
-  // Appends to *list, up to kMostFindings.
+  // Appends to *list, up to kMostLines (scene/validate.h).
   explicit Findings(std::vector<Finding>* list) : list_(*list) {}
 
   // The increment that the next findings are of.
@@ -100,7 +101,7 @@ class Findings {
 
   template <typename... Parts>
   void Report(const Parts&... parts) {
-    if (list_.size() >= static_cast<std::size_t>(kMostFindings)) return;
+    if (list_.size() >= kMostLines) return;
     std::ostringstream text;
     text.precision(6);
     (text << ... << parts);

@@ -19,13 +19,6 @@ TraceRequest WithNodes() {
   return request;
 }
 
-TEST(ProgressEstimate, IsZeroWithoutAnEnd) {
-  ProgressEstimate estimate(WithNodes());
-  EXPECT_FALSE(estimate.HasEnd());
-  EXPECT_EQ(estimate.Add(MakeIncrement(0, 0.0, 0.0)), 0.0);
-  EXPECT_EQ(estimate.Add(MakeIncrement(900, 5.0, 5.0)), 0.0);
-}
-
 TEST(ProgressEstimate, IsThatOfTheNearestEnd) {
   TraceRequest request = WithNodes();
   request.options.max_increments = 10;

@@ -20,7 +20,7 @@ struct Finding {
 };
 
 struct Verification {
-  std::vector<Finding> findings;  // none: the path is proved; in the order of the increments, at most kMostFindings
+  std::vector<Finding> findings;  // none: the path is proved; in the order of the increments, at most kMostLines
   int increments = 0;
   int full_increments = 0;      // with positions and contacts: increments without them can only be counted
   int exact_increments = 0;     // of the full ones, those that solve the unregularised equations
@@ -36,8 +36,6 @@ struct Verification {
   double largest_reaction = 0.0;       // normal, over F, or where parts are far softer, over the forces there
   std::map<IncrementKind, int> kinds;  // number of increments of each
 };
-
-constexpr int kMostFindings = 20;
 
 // Request: valid. Increments: all that were recorded, in their order; regular increments that full_state_every leaves
 // out have empty positions and contacts.
