@@ -14,7 +14,6 @@
 #include <string>
 #include <vector>
 
-#include "contact_path/path/automatic_step.h"
 #include "contact_path/path/branch_method.h"
 #include "contact_path/path/model.h"
 #include "contact_path/path/mpec_method.h"

@@ -1,4 +1,4 @@
-#include "check/answers.h"
+#include "check/contacts.h"
 
 #include <algorithm>
 #include <cmath>

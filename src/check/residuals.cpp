@@ -13,7 +13,6 @@
 #include <utility>
 #include <vector>
 
-#include "check/answers.h"
 #include "check/boundary.h"
 #include "check/contacts.h"
 #include "check/elements.h"

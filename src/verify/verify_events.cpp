@@ -1,4 +1,4 @@
-#include "contact_path/verify/verify_events.h"
+#include "contact_path/verify/verify_path.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "contact_path/path/progress_estimate.h"
+#include "contact_path/path/path_summary.h"
 
 #include <gtest/gtest.h>
 

@@ -46,7 +46,7 @@ struct Words<PlaneState> {
                                                                      {"stress", PlaneState::kStress}};
 };
 
-// Elastic material of solids, by E and nu or by lambda and mu (scene/elasticity.h).
+// Elastic material of solids, by E and nu or by lambda and mu (LameOf()).
 struct Material {
   std::string name;
   MaterialModel model = MaterialModel::kNeoHookean;
