@@ -8,11 +8,11 @@
 #include <utility>
 
 #include "contact_path/linear/bordered_solver.h"
-#include "contact_path/path/automatic_step.h"
 #include "contact_path/path/branch_method.h"
+#include "contact_path/path/model.h"
 #include "contact_path/path/recorder.h"
 #include "lattices.h"
-#include "process/keep_memory.h"
+#include "process/process.h"
 
 namespace contact_path {
 namespace {

@@ -13,8 +13,8 @@
 
 #include "contact_path/branch/contact_arc.h"
 #include "contact_path/linear/blas.h"
-#include "contact_path/path/automatic_step.h"
 #include "contact_path/path/branch_method.h"
+#include "contact_path/path/model.h"
 #include "contact_path/path/mpec_method.h"
 #include "contact_path/scene/expand.h"
 #include "lattices.h"

@@ -14,7 +14,6 @@
 #include <string>
 #include <vector>
 
-#include "contact_path/path/automatic_step.h"
 #include "contact_path/path/branch_method.h"
 #include "contact_path/path/model.h"
 #include "contact_path/path/mpec_method.h"
@@ -23,7 +22,7 @@
 #include "contact_path/scene/read_scene.h"
 #include "contact_path/scene/write_scene.h"
 #include "lattice.h"
-#include "process/keep_memory.h"
+#include "process/process.h"
 
 namespace contact_path {
 namespace {

@@ -9,7 +9,6 @@ add_library(contact_path_ros
   src/ros/memory_share.cpp
   src/ros/node_parameters.cpp
   src/ros/resume.cpp
-  src/ros/shutdown_signal.cpp
   src/ros/trace_action.cpp
   src/ros/trace_service.cpp
 )

@@ -128,19 +128,19 @@ set(contact_path_extremes
 # path/path_method.h), and files that trace whole paths.
 contact_path_add_stage(support NAMES derivative_checker_test)
 contact_path_add_stage(geometry NAMES admissible_patches_test capsule_tree_test curve_test nodal_spline_test outline_test polyline_test
-  projection_test spline_test surface_test)
-contact_path_add_stage(scene NAMES boundary_rules_test can_slide_test cell_test change_units_test configuration_test curve_rules_test
-  element_names_test expand_test field_test nearest_name_test number_text_test one_line_test origin_test quantity_test
-  reacting_parts_test read_scene_test request_field_test scaling_test scene_index_test scene_test solid_rules_test utf8_test
+  spline_test surface_test)
+contact_path_add_stage(scene NAMES boundary_rules_test can_slide_test cell_test change_units_test curve_rules_test
+  element_names_test expand_test field_test nearest_name_test text_test origin_test quantity_test
+  reacting_parts_test read_scene_test request_field_test scaling_test scene_test solid_rules_test
   validate_test violation_test write_scene_test)
-contact_path_add_stage(structure NAMES bar_test beam_test dof_map_test elastica_test material_test scene_elements_test solid_test
-  structure_test superelement_test)
-contact_path_add_stage(linear NAMES blas_test bordered_solver_test generic_vector_test minimum_norm_test out_of_memory_test
-  singular_vectors_test symmetric_factors_test)
+contact_path_add_stage(structure NAMES bar_test beam_test elastica_test material_test solid_test
+  structure_test)
+contact_path_add_stage(linear NAMES blas_test bordered_solver_test minimum_norm_test out_of_memory_test
+  symmetric_factors_test)
 find_library(SUITESPARSECONFIG_LIBRARY suitesparseconfig REQUIRED)
 target_include_directories(linear_tests SYSTEM PRIVATE ${SUITESPARSE_INCLUDE_DIR})
 target_link_libraries(linear_tests ${SUITESPARSECONFIG_LIBRARY})
-contact_path_add_stage(contact NAMES contact_pair_test contact_state_test deformable_boundary_test deformable_pair_test path_point_test
+contact_path_add_stage(contact NAMES contact_pair_test deformable_boundary_test deformable_pair_test
   reach_tracker_test rigid_pair_test scene_contacts_test)
 contact_path_add_stage(equations OPTIMISED NAMES deformable_system_test fixed_state_system_test nearest_point_test rigid_modes_test)
 contact_path_add_stage(stability LONG NAMES jump_test slip_stability_test stability_problem_test)
@@ -157,11 +157,11 @@ contact_path_add_stage(check NAMES answers_test boundary_residuals_test curved_r
 contact_path_add_stage(path LONG SHARDS 4 NAMES automatic_step_test beam_paths_test branch_options_test csv_test
   curved_paths_test curved_random_paths_test curved_scenes_test deformable_random_paths_test deformable_scenes_test
   determinism_test diagnosis_test end_test frames_on_curves_test free_motion_test hard_scenes_test increment_lists_test
-  increment_test invariance_test jump_paths_test large_requests_test largest_reaction_test model_size_test model_test
+  invariance_test jump_paths_test large_requests_test largest_reaction_test model_size_test model_test
   mpec_cases_test mpec_method_test mpec_random_paths_test own_surface_test parts_on_contacts_test path_summary_test
   polygon_disc_test preload_test program_test progress_estimate_test redistribution_test restored_states_test resume_test
   return_detector_test samples_test singular_scenes_test sizes_test solid_paths_test stop_test surface_scenes_test total_law_test
-  trace_test work_test)
+  trace_test)
 contact_path_add_stage(study NAMES path_column_test study_outputs_test)
 contact_path_add_stage(verify LONG SHARDS 2 NAMES verify_end_test verify_events_test verify_path_test)
 contact_path_add_stage(cli NAMES event_table_test progress_test)

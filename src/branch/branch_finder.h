@@ -17,7 +17,7 @@
 #include "contact_path/branch/rate_problem.h"
 #include "contact_path/branch/redundant_contacts.h"
 #include "contact_path/branch/tangents.h"
-#include "contact_path/contact/contact_mode.h"
+#include "contact_path/contact/contact_state.h"
 #include "contact_path/equations/fixed_state_system.h"
 #include "contact_path/linear/bordered_solver.h"
 #include "contact_path/tolerances.h"

@@ -13,7 +13,7 @@
 #include "contact_path/branch/rate_problem.h"
 #include "contact_path/branch/reaction_redistribution.h"
 #include "contact_path/branch/state_options.h"
-#include "contact_path/contact/contact_mode.h"
+#include "contact_path/contact/contact_state.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {

@@ -1,4 +1,4 @@
-#include "check/answers.h"
+#include "check/contacts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -94,7 +94,7 @@ std::vector<double> ContactLengths(const std::vector<ContactEdge>& edges, std::s
     const Vector to_a = a - middle, to_b = b - middle, across = b - a;
     for (const auto& [t, weight] :
          {std::pair(-at, 5.0L / 9.0L), std::pair(0.0L, 8.0L / 9.0L), std::pair(at, 5.0L / 9.0L)}) {
-      const Real speed = Length({across.x / 2.0L + t * (to_a.x + to_b.x), across.y / 2.0L + t * (to_a.y + to_b.y)});
+      const Real speed = Length(0.5L * across + t * (to_a + to_b));
       const std::array<Real, 3> shapes = {t * (t - 1.0L) / 2.0L, 1.0L - t * t, t * (t + 1.0L) / 2.0L};
       for (std::size_t i = 0; i < 3; ++i) lengths[edge.contacts[i]] += weight * speed * shapes[i];
     }

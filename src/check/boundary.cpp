@@ -10,7 +10,6 @@
 namespace contact_path::check {
 namespace {
 
-constexpr int kIterations = 200;   // of a bisection: more than there are bits
 constexpr int kParts = 16;         // of a patch, for its length
 constexpr Real kRounding = 1e-9L;  // of the length within which patches are left out
 constexpr Real kAtEnd = 1e-9L;     // [rad] off the normal at an end: a path that ends there does so to rounding
@@ -23,26 +22,24 @@ constexpr BoundaryPatch::Weights kFromAxis = {
     {{0.125L, -0.25L, 0.125L}, {0.75L, 0.0L, -0.25L}, {0.125L, 0.25L, 0.125L}}};
 constexpr BoundaryPatch::Weights kToAxis = {{{0.5L, -0.5L, 0.125L}, {0.5L, 0.5L, -0.25L}, {0.0L, 0.0L, 0.125L}}};
 
-Vector Plus(const Vector& a, Real factor, const Vector& b) { return {a.x + factor * b.x, a.y + factor * b.y}; }
-Vector Times(Real factor, const Vector& v) { return {factor * v.x, factor * v.y}; }
-
-// A number with its derivatives by the positions of a node and of the nodes of a patch.
-constexpr int kVariables = 2 * (1 + static_cast<int>(BoundaryPatch::kNodes));
-using VariableDual = Eigen::AutoDiffScalar<Eigen::Matrix<Real, kVariables, 1>>;
+// A number with its derivatives by the positions of a node and of the three nodes of a patch.
+using PlaceGradient = Eigen::Matrix<Real, 8, 1>;
+using VariableDual = Eigen::AutoDiffScalar<PlaceGradient>;
 
 struct DualVector {
   VariableDual x, y;
 };
 
 DualVector VariableAt(const Vector& place, int number) {
-  return {VariableDual(place.x, kVariables, number), VariableDual(place.y, kVariables, number + 1)};
+  return {VariableDual(place.x, PlaceGradient::SizeAtCompileTime, number),
+          VariableDual(place.y, PlaceGradient::SizeAtCompileTime, number + 1)};
 }
 
 VariableDual DualDot(const DualVector& a, const DualVector& b) { return a.x * b.x + a.y * b.y; }
 
 // sum of factors[j] x_j.
-DualVector Combined(const std::array<VariableDual, BoundaryPatch::kNodes>& factors,
-                    const std::array<DualVector, BoundaryPatch::kNodes>& nodes) {
+DualVector Combined(const BoundaryPatch::PerNode<VariableDual>& factors,
+                    const BoundaryPatch::PerNode<DualVector>& nodes) {
   DualVector sum = {factors[0] * nodes[0].x, factors[0] * nodes[0].y};
   for (std::size_t j = 1; j < factors.size(); ++j) {
     sum.x += factors[j] * nodes[j].x;
@@ -53,7 +50,7 @@ DualVector Combined(const std::array<VariableDual, BoundaryPatch::kNodes>& facto
 
 // The shape functions at tau, and their derivatives by it.
 struct Shapes {
-  std::array<VariableDual, BoundaryPatch::kNodes> values, slopes;
+  BoundaryPatch::PerNode<VariableDual> values, slopes;
 };
 
 Shapes ShapesAt(const BoundaryPatch::Weights& weights, const VariableDual& tau) {
@@ -128,12 +125,12 @@ BoundaryShape::BoundaryShape(const Boundary& boundary, const std::vector<double>
     Parabola curve;
     for (std::size_t j = 0; j < patch.nodes.size(); ++j) {
       const Vector place = PlaceOf(patch, j);
-      curve.at = Plus(curve.at, patch.weights[j][0], place);
-      curve.first = Plus(curve.first, patch.weights[j][1], place);
-      curve.second = Plus(curve.second, 2.0L * patch.weights[j][2], place);
+      curve.at = curve.at + patch.weights[j][0] * place;
+      curve.first = curve.first + patch.weights[j][1] * place;
+      curve.second = curve.second + 2.0L * patch.weights[j][2] * place;
     }
     // Within the triangle of its Bezier points.
-    const Vector corner = Plus(curve.at, 0.5L, curve.first), end = Place(curve, 1.0L);
+    const Vector corner = curve.at + 0.5L * curve.first, end = Place(curve, 1.0L);
     around.push_back({corner, std::max(Length(curve.at - corner), Length(end - corner))});
     curves_.push_back(curve);
   }
@@ -155,10 +152,10 @@ Vector BoundaryShape::Reflected(const BoundaryPatch& patch, std::size_t node, co
 }
 
 Vector BoundaryShape::Place(const Parabola& curve, Real tau) {
-  return Plus(Plus(curve.at, tau, curve.first), 0.5L * tau * tau, curve.second);
+  return curve.at + tau * curve.first + 0.5L * tau * tau * curve.second;
 }
 
-Vector BoundaryShape::Direction(const Parabola& curve, Real tau) { return Plus(curve.first, tau, curve.second); }
+Vector BoundaryShape::Direction(const Parabola& curve, Real tau) { return curve.first + tau * curve.second; }
 
 // The distance has its minima at roots of h = (y - x) . y', a cubic; between the roots of h' there is one of h at most.
 BoundaryFoot BoundaryShape::FootOn(const Parabola& curve, const Vector& x) {
@@ -187,11 +184,8 @@ BoundaryFoot BoundaryShape::FootOn(const Parabola& curve, const Vector& x) {
   for (std::size_t i = 0; i < 3; ++i) {
     Real low = bounds[i], high = bounds[i + 1];
     if (!(h(low) < 0.0L && h(high) > 0.0L)) continue;  // no minimum inside
-    for (int k = 0; k < kIterations; ++k) {
-      const Real middle = 0.5L * (low + high);
-      if (middle <= low || middle >= high) break;
+    for (Real middle = 0.5L * (low + high); middle > low && middle < high; middle = 0.5L * (low + high))
       (h(middle) < 0.0L ? low : high) = middle;
-    }
     offer(0.5L * (low + high));
   }
   return nearest;
@@ -245,7 +239,7 @@ bool BoundaryShape::IsAway(const Vector& x, const BoundaryFoot& foot) const {
 
 Vector BoundaryShape::Normal(const BoundaryFoot& foot) const {
   const Vector direction = Direction(curves_[foot.patch], foot.tau);
-  return Times(1.0L / Length(direction), {-direction.y, direction.x});
+  return 1.0L / Length(direction) * Vector{-direction.y, direction.x};
 }
 
 Real BoundaryShape::Gap(const Vector& x, const BoundaryFoot& foot) const {
@@ -285,7 +279,7 @@ BoundaryShape::Forces BoundaryShape::ForcesOf(const Vector& x, const BoundaryFoo
   const BoundaryPatch& patch = boundary_.Patches()[foot.patch];
   const Parabola& curve = curves_[foot.patch];
   const DualVector node = VariableAt(x, 0);
-  std::array<DualVector, BoundaryPatch::kNodes> nodes;
+  BoundaryPatch::PerNode<DualVector> nodes;
   for (std::size_t j = 0; j < nodes.size(); ++j) nodes[j] = VariableAt(PlaceOf(patch, j), 2 + 2 * static_cast<int>(j));
 
   const Shapes at_foot = ShapesAt(patch.weights, VariableDual(foot.tau));
@@ -302,13 +296,11 @@ BoundaryShape::Forces BoundaryShape::ForcesOf(const Vector& x, const BoundaryFoo
 
   const Real speed = Length(first), curvature = Cross(first, curve.second) / (speed * speed * speed);
   const Real per_tau = speed * (1.0L - curvature * boundary_.Radius());
-  Forces forces;
-  for (std::size_t i = 0; i < forces.size(); ++i) {
-    const auto k = static_cast<Eigen::Index>(2 * i);
-    forces[i] = {rn * gap.derivatives()[k] + rt * per_tau * tau.derivatives()[k],
-                 rn * gap.derivatives()[k + 1] + rt * per_tau * tau.derivatives()[k + 1]};
-  }
-  return forces;
+  const auto force = [&](Eigen::Index k) -> Vector {
+    return {rn * gap.derivatives()[k] + rt * per_tau * tau.derivatives()[k],
+            rn * gap.derivatives()[k + 1] + rt * per_tau * tau.derivatives()[k + 1]};
+  };
+  return {force(0), {force(2), force(4), force(6)}};
 }
 
 }  // namespace contact_path::check

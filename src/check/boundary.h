@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -16,15 +17,16 @@ namespace contact_path::check {
 
 // A part of the curve: y = sum of N_j(tau) x_j over its nodes, tau in [0, 1].
 struct BoundaryPatch {
-  static constexpr std::size_t kNodes = 3;
+  template <typename T>
+  using PerNode = std::array<T, 3>;
   // N_j = sum of weights[j][k] tau^k; zero for a node that has no share.
-  using Weights = std::array<std::array<Real, 3>, kNodes>;
+  using Weights = PerNode<std::array<Real, 3>>;
 
-  std::array<std::size_t, kNodes> nodes{};  // of the scene
+  PerNode<std::size_t> nodes{};  // of the scene
   Weights weights{};
-  // At an axis of symmetry through nodes[1], x = const or y = const: nodes[image] stands for its mirror image. kNodes:
+  // At an axis of symmetry through nodes[1], x = const or y = const: nodes[image] stands for its mirror image. Nothing:
   // none does.
-  std::size_t image = kNodes;
+  std::optional<std::size_t> image = {};
   bool across_x = false;  // the axis is x = const
 };
 
@@ -83,8 +85,11 @@ class BoundaryShape {
   // curve [length].
   Real Walked(const BoundaryFoot& from, const BoundaryFoot& to) const;
 
-  // The forces of r_n and r_t: on a node at x with its foot, and after it on the nodes of the patch [force].
-  using Forces = std::array<Vector, 1 + BoundaryPatch::kNodes>;
+  // The forces of r_n and r_t: on a node at x with its foot, and on the nodes of the patch [force].
+  struct Forces {
+    Vector on_node;
+    BoundaryPatch::PerNode<Vector> on_patch;
+  };
   Forces ForcesOf(const Vector& x, const BoundaryFoot& foot, Real rn, Real rt) const;
   // Where these forces act: an image has a place and a force of its own.
   Vector PlaceOf(const BoundaryPatch& patch, std::size_t node) const;

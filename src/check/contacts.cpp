@@ -51,8 +51,7 @@ class ObstacleContact : public Contact {
   }
   void AddForces(const PlacedState& state, Real rn, Real rt, Real factor, std::vector<Real>* forces) const override {
     const Vector normal = Normal(state), tangent{normal.y, -normal.x};
-    (*forces)[2 * Node()] += factor * (rn * normal.x + rt * tangent.x);
-    (*forces)[2 * Node() + 1] += factor * (rn * normal.y + rt * tangent.y);
+    AddTo(forces, Node(), factor * (rn * normal + rt * tangent));
   }
   // The moment as the obstacle sees it.
   OnNode ForceOnNode(const PlacedState& state, Real rn, Real rt) const override {
@@ -63,19 +62,16 @@ class ObstacleContact : public Contact {
   }
   Vector Velocity(const PlacedState& state) const override {
     if (obstacle_.turn == 0.0L) return obstacle_.motion;
-    const Vector arm = state.Place(Node()) - obstacle_.about -
-                       Vector{state.LoadFactor() * obstacle_.motion.x, state.LoadFactor() * obstacle_.motion.y};
-    return {obstacle_.motion.x - obstacle_.turn * arm.y, obstacle_.motion.y + obstacle_.turn * arm.x};
+    const Vector arm = state.Place(Node()) - obstacle_.about - state.LoadFactor() * obstacle_.motion;
+    return obstacle_.motion + obstacle_.turn * Vector{-arm.y, arm.x};
   }
 
  private:
   // The node as the obstacle sees it.
   Vector Position(const PlacedState& state) const {
-    const Vector moved =
-        state.Place(Node()) - Vector{state.LoadFactor() * obstacle_.motion.x, state.LoadFactor() * obstacle_.motion.y};
+    const Vector moved = state.Place(Node()) - state.LoadFactor() * obstacle_.motion;
     if (obstacle_.turn == 0.0L) return moved;
-    const Vector back = Turned(moved - obstacle_.about, -obstacle_.turn * state.LoadFactor());
-    return {obstacle_.about.x + back.x, obstacle_.about.y + back.y};
+    return obstacle_.about + Turned(moved - obstacle_.about, -obstacle_.turn * state.LoadFactor());
   }
 
   MovedObstacle obstacle_;
@@ -110,17 +106,13 @@ class BoundaryContact : public Contact {
     const BoundaryFoot foot = FootIn(state);
     const BoundaryShape::Forces of = shape.ForcesOf(state.Place(Node()), foot, rn, rt);
     const BoundaryPatch& patch = shape.PatchOf(foot);
-    const auto add = [&](std::size_t node, const Vector& force) {
-      (*forces)[2 * node] += factor * force.x;
-      (*forces)[2 * node + 1] += factor * force.y;
-    };
-    add(Node(), of[0]);
-    for (std::size_t i = 0; i < BoundaryPatch::kNodes; ++i)
-      add(patch.nodes[i], BoundaryShape::Reflected(patch, i, of[i + 1]));
+    AddTo(forces, Node(), factor * of.on_node);
+    for (std::size_t i = 0; i < patch.nodes.size(); ++i)
+      AddTo(forces, patch.nodes[i], factor * BoundaryShape::Reflected(patch, i, of.on_patch[i]));
   }
   OnNode ForceOnNode(const PlacedState& state, Real rn, Real rt) const override {
     const Vector place = state.Place(Node()), arm = place - state.Place(first_node_);
-    const Vector force = state.Shape(surface_).ForcesOf(place, FootIn(state), rn, rt)[0];
+    const Vector force = state.Shape(surface_).ForcesOf(place, FootIn(state), rn, rt).on_node;
     return {force, arm.x * force.y - arm.y * force.x};
   }
   Real Imbalance(const PlacedState& state, Real rn, Real rt, Real length) const override {
@@ -128,11 +120,11 @@ class BoundaryContact : public Contact {
     const BoundaryShape& shape = state.Shape(surface_);
     const BoundaryFoot foot = FootIn(state);
     const BoundaryShape::Forces forces = shape.ForcesOf(x, foot, rn, rt);
-    Vector sum = forces[0];
+    Vector sum = forces.on_node;
     Real moment = 0.0L;
-    for (std::size_t i = 0; i < BoundaryPatch::kNodes; ++i) {
-      const Vector arm = shape.PlaceOf(shape.PatchOf(foot), i) - x, force = forces[i + 1];
-      sum = {sum.x + force.x, sum.y + force.y};
+    for (std::size_t i = 0; i < forces.on_patch.size(); ++i) {
+      const Vector arm = shape.PlaceOf(shape.PatchOf(foot), i) - x, force = forces.on_patch[i];
+      sum = sum + force;
       moment += arm.x * force.y - arm.y * force.x;
     }
     return std::max(Length(sum), std::abs(moment) / length);

@@ -10,8 +10,6 @@
 #include <unsupported/Eigen/AutoDiff>
 #include <utility>
 
-#include "check/solid.h"
-
 namespace contact_path::check {
 namespace {
 
@@ -69,11 +67,8 @@ class BarElement : public Element {
     const BarLengths lengths = Measure(positions);
     // N = dW/dl = EA l0 e de/dl, along the bar: N / l times its span.
     const Real per_length = EA_ * lengths.rest * Strain(strain_, lengths) * StrainRatePerLength(strain_, lengths);
-    const Vector pull{per_length * lengths.span.x, per_length * lengths.span.y};
-    (*forces)[2 * first_] -= pull.x;
-    (*forces)[2 * first_ + 1] -= pull.y;
-    (*forces)[2 * second_] += pull.x;
-    (*forces)[2 * second_ + 1] += pull.y;
+    AddTo(forces, first_, -per_length * lengths.span);
+    AddTo(forces, second_, per_length * lengths.span);
   }
 
  private:
@@ -113,10 +108,7 @@ class LinearPart : public Element {
 
   void AddForce(const std::vector<double>& positions, std::vector<Real>* forces) const override {
     const std::vector<Real> elastic = Forces(Displacements(positions));
-    for (std::size_t i = 0; i < Nodes().size(); ++i) {
-      (*forces)[2 * Nodes()[i]] += elastic[2 * i];
-      (*forces)[2 * Nodes()[i] + 1] += elastic[2 * i + 1];
-    }
+    for (std::size_t i = 0; i < Nodes().size(); ++i) AddTo(forces, Nodes()[i], {elastic[2 * i], elastic[2 * i + 1]});
   }
 
  private:
@@ -135,11 +127,9 @@ class LinearPart : public Element {
   std::vector<Real> Forces(const std::vector<Real>& displacements) const {
     const std::size_t size = displacements.size();
     std::vector<Real> forces(size, 0.0L);
-    for (std::size_t row = 0; row < size; ++row) {
-      for (std::size_t column = 0; column < size; ++column) {
+    for (std::size_t row = 0; row < size; ++row)
+      for (std::size_t column = 0; column < size; ++column)
         forces[row] += stiffness_[row * size + column] * displacements[column];
-      }
-    }
     return forces;
   }
 
@@ -259,14 +249,9 @@ void Place(const Solid& solid, const Scene& scene, const NodeList& nodes, const 
   const auto material = std::find_if(scene.materials.begin(), scene.materials.end(),
                                      [&](const Material& known) { return known.name == solid.material; });
   if (material == scene.materials.end()) throw std::out_of_range("no material has the name " + solid.material);
-  const std::size_t count = solid.nodes_per_element == 0 ? 3 : static_cast<std::size_t>(solid.nodes_per_element);
-  std::vector<std::size_t> own;
-  for (const std::size_t node : nodes) {
-    own.push_back(node);
-    if (own.size() < count) continue;
-    elements->push_back(MakeSolid(solid, *material, own, reference));
-    own.clear();
-  }
+  const auto count = static_cast<std::ptrdiff_t>(solid.NodesPerElement());
+  for (auto first = nodes.begin(); first != nodes.end(); first += count)
+    elements->push_back(MakeSolid(solid, *material, {first, first + count}, reference));
 }
 
 }  // namespace

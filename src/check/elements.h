@@ -73,6 +73,11 @@ using NodeNumbers = std::unordered_map<std::string_view, std::size_t>;  // by na
 std::vector<std::unique_ptr<const Element>> MakeElements(const Scene& scene, const NodeNumbers& numbers,
                                                          const std::vector<double>& reference);
 
+// nodes: of one element of the solid. reference: x0, y0, x1, ... of all nodes of the scene. Energy and forces are NaN
+// where the element is turned inside out, and where plane stress has no solution.
+std::unique_ptr<const Element> MakeSolid(const Solid& solid, const Material& material, std::vector<std::size_t> nodes,
+                                         const std::vector<double>& reference);
+
 }  // namespace contact_path::check
 
 #endif  // CONTACT_PATH_SRC_CHECK_ELEMENTS_H_

@@ -43,7 +43,7 @@ class NearestPiece {
 
  private:
   static Around Both(const Around& a, const Around& b) {
-    const Vector centre = {0.5L * (a.centre.x + b.centre.x), 0.5L * (a.centre.y + b.centre.y)};
+    const Vector centre = 0.5L * (a.centre + b.centre);
     return {centre, std::max(Length(a.centre - centre) + a.radius, Length(b.centre - centre) + b.radius)};
   }
 

@@ -17,15 +17,21 @@ struct Vector {
   Real y = 0.0L;
 };
 
+inline Vector operator+(const Vector& a, const Vector& b) { return {a.x + b.x, a.y + b.y}; }
 inline Vector operator-(const Vector& a, const Vector& b) { return {a.x - b.x, a.y - b.y}; }
+inline Vector operator*(Real factor, const Vector& v) { return {factor * v.x, factor * v.y}; }
 inline Real Dot(const Vector& a, const Vector& b) { return a.x * b.x + a.y * b.y; }
 inline Real Cross(const Vector& a, const Vector& b) { return a.x * b.y - a.y * b.x; }
 // Of long double squares, which neither overflow nor vanish for finite doubles.
 inline Real Length(const Vector& v) { return std::sqrt(v.x * v.x + v.y * v.y); }
 
-// positions: x0, y0, x1, ...
+// positions, forces: x0, y0, x1, ...
 inline Vector NodePosition(const std::vector<double>& positions, std::size_t node) {
   return {positions[2 * node], positions[2 * node + 1]};
+}
+inline void AddTo(std::vector<Real>* forces, std::size_t node, const Vector& force) {
+  (*forces)[2 * node] += force.x;
+  (*forces)[2 * node + 1] += force.y;
 }
 
 }  // namespace contact_path::check

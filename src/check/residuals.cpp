@@ -13,7 +13,6 @@
 #include <utility>
 #include <vector>
 
-#include "check/answers.h"
 #include "check/boundary.h"
 #include "check/contacts.h"
 #include "check/elements.h"
@@ -194,8 +193,10 @@ Residuals ResidualCheck::Check(const CheckedState& before, const CheckedState& n
   scene.RequireSizes(before);
   scene.RequireSizes(now);
   if (!AllFinite(before) || !AllFinite(now)) {
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    return {kInfinity, kInfinity, kInfinity, kInfinity, kInfinity, kInfinity, kInfinity};
+    Residuals infinite;
+    for (double Residuals::*const residual : Residuals::kAll)
+      infinite.*residual = std::numeric_limits<double>::infinity();
+    return infinite;
   }
 
   const Scaling& scaling = scene.scaling;

@@ -1,4 +1,4 @@
-#include "check/solid.h"
+#include "check/elements.h"
 
 #include <Eigen/Core>
 #include <Eigen/LU>
@@ -121,15 +121,14 @@ Real Law::Across(const std::array<Real, 4>& F) const {
   if (linear) return -lambda / (lambda + 2.0L * mu) * (F[0] + F[3] - 2.0L);
   // The logarithm of C33 between two at which the stress has opposite signs, narrowed by the false position method
   // with halved ends (Illinois).
-  constexpr int kMostSteps = 200;
   const auto stress = [&](Real logarithm) { return StressAcross(F, std::exp(logarithm)); };
   Real low = 0.0L, high = 0.0L, at_low = stress(low), at_high = at_low;
   Real reach = 0.25L;
-  for (int i = 0; i < kMostSteps && at_low > 0.0L; ++i, reach *= 2.0L) at_low = stress(low -= reach);
+  for (; at_low > 0.0L && std::exp(low) > 0.0L; reach *= 2.0L) at_low = stress(low -= reach);
   reach = 0.25L;
-  for (int i = 0; i < kMostSteps && at_high < 0.0L; ++i, reach *= 2.0L) at_high = stress(high += reach);
+  for (; at_high < 0.0L && std::isfinite(std::exp(high)); reach *= 2.0L) at_high = stress(high += reach);
   if (!(at_low <= 0.0L && at_high >= 0.0L)) return kNaN;
-  for (int i = 0; i < kMostSteps && at_high > at_low; ++i) {
+  while (at_high > at_low) {
     const Real middle = low - at_low * (high - low) / (at_high - at_low), at_middle = stress(middle);
     if (at_middle == 0.0L || middle <= low || middle >= high) return std::exp(middle);
     if (at_middle < 0.0L) {
@@ -161,7 +160,7 @@ class SolidElement : public Element {
       law_.lambda = E * nu / ((1.0L + nu) * (1.0L - 2.0L * nu));
       law_.mu = E / (2.0L + 2.0L * nu);
     }
-    const Real thickness = solid.thickness == 0.0 ? 1.0L : static_cast<Real>(solid.thickness);
+    const Real thickness = solid.Thickness();
     for (const CellPlace& place : Places(Nodes().size())) points_.push_back(MakePoint(place, thickness, reference));
   }
 
@@ -220,8 +219,9 @@ class SolidElement : public Element {
       const Derivatives stress = StressAt(F, Sound(F) ? law_.Across(F) : kNaN);
       for (std::size_t i = 0; i < Nodes().size(); ++i) {
         const Vector& gradient = point.gradients[i];
-        (*forces)[2 * Nodes()[i]] += point.volume * (stress[0] * gradient.x + stress[1] * gradient.y);
-        (*forces)[2 * Nodes()[i] + 1] += point.volume * (stress[2] * gradient.x + stress[3] * gradient.y);
+        AddTo(forces, Nodes()[i],
+              {point.volume * (stress[0] * gradient.x + stress[1] * gradient.y),
+               point.volume * (stress[2] * gradient.x + stress[3] * gradient.y)});
       }
     }
   }

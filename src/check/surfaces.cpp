@@ -9,12 +9,11 @@
 #include <vector>
 
 #include "check/nearest_piece.h"
+#include "contact_path/iterations.h"
 
 namespace contact_path::check {
 namespace {
 
-Vector operator+(const Vector& a, const Vector& b) { return {a.x + b.x, a.y + b.y}; }
-Vector operator*(Real factor, const Vector& v) { return {factor * v.x, factor * v.y}; }
 // The left of a direction.
 Vector Left(const Vector& v) { return {-v.y, v.x}; }
 
@@ -247,7 +246,7 @@ class Spline : public Walk {
     for (std::size_t i = 0; i < count; ++i) steps.push_back(Length(points[(i + 1) % n] - points[i]));
     std::vector<Vector> bends(n);
     // Gauss-Seidel: each sweep halves the error at least.
-    for (int sweep = 0; sweep < kSweeps; ++sweep)
+    for (int sweep = 0; sweep < kMostIterations; ++sweep)
       for (std::size_t i = closed_ ? 0 : 1; i < (closed_ ? n : n - 1); ++i) {
         const std::size_t before = (i + n - 1) % n, after = (i + 1) % n;
         const Real h = steps[before % count], k = steps[i];
@@ -270,10 +269,8 @@ class Spline : public Walk {
   }
 
  private:
-  static constexpr int kSweeps = 80;
   static constexpr int kParts = 32;
   static constexpr int kSamples = 12;
-  static constexpr int kIterations = 60;
   static constexpr Real kRounding = 1e-18L;  // of w
 
   struct Piece {
@@ -314,7 +311,7 @@ class Spline : public Walk {
         w = sample;
       }
     }
-    for (int i = 0; i < kIterations; ++i) {
+    for (int i = 0; i < kMostIterations; ++i) {
       const Vector first = First(piece, w), away = At(piece, w) - x;
       const Real square = Dot(first, first), slope = square + Dot(away, Second(piece, w));
       const Real move = -Dot(away, first) / (slope > 0.0L ? slope : square);

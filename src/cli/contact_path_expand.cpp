@@ -28,9 +28,9 @@ Json Expanded(const TraceRequest& given) {
   const ExpandedRequest expanded(given);
   const TraceRequest& request = expanded.Get();
   const Scene& scene = request.scene;
-  Json object = FieldOf(request);
+  Json object = JsonOf(request);
   for (std::size_t i = 0; i < request.program.size(); ++i) {
-    object["program"][i] = FieldOf(StageAsTraced(request, i));
+    object["program"][i] = JsonOf(StageAsTraced(request, i));
     object["program"][i]["target"] = request.program[i].Target();
   }
   for (std::size_t i = 0; i < scene.solids.size(); ++i)

@@ -76,9 +76,9 @@ class Responder {
     const PathPoint point = model_->FromIncrement(increment);
     FillState(*model_, point, &increment);
     FillLists(*model_, point, {true, true, true}, &increment);
-    Json answer = {{"supports", FieldOf(increment.supports)},   {"boundaries", FieldOf(increment.boundaries)},
-                   {"sections", FieldOf(increment.sections)},   {"stresses", FieldOf(increment.stresses)},
-                   {"pressures", FieldOf(increment.pressures)}, {"widths", increment.widths}};
+    Json answer = {{"supports", JsonOf(increment.supports)},   {"boundaries", JsonOf(increment.boundaries)},
+                   {"sections", JsonOf(increment.sections)},   {"stresses", JsonOf(increment.stresses)},
+                   {"pressures", JsonOf(increment.pressures)}, {"widths", increment.widths}};
     if (!AllFinite(answer)) throw std::invalid_argument("the numbers are beyond what can be computed");
     return answer;
   }

@@ -23,13 +23,12 @@
 #include "contact_path/path/csv.h"
 #include "contact_path/path/mpec_method.h"
 #include "contact_path/path/trace.h"
-#include "contact_path/scene/one_line.h"
 #include "contact_path/scene/read_scene.h"
 #include "contact_path/scene/request_field.h"
+#include "contact_path/scene/text.h"
 #include "contact_path/scene/validate.h"
 #include "contact_path/study/study_outputs.h"
-#include "process/keep_memory.h"
-#include "process/one_thread.h"
+#include "process/process.h"
 
 namespace contact_path {
 namespace {

@@ -1,7 +1,7 @@
 // contact_path_trace SCENE.yaml: traces the equilibrium path of a scene file and writes its increments as CSV.
 // contact_path_trace --resume BAG: goes on with a trace that was cut short.
 //
-// Exit status: 0 what was asked for was reached (path/end_reason.h); 1 it was not, all accepted increments written; 2
+// Exit status: 0 what was asked for was reached (path/end.h); 1 it was not, all accepted increments written; 2
 // bad usage or invalid scene.
 #include <CLI/CLI.hpp>
 #include <cerrno>
@@ -18,8 +18,8 @@
 
 #include "contact_path/linear/blas.h"
 #include "contact_path/path/csv.h"
+#include "contact_path/path/earlier_trace.h"
 #include "contact_path/path/mpec_method.h"
-#include "contact_path/path/restored_states.h"
 #include "contact_path/path/trace.h"
 #include "contact_path/scene/expand.h"
 #include "contact_path/scene/nearest_name.h"
@@ -33,8 +33,7 @@
 #include "cli/event_table.h"
 #include "cli/progress.h"
 #include "cli/trace_log.h"
-#include "process/keep_memory.h"
-#include "process/one_thread.h"
+#include "process/process.h"
 
 namespace contact_path {
 namespace {

@@ -16,48 +16,21 @@ namespace contact_path {
 // Keys are sorted: objects that keep their order came to the library later than Ubuntu 20.04.
 using Json = nlohmann::json;
 
-// A value of a field: a number, a word, or a list of these.
+// Described parts become objects, words strings, lists lists of these.
 template <typename Value>
 Json JsonOf(const Value& value) {
-  if constexpr (std::is_enum_v<Value>)
-    return std::string(ToString(value));
-  else
-    return value;
-}
-inline Json JsonOf(const std::vector<ContactState>& states) {
-  Json list = Json::array();
-  for (const ContactState state : states) list.push_back(JsonOf(state));
-  return list;
-}
-
-// Described parts become objects, lists of them lists of objects.
-template <typename Part>
-void SetFields(const Part& part, Json* object);
-template <typename Value>
-Json FieldOf(const Value& value);
-template <typename Value>
-Json FieldOf(const std::vector<Value>& values) {
-  if constexpr (field_internal::IsDescribed<Value>::value) {
-    Json list = Json::array();
-    for (const Value& value : values) list.push_back(FieldOf(value));
-    return list;
+  Json json;
+  if constexpr (kIsPart<Value>) {
+    ForEachField<Value>([&](const auto& field) { json[std::string(field.name)] = JsonOf(value.*field.member); });
+  } else if constexpr (kIsPartList<Value> || std::is_same_v<Value, std::vector<ContactState>>) {
+    json = Json::array();
+    for (const auto& item : value) json.push_back(JsonOf(item));
+  } else if constexpr (std::is_enum_v<Value>) {
+    json = std::string(ToString(value));
   } else {
-    return JsonOf(values);
+    json = value;
   }
-}
-template <typename Value>
-Json FieldOf(const Value& value) {
-  if constexpr (field_internal::IsDescribed<Value>::value) {
-    Json object;
-    SetFields(value, &object);
-    return object;
-  } else {
-    return JsonOf(value);
-  }
-}
-template <typename Part>
-void SetFields(const Part& part, Json* object) {
-  ForEachField<Part>([&](const auto& field) { (*object)[std::string(field.name)] = FieldOf(part.*field.member); });
+  return json;
 }
 
 inline void WriteLine(const Json& object, std::ostream* out) {

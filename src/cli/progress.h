@@ -9,7 +9,6 @@
 
 #include "contact_path/path/increment.h"
 #include "contact_path/path/path_summary.h"
-#include "contact_path/path/progress_estimate.h"
 #include "contact_path/path/trace.h"
 #include "contact_path/scene/scene.h"
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "cli/json_fields.h"
-#include "contact_path/path/end_reason.h"
+#include "contact_path/path/end.h"
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/write_scene.h"
 
@@ -51,22 +51,21 @@ void TraceLog::Add(const TrialStep& trial) {
 }
 
 void TraceLog::Add(const Increment& increment) {
-  Json line;
-  SetFields(increment, &line);
+  Json line = JsonOf(increment);
   Json event = std::move(line["event"]);
   line.erase("event");
   if (increment.inner.positions.empty()) line.erase("inner");
   line["type"] = "increment";
   line["equilibrium_residual"] = increment.residuals.equilibrium;
   line["complementarity_residual"] = increment.residuals.Contact();
-  SetFields(increment.solve, &line);
-  SetFields(increment.stability, &line);
-  if (increment.kind == IncrementKind::kJump) SetFields(increment.jump, &line);
+  line.update(JsonOf(increment.solve));
+  line.update(JsonOf(increment.stability));
+  if (increment.kind == IncrementKind::kJump) line.update(JsonOf(increment.jump));
   if (!landing_checks_) line.erase("landing_robust");
   line["solve_time"] = increment.solve.time;
   line["positions"] = increment.positions;
   line["rotations"] = increment.rotations;
-  line["contacts"] = FieldOf(increment.contacts);
+  line["contacts"] = JsonOf(increment.contacts);
   WriteLine(line, &out_);
   if (increment.event.number == 0 && increment.event.branches.empty()) return;
   event["type"] = "event";

@@ -3,7 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact_path/tolerances.h"
+
 namespace contact_path {
+namespace {
+
+constexpr int kPowersApart = 20;  // 2^20 is about 1e6: nearly all scenes have the unit 1
+
+}  // namespace
 
 PairVector ContactPair::SecondDirectional(const Eigen::VectorXd& u, double s, int patch, double rn, double rt,
                                           const PairVector& direction) const {
@@ -64,6 +71,14 @@ Eigen::VectorXd SlipReferences(const ContactPairs& contacts, const PathPoint& po
   for (std::size_t i = 0; i < contacts.size(); ++i)
     references[static_cast<Eigen::Index>(i)] = contacts[i]->SlipReference(point.u, point.s, point.Patch(i));
   return references;
+}
+
+double ForceUnitAbove(double bound) {
+  const double rounding = tolerances::kStiffForce * bound;
+  if (rounding > 1.0 && std::isfinite(rounding))
+    return std::ldexp(1.0, static_cast<int>(std::ceil(std::log2(rounding))));
+  if (!(bound > 0.0) || !(bound < 1.0)) return 1.0;
+  return std::ldexp(1.0, kPowersApart * static_cast<int>(std::ceil(std::log2(bound) / kPowersApart)));
 }
 
 }  // namespace contact_path

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "contact_path/geometry/polygon.h"
+#include "contact_path/geometry/plane.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {

@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <utility>
 
-#include "contact/force_unit.h"
 #include "contact/spline_contact.h"
+#include "contact_path/contact/contact_pair.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
@@ -16,7 +16,6 @@ namespace {
 using spline_contact::Along;
 using spline_contact::ByPlaces;
 using spline_contact::Constant;
-using spline_contact::kPlaces;
 using spline_contact::Place;
 using spline_contact::Places;
 using spline_contact::TwiceAlong;
@@ -38,20 +37,22 @@ struct DeformablePair::Stencil {
   // Values with derivatives by the places.
   Values<ByPlaces> ByAllPlaces() const {
     Places<ByPlaces> variables;
-    for (int k = 0; k < kPlaces; ++k) variables[static_cast<std::size_t>(k)] = ByPlaces(z[k], kPlaces, k);
+    for (int k = 0; k < Place::SizeAtCompileTime; ++k)
+      variables[static_cast<std::size_t>(k)] = ByPlaces(z[k], Place::SizeAtCompileTime, k);
     return {patch, variables, foot, boundary.Radius(), 1};
   }
   Values<TwiceByPlaces> TwiceByAllPlaces() const {
     Places<TwiceByPlaces> variables;
-    for (int k = 0; k < kPlaces; ++k)
-      variables[static_cast<std::size_t>(k)] = TwiceByPlaces(ByPlaces(z[k], kPlaces, k), kPlaces, k);
+    for (int k = 0; k < Place::SizeAtCompileTime; ++k)
+      variables[static_cast<std::size_t>(k)] =
+          TwiceByPlaces(ByPlaces(z[k], Place::SizeAtCompileTime, k), Place::SizeAtCompileTime, k);
     return {patch, variables, foot, boundary.Radius(), 2};
   }
   // Along z + h first + h^2 / 2 second.
   Values<TwiceAlong> TwiceAlongCurve(const Place& first, const Place& second) const {
     const auto along = [](double value, double slope) { return Along(value, Eigen::Matrix<double, 1, 1>(slope)); };
     Places<TwiceAlong> variables;
-    for (std::size_t k = 0; k < kPlaces; ++k) {
+    for (std::size_t k = 0; k < variables.size(); ++k) {
       const auto i = static_cast<Eigen::Index>(k);
       Eigen::Matrix<Along, 1, 1> slope;
       slope[0] = along(first[i], second[i]);
@@ -69,7 +70,7 @@ struct DeformablePair::Stencil {
 // Places among the unknowns of a pair on a patch.
 struct DeformablePair::Columns {
   Columns(const DeformablePair& pair, const SplinePatch& patch) {
-    std::array<int, kPlaces> all{};
+    Places<int> all{};
     all.fill(-1);
     sign.fill(1.0);
     const auto set = [&](std::size_t node, const NodePlace& place) {
@@ -81,24 +82,24 @@ struct DeformablePair::Columns {
     set(0, pair.node_);
     for (std::size_t k = 0; k < 3; ++k)
       if (patch.nodes[k] >= 0) set(k + 1, pair.boundary_->Nodes()[static_cast<std::size_t>(patch.nodes[k])]);
-    std::array<int, kPlaces> sorted = all;
+    Places<int> sorted = all;
     std::sort(sorted.begin(), sorted.end());
-    for (std::size_t k = 0; k < kPlaces; ++k)
+    for (std::size_t k = 0; k < sorted.size(); ++k)
       if (sorted[k] >= 0 && (k == 0 || sorted[k] != sorted[k - 1])) dofs.push_back(sorted[k]);
-    for (std::size_t k = 0; k < kPlaces; ++k)
+    for (std::size_t k = 0; k < all.size(); ++k)
       of[k] = all[k] < 0 ? -1 : std::lower_bound(dofs.begin(), dofs.end(), all[k]) - dofs.begin();
   }
 
   // By (dofs, s), from values by place; what is held, and s, have no share.
   PairVector Gather(const Place& values) const {
     PairVector q = PairVector::Zero(static_cast<Eigen::Index>(dofs.size()) + 1);
-    for (std::size_t k = 0; k < kPlaces; ++k)
+    for (std::size_t k = 0; k < of.size(); ++k)
       if (of[k] >= 0) q[of[k]] += sign[k] * values[static_cast<Eigen::Index>(k)];
     return q;
   }
   Place Scatter(const PairVector& q) const {
     Place values = Place::Zero();
-    for (std::size_t k = 0; k < kPlaces; ++k)
+    for (std::size_t k = 0; k < of.size(); ++k)
       if (of[k] >= 0) values[static_cast<Eigen::Index>(k)] = sign[k] * q[of[k]];
     return values;
   }
@@ -107,14 +108,14 @@ struct DeformablePair::Columns {
   PairMatrix GatherRows(Rows rows) const {
     const auto size = static_cast<Eigen::Index>(dofs.size()) + 1;
     PairMatrix matrix = PairMatrix::Zero(size, size);
-    for (std::size_t k = 0; k < kPlaces; ++k)
+    for (std::size_t k = 0; k < of.size(); ++k)
       if (of[k] >= 0) matrix.row(of[k]) += sign[k] * Gather(rows(k)).transpose();
     return matrix;
   }
 
   PairDofs dofs;
-  std::array<Eigen::Index, kPlaces> of{};  // by place; -1: held, or there is none
-  std::array<double, kPlaces> sign{};      // by place, of the dof in it: an image has the dofs of its node
+  Places<Eigen::Index> of{};  // by place; -1: held, or there is none
+  Places<double> sign{};      // by place, of the dof in it: an image has the dofs of its node
 };
 
 DeformablePair::DeformablePair(std::shared_ptr<const DeformableBoundary> boundary, const AdmissiblePatches& patches,
@@ -155,7 +156,7 @@ void DeformablePair::Evaluate(const Eigen::VectorXd& u, double s, int patch, dou
   kinematics->gap = at.gap.value() - boundary_->Radius();
   kinematics->xi = length * (stencil.patch.knot + stencil.foot) - reference;
   Place gap_gradient, knot_gradient;
-  for (std::size_t k = 0; k < kPlaces; ++k) {
+  for (std::size_t k = 0; k < at.gap_gradient.size(); ++k) {
     gap_gradient[static_cast<Eigen::Index>(k)] = at.gap_gradient[k].value();
     knot_gradient[static_cast<Eigen::Index>(k)] = at.knot_gradient[k].value();
   }
@@ -222,7 +223,7 @@ void DeformablePair::ForceHessian(const Eigen::VectorXd& u, double s, int patch,
   const Values<TwiceByPlaces> at = stencil.TwiceByAllPlaces();
   const Place by_place = columns.Scatter(weights);
   TwiceByPlaces along_gap = Constant<TwiceByPlaces>(0.0), along_knot = along_gap;
-  for (std::size_t k = 0; k < kPlaces; ++k) {
+  for (std::size_t k = 0; k < at.gap_gradient.size(); ++k) {
     const TwiceByPlaces weight = Constant<TwiceByPlaces>(by_place[static_cast<Eigen::Index>(k)]);
     along_gap = TwiceByPlaces(along_gap + weight * at.gap_gradient[k]);
     along_knot = TwiceByPlaces(along_knot + weight * at.knot_gradient[k]);
@@ -240,7 +241,7 @@ PairVector DeformablePair::SecondDirectional(const Eigen::VectorXd& u, double s,
   const Columns columns(*this, stencil.patch);
   const Values<TwiceAlong> at = stencil.TwiceAlongCurve(columns.Scatter(direction), Place::Zero());
   Place second;
-  for (std::size_t k = 0; k < kPlaces; ++k) {
+  for (std::size_t k = 0; k < at.gap_gradient.size(); ++k) {
     const TwiceAlong force = TwiceAlong(Constant<TwiceAlong>(rn) * at.gap_gradient[k]) +
                              TwiceAlong(Constant<TwiceAlong>(rt) * TwiceAlong(at.slip * at.knot_gradient[k]));
     second[static_cast<Eigen::Index>(k)] = force.derivatives()[0].derivatives()[0];

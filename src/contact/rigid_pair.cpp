@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "contact/force_unit.h"
+#include "contact_path/contact/contact_pair.h"
 #include "contact_path/geometry/surface.h"
 
 namespace contact_path {

@@ -12,13 +12,14 @@
 
 namespace contact_path::spline_contact {
 
-inline constexpr int kPlaces = 8;  // x and y of the node, then of the control nodes
-
-using Place = Eigen::Matrix<double, kPlaces, 1>;
+// x and y of the node, then of the control nodes; and whatever there is of each of these.
+using Place = Eigen::Matrix<double, 8, 1>;
+template <typename T>
+using Places = std::array<T, Place::SizeAtCompileTime>;
 
 // Numbers that carry derivatives along: by all places, the same twice, and twice along one curve.
 using ByPlaces = Eigen::AutoDiffScalar<Place>;
-using TwiceByPlaces = Eigen::AutoDiffScalar<Eigen::Matrix<ByPlaces, kPlaces, 1>>;
+using TwiceByPlaces = Eigen::AutoDiffScalar<Eigen::Matrix<ByPlaces, Place::SizeAtCompileTime, 1>>;
 using Along = Eigen::AutoDiffScalar<Eigen::Matrix<double, 1, 1>>;
 using TwiceAlong = Eigen::AutoDiffScalar<Eigen::Matrix<Along, 1, 1>>;
 
@@ -36,9 +37,6 @@ template <typename T>
 T Dot(const Plane<T>& a, const Plane<T>& b) {
   return T(a.x * b.x + a.y * b.y);
 }
-
-template <typename T>
-using Places = std::array<T, kPlaces>;
 
 // Along a parabola from one foot: where the node is, and what follows.
 template <typename T>

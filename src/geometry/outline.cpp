@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact_path/geometry/plane.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
@@ -10,9 +11,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-double TurnBetween(const Vector2d& a, const Vector2d& b) {
-  return std::abs(std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b)));
-}
+double TurnBetween(const Vector2d& a, const Vector2d& b) { return std::abs(std::atan2(Cross(a, b), a.dot(b))); }
 
 }  // namespace
 

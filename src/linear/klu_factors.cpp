@@ -9,9 +9,6 @@
 namespace contact_path {
 namespace {
 
-constexpr double kDiagonalFirst =
-    1e-3;  // of the largest entry of its column: a diagonal entry that is as large is the pivot
-
 // Sign of a permutation of 0..n-1.
 int Parity(const int* permutation, int n) {
   std::vector<bool> seen(static_cast<std::size_t>(n), false);
@@ -48,9 +45,12 @@ bool KluFactors::Factorize(Eigen::SparseMatrix<double>* matrix, bool same_patter
     klu_free_symbolic(&symbolic_, &common_);
     symbolic_ = klu_analyze(static_cast<int>(matrix->rows()), outer, inner, &common_);
   }
-  // Pivots on the diagonal first, which keep the factors sparse. Along a chain of contacts each may be small beside the
-  // entries below, and their growth takes all digits: then the largest entries are the pivots.
-  for (const double share : {kDiagonalFirst, 1.0}) {
+  // Pivots on the diagonal first, which keep the factors sparse, where they have KLU's share of the largest entry.
+  // Along a chain of contacts each may be small beside the entries below, and their growth takes all digits: then the
+  // largest entries are the pivots.
+  klu_common by_default;
+  klu_defaults(&by_default);
+  for (const double share : {by_default.tol, 1.0}) {
     FreeNumeric();
     common_.tol = share;
     if (symbolic_ != nullptr) numeric_ = klu_factor(outer, inner, matrix->valuePtr(), symbolic_, &common_);

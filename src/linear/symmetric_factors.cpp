@@ -21,12 +21,11 @@ namespace {
 constexpr double kMostGrowth = 1e6;  // of |L| |D| |L'|: beyond, rounding may hide a small eigenvalue
 constexpr double kStiffened = 4.0;   // more than a negative stiffness
 constexpr double kLarge = 0.5;       // an entry of a constraint
-constexpr double kNoZero = 1e-15;    // on the diagonal, so that a pivot which is zero is told by the growth
 
 // The numbers of MUMPS' manual, which counts from 1.
-constexpr int kUseCommWorld = -987654;
-constexpr int kInitialise = -1, kTerminate = -2, kAnalyse = 1, kFactorise = 2, kSolve = 3;
-constexpr int kNotEnoughWorkspace = -9, kOutOfMemory = -13, kSingular = -10;
+enum Communicator : int { kUseCommWorld = -987654 };
+enum Job : int { kInitialise = -1, kTerminate = -2, kAnalyse = 1, kFactorise = 2, kSolve = 3 };
+enum Outcome : int { kNotEnoughWorkspace = -9, kSingular = -10, kOutOfMemory = -13 };
 constexpr int kMostRelaxed = 8;  // times that the estimate of the workspace is doubled
 
 // Constraints, at the end with zeros on their diagonal, each right behind the first unknown that is among its largest:
@@ -86,7 +85,7 @@ struct SymmetricFactors::Small {
                     same(pattern.outerIndexPtr(), stiffened.outerIndexPtr(), stiffened.rows()) &&
                     same(pattern.innerIndexPtr(), stiffened.innerIndexPtr(), stiffened.nonZeros());
     pattern.swap(stiffened);
-    factors.setShift(kNoZero);
+    factors.setShift(tolerances::kLastDigits);  // so that a pivot which is zero is told by the growth
     is_dense = false;
     for (const bool anew : {false, true}) {  // which entries of the constraints are large may have changed
       if (anew && !analysed) break;
@@ -135,28 +134,24 @@ struct SymmetricFactors::Small {
 // By MUMPS, with the pivots of Bunch and Kaufman.
 struct SymmetricFactors::Large {
   Large() {
-    mumps.job = kInitialise;
     mumps.par = 1;
     mumps.sym = 2;  // symmetric and indefinite
     mumps.comm_fortran = kUseCommWorld;
-    dmumps_c(&mumps);
+    Call(kInitialise);
     for (const int stream : {1, 2, 3}) Control(stream) = -1;  // none
     Control(4) = 0;                                           // nothing printed
     Control(13) = 1;                                          // all pivots are counted
     Control(24) = 1;                                          // pivots next to zero are told
     mumps.cntl[2] = tolerances::kSingularPivot;               // relative to the matrix
   }
-  ~Large() {
-    mumps.job = kTerminate;
-    dmumps_c(&mumps);
-  }
+  ~Large() { Call(kTerminate); }
   Large(const Large&) = delete;
   Large& operator=(const Large&) = delete;
 
   int& Control(int number) { return mumps.icntl[number - 1]; }
   int Information(int number) const { return mumps.infog[number - 1]; }
 
-  void Call(int job) {
+  void Call(Job job) {
     mumps.job = job;
     dmumps_c(&mumps);
   }

@@ -12,8 +12,6 @@
 namespace contact_path {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 // Newton steps with one matrix to a point of (10).
 constexpr int kCentralSteps = 3;
 // Of a bound, over the barrier parameter: how far outside rounding may leave that point, and from where on it is
@@ -276,7 +274,7 @@ Eigen::VectorXd IncrementProblem::UnconstrainedMinimiser() const {
 }
 
 Eigen::VectorXd IncrementProblem::VariableLowerBounds() const {
-  Eigen::VectorXd bounds = Eigen::VectorXd::Constant(num_variables_, -kInfinity);
+  Eigen::VectorXd bounds = Eigen::VectorXd::Constant(num_variables_, -INFINITY);
   for (const Slot& slot : slots_) bounds[slot.rn] = 0.0;
   return bounds;
 }
@@ -284,8 +282,8 @@ Eigen::VectorXd IncrementProblem::VariableLowerBounds() const {
 Eigen::VectorXd IncrementProblem::ConstraintLowerBounds() const {
   Eigen::VectorXd bounds = Eigen::VectorXd::Zero(num_constraints_);
   for (const Slot& slot : slots_) {
-    bounds[slot.gap_row + 1] = -kInfinity;
-    if (slot.friction_row >= 0) bounds[slot.friction_row + 4] = -kInfinity;
+    bounds[slot.gap_row + 1] = -INFINITY;
+    if (slot.friction_row >= 0) bounds[slot.friction_row + 4] = -INFINITY;
   }
   return bounds;
 }
@@ -293,10 +291,10 @@ Eigen::VectorXd IncrementProblem::ConstraintLowerBounds() const {
 Eigen::VectorXd IncrementProblem::ConstraintUpperBounds() const {
   Eigen::VectorXd bounds = Eigen::VectorXd::Zero(num_constraints_);
   for (const Slot& slot : slots_) {
-    bounds[slot.gap_row] = kInfinity;
+    bounds[slot.gap_row] = INFINITY;
     bounds[slot.gap_row + 1] = eps_;
     if (slot.friction_row < 0) continue;
-    bounds.segment<4>(slot.friction_row).setConstant(kInfinity);
+    bounds.segment<4>(slot.friction_row).setConstant(INFINITY);
     bounds[slot.friction_row + 4] = eps_;
   }
   return bounds;

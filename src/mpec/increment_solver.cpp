@@ -22,8 +22,6 @@ constexpr int kMaxActiveSetChanges = 8;
 // Barrier parameter of a start that is nearly the solution: it counts as solved.
 constexpr double kBarrierAtOnce = 0.5 * tolerances::kAccepted;
 
-constexpr double kSameEps = 1.0 + tolerances::kEqual;
-
 ContactState StateBeyond(Inequality failed, const ContactPair& contact) {
   switch (failed) {
     case Inequality::kGap: return contact.Frictional() ? ContactState::kStick : ContactState::kClosed;
@@ -121,7 +119,7 @@ bool IncrementSolver::Follow(IncrementProblem* problem, const RegularisationSche
     trial->iterations += outcome.iterations;
     trial->status = outcome.status;
     if (outcome.status != SolveStatus::kSolved) return false;
-    if (eps > schedule.minimum * kSameEps) continue;
+    if (eps > schedule.minimum * (1.0 + tolerances::kEqual)) continue;
     trial->point = problem->Point(point->x);
     return true;
   }

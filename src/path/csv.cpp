@@ -11,7 +11,11 @@
 namespace contact_path {
 namespace {
 
-std::size_t NumNumbers(bool program) { return kCsvNumbers.size() - (program ? 0 : 1); }
+using Place = CsvNumber::Place;
+
+bool IsBehindContacts(const CsvNumber& number, bool program) {
+  return number.place == Place::kBehindContacts || (program && number.place == Place::kBehindContactsOfProgram);
+}
 
 }  // namespace
 
@@ -47,7 +51,8 @@ CsvWriter::CsvWriter(const ExpandedRequest& expanded)
 
 void CsvWriter::WriteHeader(std::ostream& out) const {
   std::ostringstream line = NewCsvLine();
-  for (std::size_t i = 0; i < kCsvNumbersFirst; ++i) line << kCsvNumbers[i].name << ',';
+  for (const CsvNumber& number : kCsvNumbers)
+    if (number.place == Place::kFirst) line << number.name << ',';
   line << "kind";
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     line << ",x_" << nodes_[i] << ",y_" << nodes_[i];
@@ -55,7 +60,8 @@ void CsvWriter::WriteHeader(std::ostream& out) const {
   }
   for (const std::string& name : contacts_)
     line << ",gap_" << name << ",rn_" << name << ",rt_" << name << ",state_" << name;
-  for (std::size_t i = kCsvNumbersFirst; i < NumNumbers(program_); ++i) line << ',' << kCsvNumbers[i].name;
+  for (const CsvNumber& number : kCsvNumbers)
+    if (IsBehindContacts(number, program_)) line << ',' << number.name;
   for (const SupportedNode& support : supports_) {
     if (support.x) line << ",rx_" << nodes_[support.node];
     if (support.y) line << ",ry_" << nodes_[support.node];
@@ -71,8 +77,7 @@ void CsvWriter::WriteHeader(std::ostream& out) const {
     if (!elements_.IsBar(i)) line << ",Q_" << name << ",M_" << name << ",M1_" << name << ",M2_" << name;
   }
   for (std::size_t i = 0; stresses_ && i < elements_.NumElements(); ++i)
-    for (const char* const field : {"sxx", "syy", "sxy", "szz", "mises", "energy"})
-      line << ',' << field << '_' << elements_.ElementName(i);
+    ForEachField<SolidStress>([&](const auto& field) { line << ',' << field.name << '_' << elements_.ElementName(i); });
   if (pressures_) {
     for (const std::string& name : contacts_) line << ",pressure_" << name << ",traction_" << name;
     for (const std::string& name : touched_) line << ",width_" << name;
@@ -83,7 +88,8 @@ void CsvWriter::WriteHeader(std::ostream& out) const {
 
 void CsvWriter::WriteRow(const Increment& increment, std::ostream& out) const {
   std::ostringstream line = NewCsvLine();
-  for (std::size_t i = 0; i < kCsvNumbersFirst; ++i) line << kCsvNumbers[i].value(increment) << ',';
+  for (const CsvNumber& number : kCsvNumbers)
+    if (number.place == Place::kFirst) line << number.value(increment) << ',';
   line << ToString(increment.kind);
   for (std::size_t i = 0; i < increment.positions.size(); ++i) {
     line << ',' << increment.positions[i];
@@ -93,8 +99,8 @@ void CsvWriter::WriteRow(const Increment& increment, std::ostream& out) const {
   for (const ContactRecord& contact : increment.contacts) {
     line << ',' << contact.gap << ',' << contact.rn << ',' << contact.rt << ',' << ToString(contact.state);
   }
-  for (std::size_t i = kCsvNumbersFirst; i < NumNumbers(increment.stage > 0); ++i)
-    line << ',' << kCsvNumbers[i].value(increment);
+  for (const CsvNumber& number : kCsvNumbers)
+    if (IsBehindContacts(number, increment.stage > 0)) line << ',' << number.value(increment);
   for (std::size_t i = 0; i < supports_.size(); ++i) {
     const Resultant& reaction = increment.supports[i];
     if (supports_[i].x) line << ',' << reaction.rx;
@@ -119,7 +125,7 @@ void CsvWriter::WriteRow(const Increment& increment, std::ostream& out) const {
   }
   if (stresses_)
     for (const SolidStress& of : increment.stresses)
-      line << ',' << of.sxx << ',' << of.syy << ',' << of.sxy << ',' << of.szz << ',' << of.mises << ',' << of.energy;
+      ForEachField<SolidStress>([&](const auto& field) { line << ',' << of.*field.member; });
   if (pressures_) {
     for (const ContactPressure& of : increment.pressures) line << ',' << of.pressure << ',' << of.traction;
     for (const double width : increment.widths) line << ',' << width;

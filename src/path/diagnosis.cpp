@@ -15,10 +15,10 @@
 #include "contact_path/path/branch_options.h"
 #include "contact_path/path/sentences.h"
 #include "contact_path/path/stop.h"
-#include "contact_path/scene/elasticity.h"
-#include "contact_path/scene/number_text.h"
 #include "contact_path/scene/program.h"
+#include "contact_path/scene/solid_parts.h"
 #include "contact_path/scene/surface.h"
+#include "contact_path/scene/text.h"
 #include "contact_path/structure/scene_elements.h"
 #include "contact_path/tolerances.h"
 

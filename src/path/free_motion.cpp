@@ -13,7 +13,7 @@
 #include "contact_path/equations/rigid_modes.h"
 #include "contact_path/linear/minimum_norm.h"
 #include "contact_path/scene/boundary_curve.h"
-#include "contact_path/scene/number_text.h"
+#include "contact_path/scene/text.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {

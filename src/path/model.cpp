@@ -1,5 +1,9 @@
 #include "contact_path/path/model.h"
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
 #include "contact_path/contact/scene_contacts.h"
 #include "contact_path/tolerances.h"
 
@@ -15,6 +19,12 @@ std::size_t PositionIndex(const DofMap::Component& position) {
 int PatchOfTouching(const ContactPair& contact, int patch) {
   if (contact.HasPatch(patch)) return patch;
   return contact.HasPatch(patch + 1) ? patch + 1 : patch - 1;
+}
+
+double NumFree(const Model& model, int node) {
+  double free = 0.0;
+  for (const int axis : {0, 1}) free += model.structure.Dof(node, axis) >= 0 ? 1.0 : 0.0;
+  return free + (model.structure.Dofs().Dof(node, Field::kRotation, 0) >= 0 ? 1.0 : 0.0);
 }
 
 }  // namespace
@@ -145,6 +155,21 @@ const PressureProblem& Model::PressuresOfContacts() const {
 
 Residuals Model::Check(const PathPoint& before, const PathPoint& now) const {
   return check.Check(InSceneUnits(before), InSceneUnits(now));
+}
+
+double AutomaticStepGrowth(const Model& model) {
+  // Prescribed components do not count: how many there are depends on the axes.
+  const double all =
+      static_cast<double>(model.structure.NumDofs()) - static_cast<double>(model.structure.PrescribedDofs().size());
+  double counted = all;
+  for (const Beam& beam : model.scene.beams) {
+    double inner = 0.0;
+    for (std::size_t i = 1; i + 1 < beam.nodes.size(); ++i)
+      inner += NumFree(model, static_cast<int>(model.index.Node(beam.nodes[i])));
+    counted -= std::max(0.0, inner - kMostNodeComponents);
+  }
+  if (!(counted > 0.0)) return 1.0;
+  return std::sqrt(all / counted * std::max(1.0, counted / 100.0));
 }
 
 }  // namespace contact_path

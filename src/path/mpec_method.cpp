@@ -8,7 +8,7 @@
 
 #include "contact_path/equations/fixed_state_system.h"
 #include "contact_path/equations/nearest_point.h"
-#include "contact_path/path/automatic_step.h"
+#include "contact_path/path/model.h"
 #include "contact_path/path/sentences.h"
 #include "contact_path/tolerances.h"
 

@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "contact_path/branch/active_set_tolerance.h"
-#include "contact_path/path/automatic_step.h"
 #include "contact_path/path/branch_method.h"
 #include "contact_path/path/diagnosis.h"
 #include "contact_path/path/free_motion.h"
+#include "contact_path/path/model.h"
 #include "contact_path/path/sentences.h"
 #include "contact_path/tolerances.h"
 

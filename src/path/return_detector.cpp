@@ -11,20 +11,12 @@ namespace contact_path {
 namespace {
 
 constexpr double kReach = 2.0;  // of the chord: a point on the increment is no farther from its end
-constexpr std::size_t kMostNumbers = 1000000;
 constexpr std::size_t kMostReferences = 32;
-constexpr std::size_t kFewestReferences = 4;
-
-std::size_t MostReferences(const Model& model) {
-  const std::size_t numbers = 2 * (static_cast<std::size_t>(model.structure.NumDofs()) + model.contacts.size()) + 1;
-  return std::clamp(kMostNumbers / numbers, kFewestReferences, kMostReferences);
-}
 
 }  // namespace
 
 ReturnDetector::ReturnDetector(const Model& model, int every, const LargestReactionSoFar& largest_reaction)
-    : most_references_(MostReferences(model)),
-      spacing_(every),
+    : spacing_(every),
       arc_(model.structure, model.contacts),
       contacts_(model.contacts),
       largest_reaction_(largest_reaction) {}
@@ -34,7 +26,7 @@ void ReturnDetector::Add(int increment, const PathPoint& from, const PathPoint& 
   extent_ = std::max(extent_, Distance(*first_, to));
   const double length = Distance(from, to);
   if (increment % spacing_ != 0 || !(length > 0.0) || to.states != from.states) return;
-  if (references_.size() == most_references_) {
+  if (references_.size() == kMostReferences) {
     spacing_ *= 2;
     const auto between = [&](const Reference& reference) { return reference.increment % spacing_ != 0; };
     references_.erase(std::remove_if(references_.begin(), references_.end(), between), references_.end());

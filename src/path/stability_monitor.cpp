@@ -105,15 +105,16 @@ void StabilityMonitor::Follow(const CurvePoint& at) {
 }
 
 double StabilityMonitor::CriticalStiffness(const Verdicts& of, const CurvePoint* at) const {
-  constexpr double kNone = std::numeric_limits<double>::infinity(), kNotKnown = -1.0;
+  const bool unstable = of.dead.verdict == Verdict::kUnstable;
   if (of.dead.verdict == Verdict::kStable) return 0.0;
-  if (of.dead.verdict != Verdict::kUnstable) return kNotKnown;
-  if (of.controlled.verdict == Verdict::kUnstable) return kNone;
-  if (of.controlled.verdict != Verdict::kStable || of.dead.directions != 1 || at == nullptr) return kNotKnown;
-  const Eigen::Index nd = model_.structure.NumDofs();
-  const double stiffness = -at->first[nd] / model_.structure.ReferenceLoad().dot(at->first.head(nd));
-  if (at->is_limit) return 0.0;
-  return stiffness > 0.0 ? stiffness : kNotKnown;
+  if (unstable && of.controlled.verdict == Verdict::kUnstable) return std::numeric_limits<double>::infinity();
+  if (unstable && of.controlled.verdict == Verdict::kStable && of.dead.directions == 1 && at != nullptr) {
+    if (at->is_limit) return 0.0;
+    const Eigen::Index nd = model_.structure.NumDofs();
+    const double stiffness = -at->first[nd] / model_.structure.ReferenceLoad().dot(at->first.head(nd));
+    if (stiffness > 0.0) return stiffness;
+  }
+  return -1.0;  // not known
 }
 
 void StabilityMonitor::Write(const Verdicts& of, const CurvePoint* at) {

@@ -6,9 +6,9 @@
 #include <limits>
 
 #include "contact_path/scene/change_units.h"
-#include "contact_path/scene/number_text.h"
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/scaling.h"
+#include "contact_path/scene/text.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {

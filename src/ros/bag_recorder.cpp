@@ -19,7 +19,6 @@
 #include <boost/make_shared.hpp>
 
 #include "contact_path/ros/names.h"
-#include "contact_path/ros/stamp.h"
 
 namespace contact_path {
 namespace {
@@ -35,10 +34,9 @@ bool IsLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 
 // The number that a bag's name starts with; 0 for a file of another name.
 std::uint32_t NumberOf(const std::filesystem::path& path) {
-  constexpr std::size_t kMaxDigits = 9;  // fits 32 bits
   const std::string name = path.filename().string();
   const std::size_t digits = std::min(name.find('_'), name.size());
-  const bool numbered = digits > 0 && digits <= kMaxDigits && digits < name.size() &&
+  const bool numbered = digits > 0 && digits <= std::numeric_limits<std::uint32_t>::digits10 && digits < name.size() &&
                         std::all_of(name.begin(), name.begin() + static_cast<std::ptrdiff_t>(digits), IsDigit);
   return numbered && path.extension() == kExtension ? static_cast<std::uint32_t>(std::stoul(name)) : 0;
 }

@@ -6,7 +6,6 @@
 #include "contact_path/ros/bag_recorder.h"
 #include "contact_path/ros/convert.h"
 #include "contact_path/ros/names.h"
-#include "contact_path/ros/stamp.h"
 #include "contact_path/scene/expand.h"
 #include "contact_path/scene/program.h"
 

@@ -1,20 +1,47 @@
 // The ROS node: reads its parameters and serves until it is told to stop. See trace_service.h and trace_action.h.
 #include <csignal>
 #include <cstdlib>
+#include <ctime>
 #include <exception>
 
 #include <ros/ros.h>
 
 #include "contact_path/ros/memory_share.h"
 #include "contact_path/ros/names.h"
-#include "contact_path/ros/shutdown_signal.h"
 #include "contact_path/ros/trace_action.h"
 #include "contact_path/ros/trace_service.h"
-#include "process/one_thread.h"
+#include "process/process.h"
+
+namespace {
+
+// SIGINT and SIGTERM as something to wait for, in place of handlers that interrupt whatever runs. Blocks both in the
+// calling thread and in all that it starts later: construct it before any other thread.
+class ShutdownSignal {
+ public:
+  ShutdownSignal() {
+    sigemptyset(&signals_);
+    sigaddset(&signals_, SIGINT);
+    sigaddset(&signals_, SIGTERM);
+    pthread_sigmask(SIG_BLOCK, &signals_, nullptr);
+  }
+
+  // True as soon as one of the signals is there, false after `seconds` without.
+  bool WaitFor(double seconds) const {
+    timespec timeout{};
+    timeout.tv_sec = static_cast<time_t>(seconds);
+    timeout.tv_nsec = static_cast<long>(1e9 * (seconds - static_cast<double>(timeout.tv_sec)));
+    return sigtimedwait(&signals_, nullptr, &timeout) > 0;
+  }
+
+ private:
+  sigset_t signals_;
+};
+
+}  // namespace
 
 int main(int argc, char** argv) {
   contact_path::UseOneThread(argv);
-  const contact_path::ShutdownSignal shutdown;
+  const ShutdownSignal shutdown;
   std::signal(SIGXFSZ, SIG_IGN);  // a bag beyond a limit on the size of files is an error of writing
   ros::init(argc, argv, contact_path::names::kNode, ros::init_options::NoSigintHandler);
   while (!ros::master::check()) {

@@ -176,6 +176,15 @@ void CopyToMessage(const From& from, To* to) {
   }
 }
 
+constexpr std::pair<double Residuals::*, double msgs::Increment::*> kResiduals[] = {
+    {&Residuals::equilibrium, &msgs::Increment::equilibrium_residual},
+    {&Residuals::penetration, &msgs::Increment::penetration_residual},
+    {&Residuals::tensile_reaction, &msgs::Increment::tensile_reaction_residual},
+    {&Residuals::complementarity, &msgs::Increment::min_form_residual},
+    {&Residuals::cone, &msgs::Increment::cone_residual},
+    {&Residuals::friction_law, &msgs::Increment::friction_law_residual},
+    {&Residuals::support, &msgs::Increment::support_residual}};
+
 template <typename Request>
 msgs::TraceRequest SameRequest(const Request& request) {
   msgs::TraceRequest same;
@@ -244,14 +253,8 @@ msgs::Increment ToMessage(const Increment& increment, int full_state_every) {
     message.widths.clear();
     message.inner = msgs::InnerState();
   }
-  message.equilibrium_residual = increment.residuals.equilibrium;
-  message.penetration_residual = increment.residuals.penetration;
-  message.tensile_reaction_residual = increment.residuals.tensile_reaction;
-  message.min_form_residual = increment.residuals.complementarity;
-  message.cone_residual = increment.residuals.cone;
-  message.friction_law_residual = increment.residuals.friction_law;
+  for (const auto& [of, in] : kResiduals) message.*in = increment.residuals.*of;
   message.complementarity_residual = increment.residuals.Contact();
-  message.support_residual = increment.residuals.support;
   message.solve_time = increment.solve.time;
   return message;
 }
@@ -277,13 +280,7 @@ Increment FromMessage(const msgs::Increment& message) {
     increment.positions.push_back(message.y[i]);
   }
   increment.rotations = message.rotation;
-  increment.residuals.equilibrium = message.equilibrium_residual;
-  increment.residuals.penetration = message.penetration_residual;
-  increment.residuals.tensile_reaction = message.tensile_reaction_residual;
-  increment.residuals.complementarity = message.min_form_residual;
-  increment.residuals.cone = message.cone_residual;
-  increment.residuals.friction_law = message.friction_law_residual;
-  increment.residuals.support = message.support_residual;
+  for (const auto& [of, in] : kResiduals) increment.residuals.*of = message.*in;
   increment.solve.time = message.solve_time;
   return increment;
 }

@@ -1,4 +1,4 @@
-#include "contact_path/ros/limits.h"
+#include "contact_path/ros/node_parameters.h"
 
 #include <algorithm>
 #include <cmath>
@@ -72,10 +72,12 @@ std::string ExceededByList(const std::string& list, const Messages& parts, const
   ForEachFieldPair<Part, Message>([&](const auto& core_field, const auto& field) {
     using Value = typename std::decay_t<decltype(core_field)>::Value;
     if constexpr (std::is_same_v<Value, std::vector<double>> || std::is_same_v<Value, std::vector<std::string>>) {
-      constexpr std::size_t ends =
-          std::is_same_v<Value, std::vector<std::string>> ? 2 : 0;  // of a bar: no more than it
       std::size_t entries = 0;
-      for (const Message& part : parts) entries += std::max((part.*field.member).size(), ends) - ends;
+      for (const Message& part : parts) {
+        const std::size_t size = (part.*field.member).size();
+        // The two nodes of a bar are no more than it.
+        entries += std::is_same_v<Value, std::vector<double>> ? size : size - std::min<std::size_t>(size, 2);
+      }
       if (exceeded.empty())
         exceeded = Exceeded(std::string(field.name) + " entries of " + list, entries,
                             {names::kMaxElements, limits.max_elements});

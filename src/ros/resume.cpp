@@ -35,7 +35,7 @@ bool IsEmpty(const std::vector<T>& values) {
 template <typename Part, typename Message, typename Visit>
 void ForEachMessageField(const Message& message, Visit visit) {
   std::apply([&](const auto&... field) { (visit(std::string(field.name), IsEmpty(message.*field.member)), ...); },
-             Fields<Part>::template Of<Message>());
+             Fields<Message>(Of<Part>()));
 }
 
 // The bag has the request; only the number of increments may be another one.

@@ -11,19 +11,37 @@
 #include "contact_path/linear/blas.h"
 #include "contact_path/path/end.h"
 #include "contact_path/path/mpec_method.h"
+#include "contact_path/path/sentences.h"
 #include "contact_path/ros/bag_reader.h"
+#include "contact_path/ros/bag_recorder.h"
 #include "contact_path/ros/convert.h"
 #include "contact_path/ros/memory_share.h"
 #include "contact_path/ros/names.h"
 #include "contact_path/ros/resume.h"
-#include "contact_path/ros/stamp.h"
 #include "contact_path/scene/expand.h"
-#include "contact_path/scene/one_line.h"
 #include "contact_path/scene/program.h"
+#include "contact_path/scene/text.h"
 #include "contact_path/scene/validate.h"
-#include "ros/service_sentences.h"
 
 namespace contact_path {
+
+// What the node answers, besides the sentences about paths: EndText() puts in names and numbers.
+namespace sentences {
+
+inline constexpr Sentence kShutDown = "the node is being shut down";
+inline constexpr Sentence kBusyTracing = "the node is tracing \"<name>\": call ~cancel or wait for its end";
+inline constexpr Sentence kBusySending =
+    "the node is sending the last increments of \"<name>\": call ~cancel or wait for its end";
+inline constexpr Sentence kCancelling = "cancelling the trace of \"<name>\"";
+inline constexpr Sentence kAnsweredNow = "the caller is answered now; the last increments of \"<name>\" are still sent";
+inline constexpr Sentence kNotRunning = "no trace is running";
+inline constexpr Sentence kDropped = "no trace is running; <value> increments that were still to be sent are dropped";
+inline constexpr Sentence kStoppedReading = "the caller asked for it while the bag to resume was read";
+inline constexpr Sentence kAdmitsMemory = "the node admits <value> MB of memory (~<name>)";
+inline constexpr Sentence kAdmitsTime = "the node admits <digits> s (~<name>)";
+
+}  // namespace sentences
+
 namespace {
 
 using Clock = std::chrono::steady_clock;

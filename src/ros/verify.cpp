@@ -12,7 +12,8 @@
 #include "contact_path/path/path_summary.h"
 #include "contact_path/ros/bag_reader.h"
 #include "contact_path/ros/convert.h"
-#include "contact_path/scene/one_line.h"
+#include "contact_path/scene/text.h"
+#include "contact_path/scene/validate.h"
 #include "contact_path/verify/verify_end.h"
 #include "contact_path/verify/verify_path.h"
 
@@ -21,9 +22,7 @@ namespace {
 
 void PrintResiduals(const char* name, int increments, const Residuals& residuals) {
   std::cout << std::left << std::setw(22) << name << std::right << std::setw(7) << increments;
-  for (const double residual : {residuals.equilibrium, residuals.penetration, residuals.tensile_reaction,
-                                residuals.complementarity, residuals.cone, residuals.friction_law, residuals.support})
-    std::cout << std::setw(13) << residual;
+  for (double Residuals::*const residual : Residuals::kAll) std::cout << std::setw(13) << residuals.*residual;
   std::cout << '\n';
 }
 
@@ -32,10 +31,11 @@ void PrintTable(const RecordedTrace& trace, const Verification& verification) {
             << verification.increments << " increments:";
   for (const auto& [kind, count] : verification.kinds) std::cout << ' ' << count << ' ' << ToString(kind);
   std::cout << "\n\nlargest residuals, computed anew\n"
-            << std::left << std::setw(22) << "" << std::right << std::setw(7) << "increments" << std::setw(13)
-            << "equilibrium" << std::setw(13) << "penetration" << std::setw(13) << "tensile" << std::setw(13)
-            << "min form" << std::setw(13) << "cone" << std::setw(13) << "friction law" << std::setw(13) << "supports"
-            << '\n';
+            << std::left << std::setw(22) << "" << std::right << std::setw(7) << "increments";
+  for (const char* const name :
+       {"equilibrium", "penetration", "tensile", "min form", "cone", "friction law", "supports"})
+    std::cout << std::setw(13) << name;
+  std::cout << '\n';
   PrintResiduals("exact increments", verification.exact_increments, verification.exact);
   const int regularised = verification.full_increments - verification.exact_increments;
   if (regularised > 0) PrintResiduals("regularised increments", regularised, verification.regularised);
@@ -81,7 +81,7 @@ bool Verify(const RecordedTrace& trace) {
   PrintTable(trace, verification);
   for (const Finding& finding : verification.findings)
     std::cout << "increment " << finding.increment << ": " << finding.what << '\n';
-  if (verification.findings.size() == static_cast<std::size_t>(kMostFindings)) std::cout << "...\n";
+  if (verification.findings.size() == kMostLines) std::cout << "...\n";
   const std::string lacks = Lacks(trace);
   if (!lacks.empty()) std::cout << lacks << '\n';
   const bool proved = verification.findings.empty() && lacks.empty();

@@ -1,4 +1,4 @@
-#include "scene/boundary_rules.h"
+#include "scene/contact_rules.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "contact_path/geometry/polygon.h"
+#include "contact_path/geometry/plane.h"
 #include "contact_path/scene/cell.h"
 
 namespace contact_path {
@@ -18,27 +18,21 @@ const KeyPath kSurfaces = kScene.Key("surfaces");
 
 bool CanMove(const Node& node) { return !node.fixed_x || !node.fixed_y; }
 
-struct Vector {
-  double x = 0.0, y = 0.0;
-};
-
-Vector Between(const Node& a, const Node& b) { return {b.x - a.x, b.y - a.y}; }
-double Dot(const Vector& a, const Vector& b) { return a.x * b.x + a.y * b.y; }
-double Cross(const Vector& a, const Vector& b) { return a.x * b.y - a.y * b.x; }
+Eigen::Vector2d Between(const Node& a, const Node& b) { return {b.x - a.x, b.y - a.y}; }
 
 // Whether the edge `after` leads straight back along the edge `before`.
-bool LeadsBack(const Vector& before, const Vector& after) {
-  return std::abs(std::atan2(Cross(before, after), -Dot(before, after))) <= kStraightBack;
+bool LeadsBack(const Eigen::Vector2d& before, const Eigen::Vector2d& after) {
+  return std::abs(std::atan2(Cross(before, after), -before.dot(after))) <= kStraightBack;
 }
 
 // The smallest radius of curvature of the spline between the middles of two edges, where it bends to the left; infinite
 // where it does not. There y' goes straight from one edge to the other, and y' x y'' is their product.
-double RadiusToTheLeft(const Vector& before, const Vector& after) {
+double RadiusToTheLeft(const Eigen::Vector2d& before, const Eigen::Vector2d& after) {
   const double product = Cross(before, after);
   if (!(product > 0.0)) return std::numeric_limits<double>::infinity();
-  const Vector change = {after.x - before.x, after.y - before.y};
-  const double share = std::clamp(-Dot(before, change) / Dot(change, change), 0.0, 1.0);
-  return std::pow(std::hypot(before.x + share * change.x, before.y + share * change.y), 3) / product;
+  const Eigen::Vector2d change = after - before,
+                        nearest = before + std::clamp(-before.dot(change) / change.squaredNorm(), 0.0, 1.0) * change;
+  return std::pow(std::hypot(nearest.x(), nearest.y()), 3) / product;
 }
 
 }  // namespace
@@ -97,8 +91,8 @@ bool BoundaryRules::CheckEdges(const KeyPath& path, const BoundarySurface& surfa
   for (std::size_t i = 0; i < (surface.closed ? count : count - 1); ++i) {
     const std::string &from = surface.nodes[i], &to = surface.nodes[(i + 1) % count];
     std::string fault = FaultOf({from, to});
-    const Vector edge = Between(*checker_.KnownNode(from), *checker_.KnownNode(to));
-    if (fault.empty() && std::hypot(edge.x, edge.y) < kSmallestInput)
+    const Eigen::Vector2d edge = Between(*checker_.KnownNode(from), *checker_.KnownNode(to));
+    if (fault.empty() && std::hypot(edge.x(), edge.y()) < kSmallestInput)
       fault = "must not be at the same point as the next node, " + to;
     if (fault.empty()) continue;
     sound = false;
@@ -113,7 +107,7 @@ bool BoundaryRules::CheckBends(const KeyPath& path, const BoundarySurface& surfa
   const auto node = [&](std::size_t i) -> const Node& { return *checker_.KnownNode(surface.nodes[i % count]); };
   double smallest = std::numeric_limits<double>::infinity();
   for (std::size_t i = surface.closed ? 0 : 1; i < (surface.closed ? count : count - 1); ++i) {
-    const Vector before = Between(node(i + count - 1), node(i)), after = Between(node(i), node(i + 1));
+    const Eigen::Vector2d before = Between(node(i + count - 1), node(i)), after = Between(node(i), node(i + 1));
     if (LeadsBack(before, after)) {
       checker_.Add(nodes[i], node(i).name, "the surface must not lead straight back here");
       return false;

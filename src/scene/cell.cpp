@@ -7,17 +7,15 @@
 namespace contact_path {
 namespace {
 
-using Gradients = std::array<std::array<double, 2>, kMostCellNodes>;
-
 // Corners of the square, counterclockwise.
 constexpr double kCorners[4][2] = {{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}};
 
-constexpr Gradients kLinearTriangle = {{{-1.0, -1.0}, {1.0, 0.0}, {0.0, 1.0}}};
+constexpr CellGradients kLinearTriangle = {{{-1.0, -1.0}, {1.0, 0.0}, {0.0, 1.0}}};
 
 // N = L (2 L - 1) at a corner with the area coordinate L, 4 L M between two corners.
-Gradients QuadraticTriangle(double xi, double eta) {
+CellGradients QuadraticTriangle(double xi, double eta) {
   const std::array<double, 3> area = {1.0 - xi - eta, xi, eta};
-  Gradients gradients{};
+  CellGradients gradients{};
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t next = (i + 1) % 3;
     for (std::size_t k = 0; k < 2; ++k) {
@@ -29,8 +27,8 @@ Gradients QuadraticTriangle(double xi, double eta) {
 }
 
 // N = (1 + a xi) (1 + b eta) / 4 at the corner (a, b).
-Gradients BilinearSquare(double xi, double eta) {
-  Gradients gradients{};
+CellGradients BilinearSquare(double xi, double eta) {
+  CellGradients gradients{};
   for (std::size_t i = 0; i < 4; ++i) {
     const double a = kCorners[i][0], b = kCorners[i][1];
     gradients[i] = {0.25 * a * (1.0 + b * eta), 0.25 * b * (1.0 + a * xi)};
@@ -40,8 +38,8 @@ Gradients BilinearSquare(double xi, double eta) {
 
 // N = (1 + a xi) (1 + b eta) (a xi + b eta - 1) / 4 at the corner (a, b), (1 - xi^2) (1 + b eta) / 2 and
 // (1 + a xi) (1 - eta^2) / 2 between two corners.
-Gradients SerendipitySquare(double xi, double eta) {
-  Gradients gradients{};
+CellGradients SerendipitySquare(double xi, double eta) {
+  CellGradients gradients{};
   for (std::size_t i = 0; i < 4; ++i) {
     const double a = kCorners[i][0], b = kCorners[i][1];
     gradients[i] = {0.25 * a * (1.0 + b * eta) * (2.0 * a * xi + b * eta),
@@ -54,14 +52,15 @@ Gradients SerendipitySquare(double xi, double eta) {
   return gradients;
 }
 
-std::vector<CellPoint> TrianglePoints(Gradients (*gradients_at)(double, double)) {
-  constexpr double kPoints[3][2] = {{1.0 / 6.0, 1.0 / 6.0}, {2.0 / 3.0, 1.0 / 6.0}, {1.0 / 6.0, 2.0 / 3.0}};
+std::vector<CellPoint> TrianglePoints(CellGradients (*gradients_at)(double, double)) {
   std::vector<CellPoint> points;
-  for (const auto& [xi, eta] : kPoints) points.push_back({1.0 / 6.0, gradients_at(xi, eta)});
+  for (const auto& [xi, eta] :
+       {std::pair(1.0 / 6.0, 1.0 / 6.0), std::pair(2.0 / 3.0, 1.0 / 6.0), std::pair(1.0 / 6.0, 2.0 / 3.0)})
+    points.push_back({1.0 / 6.0, gradients_at(xi, eta)});
   return points;
 }
 
-std::vector<CellPoint> SquarePoints(Gradients (*gradients_at)(double, double)) {
+std::vector<CellPoint> SquarePoints(CellGradients (*gradients_at)(double, double)) {
   const double at = 1.0 / std::sqrt(3.0);
   std::vector<CellPoint> points;
   for (const auto& [a, b] : kCorners) points.push_back({1.0, gradients_at(at * a, at * b)});

@@ -6,7 +6,7 @@
 
 #include "contact_path/scene/nearest_name.h"
 #include "contact_path/scene/quantity.h"
-#include "contact_path/scene/utf8.h"
+#include "contact_path/scene/text.h"
 
 namespace contact_path {
 namespace {
@@ -79,26 +79,18 @@ void Checker::CheckNumber(const KeyPath& key, double value, Range range) {
 
 void Checker::CheckText(const KeyPath& key, const std::string& text, TextKind kind,
                         std::unordered_set<std::string>* earlier) {
+  const auto name_one = [&](std::optional<std::size_t> place, const std::string& what, const auto& parts) {
+    if (place) return;
+    NearestName nearest(text);
+    for (const auto& part : parts) nearest.Offer(part.name);
+    Add(key, TextOrQuotes(text), "must name " + what + " of the scene" + nearest.Question());
+  };
   switch (kind) {
     case TextKind::kAny: CheckUtf8(key, text); break;
-    case TextKind::kNewName: CheckName(key, text, *earlier); break;
-    case TextKind::kNode:
-      if (!index_.FindNode(text))
-        Add(key, TextOrQuotes(text),
-            "must name a node of the scene" + NearestOf(text, request_.scene.nodes, &Node::name).Question());
-      break;
-    case TextKind::kMaterial:
-      if (!index_.FindMaterial(text))
-        Add(key, TextOrQuotes(text),
-            "must name a material of the scene" +
-                NearestOf(text, request_.scene.materials, &Material::name).Question());
-      break;
-    case TextKind::kObstacle:
-      if (!index_.FindObstacle(text))
-        Add(key, TextOrQuotes(text),
-            "must name an obstacle of the scene" +
-                NearestOf(text, request_.scene.obstacles, &Obstacle::name).Question());
-      break;
+    case TextKind::kNewName: CheckName(key, text, earlier); break;
+    case TextKind::kNode: name_one(index_.FindNode(text), "a node", request_.scene.nodes); break;
+    case TextKind::kMaterial: name_one(index_.FindMaterial(text), "a material", request_.scene.materials); break;
+    case TextKind::kObstacle: name_one(index_.FindObstacle(text), "an obstacle", request_.scene.obstacles); break;
     case TextKind::kQuantity: CheckQuantity(key, text); break;
   }
 }
@@ -109,15 +101,14 @@ bool Checker::CheckUtf8(const KeyPath& key, const std::string& name) {
   return false;
 }
 
-// `earlier` holds the names before this one.
-void Checker::CheckName(const KeyPath& key, const std::string& name, std::unordered_set<std::string>& earlier) {
+void Checker::CheckName(const KeyPath& key, const std::string& name, std::unordered_set<std::string>* earlier) {
   if (name.empty()) {
     Add(key, TextOrQuotes(name), "must not be empty");
   } else if (!CheckUtf8(key, name)) {
     return;
   } else if (!std::all_of(name.begin(), name.end(), IsAllowedInName)) {
     Add(key, name, "must not contain white space, control characters or any of @ , \" . /");
-  } else if (!earlier.insert(name).second) {
+  } else if (!earlier->insert(name).second) {
     Add(key, name, "must be unique, but an earlier one has the same name");
   }
 }

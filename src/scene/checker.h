@@ -13,9 +13,9 @@
 #include "contact_path/scene/expand.h"
 #include "contact_path/scene/field.h"
 #include "contact_path/scene/key_path.h"
-#include "contact_path/scene/number_text.h"
 #include "contact_path/scene/scene.h"
 #include "contact_path/scene/scene_index.h"
+#include "contact_path/scene/text.h"
 #include "contact_path/scene/validate.h"
 #include "scene/input_bounds.h"
 
@@ -107,10 +107,8 @@ class Checker {
     });
   }
 
-  // A name that is given or made up.
-  void CheckNewName(const KeyPath& key, const std::string& name, std::unordered_set<std::string>* earlier) {
-    CheckName(key, name, *earlier);
-  }
+  // A name that is given or made up. earlier: the names before it.
+  void CheckName(const KeyPath& key, const std::string& name, std::unordered_set<std::string>* earlier);
 
   // Clients in Python could not read another text. False after adding a violation.
   bool CheckUtf8(const KeyPath& key, const std::string& name);
@@ -126,7 +124,6 @@ class Checker {
   }
   void CheckNumber(const KeyPath& key, double value, Range range);
   void CheckText(const KeyPath& key, const std::string& text, TextKind kind, std::unordered_set<std::string>* earlier);
-  void CheckName(const KeyPath& key, const std::string& name, std::unordered_set<std::string>& earlier);
   void CheckQuantity(const KeyPath& key, const std::string& text);
 
   const TraceRequest& request_;

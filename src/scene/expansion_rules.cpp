@@ -1,4 +1,3 @@
-#include "scene/expansion_rules.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +7,7 @@
 #include <utility>
 
 #include "contact_path/scene/nearest_name.h"
-#include "scene/structure_rules.h"
+#include "scene/rules.h"
 
 namespace contact_path {
 namespace {
@@ -31,7 +30,7 @@ class BeamRules {
     Beam beam = scene_.beams[place];
     beam.name = BeamName(beam, place);
     checker_.CheckFields(path, beam);
-    checker_.CheckNewName(path.Key("name"), beam.name, earlier);
+    checker_.CheckName(path.Key("name"), beam.name, earlier);
     CheckTwoNodes(&checker_, path.Key("nodes"), beam.nodes);
     if (beam.segments > kMostSegments)
       checker_.Add(path.Key("segments"), std::to_string(beam.segments),

@@ -18,7 +18,7 @@
 
 #include "contact_path/scene/cell.h"
 #include "contact_path/scene/change_units.h"
-#include "contact_path/scene/elasticity.h"
+#include "contact_path/scene/solid_parts.h"
 #include "contact_path/scene/surface.h"
 #include "contact_path/tolerances.h"
 
@@ -28,7 +28,6 @@ namespace {
 // In L: where the nearest contact that does not touch is farther, a length that is made of forces only is no measure of
 // the scene.
 constexpr double kFarthestContact = 1e4;
-constexpr double kNoBeam = 1.0;  // a length for moments and rotations where there are none
 
 // Sum in the order of size, so that it does not depend on the order of the terms, not even by rounding.
 double OrderedSum(std::vector<double> terms) {
@@ -173,8 +172,8 @@ std::unordered_map<std::size_t, NodeLoad> LoadsByNode(const Scene& scene, const 
 }
 
 // Euclidean norm of the constant loads, or of those that the load factor scales, summed by node, over the free
-// components [force]. Moments count by the force that they are at `length`.
-double LoadNorm(const Scene& scene, const SceneIndex& index, bool constant, double length) {
+// components [force]. Moments count by the force that they are at `length`, without beams there are none.
+double LoadNorm(const Scene& scene, const SceneIndex& index, bool constant, double length = 1.0) {
   std::vector<double> squares;
   for (const auto& [node, terms] : LoadsByNode(scene, index, constant)) {
     if (!scene.nodes[node].fixed_x) squares.push_back(std::pow(OrderedSum(terms.x), 2));
@@ -186,7 +185,7 @@ double LoadNorm(const Scene& scene, const SceneIndex& index, bool constant, doub
 }
 
 // Euclidean norm of all prescribed motions [length]. Rotations count by the motion that they are at `length`.
-double MotionNorm(const Scene& scene, double length) {
+double MotionNorm(const Scene& scene, double length = 1.0) {
   std::vector<double> squares;
   for (const SupportMotion& motion : scene.support_motions)
     for (const double part : {motion.dx, motion.dy, motion.rotation * length}) squares.push_back(part * part);
@@ -257,7 +256,7 @@ double MotionByLoads(const Scene& scene, const SceneIndex& index, double force_n
     }
     if (force.isZero(0.0)) continue;
     if (factors.info() != Eigen::Success) return std::numeric_limits<double>::infinity();
-    if (!constant) force *= force_norm / LoadNorm(scene, index, false, kNoBeam);
+    if (!constant) force *= force_norm / LoadNorm(scene, index, false);
     const Eigen::VectorXd motion = factors.solve(force);
     const auto along = [&](int at) { return at < 0 ? 0.0 : motion[at]; };
     for (std::size_t node = 0; node < scene.nodes.size(); ++node) {
@@ -307,10 +306,9 @@ Scaling CharacteristicScales(const Scene& scene, const SceneIndex& index) {
   if (HasForceScale(scene)) {
     scaling = ScalesOfElements(scene, index);
   } else {
-    const double reference_load = LoadNorm(scene, index, false, kNoBeam), stiffness = MeanStiffness(scene);
-    scaling.force =
-        std::max({reference_load, stiffness * MotionNorm(scene, kNoBeam), LoadNorm(scene, index, true, kNoBeam),
-                  stiffness * NearestGap(scene, index) / kFarthestContact});
+    const double reference_load = LoadNorm(scene, index, false), stiffness = MeanStiffness(scene);
+    scaling.force = std::max({reference_load, stiffness * MotionNorm(scene), LoadNorm(scene, index, true),
+                              stiffness * NearestGap(scene, index) / kFarthestContact});
     scaling.length = scaling.force / stiffness;
     // Soft parts beside stiff ones move farther, though no farther than the scene is large. A power of 2 does not
     // depend on the rounding of the motion, as by the order of the nodes; next to a round number none begins.

@@ -1,4 +1,4 @@
-#include "scene/solid_rules.h"
+#include "scene/rules.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "contact_path/scene/cell.h"
-#include "contact_path/scene/elasticity.h"
+#include "contact_path/scene/solid_parts.h"
 
 namespace contact_path {
 namespace {

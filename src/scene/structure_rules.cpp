@@ -1,9 +1,8 @@
-#include "scene/structure_rules.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "scene/solid_rules.h"
+#include "scene/rules.h"
 
 namespace contact_path {
 namespace {
@@ -74,19 +73,16 @@ class StructureRules {
   void CheckElement(const KeyPath& path, const Part& element) {
     const bool sound = checker_.CheckFields(path, element);
     const KeyPath nodes = path.Key("nodes");
-    if constexpr (Fields<Part>::kNodes == 2) {
+    if constexpr (std::is_same_v<Part, Bar>) {
       CheckTwoNodes(&checker_, nodes, element.nodes);
     } else if constexpr (!std::is_same_v<Part, Solid>) {  // of a mesh, each element has nodes of its own
-      CheckNodeList(nodes, element.nodes, Fields<Part>::kNodes);
+      CheckNodeList(nodes, element.nodes);
     }
     CheckOwnRules(path, element, sound);
   }
 
-  // count: 0 = at least one.
-  void CheckNodeList(const KeyPath& key, const std::vector<std::string>& nodes, std::size_t count) {
-    if (count == 0 && nodes.empty()) checker_.Add(key, "[]", "at least one node is needed");
-    if (count > 0 && nodes.size() != count)
-      checker_.Add(key, ListText(nodes), "must name " + std::to_string(count) + " nodes");
+  void CheckNodeList(const KeyPath& key, const std::vector<std::string>& nodes) {
+    if (nodes.empty()) checker_.Add(key, "[]", "at least one node is needed");
     std::unordered_set<std::string> earlier;
     for (std::size_t i = 0; i < nodes.size(); ++i)
       if (!earlier.insert(nodes[i]).second && checker_.KnownNode(nodes[i]) != nullptr)

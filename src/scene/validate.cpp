@@ -6,13 +6,12 @@
 #include <utility>
 
 #include "contact_path/scene/expand.h"
-#include "contact_path/scene/one_line.h"
 #include "contact_path/scene/program.h"
+#include "contact_path/scene/text.h"
 #include "scene/checker.h"
 #include "scene/contact_rules.h"
-#include "scene/expansion_rules.h"
 #include "scene/loading_rules.h"
-#include "scene/structure_rules.h"
+#include "scene/rules.h"
 
 namespace contact_path {
 namespace {
@@ -131,7 +130,7 @@ bool Follows(const Violation& violation, const Violation& cause) {
 
 std::string LinesOf(const std::vector<Violation>& violations) {
   if (violations.empty()) return "invalid request";
-  const std::size_t listed = violations.size() <= kMostViolationLines ? violations.size() : kMostViolationLines - 1;
+  const std::size_t listed = violations.size() <= kMostLines ? violations.size() : kMostLines - 1;
   std::string lines;
   for (std::size_t i = 0; i < listed; ++i) lines += (i > 0 ? "\n" : "") + violations[i].ToLine();
   if (listed < violations.size()) lines += "\n... and " + std::to_string(violations.size() - listed) + " more";

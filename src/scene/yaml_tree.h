@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-#include "contact_path/scene/utf8.h"
+#include "contact_path/scene/text.h"
 #include "contact_path/scene/validate.h"
 
 namespace contact_path {

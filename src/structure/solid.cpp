@@ -13,7 +13,7 @@ namespace {
 
 using Gradient = PlaneMaterial::Gradient;
 
-template <int kNodes>
+template <int kNodes, std::size_t kPoints>
 class SolidOf : public SolidElement {
  public:
   SolidOf(const PlaneMaterial& material, double thickness, const std::vector<double>& positions) : material_(material) {
@@ -93,10 +93,8 @@ class SolidOf : public SolidElement {
   }
 
  private:
-  static constexpr std::size_t kPoints = kNodes == 3 ? 1 : kNodes == 6 ? 3 : 4;
-  static constexpr int kSize = 2 * kNodes;
-  using Values = Eigen::Matrix<double, kSize, 1>;
-  using Square = Eigen::Matrix<double, kSize, kSize>;
+  using Values = Eigen::Matrix<double, 2 * kNodes, 1>;
+  using Square = Eigen::Matrix<double, 2 * kNodes, 2 * kNodes>;
 
   // An integration point.
   struct Point {
@@ -109,8 +107,8 @@ class SolidOf : public SolidElement {
       return F;
     }
     // dF/dx.
-    Eigen::Matrix<double, 4, kSize> Derivatives() const {
-      Eigen::Matrix<double, 4, kSize> derivatives = Eigen::Matrix<double, 4, kSize>::Zero();
+    Eigen::Matrix<double, 4, 2 * kNodes> Derivatives() const {
+      Eigen::Matrix<double, 4, 2 * kNodes> derivatives = Eigen::Matrix<double, 4, 2 * kNodes>::Zero();
       for (int i = 0; i < kNodes; ++i)
         for (int k = 0; k < 2; ++k) derivatives.template block<2, 1>(2 * k, 2 * i + k) = gradients.col(i);
       return derivatives;
@@ -143,10 +141,10 @@ class SolidOf : public SolidElement {
 std::unique_ptr<const SolidElement> MakeSolidElement(const PlaneMaterial& material, double thickness,
                                                      const std::vector<double>& positions) {
   switch (positions.size() / 2) {
-    case 3: return std::make_unique<SolidOf<3>>(material, thickness, positions);
-    case 4: return std::make_unique<SolidOf<4>>(material, thickness, positions);
-    case 6: return std::make_unique<SolidOf<6>>(material, thickness, positions);
-    default: return std::make_unique<SolidOf<8>>(material, thickness, positions);
+    case 3: return std::make_unique<SolidOf<3, 1>>(material, thickness, positions);
+    case 4: return std::make_unique<SolidOf<4, 4>>(material, thickness, positions);
+    case 6: return std::make_unique<SolidOf<6, 3>>(material, thickness, positions);
+    default: return std::make_unique<SolidOf<8, 4>>(material, thickness, positions);
   }
 }
 

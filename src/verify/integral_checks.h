@@ -11,7 +11,6 @@
 #include "contact_path/check/residuals.h"
 #include "contact_path/path/increment.h"
 #include "contact_path/verify/verify_path.h"
-#include "verify/findings.h"
 #include "verify/verified_stage.h"
 
 namespace contact_path {

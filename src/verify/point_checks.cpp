@@ -5,7 +5,11 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <string_view>
+#include <type_traits>
 #include <vector>
+
+#include "contact_path/scene/field.h"
 
 namespace contact_path {
 namespace {
@@ -26,10 +30,7 @@ const char* NameOf(ContactState state) {
 }
 
 void Keep(const Residuals& residuals, Residuals* largest) {
-  for (double Residuals::*const field :
-       {&Residuals::equilibrium, &Residuals::penetration, &Residuals::tensile_reaction, &Residuals::complementarity,
-        &Residuals::cone, &Residuals::friction_law, &Residuals::support})
-    largest->*field = std::max(largest->*field, residuals.*field);
+  for (double Residuals::*const field : Residuals::kAll) largest->*field = std::max(largest->*field, residuals.*field);
 }
 
 }  // namespace
@@ -151,45 +152,34 @@ void PointChecks::CheckForces(const Increment& increment) {
   bool found = false;  // one finding tells enough
   // part: what the number is of. off: of the unit, what rounding may leave. The normal of a sharp corner is known less
   // well than the place of the node.
-  const auto same = [&](const char* name, const char* part, std::size_t i, double is, double be, double unit,
+  const auto same = [&](std::string_view name, const char* part, std::size_t i, double is, double be, double unit,
                         double off) {
     if (found || std::abs(is - be) / unit <= kExact * (1.0 + std::abs(be) / unit) + off) return;
     found = true;
     findings_.Report(name, " of ", part, " ", i + 1, " is recorded as ", is, ", but is ", be);
   };
-  const auto same_forces = [&](const char* part, const std::vector<Resultant>& recorded,
-                               const std::vector<std::array<double, 3>>& forces) {
-    for (std::size_t i = 0; i < forces.size(); ++i) {
-      same("rx", part, i, recorded[i].rx, forces[i][0], force, rounding);
-      same("ry", part, i, recorded[i].ry, forces[i][1], force, rounding);
-      same("rm", part, i, recorded[i].rm, forces[i][2], force * length, rounding);
-    }
+  // All fields of a record; those from the place `moments` on are moments or energies.
+  const auto same_record = [&](const char* part, std::size_t i, const auto& is, const auto& be, std::size_t moments,
+                               double unit, double off) {
+    std::size_t k = 0;
+    ForEachField<std::decay_t<decltype(is)>>([&](const auto& field) {
+      const bool is_moment = k >= moments;
+      same(field.name, part, i, is.*field.member, be[k++], is_moment ? force * length : unit,
+           is_moment ? rounding : off);
+    });
   };
   const CheckedForces forces = stage_.check.Forces(state);
-  same_forces("support", increment.supports, forces.supports);
-  same_forces("boundary", increment.boundaries, forces.boundaries);
+  for (std::size_t i = 0; i < forces.supports.size(); ++i)
+    same_record("support", i, increment.supports[i], forces.supports[i], 2, force, rounding);
+  for (std::size_t i = 0; i < forces.boundaries.size(); ++i)
+    same_record("boundary", i, increment.boundaries[i], forces.boundaries[i], 2, force, rounding);
   if (increment.sections.empty() && increment.stresses.empty() && increment.pressures.empty()) return;
   const CheckedAnswers anew = stage_.check.Answers(state);
-  for (std::size_t i = 0; i < increment.sections.size(); ++i) {
-    const SectionForces& of = increment.sections[i];
-    const auto& [N, Q, M, M1, M2] = anew.sections[i];
-    same("N", "section", i, of.N, N, force, rounding);
-    same("Q", "section", i, of.Q, Q, force, rounding);
-    same("M", "section", i, of.M, M, force * length, rounding);
-    same("M1", "section", i, of.M1, M1, force * length, rounding);
-    same("M2", "section", i, of.M2, M2, force * length, rounding);
-  }
-  for (std::size_t i = 0; i < increment.stresses.size(); ++i) {
-    const SolidStress& of = increment.stresses[i];
-    const auto& [sxx, syy, sxy, szz, mises, energy] = anew.stresses[i];
-    const double off = anew.stress_per_motion[i] * kRoundingOfParts * length / stress;
-    same("sxx", "element", i, of.sxx, sxx, stress, off);
-    same("syy", "element", i, of.syy, syy, stress, off);
-    same("sxy", "element", i, of.sxy, sxy, stress, off);
-    same("szz", "element", i, of.szz, szz, stress, off);
-    same("mises", "element", i, of.mises, mises, stress, off);
-    same("energy", "element", i, of.energy, energy, force * length, rounding);
-  }
+  for (std::size_t i = 0; i < increment.sections.size(); ++i)
+    same_record("section", i, increment.sections[i], anew.sections[i], 2, force, rounding);
+  for (std::size_t i = 0; i < increment.stresses.size(); ++i)
+    same_record("element", i, increment.stresses[i], anew.stresses[i], 5, stress,
+                anew.stress_per_motion[i] * kRoundingOfParts * length / stress);
   std::vector<double> widths(increment.widths.size());
   for (std::size_t i = 0; i < increment.pressures.size(); ++i) {
     const ContactPressure& of = increment.pressures[i];

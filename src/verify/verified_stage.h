@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,8 @@
 #include "contact_path/scene/scaling.h"
 #include "contact_path/scene/scene.h"
 #include "contact_path/scene/scene_index.h"
+#include "contact_path/scene/validate.h"
+#include "contact_path/verify/verify_path.h"
 
 namespace contact_path {
 
@@ -87,6 +90,33 @@ std::vector<double> ScaledMotion(const State& from, const State& to, const Scali
 inline double Product(const std::vector<double>& a, const std::vector<double>& b) {
   return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
 }
+
+class Findings {
+ public:
+  // Appends to *list, up to kMostLines (scene/validate.h).
+  explicit Findings(std::vector<Finding>* list) : list_(*list) {}
+
+  // The increment that the next findings are of.
+  void SetIncrement(std::size_t increment) { increment_ = increment; }
+
+  template <typename... Parts>
+  void Report(const Parts&... parts) {
+    if (list_.size() >= kMostLines) return;
+    std::ostringstream text;
+    text.precision(6);
+    (text << ... << parts);
+    list_.push_back({static_cast<int>(increment_), text.str()});
+  }
+
+  // Of a value that should be zero, or less.
+  void Bound(const std::string& what, double value, double tolerance) {
+    if (!(value <= tolerance)) Report(what, ": ", value, " > ", tolerance);
+  }
+
+ private:
+  std::vector<Finding>& list_;
+  std::size_t increment_ = 0;
+};
 
 }  // namespace contact_path
 

@@ -1,4 +1,4 @@
-#include "contact_path/verify/verify_events.h"
+#include "contact_path/verify/verify_path.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,6 @@
 
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/scaling.h"
-#include "verify/findings.h"
 #include "verify/verified_stage.h"
 
 namespace contact_path {

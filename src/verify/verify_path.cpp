@@ -7,8 +7,6 @@
 #include "contact_path/path/increment_lists.h"
 #include "contact_path/scene/expand.h"
 #include "contact_path/scene/program.h"
-#include "contact_path/verify/verify_events.h"
-#include "verify/findings.h"
 #include "verify/integral_checks.h"
 #include "verify/point_checks.h"
 #include "verify/stability_checks.h"

@@ -33,46 +33,6 @@ class OneNode : public testing::Test {
   ContactPairs contacts_;
 };
 
-TEST_F(OneNode, FloorHasItsTangentAlongX) {
-  const ContactPair& contact = Against(0.0, 3.0);
-  const Eigen::VectorXd u = Eigen::Vector2d(0.3, 2.25);
-  EXPECT_NEAR(contact.Gap(u, 0.0, 0), 0.25, kRounding);
-  EXPECT_EQ(GapRate(contact, kAnywhere, 0.0, Eigen::Vector2d(7.0, 2.0), 0.0), 2.0);
-  EXPECT_EQ(contact.Xi(u, 0.0, 0), 0.3);
-  EXPECT_EQ(contact.SlipRate(kAnywhere, 0.0, 0, Eigen::Vector2d(7.0, 2.0), 0.0), 7.0);
-}
-
-TEST_F(OneNode, CeilingHasItsTangentAgainstX) {
-  const ContactPair& contact = Against(0.0, -1.0);
-  const Eigen::VectorXd u = Eigen::Vector2d(0.3, 2.25);
-  EXPECT_NEAR(contact.Gap(u, 0.0, 0), -0.25, kRounding);
-  EXPECT_EQ(contact.SlipRate(kAnywhere, 0.0, 0, Eigen::Vector2d(7.0, 2.0), 0.0), -7.0);
-}
-
-TEST_F(OneNode, WallHasItsTangentDownwards) {
-  const ContactPair& contact = Against(1.0, 0.0);
-  EXPECT_NEAR(contact.Gap(Eigen::Vector2d(1.5, 9.0), 0.0, 0), 0.5, kRounding);
-  EXPECT_EQ(contact.SlipRate(kAnywhere, 0.0, 0, Eigen::Vector2d(7.0, 2.0), 0.0), -2.0);
-}
-
-TEST_F(OneNode, NormalOfAnyLengthGivesLengths) {
-  const ContactPair& contact = Against(30.0, 40.0);  // n = (0.6, 0.8), t = (0.8, -0.6)
-  const Eigen::VectorXd u = Eigen::Vector2d(1.0 + 0.6 * 2.0 + 0.8 * 3.0, 2.0 + 0.8 * 2.0 - 0.6 * 3.0);
-  EXPECT_NEAR(contact.Gap(u, 0.0, 0), 2.0, 4.0 * kRounding);
-  EXPECT_NEAR(contact.SlipRate(kAnywhere, 0.0, 0, Eigen::Vector2d(0.8, -0.6), 0.0), 1.0, kRounding);
-  EXPECT_NEAR(contact.SlipRate(kAnywhere, 0.0, 0, Eigen::Vector2d(0.6, 0.8), 0.0), 0.0, kRounding);
-}
-
-TEST_F(OneNode, FixedComponentsAreInTheOffset) {
-  fixed_x_ = true;
-  const ContactPair& contact = Against(0.6, 0.8);
-  const Eigen::VectorXd u = Eigen::VectorXd::Constant(1, 4.0);
-  EXPECT_NEAR(contact.Gap(u, 0.0, 0), 0.6 * (0.3 - 1.0) + 0.8 * (4.0 - 2.0), 4.0 * kRounding);
-  EXPECT_NEAR(contact.Xi(u, 0.0, 0), 0.8 * 0.3 - 0.6 * 4.0, 4.0 * kRounding);
-  EXPECT_EQ(contact.Friction(), 0.5);
-  EXPECT_TRUE(contact.Frictional());
-}
-
 TEST_F(OneNode, FrictionNeedsRoomToSlide) {
   fixed_x_ = true;
   EXPECT_FALSE(Against(0.0, 1.0).Frictional());
@@ -91,17 +51,6 @@ TEST(SceneContacts, FollowTheOrderOfTheScene) {
   ASSERT_EQ(contacts.size(), friction.size());
   for (std::size_t i = 0; i < contacts.size(); ++i) EXPECT_EQ(contacts[i]->Friction(), friction[i]) << i;
   for (const auto& contact : contacts) EXPECT_GT(contact->Gap(structure.Start(), 0.0, 0), 0.0);
-}
-
-// The obstacle moves with the load factor: gap and xi are those of the node relative to it.
-TEST(SceneContacts, ObstaclesMoveWithTheLoadFactor) {
-  const Scene scene = MovingScene();
-  const Structure structure(scene);
-  const ContactPairs contacts = BuildContacts(scene, structure);
-  const Eigen::VectorXd u = structure.Start();
-  const ContactPair& slope = *contacts[0];  // n = (0.6, 0.8), t = (0.8, -0.6), velocity (0.4, 0.1)
-  EXPECT_NEAR(slope.Gap(u, 2.0, 0) - slope.Gap(u, 0.0, 0), -2.0 * (0.6 * 0.4 + 0.8 * 0.1), kRounding);
-  EXPECT_NEAR(slope.Xi(u, 2.0, 0) - slope.Xi(u, 0.0, 0), -2.0 * (0.8 * 0.4 - 0.6 * 0.1), kRounding);
 }
 
 // A node on a part that is softer across the floor than along it.

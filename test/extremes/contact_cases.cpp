@@ -11,9 +11,7 @@ namespace {
 
 // The floor of scenes/sliding_bar.yaml several times: their reactions together are those of one.
 ExtremeCase SeveralFloors(int count) {
-  ExtremeCase extreme;
-  extreme.group = "redundant contacts";
-  extreme.value = Text(count) + " obstacles in one place";
+  ExtremeCase extreme{"redundant contacts", Text(count) + " obstacles in one place"};
   Scene scene = sliding_bar::MakeScene();
   for (int i = 1; i < count; ++i) {
     Obstacle floor = scene.obstacles[0];
@@ -35,9 +33,7 @@ ExtremeCase SeveralFloors(int count) {
 
 // Three bars hold a node that one or two would hold: s = x (k1 + k2 + k3), all in one line.
 ExtremeCase RedundantSupports() {
-  ExtremeCase extreme;
-  extreme.group = "redundant supports";
-  extreme.value = "three bars in one line, held at each end";
+  ExtremeCase extreme{"redundant supports", "three bars in one line, held at each end"};
   Scene scene;
   scene.nodes = {{"a", -1.0, 0.0, true, true}, {"b", 0.0, 0.0, false, true}, {"c", 1.0, 0.0, true, true}};
   scene.bars = {{{"a", "b"}, 1.0}, {{"b", "c"}, 1.0}, {{"a", "c"}, 5.0}};
@@ -52,9 +48,7 @@ ExtremeCase RedundantSupports() {
 
 // A node on springs pressed into a right-angled corner of two obstacles.
 ExtremeCase Corner(double friction) {
-  ExtremeCase extreme;
-  extreme.group = "two obstacles at one node";
-  extreme.value = "corner, mu = " + Text(friction);
+  ExtremeCase extreme{"two obstacles at one node", "corner, mu = " + Text(friction)};
   Scene scene;
   scene.nodes = {{"p", 0.0, 0.0, false, false}};
   scene.superelements = {{{"p"}, {1.0, 0.0, 0.0, 1.0}}};
@@ -76,9 +70,8 @@ ExtremeCase Corner(double friction) {
 // A node between two walls without clearance, pressed onto one of them, then pushed along both: k y = s - mu P.
 ExtremeCase Wedge(double friction, double clearance) {
   static constexpr double kPress = 1.0;
-  ExtremeCase extreme;
-  extreme.group = "two obstacles at one node";
-  extreme.value = "opposite walls, clearance " + Text(clearance) + ", mu = " + Text(friction);
+  ExtremeCase extreme{"two obstacles at one node",
+                      "opposite walls, clearance " + Text(clearance) + ", mu = " + Text(friction)};
   Scene scene;
   scene.nodes = {{"p", 0.0, 0.0, false, false}};
   scene.superelements = {{{"p"}, {1.0, 0.0, 0.0, 1.0}}};
@@ -106,9 +99,7 @@ ExtremeCase Wedge(double friction, double clearance) {
 
 // Nodes in one place that know nothing of each other, pushed onto one wall.
 ExtremeCase CoincidentNodes() {
-  ExtremeCase extreme;
-  extreme.group = "coincident nodes";
-  extreme.value = "three nodes, one wall";
+  ExtremeCase extreme{"coincident nodes", "three nodes, one wall"};
   Scene scene;
   for (const char* const name : {"p", "q", "r"}) {
     scene.nodes.push_back({name, 0.0, 0.0, false, false});
@@ -133,9 +124,9 @@ ExtremeCase CoincidentNodes() {
 // Nodes on springs of their own in front of a wall: gap i is first + i * more.
 ExtremeCase ManyAtOnce(std::size_t count, double more, double friction) {
   constexpr double kFirst = 0.005;
-  ExtremeCase extreme;
-  extreme.group = "contacts that close within one increment";
-  extreme.value = Text(static_cast<double>(count)) + " contacts, gaps " + Text(more) + " apart, mu = " + Text(friction);
+  ExtremeCase extreme{
+      "contacts that close within one increment",
+      Text(static_cast<double>(count)) + " contacts, gaps " + Text(more) + " apart, mu = " + Text(friction)};
   Scene scene;
   for (std::size_t i = 0; i < count; ++i) {
     const std::string name = "p" + std::to_string(i), wall = "w" + std::to_string(i);

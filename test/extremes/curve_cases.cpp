@@ -38,9 +38,7 @@ double LoadError(const Increment& increment, double slope) {
 // A case of the pressed node, until its x is `until`. length: what the case is about, in lengths of the part.
 ExtremeCase CaseOf(const std::string& group, double length, Obstacle obstacle, double until) {
   obstacle.friction = kFriction;
-  ExtremeCase extreme;
-  extreme.group = group;
-  extreme.value = Text(length) + " of the part's length";
+  ExtremeCase extreme{group, Text(length) + " of the part's length"};
   extreme.request = Until(PressedNode(obstacle), "p.x", ">", until);
   extreme.exact = "closed form";
   return extreme;

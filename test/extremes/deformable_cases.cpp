@@ -82,9 +82,7 @@ ExtremeCase InValley(double room) {
   scene.loads = {{"p", 1.0, 0.0, false}, {"p", 0.0, -1.0, true}};
   AddSurface({{-1.0, 0.5}, {0.0, 0.0}, {1.0, 0.5}}, radius, &scene);
   scene.contacts = {Touching("p", kFriction)};
-  ExtremeCase extreme;
-  extreme.group = "surface, radius below that of its bend";
-  extreme.value = "by " + Text(room) + " of it";
+  ExtremeCase extreme{"surface, radius below that of its bend", "by " + Text(room) + " of it"};
   extreme.request = Until(std::move(scene), "load_factor", ">", 0.75);
   extreme.exact = "closed form";
   extreme.error = [radius, bottom](const TraceRequest&, const Increment& increment) {
@@ -108,9 +106,7 @@ ExtremeCase InValley(double room) {
 // ----- a plank on springs -----
 
 ExtremeCase OnPlank(const Plank& plank, const std::string& group, const std::string& value) {
-  ExtremeCase extreme;
-  extreme.group = "surface, " + group;
-  extreme.value = value;
+  ExtremeCase extreme{"surface, " + group, value};
   extreme.request = Until(plank.MakeScene(), "load_factor", ">", 1.0);
   extreme.exact = "closed form";
   extreme.error = [plank](const TraceRequest&, const Increment& increment) { return plank.Error(increment); };

@@ -14,14 +14,14 @@
 namespace contact_path {
 
 struct ExtremeCase {
-  std::string group;     // what is taken to the extreme
-  std::string value;     // how far
-  TraceRequest request;  // method and accuracy are set by who runs it
+  std::string group;          // what is taken to the extreme
+  std::string value;          // how far
+  TraceRequest request = {};  // method and accuracy are set by who runs it
   // How far an increment is from the exact path, relative to what is at play in the scene; infinite where a state is
   // wrong. The request is the one that was traced. Empty: no answer is known, and the increment has to pass the check
   // only.
-  std::function<double(const TraceRequest&, const Increment&)> error;
-  std::string exact;  // what `error` compares with
+  std::function<double(const TraceRequest&, const Increment&)> error = {};
+  std::string exact = {};  // what `error` compares with
   // The path may end here by name, or has to: empty where it must go on to the wanted end.
   std::vector<std::string> ends = {};
   double allowed = 1e-9;              // error of exact increments, if no more than that is attainable

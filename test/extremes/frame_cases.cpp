@@ -66,9 +66,7 @@ std::vector<BeamNode> FromTheTip(BeamNode node, double EA, double EI, double fx,
 
 // A dead load across the tip, up to the tenfold of EI / L^2.
 ExtremeCase BentCantilever(double ratio) {
-  ExtremeCase extreme;
-  extreme.group = "slenderness of a cantilever bent by a dead load";
-  extreme.value = "EA L^2 / EI = " + Text(ratio);
+  ExtremeCase extreme{"slenderness of a cantilever bent by a dead load", "EA L^2 / EI = " + Text(ratio)};
   Scene scene = Cantilever(ratio, 1.0);
   scene.loads = {{"tip", 0.0, 1.0}};
   extreme.request = Until(scene, "load_factor", ">", 10.0);
@@ -91,9 +89,7 @@ ExtremeCase BentCantilever(double ratio) {
 // A moment at the tip bends every segment by the same angle and stretches none of them.
 ExtremeCase RolledUp(double slenderness) {
   const double EA = 12.0 * slenderness * slenderness;
-  ExtremeCase extreme;
-  extreme.group = "slenderness of a cantilever rolled up by a moment";
-  extreme.value = "L / h = " + Text(slenderness);
+  ExtremeCase extreme{"slenderness of a cantilever rolled up by a moment", "L / h = " + Text(slenderness)};
   Scene scene = Cantilever(EA, 1.0);
   scene.loads = {{"tip", 0.0, 0.0, false, 2.0 * kPi}};
   extreme.request = Until(scene, "tip.rotation", ">", 2.0 * kPi);
@@ -119,9 +115,7 @@ ExtremeCase RolledUp(double slenderness) {
 // A soft beam between the support and a stiff one; a moment at the tip goes through both.
 ExtremeCase SoftBeforeStiff(double ratio) {
   const double soft = 1.0 / std::sqrt(ratio), stiff = std::sqrt(ratio);
-  ExtremeCase extreme;
-  extreme.group = "beams of different EI in a row";
-  extreme.value = "ratio " + Text(ratio);
+  ExtremeCase extreme{"beams of different EI in a row", "ratio " + Text(ratio)};
   Scene scene = Cantilever(1e2 * soft, soft);
   scene.nodes.push_back({"end", 2.0, 0.0, false, false});
   Beam beam = scene.beams[0];
@@ -156,9 +150,7 @@ ExtremeCase SoftBeforeStiff(double ratio) {
 // A straight column under its axial load, beyond the load at which it could buckle.
 ExtremeCase Column(double slenderness) {
   const double EA = 12.0 * slenderness * slenderness;
-  ExtremeCase extreme;
-  extreme.group = "slenderness of a straight column";
-  extreme.value = "L / h = " + Text(slenderness);
+  ExtremeCase extreme{"slenderness of a straight column", "L / h = " + Text(slenderness)};
   Scene scene = Cantilever(EA, 1.0);
   scene.loads = {{"tip", -1.0, 0.0}};
   extreme.request = Until(scene, "load_factor", ">", 3.0);
@@ -173,9 +165,7 @@ ExtremeCase Column(double slenderness) {
 
 // scenes/portal_frame.yaml with other axial stiffnesses.
 ExtremeCase PortalFrame(double EA) {
-  ExtremeCase extreme;
-  extreme.group = "frame that slides on rough feet";
-  extreme.value = "EA L^2 / EI = " + Text(EA * 16.0 / 100.0);
+  ExtremeCase extreme{"frame that slides on rough feet", "EA L^2 / EI = " + Text(EA * 16.0 / 100.0)};
   extreme.request = ReadExample("portal_frame");
   for (Beam& beam : extreme.request.scene.beams) beam.EA = EA;
   if (EA > 1e8) extreme.ends = {"step_too_small", "not_determined", "numerical_failure"};

@@ -9,9 +9,7 @@ namespace {
 
 // The foot of scenes/sliding_bar.yaml slides towards +x whatever the friction: s = EA (1/l - 1/l0) (h mu - x).
 ExtremeCase SlidingBar(double friction) {
-  ExtremeCase extreme;
-  extreme.group = "coefficient of friction, sliding";
-  extreme.value = "mu = " + Text(friction);
+  ExtremeCase extreme{"coefficient of friction, sliding", "mu = " + Text(friction)};
   Scene scene = sliding_bar::MakeScene();
   scene.obstacles[0].friction = friction;
   // The load grows with mu, and the path with the load.
@@ -33,9 +31,7 @@ ExtremeCase SlidingBar(double friction) {
 
 // The foot of scenes/rough_truss.yaml never slips: the truss snaps through.
 ExtremeCase StickingTruss(double friction) {
-  ExtremeCase extreme;
-  extreme.group = "coefficient of friction, sticking";
-  extreme.value = "mu = " + Text(friction);
+  ExtremeCase extreme{"coefficient of friction, sticking", "mu = " + Text(friction)};
   Scene scene;
   scene.nodes = {{"left", -1.0, 0.0, true, true}, {"foot", 1.0, 0.0, false, false}, {"apex", 0.0, 1.2, true, false}};
   scene.bars = {{{"left", "apex"}, 1.0}, {{"apex", "foot"}, 1.0}};

@@ -10,9 +10,7 @@ namespace {
 
 // A bar from a to b is pushed through a: x from 1 to -1.2. Only with Green-Lagrange strain is its force smooth there.
 ExtremeCase ThroughZero(StrainMeasure strain) {
-  ExtremeCase extreme;
-  extreme.group = "bar through zero length";
-  extreme.value = std::string(ToString(strain));
+  ExtremeCase extreme{"bar through zero length", std::string(ToString(strain))};
   Scene scene;
   scene.nodes = {{"a", 0.0, 0.0, true, true}, {"b", 1.0, 0.0, false, true}};
   scene.bars = {{{"a", "b"}, 1.0, 0.0, strain}};
@@ -45,9 +43,7 @@ Scene Arch(double rise) {
 }
 
 ExtremeCase FlatArch(double rise) {
-  ExtremeCase extreme;
-  extreme.group = "flat arch, relative to its limit load";
-  extreme.value = "rise " + Text(rise) + " of the half span";
+  ExtremeCase extreme{"flat arch, relative to its limit load", "rise " + Text(rise) + " of the half span"};
   extreme.request = Until(Arch(rise), "apex.y", "<", -1.1 * rise, std::min(0.02, 0.05 * rise), 3000);
   extreme.exact = "closed form";
   const double limit = von_mises::BiotLimit(1.0, rise);
@@ -64,9 +60,7 @@ ExtremeCase FlatArch(double rise) {
 
 // Two bars in one line: no stiffness at the start, s = 2 y (1 - 1/l) then.
 ExtremeCase Straight() {
-  ExtremeCase extreme;
-  extreme.group = "singular start";
-  extreme.value = "two bars in one line";
+  ExtremeCase extreme{"singular start", "two bars in one line"};
   extreme.request = Until(Arch(0.0), "apex.y", "<", -0.5);
   extreme.exact = "closed form";
   extreme.ends = {"path_end", "not_determined", "numerical_failure", "step_too_small"};
@@ -79,9 +73,7 @@ ExtremeCase Straight() {
 
 // A constant load next to the limit load: the path begins close to a singular point.
 ExtremeCase NextToLimit(double below) {
-  ExtremeCase extreme;
-  extreme.group = "nearly singular start";
-  extreme.value = "constant load " + Text(below) + " below the limit load";
+  ExtremeCase extreme{"nearly singular start", "constant load " + Text(below) + " below the limit load"};
   Scene scene = Arch(0.5);
   const double constant = (1.0 - below) * von_mises::BiotLimit(1.0, 0.5);
   scene.loads.push_back({"apex", 0.0, -constant, true});
@@ -96,9 +88,7 @@ ExtremeCase NextToLimit(double below) {
 
 // Nothing holds the node across the bar.
 ExtremeCase Mechanism() {
-  ExtremeCase extreme;
-  extreme.group = "mechanism";
-  extreme.value = "a bar that nothing keeps from turning";
+  ExtremeCase extreme{"mechanism", "a bar that nothing keeps from turning"};
   Scene scene;
   scene.nodes = {{"a", 0.0, 0.0, true, true}, {"b", 1.0, 0.0, false, false}};
   scene.bars = {{{"a", "b"}, 1.0}};
@@ -110,9 +100,7 @@ ExtremeCase Mechanism() {
 
 // Nothing holds the truss: its feet rest on a smooth floor.
 ExtremeCase WithoutSupports() {
-  ExtremeCase extreme;
-  extreme.group = "mechanism";
-  extreme.value = "a truss without supports on a smooth floor";
+  ExtremeCase extreme{"mechanism", "a truss without supports on a smooth floor"};
   Scene scene;
   scene.nodes = {
       {"left", -1.0, 0.0, false, false}, {"right", 1.0, 0.0, false, false}, {"apex", 0.0, 0.5, false, false}};
@@ -127,9 +115,8 @@ ExtremeCase WithoutSupports() {
 
 // A node that passes under the top of a circle, without load, and a ceiling as high as that.
 ExtremeCase Tangential(double clearance, double friction) {
-  ExtremeCase extreme;
-  extreme.group = "obstacle tangential to the way of the node";
-  extreme.value = "clearance " + Text(clearance) + ", mu = " + Text(friction);
+  ExtremeCase extreme{"obstacle tangential to the way of the node",
+                      "clearance " + Text(clearance) + ", mu = " + Text(friction)};
   extreme.request = Until(swing::MakeScene(clearance, friction), "apex.y", "<", 0.7);
   extreme.exact = "closed form";
   // A ceiling that is lower than the top presses with that much.

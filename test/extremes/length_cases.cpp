@@ -14,9 +14,7 @@ double SlidingBarError(const TraceRequest&, const Increment& increment) {
 }
 
 ExtremeCase StepOf(double step) {
-  ExtremeCase extreme;
-  extreme.group = "length of the increments";
-  extreme.value = "step " + Text(step);
+  ExtremeCase extreme{"length of the increments", "step " + Text(step)};
   extreme.request = Until(sliding_bar::MakeScene(), "b.x", ">", 4.9, step, 1000);
   extreme.exact = "closed form";
   extreme.error = SlidingBarError;
@@ -25,9 +23,7 @@ ExtremeCase StepOf(double step) {
 
 // Both limit points of the path are within it.
 ExtremeCase ManyIncrements(int count) {
-  ExtremeCase extreme;
-  extreme.group = "number of increments";
-  extreme.value = Text(count);
+  ExtremeCase extreme{"number of increments", Text(count)};
   extreme.request = Until(sliding_bar::MakeScene(), "b.x", ">", 4.9, 1.75 / count, count);
   extreme.exact = "closed form";
   // The dissipation of method branch is an integral along the path, that of mpec a sum of products.

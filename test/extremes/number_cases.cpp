@@ -19,9 +19,7 @@ namespace {
 // A soft and a stiff bar in a row press a node onto a wall.
 ExtremeCase Chain(double soft, double stiff) {
   static constexpr double kGap = 0.05;
-  ExtremeCase extreme;
-  extreme.group = "stiffnesses in a row";
-  extreme.value = "EA = " + Text(soft) + " and " + Text(stiff);
+  ExtremeCase extreme{"stiffnesses in a row", "EA = " + Text(soft) + " and " + Text(stiff)};
   Scene scene;
   scene.nodes = {{"a", 0.0, 0.0, true, true}, {"b", 1.0, 0.0, false, true}, {"c", 2.0, 0.0, false, true}};
   scene.bars = {{{"a", "b"}, soft}, {{"b", "c"}, stiff}};
@@ -45,9 +43,7 @@ ExtremeCase Chain(double soft, double stiff) {
 
 // scenes/two_dof_friction.yaml, with a bar of another stiffness that stands beside it and does nothing.
 ExtremeCase BesideABar(double stiffness) {
-  ExtremeCase extreme;
-  extreme.group = "stiffness beside, sticking and sliding";
-  extreme.value = "EA / k = " + Text(stiffness);
+  ExtremeCase extreme{"stiffness beside, sticking and sliding", "EA / k = " + Text(stiffness)};
   TraceRequest example = ReadExample("two_dof_friction");
   Scene scene = example.scene;
   scene.nodes.push_back({"beside", 5.0, 0.0, true, true});
@@ -76,9 +72,7 @@ ExtremeCase BesideABar(double stiffness) {
 
 // scenes/rough_truss.yaml on the same load as a stiff truss of its own.
 ExtremeCase TrussBesideABar(double stiffness) {
-  ExtremeCase extreme;
-  extreme.group = "stiffness beside, corner limit point";
-  extreme.value = "EA ratio " + Text(stiffness);
+  ExtremeCase extreme{"stiffness beside, corner limit point", "EA ratio " + Text(stiffness)};
   TraceRequest example = ReadExample("rough_truss");
   Scene scene = example.scene;
   scene.nodes.push_back({"beside", 5.0, 0.0, true, true});
@@ -126,9 +120,7 @@ const Increment* AtArcLength(const std::vector<Increment>& path, double arc_leng
 // decides whether Ipopt solves a step that goes over a corner, and with it where the increments of the second half lie
 // on that path: an increment without a counterpart at its arc length has to pass the check, as all have.
 ExtremeCase Units(const std::string& name, double length, double force) {
-  ExtremeCase extreme;
-  extreme.group = "units";
-  extreme.value = name + ", lengths x " + Text(length) + ", forces x " + Text(force);
+  ExtremeCase extreme{"units", name + ", lengths x " + Text(length) + ", forces x " + Text(force)};
   TraceRequest request = ReadExample(name);
   request.options.max_increments = 150;
   extreme.request = ChangeUnits(request, length, force);
@@ -163,9 +155,8 @@ ExtremeCase Units(const std::string& name, double length, double force) {
 
 // Two loads at one node that all but cancel, and a load factor as large as that makes it: k x = s p up to a stop.
 ExtremeCase Cancelling(double difference) {
-  ExtremeCase extreme;
-  extreme.group = "loads that nearly cancel";
-  extreme.value = "difference " + Text(difference) + ", s up to " + Text(2.0 / difference);
+  ExtremeCase extreme{"loads that nearly cancel",
+                      "difference " + Text(difference) + ", s up to " + Text(2.0 / difference)};
   Scene scene;
   scene.nodes = {{"p", 0.0, 0.0, false, false}};
   scene.superelements = {{{"p"}, {1.0, 0.0, 0.0, 1.0}}};

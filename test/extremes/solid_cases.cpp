@@ -74,9 +74,7 @@ double Across(double l, double mu, double lambda) {
 ExtremeCase Pulled(const std::string& group, const std::string& value, int nodes_per_element, double nu, double width,
                    double height) {
   constexpr int kCells = 2;
-  ExtremeCase extreme;
-  extreme.group = group;
-  extreme.value = value;
+  ExtremeCase extreme{group, value};
   const Material material = MaterialOf("m", MaterialModel::kNeoHookean, kShear, nu);
   Scene scene = Block(kCells, kCells, width, height, nodes_per_element, material);
   PullUp(kCells, kCells, &scene);
@@ -109,9 +107,7 @@ ExtremeCase ThinElements(int nodes_per_element, double aspect) {
 // Two layers of very different stiffness, of a material that does not contract, pulled with the same force.
 ExtremeCase Layers(double ratio) {
   const double moduli[2] = {std::sqrt(ratio), 1.0 / std::sqrt(ratio)};
-  ExtremeCase extreme;
-  extreme.group = "layers of different E";
-  extreme.value = "ratio " + Text(ratio);
+  ExtremeCase extreme{"layers of different E", "ratio " + Text(ratio)};
   Scene scene = Block(1, 2, 1.0, 1.0, 4, MaterialOf("stiff", MaterialModel::kNeoHookean, moduli[0], 0.0));
   scene.materials.push_back(MaterialOf("soft", MaterialModel::kNeoHookean, moduli[1], 0.0));
   Solid upper = scene.solids[0];
@@ -144,9 +140,7 @@ ExtremeCase Layers(double ratio) {
 ExtremeCase LongElements(double aspect) {
   constexpr int kElements = 4;
   const double height = 1.0 / (kElements * aspect);
-  ExtremeCase extreme;
-  extreme.group = "long elements that bend";
-  extreme.value = "length / height = " + Text(aspect);
+  ExtremeCase extreme{"long elements that bend", "length / height = " + Text(aspect)};
   Scene scene = Block(kElements, 1, 1.0, height, 8, MaterialOf("m", MaterialModel::kNeoHookean, kShear, 0.0));
   for (Node& node : scene.nodes) node.fixed_x = node.fixed_y = node.x == 0.0;
   // EI / L^2 of a beam, with E = 2 mu.
@@ -159,9 +153,7 @@ ExtremeCase LongElements(double aspect) {
 
 // St. Venant-Kirchhoff's material has no resistance to being pressed to nothing: s = mu l (1 - l^2) with nu = 0.
 ExtremeCase PressedToNothing(int nodes_per_element) {
-  ExtremeCase extreme;
-  extreme.group = "element that turns inside out";
-  extreme.value = "pressed to nothing, " + Text(nodes_per_element) + " nodes";
+  ExtremeCase extreme{"element that turns inside out", "pressed to nothing, " + Text(nodes_per_element) + " nodes"};
   Scene scene =
       Block(1, 1, 1.0, 1.0, nodes_per_element, MaterialOf("m", MaterialModel::kStVenantKirchhoff, kShear, 0.0));
   for (Node& node : scene.nodes) node.fixed_x = true;
@@ -180,9 +172,7 @@ ExtremeCase PressedToNothing(int nodes_per_element) {
 
 // A corner of an element is pushed through the opposite one.
 ExtremeCase CornerPushedThrough(MaterialModel model) {
-  ExtremeCase extreme;
-  extreme.group = "element that turns inside out, by a corner";
-  extreme.value = std::string(ToString(model));
+  ExtremeCase extreme{"element that turns inside out, by a corner", std::string(ToString(model))};
   Scene scene = Block(1, 1, 1.0, 1.0, 4, MaterialOf("m", model, kShear, 0.3));
   for (Node& node : scene.nodes) node.fixed_x = node.fixed_y = true;
   const std::size_t corner = GridNumber(scene, 2, 2);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "contact_path/ros/convert.h"
-#include "contact_path/ros/limits.h"
+#include "contact_path/ros/node_parameters.h"
 #include "fuzz/target.h"
 #include "ros/bytes.h"
 #include "support/same_request.h"

@@ -292,22 +292,6 @@ TEST_P(MixedProblem, RegularisationRelaxesOneProductAFrictionlessAndTwoAFriction
   EXPECT_EQ((problem.VariableLowerBounds().array() == 0.0).count(), static_cast<Eigen::Index>(GetParam().size()));
 }
 
-TEST_P(MixedProblem, PointUndoesTheScalingOfTheVariables) {
-  const IncrementProblem problem = Problem();
-  const Eigen::VectorXd y = random_.Vector(7, -1.0, 1.0);
-  const PathPoint point = problem.Point(problem.StartingPoint(y));
-  EXPECT_LE((point.u - from_.u - goal_.length * y.head(6)).norm(), kRounding);
-  EXPECT_NEAR(point.s, from_.s + goal_.length * y[6], kRounding);
-  const std::set<int> included(GetParam().begin(), GetParam().end());
-  for (int i = 0; i < 6; ++i) {
-    const bool in = included.count(i) > 0;
-    const bool frictional = contacts_[static_cast<std::size_t>(i)]->Frictional();
-    EXPECT_NEAR(point.rn[i], in ? from_.rn[i] : 0.0, kRounding) << i;
-    EXPECT_NEAR(point.rt[i], in && frictional ? from_.rt[i] : 0.0, kRounding) << i;
-    EXPECT_TRUE(in || point.states[static_cast<std::size_t>(i)] == ContactState::kOpen) << i;
-  }
-}
-
 TEST_P(MixedProblem, StandingStillKeepsTheFrictionLaw) {
   const IncrementProblem problem = Problem();
   const Eigen::VectorXd start = problem.StartingPoint(Eigen::VectorXd::Zero(7));
@@ -414,23 +398,6 @@ class SlidingBarProblem : public testing::Test {
   IncrementGoal goal_;
 };
 
-TEST_F(SlidingBarProblem, ClosedFormIsFeasibleWithoutRegularisation) {
-  const IncrementProblem problem = Problem();
-  const double step = 0.4;
-  Eigen::VectorXd x(6);
-  x << step, 0.0, sliding_bar::LoadFactor(-3.0 + step), sliding_bar::NormalReaction(-3.0 + step), 0.0, step;
-  x[2] -= from_.s;
-  x[4] = -sliding_bar::kFriction * x[3];
-  x /= goal_.length;
-  const Eigen::VectorXd values = ConstraintsOf(problem, x);
-  EXPECT_LE((problem.ConstraintLowerBounds() - values).maxCoeff(), kRounding);
-  EXPECT_LE((values - problem.ConstraintUpperBounds()).maxCoeff(), kRounding);
-  // Standing still is feasible too.
-  const Eigen::VectorXd still = ConstraintsOf(problem, problem.StartingPoint(Eigen::VectorXd::Zero(3)));
-  EXPECT_LE((problem.ConstraintLowerBounds() - still).maxCoeff(), kRounding);
-  EXPECT_LE((still - problem.ConstraintUpperBounds()).maxCoeff(), kRounding);
-}
-
 TEST_F(SlidingBarProblem, StateIsTheLargerSideOfEachPair) {
   const IncrementProblem problem = Problem();
   const auto state = [&](double slip, double gap, double rn, double rt) {
@@ -451,15 +418,6 @@ TEST_F(SlidingBarProblem, StateIsTheLargerSideOfEachPair) {
   EXPECT_EQ(state(-0.5, 0.0, 1e-7, -1e-8), ContactState::kSlipMinus);
   EXPECT_EQ(state(0.5, -1e-6, 1e-7, 2.9e-8), ContactState::kSlipPlus);
   EXPECT_EQ(state(0.5, 1e-6, 1e-7, 2.9e-8), ContactState::kOpen);
-}
-
-TEST_F(SlidingBarProblem, FrictionlessContactIsOpenOrClosed) {
-  Scene smooth = scene_;
-  smooth.obstacles[0].friction = 0.0;
-  const ContactPairs contacts = BuildContacts(smooth, structure_);
-  const IncrementProblem problem(structure_, contacts, from_, {0}, goal_);
-  EXPECT_EQ(problem.Point(Eigen::Vector4d(0.5, 1e-6, 0.0, 1.0)).states.at(0), ContactState::kClosed);
-  EXPECT_EQ(problem.Point(Eigen::Vector4d(0.5, 1.0, 0.0, 1e-6)).states.at(0), ContactState::kOpen);
 }
 
 }  // namespace

@@ -1,4 +1,3 @@
-#include "contact_path/path/automatic_step.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "contact_path/path/end_reason.h"
+#include "contact_path/path/end.h"
 #include "contact_path/verify/verify_path.h"
 #include "support/random_scene.h"
 #include "support/seeds.h"

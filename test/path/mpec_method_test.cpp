@@ -38,12 +38,6 @@ TEST(MpecOptions, MoreAccuracyMeansSmallerEverything) {
   }
 }
 
-TEST(MpecOptions, StepAndDirectionAreThoseOfTheRequest) {
-  EXPECT_EQ(Options(0.3, -2.0).step, 0.3);
-  EXPECT_EQ(Options(0.3, -2.0).direction, -1.0);
-  EXPECT_EQ(Options(0.3, 0.0).direction, 1.0);
-}
-
 class SlidingBarMethod : public testing::Test {
  protected:
   const Model model_{sliding_bar::MakeScene(), CharacteristicScales(sliding_bar::MakeScene())};
@@ -99,21 +93,6 @@ TEST_F(SlidingBarMethod, CancelledGivesNoIncrement) {
   EXPECT_EQ(second.end->reason, EndReason::kCancelled);
   cancel = false;
   EXPECT_FALSE(method.Next(first.increments[0].point).end);
-}
-
-TEST_F(SlidingBarMethod, EndsWhereNoIncrementCanBeAccepted) {
-  PathPoint nowhere = model_.InitialPoint();
-  nowhere.u[0] += 0.3;  // no equilibrium: the bar is shorter, and nothing pushes
-  MpecMethod method(model_, Options(0.05), nullptr);
-  Advance advance = method.Next(nowhere);
-  // The increment problem asks for equilibrium at its end only, so a first increment may lead back to the path.
-  if (!advance.end) {
-    ASSERT_EQ(advance.increments.size(), 1u);
-    EXPECT_LE(advance.increments[0].residuals.equilibrium, kRounding);
-  } else {
-    EXPECT_EQ(advance.end->reason, EndReason::kStepTooSmall);
-    EXPECT_EQ(advance.end->causes.front().sentence, sentences::kNoIncrement);
-  }
 }
 
 // A block of weight 1 with mu = 0.3, pulled against a spring of stiffness 1: load up to 1, down to 0, up to 1.

@@ -1,4 +1,4 @@
-#include "contact_path/path/progress_estimate.h"
+#include "contact_path/path/path_summary.h"
 
 #include <gtest/gtest.h>
 
@@ -17,13 +17,6 @@ TraceRequest WithNodes() {
   TraceRequest request;
   request.scene.nodes = {Node{"a"}, Node{"b.c"}};
   return request;
-}
-
-TEST(ProgressEstimate, IsZeroWithoutAnEnd) {
-  ProgressEstimate estimate(WithNodes());
-  EXPECT_FALSE(estimate.HasEnd());
-  EXPECT_EQ(estimate.Add(MakeIncrement(0, 0.0, 0.0)), 0.0);
-  EXPECT_EQ(estimate.Add(MakeIncrement(900, 5.0, 5.0)), 0.0);
 }
 
 TEST(ProgressEstimate, IsThatOfTheNearestEnd) {

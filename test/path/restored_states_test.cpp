@@ -1,4 +1,4 @@
-#include "contact_path/path/restored_states.h"
+#include "contact_path/path/earlier_trace.h"
 
 #include <gtest/gtest.h>
 

@@ -22,15 +22,12 @@ struct Cable {
   int strands = 0;
 };
 
-template <>
-struct Fields<Cable> {
-  template <typename P>
-  static constexpr auto Of() {
-    return std::tuple(Member("nodes", &P::nodes).Naming(TextKind::kNode),
-                      Member("EA", &P::EA).In(units::kForce).Within(Range::kPositive),
-                      Member("slack", &P::slack).In(units::kLength), Member("strands", &P::strands));
-  }
-};
+template <typename P>
+constexpr auto Fields(Of<Cable>) {
+  return std::tuple(Member("nodes", &P::nodes).Naming(TextKind::kNode),
+                    Member("EA", &P::EA).In(units::kForce).Within(Range::kPositive),
+                    Member("slack", &P::slack).In(units::kLength), Member("strands", &P::strands));
+}
 
 struct Scene {
   std::vector<Cable> cables;

@@ -1,4 +1,4 @@
-#include "contact_path/ros/limits.h"
+#include "contact_path/ros/node_parameters.h"
 
 #include <limits>
 #include <stdexcept>

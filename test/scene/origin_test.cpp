@@ -1,4 +1,4 @@
-#include "contact_path/scene/origin.h"
+#include "contact_path/scene/configuration.h"
 
 #include <gtest/gtest.h>
 

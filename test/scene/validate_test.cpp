@@ -314,35 +314,33 @@ const BrokenRule kOptionRules[] = {
 };
 INSTANTIATE_TEST_SUITE_P(Options, ValidateTest, testing::ValuesIn(kOptionRules), NameOf<BrokenRule>);
 
-TEST(ValidateOptionsTest, MpecTakesNoBranchChoices) {
-  TraceRequest request = SoundRequest();
-  request.options.branch_choices = {{1, 0, 2}};
-  EXPECT_TRUE(Validate(request).empty());
-  request.options.method = Method::kMpec;
-  const std::vector<Violation> violations = Validate(request);
-  ASSERT_EQ(violations.size(), 1U);
-  EXPECT_EQ(violations[0].ToLine(),
-            "options.branch_choices: must be empty with method mpec, which does not find the branches of an event");
-}
-
-TEST(ValidateOptionsTest, MpecHasNoSamples) {
-  TraceRequest request = SoundRequest();
-  request.options.at = {{"b.y", {1.0}}};
-  EXPECT_TRUE(Validate(request).empty());
-  request.options.method = Method::kMpec;
-  const std::vector<Violation> violations = Validate(request);
-  ASSERT_EQ(violations.size(), 1U);
-  EXPECT_EQ(violations[0].key, "options.at");
-}
-
-TEST(ValidateOptionsTest, MpecCanButFollowAtLimits) {
-  TraceRequest request = SoundRequest();
-  request.options.at_limit = AtLimit::kJump;
-  EXPECT_TRUE(Validate(request).empty());
-  request.options.method = Method::kMpec;
-  const std::vector<Violation> violations = Validate(request);
-  ASSERT_EQ(violations.size(), 1U);
-  EXPECT_EQ(violations[0].key, "options.at_limit");
+TEST(ValidateOptionsTest, MpecTakesNoneOfWhatNeedsLocatedEvents) {
+  struct Case {
+    std::function<void(TraceOptions&)> set;
+    std::string line;
+  };
+  const Case cases[] = {
+      {[](TraceOptions& options) {
+         options.branch_choices = {{1, 0, 2}};
+       },
+       "options.branch_choices: must be empty with method mpec, which does not find the branches of an event"},
+      {[](TraceOptions& options) {
+         options.at = {{"b.y", {1.0}}};
+       },
+       "options.at: must be empty with method mpec, which does not locate values"},
+      {[](TraceOptions& options) { options.at_limit = AtLimit::kJump; },
+       "options.at_limit = jump: must be follow with method mpec, which does not locate limit points"},
+      {[](TraceOptions& options) { options.friction_law = FrictionLaw::kTotal; },
+       "options.friction_law = total: must be incremental with method mpec"}};
+  for (const Case& of : cases) {
+    TraceRequest request = SoundRequest();
+    of.set(request.options);
+    EXPECT_TRUE(Validate(request).empty()) << of.line;
+    request.options.method = Method::kMpec;
+    const std::vector<Violation> violations = Validate(request);
+    ASSERT_EQ(violations.size(), 1U) << of.line;
+    EXPECT_EQ(violations[0].ToLine(), of.line);
+  }
 }
 
 TEST(ValidateOptionsTest, MachinesMayBeRigid) {
@@ -355,16 +353,6 @@ TEST(ValidateOptionsTest, MachinesMayBeRigid) {
     ASSERT_EQ(violations.size(), 1U);
     EXPECT_EQ(violations[0].key, "options.machine_stiffness");
   }
-}
-
-TEST(ValidateOptionsTest, MpecTakesTheIncrementalLawAlone) {
-  TraceRequest request = SoundRequest();
-  request.options.friction_law = FrictionLaw::kTotal;
-  EXPECT_TRUE(Validate(request).empty());
-  request.options.method = Method::kMpec;
-  const std::vector<Violation> violations = Validate(request);
-  ASSERT_EQ(violations.size(), 1U);
-  EXPECT_EQ(violations[0].ToLine(), "options.friction_law = total: must be incremental with method mpec");
 }
 
 // A stage that presses b and moves the floor down, and one that takes that back.

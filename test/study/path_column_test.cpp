@@ -1,4 +1,4 @@
-#include "contact_path/study/path_column.h"
+#include "contact_path/study/study_outputs.h"
 
 #include <gtest/gtest.h>
 

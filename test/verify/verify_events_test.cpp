@@ -1,4 +1,4 @@
-#include "contact_path/verify/verify_events.h"
+#include "contact_path/verify/verify_path.h"
 
 #include <gtest/gtest.h>
 
@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "contact_path/scene/program.h"
+#include "contact_path/scene/validate.h"
 #include "support/traced_path.h"
 
 namespace contact_path::verify_events_test {
@@ -147,7 +148,7 @@ TEST(VerifyEvents, FindingsHaveAnEnd) {
   for (Increment& increment : increments) increment.solve.method = Method::kMpec;
   std::vector<Finding> findings;
   VerifyEvents(Corners().request, increments, std::vector<double>(NumStages(Corners().request), 1.0), &findings);
-  EXPECT_EQ(findings.size(), static_cast<std::size_t>(kMostFindings));
+  EXPECT_EQ(findings.size(), kMostLines);
 }
 
 }  // namespace

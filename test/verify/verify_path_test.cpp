@@ -13,6 +13,7 @@
 #include "contact_path/scene/program.h"
 #include "contact_path/scene/read_scene.h"
 #include "contact_path/scene/scaling.h"
+#include "contact_path/scene/validate.h"
 #include "contact_path/verify/verify_end.h"
 #include "support/traced_path.h"
 
@@ -653,7 +654,7 @@ TEST(VerifyPath, EndsWhereTheCallerWantsNoMore) {
 TEST(VerifyPath, FindingsHaveAnEnd) {
   std::vector<Increment> increments = Genuine().increments;
   for (Increment& increment : increments) increment.load_factor += 1.0;
-  EXPECT_EQ(VerifyPath(Genuine().request, increments).findings.size(), static_cast<std::size_t>(kMostFindings));
+  EXPECT_EQ(VerifyPath(Genuine().request, increments).findings.size(), kMostLines);
 }
 
 // Pressed with 5e-12 of F and lifted: residuals over F see nothing of the reaction.

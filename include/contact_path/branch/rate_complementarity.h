@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "contact_path/branch/rate_problem.h"
-#include "contact_path/contact/contact_mode.h"
 #include "contact_path/contact/contact_pair.h"
+#include "contact_path/contact/contact_state.h"
 
 namespace contact_path {
 

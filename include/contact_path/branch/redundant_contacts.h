@@ -7,8 +7,8 @@
 #include <map>
 #include <vector>
 
-#include "contact_path/contact/contact_mode.h"
 #include "contact_path/contact/contact_pair.h"
+#include "contact_path/contact/contact_state.h"
 #include "contact_path/contact/path_point.h"
 
 namespace contact_path {

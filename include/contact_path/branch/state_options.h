@@ -3,8 +3,8 @@
 #define CONTACT_PATH_BRANCH_STATE_OPTIONS_H_
 
 #include "contact_path/branch/active_set_tolerance.h"
-#include "contact_path/contact/contact_mode.h"
 #include "contact_path/contact/contact_pair.h"
+#include "contact_path/contact/contact_state.h"
 #include "contact_path/contact/path_point.h"
 
 namespace contact_path {

@@ -31,6 +31,10 @@ struct Residuals {
   double friction_law = 0.0;
   double support = 0.0;  // max distance of a fixed component from where it has to be / L, of rotations [rad]
 
+  static constexpr std::array<double Residuals::*, 7> kAll = {
+      &Residuals::equilibrium, &Residuals::penetration,  &Residuals::tensile_reaction, &Residuals::complementarity,
+      &Residuals::cone,        &Residuals::friction_law, &Residuals::support};
+
   // Largest residual of contacts: the column complementarity_residual.
   double Contact() const;
   // Largest of all.

@@ -143,6 +143,11 @@ double LargestReaction(const ContactPairs& contacts, const PathPoint& point);
 // SlipReference() of all candidates on the patches of the point.
 Eigen::VectorXd SlipReferences(const ContactPairs& contacts, const PathPoint& point);
 
+// bound: of the forces at play across the surface (Structure::ForceBounds()). The smallest unit that is no less than
+// it, and at most 1; more only where rounding makes reactions uncertain, as Structure::ResidualUnits() tells of forces.
+// A power of 2, so that scaling by it is exact.
+double ForceUnitAbove(double bound);
+
 }  // namespace contact_path
 
 #endif  // CONTACT_PATH_CONTACT_CONTACT_PAIR_H_

@@ -3,6 +3,8 @@
 #define CONTACT_PATH_CONTACT_CONTACT_STATE_H_
 
 #include <string_view>
+#include <tuple>
+#include <vector>
 
 namespace contact_path {
 
@@ -23,6 +25,33 @@ inline bool Slips(ContactState state) { return state == ContactState::kSlipPlus 
 
 // r_t = ratio * r_n of a slipping contact; 0 in the other states.
 double SlipRatio(ContactState state, double friction);
+
+// The state, and the patch of the surface on which gap and xi are taken (geometry/surface.h).
+struct ContactMode {
+  ContactState state = ContactState::kOpen;
+  int patch = 0;
+};
+
+inline bool operator==(const ContactMode& a, const ContactMode& b) { return a.state == b.state && a.patch == b.patch; }
+inline bool operator<(const ContactMode& a, const ContactMode& b) {
+  return std::tie(a.state, a.patch) < std::tie(b.state, b.patch);
+}
+
+using ContactModes = std::vector<ContactMode>;  // by candidate
+
+inline std::vector<ContactState> StatesOf(const ContactModes& modes) {
+  std::vector<ContactState> states;
+  states.reserve(modes.size());
+  for (const ContactMode& mode : modes) states.push_back(mode.state);
+  return states;
+}
+
+inline std::vector<int> PatchesOf(const ContactModes& modes) {
+  std::vector<int> patches;
+  patches.reserve(modes.size());
+  for (const ContactMode& mode : modes) patches.push_back(mode.patch);
+  return patches;
+}
 
 }  // namespace contact_path
 

@@ -2,7 +2,7 @@
 #ifndef CONTACT_PATH_LINEAR_SINGULAR_VECTORS_H_
 #define CONTACT_PATH_LINEAR_SINGULAR_VECTORS_H_
 
-#include <Eigen/Core>
+#include <Eigen/SVD>
 
 namespace contact_path {
 
@@ -12,7 +12,10 @@ struct SingularVectors {
 };
 
 // matrix: any shape, with at least one row and column. Takes time with the third power of its sides.
-SingularVectors RightSingularVectors(const Eigen::MatrixXd& matrix);
+inline SingularVectors RightSingularVectors(const Eigen::MatrixXd& matrix) {
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(matrix, Eigen::ComputeFullV);
+  return {svd.singularValues(), svd.matrixV()};
+}
 
 }  // namespace contact_path
 

@@ -20,23 +20,26 @@ namespace contact_path {
 
 // A column of numbers of the increment as a whole.
 struct CsvNumber {
+  enum class Place { kFirst, kBehindContacts, kBehindContactsOfProgram };
   std::string_view name;
   double (*value)(const Increment&);
+  Place place = Place::kBehindContacts;
 };
 
-// In the order of the CSV; the stage only with a program.
+// In the order of the CSV.
 inline constexpr std::array<CsvNumber, 9> kCsvNumbers = {{
-    {"index", [](const Increment& increment) { return static_cast<double>(increment.index); }},
-    {"load_factor", [](const Increment& increment) { return increment.load_factor; }},
-    {"arc_length", [](const Increment& increment) { return increment.arc_length; }},
+    {"index", [](const Increment& increment) { return static_cast<double>(increment.index); },
+     CsvNumber::Place::kFirst},
+    {"load_factor", [](const Increment& increment) { return increment.load_factor; }, CsvNumber::Place::kFirst},
+    {"arc_length", [](const Increment& increment) { return increment.arc_length; }, CsvNumber::Place::kFirst},
     {"dissipation", [](const Increment& increment) { return increment.dissipation; }},
     {"strain_energy", [](const Increment& increment) { return increment.strain_energy; }},
     {"equilibrium_residual", [](const Increment& increment) { return increment.residuals.equilibrium; }},
     {"complementarity_residual", [](const Increment& increment) { return increment.residuals.Contact(); }},
     {"solve_time", [](const Increment& increment) { return increment.solve.time; }},
-    {"stage", [](const Increment& increment) { return static_cast<double>(increment.stage); }},
+    {"stage", [](const Increment& increment) { return static_cast<double>(increment.stage); },
+     CsvNumber::Place::kBehindContactsOfProgram},
 }};
-inline constexpr std::size_t kCsvNumbersFirst = 3;  // the others stand after the contacts
 
 // A line in the making: the same bytes whatever the locale and the format flags of the stream it ends up in, doubles
 // with 17 significant digits.

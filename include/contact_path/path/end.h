@@ -7,9 +7,39 @@
 #include <variant>
 #include <vector>
 
-#include "contact_path/path/end_reason.h"
+#include "contact_path/scene/scene.h"
 
 namespace contact_path {
+
+enum class EndReason {
+  kNumericalFailure,  // no trustworthy increment could be computed
+  kStopCriterion,     // a stop criterion of the request holds in the last increment, or the last stage is at its target
+  kMaxIncrements,     // the wanted number of increments was accepted
+  kPathEnd,           // no admissible branch: only a dynamic jump leads further
+  kStepTooSmall,      // increments had to be shortened below the smallest allowed
+  kCancelled,         // the caller asked for it
+  kNoSuchBranch,      // branch_choices wants a branch that does not exist: the request is invalid
+  kClosedPath,        // the last increment is an earlier one again: the path repeats from there on
+  kMemoryLimit,       // there was not enough memory to go on
+  kElementInverted,   // an element of a solid would be turned inside out
+  kNotDetermined,     // the sign of a value is not known, since the error of the value is larger
+  kAtLimit,    // the machine that loads the structure can go no further on a stable path, as at_limit: stop wants
+  kNoLanding,  // a jump was followed for long and came to no equilibrium
+};
+
+// "stop_criterion", "max_increments", "path_end", "step_too_small", "cancelled", "no_such_branch", "numerical_failure",
+// "closed_path", "memory_limit", "element_inverted", "not_determined", "at_limit", "no_landing".
+std::string_view ToString(EndReason reason);
+
+// Whether numbers end the trace, and not the structure or the caller.
+bool IsNumerical(EndReason reason);
+
+// Whether the path may have come to where nothing holds a node.
+bool IsStuck(EndReason reason);
+
+// Whether the trace came to what the request asks for: to a stop criterion, the end of its program, or the limit at
+// which at_limit: stop ends it. Where it asks for none of these: to max_increments.
+bool IsReached(EndReason reason, const TraceRequest& request);
 
 // A quantity in units of the scene, or a count.
 using Number = std::variant<double, long>;

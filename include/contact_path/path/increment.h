@@ -46,16 +46,13 @@ struct StabilityRecord {
   std::vector<double> unstable_direction;
 };
 
-template <>
-struct Fields<StabilityRecord> {
-  template <typename P>
-  static constexpr auto Of() {
-    return std::tuple(Member("stability", &P::stability), Member("stability_controlled", &P::stability_controlled),
-                      Member("unstable_directions", &P::unstable_directions),
-                      Member("critical_stiffness", &P::critical_stiffness),
-                      Member("unstable_direction", &P::unstable_direction));
-  }
-};
+template <typename P>
+constexpr auto Fields(Of<StabilityRecord>) {
+  return std::tuple(Member("stability", &P::stability), Member("stability_controlled", &P::stability_controlled),
+                    Member("unstable_directions", &P::unstable_directions),
+                    Member("critical_stiffness", &P::critical_stiffness),
+                    Member("unstable_direction", &P::unstable_direction));
+}
 
 // Of an increment of kind jump: the motion from the increment before to this one, with drag alone.
 struct JumpRecord {
@@ -65,13 +62,10 @@ struct JumpRecord {
   bool landing_robust = false;
 };
 
-template <>
-struct Fields<JumpRecord> {
-  template <typename P>
-  static constexpr auto Of() {
-    return std::tuple(Member("energy_released", &P::energy_released), Member("landing_robust", &P::landing_robust));
-  }
-};
+template <typename P>
+constexpr auto Fields(Of<JumpRecord>) {
+  return std::tuple(Member("energy_released", &P::energy_released), Member("landing_robust", &P::landing_robust));
+}
 
 // A contact candidate at the end of an increment.
 struct ContactRecord {
@@ -81,13 +75,10 @@ struct ContactRecord {
   ContactState state = ContactState::kOpen;  // on the arc of the path that ends in this increment
 };
 
-template <>
-struct Fields<ContactRecord> {
-  template <typename P>
-  static constexpr auto Of() {
-    return std::tuple(Member("gap", &P::gap), Member("rn", &P::rn), Member("rt", &P::rt), Member("state", &P::state));
-  }
-};
+template <typename P>
+constexpr auto Fields(Of<ContactRecord>) {
+  return std::tuple(Member("gap", &P::gap), Member("rn", &P::rn), Member("rt", &P::rt), Member("state", &P::state));
+}
 
 // A state inside an increment, on the arc that it follows. Empty lists: there is none.
 struct InnerState {
@@ -97,14 +88,11 @@ struct InnerState {
   std::vector<ContactRecord> contacts;
 };
 
-template <>
-struct Fields<InnerState> {
-  template <typename P>
-  static constexpr auto Of() {
-    return std::tuple(Member("load_factor", &P::load_factor), Member("positions", &P::positions),
-                      Member("rotations", &P::rotations), Member("contacts", &P::contacts));
-  }
-};
+template <typename P>
+constexpr auto Fields(Of<InnerState>) {
+  return std::tuple(Member("load_factor", &P::load_factor), Member("positions", &P::positions),
+                    Member("rotations", &P::rotations), Member("contacts", &P::contacts));
+}
 
 // What it took to compute the increment. Counts are of the last problem solved for it; iterations and time are sums.
 struct SolveRecord {
@@ -130,19 +118,15 @@ struct SolveRecord {
 };
 
 // All fields except the time, which the message calls solve_time.
-template <>
-struct Fields<SolveRecord> {
-  template <typename P>
-  static constexpr auto Of() {
-    return std::tuple(Member("method", &P::method), Member("regularisation", &P::regularisation),
-                      Member("exact", &P::exact), Member("iterations", &P::iterations),
-                      Member("variables", &P::variables), Member("constraints", &P::constraints),
-                      Member("rejected", &P::rejected), Member("factorisations", &P::factorisations),
-                      Member("nullity", &P::nullity), Member("determinant_sign", &P::determinant_sign),
-                      Member("contraction", &P::contraction), Member("next_step", &P::next_step),
-                      Member("gamma2_factor", &P::gamma2_factor));
-  }
-};
+template <typename P>
+constexpr auto Fields(Of<SolveRecord>) {
+  return std::tuple(
+      Member("method", &P::method), Member("regularisation", &P::regularisation), Member("exact", &P::exact),
+      Member("iterations", &P::iterations), Member("variables", &P::variables), Member("constraints", &P::constraints),
+      Member("rejected", &P::rejected), Member("factorisations", &P::factorisations), Member("nullity", &P::nullity),
+      Member("determinant_sign", &P::determinant_sign), Member("contraction", &P::contraction),
+      Member("next_step", &P::next_step), Member("gamma2_factor", &P::gamma2_factor));
+}
 
 // One branch from an event: states and rates, by arc length in the scaled norm.
 struct BranchRecord {
@@ -152,14 +136,11 @@ struct BranchRecord {
   double turn = 0.0;                 // angle to the direction of arrival [rad]
 };
 
-template <>
-struct Fields<BranchRecord> {
-  template <typename P>
-  static constexpr auto Of() {
-    return std::tuple(Member("states", &P::states), Member("load_rate", &P::load_rate),
-                      Member("dissipation_rate", &P::dissipation_rate), Member("turn", &P::turn));
-  }
-};
+template <typename P>
+constexpr auto Fields(Of<BranchRecord>) {
+  return std::tuple(Member("states", &P::states), Member("load_rate", &P::load_rate),
+                    Member("dissipation_rate", &P::dissipation_rate), Member("turn", &P::turn));
+}
 
 // What was found at an increment where branches part; empty elsewhere.
 struct EventRecord {
@@ -173,15 +154,12 @@ struct EventRecord {
   std::vector<double> null_vector;  // where another path crosses: x0, y0, x1, ... of its unit direction; else empty
 };
 
-template <>
-struct Fields<EventRecord> {
-  template <typename P>
-  static constexpr auto Of() {
-    return std::tuple(Member("number", &P::number), Member("branches", &P::branches), Member("taken", &P::taken),
-                      Member("weakly_active", &P::weakly_active), Member("complete", &P::complete),
-                      Member("complete_by", &P::complete_by), Member("null_vector", &P::null_vector));
-  }
-};
+template <typename P>
+constexpr auto Fields(Of<EventRecord>) {
+  return std::tuple(Member("number", &P::number), Member("branches", &P::branches), Member("taken", &P::taken),
+                    Member("weakly_active", &P::weakly_active), Member("complete", &P::complete),
+                    Member("complete_by", &P::complete_by), Member("null_vector", &P::null_vector));
+}
 
 struct Increment {
   int index = 0;
@@ -213,19 +191,16 @@ struct Increment {
 
 // All fields except positions, rotations, contacts, residuals, stability and jump: a message has them in another form,
 // or leaves them out.
-template <>
-struct Fields<Increment> {
-  template <typename P>
-  static constexpr auto Of() {
-    return std::tuple(Member("index", &P::index), Member("stage", &P::stage), Member("load_factor", &P::load_factor),
-                      Member("arc_length", &P::arc_length), Member("kind", &P::kind),
-                      Member("dissipation", &P::dissipation), Member("strain_energy", &P::strain_energy),
-                      Member("external_work", &P::external_work), Member("supports", &P::supports),
-                      Member("boundaries", &P::boundaries), Member("sections", &P::sections),
-                      Member("stresses", &P::stresses), Member("pressures", &P::pressures),
-                      Member("widths", &P::widths), Member("inner", &P::inner), Member("event", &P::event));
-  }
-};
+template <typename P>
+constexpr auto Fields(Of<Increment>) {
+  return std::tuple(Member("index", &P::index), Member("stage", &P::stage), Member("load_factor", &P::load_factor),
+                    Member("arc_length", &P::arc_length), Member("kind", &P::kind),
+                    Member("dissipation", &P::dissipation), Member("strain_energy", &P::strain_energy),
+                    Member("external_work", &P::external_work), Member("supports", &P::supports),
+                    Member("boundaries", &P::boundaries), Member("sections", &P::sections),
+                    Member("stresses", &P::stresses), Member("pressures", &P::pressures), Member("widths", &P::widths),
+                    Member("inner", &P::inner), Member("event", &P::event));
+}
 
 // What check/ looks at of an increment that has its state.
 CheckedState StateOf(const Increment& increment);

@@ -1,4 +1,4 @@
-// A scene made ready for the solvers: scaled, assembled, with its contacts.
+// A scene made ready for the solvers: scaled, assembled, with its contacts, and the increment length that suits it.
 #ifndef CONTACT_PATH_PATH_MODEL_H_
 #define CONTACT_PATH_PATH_MODEL_H_
 
@@ -13,7 +13,6 @@
 #include "contact_path/response/element_response.h"
 #include "contact_path/response/reactions.h"
 #include "contact_path/scene/configuration.h"
-#include "contact_path/scene/origin.h"
 #include "contact_path/scene/scaling.h"
 #include "contact_path/scene/scene.h"
 #include "contact_path/scene/scene_index.h"
@@ -73,6 +72,12 @@ struct Model {
   mutable std::unique_ptr<const ElementResponse> elements_;
   mutable std::unique_ptr<const PressureProblem> pressures_;
 };
+
+// Factor on the length of a preset. Arc length is a sum over all components: where all of them move alike, it grows
+// with the root of their number. Beyond a hundred of them a node moves as far in an increment as it does among a
+// hundred. The inner nodes of a beam move with it: they count together as one node, so that increments do not depend on
+// the number of segments.
+double AutomaticStepGrowth(const Model& model);
 
 }  // namespace contact_path
 

@@ -1,4 +1,4 @@
-// What lies on a path, and how it ended, in a line for a person.
+// What lies on a path, and how it ended, in a line for a person; and how far it has come.
 #ifndef CONTACT_PATH_PATH_PATH_SUMMARY_H_
 #define CONTACT_PATH_PATH_PATH_SUMMARY_H_
 
@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "contact_path/path/increment.h"
+#include "contact_path/path/stop.h"
+#include "contact_path/scene/scene.h"
 
 namespace contact_path {
 
@@ -51,6 +53,32 @@ class PathSummary {
   int jumps_ = 0;
   std::vector<CriticalPoint> limit_points_;
   std::vector<CriticalPoint> crossings_;  // bifurcations, and limit points where another path crosses
+};
+
+class ProgressEstimate {
+ public:
+  explicit ProgressEstimate(const TraceRequest& request);  // sound (scene/validate.h)
+
+  // Whether the request names an end: a stop criterion, a number of increments, or a program.
+  bool HasEnd() const { return max_increments_ > 0 || !goals_.empty() || !targets_.empty(); }
+
+  // Takes every increment, from increment 0 on. Part of the way done, 0 to 1: the largest over the stop criteria, from
+  // their value at increment 0, the wanted number of increments, and the stages; 0 without an end. May fall: paths
+  // turn.
+  double Add(const Increment& increment);
+
+ private:
+  // A stop criterion as the way from where the path started to where it would end.
+  struct Goal {
+    Quantity quantity;
+    double start = 0.0;
+    double end = 0.0;
+  };
+
+  std::vector<double> targets_;  // of the stages
+  int max_increments_;           // as in the request: 0 = not asked for
+  std::vector<Goal> goals_;
+  TraceRequest request_;  // empty where no goal is of an obstacle
 };
 
 }  // namespace contact_path

@@ -18,8 +18,8 @@ namespace contact_path {
 // Positions, load factor, reactions and contact states make up the whole state: friction remembers only where contacts
 // stick, which the positions tell. A path that meets an earlier point again, in the same direction, therefore repeats
 // for ever. The path need not hit an increment again: it crosses the plane through it.
-// Memory: some increments of a stage, evenly spread, at most 8 MB of them or 4. With few unknowns, a closed path is
-// so found at most a sixteenth of its length after it has been once round.
+// It remembers some increments of a stage, evenly spread, at most 32 of them. A closed path is so found at most a
+// sixteenth of its length after it has been once round.
 class ReturnDetector {
  public:
   struct Return {
@@ -51,7 +51,6 @@ class ReturnDetector {
   // Unit tangent of the path at a point with its states, along `towards`; empty where there is none.
   Eigen::VectorXd TangentAt(const PathPoint& point, const Eigen::VectorXd& towards);
 
-  const std::size_t most_references_;
   int spacing_;
   std::vector<Reference> references_;  // in the order of the path
   ContactArc arc_;

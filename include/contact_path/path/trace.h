@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "contact_path/branch/trial_step.h"
-#include "contact_path/path/end_reason.h"
+#include "contact_path/path/end.h"
 #include "contact_path/path/increment.h"
 #include "contact_path/path/increment_lists.h"
 #include "contact_path/path/model.h"

@@ -22,13 +22,10 @@ struct ContactPressure {
   double length = 0.0;    // of the boundary where it is now [length]
 };
 
-template <>
-struct Fields<ContactPressure> {
-  template <typename P>
-  static constexpr auto Of() {
-    return std::tuple(Member("pressure", &P::pressure), Member("traction", &P::traction), Member("length", &P::length));
-  }
-};
+template <typename P>
+constexpr auto Fields(Of<ContactPressure>) {
+  return std::tuple(Member("pressure", &P::pressure), Member("traction", &P::traction), Member("length", &P::length));
+}
 
 struct Pressures {
   std::vector<ContactPressure> contacts;  // in scene order

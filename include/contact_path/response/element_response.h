@@ -29,23 +29,17 @@ struct SectionForces {
   double M2 = 0.0;  // at the second node
 };
 
-template <>
-struct Fields<SectionForces> {
-  template <typename P>
-  static constexpr auto Of() {
-    return std::tuple(Member("N", &P::N), Member("Q", &P::Q), Member("M", &P::M), Member("M1", &P::M1),
-                      Member("M2", &P::M2));
-  }
-};
+template <typename P>
+constexpr auto Fields(Of<SectionForces>) {
+  return std::tuple(Member("N", &P::N), Member("Q", &P::Q), Member("M", &P::M), Member("M1", &P::M1),
+                    Member("M2", &P::M2));
+}
 
-template <>
-struct Fields<SolidStress> {
-  template <typename P>
-  static constexpr auto Of() {
-    return std::tuple(Member("sxx", &P::sxx), Member("syy", &P::syy), Member("sxy", &P::sxy), Member("szz", &P::szz),
-                      Member("mises", &P::mises), Member("energy", &P::energy));
-  }
-};
+template <typename P>
+constexpr auto Fields(Of<SolidStress>) {
+  return std::tuple(Member("sxx", &P::sxx), Member("syy", &P::syy), Member("sxy", &P::sxy), Member("szz", &P::szz),
+                    Member("mises", &P::mises), Member("energy", &P::energy));
+}
 
 class ElementResponse {
  public:

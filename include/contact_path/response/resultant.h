@@ -14,13 +14,10 @@ struct Resultant {
   double rm = 0.0;  // counterclockwise [force length]
 };
 
-template <>
-struct Fields<Resultant> {
-  template <typename P>
-  static constexpr auto Of() {
-    return std::tuple(Member("rx", &P::rx), Member("ry", &P::ry), Member("rm", &P::rm));
-  }
-};
+template <typename P>
+constexpr auto Fields(Of<Resultant>) {
+  return std::tuple(Member("rx", &P::rx), Member("ry", &P::ry), Member("rm", &P::rm));
+}
 
 }  // namespace contact_path
 

@@ -85,6 +85,14 @@ class BagRecorder {
   std::unique_ptr<rosbag::Bag> bag_;
 };
 
+// ROS time; wall time as long as a simulated clock has not started, since bags refuse time zero.
+inline ros::Time StampNow() {
+  const ros::Time now = ros::Time::now();
+  if (!now.isZero()) return now;
+  const ros::WallTime wall = ros::WallTime::now();
+  return ros::Time(wall.sec, wall.nsec);
+}
+
 }  // namespace contact_path
 
 #endif  // CONTACT_PATH_ROS_BAG_RECORDER_H_

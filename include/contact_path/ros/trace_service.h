@@ -16,7 +16,6 @@
 #include <std_srvs/Trigger.h>
 
 #include "contact_path/path/path_summary.h"
-#include "contact_path/path/progress_estimate.h"
 #include "contact_path/path/trace.h"
 #include "contact_path/ros/bag_recorder.h"
 #include "contact_path/ros/increment_publisher.h"

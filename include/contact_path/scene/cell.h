@@ -8,13 +8,13 @@
 
 namespace contact_path {
 
-inline constexpr std::size_t kMostCellNodes = 8;
+// Of each node's shape function, by two coordinates.
+using CellGradients = std::array<std::array<double, 2>, 8>;
 
 // An integration point of the reference cell: the triangle (0, 0), (1, 0), (0, 1), or the square [-1, 1]^2.
 struct CellPoint {
-  double weight = 0.0;  // of the area of the reference cell
-  // Of each node's shape function, by the two coordinates of the cell.
-  std::array<std::array<double, 2>, kMostCellNodes> gradients{};
+  double weight = 0.0;        // of the area of the reference cell
+  CellGradients gradients{};  // by the coordinates of the cell
 };
 
 // The shapes that there are: 3 (linear triangle, one point), 4 (bilinear, 2 x 2 points), 6 (quadratic triangle, three
@@ -34,9 +34,8 @@ std::array<double, 3> ShapeLengths(const std::array<double, 2>& first, const std
 
 // An integration point of an element whose nodes are at `positions`: x0, y0, x1, ... [length].
 struct PlacedPoint {
-  double area = 0.0;  // weight x Jacobian [length^2]; > 0 where the element is sound
-  // Of each node's shape function, by x and y [1/length].
-  std::array<std::array<double, 2>, kMostCellNodes> gradients{};
+  double area = 0.0;          // weight x Jacobian [length^2]; > 0 where the element is sound
+  CellGradients gradients{};  // by x and y [1/length]
 };
 
 // As many points as the shape has; gradients that are not finite where the Jacobian is zero.

@@ -3,6 +3,7 @@
 #define CONTACT_PATH_SCENE_CHANGE_UNITS_H_
 
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "contact_path/scene/field.h"
@@ -18,7 +19,15 @@ struct UnitSizes {
 };
 
 // The size of `unit` in the old units.
-double SizeOf(const Unit& unit, const UnitSizes& sizes);
+inline double SizeOf(const Unit& unit, const UnitSizes& sizes) {
+  double size = 1.0;
+  for (const auto& [base, exponent] : {std::pair(sizes.force, unit.force), std::pair(sizes.length, unit.length),
+                                       std::pair(sizes.load_factor, unit.load_factor)}) {
+    for (int i = 0; i < exponent; ++i) size *= base;
+    for (int i = 0; i > exponent; --i) size /= base;
+  }
+  return size;
+}
 
 // A constant load is no load per unit of the load factor.
 template <typename Part>

@@ -108,19 +108,18 @@ struct Member {
   std::string_view formerly = {};
 };
 
-// The description of a part: Fields has for it a function named Of, which with Struct as argument gives a tuple of
-// Member of Struct, where Struct is Part or a message with the same members. A member that Struct lacks is an error of
-// compilation. The default of a field is the initialiser of its member.
+// The description of a part: an overload of Fields with the argument Of<Part>, which gives a tuple of Member of Struct,
+// where Struct is Part or a message with the same members. A member that Struct lacks is an error of compilation. The
+// default of a field is the initialiser of its member.
 template <typename Part>
-struct Fields;
-
-// The description of an element, a part that joins nodes and holds them by forces, tells their number besides:
-// Fields<Part>::kNodes, 0 for any number from 1. The field `nodes` of the part has their names.
+struct Of {};
+template <typename Struct>
+void Fields();
 
 // Calls visit(field) for each field of Part, in the order of the description.
 template <typename Part, typename Visit>
 constexpr void ForEachField(Visit&& visit) {
-  std::apply([&](const auto&... field) { (visit(field), ...); }, Fields<Part>::template Of<Part>());
+  std::apply([&](const auto&... field) { (visit(field), ...); }, Fields<Part>(Of<Part>()));
 }
 
 // "name, x, y": for a message.
@@ -133,28 +132,23 @@ std::string FieldNames() {
 
 namespace field_internal {
 
-template <typename Fields, typename OtherFields, typename Visit, std::size_t... i>
-constexpr void ForEachPair(const Fields& fields, const OtherFields& others, Visit& visit, std::index_sequence<i...>) {
+template <typename Tuple, typename OtherTuple, typename Visit, std::size_t... i>
+constexpr void ForEachPair(const Tuple& fields, const OtherTuple& others, Visit& visit, std::index_sequence<i...>) {
   (visit(std::get<i>(fields), std::get<i>(others)), ...);
 }
 
 template <typename T, typename = void>
 struct IsDescribed : std::false_type {};
 template <typename T>
-struct IsDescribed<T, std::void_t<decltype(Fields<T>::template Of<T>())>> : std::true_type {};
-
-template <typename T, typename = void>
-struct IsElement : std::false_type {};
-template <typename T>
-struct IsElement<T, std::void_t<decltype(Fields<T>::kNodes)>> : std::true_type {};
+struct IsDescribed<T, std::void_t<decltype(Fields<T>(Of<T>()))>> : std::true_type {};
 
 }  // namespace field_internal
 
 // Calls visit(field of Part, field of Other) for each field of Part. Other has the same members.
 template <typename Part, typename Other, typename Visit>
 constexpr void ForEachFieldPair(Visit&& visit) {
-  constexpr auto fields = Fields<Part>::template Of<Part>();
-  field_internal::ForEachPair(fields, Fields<Part>::template Of<Other>(), visit,
+  constexpr auto fields = Fields<Part>(Of<Part>());
+  field_internal::ForEachPair(fields, Fields<Other>(Of<Part>()), visit,
                               std::make_index_sequence<std::tuple_size_v<decltype(fields)>>());
 }
 
@@ -171,12 +165,6 @@ template <typename T>
 constexpr bool kIsPartList = false;
 template <typename T>
 constexpr bool kIsPartList<std::vector<T>> = kIsPart<T>;
-
-// Whether T is a list of elements.
-template <typename T>
-constexpr bool kIsElementList = false;
-template <typename T>
-constexpr bool kIsElementList<std::vector<T>> = field_internal::IsElement<T>::value;
 
 }  // namespace contact_path
 

@@ -26,7 +26,7 @@ class NearestName {
  private:
   const std::string wanted_;
   std::size_t offered_ = 0;
-  std::size_t distance_;  // of names from here on no longer near; in halves
+  double distance_;  // of names from here on no longer near
   std::string nearest_;
 };
 

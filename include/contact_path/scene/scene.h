@@ -4,8 +4,8 @@
 // unique within their list. The structs hold what the user wrote; nothing is checked or normalised here (validate.h).
 //
 // Each struct is followed by the description of its fields (field.h). A new field is a member and its description here;
-// a new kind of part is a struct with its description and a list in Scene. scripts/messages adds both to the messages,
-// and to the Python package.
+// a new kind of part is a struct with its description and a list in Scene (an element also in ForEachElementList()).
+// scripts/messages adds both to the messages, and to the Python package.
 // Solids and surfaces are in solid_parts.h, options in trace_options.h.
 #ifndef CONTACT_PATH_SCENE_SCENE_H_
 #define CONTACT_PATH_SCENE_SCENE_H_
@@ -67,15 +67,12 @@ struct Node {
   bool fixed_rotation = false;  // only where a beam turns the node
 };
 
-template <>
-struct Fields<Node> {
-  template <typename P>
-  static constexpr auto Of() {
-    return std::tuple(Member("name", &P::name).Naming(TextKind::kNewName), Member("x", &P::x).In(units::kLength),
-                      Member("y", &P::y).In(units::kLength), Member("fixed_x", &P::fixed_x),
-                      Member("fixed_y", &P::fixed_y), Member("fixed_rotation", &P::fixed_rotation));
-  }
-};
+template <typename P>
+constexpr auto Fields(Of<Node>) {
+  return std::tuple(Member("name", &P::name).Naming(TextKind::kNewName), Member("x", &P::x).In(units::kLength),
+                    Member("y", &P::y).In(units::kLength), Member("fixed_x", &P::fixed_x),
+                    Member("fixed_y", &P::fixed_y), Member("fixed_rotation", &P::fixed_rotation));
+}
 
 // Straight bar with energy EA l0 e^2 / 2, e by `strain`.
 struct Bar {
@@ -85,17 +82,13 @@ struct Bar {
   StrainMeasure strain = StrainMeasure::kBiot;
 };
 
-template <>
-struct Fields<Bar> {
-  static constexpr std::size_t kNodes = 2;
-  template <typename P>
-  static constexpr auto Of() {
-    return std::tuple(Member("nodes", &P::nodes).Naming(TextKind::kNode),
-                      Member("EA", &P::EA).In(units::kForce).Within(Range::kPositive),
-                      Member("rest_length", &P::rest_length).In(units::kLength).Within(Range::kZeroOrPositive),
-                      Member("strain", &P::strain));
-  }
-};
+template <typename P>
+constexpr auto Fields(Of<Bar>) {
+  return std::tuple(Member("nodes", &P::nodes).Naming(TextKind::kNode),
+                    Member("EA", &P::EA).In(units::kForce).Within(Range::kPositive),
+                    Member("rest_length", &P::rest_length).In(units::kLength).Within(Range::kZeroOrPositive),
+                    Member("strain", &P::strain));
+}
 
 // Linear elastic part: force = K (x - X), both ordered x0, y0, x1, y1, ... over `nodes`.
 struct Superelement {
@@ -104,16 +97,12 @@ struct Superelement {
   std::vector<double> rest_positions = {};  // X, 2n [length]; empty = the initial positions of the nodes
 };
 
-template <>
-struct Fields<Superelement> {
-  static constexpr std::size_t kNodes = 0;
-  template <typename P>
-  static constexpr auto Of() {
-    return std::tuple(Member("nodes", &P::nodes).Naming(TextKind::kNode),
-                      Member("stiffness", &P::stiffness).In(units::kStiffness),
-                      Member("rest_positions", &P::rest_positions).In(units::kLength));
-  }
-};
+template <typename P>
+constexpr auto Fields(Of<Superelement>) {
+  return std::tuple(Member("nodes", &P::nodes).Naming(TextKind::kNode),
+                    Member("stiffness", &P::stiffness).In(units::kStiffness),
+                    Member("rest_positions", &P::rest_positions).In(units::kLength));
+}
 
 // Beam, stress-free as an arc of a circle, of so many straight segments between nodes on that arc. Large displacements
 // and rotations, small strains (structure/beam.h). The inner nodes are "<name>/1" to "<name>/<segments - 1>", from the
@@ -129,19 +118,15 @@ struct Beam {
   std::vector<bool> hinged = {};  // at the first and the second node; empty = at none
 };
 
-template <>
-struct Fields<Beam> {
-  static constexpr std::size_t kNodes = 0;
-  template <typename P>
-  static constexpr auto Of() {
-    return std::tuple(Member("name", &P::name), Member("nodes", &P::nodes).Naming(TextKind::kNode),
-                      Member("EA", &P::EA).In(units::kForce).Within(Range::kPositive),
-                      Member("EI", &P::EI).In(units::kBending).Within(Range::kPositive),
-                      Member("GA", &P::GA).In(units::kForce).Within(Range::kZeroOrPositive),
-                      Member("segments", &P::segments).Within(Range::kNotNegative), Member("angle", &P::angle),
-                      Member("hinged", &P::hinged));
-  }
-};
+template <typename P>
+constexpr auto Fields(Of<Beam>) {
+  return std::tuple(Member("name", &P::name), Member("nodes", &P::nodes).Naming(TextKind::kNode),
+                    Member("EA", &P::EA).In(units::kForce).Within(Range::kPositive),
+                    Member("EI", &P::EI).In(units::kBending).Within(Range::kPositive),
+                    Member("GA", &P::GA).In(units::kForce).Within(Range::kZeroOrPositive),
+                    Member("segments", &P::segments).Within(Range::kNotNegative), Member("angle", &P::angle),
+                    Member("hinged", &P::hinged));
+}
 
 // Nodes with a name of their own. A beam is a group, too: of all its nodes, from the first to the second.
 struct Group {
@@ -149,14 +134,11 @@ struct Group {
   std::vector<std::string> nodes;
 };
 
-template <>
-struct Fields<Group> {
-  template <typename P>
-  static constexpr auto Of() {
-    return std::tuple(Member("name", &P::name).Naming(TextKind::kNewName),
-                      Member("nodes", &P::nodes).Naming(TextKind::kNode));
-  }
-};
+template <typename P>
+constexpr auto Fields(Of<Group>) {
+  return std::tuple(Member("name", &P::name).Naming(TextKind::kNewName),
+                    Member("nodes", &P::nodes).Naming(TextKind::kNode));
+}
 
 // Dead load: on a node, or on each node of a group, or, as a traction, on a beam or a surface.
 struct Load {
@@ -171,17 +153,14 @@ struct Load {
   std::string surface = {};  // in place of node: px and py act on it
 };
 
-template <>
-struct Fields<Load> {
-  template <typename P>
-  static constexpr auto Of() {
-    return std::tuple(Member("node", &P::node).Naming(TextKind::kNode), Member("fx", &P::fx).In(units::kForceRate),
-                      Member("fy", &P::fy).In(units::kForceRate), Member("constant", &P::constant),
-                      Member("moment", &P::moment).In(units::kMomentRate), Member("group", &P::group),
-                      Member("px", &P::px).In(units::kTractionRate), Member("py", &P::py).In(units::kTractionRate),
-                      Member("surface", &P::surface));
-  }
-};
+template <typename P>
+constexpr auto Fields(Of<Load>) {
+  return std::tuple(Member("node", &P::node).Naming(TextKind::kNode), Member("fx", &P::fx).In(units::kForceRate),
+                    Member("fy", &P::fy).In(units::kForceRate), Member("constant", &P::constant),
+                    Member("moment", &P::moment).In(units::kMomentRate), Member("group", &P::group),
+                    Member("px", &P::px).In(units::kTractionRate), Member("py", &P::py).In(units::kTractionRate),
+                    Member("surface", &P::surface));
+}
 
 // Rigid obstacle. A half plane admits the points x with n . (x - p) >= 0. The tangent of any shape is t = (n_y, -n_x).
 struct Obstacle {
@@ -199,19 +178,16 @@ struct Obstacle {
   double fillet = 0.0;  // radius at the corners of a polyline [length]; 0 = a tenth of the largest that its edges admit
 };
 
-template <>
-struct Fields<Obstacle> {
-  template <typename P>
-  static constexpr auto Of() {
-    return std::tuple(
-        Member("name", &P::name).Naming(TextKind::kNewName), Member("shape", &P::shape),
-        Member("px", &P::px).In(units::kLength), Member("py", &P::py).In(units::kLength), Member("nx", &P::nx),
-        Member("ny", &P::ny), Member("friction", &P::friction).Within(Range::kNotNegative),
-        Member("radius", &P::radius).In(units::kLength).Within(Range::kZeroOrPositive), Member("inside", &P::inside),
-        Member("points", &P::points).In(units::kLength), Member("closed", &P::closed),
-        Member("fillet", &P::fillet).In(units::kLength).Within(Range::kZeroOrPositive));
-  }
-};
+template <typename P>
+constexpr auto Fields(Of<Obstacle>) {
+  return std::tuple(
+      Member("name", &P::name).Naming(TextKind::kNewName), Member("shape", &P::shape),
+      Member("px", &P::px).In(units::kLength), Member("py", &P::py).In(units::kLength), Member("nx", &P::nx),
+      Member("ny", &P::ny), Member("friction", &P::friction).Within(Range::kNotNegative),
+      Member("radius", &P::radius).In(units::kLength).Within(Range::kZeroOrPositive), Member("inside", &P::inside),
+      Member("points", &P::points).In(units::kLength), Member("closed", &P::closed),
+      Member("fillet", &P::fillet).In(units::kLength).Within(Range::kZeroOrPositive));
+}
 
 // A node that may touch an obstacle or a surface, or each node of a group. The name of a candidate is
 // "<node>@<obstacle>" or "<node>@<surface>".
@@ -226,15 +202,12 @@ struct ContactCandidate {
   std::string Name() const { return node + "@" + (OnSurface() ? surface : obstacle); }
 };
 
-template <>
-struct Fields<ContactCandidate> {
-  template <typename P>
-  static constexpr auto Of() {
-    return std::tuple(Member("node", &P::node).Naming(TextKind::kNode),
-                      Member("obstacle", &P::obstacle).Naming(TextKind::kObstacle).OrNone(), Member("group", &P::group),
-                      Member("surface", &P::surface), Member("friction", &P::friction).Within(Range::kNotNegative));
-  }
-};
+template <typename P>
+constexpr auto Fields(Of<ContactCandidate>) {
+  return std::tuple(Member("node", &P::node).Naming(TextKind::kNode),
+                    Member("obstacle", &P::obstacle).Naming(TextKind::kObstacle).OrNone(), Member("group", &P::group),
+                    Member("surface", &P::surface), Member("friction", &P::friction).Within(Range::kNotNegative));
+}
 
 // Fixes a node besides what the node itself says, or each node of a group.
 struct Support {
@@ -245,15 +218,12 @@ struct Support {
   bool fixed_rotation = false;  // only where a beam turns the node
 };
 
-template <>
-struct Fields<Support> {
-  template <typename P>
-  static constexpr auto Of() {
-    return std::tuple(Member("node", &P::node).Naming(TextKind::kNode), Member("group", &P::group),
-                      Member("fixed_x", &P::fixed_x), Member("fixed_y", &P::fixed_y),
-                      Member("fixed_rotation", &P::fixed_rotation));
-  }
-};
+template <typename P>
+constexpr auto Fields(Of<Support>) {
+  return std::tuple(Member("node", &P::node).Naming(TextKind::kNode), Member("group", &P::group),
+                    Member("fixed_x", &P::fixed_x), Member("fixed_y", &P::fixed_y),
+                    Member("fixed_rotation", &P::fixed_rotation));
+}
 
 // Prescribed displacement of a support: the fixed components of the node are at their initial position + (dx, dy) x
 // load factor, its fixed rotation is rotation x load factor. Or of each node of a group.
@@ -265,15 +235,12 @@ struct SupportMotion {
   std::string group = {};  // in place of node
 };
 
-template <>
-struct Fields<SupportMotion> {
-  template <typename P>
-  static constexpr auto Of() {
-    return std::tuple(Member("node", &P::node).Naming(TextKind::kNode), Member("dx", &P::dx).In(units::kLengthRate),
-                      Member("dy", &P::dy).In(units::kLengthRate),
-                      Member("rotation", &P::rotation).In(units::kRotationRate), Member("group", &P::group));
-  }
-};
+template <typename P>
+constexpr auto Fields(Of<SupportMotion>) {
+  return std::tuple(Member("node", &P::node).Naming(TextKind::kNode), Member("dx", &P::dx).In(units::kLengthRate),
+                    Member("dy", &P::dy).In(units::kLengthRate),
+                    Member("rotation", &P::rotation).In(units::kRotationRate), Member("group", &P::group));
+}
 
 // Motion of an obstacle: it is turned about a point by the angle turn x load factor, counterclockwise, and then moved
 // by (dx, dy) x load factor. Slip is motion relative to it.
@@ -286,16 +253,13 @@ struct ObstacleMotion {
   double about_y = 0.0;
 };
 
-template <>
-struct Fields<ObstacleMotion> {
-  template <typename P>
-  static constexpr auto Of() {
-    return std::tuple(
-        Member("obstacle", &P::obstacle).Naming(TextKind::kObstacle), Member("dx", &P::dx).In(units::kLengthRate),
-        Member("dy", &P::dy).In(units::kLengthRate), Member("turn", &P::turn).In(units::kRotationRate),
-        Member("about_x", &P::about_x).In(units::kLength), Member("about_y", &P::about_y).In(units::kLength));
-  }
-};
+template <typename P>
+constexpr auto Fields(Of<ObstacleMotion>) {
+  return std::tuple(
+      Member("obstacle", &P::obstacle).Naming(TextKind::kObstacle), Member("dx", &P::dx).In(units::kLengthRate),
+      Member("dy", &P::dy).In(units::kLengthRate), Member("turn", &P::turn).In(units::kRotationRate),
+      Member("about_x", &P::about_x).In(units::kLength), Member("about_y", &P::about_y).In(units::kLength));
+}
 
 struct Scene {
   std::string name;
@@ -315,25 +279,24 @@ struct Scene {
   std::vector<ObstacleMotion> obstacle_motions;
 };
 
-template <>
-struct Fields<Scene> {
-  template <typename P>
-  static constexpr auto Of() {
-    return std::tuple(Member("name", &P::name), Member("nodes", &P::nodes), Member("bars", &P::bars),
-                      Member("superelements", &P::superelements), Member("beams", &P::beams),
-                      Member("materials", &P::materials), Member("solids", &P::solids), Member("groups", &P::groups),
-                      Member("surfaces", &P::surfaces), Member("loads", &P::loads), Member("obstacles", &P::obstacles),
-                      Member("contacts", &P::contacts), Member("supports", &P::supports),
-                      Member("support_motions", &P::support_motions), Member("obstacle_motions", &P::obstacle_motions));
-  }
-};
+template <typename P>
+constexpr auto Fields(Of<Scene>) {
+  return std::tuple(Member("name", &P::name), Member("nodes", &P::nodes), Member("bars", &P::bars),
+                    Member("superelements", &P::superelements), Member("beams", &P::beams),
+                    Member("materials", &P::materials), Member("solids", &P::solids), Member("groups", &P::groups),
+                    Member("surfaces", &P::surfaces), Member("loads", &P::loads), Member("obstacles", &P::obstacles),
+                    Member("contacts", &P::contacts), Member("supports", &P::supports),
+                    Member("support_motions", &P::support_motions), Member("obstacle_motions", &P::obstacle_motions));
+}
 
-// Calls visit(name, list) for each list of elements of a scene, in the order of the scene.
+// Calls visit(name, list) for each list of elements of a scene, parts that join `nodes` and hold them by forces, in the
+// order of the scene.
 template <typename Visit>
 void ForEachElementList(const Scene& scene, Visit&& visit) {
-  ForEachField<Scene>([&](const auto& field) {
-    if constexpr (kIsElementList<typename std::decay_t<decltype(field)>::Value>) visit(field.name, scene.*field.member);
-  });
+  visit("bars", scene.bars);
+  visit("superelements", scene.superelements);
+  visit("beams", scene.beams);
+  visit("solids", scene.solids);
 }
 
 // A part of a load program. Its load factor goes from 0 to `target`; then the stage leaves its loads and motions on,
@@ -351,15 +314,12 @@ struct Stage {
   double Target() const { return target == 0.0 ? 1.0 : target; }
 };
 
-template <>
-struct Fields<Stage> {
-  template <typename P>
-  static constexpr auto Of() {
-    return std::tuple(Member("name", &P::name), Member("loads", &P::loads),
-                      Member("support_motions", &P::support_motions), Member("obstacle_motions", &P::obstacle_motions),
-                      Member("target", &P::target).In(units::kLoadFactor), Member("unload", &P::unload));
-  }
-};
+template <typename P>
+constexpr auto Fields(Of<Stage>) {
+  return std::tuple(Member("name", &P::name), Member("loads", &P::loads),
+                    Member("support_motions", &P::support_motions), Member("obstacle_motions", &P::obstacle_motions),
+                    Member("target", &P::target).In(units::kLoadFactor), Member("unload", &P::unload));
+}
 
 struct TraceRequest {
   Scene scene;
@@ -369,13 +329,10 @@ struct TraceRequest {
   std::vector<Stage> program;
 };
 
-template <>
-struct Fields<TraceRequest> {
-  template <typename P>
-  static constexpr auto Of() {
-    return std::tuple(Member("scene", &P::scene), Member("options", &P::options), Member("program", &P::program));
-  }
-};
+template <typename P>
+constexpr auto Fields(Of<TraceRequest>) {
+  return std::tuple(Member("scene", &P::scene), Member("options", &P::options), Member("program", &P::program));
+}
 
 }  // namespace contact_path
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "contact_path/scene/field.h"
+#include "contact_path/scene/scene.h"
 #include "contact_path/scene/words.h"
 
 namespace contact_path {
@@ -45,7 +46,7 @@ struct Words<PlaneState> {
                                                                      {"stress", PlaneState::kStress}};
 };
 
-// Elastic material of solids, by E and nu or by lambda and mu (scene/elasticity.h).
+// Elastic material of solids, by E and nu or by lambda and mu (LameOf()).
 struct Material {
   std::string name;
   MaterialModel model = MaterialModel::kNeoHookean;
@@ -56,17 +57,14 @@ struct Material {
   double a = 0.0;       // of ciarlet_geymonat alone [force/length^2], max(0, mu/2 - lambda/4) <= a <= mu/2
 };
 
-template <>
-struct Fields<Material> {
-  template <typename P>
-  static constexpr auto Of() {
-    return std::tuple(Member("name", &P::name).Naming(TextKind::kNewName), Member("model", &P::model),
-                      Member("E", &P::E).In(units::kStress).Within(Range::kZeroOrPositive), Member("nu", &P::nu),
-                      Member("lambda", &P::lambda).In(units::kStress),
-                      Member("mu", &P::mu).In(units::kStress).Within(Range::kZeroOrPositive),
-                      Member("a", &P::a).In(units::kStress).Within(Range::kNotNegative));
-  }
-};
+template <typename P>
+constexpr auto Fields(Of<Material>) {
+  return std::tuple(Member("name", &P::name).Naming(TextKind::kNewName), Member("model", &P::model),
+                    Member("E", &P::E).In(units::kStress).Within(Range::kZeroOrPositive), Member("nu", &P::nu),
+                    Member("lambda", &P::lambda).In(units::kStress),
+                    Member("mu", &P::mu).In(units::kStress).Within(Range::kZeroOrPositive),
+                    Member("a", &P::a).In(units::kStress).Within(Range::kNotNegative));
+}
 
 // Mesh of plane elements of one material. The nodes of each element in turn: corners counterclockwise, then mid-sides,
 // the first of them after the first corner.
@@ -84,17 +82,13 @@ struct Solid {
   double Thickness() const { return thickness == 0.0 ? 1.0 : thickness; }
 };
 
-template <>
-struct Fields<Solid> {
-  static constexpr std::size_t kNodes = 0;
-  template <typename P>
-  static constexpr auto Of() {
-    return std::tuple(Member("name", &P::name), Member("material", &P::material).Naming(TextKind::kMaterial),
-                      Member("thickness", &P::thickness).In(units::kLength).Within(Range::kZeroOrPositive),
-                      Member("plane", &P::plane), Member("nodes_per_element", &P::nodes_per_element),
-                      Member("nodes", &P::nodes).Naming(TextKind::kNode));
-  }
-};
+template <typename P>
+constexpr auto Fields(Of<Solid>) {
+  return std::tuple(Member("name", &P::name), Member("material", &P::material).Naming(TextKind::kMaterial),
+                    Member("thickness", &P::thickness).In(units::kLength).Within(Range::kZeroOrPositive),
+                    Member("plane", &P::plane), Member("nodes_per_element", &P::nodes_per_element),
+                    Member("nodes", &P::nodes).Naming(TextKind::kNode));
+}
 
 // Part of the boundary of a solid, or the axis of a beam: nodes in order, the material on the right of who walks along
 // them. Mid-side nodes stand between the corners of their edge. To contacts, the surface is the quadratic B-spline of
@@ -106,15 +100,31 @@ struct BoundarySurface {
   double radius = 0.0;  // half of the thickness of a beam whose axis this is [length]
 };
 
-template <>
-struct Fields<BoundarySurface> {
-  template <typename P>
-  static constexpr auto Of() {
-    return std::tuple(Member("name", &P::name).Naming(TextKind::kNewName),
-                      Member("nodes", &P::nodes).Naming(TextKind::kNode), Member("closed", &P::closed),
-                      Member("radius", &P::radius).In(units::kLength).Within(Range::kNotNegative));
-  }
+template <typename P>
+constexpr auto Fields(Of<BoundarySurface>) {
+  return std::tuple(Member("name", &P::name).Naming(TextKind::kNewName),
+                    Member("nodes", &P::nodes).Naming(TextKind::kNode), Member("closed", &P::closed),
+                    Member("radius", &P::radius).In(units::kLength).Within(Range::kNotNegative));
+}
+
+// Lame's parameters [force/length^2].
+struct Lame {
+  double lambda = 0.0;
+  double mu = 0.0;
 };
+
+// lambda = E nu / ((1 + nu) (1 - 2 nu)), mu = E / (2 (1 + nu)), where the scene gives E.
+inline Lame LameOf(const Material& material) {
+  if (material.E == 0.0) return {material.lambda, material.mu};
+  const double mu = material.E / (2.0 * (1.0 + material.nu));
+  return {2.0 * mu * material.nu / (1.0 - 2.0 * material.nu), mu};
+}
+
+// E = mu (3 lambda + 2 mu) / (lambda + mu) [force/length^2].
+inline double YoungModulus(const Lame& of) { return of.mu * (3.0 * of.lambda + 2.0 * of.mu) / (of.lambda + of.mu); }
+
+// nu = lambda / (2 (lambda + mu)).
+inline double PoissonRatio(const Lame& of) { return of.lambda / (2.0 * (of.lambda + of.mu)); }
 
 }  // namespace contact_path
 

@@ -84,14 +84,11 @@ struct StopCriterion {
       DefaultTrue::kTrue;  // the last increment is located at the value; false: the next increment beyond
 };
 
-template <>
-struct Fields<StopCriterion> {
-  template <typename P>
-  static constexpr auto Of() {
-    return std::tuple(Member("quantity", &P::quantity).Naming(TextKind::kQuantity), Member("when", &P::when),
-                      Member("value", &P::value), Member("exact", &P::exact));
-  }
-};
+template <typename P>
+constexpr auto Fields(Of<StopCriterion>) {
+  return std::tuple(Member("quantity", &P::quantity).Naming(TextKind::kQuantity), Member("when", &P::when),
+                    Member("value", &P::value), Member("exact", &P::exact));
+}
 
 // Values of a quantity, each of which has an increment of its own wherever the path comes to it.
 struct Samples {
@@ -110,15 +107,12 @@ struct Samples {
   }
 };
 
-template <>
-struct Fields<Samples> {
-  template <typename P>
-  static constexpr auto Of() {
-    return std::tuple(Member("quantity", &P::quantity).Naming(TextKind::kQuantity), Member("values", &P::values),
-                      Member("from", &P::from), Member("to", &P::to),
-                      Member("count", &P::count).Within(Range::kNotNegative));
-  }
-};
+template <typename P>
+constexpr auto Fields(Of<Samples>) {
+  return std::tuple(Member("quantity", &P::quantity).Naming(TextKind::kQuantity), Member("values", &P::values),
+                    Member("from", &P::from), Member("to", &P::to),
+                    Member("count", &P::count).Within(Range::kNotNegative));
+}
 
 // Takes another branch than the best one (method branch): at the n-th event, or at an increment, which then counts as
 // an event.
@@ -128,15 +122,12 @@ struct BranchChoice {
   int branch = 0;     // number of the branch in the record of that event, from 1; 0 = 1, the best
 };
 
-template <>
-struct Fields<BranchChoice> {
-  template <typename P>
-  static constexpr auto Of() {
-    return std::tuple(Member("event", &P::event).Within(Range::kNotNegative),
-                      Member("increment", &P::increment).Within(Range::kNotNegative).Formerly("row"),
-                      Member("branch", &P::branch).Within(Range::kNotNegative).Formerly("way"));
-  }
-};
+template <typename P>
+constexpr auto Fields(Of<BranchChoice>) {
+  return std::tuple(Member("event", &P::event).Within(Range::kNotNegative),
+                    Member("increment", &P::increment).Within(Range::kNotNegative).Formerly("row"),
+                    Member("branch", &P::branch).Within(Range::kNotNegative).Formerly("way"));
+}
 
 struct TraceOptions {
   Method method = Method::kBranch;
@@ -173,21 +164,18 @@ struct TraceOptions {
   bool LocatesEvents() const { return method == Method::kBranch; }
 };
 
-template <>
-struct Fields<TraceOptions> {
-  template <typename P>
-  static constexpr auto Of() {
-    return std::tuple(Member("method", &P::method), Member("accuracy", &P::accuracy),
-                      Member("direction", &P::direction), Member("step", &P::step).Within(Range::kNotNegative),
-                      Member("max_increments", &P::max_increments).Within(Range::kNotNegative),
-                      Member("full_state_every", &P::full_state_every).Within(Range::kNotNegative),
-                      Member("stop", &P::stop), Member("at", &P::at), Member("record", &P::record),
-                      Member("branch_choices", &P::branch_choices), Member("friction_law", &P::friction_law),
-                      Member("stability", &P::stability), Member("at_limit", &P::at_limit),
-                      Member("machine_stiffness", &P::machine_stiffness).Within(Range::kNotNegativeOrInfinite),
-                      Member("landing_checks", &P::landing_checks));
-  }
-};
+template <typename P>
+constexpr auto Fields(Of<TraceOptions>) {
+  return std::tuple(Member("method", &P::method), Member("accuracy", &P::accuracy), Member("direction", &P::direction),
+                    Member("step", &P::step).Within(Range::kNotNegative),
+                    Member("max_increments", &P::max_increments).Within(Range::kNotNegative),
+                    Member("full_state_every", &P::full_state_every).Within(Range::kNotNegative),
+                    Member("stop", &P::stop), Member("at", &P::at), Member("record", &P::record),
+                    Member("branch_choices", &P::branch_choices), Member("friction_law", &P::friction_law),
+                    Member("stability", &P::stability), Member("at_limit", &P::at_limit),
+                    Member("machine_stiffness", &P::machine_stiffness).Within(Range::kNotNegativeOrInfinite),
+                    Member("landing_checks", &P::landing_checks));
+}
 
 }  // namespace contact_path
 

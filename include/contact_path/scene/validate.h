@@ -23,7 +23,7 @@ struct Violation {
   std::string ToLine() const;
 };
 
-// Thrown where a request enters; what() has a line for each violation, of more than kMostViolationLines the first ones
+// Thrown where a request enters; what() has a line for each violation, of more than kMostLines the first ones
 // and their number.
 class InvalidRequest : public std::invalid_argument {
  public:
@@ -36,7 +36,7 @@ class InvalidRequest : public std::invalid_argument {
 
 // Nobody reads more, and a large request can break its rules a million times.
 constexpr std::size_t kMostViolations = 100;
-constexpr std::size_t kMostViolationLines = 20;
+constexpr std::size_t kMostLines = 20;  // of what is wrong, in a message
 
 // The rules that `request` breaks, in the order of the request, at most about kMostViolations; empty if it is sound.
 // Lines and files are left unset.

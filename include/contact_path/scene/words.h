@@ -35,12 +35,12 @@ std::string_view ToString(Enum value) {
 // "must be fast, balanced or accurate", with the nearest word to what was written instead.
 template <typename Enum>
 std::string WordRule(std::string_view written) {
-  constexpr std::size_t count = std::size(Words<Enum>::kAll);
+  const auto& words = Words<Enum>::kAll;
   std::string rule = "must be ";
   NearestName nearest(written);
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::string_view word = Words<Enum>::kAll[i].first;
-    if (i > 0) rule += i + 1 < count ? ", " : " or ";
+  for (std::size_t i = 0; i < std::size(words); ++i) {
+    const std::string_view word = words[i].first;
+    if (i > 0) rule += i + 1 < std::size(words) ? ", " : " or ";
     rule += word;
     nearest.Offer(word);
   }

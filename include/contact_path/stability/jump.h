@@ -22,7 +22,6 @@ enum class Drag {
   kStiffness,  // C = the largest diagonal stiffness of the node at the start, over the largest of all nodes
   kInertia,    // mass 1 for every unknown, and light uniform drag
 };
-inline constexpr std::size_t kNumDrags = 3;
 
 // Scaled. The work of the loads is stored, taken by friction, and released: taken by drag.
 struct Landing {
@@ -35,10 +34,10 @@ struct Landing {
 };
 
 struct JumpResult {
-  std::optional<Landing> landing;                          // by Drag::kUniform
-  std::array<std::optional<Landing>, kNumDrags> landings;  // by Drag; without a landing by kUniform, all are empty
-  bool robust = false;                                     // checked, and all three land on one equilibrium
-  double largest_difference = 0.0;                         // of an unknown between any two landings that there are
+  std::optional<Landing> landing;                  // by Drag::kUniform
+  std::array<std::optional<Landing>, 3> landings;  // by Drag; without a landing by kUniform, all are empty
+  bool robust = false;                             // checked, and all three land on one equilibrium
+  double largest_difference = 0.0;                 // of an unknown between any two landings that there are
   double followed = 0.0;   // largest distance of an unknown from the start on the way by Drag::kUniform
   bool came_back = false;  // pushed either way, the structure returns: it is held
   bool cancelled = false;

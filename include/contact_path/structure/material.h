@@ -4,8 +4,8 @@
 
 #include <Eigen/Core>
 
-#include "contact_path/scene/elasticity.h"
 #include "contact_path/scene/scene.h"
+#include "contact_path/scene/solid_parts.h"
 
 namespace contact_path {
 

@@ -20,7 +20,7 @@ struct Finding {
 };
 
 struct Verification {
-  std::vector<Finding> findings;  // none: the path is proved; in the order of the increments, at most kMostFindings
+  std::vector<Finding> findings;  // none: the path is proved; in the order of the increments, at most kMostLines
   int increments = 0;
   int full_increments = 0;      // with positions and contacts: increments without them can only be counted
   int exact_increments = 0;     // of the full ones, those that solve the unregularised equations
@@ -37,8 +37,6 @@ struct Verification {
   std::map<IncrementKind, int> kinds;  // number of increments of each
 };
 
-constexpr int kMostFindings = 20;
-
 // Request: valid. Increments: all that were recorded, in their order; regular increments that full_state_every leaves
 // out have empty positions and contacts.
 //
@@ -52,7 +50,7 @@ constexpr int kMostFindings = 20;
 // with what was released, and the work of the loads under the machine, to 1e-9; no law of friction between its ends.
 // Verdicts of stability of small structures whose contacts do not slip. A contact that pulls with more than 0.02 of the
 // largest reaction so far is a finding, however small both are. Where nothing of all that is found, events
-// and signs are looked at (verify_events.h). Not checked: rates of branches that were not taken, verdicts where
+// and signs are looked at (VerifyEvents()). Not checked: rates of branches that were not taken, verdicts where
 // contacts slip, landing_robust, counters and times.
 //
 // before_each: called before each increment is checked; what it throws leaves VerifyPath(). May be empty.
@@ -61,6 +59,20 @@ Verification VerifyPath(const TraceRequest& request, const std::vector<Increment
 
 // Whether the increment is at the target of its stage; false without a program.
 bool AtTarget(const TraceRequest& request, const Increment& increment);
+
+// Appends to *findings, in the order of the increments, which VerifyPath() must have found sound:
+// - each increment is of the method that the request wants; mpec records no events;
+// - events are numbered from 1 without a gap, and only increments that branch_choices names have branches without a
+//   number;
+// - branches stand in the order of their dissipation rates, with rates and angles that unit directions can have, and
+//   leave open what is open; from a start, their load rates are the cosines of their angles;
+// - the branch taken is the one that branch_choices wants, or the first, and its rates and its angle are those of the
+//   increments before and after, to what an increment may turn;
+// - the sign of the determinant changes on an arc at bifurcations alone, and there is one relation between it, the sign
+//   of the stiffness and the sense of the load on all of an arc.
+// stiffest: by stage, the force of the stiffest node for a motion of L, over F: the load is known to its rounding.
+void VerifyEvents(const TraceRequest& request, const std::vector<Increment>& increments,
+                  const std::vector<double>& stiffest, std::vector<Finding>* findings);
 
 }  // namespace contact_path
 

@@ -1,7 +1,8 @@
-// Where an earlier trace can be gone on from.
-#ifndef CONTACT_PATH_PATH_RESUMPTION_H_
-#define CONTACT_PATH_PATH_RESUMPTION_H_
+// An earlier trace: where it can be gone on from, and the states that it did not record (full_state_every).
+#ifndef CONTACT_PATH_PATH_EARLIER_TRACE_H_
+#define CONTACT_PATH_PATH_EARLIER_TRACE_H_
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -9,6 +10,12 @@
 #include "contact_path/scene/scene.h"
 
 namespace contact_path {
+
+// Fills in positions and contacts of the increments, which are the first ones of a trace of `request`, sound, and have
+// their states where full_state_every wants it: each lies on the arc through the one before, at its recorded arc
+// length, and must have its recorded load factor, to 1e-9. Returns how many of the first ones have their state now: one
+// that is not found so, and what follows it, has to be traced anew.
+std::size_t RestoreStates(const TraceRequest& request, std::vector<Increment>* increments);
 
 struct Resumption {
   const std::vector<Increment>* increments = nullptr;  // of the earlier trace
@@ -26,4 +33,4 @@ void RequireIncrementsOf(const TraceRequest& request, const std::vector<Incremen
 
 }  // namespace contact_path
 
-#endif  // CONTACT_PATH_PATH_RESUMPTION_H_
+#endif  // CONTACT_PATH_PATH_EARLIER_TRACE_H_

@@ -1,10 +1,14 @@
-#include "process/one_thread.h"
+#include "process/process.h"
 
 #include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
 #include <system_error>
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include "contact_path/linear/blas.h"
 
@@ -20,6 +24,12 @@ void UseOneThread(char** argv) {
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", unknown);
   if (!unknown) ::execv(program.c_str(), argv);
   WarmUpBlas();
+}
+
+void KeepMemory() {
+#ifdef __GLIBC__
+  for (const int threshold : {M_MMAP_THRESHOLD, M_TRIM_THRESHOLD}) ::mallopt(threshold, 1 << 30);  // [bytes]
+#endif
 }
 
 }  // namespace contact_path

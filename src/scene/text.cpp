@@ -1,0 +1,92 @@
+#include "contact_path/scene/text.h"
+
+#include <cmath>
+#include <iomanip>
+#include <limits>
+#include <locale>
+#include <sstream>
+
+namespace contact_path {
+namespace {
+
+constexpr std::size_t kLongestLine = 160;
+
+// Bytes of the character that begins `text`; 0 if it is no UTF-8, or nothing to print on a line.
+std::size_t PrintableSize(std::string_view text) {
+  const std::size_t size = Utf8Size(text);
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  if (size == 1) return byte(0) >= 0x20 && byte(0) != 0x7F ? 1 : 0;
+  if (size == 2 && byte(0) == 0xC2 && byte(1) < 0xA0) return 0;  // control characters
+  if (size == 3 && byte(0) == 0xE2 && byte(1) == 0x80 && (byte(2) == 0xA8 || byte(2) == 0xA9))
+    return 0;  // line separators
+  return size;
+}
+
+}  // namespace
+
+std::string OneLine(const std::string& text) {
+  constexpr std::string_view kHex = "0123456789abcdef";
+  std::string line;
+  for (std::size_t i = 0; i < text.size();) {
+    if (line.size() >= kLongestLine) return line + "...";
+    const std::size_t size = PrintableSize(std::string_view(text).substr(i));
+    if (size > 0) {
+      line.append(text, i, size);
+    } else {
+      const auto code = static_cast<unsigned char>(text[i]);
+      line += {'\\', 'x', kHex[code >> 4U], kHex[code & 15U]};
+    }
+    i += size > 0 ? size : 1;
+  }
+  return line;
+}
+
+std::string NumberText(double value) {
+  if (std::isnan(value)) return ".nan";
+  if (std::isinf(value)) return value > 0.0 ? ".inf" : "-.inf";
+  std::string text;
+  for (int digits = 15; digits <= std::numeric_limits<double>::max_digits10; ++digits) {
+    text = RoundedText(value, digits);
+    std::istringstream in(text);
+    in.imbue(std::locale::classic());
+    double back = 0.0;
+    if (in >> back && back == value) break;
+  }
+  return text;
+}
+
+std::string RoundedText(double value, int digits) {
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out << std::setprecision(digits) << value;
+  return out.str();
+}
+
+std::size_t Utf8Size(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
+  const auto follows = [&](std::size_t i) { return byte(i) >= 0x80 && byte(i) <= 0xBF; };
+  const unsigned first = byte(0), second = byte(1);
+  if (text.empty()) return 0;
+  if (first < 0x80) return 1;
+  if (!follows(1)) return 0;
+  if (first >= 0xC2 && first <= 0xDF) return 2;
+  if (!follows(2)) return 0;
+  if (first == 0xE0 && second < 0xA0) return 0;  // longer than need be
+  if (first == 0xED && second > 0x9F) return 0;  // surrogates
+  if (first >= 0xE0 && first <= 0xEF) return 3;
+  if (!follows(3)) return 0;
+  if (first == 0xF0 && second < 0x90) return 0;  // longer than need be
+  if (first == 0xF4 && second > 0x8F) return 0;  // beyond Unicode
+  return first >= 0xF0 && first <= 0xF4 ? 4 : 0;
+}
+
+std::size_t FindNoUtf8(std::string_view text) {
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t size = Utf8Size(text.substr(i));
+    if (size == 0) return i;
+    i += size;
+  }
+  return std::string_view::npos;
+}
+
+}  // namespace contact_path
