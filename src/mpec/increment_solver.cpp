@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "contact_path/equations/nearest_point.h"
+#include "contact_path/equations/transitions.h"
 #include "contact_path/tolerances.h"
 
 namespace contact_path {
@@ -23,17 +24,6 @@ constexpr int kMaxActiveSetChanges = 8;
 constexpr double kBarrierAtOnce = 0.5 * tolerances::kAccepted;
 
 constexpr double kSameEps = 1.0 + tolerances::kEqual;
-
-ContactState StateBeyond(Inequality failed, const ContactPair& contact) {
-  switch (failed) {
-    case Inequality::kGap: return contact.Frictional() ? ContactState::kStick : ContactState::kClosed;
-    case Inequality::kConePlus: return ContactState::kSlipPlus;
-    case Inequality::kConeMinus: return ContactState::kSlipMinus;
-    case Inequality::kSlip:
-    case Inequality::kTotalSlip: return ContactState::kStick;
-    default: return ContactState::kOpen;
-  }
-}
 
 }  // namespace
 
@@ -175,9 +165,11 @@ std::optional<PathPoint> IncrementSolver::Exact(const PathPoint& from, const Eig
       if (held) continue;
       kept = false;
       last = constraint.contact;
+      const ContactMode next =
+          NextMode(*contacts_[i], constraint.inequality, {states[i], patches.empty() ? 0 : patches[i]});
       if (KeepsPatch(constraint.inequality)) {
-        patches[i] += constraint.inequality == Inequality::kPatchEnd ? 1 : -1;
-        if (!contacts_[i]->HasPatch(patches[i])) return std::nullopt;
+        patches[i] = next.patch;
+        if (!contacts_[i]->HasPatch(next.patch)) return std::nullopt;
         continue;
       }
       if (contacts_[i]->Deformable() && patches[i] == kNearestPatch)
@@ -186,7 +178,7 @@ std::optional<PathPoint> IncrementSolver::Exact(const PathPoint& from, const Eig
       if (corners && changed[i])
         active.push_back(constraint);
       else
-        states[i] = StateBeyond(constraint.inequality, *contacts_[i]);
+        states[i] = next.state;
       changed[i] = true;
     }
     if (!kept) continue;
